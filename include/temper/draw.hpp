@@ -1,0 +1,36 @@
+// Pictures of primal-dual meshes, as SVG text.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+/// A rectangle in the user's coordinates.
+struct Box {
+  Vec2 low, high;
+};
+
+struct DrawOptions {
+  bool primal = true;             ///< edges of the triangulation
+  bool dual = true;               ///< edges of the power diagram, between orthocenters
+  bool weights = true;            ///< circles of radius √|w|: green positive, red negative
+  double weight_scale = 1;        ///< factor on the radius of weight circles
+  bool bad_triangles = true;      ///< fill triangles that are not well-centered
+  bool near_coincident = true;    ///< ring vertices that nearly coincide with a neighbour
+  bool regions = true;            ///< tint regions, draw constrained edges thicker
+  bool vertex_numbers = false;
+  std::optional<Box> zoom;        ///< draw only what meets this box
+  double width = 900;             ///< of one panel, in CSS pixels
+  std::string title;              ///< under the picture
+};
+
+/// One panel.
+[[nodiscard]] std::string draw_svg(const Mesh& mesh, const DrawOptions& options = {});
+/// Two panels side by side, to one scale and one zoom box.
+[[nodiscard]] std::string draw_before_after_svg(const Mesh& before, const Mesh& after, const DrawOptions& options = {});
+
+}  // namespace temper

@@ -1,0 +1,92 @@
+// The energies of the paper: one table, one row each, for ★0, ★1 and ★2.
+//
+// With α = (1/4, 1/3, 1/12), β = (1/12, 1/3, 1/4) by star, the half-edge energy of edge ij in triangle ijk is
+//
+//   F    α d³h + β d h³                        eq. 2;  may be negative, 0 for a collapsed edge
+//   T    sgn(h_k + h_l) · F per full edge      eq. 3;  ≥ 0, |h| on the boundary
+//   dT   F inside, |h| on the boundary         the paper's E_∂T
+//   BH   (α d² + β h²) / (χ h),  χ² = d_ij d_ji            eq. 4;  needs h > 0 and 0 < d < ℓ
+//   BHs  (α d² + β h²) / (χ (h − h°)),  h° ≤ 0             eq. 6;  needs h > h° and 0 < d < ℓ
+//   BP   (α d² + β h²) / (χ φ),  φ = (h + √(h² + γ²))/2    eq. 7;  needs 0 < d < ℓ
+//
+// summed over the six half-edges of each triangle. (The paper's eqs. 11, 17, 18 leave out the factor 1/3 of
+// ★1: there the least E_BH of an edge is 4, here 4/3.) A barrier is +∞ outside its domain, never NaN.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "temper/error.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+enum class EnergyKind { F, T, dT, BH, BHs, BP };
+
+/// The dual of a boundary edge: where h of the missing triangle is taken from (§3.2.1 of the paper).
+enum class BoundaryTreatment {
+  as_is,     ///< h of the missing triangle is 0; h may be negative
+  absolute,  ///< |h|: the paper's theory-based choice
+  mirrored,  ///< the triangle mirrored at the edge (Mullen et al. 2011): the edge counts twice
+};
+
+/// What φ and h° are measured by.
+enum class LengthScale {
+  absolute,  ///< a length in the user's units
+  relative,  ///< times the length of the edge: exactly scale-free
+};
+
+/// A parameter of E_BP (γ > 0) or E_BHs (−h° ≥ 0).
+struct Softening {
+  double value = 0;
+  LengthScale scale = LengthScale::relative;
+  friend bool operator==(const Softening&, const Softening&) = default;
+};
+
+/// One row of the registry.
+struct EnergyInfo {
+  EnergyKind kind;
+  std::string_view name;            ///< "F", "T", "dT", "BH", "BHs", "BP"
+  std::string_view formula;         ///< for --help and docs
+  BoundaryTreatment boundary;       ///< the one its definition asks for
+  bool barrier;                     ///< +∞ outside 0 < d < ℓ
+  bool softened_by_gamma;           ///< has a γ
+  bool softened_by_h0;              ///< has an h°
+  int length_exponent;              ///< E(s·mesh) = s^this · E(mesh) with relative softening
+};
+
+/// All energies, in the order of the table above.
+[[nodiscard]] std::span<const EnergyInfo> energies();
+/// The row of that name, or an error that lists the names.
+[[nodiscard]] Expected<EnergyInfo> find_energy(std::string_view name);
+
+/// An energy with everything it depends on.
+struct EnergyModel {
+  EnergyKind kind = EnergyKind::BP;
+  int star = 1;                                    ///< 0, 1 or 2
+  BoundaryTreatment boundary = BoundaryTreatment::as_is;  ///< of F only; the others define their own
+  Softening gamma = {1.0, LengthScale::absolute};  ///< γ of E_BP; the paper's examples use 1, absolute
+  Softening h0 = {0.0, LengthScale::absolute};     ///< −h° of E_BHs, ≥ 0
+};
+
+/// E of one triangle alone, all its edges boundary edges.
+[[nodiscard]] double triangle_energy(const EnergyModel& model, const WeightedPoint& p, const WeightedPoint& q,
+                                     const WeightedPoint& r);
+/// Total energy; +∞ when any term is outside its domain. Summed pairwise, so independent of threads. O(n).
+[[nodiscard]] double total_energy(const Mesh& mesh, const EnergyModel& model);
+
+/// The energy as a function of one vertex: value, gradient and Hessian in (x, y, w).
+struct VertexDerivatives {
+  double value = 0;                          ///< +∞ when not feasible
+  bool feasible = false;                     ///< inside the domain of the energy; else the rest is zero
+  std::array<double, 3> gradient = {};       ///< ∂E/∂x, ∂E/∂y, ∂E/∂w
+  std::array<double, 6> hessian = {};        ///< xx, xy, xw, yy, yw, ww
+};
+/// The part of the total energy that depends on v: the edges of its star, and for E_T the dual edges
+/// across the link. total(after) − total(before) = value(after) − value(before) when only v changes.
+[[nodiscard]] VertexDerivatives vertex_energy(const Mesh& mesh, const EnergyModel& model, VertexId v);
+
+}  // namespace temper

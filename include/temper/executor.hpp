@@ -1,0 +1,19 @@
+// Where threads come from: one small interface, so that the core itself starts none.
+//
+// Work is cut into blocks whose number does not depend on the number of threads, and every block writes
+// only its own results: the same bytes come out for any executor.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace temper {
+
+class Executor {
+ public:
+  virtual ~Executor() = default;
+  /// Runs block(0) … block(n − 1), each once, in any order and on any thread; returns when all are done.
+  virtual void run(std::size_t n, const std::function<void(std::size_t)>& block) = 0;
+};
+
+}  // namespace temper

@@ -1,0 +1,81 @@
+// Example meshes: the paper's, and the classes a mesh method should be tried on. Each is made here, from
+// its parameters and a seed, by a constrained Delaunay triangulation on temper's own predicates.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "temper/error.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+/// A closed polygon, counter-clockwise for an outline, either way for a hole.
+using Polygon = std::vector<Vec2>;
+
+/// The constrained Delaunay triangulation (all weights zero) of points inside an outline with holes.
+/// Edges of outline and holes appear; points keep their order; ties are broken by index.
+/// Errors: duplicate points, crossing segments, fewer than three points.
+struct DelaunayInput {
+  std::span<const Vec2> points;
+  std::span<const std::array<std::int32_t, 2>> segments;  ///< constrained edges, 0-based
+  bool carve = true;  ///< drop triangles outside the outermost closed segments, and inside holes (by parity); false: convex hull
+};
+[[nodiscard]] Expected<Mesh> constrained_delaunay(const DelaunayInput& input);
+
+/// The paper's sparse horseshoe (fig. 11 left): 5 vertices, 4 triangles.
+[[nodiscard]] Mesh sparse_horseshoe();
+
+/// The parameterised horseshoe (§6.5): na × nb points, x and y the semi-axes at b = 0 and 1.
+/// Constrained Delaunay of the points between the two arches.
+struct Horseshoe {
+  int a = 7, b = 9;
+  std::array<double, 2> x = {1, 2};
+  std::array<double, 2> y = {1, 4};
+};
+[[nodiscard]] Expected<Mesh> horseshoe(const Horseshoe& shape = {});
+
+/// Sides of length a and b from vertex 0, with an angle in degrees between them (§3.1.2, fig. 9).
+struct SingleTriangle {
+  double a = 0.5, b = 1, angle_deg = 120;
+};
+[[nodiscard]] Expected<Mesh> single_triangle(const SingleTriangle& shape = {});
+
+/// Uniformly random points in a polygon (default: a non-convex L shape with a notch), n vertices in all; the boundary
+/// is divided at the mean spacing and inner points keep half a spacing from it. About half of the triangles are bad.
+struct RandomPoints {
+  std::size_t vertices = 1000;
+  std::uint64_t seed = 1;
+  Polygon polygon;  ///< empty: the default
+};
+[[nodiscard]] Expected<Mesh> random_points(const RandomPoints& shape = {});
+
+/// nx × ny squares, each cut along the same diagonal, then sheared by x += shear · y.
+struct ShearedGrid {
+  int nx = 20, ny = 20;
+  double shear = 0.5;
+};
+[[nodiscard]] Expected<Mesh> sheared_grid(const ShearedGrid& shape = {});
+
+/// Rings of points between two circles, the middle rings turned and jittered.
+struct Annulus {
+  double inner = 0.4, outer = 1;
+  int around = 48, rings = 6;
+  double jitter = 0.3;
+  std::uint64_t seed = 1;
+};
+[[nodiscard]] Expected<Mesh> annulus(const Annulus& shape = {});
+
+/// A box with an airfoil-like hole, graded from fine at the foil to coarse at the box.
+struct Airfoil {
+  int around = 80;        ///< points on the foil
+  double growth = 1.25;   ///< ratio of one layer's spacing to the one before
+  std::uint64_t seed = 1;
+};
+[[nodiscard]] Expected<Mesh> airfoil(const Airfoil& shape = {});
+
+}  // namespace temper

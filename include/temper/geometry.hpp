@@ -1,0 +1,65 @@
+// Triangle geometry of the power diagram, and the exact predicates that decide validity.
+//
+// Conventions (docs/concepts.md): triangle ijk counter-clockwise; orthocenter o has equal power to
+// i, j and k; h_k is the signed distance from edge ij to o, positive on the left of i → j (the side of k
+// in a counter-clockwise triangle); d_ij = ℓ/2 + (w_i − w_j)/(2ℓ) from i towards j, so d_ij + d_ji = ℓ.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "temper/vec2.hpp"
+
+namespace temper {
+
+enum class Sign : int { negative = -1, zero = 0, positive = 1 };
+constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)); }
+
+// --- exact predicates: right for all finite doubles short of overflow and underflow ----------------
+
+/// Positive when a, b, c turn counter-clockwise. Sign of cross(b − a, c − a), exact.
+[[nodiscard]] Sign orient2d(Vec2 a, Vec2 b, Vec2 c);
+
+/// Power test (eq. 9 of the paper, oriented): for a, b, c counter-clockwise, positive when d conflicts,
+/// that is when d's power to the orthocenter of abc is less than theirs and the edge between abc and d
+/// is not regular; zero when all four are cocircular in the power sense; negative when regular. Exact.
+[[nodiscard]] Sign power_test(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
+                              const WeightedPoint& d);
+
+/// power_test with ties broken by vertex index: the weights are thought to be w_i + ε^(i+1), ε → 0+, so
+/// that the regular triangulation is unique whatever the order of construction. Zero only when all
+/// four points are collinear.
+[[nodiscard]] Sign power_test_perturbed(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
+                                        const WeightedPoint& d, const std::array<std::uint32_t, 4>& index);
+
+/// Sign of h, the signed height of the orthocenter of the counter-clockwise triangle pqr over its edge pq. Exact.
+[[nodiscard]] Sign signed_height_sign(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
+
+/// Sign of d_pq = (ℓ² + w_p − w_q)/(2ℓ). Exact.
+[[nodiscard]] Sign edge_split_sign(const WeightedPoint& p, const WeightedPoint& q);
+
+/// All h > 0 and all 0 < d < ℓ, and counter-clockwise. Exact.
+[[nodiscard]] bool is_well_centered(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
+
+// --- constructions, in doubles ---------------------------------------------------------------------
+
+/// The point of equal power to p, q and r.
+[[nodiscard]] Vec2 orthocenter(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
+
+/// d_pq = ℓ/2 + (w_p − w_q)/(2ℓ): distance from p, towards q, of the weighted midpoint.
+[[nodiscard]] double edge_split(const WeightedPoint& p, const WeightedPoint& q);
+
+/// h: signed distance from edge pq to the orthocenter of pqr, positive on the left of p → q.
+[[nodiscard]] double signed_height(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
+
+/// h ℓ of the three edges qr, rp, pq (the edge across from p, q, r). They sum to twice the area, and are
+/// rational in the coordinates and weights: what the energies are made of.
+[[nodiscard]] std::array<double, 3> scaled_heights(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
+
+/// Twice the signed area.
+[[nodiscard]] double doubled_area(Vec2 p, Vec2 q, Vec2 r);
+
+/// The angle at p, in radians.
+[[nodiscard]] double corner_angle(Vec2 p, Vec2 q, Vec2 r);
+
+}  // namespace temper

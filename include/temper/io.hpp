@@ -1,0 +1,100 @@
+// Mesh files. Content decides the format; one source file a format; everything passes through.
+//
+// A MeshFile is what a file says, in neutral arrays: points, weights, triangles, lines, tags, names and
+// data. make_mesh builds the mesh from it (errors speak the file's own numbers and lines); update puts an
+// optimised mesh back, so that all else that was in the file is written again.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "temper/error.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper::io {
+
+/// Numbers of one kind. Files are written with the type they were read with.
+using Values = std::variant<std::vector<double>, std::vector<float>, std::vector<std::int64_t>,
+                            std::vector<std::int32_t>, std::vector<std::uint8_t>>;
+
+struct DataArray {
+  std::string name;
+  int components = 1;
+  Values values;
+};
+
+/// A named group of elements: Gmsh physical names.
+struct PhysicalName {
+  int dimension = 0;  ///< 0 points, 1 lines, 2 triangles
+  std::int32_t tag = 0;
+  std::string name;
+};
+
+struct MeshFile {
+  std::vector<Vec2> points;
+  double z = 0;                                        ///< common z of all points, written back
+  std::vector<double> weights;                         ///< empty, or one a point
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< 0-based
+  std::vector<std::int32_t> regions;                   ///< empty, or one a triangle (medit reference, Gmsh physical tag, …)
+  std::vector<std::array<std::int32_t, 2>> lines;      ///< tagged lines: boundary or interior
+  std::vector<std::int32_t> line_tags;                 ///< one a line
+  std::vector<std::int32_t> marked_points;             ///< points that carry a tag (Gmsh point elements, …)
+  std::vector<std::int32_t> point_tags;                ///< one a marked point
+  std::vector<PhysicalName> names;
+  std::vector<DataArray> point_data, cell_data, field_data;
+  std::string format;                                  ///< "vtu", "gmsh41", …: the row of formats() it came from
+  std::vector<std::string> warnings;                   ///< what was dropped or repaired in reading
+  std::shared_ptr<const InputNames> numbering;         ///< the file's own numbers and lines
+};
+
+enum class Encoding { ascii, base64, appended };
+
+struct WriteOptions {
+  std::string format;                 ///< row of formats(); empty: by the suffix of the path
+  std::optional<Encoding> encoding;   ///< of formats that have several; VTU's default is zlib in base64
+};
+
+/// A format temper knows. Adding one is one source file and one row.
+struct Format {
+  std::string_view name;         ///< "vtu", "gmsh22", "gmsh41", "medit", "triangle", "obj", "vtk", "mfem"
+  std::string_view description;
+  std::string_view suffixes;     ///< ".vtu", ".msh", …, separated by spaces; first is the one written
+  bool writes;
+  bool holds_weights;            ///< else weights go to NAME.weights.csv, with a warning
+};
+[[nodiscard]] std::span<const Format> formats();
+
+/// Reads any known format; a side file PATH.weights.csv, when there, gives the weights.
+[[nodiscard]] Expected<MeshFile> read(const std::string& path);
+/// Writes to a temporary file beside path and renames it: on any error what was at path is untouched.
+/// Returns warnings (weights gone to a side file, data that the format cannot hold).
+[[nodiscard]] Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file, const WriteOptions& options = {});
+
+/// Any text to a file, by the same temporary-and-rename.
+[[nodiscard]] Expected<void> write_text(const std::string& path, std::string_view text);
+
+/// The mesh of a file. Points of no triangle are dropped with a warning that names them; clockwise triangles are
+/// reversed and counted in a warning. Interior tagged lines become constrained edges.
+struct LoadedMesh {
+  Mesh mesh;
+  std::vector<std::int32_t> vertex_of_point;   ///< −1 for dropped points
+  std::size_t reversed_triangles = 0;
+  std::vector<std::string> warnings;
+};
+/// `fixed_tags`: tags or physical names whose points must not move.
+[[nodiscard]] Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags = {});
+
+/// Puts coordinates, weights and triangles of the mesh back into the file it came from. Cell data stay with their slot.
+void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh);
+
+/// A file that holds just this mesh.
+[[nodiscard]] MeshFile from_mesh(const Mesh& mesh);
+
+}  // namespace temper::io

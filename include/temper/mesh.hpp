@@ -1,0 +1,221 @@
+// The weighted triangle mesh: a copyable value of flat arrays.
+//
+// Triangle-based half-edges: halfedge 3 t + k runs from corner k to corner k + 1 of triangle t, so
+// next, previous and triangle are arithmetic and only the origin and the twin are stored. All triangles
+// are counter-clockwise. A halfedge without twin lies on the boundary, with the domain on its left.
+//
+//            c                halfedge h: a → b        opposite(h) = c
+//          /   \              next(h):    b → c        prev(h):  c → a
+//         /  t  \             twin(h):    b → a in the triangle below, or invalid on the boundary
+//        a ----> b
+//            h
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "temper/error.hpp"
+#include "temper/ids.hpp"
+#include "temper/vec2.hpp"
+
+namespace temper {
+
+/// How the user counts points and triangles, so that errors speak the user's numbers.
+/// The base class counts from 0 and knows no file.
+class InputNames {
+ public:
+  virtual ~InputNames() = default;
+  [[nodiscard]] virtual std::string point(std::size_t index) const;     ///< "point 3"
+  [[nodiscard]] virtual std::string triangle(std::size_t index) const;  ///< "triangle 12"
+  [[nodiscard]] virtual std::string point_where(std::size_t index) const;     ///< "a.mesh:7" or ""
+  [[nodiscard]] virtual std::string triangle_where(std::size_t index) const;  ///< "a.mesh:41" or ""
+};
+
+/// Arrays that make a mesh. Spans are read during Mesh::build only.
+struct MeshInput {
+  std::span<const Vec2> points;                                  ///< n points
+  std::span<const double> weights;                               ///< n weights [length²], or empty: all zero
+  std::span<const std::array<std::int32_t, 3>> triangles;        ///< m corner triples, 0-based, either orientation
+  std::span<const std::array<std::int32_t, 2>> constrained_edges;  ///< edges never to flip, 0-based
+  std::span<const std::int32_t> regions;                         ///< m region numbers, or empty: all zero
+  std::span<const std::int32_t> fixed_vertices;                  ///< vertices never to move, 0-based
+  const InputNames* names = nullptr;                             ///< the user's numbering, for errors
+};
+
+class Mesh {
+ public:
+  Mesh() = default;
+
+  /// Builds a mesh and checks everything that makes it one: finite coordinates, indices in range, no
+  /// duplicate or unused point, no zero-area triangle, at most two triangles an edge, one fan a vertex,
+  /// every interior star winding once, no crossing boundary, no component on top of another.
+  /// Clockwise triangles are reversed and counted. Edges between different regions become constrained.
+  /// Weights need not be regular. O(n log n).
+  [[nodiscard]] static Expected<struct BuiltMesh> build(const MeshInput& input);
+
+  // --- sizes -------------------------------------------------------------------------------------
+  [[nodiscard]] std::size_t n_vertices() const { return vertices_.size(); }
+  [[nodiscard]] std::size_t n_triangles() const { return corners_.size() / 3; }
+  [[nodiscard]] std::size_t n_halfedges() const { return corners_.size(); }
+  [[nodiscard]] IdRange<VertexId> vertices() const { return IdRange<VertexId>(n_vertices()); }
+  [[nodiscard]] IdRange<TriangleId> triangles() const { return IdRange<TriangleId>(n_triangles()); }
+  [[nodiscard]] IdRange<HalfedgeId> halfedges() const { return IdRange<HalfedgeId>(n_halfedges()); }
+
+  // --- vertices ----------------------------------------------------------------------------------
+  [[nodiscard]] Vec2 position(VertexId v) const { return {record(v).x, record(v).y}; }
+  [[nodiscard]] double weight(VertexId v) const { return record(v).w; }
+  [[nodiscard]] WeightedPoint point(VertexId v) const { return {record(v).x, record(v).y, record(v).w}; }
+  void set_position(VertexId v, Vec2 p) { record(v).x = p.x, record(v).y = p.y; }
+  void set_weight(VertexId v, double w) { record(v).w = w; }
+  void set_point(VertexId v, WeightedPoint p) { record(v).x = p.x, record(v).y = p.y, record(v).w = p.w; }
+  /// A vertex that the user wants to stay where it is. (Boundary vertices stay without being marked.)
+  [[nodiscard]] bool is_fixed(VertexId v) const { return (record(v).flags & kFixed) != 0; }
+  void set_fixed(VertexId v, bool fixed);
+  [[nodiscard]] bool is_boundary(VertexId v) const { return !twin(outgoing(v)).valid(); }
+
+  // --- halfedges ---------------------------------------------------------------------------------
+  [[nodiscard]] static constexpr HalfedgeId next(HalfedgeId h) {
+    return HalfedgeId(h.index % 3 == 2 ? h.index - 2 : h.index + 1);
+  }
+  [[nodiscard]] static constexpr HalfedgeId prev(HalfedgeId h) {
+    return HalfedgeId(h.index % 3 == 0 ? h.index + 2 : h.index - 1);
+  }
+  [[nodiscard]] static constexpr TriangleId triangle(HalfedgeId h) { return TriangleId(h.index / 3); }
+  [[nodiscard]] static constexpr HalfedgeId halfedge(TriangleId t, int k) { return HalfedgeId(3 * std::size_t{t.index} + std::size_t(k)); }
+  [[nodiscard]] HalfedgeId twin(HalfedgeId h) const { return twins_[h]; }
+  [[nodiscard]] VertexId origin(HalfedgeId h) const { return corners_[h]; }
+  [[nodiscard]] VertexId target(HalfedgeId h) const { return corners_[next(h)]; }
+  /// The corner across from h in its triangle.
+  [[nodiscard]] VertexId opposite(HalfedgeId h) const { return corners_[prev(h)]; }
+  [[nodiscard]] bool is_boundary(HalfedgeId h) const { return !twin(h).valid(); }
+  /// A region interface or a line of the user's: never flipped.
+  [[nodiscard]] bool is_constrained(HalfedgeId h) const { return constrained_[h] != 0; }
+  /// Marks the edge of h, on both sides.
+  void set_constrained(HalfedgeId h, bool constrained);
+  /// Each edge once: the halfedge that stands for it (the boundary one, or the smaller of two twins).
+  [[nodiscard]] bool is_edge_representative(HalfedgeId h) const { return !twin(h).valid() || h < twin(h); }
+  [[nodiscard]] std::size_t n_edges() const;
+
+  // --- triangles ---------------------------------------------------------------------------------
+  [[nodiscard]] std::array<VertexId, 3> corners(TriangleId t) const {
+    return {corners_[halfedge(t, 0)], corners_[halfedge(t, 1)], corners_[halfedge(t, 2)]};
+  }
+  [[nodiscard]] std::int32_t region(TriangleId t) const { return regions_[t]; }
+  void set_region(TriangleId t, std::int32_t region) { regions_[t] = region; }
+
+  // --- around a vertex ---------------------------------------------------------------------------
+  /// One halfedge that leaves v; on the boundary, the boundary one, so that a walk sees the whole star.
+  [[nodiscard]] HalfedgeId outgoing(VertexId v) const { return HalfedgeId(std::size_t{record(v).outgoing}); }
+  /// The next halfedge out of origin(h), counter-clockwise; invalid past the last one of a boundary vertex.
+  [[nodiscard]] HalfedgeId rotate(HalfedgeId h) const { return twin(prev(h)); }
+  /// The halfedges out of v, one a triangle, counter-clockwise. for (HalfedgeId h : mesh.star(v)) …
+  [[nodiscard]] auto star(VertexId v) const { return Star(this, outgoing(v)); }
+  /// The halfedge from a to b, or invalid. O(degree).
+  [[nodiscard]] HalfedgeId find_halfedge(VertexId a, VertexId b) const;
+
+  // --- whole mesh --------------------------------------------------------------------------------
+  /// Everything that must hold of the arrays and the geometry: ids in range, twins mutual, stars whole,
+  /// flags equal on both sides, every triangle counter-clockwise (exact). Says the first thing that
+  /// does not, or nothing. O(n).
+  [[nodiscard]] std::optional<std::string> validate() const;
+
+  /// Bytes of the arrays.
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+  // --- changing the arrays: used by topology, which keeps the invariants -----------------------------
+  VertexId add_vertex(WeightedPoint p);
+  /// Three halfedges without twins; the caller links them.
+  TriangleId add_triangle(std::array<VertexId, 3> corners, std::int32_t region);
+  void set_corner(HalfedgeId h, VertexId v) { corners_[h] = v; }
+  /// Makes a and b twins; b may be invalid (a becomes boundary). Flags stay as they are.
+  void link(HalfedgeId a, HalfedgeId b);
+  void set_outgoing(VertexId v, HalfedgeId h) { record(v).outgoing = h.index; }
+  /// Marks a triangle for compact(); its neighbours get a boundary there.
+  void erase(TriangleId t);
+  [[nodiscard]] bool is_erased(TriangleId t) const { return !corners_[halfedge(t, 0)].valid(); }
+  /// Drops erased triangles and vertices of no triangle, keeps the order of the rest, and repairs
+  /// outgoing(). Returns the old ids of what is left.
+  struct Compaction compact();
+
+  friend bool operator==(const Mesh&, const Mesh&) = default;
+
+ private:
+  friend class MeshBuilder;
+  friend class MeshPermuter;
+
+  static constexpr std::uint32_t kFixed = 1;
+
+  // 32 bytes: a vertex is one half of a cache line and never straddles two.
+  struct alignas(32) VertexRecord {
+    double x = 0, y = 0, w = 0;
+    std::uint32_t outgoing = HalfedgeId::kInvalid;
+    std::uint32_t flags = 0;
+    friend bool operator==(const VertexRecord&, const VertexRecord&) = default;
+  };
+
+  class Star {
+   public:
+    class Iterator {
+     public:
+      Iterator(const Mesh* mesh, HalfedgeId h) : mesh_(mesh), first_(h), at_(h) {}
+      HalfedgeId operator*() const { return at_; }
+      Iterator& operator++() {
+        at_ = mesh_->rotate(at_);
+        if (at_ == first_) at_ = HalfedgeId();
+        return *this;
+      }
+      friend bool operator==(const Iterator& a, const Iterator& b) { return a.at_ == b.at_; }
+
+     private:
+      const Mesh* mesh_;
+      HalfedgeId first_, at_;
+    };
+    Star(const Mesh* mesh, HalfedgeId first) : mesh_(mesh), first_(first) {}
+    [[nodiscard]] Iterator begin() const { return {mesh_, first_}; }
+    [[nodiscard]] Iterator end() const { return {mesh_, HalfedgeId()}; }
+
+   private:
+    const Mesh* mesh_;
+    HalfedgeId first_;
+  };
+
+  VertexRecord& record(VertexId v) { return vertices_[v]; }
+  [[nodiscard]] const VertexRecord& record(VertexId v) const { return vertices_[v]; }
+
+  IdVector<VertexId, VertexRecord> vertices_;
+  IdVector<HalfedgeId, VertexId> corners_;       // origin of each halfedge
+  IdVector<HalfedgeId, HalfedgeId> twins_;       // invalid on the boundary
+  IdVector<HalfedgeId, std::uint8_t> constrained_;
+  IdVector<TriangleId, std::int32_t> regions_;
+};
+
+/// What Mesh::build made, and what it had to repair.
+struct BuiltMesh {
+  Mesh mesh;
+  std::size_t reversed_triangles = 0;  ///< clockwise in the input
+};
+
+/// What compact() kept: new id → old id.
+struct Compaction {
+  IdVector<VertexId, VertexId> vertices;
+  IdVector<TriangleId, TriangleId> triangles;
+};
+
+/// A relabelling: new id → old id.
+struct MeshOrder {
+  IdVector<VertexId, VertexId> vertices;
+  IdVector<TriangleId, TriangleId> triangles;
+};
+
+/// Relabels vertices and triangles along a Hilbert curve, so that neighbours in the plane are
+/// neighbours in memory. Returns the order, for restore_order. O(n log n).
+MeshOrder hilbert_order(Mesh& mesh);
+/// Undoes hilbert_order: every vertex has its former number again, and every triangle its former slot.
+void restore_order(Mesh& mesh, const MeshOrder& order);
+
+}  // namespace temper

@@ -1,0 +1,60 @@
+// The report on a primal-dual mesh: counts decided exactly, margins and energies in doubles.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "temper/energy.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+class Executor;
+
+struct QualityOptions {
+  Softening gamma = {1.0, LengthScale::absolute};  ///< for E_BP in the report
+  Softening h0 = {0.0, LengthScale::absolute};     ///< for E_BHs: −h°
+  std::size_t worst = 5;                           ///< how many of the worst triangles to list
+  Executor* executor = nullptr;
+};
+
+/// One of the triangles that are furthest from well-centered.
+struct WorstTriangle {
+  TriangleId triangle;
+  std::array<VertexId, 3> vertices;
+  Vec2 at;               ///< centroid
+  double h_over_l = 0;   ///< least of its three
+  double angle_deg = 0;  ///< largest
+  std::string why;       ///< "orthocenter outside across edge 3-9: angle of 138.3° at vertex 10"
+};
+
+/// Counts of angles, h/ℓ or d/ℓ in equal bins over [low, high]; what lies outside goes to the end bins.
+struct Histogram {
+  double low = 0;
+  double high = 0;
+  std::vector<std::size_t> counts;
+};
+
+struct Quality {
+  std::size_t vertices = 0, triangles = 0, edges = 0, boundary_edges = 0, regions = 0;
+  std::size_t inverted_triangles = 0;       ///< exact
+  std::size_t non_regular_edges = 0;        ///< interior edges with negative dual, exact
+  std::size_t negative_boundary_duals = 0;  ///< boundary edges with h < 0, exact
+  std::size_t orthocenters_outside = 0;     ///< triangles with some h ≤ 0, exact
+  std::size_t edges_not_crossed = 0;        ///< edges without 0 < d < ℓ, exact
+  double well_centered_fraction = 0;        ///< triangles with all h > 0 and 0 < d < ℓ
+  double min_h_over_l = 0;                  ///< over triangles and their edges
+  double min_d_over_l = 0;                  ///< over edges, the lesser of d/ℓ and 1 − d/ℓ
+  double min_angle_deg = 0, max_angle_deg = 0;
+  double max_transmissibility_over_median = 0;  ///< of |dual| / ℓ over interior edges … the largest over the median
+  std::array<std::array<double, 3>, 6> energy = {};  ///< [row of energies()][star], +∞ outside the domain
+  std::vector<WorstTriangle> worst;         ///< worst first
+  Histogram angles, h_over_l, d_over_l;
+};
+
+/// Measures a mesh. O(n).
+[[nodiscard]] Quality quality(const Mesh& mesh, const QualityOptions& options = {});
+
+}  // namespace temper

@@ -1,0 +1,35 @@
+// Points and vectors of the plane, and the weighted point.
+#pragma once
+
+#include <cmath>
+
+namespace temper {
+
+struct Vec2 {
+  double x = 0;
+  double y = 0;
+
+  friend constexpr Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
+  friend constexpr Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
+  friend constexpr Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.y}; }
+  friend constexpr bool operator==(Vec2, Vec2) = default;
+};
+
+constexpr double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
+/// The z component of a × b: twice the signed area of the triangle 0, a, b.
+constexpr double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+constexpr double squared_length(Vec2 a) { return dot(a, a); }
+inline double length(Vec2 a) { return std::sqrt(squared_length(a)); }
+
+/// A point and its weight. The power distance to q is |(x, y) − q|² − w, so w has units of length²
+/// and a larger weight makes a larger power cell.
+struct WeightedPoint {
+  double x = 0;
+  double y = 0;
+  double w = 0;
+
+  [[nodiscard]] constexpr Vec2 position() const { return {x, y}; }
+  friend constexpr bool operator==(WeightedPoint, WeightedPoint) = default;
+};
+
+}  // namespace temper
