@@ -1,0 +1,25 @@
+# Installs the libraries and what find_package(temper COMPONENTS core io) needs. The flags of temper's own
+# code (temper_flags) stay here: they are linked for the build alone and are in no export.
+include(CMakePackageConfigHelpers)
+
+set(TEMPER_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/temper)
+
+install(TARGETS temper EXPORT temper_core)
+install(EXPORT temper_core NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperCoreTargets.cmake)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/temper DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "io.hpp" EXCLUDE)
+
+if(TARGET temper_io)
+  set_target_properties(temper_io PROPERTIES EXPORT_NAME io)
+  install(TARGETS temper_io EXPORT temper_io)
+  install(EXPORT temper_io NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperIoTargets.cmake)
+  install(FILES ${PROJECT_SOURCE_DIR}/include/temper/io.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/temper)
+endif()
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/temperConfig.cmake.in ${PROJECT_BINARY_DIR}/temperConfig.cmake
+                              INSTALL_DESTINATION ${TEMPER_CMAKE_DIR})
+# Before 1.0 a new minor version may change the interface.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/temperConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/temperConfig.cmake ${PROJECT_BINARY_DIR}/temperConfigVersion.cmake
+        DESTINATION ${TEMPER_CMAKE_DIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Installs what building and testing need on Debian 12 or Ubuntu 24.04; only what is missing, quietly.
+#
+#   scripts/bootstrap.sh          everything
+#   scripts/bootstrap.sh build    what the library and the program need
+#   scripts/bootstrap.sh test     what the tests need besides
+set -euo pipefail
+
+build=(g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev)
+test=(libgtest-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-meshio librsvg2-bin clang-format-14)
+
+wanted=()
+for group in "${@:-all}"; do
+  case "$group" in
+    build) wanted+=("${build[@]}") ;;
+    test) wanted+=("${test[@]}") ;;
+    all) wanted+=("${build[@]}" "${test[@]}") ;;
+    *) echo "bootstrap: no group '$group'; there are build, test and all" >&2; exit 2 ;;
+  esac
+done
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "bootstrap: no apt here; install by hand what these Debian packages hold: ${wanted[*]}" >&2
+  exit 0  # the build itself says what is really missing
+fi
+
+missing=()
+for package in "${wanted[@]}"; do
+  status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+  [[ "$status" == installed ]] || missing+=("$package")
+done
+((${#missing[@]})) || exit 0
+
+as_root=()
+if ((EUID != 0)); then as_root=(sudo); fi
+echo "bootstrap: installing ${missing[*]}"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+if ! { "${as_root[@]}" apt-get update -qq &&
+       "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+         apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+  tail -n 20 "$log" >&2
+  echo "bootstrap: apt-get failed" >&2
+  exit 1
+fi

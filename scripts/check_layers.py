@@ -1,0 +1,190 @@
+#!/usr/bin/env python3
+"""Checks that every #include keeps to the layers, and that the core stays what it promises to be.
+
+    scripts/check_layers.py [ROOT]       exit 1 and one line a violation: file:line: why
+    scripts/check_layers.py --self-test  plants violations in a scratch tree and expects each to be found
+
+The table below is the architecture. A public header belongs to the layer it speaks for; a file of a layer
+may include its own layer and the layers its row names, nothing else. The core includes the standard C++
+headers alone, and of those none that prints, opens files, starts threads or needs RTTI.
+"""
+
+import pathlib
+import re
+import sys
+import tempfile
+
+# layer: the layers it may include, besides itself.
+_BELOW = ["base", "geometry", "mesh"]
+LAYERS = {
+    "base": [],
+    "geometry": ["base"],
+    "mesh": ["base", "geometry"],
+    "topology": _BELOW,
+    "energy": _BELOW,
+    "regularity": _BELOW + ["topology", "energy"],
+    "feasibility": _BELOW + ["topology", "energy"],
+    "optimize": _BELOW + ["topology", "energy", "regularity", "feasibility"],
+    # What looks at meshes: never at how they were optimised.
+    "quality": _BELOW + ["topology", "energy", "regularity", "feasibility"],
+    "dec": _BELOW + ["topology", "energy", "regularity"],
+    "draw": _BELOW + ["topology", "energy", "regularity", "quality"],
+    "generate": _BELOW + ["topology", "energy", "regularity"],
+    # A library of its own: sees the core's public headers, and no other folder of src/.
+    "io": _BELOW,
+}
+CORE = set(LAYERS) - {"io"}
+
+# Public headers whose name is not that of their layer.
+HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor"]}
+
+STANDARD = set("""
+algorithm array atomic bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits cmath
+compare complex concepts cstdarg cstddef cstdint cstdio cstdlib cstring ctime cuchar cwchar cwctype deque
+forward_list functional initializer_list iterator limits list map memory memory_resource new numbers numeric
+optional queue random ranges ratio scoped_allocator set source_location span stack string string_view
+tuple type_traits unordered_map unordered_set utility valarray variant vector version
+""".split())
+# Standard, but not for the core: streams, files, formatting (550 KB in the browser), threads, RTTI.
+BARRED = set("""
+any barrier condition_variable coroutine exception filesystem format fstream future iomanip ios iosfwd iostream
+istream latch locale mutex ostream print regex semaphore shared_mutex sstream stdexcept stop_token streambuf
+strstream syncstream system_error thread typeindex typeinfo
+""".split())
+# Calls that print, open files or end the program; snprintf into memory is fine.
+BARRED_CALL = re.compile(r"\bstd::(cout|cerr|clog|fopen|printf|fprintf|puts|fputs|fwrite|exit|quick_exit)\b")
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def layer_of_header(header):
+    """The layer of "temper/NAME.hpp", or None when there is no such layer."""
+    name = pathlib.PurePath(header).stem
+    return HEADER_LAYER.get(name, name if name in LAYERS else None)
+
+
+def included_layer(header):
+    """The layer that a quoted include reaches, or None when it reaches none."""
+    first, _, rest = header.partition("/")
+    return layer_of_header(header) if first == "temper" else (first if rest and first in LAYERS else None)
+
+
+def check_include(layer, quoted, header):
+    """Why a file of `layer` may not include `header`, or None. `layer` "app" is the program."""
+    if not quoted:
+        if layer not in CORE or header in STANDARD:
+            return None
+        why = "the core must not use it" if header in BARRED else "the core uses standard C++ headers alone"
+        return f"<{header}>: {why}"
+    if layer == "app":
+        private = header.partition("/")[0] in LAYERS and "/" in header
+        return f'"{header}": the program sees public headers alone' if private else None
+    if layer == "io" and "/" not in header:
+        return None  # a file beside it
+    reached = included_layer(header)
+    if reached is None:
+        return f'"{header}": neither a public header nor "LAYER/file.hpp"'
+    if reached == layer:
+        return None
+    if reached not in LAYERS[layer]:
+        return f'"{header}": {layer} must not see {reached}'
+    if layer == "io" and not header.startswith("temper/"):
+        return f'"{header}": io sees the public headers of the core alone'
+    return None
+
+
+def check_file(path, layer):
+    """(line, why) of every violation in one file."""
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        match = INCLUDE.match(line)
+        why = check_include(layer, match[1] == '"', match[2]) if match else None
+        if why is None and layer in CORE and (call := BARRED_CALL.search(line)):
+            why = f"{call[0]}: the core neither prints, opens files nor exits"
+        if why:
+            yield number, why
+
+
+def sources(root):
+    """(file, its layer) of every source; a layer of None means that the file belongs to none."""
+    for path in sorted(p for p in root.glob("**/*") if p.suffix in (".hpp", ".cpp", ".h", ".inc")):
+        parts = path.relative_to(root).parts
+        if parts[0] == "src":
+            yield path, parts[1] if parts[1] in LAYERS else None
+        elif parts[:2] == ("include", "temper"):
+            yield path, layer_of_header(parts[-1])
+        elif parts[0] == "apps":
+            yield path, "app"
+
+
+def check(root):
+    """All violations, and how many files were read."""
+    violations, files = [], 0
+    for path, layer in sources(root):
+        files += 1
+        name = path.relative_to(root)
+        if layer is None:
+            violations.append(f"{name}:1: belongs to no layer of scripts/check_layers.py")
+            continue
+        violations += [f"{name}:{number}: {why}" for number, why in check_file(path, layer)]
+    return violations, files
+
+
+def self_test():
+    """Each planted line must be found, each allowed one must pass."""
+    planted = [  # file, line, is it a violation?
+        ("src/geometry/a.cpp", '#include "mesh/walk.hpp"', True),
+        ("src/geometry/a.cpp", '#include "temper/mesh.hpp"', True),
+        ("src/quality/a.cpp", '#include "temper/optimize.hpp"', True),
+        ("src/draw/a.cpp", '#include "optimize/driver.hpp"', True),
+        ("src/mesh/a.cpp", '#include "temper/io.hpp"', True),
+        ("src/energy/a.cpp", '#include "topology/flip.hpp"', True),
+        ("src/mesh/a.cpp", "#include <iostream>", True),
+        ("src/base/a.cpp", "  #  include <thread>", True),
+        ("src/mesh/a.cpp", "#include <pugixml.hpp>", True),
+        ("src/mesh/a.cpp", "#include <math.h>", True),
+        ("src/optimize/a.cpp", '  std::printf("%d", 1);', True),
+        ("src/io/a.cpp", '#include "mesh/walk.hpp"', True),
+        ("src/io/a.cpp", '#include "temper/optimize.hpp"', True),
+        ("src/elsewhere/a.cpp", "#include <vector>", True),
+        ("include/temper/mesh.hpp", '#include "temper/energy.hpp"', True),
+        ("include/temper/elsewhere.hpp", "#include <vector>", True),
+        ("apps/temper/a.cpp", '#include "mesh/walk.hpp"', True),
+        ("src/mesh/a.cpp", '#include "geometry/power.hpp"', False),
+        ("src/mesh/a.cpp", '#include "mesh/walk.hpp"', False),
+        ("src/optimize/a.cpp", '#include "regularity/restore.hpp"', False),
+        ("src/base/a.cpp", "#include <vector>", False),
+        ("src/base/a.cpp", "// #include <iostream> would be wrong here", False),
+        ("src/io/a.cpp", "#include <pugixml.hpp>", False),
+        ("src/io/a.cpp", '#include "temper/mesh.hpp"', False),
+        ("include/temper/mesh.hpp", '#include "temper/ids.hpp"', False),
+        ("apps/temper/a.cpp", '#include "temper/optimize.hpp"', False),
+        ("apps/temper/a.cpp", '#include "commands.hpp"', False),
+    ]
+    wrong = []
+    for file, line, expected in planted:
+        with tempfile.TemporaryDirectory() as scratch:
+            path = pathlib.Path(scratch, file)
+            path.parent.mkdir(parents=True)
+            path.write_text(line + "\n", encoding="utf-8")
+            violations, files = check(pathlib.Path(scratch))
+        if files != 1 or bool(violations) != expected:
+            wrong.append(f"self-test: {file}: {line}: expected {'a violation' if expected else 'none'}, got {violations}")
+    return wrong, len(planted)
+
+
+def main(arguments):
+    if arguments == ["--self-test"]:
+        problems, count = self_test()
+        done = f"{count} planted lines, each judged as expected"
+    else:
+        root = pathlib.Path(arguments[0]) if arguments else pathlib.Path(__file__).resolve().parent.parent
+        problems, count = check(root)
+        done = f"{count} files keep to the layers"
+        if count == 0:
+            problems = [f"{root}: no sources here"]
+    print("\n".join(problems) if problems else f"check_layers: {done}")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

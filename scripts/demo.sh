@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Builds temper and shows it at work: a mesh with most triangles bad, before and after.
+# Writes demo-output/: the two meshes, a picture of both, the report.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+scripts/bootstrap.sh build
+scripts/build.sh release
+temper=$(find build/release -name temper -type f -perm -u+x | head -n 1)
+[[ -n "$temper" ]] || { echo "demo: the build made no program" >&2; exit 1; }
+
+run() { printf '\n$ temper'; printf ' %q' "$@"; printf '\n'; "$temper" "$@"; }
+
+mkdir -p demo-output
+run example horseshoe -o demo-output/horseshoe.vtu
+run check demo-output/horseshoe.vtu
+run optimize demo-output/horseshoe.vtu -o demo-output/tempered.vtu \
+  --draw demo-output/before-after.svg --report demo-output/report.json
+run check demo-output/tempered.vtu --require outside=0,nonregular=0
+
+echo
+echo "Look at demo-output/before-after.svg; open demo-output/tempered.vtu in ParaView."
