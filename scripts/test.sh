@@ -1,0 +1,132 @@
+#!/usr/bin/env bash
+# Everything that must hold before a change goes in, from a clean clone. Fails when any stage fails; the last
+# line says how many checks and tests passed and failed, in all builds together.
+#
+#   scripts/test.sh             all stages
+#   scripts/test.sh --quick     without the sanitizer build
+#
+# TEMPER_TEST_JOBS: parallel jobs, default all processors.
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+quick=0
+for argument in "$@"; do
+  case "$argument" in
+    --quick) quick=1 ;;
+    *) echo "test: unknown argument '$argument'" >&2; exit 2 ;;
+  esac
+done
+jobs=${TEMPER_TEST_JOBS:-$(nproc)}
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+launcher=()
+if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+
+passed=0 failed=0 skipped=0
+failures=()
+
+# stage NAME COMMAND …: runs it, shows its output only when it fails, counts it as one check.
+stage() {
+  local name=$1 start=$SECONDS
+  shift
+  if "$@" >"$scratch/log" 2>&1; then
+    passed=$((passed + 1))
+    printf '%-44s ok      %4d s   %s\n' "$name" $((SECONDS - start)) "$(tail -n 1 "$scratch/log" | cut -c 1-90)"
+  else
+    failed=$((failed + 1))
+    failures+=("$name")
+    tail -n 200 "$scratch/log"
+    printf '%-44s FAILED  %4d s\n' "$name" $((SECONDS - start))
+    return 1
+  fi
+}
+
+# suite NAME DIR: runs ctest there and counts its tests one by one; no test at all is a failure.
+suite() {
+  local name=$1 dir=$2 start=$SECONDS counts
+  local results="$scratch/results.xml"
+  rm -f "$results"
+  ctest --test-dir "$dir" -j "$jobs" --no-tests=error --output-on-failure --output-junit "$results" >"$scratch/log" 2>&1
+  local status=$?
+  read -r -a counts < <(python3 scripts/count_tests.py "$results" 2>/dev/null || echo 0 1 0)
+  if ((status != 0 && counts[1] == 0)); then counts[1]=1; fi
+  passed=$((passed + counts[0])) failed=$((failed + counts[1])) skipped=$((skipped + counts[2]))
+  local verdict=ok
+  if ((counts[1] > 0)); then
+    verdict=FAILED
+    failures+=("$name")
+    grep -v -E ' (Passed|Start +[0-9]+:)|^ +Start ' "$scratch/log" | tail -n 300
+  fi
+  printf '%-44s %-6s  %4d s   %d passed, %d failed, %d skipped\n' "$name" "$verdict" $((SECONDS - start)) "${counts[@]}"
+}
+
+configure_and_build() {  # PRESET
+  cmake --preset "$1" "${launcher[@]}" && cmake --build --preset "$1" -j "$jobs"
+}
+
+formatted() {
+  local files
+  mapfile -t files < <(git ls-files '*.cpp' '*.hpp' | while read -r file; do [[ -f "$file" ]] && echo "$file"; done)
+  ((${#files[@]} > 0)) || return 1
+  printf '%s\0' "${files[@]}" | xargs -0 -P "$jobs" -n 8 clang-format-14 --dry-run -Werror &&
+    echo "${#files[@]} files"
+}
+
+# The core must do without exceptions and RTTI: not one of its sources may be compiled with them.
+core_without_exceptions() {
+  python3 - build/dev/compile_commands.json <<'PYTHON'
+import json, pathlib, sys
+layers = {p.name for p in pathlib.Path("src").iterdir() if p.is_dir()} - {"io"}
+root = pathlib.Path("src").resolve()
+core = [c for c in json.load(open(sys.argv[1])) if root in pathlib.Path(c["file"]).resolve().parents
+        and pathlib.Path(c["file"]).resolve().relative_to(root).parts[0] in layers]
+wrong = [c["file"] for c in core if not all(f in c["command"] for f in ("-fno-exceptions", "-fno-rtti", "-ffp-contract=off"))]
+print("\n".join(wrong) if wrong else f"{len(core)} sources")
+sys.exit(bool(wrong) or not core)
+PYTHON
+}
+
+# The other compiler's opinion of the core, where there is one.
+clang_accepts_core() {
+  local flags=(-std=c++20 -fsyntax-only -Iinclude -Isrc -ffp-contract=off -fno-exceptions -fno-rtti
+               -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+  find src -name '*.cpp' -not -path 'src/io/*' -print0 | xargs -0 -P "$jobs" -n 1 clang++ "${flags[@]}" &&
+    echo "$(find src -name '*.cpp' -not -path 'src/io/*' | wc -l) sources"
+}
+
+consumer_find_package() {
+  cmake --install build/dev --prefix "$scratch/prefix" >/dev/null &&
+    cmake -G Ninja -S tests/consumer/find_package -B "$scratch/find_package" -DCMAKE_PREFIX_PATH="$scratch/prefix" &&
+    cmake --build "$scratch/find_package"
+}
+
+consumer_subdirectory() {
+  cmake -G Ninja -S tests/consumer/subdirectory -B "$scratch/subdirectory" "${launcher[@]}" &&
+    cmake --build "$scratch/subdirectory" -j "$jobs"
+}
+
+if ! stage "bootstrap" scripts/bootstrap.sh build test; then
+  echo "0 passed, 1 failed"
+  exit 1
+fi
+stage "layers: the checker finds what it should" python3 scripts/check_layers.py --self-test
+stage "layers: who includes whom" python3 scripts/check_layers.py
+stage "format" formatted
+stage "headers, each alone" tests/consumer/headers.sh
+if stage "build (dev, -Werror)" configure_and_build dev; then
+  stage "core without exceptions and RTTI" core_without_exceptions
+  suite "tests (dev)" build/dev
+  stage "consumer: install, find_package" consumer_find_package && suite "consumer: find_package runs" "$scratch/find_package"
+fi
+if command -v clang++ >/dev/null; then stage "clang++ accepts the core" clang_accepts_core; fi
+stage "consumer: subdirectory, exceptions on" consumer_subdirectory && suite "consumer: subdirectory runs" "$scratch/subdirectory"
+if ((!quick)); then
+  stage "build (asan and ubsan)" configure_and_build asan && suite "tests (asan and ubsan)" build/asan
+fi
+
+printf '\n%d s in all' "$SECONDS"
+if ((skipped > 0)); then printf '; %d skipped (they need meshes that are not in the repository)' "$skipped"; fi
+printf '\n'
+if ((${#failures[@]} > 0)); then printf 'failed: %s\n' "${failures[@]}"; fi
+echo "$passed passed, $failed failed"
+((failed == 0))

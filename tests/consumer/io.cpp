@@ -1,0 +1,16 @@
+// What a user of mesh files writes: reads the file named on the command line, as the installed library does.
+#include "temper/io.hpp"
+
+#include <cstdio>
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const auto file = temper::io::read(argv[1]);
+  if (!file) {
+    std::printf("%s\n", file.error().what().c_str());
+    return 1;
+  }
+  const auto loaded = temper::io::make_mesh(*file);
+  std::printf("%s\n", loaded ? "read" : loaded.error().what().c_str());
+  return loaded && loaded->mesh.n_triangles() == 1 ? 0 : 1;
+}
