@@ -15,7 +15,19 @@ namespace temper {
 enum class Sign : int { negative = -1, zero = 0, positive = 1 };
 constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)); }
 
-// --- exact predicates: right for all finite doubles short of overflow and underflow ----------------
+// --- exact predicates: right for all doubles in the range below -----------------------------------
+
+/// The range in which no intermediate result of the predicates overflows or underflows: coordinates 0 or of
+/// magnitude 2^-214 … 2^250, weights 0 or 2^-428 … 2^500. (The determinants have degree 4 in length; a coordinate
+/// above 2^-214 is a multiple of 2^-266, and (2^-266)^4 > 2^-1074.) NaN and infinities are outside.
+[[nodiscard]] constexpr bool is_exact_coordinate(double x) {
+  const double magnitude = x < 0 ? -x : x;
+  return magnitude == 0 || (magnitude >= 0x1p-214 && magnitude <= 0x1p250);
+}
+[[nodiscard]] constexpr bool is_exact_weight(double w) {
+  const double magnitude = w < 0 ? -w : w;
+  return magnitude == 0 || (magnitude >= 0x1p-428 && magnitude <= 0x1p500);
+}
 
 /// Positive when a, b, c turn counter-clockwise. Sign of cross(b − a, c − a), exact.
 [[nodiscard]] Sign orient2d(Vec2 a, Vec2 b, Vec2 c);

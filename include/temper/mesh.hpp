@@ -146,7 +146,7 @@ class Mesh {
 
  private:
   friend class MeshBuilder;
-  friend class MeshPermuter;
+  friend void permute(Mesh& mesh, const struct MeshOrder& order);
 
   static constexpr std::uint32_t kFixed = 1;
 
@@ -184,6 +184,7 @@ class Mesh {
     HalfedgeId first_;
   };
 
+  void repair_outgoing();
   VertexRecord& record(VertexId v) { return vertices_[v]; }
   [[nodiscard]] const VertexRecord& record(VertexId v) const { return vertices_[v]; }
 

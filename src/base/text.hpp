@@ -1,0 +1,17 @@
+// Numbers as text for error messages, without iostream or std::format.
+#pragma once
+
+#include <charconv>
+#include <cstddef>
+#include <string>
+
+namespace temper {
+
+/// Shortest decimal that reads back to the same double.
+inline std::string to_text(double value) {
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, result.ptr};
+}
+
+}  // namespace temper

@@ -1,0 +1,291 @@
+// Mesh::build: arrays in, a mesh or the first thing that is wrong with them out.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "base/text.hpp"
+#include "mesh/embedding.hpp"
+#include "temper/geometry.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+std::string InputNames::point(std::size_t index) const { return "point " + std::to_string(index); }
+std::string InputNames::triangle(std::size_t index) const { return "triangle " + std::to_string(index); }
+std::string InputNames::point_where(std::size_t) const { return {}; }
+std::string InputNames::triangle_where(std::size_t) const { return {}; }
+
+namespace {
+
+// Exact predicates multiply up to four differences (and weights stand for squares): within these bounds
+// nothing over- or underflows there. Far beyond any unit of length.
+constexpr double kLargestCoordinate = 1e60;
+constexpr double kSmallestExtent = 1e-60;
+
+std::string quantity(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what; }
+
+std::string coordinates(Vec2 p) { return "(" + to_text(p.x) + ", " + to_text(p.y) + ")"; }
+
+}  // namespace
+
+/// The steps of Mesh::build, in order. Each returns an error or nothing.
+class MeshBuilder {
+ public:
+  explicit MeshBuilder(const MeshInput& input) : in_(input), names_(input.names != nullptr ? *input.names : default_) {}
+
+  Expected<BuiltMesh> build() {
+    using Step = std::optional<InputError> (MeshBuilder::*)();
+    constexpr Step kSteps[] = {&MeshBuilder::check_sizes,         &MeshBuilder::add_vertices,
+                               &MeshBuilder::check_scale,         &MeshBuilder::add_triangles,
+                               &MeshBuilder::check_unused,        &MeshBuilder::check_duplicates,
+                               &MeshBuilder::link_twins,          &MeshBuilder::check_stars,
+                               &MeshBuilder::check_embedding,     &MeshBuilder::constrain_edges,
+                               &MeshBuilder::fix_vertices};
+    for (const Step step : kSteps) {
+      if (auto error = (this->*step)()) return *std::move(error);
+    }
+    return BuiltMesh{std::move(mesh_), reversed_};
+  }
+
+ private:
+  InputError point_error(ErrorCode code, std::size_t i, const std::string& message) const {
+    return {code, names_.point_where(i), message};
+  }
+  InputError triangle_error(ErrorCode code, std::size_t t, const std::string& message) const {
+    return {code, names_.triangle_where(t), message};
+  }
+
+  std::optional<InputError> check_sizes() {
+    const std::size_t n = in_.points.size(), m = in_.triangles.size();
+    if (n == 0) return InputError{ErrorCode::empty_input, {}, "the mesh has no points"};
+    if (m == 0) return InputError{ErrorCode::empty_input, {}, "the mesh has no triangles"};
+    if (!in_.weights.empty() && in_.weights.size() != n) {
+      return InputError{ErrorCode::size_mismatch, {},
+                        quantity(in_.weights.size(), "weights") + " given for " + quantity(n, "points")};
+    }
+    if (!in_.regions.empty() && in_.regions.size() != m) {
+      return InputError{ErrorCode::size_mismatch, {},
+                        quantity(in_.regions.size(), "regions") + " given for " + quantity(m, "triangles")};
+    }
+    return std::nullopt;
+  }
+
+  std::optional<InputError> add_vertices() {
+    mesh_.vertices_.reserve(in_.points.size());
+    for (std::size_t i = 0; i < in_.points.size(); ++i) {
+      const Vec2 p = in_.points[i];
+      const double w = in_.weights.empty() ? 0.0 : in_.weights[i];
+      if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
+        return point_error(ErrorCode::not_finite, i,
+                           names_.point(i) + " has coordinates " + coordinates(p) + ", expected finite numbers");
+      }
+      if (!std::isfinite(w)) {
+        return point_error(ErrorCode::not_finite, i,
+                           names_.point(i) + " has weight " + to_text(w) + ", expected a finite number");
+      }
+      mesh_.add_vertex({p.x, p.y, w});
+    }
+    return std::nullopt;
+  }
+
+  std::optional<InputError> check_scale() {
+    Vec2 low = in_.points[0], high = low;
+    double largest = 0;
+    for (const Vec2 p : in_.points) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+      largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+    }
+    const double extent = std::max(high.x - low.x, high.y - low.y);
+    if (largest > kLargestCoordinate || (extent > 0 && extent < kSmallestExtent)) {
+      return InputError{ErrorCode::out_of_scale, {},
+                        "coordinates reach " + to_text(largest) + " over an extent of " + to_text(extent) +
+                            "; expected at most " + to_text(kLargestCoordinate) + " and at least " +
+                            to_text(kSmallestExtent)};
+    }
+    return std::nullopt;
+  }
+
+  std::optional<InputError> add_triangles() {
+    const std::size_t m = in_.triangles.size(), n = in_.points.size();
+    mesh_.corners_.reserve(3 * m);
+    mesh_.twins_.reserve(3 * m);
+    mesh_.constrained_.reserve(3 * m);
+    mesh_.regions_.reserve(m);
+    for (std::size_t t = 0; t < m; ++t) {
+      auto corners = in_.triangles[t];
+      for (const std::int32_t i : corners) {
+        if (i < 0 || static_cast<std::size_t>(i) >= n) {
+          return triangle_error(ErrorCode::index_out_of_range, t,
+                                names_.triangle(t) + " uses point index " + std::to_string(i) +
+                                    ", but there are " + quantity(n, "points"));
+        }
+      }
+      const auto at = [&](int k) { return in_.points[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])]; };
+      const Sign sign = orient2d(at(0), at(1), at(2));
+      if (sign == Sign::zero) {
+        return triangle_error(ErrorCode::zero_area, t, names_.triangle(t) + " has zero area: its corners " +
+                                                           corner_names(corners) + " are collinear");
+      }
+      if (sign == Sign::negative) {
+        std::swap(corners[1], corners[2]);
+        ++reversed_;
+      }
+      mesh_.add_triangle({id(corners[0]), id(corners[1]), id(corners[2])}, in_.regions.empty() ? 0 : in_.regions[t]);
+    }
+    return std::nullopt;
+  }
+
+  std::optional<InputError> check_unused() {
+    for (const HalfedgeId h : mesh_.halfedges()) mesh_.set_outgoing(mesh_.origin(h), h);
+    for (const VertexId v : mesh_.vertices()) {
+      if (!mesh_.outgoing(v).valid()) {
+        return point_error(ErrorCode::unused_point, v.index, names_.point(v.index) + " belongs to no triangle");
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::optional<InputError> check_duplicates() {
+    std::vector<std::uint32_t> order(in_.points.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto before = [&](std::uint32_t a, std::uint32_t b) {
+      const Vec2 p = in_.points[a], q = in_.points[b];
+      if (p.x != q.x) return p.x < q.x;
+      return p.y != q.y ? p.y < q.y : a < b;
+    };
+    std::sort(order.begin(), order.end(), before);
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      const std::uint32_t a = order[i - 1], b = order[i];
+      if (in_.points[a] == in_.points[b]) {
+        return point_error(ErrorCode::duplicate_point, b,
+                           names_.point(a) + " and " + names_.point(b) + " are both at " +
+                               coordinates(in_.points[b]) + "; expected distinct points");
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// Halfedges sorted by their lesser vertex (counting sort), then matched within each small bucket.
+  std::optional<InputError> link_twins() {
+    const auto lesser = [&](HalfedgeId h) { return std::min(mesh_.origin(h), mesh_.target(h)); };
+    const auto greater = [&](HalfedgeId h) { return std::max(mesh_.origin(h), mesh_.target(h)); };
+    std::vector<std::uint32_t> start(mesh_.n_vertices() + 1, 0);
+    for (const HalfedgeId h : mesh_.halfedges()) ++start[lesser(h).index + 1];
+    for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+    std::vector<HalfedgeId> sorted(mesh_.n_halfedges());
+    {
+      auto next = start;
+      for (const HalfedgeId h : mesh_.halfedges()) sorted[next[lesser(h).index]++] = h;
+    }
+    for (std::size_t v = 0; v < mesh_.n_vertices(); ++v) {
+      const auto first = sorted.begin() + start[v], last = sorted.begin() + start[v + 1];
+      std::sort(first, last, [&](HalfedgeId a, HalfedgeId b) {
+        return greater(a) != greater(b) ? greater(a) < greater(b) : a < b;
+      });
+      for (auto i = first; i != last;) {
+        auto j = i;
+        while (j != last && greater(*j) == greater(*i)) ++j;
+        if (j - i > 2) return edge_error(ErrorCode::non_manifold_edge, *i, *(j - 1), j - i);
+        if (j - i == 2) {
+          if (mesh_.origin(*i) == mesh_.origin(*(i + 1))) return edge_error(ErrorCode::overlap, *i, *(i + 1), 2);
+          mesh_.link(*i, *(i + 1));
+        }
+        i = j;
+      }
+    }
+    return std::nullopt;
+  }
+
+  InputError edge_error(ErrorCode code, HalfedgeId g, HalfedgeId h, std::ptrdiff_t count) const {
+    const std::size_t s = Mesh::triangle(g).index, t = Mesh::triangle(h).index;
+    const std::string edge =
+        "the edge from " + names_.point(mesh_.origin(g).index) + " to " + names_.point(mesh_.target(g).index);
+    if (code == ErrorCode::overlap) {
+      return triangle_error(code, t, names_.triangle(s) + " and " + names_.triangle(t) +
+                                         " lie on the same side of " + edge);
+    }
+    return triangle_error(code, t, edge + " belongs to " + std::to_string(count) + " triangles (" +
+                                       names_.triangle(s) + " and " + names_.triangle(t) +
+                                       " among them); expected at most 2");
+  }
+
+  std::optional<InputError> check_stars() {
+    mesh_.repair_outgoing();
+    std::vector<std::uint32_t> missing(mesh_.n_vertices(), 0);
+    for (const HalfedgeId h : mesh_.halfedges()) ++missing[mesh_.origin(h).index];
+    for (const VertexId v : mesh_.vertices()) {
+      for ([[maybe_unused]] const HalfedgeId h : mesh_.star(v)) --missing[v.index];
+      if (missing[v.index] != 0) {
+        return point_error(ErrorCode::non_manifold_vertex, v.index,
+                           "the mesh touches itself at " + names_.point(v.index) +
+                               ": its triangles are not one fan around it");
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::optional<InputError> check_embedding() {
+    const auto overlap = find_overlap(mesh_, names_);
+    if (!overlap) return std::nullopt;
+    return triangle_error(ErrorCode::overlap, overlap->triangle.index, overlap->message);
+  }
+
+  std::optional<InputError> constrain_edges() {
+    for (const auto& [a, b] : in_.constrained_edges) {
+      for (const std::int32_t i : {a, b}) {
+        if (i < 0 || static_cast<std::size_t>(i) >= in_.points.size()) {
+          return InputError{ErrorCode::index_out_of_range, {},
+                            "a constrained edge uses point index " + std::to_string(i) + ", but there are " +
+                                quantity(in_.points.size(), "points")};
+        }
+      }
+      HalfedgeId h = mesh_.find_halfedge(id(a), id(b));
+      if (!h.valid()) h = mesh_.find_halfedge(id(b), id(a));
+      if (!h.valid()) {
+        return point_error(ErrorCode::missing_edge, static_cast<std::size_t>(a),
+                           "the constrained edge from " + names_.point(static_cast<std::size_t>(a)) + " to " +
+                               names_.point(static_cast<std::size_t>(b)) + " is no edge of the mesh");
+      }
+      mesh_.set_constrained(h, true);
+    }
+    for (const HalfedgeId h : mesh_.halfedges()) {
+      const HalfedgeId other = mesh_.twin(h);
+      if (other.valid() && mesh_.region(Mesh::triangle(h)) != mesh_.region(Mesh::triangle(other))) {
+        mesh_.set_constrained(h, true);
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::optional<InputError> fix_vertices() {
+    for (const std::int32_t i : in_.fixed_vertices) {
+      if (i < 0 || static_cast<std::size_t>(i) >= in_.points.size()) {
+        return InputError{ErrorCode::index_out_of_range, {},
+                          "a fixed vertex has index " + std::to_string(i) + ", but there are " +
+                              quantity(in_.points.size(), "points")};
+      }
+      mesh_.set_fixed(id(i), true);
+    }
+    return std::nullopt;
+  }
+
+  static VertexId id(std::int32_t i) { return VertexId(static_cast<std::size_t>(i)); }
+
+  std::string corner_names(const std::array<std::int32_t, 3>& c) const {
+    const auto name = [&](std::int32_t i) { return names_.point(static_cast<std::size_t>(i)); };
+    return name(c[0]) + ", " + name(c[1]) + " and " + name(c[2]);
+  }
+
+  const MeshInput& in_;
+  InputNames default_;
+  const InputNames& names_;
+  Mesh mesh_;
+  std::size_t reversed_ = 0;
+};
+
+Expected<BuiltMesh> Mesh::build(const MeshInput& input) { return MeshBuilder(input).build(); }
+
+}  // namespace temper

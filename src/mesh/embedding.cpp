@@ -1,0 +1,217 @@
+// Stars wind once, boundary loops do not meet, components do not lie on one another. All exact.
+#include "mesh/embedding.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "temper/geometry.hpp"
+
+namespace temper {
+namespace {
+
+bool left_of(Vec2 a, Vec2 b, Vec2 p) { return orient2d(a, b, p) == Sign::positive; }
+
+/// Whether the direction from v to p is in the upper half-plane, the positive x-axis included.
+bool is_upper(Vec2 v, Vec2 p) { return p.y > v.y || (p.y == v.y && p.x > v.x); }
+
+/// An interior star winds once when, going round, the spokes enter the upper half-plane once.
+bool interior_star_overlaps(const Mesh& mesh, VertexId v) {
+  const Vec2 center = mesh.position(v);
+  int entries = 0;
+  for (const HalfedgeId h : mesh.star(v)) {
+    const bool here = is_upper(center, mesh.position(mesh.target(h)));
+    const bool after = is_upper(center, mesh.position(mesh.opposite(h)));
+    entries += !here && after ? 1 : 0;
+  }
+  return entries != 1;
+}
+
+/// A boundary star overlaps itself when a later triangle contains the direction of its first edge.
+bool boundary_star_overlaps(const Mesh& mesh, VertexId v) {
+  const Vec2 center = mesh.position(v);
+  const Vec2 first = mesh.position(mesh.target(mesh.outgoing(v)));
+  for (const HalfedgeId h : mesh.star(v)) {
+    const Vec2 from = mesh.position(mesh.target(h));
+    const Vec2 to = mesh.position(mesh.opposite(h));
+    if (left_of(center, from, first) && orient2d(center, first, to) != Sign::negative) return true;
+  }
+  return false;
+}
+
+struct Bounds {
+  Vec2 low, high;
+  [[nodiscard]] bool meets(const Bounds& o) const {
+    return low.x <= o.high.x && o.low.x <= high.x && low.y <= o.high.y && o.low.y <= high.y;
+  }
+  void add(const Bounds& o) {
+    low = {std::min(low.x, o.low.x), std::min(low.y, o.low.y)};
+    high = {std::max(high.x, o.high.x), std::max(high.y, o.high.y)};
+  }
+};
+
+/// p on the closed segment ab, given that the three are collinear.
+bool within(Vec2 a, Vec2 b, Vec2 p) {
+  return std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
+         p.y <= std::max(a.y, b.y);
+}
+
+bool segments_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const Sign abc = orient2d(a, b, c), abd = orient2d(a, b, d), cda = orient2d(c, d, a), cdb = orient2d(c, d, b);
+  if (abc == Sign::zero && within(a, b, c)) return true;
+  if (abd == Sign::zero && within(a, b, d)) return true;
+  if (cda == Sign::zero && within(c, d, a)) return true;
+  if (cdb == Sign::zero && within(c, d, b)) return true;
+  return abc == -abd && cda == -cdb && abc != Sign::zero && cda != Sign::zero;
+}
+
+/// Finds two boundary edges that meet away from a common vertex, by a tree of bounding boxes.
+class BoundaryCrossing {
+ public:
+  explicit BoundaryCrossing(const Mesh& mesh) : mesh_(mesh) {
+    for (const HalfedgeId h : mesh.halfedges()) {
+      if (mesh.is_boundary(h)) edges_.push_back(h);
+    }
+    if (!edges_.empty()) root_ = make_node(0, edges_.size());
+  }
+
+  [[nodiscard]] std::optional<std::pair<HalfedgeId, HalfedgeId>> find() const {
+    if (nodes_.empty()) return std::nullopt;
+    std::vector<std::pair<std::size_t, std::size_t>> pairs{{root_, root_}};
+    while (!pairs.empty()) {
+      const auto [i, j] = pairs.back();
+      pairs.pop_back();
+      const Node& a = nodes_[i];
+      const Node& b = nodes_[j];
+      if (i != j && !a.bounds.meets(b.bounds)) continue;
+      if (a.is_leaf() && b.is_leaf()) {
+        if (i != j && meet(edges_[a.first], edges_[b.first])) return std::pair{edges_[a.first], edges_[b.first]};
+      } else if (i == j) {
+        pairs.insert(pairs.end(), {{a.left, a.left}, {a.right, a.right}, {a.left, a.right}});
+      } else if (b.is_leaf() || (!a.is_leaf() && a.size >= b.size)) {
+        pairs.insert(pairs.end(), {{a.left, j}, {a.right, j}});
+      } else {
+        pairs.insert(pairs.end(), {{i, b.left}, {i, b.right}});
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  struct Node {
+    Bounds bounds;
+    std::size_t first = 0, size = 0, left = 0, right = 0;
+    [[nodiscard]] bool is_leaf() const { return size == 1; }
+  };
+
+  [[nodiscard]] Bounds bounds(HalfedgeId h) const {
+    const Vec2 a = mesh_.position(mesh_.origin(h)), b = mesh_.position(mesh_.target(h));
+    return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+  }
+
+  std::size_t make_node(std::size_t first, std::size_t size) {
+    Node node{bounds(edges_[first]), first, size};
+    for (std::size_t i = first + 1; i < first + size; ++i) node.bounds.add(bounds(edges_[i]));
+    if (size > 1) {
+      const bool by_x = node.bounds.high.x - node.bounds.low.x > node.bounds.high.y - node.bounds.low.y;
+      const auto middle = edges_.begin() + static_cast<std::ptrdiff_t>(first + size / 2);
+      std::nth_element(edges_.begin() + static_cast<std::ptrdiff_t>(first), middle,
+                       edges_.begin() + static_cast<std::ptrdiff_t>(first + size), [&](HalfedgeId a, HalfedgeId b) {
+                         const Vec2 p = bounds(a).low, q = bounds(b).low;
+                         const double u = by_x ? p.x : p.y, v = by_x ? q.x : q.y;
+                         return u != v ? u < v : a < b;
+                       });
+      node.left = make_node(first, size / 2);
+      node.right = make_node(first + size / 2, size - size / 2);
+    }
+    nodes_.push_back(node);
+    return nodes_.size() - 1;
+  }
+
+  [[nodiscard]] bool meet(HalfedgeId g, HalfedgeId h) const {
+    const VertexId a = mesh_.origin(g), b = mesh_.target(g), c = mesh_.origin(h), d = mesh_.target(h);
+    // Edges at a common vertex: the star check has seen to them.
+    if (a == c || a == d || b == c || b == d) return false;
+    return segments_meet(mesh_.position(a), mesh_.position(b), mesh_.position(c), mesh_.position(d));
+  }
+
+  const Mesh& mesh_;
+  std::vector<HalfedgeId> edges_;
+  std::vector<Node> nodes_;
+  std::size_t root_ = 0;
+};
+
+/// The connected component of every triangle, numbered from 0.
+IdVector<TriangleId, std::uint32_t> components(const Mesh& mesh, std::uint32_t& count) {
+  constexpr std::uint32_t kNone = 0xffffffffu;
+  IdVector<TriangleId, std::uint32_t> component(mesh.n_triangles(), kNone);
+  std::vector<TriangleId> stack;
+  count = 0;
+  for (const TriangleId seed : mesh.triangles()) {
+    if (component[seed] != kNone) continue;
+    component[seed] = count;
+    stack.push_back(seed);
+    while (!stack.empty()) {
+      const TriangleId t = stack.back();
+      stack.pop_back();
+      for (int k = 0; k < 3; ++k) {
+        const HalfedgeId other = mesh.twin(Mesh::halfedge(t, k));
+        if (!other.valid() || component[Mesh::triangle(other)] != kNone) continue;
+        component[Mesh::triangle(other)] = count;
+        stack.push_back(Mesh::triangle(other));
+      }
+    }
+    ++count;
+  }
+  return component;
+}
+
+/// A component whose leftmost vertex has a non-zero winding number with respect to the other components'
+/// boundaries lies in their triangles (and not in a hole of theirs).
+std::optional<TriangleId> component_inside_another(const Mesh& mesh) {
+  std::uint32_t count = 0;
+  const auto component = components(mesh, count);
+  if (count < 2) return std::nullopt;
+  std::vector<HalfedgeId> boundary;
+  std::vector<HalfedgeId> leftmost(count);  // a halfedge whose origin is the component's leftmost vertex
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_boundary(h)) continue;
+    boundary.push_back(h);
+    HalfedgeId& best = leftmost[component[Mesh::triangle(h)]];
+    const Vec2 p = mesh.position(mesh.origin(h));
+    if (!best.valid() || p.x < mesh.position(mesh.origin(best)).x) best = h;
+  }
+  for (std::uint32_t c = 0; c < count; ++c) {
+    const Vec2 p = mesh.position(mesh.origin(leftmost[c]));
+    int winding = 0;
+    for (const HalfedgeId h : boundary) {
+      if (component[Mesh::triangle(h)] == c) continue;
+      const Vec2 a = mesh.position(mesh.origin(h)), b = mesh.position(mesh.target(h));
+      if (a.y <= p.y && b.y > p.y && left_of(a, b, p)) ++winding;
+      if (b.y <= p.y && a.y > p.y && left_of(b, a, p)) --winding;
+    }
+    if (winding != 0) return Mesh::triangle(leftmost[c]);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Overlap> find_overlap(const Mesh& mesh, const InputNames& names) {
+  for (const VertexId v : mesh.vertices()) {
+    const bool overlaps = mesh.is_boundary(v) ? boundary_star_overlaps(mesh, v) : interior_star_overlaps(mesh, v);
+    if (overlaps) {
+      return Overlap{Mesh::triangle(mesh.outgoing(v)), "the triangles around " + names.point(v.index) + " overlap"};
+    }
+  }
+  if (const auto crossing = BoundaryCrossing(mesh).find()) {
+    const TriangleId s = Mesh::triangle(crossing->first), t = Mesh::triangle(crossing->second);
+    return Overlap{s, names.triangle(s.index) + " and " + names.triangle(t.index) +
+                          " have boundary edges that cross or touch away from a common vertex"};
+  }
+  if (const auto t = component_inside_another(mesh)) {
+    return Overlap{*t, names.triangle(t->index) + " lies on top of another component of the mesh"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace temper

@@ -1,0 +1,24 @@
+// Does a mesh cover the plane at most once? The global half of Mesh::build's checks.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+/// Two places where the mesh covers the same spot twice, for an error message.
+struct Overlap {
+  TriangleId triangle;  ///< one of the triangles involved
+  std::string message;  ///< of what lies on what, in the user's names
+};
+
+/// Nothing when the mesh is embedded. Preconditions: all triangles counter-clockwise, manifold.
+///
+/// A connected mesh whose stars wind once and whose boundary loops neither cross nor touch covers every
+/// point at most once: the turning numbers of its loops sum to its Euler characteristic, which leaves
+/// one outer loop. What then remains is a component inside another one's triangles.
+[[nodiscard]] std::optional<Overlap> find_overlap(const Mesh& mesh, const InputNames& names);
+
+}  // namespace temper

@@ -1,0 +1,109 @@
+// The mesh's arrays: adding, linking, erasing and compacting. Everything geometric is elsewhere.
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+void Mesh::set_fixed(VertexId v, bool fixed) {
+  record(v).flags = fixed ? (record(v).flags | kFixed) : (record(v).flags & ~kFixed);
+}
+
+void Mesh::set_constrained(HalfedgeId h, bool constrained) {
+  constrained_[h] = constrained ? 1 : 0;
+  if (twin(h).valid()) constrained_[twin(h)] = constrained_[h];
+}
+
+std::size_t Mesh::n_edges() const {
+  std::size_t count = 0;
+  for (const HalfedgeId h : halfedges()) count += !is_erased(triangle(h)) && is_edge_representative(h) ? 1 : 0;
+  return count;
+}
+
+HalfedgeId Mesh::find_halfedge(VertexId a, VertexId b) const {
+  for (const HalfedgeId h : star(a)) {
+    if (target(h) == b) return h;
+  }
+  return {};
+}
+
+std::size_t Mesh::memory_bytes() const {
+  return vertices_.size() * sizeof(VertexRecord) + corners_.size() * sizeof(VertexId) +
+         twins_.size() * sizeof(HalfedgeId) + constrained_.size() + regions_.size() * sizeof(std::int32_t);
+}
+
+VertexId Mesh::add_vertex(WeightedPoint p) {
+  vertices_.push_back({p.x, p.y, p.w, HalfedgeId::kInvalid, 0});
+  return VertexId(vertices_.size() - 1);
+}
+
+TriangleId Mesh::add_triangle(std::array<VertexId, 3> corners, std::int32_t region) {
+  for (const VertexId v : corners) {
+    corners_.push_back(v);
+    twins_.push_back(HalfedgeId());
+    constrained_.push_back(0);
+  }
+  regions_.push_back(region);
+  return TriangleId(regions_.size() - 1);
+}
+
+void Mesh::link(HalfedgeId a, HalfedgeId b) {
+  twins_[a] = b;
+  if (b.valid()) twins_[b] = a;
+}
+
+void Mesh::erase(TriangleId t) {
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeId h = halfedge(t, k);
+    if (twin(h).valid()) twins_[twin(h)] = HalfedgeId();
+    twins_[h] = HalfedgeId();
+    corners_[h] = VertexId();
+  }
+}
+
+Compaction Mesh::compact() {
+  Compaction kept;
+  IdVector<VertexId, VertexId> new_vertex(n_vertices());
+  IdVector<TriangleId, TriangleId> new_triangle(n_triangles());
+  IdVector<VertexId, std::uint8_t> used(n_vertices(), 0);
+  for (const TriangleId t : triangles()) {
+    if (is_erased(t)) continue;
+    new_triangle[t] = TriangleId(kept.triangles.size());
+    kept.triangles.push_back(t);
+    for (const VertexId v : corners(t)) used[v] = 1;
+  }
+  for (const VertexId v : vertices()) {
+    if (used[v] == 0) continue;
+    new_vertex[v] = VertexId(kept.vertices.size());
+    kept.vertices.push_back(v);
+    vertices_[new_vertex[v]] = vertices_[v];  // new ids never overtake old ones
+  }
+  for (const TriangleId to : IdRange<TriangleId>(kept.triangles.size())) {
+    const TriangleId from = kept.triangles[to];
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = halfedge(from, k);
+      const HalfedgeId other = twin(h);
+      corners_[halfedge(to, k)] = new_vertex[corners_[h]];
+      constrained_[halfedge(to, k)] = constrained_[h];
+      // Twins of triangles that are still to move keep their old number's meaning: all go through new_triangle.
+      twins_[halfedge(to, k)] =
+          other.valid() ? halfedge(new_triangle[triangle(other)], static_cast<int>(other.index % 3)) : HalfedgeId();
+    }
+    regions_[to] = regions_[from];
+  }
+  const std::size_t n_kept = kept.triangles.size();
+  vertices_.resize(kept.vertices.size());
+  corners_.resize(3 * n_kept);
+  twins_.resize(3 * n_kept);
+  constrained_.resize(3 * n_kept);
+  regions_.resize(n_kept);
+  repair_outgoing();
+  return kept;
+}
+
+void Mesh::repair_outgoing() {
+  for (const HalfedgeId h : halfedges()) set_outgoing(origin(h), h);
+  for (const HalfedgeId h : halfedges()) {
+    if (!twin(h).valid()) set_outgoing(origin(h), h);
+  }
+}
+
+}  // namespace temper

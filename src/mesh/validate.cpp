@@ -1,0 +1,70 @@
+// validate(): the invariants of the arrays, one sentence for the first that does not hold.
+#include <string>
+
+#include "temper/geometry.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper {
+namespace {
+
+std::string text(const char* kind, std::size_t index) { return std::string(kind) + " " + std::to_string(index); }
+
+std::optional<std::string> wrong_halfedge(const Mesh& mesh, HalfedgeId h) {
+  const VertexId a = mesh.origin(h);
+  if (!a.valid() || a.index >= mesh.n_vertices()) return text("halfedge", h.index) + " starts at no vertex";
+  const HalfedgeId other = mesh.twin(h);
+  if (!other.valid()) return std::nullopt;
+  if (other.index >= mesh.n_halfedges()) return text("halfedge", h.index) + " has a twin out of range";
+  if (mesh.twin(other) != h) return text("halfedge", h.index) + " is not the twin of its twin";
+  if (mesh.origin(other) != mesh.target(h) || mesh.target(other) != a) {
+    return text("halfedge", h.index) + " and its twin join different vertices";
+  }
+  if (mesh.is_constrained(h) != mesh.is_constrained(other)) {
+    return text("halfedge", h.index) + " is constrained on one side only";
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> wrong_star(const Mesh& mesh, VertexId v, std::size_t incident) {
+  const HalfedgeId first = mesh.outgoing(v);
+  if (!first.valid() || first.index >= mesh.n_halfedges()) return text("vertex", v.index) + " has no halfedge";
+  std::size_t size = 0;
+  for (const HalfedgeId h : mesh.star(v)) {
+    if (mesh.origin(h) != v) return text("vertex", v.index) + " has a foreign halfedge in its star";
+    if (++size > incident) return text("vertex", v.index) + " has an endless star";
+  }
+  // A walk that starts past the boundary halfedge, or a bow tie, sees fewer triangles than there are.
+  if (size != incident) return text("vertex", v.index) + " does not reach all its triangles";
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> Mesh::validate() const {
+  if (corners_.size() % 3 != 0 || twins_.size() != corners_.size() || constrained_.size() != corners_.size() ||
+      regions_.size() * 3 != corners_.size()) {
+    return "arrays have different lengths";
+  }
+  IdVector<VertexId, std::uint32_t> incident(n_vertices(), 0);
+  for (const HalfedgeId h : halfedges()) {
+    if (is_erased(triangle(h))) return text("triangle", triangle(h).index) + " is erased: compact() first";
+    if (auto wrong = wrong_halfedge(*this, h)) return wrong;
+    ++incident[origin(h)];
+  }
+  for (const VertexId v : vertices()) {
+    const VertexRecord& r = record(v);
+    if (!std::isfinite(r.x) || !std::isfinite(r.y) || !std::isfinite(r.w)) {
+      return text("vertex", v.index) + " is not finite";
+    }
+    if (auto wrong = wrong_star(*this, v, incident[v])) return wrong;
+  }
+  for (const TriangleId t : triangles()) {
+    const auto [a, b, c] = corners(t);
+    if (orient2d(position(a), position(b), position(c)) != Sign::positive) {
+      return text("triangle", t.index) + " is not counter-clockwise";
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace temper
