@@ -1,0 +1,58 @@
+// Orthocenters, heights and splits in doubles.
+//
+// Everything starts from differences of positions and of weights, which are nearly exact for neighbours in a mesh
+// however far they are from the origin and however large a constant all weights share.
+#include <array>
+#include <cmath>
+
+#include "temper/geometry.hpp"
+
+namespace temper {
+
+// With a = q − p and b = r − p, o = p + c: 2 a·c = |a|² + w_p − w_q and 2 b·c = |b|² + w_p − w_r.
+Vec2 orthocenter(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
+  const Vec2 a = q.position() - p.position();
+  const Vec2 b = r.position() - p.position();
+  const double along_a = squared_length(a) + (p.w - q.w);
+  const double along_b = squared_length(b) + (p.w - r.w);
+  const double scale = 0.5 / cross(a, b);
+  return p.position() + scale * Vec2{along_a * b.y - along_b * a.y, along_b * a.x - along_a * b.x};
+}
+
+double edge_split(const WeightedPoint& p, const WeightedPoint& q) {
+  const double l = length(q.position() - p.position());
+  return 0.5 * (l + (p.w - q.w) / l);
+}
+
+double signed_height(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
+  return scaled_heights(p, q, r)[2] / length(q.position() - p.position());
+}
+
+// With the dot products D_p = (q − p)·(r − p) and so on at the corners, and S twice the area,
+//   2 S h_pq ℓ_pq = D_p (D_r + w_q − w_r) + D_q (D_r + w_p − w_r),
+// and cyclically. The weights drop out of the sum over the edges: 2 (D_p D_q + D_q D_r + D_r D_p) = 2 S².
+std::array<double, 3> scaled_heights(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
+  const Vec2 pq = q.position() - p.position();
+  const Vec2 qr = r.position() - q.position();
+  const Vec2 rp = p.position() - r.position();
+  const double at_p = -dot(pq, rp);
+  const double at_q = -dot(qr, pq);
+  const double at_r = -dot(rp, qr);
+  const double pq_w = p.w - q.w;
+  const double qr_w = q.w - r.w;
+  const double rp_w = r.w - p.w;
+  const double scale = 0.5 / cross(pq, qr);
+  return {scale * (at_q * (at_p + rp_w) + at_r * (at_p - pq_w)), scale * (at_r * (at_q + pq_w) + at_p * (at_q - qr_w)),
+          scale * (at_p * (at_r + qr_w) + at_q * (at_r - rp_w))};
+}
+
+double doubled_area(Vec2 p, Vec2 q, Vec2 r) { return cross(q - p, r - p); }
+
+// atan2 keeps its digits for angles near 0 and π, where acos of the normalised dot product has none.
+double corner_angle(Vec2 p, Vec2 q, Vec2 r) {
+  const Vec2 a = q - p;
+  const Vec2 b = r - p;
+  return std::atan2(std::abs(cross(a, b)), dot(a, b));
+}
+
+}  // namespace temper

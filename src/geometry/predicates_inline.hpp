@@ -1,0 +1,117 @@
+// The fast paths of the exact predicates, for inlining into the loops that call them millions of times.
+//
+// Each computes its determinant in doubles together with the permanent, the same sum with every term taken
+// absolute. Rounding moves the determinant by at most a few u = 2⁻⁵³ times the permanent; beyond that bound its
+// sign is right, and what is not decided goes to the exact stage in predicates.cpp. The bounds count roundings
+// along the longest path from a coordinate to the result: n roundings give an error below n u (1 + 2nu) times
+// the exact permanent, and the computed permanent is too small by no more than another n u. Each constant is a
+// power of two above its n; multiplying by it is exact.
+//
+// Comparisons are strict: a permanent of zero (coincident or aligned points) decides nothing, nor does an infinite
+// one or a NaN. Without overflow and underflow (see is_exact_coordinate in geometry.hpp) the count above is all
+// there is: differences, products and their products are then multiples of 2^-1074 and far below 2^1024.
+#pragma once
+
+#include <cmath>
+
+#include "temper/geometry.hpp"
+
+namespace temper::exact {
+
+// Stages without filter. Right for every input in range, and a hundred times slower.
+[[nodiscard]] Sign orient2d(Vec2 a, Vec2 b, Vec2 c);
+[[nodiscard]] Sign power_test(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
+                              const WeightedPoint& d);
+[[nodiscard]] Sign height_numerator_sign(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
+[[nodiscard]] Sign edge_split_sign(const WeightedPoint& p, const WeightedPoint& q);
+
+}  // namespace temper::exact
+
+namespace temper::inlined {
+
+// The functions below have the names and arguments of the public ones: call them qualified.
+
+inline constexpr double kUnitRoundoff = 0x1p-53;
+// Roundings: 3 up to the products; the last subtraction is rounded without change of sign.
+inline constexpr double kOrient2dBound = 4 * kUnitRoundoff;
+// 5: the difference (twice, in the square), the square, two sums.
+inline constexpr double kEdgeSplitBound = 8 * kUnitRoundoff;
+// 12: lift 5, minor 4, their product, two sums.
+inline constexpr double kPowerTestBound = 16 * kUnitRoundoff;
+// 11: dot product 4, dot product and weights 5, their product, one sum.
+inline constexpr double kHeightBound = 16 * kUnitRoundoff;
+
+[[nodiscard]] inline Sign orient2d(Vec2 a, Vec2 b, Vec2 c) {
+  const double left = (a.x - c.x) * (b.y - c.y);
+  const double right = (a.y - c.y) * (b.x - c.x);
+  const double determinant = left - right;
+  const double bound = kOrient2dBound * (std::abs(left) + std::abs(right));
+  if (determinant > bound) return Sign::positive;
+  if (determinant < -bound) return Sign::negative;
+  return exact::orient2d(a, b, c);
+}
+
+[[nodiscard]] inline Sign power_test(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
+                                     const WeightedPoint& d) {
+  const double ax = a.x - d.x, ay = a.y - d.y, aw = a.w - d.w;
+  const double bx = b.x - d.x, by = b.y - d.y, bw = b.w - d.w;
+  const double cx = c.x - d.x, cy = c.y - d.y, cw = c.w - d.w;
+  const double bxcy = bx * cy, bycx = by * cx;
+  const double cxay = cx * ay, cyax = cy * ax;
+  const double axby = ax * by, aybx = ay * bx;
+  const double aa = ax * ax + ay * ay, bb = bx * bx + by * by, cc = cx * cx + cy * cy;
+  const double determinant = (aa - aw) * (bxcy - bycx) + (bb - bw) * (cxay - cyax) + (cc - cw) * (axby - aybx);
+  const double permanent = (aa + std::abs(aw)) * (std::abs(bxcy) + std::abs(bycx)) +
+                           (bb + std::abs(bw)) * (std::abs(cxay) + std::abs(cyax)) +
+                           (cc + std::abs(cw)) * (std::abs(axby) + std::abs(aybx));
+  const double bound = kPowerTestBound * permanent;
+  if (determinant > bound) return Sign::positive;
+  if (determinant < -bound) return Sign::negative;
+  return exact::power_test(a, b, c, d);
+}
+
+/// Sign of 2 h ℓ S over edge pq, S twice the signed area. With the dot products D_p = (q − p)·(r − p) and so on,
+/// |q − p|² = D_p + D_q and 2 h ℓ S = D_p (D_r + w_q − w_r) + D_q (D_r + w_p − w_r).
+[[nodiscard]] inline Sign height_numerator_sign(const WeightedPoint& p, const WeightedPoint& q,
+                                                const WeightedPoint& r) {
+  const double pqx = q.x - p.x, pqy = q.y - p.y;
+  const double prx = r.x - p.x, pry = r.y - p.y;
+  const double qrx = r.x - q.x, qry = r.y - q.y;
+  const double wqr = q.w - r.w, wpr = p.w - r.w;
+  const double px = pqx * prx, py = pqy * pry;
+  const double qx = -pqx * qrx, qy = -pqy * qry;
+  const double rx = prx * qrx, ry = pry * qry;
+  const double numerator = (px + py) * (rx + ry + wqr) + (qx + qy) * (rx + ry + wpr);
+  const double at_r = std::abs(rx) + std::abs(ry);
+  const double permanent =
+      (std::abs(px) + std::abs(py)) * (at_r + std::abs(wqr)) + (std::abs(qx) + std::abs(qy)) * (at_r + std::abs(wpr));
+  const double bound = kHeightBound * permanent;
+  if (numerator > bound) return Sign::positive;
+  if (numerator < -bound) return Sign::negative;
+  return exact::height_numerator_sign(p, q, r);
+}
+
+[[nodiscard]] inline Sign edge_split_sign(const WeightedPoint& p, const WeightedPoint& q) {
+  const double x = q.x - p.x, y = q.y - p.y, w = p.w - q.w;
+  const double squared = x * x + y * y;
+  const double sum = squared + w;
+  const double bound = kEdgeSplitBound * (squared + std::abs(w));
+  if (sum > bound) return Sign::positive;
+  if (sum < -bound) return Sign::negative;
+  return exact::edge_split_sign(p, q);
+}
+
+/// 0 < d_pq < ℓ.
+[[nodiscard]] inline bool crosses_edge(const WeightedPoint& p, const WeightedPoint& q) {
+  return inlined::edge_split_sign(p, q) == Sign::positive && inlined::edge_split_sign(q, p) == Sign::positive;
+}
+
+[[nodiscard]] inline bool is_well_centered(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
+  return inlined::orient2d(p.position(), q.position(), r.position()) == Sign::positive &&
+         inlined::height_numerator_sign(p, q, r) == Sign::positive &&
+         inlined::height_numerator_sign(q, r, p) == Sign::positive &&
+         inlined::height_numerator_sign(r, p, q) == Sign::positive && inlined::crosses_edge(p, q) &&
+         inlined::crosses_edge(q, r) && inlined::crosses_edge(r, p);
+}
+
+}  // namespace temper::inlined
