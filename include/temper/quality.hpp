@@ -20,7 +20,7 @@ struct QualityOptions {
   Executor* executor = nullptr;
 };
 
-/// One of the triangles that are furthest from well-centered.
+/// One of the triangles that are furthest from well-centered: those with the least h/ℓ or d/ℓ.
 struct WorstTriangle {
   TriangleId triangle;
   std::array<VertexId, 3> vertices;
@@ -30,7 +30,8 @@ struct WorstTriangle {
   std::string why;       ///< "orthocenter outside across edge 3-9: angle of 138.3° at vertex 10"
 };
 
-/// Counts of angles, h/ℓ or d/ℓ in equal bins over [low, high]; what lies outside goes to the end bins.
+/// Counts in equal bins over [low, high]: of all angles in degrees, of all h/ℓ of triangles and their edges, of the
+/// lesser of d/ℓ and 1 − d/ℓ of each edge. What lies outside goes to the end bins; each bin holds its lower end.
 struct Histogram {
   double low = 0;
   double high = 0;
@@ -42,19 +43,22 @@ struct Quality {
   std::size_t inverted_triangles = 0;       ///< exact
   std::size_t non_regular_edges = 0;        ///< interior edges with negative dual, exact
   std::size_t negative_boundary_duals = 0;  ///< boundary edges with h < 0, exact
-  std::size_t orthocenters_outside = 0;     ///< triangles with some h ≤ 0, exact
+  std::size_t orthocenters_outside = 0;     ///< triangles with some h ≤ 0, and inverted ones, exact
   std::size_t edges_not_crossed = 0;        ///< edges without 0 < d < ℓ, exact
   double well_centered_fraction = 0;        ///< triangles with all h > 0 and 0 < d < ℓ
-  double min_h_over_l = 0;                  ///< over triangles and their edges
+  double min_h_over_l = 0;                  ///< over triangles and their edges; −∞ for an inverted triangle
   double min_d_over_l = 0;                  ///< over edges, the lesser of d/ℓ and 1 − d/ℓ
   double min_angle_deg = 0, max_angle_deg = 0;
-  double max_transmissibility_over_median = 0;  ///< of |dual| / ℓ over interior edges … the largest over the median
+  /// Of the two-point-flux transmissibilities ℓ/|h_k + h_l| of interior edges (face length over the distance between
+  /// the orthocenters), the largest over the median. +∞ when a dual edge has length zero, exactly; 1 without interior
+  /// edges.
+  double max_transmissibility_over_median = 0;
   std::array<std::array<double, 3>, 6> energy = {};  ///< [row of energies()][star], +∞ outside the domain
-  std::vector<WorstTriangle> worst;         ///< worst first
+  std::vector<WorstTriangle> worst;                  ///< worst first
   Histogram angles, h_over_l, d_over_l;
 };
 
-/// Measures a mesh. O(n).
+/// Measures a mesh. The same report for any executor. Precondition: no erased triangles. O(n).
 [[nodiscard]] Quality quality(const Mesh& mesh, const QualityOptions& options = {});
 
 }  // namespace temper

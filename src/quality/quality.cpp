@@ -1,0 +1,101 @@
+// The report: one pass over the triangles in blocks of a fixed size, then the energies, one row and star at a
+// time. Blocks go to the executor; the merge is in their order, so the report does not depend on threads.
+#include "temper/quality.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "quality/tally.hpp"
+#include "temper/executor.hpp"
+
+namespace temper {
+namespace {
+
+constexpr std::size_t kBlock = 8192;  // triangles: some milliseconds of work, some hundred blocks for a million
+
+void run(Executor* executor, std::size_t n, const std::function<void(std::size_t)>& block) {
+  if (executor != nullptr) return executor->run(n, block);
+  for (std::size_t i = 0; i < n; ++i) block(i);
+}
+
+Tally tally(const Mesh& mesh, const QualityOptions& options) {
+  const std::size_t n = mesh.n_triangles();
+  std::vector<Tally> blocks((n + kBlock - 1) / kBlock, Tally(options.worst));
+  run(options.executor, blocks.size(), [&](std::size_t i) {
+    const std::size_t end = std::min(n, (i + 1) * kBlock);
+    for (std::size_t t = i * kBlock; t < end; ++t) blocks[i].add(mesh, TriangleId(t));
+  });
+  Tally all(options.worst);
+  all.transmissibilities.reserve(mesh.n_halfedges() / 2);
+  for (Tally& block : blocks) {
+    all.merge(block);
+    block = Tally(0);  // its list of transmissibilities is in `all` now
+  }
+  return all;
+}
+
+// The largest over the median, the mean of the middle two for an even number. Without interior edges nothing
+// differs: 1. A median of +∞ leaves nothing to compare with: +∞.
+double largest_over_median(std::vector<double> values) {
+  if (values.empty()) return 1;
+  const double largest = *std::max_element(values.begin(), values.end());
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  double median = *middle;
+  if (values.size() % 2 == 0) median += (*std::max_element(values.begin(), middle) - median) / 2;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return median < kInfinity && largest < kInfinity ? largest / median : kInfinity;
+}
+
+std::array<std::array<double, 3>, 6> all_energies(const Mesh& mesh, const QualityOptions& options) {
+  std::array<std::array<double, 3>, 6> totals = {};
+  run(options.executor, totals.size() * 3, [&](std::size_t i) {
+    EnergyModel model;
+    model.kind = energies()[i / 3].kind;
+    model.star = static_cast<int>(i % 3);
+    model.gamma = options.gamma;
+    model.h0 = options.h0;
+    totals[i / 3][i % 3] = total_energy(mesh, model);
+  });
+  return totals;
+}
+
+std::size_t count_regions(const Mesh& mesh) {
+  std::set<std::int32_t> regions;
+  for (TriangleId t : mesh.triangles()) regions.insert(mesh.region(t));
+  return regions.size();
+}
+
+}  // namespace
+
+Quality quality(const Mesh& mesh, const QualityOptions& options) {
+  const Tally sums = tally(mesh, options);
+  Quality q;
+  q.vertices = mesh.n_vertices();
+  q.triangles = mesh.n_triangles();
+  q.edges = sums.edges;
+  q.boundary_edges = sums.boundary_edges;
+  q.regions = count_regions(mesh);
+  q.angles = sums.angles;
+  q.h_over_l = sums.h_over_l;
+  q.d_over_l = sums.d_over_l;
+  if (q.triangles == 0) return q;
+
+  q.inverted_triangles = sums.inverted_triangles;
+  q.non_regular_edges = sums.non_regular_edges;
+  q.negative_boundary_duals = sums.negative_boundary_duals;
+  q.orthocenters_outside = sums.orthocenters_outside;
+  q.edges_not_crossed = sums.edges_not_crossed;
+  q.well_centered_fraction = static_cast<double>(sums.well_centered) / static_cast<double>(q.triangles);
+  q.min_h_over_l = sums.min_h_over_l;
+  q.min_d_over_l = sums.min_d_over_l;
+  q.min_angle_deg = sums.min_angle_deg;
+  q.max_angle_deg = sums.max_angle_deg;
+  q.max_transmissibility_over_median = largest_over_median(sums.transmissibilities);
+  q.energy = all_energies(mesh, options);
+  for (const Ranked& ranked : sums.worst.sorted()) q.worst.push_back(describe(mesh, ranked.triangle));
+  return q;
+}
+
+}  // namespace temper
