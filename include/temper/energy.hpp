@@ -20,6 +20,7 @@
 #include <string_view>
 
 #include "temper/error.hpp"
+#include "temper/executor.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -75,8 +76,8 @@ struct EnergyModel {
 /// E of one triangle alone, all its edges boundary edges.
 [[nodiscard]] double triangle_energy(const EnergyModel& model, const WeightedPoint& p, const WeightedPoint& q,
                                      const WeightedPoint& r);
-/// Total energy; +∞ when any term is outside its domain. Summed pairwise, so independent of threads. O(n).
-[[nodiscard]] double total_energy(const Mesh& mesh, const EnergyModel& model);
+/// Total energy; +∞ when any term is outside its domain. Summed in fixed blocks: the same for any executor. O(n).
+[[nodiscard]] double total_energy(const Mesh& mesh, const EnergyModel& model, Executor* executor = nullptr);
 
 /// The energy as a function of one vertex: value, gradient and Hessian in (x, y, w).
 struct VertexDerivatives {

@@ -1,0 +1,41 @@
+// Sums that do not depend on the number of threads: fixed blocks, each summed in order, then pairwise.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "temper/executor.hpp"
+
+namespace temper {
+
+inline constexpr std::size_t kBlockSize = 4096;  // enough work to be worth a task, small enough to balance
+
+/// Pairwise sum of values, in place of the first: error O(log n) roundings.
+inline double pairwise_sum(std::vector<double>& values) {
+  for (std::size_t n = values.size(); n > 1; n = (n + 1) / 2) {
+    for (std::size_t i = 0; i < n / 2; ++i) values[i] = values[2 * i] + values[2 * i + 1];
+    if (n % 2 == 1) values[n / 2] = values[n - 1];
+  }
+  return values.empty() ? 0.0 : values[0];
+}
+
+/// Σ term(i), i = 0 … n − 1; on the executor's threads when there is one.
+template <class Term>
+double blockwise_sum(std::size_t n, Executor* executor, Term&& term) {
+  const std::size_t blocks = (n + kBlockSize - 1) / kBlockSize;
+  std::vector<double> sums(blocks, 0.0);
+  const auto block = [&](std::size_t b) {
+    double sum = 0;
+    for (std::size_t i = b * kBlockSize; i < std::min(n, (b + 1) * kBlockSize); ++i) sum += term(i);
+    sums[b] = sum;
+  };
+  if (executor != nullptr) {
+    executor->run(blocks, block);
+  } else {
+    for (std::size_t b = 0; b < blocks; ++b) block(b);
+  }
+  return pairwise_sum(sums);
+}
+
+}  // namespace temper

@@ -1,0 +1,57 @@
+// The patch P(p) of the paper: the star of one vertex, and the energy as a function of that vertex alone.
+//
+//              q2 ------- q1            triangle i = (center, q_i, q_{i+1}), counter-clockwise
+//             /  \  t1  /   \           spoke i    = center → q_i
+//            /  t2\    /  t0 \          link edge i = q_i → q_{i+1}; its outer triangle, across it, does not
+//          q3 ---- center --- q0                     change shape, but for E_T its height decides a sign
+//
+// A boundary center has one point more than it has triangles. The arrays are reused from vertex to vertex.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "energy/edge_kernels.hpp"
+#include "temper/energy.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+struct Patch {
+  VertexId center;
+  bool closed = true;                  ///< an interior vertex
+  std::vector<WeightedPoint> link;     ///< q_0 … q_{n−1}, and q_n when open
+  std::vector<VertexId> link_vertex;   ///< their ids
+  std::vector<HalfedgeId> spoke;       ///< center → q_i, one a triangle
+  std::vector<double> outer_g;         ///< h ℓ of link edge i in its outer triangle; empty unless gathered
+  std::vector<std::uint8_t> link_boundary;  ///< link edge i is a boundary edge; as long as outer_g
+
+  [[nodiscard]] std::size_t size() const { return spoke.size(); }
+  [[nodiscard]] const WeightedPoint& q(std::size_t i) const { return link[i]; }
+  /// q_{i+1}, around the corner when closed.
+  [[nodiscard]] const WeightedPoint& r(std::size_t i) const { return link[i + 1 == link.size() ? 0 : i + 1]; }
+};
+
+/// Fills patch with the star of v; outer heights only for energies without barrier, which need signs.
+void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch);
+
+/// Whether the model looks across link edges and at boundary flags.
+[[nodiscard]] constexpr bool needs_outer(EnergyKind kind) {
+  return kind == EnergyKind::F || kind == EnergyKind::T || kind == EnergyKind::dT;
+}
+
+/// The patch's energy with its center at p. +∞ outside the domain of a barrier or when a triangle inverts there.
+[[nodiscard]] double patch_energy(const Patch& patch, const EnergyModel& model, const WeightedPoint& p);
+
+/// Value, gradient and Hessian at p.
+[[nodiscard]] VertexDerivatives patch_derivatives(const Patch& patch, const EnergyModel& model, const WeightedPoint& p);
+
+/// The energy of the two triangles at an interior edge and everything that flipping it changes:
+/// total(after) − total(before) = flip_energy(after) − flip_energy(before).
+[[nodiscard]] double flip_energy(const Mesh& mesh, const EnergyModel& model, HalfedgeId h);
+
+/// The sign, and for E_F the treatment at the boundary, by which an edge's HOT energy counts.
+/// g and g_other are same-side heights of the edge in its two triangles; g_other is 0 on the boundary.
+[[nodiscard]] double hot_factor(const EnergyModel& model, double g, double g_other, bool boundary);
+
+}  // namespace temper
