@@ -1,0 +1,41 @@
+// One triangle into three, at a point strictly inside.
+//
+//             c               before: triangle abc in slot t, sides h a→b, n b→c, p c→a
+//            /|\              after:  abv in slot t; bcv and cav in two new slots
+//           / | \             keeps:  the 3 sides with their flags; the region, for all three
+//          /  v  \            needs:  v strictly inside (the three new triangles counter-clockwise)
+//         / /   \ \           cost:   O(1), amortised over the growth of the arrays
+//        a ------- b
+#include "base/assert.hpp"
+#include "temper/geometry.hpp"
+#include "topology/flip_inline.hpp"
+
+namespace temper {
+
+VertexId insert_in_triangle(Mesh& mesh, TriangleId t, WeightedPoint point) {
+  const auto [a, b, c] = mesh.corners(t);
+  TEMPER_ASSERT_SLOW(orient2d(mesh.position(a), mesh.position(b), point.position()) == Sign::positive &&
+                     orient2d(mesh.position(b), mesh.position(c), point.position()) == Sign::positive &&
+                     orient2d(mesh.position(c), mesh.position(a), point.position()) == Sign::positive);
+  const VertexId v = mesh.add_vertex(point);
+  const TriangleId bcv = mesh.add_triangle({b, c, v}, mesh.region(t));
+  const TriangleId cav = mesh.add_triangle({c, a, v}, mesh.region(t));
+  const HalfedgeId n = Mesh::halfedge(t, 1), p = Mesh::halfedge(t, 2);  // become b→v and v→a
+
+  inlined::attach(mesh, Mesh::halfedge(bcv, 0), inlined::outer_side(mesh, n));
+  inlined::attach(mesh, Mesh::halfedge(cav, 0), inlined::outer_side(mesh, p));
+  mesh.set_corner(p, v);
+  mesh.link(n, Mesh::halfedge(bcv, 2));
+  mesh.link(Mesh::halfedge(bcv, 1), Mesh::halfedge(cav, 2));
+  mesh.link(Mesh::halfedge(cav, 1), p);
+  mesh.set_constrained(n, false), mesh.set_constrained(p, false);
+
+  mesh.set_outgoing(v, Mesh::halfedge(cav, 2));
+  update_outgoing(mesh, a, Mesh::halfedge(cav, 1));
+  // b → c may have been the boundary halfedge of b: its old slot still leaves b, but no longer on the boundary.
+  mesh.set_outgoing(b, canonical_outgoing(mesh, n));
+  update_outgoing(mesh, c, Mesh::halfedge(cav, 0));
+  return v;
+}
+
+}  // namespace temper

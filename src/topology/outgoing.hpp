@@ -1,0 +1,40 @@
+// outgoing(v), kept canonical: the boundary halfedge of a boundary vertex, the largest halfedge of an inner one.
+//
+// Any halfedge out of v would do for a walk. But a flip takes a halfedge from two vertices, and which one was the
+// outgoing one is then forgotten; a value that the rest of the mesh determines can be forgotten and found again,
+// which is what lets unflip restore a mesh bit for bit, without a journal entry larger than one halfedge.
+#pragma once
+
+#include "base/assert.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+/// The canonical outgoing halfedge of v, found from any halfedge out of v. O(degree).
+inline HalfedgeId canonical_outgoing(const Mesh& mesh, HalfedgeId start) {
+  HalfedgeId largest = start;
+  for (HalfedgeId h = mesh.rotate(start); h != start; h = mesh.rotate(h)) {
+    if (!h.valid()) {  // v is on the boundary: go back clockwise, to the first of its fan
+      HalfedgeId first = start;
+      while (mesh.twin(first).valid()) first = Mesh::next(mesh.twin(first));
+      return first;
+    }
+    if (largest < h) largest = h;
+  }
+  return largest;
+}
+
+/// Brings outgoing(v) up to date after halfedges out of v have come and gone. `gained`: the largest of those that v
+/// has now and had not before. O(1), except when v has lost its outgoing halfedge.
+inline void update_outgoing(Mesh& mesh, VertexId v, HalfedgeId gained) {
+  TEMPER_ASSERT(mesh.origin(gained) == v);
+  const HalfedgeId old = mesh.outgoing(v);
+  if (mesh.origin(old) != v) {
+    mesh.set_outgoing(v, canonical_outgoing(mesh, gained));
+  } else if (old < gained && mesh.twin(old).valid()) {  // a boundary vertex keeps its boundary halfedge
+    mesh.set_outgoing(v, gained);
+  }
+  TEMPER_ASSERT_SLOW(mesh.outgoing(v) == canonical_outgoing(mesh, gained));
+}
+
+}  // namespace temper
