@@ -15,17 +15,17 @@ struct Box {
 };
 
 struct DrawOptions {
-  bool primal = true;             ///< edges of the triangulation
-  bool dual = true;               ///< edges of the power diagram, between orthocenters
-  bool weights = true;            ///< circles of radius √|w|: green positive, red negative
-  double weight_scale = 1;        ///< factor on the radius of weight circles
-  bool bad_triangles = true;      ///< fill triangles that are not well-centered
-  bool near_coincident = true;    ///< ring vertices that nearly coincide with a neighbour
-  bool regions = true;            ///< tint regions, draw constrained edges thicker
+  bool primal = true;           ///< edges of the triangulation
+  bool dual = true;             ///< edges of the power diagram, between orthocenters
+  bool weights = true;          ///< circles of radius √|w|: green positive, red negative
+  double weight_scale = 1;      ///< factor on the radius of weight circles
+  bool bad_triangles = true;    ///< fill triangles that are not well-centered
+  bool near_coincident = true;  ///< ring vertices that nearly coincide with a neighbour
+  bool regions = true;          ///< tint regions, draw constrained edges thicker
   bool vertex_numbers = false;
-  std::optional<Box> zoom;        ///< draw only what meets this box
-  double width = 900;             ///< of one panel, in CSS pixels
-  std::string title;              ///< under the picture
+  std::optional<Box> zoom;  ///< draw only what meets this box
+  double width = 900;       ///< of one panel, in CSS pixels
+  std::string title;        ///< under the picture
 };
 
 /// One panel.

@@ -50,13 +50,13 @@ struct Softening {
 /// One row of the registry.
 struct EnergyInfo {
   EnergyKind kind;
-  std::string_view name;            ///< "F", "T", "dT", "BH", "BHs", "BP"
-  std::string_view formula;         ///< for --help and docs
-  BoundaryTreatment boundary;       ///< the one its definition asks for
-  bool barrier;                     ///< +∞ outside 0 < d < ℓ
-  bool softened_by_gamma;           ///< has a γ
-  bool softened_by_h0;              ///< has an h°
-  int length_exponent;              ///< E(s·mesh) = s^this · E(mesh) with relative softening
+  std::string_view name;       ///< "F", "T", "dT", "BH", "BHs", "BP"
+  std::string_view formula;    ///< for --help and docs
+  BoundaryTreatment boundary;  ///< the one its definition asks for
+  bool barrier;                ///< +∞ outside 0 < d < ℓ
+  bool softened_by_gamma;      ///< has a γ
+  bool softened_by_h0;         ///< has an h°
+  int length_exponent;         ///< E(s·mesh) = s^this · E(mesh) with relative softening
 };
 
 /// All energies, in the order of the table above.
@@ -67,10 +67,10 @@ struct EnergyInfo {
 /// An energy with everything it depends on.
 struct EnergyModel {
   EnergyKind kind = EnergyKind::BP;
-  int star = 1;                                    ///< 0, 1 or 2
+  int star = 1;                                           ///< 0, 1 or 2
   BoundaryTreatment boundary = BoundaryTreatment::as_is;  ///< of F only; the others define their own
-  Softening gamma = {1.0, LengthScale::absolute};  ///< γ of E_BP; the paper's examples use 1, absolute
-  Softening h0 = {0.0, LengthScale::absolute};     ///< −h° of E_BHs, ≥ 0
+  Softening gamma = {1.0, LengthScale::absolute};         ///< γ of E_BP; the paper's examples use 1, absolute
+  Softening h0 = {0.0, LengthScale::absolute};            ///< −h° of E_BHs, ≥ 0
 };
 
 /// E of one triangle alone, all its edges boundary edges.
@@ -81,10 +81,10 @@ struct EnergyModel {
 
 /// The energy as a function of one vertex: value, gradient and Hessian in (x, y, w).
 struct VertexDerivatives {
-  double value = 0;                          ///< +∞ when not feasible
-  bool feasible = false;                     ///< inside the domain of the energy; else the rest is zero
-  std::array<double, 3> gradient = {};       ///< ∂E/∂x, ∂E/∂y, ∂E/∂w
-  std::array<double, 6> hessian = {};        ///< xx, xy, xw, yy, yw, ww
+  double value = 0;                     ///< +∞ when not feasible
+  bool feasible = false;                ///< inside the domain of the energy; else the rest is zero
+  std::array<double, 3> gradient = {};  ///< ∂E/∂x, ∂E/∂y, ∂E/∂w
+  std::array<double, 6> hessian = {};   ///< xx, xy, xw, yy, yw, ww
 };
 /// The part of the total energy that depends on v: the edges of its star, and for E_T the dual edges
 /// across the link. total(after) − total(before) = value(after) − value(before) when only v changes.

@@ -21,8 +21,10 @@
 namespace temper::io {
 
 /// Numbers of one kind. Files are written with the type they were read with.
-using Values = std::variant<std::vector<double>, std::vector<float>, std::vector<std::int64_t>,
-                            std::vector<std::int32_t>, std::vector<std::uint8_t>>;
+using Values =
+    std::variant<std::vector<double>, std::vector<float>, std::vector<std::int64_t>, std::vector<std::int32_t>,
+                 std::vector<std::uint8_t>, std::vector<std::int8_t>, std::vector<std::int16_t>,
+                 std::vector<std::uint16_t>, std::vector<std::uint32_t>, std::vector<std::uint64_t>>;
 
 struct DataArray {
   std::string name;
@@ -48,7 +50,11 @@ struct MeshFile {
   std::vector<std::int32_t> marked_points;             ///< points that carry a tag (Gmsh point elements, …)
   std::vector<std::int32_t> point_tags;                ///< one a marked point
   std::vector<PhysicalName> names;
-  std::vector<DataArray> point_data, cell_data, field_data;
+  std::vector<DataArray> point_data;                   ///< one tuple a point
+  std::vector<DataArray> cell_data;                    ///< one tuple a triangle
+  std::vector<DataArray> line_data;                    ///< one tuple a line
+  std::vector<DataArray> marked_point_data;            ///< one tuple a marked point
+  std::vector<DataArray> field_data;                   ///< of the file as a whole
   std::string format;                                  ///< "vtu", "gmsh41", …: the row of formats() it came from
   std::vector<std::string> warnings;                   ///< what was dropped or repaired in reading
   std::shared_ptr<const InputNames> numbering;         ///< the file's own numbers and lines
@@ -67,7 +73,7 @@ struct Format {
   std::string_view description;
   std::string_view suffixes;     ///< ".vtu", ".msh", …, separated by spaces; first is the one written
   bool writes;
-  bool holds_weights;            ///< else weights go to NAME.weights.csv, with a warning
+  bool holds_weights;            ///< else weights go to PATH.weights.csv, with a warning
 };
 [[nodiscard]] std::span<const Format> formats();
 

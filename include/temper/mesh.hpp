@@ -30,21 +30,21 @@ namespace temper {
 class InputNames {
  public:
   virtual ~InputNames() = default;
-  [[nodiscard]] virtual std::string point(std::size_t index) const;     ///< "point 3"
-  [[nodiscard]] virtual std::string triangle(std::size_t index) const;  ///< "triangle 12"
+  [[nodiscard]] virtual std::string point(std::size_t index) const;           ///< "point 3"
+  [[nodiscard]] virtual std::string triangle(std::size_t index) const;        ///< "triangle 12"
   [[nodiscard]] virtual std::string point_where(std::size_t index) const;     ///< "a.mesh:7" or ""
   [[nodiscard]] virtual std::string triangle_where(std::size_t index) const;  ///< "a.mesh:41" or ""
 };
 
 /// Arrays that make a mesh. Spans are read during Mesh::build only.
 struct MeshInput {
-  std::span<const Vec2> points;                                  ///< n points
-  std::span<const double> weights;                               ///< n weights [length²], or empty: all zero
-  std::span<const std::array<std::int32_t, 3>> triangles;        ///< m corner triples, 0-based, either orientation
-  std::span<const std::array<std::int32_t, 2>> constrained_edges;  ///< edges never to flip, 0-based
-  std::span<const std::int32_t> regions;                         ///< m region numbers, or empty: all zero
-  std::span<const std::int32_t> fixed_vertices;                  ///< vertices never to move, 0-based
-  const InputNames* names = nullptr;                             ///< the user's numbering, for errors
+  std::span<const Vec2> points = {};                            ///< n points
+  std::span<const double> weights = {};                         ///< n weights [length²], or empty: all zero
+  std::span<const std::array<std::int32_t, 3>> triangles = {};  ///< m corner triples, 0-based, either orientation
+  std::span<const std::array<std::int32_t, 2>> constrained_edges = {};  ///< edges never to flip, 0-based
+  std::span<const std::int32_t> regions = {};                           ///< m region numbers, or empty: all zero
+  std::span<const std::int32_t> fixed_vertices = {};                    ///< vertices never to move, 0-based
+  const InputNames* names = nullptr;                                    ///< the user's numbering, for errors
 };
 
 class Mesh {
@@ -86,7 +86,9 @@ class Mesh {
     return HalfedgeId(h.index % 3 == 0 ? h.index + 2 : h.index - 1);
   }
   [[nodiscard]] static constexpr TriangleId triangle(HalfedgeId h) { return TriangleId(h.index / 3); }
-  [[nodiscard]] static constexpr HalfedgeId halfedge(TriangleId t, int k) { return HalfedgeId(3 * std::size_t{t.index} + std::size_t(k)); }
+  [[nodiscard]] static constexpr HalfedgeId halfedge(TriangleId t, int k) {
+    return HalfedgeId(3 * std::size_t{t.index} + std::size_t(k));
+  }
   [[nodiscard]] HalfedgeId twin(HalfedgeId h) const { return twins_[h]; }
   [[nodiscard]] VertexId origin(HalfedgeId h) const { return corners_[h]; }
   [[nodiscard]] VertexId target(HalfedgeId h) const { return corners_[next(h)]; }
@@ -189,8 +191,8 @@ class Mesh {
   [[nodiscard]] const VertexRecord& record(VertexId v) const { return vertices_[v]; }
 
   IdVector<VertexId, VertexRecord> vertices_;
-  IdVector<HalfedgeId, VertexId> corners_;       // origin of each halfedge
-  IdVector<HalfedgeId, HalfedgeId> twins_;       // invalid on the boundary
+  IdVector<HalfedgeId, VertexId> corners_;  // origin of each halfedge
+  IdVector<HalfedgeId, HalfedgeId> twins_;  // invalid on the boundary
   IdVector<HalfedgeId, std::uint8_t> constrained_;
   IdVector<TriangleId, std::int32_t> regions_;
 };

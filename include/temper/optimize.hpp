@@ -19,7 +19,8 @@ class Executor;
 /// How one vertex is improved.
 enum class Solver {
   newton,       ///< joint (x, y, w), analytic gradient and Hessian, one trial a step, over-relaxed
-  golden,       ///< the paper's Algorithm 5: finite differences and golden section; three position searches, one weight search
+  golden,       ///< the paper's Algorithm 5: finite differences and golden section; three position searches, one weight
+                ///< search
   alternating,  ///< Newton in (x, y), then Newton in w
 };
 
@@ -59,21 +60,21 @@ struct OptimizeOptions {
 
   Solver solver = Solver::newton;
   Unknowns unknowns = Unknowns::positions_and_weights;
-  int weights_from = 0;            ///< i_w: first sweep that changes weights
-  bool flips = true;               ///< false: the connectivity is frozen and no step may make an edge non-regular
+  int weights_from = 0;  ///< i_w: first sweep that changes weights
+  bool flips = true;     ///< false: the connectivity is frozen and no step may make an edge non-regular
   FlipTiming flip_timing = FlipTiming::immediate;
   std::optional<FlipLimit> flip_limit;  ///< absent: unlimited for barriers (a flipping step must pay), after for HOT
-  double overshoot = 1.1;          ///< of FlipLimit::after
-  double relaxation = 1.7;         ///< over-relaxation of Newton steps, in (0, 2)
+  double overshoot = 1.1;               ///< of FlipLimit::after
+  double relaxation = 1.7;              ///< over-relaxation of Newton steps, in (0, 2)
   InterfaceVertices interfaces = InterfaceVertices::fixed;
   std::optional<std::size_t> anchor;  ///< vertex whose weight is shifted to 0 after each sweep (Algorithm 1, line 17)
 
   int max_sweeps = 300;
   double tolerance = 1e-5;
   StoppingRule stopping = StoppingRule::relative;
-  double time_limit = 0;           ///< seconds; 0: none
-  std::uint64_t seed = 1;          ///< of the jitter that frees symmetric grids
-  Executor* executor = nullptr;    ///< threads for sums over the mesh; results do not depend on it
+  double time_limit = 0;         ///< seconds; 0: none
+  std::uint64_t seed = 1;        ///< of the jitter that frees symmetric grids
+  Executor* executor = nullptr;  ///< threads for sums over the mesh; results do not depend on it
 };
 
 enum class Stopped { converged, max_sweeps, time_limit, cancelled };
@@ -85,11 +86,11 @@ struct OptimizeReport {
   std::size_t flips = 0;
   std::size_t vertices_removed = 0;
   std::size_t vertices_inserted = 0;
-  double seconds = 0;                     ///< the optimisation alone
-  double initial_energy = 0;              ///< of the input, at the final γ
+  double seconds = 0;         ///< the optimisation alone
+  double initial_energy = 0;  ///< of the input, at the final γ
   double final_energy = 0;
-  std::vector<SweepRecord> history;       ///< history[0] is the input
-  std::vector<std::string> notes;         ///< what the user should know: weights shrunk, hidden vertices, …
+  std::vector<SweepRecord> history;  ///< history[0] is the input
+  std::vector<std::string> notes;    ///< what the user should know: weights shrunk, hidden vertices, …
 };
 
 /// Improves the mesh in place. The domain boundary, fixed vertices and constrained edges stay, bit for bit;

@@ -8,18 +8,18 @@ namespace temper {
 
 /// One sweep over all vertices, as recorded in the history of a run.
 struct SweepRecord {
-  int sweep = 0;               ///< 0 is the input
-  double energy = 0;           ///< total energy at the end of the sweep, at that sweep's γ
-  std::size_t bad = 0;         ///< triangles that are not well-centered
-  std::size_t flips = 0;       ///< edge flips of this sweep
-  double gamma = 0;            ///< γ (relative to ℓ, or absolute) of this sweep
-  double seconds = 0;          ///< since the start of the optimisation
+  int sweep = 0;          ///< 0 is the input
+  double energy = 0;      ///< total energy at the end of the sweep, at that sweep's γ
+  std::size_t bad = 0;    ///< triangles that are not well-centered
+  std::size_t flips = 0;  ///< edge flips of this sweep
+  double gamma = 0;       ///< γ (relative to ℓ, or absolute) of this sweep
+  double seconds = 0;     ///< since the start of the optimisation
 };
 
 /// Called now and then during a run (at least once a sweep, and on large meshes more often).
 struct Progress {
-  SweepRecord last;            ///< the last whole sweep
-  double fraction = 0;         ///< of the sweep under way, in [0, 1)
+  SweepRecord last;     ///< the last whole sweep
+  double fraction = 0;  ///< of the sweep under way, in [0, 1)
   int max_sweeps = 0;
 };
 

@@ -63,8 +63,8 @@ struct HotKernel {
 /// Φ and the derivatives of ln Φ.
 struct Denominator {
   double phi = 0;
-  double l = 0, g = 0;             // ∂ ln Φ
-  double ll = 0, lg = 0, gg = 0;   // ∂² ln Φ
+  double l = 0, g = 0;            // ∂ ln Φ
+  double ll = 0, lg = 0, gg = 0;  // ∂² ln Φ
 };
 
 /// Φ = g + s₁ ℓ + s₂ L: E_BH with s = 0, E_BHs with s₁ = |h°| or s₂ = |h°|/ℓ. Infeasible at Φ ≤ 0.
@@ -162,7 +162,8 @@ auto with_kernel(const EnergyModel& model, Visit&& visit) {
     return s.scale == LengthScale::absolute ? std::array{value, 0.0} : std::array{0.0, value};
   };
   switch (model.kind) {
-    case EnergyKind::BH: return visit(BarrierKernel<ShiftedHeight>{alpha, beta, {}});
+    case EnergyKind::BH:
+      return visit(BarrierKernel<ShiftedHeight>{alpha, beta, {}});
     case EnergyKind::BHs: {
       const auto [s1, s2] = split(model.h0, 1);
       return visit(BarrierKernel<ShiftedHeight>{alpha, beta, {s1, s2}});
@@ -173,7 +174,8 @@ auto with_kernel(const EnergyModel& model, Visit&& visit) {
     }
     case EnergyKind::F:
     case EnergyKind::T:
-    case EnergyKind::dT: break;
+    case EnergyKind::dT:
+      break;
   }
   return visit(HotKernel{alpha, beta});
 }

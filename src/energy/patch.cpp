@@ -113,9 +113,10 @@ class HotFactors {
     const Heights after = i + 1 < n ? at(i + 1) : first_;
     const double before_g = first_open ? 0 : last_.g[2];
     const double after_g = last_open ? 0 : after.g[0];
-    const std::array<double, 3> factors = {hot_factor(model_, here_.g[0], before_g, first_open),
-                                           hot_factor(model_, here_.g[1], patch_.outer_g[i], patch_.link_boundary[i] != 0),
-                                           hot_factor(model_, here_.g[2], after_g, last_open)};
+    const std::array<double, 3> factors = {
+        hot_factor(model_, here_.g[0], before_g, first_open),
+        hot_factor(model_, here_.g[1], patch_.outer_g[i], patch_.link_boundary[i] != 0),
+        hot_factor(model_, here_.g[2], after_g, last_open)};
     last_ = here_;
     here_ = after;
     return factors;

@@ -19,11 +19,11 @@ namespace temper {
 
 struct Patch {
   VertexId center;
-  bool closed = true;                  ///< an interior vertex
-  std::vector<WeightedPoint> link;     ///< q_0 … q_{n−1}, and q_n when open
-  std::vector<VertexId> link_vertex;   ///< their ids
-  std::vector<HalfedgeId> spoke;       ///< center → q_i, one a triangle
-  std::vector<double> outer_g;         ///< h ℓ of link edge i in its outer triangle; empty unless gathered
+  bool closed = true;                       ///< an interior vertex
+  std::vector<WeightedPoint> link;          ///< q_0 … q_{n−1}, and q_n when open
+  std::vector<VertexId> link_vertex;        ///< their ids
+  std::vector<HalfedgeId> spoke;            ///< center → q_i, one a triangle
+  std::vector<double> outer_g;              ///< h ℓ of link edge i in its outer triangle; empty unless gathered
   std::vector<std::uint8_t> link_boundary;  ///< link edge i is a boundary edge; as long as outer_g
 
   [[nodiscard]] std::size_t size() const { return spoke.size(); }

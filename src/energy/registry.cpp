@@ -29,8 +29,8 @@ Expected<EnergyInfo> find_energy(std::string_view name) {
     if (info.name == name) return info;
     names += (names.empty() ? "" : ", ") + std::string(info.name);
   }
-  return InputError{ErrorCode::invalid_option, {},
-                    "there is no energy \"" + std::string(name) + "\"; expected one of " + names};
+  return InputError{
+      ErrorCode::invalid_option, {}, "there is no energy \"" + std::string(name) + "\"; expected one of " + names};
 }
 
 }  // namespace temper

@@ -50,8 +50,8 @@ struct Jet {
 /// for pq and rp, and zero for qr, need no storage; what is left are the heights.
 struct TriangleJet {
   TriangleShape shape;
-  Vec2 a, b;                 ///< q − p and r − p
-  std::array<Jet, 3> g;      ///< of g_pq, g_qr, g_rp
+  Vec2 a, b;             ///< q − p and r − p
+  std::array<Jet, 3> g;  ///< of g_pq, g_qr, g_rp
 };
 
 namespace detail {

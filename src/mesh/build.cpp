@@ -37,12 +37,11 @@ class MeshBuilder {
 
   Expected<BuiltMesh> build() {
     using Step = std::optional<InputError> (MeshBuilder::*)();
-    constexpr Step kSteps[] = {&MeshBuilder::check_sizes,         &MeshBuilder::add_vertices,
-                               &MeshBuilder::check_scale,         &MeshBuilder::add_triangles,
-                               &MeshBuilder::check_unused,        &MeshBuilder::check_duplicates,
-                               &MeshBuilder::link_twins,          &MeshBuilder::check_stars,
-                               &MeshBuilder::check_embedding,     &MeshBuilder::constrain_edges,
-                               &MeshBuilder::fix_vertices};
+    constexpr Step kSteps[] = {
+        &MeshBuilder::check_sizes,     &MeshBuilder::add_vertices, &MeshBuilder::check_scale,
+        &MeshBuilder::add_triangles,   &MeshBuilder::check_unused, &MeshBuilder::check_duplicates,
+        &MeshBuilder::link_twins,      &MeshBuilder::check_stars,  &MeshBuilder::check_embedding,
+        &MeshBuilder::constrain_edges, &MeshBuilder::fix_vertices};
     for (const Step step : kSteps) {
       if (auto error = (this->*step)()) return *std::move(error);
     }
@@ -62,11 +61,13 @@ class MeshBuilder {
     if (n == 0) return InputError{ErrorCode::empty_input, {}, "the mesh has no points"};
     if (m == 0) return InputError{ErrorCode::empty_input, {}, "the mesh has no triangles"};
     if (!in_.weights.empty() && in_.weights.size() != n) {
-      return InputError{ErrorCode::size_mismatch, {},
+      return InputError{ErrorCode::size_mismatch,
+                        {},
                         quantity(in_.weights.size(), "weights") + " given for " + quantity(n, "points")};
     }
     if (!in_.regions.empty() && in_.regions.size() != m) {
-      return InputError{ErrorCode::size_mismatch, {},
+      return InputError{ErrorCode::size_mismatch,
+                        {},
                         quantity(in_.regions.size(), "regions") + " given for " + quantity(m, "triangles")};
     }
     return std::nullopt;
@@ -100,7 +101,8 @@ class MeshBuilder {
     }
     const double extent = std::max(high.x - low.x, high.y - low.y);
     if (largest > kLargestCoordinate || (extent > 0 && extent < kSmallestExtent)) {
-      return InputError{ErrorCode::out_of_scale, {},
+      return InputError{ErrorCode::out_of_scale,
+                        {},
                         "coordinates reach " + to_text(largest) + " over an extent of " + to_text(extent) +
                             "; expected at most " + to_text(kLargestCoordinate) + " and at least " +
                             to_text(kSmallestExtent)};
@@ -119,15 +121,16 @@ class MeshBuilder {
       for (const std::int32_t i : corners) {
         if (i < 0 || static_cast<std::size_t>(i) >= n) {
           return triangle_error(ErrorCode::index_out_of_range, t,
-                                names_.triangle(t) + " uses point index " + std::to_string(i) +
-                                    ", but there are " + quantity(n, "points"));
+                                names_.triangle(t) + " uses point index " + std::to_string(i) + ", but there are " +
+                                    quantity(n, "points"));
         }
       }
       const auto at = [&](int k) { return in_.points[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])]; };
       const Sign sign = orient2d(at(0), at(1), at(2));
       if (sign == Sign::zero) {
-        return triangle_error(ErrorCode::zero_area, t, names_.triangle(t) + " has zero area: its corners " +
-                                                           corner_names(corners) + " are collinear");
+        return triangle_error(
+            ErrorCode::zero_area, t,
+            names_.triangle(t) + " has zero area: its corners " + corner_names(corners) + " are collinear");
       }
       if (sign == Sign::negative) {
         std::swap(corners[1], corners[2]);
@@ -161,8 +164,8 @@ class MeshBuilder {
       const std::uint32_t a = order[i - 1], b = order[i];
       if (in_.points[a] == in_.points[b]) {
         return point_error(ErrorCode::duplicate_point, b,
-                           names_.point(a) + " and " + names_.point(b) + " are both at " +
-                               coordinates(in_.points[b]) + "; expected distinct points");
+                           names_.point(a) + " and " + names_.point(b) + " are both at " + coordinates(in_.points[b]) +
+                               "; expected distinct points");
       }
     }
     return std::nullopt;
@@ -182,9 +185,8 @@ class MeshBuilder {
     }
     for (std::size_t v = 0; v < mesh_.n_vertices(); ++v) {
       const auto first = sorted.begin() + start[v], last = sorted.begin() + start[v + 1];
-      std::sort(first, last, [&](HalfedgeId a, HalfedgeId b) {
-        return greater(a) != greater(b) ? greater(a) < greater(b) : a < b;
-      });
+      std::sort(first, last,
+                [&](HalfedgeId a, HalfedgeId b) { return greater(a) != greater(b) ? greater(a) < greater(b) : a < b; });
       for (auto i = first; i != last;) {
         auto j = i;
         while (j != last && greater(*j) == greater(*i)) ++j;
@@ -204,12 +206,12 @@ class MeshBuilder {
     const std::string edge =
         "the edge from " + names_.point(mesh_.origin(g).index) + " to " + names_.point(mesh_.target(g).index);
     if (code == ErrorCode::overlap) {
-      return triangle_error(code, t, names_.triangle(s) + " and " + names_.triangle(t) +
-                                         " lie on the same side of " + edge);
+      return triangle_error(code, t,
+                            names_.triangle(s) + " and " + names_.triangle(t) + " lie on the same side of " + edge);
     }
-    return triangle_error(code, t, edge + " belongs to " + std::to_string(count) + " triangles (" +
-                                       names_.triangle(s) + " and " + names_.triangle(t) +
-                                       " among them); expected at most 2");
+    return triangle_error(code, t,
+                          edge + " belongs to " + std::to_string(count) + " triangles (" + names_.triangle(s) +
+                              " and " + names_.triangle(t) + " among them); expected at most 2");
   }
 
   std::optional<InputError> check_stars() {
@@ -219,9 +221,9 @@ class MeshBuilder {
     for (const VertexId v : mesh_.vertices()) {
       for ([[maybe_unused]] const HalfedgeId h : mesh_.star(v)) --missing[v.index];
       if (missing[v.index] != 0) {
-        return point_error(ErrorCode::non_manifold_vertex, v.index,
-                           "the mesh touches itself at " + names_.point(v.index) +
-                               ": its triangles are not one fan around it");
+        return point_error(
+            ErrorCode::non_manifold_vertex, v.index,
+            "the mesh touches itself at " + names_.point(v.index) + ": its triangles are not one fan around it");
       }
     }
     return std::nullopt;
@@ -237,7 +239,8 @@ class MeshBuilder {
     for (const auto& [a, b] : in_.constrained_edges) {
       for (const std::int32_t i : {a, b}) {
         if (i < 0 || static_cast<std::size_t>(i) >= in_.points.size()) {
-          return InputError{ErrorCode::index_out_of_range, {},
+          return InputError{ErrorCode::index_out_of_range,
+                            {},
                             "a constrained edge uses point index " + std::to_string(i) + ", but there are " +
                                 quantity(in_.points.size(), "points")};
         }
@@ -263,7 +266,8 @@ class MeshBuilder {
   std::optional<InputError> fix_vertices() {
     for (const std::int32_t i : in_.fixed_vertices) {
       if (i < 0 || static_cast<std::size_t>(i) >= in_.points.size()) {
-        return InputError{ErrorCode::index_out_of_range, {},
+        return InputError{ErrorCode::index_out_of_range,
+                          {},
                           "a fixed vertex has index " + std::to_string(i) + ", but there are " +
                               quantity(in_.points.size(), "points")};
       }

@@ -33,9 +33,7 @@ std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y) {
 struct Keyed {
   std::uint64_t key;
   std::uint32_t index;
-  friend bool operator<(const Keyed& a, const Keyed& b) {
-    return a.key != b.key ? a.key < b.key : a.index < b.index;
-  }
+  friend bool operator<(const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; }
 };
 
 /// The vertices, sorted along the curve; equal cells by number.

@@ -1,0 +1,168 @@
+// Values and laws of the energies.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "support/lattice.hpp"
+#include "unit/energy/naive.hpp"
+
+namespace temper::test {
+namespace {
+
+const WeightedPoint kP{0, 0, 0}, kQ{1, 0, 0}, kR{0.5, std::sqrt(0.75), 0};
+
+TEST(Energy, TableHasOneRowForEachKindInOrder) {
+  ASSERT_EQ(energies().size(), 6u);
+  for (std::size_t i = 0; i < energies().size(); ++i) {
+    EXPECT_EQ(static_cast<std::size_t>(energies()[i].kind), i);
+    const auto found = find_energy(energies()[i].name);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->kind, energies()[i].kind);
+  }
+}
+
+TEST(Energy, UnknownNameIsAnErrorThatListsTheNames) {
+  const auto found = find_energy("HOT");
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::invalid_option);
+  for (const EnergyInfo& info : energies()) EXPECT_NE(found.error().what().find(info.name), std::string::npos);
+}
+
+TEST(Energy, HardBarrierOfTheEquilateralTriangle) {
+  // 8 √3 / 9 an edge: h = ℓ/(2√3), d = ℓ/2.
+  EXPECT_NEAR(triangle_energy({.kind = EnergyKind::BH}, kP, kQ, kR), 4.618802153517, 1e-12);
+  EXPECT_NEAR(triangle_energy({.kind = EnergyKind::BH}, kP, kQ, kR), 8 / std::sqrt(3.0), 1e-14);
+}
+
+TEST(Energy, EqualsItsNaiveTwin) {
+  int cases = 0;
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    const Mesh mesh = lattice({.jitter = 0.1 * double(seed), .weight = 0.05 * double(seed), .seed = seed});
+    const VertexId v(6);
+    for (const EnergyModel& model : all_models(1)) {
+      const double total = total_energy(mesh, model);
+      const double naive = static_cast<double>(naive_total(mesh, model, v, naive_point(mesh, v)));
+      if (!std::isfinite(total)) {
+        EXPECT_TRUE(model.kind == EnergyKind::BH || model.kind == EnergyKind::BHs);
+        continue;
+      }
+      EXPECT_NEAR(total, naive, 1e-11 * (1 + std::abs(naive)));
+      ++cases;
+    }
+  }
+  EXPECT_GT(cases, 60);
+}
+
+TEST(Energy, ChangeOfOneVertexIsTheChangeOfItsPatch) {
+  Mesh mesh = lattice({.jitter = 0.3, .weight = 0.1});
+  Noise noise(7);
+  int cases = 0;
+  for (const VertexId v : mesh.vertices()) {
+    for (const EnergyModel& model : all_models(1)) {
+      const WeightedPoint before = mesh.point(v);
+      const double total0 = total_energy(mesh, model), patch0 = vertex_energy(mesh, model, v).value;
+      mesh.set_point(v, {before.x + 0.05 * noise(), before.y + 0.05 * noise(), before.w + 0.05 * noise()});
+      const double total1 = total_energy(mesh, model), patch1 = vertex_energy(mesh, model, v).value;
+      mesh.set_point(v, before);
+      if (!std::isfinite(total0) || !std::isfinite(total1)) continue;
+      EXPECT_NEAR(total1 - total0, patch1 - patch0, 1e-11 * (std::abs(total0) + std::abs(total1)));
+      ++cases;
+    }
+  }
+  EXPECT_GT(cases, 400);
+}
+
+TEST(Energy, IsInvariantUnderRotationTranslationAndEqualShiftsOfWeights) {
+  const Mesh mesh = lattice();
+  Mesh moved = mesh;
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  for (const VertexId v : mesh.vertices()) {
+    const WeightedPoint p = mesh.point(v);
+    moved.set_point(v, {c * p.x - s * p.y + 3, s * p.x + c * p.y - 5, p.w + 0.25});
+  }
+  for (const EnergyModel& model : all_models(1)) {
+    const double e = total_energy(mesh, model);
+    ASSERT_TRUE(std::isfinite(e));
+    EXPECT_NEAR(total_energy(moved, model), e, 1e-12 * std::abs(e));
+  }
+}
+
+TEST(Energy, ScalesWithThePowerInTheTable) {
+  const Mesh mesh = lattice(), large = lattice({.scale = 8});
+  for (EnergyModel model : all_models(1)) {
+    if (model.gamma.scale == LengthScale::absolute && model.kind == EnergyKind::BP) continue;
+    if (model.h0.scale == LengthScale::absolute && model.kind == EnergyKind::BHs) continue;
+    const int exponent = energies()[static_cast<std::size_t>(model.kind)].length_exponent;
+    const double e = total_energy(mesh, model);
+    EXPECT_NEAR(total_energy(large, model), std::pow(8, exponent) * e, 1e-12 * std::pow(8, exponent) * std::abs(e));
+  }
+}
+
+TEST(Energy, OfABarrierIsInfiniteOutsideItsDomainAndNeverNaN) {
+  const WeightedPoint heavy{0, 0, 1.5};  // d from q towards p is negative
+  for (const EnergyInfo& info : energies()) {
+    for (int star = 0; star < 3; ++star) {
+      const double e = triangle_energy({.kind = info.kind, .star = star}, heavy, kQ, kR);
+      EXPECT_EQ(std::isinf(e), info.barrier) << info.name;
+      EXPECT_FALSE(std::isnan(e));
+    }
+  }
+  const WeightedPoint obtuse{0.5, 0.1, 0};
+  EXPECT_TRUE(std::isinf(triangle_energy({.kind = EnergyKind::BH}, kP, kQ, obtuse)));
+  EXPECT_TRUE(
+      std::isinf(triangle_energy({.kind = EnergyKind::BHs, .h0 = {0.1, LengthScale::absolute}}, kP, kQ, obtuse)));
+  EXPECT_TRUE(
+      std::isfinite(triangle_energy({.kind = EnergyKind::BHs, .h0 = {2, LengthScale::relative}}, kP, kQ, obtuse)));
+  EXPECT_TRUE(std::isfinite(triangle_energy({.kind = EnergyKind::BP}, kP, kQ, obtuse)));
+}
+
+TEST(Energy, OfPseudoBarrierTendsToTheHardBarrier) {
+  const double hard = triangle_energy({.kind = EnergyKind::BH}, kP, kQ, kR);
+  double last = std::numeric_limits<double>::infinity();
+  for (const double gamma : {1e-2, 1e-3, 1e-4}) {
+    const double error =
+        std::abs(triangle_energy({.kind = EnergyKind::BP, .gamma = {gamma, LengthScale::relative}}, kP, kQ, kR) - hard);
+    EXPECT_LT(error, 0.011 * last);  // second order in γ
+    last = error;
+  }
+}
+
+TEST(Energy, OfPseudoBarrierKeepsItsDigitsFarOutside) {
+  // h ≈ −5e5 ℓ: φ = γ²/(4 |h|) to eight digits; the naive sum h + √(h² + γ²) would have none.
+  const WeightedPoint flat{0.5, 1e-6, 0};
+  const double e = triangle_energy({.kind = EnergyKind::BP, .gamma = {1e-3, LengthScale::absolute}}, kP, kQ, flat);
+  const Real gamma = 1e-3L;
+  Real naive = 0;
+  const std::array<NaivePoint, 3> t = {{{0, 0, 0}, {1, 0, 0}, {0.5L, 1e-6L, 0}}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const NaiveEdge n = naive_edge(t[i], t[(i + 1) % 3], t[(i + 2) % 3]);
+    const Real root = std::sqrt(n.h_left * n.h_left + gamma * gamma);
+    const Real phi = n.h_left > 0 ? (n.h_left + root) / 2 : gamma * gamma / (2 * (root - n.h_left));
+    naive += 2 * (n.d_ij * n.d_ij + n.h_left * n.h_left) / (3 * n.d_ij * phi);
+  }
+  EXPECT_NEAR(e / static_cast<double>(naive), 1.0, 1e-9);
+}
+
+TEST(Energy, TheoryExtrapolationIsNeverNegative) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    const Mesh mesh = lattice({.n = 4, .jitter = 0.25, .weight = 1, .seed = seed});
+    for (int star = 0; star < 3; ++star) EXPECT_GE(total_energy(mesh, {.kind = EnergyKind::T, .star = star}), 0);
+  }
+}
+
+TEST(Energy, TotalDoesNotDependOnTheExecutor) {
+  class Backwards final : public Executor {
+   public:
+    void run(std::size_t n, const std::function<void(std::size_t)>& block) override {
+      for (std::size_t i = n; i > 0; --i) block(i - 1);
+    }
+  } backwards;
+  const Mesh mesh = lattice({.n = 80});
+  for (const EnergyModel& model : all_models(1)) {
+    EXPECT_EQ(total_energy(mesh, model), total_energy(mesh, model, &backwards));
+  }
+}
+
+}  // namespace
+}  // namespace temper::test

@@ -1,0 +1,129 @@
+// The naive twin: the energies as the paper prints them, half-edge by half-edge, in long double.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "temper/energy.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper::test {
+
+using Real = long double;
+
+struct NaivePoint {
+  Real x, y, w;
+};
+
+/// d_ij, ℓ, and the same-side and left-hand signed heights of edge ij in triangle ijk.
+struct NaiveEdge {
+  Real d_ij, d_ji, l, h_same, h_left;
+};
+
+inline NaiveEdge naive_edge(const NaivePoint& i, const NaivePoint& j, const NaivePoint& k) {
+  const Real ax = j.x - i.x, ay = j.y - i.y, bx = k.x - i.x, by = k.y - i.y;
+  const Real area2 = ax * by - ay * bx;
+  const Real ra = (ax * ax + ay * ay + i.w - j.w) / 2, rb = (bx * bx + by * by + i.w - k.w) / 2;
+  const Real ox = (ra * by - rb * ay) / area2, oy = (ax * rb - bx * ra) / area2;  // orthocenter − i, by Cramer
+  NaiveEdge e{};
+  e.l = std::sqrt(ax * ax + ay * ay);
+  e.d_ij = e.l / 2 + (i.w - j.w) / (2 * e.l);
+  e.d_ji = e.l - e.d_ij;
+  e.h_left = (ax * oy - ay * ox) / e.l;
+  e.h_same = area2 > 0 ? e.h_left : -e.h_left;
+  return e;
+}
+
+inline Real naive_half(const EnergyModel& m, Real d, Real d_other, Real h, Real l) {
+  const std::array<Real, 3> alphas = {Real(1) / 4, Real(1) / 3, Real(1) / 12},
+                            betas = {Real(1) / 12, Real(1) / 3, Real(1) / 4};
+  const Real alpha = alphas[static_cast<std::size_t>(m.star)], beta = betas[static_cast<std::size_t>(m.star)];
+  const auto length_of = [&](const Softening& s) {
+    return s.scale == LengthScale::relative ? s.value * l : Real(s.value);
+  };
+  const Real top = alpha * d * d + beta * h * h, chi = std::sqrt(d * d_other);
+  switch (m.kind) {
+    case EnergyKind::BH:
+      return top / (chi * h);
+    case EnergyKind::BHs:
+      return top / (chi * (h + length_of(m.h0)));
+    case EnergyKind::BP: {
+      const Real gamma = length_of(m.gamma);
+      return top / (chi * (h + std::sqrt(h * h + gamma * gamma)) / 2);
+    }
+    default:
+      return alpha * d * d * d * h + beta * d * h * h * h;
+  }
+}
+
+/// Total energy, by full edges; vertex v is replaced by p.
+inline Real naive_total(const Mesh& mesh, const EnergyModel& m, VertexId v, const NaivePoint& p) {
+  const auto at = [&](VertexId u) -> NaivePoint {
+    if (u == v) return p;
+    const WeightedPoint q = mesh.point(u);
+    return {q.x, q.y, q.w};
+  };
+  const bool barrier = m.kind == EnergyKind::BH || m.kind == EnergyKind::BHs || m.kind == EnergyKind::BP;
+  const auto side = [&](HalfedgeId h) {
+    return naive_edge(at(mesh.origin(h)), at(mesh.target(h)), at(mesh.opposite(h)));
+  };
+  const auto both_halves = [&](const NaiveEdge& e, Real height) {
+    return naive_half(m, e.d_ij, e.d_ji, height, e.l) + naive_half(m, e.d_ji, e.d_ij, height, e.l);
+  };
+  Real sum = 0;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_edge_representative(h)) continue;
+    const NaiveEdge e = side(h);
+    if (barrier) {
+      sum += both_halves(e, e.h_left);
+      if (mesh.twin(h).valid()) sum += both_halves(e, side(mesh.twin(h)).h_left);
+    } else if (!mesh.twin(h).valid()) {
+      const bool as_is = m.kind == EnergyKind::F && m.boundary == BoundaryTreatment::as_is;
+      const bool mirrored = m.kind == EnergyKind::F && m.boundary == BoundaryTreatment::mirrored;
+      sum += as_is      ? both_halves(e, e.h_same)
+             : mirrored ? 2 * both_halves(e, e.h_same)
+                        : both_halves(e, std::abs(e.h_same));
+    } else {
+      const NaiveEdge other = side(mesh.twin(h));
+      const Real sign = m.kind == EnergyKind::T && e.h_same + other.h_same < 0 ? -1 : 1;
+      sum += sign * (both_halves(e, e.h_same) + both_halves(e, other.h_same));
+    }
+  }
+  return sum;
+}
+
+inline NaivePoint naive_point(const Mesh& mesh, VertexId v) {
+  const WeightedPoint p = mesh.point(v);
+  return {p.x, p.y, p.w};
+}
+
+/// Every energy × star × boundary treatment or kind of softening, with γ and h° a fraction of `length`.
+inline std::vector<EnergyModel> all_models(double length) {
+  std::vector<EnergyModel> models;
+  for (const EnergyInfo& info : energies()) {
+    for (int star = 0; star < 3; ++star) {
+      EnergyModel m;
+      m.kind = info.kind;
+      m.star = star;
+      if (info.kind == EnergyKind::F) {
+        for (const auto b : {BoundaryTreatment::as_is, BoundaryTreatment::absolute, BoundaryTreatment::mirrored}) {
+          m.boundary = b;
+          models.push_back(m);
+        }
+      } else if (info.softened_by_gamma || info.softened_by_h0) {
+        for (const auto scale : {LengthScale::absolute, LengthScale::relative}) {
+          const double unit = scale == LengthScale::absolute ? length : 1;
+          m.gamma = {0.3 * unit, scale};
+          m.h0 = {0.7 * unit, scale};
+          models.push_back(m);
+        }
+      } else {
+        models.push_back(m);
+      }
+    }
+  }
+  return models;
+}
+
+}  // namespace temper::test
