@@ -1,0 +1,163 @@
+#include "draw/frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace temper {
+namespace {
+
+constexpr double kMargin = 0.03;                   // white space around the mesh, of the larger side of its box
+constexpr double kMostCircle = 0.08;               // more of it for weight circles, at most
+constexpr double kClipMargin = 0.05;               // beyond the panel, so that strokes leave it without an end in sight
+constexpr double kLeastWidth = 50;                 // pixels; less cannot be read
+constexpr double kFlattest = 0.1;                  // height of a panel over its width, at least …
+constexpr double kTallest = 1.25;                  // … and at most; the mesh is centred in what is left
+constexpr double kStepsPerEdge = 100;              // grid steps on a median edge: its ends are then right to 1 %
+constexpr double kFinest = 1e-3, kCoarsest = 0.1;  // pixels per grid step
+
+Box bounding_box(std::span<const Mesh* const> meshes) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Box box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
+  for (const Mesh* mesh : meshes) {
+    for (VertexId v : mesh->vertices()) {
+      const Vec2 p = mesh->position(v);
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+    }
+  }
+  return box.low.x <= box.high.x ? box : Box{{0, 0}, {1, 1}};
+}
+
+Box grown(const Box& box, double by) { return {box.low - Vec2{by, by}, box.high + Vec2{by, by}}; }
+
+Box ordered(const Box& box) {
+  return {{std::min(box.low.x, box.high.x), std::min(box.low.y, box.high.y)},
+          {std::max(box.low.x, box.high.x), std::max(box.low.y, box.high.y)}};
+}
+
+// Weight circles at the border of the domain are shown whole, unless they would shrink the mesh too much.
+double margin(std::span<const Mesh* const> meshes, const DrawOptions& options, double side) {
+  double radius = 0;
+  for (const Mesh* mesh : meshes) {
+    for (VertexId v : mesh->vertices()) {
+      if (options.weights && mesh->is_boundary(v)) radius = std::max(radius, std::abs(mesh->weight(v)));
+    }
+  }
+  radius = std::sqrt(radius) * options.weight_scale;
+  return kMargin * side + (radius > 0 ? std::min(radius, kMostCircle * side) : 0);
+}
+
+double larger_side(const Box& box) { return std::max(box.high.x - box.low.x, box.high.y - box.low.y); }
+
+// The median length of the edges that meet the box; 0 when none does.
+double median_edge(std::span<const Mesh* const> meshes, const Box& box) {
+  std::vector<double> lengths;
+  for (const Mesh* mesh : meshes) {
+    for (HalfedgeId h : mesh->halfedges()) {
+      if (!mesh->is_edge_representative(h)) continue;
+      const Segment edge{mesh->position(mesh->origin(h)), mesh->position(mesh->target(h))};
+      if (clip(edge, box)) lengths.push_back(length(edge.to - edge.from));
+    }
+  }
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+// The power of ten next below a hundredth of an edge.
+double grid_unit(double edge_pixels) {
+  double unit = kCoarsest;
+  while (unit > kFinest && unit * kStepsPerEdge > edge_pixels) unit /= 10;
+  return unit;
+}
+
+}  // namespace
+
+GridPoint Frame::grid(Vec2 p) const {
+  const double steps = scale / unit;
+  return {std::llround((p.x - box.low.x) * steps), std::llround((box.high.y - p.y) * steps)};
+}
+
+std::int64_t Frame::steps(double pixels) const { return std::llround(pixels / unit); }
+
+Frame make_frame(std::span<const Mesh* const> meshes, const DrawOptions& options) {
+  Box box = options.zoom ? ordered(*options.zoom) : bounding_box(meshes);
+  double side = larger_side(box);
+  if (!(side > 0) || !std::isfinite(side)) {
+    box = grown(bounding_box(meshes), 0.5);
+    side = larger_side(box);
+  }
+  if (!options.zoom) box = grown(box, margin(meshes, options, side));
+
+  Frame frame;
+  frame.width = options.width >= kLeastWidth ? options.width : kLeastWidth;
+  const double w = box.high.x - box.low.x, h = box.high.y - box.low.y;
+  const double ratio = w > 0 ? std::clamp(h / w, kFlattest, kTallest) : kTallest;
+  frame.height = std::round(frame.width * ratio);
+  frame.scale = std::min(w > 0 ? frame.width / w : frame.height / h, h > 0 ? frame.height / h : frame.width / w);
+  const Vec2 center = 0.5 * (box.low + box.high);
+  const Vec2 half = {frame.width / (2 * frame.scale), frame.height / (2 * frame.scale)};
+  frame.box = {center - half, center + half};
+  frame.clip = grown(frame.box, kClipMargin * larger_side(frame.box));
+  frame.edge = median_edge(meshes, frame.clip) * frame.scale;
+  frame.unit = grid_unit(frame.edge);
+  return frame;
+}
+
+std::optional<Segment> clip(const Segment& s, const Box& box) {
+  const Vec2 along = s.to - s.from;
+  if (!std::isfinite(along.x) || !std::isfinite(along.y)) return std::nullopt;
+  // The segment is from + t · along, t in [0, 1]; each side of the box cuts that range.
+  double t0 = 0, t1 = 1;
+  const std::array<double, 4> outward = {-along.x, along.x, -along.y, along.y};
+  const std::array<double, 4> room = {s.from.x - box.low.x, box.high.x - s.from.x, s.from.y - box.low.y,
+                                      box.high.y - s.from.y};
+  for (int side = 0; side < 4; ++side) {
+    if (outward[side] == 0) {
+      if (room[side] < 0) return std::nullopt;
+    } else if (outward[side] < 0) {
+      t0 = std::max(t0, room[side] / outward[side]);
+    } else {
+      t1 = std::min(t1, room[side] / outward[side]);
+    }
+  }
+  if (t0 > t1) return std::nullopt;
+  return Segment{t0 == 0 ? s.from : s.from + t0 * along, t1 == 1 ? s.to : s.from + t1 * along};
+}
+
+std::vector<Vec2> clip(const std::array<Vec2, 3>& triangle, const Box& box) {
+  std::vector<Vec2> polygon(triangle.begin(), triangle.end());
+  // Keeps what has positive room on one side after the other.
+  for (int side = 0; side < 4 && !polygon.empty(); ++side) {
+    const auto room = [&](Vec2 p) {
+      switch (side) {
+        case 0:
+          return p.x - box.low.x;
+        case 1:
+          return box.high.x - p.x;
+        case 2:
+          return p.y - box.low.y;
+        default:
+          return box.high.y - p.y;
+      }
+    };
+    std::vector<Vec2> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+      const double in_a = room(a), in_b = room(b);
+      if (in_a >= 0) kept.push_back(a);
+      if ((in_a < 0) != (in_b < 0)) kept.push_back(a + (in_a / (in_a - in_b)) * (b - a));
+    }
+    polygon = std::move(kept);
+  }
+  return polygon;
+}
+
+bool meets(Vec2 center, double radius, const Box& box) {
+  const Vec2 nearest = {std::clamp(center.x, box.low.x, box.high.x), std::clamp(center.y, box.low.y, box.high.y)};
+  return squared_length(center - nearest) <= radius * radius;
+}
+
+}  // namespace temper

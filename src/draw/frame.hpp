@@ -1,0 +1,55 @@
+// From the user's coordinates to the page: which box is drawn, at what scale, on what grid.
+//
+// Points of long paths are integers on a grid fine enough for the mesh at hand, so that a path takes few bytes;
+// the group around the paths scales the grid to pixels. Everything is clipped to a little more than the box
+// before it is written: orthocenters of flat triangles lie anywhere.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "temper/draw.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+/// A point of the grid, y down.
+struct GridPoint {
+  std::int64_t x = 0, y = 0;
+  friend bool operator==(const GridPoint&, const GridPoint&) = default;
+};
+
+struct Segment {
+  Vec2 from, to;
+};
+
+struct Frame {
+  static constexpr double kLeastDetail = 6;  ///< pixels of a median edge
+
+  Box box;                       ///< what the panel shows, in the user's coordinates
+  Box clip;                      ///< a little more: what is written
+  double scale = 1;              ///< pixels per unit of the user's
+  double unit = 0.01;            ///< pixels per step of the grid
+  double width = 0, height = 0;  ///< of the panel, pixels
+  double edge = 0;               ///< median length of the edges that are drawn, pixels
+
+  /// Is there room for duals and weights between the edges? Else only edges and bad triangles are drawn.
+  [[nodiscard]] bool shows_detail() const { return edge == 0 || edge >= kLeastDetail; }
+  [[nodiscard]] GridPoint grid(Vec2 p) const;
+  [[nodiscard]] std::int64_t steps(double pixels) const;
+};
+
+/// One frame for all meshes: the zoom box, or what holds all their vertices.
+[[nodiscard]] Frame make_frame(std::span<const Mesh* const> meshes, const DrawOptions& options);
+
+/// The part of a segment inside the box; nothing when it misses it or is not finite.
+[[nodiscard]] std::optional<Segment> clip(const Segment& segment, const Box& box);
+/// The part of a triangle inside the box: a convex polygon, empty when it misses it.
+[[nodiscard]] std::vector<Vec2> clip(const std::array<Vec2, 3>& triangle, const Box& box);
+/// Does the disc meet the box?
+[[nodiscard]] bool meets(Vec2 center, double radius, const Box& box);
+
+}  // namespace temper

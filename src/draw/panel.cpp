@@ -1,0 +1,215 @@
+#include "draw/panel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "draw/path.hpp"
+#include "draw/xml.hpp"
+#include "temper/geometry.hpp"
+
+namespace temper {
+namespace {
+
+// Widths in pixels, from the median edge: thin enough to see through, thick enough to print.
+constexpr double kPrimalWidth = 0.03, kLeastPrimal = 0.2, kMostPrimal = 1.2;
+constexpr double kConstrainedTimes = 2.5;
+constexpr double kDualTimes = 0.9;
+constexpr double kNearCoincident = 0.05;  // of the mean of the other edges around: nothing to see between the two ends
+constexpr double kSeam = 0.3;             // pixels: hides the hairlines between filled neighbours
+constexpr double kSpot = 3;               // pixels added around bad triangles too small and too few to be seen
+constexpr double kFew = 0.02;             // of all triangles
+constexpr double kRingRadius = 5;         // pixels
+constexpr double kFontPerEdge = 0.22, kLeastFont = 3, kMostFont = 12;
+
+constexpr std::array<const char*, 6> kTints = {"#dceaf5", "#e6f1d9", "#efe2f0", "#f6efd6", "#dff0ee", "#ececec"};
+
+class PanelPainter {
+ public:
+  PanelPainter(const Mesh& mesh, const Frame& frame, const DrawOptions& options)
+      : mesh_(mesh), frame_(frame), options_(options), detailed_(frame.shows_detail()) {}
+
+  Panel paint() {
+    panel_.triangles = mesh_.n_triangles();
+    if (options_.regions) tint_regions();
+    fill_bad_triangles();
+    if (options_.primal) draw_edges();
+    if (options_.dual && detailed_) draw_dual();
+    if (options_.weights && detailed_) draw_weights();
+    if (options_.near_coincident) ring_near_coincident();
+    if (options_.vertex_numbers) number_vertices();
+    return std::move(panel_);
+  }
+
+ private:
+  [[nodiscard]] double primal_width() const {
+    return std::clamp(kPrimalWidth * frame_.edge, kLeastPrimal, kMostPrimal);
+  }
+  [[nodiscard]] Segment edge(HalfedgeId h) const {
+    return {mesh_.position(mesh_.origin(h)), mesh_.position(mesh_.target(h))};
+  }
+  [[nodiscard]] std::array<WeightedPoint, 3> points(TriangleId t) const {
+    const auto v = mesh_.corners(t);
+    return {mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2])};
+  }
+
+  void add_segment(PathText& path, const Segment& segment) const {
+    if (const auto seen = clip(segment, frame_.clip)) path.segment(frame_.grid(seen->from), frame_.grid(seen->to));
+  }
+  void add_triangle(PathText& path, TriangleId t) const {
+    const auto p = points(t);
+    const std::vector<Vec2> polygon = clip({p[0].position(), p[1].position(), p[2].position()}, frame_.clip);
+    if (polygon.empty()) return;
+    path.move_to(frame_.grid(polygon[0]));
+    for (std::size_t i = 1; i < polygon.size(); ++i) path.line_to(frame_.grid(polygon[i]));
+    path.close();
+  }
+
+  void stroke(const PathText& path, const char* name, const char* color, double width, const char* more = "") {
+    if (path.empty()) return;
+    panel_.svg += std::string("<path class=\"") + name + "\" fill=\"none\" stroke=\"" + color + "\" stroke-width=\"" +
+                  short_number(width / frame_.unit) + "\" " + more + "d=\"" + path.text() + "\"/>\n";
+  }
+  void fill(const PathText& path, const char* name, const char* color, double stroke_width = kSeam) {
+    if (path.empty()) return;
+    panel_.svg += std::string("<path class=\"") + name + "\" fill=\"" + color + "\" stroke=\"" + color +
+                  "\" stroke-width=\"" + short_number(stroke_width / frame_.unit) + "\" d=\"" + path.text() + "\"/>\n";
+  }
+
+  void tint_regions() {
+    std::map<std::int32_t, PathText> paths;
+    for (TriangleId t : mesh_.triangles()) paths.try_emplace(mesh_.region(t));
+    if (paths.size() < 2) return;
+    for (TriangleId t : mesh_.triangles()) add_triangle(paths[mesh_.region(t)], t);
+    std::size_t i = 0;
+    for (const auto& [region, path] : paths) fill(path, "region", kTints[i++ % kTints.size()]);
+  }
+
+  void fill_bad_triangles() {
+    PathText path;
+    for (TriangleId t : mesh_.triangles()) {
+      const auto p = points(t);
+      if (is_well_centered(p[0], p[1], p[2])) continue;
+      ++panel_.bad;
+      if (options_.bad_triangles) add_triangle(path, t);
+    }
+    const bool few = static_cast<double>(panel_.bad) < kFew * static_cast<double>(panel_.triangles);
+    fill(path, "bad", detailed_ ? Palette::bad : Palette::bad_dense, few && !detailed_ ? kSpot : kSeam);
+  }
+
+  // Domain boundary and constrained edges are thicker: they are what the optimiser keeps.
+  void draw_edges() {
+    PathText plain, kept;
+    for (HalfedgeId h : mesh_.halfedges()) {
+      if (!mesh_.is_edge_representative(h)) continue;
+      const bool thick = options_.regions && (mesh_.is_boundary(h) || mesh_.is_constrained(h));
+      add_segment(thick ? kept : plain, edge(h));
+    }
+    stroke(plain, "primal", detailed_ ? Palette::primal : Palette::primal_dense, primal_width());
+    stroke(kept, "constrained", Palette::primal, std::max(kConstrainedTimes * primal_width(), 0.8),
+           "stroke-linecap=\"round\" ");
+  }
+
+  // Between the orthocenters on both sides, or from the one to the weighted midpoint of a boundary edge.
+  void draw_dual() {
+    IdVector<TriangleId, Vec2> centers(mesh_.n_triangles());
+    for (TriangleId t : mesh_.triangles()) {
+      const auto p = points(t);
+      centers[t] = orthocenter(p[0], p[1], p[2]);
+    }
+    PathText path;
+    for (HalfedgeId h : mesh_.halfedges()) {
+      if (!mesh_.is_edge_representative(h)) continue;
+      const Vec2 from = centers[Mesh::triangle(h)];
+      add_segment(path, {from, mesh_.is_boundary(h) ? weighted_midpoint(h) : centers[Mesh::triangle(mesh_.twin(h))]});
+    }
+    panel_.dual = !path.empty();
+    stroke(path, "dual", Palette::dual, std::max(kDualTimes * primal_width(), kLeastPrimal));
+  }
+
+  [[nodiscard]] Vec2 weighted_midpoint(HalfedgeId h) const {
+    const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h));
+    const Vec2 along = b.position() - a.position();
+    return a.position() + (edge_split(a, b) / length(along)) * along;
+  }
+
+  void draw_weights() {
+    PathText positive, negative;
+    for (VertexId v : mesh_.vertices()) {
+      const double radius = std::sqrt(std::abs(mesh_.weight(v))) * options_.weight_scale;
+      if (!std::isfinite(radius) || !meets(mesh_.position(v), radius, frame_.box)) continue;
+      PathText& path = mesh_.weight(v) > 0 ? positive : negative;
+      path.circle(frame_.grid(mesh_.position(v)), frame_.steps(radius * frame_.scale));
+    }
+    panel_.positive = !positive.empty();
+    panel_.negative = !negative.empty();
+    const double width = std::max(primal_width(), 0.4);
+    stroke(positive, "weight-positive", Palette::positive, width);
+    stroke(negative, "weight-negative", Palette::negative, width, dashes(width).c_str());
+  }
+
+  // Dashes tell the signs apart without colour.
+  [[nodiscard]] std::string dashes(double width) const {
+    return "stroke-dasharray=\"" + short_number(4 * width / frame_.unit) + " " + short_number(2 * width / frame_.unit) +
+           "\" ";
+  }
+
+  void ring_near_coincident() {
+    PathText path;
+    for (HalfedgeId h : mesh_.halfedges()) {
+      if (!mesh_.is_edge_representative(h) || !nearly_collapsed(h)) continue;
+      const Segment s = edge(h);
+      const Vec2 middle = 0.5 * (s.from + s.to);
+      if (meets(middle, 0, frame_.box)) path.circle(frame_.grid(middle), frame_.steps(kRingRadius));
+    }
+    panel_.rings = !path.empty();
+    stroke(path, "near-coincident", Palette::ring, 1.5);
+  }
+
+  [[nodiscard]] bool nearly_collapsed(HalfedgeId h) const {
+    double around = 0;
+    int edges = 0;
+    for (HalfedgeId side : {h, mesh_.twin(h)}) {
+      if (!side.valid()) continue;
+      for (HalfedgeId other : {Mesh::next(side), Mesh::prev(side)}) {
+        const Segment s = edge(other);
+        around += length(s.to - s.from);
+        ++edges;
+      }
+    }
+    const Segment s = edge(h);
+    return length(s.to - s.from) * edges < kNearCoincident * around;
+  }
+
+  void number_vertices() {
+    const double size = std::clamp(kFontPerEdge * frame_.edge, kLeastFont, kMostFont) / frame_.unit;
+    panel_.svg += "<g class=\"numbers\" font-size=\"" + short_number(size) + "\" fill=\"#000000\" stroke=\"#ffffff\"" +
+                  " stroke-width=\"" + short_number(size / 4) + "\" paint-order=\"stroke\">\n";
+    for (VertexId v : mesh_.vertices()) {
+      if (!meets(mesh_.position(v), 0, frame_.box)) continue;
+      const GridPoint at = frame_.grid(mesh_.position(v));
+      panel_.svg += "<text x=\"" + std::to_string(at.x + std::llround(size / 4)) + "\" y=\"" +
+                    std::to_string(at.y - std::llround(size / 4)) + "\">" + std::to_string(v.index) + "</text>\n";
+    }
+    panel_.svg += "</g>\n";
+  }
+
+  const Mesh& mesh_;
+  const Frame& frame_;
+  const DrawOptions& options_;
+  bool detailed_;
+  Panel panel_;
+};
+
+}  // namespace
+
+Panel draw_panel(const Mesh& mesh, const Frame& frame, const DrawOptions& options, const std::string& id) {
+  Panel panel = PanelPainter(mesh, frame, options).paint();
+  const std::string size = "width=\"" + short_number(frame.width) + "\" height=\"" + short_number(frame.height) + "\"";
+  panel.svg = "<clipPath id=\"" + id + "\"><rect " + size + "/></clipPath>\n<g clip-path=\"url(#" + id +
+              ")\">\n<g transform=\"scale(" + short_number(frame.unit) + ")\" stroke-linejoin=\"round\">\n" +
+              panel.svg + "</g>\n</g>\n<rect " + size + " fill=\"none\" stroke=\"" + Palette::border + "\"/>\n";
+  return panel;
+}
+
+}  // namespace temper

@@ -1,0 +1,38 @@
+// One panel: the layers of a picture from the bottom up, one path for each class of thing.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "draw/frame.hpp"
+#include "temper/draw.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+/// What a panel shows, for its caption and the legend.
+struct Panel {
+  std::string svg;            ///< a <g> element, its origin the upper left corner of the panel
+  std::size_t triangles = 0;  ///< of the whole mesh
+  std::size_t bad = 0;        ///< of these, not well-centered
+  bool dual = false, positive = false, negative = false, rings = false;  ///< drawn at all
+  bool too_dense = false;  ///< duals and weights asked for, but left out at this scale
+};
+
+/// `id` names the clip path: unique in the document.
+[[nodiscard]] Panel draw_panel(const Mesh& mesh, const Frame& frame, const DrawOptions& options, const std::string& id);
+
+/// Colours that differ for colour-blind readers and in grey print.
+struct Palette {
+  static constexpr const char* bad = "#f8c471";
+  static constexpr const char* bad_dense = "#e88a00";
+  static constexpr const char* primal = "#222222";
+  static constexpr const char* primal_dense = "#8a8a8a";
+  static constexpr const char* dual = "#005fa3";
+  static constexpr const char* positive = "#00845f";
+  static constexpr const char* negative = "#c8320a";
+  static constexpr const char* ring = "#b0389a";
+  static constexpr const char* border = "#c8c8c8";
+};
+
+}  // namespace temper
