@@ -1,0 +1,147 @@
+// Lawson's algorithm on a queue of edges: the one engine behind restore_regularity, the optimiser's vertex step and
+// the Delaunay triangulations of generate.
+//
+// Why it ends. Lift every vertex to height |x|² − w. An edge is not regular when the lifted surface is concave
+// across it; flipping it replaces the upper two faces of a tetrahedron by the lower two. The surface only ever goes
+// down, strictly at each flip, so no triangulation comes twice. (With ties by index the same holds of the perturbed
+// weights.) At most O(n²) flips; about as many as there are vertices in practice.
+//
+// Which edges are queued. A flip can spoil, or free, only the four edges around it: it pushes those. The queue
+// holds halfedge slots, with no check when one is taken out. That is safe: a flip moves edges between slots of its
+// own two triangles alone, so an entry it displaces stood for one of five edges, and of these four have just been
+// pushed again and the fifth has just become regular. What a displaced entry now points to is tested for nothing,
+// which is cheaper than remembering vertex pairs and finding them again. For the same reason an entry pushed twice
+// is merely tested twice. Last in, first out: the quads it looks at are still in the cache.
+//
+// Stuck edges: not regular, but their quad is not strictly convex at one end a, so that no flip exists now. A flip of
+// an edge around may free it; that flip pushes it again, so it needs no list of its own to be looked at again. What
+// is stuck at the end stays stuck, and a is hidden: with a inside triangle bcd of the quad and lifted above the
+// plane of bcd, scaled towards a the triangle fits into a's star, where the regular surface is convex and nowhere
+// above the present one; so it passes below a. (With a on the boundary or on constrained edges at a reflex corner, a
+// has no power cell on its side of the domain.)
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "regularity/power_tests.hpp"
+
+namespace temper {
+
+/// A hook that watches flips: before(mesh, h) sees the edge that goes, after(mesh, h) the edge that came, in the same
+/// slots. Between the two calls only the two triangles of h change. This one watches nothing.
+struct IgnoreFlips {
+  void before(const Mesh&, HalfedgeId) {}
+  void after(const Mesh&, HalfedgeId) {}
+};
+
+/// What one run did.
+struct LawsonRun {
+  std::size_t flips = 0;
+  bool finished = true;  ///< false: the cap on flips was reached with edges left in the queue
+};
+
+/// Queue, journal and stuck edges: keep one and use it again; once warm it allocates nothing.
+class Lawson {
+ public:
+  static constexpr std::size_t kNoCap = std::numeric_limits<std::size_t>::max();
+
+  /// Forgets queue, journal and stuck edges; keeps their storage.
+  void clear() {
+    queue_.clear();
+    journal_.clear();
+    stuck_.clear();
+  }
+
+  /// Queues the edge of h. Boundary and constrained edges may be pushed; they are passed over.
+  void push(HalfedgeId h) { queue_.push_back(h); }
+  /// Queues what a change of v's position or weight can spoil: the edges of its star and of its link.
+  void push_star(const Mesh& mesh, VertexId v) {
+    for (const HalfedgeId h : mesh.star(v)) {
+      push(h);
+      push(Mesh::next(h));
+    }
+  }
+  void push_all(const Mesh& mesh) {
+    for (const HalfedgeId h : mesh.halfedges()) {
+      if (mesh.is_edge_representative(h)) push(h);
+    }
+  }
+
+  /// Flips until the queue is empty, or `max_flips` are done. Appends to the journal what each flip returned.
+  template <class Hook = IgnoreFlips, class Test = PowerTest>
+  LawsonRun run(Mesh& mesh, Hook&& hook = {}, std::size_t max_flips = kNoCap, const Test& test = {}) {
+    LawsonRun result;
+    while (!queue_.empty()) {
+      const HalfedgeId h = queue_.back();
+      queue_.pop_back();
+      if (mesh.is_boundary(h) || mesh.is_constrained(h)) continue;
+      const inlined::Quad q = inlined::quad(mesh, h);
+      if (test(mesh, q) != Sign::positive) continue;
+      if (!is_strictly_convex(mesh, q)) {
+        stuck_.push_back(h);
+        continue;
+      }
+      if (result.flips == max_flips) {
+        queue_.push_back(h);
+        result.finished = false;
+        break;
+      }
+      hook.before(mesh, h);
+      const HalfedgeId flipped = inlined::flip(mesh, h);
+      hook.after(mesh, flipped);
+      journal_.push_back(flipped);
+      ++result.flips;
+      push_outer_edges(mesh, flipped);
+    }
+    return result;
+  }
+
+  /// Undoes the flips of the journal, last first: the mesh is again what it was when the journal was empty, bit for
+  /// bit. Then clears everything.
+  void rollback(Mesh& mesh) {
+    for (auto flipped = journal_.rbegin(); flipped != journal_.rend(); ++flipped) inlined::unflip(mesh, *flipped);
+    clear();
+  }
+
+  /// What the flips since clear() returned, in order.
+  [[nodiscard]] const std::vector<HalfedgeId>& journal() const { return journal_; }
+  /// Forgets the flips so far, so that rollback returns to the present state.
+  void commit() { journal_.clear(); }
+
+  /// Were edges found stuck since clear() that are stuck still? Each once, as the smaller of its two halfedges, sorted.
+  template <class Test = PowerTest>
+  [[nodiscard]] const std::vector<HalfedgeId>& stuck(const Mesh& mesh, const Test& test = {}) {
+    for (HalfedgeId& h : stuck_) {
+      if (mesh.is_edge_representative(h)) continue;
+      h = mesh.twin(h);
+    }
+    std::sort(stuck_.begin(), stuck_.end());
+    stuck_.erase(std::unique(stuck_.begin(), stuck_.end()), stuck_.end());
+    std::erase_if(stuck_, [&](HalfedgeId h) {
+      return mesh.is_boundary(h) || mesh.is_constrained(h) || test(mesh, inlined::quad(mesh, h)) != Sign::positive;
+    });
+    return stuck_;
+  }
+
+ private:
+  [[nodiscard]] static bool is_strictly_convex(const Mesh& mesh, const inlined::Quad& q) {
+    const Vec2 from = mesh.position(q.d), to = mesh.position(q.c);
+    return inlined::orient2d(from, to, mesh.position(q.a)) == Sign::positive &&
+           inlined::orient2d(to, from, mesh.position(q.b)) == Sign::positive;
+  }
+
+  void push_outer_edges(const Mesh& mesh, HalfedgeId flipped) {
+    const HalfedgeId other = mesh.twin(flipped);
+    push(Mesh::next(flipped));
+    push(Mesh::prev(flipped));
+    push(Mesh::next(other));
+    push(Mesh::prev(other));
+  }
+
+  std::vector<HalfedgeId> queue_, journal_, stuck_;
+};
+
+}  // namespace temper
