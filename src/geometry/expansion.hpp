@@ -6,9 +6,10 @@
 // nonoverlapping, smallest first, and never zero; the storage is on the stack and its capacity is in the type.
 //
 // Everything here relies on each operation being rounded to double, to nearest even, exactly as written. So no
-// fast-math, no extended intermediate results, and -ffp-contract=off, given explicitly: g++ fuses a * b + c into
-// one rounding by default where the processor can, and "error" terms would no longer be errors. Products are
-// split by Dekker's method rather than by std::fma, which is slow or absent on some targets (WebAssembly).
+// fast-math, no extended intermediate results, and -ffp-contract=off, given explicitly: g++ otherwise fuses a * b + c
+// into one rounding where the processor can, which the proofs do not allow for and which makes the bits depend on the
+// processor. Products are split by Dekker's method rather than by std::fma, which is slow or absent on some targets
+// (WebAssembly); every target then does the same operations.
 #pragma once
 
 #include <array>

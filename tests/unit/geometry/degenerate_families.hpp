@@ -51,6 +51,14 @@ inline WeightedPoint on_lattice_circle(Random& random) {
   return {sx * p[0], sy * p[1], 0};
 }
 
+/// Four points of the lattice circle times a power of two, nonzero coordinates nudged.
+inline Quad scaled_circle(Random& random, double scale) {
+  return four(random, [&](Random& r) -> WeightedPoint {
+    const WeightedPoint p = on_lattice_circle(r);
+    return {p.x == 0 ? 0 : scale * nudge(r, p.x), p.y == 0 ? 0 : scale * nudge(r, p.y), scale * scale * nudge(r, 1)};
+  });
+}
+
 /// Lattice points with weights x² + y² + (a plane): all four cocircular in the power sense.
 inline Quad lifted_to_plane(Random& random, int size) {
   const int a = integer(random, 9), b = integer(random, 9), c = integer(random, 9);
@@ -167,6 +175,8 @@ inline const std::vector<Family>& degenerate_families() {
            return {nudge(s, 0x1p245 * integer(s, 3)), 0x1p245 * integer(s, 3), 0x1p490 * integer(s, 3)};
          });
        }},
+      {"bottom of the range", [](Random& r) { return scaled_circle(r, 0x1p-211); }},
+      {"top of the range", [](Random& r) { return scaled_circle(r, 0x1p242); }},
       {"range of magnitudes",
        [](Random& r) {
          return four(r, [](Random& s) -> WeightedPoint {
