@@ -1,0 +1,90 @@
+// temper check IN: the quality of a mesh as a table or as JSON, and requirements on it.
+#include <fmt/format.h>
+
+#include "console.hpp"
+#include "help.hpp"
+#include "input.hpp"
+#include "options.hpp"
+#include "report_json.hpp"
+#include "report_text.hpp"
+#include "requirement.hpp"
+#include "temper/quality.hpp"
+#include "threads.hpp"
+
+namespace temper::app {
+namespace {
+
+struct Settings {
+  std::string input;
+  std::vector<std::string> require;
+  SofteningOptions gamma, h0;
+  std::uint64_t worst = 5, threads = 0;
+  bool json = false;
+};
+
+void add_options(CLI::App& app, Settings& s) {
+  app.set_help_flag();
+  app.option_defaults()->group("Report");
+  app.add_option("IN", s.input, "the mesh; its content tells the format")->required();
+  app.add_flag("--json", s.json, "the report as JSON, with vertices and triangles counted from 0");
+  add_count(app, "--worst", s.worst, 0, "list this many of the worst triangles");
+  add_gamma(app, s.gamma, "(default: 1)");
+  add_h0(app, s.h0, "(default: 0)");
+  add_count(app, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  app.option_defaults()->group("Requirements");
+  app.add_option(
+         "--require", s.require,
+         "key=value,key=value,...: exit with 3 when one does not hold. A plain = means: counts equal, minima and "
+         "fractions at least, maxima and energies at most; key<=value and key>=value say it themselves. Keys: " +
+             requirement_keys())
+      ->type_name("LIST")
+      ->allow_extra_args(false);
+  app.option_defaults()->group("Help");
+  app.set_help_flag("-h,--help", "this text");
+  set_help(app, {"IN [options]",
+                 "  temper check in.vtu\n"
+                 "  temper check in.vtu --json --worst 20\n"
+                 "  temper check in.vtu --require inverted=0,\"min_angle>=1\"\n",
+                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
+}
+
+/// Says which requirements fail, all of them.
+Exit judge(const std::vector<Requirement>& requirements, const Quality& quality, const std::string& path) {
+  Exit exit = Exit::done;
+  for (const Requirement& requirement : requirements) {
+    const std::optional<std::string> problem = unmet(requirement, quality);
+    if (!problem) continue;
+    print_error(fmt::format("{}: requirement not met: {}", path, *problem));
+    exit = Exit::requirement;
+  }
+  return exit;
+}
+
+}  // namespace
+
+Exit run_check(const Arguments& arguments) {
+  CLI::App app("Reports on a mesh: what is exactly right or wrong with it, margins, energies, the worst triangles.",
+               "check");
+  Settings s;
+  add_options(app, s);
+  if (!parse(app, arguments)) return Exit::done;
+  std::vector<Requirement> requirements;
+  for (const std::string& list : s.require) {
+    for (Requirement& requirement : parse_requirements(list)) requirements.push_back(std::move(requirement));
+  }
+
+  const Input input = read_input(s.input);
+  print_warnings(input.warnings());
+  ThreadPool threads(s.threads > 0 ? s.threads : hardware_threads());
+  QualityOptions options;
+  options.gamma = s.gamma.value().value_or(options.gamma);
+  options.h0 = s.h0.value().value_or(options.h0);
+  options.worst = s.worst;
+  options.executor = &threads;
+  const Quality measured = quality(input.mesh(), options);
+  print(s.json ? quality_json(measured, input) : quality_text(measured, input, text_style()));
+  flush_output();  // before the verdict on standard error
+  return judge(requirements, measured, s.input);
+}
+
+}  // namespace temper::app

@@ -1,0 +1,63 @@
+// temper convert IN -o OUT: the same file in another format; what the format cannot hold is named.
+#include <fmt/format.h>
+
+#include "console.hpp"
+#include "help.hpp"
+#include "options.hpp"
+#include "outputs.hpp"
+
+namespace temper::app {
+namespace {
+
+constexpr Choice<io::Encoding> kEncodings[] = {
+    {"ascii", io::Encoding::ascii}, {"base64", io::Encoding::base64}, {"appended", io::Encoding::appended}};
+
+struct Settings {
+  std::string input, output;
+  io::WriteOptions options;
+};
+
+void add_options(CLI::App& app, Settings& s) {
+  app.set_help_flag();
+  app.option_defaults()->group("Files");
+  app.add_option("IN", s.input, "the file to read; its content tells the format")->required();
+  add_text(app, "-o,--output", "OUT", s.output, "where it goes; its suffix tells the format")->required();
+  std::vector<std::string_view> names;
+  for (const io::Format& format : io::formats()) {
+    if (format.writes) names.push_back(format.name);
+  }
+  add_name(
+      app, "--format", names, [&s](std::string_view name) { s.options.format = name; },
+      "the format of OUT, whatever its suffix");
+  add_choice(
+      app, "--encoding", kEncodings, [&s](io::Encoding value) { s.options.encoding = value; },
+      "of formats that have several (default: the compact one)");
+  app.option_defaults()->group("Help");
+  app.set_help_flag("-h,--help", "this text");
+  set_help(app, {"IN -o OUT [options]",
+                 "  temper convert in.vtu -o out.msh\n"
+                 "  temper convert in.vtu -o out.vtu --encoding ascii\n"
+                 "  temper convert in.vtu -o old.msh --format gmsh22\n",
+                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+}
+
+}  // namespace
+
+Exit run_convert(const Arguments& arguments) {
+  CLI::App app(
+      "Writes a mesh file in another format. Weights, tags, regions, names and data pass through; what the "
+      "format has no place for is named in a warning.",
+      "convert");
+  Settings s;
+  add_options(app, s);
+  if (!parse(app, arguments)) return Exit::done;
+  Outputs outputs("convert");
+  outputs.expect_mesh("--output", s.output, s.options.format);
+
+  const io::MeshFile file = or_fail(io::read(s.input));
+  print_warnings(file.warnings);
+  print_warnings(outputs.write_mesh(s.output, file, s.options));
+  return Exit::done;
+}
+
+}  // namespace temper::app

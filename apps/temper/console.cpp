@@ -1,0 +1,86 @@
+#include "console.hpp"
+
+#include <fmt/core.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "exit.hpp"
+
+namespace temper::app {
+
+void print_error(std::string_view message) { fmt::print(stderr, "temper: error: {}\n", message); }
+
+void print_warnings(std::span<const std::string> messages) {
+  for (const std::string& message : messages) fmt::print(stderr, "temper: warning: {}\n", message);
+}
+
+void print(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
+    throw Failure(Exit::bad_input, fmt::format("standard output: {}", std::strerror(errno)));
+  }
+}
+
+void flush_output() {
+  if (std::fflush(stdout) != 0) {
+    throw Failure(Exit::bad_input, fmt::format("standard output: {}", std::strerror(errno)));
+  }
+}
+
+bool error_is_terminal() { return isatty(STDERR_FILENO) == 1; }
+
+bool utf8_locale() {
+  for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+    const char* value = std::getenv(variable);
+    if (value == nullptr || *value == '\0') continue;  // unset: the next one decides
+    std::string lower;
+    for (const char* c = value; *c != '\0'; ++c) lower += static_cast<char>(*c >= 'A' && *c <= 'Z' ? *c + 32 : *c);
+    return lower.find("utf-8") != std::string::npos || lower.find("utf8") != std::string::npos;
+  }
+  return false;
+}
+
+std::size_t output_width() {
+  winsize size = {};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  return 100;
+}
+
+std::size_t display_width(std::string_view text) {
+  // Continuation bytes of UTF-8 are 10xxxxxx; temper prints no wide or combining characters.
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
+}
+
+std::string pad_left(std::string_view text, std::size_t width) {
+  const std::size_t used = display_width(text);
+  return std::string(width > used ? width - used : 0, ' ').append(text);
+}
+
+std::string pad_right(std::string_view text, std::size_t width) {
+  const std::size_t used = display_width(text);
+  return std::string(text).append(width > used ? width - used : 0, ' ');
+}
+
+std::vector<std::string> wrap(std::string_view text, std::size_t width) {
+  std::vector<std::string> lines = {""};
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, end);
+    std::string& line = lines.back();
+    if (!line.empty() && display_width(line) + 1 + display_width(word) > width) {
+      lines.emplace_back(word);
+    } else {
+      line.append(line.empty() ? "" : " ").append(word);
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+}  // namespace temper::app

@@ -1,0 +1,33 @@
+// The terminal: errors and warnings in one form, what the terminal can show, text laid out in columns.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace temper::app {
+
+void print_error(std::string_view message);
+void print_warnings(std::span<const std::string> messages);
+
+/// Text to standard output. Throws Failure when it cannot be written.
+void print(std::string_view text);
+/// Everything printed so far really is written, or Failure: a full disk behind a redirection.
+void flush_output();
+
+[[nodiscard]] bool error_is_terminal();
+/// The locale's character set is UTF-8, by the variables that decide it.
+[[nodiscard]] bool utf8_locale();
+/// Columns of the terminal on standard output; 100 when it is none.
+[[nodiscard]] std::size_t output_width();
+
+/// Columns that UTF-8 text takes, one a code point.
+[[nodiscard]] std::size_t display_width(std::string_view text);
+[[nodiscard]] std::string pad_left(std::string_view text, std::size_t width);
+[[nodiscard]] std::string pad_right(std::string_view text, std::size_t width);
+/// Lines of at most width columns, broken at spaces.
+[[nodiscard]] std::vector<std::string> wrap(std::string_view text, std::size_t width);
+
+}  // namespace temper::app

@@ -1,0 +1,44 @@
+// How the program ends: its exit codes, and the exception that carries one to main.
+//
+// The library returns bad input as values; the program, which has nothing to do but report it and stop,
+// turns them into a Failure with or_fail.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "temper/error.hpp"
+
+namespace temper::app {
+
+enum class Exit : int {
+  done = 0,
+  bad_input = 1,      ///< an input that cannot be used, or an output that cannot be written
+  bad_usage = 2,      ///< options that make no sense
+  requirement = 3,    ///< check --require: not met
+  stopped_early = 4,  ///< a signal or --time-limit; the best mesh so far is written
+  internal = 5,       ///< a defect of temper
+};
+
+class Failure : public std::runtime_error {
+ public:
+  Failure(Exit code, const std::string& message) : std::runtime_error(message), exit(code) {}
+  Exit exit;
+};
+
+inline Failure as_failure(const InputError& error) {
+  return {error.code == ErrorCode::invalid_option ? Exit::bad_usage : Exit::bad_input, error.what()};
+}
+
+/// The value, or a Failure that says why there is none.
+template <class T>
+T or_fail(Expected<T> expected) {
+  if (!expected) throw as_failure(expected.error());
+  return *std::move(expected);
+}
+inline void or_fail(const Expected<void>& expected) {
+  if (!expected) throw as_failure(expected.error());
+}
+
+}  // namespace temper::app

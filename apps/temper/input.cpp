@@ -1,0 +1,80 @@
+#include "input.hpp"
+
+#include <array>
+#include <charconv>
+#include <string_view>
+
+#include "exit.hpp"
+
+namespace temper::app {
+namespace {
+
+/// "12" of "triangle 12".
+std::string last_word(const std::string& text) { return text.substr(text.rfind(' ') + 1); }
+
+const InputNames& names_of(const Input& input) {
+  static const InputNames from_zero;
+  return input.file.numbering ? *input.file.numbering : from_zero;
+}
+
+std::vector<std::size_t> invert(const io::LoadedMesh& loaded) {
+  std::vector<std::size_t> points(loaded.mesh.n_vertices());
+  for (std::size_t point = 0; point < loaded.vertex_of_point.size(); ++point) {
+    const std::int32_t vertex = loaded.vertex_of_point[point];
+    if (vertex >= 0) points[static_cast<std::size_t>(vertex)] = point;
+  }
+  return points;
+}
+
+}  // namespace
+
+std::string Input::vertex_number(VertexId v) const { return last_word(names_of(*this).point(point_of(v))); }
+
+std::string Input::triangle_number(TriangleId t) const { return last_word(names_of(*this).triangle(t.index)); }
+
+std::vector<std::string> Input::warnings() const {
+  std::vector<std::string> all = file.warnings;
+  all.insert(all.end(), loaded.warnings.begin(), loaded.warnings.end());
+  return all;
+}
+
+Input read_input(const std::string& path, const std::vector<std::string>& fixed_tags) {
+  Input input;
+  input.path = path;
+  input.file = or_fail(io::read(path));
+  input.loaded = or_fail(io::make_mesh(input.file, fixed_tags));
+  input.points = invert(input.loaded);
+  return input;
+}
+
+std::string renumber(const std::string& text, const std::function<std::string(VertexId)>& name) {
+  static constexpr std::array<std::string_view, 2> kBefore = {"vertex ", "edge "};
+  std::string result;
+  std::size_t at = 0;
+  const auto copy_number = [&] {
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), number);
+    if (error != std::errc()) return false;
+    result += name(VertexId(number));
+    at = static_cast<std::size_t>(end - text.data());
+    return true;
+  };
+  while (at < text.size()) {
+    bool found = false;
+    for (const std::string_view word : kBefore) {
+      if (text.compare(at, word.size(), word) != 0) continue;
+      result += word;
+      at += word.size();
+      found = true;
+      if (copy_number() && at < text.size() && text[at] == '-') {
+        result += text[at++];
+        copy_number();
+      }
+      break;
+    }
+    if (!found) result += text[at++];
+  }
+  return result;
+}
+
+}  // namespace temper::app

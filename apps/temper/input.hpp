@@ -1,0 +1,35 @@
+// A mesh that was read: the file, the mesh made of it, and how to call its parts.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "temper/io.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper::app {
+
+struct Input {
+  std::string path;
+  io::MeshFile file;
+  io::LoadedMesh loaded;
+  std::vector<std::size_t> points;  ///< mesh vertex → point of the file, both from 0
+
+  [[nodiscard]] const Mesh& mesh() const { return loaded.mesh; }
+  /// Index of the point in the file's arrays, from 0.
+  [[nodiscard]] std::size_t point_of(VertexId v) const { return v.index < points.size() ? points[v.index] : v.index; }
+  /// The file's own number of a vertex, as text.
+  [[nodiscard]] std::string vertex_number(VertexId v) const;
+  [[nodiscard]] std::string triangle_number(TriangleId t) const;
+  /// Warnings of reading and of building.
+  [[nodiscard]] std::vector<std::string> warnings() const;
+};
+
+/// Reads a file and builds its mesh; Failure when anything is wrong with it.
+[[nodiscard]] Input read_input(const std::string& path, const std::vector<std::string>& fixed_tags = {});
+
+/// The text with each vertex number in it ("vertex 3", "edge 3-9") called by another name.
+[[nodiscard]] std::string renumber(const std::string& text, const std::function<std::string(VertexId)>& name);
+
+}  // namespace temper::app

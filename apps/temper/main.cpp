@@ -1,0 +1,85 @@
+// temper VERB …: finds the verb, and turns every way to fail into one line on standard error and an exit code.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <new>
+
+#include "console.hpp"
+#include "help.hpp"
+#include "suggest.hpp"
+#include "verbs.hpp"
+
+namespace temper::app {
+
+std::span<const Verb> verbs() {
+  static constexpr std::array<Verb, 5> kVerbs = {{
+      {"optimize", "move, weigh and flip until every triangle is well-centered", run_optimize},
+      {"check", "report on the quality of a mesh, and test requirements", run_check},
+      {"draw", "draw triangles, dual and weights as SVG", run_draw},
+      {"convert", "write a mesh in another file format", run_convert},
+      {"example", "make an example mesh", run_example},
+  }};
+  return kVerbs;
+}
+
+namespace {
+
+Exit run_verb(const std::string& name, const Arguments& arguments) {
+  std::vector<std::string_view> names;
+  for (const Verb& verb : verbs()) {
+    if (verb.name == name) return verb.run(arguments);
+    names.push_back(verb.name);
+  }
+  throw Failure(Exit::bad_usage, none_of(name, names) + "\nSee temper --help");
+}
+
+Exit run(const Arguments& words) {
+  if (words.empty()) {
+    fmt::print(stderr, "{}", short_help());
+    return Exit::bad_usage;
+  }
+  const std::string& first = words.front();
+  if (first == "--version") {
+    print("temper " TEMPER_VERSION "\n");
+    return Exit::done;
+  }
+  const bool help = first == "--help" || first == "-h" || first == "help";
+  if (help && words.size() == 1) {
+    print(full_help());
+    return Exit::done;
+  }
+  if (help) return run_verb(words[1], {"--help"});
+  if (first[0] == '-')
+    throw Failure(Exit::bad_usage, fmt::format("expected a verb, found '{}'\nSee temper --help", first));
+  return run_verb(first, Arguments(words.begin() + 1, words.end()));
+}
+
+int internal_error(std::string_view what) {
+  print_error(fmt::format("internal error: {}", what));
+  fmt::print(stderr, "This is a defect of temper " TEMPER_VERSION
+                     ". Please report it, with the command and the mesh it was run on.\n");
+  return static_cast<int>(Exit::internal);
+}
+
+}  // namespace
+}  // namespace temper::app
+
+int main(int argc, char** argv) {
+  using namespace temper::app;
+  try {
+    const Exit exit = run(Arguments(argv + std::min(argc, 1), argv + argc));
+    flush_output();
+    return static_cast<int>(exit);
+  } catch (const Failure& failure) {
+    print_error(failure.what());
+    return static_cast<int>(failure.exit);
+  } catch (const std::bad_alloc&) {
+    return internal_error("out of memory");
+  } catch (const std::exception& error) {
+    return internal_error(error.what());
+  } catch (...) {
+    return internal_error("unknown exception");
+  }
+}

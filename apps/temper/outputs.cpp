@@ -1,0 +1,129 @@
+#include "outputs.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "console.hpp"
+#include "exit.hpp"
+#include "suggest.hpp"
+
+namespace temper::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void not_writable(const std::string& path, const std::string& message) {
+  throw Failure(Exit::bad_input, path + ": cannot be written: " + message);
+}
+
+void check_writable(const std::string& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) not_writable(path, "it is a directory");
+  if (!fs::path(path).has_filename()) not_writable(path, "it names no file");
+  const bool there = fs::exists(path, ignored);
+  if (there && access(path.c_str(), W_OK) != 0) not_writable(path, std::strerror(errno));
+  if (there && !fs::is_regular_file(path, ignored)) return;  // a device is written in place
+
+  // A file is replaced by a new one beside it (beside what a link points to), so that folder must be writable.
+  const fs::path target = there ? fs::canonical(path, ignored) : fs::path(path);
+  const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (!fs::exists(parent, ignored)) not_writable(path, fmt::format("there is no directory {}", parent.string()));
+  if (!fs::is_directory(parent, ignored)) not_writable(path, fmt::format("{} is not a directory", parent.string()));
+  if (access(parent.c_str(), W_OK | X_OK) != 0) {
+    not_writable(path, fmt::format("directory {}: {}", parent.string(), std::strerror(errno)));
+  }
+}
+
+bool has_suffix(std::string_view path, std::string_view suffixes) {
+  while (!suffixes.empty()) {
+    const std::size_t space = std::min(suffixes.find(' '), suffixes.size());
+    const std::string_view suffix = suffixes.substr(0, space);
+    if (!suffix.empty() && path.size() > suffix.size() && path.ends_with(suffix)) return true;
+    suffixes.remove_prefix(std::min(space + 1, suffixes.size()));
+  }
+  return false;
+}
+
+bool writable_by_suffix(const std::string& path) {
+  for (const io::Format& format : io::formats()) {
+    if (format.writes && has_suffix(path, format.suffixes)) return true;
+  }
+  return false;
+}
+
+std::string writable_suffixes() {
+  std::string text;
+  for (const io::Format& format : io::formats()) {
+    if (!format.writes) continue;
+    const std::string_view first = format.suffixes.substr(0, format.suffixes.find(' '));
+    if (text.find(std::string(first) + ",") != std::string::npos) continue;
+    text += std::string(first) + ", ";
+  }
+  return text.substr(0, text.size() - std::min<std::size_t>(2, text.size()));
+}
+
+}  // namespace
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error)) return true;
+  return fs::weakly_canonical(fs::absolute(a, error), error) == fs::weakly_canonical(fs::absolute(b, error), error);
+}
+
+void Outputs::expect(const std::string& option, const std::string& path) {
+  for (const std::string& other : expected_) {
+    if (same_file(path, other)) {
+      throw Failure(Exit::bad_usage, fmt::format("{}: {}: {} is another output already", verb_, option, path));
+    }
+  }
+  expected_.push_back(path);
+  check_writable(path);
+}
+
+void Outputs::expect_mesh(const std::string& option, const std::string& path, const std::string& format) {
+  std::error_code ignored;
+  if (format.empty() && !fs::is_directory(path, ignored) && !writable_by_suffix(path)) {
+    throw Failure(Exit::bad_usage, fmt::format("{}: {}: {} has no suffix of a format that temper writes ({})", verb_,
+                                               option, path, writable_suffixes()));
+  }
+  expect(option, path);
+}
+
+void Outputs::expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs) {
+  if (path.empty()) return;
+  for (const std::string& input : inputs) {
+    if (same_file(path, input)) {
+      throw Failure(Exit::bad_usage, fmt::format("{}: {}: {} is the input mesh", verb_, option, path));
+    }
+  }
+  expect(option, path);
+}
+
+void Outputs::fail(const InputError& error) const {
+  std::string message = error.what();
+  for (std::size_t i = 0; i < written_.size(); ++i)
+    message += (i == 0 ? "; written before that: " : ", ") + written_[i];
+  throw Failure(Exit::bad_input, message);
+}
+
+std::vector<std::string> Outputs::write_mesh(const std::string& path, const io::MeshFile& file,
+                                             const io::WriteOptions& options) {
+  Expected<std::vector<std::string>> warnings = io::write(path, file, options);
+  if (!warnings) fail(warnings.error());
+  written_.push_back(path);
+  return *std::move(warnings);
+}
+
+void Outputs::write_text(const std::string& path, std::string_view text) {
+  flush_output();  // the path may be /dev/stdout
+  const Expected<void> result = io::write_text(path, text);
+  if (!result) fail(result.error());
+  written_.push_back(path);
+}
+
+}  // namespace temper::app

@@ -1,0 +1,41 @@
+// Outputs: looked at before the work, so that an hour is not lost to a misspelt folder; written whole or not at
+// all; and when one fails, the message says which others were written.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "temper/io.hpp"
+
+namespace temper::app {
+
+class Outputs {
+ public:
+  explicit Outputs(std::string verb) : verb_(std::move(verb)) {}
+
+  /// A mesh file. The format must be one that temper writes; may be the input itself.
+  void expect_mesh(const std::string& option, const std::string& path, const std::string& format = "");
+  /// A text file that must not be one of these inputs. An empty path: not asked for.
+  void expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
+
+  /// The warnings of writing.
+  std::vector<std::string> write_mesh(const std::string& path, const io::MeshFile& file,
+                                      const io::WriteOptions& options = {});
+  void write_text(const std::string& path, std::string_view text);
+
+  [[nodiscard]] const std::vector<std::string>& written() const { return written_; }
+
+ private:
+  void expect(const std::string& option, const std::string& path);
+  [[noreturn]] void fail(const InputError& error) const;
+
+  std::string verb_;
+  std::vector<std::string> expected_;
+  std::vector<std::string> written_;
+};
+
+/// The two paths are the same file, by name or by inode.
+[[nodiscard]] bool same_file(const std::string& a, const std::string& b);
+
+}  // namespace temper::app

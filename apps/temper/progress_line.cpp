@@ -1,0 +1,42 @@
+#include "progress_line.hpp"
+
+#include <fmt/core.h>
+
+#include <string>
+
+namespace temper::app {
+namespace {
+
+constexpr std::chrono::milliseconds kInterval(100);  // faster than this nobody reads
+
+std::string duration(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 100 * 60) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+}  // namespace
+
+void ProgressLine::show(const Progress& progress) {
+  if (!enabled_) return;
+  const Clock::time_point now = Clock::now();
+  if (shown_ && now - last_ < kInterval) return;
+  last_ = now;
+  shown_ = true;
+
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double sweeps = progress.last.sweep + progress.fraction;
+  std::string text = fmt::format("sweep {} of at most {}, {} triangles bad, energy {:.6g}, {}", progress.last.sweep,
+                                 progress.max_sweeps, progress.last.bad, progress.last.energy, duration(seconds));
+  // Convergence usually ends it sooner: the estimate is what the sweeps left would take.
+  if (sweeps > 0) text += fmt::format(", at most {} left", duration(seconds / sweeps * (progress.max_sweeps - sweeps)));
+  fmt::print(stderr, "\r{}\x1b[K", text);
+  std::fflush(stderr);
+}
+
+void ProgressLine::clear() {
+  if (shown_) fmt::print(stderr, "\r\x1b[K");
+  shown_ = false;
+}
+
+}  // namespace temper::app

@@ -1,0 +1,99 @@
+#include "report_json.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "measures.hpp"
+
+namespace temper::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json worst_triangle(const WorstTriangle& worst, const Input& input) {
+  Json vertices = Json::array();
+  for (const VertexId v : worst.vertices) vertices.push_back(input.point_of(v));
+  const auto name = [&input](VertexId v) { return std::to_string(input.point_of(v)); };
+  return {{"triangle", worst.triangle.index},
+          {"vertices", std::move(vertices)},
+          {"at", {worst.at.x, worst.at.y}},
+          {"h_over_l", number_or_null(worst.h_over_l)},
+          {"angle_deg", number_or_null(worst.angle_deg)},
+          {"why", renumber(worst.why, name)}};
+}
+
+Json to_json(const Quality& quality, const Input& input) {
+  Json json;
+  for (const Measure& measure : measures()) {
+    const double value = measure.of(quality);
+    json[std::string(measure.key)] = measure.count ? Json(static_cast<std::uint64_t>(value)) : number_or_null(value);
+  }
+  Json& energy = json["energy"];
+  for (std::size_t row = 0; row < energies().size(); ++row) {
+    Json& stars = energy[std::string(energies()[row].name)] = Json::array();
+    for (const double value : quality.energy[row]) stars.push_back(number_or_null(value));
+  }
+  json["worst"] = Json::array();
+  for (const WorstTriangle& worst : quality.worst) json["worst"].push_back(worst_triangle(worst, input));
+  return json;
+}
+
+/// Numbers as numbers, a flag as true or false, an option that was not used as null.
+Json to_json(const UsedOption& option) {
+  if (option.flag) return option.used;
+  if (!option.used) return nullptr;
+  if (option.name == "fix") return option.values;  // the only one that may be repeated
+  if (option.number) return Json::parse(option.values.front(), nullptr, false);
+  return option.values.front();
+}
+
+Json to_json(const SweepRecord& record) {
+  return {{"sweep", record.sweep}, {"energy", number_or_null(record.energy)}, {"bad", record.bad},
+          {"flips", record.flips}, {"gamma", number_or_null(record.gamma)},   {"seconds", record.seconds}};
+}
+
+std::string dump(const Json& json) {
+  // A path need not be UTF-8; JSON must be.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string quality_json(const Quality& quality, const Input& input) { return dump(to_json(quality, input)); }
+
+std::string optimize_json(const OptimizeRecord& record, const Input& input) {
+  Json json;
+  json["command"] = record.command;
+  json["version"] = TEMPER_VERSION;
+  for (const UsedOption& option : record.options) json["options"][option.name] = to_json(option);
+  json["before"] = to_json(record.before, input);
+  json["after"] = to_json(record.after, input);
+  json["sweeps"] = record.report.sweeps;
+  json["seconds"] = record.report.seconds;
+  json["stopped"] = name(record.report.stopped);
+  json["initial_energy"] = number_or_null(record.report.initial_energy);
+  json["final_energy"] = number_or_null(record.report.final_energy);
+  json["vertices_removed"] = record.report.vertices_removed;
+  json["vertices_inserted"] = record.report.vertices_inserted;
+  json["flips"] = record.report.flips;
+  json["notes"] = record.report.notes;
+  json["warnings"] = record.warnings;
+  json["history"] = Json::array();
+  for (const SweepRecord& sweep : record.report.history) json["history"].push_back(to_json(sweep));
+  return dump(json);
+}
+
+std::string history_csv(const OptimizeReport& report) {
+  std::string csv = "sweep,energy,bad,flips,gamma,seconds\n";
+  for (const SweepRecord& record : report.history) {
+    csv += fmt::format("{},{},{},{},{},{}\n", record.sweep, record.energy, record.bad, record.flips, record.gamma,
+                       record.seconds);
+  }
+  return csv;
+}
+
+}  // namespace temper::app

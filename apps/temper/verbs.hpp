@@ -1,0 +1,29 @@
+// The verbs of the program. Each reads its own arguments, so that starting up costs one verb's options only.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "exit.hpp"
+
+namespace temper::app {
+
+/// What follows the verb on the command line.
+using Arguments = std::vector<std::string>;
+
+Exit run_optimize(const Arguments& arguments);
+Exit run_check(const Arguments& arguments);
+Exit run_draw(const Arguments& arguments);
+Exit run_convert(const Arguments& arguments);
+Exit run_example(const Arguments& arguments);
+
+struct Verb {
+  std::string_view name;
+  std::string_view summary;
+  Exit (*run)(const Arguments& arguments);
+};
+[[nodiscard]] std::span<const Verb> verbs();
+
+}  // namespace temper::app

@@ -1,0 +1,145 @@
+// Inputs that cannot be used and outputs that cannot be written: exit code 1, a message, nothing left behind.
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "workshop.hpp"
+
+namespace temper::test {
+namespace {
+
+class BadInput : public Workshop {
+ protected:
+  /// Runs optimize on in.mesh with these bytes; nothing may appear beside it.
+  static Outcome optimize(const std::string& bytes) {
+    write("in.mesh", bytes);
+    const Outcome outcome = temper({"optimize", "in.mesh", "-o", "out.vtu", "--report", "report.json"});
+    EXPECT_EQ(outcome.exit, 1);
+    EXPECT_EQ(names(), std::vector<std::string>{"in.mesh"});
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err.rfind("temper: error: in.mesh", 0), 0u) << outcome.err;
+    return outcome;
+  }
+  /// A medit file of a unit square with a midpoint; one thing is wrong with it.
+  static std::string square(const std::string& midpoint,
+                            const std::string& triangles = "4\n1 2 5 0\n2 3 5 0\n3 4 5 0\n4 1 5 0\n") {
+    return "MeshVersionFormatted 2\nDimension 2\nVertices\n5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n" + midpoint +
+           " 0\nTriangles\n" + triangles + "End\n";
+  }
+};
+
+TEST_F(BadInput, MissingFile) {
+  const Outcome outcome = temper({"optimize", "none.vtu", "-o", "out.vtu"});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.err, "temper: error: none.vtu: "));
+  EXPECT_TRUE(names().empty());
+}
+
+TEST_F(BadInput, DirectoryAsInput) {
+  std::filesystem::create_directory("folder");
+  EXPECT_EQ(temper({"check", "folder"}).exit, 1);
+}
+
+TEST_F(BadInput, EmptyFile) { EXPECT_TRUE(contains(optimize("").err, "empty")); }
+
+TEST_F(BadInput, Garbage) {
+  optimize("this is no mesh\n");
+  optimize(std::string(4096, '\0'));
+  optimize(
+      "\x7f"
+      "ELF\x02\x01\x01");
+}
+
+TEST_F(BadInput, TruncatedFile) {
+  const std::string whole = square("0.5 0.5");
+  optimize(whole.substr(0, whole.find("Triangles") + 14));
+}
+
+TEST_F(BadInput, IndexOutOfRange) { EXPECT_TRUE(contains(optimize(square("0.5 0.5", "1\n1 2 9 0\n")).err, "9")); }
+
+TEST_F(BadInput, NotFinite) { optimize(square("nan 0.5")); }
+
+TEST_F(BadInput, DuplicatePoint) { optimize(square("0 0")); }
+
+TEST_F(BadInput, OverlappingTriangles) { optimize(square("0.5 0.5", "2\n1 2 3 0\n1 2 5 0\n")); }
+
+TEST_F(BadInput, UnknownTagToFix) {
+  make_input();
+  const Outcome outcome = temper({"optimize", "in.vtu", "--fix", "nowhere", "-o", "out.vtu"});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.err, "nowhere"));
+  EXPECT_FALSE(exists("out.vtu"));
+}
+
+TEST_F(BadInput, UnknownAnchor) {
+  make_input();
+  const Outcome outcome = temper({"optimize", "in.vtu", "--anchor", "123456", "-o", "out.vtu"});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.err, "there is no vertex 123456"));
+}
+
+// Outputs are looked at before the input is read, let alone optimised: the input here does not even exist.
+TEST_F(BadInput, OutputsAreTriedBeforeTheWork) {
+  std::filesystem::create_directory("folder");
+  write("file", "");
+  const std::vector<std::pair<std::vector<std::string>, const char*>> cases = {
+      {{"optimize", "in.vtu", "-o", "nowhere/out.vtu"},
+       "nowhere/out.vtu: cannot be written: there is no directory nowhere"},
+      {{"optimize", "in.vtu", "-o", "file/out.vtu"}, "file is not a directory"},
+      {{"optimize", "in.vtu", "-o", "folder"}, "folder: cannot be written: it is a directory"},
+      {{"optimize", "in.vtu", "-o", "out.vtu", "--report", "nowhere/r.json"}, "there is no directory nowhere"},
+      {{"optimize", "in.vtu", "-o", "out.vtu", "--history", "folder"}, "it is a directory"},
+      {{"optimize", "in.vtu", "-o", "out.vtu", "--draw", "folder/"}, "it is a directory"},
+      {{"draw", "in.vtu", "-o", "nowhere/p.svg"}, "there is no directory nowhere"},
+      {{"convert", "in.vtu", "-o", "nowhere/out.msh"}, "there is no directory nowhere"},
+      {{"example", "triangle", "-o", "nowhere/out.msh"}, "there is no directory nowhere"},
+  };
+  for (const auto& [arguments, message] : cases) {
+    const Outcome outcome = temper(arguments);
+    EXPECT_EQ(outcome.exit, 1);
+    EXPECT_TRUE(contains(outcome.err, message));
+  }
+  EXPECT_EQ(names(), (std::vector<std::string>{"file", "folder"}));
+}
+
+TEST_F(BadInput, FolderWithoutPermission) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  std::filesystem::create_directory("locked");
+  std::filesystem::permissions("locked", std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  const Outcome outcome = temper({"optimize", "in.vtu", "-o", "locked/out.vtu"});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.err, "Permission denied"));
+}
+
+TEST_F(BadInput, FullDiskForAReportSaysWhatWasWritten) {
+  if (!exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  make_input();
+  const Outcome outcome = temper({"optimize", "in.vtu", "-o", "out.vtu", "--report", "/dev/full"});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.err, "/dev/full: "));
+  EXPECT_TRUE(contains(outcome.err, "No space left on device"));
+  EXPECT_TRUE(contains(outcome.err, "written before that: out.vtu"));
+  EXPECT_TRUE(exists("out.vtu"));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST_F(BadInput, FullDiskForStandardOutput) {
+  if (!exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  make_input();
+  const Outcome outcome = shell("temper check in.vtu --json > /dev/full");
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.err, "standard output: No space left on device"));
+}
+
+// A limit on the size of files stands for a disk that fills up while the mesh is written.
+TEST_F(BadInput, FullDiskForTheMeshKeepsTheOldOne) {
+  make_input();
+  write("out.vtu", "what was there before");
+  const Outcome outcome = shell("trap '' XFSZ; ulimit -f 1; temper optimize in.vtu -o out.vtu --quiet");
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.err, "out.vtu"));
+  EXPECT_EQ(read("out.vtu"), "what was there before");
+  EXPECT_EQ(names(), (std::vector<std::string>{"in.vtu", "out.vtu"}));
+}
+
+}  // namespace
+}  // namespace temper::test

@@ -1,0 +1,156 @@
+// temper check: the report for programs, the report for people, requirements.
+#include "workshop.hpp"
+
+namespace temper::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Two triangles with unequal angles; medit counts from 1, and the first point is of no triangle.
+constexpr const char* kKite =
+    "MeshVersionFormatted 2\nDimension 2\nVertices\n5\n9 9 0\n0 0 0\n2 -0.3 0\n4 0 0\n2 5 0\n"
+    "Triangles\n2\n2 3 4 0\n2 4 5 0\nEnd\n";
+
+class Check : public Workshop {
+ protected:
+  static Json check(const std::vector<std::string>& arguments) {
+    std::vector<std::string> all = {"check", "--json"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return Json::parse(temper_ok(all).out);
+  }
+};
+
+TEST_F(Check, JsonHasExactlyTheKeysOfTheReport) {
+  make_input();
+  const Json report = check({"in.vtu"});
+  std::vector<std::string> keys;
+  for (const auto& item : report.items()) keys.push_back(item.key());
+  EXPECT_EQ(keys, (std::vector<std::string>{"vertices", "triangles", "edges", "boundary_edges", "regions",
+                                            "inverted_triangles", "non_regular_edges", "negative_boundary_duals",
+                                            "orthocenters_outside", "edges_not_crossed", "well_centered_fraction",
+                                            "min_h_over_l", "min_d_over_l", "min_angle_deg", "max_angle_deg",
+                                            "max_transmissibility_over_median", "energy", "worst"}));
+  std::vector<std::string> names;
+  for (const auto& item : report["energy"].items()) {
+    names.push_back(item.key());
+    EXPECT_EQ(item.value().size(), 3u);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"F", "T", "dT", "BH", "BHs", "BP"}));
+  ASSERT_EQ(report["worst"].size(), 5u);
+  std::vector<std::string> worst;
+  for (const auto& item : report["worst"][0].items()) worst.push_back(item.key());
+  EXPECT_EQ(worst, (std::vector<std::string>{"triangle", "vertices", "at", "h_over_l", "angle_deg", "why"}));
+}
+
+TEST_F(Check, CountsAreWholeNumbersAndInfinityIsNull) {
+  make_input();
+  const Json report = check({"in.vtu"});
+  EXPECT_EQ(report["vertices"], 49);
+  EXPECT_EQ(report["triangles"], 72);
+  EXPECT_TRUE(report["orthocenters_outside"].is_number_integer());
+  EXPECT_GT(report["orthocenters_outside"], 0);
+  EXPECT_TRUE(report["energy"]["BH"][1].is_null());
+  EXPECT_TRUE(report["energy"]["BP"][1].is_number());
+}
+
+TEST_F(Check, NumbersHaveFullPrecision) {
+  temper_ok({"example", "triangle", "--a", "1", "--b", "1", "--angle", "60", "-o", "t.vtu"});
+  EXPECT_NEAR(check({"t.vtu"})["energy"]["BH"][1].get<double>(), 4.618802153517, 1e-12);
+}
+
+TEST_F(Check, TheDenseHorseshoeHasThePublishedEnergies) {
+  temper_ok({"example", "horseshoe", "-o", "h.vtu"});
+  const std::string table = temper_ok({"check", "h.vtu"}).out;
+  for (const char* energy :
+       {"2.836890825582", "12.143904187128", "375.355882218659", "0.581320957789", "2.255569867793"}) {
+    EXPECT_TRUE(contains(table, energy));
+  }
+}
+
+TEST_F(Check, WorstIsAsLongAsAsked) {
+  make_input();
+  EXPECT_EQ(check({"in.vtu", "--worst", "0"})["worst"].size(), 0u);
+  EXPECT_EQ(check({"in.vtu", "--worst", "7"})["worst"].size(), 7u);
+  EXPECT_FALSE(contains(temper_ok({"check", "in.vtu", "--worst", "0"}).out, "worst triangles"));
+}
+
+TEST_F(Check, JsonCountsFromZeroAndPeopleSeeTheirOwnNumbers) {
+  write("kite.mesh", kKite);
+  const Json worst = check({"kite.mesh", "--worst", "1"})["worst"][0];
+  EXPECT_EQ(worst["triangle"], 0);
+  EXPECT_EQ(worst["vertices"], (Json{1, 2, 3}));
+  EXPECT_TRUE(contains(worst["why"].get<std::string>(), "vertex 2"));
+
+  const std::string table = temper_ok({"check", "kite.mesh", "--worst", "1"}).out;
+  EXPECT_TRUE(contains(table, "\n  1 (2 3 4) at "));
+  EXPECT_TRUE(contains(table, "at vertex 3"));
+}
+
+TEST_F(Check, WarningsGoToStandardErrorAndJsonStaysJson) {
+  write("kite.mesh", kKite);
+  const Outcome outcome = temper_ok({"check", "--json", "kite.mesh"});
+  EXPECT_TRUE(contains(outcome.err, "temper: warning: "));
+  EXPECT_TRUE(Json::accept(outcome.out));
+}
+
+TEST_F(Check, GammaIsOneUnlessGiven) {
+  make_input();
+  const Json plain = check({"in.vtu"});
+  EXPECT_EQ(plain, check({"in.vtu", "--gamma", "1"}));
+  EXPECT_NE(plain["energy"]["BP"], check({"in.vtu", "--gamma", "0.5"})["energy"]["BP"]);
+  EXPECT_NE(plain["energy"]["BP"], check({"in.vtu", "--gamma-rel", "1"})["energy"]["BP"]);
+  EXPECT_EQ(plain["energy"]["BHs"], plain["energy"]["BH"]);
+  EXPECT_TRUE(check({"in.vtu", "--h0-rel", "10"})["energy"]["BHs"][1].is_number());
+}
+
+TEST_F(Check, ThreadsDoNotChangeAByte) {
+  make_input();
+  EXPECT_EQ(temper_ok({"check", "in.vtu", "--json", "--threads", "1"}).out,
+            temper_ok({"check", "in.vtu", "--json", "--threads", "3"}).out);
+}
+
+TEST_F(Check, TheTableHasHistogramsInUtf8OrAscii) {
+  make_input();
+  const std::string utf8 = temper_ok({"check", "in.vtu"}).out;
+  EXPECT_TRUE(contains(utf8, "angles (degrees)"));
+  EXPECT_TRUE(contains(utf8, "h/ℓ"));
+  EXPECT_TRUE(contains(utf8, "█"));
+  const std::string ascii = shell("LC_ALL=C temper check in.vtu").out;
+  EXPECT_TRUE(contains(ascii, "####"));
+  EXPECT_TRUE(std::all_of(ascii.begin(), ascii.end(), [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
+}
+
+TEST_F(Check, RequirementsThatHoldExitWith0) {
+  make_input();
+  EXPECT_EQ(temper({"check", "in.vtu", "--require", "inverted=0,nonregular<=72,triangles==72,max_angle=180"}).exit, 0);
+}
+
+TEST_F(Check, EveryRequirementThatFailsIsNamedWithWantedAndFound) {
+  make_input();
+  const Outcome outcome =
+      temper({"check", "in.vtu", "--require", "outside=0,inverted=0,triangles=73", "--require", "min_h=0.05"});
+  EXPECT_EQ(outcome.exit, 3);
+  EXPECT_TRUE(contains(outcome.err, "in.vtu: requirement not met: outside=0 wants orthocenters_outside = 0, found "));
+  EXPECT_TRUE(contains(outcome.err, "triangles=73 wants triangles = 73, found 72\n"));
+  EXPECT_TRUE(contains(outcome.err, "min_h=0.05 wants min_h_over_l >= 0.05, found -"));
+  EXPECT_FALSE(contains(outcome.err, "inverted=0"));
+}
+
+TEST_F(Check, EveryKeyOfTheReportCanBeRequired) {
+  make_input();
+  const Json report = check({"in.vtu"});
+  int keys = 0;
+  for (const auto& item : report.items()) {
+    if (!item.value().is_number()) continue;
+    ++keys;
+    EXPECT_EQ(temper({"check", "in.vtu", "--require", item.key() + "=" + item.value().dump()}).exit, 0) << item.key();
+    EXPECT_EQ(temper({"check", "in.vtu", "--require", item.key() + "==-12345"}).exit, 3) << item.key();
+  }
+  EXPECT_EQ(keys, 16);
+  const std::string bp = report["energy"]["BP"][1].dump();
+  EXPECT_EQ(temper({"check", "in.vtu", "--require", "energy.BP.1=" + bp}).exit, 0);
+  EXPECT_EQ(temper({"check", "in.vtu", "--require", "energy.BH.1=1e300"}).exit, 3);
+}
+
+}  // namespace
+}  // namespace temper::test

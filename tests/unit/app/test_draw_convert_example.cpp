@@ -1,0 +1,100 @@
+// temper draw, convert and example.
+#include "workshop.hpp"
+
+namespace temper::test {
+namespace {
+
+class Draw : public Workshop {};
+class Convert : public Workshop {};
+class Example : public Workshop {};
+
+TEST_F(Draw, WritesOnePanelOrTwo) {
+  make_input("a.vtu");
+  temper_ok({"draw", "a.vtu", "-o", "one.svg"});
+  temper_ok({"draw", "a.vtu", "--before", "a.vtu", "-o", "two.svg"});
+  const std::string one = read("one.svg"), two = read("two.svg");
+  EXPECT_TRUE(contains(one, "<svg"));
+  EXPECT_TRUE(contains(one, "</svg>"));
+  EXPECT_GT(two.size(), one.size());
+  EXPECT_EQ(names(), (std::vector<std::string>{"a.vtu", "one.svg", "two.svg"}));
+}
+
+TEST_F(Draw, EveryOptionChangesThePicture) {
+  write("a.mesh",
+        "MeshVersionFormatted 2\nDimension 2\nVertices\n6\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.2 0\n0.5 0.2001 0\n"
+        "Triangles\n6\n1 2 5 1\n2 6 5 1\n1 5 6 1\n2 3 6 2\n3 4 6 2\n4 1 6 2\nEnd\n");
+  write("a.mesh.weights.csv", "weight\n0\n0.01\n0\n-0.01\n0\n0\n");
+  const std::vector<std::vector<std::string>> options = {{"--no-primal"},
+                                                         {"--no-dual"},
+                                                         {"--no-bad"},
+                                                         {"--no-rings"},
+                                                         {"--no-regions"},
+                                                         {"--numbers"},
+                                                         {"--zoom", "0,0,0.5,0.5"},
+                                                         {"--width", "300"},
+                                                         {"--title", "a < b"}};
+  temper_ok({"draw", "a.mesh", "-o", "plain.svg"});
+  const std::string plain = read("plain.svg");
+  for (const auto& option : options) {
+    std::vector<std::string> arguments = {"draw", "a.mesh", "-o", "other.svg"};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    temper_ok(arguments);
+    EXPECT_NE(read("other.svg"), plain) << option.front();
+  }
+  EXPECT_TRUE(contains(shell("temper draw a.mesh --title 'a < b' -o /dev/stdout").out, "a &lt; b"));
+}
+
+TEST_F(Convert, GoesThereAndBack) {
+  make_input("a.vtu");
+  const std::string before = temper_ok({"check", "a.vtu", "--json"}).out;
+  for (const char* path : {"b.msh", "b.vtu", "b.mesh"}) {
+    temper_ok({"convert", "a.vtu", "-o", path});
+    EXPECT_EQ(temper_ok({"check", path, "--json"}).out, before) << path;
+  }
+}
+
+TEST_F(Convert, FormatAndEncodingAreAsAsked) {
+  make_input("a.vtu");
+  temper_ok({"convert", "a.vtu", "-o", "ascii.vtu", "--encoding", "ascii"});
+  EXPECT_TRUE(contains(read("ascii.vtu"), "format=\"ascii\""));
+  temper_ok({"convert", "a.vtu", "-o", "no-suffix", "--format", "gmsh22"});
+  EXPECT_EQ(read("no-suffix").rfind("$MeshFormat\n2.2", 0), 0u);
+}
+
+TEST_F(Convert, ReplacesItsOwnInput) {
+  make_input("a.vtu");
+  const std::string before = temper_ok({"check", "a.vtu", "--json"}).out;
+  temper_ok({"convert", "a.vtu", "-o", "a.vtu", "--encoding", "ascii"});
+  EXPECT_EQ(temper_ok({"check", "a.vtu", "--json"}).out, before);
+}
+
+TEST_F(Example, ListNamesEveryExampleAndEachCanBeMade) {
+  const std::string list = temper_ok({"example", "--list"}).out;
+  int made = 0;
+  for (const char* name :
+       {"sparse-horseshoe", "horseshoe", "triangle", "random", "sheared-grid", "annulus", "airfoil"}) {
+    EXPECT_TRUE(contains(list, name));
+    temper_ok({"example", name, "-o", "a.vtu"});
+    EXPECT_EQ(temper({"check", "a.vtu", "--require", "inverted=0"}).exit, 0) << name;
+    ++made;
+  }
+  EXPECT_EQ(made, std::count(list.begin(), list.end(), '\n'));
+}
+
+TEST_F(Example, ParametersArriveAndOptionsMayComeFirst) {
+  temper_ok({"example", "-o", "a.vtu", "sheared-grid", "--nx", "3", "--ny", "2"});
+  EXPECT_EQ(temper({"check", "a.vtu", "--require", "vertices=12,triangles=12"}).exit, 0);
+  temper_ok({"example", "horseshoe", "--a", "7", "--b", "9", "--x", "1,2", "--y", "1,4", "-o", "h.vtu"});
+  EXPECT_EQ(temper({"check", "h.vtu", "--require", "vertices=63,triangles=96"}).exit, 0);
+  temper_ok({"example", "random", "--vertices", "200", "--polygon", "0,0,2,0,2,1,0,1", "-o", "r.vtu"});
+  EXPECT_EQ(temper({"check", "r.vtu", "--require", "vertices=200,regions=1"}).exit, 0);
+}
+
+TEST_F(Example, ParametersThatMakeNoMeshAreNamed) {
+  EXPECT_EQ(temper({"example", "random", "--polygon", "0,0,1,1,1,0,0,1", "-o", "r.vtu"}).exit, 2);
+  EXPECT_EQ(temper({"example", "annulus", "--inner", "2", "--outer", "1", "-o", "r.vtu"}).exit, 2);
+  EXPECT_FALSE(exists("r.vtu"));
+}
+
+}  // namespace
+}  // namespace temper::test

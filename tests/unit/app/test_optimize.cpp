@@ -1,0 +1,145 @@
+// temper optimize: what it writes and prints, and that a report can be run again.
+#include <algorithm>
+#include <sstream>
+
+#include "workshop.hpp"
+
+namespace temper::test {
+namespace {
+
+class Optimize : public Workshop {
+ protected:
+  void SetUp() override { make_input(); }
+};
+
+TEST_F(Optimize, MakesEveryTriangleWellCentered) {
+  EXPECT_EQ(temper({"check", "in.vtu", "--require", "outside=0"}).exit, 3);
+  const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu"});
+  EXPECT_EQ(temper({"check", "out.vtu", "--require", "outside=0,not_crossed=0,nonregular=0,inverted=0"}).exit, 0);
+  for (const char* part : {"in.vtu: 49 vertices, 72 triangles", "before", "after", "orthocenters outside", "least h/l",
+                           "E_BP, ★1", "wrote out.vtu"}) {
+    EXPECT_TRUE(contains(outcome.out, part));
+  }
+  EXPECT_EQ(names(), (std::vector<std::string>{"in.vtu", "out.vtu"}));
+}
+
+TEST_F(Optimize, InAPipeNoControlCharacters) {
+  const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu"});
+  for (const std::string* text : {&outcome.out, &outcome.err}) {
+    EXPECT_TRUE(std::none_of(text->begin(), text->end(), [](char c) { return c == '\r' || c == '\x1b'; }));
+  }
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(Optimize, QuietPrintsNothing) {
+  const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--quiet"});
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(Optimize, InputAndOutputMayBeTheSame) {
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--quiet"});
+  temper_ok({"optimize", "in.vtu", "-o", "in.vtu", "--quiet"});
+  EXPECT_EQ(read("in.vtu"), read("out.vtu"));
+}
+
+TEST_F(Optimize, ThreadsDoNotChangeAByte) {
+  temper_ok({"optimize", "in.vtu", "-o", "one.vtu", "--quiet", "--threads", "1"});
+  temper_ok({"optimize", "in.vtu", "-o", "two.vtu", "--quiet", "--threads", "2"});
+  EXPECT_EQ(read("one.vtu"), read("two.vtu"));
+}
+
+TEST_F(Optimize, TheReportHasBeforeAfterAndHistory) {
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--report", "r.json", "--history", "h.csv", "--draw", "p.svg"});
+  const nlohmann::json report = read_json("r.json");
+  for (const char* key : {"command", "version", "options", "before", "after", "sweeps", "seconds", "stopped",
+                          "vertices_removed", "vertices_inserted", "flips", "notes", "warnings", "history"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+  }
+  EXPECT_EQ(report["before"], nlohmann::json::parse(temper_ok({"check", "in.vtu", "--json"}).out));
+  EXPECT_EQ(report["after"], nlohmann::json::parse(temper_ok({"check", "out.vtu", "--json"}).out));
+  EXPECT_EQ(report["version"], TEMPER_VERSION);
+  EXPECT_EQ(report["after"]["orthocenters_outside"], 0);
+
+  const std::size_t sweeps = report["sweeps"];
+  ASSERT_GT(sweeps, 0u);
+  ASSERT_EQ(report["history"].size(), sweeps + 1);
+  for (const char* key : {"sweep", "energy", "bad", "flips", "seconds"}) {
+    EXPECT_TRUE(report["history"][0].contains(key)) << key;
+  }
+  EXPECT_EQ(report["history"][0]["sweep"], 0);
+
+  const std::string csv = read("h.csv");
+  EXPECT_EQ(csv.rfind("sweep,energy,bad,flips,gamma,seconds\n0,", 0), 0u);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), sweeps + 2);
+  EXPECT_TRUE(contains(read("p.svg"), "</svg>"));
+}
+
+TEST_F(Optimize, TheCommandInTheReportGivesTheSameBytes) {
+  const std::vector<std::vector<std::string>> runs = {
+      {},
+      {"--energy", "F", "--solver", "alternating", "--max-sweeps", "5", "--flips", "deferred", "--stopping", "paper"},
+      {"--gamma", "0.25", "--positions-only", "--seed", "7", "--slide-interfaces", "--anchor", "3"},
+      {"--weights-only", "--no-flips", "--energy", "BHs", "--h0-rel", "20", "--overshoot", "1.05", "--flip-limit",
+       "at"},
+  };
+  std::filesystem::rename("in.vtu", "it's a mesh.vtu");
+  for (const auto& options : runs) {
+    std::vector<std::string> arguments = {"optimize", "it's a mesh.vtu", "-o", "$out.vtu", "--report", "r.json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    temper_ok(arguments);
+    const std::string first = read("$out.vtu");
+    ASSERT_FALSE(first.empty());
+    const std::string command = read_json("r.json")["command"];
+    std::filesystem::remove("$out.vtu");
+    EXPECT_EQ(shell(command).exit, 0) << command;
+    EXPECT_EQ(read("$out.vtu"), first) << command;
+    EXPECT_EQ(read_json("r.json")["command"], command);
+  }
+}
+
+TEST_F(Optimize, TheCommandAndTheOptionsNameEveryOptionWithAValue) {
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--report", "r.json"});
+  const nlohmann::json report = read_json("r.json");
+  for (const char* option :
+       {"--energy=BP", "--star=1", "--solver=newton", "--max-sweeps=300", "--tolerance=1e-05", "--relaxation=1.7",
+        "--seed=1", "--flips=immediate", "--stopping=relative", "--output=out.vtu", "--report=r.json"}) {
+    EXPECT_TRUE(contains(report["command"], option));
+  }
+  EXPECT_EQ(report["options"]["energy"], "BP");
+  EXPECT_EQ(report["options"]["max-sweeps"], 300);
+  EXPECT_EQ(report["options"]["no-flips"], false);
+  EXPECT_TRUE(report["options"]["gamma"].is_null());
+}
+
+TEST_F(Optimize, FixTakesSeveralTagsAndStillFindsTheInput) {
+  write("tagged.mesh",
+        "MeshVersionFormatted 2\nDimension 2\nVertices\n5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.3 0.4 0\n"
+        "Edges\n2\n1 2 11\n2 3 12\nTriangles\n4\n1 2 5 0\n2 3 5 0\n3 4 5 0\n4 1 5 0\nEnd\n");
+  temper_ok({"optimize", "tagged.mesh", "-o", "a.vtu", "--fix", "11", "12", "--quiet"});
+  temper_ok({"optimize", "--fix", "11", "12", "tagged.mesh", "-o", "b.vtu", "--quiet", "--report", "r.json"});
+  temper_ok({"optimize", "--fix", "11", "--fix", "12", "-o", "c.vtu", "--quiet", "tagged.mesh"});
+  EXPECT_EQ(read("a.vtu"), read("b.vtu"));
+  EXPECT_EQ(read("a.vtu"), read("c.vtu"));
+  EXPECT_EQ(read_json("r.json")["options"]["fix"], (nlohmann::json{"11", "12"}));
+}
+
+TEST_F(Optimize, OptionsWithoutEffectAreNamed) {
+  const Outcome outcome =
+      temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--energy", "F", "--gamma", "1", "--max-sweeps", "2"});
+  EXPECT_TRUE(contains(outcome.err, "temper: warning: --gamma has no effect on energy F"));
+}
+
+TEST_F(Optimize, SweepLimitIsKept) {
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--max-sweeps", "1", "--report", "r.json"});
+  EXPECT_EQ(read_json("r.json")["sweeps"], 1);
+  EXPECT_EQ(read_json("r.json")["stopped"], "max_sweeps");
+}
+
+TEST_F(Optimize, ReportCanGoToStandardOutput) {
+  const Outcome outcome = shell("temper optimize in.vtu -o out.vtu --quiet --report /dev/stdout | cat");
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["after"]["orthocenters_outside"], 0);
+}
+
+}  // namespace
+}  // namespace temper::test

@@ -1,0 +1,62 @@
+// Stopping a long run: a signal, a time limit.
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <thread>
+
+#include "workshop.hpp"
+
+namespace temper::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+class Stopping : public Workshop {
+ protected:
+  // Too many sweeps to end by itself, on a mesh that is large enough for a sweep to take a moment.
+  const std::vector<std::string> kLong = {"optimize", "in.vtu",      "-o", "out.vtu",  "--max-sweeps",
+                                          "1000000",  "--tolerance", "0",  "--report", "r.json"};
+
+  void SetUp() override { temper_ok({"example", "random", "--vertices", "3000", "-o", "in.vtu"}); }
+
+  /// Starts the long run and returns once it sweeps: the line with the sizes is printed just before.
+  pid_t start_long() {
+    const pid_t process = start(kLong, "out.txt", "err.txt");
+    for (int i = 0; i < 3000 && read("out.txt").find("vertices") == std::string::npos; ++i) {
+      std::this_thread::sleep_for(10ms);
+    }
+    EXPECT_TRUE(contains(read("out.txt"), "vertices"));
+    std::this_thread::sleep_for(50ms);
+    return process;
+  }
+
+  void expect_stopped_early(const char* why) {
+    EXPECT_EQ(temper({"check", "out.vtu", "--require", "vertices=3000,inverted=0,nonregular=0"}).exit, 0);
+    EXPECT_EQ(read_json("r.json")["stopped"], why);
+  }
+};
+
+TEST_F(Stopping, TheFirstSignalWritesTheBestMeshAndExitsWith4) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const pid_t process = start_long();
+    kill(process, signal);
+    EXPECT_EQ(wait_for(process), 4);
+    expect_stopped_early("cancelled");
+    EXPECT_TRUE(contains(read("out.txt"), "stopped early by a signal"));
+    for (const char* path : {"out.txt", "out.vtu", "r.json"}) std::filesystem::remove(path);
+  }
+}
+
+TEST_F(Stopping, TheTimeLimitWritesTheBestMeshAndExitsWith4) {
+  std::vector<std::string> arguments = kLong;
+  arguments.insert(arguments.end(), {"--time-limit", "0.2"});
+  const auto begin = std::chrono::steady_clock::now();
+  const Outcome outcome = temper(arguments);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 30s);
+  EXPECT_EQ(outcome.exit, 4);
+  expect_stopped_early("time_limit");
+}
+
+}  // namespace
+}  // namespace temper::test

@@ -1,0 +1,184 @@
+// Help, versions, and every way to use the program wrongly.
+#include <sstream>
+
+#include "workshop.hpp"
+
+namespace temper::test {
+namespace {
+
+const std::vector<std::string> kVerbs = {"optimize", "check", "draw", "convert", "example"};
+
+class Usage : public Workshop {};
+
+TEST_F(Usage, VersionIsOneLine) {
+  const Outcome outcome = temper_ok({"--version"});
+  EXPECT_EQ(outcome.out, "temper " TEMPER_VERSION "\n");
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(Usage, WithoutArgumentsAShortHelpAndBadUsage) {
+  const Outcome outcome = temper({});
+  EXPECT_EQ(outcome.exit, 2);
+  for (const std::string& verb : kVerbs) EXPECT_TRUE(contains(outcome.err, verb));
+}
+
+TEST_F(Usage, HelpNamesEveryVerbAndEveryExitCode) {
+  const Outcome outcome = temper_ok({"--help"});
+  for (const std::string& verb : kVerbs) EXPECT_TRUE(contains(outcome.out, "  " + verb));
+  for (int code = 0; code <= 5; ++code) EXPECT_TRUE(contains(outcome.out, "\n  " + std::to_string(code) + "  "));
+}
+
+TEST_F(Usage, EveryVerbHasUsageExamplesAndExitCodes) {
+  for (const std::string& verb : kVerbs) {
+    const Outcome outcome = temper_ok({verb, "--help"});
+    for (const char* part : {"\nUsage: temper ", "\nExamples:\n  temper ", "\nExit codes:\n  0  done\n"}) {
+      EXPECT_TRUE(contains(outcome.out, part));
+    }
+    EXPECT_EQ(outcome.out, temper_ok({"help", verb}).out);
+    EXPECT_EQ(outcome.out, temper_ok({verb, "-h"}).out);
+  }
+}
+
+TEST_F(Usage, HelpFitsInAHundredColumnsOfAscii) {
+  for (const std::string& verb : kVerbs) {
+    std::istringstream help(temper_ok({verb, "--help"}).out);
+    std::size_t lines = 0;
+    for (std::string line; std::getline(help, line); ++lines) {
+      EXPECT_LE(line.size(), 100u) << line;
+      EXPECT_TRUE(std::all_of(line.begin(), line.end(), [](char c) { return c >= ' ' && c <= '~'; })) << line;
+    }
+    EXPECT_GT(lines, 10u);
+  }
+}
+
+TEST_F(Usage, HelpMentionsEveryOption) {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> options = {
+      {"optimize", {"--output",       "--energy",
+                    "--star",         "--gamma ",
+                    "--gamma-rel",    "--h0 ",
+                    "--h0-rel",       "--boundary-treatment",
+                    "--solver",       "--positions-only",
+                    "--weights-only", "--weights-from",
+                    "--no-flips",     "--flip-limit",
+                    "--flips",        "--overshoot",
+                    "--relaxation",   "--slide-interfaces",
+                    "--anchor",       "--max-sweeps",
+                    "--tolerance",    "--stopping",
+                    "--time-limit",   "--fix",
+                    "--threads",      "--seed",
+                    "--report",       "--history",
+                    "--draw",         "--quiet",
+                    "--help"}},
+      {"check",
+       {"--json", "--gamma ", "--gamma-rel", "--h0 ", "--h0-rel", "--require", "--worst", "--threads", "--help"}},
+      {"draw",
+       {"--output", "--before", "--no-primal", "--no-dual", "--no-weights", "--no-bad", "--no-rings", "--no-regions",
+        "--numbers", "--weight-scale", "--zoom", "--width", "--title", "--help"}},
+      {"convert", {"--output", "--format", "--encoding", "--help"}},
+      {"example", {"--output",   "--list",    "sparse-horseshoe:",
+                   "horseshoe:", "--a ",      "--b ",
+                   "--x ",       "--y ",      "triangle:",
+                   "--angle",    "random:",   "--vertices",
+                   "--seed",     "--polygon", "sheared-grid:",
+                   "--nx",       "--ny",      "--shear",
+                   "annulus:",   "--inner",   "--outer",
+                   "--around",   "--rings",   "--jitter",
+                   "airfoil:",   "--growth",  "--help"}},
+  };
+  for (const auto& [verb, names] : options) {
+    const std::string help = temper_ok({verb, "--help"}).out;
+    for (const std::string& name : names) EXPECT_TRUE(contains(help, name));
+  }
+}
+
+// docs/cli.md holds the help of each verb word for word; scripts or people that change one change the other.
+TEST_F(Usage, TheReferenceInTheDocsIsTheHelp) {
+  const std::string docs = read(TEMPER_SOURCE_DIR "/docs/cli.md");
+  EXPECT_TRUE(contains(docs, "```text\n" + temper_ok({"--help"}).out + "```"));
+  for (const std::string& verb : kVerbs) {
+    EXPECT_TRUE(contains(docs, "```text\n" + temper_ok({verb, "--help"}).out + "```"));
+  }
+}
+
+TEST_F(Usage, EveryExampleInTheHelpRuns) {
+  make_input();
+  std::vector<std::string> texts = {temper_ok({"--help"}).out};
+  for (const std::string& verb : {"optimize", "check", "draw", "convert", "example"}) {
+    texts.push_back(temper_ok({verb, "--help"}).out);
+  }
+  int examples = 0;
+  for (const std::string& text : texts) {
+    std::istringstream help(text.substr(text.find("\nExamples:\n")));
+    for (std::string line; std::getline(help, line);) {
+      if (line.rfind("  temper ", 0) != 0) continue;
+      const Outcome outcome = shell(line);
+      EXPECT_EQ(outcome.exit, 0) << line << "\n" << outcome.err;
+      ++examples;
+    }
+  }
+  EXPECT_GT(examples, 15);
+}
+
+struct Wrong {
+  const char* name;
+  std::vector<std::string> arguments;
+  const char* message;
+};
+
+class BadUsage : public Workshop, public testing::WithParamInterface<Wrong> {};
+
+TEST_P(BadUsage, ExitsWith2AndSaysWhatIsWrong) {
+  const Outcome outcome = temper(GetParam().arguments);
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err.rfind("temper: error: ", 0), 0u) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, GetParam().message));
+  EXPECT_TRUE(names().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Program, BadUsage,
+    testing::Values(
+        Wrong{"UnknownVerb", {"optimise", "a.vtu"}, "did you mean 'optimize'?"},
+        Wrong{"OptionInsteadOfVerb", {"--quiet"}, "expected a verb"},
+        Wrong{"UnknownOption", {"optimize", "a.vtu", "-o", "b.vtu", "--gama", "1"}, "did you mean --gamma?"},
+        Wrong{"NoInput", {"optimize", "-o", "b.vtu"}, "IN is missing"},
+        Wrong{"NoOutput", {"optimize", "a.vtu"}, "--output is required"},
+        Wrong{"TwoInputs", {"optimize", "a.vtu", "c.vtu", "-o", "b.vtu"}, "unexpected argument 'c.vtu'"},
+        Wrong{"OptionAsValue", {"optimize", "a.vtu", "-o", "--quiet"}, "found the option --quiet"},
+        Wrong{"UnknownSuffix", {"optimize", "a.vtu", "-o", "b.xyz"}, "no suffix of a format"},
+        Wrong{"UnknownEnergy", {"optimize", "a.vtu", "-o", "b.vtu", "--energy", "BQ"}, "did you mean 'BP'?"},
+        Wrong{"UnknownSolver", {"optimize", "a.vtu", "-o", "b.vtu", "--solver", "newtn"}, "did you mean 'newton'?"},
+        Wrong{"UnknownStar", {"optimize", "a.vtu", "-o", "b.vtu", "--star", "3"}, "'3' is none of 0, 1, 2"},
+        Wrong{"GammaNotANumber", {"optimize", "a.vtu", "-o", "b.vtu", "--gamma", "1e"}, "'1e' is not a number"},
+        Wrong{"GammaNegative", {"optimize", "a.vtu", "-o", "b.vtu", "--gamma=-1"}, "it must be > 0"},
+        Wrong{"GammaTwice", {"optimize", "a.vtu", "-o", "b.vtu", "--gamma", "1", "--gamma-rel", "1"}, "excludes"},
+        Wrong{"GammaInfinite", {"optimize", "a.vtu", "-o", "b.vtu", "--gamma", "inf"}, "'inf' is not a number"},
+        Wrong{"SweepsNegative", {"optimize", "a.vtu", "-o", "b.vtu", "--max-sweeps", "-1"}, "it must be >= 0"},
+        Wrong{"SweepsNotWhole", {"optimize", "a.vtu", "-o", "b.vtu", "--max-sweeps", "1.5"}, "is not a whole number"},
+        Wrong{"SweepsTooLarge", {"optimize", "a.vtu", "-o", "b.vtu", "--max-sweeps", "99999999999"}, "too large"},
+        Wrong{"RelaxationTooLarge", {"optimize", "a.vtu", "-o", "b.vtu", "--relaxation", "2"}, "between 0 and 2"},
+        Wrong{"BothOnly", {"optimize", "a.vtu", "-o", "b.vtu", "--positions-only", "--weights-only"}, "excludes"},
+        Wrong{"ReportIsOutput", {"optimize", "a.vtu", "-o", "b.vtu", "--report", "./b.vtu"}, "another output already"},
+        Wrong{"ReportIsInput", {"optimize", "a.vtu", "-o", "b.vtu", "--report", "a.vtu"}, "is the input mesh"},
+        Wrong{"RequireUnknownKey", {"check", "a.vtu", "--require", "outsid=0"}, "did you mean 'outside'?"},
+        Wrong{"RequireListsTheKeys", {"check", "a.vtu", "--require", "size=0"}, "max_transmissibility_over_median"},
+        Wrong{"RequireNoValue", {"check", "a.vtu", "--require", "outside"}, "'outside' is not key=value"},
+        Wrong{"RequireNotANumber", {"check", "a.vtu", "--require", "outside=no"}, "'no' is not a number"},
+        Wrong{"RequireEmptyPart", {"check", "a.vtu", "--require", "outside=0,"}, "'' is not key=value"},
+        Wrong{"RequireLess", {"check", "a.vtu", "--require", "outside<5"}, "write <= or >="},
+        Wrong{"ZoomShort", {"draw", "a.vtu", "-o", "a.svg", "--zoom", "0,0,1"}, "x0,y0,x1,y1"},
+        Wrong{"ZoomEmpty", {"draw", "a.vtu", "-o", "a.svg", "--zoom", "1,0,0,1"}, "x0 < x1"},
+        Wrong{"DrawOverInput", {"draw", "a.vtu", "-o", "a.vtu"}, "is the input mesh"},
+        Wrong{"UnknownFormat", {"convert", "a.vtu", "-o", "b", "--format", "vtx"}, "did you mean 'vtu'?"},
+        Wrong{"ExampleNoName", {"example", "-o", "a.vtu"}, "NAME is missing"},
+        Wrong{"ExampleUnknown", {"example", "horsehoe", "-o", "a.vtu"}, "did you mean 'horseshoe'?"},
+        Wrong{"ExampleNoOutput", {"example", "horseshoe"}, "--output is required"},
+        Wrong{"ExampleOptionOfAnother",
+              {"example", "horseshoe", "--rings", "3", "-o", "a.vtu"},
+              "unknown option --rings"},
+        Wrong{"PolygonOdd", {"example", "random", "--polygon", "0,0,1,0,1", "-o", "a.vtu"}, "not a list of numbers"}),
+    [](const testing::TestParamInfo<Wrong>& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace temper::test
