@@ -1,0 +1,233 @@
+// Whole pictures: well-formed, deterministic, each option does what it says, and small enough at 100,000 triangles.
+#include "temper/draw.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "support/lattice.hpp"
+#include "support/shapes.hpp"
+#include "temper/geometry.hpp"
+
+namespace temper {
+namespace {
+
+using test::lattice;
+using test::mesh_of;
+
+// The nesting of the document's tags, checked by hand: what is opened is closed, and nothing is stray.
+void expect_well_formed(std::string_view svg) {
+  std::vector<std::string> open;
+  std::size_t elements = 0;
+  for (std::size_t at = svg.find('<'); at != std::string_view::npos; at = svg.find('<', at + 1)) {
+    const std::size_t end = svg.find('>', at);
+    ASSERT_NE(end, std::string_view::npos);
+    std::string_view tag = svg.substr(at + 1, end - at - 1);
+    if (tag.front() == '/') {
+      ASSERT_FALSE(open.empty());
+      EXPECT_EQ(open.back(), tag.substr(1));
+      open.pop_back();
+      continue;
+    }
+    ++elements;
+    std::size_t quotes = 0;
+    for (const char c : tag) quotes += c == '"';
+    EXPECT_EQ(quotes % 2, 0u) << tag;
+    const std::string name(tag.substr(0, tag.find_first_of(" /")));
+    EXPECT_NE(std::isalpha(static_cast<unsigned char>(name[0])), 0) << tag;
+    if (tag.back() != '/') open.push_back(name);
+  }
+  EXPECT_TRUE(open.empty());
+  EXPECT_GT(elements, 3u);
+  EXPECT_EQ(svg.find("nan"), std::string_view::npos);
+  EXPECT_EQ(svg.find("inf"), std::string_view::npos);
+}
+
+std::size_t count(std::string_view text, std::string_view what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != std::string_view::npos; at = text.find(what, at + what.size())) ++n;
+  return n;
+}
+
+bool has_class(const std::string& svg, const std::string& name) {
+  return svg.find("class=\"" + name + "\"") != std::string::npos;
+}
+
+// The d attribute of the path of that class.
+std::string path_of(const std::string& svg, const std::string& name) {
+  const std::size_t at = svg.find("class=\"" + name + "\"");
+  if (at == std::string::npos) return "";
+  const std::size_t begin = svg.find(" d=\"", at) + 4;
+  return svg.substr(begin, svg.find('"', begin) - begin);
+}
+
+Mesh everything() {
+  Mesh mesh = lattice({.n = 10, .jitter = 0.3, .weight = 0.3});
+  for (TriangleId t : mesh.triangles()) mesh.set_region(t, t.index < 81 ? 1 : 2);
+  for (HalfedgeId h : mesh.halfedges()) {
+    const HalfedgeId twin = mesh.twin(h);
+    if (twin.valid() && mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(twin))) {
+      mesh.set_constrained(h, true);
+    }
+  }
+  const VertexId a(44), b(45);
+  mesh.set_position(a, mesh.position(b) + Vec2{-0.01, 0});
+  return mesh;
+}
+
+TEST(Draw, APictureOfEverythingIsWellFormed) {
+  DrawOptions options;
+  options.vertex_numbers = true;
+  options.title = "a < b & \"c\" \x02\xff";
+  const std::string svg = draw_svg(everything(), options);
+  expect_well_formed(svg);
+  for (const char* name : {"region", "bad", "primal", "constrained", "dual", "weight-positive", "weight-negative",
+                           "near-coincident", "numbers"}) {
+    EXPECT_TRUE(has_class(svg, name)) << name;
+  }
+  EXPECT_NE(svg.find("a &lt; b &amp; \"c\""), std::string::npos);
+  expect_well_formed(draw_before_after_svg(everything(), lattice(), options));
+}
+
+TEST(Draw, TheSameMeshGivesTheSameBytes) {
+  const Mesh mesh = everything();
+  EXPECT_EQ(draw_svg(mesh), draw_svg(mesh));
+  EXPECT_EQ(draw_before_after_svg(mesh, mesh), draw_before_after_svg(mesh, mesh));
+}
+
+struct Switch {
+  bool DrawOptions::*option;
+  std::vector<std::string> classes;
+};
+
+TEST(Draw, EachOptionSwitchesItsOwnClassesOff) {
+  const Mesh mesh = everything();
+  DrawOptions all;
+  all.vertex_numbers = true;
+  const std::vector<Switch> switches = {{&DrawOptions::dual, {"dual"}},
+                                        {&DrawOptions::primal, {"primal", "constrained"}},
+                                        {&DrawOptions::weights, {"weight-positive", "weight-negative"}},
+                                        {&DrawOptions::bad_triangles, {"bad"}},
+                                        {&DrawOptions::near_coincident, {"near-coincident"}},
+                                        {&DrawOptions::regions, {"region", "constrained"}},
+                                        {&DrawOptions::vertex_numbers, {"numbers"}}};
+  const std::string full = draw_svg(mesh, all);
+  for (const Switch& s : switches) {
+    DrawOptions options = all;
+    options.*s.option = false;
+    const std::string svg = draw_svg(mesh, options);
+    expect_well_formed(svg);
+    for (const std::string& name : s.classes) {
+      EXPECT_TRUE(has_class(full, name)) << name;
+      EXPECT_FALSE(has_class(svg, name)) << name;
+    }
+    EXPECT_LT(svg.size(), full.size());
+  }
+}
+
+TEST(Draw, BadTrianglesAreFilledAndCountedExactly) {
+  const Mesh mesh = lattice({.n = 10, .jitter = 0.3, .weight = 0.3});
+  std::size_t bad = 0;
+  for (TriangleId t : mesh.triangles()) {
+    const auto v = mesh.corners(t);
+    bad += !is_well_centered(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]));
+  }
+  ASSERT_GT(bad, 0u);
+  const std::string svg = draw_svg(mesh);
+  EXPECT_EQ(count(path_of(svg, "bad"), "z"), bad);
+  EXPECT_NE(svg.find(std::to_string(bad) + " of " + std::to_string(mesh.n_triangles()) + " triangles"),
+            std::string::npos);
+  const std::string good = draw_svg(lattice({.jitter = 0, .weight = 0}));
+  EXPECT_FALSE(has_class(good, "bad"));
+  EXPECT_NE(good.find("all 32 triangles well-centered"), std::string::npos);
+}
+
+TEST(Draw, WeightCirclesComeInTwoSignsAndSkipZero) {
+  Mesh mesh = lattice({.weight = 0});
+  EXPECT_FALSE(has_class(draw_svg(mesh), "weight-positive"));
+  mesh.set_weight(VertexId(6), 0.04);
+  mesh.set_weight(VertexId(7), 0.09);
+  mesh.set_weight(VertexId(8), -0.01);
+  const std::string svg = draw_svg(mesh);
+  EXPECT_EQ(count(path_of(svg, "weight-positive"), "z"), 2u);
+  EXPECT_EQ(count(path_of(svg, "weight-negative"), "z"), 1u);
+  DrawOptions tiny;
+  tiny.weight_scale = 0;
+  EXPECT_FALSE(has_class(draw_svg(mesh, tiny), "weight-positive"));
+}
+
+// The radius in pixels of the only weight circle.
+double circle_radius(const std::string& svg) {
+  const std::string path = path_of(svg, "weight-positive");
+  const std::size_t unit = svg.find("scale(");
+  return std::stod(path.substr(path.find('a') + 1)) * std::stod(svg.substr(unit + 6));
+}
+
+TEST(Draw, ACircleHasTheRootOfTheWeightForItsRadius) {
+  Mesh mesh = lattice({.weight = 0});
+  mesh.set_weight(VertexId(12), 0.09);
+  DrawOptions options;
+  options.zoom = Box{{0, 0}, {9, 4}};
+  options.width = 900;  // 100 pixels a unit
+  EXPECT_NEAR(circle_radius(draw_svg(mesh, options)), 30, 0.1);
+  options.weight_scale = 2;
+  EXPECT_NEAR(circle_radius(draw_svg(mesh, options)), 60, 0.1);
+}
+
+TEST(Draw, AZoomBoxLeavesOutWhatItDoesNotMeet) {
+  const Mesh mesh = lattice({.n = 40, .jitter = 0.2, .weight = 0.1});
+  DrawOptions options;
+  options.zoom = Box{{10, 10}, {12, 12}};
+  const std::string all = draw_svg(mesh), some = draw_svg(mesh, options);
+  expect_well_formed(some);
+  EXPECT_LT(some.size(), all.size() / 10);
+  EXPECT_GT(path_of(some, "primal").size(), 0u);
+  options.zoom = Box{{-100, -100}, {-99, -99}};
+  const std::string nothing = draw_svg(mesh, options);
+  expect_well_formed(nothing);
+  EXPECT_FALSE(has_class(nothing, "primal"));
+}
+
+TEST(Draw, BothPanelsHaveOneScale) {
+  const Mesh mesh = lattice();
+  const std::string same = draw_before_after_svg(mesh, mesh);
+  const std::string first = path_of(same, "primal");
+  EXPECT_EQ(count(same, first), 2u) << "the same mesh is drawn the same in both panels";
+  EXPECT_NE(same.find("before: "), std::string::npos);
+  EXPECT_NE(same.find("after: "), std::string::npos);
+  // A larger mesh beside it shrinks both.
+  EXPECT_LT(path_of(draw_before_after_svg(mesh, lattice({.scale = 4})), "primal").size(), first.size());
+}
+
+TEST(Draw, OrthocentersAtTheEndOfTheWorldAreClipped) {
+  const Mesh sliver = mesh_of({{0, 0}, {1, 0}, {0.5, 1e-14}, {0.5, -0.5}}, {{0, 1, 2}, {1, 0, 3}});
+  const std::string svg = draw_svg(sliver);
+  expect_well_formed(svg);
+  EXPECT_LT(svg.size(), 5000u);
+}
+
+TEST(Draw, AnEmptyMeshIsAnEmptyPanel) {
+  expect_well_formed(draw_svg(Mesh()));
+  expect_well_formed(draw_before_after_svg(Mesh(), lattice()));
+}
+
+TEST(Draw, AHundredThousandTrianglesFitInAFewMegabytesAndBadOnesStayVisible) {
+  Mesh mesh = lattice({.n = 225, .jitter = 0.05, .weight = 0.01});
+  ASSERT_GT(mesh.n_triangles(), 100'000u);
+  // One bad triangle among them all.
+  mesh.set_weight(VertexId(112 * 225 + 112), 5);
+  const std::string svg = draw_svg(mesh);
+  EXPECT_LT(svg.size(), 10'000'000u);
+  EXPECT_FALSE(has_class(svg, "dual"));
+  EXPECT_FALSE(has_class(svg, "weight-positive"));
+  EXPECT_NE(svg.find("zoom in"), std::string::npos);
+  ASSERT_TRUE(has_class(svg, "bad"));
+  EXPECT_NE(svg.find("class=\"bad\" fill=\"#e88a00\" stroke=\"#e88a00\" stroke-width=\"300\""), std::string::npos)
+      << "3 pixels on a grid of 0.01: as wide as an edge is long";
+}
+
+}  // namespace
+}  // namespace temper
