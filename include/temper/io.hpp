@@ -55,6 +55,7 @@ struct MeshFile {
   std::vector<DataArray> line_data;                    ///< one tuple a line
   std::vector<DataArray> marked_point_data;            ///< one tuple a marked point
   std::vector<DataArray> field_data;                   ///< of the file as a whole
+  std::string path;                                    ///< where it was read from, for messages
   std::string format;                                  ///< "vtu", "gmsh41", …: the row of formats() it came from
   std::vector<std::string> warnings;                   ///< what was dropped or repaired in reading
   std::shared_ptr<const InputNames> numbering;         ///< the file's own numbers and lines
@@ -97,7 +98,10 @@ struct LoadedMesh {
 /// `fixed_tags`: tags or physical names whose points must not move.
 [[nodiscard]] Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags = {});
 
-/// Puts coordinates, weights and triangles of the mesh back into the file it came from. Cell data stay with their slot.
+/// Puts coordinates, weights, triangles and regions of the mesh back into the file it came from, whose dropped points go
+/// with their data. Point data stay with their point, cell data with their slot. When the mesh has another number of
+/// vertices or triangles than was loaded, lines and marked points are found again by their place; point and cell data
+/// cannot be, and go with a warning in file.warnings. May be called again for a later state of the same mesh.
 void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh);
 
 /// A file that holds just this mesh.

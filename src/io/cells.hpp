@@ -1,0 +1,38 @@
+// Cells of the VTK family (VTU and legacy): sorted into triangles, lines and marked points, with their data.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/input.hpp"
+
+namespace temper::io {
+
+// Numbers of the cell types, vtkCellType.h.
+inline constexpr int kVtkVertex = 1, kVtkPolyVertex = 2, kVtkLine = 3, kVtkPolyLine = 4, kVtkTriangle = 5,
+                     kVtkPolygon = 7;
+/// "quadrilateral", … : for messages.
+[[nodiscard]] std::string_view vtk_cell_name(int type);
+
+class CellSorter {
+ public:
+  explicit CellSorter(Document& document) : document_(document) {}
+  void reserve(std::size_t triangles) { document_.file.triangles.reserve(triangles); }
+  /// The next cell of the file. `where`: for errors.
+  void add(int type, const std::int32_t* points, std::size_t n, const std::string& where);
+  /// Hands cell data to triangles, lines and marked points, and takes regions and tags out of them.
+  void distribute(std::vector<DataArray>&& cell_data);
+  [[nodiscard]] std::size_t n_cells() const { return n_cells_; }
+
+ private:
+  void take_tags();
+  Document& document_;
+  std::size_t n_cells_ = 0;
+  RunLength triangle_cells_, line_cells_, point_cells_;  // which cell of the file each one was
+};
+
+/// Point data of the VTK family: `weight` becomes the weights.
+void take_point_data(Document& document, std::vector<DataArray>&& arrays);
+
+}  // namespace temper::io

@@ -1,0 +1,14 @@
+// What the reader and the writer of Gmsh files share.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace temper::io {
+
+// Element types of Gmsh.
+inline constexpr std::int32_t kGmshLine = 1, kGmshTriangle = 2, kGmshPoint = 15;
+/// Data array with the number of the geometric entity of each element, as meshio names it.
+inline constexpr std::string_view kGmshEntity = "gmsh:geometrical";
+
+}  // namespace temper::io

@@ -1,0 +1,125 @@
+// Loading files and the checks that all formats share.
+#include "io/input.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+namespace temper::io {
+
+namespace {
+
+struct Closer {
+  void operator()(std::FILE* f) const { std::fclose(f); }
+};
+
+}  // namespace
+
+bool exists(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
+std::string without_suffix(const std::string& path, std::string_view suffix) {
+  return path.ends_with(suffix) ? path.substr(0, path.size() - suffix.size()) : path;
+}
+
+Source load(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) fail(ErrorCode::not_found, path, "is a directory, not a mesh file");
+  const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
+  if (!file) fail(ErrorCode::not_found, path, text("cannot be read: ", std::strerror(errno)));
+
+  Source source{path, {}};
+  const auto size = std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
+  source.bytes.resize(error ? 0 : size);
+  std::size_t got = std::fread(source.bytes.data(), 1, source.bytes.size(), file.get());
+  source.bytes.resize(got);
+  // Pipes have no size, and a file may have grown.
+  constexpr std::size_t kChunk = 1 << 16;
+  for (;;) {
+    source.bytes.resize(got + kChunk);
+    const std::size_t more = std::fread(source.bytes.data() + got, 1, kChunk, file.get());
+    source.bytes.resize(got += more);
+    if (more == 0) break;
+  }
+  if (std::ferror(file.get())) fail(ErrorCode::not_found, path, text("cannot be read: ", std::strerror(errno)));
+  if (source.bytes.empty()) fail(ErrorCode::empty_input, path, "the file is empty");
+  return source;
+}
+
+Document new_document(const std::string& path) { return {MeshFile{}, std::make_shared<FileNames>(path)}; }
+
+namespace {
+
+void check_range(const Document& d, std::int32_t point, const std::string& element, const std::string& where) {
+  const auto n = d.file.points.size();
+  if (point >= 0 && static_cast<std::size_t>(point) < n) return;
+  fail(ErrorCode::index_out_of_range, where,
+       text(element, " uses vertex ", d.names->points[point], ", but the file has ", n, " vertices, numbered from ",
+            d.names->points[0]));
+}
+
+void check_ranges(const Document& d) {
+  const MeshFile& f = d.file;
+  const auto outside = [n = f.points.size()](std::int32_t p) { return p < 0 || static_cast<std::size_t>(p) >= n; };
+  for (std::size_t t = 0; t < f.triangles.size(); ++t) {
+    for (const std::int32_t p : f.triangles[t]) {
+      if (outside(p)) check_range(d, p, d.names->triangle(t), d.names->triangle_where(t));
+    }
+  }
+  for (std::size_t l = 0; l < f.lines.size(); ++l) {
+    for (const std::int32_t p : f.lines[l]) {
+      if (outside(p)) check_range(d, p, d.names->line(l), d.names->line_where(l));
+    }
+  }
+  for (const std::int32_t p : f.marked_points) {
+    if (outside(p)) check_range(d, p, "a marked point", d.names->path);
+  }
+}
+
+}  // namespace
+
+void check(const Document& d) {
+  const MeshFile& f = d.file;
+  if (f.points.empty()) fail(ErrorCode::empty_input, d.names->path, "the file has no points");
+  if (f.triangles.empty()) fail(ErrorCode::empty_input, d.names->path, "the file has no triangles");
+  check_ranges(d);
+  for (std::size_t i = 0; i < f.points.size(); ++i) {
+    const Vec2 p = f.points[i];
+    if (std::isfinite(p.x) && std::isfinite(p.y)) continue;
+    fail(ErrorCode::not_finite, d.names->point_where(i),
+         text(d.names->point(i), " has coordinates (", p.x, ", ", p.y, "), expected finite numbers"));
+  }
+  if (!std::isfinite(f.z))
+    fail(ErrorCode::not_finite, d.names->point_where(0), text(d.names->point(0), " has z = ", f.z));
+  for (std::size_t i = 0; i < f.weights.size(); ++i) {
+    if (std::isfinite(f.weights[i])) continue;
+    fail(ErrorCode::not_finite, d.names->point_where(i),
+         text(d.names->point(i), " has weight ", f.weights[i], ", expected a finite number"));
+  }
+}
+
+void PlaneCheck::refuse(std::size_t index, double z) const {
+  const FileNames& names = *document_.names;
+  const double z0 = document_.file.z;
+  if (!std::isfinite(z) || !std::isfinite(z0)) {
+    const std::size_t culprit = std::isfinite(z0) ? index : 0;
+    fail(ErrorCode::not_finite, names.point_where(culprit),
+         text(names.point(culprit), " has z = ", culprit == 0 ? z0 : z, ", expected a finite number"));
+  }
+  fail(ErrorCode::not_planar, names.point_where(index),
+       text(names.point(index), " has z = ", z, ", but ", names.point(0), " has z = ", z0,
+            "; expected a mesh in a plane of constant z"));
+}
+
+void refuse_element(const std::string& where, std::int64_t number, std::string_view kind) {
+  fail(ErrorCode::unsupported, where,
+       text("element ", number, " is a ", kind,
+            "; temper reads meshes of linear triangles, with lines and points as tags"));
+}
+
+}  // namespace temper::io

@@ -1,0 +1,53 @@
+// A whole file in memory, and what a reader makes of it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "io/failure.hpp"
+#include "io/file_names.hpp"
+#include "temper/io.hpp"
+
+namespace temper::io {
+
+struct Source {
+  std::string path;   ///< as the user gave it
+  std::string bytes;  ///< readers may overwrite it while they decode
+};
+
+/// Reads a file, or says why not: missing, a directory, empty.
+[[nodiscard]] Source load(const std::string& path);
+[[nodiscard]] bool exists(const std::string& path);
+/// PATH without its last suffix, when that is `suffix`; else PATH.
+[[nodiscard]] std::string without_suffix(const std::string& path, std::string_view suffix);
+
+/// What a reader returns: the arrays, and the numbers that the file has for them.
+struct Document {
+  MeshFile file;
+  std::shared_ptr<FileNames> names;
+};
+[[nodiscard]] Document new_document(const std::string& path);
+
+/// What every format must fulfil once its arrays are read: points and triangles exist, numbers in range, coordinates
+/// and weights finite.
+void check(const Document& document);
+
+/// Collects z and insists that it is the same for all points.
+class PlaneCheck {
+ public:
+  explicit PlaneCheck(Document& document) : document_(document) {}
+  /// z of the point with this index, whose number and line are already in the names.
+  void add(std::size_t index, double z) {
+    if (index == 0) document_.file.z = z;
+    if (!(z == document_.file.z)) refuse(index, z);
+  }
+
+ private:
+  [[noreturn]] void refuse(std::size_t index, double z) const;
+  Document& document_;
+};
+
+/// Why an element that is neither point, line nor triangle is refused.
+[[noreturn]] void refuse_element(const std::string& where, std::int64_t number, std::string_view kind);
+
+}  // namespace temper::io

@@ -1,0 +1,387 @@
+// From the arrays of a file to a mesh and back.
+//
+// Points of no triangle are left out of the mesh, tagged lines inside the domain become constrained edges, points of
+// fixed tags and those that medit calls required are fixed.
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <unordered_map>
+
+#include "io/failure.hpp"
+#include "io/file_names.hpp"
+#include "io/values.hpp"
+#include "temper/io.hpp"
+
+namespace temper::io {
+
+namespace {
+
+/// The names of the points and triangles that are left.
+class KeptNames final : public InputNames {
+ public:
+  KeptNames(const InputNames& all, std::vector<std::int32_t> points) : all_(all), points_(std::move(points)) {}
+  [[nodiscard]] std::string point(std::size_t i) const override { return all_.point(kept(i)); }
+  [[nodiscard]] std::string triangle(std::size_t i) const override { return all_.triangle(i); }
+  [[nodiscard]] std::string point_where(std::size_t i) const override { return all_.point_where(kept(i)); }
+  [[nodiscard]] std::string triangle_where(std::size_t i) const override { return all_.triangle_where(i); }
+
+ private:
+  [[nodiscard]] std::size_t kept(std::size_t i) const {
+    return points_.empty() || i >= points_.size() ? i : static_cast<std::size_t>(points_[i]);
+  }
+  const InputNames& all_;
+  std::vector<std::int32_t> points_;  // empty: all
+};
+
+/// "3 things …: first, second, third", with at most ten named.
+std::string listed(std::size_t n, std::string_view what, const std::vector<std::string>& names) {
+  std::string result = text(n, " ", what, ": ");
+  for (std::size_t i = 0; i < names.size(); ++i) result += (i == 0 ? "" : ", ") + names[i];
+  return n > names.size() ? result + ", …" : result;
+}
+constexpr std::size_t kNamed = 10;
+
+/// A tag, as a user writes it: its number or its physical name.
+struct TagSet {
+  std::vector<std::int32_t> points, lines, triangles;
+};
+
+std::string available_tags(const MeshFile& file) {
+  std::vector<std::int32_t> tags(file.line_tags);
+  tags.insert(tags.end(), file.point_tags.begin(), file.point_tags.end());
+  std::sort(tags.begin(), tags.end());
+  tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
+  std::string result;
+  for (const PhysicalName& n : file.names) result += text(result.empty() ? "" : ", ", n.name);
+  for (std::size_t i = 0; i < std::min(tags.size(), kNamed); ++i) result += text(result.empty() ? "" : ", ", tags[i]);
+  return result.empty() ? "none" : result;
+}
+
+TagSet find_tags(const MeshFile& file, std::span<const std::string> wanted) {
+  TagSet set;
+  for (const std::string& tag : wanted) {
+    bool found = false;
+    for (const PhysicalName& n : file.names) {
+      if (n.name != tag) continue;
+      found = true;
+      (n.dimension == 0 ? set.points : n.dimension == 1 ? set.lines : set.triangles).push_back(n.tag);
+    }
+    if (found) continue;
+    std::int32_t number = 0;
+    const auto [end, error] = std::from_chars(tag.data(), tag.data() + tag.size(), number);
+    const auto has = [&](const std::vector<std::int32_t>& tags) {
+      return std::find(tags.begin(), tags.end(), number) != tags.end();
+    };
+    if (error == std::errc() && end == tag.data() + tag.size() && (has(file.line_tags) || has(file.point_tags))) {
+      set.points.push_back(number);
+      set.lines.push_back(number);
+      continue;
+    }
+    fail(ErrorCode::invalid_option, file.path,
+         text("no points or lines have the tag '", tag, "'; there are: ", available_tags(file)));
+  }
+  return set;
+}
+
+bool contains(const std::vector<std::int32_t>& tags, std::int32_t tag) {
+  return std::find(tags.begin(), tags.end(), tag) != tags.end();
+}
+
+class MeshMaker {
+ public:
+  explicit MeshMaker(const MeshFile& file) : file_(file) {}
+  Expected<LoadedMesh> make(std::span<const std::string> fixed_tags);
+
+ private:
+  void number_vertices();
+  void warn(std::string message) {
+    loaded_.warnings.push_back(file_.path.empty() ? std::move(message) : text(file_.path, ": ", message));
+  }
+  [[nodiscard]] const InputNames& names() const { return file_.numbering ? *file_.numbering : counting_; }
+  [[nodiscard]] bool whole() const { return n_vertices_ == file_.points.size(); }
+  [[nodiscard]] std::vector<std::int32_t> fixed_points(std::span<const std::string> tags) const;
+  Expected<BuiltMesh> build(const std::vector<std::int32_t>& fixed_points) const;
+  void constrain_lines();
+
+  const MeshFile& file_;
+  InputNames counting_;
+  LoadedMesh loaded_;
+  std::size_t n_vertices_ = 0;
+};
+
+Expected<LoadedMesh> MeshMaker::make(std::span<const std::string> fixed_tags) {
+  number_vertices();
+  auto built = build(fixed_points(fixed_tags));
+  if (!built) {
+    InputError error = built.error();
+    if (error.where.empty()) error.where = file_.path;
+    return error;
+  }
+  loaded_.mesh = std::move(built->mesh);
+  loaded_.reversed_triangles = built->reversed_triangles;
+  if (loaded_.reversed_triangles > 0) warn(text(loaded_.reversed_triangles, " clockwise triangles are reversed"));
+  constrain_lines();
+  return std::move(loaded_);
+}
+
+void MeshMaker::number_vertices() {
+  auto& vertex = loaded_.vertex_of_point;
+  vertex.assign(file_.points.size(), -1);
+  for (const auto& triangle : file_.triangles) {
+    for (const std::int32_t p : triangle) {
+      if (p >= 0 && static_cast<std::size_t>(p) < vertex.size()) vertex[static_cast<std::size_t>(p)] = 0;
+    }
+  }
+  std::vector<std::string> dropped;
+  std::size_t n_dropped = 0;
+  for (std::size_t p = 0; p < vertex.size(); ++p) {
+    if (vertex[p] == 0) {
+      vertex[p] = static_cast<std::int32_t>(n_vertices_++);
+    } else if (n_dropped++ < kNamed) {
+      dropped.push_back(names().point(p));
+    }
+  }
+  if (n_dropped > 0)
+    warn(listed(n_dropped, n_dropped == 1 ? "point of no triangle is dropped" : "points of no triangle are dropped",
+                dropped));
+}
+
+std::vector<std::int32_t> MeshMaker::fixed_points(std::span<const std::string> wanted) const {
+  const TagSet tags = find_tags(file_, wanted);
+  std::vector<std::int32_t> fixed;
+  for (std::size_t i = 0; i < file_.marked_points.size(); ++i) {
+    if (contains(tags.points, file_.point_tags[i])) fixed.push_back(file_.marked_points[i]);
+  }
+  for (std::size_t i = 0; i < file_.lines.size(); ++i) {
+    if (contains(tags.lines, file_.line_tags[i]))
+      fixed.insert(fixed.end(), file_.lines[i].begin(), file_.lines[i].end());
+  }
+  for (std::size_t t = 0; t < file_.regions.size() && !tags.triangles.empty(); ++t) {
+    if (contains(tags.triangles, file_.regions[t]))
+      fixed.insert(fixed.end(), file_.triangles[t].begin(), file_.triangles[t].end());
+  }
+  const DataArray* required = find(file_.point_data, "medit:required");
+  const auto* flags = required == nullptr ? nullptr : std::get_if<std::vector<std::uint8_t>>(&required->values);
+  for (std::size_t p = 0; flags != nullptr && p < flags->size(); ++p) {
+    if ((*flags)[p] != 0) fixed.push_back(static_cast<std::int32_t>(p));
+  }
+  std::sort(fixed.begin(), fixed.end());
+  fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
+  std::erase_if(fixed, [&](std::int32_t p) { return loaded_.vertex_of_point[static_cast<std::size_t>(p)] < 0; });
+  for (std::int32_t& p : fixed) p = loaded_.vertex_of_point[static_cast<std::size_t>(p)];
+  return fixed;
+}
+
+// The file's own arrays when every point is used; else copies without the others.
+Expected<BuiltMesh> MeshMaker::build(const std::vector<std::int32_t>& fixed) const {
+  MeshInput input;
+  input.regions = file_.regions;
+  input.fixed_vertices = fixed;
+  if (whole()) {
+    const KeptNames kept(names(), {});
+    input.points = file_.points;
+    input.weights = file_.weights;
+    input.triangles = file_.triangles;
+    input.names = &kept;
+    return Mesh::build(input);
+  }
+  const auto& vertex = loaded_.vertex_of_point;
+  std::vector<Vec2> points;
+  std::vector<double> weights;
+  std::vector<std::int32_t> old;
+  for (std::size_t p = 0; p < vertex.size(); ++p) {
+    if (vertex[p] < 0) continue;
+    points.push_back(file_.points[p]);
+    if (!file_.weights.empty()) weights.push_back(file_.weights[p]);
+    old.push_back(static_cast<std::int32_t>(p));
+  }
+  auto triangles = file_.triangles;
+  for (auto& triangle : triangles) {
+    for (std::int32_t& p : triangle) {
+      // Out of range numbers stay so, for Mesh::build to refuse.
+      p = p >= 0 && static_cast<std::size_t>(p) < vertex.size() ? vertex[static_cast<std::size_t>(p)]
+                                                                : std::int32_t{-1};
+    }
+  }
+  const KeptNames kept(names(), std::move(old));
+  input.points = points;
+  input.weights = weights;
+  input.triangles = triangles;
+  input.names = &kept;
+  return Mesh::build(input);
+}
+
+void MeshMaker::constrain_lines() {
+  const auto& vertex = loaded_.vertex_of_point;
+  std::vector<std::string> lost;
+  std::size_t n_lost = 0;
+  for (const auto& [a, b] : file_.lines) {
+    const std::int32_t u = vertex[static_cast<std::size_t>(a)], v = vertex[static_cast<std::size_t>(b)];
+    HalfedgeId h;
+    if (u >= 0 && v >= 0) {
+      h = loaded_.mesh.find_halfedge(VertexId(static_cast<std::size_t>(u)), VertexId(static_cast<std::size_t>(v)));
+      if (!h.valid())
+        h = loaded_.mesh.find_halfedge(VertexId(static_cast<std::size_t>(v)), VertexId(static_cast<std::size_t>(u)));
+    }
+    if (!h.valid()) {
+      if (n_lost++ < kNamed) {
+        lost.push_back(
+            text(names().point(static_cast<std::size_t>(a)), " to ", names().point(static_cast<std::size_t>(b))));
+      }
+    } else if (!loaded_.mesh.is_boundary(h)) {
+      loaded_.mesh.set_constrained(h, true);
+    }
+  }
+  if (n_lost > 0)
+    warn(listed(n_lost,
+                n_lost == 1 ? "line is no edge of the mesh and constrains nothing"
+                            : "lines are no edges of the mesh and constrain nothing",
+                lost));
+}
+
+// --- back -----------------------------------------------------------------------------------------------------
+
+/// Copies what is on the mesh to arrays of its own vertices.
+void copy_vertices(MeshFile& file, const Mesh& mesh) {
+  file.points.resize(mesh.n_vertices());
+  file.weights.resize(mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) {
+    file.points[v.index] = mesh.position(v);
+    file.weights[v.index] = mesh.weight(v);
+  }
+}
+
+void copy_triangles(MeshFile& file, const Mesh& mesh) {
+  file.triangles.resize(mesh.n_triangles());
+  bool regions = !file.regions.empty();
+  for (const TriangleId t : mesh.triangles()) {
+    const auto corners = mesh.corners(t);
+    for (std::size_t k = 0; k < 3; ++k) file.triangles[t.index][k] = static_cast<std::int32_t>(corners[k].index);
+    regions = regions || mesh.region(t) != 0;
+  }
+  file.regions.resize(regions ? mesh.n_triangles() : 0);
+  for (std::size_t t = 0; t < file.regions.size(); ++t) file.regions[t] = mesh.region(TriangleId(t));
+}
+
+template <class T>
+void keep(std::vector<T>& values, const std::vector<bool>& kept) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (kept[i]) values[n++] = values[i];
+  }
+  values.resize(n);
+}
+
+void keep(std::vector<DataArray>& arrays, const std::vector<bool>& kept) {
+  RunLength indices;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i]) indices.push_back(static_cast<std::int64_t>(i));
+  }
+  for (DataArray& a : arrays) a.values = gather(a.values, a.components, indices);
+}
+
+/// Renumbers lines and marked points by new_index (−1: gone) and drops those that lost a point.
+template <class NewIndex>
+void renumber(MeshFile& file, NewIndex new_index) {
+  std::vector<bool> kept_lines(file.lines.size());
+  for (std::size_t i = 0; i < file.lines.size(); ++i) {
+    for (std::int32_t& p : file.lines[i]) p = new_index(p);
+    kept_lines[i] = file.lines[i][0] >= 0 && file.lines[i][1] >= 0;
+  }
+  std::vector<bool> kept_points(file.marked_points.size());
+  for (std::size_t i = 0; i < file.marked_points.size(); ++i) {
+    file.marked_points[i] = new_index(file.marked_points[i]);
+    kept_points[i] = file.marked_points[i] >= 0;
+  }
+  keep(file.lines, kept_lines);
+  keep(file.line_tags, kept_lines);
+  keep(file.line_data, kept_lines);
+  keep(file.marked_points, kept_points);
+  keep(file.point_tags, kept_points);
+  keep(file.marked_point_data, kept_points);
+}
+
+void drop_unused_points(MeshFile& file, const std::vector<std::int32_t>& vertex_of_point) {
+  std::vector<bool> used(vertex_of_point.size());
+  for (std::size_t p = 0; p < used.size(); ++p) used[p] = vertex_of_point[p] >= 0;
+  keep(file.point_data, used);
+  renumber(file, [&](std::int32_t p) { return vertex_of_point[static_cast<std::size_t>(p)]; });
+}
+
+struct PlaceHash {
+  std::size_t operator()(Vec2 p) const {
+    std::uint64_t x, y;
+    p = {p.x + 0.0, p.y + 0.0};  // −0 is the same place as 0
+    std::memcpy(&x, &p.x, sizeof x);
+    std::memcpy(&y, &p.y, sizeof y);
+    return static_cast<std::size_t>((x * 0x9E3779B97F4A7C15u) ^ (y + (x >> 29)) * 0xBF58476D1CE4E5B9u);
+  }
+};
+
+/// Vertices were removed or inserted: what is on lines has not moved and is found again by its place.
+void find_again(MeshFile& file, const Mesh& mesh) {
+  std::unordered_map<Vec2, std::int32_t, PlaceHash> places;
+  for (const VertexId v : mesh.vertices()) places.emplace(mesh.position(v), static_cast<std::int32_t>(v.index));
+  const std::vector<Vec2> old = file.points;
+  const std::size_t n_lines = file.lines.size(), n_marked = file.marked_points.size();
+  renumber(file, [&](std::int32_t p) {
+    const auto found = places.find(old[static_cast<std::size_t>(p)]);
+    return found == places.end() ? std::int32_t{-1} : found->second;
+  });
+  const std::size_t lost = n_lines - file.lines.size() + n_marked - file.marked_points.size();
+  if (lost > 0) file.warnings.push_back(text(lost, " lines or marked points have lost their vertices and are dropped"));
+}
+
+void drop_data(MeshFile& file, std::vector<DataArray>& arrays, std::string_view kind) {
+  std::string names;
+  for (const DataArray& a : arrays) names += text(names.empty() ? "" : ", ", a.name);
+  if (!names.empty()) file.warnings.push_back(text("the mesh has changed in number: ", kind, " is dropped: ", names));
+  arrays.clear();
+}
+
+}  // namespace
+
+Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags) {
+  try {
+    return MeshMaker(file).make(fixed_tags);
+  } catch (Failure& failure) {
+    return std::move(failure.error);
+  }
+}
+
+void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh) {
+  const auto& vertex = loaded.vertex_of_point;
+  const auto n_kept = vertex.size() - static_cast<std::size_t>(std::count(vertex.begin(), vertex.end(), -1));
+  const bool has_unused = file.points.size() == vertex.size() && n_kept < vertex.size();
+  if (has_unused) drop_unused_points(file, vertex);
+  if (mesh.n_vertices() != n_kept || mesh.n_triangles() != file.triangles.size()) {
+    if (has_unused) {
+      std::vector<bool> used(vertex.size());
+      for (std::size_t p = 0; p < used.size(); ++p) used[p] = vertex[p] >= 0;
+      keep(file.points, used);
+    }
+    find_again(file, mesh);
+    drop_data(file, file.point_data, "point data");
+    drop_data(file, file.cell_data, "cell data");
+  }
+  copy_vertices(file, mesh);
+  copy_triangles(file, mesh);
+  if (has_unused) file.numbering = nullptr;  // the numbers of the file are no longer those of its points
+}
+
+MeshFile from_mesh(const Mesh& mesh) {
+  MeshFile file;
+  copy_vertices(file, mesh);
+  copy_triangles(file, mesh);
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_constrained(h) || mesh.is_boundary(h) || !mesh.is_edge_representative(h)) continue;
+    // An interface between regions is constrained by them; any other line has to be written.
+    if (mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(mesh.twin(h)))) continue;
+    file.lines.push_back(
+        {static_cast<std::int32_t>(mesh.origin(h).index), static_cast<std::int32_t>(mesh.target(h).index)});
+    file.line_tags.push_back(0);
+  }
+  return file;
+}
+
+}  // namespace temper::io

@@ -1,0 +1,101 @@
+// Formats that temper recognises and does not read, so that the error can name them.
+#include <cctype>
+
+#include "io/format.hpp"
+
+namespace temper::io {
+
+namespace {
+
+std::string_view skip_blanks(std::string_view s) {
+  const std::size_t first = s.find_first_not_of(" \t\r\n");
+  return first == std::string_view::npos ? std::string_view{} : s.substr(first);
+}
+
+/// The first line that is neither blank nor a '#' comment.
+std::string_view first_line(std::string_view s) {
+  for (s = skip_blanks(s); s.starts_with('#'); s = skip_blanks(s)) {
+    const std::size_t end = s.find('\n');
+    if (end == std::string_view::npos) return {};
+    s.remove_prefix(end);
+  }
+  return s.substr(0, s.find('\n'));
+}
+
+bool starts_with_any_case(std::string_view s, std::string_view upper) {
+  if (s.size() < upper.size()) return false;
+  for (std::size_t i = 0; i < upper.size(); ++i) {
+    if (std::toupper(static_cast<unsigned char>(s[i])) != upper[i]) return false;
+  }
+  return true;
+}
+
+bool is_freefem(std::string_view head) {
+  // Three counts, then lines "x y label".
+  const auto words = [](std::string_view line) {
+    int n = 0;
+    for (line = skip_blanks(line); !line.empty(); line = skip_blanks(line)) {
+      const std::size_t end = line.find_first_of(" \t\r\n");
+      if (line.substr(0, end).find_first_not_of("0123456789+-.eE") != std::string_view::npos) return 0;
+      line.remove_prefix(end == std::string_view::npos ? line.size() : end);
+      ++n;
+    }
+    return n;
+  };
+  head = skip_blanks(head);
+  const std::size_t end = head.find('\n');
+  if (end == std::string_view::npos || words(head.substr(0, end)) != 3) return false;
+  const std::string_view second = head.substr(end + 1, head.find('\n', end + 1) - end - 1);
+  return words(second) == 3;
+}
+
+struct Known {
+  std::string_view name;
+  bool (*is)(std::string_view head);
+};
+
+constexpr Known kKnown[] = {
+    {"a JIGSAW mesh", [](std::string_view h) { return starts_with_any_case(first_line(h), "MSHID="); }},
+    {"a Fluent mesh",
+     [](std::string_view h) {
+       const std::string_view s = skip_blanks(h);
+       return s.starts_with("(0 ") || s.starts_with("(1 ") || s.starts_with("(2 ") || s.starts_with("(10 ");
+     }},
+    {"a Gmsh mesh of version 1", [](std::string_view h) { return skip_blanks(h).starts_with("$NOD"); }},
+    {"a Gmsh mesh of another version than 2 and 4.1",
+     [](std::string_view h) { return skip_blanks(h).starts_with("$MeshFormat"); }},
+    {"a medit file in binary",
+     [](std::string_view h) {
+       return h.starts_with(std::string_view("\1\0\0\0", 4)) || h.starts_with(std::string_view("\0\0\0\1", 4));
+     }},
+    {"an MFEM mesh of another version than v1.0", [](std::string_view h) { return h.starts_with("MFEM "); }},
+    {"a VTK XML file of another type than UnstructuredGrid",
+     [](std::string_view h) { return h.find("<VTKFile") != h.npos; }},
+    {"an XDMF file", [](std::string_view h) { return h.find("<Xdmf") != h.npos; }},
+    {"a DOLFIN XML mesh", [](std::string_view h) { return h.find("<dolfin") != h.npos; }},
+    {"a PLY file", [](std::string_view h) { return h.starts_with("ply"); }},
+    {"an OFF file", [](std::string_view h) { return h.starts_with("OFF"); }},
+    {"an STL file", [](std::string_view h) { return h.starts_with("solid"); }},
+    {"an Abaqus input file",
+     [](std::string_view h) {
+       return starts_with_any_case(skip_blanks(h), "*HEADING") || starts_with_any_case(skip_blanks(h), "*NODE") ||
+              h.starts_with("**");
+     }},
+    {"a 2DM mesh", [](std::string_view h) { return h.starts_with("MESH2D"); }},
+    {"a Netgen mesh", [](std::string_view h) { return h.starts_with("mesh3d") || h.starts_with("areamesh"); }},
+    {"a NetCDF file (Exodus?)", [](std::string_view h) { return h.starts_with("CDF"); }},
+    {"an HDF5 file", [](std::string_view h) { return h.starts_with("\x89HDF"); }},
+    {"a compressed file", [](std::string_view h) { return h.starts_with("\x1f\x8b") || h.starts_with("PK\3\4"); }},
+    {"a FreeFem mesh", is_freefem},
+};
+
+}  // namespace
+
+std::string_view recognise_unsupported(std::string_view head) {
+  for (const Known& known : kKnown) {
+    if (known.is(head)) return known.name;
+  }
+  return {};
+}
+
+}  // namespace temper::io

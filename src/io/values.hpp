@@ -1,0 +1,82 @@
+// The ten number types of Values: their names in VTU and legacy VTK, and what is done to arrays of any of them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "io/file_names.hpp"
+#include "temper/io.hpp"
+
+namespace temper::io {
+
+/// The index of a type in Values.
+enum class Scalar : std::size_t { f64, f32, i64, i32, u8, i8, i16, u16, u32, u64 };
+
+struct ScalarInfo {
+  Scalar scalar;
+  std::string_view vtu;   ///< "Float64"
+  std::string_view text;  ///< "float64": in messages and in Triangle's comments
+  std::size_t bytes;
+};
+[[nodiscard]] const ScalarInfo& info(Scalar scalar);
+[[nodiscard]] std::optional<Scalar> scalar_of_vtu(std::string_view name);
+[[nodiscard]] std::optional<Scalar> scalar_of_text(std::string_view name);
+
+[[nodiscard]] inline Scalar scalar_of(const Values& values) { return static_cast<Scalar>(values.index()); }
+[[nodiscard]] inline std::string_view type_name(const Values& values) { return info(scalar_of(values)).text; }
+[[nodiscard]] std::size_t size(const Values& values);
+
+/// Calls f(T()) with a value of the type; all calls return the same type.
+template <class F>
+decltype(auto) with_scalar(Scalar scalar, F&& f) {
+  switch (scalar) {
+    case Scalar::f64:
+      return f(double());
+    case Scalar::f32:
+      return f(float());
+    case Scalar::i64:
+      return f(std::int64_t());
+    case Scalar::i32:
+      return f(std::int32_t());
+    case Scalar::u8:
+      return f(std::uint8_t());
+    case Scalar::i8:
+      return f(std::int8_t());
+    case Scalar::i16:
+      return f(std::int16_t());
+    case Scalar::u16:
+      return f(std::uint16_t());
+    case Scalar::u32:
+      return f(std::uint32_t());
+    default:
+      return f(std::uint64_t());
+  }
+}
+
+template <class Vector>
+using ElementOf = typename std::remove_cvref_t<Vector>::value_type;
+
+/// An array of n zeros.
+[[nodiscard]] Values zeros(Scalar scalar, std::size_t n);
+/// As doubles; moved when they are.
+[[nodiscard]] std::vector<double> to_doubles(Values&& values);
+/// As 32-bit integers, or nothing when a value is none.
+[[nodiscard]] std::optional<std::vector<std::int32_t>> to_int32(const Values& values);
+/// The tuples at the indices (runs of a longer array).
+[[nodiscard]] Values gather(const Values& values, int components, const RunLength& indices);
+/// Appends `more`, which must be of the same type.
+void append(Values& values, const Values& more);
+
+/// The array of that name, or null.
+[[nodiscard]] const DataArray* find(const std::vector<DataArray>& arrays, std::string_view name);
+/// Removes the array of that name and returns it.
+[[nodiscard]] std::optional<DataArray> take(std::vector<DataArray>& arrays, std::string_view name);
+/// `name`, or when an array has it already, name_2, name_3, …
+[[nodiscard]] std::string unique_name(const std::vector<DataArray>& arrays, std::string name);
+
+}  // namespace temper::io
