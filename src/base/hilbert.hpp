@@ -1,0 +1,60 @@
+// Place along the Hilbert curve: points that are near on the curve are near in the plane.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "temper/vec2.hpp"
+
+namespace temper {
+
+inline constexpr int kHilbertBits = 24;  // of each coordinate: finer than any mesh that fits in memory
+
+/// Position of cell (x, y) along the Hilbert curve of 2^bits × 2^bits cells.
+constexpr std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y) {
+  std::uint64_t index = 0;
+  for (std::uint32_t s = 1u << (kHilbertBits - 1); s > 0; s /= 2) {
+    const std::uint32_t rx = (x & s) != 0 ? 1 : 0;
+    const std::uint32_t ry = (y & s) != 0 ? 1 : 0;
+    index = 4 * index + ((3 * rx) ^ ry);
+    if (ry == 0) {
+      if (rx == 1) {
+        x = ~x;
+        y = ~y;
+      }
+      std::swap(x, y);
+    }
+  }
+  return index;
+}
+
+/// The grid of cells over the bounding box of some points.
+class HilbertGrid {
+ public:
+  explicit HilbertGrid(std::span<const Vec2> points) {
+    constexpr double kInf = std::numeric_limits<double>::infinity();
+    Vec2 high{-kInf, -kInf};
+    low_ = {kInf, kInf};
+    for (const Vec2 p : points) {
+      low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    const double extent = std::max(high.x - low_.x, high.y - low_.y);
+    cells_per_length_ = extent > 0 ? (static_cast<double>(1u << kHilbertBits) - 1) / extent : 0;
+  }
+
+  /// Below 2^(2 kHilbertBits).
+  [[nodiscard]] std::uint64_t operator()(Vec2 p) const {
+    return hilbert_index(static_cast<std::uint32_t>((p.x - low_.x) * cells_per_length_),
+                         static_cast<std::uint32_t>((p.y - low_.y) * cells_per_length_));
+  }
+
+ private:
+  Vec2 low_;
+  double cells_per_length_ = 0;
+};
+
+}  // namespace temper

@@ -1,0 +1,49 @@
+// The stages of a constrained Delaunay triangulation: points, segments, carving, numbering.
+//
+// While it is built, vertices are numbered in the order of their insertion, which keeps neighbours near in memory;
+// `number` leads back to the user's. All ties are broken by the user's numbers, so that the triangulation depends
+// on the points and the segments alone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "regularity/lawson.hpp"
+#include "temper/error.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper::generate {
+
+struct Triangulation {
+  Mesh mesh;
+  std::vector<std::uint32_t> number;  ///< of each vertex: the index of its point
+  std::vector<VertexId> vertex;       ///< of each point
+
+  [[nodiscard]] auto conflict_test() const {
+    return PerturbedPowerTest{[this](VertexId v) { return number[v.index]; }};
+  }
+  [[nodiscard]] std::string name(VertexId v) const { return "point " + std::to_string(number[v.index]); }
+};
+
+/// Order of insertion: rounds of doubling size, drawn at random, each along the Hilbert curve. The first rounds give
+/// the walks a coarse map of the whole domain; within a round the next point is near the last.
+[[nodiscard]] std::vector<std::uint32_t> insertion_order(std::span<const Vec2> points);
+
+/// The Delaunay triangulation of the convex hull.
+[[nodiscard]] Expected<Triangulation> triangulate_points(std::span<const Vec2> points);
+
+/// Makes the segments edges, or chains of edges where points lie on them, and constrains those.
+[[nodiscard]] std::optional<InputError> insert_segments(Triangulation& triangulation,
+                                                        std::span<const std::array<std::int32_t, 2>> segments);
+
+/// Erases the triangles outside the segments and in holes.
+[[nodiscard]] std::optional<InputError> carve(Triangulation& triangulation);
+
+/// The mesh with the user's numbers.
+[[nodiscard]] Mesh in_input_order(Triangulation triangulation);
+
+}  // namespace temper::generate
