@@ -72,9 +72,10 @@ struct OptimizeOptions {
   int max_sweeps = 300;
   double tolerance = 1e-5;
   StoppingRule stopping = StoppingRule::relative;
-  double time_limit = 0;         ///< seconds; 0: none
-  std::uint64_t seed = 1;        ///< of the jitter that frees symmetric grids
-  Executor* executor = nullptr;  ///< threads for sums over the mesh; results do not depend on it
+  double time_limit = 0;              ///< seconds; 0: none
+  std::uint64_t seed = 1;             ///< of the jitter that frees symmetric grids
+  const InputNames* names = nullptr;  ///< the user's numbering, for errors
+  Executor* executor = nullptr;       ///< threads for sums over the mesh; results do not depend on it
 };
 
 enum class Stopped { converged, max_sweeps, time_limit, cancelled };
@@ -94,8 +95,9 @@ struct OptimizeReport {
 };
 
 /// Improves the mesh in place. The domain boundary, fixed vertices and constrained edges stay, bit for bit;
-/// every triangle stays counter-clockwise. Errors: an unknown energy, star or value out of range; weights
-/// of the input that hide a vertex. O(sweeps · n).
+/// every triangle stays counter-clockwise. Never returns a worse mesh than the input's. Errors, which leave the
+/// mesh as it was: an unknown energy, star or value out of range; weights that hide a vertex; a mesh outside
+/// the barrier of E_BH or E_BHs. O(sweeps · n).
 [[nodiscard]] Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options = {},
                                                 const Observer& observer = {});
 

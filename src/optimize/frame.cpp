@@ -1,0 +1,45 @@
+#include "optimize/frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace temper {
+namespace {
+
+/// The middle of [low, high] when the whole interval is within a factor of two of it, else 0.
+double center_of(double low, double high) {
+  if (low > 0 ? high <= 2 * low : (high < 0 && low >= 2 * high)) return low + (high - low) / 2;
+  return 0;
+}
+
+}  // namespace
+
+Frame Frame::of(const Mesh& mesh) {
+  Vec2 low = mesh.position(VertexId(0)), high = low;
+  for (const VertexId v : mesh.vertices()) {
+    const Vec2 p = mesh.position(v);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  Frame frame;
+  frame.center = {center_of(low.x, high.x), center_of(low.y, high.y)};
+  frame.scale = std::exp2(std::ilogb(std::max(high.x - low.x, high.y - low.y)));
+  return frame;
+}
+
+void Frame::enter(Mesh& mesh) const {
+  const double inverse = 1 / scale;
+  for (const VertexId v : mesh.vertices()) {
+    const WeightedPoint p = mesh.point(v);
+    mesh.set_point(v, {(p.x - center.x) * inverse, (p.y - center.y) * inverse, p.w * inverse * inverse});
+  }
+}
+
+void Frame::leave(Mesh& mesh) const {
+  for (const VertexId v : mesh.vertices()) {
+    const WeightedPoint p = mesh.point(v);
+    mesh.set_point(v, {p.x * scale + center.x, p.y * scale + center.y, p.w * scale * scale});
+  }
+}
+
+}  // namespace temper

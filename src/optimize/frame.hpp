@@ -1,0 +1,30 @@
+// The optimiser works on coordinates near the origin and of size about 1, and gives back the user's.
+//
+// Scaling is by a power of two, so exact. An axis is centred only when every coordinate on it is within a factor
+// of two of the center c: then x − c is exact (Sterbenz), and so is the way back. Positions that move are
+// rounded to the user's grid, (x + c) − c, so that what was decided exactly here holds there.
+#pragma once
+
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+struct Frame {
+  Vec2 center;       ///< in the user's units
+  double scale = 1;  ///< user's length of one unit here; a power of two
+
+  /// The frame of a mesh in the user's coordinates.
+  [[nodiscard]] static Frame of(const Mesh& mesh);
+
+  /// Into the frame and back. Unmoved vertices come back bit for bit.
+  void enter(Mesh& mesh) const;
+  void leave(Mesh& mesh) const;
+
+  /// The nearest position that the user's coordinates can hold.
+  [[nodiscard]] Vec2 snap(Vec2 p) const {
+    const Vec2 c = (1 / scale) * center;
+    return {(p.x + c.x) - c.x, (p.y + c.y) - c.y};
+  }
+};
+
+}  // namespace temper

@@ -1,0 +1,69 @@
+#include "regularity/flip_threshold.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace temper {
+namespace {
+
+/// c₀ + c₁ t + c₂ t².
+struct Quadratic {
+  double c0, c1, c2;
+};
+
+/// F(t) above, for the lifted points a, b, c seen from p.
+Quadratic power_along(const WeightedPoint& p, const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
+                      const std::array<double, 3>& step) {
+  const auto lift = [&](const WeightedPoint& q) {
+    const double x = q.x - p.x, y = q.y - p.y;
+    return WeightedPoint{x, y, x * x + y * y - (q.w - p.w)};
+  };
+  const WeightedPoint u = lift(a), v = lift(b), w = lift(c);
+  const auto minor = [](double u1, double u2, double v1, double v2, double w1, double w2) {
+    return (u1 * v2 - u2 * v1) + (v1 * w2 - v2 * w1) + (w1 * u2 - w2 * u1);  // det of rows (1, ·, ·)
+  };
+  const double f0 = u.x * (v.y * w.w - v.w * w.y) - u.y * (v.x * w.w - v.w * w.x) + u.w * (v.x * w.y - v.y * w.x);
+  const double bx = -minor(u.y, u.w, v.y, v.w, w.y, w.w);
+  const double cy = minor(u.x, u.w, v.x, v.w, w.x, w.w);
+  const double d = -minor(u.x, u.y, v.x, v.y, w.x, w.y);
+  const auto [sx, sy, sw] = step;
+  return {f0, bx * sx + cy * sy - d * sw, d * (sx * sx + sy * sy)};
+}
+
+/// The least t ≥ 0 where g becomes positive, given that it is not at 0 up to rounding.
+double first_crossing(Quadratic g) {
+  if (g.c0 >= 0) return g.c1 > 0 || (g.c1 == 0 && g.c2 > 0) ? 0 : kNoThreshold;
+  if (g.c2 == 0) return g.c1 > 0 ? -g.c0 / g.c1 : kNoThreshold;
+  const double discriminant = g.c1 * g.c1 - 4 * g.c2 * g.c0;
+  if (discriminant < 0) return kNoThreshold;
+  // The stable pair of roots; with c₀ < 0 the least positive one is where g turns positive.
+  const double q = -0.5 * (g.c1 + std::copysign(std::sqrt(discriminant), g.c1));
+  double least = kNoThreshold;
+  for (const double root : {q / g.c2, q != 0 ? g.c0 / q : kNoThreshold}) {
+    if (root > 0) least = std::min(least, root);
+  }
+  return least;
+}
+
+}  // namespace
+
+double flip_threshold(const Mesh& mesh, VertexId v, const std::array<double, 3>& step) {
+  const WeightedPoint p = mesh.point(v);
+  double threshold = kNoThreshold;
+  for (const HalfedgeId h : mesh.star(v)) {
+    const WeightedPoint q = mesh.point(mesh.target(h)), r = mesh.point(mesh.opposite(h));
+    const HalfedgeId link = mesh.twin(Mesh::next(h));
+    if (link.valid() && !mesh.is_constrained(link)) {
+      const Quadratic f = power_along(p, r, q, mesh.point(mesh.opposite(link)), step);
+      threshold = std::min(threshold, first_crossing(f));
+    }
+    const HalfedgeId before = mesh.twin(h);
+    if (before.valid() && !mesh.is_constrained(h)) {
+      const Quadratic f = power_along(p, mesh.point(mesh.opposite(before)), q, r, step);
+      threshold = std::min(threshold, first_crossing({-f.c0, -f.c1, -f.c2}));
+    }
+  }
+  return threshold;
+}
+
+}  // namespace temper
