@@ -127,7 +127,7 @@ struct BarrierKernel {
     return (alpha * (e.l2 * e.l2 + e.dw * e.dw) + 4 * beta * e.g * e.g) / (std::sqrt(q) * phi);
   }
 
-  /// Precondition: value(e) is finite.
+  /// Outside the domain f is not positive and finite, and the rest means nothing.
   [[nodiscard]] EdgeTerm term(const EdgeShape& e) const {
     const double l = e.l2, w = e.dw, g = e.g;
     const double t = alpha * (l * l + w * w) + 4 * beta * g * g, q = (l - w) * (l + w);

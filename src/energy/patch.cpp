@@ -21,7 +21,7 @@ double outer_height(const Mesh& mesh, HalfedgeId h) {
 }
 
 /// Adds factor × the edge term of a link edge: only g depends on the center.
-void add_term(VertexDerivatives& sum, const EdgeTerm& t, double factor, const Jet& g) {
+[[gnu::always_inline]] inline void add_term(VertexDerivatives& sum, const EdgeTerm& t, double factor, const Jet& g) {
   const double f_g = factor * t.f_g, f_gg = factor * t.f_gg;
   const auto& [gx, gy, gw] = g.gradient;
   sum.gradient[0] += f_g * gx;
@@ -36,7 +36,7 @@ void add_term(VertexDerivatives& sum, const EdgeTerm& t, double factor, const Je
 }
 
 /// The same for a spoke, whose ℓ² has gradient −2e (e from the center to the link) and whose w has (0, 0, 1).
-void add_spoke_term(VertexDerivatives& sum, const EdgeTerm& t, double factor, const Jet& g, Vec2 e) {
+[[gnu::always_inline]] inline void add_spoke_term(VertexDerivatives& sum, const EdgeTerm& t, double factor, const Jet& g, Vec2 e) {
   add_term(sum, t, factor, g);
   const double lx = -2 * e.x, ly = -2 * e.y;
   const auto& [gx, gy, gw] = g.gradient;
@@ -69,18 +69,21 @@ double barrier_value(const Patch& patch, const Kernel& kernel, const WeightedPoi
   return sum;
 }
 
+/// A barrier is positive and finite exactly in its domain; outside, the formula gives a negative number, ∞ or NaN.
+bool is_inside(const EdgeTerm& t) { return t.f > 0 && t.f < kInfinity; }
+
 template <class Kernel>
 VertexDerivatives barrier_derivatives(const Patch& patch, const Kernel& kernel, const WeightedPoint& p) {
   VertexDerivatives sum;
   for (std::size_t i = 0; i < patch.size(); ++i) {
     const TriangleJet jet = triangle_jet(p, patch.q(i), patch.r(i));
     const auto& [pq, qr, rp] = jet.shape.edges;
-    if (!(jet.shape.doubled_area > 0) || !std::isfinite(barrier_triangle(kernel, jet.shape))) {
+    const EdgeTerm t_pq = kernel.term(pq), t_qr = kernel.term(qr), t_rp = kernel.term(rp);
+    if (!(jet.shape.doubled_area > 0 && is_inside(t_pq) && is_inside(t_qr) && is_inside(t_rp))) {
       VertexDerivatives outside;
       outside.value = kInfinity;
       return outside;
     }
-    const EdgeTerm t_pq = kernel.term(pq), t_qr = kernel.term(qr), t_rp = kernel.term(rp);
     sum.value += t_pq.f + t_qr.f + t_rp.f;
     add_spoke_term(sum, t_pq, 1, jet.g[0], jet.a);
     add_term(sum, t_qr, 1, jet.g[1]);
