@@ -10,6 +10,8 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/temper DESTINATION ${CMAKE_INSTA
         FILES_MATCHING PATTERN "*.hpp" PATTERN "io.hpp" EXCLUDE)
 
 if(TARGET temper_io)
+  # A static library: whoever links the installed one needs pugixml too. temperConfig.cmake finds it.
+  target_link_libraries(temper_io PRIVATE $<INSTALL_INTERFACE:pugixml::pugixml>)
   set_target_properties(temper_io PROPERTIES EXPORT_NAME io)
   install(TARGETS temper_io EXPORT temper_io)
   install(EXPORT temper_io NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperIoTargets.cmake)
