@@ -68,7 +68,9 @@ std::vector<Key> legend(std::span<const Shown> shown, const Frame& frame, const 
     keys.push_back({"weight < 0", circle_mark(Palette::negative, "stroke-dasharray=\"4 2\"")});
   }
   if (any([](const Panel& p) { return p.rings; })) keys.push_back({"nearly coincident", circle_mark(Palette::ring)});
-  if (!frame.shows_detail() && (options.dual || options.weights)) keys.push_back({"dual and weights: zoom in", ""});
+  if (!frame.shows_detail() && (options.dual || options.weights)) {
+    keys.push_back({frame.shows_edges() ? "dual and weights: zoom in" : "edges, dual and weights: zoom in", ""});
+  }
   return keys;
 }
 

@@ -27,7 +27,8 @@ struct Segment {
 };
 
 struct Frame {
-  static constexpr double kLeastDetail = 6;  ///< pixels of a median edge
+  static constexpr double kLeastDetail = 6;   ///< pixels of a median edge, for duals and weights
+  static constexpr double kLeastEdges = 1.5;  ///< for the edges themselves: closer lines are one grey
 
   Box box;                       ///< what the panel shows, in the user's coordinates
   Box clip;                      ///< a little more: what is written
@@ -36,8 +37,9 @@ struct Frame {
   double width = 0, height = 0;  ///< of the panel, pixels
   double edge = 0;               ///< median length of the edges that are drawn, pixels
 
-  /// Is there room for duals and weights between the edges? Else only edges and bad triangles are drawn.
+  /// Is there room for duals and weights between the edges, and for more edges than the kept ones?
   [[nodiscard]] bool shows_detail() const { return edge == 0 || edge >= kLeastDetail; }
+  [[nodiscard]] bool shows_edges() const { return edge == 0 || edge >= kLeastEdges; }
   [[nodiscard]] GridPoint grid(Vec2 p) const;
   [[nodiscard]] std::int64_t steps(double pixels) const;
 };

@@ -102,8 +102,9 @@ class PanelPainter {
     PathText plain, kept;
     for (HalfedgeId h : mesh_.halfedges()) {
       if (!mesh_.is_edge_representative(h)) continue;
-      const bool thick = options_.regions && (mesh_.is_boundary(h) || mesh_.is_constrained(h));
-      add_segment(thick ? kept : plain, edge(h));
+      const bool outline = mesh_.is_boundary(h) || mesh_.is_constrained(h);
+      if (!outline && !frame_.shows_edges()) continue;
+      add_segment(outline && options_.regions ? kept : plain, edge(h));
     }
     stroke(plain, "primal", detailed_ ? Palette::primal : Palette::primal_dense, primal_width());
     stroke(kept, "constrained", Palette::primal, std::max(kConstrainedTimes * primal_width(), 0.8),

@@ -214,6 +214,17 @@ TEST(Draw, AnEmptyMeshIsAnEmptyPanel) {
   expect_well_formed(draw_before_after_svg(Mesh(), lattice()));
 }
 
+TEST(Draw, EdgesTooCloseToTellApartAreLeftOutButNotTheBoundary) {
+  const Mesh mesh = lattice({.n = 80, .jitter = 0.05, .weight = 0});
+  DrawOptions options;
+  options.width = 100;
+  const std::string svg = draw_svg(mesh, options);
+  EXPECT_FALSE(has_class(svg, "primal"));
+  EXPECT_TRUE(has_class(svg, "constrained"));
+  EXPECT_NE(svg.find("edges, dual and weights: zoom in"), std::string::npos);
+  EXPECT_TRUE(has_class(draw_svg(mesh), "primal"));
+}
+
 TEST(Draw, AHundredThousandTrianglesFitInAFewMegabytesAndBadOnesStayVisible) {
   Mesh mesh = lattice({.n = 225, .jitter = 0.05, .weight = 0.01});
   ASSERT_GT(mesh.n_triangles(), 100'000u);
