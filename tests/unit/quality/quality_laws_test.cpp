@@ -314,6 +314,31 @@ TEST(QualityLaws, EveryTriangleThatIsNotWellCenteredRanksBeforeAllOthers) {
   EXPECT_TRUE(good_seen);
 }
 
+TEST(QualityLaws, ManyBlocksAddUpToTheWhole) {
+  const Mesh mesh = lattice({.n = 100, .jitter = 0.3, .weight = 0.3});
+  ASSERT_GT(mesh.n_triangles(), 2 * 8192u);
+  const Quality q = quality(mesh);
+  expect_same_counts(naive_counts(mesh), q);
+  double min_h = 1, min_d = 1, min_angle = 180, max_angle = 0;
+  for (HalfedgeId h : mesh.halfedges()) {
+    const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h)),
+                        c = mesh.point(mesh.opposite(h));
+    const double l = length(b.position() - a.position());
+    const double angle = corner_angle(c.position(), a.position(), b.position()) * 180 / std::numbers::pi;
+    min_h = std::min(min_h, signed_height(a, b, c) / l);
+    min_d = std::min({min_d, edge_split(a, b) / l, edge_split(b, a) / l});
+    min_angle = std::min(min_angle, angle);
+    max_angle = std::max(max_angle, angle);
+  }
+  expect_close(q.min_h_over_l, min_h);
+  expect_close(q.min_d_over_l, min_d);
+  expect_close(q.min_angle_deg, min_angle);
+  expect_close(q.max_angle_deg, max_angle);
+  EXPECT_EQ(sum(q.angles), 3 * q.triangles);
+  EXPECT_EQ(sum(q.h_over_l), 3 * q.triangles);
+  EXPECT_EQ(sum(q.d_over_l), q.edges);
+}
+
 // Two threads, the blocks from the last to the first.
 class Backwards : public Executor {
  public:
