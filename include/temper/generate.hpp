@@ -50,7 +50,7 @@ struct SingleTriangle {
 struct RandomPoints {
   std::size_t vertices = 1000;
   std::uint64_t seed = 1;
-  Polygon polygon;  ///< empty: the default
+  Polygon polygon = {};  ///< empty: the default
 };
 [[nodiscard]] Expected<Mesh> random_points(const RandomPoints& shape = {});
 
