@@ -52,9 +52,11 @@ enum class StoppingRule {
 struct OptimizeOptions {
   std::string_view energy = "BP";  ///< a name of the registry
   int star = 1;                    ///< 0, 1 or 2
-  /// γ of E_BP. Absent: relative, from 0.5, times 0.7 a sweep, down to 0.003 (the schedule). Given: constant.
+  /// γ of E_BP. Absent: relative to each edge, shrinking from 0.5 to 0.003; when triangles stay bad, a second attempt
+  /// from 2. Given: constant.
   std::optional<Softening> gamma;
-  /// −h° of E_BHs. Absent: as for γ, but always below the least h of the mesh. Given: constant.
+  /// −h° of E_BHs. Absent: relative, just beyond the worst h/ℓ of the mesh, shrinking as that improves. Given:
+  /// constant.
   std::optional<Softening> h0;
   BoundaryTreatment boundary = BoundaryTreatment::as_is;  ///< of E_F only
 
@@ -69,7 +71,7 @@ struct OptimizeOptions {
   InterfaceVertices interfaces = InterfaceVertices::fixed;
   std::optional<std::size_t> anchor;  ///< vertex whose weight is shifted to 0 after each sweep (Algorithm 1, line 17)
 
-  int max_sweeps = 300;
+  int max_sweeps = 1000;
   double tolerance = 1e-5;
   StoppingRule stopping = StoppingRule::relative;
   double time_limit = 0;              ///< seconds; 0: none

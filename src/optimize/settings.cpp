@@ -5,29 +5,11 @@
 #include <string>
 
 #include "base/text.hpp"
-#include "geometry/triangle_kernel.hpp"
 
 namespace temper {
 namespace {
 
-// γ/ℓ by default: measured on public meshes; larger ones leave triangles bad, smaller ones start too stiff.
-constexpr double kGammaStart = 0.5, kGammaFactor = 0.7, kGammaFloor = 0.003;
-// −h°/ℓ by default: this much beyond the worst h/ℓ of the mesh, so that every term is finite from the start.
-constexpr double kShiftMargin = 1.25;
-
 InputError invalid(const std::string& message) { return {ErrorCode::invalid_option, {}, message}; }
-
-/// The least h/ℓ, 0.5 at most, over all edges of all triangles.
-double least_relative_height(const Mesh& mesh) {
-  double least = kGammaStart;
-  for (const TriangleId t : mesh.triangles()) {
-    const auto [p, q, r] = mesh.corners(t);
-    for (const EdgeShape& e : triangle_shape(mesh.point(p), mesh.point(q), mesh.point(r)).edges) {
-      least = std::min(least, e.g / e.l2);
-    }
-  }
-  return least;
-}
 
 Softening in_frame(Softening s, const Frame& frame) {
   if (s.scale == LengthScale::absolute) s.value /= frame.scale;
@@ -61,21 +43,11 @@ std::optional<InputError> check(const OptimizeOptions& o, const Mesh& mesh) {
 
 }  // namespace
 
-Softening SofteningSchedule::at(int sweep) const {
-  return {std::max(floor, start.value * std::pow(factor, sweep)), start.scale};
-}
-
 EnergyModel in_user_units(EnergyModel model, const Frame& frame) {
   for (Softening* s : {&model.gamma, &model.h0}) {
     if (s->scale == LengthScale::absolute) s->value *= frame.scale;
   }
   return model;
-}
-
-Softening next_h0(const Mesh& mesh, Softening present) {
-  const double beyond_worst = -kShiftMargin * least_relative_height(mesh);
-  return {std::min(present.value, std::max({kGammaFloor, kGammaFactor * present.value, beyond_worst})),
-          LengthScale::relative};
 }
 
 Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh, const Frame& frame) {
@@ -86,18 +58,11 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   Settings s;
   s.energy = *energy;
   s.options = options;
-  const double least = least_relative_height(mesh);
-  if (options.gamma) {
-    s.gamma = {in_frame(*options.gamma, frame), 1, 0};
-  } else if (least > 0) {
-    s.gamma = {{kGammaFloor, LengthScale::relative}, 1, kGammaFloor};  // already inside: no need to soften first
-  } else {
-    s.gamma = {{kGammaStart, LengthScale::relative}, kGammaFactor, kGammaFloor};
-  }
-  s.h0_follows_mesh = !options.h0;
-  const Softening h0 = options.h0 ? in_frame(*options.h0, frame)
-                                  : Softening{std::max(kGammaFloor, -kShiftMargin * least), LengthScale::relative};
-  s.model = {energy->kind, options.star, options.boundary, s.gamma.at(0), h0};
+  s.model.kind = energy->kind;
+  s.model.star = options.star;
+  s.model.boundary = options.boundary;
+  if (options.gamma) s.model.gamma = in_frame(*options.gamma, frame);
+  if (options.h0) s.model.h0 = in_frame(*options.h0, frame);
   // A barrier prices every flip, so it needs no limit; HOT is continuous at a flip and may be led past one, a little.
   s.flip_limit = options.flip_limit.value_or(energy->barrier ? FlipLimit::unlimited : FlipLimit::after);
   if (!options.flips) s.flip_limit = FlipLimit::before;

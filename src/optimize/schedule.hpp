@@ -1,0 +1,55 @@
+// How softly a barrier is approached: γ of E_BP and h° of E_BHs from sweep to sweep, as data.
+//
+// A small γ from the start pins every vertex to the few triangles that are bad, and prices out the flips that
+// would cure them; a large one does not see h < 0. So γ starts large and shrinks. Quickly at first, one sweep a
+// level: enough for most meshes. What is still bad then is tried again from the input, with a larger γ, levels that
+// are left only when their energy has settled, and a small jitter against symmetric grids, whose positions are
+// stationary.
+#pragma once
+
+#include <span>
+
+#include "temper/energy.hpp"
+#include "temper/mesh.hpp"
+#include "temper/optimize.hpp"
+
+namespace temper {
+
+/// One way from the input to a well-centered mesh.
+struct Attempt {
+  double start = 0;       ///< first γ/ℓ
+  double factor = 1;      ///< from level to level
+  int level_sweeps = 1;   ///< most sweeps at one level
+  double level_fall = 0;  ///< a level is left when the energy falls by less than this part of itself
+  double jitter = 0;      ///< of free vertices before the first sweep, relative to their shortest edge
+};
+
+/// The attempts for this mesh and these options, in order; at least one. A user's γ, or an energy without one, leaves
+/// a single attempt, and so does a mesh that is well-centered already.
+[[nodiscard]] std::span<const Attempt> attempts(const EnergyInfo& energy, const OptimizeOptions& options,
+                                                const Mesh& mesh);
+
+/// γ and h° of the sweeps of one attempt.
+class Softener {
+ public:
+  Softener(const Attempt& attempt, const EnergyInfo& energy, const OptimizeOptions& options)
+      : attempt_(attempt),
+        gamma_shrinks_(energy.softened_by_gamma && !options.gamma),
+        h0_shrinks_(energy.softened_by_h0 && !options.h0) {}
+
+  /// The first sweep's.
+  void start(const Mesh& mesh, EnergyModel& model);
+  /// After a sweep that lowered the energy by `fall` times itself. True when the model changed: energies before
+  /// and after do not compare.
+  bool advance(const Mesh& mesh, double fall, EnergyModel& model);
+  /// Whether advance will change the model no more: only then can a run converge.
+  [[nodiscard]] bool settled() const { return settled_; }
+
+ private:
+  Attempt attempt_;
+  bool gamma_shrinks_, h0_shrinks_;
+  bool settled_ = true;
+  int sweeps_at_level_ = 0;
+};
+
+}  // namespace temper
