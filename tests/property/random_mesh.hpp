@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -21,7 +23,11 @@ inline Mesh build_or_die(const std::vector<Vec2>& points, const std::vector<std:
   input.triangles = triangles;
   input.constrained_edges = constrained;
   auto built = Mesh::build(input);
-  return built ? std::move(built->mesh) : Mesh();
+  if (!built) {
+    std::fprintf(stderr, "build_or_die: %s\n", built.error().what().c_str());
+    std::abort();
+  }
+  return std::move(built->mesh);
 }
 
 /// The square [−1, 1]² cut in two.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "temper/energy.hpp"
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"
 #include "temper/regularity.hpp"
@@ -133,6 +134,18 @@ TEST(HorseshoeExample, OfSevenByNineIsThePapersDenseOne) {
   EXPECT_NEAR(least, 4.095, 5e-4);
   EXPECT_NEAR(greatest, 138.27, 5e-3);
   EXPECT_EQ(count_non_regular_edges(*mesh), 0u);
+}
+
+TEST(HorseshoeExample, HasTheEnergiesOfThePrototype) {
+  const Mesh mesh = *horseshoe();
+  const auto energy = [&](EnergyKind kind, int star) {
+    return total_energy(mesh, {.kind = kind, .star = star, .gamma = {1, LengthScale::absolute}});
+  };
+  EXPECT_NEAR(energy(EnergyKind::F, 0), 0.581320957789, 1e-12);
+  EXPECT_NEAR(energy(EnergyKind::F, 1), 2.836890825582, 1e-12);
+  EXPECT_NEAR(energy(EnergyKind::F, 2), 2.255569867793, 1e-12);
+  EXPECT_NEAR(energy(EnergyKind::T, 1), 12.143904187128, 1e-12);
+  EXPECT_NEAR(energy(EnergyKind::BP, 1), 375.355882218659, 1e-10);
 }
 
 TEST(HorseshoeExample, IsSymmetricToTheLastBit) {

@@ -86,7 +86,7 @@ TEST(Flip, RefusesAConstrainedEdge) {
 
 TEST(Flip, RefusesAQuadThatIsNotStrictlyConvex) {
   // Vertices 2 and 3 at abscissa x: the quad is reflex, flat or convex at vertex 0.
-  for (const double x : {-0.5, 0.0, 0x1p-200, 0.5}) {
+  for (const double x : {-0.5, 0.0, 0x1p-60, 0.5}) {
     const Mesh mesh = test::build_or_die({{0, 0}, {2, 0}, {x, -1}, {x, 1}}, {{0, 1, 3}, {1, 0, 2}});
     const FlipStatus expected = x > 0 ? FlipStatus::possible : FlipStatus::not_convex;
     EXPECT_EQ(can_flip(mesh, mesh.find_halfedge(VertexId(0), VertexId(1))), expected);
