@@ -12,7 +12,8 @@ namespace temper {
 namespace {
 
 // Widths in pixels, from the median edge: thin enough to see through, thick enough to print.
-constexpr double kPrimalWidth = 0.03, kLeastPrimal = 0.2, kMostPrimal = 1.2;
+constexpr double kPrimalWidth = 0.03, kLeastPrimal = 0.45, kMostPrimal = 1.2;
+constexpr double kDenseWidth = 0.2;  // where edges are close: bad triangles show through
 constexpr double kConstrainedTimes = 2.5;
 constexpr double kDualTimes = 0.9;
 constexpr double kNearCoincident = 0.05;  // of the mean of the other edges around: nothing to see between the two ends
@@ -43,7 +44,7 @@ class PanelPainter {
 
  private:
   [[nodiscard]] double primal_width() const {
-    return std::clamp(kPrimalWidth * frame_.edge, kLeastPrimal, kMostPrimal);
+    return detailed_ ? std::clamp(kPrimalWidth * frame_.edge, kLeastPrimal, kMostPrimal) : kDenseWidth;
   }
   [[nodiscard]] Segment edge(HalfedgeId h) const {
     return {mesh_.position(mesh_.origin(h)), mesh_.position(mesh_.target(h))};
@@ -125,7 +126,7 @@ class PanelPainter {
       add_segment(path, {from, mesh_.is_boundary(h) ? weighted_midpoint(h) : centers[Mesh::triangle(mesh_.twin(h))]});
     }
     panel_.dual = !path.empty();
-    stroke(path, "dual", Palette::dual, std::max(kDualTimes * primal_width(), kLeastPrimal));
+    stroke(path, "dual", Palette::dual, kDualTimes * primal_width());
   }
 
   [[nodiscard]] Vec2 weighted_midpoint(HalfedgeId h) const {
