@@ -23,9 +23,9 @@ struct DrawOptions {
   bool near_coincident = true;  ///< ring vertices that nearly coincide with a neighbour
   bool regions = true;          ///< tint regions, draw constrained edges thicker
   bool vertex_numbers = false;
-  std::optional<Box> zoom;  ///< draw only what meets this box
-  double width = 900;       ///< of one panel, in CSS pixels
-  std::string title;        ///< under the picture
+  std::optional<Box> zoom = {};  ///< draw only what meets this box
+  double width = 900;            ///< of one panel, in CSS pixels
+  std::string title = {};        ///< under the picture
 };
 
 /// One panel.

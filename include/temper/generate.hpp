@@ -21,9 +21,10 @@ using Polygon = std::vector<Vec2>;
 /// Edges of outline and holes appear; points keep their order; ties are broken by index.
 /// Errors: duplicate points, crossing segments, fewer than three points.
 struct DelaunayInput {
-  std::span<const Vec2> points;
-  std::span<const std::array<std::int32_t, 2>> segments;  ///< constrained edges, 0-based
-  bool carve = true;  ///< drop triangles outside the outermost closed segments, and inside holes (by parity); false: convex hull
+  std::span<const Vec2> points = {};
+  std::span<const std::array<std::int32_t, 2>> segments = {};  ///< constrained edges, 0-based
+  bool carve =
+      true;  ///< drop triangles outside the outermost closed segments, and inside holes (by parity); false: convex hull
 };
 [[nodiscard]] Expected<Mesh> constrained_delaunay(const DelaunayInput& input);
 
@@ -72,8 +73,8 @@ struct Annulus {
 
 /// A box with an airfoil-like hole, graded from fine at the foil to coarse at the box.
 struct Airfoil {
-  int around = 80;        ///< points on the foil
-  double growth = 1.25;   ///< ratio of one layer's spacing to the one before
+  int around = 80;       ///< points on the foil
+  double growth = 1.25;  ///< ratio of one layer's spacing to the one before
   std::uint64_t seed = 1;
 };
 [[nodiscard]] Expected<Mesh> airfoil(const Airfoil& shape = {});

@@ -66,7 +66,8 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 
 /// h ℓ of the three edges qr, rp, pq (the edge across from p, q, r). They sum to twice the area, and are
 /// rational in the coordinates and weights: what the energies are made of.
-[[nodiscard]] std::array<double, 3> scaled_heights(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
+[[nodiscard]] std::array<double, 3> scaled_heights(const WeightedPoint& p, const WeightedPoint& q,
+                                                   const WeightedPoint& r);
 
 /// Twice the signed area.
 [[nodiscard]] double doubled_area(Vec2 p, Vec2 q, Vec2 r);

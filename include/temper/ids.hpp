@@ -7,6 +7,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace temper {
@@ -36,12 +37,19 @@ class IdRange {
  public:
   class Iterator {
    public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = IdType;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const IdType*;
+    using reference = IdType;
+
     constexpr explicit Iterator(std::size_t i) : index_(i) {}
     constexpr IdType operator*() const { return IdType(index_); }
     constexpr Iterator& operator++() {
       ++index_;
       return *this;
     }
+    constexpr Iterator operator++(int) { return Iterator(index_++); }
     friend constexpr bool operator==(Iterator, Iterator) = default;
 
    private:

@@ -44,37 +44,37 @@ struct MeshFile {
   double z = 0;                                        ///< common z of all points, written back
   std::vector<double> weights;                         ///< empty, or one a point
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< 0-based
-  std::vector<std::int32_t> regions;                   ///< empty, or one a triangle (medit reference, Gmsh physical tag, …)
-  std::vector<std::array<std::int32_t, 2>> lines;      ///< tagged lines: boundary or interior
-  std::vector<std::int32_t> line_tags;                 ///< one a line
-  std::vector<std::int32_t> marked_points;             ///< points that carry a tag (Gmsh point elements, …)
-  std::vector<std::int32_t> point_tags;                ///< one a marked point
+  std::vector<std::int32_t> regions;  ///< empty, or one a triangle (medit reference, Gmsh physical tag, …)
+  std::vector<std::array<std::int32_t, 2>> lines;  ///< tagged lines: boundary or interior
+  std::vector<std::int32_t> line_tags;             ///< one a line
+  std::vector<std::int32_t> marked_points;         ///< points that carry a tag (Gmsh point elements, …)
+  std::vector<std::int32_t> point_tags;            ///< one a marked point
   std::vector<PhysicalName> names;
-  std::vector<DataArray> point_data;                   ///< one tuple a point
-  std::vector<DataArray> cell_data;                    ///< one tuple a triangle
-  std::vector<DataArray> line_data;                    ///< one tuple a line
-  std::vector<DataArray> marked_point_data;            ///< one tuple a marked point
-  std::vector<DataArray> field_data;                   ///< of the file as a whole
-  std::string path;                                    ///< where it was read from, for messages
-  std::string format;                                  ///< "vtu", "gmsh41", …: the row of formats() it came from
-  std::vector<std::string> warnings;                   ///< what was dropped or repaired in reading
-  std::shared_ptr<const InputNames> numbering;         ///< the file's own numbers and lines
+  std::vector<DataArray> point_data;            ///< one tuple a point
+  std::vector<DataArray> cell_data;             ///< one tuple a triangle
+  std::vector<DataArray> line_data;             ///< one tuple a line
+  std::vector<DataArray> marked_point_data;     ///< one tuple a marked point
+  std::vector<DataArray> field_data;            ///< of the file as a whole
+  std::string path;                             ///< where it was read from, for messages
+  std::string format;                           ///< "vtu", "gmsh41", …: the row of formats() it came from
+  std::vector<std::string> warnings;            ///< what was dropped or repaired in reading
+  std::shared_ptr<const InputNames> numbering;  ///< the file's own numbers and lines
 };
 
 enum class Encoding { ascii, base64, appended };
 
 struct WriteOptions {
-  std::string format;                 ///< row of formats(); empty: by the suffix of the path
-  std::optional<Encoding> encoding;   ///< of formats that have several; VTU's default is zlib in base64
+  std::string format;                ///< row of formats(); empty: by the suffix of the path
+  std::optional<Encoding> encoding;  ///< of formats that have several; VTU's default is zlib in base64
 };
 
 /// A format temper knows. Adding one is one source file and one row.
 struct Format {
-  std::string_view name;         ///< "vtu", "gmsh22", "gmsh41", "medit", "triangle", "obj", "vtk", "mfem"
+  std::string_view name;  ///< "vtu", "gmsh22", "gmsh41", "medit", "triangle", "obj", "vtk", "mfem"
   std::string_view description;
-  std::string_view suffixes;     ///< ".vtu", ".msh", …, separated by spaces; first is the one written
+  std::string_view suffixes;  ///< ".vtu", ".msh", …, separated by spaces; first is the one written
   bool writes;
-  bool holds_weights;            ///< else weights go to PATH.weights.csv, with a warning
+  bool holds_weights;  ///< else weights go to PATH.weights.csv, with a warning
 };
 [[nodiscard]] std::span<const Format> formats();
 
@@ -82,7 +82,8 @@ struct Format {
 [[nodiscard]] Expected<MeshFile> read(const std::string& path);
 /// Writes to a temporary file beside path and renames it: on any error what was at path is untouched.
 /// Returns warnings (weights gone to a side file, data that the format cannot hold).
-[[nodiscard]] Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file, const WriteOptions& options = {});
+[[nodiscard]] Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file,
+                                                       const WriteOptions& options = {});
 
 /// Any text to a file, by the same temporary-and-rename.
 [[nodiscard]] Expected<void> write_text(const std::string& path, std::string_view text);
@@ -91,15 +92,15 @@ struct Format {
 /// reversed and counted in a warning. Interior tagged lines become constrained edges.
 struct LoadedMesh {
   Mesh mesh;
-  std::vector<std::int32_t> vertex_of_point;   ///< −1 for dropped points
+  std::vector<std::int32_t> vertex_of_point;  ///< −1 for dropped points
   std::size_t reversed_triangles = 0;
   std::vector<std::string> warnings;
 };
 /// `fixed_tags`: tags or physical names whose points must not move.
 [[nodiscard]] Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags = {});
 
-/// Puts coordinates, weights, triangles and regions of the mesh back into the file it came from, whose dropped points go
-/// with their data. Point data stay with their point, cell data with their slot. When the mesh has another number of
+/// Puts coordinates, weights, triangles and regions of the mesh back into the file it came from, whose dropped points
+/// go with their data. Point data stay with their point, cell data with their slot. When the mesh has another number of
 /// vertices or triangles than was loaded, lines and marked points are found again by their place; point and cell data
 /// cannot be, and go with a warning in file.warnings. May be called again for a later state of the same mesh.
 void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh);

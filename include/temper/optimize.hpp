@@ -54,10 +54,10 @@ struct OptimizeOptions {
   int star = 1;                    ///< 0, 1 or 2
   /// γ of E_BP. Absent: relative to each edge, shrinking from 0.5 to 0.003; when triangles stay bad, a second attempt
   /// from 2. Given: constant.
-  std::optional<Softening> gamma;
+  std::optional<Softening> gamma = {};
   /// −h° of E_BHs. Absent: relative, just beyond the worst h/ℓ of the mesh, shrinking as that improves. Given:
   /// constant.
-  std::optional<Softening> h0;
+  std::optional<Softening> h0 = {};
   BoundaryTreatment boundary = BoundaryTreatment::as_is;  ///< of E_F only
 
   Solver solver = Solver::newton;
@@ -65,11 +65,13 @@ struct OptimizeOptions {
   int weights_from = 0;  ///< i_w: first sweep that changes weights
   bool flips = true;     ///< false: the connectivity is frozen and no step may make an edge non-regular
   FlipTiming flip_timing = FlipTiming::immediate;
-  std::optional<FlipLimit> flip_limit;  ///< absent: unlimited for barriers (a flipping step must pay), after for HOT
-  double overshoot = 1.1;               ///< of FlipLimit::after
-  double relaxation = 1.7;              ///< over-relaxation of Newton steps, in (0, 2)
+  std::optional<FlipLimit> flip_limit =
+      {};                   ///< absent: unlimited for barriers (a flipping step must pay), after for HOT
+  double overshoot = 1.1;   ///< of FlipLimit::after
+  double relaxation = 1.7;  ///< over-relaxation of Newton steps, in (0, 2)
   InterfaceVertices interfaces = InterfaceVertices::fixed;
-  std::optional<std::size_t> anchor;  ///< vertex whose weight is shifted to 0 after each sweep (Algorithm 1, line 17)
+  std::optional<std::size_t> anchor =
+      {};  ///< vertex whose weight is shifted to 0 after each sweep (Algorithm 1, line 17)
 
   int max_sweeps = 1000;
   double tolerance = 1e-5;

@@ -1,0 +1,46 @@
+// The optimiser's frame is left exactly as it was entered.
+#include "optimize/frame.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/lattice.hpp"
+
+namespace temper::test {
+namespace {
+
+class FrameRoundTrip : public testing::TestWithParam<LatticeOptions> {};
+
+TEST_P(FrameRoundTrip, IsBitForBit) {
+  const Mesh mesh = lattice(GetParam());
+  const Frame frame = Frame::of(mesh);
+  Mesh there = mesh;
+  frame.enter(there);
+  for (const VertexId v : there.vertices()) {
+    EXPECT_LE(std::abs(there.position(v).x), 16);
+    EXPECT_LE(std::abs(there.position(v).y), 16);
+    EXPECT_EQ(frame.snap(there.position(v)), there.position(v));
+  }
+  frame.leave(there);
+  EXPECT_EQ(there, mesh);
+}
+
+INSTANTIATE_TEST_SUITE_P(Everywhere, FrameRoundTrip,
+                         testing::Values(LatticeOptions{}, LatticeOptions{.offset = {1e6, -3e6}},
+                                         LatticeOptions{.offset = {-7, 0}}, LatticeOptions{.scale = 1e-12},
+                                         LatticeOptions{.scale = 1e12},
+                                         LatticeOptions{.scale = 3, .offset = {1e9, 1e9}},
+                                         LatticeOptions{.scale = 1e-3, .offset = {1, 0.001}}));
+
+TEST(Frame, SnapsToWhatTheUsersCoordinatesCanHold) {
+  const Mesh mesh = lattice({.offset = {1e6, 1e6}});
+  const Frame frame = Frame::of(mesh);
+  Noise noise(5);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec2 p = frame.snap({noise(), noise()});
+    const double user = p.x * frame.scale + frame.center.x;
+    EXPECT_EQ((user - frame.center.x) / frame.scale, p.x);
+  }
+}
+
+}  // namespace
+}  // namespace temper::test

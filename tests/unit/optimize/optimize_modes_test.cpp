@@ -1,0 +1,228 @@
+// Every switch of the optimiser does what it says.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "support/lattice.hpp"
+#include "temper/generate.hpp"
+#include "temper/optimize.hpp"
+#include "temper/quality.hpp"
+#include "temper/regularity.hpp"
+
+namespace temper::test {
+namespace {
+
+Mesh random_mesh(std::uint64_t seed = 1) {
+  auto mesh = random_points({.vertices = 300, .seed = seed});
+  EXPECT_TRUE(mesh);
+  return *std::move(mesh);
+}
+
+std::vector<std::array<VertexId, 3>> connectivity(const Mesh& mesh) {
+  std::vector<std::array<VertexId, 3>> all;
+  for (const TriangleId t : mesh.triangles()) all.push_back(mesh.corners(t));
+  return all;
+}
+
+TEST(Modes, PositionsOnlyKeepsWeights) {
+  Mesh mesh = random_mesh();
+  const Mesh before = mesh;
+  const auto report = optimize(mesh, {.unknowns = Unknowns::positions, .max_sweeps = 30});
+  ASSERT_TRUE(report);
+  std::size_t moved = 0;
+  for (const VertexId v : mesh.vertices()) {
+    EXPECT_EQ(mesh.weight(v), before.weight(v));
+    moved += mesh.position(v) != before.position(v) ? 1 : 0;
+  }
+  EXPECT_GT(moved, 100u);
+  EXPECT_LT(report->history.back().bad, report->history.front().bad / 2);
+}
+
+TEST(Modes, WeightsOnlyKeepsPositions) {
+  Mesh mesh = lattice({.n = 12, .jitter = 0.2, .weight = 0});
+  const Mesh before = mesh;
+  const auto report = optimize(mesh, {.unknowns = Unknowns::weights, .max_sweeps = 60});
+  ASSERT_TRUE(report);
+  for (const VertexId v : mesh.vertices()) EXPECT_EQ(mesh.position(v), before.position(v));
+  EXPECT_LT(report->history.back().bad, report->history.front().bad);
+}
+
+TEST(Modes, WeightsWaitForTheirSweep) {
+  Mesh mesh = random_mesh();
+  ASSERT_TRUE(optimize(mesh, {.weights_from = 5, .max_sweeps = 5}));
+  for (const VertexId v : mesh.vertices()) EXPECT_EQ(mesh.weight(v), 0);
+  ASSERT_TRUE(optimize(mesh, {.weights_from = 5, .max_sweeps = 7}));
+  EXPECT_TRUE(
+      std::any_of(mesh.vertices().begin(), mesh.vertices().end(), [&](VertexId v) { return mesh.weight(v) != 0; }));
+}
+
+TEST(Modes, FrozenConnectivityIsKeptAndStaysRegular) {
+  for (const Solver solver : {Solver::newton, Solver::alternating, Solver::golden}) {
+    Mesh mesh = random_mesh();
+    const auto before = connectivity(mesh);
+    const auto report = optimize(mesh, {.solver = solver, .flips = false, .max_sweeps = 12});
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->flips, 0u);
+    EXPECT_EQ(connectivity(mesh), before);
+    EXPECT_EQ(count_non_regular_edges(mesh), 0u);
+    EXPECT_EQ(mesh.validate(), std::nullopt);
+    EXPECT_LT(report->history.back().bad, report->history.front().bad);
+  }
+}
+
+TEST(Modes, EverySolverLowersEveryEnergyAndKeepsTheMeshValid) {
+  int runs = 0;
+  for (const EnergyInfo& info : energies()) {
+    for (int star = 0; star < 3; ++star) {
+      for (const Solver solver : {Solver::newton, Solver::alternating, Solver::golden}) {
+        Mesh mesh =
+            info.name == "BH" ? lattice({.n = 7, .jitter = 0.02}) : lattice({.n = 7, .jitter = 0.3, .weight = 0});
+        const auto report = optimize(mesh, {.energy = info.name, .star = star, .solver = solver, .max_sweeps = 6});
+        ASSERT_TRUE(report) << info.name << ": " << report.error().what();
+        EXPECT_LT(report->final_energy, report->initial_energy) << info.name << " star " << star;
+        EXPECT_EQ(mesh.validate(), std::nullopt);
+        EXPECT_EQ(count_non_regular_edges(mesh), 0u);
+        ++runs;
+      }
+    }
+  }
+  EXPECT_EQ(runs, 6 * 3 * 3);
+}
+
+TEST(Modes, EveryFlipLimitAndTimingKeepsTheMeshRegular) {
+  int runs = 0;
+  for (const char* energy : {"BP", "dT", "T"}) {
+    for (const auto limit : {FlipLimit::unlimited, FlipLimit::before, FlipLimit::at, FlipLimit::after}) {
+      for (const auto timing : {FlipTiming::immediate, FlipTiming::deferred}) {
+        Mesh mesh = lattice({.n = 9, .jitter = 0.3, .weight = 0});
+        const std::size_t non_regular = count_non_regular_edges(mesh);
+        const auto report =
+            optimize(mesh, {.energy = energy, .flip_timing = timing, .flip_limit = limit, .max_sweeps = 8});
+        ASSERT_TRUE(report);
+        EXPECT_EQ(mesh.validate(), std::nullopt);
+        EXPECT_EQ(count_non_regular_edges(mesh), 0u) << energy;
+        if (limit == FlipLimit::before) {
+          // Only what made the input regular was flipped.
+          Mesh restored = lattice({.n = 9, .jitter = 0.3, .weight = 0});
+          EXPECT_EQ(report->flips, restore_regularity(restored).flips);
+          EXPECT_GT(non_regular, 0u);
+        }
+        ++runs;
+      }
+    }
+  }
+  EXPECT_EQ(runs, 3 * 4 * 2);
+}
+
+TEST(Modes, InterfaceVerticesStayOrSlideAlongTheirLine) {
+  // A lattice with two regions, split along a straight row.
+  const auto with_interface = [] {
+    Mesh mesh = lattice({.n = 9, .jitter = 0.3, .weight = 0});
+    for (const VertexId v : mesh.vertices()) {
+      if (v.index / 9 == 4) mesh.set_position(v, {double(v.index % 9) + 2, std::sqrt(0.75) * 4});
+    }
+    for (std::size_t i = 36; i < 44; ++i) mesh.set_constrained(mesh.find_halfedge(VertexId(i), VertexId(i + 1)), true);
+    return mesh;
+  };
+  const Mesh before = with_interface();
+  ASSERT_EQ(before.validate(), std::nullopt);
+  for (const auto interfaces : {InterfaceVertices::fixed, InterfaceVertices::sliding}) {
+    Mesh mesh = before;
+    ASSERT_TRUE(optimize(mesh, {.interfaces = interfaces, .max_sweeps = 20}));
+    EXPECT_EQ(mesh.validate(), std::nullopt);
+    double slid = 0;
+    for (std::size_t i = 36; i < 45; ++i) {
+      const VertexId v(i);
+      EXPECT_NEAR(mesh.position(v).y, before.position(v).y, 1e-14);
+      slid = std::max(slid, std::abs(mesh.position(v).x - before.position(v).x));
+      if (i < 44) {
+        EXPECT_TRUE(mesh.is_constrained(mesh.find_halfedge(v, VertexId(i + 1))));
+      }
+    }
+    EXPECT_EQ(slid > 0, interfaces == InterfaceVertices::sliding);
+  }
+}
+
+TEST(Modes, AnchorHasWeightZeroAtTheEnd) {
+  Mesh mesh = random_mesh();
+  ASSERT_TRUE(optimize(mesh, {.anchor = 17, .max_sweeps = 10}));
+  EXPECT_EQ(mesh.weight(VertexId(17)), 0);
+  EXPECT_EQ(count_non_regular_edges(mesh), 0u);
+}
+
+TEST(Modes, StopsAtTheSweepLimitTheTimeLimitAndWhenAsked) {
+  Mesh mesh = random_mesh();
+  const auto limited = optimize(mesh, {.max_sweeps = 3});
+  ASSERT_TRUE(limited);
+  EXPECT_EQ(limited->stopped, Stopped::max_sweeps);
+  EXPECT_EQ(limited->sweeps, 3);
+  EXPECT_EQ(limited->history.size(), 4u);
+
+  Mesh timed = random_mesh();
+  const auto late = optimize(timed, {.time_limit = 1e-9});
+  ASSERT_TRUE(late);
+  EXPECT_EQ(late->stopped, Stopped::time_limit);
+  EXPECT_EQ(timed.validate(), std::nullopt);
+
+  Mesh asked = random_mesh();
+  int calls = 0;
+  const auto cancelled = optimize(asked, {}, [&](const Progress& p) {
+    EXPECT_EQ(p.max_sweeps, OptimizeOptions().max_sweeps);
+    EXPECT_EQ(p.last.sweep, calls);
+    return ++calls > 4 ? Continue::no : Continue::yes;
+  });
+  ASSERT_TRUE(cancelled);
+  EXPECT_EQ(cancelled->stopped, Stopped::cancelled);
+  EXPECT_EQ(calls, 5);
+  EXPECT_EQ(asked.validate(), std::nullopt);
+  EXPECT_EQ(count_non_regular_edges(asked), 0u);
+}
+
+TEST(Modes, ThePapersStoppingRuleLooksAtTheMeanEnergyOfATriangle) {
+  Mesh mesh = lattice({.n = 8, .jitter = 0.2, .weight = 0});
+  const auto report = optimize(mesh, {.gamma = Softening{0.1}, .tolerance = 1e-3, .stopping = StoppingRule::paper});
+  ASSERT_TRUE(report);
+  ASSERT_EQ(report->stopped, Stopped::converged);
+  ASSERT_GE(report->history.size(), 3u);
+  const std::size_t n = report->history.size();
+  const double triangles = static_cast<double>(mesh.n_triangles());
+  EXPECT_LT(report->history[n - 2].energy - report->history[n - 1].energy, 1e-3 * triangles);
+  EXPECT_GE(report->history[n - 3].energy - report->history[n - 2].energy, 1e-3 * triangles);
+}
+
+TEST(Modes, JitterFreesASymmetricGridAndIsSeeded) {
+  const auto solve = [](std::uint64_t seed) {
+    Mesh mesh = *sheared_grid({.nx = 8, .ny = 8, .shear = 0});
+    EXPECT_TRUE(optimize(mesh, {.unknowns = Unknowns::positions, .max_sweeps = 120, .seed = seed}));
+    return mesh;
+  };
+  const Mesh start = *sheared_grid({.nx = 8, .ny = 8, .shear = 0});
+  const Mesh one = solve(1), again = solve(1), two = solve(2);
+  EXPECT_EQ(quality(start).well_centered_fraction, 0);
+  EXPECT_GT(quality(one).well_centered_fraction, 0.5);
+  EXPECT_EQ(one, again);
+  EXPECT_NE(one, two);
+}
+
+TEST(Modes, ASecondAttemptImprovesTheDenseHorseshoe) {
+  Mesh mesh = *horseshoe();
+  const auto report = optimize(mesh, {.max_sweeps = 400});
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->history.front().bad, 58u);
+  EXPECT_LE(quality(mesh).orthocenters_outside, 8u);
+  EXPECT_EQ(mesh.validate(), std::nullopt);
+}
+
+TEST(Modes, HotWithoutBarrierKeepsTheMeshValidWhereEdgesCollapse) {
+  Mesh mesh = *horseshoe();
+  const auto report = optimize(mesh, {.energy = "F", .max_sweeps = 40});
+  ASSERT_TRUE(report);
+  EXPECT_EQ(mesh.validate(), std::nullopt);
+  EXPECT_EQ(count_non_regular_edges(mesh), 0u);
+  EXPECT_LT(report->final_energy, report->initial_energy);
+}
+
+}  // namespace
+}  // namespace temper::test

@@ -1,0 +1,70 @@
+// γ and h° only ever shrink, and end somewhere.
+#include "optimize/schedule.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/lattice.hpp"
+
+namespace temper::test {
+namespace {
+
+EnergyInfo row(std::string_view name) { return *find_energy(name); }
+
+TEST(Schedule, ShrinksGammaToItsFloorInEveryAttempt) {
+  const Mesh bad = lattice({.jitter = 0.45, .weight = 0});
+  const auto tries = attempts(row("BP"), {}, bad);
+  ASSERT_GE(tries.size(), 2u);
+  for (const Attempt& attempt : tries) {
+    Softener softener(attempt, row("BP"), {});
+    EnergyModel model;
+    softener.start(bad, model);
+    EXPECT_EQ(model.gamma, (Softening{attempt.start, LengthScale::relative}));
+    double last = model.gamma.value;
+    int sweeps = 0;
+    while (!softener.settled() && sweeps < 10000) {
+      softener.advance(bad, 1, model);
+      EXPECT_LE(model.gamma.value, last);
+      last = model.gamma.value;
+      ++sweeps;
+    }
+    EXPECT_TRUE(softener.settled());
+    EXPECT_FALSE(softener.advance(bad, 1, model));
+    EXPECT_DOUBLE_EQ(last, 0.003);
+  }
+}
+
+TEST(Schedule, OfAWellCenteredMeshIsHardFromTheStart) {
+  const Mesh good = lattice({.jitter = 0.01, .weight = 0});
+  EXPECT_EQ(attempts(row("BP"), {}, good).size(), 1u);
+  EXPECT_EQ(attempts(row("BP"), {}, good)[0].start, 0.003);
+}
+
+TEST(Schedule, LeavesTheUsersGammaAlone) {
+  const Mesh bad = lattice({.jitter = 0.45, .weight = 0});
+  OptimizeOptions options;
+  options.gamma = Softening{0.25, LengthScale::absolute};
+  const auto tries = attempts(row("BP"), options, bad);
+  ASSERT_EQ(tries.size(), 1u);
+  Softener softener(tries[0], row("BP"), options);
+  EnergyModel model;
+  model.gamma = *options.gamma;
+  softener.start(bad, model);
+  EXPECT_TRUE(softener.settled());
+  EXPECT_EQ(model.gamma, *options.gamma);
+}
+
+TEST(Schedule, KeepsTheShiftedBarrierFinite) {
+  const Mesh bad = lattice({.jitter = 0.3, .weight = 0, .seed = 2});
+  Softener softener(attempts(row("BHs"), {}, bad)[0], row("BHs"), {});
+  EnergyModel model;
+  model.kind = EnergyKind::BHs;
+  softener.start(bad, model);
+  EXPECT_TRUE(std::isfinite(total_energy(bad, model)));
+  for (int i = 0; i < 5; ++i) {
+    softener.advance(bad, 1, model);
+    EXPECT_TRUE(std::isfinite(total_energy(bad, model)));
+  }
+}
+
+}  // namespace
+}  // namespace temper::test
