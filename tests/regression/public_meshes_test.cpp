@@ -1,0 +1,84 @@
+// Public meshes that nobody here made, read in place where they are: each ends well-centered with default options.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "temper/io.hpp"
+#include "temper/optimize.hpp"
+#include "temper/quality.hpp"
+
+namespace temper::test {
+namespace {
+
+struct PublicMesh {
+  const char* file;
+  std::size_t vertices, triangles;
+};
+
+const PublicMesh kMeshes[] = {
+    {"mfem_beam-tri.mesh", 18, 16},
+    {"mfem_square-disc.mesh", 101, 154},
+    {"pydec_ResonantCavity.vtu", 191, 336},
+    {"sfepy_circle_in_square.mesh", 1102, 2102},
+    {"sfepy_circles_in_square.vtk", 313, 588},
+    {"sfepy_its2D.mesh", 55, 83},
+    {"sfepy_osteonT1_11.mesh", 1228, 2292},
+    {"skfem_annulus.msh", 60, 98},
+    {"skfem_cylinder_stokes.msh", 171, 293},
+    {"skfem_square.msh", 109, 184},
+};
+
+std::string path_of(const PublicMesh& mesh) { return std::string(TEMPER_PUBLIC_MESHES) + "/" + mesh.file; }
+
+class PublicMeshes : public testing::TestWithParam<PublicMesh> {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(path_of(GetParam()))) GTEST_SKIP() << path_of(GetParam()) << " is not here";
+  }
+};
+
+TEST_P(PublicMeshes, EndWellCenteredWithTheirBoundaryAndInterfacesBitForBit) {
+  const auto file = io::read(path_of(GetParam()));
+  ASSERT_TRUE(file) << file.error().what();
+  const auto loaded = io::make_mesh(*file);
+  ASSERT_TRUE(loaded) << loaded.error().what();
+  const Mesh& before = loaded->mesh;
+  EXPECT_EQ(before.n_vertices(), GetParam().vertices);
+  EXPECT_EQ(before.n_triangles(), GetParam().triangles);
+
+  Mesh mesh = before;
+  const auto report = optimize(mesh);
+  ASSERT_TRUE(report) << report.error().what();
+  const Quality q = quality(mesh);
+  EXPECT_EQ(q.orthocenters_outside, 0u);
+  EXPECT_EQ(q.edges_not_crossed, 0u);
+  EXPECT_EQ(q.non_regular_edges, 0u);
+  EXPECT_EQ(q.inverted_triangles, 0u);
+  EXPECT_EQ(q.well_centered_fraction, 1);
+  EXPECT_EQ(mesh.validate(), std::nullopt);
+
+  std::size_t compared = 0;
+  for (const HalfedgeId h : before.halfedges()) {
+    if (!before.is_boundary(h) && !before.is_constrained(h)) continue;
+    const VertexId v = before.origin(h);
+    const Vec2 p = before.position(v), q_after = mesh.position(v);
+    EXPECT_EQ(std::memcmp(&p, &q_after, sizeof p), 0) << "vertex " << v.index;
+    EXPECT_TRUE(mesh.find_halfedge(v, before.target(h)).valid());
+    ++compared;
+  }
+  EXPECT_GT(compared, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PublicMeshes, testing::ValuesIn(kMeshes), [](const auto& mesh) {
+  std::string name = mesh.param.file;
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  }
+  return name;
+});
+
+}  // namespace
+}  // namespace temper::test
