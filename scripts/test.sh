@@ -35,7 +35,8 @@ stage() {
   else
     failed=$((failed + 1))
     failures+=("$name")
-    tail -n 200 "$scratch/log"
+    # Of a long build the errors, not the progress.
+    grep -v -E '^\[[0-9]+/[0-9]+\] (Building|Linking|Generating|Scanning)' "$scratch/log" | tail -n 200
     printf '%-44s FAILED  %4d s\n' "$name" $((SECONDS - start))
     return 1
   fi
@@ -86,6 +87,16 @@ sys.exit(bool(wrong) or not core)
 PYTHON
 }
 
+# A library that is missing silently drops the tests that need it; here nothing may be dropped.
+every_test_program_is_there() {
+  local name missing=0 count=0
+  while read -r name; do
+    count=$((count + 1))
+    find build/dev/tests -name "$name" -type f -perm -u+x | grep -q . || { echo "not built: $name"; missing=1; }
+  done < <(git ls-files 'tests/*CMakeLists.txt' | xargs sed -n 's/^ *temper_test(\([A-Za-z0-9_]*\).*/\1/p')
+  ((missing == 0 && count > 0)) && echo "$count programs"
+}
+
 # The other compiler's opinion of the core, where there is one.
 clang_accepts_core() {
   local flags=(-std=c++20 -fsyntax-only -Iinclude -Isrc -ffp-contract=off -fno-exceptions -fno-rtti
@@ -115,6 +126,7 @@ stage "format" formatted
 stage "headers, each alone" tests/consumer/headers.sh
 if stage "build (dev, -Werror)" configure_and_build dev; then
   stage "core without exceptions and RTTI" core_without_exceptions
+  stage "every test program is there" every_test_program_is_there
   suite "tests (dev)" build/dev
   stage "consumer: install, find_package" consumer_find_package && suite "consumer: find_package runs" "$scratch/find_package"
 fi
