@@ -21,6 +21,7 @@ VertexId insert_in_triangle(Mesh& mesh, TriangleId t, WeightedPoint point) {
   const TriangleId bcv = mesh.add_triangle({b, c, v}, mesh.region(t));
   const TriangleId cav = mesh.add_triangle({c, a, v}, mesh.region(t));
   const HalfedgeId n = Mesh::halfedge(t, 1), p = Mesh::halfedge(t, 2);  // become b→v and v→a
+  const bool was_boundary = mesh.is_boundary(n);
 
   inlined::attach(mesh, Mesh::halfedge(bcv, 0), inlined::outer_side(mesh, n));
   inlined::attach(mesh, Mesh::halfedge(cav, 0), inlined::outer_side(mesh, p));
@@ -32,9 +33,10 @@ VertexId insert_in_triangle(Mesh& mesh, TriangleId t, WeightedPoint point) {
 
   mesh.set_outgoing(v, Mesh::halfedge(cav, 2));
   update_outgoing(mesh, a, Mesh::halfedge(cav, 1));
-  // b → c may have been the boundary halfedge of b: its old slot still leaves b, but no longer on the boundary.
-  mesh.set_outgoing(b, canonical_outgoing(mesh, n));
   update_outgoing(mesh, c, Mesh::halfedge(cav, 0));
+  // If b → c was the boundary halfedge of b, its old slot still leaves b, but it is b → v now.
+  if (was_boundary && mesh.outgoing(b) == n) mesh.set_outgoing(b, Mesh::halfedge(bcv, 0));
+  update_outgoing(mesh, b, Mesh::halfedge(bcv, 0));
   return v;
 }
 

@@ -5,7 +5,7 @@
 //           / | \             keeps:  the outer edges with their flags; the regions of both sides
 //          /  |  \            gives:  the flag of ab to av and vb; vc and vd are not constrained
 //         a --v-- b           needs:  v so that the new triangles are counter-clockwise; v on ab keeps the domain
-//          \  |  /            cost:   O(degree), amortised over the growth of the arrays
+//          \  |  /            cost:   O(1), amortised over the growth of the arrays
 //           \ | /
 //            \|/
 //             d
@@ -39,17 +39,18 @@ VertexId split_edge(Mesh& mesh, HalfedgeId h, WeightedPoint point) {
   const VertexId v = mesh.add_vertex(point);
   const HalfedgeId vb = cut_triangle(mesh, h, v);
   if (g.valid()) {
+    const VertexId d = mesh.opposite(g);
     const HalfedgeId va = cut_triangle(mesh, g, v);
     mesh.link(vb, g);
     mesh.link(h, va);
-    mesh.set_outgoing(mesh.origin(Mesh::prev(g)), canonical_outgoing(mesh, Mesh::prev(g)));
+    update_outgoing(mesh, a, Mesh::next(va));
+    update_outgoing(mesh, d, Mesh::prev(va));
   }
   mesh.set_constrained(h, constrained);
   mesh.set_constrained(vb, constrained);
+  update_outgoing(mesh, b, Mesh::next(vb));
+  update_outgoing(mesh, c, Mesh::prev(vb));
   mesh.set_outgoing(v, canonical_outgoing(mesh, vb));
-  mesh.set_outgoing(a, canonical_outgoing(mesh, h));
-  mesh.set_outgoing(b, canonical_outgoing(mesh, Mesh::next(vb)));
-  mesh.set_outgoing(c, canonical_outgoing(mesh, Mesh::prev(h)));
   return v;
 }
 

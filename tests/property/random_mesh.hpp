@@ -13,6 +13,7 @@
 #include "temper/geometry.hpp"
 #include "temper/mesh.hpp"
 #include "temper/topology.hpp"
+#include "topology/outgoing.hpp"
 
 namespace temper::test {
 
@@ -78,6 +79,14 @@ inline Mesh random_mesh(Rng& rng, int n, int denominator = 0) {
   for (int i = 0; i < n; ++i) insert_anywhere(mesh, {coordinate(), coordinate(), 0});
   shuffle_flips(mesh, rng, 4 * n);
   return mesh;
+}
+
+/// outgoing() of every vertex is the one that the rest of the mesh determines: what undoing bit for bit rests on.
+inline bool has_canonical_outgoing(const Mesh& mesh) {
+  for (const VertexId v : mesh.vertices()) {
+    if (mesh.outgoing(v) != canonical_outgoing(mesh, mesh.outgoing(v))) return false;
+  }
+  return true;
 }
 
 /// The edges as sorted pairs of vertices: equal for equal triangulations, whatever the slots.

@@ -60,6 +60,7 @@ void expect_delaunay(const Mesh& mesh, const std::vector<Vec2>& points) {
   ASSERT_EQ(mesh.n_vertices(), points.size());
   for (const VertexId v : mesh.vertices()) ASSERT_EQ(mesh.position(v), points[v.index]);
   EXPECT_EQ(count_non_regular_edges(mesh, false), 0u);
+  EXPECT_TRUE(test::has_canonical_outgoing(mesh));
 }
 
 /// Every boundary turns left or goes straight, and there is one boundary: the mesh covers its convex hull.
@@ -169,6 +170,16 @@ TEST(Delaunay, OfPointsOnALineAndOneMoreIsAFan) {
   ASSERT_TRUE(mesh);
   expect_delaunay(*mesh, points);
   EXPECT_EQ(mesh->n_triangles(), 49u);
+}
+
+TEST(Delaunay, OfAHubOfHighDegreeDoesNotWalkAroundItForEachPoint) {
+  // All triangles meet in one vertex: a walk around it for each point would be 10^10 steps, and the test time out.
+  std::vector<Vec2> line = lattice(100000, 1);
+  line.push_back({50000, 1e6});
+  const auto fan = constrained_delaunay({line, {}, false});
+  ASSERT_TRUE(fan);
+  EXPECT_EQ(fan->n_triangles(), 99999u);
+  EXPECT_EQ(fan->validate(), std::nullopt);
 }
 
 TEST(ConstrainedDelaunay, FillsAPolygonWithAHole) {

@@ -29,6 +29,7 @@ Mesh two_regions() {
 
 TEST(InsertInTriangle, MakesThreeOfOneInItsRegion) {
   Mesh mesh = two_regions();
+  ASSERT_TRUE(test::has_canonical_outgoing(mesh));
   const VertexId v = insert_in_triangle(mesh, TriangleId(1), {-0.5, 0.25, 0.125});
   EXPECT_EQ(v, VertexId(4));
   EXPECT_EQ(mesh.point(v), (WeightedPoint{-0.5, 0.25, 0.125}));
@@ -85,6 +86,7 @@ TEST(Topology, AnyMixOfInsertionsAndFlipsKeepsTheMeshValid) {
     Rng rng(seed);
     const Mesh mesh = test::random_mesh(rng, 60, seed % 2 == 0 ? 16 : 0);
     ASSERT_EQ(mesh.validate(), std::nullopt) << "seed " << seed;
+    ASSERT_TRUE(test::has_canonical_outgoing(mesh)) << "seed " << seed;
     ASSERT_GT(mesh.n_vertices(), 40u);
     ASSERT_EQ(mesh.n_vertices() + mesh.n_triangles(), mesh.n_edges() + 1);
     ASSERT_DOUBLE_EQ(total_doubled_area(mesh), 8);
