@@ -234,7 +234,7 @@ void GmshReader::entities() {
       for (int k = 0; k < n_coordinates; ++k) get<double>("a coordinate of an entity");
       const std::size_t n_physical = get_count("physical tags", 2, 4);
       for (std::size_t k = 0; k < n_physical; ++k) {
-        const auto physical = std::abs(get<std::int32_t>("a physical tag"));
+        const auto physical = get<std::int32_t>("a physical tag");
         if (k == 0)
           physical_of_entity_[{dimension, tag}] = physical;
         else

@@ -1,6 +1,243 @@
+// Wavefront OBJ: v, f, l and p; everything about texture and shading is left aside.
+//
+// Vertices count from 1; negative numbers count back from the last one. A group line `g` starts a region or a tag:
+//   g region_7 inlet     temper's own: the number, then its physical name if there is one (line_…, point_… likewise)
+//   g inlet              any other name: numbered from 1 in the order of appearance, the name becomes a physical name
+#include <algorithm>
+#include <array>
+
 #include "io/format.hpp"
+#include "io/scanner.hpp"
+
 namespace temper::io {
-bool sniff_obj(std::string_view) { return false; }
-Document read_obj(Source& s) { return new_document(s.path); }
-void write_obj(const WriteJob&) {}
+
+bool sniff_obj(std::string_view head) {
+  Scanner scanner("", head, '#');
+  constexpr std::array<std::string_view, 9> kFirst = {"v", "vn", "vt", "o", "g", "mtllib", "usemtl", "s", "f"};
+  const std::string_view word = scanner.peek();
+  return std::find(kFirst.begin(), kFirst.end(), word) != kFirst.end();
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 3> kGroupPrefix = {"point_", "line_", "region_"};
+
+class ObjReader {
+ public:
+  explicit ObjReader(Source& source)
+      : scanner_(source.path, source.bytes, '#'), document_(new_document(source.path)), plane_(document_) {}
+  Document read();
+
+ private:
+  void statement(std::string_view word);
+  void vertex();
+  void face();
+  void line();
+  void group();
+  std::int32_t index();
+  void keep_name(int dimension);
+
+  Scanner scanner_;
+  Document document_;
+  PlaneCheck plane_;
+  std::string group_name_;                        // physical name of the current group, or empty
+  std::array<std::int32_t, 3> tags_ = {0, 0, 0};  // of the current group, by dimension
+  std::int32_t last_number_ = 0;
+  bool has_regions_ = false;
+  std::vector<std::string> ignored_;
+};
+
+Document ObjReader::read() {
+  while (!scanner_.at_end()) statement(scanner_.word("a statement"));
+  if (!has_regions_) document_.file.regions.clear();
+  if (!ignored_.empty()) {
+    std::string names;
+    for (const std::string& name : ignored_) names += text(names.empty() ? "" : ", ", name);
+    document_.file.warnings.push_back(text(scanner_.path(), ": statements that are no mesh are dropped: ", names));
+  }
+  FileNames& names = *document_.names;
+  names.triangles = RunLength(1, document_.file.triangles.size());
+  names.lines = RunLength(1, document_.file.lines.size());
+  return std::move(document_);
+}
+
+void ObjReader::statement(std::string_view word) {
+  if (word == "v") return vertex();
+  if (word == "f") return face();
+  if (word == "l") return line();
+  if (word == "g") return group();
+  if (word == "p") {
+    while (scanner_.more_on_line()) {
+      document_.file.marked_points.push_back(index());
+      document_.file.point_tags.push_back(tags_[0]);
+      keep_name(0);
+    }
+    return;
+  }
+  constexpr std::array<std::string_view, 12> kIgnored = {"vt",     "vn", "vp",  "o",      "s",      "usemtl",
+                                                         "mtllib", "fo", "lod", "usemap", "maplib", "bevel"};
+  if (std::find(kIgnored.begin(), kIgnored.end(), word) == kIgnored.end()) {
+    scanner_.fail_here(ErrorCode::syntax, text("expected a statement of OBJ, found ", quoted(word)));
+  }
+  if (std::find(ignored_.begin(), ignored_.end(), word) == ignored_.end()) ignored_.emplace_back(word);
+  scanner_.next_line();
+}
+
+void ObjReader::vertex() {
+  FileNames& names = *document_.names;
+  const double x = scanner_.real("the x coordinate of a vertex");
+  names.points.push_back(static_cast<std::int64_t>(document_.file.points.size()) + 1);
+  names.point_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+  document_.file.points.push_back({x, scanner_.real("the y coordinate of a vertex")});
+  if (scanner_.more_on_line())
+    plane_.add(document_.file.points.size() - 1, scanner_.real("the z coordinate of a vertex"));
+  while (scanner_.more_on_line()) scanner_.word("a colour");
+}
+
+// 12, 12/3, 12//4, 12/3/4, or negative: only the vertex matters.
+std::int32_t ObjReader::index() {
+  const std::string_view word = scanner_.word("a vertex number");
+  const std::string_view number = word.substr(0, word.find('/'));
+  std::int32_t value = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+  if (error != std::errc() || end != number.data() + number.size()) {
+    scanner_.fail_here(ErrorCode::syntax, text("expected a vertex number, found ", quoted(word)));
+  }
+  const auto so_far = static_cast<std::int32_t>(document_.file.points.size());
+  if (value == 0 || -std::int64_t{value} > so_far) {
+    scanner_.fail_here(
+        ErrorCode::index_out_of_range,
+        text("uses vertex ", value, ", but ", so_far, " vertices came before, numbered from 1 (or -1, backwards)"));
+  }
+  return value > 0 ? value - 1 : so_far + value;
+}
+
+void ObjReader::face() {
+  MeshFile& f = document_.file;
+  std::array<std::int32_t, 3> corners = {};
+  std::size_t n = 0;
+  const auto text_line = static_cast<std::int64_t>(scanner_.line());
+  for (; scanner_.more_on_line(); ++n) {
+    const std::int32_t p = index();
+    if (n < 3) corners[n] = p;
+  }
+  if (n != 3) {
+    fail(n > 3 ? ErrorCode::unsupported : ErrorCode::syntax, text(scanner_.path(), ":", text_line),
+         text("face ", f.triangles.size() + 1, " has ", n, " corners; temper reads triangles"));
+  }
+  f.triangles.push_back(corners);
+  f.regions.push_back(tags_[2]);
+  document_.names->triangle_lines.push_back(text_line);
+  has_regions_ = has_regions_ || tags_[2] != 0;
+  keep_name(2);
+}
+
+void ObjReader::line() {
+  MeshFile& f = document_.file;
+  std::int32_t last = -1;
+  while (scanner_.more_on_line()) {
+    const std::int32_t p = index();
+    if (last >= 0) {
+      f.lines.push_back({last, p});
+      f.line_tags.push_back(tags_[1]);
+      document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+      keep_name(1);
+    }
+    last = p;
+  }
+}
+
+void ObjReader::group() {
+  const std::string_view all = scanner_.more_on_line() ? scanner_.rest_of_line() : std::string_view{};
+  const std::size_t blank = all.find(' ');
+  const std::string_view first = all.substr(0, blank);
+  group_name_.clear();
+  tags_ = {0, 0, 0};
+  if (first.empty() || first == "default") return;
+  for (std::size_t dimension = 0; dimension < 3; ++dimension) {
+    if (!first.starts_with(kGroupPrefix[dimension])) continue;
+    const std::string_view number = first.substr(kGroupPrefix[dimension].size());
+    std::int32_t& tag = tags_[dimension];
+    if (const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), tag);
+        error != std::errc() || end != number.data() + number.size()) {
+      tag = 0;
+      continue;
+    }
+    if (blank != std::string_view::npos) group_name_ = all.substr(blank + 1);
+    return;
+  }
+  group_name_ = all;
+  const auto& names = document_.file.names;
+  const auto known =
+      std::find_if(names.begin(), names.end(), [&](const PhysicalName& n) { return n.name == group_name_; });
+  const std::int32_t tag = known != names.end() ? known->tag : ++last_number_;
+  tags_ = {tag, tag, tag};
+}
+
+void ObjReader::keep_name(int dimension) {
+  if (group_name_.empty()) return;
+  const std::int32_t tag = tags_[static_cast<std::size_t>(dimension)];
+  auto& names = document_.file.names;
+  const bool known = std::any_of(names.begin(), names.end(),
+                                 [&](const PhysicalName& n) { return n.dimension == dimension && n.tag == tag; });
+  if (!known) names.push_back({dimension, tag, group_name_});
+}
+
+// --- writing ---------------------------------------------------------------------------------------------
+
+/// The group line of a tag, when it is another than that of the element before.
+void put_group(Output& out, const MeshFile& f, int dimension, std::int32_t tag) {
+  out.put("g ", kGroupPrefix[static_cast<std::size_t>(dimension)], tag);
+  for (const PhysicalName& n : f.names) {
+    if (n.dimension == dimension && n.tag == tag) {
+      out.put(' ', n.name);
+      break;
+    }
+  }
+  out.put('\n');
+}
+
+void warn_of_unused_names(const WriteJob& job) {
+  const MeshFile& f = job.file;
+  std::string unused;
+  for (const PhysicalName& n : f.names) {
+    const auto& tags = n.dimension == 0 ? f.point_tags : n.dimension == 1 ? f.line_tags : f.regions;
+    if (std::find(tags.begin(), tags.end(), n.tag) == tags.end()) unused += text(unused.empty() ? "" : ", ", n.name);
+  }
+  if (!unused.empty()) job.warn(text("physical names of nothing are not written: ", unused));
+}
+
+}  // namespace
+
+Document read_obj(Source& source) { return ObjReader(source).read(); }
+
+void write_obj(const WriteJob& job) {
+  const MeshFile& f = job.file;
+  Output& out = job.outputs.open(job.path);
+  for (const Vec2 p : f.points) out.put("v ", p.x, ' ', p.y, ' ', f.z, '\n');
+  std::optional<std::int32_t> group;
+  for (std::size_t i = 0; i < f.triangles.size(); ++i) {
+    if (!f.regions.empty() && group != f.regions[i]) put_group(out, f, 2, *(group = f.regions[i]));
+    const auto& t = f.triangles[i];
+    out.put("f ", t[0] + 1, ' ', t[1] + 1, ' ', t[2] + 1, '\n');
+  }
+  group.reset();
+  for (std::size_t i = 0; i < f.lines.size(); ++i) {
+    if (group != f.line_tags[i]) put_group(out, f, 1, *(group = f.line_tags[i]));
+    out.put("l ", f.lines[i][0] + 1, ' ', f.lines[i][1] + 1, '\n');
+  }
+  group.reset();
+  for (std::size_t i = 0; i < f.marked_points.size(); ++i) {
+    if (group != f.point_tags[i]) put_group(out, f, 0, *(group = f.point_tags[i]));
+    out.put("p ", f.marked_points[i] + 1, '\n');
+  }
+  warn_of_data(job, "OBJ", "point data", f.point_data);
+  warn_of_data(job, "OBJ", "cell data", f.cell_data);
+  warn_of_data(job, "OBJ", "line data", f.line_data);
+  warn_of_data(job, "OBJ", "data of marked points", f.marked_point_data);
+  warn_of_data(job, "OBJ", "field data", f.field_data);
+  warn_of_unused_names(job);
+  write_side_file(job, 1);
+}
+
 }  // namespace temper::io

@@ -134,8 +134,9 @@ T Scanner::unusual_number(std::string_view w, std::string_view expected) const {
     if (error == std::errc()) return value;
     if constexpr (std::is_floating_point_v<T>) {
       // Out of range: too small is zero, too large is infinite and is refused as such later.
-      const bool tiny = plain.find("e-") != std::string::npos || plain.find("E-") != std::string::npos ||
-                        plain.find_first_of("eE") == std::string::npos;
+      const std::size_t exponent = plain.find_first_of("eE");
+      const std::size_t digit = plain.find_first_of("123456789");
+      const bool tiny = exponent == std::string::npos ? plain.find('.') < digit : plain[exponent + 1] == '-';
       const T magnitude = tiny ? T(0) : std::numeric_limits<T>::infinity();
       return plain.starts_with('-') ? -magnitude : magnitude;
     } else {
