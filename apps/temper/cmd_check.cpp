@@ -28,8 +28,8 @@ void add_options(CLI::App& app, Settings& s) {
   app.add_option("IN", s.input, "the mesh; its content tells the format")->required();
   app.add_flag("--json", s.json, "the report as JSON, with vertices and triangles counted from 0");
   add_count(app, "--worst", s.worst, 0, "list this many of the worst triangles");
-  add_gamma(app, s.gamma, "(default: 1)");
-  add_h0(app, s.h0, "(default: 0)");
+  add_gamma(app, s.gamma, " (default: 1)");
+  add_h0(app, s.h0, " (default: 0)");
   add_count(app, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
   app.option_defaults()->group("Requirements");
   app.add_option(
@@ -82,7 +82,7 @@ Exit run_check(const Arguments& arguments) {
   options.worst = s.worst;
   options.executor = &threads;
   const Quality measured = quality(input.mesh(), options);
-  print(s.json ? quality_json(measured, input) : quality_text(measured, input, text_style()));
+  print(s.json ? quality_json(measured, input.points) : quality_text(measured, input, text_style()));
   flush_output();  // before the verdict on standard error
   return judge(requirements, measured, s.input);
 }

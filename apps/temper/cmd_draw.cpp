@@ -37,7 +37,7 @@ void add_options(CLI::App& app, Settings& s) {
       [&s](const std::vector<double>& v) {
         s.options.zoom = Box{{v[0], v[1]}, {v[2], v[3]}};
       },
-      "draw only this rectangle; write --zoom=-1,0,1,1 when it starts with a minus");
+      "draw only what meets this rectangle");
   add_number(app, "--width", s.options.width, kPositive, "of one panel, in CSS pixels");
   add_text(app, "--title", "TEXT", s.options.title, "under the picture");
   app.option_defaults()->group("Help");

@@ -165,8 +165,9 @@ Exit run_example(const Arguments& arguments) {
   Outputs outputs("example");
   outputs.expect_mesh("--output", s.output);
 
-  const Mesh mesh = or_fail(generator.make(s));
-  print_warnings(outputs.write_mesh(s.output, io::from_mesh(mesh)));
+  const Expected<Mesh> mesh = generator.make(s);
+  if (!mesh) bad_usage(std::string(generator.name) + ": " + mesh.error().what());  // options are its only input
+  print_warnings(outputs.write_mesh(s.output, io::from_mesh(*mesh)));
   return Exit::done;
 }
 

@@ -66,8 +66,8 @@ void add_energy(CLI::App& app, Settings& s) {
   add_choice(
       app, "--star", kStars, [&s](int star) { s.options.star = star; }, "Hodge star of the energy")
       ->default_str("1");
-  add_gamma(app, s.gamma, "without it gamma starts at half of each edge's length and shrinks each sweep");
-  add_h0(app, s.h0, "without it a schedule that stays below the least h of the mesh");
+  add_gamma(app, s.gamma, "; without it relative to each edge, shrinking from 0.5 to 0.003");
+  add_h0(app, s.h0, "; without it just beyond the least h of the mesh, following it up");
   add_choice(
       app, "--boundary-treatment", kBoundaryTreatments, [&s](BoundaryTreatment value) { s.options.boundary = value; },
       "of energy F: the h of boundary edges as it is, |h|, or as if the mesh were mirrored there")
@@ -139,7 +139,7 @@ std::size_t find_vertex(const Input& input, const std::string& number) {
   for (const VertexId v : input.mesh().vertices()) {
     if (input.vertex_number(v) == number) return v.index;
   }
-  throw Failure(Exit::bad_input, fmt::format("{}: --anchor: there is no vertex {}", input.path, number));
+  throw Failure(Exit::bad_usage, fmt::format("{}: --anchor: there is no vertex {}", input.path, number));
 }
 
 OptimizeOptions library_options(const Settings& s, const Input& input, Executor* executor) {
@@ -151,12 +151,13 @@ OptimizeOptions library_options(const Settings& s, const Input& input, Executor*
   options.flips = !s.no_flips;
   if (s.slide) options.interfaces = InterfaceVertices::sliding;
   if (!s.anchor.empty()) options.anchor = find_vertex(input, s.anchor);
+  options.names = input.names.get();
   options.executor = executor;
   return options;
 }
 
-/// Options that were given and cannot have any effect.
-std::vector<std::string> idle_options(const Settings& s) {
+/// Options that were given and cannot have the effect one would expect.
+std::vector<std::string> doubtful_options(const Settings& s) {
   const EnergyInfo energy = or_fail(find_energy(s.options.energy));
   std::vector<std::string> warnings;
   const auto idle = [&](const char* option) {
@@ -165,6 +166,9 @@ std::vector<std::string> idle_options(const Settings& s) {
   if (s.gamma.value() && !energy.softened_by_gamma) idle("--gamma");
   if (s.h0.value() && !energy.softened_by_h0) idle("--h0");
   if (s.options.boundary != BoundaryTreatment::as_is && energy.kind != EnergyKind::F) idle("--boundary-treatment");
+  if (!s.report.empty() && same_file(s.input, s.output)) {
+    warnings.push_back("--output replaces the input: the command in the report would start from the improved mesh");
+  }
   return warnings;
 }
 
@@ -190,6 +194,14 @@ std::string picture_title(const Input& input, const Quality& before, const Quali
                      bad_triangles(before), bad_triangles(after));
 }
 
+/// What a run made, apart from the mesh.
+struct Results {
+  Quality before, after;
+  OptimizeReport report;
+  std::string picture;  ///< SVG, when asked for
+  std::vector<std::string> warnings;
+};
+
 OptimizeReport run_library(const Settings& s, const Input& input, Mesh& mesh, Executor* executor) {
   ProgressLine line(!s.quiet && error_is_terminal());
   const Observer observer = [&line](const Progress& progress) {
@@ -199,57 +211,68 @@ OptimizeReport run_library(const Settings& s, const Input& input, Mesh& mesh, Ex
   return or_fail(optimize(mesh, library_options(s, input, executor), observer));
 }
 
-void print_result(const Settings& s, const Quality& before, const Quality& after, const OptimizeReport& report,
-                  const Outputs& outputs) {
-  if (s.quiet) return;
-  print(ending(report) + "\n\n" + comparison_text(before, after, s.options.star, text_style()));
-  for (const std::string& note : report.notes) print("note: " + note + "\n");
+/// Improves the mesh of the input in place: a second copy is made only when the picture needs one.
+void improve(const Settings& s, Input& input, Results& results) {
+  ThreadPool threads(s.threads > 0 ? s.threads : hardware_threads());
+  QualityOptions measuring;
+  measuring.executor = &threads;
+  Mesh& mesh = input.loaded.mesh;
+  const Mesh original = s.picture.empty() ? Mesh() : mesh;
+  results.before = quality(mesh, measuring);
+  catch_interrupts();
+  if (!s.quiet) {
+    print(fmt::format("{}: {} vertices, {} triangles\n", s.input, results.before.vertices, results.before.triangles));
+    flush_output();
+  }
+  results.report = run_library(s, input, mesh, &threads);
+  results.after = quality(mesh, measuring);
+  if (!s.picture.empty()) {
+    DrawOptions drawing;
+    drawing.title = picture_title(input, results.before, results.after);
+    results.picture = draw_before_after_svg(original, mesh, drawing);
+  }
+}
+
+void warn(Results& results, std::span<const std::string> warnings) {
+  print_warnings(warnings);
+  results.warnings.insert(results.warnings.end(), warnings.begin(), warnings.end());
+}
+
+/// The mesh first: it is what the time went into.
+void write_all(const CLI::App& app, const Settings& s, Input& input, Results& results, Outputs& outputs) {
+  const std::size_t known = input.file.warnings.size();
+  io::update(input.file, input.loaded, input.loaded.mesh);
+  warn(results, std::span(input.file.warnings).subspan(known));
+  warn(results, outputs.write_mesh(s.output, input.file));
+  if (!s.report.empty()) {
+    const std::vector<UsedOption> options = used_options(app);
+    const std::string command = command_line("optimize", {s.input}, options);
+    outputs.write_text(s.report, optimize_json({command, options, results.before, input.points, results.after,
+                                                results.report, results.warnings}));
+  }
+  if (!s.history.empty()) outputs.write_text(s.history, history_csv(results.report));
+  if (!s.picture.empty()) outputs.write_text(s.picture, results.picture);
+}
+
+void print_result(const Settings& s, const Results& results, const Outputs& outputs) {
+  print(ending(results.report) + "\n\n" + comparison_text(results.before, results.after, s.options.star, text_style()));
+  for (const std::string& note : results.report.notes) print("note: " + note + "\n");
+  print(fmt::format("\n{}: {}\n", s.output, verdict(results.after)));
   std::string written;
-  for (const std::string& path : outputs.written()) written += (written.empty() ? "\nwrote " : ", ") + path;
+  for (const std::string& path : outputs.written()) written += (written.empty() ? "wrote " : ", ") + path;
   print(written + "\n");
 }
 
 Exit optimize_mesh(const CLI::App& app, const Settings& s, Outputs& outputs) {
   Input input = read_input(s.input, s.fix);
-  std::vector<std::string> warnings = input.warnings();
-  for (std::string& warning : idle_options(s)) warnings.push_back(std::move(warning));
-  print_warnings(warnings);
-
-  ThreadPool threads(s.threads > 0 ? s.threads : hardware_threads());
-  QualityOptions measuring;
-  measuring.executor = &threads;
-  const Quality before = quality(input.mesh(), measuring);
-  catch_interrupts();
-  if (!s.quiet) print(fmt::format("{}: {} vertices, {} triangles\n", s.input, before.vertices, before.triangles));
-  flush_output();
-
-  Mesh mesh = input.mesh();
-  const OptimizeReport report = run_library(s, input, mesh, &threads);
-  const Quality after = quality(mesh, measuring);
-
-  // Everything that could fail for lack of memory comes before the first write.
-  std::string picture;
-  if (!s.picture.empty()) {
-    DrawOptions drawing;
-    drawing.title = picture_title(input, before, after);
-    picture = draw_before_after_svg(input.mesh(), mesh, drawing);
-  }
-  io::update(input.file, input.loaded, mesh);
-
-  const std::vector<std::string> more = outputs.write_mesh(s.output, input.file);
-  print_warnings(more);
-  warnings.insert(warnings.end(), more.begin(), more.end());
-  if (!s.report.empty()) {
-    const std::vector<UsedOption> options = used_options(app);
-    const OptimizeRecord record = {
-        command_line("optimize", {s.input}, options), options, before, after, report, warnings};
-    outputs.write_text(s.report, optimize_json(record, input));
-  }
-  if (!s.history.empty()) outputs.write_text(s.history, history_csv(report));
-  if (!s.picture.empty()) outputs.write_text(s.picture, picture);
-  print_result(s, before, after, report, outputs);
-  const bool early = report.stopped == Stopped::time_limit || report.stopped == Stopped::cancelled;
-  return early ? Exit::stopped_early : Exit::done;
+  Results results;
+  warn(results, input.warnings());
+  warn(results, doubtful_options(s));
+  improve(s, input, results);
+  write_all(app, s, input, results, outputs);
+  if (!s.quiet) print_result(s, results, outputs);
+  const Stopped stopped = results.report.stopped;
+  return stopped == Stopped::time_limit || stopped == Stopped::cancelled ? Exit::stopped_early : Exit::done;
 }
 
 }  // namespace

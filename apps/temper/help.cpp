@@ -76,7 +76,7 @@ std::string_view meaning(Exit exit) {
     case Exit::stopped_early:
       return "stopped early by a signal or --time-limit; the best mesh so far is written";
     case Exit::internal:
-      return "internal error: please report it";
+      return "out of memory, or an internal error: please report that";
   }
   return "";
 }

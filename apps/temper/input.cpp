@@ -5,17 +5,13 @@
 #include <string_view>
 
 #include "exit.hpp"
+#include "vertex_names.hpp"
 
 namespace temper::app {
 namespace {
 
 /// "12" of "triangle 12".
 std::string last_word(const std::string& text) { return text.substr(text.rfind(' ') + 1); }
-
-const InputNames& names_of(const Input& input) {
-  static const InputNames from_zero;
-  return input.file.numbering ? *input.file.numbering : from_zero;
-}
 
 std::vector<std::size_t> invert(const io::LoadedMesh& loaded) {
   std::vector<std::size_t> points(loaded.mesh.n_vertices());
@@ -28,9 +24,9 @@ std::vector<std::size_t> invert(const io::LoadedMesh& loaded) {
 
 }  // namespace
 
-std::string Input::vertex_number(VertexId v) const { return last_word(names_of(*this).point(point_of(v))); }
+std::string Input::vertex_number(VertexId v) const { return last_word(names->point(v.index)); }
 
-std::string Input::triangle_number(TriangleId t) const { return last_word(names_of(*this).triangle(t.index)); }
+std::string Input::triangle_number(TriangleId t) const { return last_word(names->triangle(t.index)); }
 
 std::vector<std::string> Input::warnings() const {
   std::vector<std::string> all = file.warnings;
@@ -44,6 +40,7 @@ Input read_input(const std::string& path, const std::vector<std::string>& fixed_
   input.file = or_fail(io::read(path));
   input.loaded = or_fail(io::make_mesh(input.file, fixed_tags));
   input.points = invert(input.loaded);
+  input.names = std::make_shared<VertexNames>(input.file.numbering, input.points);
   return input;
 }
 

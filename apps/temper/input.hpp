@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,10 @@ struct Input {
   std::string path;
   io::MeshFile file;
   io::LoadedMesh loaded;
-  std::vector<std::size_t> points;  ///< mesh vertex → point of the file, both from 0
+  std::vector<std::size_t> points;          ///< mesh vertex → point of the file, both from 0
+  std::shared_ptr<const InputNames> names;  ///< the file's own numbers of the mesh's vertices and triangles
 
   [[nodiscard]] const Mesh& mesh() const { return loaded.mesh; }
-  /// Index of the point in the file's arrays, from 0.
-  [[nodiscard]] std::size_t point_of(VertexId v) const { return v.index < points.size() ? points[v.index] : v.index; }
   /// The file's own number of a vertex, as text.
   [[nodiscard]] std::string vertex_number(VertexId v) const;
   [[nodiscard]] std::string triangle_number(TriangleId t) const;

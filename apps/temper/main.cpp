@@ -76,7 +76,8 @@ int main(int argc, char** argv) {
     print_error(failure.what());
     return static_cast<int>(failure.exit);
   } catch (const std::bad_alloc&) {
-    return internal_error("out of memory");
+    print_error("out of memory");
+    return static_cast<int>(Exit::internal);
   } catch (const std::exception& error) {
     return internal_error(error.what());
   } catch (...) {

@@ -160,7 +160,7 @@ std::optional<Softening> SofteningOptions::value() const {
 
 void add_gamma(CLI::App& app, SofteningOptions& target, const std::string& default_text) {
   CLI::Option* absolute = add_number(app, "--gamma", target.absolute, kPositive,
-                                     "gamma of E_BP, as a length in the units of the mesh; " + default_text);
+                                     "gamma of E_BP, as a length in the units of the mesh" + default_text);
   CLI::Option* relative =
       add_number(app, "--gamma-rel", target.relative, kPositive, "gamma of E_BP, as a multiple of each edge's length");
   absolute->excludes(relative);
@@ -169,7 +169,7 @@ void add_gamma(CLI::App& app, SofteningOptions& target, const std::string& defau
 void add_h0(CLI::App& app, SofteningOptions& target, const std::string& default_text) {
   CLI::Option* absolute =
       add_number(app, "--h0", target.absolute, kNotNegative,
-                 "how far below zero E_BHs lets h go (-h0 of the paper, so >= 0), as a length; " + default_text);
+                 "how far below zero E_BHs lets h go (-h0 of the paper, so >= 0), as a length" + default_text);
   CLI::Option* relative =
       add_number(app, "--h0-rel", target.relative, kNotNegative, "the same, as a multiple of each edge's length");
   absolute->excludes(relative);
@@ -224,7 +224,8 @@ std::vector<UsedOption> used_options(const CLI::App& app) {
     UsedOption item;
     item.name = option->get_lnames().front();
     item.flag = option->get_items_expected_max() == 0;
-    item.number = option->get_type_name() == "X" || option->get_type_name() == "N";
+    const std::string type = option->get_type_name();
+    item.number = type == "X" || type == "N" || type.find_first_not_of("0123456789|") == std::string::npos;
     item.used = option->count() > 0 || !option->get_default_str().empty();
     if (!item.flag && item.used) {
       item.values = option->count() > 0 ? option->results() : std::vector<std::string>{option->get_default_str()};

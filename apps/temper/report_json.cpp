@@ -5,19 +5,23 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "input.hpp"
 #include "measures.hpp"
 
 namespace temper::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using Points = std::span<const std::size_t>;
+
+std::size_t point_of(Points points, VertexId v) { return v.index < points.size() ? points[v.index] : v.index; }
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json worst_triangle(const WorstTriangle& worst, const Input& input) {
+Json worst_triangle(const WorstTriangle& worst, Points points) {
   Json vertices = Json::array();
-  for (const VertexId v : worst.vertices) vertices.push_back(input.point_of(v));
-  const auto name = [&input](VertexId v) { return std::to_string(input.point_of(v)); };
+  for (const VertexId v : worst.vertices) vertices.push_back(point_of(points, v));
+  const auto name = [points](VertexId v) { return std::to_string(point_of(points, v)); };
   return {{"triangle", worst.triangle.index},
           {"vertices", std::move(vertices)},
           {"at", {worst.at.x, worst.at.y}},
@@ -26,7 +30,7 @@ Json worst_triangle(const WorstTriangle& worst, const Input& input) {
           {"why", renumber(worst.why, name)}};
 }
 
-Json to_json(const Quality& quality, const Input& input) {
+Json to_json(const Quality& quality, Points points) {
   Json json;
   for (const Measure& measure : measures()) {
     const double value = measure.of(quality);
@@ -38,7 +42,7 @@ Json to_json(const Quality& quality, const Input& input) {
     for (const double value : quality.energy[row]) stars.push_back(number_or_null(value));
   }
   json["worst"] = Json::array();
-  for (const WorstTriangle& worst : quality.worst) json["worst"].push_back(worst_triangle(worst, input));
+  for (const WorstTriangle& worst : quality.worst) json["worst"].push_back(worst_triangle(worst, points));
   return json;
 }
 
@@ -52,8 +56,8 @@ Json to_json(const UsedOption& option) {
 }
 
 Json to_json(const SweepRecord& record) {
-  return {{"sweep", record.sweep}, {"energy", number_or_null(record.energy)}, {"bad", record.bad},
-          {"flips", record.flips}, {"gamma", number_or_null(record.gamma)},   {"seconds", record.seconds}};
+  return {{"sweep", record.sweep}, {"energy", number_or_null(record.energy)},       {"bad", record.bad},
+          {"flips", record.flips}, {"softening", number_or_null(record.softening)}, {"seconds", record.seconds}};
 }
 
 std::string dump(const Json& json) {
@@ -63,15 +67,17 @@ std::string dump(const Json& json) {
 
 }  // namespace
 
-std::string quality_json(const Quality& quality, const Input& input) { return dump(to_json(quality, input)); }
+std::string quality_json(const Quality& quality, std::span<const std::size_t> points) {
+  return dump(to_json(quality, points));
+}
 
-std::string optimize_json(const OptimizeRecord& record, const Input& input) {
+std::string optimize_json(const OptimizeRecord& record) {
   Json json;
   json["command"] = record.command;
   json["version"] = TEMPER_VERSION;
   for (const UsedOption& option : record.options) json["options"][option.name] = to_json(option);
-  json["before"] = to_json(record.before, input);
-  json["after"] = to_json(record.after, input);
+  json["before"] = to_json(record.before, record.points_before);
+  json["after"] = to_json(record.after, Points());
   json["sweeps"] = record.report.sweeps;
   json["seconds"] = record.report.seconds;
   json["stopped"] = name(record.report.stopped);
@@ -90,7 +96,7 @@ std::string optimize_json(const OptimizeRecord& record, const Input& input) {
 std::string history_csv(const OptimizeReport& report) {
   std::string csv = "sweep,energy,bad,flips,gamma,seconds\n";
   for (const SweepRecord& record : report.history) {
-    csv += fmt::format("{},{},{},{},{},{}\n", record.sweep, record.energy, record.bad, record.flips, record.gamma,
+    csv += fmt::format("{},{},{},{},{},{}\n", record.sweep, record.energy, record.bad, record.flips, record.softening,
                        record.seconds);
   }
   return csv;

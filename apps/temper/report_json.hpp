@@ -2,29 +2,31 @@
 // the file's arrays (points[i] of any reader), not in the numbers a format may give them.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "input.hpp"
 #include "options.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::app {
 
-/// `temper check --json`.
-[[nodiscard]] std::string quality_json(const Quality& quality, const Input& input);
+/// `temper check --json`. `points`: mesh vertex → point of the file; empty when they are the same.
+[[nodiscard]] std::string quality_json(const Quality& quality, std::span<const std::size_t> points);
 
 /// Everything `temper optimize --report` says.
 struct OptimizeRecord {
   std::string command;
   std::vector<UsedOption> options;
   const Quality& before;
+  std::span<const std::size_t> points_before;  ///< of IN; OUT has the points of the mesh
   const Quality& after;
   const OptimizeReport& report;
   std::vector<std::string> warnings;
 };
-[[nodiscard]] std::string optimize_json(const OptimizeRecord& record, const Input& input);
+[[nodiscard]] std::string optimize_json(const OptimizeRecord& record);
 
 /// `temper optimize --history`: a header and one line a sweep.
 [[nodiscard]] std::string history_csv(const OptimizeReport& report);

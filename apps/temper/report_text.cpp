@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kLabelColumns = 30;
 constexpr std::size_t kNumberColumns = 14;
 constexpr std::size_t kEnergyColumns = 24;
+constexpr std::size_t kRangeColumns = 12;
 constexpr std::size_t kBarColumns = 10;
 constexpr std::size_t kPanelGap = 3;
 
@@ -66,9 +67,13 @@ std::vector<std::string> histogram_panel(const std::string& title, const Histogr
   const std::size_t most = *std::max_element(histogram.counts.begin(), histogram.counts.end());
   const double step = (histogram.high - histogram.low) / static_cast<double>(bins);
   const int decimals = step >= 1 ? 0 : step >= 0.1 ? 1 : 2;
+  const auto edge = [&](std::size_t i) {
+    const double value = histogram.low + step * static_cast<double>(i);
+    return std::abs(value) < 1e-9 * step ? 0.0 : value;  // no "-0.0" from rounding
+  };
   for (std::size_t bin = 0; bin < bins; ++bin) {
-    const double low = histogram.low + step * static_cast<double>(bin);
-    lines.push_back(fmt::format("{:>5.{}f}..{:<5.{}f} {} {:>7}", low, decimals, low + step, decimals,
+    const std::string range = fmt::format("{:>5.{}f}..{:.{}f}", edge(bin), decimals, edge(bin + 1), decimals);
+    lines.push_back(fmt::format("{} {} {:>7}", pad_right(range, kRangeColumns),
                                 pad_right(bar(histogram.counts[bin], most, style), kBarColumns),
                                 histogram.counts[bin]));
   }
@@ -148,8 +153,25 @@ std::size_t bad_triangles(const Quality& quality) {
   return quality.triangles - std::min(quality.triangles, static_cast<std::size_t>(std::lround(good)));
 }
 
+std::string verdict(const Quality& quality) {
+  const std::size_t bad = bad_triangles(quality);
+  const auto are = [](std::size_t n, const char* one, const char* many) {
+    return fmt::format("{} {}", n, n == 1 ? one : many);
+  };
+  std::string text = bad == 0 ? fmt::format("all {} triangles are well-centered", quality.triangles)
+                              : fmt::format("{} of {} triangles {} not well-centered", bad, quality.triangles,
+                                            bad == 1 ? "is" : "are");
+  text += quality.non_regular_edges == 0
+              ? ", every edge is regular"
+              : ", " + are(quality.non_regular_edges, "edge is not regular", "edges are not regular");
+  if (quality.inverted_triangles > 0) {
+    text += ", " + are(quality.inverted_triangles, "triangle is inverted", "triangles are inverted");
+  }
+  return text;
+}
+
 std::string quality_text(const Quality& quality, const Input& input, const TextStyle& style) {
-  std::string text;
+  std::string text = fmt::format("{}: {}\n\n", input.path, verdict(quality));
   for (const Measure& measure : measures()) {
     text += pad_right(measure.label, kLabelColumns) + pad_left(measure_text(measure, quality), kNumberColumns) + "\n";
   }

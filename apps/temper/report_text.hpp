@@ -23,6 +23,9 @@ struct TextStyle {
 [[nodiscard]] std::string comparison_text(const Quality& before, const Quality& after, int star,
                                           const TextStyle& style);
 
+/// "46 of 96 triangles are not well-centered, every edge is regular"
+[[nodiscard]] std::string verdict(const Quality& quality);
+
 /// Triangles that are not well-centered.
 [[nodiscard]] std::size_t bad_triangles(const Quality& quality);
 

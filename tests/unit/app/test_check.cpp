@@ -1,4 +1,6 @@
 // temper check: the report for programs, the report for people, requirements.
+#include <algorithm>
+
 #include "workshop.hpp"
 
 namespace temper::test {

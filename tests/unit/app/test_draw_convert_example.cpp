@@ -1,4 +1,6 @@
 // temper draw, convert and example.
+#include <algorithm>
+
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -23,7 +25,7 @@ TEST_F(Draw, EveryOptionChangesThePicture) {
   write("a.mesh",
         "MeshVersionFormatted 2\nDimension 2\nVertices\n6\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.2 0\n0.5 0.2001 0\n"
         "Triangles\n6\n1 2 5 1\n2 6 5 1\n1 5 6 1\n2 3 6 2\n3 4 6 2\n4 1 6 2\nEnd\n");
-  write("a.mesh.weights.csv", "weight\n0\n0.01\n0\n-0.01\n0\n0\n");
+  write("a.mesh.weights.csv", "point,weight\n1,0\n2,0.01\n3,0\n4,-0.01\n5,0\n6,0\n");
   const std::vector<std::vector<std::string>> options = {{"--no-primal"},
                                                          {"--no-dual"},
                                                          {"--no-bad"},

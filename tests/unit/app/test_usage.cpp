@@ -1,4 +1,5 @@
 // Help, versions, and every way to use the program wrongly.
+#include <algorithm>
 #include <sstream>
 
 #include "workshop.hpp"
@@ -100,10 +101,32 @@ TEST_F(Usage, TheReferenceInTheDocsIsTheHelp) {
   }
 }
 
+// The table at the end of docs/cli.md: | `command` | code | `message` |
+TEST_F(Usage, TheTableOfMistakesInTheDocsIsTrue) {
+  make_input();
+  write("empty.msh", "");
+  std::istringstream docs(read(TEMPER_SOURCE_DIR "/docs/cli.md"));
+  int rows = 0;
+  for (std::string line; std::getline(docs, line);) {
+    if (line.rfind("| `temper", 0) != 0) continue;
+    std::vector<std::string> cells;
+    for (std::size_t at = 2; at < line.size(); at = line.find(" | ", at) + 3) {
+      cells.push_back(line.substr(at, line.find_first_of('|', at) - 1 - at));
+      if (line.find(" | ", at) == std::string::npos) break;
+    }
+    ASSERT_EQ(cells.size(), 3u) << line;
+    const Outcome outcome = shell(cells[0].substr(1, cells[0].size() - 2));
+    EXPECT_EQ(std::to_string(outcome.exit), cells[1]) << line << "\n" << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, cells[2].substr(1, cells[2].size() - 2)));
+    ++rows;
+  }
+  EXPECT_GT(rows, 25);
+}
+
 TEST_F(Usage, EveryExampleInTheHelpRuns) {
   make_input();
   std::vector<std::string> texts = {temper_ok({"--help"}).out};
-  for (const std::string& verb : {"optimize", "check", "draw", "convert", "example"}) {
+  for (const std::string& verb : kVerbs) {
     texts.push_back(temper_ok({verb, "--help"}).out);
   }
   int examples = 0;
@@ -124,6 +147,8 @@ struct Wrong {
   std::vector<std::string> arguments;
   const char* message;
 };
+
+void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.name; }
 
 class BadUsage : public Workshop, public testing::WithParamInterface<Wrong> {};
 
@@ -147,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"TwoInputs", {"optimize", "a.vtu", "c.vtu", "-o", "b.vtu"}, "unexpected argument 'c.vtu'"},
         Wrong{"OptionAsValue", {"optimize", "a.vtu", "-o", "--quiet"}, "found the option --quiet"},
         Wrong{"UnknownSuffix", {"optimize", "a.vtu", "-o", "b.xyz"}, "no suffix of a format"},
-        Wrong{"UnknownEnergy", {"optimize", "a.vtu", "-o", "b.vtu", "--energy", "BQ"}, "did you mean 'BP'?"},
+        Wrong{"UnknownEnergy", {"optimize", "a.vtu", "-o", "b.vtu", "--energy", "bp"}, "did you mean 'BP'?"},
         Wrong{"UnknownSolver", {"optimize", "a.vtu", "-o", "b.vtu", "--solver", "newtn"}, "did you mean 'newton'?"},
         Wrong{"UnknownStar", {"optimize", "a.vtu", "-o", "b.vtu", "--star", "3"}, "'3' is none of 0, 1, 2"},
         Wrong{"GammaNotANumber", {"optimize", "a.vtu", "-o", "b.vtu", "--gamma", "1e"}, "'1e' is not a number"},

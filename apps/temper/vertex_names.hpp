@@ -1,0 +1,31 @@
+// The file's own numbers for the vertices of a mesh, when points of the file that no triangle uses were dropped.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "temper/mesh.hpp"
+
+namespace temper::app {
+
+/// Its members are not inline: the class is compiled without RTTI, as its base in the core is.
+class VertexNames final : public InputNames {
+ public:
+  /// points: mesh vertex → point of the file.
+  VertexNames(std::shared_ptr<const InputNames> file, std::vector<std::size_t> points);
+  ~VertexNames() override;
+  [[nodiscard]] std::string point(std::size_t index) const override;
+  [[nodiscard]] std::string triangle(std::size_t index) const override;
+  [[nodiscard]] std::string point_where(std::size_t index) const override;
+  [[nodiscard]] std::string triangle_where(std::size_t index) const override;
+
+ private:
+  [[nodiscard]] std::size_t in_file(std::size_t index) const;
+
+  std::shared_ptr<const InputNames> file_;
+  std::vector<std::size_t> points_;
+};
+
+}  // namespace temper::app
