@@ -26,14 +26,19 @@
 namespace temper {
 
 /// How the user counts points and triangles, so that errors speak the user's numbers.
-/// The base class counts from 0 and knows no file.
+/// The base class counts from 0 and knows no file. (Inline, so that classes derived from it find its type information
+/// wherever they are compiled: the library is built without.)
 class InputNames {
  public:
   virtual ~InputNames() = default;
-  [[nodiscard]] virtual std::string point(std::size_t index) const;           ///< "point 3"
-  [[nodiscard]] virtual std::string triangle(std::size_t index) const;        ///< "triangle 12"
-  [[nodiscard]] virtual std::string point_where(std::size_t index) const;     ///< "a.mesh:7" or ""
-  [[nodiscard]] virtual std::string triangle_where(std::size_t index) const;  ///< "a.mesh:41" or ""
+  /// "point 3"
+  [[nodiscard]] virtual std::string point(std::size_t index) const { return "point " + std::to_string(index); }
+  /// "triangle 12"
+  [[nodiscard]] virtual std::string triangle(std::size_t index) const { return "triangle " + std::to_string(index); }
+  /// "a.mesh:7" or ""
+  [[nodiscard]] virtual std::string point_where(std::size_t) const { return {}; }
+  /// "a.mesh:41" or ""
+  [[nodiscard]] virtual std::string triangle_where(std::size_t) const { return {}; }
 };
 
 /// Arrays that make a mesh. Spans are read during Mesh::build only.

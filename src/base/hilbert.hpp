@@ -31,18 +31,20 @@ constexpr std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y) {
   return index;
 }
 
-/// The grid of cells over the bounding box of some points.
+/// The grid of cells over a box.
 class HilbertGrid {
  public:
   explicit HilbertGrid(std::span<const Vec2> points) {
     constexpr double kInf = std::numeric_limits<double>::infinity();
-    Vec2 high{-kInf, -kInf};
-    low_ = {kInf, kInf};
+    Vec2 low{kInf, kInf}, high{-kInf, -kInf};
     for (const Vec2 p : points) {
-      low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
-    const double extent = std::max(high.x - low_.x, high.y - low_.y);
+    *this = HilbertGrid(low, high);
+  }
+  HilbertGrid(Vec2 low, Vec2 high) : low_(low) {
+    const double extent = std::max(high.x - low.x, high.y - low.y);
     cells_per_length_ = extent > 0 ? (static_cast<double>(1u << kHilbertBits) - 1) / extent : 0;
   }
 

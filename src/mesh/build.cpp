@@ -12,17 +12,24 @@
 
 namespace temper {
 
-std::string InputNames::point(std::size_t index) const { return "point " + std::to_string(index); }
-std::string InputNames::triangle(std::size_t index) const { return "triangle " + std::to_string(index); }
-std::string InputNames::point_where(std::size_t) const { return {}; }
-std::string InputNames::triangle_where(std::size_t) const { return {}; }
-
 namespace {
 
-// Exact predicates multiply up to four differences (and weights stand for squares): within these bounds
-// nothing over- or underflows there. Far beyond any unit of length.
+// Within these bounds nothing over- or underflows in the exact predicates (geometry.hpp), neither in the user's units
+// nor after scaling to an extent of about 1, whatever the other coordinates are. Far beyond any unit of length.
 constexpr double kLargestCoordinate = 1e60;
+constexpr double kSmallestCoordinate = 1e-60;  // absolute, and relative to the largest coordinate
 constexpr double kSmallestExtent = 1e-60;
+constexpr double kLargestWeight = 1e120;    // absolute, and relative to the extent squared
+constexpr double kSmallestWeight = 1e-120;  // absolute, and relative to the largest coordinate squared
+
+/// The magnitudes that a number other than 0 may have.
+struct Range {
+  double low, high;
+  [[nodiscard]] bool allows(double x) const { return x == 0 || (std::abs(x) >= low && std::abs(x) <= high); }
+  [[nodiscard]] std::string text() const {
+    return "expected 0 or a magnitude from " + to_text(low) + " to " + to_text(high) + ", which exact arithmetic needs";
+  }
+};
 
 std::string quantity(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what; }
 
@@ -92,6 +99,7 @@ class MeshBuilder {
   }
 
   std::optional<InputError> check_scale() {
+    if (auto error = check_coordinates({kSmallestCoordinate, kLargestCoordinate})) return error;
     Vec2 low = in_.points[0], high = low;
     double largest = 0;
     for (const Vec2 p : in_.points) {
@@ -100,12 +108,33 @@ class MeshBuilder {
       largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
     }
     const double extent = std::max(high.x - low.x, high.y - low.y);
-    if (largest > kLargestCoordinate || (extent > 0 && extent < kSmallestExtent)) {
+    if (extent == 0) return std::nullopt;  // the zero areas will be named
+    if (extent < kSmallestExtent) {
       return InputError{ErrorCode::out_of_scale,
                         {},
-                        "coordinates reach " + to_text(largest) + " over an extent of " + to_text(extent) +
-                            "; expected at most " + to_text(kLargestCoordinate) + " and at least " +
-                            to_text(kSmallestExtent)};
+                        "the points lie within " + to_text(extent) + "; expected an extent of at least " +
+                            to_text(kSmallestExtent) + ", which exact arithmetic needs"};
+    }
+    const double large = std::max(1.0, largest);
+    if (auto error = check_coordinates({kSmallestCoordinate * large, kLargestCoordinate})) return error;
+    return check_weights({kSmallestWeight * large * large, kLargestWeight * std::min(1.0, extent * extent)});
+  }
+
+  std::optional<InputError> check_coordinates(Range range) const {
+    for (std::size_t i = 0; i < in_.points.size(); ++i) {
+      const Vec2 p = in_.points[i];
+      if (range.allows(p.x) && range.allows(p.y)) continue;
+      return point_error(ErrorCode::out_of_scale, i,
+                         names_.point(i) + " has coordinates " + coordinates(p) + "; " + range.text());
+    }
+    return std::nullopt;
+  }
+
+  std::optional<InputError> check_weights(Range range) const {
+    for (std::size_t i = 0; i < in_.weights.size(); ++i) {
+      if (range.allows(in_.weights[i])) continue;
+      return point_error(ErrorCode::out_of_scale, i,
+                         names_.point(i) + " has weight " + to_text(in_.weights[i]) + "; " + range.text());
     }
     return std::nullopt;
   }
@@ -128,9 +157,7 @@ class MeshBuilder {
       const auto at = [&](int k) { return in_.points[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])]; };
       const Sign sign = orient2d(at(0), at(1), at(2));
       if (sign == Sign::zero) {
-        return triangle_error(
-            ErrorCode::zero_area, t,
-            names_.triangle(t) + " has zero area: its corners " + corner_names(corners) + " are collinear");
+        return triangle_error(ErrorCode::zero_area, t, names_.triangle(t) + " has zero area: " + why_flat(corners));
       }
       if (sign == Sign::negative) {
         std::swap(corners[1], corners[2]);
@@ -221,9 +248,11 @@ class MeshBuilder {
     for (const VertexId v : mesh_.vertices()) {
       for ([[maybe_unused]] const HalfedgeId h : mesh_.star(v)) --missing[v.index];
       if (missing[v.index] != 0) {
-        return point_error(
-            ErrorCode::non_manifold_vertex, v.index,
-            "the mesh touches itself at " + names_.point(v.index) + ": its triangles are not one fan around it");
+        std::string message = edges_on_each_other(mesh_, v, names_);
+        if (message.empty()) {
+          message = "the mesh touches itself at " + names_.point(v.index) + ": its triangles are not one fan around it";
+        }
+        return point_error(ErrorCode::non_manifold_vertex, v.index, message);
       }
     }
     return std::nullopt;
@@ -278,9 +307,11 @@ class MeshBuilder {
 
   static VertexId id(std::int32_t i) { return VertexId(static_cast<std::size_t>(i)); }
 
-  std::string corner_names(const std::array<std::int32_t, 3>& c) const {
+  std::string why_flat(const std::array<std::int32_t, 3>& c) const {
     const auto name = [&](std::int32_t i) { return names_.point(static_cast<std::size_t>(i)); };
-    return name(c[0]) + ", " + name(c[1]) + " and " + name(c[2]);
+    if (c[0] == c[1] || c[0] == c[2]) return "it uses " + name(c[0]) + " more than once";
+    if (c[1] == c[2]) return "it uses " + name(c[1]) + " more than once";
+    return "its corners " + name(c[0]) + ", " + name(c[1]) + " and " + name(c[2]) + " are collinear";
   }
 
   const MeshInput& in_;

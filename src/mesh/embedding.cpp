@@ -196,11 +196,34 @@ std::optional<TriangleId> component_inside_another(const Mesh& mesh) {
 
 }  // namespace
 
+std::string edges_on_each_other(const Mesh& mesh, VertexId v, const InputNames& names) {
+  std::vector<VertexId> ends;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_boundary(h)) continue;
+    if (mesh.origin(h) == v) ends.push_back(mesh.target(h));
+    if (mesh.target(h) == v) ends.push_back(mesh.origin(h));
+  }
+  std::sort(ends.begin(), ends.end());
+  const Vec2 p = mesh.position(v);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    for (std::size_t j = i + 1; j < ends.size(); ++j) {
+      const Vec2 a = mesh.position(ends[i]), b = mesh.position(ends[j]);
+      if (orient2d(p, a, b) != Sign::zero || !(within(p, a, b) || within(p, b, a))) continue;
+      return "the mesh touches itself at " + names.point(v.index) + ": its edges to " + names.point(ends[i].index) +
+             " and " + names.point(ends[j].index) +
+             " lie on each other (a hanging node, or an edge whose two sides are not joined)";
+    }
+  }
+  return {};
+}
+
 std::optional<Overlap> find_overlap(const Mesh& mesh, const InputNames& names) {
   for (const VertexId v : mesh.vertices()) {
     const bool overlaps = mesh.is_boundary(v) ? boundary_star_overlaps(mesh, v) : interior_star_overlaps(mesh, v);
     if (overlaps) {
-      return Overlap{Mesh::triangle(mesh.outgoing(v)), "the triangles around " + names.point(v.index) + " overlap"};
+      std::string message = mesh.is_boundary(v) ? edges_on_each_other(mesh, v, names) : std::string();
+      if (message.empty()) message = "the triangles around " + names.point(v.index) + " overlap";
+      return Overlap{Mesh::triangle(mesh.outgoing(v)), std::move(message)};
     }
   }
   if (const auto crossing = BoundaryCrossing(mesh).find()) {

@@ -14,6 +14,10 @@ struct Overlap {
   std::string message;  ///< of what lies on what, in the user's names
 };
 
+/// Two boundary edges at v in the same direction, said in the user's names: what a hanging node at their ends makes of
+/// v. Empty when there are none. O(n), for error messages.
+[[nodiscard]] std::string edges_on_each_other(const Mesh& mesh, VertexId v, const InputNames& names);
+
 /// Nothing when the mesh is embedded. Preconditions: all triangles counter-clockwise, manifold.
 ///
 /// A connected mesh whose stars wind once and whose boundary loops neither cross nor touch covers every

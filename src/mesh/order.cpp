@@ -1,34 +1,14 @@
 // Hilbert order: neighbours in the plane become neighbours in memory.
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "base/hilbert.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
 namespace {
-
-constexpr int kHilbertBits = 24;  // of each coordinate: finer than any mesh that fits in memory
-
-/// Position of cell (x, y) along the Hilbert curve of 2^bits × 2^bits cells.
-std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y) {
-  std::uint64_t index = 0;
-  for (std::uint32_t s = 1u << (kHilbertBits - 1); s > 0; s /= 2) {
-    const std::uint32_t rx = (x & s) != 0 ? 1 : 0;
-    const std::uint32_t ry = (y & s) != 0 ? 1 : 0;
-    index = 4 * index + ((3 * rx) ^ ry);
-    if (ry == 0) {
-      if (rx == 1) {
-        x = ~x;
-        y = ~y;
-      }
-      std::swap(x, y);
-    }
-  }
-  return index;
-}
 
 struct Keyed {
   std::uint64_t key;
@@ -45,16 +25,10 @@ IdVector<VertexId, VertexId> vertices_by_hilbert(const Mesh& mesh) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  const double extent = std::max(high.x - low.x, high.y - low.y);
-  const double cells = extent > 0 ? (static_cast<double>(1u << kHilbertBits) - 1) / extent : 0;
+  const HilbertGrid curve(low, high);
   std::vector<Keyed> keyed;
   keyed.reserve(mesh.n_vertices());
-  for (const VertexId v : mesh.vertices()) {
-    const Vec2 p = mesh.position(v);
-    keyed.push_back({hilbert_index(static_cast<std::uint32_t>((p.x - low.x) * cells),
-                                   static_cast<std::uint32_t>((p.y - low.y) * cells)),
-                     v.index});
-  }
+  for (const VertexId v : mesh.vertices()) keyed.push_back({curve(mesh.position(v)), v.index});
   std::sort(keyed.begin(), keyed.end());
   IdVector<VertexId, VertexId> order;
   order.reserve(keyed.size());
