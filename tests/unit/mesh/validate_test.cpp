@@ -1,0 +1,122 @@
+// validate() must find each kind of corruption that the mutators can make, and name it.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "unit/mesh/inputs.hpp"
+
+namespace temper {
+namespace {
+
+// Square around vertex 4; triangle t has corners t, t + 1, 4; see inputs.hpp.
+Mesh fan() { return test::built(test::fan()); }
+
+void expect_found(const Mesh& mesh, const std::string& message) {
+  const auto found = mesh.validate();
+  ASSERT_TRUE(found.has_value()) << "nothing found, expected: " << message;
+  EXPECT_EQ(*found, message);
+}
+
+TEST(Validate, FindsNothingInAMesh) { EXPECT_EQ(fan().validate(), std::nullopt); }
+
+TEST(Validate, FindsACornerThatIsNoVertex) {
+  Mesh mesh = fan();
+  mesh.set_corner(HalfedgeId(4), VertexId(5));
+  expect_found(mesh, "halfedge 4 starts at no vertex");
+  mesh.set_corner(HalfedgeId(4), VertexId());
+  expect_found(mesh, "halfedge 4 starts at no vertex");
+}
+
+TEST(Validate, FindsACornerOfAnotherTriangle) {
+  Mesh mesh = fan();
+  mesh.set_corner(HalfedgeId(4), VertexId(0));
+  expect_found(mesh, "halfedge 4 and its twin join different vertices");
+}
+
+TEST(Validate, FindsTwinsOutOfRange) {
+  Mesh mesh = test::built({{{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}}});
+  Mesh other = fan();
+  // A twin that exists in a larger mesh: linked in one, then copied triangle by triangle is what a bug would do.
+  mesh.add_triangle({VertexId(1), VertexId(0), VertexId(2)}, 0);
+  mesh.link(HalfedgeId(0), HalfedgeId(3));
+  other.erase(TriangleId(0));
+  EXPECT_NE(mesh.validate(), std::nullopt);
+  expect_found(other, "triangle 0 is erased: compact() first");
+}
+
+TEST(Validate, FindsTwinsThatAreNotMutual) {
+  Mesh mesh = fan();
+  const HalfedgeId h = mesh.find_halfedge(VertexId(1), VertexId(4)), twin = mesh.twin(h);
+  mesh.link(twin, HalfedgeId());
+  expect_found(mesh, "halfedge " + std::to_string(h.index) + " is not the twin of its twin");
+}
+
+TEST(Validate, FindsTwinsOfDifferentVertices) {
+  Mesh mesh = fan();
+  mesh.link(HalfedgeId(0), HalfedgeId(6));  // bottom and top of the square
+  expect_found(mesh, "halfedge 0 and its twin join different vertices");
+}
+
+TEST(Validate, FindsAMissingOutgoingHalfedge) {
+  Mesh mesh = fan();
+  mesh.set_outgoing(VertexId(2), HalfedgeId());
+  expect_found(mesh, "vertex 2 has no halfedge");
+  mesh = fan();
+  mesh.set_outgoing(VertexId(2), HalfedgeId(99));
+  expect_found(mesh, "vertex 2 has no halfedge");
+  mesh = fan();
+  mesh.add_vertex({3, 3, 0});
+  expect_found(mesh, "vertex 5 has no halfedge");
+}
+
+TEST(Validate, FindsAForeignOutgoingHalfedge) {
+  Mesh mesh = fan();
+  mesh.set_outgoing(VertexId(0), HalfedgeId(1));
+  expect_found(mesh, "vertex 0 has a foreign halfedge in its star");
+}
+
+TEST(Validate, FindsABoundaryStarThatDoesNotBeginOnTheBoundary) {
+  Mesh mesh = fan();
+  const VertexId v(1);
+  mesh.set_outgoing(v, mesh.rotate(mesh.outgoing(v)));
+  expect_found(mesh, "vertex 1 does not reach all its triangles");
+}
+
+TEST(Validate, FindsAnUnlinkedEdge) {
+  Mesh mesh = fan();
+  const HalfedgeId h = mesh.find_halfedge(VertexId(1), VertexId(4)), twin = mesh.twin(h);
+  mesh.link(h, HalfedgeId());
+  mesh.link(twin, HalfedgeId());
+  EXPECT_NE(mesh.validate(), std::nullopt);
+}
+
+TEST(Validate, FindsAnEdgeConstrainedOnOneSide) {
+  Mesh mesh = fan();
+  const HalfedgeId h = mesh.find_halfedge(VertexId(1), VertexId(4)), twin = mesh.twin(h);
+  mesh.link(h, HalfedgeId());
+  mesh.set_constrained(h, true);  // the twin does not hear of it
+  mesh.link(h, twin);
+  expect_found(mesh, "halfedge " + std::to_string(std::min(h, twin).index) + " is constrained on one side only");
+}
+
+TEST(Validate, FindsNumbersThatAreNotFinite) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+  for (const WeightedPoint& bad : {WeightedPoint{kNaN, 0, 0}, {0, -kInf, 0}, {0, 0, kInf}, {0, 0, kNaN}}) {
+    Mesh mesh = fan();
+    mesh.set_point(VertexId(4), bad);
+    expect_found(mesh, "vertex 4 is not finite");
+  }
+}
+
+TEST(Validate, FindsTrianglesThatAreNotCounterClockwise) {
+  Mesh mesh = fan();
+  mesh.set_position(VertexId(4), {0, -1});  // on the bottom edge
+  expect_found(mesh, "triangle 0 is not counter-clockwise");
+  mesh.set_position(VertexId(4), {0, 1 + 0x1p-52});  // just above the top
+  expect_found(mesh, "triangle 2 is not counter-clockwise");
+  mesh.set_position(VertexId(4), {0, 1 - 0x1p-53});  // just below it
+  EXPECT_EQ(mesh.validate(), std::nullopt);
+}
+
+}  // namespace
+}  // namespace temper
