@@ -103,7 +103,10 @@ class Mesh {
   /// A region interface or a line of the user's: never flipped.
   [[nodiscard]] bool is_constrained(HalfedgeId h) const { return constrained_[h] != 0; }
   /// Marks the edge of h, on both sides.
-  void set_constrained(HalfedgeId h, bool constrained);
+  void set_constrained(HalfedgeId h, bool constrained) {
+    constrained_[h] = constrained ? 1 : 0;
+    if (twin(h).valid()) constrained_[twin(h)] = constrained_[h];
+  }
   /// Each edge once: the halfedge that stands for it (the boundary one, or the smaller of two twins).
   [[nodiscard]] bool is_edge_representative(HalfedgeId h) const { return !twin(h).valid() || h < twin(h); }
   [[nodiscard]] std::size_t n_edges() const;
@@ -140,7 +143,10 @@ class Mesh {
   TriangleId add_triangle(std::array<VertexId, 3> corners, std::int32_t region);
   void set_corner(HalfedgeId h, VertexId v) { corners_[h] = v; }
   /// Makes a and b twins; b may be invalid (a becomes boundary). Flags stay as they are.
-  void link(HalfedgeId a, HalfedgeId b);
+  void link(HalfedgeId a, HalfedgeId b) {
+    twins_[a] = b;
+    if (b.valid()) twins_[b] = a;
+  }
   void set_outgoing(VertexId v, HalfedgeId h) { record(v).outgoing = h.index; }
   /// Marks a triangle for compact(); its neighbours get a boundary there.
   void erase(TriangleId t);

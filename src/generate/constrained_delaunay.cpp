@@ -21,7 +21,6 @@ Mesh in_input_order(Triangulation triangulation) {
   order.triangles.reserve(mesh.n_triangles());
   for (const TriangleId t : mesh.triangles()) order.triangles.push_back(t);
   restore_order(mesh, order);
-  mesh.compact();  // outgoing() follows from the numbers
   return mesh;
 }
 

@@ -7,11 +7,6 @@ void Mesh::set_fixed(VertexId v, bool fixed) {
   record(v).flags = fixed ? (record(v).flags | kFixed) : (record(v).flags & ~kFixed);
 }
 
-void Mesh::set_constrained(HalfedgeId h, bool constrained) {
-  constrained_[h] = constrained ? 1 : 0;
-  if (twin(h).valid()) constrained_[twin(h)] = constrained_[h];
-}
-
 std::size_t Mesh::n_edges() const {
   std::size_t count = 0;
   for (const HalfedgeId h : halfedges()) count += !is_erased(triangle(h)) && is_edge_representative(h) ? 1 : 0;
@@ -43,11 +38,6 @@ TriangleId Mesh::add_triangle(std::array<VertexId, 3> corners, std::int32_t regi
   }
   regions_.push_back(region);
   return TriangleId(regions_.size() - 1);
-}
-
-void Mesh::link(HalfedgeId a, HalfedgeId b) {
-  twins_[a] = b;
-  if (b.valid()) twins_[b] = a;
 }
 
 void Mesh::erase(TriangleId t) {

@@ -76,12 +76,11 @@ void permute(Mesh& mesh, const MeshOrder& order) {
   };
   gather(mesh.vertices_, order.vertices);
   gather(mesh.regions_, order.triangles);
-  for (auto& record : mesh.vertices_) record.outgoing = moved(HalfedgeId(std::size_t{record.outgoing})).index;
   // Triples of halfedge data move with their triangle; one array at a time keeps the peak of memory low.
-  const IdRange<TriangleId> order_range(order.triangles.size());
+  const IdRange<TriangleId> new_slots(order.triangles.size());
   const auto gather_triples = [&](auto& values, auto&& map) {
     auto moved_values = values;
-    for (const TriangleId to : order_range) {
+    for (const TriangleId to : new_slots) {
       for (int k = 0; k < 3; ++k) {
         moved_values[Mesh::halfedge(to, k)] = map(values[Mesh::halfedge(order.triangles[to], k)]);
       }
@@ -91,6 +90,7 @@ void permute(Mesh& mesh, const MeshOrder& order) {
   gather_triples(mesh.corners_, [&](VertexId v) { return new_vertex[v]; });
   gather_triples(mesh.twins_, moved);
   gather_triples(mesh.constrained_, [](std::uint8_t c) { return c; });
+  mesh.repair_outgoing();  // which halfedge stands for a vertex depends on the numbering
 }
 
 MeshOrder hilbert_order(Mesh& mesh) {
