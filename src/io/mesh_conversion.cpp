@@ -119,7 +119,9 @@ Expected<LoadedMesh> MeshMaker::make(std::span<const std::string> fixed_tags) {
   }
   loaded_.mesh = std::move(built->mesh);
   loaded_.reversed_triangles = built->reversed_triangles;
-  if (loaded_.reversed_triangles > 0) warn(text(loaded_.reversed_triangles, " clockwise triangles are reversed"));
+  const std::size_t reversed = loaded_.reversed_triangles;
+  if (reversed > 0)
+    warn(text(reversed, reversed == 1 ? " clockwise triangle is reversed" : " clockwise triangles are reversed"));
   constrain_lines();
   return std::move(loaded_);
 }

@@ -272,8 +272,9 @@ void VtuWriter::section(std::string_view name, std::vector<Array> arrays) {
 }
 
 void VtuWriter::array(const Array& a) {
-  out_.put("<DataArray type=\"", info(a.scalar).vtu, "\" Name=\"", escaped(a.name), "\" NumberOfComponents=\"",
-           a.components, "\"");
+  out_.put("<DataArray type=\"", info(a.scalar).vtu, "\" Name=\"", escaped(a.name), '"');
+  // Left out when it is 1, as VTK does: some readers make a column of one otherwise.
+  if (a.components > 1) out_.put(" NumberOfComponents=\"", a.components, '"');
   if (a.field) out_.put(" NumberOfTuples=\"", a.n_values / static_cast<std::size_t>(a.components), "\"");
   switch (encoding_) {
     case Encoding::ascii:

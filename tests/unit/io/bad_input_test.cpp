@@ -1,0 +1,168 @@
+// What a user sees when a file is wrong: the file, the line, the element in the file's own numbers, what was expected
+// and what was found. docs/formats.md shows these messages; the last test keeps it so.
+#include "support.hpp"
+
+namespace temper::io {
+namespace {
+
+struct Bad {
+  std::string name;  // of the test
+  std::string file;
+  std::string content;
+  ErrorCode code;
+  std::string message;  // with the folder taken out
+};
+
+std::string medit(const std::string& vertices, const std::string& rest) {
+  return "MeshVersionFormatted 2\nDimension 2\nVertices\n" + vertices + rest + "End\n";
+}
+const std::string kSquare = "4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+
+const std::vector<Bad>& bad_files() {
+  static const std::vector<Bad> kBad = {
+      {"empty_file", "m.mesh", "", ErrorCode::empty_input, "m.mesh: the file is empty"},
+      {"garbage", "m.mesh", "once upon a time\n", ErrorCode::syntax,
+       "m.mesh: is none of the formats that temper reads: VTK XML unstructured grid, temper's own, Gmsh MSH 4.1, Gmsh "
+       "MSH 2.2, "
+       "medit (INRIA, Mmg), Wavefront OBJ, legacy VTK, MFEM mesh v1.0, Triangle"},
+      {"truncated_medit", "m.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n1 0 0\n1 1",
+       ErrorCode::truncated, "m.mesh:4: announces 4 vertices, but only 17 bytes follow"},
+      {"truncated_inside_a_row", "m.mesh", medit("3\n0 0 0\n1.000 0 0\n1 1 0\n", "Triangles\n1\n1 2"),
+       ErrorCode::truncated, ""},
+      {"truncated_gmsh", "m.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n",
+       ErrorCode::truncated, "m.msh:8: the file ends where the section $Elements was expected"},
+      {"absurd_count", "m.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices\n99999999999\n0 0 0\n",
+       ErrorCode::truncated, "m.mesh:4: announces 99999999999 vertices, but only 7 bytes follow"},
+      {"negative_count", "m.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices\n-4\n0 0 0\n", ErrorCode::syntax,
+       "m.mesh:4: expected the number of vertices, found -4"},
+      {"a_word_for_a_number", "m.mesh", medit("3\n0 0 0\n1 zero 0\n0 1 0\n", "Triangles\n1\n1 2 3 0\n"),
+       ErrorCode::syntax, "m.mesh:6: expected the y coordinate of a vertex, found 'zero'"},
+      {"index_out_of_range", "coast.msh",
+       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n$Elements\n1\n12 2 2 0 "
+       "1 1 2 305\n"
+       "$EndElements\n",
+       ErrorCode::index_out_of_range,
+       "coast.msh:12: triangle 12 uses vertex 305, but the file has 3 vertices, numbered from 1"},
+      {"medit_index_out_of_range", "m.mesh", medit(kSquare, "Triangles\n2\n1 2 3 0\n1 3 5 0\n"),
+       ErrorCode::index_out_of_range,
+       "m.mesh:12: triangle 2 uses vertex 5, but the file has 4 vertices, numbered from 1"},
+      {"index_zero_where_one_is_first", "m.mesh", medit(kSquare, "Triangles\n1\n0 1 2 0\n"),
+       ErrorCode::index_out_of_range,
+       "m.mesh:11: triangle 1 uses vertex 0, but the file has 4 vertices, numbered from 1"},
+      {"negative_index", "m.mesh", medit(kSquare, "Triangles\n1\n1 2 -3 0\n"), ErrorCode::index_out_of_range,
+       "m.mesh:11: triangle 1 uses vertex -3, but the file has 4 vertices, numbered from 1"},
+      {"line_index_out_of_range", "m.mesh", medit(kSquare, "Edges\n1\n1 9 0\nTriangles\n1\n1 2 3 0\n"),
+       ErrorCode::index_out_of_range, "m.mesh:11: line 1 uses vertex 9, but the file has 4 vertices, numbered from 1"},
+      {"not_a_number", "m.mesh", medit("3\n0 0 0\n1 nan 0\n0 1 0\n", "Triangles\n1\n1 2 3 0\n"), ErrorCode::not_finite,
+       "m.mesh:6: point 2 has coordinates (1, nan), expected finite numbers"},
+      {"infinity", "m.mesh", medit("3\n0 0 0\n1 0 0\n0 1e999 0\n", "Triangles\n1\n1 2 3 0\n"), ErrorCode::not_finite,
+       "m.mesh:7: point 3 has coordinates (0, inf), expected finite numbers"},
+      {"duplicate_points", "m.mesh", medit("4\n0 0 0\n1 0 0\n1 1 0\n1 1 0\n", "Triangles\n2\n1 2 3 0\n1 3 4 0\n"),
+       ErrorCode::duplicate_point, ""},
+      {"zero_area", "m.mesh", medit("4\n0 0 0\n1 0 0\n1 1 0\n2 0 0\n", "Triangles\n2\n1 2 3 0\n1 2 4 0\n"),
+       ErrorCode::zero_area, ""},
+      {"repeated_vertex", "m.mesh", medit(kSquare, "Triangles\n2\n1 2 3 0\n1 3 3 0\n"), ErrorCode::zero_area, ""},
+      {"two_triangles_on_one_side", "m.mesh",
+       medit("4\n0 0 0\n1 0 0\n0 1 0\n0.2 2 0\n", "Triangles\n2\n1 2 3 0\n1 2 4 0\n"), ErrorCode::non_manifold_edge,
+       ""},
+      {"bow_tie", "m.mesh", medit("5\n0 0 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n", "Triangles\n2\n1 2 3 0\n1 4 5 0\n"),
+       ErrorCode::non_manifold_vertex, ""},
+      {"not_planar", "m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0.5\nf 1 2 3\n", ErrorCode::not_planar,
+       "m.obj:3: point 3 has z = 0.5, but point 1 has z = 0; expected a mesh in a plane of constant z"},
+      {"quadrilateral_in_medit", "m.mesh", medit(kSquare, "Triangles\n0\nQuadrilaterals\n1\n1 2 3 4 0\n"),
+       ErrorCode::unsupported,
+       "m.mesh:13: element 1 is a quadrilateral; temper reads meshes of linear triangles, with lines and points as "
+       "tags"},
+      {"tetrahedron_in_gmsh", "m.msh",
+       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n$EndNodes\n$Elements\n2\n"
+       "1 2 2 0 1 1 2 3\n2 4 2 0 1 1 2 3 4\n$EndElements\n",
+       ErrorCode::unsupported,
+       "m.msh:14: element 2 is a tetrahedron; temper reads meshes of linear triangles, with lines and points as tags"},
+      {"quadratic_triangle_in_vtk", "m.vtk",
+       "# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n0 0 0 1 0 0 0 1 0 .5 0 0 .5 "
+       ".5 0 0 .5 0\n"
+       "CELLS 1 7\n6 0 1 2 3 4 5\nCELL_TYPES 1\n22\n",
+       ErrorCode::unsupported,
+       "m.vtk:8: element 0 is a quadratic triangle; temper reads meshes of linear triangles, with lines and points as "
+       "tags"},
+      {"square_in_mfem", "m.mesh",
+       "MFEM mesh v1.0\ndimension\n2\nelements\n1\n1 3 0 1 2 3\nboundary\n0\nvertices\n4\n2\n0 0\n1 0\n1 1\n0 1\n",
+       ErrorCode::unsupported,
+       "m.mesh:6: element 0 is a quadrilateral; temper reads meshes of linear triangles, with lines and points as "
+       "tags"},
+      {"polygon_in_obj", "m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", ErrorCode::unsupported,
+       "m.obj:5: face 1 has 4 corners; temper reads triangles"},
+      {"no_triangles", "m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\n", ErrorCode::empty_input,
+       "m.obj: the file has no triangles"},
+      {"ele_without_node", "m.ele", "1 3 0\n1 1 2 3\n", ErrorCode::not_found,
+       "m.ele: is the triangles of a Triangle mesh; its points are expected in m.node, which does not exist"}};
+  return kBad;
+}
+
+class BadInput : public FileTest, public ::testing::WithParamInterface<Bad> {};
+
+TEST_P(BadInput, is_named) {
+  const Bad& bad = GetParam();
+  const std::string file = make(bad.file, bad.content);
+  InputError error;
+  if (const auto read_file = read(file); !read_file) {
+    error = read_file.error();
+  } else {
+    const auto made = make_mesh(*read_file);
+    ASSERT_FALSE(made) << "was accepted";
+    error = made.error();
+  }
+  EXPECT_EQ(error.code, bad.code) << error.what();
+  // Errors of the mesh itself are worded by the core: here it matters that they name file and line.
+  if (bad.message.empty())
+    EXPECT_TRUE(plain(error.what()).starts_with(bad.file + ":")) << error.what();
+  else
+    EXPECT_EQ(plain(error.what()), bad.message);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, BadInput, ::testing::ValuesIn(bad_files()),
+                         [](const auto& each) { return each.param.name; });
+
+TEST_F(FileTest, errors_of_the_mesh_speak_the_numbers_of_the_file) {
+  const auto message_of = [&](const std::string& content) {
+    const auto f = read(make("m.mesh", content));
+    EXPECT_TRUE(f) << f.error().what();
+    const auto made = make_mesh(*f);
+    EXPECT_FALSE(made);
+    return plain(made ? "" : made.error().what());
+  };
+  const std::string duplicate =
+      message_of(medit("4\n0 0 0\n1 0 0\n1 1 0\n1 1 0\n", "Triangles\n2\n1 2 3 0\n1 3 4 0\n"));
+  EXPECT_NE(duplicate.find("point 4"), std::string::npos) << duplicate;
+  const std::string flat = message_of(medit("4\n0 0 0\n1 0 0\n1 1 0\n2 0 0\n", "Triangles\n2\n1 2 3 0\n1 2 4 0\n"));
+  EXPECT_TRUE(flat.starts_with("m.mesh:12: triangle 2 ")) << flat;
+  const std::string fan =
+      message_of(medit("5\n0 0 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n", "Triangles\n2\n1 2 3 0\n1 4 5 0\n"));
+  EXPECT_NE(fan.find("point 1"), std::string::npos) << fan;
+}
+
+TEST_F(FileTest, missing_files_and_directories_are_named) {
+  const auto missing = read(path("nothing.msh"));
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().code, ErrorCode::not_found);
+  EXPECT_EQ(plain(missing.error().what()), "nothing.msh: cannot be read: No such file or directory");
+  std::filesystem::create_directory(path("folder"));
+  const auto folder = read(path("folder"));
+  ASSERT_FALSE(folder);
+  EXPECT_EQ(folder.error().code, ErrorCode::not_found);
+  EXPECT_EQ(plain(folder.error().what()), "folder: is a directory, not a mesh file");
+}
+
+TEST_F(FileTest, the_messages_in_the_documentation_are_those_that_users_see) {
+  const std::string docs = slurp(TEMPER_SOURCE_DIR "/docs/formats.md");
+  int checked = 0;
+  for (const Bad& bad : bad_files()) {
+    if (bad.message.empty()) continue;
+    EXPECT_NE(docs.find(bad.message), std::string::npos) << bad.name << " is not in docs/formats.md: " << bad.message;
+    ++checked;
+  }
+  EXPECT_GT(checked, 20);
+}
+
+}  // namespace
+}  // namespace temper::io

@@ -1,0 +1,167 @@
+// Damaged files: every reader returns a mesh or an error, whatever the bytes are. Deterministic: the seeds are fixed.
+// Run under the address and undefined-behaviour sanitizers, this is where a reader that trusts a file shows.
+#include <random>
+
+#include "support.hpp"
+
+namespace temper::io {
+namespace {
+
+struct Victim {
+  std::string name, file;
+  std::string content;
+};
+
+class Damage : public FileTest {
+ protected:
+  /// A small valid file of each format, in each encoding.
+  std::vector<Victim> victims() const {
+    std::vector<Victim> result;
+    const auto add = [&](const char* name, const char* file, const WriteOptions& options) {
+      const auto written = write(path(file), tamed(rich_sample()), options);
+      ASSERT_TRUE(written) << written.error().what();
+      result.push_back({name, file, slurp(path(file))});
+    };
+    add("vtu ascii", "a.vtu", {"vtu", Encoding::ascii});
+    add("vtu base64", "b.vtu", {"vtu", Encoding::base64});
+    add("vtu appended", "c.vtu", {"vtu", Encoding::appended});
+    add("gmsh22 ascii", "a.msh", {"gmsh22", Encoding::ascii});
+    add("gmsh22 binary", "b.msh", {"gmsh22", Encoding::appended});
+    add("gmsh41 ascii", "c.msh", {"gmsh41", Encoding::ascii});
+    add("gmsh41 binary", "d.msh", {"gmsh41", Encoding::appended});
+    add("medit", "a.mesh", {"medit", {}});
+    add("obj", "a.obj", {"obj", {}});
+    add("triangle", "a.node", {"triangle", {}});
+    result.push_back({"triangle ele", "a.ele", slurp(path("a.ele"))});
+    result.push_back({"triangle poly", "a.poly", slurp(path("a.poly"))});
+    result.push_back({"weights", "a.obj.weights.csv", slurp(path("a.obj.weights.csv"))});
+    result.push_back(
+        {"mfem", "b.mesh",
+         "MFEM mesh v1.0\n\n# c\ndimension\n2\n\nelements\n2\n1 2 0 1 2\n1 2 0 2 3\n\nboundary\n1\n3 1 0 1\n\n"
+         "vertices\n4\n2\n0 0\n1 0\n1 1\n0 1\n"});
+    const std::string head = "# vtk DataFile Version 3.0\ntitle\n";
+    const std::string cells = "CELLS 2 8\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5\n5\n";
+    const std::string points = "POINTS 4 float\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+    result.push_back({"vtk ascii", "a.vtk",
+                      head + "ASCII\nDATASET UNSTRUCTURED_GRID\n" + points + cells +
+                          "POINT_DATA 4\nSCALARS s float 1\nLOOKUP_TABLE default\n1 2 3 4\nVECTORS v double\n1 2 3 4 5 "
+                          "6 7 8 9 10 11 12\n"
+                          "CELL_DATA 2\nFIELD f 2\na 1 2 int\n1 2\nb 2 2 float\n1 2 3 4\n"});
+    result.push_back(
+        {"vtk 5", "b.vtk",
+         "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n" + points +
+             "CELLS 3 6\nOFFSETS vtktypeint64\n0 3 6\nCONNECTIVITY vtktypeint64\n0 1 2 0 2 3\nCELL_TYPES 2\n5\n5\n"});
+    result.push_back(
+        {"vtk polydata", "c.vtk",
+         head + "ASCII\nDATASET POLYDATA\n" + points + "POLYGONS 2 8\n3 0 1 2\n3 0 2 3\nLINES 1 4\n3 0 1 2\n"});
+    return result;
+  }
+  /// The file to hand to read(): side files and segments are read with their mesh.
+  static std::string entry(const std::string& file) {
+    if (file == "a.poly") return "a.node";
+    if (file == "a.obj.weights.csv") return "a.obj";
+    return file;
+  }
+  /// Reads; also makes the mesh when there is one. Fails only by crashing, hanging or an empty message.
+  void survive(const Victim& victim, const std::string& bytes) const {
+    spill(path(victim.file), bytes);
+    const auto f = read(path(entry(victim.file)));
+    if (!f) {
+      ASSERT_FALSE(f.error().message.empty());
+      return;
+    }
+    const auto made = make_mesh(*f);
+    if (!made) return;
+    const auto wrong = made->mesh.validate();
+    ASSERT_FALSE(wrong) << *wrong;
+  }
+};
+
+TEST_F(Damage, files_cut_anywhere_give_a_mesh_or_an_error) {
+  for (const Victim& victim : victims()) {
+    const std::size_t step = std::max<std::size_t>(1, victim.content.size() / 150);
+    int errors = 0, cuts = 0;
+    for (std::size_t n = 0; n < victim.content.size(); n += step, ++cuts) {
+      spill(path(victim.file), std::string_view(victim.content).substr(0, n));
+      const auto f = read(path(entry(victim.file)));
+      if (f) continue;
+      ++errors;
+      EXPECT_FALSE(f.error().message.empty()) << victim.name << " cut at " << n;
+      EXPECT_FALSE(f.error().where.empty()) << victim.name << " cut at " << n;
+    }
+    EXPECT_GT(cuts, 50) << victim.name;
+    EXPECT_GT(errors, cuts / 10) << victim.name;
+    spill(path(victim.file), victim.content);
+  }
+}
+
+TEST_F(Damage, files_with_changed_bytes_give_a_mesh_or_an_error) {
+  constexpr int kMutationsEach = 250;
+  std::mt19937 random(20231121);  // NOLINT: the same damage on every run
+  int total = 0;
+  for (const Victim& victim : victims()) {
+    for (int i = 0; i < kMutationsEach; ++i, ++total) {
+      std::string bytes = victim.content;
+      const int changes = 1 + static_cast<int>(random() % 4);
+      for (int k = 0; k < changes; ++k) {
+        const std::size_t at = random() % bytes.size();
+        switch (random() % 5) {
+          case 0:
+            bytes[at] = static_cast<char>(random());
+            break;
+          case 1:
+            bytes[at] = "0123456789-+.e \n\"<>$"[random() % 20];
+            break;
+          case 2:
+            bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8));
+            break;
+          case 3:
+            bytes.erase(at, 1 + random() % 8);
+            break;
+          default:
+            bytes.insert(at, std::string(1 + random() % 3, "9-0\xff"[random() % 4]));
+            break;
+        }
+        if (bytes.empty()) bytes = " ";
+      }
+      ASSERT_NO_FATAL_FAILURE(survive(victim, bytes)) << victim.name;
+    }
+    spill(path(victim.file), victim.content);
+  }
+  EXPECT_GE(total, 3000);
+}
+
+TEST_F(Damage, counts_larger_than_the_file_are_refused_before_memory_is_asked_for) {
+  // Each of these would ask for terabytes.
+  const std::pair<const char*, std::string> kFiles[] = {
+      {"a.vtk", "# vtk DataFile Version 3.0\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 2000000000 double\n"},
+      {"b.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 2000000000 double\n"},
+      {"a.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4000000000000 1 2\n2 1 0 4000000000000\n"},
+      {"b.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4000000000000\n"},
+      {"a.mesh", "MFEM mesh v1.0\ndimension\n2\nelements\n4000000000000\n"},
+      {"b.mesh", "MeshVersionFormatted 2\nDimension 2\nCorners\n4000000000000\n"},
+      {"a.node", "4000000000000 2 0 0\n"},
+      {"a.vtu",
+       "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\"><UnstructuredGrid>"
+       "<Piece NumberOfPoints=\"2000000000\" NumberOfCells=\"2000000000\"><Points>"
+       "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0</DataArray></Points>"
+       "<Cells/></Piece></UnstructuredGrid></VTKFile>"},
+      {"b.vtu",
+       "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
+       "compressor=\"vtkZLibDataCompressor\"><UnstructuredGrid>"
+       "<Piece NumberOfPoints=\"3\" NumberOfCells=\"1\"><Points>"
+       "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"binary\">"
+       "AQAAAAAAAAAAAAAAAAEAAAAAAAAAAAAACAAAAAAAAAA=eJwDAAAAAAE=</DataArray></Points>"
+       "<Cells/></Piece></UnstructuredGrid></VTKFile>"}};
+  make("a.ele", "1 3 0\n1 1 2 3\n");
+  for (const auto& [file, content] : kFiles) {
+    const auto f = read(make(file, content));
+    ASSERT_FALSE(f) << file;
+    EXPECT_TRUE(f.error().code == ErrorCode::truncated || f.error().code == ErrorCode::syntax ||
+                f.error().code == ErrorCode::size_mismatch)
+        << f.error().what();
+  }
+}
+
+}  // namespace
+}  // namespace temper::io

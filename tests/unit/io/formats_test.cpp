@@ -1,0 +1,124 @@
+// The content decides the format, and formats that temper does not read are named.
+#include "support.hpp"
+
+namespace temper::io {
+namespace {
+
+TEST(Formats, have_distinct_names_and_a_suffix) {
+  std::vector<std::string_view> names;
+  for (const Format& f : formats()) {
+    EXPECT_EQ(std::count(names.begin(), names.end(), f.name), 0) << f.name;
+    names.push_back(f.name);
+    EXPECT_TRUE(f.suffixes.starts_with('.')) << f.name;
+    EXPECT_FALSE(f.description.empty());
+  }
+  for (const char* name : {"vtu", "gmsh22", "gmsh41", "medit", "triangle", "obj", "vtk", "mfem"}) {
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+  }
+}
+
+TEST_F(FileTest, the_content_decides_the_format_and_not_the_suffix) {
+  const MeshFile f = sample();
+  for (const char* format : {"vtu", "gmsh41", "gmsh22", "medit", "obj"}) {
+    ASSERT_TRUE(write(path("mesh.stl"), f, {format, {}})) << format;
+    const auto g = read(path("mesh.stl"));
+    ASSERT_TRUE(g) << g.error().what();
+    EXPECT_EQ(g->format, format);
+    EXPECT_EQ(g->triangles, f.triangles);
+  }
+}
+
+TEST_F(FileTest, formats_that_are_recognised_but_not_read_are_named) {
+  const std::pair<const char*, const char*> kCases[] = {
+      {"# jigsaw\nMSHID=3;EUCLIDEAN-MESH\nNDIMS=2\n", "a JIGSAW mesh"},
+      {"(0 \"made by someone\")\n(2 2)\n", "a Fluent mesh"},
+      {"4 2 4\n0 0 1\n1 0 1\n", "a FreeFem mesh"},
+      {"$NOD\n3\n", "a Gmsh mesh of version 1"},
+      {"$MeshFormat\n4 0 8\n$EndMeshFormat\n", "a Gmsh mesh of another version than 2 and 4.1"},
+      {"MFEM NURBS mesh v1.0\n", "an MFEM mesh of another version than v1.0"},
+      {"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n",
+       "a VTK XML file of another type than UnstructuredGrid"},
+      {"ply\nformat ascii 1.0\n", "a PLY file"},
+      {"OFF\n3 1 0\n", "an OFF file"},
+      {"solid thing\n", "an STL file"},
+      {"*HEADING\n", "an Abaqus input file"},
+      {"\x1f\x8b\x08\x00zipped", "a compressed file"}};
+  for (const auto& [content, name] : kCases) {
+    const auto f = read(make("mesh.msh", content));
+    ASSERT_FALSE(f) << content;
+    EXPECT_EQ(f.error().code, ErrorCode::unsupported);
+    EXPECT_EQ(plain(f.error().what()), "mesh.msh: is " + std::string(name) + ", which temper does not read");
+  }
+}
+
+TEST_F(FileTest, an_output_without_a_known_suffix_says_which_there_are) {
+  const auto result = write(path("mesh.xyz"), sample());
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::invalid_option);
+  EXPECT_EQ(plain(result.error().what()),
+            "mesh.xyz: the suffix names no format that temper writes; expected one of .vtu .msh .msh4 .msh2 .mesh .obj "
+            ".node .ele, "
+            "or a format");
+}
+
+TEST_F(FileTest, a_format_that_is_only_read_cannot_be_written) {
+  const auto result = write(path("mesh.mesh"), sample(), {"mfem", {}});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(plain(result.error().what()),
+            "mesh.mesh: cannot be written as 'mfem'; expected one of vtu, gmsh41, gmsh22, medit, obj, triangle");
+}
+
+TEST_F(FileTest, a_file_whose_arrays_do_not_fit_is_refused_before_anything_is_written) {
+  MeshFile f = sample();
+  f.weights.pop_back();
+  const auto result = write(path("mesh.vtu"), f);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(plain(result.error().what()),
+            "mesh.vtu: the mesh to be written has another number of weights than of points");
+  EXPECT_TRUE(files().empty());
+}
+
+// --- weights beside the mesh ---------------------------------------------------------------------------------
+
+TEST_F(FileTest, formats_without_a_place_for_weights_put_them_beside_with_a_warning) {
+  for (const char* name : {"m.mesh", "m.obj"}) {
+    const auto warnings = write(path(name), sample());
+    ASSERT_TRUE(warnings);
+    const std::string expected =
+        std::string(name) + ": the format has no place for weights; they are in " + name + ".weights.csv";
+    const auto said =
+        std::count_if(warnings->begin(), warnings->end(), [&](const std::string& w) { return plain(w) == expected; });
+    EXPECT_EQ(said, 1);
+    EXPECT_TRUE(slurp(path(std::string(name) + ".weights.csv")).starts_with("point,weight\n1,0\n2,-0\n"));
+  }
+}
+
+TEST_F(FileTest, an_old_side_file_does_not_give_its_weights_to_a_new_mesh) {
+  MeshFile f = sample();
+  ASSERT_TRUE(write(path("m.obj"), f));
+  f.weights.clear();
+  ASSERT_TRUE(write(path("m.obj"), f));
+  const auto g = read(path("m.obj"));
+  ASSERT_TRUE(g) << g.error().what();
+  for (const double w : g->weights) EXPECT_EQ(w, 0);
+}
+
+TEST_F(FileTest, a_side_file_that_does_not_fit_is_named) {
+  make("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::pair<const char*, const char*> kCases[] = {
+      {"point,weight\n1,0\n2,0\n", "m.obj.weights.csv:4: has 2 weights, but m.obj has 3 points"},
+      {"point,weight\n1,0\n2,0\n3,0\n4,0\n", "m.obj.weights.csv:5: has more weights than m.obj has points (3)"},
+      {"point,weight\n1,0\n3,0\n2,0\n", "m.obj.weights.csv:3: expected the weight of point 2, found point 3"},
+      {"point,weight\n1,0\n2,x\n3,0\n", "m.obj.weights.csv:3: expected a weight, found 'x'"},
+      {"point,weight\n1,0\n2,nan\n3,0\n", "m.obj.weights.csv:3: point 2 has weight nan, expected a finite number"},
+      {"1,0\n2,0\n3,0\n", "m.obj.weights.csv:1: expected the title line 'point,weight', found '1'"}};
+  for (const auto& [content, message] : kCases) {
+    make("m.obj.weights.csv", content);
+    const auto f = read(path("m.obj"));
+    ASSERT_FALSE(f) << content;
+    EXPECT_EQ(plain(f.error().what()), message);
+  }
+}
+
+}  // namespace
+}  // namespace temper::io

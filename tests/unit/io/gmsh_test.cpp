@@ -1,0 +1,105 @@
+// Gmsh in the forms that Gmsh itself writes and that temper does not.
+#include "support.hpp"
+
+namespace temper::io {
+namespace {
+
+const std::string kNodes2 =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n10 0 0 0\n20 1 0 0\n30 1 1 0\n7 0 1 0\n$EndNodes\n";
+
+TEST_F(FileTest, sparse_node_numbers_and_elements_out_of_order_are_read) {
+  const auto f = read(make(
+      "m.msh", kNodes2 + "$Elements\n3\n9 2 2 5 1 10 30 7\n3 1 2 8 1 10 20\n4 2 3 6 1 0 10 20 30\n$EndElements\n"));
+  ASSERT_TRUE(f) << f.error().what();
+  EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}))
+      << "in the order of their numbers";
+  EXPECT_EQ(f->regions, (std::vector<std::int32_t>{6, 5}));
+  EXPECT_EQ(f->line_tags, std::vector<std::int32_t>{8});
+  EXPECT_EQ(f->numbering->point(3), "point 7");
+  EXPECT_EQ(f->numbering->triangle(1), "triangle 9");
+  EXPECT_EQ(plain(f->numbering->triangle_where(1)), "m.msh:13");
+}
+
+TEST_F(FileTest, a_node_number_that_is_none_is_named) {
+  const auto f = read(make("m.msh", kNodes2 + "$Elements\n1\n9 2 2 5 1 10 30 8\n$EndElements\n"));
+  ASSERT_FALSE(f);
+  EXPECT_EQ(plain(f.error().what()), "m.msh:13: triangle 9 uses vertex 8, but the file has no vertex of that number");
+}
+
+TEST_F(FileTest, a_node_number_given_twice_is_named) {
+  const auto f =
+      read(make("m.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n1 1 1 0\n$EndNodes\n"));
+  ASSERT_FALSE(f);
+  EXPECT_EQ(plain(f.error().what()), "m.msh:9: node number 1 is given twice");
+}
+
+TEST_F(FileTest, data_of_some_nodes_are_nan_elsewhere_and_weights_must_be_whole) {
+  const std::string elements = "$Elements\n2\n1 2 2 0 1 10 20 30\n2 2 2 0 1 10 30 7\n$EndElements\n";
+  const auto data = [](const std::string& name) {
+    return "$NodeData\n1\n\"" + name + "\"\n1\n0.0\n3\n0\n1\n2\n20 1.5\n7 2.5\n$EndNodeData\n";
+  };
+  const auto f = read(make("m.msh", kNodes2 + elements + data("t")));
+  ASSERT_TRUE(f) << f.error().what();
+  const auto& t = std::get<std::vector<double>>(f->point_data.at(0).values);
+  EXPECT_EQ(t[1], 1.5);
+  EXPECT_EQ(t[3], 2.5);
+  EXPECT_TRUE(std::isnan(t[0]) && std::isnan(t[2]));
+  ASSERT_EQ(f->warnings.size(), 1u);
+  EXPECT_EQ(plain(f->warnings[0]), "m.msh:26: node data 't' miss 2 points: read as NaN");
+
+  const auto g = read(make("m.msh", kNodes2 + elements + data("weight")));
+  ASSERT_FALSE(g);
+  EXPECT_EQ(plain(g.error().what()), "m.msh:26: node data 'weight' miss 2 of 4 points, the first is point 10");
+}
+
+TEST_F(FileTest, time_steps_of_one_name_are_kept_apart) {
+  const auto step = [](const char* time, const char* value) {
+    return std::string("$ElementData\n1\n\"e\"\n1\n") + time + "\n3\n0\n1\n1\n1 " + value + "\n$EndElementData\n";
+  };
+  const auto f = read(
+      make("m.msh", kNodes2 + "$Elements\n1\n1 2 2 0 1 10 20 30\n$EndElements\n" + step("0", "3") + step("0.5", "4")));
+  ASSERT_TRUE(f) << f.error().what();
+  ASSERT_EQ(f->cell_data.size(), 3u);
+  EXPECT_EQ(f->cell_data[0].name, "e");
+  EXPECT_EQ(f->cell_data[1].name, "e@0.5");
+  EXPECT_EQ(f->cell_data[2].name, "gmsh:geometrical");
+}
+
+TEST_F(FileTest, parametric_nodes_comments_and_dropped_sections_of_version_41_are_read) {
+  const auto f =
+      read(make("m.msh",
+                "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Comments\nmade by hand\n$EndComments\n$Entities\n1 1 1 0\n"
+                "5 0 0 0 1 77\n3 0 0 0 1 0 0 2 8 9 2 5 -5\n1 0 0 0 1 1 0 1 4 1 3\n$EndEntities\n$Nodes\n2 3 1 3\n"
+                "1 3 1 2\n1\n2\n0 0 0 0.5\n1 0 0 0.75\n2 1 0 1\n3\n0 1 0\n$EndNodes\n$Elements\n3 3 1 3\n"
+                "0 5 15 1\n1 1\n1 3 1 1\n2 1 2\n2 1 2 1\n3 1 2 3\n$EndElements\n$Periodic\n0\n$EndPeriodic\n"));
+  ASSERT_TRUE(f) << f.error().what();
+  EXPECT_EQ(f->points, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}));
+  EXPECT_EQ(f->regions, std::vector<std::int32_t>{4});
+  EXPECT_EQ(f->line_tags, std::vector<std::int32_t>{8});
+  EXPECT_EQ(f->point_tags, std::vector<std::int32_t>{77});
+  ASSERT_EQ(f->warnings.size(), 2u);
+  EXPECT_EQ(plain(f->warnings[0]), "m.msh:35: section $Periodic is dropped");
+  EXPECT_EQ(plain(f->warnings[1]), "m.msh: 1 entities have several physical tags: only the first of each is kept");
+}
+
+TEST_F(FileTest, big_endian_binary_is_read) {
+  const auto big = [](auto value) {
+    std::string one(reinterpret_cast<const char*>(&value), sizeof value);
+    std::reverse(one.begin(), one.end());
+    return one;
+  };
+  std::string content = "$MeshFormat\n2.2 1 8\n" + big(std::int32_t{1}) + "\n$EndMeshFormat\n$Nodes\n3\n";
+  const double xy[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+  for (std::int32_t i = 0; i < 3; ++i) content += big(i + 1) + big(xy[i][0]) + big(xy[i][1]) + big(0.25);
+  content += "\n$EndNodes\n$Elements\n1\n";
+  for (const std::int32_t v : {2, 1, 2, 1, 6, 1, 1, 2, 3}) content += big(v);
+  content += "\n$EndElements\n";
+  const auto f = read(make("m.msh", content));
+  ASSERT_TRUE(f) << f.error().what();
+  EXPECT_EQ(f->z, 0.25);
+  EXPECT_EQ(f->points, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}));
+  EXPECT_EQ(f->regions, std::vector<std::int32_t>{6});
+}
+
+}  // namespace
+}  // namespace temper::io

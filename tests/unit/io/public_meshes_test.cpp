@@ -1,0 +1,57 @@
+// Meshes that others made, read in place where they are there.
+#include "support.hpp"
+
+namespace temper::io {
+namespace {
+
+struct Public {
+  const char* file;
+  const char* format;
+  std::size_t vertices, triangles, reversed, regions;
+};
+
+TEST(PublicMeshes, are_read_with_their_numbers_of_vertices_and_triangles) {
+  if (!std::filesystem::exists(TEMPER_PUBLIC_MESHES)) GTEST_SKIP() << "no meshes in " << TEMPER_PUBLIC_MESHES;
+  constexpr Public kFiles[] = {
+      {"sfepy_osteonT1_11.mesh", "medit", 1228, 2292, 0, 4}, {"sfepy_circle_in_square.mesh", "medit", 1102, 2102, 0, 2},
+      {"sfepy_its2D.mesh", "medit", 55, 83, 0, 1},           {"sfepy_circles_in_square.vtk", "vtk", 313, 588, 0, 2},
+      {"skfem_annulus.msh", "gmsh41", 60, 98, 0, 1},         {"skfem_cylinder_stokes.msh", "gmsh41", 171, 293, 128, 1},
+      {"skfem_square.msh", "gmsh22", 109, 184, 0, 1},        {"mfem_square-disc.mesh", "mfem", 101, 154, 0, 1},
+      {"mfem_beam-tri.mesh", "mfem", 18, 16, 0, 2},          {"pydec_ResonantCavity.vtu", "vtu", 191, 336, 0, 1}};
+  for (const Public& expected : kFiles) {
+    const auto f = read(std::string(TEMPER_PUBLIC_MESHES) + "/" + expected.file);
+    ASSERT_TRUE(f) << f.error().what();
+    EXPECT_EQ(f->format, expected.format) << expected.file;
+    const auto made = make_mesh(*f);
+    ASSERT_TRUE(made) << made.error().what();
+    EXPECT_EQ(made->mesh.n_vertices(), expected.vertices) << expected.file;
+    EXPECT_EQ(made->mesh.n_triangles(), expected.triangles) << expected.file;
+    EXPECT_EQ(made->reversed_triangles, expected.reversed) << expected.file;
+    std::vector<std::int32_t> regions = f->regions;
+    std::sort(regions.begin(), regions.end());
+    const auto distinct = std::unique(regions.begin(), regions.end()) - regions.begin();
+    EXPECT_EQ(std::max<std::ptrdiff_t>(distinct, 1), static_cast<std::ptrdiff_t>(expected.regions)) << expected.file;
+  }
+}
+
+TEST(PublicMeshes, keep_their_names_and_lines) {
+  if (!std::filesystem::exists(TEMPER_PUBLIC_MESHES)) GTEST_SKIP() << "no meshes in " << TEMPER_PUBLIC_MESHES;
+  const auto f = read(std::string(TEMPER_PUBLIC_MESHES) + "/skfem_annulus.msh");
+  ASSERT_TRUE(f) << f.error().what();
+  ASSERT_EQ(f->names.size(), 3u);
+  EXPECT_EQ(f->names[0].name, "exter");
+  EXPECT_EQ(f->names[0].tag, 7);
+  EXPECT_EQ(f->lines.size(), 22u);
+  EXPECT_EQ(
+      std::count(f->line_tags.begin(), f->line_tags.end(), 7) + std::count(f->line_tags.begin(), f->line_tags.end(), 8),
+      22);
+  const std::string inner[] = {"inter"};
+  const auto made = make_mesh(*f, inner);
+  ASSERT_TRUE(made) << made.error().what();
+  std::size_t fixed = 0;
+  for (const VertexId v : made->mesh.vertices()) fixed += made->mesh.is_fixed(v);
+  EXPECT_EQ(fixed, 7u);
+}
+
+}  // namespace
+}  // namespace temper::io

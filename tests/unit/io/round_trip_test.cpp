@@ -1,0 +1,157 @@
+// The laws of writing and reading: write, read, write gives the same bytes, and weights survive bit for bit.
+#include "support.hpp"
+
+namespace temper::io {
+namespace {
+
+struct Case {
+  std::string name, format, file;
+  std::optional<Encoding> encoding;
+  bool holds_negative_zero_y = true;
+};
+
+class RoundTrip : public FileTest, public ::testing::WithParamInterface<Case> {
+ protected:
+  WriteOptions options() const { return {GetParam().format, GetParam().encoding}; }
+  std::vector<std::string> written(const MeshFile& f, const std::string& file) const {
+    auto warnings = write(path(file), f, options());
+    EXPECT_TRUE(warnings) << warnings.error().what();
+    return warnings ? *warnings : std::vector<std::string>{};
+  }
+  MeshFile again(const std::string& file) const {
+    auto f = read(path(file));
+    EXPECT_TRUE(f) << f.error().what();
+    return f ? *f : MeshFile{};
+  }
+};
+
+TEST_P(RoundTrip, of_geometry_weights_regions_and_tags_loses_no_bit) {
+  const MeshFile f = sample();
+  written(f, GetParam().file);
+  const MeshFile g = again(GetParam().file);
+  EXPECT_EQ(g.format, GetParam().format);
+  expect_same_mesh(f, g);
+}
+
+TEST_P(RoundTrip, write_read_write_gives_the_same_bytes) {
+  for (const MeshFile& f : {sample(), rich_sample()}) {
+    const std::string first = "1" + GetParam().file, second = "2" + GetParam().file;
+    written(f, first);
+    const auto names = files();
+    written(again(first), second);
+    int compared = 0;
+    for (const std::string& name : names) {
+      if (name[0] != '1') continue;
+      EXPECT_EQ(slurp(path(name)), slurp(path("2" + name.substr(1)))) << name;
+      ++compared;
+    }
+    EXPECT_GT(compared, 0);
+    for (const std::string& name : files()) std::filesystem::remove(path(name));
+  }
+}
+
+TEST_P(RoundTrip, of_a_mesh_without_weights_or_tags_adds_none) {
+  MeshFile f;
+  f.points = {{0, 0}, {1, 0}, {0, 1}};
+  f.triangles = {{0, 1, 2}};
+  EXPECT_TRUE(written(f, GetParam().file).empty());
+  const MeshFile g = again(GetParam().file);
+  EXPECT_EQ(g.points, f.points);
+  EXPECT_EQ(g.triangles, f.triangles);
+  EXPECT_TRUE(g.weights.empty());
+  EXPECT_TRUE(g.lines.empty());
+  EXPECT_TRUE(g.marked_points.empty());
+  for (const std::int32_t region : g.regions) EXPECT_EQ(region, 0);
+}
+
+// What a format cannot hold is named: nothing disappears in silence.
+TEST_P(RoundTrip, every_array_that_does_not_come_back_is_named_in_a_warning) {
+  const MeshFile f = rich_sample();
+  std::string warnings;
+  for (const std::string& w : written(f, GetParam().file)) warnings += w + "\n";
+  const MeshFile g = again(GetParam().file);
+  int checked = 0;
+  const auto check = [&](const std::vector<DataArray>& before, const std::vector<DataArray>& after) {
+    for (const DataArray& a : before) {
+      const auto it = std::find_if(after.begin(), after.end(), [&](const DataArray& b) { return b.name == a.name; });
+      const bool same = it != after.end() && it->values == a.values && it->components == a.components;
+      EXPECT_TRUE(same || warnings.find(a.name) != std::string::npos) << a.name << " is gone, and no warning says so:\n"
+                                                                      << warnings;
+      ++checked;
+    }
+  };
+  check(f.point_data, g.point_data);
+  check(f.cell_data, g.cell_data);
+  check(f.line_data, g.line_data);
+  check(f.marked_point_data, g.marked_point_data);
+  check(f.field_data, g.field_data);
+  for (const PhysicalName& n : f.names) {
+    const bool same = std::any_of(g.names.begin(), g.names.end(), [&](const PhysicalName& m) {
+      return m.dimension == n.dimension && m.tag == n.tag && m.name == n.name;
+    });
+    EXPECT_TRUE(same || warnings.find(n.name) != std::string::npos) << n.name << "\n" << warnings;
+    ++checked;
+  }
+  EXPECT_EQ(checked, 4 + 6 + 6 + 6 + 2 + 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
+                         ::testing::Values(Case{"vtu_base64", "vtu", "m.vtu", Encoding::base64},
+                                           Case{"vtu_ascii", "vtu", "m.vtu", Encoding::ascii},
+                                           Case{"vtu_appended", "vtu", "m.vtu", Encoding::appended},
+                                           Case{"gmsh41_ascii", "gmsh41", "m.msh", Encoding::ascii},
+                                           Case{"gmsh41_binary", "gmsh41", "m.msh", Encoding::appended},
+                                           Case{"gmsh22_ascii", "gmsh22", "m.msh", Encoding::ascii},
+                                           Case{"gmsh22_binary", "gmsh22", "m.msh", Encoding::appended},
+                                           Case{"medit", "medit", "m.mesh", {}}, Case{"obj", "obj", "m.obj", {}},
+                                           Case{"triangle", "triangle", "m.node", {}}),
+                         [](const auto& each) { return each.param.name; });
+
+TEST_F(FileTest, vtu_keeps_all_data_with_their_types) {
+  const MeshFile f = rich_sample();
+  for (const Encoding encoding : {Encoding::ascii, Encoding::base64, Encoding::appended}) {
+    const auto warnings = write(path("a.vtu"), f, {"vtu", encoding});
+    ASSERT_TRUE(warnings) << warnings.error().what();
+    EXPECT_TRUE(warnings->empty());
+    const auto g = read(path("a.vtu"));
+    ASSERT_TRUE(g) << g.error().what();
+    expect_same_mesh(f, *g);
+    expect_same_data(f.point_data, g->point_data, "point data");
+    expect_same_data(f.cell_data, g->cell_data, "cell data");
+    expect_same_data(f.line_data, g->line_data, "line data");
+    expect_same_data(f.marked_point_data, g->marked_point_data, "data of marked points");
+    expect_same_data(f.field_data, g->field_data, "field data");
+    ASSERT_EQ(g->names.size(), f.names.size());
+    for (std::size_t i = 0; i < f.names.size(); ++i) {
+      EXPECT_EQ(g->names[i].dimension, f.names[i].dimension);
+      EXPECT_EQ(g->names[i].tag, f.names[i].tag);
+      EXPECT_EQ(g->names[i].name, f.names[i].name);
+    }
+  }
+}
+
+// A mesh larger than one compressed block of every array.
+TEST_F(FileTest, vtu_of_many_blocks_comes_back_whole) {
+  constexpr int kSide = 200;
+  MeshFile f;
+  for (int j = 0; j <= kSide; ++j) {
+    for (int i = 0; i <= kSide; ++i) f.points.push_back({i / 7.0, j / 11.0});
+  }
+  for (const Vec2 p : f.points) f.weights.push_back(p.x * p.y / 3);
+  for (int j = 0; j < kSide; ++j) {
+    for (int i = 0; i < kSide; ++i) {
+      const int a = j * (kSide + 1) + i, c = a + kSide + 2;
+      f.triangles.push_back({a, a + 1, c});
+      f.triangles.push_back({a, c, c - 1});
+    }
+  }
+  for (const Encoding encoding : {Encoding::ascii, Encoding::base64, Encoding::appended}) {
+    ASSERT_TRUE(write(path("a.vtu"), f, {"vtu", encoding}));
+    const auto g = read(path("a.vtu"));
+    ASSERT_TRUE(g) << g.error().what();
+    expect_same_mesh(f, *g);
+  }
+}
+
+}  // namespace
+}  // namespace temper::io

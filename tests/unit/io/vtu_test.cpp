@@ -1,0 +1,171 @@
+// VTU in the forms that other programs write, made here by hand: every encoding, header type and byte order.
+#include <zlib.h>
+
+#include "support.hpp"
+
+namespace temper::io {
+namespace {
+
+/// How a test writes its VTU.
+struct Style {
+  std::string name;
+  std::size_t header_bytes = 4;
+  bool big_endian = false;
+  bool compressed = false;
+  enum Place { in_text, appended_raw, appended_base64 } place = in_text;
+  bool wide_integers = true;  // Int64 connectivity
+  std::size_t block = 16;     // bytes of a compressed block: small, so that there are many
+};
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string result;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned bits = 0;
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+    for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) result += k <= n ? kAlphabet[bits >> (18 - 6 * k) & 63] : '=';
+  }
+  return result;
+}
+
+class ByHand {
+ public:
+  explicit ByHand(const Style& style) : style_(style) {}
+
+  template <class T>
+  std::string bytes(const std::vector<T>& values) const {
+    std::string result;
+    for (const T v : values) {
+      std::string one(reinterpret_cast<const char*>(&v), sizeof v);
+      if (style_.big_endian) std::reverse(one.begin(), one.end());
+      result += one;
+    }
+    return result;
+  }
+  std::string header(const std::vector<std::uint64_t>& words) const {
+    if (style_.header_bytes == 8) return bytes(words);
+    return bytes(std::vector<std::uint32_t>(words.begin(), words.end()));
+  }
+  /// The two pieces that base64 pads on their own; uncompressed they are one.
+  std::pair<std::string, std::string> packed(const std::string& data) const {
+    if (!style_.compressed) return {header({data.size()}) + data, ""};
+    std::vector<std::uint64_t> words = {0, style_.block, data.size() % style_.block};
+    std::string blocks;
+    for (std::size_t at = 0; at < data.size(); at += style_.block) {
+      const std::string_view piece = std::string_view(data).substr(at, style_.block);
+      uLongf n = compressBound(piece.size());
+      std::string out(n, '\0');
+      compress(reinterpret_cast<Bytef*>(out.data()), &n, reinterpret_cast<const Bytef*>(piece.data()), piece.size());
+      blocks += out.substr(0, n);
+      words.push_back(n);
+      ++words[0];
+    }
+    return {header(words), blocks};
+  }
+  std::string array(const std::string& type, const std::string& name, int components, const std::string& data) {
+    const auto [head, tail] = packed(data);
+    const std::string start = "<DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+                              std::to_string(components) + "\"";
+    if (style_.place == Style::in_text)
+      return start + " format=\"binary\">\n          " + base64(head) + base64(tail) + "\n        </DataArray>\n";
+    const std::string offset = std::to_string(appended_.size());
+    appended_ += style_.place == Style::appended_raw ? head + tail : base64(head) + base64(tail);
+    return start + " format=\"appended\" offset=\"" + offset + "\"/>\n";
+  }
+  std::string file() {
+    const std::string points = array("Float64", "Points", 3, bytes<double>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}));
+    const std::string cells = style_.wide_integers
+                                  ? array("Int64", "connectivity", 1, bytes<std::int64_t>({0, 1, 2, 0, 2, 3, 0, 1})) +
+                                        array("Int64", "offsets", 1, bytes<std::int64_t>({3, 6, 8}))
+                                  : array("Int32", "connectivity", 1, bytes<std::int32_t>({0, 1, 2, 0, 2, 3, 0, 1})) +
+                                        array("Int32", "offsets", 1, bytes<std::int32_t>({3, 6, 8}));
+    const std::string types = array("UInt8", "types", 1, bytes<std::uint8_t>({5, 5, 3}));
+    const std::string weight = array("Float64", "weight", 1, bytes<double>({0.1, -0.0, 1e-300, 7}));
+    const std::string t = array("Float32", "t", 1, bytes<float>({0.1f, 2, 3, 4}));
+    std::string result = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
+    result += style_.big_endian ? "BigEndian" : "LittleEndian";
+    result += style_.header_bytes == 8 ? "\" header_type=\"UInt64\"" : "\" header_type=\"UInt32\"";
+    if (style_.compressed) result += " compressor=\"vtkZLibDataCompressor\"";
+    result +=
+        ">\n <UnstructuredGrid>\n  <Piece NumberOfPoints=\"4\" NumberOfCells=\"3\">\n   <PointData Scalars=\"t\">\n" +
+        weight + t + "</PointData><CellData/><Points>" + points + "</Points><Cells>" + cells + types +
+        "</Cells></Piece></UnstructuredGrid>\n";
+    if (style_.place != Style::in_text) {
+      result += style_.place == Style::appended_raw ? "<AppendedData encoding=\"raw\">\n _"
+                                                    : "<AppendedData encoding=\"base64\">\n _";
+      result += appended_ + "\n </AppendedData>\n";
+    }
+    return result + "</VTKFile>\n";
+  }
+
+ private:
+  const Style& style_;
+  std::string appended_;
+};
+
+class VtuStyles : public FileTest, public ::testing::WithParamInterface<Style> {};
+
+TEST_P(VtuStyles, are_read_alike) {
+  const auto f = read(make("m.vtu", ByHand(GetParam()).file()));
+  ASSERT_TRUE(f) << f.error().what();
+  EXPECT_EQ(f->points, (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(f->lines, (std::vector<std::array<std::int32_t, 2>>{{0, 1}}));
+  EXPECT_TRUE(same_bits(f->weights, {0.1, -0.0, 1e-300, 7}));
+  ASSERT_EQ(f->point_data.size(), 1u);
+  EXPECT_EQ(std::get<std::vector<float>>(f->point_data[0].values), (std::vector<float>{0.1f, 2, 3, 4}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Vtu, VtuStyles,
+                         ::testing::Values(Style{"plain32"}, Style{"plain64", 8}, Style{"plain64_big_endian", 8, true},
+                                           Style{"plain32_narrow", 4, false, false, Style::in_text, false},
+                                           Style{"zlib32", 4, false, true}, Style{"zlib64", 8, false, true},
+                                           Style{"zlib32_big_endian", 4, true, true},
+                                           Style{"zlib_in_one_block", 4, false, true, Style::in_text, true, 32768},
+                                           Style{"raw32", 4, false, false, Style::appended_raw},
+                                           Style{"raw64", 8, false, false, Style::appended_raw},
+                                           Style{"raw64_zlib", 8, false, true, Style::appended_raw},
+                                           Style{"raw32_big_endian_zlib", 4, true, true, Style::appended_raw},
+                                           Style{"appended_base64", 4, false, false, Style::appended_base64},
+                                           Style{"appended_base64_zlib", 8, false, true, Style::appended_base64}),
+                         [](const auto& each) { return each.param.name; });
+
+TEST_F(FileTest, vtu_errors_name_the_array_and_its_line) {
+  const auto message = [&](const std::string& from, const std::string& to) {
+    std::string content =
+        "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
+        "<Piece NumberOfPoints=\"3\" NumberOfCells=\"1\">\n<Points>\n<DataArray type=\"Float64\" "
+        "NumberOfComponents=\"3\" "
+        "format=\"ascii\">\n0 0 0\n1 0 0\n0 1 0\n</DataArray>\n</Points>\n<Cells>\n"
+        "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray>\n"
+        "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3</DataArray>\n"
+        "<DataArray type=\"UInt8\" Name=\"types\" "
+        "format=\"ascii\">5</DataArray>\n</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+    const std::size_t at = content.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    content.replace(at, from.size(), to);
+    const auto f = read(make("m.vtu", content));
+    return plain(f ? "was read" : f.error().what());
+  };
+  EXPECT_EQ(message("0 1 0", "0 1 0"), "was read");
+  EXPECT_EQ(message("0 1 2<", "0 1 3<"),
+            "m.vtu: triangle 0 uses vertex 3, but the file has 3 vertices, numbered from 0");
+  EXPECT_EQ(message("1 0 0", "1 o 0"), "m.vtu:7: expected a number of array '', found 'o'");
+  EXPECT_EQ(message("0 1 0", "0 1"), "m.vtu:5: array '' has 8 values, not a multiple of its 3 components");
+  EXPECT_EQ(message("0 1 0", "0 1 2"),
+            "m.vtu: point 2 has z = 2, but point 0 has z = 0; expected a mesh in a plane of constant z");
+  EXPECT_EQ(
+      message(">5<", ">9<"),
+      "m.vtu: element 0 is a quadrilateral; temper reads meshes of linear triangles, with lines and points as tags");
+  EXPECT_EQ(message("offsets\" format=\"ascii\">3", "offsets\" format=\"ascii\">7"),
+            "m.vtu: element 0 ends at 7 of 3 connectivity values, and starts at 0");
+  EXPECT_EQ(message("\"offsets\"", "\"ofsets\""), "m.vtu: the array 'offsets' of the cells is missing");
+  EXPECT_EQ(message("\"LittleEndian\"", "\"LittleEndian\" compressor=\"vtkLZ4DataCompressor\""),
+            "m.vtu: is compressed with vtkLZ4DataCompressor; temper reads vtkZLibDataCompressor");
+  EXPECT_EQ(message("NumberOfCells=\"1\"", "NumberOfCells=\"2\""),
+            "m.vtu:11: has 1 offsets and 1 types, expected 2 of each");
+}
+
+}  // namespace
+}  // namespace temper::io
