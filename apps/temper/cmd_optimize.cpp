@@ -218,14 +218,15 @@ void improve(const Settings& s, Input& input, Results& results) {
   measuring.executor = &threads;
   Mesh& mesh = input.loaded.mesh;
   const Mesh original = s.picture.empty() ? Mesh() : mesh;
-  results.before = quality(mesh, measuring);
+  const bool measured = !s.quiet || !s.report.empty() || !s.picture.empty();  // else nobody would see it
+  if (measured) results.before = quality(mesh, measuring);
   catch_interrupts();
   if (!s.quiet) {
     print(fmt::format("{}: {} vertices, {} triangles\n", s.input, results.before.vertices, results.before.triangles));
     flush_output();
   }
   results.report = run_library(s, input, mesh, &threads);
-  results.after = quality(mesh, measuring);
+  if (measured) results.after = quality(mesh, measuring);
   if (!s.picture.empty()) {
     DrawOptions drawing;
     drawing.title = picture_title(input, results.before, results.after);
