@@ -31,14 +31,11 @@ namespace temper {
 class InputNames {
  public:
   virtual ~InputNames() = default;
-  /// "point 3"
   [[nodiscard]] virtual std::string point(std::size_t index) const { return "point " + std::to_string(index); }
-  /// "triangle 12"
   [[nodiscard]] virtual std::string triangle(std::size_t index) const { return "triangle " + std::to_string(index); }
-  /// "a.mesh:7" or ""
-  [[nodiscard]] virtual std::string point_where(std::size_t) const { return {}; }
-  /// "a.mesh:41" or ""
-  [[nodiscard]] virtual std::string triangle_where(std::size_t) const { return {}; }
+  /// "coast.msh:7", the place of the point in its file, or nothing.
+  [[nodiscard]] virtual std::string point_where(std::size_t /*index*/) const { return {}; }
+  [[nodiscard]] virtual std::string triangle_where(std::size_t /*index*/) const { return {}; }
 };
 
 /// Arrays that make a mesh. Spans are read during Mesh::build only.

@@ -36,7 +36,8 @@ double outer_height(const Mesh& mesh, HalfedgeId h) {
 }
 
 /// The same for a spoke, whose ℓ² has gradient −2e (e from the center to the link) and whose w has (0, 0, 1).
-[[gnu::always_inline]] inline void add_spoke_term(VertexDerivatives& sum, const EdgeTerm& t, double factor, const Jet& g, Vec2 e) {
+[[gnu::always_inline]] inline void add_spoke_term(VertexDerivatives& sum, const EdgeTerm& t, double factor,
+                                                  const Jet& g, Vec2 e) {
   add_term(sum, t, factor, g);
   const double lx = -2 * e.x, ly = -2 * e.y;
   const auto& [gx, gy, gw] = g.gradient;

@@ -27,7 +27,8 @@ struct TriangleShape {
   double doubled_area = 0;  ///< S, signed
 };
 
-[[gnu::always_inline]] inline TriangleShape triangle_shape(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
+[[gnu::always_inline]] inline TriangleShape triangle_shape(const WeightedPoint& p, const WeightedPoint& q,
+                                                           const WeightedPoint& r) {
   const double ax = q.x - p.x, ay = q.y - p.y, bx = r.x - p.x, by = r.y - p.y;
   const double s = ax * by - ay * bx;
   const double la = ax * ax + ay * ay, lb = bx * bx + by * by, ab = ax * bx + ay * by;
@@ -58,7 +59,8 @@ namespace detail {
 
 /// Numerator N = u_b |a|² − u_a a·b of g_pq over S, differentiated twice, and divided by S.
 /// N's Hessian: xy block (|a|² + 2 u_b − a·b − 2 u_a) I + a⊗b + b⊗a − 2 a⊗a; xw block (b − a)/2; ww zero.
-[[gnu::always_inline]] inline Jet height_jet(Vec2 a, Vec2 b, double la, double ab, double ua, double ub, double g, Vec2 ds, double inverse_s) {
+[[gnu::always_inline]] inline Jet height_jet(Vec2 a, Vec2 b, double la, double ab, double ua, double ub, double g,
+                                             Vec2 ds, double inverse_s) {
   Jet jet;
   const double nx = -b.x * la - 2 * ub * a.x + a.x * ab + ua * (a.x + b.x);
   const double ny = -b.y * la - 2 * ub * a.y + a.y * ab + ua * (a.y + b.y);
@@ -77,7 +79,8 @@ namespace detail {
 
 }  // namespace detail
 
-[[gnu::always_inline]] inline TriangleJet triangle_jet(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
+[[gnu::always_inline]] inline TriangleJet triangle_jet(const WeightedPoint& p, const WeightedPoint& q,
+                                                       const WeightedPoint& r) {
   TriangleJet jet;
   jet.shape = triangle_shape(p, q, r);
   jet.a = q.position() - p.position();

@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ namespace {
 struct PublicMesh {
   const char* file;
   std::size_t vertices, triangles;
+
+  friend void PrintTo(const PublicMesh& mesh, std::ostream* out) { *out << mesh.file; }
 };
 
 const PublicMesh kMeshes[] = {

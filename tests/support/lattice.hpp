@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <ostream>
 #include <vector>
 
 #include "temper/mesh.hpp"
@@ -34,6 +35,10 @@ struct LatticeOptions {
   double scale = 1;      ///< of coordinates; weights go with its square
   Vec2 offset = {0, 0};  ///< added after scaling
   std::uint64_t seed = 1;
+
+  friend void PrintTo(const LatticeOptions& o, std::ostream* out) {
+    *out << o.n << " x " << o.n << " scaled by " << o.scale << " at (" << o.offset.x << ", " << o.offset.y << ")";
+  }
 };
 
 /// n × n points in equilateral triangles.

@@ -2,6 +2,7 @@
 // energy: the error must fall with the square of the step, at unit scale, far from the origin, and at 1e±12.
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 
 #include "support/lattice.hpp"
@@ -14,6 +15,8 @@ struct Place {
   const char* name;
   double scale;
   Vec2 offset;
+
+  friend void PrintTo(const Place& place, std::ostream* out) { *out << place.name; }
 };
 
 class Derivatives : public testing::TestWithParam<Place> {
