@@ -156,7 +156,7 @@ class Mesh {
 
  private:
   friend class MeshBuilder;
-  friend void permute(Mesh& mesh, const struct MeshOrder& order);
+  friend void permute(Mesh& mesh, const struct MeshOrder& order, const struct MeshOrder& inverse);
 
   static constexpr std::uint32_t kFixed = 1;
 

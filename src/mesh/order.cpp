@@ -1,5 +1,6 @@
 // Hilbert order: neighbours in the plane become neighbours in memory.
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -57,52 +58,70 @@ IdVector<IdType, IdType> inverse(const IdVector<IdType, IdType>& order) {
   return result;
 }
 
-/// Moves value[order[i]] to place i.
-template <class IdType, class T>
-void gather(IdVector<IdType, T>& values, const IdVector<IdType, IdType>& order) {
-  IdVector<IdType, T> moved;
-  moved.reserve(values.size());
-  for (const IdType from : order) moved.push_back(values[from]);
-  values = std::move(moved);
+/// Moves what is at order[i] to place i for all i, along the cycles of the order: in place but for one bit an item.
+template <class IdType, class Read, class Write>
+void gather(const IdVector<IdType, IdType>& order, Read&& read, Write&& write) {
+  std::vector<bool> done(order.size(), false);
+  for (const IdType first : IdRange<IdType>(order.size())) {
+    if (done[first.index]) continue;
+    const auto held = read(first);
+    IdType to = first;
+    for (IdType from = order[to]; from != first; to = from, from = order[to]) {
+      write(to, read(from));
+      done[to.index] = true;
+    }
+    write(to, held);
+    done[to.index] = true;
+  }
 }
+
+MeshOrder inverse(const MeshOrder& order) { return {inverse(order.vertices), inverse(order.triangles)}; }
 
 }  // namespace
 
-void permute(Mesh& mesh, const MeshOrder& order) {
-  const auto new_vertex = inverse(order.vertices);
-  const auto new_triangle = inverse(order.triangles);
-  const auto moved = [&](HalfedgeId h) {
-    return h.valid() ? Mesh::halfedge(new_triangle[Mesh::triangle(h)], static_cast<int>(h.index % 3)) : h;
+void permute(Mesh& mesh, const MeshOrder& order, const MeshOrder& inverse) {
+  struct Triangle {
+    std::array<VertexId, 3> corners;
+    std::array<HalfedgeId, 3> twins;
+    std::array<std::uint8_t, 3> constrained;
+    std::int32_t region;
   };
-  gather(mesh.vertices_, order.vertices);
-  gather(mesh.regions_, order.triangles);
-  // Triples of halfedge data move with their triangle; one array at a time keeps the peak of memory low.
-  const IdRange<TriangleId> new_slots(order.triangles.size());
-  const auto gather_triples = [&](auto& values, auto&& map) {
-    auto moved_values = values;
-    for (const TriangleId to : new_slots) {
-      for (int k = 0; k < 3; ++k) {
-        moved_values[Mesh::halfedge(to, k)] = map(values[Mesh::halfedge(order.triangles[to], k)]);
-      }
-    }
-    values = std::move(moved_values);
-  };
-  gather_triples(mesh.corners_, [&](VertexId v) { return new_vertex[v]; });
-  gather_triples(mesh.twins_, moved);
-  gather_triples(mesh.constrained_, [](std::uint8_t c) { return c; });
+  gather(
+      order.vertices, [&](VertexId v) { return mesh.vertices_[v]; },
+      [&](VertexId v, const Mesh::VertexRecord& record) { mesh.vertices_[v] = record; });
+  gather(
+      order.triangles,
+      [&](TriangleId t) {
+        const HalfedgeId a = Mesh::halfedge(t, 0), b = Mesh::halfedge(t, 1), c = Mesh::halfedge(t, 2);
+        return Triangle{mesh.corners(t),
+                        {mesh.twin(a), mesh.twin(b), mesh.twin(c)},
+                        {mesh.constrained_[a], mesh.constrained_[b], mesh.constrained_[c]},
+                        mesh.region(t)};
+      },
+      [&](TriangleId t, const Triangle& triangle) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          const HalfedgeId h = Mesh::halfedge(t, static_cast<int>(k)), twin = triangle.twins[k];
+          mesh.corners_[h] = inverse.vertices[triangle.corners[k]];
+          mesh.constrained_[h] = triangle.constrained[k];
+          mesh.twins_[h] =
+              !twin.valid() ? twin
+                            : Mesh::halfedge(inverse.triangles[Mesh::triangle(twin)], static_cast<int>(twin.index % 3));
+        }
+        mesh.regions_[t] = triangle.region;
+      });
   mesh.repair_outgoing();  // which halfedge stands for a vertex depends on the numbering
 }
 
 MeshOrder hilbert_order(Mesh& mesh) {
-  MeshOrder order;
+  MeshOrder order, new_ids;
   order.vertices = vertices_by_hilbert(mesh);
-  order.triangles = triangles_by_vertex(mesh, inverse(order.vertices));
-  permute(mesh, order);
+  new_ids.vertices = inverse(order.vertices);
+  order.triangles = triangles_by_vertex(mesh, new_ids.vertices);
+  new_ids.triangles = inverse(order.triangles);
+  permute(mesh, order, new_ids);
   return order;
 }
 
-void restore_order(Mesh& mesh, const MeshOrder& order) {
-  permute(mesh, {inverse(order.vertices), inverse(order.triangles)});
-}
+void restore_order(Mesh& mesh, const MeshOrder& order) { permute(mesh, inverse(order), order); }
 
 }  // namespace temper
