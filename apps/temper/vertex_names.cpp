@@ -7,8 +7,6 @@ namespace temper::app {
 VertexNames::VertexNames(std::shared_ptr<const InputNames> file, std::vector<std::size_t> points)
     : file_(file ? std::move(file) : std::make_shared<const InputNames>()), points_(std::move(points)) {}
 
-VertexNames::~VertexNames() = default;
-
 // A vertex that the file does not have was inserted by temper: it keeps its own number.
 std::size_t VertexNames::in_file(std::size_t index) const { return index < points_.size() ? points_[index] : index; }
 

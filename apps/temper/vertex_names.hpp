@@ -10,12 +10,10 @@
 
 namespace temper::app {
 
-/// Its members are not inline: the class is compiled without RTTI, as its base in the core is.
 class VertexNames final : public InputNames {
  public:
   /// points: mesh vertex → point of the file.
   VertexNames(std::shared_ptr<const InputNames> file, std::vector<std::size_t> points);
-  ~VertexNames() override;
   [[nodiscard]] std::string point(std::size_t index) const override;
   [[nodiscard]] std::string triangle(std::size_t index) const override;
   [[nodiscard]] std::string point_where(std::size_t index) const override;
