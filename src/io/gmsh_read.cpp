@@ -113,7 +113,7 @@ class GmshReader {
   void add_node(std::int64_t number, double x, double y, double z);
   void finish_nodes();
   void add_element(std::int32_t type, std::int64_t number, std::int32_t physical, std::int32_t entity);
-  [[nodiscard]] std::int32_t node_index(std::int64_t element);
+  [[nodiscard]] std::int32_t node_index(std::string_view kind, std::int64_t element);
   void finish_elements();
   std::string quoted_string();
   std::string where() const { return binary_ ? scanner_.path() : scanner_.where(); }
@@ -306,7 +306,7 @@ void GmshReader::finish_nodes() {
 
 // --- elements --------------------------------------------------------------------------------------------
 
-std::int32_t GmshReader::node_index(std::int64_t element) {
+std::int32_t GmshReader::node_index(std::string_view kind, std::int64_t element) {
   const std::int64_t number = version4_ ? static_cast<std::int64_t>(get<std::uint64_t>("the number of a node"))
                                         : get<std::int32_t>("the number of a node");
   const auto index = lookup_->find(number);
@@ -314,7 +314,7 @@ std::int32_t GmshReader::node_index(std::int64_t element) {
   const std::size_t n = document_.file.points.size();
   const bool contiguous = document_.names->points.counts_from(1);
   fail(ErrorCode::index_out_of_range, where(),
-       text("element ", element, " uses vertex ", number, ", but the file has ",
+       text(kind, " ", element, " uses vertex ", number, ", but the file has ",
             contiguous ? text(n, " vertices, numbered from 1") : "no vertex of that number"));
 }
 
@@ -322,15 +322,15 @@ void GmshReader::add_element(std::int32_t type, std::int64_t number, std::int32_
   const auto line = static_cast<std::int64_t>(scanner_.line());
   switch (type) {
     case kGmshTriangle: {
-      const std::int32_t a = node_index(number), b = node_index(number);
-      return triangles_.add({a, b, node_index(number)}, physical, entity, number, line);
+      const std::int32_t a = node_index("triangle", number), b = node_index("triangle", number);
+      return triangles_.add({a, b, node_index("triangle", number)}, physical, entity, number, line);
     }
     case kGmshLine: {
-      const std::int32_t a = node_index(number);
-      return lines_.add({a, node_index(number)}, physical, entity, number, line);
+      const std::int32_t a = node_index("line", number);
+      return lines_.add({a, node_index("line", number)}, physical, entity, number, line);
     }
     case kGmshPoint:
-      return points_.add({node_index(number)}, physical, entity, number, line);
+      return points_.add({node_index("point element", number)}, physical, entity, number, line);
     default:
       refuse_element(where(), number, element_name(type));
   }

@@ -26,8 +26,9 @@ const std::vector<Bad>& bad_files() {
        "MSH 2.2, "
        "medit (INRIA, Mmg), Wavefront OBJ, legacy VTK, MFEM mesh v1.0, Triangle"},
       {"truncated_medit", "m.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n1 0 0\n1 1",
-       ErrorCode::truncated, "m.mesh:4: announces 4 vertices, but only 17 bytes follow"},
-      {"truncated_inside_a_row", "m.mesh", medit("3\n0 0 0\n1.000 0 0\n1 1 0\n", "Triangles\n1\n1 2"),
+       ErrorCode::truncated, "m.mesh:4: announces 4 vertices, but only 16 bytes follow"},
+      {"truncated_inside_a_row", "m.mesh",
+       "MeshVersionFormatted 2\nDimension 2\nVertices\n3\n0 0 0\n1 0 0\n0 1 0\nTriangles\n1\n    1   2",
        ErrorCode::truncated, ""},
       {"truncated_gmsh", "m.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n",
        ErrorCode::truncated, "m.msh:8: the file ends where the section $Elements was expected"},
@@ -57,14 +58,15 @@ const std::vector<Bad>& bad_files() {
        "m.mesh:6: point 2 has coordinates (1, nan), expected finite numbers"},
       {"infinity", "m.mesh", medit("3\n0 0 0\n1 0 0\n0 1e999 0\n", "Triangles\n1\n1 2 3 0\n"), ErrorCode::not_finite,
        "m.mesh:7: point 3 has coordinates (0, inf), expected finite numbers"},
-      {"duplicate_points", "m.mesh", medit("4\n0 0 0\n1 0 0\n1 1 0\n1 1 0\n", "Triangles\n2\n1 2 3 0\n1 3 4 0\n"),
-       ErrorCode::duplicate_point, ""},
+      {"duplicate_points", "m.mesh",
+       medit("5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 0\n", "Triangles\n2\n1 2 3 0\n5 3 4 0\n"), ErrorCode::duplicate_point,
+       ""},
       {"zero_area", "m.mesh", medit("4\n0 0 0\n1 0 0\n1 1 0\n2 0 0\n", "Triangles\n2\n1 2 3 0\n1 2 4 0\n"),
        ErrorCode::zero_area, ""},
       {"repeated_vertex", "m.mesh", medit(kSquare, "Triangles\n2\n1 2 3 0\n1 3 3 0\n"), ErrorCode::zero_area, ""},
       {"two_triangles_on_one_side", "m.mesh",
-       medit("4\n0 0 0\n1 0 0\n0 1 0\n0.2 2 0\n", "Triangles\n2\n1 2 3 0\n1 2 4 0\n"), ErrorCode::non_manifold_edge,
-       ""},
+       medit("4\n0 0 0\n1 0 0\n0 1 0\n0.2 2 0\n", "Triangles\n2\n1 2 3 0\n1 2 4 0\n"), ErrorCode::overlap,
+       "m.mesh:12: triangle 1 and triangle 2 lie on the same side of the edge from point 1 to point 2"},
       {"bow_tie", "m.mesh", medit("5\n0 0 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n", "Triangles\n2\n1 2 3 0\n1 4 5 0\n"),
        ErrorCode::non_manifold_vertex, ""},
       {"not_planar", "m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0.5\nf 1 2 3\n", ErrorCode::not_planar,
@@ -132,8 +134,8 @@ TEST_F(FileTest, errors_of_the_mesh_speak_the_numbers_of_the_file) {
     return plain(made ? "" : made.error().what());
   };
   const std::string duplicate =
-      message_of(medit("4\n0 0 0\n1 0 0\n1 1 0\n1 1 0\n", "Triangles\n2\n1 2 3 0\n1 3 4 0\n"));
-  EXPECT_NE(duplicate.find("point 4"), std::string::npos) << duplicate;
+      message_of(medit("5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 0\n", "Triangles\n2\n1 2 3 0\n5 3 4 0\n"));
+  EXPECT_NE(duplicate.find("point 5"), std::string::npos) << duplicate;
   const std::string flat = message_of(medit("4\n0 0 0\n1 0 0\n1 1 0\n2 0 0\n", "Triangles\n2\n1 2 3 0\n1 2 4 0\n"));
   EXPECT_TRUE(flat.starts_with("m.mesh:12: triangle 2 ")) << flat;
   const std::string fan =

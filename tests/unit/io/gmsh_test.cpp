@@ -30,7 +30,7 @@ TEST_F(FileTest, a_node_number_given_twice_is_named) {
   const auto f =
       read(make("m.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n1 1 1 0\n$EndNodes\n"));
   ASSERT_FALSE(f);
-  EXPECT_EQ(plain(f.error().what()), "m.msh:9: node number 1 is given twice");
+  EXPECT_EQ(plain(f.error().what()), "m.msh:8: node number 1 is given twice");
 }
 
 TEST_F(FileTest, data_of_some_nodes_are_nan_elsewhere_and_weights_must_be_whole) {
@@ -78,7 +78,7 @@ TEST_F(FileTest, parametric_nodes_comments_and_dropped_sections_of_version_41_ar
   EXPECT_EQ(f->line_tags, std::vector<std::int32_t>{8});
   EXPECT_EQ(f->point_tags, std::vector<std::int32_t>{77});
   ASSERT_EQ(f->warnings.size(), 2u);
-  EXPECT_EQ(plain(f->warnings[0]), "m.msh:35: section $Periodic is dropped");
+  EXPECT_EQ(plain(f->warnings[0]), "m.msh:33: section $Periodic is dropped");
   EXPECT_EQ(plain(f->warnings[1]), "m.msh: 1 entities have several physical tags: only the first of each is kept");
 }
 
