@@ -14,15 +14,21 @@ namespace {
 
 constexpr std::size_t kBuffer = std::size_t{1} << 18;
 
-/// Creates a file beside `target` that did not exist before; its name goes to `name`.
-std::FILE* create_beside(const std::string& target, std::string& name) {
+struct Temporary {
+  std::FILE* file = nullptr;  // null: errno says why
+  std::string path;
+};
+
+/// Creates a file beside `target` that did not exist before.
+Temporary create_beside(const std::string& target) {
   constexpr int kTries = 1000;  // each name is free unless a run was killed while it wrote
   for (int i = 0; i < kTries; ++i) {
-    name = text(target, ".tmp", i);
-    std::FILE* file = std::fopen(name.c_str(), "wbx");
-    if (file != nullptr || errno != EEXIST) return file;
+    std::string path = text(target, ".tmp", i);
+    std::FILE* file = std::fopen(path.c_str(), "wbx");
+    if (file != nullptr) return {file, std::move(path)};
+    if (errno != EEXIST) break;
   }
-  return nullptr;
+  return {};
 }
 
 }  // namespace
@@ -35,12 +41,14 @@ Output::Output(std::string path) : path_(std::move(path)), target_(path_), buffe
     if (const fs::path real = fs::canonical(path_, error); !error) target_ = real.string();
   }
   const bool direct = fs::exists(status) && !fs::is_regular_file(status);
-  file_ = direct ? std::fopen(target_.c_str(), "wb") : create_beside(target_, temporary_);
-  if (file_ == nullptr) {
-    const int code = errno;
-    temporary_.clear();
-    fail(ErrorCode::not_writable, path_, text("cannot be written: ", std::strerror(code)));
+  if (direct) {
+    file_ = std::fopen(target_.c_str(), "wb");
+  } else {
+    Temporary temporary = create_beside(target_);
+    file_ = temporary.file;
+    temporary_ = std::move(temporary.path);
   }
+  if (file_ == nullptr) fail(ErrorCode::not_writable, path_, text("cannot be written: ", std::strerror(errno)));
   std::setvbuf(file_, nullptr, _IONBF, 0);
   if (fs::is_regular_file(status) && !temporary_.empty()) fs::permissions(temporary_, status.permissions(), error);
 }
