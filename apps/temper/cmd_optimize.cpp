@@ -269,6 +269,7 @@ Exit optimize_mesh(const CLI::App& app, const Settings& s, Outputs& outputs) {
   Results results;
   warn(results, input.warnings());
   warn(results, doubtful_options(s));
+  io::release_geometry(input.file, input.loaded);  // the mesh has it now; memory is dear on the largest ones
   improve(s, input, results);
   write_all(app, s, input, results, outputs);
   if (!s.quiet) print_result(s, results, outputs);

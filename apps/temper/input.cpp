@@ -13,7 +13,9 @@ namespace {
 /// "12" of "triangle 12".
 std::string last_word(const std::string& text) { return text.substr(text.rfind(' ') + 1); }
 
+/// Mesh vertex → point; empty when they are the same.
 std::vector<std::size_t> invert(const io::LoadedMesh& loaded) {
+  if (loaded.vertex_of_point.size() == loaded.mesh.n_vertices()) return {};
   std::vector<std::size_t> points(loaded.mesh.n_vertices());
   for (std::size_t point = 0; point < loaded.vertex_of_point.size(); ++point) {
     const std::int32_t vertex = loaded.vertex_of_point[point];

@@ -1,6 +1,10 @@
 // temper VERB …: finds the verb, and turns every way to fail into one line on standard error and an exit code.
 #include <fmt/core.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <exception>
@@ -68,6 +72,9 @@ int internal_error(std::string_view what) {
 
 int main(int argc, char** argv) {
   using namespace temper::app;
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);  // arrays that are freed after reading go back to the system
+#endif
   try {
     const Exit exit = run(Arguments(argv + std::min(argc, 1), argv + argc));
     flush_output();

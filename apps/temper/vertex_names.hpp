@@ -12,7 +12,7 @@ namespace temper::app {
 
 class VertexNames final : public InputNames {
  public:
-  /// points: mesh vertex → point of the file.
+  /// points: mesh vertex → point of the file; empty: the same.
   VertexNames(std::shared_ptr<const InputNames> file, std::vector<std::size_t> points);
   [[nodiscard]] std::string point(std::size_t index) const override;
   [[nodiscard]] std::string triangle(std::size_t index) const override;

@@ -105,6 +105,10 @@ struct LoadedMesh {
 /// cannot be, and go with a warning in file.warnings. May be called again for a later state of the same mesh.
 void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh);
 
+/// Frees the points, weights and triangles of a file whose mesh has been made: update() writes them again, as
+/// long as the mesh keeps its numbers of vertices and triangles. Nothing when points were dropped.
+void release_geometry(MeshFile& file, const LoadedMesh& loaded);
+
 /// A file that holds just this mesh.
 [[nodiscard]] MeshFile from_mesh(const Mesh& mesh);
 

@@ -356,7 +356,8 @@ void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh) {
   const auto n_kept = vertex.size() - static_cast<std::size_t>(std::count(vertex.begin(), vertex.end(), -1));
   const bool has_unused = file.points.size() == vertex.size() && n_kept < vertex.size();
   if (has_unused) drop_unused_points(file, vertex);
-  if (mesh.n_vertices() != n_kept || mesh.n_triangles() != file.triangles.size()) {
+  const bool released = file.points.empty();
+  if (!released && (mesh.n_vertices() != n_kept || mesh.n_triangles() != file.triangles.size())) {
     if (has_unused) {
       std::vector<bool> used(vertex.size());
       for (std::size_t p = 0; p < used.size(); ++p) used[p] = vertex[p] >= 0;
@@ -369,6 +370,13 @@ void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh) {
   copy_vertices(file, mesh);
   copy_triangles(file, mesh);
   if (has_unused) file.numbering = nullptr;  // the numbers of the file are no longer those of its points
+}
+
+void release_geometry(MeshFile& file, const LoadedMesh& loaded) {
+  if (file.points.size() != loaded.mesh.n_vertices()) return;
+  std::vector<Vec2>().swap(file.points);  // assigning {} would keep the capacity
+  std::vector<double>().swap(file.weights);
+  std::vector<std::array<std::int32_t, 3>>().swap(file.triangles);
 }
 
 MeshFile from_mesh(const Mesh& mesh) {
