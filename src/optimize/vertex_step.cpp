@@ -7,6 +7,7 @@
 #include "optimize/golden.hpp"
 #include "regularity/flip_threshold.hpp"
 #include "regularity/power_tests.hpp"
+#include "temper/regularity.hpp"
 
 namespace temper {
 namespace {
@@ -228,14 +229,13 @@ VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
 /// hidden, or the flips cost more than the step gains.
 VertexStep::Outcome VertexStep::commit_if_lower(const WeightedPoint& p, double energy) {
   if (!stays_oriented(p)) return Outcome::inverted;
-  const Step way = {p.x - origin_.x, p.y - origin_.y, p.w - origin_.w};
-  if (!settings_.options.flips && flip_threshold(mesh_, vertex_, way) <= 1) return Outcome::blocked_by_flip;
+  if (!settings_.options.flips) note_regular_edges();
   mesh_.set_point(vertex_, p);
-  if (flips_at_once() && !flip_to_regular(energy - energy_)) {
-    mesh_.set_point(vertex_, origin_);
-    return Outcome::blocked_by_flip;
-  }
-  return Outcome::accepted;
+  const bool fits =
+      settings_.options.flips ? !flips_at_once() || flip_to_regular(energy - energy_) : regular_edges_still_are();
+  if (fits) return Outcome::accepted;
+  mesh_.set_point(vertex_, origin_);
+  return Outcome::blocked_by_flip;
 }
 
 bool VertexStep::flips_at_once() const {
@@ -248,6 +248,24 @@ bool VertexStep::stays_oriented(const WeightedPoint& p) const {
     const Vec2 q = patch_.q(i).position();
     if (inlined::orient2d(p.position(), q, patch_.r(i).position()) != Sign::positive) return false;
     if (!settings_.energy.barrier && squared_length(q - p.position()) < nearest) return false;
+  }
+  return true;
+}
+
+/// With frozen connectivity an edge that is regular must stay so; one that is not may wait.
+void VertexStep::note_regular_edges() {
+  was_regular_.clear();
+  for (const HalfedgeId h : mesh_.star(vertex_)) {
+    for (const HalfedgeId e : {h, Mesh::next(h)}) was_regular_.push_back(is_regular(mesh_, e) ? 1 : 0);
+  }
+}
+
+bool VertexStep::regular_edges_still_are() const {
+  auto was = was_regular_.begin();
+  for (const HalfedgeId h : mesh_.star(vertex_)) {
+    for (const HalfedgeId e : {h, Mesh::next(h)}) {
+      if (*was++ != 0 && !mesh_.is_constrained(e) && !is_regular(mesh_, e)) return false;
+    }
   }
   return true;
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "energy/patch.hpp"
 #include "optimize/freedom.hpp"
@@ -42,6 +44,8 @@ class VertexStep {
   Outcome commit_if_lower(const WeightedPoint& p, double energy);
   [[nodiscard]] bool stays_oriented(const WeightedPoint& p) const;
   [[nodiscard]] bool flips_at_once() const;
+  void note_regular_edges();
+  [[nodiscard]] bool regular_edges_still_are() const;
   [[nodiscard]] bool flip_to_regular(double change);
 
   Mesh& mesh_;
@@ -57,6 +61,7 @@ class VertexStep {
   double energy_ = 0;     // of the patch there
   Patch patch_;
   Lawson lawson_;
+  std::vector<std::uint8_t> was_regular_;  // of the edges of star and link, in the order of the star
 };
 
 }  // namespace temper

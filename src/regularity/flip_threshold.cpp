@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "regularity/power_tests.hpp"
+
 namespace temper {
 namespace {
 
@@ -30,7 +32,7 @@ Quadratic power_along(const WeightedPoint& p, const WeightedPoint& a, const Weig
   return {f0, bx * sx + cy * sy - d * sw, d * (sx * sx + sy * sy)};
 }
 
-/// The least t ≥ 0 where g becomes positive, given that it is not at 0 up to rounding.
+/// The least t ≥ 0 where g becomes positive, given that exactly it is not at 0.
 double first_crossing(Quadratic g) {
   if (g.c0 >= 0) return g.c1 > 0 || (g.c1 == 0 && g.c2 > 0) ? 0 : kNoThreshold;
   if (g.c2 == 0) return g.c1 > 0 ? -g.c0 / g.c1 : kNoThreshold;
@@ -49,18 +51,20 @@ double first_crossing(Quadratic g) {
 
 double flip_threshold(const Mesh& mesh, VertexId v, const std::array<double, 3>& step) {
   const WeightedPoint p = mesh.point(v);
+  const PowerTest conflict;
   double threshold = kNoThreshold;
   for (const HalfedgeId h : mesh.star(v)) {
     const WeightedPoint q = mesh.point(mesh.target(h)), r = mesh.point(mesh.opposite(h));
-    const HalfedgeId link = mesh.twin(Mesh::next(h));
-    if (link.valid() && !mesh.is_constrained(link)) {
-      const Quadratic f = power_along(p, r, q, mesh.point(mesh.opposite(link)), step);
-      threshold = std::min(threshold, first_crossing(f));
-    }
-    const HalfedgeId before = mesh.twin(h);
-    if (before.valid() && !mesh.is_constrained(h)) {
-      const Quadratic f = power_along(p, mesh.point(mesh.opposite(before)), q, r, step);
-      threshold = std::min(threshold, first_crossing({-f.c0, -f.c1, -f.c2}));
+    for (const HalfedgeId e : {h, Mesh::next(h)}) {
+      if (mesh.is_boundary(e) || mesh.is_constrained(e)) continue;
+      if (conflict(mesh, inlined::quad(mesh, e)) == Sign::positive) continue;  // not regular as it is
+      const WeightedPoint across = mesh.point(mesh.opposite(mesh.twin(e)));
+      if (e == h) {
+        const Quadratic f = power_along(p, across, q, r, step);
+        threshold = std::min(threshold, first_crossing({-f.c0, -f.c1, -f.c2}));
+      } else {
+        threshold = std::min(threshold, first_crossing(power_along(p, r, q, across, step)));
+      }
     }
   }
   return threshold;

@@ -72,6 +72,21 @@ TEST(Modes, FrozenConnectivityIsKeptAndStaysRegular) {
   }
 }
 
+TEST(Modes, FrozenConnectivityThatIsNotRegularGetsNoWorse) {
+  Mesh mesh = lattice({.n = 12, .jitter = 0.35, .weight = 0});
+  std::vector<HalfedgeId> regular;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (is_regular(mesh, h)) regular.push_back(h);
+  }
+  ASSERT_LT(regular.size(), mesh.n_halfedges());
+  const auto before = connectivity(mesh);
+  const auto report = optimize(mesh, {.flips = false, .max_sweeps = 40});
+  ASSERT_TRUE(report);
+  EXPECT_EQ(connectivity(mesh), before);
+  for (const HalfedgeId h : regular) EXPECT_TRUE(is_regular(mesh, h));
+  EXPECT_LT(report->history.back().bad, report->history.front().bad / 2);
+}
+
 TEST(Modes, EverySolverLowersEveryEnergyAndKeepsTheMeshValid) {
   int runs = 0;
   for (const EnergyInfo& info : energies()) {
