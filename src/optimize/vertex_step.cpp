@@ -61,11 +61,17 @@ void VertexStep::improve(VertexId v) {
       if (all.n > 0) newton_search(all);
       break;
     case Solver::alternating:
-      if (positions.n > 0) newton_search(positions), gather(v);
+      if (positions.n > 0) {
+        newton_search(positions);
+        gather(v);
+      }
       if (has_weight) newton_search(weight_only());
       break;
     case Solver::golden:
-      for (int i = 0; i < kPositionSearches && positions.n > 0; ++i) golden_search(positions), gather(v);
+      for (int i = 0; i < kPositionSearches && positions.n > 0; ++i) {
+        golden_search(positions);
+        gather(v);
+      }
       if (has_weight) golden_search(weight_only());
       break;
   }
@@ -93,7 +99,7 @@ bool VertexStep::enter_domain() {
   constexpr double kInside = 0.1;  // of the interval, so that the barrier is not at its steepest
   const double w = std::clamp(origin_.w, low + kInside * (high - low), high - kInside * (high - low));
   mesh_.set_weight(vertex_, w);
-  if (flips_at_once() && !flip_to_regular(-kInfinity)) {
+  if (flips_at_once() && !flip_to_regular(std::nullopt)) {
     mesh_.set_weight(vertex_, origin_.w);
     return false;
   }
@@ -243,11 +249,11 @@ bool VertexStep::flips_at_once() const {
 }
 
 bool VertexStep::stays_oriented(const WeightedPoint& p) const {
-  const double nearest = kShortestEdge * kShortestEdge * squared_length(patch_.q(0).position() - origin_.position());
+  const double nearest = settings_.energy.barrier ? 0 : kShortestEdge * radius();
   for (std::size_t i = 0; i < patch_.size(); ++i) {
     const Vec2 q = patch_.q(i).position();
     if (inlined::orient2d(p.position(), q, patch_.r(i).position()) != Sign::positive) return false;
-    if (!settings_.energy.barrier && squared_length(q - p.position()) < nearest) return false;
+    if (squared_length(q - p.position()) < nearest * nearest) return false;
   }
   return true;
 }
@@ -271,8 +277,8 @@ bool VertexStep::regular_edges_still_are() const {
 }
 
 /// Lawson from the edges around the vertex. Undoes its flips and says no when an edge stays stuck (a vertex is
-/// hidden), or when, with a barrier, `change` of the patch plus the flips' is not a gain.
-bool VertexStep::flip_to_regular(double change) {
+/// hidden), or when, with a barrier, `change` of the patch plus the flips' is not a gain. Without `change`, any price.
+bool VertexStep::flip_to_regular(std::optional<double> change) {
   lawson_.clear();
   bool regular = true;
   for (const HalfedgeId h : mesh_.star(vertex_)) {
@@ -285,10 +291,10 @@ bool VertexStep::flip_to_regular(double change) {
     }
   }
   if (regular) return true;
-  FlipPrice price{settings_.model, change};
-  const LawsonRun run =
-      settings_.energy.barrier ? lawson_.run(mesh_, price, kMostFlips) : lawson_.run(mesh_, IgnoreFlips(), kMostFlips);
-  const bool pays = !settings_.energy.barrier || price.change < 0;
+  const bool priced = settings_.energy.barrier && change.has_value();
+  FlipPrice price{settings_.model, change.value_or(0)};
+  const LawsonRun run = priced ? lawson_.run(mesh_, price, kMostFlips) : lawson_.run(mesh_, IgnoreFlips(), kMostFlips);
+  const bool pays = !priced || price.change < 0;
   if (!run.finished || !pays || !lawson_.stuck(mesh_).empty()) {
     lawson_.rollback(mesh_);
     return false;

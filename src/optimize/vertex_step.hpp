@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "energy/patch.hpp"
@@ -46,7 +47,7 @@ class VertexStep {
   [[nodiscard]] bool flips_at_once() const;
   void note_regular_edges();
   [[nodiscard]] bool regular_edges_still_are() const;
-  [[nodiscard]] bool flip_to_regular(double change);
+  [[nodiscard]] bool flip_to_regular(std::optional<double> change);
 
   Mesh& mesh_;
   const Settings& settings_;
