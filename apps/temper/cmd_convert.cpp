@@ -9,8 +9,10 @@
 namespace temper::app {
 namespace {
 
-constexpr Choice<io::Encoding> kEncodings[] = {
-    {"ascii", io::Encoding::ascii}, {"base64", io::Encoding::base64}, {"appended", io::Encoding::appended}};
+constexpr Choice<io::Encoding> kEncodings[] = {{"ascii", io::Encoding::ascii},
+                                               {"base64", io::Encoding::base64},
+                                               {"appended", io::Encoding::appended},
+                                               {"binary", io::Encoding::appended}};
 
 struct Settings {
   std::string input, output;

@@ -239,11 +239,24 @@ void warn(Results& results, std::span<const std::string> warnings) {
   results.warnings.insert(results.warnings.end(), warnings.begin(), warnings.end());
 }
 
+/// Cell data stay with the slot of their triangle, which flips give another place and reversal other corner numbers.
+std::vector<std::string> cell_data_warnings(const Input& input, const Results& results) {
+  const std::size_t flips = results.report.flips, reversed = input.loaded.reversed_triangles;
+  if (input.file.cell_data.empty() || flips + reversed == 0) return {};
+  std::string names;
+  for (const io::DataArray& array : input.file.cell_data) names += (names.empty() ? "" : ", ") + array.name;
+  return {
+      fmt::format("{}: cell data ({}) stay with their triangle's number, but {} edges were flipped and {} triangles "
+                  "reversed: check what depends on a triangle's place or on its local edges",
+                  input.path, names, flips, reversed)};
+}
+
 /// The mesh first: it is what the time went into.
 void write_all(const CLI::App& app, const Settings& s, Input& input, Results& results, Outputs& outputs) {
   const std::size_t known = input.file.warnings.size();
   io::update(input.file, input.loaded, input.loaded.mesh);
   warn(results, std::span(input.file.warnings).subspan(known));
+  warn(results, cell_data_warnings(input, results));
   warn(results, outputs.write_mesh(s.output, input.file));
   if (!s.report.empty()) {
     const std::vector<UsedOption> options = used_options(app);

@@ -246,7 +246,9 @@ std::string shell_quote(const std::string& word) {
 std::string command_line(const std::string& verb, const std::vector<std::string>& positionals,
                          const std::vector<UsedOption>& options) {
   std::string text = "temper " + verb;
-  for (const std::string& word : positionals) text += " " + shell_quote(word);
+  for (const std::string& word : positionals) {
+    text += " " + shell_quote(word.starts_with('-') ? "./" + word : word);  // not to be taken for an option
+  }
   for (const UsedOption& option : options) {
     if (option.flag && option.used) text += " --" + option.name;
     for (const std::string& value : option.values) text += " --" + option.name + "=" + shell_quote(value);

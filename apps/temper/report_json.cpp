@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "input.hpp"
@@ -46,12 +49,21 @@ Json to_json(const Quality& quality, Points points) {
   return json;
 }
 
+/// The number of a text that was accepted as one: ".5", "1." and "007" are numbers too, but not to JSON.
+Json number_as_json(const std::string& text) {
+  std::int64_t whole = 0;
+  const char* const end = text.data() + text.size();
+  const auto as_whole = std::from_chars(text.data(), end, whole);
+  if (as_whole.ec == std::errc() && as_whole.ptr == end) return whole;
+  return std::strtod(text.c_str(), nullptr);
+}
+
 /// Numbers as numbers, a flag as true or false, an option that was not used as null.
 Json to_json(const UsedOption& option) {
   if (option.flag) return option.used;
   if (!option.used) return nullptr;
   if (option.name == "fix") return option.values;  // the only one that may be repeated
-  if (option.number) return Json::parse(option.values.front(), nullptr, false);
+  if (option.number) return number_as_json(option.values.front());
   return option.values.front();
 }
 
@@ -94,7 +106,7 @@ std::string optimize_json(const OptimizeRecord& record) {
 }
 
 std::string history_csv(const OptimizeReport& report) {
-  std::string csv = "sweep,energy,bad,flips,gamma,seconds\n";
+  std::string csv = "sweep,energy,bad,flips,softening,seconds\n";
   for (const SweepRecord& record : report.history) {
     csv += fmt::format("{},{},{},{},{},{}\n", record.sweep, record.energy, record.bad, record.flips, record.softening,
                        record.seconds);

@@ -95,7 +95,7 @@ struct OptimizeReport {
   double initial_energy = 0;  ///< of the input, at the final γ
   double final_energy = 0;
   std::vector<SweepRecord> history;  ///< history[0] is the input
-  std::vector<std::string> notes;    ///< what the user should know: weights shrunk, hidden vertices, …
+  std::vector<std::string> notes;    ///< what the user should know, in sentences
 };
 
 /// Improves the mesh in place. The domain boundary, fixed vertices and constrained edges stay, bit for bit;

@@ -72,13 +72,15 @@ TagSet find_tags(const MeshFile& file, std::span<const std::string> wanted) {
     const auto has = [&](const std::vector<std::int32_t>& tags) {
       return std::find(tags.begin(), tags.end(), number) != tags.end();
     };
-    if (error == std::errc() && end == tag.data() + tag.size() && (has(file.line_tags) || has(file.point_tags))) {
+    if (error == std::errc() && end == tag.data() + tag.size() &&
+        (has(file.line_tags) || has(file.point_tags) || has(file.regions))) {
       set.points.push_back(number);
       set.lines.push_back(number);
+      set.triangles.push_back(number);
       continue;
     }
     fail(ErrorCode::invalid_option, file.path,
-         text("no points or lines have the tag '", tag, "'; there are: ", available_tags(file)));
+         text("no points, lines or triangles have the tag '", tag, "'; there are: ", available_tags(file)));
   }
   return set;
 }

@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kVerticesBetweenCalls = 8192;  // of the observer and the clock: a few milliseconds
 // Sweeps at the last γ without fewer bad triangles, after which another attempt promises more.
 constexpr int kPatience = 25;
+// Sweeps in which vertices may bring a barrier's infinite energy down one by one, before all weights shrink.
+constexpr int kInfinitePatience = 5;
 
 }  // namespace
 
@@ -33,6 +35,11 @@ void Driver::optimize(const Attempt& attempt, bool may_give_up) {
     if (!whole) break;  // stopped by the caller or the clock
 
     const double after = run_.report.history.back().energy;
+    if (!std::isfinite(after)) {
+      if (++infinite_sweeps_ > kInfinitePatience && !halve_weights()) break;
+      before = total();
+      continue;
+    }
     if (softener.settled() && converged(before, after)) {
       run_.report.stopped = Stopped::converged;
       break;
@@ -53,6 +60,21 @@ bool Driver::improve_all_vertices(int sweep) {
     step_.improve(v);
   }
   return true;
+}
+
+/// Weights that leave edges uncrossed and that single vertices cannot mend: half of all of them, until zero weights at
+/// last, where every barrier on d is satisfied. False when weights or connectivity may not change.
+bool Driver::halve_weights() {
+  const OptimizeOptions& o = settings_.options;
+  if (o.unknowns == Unknowns::positions || !o.flips) return false;
+  if (!shrunk_) run_.report.notes.push_back("weights of the input leave edges uncrossed: all were made smaller");
+  shrunk_ = true;
+  const Mesh before = mesh_;
+  for (const VertexId v : mesh_.vertices()) mesh_.set_weight(v, 0.5 * mesh_.weight(v));
+  const Restoration restored = restore_regularity(mesh_);
+  run_.report.flips += restored.flips;
+  if (!restored.regular()) mesh_ = before;
+  return restored.regular();
 }
 
 /// Line 17 of Algorithm 1. Equal shifts of all weights change no energy and, but for their rounding, no edge.

@@ -51,6 +51,7 @@ class Driver {
 
  private:
   bool improve_all_vertices(int sweep);
+  bool halve_weights();
   void shift_weights_to_anchor();
   std::size_t restore_deferred_flips();
   [[nodiscard]] bool converged(double before, double after) const;
@@ -67,6 +68,8 @@ class Driver {
   VertexStep step_;
   std::size_t least_bad_ = 0;  // of this attempt so far, and for how many sweeps
   int sweeps_since_fewer_bad_ = 0;
+  int infinite_sweeps_ = 0;
+  bool shrunk_ = false;
   std::optional<Mesh> best_;  // of HOT energies: the best sweep
   double best_energy_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -86,11 +87,12 @@ void jitter(Mesh& mesh, const OptimizeOptions& options, const Frame& frame, doub
   if (!restore_regularity(mesh).regular()) mesh = before;
 }
 
-/// Whether a is worse than b: for a barrier, which is there to make triangles well-centered, by their number first.
+/// Whether a is worse than b: regularity first; for a barrier, which is there to make triangles well-centered, their
+/// number next; then the energy.
 bool is_worse(const Mesh& a, const Mesh& b, const Settings& settings, const EnergyModel& model) {
   const auto standing = [&](const Mesh& mesh) {
     const std::size_t bad = settings.energy.barrier ? count_bad(mesh, settings.options.executor) : 0;
-    return std::pair(bad, total_energy(mesh, model, settings.options.executor));
+    return std::tuple(count_non_regular_edges(mesh, false), bad, total_energy(mesh, model, settings.options.executor));
   };
   return standing(b) < standing(a);
 }
@@ -112,6 +114,12 @@ std::string_view name(Stopped stopped) {
 }
 
 namespace {
+
+constexpr const char* kStillInfinite =
+    "the energy is infinite: on some edges weights differ by more than the squared length, and this run could not "
+    "change that";
+constexpr const char* kNegative =
+    "the energy is negative: HOT has no lower bound in the weights; energies T and BP have one";
 
 /// What an attempt starts from.
 struct Prepared {
@@ -150,7 +158,8 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
     if (i == 0) tries = attempts(settings.energy, options, work.mesh);
     if (i == 0 && flips > 0) {
       report.flips = flips;
-      report.notes.push_back(std::to_string(flips) + " edges of the input were flipped to make it regular");
+      report.notes.push_back(std::to_string(flips) + (flips == 1 ? " edge" : " edges") +
+                             " of the input flipped to make it regular");
     }
     jitter(work.mesh, settings.options, work.frame, tries[i].jitter);
     Driver(work.mesh, settings, work.frame, run).optimize(tries[i], i + 1 < tries.size());
@@ -169,6 +178,8 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
       mesh = *std::move(best);
     }
     report.final_energy = total_energy(mesh, model, options.executor);
+    if (!std::isfinite(report.final_energy)) report.notes.push_back(kStillInfinite);
+    if (report.final_energy < 0) report.notes.push_back(kNegative);
     report.seconds = run.seconds();
     break;
   }

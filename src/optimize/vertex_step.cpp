@@ -98,11 +98,7 @@ bool VertexStep::enter_domain() {
   if (!(low < high)) return false;
   constexpr double kInside = 0.1;  // of the interval, so that the barrier is not at its steepest
   const double w = std::clamp(origin_.w, low + kInside * (high - low), high - kInside * (high - low));
-  mesh_.set_weight(vertex_, w);
-  if (flips_at_once() && !flip_to_regular(std::nullopt)) {
-    mesh_.set_weight(vertex_, origin_.w);
-    return false;
-  }
+  if (!place({origin_.x, origin_.y, w}, std::nullopt)) return false;
   gather(vertex_);
   return std::isfinite(patch_energy(patch_, settings_.model, origin_));
 }
@@ -235,13 +231,16 @@ VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
 /// hidden, or the flips cost more than the step gains.
 VertexStep::Outcome VertexStep::commit_if_lower(const WeightedPoint& p, double energy) {
   if (!stays_oriented(p)) return Outcome::inverted;
+  return place(p, energy - energy_) ? Outcome::accepted : Outcome::blocked_by_flip;
+}
+
+/// The vertex at p, with what flips that needs; or where it was, and false.
+bool VertexStep::place(const WeightedPoint& p, std::optional<double> change) {
   if (!settings_.options.flips) note_regular_edges();
   mesh_.set_point(vertex_, p);
-  const bool fits =
-      settings_.options.flips ? !flips_at_once() || flip_to_regular(energy - energy_) : regular_edges_still_are();
-  if (fits) return Outcome::accepted;
-  mesh_.set_point(vertex_, origin_);
-  return Outcome::blocked_by_flip;
+  const bool fits = settings_.options.flips ? !flips_at_once() || flip_to_regular(change) : regular_edges_still_are();
+  if (!fits) mesh_.set_point(vertex_, origin_);
+  return fits;
 }
 
 bool VertexStep::flips_at_once() const {

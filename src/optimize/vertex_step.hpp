@@ -44,6 +44,7 @@ class VertexStep {
   Outcome try_step(const Step& step, double t);
   Outcome commit_if_lower(const WeightedPoint& p, double energy);
   [[nodiscard]] bool stays_oriented(const WeightedPoint& p) const;
+  bool place(const WeightedPoint& p, std::optional<double> change);
   [[nodiscard]] bool flips_at_once() const;
   void note_regular_edges();
   [[nodiscard]] bool regular_edges_still_are() const;

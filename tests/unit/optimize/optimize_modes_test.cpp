@@ -87,6 +87,43 @@ TEST(Modes, FrozenConnectivityThatIsNotRegularGetsNoWorse) {
   EXPECT_LT(report->history.back().bad, report->history.front().bad / 2);
 }
 
+TEST(Modes, FrozenConnectivityStaysRegularWhereWeightsLeaveEdgesUncrossed) {
+  int infinite = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Mesh mesh = lattice({.n = 6, .jitter = 0.2, .weight = 0.55, .seed = seed});
+    if (!restore_regularity(mesh).regular()) continue;
+    infinite += std::isinf(total_energy(mesh, {.kind = EnergyKind::BP})) ? 1 : 0;
+    ASSERT_TRUE(optimize(mesh, {.flips = false, .max_sweeps = 5}));
+    EXPECT_EQ(count_non_regular_edges(mesh), 0u);
+  }
+  EXPECT_GT(infinite, 3);
+}
+
+TEST(Modes, AnInputThatIsNotRegularComesBackRegularEvenWithoutASweep) {
+  Mesh mesh = lattice({.n = 9, .jitter = 0.3, .weight = 0});
+  ASSERT_GT(count_non_regular_edges(mesh), 0u);
+  ASSERT_TRUE(optimize(mesh, {.max_sweeps = 0}));
+  EXPECT_EQ(count_non_regular_edges(mesh), 0u);
+}
+
+TEST(Modes, InfiniteEnergyIsLeftOrSaid) {
+  const std::vector<Vec2> points = {{0, 0}, {1, 0}, {0.5, 0.9}};
+  const std::vector<double> weights = {0, 100, -100};
+  const std::vector<std::array<std::int32_t, 3>> triangles = {{0, 1, 2}};
+  Mesh mesh = Mesh::build({.points = points, .weights = weights, .triangles = triangles})->mesh;
+  Mesh frozen = mesh;
+  const auto report = optimize(mesh);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(quality(mesh).well_centered_fraction, 1);
+  EXPECT_TRUE(std::isfinite(report->final_energy));
+
+  const auto stuck = optimize(frozen, {.unknowns = Unknowns::positions});
+  ASSERT_TRUE(stuck);
+  EXPECT_LT(stuck->sweeps, 20);
+  ASSERT_FALSE(stuck->notes.empty());
+  EXPECT_NE(stuck->notes.back().find("the energy is infinite"), std::string::npos);
+}
+
 TEST(Modes, EverySolverLowersEveryEnergyAndKeepsTheMeshValid) {
   int runs = 0;
   for (const EnergyInfo& info : energies()) {
