@@ -128,8 +128,9 @@ TEST_F(FileTest, fixed_tags_go_by_number_or_name) {
   const auto made = make_mesh(f, unknown);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().code, ErrorCode::invalid_option);
-  EXPECT_EQ(made.error().what(),
-            "no points, lines or triangles have the tag 'outflow'; there are: corner, inflow and more, steel, 4, 9, 11, 12");
+  EXPECT_EQ(
+      made.error().what(),
+      "no points, lines or triangles have the tag 'outflow'; there are: corner, inflow and more, steel, 4, 9, 11, 12");
 }
 
 TEST_F(FileTest, vertices_that_medit_calls_required_are_fixed) {
