@@ -7,11 +7,14 @@
 
 #include "base/rng.hpp"
 #include "property/random_mesh.hpp"
+#include "support/area.hpp"
 #include "temper/generate.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
 namespace {
+
+using test::area;
 
 using Segments = std::vector<std::array<std::int32_t, 2>>;
 
@@ -34,15 +37,6 @@ Segments closed(std::int32_t first, std::int32_t n) {
   Segments segments;
   for (std::int32_t i = 0; i < n; ++i) segments.push_back({first + i, first + (i + 1) % n});
   return segments;
-}
-
-double area(const Mesh& mesh) {
-  double sum = 0;
-  for (const TriangleId t : mesh.triangles()) {
-    const auto [a, b, c] = mesh.corners(t);
-    sum += 0.5 * doubled_area(mesh.position(a), mesh.position(b), mesh.position(c));
-  }
-  return sum;
 }
 
 double area(const std::vector<Vec2>& polygon) {

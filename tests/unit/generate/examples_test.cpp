@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "support/area.hpp"
 #include "temper/energy.hpp"
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"
@@ -14,6 +15,8 @@
 
 namespace temper {
 namespace {
+
+using test::area;
 
 struct Named {
   const char* name;
@@ -50,15 +53,6 @@ std::vector<Named> all_examples() {
       {"fine airfoil", [] { return airfoil({.around = 300, .growth = 1.1, .seed = 2}); }},
       {"coarse airfoil", [] { return airfoil({.around = 16, .growth = 2}); }},
   };
-}
-
-double area(const Mesh& mesh) {
-  double sum = 0;
-  for (const TriangleId t : mesh.triangles()) {
-    const auto [a, b, c] = mesh.corners(t);
-    sum += 0.5 * doubled_area(mesh.position(a), mesh.position(b), mesh.position(c));
-  }
-  return sum;
 }
 
 int euler(const Mesh& mesh) {
