@@ -1,9 +1,14 @@
-#include "regularity/flip_threshold.hpp"
-
+// The flip thresholds of §2.4, both kinds of edges as one: how F(t) of temper/regularity.hpp is computed and crossed.
+//
+// Everything is seen from p, so that F(0) = −A loses no digits to the origin, and each edge gives one quadratic g(t)
+// that is positive where the edge is not regular: −F for a link edge, regular while p does not conflict with the
+// triangle beyond, and F for a spoke to q, regular while p conflicts with the triangle of q and its two neighbours on
+// the link.
 #include <algorithm>
 #include <cmath>
 
 #include "regularity/power_tests.hpp"
+#include "temper/regularity.hpp"
 
 namespace temper {
 namespace {
@@ -13,9 +18,9 @@ struct Quadratic {
   double c0, c1, c2;
 };
 
-/// F(t) above, for the lifted points a, b, c seen from p.
-Quadratic power_along(const WeightedPoint& p, const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
-                      const std::array<double, 3>& step) {
+/// −F(t) for the lifted points a, b, c seen from p: positive when p(t) conflicts with triangle abc counter-clockwise.
+Quadratic conflict_along(const WeightedPoint& p, const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
+                         const std::array<double, 3>& step) {
   const auto lift = [&](const WeightedPoint& q) {
     const double x = q.x - p.x, y = q.y - p.y;
     return WeightedPoint{x, y, x * x + y * y - (q.w - p.w)};
@@ -32,12 +37,15 @@ Quadratic power_along(const WeightedPoint& p, const WeightedPoint& a, const Weig
   return {f0, bx * sx + cy * sy - d * sw, d * (sx * sx + sy * sy)};
 }
 
-/// The least t ≥ 0 where g becomes positive, given that exactly it is not at 0.
+/// The least t ≥ 0 past which g is positive, given that exactly it is not at 0: a positive c₀ is a rounded zero.
 double first_crossing(Quadratic g) {
-  if (g.c0 >= 0) return g.c1 > 0 || (g.c1 == 0 && g.c2 > 0) ? 0 : kNoThreshold;
+  if (g.c0 >= 0) {
+    if (g.c1 < 0) return g.c2 > 0 ? -g.c1 / g.c2 : kNoThreshold;
+    return g.c1 > 0 || g.c2 > 0 ? 0 : kNoThreshold;
+  }
   if (g.c2 == 0) return g.c1 > 0 ? -g.c0 / g.c1 : kNoThreshold;
   const double discriminant = g.c1 * g.c1 - 4 * g.c2 * g.c0;
-  if (discriminant < 0) return kNoThreshold;
+  if (!(discriminant > 0)) return kNoThreshold;  // with c₂ < 0: the line misses the orthocircle, or touches it
   // The stable pair of roots; with c₀ < 0 the least positive one is where g turns positive.
   const double q = -0.5 * (g.c1 + std::copysign(std::sqrt(discriminant), g.c1));
   double least = kNoThreshold;
@@ -51,23 +59,31 @@ double first_crossing(Quadratic g) {
 
 double flip_threshold(const Mesh& mesh, VertexId v, const std::array<double, 3>& step) {
   const WeightedPoint p = mesh.point(v);
-  const PowerTest conflict;
+  const PowerTest test;
   double threshold = kNoThreshold;
   for (const HalfedgeId h : mesh.star(v)) {
     const WeightedPoint q = mesh.point(mesh.target(h)), r = mesh.point(mesh.opposite(h));
     for (const HalfedgeId e : {h, Mesh::next(h)}) {
       if (mesh.is_boundary(e) || mesh.is_constrained(e)) continue;
-      if (conflict(mesh, inlined::quad(mesh, e)) == Sign::positive) continue;  // not regular as it is
+      if (test(mesh, inlined::quad(mesh, e)) == Sign::positive) continue;  // not regular as it is
       const WeightedPoint across = mesh.point(mesh.opposite(mesh.twin(e)));
       if (e == h) {
-        const Quadratic f = power_along(p, across, q, r, step);
+        const Quadratic f = conflict_along(p, across, q, r, step);
         threshold = std::min(threshold, first_crossing({-f.c0, -f.c1, -f.c2}));
       } else {
-        threshold = std::min(threshold, first_crossing(power_along(p, r, q, across, step)));
+        threshold = std::min(threshold, first_crossing(conflict_along(p, r, q, across, step)));
       }
     }
   }
   return threshold;
+}
+
+double weight_flip_threshold(const Mesh& mesh, VertexId v, double direction) {
+  return flip_threshold(mesh, v, {0, 0, direction > 0 ? 1.0 : direction < 0 ? -1.0 : 0.0});
+}
+
+double position_flip_threshold(const Mesh& mesh, VertexId v, Vec2 direction) {
+  return flip_threshold(mesh, v, {direction.x, direction.y, 0});
 }
 
 }  // namespace temper

@@ -5,7 +5,7 @@
 
 namespace temper {
 
-Restoration restore_regularity(Mesh& mesh) {
+Restoration restore_regularity(Mesh& mesh, HiddenPolicy /*policy*/, const RestorationObserver* /*observer*/) {
   Lawson lawson;
   lawson.push_all(mesh);
   Restoration result;
