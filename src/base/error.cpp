@@ -42,6 +42,8 @@ std::string_view name(ErrorCode code) {
       return "invalid_option";
     case ErrorCode::hidden_vertex:
       return "hidden_vertex";
+    case ErrorCode::trace_mismatch:
+      return "trace_mismatch";
     case ErrorCode::not_writable:
       return "not_writable";
   }

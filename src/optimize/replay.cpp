@@ -1,0 +1,219 @@
+// replay(): the events of a trace, applied to the user's own mesh.
+//
+// No frame and no Hilbert order here: a flip or a removal keeps to the slots of the triangles it touches, so the same
+// events in the same order leave the same slots in any numbering; and the optimiser's frame gives coordinates back bit
+// for bit. Removed vertices keep their numbers until the end, when the mesh is compacted.
+//
+// A trace may come from anywhere, so every event is held against the mesh before it is applied. What is checked is
+// connectivity: positions may pass through anything, as the paper's own do.
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "temper/topology.hpp"
+#include "temper/trace.hpp"
+#include "topology/flip_inline.hpp"
+
+namespace temper {
+namespace {
+
+bool undoes_sweeps(const TraceEvent& e) { return e.kind == EventKind::undo && !e.vertex.valid(); }
+
+/// Copies of the mesh at the ends of the sweeps that some event goes back to, from when the sweep ends until no event
+/// to come needs them.
+class SweepStates {
+ public:
+  explicit SweepStates(std::span<const TraceEvent> events) {
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      if (undoes_sweeps(events[i])) states_[events[i].to_sweep].last_use = i;
+    }
+  }
+
+  /// Event `index` belongs to `sweep`: all sweeps between the last event's and this one have ended.
+  void arrive(std::size_t index, int sweep, const Mesh& mesh) {
+    for (auto s = states_.lower_bound(sweep_); s != states_.end() && s->first < sweep; ++s) {
+      if (s->second.last_use >= index) s->second.mesh = mesh;
+    }
+    sweep_ = sweep;
+  }
+
+  /// The state that event `index` goes back to; null: the sweep is under way, or was never passed.
+  const Mesh* at(int sweep) const {
+    const auto found = states_.find(sweep);
+    return found != states_.end() && found->second.mesh ? &*found->second.mesh : nullptr;
+  }
+  void forget(std::size_t index, int sweep) {
+    if (states_[sweep].last_use == index) states_[sweep].mesh.reset();
+  }
+
+ private:
+  struct State {
+    std::size_t last_use = 0;
+    std::optional<Mesh> mesh;
+  };
+  std::map<int, State> states_;
+  int sweep_ = -1;  // of the last event; −1: the input
+};
+
+class Replayer {
+ public:
+  Replayer(const Mesh& input, const InputNames& names) : mesh_(input), names_(names) {}
+
+  std::optional<InputError> apply(const TraceEvent& e);
+  void go_back_to(const Mesh& state) { mesh_ = state; }
+  [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+  [[nodiscard]] Replay finish() &&;
+
+ private:
+  std::optional<InputError> check_vertex(VertexId v, const char* what) const;
+  std::optional<InputError> place(const TraceEvent& e);
+  std::optional<InputError> flip_edge(const TraceEvent& e);
+  std::optional<InputError> remove(const TraceEvent& e);
+  [[nodiscard]] std::string point(VertexId v) const { return names_.point(v.index); }
+  [[nodiscard]] std::string edge(VertexId a, VertexId b) const { return "edge from " + point(a) + " to " + point(b); }
+
+  Mesh mesh_;
+  const InputNames& names_;
+  RemovalPlan plan_;
+};
+
+InputError misfit(std::string message) { return {ErrorCode::trace_mismatch, {}, std::move(message)}; }
+
+std::optional<InputError> Replayer::check_vertex(VertexId v, const char* what) const {
+  if (!v.valid()) return misfit(std::string(what) + " without a vertex");
+  if (v.index >= mesh_.n_vertices()) {
+    return misfit(std::string(what) + " of vertex index " + std::to_string(v.index) + ", but the mesh has " +
+                  std::to_string(mesh_.n_vertices()) + " vertices");
+  }
+  if (!mesh_.outgoing(v).valid()) return misfit(std::string(what) + " of " + point(v) + ", which was removed before");
+  return std::nullopt;
+}
+
+std::optional<InputError> Replayer::apply(const TraceEvent& e) {
+  switch (e.kind) {
+    case EventKind::move:
+    case EventKind::weight:
+      return place(e);
+    case EventKind::flip:
+      return flip_edge(e);
+    case EventKind::collapse:
+    case EventKind::removal:
+      return remove(e);
+    case EventKind::hidden:
+      return check_vertex(e.vertex, "hiding");
+    case EventKind::undo:
+      return check_vertex(e.vertex, "undoing a step");
+  }
+  return misfit("of no known kind");
+}
+
+std::optional<InputError> Replayer::place(const TraceEvent& e) {
+  const bool move = e.kind == EventKind::move;
+  if (auto error = check_vertex(e.vertex, move ? "move" : "weight")) return error;
+  const WeightedPoint p = move ? e.point : WeightedPoint{0, 0, e.point.w};
+  if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.w)) {
+    return misfit(std::string(move ? "move" : "weight") + " of " + point(e.vertex) +
+                  " to what is not finite; expected finite numbers");
+  }
+  if (move) {
+    mesh_.set_point(e.vertex, p);
+  } else {
+    mesh_.set_weight(e.vertex, p.w);
+  }
+  return std::nullopt;
+}
+
+std::optional<InputError> Replayer::flip_edge(const TraceEvent& e) {
+  for (const VertexId v : e.quad) {
+    if (auto error = check_vertex(v, "flip at an edge")) return error;
+  }
+  const auto [a, b, c, d] = e.quad;
+  const std::string flip_of_edge = "flip of the " + edge(a, b);
+  const HalfedgeId h = mesh_.find_halfedge(a, b);
+  if (!h.valid()) return misfit(flip_of_edge + ", which is not in the mesh");
+  if (mesh_.is_boundary(h)) return misfit(flip_of_edge + ", which is on the boundary");
+  if (mesh_.is_constrained(h)) return misfit(flip_of_edge + ", which is constrained");
+  const VertexId left = mesh_.opposite(h), right = mesh_.opposite(mesh_.twin(h));
+  if (left != c || right != d) {
+    return misfit(flip_of_edge + " between " + point(c) + " and " + point(d) + ", but it is between " + point(left) +
+                  " and " + point(right));
+  }
+  if (c == d || mesh_.find_halfedge(c, d).valid() || mesh_.find_halfedge(d, c).valid()) {
+    return misfit(flip_of_edge + " to one from " + point(d) + " to " + point(c) + ", which is in the mesh already");
+  }
+  inlined::flip(mesh_, h);
+  return std::nullopt;
+}
+
+const char* why_not(RemovalStatus status) {
+  switch (status) {
+    case RemovalStatus::possible:
+      break;
+    case RemovalStatus::fixed:
+      return ", which is fixed";
+    case RemovalStatus::boundary_corner:
+      return ", which is a corner of the boundary";
+    case RemovalStatus::constrained:
+      return ", which is on constrained edges";
+    case RemovalStatus::no_triangulation:
+      return " with triangles that do not fill its cavity";
+  }
+  return "";
+}
+
+std::optional<InputError> Replayer::remove(const TraceEvent& e) {
+  const char* what = e.kind == EventKind::collapse ? "collapse" : "removal";
+  if (auto error = check_vertex(e.vertex, what)) return error;
+  const std::string removal_of_vertex = std::string(what) + " of " + point(e.vertex);
+  if (e.link.empty()) return misfit(removal_of_vertex + " without a link");
+  plan_ = removal_from_names(mesh_, e.vertex, e.link.front(), e.triangles, std::move(plan_));
+  if (plan_.status != RemovalStatus::possible) return misfit(removal_of_vertex + why_not(plan_.status));
+  if (plan_.link != e.link) return misfit(removal_of_vertex + " with a link that is not its own");
+  remove_vertex(mesh_, plan_);
+  return std::nullopt;
+}
+
+Replay Replayer::finish() && {
+  Replay result{std::move(mesh_), {}};
+  bool removed = false;
+  for (const VertexId v : result.mesh.vertices()) removed = removed || !result.mesh.outgoing(v).valid();
+  if (removed) result.vertices = result.mesh.compact().vertices;
+  return result;
+}
+
+InputError at_event(std::size_t index, InputError error) {
+  error.where = "event " + std::to_string(index);
+  return error;
+}
+
+}  // namespace
+
+Expected<Replay> replay_with_vertices(const Mesh& input, std::span<const TraceEvent> events, const InputNames* names) {
+  const InputNames numbers_from_0;
+  Replayer replayer(input, names != nullptr ? *names : numbers_from_0);
+  SweepStates states(events);
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const TraceEvent& e = events[i];
+    states.arrive(i, e.sweep, replayer.mesh());
+    if (!undoes_sweeps(e)) {
+      if (auto error = replayer.apply(e)) return at_event(i, *std::move(error));
+    } else if (const Mesh* state = states.at(e.to_sweep)) {
+      replayer.go_back_to(*state);
+      states.forget(i, e.to_sweep);
+    } else if (e.to_sweep != e.sweep) {
+      return at_event(i, misfit("undo in sweep " + std::to_string(e.sweep) + " to the end of sweep " +
+                                std::to_string(e.to_sweep) + ", which has not been"));
+    }
+  }
+  return std::move(replayer).finish();
+}
+
+Expected<Mesh> replay(const Mesh& input, std::span<const TraceEvent> events) {
+  auto result = replay_with_vertices(input, events);
+  if (!result) return result.error();
+  return std::move(result->mesh);
+}
+
+}  // namespace temper
