@@ -1,0 +1,27 @@
+// Which levels a contour plot has when the caller names none, and the colours of the bands between them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "temper/plot.hpp"
+
+namespace temper {
+
+/// Ascending, without repetition; those that are finite when the caller gave some. Empty when no value is finite or all
+/// are equal.
+[[nodiscard]] std::vector<double> choose_levels(const ContourPlot& plot);
+
+struct Rgb {
+  double r = 0, g = 0, b = 0;  ///< 0 … 1
+  /// What is left of it in grey print, 0 black … 1 white.
+  [[nodiscard]] double grey() const { return 0.299 * r + 0.587 * g + 0.114 * b; }
+  [[nodiscard]] std::string text() const;
+};
+
+/// From light yellow over green to dark blue, ever darker: t in [0, 1].
+[[nodiscard]] Rgb band_color(double t);
+
+}  // namespace temper
