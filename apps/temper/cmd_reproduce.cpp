@@ -1,0 +1,188 @@
+// temper reproduce [FIG...] -o DIR: the figures and claims of the paper, made again; see gallery/.
+//
+// After each figure its pictures are written, then index.html and gallery.json of all figures so far: whoever
+// stops the run has a folder of whole files that fit together.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "console.hpp"
+#include "gallery/results.hpp"
+#include "gallery/selection.hpp"
+#include "help.hpp"
+#include "options.hpp"
+#include "outputs.hpp"
+
+namespace temper::app {
+namespace {
+
+namespace fs = std::filesystem;
+using gallery::Effort, gallery::Figure, gallery::Result, gallery::Tally;
+
+struct Settings {
+  std::vector<std::string> figures;
+  std::string output;
+  bool reduced = false, list = false, require_claims = false;
+};
+
+void add_options(CLI::App& app, Settings& s) {
+  app.set_help_flag();
+  app.option_defaults()->group("Options");
+  app.add_option("FIG", s.figures, "figures by the paper's numbers: 6, or a list 6,8, or a range 16-18; none: all");
+  add_text(app, "-o,--output", "DIR", s.output,
+           "where the pictures, index.html and gallery.json go; made when it is not there");
+  app.add_flag("--reduced", s.reduced, "every claim, but fewer samples and shorter runs");
+  app.add_flag("--require-claims", s.require_claims, "exit with 1 when a claim does not hold");
+  app.add_flag("--list", s.list, "list the figures");
+  app.set_help_flag("-h,--help", "this text");
+  set_help(app, {"[FIG ...] -o DIR [options]",
+                 "  temper reproduce -o gallery              # everything: some minutes\n"
+                 "  temper reproduce 6 8 16-18 -o gallery\n"
+                 "  temper reproduce --list\n",
+                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+}
+
+[[noreturn]] void bad_usage(const std::string& message) {
+  throw Failure(Exit::bad_usage, "reproduce: " + message + "\nSee temper reproduce --help");
+}
+
+void list(std::span<const Figure> figures) {
+  for (const Figure& figure : figures) print(fmt::format("{:>2}  {}\n", figure.number, figure.title));
+}
+
+void make_folder(const std::string& path) {
+  std::error_code error;
+  if (fs::exists(path, error) && !fs::is_directory(path, error))
+    throw Failure(Exit::bad_input, path + ": cannot be written: it is not a directory");
+  fs::create_directories(path, error);
+  if (error) throw Failure(Exit::bad_input, path + ": cannot be written: " + error.message());
+}
+
+/// Ctrl-C and its like end the program when the files under way are whole.
+class SignalsHeld {
+ public:
+  SignalsHeld() {
+    sigset_t held;
+    sigemptyset(&held);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&held, signal);
+    sigprocmask(SIG_BLOCK, &held, &before_);
+  }
+  ~SignalsHeld() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+/// The folder that a gallery goes to.
+class Folder {
+ public:
+  Folder(std::string path, Effort effort) : path_(std::move(path)), effort_(effort) {
+    make_folder(path_);
+    for (const char* name : {"index.html", "gallery.json"}) outputs_.expect_text("--output", file(name), {});
+  }
+
+  [[nodiscard]] std::string file(const std::string& name) const { return (fs::path(path_) / name).string(); }
+
+  /// The pictures of the last result, and what tells of all.
+  void write(std::span<const Result> results) {
+    const SignalsHeld until_whole;
+    for (const gallery::Picture& picture : results.back().page.pictures)
+      outputs_.write_text(file(picture.name + ".svg"), picture.svg);
+    outputs_.write_text(file("index.html"), gallery::index_html(results, effort_, TEMPER_VERSION));
+    outputs_.write_text(file("gallery.json"), gallery::gallery_json(results, TEMPER_VERSION));
+  }
+
+ private:
+  std::string path_;
+  Effort effort_;
+  Outputs outputs_{"reproduce"};
+};
+
+/// On a terminal, which figure is being made.
+void show_progress(const Figure& figure, std::size_t place, std::size_t count) {
+  if (!error_is_terminal()) return;
+  fmt::print(stderr, "\rfigure {} ({} of {}): {}\x1b[K", figure.number, place, count, figure.title);
+  std::fflush(stderr);
+}
+void clear_progress() {
+  if (error_is_terminal()) fmt::print(stderr, "\r\x1b[K");
+}
+
+struct Made {
+  std::vector<Result> results;
+  std::vector<double> seconds;  ///< of each
+};
+
+Made make(std::span<const Figure> figures, Effort effort, Folder& folder) {
+  Made made;
+  for (const Figure& figure : figures) {
+    show_progress(figure, made.results.size() + 1, figures.size());
+    const auto start = std::chrono::steady_clock::now();
+    made.results.push_back({figure, figure.make(effort)});
+    made.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    folder.write(made.results);
+  }
+  clear_progress();
+  return made;
+}
+
+std::string summary_row(std::string_view number, std::string_view title, std::string_view seconds,
+                        std::string_view claims) {
+  return fmt::format("{:>6}  {}{:>9}{:>9}\n", number, pad_right(title, 58), seconds, claims);
+}
+
+std::string fraction(Tally tally) { return fmt::format("{}/{}", tally.hold, tally.all); }
+
+void print_summary(const Made& made) {
+  std::string text = summary_row("figure", "title", "seconds", "claims");
+  double seconds = 0;
+  for (std::size_t i = 0; i < made.results.size(); ++i) {
+    const Result& result = made.results[i];
+    seconds += made.seconds[i];
+    text += summary_row(std::to_string(result.figure.number), result.figure.title,
+                        fmt::format("{:.1f}", made.seconds[i]), fraction(count_claims(result.page)));
+  }
+  text += summary_row("", "", fmt::format("{:.1f}", seconds), fraction(gallery::count_claims(made.results)));
+  for (const Result& result : made.results) {
+    for (const gallery::Claim& claim : result.page.claims) {
+      if (!claim.holds) text += fmt::format("does not hold, in figure {}: {}\n", result.figure.number, claim.claim);
+    }
+  }
+  print(text);
+}
+
+}  // namespace
+
+Exit run_reproduce(const Arguments& arguments) {
+  CLI::App app("Makes the figures of \"Not so HOT Triangulations\" again, and says of each claim whether it holds.",
+               "reproduce");
+  Settings s;
+  add_options(app, s);
+  if (!parse(app, arguments)) return Exit::done;
+  const Expected<std::vector<Figure>> chosen = gallery::select(gallery::figures(), s.figures);
+  if (!chosen) bad_usage(chosen.error().what());
+  if (s.list) {
+    list(*chosen);
+    return Exit::done;
+  }
+  if (s.output.empty()) bad_usage("--output is required");
+  const Effort effort = s.reduced ? Effort::reduced : Effort::full;
+  Folder folder(s.output, effort);
+
+  const Made made = make(*chosen, effort, folder);
+  print_summary(made);
+  print(folder.file("index.html") + "\n");
+  flush_output();  // before the verdict on standard error
+  const Tally tally = gallery::count_claims(made.results);
+  if (!s.require_claims || tally.hold == tally.all) return Exit::done;
+  print_error(fmt::format("reproduce: {} of {} claims do not hold", tally.all - tally.hold, tally.all));
+  return Exit::bad_input;  // 1, as --help says
+}
+
+}  // namespace temper::app

@@ -1,0 +1,36 @@
+// Figures that were made, and the two files that tell of them all: index.html for people, gallery.json for programs.
+//
+// Neither holds a date, a duration or a path: the same pages give the same bytes.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "gallery.hpp"
+
+namespace temper::gallery {
+
+/// A figure and what its maker gave.
+struct Result {
+  Figure figure;
+  Page page;
+};
+
+struct Tally {
+  std::size_t hold = 0, all = 0;
+  Tally& operator+=(Tally other);
+};
+[[nodiscard]] Tally count_claims(const Page& page);
+[[nodiscard]] Tally count_claims(std::span<const Result> results);
+
+/// One page that shows every figure: pictures by <img src="NAME.svg">, tables, claims. No scripts, nothing from
+/// elsewhere.
+[[nodiscard]] std::string index_html(std::span<const Result> results, Effort effort, std::string_view version);
+
+/// {"version", "figures": [{"number", "title", "pictures": ["NAME.svg", …]}, …],
+///  "claims": [{"figure", "claim", "paper", "temper", "holds", "why"}, …]}, every key always there.
+[[nodiscard]] std::string gallery_json(std::span<const Result> results, std::string_view version);
+
+}  // namespace temper::gallery
