@@ -60,7 +60,7 @@ class Mesh {
   /// Weights need not be regular. O(n log n).
   [[nodiscard]] static Expected<struct BuiltMesh> build(const MeshInput& input);
 
-  // --- sizes -------------------------------------------------------------------------------------
+  // --- sizes: of the arrays, erased triangles and isolated vertices included ------------------------
   [[nodiscard]] std::size_t n_vertices() const { return vertices_.size(); }
   [[nodiscard]] std::size_t n_triangles() const { return corners_.size() / 3; }
   [[nodiscard]] std::size_t n_halfedges() const { return corners_.size(); }
@@ -78,7 +78,10 @@ class Mesh {
   /// A vertex that the user wants to stay where it is. (Boundary vertices stay without being marked.)
   [[nodiscard]] bool is_fixed(VertexId v) const { return (record(v).flags & kFixed) != 0; }
   void set_fixed(VertexId v, bool fixed);
+  /// Precondition: v is not isolated.
   [[nodiscard]] bool is_boundary(VertexId v) const { return !twin(outgoing(v)).valid(); }
+  /// In no triangle: just added, or removed and not yet dropped by compact().
+  [[nodiscard]] bool is_isolated(VertexId v) const { return !outgoing(v).valid(); }
 
   // --- halfedges ---------------------------------------------------------------------------------
   [[nodiscard]] static constexpr HalfedgeId next(HalfedgeId h) {
@@ -128,7 +131,7 @@ class Mesh {
   // --- whole mesh --------------------------------------------------------------------------------
   /// Everything that must hold of the arrays and the geometry: ids in range, twins mutual, stars whole,
   /// flags equal on both sides, every triangle counter-clockwise (exact). Says the first thing that
-  /// does not, or nothing. O(n).
+  /// does not, or nothing. Erased triangles, and vertices that became isolated with them, are passed over. O(n).
   [[nodiscard]] std::optional<std::string> validate() const;
 
   /// Bytes of the arrays.
@@ -145,7 +148,9 @@ class Mesh {
     if (b.valid()) twins_[b] = a;
   }
   void set_outgoing(VertexId v, HalfedgeId h) { record(v).outgoing = h.index; }
-  /// Marks a triangle for compact(); its neighbours get a boundary there.
+  /// Marks a triangle for compact(); its neighbours get a boundary there, and outgoing() of its corners is the
+  /// caller's to mend. Loops over triangles() meet it still: its corners are invalid, its halfedges boundary ones
+  /// without flags. n_edges(), regularity, flips and validate() pass it over; other functions need compact() first.
   void erase(TriangleId t);
   [[nodiscard]] bool is_erased(TriangleId t) const { return !corners_[halfedge(t, 0)].valid(); }
   /// Drops erased triangles and vertices of no triangle, keeps the order of the rest, and repairs

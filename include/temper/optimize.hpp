@@ -1,5 +1,6 @@
-// Algorithm 1 of the paper, in its production form: Gauss-Seidel over the vertices, each with its own
-// Newton step in (x, y, w), edges flipped as soon as they stop being regular.
+// Algorithm 1 of the paper. By default in its production form: Gauss-Seidel over the vertices, each with its own
+// Newton step in (x, y, w), edges flipped as soon as they stop being regular. paper_method() gives the paper's own;
+// each of its switches is an option by itself.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,8 @@
 #include "temper/energy.hpp"
 #include "temper/mesh.hpp"
 #include "temper/progress.hpp"
+#include "temper/regularity.hpp"
+#include "temper/trace.hpp"
 
 namespace temper {
 
@@ -44,6 +47,36 @@ enum class InterfaceVertices {
   sliding,  ///< move along the line when their two constrained edges are collinear
 };
 
+/// When a new weight is seen by the neighbours (§6.6.2).
+enum class WeightUpdates {
+  immediate,  ///< at once
+  deferred,   ///< at the end of the sweep: every weight is optimised against those of the sweep before
+};
+
+/// Removing a vertex whose patch is better without it (Algorithm 1, line 15).
+enum class Removal { none, patch };
+
+/// By what a patch with k triangles is compared with the k − 2 that fill it without its center.
+enum class RemovalMeasure {
+  sum,     ///< E(P∖p) < E(P), the paper's; for barriers any removal lowers it
+  mean,    ///< energy per triangle
+  excess,  ///< energy beyond that of equilateral triangles of the same areas
+};
+
+/// Steps that would turn a triangle over.
+enum class Inversion {
+  refuse,  ///< are not taken
+  allow,   ///< are, as in the paper: energies extrapolate, and the mesh may end as a tangle (a "HOT mess")
+};
+
+/// In which order a sweep visits the vertices.
+enum class SweepOrder {
+  hilbert,  ///< along a Hilbert curve
+  input,    ///< as numbered
+  reverse,  ///< last number first
+  random,   ///< shuffled once by the seed
+};
+
 enum class StoppingRule {
   relative,  ///< E fell by less than tolerance × E in one sweep
   paper,     ///< mean energy per triangle fell by less than tolerance
@@ -62,16 +95,31 @@ struct OptimizeOptions {
 
   Solver solver = Solver::newton;
   Unknowns unknowns = Unknowns::positions_and_weights;
-  int weights_from = 0;  ///< i_w: first sweep that changes weights
-  bool flips = true;     ///< false: the connectivity is frozen and no step may make an edge non-regular
+  int weights_from = 0;                                     ///< i_w: first sweep that changes weights
+  WeightUpdates weight_updates = WeightUpdates::immediate;  ///< deferred: not with Solver::newton, which is joint
+  bool flips = true;  ///< false: the connectivity is frozen and no step may make an edge non-regular
   FlipTiming flip_timing = FlipTiming::immediate;
+  int inner = 1;  ///< with deferred flips: most sweeps before edges are flipped; 0: until they converge
+  int outer = 0;  ///< with deferred flips: most rounds of sweeps and flips; 0: until no flips are needed
   std::optional<FlipLimit> flip_limit =
       {};                   ///< absent: unlimited for barriers (a flipping step must pay), after for HOT
   double overshoot = 1.1;   ///< of FlipLimit::after
   double relaxation = 1.7;  ///< over-relaxation of Newton steps, in (0, 2)
   InterfaceVertices interfaces = InterfaceVertices::fixed;
+  Inversion inversion = Inversion::refuse;
+  HiddenPolicy hidden = HiddenPolicy::undo;
+  SweepOrder order = SweepOrder::hilbert;
   std::optional<std::size_t> anchor =
       {};  ///< vertex whose weight is shifted to 0 after each sweep (Algorithm 1, line 17)
+
+  // Only with these are vertices removed: never on the boundary, on constrained edges or where fixed.
+  std::optional<int> collapse_from = {};    ///< i_c: first sweep with short-edge collapses (Algorithm 2); absent: none
+  std::string_view collapse_energy = "dT";  ///< E_c: F, T or dT
+  double collapse_ratio = 0.1;  ///< of the distance to the nearest neighbour to that one's shorter edge on the link
+  Removal removal = Removal::none;
+  RemovalMeasure removal_measure = RemovalMeasure::mean;
+  double removal_margin = 0.1;  ///< by which the patch must be better, relative
+  int removal_from = 10;        ///< first sweep with removals
 
   int max_sweeps = 1000;
   double tolerance = 1e-5;
@@ -80,9 +128,35 @@ struct OptimizeOptions {
   std::uint64_t seed = 1;             ///< of the jitter that frees symmetric grids
   const InputNames* names = nullptr;  ///< the user's numbering, for errors
   Executor* executor = nullptr;       ///< threads for sums over the mesh; results do not depend on it
+  Tracer tracer = {};                 ///< sees every event of the run
+  std::function<void(const struct Snapshot&)> watch = {};  ///< sees the mesh between sweeps; a copy each time
 };
 
-enum class Stopped { converged, max_sweeps, time_limit, cancelled };
+/// The options of the paper's Algorithm 1 with all its parts: golden section, flips after the inner iterations have
+/// converged, unlimited steps, inversions allowed, hidden vertices kept, collapses and the patch test from the first
+/// sweep, vertex 0 as anchor, γ = 1, vertices in their order, convergence by mean energy.
+[[nodiscard]] OptimizeOptions paper_method();
+
+/// The mesh as it is at one moment of a run.
+struct Snapshot {
+  enum class Moment { start, after_sweep, before_flips, after_flips };
+  Moment moment = Moment::start;
+  int sweep = 0;      ///< sweeps done
+  int outer = 0;      ///< rounds of deferred flips done
+  double energy = 0;  ///< of the mesh, at the γ of the sweep
+  const Mesh& mesh;   ///< in the user's units; may hold inverted triangles when those are allowed
+  const IdVector<VertexId, VertexId>& vertices;  ///< number in the input of each vertex
+};
+
+enum class Stopped {
+  converged,
+  max_sweeps,
+  max_outer,
+  time_limit,
+  cancelled,
+  tangled,  ///< triangles are inverted (Inversion::allow): no flips can make the mesh regular
+  hidden,   ///< deferred flips hid a vertex that HiddenPolicy::undo keeps
+};
 [[nodiscard]] std::string_view name(Stopped stopped);
 
 struct OptimizeReport {
@@ -91,8 +165,10 @@ struct OptimizeReport {
   std::size_t flips = 0;
   std::size_t vertices_removed = 0;
   std::size_t vertices_inserted = 0;
-  double seconds = 0;         ///< the optimisation alone
-  double initial_energy = 0;  ///< of the input, at the final γ
+  IdVector<VertexId, VertexId> vertices;  ///< number in the input of each vertex; empty when none was removed
+  std::vector<VertexId> hidden;           ///< vertices that HiddenPolicy::keep left without a power cell
+  double seconds = 0;                     ///< the optimisation alone
+  double initial_energy = 0;              ///< of the input, at the final γ
   double final_energy = 0;
   std::vector<SweepRecord> history;  ///< history[0] is the input
   std::vector<std::string> notes;    ///< what the user should know, in sentences

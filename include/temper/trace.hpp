@@ -37,9 +37,9 @@ struct TraceEvent {
   /// Energy at the γ of the sweep before and after: of the vertex's patch, or of all edges that a flip changes. NaN
   /// where none belongs to the event.
   double before = 0, after = 0;
-  WeightedPoint point = {};              ///< move, weight: where the vertex is now
-  std::array<VertexId, 4> quad = {};     ///< flip: halfedge a→b, with c on its left and d on its right, becomes d→c
-  std::vector<VertexId> link = {};       ///< collapse, removal: neighbours, counter-clockwise from the first spoke
+  WeightedPoint point = {};           ///< move, weight: where the vertex is now
+  std::array<VertexId, 4> quad = {};  ///< flip: halfedge a→b, with c on its left and d on its right, becomes d→c
+  std::vector<VertexId> link = {};    ///< collapse, removal: neighbours, counter-clockwise from the first spoke
   std::vector<std::array<VertexId, 3>> triangles = {};  ///< collapse, removal: that fill the cavity, in slot order
   int to_sweep = 0;  ///< undo without a vertex: the sweep at whose end the mesh was so; −1: the input as given
   friend bool operator==(const TraceEvent&, const TraceEvent&) = default;

@@ -4,17 +4,22 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <vector>
 
-#include "optimize/frame.hpp"
+#include "optimize/flipper.hpp"
+#include "optimize/recorder.hpp"
 #include "optimize/schedule.hpp"
 #include "optimize/settings.hpp"
 #include "optimize/vertex_step.hpp"
+#include "optimize/working_copy.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {
 
 /// Triangles that are not well-centered, exact.
 [[nodiscard]] std::size_t count_bad(const Mesh& mesh, Executor* executor);
+/// Triangles that are not counter-clockwise, exact.
+[[nodiscard]] std::size_t count_inverted(const Mesh& mesh);
 
 /// What the attempts of one call of optimize share: the report that grows, the clock, and the caller's ear.
 class Run {
@@ -39,39 +44,57 @@ class Run {
 
 class Driver {
  public:
-  Driver(Mesh& mesh, Settings& settings, const Frame& frame, Run& run)
-      : mesh_(mesh),
-        settings_(settings),
-        energy_unit_(std::pow(frame.scale, settings_.energy.length_exponent)),
-        run_(run),
-        step_(mesh, settings_, frame) {}
+  Driver(WorkingCopy& work, Settings& settings, Run& run);
 
   /// One attempt. With `may_give_up`, it ends too when triangles stay bad for many sweeps.
   void optimize(const Attempt& attempt, bool may_give_up);
 
+  /// Lawson on the whole input, before any attempt. False when its weights hide a vertex that may not be.
+  bool make_regular();
+  /// Moves free vertices by up to `amount` of their shortest edge: symmetric grids are stationary in their positions.
+  void jitter(double amount);
+
+  /// The sweep whose mesh the attempt ended with: the last one, or with HOT the best.
+  [[nodiscard]] int final_sweep() const { return final_sweep_; }
+  [[nodiscard]] const Recorder& recorder() const { return recorder_; }
+
  private:
-  bool improve_all_vertices(int sweep);
+  enum class Verdict { improving, settled, stopped };
+
+  Verdict sweep(int i, Softener& softener, bool may_give_up);
+  bool improve_all_vertices(int i);
+  void compact();
   bool halve_weights();
   void shift_weights_to_anchor();
-  std::size_t restore_deferred_flips();
+  void set_weight(VertexId v, double w);
+  bool restore_regularity();
+  [[nodiscard]] bool defers_flips() const;
   [[nodiscard]] bool converged(double before, double after) const;
   bool stagnates();
   void keep_if_best();
   void return_best();
   [[nodiscard]] double total() const;
-  void record(std::size_t flips);
+  void record();
+  void amend_record();
+  void show(Snapshot::Moment moment, int outer) const;
 
+  WorkingCopy& work_;
   Mesh& mesh_;
   Settings& settings_;
   double energy_unit_;  // the user's energy of one unit in the frame
   Run& run_;
+  Recorder recorder_;
+  Flipper flipper_;
   VertexStep step_;
-  std::size_t least_bad_ = 0;  // of this attempt so far, and for how many sweeps
+  std::vector<VertexId> sequence_;  // in which a sweep visits the vertices; empty: as they are numbered
+  double before_ = 0;               // energy at the start of the sweep
+  std::size_t least_bad_ = 0;       // of this attempt so far, and for how many sweeps
   int sweeps_since_fewer_bad_ = 0;
   int infinite_sweeps_ = 0;
   bool shrunk_ = false;
-  std::optional<Mesh> best_;  // of HOT energies: the best sweep
+  std::optional<WorkingCopy> best_;  // of HOT energies: the best sweep
   double best_energy_ = 0;
+  int best_sweep_ = 0, final_sweep_ = 0;
 };
 
 }  // namespace temper

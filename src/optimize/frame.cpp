@@ -28,18 +28,11 @@ Frame Frame::of(const Mesh& mesh) {
 }
 
 void Frame::enter(Mesh& mesh) const {
-  const double inverse = 1 / scale;
-  for (const VertexId v : mesh.vertices()) {
-    const WeightedPoint p = mesh.point(v);
-    mesh.set_point(v, {(p.x - center.x) * inverse, (p.y - center.y) * inverse, p.w * inverse * inverse});
-  }
+  for (const VertexId v : mesh.vertices()) mesh.set_point(v, from_user(mesh.point(v)));
 }
 
 void Frame::leave(Mesh& mesh) const {
-  for (const VertexId v : mesh.vertices()) {
-    const WeightedPoint p = mesh.point(v);
-    mesh.set_point(v, {p.x * scale + center.x, p.y * scale + center.y, p.w * scale * scale});
-  }
+  for (const VertexId v : mesh.vertices()) mesh.set_point(v, to_user(mesh.point(v)));
 }
 
 }  // namespace temper

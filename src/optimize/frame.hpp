@@ -20,6 +20,15 @@ struct Frame {
   void enter(Mesh& mesh) const;
   void leave(Mesh& mesh) const;
 
+  /// A point of the frame in the user's units, and back. Exact where the frame keeps to the user's grid.
+  [[nodiscard]] WeightedPoint to_user(const WeightedPoint& p) const {
+    return {p.x * scale + center.x, p.y * scale + center.y, p.w * scale * scale};
+  }
+  [[nodiscard]] WeightedPoint from_user(const WeightedPoint& p) const {
+    const double inverse = 1 / scale;
+    return {(p.x - center.x) * inverse, (p.y - center.y) * inverse, p.w * inverse * inverse};
+  }
+
   /// The nearest position that the user's coordinates can hold.
   [[nodiscard]] Vec2 snap(Vec2 p) const {
     const Vec2 c = (1 / scale) * center;

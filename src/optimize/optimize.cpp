@@ -8,34 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "base/rng.hpp"
 #include "base/text.hpp"
 #include "optimize/driver.hpp"
-#include "temper/geometry.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
 namespace {
-
-/// The mesh being worked on: in Hilbert order and in its frame, so that the user's stays as it is until the end.
-struct WorkingCopy {
-  Mesh mesh;
-  Frame frame;
-  MeshOrder order;
-
-  explicit WorkingCopy(const Mesh& user) : mesh(user), frame(Frame::of(user)), order(hilbert_order(mesh)) {
-    frame.enter(mesh);
-  }
-  [[nodiscard]] VertexId from_user(VertexId v) const {
-    const auto found = std::find(order.vertices.begin(), order.vertices.end(), v);
-    return VertexId(static_cast<std::size_t>(found - order.vertices.begin()));
-  }
-  [[nodiscard]] Mesh in_user_terms() && {
-    frame.leave(mesh);
-    restore_order(mesh, order);
-    return std::move(mesh);
-  }
-};
 
 /// Hidden vertices have no power cell, so no regular triangulation keeps them: the user must know which.
 InputError hidden_error(const Mesh& mesh, const std::vector<VertexId>& hidden, const InputNames& names) {
@@ -64,35 +42,15 @@ bool starts_outside_domain(const Mesh& mesh, const Settings& settings) {
   return settings.energy.barrier && !gets_in && !std::isfinite(total_energy(mesh, settings.model));
 }
 
-/// Moves free vertices by up to `amount` of their shortest edge: symmetric grids are stationary in their positions.
-void jitter(Mesh& mesh, const OptimizeOptions& options, const Frame& frame, double amount) {
-  if (amount == 0 || options.unknowns == Unknowns::weights || !options.flips) return;
-  const Mesh before = mesh;
-  const auto mobility = mobilities(mesh, options.interfaces);
-  Rng rng(options.seed);
-  for (const VertexId v : mesh.vertices()) {
-    const Vec2 p = mesh.position(v);
-    double shortest2 = kInfinity;
-    for (const HalfedgeId h : mesh.star(v)) {
-      shortest2 = std::min(shortest2, squared_length(mesh.position(mesh.target(h)) - p));
-    }
-    const Vec2 away = amount * std::sqrt(shortest2) * Vec2{rng.uniform(-1, 1), rng.uniform(-1, 1)};
-    if (mobility[v] != Mobility::free) continue;
-    mesh.set_position(v, frame.snap(p + away));
-    for (const HalfedgeId h : mesh.star(v)) {
-      const auto [a, b, c] = mesh.corners(Mesh::triangle(h));
-      if (orient2d(mesh.position(a), mesh.position(b), mesh.position(c)) != Sign::positive) mesh.set_position(v, p);
-    }
-  }
-  if (!restore_regularity(mesh).regular()) mesh = before;
-}
-
-/// Whether a is worse than b: regularity first; for a barrier, which is there to make triangles well-centered, their
-/// number next; then the energy.
+/// Whether a is worse than b: validity first, and regularity, but for hidden vertices that the user keeps; for a
+/// barrier, which is there to make triangles well-centered, their number next; then the energy.
 bool is_worse(const Mesh& a, const Mesh& b, const Settings& settings, const EnergyModel& model) {
   const auto standing = [&](const Mesh& mesh) {
-    const std::size_t bad = settings.energy.barrier ? count_bad(mesh, settings.options.executor) : 0;
-    return std::tuple(count_non_regular_edges(mesh, false), bad, total_energy(mesh, model, settings.options.executor));
+    const OptimizeOptions& o = settings.options;
+    const std::size_t inverted = o.inversion == Inversion::allow ? count_inverted(mesh) : 0;
+    const std::size_t non_regular = o.hidden == HiddenPolicy::keep ? 0 : count_non_regular_edges(mesh, false);
+    const std::size_t bad = settings.energy.barrier ? count_bad(mesh, o.executor) : 0;
+    return std::tuple(inverted, non_regular, bad, total_energy(mesh, model, settings.options.executor));
   };
   return standing(b) < standing(a);
 }
@@ -105,12 +63,39 @@ std::string_view name(Stopped stopped) {
       return "converged";
     case Stopped::max_sweeps:
       return "max_sweeps";
+    case Stopped::max_outer:
+      return "max_outer";
     case Stopped::time_limit:
       return "time_limit";
     case Stopped::cancelled:
       return "cancelled";
+    case Stopped::tangled:
+      return "tangled";
+    case Stopped::hidden:
+      return "hidden";
   }
   return "unknown";
+}
+
+OptimizeOptions paper_method() {
+  OptimizeOptions o;
+  o.gamma = Softening{1, LengthScale::absolute};
+  o.solver = Solver::golden;
+  o.flip_timing = FlipTiming::deferred;
+  o.inner = 0;
+  o.flip_limit = FlipLimit::unlimited;
+  o.inversion = Inversion::allow;
+  o.hidden = HiddenPolicy::keep;
+  o.order = SweepOrder::input;
+  o.anchor = 0;
+  o.collapse_from = 0;
+  o.removal = Removal::patch;
+  o.removal_measure = RemovalMeasure::sum;
+  o.removal_margin = 0;
+  o.removal_from = 0;
+  o.stopping = StoppingRule::paper;
+  o.tolerance = 1e-6;
+  return o;
 }
 
 namespace {
@@ -121,27 +106,28 @@ constexpr const char* kStillInfinite =
 constexpr const char* kNegative =
     "the energy is negative: HOT has no lower bound in the weights; energies T and BP have one";
 
-/// What an attempt starts from.
-struct Prepared {
-  WorkingCopy work;
-  Settings settings;
-  std::size_t flips = 0;  ///< that made the input regular
+InputError hidden_by_input(const Mesh& mesh, const InputNames* names) {
+  Mesh copy = mesh;
+  const InputNames numbers_from_0;
+  return hidden_error(mesh, restore_regularity(copy).hidden, names != nullptr ? *names : numbers_from_0);
+}
+
+/// Vertices that Lawson's algorithm leaves without a power cell.
+std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, HiddenPolicy policy) {
+  if (policy != HiddenPolicy::keep || count_non_regular_edges(mesh, false) == 0) return {};
+  Mesh copy = mesh;
+  return restore_regularity(copy).hidden;
+}
+
+/// What one attempt came to, in the user's terms.
+struct Result {
+  Mesh mesh;
+  IdVector<VertexId, VertexId> vertices;
+  int sweep = 0;
 };
 
-Expected<Prepared> prepare(const Mesh& mesh, const OptimizeOptions& options) {
-  WorkingCopy work(mesh);
-  auto settings = make_settings(options, work.mesh, work.frame);
-  if (!settings) return settings.error();
-  if (options.anchor) settings->options.anchor = work.from_user(VertexId(*options.anchor)).index;
-  Restoration restored;
-  if (options.flips) restored = restore_regularity(work.mesh);
-  if (!restored.regular()) {
-    for (VertexId& v : restored.hidden) v = work.order.vertices[v];
-    const InputNames numbers_from_0;
-    return hidden_error(mesh, restored.hidden, options.names != nullptr ? *options.names : numbers_from_0);
-  }
-  if (starts_outside_domain(work.mesh, *settings)) return outside_domain_error(work.mesh, *settings);
-  return Prepared{std::move(work), *std::move(settings), restored.flips};
+std::string count_of(std::size_t n, const char* one, const char* many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
 }  // namespace
@@ -149,35 +135,49 @@ Expected<Prepared> prepare(const Mesh& mesh, const OptimizeOptions& options) {
 Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, const Observer& observer) {
   Run run(options, observer);
   OptimizeReport& report = run.report;
-  std::optional<Mesh> best;  // of the attempts so far, in the user's terms
+  std::optional<Result> best;  // of the attempts so far
   std::span<const Attempt> tries;
   for (std::size_t i = 0; i == 0 || i < tries.size(); ++i) {
-    auto start = prepare(mesh, options);
-    if (!start) return start.error();
-    auto& [work, settings, flips] = *start;
-    if (i == 0) tries = attempts(settings.energy, options, work.mesh);
-    if (i == 0 && flips > 0) {
-      report.flips = flips;
-      report.notes.push_back(std::to_string(flips) + (flips == 1 ? " edge" : " edges") +
-                             " of the input flipped to make it regular");
+    WorkingCopy work(mesh, options.order);
+    auto settings = make_settings(options, work.mesh, work.frame);
+    if (!settings) return settings.error();
+    Driver driver(work, *settings, run);
+    if (i > 0) driver.recorder().returned_to(-1);
+    if (options.flips && !driver.make_regular()) return hidden_by_input(mesh, options.names);
+    if (i == 0) {
+      if (starts_outside_domain(work.mesh, *settings)) return outside_domain_error(work.mesh, *settings);
+      tries = attempts(settings->energy, options, work.mesh);
+      if (report.flips > 0) {
+        report.notes.push_back(count_of(report.flips, "edge", "edges") + " of the input flipped to make it regular");
+      }
     }
-    jitter(work.mesh, settings.options, work.frame, tries[i].jitter);
-    Driver(work.mesh, settings, work.frame, run).optimize(tries[i], i + 1 < tries.size());
+    driver.jitter(tries[i].jitter);
+    driver.optimize(tries[i], i + 1 < tries.size());
 
-    const EnergyModel model = in_user_units(settings.model, work.frame);
-    Mesh result = std::move(work).in_user_terms();
-    if (!best || !is_worse(result, *best, settings, model)) best = std::move(result);
-    const bool done = count_bad(*best, options.executor) == 0 || report.stopped == Stopped::cancelled ||
+    const EnergyModel model = in_user_units(settings->model, work.frame);
+    Result result{std::move(work).in_user_terms(), {}, driver.final_sweep()};
+    if (work.has_gaps) result.vertices = work.user_vertices();
+    if (!best || !is_worse(result.mesh, best->mesh, *settings, model)) {
+      best = std::move(result);
+    } else {
+      driver.recorder().returned_to(best->sweep);
+    }
+    const bool done = count_bad(best->mesh, options.executor) == 0 || report.stopped == Stopped::cancelled ||
                       report.stopped == Stopped::time_limit || !run.sweeps_left() || i + 1 == tries.size();
     if (!done) continue;
 
     report.initial_energy = total_energy(mesh, model, options.executor);
-    if (is_worse(*best, mesh, settings, model)) {
+    if (is_worse(best->mesh, mesh, *settings, model)) {
+      driver.recorder().returned_to(-1);
       report.notes.push_back("no better mesh was found: the input is returned as it was");
+      report.vertices_removed = 0;
     } else {
-      mesh = *std::move(best);
+      report.vertices_removed = mesh.n_vertices() - best->mesh.n_vertices();
+      report.vertices = std::move(best->vertices);
+      mesh = std::move(best->mesh);
     }
     report.final_energy = total_energy(mesh, model, options.executor);
+    report.hidden = hidden_vertices_of(mesh, options.hidden);
     if (!std::isfinite(report.final_energy)) report.notes.push_back(kStillInfinite);
     if (report.final_energy < 0) report.notes.push_back(kNegative);
     report.seconds = run.seconds();

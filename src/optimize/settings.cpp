@@ -16,6 +16,21 @@ Softening in_frame(Softening s, const Frame& frame) {
   return s;
 }
 
+/// Switches that contradict each other.
+std::optional<InputError> check_combinations(const OptimizeOptions& o) {
+  const bool deferred_flips = o.flips && o.flip_timing == FlipTiming::deferred;
+  if (o.weight_updates == WeightUpdates::deferred && o.solver == Solver::newton) {
+    return invalid("deferred weight updates need positions and weights in turn; expected solver alternating or golden");
+  }
+  if (o.weight_updates == WeightUpdates::deferred && !o.flips) {
+    return invalid("deferred weight updates cannot keep edges regular; expected flips to be allowed");
+  }
+  if (o.inversion == Inversion::allow && !deferred_flips) {
+    return invalid("inverted triangles are allowed, but edges cannot be flipped among them; expected deferred flips");
+  }
+  return std::nullopt;
+}
+
 std::optional<InputError> check(const OptimizeOptions& o, const Mesh& mesh) {
   if (o.star < 0 || o.star > 2) return invalid("star is " + std::to_string(o.star) + "; expected 0, 1 or 2");
   if (o.gamma && !(o.gamma->value > 0 && std::isfinite(o.gamma->value))) {
@@ -34,6 +49,19 @@ std::optional<InputError> check(const OptimizeOptions& o, const Mesh& mesh) {
   if (!(o.time_limit >= 0)) return invalid("time limit is " + to_text(o.time_limit) + "; expected at least 0");
   if (o.max_sweeps < 0) return invalid("max sweeps is " + std::to_string(o.max_sweeps) + "; expected at least 0");
   if (o.weights_from < 0) return invalid("weights from is " + std::to_string(o.weights_from) + "; expected at least 0");
+  if (o.inner < 0) return invalid("inner is " + std::to_string(o.inner) + "; expected at least 0");
+  if (o.outer < 0) return invalid("outer is " + std::to_string(o.outer) + "; expected at least 0");
+  if (o.collapse_from && *o.collapse_from < 0) {
+    return invalid("collapse from is " + std::to_string(*o.collapse_from) + "; expected at least 0");
+  }
+  if (!(o.collapse_ratio > 0 && o.collapse_ratio < 1)) {
+    return invalid("collapse ratio is " + to_text(o.collapse_ratio) + "; expected a number between 0 and 1");
+  }
+  if (!(o.removal_margin >= 0 && std::isfinite(o.removal_margin))) {
+    return invalid("removal margin is " + to_text(o.removal_margin) + "; expected at least 0");
+  }
+  if (o.removal_from < 0) return invalid("removal from is " + std::to_string(o.removal_from) + "; expected at least 0");
+  if (auto error = check_combinations(o)) return error;
   if (o.anchor && *o.anchor >= mesh.n_vertices()) {
     return invalid("anchor is vertex " + std::to_string(*o.anchor) + ", but the mesh has " +
                    std::to_string(mesh.n_vertices()) + " vertices");
@@ -55,7 +83,17 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   if (!energy) return energy.error();
   if (auto error = check(options, mesh)) return *std::move(error);
 
+  const auto collapse_energy = find_energy(options.collapse_energy);
+  if (!collapse_energy) return collapse_energy.error();
+  if (collapse_energy->barrier) {
+    return invalid("collapse energy is " + std::string(options.collapse_energy) +
+                   ", a barrier, which keeps edges from collapsing; expected F, T or dT");
+  }
+
   Settings s;
+  s.collapse_model.kind = collapse_energy->kind;
+  s.collapse_model.star = options.star;
+  s.collapse_model.boundary = options.boundary;
   s.energy = *energy;
   s.options = options;
   s.model.kind = energy->kind;

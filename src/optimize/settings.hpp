@@ -8,7 +8,8 @@ namespace temper {
 
 struct Settings {
   EnergyInfo energy;
-  EnergyModel model;  ///< of the sweep under way, in the frame's units
+  EnergyModel model;           ///< of the sweep under way, in the frame's units
+  EnergyModel collapse_model;  ///< E_c
   FlipLimit flip_limit = FlipLimit::unlimited;
   OptimizeOptions options;
 };

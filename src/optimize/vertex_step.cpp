@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "energy/cavity.hpp"
 #include "geometry/predicates_inline.hpp"
-#include "optimize/golden.hpp"
-#include "regularity/flip_threshold.hpp"
+#include "optimize/line_search.hpp"
+#include "optimize/removal.hpp"
 #include "regularity/power_tests.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
 namespace {
 
-// A step goes at most this part of the way to the first triangle's inversion.
-constexpr double kInversionFraction = 0.9;
 // Short of a flip by this factor when the flip does not pay.
 constexpr double kBeforeFlip = 0.99;
 // A threshold below this part of the step is a tie: stopping short of it would be standing still.
@@ -22,24 +21,9 @@ constexpr double kTie = 1e-6;
 constexpr int kTrials = 6;
 // A model decrease below this part of the patch energy is rounding, not progress.
 constexpr double kNoGain = 1e-15;
-// Flips of one vertex step; more than a few are a cascade that rarely pays.
-constexpr std::size_t kMostFlips = 64;
-// The paper's line search: steps of central differences, and the last bracket, relative to the patch radius.
-constexpr double kDifference = 1e-6;
-// Golden section cannot tell energies apart below the root of the roundoff.
-constexpr double kGoldenTolerance = 1e-8;
-constexpr int kPositionSearches = 3;
 // HOT has no barrier: nothing may come nearer to a neighbour than this part of the patch radius.
 constexpr double kShortestEdge = 1e-7;
 constexpr double kOvershootShrink = 0.1, kOvershootLeast = 1e-6;
-
-/// Sums what flips change of the energy.
-struct FlipPrice {
-  const EnergyModel& model;
-  double change = 0;
-  void before(const Mesh& mesh, HalfedgeId h) { change -= flip_energy(mesh, model, h); }
-  void after(const Mesh& mesh, HalfedgeId h) { change += flip_energy(mesh, model, h); }
-};
 
 }  // namespace
 
@@ -47,11 +31,48 @@ void VertexStep::begin_sweep(int sweep) {
   const OptimizeOptions& o = settings_.options;
   unknowns_ = o.unknowns;
   if (sweep < o.weights_from && unknowns_ == Unknowns::positions_and_weights) unknowns_ = Unknowns::positions;
+  collapses_ = o.collapse_from && sweep >= *o.collapse_from;
+  removes_ = o.removal == Removal::patch && sweep >= o.removal_from;
   overshoot_ = 1 + std::max(kOvershootLeast, (o.overshoot - 1) * std::pow(kOvershootShrink, sweep));
-  flips_ = 0;
 }
 
+/// Lines 10 to 16 of Algorithm 1.
 void VertexStep::improve(VertexId v) {
+  if (collapses_ && collapse(v)) return;
+  optimize_point(v);
+  if (removes_) remove_if_better(v);
+}
+
+/// Algorithm 2: where E_c would put v onto a neighbour, the mesh is better without v.
+bool VertexStep::collapse(VertexId v) {
+  if (!may_go(v)) return false;
+  const EnergyModel& model = settings_.collapse_model;
+  gather_patch(mesh_, v, needs_outer(model.kind), patch_);
+  const OptimizeOptions& o = settings_.options;
+  if (!nearly_collapses(patch_, model, mesh_.point(v), o.collapse_ratio, o.inversion)) return false;
+  plan_ = plan_removal(mesh_, v, std::move(plan_));
+  if (plan_.status != RemovalStatus::possible) return false;
+  if (flips_at_once() && !is_regular(mesh_, plan_)) return false;
+  flipper_.remove(EventKind::collapse, plan_, patch_energy(patch_, model, mesh_.point(v)),
+                  cavity_energy(mesh_, model, plan_));
+  return true;
+}
+
+/// Line 15 of Algorithm 1: E(P∖p) < E(P).
+void VertexStep::remove_if_better(VertexId v) {
+  if (!may_go(v) || mesh_.is_isolated(v)) return;
+  plan_ = plan_removal(mesh_, v, std::move(plan_));
+  if (plan_.status != RemovalStatus::possible) return;
+  gather(v);
+  const OptimizeOptions& o = settings_.options;
+  const PatchComparison e = compare_patch(mesh_, patch_, settings_.model, plan_, o.removal_measure);
+  if (!e.better_without(o.removal_margin)) return;
+  if (flips_at_once() && !is_regular(mesh_, plan_)) return;
+  flipper_.remove(EventKind::removal, plan_, e.with, e.without);
+}
+
+/// Lines 13 and 14 of Algorithm 1.
+void VertexStep::optimize_point(VertexId v) {
   const Freedom all = freedom(mesh_, v, mobility_[v], unknowns_);
   const Freedom positions = position_part(all);
   const bool has_weight = all.n > positions.n;
@@ -63,6 +84,7 @@ void VertexStep::improve(VertexId v) {
     case Solver::alternating:
       if (positions.n > 0) {
         newton_search(positions);
+        if (mesh_.is_isolated(v)) return;  // hidden, and removed
         gather(v);
       }
       if (has_weight) newton_search(weight_only());
@@ -70,6 +92,7 @@ void VertexStep::improve(VertexId v) {
     case Solver::golden:
       for (int i = 0; i < kPositionSearches && positions.n > 0; ++i) {
         golden_search(positions);
+        if (mesh_.is_isolated(v)) return;
         gather(v);
       }
       if (has_weight) golden_search(weight_only());
@@ -98,27 +121,15 @@ bool VertexStep::enter_domain() {
   if (!(low < high)) return false;
   constexpr double kInside = 0.1;  // of the interval, so that the barrier is not at its steepest
   const double w = std::clamp(origin_.w, low + kInside * (high - low), high - kInside * (high - low));
-  if (!place({origin_.x, origin_.y, w}, std::nullopt)) return false;
+  const WeightedPoint p{origin_.x, origin_.y, w};
+  if (!place(p, patch_energy(patch_, settings_.model, p), false) || mesh_.is_isolated(vertex_)) return false;
   gather(vertex_);
   return std::isfinite(patch_energy(patch_, settings_.model, origin_));
 }
 
-double VertexStep::radius() const {
-  double sum = 0;
-  for (const WeightedPoint& q : patch_.link) sum += squared_length(q.position() - origin_.position());
-  return std::sqrt(sum / static_cast<double>(patch_.link.size()));
-}
-
-/// The largest t ≤ 1 along step that stays clear of inverting a triangle. Signed areas are linear in t.
-double VertexStep::inversion_limit(const Step& step) const {
-  double limit = 1;
-  for (std::size_t i = 0; i < patch_.size(); ++i) {
-    const Vec2 a = patch_.q(i).position() - origin_.position(), b = patch_.r(i).position() - origin_.position();
-    const double area = cross(a, b);
-    const double slope = step[0] * (a.y - b.y) + step[1] * (b.x - a.x);
-    if (area + limit * slope < (1 - kInversionFraction) * area) limit = -kInversionFraction * area / slope;
-  }
-  return limit;
+/// How far along step a search may go.
+double VertexStep::farthest(const Step& step) const {
+  return settings_.options.inversion == Inversion::allow ? 1 : inversion_limit(patch_, origin_, step);
 }
 
 /// t, cut to what the flip limit allows along step.
@@ -142,7 +153,7 @@ double VertexStep::flip_limited(const Step& step, double t) const {
 }
 
 WeightedPoint VertexStep::moved(const Step& step, double t) const {
-  const WeightedPoint p{origin_.x + t * step[0], origin_.y + t * step[1], origin_.w + t * step[2]};
+  const WeightedPoint p = along(origin_, step, t);
   if (step[0] == 0 && step[1] == 0) return p;
   const Vec2 x = frame_.snap(p.position());
   return {x.x, x.y, p.w};
@@ -151,16 +162,17 @@ WeightedPoint VertexStep::moved(const Step& step, double t) const {
 /// One Newton step: over-relaxed, then plain, then halved until the energy falls.
 void VertexStep::newton_search(const Freedom& freedom) {
   VertexDerivatives d = patch_derivatives(patch_, settings_.model, origin_);
+  energy_ = d.value;
   if (!d.feasible) {
     if (!enter_domain()) return;
     d = patch_derivatives(patch_, settings_.model, origin_);
   }
   energy_ = d.value;
-  NewtonStep newton = newton_step(d, freedom, radius());
+  NewtonStep newton = newton_step(d, freedom, patch_radius(patch_, origin_));
   if (!(newton.predicted > kNoGain * std::abs(energy_))) return;
   const double relaxation = settings_.options.relaxation;
   for (double& s : newton.step) s *= relaxation;
-  double t = flip_limited(newton.step, inversion_limit(newton.step));
+  double t = flip_limited(newton.step, farthest(newton.step));
   for (int trial = 0; trial < kTrials; ++trial) {
     switch (try_step(newton.step, t)) {
       case Outcome::accepted:
@@ -187,36 +199,15 @@ void VertexStep::golden_search(const Freedom& freedom) {
     if (!enter_domain()) return;
     energy_ = patch_energy(patch_, settings_.model, origin_);
   }
-  const double r = radius();
-  Step direction = {};
-  double norm2 = 0;
-  const bool is_weight = !freedom.moves();
-  const double unit = is_weight ? r * r : r;
-  for (int i = 0; i < freedom.n; ++i) {
-    const auto& axis = freedom.axis[static_cast<std::size_t>(i)];
-    const auto at = [&](double t) {
-      return patch_energy(patch_, settings_.model,
-                          {origin_.x + t * axis[0], origin_.y + t * axis[1], origin_.w + t * axis[2]});
-    };
-    const double h = kDifference * unit;
-    const double slope = (at(h) - at(-h)) / (2 * h);
-    if (!std::isfinite(slope)) return;
-    norm2 += slope * slope;
-    for (std::size_t k = 0; k < 3; ++k) direction[k] -= slope * axis[k];
-  }
-  if (!(norm2 > 0)) return;
-  for (double& s : direction) s *= unit / std::sqrt(norm2);
-  const double limit = flip_limited(direction, 1);
+  const double r = patch_radius(patch_, origin_);
+  const auto direction = steepest_descent(patch_, settings_.model, origin_, freedom, freedom.moves() ? r : r * r);
+  if (!direction) return;
+  const double limit = flip_limited(*direction, farthest(*direction));
   if (!(limit > 0)) return;
-  const double t = golden_section(
-      [&](double s) {
-        return patch_energy(patch_, settings_.model,
-                            {origin_.x + s * direction[0], origin_.y + s * direction[1], origin_.w + s * direction[2]});
-      },
-      limit, kGoldenTolerance);
-  if (try_step(direction, t) == Outcome::blocked_by_flip) {
-    const double threshold = flip_threshold(mesh_, vertex_, direction);
-    if (threshold < t) try_step(direction, kBeforeFlip * threshold);
+  const double t = line_minimum(patch_, settings_.model, origin_, *direction, limit);
+  if (try_step(*direction, t) == Outcome::blocked_by_flip) {
+    const double threshold = flip_threshold(mesh_, vertex_, *direction);
+    if (threshold < t) try_step(*direction, kBeforeFlip * threshold);
   }
 }
 
@@ -224,23 +215,52 @@ VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
   const WeightedPoint p = moved(step, t);
   const double energy = patch_energy(patch_, settings_.model, p);
   if (!(energy < energy_)) return Outcome::not_lower;
-  return commit_if_lower(p, energy);
+  if (settings_.options.inversion == Inversion::refuse && !stays_oriented(p)) return Outcome::inverted;
+  return place(p, energy, settings_.energy.barrier) ? Outcome::accepted : Outcome::blocked_by_flip;
 }
 
-/// Puts the vertex at p and restores regularity; or undoes both, when a triangle would turn over, a vertex be
-/// hidden, or the flips cost more than the step gains.
-VertexStep::Outcome VertexStep::commit_if_lower(const WeightedPoint& p, double energy) {
-  if (!stays_oriented(p)) return Outcome::inverted;
-  return place(p, energy - energy_) ? Outcome::accepted : Outcome::blocked_by_flip;
-}
-
-/// The vertex at p, with what flips that needs; or where it was, and false.
-bool VertexStep::place(const WeightedPoint& p, std::optional<double> change) {
+/// The vertex at p, where its patch has that energy, with what flips that needs; or where it was, and false: when a
+/// vertex would be hidden, or flips cost more than the step gains and it must pay.
+bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
+  const bool only_weight = p.x == origin_.x && p.y == origin_.y;
+  if (only_weight && settings_.options.weight_updates == WeightUpdates::deferred) {
+    deferred_.push_back({vertex_, p.w, energy_, energy});
+    return true;
+  }
   if (!settings_.options.flips) note_regular_edges();
   mesh_.set_point(vertex_, p);
-  const bool fits = settings_.options.flips ? !flips_at_once() || flip_to_regular(change) : regular_edges_still_are();
-  if (!fits) mesh_.set_point(vertex_, origin_);
+  if (flips_at_once()) return flipper_.settle({vertex_, origin_, energy_, energy, must_pay});
+  const bool fits = settings_.options.flips || regular_edges_still_are();
+  if (fits) {
+    recorder_.placed(vertex_, origin_, p, energy_, energy);
+  } else {
+    mesh_.set_point(vertex_, origin_);
+  }
   return fits;
+}
+
+void VertexStep::nudge(VertexId v, Vec2 p) {
+  gather(v);
+  energy_ = patch_energy(patch_, settings_.model, origin_);
+  const WeightedPoint there{p.x, p.y, origin_.w};
+  if (stays_oriented(there)) place(there, patch_energy(patch_, settings_.model, there), false);
+}
+
+void VertexStep::end_sweep() {
+  for (const auto& [v, w, before, after] : deferred_) {
+    if (mesh_.is_isolated(v)) continue;
+    const WeightedPoint from = mesh_.point(v);
+    mesh_.set_weight(v, w);
+    recorder_.placed(v, from, mesh_.point(v), before, after);
+  }
+  deferred_.clear();
+}
+
+void VertexStep::renumber(const Compaction& kept) {
+  IdVector<VertexId, Mobility> mobility;
+  mobility.reserve(kept.vertices.size());
+  for (const VertexId v : kept.vertices) mobility.push_back(mobility_[v]);
+  mobility_ = std::move(mobility);
 }
 
 bool VertexStep::flips_at_once() const {
@@ -248,7 +268,7 @@ bool VertexStep::flips_at_once() const {
 }
 
 bool VertexStep::stays_oriented(const WeightedPoint& p) const {
-  const double nearest = settings_.energy.barrier ? 0 : kShortestEdge * radius();
+  const double nearest = settings_.energy.barrier ? 0 : kShortestEdge * patch_radius(patch_, origin_);
   for (std::size_t i = 0; i < patch_.size(); ++i) {
     const Vec2 q = patch_.q(i).position();
     if (inlined::orient2d(p.position(), q, patch_.r(i).position()) != Sign::positive) return false;
@@ -272,33 +292,6 @@ bool VertexStep::regular_edges_still_are() const {
       if (*was++ != 0 && !mesh_.is_constrained(e) && !is_regular(mesh_, e)) return false;
     }
   }
-  return true;
-}
-
-/// Lawson from the edges around the vertex. Undoes its flips and says no when an edge stays stuck (a vertex is
-/// hidden), or when, with a barrier, `change` of the patch plus the flips' is not a gain. Without `change`, any price.
-bool VertexStep::flip_to_regular(std::optional<double> change) {
-  lawson_.clear();
-  bool regular = true;
-  for (const HalfedgeId h : mesh_.star(vertex_)) {
-    for (const HalfedgeId e : {h, Mesh::next(h)}) {
-      if (mesh_.is_boundary(e) || mesh_.is_constrained(e)) continue;
-      if (PowerTest()(mesh_, inlined::quad(mesh_, e)) == Sign::positive) {
-        lawson_.push(e);
-        regular = false;
-      }
-    }
-  }
-  if (regular) return true;
-  const bool priced = settings_.energy.barrier && change.has_value();
-  FlipPrice price{settings_.model, change.value_or(0)};
-  const LawsonRun run = priced ? lawson_.run(mesh_, price, kMostFlips) : lawson_.run(mesh_, IgnoreFlips(), kMostFlips);
-  const bool pays = !priced || price.change < 0;
-  if (!run.finished || !pays || !lawson_.stuck(mesh_).empty()) {
-    lawson_.rollback(mesh_);
-    return false;
-  }
-  flips_ += run.flips;
   return true;
 }
 

@@ -1,0 +1,167 @@
+#include "optimize/flipper.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "energy/patch.hpp"
+#include "regularity/hidden.hpp"
+
+namespace temper {
+namespace {
+
+// Flips of one vertex step; more than a few are a cascade that rarely pays.
+constexpr std::size_t kMostFlips = 64;
+constexpr double kNoEnergy = std::numeric_limits<double>::quiet_NaN();
+
+/// Sums what flips change of the energy.
+struct FlipPrice {
+  const EnergyModel& model;
+  double change = 0;
+  void before(const Mesh& mesh, HalfedgeId h) { change -= flip_energy(mesh, model, h); }
+  void after(const Mesh& mesh, HalfedgeId h) { change += flip_energy(mesh, model, h); }
+};
+
+/// The same, and writes each flip down.
+struct FlipLog {
+  const EnergyModel& model;
+  std::vector<FlipRecord>& records;
+  double change = 0;
+  void before(const Mesh& mesh, HalfedgeId h) {
+    const auto [a, b, c, d] = inlined::quad(mesh, h);
+    records.push_back({a, b, c, d, flip_energy(mesh, model, h), 0});
+  }
+  void after(const Mesh& mesh, HalfedgeId h) {
+    records.back().after = flip_energy(mesh, model, h);
+    change += records.back().after - records.back().before;
+  }
+};
+
+}  // namespace
+
+/// Lawson on what is queued. `change`, when there is one, grows by what the flips change of the energy.
+LawsonRun Flipper::run(std::optional<double>& change, std::size_t max_flips) {
+  if (recorder_.on()) {
+    FlipLog log{settings_.model, records_};
+    const LawsonRun result = lawson_.run(mesh_, log, max_flips);
+    if (change) *change += log.change;
+    return result;
+  }
+  if (!change) return lawson_.run(mesh_, IgnoreFlips(), max_flips);
+  FlipPrice price{settings_.model, *change};
+  const LawsonRun result = lawson_.run(mesh_, price, max_flips);
+  change = price.change;
+  return result;
+}
+
+bool Flipper::settle(const Step& step) {
+  lawson_.clear();
+  records_.clear();
+  bool regular = true;
+  for (const HalfedgeId h : mesh_.star(step.v)) {
+    for (const HalfedgeId e : {h, Mesh::next(h)}) {
+      if (mesh_.is_boundary(e) || mesh_.is_constrained(e)) continue;
+      if (PowerTest()(mesh_, inlined::quad(mesh_, e)) == Sign::positive) {
+        lawson_.push(e);
+        regular = false;
+      }
+    }
+  }
+  if (regular) {
+    recorder_.placed(step.v, step.origin, mesh_.point(step.v), step.before, step.after);
+    return true;
+  }
+  std::optional<double> change;
+  if (step.must_pay) change = step.after - step.before;
+  const LawsonRun result = run(change, kMostFlips);
+  const bool pays = !change || *change < 0;
+  const WeightedPoint there = mesh_.point(step.v);
+  const bool hides = !lawson_.stuck(mesh_).empty();
+  if (!result.finished || !pays || (hides && !accept_hidden())) {
+    lawson_.rollback(mesh_);
+    mesh_.set_point(step.v, step.origin);
+    if (recorder_.on()) recorder_.undone(step.v, step.before, change ? step.before + *change : step.after);
+    return false;
+  }
+  changes_.flips += result.flips;
+  recorder_.placed(step.v, step.origin, there, step.before, step.after);
+  recorder_.flipped(records_);
+  if (!hides) return true;
+  if (settings_.options.hidden == HiddenPolicy::remove) {
+    remove_hidden(hidden_at_stuck_edges());
+  } else {
+    for (const VertexId v : hidden_at_stuck_edges()) recorder_.hidden(v);
+  }
+  return true;
+}
+
+/// Whether the policy lets the vertices at stuck edges be hidden.
+bool Flipper::accept_hidden() {
+  if (settings_.options.hidden != HiddenPolicy::remove) return settings_.options.hidden == HiddenPolicy::keep;
+  for (const VertexId v : hidden_at_stuck_edges()) {
+    plan_ = plan_removal(mesh_, v, std::move(plan_));
+    if (plan_.status != RemovalStatus::possible) return false;
+  }
+  return true;
+}
+
+std::vector<VertexId> Flipper::hidden_at_stuck_edges() {
+  std::vector<VertexId> hidden;
+  for (const HalfedgeId h : lawson_.stuck(mesh_)) hidden.push_back(reflex_end(mesh_, h));
+  std::sort(hidden.begin(), hidden.end());
+  hidden.erase(std::unique(hidden.begin(), hidden.end()), hidden.end());
+  return hidden;
+}
+
+/// Removes hidden vertices, and those that come out from their shadow. What cannot be removed stays, and is reported.
+void Flipper::remove_hidden(std::vector<VertexId> hidden) {
+  for (bool removed = true; removed && !hidden.empty(); hidden = hidden_at_stuck_edges()) {
+    removed = false;
+    lawson_.clear();
+    records_.clear();
+    for (const VertexId v : hidden) {
+      plan_ = plan_removal(mesh_, v, std::move(plan_));
+      if (plan_.status != RemovalStatus::possible) continue;
+      remove(EventKind::removal, plan_, kNoEnergy, kNoEnergy);
+      for (const VertexId q : plan_.link) lawson_.push_star(mesh_, q);
+      removed = true;
+    }
+    std::optional<double> no_price;
+    changes_.flips += run(no_price, Lawson::kNoCap).flips;
+    recorder_.flipped(records_);
+  }
+  for (const VertexId v : hidden) recorder_.hidden(v);
+}
+
+bool Flipper::restore_all() {
+  lawson_.clear();
+  records_.clear();
+  lawson_.push_all(mesh_);
+  std::optional<double> no_price;
+  const LawsonRun result = run(no_price, Lawson::kNoCap);
+  if (lawson_.stuck(mesh_).empty()) {
+    changes_.flips += result.flips;
+    recorder_.flipped(records_);
+    return true;
+  }
+  if (settings_.options.hidden == HiddenPolicy::undo) {
+    lawson_.rollback(mesh_);
+    return false;
+  }
+  changes_.flips += result.flips;
+  recorder_.flipped(records_);
+  if (settings_.options.hidden == HiddenPolicy::remove) {
+    remove_hidden(hidden_at_stuck_edges());
+  } else {
+    for (const VertexId v : hidden_at_stuck_edges()) recorder_.hidden(v);
+  }
+  return true;
+}
+
+void Flipper::remove(EventKind kind, const RemovalPlan& plan, double before, double after) {
+  recorder_.removed(kind, plan, before, after);
+  remove_vertex(mesh_, plan);
+  ++changes_.removed;
+}
+
+}  // namespace temper

@@ -1,0 +1,59 @@
+// Flips, and what else regularity asks for, as the optimiser wants them: priced, traced, undone whole, and with hidden
+// vertices treated by the user's policy.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "optimize/recorder.hpp"
+#include "optimize/settings.hpp"
+#include "regularity/lawson.hpp"
+
+namespace temper {
+
+class Flipper {
+ public:
+  Flipper(Mesh& mesh, const Settings& settings, const Recorder& recorder)
+      : mesh_(mesh), settings_(settings), recorder_(recorder) {}
+
+  /// A step of v from `origin`, already made.
+  struct Step {
+    VertexId v;
+    WeightedPoint origin;
+    double before = 0, after = 0;  ///< energy of v's patch
+    bool must_pay = false;         ///< with what the flips change, the energy must fall
+  };
+  /// Makes the edges around a step's vertex regular. Undoes all of it, the step too, and says no when that does not
+  /// pay, or hides a vertex that may not be.
+  bool settle(const Step& step);
+
+  /// Line 20 of Algorithm 1. False when it is undone, because it would hide a vertex.
+  bool restore_all();
+
+  /// Removes the plan's vertex. The edges of what fills its place are left to the caller.
+  void remove(EventKind kind, const RemovalPlan& plan, double before, double after);
+
+  /// Since the last call of this.
+  struct Changes {
+    std::size_t flips = 0, removed = 0;
+  };
+  Changes take_changes() { return std::exchange(changes_, {}); }
+  [[nodiscard]] bool has_removed() const { return changes_.removed > 0; }
+
+ private:
+  LawsonRun run(std::optional<double>& change, std::size_t max_flips);
+  bool accept_hidden();
+  void remove_hidden(std::vector<VertexId> hidden);
+  [[nodiscard]] std::vector<VertexId> hidden_at_stuck_edges();
+
+  Mesh& mesh_;
+  const Settings& settings_;
+  const Recorder& recorder_;
+  Lawson lawson_;
+  std::vector<FlipRecord> records_;  // of the run under way, when traced
+  RemovalPlan plan_;
+  Changes changes_;
+};
+
+}  // namespace temper

@@ -1,0 +1,46 @@
+// From what happens in the working copy to the events of a trace, in the user's numbers and units.
+#pragma once
+
+#include <span>
+
+#include "optimize/working_copy.hpp"
+#include "temper/topology.hpp"
+#include "temper/trace.hpp"
+
+namespace temper {
+
+/// One flip, in the numbers of the working copy: halfedge a→b became d→c.
+struct FlipRecord {
+  VertexId a, b, c, d;
+  double before = 0, after = 0;
+};
+
+class Recorder {
+ public:
+  /// `energy_unit`: the user's energy of one unit in the frame.
+  Recorder(const Tracer& tracer, const WorkingCopy& work, double energy_unit)
+      : tracer_(tracer), work_(work), energy_unit_(energy_unit) {}
+
+  /// Whether anybody listens: if not, nothing else need be called.
+  [[nodiscard]] bool on() const { return static_cast<bool>(tracer_); }
+  void begin_sweep(int sweep) { sweep_ = sweep; }
+
+  void placed(VertexId v, const WeightedPoint& from, const WeightedPoint& to, double before, double after) const;
+  void flipped(std::span<const FlipRecord> flips) const;
+  void removed(EventKind kind, const RemovalPlan& plan, double before, double after) const;
+  void hidden(VertexId v) const;
+  void undone(VertexId v, double before, double after) const;
+  /// Everything since the end of that sweep has been taken back; −1: since the input.
+  void returned_to(int sweep) const;
+
+ private:
+  [[nodiscard]] TraceEvent event(EventKind kind, double before, double after) const;
+  [[nodiscard]] VertexId user(VertexId v) const { return work_.order.vertices[v]; }
+
+  const Tracer& tracer_;
+  const WorkingCopy& work_;
+  double energy_unit_;
+  int sweep_ = 0;
+};
+
+}  // namespace temper

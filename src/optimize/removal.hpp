@@ -1,0 +1,25 @@
+// Whether a vertex should go: the paper's short-edge rule (Algorithm 2) and patch test (Algorithm 1, line 15). Both
+// only ask; the vertex step commits.
+#pragma once
+
+#include "energy/patch.hpp"
+#include "temper/optimize.hpp"
+#include "temper/topology.hpp"
+
+namespace temper {
+
+/// Lines 3 to 5 of Algorithm 2: does the position that is best by E_c come nearer to a vertex of the link than `ratio`
+/// times the shorter of that one's two link edges? The patch is closed and gathered with what E_c needs.
+[[nodiscard]] bool nearly_collapses(const Patch& patch, const EnergyModel& collapse_model, const WeightedPoint& p,
+                                    double ratio, Inversion inversion);
+
+/// The energies of P and of P∖p, as `measure` compares them.
+struct PatchComparison {
+  double with = 0, without = 0;
+  /// Better without, by at least `margin` relative to what it is.
+  [[nodiscard]] bool better_without(double margin) const;
+};
+[[nodiscard]] PatchComparison compare_patch(const Mesh& mesh, const Patch& patch, const EnergyModel& model,
+                                            const RemovalPlan& plan, RemovalMeasure measure);
+
+}  // namespace temper

@@ -1,0 +1,83 @@
+#include "optimize/working_copy.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace temper {
+namespace {
+
+template <class IdType>
+IdVector<IdType, IdType> identity(std::size_t size) {
+  IdVector<IdType, IdType> ids(size);
+  for (const IdType i : IdRange<IdType>(size)) ids[i] = i;
+  return ids;
+}
+
+/// The ids that are left of an order, renumbered 0, 1, 2, … in the order of their numbers.
+template <class IdType>
+IdVector<IdType, IdType> ranks(const IdVector<IdType, IdType>& order) {
+  std::vector<IdType> sorted(order.begin(), order.end());
+  std::sort(sorted.begin(), sorted.end());
+  IdVector<IdType, IdType> result;
+  result.reserve(order.size());
+  for (const IdType i : order) {
+    const auto at = std::lower_bound(sorted.begin(), sorted.end(), i);
+    result.push_back(IdType(static_cast<std::size_t>(at - sorted.begin())));
+  }
+  return result;
+}
+
+template <class IdType>
+IdVector<IdType, IdType> compose(const IdVector<IdType, IdType>& order, const IdVector<IdType, IdType>& kept) {
+  IdVector<IdType, IdType> result;
+  result.reserve(kept.size());
+  for (const IdType i : kept) result.push_back(order[i]);
+  return result;
+}
+
+}  // namespace
+
+WorkingCopy::WorkingCopy(const Mesh& user, SweepOrder sweeps) : mesh(user), frame(Frame::of(user)) {
+  if (sweeps == SweepOrder::hilbert) {
+    order = hilbert_order(mesh);
+  } else {
+    order = {identity<VertexId>(mesh.n_vertices()), identity<TriangleId>(mesh.n_triangles())};
+  }
+  frame.enter(mesh);
+}
+
+VertexId WorkingCopy::from_user(VertexId v) const {
+  const auto found = std::find(order.vertices.begin(), order.vertices.end(), v);
+  return VertexId(static_cast<std::size_t>(found - order.vertices.begin()));
+}
+
+Compaction WorkingCopy::compact() {
+  Compaction kept = mesh.compact();
+  order = {compose(order.vertices, kept.vertices), compose(order.triangles, kept.triangles)};
+  has_gaps = true;
+  return kept;
+}
+
+Mesh WorkingCopy::in_user_terms() const& {
+  WorkingCopy copy = *this;
+  return std::move(copy).in_user_terms();
+}
+
+Mesh WorkingCopy::in_user_terms() && {
+  frame.leave(mesh);
+  if (has_gaps) {
+    restore_order(mesh, {ranks(order.vertices), ranks(order.triangles)});
+  } else {
+    restore_order(mesh, order);
+  }
+  return std::move(mesh);
+}
+
+IdVector<VertexId, VertexId> WorkingCopy::user_vertices() const {
+  IdVector<VertexId, VertexId> result = order.vertices;
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+}  // namespace temper
