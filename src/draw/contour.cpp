@@ -72,7 +72,7 @@ class Marcher {
   [[nodiscard]] Node crossing(const Corner& a, const Corner& b) const {
     const bool ordered = sample_name(a) < sample_name(b);
     const Corner &low = ordered ? a : b, &high = ordered ? b : a;
-    const double t = (level_ - low.f) / (high.f - low.f);
+    const double t = (0.5 * level_ - 0.5 * low.f) / (0.5 * high.f - 0.5 * low.f);  // halves do not overflow
     const Vec2 from = corner_node(low).at, to = corner_node(high).at;
     const bool along_x = low.j == high.j, along_y = low.i == high.i;
     // A cell has at most one diagonal side; it is named by the cell's lower left sample.

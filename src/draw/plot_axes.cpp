@@ -17,10 +17,11 @@ constexpr double kLabelGap = 4;                // between a tick and its label
 constexpr double kBorder = 8;                  // free around everything
 constexpr double kTitleRoom = kPlotFont + 12;  // above the plot
 constexpr double kTicksBelow = kTick + kLabelGap + kPlotFont;
-constexpr double kPerXTick = 64, kPerYTick = 36;  // pixels between ticks, at least
-constexpr double kLeastSide = 40;                 // of the plot, whatever has to fit around it
-constexpr double kUsualAspect = 0.72;             // height over width when nothing else decides
-constexpr double kRelativeSpan = 1e-12;           // of the magnitude: a shorter range is a point to doubles' eyes
+constexpr double kPerXTick = 64, kPerYTick = 36;        // pixels between ticks, at least
+constexpr double kLeastSide = 40;                       // of the plot, whatever has to fit around it
+constexpr double kUsualAspect = 0.72;                   // height over width when nothing else decides
+constexpr double kSmallest = 1e-280, kLargest = 1e280;  // what ticks can count in without overflow
+constexpr double kRelativeSpan = 1e-12;                 // of the magnitude: a shorter range is a point to doubles' eyes
 
 double label_room(const Ticks& ticks) {
   double room = 0;
@@ -58,17 +59,14 @@ PlotRange drawable(PlotRange range, bool logarithmic) {
   if (!std::isfinite(range.low) || !std::isfinite(range.high)) return logarithmic ? PlotRange{1, 10} : PlotRange{0, 1};
   if (logarithmic) {
     if (!(range.high > 0)) return {1, 10};
-    constexpr double kLeast = 1e-300;  // so that no power of ten below is subnormal
-    range.low = std::max(range.low, kLeast);
-    range.high = std::max(range.high, kLeast);
-    if (range.low <= 0 || !(range.high > range.low * (1 + kRelativeSpan))) {
-      return {range.high / 10, range.high * 10};
-    }
-    return range;
+    range.low = std::clamp(range.low, kSmallest, kLargest);
+    range.high = std::clamp(range.high, kSmallest, kLargest);
+    return range.high > range.low * (1 + kRelativeSpan) ? range : PlotRange{range.high / 10, range.high * 10};
   }
+  range = {std::clamp(range.low, -kLargest, kLargest), std::clamp(range.high, -kLargest, kLargest)};
   const double size = std::max(std::abs(range.low), std::abs(range.high));
-  if (range.high - range.low > kRelativeSpan * size) return range;
-  const double half = size > 0 ? size / 2 : 0.5;
+  if (range.high - range.low > std::max(kSmallest, kRelativeSpan * size)) return range;
+  const double half = size > kSmallest ? size / 2 : 0.5;
   return {range.low - half, range.high + half};
 }
 

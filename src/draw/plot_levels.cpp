@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "draw/plot_axes.hpp"
 #include "draw/plot_ticks.hpp"
 
 namespace temper {
@@ -21,7 +22,7 @@ std::vector<double> finite_sorted(std::span<const double> values) {
 
 std::vector<double> linear_levels(double low, double high, double n) {
   std::vector<double> levels;
-  for (const Tick& tick : linear_ticks({low, high}, n).ticks) levels.push_back(tick.value);
+  for (const Tick& tick : linear_ticks(drawable({low, high}, false), n).ticks) levels.push_back(tick.value);
   return levels;
 }
 

@@ -50,12 +50,22 @@ std::string significant(double value) {
   return {buffer, result.ptr};
 }
 
+// Viewers drop the space at either end of a <tspan>, or of text beside one.
+std::string keep_end_spaces(std::string_view text) {
+  constexpr std::string_view kNoBreak = "\xc2\xa0";
+  std::string kept(text);
+  if (kept.ends_with(' ')) kept.replace(kept.size() - 1, 1, kNoBreak);
+  if (kept.starts_with(' ')) kept.replace(0, 1, kNoBreak);
+  return kept;
+}
+
 }  // namespace
 
 std::string rich_text(std::string_view label) {
   std::string svg;
   double back = 0;  // what returns to the baseline, in ems of the full size
-  for_each_piece(label, [&](std::string_view text, char script) {
+  for_each_piece(label, [&](std::string_view piece, char script) {
+    const std::string text = keep_end_spaces(piece);
     const double shift = script == '_' ? kLower : script == '^' ? kRaise : 0;
     const double dy = back + shift;
     back = -shift;

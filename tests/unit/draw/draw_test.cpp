@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cctype>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,46 +10,15 @@
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/geometry.hpp"
+#include "unit/draw/svg_reading.hpp"
 
 namespace temper {
 namespace {
 
+using test::count;
+using test::expect_well_formed;
 using test::lattice;
 using test::mesh_of;
-
-// The nesting of the document's tags, checked by hand: what is opened is closed, and nothing is stray.
-void expect_well_formed(std::string_view svg) {
-  std::vector<std::string> open;
-  std::size_t elements = 0;
-  for (std::size_t at = svg.find('<'); at != std::string_view::npos; at = svg.find('<', at + 1)) {
-    const std::size_t end = svg.find('>', at);
-    ASSERT_NE(end, std::string_view::npos);
-    std::string_view tag = svg.substr(at + 1, end - at - 1);
-    if (tag.front() == '/') {
-      ASSERT_FALSE(open.empty());
-      EXPECT_EQ(open.back(), tag.substr(1));
-      open.pop_back();
-      continue;
-    }
-    ++elements;
-    std::size_t quotes = 0;
-    for (const char c : tag) quotes += c == '"';
-    EXPECT_EQ(quotes % 2, 0u) << tag;
-    const std::string name(tag.substr(0, tag.find_first_of(" /")));
-    EXPECT_NE(std::isalpha(static_cast<unsigned char>(name[0])), 0) << tag;
-    if (tag.back() != '/') open.push_back(name);
-  }
-  EXPECT_TRUE(open.empty());
-  EXPECT_GT(elements, 3u);
-  EXPECT_EQ(svg.find("nan"), std::string_view::npos);
-  EXPECT_EQ(svg.find("inf"), std::string_view::npos);
-}
-
-std::size_t count(std::string_view text, std::string_view what) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(what); at != std::string_view::npos; at = text.find(what, at + what.size())) ++n;
-  return n;
-}
 
 bool has_class(const std::string& svg, const std::string& name) {
   return svg.find("class=\"" + name + "\"") != std::string::npos;

@@ -3,84 +3,24 @@
 
 #include <gtest/gtest.h>
 
-#include <cctype>
 #include <string>
 #include <vector>
 
 #include "draw/xml.hpp"
+#include "unit/draw/svg_reading.hpp"
 
 namespace temper {
 namespace {
 
-// Reads the subset of SVG paths that PathText writes: m, l, z and whole circles of two a.
-struct Reader {
-  std::string text;
-  std::size_t at = 0;
-
-  [[nodiscard]] bool more_numbers() {
-    while (at < text.size() && text[at] == ' ') ++at;
-    return at < text.size() && (text[at] == '-' || std::isdigit(static_cast<unsigned char>(text[at])) != 0);
-  }
-  std::int64_t number() {
-    EXPECT_TRUE(more_numbers()) << text.substr(at);
-    std::size_t used = 0;
-    const std::int64_t value = std::stoll(text.substr(at), &used);
-    at += used;
-    return value;
-  }
-};
-
-struct Read {
-  std::vector<std::pair<GridPoint, GridPoint>> segments;
-  std::vector<std::pair<GridPoint, std::int64_t>> circles;
-};
-
-Read read(const std::string& text) {
-  Reader r{text};
-  Read result;
-  GridPoint at, start;
-  while (r.at < text.size()) {
-    const char command = text[r.at++];
-    if (command == 'z') {
-      if (!(at == start)) result.segments.push_back({at, start});
-      at = start;
-      continue;
-    }
-    EXPECT_NE(std::string("mla").find(command), std::string::npos) << command;
-    if (command == 'a') {
-      do {  // a repeated command is left out
-        const std::int64_t radius = r.number();
-        EXPECT_EQ(r.number(), radius);
-        for (const std::int64_t flag : {0, 1, 0}) EXPECT_EQ(r.number(), flag);
-        const std::int64_t across = r.number();
-        EXPECT_EQ(std::abs(across), 2 * radius);
-        EXPECT_EQ(r.number(), 0);
-        at.x += across;
-        if (across > 0) result.circles.push_back({{at.x - radius, at.y}, radius});
-      } while (r.more_numbers());
-      continue;
-    }
-    do {
-      const GridPoint from = at;
-      at.x += r.number();
-      at.y += r.number();
-      if (command == 'm') {
-        start = at;
-        EXPECT_FALSE(r.more_numbers()) << "numbers after a move would be a line";
-      } else {
-        result.segments.push_back({from, at});
-      }
-    } while (r.more_numbers());
-  }
-  return result;
-}
+using test::Read;
+using test::read_path;
 
 TEST(PathText, SegmentsReadBackEachOnceInEitherDirection) {
   const std::vector<std::pair<GridPoint, GridPoint>> segments = {
       {{0, 0}, {10, 5}}, {{10, 5}, {-3, -7}}, {{8, 8}, {-3, -7}}, {{100, 0}, {100, 1}}, {{0, 0}, {0, 1}}};
   PathText path;
   for (const auto& [a, b] : segments) path.segment(a, b);
-  const Read back = read(path.text());
+  const Read back = read_path(path.text());
   ASSERT_EQ(back.segments.size(), segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const auto& [a, b] = segments[i];
@@ -112,7 +52,7 @@ TEST(PathText, CirclesAndPolygonsReadBack) {
   path.line_to({5, 4});
   path.close();
   path.circle({-1, 0}, 2);
-  const Read back = read(path.text());
+  const Read back = read_path(path.text());
   ASSERT_EQ(back.circles.size(), 2u);
   EXPECT_EQ(back.circles[0].first, (GridPoint{10, -4}));
   EXPECT_EQ(back.circles[0].second, 7);
