@@ -46,7 +46,9 @@ void Mesh::erase(TriangleId t) {
     if (twin(h).valid()) twins_[twin(h)] = HalfedgeId();
     twins_[h] = HalfedgeId();
     corners_[h] = VertexId();
+    constrained_[h] = 0;
   }
+  regions_[t] = 0;
 }
 
 Compaction Mesh::compact() {

@@ -2,16 +2,16 @@
 //
 // A stuck edge names the vertex at its reflex end, and rightly so (lawson.hpp). But a vertex can hide in the shadow
 // of another: next to a tall peak the surface may be convex around a vertex that is itself above the regular
-// surface. So the named vertices are taken out of a copy of the mesh, Lawson runs again, and whatever is stuck then
-// is hidden too. Only vertices inside the domain and off all constrained edges can be taken out of a mesh that must
-// keep its domain; the others are named and their stuck edges left.
+// surface. So the named vertices are taken out, Lawson runs again, and whatever is stuck then is hidden too. What was
+// hidden stays hidden when another hidden vertex goes, for the regular surface is the same without it. Only vertices
+// that plan_removal can take out of a mesh that must keep its domain are taken out; the others are named and their
+// stuck edges left.
 #include "regularity/hidden.hpp"
 
 #include <algorithm>
+#include <utility>
 
-#include "regularity/lawson.hpp"
 #include "temper/geometry.hpp"
-#include "temper/topology.hpp"
 
 namespace temper {
 namespace {
@@ -21,60 +21,11 @@ void sort_unique(std::vector<VertexId>& vertices) {
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
 
-bool can_be_removed(const Mesh& mesh, VertexId v) {
-  if (mesh.is_boundary(v)) return false;
-  for (const HalfedgeId h : mesh.star(v)) {
-    if (mesh.is_constrained(h)) return false;
-  }
-  return true;
-}
-
-/// Flips edges of v away until its link is a triangle, or a convex quad with v where the diagonals cross: the one case
-/// in which an inner vertex of degree four or more has no edge that can be flipped.
-void simplify_star(Mesh& mesh, VertexId v) {
-  for (HalfedgeId flippable;;) {
-    std::size_t degree = 0;
-    flippable = HalfedgeId();
-    for (const HalfedgeId h : mesh.star(v)) {
-      ++degree;
-      if (!flippable.valid() && can_flip(mesh, h) == FlipStatus::possible) flippable = h;
-    }
-    if (degree == 3 || !flippable.valid()) return;
-    flip(mesh, flippable);
-  }
-}
-
-//        c                      c        A star of three becomes one triangle, a star of four two: a fan from
-//      / | \                  /   \      the first corner of the link. The old triangles are erased.
-//     d--v--b      becomes    d     b
-//      \ | /                  \ . /
-//        a                      a
-void remove_simple_star(Mesh& mesh, VertexId v) {
-  std::vector<VertexId> link;
-  std::vector<inlined::OuterSide> sides;
-  std::vector<TriangleId> old;
-  for (const HalfedgeId h : mesh.star(v)) {
-    link.push_back(mesh.target(h));
-    sides.push_back(inlined::outer_side(mesh, Mesh::next(h)));
-    old.push_back(Mesh::triangle(h));
-  }
-  TEMPER_ASSERT(link.size() == 3 || link.size() == 4);
-  const std::int32_t region = mesh.region(old[0]);
-  for (const TriangleId t : old) mesh.erase(t);
-  HalfedgeId closing;  // the side of the fan so far that faces the next triangle
-  for (std::size_t i = 1; i + 1 < link.size(); ++i) {
-    const TriangleId t = mesh.add_triangle({link[0], link[i], link[i + 1]}, region);
-    if (i == 1) {
-      inlined::attach(mesh, Mesh::halfedge(t, 0), sides[0]);
-    } else {
-      mesh.link(Mesh::halfedge(t, 0), closing);
-    }
-    inlined::attach(mesh, Mesh::halfedge(t, 1), sides[i]);
-    closing = Mesh::halfedge(t, 2);
-    for (int k = 0; k < 3; ++k) mesh.set_outgoing(mesh.origin(Mesh::halfedge(t, k)), Mesh::halfedge(t, k));
-  }
-  inlined::attach(mesh, closing, sides.back());
-  for (const VertexId u : link) mesh.set_outgoing(u, canonical_outgoing(mesh, mesh.outgoing(u)));
+std::vector<VertexId> reflex_ends(const Mesh& mesh, const std::vector<HalfedgeId>& stuck) {
+  std::vector<VertexId> ends;
+  for (const HalfedgeId h : stuck) ends.push_back(reflex_end(mesh, h));
+  sort_unique(ends);
+  return ends;
 }
 
 }  // namespace
@@ -84,29 +35,28 @@ VertexId reflex_end(const Mesh& mesh, HalfedgeId stuck) {
   return orient2d(mesh.position(d), mesh.position(c), mesh.position(a)) == Sign::positive ? b : a;
 }
 
-std::vector<VertexId> hidden_vertices(const Mesh& mesh, const std::vector<HalfedgeId>& stuck) {
-  Mesh reduced = mesh;
-  std::vector<VertexId> hidden;
-  std::vector<HalfedgeId> edges = stuck;
+HiddenVertices remove_hidden(Mesh& mesh, Lawson& lawson, const RestorationObserver* observer) {
+  HiddenVertices result;
+  FlipObserver flips{observer};
+  RemovalPlan plan;
   for (bool removed = true; removed;) {
-    std::vector<VertexId> found;
-    for (const HalfedgeId h : edges) found.push_back(reflex_end(reduced, h));
-    hidden.insert(hidden.end(), found.begin(), found.end());
-    sort_unique(found);
     removed = false;
+    const std::vector<VertexId> found = reflex_ends(mesh, lawson.stuck(mesh));
+    result.hidden.insert(result.hidden.end(), found.begin(), found.end());
     for (const VertexId v : found) {
-      if (!can_be_removed(reduced, v)) continue;
-      simplify_star(reduced, v);
-      remove_simple_star(reduced, v);
+      plan = plan_removal(mesh, v, std::move(plan));
+      if (plan.status != RemovalStatus::possible) continue;
+      if (observer != nullptr && observer->removing) observer->removing(plan);
+      remove_vertex(mesh, plan);
+      lawson.push_removal(mesh, plan);
+      result.removed.push_back(v);
       removed = true;
     }
-    Lawson lawson;
-    lawson.push_all(reduced);
-    lawson.run(reduced);
-    edges = lawson.stuck(reduced);
+    result.flips += lawson.run(mesh, flips).flips;
   }
-  sort_unique(hidden);
-  return hidden;
+  lawson.commit();  // a flip before a removal cannot be undone
+  sort_unique(result.hidden);
+  return result;
 }
 
 }  // namespace temper

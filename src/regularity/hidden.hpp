@@ -1,17 +1,38 @@
 // Hidden vertices: those whose power cell is empty in the regular triangulation of the constrained domain.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
+#include "regularity/lawson.hpp"
 #include "temper/mesh.hpp"
+#include "temper/regularity.hpp"
 
 namespace temper {
+
+/// The hook that tells an observer of each flip, in the vertices' numbers.
+struct FlipObserver {
+  const RestorationObserver* observer = nullptr;
+  void before(const Mesh& mesh, HalfedgeId h) const {
+    if (observer == nullptr || !observer->flipped) return;
+    const inlined::Quad q = inlined::quad(mesh, h);
+    observer->flipped(q.a, q.b, q.c, q.d);
+  }
+  void after(const Mesh&, HalfedgeId) const {}
+};
 
 /// The end at which the quad of a stuck edge is not strictly convex. Exactly one of the two is.
 [[nodiscard]] VertexId reflex_end(const Mesh& mesh, HalfedgeId stuck);
 
-/// All hidden vertices, by number, of a mesh on which Lawson's algorithm has run and left these edges stuck.
-/// Works on a copy; O(n) a layer of shadows, seldom more than two.
-[[nodiscard]] std::vector<VertexId> hidden_vertices(const Mesh& mesh, const std::vector<HalfedgeId>& stuck);
+/// What remove_hidden found and did.
+struct HiddenVertices {
+  std::vector<VertexId> hidden;   ///< all, by number
+  std::vector<VertexId> removed;  ///< those that could be, in this order
+  std::size_t flips = 0;
+};
+
+/// Removes hidden vertices of a mesh on which `lawson` has run to its end, flips until it is regular again, and so on
+/// until nothing is stuck but at vertices that cannot be removed. A few removals and flips a hidden vertex.
+HiddenVertices remove_hidden(Mesh& mesh, Lawson& lawson, const RestorationObserver* observer = nullptr);
 
 }  // namespace temper

@@ -4,7 +4,9 @@
 // Why it ends. Lift every vertex to height |x|² − w. An edge is not regular when the lifted surface is concave
 // across it; flipping it replaces the upper two faces of a tetrahedron by the lower two. The surface only ever goes
 // down, strictly at each flip, so no triangulation comes twice. (With ties by index the same holds of the perturbed
-// weights.) At most O(n²) flips; about as many as there are vertices in practice.
+// weights.) At most O(n²) flips; about as many as there are vertices in practice. The signed volume under the surface
+// falls by that tetrahedron's whatever the triangles' orientation, so it ends even where some are turned over; but
+// then a flip may join two vertices that have an edge already. All triangles counter-clockwise is a precondition.
 //
 // Which edges are queued. A flip can spoil, or free, only the four edges around it: it pushes those. The queue
 // holds halfedge slots, with no check when one is taken out. That is safe: a flip moves edges between slots of its
@@ -27,6 +29,7 @@
 #include <vector>
 
 #include "regularity/power_tests.hpp"
+#include "temper/topology.hpp"
 
 namespace temper {
 
@@ -62,6 +65,16 @@ class Lawson {
     for (const HalfedgeId h : mesh.star(v)) {
       push(h);
       push(Mesh::next(h));
+    }
+  }
+  /// Queues the edges of the triangles that remove_vertex(mesh, plan) has just written. The journal must be empty, or
+  /// never rolled back: it cannot undo a removal.
+  void push_removal(const Mesh& mesh, const RemovalPlan& plan) {
+    for (const auto& corners : plan.triangles) {
+      const HalfedgeId h = mesh.find_halfedge(corners[0], corners[1]);
+      push(h);
+      push(Mesh::next(h));
+      push(Mesh::prev(h));
     }
   }
   void push_all(const Mesh& mesh) {

@@ -1,17 +1,63 @@
-// restore_regularity: Lawson on all edges, then the names of the vertices that stuck edges run into.
+// restore_regularity: Lawson on all edges, then what the policy says of the vertices that stuck edges run into.
+#include <utility>
+
 #include "regularity/hidden.hpp"
-#include "regularity/lawson.hpp"
-#include "temper/regularity.hpp"
+#include "temper/geometry.hpp"
 
 namespace temper {
+namespace {
 
-Restoration restore_regularity(Mesh& mesh, HiddenPolicy /*policy*/, const RestorationObserver* /*observer*/) {
+[[maybe_unused]] bool all_counter_clockwise(const Mesh& mesh) {
+  for (const TriangleId t : mesh.triangles()) {
+    if (mesh.is_erased(t)) continue;
+    const auto [a, b, c] = mesh.corners(t);
+    if (orient2d(mesh.position(a), mesh.position(b), mesh.position(c)) != Sign::positive) return false;
+  }
+  return true;
+}
+
+/// All hidden vertices, removing them from a copy to find those that hide in another's shadow.
+std::vector<VertexId> find_hidden(const Mesh& mesh, const Lawson& lawson) {
+  Mesh reduced = mesh;
+  Lawson again = lawson;
+  return remove_hidden(reduced, again).hidden;
+}
+
+void undo(Mesh& mesh, Lawson& lawson, const RestorationObserver* observer) {
+  lawson.rollback(mesh);
+  if (observer != nullptr && observer->undone) observer->undone();
+}
+
+}  // namespace
+
+Restoration restore_regularity(Mesh& mesh, HiddenPolicy policy, const RestorationObserver* observer) {
+  TEMPER_ASSERT(all_counter_clockwise(mesh));
   Lawson lawson;
   lawson.push_all(mesh);
   Restoration result;
-  result.flips = lawson.run(mesh).flips;
+  result.flips = lawson.run(mesh, FlipObserver{observer}).flips;
   result.stuck = lawson.stuck(mesh);
-  if (!result.stuck.empty()) result.hidden = hidden_vertices(mesh, result.stuck);
+  if (result.stuck.empty()) return result;
+  switch (policy) {
+    case HiddenPolicy::keep:
+      result.hidden = find_hidden(mesh, lawson);
+      break;
+    case HiddenPolicy::undo:
+      result.hidden = find_hidden(mesh, lawson);
+      undo(mesh, lawson, observer);
+      result.flips = 0;
+      result.stuck.clear();
+      result.undone = true;
+      break;
+    case HiddenPolicy::remove: {
+      HiddenVertices found = remove_hidden(mesh, lawson, observer);
+      result.flips += found.flips;
+      result.stuck = lawson.stuck(mesh);
+      result.hidden = std::move(found.hidden);
+      result.removed = std::move(found.removed);
+      break;
+    }
+  }
   return result;
 }
 

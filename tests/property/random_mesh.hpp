@@ -82,8 +82,9 @@ inline Mesh random_mesh(Rng& rng, int n, int denominator = 0) {
 }
 
 /// outgoing() of every vertex is the one that the rest of the mesh determines: what undoing bit for bit rests on.
-inline bool has_canonical_outgoing(const Mesh& mesh) {
+inline bool has_canonical_outgoing(const Mesh& mesh, bool with_isolated = false) {
   for (const VertexId v : mesh.vertices()) {
+    if (with_isolated && mesh.is_isolated(v)) continue;
     if (mesh.outgoing(v) != canonical_outgoing(mesh, mesh.outgoing(v))) return false;
   }
   return true;

@@ -1,0 +1,226 @@
+// Vertex removal: ask and price (plan_removal), and read a plan back from numbers.
+//
+//        3-----2               3-----2          before: k triangles v,i,i+1 around v, from spoke v→0 = first on
+//       / \   / \             / \     \         after:  the polygon of the link in k − 2 triangles, in the slots of
+//      /   \ /   \           /   \     \                the star from first on; two slots are erased, v is isolated
+//     4-----v-----1   →     4     \     1       keeps:  the outer edges with their flags, the region, the domain
+//      \   / \   /           \     \   /        refuses: a fixed vertex; one on constrained edges, unless they are two
+//       \ /   \ /             \     \ /                 in line, as below
+//        5-----0               5-----0          cost:   the plan O(k³), the commit O(k²)
+//
+// On a straight line, of the boundary or of constrained edges, the two edges of the line become one with their flag:
+//
+//        2-----1               2-----1          boundary: k triangles become k − 1, one slot is erased; the first
+//       / \   / \             / \     \                   spoke is v's boundary halfedge, 3→0 the new boundary edge
+//      /   \ /   \           /   \     \        interface: the same on both sides of the line; the first spoke is one
+//     3-----v-----0   →     3-----------0                 of its two, and the side on its left comes first
+//
+// The commit is in commit_removal.cpp.
+#include <algorithm>
+#include <utility>
+
+#include "temper/geometry.hpp"
+#include "temper/topology.hpp"
+#include "topology/cavity.hpp"
+
+namespace temper {
+namespace {
+
+using Corners = std::array<VertexId, 3>;
+
+/// What the star of a vertex is to a removal.
+struct StarShape {
+  RemovalStatus status = RemovalStatus::possible;
+  HalfedgeId first;              ///< the first spoke, as the numbers of the vertices decide it
+  bool on_line = false;          ///< two edges of the boundary, or two constrained ones, become one
+  HalfedgeId line_end = {};      ///< the other spoke of an interface; invalid on the boundary
+  bool line_constrained = true;  ///< the flag of the new edge
+};
+
+/// Does v lie exactly on the segment ab, between its ends?
+bool is_between(Vec2 a, Vec2 v, Vec2 b) {
+  if (orient2d(a, v, b) != Sign::zero) return false;
+  return a.x != b.x ? (a.x < v.x) == (v.x < b.x) && v.x != a.x && v.x != b.x
+                    : (a.y < v.y) == (v.y < b.y) && v.y != a.y && v.y != b.y;
+}
+
+/// Do all triangles around v have one region, except across constrained spokes?
+bool has_one_region_a_side(const Mesh& mesh, VertexId v) {
+  for (const HalfedgeId h : mesh.star(v)) {
+    if (mesh.is_boundary(h) || mesh.is_constrained(h)) continue;
+    if (mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(mesh.twin(h)))) return false;
+  }
+  return true;
+}
+
+StarShape boundary_shape(const Mesh& mesh, VertexId v) {
+  const HalfedgeId first = mesh.outgoing(v);
+  HalfedgeId last = first;
+  std::size_t constrained_inside = 0;
+  for (const HalfedgeId h : mesh.star(v)) {
+    last = h;
+    if (h != first && mesh.is_constrained(h)) ++constrained_inside;
+  }
+  const HalfedgeId back = Mesh::prev(last);  // the boundary halfedge into v
+  if (!is_between(mesh.position(mesh.target(first)), mesh.position(v), mesh.position(mesh.origin(back)))) {
+    return {RemovalStatus::boundary_corner, {}};
+  }
+  const bool constrained = mesh.is_constrained(first);
+  if (constrained_inside > 0 || constrained != mesh.is_constrained(back) || !has_one_region_a_side(mesh, v)) {
+    return {RemovalStatus::constrained, {}};
+  }
+  return {RemovalStatus::possible, first, true, {}, constrained};
+}
+
+StarShape inner_shape(const Mesh& mesh, VertexId v) {
+  HalfedgeId least;
+  std::array<HalfedgeId, 2> line;
+  std::size_t constrained = 0;
+  for (const HalfedgeId h : mesh.star(v)) {
+    if (!least.valid() || mesh.target(h) < mesh.target(least)) least = h;
+    if (!mesh.is_constrained(h)) continue;
+    if (constrained < 2) line[constrained] = h;
+    ++constrained;
+  }
+  const StarShape refused = {RemovalStatus::constrained, {}};
+  if (!has_one_region_a_side(mesh, v)) return refused;
+  if (constrained == 0) return {RemovalStatus::possible, least};
+  if (constrained != 2) return refused;
+  if (mesh.target(line[1]) < mesh.target(line[0])) std::swap(line[0], line[1]);
+  const VertexId a = mesh.target(line[0]), b = mesh.target(line[1]);
+  if (!is_between(mesh.position(a), mesh.position(v), mesh.position(b))) return refused;
+  return {RemovalStatus::possible, line[0], true, line[1], true};
+}
+
+StarShape star_shape(const Mesh& mesh, VertexId v) {
+  if (v.index >= mesh.n_vertices() || mesh.is_isolated(v)) return {RemovalStatus::no_triangulation, {}};
+  if (mesh.is_fixed(v)) return {RemovalStatus::fixed, {}};
+  return mesh.is_boundary(v) ? boundary_shape(mesh, v) : inner_shape(mesh, v);
+}
+
+void gather_link(const Mesh& mesh, HalfedgeId first, std::vector<VertexId>& link) {
+  HalfedgeId last = first;
+  for (HalfedgeId h = first; h.valid();) {
+    link.push_back(mesh.target(h));
+    last = h;
+    h = mesh.rotate(h);
+    if (h == first) return;
+  }
+  link.push_back(mesh.opposite(last));
+}
+
+/// Where in the link the line ends that starts at link[0].
+std::size_t line_end_index(const Mesh& mesh, const StarShape& shape, const std::vector<VertexId>& link) {
+  if (!shape.line_end.valid()) return link.size() - 1;
+  const auto end = std::find(link.begin(), link.end(), mesh.target(shape.line_end));
+  return static_cast<std::size_t>(end - link.begin());
+}
+
+/// The polygon of the cavity, or both polygons: link[0 … end], and on an interface link[end … 0] too. Calls
+/// use(polygon) for each while it returns true; true when all did.
+template <class Use>
+bool each_polygon(const Mesh& mesh, const StarShape& shape, std::vector<VertexId>& link, Use&& use) {
+  if (!shape.line_end.valid()) return use(std::span<const VertexId>(link));
+  const std::size_t end = line_end_index(mesh, shape, link);
+  link.push_back(link[0]);
+  const std::span<const VertexId> around = link;
+  const bool all = use(around.subspan(0, end + 1)) && use(around.subspan(end));
+  link.pop_back();
+  return all;
+}
+
+/// The edge that takes the line's place must be new to the mesh, as the diagonals are.
+bool line_is_free(const Mesh& mesh, const StarShape& shape, const std::vector<VertexId>& link) {
+  return !shape.on_line || !has_edge(mesh, link[0], link[line_end_index(mesh, shape, link)]);
+}
+
+RemovalPlan begin_plan(const Mesh& mesh, VertexId v, const StarShape& shape, RemovalPlan storage) {
+  storage.status = shape.status;
+  storage.vertex = v;
+  storage.first = shape.first;
+  storage.link.clear();
+  storage.triangles.clear();
+  if (shape.status != RemovalStatus::possible) return storage;
+  gather_link(mesh, shape.first, storage.link);
+  if (!line_is_free(mesh, shape, storage.link)) storage.status = RemovalStatus::no_triangulation;
+  return storage;
+}
+
+/// Is a → b a side of the polygon?
+bool is_side(std::span<const VertexId> polygon, VertexId a, VertexId b) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    if (polygon[i] == a) return polygon[(i + 1) % polygon.size()] == b;
+  }
+  return false;
+}
+
+std::size_t count_edge(std::span<const Corners> triangles, VertexId a, VertexId b) {
+  std::size_t count = 0;
+  for (const auto& [i, j, k] : triangles) {
+    count += ((i == a && j == b) || (j == a && k == b) || (k == a && i == b)) ? 1 : 0;
+  }
+  return count;
+}
+
+/// n − 2 triangles fill a simple polygon of n corners exactly when all are counter-clockwise and their boundary is the
+/// polygon's: each side is there once, and each other edge once either way. Then they wind once around what is inside.
+bool fills(const Mesh& mesh, std::span<const VertexId> polygon, std::span<const Corners> triangles) {
+  if (triangles.size() + 2 != polygon.size()) return false;
+  for (const Corners& t : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId a = t[k], b = t[(k + 1) % 3];
+      if (std::find(polygon.begin(), polygon.end(), a) == polygon.end()) return false;
+      if (count_edge(triangles, a, b) != 1) return false;
+      if (is_side(polygon, a, b)) continue;
+      if (count_edge(triangles, b, a) != 1 || has_edge(mesh, a, b)) return false;
+    }
+    if (orient2d(mesh.position(t[0]), mesh.position(t[1]), mesh.position(t[2])) != Sign::positive) return false;
+  }
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    if (count_edge(triangles, polygon[i], polygon[(i + 1) % polygon.size()]) != 1) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+RemovalPlan plan_removal(const Mesh& mesh, VertexId v, RemovalPlan storage) {
+  const StarShape shape = star_shape(mesh, v);
+  RemovalPlan plan = begin_plan(mesh, v, shape, std::move(storage));
+  if (plan.status != RemovalStatus::possible) return plan;
+  const bool filled = each_polygon(mesh, shape, plan.link, [&](std::span<const VertexId> polygon) {
+    return triangulate_cavity(mesh, polygon, mesh.point(v), plan.triangles);
+  });
+  if (!filled) plan.status = RemovalStatus::no_triangulation;
+  return plan;
+}
+
+RemovalPlan removal_from_names(const Mesh& mesh, VertexId vertex, VertexId link_first,
+                               std::span<const Corners> triangles, RemovalPlan storage) {
+  StarShape shape = star_shape(mesh, vertex);
+  if (shape.status == RemovalStatus::possible) {
+    const HalfedgeId first = mesh.find_halfedge(vertex, link_first);
+    // A line has two ends, and either may come first; without one any spoke may; the boundary has one beginning.
+    const bool is_other_end = shape.line_end.valid() && first == shape.line_end;
+    if (is_other_end) std::swap(shape.first, shape.line_end);
+    if (!first.valid() || (shape.on_line && first != shape.first)) shape.status = RemovalStatus::no_triangulation;
+    shape.first = first;
+  }
+  RemovalPlan plan = begin_plan(mesh, vertex, shape, std::move(storage));
+  if (plan.status != RemovalStatus::possible) return plan;
+  std::span<const Corners> rest = triangles;
+  const bool filled = each_polygon(mesh, shape, plan.link, [&](std::span<const VertexId> polygon) {
+    const std::size_t n = std::min(polygon.size() - 2, rest.size());
+    const bool fits = fills(mesh, polygon, rest.first(n));
+    rest = rest.subspan(n);
+    return fits;
+  });
+  if (!filled || !rest.empty()) {
+    plan.status = RemovalStatus::no_triangulation;
+    return plan;
+  }
+  plan.triangles.assign(triangles.begin(), triangles.end());
+  return plan;
+}
+
+}  // namespace temper
