@@ -32,8 +32,8 @@ enum class EventKind {
 /// Vertices are numbered as in the input, also after removals; coordinates and weights are in the user's units.
 struct TraceEvent {
   EventKind kind = EventKind::move;
-  int sweep = 0;    ///< 0: making the input regular
-  VertexId vertex;  ///< invalid for flip, and for undo of whole sweeps
+  int sweep = 0;         ///< 0: making the input regular
+  VertexId vertex = {};  ///< invalid for flip, and for undo of whole sweeps
   /// Energy at the γ of the sweep before and after: of the vertex's patch, or of all edges that a flip changes. NaN
   /// where none belongs to the event.
   double before = 0, after = 0;

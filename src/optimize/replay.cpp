@@ -87,7 +87,7 @@ std::optional<InputError> Replayer::check_vertex(VertexId v, const char* what) c
     return misfit(std::string(what) + " of vertex index " + std::to_string(v.index) + ", but the mesh has " +
                   std::to_string(mesh_.n_vertices()) + " vertices");
   }
-  if (!mesh_.outgoing(v).valid()) return misfit(std::string(what) + " of " + point(v) + ", which was removed before");
+  if (mesh_.is_isolated(v)) return misfit(std::string(what) + " of " + point(v) + ", which was removed before");
   return std::nullopt;
 }
 
@@ -178,7 +178,7 @@ std::optional<InputError> Replayer::remove(const TraceEvent& e) {
 Replay Replayer::finish() && {
   Replay result{std::move(mesh_), {}};
   bool removed = false;
-  for (const VertexId v : result.mesh.vertices()) removed = removed || !result.mesh.outgoing(v).valid();
+  for (const VertexId v : result.mesh.vertices()) removed = removed || result.mesh.is_isolated(v);
   if (removed) result.vertices = result.mesh.compact().vertices;
   return result;
 }
