@@ -100,13 +100,18 @@ struct LoadedMesh {
 [[nodiscard]] Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags = {});
 
 /// Puts coordinates, weights, triangles and regions of the mesh back into the file it came from, whose dropped points
-/// go with their data. Point data stay with their point, cell data with their slot. When the mesh has another number of
-/// vertices or triangles than was loaded, lines and marked points are found again by their place; point and cell data
-/// cannot be, and go with a warning in file.warnings. May be called again for a later state of the same mesh.
-void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh);
+/// go with their data. `vertices` is OptimizeReport::vertices: the number in `loaded` of each vertex of the mesh; empty
+/// when none was removed.
+///
+/// Point data stay with their point. Where a point is gone that two lines of one tag met at, one line is left; other
+/// lines and marked points go with their points. Cell data stay with their slot, or, when the number of triangles has
+/// changed, with their region: what is the same on all triangles of each region is kept, the rest goes. What is lost is
+/// named in file.warnings. May be called again for a later state of the mesh, as long as no vertices are removed.
+void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
+            const IdVector<VertexId, VertexId>& vertices = {});
 
-/// Frees the points, weights and triangles of a file whose mesh has been made: update() writes them again, as
-/// long as the mesh keeps its numbers of vertices and triangles. Nothing when points were dropped.
+/// Frees the points, weights and triangles of a file whose mesh has been made: update() writes them again. Nothing
+/// when points were dropped.
 void release_geometry(MeshFile& file, const LoadedMesh& loaded);
 
 /// A file that holds just this mesh.

@@ -1,11 +1,9 @@
-// From the arrays of a file to a mesh and back.
+// From the arrays of a file to a mesh.
 //
 // Points of no triangle are left out of the mesh, tagged lines inside the domain become constrained edges, points of
 // fixed tags and those that medit calls required are fixed.
 #include <algorithm>
 #include <charconv>
-#include <cstring>
-#include <unordered_map>
 
 #include "io/failure.hpp"
 #include "io/file_names.hpp"
@@ -243,106 +241,6 @@ void MeshMaker::constrain_lines() {
                 lost));
 }
 
-// --- back -----------------------------------------------------------------------------------------------------
-
-/// Copies what is on the mesh to arrays of its own vertices.
-void copy_vertices(MeshFile& file, const Mesh& mesh) {
-  file.points.resize(mesh.n_vertices());
-  file.weights.resize(mesh.n_vertices());
-  for (const VertexId v : mesh.vertices()) {
-    file.points[v.index] = mesh.position(v);
-    file.weights[v.index] = mesh.weight(v);
-  }
-}
-
-void copy_triangles(MeshFile& file, const Mesh& mesh) {
-  file.triangles.resize(mesh.n_triangles());
-  bool regions = !file.regions.empty();
-  for (const TriangleId t : mesh.triangles()) {
-    const auto corners = mesh.corners(t);
-    for (std::size_t k = 0; k < 3; ++k) file.triangles[t.index][k] = static_cast<std::int32_t>(corners[k].index);
-    regions = regions || mesh.region(t) != 0;
-  }
-  file.regions.resize(regions ? mesh.n_triangles() : 0);
-  for (std::size_t t = 0; t < file.regions.size(); ++t) file.regions[t] = mesh.region(TriangleId(t));
-}
-
-template <class T>
-void keep(std::vector<T>& values, const std::vector<bool>& kept) {
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (kept[i]) values[n++] = values[i];
-  }
-  values.resize(n);
-}
-
-void keep(std::vector<DataArray>& arrays, const std::vector<bool>& kept) {
-  RunLength indices;
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (kept[i]) indices.push_back(static_cast<std::int64_t>(i));
-  }
-  for (DataArray& a : arrays) a.values = gather(a.values, a.components, indices);
-}
-
-/// Renumbers lines and marked points by new_index (−1: gone) and drops those that lost a point.
-template <class NewIndex>
-void renumber(MeshFile& file, NewIndex new_index) {
-  std::vector<bool> kept_lines(file.lines.size());
-  for (std::size_t i = 0; i < file.lines.size(); ++i) {
-    for (std::int32_t& p : file.lines[i]) p = new_index(p);
-    kept_lines[i] = file.lines[i][0] >= 0 && file.lines[i][1] >= 0;
-  }
-  std::vector<bool> kept_points(file.marked_points.size());
-  for (std::size_t i = 0; i < file.marked_points.size(); ++i) {
-    file.marked_points[i] = new_index(file.marked_points[i]);
-    kept_points[i] = file.marked_points[i] >= 0;
-  }
-  keep(file.lines, kept_lines);
-  keep(file.line_tags, kept_lines);
-  keep(file.line_data, kept_lines);
-  keep(file.marked_points, kept_points);
-  keep(file.point_tags, kept_points);
-  keep(file.marked_point_data, kept_points);
-}
-
-void drop_unused_points(MeshFile& file, const std::vector<std::int32_t>& vertex_of_point) {
-  std::vector<bool> used(vertex_of_point.size());
-  for (std::size_t p = 0; p < used.size(); ++p) used[p] = vertex_of_point[p] >= 0;
-  keep(file.point_data, used);
-  renumber(file, [&](std::int32_t p) { return vertex_of_point[static_cast<std::size_t>(p)]; });
-}
-
-struct PlaceHash {
-  std::size_t operator()(Vec2 p) const {
-    std::uint64_t x, y;
-    p = {p.x + 0.0, p.y + 0.0};  // −0 is the same place as 0
-    std::memcpy(&x, &p.x, sizeof x);
-    std::memcpy(&y, &p.y, sizeof y);
-    return static_cast<std::size_t>((x * 0x9E3779B97F4A7C15u) ^ (y + (x >> 29)) * 0xBF58476D1CE4E5B9u);
-  }
-};
-
-/// Vertices were removed or inserted: what is on lines has not moved and is found again by its place.
-void find_again(MeshFile& file, const Mesh& mesh) {
-  std::unordered_map<Vec2, std::int32_t, PlaceHash> places;
-  for (const VertexId v : mesh.vertices()) places.emplace(mesh.position(v), static_cast<std::int32_t>(v.index));
-  const std::vector<Vec2> old = file.points;
-  const std::size_t n_lines = file.lines.size(), n_marked = file.marked_points.size();
-  renumber(file, [&](std::int32_t p) {
-    const auto found = places.find(old[static_cast<std::size_t>(p)]);
-    return found == places.end() ? std::int32_t{-1} : found->second;
-  });
-  const std::size_t lost = n_lines - file.lines.size() + n_marked - file.marked_points.size();
-  if (lost > 0) file.warnings.push_back(text(lost, " lines or marked points have lost their vertices and are dropped"));
-}
-
-void drop_data(MeshFile& file, std::vector<DataArray>& arrays, std::string_view kind) {
-  std::string names;
-  for (const DataArray& a : arrays) names += text(names.empty() ? "" : ", ", a.name);
-  if (!names.empty()) file.warnings.push_back(text("the mesh has changed in number: ", kind, " is dropped: ", names));
-  arrays.clear();
-}
-
 }  // namespace
 
 Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags) {
@@ -351,49 +249,6 @@ Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string
   } catch (Failure& failure) {
     return std::move(failure.error);
   }
-}
-
-void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh) {
-  const auto& vertex = loaded.vertex_of_point;
-  const auto n_kept = vertex.size() - static_cast<std::size_t>(std::count(vertex.begin(), vertex.end(), -1));
-  const bool has_unused = file.points.size() == vertex.size() && n_kept < vertex.size();
-  if (has_unused) drop_unused_points(file, vertex);
-  const bool released = file.points.empty();
-  if (!released && (mesh.n_vertices() != n_kept || mesh.n_triangles() != file.triangles.size())) {
-    if (has_unused) {
-      std::vector<bool> used(vertex.size());
-      for (std::size_t p = 0; p < used.size(); ++p) used[p] = vertex[p] >= 0;
-      keep(file.points, used);
-    }
-    find_again(file, mesh);
-    drop_data(file, file.point_data, "point data");
-    drop_data(file, file.cell_data, "cell data");
-  }
-  copy_vertices(file, mesh);
-  copy_triangles(file, mesh);
-  if (has_unused) file.numbering = nullptr;  // the numbers of the file are no longer those of its points
-}
-
-void release_geometry(MeshFile& file, const LoadedMesh& loaded) {
-  if (file.points.size() != loaded.mesh.n_vertices()) return;
-  std::vector<Vec2>().swap(file.points);  // assigning {} would keep the capacity
-  std::vector<double>().swap(file.weights);
-  std::vector<std::array<std::int32_t, 3>>().swap(file.triangles);
-}
-
-MeshFile from_mesh(const Mesh& mesh) {
-  MeshFile file;
-  copy_vertices(file, mesh);
-  copy_triangles(file, mesh);
-  for (const HalfedgeId h : mesh.halfedges()) {
-    if (!mesh.is_constrained(h) || mesh.is_boundary(h) || !mesh.is_edge_representative(h)) continue;
-    // An interface between regions is constrained by them; any other line has to be written.
-    if (mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(mesh.twin(h)))) continue;
-    file.lines.push_back(
-        {static_cast<std::int32_t>(mesh.origin(h).index), static_cast<std::int32_t>(mesh.target(h).index)});
-    file.line_tags.push_back(0);
-  }
-  return file;
 }
 
 }  // namespace temper::io
