@@ -1,0 +1,157 @@
+// What the optimiser writes down is what it did: replayed, every run gives the same mesh, bit for bit.
+#include "temper/trace.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "temper/generate.hpp"
+#include "temper/optimize.hpp"
+
+namespace temper {
+namespace {
+
+struct Case {
+  std::string title;
+  OptimizeOptions options;
+};
+
+/// Every solver, energy, timing and limit of flips, way to remove vertices and order.
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  const auto add = [&](std::string title, OptimizeOptions o) {
+    o.max_sweeps = std::min(o.max_sweeps, 12);
+    all.push_back({std::move(title), std::move(o)});
+  };
+  for (const EnergyInfo& energy : energies()) {
+    if (energy.name == "BH") continue;  // starts inside its barrier only
+    const std::string name(energy.name);
+    add(name, {.energy = energy.name});
+    add(name + " alternating", {.energy = energy.name, .solver = Solver::alternating});
+    add(name + " golden", {.energy = energy.name, .solver = Solver::golden, .max_sweeps = 3});
+    add(name + " deferred",
+        {.energy = energy.name, .solver = Solver::alternating, .flip_timing = FlipTiming::deferred, .inner = 2});
+    add(name + " collapses", {.energy = energy.name, .collapse_from = 1, .collapse_ratio = 0.4});
+    add(name + " patch test", {.energy = energy.name, .removal = Removal::patch, .removal_from = 2});
+  }
+  for (const FlipLimit limit : {FlipLimit::unlimited, FlipLimit::before, FlipLimit::at, FlipLimit::after}) {
+    const std::string number = std::to_string(static_cast<int>(limit));
+    add("F, flip limit " + number, {.energy = "F", .flip_limit = limit});
+    add("BP, flip limit " + number, {.flip_limit = limit});
+  }
+  for (const RemovalMeasure measure : {RemovalMeasure::sum, RemovalMeasure::mean, RemovalMeasure::excess}) {
+    add("removal measure " + std::to_string(static_cast<int>(measure)),
+        {.removal = Removal::patch, .removal_measure = measure, .removal_margin = 0, .removal_from = 0});
+  }
+  for (const SweepOrder order : {SweepOrder::input, SweepOrder::reverse, SweepOrder::random}) {
+    add("order " + std::to_string(static_cast<int>(order)),
+        {.energy = "T", .order = order, .collapse_from = 2, .collapse_ratio = 0.3});
+  }
+  for (const HiddenPolicy policy : {HiddenPolicy::undo, HiddenPolicy::remove, HiddenPolicy::keep}) {
+    OptimizeOptions o{.energy = "F", .solver = Solver::alternating, .hidden = policy};
+    o.weight_updates = WeightUpdates::deferred;
+    add("hidden " + std::to_string(static_cast<int>(policy)) + ", deferred weights", o);
+    o.flip_timing = FlipTiming::deferred;
+    o.inner = 3;
+    add("hidden " + std::to_string(static_cast<int>(policy)) + ", all deferred", o);
+  }
+  add("weights only", {.unknowns = Unknowns::weights});
+  add("positions only", {.energy = "dT", .unknowns = Unknowns::positions});
+  add("anchor", {.anchor = 5});
+  add("frozen", {.flips = false});
+  add("two attempts", {.max_sweeps = 120});
+  OptimizeOptions paper = paper_method();
+  paper.max_sweeps = 6;
+  paper.inner = 2;
+  for (const char* energy : {"F", "T", "dT", "BP", "BHs"}) {
+    paper.energy = energy;
+    add(std::string("paper, ") + energy, paper);
+    paper.inversion = Inversion::refuse;
+    add(std::string("paper without inversion, ") + energy, paper);
+    paper.inversion = Inversion::allow;
+  }
+  for (Case& c : all) c.options.max_sweeps = c.title == "two attempts" ? 120 : c.options.max_sweeps;
+  return all;
+}
+
+/// Weights that flip edges at once, coordinates far from the origin, on a scale of its own.
+Mesh displaced(Mesh mesh) {
+  for (const VertexId v : mesh.vertices()) {
+    const WeightedPoint p = mesh.point(v);
+    mesh.set_point(v, {0.01 * p.x + 1234, 0.01 * p.y - 77, (v.index % 7 == 0) ? 1e-7 : 0.0});
+  }
+  return mesh;
+}
+
+std::vector<std::pair<std::string, Mesh>> meshes() {
+  return {{"sparse horseshoe", sparse_horseshoe()},
+          {"horseshoe", *horseshoe()},
+          {"random", *random_points({.vertices = 120})},
+          {"displaced", displaced(*random_points({.vertices = 100, .seed = 3}))},
+          {"annulus", *annulus({.around = 24, .rings = 4})}};
+}
+
+TEST(Trace, OfEveryRunReplaysToTheSameMesh) {
+  std::map<EventKind, std::size_t> seen;
+  std::size_t undone_sweeps = 0, runs = 0;
+  for (const auto& [mesh_title, input] : meshes()) {
+    for (const auto& [title, given] : cases()) {
+      SCOPED_TRACE(mesh_title + ": " + title);
+      std::vector<TraceEvent> events;
+      OptimizeOptions options = given;
+      options.tracer = [&](const TraceEvent& e) { events.push_back(e); };
+      Mesh mesh = input;
+      const auto report = optimize(mesh, options);
+      if (!report) {
+        EXPECT_EQ(mesh, input);
+        continue;
+      }
+      const auto again = replay_with_vertices(input, events);
+      ASSERT_TRUE(again) << again.error().what();
+      EXPECT_EQ(again->mesh, mesh);
+      EXPECT_EQ(again->vertices, report->vertices);
+      for (const TraceEvent& e : events) {
+        ++seen[e.kind];
+        undone_sweeps += e.kind == EventKind::undo && !e.vertex.valid() ? 1 : 0;
+      }
+      ++runs;
+    }
+  }
+  EXPECT_GT(runs, 200u);
+  for (const EventKind kind : {EventKind::move, EventKind::weight, EventKind::flip, EventKind::collapse,
+                               EventKind::removal, EventKind::undo}) {
+    EXPECT_GT(seen[kind], 0u) << name(kind);
+  }
+  EXPECT_GT(undone_sweeps, 0u);
+}
+
+TEST(Trace, ChangesNothing) {
+  for (const auto& [title, options] : cases()) {
+    Mesh traced = *random_points({.vertices = 80}), silent = traced;
+    OptimizeOptions with_tracer = options;
+    with_tracer.tracer = [](const TraceEvent&) {};
+    const auto a = optimize(traced, with_tracer), b = optimize(silent, options);
+    ASSERT_EQ(a.has_value(), b.has_value()) << title;
+    EXPECT_EQ(traced, silent) << title;
+  }
+}
+
+TEST(Trace, SweepsNeverGoDown) {
+  Mesh mesh = *horseshoe();
+  int last = 0;
+  std::size_t events = 0;
+  OptimizeOptions options;
+  options.tracer = [&](const TraceEvent& e) {
+    EXPECT_GE(e.sweep, last);
+    last = e.sweep;
+    ++events;
+  };
+  ASSERT_TRUE(optimize(mesh, options));
+  EXPECT_GT(events, 100u);
+}
+
+}  // namespace
+}  // namespace temper
