@@ -32,17 +32,20 @@ struct Settings {
 void add_options(CLI::App& app, Settings& s) {
   app.set_help_flag();
   app.option_defaults()->group("Options");
-  app.add_option("FIG", s.figures, "figures by the paper's numbers: 6, or a list 6,8, or a range 16-18; none: all");
+  app.add_option("FIG", s.figures,
+                 "figures by the paper's numbers: 6, or a list 6,8, or a range 16-18; none: all, "
+                 "which takes minutes");
   add_text(app, "-o,--output", "DIR", s.output,
            "where the pictures, index.html and gallery.json go; made when it is not there");
   app.add_flag("--reduced", s.reduced, "every claim, but fewer samples and shorter runs");
-  app.add_flag("--require-claims", s.require_claims, "exit with 1 when a claim does not hold");
+  app.add_flag("--require-claims", s.require_claims,
+               "exit with 1 when a claim does not hold; all is written all the same");
   app.add_flag("--list", s.list, "list the figures");
   app.set_help_flag("-h,--help", "this text");
   set_help(app, {"[FIG ...] -o DIR [options]",
-                 "  temper reproduce -o gallery              # everything: some minutes\n"
-                 "  temper reproduce 6 8 16-18 -o gallery\n"
-                 "  temper reproduce --list\n",
+                 "  temper reproduce --list\n"
+                 "  temper reproduce 6 -o gallery\n"
+                 "  temper reproduce 3,6-8 -o gallery --reduced\n",
                  {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 

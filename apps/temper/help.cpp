@@ -117,13 +117,13 @@ std::string help_text(const CLI::App& app) {
 
 std::string short_help() {
   std::string text = "Usage: temper VERB ...\n\n";
-  for (const Verb& verb : verbs()) text += fmt::format("  {:<10}{}\n", verb.name, verb.summary);
+  for (const Verb& verb : verbs()) text += fmt::format("  {:<11}{}\n", verb.name, verb.summary);
   return text + "\nSee temper --help and temper VERB --help.\n";
 }
 
 std::string full_help() {
   std::string text = "temper: primal-dual triangle meshes that solvers can trust\n\nUsage: temper VERB ...\n\nVerbs:\n";
-  for (const Verb& verb : verbs()) text += fmt::format("  {:<10}{}\n", verb.name, verb.summary);
+  for (const Verb& verb : verbs()) text += fmt::format("  {:<11}{}\n", verb.name, verb.summary);
   text +=
       "\nOptions:\n"
       "  -h, --help                this text; temper VERB --help has the options and examples of a verb\n"

@@ -7,7 +7,7 @@
 namespace temper::test {
 namespace {
 
-const std::vector<std::string> kVerbs = {"optimize", "check", "draw", "convert", "example"};
+const std::vector<std::string> kVerbs = {"optimize", "check", "draw", "convert", "example", "reproduce"};
 
 class Usage : public Workshop {};
 
@@ -85,6 +85,7 @@ TEST_F(Usage, HelpMentionsEveryOption) {
                    "annulus:",   "--inner",   "--outer",
                    "--around",   "--rings",   "--jitter",
                    "airfoil:",   "--growth",  "--help"}},
+      {"reproduce", {"--output", "--reduced", "--require-claims", "--list", "--help"}},
   };
   for (const auto& [verb, names] : options) {
     const std::string help = temper_ok({verb, "--help"}).out;
