@@ -1,0 +1,350 @@
+// The paper's switches: inner and outer iterations, collapses, the patch test, deferred weights, hidden vertices,
+// orders, snapshots.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "support/area.hpp"
+#include "support/lattice.hpp"
+#include "temper/generate.hpp"
+#include "temper/optimize.hpp"
+#include "temper/regularity.hpp"
+
+namespace temper::test {
+namespace {
+
+Mesh random_mesh(std::uint64_t seed = 1) {
+  auto mesh = random_points({.vertices = 300, .seed = seed});
+  EXPECT_TRUE(mesh);
+  return *std::move(mesh);
+}
+
+Mesh dense() { return *horseshoe(); }
+
+/// Boundary vertices with their places, in order.
+std::vector<Vec2> boundary(const Mesh& mesh) {
+  std::vector<Vec2> places;
+  for (const VertexId v : mesh.vertices()) {
+    if (mesh.is_boundary(v)) places.push_back(mesh.position(v));
+  }
+  return places;
+}
+
+OptimizeOptions dense_positions() {
+  OptimizeOptions o = paper_method();
+  o.energy = "dT";
+  o.unknowns = Unknowns::positions;
+  o.inversion = Inversion::refuse;
+  o.removal = Removal::none;
+  o.max_sweeps = 60;
+  return o;
+}
+
+TEST(PaperMethod, IsAlgorithm1) {
+  Mesh mesh = dense();
+  const auto report = optimize(mesh, paper_method());
+  ASSERT_TRUE(report) << report.error().what();
+  EXPECT_EQ(mesh.validate(), std::nullopt);
+  EXPECT_GT(report->vertices_removed, 10u);
+  EXPECT_EQ(mesh.n_vertices() + report->vertices_removed, 63u);
+  EXPECT_LT(report->final_energy, report->initial_energy);
+}
+
+TEST(Collapses, KeepDomainRegularityAndTheOtherNames) {
+  const Mesh input = dense();
+  Mesh mesh = input;
+  OptimizeOptions o = dense_positions();
+  o.flip_timing = FlipTiming::immediate;
+  o.flip_limit = FlipLimit::after;
+  const auto report = optimize(mesh, o);
+  ASSERT_TRUE(report);
+  EXPECT_GT(report->vertices_removed, 0u);
+  EXPECT_EQ(mesh.validate(), std::nullopt);
+  EXPECT_EQ(count_non_regular_edges(mesh), 0u);
+  EXPECT_EQ(boundary(mesh), boundary(input));
+  EXPECT_NEAR(area(mesh), area(input), 1e-12);
+  ASSERT_EQ(report->vertices.size(), mesh.n_vertices());
+  EXPECT_TRUE(std::is_sorted(report->vertices.begin(), report->vertices.end()));
+  for (const VertexId v : mesh.vertices()) {
+    const VertexId old = report->vertices[v];
+    if (input.is_boundary(old)) {
+      EXPECT_EQ(mesh.position(v), input.position(old));
+    }
+    EXPECT_EQ(mesh.is_boundary(v), input.is_boundary(old));
+  }
+}
+
+TEST(Collapses, BeginWithTheirSweep) {
+  OptimizeOptions o = dense_positions();
+  o.collapse_from = 3;
+  std::vector<std::size_t> vertices;
+  o.watch = [&](const Snapshot& s) {
+    if (s.moment == Snapshot::Moment::after_sweep) vertices.push_back(s.mesh.n_vertices());
+  };
+  Mesh mesh = dense();
+  ASSERT_TRUE(optimize(mesh, o));
+  ASSERT_GT(vertices.size(), 4u);
+  EXPECT_EQ(vertices[2], 63u);
+  EXPECT_LT(vertices[3], 63u);
+}
+
+TEST(Collapses, NeverWithoutTheSwitch) {
+  OptimizeOptions o = dense_positions();
+  o.collapse_from = std::nullopt;
+  Mesh mesh = dense();
+  const auto report = optimize(mesh, o);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->vertices_removed, 0u);
+  EXPECT_TRUE(report->vertices.empty());
+  EXPECT_EQ(mesh.n_vertices(), 63u);
+}
+
+TEST(Collapses, AHigherRatioCollapsesMore) {
+  std::size_t last = 0;
+  for (const double ratio : {1e-6, 0.1, 0.5}) {
+    OptimizeOptions o = dense_positions();
+    o.collapse_ratio = ratio;
+    o.max_sweeps = 1;
+    Mesh mesh = dense();
+    const auto report = optimize(mesh, o);
+    ASSERT_TRUE(report);
+    EXPECT_GE(report->vertices_removed, last);
+    last = report->vertices_removed;
+  }
+  EXPECT_GT(last, 0u);
+}
+
+TEST(Collapses, LeaveFixedVerticesAndInterfacesAlone) {
+  Mesh mesh = dense();
+  for (const VertexId v : mesh.vertices()) mesh.set_fixed(v, true);
+  const Mesh input = mesh;
+  OptimizeOptions o = paper_method();
+  o.inversion = Inversion::refuse;
+  ASSERT_TRUE(optimize(mesh, o));
+  EXPECT_EQ(mesh.n_vertices(), input.n_vertices());
+  for (const VertexId v : mesh.vertices()) EXPECT_EQ(mesh.position(v), input.position(v));
+}
+
+TEST(PatchTest, SumGutsWhereMeanAndExcessSpare) {
+  std::vector<std::size_t> left;
+  for (const RemovalMeasure measure : {RemovalMeasure::sum, RemovalMeasure::mean, RemovalMeasure::excess}) {
+    Mesh mesh = random_mesh();
+    const auto report = optimize(mesh, {.gamma = Softening{1, LengthScale::relative},
+                                        .removal = Removal::patch,
+                                        .removal_measure = measure,
+                                        .removal_from = 0,
+                                        .max_sweeps = 40});
+    ASSERT_TRUE(report);
+    EXPECT_EQ(mesh.validate(), std::nullopt);
+    EXPECT_EQ(count_non_regular_edges(mesh), 0u);
+    left.push_back(mesh.n_vertices());
+  }
+  EXPECT_LT(2 * left[0], left[1]);
+  EXPECT_LT(4 * left[0], 3 * left[2]);
+}
+
+TEST(PatchTest, AWiderMarginRemovesFewer) {
+  std::size_t last = 1000;
+  for (const double margin : {0.0, 0.1, 0.3}) {
+    Mesh mesh = random_mesh();
+    const auto report =
+        optimize(mesh, {.removal = Removal::patch, .removal_margin = margin, .removal_from = 5, .max_sweeps = 30});
+    ASSERT_TRUE(report);
+    EXPECT_LE(report->vertices_removed, last);
+    last = report->vertices_removed;
+  }
+}
+
+TEST(OuterIterations, FlipOnlyWhenTheInnerOnesHaveConverged) {
+  OptimizeOptions o = dense_positions();
+  std::vector<std::size_t> flips_in_sweeps;
+  int before = 0, after = 0;
+  std::size_t non_regular = 0;
+  o.watch = [&](const Snapshot& s) {
+    if (s.moment == Snapshot::Moment::before_flips) {
+      ++before;
+      non_regular += count_non_regular_edges(s.mesh);
+    }
+    if (s.moment == Snapshot::Moment::after_flips) {
+      ++after;
+      EXPECT_EQ(count_non_regular_edges(s.mesh), 0u);
+    }
+  };
+  Mesh mesh = dense();
+  const auto report = optimize(mesh, o);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(before, after);
+  EXPECT_GT(before, 3);
+  EXPECT_LT(before, report->sweeps / 2);  // several sweeps each
+  EXPECT_GT(non_regular, 0u);
+}
+
+TEST(OuterIterations, EndWithTheirNumber) {
+  for (const int outer : {1, 3}) {
+    OptimizeOptions o = dense_positions();
+    o.outer = outer;
+    int rounds = 0;
+    o.watch = [&](const Snapshot& s) { rounds += s.moment == Snapshot::Moment::after_flips ? 1 : 0; };
+    Mesh mesh = dense();
+    const auto report = optimize(mesh, o);
+    ASSERT_TRUE(report);
+    EXPECT_EQ(rounds, outer);
+    EXPECT_EQ(report->stopped, Stopped::max_outer);
+  }
+}
+
+TEST(OuterIterations, InnerOnesEndWithTheirNumber) {
+  OptimizeOptions o = dense_positions();
+  o.inner = 2;
+  o.max_sweeps = 10;
+  std::vector<int> sweeps;
+  o.watch = [&](const Snapshot& s) {
+    if (s.moment == Snapshot::Moment::before_flips) sweeps.push_back(s.sweep);
+  };
+  Mesh mesh = dense();
+  ASSERT_TRUE(optimize(mesh, o));
+  ASSERT_GE(sweeps.size(), 2u);
+  EXPECT_EQ(sweeps[0], 2);
+  EXPECT_EQ(sweeps[1], 4);
+}
+
+TEST(DeferredWeights, DoNotDependOnTheOrderOfTheVertices) {
+  std::vector<Mesh> results;
+  for (const SweepOrder order : {SweepOrder::input, SweepOrder::reverse, SweepOrder::random}) {
+    Mesh mesh = lattice({.n = 8, .jitter = 0.1, .weight = 0});
+    ASSERT_TRUE(restore_regularity(mesh).regular());
+    OptimizeOptions o = paper_method();
+    o.unknowns = Unknowns::weights;
+    o.weight_updates = WeightUpdates::deferred;
+    o.anchor = std::nullopt;
+    o.collapse_from = std::nullopt;
+    o.removal = Removal::none;
+    o.order = order;
+    o.max_sweeps = 1;
+    ASSERT_TRUE(optimize(mesh, o));
+    results.push_back(std::move(mesh));
+  }
+  EXPECT_TRUE(std::any_of(results[0].vertices().begin(), results[0].vertices().end(),
+                          [&](VertexId v) { return results[0].weight(v) != 0; }));
+  for (const VertexId v : results[0].vertices()) {
+    // The same up to the order in which each patch is summed.
+    EXPECT_NEAR(results[1].weight(v), results[0].weight(v), 1e-6);
+    EXPECT_NEAR(results[2].weight(v), results[0].weight(v), 1e-6);
+  }
+}
+
+TEST(HiddenVertices, AreKeptRemovedOrNeverThereByThePolicy) {
+  std::size_t kept = 0, removed = 0;
+  for (const HiddenPolicy policy : {HiddenPolicy::undo, HiddenPolicy::keep, HiddenPolicy::remove}) {
+    OptimizeOptions o = paper_method();
+    o.energy = "dT";
+    o.unknowns = Unknowns::weights;
+    o.collapse_from = std::nullopt;
+    o.removal = Removal::none;
+    o.flip_timing = FlipTiming::immediate;
+    o.inversion = Inversion::refuse;
+    o.hidden = policy;
+    o.max_sweeps = 8;
+    std::set<std::uint32_t> hidden;
+    std::size_t removals = 0;
+    o.tracer = [&](const TraceEvent& e) {
+      if (e.kind == EventKind::hidden) hidden.insert(e.vertex.index);
+      removals += e.kind == EventKind::removal ? 1 : 0;
+    };
+    bool regular = true;
+    o.watch = [&](const Snapshot& s) { regular = regular && count_non_regular_edges(s.mesh) == 0; };
+    Mesh mesh = dense();
+    ASSERT_TRUE(optimize(mesh, o));
+    EXPECT_EQ(mesh.validate(), std::nullopt);
+    if (policy == HiddenPolicy::undo) {
+      EXPECT_TRUE(hidden.empty());
+      EXPECT_EQ(removals, 0u);
+      EXPECT_TRUE(regular);
+    }
+    if (policy == HiddenPolicy::keep) kept = hidden.size();
+    if (policy == HiddenPolicy::remove) removed = removals;
+  }
+  EXPECT_GT(kept, 0u);
+  EXPECT_GT(removed, 0u);
+}
+
+TEST(Inversions, AreTakenOnlyWhereAllowed) {
+  for (const Inversion inversion : {Inversion::refuse, Inversion::allow}) {
+    OptimizeOptions o = paper_method();
+    o.energy = "F";
+    o.collapse_from = std::nullopt;
+    o.removal = Removal::none;
+    o.inversion = inversion;
+    o.max_sweeps = 10;
+    bool inverted = false;
+    o.watch = [&](const Snapshot& s) { inverted = inverted || s.mesh.validate().has_value(); };
+    const Mesh input = dense();
+    Mesh mesh = input;
+    const auto report = optimize(mesh, o);
+    ASSERT_TRUE(report);
+    EXPECT_EQ(inverted, inversion == Inversion::allow);
+    if (inverted) {
+      EXPECT_EQ(report->stopped, Stopped::tangled);
+    }
+    EXPECT_EQ(mesh.validate(), std::nullopt);  // what comes back is never a tangle
+  }
+}
+
+TEST(Orders, EachIsItsOwnAndSeeded) {
+  const auto first_moved = [](SweepOrder order, std::uint64_t seed) {
+    std::vector<std::uint32_t> moved;
+    OptimizeOptions o{.order = order, .max_sweeps = 1, .seed = seed};
+    o.tracer = [&](const TraceEvent& e) {
+      if (e.sweep == 1 && e.kind == EventKind::move) moved.push_back(e.vertex.index);
+    };
+    Mesh mesh = random_mesh();
+    EXPECT_TRUE(optimize(mesh, o));
+    EXPECT_GT(moved.size(), 100u);
+    return moved;
+  };
+  const auto input = first_moved(SweepOrder::input, 1), reverse = first_moved(SweepOrder::reverse, 1);
+  EXPECT_TRUE(std::is_sorted(input.begin(), input.end()));
+  EXPECT_TRUE(std::is_sorted(reverse.rbegin(), reverse.rend()));
+  EXPECT_EQ(first_moved(SweepOrder::random, 1), first_moved(SweepOrder::random, 1));
+  EXPECT_NE(first_moved(SweepOrder::random, 1), first_moved(SweepOrder::random, 2));
+  EXPECT_NE(first_moved(SweepOrder::hilbert, 1), input);
+}
+
+TEST(Options, SwitchesThatContradictEachOtherAreRefused) {
+  Mesh mesh = random_mesh();
+  const Mesh input = mesh;
+  for (const OptimizeOptions& o : std::vector<OptimizeOptions>{
+           {.weight_updates = WeightUpdates::deferred},
+           {.solver = Solver::golden, .weight_updates = WeightUpdates::deferred, .flips = false},
+           {.inversion = Inversion::allow},
+           {.collapse_energy = "BP"},
+           {.collapse_energy = "HOT"},
+           {.collapse_ratio = 0},
+           {.removal_margin = -1},
+           {.inner = -1},
+           {.outer = -1}}) {
+    const auto report = optimize(mesh, o);
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().code, ErrorCode::invalid_option);
+    EXPECT_EQ(mesh, input);
+  }
+}
+
+TEST(Traces, SeeNothingOfTheChoiceOfWatching) {
+  Mesh plain = random_mesh(), traced = plain;
+  std::size_t events = 0, snapshots = 0;
+  OptimizeOptions o{.removal = Removal::patch, .removal_from = 2, .max_sweeps = 12};
+  ASSERT_TRUE(optimize(plain, o));
+  o.tracer = [&](const TraceEvent&) { ++events; };
+  o.watch = [&](const Snapshot&) { ++snapshots; };
+  ASSERT_TRUE(optimize(traced, o));
+  EXPECT_EQ(plain, traced);
+  EXPECT_GT(events, 1000u);
+  EXPECT_EQ(snapshots, 13u);
+}
+
+}  // namespace
+}  // namespace temper::test
