@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "property/random_mesh.hpp"
+#include "regularity/lawson.hpp"
 #include "unit/geometry/degenerate_families.hpp"
 
 namespace temper {
@@ -33,6 +34,7 @@ Oracle regular_triangulation(const Mesh& mesh) {
   std::map<Kernel::Point_2, VertexId> ids;
   std::vector<Kernel::Weighted_point_2> points;
   for (const VertexId v : mesh.vertices()) {
+    if (mesh.is_isolated(v)) continue;  // removed
     points.push_back(to_cgal(mesh.point(v)));
     ids[points.back().point()] = v;
   }
@@ -90,6 +92,47 @@ TEST(RegularTriangulationOracle, HiddenVerticesAreTheSame) {
     hidden += oracle.hidden.size();
   }
   EXPECT_GT(hidden, 500u);
+}
+
+TEST(RegularTriangulationOracle, RemovingAVertexIsTheTriangulationOfTheOthers) {
+  Rng rng(3);
+  std::size_t removed = 0, flips = 0;
+  Lawson lawson;
+  for (int round = 0; round < 40; ++round) {
+    Mesh mesh = weighted_mesh(rng, 20 + round, round % 3 == 0 ? 0 : 0.02);
+    if (!restore_regularity(mesh).regular()) continue;
+    for (int i = 0; i < 12; ++i) {
+      const RemovalPlan plan = plan_removal(mesh, VertexId(4 + rng.below(20)));  // 0 … 3 are the corners
+      if (plan.status != RemovalStatus::possible) continue;
+      remove_vertex(mesh, plan);
+      lawson.clear();
+      lawson.push_removal(mesh, plan);
+      flips += lawson.run(mesh).flips;
+      const Oracle oracle = regular_triangulation(mesh);
+      EXPECT_TRUE(oracle.hidden.empty());
+      EXPECT_EQ(test::edge_set(mesh), oracle.edges);
+      ++removed;
+    }
+  }
+  EXPECT_GT(removed, 200u);
+  EXPECT_EQ(flips, 0u);  // the plan alone is regular where there are no ties
+}
+
+TEST(RegularTriangulationOracle, WithHiddenVerticesRemovedItIsTheWholeAnswer) {
+  Rng rng(4);
+  std::size_t removed = 0;
+  for (int round = 0; round < 60; ++round) {
+    Mesh mesh = weighted_mesh(rng, 10 + round, round % 2 == 0 ? 0.3 : 2.0);
+    const Oracle oracle = regular_triangulation(mesh);
+    const Restoration restoration = restore_regularity(mesh, HiddenPolicy::remove);
+    EXPECT_TRUE(restoration.regular());
+    EXPECT_EQ(restoration.hidden, oracle.hidden);
+    EXPECT_EQ(restoration.removed.size(), oracle.hidden.size());
+    EXPECT_EQ(test::edge_set(mesh), oracle.edges);
+    EXPECT_EQ(mesh.validate(), std::nullopt);
+    removed += restoration.removed.size();
+  }
+  EXPECT_GT(removed, 300u);
 }
 
 TEST(KernelOracle, PowerTestAndOrientationAreThoseOfCgal) {

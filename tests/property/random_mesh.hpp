@@ -37,6 +37,7 @@ inline Mesh square() { return build_or_die({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}},
 /// Puts p where it belongs: into a triangle, or on an edge. False when a vertex is there already.
 inline bool insert_anywhere(Mesh& mesh, WeightedPoint p) {
   for (const TriangleId t : mesh.triangles()) {
+    if (mesh.is_erased(t)) continue;
     std::array<Sign, 3> side;
     for (int k = 0; k < 3; ++k) {
       const HalfedgeId h = Mesh::halfedge(t, k);
@@ -82,9 +83,9 @@ inline Mesh random_mesh(Rng& rng, int n, int denominator = 0) {
 }
 
 /// outgoing() of every vertex is the one that the rest of the mesh determines: what undoing bit for bit rests on.
-inline bool has_canonical_outgoing(const Mesh& mesh, bool with_isolated = false) {
+inline bool has_canonical_outgoing(const Mesh& mesh) {
   for (const VertexId v : mesh.vertices()) {
-    if (with_isolated && mesh.is_isolated(v)) continue;
+    if (mesh.is_isolated(v)) continue;
     if (mesh.outgoing(v) != canonical_outgoing(mesh, mesh.outgoing(v))) return false;
   }
   return true;
@@ -94,7 +95,7 @@ inline bool has_canonical_outgoing(const Mesh& mesh, bool with_isolated = false)
 inline std::vector<std::pair<std::uint32_t, std::uint32_t>> edge_set(const Mesh& mesh) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const HalfedgeId h : mesh.halfedges()) {
-    if (!mesh.is_edge_representative(h)) continue;
+    if (!mesh.is_edge_representative(h) || mesh.is_erased(Mesh::triangle(h))) continue;
     edges.push_back(std::minmax(mesh.origin(h).index, mesh.target(h).index));
   }
   std::sort(edges.begin(), edges.end());
