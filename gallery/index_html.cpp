@@ -53,7 +53,7 @@ std::string row_html(const Table& table, const std::vector<std::string>& cells, 
 }
 
 std::string table_html(const Table& table) {
-  std::string html = "<div class=\"wide\"><table>\n<caption>" + prose(table.caption) + "</caption>\n<thead>" +
+  std::string html = "<p class=\"caption\">" + prose(table.caption) + "</p>\n<div class=\"wide\"><table>\n<thead>" +
                      row_html(table, table.header, "th") + "</thead>\n<tbody>\n";
   for (const std::vector<std::string>& row : table.rows) html += row_html(table, row, "td");
   return html + "</tbody></table></div>\n";
@@ -66,7 +66,7 @@ std::string picture_html(const Picture& picture) {
 }
 
 std::string claim_html(const Claim& claim, const Figure& figure) {
-  std::string html = claim.holds ? "<tr><td>" : "<tr class=\"no\"><td>";
+  std::string html = claim.holds ? "<tr><td>" : "<tr class=\"failed\"><td>";
   html += verdict_mark(claim.holds) + "</td><td>" + prose(claim.claim);
   if (claim.figure != std::to_string(figure.number)) html += " <span class=\"where\">(" + place(claim) + ")</span>";
   html += "<span class=\"why\">" + prose(claim.why) + "</span></td>";

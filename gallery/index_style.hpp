@@ -51,8 +51,8 @@ figure img { display: block; width: 100%; max-height: 88vh; object-fit: contain;
 figcaption { font-size: .9rem; line-height: 1.4; margin-top: .4rem; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .86rem; line-height: 1.4; }
-.tables table { margin: 1.5rem 0 0; font-variant-numeric: tabular-nums lining-nums; }
-caption { caption-side: top; text-align: left; padding-bottom: .35rem; }
+.tables table { font-variant-numeric: tabular-nums lining-nums; }
+.caption { margin: 1.5rem 0 .35rem; font-size: .9rem; line-height: 1.4; }
 th { text-align: left; font-weight: 600; border-bottom: 1.5px solid var(--ink); padding: .3rem .9rem .3rem 0; vertical-align: bottom; }
 td { border-bottom: 1px solid var(--rule); padding: .3rem .9rem .3rem 0; vertical-align: top; }
 .n { text-align: right; }
@@ -60,8 +60,8 @@ td { border-bottom: 1px solid var(--rule); padding: .3rem .9rem .3rem 0; vertica
 .claims col.verdict { width: 2.2rem; } .claims col.says { width: 40%; }
 .claims td { padding-top: .5rem; padding-bottom: .5rem; overflow-wrap: break-word; }
 .claims td:first-child { font-size: 1.05rem; line-height: 1.2; font-weight: 700; }
-.claims tr.no td { background: var(--no-card); }
-.claims tr.no td:first-child { padding-left: .5rem; }
+.claims tr.failed td { background: var(--no-card); }
+.claims tr.failed td:first-child { padding-left: .5rem; }
 .why { display: block; color: var(--soft); font-size: .95em; margin-top: .2rem; }
 .where { color: var(--soft); white-space: nowrap; }
 .hidden { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }

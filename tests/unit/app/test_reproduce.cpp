@@ -83,7 +83,8 @@ TEST_F(Reproduce, AFolderThatCannotBeIsNamedBeforeTheWork) {
 TEST_F(Reproduce, ClaimsThatDoNotHoldAreAnErrorOnlyWhenAskedFor) {
   temper_ok({"reproduce", "6", "--reduced", "-o", "out"});
   std::size_t failing = 0;
-  for (const nlohmann::json& claim : read_json("out/gallery.json")["claims"]) failing += claim["holds"].get<bool>() ? 0 : 1;
+  const nlohmann::json json = read_json("out/gallery.json");
+  for (const nlohmann::json& claim : json["claims"]) failing += claim["holds"].get<bool>() ? 0 : 1;
   const Outcome outcome = temper({"reproduce", "6", "--reduced", "-o", "out", "--require-claims"});
   EXPECT_EQ(outcome.exit, failing > 0 ? 1 : 0);
   EXPECT_EQ(outcome.err.empty(), failing == 0) << outcome.err;
@@ -100,7 +101,8 @@ TEST_F(Reproduce, ASignalLeavesWholeFilesThatFitTogether) {
     for (const auto& entry : std::filesystem::directory_iterator("out")) {
       const std::string name = entry.path().filename().string();
       if (name == "gallery.json") {
-        for (const nlohmann::json& figure : read_json("out/gallery.json")["figures"]) {
+        const nlohmann::json json = read_json("out/gallery.json");
+        for (const nlohmann::json& figure : json["figures"]) {
           for (const std::string picture : figure["pictures"]) EXPECT_TRUE(exists("out/" + picture)) << picture;
         }
       } else {

@@ -60,7 +60,7 @@ TEST(IndexHtml, ShowsPicturesTablesAndClaimsOfEachFigure) {
   const std::string html = index_html(two_results(), Effort::full, "1.2.3");
   for (const char* part :
        {"<img src=\"fig06.svg\" alt=\"E_BH over (d, h)\">", "<img src=\"fig06_zoom.svg\"", "Edge &lt;hard&gt;",
-        "walls &amp; a minimum", "<i>E</i><sub>BH</sub> over (d, h)</figcaption>", "<caption>Minima</caption>",
+        "walls &amp; a minimum", "<i>E</i><sub>BH</sub> over (d, h)</figcaption>", "<p class=\"caption\">Minima</p>",
         "<th class=\"n\">value</th>", "<td class=\"n\">1.333</td>", "<td>d = h</td>", "<b>2 of 3</b> claims hold",
         "minimised from 20 starts", "temper 1.2.3", "id=\"fig8\"", "href=\"#fig8\"", "§2.4"}) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
