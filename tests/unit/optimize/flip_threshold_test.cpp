@@ -1,10 +1,9 @@
 // The threshold against bisection with the exact test of regularity.
-#include "regularity/flip_threshold.hpp"
+#include "temper/regularity.hpp"
 
 #include <gtest/gtest.h>
 
 #include "support/lattice.hpp"
-#include "temper/regularity.hpp"
 
 namespace temper::test {
 namespace {
