@@ -258,6 +258,29 @@ TEST(RegularityProperty, WithConstrainedEdgesTooTheResultDoesNotDependOnTheStart
   EXPECT_GT(constrained, 1000u);
 }
 
+// Outside its precondition: the signed volume under the surface falls all the same.
+TEST(RegularityProperty, LawsonEndsEvenAmongInvertedTriangles) {
+  std::size_t inverted = 0, flips = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Rng rng(seed);
+    Mesh mesh = test::random_mesh(rng, 30);
+    for (const VertexId v : mesh.vertices()) {
+      if (rng.below(4) == 0) mesh.set_point(v, {rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-0.1, 0.1)});
+    }
+    for (const TriangleId t : mesh.triangles()) {
+      const auto [a, b, c] = mesh.corners(t);
+      inverted += orient2d(mesh.position(a), mesh.position(b), mesh.position(c)) == Sign::negative ? 1 : 0;
+    }
+    Lawson lawson;
+    lawson.push_all(mesh);
+    const LawsonRun run = lawson.run(mesh, IgnoreFlips(), 100000);
+    ASSERT_TRUE(run.finished) << "seed " << seed;
+    flips += run.flips;
+  }
+  EXPECT_GT(inverted, 1000u);
+  EXPECT_GT(flips, 1000u);
+}
+
 TEST(RegularityProperty, RestoringTwiceIsRestoringOnce) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     Rng rng(seed);
