@@ -17,33 +17,73 @@
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 #include "threads.hpp"
+#include "trace_jsonl.hpp"
 
 namespace temper::app {
 namespace {
 
+/// When edges are flipped, if ever: two options of the library.
+enum class Flips { immediate, deferred, none };
+enum class Method { production, paper };
+
+constexpr Choice<Method> kMethods[] = {{"production", Method::production}, {"paper", Method::paper}};
 constexpr Choice<Solver> kSolvers[] = {
     {"newton", Solver::newton}, {"golden", Solver::golden}, {"alternating", Solver::alternating}};
 constexpr Choice<FlipLimit> kFlipLimits[] = {{"unlimited", FlipLimit::unlimited},
                                              {"before", FlipLimit::before},
                                              {"at", FlipLimit::at},
                                              {"after", FlipLimit::after}};
-constexpr Choice<FlipTiming> kFlipTimings[] = {{"immediate", FlipTiming::immediate},
-                                               {"deferred", FlipTiming::deferred}};
+constexpr Choice<Flips> kFlips[] = {
+    {"immediate", Flips::immediate}, {"deferred", Flips::deferred}, {"none", Flips::none}};
 constexpr Choice<StoppingRule> kStoppingRules[] = {{"relative", StoppingRule::relative},
                                                    {"paper", StoppingRule::paper}};
 constexpr Choice<BoundaryTreatment> kBoundaryTreatments[] = {{"as-is", BoundaryTreatment::as_is},
                                                              {"absolute", BoundaryTreatment::absolute},
                                                              {"mirrored", BoundaryTreatment::mirrored}};
+constexpr Choice<WeightUpdates> kWeightUpdates[] = {{"immediate", WeightUpdates::immediate},
+                                                    {"deferred", WeightUpdates::deferred}};
+constexpr Choice<Removal> kRemovals[] = {{"none", Removal::none}, {"patch", Removal::patch}};
+constexpr Choice<RemovalMeasure> kRemovalMeasures[] = {
+    {"sum", RemovalMeasure::sum}, {"mean", RemovalMeasure::mean}, {"excess", RemovalMeasure::excess}};
+constexpr Choice<SweepOrder> kOrders[] = {{"hilbert", SweepOrder::hilbert},
+                                          {"input", SweepOrder::input},
+                                          {"reverse", SweepOrder::reverse},
+                                          {"random", SweepOrder::random}};
+constexpr Choice<HiddenPolicy> kHiddenPolicies[] = {
+    {"undo", HiddenPolicy::undo}, {"remove", HiddenPolicy::remove}, {"keep", HiddenPolicy::keep}};
+constexpr Choice<Inversion> kInversions[] = {{"refuse", Inversion::refuse}, {"allow", Inversion::allow}};
 constexpr Choice<int> kStars[] = {{"0", 0}, {"1", 1}, {"2", 2}};
 
 struct Settings {
-  std::string input, output, report, history, picture, anchor;
+  std::string input, output, report, history, picture, trace, anchor;
   std::vector<std::string> fix;
-  OptimizeOptions options;
+  Method method = Method::production;
+  OptimizeOptions options;  ///< those of the method, where no option says otherwise
   SofteningOptions gamma, h0;
   std::uint64_t threads = 0;
   bool positions_only = false, weights_only = false, no_flips = false, slide = false, quiet = false;
 };
+
+void set_flips(Settings& s, Flips value) {
+  s.options.flips = value != Flips::none;
+  if (value != Flips::none) {
+    s.options.flip_timing = value == Flips::deferred ? FlipTiming::deferred : FlipTiming::immediate;
+  }
+}
+
+Flips flips_of(const Settings& s) {
+  if (!s.options.flips) return Flips::none;
+  return s.options.flip_timing == FlipTiming::deferred ? Flips::deferred : Flips::immediate;
+}
+
+/// An energy by its name; the option keeps the registry's own text.
+void add_energy_name(CLI::App& app, const std::string& option, const std::vector<std::string_view>& names,
+                     std::string_view& target, const std::string& description) {
+  spell_default(add_name(
+                    app, option, names, [&target](std::string_view name) { target = or_fail(find_energy(name)).name; },
+                    description),
+                [&target] { return std::string(target); });
+}
 
 void add_files(CLI::App& app, Settings& s) {
   // Not marked as required: see take_input.
@@ -52,6 +92,7 @@ void add_files(CLI::App& app, Settings& s) {
       ->required();
   add_text(app, "--report", "FILE", s.report, "a JSON report: before, after, history, and the command to run again");
   add_text(app, "--history", "FILE", s.history, "one line of CSV a sweep");
+  add_text(app, "--trace", "FILE", s.trace, "every move, flip and removal, one JSON object a line; see temper replay");
   add_text(app, "--draw", "FILE", s.picture, "an SVG picture, before and after side by side");
   app.add_flag("--quiet", s.quiet, "print warnings and errors only");
 }
@@ -59,62 +100,104 @@ void add_files(CLI::App& app, Settings& s) {
 void add_energy(CLI::App& app, Settings& s) {
   std::vector<std::string_view> names;
   for (const EnergyInfo& energy : energies()) names.push_back(energy.name);
-  add_name(
-      app, "--energy", names, [&s](std::string_view name) { s.options.energy = or_fail(find_energy(name)).name; },
-      "what to minimise: a barrier (BH, BHs, BP) or a HOT energy (F, T, dT)")
-      ->default_str(std::string(s.options.energy));
-  add_choice(
-      app, "--star", kStars, [&s](int star) { s.options.star = star; }, "Hodge star of the energy")
-      ->default_str("1");
+  add_energy_name(app, "--energy", names, s.options.energy,
+                  "what to minimise: a barrier (BH, BHs, BP) or a HOT energy (F, T, dT)");
+  add_choice(app, "--star", kStars, s.options.star, "Hodge star of the energy");
   add_gamma(app, s.gamma, "; without it relative to each edge, shrinking from 0.5 to 0.003");
+  spell_default(app.get_option("--gamma"), [&s] {  // the paper's
+    const std::optional<Softening>& gamma = s.options.gamma;
+    return gamma && !s.gamma.value() ? fmt::format("{}", gamma->value) : std::string();
+  });
   add_h0(app, s.h0, "; without it just beyond the least h of the mesh, following it up");
-  add_choice(
-      app, "--boundary-treatment", kBoundaryTreatments, [&s](BoundaryTreatment value) { s.options.boundary = value; },
-      "of energy F: the h of boundary edges as it is, |h|, or as if the mesh were mirrored there")
-      ->default_str("as-is");
+  add_choice(app, "--boundary-treatment", kBoundaryTreatments, s.options.boundary,
+             "of energy F: the h of boundary edges as it is, |h|, or as if the mesh were mirrored there");
 }
 
 void add_moves(CLI::App& app, Settings& s) {
   add_choice(
-      app, "--solver", kSolvers, [&s](Solver value) { s.options.solver = value; },
-      "Newton steps in position and weight together; the paper's golden section; Newton in position, then weight")
-      ->default_str("newton");
+      app, "--solver", kSolvers, s.options.solver,
+      "Newton steps in position and weight together; the paper's golden section; Newton in position, then weight");
   CLI::Option* positions = app.add_flag("--positions-only", s.positions_only, "leave the weights as they are");
   CLI::Option* weights = app.add_flag("--weights-only", s.weights_only, "leave the positions as they are");
   positions->excludes(weights);
   add_count(app, "--weights-from", s.options.weights_from, 0, "first sweep that changes weights, from 0");
   add_number(app, "--relaxation", s.options.relaxation, {0, 2, true}, "over-relaxation of Newton steps");
-  add_text(app, "--anchor", "VERTEX", s.anchor,
-           "shift the weights after each sweep so that this vertex has weight 0 (its number in the file)");
+  add_text(
+      app, "--anchor", "VERTEX", s.anchor,
+      "shift the weights after each sweep so that this vertex has weight 0 (its number in the file); none: do not");
 }
 
 void add_connectivity(CLI::App& app, Settings& s) {
   app.add_flag("--no-flips", s.no_flips, "keep the connectivity; no step may make an edge non-regular");
-  add_choice(
-      app, "--flips", kFlipTimings, [&s](FlipTiming value) { s.options.flip_timing = value; },
-      "flip edges at once, or at the end of the sweep")
-      ->default_str("immediate");
-  add_choice(
-      app, "--flip-limit", kFlipLimits, [&s](FlipLimit value) { s.options.flip_limit = value; },
-      "how far a step may go past the point where an edge flips (default: unlimited for barriers, after for HOT)");
+  spell_default(add_choice(
+                    app, "--flips", kFlips, [&s](Flips value) { set_flips(s, value); },
+                    "flip edges at once, after the inner sweeps, or never, as --no-flips"),
+                [&s] { return std::string(kFlips[static_cast<std::size_t>(flips_of(s))].name); });
+  spell_default(
+      add_choice(
+          app, "--flip-limit", kFlipLimits, [&s](FlipLimit value) { s.options.flip_limit = value; },
+          "how far a step may go past the point where an edge flips (default: unlimited for barriers, after for HOT)"),
+      [&s] {
+        if (!s.options.flip_limit) return std::string();
+        return std::string(kFlipLimits[static_cast<std::size_t>(*s.options.flip_limit)].name);
+      });
   add_number(app, "--overshoot", s.options.overshoot, {1, std::numeric_limits<double>::infinity(), false},
              "of --flip-limit after, at first: it shrinks towards 1 each sweep");
   app.add_option("--fix", s.fix, "vertices with this tag or physical name stay where they are; several may follow")
-      ->type_name("TAG ...");
+      ->type_name("TAG ...")
+      ->default_function({});
   app.add_flag("--slide-interfaces", s.slide,
                "vertices of straight region interfaces and tagged lines may move along them");
+}
+
+void add_paper(CLI::App& app, Settings& s) {
+  // At once, before all other options are taken: those given override the method's.
+  add_choice(
+      app, "--method", kMethods,
+      [&s](Method value) {
+        s.method = value;
+        if (value == Method::paper) s.options = paper_method();
+      },
+      "what all options start from; paper: its Algorithm 1 with golden section, deferred flips, collapses, the patch "
+      "test, inversions allowed, vertex 0 of the file's arrays as anchor and gamma 1")
+      ->trigger_on_parse()
+      ->default_str("production");
+  add_count(app, "--inner", s.options.inner, 0,
+            "with deferred flips: at most so many sweeps before edges are flipped; 0: until they converge");
+  add_count(app, "--outer", s.options.outer, 0,
+            "with deferred flips: at most so many rounds of sweeps and flips; 0: until no flips are needed");
+  add_choice(app, "--weight-updates", kWeightUpdates, s.options.weight_updates,
+             "a new weight is seen by its neighbours at once, or after the sweep (not with --solver newton)");
+  add_count(app, "--collapse-from", s.options.collapse_from, 0,
+            "i_c: first sweep with short-edge collapses, from 0 (Algorithm 2)");
+  std::vector<std::string_view> names;
+  for (const EnergyInfo& energy : energies()) {
+    if (!energy.barrier) names.push_back(energy.name);
+  }
+  add_energy_name(app, "--collapse-energy", names, s.options.collapse_energy, "E_c, which draws a vertex to an edge");
+  add_number(app, "--collapse-ratio", s.options.collapse_ratio, {0, 1, true},
+             "collapse a vertex that E_c wants this near its neighbour, relative to that one's shorter edge beside");
+  add_choice(app, "--removal", kRemovals, s.options.removal,
+             "patch: remove a vertex when its patch is better without it (Algorithm 1, line 15)");
+  add_choice(app, "--removal-measure", kRemovalMeasures, s.options.removal_measure,
+             "by what patches are compared: energy summed (the paper), per triangle, or above equilateral triangles");
+  add_number(app, "--removal-margin", s.options.removal_margin, kNotNegative, "by which part the patch must be better");
+  add_count(app, "--removal-from", s.options.removal_from, 0, "first sweep with removals, from 0");
+  add_choice(app, "--hidden", kHiddenPolicies, s.options.hidden,
+             "what weights hide: undo the step, remove the vertex, or keep and report it");
+  add_choice(app, "--inversion", kInversions, s.options.inversion,
+             "steps that turn a triangle over are refused, or allowed as in the paper (with deferred flips)");
+  add_choice(app, "--order", kOrders, s.options.order, "in which a sweep visits the vertices");
 }
 
 void add_stopping(CLI::App& app, Settings& s) {
   add_count(app, "--max-sweeps", s.options.max_sweeps, 0, "at most this many sweeps over the vertices");
   add_number(app, "--tolerance", s.options.tolerance, kNotNegative, "stop when a sweep gains less than this");
-  add_choice(
-      app, "--stopping", kStoppingRules, [&s](StoppingRule value) { s.options.stopping = value; },
-      "the gain relative to the energy, or the paper's: mean energy per triangle, absolute")
-      ->default_str("relative");
+  add_choice(app, "--stopping", kStoppingRules, s.options.stopping,
+             "the gain relative to the energy, or the paper's: mean energy per triangle, absolute");
   add_number(app, "--time-limit", s.options.time_limit, kNotNegative, "stop after this many seconds; 0: no limit");
   add_count(app, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
-  add_count(app, "--seed", s.options.seed, 0, "of the jitter that frees symmetric grids");
+  add_count(app, "--seed", s.options.seed, 0, "of the jitter that frees symmetric grids, and of --order random");
 }
 
 /// Options added by `add` go under a title in --help.
@@ -144,20 +227,23 @@ std::size_t find_vertex(const Input& input, const std::string& number) {
 
 OptimizeOptions library_options(const Settings& s, const Input& input, Executor* executor) {
   OptimizeOptions options = s.options;
-  options.gamma = s.gamma.value();
-  options.h0 = s.h0.value();
+  if (s.gamma.value()) options.gamma = s.gamma.value();
+  if (s.h0.value()) options.h0 = s.h0.value();
   if (s.positions_only) options.unknowns = Unknowns::positions;
   if (s.weights_only) options.unknowns = Unknowns::weights;
-  options.flips = !s.no_flips;
   if (s.slide) options.interfaces = InterfaceVertices::sliding;
-  if (!s.anchor.empty()) options.anchor = find_vertex(input, s.anchor);
+  if (s.anchor == kNone) {
+    options.anchor.reset();
+  } else if (!s.anchor.empty()) {
+    options.anchor = find_vertex(input, s.anchor);
+  }
   options.names = input.names.get();
   options.executor = executor;
   return options;
 }
 
 /// Options that were given and cannot have the effect one would expect.
-std::vector<std::string> doubtful_options(const Settings& s) {
+std::vector<std::string> doubtful_options(const CLI::App& app, const Settings& s) {
   const EnergyInfo energy = or_fail(find_energy(s.options.energy));
   std::vector<std::string> warnings;
   const auto idle = [&](const char* option) {
@@ -166,6 +252,16 @@ std::vector<std::string> doubtful_options(const Settings& s) {
   if (s.gamma.value() && !energy.softened_by_gamma) idle("--gamma");
   if (s.h0.value() && !energy.softened_by_h0) idle("--h0");
   if (s.options.boundary != BoundaryTreatment::as_is && energy.kind != EnergyKind::F) idle("--boundary-treatment");
+  const auto idle_unless = [&](bool used, std::initializer_list<const char*> options, const char* needed) {
+    for (const char* option : options) {
+      if (!used && app.count(option) > 0) warnings.push_back(fmt::format("{} has no effect {}", option, needed));
+    }
+  };
+  idle_unless(flips_of(s) == Flips::deferred, {"--inner", "--outer"}, "without --flips deferred");
+  idle_unless(s.options.collapse_from.has_value(), {"--collapse-energy", "--collapse-ratio"},
+              "without --collapse-from");
+  idle_unless(s.options.removal == Removal::patch, {"--removal-measure", "--removal-margin", "--removal-from"},
+              "without --removal patch");
   if (!s.report.empty() && same_file(s.input, s.output)) {
     warnings.push_back("--output replaces the input: the command in the report would start from the improved mesh");
   }
@@ -174,13 +270,22 @@ std::vector<std::string> doubtful_options(const Settings& s) {
 
 std::string ending(const OptimizeReport& report) {
   const char* sweeps = report.sweeps == 1 ? "sweep" : "sweeps";
-  const std::string work =
-      fmt::format("{} {} in {:.3g} s, {} flips", report.sweeps, sweeps, report.seconds, report.flips);
+  std::string work = fmt::format("{} {} in {:.3g} s, {} flips", report.sweeps, sweeps, report.seconds, report.flips);
+  if (report.vertices_removed > 0) {
+    work +=
+        fmt::format(", {} {} removed", report.vertices_removed, report.vertices_removed == 1 ? "vertex" : "vertices");
+  }
   switch (report.stopped) {
     case Stopped::converged:
       return "converged after " + work;
     case Stopped::max_sweeps:
       return "stopped by --max-sweeps after " + work;
+    case Stopped::max_outer:
+      return "stopped by --outer after " + work;
+    case Stopped::tangled:
+      return "stopped by inverted triangles, among which no edges can be flipped, after " + work;
+    case Stopped::hidden:
+      return "stopped by a vertex that the flips would hide, after " + work;
     case Stopped::time_limit:
       return "stopped early by --time-limit after " + work;
     case Stopped::cancelled:
@@ -202,17 +307,19 @@ struct Results {
   std::vector<std::string> warnings;
 };
 
-OptimizeReport run_library(const Settings& s, const Input& input, Mesh& mesh, Executor* executor) {
+OptimizeReport run_library(const Settings& s, const Input& input, Mesh& mesh, Executor* executor, Tracer tracer) {
   ProgressLine line(!s.quiet && error_is_terminal());
   const Observer observer = [&line](const Progress& progress) {
     line.show(progress);
     return interrupted() ? Continue::no : Continue::yes;
   };
-  return or_fail(optimize(mesh, library_options(s, input, executor), observer));
+  OptimizeOptions options = library_options(s, input, executor);
+  options.tracer = std::move(tracer);
+  return or_fail(optimize(mesh, options, observer));
 }
 
 /// Improves the mesh of the input in place: a second copy is made only when the picture needs one.
-void improve(const Settings& s, Input& input, Results& results) {
+void improve(const Settings& s, Input& input, Results& results, io::TextStream* trace) {
   ThreadPool threads(s.threads > 0 ? s.threads : hardware_threads());
   QualityOptions measuring;
   measuring.executor = &threads;
@@ -225,7 +332,12 @@ void improve(const Settings& s, Input& input, Results& results) {
     print(fmt::format("{}: {} vertices, {} triangles\n", s.input, results.before.vertices, results.before.triangles));
     flush_output();
   }
-  results.report = run_library(s, input, mesh, &threads);
+  Tracer tracer;
+  if (trace != nullptr) {
+    trace->write(trace_header(input));
+    tracer = [trace, &input](const TraceEvent& event) { trace->write(trace_line(event, input)); };
+  }
+  results.report = run_library(s, input, mesh, &threads, std::move(tracer));
   if (measured) results.after = quality(mesh, measuring);
   if (!s.picture.empty()) {
     DrawOptions drawing;
@@ -242,7 +354,8 @@ void warn(Results& results, std::span<const std::string> warnings) {
 /// Cell data stay with the slot of their triangle, which flips give another place and reversal other corner numbers.
 std::vector<std::string> cell_data_warnings(const Input& input, const Results& results) {
   const std::size_t flips = results.report.flips, reversed = input.loaded.reversed_triangles;
-  if (input.file.cell_data.empty() || flips + reversed == 0) return {};
+  const bool by_region = results.report.vertices_removed > 0;  // what is left then is the same all over each region
+  if (input.file.cell_data.empty() || flips + reversed == 0 || by_region) return {};
   std::string names;
   for (const io::DataArray& array : input.file.cell_data) names += (names.empty() ? "" : ", ") + array.name;
   return {
@@ -252,12 +365,14 @@ std::vector<std::string> cell_data_warnings(const Input& input, const Results& r
 }
 
 /// The mesh first: it is what the time went into.
-void write_all(const CLI::App& app, const Settings& s, Input& input, Results& results, Outputs& outputs) {
+void write_all(const CLI::App& app, const Settings& s, Input& input, Results& results, Outputs& outputs,
+               io::TextStream* trace) {
   const std::size_t known = input.file.warnings.size();
-  io::update(input.file, input.loaded, input.loaded.mesh);
+  io::update(input.file, input.loaded, input.loaded.mesh, results.report.vertices);
   warn(results, std::span(input.file.warnings).subspan(known));
   warn(results, cell_data_warnings(input, results));
   warn(results, outputs.write_mesh(s.output, input.file));
+  if (trace != nullptr) outputs.commit(s.trace, *trace);
   if (!s.report.empty()) {
     const std::vector<UsedOption> options = used_options(app);
     const std::string command = command_line("optimize", {s.input}, options);
@@ -281,10 +396,12 @@ Exit optimize_mesh(const CLI::App& app, const Settings& s, Outputs& outputs) {
   Input input = read_input(s.input, s.fix);
   Results results;
   warn(results, input.warnings());
-  warn(results, doubtful_options(s));
+  warn(results, doubtful_options(app, s));
   io::release_geometry(input.file, input.loaded);  // the mesh has it now; memory is dear on the largest ones
-  improve(s, input, results);
-  write_all(app, s, input, results, outputs);
+  std::optional<io::TextStream> trace;
+  if (!s.trace.empty()) trace = outputs.open(s.trace);
+  improve(s, input, results, trace ? &*trace : nullptr);
+  write_all(app, s, input, results, outputs, trace ? &*trace : nullptr);
   if (!s.quiet) print_result(s, results, outputs);
   const Stopped stopped = results.report.stopped;
   return stopped == Stopped::time_limit || stopped == Stopped::cancelled ? Exit::stopped_early : Exit::done;
@@ -303,6 +420,7 @@ Exit run_optimize(const Arguments& arguments) {
   add_group(app, settings, "Energy", add_energy);
   add_group(app, settings, "Moves", add_moves);
   add_group(app, settings, "Connectivity and constraints", add_connectivity);
+  add_group(app, settings, "The paper's switches", add_paper);
   add_group(app, settings, "Stopping", add_stopping);
   app.option_defaults()->group("Help");
   app.set_help_flag("-h,--help", "this text");
@@ -311,15 +429,20 @@ Exit run_optimize(const Arguments& arguments) {
                  "  temper optimize in.vtu -o out.vtu --report report.json --draw before-after.svg\n"
                  "  temper optimize in.vtu -o out.vtu --weights-only --no-flips\n"
                  "  temper optimize in.vtu -o out.vtu --energy F --star 1 --solver golden --max-sweeps 20\n"
-                 "  temper optimize in.vtu -o out.vtu --gamma-rel 0.1 --time-limit 60\n",
+                 "  temper optimize in.vtu -o out.vtu --gamma-rel 0.1 --time-limit 60\n"
+                 "  temper optimize in.vtu -o out.vtu --removal patch --trace trace.jsonl\n"
+                 "  temper optimize in.vtu -o out.vtu --method paper --energy dT --removal none\n",
                  {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal}});
   if (!parse(app, arguments)) return Exit::done;
   take_input(app, settings);
+  if (settings.no_flips) set_flips(settings, Flips::none);
+  spell_defaults_again(app);  // --method may have changed them
 
   Outputs outputs("optimize");
   outputs.expect_mesh("--output", settings.output);
   outputs.expect_text("--report", settings.report, {settings.input});
   outputs.expect_text("--history", settings.history, {settings.input});
+  outputs.expect_text("--trace", settings.trace, {settings.input});
   outputs.expect_text("--draw", settings.picture, {settings.input});
   return optimize_mesh(app, settings, outputs);
 }

@@ -18,12 +18,13 @@
 namespace temper::app {
 
 std::span<const Verb> verbs() {
-  static constexpr std::array<Verb, 6> kVerbs = {{
+  static constexpr std::array<Verb, 7> kVerbs = {{
       {"optimize", "move, weigh and flip until every triangle is well-centered", run_optimize},
       {"check", "report on the quality of a mesh, and test requirements", run_check},
       {"draw", "draw triangles, dual and weights as SVG", run_draw},
       {"convert", "write a mesh in another file format", run_convert},
       {"example", "make an example mesh", run_example},
+      {"replay", "do again what a trace of optimize says", run_replay},
       {"reproduce", "make the figures and claims of the paper again", run_reproduce},
   }};
   return kVerbs;

@@ -67,6 +67,14 @@ CLI::Option* add_parsed(CLI::App& app, const std::string& name, const std::strin
 
 }  // namespace
 
+CLI::Option* spell_default(CLI::Option* option, const std::function<std::string()>& spell) {
+  return option->default_function(spell)->capture_default_str();
+}
+
+void spell_defaults_again(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) option->capture_default_str();
+}
+
 std::optional<double> parse_number(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -91,7 +99,7 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, double& target, 
   const auto use = [name, allowed, &target](const std::string& text) {
     target = checked_number(long_name(name), text, allowed);
   };
-  return add_parsed(app, name, "X", use, description)->default_str(fmt::format("{}", target));
+  return spell_default(add_parsed(app, name, "X", use, description), [&target] { return fmt::format("{}", target); });
 }
 
 CLI::Option* add_number(CLI::App& app, const std::string& name, std::optional<double>& target, Interval allowed,
@@ -122,14 +130,27 @@ CLI::Option* add_count(CLI::App& app, const std::string& name, std::uint64_t& ta
   const auto use = [name, least, &target](const std::string& text) {
     target = checked_count(long_name(name), text, least);
   };
-  return add_parsed(app, name, "N", use, description)->default_str(fmt::format("{}", target));
+  return spell_default(add_parsed(app, name, "N", use, description), [&target] { return fmt::format("{}", target); });
 }
 
 CLI::Option* add_count(CLI::App& app, const std::string& name, int& target, int least, const std::string& description) {
   const auto use = [name, least, &target](const std::string& text) {
     target = checked_count(long_name(name), text, least);
   };
-  return add_parsed(app, name, "N", use, description)->default_str(fmt::format("{}", target));
+  return spell_default(add_parsed(app, name, "N", use, description), [&target] { return fmt::format("{}", target); });
+}
+
+CLI::Option* add_count(CLI::App& app, const std::string& name, std::optional<int>& target, int least,
+                       const std::string& description) {
+  const auto use = [name, least, &target](const std::string& text) {
+    if (text == kNone) {
+      target.reset();
+    } else {
+      target = checked_count(long_name(name), text, least);
+    }
+  };
+  return spell_default(add_parsed(app, name, "N|" + std::string(kNone), use, description),
+                       [&target] { return target ? fmt::format("{}", *target) : std::string(kNone); });
 }
 
 CLI::Option* add_text(CLI::App& app, const std::string& name, const std::string& value_name, std::string& target,
@@ -225,11 +246,13 @@ std::vector<UsedOption> used_options(const CLI::App& app) {
     item.name = option->get_lnames().front();
     item.flag = option->get_items_expected_max() == 0;
     const std::string type = option->get_type_name();
-    item.number = type == "X" || type == "N" || type.find_first_not_of("0123456789|") == std::string::npos;
     item.used = option->count() > 0 || !option->get_default_str().empty();
     if (!item.flag && item.used) {
       item.values = option->count() > 0 ? option->results() : std::vector<std::string>{option->get_default_str()};
     }
+    const bool none = !item.values.empty() && item.values.front() == kNone;
+    item.number = type == "X" || type == "N" || (type.starts_with("N|") && !none) ||
+                  type.find_first_not_of("0123456789|") == std::string::npos;
     used.push_back(std::move(item));
   }
   return used;

@@ -38,6 +38,13 @@ inline constexpr Interval kNotNegative = {0, std::numeric_limits<double>::infini
 /// Numbers separated by commas, or nothing.
 [[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
+/// The default of the option, spelled now, and again when a later option (--method) has changed it.
+CLI::Option* spell_default(CLI::Option* option, const std::function<std::string()>& spell);
+void spell_defaults_again(CLI::App& app);
+
+/// How an option that may have no value is told so.
+inline constexpr std::string_view kNone = "none";
+
 CLI::Option* add_number(CLI::App& app, const std::string& name, double& target, Interval allowed,
                         const std::string& description);
 /// The same, without a default.
@@ -50,6 +57,10 @@ CLI::Option* add_numbers(CLI::App& app, const std::string& name, const std::stri
 CLI::Option* add_count(CLI::App& app, const std::string& name, std::uint64_t& target, std::uint64_t least,
                        const std::string& description);
 CLI::Option* add_count(CLI::App& app, const std::string& name, int& target, int least, const std::string& description);
+
+/// The same, or "none".
+CLI::Option* add_count(CLI::App& app, const std::string& name, std::optional<int>& target, int least,
+                       const std::string& description);
 
 CLI::Option* add_text(CLI::App& app, const std::string& name, const std::string& value_name, std::string& target,
                       const std::string& description);
@@ -78,6 +89,22 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choice<T> 
         }
       },
       description);
+}
+
+/// The same, straight into a variable, whose value is the default.
+template <class T, std::size_t n>
+CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choice<T> (&choices)[n], T& target,
+                        const std::string& description) {
+  const std::span<const Choice<T>> table(choices);
+  const auto spell = [table, &target] {
+    for (const Choice<T>& choice : table) {
+      if (choice.value == target) return std::string(choice.name);
+    }
+    return std::string();
+  };
+  return spell_default(add_choice(
+                           app, name, choices, [&target](T value) { target = value; }, description),
+                       spell);
 }
 
 /// γ and h°: the same pair of options for optimize and check.

@@ -126,4 +126,16 @@ void Outputs::write_text(const std::string& path, std::string_view text) {
   written_.push_back(path);
 }
 
+io::TextStream Outputs::open(const std::string& path) const {
+  Expected<io::TextStream> stream = io::TextStream::open(path);
+  if (!stream) fail(stream.error());
+  return *std::move(stream);
+}
+
+void Outputs::commit(const std::string& path, io::TextStream& stream) {
+  const Expected<void> result = stream.commit();
+  if (!result) fail(result.error());
+  written_.push_back(path);
+}
+
 }  // namespace temper::app

@@ -23,6 +23,9 @@ class Outputs {
   std::vector<std::string> write_mesh(const std::string& path, const io::MeshFile& file,
                                       const io::WriteOptions& options = {});
   void write_text(const std::string& path, std::string_view text);
+  /// Text that comes bit by bit: opened before the work, put in its place after it.
+  [[nodiscard]] io::TextStream open(const std::string& path) const;
+  void commit(const std::string& path, io::TextStream& stream);
 
   [[nodiscard]] const std::vector<std::string>& written() const { return written_; }
 

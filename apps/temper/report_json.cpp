@@ -96,6 +96,8 @@ std::string optimize_json(const OptimizeRecord& record) {
   json["initial_energy"] = number_or_null(record.report.initial_energy);
   json["final_energy"] = number_or_null(record.report.final_energy);
   json["vertices_removed"] = record.report.vertices_removed;
+  json["hidden_vertices"] = Json::array();
+  for (const VertexId v : record.report.hidden) json["hidden_vertices"].push_back(v.index);
   json["vertices_inserted"] = record.report.vertices_inserted;
   json["flips"] = record.report.flips;
   json["notes"] = record.report.notes;

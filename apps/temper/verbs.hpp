@@ -18,6 +18,7 @@ Exit run_check(const Arguments& arguments);
 Exit run_draw(const Arguments& arguments);
 Exit run_convert(const Arguments& arguments);
 Exit run_example(const Arguments& arguments);
+Exit run_replay(const Arguments& arguments);
 Exit run_reproduce(const Arguments& arguments);
 
 struct Verb {

@@ -88,6 +88,26 @@ struct Format {
 /// Any text to a file, by the same temporary-and-rename.
 [[nodiscard]] Expected<void> write_text(const std::string& path, std::string_view text);
 
+/// Text too long to be held, written as it comes, by the same temporary-and-rename: nothing is at path before commit(),
+/// and nothing is left of it when there is none.
+class TextStream {
+ public:
+  [[nodiscard]] static Expected<TextStream> open(const std::string& path);
+  TextStream(TextStream&&) noexcept;
+  TextStream& operator=(TextStream&&) noexcept;
+  ~TextStream();
+
+  /// Once writing has failed the rest is ignored: commit() says why.
+  void write(std::string_view text);
+  /// The last call. What was written takes its place, or there is an error and what was there before is unchanged.
+  [[nodiscard]] Expected<void> commit();
+
+ private:
+  struct State;
+  explicit TextStream(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
 /// The mesh of a file. Points of no triangle are dropped with a warning that names them; clockwise triangles are
 /// reversed and counted in a warning. Interior tagged lines become constrained edges.
 struct LoadedMesh {

@@ -1,0 +1,88 @@
+// temper replay IN TRACE -o OUT: does again what a trace says, and writes what temper optimize wrote.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+#include "console.hpp"
+#include "help.hpp"
+#include "input.hpp"
+#include "options.hpp"
+#include "outputs.hpp"
+#include "temper/trace.hpp"
+#include "trace_jsonl.hpp"
+
+namespace temper::app {
+namespace {
+
+struct Settings {
+  std::string input, trace, output;
+  std::optional<int> sweeps;
+  bool quiet = false;
+};
+
+void add_options(CLI::App& app, Settings& s) {
+  app.set_help_flag();
+  app.option_defaults()->group("Files");
+  app.add_option("IN", s.input, "the mesh that was optimized")->required();
+  app.add_option("TRACE", s.trace, "what temper optimize IN --trace wrote")->required();
+  add_text(app, "-o,--output", "OUT", s.output, "where the mesh goes; its suffix tells the format")->required();
+  add_count(app, "--sweeps", s.sweeps, 0, "only what was done up to the end of this sweep; 0: making IN regular");
+  app.add_flag("--quiet", s.quiet, "print warnings and errors only");
+  app.option_defaults()->group("Help");
+  app.set_help_flag("-h,--help", "this text");
+  set_help(app, {"IN TRACE -o OUT [options]",
+                 "  temper optimize in.vtu -o out.vtu --trace trace.jsonl && temper replay in.vtu trace.jsonl -o "
+                 "again.vtu\n",
+                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+}
+
+/// The library counts events; a file has lines.
+[[noreturn]] void fail_at_event(const std::string& path, const InputError& error) {
+  constexpr std::string_view kEvent = "event ";
+  std::size_t index = 0;
+  const std::string_view where = error.where;
+  if (where.starts_with(kEvent)) std::from_chars(where.data() + kEvent.size(), where.data() + where.size(), index);
+  throw Failure(Exit::bad_input, trace_place(path, index) + ": " + error.message);
+}
+
+/// Events of the sweeps that are asked for: a prefix, because sweeps only go up.
+std::span<const TraceEvent> wanted(const std::vector<TraceEvent>& events, std::optional<int> sweeps) {
+  const auto past =
+      std::find_if(events.begin(), events.end(), [&](const TraceEvent& e) { return sweeps && e.sweep > *sweeps; });
+  return {events.begin(), past};
+}
+
+}  // namespace
+
+Exit run_replay(const Arguments& arguments) {
+  CLI::App app(
+      "Does again what a trace says, without any optimization, and writes the mesh: the same bytes as temper "
+      "optimize wrote.",
+      "replay");
+  Settings s;
+  add_options(app, s);
+  if (!parse(app, arguments)) return Exit::done;
+  Outputs outputs("replay");
+  outputs.expect_mesh("--output", s.output);
+
+  Input input = read_input(s.input);
+  print_warnings(input.warnings());
+  const std::vector<TraceEvent> events = read_trace(s.trace, input);
+  const auto applied = wanted(events, s.sweeps);
+  const Expected<Replay> replayed = replay_with_vertices(input.mesh(), applied, input.names.get());
+  if (!replayed) fail_at_event(s.trace, replayed.error());
+
+  const std::size_t known = input.file.warnings.size();
+  io::update(input.file, input.loaded, replayed->mesh, replayed->vertices);
+  print_warnings(std::span(input.file.warnings).subspan(known));
+  print_warnings(outputs.write_mesh(s.output, input.file));
+  if (!s.quiet) {
+    print(fmt::format("{} of {} events: {} vertices, {} triangles\nwrote {}\n", applied.size(), events.size(),
+                      replayed->mesh.n_vertices(), replayed->mesh.n_triangles(), s.output));
+  }
+  return Exit::done;
+}
+
+}  // namespace temper::app
