@@ -1,0 +1,97 @@
+#include "experiments/oscillating_horseshoe.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "temper/generate.hpp"
+
+namespace temper::gallery {
+namespace {
+
+constexpr int kOuter = 7;  // outer iterations 0 to 6: the rows of figure 20
+constexpr std::size_t kLongestPeriod = 12;
+constexpr std::size_t kLeastRepeats = 5;  // one more than a transient of the pictured run shows
+
+Mesh dense_horseshoe() {
+  auto mesh = horseshoe();
+  return mesh ? *std::move(mesh) : Mesh();
+}
+
+/// The interior vertex on one side of the middle (side −1: left) that moved furthest, by its number in the input.
+VertexId most_moved(const Moment& from, const Moment& to, double side) {
+  VertexId most;
+  double furthest = -1;
+  for (const VertexId v : to.mesh.vertices()) {
+    const VertexId before = from.find(to.vertices[v]);
+    if (!before.valid() || to.mesh.is_boundary(v) || to.mesh.position(v).x * side <= 0) continue;
+    const double moved = length(to.mesh.position(v) - from.mesh.position(before));
+    if (moved > furthest) furthest = moved, most = to.vertices[v];
+  }
+  return most;
+}
+
+}  // namespace
+
+EnergyModel energy_dt() {
+  EnergyModel model;
+  model.kind = EnergyKind::dT;
+  model.boundary = BoundaryTreatment::absolute;
+  return model;
+}
+
+std::vector<VertexOrder> vertex_orders(int random) {
+  std::vector<VertexOrder> orders = {
+      {"as numbered", SweepOrder::input}, {"reverse", SweepOrder::reverse}, {"Hilbert", SweepOrder::hilbert}};
+  for (int i = 1; i <= random; ++i) {
+    orders.push_back({"random " + std::to_string(i), SweepOrder::random, static_cast<std::uint64_t>(i)});
+  }
+  return orders;
+}
+
+OptimizeOptions positions_and_collapses() {
+  OptimizeOptions options = paper_method();
+  options.energy = "dT";
+  options.unknowns = Unknowns::positions;
+  options.removal = Removal::none;
+  options.collapse_energy = "F";
+  options.inversion = Inversion::refuse;
+  options.order = SweepOrder::reverse;
+  options.outer = kOuter;
+  return options;
+}
+
+const Recording& oscillating_run() {
+  static const Recording run = record(dense_horseshoe(), positions_and_collapses(), Keep::sweeps);
+  return run;
+}
+
+const Mesh& oscillating_mesh() { return oscillating_run().all(Snapshot::Moment::after_flips).back()->mesh; }
+
+std::array<VertexId, 2> oscillating_vertices() {
+  const auto flipped = oscillating_run().all(Snapshot::Moment::after_flips);
+  const Moment &from = *flipped[flipped.size() - 2], &to = *flipped.back();
+  return {most_moved(from, to, -1), most_moved(from, to, +1)};
+}
+
+Oscillation oscillation_of(const Recording& run) {
+  Oscillation o;
+  const auto flipped = run.all(Snapshot::Moment::after_flips);
+  for (const Moment* m : run.all(Snapshot::Moment::before_flips)) o.before.push_back(m->energy);
+  for (const Moment* m : flipped) o.after.push_back(m->energy);
+  const std::size_t n = flipped.size();
+  if (n < 2) return o;
+  const auto differ = [&](std::size_t i, std::size_t j) { return triangles_not_in(*flipped[i], *flipped[j]).size(); };
+  for (std::size_t p = 1; o.period == 0 && p <= kLongestPeriod; ++p) {
+    std::size_t repeats = 0;
+    while (repeats + p < n && differ(n - 1 - repeats, n - 1 - repeats - p) == 0) ++repeats;
+    if (repeats >= std::max(2 * p, kLeastRepeats)) o.period = p, o.first = n - repeats - p;
+  }
+  const auto [low, high] = std::minmax_element(
+      o.after.end() - static_cast<std::ptrdiff_t>(std::clamp(o.period, std::size_t{2}, n)), o.after.end());
+  o.low = *low, o.high = *high;
+  o.vertices = flipped.back()->mesh.n_vertices();
+  o.flipped = differ(n - 1, n - 2);
+  return o;
+}
+
+}  // namespace temper::gallery

@@ -1,0 +1,45 @@
+// A run of optimize() with everything that can be seen of it: the mesh at each moment, and each event.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "temper/mesh.hpp"
+#include "temper/optimize.hpp"
+#include "temper/trace.hpp"
+
+namespace temper::gallery {
+
+/// A Snapshot to keep.
+struct Moment {
+  Snapshot::Moment kind = Snapshot::Moment::start;
+  int sweep = 0;
+  int outer = 0;
+  double energy = 0;
+  Mesh mesh;
+  IdVector<VertexId, VertexId> vertices;  ///< number in the input of each vertex
+
+  /// The vertex with that number in the input, or an invalid id when it has been removed.
+  [[nodiscard]] VertexId find(VertexId input) const;
+};
+
+/// Triangles of one mesh that the other has not, compared by the input's numbers of their corners.
+[[nodiscard]] std::vector<TriangleId> triangles_not_in(const Moment& one, const Moment& other);
+
+struct Recording {
+  std::vector<Moment> moments;
+  std::vector<TraceEvent> events;
+  OptimizeReport report;
+  Mesh result;        ///< what optimize() gave back: the best mesh of the run
+  std::string error;  ///< why there was no run; else empty
+
+  /// The moments of one kind, in order.
+  [[nodiscard]] std::vector<const Moment*> all(Snapshot::Moment kind) const;
+};
+
+/// What is kept of a run: the meshes between outer iterations, or also those after each sweep.
+enum class Keep { outer, sweeps };
+
+[[nodiscard]] Recording record(const Mesh& start, OptimizeOptions options, Keep keep);
+
+}  // namespace temper::gallery
