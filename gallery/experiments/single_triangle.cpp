@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "experiments/minimise.hpp"
 #include "temper/geometry.hpp"
@@ -10,10 +11,9 @@ namespace temper::gallery {
 namespace {
 
 constexpr double kShortSide = 0.5, kLongSide = 1;
-// A weight beyond ± the square of the longest side puts some d outside 0 … ℓ; barriers need no more, and E_T and E_F
-// have their minima inside (they are checked not to be at an end).
+// Beyond ± twice the square of the longest side E_T only grows; its best weights are well inside.
 constexpr double kMostWeight = 2;
-constexpr int kScan = 1500;
+constexpr int kScan = 800;
 
 double energy_at(const EnergyModel& model, double theta, double w) {
   const Corners p = angle_triangle(theta, w);
@@ -47,18 +47,53 @@ Margins margins(const Corners& p) {
   return result;
 }
 
+std::optional<WeightInterval> feasible_weights(double theta, double least_h) {
+  const Corners at0 = angle_triangle(theta, 0), at1 = angle_triangle(theta, 1);
+  WeightInterval interval{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  bool possible = true;
+  const auto positive = [&](double value0, double value1) {  // value0 + (value1 − value0) w > 0
+    const double slope = value1 - value0, root = -value0 / slope;
+    if (slope == 0) {
+      possible = possible && value0 > 0;
+    } else if (slope > 0) {
+      interval.low = std::max(interval.low, root);
+    } else {
+      interval.high = std::min(interval.high, root);
+    }
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const double l = length(at0[i].position() - at0[k].position());
+    const double d0 = edge_split(at0[k], at0[i]), d1 = edge_split(at1[k], at1[i]);
+    positive(d0, d1);
+    positive(l - d0, l - d1);
+    if (std::isinf(least_h)) continue;
+    positive(signed_height(at0[k], at0[i], at0[j]) - least_h, signed_height(at1[k], at1[i], at1[j]) - least_h);
+  }
+  if (!possible || !(interval.low < interval.high)) return std::nullopt;
+  return interval;
+}
+
 std::optional<BestWeight> best_weight(const EnergyModel& model, double theta) {
   const auto with_margins = [&](const Minimum1& m) {
     return BestWeight{m.at, m.value, margins(angle_triangle(theta, m.at))};
   };
   const auto energy = [&](double w) { return energy_at(model, theta, w); };
   if (model.kind == EnergyKind::F) {
-    const auto cubic = weight_polynomial(model.star, theta);
-    const auto at = extrema(cubic);
+    const auto at = extrema(weight_polynomial(model.star, theta));
     if (!at) return std::nullopt;
     return with_margins({at->minimum, energy(at->minimum)});
   }
-  const auto least = scan_minimum(energy, -kMostWeight, kMostWeight, kScan);
+  WeightInterval where{-kMostWeight, kMostWeight};
+  if (model.kind == EnergyKind::BH || model.kind == EnergyKind::BHs || model.kind == EnergyKind::BP) {
+    const double least_h = model.kind == EnergyKind::BH    ? 0
+                           : model.kind == EnergyKind::BHs ? -model.h0.value
+                                                           : -std::numeric_limits<double>::infinity();
+    const auto feasible = feasible_weights(theta, least_h);
+    if (!feasible) return std::nullopt;
+    where = *feasible;
+  }
+  const auto least = scan_minimum(energy, where.low, where.high, kScan);
   if (!least) return std::nullopt;
   return with_margins(*least);
 }

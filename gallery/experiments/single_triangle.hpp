@@ -33,6 +33,13 @@ struct Margins {
 };
 [[nodiscard]] Margins margins(const Corners& p);
 
+/// The weights w for which 0 < d < ℓ on all edges and all h > least_h: an interval, as d and h are linear in w.
+/// Nothing when it is empty. least_h = −∞ asks for d alone.
+struct WeightInterval {
+  double low = 0, high = 0;
+};
+[[nodiscard]] std::optional<WeightInterval> feasible_weights(double theta, double least_h);
+
 struct BestWeight {
   double weight = 0, energy = 0;
   Margins margins;

@@ -34,6 +34,12 @@ std::string label(const std::string& text) {
          "</tspan>";
 }
 
+// Generous: markup and the bytes of a Greek letter count too.
+double width_of(const std::string& text) {
+  constexpr double kPerByte = 7.5;
+  return kPerByte * static_cast<double>(text.size());
+}
+
 std::string text_at(double x, double y, const std::string& text, double size = kFont, const char* anchor = "middle") {
   return "<text x=\"" + n(x) + "\" y=\"" + n(y) + "\" font-size=\"" + n(size) + "\" text-anchor=\"" + anchor + "\">" +
          label(text) + "</text>\n";
@@ -90,7 +96,7 @@ std::string triangle_table_svg(const TriangleTable& table) {
   bool captions = false;
   for (const TriangleRow& row : table.rows) {
     columns = std::max(columns, row.cells.size());
-    label_width = std::max(label_width, 9.0 * static_cast<double>(row.label.size()) * (row.label.empty() ? 0 : 1));
+    label_width = std::max(label_width, width_of(row.label));
     for (const std::string& caption : row.captions) captions = captions || !caption.empty();
   }
   const double cell_height = table.cell_width * (table.high.y - table.low.y) / (table.high.x - table.low.x);
@@ -125,8 +131,8 @@ std::string triangle_table_svg(const TriangleTable& table) {
   }
   const std::string size = n(width) + "\" height=\"" + n(height);
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size + "\" viewBox=\"0 0 " + n(width) + " " +
-         n(height) + "\" font-family=\"Helvetica, Arial, sans-serif\" fill=\"" + kInk + "\">\n<rect width=\"" + size +
-         "\" fill=\"#ffffff\"/>\n" + body + "</svg>\n";
+         n(height) + "\" xml:space=\"preserve\" font-family=\"Helvetica, Arial, sans-serif\" fill=\"" + kInk +
+         "\">\n<rect width=\"" + size + "\" fill=\"#ffffff\"/>\n" + body + "</svg>\n";
 }
 
 }  // namespace temper::gallery

@@ -18,7 +18,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr std::array<double, 5> kAngles = {0.25, 1.0 / 3, 0.5, 2.0 / 3, 0.75};  // of π, drawn
-constexpr double kObtuse = 2.0 / 3;                                             // of π, the one in the drawings
+constexpr std::array<double, 3> kDrawn = {1.0 / 3, 0.5, 2.0 / 3};               // of π, in the drawings
+constexpr double kRoundedToZero = 1e-12;  // ★0 is stationary at w = 0, which the polynomial meets to rounding
+constexpr double kObtuse = 2.0 / 3;       // of π, the one in the claims
 
 double energy(int star, double theta, double w) {
   const Corners p = angle_triangle(theta, w);
@@ -42,8 +44,9 @@ Picture curves(int star, int samples) {
   plot.y_range = star == 1 ? PlotRange{-0.4, 0.8} : star == 0 ? PlotRange{-0.4, 0.6} : PlotRange{0, 0.6};
   plot.width = 400;
   plot.height = 330;
+  plot.legend = LegendPlace::outside;
   for (const double angle : kAngles) {
-    Series series{.name = angle_name(angle), .points = {}, .color = {}};
+    Series series{.name = "θ = " + angle_name(angle), .points = {}, .color = {}};
     for (int i = 0; i <= samples; ++i) {
       const double w = -1.6 + 2.6 * i / samples;
       series.points.push_back({w, energy(star, angle * kPi, w)});
@@ -61,23 +64,28 @@ Picture curves(int star, int samples) {
 
 Picture drawings() {
   TriangleTable table;
-  table.columns = {"local minimum", "w = −0.5", "w = −1", "w = −2"};
-  table.low = {-1.75, -1.45};
-  table.high = {1.45, 1.75};
+  table.columns = {"★0, minimum", "★1, minimum", "★2, minimum", "w = −0.5", "w = −1"};
+  table.low = {-1.05, -1.05};
+  table.high = {1.15, 0.85};
   table.cell_width = 150;
-  for (const int star : {0, 1, 2}) {
-    TriangleRow row{.label = "★" + std::to_string(star), .cells = {}, .captions = {}};
-    const auto at = extrema(weight_polynomial(star, kObtuse * kPi));
-    for (const double w : {at ? at->minimum : 0.0, -0.5, -1.0, -2.0}) {
-      const Corners p = angle_triangle(kObtuse * kPi, w);
-      row.cells.push_back(p);
-      row.captions.push_back("w = " + digits(w, 2) + ", E = " + digits(energy(star, kObtuse * kPi, w), 3));
+  for (const double angle : kDrawn) {
+    TriangleRow row{.label = angle_name(angle), .cells = {}, .captions = {}};
+    const auto add = [&](int star, double w) {
+      row.cells.push_back(angle_triangle(angle * kPi, w));
+      row.captions.push_back("w = " + digits(w, 2) + ", E = " + digits(energy(star, angle * kPi, w), 2));
+    };
+    for (const int star : {0, 1, 2}) {
+      const auto at = extrema(weight_polynomial(star, angle * kPi));
+      const double w = at ? at->minimum : 0;
+      add(star, std::abs(w) < kRoundedToZero ? 0 : w);
     }
+    for (const double w : {-0.5, -1.0}) add(1, w);
     table.rows.push_back(row);
   }
   return {"fig04_triangles", triangle_table_svg(table),
-          "The triangle with θ = 2π/3 at the local minimum of each star, and with ever more negative weights: the "
-          "orthocenter runs away, and E_F of ★1 falls all the same. Dashed duals miss their edge."};
+          "Triangles and duals at the local minimum of each star, and with weights on the way to −∞ (E of ★1). Circles "
+          "have the radius √|w|, dashed where w < 0. With ★2 and a large angle the dual of the left edge misses it "
+          "(dashed)."};
 }
 
 // Where the leading coefficient of ★1 changes sign: sharper angles fall without bound at the other end.

@@ -17,7 +17,8 @@ constexpr double kLabelGap = 4;                // between a tick and its label
 constexpr double kBorder = 8;                  // free around everything
 constexpr double kTitleRoom = kPlotFont + 12;  // above the plot
 constexpr double kTicksBelow = kTick + kLabelGap + kPlotFont;
-constexpr double kPerXTick = 64, kPerYTick = 36;        // pixels between ticks, at least
+constexpr double kPerXTick = 50, kPerYTick = 36;        // pixels between ticks, at least
+constexpr double kBetweenLabels = 14;                   // pixels of white between labels of x, at least
 constexpr double kLeastSide = 40;                       // of the plot, whatever has to fit around it
 constexpr double kUsualAspect = 0.72;                   // height over width when nothing else decides
 constexpr double kSmallest = 1e-280, kLargest = 1e280;  // what ticks can count in without overflow
@@ -38,6 +39,15 @@ std::string with_exponent(const std::string& label, int exponent) {
 Ticks y_ticks(const AxesSpec& spec, double height) {
   const double most = std::max(2.0, height / kPerYTick);
   return spec.log_y ? log_ticks(spec.y, most) : linear_ticks(spec.y, most);
+}
+
+// As many as their labels leave room for.
+Ticks x_ticks(const PlotRange& range, double width) {
+  for (double most = std::max(2.0, width / kPerXTick);; most *= 0.75) {
+    Ticks ticks = linear_ticks(range, std::max(most, 1.0));
+    const double apart = width * nice_step(range.high - range.low, std::max(most, 1.0)) / (range.high - range.low);
+    if (most <= 1 || label_room(ticks) + kBetweenLabels <= apart) return ticks;
+  }
 }
 
 // Text no wider than this: smaller when it has to be.
@@ -97,7 +107,7 @@ Axes lay_out_axes(const AxesSpec& spec) {
     height = scale * (y.high - y.low);
   }
   axes.area = {{left, top}, {left + width, top + height}};
-  axes.x_ticks = linear_ticks(x, std::max(2.0, width / kPerXTick));
+  axes.x_ticks = x_ticks(x, width);
   return axes;
 }
 

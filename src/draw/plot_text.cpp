@@ -50,22 +50,12 @@ std::string significant(double value) {
   return {buffer, result.ptr};
 }
 
-// Viewers drop the space at either end of a <tspan>, or of text beside one.
-std::string keep_end_spaces(std::string_view text) {
-  constexpr std::string_view kNoBreak = "\xc2\xa0";
-  std::string kept(text);
-  if (kept.ends_with(' ')) kept.replace(kept.size() - 1, 1, kNoBreak);
-  if (kept.starts_with(' ')) kept.replace(0, 1, kNoBreak);
-  return kept;
-}
-
 }  // namespace
 
 std::string rich_text(std::string_view label) {
   std::string svg;
   double back = 0;  // what returns to the baseline, in ems of the full size
-  for_each_piece(label, [&](std::string_view piece, char script) {
-    const std::string text = keep_end_spaces(piece);
+  for_each_piece(label, [&](std::string_view text, char script) {
     const double shift = script == '_' ? kLower : script == '^' ? kRaise : 0;
     const double dy = back + shift;
     back = -shift;
@@ -132,11 +122,13 @@ std::string text_element(Vec2 at, std::string_view label, const TextLook& look) 
   return svg + ">" + rich_text(label) + "</text>\n";
 }
 
+// Spaces are kept: else they would be lost at either end of a <tspan>.
 std::string plot_document(double width, double height, const std::string& body) {
   const std::string w = short_number(width), h = short_number(height);
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h + "\" viewBox=\"0 0 " + w + " " +
-         h + "\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"" + short_number(kPlotFont) + "\" fill=\"" +
-         kPlotInk + "\">\n<rect width=\"" + w + "\" height=\"" + h + "\" fill=\"#ffffff\"/>\n" + body + "</svg>\n";
+         h + "\" xml:space=\"preserve\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"" +
+         short_number(kPlotFont) + "\" fill=\"" + kPlotInk + "\">\n<rect width=\"" + w + "\" height=\"" + h +
+         "\" fill=\"#ffffff\"/>\n" + body + "</svg>\n";
 }
 
 }  // namespace temper
