@@ -86,12 +86,7 @@ bool Flipper::settle(const Step& step) {
   changes_.flips += result.flips;
   recorder_.placed(step.v, step.origin, there, step.before, step.after);
   recorder_.flipped(records_);
-  if (!hides) return true;
-  if (settings_.options.hidden == HiddenPolicy::remove) {
-    remove_hidden(hidden_at_stuck_edges());
-  } else {
-    for (const VertexId v : hidden_at_stuck_edges()) recorder_.hidden(v);
-  }
+  if (hides) treat_hidden();
   return true;
 }
 
@@ -113,24 +108,24 @@ std::vector<VertexId> Flipper::hidden_at_stuck_edges() {
   return hidden;
 }
 
-/// Removes hidden vertices, and those that come out from their shadow. What cannot be removed stays, and is reported.
-void Flipper::remove_hidden(std::vector<VertexId> hidden) {
-  for (bool removed = true; removed && !hidden.empty(); hidden = hidden_at_stuck_edges()) {
-    removed = false;
-    lawson_.clear();
-    records_.clear();
-    for (const VertexId v : hidden) {
-      plan_ = plan_removal(mesh_, v, std::move(plan_));
-      if (plan_.status != RemovalStatus::possible) continue;
-      remove(EventKind::removal, plan_, kNoEnergy, kNoEnergy);
-      for (const VertexId q : plan_.link) lawson_.push_star(mesh_, q);
-      removed = true;
-    }
-    std::optional<double> no_price;
-    changes_.flips += run(no_price, Lawson::kNoCap).flips;
-    recorder_.flipped(records_);
+/// What the policy asks for, once vertices are hidden and the flips that led there are done.
+void Flipper::treat_hidden() {
+  std::vector<VertexId> stay = hidden_at_stuck_edges();
+  if (settings_.options.hidden == HiddenPolicy::remove) {
+    RestorationObserver observer;
+    observer.flipped = [&](VertexId a, VertexId b, VertexId c, VertexId d) {
+      const FlipRecord record{a, b, c, d, kNoEnergy, kNoEnergy};
+      recorder_.flipped({&record, 1});
+    };
+    observer.removing = [&](const RemovalPlan& plan) {
+      recorder_.removed(EventKind::removal, plan, kNoEnergy, kNoEnergy);
+    };
+    const HiddenVertices found = remove_hidden(mesh_, lawson_, &observer);
+    changes_.flips += found.flips;
+    changes_.removed += found.removed.size();
+    stay = hidden_at_stuck_edges();
   }
-  for (const VertexId v : hidden) recorder_.hidden(v);
+  for (const VertexId v : stay) recorder_.hidden(v);
 }
 
 bool Flipper::restore_all() {
@@ -139,22 +134,14 @@ bool Flipper::restore_all() {
   lawson_.push_all(mesh_);
   std::optional<double> no_price;
   const LawsonRun result = run(no_price, Lawson::kNoCap);
-  if (lawson_.stuck(mesh_).empty()) {
-    changes_.flips += result.flips;
-    recorder_.flipped(records_);
-    return true;
-  }
-  if (settings_.options.hidden == HiddenPolicy::undo) {
+  const bool hides = !lawson_.stuck(mesh_).empty();
+  if (hides && settings_.options.hidden == HiddenPolicy::undo) {
     lawson_.rollback(mesh_);
     return false;
   }
   changes_.flips += result.flips;
   recorder_.flipped(records_);
-  if (settings_.options.hidden == HiddenPolicy::remove) {
-    remove_hidden(hidden_at_stuck_edges());
-  } else {
-    for (const VertexId v : hidden_at_stuck_edges()) recorder_.hidden(v);
-  }
+  if (hides) treat_hidden();
   return true;
 }
 

@@ -44,7 +44,7 @@ class Flipper {
  private:
   LawsonRun run(std::optional<double>& change, std::size_t max_flips);
   bool accept_hidden();
-  void remove_hidden(std::vector<VertexId> hidden);
+  void treat_hidden();
   [[nodiscard]] std::vector<VertexId> hidden_at_stuck_edges();
 
   Mesh& mesh_;
