@@ -36,7 +36,7 @@ LAYERS = {
 CORE = set(LAYERS) - {"io"}
 
 # Public headers whose name is not that of their layer.
-HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor"]} | {"plot": "draw"}
+HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor"]} | {"plot": "draw", "trace": "optimize"}
 
 STANDARD = set("""
 algorithm array atomic bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits cmath
