@@ -86,6 +86,13 @@ TEST(PlanRemoval, RefusesTheTipOfASlit) {
   EXPECT_EQ(removal_status(mesh, VertexId(4)), RemovalStatus::boundary_corner);
 }
 
+TEST(PlanRemoval, RefusesAFoldWhoseArmsLieOnOneAnother) {
+  Mesh mesh =
+      built({{1, 0}, {0, 2}, {-2, 0}, {0, -2}, {2, -0.5}, {0, 0}}, {{5, 0, 1}, {5, 1, 2}, {5, 2, 3}, {5, 3, 4}});
+  mesh.set_position(VertexId(4), {2, 0});  // the boundary comes from 4 over 5 back to 0, on the same line
+  EXPECT_EQ(removal_status(mesh, VertexId(5)), RemovalStatus::boundary_corner);
+}
+
 TEST(PlanRemoval, RefusesAnEndABendAndACrossingOfConstrainedEdges) {
   for (const std::vector<std::size_t>& ends : {std::vector<std::size_t>{0}, {0, 2}, {0, 1, 2}, {0, 3, 1}}) {
     Mesh mesh = hexagon();
@@ -316,12 +323,28 @@ TEST(RemovalFromNames, RefusesWhatIsNotATriangulation) {
   EXPECT_EQ(status({a, b, c, {v(0), v(4), v(99)}}), RemovalStatus::no_triangulation);
   EXPECT_EQ(status({a, b, c, {VertexId(), v(4), v(5)}}), RemovalStatus::no_triangulation);
   EXPECT_EQ(status({a, {v(2), v(3), v(4)}, c, d}), RemovalStatus::no_triangulation);
+  // Every side once, but inner edges that do not meet.
+  const Corners ear2 = {v(2), v(3), v(4)}, ear4 = {v(4), v(5), v(0)};
+  ASSERT_EQ(status({a, ear2, ear4, {v(0), v(2), v(4)}}), RemovalStatus::possible);
+  EXPECT_EQ(status({a, ear2, ear4, {v(1), v(3), v(5)}}), RemovalStatus::no_triangulation);
   const std::vector<Corners> good = {a, b, c, d};
   EXPECT_EQ(removal_from_names(mesh, v(99), v(0), good).status, RemovalStatus::no_triangulation);
   EXPECT_EQ(removal_from_names(mesh, VertexId(), v(0), good).status, RemovalStatus::no_triangulation);
   EXPECT_EQ(removal_from_names(mesh, kCenter, v(99), good).status, RemovalStatus::no_triangulation);
   EXPECT_EQ(removal_from_names(mesh, kCenter, kCenter, good).status, RemovalStatus::no_triangulation);
   EXPECT_EQ(removal_from_names(mesh, v(1), v(0), good).status, RemovalStatus::boundary_corner);
+}
+
+TEST(RemovalFromNames, RefusesADiagonalOutsideTheCavity) {
+  // A dart, reflex at vertex 1: edges all fit for the diagonal 0-2, but triangle 0-1-2 is clockwise.
+  const Mesh mesh =
+      built({{-2, -1}, {0, -0.25}, {2, -1}, {0, 4}, {0, 1}}, {{4, 0, 1}, {4, 1, 2}, {4, 2, 3}, {4, 3, 0}});
+  const auto v = [](std::size_t i) { return VertexId(i); };
+  const std::vector<Corners> inside = {{v(0), v(1), v(3)}, {v(1), v(2), v(3)}};
+  const std::vector<Corners> outside = {{v(0), v(1), v(2)}, {v(0), v(2), v(3)}};
+  EXPECT_EQ(removal_from_names(mesh, v(4), v(0), inside).status, RemovalStatus::possible);
+  EXPECT_EQ(removal_from_names(mesh, v(4), v(0), outside).status, RemovalStatus::no_triangulation);
+  EXPECT_EQ(plan_removal(mesh, v(4)).triangles.size(), 2u);
 }
 
 TEST(RemovalFromNames, OfABoundaryVertexStartsAtItsBoundaryHalfedge) {
