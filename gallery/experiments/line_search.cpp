@@ -8,7 +8,6 @@ namespace {
 
 constexpr double kInversionFraction = 0.9;  // of the way to the first triangle without area
 constexpr double kTolerance = 1e-8;         // of the interval: what golden section can tell apart in doubles
-constexpr double kAtLimit = 1e-6;           // of the interval
 
 double patch_radius(const Mesh& mesh, VertexId v) {
   double sum = 0;
@@ -44,11 +43,6 @@ double golden_section(Function&& f, double limit) {
 
 }  // namespace
 
-double patch_energy_at(Mesh mesh, const EnergyModel& model, VertexId v, Vec2 p) {
-  mesh.set_position(v, p);
-  return vertex_energy(mesh, model, v).value;
-}
-
 std::vector<LineSearch> line_searches(Mesh mesh, const EnergyModel& model, VertexId v, int searches) {
   std::vector<LineSearch> done;
   for (int i = 0; i < searches; ++i) {
@@ -64,7 +58,7 @@ std::vector<LineSearch> line_searches(Mesh mesh, const EnergyModel& model, Verte
     const double t = golden_section(along, limit);
     const bool lower = along(t) < here.value;
     if (!lower) break;
-    done.push_back({from, from + t * step, t > (1 - kAtLimit) * limit});
+    done.push_back({from, from + t * step, t / limit});
   }
   return done;
 }
