@@ -159,7 +159,7 @@ void add_paper(CLI::App& app, Settings& s) {
         if (value == Method::paper) s.options = paper_method();
       },
       "what all options start from; paper: its Algorithm 1 with golden section, deferred flips, collapses, the patch "
-      "test, inversions allowed, vertex 0 of the file's arrays as anchor and gamma 1")
+      "test, inversions allowed, the first vertex as anchor and gamma 1")
       ->trigger_on_parse()
       ->default_str("production");
   add_count(app, "--inner", s.options.inner, 0,

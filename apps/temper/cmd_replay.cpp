@@ -33,8 +33,7 @@ void add_options(CLI::App& app, Settings& s) {
   app.option_defaults()->group("Help");
   app.set_help_flag("-h,--help", "this text");
   set_help(app, {"IN TRACE -o OUT [options]",
-                 "  temper optimize in.vtu -o out.vtu --trace trace.jsonl && temper replay in.vtu trace.jsonl -o "
-                 "again.vtu\n",
+                 "  temper optimize in.vtu -o a.vtu --trace t.jsonl && temper replay in.vtu t.jsonl -o b.vtu\n",
                  {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 

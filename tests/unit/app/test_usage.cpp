@@ -7,7 +7,7 @@
 namespace temper::test {
 namespace {
 
-const std::vector<std::string> kVerbs = {"optimize", "check", "draw", "convert", "example", "reproduce"};
+const std::vector<std::string> kVerbs = {"optimize", "check", "draw", "convert", "example", "replay", "reproduce"};
 
 class Usage : public Workshop {};
 
@@ -54,22 +54,30 @@ TEST_F(Usage, HelpFitsInAHundredColumnsOfAscii) {
 
 TEST_F(Usage, HelpMentionsEveryOption) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> options = {
-      {"optimize", {"--output",       "--energy",
-                    "--star",         "--gamma ",
-                    "--gamma-rel",    "--h0 ",
-                    "--h0-rel",       "--boundary-treatment",
-                    "--solver",       "--positions-only",
-                    "--weights-only", "--weights-from",
-                    "--no-flips",     "--flip-limit",
-                    "--flips",        "--overshoot",
-                    "--relaxation",   "--slide-interfaces",
-                    "--anchor",       "--max-sweeps",
-                    "--tolerance",    "--stopping",
-                    "--time-limit",   "--fix",
-                    "--threads",      "--seed",
-                    "--report",       "--history",
-                    "--draw",         "--quiet",
-                    "--help"}},
+      {"optimize", {"--output",         "--energy",
+                    "--star",           "--gamma ",
+                    "--gamma-rel",      "--h0 ",
+                    "--h0-rel",         "--boundary-treatment",
+                    "--solver",         "--positions-only",
+                    "--weights-only",   "--weights-from",
+                    "--no-flips",       "--flip-limit",
+                    "--flips",          "--overshoot",
+                    "--relaxation",     "--slide-interfaces",
+                    "--anchor",         "--max-sweeps",
+                    "--tolerance",      "--stopping",
+                    "--time-limit",     "--fix",
+                    "--threads",        "--seed",
+                    "--report",         "--history",
+                    "--draw",           "--quiet",
+                    "--trace",          "--method",
+                    "--inner",          "--outer",
+                    "--order",          "--weight-updates",
+                    "--hidden",         "--inversion",
+                    "--removal ",       "--removal-measure",
+                    "--removal-from",   "--removal-margin",
+                    "--help",           "--collapse-from",
+                    "--collapse-ratio", "--collapse-energy"}},
+      {"replay", {"--output", "--sweeps", "--quiet", "--help"}},
       {"check",
        {"--json", "--gamma ", "--gamma-rel", "--h0 ", "--h0-rel", "--require", "--worst", "--threads", "--help"}},
       {"draw",
@@ -187,6 +195,16 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"BothOnly", {"optimize", "a.vtu", "-o", "b.vtu", "--positions-only", "--weights-only"}, "excludes"},
         Wrong{"ReportIsOutput", {"optimize", "a.vtu", "-o", "b.vtu", "--report", "./b.vtu"}, "another output already"},
         Wrong{"ReportIsInput", {"optimize", "a.vtu", "-o", "b.vtu", "--report", "a.vtu"}, "is the input mesh"},
+        Wrong{"UnknownMethod", {"optimize", "a.vtu", "-o", "b.vtu", "--method", "papr"}, "did you mean 'paper'?"},
+        Wrong{"UnknownRemoval", {"optimize", "a.vtu", "-o", "b.vtu", "--removal", "Patch"}, "did you mean 'patch'?"},
+        Wrong{"UnknownFlips", {"optimize", "a.vtu", "-o", "b.vtu", "--flips", "never"}, "none of immediate, deferred"},
+        Wrong{"CollapseByABarrier",
+              {"optimize", "a.vtu", "-o", "b.vtu", "--collapse-energy", "BP"},
+              "'BP' is none of F, T, dT"},
+        Wrong{"CollapseRatioOne", {"optimize", "a.vtu", "-o", "b.vtu", "--collapse-ratio", "1"}, "between 0 and 1"},
+        Wrong{"CollapseFromAWord", {"optimize", "a.vtu", "-o", "b.vtu", "--collapse-from", "soon"}, "whole number"},
+        Wrong{"TraceIsInput", {"optimize", "a.vtu", "-o", "b.vtu", "--trace", "a.vtu"}, "is the input mesh"},
+        Wrong{"ReplayWithoutTrace", {"replay", "a.vtu", "-o", "b.vtu"}, "TRACE is required"},
         Wrong{"RequireUnknownKey", {"check", "a.vtu", "--require", "outsid=0"}, "did you mean 'outside'?"},
         Wrong{"RequireListsTheKeys", {"check", "a.vtu", "--require", "size=0"}, "max_transmissibility_over_median"},
         Wrong{"RequireNoValue", {"check", "a.vtu", "--require", "outside"}, "'outside' is not key=value"},
