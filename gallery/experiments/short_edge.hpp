@@ -1,0 +1,32 @@
+// The two tests by which the paper removes a vertex, asked of a mesh as it is: the short-edge rule (Algorithm 2) and
+// the patch test (§6.6.4). Written on the public energies alone, with another minimiser than the optimiser's: a second
+// opinion on what a run did.
+#pragma once
+
+#include <cstddef>
+
+#include "experiments/closeness.hpp"
+#include "temper/energy.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper::gallery {
+
+/// Where E_F would put an inner vertex, and how near that is to the nearest neighbour.
+struct ShortEdge {
+  Vec2 best;                ///< the E_F-optimal position
+  VertexId nearest;         ///< the neighbour nearest to it
+  double distance = 0;      ///< from `best` to that neighbour
+  double distance_now = 0;  ///< from the vertex as it is to the neighbour nearest to that
+  double ratio = 0;         ///< distance over the shorter link edge at the neighbour
+  [[nodiscard]] bool collapses() const { return ratio < kCollapseRatio; }
+};
+[[nodiscard]] ShortEdge short_edge(const Mesh& mesh, VertexId v);
+
+/// What taking v away changes of the energy of the mesh: the patch test removes it when this is negative. +∞ when v
+/// cannot be removed.
+[[nodiscard]] double energy_change_without(const Mesh& mesh, const EnergyModel& model, VertexId v);
+
+/// Edges at v.
+[[nodiscard]] std::size_t valence(const Mesh& mesh, VertexId v);
+
+}  // namespace temper::gallery
