@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "energy/cavity.hpp"
+#include "optimize/cavity.hpp"
 #include "optimize/line_search.hpp"
 
 namespace temper {

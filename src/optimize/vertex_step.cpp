@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "energy/cavity.hpp"
 #include "geometry/predicates_inline.hpp"
+#include "optimize/cavity.hpp"
 #include "optimize/line_search.hpp"
 #include "optimize/removal.hpp"
 #include "regularity/power_tests.hpp"

@@ -1,4 +1,4 @@
-#include "energy/cavity.hpp"
+#include "optimize/cavity.hpp"
 
 #include <algorithm>
 
