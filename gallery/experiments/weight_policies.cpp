@@ -1,0 +1,127 @@
+#include "experiments/weight_policies.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/recording.hpp"
+
+namespace temper::gallery {
+namespace {
+
+constexpr int kSweeps = 40;
+constexpr double kNoChange = 1e-9;  // of a weight: rounding, and the shift to the anchor's zero
+
+/// Changes of each vertex's weight, against its last one.
+class Reversals {
+ public:
+  explicit Reversals(std::size_t n) : last_(n, 0) {}
+  void add(VertexId v, double change) {
+    if (std::abs(change) <= kNoChange) return;
+    if (last_[v] != 0) {
+      ++all_;
+      if (last_[v] * change < 0) ++reversed_;
+    }
+    last_[v] = change;
+  }
+  [[nodiscard]] double part() const {
+    return all_ == 0 ? 0 : static_cast<double>(reversed_) / static_cast<double>(all_);
+  }
+
+ private:
+  IdVector<VertexId, double> last_;
+  std::size_t all_ = 0, reversed_ = 0;
+};
+
+/// One sweep, and the flips after it.
+Moment one_sweep(const Mesh& mesh, const OptimizeOptions& options, std::size_t& flips) {
+  Recording run = record(mesh, options, Keep::sweeps);
+  for (const TraceEvent& e : run.events) flips += e.kind == EventKind::flip ? 1 : 0;
+  return std::move(run.moments.back());
+}
+
+int settled_at(const std::vector<double>& energies) {
+  std::size_t i = energies.size() - 1;
+  const double bound = PolicyRun::kSettled * std::abs(energies.back());
+  while (i > 0 && std::abs(energies[i - 1] - energies.back()) <= bound) --i;
+  return static_cast<int>(i);
+}
+
+}  // namespace
+
+std::vector<WeightPolicy> weight_policies() {
+  std::vector<WeightPolicy> policies;
+  for (const auto& [limit, limit_name] :
+       {std::pair{FlipLimit::unlimited, "unlimited"}, std::pair{FlipLimit::before, "before"},
+        std::pair{FlipLimit::after, "after"}}) {
+    using enum WeightUpdates;
+    policies.push_back({limit_name, "weights and flips at once", limit, immediate, FlipTiming::immediate});
+    policies.push_back({limit_name, "flips deferred", limit, immediate, FlipTiming::deferred});
+    policies.push_back({limit_name, "weights and flips deferred", limit, deferred, FlipTiming::deferred});
+  }
+  return policies;
+}
+
+OptimizeOptions policy_options(const WeightPolicy& policy, const VertexOrder& order) {
+  OptimizeOptions options = positions_and_collapses();
+  options.unknowns = Unknowns::weights;
+  options.collapse_from = {};
+  options.order = order.order;
+  options.seed = order.seed;
+  options.weight_updates = policy.weights;
+  options.flip_timing = policy.flips;
+  options.flip_limit = policy.limit;
+  options.hidden = HiddenPolicy::remove;
+  options.inner = 1;
+  options.outer = 1;
+  options.max_sweeps = 1;
+  return options;
+}
+
+PolicyRun run_policy(const WeightPolicy& policy, const Mesh& start, const VertexOrder& order, int sweeps) {
+  OptimizeOptions options = policy_options(policy, order);
+  const double overshoot = options.overshoot - 1;
+  PolicyRun run{policy, {total_energy(start, energy_dt())}, start, {}, 0, 0, 0, 0, 0, 0};
+  for (const VertexId v : start.vertices()) run.vertices.push_back(v);
+  Reversals reversals(start.n_vertices());
+  for (int i = 0; i < sweeps; ++i) {
+    options.overshoot = 1 + overshoot * std::pow(0.1, i);  // as it would shrink in one run
+    Moment after = one_sweep(run.end, options, run.flips);
+    std::vector<VertexId> vertices;
+    for (const VertexId v : after.mesh.vertices()) {
+      const VertexId before = after.vertices[v];
+      vertices.push_back(run.vertices[before.index]);
+      reversals.add(vertices.back(), after.mesh.weight(v) - run.end.weight(before));
+    }
+    run.rises += after.energy > run.energies.back() ? 1 : 0;
+    run.energies.push_back(after.energy);
+    run.end = std::move(after.mesh);
+    run.vertices = std::move(vertices);
+  }
+  for (const VertexId v : start.vertices()) {
+    if (std::ranges::find(run.vertices, v) != run.vertices.end()) continue;
+    ++(start.is_boundary(v) ? run.hidden_on_boundary : run.hidden_inside);
+  }
+  run.reversals = reversals.part();
+  run.settled = settled_at(run.energies);
+  return run;
+}
+
+std::vector<PolicyRun> run_policies(const VertexOrder& order) {
+  std::vector<PolicyRun> all;
+  for (const WeightPolicy& policy : weight_policies()) {
+    all.push_back(run_policy(policy, oscillating_mesh(), order, kSweeps));
+  }
+  return all;
+}
+
+const std::vector<PolicyRun>& policy_runs() {
+  static const std::vector<PolicyRun> runs = run_policies({"reverse", positions_and_collapses().order});
+  return runs;
+}
+
+const PolicyRun& policy_run(const std::vector<PolicyRun>& runs, FlipLimit limit, std::size_t column) {
+  const auto row = static_cast<std::size_t>(std::ranges::find(kPolicyRows, limit) - std::begin(kPolicyRows));
+  return runs[row * kPolicyColumns + column];
+}
+
+}  // namespace temper::gallery

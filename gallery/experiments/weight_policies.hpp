@@ -1,0 +1,60 @@
+// Weights alone over the oscillating horseshoe, E_∂T ★1 (§6.6.2): weights and flips at once or deferred to the end of
+// the sweep, weights unlimited or stopped before or after the next flip.
+//
+// Each run takes the same number of sweeps whether or not its energy falls: the paper's stopping rule would end an
+// oscillation at the first rise. Vertices that the weights hide are removed where the domain keeps its shape.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "experiments/oscillating_horseshoe.hpp"
+#include "temper/optimize.hpp"
+
+namespace temper::gallery {
+
+struct WeightPolicy {
+  std::string limit_name, update_name;  ///< row and column of figure 23
+  FlipLimit limit = FlipLimit::after;
+  WeightUpdates weights = WeightUpdates::immediate;
+  FlipTiming flips = FlipTiming::immediate;
+};
+
+/// Row by row as in figure 23: unlimited, before, after; in each immediate, deferred flips, deferred weights and flips.
+[[nodiscard]] std::vector<WeightPolicy> weight_policies();
+inline constexpr std::size_t kPolicyColumns = 3;
+inline constexpr FlipLimit kPolicyRows[] = {FlipLimit::unlimited, FlipLimit::before, FlipLimit::after};
+
+struct PolicyRun {
+  WeightPolicy policy;
+  std::vector<double> energies;  ///< of the start and after each sweep, flips done
+  Mesh end;
+  std::vector<VertexId> vertices;  ///< of `end`: numbers in the start
+  std::size_t flips = 0;
+  std::size_t hidden_inside = 0, hidden_on_boundary = 0;
+  std::size_t rises = 0;  ///< sweeps after which the energy was higher
+  double reversals = 0;   ///< part of all weight changes that undo some of the vertex's last one
+  int settled = 0;        ///< first sweep from which on the energy stays within kSettled of its last value, relative
+  static constexpr double kSettled = 1e-3;
+  [[nodiscard]] double energy() const { return energies.back(); }
+  [[nodiscard]] double least() const { return *std::min_element(energies.begin(), energies.end()); }
+};
+
+/// One policy from a mesh.
+[[nodiscard]] PolicyRun run_policy(const WeightPolicy& policy, const Mesh& start, const VertexOrder& order, int sweeps);
+
+/// All nine from oscillating_mesh(), one vertex order, as many sweeps as in figure 24.
+[[nodiscard]] std::vector<PolicyRun> run_policies(const VertexOrder& order);
+
+/// Those of figures 23 and 24: in the order of the run that led to the start. Computed once.
+[[nodiscard]] const std::vector<PolicyRun>& policy_runs();
+
+/// One of the nine, by its place in figure 23.
+[[nodiscard]] const PolicyRun& policy_run(const std::vector<PolicyRun>& runs, FlipLimit limit, std::size_t column);
+
+/// The optimiser's options for the first sweep of a policy.
+[[nodiscard]] OptimizeOptions policy_options(const WeightPolicy& policy, const VertexOrder& order);
+
+}  // namespace temper::gallery

@@ -1,0 +1,131 @@
+// Figure 24: the energy by iteration of the nine policies of figure 23.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "experiments/text.hpp"
+#include "experiments/weight_policies.hpp"
+#include "figures.hpp"
+#include "temper/plot.hpp"
+
+namespace temper::gallery {
+namespace {
+
+constexpr std::size_t kAtOnce = 0, kAllDeferred = 2;  // columns
+
+std::string panel(const PolicyRun& run) {
+  LinePlot plot;
+  plot.title = run.policy.limit_name + ": " + run.policy.update_name;
+  plot.x_label = "iteration";
+  plot.y_label = "E_{∂T}";
+  plot.width = 330, plot.height = 230;
+  Series series{"", {}, SeriesStyle::line_markers};
+  for (std::size_t i = 0; i < run.energies.size(); ++i) {
+    series.points.push_back({static_cast<double>(i), run.energies[i]});
+  }
+  plot.series = {series};
+  return line_plot_svg(plot);
+}
+
+Picture panels() {
+  std::vector<std::string> svgs;
+  for (const PolicyRun& run : policy_runs()) svgs.push_back(panel(run));
+  return {
+      "fig24", grid_svg(svgs, kPolicyColumns),
+      "E_∂T after each sweep over the weights, and after its flips. Deferred weights (right) do not settle. Jumps come "
+      "with vertices that become hidden."};
+}
+
+Table table() {
+  Table t{
+      "How the nine runs of " + digits(policy_runs().front().energies.size() - 1) +
+          " sweeps go: sweeps after which the energy was higher; the part of all weight changes that go back on the "
+          "vertex's last one; the sweep from which on the energy is within " +
+          digits(PolicyRun::kSettled) + " of its last value, relative.",
+      {"limit", "updates", "last energy", "rises", "reversed changes", "settled at sweep"},
+      {}};
+  for (const PolicyRun& r : policy_runs()) {
+    t.rows.push_back({r.policy.limit_name, r.policy.update_name, digits(r.energy()), digits(r.rises),
+                      digits(r.reversals, 2), std::to_string(r.settled)});
+  }
+  return t;
+}
+
+Claim deferred_weights_oscillate() {
+  double least_deferred = 1, most_immediate = 0;
+  std::size_t rises = 0, rises_immediate = 0;
+  for (std::size_t i = 0; i < policy_runs().size(); ++i) {
+    const PolicyRun& r = policy_runs()[i];
+    if (i % kPolicyColumns == kAllDeferred) {
+      least_deferred = std::min(least_deferred, r.reversals);
+      rises += r.rises;
+    } else {
+      most_immediate = std::max(most_immediate, r.reversals);
+      rises_immediate += r.rises;
+    }
+  }
+  constexpr double kOften = 0.25;  // of all changes
+  return {"24",
+          "Deferring weight updates exhibits oscillations.",
+          "oscillatory weights",
+          "at least " + digits(100 * least_deferred, 2) +
+              " % of the weight changes go back on the last one (immediate: at "
+              "most " +
+              digits(100 * most_immediate, 2) + " %); the energy rose after " + digits(rises) + " sweeps (" +
+              digits(rises_immediate) + ")",
+          least_deferred > kOften && least_deferred > most_immediate && rises > rises_immediate,
+          "The three runs with deferred weights against the six with immediate ones."};
+}
+
+Claim deferred_weights_are_slowest() {
+  bool slowest = true;
+  std::string measured;
+  for (const FlipLimit limit : kPolicyRows) {
+    const PolicyRun& deferred = policy_run(policy_runs(), limit, kAllDeferred);
+    measured += (measured.empty() ? "" : "; ") + deferred.policy.limit_name + " " + std::to_string(deferred.settled) +
+                " against";
+    for (std::size_t column = 0; column < kAllDeferred; ++column) {
+      const PolicyRun& other = policy_run(policy_runs(), limit, column);
+      slowest = slowest && deferred.settled > other.settled;
+      measured += " " + std::to_string(other.settled);
+    }
+  }
+  return {"24",
+          "Deferring weights and flips converges slowest.",
+          "the slowest convergence",
+          "settled at sweep: " + measured,
+          slowest,
+          "From that sweep on the energy is within " + digits(PolicyRun::kSettled) + " of its value at sweep " +
+              digits(policy_runs().front().energies.size() - 1) + "."};
+}
+
+Claim after_converges_quickest() {
+  const auto sweep = [](FlipLimit limit) { return policy_run(policy_runs(), limit, kAtOnce).settled; };
+  // As low as stopping before ever gets: both are then measured against one energy.
+  const double target = policy_run(policy_runs(), FlipLimit::before, kAtOnce).energy();
+  const auto reached = [&](FlipLimit limit) {
+    const auto& energies = policy_run(policy_runs(), limit, kAtOnce).energies;
+    return std::ranges::find_if(energies, [&](double e) { return e <= target; }) - energies.begin();
+  };
+  const auto after = reached(FlipLimit::after);
+  return {"24",
+          "With immediate updates stopping after converges quickest.",
+          "quickest",
+          "it is below the last energy of stopping before (" + digits(target) + ") after " + std::to_string(after) +
+              " sweeps, unlimited weights after " + std::to_string(reached(FlipLimit::unlimited)) +
+              ", stopping before after " + std::to_string(reached(FlipLimit::before)),
+          after < reached(FlipLimit::unlimited) && after < reached(FlipLimit::before),
+          "Each measured against its own last energy, they settle at sweep " + std::to_string(sweep(FlipLimit::after)) +
+              ", " + std::to_string(sweep(FlipLimit::unlimited)) + " and " + std::to_string(sweep(FlipLimit::before)) +
+              "."};
+}
+
+}  // namespace
+
+Page make_fig24(Effort) {
+  return {{panels()},
+          {table()},
+          {deferred_weights_oscillate(), deferred_weights_are_slowest(), after_converges_quickest()}};
+}
+
+}  // namespace temper::gallery
