@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "base/rng.hpp"
-#include "base/sum.hpp"
-#include "geometry/predicates_inline.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
@@ -47,81 +45,93 @@ Driver::Driver(WorkingCopy& work, Settings& settings, Run& run)
 
 /// Algorithm 1.
 void Driver::optimize(const Attempt& attempt, bool may_give_up) {
-  const OptimizeOptions& o = settings_.options;
-  Softener softener(attempt, settings_.energy, o);
-  softener.start(mesh_, settings_.model);
-  if (run_.report.history.empty()) record();
-  least_bad_ = mesh_.n_triangles();
-  before_ = best_energy_ = total();
-  final_sweep_ = best_sweep_ = run_.report.sweeps;
-  run_.report.stopped = Stopped::max_sweeps;
-  show(Snapshot::Moment::start, 0);
-
+  begin(attempt);
   Verdict verdict = Verdict::improving;
-  int i = 0;
-  for (int outer = 0; verdict != Verdict::stopped && run_.sweeps_left(); ++outer) {  // outer iterations
-    int inner = 0;
-    do {
-      verdict = sweep(i++, softener, may_give_up);
-    } while (verdict == Verdict::improving && run_.sweeps_left() && (!defers_flips() || ++inner != o.inner));
-    if (!defers_flips()) break;
-    show(Snapshot::Moment::before_flips, outer);
-    const std::size_t flips = run_.report.flips;
-    if (!restore_regularity()) break;
-    show(Snapshot::Moment::after_flips, outer);
-    keep_if_best();
-    if (verdict == Verdict::settled && run_.report.flips == flips) break;  // until no flips were needed
-    if (verdict != Verdict::stopped) run_.report.stopped = Stopped::max_sweeps;
-    if (outer + 1 == o.outer) {
-      run_.report.stopped = Stopped::max_outer;
-      break;
-    }
-  }
+  do {    // outer iterations
+    do {  // inner iterations
+      verdict = sweep(may_give_up);
+    } while (verdict == Verdict::improving && !(defers_flips() && ++inner_ == settings_.options.inner));
+    verdict = flip_if_deferred(verdict);
+  } while (verdict == Verdict::improving);
   return_best();
 }
 
-/// Lines 9 to 18 of Algorithm 1, for iteration i, and whether there should be another.
-Driver::Verdict Driver::sweep(int i, Softener& softener, bool may_give_up) {
+void Driver::begin(const Attempt& attempt) {
+  softener_ = Softener(attempt, settings_.energy, settings_.options);
+  softener_.start(mesh_, settings_.model);
+  if (run_.report.history.empty()) record();
+  least_bad_ = mesh_.n_triangles();
+  before_ = best_energy_ = total();
+  best_sweep_ = recorder_.sweep();
+  run_.report.stopped = Stopped::max_sweeps;
+  show(Snapshot::Moment::start);
+}
+
+/// Lines 9 to 18 of Algorithm 1.
+Driver::Verdict Driver::sweep(bool may_give_up) {
+  if (!run_.sweeps_left()) return Verdict::stopped;
   recorder_.begin_sweep(run_.report.sweeps + 1);
-  const bool whole = improve_all_vertices(i);
-  step_.end_sweep();
-  if (!defers_flips() && settings_.options.weight_updates == WeightUpdates::deferred) flipper_.restore_all();
+  const bool whole = improve_all_vertices();
   const bool removed = flipper_.has_removed();
   if (removed) compact();
   shift_weights_to_anchor();
+  ++iteration_;
   ++run_.report.sweeps;
   record();
   if (!defers_flips()) keep_if_best();
-  show(Snapshot::Moment::after_sweep, 0);
-  if (!whole) return Verdict::stopped;  // by the caller or the clock
+  show(Snapshot::Moment::after_sweep);
+  return whole ? judge_sweep(removed, may_give_up) : Verdict::stopped;  // by the caller or the clock
+}
 
+/// Line 19, and what a softened barrier or an infinite energy ask for besides.
+Driver::Verdict Driver::judge_sweep(bool removed, bool may_give_up) {
   const double after = run_.report.history.back().energy;
   if (!std::isfinite(after)) {
     if (++infinite_sweeps_ > kInfinitePatience && !halve_weights()) return Verdict::stopped;
     before_ = total();
     return Verdict::improving;
   }
-  if (softener.settled() && !removed && converged(before_, after)) {
+  if (softener_.settled() && !removed && converged(before_, after)) {
     run_.report.stopped = Stopped::converged;
     return Verdict::settled;
   }
-  if (softener.settled() && may_give_up && stagnates()) return Verdict::stopped;
-  const bool changed = softener.advance(mesh_, (before_ - after) / std::abs(after), settings_.model);
+  if (softener_.settled() && may_give_up && stagnates()) return Verdict::stopped;
+  const bool changed = softener_.advance(mesh_, (before_ - after) / std::abs(after), settings_.model);
   before_ = changed ? total() : after;
   return Verdict::improving;
 }
 
-/// One Gauss-Seidel sweep. False when it was cut short.
-bool Driver::improve_all_vertices(int i) {
-  step_.begin_sweep(i);
+/// Lines 20 and 21: whether there is another outer iteration.
+Driver::Verdict Driver::flip_if_deferred(Verdict of_sweeps) {
+  if (!defers_flips()) return Verdict::stopped;
+  show(Snapshot::Moment::before_flips);
+  const std::size_t flips = run_.report.flips;
+  if (!restore_regularity()) return Verdict::stopped;
+  keep_if_best();
+  show(Snapshot::Moment::after_flips);
+  inner_ = 0;
+  ++outer_;
+  const bool needed = run_.report.flips > flips;
+  if (of_sweeps == Verdict::stopped || (of_sweeps == Verdict::settled && !needed)) return Verdict::stopped;
+  run_.report.stopped = outer_ == settings_.options.outer ? Stopped::max_outer : Stopped::max_sweeps;
+  return outer_ == settings_.options.outer ? Verdict::stopped : Verdict::improving;
+}
+
+/// One Gauss-Seidel sweep, lines 9 to 16. False when it was cut short.
+bool Driver::improve_all_vertices() {
+  step_.begin_sweep(iteration_);
   const std::size_t n = mesh_.n_vertices();
-  for (std::size_t k = 0; k < n; ++k) {
+  bool whole = true;
+  for (std::size_t k = 0; whole && k < n; ++k) {
     const double done = static_cast<double>(k) / static_cast<double>(n);
-    if (k % kVerticesBetweenCalls == 0 && run_.asked_to_stop(done)) return false;
+    if (k % kVerticesBetweenCalls == 0 && run_.asked_to_stop(done)) whole = false;
     const VertexId v = sequence_.empty() ? VertexId(k) : sequence_[k];
-    if (!mesh_.is_isolated(v)) step_.improve(v);
+    if (whole && !mesh_.is_isolated(v)) step_.improve(v);
   }
-  return true;
+  step_.end_sweep();
+  const bool many_changed = settings_.options.weight_updates == WeightUpdates::deferred;
+  if (many_changed && !defers_flips()) flipper_.restore_all();
+  return whole;
 }
 
 /// Drops what the sweep has removed, everywhere.
@@ -230,15 +240,15 @@ bool Driver::stagnates() {
 /// HOT energies need not fall at every flip: the best sweep is kept. A barrier's does, once γ has settled.
 void Driver::keep_if_best() {
   const double energy = run_.report.history.back().energy;
-  final_sweep_ = run_.report.sweeps;
   if (settings_.energy.barrier || !(energy < best_energy_)) return;
   if (settings_.options.inversion == Inversion::allow && count_inverted(mesh_) > 0) return;
   best_ = work_;
   best_energy_ = energy;
-  best_sweep_ = run_.report.sweeps;
+  best_sweep_ = recorder_.sweep();
 }
 
 void Driver::return_best() {
+  final_sweep_ = recorder_.sweep();
   if (!best_ || !(best_energy_ < run_.report.history.back().energy)) return;
   work_ = *std::move(best_);
   final_sweep_ = best_sweep_;
@@ -268,39 +278,11 @@ void Driver::amend_record() {
   run_.report.vertices_removed += changes.removed;
 }
 
-void Driver::show(Snapshot::Moment moment, int outer) const {
+void Driver::show(Snapshot::Moment moment) const {
   if (!settings_.options.watch) return;
   const Mesh mesh = work_.in_user_terms();
   const auto vertices = work_.user_vertices();
-  settings_.options.watch({moment, run_.report.sweeps, outer, total(), mesh, vertices});
-}
-
-bool Run::asked_to_stop(double fraction_of_sweep) {
-  if (options_.time_limit > 0 && seconds() > options_.time_limit) {
-    report.stopped = Stopped::time_limit;
-    return true;
-  }
-  if (observer_ && observer_({report.history.back(), fraction_of_sweep, options_.max_sweeps}) == Continue::no) {
-    report.stopped = Stopped::cancelled;
-    return true;
-  }
-  return false;
-}
-
-std::size_t count_bad(const Mesh& mesh, Executor* executor) {
-  return static_cast<std::size_t>(blockwise_sum(mesh.n_triangles(), executor, [&](std::size_t i) {
-    const auto [p, q, r] = mesh.corners(TriangleId(i));
-    return inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r)) ? 0.0 : 1.0;
-  }));
-}
-
-std::size_t count_inverted(const Mesh& mesh) {
-  std::size_t count = 0;
-  for (const TriangleId t : mesh.triangles()) {
-    const auto [a, b, c] = mesh.corners(t);
-    if (inlined::orient2d(mesh.position(a), mesh.position(b), mesh.position(c)) != Sign::positive) ++count;
-  }
-  return count;
+  settings_.options.watch({moment, run_.report.sweeps, outer_, total(), mesh, vertices});
 }
 
 }  // namespace temper

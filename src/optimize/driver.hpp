@@ -1,13 +1,12 @@
 // Algorithm 1 of the paper: sweeps over the vertices of a working copy until the energy no longer falls.
 #pragma once
 
-#include <chrono>
-#include <cmath>
 #include <optional>
 #include <vector>
 
 #include "optimize/flipper.hpp"
 #include "optimize/recorder.hpp"
+#include "optimize/run.hpp"
 #include "optimize/schedule.hpp"
 #include "optimize/settings.hpp"
 #include "optimize/vertex_step.hpp"
@@ -15,32 +14,6 @@
 #include "temper/optimize.hpp"
 
 namespace temper {
-
-/// Triangles that are not well-centered, exact.
-[[nodiscard]] std::size_t count_bad(const Mesh& mesh, Executor* executor);
-/// Triangles that are not counter-clockwise, exact.
-[[nodiscard]] std::size_t count_inverted(const Mesh& mesh);
-
-/// What the attempts of one call of optimize share: the report that grows, the clock, and the caller's ear.
-class Run {
- public:
-  Run(const OptimizeOptions& options, const Observer& observer)
-      : options_(options), observer_(observer), start_(Clock::now()) {}
-
-  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  [[nodiscard]] bool sweeps_left() const { return report.sweeps < options_.max_sweeps; }
-  /// Asks the clock and the caller; sets report.stopped when the answer is yes.
-  bool asked_to_stop(double fraction_of_sweep);
-
-  OptimizeReport report;
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  const OptimizeOptions& options_;
-  const Observer& observer_;
-  Clock::time_point start_;
-};
 
 class Driver {
  public:
@@ -61,8 +34,11 @@ class Driver {
  private:
   enum class Verdict { improving, settled, stopped };
 
-  Verdict sweep(int i, Softener& softener, bool may_give_up);
-  bool improve_all_vertices(int i);
+  void begin(const Attempt& attempt);
+  Verdict sweep(bool may_give_up);
+  Verdict judge_sweep(bool removed, bool may_give_up);
+  Verdict flip_if_deferred(Verdict of_sweeps);
+  bool improve_all_vertices();
   void compact();
   bool halve_weights();
   void shift_weights_to_anchor();
@@ -76,7 +52,7 @@ class Driver {
   [[nodiscard]] double total() const;
   void record();
   void amend_record();
-  void show(Snapshot::Moment moment, int outer) const;
+  void show(Snapshot::Moment moment) const;
 
   WorkingCopy& work_;
   Mesh& mesh_;
@@ -86,7 +62,10 @@ class Driver {
   Recorder recorder_;
   Flipper flipper_;
   VertexStep step_;
+  Softener softener_;
   std::vector<VertexId> sequence_;  // in which a sweep visits the vertices; empty: as they are numbered
+  int iteration_ = 0;               // the paper's i, of this attempt
+  int inner_ = 0, outer_ = 0;       // iterations since the last flips, and rounds of them
   double before_ = 0;               // energy at the start of the sweep
   std::size_t least_bad_ = 0;       // of this attempt so far, and for how many sweeps
   int sweeps_since_fewer_bad_ = 0;

@@ -24,6 +24,7 @@ class Recorder {
   /// Whether anybody listens: if not, nothing else need be called.
   [[nodiscard]] bool on() const { return static_cast<bool>(tracer_); }
   void begin_sweep(int sweep) { sweep_ = sweep; }
+  [[nodiscard]] int sweep() const { return sweep_; }
 
   void placed(VertexId v, const WeightedPoint& from, const WeightedPoint& to, double before, double after) const;
   void flipped(std::span<const FlipRecord> flips) const;

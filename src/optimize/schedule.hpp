@@ -32,6 +32,7 @@ struct Attempt {
 /// γ and h° of the sweeps of one attempt.
 class Softener {
  public:
+  Softener() = default;
   Softener(const Attempt& attempt, const EnergyInfo& energy, const OptimizeOptions& options)
       : attempt_(attempt),
         gamma_shrinks_(energy.softened_by_gamma && !options.gamma),
@@ -47,7 +48,7 @@ class Softener {
 
  private:
   Attempt attempt_;
-  bool gamma_shrinks_, h0_shrinks_;
+  bool gamma_shrinks_ = false, h0_shrinks_ = false;
   bool settled_ = true;
   int sweeps_at_level_ = 0;
 };

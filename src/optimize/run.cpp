@@ -1,0 +1,36 @@
+#include "optimize/run.hpp"
+
+#include "base/sum.hpp"
+#include "geometry/predicates_inline.hpp"
+
+namespace temper {
+
+bool Run::asked_to_stop(double fraction_of_sweep) {
+  if (options_.time_limit > 0 && seconds() > options_.time_limit) {
+    report.stopped = Stopped::time_limit;
+    return true;
+  }
+  if (observer_ && observer_({report.history.back(), fraction_of_sweep, options_.max_sweeps}) == Continue::no) {
+    report.stopped = Stopped::cancelled;
+    return true;
+  }
+  return false;
+}
+
+std::size_t count_bad(const Mesh& mesh, Executor* executor) {
+  return static_cast<std::size_t>(blockwise_sum(mesh.n_triangles(), executor, [&](std::size_t i) {
+    const auto [p, q, r] = mesh.corners(TriangleId(i));
+    return inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r)) ? 0.0 : 1.0;
+  }));
+}
+
+std::size_t count_inverted(const Mesh& mesh) {
+  std::size_t count = 0;
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [a, b, c] = mesh.corners(t);
+    if (inlined::orient2d(mesh.position(a), mesh.position(b), mesh.position(c)) != Sign::positive) ++count;
+  }
+  return count;
+}
+
+}  // namespace temper
