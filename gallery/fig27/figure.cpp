@@ -47,6 +47,7 @@ LinePlot energy_plot() {
   LinePlot plot;
   plot.title = "E_{BP} and triangles not well-centered";
   plot.x_label = "iteration";
+  plot.width = 640;
   plot.y_label = "E_{BP} / 100, fraction";
   Series energy{"E_{BP} / 100", {}, SeriesStyle::line}, bad{"not well-centered", {}, SeriesStyle::dashed};
   for (const Moment& m : high_heat_bp().moments) {

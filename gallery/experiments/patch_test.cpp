@@ -1,0 +1,159 @@
+#include "experiments/patch_test.hpp"
+
+#include <algorithm>
+
+#include "experiments/high_heat.hpp"
+#include "experiments/mesh_picture.hpp"
+#include "experiments/text.hpp"
+#include "temper/plot.hpp"
+#include "temper/quality.hpp"
+
+namespace temper::gallery {
+namespace {
+
+constexpr int kRandomOrders = 12;
+// Vertices go in the first sweeps; the rest of a run only brings energies to rest.
+constexpr int kSurveySweeps = 60;
+constexpr std::size_t kColumns = 3;
+
+const Moment& begin_of(const Recording& run, int iteration) {
+  for (const Moment& m : run.moments) {
+    if (m.sweep == iteration) return m;
+  }
+  return run.moments.back();
+}
+
+Removals removed_with(const VertexOrder& order, Unknowns unknowns, RemovalRule rule) {
+  OptimizeOptions options = immediate_options(unknowns, rule);
+  options.order = order.order;
+  options.seed = order.seed;
+  options.max_sweeps = kSurveySweeps;
+  return removals(record(dense_input(), options, Keep::outer));
+}
+
+std::vector<RuleComparison> compare(Effort effort) {
+  std::vector<RuleComparison> all;
+  for (const VertexOrder& order : vertex_orders(effort == Effort::full ? kRandomOrders : 0)) {
+    all.push_back({order.name, removed_with(order, Unknowns::positions, RemovalRule::patch),
+                   removed_with(order, Unknowns::positions_and_weights, RemovalRule::patch),
+                   removed_with(order, Unknowns::positions, RemovalRule::short_edge),
+                   removed_with(order, Unknowns::positions_and_weights, RemovalRule::short_edge)});
+  }
+  return all;
+}
+
+/// Mean energy of a triangle, γ = 1.
+double mean_energy(const Mesh& mesh) {
+  return total_energy(mesh, high_heat_model("BP")) / static_cast<double>(mesh.n_triangles());
+}
+
+}  // namespace
+
+OptimizeOptions immediate_options(Unknowns unknowns, RemovalRule rule) {
+  OptimizeOptions options = paper_method();
+  options.unknowns = unknowns;
+  options.flip_timing = FlipTiming::immediate;
+  options.inversion = Inversion::refuse;
+  options.collapse_energy = "F";
+  if (rule != RemovalRule::patch) options.removal = Removal::none;
+  if (rule != RemovalRule::short_edge) options.collapse_from = {};
+  return options;
+}
+
+const Recording& patch_test_run(Unknowns unknowns) {
+  const auto run = [](Unknowns moving) {
+    return record(dense_input(), immediate_options(moving, RemovalRule::patch), Keep::sweeps);
+  };
+  static const Recording positions = run(Unknowns::positions);
+  static const Recording both = run(Unknowns::positions_and_weights);
+  return unknowns == Unknowns::positions ? positions : both;
+}
+
+Removals removals(const Recording& run) {
+  Removals by_iteration;
+  for (const TraceEvent& e : run.events) {
+    if (e.kind == EventKind::collapse || e.kind == EventKind::removal) by_iteration[e.sweep - 1].push_back(e.vertex);
+  }
+  return by_iteration;
+}
+
+std::set<VertexId> all_of(const Removals& removals) {
+  std::set<VertexId> all;
+  for (const auto& [iteration, vertices] : removals) all.insert(vertices.begin(), vertices.end());
+  return all;
+}
+
+double mean_iteration(const Removals& removals) {
+  double sum = 0, count = 0;
+  for (const auto& [iteration, vertices] : removals) {
+    sum += iteration * static_cast<double>(vertices.size());
+    count += static_cast<double>(vertices.size());
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+const std::vector<RuleComparison>& rule_comparisons(Effort effort) {
+  if (effort == Effort::full) {
+    static const std::vector<RuleComparison> full = compare(Effort::full);
+    return full;
+  }
+  static const std::vector<RuleComparison> reduced = compare(Effort::reduced);
+  return reduced;
+}
+
+std::string removal_panels(const Recording& run, double weight_scale) {
+  std::vector<std::string> panels;
+  for (const auto& [iteration, vertices] : removals(run)) {
+    const Moment& m = begin_of(run, iteration);
+    MeshPicture picture;
+    picture.title = "iteration " + std::to_string(iteration) + ": " + std::to_string(vertices.size()) + " of " +
+                    std::to_string(m.mesh.n_vertices()) + " vertices go";
+    picture.weight_scale = weight_scale;
+    for (const VertexId v : vertices) picture.marks.push_back({m.mesh.position(m.find(v)), MarkColor::removed});
+    panels.push_back(mesh_picture_svg(m.mesh, picture));
+  }
+  MeshPicture last;
+  last.title =
+      "final mesh: " + std::to_string(run.result.n_vertices()) + " vertices, E_BP = " + digits(run.report.final_energy);
+  last.weight_scale = weight_scale;
+  panels.push_back(mesh_picture_svg(run.result, last));
+  return grid_svg(panels, std::min(panels.size(), kColumns));
+}
+
+Table removal_table(const Recording& run) {
+  Table t{
+      "Vertices removed by iteration, and the mesh at its end.",
+      {"iteration", "removed", "vertices", "E_BP", "E_BP a triangle", "well-centered", "least angle", "greatest angle"},
+      {}};
+  const auto add = [&](const std::string& iteration, const std::string& removed, const Mesh& mesh) {
+    const Quality q = quality(mesh);
+    t.rows.push_back({iteration, removed, digits(q.vertices), digits(total_energy(mesh, high_heat_model("BP"))),
+                      digits(mean_energy(mesh), 3), digits(q.well_centered_fraction, 3),
+                      digits(q.min_angle_deg, 3) + "°", digits(q.max_angle_deg, 4) + "°"});
+  };
+  add("input", "", dense_input());
+  for (const auto& [iteration, vertices] : removals(run)) {
+    add(std::to_string(iteration), digits(vertices.size()), begin_of(run, iteration + 1).mesh);
+  }
+  add("final, " + std::to_string(run.report.sweeps - 1), "", run.result);
+  return t;
+}
+
+Claim coarse_but_good(const Recording& run, const std::string& figure) {
+  const Quality before = quality(dense_input()), after = quality(run.result);
+  const double e0 = mean_energy(dense_input()), e1 = mean_energy(run.result);
+  const bool valid = after.inverted_triangles == 0 && after.non_regular_edges == 0;
+  return {figure,
+          "The patch test gives a coarse mesh of high quality.",
+          "coarse but high quality",
+          "vertices " + digits(before.vertices) + " → " + digits(after.vertices) + ", least angle " +
+              digits(before.min_angle_deg, 3) + "° → " + digits(after.min_angle_deg, 3) + "°, well-centered " +
+              digits(before.well_centered_fraction, 2) + " → " + digits(after.well_centered_fraction, 2) +
+              ", E_BP a triangle " + digits(e0, 3) + " → " + digits(e1, 3),
+          valid && 3 * after.vertices < 2 * before.vertices && after.min_angle_deg > before.min_angle_deg &&
+              after.well_centered_fraction > before.well_centered_fraction && e1 < e0,
+          "Asked for: a third of the vertices gone, a greater least angle, more well-centered triangles, less energy a "
+          "triangle, no edge to flip. The boundary vertices, which may not go, keep the angles at the feet sharp."};
+}
+
+}  // namespace temper::gallery
