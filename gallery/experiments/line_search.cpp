@@ -7,17 +7,6 @@ namespace temper::gallery {
 namespace {
 
 constexpr double kInversionFraction = 0.9;  // of the way to the first triangle without area
-constexpr double kTolerance = 1e-8;         // of the interval: what golden section can tell apart in doubles
-
-double patch_radius(const Mesh& mesh, VertexId v) {
-  double sum = 0;
-  std::size_t n = 0;
-  for (const HalfedgeId h : mesh.star(v)) {
-    sum += squared_length(mesh.position(mesh.target(h)) - mesh.position(v));
-    ++n;
-  }
-  return std::sqrt(sum / static_cast<double>(n));
-}
 
 /// Areas are linear along the step.
 double inversion_limit(const Mesh& mesh, VertexId v, Vec2 step) {
@@ -30,18 +19,21 @@ double inversion_limit(const Mesh& mesh, VertexId v, Vec2 step) {
   return limit;
 }
 
-template <class Function>
-double golden_section(Function&& f, double limit) {
-  const double ratio = 0.5 * (std::sqrt(5.0) - 1);
-  double low = 0, high = limit;
-  while (high - low > kTolerance * limit) {
-    const double a = high - ratio * (high - low), b = low + ratio * (high - low);
-    (f(b) < f(a) ? low : high) = f(b) < f(a) ? a : b;
-  }
-  return 0.5 * (low + high);
-}
-
 }  // namespace
+
+double patch_radius(const Mesh& mesh, VertexId v) {
+  double sum = 0;
+  std::size_t n = 0;
+  const auto add = [&](VertexId neighbour) {
+    sum += squared_length(mesh.position(neighbour) - mesh.position(v));
+    ++n;
+  };
+  for (const HalfedgeId h : mesh.star(v)) {
+    add(mesh.target(h));
+    if (!mesh.rotate(h).valid()) add(mesh.opposite(h));  // the last neighbour along the boundary
+  }
+  return std::sqrt(sum / static_cast<double>(n));
+}
 
 std::vector<LineSearch> line_searches(Mesh mesh, const EnergyModel& model, VertexId v, int searches) {
   std::vector<LineSearch> done;

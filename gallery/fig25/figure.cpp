@@ -1,0 +1,216 @@
+// Figure 25: positions and weights from the mesh that oscillates, flips deferred. Under E_∂T a HOT mess, unless
+// searches stop at the flip; under E_T a good mesh without limits.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "experiments/mesh_picture.hpp"
+#include "experiments/search_loop.hpp"
+#include "experiments/text.hpp"
+#include "figures.hpp"
+#include "temper/plot.hpp"
+
+namespace temper::gallery {
+namespace {
+
+constexpr double kShownReach = 4;  // over r²
+constexpr int kShownSweeps = 20;
+
+struct Policy {
+  std::string name;
+  EnergyKind energy = EnergyKind::dT;
+  bool limited = false;
+};
+const Policy kMess{"E_∂T, unlimited", EnergyKind::dT, false};
+const Policy kLimited{"E_∂T, limited", EnergyKind::dT, true};
+const Policy kTheory{"E_T, unlimited", EnergyKind::T, false};
+
+std::vector<LoopStage> stages(const Policy& policy, double reach, const VertexOrder& order, int sweeps) {
+  return run_loop({policy.energy, reach, policy.limited, true}, oscillating_mesh(), order, sweeps);
+}
+
+VertexOrder shown_order() { return {"reverse", positions_and_collapses().order}; }
+
+const std::vector<LoopStage>& mess() {
+  static const std::vector<LoopStage> run = stages(kMess, kShownReach, shown_order(), kShownSweeps);
+  return run;
+}
+
+const LoopStage& stage(const std::vector<LoopStage>& run, const std::string& name) {
+  const auto found = std::ranges::find(run, name, &LoopStage::name);
+  return found == run.end() ? run.back() : *found;
+}
+
+// --- pictures --------------------------------------------------------------------------------------------
+
+std::string panel(const LoopStage& s, const std::string& title, double weight_scale, const Box& box) {
+  MeshPicture picture;
+  picture.title = title;
+  picture.footer = "E = " + digits(s.energy) + ", " + digits(s.inverted) +
+                   " triangles inverted, max |w| = " + digits(s.largest_weight, 2);
+  picture.width = 380;
+  picture.weight_scale = weight_scale;
+  picture.box = box;
+  return mesh_picture_svg(s.mesh, picture);
+}
+
+Picture panels() {
+  constexpr Box kWide = {{-3.4, -1.4}, {3.4, 5.4}}, kNear = {{-2.3, -0.3}, {2.3, 4.3}};
+  constexpr double kQuarter = 0.25;
+  const LoopStage limited = stages(kLimited, kShownReach, shown_order(), kShownSweeps).back();
+  const LoopStage theory = stages(kTheory, kShownReach, shown_order(), kShownSweeps).back();
+  const std::vector<std::string> svgs = {panel(stage(mess(), "weights 1"), "E∂T: after the first weights", 1, kWide),
+                                         panel(stage(mess(), "positions 2"), "E∂T: after the next positions", 1, kWide),
+                                         panel(limited, "E∂T, limited to the flip threshold", kQuarter, kNear),
+                                         panel(theory, "ET, unlimited", kQuarter, kNear)};
+  return {
+      "fig25", grid_svg(svgs, 2),
+      "Positions, then weights, flips after each sweep, from the mesh at the lower right of figure 20. Above, radii to "
+      "scale: the first weights turn dual edges over, then positions turn triangles over (pink). Below, a quarter of "
+      "√|w|, after " +
+          std::to_string(kShownSweeps) + " sweeps. A search changes a weight by at most 4 r²."};
+}
+
+// --- over reaches and vertex orders ------------------------------------------------------------------------
+
+struct Tally {
+  Policy policy;
+  double reach = 0;
+  std::size_t runs = 0, tangled = 0, irregular = 0, higher = 0;
+  double greatest = 0;  ///< energy at the end, of runs without inverted triangles
+  double largest_weight = 0;
+  [[nodiscard]] bool good() const { return runs > 0 && tangled + irregular + higher == 0; }
+};
+
+void add(const std::vector<LoopStage>& run, Tally& tally) {
+  ++tally.runs;
+  const bool tangled = std::ranges::any_of(run, [](const LoopStage& s) { return s.inverted > 0; });
+  for (const LoopStage& s : run) tally.largest_weight = std::max(tally.largest_weight, s.largest_weight);
+  if (tangled) {
+    ++tally.tangled;
+    return;
+  }
+  tally.irregular += run.back().non_regular > 0 ? 1 : 0;
+  tally.higher += run.back().energy < run.front().energy ? 0 : 1;
+  tally.greatest = std::max(tally.greatest, run.back().energy);
+}
+
+std::vector<Tally> tallies(Effort effort) {
+  const bool full = effort == Effort::full;
+  const std::vector<double> reaches = full ? std::vector<double>{1, 2, 4, 8} : std::vector<double>{1, 4};
+  std::vector<Tally> all;
+  for (const double reach : reaches) {
+    for (const Policy& policy : {kMess, kLimited, kTheory}) {
+      Tally tally{policy, reach};
+      for (const VertexOrder& order : vertex_orders(full ? 5 : 1)) {
+        if (order.order != SweepOrder::hilbert) add(stages(policy, reach, order, 10), tally);
+      }
+      all.push_back(tally);
+    }
+  }
+  return all;
+}
+
+const Tally& find(const std::vector<Tally>& all, const Policy& policy, double reach) {
+  return *std::ranges::find_if(all, [&](const Tally& t) { return t.policy.name == policy.name && t.reach == reach; });
+}
+
+Table table(const std::vector<Tally>& all) {
+  Table t{
+      "How often runs end as a mess (some triangle inverted), by the greatest change of a weight in one search, over "
+      "r², "
+      "the mean square distance to the neighbours. The energy is the greatest that a run without a mess ends with.",
+      {"searches", "reach / r²", "runs", "messes", "not regular", "energy", "largest |w|"},
+      {}};
+  for (const Tally& tally : all) {
+    t.rows.push_back({tally.policy.name, digits(tally.reach), digits(tally.runs), digits(tally.tangled),
+                      digits(tally.irregular), tally.tangled == tally.runs ? "" : digits(tally.greatest),
+                      digits(tally.largest_weight, 2)});
+  }
+  return t;
+}
+
+// --- claims ------------------------------------------------------------------------------------------------
+
+/// Runs of optimize() itself, inversions allowed, that turn a triangle over.
+std::string optimizer_messes(Effort effort) {
+  std::size_t messes = 0, runs = 0;
+  for (const VertexOrder& order : vertex_orders(effort == Effort::full ? 5 : 0)) {
+    OptimizeOptions options = positions_and_collapses();
+    options.unknowns = Unknowns::positions_and_weights;
+    options.collapse_from = {};
+    options.order = order.order;
+    options.seed = order.seed;
+    options.inner = 1;
+    options.outer = 0;
+    options.max_sweeps = kShownSweeps;
+    options.inversion = Inversion::allow;
+    messes += record(oscillating_mesh(), options, Keep::outer).report.stopped == Stopped::tangled ? 1 : 0;
+    ++runs;
+  }
+  return digits(messes) + " of " + digits(runs);
+}
+
+Claim makes_a_mess(const std::vector<Tally>& all, Effort effort) {
+  const Tally &far = find(all, kMess, kShownReach), &near = find(all, kMess, 1);
+  return {
+      "25",
+      "Positions and weights under E_∂T with deferred flips lead to a HOT mess.",
+      "a HOT mess",
+      digits(far.tangled) + " of " + digits(far.runs) + " runs with weight searches up to " + digits(kShownReach) +
+          " r², weights up to " + digits(far.largest_weight, 2) + "; " + digits(near.tangled) + " of " +
+          digits(near.runs) + " up to r²",
+      far.runs > 0 && far.tangled == far.runs,
+      "It is the reach of the search that decides: farther out E_∂T is lower than at the local minimum. The paper does "
+      "not give its reach for weights. The optimiser's own is r²; of its runs, weights at once and inversions "
+      "allowed, " +
+          optimizer_messes(effort) + " end as a mess."};
+}
+
+Claim duals_first() {
+  const LoopStage &positions = stage(mess(), "positions 1"), &weights = stage(mess(), "weights 1");
+  const LoopStage& next = stage(mess(), "positions 2");
+  return {"25",
+          "The first weight iteration inverts dual elements, the position iterations after it primal ones.",
+          "first dual, then primal",
+          "edges not regular: " + digits(positions.non_regular) + " before the first weights, " +
+              digits(weights.non_regular) + " after; triangles inverted: " + digits(weights.inverted) + ", and " +
+              digits(next.inverted) + " after the next positions",
+          weights.non_regular > positions.non_regular && weights.inverted == 0 && next.inverted > 0,
+          "The pictured run. Its energy goes from " + digits(mess().front().energy) + " to " + digits(weights.energy) +
+              " and " + digits(next.energy) + "."};
+}
+
+Claim is_good(const std::vector<Tally>& all, const Policy& policy, const std::string& claim) {
+  std::size_t runs = 0, bad = 0;
+  double greatest = 0, weight = 0;
+  for (const Tally& t : all) {
+    if (t.policy.name != policy.name) continue;
+    runs += t.runs;
+    bad += t.tangled + t.irregular + t.higher;
+    greatest = std::max(greatest, t.greatest);
+    weight = std::max(weight, t.largest_weight);
+  }
+  return {"25",
+          claim,
+          "a good mesh",
+          "good in " + digits(runs - bad) + " of " + digits(runs) + " runs: energy at most " + digits(greatest) +
+              ", weights at most " + digits(weight, 2),
+          runs > 0 && bad == 0,
+          "Good: never an inverted triangle, regular at the end, energy below the start's; whatever the vertex order "
+          "and the "
+          "reach of the searches."};
+}
+
+}  // namespace
+
+Page make_fig25(Effort effort) {
+  const std::vector<Tally> all = tallies(effort);
+  return {{panels()},
+          {table(all)},
+          {makes_a_mess(all, effort), duals_first(),
+           is_good(all, kLimited, "Limiting positions and weights to the flip threshold of E_∂T leads to a good mesh."),
+           is_good(all, kTheory, "Under E_T the mesh is good even without limits.")}};
+}
+
+}  // namespace temper::gallery
