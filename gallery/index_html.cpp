@@ -19,28 +19,31 @@ std::string verdict_mark(bool holds) {
                : "<span class=\"no\">✗<span class=\"hidden\"> does not hold</span></span>";
 }
 
-/// "figure 12" or "§2.4": where in the paper a claim stands.
+/// "figure 12", "figures 26-29" or "§2.4": where in the paper a claim stands.
 std::string place(const Claim& claim) {
-  const bool number = !claim.figure.empty() && claim.figure.find_first_not_of("0123456789") == std::string::npos;
-  return (number ? "figure " : "§") + claim.figure;
+  if (claim.figure.find_first_not_of("0123456789-") != std::string::npos) return "§" + claim.figure;
+  return (claim.figure.find('-') == std::string::npos ? "figure " : "figures ") + claim.figure;
 }
 
-/// Right-aligned are columns of numbers: cells that begin with a digit, perhaps after a sign.
-bool is_number(std::string_view text) {
-  for (const std::string_view sign : {"-", "+", "−", "."}) {
-    if (text.starts_with(sign)) text.remove_prefix(sign.size());
-  }
-  return !text.empty() && text[0] >= '0' && text[0] <= '9';
+/// A number, perhaps with sign, exponent or percent: "−1.2e−3", "40 %", "5/6".
+bool is_number(const std::string& text) {
+  std::string rest = text;
+  for (std::size_t minus = rest.find("−"); minus != rest.npos; minus = rest.find("−"))
+    rest.replace(minus, std::string_view("−").size(), "-");
+  return rest.find_first_of("0123456789") != rest.npos && rest.find_first_not_of("0123456789.+-e/% ") == rest.npos;
 }
 
+bool says_nothing(const std::string& text) { return text.empty() || text == "–" || text == "none" || text == "∞"; }
+
+/// Columns of numbers are right-aligned.
 bool is_number_column(const Table& table, std::size_t column) {
-  const auto number_or_nothing = [&](const std::vector<std::string>& row) {
-    return column >= row.size() || row[column].empty() || row[column] == "–" || is_number(row[column]);
-  };
-  const auto number = [&](const std::vector<std::string>& row) {
-    return column < row.size() && is_number(row[column]);
-  };
-  return std::ranges::all_of(table.rows, number_or_nothing) && std::ranges::any_of(table.rows, number);
+  std::size_t numbers = 0;
+  for (const std::vector<std::string>& row : table.rows) {
+    if (column >= row.size() || says_nothing(row[column])) continue;
+    if (!is_number(row[column])) return false;
+    ++numbers;
+  }
+  return numbers > 0;
 }
 
 std::string row_html(const Table& table, const std::vector<std::string>& cells, const char* tag) {
@@ -90,7 +93,7 @@ std::string section_html(const Result& result) {
   std::string html = "<section id=\"" + id + "\">\n<h2><a href=\"#" + id + "\"><span class=\"number\">Figure " +
                      std::to_string(result.figure.number) + "</span>" + prose(result.figure.title) + "</a></h2>\n";
   html += "<p class=\"paper\"><span class=\"label\">The paper shows</span>" + prose(result.figure.paper_caption) +
-          "</p>\n<div class=\"pictures\">\n";
+          "</p>\n<div class=\"" + (result.page.pictures.size() % 3 == 0 ? "pictures threes" : "pictures") + "\">\n";
   for (const Picture& picture : result.page.pictures) html += picture_html(picture);
   html += "</div>\n<div class=\"tables\">\n";
   for (const Table& table : result.page.tables) html += table_html(table);

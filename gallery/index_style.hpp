@@ -40,14 +40,14 @@ nav { font-size: .86rem; line-height: 1.35; margin: 1.5rem 0; }
 nav h2 { font-size: .8rem; letter-spacing: .06em; text-transform: uppercase; color: var(--soft); }
 nav ol { list-style: none; margin: 0; padding: 0; columns: 16rem; column-gap: 2rem; }
 nav li { display: grid; grid-template-columns: 1.8rem 1fr auto; gap: .5rem; padding: .2rem 0; break-inside: avoid; }
-nav .number, nav .count { color: var(--soft); font-variant-numeric: tabular-nums; }
+nav .number, nav .count { color: var(--soft); font-variant-numeric: tabular-nums; white-space: nowrap; }
 nav .count.no { color: var(--no); }
 section { border-top: 1px solid var(--rule); padding: 1.75rem 0 2.25rem; }
 .paper { margin: 0 0 1.25rem; padding-left: 1rem; border-left: 3px solid var(--rule); color: var(--soft); }
 .label { font-size: .74rem; letter-spacing: .06em; text-transform: uppercase; display: block; }
 .pictures { display: grid; gap: 1.25rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 26rem), 1fr)); align-items: start; }
-figure { margin: 0; max-width: 56rem; }
-figure img { display: block; width: 100%; max-height: 88vh; object-fit: contain; background: #fff; border: 1px solid var(--rule); border-radius: 3px; padding: .5rem; }
+figure { margin: 0; max-width: 52rem; }
+figure img { display: block; width: 100%; background: #fff; border: 1px solid var(--rule); border-radius: 3px; padding: .5rem; }
 figcaption { font-size: .9rem; line-height: 1.4; margin-top: .4rem; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: .86rem; line-height: 1.4; }
@@ -71,10 +71,12 @@ footer { color: var(--soft); font-size: .82rem; padding-top: 1rem; padding-botto
   .body { display: grid; grid-template-columns: 17rem minmax(0, 1fr); gap: 3rem; }
   nav { position: sticky; top: 0; max-height: 100vh; overflow-y: auto; align-self: start; margin: 0; padding: 1.75rem 0; }
   nav ol { columns: auto; }
+  .pictures.threes { grid-template-columns: repeat(3, 1fr); }
 }
 @media (max-width: 44rem) {
   header, .body, footer { padding-left: 1rem; padding-right: 1rem; }
-  .claims thead { position: absolute; clip-path: inset(50%); }
+  .claims, .claims tbody { display: block; }
+  .claims thead, .claims colgroup { display: none; }
   .claims tr { display: grid; grid-template-columns: 2rem 1fr; border-bottom: 1px solid var(--rule); padding: .5rem 0; }
   .claims td { display: block; border: 0; padding: .1rem 0; grid-column: 2; }
   .claims td:first-child { grid-column: 1; grid-row: 1; }
@@ -90,7 +92,7 @@ footer { color: var(--soft); font-size: .82rem; padding-top: 1rem; padding-botto
   h2, .paper, thead { break-after: avoid; }
   .pictures { grid-template-columns: repeat(2, 1fr); }
   .pictures > :only-child { grid-column: 1 / -1; max-width: 14cm; }
-  figure img { max-height: 18cm; border: 0; }
+  figure img { max-height: 20cm; object-fit: contain; border: 0; }
 }
 )css";
 

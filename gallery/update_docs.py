@@ -15,7 +15,7 @@ def cell(text):
 
 
 def place(claim):
-    return f"fig. {claim['figure']}" if claim["figure"].isdigit() else f"§{claim['figure']}"
+    return f"fig. {claim['figure']}" if re.fullmatch("[0-9-]+", claim["figure"]) else f"§{claim['figure']}"
 
 
 def report(claims):
