@@ -52,7 +52,7 @@ std::string circle_mark(const char* color, const char* more = "") {
 }
 
 // Only what some panel really shows.
-std::vector<Key> legend(std::span<const Shown> shown, const Frame& frame, const DrawOptions& options) {
+std::vector<Key> legend(std::span<const Shown> shown, const PageFrame& frame, const DrawOptions& options) {
   const auto any = [&](auto what) {
     return std::any_of(shown.begin(), shown.end(), [&](const Shown& s) { return what(s.panel); });
   };
@@ -95,7 +95,7 @@ std::string legend_svg(const std::vector<Key>& keys, double left, double y) {
   return svg;
 }
 
-std::string document(std::span<const Shown> shown, const Frame& frame, const DrawOptions& options) {
+std::string document(std::span<const Shown> shown, const PageFrame& frame, const DrawOptions& options) {
   const double panels = static_cast<double>(shown.size());
   const std::vector<Key> keys = legend(shown, frame, options);
   const double width = panels * frame.width + (panels + 1) * kGap;
@@ -123,14 +123,14 @@ std::string document(std::span<const Shown> shown, const Frame& frame, const Dra
 
 std::string draw_svg(const Mesh& mesh, const DrawOptions& options) {
   const std::array<const Mesh*, 1> meshes = {&mesh};
-  const Frame frame = make_frame(meshes, options);
+  const PageFrame frame = make_frame(meshes, options);
   const std::array<Shown, 1> shown = {Shown{draw_panel(mesh, frame, options, "panel"), ""}};
   return document(shown, frame, options);
 }
 
 std::string draw_before_after_svg(const Mesh& before, const Mesh& after, const DrawOptions& options) {
   const std::array<const Mesh*, 2> meshes = {&before, &after};
-  const Frame frame = make_frame(meshes, options);
+  const PageFrame frame = make_frame(meshes, options);
   const std::array<Shown, 2> shown = {Shown{draw_panel(before, frame, options, "before"), "before"},
                                       Shown{draw_panel(after, frame, options, "after"), "after"}};
   return document(shown, frame, options);

@@ -75,14 +75,14 @@ double grid_unit(double edge_pixels) {
 
 }  // namespace
 
-GridPoint Frame::grid(Vec2 p) const {
+GridPoint PageFrame::grid(Vec2 p) const {
   const double steps = scale / unit;
   return {std::llround((p.x - box.low.x) * steps), std::llround((box.high.y - p.y) * steps)};
 }
 
-std::int64_t Frame::steps(double pixels) const { return std::llround(pixels / unit); }
+std::int64_t PageFrame::steps(double pixels) const { return std::llround(pixels / unit); }
 
-Frame make_frame(std::span<const Mesh* const> meshes, const DrawOptions& options) {
+PageFrame make_frame(std::span<const Mesh* const> meshes, const DrawOptions& options) {
   Box box = options.zoom ? ordered(*options.zoom) : bounding_box(meshes);
   double side = larger_side(box);
   if (!(side > 0) || !std::isfinite(side)) {
@@ -91,7 +91,7 @@ Frame make_frame(std::span<const Mesh* const> meshes, const DrawOptions& options
   }
   if (!options.zoom) box = grown(box, margin(meshes, options, side));
 
-  Frame frame;
+  PageFrame frame;
   frame.width = options.width >= kLeastWidth ? options.width : kLeastWidth;
   const double w = box.high.x - box.low.x, h = box.high.y - box.low.y;
   const double ratio = w > 0 ? std::clamp(h / w, kFlattest, kTallest) : kTallest;

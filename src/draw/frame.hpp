@@ -26,7 +26,7 @@ struct Segment {
   Vec2 from, to;
 };
 
-struct Frame {
+struct PageFrame {
   static constexpr double kLeastDetail = 6;   ///< pixels of a median edge, for duals and weights
   static constexpr double kLeastEdges = 1.5;  ///< for the edges themselves: closer lines are one grey
 
@@ -45,7 +45,7 @@ struct Frame {
 };
 
 /// One frame for all meshes: the zoom box, or what holds all their vertices.
-[[nodiscard]] Frame make_frame(std::span<const Mesh* const> meshes, const DrawOptions& options);
+[[nodiscard]] PageFrame make_frame(std::span<const Mesh* const> meshes, const DrawOptions& options);
 
 /// The part of a segment inside the box; nothing when it misses it or is not finite.
 [[nodiscard]] std::optional<Segment> clip(const Segment& segment, const Box& box);

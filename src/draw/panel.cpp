@@ -27,7 +27,7 @@ constexpr std::array<const char*, 6> kTints = {"#dceaf5", "#e6f1d9", "#efe2f0", 
 
 class PanelPainter {
  public:
-  PanelPainter(const Mesh& mesh, const Frame& frame, const DrawOptions& options)
+  PanelPainter(const Mesh& mesh, const PageFrame& frame, const DrawOptions& options)
       : mesh_(mesh), frame_(frame), options_(options), detailed_(frame.shows_detail()) {}
 
   Panel paint() {
@@ -197,7 +197,7 @@ class PanelPainter {
   }
 
   const Mesh& mesh_;
-  const Frame& frame_;
+  const PageFrame& frame_;
   const DrawOptions& options_;
   bool detailed_;
   Panel panel_;
@@ -205,7 +205,7 @@ class PanelPainter {
 
 }  // namespace
 
-Panel draw_panel(const Mesh& mesh, const Frame& frame, const DrawOptions& options, const std::string& id) {
+Panel draw_panel(const Mesh& mesh, const PageFrame& frame, const DrawOptions& options, const std::string& id) {
   Panel panel = PanelPainter(mesh, frame, options).paint();
   const std::string size = "width=\"" + short_number(frame.width) + "\" height=\"" + short_number(frame.height) + "\"";
   panel.svg = "<clipPath id=\"" + id + "\"><rect " + size + "/></clipPath>\n<g clip-path=\"url(#" + id +

@@ -20,7 +20,8 @@ struct Panel {
 };
 
 /// `id` names the clip path: unique in the document.
-[[nodiscard]] Panel draw_panel(const Mesh& mesh, const Frame& frame, const DrawOptions& options, const std::string& id);
+[[nodiscard]] Panel draw_panel(const Mesh& mesh, const PageFrame& frame, const DrawOptions& options,
+                               const std::string& id);
 
 /// Colours that differ for colour-blind readers and in grey print.
 struct Palette {

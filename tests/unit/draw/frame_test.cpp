@@ -72,7 +72,7 @@ TEST(Frames, EveryVertexIsInsideThePanel) {
   for (const double scale : {1e-12, 1.0, 1e12}) {
     const Mesh mesh = test::lattice({.n = 8, .scale = scale, .offset = {1e6 * scale, -1e6 * scale}});
     const std::array<const Mesh*, 1> meshes = {&mesh};
-    const Frame frame = make_frame(meshes, {});
+    const PageFrame frame = make_frame(meshes, {});
     EXPECT_EQ(frame.width, 900);
     for (VertexId v : mesh.vertices()) {
       const GridPoint g = frame.grid(mesh.position(v));
@@ -88,7 +88,7 @@ TEST(Frames, TheGridIsFinerThanAHundredthOfAnEdge) {
   for (const int n : {4, 40}) {
     const Mesh mesh = test::lattice({.n = n});
     const std::array<const Mesh*, 1> meshes = {&mesh};
-    const Frame frame = make_frame(meshes, {});
+    const PageFrame frame = make_frame(meshes, {});
     EXPECT_LE(frame.unit * 100, frame.edge);
     EXPECT_TRUE(frame.shows_detail());
   }
@@ -99,7 +99,7 @@ TEST(Frames, AZoomBoxThatIsTurnedRoundOrEmptyStillMakesAPanel) {
   const std::array<const Mesh*, 1> meshes = {&mesh};
   DrawOptions options;
   options.zoom = Box{{2, 2}, {1, 1}};
-  const Frame turned = make_frame(meshes, options);
+  const PageFrame turned = make_frame(meshes, options);
   EXPECT_LE(turned.box.low.x, 1);
   EXPECT_GE(turned.box.high.x, 2);
   options.zoom = Box{{1, 1}, {1, 1}};
