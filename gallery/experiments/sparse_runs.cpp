@@ -123,6 +123,7 @@ SparseRun run_sparse(const SparseSetting& setting) {
 
 SequenceCount count_sequences(const SparseSetting& setting, std::size_t stride) {
   SequenceCount count;
+  double furthest = 0;
   const std::vector<VertexSequence> all = all_sequences();
   for (std::size_t i = 0; i < all.size(); i += stride) {
     const VertexSequence& sequence = all[i];
@@ -139,7 +140,9 @@ SequenceCount count_sequences(const SparseSetting& setting, std::size_t stride) 
       ++count.open;
       if (run.runs_away()) continue;
       ++count.open_bounded;
-      if (!count.first_open_bounded) count.first_open_bounded = sequence;
+      if (run.last().closeness <= furthest) continue;
+      furthest = run.last().closeness;
+      count.most_open = sequence;
     }
   }
   return count;

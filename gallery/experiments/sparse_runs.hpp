@@ -73,12 +73,12 @@ struct SparseRun {
 /// Over vertex sequences: how runs of that setting end.
 struct SequenceCount {
   std::size_t all = 0;
-  std::size_t open = 0;             ///< p_4 there, away from its neighbours
-  std::size_t open_bounded = 0;     ///< of these, with finite energy and weights
-  std::size_t near = 0;             ///< nearly coincident with a neighbour
-  std::size_t collapsed = 0;        ///< removed
-  std::size_t collapsed_later = 0;  ///< of these, not in the first sweep
-  std::optional<VertexSequence> first_open_bounded;
+  std::size_t open = 0;                     ///< p_4 there, away from its neighbours
+  std::size_t open_bounded = 0;             ///< of these, with finite energy and weights
+  std::size_t near = 0;                     ///< nearly coincident with a neighbour
+  std::size_t collapsed = 0;                ///< removed
+  std::size_t collapsed_later = 0;          ///< of these, not in the first sweep
+  std::optional<VertexSequence> most_open;  ///< of these, where p_4 stays furthest from its neighbours
 };
 /// Of all 120 sequences, or of each stride-th.
 [[nodiscard]] SequenceCount count_sequences(const SparseSetting& setting, std::size_t stride = 1);

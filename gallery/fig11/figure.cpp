@@ -3,8 +3,8 @@
 #include <array>
 #include <string>
 
+#include "experiments/dense_runs.hpp"
 #include "experiments/hard_barrier.hpp"
-#include "experiments/mesh_picture.hpp"
 #include "experiments/sparse_runs.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
@@ -15,20 +15,6 @@
 
 namespace temper::gallery {
 namespace {
-
-Mesh dense_horseshoe() {
-  auto mesh = horseshoe();
-  return mesh ? *std::move(mesh) : Mesh();
-}
-
-std::string dense_picture(const Mesh& mesh) {
-  MeshPicture picture;
-  picture.title = "dense";
-  picture.footer = digits(mesh.n_vertices()) + " vertices, " + digits(mesh.n_triangles()) + " triangles";
-  picture.box = {{-2.3, -0.3}, {2.3, 4.76}};
-  picture.width = 260;
-  return mesh_picture_svg(mesh, picture);
-}
 
 std::size_t interior_vertices(const Mesh& mesh) {
   const auto vertices = mesh.vertices();
@@ -123,9 +109,12 @@ Claim dense_input(const Mesh& mesh) {
 }  // namespace
 
 Page make_fig11(Effort) {
-  const Mesh sparse = sparse_horseshoe(), dense = dense_horseshoe();
-  const std::array<std::string, 2> panels = {sparse_picture(sparse, "sparse", "5 vertices, 4 triangles"),
-                                             dense_picture(dense)};
+  const Mesh sparse = sparse_horseshoe();
+  const Mesh& dense = dense_horseshoe();
+  const std::array<std::string, 2> panels = {
+      sparse_picture(sparse, "sparse", "5 vertices, 4 triangles"),
+      dense_picture(dense, "dense",
+                    digits(dense.n_vertices()) + " vertices, " + digits(dense.n_triangles()) + " triangles", 0, 300)};
   Page page;
   page.pictures.push_back({"fig11", grid_svg(panels, 2),
                            "The inputs, with duals in blue: every triangle of the sparse one, and most of the dense "
