@@ -20,9 +20,11 @@ struct Frame {
   void enter(Mesh& mesh) const;
   void leave(Mesh& mesh) const;
 
-  /// A point of the frame in the user's units, and back. Exact where the frame keeps to the user's grid.
+  /// A point of the frame in the user's units, and back. Exact where the frame keeps to the user's grid, and the sign
+  /// of a zero is kept: −0 + 0 would be +0.
   [[nodiscard]] WeightedPoint to_user(const WeightedPoint& p) const {
-    return {p.x * scale + center.x, p.y * scale + center.y, p.w * scale * scale};
+    const double x = p.x * scale, y = p.y * scale;
+    return {center.x == 0 ? x : x + center.x, center.y == 0 ? y : y + center.y, p.w * scale * scale};
   }
   [[nodiscard]] WeightedPoint from_user(const WeightedPoint& p) const {
     const double inverse = 1 / scale;

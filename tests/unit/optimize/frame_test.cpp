@@ -31,6 +31,16 @@ INSTANTIATE_TEST_SUITE_P(Everywhere, FrameRoundTrip,
                                          LatticeOptions{.scale = 3, .offset = {1e9, 1e9}},
                                          LatticeOptions{.scale = 1e-3, .offset = {1, 0.001}}));
 
+TEST(Frame, KeepsTheSignOfAZero) {
+  Mesh mesh = lattice({});
+  const VertexId v(0);
+  mesh.set_point(v, {-0.0, -0.0, -0.0});
+  const Frame frame = Frame::of(mesh);
+  frame.enter(mesh);
+  frame.leave(mesh);
+  EXPECT_TRUE(std::signbit(mesh.position(v).x) && std::signbit(mesh.position(v).y) && std::signbit(mesh.weight(v)));
+}
+
 TEST(Frame, SnapsToWhatTheUsersCoordinatesCanHold) {
   const Mesh mesh = lattice({.offset = {1e6, 1e6}});
   const Frame frame = Frame::of(mesh);
