@@ -1,4 +1,4 @@
-# Installs the libraries and what find_package(temper COMPONENTS core io) needs. The flags of temper's own
+# Installs the libraries and what find_package(temper COMPONENTS core io lp) needs. The flags of temper's own
 # code (temper_flags) stay here: they are linked for the build alone and are in no export.
 include(CMakePackageConfigHelpers)
 
@@ -7,7 +7,7 @@ set(TEMPER_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/temper)
 install(TARGETS temper EXPORT temper_core)
 install(EXPORT temper_core NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperCoreTargets.cmake)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/temper DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.hpp" PATTERN "io.hpp" EXCLUDE)
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "io.hpp" EXCLUDE PATTERN "lp.hpp" EXCLUDE)
 
 if(TARGET temper_io)
   # A static library: whoever links the installed one needs pugixml too. temperConfig.cmake finds it.
@@ -16,6 +16,14 @@ if(TARGET temper_io)
   install(TARGETS temper_io EXPORT temper_io)
   install(EXPORT temper_io NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperIoTargets.cmake)
   install(FILES ${PROJECT_SOURCE_DIR}/include/temper/io.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/temper)
+endif()
+
+if(TARGET temper_lp)
+  target_link_libraries(temper_lp PRIVATE $<INSTALL_INTERFACE:Clp::Clp>)
+  install(TARGETS temper_lp EXPORT temper_lp)
+  install(EXPORT temper_lp NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperLpTargets.cmake)
+  install(FILES ${PROJECT_SOURCE_DIR}/include/temper/lp.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/temper)
+  install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindClp.cmake DESTINATION ${TEMPER_CMAKE_DIR})
 endif()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/temperConfig.cmake.in ${PROJECT_BINARY_DIR}/temperConfig.cmake

@@ -32,8 +32,9 @@ LAYERS = {
     "generate": _BELOW + ["topology", "energy", "regularity"],
     # A library of its own: sees the core's public headers, and no other folder of src/.
     "io": _BELOW,
+    "lp": _BELOW + ["feasibility"],
 }
-CORE = set(LAYERS) - {"io"}
+CORE = set(LAYERS) - {"io", "lp"}
 
 # Public headers whose name is not that of their layer.
 HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor"]} | {"plot": "draw", "trace": "optimize"}

@@ -1,0 +1,29 @@
+// From the dual of the margin programme to a certificate that the exact checker accepts.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "temper/feasibility.hpp"
+
+namespace temper {
+
+/// A best margin as small as this is taken for zero or less when it comes to looking for a certificate: the rounding of
+/// the programme. The certificate itself is judged exactly.
+inline constexpr double kNoMargin = 1e-9;
+
+/// The programme of best_margin, solved, with the constraints of its rows and their multipliers.
+struct Bound {
+  BestMargin best;  ///< without certificate
+  std::vector<WeightConstraint> constraints;
+  std::vector<double> dual;
+};
+/// `triangles` is sorted.
+[[nodiscard]] Bound bound_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver,
+                                 Conditions conditions = Conditions::well_centered);
+
+/// A certificate that refutes the margin, with as few terms as will do; without terms when the checker accepts none.
+[[nodiscard]] Certificate certify(const Mesh& mesh, std::span<const WeightConstraint> constraints,
+                                  std::span<const double> dual, double margin);
+
+}  // namespace temper

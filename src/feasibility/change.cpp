@@ -1,0 +1,175 @@
+// The programme of a region: columns u⁺, u⁻ ≥ 0 of each free vertex, and e⁺, e⁻ ≥ 0 of each edge that has a free end.
+//
+//   Δw_v = unit_v (u⁺ − u⁻)          cost (u⁺ + u⁻) · 10⁻⁴: without rim a constant on all Δw is free otherwise
+//   Δw_i − Δw_j = ℓ² (e⁺ − e⁻)       cost (e⁺ + e⁻) ℓ/2, the |Δw_i − Δw_j| / (2ℓ) of the edge
+//   splits                           bounds of e⁺ and e⁻, since one of them is zero in any optimum
+//   heights                          one row each
+//
+// Lengths are counted in the region's mean edge length. The sum of absolute differences is what makes few weights move:
+// all of a region but the neighbourhood of what is bad keeps its weights.
+// Elastic programmes have a column more for each height and two for each edge, which pay for what is lacking.
+#include "feasibility/change.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "feasibility/constraints.hpp"
+#include "feasibility/lp_builder.hpp"
+#include "feasibility/units.hpp"
+
+namespace temper {
+namespace {
+
+// Smaller changes, in their unit, are the solver's: ten times its tolerance on h/ℓ and d/ℓ, which are of that order.
+constexpr double kNoChange = 1e-8;
+// Of a unit of u, where an edge's costs ℓ/2: too little to matter but where the sum over the edges does not decide.
+constexpr double kTieBreak = 1e-4;
+// The second elastic programme may violate this much more than the least, relative and absolute: its own tolerance.
+constexpr double kSameViolation = 1e-9;
+
+struct Programme {
+  LpBuilder lp;
+  std::vector<double> units;                            ///< columns 2 i and 2 i + 1 are u⁺ and u⁻ of vertex i
+  std::vector<std::pair<int, double>> change_costs;     ///< (column, cost)
+  std::vector<std::pair<int, double>> violation_costs;  ///< none unless elastic
+};
+
+class ProgrammeBuilder {
+ public:
+  ProgrammeBuilder(const Mesh& mesh, const Region& region, const IdVector<VertexId, double>& start, double margin,
+                   bool elastic)
+      : mesh_(mesh), region_(region), start_(start), margin_(margin), elastic_(elastic) {}
+
+  Programme build() {
+    const std::vector<HalfedgeId> edges = edges_of(mesh_, region_.triangles);
+    p_.units = weight_units(mesh_, region_.free, edges);
+    for (std::size_t i = 0; i < region_.free.size(); ++i) {
+      for (int sign = 0; sign < 2; ++sign) p_.change_costs.emplace_back(p_.lp.add_column(0, 0, kUnbounded), kTieBreak);
+    }
+    double total = 0;
+    for (const HalfedgeId h : edges) total += length_of(h);
+    const double mean = total / static_cast<double>(edges.size());
+    for (const HalfedgeId h : edges) add_edge(h, mean);
+    for (const TriangleId t : region_.triangles) {
+      for (int k = 0; k < 3; ++k) add_height(Mesh::halfedge(t, k));
+    }
+    return std::move(p_);
+  }
+
+ private:
+  [[nodiscard]] double length_of(HalfedgeId h) const {
+    return length(mesh_.position(mesh_.target(h)) - mesh_.position(mesh_.origin(h)));
+  }
+  /// Adds factor · Δw_v to the row, unless v is on the rim, where Δw is zero.
+  bool add_weight(VertexId v, double factor) {
+    const std::size_t i = index_of(region_.free, v);
+    if (i == region_.free.size() || region_.free[i] != v) return false;
+    p_.lp.add_entry(static_cast<int>(2 * i), factor * p_.units[i]);
+    p_.lp.add_entry(static_cast<int>(2 * i + 1), -factor * p_.units[i]);
+    return true;
+  }
+  int add_violation(double cost) {
+    const int column = p_.lp.add_column(0, 0, kUnbounded);
+    p_.violation_costs.emplace_back(column, cost);
+    return column;
+  }
+
+  void add_edge(HalfedgeId h, double mean_length) {
+    const VertexId i = mesh_.origin(h), j = mesh_.target(h);
+    const double l = length_of(h);
+    const bool i_free = add_weight(i, 1 / (l * l)), j_free = add_weight(j, -1 / (l * l));
+    if (!i_free && !j_free) return;
+    // margin ≤ d/ℓ ≤ 1 − margin, as bounds of (Δw_i − Δw_j)/ℓ².
+    const double before = (start_[i] - start_[j]) / (l * l);
+    const double low = -(1 - 2 * margin_) - before, high = (1 - 2 * margin_) - before;
+    const auto bound = [&](double x) { return elastic_ ? kUnbounded : std::max(x, 0.0); };
+    const double most_needed = elastic_ ? 0 : std::max(low, 0.0), least_needed = elastic_ ? 0 : std::max(-high, 0.0);
+    const int up = p_.lp.add_column(0, most_needed, bound(high));
+    const int down = p_.lp.add_column(0, least_needed, bound(-low));
+    p_.change_costs.emplace_back(up, 0.5 * l / mean_length);
+    p_.change_costs.emplace_back(down, 0.5 * l / mean_length);
+    p_.lp.add_entry(up, -1);
+    p_.lp.add_entry(down, 1);
+    p_.lp.end_row(0, 0);
+    if (!elastic_) return;
+    const int below = add_violation(0.5), above = add_violation(0.5);  // d/ℓ is half of w/ℓ²
+    p_.lp.add_entry(up, 1);
+    p_.lp.add_entry(down, -1);
+    p_.lp.add_entry(below, 1);
+    p_.lp.add_entry(above, -1);
+    p_.lp.end_row(low, high);
+  }
+
+  void add_height(HalfedgeId h) {
+    const LinearForm form = linear_form(mesh_, height_constraint(mesh_, h));
+    for (int k = 0; k < form.size; ++k) add_weight(form.vertices[k], form.coefficients[k]);
+    if (elastic_) p_.lp.add_entry(add_violation(1), 1);
+    p_.lp.end_row(margin_ - value_of(form, [&](VertexId v) { return start_[v]; }), kUnbounded);
+  }
+
+  const Mesh& mesh_;
+  const Region& region_;
+  const IdVector<VertexId, double>& start_;
+  double margin_;
+  bool elastic_;
+  Programme p_;
+};
+
+/// Without rim a constant on all weights is free: the change that most vertices share.
+double common_change(std::vector<double> changes, double tolerance) {
+  std::sort(changes.begin(), changes.end());
+  std::size_t most = 0;
+  double common = 0;
+  for (std::size_t first = 0, last = 0; first < changes.size(); ++first) {
+    while (last < changes.size() && changes[last] <= changes[first] + tolerance) ++last;
+    if (last - first <= most) continue;
+    most = last - first;
+    common = changes[first + most / 2];
+  }
+  return common;
+}
+
+RegionChange read_change(const Region& region, const std::vector<double>& units, const LpSolution& solution) {
+  RegionChange result;
+  result.status = solution.status;
+  if (solution.status != LpStatus::optimal) return result;
+  for (std::size_t i = 0; i < region.free.size(); ++i) {
+    result.change.push_back(units[i] * (solution.primal[2 * i] - solution.primal[2 * i + 1]));
+  }
+  if (!region.has_rim) {
+    const double least_unit = *std::min_element(units.begin(), units.end());
+    const double common = common_change(result.change, kNoChange * least_unit);
+    for (double& change : result.change) change -= common;
+  }
+  for (std::size_t i = 0; i < region.free.size(); ++i) {
+    if (std::abs(result.change[i]) <= kNoChange * units[i]) result.change[i] = 0;
+  }
+  return result;
+}
+
+}  // namespace
+
+RegionChange least_change(const Mesh& mesh, const Region& region, const IdVector<VertexId, double>& start,
+                          double margin, LpSolver& solver) {
+  Programme p = ProgrammeBuilder(mesh, region, start, margin, false).build();
+  for (const auto& [column, cost] : p.change_costs) p.lp.set_cost(column, cost);
+  return read_change(region, p.units, solver.solve(p.lp.problem()));
+}
+
+RegionChange least_violation(const Mesh& mesh, const Region& region, const IdVector<VertexId, double>& start,
+                             double margin, LpSolver& solver) {
+  Programme p = ProgrammeBuilder(mesh, region, start, margin, true).build();
+  for (const auto& [column, cost] : p.violation_costs) p.lp.set_cost(column, cost);
+  const LpSolution least = solver.solve(p.lp.problem());
+  if (least.status != LpStatus::optimal) return read_change(region, p.units, least);
+  for (const auto& [column, cost] : p.violation_costs) {
+    p.lp.set_cost(column, 0);
+    p.lp.add_entry(column, cost);
+  }
+  p.lp.end_row(-kUnbounded, least.objective * (1 + kSameViolation) + kSameViolation);
+  for (const auto& [column, cost] : p.change_costs) p.lp.set_cost(column, cost);
+  const LpSolution least_moved = solver.solve(p.lp.problem());
+  return read_change(region, p.units, least_moved.status == LpStatus::optimal ? least_moved : least);
+}
+
+}  // namespace temper

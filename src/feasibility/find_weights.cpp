@@ -1,0 +1,321 @@
+// The whole mesh: regions that need weights, solved one by one, grown where the outside is in the way, and verdicts.
+//
+//   free the neighbourhoods of bad triangles; until no region changes:
+//     least change of each region                      solved: done with it
+//     else the region's own margin, the rest left out  below what is asked: that proves it, done with it
+//     else more rings, merging regions that meet
+//
+// A region's own margin bounds that of the mesh from above, so the loop ends with an answer or a proof; at the latest
+// when a region is a whole component.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "feasibility/certify.hpp"
+#include "feasibility/change.hpp"
+#include "feasibility/constraints.hpp"
+#include "feasibility/region.hpp"
+#include "temper/geometry.hpp"
+
+namespace temper {
+namespace {
+
+constexpr int kMoreRings = 2;   // a ring more each time would solve each programme twice as often
+constexpr int kHalvings = 30;   // of the margin asked for: down to the rounding of the programmes
+constexpr double kKept = 1e-9;  // a margin is kept when no more than this is lacking: the solvers' tolerance
+constexpr double kDegrees = 57.29577951308232;
+
+/// A region that is done with: its change of weights, or the proof that there is none.
+struct Outcome {
+  Region region;
+  std::optional<RegionChange> change;
+  Bound bound;  ///< without change
+};
+
+class WeightFinder {
+ public:
+  WeightFinder(const Mesh& mesh, LpSolver& solver, const WeightOptions& options)
+      : mesh_(mesh),
+        solver_(solver),
+        options_(options),
+        start_(mesh.n_vertices(), 0.0),
+        components_(components_of(mesh)) {
+    if (!options.from_input) return;
+    for (const VertexId v : mesh.vertices()) start_[v] = mesh.weight(v);
+  }
+
+  WeightReport run() {
+    if (options_.goal == WeightGoal::feasible) measure_components();
+    double asked = std::min(options_.margin, small_margin_ / 2);
+    if (options_.goal == WeightGoal::elastic) {
+      attempt(asked);
+      if (failures() > 0) relax(asked);
+      return report(asked);
+    }
+    for (int round = 0; round < kHalvings && asked > kNoMargin; ++round) {
+      attempt(asked);
+      if (failures() == 0) break;
+      note_bound(asked);
+      asked = bound_->best.margin / 2;
+    }
+    return report(asked);
+  }
+
+ private:
+  [[nodiscard]] double value(const WeightConstraint& constraint, const IdVector<VertexId, double>& weights) const {
+    return value_of(linear_form(mesh_, constraint), [&](VertexId v) { return weights[v]; });
+  }
+  [[nodiscard]] double margin_of(TriangleId t, const IdVector<VertexId, double>& weights) const {
+    double margin = kUnbounded;
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(t, k);
+      const double split = value(split_constraint(mesh_.origin(h), mesh_.target(h)), weights);
+      margin = std::min({margin, split, 1 - split, value(height_constraint(mesh_, h), weights)});
+    }
+    return margin;
+  }
+  [[nodiscard]] bool is_well_centered(TriangleId t, const IdVector<VertexId, double>& weights) const {
+    const auto at = [&](VertexId v) { return WeightedPoint{mesh_.position(v).x, mesh_.position(v).y, weights[v]}; };
+    const auto [p, q, r] = mesh_.corners(t);
+    return temper::is_well_centered(at(p), at(q), at(r));
+  }
+
+  /// The best margins of components that are one programme.
+  void measure_components() {
+    for (const Region& component : components_) {
+      if (component.triangles.size() > options_.whole) continue;
+      Bound bound = bound_margin(mesh_, component.triangles, solver_);
+      if (bound.best.status != LpStatus::optimal) bound.best.margin = 0;
+      if (bound.best.margin >= small_margin_) continue;
+      small_margin_ = bound.best.margin;
+      worst_component_ = std::move(bound);
+    }
+  }
+
+  [[nodiscard]] VertexMask first_mask(double asked) const {
+    VertexMask mask(mesh_.n_vertices(), 0);
+    for (const Region& component : components_) {
+      std::vector<VertexId> bad;
+      for (const TriangleId t : component.triangles) {
+        if (margin_of(t, start_) >= asked && is_well_centered(t, start_)) continue;
+        for (const VertexId v : mesh_.corners(t)) bad.push_back(v);
+      }
+      if (bad.empty()) continue;
+      if (component.triangles.size() <= options_.whole) bad = component.free;
+      for (const VertexId v : bad) mask[v] = 1;
+      grow(mesh_, mask, std::move(bad), options_.rings);
+    }
+    return mask;
+  }
+
+  void attempt(double asked) {
+    VertexMask mask = first_mask(asked);
+    outcomes_.clear();
+    for (bool grown = true; grown;) {
+      grown = false;
+      std::vector<Outcome> next;
+      for (Region& region : regions_of(mesh_, mask)) {
+        if (std::optional<Outcome> known = take_outcome(region)) {
+          next.push_back(*std::move(known));
+        } else if (std::optional<Outcome> found = solve(region, asked)) {
+          next.push_back(*std::move(found));
+        } else {
+          grow(mesh_, mask, region.free, kMoreRings);
+          grown = true;
+        }
+      }
+      outcomes_ = std::move(next);
+    }
+  }
+
+  /// That of the last round, when the region is the same. Free vertices only become more, so first and number decide.
+  std::optional<Outcome> take_outcome(const Region& region) {
+    for (Outcome& outcome : outcomes_) {
+      if (outcome.region.free.size() == region.free.size() && outcome.region.free.front() == region.free.front()) {
+        return std::move(outcome);
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// Nothing: the region must grow.
+  std::optional<Outcome> solve(Region& region, double asked) {
+    RegionChange change = least_change(mesh_, region, start_, asked, solver_);
+    if (change.status == LpStatus::optimal) return Outcome{std::move(region), std::move(change), {}};
+    Bound bound = bound_margin(mesh_, region.triangles, solver_);
+    const bool proof = bound.best.status == LpStatus::optimal && bound.best.margin < asked;
+    if (!proof && region.has_rim) return std::nullopt;
+    return Outcome{std::move(region), std::nullopt, std::move(bound)};
+  }
+
+  [[nodiscard]] std::size_t failures() const {
+    return static_cast<std::size_t>(
+        std::count_if(outcomes_.begin(), outcomes_.end(), [](const Outcome& o) { return !o.change; }));
+  }
+
+  /// Keeps the least bound, and what it says of the margin that was asked for first.
+  void note_bound(double asked) {
+    for (Outcome& outcome : outcomes_) {
+      if (outcome.change) continue;
+      if (outcome.bound.best.status != LpStatus::optimal) outcome.bound.best.margin = 0;
+      bound_is_exact_ = bound_is_exact_ && !outcome.region.has_rim;
+      if (bound_ && bound_->best.margin <= outcome.bound.best.margin) continue;
+      bound_ = outcome.bound;
+    }
+    if (bound_->best.margin >= asked) bound_->best.margin = 0;  // the solver contradicts itself: nothing is known
+    if (!refuted_) refuted_ = certify_bound(*bound_, bound_->best.margin < kNoMargin ? 0 : asked);
+  }
+
+  [[nodiscard]] Certificate certify_bound(const Bound& bound, double margin) const {
+    if (bound.best.status != LpStatus::optimal) return {};
+    return certify(mesh_, bound.constraints, bound.dual, margin);
+  }
+
+  void relax(double asked) {
+    note_bound(asked);
+    for (Outcome& outcome : outcomes_) {
+      if (outcome.change) continue;
+      RegionChange change = least_violation(mesh_, outcome.region, start_, asked, solver_);
+      if (change.status == LpStatus::optimal) outcome.change = std::move(change);
+    }
+  }
+
+  [[nodiscard]] IdVector<VertexId, double> changed_weights() const {
+    IdVector<VertexId, double> weights = start_;
+    for (const Outcome& outcome : outcomes_) {
+      if (!outcome.change) continue;
+      for (std::size_t i = 0; i < outcome.region.free.size(); ++i) {
+        const double change = outcome.change->change[i];
+        if (change != 0) weights[outcome.region.free[i]] += change;
+      }
+    }
+    return weights;
+  }
+
+  WeightReport report(double asked) {
+    WeightReport r;
+    r.asked = asked;
+    r.weights = changed_weights();
+    r.programmes = outcomes_.size();
+    for (const Outcome& outcome : outcomes_) r.largest = std::max(r.largest, outcome.region.triangles.size());
+    measure(r);
+    const bool all_good = std::all_of(mesh_.triangles().begin(), mesh_.triangles().end(),
+                                      [&](TriangleId t) { return is_well_centered(t, r.weights); });
+    const bool found = all_good && asked > kNoMargin && failures() == 0;
+    judge_margin(r, found);
+    judge(r, found);
+    if (options_.goal == WeightGoal::elastic) add_violations(r);
+    return r;
+  }
+
+  void measure(WeightReport& r) const {
+    r.attained = kUnbounded;
+    for (const TriangleId t : mesh_.triangles()) r.attained = std::min(r.attained, margin_of(t, r.weights));
+    const auto change = [&](VertexId v) { return r.weights[v] - start_[v]; };
+    for (const VertexId v : mesh_.vertices()) r.moved += change(v) != 0 ? 1 : 0;
+    for (const HalfedgeId h : mesh_.halfedges()) {
+      if (!mesh_.is_edge_representative(h)) continue;
+      const VertexId i = mesh_.origin(h), j = mesh_.target(h);
+      r.change += 0.5 * std::abs(change(i) - change(j)) / length(mesh_.position(i) - mesh_.position(j));
+    }
+  }
+
+  void judge_margin(WeightReport& r, bool found) const {
+    const bool all_measured = options_.goal == WeightGoal::feasible &&
+                              std::all_of(components_.begin(), components_.end(), [&](const Region& component) {
+                                return component.triangles.size() <= options_.whole;
+                              });
+    if (all_measured) {
+      r.margin = small_margin_;
+      r.margin_is = MarginIs::exact;
+    } else if (bound_) {
+      r.margin = std::min(bound_->best.margin, small_margin_);
+      r.margin_is = bound_is_exact_ ? MarginIs::exact : MarginIs::at_most;
+    } else if (found) {
+      r.margin = std::min(r.attained, small_margin_);
+      r.margin_is = MarginIs::at_least;
+    } else {  // a component that is one programme has no good weights; others were not tried
+      r.margin = small_margin_;
+      r.margin_is = MarginIs::at_most;
+    }
+  }
+
+  void judge(WeightReport& r, bool found) const {
+    if (refuted_) {
+      r.certificate = *refuted_;
+    } else if (worst_component_ && small_margin_ <= kNoMargin) {
+      r.certificate = certify_bound(*worst_component_, 0);
+    }
+    const bool refuted = !r.certificate.terms.empty() && r.certificate.margin == 0;
+    r.verdict = refuted ? Feasibility::infeasible : found ? Feasibility::feasible : Feasibility::undecided;
+    switch (options_.goal) {
+      case WeightGoal::feasible:
+        r.solved = r.verdict == Feasibility::feasible;
+        break;
+      case WeightGoal::minimal:
+        r.solved = r.verdict == Feasibility::feasible && r.asked == options_.margin;
+        break;
+      case WeightGoal::elastic:
+        r.solved = failures() == 0;
+        break;
+    }
+  }
+
+  void add_violations(WeightReport& r) const {
+    for (const WeightConstraint& c : all_constraints()) {
+      const double got = value(c, r.weights);
+      if (got >= r.asked - kKept) continue;
+      double angle = 0;
+      if (c.kind == WeightConstraint::Kind::height) {
+        angle = kDegrees * corner_angle(mesh_.position(c.r), mesh_.position(c.p), mesh_.position(c.q));
+      }
+      r.violations.push_back({c, got, r.asked - got, angle});
+    }
+    std::stable_sort(r.violations.begin(), r.violations.end(),
+                     [](const Violation& a, const Violation& b) { return a.shortfall > b.shortfall; });
+  }
+
+  [[nodiscard]] std::vector<WeightConstraint> all_constraints() const {
+    const std::vector<TriangleId> all(mesh_.triangles().begin(), mesh_.triangles().end());
+    return constraints_of(mesh_, all, Conditions::well_centered);
+  }
+
+  const Mesh& mesh_;
+  LpSolver& solver_;
+  const WeightOptions& options_;
+  IdVector<VertexId, double> start_;
+  std::vector<Region> components_;
+
+  double small_margin_ = 1;  ///< least best margin of the components measured; 1: none was
+  std::optional<Bound> worst_component_;
+  std::vector<Outcome> outcomes_;
+  std::optional<Bound> bound_;  ///< the least
+  bool bound_is_exact_ = true;
+  std::optional<Certificate> refuted_;
+};
+
+}  // namespace
+
+std::string_view name(Feasibility verdict) {
+  constexpr std::array<std::string_view, 3> kNames = {"feasible", "infeasible", "undecided"};
+  return kNames[static_cast<std::size_t>(verdict)];
+}
+
+std::string_view name(MarginIs is) {
+  constexpr std::array<std::string_view, 3> kNames = {"exact", "at_least", "at_most"};
+  return kNames[static_cast<std::size_t>(is)];
+}
+
+Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options) {
+  const bool elastic = options.goal == WeightGoal::elastic;
+  if (!(options.margin < 0.5) || !(elastic ? options.margin >= 0 : options.margin > 0)) {
+    return InputError{ErrorCode::invalid_option, "",
+                      "margin: expected a number above 0 and below 0.5, found " + std::to_string(options.margin)};
+  }
+  return WeightFinder(mesh, solver, options).run();
+}
+
+}  // namespace temper

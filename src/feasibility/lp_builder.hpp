@@ -1,0 +1,39 @@
+// A linear programme put together column by column and row by row.
+#pragma once
+
+#include <span>
+#include <utility>
+
+#include "temper/feasibility.hpp"
+
+namespace temper {
+
+class LpBuilder {
+ public:
+  /// Returns the number of the column.
+  int add_column(double cost, double lower, double upper) {
+    problem_.cost.push_back(cost);
+    problem_.column_lower.push_back(lower);
+    problem_.column_upper.push_back(upper);
+    return static_cast<int>(problem_.n_columns()) - 1;
+  }
+  /// One more entry of the row that end_row() will close.
+  void add_entry(int column, double value) {
+    problem_.column.push_back(column);
+    problem_.value.push_back(value);
+  }
+  /// Returns the number of the row.
+  int end_row(double lower, double upper) {
+    problem_.row_lower.push_back(lower);
+    problem_.row_upper.push_back(upper);
+    problem_.row_start.push_back(static_cast<int>(problem_.column.size()));
+    return static_cast<int>(problem_.n_rows()) - 1;
+  }
+  void set_cost(int column, double cost) { problem_.cost[static_cast<std::size_t>(column)] = cost; }
+  [[nodiscard]] const LpProblem& problem() const { return problem_; }
+
+ private:
+  LpProblem problem_;
+};
+
+}  // namespace temper

@@ -1,0 +1,161 @@
+// The best margin: maximise t with every h/ℓ, d/ℓ and 1 − d/ℓ at least t.
+//
+// The programme always has a solution, and an optimal one since d/ℓ and 1 − d/ℓ sum to one. Its dual is the
+// certificate: multipliers y ≥ 0 that sum to one, in whose combination of the constraints the weights cancel, and whose
+// constant is t* (so no ray of an infeasible programme is needed). A weight is counted in units of the mean ℓ² around
+// its vertex: coefficients are then of the order of one on meshes of any size, and on graded ones.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "feasibility/certify.hpp"
+#include "feasibility/constraints.hpp"
+#include "feasibility/lp_builder.hpp"
+#include "feasibility/region.hpp"
+#include "feasibility/units.hpp"
+
+namespace temper {
+namespace {
+
+struct MarginProgramme {
+  std::vector<VertexId> vertices;  ///< a column each
+  std::vector<double> units;
+  std::vector<WeightConstraint> constraints;  ///< a row each
+  LpProblem problem;
+};
+
+MarginProgramme margin_programme(const Mesh& mesh, std::span<const TriangleId> triangles, Conditions conditions) {
+  MarginProgramme p;
+  p.vertices = vertices_of(mesh, triangles);
+  p.units = weight_units(mesh, p.vertices, edges_of(mesh, triangles));
+  p.constraints = constraints_of(mesh, triangles, conditions);
+  LpBuilder lp;
+  // One weight is zero, or a constant on all would be free: that of the smallest triangles, whose unit would feel it
+  // most.
+  const auto anchor = std::min_element(p.units.begin(), p.units.end()) - p.units.begin();
+  for (std::size_t i = 0; i < p.vertices.size(); ++i) {
+    const double most = i == static_cast<std::size_t>(anchor) ? 0 : kUnbounded;
+    lp.add_column(0, -most, most);
+  }
+  const int t = lp.add_column(-1, -kUnbounded, 0.5);
+  for (const WeightConstraint& constraint : p.constraints) {
+    const LinearForm form = linear_form(mesh, constraint);
+    for (int k = 0; k < form.size; ++k) {
+      const std::size_t column = index_of(p.vertices, form.vertices[k]);
+      lp.add_entry(static_cast<int>(column), form.coefficients[k] * p.units[column]);
+    }
+    lp.add_entry(t, -1);
+    lp.end_row(-form.constant, kUnbounded);
+  }
+  p.problem = lp.problem();
+  return p;
+}
+
+std::vector<TriangleId> sorted(std::span<const TriangleId> triangles) {
+  std::vector<TriangleId> result(triangles.begin(), triangles.end());
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+}  // namespace
+
+std::size_t index_of(std::span<const VertexId> sorted_vertices, VertexId v) {
+  const auto at = std::lower_bound(sorted_vertices.begin(), sorted_vertices.end(), v);
+  return static_cast<std::size_t>(at - sorted_vertices.begin());
+}
+
+std::vector<double> weight_units(const Mesh& mesh, std::span<const VertexId> vertices,
+                                 std::span<const HalfedgeId> edges) {
+  std::vector<double> sums(vertices.size(), 0.0);
+  std::vector<double> counts(vertices.size(), 0.0);
+  for (const HalfedgeId h : edges) {
+    for (const VertexId v : {mesh.origin(h), mesh.target(h)}) {
+      const std::size_t i = index_of(vertices, v);
+      if (i == vertices.size() || vertices[i] != v) continue;
+      sums[i] += squared_length(mesh.position(mesh.target(h)) - mesh.position(mesh.origin(h)));
+      counts[i] += 1;
+    }
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= counts[i];
+  return sums;
+}
+
+double weight_margin(const Mesh& mesh, Conditions conditions) {
+  double margin = kUnbounded;
+  const auto weight_of = [&](VertexId v) { return mesh.weight(v); };
+  for (const HalfedgeId h : mesh.halfedges()) {
+    margin = std::min(margin, value_of(linear_form(mesh, height_constraint(mesh, h)), weight_of));
+    if (conditions == Conditions::heights_only || !mesh.is_edge_representative(h)) continue;
+    const double split = value_of(linear_form(mesh, split_constraint(mesh.origin(h), mesh.target(h))), weight_of);
+    margin = std::min({margin, split, 1 - split});
+  }
+  return margin;
+}
+
+Certificate certify(const Mesh& mesh, std::span<const WeightConstraint> constraints, std::span<const double> dual,
+                    double margin) {
+  double largest = 0;
+  for (const double y : dual) largest = std::max(largest, std::abs(y));
+  // Few terms are easier to read; what is dropped is paid for in the check, so each candidate is tried.
+  for (const double dropped : {1e-9, 1e-12, 1e-15}) {
+    Certificate certificate;
+    certificate.margin = margin;
+    for (std::size_t i = 0; i < constraints.size(); ++i) {
+      if (!(dual[i] > dropped * largest)) continue;
+      // y is the multiplier of h/ℓ = N/(2ℓ²S) or d/ℓ = N/(2ℓ²).
+      const auto [kind, p, q, r] = constraints[i];
+      const Vec2 pq = mesh.position(q) - mesh.position(p);
+      const double s = kind == WeightConstraint::Kind::height ? cross(pq, mesh.position(r) - mesh.position(p)) : 1;
+      certificate.terms.push_back({constraints[i], dual[i] / (2 * squared_length(pq) * s)});
+    }
+    if (check_certificate(mesh, certificate) == CertificateCheck::proves) return certificate;
+  }
+  Certificate nothing;
+  nothing.margin = margin;
+  return nothing;
+}
+
+Bound bound_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, Conditions conditions) {
+  Bound bound;
+  MarginProgramme programme = margin_programme(mesh, triangles, conditions);
+  LpSolution solution = solver.solve(programme.problem);
+  bound.constraints = std::move(programme.constraints);
+  bound.best.status = solution.status;
+  bound.best.vertices = std::move(programme.vertices);
+  if (solution.status != LpStatus::optimal) return bound;
+  bound.best.margin = solution.primal.back();
+  bound.dual = std::move(solution.dual);
+  for (std::size_t i = 0; i < bound.best.vertices.size(); ++i) {
+    bound.best.weights.push_back(programme.units[i] * solution.primal[i]);
+  }
+  double largest = 0;
+  for (const double y : bound.dual) largest = std::max(largest, y);
+  for (std::size_t i = 0; i < bound.dual.size(); ++i) {
+    if (bound.dual[i] > 1e-9 * largest) bound.best.tight.push_back(bound.constraints[i]);
+  }
+  return bound;
+}
+
+BestMargin best_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver,
+                       Conditions conditions) {
+  Bound bound = bound_margin(mesh, sorted(triangles), solver, conditions);
+  if (bound.best.status == LpStatus::optimal && bound.best.margin < kNoMargin) {
+    bound.best.certificate = certify(mesh, bound.constraints, bound.dual, 0);
+  }
+  return std::move(bound.best);
+}
+
+BestMargin best_margin(const Mesh& mesh, LpSolver& solver, Conditions conditions) {
+  BestMargin worst;
+  worst.margin = kUnbounded;
+  for (const Region& component : components_of(mesh)) {
+    BestMargin best = best_margin(mesh, component.triangles, solver, conditions);
+    if (best.status != LpStatus::optimal) return best;
+    if (best.margin < worst.margin) worst = std::move(best);
+  }
+  return worst;
+}
+
+}  // namespace temper

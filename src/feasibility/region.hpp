@@ -1,0 +1,37 @@
+// Parts of a mesh whose weights are found together.
+//
+// A region has free vertices and all triangles that touch them; the other corners of these triangles are its rim and
+// keep their weights. Free vertices of one triangle are in one region, so that regions do not see each other and can be
+// solved one by one.
+//
+//     . . r - r - r . .       f  free vertex
+//     . r - f - f - r .       r  rim: its weight is a constant
+//     . . r - r - r . .       .  not of the region
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+struct Region {
+  std::vector<VertexId> free;         ///< sorted
+  std::vector<TriangleId> triangles;  ///< sorted
+  bool has_rim = false;               ///< else it is a connected component of the mesh
+};
+
+/// A subset of the vertices.
+using VertexMask = IdVector<VertexId, std::uint8_t>;
+
+/// The regions that these free vertices fall into, in the order of their least vertices. O(n).
+[[nodiscard]] std::vector<Region> regions_of(const Mesh& mesh, const VertexMask& free);
+
+/// Adds the neighbours of these vertices to the mask, so many times.
+void grow(const Mesh& mesh, VertexMask& mask, std::vector<VertexId> front, int rings);
+
+/// The connected components of the mesh: regions without rim.
+[[nodiscard]] std::vector<Region> components_of(const Mesh& mesh);
+
+}  // namespace temper

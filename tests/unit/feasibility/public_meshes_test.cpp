@@ -1,0 +1,62 @@
+// Public meshes that nobody here made, read in place: all ten have weights that make them well-centered as they are.
+#include <filesystem>
+#include <ostream>
+
+#include "temper/io.hpp"
+#include "unit/feasibility/support.hpp"
+
+namespace temper::test {
+namespace {
+
+struct PublicMesh {
+  const char* file;
+  double margin;      ///< the best one
+  std::size_t moved;  ///< weights that have to change for a margin of 0.01: at most these
+  friend void PrintTo(const PublicMesh& mesh, std::ostream* out) { *out << mesh.file; }
+};
+
+// Margins to the digits that two solver methods agree on.
+const PublicMesh kMeshes[] = {
+    {"mfem_beam-tri.mesh", 0.0555555556, 14},          {"mfem_square-disc.mesh", 0.0598247376, 69},
+    {"pydec_ResonantCavity.vtu", 0.2122670913, 8},     {"sfepy_circle_in_square.mesh", 0.1323424073, 66},
+    {"sfepy_circles_in_square.vtk", 0.0885467044, 20}, {"sfepy_its2D.mesh", 0.1266717498, 3},
+    {"sfepy_osteonT1_11.mesh", 0.0274939984, 1000},    {"skfem_annulus.msh", 0.1208702341, 4},
+    {"skfem_cylinder_stokes.msh", 0.1406690447, 5},    {"skfem_square.msh", 0.1732528420, 7},
+};
+
+class PublicMeshWeights : public testing::TestWithParam<PublicMesh> {};
+
+TEST_P(PublicMeshWeights, ExistAndFewHaveToChange) {
+  const std::string path = std::string(TEMPER_PUBLIC_MESHES) + "/" + GetParam().file;
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  const auto file = io::read(path);
+  ASSERT_TRUE(file) << file.error().what();
+  const auto loaded = io::make_mesh(*file);
+  ASSERT_TRUE(loaded) << loaded.error().what();
+  const Mesh& mesh = loaded->mesh;
+
+  const WeightReport report = weights_of(mesh, {.goal = WeightGoal::feasible});
+  EXPECT_EQ(report.verdict, Feasibility::feasible);
+  EXPECT_TRUE(report.solved);
+  EXPECT_EQ(report.margin_is, MarginIs::exact);
+  EXPECT_NEAR(report.margin, GetParam().margin, 1e-8);
+  EXPECT_NEAR(report.attained, 0.01, 1e-7);
+  EXPECT_LE(report.moved, GetParam().moved);
+  EXPECT_GT(report.moved, 0u);
+  EXPECT_EQ(bad_triangles(with_weights(mesh, report.weights)), 0u);
+
+  const WeightReport local = weights_of(mesh, {.whole = 0});
+  EXPECT_TRUE(local.solved);
+  EXPECT_EQ(bad_triangles(with_weights(mesh, local.weights)), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PublicMeshWeights, testing::ValuesIn(kMeshes), [](const auto& mesh) {
+  std::string name = mesh.param.file;
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  }
+  return name;
+});
+
+}  // namespace
+}  // namespace temper::test
