@@ -1,0 +1,118 @@
+#include "experiments/summary_matrix.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "experiments/closeness.hpp"
+#include "experiments/high_heat.hpp"
+#include "experiments/sparse_runs.hpp"
+#include "temper/quality.hpp"
+
+namespace temper::gallery {
+namespace {
+
+// Energies of a mess are 1e12 and more, of meshes without one at most a few times the input's.
+constexpr double kBeyondBounds = 1000;
+
+OptimizeOptions options_of(const Cell& cell, Effort effort, Inversion inversion) {
+  OptimizeOptions options = high_heat_options(cell.energy);
+  options.unknowns = cell.unknowns;
+  options.weights_from = 0;
+  options.inversion = inversion;
+  options.outer = 4;
+  options.max_sweeps = effort == Effort::full ? 150 : 20;
+  if (cell.rule == RemovalRule::patch) options.removal = Removal::patch;
+  if (cell.rule != RemovalRule::short_edge) options.collapse_from = {};
+  return options;
+}
+
+Ending ending_of(const Recording& run) {
+  const Moment& last = run.moments.back();
+  Ending e;
+  e.mesh = last.mesh;
+  const Quality q = quality(e.mesh);
+  e.inverted = q.inverted_triangles;
+  e.non_regular = q.non_regular_edges;
+  e.coincident = close_pairs(e.mesh).size();
+  e.energy = last.energy;
+  e.well_centered = q.well_centered_fraction;
+  const double bound = kBeyondBounds * std::abs(run.moments.front().energy);
+  if (e.inverted > 0 || !(std::abs(e.energy) < bound)) {
+    e.verdict = Verdict::mess;
+  } else if (e.non_regular > 0) {
+    e.verdict = Verdict::hidden;
+  } else if (e.coincident > 0) {
+    e.verdict = Verdict::collapsed;
+  }
+  return e;
+}
+
+void run_cell(Cell& cell, const OptimizeOptions& setting, Effort effort) {
+  std::vector<VertexOrder> orders = vertex_orders(effort == Effort::full ? 1 : 0);
+  if (effort == Effort::reduced) orders.resize(1);
+  for (const VertexOrder& order : orders) {
+    OptimizeOptions options = setting;
+    options.order = order.order;
+    options.seed = order.seed;
+    const Recording run = record(dense_input(), options, Keep::outer);
+    if (run.error.empty()) cell.endings.push_back(ending_of(run));
+  }
+}
+
+Matrix compute(Effort effort, Inversion inversion) {
+  Matrix matrix;
+  for (const std::string_view energy : kFiveEnergies) {
+    for (const Unknowns unknowns : kUnknowns) {
+      for (const RemovalRule rule : kRules) {
+        Cell cell{energy, unknowns, rule, {}};
+        run_cell(cell, options_of(cell, effort, inversion), effort);
+        matrix.cells.push_back(std::move(cell));
+      }
+    }
+  }
+  return matrix;
+}
+
+}  // namespace
+
+std::vector<Ending> endings(std::string_view energy, Unknowns unknowns, RemovalRule rule, HiddenPolicy hidden,
+                            Effort effort) {
+  Cell cell{energy, unknowns, rule, {}};
+  OptimizeOptions options = options_of(cell, effort, Inversion::refuse);
+  options.hidden = hidden;
+  run_cell(cell, options, effort);
+  return std::move(cell.endings);
+}
+
+std::string_view name(Verdict verdict) {
+  constexpr std::array<std::string_view, kVerdicts> kNames = {"HOT mess", "hidden vertices", "collapsed edges",
+                                                              "good mesh"};
+  return kNames[static_cast<std::size_t>(verdict)];
+}
+
+std::size_t Cell::count(Verdict verdict) const {
+  return static_cast<std::size_t>(std::ranges::count(endings, verdict, &Ending::verdict));
+}
+
+Verdict Cell::verdict() const {
+  Verdict most = Verdict::mess;
+  for (std::size_t i = 1; i < kVerdicts; ++i) {
+    if (count(static_cast<Verdict>(i)) > count(most)) most = static_cast<Verdict>(i);
+  }
+  return most;
+}
+
+const Cell& Matrix::at(std::string_view energy, Unknowns unknowns, RemovalRule rule) const {
+  return *std::ranges::find_if(
+      cells, [&](const Cell& c) { return c.energy == energy && c.unknowns == unknowns && c.rule == rule; });
+}
+
+const Matrix& summary_matrix(Effort effort, Inversion inversion) {
+  static std::array<std::vector<Matrix>, 4> computed;
+  auto& slot = computed[(effort == Effort::full ? 0U : 1U) + (inversion == Inversion::refuse ? 0U : 2U)];
+  if (slot.empty()) slot.push_back(compute(effort, inversion));
+  return slot.front();
+}
+
+}  // namespace temper::gallery
