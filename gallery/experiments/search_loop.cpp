@@ -61,7 +61,7 @@ class Loop {
 
   void sweep(const std::string& number) {
     for (const VertexId v : sequence_) {
-      search_position(v);
+      if (loop_.positions) search_position(v);
       if (!loop_.all_positions_first) search_weight(v);
     }
     note("positions " + number);
@@ -70,8 +70,11 @@ class Loop {
     }
     note("weights " + number);
     if (tangled()) return;
-    restore_regularity(mesh_);
+    const Restoration restored = restore_regularity(mesh_);
     note("flips " + number);
+    for (const VertexId v : restored.hidden) {
+      ++(mesh_.is_boundary(v) ? stages_.back().hidden_on_boundary : stages_.back().hidden_inside);
+    }
   }
 
   void search_position(VertexId v) {
@@ -114,7 +117,7 @@ class Loop {
   }
 
   void note(const std::string& name) {
-    LoopStage stage{name, mesh_, total_energy(mesh_, model_), count_inverted(mesh_), 0, 0};
+    LoopStage stage{name, mesh_, total_energy(mesh_, model_), count_inverted(mesh_), 0, 0, 0, 0};
     if (stage.inverted == 0) stage.non_regular = count_non_regular_edges(mesh_);
     for (const VertexId v : mesh_.vertices()) {
       stage.largest_weight = std::max(stage.largest_weight, std::abs(mesh_.weight(v)));

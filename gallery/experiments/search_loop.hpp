@@ -1,5 +1,5 @@
 // Positions and weights by line searches whose reach in the weight can be chosen, sweep by sweep with deferred flips:
-// figure 25.
+// figures 23 and 25.
 //
 // The paper's greatest search distance is the patch radius, a length; weights are lengths squared, and it does not say
 // which square. The optimiser takes the mean square distance to the neighbours, r². How far a search may reach decides
@@ -19,6 +19,7 @@ struct SearchLoop {
   EnergyKind energy = EnergyKind::dT;
   double weight_reach = 1;          ///< greatest change of a weight in one search, over r²
   bool limited = false;             ///< searches stop after the next flip: overshoot 1.1, 1.01, …
+  bool positions = true;            ///< false: weights alone
   bool all_positions_first = true;  ///< all positions, then all weights; else both vertex by vertex
 };
 
@@ -30,6 +31,7 @@ struct LoopStage {
   std::size_t inverted = 0;     ///< triangles
   std::size_t non_regular = 0;  ///< edges
   double largest_weight = 0;
+  std::size_t hidden_inside = 0, hidden_on_boundary = 0;  ///< after flips: vertices without a power cell
 };
 
 /// The stages of up to so many sweeps; it ends with the first in which a triangle is inverted, for flips cannot make

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/mesh_picture.hpp"
+#include "experiments/search_loop.hpp"
 #include "experiments/text.hpp"
 #include "experiments/weight_policies.hpp"
 #include "figures.hpp"
@@ -56,6 +57,23 @@ std::vector<std::vector<PolicyRun>> with_orders(Effort effort) {
   return all;
 }
 
+/// Unlimited weights with deferred flips when a search may go four times as far as the optimiser's.
+std::string with_far_searches() {
+  constexpr double kReach = 4;
+  constexpr int kSweeps = 20;
+  const SearchLoop loop{EnergyKind::dT, kReach, false, false, false};
+  const auto stages = run_loop(loop, oscillating_mesh(), {"reverse", positions_and_collapses().order}, kSweeps);
+  std::size_t inside = 0, on_boundary = 0;
+  for (const LoopStage& s : stages) {
+    inside = std::max(inside, s.hidden_inside);
+    on_boundary = std::max(on_boundary, s.hidden_on_boundary);
+  }
+  return "With deferred flips and weight searches up to " + digits(kReach) +
+         " r² instead of r², the mean square distance to the neighbours, " + digits(inside) + " vertices inside and " +
+         digits(on_boundary) + " on the boundary are hidden and E_∂T ends at " + digits(stages.back().energy, 2) +
+         "; the paper does not give its reach.";
+}
+
 std::size_t hidden(const PolicyRun& run) { return run.hidden_inside + run.hidden_on_boundary; }
 
 Claim unlimited_flips_most() {
@@ -84,8 +102,7 @@ Claim unlimited_hides(const std::vector<std::vector<PolicyRun>>& orders) {
           digits(run.hidden_inside) + " inside, " + digits(run.hidden_on_boundary) + " on the boundary",
           run.hidden_inside > 0 && run.hidden_on_boundary > 0,
           "Over " + digits(orders.size()) + " vertex orders at most " + digits(most_inside) + " inside and " +
-              digits(most_on_boundary) + " on the boundary, all on the feet; the start has " +
-              digits(oscillating_mesh().n_vertices()) + " vertices left, and those inside are far apart."};
+              digits(most_on_boundary) + " on the boundary. " + with_far_searches()};
 }
 
 Claim before_never_flips() {
@@ -183,9 +200,9 @@ Claim deferred_flips_are_chaotic(const std::vector<std::vector<PolicyRun>>& orde
           "the energy rose after " + digits(run.rises) + " of " + digits(run.energies.size() - 1) + " sweeps, " +
               digits(hidden(run)) + " vertices hidden",
           run.rises > 1,
-          "Over " + digits(orders.size()) + " vertex orders it rose after " + digits(rises) +
-              " sweeps in all. Vertices at corners of the domain are never removed here, so that the domain cannot "
-              "change."};
+          "Over " + digits(orders.size()) + " vertex orders it rose after " + digits(rises) + " sweeps in all. " +
+              with_far_searches() +
+              " Vertices at corners of the domain are never removed in the runs shown: the domain stays."};
 }
 
 /// Least energies of a policy over vertex orders, and in how many of them no other limit did better.
@@ -236,18 +253,19 @@ Claim after_is_best(const std::vector<std::vector<PolicyRun>>& orders) {
     worst = std::max(worst, s.worst_excess);
   }
   const std::size_t cases = kPolicyColumns * orders.size();
-  return {
-      "6.6.2",
-      "Stopping after the threshold gives the mesh of lowest energy in all cases.",
-      "in all cases",
-      "in " + digits(best) + " of " + digits(cases) + " cases; elsewhere at most " + digits(100 * worst, 2) +
-          " % above the lowest",
-      cases > 0 && best == cases,
-      "Unlimited weights have the lowest energy in " + digits(standing(orders, FlipLimit::unlimited, kAtOnce).best) +
-          " of " + digits(orders.size()) + " orders with immediate updates and in " +
-          digits(standing(orders, FlipLimit::unlimited, kFlipsDeferred).best) +
-          " with deferred flips. From this start they do not become chaotic: no vertex inside is hidden. The paper's "
-          "energy there is a normalised one; here it is E_∂T itself."};
+  return {"6.6.2",
+          "Stopping after the threshold gives the mesh of lowest energy in all cases.",
+          "in all cases",
+          "in " + digits(best) + " of " + digits(cases) + " cases; elsewhere at most " + digits(100 * worst, 2) +
+              " % above the lowest",
+          cases > 0 && best == cases,
+          "Unlimited weights have the lowest energy in " +
+              digits(standing(orders, FlipLimit::unlimited, kAtOnce).best) + " of " + digits(orders.size()) +
+              " orders with immediate updates and in " +
+              digits(standing(orders, FlipLimit::unlimited, kFlipsDeferred).best) +
+              " with deferred flips: searches that reach only r² stay near the local minimum without any limit, and "
+              "gain by "
+              "not stopping. The paper's energy there is a normalised one; here it is E_∂T itself."};
 }
 
 Claim after_beats_before(const std::vector<std::vector<PolicyRun>>& orders) {

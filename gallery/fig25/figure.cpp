@@ -26,7 +26,7 @@ const Policy kLimited{"E_∂T, limited", EnergyKind::dT, true};
 const Policy kTheory{"E_T, unlimited", EnergyKind::T, false};
 
 std::vector<LoopStage> stages(const Policy& policy, double reach, const VertexOrder& order, int sweeps) {
-  return run_loop({policy.energy, reach, policy.limited, true}, oscillating_mesh(), order, sweeps);
+  return run_loop({policy.energy, reach, policy.limited}, oscillating_mesh(), order, sweeps);
 }
 
 VertexOrder shown_order() { return {"reverse", positions_and_collapses().order}; }
