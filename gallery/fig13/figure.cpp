@@ -138,7 +138,7 @@ Claim where_unbounded(const SparseRun& run) {
           "triangles 014 and 124",
           "E_F by triangle after the first sweep with weights: " + found,
           at_p1 > 1e6 * others,
-          "each triangle by itself; the two at the nearly collapsed edge hold all but a part in 10^6"};
+          "each triangle by itself; the two at the nearly collapsed edge hold all but a millionth"};
 }
 
 Claim bounded(const std::array<SparseRun, 5>& runs) {
