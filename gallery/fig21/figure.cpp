@@ -173,10 +173,10 @@ Picture curves() {
   plot.y_label = "E_{∂T} of the region";
   plot.width = 760, plot.height = 460;
   plot.legend = LegendPlace::outside;
-  add_direction(there, "outwards", kThere, plot);
-  add_direction(back, "inwards", kBack, plot);
   plot.series.push_back(exact_series(there, "true, outwards", SeriesStyle::line));
   plot.series.push_back(exact_series(back, "true, inwards", SeriesStyle::dashed));
+  add_direction(there, "outwards", kThere, plot);
+  add_direction(back, "inwards", kBack, plot);
   plot.series.push_back(jump_series(there, "flips"));
   plot.series.push_back(jump_series(back, ""));
   return {
