@@ -249,7 +249,7 @@ Table remedies(const std::vector<std::pair<const char*, Counts>>& rows) {
   Table table{
       "Positions and weights of the dense horseshoe: vertex orders that end in a HOT mess, and of these with "
       "inverted triangles and with negative energy.",
-      {"", "energy", "orders", "mess", "inverted", "negative"},
+      {"weights and steps", "energy", "orders", "mess", "inverted", "negative"},
       {}};
   for (const auto& [name, counts] : rows) {
     for (const auto& [energy, c] : {std::pair{"E_F", counts.f}, std::pair{"E_∂T", counts.dt}}) {
