@@ -25,6 +25,10 @@ constexpr Exception kDoesNotHold[] = {
     {"12", "can send p_4's y to −∞"},
     {"19", "whatever the order in which vertices are visited"},
     {"21", "The first search stops at its limit"},
+    {"23", "many vertices become hidden, inside and three on the boundary"},
+    {"23", "All dual vertices have moved inside"},
+    {"23", "Unlimited weights with deferred flips are chaotic"},
+    {"6.6.2", "lowest energy in all cases"},
     {"26", "a fifth at the start of the third"},
     {"29", "Two adjacent 4-valent nodes"},
 };
