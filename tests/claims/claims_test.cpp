@@ -9,6 +9,10 @@
 #include "gallery/gallery.hpp"
 
 namespace temper::gallery {
+
+// Found by GoogleTest beside Figure only.
+void PrintTo(const Figure& figure, std::ostream* out) { *out << "figure " << figure.number; }
+
 namespace {
 
 constexpr std::size_t kFiguresOfPaper = 29;  // 3 to 32 without the drawing 5
@@ -48,8 +52,6 @@ bool is_exception(const Claim& claim) {
   return std::any_of(std::begin(kDoesNotHold), std::end(kDoesNotHold),
                      [&](const Exception& exception) { return matches(exception, claim); });
 }
-
-void PrintTo(const Figure& figure, std::ostream* out) { *out << "figure " << figure.number; }
 
 class EachFigure : public testing::TestWithParam<Figure> {};
 
