@@ -227,16 +227,21 @@ bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
     deferred_.push_back({vertex_, p.w, energy_, energy});
     return true;
   }
-  if (!settings_.options.flips) note_regular_edges();
+  if (keeps_connectivity()) note_regular_edges();
   mesh_.set_point(vertex_, p);
   if (flips_at_once()) return flipper_.settle({vertex_, origin_, energy_, energy, must_pay});
-  const bool fits = settings_.options.flips || regular_edges_still_are();
+  const bool fits = !keeps_connectivity() || regular_edges_still_are();
   if (fits) {
     recorder_.placed(vertex_, origin_, p, energy_, energy);
   } else {
     mesh_.set_point(vertex_, origin_);
   }
   return fits;
+}
+
+/// Thresholds are computed in doubles; that no edge flips is decided exactly.
+bool VertexStep::keeps_connectivity() const {
+  return !settings_.options.flips || settings_.flip_limit == FlipLimit::before;
 }
 
 void VertexStep::nudge(VertexId v, Vec2 p) {
@@ -264,7 +269,7 @@ void VertexStep::renumber(const Compaction& kept) {
 }
 
 bool VertexStep::flips_at_once() const {
-  return settings_.options.flips && settings_.options.flip_timing == FlipTiming::immediate;
+  return !keeps_connectivity() && settings_.options.flip_timing == FlipTiming::immediate;
 }
 
 bool VertexStep::stays_oriented(const WeightedPoint& p) const {
@@ -277,7 +282,7 @@ bool VertexStep::stays_oriented(const WeightedPoint& p) const {
   return true;
 }
 
-/// With frozen connectivity an edge that is regular must stay so; one that is not may wait.
+/// With its connectivity kept an edge that is regular must stay so; one that is not may wait.
 void VertexStep::note_regular_edges() {
   was_regular_.clear();
   for (const HalfedgeId h : mesh_.star(vertex_)) {

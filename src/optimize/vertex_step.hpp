@@ -60,6 +60,7 @@ class VertexStep {
   Outcome try_step(const Step& step, double t);
   [[nodiscard]] bool stays_oriented(const WeightedPoint& p) const;
   bool place(const WeightedPoint& p, double energy, bool must_pay);
+  [[nodiscard]] bool keeps_connectivity() const;
   [[nodiscard]] bool flips_at_once() const;
   void note_regular_edges();
   [[nodiscard]] bool regular_edges_still_are() const;

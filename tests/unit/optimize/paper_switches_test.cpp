@@ -293,6 +293,26 @@ TEST(Inversions, AreTakenOnlyWhereAllowed) {
   }
 }
 
+TEST(FlipLimits, BeforeNeverFlips) {
+  for (const FlipTiming timing : {FlipTiming::immediate, FlipTiming::deferred}) {
+    for (const bool weights : {false, true}) {
+      OptimizeOptions o = dense_positions();
+      o.collapse_from = std::nullopt;
+      o.flip_timing = timing;
+      o.flip_limit = FlipLimit::before;
+      o.order = SweepOrder::input;
+      if (weights) o.unknowns = Unknowns::positions_and_weights;
+      std::size_t flips = 0, moves = 0;
+      o.tracer = [&](const TraceEvent& e) { ++(e.kind == EventKind::flip ? flips : moves); };
+      Mesh mesh = dense();
+      ASSERT_TRUE(optimize(mesh, o));
+      EXPECT_EQ(flips, 0u);
+      EXPECT_GT(moves, 200u);
+      EXPECT_EQ(count_non_regular_edges(mesh), 0u);
+    }
+  }
+}
+
 TEST(Orders, EachIsItsOwnAndSeeded) {
   const auto first_moved = [](SweepOrder order, std::uint64_t seed) {
     std::vector<std::uint32_t> moved;
