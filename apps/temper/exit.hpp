@@ -19,6 +19,7 @@ enum class Exit : int {
   requirement = 3,    ///< check --require: not met
   stopped_early = 4,  ///< a signal or --time-limit; the best mesh so far is written
   internal = 5,       ///< a defect of temper
+  infeasible = 6,     ///< weights: none do what was asked
 };
 
 class Failure : public std::runtime_error {

@@ -77,6 +77,8 @@ std::string_view meaning(Exit exit) {
       return "stopped early by a signal or --time-limit; the best mesh so far is written";
     case Exit::internal:
       return "out of memory, or an internal error: please report that";
+    case Exit::infeasible:
+      return "weights: there are none that do what was asked; nothing was written but the certificate";
   }
   return "";
 }
@@ -133,7 +135,7 @@ std::string full_help() {
       "  temper check horseshoe.vtu\n"
       "  temper optimize horseshoe.vtu -o tempered.vtu --draw before-after.svg\n";
   return text + exit_lines({Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early,
-                            Exit::internal});
+                            Exit::internal, Exit::infeasible});
 }
 
 }  // namespace temper::app

@@ -20,6 +20,7 @@ Exit run_convert(const Arguments& arguments);
 Exit run_example(const Arguments& arguments);
 Exit run_replay(const Arguments& arguments);
 Exit run_reproduce(const Arguments& arguments);
+Exit run_weights(const Arguments& arguments);
 
 struct Verb {
   std::string_view name;

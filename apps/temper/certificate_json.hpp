@@ -1,0 +1,24 @@
+// Certificates as JSON: why a mesh has no good weights, for people to keep and for others to verify.
+//
+//   {"temper_certificate": 1, "margin": 0,
+//    "terms": [{"kind": "height", "triangle": [3, 9, 10], "edge": [3, 9], "multiplier": 0.25},
+//              {"kind": "split", "edge": [9, 3], "multiplier": 1.5}]}
+//
+// Points count from 0, in the order of the file's arrays. The edge of a height lies in its triangle, counter-clockwise;
+// that of a split is directed: d from its first point. docs/weights.md has what the multipliers multiply.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "input.hpp"
+#include "temper/feasibility.hpp"
+
+namespace temper::app {
+
+[[nodiscard]] nlohmann::ordered_json certificate_json(const Certificate& certificate, const Input& input);
+
+/// Failure when the file cannot be read or is no certificate.
+[[nodiscard]] Certificate read_certificate(const std::string& path, const Input& input);
+
+}  // namespace temper::app
