@@ -78,8 +78,8 @@ enum class SweepOrder {
 };
 
 enum class StoppingRule {
-  relative,  ///< E fell by less than tolerance × E in one sweep
-  paper,     ///< mean energy per triangle fell by less than tolerance
+  relative,  ///< E changed by less than tolerance × E in one sweep, or has not been lower for 25
+  paper,     ///< mean energy per triangle fell by less than tolerance, or rose
 };
 
 struct OptimizeOptions {

@@ -12,7 +12,8 @@ namespace temper {
 namespace {
 
 constexpr std::size_t kVerticesBetweenCalls = 8192;  // of the observer and the clock: a few milliseconds
-// Sweeps at the last γ without fewer bad triangles, after which another attempt promises more.
+// Sweeps at the last γ without fewer bad triangles, after which another attempt promises more; and without a lower
+// energy, after which none will come.
 constexpr int kPatience = 25;
 // Sweeps in which vertices may bring a barrier's infinite energy down one by one, before all weights shrink.
 constexpr int kInfinitePatience = 5;
@@ -62,6 +63,7 @@ void Driver::begin(const Attempt& attempt) {
   if (run_.report.history.empty()) record();
   least_bad_ = mesh_.n_triangles();
   before_ = best_energy_ = total();
+  least_energy_ = kInfinity;
   best_sweep_ = recorder_.sweep();
   run_.report.stopped = Stopped::max_sweeps;
   show(Snapshot::Moment::start);
@@ -92,6 +94,7 @@ Driver::Verdict Driver::judge_sweep(bool removed, bool may_give_up) {
     return Verdict::improving;
   }
   if (softener_.settled() && !removed && converged(before_, after)) {
+    if (!defers_flips() && begin_weights()) return Verdict::improving;
     run_.report.stopped = Stopped::converged;
     return Verdict::settled;
   }
@@ -112,7 +115,8 @@ Driver::Verdict Driver::flip_if_deferred(Verdict of_sweeps) {
   inner_ = 0;
   ++outer_;
   const bool needed = run_.report.flips > flips;
-  if (of_sweeps == Verdict::stopped || (of_sweeps == Verdict::settled && !needed)) return Verdict::stopped;
+  if (of_sweeps == Verdict::stopped) return Verdict::stopped;
+  if (of_sweeps == Verdict::settled && !needed && !begin_weights()) return Verdict::stopped;
   run_.report.stopped = outer_ == settings_.options.outer ? Stopped::max_outer : Stopped::max_sweeps;
   return outer_ == settings_.options.outer ? Verdict::stopped : Verdict::improving;
 }
@@ -222,12 +226,25 @@ bool Driver::defers_flips() const {
   return settings_.options.flips && settings_.options.flip_timing == FlipTiming::deferred;
 }
 
-bool Driver::converged(double before, double after) const {
-  const double fall = before - after;
+/// The paper's rule takes a rise for convergence. The relative one waits whether the energy falls again.
+bool Driver::converged(double before, double after) {
+  const double tolerance = settings_.options.tolerance;
   if (settings_.options.stopping == StoppingRule::paper) {
-    return fall < settings_.options.tolerance * static_cast<double>(mesh_.n_triangles());
+    return before - after < tolerance * static_cast<double>(mesh_.n_triangles());
   }
-  return fall <= settings_.options.tolerance * std::abs(after);
+  const double change = tolerance * std::abs(after);
+  const bool lower = after < least_energy_ - change;
+  sweeps_since_lower_ = lower ? 0 : sweeps_since_lower_ + 1;
+  least_energy_ = std::min(least_energy_, after);
+  return std::abs(before - after) <= change || sweeps_since_lower_ >= kPatience;
+}
+
+/// Positions have converged before i_w: the weights' turn has come.
+bool Driver::begin_weights() {
+  const OptimizeOptions& o = settings_.options;
+  if (o.unknowns != Unknowns::positions_and_weights || iteration_ >= o.weights_from) return false;
+  iteration_ = o.weights_from;
+  return true;
 }
 
 bool Driver::stagnates() {

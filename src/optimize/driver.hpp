@@ -45,7 +45,8 @@ class Driver {
   void set_weight(VertexId v, double w);
   bool restore_regularity();
   [[nodiscard]] bool defers_flips() const;
-  [[nodiscard]] bool converged(double before, double after) const;
+  bool converged(double before, double after);
+  bool begin_weights();
   bool stagnates();
   void keep_if_best();
   void return_best();
@@ -69,6 +70,8 @@ class Driver {
   double before_ = 0;               // energy at the start of the sweep
   std::size_t least_bad_ = 0;       // of this attempt so far, and for how many sweeps
   int sweeps_since_fewer_bad_ = 0;
+  double least_energy_ = 0;  // at the last γ, and for how many sweeps
+  int sweeps_since_lower_ = 0;
   int infinite_sweeps_ = 0;
   bool shrunk_ = false;
   std::optional<WorkingCopy> best_;  // of HOT energies: the best sweep
