@@ -39,14 +39,14 @@ void add_options(CLI::App& app, Settings& s) {
            "where the pictures, index.html and gallery.json go; made when it is not there");
   app.add_flag("--reduced", s.reduced, "every claim, but fewer samples and shorter runs");
   app.add_flag("--require-claims", s.require_claims,
-               "exit with 1 when a claim does not hold; all is written all the same");
+               "exit with 3 when a claim does not hold; all is written all the same");
   app.add_flag("--list", s.list, "list the figures");
   app.set_help_flag("-h,--help", "this text");
   set_help(app, {"[FIG ...] -o DIR [options]",
                  "  temper reproduce --list\n"
                  "  temper reproduce 6 -o gallery\n"
                  "  temper reproduce 3,6-8 -o gallery --reduced\n",
-                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
 }
 
 [[noreturn]] void bad_usage(const std::string& message) {
@@ -185,7 +185,7 @@ Exit run_reproduce(const Arguments& arguments) {
   const Tally tally = gallery::count_claims(made.results);
   if (!s.require_claims || tally.hold == tally.all) return Exit::done;
   print_error(fmt::format("reproduce: {} of {} claims do not hold", tally.all - tally.hold, tally.all));
-  return Exit::bad_input;  // 1, as --help says
+  return Exit::requirement;
 }
 
 }  // namespace temper::app

@@ -27,6 +27,8 @@ constexpr Exception kDoesNotHold[] = {
     {"6", "is concave, as its Hessian"},
     {"7", "is negative definite"},
     {"12", "can send p_4's y to −∞"},
+    {"16", "The number of circumcenters in no triangle"},
+    {"18", "converge in fewer iterations"},
     {"19", "whatever the order in which vertices are visited"},
     {"21", "The first search stops at its limit"},
     {"23", "many vertices become hidden, inside and three on the boundary"},
@@ -117,14 +119,13 @@ TEST(Gallery, NoTwoClaimsOrPicturesAreTheSame) {
 }
 
 TEST(Gallery, AllFiguresTogetherMakeFortyClaims) {
-  if (figures().size() < kFiguresOfPaper) GTEST_SKIP() << "only " << figures().size() << " figures are here";
+  EXPECT_EQ(figures().size(), kFiguresOfPaper);
   std::size_t claims = 0;
   for (const Figure& figure : figures()) claims += page(figure).claims.size();
   EXPECT_GE(claims, kLeastClaims);
 }
 
 TEST(Gallery, EveryKnownExceptionIsAClaim) {
-  if (figures().size() < kFiguresOfPaper) GTEST_SKIP() << "only " << figures().size() << " figures are here";
   for (const Exception& exception : kDoesNotHold) {
     int claims = 0;
     for (const Figure& figure : figures()) {
