@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 
 #include "exit.hpp"
 
@@ -21,9 +21,11 @@ constexpr int kVersion = 1;
 
 std::string text_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw Failure(Exit::bad_input, fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  return text;
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!text) throw Failure(Exit::bad_input, path + ": cannot be read, or empty");
+  return text.str();
 }
 
 /// Reads members, and says which one of which term is not what it should be.

@@ -59,10 +59,13 @@ void add_options(CLI::App& app, Settings& s) {
   app.option_defaults()->group("Help");
   app.set_help_flag("-h,--help", "this text");
   set_help(app, {"IN -o OUT [options]",
-                 "  temper weights in.vtu -o out.vtu\n"
-                 "  temper weights in.vtu --mode feasible --json --certificate why.json\n"
-                 "  temper weights in.vtu --check-certificate why.json\n"
-                 "  temper weights in.vtu -o out.vtu --mode elastic --margin 0.001\n",
+                 "  temper example annulus -o ring.vtu && temper weights ring.vtu -o out.vtu\n"
+                 "  temper weights ring.vtu -o least.vtu --mode barrier\n"
+                 "  # a mesh that has none: the proof, its verification, and what gives way\n"
+                 "  temper example sparse-horseshoe -o shoe.vtu\n"
+                 "  temper weights shoe.vtu --mode feasible --certificate why.json; test $? = 6\n"
+                 "  temper weights shoe.vtu --check-certificate why.json\n"
+                 "  temper weights shoe.vtu -o out.vtu --mode elastic --json\n",
                  {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal, Exit::infeasible}});
 }
 

@@ -7,7 +7,8 @@
 namespace temper::test {
 namespace {
 
-const std::vector<std::string> kVerbs = {"optimize", "check", "draw", "convert", "example", "replay", "reproduce"};
+const std::vector<std::string> kVerbs = {"optimize", "weights", "check",  "draw",
+                                         "convert",  "example", "replay", "reproduce"};
 
 class Usage : public Workshop {};
 
