@@ -1,5 +1,6 @@
 // The whole mesh: regions that need weights, solved one by one, grown where the outside is in the way, and verdicts.
 //
+//   where the ring of one bad triangle is a proof already, nothing else is tried (but for elastic weights);
 //   free the neighbourhoods of bad triangles; until no region changes:
 //     least change of each region                      solved: done with it
 //     else the region's own margin, the rest left out  below what is asked: that proves it, done with it
@@ -55,6 +56,7 @@ class WeightFinder {
       if (failures() > 0) relax(asked);
       return report(asked);
     }
+    if (refuted_by_a_ring(asked)) return report(asked);
     for (int round = 0; round < kHalvings && asked > kNoMargin; ++round) {
       attempt(asked);
       if (failures() == 0) break;
@@ -95,12 +97,34 @@ class WeightFinder {
     }
   }
 
+  [[nodiscard]] bool is_bad(TriangleId t, double asked) const {
+    return margin_of(t, start_) < asked || !is_well_centered(t, start_);
+  }
+
+  /// The cheapest proof there can be, where programmes of regions may be large: the ring of one bad triangle.
+  bool refuted_by_a_ring(double asked) {
+    for (const Region& component : components_) {
+      if (component.triangles.size() <= options_.whole) continue;
+      for (const TriangleId t : component.triangles) {
+        if (!is_bad(t, asked)) continue;
+        Bound bound = bound_margin(mesh_, ring_of(mesh_, t), solver_);
+        if (bound.best.status != LpStatus::optimal || bound.best.margin > -kNoMargin) continue;
+        if (!bound_ || bound.best.margin < bound_->best.margin) bound_ = std::move(bound);
+      }
+    }
+    if (!bound_) return false;
+    refuted_ = certify_bound(*bound_, 0);
+    if (refuted_->terms.empty()) refuted_.reset();
+    bound_is_exact_ = false;
+    return refuted_.has_value();
+  }
+
   [[nodiscard]] VertexMask first_mask(double asked) const {
     VertexMask mask(mesh_.n_vertices(), 0);
     for (const Region& component : components_) {
       std::vector<VertexId> bad;
       for (const TriangleId t : component.triangles) {
-        if (margin_of(t, start_) >= asked && is_well_centered(t, start_)) continue;
+        if (!is_bad(t, asked)) continue;
         for (const VertexId v : mesh_.corners(t)) bad.push_back(v);
       }
       if (bad.empty()) continue;

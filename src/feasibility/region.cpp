@@ -59,6 +59,16 @@ void grow(const Mesh& mesh, VertexMask& mask, std::vector<VertexId> front, int r
   }
 }
 
+std::vector<TriangleId> ring_of(const Mesh& mesh, TriangleId t) {
+  std::vector<TriangleId> ring;
+  for (const VertexId v : mesh.corners(t)) {
+    for (const HalfedgeId h : mesh.star(v)) ring.push_back(Mesh::triangle(h));
+  }
+  std::sort(ring.begin(), ring.end());
+  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+  return ring;
+}
+
 std::vector<Region> components_of(const Mesh& mesh) { return regions_of(mesh, VertexMask(mesh.n_vertices(), 1)); }
 
 }  // namespace temper

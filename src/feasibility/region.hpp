@@ -31,6 +31,9 @@ using VertexMask = IdVector<VertexId, std::uint8_t>;
 /// Adds the neighbours of these vertices to the mask, so many times.
 void grow(const Mesh& mesh, VertexMask& mask, std::vector<VertexId> front, int rings);
 
+/// The triangles that touch t, and t itself; sorted.
+[[nodiscard]] std::vector<TriangleId> ring_of(const Mesh& mesh, TriangleId t);
+
 /// The connected components of the mesh: regions without rim.
 [[nodiscard]] std::vector<Region> components_of(const Mesh& mesh);
 
