@@ -16,7 +16,7 @@ enum class Exit : int {
   done = 0,
   bad_input = 1,      ///< an input that cannot be used, or an output that cannot be written
   bad_usage = 2,      ///< options that make no sense
-  requirement = 3,    ///< check --require: not met
+  requirement = 3,    ///< check --require, reproduce --require-claims: not met
   stopped_early = 4,  ///< a signal or --time-limit; the best mesh so far is written
   internal = 5,       ///< a defect of temper
   infeasible = 6,     ///< weights: none do what was asked

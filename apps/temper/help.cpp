@@ -72,7 +72,7 @@ std::string_view meaning(Exit exit) {
     case Exit::bad_usage:
       return "bad usage: options that make no sense";
     case Exit::requirement:
-      return "a requirement of check --require is not met";
+      return "what --require or --require-claims asks for is not met";
     case Exit::stopped_early:
       return "stopped early by a signal or --time-limit; the best mesh so far is written";
     case Exit::internal:
