@@ -2,48 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "experiments/closeness.hpp"
-#include "experiments/sparse_runs.hpp"
+#include "experiments/domain.hpp"
+#include "experiments/energies.hpp"
 #include "temper/energy.hpp"
-#include "temper/generate.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper::gallery {
-namespace {
-
-bool contains(const Mesh& mesh, Vec2 p) {
-  const auto triangles = mesh.triangles();
-  return std::any_of(triangles.begin(), triangles.end(), [&](TriangleId t) {
-    const auto v = mesh.corners(t);
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (orient2d(mesh.position(v[i]), mesh.position(v[(i + 1) % 3]), p) == Sign::negative) return false;
-    }
-    return true;
-  });
-}
-
-double distance_to_boundary(const Mesh& mesh, Vec2 p) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const HalfedgeId h : mesh.halfedges()) {
-    if (!mesh.is_boundary(h)) continue;
-    const Vec2 a = mesh.position(mesh.origin(h)), along = mesh.position(mesh.target(h)) - a;
-    const double t = std::clamp(dot(p - a, along) / squared_length(along), 0.0, 1.0);
-    least = std::min(least, length(p - (a + t * along)));
-  }
-  return least;
-}
-
-}  // namespace
-
-const Mesh& dense_horseshoe() {
-  static const Mesh mesh = [] {
-    auto made = horseshoe();
-    return made ? *std::move(made) : Mesh();
-  }();
-  return mesh;
-}
 
 OptimizeOptions dense_options(std::string_view energy, const VertexOrder& order) {
   OptimizeOptions o = paper_method();
@@ -70,11 +36,7 @@ const Moment& before_flips(const Recording& recording) {
 }
 
 double dense_energy(const Mesh& mesh, std::string_view energy) {
-  EnergyModel model;
-  if (const auto info = find_energy(energy)) model.kind = info->kind, model.boundary = info->boundary;
-  model.gamma = {kPaperGamma, LengthScale::absolute};
-  model.h0 = shift_beyond(dense_horseshoe());
-  return total_energy(mesh, model);
+  return total_energy(mesh, model_of(energy, dense_horseshoe()));
 }
 
 std::string dense_picture(const Mesh& mesh, const std::string& title, const std::string& footer, double weight_scale,
@@ -107,9 +69,8 @@ Difference difference(const Mesh& a, const Mesh& b) {
 OutsideCenters centers_outside_domain(const Mesh& mesh) {
   OutsideCenters outside;
   for (const TriangleId t : mesh.triangles()) {
-    const auto [a, b, c] = mesh.corners(t);
-    const Vec2 center = orthocenter(mesh.point(a), mesh.point(b), mesh.point(c));
-    if (contains(mesh, center)) continue;
+    const Vec2 center = orthocenter_of(mesh, t);
+    if (is_in_domain(mesh, center)) continue;
     ++outside.count;
     outside.distance += distance_to_boundary(mesh, center);
   }

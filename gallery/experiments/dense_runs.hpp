@@ -6,14 +6,13 @@
 #include <string>
 #include <string_view>
 
+#include "experiments/inputs.hpp"
 #include "experiments/oscillating_horseshoe.hpp"
 #include "experiments/recording.hpp"
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper::gallery {
-
-[[nodiscard]] const Mesh& dense_horseshoe();
 
 /// Positions and weights from iteration 0, γ = 1, −h° a quarter more than the worst h of the input; inversions allowed.
 [[nodiscard]] OptimizeOptions dense_options(std::string_view energy, const VertexOrder& order = {});

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "experiments/minimise.hpp"
+#include "experiments/random.hpp"
 #include "temper/geometry.hpp"
 #include "temper/plot.hpp"
 
@@ -16,18 +16,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFactor = 1.0 / 3;  // α = β of ★1
 constexpr double kMargin = 1e-3;     // random points keep this far from walls, of ℓ: beyond, e has few digits
-
-// Uniform, the same everywhere (std::uniform_real_distribution is not).
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double operator()(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 EnergyModel model_of(EnergyKind kind, double softening) {
   EnergyModel model;

@@ -7,7 +7,6 @@
 // paper leaves out the factor 1/3 of ★1.
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "gallery.hpp"

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <span>
 
+#include "experiments/random.hpp"
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"
 
@@ -123,8 +123,7 @@ Certificate papers_certificate() {
 }
 
 MarginSearch search_margin(bool with_d, std::size_t tries) {
-  std::mt19937_64 engine(3);
-  const auto uniform = [&] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1; };
+  Random uniform(3);
   Mesh mesh = sparse_horseshoe();
   MarginSearch best{margin(mesh, with_d), {}, tries};
   // Concave in the weights, so that shrinking random steps climb to the top: from ±4, of the order of ℓ², down to 1e−6.
@@ -132,7 +131,7 @@ MarginSearch search_margin(bool with_d, std::size_t tries) {
   for (std::size_t k = 0; k < tries; ++k) {
     const double reach = kFirst * std::pow(kLast / kFirst, static_cast<double>(k) / static_cast<double>(tries));
     std::array<double, 5> weights = best.weights;
-    for (std::size_t i = 0; i < 4; ++i) weights[i] += reach * uniform();  // w_4 stays 0: only differences count
+    for (std::size_t i = 0; i < 4; ++i) weights[i] += reach * uniform(-1, 1);  // w_4 stays 0: only differences count
     for (std::size_t i = 0; i < 5; ++i) mesh.set_weight(VertexId(i), weights[i]);
     const double t = margin(mesh, with_d);
     if (t > best.margin) best.margin = t, best.weights = weights;

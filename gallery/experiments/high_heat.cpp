@@ -1,13 +1,12 @@
 #include "experiments/high_heat.hpp"
 
-#include <algorithm>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "experiments/energies.hpp"
+#include "experiments/inputs.hpp"
 #include "experiments/oscillating_horseshoe.hpp"
-#include "experiments/sparse_runs.hpp"
-#include "temper/generate.hpp"
 
 namespace temper::gallery {
 namespace {
@@ -33,7 +32,7 @@ std::vector<OrderedHeat> survey(Effort effort) {
     options.order = order.order;
     options.seed = order.seed;
     options.max_sweeps = kSurveySweeps;
-    all.push_back(summary(order.name, record(dense_input(), options, Keep::outer)));
+    all.push_back(summary(order.name, record(dense_horseshoe(), options, Keep::outer)));
   }
   return all;
 }
@@ -49,42 +48,29 @@ const std::vector<OrderedHeat>& high_heat_by_order(Effort effort) {
   return reduced;
 }
 
-const Mesh& dense_input() {
-  static const Mesh mesh = [] {
-    auto made = horseshoe();
-    return made ? *std::move(made) : Mesh();
-  }();
-  return mesh;
-}
-
 OptimizeOptions high_heat_options(std::string_view energy) {
   OptimizeOptions options = paper_method();
   options.energy = energy;
   options.gamma = Softening{kPaperGamma, LengthScale::absolute};
-  options.h0 = shift_beyond(dense_input());
+  options.h0 = shift_beyond(dense_horseshoe());
   options.removal = Removal::none;
   options.collapse_energy = "F";
   options.weights_from = kWeightsFrom;
   return options;
 }
 
-EnergyModel high_heat_model(std::string_view energy) {
-  EnergyModel model;
-  model.kind = energy == "BP" ? EnergyKind::BP : EnergyKind::BHs;
-  model.gamma = {kPaperGamma, LengthScale::absolute};
-  model.h0 = shift_beyond(dense_input());
-  return model;
-}
-
 const Recording& high_heat_bp() {
-  static const Recording run = record(dense_input(), high_heat_options("BP"), Keep::sweeps);
+  static const Recording run = record(dense_horseshoe(), high_heat_options("BP"), Keep::sweeps);
   return run;
 }
 
 const Recording& high_heat_bhs() {
-  static const Recording run = record(dense_input(), high_heat_options("BHs"), Keep::outer);
+  static const Recording run = record(dense_horseshoe(), high_heat_options("BHs"), Keep::outer);
   return run;
 }
+
+std::vector<const Moment*> high_heat_optimal() { return high_heat_bp().all(Snapshot::Moment::before_flips); }
+std::vector<const Moment*> high_heat_flipped() { return high_heat_bp().all(Snapshot::Moment::after_flips); }
 
 std::vector<CollapseEvent> collapses(const Recording& run) {
   const auto ends = run.all(Snapshot::Moment::before_flips);

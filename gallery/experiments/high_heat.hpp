@@ -17,17 +17,17 @@
 
 namespace temper::gallery {
 
-/// The dense horseshoe of figure 11.
-[[nodiscard]] const Mesh& dense_input();
-
 /// The options of the run. "BP" or "BHs".
 [[nodiscard]] OptimizeOptions high_heat_options(std::string_view energy);
-/// The energy that it minimises.
-[[nodiscard]] EnergyModel high_heat_model(std::string_view energy);
 
 /// The run under E_BP, every sweep kept, and under E_BHs, its outer iterations.
 [[nodiscard]] const Recording& high_heat_bp();
 [[nodiscard]] const Recording& high_heat_bhs();
+
+/// The meshes of the former before and after the flips of its outer iterations, and those that the paper shows.
+[[nodiscard]] std::vector<const Moment*> high_heat_optimal();
+[[nodiscard]] std::vector<const Moment*> high_heat_flipped();
+inline constexpr std::size_t kShownOuter[] = {0, 1, 5};
 
 /// A collapse of a run.
 struct CollapseEvent {

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <string_view>
 
+#include "experiments/domain.hpp"
+#include "experiments/text.hpp"
+#include "prose.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper::gallery {
@@ -19,26 +20,6 @@ constexpr const char* kInverted = "#f0a3a3";
 constexpr const char* kPositive = "#00845f";
 constexpr const char* kNegative = "#c8320a";
 
-std::string number(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.2f", value);
-  return buffer;
-}
-
-std::string escaped_text(std::string_view text) {
-  std::string xml;
-  for (const char c : text) {
-    if (c == '<') {
-      xml += "&lt;";
-    } else if (c == '&') {
-      xml += "&amp;";
-    } else {
-      xml += c;
-    }
-  }
-  return xml;
-}
-
 class Painter {
  public:
   Painter(const Mesh& mesh, const MeshPicture& picture)
@@ -47,7 +28,7 @@ class Painter {
   std::string paint() {
     const double height = scale_ * (picture_.box.high.y - picture_.box.low.y);
     const double top = picture_.title.empty() ? 0 : kLine, bottom = picture_.footer.empty() ? 0 : kLine;
-    const std::string width = number(picture_.width), whole = number(top + height + bottom);
+    const std::string width = pixels(picture_.width), whole = pixels(top + height + bottom);
     fill_triangles();
     if (picture_.dual) draw_dual();
     draw_primal();
@@ -56,24 +37,24 @@ class Painter {
     return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + whole + "\" viewBox=\"0 0 " +
            width + " " + whole +
            "\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\">\n<clipPath id=\"box\">" +
-           "<rect width=\"" + width + "\" height=\"" + number(height) + "\"/></clipPath>\n" + text(0, picture_.title) +
-           "<g transform=\"translate(0 " + number(top) + ")\" clip-path=\"url(#box)\">\n" + body_ + "</g>\n" +
+           "<rect width=\"" + width + "\" height=\"" + pixels(height) + "\"/></clipPath>\n" + text(0, picture_.title) +
+           "<g transform=\"translate(0 " + pixels(top) + ")\" clip-path=\"url(#box)\">\n" + body_ + "</g>\n" +
            text(top + height, picture_.footer) + "</svg>\n";
   }
 
  private:
   [[nodiscard]] std::string text(double above, const std::string& content) const {
     if (content.empty()) return "";
-    return "<text x=\"" + number(picture_.width / 2) + "\" y=\"" + number(above + 0.75 * kLine) +
-           "\" text-anchor=\"middle\">" + escaped_text(content) + "</text>\n";
+    return "<text x=\"" + pixels(picture_.width / 2) + "\" y=\"" + pixels(above + 0.75 * kLine) +
+           "\" text-anchor=\"middle\">" + escaped(content) + "</text>\n";
   }
   [[nodiscard]] std::string at(Vec2 p) const {
     const double far = kFar * picture_.width;
     const double x = scale_ * (p.x - picture_.box.low.x), y = scale_ * (picture_.box.high.y - p.y);
-    return number(std::clamp(x, -far, far)) + " " + number(std::clamp(y, -far, far));
+    return pixels(std::clamp(x, -far, far)) + " " + pixels(std::clamp(y, -far, far));
   }
   void stroke(const std::string& path, const char* color, double width) {
-    body_ += std::string("<path fill=\"none\" stroke=\"") + color + "\" stroke-width=\"" + number(width) +
+    body_ += std::string("<path fill=\"none\" stroke=\"") + color + "\" stroke-width=\"" + pixels(width) +
              "\" stroke-linejoin=\"round\" d=\"" + path + "\"/>\n";
   }
   void fill(TriangleId t, const std::string& color) {
@@ -102,10 +83,6 @@ class Painter {
     stroke(boundary, kPrimal, 1.4);
   }
 
-  [[nodiscard]] Vec2 center(TriangleId t) const {
-    const auto [a, b, c] = mesh_.corners(t);
-    return orthocenter(mesh_.point(a), mesh_.point(b), mesh_.point(c));
-  }
   [[nodiscard]] Vec2 weighted_midpoint(HalfedgeId h) const {
     const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h));
     const Vec2 along = b.position() - a.position();
@@ -116,8 +93,9 @@ class Painter {
     std::string path;
     for (const HalfedgeId h : mesh_.halfedges()) {
       if (!mesh_.is_edge_representative(h)) continue;
-      const Vec2 from = center(Mesh::triangle(h));
-      const Vec2 to = mesh_.is_boundary(h) ? weighted_midpoint(h) : center(Mesh::triangle(mesh_.twin(h)));
+      const Vec2 from = orthocenter_of(mesh_, Mesh::triangle(h));
+      const Vec2 to =
+          mesh_.is_boundary(h) ? weighted_midpoint(h) : orthocenter_of(mesh_, Mesh::triangle(mesh_.twin(h)));
       if (std::isfinite(from.x + from.y + to.x + to.y)) path += "M" + at(from) + "L" + at(to);
     }
     stroke(path, kDual, 0.8);
@@ -135,7 +113,7 @@ class Painter {
     const std::string center = at(p);
     const std::size_t space = center.find(' ');
     body_ += "<circle cx=\"" + center.substr(0, space) + "\" cy=\"" + center.substr(space + 1) + "\" r=\"" +
-             number(radius) + "\" " + style + "/>\n";
+             pixels(radius) + "\" " + style + "/>\n";
   }
 
   void draw_mark(const Mark& mark) {
@@ -146,8 +124,7 @@ class Painter {
     const std::size_t space = where.find(' ');
     body_ += "<text x=\"" + where.substr(0, space) + "\" y=\"" + where.substr(space + 1) +
              "\" font-size=\"15\" font-style=\"italic\" fill=\"" + mark.color +
-             "\" stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\">" + escaped_text(mark.label) +
-             "</text>\n";
+             "\" stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\">" + escaped(mark.label) + "</text>\n";
   }
 
   const Mesh& mesh_;

@@ -1,9 +1,8 @@
 #include "experiments/oscillating_horseshoe.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "temper/generate.hpp"
+#include "experiments/inputs.hpp"
 
 namespace temper::gallery {
 namespace {
@@ -11,11 +10,6 @@ namespace {
 constexpr int kOuter = 7;  // outer iterations 0 to 6: the rows of figure 20
 constexpr std::size_t kLongestPeriod = 12;
 constexpr std::size_t kLeastRepeats = 5;  // one more than a transient of the pictured run shows
-
-Mesh dense_horseshoe() {
-  auto mesh = horseshoe();
-  return mesh ? *std::move(mesh) : Mesh();
-}
 
 /// The interior vertex on one side of the middle (side −1: left) that moved furthest, by its number in the input.
 VertexId most_moved(const Moment& from, const Moment& to, double side) {
@@ -48,6 +42,8 @@ std::vector<VertexOrder> vertex_orders(int random) {
   return orders;
 }
 
+VertexOrder shown_order() { return {"reverse", SweepOrder::reverse}; }
+
 OptimizeOptions positions_and_collapses() {
   OptimizeOptions options = paper_method();
   options.energy = "dT";
@@ -55,7 +51,7 @@ OptimizeOptions positions_and_collapses() {
   options.removal = Removal::none;
   options.collapse_energy = "F";
   options.inversion = Inversion::refuse;
-  options.order = SweepOrder::reverse;
+  options.order = shown_order().order;
   options.outer = kOuter;
   return options;
 }

@@ -31,6 +31,9 @@ struct VertexOrder {
 /// searches. No step turns a triangle over.
 [[nodiscard]] OptimizeOptions positions_and_collapses();
 
+/// The vertex order of the runs that are drawn.
+[[nodiscard]] VertexOrder shown_order();
+
 /// The run of figures 19 and 20: outer iterations 0 to 6, every sweep kept.
 [[nodiscard]] const Recording& oscillating_run();
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "experiments/energies.hpp"
 #include "experiments/high_heat.hpp"
+#include "experiments/inputs.hpp"
 #include "experiments/mesh_picture.hpp"
 #include "experiments/text.hpp"
 #include "temper/plot.hpp"
@@ -28,7 +30,7 @@ Removals removed_with(const VertexOrder& order, Unknowns unknowns, RemovalRule r
   options.order = order.order;
   options.seed = order.seed;
   options.max_sweeps = kSurveySweeps;
-  return removals(record(dense_input(), options, Keep::outer));
+  return removals(record(dense_horseshoe(), options, Keep::outer));
 }
 
 std::vector<RuleComparison> compare(Effort effort) {
@@ -44,7 +46,7 @@ std::vector<RuleComparison> compare(Effort effort) {
 
 /// Mean energy of a triangle, γ = 1.
 double mean_energy(const Mesh& mesh) {
-  return total_energy(mesh, high_heat_model("BP")) / static_cast<double>(mesh.n_triangles());
+  return total_energy(mesh, model_of("BP", dense_horseshoe())) / static_cast<double>(mesh.n_triangles());
 }
 
 }  // namespace
@@ -62,7 +64,7 @@ OptimizeOptions immediate_options(Unknowns unknowns, RemovalRule rule) {
 
 const Recording& patch_test_run(Unknowns unknowns) {
   const auto run = [](Unknowns moving) {
-    return record(dense_input(), immediate_options(moving, RemovalRule::patch), Keep::sweeps);
+    return record(dense_horseshoe(), immediate_options(moving, RemovalRule::patch), Keep::sweeps);
   };
   static const Recording positions = run(Unknowns::positions);
   static const Recording both = run(Unknowns::positions_and_weights);
@@ -127,11 +129,12 @@ Table removal_table(const Recording& run) {
       {}};
   const auto add = [&](const std::string& iteration, const std::string& removed, const Mesh& mesh) {
     const Quality q = quality(mesh);
-    t.rows.push_back({iteration, removed, digits(q.vertices), digits(total_energy(mesh, high_heat_model("BP"))),
-                      digits(mean_energy(mesh), 3), digits(q.well_centered_fraction, 3),
-                      digits(q.min_angle_deg, 3) + "°", digits(q.max_angle_deg, 4) + "°"});
+    t.rows.push_back({iteration, removed, digits(q.vertices),
+                      digits(total_energy(mesh, model_of("BP", dense_horseshoe()))), digits(mean_energy(mesh), 3),
+                      digits(q.well_centered_fraction, 3), digits(q.min_angle_deg, 3) + "°",
+                      digits(q.max_angle_deg, 4) + "°"});
   };
-  add("input", "", dense_input());
+  add("input", "", dense_horseshoe());
   for (const auto& [iteration, vertices] : removals(run)) {
     add(std::to_string(iteration), digits(vertices.size()), begin_of(run, iteration + 1).mesh);
   }
@@ -140,8 +143,8 @@ Table removal_table(const Recording& run) {
 }
 
 Claim coarse_but_good(const Recording& run, const std::string& figure) {
-  const Quality before = quality(dense_input()), after = quality(run.result);
-  const double e0 = mean_energy(dense_input()), e1 = mean_energy(run.result);
+  const Quality before = quality(dense_horseshoe()), after = quality(run.result);
+  const double e0 = mean_energy(dense_horseshoe()), e1 = mean_energy(run.result);
   const bool valid = after.inverted_triangles == 0 && after.non_regular_edges == 0;
   return {figure,
           "The patch test gives a coarse mesh of high quality.",

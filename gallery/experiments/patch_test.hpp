@@ -6,7 +6,6 @@
 // line 15 of Algorithm 1 says.
 #pragma once
 
-#include <cstddef>
 #include <map>
 #include <set>
 #include <string>

@@ -70,18 +70,6 @@ SparseSweep sweep_of(const Moment& moment) {
 
 }  // namespace
 
-std::string symbol(std::string_view energy) { return "E_" + (energy == "dT" ? "∂T" : std::string(energy)); }
-
-Softening shift_beyond(const Mesh& input) {
-  constexpr double kBeyond = 1.25;
-  double least = 0;
-  for (const HalfedgeId h : input.halfedges()) {
-    const VertexId p = input.origin(h), q = input.target(h), r = input.target(Mesh::next(h));
-    least = std::min(least, signed_height(input.point(p), input.point(q), input.point(r)));
-  }
-  return {-kBeyond * least, LengthScale::absolute};
-}
-
 std::vector<VertexSequence> all_sequences() {
   std::vector<VertexSequence> all;
   VertexSequence sequence = kAsNumbered;

@@ -12,23 +12,10 @@
 #include <string_view>
 #include <vector>
 
+#include "experiments/energies.hpp"
 #include "experiments/recording.hpp"
-#include "temper/energy.hpp"
 
 namespace temper::gallery {
-
-/// The energies that §6.4 compares, without a barrier first.
-inline constexpr std::array<std::string_view, 3> kHotEnergies = {"F", "dT", "T"};
-inline constexpr std::array<std::string_view, 2> kBarriers = {"BP", "BHs"};
-inline constexpr std::array<std::string_view, 5> kFiveEnergies = {"F", "dT", "T", "BP", "BHs"};
-
-/// "E_∂T" of "dT".
-[[nodiscard]] std::string symbol(std::string_view energy);
-
-/// γ of E_BP, the paper's.
-inline constexpr double kPaperGamma = 1;
-/// −h° of E_BHs: a quarter more than the least h of the input, so that the energy is finite at the start.
-[[nodiscard]] Softening shift_beyond(const Mesh& input);
 
 /// Vertices of the sparse horseshoe, first visited first.
 using VertexSequence = std::array<std::size_t, 5>;
@@ -80,6 +67,8 @@ struct SequenceCount {
   std::size_t collapsed_later = 0;          ///< of these, not in the first sweep
   std::optional<VertexSequence> most_open;  ///< of these, where p_4 stays furthest from its neighbours
 };
+/// With reduced effort, 24 of the 120 sequences.
+inline constexpr std::size_t kReducedStride = 5;
 /// Of all 120 sequences, or of each stride-th.
 [[nodiscard]] SequenceCount count_sequences(const SparseSetting& setting, std::size_t stride = 1);
 

@@ -5,8 +5,9 @@
 #include <utility>
 
 #include "experiments/closeness.hpp"
+#include "experiments/energies.hpp"
 #include "experiments/high_heat.hpp"
-#include "experiments/sparse_runs.hpp"
+#include "experiments/inputs.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::gallery {
@@ -55,7 +56,7 @@ void run_cell(Cell& cell, const OptimizeOptions& setting, Effort effort) {
     OptimizeOptions options = setting;
     options.order = order.order;
     options.seed = order.seed;
-    const Recording run = record(dense_input(), options, Keep::outer);
+    const Recording run = record(dense_horseshoe(), options, Keep::outer);
     if (run.error.empty()) cell.endings.push_back(ending_of(run));
   }
 }

@@ -1,4 +1,4 @@
-// Numbers inside the sentences of claims and the cells of tables.
+// Numbers inside the sentences of claims, the cells of tables, and drawings.
 #pragma once
 
 #include <cmath>
@@ -20,6 +20,13 @@ namespace temper::gallery {
   }
   if (text.starts_with('-')) text.replace(0, 1, "−");
   return text;
+}
+
+/// For coordinates: hundredths of a pixel.
+[[nodiscard]] inline std::string pixels(double value) {
+  char buffer[48];
+  std::snprintf(buffer, sizeof buffer, "%.2f", value);
+  return buffer;
 }
 
 [[nodiscard]] inline std::string digits(std::size_t value) { return std::to_string(value); }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "experiments/text.hpp"
+#include "prose.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper::gallery {
@@ -12,18 +13,6 @@ namespace {
 constexpr double kFont = 14, kSmallFont = 12;
 constexpr double kGap = 8;  // between cells and around the table, pixels
 constexpr const char *kInk = "#222222", *kDual = "#005fa3", *kPositive = "#00845f", *kNegative = "#c8320a";
-
-std::string n(double value) {
-  char buffer[48];
-  std::snprintf(buffer, sizeof buffer, "%.2f", value);
-  return buffer;
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return result;
-}
 
 // "E_{F}" with the part in braces lowered.
 std::string label(const std::string& text) {
@@ -41,8 +30,8 @@ double width_of(const std::string& text) {
 }
 
 std::string text_at(double x, double y, const std::string& text, double size = kFont, const char* anchor = "middle") {
-  return "<text x=\"" + n(x) + "\" y=\"" + n(y) + "\" font-size=\"" + n(size) + "\" text-anchor=\"" + anchor + "\">" +
-         label(text) + "</text>\n";
+  return "<text x=\"" + pixels(x) + "\" y=\"" + pixels(y) + "\" font-size=\"" + pixels(size) + "\" text-anchor=\"" +
+         anchor + "\">" + label(text) + "</text>\n";
 }
 
 // One cell: pixels from the triangle's own coordinates.
@@ -60,20 +49,21 @@ class Cell {
            "Z\" fill=\"#00000010\" stroke=\"" + kInk + "\" stroke-width=\"1.1\" stroke-linejoin=\"round\"/>\n";
     const Vec2 center = orthocenter(p[0], p[1], p[2]);
     for (std::size_t k = 0; k < 3; ++k) svg += dual(center, p[k], p[(k + 1) % 3]);
-    return svg + "<circle cx=\"" + n(x(center)) + "\" cy=\"" + n(y(center)) + "\" r=\"2\" fill=\"" + kDual + "\"/>\n";
+    return svg + "<circle cx=\"" + pixels(x(center)) + "\" cy=\"" + pixels(y(center)) + "\" r=\"2\" fill=\"" + kDual +
+           "\"/>\n";
   }
 
  private:
   [[nodiscard]] double x(Vec2 v) const { return left_ + scale_ * v.x; }
   [[nodiscard]] double y(Vec2 v) const { return top_ - scale_ * v.y; }
-  [[nodiscard]] std::string at(Vec2 v) const { return n(x(v)) + " " + n(y(v)); }
+  [[nodiscard]] std::string at(Vec2 v) const { return pixels(x(v)) + " " + pixels(y(v)); }
 
   [[nodiscard]] std::string circle(const WeightedPoint& v) const {
     if (v.w == 0) return "";
     const std::string style =
         v.w > 0 ? std::string("stroke=\"") + kPositive : std::string("stroke-dasharray=\"4 2\" stroke=\"") + kNegative;
-    return "<circle cx=\"" + n(x(v.position())) + "\" cy=\"" + n(y(v.position())) + "\" r=\"" +
-           n(scale_ * std::sqrt(std::abs(v.w))) + "\" fill=\"none\" " + style + "\"/>\n";
+    return "<circle cx=\"" + pixels(x(v.position())) + "\" cy=\"" + pixels(y(v.position())) + "\" r=\"" +
+           pixels(scale_ * std::sqrt(std::abs(v.w))) + "\" fill=\"none\" " + style + "\"/>\n";
   }
 
   // From the orthocenter to the weighted midpoint of the edge; dashed when that is outside the edge.
@@ -106,8 +96,8 @@ std::string triangle_table_svg(const TriangleTable& table) {
   const double width = left + static_cast<double>(columns) * (table.cell_width + kGap);
   const double height = head + static_cast<double>(table.rows.size()) * row_height + kGap;
 
-  std::string body = "<defs><clipPath id=\"cell\"><rect width=\"" + n(table.cell_width) + "\" height=\"" +
-                     n(cell_height) + "\"/></clipPath></defs>\n";
+  std::string body = "<defs><clipPath id=\"cell\"><rect width=\"" + pixels(table.cell_width) + "\" height=\"" +
+                     pixels(cell_height) + "\"/></clipPath></defs>\n";
   if (!table.title.empty()) body += text_at(width / 2, kGap + kFont, table.title, kFont + 1);
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     const double x = left + (static_cast<double>(k) + 0.5) * (table.cell_width + kGap) - kGap / 2;
@@ -119,19 +109,19 @@ std::string triangle_table_svg(const TriangleTable& table) {
     if (!row.label.empty()) body += text_at(kGap, top + cell_height / 2 + 5, row.label, kFont, "start");
     for (std::size_t k = 0; k < row.cells.size(); ++k) {
       const double x = left + static_cast<double>(k) * (table.cell_width + kGap);
-      body += "<g transform=\"translate(" + n(x) + " " + n(top) + ")\">\n<g clip-path=\"url(#cell)\">\n";
+      body += "<g transform=\"translate(" + pixels(x) + " " + pixels(top) + ")\">\n<g clip-path=\"url(#cell)\">\n";
       if (row.cells[k]) body += Cell(table, 0, 0).draw(*row.cells[k]);
       body += "</g>\n";
       if (!row.cells[k]) body += text_at(table.cell_width / 2, cell_height / 2 + 4, "no solution", kSmallFont);
       if (k < row.captions.size())
         body += text_at(table.cell_width / 2, cell_height + kSmallFont, row.captions[k], kSmallFont);
-      body += "<rect width=\"" + n(table.cell_width) + "\" height=\"" + n(cell_height) +
+      body += "<rect width=\"" + pixels(table.cell_width) + "\" height=\"" + pixels(cell_height) +
               "\" fill=\"none\" stroke=\"#c8c8c8\" stroke-width=\"0.6\"/>\n</g>\n";
     }
   }
-  const std::string size = n(width) + "\" height=\"" + n(height);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size + "\" viewBox=\"0 0 " + n(width) + " " +
-         n(height) + "\" xml:space=\"preserve\" font-family=\"Helvetica, Arial, sans-serif\" fill=\"" + kInk +
+  const std::string size = pixels(width) + "\" height=\"" + pixels(height);
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size + "\" viewBox=\"0 0 " + pixels(width) + " " +
+         pixels(height) + "\" xml:space=\"preserve\" font-family=\"Helvetica, Arial, sans-serif\" fill=\"" + kInk +
          "\">\n<rect width=\"" + size + "\" fill=\"#ffffff\"/>\n" + body + "</svg>\n";
 }
 

@@ -115,7 +115,7 @@ std::vector<PolicyRun> run_policies(const VertexOrder& order) {
 }
 
 const std::vector<PolicyRun>& policy_runs() {
-  static const std::vector<PolicyRun> runs = run_policies({"reverse", positions_and_collapses().order});
+  static const std::vector<PolicyRun> runs = run_policies(shown_order());
   return runs;
 }
 

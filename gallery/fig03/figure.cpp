@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "experiments/free_vertex.hpp"
 #include "experiments/minimise.hpp"
+#include "experiments/random.hpp"
 #include "experiments/single_triangle.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
@@ -195,10 +195,7 @@ Claim middle_of_edge() {
 Claim not_convex(std::size_t tries) {
   bool holds = true;
   std::string found;
-  std::mt19937_64 engine(5);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
-  };
+  Random uniform(5);
   for (const int star : {0, 1, 2}) {
     double worst = -1e300;
     Vec2 worst_a, worst_b;

@@ -2,11 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
-#include <random>
 
 #include "experiments/edge_energy.hpp"
 #include "experiments/minimise.hpp"
+#include "experiments/random.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "temper/geometry.hpp"
@@ -111,10 +110,7 @@ Claim quasi_convex(const std::string& name, const ConvexityTest& test, const std
 // The proof's step (13): B(d, h) = h χ(d) concave. A segment whose middle lies below its chord.
 Claim proof_step(std::size_t tries) {
   const auto b_of = [](Vec2 p) { return p.y * std::sqrt(p.x * (1 - p.x)); };
-  std::mt19937_64 engine(3);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
-  };
+  Random uniform(3);
   double worst = 0, root_worst = 0;
   Vec2 worst_p, worst_q;
   std::size_t indefinite = 0;
@@ -167,10 +163,7 @@ struct WeightFormulas {
   std::size_t triangles = 0;
 };
 WeightFormulas check_weights(std::size_t tries) {
-  std::mt19937_64 engine(9);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
-  };
+  Random uniform(9);
   WeightFormulas result;
   for (std::size_t n = 0; n < tries; ++n) {
     std::array<Vec2, 3> p;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "experiments/energies.hpp"
 #include "experiments/free_vertex.hpp"
 #include "experiments/minimise.hpp"
 #include "experiments/single_triangle.hpp"
@@ -37,7 +38,7 @@ std::string place(Vec2 p) {
 
 Picture contours(const EnergyInfo& info, std::size_t per_unit) {
   PositionLandscape landscape;
-  landscape.title = "E_{" + std::string(info.name == "dT" ? "∂T" : info.name) + "}, ★1";
+  landscape.title = plot_symbol(info.name) + ", ★1";
   landscape.per_unit = per_unit;
   std::string caption;
   switch (info.kind) {

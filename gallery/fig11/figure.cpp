@@ -1,10 +1,11 @@
 // Figure 11: the sparse and the dense horseshoe, and why the hard barrier cannot start from the sparse one.
-#include <algorithm>
 #include <array>
 #include <string>
 
 #include "experiments/dense_runs.hpp"
+#include "experiments/domain.hpp"
 #include "experiments/hard_barrier.hpp"
+#include "experiments/inputs.hpp"
 #include "experiments/sparse_runs.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
@@ -16,14 +17,8 @@
 namespace temper::gallery {
 namespace {
 
-std::size_t interior_vertices(const Mesh& mesh) {
-  const auto vertices = mesh.vertices();
-  return static_cast<std::size_t>(
-      std::count_if(vertices.begin(), vertices.end(), [&](VertexId v) { return !mesh.is_boundary(v); }));
-}
-
 Claim one_free_vertex(const Mesh& mesh) {
-  const std::size_t free = interior_vertices(mesh);
+  const std::size_t free = count_interior(mesh);
   return {"11",
           "In the sparse horseshoe one vertex alone is free to move",
           "only p_4 is free; 5 vertices",
@@ -98,7 +93,7 @@ Claim dense_input(const Mesh& mesh) {
   return {"11",
           "The dense horseshoe has 7 × 9 vertices and obtuse triangles whose circumcenters lie across their edges",
           "7 values of a, 9 of b",
-          digits(mesh.n_vertices()) + " vertices, " + digits(interior_vertices(mesh)) + " interior; circumcenters of " +
+          digits(mesh.n_vertices()) + " vertices, " + digits(count_interior(mesh)) + " interior; circumcenters of " +
               digits(q.orthocenters_outside) + " of " + digits(q.triangles) + " triangles lie outside them, " +
               digits(q.negative_boundary_duals) + " of them across the boundary; E_F^1 = " +
               digits(q.energy[0][star], 6) + ", E_∂T^1 = " + digits(q.energy[2][star], 6),

@@ -1,12 +1,13 @@
 // Figure 12: positions of the sparse horseshoe, with collapses and without.
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "experiments/closeness.hpp"
+#include "experiments/energies.hpp"
 #include "experiments/sparse_runs.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
@@ -24,9 +25,7 @@ constexpr Vec2 kP1 = {0, 2};
 /// One run for each energy, positions only, no collapses.
 struct FiveRuns {
   std::array<SparseRun, kFiveEnergies.size()> runs;
-  [[nodiscard]] const SparseRun& of(std::string_view energy) const {
-    return runs[static_cast<std::size_t>(std::ranges::find(kFiveEnergies, energy) - kFiveEnergies.begin())];
-  }
+  [[nodiscard]] const SparseRun& of(std::string_view energy) const { return runs[place_of(energy)]; }
 };
 FiveRuns position_runs() {
   FiveRuns five;
@@ -35,14 +34,6 @@ FiveRuns position_runs() {
 }
 
 double distance_to_p1(const SparseRun& run) { return length(run.last().p4 - kP1); }
-
-EnergyModel model_of(std::string_view energy) {
-  EnergyModel model;
-  if (const auto info = find_energy(energy)) model.kind = info->kind, model.boundary = info->boundary;
-  model.gamma = {kPaperGamma, LengthScale::absolute};
-  model.h0 = shift_beyond(sparse_horseshoe());
-  return model;
-}
 
 /// The energy with p_4 at (0, y).
 double energy_at(const EnergyModel& model, double y) {
@@ -60,9 +51,9 @@ std::string energy_plot() {
   plot.y_range = {0, 2};
   plot.vertical = {{kP1.y, "p_{1}"}};
   for (const std::string_view energy : kFiveEnergies) {
-    const EnergyModel model = model_of(energy);
+    const EnergyModel model = model_of(energy, sparse_horseshoe());
     Series series;
-    series.name = energy == "dT" ? "E_{∂T}" : "E_{" + std::string(energy) + "}";
+    series.name = plot_symbol(energy);
     const double start = energy_at(model, 3);
     for (int i = 0; i <= 345; ++i) {
       const double y = 0.5 + 0.01 * i;
@@ -203,7 +194,7 @@ Claim better_without() {
   const auto least_angle = [&](std::size_t a, std::size_t b, std::size_t c) {
     const Vec2 p = mesh.position(VertexId(a)), q = mesh.position(VertexId(b)), r = mesh.position(VertexId(c));
     const double angle = std::min({corner_angle(p, q, r), corner_angle(q, r, p), corner_angle(r, p, q)});
-    return angle * 180 / 3.14159265358979;
+    return angle * 180 / std::numbers::pi;
   };
   const double whole = least_angle(1, 2, 3), lower = least_angle(1, 2, 4), upper = least_angle(4, 2, 3);
   return {"12",
@@ -221,7 +212,7 @@ enum class Inverted { like_others = 1, left_out = 0, negative = -1 };
 double extrapolated_energy(double y, Inverted rule) {
   Mesh mesh = sparse_horseshoe();
   mesh.set_point(VertexId(std::size_t{4}), {0, y, 0});
-  const EnergyModel model = model_of("F");
+  const EnergyModel model = model_of("F", sparse_horseshoe());
   double sum = 0;
   for (const TriangleId t : mesh.triangles()) {
     const auto [a, b, c] = mesh.corners(t);

@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "experiments/closeness.hpp"
+#include "experiments/domain.hpp"
+#include "experiments/energies.hpp"
 #include "experiments/sparse_runs.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "temper/energy.hpp"
-#include "temper/geometry.hpp"
 #include "temper/plot.hpp"
 
 namespace temper::gallery {
@@ -31,14 +32,11 @@ std::array<SparseRun, kFiveEnergies.size()> five_runs() {
 
 /// The shortest dual of an interior edge.
 double shortest_dual(const Mesh& mesh) {
-  const auto center = [&](TriangleId t) {
-    const auto [a, b, c] = mesh.corners(t);
-    return orthocenter(mesh.point(a), mesh.point(b), mesh.point(c));
-  };
   double least = std::numeric_limits<double>::infinity();
   for (const HalfedgeId h : mesh.halfedges()) {
     if (mesh.is_boundary(h)) continue;
-    least = std::min(least, length(center(Mesh::triangle(h)) - center(Mesh::triangle(mesh.twin(h)))));
+    least = std::min(
+        least, length(orthocenter_of(mesh, Mesh::triangle(h)) - orthocenter_of(mesh, Mesh::triangle(mesh.twin(h)))));
   }
   return least;
 }
@@ -91,7 +89,7 @@ std::string weight_plot(const std::array<SparseRun, 5>& runs) {
   plot.log_y = true;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Series series;
-    series.name = kFiveEnergies[i] == "dT" ? "E_{∂T}" : "E_{" + std::string(kFiveEnergies[i]) + "}";
+    series.name = plot_symbol(kFiveEnergies[i]);
     series.style = SeriesStyle::line_markers;
     for (std::size_t k = 0; k < runs[i].sweeps.size(); ++k) {
       series.points.push_back({static_cast<double>(k), runs[i].sweeps[k].largest_weight});

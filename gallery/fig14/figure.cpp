@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/closeness.hpp"
+#include "experiments/energies.hpp"
 #include "experiments/sparse_runs.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
@@ -12,8 +13,6 @@
 
 namespace temper::gallery {
 namespace {
-
-constexpr std::size_t kReducedStride = 5;  // 24 of the 120 orders
 
 /// How runs end over the vertex orders, by energy.
 struct Counts {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/energies.hpp"
 #include "experiments/sparse_runs.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
@@ -11,8 +12,6 @@
 
 namespace temper::gallery {
 namespace {
-
-constexpr std::size_t kReducedStride = 5;  // 24 of the 120 orders
 
 bool is_hot(std::string_view energy) { return std::ranges::find(kHotEnergies, energy) != kHotEnergies.end(); }
 
@@ -88,8 +87,7 @@ Claim immediate_weights_hot(const std::array<SequenceCount, 5>& immediate) {
 }
 
 Claim immediate_weights_bp(const std::array<SequenceCount, 5>& immediate) {
-  const SequenceCount& c =
-      immediate[static_cast<std::size_t>(std::ranges::find(kFiveEnergies, "BP") - kFiveEnergies.begin())];
+  const SequenceCount& c = immediate[place_of("BP")];
   const int now = run_sparse(with_collapses("BP", 0)).collapsed_in(),
             deferred = run_sparse(with_collapses("BP", 2)).collapsed_in();
   return {"15",

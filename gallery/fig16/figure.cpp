@@ -7,7 +7,7 @@
 
 #include "experiments/closeness.hpp"
 #include "experiments/dense_runs.hpp"
-#include "experiments/sparse_runs.hpp"
+#include "experiments/energies.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "temper/plot.hpp"
@@ -18,9 +18,7 @@ namespace {
 /// One run for each energy, vertices as numbered.
 struct FiveRuns {
   std::array<Recording, kFiveEnergies.size()> runs;
-  [[nodiscard]] const Recording& of(std::string_view energy) const {
-    return runs[static_cast<std::size_t>(std::ranges::find(kFiveEnergies, energy) - kFiveEnergies.begin())];
-  }
+  [[nodiscard]] const Recording& of(std::string_view energy) const { return runs[place_of(energy)]; }
   [[nodiscard]] const Mesh& mesh(std::string_view energy) const { return before_flips(of(energy)).mesh; }
 };
 FiveRuns five_runs() {

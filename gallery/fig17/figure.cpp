@@ -1,14 +1,12 @@
 // Figure 17: positions and weights of the dense horseshoe under E_F, a HOT mess.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/dense_runs.hpp"
+#include "experiments/energies.hpp"
 #include "experiments/mesh_picture.hpp"
-#include "experiments/sparse_runs.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "temper/plot.hpp"

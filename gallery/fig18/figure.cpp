@@ -1,5 +1,4 @@
 // Figure 18: positions and weights of the dense horseshoe under energies that keep it good.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -7,7 +6,7 @@
 
 #include "experiments/closeness.hpp"
 #include "experiments/dense_runs.hpp"
-#include "experiments/sparse_runs.hpp"
+#include "experiments/energies.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "temper/plot.hpp"

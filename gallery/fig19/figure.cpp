@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "experiments/inputs.hpp"
 #include "experiments/line_search.hpp"
-#include "experiments/mesh_picture.hpp"
+#include "experiments/median.hpp"
+#include "experiments/moment_picture.hpp"
 #include "experiments/oscillating_horseshoe.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
-#include "temper/generate.hpp"
 #include "temper/plot.hpp"
 
 namespace temper::gallery {
@@ -29,8 +30,7 @@ struct Collapse {
 
 /// The mesh on which event number `at` acts.
 Replay mesh_before(const Recording& run, std::size_t at) {
-  const auto start = horseshoe();
-  auto replayed = replay_with_vertices(*start, std::span(run.events).first(at));
+  auto replayed = replay_with_vertices(dense_horseshoe(), std::span(run.events).first(at));
   return replayed ? *std::move(replayed) : Replay{};
 }
 
@@ -85,22 +85,17 @@ const Moment& begin_of(const Recording& run, int iteration) {
   return run.moments.back();
 }
 
-void mark(const Moment& m, VertexId input, const char* color, MeshPicture& picture) {
-  const VertexId v = m.find(input);
-  if (v.valid()) picture.marks.push_back({m.mesh.position(v), color});
-}
-
 std::string panel(int iteration) {
   const Moment& m = begin_of(oscillating_run(), iteration);
   MeshPicture picture;
   picture.title = "iteration " + std::to_string(iteration) + ": " + std::to_string(m.mesh.n_vertices()) +
                   " vertices, E = " + digits(m.energy);
   for (const Collapse& c : shown_collapses()) {
-    if (c.iteration == iteration - 2) mark(m, c.kept, MarkColor::kept_long_before, picture);
-    if (c.iteration == iteration - 1) mark(m, c.kept, MarkColor::kept_before, picture);
+    if (c.iteration == iteration - 2) add_mark(picture, m, c.kept, MarkColor::kept_long_before);
+    if (c.iteration == iteration - 1) add_mark(picture, m, c.kept, MarkColor::kept_before);
     if (c.iteration != iteration) continue;
-    mark(m, c.kept, MarkColor::kept, picture);
-    mark(m, c.removed, MarkColor::removed, picture);
+    add_mark(picture, m, c.kept, MarkColor::kept);
+    add_mark(picture, m, c.removed, MarkColor::removed);
   }
   return mesh_picture_svg(m.mesh, picture);
 }
@@ -129,12 +124,6 @@ std::optional<double> relative_displacement(const Recording& run, VertexId input
     ++edges;
   }
   return length(p - from.mesh.position(before)) * static_cast<double>(edges) / sum;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::ranges::sort(values);
-  return values[values.size() / 2];
 }
 
 Table table() {
@@ -182,13 +171,12 @@ void add(const Recording& run, Stability& s) {
 
 Stability stability(Effort effort) {
   Stability s;
-  const auto mesh = horseshoe();
   for (const VertexOrder& order : vertex_orders(effort == Effort::full ? 12 : 0)) {
     OptimizeOptions options = positions_and_collapses();
     options.order = order.order;
     options.seed = order.seed;
     options.outer = 1;
-    add(record(*mesh, options, Keep::sweeps), s);
+    add(record(dense_horseshoe(), options, Keep::sweeps), s);
   }
   return s;
 }

@@ -1,31 +1,24 @@
 // Figure 20: the outer iterations of the run of figure 19. What converges on the extrapolated energy is no longer
 // optimal after flips, and the next round undoes it: a cycle of two.
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
-#include "experiments/mesh_picture.hpp"
+#include "experiments/energies.hpp"
+#include "experiments/inputs.hpp"
+#include "experiments/moment_picture.hpp"
 #include "experiments/oscillating_horseshoe.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
-#include "temper/generate.hpp"
 #include "temper/plot.hpp"
 
 namespace temper::gallery {
 namespace {
 
-constexpr int kRows[] = {0, 1, 2, 5, 6};        // outer iterations, as in the paper
-constexpr int kFirstWithNames = 5;              // rows that name a and b
-constexpr const char* kShownOrder = "reverse";  // of the pictured run
-constexpr const char* kShownCollapseEnergy = "F";
-constexpr std::size_t kMany = 1000;  // longer than any run
-
-std::vector<Shade> cavities(const Moment& here, const Moment& there) {
-  std::vector<Shade> shades;
-  for (const TriangleId t : triangles_not_in(here, there)) shades.push_back({t, MarkColor::cavity});
-  return shades;
-}
+constexpr int kRows[] = {0, 1, 2, 5, 6};           // outer iterations, as in the paper
+constexpr int kFirstWithNames = 5;                 // rows that name a and b
+constexpr const char* kShownCollapseEnergy = "F";  // of the pictured run
+constexpr std::size_t kMany = 1000;                // longer than any run
 
 /// Orange: the vertices of `here` that the next outer iteration removes.
 void mark_collapses(const Moment& here, const Moment& next, MeshPicture& picture) {
@@ -75,7 +68,6 @@ struct OrderedRun {
 /// The experiment with each vertex order and each energy for collapses.
 std::vector<OrderedRun> runs(Effort effort) {
   const int outer = effort == Effort::full ? 50 : 16;
-  const auto mesh = horseshoe();
   std::vector<OrderedRun> all;
   for (const char* energy : {"F", "dT"}) {
     for (const VertexOrder& order : vertex_orders(effort == Effort::full ? 7 : 0)) {
@@ -84,13 +76,11 @@ std::vector<OrderedRun> runs(Effort effort) {
       options.seed = order.seed;
       options.collapse_energy = energy;
       options.outer = outer;
-      all.push_back({order.name, energy, oscillation_of(record(*mesh, options, Keep::outer))});
+      all.push_back({order.name, energy, oscillation_of(record(dense_horseshoe(), options, Keep::outer))});
     }
   }
   return all;
 }
-
-std::string energy_label(const std::string& name) { return name == "dT" ? "E_∂T" : "E_" + name; }
 
 Table table(const std::vector<OrderedRun>& all) {
   Table t{
@@ -102,7 +92,7 @@ Table table(const std::vector<OrderedRun>& all) {
       {}};
   for (const OrderedRun& r : all) {
     const Oscillation& o = r.oscillation;
-    t.rows.push_back({r.order, energy_label(r.collapse_energy), digits(o.vertices), digits(o.period), digits(o.first),
+    t.rows.push_back({r.order, symbol(r.collapse_energy), digits(o.vertices), digits(o.period), digits(o.first),
                       digits(o.low), digits(o.high), digits(o.flipped)});
   }
   return t;
@@ -126,8 +116,9 @@ Claim oscillates(const std::vector<OrderedRun>& all) {
 
 Claim energies_agree(const std::vector<OrderedRun>& all) {
   constexpr double kPaperLow = 3.41, kPaperHigh = 4.08, kNear = 0.05;  // relative
-  const auto shown = std::ranges::find_if(
-      all, [](const OrderedRun& r) { return r.order == kShownOrder && r.collapse_energy == kShownCollapseEnergy; });
+  const auto shown = std::ranges::find_if(all, [](const OrderedRun& r) {
+    return r.order == shown_order().name && r.collapse_energy == kShownCollapseEnergy;
+  });
   const Oscillation o = shown == all.end() ? Oscillation() : shown->oscillation;
   const auto near = [](double ours, double paper) { return std::abs(ours - paper) <= kNear * paper; };
   return {

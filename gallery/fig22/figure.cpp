@@ -1,17 +1,16 @@
 // Figure 22: from the last mesh of figure 20, searches that stop at the point of flipping, flip, and go on. The mesh
 // converges where the oscillation had none to converge to; and what other limits would have done.
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "experiments/domain.hpp"
+#include "experiments/inputs.hpp"
+#include "experiments/median.hpp"
 #include "experiments/mesh_picture.hpp"
 #include "experiments/oscillating_horseshoe.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
-#include "temper/generate.hpp"
-#include "temper/geometry.hpp"
 #include "temper/plot.hpp"
 #include "temper/regularity.hpp"
 
@@ -48,11 +47,6 @@ Recording run_on(FlipLimit limit) {
 
 // --- kites -----------------------------------------------------------------------------------------------
 
-Vec2 center(const Mesh& mesh, TriangleId t) {
-  const auto [a, b, c] = mesh.corners(t);
-  return orthocenter(mesh.point(a), mesh.point(b), mesh.point(c));
-}
-
 /// An inner edge and the distance between the orthocenters on its two sides, over its length.
 struct Kite {
   HalfedgeId edge;
@@ -65,7 +59,8 @@ Kite narrowest_kite(const Mesh& mesh, VertexId v) {
   for (const HalfedgeId spoke : mesh.star(v)) {
     for (const HalfedgeId e : {spoke, Mesh::next(spoke)}) {
       if (mesh.is_boundary(e)) continue;
-      const double between = length(center(mesh, Mesh::triangle(e)) - center(mesh, Mesh::triangle(mesh.twin(e))));
+      const double between =
+          length(orthocenter_of(mesh, Mesh::triangle(e)) - orthocenter_of(mesh, Mesh::triangle(mesh.twin(e))));
       const double gap = between / length(mesh.position(mesh.target(e)) - mesh.position(mesh.origin(e)));
       if (gap < narrowest.gap) narrowest = {e, gap};
     }
@@ -95,7 +90,7 @@ std::string converged_mesh() {
     if (kite.edge.valid()) {
       for (const HalfedgeId side : {kite.edge, mesh.twin(kite.edge)}) {
         picture.shades.push_back({Mesh::triangle(side), kKite});
-        picture.marks.push_back({center(mesh, Mesh::triangle(side)), kCoincident});
+        picture.marks.push_back({orthocenter_of(mesh, Mesh::triangle(side)), kCoincident});
       }
     }
     picture.marks.push_back({mesh.position(here[i]), MarkColor::moving, names[i]});
@@ -218,11 +213,6 @@ struct Outcome {
   [[nodiscard]] double spread() const { return std::ranges::max(energies) - std::ranges::min(energies); }
 };
 
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values.empty() ? 0 : values[values.size() / 2];
-}
-
 /// The longest step of the run at whose end some edge had to flip.
 double longest_flipping_step(const Recording& run) {
   const Moment& start = run.moments.front();
@@ -282,11 +272,10 @@ struct Comparison {
 
 std::vector<Comparison> compare(Effort effort) {
   const int random_orders = effort == Effort::full ? 12 : 0;
-  const auto input = horseshoe();
   std::vector<Comparison> all;
   for (const Limit& limit : limits()) {
-    all.push_back(
-        {limit, outcome_of(limit, *input, random_orders), outcome_of(limit, oscillating_mesh(), random_orders)});
+    all.push_back({limit, outcome_of(limit, dense_horseshoe(), random_orders),
+                   outcome_of(limit, oscillating_mesh(), random_orders)});
   }
   return all;
 }

@@ -1,15 +1,15 @@
 // Figure 23: where nine policies for the weights lead, from the mesh that oscillates.
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "experiments/domain.hpp"
+#include "experiments/median.hpp"
 #include "experiments/mesh_picture.hpp"
 #include "experiments/search_loop.hpp"
 #include "experiments/text.hpp"
 #include "experiments/weight_policies.hpp"
 #include "figures.hpp"
-#include "temper/geometry.hpp"
 #include "temper/plot.hpp"
 
 namespace temper::gallery {
@@ -62,7 +62,7 @@ std::string with_far_searches() {
   constexpr double kReach = 4;
   constexpr int kSweeps = 20;
   const SearchLoop loop{EnergyKind::dT, kReach, false, false, false};
-  const auto stages = run_loop(loop, oscillating_mesh(), {"reverse", positions_and_collapses().order}, kSweeps);
+  const auto stages = run_loop(loop, oscillating_mesh(), shown_order(), kSweeps);
   std::size_t inside = 0, on_boundary = 0;
   for (const LoopStage& s : stages) {
     inside = std::max(inside, s.hidden_inside);
@@ -119,33 +119,6 @@ Claim before_never_flips() {
           "Positions, weights and connectivity compared without tolerance."};
 }
 
-bool is_in_triangle(const Mesh& mesh, TriangleId t, Vec2 p) {
-  for (int k = 0; k < 3; ++k) {
-    const HalfedgeId e = Mesh::halfedge(t, k);
-    if (orient2d(mesh.position(mesh.origin(e)), mesh.position(mesh.target(e)), p) == Sign::negative) return false;
-  }
-  return true;
-}
-
-bool is_in_domain(const Mesh& mesh, Vec2 p) {
-  for (const TriangleId t : mesh.triangles()) {
-    if (is_in_triangle(mesh, t, p)) return true;
-  }
-  return false;
-}
-
-/// Distance from p to the nearest boundary edge.
-double distance_to_boundary(const Mesh& mesh, Vec2 p) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const HalfedgeId e : mesh.halfedges()) {
-    if (!mesh.is_boundary(e)) continue;
-    const Vec2 a = mesh.position(mesh.origin(e)), along = mesh.position(mesh.target(e)) - a;
-    const double t = std::clamp(dot(p - a, along) / squared_length(along), 0.0, 1.0);
-    least = std::min(least, length(p - a - t * along));
-  }
-  return least;
-}
-
 /// Orthocenters beyond the boundary, and how far the farthest is.
 struct Outside {
   std::size_t count = 0;
@@ -156,8 +129,7 @@ Outside orthocenters_outside(const Mesh& mesh) {
   constexpr double kOnBoundary = 1e-6;  // where |h| is least; edges there are 0.1 long and more
   Outside outside;
   for (const TriangleId t : mesh.triangles()) {
-    const auto [a, b, c] = mesh.corners(t);
-    const Vec2 o = orthocenter(mesh.point(a), mesh.point(b), mesh.point(c));
+    const Vec2 o = orthocenter_of(mesh, t);
     const double distance = is_in_domain(mesh, o) ? 0 : distance_to_boundary(mesh, o);
     if (distance > kOnBoundary) ++outside.count;
     outside.farthest = std::max(outside.farthest, distance);
@@ -223,7 +195,6 @@ Standing standing(const std::vector<std::vector<PolicyRun>>& orders, FlipLimit l
     s.best += energy <= (1 + kTie) * best ? 1 : 0;
     s.worst_excess = std::max(s.worst_excess, energy / best - 1);
   }
-  std::ranges::sort(s.energies);
   return s;
 }
 
@@ -236,7 +207,7 @@ Table standings(const std::vector<std::vector<PolicyRun>>& orders) {
     std::vector<std::string> row = {policy_runs()[column].policy.update_name};
     for (const FlipLimit limit : kPolicyRows) {
       const Standing s = standing(orders, limit, column);
-      row.push_back(digits(s.energies[s.energies.size() / 2]));
+      row.push_back(digits(median(s.energies)));
       row.push_back(digits(s.best));
     }
     t.rows.push_back(row);

@@ -29,8 +29,6 @@ std::vector<LoopStage> stages(const Policy& policy, double reach, const VertexOr
   return run_loop({policy.energy, reach, policy.limited}, oscillating_mesh(), order, sweeps);
 }
 
-VertexOrder shown_order() { return {"reverse", positions_and_collapses().order}; }
-
 const std::vector<LoopStage>& mess() {
   static const std::vector<LoopStage> run = stages(kMess, kShownReach, shown_order(), kShownSweeps);
   return run;

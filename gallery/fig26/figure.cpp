@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "experiments/high_heat.hpp"
-#include "experiments/mesh_picture.hpp"
+#include "experiments/inputs.hpp"
+#include "experiments/moment_picture.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "temper/plot.hpp"
@@ -51,11 +52,6 @@ const Moment& begin_of(int sweep) {
   return *found;
 }
 
-void mark(const Moment& m, VertexId input, const char* color, MeshPicture& picture) {
-  const VertexId v = m.find(input);
-  if (v.valid()) picture.marks.push_back({m.mesh.position(v), color});
-}
-
 std::string panel(int sweep, bool after) {
   const Moment& m = after ? end_of(sweep) : begin_of(sweep);
   int outer = 0;
@@ -64,8 +60,8 @@ std::string panel(int sweep, bool after) {
   for (const Described& d : described()) {
     if (d.collapse.sweep != sweep) continue;
     outer = d.collapse.outer;
-    mark(m, d.rule.nearest, after ? MarkColor::kept_before : MarkColor::kept, picture);
-    mark(m, d.collapse.vertex, MarkColor::removed, picture);
+    add_mark(picture, m, d.rule.nearest, after ? MarkColor::kept_before : MarkColor::kept);
+    add_mark(picture, m, d.collapse.vertex, MarkColor::removed);
   }
   picture.title = "outer " + std::to_string(outer) + ", iteration " + std::to_string(sweep - 1) +
                   (after ? " done: " : " begins: ") + std::to_string(m.mesh.n_vertices()) + " vertices";
@@ -108,7 +104,7 @@ std::vector<std::size_t> with_ratio(double ratio) {
   OptimizeOptions options = high_heat_options("BP");
   options.collapse_ratio = ratio;
   options.max_sweeps = kEarlySweeps;
-  std::vector<std::size_t> counts = collapses_by_outer(record(dense_input(), options, Keep::outer));
+  std::vector<std::size_t> counts = collapses_by_outer(record(dense_horseshoe(), options, Keep::outer));
   counts.resize(2);
   return counts;
 }

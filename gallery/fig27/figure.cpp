@@ -1,10 +1,9 @@
 // Figure 27: the outer iterations of the high-heat run: what has converged, and what flips make of it.
-#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "experiments/high_heat.hpp"
-#include "experiments/mesh_picture.hpp"
+#include "experiments/moment_picture.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "temper/plot.hpp"
@@ -13,27 +12,22 @@
 namespace temper::gallery {
 namespace {
 
-constexpr std::size_t kShown[] = {0, 1, 5};  // outer iterations, as in the paper
-
-std::vector<const Moment*> optimal() { return high_heat_bp().all(Snapshot::Moment::before_flips); }
-std::vector<const Moment*> flipped() { return high_heat_bp().all(Snapshot::Moment::after_flips); }
-
 std::string panel(const Moment& m, const Moment& other) {
   MeshPicture picture;
   const bool after = m.kind == Snapshot::Moment::after_flips;
   picture.title =
       "outer " + std::to_string(m.outer) + (after ? ", flipped" : ", optimal") + ": E_BP = " + digits(m.energy);
   picture.weight_scale = 0.25;
-  for (const TriangleId t : triangles_not_in(m, other)) picture.shades.push_back({t, MarkColor::cavity});
+  picture.shades = cavities(m, other);
   return mesh_picture_svg(m.mesh, picture);
 }
 
 Picture panels() {
   std::vector<std::string> above, below;
-  for (const std::size_t i : kShown) {
-    if (i >= flipped().size()) continue;
-    above.push_back(panel(*optimal()[i], *flipped()[i]));
-    below.push_back(panel(*flipped()[i], *optimal()[i]));
+  for (const std::size_t i : kShownOuter) {
+    if (i >= high_heat_flipped().size()) continue;
+    above.push_back(panel(*high_heat_optimal()[i], *high_heat_flipped()[i]));
+    below.push_back(panel(*high_heat_flipped()[i], *high_heat_optimal()[i]));
   }
   const std::size_t columns = above.size();
   above.insert(above.end(), below.begin(), below.end());
@@ -66,22 +60,23 @@ Table table() {
            "well-centered", "least angle"},
           {}};
   const std::vector<std::size_t> counts = collapses_by_outer(high_heat_bp());
-  for (std::size_t i = 0; i < flipped().size(); ++i) {
-    const Quality before = quality(optimal()[i]->mesh), after = quality(flipped()[i]->mesh);
-    t.rows.push_back({digits(i), std::to_string(optimal()[i]->sweep), digits(counts[i]), digits(optimal()[i]->energy),
-                      digits(flipped()[i]->energy), digits(before.non_regular_edges),
-                      digits(after.well_centered_fraction, 3), digits(after.min_angle_deg, 3) + "°"});
+  for (std::size_t i = 0; i < high_heat_flipped().size(); ++i) {
+    const Quality before = quality(high_heat_optimal()[i]->mesh), after = quality(high_heat_flipped()[i]->mesh);
+    t.rows.push_back({digits(i), std::to_string(high_heat_optimal()[i]->sweep), digits(counts[i]),
+                      digits(high_heat_optimal()[i]->energy), digits(high_heat_flipped()[i]->energy),
+                      digits(before.non_regular_edges), digits(after.well_centered_fraction, 3),
+                      digits(after.min_angle_deg, 3) + "°"});
   }
   return t;
 }
 
 Claim stops_when_regular() {
   const Recording& run = high_heat_bp();
-  const std::size_t rounds = optimal().size();
-  const std::size_t last = rounds == 0 ? 1 : quality(optimal().back()->mesh).non_regular_edges;
+  const std::size_t rounds = high_heat_optimal().size();
+  const std::size_t last = rounds == 0 ? 1 : quality(high_heat_optimal().back()->mesh).non_regular_edges;
   bool earlier_flipped = rounds > 1;
   for (std::size_t i = 0; i + 1 < rounds; ++i) {
-    earlier_flipped = earlier_flipped && quality(optimal()[i]->mesh).non_regular_edges > 0;
+    earlier_flipped = earlier_flipped && quality(high_heat_optimal()[i]->mesh).non_regular_edges > 0;
   }
   return {"27",
           "The run stops because its optimal mesh is regular and needs no flips.",
@@ -93,7 +88,7 @@ Claim stops_when_regular() {
 }
 
 Claim outer_iterations_help() {
-  const Moment &first = *flipped().front(), &last = *flipped().back();
+  const Moment &first = *high_heat_flipped().front(), &last = *high_heat_flipped().back();
   const double before = quality(first.mesh).well_centered_fraction, after = quality(last.mesh).well_centered_fraction;
   return {"27",
           "Outer iterations significantly improve the mesh.",

@@ -1,11 +1,13 @@
 // Figure 28: the left foot in the outer iterations of figure 27.
 #include <algorithm>
-#include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
+#include "experiments/energies.hpp"
 #include "experiments/high_heat.hpp"
-#include "experiments/mesh_picture.hpp"
+#include "experiments/inputs.hpp"
+#include "experiments/moment_picture.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "temper/geometry.hpp"
@@ -14,12 +16,8 @@
 namespace temper::gallery {
 namespace {
 
-constexpr std::size_t kShown[] = {0, 1, 5};
 constexpr Box kLeftFoot = {{-2.1, -0.06}, {-0.75, 1.35}};
 constexpr double kFootHeight = 1;  // triangles with their centroid below: both feet
-
-std::vector<const Moment*> optimal() { return high_heat_bp().all(Snapshot::Moment::before_flips); }
-std::vector<const Moment*> flipped() { return high_heat_bp().all(Snapshot::Moment::after_flips); }
 
 std::string panel(const Moment& m, const Moment& other) {
   MeshPicture picture;
@@ -27,16 +25,16 @@ std::string panel(const Moment& m, const Moment& other) {
       "outer " + std::to_string(m.outer) + (m.kind == Snapshot::Moment::after_flips ? ", flipped" : ", optimal");
   picture.box = kLeftFoot;
   picture.weight_scale = 0.25;
-  for (const TriangleId t : triangles_not_in(m, other)) picture.shades.push_back({t, MarkColor::cavity});
+  picture.shades = cavities(m, other);
   return mesh_picture_svg(m.mesh, picture);
 }
 
 Picture panels() {
   std::vector<std::string> svgs;
-  for (const std::size_t i : kShown) {
-    if (i >= flipped().size()) continue;
-    svgs.push_back(panel(*optimal()[i], *flipped()[i]));
-    svgs.push_back(panel(*flipped()[i], *optimal()[i]));
+  for (const std::size_t i : kShownOuter) {
+    if (i >= high_heat_flipped().size()) continue;
+    svgs.push_back(panel(*high_heat_optimal()[i], *high_heat_flipped()[i]));
+    svgs.push_back(panel(*high_heat_flipped()[i], *high_heat_optimal()[i]));
   }
   return {"fig28", grid_svg(svgs, 2),
           "The left foot, x from −2.1 to −0.75: left, the mesh when the inner iterations have converged; right, after "
@@ -51,8 +49,8 @@ struct Feet {
 };
 
 Feet feet_of(const Mesh& mesh) {
-  const EnergyModel model = high_heat_model("BP");
-  constexpr double kDegrees = 57.29577951308232;
+  const EnergyModel model = model_of("BP", dense_horseshoe());
+  constexpr double kDegrees = 180 / std::numbers::pi;
   Feet feet;
   for (const TriangleId t : mesh.triangles()) {
     const auto [a, b, c] = mesh.corners(t);
@@ -76,7 +74,7 @@ Table table() {
   Table t{"The triangles of both feet (centroid below y = 1) after the flips of each outer iteration.",
           {"outer iteration", "well-centered", "mean E_BP", "greatest angle"},
           {}};
-  for (const Moment* m : flipped()) {
+  for (const Moment* m : high_heat_flipped()) {
     const Feet feet = feet_of(m->mesh);
     t.rows.push_back(
         {std::to_string(m->outer), fraction(feet), digits(feet.energy, 3), digits(feet.greatest_angle, 3) + "°"});
@@ -85,7 +83,7 @@ Table table() {
 }
 
 Claim feet_improve() {
-  const Feet first = feet_of(flipped().front()->mesh), last = feet_of(flipped().back()->mesh);
+  const Feet first = feet_of(high_heat_flipped().front()->mesh), last = feet_of(high_heat_flipped().back()->mesh);
   const double before = static_cast<double>(first.well_centered) / static_cast<double>(first.triangles);
   const double after = static_cast<double>(last.well_centered) / static_cast<double>(last.triangles);
   return {"28",
@@ -100,7 +98,7 @@ Claim feet_improve() {
 
 Claim flips_mend_the_foot() {
   std::size_t cavities = 0;
-  const Moment &before = *optimal().front(), &after = *flipped().front();
+  const Moment &before = *high_heat_optimal().front(), &after = *high_heat_flipped().front();
   for (const TriangleId t : triangles_not_in(before, after)) {
     const auto [a, b, c] = before.mesh.corners(t);
     const Vec2 middle = (1.0 / 3) * (before.mesh.position(a) + before.mesh.position(b) + before.mesh.position(c));

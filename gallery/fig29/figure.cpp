@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "experiments/energies.hpp"
 #include "experiments/high_heat.hpp"
+#include "experiments/inputs.hpp"
 #include "experiments/mesh_picture.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
@@ -21,7 +23,8 @@ struct Final {
 };
 
 std::vector<Final> finals() {
-  return {{"BP", high_heat_bp(), high_heat_model("BP")}, {"BHs", high_heat_bhs(), high_heat_model("BHs")}};
+  return {{"BP", high_heat_bp(), model_of("BP", dense_horseshoe())},
+          {"BHs", high_heat_bhs(), model_of("BHs", dense_horseshoe())}};
 }
 
 /// Inner vertices with four edges.
@@ -119,7 +122,7 @@ Survey survey(Effort effort) {
     for (const Mesh& mesh : heat.optimal) {
       ++s.meshes;
       if (has_adjacent_pair(mesh, four_valent(mesh))) ++s.with_pair;
-      for (const VertexId v : four_valent(mesh)) add(s.missed, mesh, high_heat_model("BP"), v);
+      for (const VertexId v : four_valent(mesh)) add(s.missed, mesh, model_of("BP", dense_horseshoe()), v);
     }
   }
   return s;
@@ -171,7 +174,7 @@ bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; 
 
 Claim replays() {
   const Recording& run = high_heat_bp();
-  const auto again = replay(dense_input(), run.events);
+  const auto again = replay(dense_horseshoe(), run.events);
   std::size_t same = 0;
   if (again && again->n_vertices() == run.result.n_vertices()) {
     for (const VertexId v : run.result.vertices()) {

@@ -1,11 +1,11 @@
 // Figure 30: the patch test with positions alone, and how it compares with the short-edge rule.
 #include <algorithm>
-#include <array>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "experiments/high_heat.hpp"
+#include "experiments/inputs.hpp"
 #include "experiments/patch_test.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
@@ -147,7 +147,7 @@ void run_case(const Case& c, Validity& v) {
 
 Validity survey_validity(Effort effort) {
   const bool full = effort == Effort::full;
-  std::vector<Mesh> meshes = {dense_input()};
+  std::vector<Mesh> meshes = {dense_horseshoe()};
   if (auto ring = annulus({.around = full ? 24 : 16, .rings = 4})) meshes.push_back(*std::move(ring));
   if (auto points = random_points({.vertices = full ? 80U : 40U})) meshes.push_back(*std::move(points));
   std::vector<VertexOrder> orders = vertex_orders(0);

@@ -1,9 +1,10 @@
 // Figure 31: the patch test with positions and weights: later than with positions alone, and with care on large meshes.
-#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "experiments/domain.hpp"
 #include "experiments/high_heat.hpp"
+#include "experiments/inputs.hpp"
 #include "experiments/patch_test.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
@@ -49,13 +50,13 @@ Movement movement(const VertexOrder& order, Unknowns unknowns) {
   options.order = order.order;
   options.seed = order.seed;
   options.max_sweeps = kSweeps;
-  const Recording run = record(dense_input(), options, Keep::outer);
+  const Recording run = record(dense_horseshoe(), options, Keep::outer);
   Movement m{all_of(removals(run)).size(), 0};
   const Moment& end = run.moments.back();
   std::size_t inner = 0;
   for (const VertexId v : end.mesh.vertices()) {
     if (end.mesh.is_boundary(v)) continue;
-    m.displacement += length(end.mesh.position(v) - dense_input().position(end.vertices[v]));
+    m.displacement += length(end.mesh.position(v) - dense_horseshoe().position(end.vertices[v]));
     ++inner;
   }
   if (inner > 0) m.displacement /= static_cast<double>(inner);
@@ -102,12 +103,6 @@ struct LargeRun {
   [[nodiscard]] double kept() const { return static_cast<double>(inner_after) / static_cast<double>(inner_before); }
 };
 
-std::size_t inner_vertices(const Mesh& mesh) {
-  std::size_t count = 0;
-  for (const VertexId v : mesh.vertices()) count += mesh.is_boundary(v) ? 0 : 1;
-  return count;
-}
-
 std::vector<LargeRun> large_runs(Effort effort) {
   std::vector<LargeRun> runs;
   const auto input = random_points({.vertices = effort == Effort::full ? 2000U : 250U});
@@ -122,7 +117,7 @@ std::vector<LargeRun> large_runs(Effort effort) {
     Mesh mesh = *input;
     if (!optimize(mesh, options)) continue;
     const Quality q = quality(mesh);
-    runs.push_back({m.name, inner_vertices(*input), inner_vertices(mesh), q.triangles, q.well_centered_fraction});
+    runs.push_back({m.name, count_interior(*input), count_interior(mesh), q.triangles, q.well_centered_fraction});
   }
   return runs;
 }

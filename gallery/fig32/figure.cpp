@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "experiments/closeness.hpp"
+#include "experiments/energies.hpp"
 #include "experiments/high_heat.hpp"
+#include "experiments/inputs.hpp"
 #include "experiments/mesh_picture.hpp"
-#include "experiments/sparse_runs.hpp"
 #include "experiments/summary_matrix.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
@@ -137,7 +138,7 @@ Table energy_table(const Matrix& matrix) {
     return matrix.at(energy, Unknowns::positions_and_weights, rule).endings.front().mesh;
   };
   const Row rows[] = {
-      {"input", "fig. 11", dense_input()},
+      {"input", "fig. 11", dense_horseshoe()},
       {"E_T, no removal", "fig. 18: a good mesh", mesh_of("T", RemovalRule::none)},
       {"E_T, short edges", "§7: a good mesh", mesh_of("T", RemovalRule::short_edge)},
       {"E_BP, no removal", "fig. 18: a good mesh", mesh_of("BP", RemovalRule::none)},
@@ -301,7 +302,7 @@ std::vector<Delay> delays(Effort effort, int sweeps) {
       options.order = order.order;
       options.seed = order.seed;
       options.max_sweeps = sweeps;
-      Mesh mesh = dense_input();
+      Mesh mesh = dense_horseshoe();
       const auto report = optimize(mesh, options);
       d.energies.push_back(report ? report->final_energy : std::numeric_limits<double>::infinity());
       d.collapses += report ? report->vertices_removed : 0;

@@ -1,0 +1,21 @@
+// Where the vertices of the dual lie: orthocenters of triangles, and the domain that should hold them.
+#pragma once
+
+#include <cstddef>
+
+#include "temper/mesh.hpp"
+
+namespace temper::gallery {
+
+[[nodiscard]] Vec2 orthocenter_of(const Mesh& mesh, TriangleId t);
+
+/// In some triangle or on its border, decided exactly.
+[[nodiscard]] bool is_in_domain(const Mesh& mesh, Vec2 p);
+
+/// From p to the nearest boundary edge; +∞ without one.
+[[nodiscard]] double distance_to_boundary(const Mesh& mesh, Vec2 p);
+
+/// How many vertices are not on the boundary.
+[[nodiscard]] std::size_t count_interior(const Mesh& mesh);
+
+}  // namespace temper::gallery
