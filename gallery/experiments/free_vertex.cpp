@@ -29,6 +29,18 @@ Curvature curvature(const EnergyModel& model, Vec2 p) {
           (f(0, 1) - 2 * f(0, 0) + f(0, -1)) / square};
 }
 
+HalfCircle half_circle(const EnergyModel& model, double radius) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  HalfCircle result{kInfinity, -kInfinity};
+  for (int degrees = 1; degrees < 180; ++degrees) {
+    const double t = degrees * std::numbers::pi / 180;
+    const double e = free_vertex_energy(model, kRight + radius * Vec2{std::cos(t), std::sin(t)});
+    result.least = std::min(result.least, e);
+    result.greatest = std::max(result.greatest, e);
+  }
+  return result;
+}
+
 std::string position_contours(const EnergyModel& model, const PositionLandscape& landscape) {
   ContourPlot plot;
   plot.title = landscape.title;

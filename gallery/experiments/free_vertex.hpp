@@ -1,7 +1,6 @@
 // A triangle without weights, two vertices at (−1, 0) and (1, 0), the third free: figs. 3 and 8.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +23,13 @@ struct Curvature {
   double xx = 0, xy = 0, yy = 0;
 };
 [[nodiscard]] Curvature curvature(const EnergyModel& model, Vec2 p);
+
+/// Least and greatest E on a half circle around the right vertex; directions, 1° apart, keep as far from the edge's
+/// line.
+struct HalfCircle {
+  double least = 0, greatest = 0;
+};
+[[nodiscard]] HalfCircle half_circle(const EnergyModel& model, double radius);
 
 struct PositionLandscape {
   std::string title;

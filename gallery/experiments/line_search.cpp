@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/minimise.hpp"
+
 namespace temper::gallery {
 namespace {
 
@@ -47,7 +49,7 @@ std::vector<LineSearch> line_searches(Mesh mesh, const EnergyModel& model, Verte
       mesh.set_position(v, from + t * step);
       return vertex_energy(mesh, model, v).value;
     };
-    const double t = golden_section(along, limit);
+    const double t = golden_minimum(along, 0, limit, kSearchTolerance).at;
     const bool lower = along(t) < here.value;
     if (!lower) break;
     done.push_back({from, from + t * step, t / limit});

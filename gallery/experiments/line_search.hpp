@@ -2,7 +2,6 @@
 // search can be seen: steepest descent, golden section within the patch radius, short of turning a triangle over.
 #pragma once
 
-#include <cmath>
 #include <vector>
 
 #include "temper/energy.hpp"
@@ -10,25 +9,8 @@
 
 namespace temper::gallery {
 
-/// Golden section: where f is least in [0, limit] when it has one minimum there; else a local one.
-template <class Function>
-double golden_section(Function&& f, double limit) {
-  constexpr double kTolerance = 1e-8;  // of the interval: what golden section can tell apart in doubles
-  const double ratio = 0.5 * (std::sqrt(5.0) - 1);
-  double low = 0, high = limit;
-  double a = high - ratio * (high - low), b = low + ratio * (high - low);
-  double fa = f(a), fb = f(b);
-  while (high - low > kTolerance * limit) {
-    if (fb < fa) {
-      low = a, a = b, fa = fb;
-      b = low + ratio * (high - low), fb = f(b);
-    } else {
-      high = b, b = a, fb = fa;
-      a = high - ratio * (high - low), fa = f(a);
-    }
-  }
-  return fa <= fb ? a : b;
-}
+/// Of the interval that a search looks at: what golden section can tell apart in doubles.
+inline constexpr double kSearchTolerance = 1e-8;
 
 /// Root mean square of the distances to v's neighbours.
 [[nodiscard]] double patch_radius(const Mesh& mesh, VertexId v);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "temper/vec2.hpp"
@@ -15,14 +16,15 @@ struct Minimum1 {
   double at = 0, value = 0;
 };
 
-/// Golden section in [low, high]: the minimum of a function that falls and then rises, to 1e-9 of the interval (half
-/// the digits of a double, all that values near a minimum can tell).
+/// Golden section in [low, high], until that part of it is left: the minimum of a function that falls and then rises,
+/// else a local one. Values near a minimum tell half the digits of a double apart, so no part below 1e-8 does better.
 template <class F>
-[[nodiscard]] Minimum1 golden_minimum(F&& f, double low, double high) {
-  constexpr double kGolden = 0.6180339887498949;
+[[nodiscard]] Minimum1 golden_minimum(F&& f, double low, double high, double tolerance = 1e-9) {
+  constexpr double kGolden = std::numbers::phi - 1;
+  const double enough = tolerance * (high - low);
   double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
   double fa = f(a), fb = f(b);
-  for (int step = 0; step < 44; ++step) {
+  while (high - low > enough) {
     if (fa <= fb) {
       high = b, b = a, fb = fa;
       a = high - kGolden * (high - low), fa = f(a);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/line_search.hpp"
+#include "experiments/minimise.hpp"
 #include "temper/geometry.hpp"
 #include "temper/regularity.hpp"
 
@@ -110,7 +111,7 @@ class Loop {
       put(t);
       return vertex_energy(mesh_, model_, v).value;
     };
-    const double t = golden_section(energy, limit);
+    const double t = golden_minimum(energy, 0, limit, kSearchTolerance).at;
     if (energy(t) < before) return true;
     put(0);
     return false;

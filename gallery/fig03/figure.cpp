@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "experiments/free_vertex.hpp"
 #include "experiments/minimise.hpp"
@@ -14,24 +13,9 @@
 namespace temper::gallery {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 double energy(int star, Vec2 p) { return free_vertex_energy(paper_model(EnergyKind::F, star), p); }
 
-// Least and greatest E_F on a half circle around the right vertex; directions keep 1° from the edge's line.
-struct Ring {
-  double least = 0, greatest = 0;
-};
-Ring ring(int star, double radius) {
-  Ring result{1e300, -1e300};
-  for (int degrees = 1; degrees < 180; ++degrees) {
-    const double t = degrees * kPi / 180;
-    const double e = energy(star, kRight + radius * Vec2{std::cos(t), std::sin(t)});
-    result.least = std::min(result.least, e);
-    result.greatest = std::max(result.greatest, e);
-  }
-  return result;
-}
+HalfCircle ring(int star, double radius) { return half_circle(paper_model(EnergyKind::F, star), radius); }
 
 // The stationary point on the axis of symmetry.
 struct Saddle {

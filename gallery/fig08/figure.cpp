@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "experiments/energies.hpp"
 #include "experiments/free_vertex.hpp"
@@ -17,7 +15,6 @@ namespace {
 
 constexpr double kHalfDigits = 1e-5;        // where a minimum of three energies' sum is known to, of a side of 2
 constexpr double kGamma = 1, kShift = 0.3;  // of the pictures: γ and −h°
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 EnergyModel model(EnergyKind kind, double softening) {
   EnergyModel m = paper_model(kind);
@@ -76,17 +73,9 @@ Claim collapsed_minima() {
   bool holds = true;
   std::string found;
   for (const EnergyKind kind : {EnergyKind::F, EnergyKind::T}) {
-    const auto least_and_most = [&](double radius) {
-      std::array<double, 2> result = {kInfinity, 0};
-      for (int degrees = 1; degrees < 180; ++degrees) {
-        const double t = degrees * std::numbers::pi / 180;
-        const double e = free_vertex_energy(paper_model(kind), kRight + radius * Vec2{std::cos(t), std::sin(t)});
-        result = {std::min(result[0], e), std::max(result[1], e)};
-      }
-      return result;
-    };
-    const double around = least_and_most(0.1)[0];
-    const auto [least, most] = least_and_most(1e-7);
+    const EnergyModel energy = paper_model(kind);
+    const double around = half_circle(energy, 0.1).least;
+    const auto [least, most] = half_circle(energy, 1e-7);
     holds = holds && around > 0 && least >= 0 && least < 1e-4 * around;
     found += std::string(found.empty() ? "E_F" : "; E_T") + " at least " + digits(around, 3) +
              " at distance 0.1 from the fixed vertex, " + digits(least, 1) + " to " + digits(most, 1) +

@@ -145,7 +145,8 @@ Claim obtuse_t() {
   std::string found;
   for (const double angle : {0.75, 0.8, 0.85, 0.9, 0.95}) {
     const auto t = best(EnergyKind::T, angle);
-    if (!t) return {"9", "", "", "", false, ""};
+    best_h = best_h && t.has_value();
+    if (!t) continue;
     for (const EnergyKind kind : {EnergyKind::BP, EnergyKind::F, EnergyKind::BHs, EnergyKind::BH}) {
       const auto other = best(kind, angle);
       best_h = best_h && (!other || other->margins.min_h < t->margins.min_h);

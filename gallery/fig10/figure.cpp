@@ -94,7 +94,7 @@ std::vector<Picture> pictures(const Study& s) {
 }
 
 Claim extreme_energies() {
-  // The last angles at which all of them but E_BH and E_BHs, and then those two, have a solution.
+  // Angles near both ends of those at which an energy has a solution: few for E_BH and E_BHs.
   bool holds = true;
   std::string found;
   const Optima middle = optima(kReference);
@@ -144,7 +144,6 @@ Claim agreement(const Study& s) {
 
 Claim preference(const Study& s) {
   std::size_t h_right = 0, d_right = 0, n = 0;
-  std::string exceptions;
   for (std::size_t i = 0; i < s.angles.size(); ++i) {
     const double angle = s.angles[i];
     if (angle > 0.2 && angle < 0.65) continue;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/domain.hpp"
 #include "experiments/high_heat.hpp"
 #include "experiments/inputs.hpp"
 #include "experiments/patch_test.hpp"
@@ -40,7 +41,9 @@ Picture plot() {
       cumulative("short-edge rule, deferred flips", removals(high_heat_bp()), kLast)};
   return {"fig30_count", line_plot_svg(plot),
           "Vertices removed so far by the patch test of figures 30 and 31, and by the short-edge rule in the run of "
-          "figure 26. The boundary's 30 vertices are never removed."};
+          "figure 26. The boundary's " +
+              digits(dense_horseshoe().n_vertices() - count_interior(dense_horseshoe())) +
+              " vertices are never removed."};
 }
 
 std::size_t in_common(const std::set<VertexId>& some, const std::set<VertexId>& others) {
