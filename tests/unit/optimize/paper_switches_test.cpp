@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <vector>
 
@@ -103,21 +102,21 @@ TEST(Collapses, NeverWithoutTheSwitch) {
 }
 
 TEST(Collapses, AHigherRatioCollapsesMore) {
-  std::size_t last = 0;
+  std::vector<std::size_t> removed;
   for (const double ratio : {1e-6, 0.1, 0.5}) {
     OptimizeOptions o = dense_positions();
     o.collapse_ratio = ratio;
-    o.max_sweeps = 1;
+    o.max_sweeps = 3;
     Mesh mesh = dense();
     const auto report = optimize(mesh, o);
     ASSERT_TRUE(report);
-    EXPECT_GE(report->vertices_removed, last);
-    last = report->vertices_removed;
+    removed.push_back(report->vertices_removed);
   }
-  EXPECT_GT(last, 0u);
+  EXPECT_LT(removed[0], removed[1]);
+  EXPECT_LT(removed[1], removed[2]);
 }
 
-TEST(Collapses, LeaveFixedVerticesAndInterfacesAlone) {
+TEST(Collapses, LeaveFixedVerticesAlone) {
   Mesh mesh = dense();
   for (const VertexId v : mesh.vertices()) mesh.set_fixed(v, true);
   const Mesh input = mesh;
@@ -147,20 +146,20 @@ TEST(PatchTest, SumGutsWhereMeanAndExcessSpare) {
 }
 
 TEST(PatchTest, AWiderMarginRemovesFewer) {
-  std::size_t last = 1000;
+  std::vector<std::size_t> removed;
   for (const double margin : {0.0, 0.1, 0.3}) {
     Mesh mesh = random_mesh();
     const auto report =
         optimize(mesh, {.removal = Removal::patch, .removal_margin = margin, .removal_from = 5, .max_sweeps = 30});
     ASSERT_TRUE(report);
-    EXPECT_LE(report->vertices_removed, last);
-    last = report->vertices_removed;
+    removed.push_back(report->vertices_removed);
   }
+  EXPECT_GT(removed[0], removed[1]);
+  EXPECT_GT(removed[1], removed[2]);
 }
 
 TEST(OuterIterations, FlipOnlyWhenTheInnerOnesHaveConverged) {
   OptimizeOptions o = dense_positions();
-  std::vector<std::size_t> flips_in_sweeps;
   int before = 0, after = 0;
   std::size_t non_regular = 0;
   o.watch = [&](const Snapshot& s) {
@@ -353,7 +352,7 @@ TEST(Options, SwitchesThatContradictEachOtherAreRefused) {
   }
 }
 
-TEST(Traces, SeeNothingOfTheChoiceOfWatching) {
+TEST(Traces, ChangeNothingOfTheRun) {
   Mesh plain = random_mesh(), traced = plain;
   std::size_t events = 0, snapshots = 0;
   OptimizeOptions o{.removal = Removal::patch, .removal_from = 2, .max_sweeps = 12};

@@ -1,7 +1,6 @@
 // Replay of events made here, without the optimiser: what each does, and what is refused.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
