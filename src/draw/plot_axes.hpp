@@ -3,8 +3,6 @@
 // Two steps, so that a legend or a colour key can ask for room: lay out, then draw.
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <string>
 
 #include "draw/frame.hpp"

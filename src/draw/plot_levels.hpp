@@ -1,8 +1,6 @@
 // Which levels a contour plot has when the caller names none, and the colours of the bands between them.
 #pragma once
 
-#include <cstddef>
-#include <span>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "draw/plot_ticks.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 

@@ -1,6 +1,5 @@
 #include "optimize/settings.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 

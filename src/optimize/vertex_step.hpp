@@ -1,9 +1,7 @@
 // One vertex, improved: the body of the paper's inner loop (lines 10 to 16 of Algorithm 1).
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "energy/patch.hpp"

@@ -1,5 +1,8 @@
 #include "topology/cavity.hpp"
 
+#include <cstddef>
+#include <limits>
+
 #include "geometry/predicates_inline.hpp"
 
 namespace temper {

@@ -12,9 +12,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 

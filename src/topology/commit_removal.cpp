@@ -2,7 +2,6 @@
 //
 // Everything is addressed by the star's own order from the first spoke on, never by the numbers of slots: the same
 // plan on the same mesh with its triangles in other slots gives the same mesh in those slots.
-#include <algorithm>
 
 #include "topology/flip_inline.hpp"
 
