@@ -18,13 +18,6 @@ constexpr int kRandomOrders = 12;
 constexpr int kSurveySweeps = 60;
 constexpr std::size_t kColumns = 3;
 
-const Moment& begin_of(const Recording& run, int iteration) {
-  for (const Moment& m : run.moments) {
-    if (m.sweep == iteration) return m;
-  }
-  return run.moments.back();
-}
-
 Removals removed_with(const VertexOrder& order, Unknowns unknowns, RemovalRule rule) {
   OptimizeOptions options = immediate_options(unknowns, rule);
   options.order = order.order;
@@ -106,7 +99,7 @@ const std::vector<RuleComparison>& rule_comparisons(Effort effort) {
 std::string removal_panels(const Recording& run, double weight_scale) {
   std::vector<std::string> panels;
   for (const auto& [iteration, vertices] : removals(run)) {
-    const Moment& m = begin_of(run, iteration);
+    const Moment& m = run.begin_of(iteration);
     MeshPicture picture;
     picture.title = "iteration " + std::to_string(iteration) + ": " + std::to_string(vertices.size()) + " of " +
                     std::to_string(m.mesh.n_vertices()) + " vertices go";
@@ -136,7 +129,7 @@ Table removal_table(const Recording& run) {
   };
   add("input", "", dense_horseshoe());
   for (const auto& [iteration, vertices] : removals(run)) {
-    add(std::to_string(iteration), digits(vertices.size()), begin_of(run, iteration + 1).mesh);
+    add(std::to_string(iteration), digits(vertices.size()), run.begin_of(iteration + 1).mesh);
   }
   add("final, " + std::to_string(run.report.sweeps - 1), "", run.result);
   return t;

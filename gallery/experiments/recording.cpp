@@ -42,6 +42,11 @@ std::vector<const Moment*> Recording::all(Snapshot::Moment kind) const {
   return found;
 }
 
+const Moment& Recording::begin_of(int iteration) const {
+  const auto found = std::ranges::find(moments, iteration, &Moment::sweep);
+  return found == moments.end() ? moments.back() : *found;
+}
+
 Recording record(const Mesh& start, OptimizeOptions options, Keep keep) {
   Recording recording;
   recording.result = start;

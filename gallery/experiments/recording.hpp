@@ -35,6 +35,8 @@ struct Recording {
 
   /// The moments of one kind, in order.
   [[nodiscard]] std::vector<const Moment*> all(Snapshot::Moment kind) const;
+  /// The moment at which an iteration, counted from 0, begins: before flips when it follows some.
+  [[nodiscard]] const Moment& begin_of(int iteration) const;
 };
 
 /// What is kept of a run: the meshes between outer iterations, or also those after each sweep.

@@ -77,16 +77,8 @@ const std::vector<Collapse>& shown_collapses() {
   return list;
 }
 
-/// The mesh with which an iteration begins.
-const Moment& begin_of(const Recording& run, int iteration) {
-  for (const Moment& m : run.moments) {
-    if (m.sweep == iteration) return m;
-  }
-  return run.moments.back();
-}
-
 std::string panel(int iteration) {
-  const Moment& m = begin_of(oscillating_run(), iteration);
+  const Moment& m = oscillating_run().begin_of(iteration);
   MeshPicture picture;
   picture.title = "iteration " + std::to_string(iteration) + ": " + std::to_string(m.mesh.n_vertices()) +
                   " vertices, E = " + digits(m.energy);
@@ -113,7 +105,7 @@ Picture panels() {
 /// How far a vertex of the input goes in an iteration, over the mean length of its edges at the end of it; nothing when
 /// it has been removed by then.
 std::optional<double> relative_displacement(const Recording& run, VertexId input, int iteration) {
-  const Moment &from = begin_of(run, iteration), &to = begin_of(run, iteration + 1);
+  const Moment &from = run.begin_of(iteration), &to = run.begin_of(iteration + 1);
   const VertexId before = from.find(input), after = to.find(input);
   if (!before.valid() || !after.valid()) return std::nullopt;
   double sum = 0;
@@ -140,7 +132,7 @@ Table table() {
       return distance ? digits(*distance, 2) : std::string("removed");
     };
     t.rows.push_back({std::to_string(c.iteration), digits(std::size_t{c.removed.index}),
-                      digits(std::size_t{c.kept.index}), begin_of(run, 0).mesh.is_boundary(c.kept) ? "yes" : "no",
+                      digits(std::size_t{c.kept.index}), run.begin_of(0).mesh.is_boundary(c.kept) ? "yes" : "no",
                       digits(c.gap, 2), moved(0), moved(1), moved(2)});
   }
   return t;
@@ -156,7 +148,7 @@ struct Stability {
 };
 
 void add(const Recording& run, Stability& s) {
-  const Mesh& input = begin_of(run, 0).mesh;
+  const Mesh& input = run.begin_of(0).mesh;
   ++s.runs;
   for (const Collapse& c : collapses_of(run)) {
     s.gaps.push_back(c.gap);
