@@ -112,7 +112,7 @@ consumer_find_package() {
 }
 
 consumer_subdirectory() {
-  cmake -G Ninja -S tests/consumer/subdirectory -B "$scratch/subdirectory" "${launcher[@]}" &&
+  cmake -G Ninja -S tests/consumer/subdirectory -B "$scratch/subdirectory" -DCMAKE_BUILD_TYPE=Debug "${launcher[@]}" &&
     cmake --build "$scratch/subdirectory" -j "$jobs"
 }
 
