@@ -44,13 +44,13 @@ bool starts_outside_domain(const Mesh& mesh, const Settings& settings) {
 
 /// Whether a is worse than b: validity first, and regularity, but for hidden vertices that the user keeps; for a
 /// barrier, which is there to make triangles well-centered, their number next; then the energy.
-bool is_worse(const Mesh& a, const Mesh& b, const Settings& settings, const EnergyModel& model) {
+bool is_worse(const Mesh& a, const Mesh& b, const Settings& settings) {
   const auto standing = [&](const Mesh& mesh) {
     const OptimizeOptions& o = settings.options;
     const std::size_t inverted = o.inversion == Inversion::allow ? count_inverted(mesh) : 0;
     const std::size_t non_regular = o.hidden == HiddenPolicy::keep ? 0 : count_non_regular_edges(mesh, false);
     const std::size_t bad = settings.energy.barrier ? count_bad(mesh, o.executor) : 0;
-    return std::tuple(inverted, non_regular, bad, total_energy(mesh, model, settings.options.executor));
+    return std::tuple(inverted, non_regular, bad, total_energy(mesh, settings.model, settings.options.executor));
   };
   return standing(b) < standing(a);
 }
@@ -130,6 +130,31 @@ std::string count_of(std::size_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
+/// The settings with lengths in the user's units, for meshes in the user's terms.
+Settings in_user_terms(Settings settings, const Frame& frame) {
+  settings.model = in_user_units(settings.model, frame);
+  return settings;
+}
+
+/// Puts the best mesh into `mesh`, unless that is the better one, and says in the report what came of it.
+void give_back(Mesh& mesh, Result best, const Settings& settings, const Recorder& recorder, OptimizeReport& report) {
+  const OptimizeOptions& o = settings.options;
+  report.initial_energy = total_energy(mesh, settings.model, o.executor);
+  if (is_worse(best.mesh, mesh, settings)) {
+    recorder.returned_to(-1);
+    report.notes.push_back("no better mesh was found: the input is returned as it was");
+    report.vertices_removed = 0;
+  } else {
+    report.vertices_removed = mesh.n_vertices() - best.mesh.n_vertices();
+    report.vertices = std::move(best.vertices);
+    mesh = std::move(best.mesh);
+  }
+  report.final_energy = total_energy(mesh, settings.model, o.executor);
+  report.hidden = hidden_vertices_of(mesh, o.hidden);
+  if (!std::isfinite(report.final_energy)) report.notes.push_back(kStillInfinite);
+  if (report.final_energy < 0) report.notes.push_back(kNegative);
+}
+
 }  // namespace
 
 Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, const Observer& observer) {
@@ -154,10 +179,10 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
     driver.jitter(tries[i].jitter);
     driver.optimize(tries[i], i + 1 < tries.size());
 
-    const EnergyModel model = in_user_units(settings->model, work.frame);
-    Result result{std::move(work).in_user_terms(), {}, driver.final_sweep()};
-    if (work.has_gaps) result.vertices = work.user_vertices();
-    if (!best || !is_worse(result.mesh, best->mesh, *settings, model)) {
+    const Settings user_settings = in_user_terms(*settings, work.frame);
+    auto vertices = work.has_gaps ? work.user_vertices() : IdVector<VertexId, VertexId>();
+    Result result{std::move(work).in_user_terms(), std::move(vertices), driver.final_sweep()};
+    if (!best || !is_worse(result.mesh, best->mesh, user_settings)) {
       best = std::move(result);
     } else {
       driver.recorder().returned_to(best->sweep);
@@ -165,21 +190,7 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
     const bool done = count_bad(best->mesh, options.executor) == 0 || report.stopped == Stopped::cancelled ||
                       report.stopped == Stopped::time_limit || !run.sweeps_left() || i + 1 == tries.size();
     if (!done) continue;
-
-    report.initial_energy = total_energy(mesh, model, options.executor);
-    if (is_worse(best->mesh, mesh, *settings, model)) {
-      driver.recorder().returned_to(-1);
-      report.notes.push_back("no better mesh was found: the input is returned as it was");
-      report.vertices_removed = 0;
-    } else {
-      report.vertices_removed = mesh.n_vertices() - best->mesh.n_vertices();
-      report.vertices = std::move(best->vertices);
-      mesh = std::move(best->mesh);
-    }
-    report.final_energy = total_energy(mesh, model, options.executor);
-    report.hidden = hidden_vertices_of(mesh, options.hidden);
-    if (!std::isfinite(report.final_energy)) report.notes.push_back(kStillInfinite);
-    if (report.final_energy < 0) report.notes.push_back(kNegative);
+    give_back(mesh, *std::move(best), user_settings, driver.recorder(), report);
     report.seconds = run.seconds();
     break;
   }

@@ -127,6 +127,29 @@ TEST(Collapses, LeaveFixedVerticesAlone) {
   for (const VertexId v : mesh.vertices()) EXPECT_EQ(mesh.position(v), input.position(v));
 }
 
+TEST(Collapses, LeaveInterfacesAlone) {
+  Mesh mesh = dense();
+  std::vector<std::pair<Vec2, Vec2>> line;  // a path of inner edges, constrained
+  for (const HalfedgeId h : mesh.halfedges()) {
+    const Vec2 a = mesh.position(mesh.origin(h)), b = mesh.position(mesh.target(h));
+    if (mesh.is_boundary(h) || std::abs(a.x) > 1e-9 || std::abs(b.x) > 1e-9 || a.y > b.y) continue;
+    mesh.set_constrained(h, true);
+    line.push_back({a, b});
+  }
+  ASSERT_GT(line.size(), 4u);
+  OptimizeOptions o = paper_method();
+  o.inversion = Inversion::refuse;
+  const auto report = optimize(mesh, o);
+  ASSERT_TRUE(report);
+  EXPECT_GT(report->vertices_removed, 10u);
+  std::size_t found = 0;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    const std::pair edge(mesh.position(mesh.origin(h)), mesh.position(mesh.target(h)));
+    if (mesh.is_constrained(h)) found += static_cast<std::size_t>(std::count(line.begin(), line.end(), edge));
+  }
+  EXPECT_EQ(found, line.size());
+}
+
 TEST(PatchTest, SumGutsWhereMeanAndExcessSpare) {
   std::vector<std::size_t> left;
   for (const RemovalMeasure measure : {RemovalMeasure::sum, RemovalMeasure::mean, RemovalMeasure::excess}) {
