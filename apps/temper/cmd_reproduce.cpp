@@ -36,7 +36,7 @@ void add_options(CLI::App& app, Settings& s) {
                  "figures by the paper's numbers: 6, or a list 6,8, or a range 16-18; none: all, "
                  "which takes minutes");
   add_text(app, "-o,--output", "DIR", s.output,
-           "where the pictures, index.html and gallery.json go; made when it is not there");
+           "folder of the pictures, index.html and gallery.json: made when missing, files of these names are replaced");
   app.add_flag("--reduced", s.reduced, "every claim, but fewer samples and shorter runs");
   app.add_flag("--require-claims", s.require_claims,
                "exit with 3 when a claim does not hold; all is written all the same");

@@ -99,6 +99,8 @@ class Record {
       json_ = Json::parse(text);
     } catch (const Json::parse_error& error) {
       fail(fmt::format("is no JSON object: {}", reason(error.what())));
+    } catch (const Json::out_of_range&) {
+      fail("holds a number beyond what a double can hold");
     }
     if (!json_.is_object()) fail("is no JSON object");
   }

@@ -198,7 +198,7 @@ Claim stable_in_any_order(const Stability& s) {
   const std::size_t all = s.after_first.size() + s.after_later.size();
   const std::size_t early = count_large(s.after_first), late = count_large(s.after_later);
   return {"19",
-          "It is so whatever the order in which vertices are visited.",
+          "After a collapse the kept vertex stays, whatever the order in which vertices are visited.",
           "one run is shown",
           digits(early + late) + " of " + digits(all) + " kept inner vertices move by more than " + digits(kLarge, 2) +
               " of their mean edge in the next iteration, with " + digits(s.runs) + " vertex orders; medians " +

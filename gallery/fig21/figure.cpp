@@ -280,7 +280,7 @@ Claim first_search_ends_at_its_limit() {
   const LineSearch &there = cycle().there.searches().front(), &back = cycle().back.searches().front();
   return {
       "21",
-      "The first search stops at its limit, the other two at minima.",
+      "Of the three searches for vertex a the first stops at its limit, the other two at minima.",
       "the first search stops at its limit",
       "outwards it ends at " + digits(there.part, 2) + " of its limit, inwards at " + digits(back.part, 2),
       there.part > kEnd && back.part > kEnd,

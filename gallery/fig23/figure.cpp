@@ -236,7 +236,8 @@ Claim after_is_best(const std::vector<std::vector<PolicyRun>>& orders) {
               digits(standing(orders, FlipLimit::unlimited, kFlipsDeferred).best) +
               " with deferred flips: searches that reach only r² stay near the local minimum without any limit, and "
               "gain by "
-              "not stopping. The paper's energy there is a normalised one; here it is E_∂T itself."};
+              "not stopping. The paper explains its order by a normalised energy, but names E_∂T, which is what is "
+              "minimised here."};
 }
 
 Claim after_beats_before(const std::vector<std::vector<PolicyRun>>& orders) {

@@ -162,7 +162,7 @@ Claim rule_misses_them(const Missed& here, const Missed& m) {
 }
 
 Claim patch_test_catches_them(const Missed& m) {
-  return {"7",
+  return {"7 Conclusion",
           "The patch test removes 4-valent vertices that the short-edge rule misses.",
           "successful in these cases",
           digits(m.by_patch_test) + " of " + digits(m.vertices) + " have less energy without the vertex",

@@ -139,7 +139,7 @@ Claim summed_energy_guts(const std::vector<LargeRun>& runs) {
     found += (found.empty() ? "" : "; ") + r.name + ": " + digits(r.inner_after) + " of " + digits(r.inner_before);
   }
   return {
-      "7",
+      "7 Conclusion",
       "Caution with energies that depend on the number of elements: summed E_BP guts a larger mesh, mean and excess "
       "with a margin do not.",
       "use caution",

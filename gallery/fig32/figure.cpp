@@ -326,7 +326,7 @@ Claim later_weights_are_better(Effort effort) {
     for (std::size_t i = 0; i < d.energies.size(); ++i, ++pairs)
       less_energy += d.energies[i] < none.energies[i] ? 1 : 0;
   }
-  return {"7",
+  return {"7 Conclusion",
           "Weights should join only after a few position iterations: often more collapses, faster convergence, better "
           "quality.",
           "often",

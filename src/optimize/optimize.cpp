@@ -136,13 +136,27 @@ Settings in_user_terms(Settings settings, const Frame& frame) {
   return settings;
 }
 
+/// The input with its edges flipped as every attempt begins, for a run that found nothing better.
+Mesh made_regular(const Mesh& mesh, Settings settings) {
+  settings.options.tracer = {};
+  WorkingCopy work(mesh, settings.options.order);
+  const Observer nobody;
+  Run unheard(settings.options, nobody);
+  Driver(work, settings, unheard).make_regular();
+  return std::move(work).in_user_terms();
+}
+
 /// Puts the best mesh into `mesh`, unless that is the better one, and says in the report what came of it.
 void give_back(Mesh& mesh, Result best, const Settings& settings, const Recorder& recorder, OptimizeReport& report) {
   const OptimizeOptions& o = settings.options;
   report.initial_energy = total_energy(mesh, settings.model, o.executor);
   if (is_worse(best.mesh, mesh, settings)) {
-    recorder.returned_to(-1);
-    report.notes.push_back("no better mesh was found: the input is returned as it was");
+    // Where hidden vertices are kept, edges that are not regular make no mesh worse; but those that can be flipped are.
+    const bool flips = o.flips && o.hidden == HiddenPolicy::keep && count_non_regular_edges(mesh, false) > 0;
+    if (flips) mesh = made_regular(mesh, settings);
+    recorder.returned_to(flips ? 0 : -1);
+    report.notes.push_back(flips ? "no better mesh was found: the input is returned, its edges flipped to be regular"
+                                 : "no better mesh was found: the input is returned as it was");
     report.vertices_removed = 0;
   } else {
     report.vertices_removed = mesh.n_vertices() - best.mesh.n_vertices();

@@ -35,7 +35,7 @@ constexpr Exception kDoesNotHold[] = {
     {"16", "The number of circumcenters in no triangle"},
     {"18", "converge in fewer iterations"},
     {"19", "whatever the order in which vertices are visited"},
-    {"21", "The first search stops at its limit"},
+    {"21", "the first stops at its limit"},
     {"23", "many vertices become hidden, inside and three on the boundary"},
     {"23", "All dual vertices have moved inside"},
     {"23", "Unlimited weights with deferred flips are chaotic"},

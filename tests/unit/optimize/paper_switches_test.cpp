@@ -335,6 +335,24 @@ TEST(FlipLimits, BeforeNeverFlips) {
   }
 }
 
+TEST(PaperMethod, GivesTheInputBackRegularWhenItFindsNothingBetter) {
+  const Mesh input = *sheared_grid({.nx = 6, .ny = 5});
+  ASSERT_GT(count_non_regular_edges(input), 0u);
+  OptimizeOptions o = paper_method();
+  o.energy = "dT";
+  o.star = 0;
+  std::vector<TraceEvent> events;
+  o.tracer = [&](const TraceEvent& e) { events.push_back(e); };
+  Mesh mesh = input;
+  const auto report = optimize(mesh, o);
+  ASSERT_TRUE(report);
+  ASSERT_NE(report->notes.back().find("no better mesh"), std::string::npos);
+  EXPECT_EQ(count_non_regular_edges(mesh), 0u);
+  const auto again = replay(input, events);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(*again, mesh);
+}
+
 TEST(Orders, EachIsItsOwnAndSeeded) {
   const auto first_moved = [](SweepOrder order, std::uint64_t seed) {
     std::vector<std::uint32_t> moved;
