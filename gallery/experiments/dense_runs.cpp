@@ -18,8 +18,7 @@ OptimizeOptions dense_options(std::string_view energy, const VertexOrder& order)
   o.removal = Removal::none;
   o.collapse_from.reset();
   o.outer = 1;
-  o.order = order.order;
-  o.seed = order.seed;
+  visit_in(order, o);
   return o;
 }
 

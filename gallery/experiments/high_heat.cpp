@@ -29,8 +29,7 @@ std::vector<OrderedHeat> survey(Effort effort) {
     }
     if (effort == Effort::reduced && order.order != SweepOrder::reverse) continue;
     OptimizeOptions options = high_heat_options("BP");
-    options.order = order.order;
-    options.seed = order.seed;
+    visit_in(order, options);
     options.max_sweeps = kSurveySweeps;
     all.push_back(summary(order.name, record(dense_horseshoe(), options, Keep::outer)));
   }

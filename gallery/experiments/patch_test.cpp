@@ -20,8 +20,7 @@ constexpr std::size_t kColumns = 3;
 
 Removals removed_with(const VertexOrder& order, Unknowns unknowns, RemovalRule rule) {
   OptimizeOptions options = immediate_options(unknowns, rule);
-  options.order = order.order;
-  options.seed = order.seed;
+  visit_in(order, options);
   options.max_sweeps = kSurveySweeps;
   return removals(record(dense_horseshoe(), options, Keep::outer));
 }

@@ -54,8 +54,7 @@ void run_cell(Cell& cell, const OptimizeOptions& setting, Effort effort) {
   if (effort == Effort::reduced) orders.resize(1);
   for (const VertexOrder& order : orders) {
     OptimizeOptions options = setting;
-    options.order = order.order;
-    options.seed = order.seed;
+    visit_in(order, options);
     const Recording run = record(dense_horseshoe(), options, Keep::outer);
     if (run.error.empty()) cell.endings.push_back(ending_of(run));
   }

@@ -65,8 +65,7 @@ OptimizeOptions policy_options(const WeightPolicy& policy, const VertexOrder& or
   OptimizeOptions options = positions_and_collapses();
   options.unknowns = Unknowns::weights;
   options.collapse_from = {};
-  options.order = order.order;
-  options.seed = order.seed;
+  visit_in(order, options);
   options.weight_updates = policy.weights;
   options.flip_timing = policy.flips;
   options.flip_limit = policy.limit;

@@ -165,8 +165,7 @@ Stability stability(Effort effort) {
   Stability s;
   for (const VertexOrder& order : vertex_orders(effort == Effort::full ? 12 : 0)) {
     OptimizeOptions options = positions_and_collapses();
-    options.order = order.order;
-    options.seed = order.seed;
+    visit_in(order, options);
     options.outer = 1;
     add(record(dense_horseshoe(), options, Keep::sweeps), s);
   }

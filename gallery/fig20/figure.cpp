@@ -72,8 +72,7 @@ std::vector<OrderedRun> runs(Effort effort) {
   for (const char* energy : {"F", "dT"}) {
     for (const VertexOrder& order : vertex_orders(effort == Effort::full ? 7 : 0)) {
       OptimizeOptions options = positions_and_collapses();
-      options.order = order.order;
-      options.seed = order.seed;
+      visit_in(order, options);
       options.collapse_energy = energy;
       options.outer = outer;
       all.push_back({order.name, energy, oscillation_of(record(dense_horseshoe(), options, Keep::outer))});

@@ -250,8 +250,7 @@ Outcome outcome_of(const Limit& limit, const Mesh& start, int random_orders) {
   Outcome outcome;
   for (const VertexOrder& order : vertex_orders(random_orders)) {
     OptimizeOptions options = limited(limit.limit, limit.overshoot);
-    options.order = order.order;
-    options.seed = order.seed;
+    visit_in(order, options);
     if (limit.constant) {
       run_constant(start, options, outcome);
       continue;

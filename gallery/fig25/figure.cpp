@@ -137,8 +137,7 @@ std::string optimizer_messes(Effort effort) {
     OptimizeOptions options = positions_and_collapses();
     options.unknowns = Unknowns::positions_and_weights;
     options.collapse_from = {};
-    options.order = order.order;
-    options.seed = order.seed;
+    visit_in(order, options);
     options.inner = 1;
     options.outer = 0;
     options.max_sweeps = kShownSweeps;

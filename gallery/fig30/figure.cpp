@@ -131,8 +131,7 @@ void run_case(const Case& c, Validity& v) {
   options.flip_timing = c.timing;
   options.removal_measure = c.measure;
   options.gamma = Softening{c.gamma, LengthScale::relative};
-  options.order = c.order.order;
-  options.seed = c.order.seed;
+  visit_in(c.order, options);
   options.max_sweeps = 15;
   Mesh mesh = *c.mesh;
   const auto report = optimize(mesh, options);

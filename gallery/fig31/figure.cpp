@@ -47,8 +47,7 @@ Movement movement(const VertexOrder& order, Unknowns unknowns) {
   OptimizeOptions options = high_heat_options("BP");
   options.unknowns = unknowns;
   options.weights_from = 0;
-  options.order = order.order;
-  options.seed = order.seed;
+  visit_in(order, options);
   options.max_sweeps = kSweeps;
   const Recording run = record(dense_horseshoe(), options, Keep::outer);
   Movement m{all_of(removals(run)).size(), 0};

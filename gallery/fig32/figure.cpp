@@ -299,8 +299,7 @@ std::vector<Delay> delays(Effort effort, int sweeps) {
     for (const VertexOrder& order : orders) {
       OptimizeOptions options = high_heat_options("BP");
       options.weights_from = from;
-      options.order = order.order;
-      options.seed = order.seed;
+      visit_in(order, options);
       options.max_sweeps = sweeps;
       Mesh mesh = dense_horseshoe();
       const auto report = optimize(mesh, options);
