@@ -1,7 +1,6 @@
 // temper optimize IN -o OUT: reads, improves, writes, reports.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <optional>
 
 #include "console.hpp"

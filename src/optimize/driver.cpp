@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/rng.hpp"
@@ -17,7 +16,6 @@ constexpr std::size_t kVerticesBetweenCalls = 8192;  // of the observer and the 
 constexpr int kPatience = 25;
 // Sweeps in which vertices may bring a barrier's infinite energy down one by one, before all weights shrink.
 constexpr int kInfinitePatience = 5;
-constexpr double kUnknownEnergy = std::numeric_limits<double>::quiet_NaN();  // of changes to all vertices at once
 
 }  // namespace
 
@@ -51,7 +49,8 @@ void Driver::optimize(const Attempt& attempt, bool may_give_up) {
   do {    // outer iterations
     do {  // inner iterations
       verdict = sweep(may_give_up);
-    } while (verdict == Verdict::improving && !(defers_flips() && ++inner_ == settings_.options.inner));
+    } while (verdict == Verdict::improving &&
+             !(defers_flips(settings_.options) && ++inner_ == settings_.options.inner));
     verdict = flip_if_deferred(verdict);
   } while (verdict == Verdict::improving);
   return_best();
@@ -80,7 +79,7 @@ Driver::Verdict Driver::sweep(bool may_give_up) {
   ++iteration_;
   ++run_.report.sweeps;
   record();
-  if (!defers_flips()) keep_if_best();
+  if (!defers_flips(settings_.options)) keep_if_best();
   show(Snapshot::Moment::after_sweep);
   return whole ? judge_sweep(removed, may_give_up) : Verdict::stopped;  // by the caller or the clock
 }
@@ -94,7 +93,7 @@ Driver::Verdict Driver::judge_sweep(bool removed, bool may_give_up) {
     return Verdict::improving;
   }
   if (softener_.settled() && !removed && converged(before_, after)) {
-    if (!defers_flips() && begin_weights()) return Verdict::improving;
+    if (!defers_flips(settings_.options) && begin_weights()) return Verdict::improving;
     run_.report.stopped = Stopped::converged;
     return Verdict::settled;
   }
@@ -106,7 +105,7 @@ Driver::Verdict Driver::judge_sweep(bool removed, bool may_give_up) {
 
 /// Lines 20 and 21: whether there is another outer iteration.
 Driver::Verdict Driver::flip_if_deferred(Verdict of_sweeps) {
-  if (!defers_flips()) return Verdict::stopped;
+  if (!defers_flips(settings_.options)) return Verdict::stopped;
   show(Snapshot::Moment::before_flips);
   const std::size_t flips = run_.report.flips;
   if (!restore_regularity()) return Verdict::stopped;
@@ -134,7 +133,7 @@ bool Driver::improve_all_vertices() {
   }
   step_.end_sweep();
   const bool many_changed = settings_.options.weight_updates == WeightUpdates::deferred;
-  if (many_changed && !defers_flips()) flipper_.restore_all();
+  if (many_changed && !defers_flips(settings_.options)) flipper_.restore_all();
   return whole;
 }
 
@@ -165,18 +164,17 @@ bool Driver::halve_weights() {
 /// Line 17 of Algorithm 1. Equal shifts of all weights change no energy and, but for their rounding, no edge.
 void Driver::shift_weights_to_anchor() {
   if (!settings_.options.anchor) return;
-  const auto anchor =
-      std::find(work_.order.vertices.begin(), work_.order.vertices.end(), VertexId(*settings_.options.anchor));
-  if (anchor == work_.order.vertices.end()) return;  // removed: any other constant would do as well
-  const double shift = mesh_.weight(VertexId(static_cast<std::size_t>(anchor - work_.order.vertices.begin())));
+  const VertexId anchor = work_.from_user(VertexId(*settings_.options.anchor));
+  if (!anchor.valid()) return;  // removed: any other constant would do as well
+  const double shift = mesh_.weight(anchor);
   for (const VertexId v : mesh_.vertices()) set_weight(v, mesh_.weight(v) - shift);
-  if (settings_.options.flips && !defers_flips()) flipper_.restore_all();
+  if (settings_.options.flips && !defers_flips(settings_.options)) flipper_.restore_all();
 }
 
 void Driver::set_weight(VertexId v, double w) {
   const WeightedPoint from = mesh_.point(v);
   mesh_.set_weight(v, w);
-  if (w != from.w) recorder_.placed(v, from, mesh_.point(v), kUnknownEnergy, kUnknownEnergy);
+  if (w != from.w) recorder_.placed(v, from, mesh_.point(v), kNoEnergy, kNoEnergy);
 }
 
 /// Line 20 of Algorithm 1. False when no flips can: among inverted triangles, or around a hidden vertex that may not
@@ -209,7 +207,6 @@ void Driver::jitter(double amount) {
   const OptimizeOptions& o = settings_.options;
   if (amount == 0 || o.unknowns == Unknowns::weights || !o.flips) return;
   recorder_.begin_sweep(run_.report.sweeps + 1);
-  const auto mobility = mobilities(mesh_, o.interfaces);
   Rng rng(o.seed);
   for (const VertexId v : mesh_.vertices()) {
     const WeightedPoint p = mesh_.point(v);
@@ -218,12 +215,8 @@ void Driver::jitter(double amount) {
       shortest2 = std::min(shortest2, squared_length(mesh_.position(mesh_.target(h)) - p.position()));
     }
     const Vec2 away = amount * std::sqrt(shortest2) * Vec2{rng.uniform(-1, 1), rng.uniform(-1, 1)};
-    if (mobility[v] == Mobility::free) step_.nudge(v, work_.frame.snap(p.position() + away));
+    step_.nudge(v, work_.frame.snap(p.position() + away));
   }
-}
-
-bool Driver::defers_flips() const {
-  return settings_.options.flips && settings_.options.flip_timing == FlipTiming::deferred;
 }
 
 /// The paper's rule takes a rise for convergence. The relative one waits whether the energy falls again.

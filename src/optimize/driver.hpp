@@ -44,7 +44,6 @@ class Driver {
   void shift_weights_to_anchor();
   void set_weight(VertexId v, double w);
   bool restore_regularity();
-  [[nodiscard]] bool defers_flips() const;
   bool converged(double before, double after);
   bool begin_weights();
   bool stagnates();

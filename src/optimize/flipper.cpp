@@ -1,7 +1,6 @@
 #include "optimize/flipper.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "energy/patch.hpp"
@@ -12,7 +11,6 @@ namespace {
 
 // Flips of one vertex step; more than a few are a cascade that rarely pays.
 constexpr std::size_t kMostFlips = 64;
-constexpr double kNoEnergy = std::numeric_limits<double>::quiet_NaN();
 
 /// Sums what flips change of the energy.
 struct FlipPrice {
@@ -80,7 +78,7 @@ bool Flipper::settle(const Step& step) {
   if (!result.finished || !pays || (hides && !accept_hidden())) {
     lawson_.rollback(mesh_);
     mesh_.set_point(step.v, step.origin);
-    if (recorder_.on()) recorder_.undone(step.v, step.before, change ? step.before + *change : step.after);
+    recorder_.undone(step.v, step.before, change ? step.before + *change : step.after);
     return false;
   }
   changes_.flips += result.flips;

@@ -1,13 +1,6 @@
 #include "optimize/recorder.hpp"
 
-#include <limits>
-
 namespace temper {
-namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 TraceEvent Recorder::event(EventKind kind, double before, double after) const {
   TraceEvent e;
@@ -48,7 +41,7 @@ void Recorder::removed(EventKind kind, const RemovalPlan& plan, double before, d
 
 void Recorder::hidden(VertexId v) const {
   if (!on()) return;
-  TraceEvent e = event(EventKind::hidden, kNone, kNone);
+  TraceEvent e = event(EventKind::hidden, kNoEnergy, kNoEnergy);
   e.vertex = user(v);
   tracer_(e);
 }
@@ -62,7 +55,7 @@ void Recorder::undone(VertexId v, double before, double after) const {
 
 void Recorder::returned_to(int sweep) const {
   if (!on()) return;
-  TraceEvent e = event(EventKind::undo, kNone, kNone);
+  TraceEvent e = event(EventKind::undo, kNoEnergy, kNoEnergy);
   e.to_sweep = sweep;
   tracer_(e);
 }

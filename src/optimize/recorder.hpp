@@ -1,6 +1,7 @@
 // From what happens in the working copy to the events of a trace, in the user's numbers and units.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "optimize/working_copy.hpp"
@@ -8,6 +9,9 @@
 #include "temper/trace.hpp"
 
 namespace temper {
+
+/// Of an event that no energy belongs to.
+inline constexpr double kNoEnergy = std::numeric_limits<double>::quiet_NaN();
 
 /// One flip, in the numbers of the working copy: halfedge a→b became d→c.
 struct FlipRecord {

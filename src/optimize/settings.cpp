@@ -17,14 +17,13 @@ Softening in_frame(Softening s, const Frame& frame) {
 
 /// Switches that contradict each other.
 std::optional<InputError> check_combinations(const OptimizeOptions& o) {
-  const bool deferred_flips = o.flips && o.flip_timing == FlipTiming::deferred;
   if (o.weight_updates == WeightUpdates::deferred && o.solver == Solver::newton) {
     return invalid("deferred weight updates need positions and weights in turn; expected solver alternating or golden");
   }
   if (o.weight_updates == WeightUpdates::deferred && !o.flips) {
     return invalid("deferred weight updates cannot keep edges regular; expected flips to be allowed");
   }
-  if (o.inversion == Inversion::allow && !deferred_flips) {
+  if (o.inversion == Inversion::allow && !defers_flips(o)) {
     return invalid("inverted triangles are allowed, but edges cannot be flipped among them; expected deferred flips");
   }
   return std::nullopt;

@@ -14,6 +14,11 @@ struct Settings {
   OptimizeOptions options;
 };
 
+/// Flips wait for the end of the inner iterations, so that edges may meanwhile not be regular.
+[[nodiscard]] inline bool defers_flips(const OptimizeOptions& o) {
+  return o.flips && o.flip_timing == FlipTiming::deferred;
+}
+
 /// The model with absolute γ and h° in the user's units of length.
 [[nodiscard]] EnergyModel in_user_units(EnergyModel model, const Frame& frame);
 

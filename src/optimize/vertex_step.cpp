@@ -52,7 +52,7 @@ bool VertexStep::collapse(VertexId v) {
   if (!nearly_collapses(patch_, model, mesh_.point(v), o.collapse_ratio, o.inversion)) return false;
   plan_ = plan_removal(mesh_, v, std::move(plan_));
   if (plan_.status != RemovalStatus::possible) return false;
-  if (flips_at_once() && !is_regular(mesh_, plan_)) return false;
+  if (!defers_flips(settings_.options) && !is_regular(mesh_, plan_)) return false;
   flipper_.remove(EventKind::collapse, plan_, patch_energy(patch_, model, mesh_.point(v)),
                   cavity_energy(mesh_, model, plan_));
   return true;
@@ -67,7 +67,7 @@ void VertexStep::remove_if_better(VertexId v) {
   const OptimizeOptions& o = settings_.options;
   const PatchComparison e = compare_patch(mesh_, patch_, settings_.model, plan_, o.removal_measure);
   if (!e.better_without(o.removal_margin)) return;
-  if (flips_at_once() && !is_regular(mesh_, plan_)) return;
+  if (!defers_flips(settings_.options) && !is_regular(mesh_, plan_)) return;
   flipper_.remove(EventKind::removal, plan_, e.with, e.without);
 }
 
@@ -245,6 +245,7 @@ bool VertexStep::keeps_connectivity() const {
 }
 
 void VertexStep::nudge(VertexId v, Vec2 p) {
+  if (!may_go(v)) return;
   gather(v);
   energy_ = patch_energy(patch_, settings_.model, origin_);
   const WeightedPoint there{p.x, p.y, origin_.w};

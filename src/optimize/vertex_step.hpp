@@ -30,7 +30,7 @@ class VertexStep {
   /// without it; or leaves everything as it was.
   void improve(VertexId v);
 
-  /// Moves v to p if no triangle turns over and no vertex is hidden, whatever that costs.
+  /// Moves v to p if it is free, no triangle turns over and no vertex is hidden, whatever that costs.
   void nudge(VertexId v, Vec2 p);
 
   /// With deferred weight updates: gives all vertices their new weights.

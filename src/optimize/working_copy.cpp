@@ -49,6 +49,7 @@ WorkingCopy::WorkingCopy(const Mesh& user, SweepOrder sweeps) : mesh(user), fram
 
 VertexId WorkingCopy::from_user(VertexId v) const {
   const auto found = std::find(order.vertices.begin(), order.vertices.end(), v);
+  if (found == order.vertices.end()) return {};
   return VertexId(static_cast<std::size_t>(found - order.vertices.begin()));
 }
 

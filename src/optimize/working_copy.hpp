@@ -15,7 +15,7 @@ struct WorkingCopy {
 
   WorkingCopy(const Mesh& user, SweepOrder sweeps);
 
-  /// The vertex of that number in the user's mesh.
+  /// The vertex of that number in the user's mesh; invalid when it was removed. O(n).
   [[nodiscard]] VertexId from_user(VertexId v) const;
   /// Drops erased triangles and removed vertices from mesh and order.
   Compaction compact();
