@@ -47,6 +47,14 @@ enum class InterfaceVertices {
   sliding,  ///< move along the line when their two constrained edges are collinear
 };
 
+/// What may become of the boundary of the domain. Its shape stays, whatever is chosen, and so do its corners.
+enum class BoundaryVertices {
+  keep,   ///< the same vertices, bit for bit
+  slide,  ///< a vertex whose two boundary edges are in one line may move along it; never corners, or ends of interfaces
+  split,  ///< long edges beside short ones are cut before the sweeps, on the boundary and on constrained lines; the
+          ///< vertices that were there stay bit for bit
+};
+
 /// When a new weight is seen by the neighbours (§6.6.2).
 enum class WeightUpdates {
   immediate,  ///< at once
@@ -106,6 +114,9 @@ struct OptimizeOptions {
   double overshoot = 1.1;   ///< of FlipLimit::after
   double relaxation = 1.7;  ///< over-relaxation of Newton steps, in (0, 2)
   InterfaceVertices interfaces = InterfaceVertices::fixed;
+  BoundaryVertices boundary_vertices = BoundaryVertices::keep;
+  double boundary_ratio =
+      4;  ///< BoundaryVertices::split: most between the lengths of edges that meet there; at least 2
   Inversion inversion = Inversion::refuse;
   HiddenPolicy hidden = HiddenPolicy::undo;
   SweepOrder order = SweepOrder::hilbert;
@@ -145,7 +156,7 @@ struct Snapshot {
   int outer = 0;      ///< rounds of deferred flips done
   double energy = 0;  ///< of the mesh, at the γ of the sweep
   const Mesh& mesh;   ///< in the user's units; may hold inverted triangles when those are allowed
-  const IdVector<VertexId, VertexId>& vertices;  ///< number in the input of each vertex
+  const IdVector<VertexId, VertexId>& vertices;  ///< number in the input of each vertex; invalid: inserted
 };
 
 enum class Stopped {
@@ -165,19 +176,21 @@ struct OptimizeReport {
   std::size_t flips = 0;
   std::size_t vertices_removed = 0;
   std::size_t vertices_inserted = 0;
-  IdVector<VertexId, VertexId> vertices;  ///< number in the input of each vertex; empty when none was removed
-  std::vector<VertexId> hidden;           ///< vertices that HiddenPolicy::keep left without a power cell
-  double seconds = 0;                     ///< the optimisation alone
-  double initial_energy = 0;              ///< of the input, at the final γ
+  /// Number in the input of each vertex, in its order. Inserted vertices follow, in the order in which they came, with
+  /// an invalid one. Empty when no vertex was removed or inserted.
+  IdVector<VertexId, VertexId> vertices;
+  std::vector<VertexId> hidden;  ///< vertices that HiddenPolicy::keep left without a power cell
+  double seconds = 0;            ///< the optimisation alone
+  double initial_energy = 0;     ///< of the input, at the final γ
   double final_energy = 0;
   std::vector<SweepRecord> history;  ///< history[0] is the input
   std::vector<std::string> notes;    ///< what the user should know, in sentences
 };
 
-/// Improves the mesh in place. The domain boundary, fixed vertices and constrained edges stay, bit for bit;
-/// every triangle stays counter-clockwise. Never returns a worse mesh than the input's. Errors, which leave the
-/// mesh as it was: an unknown energy, star or value out of range; weights that hide a vertex; a mesh outside
-/// the barrier of E_BH or E_BHs. O(sweeps · n).
+/// Improves the mesh in place. The domain boundary, fixed vertices and constrained edges stay, bit for bit, unless
+/// boundary_vertices and interfaces say otherwise; every triangle stays counter-clockwise. Never returns a worse mesh
+/// than the input's. Errors, which leave the mesh as it was: an unknown energy, star or value out of range; weights
+/// that hide a vertex; a mesh outside the barrier of E_BH or E_BHs. O(sweeps · n).
 [[nodiscard]] Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options = {},
                                                 const Observer& observer = {});
 

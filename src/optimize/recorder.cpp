@@ -39,6 +39,25 @@ void Recorder::removed(EventKind kind, const RemovalPlan& plan, double before, d
   tracer_(e);
 }
 
+void Recorder::inserted(VertexId v, const std::array<VertexId, 3>& triangle, double before, double after) const {
+  if (!on()) return;
+  TraceEvent e = event(EventKind::insertion, before, after);
+  e.vertex = user(v);
+  e.point = work_.frame.to_user(work_.mesh.point(v));
+  for (const VertexId corner : triangle) e.link.push_back(user(corner));
+  tracer_(e);
+}
+
+void Recorder::split(VertexId v, const std::array<VertexId, 4>& quad, double before, double after) const {
+  if (!on()) return;
+  const auto [a, b, c, d] = quad;
+  TraceEvent e = event(EventKind::split, before, after);
+  e.vertex = user(v);
+  e.point = work_.frame.to_user(work_.mesh.point(v));
+  e.quad = {user(a), user(b), user(c), d.valid() ? user(d) : VertexId()};
+  tracer_(e);
+}
+
 void Recorder::hidden(VertexId v) const {
   if (!on()) return;
   TraceEvent e = event(EventKind::hidden, kNoEnergy, kNoEnergy);

@@ -1,6 +1,7 @@
 // From what happens in the working copy to the events of a trace, in the user's numbers and units.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <span>
 
@@ -33,6 +34,11 @@ class Recorder {
   void placed(VertexId v, const WeightedPoint& from, const WeightedPoint& to, double before, double after) const;
   void flipped(std::span<const FlipRecord> flips) const;
   void removed(EventKind kind, const RemovalPlan& plan, double before, double after) const;
+  /// insert_in_triangle(mesh, abc) has made v, and WorkingCopy::name_new() has named it.
+  void inserted(VertexId v, const std::array<VertexId, 3>& triangle, double before, double after) const;
+  /// split_edge(mesh, a→b) has made v, named as above. c, d: the corners on the left and the right of a→b before, d
+  /// invalid on the boundary.
+  void split(VertexId v, const std::array<VertexId, 4>& quad, double before, double after) const;
   void hidden(VertexId v) const;
   void undone(VertexId v, double before, double after) const;
   /// Everything since the end of that sweep has been taken back; −1: since the input.

@@ -1,17 +1,20 @@
 // replay(): the events of a trace, applied to the user's own mesh.
 //
-// No frame and no Hilbert order here: a flip or a removal keeps to the slots of the triangles it touches, so the same
-// events in the same order leave the same slots in any numbering; and the optimiser's frame gives coordinates back bit
-// for bit. Removed vertices keep their numbers until the end, when the mesh is compacted.
+// No frame and no Hilbert order here: a flip or a removal keeps to the slots of the triangles it touches, and an
+// insertion takes the next ones never used, so the same events in the same order leave the same slots in any numbering;
+// and the optimiser's frame gives coordinates back bit for bit. Removed vertices keep their numbers until the end, when
+// the mesh is compacted: the slot of an inserted vertex here is its number.
 //
 // A trace may come from anywhere, so every event is held against the mesh before it is applied. What is checked is
-// connectivity: positions may pass through anything, as the paper's own do.
+// connectivity: positions may pass through anything, as the paper's own do. But a new vertex comes into triangles that
+// are counter-clockwise, and leaves them so.
 #include <cmath>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "temper/geometry.hpp"
 #include "temper/topology.hpp"
 #include "temper/trace.hpp"
 #include "topology/flip_inline.hpp"
@@ -59,7 +62,7 @@ class SweepStates {
 
 class Replayer {
  public:
-  Replayer(const Mesh& input, const InputNames& names) : mesh_(input), names_(names) {}
+  Replayer(const Mesh& input, const InputNames& names) : mesh_(input), n_input_(input.n_vertices()), names_(names) {}
 
   std::optional<InputError> apply(const TraceEvent& e);
   void go_back_to(const Mesh& state) { mesh_ = state; }
@@ -71,10 +74,14 @@ class Replayer {
   std::optional<InputError> place(const TraceEvent& e);
   std::optional<InputError> flip_edge(const TraceEvent& e);
   std::optional<InputError> remove(const TraceEvent& e);
+  std::optional<InputError> check_new(const TraceEvent& e, const char* what) const;
+  std::optional<InputError> insert(const TraceEvent& e);
+  std::optional<InputError> split(const TraceEvent& e);
   [[nodiscard]] std::string point(VertexId v) const { return names_.point(v.index); }
   [[nodiscard]] std::string edge(VertexId a, VertexId b) const { return "edge from " + point(a) + " to " + point(b); }
 
   Mesh mesh_;
+  std::size_t n_input_;
   const InputNames& names_;
   RemovalPlan plan_;
 };
@@ -101,6 +108,10 @@ std::optional<InputError> Replayer::apply(const TraceEvent& e) {
     case EventKind::collapse:
     case EventKind::removal:
       return remove(e);
+    case EventKind::insertion:
+      return insert(e);
+    case EventKind::split:
+      return split(e);
     case EventKind::hidden:
       return check_vertex(e.vertex, "hiding");
     case EventKind::undo:
@@ -175,11 +186,82 @@ std::optional<InputError> Replayer::remove(const TraceEvent& e) {
   return std::nullopt;
 }
 
+/// Does p see a, b, c counter-clockwise: is each of abp, bcp, cap a triangle?
+bool is_inside(const Mesh& mesh, const std::array<VertexId, 3>& corners, Vec2 p) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (orient2d(mesh.position(corners[k]), mesh.position(corners[(k + 1) % 3]), p) != Sign::positive) return false;
+  }
+  return true;
+}
+
+/// Can the triangle of h, a → b with c across, be cut from c to p on ab?
+bool can_cut(const Mesh& mesh, HalfedgeId h, Vec2 p) {
+  const Vec2 a = mesh.position(mesh.origin(h)), b = mesh.position(mesh.target(h)), c = mesh.position(mesh.opposite(h));
+  return orient2d(a, p, c) == Sign::positive && orient2d(p, b, c) == Sign::positive;
+}
+
+/// A new vertex has the next number, and a place that is a place.
+std::optional<InputError> Replayer::check_new(const TraceEvent& e, const char* what) const {
+  if (!e.vertex.valid()) return misfit(std::string(what) + " without a vertex");
+  if (e.vertex.index != mesh_.n_vertices()) {
+    return misfit(std::string(what) + " of vertex index " + std::to_string(e.vertex.index) +
+                  ", but the next new one is " + std::to_string(mesh_.n_vertices()));
+  }
+  if (!std::isfinite(e.point.x) || !std::isfinite(e.point.y) || !std::isfinite(e.point.w)) {
+    return misfit(std::string(what) + " of " + point(e.vertex) + " at what is not finite; expected finite numbers");
+  }
+  return std::nullopt;
+}
+
+std::optional<InputError> Replayer::insert(const TraceEvent& e) {
+  if (auto error = check_new(e, "insertion")) return error;
+  const std::string insertion_of_vertex = "insertion of " + point(e.vertex);
+  if (e.link.size() != 3) return misfit(insertion_of_vertex + " in what is no triangle");
+  for (const VertexId v : e.link) {
+    if (auto error = check_vertex(v, "insertion in a triangle")) return error;
+  }
+  const VertexId a = e.link[0], b = e.link[1], c = e.link[2];
+  const HalfedgeId h = mesh_.find_halfedge(a, b);
+  if (!h.valid() || mesh_.opposite(h) != c) {
+    return misfit(insertion_of_vertex + " in the triangle of " + point(a) + ", " + point(b) + " and " + point(c) +
+                  ", which is not in the mesh");
+  }
+  if (!is_inside(mesh_, {a, b, c}, e.point.position())) {
+    return misfit(insertion_of_vertex + ", which is not inside the triangle of " + point(a) + ", " + point(b) +
+                  " and " + point(c));
+  }
+  insert_in_triangle(mesh_, Mesh::triangle(h), e.point);
+  return std::nullopt;
+}
+
+std::optional<InputError> Replayer::split(const TraceEvent& e) {
+  if (auto error = check_new(e, "split")) return error;
+  const auto [a, b, c, d] = e.quad;
+  for (const VertexId v : {a, b, c, d}) {
+    if (v == d && !d.valid()) continue;
+    if (auto error = check_vertex(v, "split at an edge")) return error;
+  }
+  const std::string split_of_edge = "split of the " + edge(a, b);
+  const HalfedgeId h = mesh_.find_halfedge(a, b);
+  if (!h.valid()) return misfit(split_of_edge + ", which is not in the mesh");
+  const VertexId right = mesh_.is_boundary(h) ? VertexId() : mesh_.opposite(mesh_.twin(h));
+  if (mesh_.opposite(h) != c || right != d) return misfit(split_of_edge + " between other vertices than are beside it");
+  if (!can_cut(mesh_, h, e.point.position()) || (d.valid() && !can_cut(mesh_, mesh_.twin(h), e.point.position()))) {
+    return misfit(split_of_edge + " at a place that is not on it");
+  }
+  split_edge(mesh_, h, e.point);
+  return std::nullopt;
+}
+
 Replay Replayer::finish() && {
   Replay result{std::move(mesh_), {}};
-  bool removed = false;
-  for (const VertexId v : result.mesh.vertices()) removed = removed || result.mesh.is_isolated(v);
-  if (removed) result.vertices = result.mesh.compact().vertices;
+  bool changed = result.mesh.n_vertices() > n_input_;
+  for (const VertexId v : result.mesh.vertices()) changed = changed || result.mesh.is_isolated(v);
+  if (!changed) return result;
+  result.vertices = result.mesh.compact().vertices;
+  for (VertexId& v : result.vertices) {
+    if (v.index >= n_input_) v = VertexId();
+  }
   return result;
 }
 

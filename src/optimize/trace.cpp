@@ -14,6 +14,10 @@ std::string_view name(EventKind kind) {
       return "collapse";
     case EventKind::removal:
       return "removal";
+    case EventKind::insertion:
+      return "insertion";
+    case EventKind::split:
+      return "split";
     case EventKind::hidden:
       return "hidden";
     case EventKind::undo:

@@ -44,6 +44,8 @@ WorkingCopy::WorkingCopy(const Mesh& user, SweepOrder sweeps) : mesh(user), fram
   } else {
     order = {identity<VertexId>(mesh.n_vertices()), identity<TriangleId>(mesh.n_triangles())};
   }
+  n_input_vertices = n_vertices_named = mesh.n_vertices();
+  n_triangles_named = mesh.n_triangles();
   frame.enter(mesh);
 }
 
@@ -51,6 +53,11 @@ VertexId WorkingCopy::from_user(VertexId v) const {
   const auto found = std::find(order.vertices.begin(), order.vertices.end(), v);
   if (found == order.vertices.end()) return {};
   return VertexId(static_cast<std::size_t>(found - order.vertices.begin()));
+}
+
+void WorkingCopy::name_new() {
+  while (order.vertices.size() < mesh.n_vertices()) order.vertices.push_back(VertexId(n_vertices_named++));
+  while (order.triangles.size() < mesh.n_triangles()) order.triangles.push_back(TriangleId(n_triangles_named++));
 }
 
 Compaction WorkingCopy::compact() {
@@ -78,6 +85,9 @@ Mesh WorkingCopy::in_user_terms() && {
 IdVector<VertexId, VertexId> WorkingCopy::user_vertices() const {
   IdVector<VertexId, VertexId> result = order.vertices;
   std::sort(result.begin(), result.end());
+  for (VertexId& v : result) {
+    if (v.index >= n_input_vertices) v = VertexId();
+  }
   return result;
 }
 

@@ -1,4 +1,7 @@
 // The mesh being worked on: a copy in its frame and in an order of its own, that knows every name of the user's.
+//
+// Vertices that are inserted, and triangles that come with them, get names as topology gives them slots: the next one
+// that was never used. A mesh that is never compacted, as in a replay, has them in the slots of these numbers.
 #pragma once
 
 #include "optimize/frame.hpp"
@@ -10,19 +13,26 @@ namespace temper {
 struct WorkingCopy {
   Mesh mesh;
   Frame frame;
-  MeshOrder order;        ///< the user's numbers
-  bool has_gaps = false;  ///< in them, once vertices have been removed
+  MeshOrder order;                    ///< the user's numbers, and those after them
+  bool has_gaps = false;              ///< in them, once vertices have been removed
+  std::size_t n_input_vertices = 0;   ///< in the user's mesh: from this number on vertices are inserted ones
+  std::size_t n_vertices_named = 0;   ///< numbers given so far, input included; never given again
+  std::size_t n_triangles_named = 0;  ///< the same of the user's triangle slots
 
   WorkingCopy(const Mesh& user, SweepOrder sweeps);
 
   /// The vertex of that number in the user's mesh; invalid when it was removed. O(n).
   [[nodiscard]] VertexId from_user(VertexId v) const;
+  /// Names what topology has appended to mesh: after each insertion or split, before the recorder hears of it.
+  void name_new();
+  [[nodiscard]] bool has_inserted() const { return n_vertices_named > n_input_vertices; }
   /// Drops erased triangles and removed vertices from mesh and order.
   Compaction compact();
-  /// Out of the frame, and in the user's order; what was removed leaves no gap. Names and frame stay usable.
+  /// Out of the frame, and in the user's order, then in the order of insertion; what was removed leaves no gap. Names
+  /// and frame stay usable.
   [[nodiscard]] Mesh in_user_terms() const&;
   [[nodiscard]] Mesh in_user_terms() &&;
-  /// The number in the input of each vertex of in_user_terms().
+  /// The number in the input of each vertex of in_user_terms(); invalid for inserted ones.
   [[nodiscard]] IdVector<VertexId, VertexId> user_vertices() const;
 };
 
