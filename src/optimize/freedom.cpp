@@ -5,32 +5,33 @@
 namespace temper {
 namespace {
 
-// Two constrained edges are one straight line when they turn by less than this (radians): coordinates read from a
-// file, or rounded by earlier sliding, are collinear only so far.
+// Two edges are one straight line when they turn by less than this (radians): coordinates read from a file, or rounded
+// by earlier sliding, are collinear only so far.
 constexpr double kStraight = 1e-9;
 
-/// How constrained edges pass through a vertex.
-struct ConstrainedLine {
+/// How the edges that must keep their place, constrained ones and those of the boundary, pass through a vertex.
+struct FixedLine {
   enum Shape { none, straight, bent } shape = none;
   Vec2 direction;  ///< of a straight one, unit length
 };
 
-ConstrainedLine constrained_line(const Mesh& mesh, VertexId v) {
+FixedLine fixed_line(const Mesh& mesh, VertexId v) {
   int count = 0;
   std::array<Vec2, 2> ends;
-  for (const HalfedgeId h : mesh.star(v)) {
-    if (!mesh.is_constrained(h)) continue;
-    if (count < 2) ends[static_cast<std::size_t>(count)] = mesh.position(mesh.target(h)) - mesh.position(v);
+  const auto add = [&](VertexId end) {
+    if (count < 2) ends[static_cast<std::size_t>(count)] = mesh.position(end) - mesh.position(v);
     ++count;
+  };
+  for (const HalfedgeId h : mesh.star(v)) {
+    if (mesh.is_boundary(h) || mesh.is_constrained(h)) add(mesh.target(h));
+    if (mesh.is_boundary(Mesh::prev(h))) add(mesh.opposite(h));  // into v: the other end of a boundary vertex's star
   }
-  if (count == 0) return {ConstrainedLine::none, {}};
-  if (count != 2) return {ConstrainedLine::bent, {}};
+  if (count == 0) return {FixedLine::none, {}};
+  if (count != 2) return {FixedLine::bent, {}};
   const double scale = length(ends[0]) * length(ends[1]);
-  if (std::abs(cross(ends[0], ends[1])) > kStraight * scale || dot(ends[0], ends[1]) > 0) {
-    return {ConstrainedLine::bent, {}};
-  }
+  if (std::abs(cross(ends[0], ends[1])) > kStraight * scale || dot(ends[0], ends[1]) > 0) return {FixedLine::bent, {}};
   const Vec2 along = ends[1] - ends[0];
-  return {ConstrainedLine::straight, (1 / length(along)) * along};
+  return {FixedLine::straight, (1 / length(along)) * along};
 }
 
 void add_axis(Freedom& f, std::array<double, 3> axis) { f.axis[static_cast<std::size_t>(f.n++)] = axis; }
@@ -52,16 +53,19 @@ Freedom position_part(const Freedom& all) {
   return f;
 }
 
-IdVector<VertexId, Mobility> mobilities(const Mesh& mesh, InterfaceVertices interfaces) {
-  IdVector<VertexId, Mobility> result(mesh.n_vertices(), Mobility::fixed);
-  for (const VertexId v : mesh.vertices()) {
-    if (mesh.is_boundary(v) || mesh.is_fixed(v)) continue;
-    const ConstrainedLine line = constrained_line(mesh, v);
-    if (line.shape == ConstrainedLine::none) result[v] = Mobility::free;
-    if (line.shape == ConstrainedLine::straight && interfaces == InterfaceVertices::sliding) {
-      result[v] = Mobility::sliding;
-    }
-  }
+Mobility mobility(const Mesh& mesh, VertexId v, const OptimizeOptions& options) {
+  if (mesh.is_fixed(v)) return Mobility::fixed;
+  const FixedLine line = fixed_line(mesh, v);
+  if (line.shape == FixedLine::none) return Mobility::free;
+  if (line.shape == FixedLine::bent) return Mobility::fixed;
+  const bool slides = mesh.is_boundary(v) ? options.boundary_vertices == BoundaryVertices::slide
+                                          : options.interfaces == InterfaceVertices::sliding;
+  return slides ? Mobility::sliding : Mobility::fixed;
+}
+
+IdVector<VertexId, Mobility> mobilities(const Mesh& mesh, const OptimizeOptions& options) {
+  IdVector<VertexId, Mobility> result(mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) result[v] = mobility(mesh, v, options);
   return result;
 }
 
@@ -72,7 +76,7 @@ Freedom freedom(const Mesh& mesh, VertexId v, Mobility mobility, Unknowns unknow
       add_axis(f, {1, 0, 0});
       add_axis(f, {0, 1, 0});
     } else if (mobility == Mobility::sliding) {
-      const Vec2 direction = constrained_line(mesh, v).direction;
+      const Vec2 direction = fixed_line(mesh, v).direction;
       add_axis(f, {direction.x, direction.y, 0});
     }
   }

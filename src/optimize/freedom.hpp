@@ -15,14 +15,16 @@ struct Freedom {
   [[nodiscard]] bool moves() const { return n > 0 && axis[0][2] == 0; }
 };
 
-/// What the place of a vertex allows, whatever the sweep: decided once, since neither the boundary nor constrained
-/// edges change in a run.
+/// What the place of a vertex allows, whatever the sweep: decided once, since moves keep the lines of the boundary and
+/// of constrained edges.
 enum class Mobility : std::uint8_t {
-  fixed,    ///< boundary and fixed vertices, and ends, bends and branches of constrained lines
-  sliding,  ///< along a straight constrained line
+  fixed,  ///< where the user wants so; corners of the boundary, ends, bends and branches of constrained lines; and all
+          ///< of a line that the options do not let slide
+  sliding,  ///< along a straight piece of the boundary, or of a constrained line
   free,
 };
-[[nodiscard]] IdVector<VertexId, Mobility> mobilities(const Mesh& mesh, InterfaceVertices interfaces);
+[[nodiscard]] Mobility mobility(const Mesh& mesh, VertexId v, const OptimizeOptions& options);
+[[nodiscard]] IdVector<VertexId, Mobility> mobilities(const Mesh& mesh, const OptimizeOptions& options);
 
 /// The directions that a vertex of that mobility is optimised in.
 [[nodiscard]] Freedom freedom(const Mesh& mesh, VertexId v, Mobility mobility, Unknowns unknowns);

@@ -8,6 +8,8 @@
 namespace temper {
 namespace {
 
+constexpr double kLeastBoundaryRatio = 2;  // a cut in the middle leaves edges of half the length
+
 InputError invalid(const std::string& message) { return {ErrorCode::invalid_option, {}, message}; }
 
 Softening in_frame(Softening s, const Frame& frame) {
@@ -25,6 +27,11 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
   }
   if (o.inversion == Inversion::allow && !defers_flips(o)) {
     return invalid("inverted triangles are allowed, but edges cannot be flipped among them; expected deferred flips");
+  }
+  if (o.inversion == Inversion::allow && o.boundary_vertices == BoundaryVertices::slide) {
+    return invalid(
+        "boundary vertices slide, but where triangles may be inverted nothing keeps them from passing a "
+        "corner; expected inversions to be refused");
   }
   return std::nullopt;
 }
@@ -57,6 +64,9 @@ std::optional<InputError> check(const OptimizeOptions& o, const Mesh& mesh) {
   }
   if (!(o.removal_margin >= 0 && std::isfinite(o.removal_margin))) {
     return invalid("removal margin is " + to_text(o.removal_margin) + "; expected at least 0");
+  }
+  if (!(o.boundary_ratio >= kLeastBoundaryRatio && std::isfinite(o.boundary_ratio))) {
+    return invalid("boundary ratio is " + to_text(o.boundary_ratio) + "; expected at least 2");
   }
   if (o.removal_from < 0) return invalid("removal from is " + std::to_string(o.removal_from) + "; expected at least 0");
   if (auto error = check_combinations(o)) return error;

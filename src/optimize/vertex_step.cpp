@@ -269,6 +269,12 @@ void VertexStep::renumber(const Compaction& kept) {
   mobility_ = std::move(mobility);
 }
 
+void VertexStep::grow() {
+  for (std::size_t i = mobility_.size(); i < mesh_.n_vertices(); ++i) {
+    mobility_.push_back(mobility(mesh_, VertexId(i), settings_.options));
+  }
+}
+
 bool VertexStep::flips_at_once() const {
   return !keeps_connectivity() && settings_.options.flip_timing == FlipTiming::immediate;
 }

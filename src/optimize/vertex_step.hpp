@@ -21,7 +21,7 @@ class VertexStep {
         frame_(frame),
         flipper_(flipper),
         recorder_(recorder),
-        mobility_(mobilities(mesh, settings.options.interfaces)) {}
+        mobility_(mobilities(mesh, settings.options)) {}
 
   /// Of the sweep under way: i ≥ i_w, i ≥ i_c, and the overshoot of FlipLimit::after.
   void begin_sweep(int sweep);
@@ -38,6 +38,9 @@ class VertexStep {
 
   /// The mesh has been compacted.
   void renumber(const Compaction& kept);
+
+  /// Vertices have been inserted, or edges split: new vertices are the last ones of the mesh.
+  void grow();
 
  private:
   enum class Outcome { accepted, not_lower, inverted, blocked_by_flip };
