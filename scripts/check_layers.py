@@ -30,6 +30,7 @@ LAYERS = {
     "dec": _BELOW + ["topology", "energy", "regularity"],
     "draw": _BELOW + ["topology", "energy", "regularity", "quality"],
     "generate": _BELOW + ["topology", "energy", "regularity"],
+    "mesher": _BELOW + ["topology", "energy", "regularity", "feasibility", "optimize", "generate"],
     # A library of its own: sees the core's public headers, and no other folder of src/.
     "io": _BELOW,
     "lp": _BELOW + ["feasibility"],
@@ -37,7 +38,7 @@ LAYERS = {
 CORE = set(LAYERS) - {"io", "lp"}
 
 # Public headers whose name is not that of their layer.
-HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor"]} | {"plot": "draw", "trace": "optimize"}
+HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor", "outline"]} | {"plot": "draw", "trace": "optimize", "projection": "mesher"}
 
 STANDARD = set("""
 algorithm array atomic bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits cmath

@@ -1,0 +1,320 @@
+// Components of triangles between edges, by flooding; then one of three rules says which of them are inside.
+#include "mesher/areas.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "temper/generate.hpp"
+#include "temper/geometry.hpp"
+
+namespace temper::mesher {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+/// The triangulation of the convex hull, and the piece of every halfedge on one.
+struct Hull {
+  Mesh mesh;
+  IdVector<HalfedgeId, std::uint32_t> piece;
+};
+
+Expected<Hull> triangulate_hull(std::vector<Vec2> points, const std::vector<Piece>& pieces) {
+  std::vector<std::array<std::int32_t, 2>> segments;
+  segments.reserve(pieces.size());
+  for (const Piece& p : pieces) {
+    segments.push_back({static_cast<std::int32_t>(p.ends[0]), static_cast<std::int32_t>(p.ends[1])});
+  }
+  Expected<Mesh> mesh = constrained_delaunay({points, segments, false});
+  if (!mesh) return mesh.error();
+  Hull hull{*std::move(mesh), {}};
+  hull.piece.resize(hull.mesh.n_halfedges(), kNone);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const VertexId a(pieces[i].ends[0]), b(pieces[i].ends[1]);
+    for (const HalfedgeId h : {hull.mesh.find_halfedge(a, b), hull.mesh.find_halfedge(b, a)}) {
+      if (h.valid()) hull.piece[h] = static_cast<std::uint32_t>(i);
+    }
+  }
+  return hull;
+}
+
+/// Calls f(h) for the halfedges of a triangle.
+template <class F>
+void each_halfedge(TriangleId t, const F& f) {
+  for (int k = 0; k < 3; ++k) f(Mesh::halfedge(t, k));
+}
+
+class AreaFinder {
+ public:
+  AreaFinder(const Outline& outline, const std::vector<OutlineEdge>& edges, const MesherOptions& options)
+      : outline_(outline), names_(names_of(outline)), edges_(edges), options_(options) {}
+
+  Expected<Areas> run() {
+    std::vector<Piece> pieces;
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const auto& ends = edges_[i].ends;
+      pieces.push_back(
+          {{static_cast<std::uint32_t>(ends[0]), static_cast<std::uint32_t>(ends[1])}, static_cast<std::uint32_t>(i)});
+    }
+    Expected<Hull> hull = triangulate_hull(outline_.points, pieces);
+    if (!hull) return hull.error();
+    hull_ = *std::move(hull);
+    find_components();
+    const auto error = outline_.parts.empty() ? (takes_turns() ? take_turns() : take_all()) : take_parts();
+    if (error) return *error;
+    if (std::find(inside_.begin(), inside_.end(), std::uint8_t{1}) == inside_.end()) return nothing_enclosed();
+    if (const auto region_error = take_regions()) return *region_error;
+    return collect();
+  }
+
+ private:
+  using Error = std::optional<InputError>;
+
+  [[nodiscard]] bool takes_turns() const {
+    if (options_.enclosed != Enclosed::by_points) return options_.enclosed == Enclosed::alternate;
+    return outline_.holes.empty() && outline_.regions.empty();
+  }
+
+  void find_components() {
+    const Mesh& mesh = hull_.mesh;
+    component_.resize(mesh.n_triangles(), kNone);
+    std::vector<TriangleId> stack;
+    for (const TriangleId seed : mesh.triangles()) {
+      if (component_[seed] != kNone) continue;
+      component_[seed] = n_components_;
+      stack.push_back(seed);
+      while (!stack.empty()) {
+        const TriangleId t = stack.back();
+        stack.pop_back();
+        each_halfedge(t, [&](HalfedgeId h) {
+          if (hull_.piece[h] != kNone || mesh.is_boundary(h)) return;
+          const TriangleId next = Mesh::triangle(mesh.twin(h));
+          if (component_[next] != kNone) return;
+          component_[next] = n_components_;
+          stack.push_back(next);
+        });
+      }
+      ++n_components_;
+    }
+    inside_.assign(n_components_, 0);
+    neighbours_.resize(n_components_);
+    for (const HalfedgeId h : mesh.halfedges()) {
+      if (mesh.is_boundary(h)) {
+        from_outside_.emplace_back(component(h), hull_.piece[h]);
+      } else if (hull_.piece[h] != kNone) {
+        neighbours_[component(h)].emplace_back(component(mesh.twin(h)), hull_.piece[h]);
+      }
+    }
+  }
+  [[nodiscard]] std::uint32_t component(HalfedgeId h) const { return component_[Mesh::triangle(h)]; }
+
+  /// How many edges lie between each component and the outside of the hull, at least.
+  [[nodiscard]] std::vector<std::uint32_t> depths() const {
+    std::vector<std::uint32_t> depth(n_components_, kNone), here, beyond;
+    for (const auto& [c, piece] : from_outside_) (piece == kNone ? here : beyond).push_back(c);
+    for (std::uint32_t level = 0; !here.empty() || !beyond.empty(); ++level) {
+      while (!here.empty()) {
+        const std::uint32_t c = here.back();
+        here.pop_back();
+        if (depth[c] != kNone) continue;
+        depth[c] = level;
+        for (const auto& [next, piece] : neighbours_[c]) beyond.push_back(next);
+      }
+      std::swap(here, beyond);
+    }
+    return depth;
+  }
+
+  Error take_turns() {
+    const auto depth = depths();
+    for (std::size_t c = 0; c < n_components_; ++c) inside_[c] = depth[c] % 2;
+    return {};
+  }
+
+  Error take_all() {
+    const auto depth = depths();
+    for (std::size_t c = 0; c < n_components_; ++c) inside_[c] = depth[c] > 0 ? 1 : 0;
+    for (std::size_t i = 0; i < outline_.holes.size(); ++i) {
+      const auto error = [&](const std::string& what) {
+        return InputError{ErrorCode::unused_point, names_.hole_where(i), names_.hole(i) + " " + what};
+      };
+      const std::uint32_t c = locate(outline_.holes[i]);
+      if (c == kNone || depth[c] == 0) return error("lies outside; expected a place that segments enclose");
+      inside_[c] = 0;
+    }
+    return {};
+  }
+
+  /// Each component's parts: those of the component beside it, but for the edge's.
+  Error take_parts() {
+    std::vector<std::vector<std::int32_t>> parts(n_components_);
+    std::vector<std::uint8_t> known(n_components_, 0);
+    std::vector<std::uint32_t> queue;
+    const auto enter = [&](std::uint32_t c, const std::vector<std::int32_t>& from, std::uint32_t piece) {
+      if (known[c] != 0) return;
+      known[c] = 1;
+      if (piece == kNone) {
+        parts[c] = from;
+      } else {
+        const auto& crossed = edges_[piece].parts;
+        std::set_symmetric_difference(from.begin(), from.end(), crossed.begin(), crossed.end(),
+                                      std::back_inserter(parts[c]));
+      }
+      queue.push_back(c);
+    };
+    for (const auto& [c, piece] : from_outside_) enter(c, {}, piece);
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      const std::uint32_t c = queue[i];
+      for (const auto& [next, piece] : neighbours_[c]) enter(next, parts[c], piece);
+    }
+    region_.assign(n_components_, 0);
+    for (std::size_t c = 0; c < n_components_; ++c) {
+      if (parts[c].empty()) continue;
+      inside_[c] = 1;
+      region_[c] = outline_.parts[static_cast<std::size_t>(parts[c][0])].region;
+      if (parts[c].size() > 1) {
+        const auto name = [&](std::size_t k) { return names_.part(static_cast<std::size_t>(parts[c][k])); };
+        return InputError{ErrorCode::overlap, "", name(0) + " and " + name(1) + " overlap" + near(c)};
+      }
+    }
+    return {};
+  }
+
+  /// " near (x, y)": a corner of the component.
+  [[nodiscard]] std::string near(std::size_t c) const {
+    for (const TriangleId t : hull_.mesh.triangles()) {
+      if (component_[t] != c) continue;
+      const Vec2 p = hull_.mesh.position(hull_.mesh.corners(t)[0]);
+      return " near (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
+    }
+    return {};
+  }
+
+  Error take_regions() {
+    if (region_.empty()) region_.assign(n_components_, 0);
+    size_.assign(n_components_, options_.size);
+    std::vector<std::size_t> given(n_components_, kNone);
+    for (std::size_t i = 0; i < outline_.regions.size(); ++i) {
+      const OutlineRegion& region = outline_.regions[i];
+      const auto error = [&](const std::string& what) {
+        return InputError{ErrorCode::unused_point, names_.region_where(i), names_.region(i) + " " + what};
+      };
+      const std::uint32_t c = locate(region.at);
+      if (c == kNone || inside_[c] == 0) return error("lies outside; expected a place inside the outline");
+      if (given[c] != kNone && region_[c] != region.region) {
+        return error("lies in the same area as " + names_.region(given[c]));
+      }
+      given[c] = i;
+      region_[c] = region.region;
+      if (region.size) size_[c] = std::min(size_[c], *region.size);
+    }
+    for (std::size_t c = 0; c < n_components_; ++c) {
+      for (const RegionSize& r : options_.region_sizes) {
+        if (r.region == region_[c]) size_[c] = std::min(size_[c], r.size);
+      }
+    }
+    return {};
+  }
+
+  /// The component of a place, or none outside the hull. A place on an edge belongs to one of its sides.
+  [[nodiscard]] std::uint32_t locate(Vec2 p) const {
+    for (const TriangleId t : hull_.mesh.triangles()) {
+      const auto [a, b, c] = hull_.mesh.corners(t);
+      const auto left = [&](VertexId u, VertexId v) {
+        return orient2d(hull_.mesh.position(u), hull_.mesh.position(v), p) != Sign::negative;
+      };
+      if (left(a, b) && left(b, c) && left(c, a)) return component_[t];
+    }
+    return kNone;
+  }
+
+  [[nodiscard]] InputError nothing_enclosed() const {
+    std::vector<std::uint32_t> degree(outline_.points.size(), 0);
+    for (const OutlineEdge& e : edges_) {
+      for (const std::int32_t end : e.ends) ++degree[static_cast<std::size_t>(end)];
+    }
+    for (std::size_t i = 0; i < degree.size(); ++i) {
+      if (degree[i] == 1) {
+        return {ErrorCode::empty_input, names_.point_where(i),
+                "the outline is not closed: it encloses nothing, and at " + names_.point(i) + " only one segment ends"};
+      }
+    }
+    return {ErrorCode::empty_input, "", "the outline encloses nothing but holes"};
+  }
+
+  [[nodiscard]] Areas collect() const {
+    Areas result;
+    std::vector<std::int32_t> number(n_components_, kOutside);
+    for (std::size_t c = 0; c < n_components_; ++c) {
+      if (inside_[c] == 0) continue;
+      number[c] = static_cast<std::int32_t>(result.areas.size());
+      result.areas.push_back({region_[c], size_[c]});
+    }
+    for (const OutlineEdge& e : edges_) {
+      const VertexId a(static_cast<std::size_t>(e.ends[0])), b(static_cast<std::size_t>(e.ends[1]));
+      const auto side = [&](VertexId from, VertexId to) {
+        const HalfedgeId h = hull_.mesh.find_halfedge(from, to);
+        return h.valid() ? number[component(h)] : kOutside;
+      };
+      result.sides.push_back({side(a, b), side(b, a)});
+    }
+    return result;
+  }
+
+  const Outline& outline_;
+  const OutlineNames& names_;
+  const std::vector<OutlineEdge>& edges_;
+  const MesherOptions& options_;
+  Hull hull_;
+  IdVector<TriangleId, std::uint32_t> component_;
+  std::uint32_t n_components_ = 0;
+  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> neighbours_;  // component, and the edge between
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> from_outside_;             // the same, from beyond the hull
+  std::vector<std::uint8_t> inside_;
+  std::vector<std::int32_t> region_;
+  std::vector<double> size_;
+};
+
+}  // namespace
+
+Expected<Areas> find_areas(const Outline& outline, const std::vector<OutlineEdge>& edges,
+                           const MesherOptions& options) {
+  return AreaFinder(outline, edges, options).run();
+}
+
+Expected<Triangulated> triangulate(const Border& border, const std::vector<Vec2>& further, const Areas& areas) {
+  std::vector<Vec2> points = border.points;
+  points.insert(points.end(), further.begin(), further.end());
+  Expected<Hull> hull = triangulate_hull(std::move(points), border.pieces);
+  if (!hull) return hull.error();
+  Triangulated result{std::move(hull->mesh), {}, std::move(hull->piece)};
+  const Mesh& mesh = result.mesh;
+  result.area.resize(mesh.n_triangles(), kOutside);
+  IdVector<TriangleId, std::uint8_t> known(mesh.n_triangles(), 0);
+  std::vector<TriangleId> stack;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (result.piece[h] == kNone) continue;
+    const Piece& piece = border.pieces[result.piece[h]];
+    const bool along = mesh.origin(h).index == piece.ends[0];
+    const TriangleId t = Mesh::triangle(h);
+    if (known[t] == 0) stack.push_back(t);
+    known[t] = 1;
+    result.area[t] = areas.sides[piece.edge][along ? 0 : 1];
+  }
+  while (!stack.empty()) {
+    const TriangleId t = stack.back();
+    stack.pop_back();
+    each_halfedge(t, [&](HalfedgeId h) {
+      if (result.piece[h] != kNone || mesh.is_boundary(h)) return;
+      const TriangleId next = Mesh::triangle(mesh.twin(h));
+      if (known[next] != 0) return;
+      known[next] = 1;
+      result.area[next] = result.area[t];
+      stack.push_back(next);
+    });
+  }
+  return result;
+}
+
+}  // namespace temper::mesher

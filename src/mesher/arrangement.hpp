@@ -1,0 +1,28 @@
+// The outline as a planar graph: checked, segments cut where points lie on them, equal edges merged.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "temper/error.hpp"
+#include "temper/outline.hpp"
+
+namespace temper::mesher {
+
+/// An edge between two points of the outline that has no other point on it.
+struct OutlineEdge {
+  std::array<std::int32_t, 2> ends = {};
+  std::int32_t tag = 0;
+  std::vector<std::int32_t> parts;  ///< sorted: crossing the edge enters or leaves these
+};
+
+/// The edges, in the order of the segments. Errors: everything that makes segments no planar graph. Whether points lie
+/// on segments and segments cross is decided exactly. O(n log n) where segments do not lie across each other's boxes.
+[[nodiscard]] Expected<std::vector<OutlineEdge>> arrange(const Outline& outline);
+
+/// The names of the outline, or those that count from 0.
+[[nodiscard]] const OutlineNames& names_of(const Outline& outline);
+
+}  // namespace temper::mesher

@@ -1,0 +1,41 @@
+// The outline divided: its vertices, its short edges, and on which side of each something is inside.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesher/arrangement.hpp"
+#include "mesher/graded_size.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper::mesher {
+
+/// A piece of an edge of the outline, small enough to be an edge of the mesh.
+struct Piece {
+  std::array<std::uint32_t, 2> ends = {};  ///< of Border::points
+  std::uint32_t edge = 0;                  ///< of the arrangement
+};
+
+struct Border {
+  std::vector<Vec2> points;  ///< those of the outline first, with their numbers
+  std::vector<Piece> pieces;
+};
+
+/// How far from each point of the outline its edges have their first division: positive at sharp corners only, 0
+/// elsewhere. All edges of one corner are cut at one distance, so that the triangle in the corner is isosceles.
+using CornerRadii = std::vector<double>;
+
+/// Divides every edge so that its pieces follow the size.
+[[nodiscard]] Border divide(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges,
+                            const GradedSize& size, const CornerRadii& corners);
+
+/// About how many pieces that makes.
+[[nodiscard]] double count_pieces(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges, double size);
+
+/// Corners of the outline narrower than kSharp, and how far they reach: to a half of their shortest edge (a third when
+/// that has a sharp corner at its other end too), and never near anything that does not belong to the corner.
+[[nodiscard]] CornerRadii corner_radii(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges,
+                                       double largest);
+
+}  // namespace temper::mesher

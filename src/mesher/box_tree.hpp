@@ -1,0 +1,97 @@
+// A static tree of bounding boxes: which of many segments are near a place.
+//
+// Boxes are halved by count along the longer side of their union, down to a few a leaf; the tree is an implicit
+// array, so it costs one sort and no pointers.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "temper/vec2.hpp"
+
+namespace temper::mesher {
+
+struct Box {
+  Vec2 low, high;
+
+  [[nodiscard]] bool meets(const Box& other) const {
+    return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y;
+  }
+  [[nodiscard]] Box grown(double margin) const {
+    return {{low.x - margin, low.y - margin}, {high.x + margin, high.y + margin}};
+  }
+};
+
+[[nodiscard]] inline Box box_of(Vec2 a, Vec2 b) {
+  return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+}
+[[nodiscard]] inline Box united(const Box& a, const Box& b) {
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
+
+class BoxTree {
+ public:
+  BoxTree() = default;
+  explicit BoxTree(std::span<const Box> boxes) : boxes_(boxes.begin(), boxes.end()), order_(boxes.size()) {
+    std::iota(order_.begin(), order_.end(), 0u);
+    if (!boxes_.empty()) build(0, order_.size());
+  }
+
+  /// Calls f(i) for every box i that meets `box`, until f returns false. Returns whether it never did.
+  template <class F>
+  bool visit(const Box& box, const F& f) const {
+    return nodes_.empty() || visit(0, box, f);
+  }
+
+ private:
+  static constexpr std::size_t kLeaf = 4;  // boxes tested one by one: about what one step down the tree costs
+
+  struct Node {
+    Box box;
+    std::uint32_t begin, end;
+    std::uint32_t right;  // the left child follows its parent; 0 for a leaf
+  };
+
+  std::uint32_t build(std::size_t begin, std::size_t end) {
+    const auto index = static_cast<std::uint32_t>(nodes_.size());
+    Box all = boxes_[order_[begin]];
+    for (std::size_t i = begin + 1; i < end; ++i) all = united(all, boxes_[order_[i]]);
+    nodes_.push_back({all, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), 0});
+    if (end - begin <= kLeaf) return index;
+    const bool wide = all.high.x - all.low.x >= all.high.y - all.low.y;
+    const std::size_t middle = begin + (end - begin) / 2;
+    const auto key = [&](std::uint32_t i) {
+      const Box& b = boxes_[i];
+      return wide ? b.low.x + b.high.x : b.low.y + b.high.y;
+    };
+    std::nth_element(order_.begin() + static_cast<std::ptrdiff_t>(begin),
+                     order_.begin() + static_cast<std::ptrdiff_t>(middle),
+                     order_.begin() + static_cast<std::ptrdiff_t>(end),
+                     [&](std::uint32_t i, std::uint32_t j) { return key(i) < key(j) || (key(i) == key(j) && i < j); });
+    build(begin, middle);
+    const std::uint32_t right = build(middle, end);
+    nodes_[index].right = right;
+    return index;
+  }
+
+  template <class F>
+  bool visit(std::uint32_t at, const Box& box, const F& f) const {
+    const Node& node = nodes_[at];
+    if (!node.box.meets(box)) return true;
+    if (node.right != 0) return visit(at + 1, box, f) && visit(node.right, box, f);
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+      if (boxes_[order_[i]].meets(box) && !f(order_[i])) return false;
+    }
+    return true;
+  }
+
+  std::vector<Box> boxes_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace temper::mesher

@@ -1,0 +1,264 @@
+// The steps one after the other: arrange, divide until all narrow places are resolved, place, triangulate, optimise;
+// and again with smaller sizes around what stays bad.
+#include "temper/mesher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "mesher/areas.hpp"
+#include "mesher/narrow.hpp"
+#include "mesher/placement.hpp"
+#include "temper/geometry.hpp"
+
+namespace temper {
+namespace {
+
+using namespace mesher;
+
+InputError invalid(const std::string& message) { return {ErrorCode::invalid_option, "", message}; }
+
+std::optional<InputError> check(const MesherOptions& options) {
+  const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
+  if (!positive(options.size)) {
+    return invalid("expected a size above 0, found " + std::to_string(options.size));
+  }
+  if (!positive(options.grade)) {
+    return invalid("expected a grade above 0, found " + std::to_string(options.grade));
+  }
+  for (const RegionSize& r : options.region_sizes) {
+    if (!positive(r.size)) {
+      return invalid("expected a size above 0 for region " + std::to_string(r.region) + ", found " +
+                     std::to_string(r.size));
+    }
+  }
+  if (options.attempts < 1) return invalid("expected at least one attempt");
+  return {};
+}
+
+/// Errors of Mesh::build in the names of the outline: its points come first, in their order.
+class MeshNames final : public InputNames {
+ public:
+  MeshNames(const OutlineNames& names, const std::vector<std::uint32_t>& points) : names_(names), points_(points) {}
+  std::string point(std::size_t i) const override {
+    return i < points_.size() ? names_.point(points_[i]) : "a point placed on the outline or inside";
+  }
+  std::string point_where(std::size_t i) const override {
+    return i < points_.size() ? names_.point_where(points_[i]) : std::string();
+  }
+
+ private:
+  const OutlineNames& names_;
+  const std::vector<std::uint32_t>& points_;  // of each vertex that is one
+};
+
+class Mesher {
+ public:
+  Mesher(const Outline& outline, const MesherOptions& options, const Observer& observer)
+      : outline_(outline), options_(options), observer_(observer) {}
+
+  Expected<OutlineMesh> run() {
+    if (auto error = check(options_)) return *error;
+    Expected<std::vector<OutlineEdge>> edges = arrange(outline_);
+    if (!edges) return edges.error();
+    edges_ = *std::move(edges);
+    Expected<Areas> areas = find_areas(outline_, edges_, options_);
+    if (!areas) return areas.error();
+    areas_ = *std::move(areas);
+    if (auto error = check_count()) return *error;
+    start_sources();
+    return best_of_attempts();
+  }
+
+ private:
+  [[nodiscard]] Vec2 point(std::int32_t i) const { return outline_.points[static_cast<std::size_t>(i)]; }
+
+  /// Refuses what would take all memory, by the area inside.
+  [[nodiscard]] std::optional<InputError> check_count() const {
+    double triangles = 2 * count_pieces(outline_.points, edges_, options_.size);
+    double doubled = 0;
+    const Vec2 origin = outline_.points[0];
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const double term = cross(point(edges_[i].ends[0]) - origin, point(edges_[i].ends[1]) - origin);
+      const auto [left, right] = areas_.sides[i];
+      const auto count = [](double size) { return 1 / (std::sqrt(3.0) / 2 * size * size); };
+      if (left != kOutside) doubled += term * count(areas_.areas[static_cast<std::size_t>(left)].size);
+      if (right != kOutside) doubled -= term * count(areas_.areas[static_cast<std::size_t>(right)].size);
+    }
+    triangles += doubled;
+    if (triangles <= static_cast<double>(options_.most_triangles)) return {};
+    return invalid("a size of " + std::to_string(options_.size) + " would make about " +
+                   std::to_string(static_cast<long long>(std::min(triangles, 9e18))) + " triangles; at most " +
+                   std::to_string(options_.most_triangles) + " are made");
+  }
+
+  /// Short edges, and areas of smaller size.
+  void start_sources() {
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const Vec2 a = point(edges_[i].ends[0]), b = point(edges_[i].ends[1]);
+      const double whole = length(b - a);
+      for (const Vec2 end : {a, b}) sources_.push_back({end, whole});
+      for (const std::int32_t area : areas_.sides[i]) {
+        const double size = area == kOutside ? options_.size : areas_.areas[static_cast<std::size_t>(area)].size;
+        if (size >= options_.size) continue;
+        const auto n = static_cast<std::size_t>(std::ceil(whole / size));
+        for (std::size_t k = 0; k <= n; ++k) {
+          sources_.push_back({a + (static_cast<double>(k) / static_cast<double>(n)) * (b - a), size});
+        }
+      }
+    }
+    corners_ = corner_radii(outline_.points, edges_, options_.size);
+  }
+
+  [[nodiscard]] GradedSize size() const { return {sources_, options_.size, options_.grade}; }
+
+  /// Divides the outline, finer where that shows pieces that face each other, until nothing changes.
+  Expected<Border> resolve() {
+    constexpr int kRounds = 20;  // each finds what the last one's longer pieces hid; three or four do nearly always
+    Border border = divide(outline_.points, edges_, size(), corners_);
+    for (int round = 0; round < kRounds; ++round) {
+      Expected<Triangulated> triangulated = triangulate(border, {}, areas_);
+      if (!triangulated) return triangulated.error();
+      const std::vector<SizeSource> narrow = narrow_places(border, *triangulated, size());
+      if (narrow.empty()) break;
+      sources_.insert(sources_.end(), narrow.begin(), narrow.end());
+      border = divide(outline_.points, edges_, size(), corners_);
+    }
+    return border;
+  }
+
+  Expected<OutlineMesh> make(const Border& border) {
+    const std::vector<Vec2> placed = place_points(border, areas_, size());
+    Expected<Triangulated> triangulated = triangulate(border, placed, areas_);
+    if (!triangulated) return triangulated.error();
+    return build(border, placed, *triangulated);
+  }
+
+  Expected<OutlineMesh> build(const Border& border, const std::vector<Vec2>& placed, const Triangulated& all) {
+    const std::size_t n = border.points.size() + placed.size();
+    std::vector<std::int32_t> vertex(n, -1);
+    for (const TriangleId t : all.mesh.triangles()) {
+      if (all.area[t] == kOutside) continue;
+      for (const VertexId v : all.mesh.corners(t)) vertex[v.index] = 0;
+    }
+    std::vector<Vec2> points;
+    std::vector<std::uint32_t> outline_points;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (vertex[i] < 0) continue;
+      vertex[i] = static_cast<std::int32_t>(points.size());
+      points.push_back(i < border.points.size() ? border.points[i] : placed[i - border.points.size()]);
+      if (i < outline_.points.size()) outline_points.push_back(static_cast<std::uint32_t>(i));
+    }
+    std::vector<std::array<std::int32_t, 3>> triangles;
+    std::vector<std::int32_t> regions;
+    for (const TriangleId t : all.mesh.triangles()) {
+      if (all.area[t] == kOutside) continue;
+      const auto [a, b, c] = all.mesh.corners(t);
+      triangles.push_back({vertex[a.index], vertex[b.index], vertex[c.index]});
+      regions.push_back(areas_.areas[static_cast<std::size_t>(all.area[t])].region);
+    }
+    OutlineMesh result;
+    std::vector<std::array<std::int32_t, 2>> constrained;
+    for (const Piece& piece : border.pieces) {
+      const auto [left, right] = areas_.sides[piece.edge];
+      if (left == kOutside && right == kOutside) continue;
+      const std::int32_t a = vertex[piece.ends[0]], b = vertex[piece.ends[1]];
+      if (left != kOutside && right != kOutside) constrained.push_back({a, b});
+      result.lines.push_back(
+          {VertexId(static_cast<std::size_t>(a)), VertexId(static_cast<std::size_t>(b)), edges_[piece.edge].tag});
+    }
+    const MeshNames names(names_of(outline_), outline_points);
+    MeshInput input;
+    input.points = points;
+    input.triangles = triangles;
+    input.regions = regions;
+    input.constrained_edges = constrained;
+    input.names = &names;
+    Expected<BuiltMesh> built = Mesh::build(input);
+    if (!built) return built.error();
+    result.mesh = std::move(built->mesh);
+    result.vertex_of_point.resize(outline_.points.size());
+    for (const std::uint32_t p : outline_points) {
+      result.vertex_of_point[p] = VertexId(static_cast<std::size_t>(vertex[p]));
+    }
+    fix_points(result);
+    return result;
+  }
+
+  /// Points of no segment are the user's all the same.
+  void fix_points(OutlineMesh& made) const {
+    std::vector<std::uint8_t> on_edge(outline_.points.size(), 0);
+    for (const OutlineEdge& e : edges_) {
+      for (const std::int32_t end : e.ends) on_edge[static_cast<std::size_t>(end)] = 1;
+    }
+    for (std::size_t i = 0; i < on_edge.size(); ++i) {
+      if (on_edge[i] == 0 && made.vertex_of_point[i].valid()) made.mesh.set_fixed(made.vertex_of_point[i], true);
+    }
+  }
+
+  [[nodiscard]] static std::vector<TriangleId> bad_triangles(const Mesh& mesh) {
+    std::vector<TriangleId> bad;
+    for (const TriangleId t : mesh.triangles()) {
+      const auto [p, q, r] = mesh.corners(t);
+      if (!is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r))) bad.push_back(t);
+    }
+    return bad;
+  }
+
+  Expected<OutlineMesh> attempt() {
+    const Expected<Border> border = resolve();
+    if (!border) return border.error();
+    Expected<OutlineMesh> made = make(*border);
+    if (!made) return made;
+    made->delaunay_bad = made->bad = bad_triangles(made->mesh).size();
+    if (!options_.optimize) return made;
+    Expected<OptimizeReport> report = optimize(made->mesh, *options_.optimize, observer_);
+    if (!report) return report.error();
+    made->report = *std::move(report);
+    made->bad = bad_triangles(made->mesh).size();
+    return made;
+  }
+
+  /// Sizes around the triangles that stay bad become smaller.
+  void refine_around_bad(const Mesh& mesh) {
+    constexpr double kSmaller = 0.7;
+    const GradedSize now = size();
+    for (const TriangleId t : bad_triangles(mesh)) {
+      for (const VertexId v : mesh.corners(t)) sources_.push_back({mesh.position(v), kSmaller * now(mesh.position(v))});
+    }
+  }
+
+  Expected<OutlineMesh> best_of_attempts() {
+    Expected<OutlineMesh> best = attempt();
+    if (!best || !options_.optimize) return best;
+    Mesh last = best->mesh;
+    int attempts = 1;
+    for (; best->bad > 0 && attempts < options_.attempts; ++attempts) {
+      if (best->report.stopped == Stopped::cancelled || best->report.stopped == Stopped::time_limit) break;
+      refine_around_bad(last);
+      Expected<OutlineMesh> next = attempt();
+      if (!next) break;
+      last = next->mesh;
+      if (next->bad < best->bad) best = std::move(next);
+    }
+    best->attempts = attempts;
+    return best;
+  }
+
+  const Outline& outline_;
+  const MesherOptions& options_;
+  const Observer& observer_;
+  std::vector<OutlineEdge> edges_;
+  Areas areas_;
+  CornerRadii corners_;
+  std::vector<SizeSource> sources_;
+};
+
+}  // namespace
+
+Expected<OutlineMesh> mesh_outline(const Outline& outline, const MesherOptions& options, const Observer& observer) {
+  return Mesher(outline, options, observer).run();
+}
+
+}  // namespace temper
