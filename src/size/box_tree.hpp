@@ -1,0 +1,41 @@
+// Which triangle of a mesh a point is in, or nearest to: a packed tree of boxes.
+//
+// Triangles are sorted along a Hilbert curve; each box holds kFan consecutive ones of them, each box above kFan
+// consecutive boxes. The shape of the tree follows from the number of triangles, so nothing but the boxes is stored.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+/// The point of a triangle that is nearest to a point asked for.
+struct NearestPoint {
+  TriangleId triangle;
+  double distance2 = 0;  ///< 0: the point asked for is in the triangle or on its boundary, decided exactly
+  HalfedgeId edge;       ///< else, the edge that the nearest point is on,
+  double along = 0;      ///< and where: 0 at its origin, 1 at its target
+};
+
+class BoxTree {
+ public:
+  BoxTree() = default;
+  explicit BoxTree(const Mesh& mesh);
+
+  /// Of equally near triangles, always the same one. Precondition: the mesh it was made of, with at least one triangle.
+  [[nodiscard]] NearestPoint nearest(const Mesh& mesh, Vec2 p) const;
+
+ private:
+  struct Box {
+    Vec2 low, high;
+  };
+  [[nodiscard]] static double distance2(const Box& box, Vec2 p);
+  void search(const Mesh& mesh, Vec2 p, std::size_t level, std::size_t box, NearestPoint& best) const;
+
+  std::vector<TriangleId> triangles_;
+  std::vector<std::vector<Box>> levels_;  // boxes of triangles first, the root last
+};
+
+}  // namespace temper
