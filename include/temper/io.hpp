@@ -17,6 +17,7 @@
 
 #include "temper/error.hpp"
 #include "temper/mesh.hpp"
+#include "temper/outline.hpp"
 
 namespace temper::io {
 
@@ -133,6 +134,17 @@ void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
 /// Frees the points, weights and triangles of a file whose mesh has been made: update() writes them again. Nothing
 /// when points were dropped.
 void release_geometry(MeshFile& file, const LoadedMesh& loaded);
+
+/// What is to be meshed, as a file says it.
+struct OutlineFile {
+  Outline outline;                    ///< its names are the file's own numbers and lines
+  std::string path;                   ///< where it was read from
+  std::string format;                 ///< "poly", "jigsaw" or "geojson"
+  bool geographic = false;            ///< points are longitude and latitude, in degrees
+  std::vector<std::string> warnings;  ///< what was dropped in reading
+};
+/// Reads an outline: Triangle's .poly (with its .node), JIGSAW's geometry, GeoJSON. Its content decides the format.
+[[nodiscard]] Expected<OutlineFile> read_outline(const std::string& path);
 
 /// A file that holds just this mesh.
 [[nodiscard]] MeshFile from_mesh(const Mesh& mesh);

@@ -32,6 +32,7 @@ struct OutlineRegion {
 struct OutlinePart {
   std::int32_t region = 0;
   std::vector<std::int32_t> segments;
+  std::optional<double> size = {};  ///< edge length wanted inside, when less than elsewhere
 };
 
 /// How the user counts the elements of an outline, so that errors speak the user's numbers. (Inline, as InputNames.)

@@ -98,6 +98,8 @@ class AreaFinder {
       ++n_components_;
     }
     inside_.assign(n_components_, 0);
+    region_.assign(n_components_, 0);
+    size_.assign(n_components_, options_.size);
     neighbours_.resize(n_components_);
     for (const HalfedgeId h : mesh.halfedges()) {
       if (mesh.is_boundary(h)) {
@@ -168,11 +170,12 @@ class AreaFinder {
       const std::uint32_t c = queue[i];
       for (const auto& [next, piece] : neighbours_[c]) enter(next, parts[c], piece);
     }
-    region_.assign(n_components_, 0);
     for (std::size_t c = 0; c < n_components_; ++c) {
       if (parts[c].empty()) continue;
+      const OutlinePart& part = outline_.parts[static_cast<std::size_t>(parts[c][0])];
       inside_[c] = 1;
-      region_[c] = outline_.parts[static_cast<std::size_t>(parts[c][0])].region;
+      region_[c] = part.region;
+      size_[c] = std::min(size_[c], part.size.value_or(size_[c]));
       if (parts[c].size() > 1) {
         const auto name = [&](std::size_t k) { return names_.part(static_cast<std::size_t>(parts[c][k])); };
         return InputError{ErrorCode::overlap, "", name(0) + " and " + name(1) + " overlap" + near(c)};
@@ -192,8 +195,6 @@ class AreaFinder {
   }
 
   Error take_regions() {
-    if (region_.empty()) region_.assign(n_components_, 0);
-    size_.assign(n_components_, options_.size);
     std::vector<std::size_t> given(n_components_, kNone);
     for (std::size_t i = 0; i < outline_.regions.size(); ++i) {
       const OutlineRegion& region = outline_.regions[i];

@@ -174,7 +174,7 @@ class Arranger {
     std::vector<OutlineEdge> edges;
     for (std::size_t i = 0; i < o_.segments.size(); ++i) {
       std::vector<std::int32_t>& on = on_segment_[i];
-      const auto [a, b] = o_.segments[i].ends;
+      const std::int32_t a = o_.segments[i].ends[0], b = o_.segments[i].ends[1];
       std::sort(on.begin(), on.end(), [&](std::int32_t p, std::int32_t q) {
         const double dp = squared_length(point(p) - point(a)), dq = squared_length(point(q) - point(a));
         return dp < dq || (dp == dq && p < q);
