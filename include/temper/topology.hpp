@@ -6,6 +6,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -77,5 +79,113 @@ struct RemovalPlan {
 /// the one slot (on the boundary) or two left over are erased, and the vertex is left isolated. Nothing else moves:
 /// all other ids stay valid, until Mesh::compact() drops what is erased. O(k).
 void remove_vertex(Mesh& mesh, const RemovalPlan& plan);
+
+/// How to collapse the edge of h: origin(h) is removed, and all new triangles have target(h) as a corner. As a removal,
+/// so that remove_vertex commits it. The status is plan_removal's for the origin; on a constrained line inside the
+/// domain the collapse goes along the line (constrained otherwise); no_triangulation when a new triangle would not be
+/// counter-clockwise, or a new edge is there already (the link condition). O(k²).
+[[nodiscard]] RemovalPlan plan_collapse(const Mesh& mesh, HalfedgeId h, RemovalPlan storage = {});
+
+// --- insertion and split --------------------------------------------------------------------------
+
+/// Why a vertex cannot be inserted, or that it can.
+enum class InsertionStatus {
+  possible,
+  outside,         ///< in no triangle
+  at_vertex,       ///< on a vertex; of a split: rounded to an end of the edge
+  on_boundary,     ///< exactly on a boundary edge, where plan_split is to be asked
+  on_constrained,  ///< exactly on a constrained edge, where plan_split is to be asked
+  hidden,          ///< its weight is too small: no regular triangulation would have it
+  not_regular,     ///< its weight hides a neighbour, or the edges around were not regular: the plan is whole and may be
+                   ///< committed, but leaves an edge that is not regular
+  inverted,        ///< of a split: the point is rounded so far off the edge that a new triangle turns over
+};
+
+/// What insert_vertex will do: a value, to be priced or thrown away.
+struct InsertionPlan {
+  InsertionStatus status = InsertionStatus::outside;
+  WeightedPoint point;
+  TriangleId triangle;  ///< that the point is in
+  HalfedgeId edge;      ///< of this triangle, when the point is on it: will be split; else invalid
+  /// The triangles that the new ones replace: `triangle`, the one across `edge`, then those that the flips reach.
+  std::vector<TriangleId> cavity;
+  /// Around the new vertex v, counter-clockwise; the new triangles are v, link[i], link[i + 1], also with link[0] after
+  /// the last, unless `edge` is a boundary edge: then the link runs from its target to its origin.
+  std::vector<VertexId> link;
+  /// The edges a→b that are flipped to v, in this order, after the insertion: v is on the left of a→b.
+  std::vector<std::array<VertexId, 2>> flips;
+};
+
+/// How to insert a vertex at p. Where: by a walk from `near` (any triangle that is not erased), exact. From there
+/// outwards, edges that would not be regular are flipped to the new vertex; never constrained ones. In a mesh whose
+/// unconstrained edges are regular, so they are after the commit. Ties keep the edges that are there; the order of the
+/// flips depends on the numbers of the vertices alone. About O(√n) for the walk (O(n) where the domain's shape stops
+/// it), O(k²) for k flips. `storage` lends its memory.
+///
+///     plan = plan_insertion(mesh, {p.x, p.y, interpolated_weight(mesh, t, p)}, t, std::move(plan));
+///     if (plan.status == InsertionStatus::possible) v = insert_vertex(mesh, plan);
+[[nodiscard]] InsertionPlan plan_insertion(const Mesh& mesh, const WeightedPoint& p, TriangleId near,
+                                           InsertionPlan storage = {});
+
+/// How to split the edge of h, of the boundary, constrained or neither, at a + t (b − a), 0 < t < 1, with the weight
+/// split_weight(…); flags and regions are kept. The point is rounded. Where it then lies exactly on the edge
+/// (axis-parallel edges; midpoints of few bits) the domain is kept exactly; elsewhere the edge is bent by no more than
+/// two units in the last place of its ends' coordinates. Each side's flips keep to its side.
+[[nodiscard]] InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, double t, InsertionPlan storage = {});
+/// The same at a point of the caller's, on the edge or near it.
+[[nodiscard]] InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p,
+                                       InsertionPlan storage = {});
+
+/// Who wants to see each change as it happens, for traces. Functions may be empty.
+struct InsertionObserver {
+  /// Just before insert_in_triangle(mesh, plan.triangle, plan.point) or split_edge(mesh, plan.edge, plan.point).
+  std::function<void(const InsertionPlan& plan)> inserting;
+  /// Just before: edge a→b, with c on its left and d on its right, is replaced by d→c in a→b's slot (flip()).
+  std::function<void(VertexId a, VertexId b, VertexId c, VertexId d)> flipped;
+};
+
+/// Commits a plan with status possible or not_regular, made for the mesh as it is, and returns the new vertex: the last
+/// one. Its triangles are the plan's. Slots are those of insert_in_triangle or split_edge, and of the flips. O(k²).
+VertexId insert_vertex(Mesh& mesh, const InsertionPlan& plan, const InsertionObserver* observer = nullptr);
+
+/// The weight at p of the linear function through the corners of t [length²]. A vertex of this weight strictly inside
+/// the triangle is never hidden: |x|² lies below its linear interpolation.
+[[nodiscard]] double interpolated_weight(const Mesh& mesh, TriangleId t, Vec2 p);
+
+/// The weight for a point that divides an edge of length ℓ (squared_length = ℓ²) into tℓ and (1 − t)ℓ: linear between
+/// w_a and w_b when both pieces then have 0 < d < their length; else in the middle half of the weights for which they
+/// have; linear when none does.
+[[nodiscard]] double split_weight(double w_a, double w_b, double squared_length, double t);
+
+// --- boundary grading -----------------------------------------------------------------------------
+
+/// One edge of the boundary or of constrained lines, and where to cut it.
+struct EdgeCuts {
+  VertexId a, b;           ///< a < b
+  std::vector<double> at;  ///< fractions of the way from a to b, ascending, strictly between 0 and 1
+};
+
+/// How to cut the edges of the boundary and of constrained lines so that neighbours are of like length.
+struct GradingPlan {
+  std::vector<EdgeCuts> cuts;  ///< by a, then b
+  std::size_t vertices = 0;    ///< how many vertices that makes
+  double ratio_before = 1;     ///< the largest ratio of the lengths of two such edges that meet at a vertex
+  double ratio_after = 1;      ///< the same with the cuts, at most `ratio`
+};
+
+/// Cuts edges of the boundary and constrained edges until any two of them that meet at a vertex are within `ratio` of
+/// each other's length (at least 2). No piece is shorter than the shortest edge at the end it grows from, so the
+/// pieces only ever follow what is short already. Each edge is cut into the least number of pieces that its ends
+/// allow. O(n log n).
+[[nodiscard]] GradingPlan plan_boundary_grading(const Mesh& mesh, double ratio = 4);
+
+/// What grade_boundary did.
+struct Grading {
+  std::size_t vertices = 0;  ///< inserted
+  std::size_t flips = 0;
+  std::size_t refused = 0;  ///< cuts that cannot be made: rounding turns a triangle over there
+};
+/// Commits plan_boundary_grading(mesh, ratio) by plan_split and insert_vertex. Old vertices stay bit for bit.
+Grading grade_boundary(Mesh& mesh, double ratio = 4, const InsertionObserver* observer = nullptr);
 
 }  // namespace temper
