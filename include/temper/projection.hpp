@@ -1,0 +1,49 @@
+// From longitude and latitude to the plane and back, by conformal maps of the sphere: angles stay what they are, so a
+// mesh that is well-centered on the map is so, up to the curvature of single triangles, on the globe.
+//
+// The Earth is taken as a sphere of 6371 km (its mean radius); against the ellipsoid, lengths are off by up to 0.6 %,
+// which no mesh notices. Formulas: J. P. Snyder, Map Projections: A Working Manual, USGS Professional Paper 1395, 1987.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "temper/error.hpp"
+#include "temper/outline.hpp"
+#include "temper/vec2.hpp"
+
+namespace temper {
+
+enum class ProjectionKind {
+  stereographic,        ///< true at the center; best for round regions, the poles included
+  mercator,             ///< true along the center's parallel; best for belts along it
+  transverse_mercator,  ///< true along the center's meridian; best for strips along it, the zones of UTM
+};
+
+/// Longitudes and latitudes are in degrees, x and y in metres from the center.
+struct Projection {
+  ProjectionKind kind = ProjectionKind::stereographic;
+  Vec2 center = {};         ///< longitude and latitude
+  double radius = 6371000;  ///< of the sphere [m]
+};
+
+/// Reads "stereographic", "mercator:lon" … "transverse-mercator:lon,lat". Without a center, that of `places`.
+[[nodiscard]] Expected<Projection> parse_projection(std::string_view text, std::span<const Vec2> places);
+
+/// The place on the map. Infinite where the map has no end (antipodes, poles): project() refuses such points.
+[[nodiscard]] Vec2 forward(const Projection& projection, Vec2 lon_lat);
+/// The longitude, in [center − 180, center + 180], and latitude of a place on the map.
+[[nodiscard]] Vec2 inverse(const Projection& projection, Vec2 place);
+/// Length on the map over length on the sphere: the same in all directions.
+[[nodiscard]] double scale_factor(const Projection& projection, Vec2 lon_lat);
+
+/// The middle of places on the sphere: the direction of their sum.
+[[nodiscard]] Vec2 mean_place(std::span<const Vec2> lon_lat);
+
+/// The outline on the map. Errors, by its names: latitudes beyond the poles, longitudes beyond ±360, places that are
+/// infinitely far away, and pieces that are torn apart because the map ends between their ends.
+[[nodiscard]] Expected<Outline> project(const Outline& lon_lat, const Projection& projection);
+
+}  // namespace temper

@@ -1,0 +1,206 @@
+// Snyder's formulas for the sphere, in the forms that keep their digits near poles and centers (atan2 for asin).
+#include "temper/projection.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "mesher/arrangement.hpp"
+
+namespace temper {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+struct KindName {
+  std::string_view name;
+  ProjectionKind kind;
+};
+constexpr std::array<KindName, 3> kKinds = {{{"stereographic", ProjectionKind::stereographic},
+                                             {"mercator", ProjectionKind::mercator},
+                                             {"transverse-mercator", ProjectionKind::transverse_mercator}}};
+
+/// The angle from the center's meridian, in [−180, 180] degrees, in radians.
+double from_center(const Projection& p, double lon) { return std::remainder(lon - p.center.x, 360) * kDegree; }
+
+Vec2 stereographic(double lambda, double phi, double phi1) {  // (21-2), (21-3), (21-4)
+  const double k = 2 / (1 + std::sin(phi1) * std::sin(phi) + std::cos(phi1) * std::cos(phi) * std::cos(lambda));
+  return {k * std::cos(phi) * std::sin(lambda),
+          k * (std::cos(phi1) * std::sin(phi) - std::sin(phi1) * std::cos(phi) * std::cos(lambda))};
+}
+
+/// (20-14), (20-15), (21-15), by the unit vector of the place: east, north and up at the center.
+Vec2 stereographic_inverse(Vec2 p, double phi1) {
+  const double x = p.x / 2, y = p.y / 2, d = 1 + x * x + y * y;
+  const double east = 2 * x / d, north = 2 * y / d, up = (2 - d) / d;
+  const double to_pole = north * std::cos(phi1) + up * std::sin(phi1);
+  const double to_meridian = up * std::cos(phi1) - north * std::sin(phi1);
+  return {std::atan2(east, to_meridian), std::atan2(to_pole, std::hypot(east, to_meridian))};
+}
+
+double mercator_height(double phi) { return std::asinh(std::tan(phi)); }  // (7-2)
+
+Vec2 transverse(double lambda, double phi, double phi0) {  // (8-1), (8-3), (8-5)
+  const double b = std::cos(phi) * std::sin(lambda);
+  return {std::atanh(b), std::atan2(std::sin(phi), std::cos(phi) * std::cos(lambda)) - phi0};
+}
+
+Vec2 transverse_inverse(Vec2 p, double phi0) {  // (8-6), (8-7), (8-8)
+  const double d = p.y + phi0, s = std::sinh(p.x);
+  return {std::atan2(s, std::cos(d)), std::atan2(std::sin(d), std::hypot(std::cos(d), s))};
+}
+
+InputError invalid(std::string message) { return {ErrorCode::invalid_option, "", std::move(message)}; }
+
+/// "lon" or "lon,lat".
+std::optional<std::array<std::optional<double>, 2>> parse_center(std::string_view text) {
+  std::array<std::optional<double>, 2> center;
+  for (std::size_t i = 0; i < 2 && !text.empty(); ++i) {
+    const std::string_view field = text.substr(0, text.find(','));
+    double value = 0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) return {};
+    center[i] = value;
+    const bool last = field.size() == text.size();
+    text.remove_prefix(last ? field.size() : field.size() + 1);
+    if (!last && text.empty()) return {};
+  }
+  if (!text.empty() || !center[0]) return {};
+  return center;
+}
+
+}  // namespace
+
+Expected<Projection> parse_projection(std::string_view text, std::span<const Vec2> places) {
+  const std::string_view name = text.substr(0, text.find(':'));
+  Projection projection;
+  const KindName* found = nullptr;
+  for (const KindName& kind : kKinds) {
+    if (kind.name == name) found = &kind;
+  }
+  if (found == nullptr) {
+    return invalid("expected a projection (stereographic, mercator, transverse-mercator), found '" + std::string(text) +
+                   "'");
+  }
+  projection.kind = found->kind;
+  projection.center = mean_place(places);
+  if (name.size() == text.size()) return projection;
+  const auto center = parse_center(text.substr(name.size() + 1));
+  if (!center) {
+    return invalid("expected " + std::string(name) + ":lon,lat in degrees, found '" + std::string(text) + "'");
+  }
+  projection.center = {*(*center)[0], (*center)[1].value_or(projection.center.y)};
+  const bool on_globe = std::abs(projection.center.x) <= 360 && std::abs(projection.center.y) <= 90;
+  const bool pole = projection.kind == ProjectionKind::mercator && std::abs(projection.center.y) >= 90;
+  if (!on_globe || pole) return invalid("'" + std::string(text) + "' has its center off the map");
+  return projection;
+}
+
+Vec2 forward(const Projection& p, Vec2 lon_lat) {
+  const double lambda = from_center(p, lon_lat.x), phi = lon_lat.y * kDegree, phi0 = p.center.y * kDegree;
+  switch (p.kind) {
+    case ProjectionKind::stereographic:
+      return p.radius * stereographic(lambda, phi, phi0);
+    case ProjectionKind::mercator:
+      return (p.radius * std::cos(phi0)) * Vec2{lambda, mercator_height(phi) - mercator_height(phi0)};
+    case ProjectionKind::transverse_mercator:
+      return p.radius * transverse(lambda, phi, phi0);
+  }
+  return {};
+}
+
+Vec2 inverse(const Projection& p, Vec2 place) {
+  const double phi0 = p.center.y * kDegree;
+  Vec2 angles;
+  switch (p.kind) {
+    case ProjectionKind::stereographic:
+      angles = stereographic_inverse((1 / p.radius) * place, phi0);
+      break;
+    case ProjectionKind::mercator: {
+      const Vec2 unit = (1 / (p.radius * std::cos(phi0))) * place;
+      angles = {unit.x, std::atan(std::sinh(unit.y + mercator_height(phi0)))};
+      break;
+    }
+    case ProjectionKind::transverse_mercator:
+      angles = transverse_inverse((1 / p.radius) * place, phi0);
+      break;
+  }
+  return {p.center.x + angles.x / kDegree, angles.y / kDegree};
+}
+
+double scale_factor(const Projection& p, Vec2 lon_lat) {
+  const double lambda = from_center(p, lon_lat.x), phi = lon_lat.y * kDegree, phi0 = p.center.y * kDegree;
+  switch (p.kind) {
+    case ProjectionKind::stereographic:
+      return 2 / (1 + std::sin(phi0) * std::sin(phi) + std::cos(phi0) * std::cos(phi) * std::cos(lambda));
+    case ProjectionKind::mercator:
+      return std::cos(phi0) / std::cos(phi);
+    case ProjectionKind::transverse_mercator: {
+      const double b = std::cos(phi) * std::sin(lambda);
+      return 1 / std::sqrt((1 - b) * (1 + b));
+    }
+  }
+  return 1;
+}
+
+Vec2 mean_place(std::span<const Vec2> lon_lat) {
+  double x = 0, y = 0, z = 0;
+  for (const Vec2 p : lon_lat) {
+    x += std::cos(p.y * kDegree) * std::cos(p.x * kDegree);
+    y += std::cos(p.y * kDegree) * std::sin(p.x * kDegree);
+    z += std::sin(p.y * kDegree);
+  }
+  if (x == 0 && y == 0 && z == 0) return {};
+  return {std::atan2(y, x) / kDegree, std::atan2(z, std::hypot(x, y)) / kDegree};
+}
+
+Expected<Outline> project(const Outline& lon_lat, const Projection& projection) {
+  Outline result = lon_lat;
+  const OutlineNames& names = mesher::names_of(lon_lat);
+  // Further away from the center than this the map is of no use, and soon infinite.
+  constexpr double kLargestScale = 1e3;
+  const auto map = [&](Vec2 place) -> std::optional<Vec2> {
+    const bool on_globe = std::abs(place.x) <= 360 && std::abs(place.y) <= 90;  // false for NaN
+    if (!on_globe || !(scale_factor(projection, place) < kLargestScale)) return {};
+    return forward(projection, place);
+  };
+  const auto error = [](const std::string& where, const std::string& name, Vec2 place) {
+    return InputError{ErrorCode::out_of_scale, where,
+                      name + " is at longitude " + std::to_string(place.x) + " and latitude " +
+                          std::to_string(place.y) + "; expected degrees on the globe, and not at the end of the map"};
+  };
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    const auto place = map(lon_lat.points[i]);
+    if (!place) return error(names.point_where(i), names.point(i), lon_lat.points[i]);
+    result.points[i] = *place;
+  }
+  for (std::size_t i = 0; i < result.holes.size(); ++i) {
+    const auto place = map(lon_lat.holes[i]);
+    if (!place) return error(names.hole_where(i), names.hole(i), lon_lat.holes[i]);
+    result.holes[i] = *place;
+  }
+  for (std::size_t i = 0; i < result.regions.size(); ++i) {
+    const auto place = map(lon_lat.regions[i].at);
+    if (!place) return error(names.region_where(i), names.region(i), lon_lat.regions[i].at);
+    result.regions[i].at = *place;
+  }
+  if (projection.kind == ProjectionKind::stereographic) return result;
+  for (std::size_t i = 0; i < result.segments.size(); ++i) {
+    const auto& ends = result.segments[i].ends;
+    const auto n = static_cast<std::int64_t>(result.points.size());
+    if (ends[0] < 0 || ends[1] < 0 || ends[0] >= n || ends[1] >= n) continue;  // the mesher's to name
+    const double turn = from_center(projection, lon_lat.points[static_cast<std::size_t>(ends[1])].x) -
+                        from_center(projection, lon_lat.points[static_cast<std::size_t>(ends[0])].x);
+    if (std::abs(turn) <= std::numbers::pi) continue;
+    return InputError{ErrorCode::out_of_scale, names.segment_where(i),
+                      names.segment(i) +
+                          " crosses the end of the map, 180 degrees from its center; choose another "
+                          "center"};
+  }
+  return result;
+}
+
+}  // namespace temper
