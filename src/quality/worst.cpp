@@ -6,20 +6,7 @@
 namespace temper {
 namespace {
 
-// Four digits are enough for people; the report has the numbers in full.
-std::string rounded(double value) {
-  char buffer[64];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 4);
-  return {buffer, result.ptr};
-}
-
-std::string degrees(double angle) {
-  char buffer[64];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, angle, std::chars_format::fixed, 1);
-  return std::string(buffer, result.ptr) + "°";
-}
-
-std::string number(VertexId v) { return std::to_string(v.index); }
+std::string last_word(const std::string& text) { return text.substr(text.rfind(' ') + 1); }
 
 int least(const std::array<double, 3>& values) {
   return static_cast<int>(std::min_element(values.begin(), values.end()) - values.begin());
@@ -31,7 +18,9 @@ struct Subject {
   TriangleId t;
   TriangleMeasure m;
   std::array<VertexId, 3> v;
+  const InputNames* names = nullptr;
 
+  [[nodiscard]] std::string number(VertexId u) const { return number_of(u, names); }
   [[nodiscard]] std::string edge(int k) const {
     const std::string ends = number(v[k]) + "-" + number(v[corner_after(k)]);
     return (mesh.is_boundary(Mesh::halfedge(t, k)) ? "boundary edge " : "edge ") + ends;
@@ -51,11 +40,11 @@ std::string why_not_inside(const Subject& s, int k) {
   why += s.edge(k) + ": ";
   if (s.weights_equal()) {
     why += on_edge ? "right angle at vertex " : "angle of " + degrees(angle) + " at vertex ";
-    return why + number(s.v[across]);
+    return why + s.number(s.v[across]);
   }
-  why += "angle of " + degrees(angle) + " at vertex " + number(s.v[across]);
+  why += "angle of " + degrees(angle) + " at vertex " + s.number(s.v[across]);
   why += angle < 90 ? ", but the weights push it there: " : ", and weights of ";
-  return why + rounded(s.weight(across)) + " at vertex " + number(s.v[across]) + ", " + rounded(s.weight(k)) + " and " +
+  return why + rounded(s.weight(across)) + " at vertex " + s.number(s.v[across]) + ", " + rounded(s.weight(k)) + " and " +
          rounded(s.weight(corner_after(k))) + " on the edge";
 }
 
@@ -63,8 +52,8 @@ std::string why_not_crossed(const Subject& s, int k) {
   int heavy = k, light = corner_after(k);
   if (s.weight(heavy) < s.weight(light)) std::swap(heavy, light);
   const Vec2 along = s.mesh.position(s.v[light]) - s.mesh.position(s.v[heavy]);
-  return s.edge(k) + " is not crossed by its dual: the weight of vertex " + number(s.v[heavy]) +
-         " exceeds that of vertex " + number(s.v[light]) + " by " + rounded(s.weight(heavy) - s.weight(light)) +
+  return s.edge(k) + " is not crossed by its dual: the weight of vertex " + s.number(s.v[heavy]) +
+         " exceeds that of vertex " + s.number(s.v[light]) + " by " + rounded(s.weight(heavy) - s.weight(light)) +
          ", and the edge's squared length is " + rounded(squared_length(along));
 }
 
@@ -75,7 +64,7 @@ std::string least_margin(const Subject& s) {
   }
   const int across = corner_across(h);
   return "well-centered; least margin h/ℓ = " + rounded(s.m.h_over_l[h]) + " over " + s.edge(h) + ", angle of " +
-         degrees(s.m.angle_deg[across]) + " at vertex " + number(s.v[across]);
+         degrees(s.m.angle_deg[across]) + " at vertex " + s.number(s.v[across]);
 }
 
 // The edge over which the exact sign is not positive, the one with the least h/ℓ first; −1 when there is none.
@@ -129,8 +118,29 @@ std::vector<Ranked> WorstList::sorted() const {
   return result;
 }
 
-WorstTriangle describe(const Mesh& mesh, TriangleId t) {
-  const Subject s{mesh, t, measure_triangle(mesh, t), mesh.corners(t)};
+std::string number_of(VertexId v, const InputNames* names) {
+  return names == nullptr ? std::to_string(v.index) : last_word(names->point(v.index));
+}
+
+std::string number_of(TriangleId t, const InputNames* names) {
+  return names == nullptr ? std::to_string(t.index) : last_word(names->triangle(t.index));
+}
+
+// Four digits are enough for people; the report has the numbers in full.
+std::string rounded(double value) {
+  char buffer[64];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 4);
+  return {buffer, result.ptr};
+}
+
+std::string degrees(double angle) {
+  char buffer[64];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, angle, std::chars_format::fixed, 1);
+  return std::string(buffer, result.ptr) + "°";
+}
+
+WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names) {
+  const Subject s{mesh, t, measure_triangle(mesh, t), mesh.corners(t), names};
   WorstTriangle worst;
   worst.triangle = t;
   worst.vertices = s.v;

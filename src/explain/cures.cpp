@@ -1,0 +1,375 @@
+// The best margin of the neighbourhood is a continuous function of where a vertex stands, whether it was there before
+// or has just been inserted: so places are first tried, and the best of them is improved by compass search. Changes
+// that insert a vertex are tried with the edges as the split leaves them and, flipped until it is Delaunay, as an
+// optimisation would; the outer edges of the neighbourhood stay.
+#include "explain/cures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "feasibility/certify.hpp"
+#include "feasibility/constraints.hpp"
+#include "temper/geometry.hpp"
+#include "temper/regularity.hpp"
+#include "temper/topology.hpp"
+
+namespace temper {
+namespace {
+
+constexpr double kCured = 1e-6;        // of a best margin: clearly more than the programme's rounding
+constexpr double kComfortable = 0.03;  // of a best margin: no need to look for better
+constexpr int kCompassRounds = 5;      // the last step is 1/32 of the first
+constexpr double kFirstStep = 0.35;    // of the distance to the nearest neighbour
+constexpr double kFreshStep = 0.5;     // of a vertex just inserted, whose place is only a first try
+
+using Triple = std::array<VertexId, 3>;
+
+Triple sorted_corners(const Mesh& mesh, TriangleId t) {
+  Triple corners = mesh.corners(t);
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+/// A mesh of its own made of some triangles of another.
+struct Patch {
+  Mesh mesh;
+  std::vector<VertexId> original;    ///< vertex of the patch → of the mesh, sorted
+  std::vector<TriangleId> slots;     ///< triangle of the patch → of the mesh
+  std::vector<TriangleId> conflict;  ///< in the patch's numbers
+  std::vector<Triple> excused;       ///< triangles that need not be good, while they are there
+
+  [[nodiscard]] VertexId in_mesh(VertexId v) const { return original[v.index]; }
+};
+
+std::optional<Patch> patch_of(const Mesh& mesh, const Conflict& conflict, std::span<const TriangleId> others) {
+  Patch patch;
+  patch.slots = neighbourhood(mesh, conflict.triangles);
+  patch.original = vertices_of(mesh, patch.slots);
+  std::map<VertexId, std::int32_t> number;
+  std::vector<Vec2> points;
+  std::vector<std::int32_t> fixed, regions;
+  for (const VertexId v : patch.original) {
+    number[v] = static_cast<std::int32_t>(points.size());
+    if (mesh.is_fixed(v)) fixed.push_back(number[v]);
+    points.push_back(mesh.position(v));
+  }
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::array<std::int32_t, 2>> constrained;
+  for (const TriangleId t : patch.slots) {
+    const auto [a, b, c] = mesh.corners(t);
+    triangles.push_back({number[a], number[b], number[c]});
+    regions.push_back(mesh.region(t));
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(t, k);
+      if (mesh.is_constrained(h)) constrained.push_back({number[mesh.origin(h)], number[mesh.target(h)]});
+    }
+  }
+  MeshInput input;
+  input.points = points, input.triangles = triangles, input.constrained_edges = constrained;
+  input.regions = regions, input.fixed_vertices = fixed;
+  auto built = Mesh::build(input);
+  if (!built) return std::nullopt;  // the neighbourhood touches itself at a vertex: it is no mesh of its own
+  patch.mesh = std::move(built->mesh);
+  for (std::size_t i = 0; i < patch.slots.size(); ++i) {
+    const TriangleId t = patch.slots[i];
+    if (std::binary_search(conflict.triangles.begin(), conflict.triangles.end(), t)) {
+      patch.conflict.push_back(TriangleId(i));
+    } else if (std::find(others.begin(), others.end(), t) != others.end()) {
+      patch.excused.push_back(sorted_corners(patch.mesh, TriangleId(i)));
+    }
+  }
+  return patch;
+}
+
+/// How good a changed patch can be made by weights.
+struct Trial {
+  double margin = -kUnbounded;
+  std::size_t triangles = 0;
+  bool exact = false;  ///< the weights found do what they should, by the exact predicate
+  [[nodiscard]] bool cures() const { return exact && margin > kCured; }
+};
+
+/// Of all triangles, but these.
+Trial judge(const Mesh& mesh, const std::vector<Triple>& excused, LpSolver& solver) {
+  std::vector<TriangleId> asked;
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [p, q, r] = mesh.corners(t);
+    if (orient2d(mesh.position(p), mesh.position(q), mesh.position(r)) != Sign::positive) return {};
+    if (std::find(excused.begin(), excused.end(), sorted_corners(mesh, t)) == excused.end()) asked.push_back(t);
+  }
+  const Bound bound = bound_margin(mesh, asked, solver);
+  if (bound.best.status != LpStatus::optimal) return {};
+  return {bound.best.margin, asked.size(), bound.best.margin > kCured && suits(mesh, asked, bound.best)};
+}
+
+double nearest_neighbour(const Mesh& mesh, VertexId v) {
+  double nearest = kUnbounded;
+  for (const HalfedgeId h : mesh.star(v)) {
+    for (const VertexId u : {mesh.target(h), mesh.opposite(h)}) {
+      nearest = std::min(nearest, length(mesh.position(u) - mesh.position(v)));
+    }
+  }
+  return nearest;
+}
+
+std::vector<Vec2> compass(std::optional<Vec2> along) {
+  if (along) return {*along, -1.0 * *along};
+  std::vector<Vec2> directions;
+  for (int i = 0; i < 8; ++i) {
+    directions.push_back({std::cos(i * std::numbers::pi / 4), std::sin(i * std::numbers::pi / 4)});
+  }
+  return directions;
+}
+
+TriangleId largest(const Mesh& mesh, std::span<const TriangleId> triangles) {
+  const auto area = [&](TriangleId t) {
+    const auto [p, q, r] = mesh.corners(t);
+    return doubled_area(mesh.position(p), mesh.position(q), mesh.position(r));
+  };
+  return *std::max_element(triangles.begin(), triangles.end(),
+                           [&](TriangleId a, TriangleId b) { return area(a) < area(b); });
+}
+
+class CureFinder {
+ public:
+  CureFinder(Patch patch, LpSolver& solver) : patch_(std::move(patch)), solver_(solver) {}
+
+  /// First with the whole neighbourhood; where that has more conflicts than this one, with what the change touches.
+  std::vector<Cure> run() {
+    for (const bool conflict_only : {false, true}) {
+      conflict_only_ = conflict_only;
+      if (!best_.empty()) break;
+      move_vertices();
+      flip_edges();
+      insert_in_triangles();
+      split_edges();
+    }
+    std::vector<Cure> cures;
+    for (auto& [action, cure] : best_) cures.push_back(cure);
+    return cures;
+  }
+
+ private:
+  using Action = Cure::Action;
+
+  /// v: the vertex that has moved or is new, or none.
+  [[nodiscard]] Trial judge(const Mesh& mesh, VertexId v) {
+    if (!conflict_only_) return temper::judge(mesh, patch_.excused, solver_);
+    std::vector<Triple> excused = patch_.excused;
+    for (const TriangleId t : patch_.mesh.triangles()) {
+      const Triple corners = sorted_corners(patch_.mesh, t);
+      const bool in_conflict = std::find(patch_.conflict.begin(), patch_.conflict.end(), t) != patch_.conflict.end();
+      const bool touched = std::find(corners.begin(), corners.end(), v) != corners.end();
+      if (!in_conflict && !touched) excused.push_back(corners);
+    }
+    return temper::judge(mesh, excused, solver_);
+  }
+
+  [[nodiscard]] bool has_comfortable(Action action) const {
+    const auto known = best_.find(action);
+    return known != best_.end() && known->second.margin >= kComfortable;
+  }
+  void offer(Cure cure, const Trial& trial) {
+    if (!trial.cures()) return;
+    cure.verified = true;
+    cure.conflict_only = conflict_only_;
+    cure.margin = trial.margin;
+    cure.triangles = trial.triangles;
+    const auto [known, is_new] = best_.emplace(cure.action, cure);
+    if (!is_new && known->second.margin < cure.margin) known->second = std::move(cure);
+  }
+  /// The edge of h in the numbers of the mesh.
+  [[nodiscard]] std::vector<VertexId> edge_of(HalfedgeId h) const {
+    return {patch_.in_mesh(patch_.mesh.origin(h)), patch_.in_mesh(patch_.mesh.target(h))};
+  }
+
+  /// The best place for v by compass search, `along` a line or anywhere. Moves it there.
+  Trial improve(Mesh& mesh, VertexId v, double first_step, std::optional<Vec2> along) {
+    Trial best = judge(mesh, v);
+    double step = first_step * nearest_neighbour(mesh, v);
+    for (int round = 0; round < kCompassRounds && best.margin < kComfortable; ++round, step /= 2) {
+      Vec2 place = mesh.position(v);
+      const Vec2 from = place;
+      for (const Vec2 direction : compass(along)) {
+        mesh.set_position(v, from + step * direction);
+        const Trial trial = judge(mesh, v);
+        if (trial.margin <= best.margin) continue;
+        best = trial;
+        place = mesh.position(v);
+      }
+      mesh.set_position(v, place);
+    }
+    return best;
+  }
+
+  void move_vertices() {
+    for (const VertexId v : free_vertices(patch_.mesh, patch_.conflict)) {
+      if (has_comfortable(Action::move_vertex)) return;
+      Mesh mesh = patch_.mesh;
+      const Trial trial = improve(mesh, v, kFirstStep, std::nullopt);
+      Cure cure;
+      cure.action = Action::move_vertex;
+      cure.vertex = patch_.in_mesh(v);
+      cure.at = mesh.position(v);
+      offer(cure, trial);
+    }
+  }
+
+  void flip_edges() {
+    for (const HalfedgeId h : edges_of(patch_.mesh, patch_.conflict)) {
+      if (has_comfortable(Action::flip_edge)) return;
+      if (can_flip(patch_.mesh, h) != FlipStatus::possible) continue;
+      Mesh mesh = patch_.mesh;
+      flip(mesh, h);
+      Cure cure;
+      cure.action = Action::flip_edge;
+      cure.edge = edge_of(h);
+      offer(cure, judge(mesh, VertexId()));
+    }
+  }
+
+  /// Both ways to go on from a mesh with a new vertex; the better one.
+  void offer_inserted(Cure cure, Mesh mesh, VertexId v, std::optional<Vec2> along) {
+    Mesh delaunay = mesh;
+    const Restoration restored = restore_regularity(delaunay, HiddenPolicy::undo);
+    for (Mesh* candidate : {&mesh, &delaunay}) {
+      if (candidate == &delaunay && restored.flips == 0) continue;
+      const Trial trial = improve(*candidate, v, kFreshStep, along);
+      cure.at = candidate->position(v);
+      offer(cure, trial);
+    }
+  }
+
+  void insert_in_triangles() {
+    for (const TriangleId t : patch_.conflict) {
+      if (has_comfortable(Action::insert_vertex)) return;
+      const auto [a, b, c] = patch_.mesh.corners(t);
+      const Vec2 p = patch_.mesh.position(a), q = patch_.mesh.position(b), r = patch_.mesh.position(c);
+      const Vec2 at = (1.0 / 3) * (p + q + r);
+      if (orient2d(p, q, at) != Sign::positive || orient2d(q, r, at) != Sign::positive ||
+          orient2d(r, p, at) != Sign::positive) {
+        continue;
+      }
+      Mesh mesh = patch_.mesh;
+      const VertexId v = insert_in_triangle(mesh, t, {at.x, at.y, 0});
+      Cure cure;
+      cure.action = Action::insert_vertex;
+      cure.triangle = patch_.slots[t.index];
+      offer_inserted(cure, std::move(mesh), v, std::nullopt);
+    }
+  }
+
+  /// Where to split the edge of h: the middle, and below the corner across on either side.
+  [[nodiscard]] std::vector<Vec2> places_on(HalfedgeId h) const {
+    const Mesh& mesh = patch_.mesh;
+    const Vec2 p = mesh.position(mesh.origin(h)), q = mesh.position(mesh.target(h));
+    std::vector<Vec2> places = {p + 0.5 * (q - p)};
+    for (const HalfedgeId side : {h, mesh.twin(h)}) {
+      if (!side.valid()) continue;
+      const double s = dot(mesh.position(mesh.opposite(side)) - p, q - p) / squared_length(q - p);
+      if (s > 0.1 && s < 0.9) places.push_back(p + s * (q - p));
+    }
+    return places;
+  }
+  [[nodiscard]] bool can_split(HalfedgeId h, Vec2 at) const {
+    const Mesh& mesh = patch_.mesh;
+    for (const HalfedgeId side : {h, mesh.twin(h)}) {
+      if (!side.valid()) continue;
+      const Vec2 p = mesh.position(mesh.origin(side)), q = mesh.position(mesh.target(side));
+      const Vec2 across = mesh.position(mesh.opposite(side));
+      if (orient2d(p, at, across) != Sign::positive || orient2d(at, q, across) != Sign::positive) return false;
+    }
+    return true;
+  }
+
+  void split_edges() {
+    for (const HalfedgeId h : edges_of(patch_.mesh, patch_.conflict)) {
+      const bool boundary = patch_.mesh.is_boundary(h);
+      const Action action = boundary ? Action::split_boundary : Action::split_edge;
+      const Vec2 p = patch_.mesh.position(patch_.mesh.origin(h)), q = patch_.mesh.position(patch_.mesh.target(h));
+      for (const Vec2 at : places_on(h)) {
+        if (has_comfortable(action)) break;
+        if (!can_split(h, at)) continue;
+        Mesh mesh = patch_.mesh;
+        const VertexId v = split_edge(mesh, h, {at.x, at.y, 0});
+        Cure cure;
+        cure.action = action;
+        cure.edge = edge_of(h);
+        offer_inserted(cure, std::move(mesh), v, (1 / length(q - p)) * (q - p));
+      }
+    }
+  }
+
+  Patch patch_;
+  LpSolver& solver_;
+  bool conflict_only_ = false;
+  std::map<Action, Cure> best_;  // in the order of the enumeration: what changes least comes first
+};
+
+}  // namespace
+
+std::vector<TriangleId> neighbourhood(const Mesh& mesh, std::span<const TriangleId> triangles) {
+  std::vector<TriangleId> around;
+  for (const TriangleId t : triangles) {
+    for (const VertexId v : mesh.corners(t)) {
+      for (const HalfedgeId h : mesh.star(v)) around.push_back(Mesh::triangle(h));
+    }
+  }
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  return around;
+}
+
+bool suits(const Mesh& mesh, std::span<const TriangleId> triangles, const BestMargin& best) {
+  const auto at = [&](VertexId v) {
+    const auto found = std::lower_bound(best.vertices.begin(), best.vertices.end(), v);
+    const Vec2 p = mesh.position(v);
+    return WeightedPoint{p.x, p.y, best.weights[static_cast<std::size_t>(found - best.vertices.begin())]};
+  };
+  return std::all_of(triangles.begin(), triangles.end(), [&](TriangleId t) {
+    const auto [p, q, r] = mesh.corners(t);
+    return is_well_centered(at(p), at(q), at(r));
+  });
+}
+
+std::vector<Cure> suggested_cures(const Mesh& mesh, const Conflict& conflict) {
+  std::vector<Cure> cures;
+  if (!free_vertices(mesh, conflict.triangles).empty()) cures.emplace_back();  // optimize
+  if (cures.empty()) {  // nothing can move: a vertex inside would
+    Cure cure;
+    cure.action = Cure::Action::insert_vertex;
+    cure.triangle = largest(mesh, conflict.triangles);
+    const auto [a, b, c] = mesh.corners(cure.triangle);
+    cure.at = (1.0 / 3) * (mesh.position(a) + mesh.position(b) + mesh.position(c));
+    cures.push_back(cure);
+  }
+  HalfedgeId longest;
+  double most = 0;
+  for (const HalfedgeId h : edges_of(mesh, conflict.triangles)) {
+    const double l = length(mesh.position(mesh.target(h)) - mesh.position(mesh.origin(h)));
+    if (!mesh.is_boundary(h) || l <= most) continue;
+    most = l, longest = h;
+  }
+  if (longest.valid()) {
+    Cure cure;
+    cure.action = Cure::Action::split_boundary;
+    cure.edge = {mesh.origin(longest), mesh.target(longest)};
+    cure.at = 0.5 * (mesh.position(cure.edge[0]) + mesh.position(cure.edge[1]));
+    cures.push_back(cure);
+  }
+  return cures;
+}
+
+std::vector<Cure> find_cures(const Mesh& mesh, const Conflict& conflict, std::span<const TriangleId> others,
+                             LpSolver& solver) {
+  std::vector<Cure> cures;
+  if (auto patch = patch_of(mesh, conflict, others)) cures = CureFinder(*std::move(patch), solver).run();
+  return cures.empty() ? suggested_cures(mesh, conflict) : cures;
+}
+
+}  // namespace temper

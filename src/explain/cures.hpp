@@ -1,0 +1,28 @@
+// What would cure a conflict: changes tried one by one on a copy of its neighbourhood, by the programme.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "explain/conflict.hpp"
+#include "temper/explain.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+/// Cures for a conflict: of each way to change the mesh the best that was found, those that leave the boundary and the
+/// vertices as they are first. `others` are bad triangles that other reasons own: they are not asked to be good.
+/// Without any that is verified, what may help.
+[[nodiscard]] std::vector<Cure> find_cures(const Mesh& mesh, const Conflict& conflict,
+                                           std::span<const TriangleId> others, LpSolver& solver);
+
+/// What may help, without any search.
+[[nodiscard]] std::vector<Cure> suggested_cures(const Mesh& mesh, const Conflict& conflict);
+
+/// All triangles at the corners of these; sorted.
+[[nodiscard]] std::vector<TriangleId> neighbourhood(const Mesh& mesh, std::span<const TriangleId> triangles);
+
+/// Do the weights of the solved programme make all these triangles well-centered? Exact.
+[[nodiscard]] bool suits(const Mesh& mesh, std::span<const TriangleId> triangles, const BestMargin& best);
+
+}  // namespace temper

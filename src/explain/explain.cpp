@@ -1,0 +1,314 @@
+// From what is certain and small to what is not:
+//
+//   each bad triangle, worst first: is there a conflict among it and those around it?     edge, fan, patch
+//   what is left, by connected groups: is there one within two rings of the group?        edge, fan, patch
+//   nothing found, the mesh not too large: the whole mesh                                 edge, fan, patch
+//   what is left has weights                                                              weights
+//
+// A triangle that a reason owns is left out of all later questions. So conflicts have no bad triangle in common, each
+// has at least one (the present weights suit any set without), and each needs a cure of its own.
+#include "temper/explain.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+
+#include "explain/conflict.hpp"
+#include "explain/crossings.hpp"
+#include "explain/cures.hpp"
+#include "feasibility/region.hpp"
+#include "quality/measure.hpp"
+#include "temper/geometry.hpp"
+
+namespace temper {
+namespace {
+
+constexpr int kRings = 2;           // around a group: as find_weights begins
+constexpr double kMargin = 0.01;    // that temper weights asks for by itself
+constexpr std::size_t kBeats = 64;  // bad triangles between two calls of progress
+
+struct BadTriangle {
+  double margin = 0;
+  Vec2 at;
+  TriangleId triangle;
+  /// Ties by place, so that numbers do not matter.
+  friend bool operator<(const BadTriangle& a, const BadTriangle& b) {
+    if (a.margin != b.margin) return a.margin < b.margin;
+    if (a.at.x != b.at.x) return a.at.x < b.at.x;
+    return a.at.y < b.at.y;
+  }
+};
+
+std::vector<BadTriangle> bad_triangles(const Mesh& mesh) {
+  std::vector<BadTriangle> bad;
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [p, q, r] = mesh.corners(t);
+    if (is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r))) continue;
+    const Vec2 at = (1.0 / 3) * (mesh.position(p) + mesh.position(q) + mesh.position(r));
+    bad.push_back({measure_triangle(mesh, t).margin(), at, t});
+  }
+  std::sort(bad.begin(), bad.end());
+  return bad;
+}
+
+class Explainer {
+ public:
+  Explainer(const Mesh& mesh, LpSolver& solver, const ExplainOptions& options)
+      : mesh_(mesh), solver_(solver), options_(options), bad_(bad_triangles(mesh)), state_(mesh.n_triangles(), kGood) {
+    for (const BadTriangle& bad : bad_) state_[bad.triangle] = kUnexplained;
+  }
+
+  Expected<Explanation> run() {
+    result_.triangles = mesh_.n_triangles();
+    result_.bad = bad_.size();
+    if (!ask_rings()) return InputError{ErrorCode::invalid_option, "", "explain: stopped before all was explained"};
+    ask_groups();
+    ask_whole();
+    explain_rest();
+    add_cures();
+    std::stable_sort(result_.reasons.begin(), result_.reasons.end(), [this](const Reason& a, const Reason& b) {
+      return rank(a) != rank(b) ? rank(a) < rank(b) : severity(a) < severity(b);
+    });
+    return std::move(result_);
+  }
+
+ private:
+  enum State : std::uint8_t { kGood, kUnexplained, kOwned };
+
+  [[nodiscard]] static int rank(const Reason& reason) {
+    return reason.kind == ReasonKind::weights ? 2 : reason.kind == ReasonKind::undecided ? 1 : 0;
+  }
+  [[nodiscard]] static double severity(const Reason& reason) {
+    return rank(reason) == 0 ? reason.margin : reason.least_margin;
+  }
+
+  [[nodiscard]] std::vector<TriangleId> without_owned(std::vector<TriangleId> triangles) const {
+    std::erase_if(triangles, [&](TriangleId t) { return state_[t] == kOwned; });
+    return triangles;
+  }
+
+  void measure_bad(Reason& reason) const {
+    std::vector<BadTriangle> bad;
+    for (const TriangleId t : reason.bad) {
+      const auto [p, q, r] = mesh_.corners(t);
+      const Vec2 at = (1.0 / 3) * (mesh_.position(p) + mesh_.position(q) + mesh_.position(r));
+      bad.push_back({measure_triangle(mesh_, t).margin(), at, t});
+    }
+    std::sort(bad.begin(), bad.end());
+    for (std::size_t i = 0; i < bad.size(); ++i) reason.bad[i] = bad[i].triangle;
+    reason.least_margin = bad.front().margin;
+    reason.at = bad.front().at;
+  }
+
+  void own(Conflict conflict) {
+    Reason reason;
+    for (const TriangleId t : conflict.triangles) {
+      if (state_[t] != kUnexplained) continue;
+      reason.bad.push_back(t);
+      state_[t] = kOwned;
+    }
+    measure_bad(reason);
+    reason.crossing = crossing_conflict(mesh_, conflict.triangles);
+    reason.center = fan_center(mesh_, conflict.triangles);
+    reason.kind = kind_of(conflict, reason.center.has_value(), reason.crossing.has_value());
+    reason.margin = conflict.best.margin;
+    reason.checked = conflict.triangles.size();
+    reason.free = free_vertices(mesh_, conflict.triangles);
+    reason.certificate = std::move(conflict.best.certificate);
+    reason.conflict = std::move(conflict.triangles);
+    result_.reasons.push_back(std::move(reason));
+    result_.verdict = Feasibility::infeasible;
+  }
+
+  /// Conflicts among these triangles, until there are none that need `seed`. Each owns a bad triangle at least.
+  void find_conflicts(const std::vector<TriangleId>& region, TriangleId seed) {
+    while (state_[seed] == kUnexplained) {
+      std::optional<Conflict> conflict = find_conflict(mesh_, without_owned(region), seed, solver_);
+      if (!conflict) return;
+      own(*std::move(conflict));
+    }
+  }
+
+  /// false: stopped.
+  bool ask_rings() {
+    for (std::size_t i = 0; i < bad_.size(); ++i) {
+      const bool beat = options_.progress && i % kBeats == 0;
+      if (beat && options_.progress(i, bad_.size()) == Continue::no) return false;
+      find_conflicts(ring_of(mesh_, bad_[i].triangle), bad_[i].triangle);
+    }
+    return !options_.progress || options_.progress(bad_.size(), bad_.size()) == Continue::yes;
+  }
+
+  struct Group {
+    std::vector<TriangleId> bad;
+    std::vector<TriangleId> region;  ///< some rings around, without what is owned; empty when that is too large
+  };
+
+  /// Bad triangles not explained so far, joined where they touch; worst first.
+  [[nodiscard]] std::vector<Group> groups() const {
+    std::vector<Group> all;
+    IdVector<TriangleId, std::uint8_t> seen(mesh_.n_triangles(), 0);
+    for (const BadTriangle& bad : bad_) {
+      if (state_[bad.triangle] != kUnexplained || seen[bad.triangle] != 0) continue;
+      Group group;
+      group.bad = {bad.triangle};
+      seen[bad.triangle] = 1;
+      for (std::size_t i = 0; i < group.bad.size(); ++i) {
+        for (const TriangleId t : ring_of(mesh_, group.bad[i])) {
+          if (state_[t] != kUnexplained || seen[t] != 0) continue;
+          seen[t] = 1;
+          group.bad.push_back(t);
+        }
+      }
+      if (group.bad.size() <= options_.whole) group.region = group.bad;
+      for (int ring = 0; ring < kRings && !group.region.empty(); ++ring) {
+        group.region = neighbourhood(mesh_, group.region);
+        if (group.region.size() > options_.whole) group.region.clear();
+      }
+      group.region = without_owned(std::move(group.region));
+      all.push_back(std::move(group));
+    }
+    return all;
+  }
+
+  void ask_groups() {
+    for (const Group& group : groups()) {
+      for (const TriangleId t : group.bad) {
+        if (group.region.empty() || state_[t] != kUnexplained) continue;
+        find_conflicts(group.region, t);
+        if (state_[t] == kUnexplained) break;  // no conflict is left in this region
+      }
+    }
+  }
+
+  void ask_whole() {
+    if (bad_.empty()) result_.verdict = Feasibility::feasible;
+    if (bad_.empty() || !result_.reasons.empty()) return;
+    if (mesh_.n_triangles() > options_.whole && bad_.size() > options_.whole) return;
+    WeightOptions weights;
+    weights.goal = WeightGoal::feasible;
+    weights.margin = kMargin;
+    weights.whole = options_.whole;
+    auto report = find_weights(mesh_, solver_, weights);
+    if (!report) return;
+    result_.verdict = report->verdict;
+    result_.changed = report->moved;
+    result_.margin = report->asked;
+    if (report->verdict == Feasibility::feasible) weights_ = std::move(report->weights);
+    if (report->verdict != Feasibility::infeasible) return;
+    if (auto conflict = shrink(mesh_, report->certificate, bad_.front().triangle, solver_)) own(*std::move(conflict));
+  }
+
+  void explain_rest() {
+    for (Group& group : groups()) {
+      Reason reason;
+      reason.bad = std::move(group.bad);
+      reason.free = free_vertices(mesh_, reason.bad);
+      measure_bad(reason);
+      find_margin(reason, group.region);
+      result_.reasons.push_back(std::move(reason));
+    }
+  }
+
+  /// Of these triangles, asked together. false: no weights were found that suit them.
+  bool have_weights(Reason& reason, const std::vector<TriangleId>& triangles) {
+    const BestMargin best = best_margin(mesh_, triangles, solver_);
+    reason.margin = std::min(reason.margin, best.margin);
+    reason.checked = std::max(reason.checked, triangles.size());
+    return best.status == LpStatus::optimal && suits(mesh_, triangles, best);
+  }
+
+  /// Of the region; where that is too large or close to a conflict, of each bad triangle with those that touch it.
+  void find_margin(Reason& reason, const std::vector<TriangleId>& region) {
+    reason.margin = kUnbounded;
+    bool found = !region.empty() && have_weights(reason, region);
+    if (!found) {
+      reason.each = true;
+      reason.margin = kUnbounded, reason.checked = 0;
+      found = true;
+      for (const TriangleId t : reason.bad) found = have_weights(reason, without_owned(ring_of(mesh_, t))) && found;
+    }
+    reason.kind = found || result_.verdict == Feasibility::feasible ? ReasonKind::weights : ReasonKind::undecided;
+  }
+
+  [[nodiscard]] std::size_t changed_near(const Reason& reason) const {
+    std::vector<VertexId> near;
+    for (const TriangleId t : neighbourhood(mesh_, reason.bad)) {
+      for (const VertexId v : mesh_.corners(t)) near.push_back(v);
+    }
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    return static_cast<std::size_t>(
+        std::count_if(near.begin(), near.end(), [&](VertexId v) { return weights_[v] != 0; }));
+  }
+
+  void add_cures() {
+    std::vector<Reason*> conflicts;
+    for (Reason& reason : result_.reasons) {
+      if (rank(reason) == 0) conflicts.push_back(&reason);
+      if (reason.kind == ReasonKind::weights) add_find_weights(reason);
+      if (rank(reason) != 0 && !reason.free.empty()) reason.cures.emplace_back();  // optimize
+    }
+    std::stable_sort(conflicts.begin(), conflicts.end(),
+                     [](const Reason* a, const Reason* b) { return a->margin < b->margin; });
+    for (std::size_t i = 0; i < conflicts.size(); ++i) {
+      Reason& reason = *conflicts[i];
+      const Conflict conflict = {reason.conflict, {}};
+      reason.cures_searched = i < options_.cures;
+      if (!reason.cures_searched) {
+        reason.cures = suggested_cures(mesh_, conflict);
+        continue;
+      }
+      reason.cures = find_cures(mesh_, conflict, others_near(reason), solver_);
+    }
+  }
+
+  /// Bad triangles near a conflict that have a reason of their own.
+  [[nodiscard]] std::vector<TriangleId> others_near(const Reason& reason) const {
+    std::vector<TriangleId> others = neighbourhood(mesh_, reason.conflict);
+    std::erase_if(others, [&](TriangleId t) {
+      const bool own = std::binary_search(reason.conflict.begin(), reason.conflict.end(), t);
+      return own || state_[t] != kOwned;
+    });
+    return others;
+  }
+
+  void add_find_weights(Reason& reason) const {
+    Cure cure;
+    cure.action = Cure::Action::find_weights;
+    cure.verified = true;
+    const bool whole = result_.verdict == Feasibility::feasible;
+    cure.triangles = whole ? mesh_.n_triangles() : reason.checked;
+    cure.margin = whole ? result_.margin : reason.margin;
+    cure.changed = weights_.empty() ? 0 : changed_near(reason);
+    reason.cures.push_back(cure);
+  }
+
+  const Mesh& mesh_;
+  LpSolver& solver_;
+  const ExplainOptions& options_;
+  const std::vector<BadTriangle> bad_;
+  IdVector<TriangleId, std::uint8_t> state_;
+  IdVector<VertexId, double> weights_;  ///< that cure the whole mesh; empty when there are none, or nobody asked
+  Explanation result_;
+};
+
+}  // namespace
+
+std::string_view name(ReasonKind kind) {
+  constexpr std::array<std::string_view, 5> kNames = {"edge", "fan", "patch", "weights", "undecided"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string_view name(Cure::Action action) {
+  constexpr std::array<std::string_view, 7> kNames = {"find_weights",  "optimize",   "move_vertex",   "flip_edge",
+                                                      "insert_vertex", "split_edge", "split_boundary"};
+  return kNames[static_cast<std::size_t>(action)];
+}
+
+Expected<Explanation> explain(const Mesh& mesh, LpSolver& solver, const ExplainOptions& options) {
+  return Explainer(mesh, solver, options).run();
+}
+
+}  // namespace temper
