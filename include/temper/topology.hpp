@@ -80,11 +80,11 @@ struct RemovalPlan {
 /// all other ids stay valid, until Mesh::compact() drops what is erased. O(k).
 void remove_vertex(Mesh& mesh, const RemovalPlan& plan);
 
-/// How to collapse the edge of h: origin(h) is removed, and all new triangles have target(h) as a corner. As a removal,
-/// so that remove_vertex commits it. The status is plan_removal's for the origin; on a constrained line inside the
-/// domain the collapse goes along the line (constrained otherwise); no_triangulation when a new triangle would not be
-/// counter-clockwise, or a new edge is there already (the link condition). O(k²).
-[[nodiscard]] RemovalPlan plan_collapse(const Mesh& mesh, HalfedgeId h, RemovalPlan storage = {});
+/// How to collapse the edge between v and its neighbour `into`: v is removed, and all new triangles have `into` as a
+/// corner. As a removal, so that remove_vertex commits it. The status is plan_removal's for v; constrained also when v
+/// is on a line inside the domain and `into` is not; no_triangulation when they have no edge, a new triangle would not
+/// be counter-clockwise, or a new edge is there already (the link condition). O(k²).
+[[nodiscard]] RemovalPlan plan_collapse(const Mesh& mesh, VertexId v, VertexId into, RemovalPlan storage = {});
 
 // --- insertion and split --------------------------------------------------------------------------
 
@@ -112,6 +112,8 @@ struct InsertionPlan {
   /// Around the new vertex v, counter-clockwise; the new triangles are v, link[i], link[i + 1], also with link[0] after
   /// the last, unless `edge` is a boundary edge: then the link runs from its target to its origin.
   std::vector<VertexId> link;
+  /// The cavity's outer edges, from inside it: link[i] → link[i + 1].
+  std::vector<HalfedgeId> rim;
   /// The edges a→b that are flipped to v, in this order, after the insertion: v is on the left of a→b.
   std::vector<std::array<VertexId, 2>> flips;
 };
@@ -128,9 +130,9 @@ struct InsertionPlan {
                                            InsertionPlan storage = {});
 
 /// How to split the edge of h, of the boundary, constrained or neither, at a + t (b − a), 0 < t < 1, with the weight
-/// split_weight(…); flags and regions are kept. The point is rounded. Where it then lies exactly on the edge
-/// (axis-parallel edges; midpoints of few bits) the domain is kept exactly; elsewhere the edge is bent by no more than
-/// two units in the last place of its ends' coordinates. Each side's flips keep to its side.
+/// split_weight(…); flags and regions are kept. The point is rounded: on an axis-parallel edge it lies exactly on it,
+/// as do midpoints of few bits, and the domain is kept exactly; elsewhere the edge is bent by up to three units in the
+/// last place of its ends' coordinates. The flips of either side keep to it.
 [[nodiscard]] InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, double t, InsertionPlan storage = {});
 /// The same at a point of the caller's, on the edge or near it.
 [[nodiscard]] InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p,

@@ -15,6 +15,16 @@
 //      /   \ /   \           /   \     \        interface: the same on both sides of the line; the first spoke is one
 //     3-----v-----0   →     3-----------0                 of its two, and the side on its left comes first
 //
+// An edge collapse fills the cavity with the fan of the neighbour that v goes into:
+//
+//        3-----2               3-----2
+//       / \   / \             /  . / |
+//      /   \ /   \           / . /   |        v into 0: the triangles 0,1,2  0,2,3  0,3,4  0,4,5, which must be
+//     4-----v-----1   →     4 . /    1        counter-clockwise, with edges 0-2, 0-3, 0-4 new to the mesh
+//      \   / \   /           \.//   /
+//       \ /   \ /             \// /
+//        5-----0               5-0
+//
 // The commit is in commit_removal.cpp.
 #include <algorithm>
 #include <utility>
@@ -182,6 +192,17 @@ bool fills(const Mesh& mesh, std::span<const VertexId> polygon, std::span<const 
   return true;
 }
 
+/// The fan of `apex` in the polygon, appended to `triangles`; false when the polygon does not have it as a corner.
+bool append_fan(std::span<const VertexId> polygon, VertexId apex, std::vector<Corners>& triangles) {
+  const auto at = std::find(polygon.begin(), polygon.end(), apex);
+  if (at == polygon.end()) return false;
+  const std::size_t n = polygon.size(), first = static_cast<std::size_t>(at - polygon.begin());
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    triangles.push_back({apex, polygon[(first + i) % n], polygon[(first + i + 1) % n]});
+  }
+  return true;
+}
+
 }  // namespace
 
 RemovalPlan plan_removal(const Mesh& mesh, VertexId v, RemovalPlan storage) {
@@ -220,6 +241,22 @@ RemovalPlan removal_from_names(const Mesh& mesh, VertexId vertex, VertexId link_
     return plan;
   }
   plan.triangles.assign(triangles.begin(), triangles.end());
+  return plan;
+}
+
+RemovalPlan plan_collapse(const Mesh& mesh, VertexId v, VertexId into, RemovalPlan storage) {
+  StarShape shape = star_shape(mesh, v);
+  const bool leaves_line =
+      shape.line_end.valid() && into != mesh.target(shape.first) && into != mesh.target(shape.line_end);
+  if (shape.status == RemovalStatus::possible && leaves_line) shape.status = RemovalStatus::constrained;
+  RemovalPlan plan = begin_plan(mesh, v, shape, std::move(storage));
+  if (plan.status != RemovalStatus::possible) return plan;
+  const bool filled = each_polygon(mesh, shape, plan.link, [&](std::span<const VertexId> polygon) {
+    const std::size_t before = plan.triangles.size();
+    return append_fan(polygon, into, plan.triangles) &&
+           fills(mesh, polygon, std::span<const Corners>(plan.triangles).subspan(before));
+  });
+  if (!filled) plan.status = RemovalStatus::no_triangulation;
   return plan;
 }
 

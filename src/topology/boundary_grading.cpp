@@ -1,0 +1,207 @@
+// Grading of the boundary and of constrained lines: no edge much longer than the one it meets.
+//
+//     |-|-----------------------------|        a short edge beside a long one, ratio 16
+//     |-|---|------|------------------|        pieces that grow by one factor q ≤ ratio: s q, s q², s q³ …
+//
+// Every vertex of a line has a size s: the shortest piece that meets it. An edge of length L between sizes s_a and s_b
+// stays whole when L ≤ r min(s_a, s_b), r the ratio. Otherwise it gets the least number k of pieces that can reach
+// along it when they grow by r from both ends,
+//     Σ u_i(r) ≥ L,   u_i(q) = min(q^i s_a, q^(k+1−i) s_b),   i = 1 … k,
+// and then the least growth q for which that k suffices: Σ u_i(q) = L, pieces u_i(q). With r ≥ 2, k pieces of the
+// smaller size are shorter than L (k ≤ 2(k−1), and k − 1 pieces of r s did not reach), so q ≥ 1, and no piece is
+// shorter than the smaller of the two sizes. The piece at the other end may be shorter than what was there, and becomes
+// its size.
+//
+// So sizes spread from the smallest outwards as in Dijkstra's algorithm: a vertex taken from the queue has its final
+// size, because what is still to come is not smaller. It ends after one visit a vertex, and every piece p at a vertex
+// of size s has s ≤ p ≤ r s: any two of them are within r.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <queue>
+#include <utility>
+
+#include "temper/topology.hpp"
+
+namespace temper {
+namespace {
+
+constexpr double kLeastRatio = 2;  // below, pieces could be shorter than what they grow from: see above
+
+struct LineEdge {
+  VertexId a, b;
+  double length;
+  [[nodiscard]] VertexId other(VertexId v) const { return v == a ? b : a; }
+};
+
+/// Σ of min(q^i s_a, q^(k+1−i) s_b), i = 1 … k; the pieces themselves into `pieces` when that is wanted.
+double reach(double s_a, double s_b, std::size_t k, double q, std::vector<double>* pieces = nullptr) {
+  std::vector<double> powers(k + 1, 1);
+  for (std::size_t i = 1; i <= k; ++i) powers[i] = powers[i - 1] * q;
+  double sum = 0;
+  for (std::size_t i = 1; i <= k; ++i) {
+    const double piece = std::min(powers[i] * s_a, powers[k + 1 - i] * s_b);
+    sum += piece;
+    if (pieces != nullptr) pieces->push_back(piece);
+  }
+  return sum;
+}
+
+/// The pieces of an edge between two sizes, from a to b: one where it may stay whole.
+std::vector<double> divide(double length, double s_a, double s_b, double ratio) {
+  if (length <= ratio * std::min(s_a, s_b)) return {length};
+  std::size_t k = 2;
+  while (reach(s_a, s_b, k, ratio) < length) ++k;
+  double low = 1, high = ratio;  // reach grows with q: as many halvings as a double has bits
+  for (int i = 0; i < 53; ++i) {
+    const double middle = 0.5 * (low + high);
+    (reach(s_a, s_b, k, middle) < length ? low : high) = middle;
+  }
+  std::vector<double> pieces;
+  reach(s_a, s_b, k, high, &pieces);
+  return pieces;
+}
+
+std::vector<LineEdge> line_edges(const Mesh& mesh) {
+  std::vector<LineEdge> edges;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.is_erased(Mesh::triangle(h)) || !mesh.is_edge_representative(h)) continue;
+    if (!mesh.is_boundary(h) && !mesh.is_constrained(h)) continue;
+    const auto [a, b] = std::minmax(mesh.origin(h), mesh.target(h));
+    edges.push_back({a, b, length(mesh.position(b) - mesh.position(a))});
+  }
+  std::sort(edges.begin(), edges.end(),
+            [](const LineEdge& e, const LineEdge& f) { return std::pair(e.a, e.b) < std::pair(f.a, f.b); });
+  return edges;
+}
+
+/// The edges at each vertex: those of v are entries[first[v] … first[v + 1]).
+class Incidence {
+ public:
+  Incidence(std::size_t n_vertices, const std::vector<LineEdge>& edges) : first_(n_vertices + 1, 0) {
+    for (const LineEdge& e : edges) ++first_[e.a.index + 1], ++first_[e.b.index + 1];
+    for (std::size_t v = 0; v < n_vertices; ++v) first_[v + 1] += first_[v];
+    entries_.resize(first_.back());
+    std::vector<std::size_t> at(first_.begin(), first_.end() - 1);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      entries_[at[edges[e].a.index]++] = e;
+      entries_[at[edges[e].b.index]++] = e;
+    }
+  }
+  [[nodiscard]] std::span<const std::size_t> of(VertexId v) const {
+    return std::span(entries_).subspan(first_[v.index], first_[v.index + 1] - first_[v.index]);
+  }
+
+ private:
+  std::vector<std::size_t> first_, entries_;
+};
+
+using Sizes = IdVector<VertexId, double>;
+
+/// The size of each vertex of a line: spread from the smallest outwards.
+Sizes spread_sizes(const std::vector<LineEdge>& edges, const Incidence& incidence, std::size_t n, double ratio) {
+  Sizes sizes(n, HUGE_VAL);
+  for (const LineEdge& e : edges) {
+    for (const VertexId v : {e.a, e.b}) sizes[v] = std::min(sizes[v], e.length);
+  }
+  using Entry = std::pair<double, VertexId>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (std::size_t v = 0; v < n; ++v) {
+    if (sizes[VertexId(v)] < HUGE_VAL) queue.emplace(sizes[VertexId(v)], VertexId(v));
+  }
+  while (!queue.empty()) {
+    const auto [size, v] = queue.top();
+    queue.pop();
+    if (size > sizes[v]) continue;  // has become smaller since
+    for (const std::size_t e : incidence.of(v)) {
+      const VertexId u = edges[e].other(v);
+      const double last = divide(edges[e].length, size, sizes[u], ratio).back();
+      if (last >= sizes[u]) continue;
+      sizes[u] = std::max(last, size);  // not below size by rounding: what is taken out stays final
+      queue.emplace(sizes[u], u);
+    }
+  }
+  return sizes;
+}
+
+/// The largest ratio of two pieces that meet, given the pieces of each edge.
+double largest_ratio(const std::vector<LineEdge>& edges, const std::vector<std::vector<double>>& pieces,
+                     std::size_t n) {
+  double largest = 1;
+  IdVector<VertexId, std::pair<double, double>> ends(n, {HUGE_VAL, 0});
+  const auto meet = [&](VertexId v, double piece) {
+    auto& [least, most] = ends[v];
+    least = std::min(least, piece), most = std::max(most, piece);
+    largest = std::max(largest, most / least);
+  };
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    meet(edges[e].a, pieces[e].front());
+    meet(edges[e].b, pieces[e].back());
+    for (std::size_t i = 1; i < pieces[e].size(); ++i) {
+      const double before = pieces[e][i - 1], after = pieces[e][i];
+      largest = std::max(largest, std::max(before / after, after / before));
+    }
+  }
+  return largest;
+}
+
+std::vector<double> cuts_of(const std::vector<double>& pieces) {
+  double total = 0, sum = 0;
+  for (const double piece : pieces) total += piece;
+  std::vector<double> at;
+  for (std::size_t i = 0; i + 1 < pieces.size(); ++i) at.push_back((sum += pieces[i]) / total);
+  return at;
+}
+
+/// Cuts the edge a→b at `at`, one after the other.
+void cut_edge(Mesh& mesh, const EdgeCuts& cuts, const InsertionObserver* observer, Grading& grading) {
+  const WeightedPoint a = mesh.point(cuts.a), b = mesh.point(cuts.b);
+  const Vec2 step = b.position() - a.position();
+  VertexId from = cuts.a;
+  double done = 0;
+  InsertionPlan plan;
+  for (const double t : cuts.at) {
+    HalfedgeId h = mesh.find_halfedge(from, cuts.b);
+    if (!h.valid()) h = mesh.find_halfedge(cuts.b, from);
+    const Vec2 p = a.position() + t * step, rest = b.position() - mesh.position(from);
+    const double w = split_weight(mesh.weight(from), b.w, squared_length(rest), (t - done) / (1 - done));
+    plan = plan_split(mesh, h, {p.x, p.y, w}, std::move(plan));
+    if (plan.status != InsertionStatus::possible && plan.status != InsertionStatus::not_regular) {
+      ++grading.refused;
+      continue;
+    }
+    from = insert_vertex(mesh, plan, observer);
+    done = t;
+    ++grading.vertices;
+    grading.flips += plan.flips.size();
+  }
+}
+
+}  // namespace
+
+GradingPlan plan_boundary_grading(const Mesh& mesh, double ratio) {
+  ratio = std::max(kLeastRatio, ratio);
+  const std::vector<LineEdge> edges = line_edges(mesh);
+  const std::size_t n = mesh.n_vertices();
+  const Sizes sizes = spread_sizes(edges, Incidence(n, edges), n, ratio);
+  std::vector<std::vector<double>> whole, pieces;
+  GradingPlan plan;
+  for (const LineEdge& e : edges) {
+    whole.push_back({e.length});
+    pieces.push_back(divide(e.length, sizes[e.a], sizes[e.b], ratio));
+    if (pieces.back().size() == 1) continue;
+    plan.cuts.push_back({e.a, e.b, cuts_of(pieces.back())});
+    plan.vertices += plan.cuts.back().at.size();
+  }
+  plan.ratio_before = largest_ratio(edges, whole, n);
+  plan.ratio_after = largest_ratio(edges, pieces, n);
+  return plan;
+}
+
+Grading grade_boundary(Mesh& mesh, double ratio, const InsertionObserver* observer) {
+  Grading grading;
+  for (const EdgeCuts& cuts : plan_boundary_grading(mesh, ratio).cuts) cut_edge(mesh, cuts, observer, grading);
+  return grading;
+}
+
+}  // namespace temper

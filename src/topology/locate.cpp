@@ -1,0 +1,66 @@
+#include "topology/locate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "geometry/predicates_inline.hpp"
+
+namespace temper {
+namespace {
+
+/// On which side of each edge of t the point is.
+std::array<Sign, 3> sides(const Mesh& mesh, Vec2 p, TriangleId t) {
+  const auto [a, b, c] = mesh.corners(t);
+  const Vec2 pa = mesh.position(a), pb = mesh.position(b), pc = mesh.position(c);
+  return {inlined::orient2d(pa, pb, p), inlined::orient2d(pb, pc, p), inlined::orient2d(pc, pa, p)};
+}
+
+bool is_usable(const Mesh& mesh, TriangleId t) { return t.index < mesh.n_triangles() && !mesh.is_erased(t); }
+
+/// The triangle that the walk from `near` ends in, or an invalid one where it is stopped.
+TriangleId walk(const Mesh& mesh, Vec2 p, TriangleId near) {
+  TriangleId at = near;
+  HalfedgeId entered;
+  // A walk that meets more triangles than there are goes in circles.
+  for (std::size_t step = 0; step <= mesh.n_triangles(); ++step) {
+    const std::array<Sign, 3> side = sides(mesh, p, at);
+    HalfedgeId across;
+    for (int k = 0; k < 3 && !across.valid(); ++k) {
+      const HalfedgeId h = Mesh::halfedge(at, k);
+      if (side[static_cast<std::size_t>(k)] == Sign::negative && h != entered) across = h;
+    }
+    if (!across.valid()) return at;
+    entered = mesh.twin(across);
+    if (!entered.valid()) return {};
+    at = Mesh::triangle(entered);
+  }
+  return {};
+}
+
+TriangleId scan(const Mesh& mesh, Vec2 p) {
+  for (const TriangleId t : mesh.triangles()) {
+    if (mesh.is_erased(t)) continue;
+    const std::array<Sign, 3> side = sides(mesh, p, t);
+    if (std::find(side.begin(), side.end(), Sign::negative) == side.end()) return t;
+  }
+  return {};
+}
+
+}  // namespace
+
+Location locate(const Mesh& mesh, Vec2 p, TriangleId near) {
+  TriangleId t = is_usable(mesh, near) ? walk(mesh, p, near) : TriangleId();
+  if (!t.valid()) t = scan(mesh, p);
+  if (!t.valid()) return {};
+  const std::array<Sign, 3> side = sides(mesh, p, t);
+  const auto zeros = std::count(side.begin(), side.end(), Sign::zero);
+  if (zeros == 0) return {Location::Kind::in_triangle, t, {}};
+  if (zeros > 1) return {Location::Kind::at_vertex, t, {}};
+  const auto k = std::find(side.begin(), side.end(), Sign::zero) - side.begin();
+  HalfedgeId edge = Mesh::halfedge(t, static_cast<int>(k));
+  if (!mesh.is_boundary(edge) && mesh.target(edge) < mesh.origin(edge)) edge = mesh.twin(edge);
+  return {Location::Kind::on_edge, Mesh::triangle(edge), edge};
+}
+
+}  // namespace temper

@@ -1,0 +1,202 @@
+// Insertion and split: ask and price.
+//
+//        d                        d              v is put into triangle abc (or on one of its edges) and joined to its
+//       / \                      /|\             corners. An edge of the link that conflicts with v, ab here with the
+//      /   \                    / | \            triangle bad beyond, is flipped to vd; then ad and db are asked. So
+//     a-----b        →         a  |  b           the cavity grows over the triangles whose power circle v conflicts
+//      \ v /                    \ | /            with, never across constrained edges, and stays star-shaped.
+//       \ /                      \|/
+//        c                        c              keeps: flags, regions, all old vertices
+//
+// Whether ab can be flipped depends on v, a, b and d alone, not on what has been flipped before. So one pass around the
+// link is enough, and which triangles are replaced does not depend on its order. Where ab conflicts and cannot be
+// flipped, an end of it has lost its power cell to v, or was hidden before.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "geometry/predicates_inline.hpp"
+#include "temper/topology.hpp"
+#include "topology/locate.hpp"
+
+namespace temper {
+namespace {
+
+/// Does the new vertex conflict with the triangle of h?
+bool conflicts(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p) {
+  return inlined::power_test(mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)), mesh.point(mesh.opposite(h)), p) ==
+         Sign::positive;
+}
+
+bool is_counter_clockwise(const Mesh& mesh, const WeightedPoint& p, VertexId a, VertexId b) {
+  return inlined::orient2d(p.position(), mesh.position(a), mesh.position(b)) == Sign::positive;
+}
+
+InsertionPlan begin_plan(InsertionStatus status, const WeightedPoint& p, InsertionPlan storage) {
+  storage.status = status;
+  storage.point = p;
+  storage.triangle = {};
+  storage.edge = {};
+  storage.cavity.clear();
+  storage.link.clear();
+  storage.rim.clear();
+  storage.flips.clear();
+  return storage;
+}
+
+/// The rim of a point in triangle t: from its corner of smallest number on.
+void begin_in_triangle(const Mesh& mesh, TriangleId t, InsertionPlan& plan) {
+  HalfedgeId first = Mesh::halfedge(t, 0);
+  for (int k = 1; k < 3; ++k) {
+    if (mesh.origin(Mesh::halfedge(t, k)) < mesh.origin(first)) first = Mesh::halfedge(t, k);
+  }
+  plan.triangle = t;
+  plan.cavity = {t};
+  plan.rim.assign({first, Mesh::next(first), Mesh::prev(first)});
+}
+
+/// The rim of a point on the edge of h: both triangles without it.
+void begin_on_edge(const Mesh& mesh, HalfedgeId h, InsertionPlan& plan) {
+  plan.triangle = Mesh::triangle(h);
+  plan.edge = h;
+  for (const HalfedgeId side : {h, mesh.twin(h)}) {
+    if (!side.valid()) continue;
+    plan.cavity.push_back(Mesh::triangle(side));
+    plan.rim.push_back(Mesh::next(side));
+    plan.rim.push_back(Mesh::prev(side));
+  }
+}
+
+/// Flips edges of the link while they conflict. False when one conflicts and cannot be flipped.
+bool grow(const Mesh& mesh, InsertionPlan& plan) {
+  bool all = true;
+  for (std::size_t i = 0; i < plan.rim.size();) {
+    const HalfedgeId h = plan.rim[i], g = mesh.twin(h);
+    if (!g.valid() || mesh.is_constrained(h) || !conflicts(mesh, g, plan.point)) {
+      ++i;
+      continue;
+    }
+    const VertexId a = mesh.origin(h), b = mesh.target(h), d = mesh.opposite(g);
+    if (!is_counter_clockwise(mesh, plan.point, a, d) || !is_counter_clockwise(mesh, plan.point, d, b)) {
+      all = false;
+      ++i;
+      continue;
+    }
+    plan.flips.push_back({a, b});
+    plan.cavity.push_back(Mesh::triangle(g));
+    plan.rim[i] = Mesh::next(g);
+    plan.rim.insert(plan.rim.begin() + static_cast<std::ptrdiff_t>(i + 1), Mesh::prev(g));
+  }
+  return all;
+}
+
+void write_link(const Mesh& mesh, InsertionPlan& plan) {
+  for (const HalfedgeId h : plan.rim) plan.link.push_back(mesh.origin(h));
+  if (plan.edge.valid() && mesh.is_boundary(plan.edge)) plan.link.push_back(mesh.target(plan.rim.back()));
+}
+
+/// Are the new edges from the new vertex to link[i] regular? The halves of a constrained edge need not be.
+bool spokes_are_regular(const Mesh& mesh, const InsertionPlan& plan) {
+  const std::size_t n = plan.link.size();
+  const bool open = n > plan.rim.size();
+  const bool has_line = plan.edge.valid() && mesh.is_constrained(plan.edge);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (open && (i == 0 || i + 1 == n)) continue;
+    const VertexId before = plan.link[(i + n - 1) % n], at = plan.link[i], after = plan.link[(i + 1) % n];
+    if (has_line && (at == mesh.origin(plan.edge) || at == mesh.target(plan.edge))) continue;
+    if (inlined::power_test(plan.point, mesh.point(before), mesh.point(at), mesh.point(after)) == Sign::positive) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// From the first cavity to the whole plan. Precondition: the first triangles are counter-clockwise.
+void complete(const Mesh& mesh, InsertionPlan& plan) {
+  const auto shows = [&](TriangleId t) { return conflicts(mesh, Mesh::halfedge(t, 0), plan.point); };
+  if (!std::all_of(plan.cavity.begin(), plan.cavity.end(), shows)) {
+    plan.status = InsertionStatus::hidden;
+    return;
+  }
+  const bool all = grow(mesh, plan);
+  write_link(mesh, plan);
+  plan.status = all && spokes_are_regular(mesh, plan) ? InsertionStatus::possible : InsertionStatus::not_regular;
+}
+
+}  // namespace
+
+InsertionPlan plan_insertion(const Mesh& mesh, const WeightedPoint& p, TriangleId near, InsertionPlan storage) {
+  InsertionPlan plan = begin_plan(InsertionStatus::outside, p, std::move(storage));
+  const Location location = locate(mesh, p.position(), near);
+  plan.triangle = location.triangle;
+  switch (location.kind) {
+    case Location::Kind::outside:
+      return plan;
+    case Location::Kind::at_vertex:
+      plan.status = InsertionStatus::at_vertex;
+      return plan;
+    case Location::Kind::in_triangle:
+      begin_in_triangle(mesh, location.triangle, plan);
+      break;
+    case Location::Kind::on_edge:
+      plan.edge = location.edge;
+      if (mesh.is_boundary(location.edge)) {
+        plan.status = InsertionStatus::on_boundary;
+        return plan;
+      }
+      if (mesh.is_constrained(location.edge)) {
+        plan.status = InsertionStatus::on_constrained;
+        return plan;
+      }
+      begin_on_edge(mesh, location.edge, plan);
+      break;
+  }
+  complete(mesh, plan);
+  return plan;
+}
+
+InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p, InsertionPlan storage) {
+  InsertionPlan plan = begin_plan(InsertionStatus::at_vertex, p, std::move(storage));
+  const VertexId a = mesh.origin(h), b = mesh.target(h);
+  begin_on_edge(mesh, h, plan);
+  if (p.position() == mesh.position(a) || p.position() == mesh.position(b)) return plan;
+  const auto is_ccw = [&](HalfedgeId side) {
+    return is_counter_clockwise(mesh, p, mesh.origin(side), mesh.target(side));
+  };
+  if (!std::all_of(plan.rim.begin(), plan.rim.end(), is_ccw)) {
+    plan.status = InsertionStatus::inverted;
+    return plan;
+  }
+  complete(mesh, plan);
+  return plan;
+}
+
+InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, double t, InsertionPlan storage) {
+  // From the end of smaller number: the same bits whichever side is asked.
+  WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h));
+  if (mesh.target(h) < mesh.origin(h)) std::swap(a, b), t = 1 - t;
+  const Vec2 step = b.position() - a.position();
+  const Vec2 p = a.position() + t * step;
+  return plan_split(mesh, h, {p.x, p.y, split_weight(a.w, b.w, squared_length(step), t)}, std::move(storage));
+}
+
+double interpolated_weight(const Mesh& mesh, TriangleId t, Vec2 p) {
+  const auto [a, b, c] = mesh.corners(t);
+  const WeightedPoint pa = mesh.point(a), pb = mesh.point(b), pc = mesh.point(c);
+  const double area = doubled_area(pa.position(), pb.position(), pc.position());
+  const double at_b = doubled_area(pa.position(), p, pc.position()) / area;
+  const double at_c = doubled_area(pa.position(), pb.position(), p) / area;
+  return pa.w + (at_b * (pb.w - pa.w) + at_c * (pc.w - pa.w));
+}
+
+double split_weight(double w_a, double w_b, double squared_length, double t) {
+  const double linear = w_a + t * (w_b - w_a);
+  // The piece of length tℓ has both d inside when |w − w_a| < t²ℓ², and the other likewise.
+  const double reach_a = t * t * squared_length, reach_b = (1 - t) * (1 - t) * squared_length;
+  const double low = std::max(w_a - reach_a, w_b - reach_b), high = std::min(w_a + reach_a, w_b + reach_b);
+  if (low >= high || (low < linear && linear < high)) return linear;
+  const double quarter = 0.25 * (high - low);
+  return std::clamp(linear, low + quarter, high - quarter);
+}
+
+}  // namespace temper
