@@ -332,11 +332,16 @@ void improve(const Settings& s, Input& input, Results& results, io::TextStream* 
     flush_output();
   }
   Tracer tracer;
+  std::size_t n_events = 0;
   if (trace != nullptr) {
     trace->write(trace_header(input));
-    tracer = [trace, &input](const TraceEvent& event) { trace->write(trace_line(event, input)); };
+    tracer = [trace, &input, &n_events](const TraceEvent& event) {
+      trace->write(trace_line(event, input));
+      ++n_events;
+    };
   }
   results.report = run_library(s, input, mesh, &threads, std::move(tracer));
+  if (trace != nullptr) trace->write(trace_end(n_events, mesh, input));
   if (measured) results.after = quality(mesh, measuring);
   if (!s.picture.empty()) {
     DrawOptions drawing;

@@ -68,10 +68,16 @@ Exit run_replay(const Arguments& arguments) {
 
   Input input = read_input(s.input);
   print_warnings(input.warnings());
-  const std::vector<TraceEvent> events = read_trace(s.trace, input);
+  const Trace trace = read_trace(s.trace, input);
+  const std::vector<TraceEvent>& events = trace.events;
   const auto applied = wanted(events, s.sweeps);
   const Expected<Replay> replayed = replay_with_vertices(input.mesh(), applied, input.names.get());
   if (!replayed) fail_at_event(s.trace, replayed.error());
+
+  if (applied.size() == events.size() && !is_end_of(trace.end, replayed->mesh)) {
+    throw Failure(Exit::bad_input,
+                  trace_place(s.trace, events.size()) + ": is the end of another mesh than the events make");
+  }
 
   const std::size_t known = input.file.warnings.size();
   io::update(input.file, input.loaded, replayed->mesh, replayed->vertices);

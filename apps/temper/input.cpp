@@ -41,8 +41,9 @@ Input read_input(const std::string& path, const std::vector<std::string>& fixed_
   input.path = path;
   input.file = or_fail(io::read(path));
   input.loaded = or_fail(io::make_mesh(input.file, fixed_tags));
+  input.n_vertices = input.loaded.mesh.n_vertices();
   input.points = invert(input.loaded);
-  input.names = std::make_shared<VertexNames>(input.file.numbering, input.points);
+  input.names = std::make_shared<VertexNames>(input.file.numbering, input.points, input.n_vertices);
   return input;
 }
 

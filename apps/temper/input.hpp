@@ -15,6 +15,7 @@ struct Input {
   std::string path;
   io::MeshFile file;
   io::LoadedMesh loaded;
+  std::size_t n_vertices = 0;               ///< of the mesh as it was read
   std::vector<std::size_t> points;          ///< mesh vertex → point of the file, both from 0; empty: the same
   std::shared_ptr<const InputNames> names;  ///< the file's own numbers of the mesh's vertices and triangles
 

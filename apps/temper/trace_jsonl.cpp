@@ -22,10 +22,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
+constexpr int kVersionWithoutEnd = 1;
 constexpr std::string_view kNumbering = "points of the input, from 0";
-constexpr std::array kKinds = {EventKind::move,    EventKind::weight, EventKind::flip, EventKind::collapse,
-                               EventKind::removal, EventKind::hidden, EventKind::undo};
+constexpr std::string_view kEnd = "end";
+constexpr std::array kKinds = {EventKind::move,     EventKind::weight,  EventKind::flip,
+                               EventKind::collapse, EventKind::removal, EventKind::insertion,
+                               EventKind::split,    EventKind::hidden,  EventKind::undo};
 
 // --- out ------------------------------------------------------------------------------------------------------
 
@@ -50,14 +53,17 @@ std::string checksum(const Mesh& mesh) {
   return fmt::format("{:016x}", hash);
 }
 
+/// Inserted vertices are numbered after all points of the file, also those of no triangle.
 std::size_t point_of(const Input& input, VertexId v) {
-  return v.index < input.points.size() ? input.points[v.index] : v.index;
+  const std::size_t n_vertices = input.n_vertices, n_points = input.loaded.vertex_of_point.size();
+  if (v.index >= n_vertices) return n_points + (v.index - n_vertices);
+  return input.points.empty() ? v.index : input.points[v.index];
 }
 
 /// A line of JSON, made key by key.
 class Line {
  public:
-  explicit Line(const Input& input) : input_(input) {}
+  Line(const Input& input, std::string_view event) : input_(input) { add("event", event); }
 
   void add(std::string_view key, std::string_view plain_text) { add_raw(key, fmt::format("\"{}\"", plain_text)); }
   void add(std::string_view key, int value) { add_raw(key, fmt::format("{}", value)); }
@@ -66,6 +72,7 @@ class Line {
     // JSON readers take -0 for an integer, which has no sign.
     add_raw(key, value == 0 && std::signbit(value) ? "-0.0" : fmt::format("{}", value));
   }
+  void add(std::string_view key, std::size_t value) { add_raw(key, fmt::format("{}", value)); }
   void add(std::string_view key, VertexId v) { add_raw(key, fmt::format("{}", point_of(input_, v))); }
   void add(std::string_view key, std::span<const VertexId> vertices) { add_raw(key, list(vertices)); }
   void add(std::string_view key, const std::vector<std::array<VertexId, 3>>& triangles) {
@@ -105,6 +112,9 @@ class Record {
     if (!json_.is_object()) fail("is no JSON object");
   }
 
+  /// Vertices that this line may speak of besides those of the input: inserted by lines before, and by this one.
+  void allow_inserted(std::size_t n) { n_inserted_ = n; }
+
   [[noreturn]] void fail(const std::string& message) const { throw Failure(Exit::bad_input, where_ + ": " + message); }
   [[nodiscard]] bool has(const char* key) const { return json_.contains(key); }
 
@@ -118,6 +128,11 @@ class Record {
     const auto number = as_whole(value);
     if (!number) expected(key, "a whole number", value);
     return *number;
+  }
+  [[nodiscard]] std::size_t count(const char* key) const {
+    const std::int64_t number = whole(key);
+    if (number < 0) expected(key, "a count", at(key));
+    return static_cast<std::size_t>(number);
   }
   [[nodiscard]] int sweep(const char* key) const {
     const std::int64_t number = whole(key);
@@ -134,6 +149,7 @@ class Record {
     if (!has(key) || json_[key].is_null()) return std::numeric_limits<double>::quiet_NaN();
     return real(key);
   }
+  [[nodiscard]] WeightedPoint place() const { return {real("x"), real("y"), real("w")}; }
   [[nodiscard]] VertexId vertex(const char* key) const { return vertex(key, at(key)); }
   template <std::size_t n>
   [[nodiscard]] std::array<VertexId, n> vertices(const char* key) const {
@@ -180,11 +196,14 @@ class Record {
     const auto number = as_whole(value);
     if (!number) expected(key, "a vertex", value);
     const auto& vertex_of_point = input_.loaded.vertex_of_point;
-    if (*number < 0 || static_cast<std::size_t>(*number) >= vertex_of_point.size()) {
-      fail(fmt::format("\"{}\" has vertex {}, but {} has {} points, numbered from 0", key, *number, input_.path,
-                       vertex_of_point.size()));
+    const std::size_t n_points = vertex_of_point.size(), index = static_cast<std::size_t>(*number);
+    if (*number < 0 || index >= n_points + n_inserted_) {
+      const std::string inserted = n_inserted_ == 0 ? "" : fmt::format(", and {} were inserted so far", n_inserted_);
+      fail(fmt::format("\"{}\" has vertex {}, but {} has {} points, numbered from 0{}", key, *number, input_.path,
+                       n_points, inserted));
     }
-    const std::int32_t v = vertex_of_point[static_cast<std::size_t>(*number)];
+    if (index >= n_points) return VertexId(input_.n_vertices + (index - n_points));
+    const std::int32_t v = vertex_of_point[index];
     if (v < 0) fail(fmt::format("\"{}\" has vertex {}, a point of no triangle", key, *number));
     return VertexId(static_cast<std::size_t>(v));
   }
@@ -199,10 +218,16 @@ class Record {
   Json json_;
   std::string where_;
   const Input& input_;
+  std::size_t n_inserted_ = 0;
 };
 
 void check_header(const Record& header, const Input& input) {
-  if (!header.has("trace")) header.fail("is not the header of a trace; expected {\"temper\":…,\"trace\":1,…}");
+  if (!header.has("trace")) header.fail("is not the header of a trace; expected {\"temper\":…,\"trace\":2,…}");
+  if (header.whole("trace") == kVersionWithoutEnd) {
+    header.fail(
+        "is a trace of version 1, which has no end line to tell whether it is whole; write it anew with temper "
+        "optimize --trace");
+  }
   if (header.whole("trace") != kVersion) {
     header.fail(fmt::format("is a trace of version {}; this temper reads version {}", header.whole("trace"), kVersion));
   }
@@ -223,6 +248,8 @@ void check_header(const Record& header, const Input& input) {
                             input.path));
   }
 }
+
+bool inserts(EventKind kind) { return kind == EventKind::insertion || kind == EventKind::split; }
 
 EventKind read_kind(const Record& record) {
   const std::string word = record.text("event");
@@ -248,9 +275,8 @@ TraceEvent read_event(const Record& record) {
   }
   switch (e.kind) {
     case EventKind::move:
-      e.point.x = record.real("x");
-      e.point.y = record.real("y");
-      [[fallthrough]];
+      e.point = record.place();
+      break;
     case EventKind::weight:
       e.point.w = record.real("w");
       break;
@@ -265,11 +291,37 @@ TraceEvent read_event(const Record& record) {
       e.link = record.all_vertices("link");
       e.triangles = record.triangles("triangles");
       break;
+    case EventKind::insertion: {
+      e.point = record.place();
+      const auto triangle = record.vertices<3>("triangle");
+      e.link.assign(triangle.begin(), triangle.end());
+      break;
+    }
+    case EventKind::split: {
+      e.point = record.place();
+      const auto [a, b] = record.vertices<2>("edge");
+      const auto beside = record.all_vertices("opposite");
+      if (beside.empty() || beside.size() > 2) record.fail("\"opposite\" has neither one vertex nor two");
+      e.quad = {a, b, beside.front(), beside.size() == 2 ? beside.back() : VertexId()};
+      break;
+    }
     case EventKind::hidden:
     case EventKind::undo:
       break;
   }
   return e;
+}
+
+TraceEnd read_end(const Record& record, std::size_t n_events) {
+  TraceEnd end;
+  end.events = record.count("events");
+  if (end.events != n_events) {
+    record.fail(fmt::format("ends a trace of {} events, but {} are before it", end.events, n_events));
+  }
+  if (record.has("vertices")) end.vertices = record.count("vertices");
+  if (record.has("triangles")) end.triangles = record.count("triangles");
+  if (record.has("checksum")) end.checksum = record.text("checksum");
+  return end;
 }
 
 }  // namespace
@@ -286,17 +338,20 @@ std::string trace_header(const Input& input) {
 }
 
 std::string trace_line(const TraceEvent& event, const Input& input) {
-  Line line(input);
-  line.add("event", name(event.kind));
+  Line line(input, name(event.kind));
   line.add("sweep", event.sweep);
   if (event.vertex.valid()) line.add("vertex", event.vertex);
   line.add("before", event.before);
   line.add("after", event.after);
+  if (event.kind == EventKind::move || inserts(event.kind)) {
+    line.add("x", event.point.x);
+    line.add("y", event.point.y);
+    line.add("w", event.point.w);
+  }
   switch (event.kind) {
     case EventKind::move:
-      line.add("x", event.point.x);
-      line.add("y", event.point.y);
-      [[fallthrough]];
+    case EventKind::hidden:
+      break;
     case EventKind::weight:
       line.add("w", event.point.w);
       break;
@@ -309,16 +364,36 @@ std::string trace_line(const TraceEvent& event, const Input& input) {
       line.add("link", std::span(event.link));
       line.add("triangles", event.triangles);
       break;
+    case EventKind::insertion:
+      line.add("triangle", std::span(event.link));
+      break;
+    case EventKind::split:
+      line.add("edge", std::span(event.quad).first<2>());
+      line.add("opposite", std::span(event.quad).subspan(2, event.quad[3].valid() ? 2 : 1));
+      break;
     case EventKind::undo:
       if (!event.vertex.valid()) line.add("to", event.to_sweep);
-      break;
-    case EventKind::hidden:
       break;
   }
   return std::move(line).finish();
 }
 
-std::vector<TraceEvent> read_trace(const std::string& path, const Input& input) {
+std::string trace_end(std::size_t n_events, const Mesh& result, const Input& input) {
+  Line line(input, kEnd);
+  line.add("events", n_events);
+  line.add("vertices", result.n_vertices());
+  line.add("triangles", result.n_triangles());
+  line.add("checksum", checksum(result));
+  return std::move(line).finish();
+}
+
+bool is_end_of(const TraceEnd& end, const Mesh& result) {
+  return end.vertices.value_or(result.n_vertices()) == result.n_vertices() &&
+         end.triangles.value_or(result.n_triangles()) == result.n_triangles() &&
+         (end.checksum.empty() || end.checksum == checksum(result));
+}
+
+Trace read_trace(const std::string& path, const Input& input) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Failure(Exit::bad_input, fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
   std::string line;
@@ -326,16 +401,32 @@ std::vector<TraceEvent> read_trace(const std::string& path, const Input& input) 
     throw Failure(Exit::bad_input, path + (file.bad() ? ": cannot be read" : ": the file is empty"));
   }
   check_header(Record(line, path + ":1", input), input);
-  std::vector<TraceEvent> events;
+  Trace trace;
+  std::vector<TraceEvent>& events = trace.events;
+  std::optional<TraceEnd> end;
+  std::size_t n_inserted = 0;
   while (std::getline(file, line)) {
-    const std::string where = trace_place(path, events.size());
+    const std::string where = trace_place(path, events.size() + (end ? 1 : 0));
     if (file.eof() && (line.empty() || line.back() != '}')) {
       throw Failure(Exit::bad_input, where + ": the file ends within an event");
     }
-    events.push_back(read_event(Record(line, where, input)));
+    Record record(line, where, input);
+    if (end) record.fail("follows the end of the trace");
+    if (record.text("event") == kEnd) {
+      end = read_end(record, events.size());
+      continue;
+    }
+    if (inserts(read_kind(record))) ++n_inserted;
+    record.allow_inserted(n_inserted);
+    events.push_back(read_event(record));
   }
   if (file.bad()) throw Failure(Exit::bad_input, path + ": cannot be read to its end");
-  return events;
+  if (!end) {
+    throw Failure(Exit::bad_input,
+                  fmt::format("{}: has no end line: only the first {} events of it are there", path, events.size()));
+  }
+  trace.end = *std::move(end);
+  return trace;
 }
 
 std::string trace_place(const std::string& path, std::size_t event) {

@@ -1,4 +1,5 @@
-// The file's own numbers for the vertices of a mesh, when points of the file that no triangle uses were dropped.
+// The file's own numbers for the vertices of a mesh, when points of the file that no triangle uses were dropped, and
+// names for vertices that the file does not have.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +13,8 @@ namespace temper::app {
 
 class VertexNames final : public InputNames {
  public:
-  /// points: mesh vertex → point of the file; empty: the same.
-  VertexNames(std::shared_ptr<const InputNames> file, std::vector<std::size_t> points);
+  /// points: mesh vertex → point of the file; empty: the same. n_vertices: of the file's mesh; those after are new.
+  VertexNames(std::shared_ptr<const InputNames> file, std::vector<std::size_t> points, std::size_t n_vertices);
   [[nodiscard]] std::string point(std::size_t index) const override;
   [[nodiscard]] std::string triangle(std::size_t index) const override;
   [[nodiscard]] std::string point_where(std::size_t index) const override;
@@ -24,6 +25,7 @@ class VertexNames final : public InputNames {
 
   std::shared_ptr<const InputNames> file_;
   std::vector<std::size_t> points_;
+  std::size_t n_vertices_;
 };
 
 }  // namespace temper::app

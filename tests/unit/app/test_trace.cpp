@@ -136,7 +136,7 @@ TEST_F(Trace, EveryLineIsAnObjectWithItsKeys) {
   ASSERT_GT(all.size(), 100u);
   const nlohmann::json header = nlohmann::json::parse(all[0]);
   EXPECT_EQ(header["temper"], TEMPER_VERSION);
-  EXPECT_EQ(header["trace"], 1);
+  EXPECT_EQ(header["trace"], 2);
   EXPECT_EQ(header["input"], "in.vtu");
   EXPECT_EQ(header["vertices"], 63);
   EXPECT_EQ(header["triangles"], 96);
@@ -146,7 +146,10 @@ TEST_F(Trace, EveryLineIsAnObjectWithItsKeys) {
                                                                 {"removal", {"vertex", "link", "triangles"}},
                                                                 {"undo", {}}};
   std::map<std::string, int> seen;
-  for (std::size_t i = 1; i < all.size(); ++i) {
+  const nlohmann::json end = nlohmann::json::parse(all.back());
+  EXPECT_EQ(end["event"], "end");
+  EXPECT_EQ(end["events"], all.size() - 2);
+  for (std::size_t i = 1; i + 1 < all.size(); ++i) {
     const nlohmann::json event = nlohmann::json::parse(all[i]);
     const std::string kind = event["event"];
     ++seen[kind];
@@ -157,6 +160,8 @@ TEST_F(Trace, EveryLineIsAnObjectWithItsKeys) {
   for (const char* kind : {"move", "flip", "removal"}) EXPECT_GT(seen[kind], 0) << kind;
   const nlohmann::json report = read_json("r.json");
   EXPECT_GT(report["vertices_removed"], 0);
+  EXPECT_EQ(end["vertices"], report["after"]["vertices"]);
+  EXPECT_EQ(end["triangles"], report["after"]["triangles"]);
   EXPECT_TRUE(report["hidden_vertices"].is_array());
 }
 
@@ -205,13 +210,23 @@ TEST_F(Trace, WrongOnesAreRefusedWithTheirLine) {
     EXPECT_FALSE(exists("no.vtu"));
   };
   const std::string move = R"({"event":"move","sweep":1,"vertex":8,"before":null,"after":1,"x":0.3,"y":0.2,"w":0})";
-  write("good.jsonl", header + move + "\n");
+  const std::string end = "{\"event\":\"end\",\"events\":1}\n";
+  write("good.jsonl", header + move + "\n" + end);
   temper_ok({"replay", "in.vtu", "good.jsonl", "-o", "moved.vtu"});
 
   expect_refused("", ": the file is empty");
   expect_refused("$MeshFormat\n", ":1: is no JSON object");
   expect_refused("{\"a\":1}\n", ":1: is not the header of a trace");
-  expect_refused("{\"trace\":2}\n", ":1: is a trace of version 2; this temper reads version 1");
+  expect_refused("{\"trace\":3}\n", ":1: is a trace of version 3; this temper reads version 2");
+  expect_refused("{\"trace\":1}\n", ":1: is a trace of version 1, which has no end line");
+  expect_refused(header, ": has no end line: only the first 0 events of it are there");
+  expect_refused(header + move + "\n", ": has no end line: only the first 1 events of it are there");
+  expect_refused(header + move + "\n" + move + "\n" + end, ":4: ends a trace of 1 events, but 2 are before it");
+  expect_refused(header + move + "\n" + end + move + "\n", ":4: follows the end of the trace");
+  expect_refused(header + move + "\n{\"event\":\"end\",\"events\":1,\"triangles\":1}\n",
+                 ":3: is the end of another mesh than the events make");
+  expect_refused(header + move + "\n{\"event\":\"end\",\"events\":1,\"checksum\":\"0123456789abcdef\"}\n",
+                 ":3: is the end of another mesh than the events make");
   std::string other = header;
   other.replace(other.find("\"vertices\":49"), 13, "\"vertices\":50");
   expect_refused(other, ":1: is of a mesh of 50 vertices (in.vtu), but in.vtu has 49");
@@ -231,9 +246,10 @@ TEST_F(Trace, WrongOnesAreRefusedWithTheirLine) {
                  ":2: expected a number as \"w\", found null");
   expect_refused(header + "{\"event\":\"flip\",\"sweep\":1,\"edge\":[1],\"opposite\":[2,3]}\n",
                  ":2: expected 2 vertices as \"edge\", found [1]");
-  expect_refused(header + move + "\n{\"event\":\"flip\",\"sweep\":1,\"edge\":[0,48],\"opposite\":[2,3]}\n",
+  expect_refused(header + move + "\n{\"event\":\"flip\",\"sweep\":1,\"edge\":[0,48],\"opposite\":[2,3]}\n" +
+                     "{\"event\":\"end\",\"events\":2}\n",
                  ":3: flip of the edge from point 0 to point 48, which is not in the mesh");
-  expect_refused(header + "{\"event\":\"undo\",\"sweep\":1,\"to\":4}\n",
+  expect_refused(header + "{\"event\":\"undo\",\"sweep\":1,\"to\":4}\n" + end,
                  ":2: undo in sweep 1 to the end of sweep 4, which has not been");
   const Outcome missing = temper({"replay", "in.vtu", "none.jsonl", "-o", "no.vtu"});
   EXPECT_EQ(missing.exit, 1);
