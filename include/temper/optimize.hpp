@@ -13,6 +13,7 @@
 #include "temper/mesh.hpp"
 #include "temper/progress.hpp"
 #include "temper/regularity.hpp"
+#include "temper/size.hpp"
 #include "temper/trace.hpp"
 
 namespace temper {
@@ -135,6 +136,10 @@ struct OptimizeOptions {
   int max_sweeps = 1000;
   double tolerance = 1e-5;
   StoppingRule stopping = StoppingRule::relative;
+  std::optional<SizeField> size_field = {};  ///< that sizes are compared with; absent: the input's own
+  /// B ≥ 1: no step or flip takes the local size of a vertex out of [s/B, B s], s the size field there, or further out
+  /// than it is. Removals, insertions, and the flips that make the input regular are not asked. Absent: no limit.
+  std::optional<double> size_band = {};
   double time_limit = 0;              ///< seconds; 0: none
   std::uint64_t seed = 1;             ///< of the jitter that frees symmetric grids
   const InputNames* names = nullptr;  ///< the user's numbering, for errors
@@ -170,6 +175,11 @@ enum class Stopped {
 };
 [[nodiscard]] std::string_view name(Stopped stopped);
 
+/// What a run did to the sizes: both compared with the size field.
+struct SizeChange {
+  SizeReport before, after;
+};
+
 struct OptimizeReport {
   Stopped stopped = Stopped::converged;
   int sweeps = 0;
@@ -183,6 +193,7 @@ struct OptimizeReport {
   double seconds = 0;            ///< the optimisation alone
   double initial_energy = 0;     ///< of the input, at the final γ
   double final_energy = 0;
+  SizeChange size;
   std::vector<SweepRecord> history;  ///< history[0] is the input
   std::vector<std::string> notes;    ///< what the user should know, in sentences
 };

@@ -1,9 +1,11 @@
 // Size: how long edges are meant to be where, and how far those of a mesh are from that.
 //
 // A size field gives a length at every point: linear on the triangles of a mesh, from values at its vertices. The
-// size of a mesh at a vertex is the mean length of the edges there, and a mesh has a size field of its own: that of
-// its vertices. What an optimisation does to the sizes is told by the ratio of local size to field, 1 everywhere
-// before it, and by the gradation: how fast sizes change from vertex to vertex.
+// size of a mesh at a vertex is the edge of an equilateral triangle that has the mean area of the triangles there. So
+// it follows how densely vertices lie, and does not shrink, as the mean length of edges does, where badly shaped
+// triangles become better ones. A mesh has a size field of its own: its sizes at its vertices. What an optimisation
+// does to them is told by the ratio of local size to field, 1 everywhere before it, and by the gradation: how fast
+// sizes change from vertex to vertex.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +20,7 @@ namespace temper {
 
 class Executor;
 
-/// The size of the mesh at v: the mean length of its edges. Precondition: v is not isolated. O(degree).
+/// √(4/√3 A), A the mean area of the triangles at v. Precondition: v is not isolated. O(degree).
 [[nodiscard]] double local_size(const Mesh& mesh, VertexId v);
 
 /// A length at every point of the plane: linear on each triangle of a mesh; beyond the mesh, that of its nearest point.

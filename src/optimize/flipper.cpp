@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "energy/patch.hpp"
+#include "optimize/size_band.hpp"
 #include "regularity/hidden.hpp"
 
 namespace temper {
@@ -35,19 +36,38 @@ struct FlipLog {
   }
 };
 
+/// Shows each flip to a band of sizes too.
+template <class Hook>
+struct WithBand {
+  Hook& hook;
+  SizeBand& band;
+  void before(const Mesh& mesh, HalfedgeId h) {
+    band.about_to_flip(h);
+    hook.before(mesh, h);
+  }
+  void after(const Mesh& mesh, HalfedgeId h) { hook.after(mesh, h); }
+};
+
+template <class Hook>
+LawsonRun run_lawson(Lawson& lawson, Mesh& mesh, Hook&& hook, std::size_t max_flips, SizeBand* band) {
+  if (band == nullptr) return lawson.run(mesh, hook, max_flips);
+  band->begin_flips();
+  return lawson.run(mesh, WithBand<std::remove_reference_t<Hook>>{hook, *band}, max_flips);
+}
+
 }  // namespace
 
 /// Lawson on what is queued. `change`, when there is one, grows by what the flips change of the energy.
-LawsonRun Flipper::run(std::optional<double>& change, std::size_t max_flips) {
+LawsonRun Flipper::run(std::optional<double>& change, std::size_t max_flips, SizeBand* band) {
   if (recorder_.on()) {
     FlipLog log{settings_.model, records_};
-    const LawsonRun result = lawson_.run(mesh_, log, max_flips);
+    const LawsonRun result = run_lawson(lawson_, mesh_, log, max_flips, band);
     if (change) *change += log.change;
     return result;
   }
-  if (!change) return lawson_.run(mesh_, IgnoreFlips(), max_flips);
+  if (!change) return run_lawson(lawson_, mesh_, IgnoreFlips(), max_flips, band);
   FlipPrice price{settings_.model, *change};
-  const LawsonRun result = lawson_.run(mesh_, price, max_flips);
+  const LawsonRun result = run_lawson(lawson_, mesh_, price, max_flips, band);
   change = price.change;
   return result;
 }
@@ -71,11 +91,12 @@ bool Flipper::settle(const Step& step) {
   }
   std::optional<double> change;
   if (step.must_pay) change = step.after - step.before;
-  const LawsonRun result = run(change, kMostFlips);
+  const LawsonRun result = run(change, kMostFlips, step.band);
   const bool pays = !change || *change < 0;
   const WeightedPoint there = mesh_.point(step.v);
   const bool hides = !lawson_.stuck(mesh_).empty();
-  if (!result.finished || !pays || (hides && !accept_hidden())) {
+  const bool leaves_band = step.band != nullptr && !step.band->allow_flips();
+  if (!result.finished || !pays || leaves_band || (hides && !accept_hidden())) {
     lawson_.rollback(mesh_);
     mesh_.set_point(step.v, step.origin);
     recorder_.undone(step.v, step.before, change ? step.before + *change : step.after);

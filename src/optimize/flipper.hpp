@@ -12,6 +12,8 @@
 
 namespace temper {
 
+class SizeBand;
+
 class Flipper {
  public:
   Flipper(Mesh& mesh, const Settings& settings, const Recorder& recorder)
@@ -23,6 +25,7 @@ class Flipper {
     WeightedPoint origin;
     double before = 0, after = 0;  ///< energy of v's patch
     bool must_pay = false;         ///< with what the flips change, the energy must fall
+    SizeBand* band = nullptr;      ///< of local sizes, which flips must not leave
   };
   /// Makes the edges around a step's vertex regular. Undoes all of it, the step too, and says no when that does not
   /// pay, or hides a vertex that may not be.
@@ -42,7 +45,7 @@ class Flipper {
   [[nodiscard]] bool has_removed() const { return changes_.removed > 0; }
 
  private:
-  LawsonRun run(std::optional<double>& change, std::size_t max_flips);
+  LawsonRun run(std::optional<double>& change, std::size_t max_flips, SizeBand* band = nullptr);
   bool accept_hidden();
   void treat_hidden();
   [[nodiscard]] std::vector<VertexId> hidden_at_stuck_edges();

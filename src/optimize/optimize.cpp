@@ -146,14 +146,26 @@ Mesh made_regular(const Mesh& mesh, Settings settings) {
   return std::move(work).in_user_terms();
 }
 
+/// The size field of a run with a band; the input's own is seen where it is, since the run works on copies.
+std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& options) {
+  if (!options.size_band) return std::nullopt;
+  return options.size_field ? options.size_field : input_size_field_of(mesh);
+}
+
 /// Puts the best mesh into `mesh`, unless that is the better one, and says in the report what came of it.
 void give_back(Mesh& mesh, Result best, const Settings& settings, const Recorder& recorder, OptimizeReport& report) {
   const OptimizeOptions& o = settings.options;
   report.initial_energy = total_energy(mesh, settings.model, o.executor);
+  const SizeField field = o.size_field ? *o.size_field : input_size_field_of(mesh);  // seen until mesh is replaced
+  report.size.before = report.size.after = measure_size(mesh, field, o.executor);
   if (is_worse(best.mesh, mesh, settings)) {
     // Where hidden vertices are kept, edges that are not regular make no mesh worse; but those that can be flipped are.
     const bool flips = o.flips && o.hidden == HiddenPolicy::keep && count_non_regular_edges(mesh, false) > 0;
-    if (flips) mesh = made_regular(mesh, settings);
+    if (flips) {
+      Mesh regular = made_regular(mesh, settings);
+      report.size.after = measure_size(regular, field, o.executor);
+      mesh = std::move(regular);
+    }
     recorder.returned_to(flips ? 0 : -1);
     report.notes.push_back(flips ? "no better mesh was found: the input is returned, its edges flipped to be regular"
                                  : "no better mesh was found: the input is returned as it was");
@@ -161,6 +173,7 @@ void give_back(Mesh& mesh, Result best, const Settings& settings, const Recorder
   } else {
     report.vertices_removed = mesh.n_vertices() - best.mesh.n_vertices();
     report.vertices = std::move(best.vertices);
+    report.size.after = measure_size(best.mesh, field, o.executor, report.vertices);
     mesh = std::move(best.mesh);
   }
   report.final_energy = total_energy(mesh, settings.model, o.executor);
@@ -175,11 +188,13 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
   Run run(options, observer);
   OptimizeReport& report = run.report;
   std::optional<Result> best;  // of the attempts so far
+  const std::optional<SizeField> band_field = field_of_band(mesh, options);
   std::span<const Attempt> tries;
   for (std::size_t i = 0; i == 0 || i < tries.size(); ++i) {
     WorkingCopy work(mesh, options.order);
     auto settings = make_settings(options, work.mesh, work.frame);
     if (!settings) return settings.error();
+    settings->size_field = band_field;
     Driver driver(work, *settings, run);
     if (i > 0) driver.recorder().returned_to(-1);
     if (options.flips && !driver.make_regular()) return hidden_by_input(mesh, options.names);

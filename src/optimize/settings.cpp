@@ -33,6 +33,9 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
         "boundary vertices slide, but where triangles may be inverted nothing keeps them from passing a "
         "corner; expected inversions to be refused");
   }
+  if (o.inversion == Inversion::allow && o.size_band) {
+    return invalid("inverted triangles are allowed, but they have no size; expected no size band");
+  }
   return std::nullopt;
 }
 
@@ -70,6 +73,9 @@ std::optional<InputError> check(const OptimizeOptions& o, const Mesh& mesh) {
   }
   if (o.removal_from < 0) return invalid("removal from is " + std::to_string(o.removal_from) + "; expected at least 0");
   if (auto error = check_combinations(o)) return error;
+  if (o.size_band && !(*o.size_band >= 1)) {
+    return invalid("size band is " + to_text(*o.size_band) + "; expected a factor of at least 1");
+  }
   if (o.anchor && *o.anchor >= mesh.n_vertices()) {
     return invalid("anchor is vertex " + std::to_string(*o.anchor) + ", but the mesh has " +
                    std::to_string(mesh.n_vertices()) + " vertices");

@@ -12,6 +12,7 @@ struct Settings {
   EnergyModel collapse_model;  ///< E_c
   FlipLimit flip_limit = FlipLimit::unlimited;
   OptimizeOptions options;
+  std::optional<SizeField> size_field;  ///< that a size band is around, in the user's units; absent without one
 };
 
 /// Flips wait for the end of the inner iterations, so that edges may meanwhile not be regular.

@@ -159,7 +159,8 @@ WeightedPoint VertexStep::moved(const Step& step, double t) const {
   return {x.x, x.y, p.w};
 }
 
-/// One Newton step: over-relaxed, then plain, then halved until the energy falls.
+/// One Newton step: over-relaxed, then plain, then halved until the energy falls. Where the size band holds the
+/// position, the weight alone.
 void VertexStep::newton_search(const Freedom& freedom) {
   VertexDerivatives d = patch_derivatives(patch_, settings_.model, origin_);
   energy_ = d.value;
@@ -173,6 +174,7 @@ void VertexStep::newton_search(const Freedom& freedom) {
   const double relaxation = settings_.options.relaxation;
   for (double& s : newton.step) s *= relaxation;
   double t = flip_limited(newton.step, farthest(newton.step));
+  bool leaves_band = false;
   for (int trial = 0; trial < kTrials; ++trial) {
     switch (try_step(newton.step, t)) {
       case Outcome::accepted:
@@ -184,12 +186,16 @@ void VertexStep::newton_search(const Freedom& freedom) {
         t = threshold > kTie * t ? kBeforeFlip * threshold : 1e-3 * t;
         break;
       }
+      case Outcome::out_of_band:
+        leaves_band = true;
+        [[fallthrough]];
       case Outcome::not_lower:
       case Outcome::inverted:
         t *= trial == 0 && relaxation > 1 ? 1 / relaxation : 0.5;
         break;
     }
   }
+  if (leaves_band && freedom.n > position_part(freedom).n) newton_search(weight_only());
 }
 
 /// The paper's Algorithm 5: a finite-difference gradient, then golden section downhill within the patch radius.
@@ -204,8 +210,13 @@ void VertexStep::golden_search(const Freedom& freedom) {
   if (!direction) return;
   const double limit = flip_limited(*direction, farthest(*direction));
   if (!(limit > 0)) return;
-  const double t = line_minimum(patch_, settings_.model, origin_, *direction, limit);
-  if (try_step(*direction, t) == Outcome::blocked_by_flip) {
+  double t = line_minimum(patch_, settings_.model, origin_, *direction, limit);
+  Outcome outcome = try_step(*direction, t);
+  for (int trial = 1; outcome == Outcome::out_of_band && trial < kTrials; ++trial) {
+    t *= 0.5;
+    outcome = try_step(*direction, t);
+  }
+  if (outcome == Outcome::blocked_by_flip) {
     const double threshold = flip_threshold(mesh_, vertex_, *direction);
     if (threshold < t) try_step(*direction, kBeforeFlip * threshold);
   }
@@ -216,6 +227,7 @@ VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
   const double energy = patch_energy(patch_, settings_.model, p);
   if (!(energy < energy_)) return Outcome::not_lower;
   if (settings_.options.inversion == Inversion::refuse && !stays_oriented(p)) return Outcome::inverted;
+  if (!keeps_size(p)) return Outcome::out_of_band;
   return place(p, energy, settings_.energy.barrier) ? Outcome::accepted : Outcome::blocked_by_flip;
 }
 
@@ -229,14 +241,25 @@ bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
   }
   if (keeps_connectivity()) note_regular_edges();
   mesh_.set_point(vertex_, p);
-  if (flips_at_once()) return flipper_.settle({vertex_, origin_, energy_, energy, must_pay});
+  if (flips_at_once()) {
+    const bool settled = flipper_.settle({vertex_, origin_, energy_, energy, must_pay, band_.on() ? &band_ : nullptr});
+    if (settled && !only_weight) band_.moved(vertex_);
+    return settled;
+  }
   const bool fits = !keeps_connectivity() || regular_edges_still_are();
+  if (fits && !only_weight) band_.moved(vertex_);
   if (fits) {
     recorder_.placed(vertex_, origin_, p, energy_, energy);
   } else {
     mesh_.set_point(vertex_, origin_);
   }
   return fits;
+}
+
+/// To be asked before place(), which tells the band where its vertex went.
+bool VertexStep::keeps_size(const WeightedPoint& p) {
+  const bool only_weight = p.x == origin_.x && p.y == origin_.y;
+  return only_weight || !band_.on() || band_.allows(patch_, p.position());
 }
 
 /// Thresholds are computed in doubles; that no edge flips is decided exactly.
@@ -249,7 +272,7 @@ void VertexStep::nudge(VertexId v, Vec2 p) {
   gather(v);
   energy_ = patch_energy(patch_, settings_.model, origin_);
   const WeightedPoint there{p.x, p.y, origin_.w};
-  if (stays_oriented(there)) place(there, patch_energy(patch_, settings_.model, there), false);
+  if (stays_oriented(there) && keeps_size(there)) place(there, patch_energy(patch_, settings_.model, there), false);
 }
 
 void VertexStep::end_sweep() {
@@ -267,12 +290,14 @@ void VertexStep::renumber(const Compaction& kept) {
   mobility.reserve(kept.vertices.size());
   for (const VertexId v : kept.vertices) mobility.push_back(mobility_[v]);
   mobility_ = std::move(mobility);
+  band_.renumber(kept);
 }
 
 void VertexStep::grow() {
   for (std::size_t i = mobility_.size(); i < mesh_.n_vertices(); ++i) {
     mobility_.push_back(mobility(mesh_, VertexId(i), settings_.options));
   }
+  band_.grow();
 }
 
 bool VertexStep::flips_at_once() const {

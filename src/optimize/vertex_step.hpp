@@ -9,6 +9,7 @@
 #include "optimize/freedom.hpp"
 #include "optimize/newton.hpp"
 #include "optimize/settings.hpp"
+#include "optimize/size_band.hpp"
 
 namespace temper {
 
@@ -21,6 +22,7 @@ class VertexStep {
         frame_(frame),
         flipper_(flipper),
         recorder_(recorder),
+        band_(mesh, frame, settings.size_field, settings.options.size_band),
         mobility_(mobilities(mesh, settings.options)) {}
 
   /// Of the sweep under way: i ≥ i_w, i ≥ i_c, and the overshoot of FlipLimit::after.
@@ -43,7 +45,7 @@ class VertexStep {
   void grow();
 
  private:
-  enum class Outcome { accepted, not_lower, inverted, blocked_by_flip };
+  enum class Outcome { accepted, not_lower, inverted, out_of_band, blocked_by_flip };
 
   bool collapse(VertexId v);
   void optimize_point(VertexId v);
@@ -60,6 +62,7 @@ class VertexStep {
   [[nodiscard]] WeightedPoint moved(const Step& step, double t) const;
   Outcome try_step(const Step& step, double t);
   [[nodiscard]] bool stays_oriented(const WeightedPoint& p) const;
+  [[nodiscard]] bool keeps_size(const WeightedPoint& p);
   bool place(const WeightedPoint& p, double energy, bool must_pay);
   [[nodiscard]] bool keeps_connectivity() const;
   [[nodiscard]] bool flips_at_once() const;
@@ -71,6 +74,7 @@ class VertexStep {
   const Frame& frame_;
   Flipper& flipper_;
   const Recorder& recorder_;
+  SizeBand band_;
   IdVector<VertexId, Mobility> mobility_;
   Unknowns unknowns_ = Unknowns::positions_and_weights;
   bool collapses_ = false, removes_ = false;

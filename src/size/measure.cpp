@@ -1,18 +1,28 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/sum.hpp"
+#include "size/star_area.hpp"
 #include "temper/size.hpp"
 
 namespace temper {
 namespace {
 
 /// The value of that rank: the least one that at least `part` of all values do not exceed.
-double percentile(std::vector<double>& values, double part) {
+template <class Number>
+double percentile(std::vector<Number>& values, double part) {
   const auto n = static_cast<double>(values.size());
   const auto rank = static_cast<std::ptrdiff_t>(std::max(1.0, std::ceil(part * n)) - 1);
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   return values[static_cast<std::size_t>(rank)];
+}
+
+template <class Number>
+Spread spread_of(std::vector<Number> values) {
+  if (values.empty()) return {};
+  return {percentile(values, 0), percentile(values, 0.05), percentile(values, 0.5), percentile(values, 0.95),
+          percentile(values, 1)};
 }
 
 /// The field's triangle to look for v from.
@@ -27,13 +37,13 @@ TriangleId start_for(VertexId v, const Mesh& mesh, const Mesh& of_field, const I
 }
 
 /// The gradation at every edge, from the sizes at the vertices.
-std::vector<double> gradations(const Mesh& mesh, const IdVector<VertexId, double>& sizes) {
-  std::vector<double> ratios;
+std::vector<float> gradations(const Mesh& mesh, const IdVector<VertexId, double>& sizes) {
+  std::vector<float> ratios;  // as many as there are edges: the largest array here
   ratios.reserve(mesh.n_halfedges() / 2);
   for (const HalfedgeId h : mesh.halfedges()) {
     if (!mesh.is_edge_representative(h)) continue;
     const auto [low, high] = std::minmax(sizes[mesh.origin(h)], sizes[mesh.target(h)]);
-    ratios.push_back(high / low);
+    ratios.push_back(static_cast<float>(high / low));
   }
   return ratios;
 }
@@ -51,27 +61,9 @@ double largest_edge_ratio(const Mesh& mesh) {
 
 }  // namespace
 
-double local_size(const Mesh& mesh, VertexId v) {
-  const Vec2 p = mesh.position(v);
-  double sum = 0;
-  int edges = 0;
-  for (const HalfedgeId h : mesh.star(v)) {
-    sum += length(mesh.position(mesh.target(h)) - p);
-    ++edges;
-    const HalfedgeId last = Mesh::prev(h);  // of a boundary vertex, the one edge that no halfedge leaves it by
-    if (!mesh.twin(last).valid()) {
-      sum += length(mesh.position(mesh.origin(last)) - p);
-      ++edges;
-    }
-  }
-  return sum / edges;
-}
+double local_size(const Mesh& mesh, VertexId v) { return star_area(mesh, v).size(); }
 
-Spread spread(std::vector<double> values) {
-  if (values.empty()) return {};
-  return {percentile(values, 0), percentile(values, 0.05), percentile(values, 0.5), percentile(values, 0.95),
-          percentile(values, 1)};
-}
+Spread spread(std::vector<double> values) { return spread_of(std::move(values)); }
 
 double SizeReport::band() const { return std::max(over_field.max, 1 / over_field.min); }
 
@@ -88,7 +80,7 @@ SizeReport measure_size(const Mesh& mesh, const SizeField& field, Executor* exec
     return s.outside ? 1.0 : 0.0;
   }));
   report.over_field = spread(std::move(ratios));
-  report.gradation = spread(gradations(mesh, sizes));
+  report.gradation = spread_of(gradations(mesh, sizes));
   report.largest_edge_ratio = largest_edge_ratio(mesh);
   return report;
 }

@@ -1,0 +1,30 @@
+// The triangles around a vertex, as far as its size goes: how many, and how large together.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+struct StarArea {
+  double doubled = 0;  ///< twice the area of all, inverted ones too
+  int triangles = 0;
+
+  /// The squared edge of an equilateral triangle of their mean area: 4/√3 A.
+  [[nodiscard]] double squared_size() const { return 2 * std::numbers::inv_sqrt3 * doubled / triangles; }
+  [[nodiscard]] double size() const { return std::sqrt(squared_size()); }
+};
+
+[[nodiscard]] inline StarArea star_area(const Mesh& mesh, VertexId v) {
+  StarArea star;
+  const Vec2 p = mesh.position(v);
+  for (const HalfedgeId h : mesh.star(v)) {
+    star.doubled += std::abs(cross(mesh.position(mesh.target(h)) - p, mesh.position(mesh.opposite(h)) - p));
+    ++star.triangles;
+  }
+  return star;
+}
+
+}  // namespace temper
