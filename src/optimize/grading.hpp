@@ -1,0 +1,24 @@
+// BoundaryVertices::split: long edges of the boundary and of constrained lines, where they meet short ones, are cut
+// before the sweeps. A long edge beside a short one is what plain sweeps cannot mend: no position of the vertices
+// inside gives both of their triangles an orthocenter of their own.
+//
+// The cuts are those of plan_boundary_grading(), but at places that the user's coordinates can hold, and told to the
+// recorder one by one.
+#pragma once
+
+#include <cstddef>
+
+#include "optimize/flipper.hpp"
+
+namespace temper {
+
+struct BoundaryCuts {
+  std::size_t vertices = 0;  ///< inserted
+  std::size_t refused = 0;   ///< cuts that rounding forbids: a triangle would turn over
+  double ratio_before = 1;   ///< of the lengths of two such edges that meet at a vertex
+  double ratio_after = 1;    ///< the same with all cuts
+};
+/// The mesh's unconstrained edges are regular, and so they are left.
+BoundaryCuts cut_boundary(WorkingCopy& work, Flipper& flipper, double ratio);
+
+}  // namespace temper
