@@ -78,6 +78,13 @@ enum class Inversion {
   allow,   ///< are, as in the paper: energies extrapolate, and the mesh may end as a tangle (a "HOT mess")
 };
 
+/// What is done, one neighbourhood at a time, about triangles that sweeps of a barrier leave not well-centered.
+enum class Repair {
+  none,
+  moves,     ///< sweeps from a larger γ and random kicks; every vertex stays. Not where γ, h° or a solver is the user's
+  vertices,  ///< the same, and vertices are removed and inserted
+};
+
 /// In which order a sweep visits the vertices.
 enum class SweepOrder {
   hilbert,  ///< along a Hilbert curve
@@ -133,7 +140,10 @@ struct OptimizeOptions {
   double removal_margin = 0.1;  ///< by which the patch must be better, relative
   int removal_from = 10;        ///< first sweep with removals
 
-  int max_sweeps = 1000;
+  Repair repair = Repair::moves;
+  int repair_trials = 20000;  ///< most edits that are tried, each on a copy of a neighbourhood; 1 to 3 ms each
+
+  int max_sweeps = 1000;  ///< each repair counts as a sweep of its own
   double tolerance = 1e-5;
   StoppingRule stopping = StoppingRule::relative;
   std::optional<SizeField> size_field = {};  ///< that sizes are compared with; absent: the input's own
@@ -141,7 +151,7 @@ struct OptimizeOptions {
   /// than it is. Removals, insertions, and the flips that make the input regular are not asked. Absent: no limit.
   std::optional<double> size_band = {};
   double time_limit = 0;              ///< seconds; 0: none
-  std::uint64_t seed = 1;             ///< of the jitter that frees symmetric grids
+  std::uint64_t seed = 1;             ///< of the jitter that frees symmetric grids, and of repairs
   const InputNames* names = nullptr;  ///< the user's numbering, for errors
   Executor* executor = nullptr;       ///< threads for sums over the mesh; results do not depend on it
   Tracer tracer = {};                 ///< sees every event of the run

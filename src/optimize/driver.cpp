@@ -5,6 +5,9 @@
 #include <utility>
 
 #include "base/rng.hpp"
+#include "base/text.hpp"
+#include "optimize/grading.hpp"
+#include "optimize/repair_search.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
@@ -149,6 +152,13 @@ void Driver::compact() {
   std::erase_if(sequence_, [](VertexId v) { return !v.valid(); });
 }
 
+/// Makes room for the vertices that have been inserted, everywhere.
+void Driver::grow() {
+  step_.grow();
+  if (sequence_.empty()) return;
+  for (std::size_t i = sequence_.size(); i < mesh_.n_vertices(); ++i) sequence_.push_back(VertexId(i));
+}
+
 /// Weights that leave edges uncrossed and that single vertices cannot mend: half of all of them, until zero weights at
 /// last, where every barrier on d is satisfied. False when weights or connectivity may not change.
 bool Driver::halve_weights() {
@@ -201,6 +211,45 @@ bool Driver::make_regular() {
   run_.report.flips += changes.flips;
   run_.report.vertices_removed += changes.removed;
   return true;
+}
+
+void Driver::grade_boundary() {
+  const OptimizeOptions& o = settings_.options;
+  if (o.boundary_vertices != BoundaryVertices::split) return;
+  const BoundaryCuts cuts = cut_boundary(work_, flipper_, o.boundary_ratio);
+  grow();
+  if (!run_.report.history.empty()) return;  // of the first attempt: others do the same again
+  const auto rounded = [](double ratio) { return to_text(std::round(100 * ratio) / 100); };
+  run_.report.notes.push_back(std::to_string(cuts.vertices) +
+                              " vertices inserted on the boundary and on lines: edges that meet there differed in "
+                              "length by a factor of " +
+                              rounded(cuts.ratio_before) + ", now " + rounded(cuts.ratio_after));
+  if (cuts.refused > 0) {
+    run_.report.notes.push_back(std::to_string(cuts.refused) +
+                                " cuts of the boundary were not made: coordinates are too coarse there");
+  }
+}
+
+void Driver::repair() {
+  RepairSearch search(work_, settings_, run_, flipper_, recorder_);
+  while (run_.sweeps_left() && search.improve_one_place()) {
+    grow();
+    if (flipper_.has_removed()) compact();
+    ++run_.report.sweeps;
+    record();
+    show(Snapshot::Moment::after_sweep);
+    recorder_.begin_sweep(run_.report.sweeps + 1);
+  }
+  final_sweep_ = run_.report.sweeps;
+  if (run_.stopped_by_caller() || !std::isfinite(run_.report.history.back().energy)) return;
+  const WorkingCopy repaired = work_;
+  const int sweep = final_sweep_;
+  const std::size_t bad = run_.report.history.back().bad;
+  optimize(kPolish, false);
+  if (run_.report.history.back().bad <= bad) return;
+  work_ = repaired;
+  final_sweep_ = sweep;
+  recorder_.returned_to(sweep);
 }
 
 void Driver::jitter(double amount) {
@@ -286,6 +335,7 @@ void Driver::amend_record() {
   r.seconds = run_.seconds();
   run_.report.flips += changes.flips;
   run_.report.vertices_removed += changes.removed;
+  run_.report.vertices_inserted += changes.inserted;
 }
 
 void Driver::show(Snapshot::Moment moment) const {

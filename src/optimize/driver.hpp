@@ -24,8 +24,13 @@ class Driver {
 
   /// Lawson on the whole input, before any attempt. False when its weights hide a vertex that may not be.
   bool make_regular();
+  /// Cuts edges of the boundary and of lines, when the options ask for it.
+  void grade_boundary();
   /// Moves free vertices by up to `amount` of their shortest edge: symmetric grids are stationary in their positions.
   void jitter(double amount);
+
+  /// Local search for what all attempts have left bad; then sweeps once more, unless these lose triangles again.
+  void repair();
 
   /// The sweep whose mesh the attempt ended with: the last one, or with HOT the best.
   [[nodiscard]] int final_sweep() const { return final_sweep_; }
@@ -40,6 +45,7 @@ class Driver {
   Verdict flip_if_deferred(Verdict of_sweeps);
   bool improve_all_vertices();
   void compact();
+  void grow();
   bool halve_weights();
   void shift_weights_to_anchor();
   void set_weight(VertexId v, double w);

@@ -170,4 +170,32 @@ void Flipper::remove(EventKind kind, const RemovalPlan& plan, double before, dou
   ++changes_.removed;
 }
 
+void Flipper::flip(HalfedgeId h, double before, double after) {
+  const auto [a, b, c, d] = inlined::quad(mesh_, h);
+  const FlipRecord record{a, b, c, d, before, after};
+  inlined::flip(mesh_, h);
+  recorder_.flipped({&record, 1});
+  ++changes_.flips;
+}
+
+VertexId Flipper::insert(WorkingCopy& work, TriangleId t, const WeightedPoint& p, double before, double after) {
+  const auto corners = mesh_.corners(t);
+  const VertexId v = insert_in_triangle(mesh_, t, p);
+  work.name_new();
+  recorder_.inserted(v, corners, before, after);
+  ++changes_.inserted;
+  return v;
+}
+
+VertexId Flipper::split(WorkingCopy& work, HalfedgeId h, const WeightedPoint& p, double before, double after) {
+  const HalfedgeId twin = mesh_.twin(h);
+  const std::array quad = {mesh_.origin(h), mesh_.target(h), mesh_.opposite(h),
+                           twin.valid() ? mesh_.opposite(twin) : VertexId()};
+  const VertexId v = split_edge(mesh_, h, p);
+  work.name_new();
+  recorder_.split(v, quad, before, after);
+  ++changes_.inserted;
+  return v;
+}
+
 }  // namespace temper

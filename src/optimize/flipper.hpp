@@ -37,9 +37,15 @@ class Flipper {
   /// Removes the plan's vertex. The edges of what fills its place are left to the caller.
   void remove(EventKind kind, const RemovalPlan& plan, double before, double after);
 
+  /// Replaces the edge of h by the other diagonal; whether that is a good idea is the caller's to know.
+  void flip(HalfedgeId h, double before, double after);
+  /// A new vertex in a triangle, or on an edge: named and told. The edges around it are left to the caller.
+  VertexId insert(WorkingCopy& work, TriangleId t, const WeightedPoint& p, double before, double after);
+  VertexId split(WorkingCopy& work, HalfedgeId h, const WeightedPoint& p, double before, double after);
+
   /// Since the last call of this.
   struct Changes {
-    std::size_t flips = 0, removed = 0;
+    std::size_t flips = 0, removed = 0, inserted = 0;
   };
   Changes take_changes() { return std::exchange(changes_, {}); }
   [[nodiscard]] bool has_removed() const { return changes_.removed > 0; }

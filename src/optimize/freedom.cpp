@@ -71,6 +71,7 @@ IdVector<VertexId, Mobility> mobilities(const Mesh& mesh, const OptimizeOptions&
 
 Freedom freedom(const Mesh& mesh, VertexId v, Mobility mobility, Unknowns unknowns) {
   Freedom f;
+  if (mobility == Mobility::frozen) return f;
   if (unknowns != Unknowns::weights) {
     if (mobility == Mobility::free) {
       add_axis(f, {1, 0, 0});

@@ -10,6 +10,7 @@
 
 #include "base/text.hpp"
 #include "optimize/driver.hpp"
+#include "optimize/repair_search.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
@@ -119,10 +120,9 @@ std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, HiddenPolicy policy) 
   return restore_regularity(copy).hidden;
 }
 
-/// What one attempt came to, in the user's terms.
+/// What one attempt came to.
 struct Result {
-  Mesh mesh;
-  IdVector<VertexId, VertexId> vertices;
+  WorkingCopy work;
   int sweep = 0;
 };
 
@@ -146,6 +146,14 @@ Mesh made_regular(const Mesh& mesh, Settings settings) {
   return std::move(work).in_user_terms();
 }
 
+/// Vertices of the input that are gone, and new ones that are there.
+void count_changes(const IdVector<VertexId, VertexId>& vertices, const Mesh& input, OptimizeReport& report) {
+  report.vertices_removed = report.vertices_inserted = 0;
+  if (vertices.empty()) return;
+  for (const VertexId v : vertices) report.vertices_inserted += v.valid() ? 0 : 1;
+  report.vertices_removed = input.n_vertices() - (vertices.size() - report.vertices_inserted);
+}
+
 /// The size field of a run with a band; the input's own is seen where it is, since the run works on copies.
 std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& options) {
   if (!options.size_band) return std::nullopt;
@@ -153,14 +161,18 @@ std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& 
 }
 
 /// Puts the best mesh into `mesh`, unless that is the better one, and says in the report what came of it.
-void give_back(Mesh& mesh, Result best, const Settings& settings, const Recorder& recorder, OptimizeReport& report) {
+void give_back(Mesh& mesh, WorkingCopy best, const Settings& settings, const Recorder& recorder,
+               OptimizeReport& report) {
   const OptimizeOptions& o = settings.options;
   report.initial_energy = total_energy(mesh, settings.model, o.executor);
   const SizeField field = o.size_field ? *o.size_field : input_size_field_of(mesh);  // seen until mesh is replaced
   report.size.before = report.size.after = measure_size(mesh, field, o.executor);
-  if (is_worse(best.mesh, mesh, settings)) {
+  auto vertices = best.has_gaps || best.has_inserted() ? best.user_vertices() : IdVector<VertexId, VertexId>();
+  Mesh result = std::move(best).in_user_terms();
+  if (is_worse(result, mesh, settings)) {
     // Where hidden vertices are kept, edges that are not regular make no mesh worse; but those that can be flipped are.
-    const bool flips = o.flips && o.hidden == HiddenPolicy::keep && count_non_regular_edges(mesh, false) > 0;
+    const bool flips = o.flips && o.hidden == HiddenPolicy::keep && o.boundary_vertices != BoundaryVertices::split &&
+                       count_non_regular_edges(mesh, false) > 0;
     if (flips) {
       Mesh regular = made_regular(mesh, settings);
       report.size.after = measure_size(regular, field, o.executor);
@@ -169,12 +181,12 @@ void give_back(Mesh& mesh, Result best, const Settings& settings, const Recorder
     recorder.returned_to(flips ? 0 : -1);
     report.notes.push_back(flips ? "no better mesh was found: the input is returned, its edges flipped to be regular"
                                  : "no better mesh was found: the input is returned as it was");
-    report.vertices_removed = 0;
+    report.vertices_removed = report.vertices_inserted = 0;
   } else {
-    report.vertices_removed = mesh.n_vertices() - best.mesh.n_vertices();
-    report.vertices = std::move(best.vertices);
-    report.size.after = measure_size(best.mesh, field, o.executor, report.vertices);
-    mesh = std::move(best.mesh);
+    count_changes(vertices, mesh, report);
+    report.vertices = std::move(vertices);
+    report.size.after = measure_size(result, field, o.executor, report.vertices);
+    mesh = std::move(result);
   }
   report.final_energy = total_energy(mesh, settings.model, o.executor);
   report.hidden = hidden_vertices_of(mesh, o.hidden);
@@ -188,16 +200,19 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
   Run run(options, observer);
   OptimizeReport& report = run.report;
   std::optional<Result> best;  // of the attempts so far
+  std::optional<Settings> settings;
   const std::optional<SizeField> band_field = field_of_band(mesh, options);
   std::span<const Attempt> tries;
   for (std::size_t i = 0; i == 0 || i < tries.size(); ++i) {
     WorkingCopy work(mesh, options.order);
-    auto settings = make_settings(options, work.mesh, work.frame);
-    if (!settings) return settings.error();
+    auto made = make_settings(options, work.mesh, work.frame);
+    if (!made) return made.error();
+    settings = *std::move(made);
     settings->size_field = band_field;
     Driver driver(work, *settings, run);
     if (i > 0) driver.recorder().returned_to(-1);
     if (options.flips && !driver.make_regular()) return hidden_by_input(mesh, options.names);
+    driver.grade_boundary();
     if (i == 0) {
       if (starts_outside_domain(work.mesh, *settings)) return outside_domain_error(work.mesh, *settings);
       tries = attempts(settings->energy, options, work.mesh);
@@ -206,23 +221,21 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
       }
     }
     driver.jitter(tries[i].jitter);
-    driver.optimize(tries[i], i + 1 < tries.size());
-
-    const Settings user_settings = in_user_terms(*settings, work.frame);
-    auto vertices = work.has_gaps ? work.user_vertices() : IdVector<VertexId, VertexId>();
-    Result result{std::move(work).in_user_terms(), std::move(vertices), driver.final_sweep()};
-    if (!best || !is_worse(result.mesh, best->mesh, user_settings)) {
-      best = std::move(result);
+    driver.optimize(tries[i], i + 1 < tries.size() || repairs(*settings));
+    if (!best || !is_worse(work.mesh, best->work.mesh, *settings)) {
+      best = {std::move(work), driver.final_sweep()};
     } else {
       driver.recorder().returned_to(best->sweep);
     }
-    const bool done = count_bad(best->mesh, options.executor) == 0 || report.stopped == Stopped::cancelled ||
-                      report.stopped == Stopped::time_limit || !run.sweeps_left() || i + 1 == tries.size();
-    if (!done) continue;
-    give_back(mesh, *std::move(best), user_settings, driver.recorder(), report);
-    report.seconds = run.seconds();
-    break;
+    if (count_bad(best->work.mesh, options.executor) == 0 || run.stopped_by_caller() || !run.sweeps_left()) break;
   }
+  Driver driver(best->work, *settings, run);
+  if (repairs(*settings) && !run.stopped_by_caller() && count_bad(best->work.mesh, options.executor) > 0) {
+    driver.repair();
+  }
+  const Settings user_settings = in_user_terms(*settings, best->work.frame);
+  give_back(mesh, std::move(best->work), user_settings, driver.recorder(), report);
+  report.seconds = run.seconds();
   return std::move(report);
 }
 

@@ -21,6 +21,9 @@ class Run {
 
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   [[nodiscard]] bool sweeps_left() const { return report.sweeps < options_.max_sweeps; }
+  [[nodiscard]] bool stopped_by_caller() const {
+    return report.stopped == Stopped::cancelled || report.stopped == Stopped::time_limit;
+  }
   /// Asks the clock and the caller; sets report.stopped when the answer is yes.
   bool asked_to_stop(double fraction_of_sweep);
 

@@ -38,6 +38,8 @@ double least_shift(const Mesh& mesh) { return std::max(kFloor, -kBeyondWorst * l
 
 }  // namespace
 
+const Attempt kPolish = kHard.front();
+
 std::span<const Attempt> attempts(const EnergyInfo& energy, const OptimizeOptions& options, const Mesh& mesh) {
   const bool softens = energy.softened_by_gamma && !options.gamma && least_relative_height(mesh) <= 0;
   if (softens) return kAttempts;

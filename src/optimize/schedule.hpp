@@ -24,6 +24,9 @@ struct Attempt {
   double jitter = 0;      ///< of free vertices before the first sweep, relative to their shortest edge
 };
 
+/// For a mesh that is well-centered already, or as good as can be: the sharpest γ at once.
+extern const Attempt kPolish;
+
 /// The attempts for this mesh and these options, in order; at least one. A user's γ, or an energy without one, leaves
 /// a single attempt, and so does a mesh that is well-centered already.
 [[nodiscard]] std::span<const Attempt> attempts(const EnergyInfo& energy, const OptimizeOptions& options,

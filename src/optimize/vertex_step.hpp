@@ -41,6 +41,9 @@ class VertexStep {
   /// The mesh has been compacted.
   void renumber(const Compaction& kept);
 
+  /// v stays, weight and all.
+  void freeze(VertexId v) { mobility_[v] = Mobility::frozen; }
+
   /// Vertices have been inserted, or edges split: new vertices are the last ones of the mesh.
   void grow();
 

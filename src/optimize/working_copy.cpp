@@ -49,6 +49,16 @@ WorkingCopy::WorkingCopy(const Mesh& user, SweepOrder sweeps) : mesh(user), fram
   frame.enter(mesh);
 }
 
+WorkingCopy::WorkingCopy(const Mesh& part, const Frame& its_frame)
+    : mesh(part),
+      frame(its_frame),
+      order({identity<VertexId>(mesh.n_vertices()), identity<TriangleId>(mesh.n_triangles())}),
+      n_input_vertices(mesh.n_vertices()),
+      n_vertices_named(mesh.n_vertices()),
+      n_triangles_named(mesh.n_triangles()) {}
+
+WorkingCopy WorkingCopy::part(const Mesh& part) { return {part, Frame()}; }
+
 VertexId WorkingCopy::from_user(VertexId v) const {
   const auto found = std::find(order.vertices.begin(), order.vertices.end(), v);
   if (found == order.vertices.end()) return {};

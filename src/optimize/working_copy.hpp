@@ -20,6 +20,8 @@ struct WorkingCopy {
   std::size_t n_triangles_named = 0;  ///< the same of the user's triangle slots
 
   WorkingCopy(const Mesh& user, SweepOrder sweeps);
+  /// Of a part of a mesh that is in its frame already: every number and coordinate is its own name.
+  [[nodiscard]] static WorkingCopy part(const Mesh& part);
 
   /// The vertex of that number in the user's mesh; invalid when it was removed. O(n).
   [[nodiscard]] VertexId from_user(VertexId v) const;
@@ -34,6 +36,9 @@ struct WorkingCopy {
   [[nodiscard]] Mesh in_user_terms() &&;
   /// The number in the input of each vertex of in_user_terms(); invalid for inserted ones.
   [[nodiscard]] IdVector<VertexId, VertexId> user_vertices() const;
+
+ private:
+  WorkingCopy(const Mesh& part, const Frame& its_frame);
 };
 
 }  // namespace temper

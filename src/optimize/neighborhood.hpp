@@ -1,0 +1,31 @@
+// A few rings of triangles around a place, as a small mesh of its own: what a repair is tried on.
+//
+// What is outside stays as it is, so every vertex with a triangle outside is frozen, in position and weight. A triangle
+// is well-centered or not by its own corners alone; so what is found well-centered here is so in the whole mesh, and an
+// edge of the rim between two such triangles is regular.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+struct Neighborhood {
+  Mesh mesh;
+  std::vector<VertexId> vertices;            ///< of the whole mesh, by local number
+  std::vector<std::uint8_t> frozen;          ///< by local number
+  std::vector<WeightedPoint> beyond;         ///< across the rim: opposite corner of the triangle outside, by rim edge
+  std::vector<std::array<VertexId, 2>> rim;  ///< the rim's edges that have a triangle outside, local numbers
+};
+
+/// The triangles that share a vertex with the seed, `rings` times over, and what it takes to touch itself nowhere.
+/// O(its size).
+[[nodiscard]] Neighborhood neighborhood_of(const Mesh& mesh, TriangleId seed, int rings);
+
+/// Are the rim's edges regular, seen from the local mesh as it is now? Exact; constrained ones do not count.
+[[nodiscard]] bool rim_is_regular(const Neighborhood& around, const Mesh& local);
+
+}  // namespace temper
