@@ -188,21 +188,24 @@ class CureFinder {
     return {patch_.in_mesh(patch_.mesh.origin(h)), patch_.in_mesh(patch_.mesh.target(h))};
   }
 
-  /// The best place for v by compass search, `along` a line or anywhere. Moves it there.
-  Trial improve(Mesh& mesh, VertexId v, double first_step, std::optional<Vec2> along) {
-    Trial best = judge(mesh, v);
-    double step = first_step * nearest_neighbour(mesh, v);
-    for (int round = 0; round < kCompassRounds && best.margin < kComfortable; ++round, step /= 2) {
-      Vec2 place = mesh.position(v);
-      const Vec2 from = place;
+  /// A place for vertex v, and how good the mesh is that make(place) gives: nothing where v cannot stand.
+  struct Place {
+    Vec2 at;
+    Trial trial;
+  };
+  template <class Make>
+  Place search(const Make& make, VertexId v, Vec2 start, double step, std::optional<Vec2> along) {
+    const auto tried = [&](Vec2 at) {
+      const std::optional<Mesh> mesh = make(at);
+      return Place{at, mesh ? judge(*mesh, v) : Trial()};
+    };
+    Place best = tried(start);
+    for (int round = 0; round < kCompassRounds && best.trial.margin < kComfortable; ++round, step /= 2) {
+      const Vec2 from = best.at;
       for (const Vec2 direction : compass(along)) {
-        mesh.set_position(v, from + step * direction);
-        const Trial trial = judge(mesh, v);
-        if (trial.margin <= best.margin) continue;
-        best = trial;
-        place = mesh.position(v);
+        const Place place = tried(from + step * direction);
+        if (place.trial.margin > best.trial.margin) best = place;
       }
-      mesh.set_position(v, place);
     }
     return best;
   }
@@ -210,13 +213,18 @@ class CureFinder {
   void move_vertices() {
     for (const VertexId v : free_vertices(patch_.mesh, patch_.conflict)) {
       if (has_comfortable(Action::move_vertex)) return;
-      Mesh mesh = patch_.mesh;
-      const Trial trial = improve(mesh, v, kFirstStep, std::nullopt);
+      const auto moved = [&](Vec2 at) {
+        Mesh mesh = patch_.mesh;
+        mesh.set_position(v, at);
+        return std::optional<Mesh>(std::move(mesh));
+      };
+      const double step = kFirstStep * nearest_neighbour(patch_.mesh, v);
+      const Place best = search(moved, v, patch_.mesh.position(v), step, std::nullopt);
       Cure cure;
       cure.action = Action::move_vertex;
       cure.vertex = patch_.in_mesh(v);
-      cure.at = mesh.position(v);
-      offer(cure, trial);
+      cure.at = best.at;
+      offer(cure, best.trial);
     }
   }
 
@@ -233,15 +241,18 @@ class CureFinder {
     }
   }
 
-  /// Both ways to go on from a mesh with a new vertex; the better one.
-  void offer_inserted(Cure cure, Mesh mesh, VertexId v, std::optional<Vec2> along) {
-    Mesh delaunay = mesh;
-    const Restoration restored = restore_regularity(delaunay, HiddenPolicy::undo);
-    for (Mesh* candidate : {&mesh, &delaunay}) {
-      if (candidate == &delaunay && restored.flips == 0) continue;
-      const Trial trial = improve(*candidate, v, kFreshStep, along);
-      cure.at = candidate->position(v);
-      offer(cure, trial);
+  /// insert(place) is the mesh with the new vertex, which is the last: with the edges as they then are, and Delaunay.
+  template <class Insert>
+  void offer_inserted(Cure cure, const Insert& insert, Vec2 start, double step, std::optional<Vec2> along) {
+    const VertexId v(patch_.mesh.n_vertices());
+    const auto delaunay = [&](Vec2 at) {
+      std::optional<Mesh> mesh = insert(at);
+      if (mesh) restore_regularity(*mesh, HiddenPolicy::undo);
+      return mesh;
+    };
+    for (const Place& best : {search(insert, v, start, step, along), search(delaunay, v, start, step, along)}) {
+      cure.at = best.at;
+      offer(cure, best.trial);
     }
   }
 
@@ -250,17 +261,21 @@ class CureFinder {
       if (has_comfortable(Action::insert_vertex)) return;
       const auto [a, b, c] = patch_.mesh.corners(t);
       const Vec2 p = patch_.mesh.position(a), q = patch_.mesh.position(b), r = patch_.mesh.position(c);
-      const Vec2 at = (1.0 / 3) * (p + q + r);
-      if (orient2d(p, q, at) != Sign::positive || orient2d(q, r, at) != Sign::positive ||
-          orient2d(r, p, at) != Sign::positive) {
-        continue;
-      }
-      Mesh mesh = patch_.mesh;
-      const VertexId v = insert_in_triangle(mesh, t, {at.x, at.y, 0});
+      const auto inserted = [&](Vec2 at) {
+        std::optional<Mesh> mesh;
+        if (orient2d(p, q, at) == Sign::positive && orient2d(q, r, at) == Sign::positive &&
+            orient2d(r, p, at) == Sign::positive) {
+          mesh = patch_.mesh;
+          insert_in_triangle(*mesh, t, {at.x, at.y, 0});
+        }
+        return mesh;
+      };
+      const Vec2 start = (1.0 / 3) * (p + q + r);
+      const double step = kFreshStep * std::min({length(p - start), length(q - start), length(r - start)});
       Cure cure;
       cure.action = Action::insert_vertex;
       cure.triangle = patch_.slots[t.index];
-      offer_inserted(cure, std::move(mesh), v, std::nullopt);
+      offer_inserted(cure, inserted, start, step, std::nullopt);
     }
   }
 
@@ -294,13 +309,19 @@ class CureFinder {
       const Vec2 p = patch_.mesh.position(patch_.mesh.origin(h)), q = patch_.mesh.position(patch_.mesh.target(h));
       for (const Vec2 at : places_on(h)) {
         if (has_comfortable(action)) break;
-        if (!can_split(h, at)) continue;
-        Mesh mesh = patch_.mesh;
-        const VertexId v = split_edge(mesh, h, {at.x, at.y, 0});
+        const auto split = [&](Vec2 place) {
+          std::optional<Mesh> mesh;
+          if (can_split(h, place)) {
+            mesh = patch_.mesh;
+            split_edge(*mesh, h, {place.x, place.y, 0});
+          }
+          return mesh;
+        };
         Cure cure;
         cure.action = action;
         cure.edge = edge_of(h);
-        offer_inserted(cure, std::move(mesh), v, (1 / length(q - p)) * (q - p));
+        const Vec2 along = (1 / length(q - p)) * (q - p);
+        offer_inserted(cure, split, at, kFreshStep * std::min(length(at - p), length(q - at)), along);
       }
     }
   }

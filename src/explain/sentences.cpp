@@ -178,7 +178,7 @@ class Speaker {
       case Action::flip_edge:
         return "flip " + edge(c.edge[0], c.edge[1]);
       case Action::insert_vertex:
-        return "insert a vertex at " + place(c.at) + ", in or near triangle " + number_of(c.triangle, names_);
+        return "insert a vertex at " + place(c.at) + ", in triangle " + number_of(c.triangle, names_);
       case Action::split_edge:
       case Action::split_boundary:
         return "split " + edge(c.edge[0], c.edge[1]) + " at " + place(c.at);
