@@ -27,6 +27,9 @@ namespace temper {
 namespace {
 
 constexpr double kLeastRatio = 2;  // below, pieces could be shorter than what they grow from: see above
+// Pieces grow by this much less than the ratio, so that they are within it after their ends have been rounded to
+// doubles: to 2⁻⁵³ of the coordinates, which are up to a few million times the pieces.
+constexpr double kRoomForRounding = 1 - 0x1p-30;
 
 struct LineEdge {
   VertexId a, b;
@@ -50,6 +53,7 @@ double reach(double s_a, double s_b, std::size_t k, double q, std::vector<double
 /// The pieces of an edge between two sizes, from a to b: one where it may stay whole.
 std::vector<double> divide(double length, double s_a, double s_b, double ratio) {
   if (length <= ratio * std::min(s_a, s_b)) return {length};
+  ratio *= kRoomForRounding;
   std::size_t k = 2;
   while (reach(s_a, s_b, k, ratio) < length) ++k;
   double low = 1, high = ratio;  // reach grows with q: as many halvings as a double has bits
@@ -67,7 +71,7 @@ std::vector<LineEdge> line_edges(const Mesh& mesh) {
   for (const HalfedgeId h : mesh.halfedges()) {
     if (mesh.is_erased(Mesh::triangle(h)) || !mesh.is_edge_representative(h)) continue;
     if (!mesh.is_boundary(h) && !mesh.is_constrained(h)) continue;
-    const auto [a, b] = std::minmax(mesh.origin(h), mesh.target(h));
+    const VertexId a = std::min(mesh.origin(h), mesh.target(h)), b = std::max(mesh.origin(h), mesh.target(h));
     edges.push_back({a, b, length(mesh.position(b) - mesh.position(a))});
   }
   std::sort(edges.begin(), edges.end(),
@@ -200,7 +204,8 @@ GradingPlan plan_boundary_grading(const Mesh& mesh, double ratio) {
 
 Grading grade_boundary(Mesh& mesh, double ratio, const InsertionObserver* observer) {
   Grading grading;
-  for (const EdgeCuts& cuts : plan_boundary_grading(mesh, ratio).cuts) cut_edge(mesh, cuts, observer, grading);
+  const GradingPlan plan = plan_boundary_grading(mesh, ratio);
+  for (const EdgeCuts& cuts : plan.cuts) cut_edge(mesh, cuts, observer, grading);
   return grading;
 }
 
