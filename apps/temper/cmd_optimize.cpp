@@ -61,6 +61,7 @@ struct Settings {
   SofteningOptions gamma, h0;
   std::uint64_t threads = 0;
   bool positions_only = false, weights_only = false, no_flips = false, slide = false, quiet = false;
+  bool repair = false, no_repair = false;
 };
 
 void set_flips(Settings& s, Flips value) {
@@ -142,6 +143,12 @@ void add_connectivity(CLI::App& app, Settings& s) {
       });
   add_number(app, "--overshoot", s.options.overshoot, {1, std::numeric_limits<double>::infinity(), false},
              "of --flip-limit after, at first: it shrinks towards 1 each sweep");
+  CLI::Option* repair = app.add_flag(
+      "--repair", s.repair,
+      "where sweeps leave triangles bad: remove and insert vertices there, too, and keep what cures most");
+  app.add_flag("--no-repair", s.no_repair, "nor sweep again and kick vertices there, which a barrier does by default")
+      ->excludes(repair);
+  add_count(app, "--repair-trials", s.options.repair_trials, 0, "at most so many edits are tried, 1 to 3 ms each");
   app.add_option("--fix", s.fix, "vertices with this tag or physical name stay where they are; several may follow")
       ->type_name("TAG ...")
       ->default_function({});
@@ -196,7 +203,7 @@ void add_stopping(CLI::App& app, Settings& s) {
              "the gain relative to the energy, or the paper's: mean energy per triangle, absolute");
   add_number(app, "--time-limit", s.options.time_limit, kNotNegative, "stop after this many seconds; 0: no limit");
   add_count(app, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
-  add_count(app, "--seed", s.options.seed, 0, "of the jitter that frees symmetric grids, and of --order random");
+  add_count(app, "--seed", s.options.seed, 0, "of the jitter that frees symmetric grids, of repairs, and of --order random");
 }
 
 /// Options added by `add` go under a title in --help.
@@ -230,6 +237,8 @@ OptimizeOptions library_options(const Settings& s, const Input& input, Executor*
   if (s.h0.value()) options.h0 = s.h0.value();
   if (s.positions_only) options.unknowns = Unknowns::positions;
   if (s.weights_only) options.unknowns = Unknowns::weights;
+  if (s.repair) options.repair = Repair::vertices;
+  if (s.no_repair) options.repair = Repair::none;
   if (s.slide) options.interfaces = InterfaceVertices::sliding;
   if (s.anchor == kNone) {
     options.anchor.reset();
@@ -248,6 +257,7 @@ std::vector<std::string> doubtful_options(const CLI::App& app, const Settings& s
   const auto idle = [&](const char* option) {
     warnings.push_back(fmt::format("{} has no effect on energy {}", option, energy.name));
   };
+  if (s.repair && !energy.barrier) idle("--repair");
   if (s.gamma.value() && !energy.softened_by_gamma) idle("--gamma");
   if (s.h0.value() && !energy.softened_by_h0) idle("--h0");
   if (s.options.boundary != BoundaryTreatment::as_is && energy.kind != EnergyKind::F) idle("--boundary-treatment");

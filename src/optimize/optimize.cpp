@@ -94,6 +94,7 @@ OptimizeOptions paper_method() {
   o.removal_measure = RemovalMeasure::sum;
   o.removal_margin = 0;
   o.removal_from = 0;
+  o.repair = Repair::none;
   o.stopping = StoppingRule::paper;
   o.tolerance = 1e-6;
   return o;

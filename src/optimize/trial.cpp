@@ -82,6 +82,7 @@ Settings Trial::of_trial(const Settings& settings, Tracer tracer) {
   o.unknowns = settings.options.unknowns;
   o.interfaces = settings.options.interfaces;
   o.boundary_vertices = settings.options.boundary_vertices;
+  o.size_band = settings.options.size_band;
   o.tracer = std::move(tracer);
   Settings s = settings;
   s.energy = *find_energy(o.energy);
