@@ -1,0 +1,178 @@
+// Laws of size fields: linear ones are reproduced, samples are a function of the point alone, beyond the mesh the
+// nearest value holds.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "size/box_tree.hpp"
+#include "support/lattice.hpp"
+#include "support/shapes.hpp"
+#include "temper/generate.hpp"
+#include "temper/geometry.hpp"
+#include "temper/size.hpp"
+
+namespace temper::test {
+namespace {
+
+constexpr double kRounding = 1e-14;  // relative to the greatest value: interpolation is a few operations
+
+double linear(Vec2 p) { return 3 + 0.25 * p.x - 0.125 * p.y; }
+
+SizeField field_of(const Mesh& mesh, double (*f)(Vec2)) {
+  std::vector<double> sizes;
+  for (const VertexId v : mesh.vertices()) sizes.push_back(f(mesh.position(v)));
+  auto field = SizeField::from_values(mesh, sizes);
+  EXPECT_TRUE(field.has_value());
+  return *field;
+}
+
+Vec2 at_weights(const Mesh& mesh, TriangleId t, double u, double v) {
+  const auto [a, b, c] = mesh.corners(t);
+  const Vec2 p = mesh.position(a);
+  return p + u * (mesh.position(b) - p) + v * (mesh.position(c) - p);
+}
+
+/// A square ring: a domain with a hole.
+Mesh ring() { return *annulus(); }
+
+TEST(SizeField, IsExactAtTheVerticesFromAnyHint) {
+  const Mesh mesh = *random_points({200, 3, {}});
+  const SizeField field = field_of(mesh, linear);
+  for (const VertexId v : mesh.vertices()) {
+    for (const TriangleId hint : {TriangleId(), TriangleId(0), Mesh::triangle(mesh.outgoing(v))}) {
+      const SizeField::Sample sample = field.at(mesh.position(v), hint);
+      EXPECT_EQ(sample.size, linear(mesh.position(v)));
+      EXPECT_FALSE(sample.outside);
+    }
+  }
+}
+
+TEST(SizeField, ReproducesLinearFieldsBetweenTheVertices) {
+  const Mesh mesh = *random_points({200, 4, {}});
+  const SizeField field = field_of(mesh, linear);
+  Noise noise(5);
+  int asked = 0;
+  for (const TriangleId t : mesh.triangles()) {
+    const double u = 0.5 + 0.49 * noise(), v = (1 - u) * (0.5 + 0.49 * noise());
+    const Vec2 p = at_weights(mesh, t, u, v);
+    const SizeField::Sample sample = field.at(p);
+    EXPECT_NEAR(sample.size, linear(p), 4 * kRounding);
+    EXPECT_EQ(sample.triangle, t);
+    ++asked;
+  }
+  EXPECT_GT(asked, 200);
+}
+
+TEST(SizeField, IsAFunctionOfThePointWhateverTheHint) {
+  const Mesh mesh = ring();
+  const SizeField field = input_size_field(mesh);
+  Noise noise(7);
+  int outside = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vec2 p{1.2 * noise(), 1.2 * noise()};
+    const SizeField::Sample first = field.at(p);
+    outside += first.outside ? 1 : 0;
+    for (int j = 0; j < 5; ++j) {
+      const TriangleId hint(static_cast<std::size_t>((0.5 + 0.5 * noise()) * 0.999 * double(mesh.n_triangles())));
+      const SizeField::Sample sample = field.at(p, hint);
+      EXPECT_EQ(sample.size, first.size);
+      EXPECT_EQ(sample.outside, first.outside);
+    }
+  }
+  EXPECT_GT(outside, 100);
+  EXPECT_LT(outside, 400);
+}
+
+TEST(SizeField, SaysTheSameOnBothSidesOfAnEdge) {
+  const Mesh mesh = *sheared_grid({.nx = 8, .ny = 8, .shear = 0.5});  // midpoints of edges are exact here
+  std::vector<double> sizes;
+  Noise noise(2);
+  for (std::size_t i = 0; i < mesh.n_vertices(); ++i) sizes.push_back(2 + noise());
+  const SizeField field = *SizeField::from_values(mesh, sizes);
+  int edges = 0;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.is_boundary(h)) continue;
+    const Vec2 a = mesh.position(mesh.origin(h)), b = mesh.position(mesh.target(h));
+    const Vec2 p = a + 0.5 * (b - a);
+    if (orient2d(a, b, p) != Sign::zero) continue;
+    EXPECT_EQ(field.at(p, Mesh::triangle(h)).size, field.at(p, Mesh::triangle(mesh.twin(h))).size);
+    ++edges;
+  }
+  EXPECT_GT(edges, 100);
+}
+
+TEST(SizeField, ExtendsByTheNearestValue) {
+  const Mesh mesh = mesh_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2}, {0, 2, 3}});
+  const std::vector<double> sizes = {1, 2, 4, 3};
+  const SizeField field = *SizeField::from_values(mesh, sizes);
+  for (const TriangleId hint : {TriangleId(), TriangleId(0), TriangleId(1)}) {
+    EXPECT_EQ(field.at({-1, -2}, hint).size, 1);     // beyond a corner
+    EXPECT_EQ(field.at({0.5, -3}, hint).size, 1.5);  // beyond the middle of an edge
+    EXPECT_EQ(field.at({5, 0.25}, hint).size, 2.5);
+    EXPECT_TRUE(field.at({5, 0.25}, hint).outside);
+  }
+}
+
+TEST(SizeField, FindsTheNearestPointOfAMeshWithHoles) {
+  const Mesh mesh = ring();
+  const SizeField field = input_size_field(mesh);
+  const BoxTree tree(mesh);
+  Noise noise(11);
+  int outside = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vec2 p{1.5 * noise(), 1.5 * noise()};
+    double nearest2 = std::numeric_limits<double>::infinity();  // by looking at all boundary edges
+    for (const HalfedgeId h : mesh.halfedges()) {
+      if (!mesh.is_boundary(h)) continue;
+      const Vec2 a = mesh.position(mesh.origin(h)), ab = mesh.position(mesh.target(h)) - a;
+      const double t = std::clamp(dot(p - a, ab) / squared_length(ab), 0.0, 1.0);
+      nearest2 = std::min(nearest2, squared_length(p - a - t * ab));
+    }
+    const NearestPoint found = tree.nearest(mesh, p);
+    EXPECT_EQ(found.distance2 > 0, field.at(p).outside);
+    if (found.distance2 == 0) continue;
+    EXPECT_NEAR(found.distance2, nearest2, kRounding);
+    ++outside;
+  }
+  EXPECT_GT(outside, 50);
+}
+
+TEST(SizeField, ScalesWithTheUnitOfLength) {
+  const Mesh mesh = lattice({.n = 6, .jitter = 0.2});
+  const Mesh larger = lattice({.n = 6, .jitter = 0.2, .scale = 1024});  // a power of two: no rounding
+  const SizeField field = input_size_field(mesh), same = input_size_field(larger);
+  Noise noise(3);
+  for (int i = 0; i < 100; ++i) {
+    const Vec2 p{4 + 4 * noise(), 2 + 3 * noise()};
+    EXPECT_EQ(1024 * field.at(p).size, same.at(1024.0 * p).size);
+  }
+}
+
+TEST(SizeField, OutlivesTheMeshItWasMadeOf) {
+  Mesh mesh = lattice();
+  const double size = local_size(mesh, VertexId(7));
+  const SizeField field = input_size_field(mesh);
+  const SizeField copy = field;
+  const Vec2 p = mesh.position(VertexId(7));
+  mesh = Mesh();
+  EXPECT_EQ(copy.at(p).size, size);
+  EXPECT_EQ(copy.mesh().position(VertexId(7)), p);
+}
+
+TEST(SizeField, RefusesSizesThatAreNone) {
+  const Mesh mesh = one_triangle({0, 0}, {1, 0}, {0, 1});
+  const auto refused = [&mesh](std::vector<double> sizes, ErrorCode code, const char* message) {
+    const auto field = SizeField::from_values(mesh, sizes);
+    ASSERT_FALSE(field.has_value());
+    EXPECT_EQ(field.error().code, code);
+    EXPECT_EQ(field.error().message, message);
+  };
+  refused({1, 1}, ErrorCode::size_mismatch, "the size field has 2 sizes; expected one for each of the 3 vertices");
+  refused({1, 0, 1}, ErrorCode::invalid_option, "point 1 has size 0; expected a finite, positive length");
+  refused({1, 1, -2}, ErrorCode::invalid_option, "point 2 has size -2; expected a finite, positive length");
+  refused({std::numeric_limits<double>::quiet_NaN(), 1, 1}, ErrorCode::not_finite,
+          "point 0 has size nan; expected a finite, positive length");
+}
+
+}  // namespace
+}  // namespace temper::test
