@@ -213,11 +213,35 @@ class Mesher {
     if (!made) return made;
     made->delaunay_bad = made->bad = bad_triangles(made->mesh).size();
     if (!options_.optimize) return made;
-    Expected<OptimizeReport> report = optimize(made->mesh, *options_.optimize, observer_);
-    if (!report) return report.error();
-    made->report = *std::move(report);
-    made->bad = bad_triangles(made->mesh).size();
+    // Another division of the outline is a better cure than repairs of this one: those are for the last.
+    OptimizeOptions options = *options_.optimize;
+    options.repair = Repair::none;
+    if (auto error = improve(*made, options)) return *error;
     return made;
+  }
+
+  std::optional<InputError> improve(OutlineMesh& made, const OptimizeOptions& options) const {
+    Expected<OptimizeReport> report = optimize(made.mesh, options, observer_);
+    if (!report) return report.error();
+    if (!report->vertices.empty()) renumber(made, report->vertices);
+    made.report = *std::move(report);
+    made.bad = bad_triangles(made.mesh).size();
+    return {};
+  }
+
+  /// Lines and points of the outline after vertices were removed or inserted; theirs never are.
+  static void renumber(OutlineMesh& made, const IdVector<VertexId, VertexId>& old_numbers) {
+    std::vector<VertexId> now;
+    for (std::size_t v = 0; v < old_numbers.size(); ++v) {
+      const VertexId old = old_numbers[VertexId(v)];
+      if (!old.valid()) continue;
+      if (old.index >= now.size()) now.resize(old.index + std::size_t{1});
+      now[old.index] = VertexId(v);
+    }
+    for (MeshLine& line : made.lines) line.a = now[line.a.index], line.b = now[line.b.index];
+    for (VertexId& v : made.vertex_of_point) {
+      if (v.valid()) v = now[v.index];
+    }
   }
 
   /// Sizes around the triangles that stay bad become smaller.
@@ -229,18 +253,26 @@ class Mesher {
     }
   }
 
+  [[nodiscard]] static bool stopped_early(const OutlineMesh& made) {
+    return made.report.stopped == Stopped::cancelled || made.report.stopped == Stopped::time_limit;
+  }
+
   Expected<OutlineMesh> best_of_attempts() {
     Expected<OutlineMesh> best = attempt();
     if (!best || !options_.optimize) return best;
     Mesh last = best->mesh;
     int attempts = 1;
-    for (; best->bad > 0 && attempts < options_.attempts; ++attempts) {
-      if (best->report.stopped == Stopped::cancelled || best->report.stopped == Stopped::time_limit) break;
+    for (; best->bad > 0 && attempts < options_.attempts && !stopped_early(*best); ++attempts) {
       refine_around_bad(last);
       Expected<OutlineMesh> next = attempt();
-      if (!next) break;
+      if (!next) break;  // sizes too small for the coordinates: the best so far stays
       last = next->mesh;
+      const bool last_stopped_early = stopped_early(*next);
       if (next->bad < best->bad) best = std::move(next);
+      if (last_stopped_early) break;
+    }
+    if (best->bad > 0 && options_.optimize->repair != Repair::none && !stopped_early(*best)) {
+      if (auto error = improve(*best, *options_.optimize)) return *error;
     }
     best->attempts = attempts;
     return best;

@@ -1,0 +1,251 @@
+// Outline files: what each format says, what is wrong with bad ones, and the public outlines from file to mesh.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "outlines.hpp"
+#include "temper/io.hpp"
+#include "temper/mesher.hpp"
+
+namespace temper::test {
+namespace {
+
+class OutlineFiles : public ::testing::Test {
+ protected:
+  OutlineFiles() {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("temper_outline_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) +
+               std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  ~OutlineFiles() override { std::filesystem::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return (folder_ / name).string();
+  }
+  io::OutlineFile read(const std::string& text) {
+    auto file = io::read_outline(write("in", text));
+    EXPECT_TRUE(file.has_value()) << file.error().what();
+    return file ? *std::move(file) : io::OutlineFile();
+  }
+  /// Reading or meshing fails with this in the message.
+  void expect_error(const std::string& text, const std::string& part) {
+    const std::string path = write("bad", text);
+    const auto file = io::read_outline(path);
+    std::string what = file ? "" : file.error().what();
+    if (file) {
+      MesherOptions options;
+      options.size = 10;
+      options.optimize.reset();
+      const auto made = mesh_outline(file->outline, options);
+      what = made ? "no error" : made.error().what();
+    }
+    EXPECT_NE(what.find(part), std::string::npos) << text << "\nexpected: " << part << "\nfound: " << what;
+    if (file && file->outline.points.empty()) ADD_FAILURE() << "an outline without points was read";
+  }
+
+  std::filesystem::path folder_;
+};
+
+constexpr const char* kSquarePoly =
+    "# a square\n4 2 1 1\n1 0 0 9.5 3\n2 1 0 9.5 3\n3 1 1 9.5 3\n4 0 1 9.5 3 # the last\n"
+    "4 1\n1 1 2 5\n2 2 3 6\n3 3 4 7\n4 4 1 8\n0\n1\n1 0.5 0.5 12 0.01\n";
+
+TEST_F(OutlineFiles, PolyHasPointsSegmentsHolesAndRegions) {
+  const io::OutlineFile file = read(kSquarePoly);
+  EXPECT_EQ(file.format, "poly");
+  EXPECT_FALSE(file.geographic);
+  ASSERT_EQ(file.outline.points.size(), 4u);
+  EXPECT_EQ(file.outline.points[2], (Vec2{1, 1}));
+  ASSERT_EQ(file.outline.segments.size(), 4u);
+  EXPECT_EQ(file.outline.segments[3].ends, (std::array{3, 0}));
+  EXPECT_EQ(file.outline.segments[3].tag, 8);
+  ASSERT_EQ(file.outline.regions.size(), 1u);
+  EXPECT_EQ(file.outline.regions[0].region, 12);
+  EXPECT_NEAR(file.outline.regions[0].size.value_or(0), std::sqrt(0.04 / std::sqrt(3.0)), 1e-15);
+  EXPECT_EQ(file.outline.names->point(0), "point 1");
+  EXPECT_NE(file.outline.names->segment_where(2).find("in:10"), std::string::npos);
+}
+
+TEST_F(OutlineFiles, PolyMayCountFromZeroAndHaveItsPointsInANodeFile) {
+  write("far.node", "3 2 0 0\n0 0 0\n1 1 0\n2 0 1\n");
+  const auto file = io::read_outline(write("far.poly", "0 2 0 0\n3 0\n0 0 1\n1 1 2\n2 2 0\n1\n0 5 5\n"));
+  ASSERT_TRUE(file.has_value()) << file.error().what();
+  EXPECT_EQ(file->outline.points.size(), 3u);
+  EXPECT_EQ(file->outline.segments[2].ends, (std::array{2, 0}));
+  EXPECT_EQ(file->outline.holes.size(), 1u);
+  EXPECT_NE(file->outline.names->point_where(1).find("far.node:3"), std::string::npos);
+  EXPECT_NE(file->outline.names->hole_where(0).find("far.poly:7"), std::string::npos);
+}
+
+TEST_F(OutlineFiles, JigsawHasPointsEdgesAndParts) {
+  const io::OutlineFile file = read(
+      "# geometry\nMSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=6\n0;0;0\n1;0;0\n1;1;0\n0;1;0\n2;0;0\n2;1;0\n"
+      "EDGE2=7\n0;1;3\n1;2;3\n2;3;3\n3;0;3\n1;4;3\n4;5;3\n5;2;4\nVALUE=1;1\n7\n"
+      "BOUND=8\n5;0;20\n5;1;20\n5;2;20\n5;3;20\n6;4;20\n6;5;20\n6;6;20\n6;1;20\n");
+  EXPECT_EQ(file.format, "jigsaw");
+  EXPECT_FALSE(file.geographic);
+  EXPECT_EQ(file.outline.points.size(), 6u);
+  ASSERT_EQ(file.outline.segments.size(), 7u);
+  EXPECT_EQ(file.outline.segments[6].tag, 4);
+  ASSERT_EQ(file.outline.parts.size(), 2u);
+  EXPECT_EQ(file.outline.parts[1].region, 6);
+  MesherOptions options;
+  options.size = 0.3;
+  const auto made = mesh_outline(file.outline, options);
+  ASSERT_TRUE(made.has_value()) << made.error().what();
+  EXPECT_EQ(made->bad, 0u);
+  EXPECT_NEAR(mesh_area(made->mesh), 2, 1e-12);
+}
+
+TEST_F(OutlineFiles, JigsawOnTheEllipsoidIsInRadians) {
+  const io::OutlineFile file = read(
+      "mshid=3;ellipsoid-mesh\nRADII=6371;6371;6371\nNDIMS=2\nPOINT=3\n0;0;0\n0.1;0;0\n0;0.1;0\n"
+      "EDGE2=3\n0;1;0\n1;2;0\n2;0;0\n");
+  EXPECT_TRUE(file.geographic);
+  EXPECT_NEAR(file.outline.points[1].x, 18 / std::numbers::pi, 1e-12);
+}
+
+constexpr const char* kTwoCounties = R"({"type": "FeatureCollection", "features": [
+ {"type": "Feature", "properties": {"name": "w\u00e9st", "size": 0.05}, "geometry": {"type": "Polygon", "coordinates":
+  [[[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]], [[0.4, 0.4], [0.6, 0.4], [0.6, 0.6], [0.4, 0.4]]]}},
+ {"type": "Feature", "properties": null, "geometry": {"type": "MultiPolygon", "coordinates":
+  [[[[1, 0, 7], [2, 0, 7], [2, 1, 7], [1, 1, 7], [1, 0, 7]]], [[[3, 0], [4, 0], [3, 1], [3, 0]]]]}},
+ {"type": "Feature", "properties": {"tag": 4}, "geometry": {"type": "LineString", "coordinates":
+  [[1.2, 0.2], [1.5, 0.5], [1.5, 0.5], [1.8, 0.2]]}},
+ {"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [1.5, 0.8]}}]})";
+
+TEST_F(OutlineFiles, GeoJsonPolygonsShareBordersAndLinesStayInside) {
+  const io::OutlineFile file = read(kTwoCounties);
+  EXPECT_EQ(file.format, "geojson");
+  EXPECT_TRUE(file.geographic);
+  EXPECT_EQ(file.outline.points.size(), 4u + 3 + 2 + 3 + 3 + 1);
+  ASSERT_EQ(file.outline.parts.size(), 2u);
+  EXPECT_EQ(file.outline.parts[0].region, 1);
+  EXPECT_EQ(file.outline.parts[1].region, 2);
+  EXPECT_EQ(file.outline.parts[0].size, 0.05);
+  EXPECT_EQ(file.warnings.size(), 2u);  // a repeated position, heights
+  EXPECT_EQ(file.outline.names->segment(4), "segment 0 of ring 1 of feature 0");
+  MesherOptions options;
+  options.size = 0.2;
+  const auto made = mesh_outline(file.outline, options);
+  ASSERT_TRUE(made.has_value()) << made.error().what();
+  EXPECT_EQ(made->bad, 0u);
+  EXPECT_NEAR(mesh_area(made->mesh), 1 - 0.02 + 1 + 0.5, 1e-12);
+  std::size_t tagged = 0;
+  for (const MeshLine& line : made->lines) tagged += line.tag == 4 ? 1 : 0;
+  EXPECT_GT(tagged, 2u);
+}
+
+TEST_F(OutlineFiles, GeoJsonWithAProjectedCrsIsPlanar) {
+  const std::string polygon = R"("type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]]})";
+  const auto with_crs = [&](const std::string& name) {
+    return read(R"({"crs": {"type": "name", "properties": {"name": ")" + name + "\"}}, " + polygon).geographic;
+  };
+  EXPECT_FALSE(with_crs("urn:ogc:def:crs:EPSG::32632"));
+  EXPECT_TRUE(with_crs("urn:ogc:def:crs:OGC:1.3:CRS84"));
+  EXPECT_TRUE(with_crs("EPSG:4326"));
+  EXPECT_TRUE(read("{" + polygon).geographic);
+}
+
+TEST_F(OutlineFiles, BadPolyFilesAreNamedWithLineAndNumber) {
+  const std::string points = "4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n";
+  expect_error("4 2 0 0\n1 0 0\n2 1 0\n4 1 1\n5 0 1\n0\n0\n", "bad:4: expected point 3, found point 4");
+  expect_error("4 3 0 0\n1 0 0 0\n", "no outline");
+  expect_error(points + "4 0\n1 1 2\n2 2 3\n3 3 9\n4 4 1\n0\n",
+               "bad:9: segment 3 uses point 9, but there are points 1 to 4");
+  expect_error(points + "4 0\n1 1 2\n2 2 3\n3 3 4\n", "bad:6: announces 4 segments, but only 21 bytes follow");
+  expect_error(points + "4 0\n1 1 2\n2 2 x\n3 3 4\n4 4 1\n0\n", "bad:8: expected a vertex number, found 'x'");
+  expect_error(points + "4 0\n1 1 2\n2 2 3\n3 3 4                   \n", "the file ends where the number of a segment");
+  expect_error(points + "900000 0\n1 1 2\n", "announces 900000 segments");
+  expect_error(points + "0 0\n0\n", "has no segments");
+  expect_error(points + "4 0\n1 1 3\n2 3 2\n3 2 4\n4 4 1\n0\n",
+               "bad:9: segment 3 (point 2 to point 4) crosses segment 1");
+  expect_error(points + "4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 4\n0\n",
+               "bad:10: segment 4 has no length: both its ends are point 4");
+  expect_error(points + "3 0\n1 1 2\n2 2 3\n3 3 4\n0\n", "bad:2: the outline is not closed");
+  expect_error(points + "4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n1\n7 5 5\n", "bad:12: hole 7 lies outside");
+  expect_error(points + "4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n1\n1 .5 .5 1.5\n", "expected a whole number");
+  expect_error("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 1 0\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n",
+               "bad:5: point 4 is at the same place as point 2");
+  expect_error("0 2 0 0\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n", "no points of its own");
+}
+
+TEST_F(OutlineFiles, BadJigsawFilesAreNamedWithLineAndNumber) {
+  const std::string head = "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\n", points = "POINT=3\n0;0;0\n1;0;0\n0;1;0\n";
+  expect_error(head + points + "EDGE2=3\n0;1;0\n1;2;0\n2;3;0\n",
+               "bad:10: segment 2 uses point 3, but there are points 0 to 2");
+  expect_error(head + points + "EDGE2=3\n0;1;0\n1;2\n2;0;0\n", "bad:9: expected an edge a;b;tag, found '1;2'");
+  expect_error(head + "POINT=3\n0;0;0\n1;zero;0\n0;1;0\n", "bad:5: expected a point x;y;tag");
+  expect_error(head + "POINT=x\n", "bad:3: expected the number of lines of POINT, found 'x'");
+  expect_error(head + "POINT=3\n0;0;0\n1;0;0\n", "POINT announces 3 lines, but the file ends after 2");
+  expect_error("MSHID=3;EUCLIDEAN-MESH\nNDIMS=3\n", "bad:2: has NDIMS=3; expected 2");
+  expect_error("MSHID=3;EUCLIDEAN-GRID\n", "is a grid");
+  expect_error(head + points, "no EDGE2");
+  expect_error(head + "EDGE2=1\n0;1;0\n", "no POINT");
+  expect_error(head + points + "EDGE2=3\n0;1;0\n1;2;0\n2;0;0\nBOUND=1\n1;0;30\n", "elements of type 30");
+  expect_error(head + points + "EDGE2=3\n0;1;0\n1;2;0\n2;0;0\nBOUND=1\n1;8;20\n", "part 1 uses edge 8");
+  expect_error(head + "nonsense\n", "bad:3: expected a section NAME=");
+}
+
+TEST_F(OutlineFiles, BadGeoJsonIsNamedWithLineAndFeature) {
+  const auto polygon = [](const std::string& rings) {
+    return "{\"type\": \"Polygon\",\n\"coordinates\": " + rings + "}";
+  };
+  expect_error("{", "bad:1: expected a name in quotes, found the end of the file");
+  expect_error("{\"type\": \"Polygon\", \"coordinates\": [[[0, 0], [1, 0}]]]}", "expected ',' or ']', found '}]]]}'");
+  expect_error("{\"type\": nothing}", "expected a value, found 'nothing}'");
+  expect_error(polygon("[[[0, 0], [1, 0], [1, 1]]]"), "bad:2: ring 0 of the geometry is not closed");
+  expect_error(polygon("[[[0, 0], [1, 0], [0, 0]]]"), "has 2 sides; expected three or more");
+  expect_error(polygon("[[[0, 0]]]"), "expected two positions or more, found 1");
+  expect_error(polygon("[[[0, 0], [1], [0, 0]]]"), "expected a position [x, y]");
+  expect_error(polygon("[[[0, 0], \"x\", [0, 0]]]"), "expected a position [x, y], found a string");
+  expect_error(polygon("7"), "expected an array, found a number");
+  expect_error(polygon("[[[0, 0], [1, 1], [1, 0], [0, 1], [0, 0]]]"), "bad:2: segment 2 of ring 0 of the geometry");
+  expect_error("{\"type\": \"Circle\"}", "found 'Circle'");
+  expect_error("{\"type\": \"FeatureCollection\"}", "expected an array 'features', found none");
+  expect_error("{\"type\": \"FeatureCollection\", \"features\": []}", "has no points");
+  expect_error("{\"type\": \"FeatureCollection\", \"features\": [7, {}]}",
+               "feature 0: expected a Feature, found a number");
+  expect_error("{\"type\": \"Polygon\"}", "has no \"coordinates\"");
+  expect_error(std::string(100000, '['), "no outline");
+  expect_error("{\"a\": " + std::string(100000, '['), "nested more than");
+}
+
+TEST_F(OutlineFiles, WhatIsNoOutlineIsSaidToBeNone) {
+  expect_error("$MeshFormat\n4.1 0 8\n", "is no outline that temper reads");
+  expect_error("", "the file is empty");
+  EXPECT_FALSE(io::read_outline("nosuch.poly").has_value());
+  EXPECT_FALSE(io::read_outline(folder_.string()).has_value());
+}
+
+TEST(PublicOutlines, AllAreWellCenteredAtEverySizeInOneGo) {
+  if (!std::filesystem::exists(TEMPER_PUBLIC_OUTLINES)) GTEST_SKIP() << "no public outlines here";
+  std::size_t tested = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(TEMPER_PUBLIC_OUTLINES)) {
+    if (entry.path().extension() != ".poly") continue;
+    const auto file = io::read_outline(entry.path().string());
+    ASSERT_TRUE(file.has_value()) << file.error().what();
+    for (const double part : {0.2, 0.05, 0.01}) {
+      SCOPED_TRACE(entry.path().filename().string() + ", size " + std::to_string(part) + " of the extent");
+      MesherOptions options;
+      options.size = part * extent(file->outline);
+      const auto made = mesh_outline(file->outline, options);
+      ASSERT_TRUE(made.has_value()) << made.error().what();
+      EXPECT_EQ(made->bad, 0u);
+      EXPECT_EQ(count_bad(made->mesh), 0u);
+      expect_kept(file->outline, *made);
+      ++tested;
+    }
+  }
+  EXPECT_EQ(tested, 12u);
+}
+
+}  // namespace
+}  // namespace temper::test
