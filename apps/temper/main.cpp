@@ -18,9 +18,10 @@
 namespace temper::app {
 
 std::span<const Verb> verbs() {
-  static constexpr std::array<Verb, 8> kVerbs = {{
+  static constexpr std::array<Verb, 9> kVerbs = {{
       {"optimize", "move, weigh and flip until every triangle is well-centered", run_optimize},
       {"weights", "find weights for a mesh as it is, or prove that there are none", run_weights},
+      {"explain", "say why triangles are not well-centered, and what would cure them", run_explain},
       {"check", "report on the quality of a mesh, and test requirements", run_check},
       {"draw", "draw triangles, dual and weights as SVG", run_draw},
       {"convert", "write a mesh in another file format", run_convert},

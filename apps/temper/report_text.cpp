@@ -116,17 +116,6 @@ std::string histograms(const Quality& quality, const TextStyle& style) {
   return text + "The first and the last bar also count what lies beyond.\n";
 }
 
-std::string in_ascii(std::string text) {
-  const auto replace = [&text](std::string_view from, std::string_view to) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
-      text.replace(at, from.size(), to);
-    }
-  };
-  replace("°", " degrees");
-  replace("ℓ", "l");
-  return text;
-}
-
 std::string worst_text(const Quality& quality, const Input& input, const TextStyle& style) {
   if (quality.worst.empty()) return "";
   std::string text = "\nworst triangles\n";
@@ -145,6 +134,18 @@ std::string worst_text(const Quality& quality, const Input& input, const TextSty
 }
 
 }  // namespace
+
+std::string in_ascii(std::string text) {
+  const auto replace = [&text](std::string_view from, std::string_view to) {
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
+      text.replace(at, from.size(), to);
+    }
+  };
+  replace("°", " degrees");
+  replace("ℓ", "l");
+  replace("…", "...");
+  return text;
+}
 
 TextStyle text_style() { return {utf8_locale(), output_width()}; }
 

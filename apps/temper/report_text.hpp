@@ -16,6 +16,9 @@ struct TextStyle {
 /// By the locale and the terminal.
 [[nodiscard]] TextStyle text_style();
 
+/// The library's sentences, for a terminal without UTF-8.
+[[nodiscard]] std::string in_ascii(std::string text);
+
 /// Counts, margins, all energies, histograms, the worst triangles: `temper check`.
 [[nodiscard]] std::string quality_text(const Quality& quality, const Input& input, const TextStyle& style);
 

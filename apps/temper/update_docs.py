@@ -1,25 +1,35 @@
 #!/usr/bin/env python3
-"""Puts the program's own help into docs/cli.md: update_docs.py PROGRAM.
+"""Puts what the program prints into docs/: its help into cli.md, examples into explain.md. update_docs.py PROGRAM.
 
-Every block after a line <!-- temper ARGUMENTS --> becomes what that command prints. A test compares them.
+Every block after a line <!-- temper ARGUMENTS --> becomes what that command line prints. Tests compare them.
 """
+import os
 import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
 
-def main(program):
-    page = pathlib.Path(__file__).parents[2] / "docs" / "cli.md"
+def update(page, program):
+    folder = str(pathlib.Path(program).resolve().parent)
+    environment = {**os.environ, "PATH": folder + os.pathsep + os.environ["PATH"], "LC_ALL": "C.UTF-8"}
 
     def block(match):
-        text = subprocess.run([program, *match[1].split()], check=True, capture_output=True, text=True).stdout
-        return f"<!-- temper {match[1]} -->\n```text\n{text}```"
+        with tempfile.TemporaryDirectory() as scratch:
+            run = subprocess.run("temper " + match[1], shell=True, cwd=scratch, env=environment, check=True,
+                                 capture_output=True, text=True)
+        return f"<!-- temper {match[1]} -->\n```text\n{run.stdout}```"
 
     text, blocks = re.subn(r"<!-- temper (.*?) -->\n```text\n.*?```", block, page.read_text(), flags=re.S)
     if blocks == 0:
-        sys.exit("docs/cli.md has no block to update")
+        sys.exit(f"{page} has no block to update")
     page.write_text(text)
+
+
+def main(program):
+    for name in ("cli.md", "explain.md"):
+        update(pathlib.Path(__file__).parents[2] / "docs" / name, program)
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ Exit run_example(const Arguments& arguments);
 Exit run_replay(const Arguments& arguments);
 Exit run_reproduce(const Arguments& arguments);
 Exit run_weights(const Arguments& arguments);
+Exit run_explain(const Arguments& arguments);
 
 struct Verb {
   std::string_view name;

@@ -77,10 +77,11 @@ struct Cure {
   Vec2 at;
   /// Tried: the `triangles` of the neighbourhood then have weights that make them well-centered, exactly checked.
   bool verified = false;
-  /// Only the triangles of the conflict, and those that the change touches, were asked to be well-centered: those
-  /// around have no weights with or without it.
+  /// Only the triangles of the conflict, and those that the change touches, were asked to be well-centered: no change
+  /// was found that suits all of the neighbourhood.
   bool conflict_only = false;
   std::size_t triangles = 0;
+  std::size_t left_out = 0;  ///< bad triangles of the neighbourhood that belong to other conflicts, and were not asked
   double margin = 0;  ///< their best margin then, h/ℓ and d/ℓ; find_weights for the whole mesh: Explanation::margin
   std::size_t changed = 0;  ///< find_weights for the whole mesh: weights not zero around the bad triangles
 };

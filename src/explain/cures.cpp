@@ -180,6 +180,7 @@ class CureFinder {
     cure.conflict_only = conflict_only_;
     cure.margin = trial.margin;
     cure.triangles = trial.triangles;
+    cure.left_out = patch_.excused.size();
     const auto [known, is_new] = best_.emplace(cure.action, cure);
     if (!is_new && known->second.margin < cure.margin) known->second = std::move(cure);
   }

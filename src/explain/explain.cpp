@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -26,6 +27,7 @@ namespace {
 
 constexpr int kRings = 2;           // around a group: as find_weights begins
 constexpr double kMargin = 0.01;    // that temper weights asks for by itself
+constexpr double kSame = 1e-9;      // margins are known to about this
 constexpr std::size_t kBeats = 64;  // bad triangles between two calls of progress
 
 struct BadTriangle {
@@ -66,10 +68,12 @@ class Explainer {
     ask_groups();
     ask_whole();
     explain_rest();
-    add_cures();
-    std::stable_sort(result_.reasons.begin(), result_.reasons.end(), [this](const Reason& a, const Reason& b) {
-      return rank(a) != rank(b) ? rank(a) < rank(b) : severity(a) < severity(b);
+    std::stable_sort(result_.reasons.begin(), result_.reasons.end(), [](const Reason& a, const Reason& b) {
+      if (rank(a) != rank(b)) return rank(a) < rank(b);
+      if (severity(a) != severity(b)) return severity(a) < severity(b);
+      return a.at.x != b.at.x ? a.at.x < b.at.x : a.at.y < b.at.y;
     });
+    add_cures();
     return std::move(result_);
   }
 
@@ -79,8 +83,9 @@ class Explainer {
   [[nodiscard]] static int rank(const Reason& reason) {
     return reason.kind == ReasonKind::weights ? 2 : reason.kind == ReasonKind::undecided ? 1 : 0;
   }
+  /// Rounded: twins of a symmetric mesh are told in the order of their places, whatever the last digits say.
   [[nodiscard]] static double severity(const Reason& reason) {
-    return rank(reason) == 0 ? reason.margin : reason.least_margin;
+    return std::round((rank(reason) == 0 ? reason.margin : reason.least_margin) / kSame);
   }
 
   [[nodiscard]] std::vector<TriangleId> without_owned(std::vector<TriangleId> triangles) const {
@@ -250,8 +255,6 @@ class Explainer {
       if (reason.kind == ReasonKind::weights) add_find_weights(reason);
       if (rank(reason) != 0 && !reason.free.empty()) reason.cures.emplace_back();  // optimize
     }
-    std::stable_sort(conflicts.begin(), conflicts.end(),
-                     [](const Reason* a, const Reason* b) { return a->margin < b->margin; });
     for (std::size_t i = 0; i < conflicts.size(); ++i) {
       Reason& reason = *conflicts[i];
       const Conflict conflict = {reason.conflict, {}};

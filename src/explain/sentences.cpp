@@ -13,6 +13,8 @@ namespace {
 constexpr std::size_t kNamed = 8;      // triangles or vertices in one sentence; the rest is counted
 constexpr double kNotableRatio = 4.0;  // of two edges at a corner: what boundary grading keeps to
 
+constexpr double kSharpCorner = 60.0;  // degrees: less room than one equilateral triangle takes
+
 class Speaker {
  public:
   Speaker(const Mesh& mesh, const InputNames* names) : mesh_(mesh), names_(names) {}
@@ -64,11 +66,14 @@ class Speaker {
     if (!c.verified) return "May help, not verified: " + what + ".";
     const std::string count = std::to_string(c.triangles);
     if (c.conflict_only) {
-      return "Resolves this conflict, verified: " + what + ". Its triangles, " + count +
-             " then, have weights (margin " + rounded(c.margin) + "); those around them have more conflicts.";
+      return "Resolves this conflict, verified: " + what + ". The " + count +
+             " triangles concerned then have weights (margin " + rounded(c.margin) +
+             "), but not together with all of those around them.";
     }
-    return "Cures it, verified: " + what + ". Then weights exist that make all " + count +
-           " triangles around well-centered (margin " + rounded(c.margin) + ").";
+    std::string text = "Cures it, verified: " + what + ". Weights then exist that make the " + count +
+                       " triangles around well-centered (margin " + rounded(c.margin) + ")";
+    if (c.left_out > 0) text += ", not counting " + std::to_string(c.left_out) + " of other conflicts";
+    return text + ".";
   }
 
  private:
@@ -76,9 +81,11 @@ class Speaker {
   [[nodiscard]] std::string opening(const Reason& r) const {
     std::string text = triangles(r.conflict) + " exclude each other. ";
     text.front() = 'T';
-    if (r.kind == ReasonKind::edge || !r.center) return text;
+    if (!r.center) return text;
     const FanCenter& c = *r.center;
     const double ratio = c.longest_length / c.shortest_length;
+    const bool notable = c.on_boundary && (ratio >= kNotableRatio || c.angle_deg < kSharpCorner);
+    if (r.kind == ReasonKind::edge && !notable) return text;
     std::size_t degree = 0;
     for ([[maybe_unused]] const HalfedgeId h : mesh_.star(c.vertex)) ++degree;
     const bool whole = degree == r.conflict.size();

@@ -1,0 +1,88 @@
+// temper explain IN: for every triangle that is not well-centered the reason, and what would cure it.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "console.hpp"
+#include "explain_report.hpp"
+#include "help.hpp"
+#include "input.hpp"
+#include "options.hpp"
+#include "report_text.hpp"
+#include "temper/lp.hpp"
+
+namespace temper::app {
+namespace {
+
+struct Settings {
+  std::string input;
+  std::uint64_t limit = 10;
+  std::uint64_t whole = ExplainOptions().whole;
+  bool json = false;
+};
+
+void add_options(CLI::App& app, Settings& s) {
+  app.set_help_flag();
+  app.option_defaults()->group("Report");
+  app.add_option("IN", s.input, "the mesh; its content tells the format")->required();
+  app.add_flag("--json", s.json, "all reasons as JSON, with vertices and triangles counted from 0");
+  add_count(app, "--limit", s.limit, 0,
+            "print this many conflicts, and as many places where weights exist, and search cures for these");
+  add_count(app, "--whole", s.whole, 0,
+            "ask whether weights suit the whole mesh when it has at most so many triangles, or so many bad ones");
+  app.option_defaults()->group("Help");
+  app.set_help_flag("-h,--help", "this text");
+  set_help(app, {"IN [options]",
+                 "  temper example sparse-horseshoe -o shoe.vtu && temper explain shoe.vtu\n"
+                 "  temper explain shoe.vtu --json\n"
+                 "  # a mesh whose weights have not been found yet\n"
+                 "  temper example annulus -o ring.vtu && temper explain ring.vtu --limit 3\n",
+                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+}
+
+/// One line on a terminal; nothing in a pipe.
+class Counter {
+ public:
+  Continue show(std::size_t done, std::size_t all) {
+    if (!enabled_) return Continue::yes;
+    fmt::print(stderr, "\rexplained {} of {} triangles\x1b[K", done, all);
+    std::fflush(stderr);
+    return Continue::yes;
+  }
+  void clear() const {
+    if (enabled_) fmt::print(stderr, "\r\x1b[K");
+  }
+
+ private:
+  bool enabled_ = error_is_terminal();
+};
+
+}  // namespace
+
+Exit run_explain(const Arguments& arguments) {
+  CLI::App app(
+      "Says of every triangle that is not well-centered why: a small set of triangles that no weights suit, with a "
+      "proof, "
+      "or weights that exist and have not been found; and what would cure it, tried on the triangles around. Exits "
+      "with "
+      "0 whatever it finds; temper check --require tests.",
+      "explain");
+  Settings s;
+  add_options(app, s);
+  if (!parse(app, arguments)) return Exit::done;
+
+  const Input input = read_input(s.input);
+  print_warnings(input.warnings());
+  const auto solver = clp_solver();
+  Counter counter;
+  ExplainOptions options;
+  options.cures = s.limit;
+  options.whole = s.whole;
+  options.progress = [&counter](std::size_t done, std::size_t all) { return counter.show(done, all); };
+  const Explanation explanation = or_fail(explain(input.mesh(), *solver, options));
+  counter.clear();
+  print(s.json ? explanation_json(explanation, input) : explanation_text(explanation, input, s.limit, text_style()));
+  return Exit::done;
+}
+
+}  // namespace temper::app

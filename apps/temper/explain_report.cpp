@@ -1,0 +1,234 @@
+#include "explain_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "certificate_json.hpp"
+#include "console.hpp"
+#include "vertex_names.hpp"
+
+namespace temper::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kIndent = 4;
+
+bool is_conflict(const Reason& reason) {
+  return reason.kind != ReasonKind::weights && reason.kind != ReasonKind::undecided;
+}
+
+/// Reasons of one sort, and the triangles that they are for.
+struct Count {
+  std::size_t reasons = 0, bad = 0;
+};
+template <class Which>
+Count count(const Explanation& e, const Which& which) {
+  Count c;
+  for (const Reason& reason : e.reasons) {
+    if (!which(reason)) continue;
+    ++c.reasons;
+    c.bad += reason.bad.size();
+  }
+  return c;
+}
+std::string plural(std::size_t n, const char* one, const char* many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+std::string wrapped(const std::string& text, std::size_t indent, const TextStyle& style) {
+  const std::size_t width = style.columns > indent + 40 ? style.columns - indent : 40;
+  std::string result;
+  for (const std::string& line : wrap(style.utf8 ? text : in_ascii(text), width)) {
+    result += (result.empty() ? "" : std::string(indent, ' ')) + line + "\n";
+  }
+  return result;
+}
+
+std::string headline(const Explanation& e, const Input& input) {
+  if (e.bad == 0) return fmt::format("{}: all {} triangles are well-centered\n", input.path, e.triangles);
+  std::string text = fmt::format("{}: {} of {} triangles {} not well-centered\n", input.path, e.bad, e.triangles,
+                                 e.bad == 1 ? "is" : "are");
+  switch (e.verdict) {
+    case Feasibility::feasible:
+      return text + fmt::format(
+                        "With every vertex where it is, weights make all of them well-centered: {} of {} change "
+                        "(margin {:.4g}).\n",
+                        e.changed, input.mesh().n_vertices(), e.margin);
+    case Feasibility::infeasible:
+      return text + "With every vertex and edge as it is, no weights make all of them well-centered.\n";
+    case Feasibility::undecided:
+      return text + "Whether weights alone could make all of them well-centered was not decided.\n";
+  }
+  return text;
+}
+
+std::string summary(const Explanation& e) {
+  const Count conflicts = count(e, is_conflict);
+  const Count weights = count(e, [](const Reason& r) { return r.kind == ReasonKind::weights; });
+  const Count undecided = count(e, [](const Reason& r) { return r.kind == ReasonKind::undecided; });
+  std::string text;
+  if (conflicts.reasons > 0) {
+    text += fmt::format("  {} in {}: small sets of triangles that no weights suit\n", conflicts.bad,
+                        plural(conflicts.reasons, "conflict", "conflicts"));
+  }
+  if (weights.reasons > 0) {
+    text += fmt::format("  {} in {} for which weights exist, but have not been found yet\n", weights.bad,
+                        plural(weights.reasons, "place", "places"));
+  }
+  if (undecided.reasons > 0) {
+    text += fmt::format("  {} in {} of which neither is known\n", undecided.bad,
+                        plural(undecided.reasons, "place", "places"));
+  }
+  return text;
+}
+
+std::string paragraph(const Reason& reason, std::size_t number, const Input& input, const TextStyle& style) {
+  const std::string head = pad_left(std::to_string(number) + ". ", kIndent);
+  std::string text = head + wrapped(fmt::format("At ({:.4g}, {:.4g}): ", reason.at.x, reason.at.y) +
+                                        reason_text(input.mesh(), reason, input.names.get()),
+                                    kIndent, style);
+  for (const Cure& cure : reason.cures) {
+    text += std::string(kIndent, ' ') + "- " +
+            wrapped(cure_text(input.mesh(), cure, input.names.get()), kIndent + 2, style);
+  }
+  return text;
+}
+
+/// A sort of reasons, and what a stranger needs to read them.
+struct Section {
+  std::string title, about;
+};
+const Section kConflicts = {
+    "Conflicts",
+    "A dual edge crosses its edge in one place, the same for the triangles on both sides. A well-centered triangle "
+    "that is "
+    "obtuse lets the edges at its obtuse corner be crossed close to that corner alone, and the edge across from it "
+    "away "
+    "from both ends alone. Where two sides need different places, no weights help: a vertex or an edge has to change."};
+const Section kUndecided = {"Not known", "Neither weights nor a proof that there are none were found."};
+const Section kWeights = {"Weights exist", "No vertex and no edge has to change here: the weights of the mesh do."};
+
+template <class Which>
+std::string section(const Section& kind, const Explanation& e, const Input& input, std::size_t limit,
+                    const TextStyle& style, const Which& which) {
+  const std::size_t all = count(e, which).reasons;
+  if (all == 0 || limit == 0) return "";
+  std::string text = fmt::format("\n{}{}\n", kind.title, all > 1 ? ", worst first" : "");
+  text += wrapped(kind.about, 0, style);
+  std::size_t number = 0;
+  for (const Reason& reason : e.reasons) {
+    if (!which(reason) || number == limit) continue;
+    text += paragraph(reason, ++number, input, style);
+  }
+  if (all > limit) text += fmt::format("and {} more (--limit {} or --json has all)\n", all - limit, all);
+  return text;
+}
+
+class JsonWriter {
+ public:
+  explicit JsonWriter(const Input& input) : input_(input), names_(nullptr, input.points, input.mesh().n_vertices()) {}
+
+  [[nodiscard]] Json reason(const Reason& r) const {
+    Json json;
+    json["kind"] = name(r.kind);
+    json["at"] = {r.at.x, r.at.y};
+    json["triangles"] = triangles(r.bad);
+    json["least_margin"] = number(r.least_margin);
+    json["conflict"] = triangles(r.conflict);
+    json["margin"] = number(r.margin);
+    json["margin_of"] = r.checked;
+    json["free"] = vertices(r.free);
+    json["crossing"] = r.crossing ? crossing(*r.crossing) : Json(nullptr);
+    json["center"] = r.center ? center(*r.center) : Json(nullptr);
+    json["certificate"] = r.certificate.terms.empty() ? Json(nullptr) : certificate_json(r.certificate, input_);
+    json["cures_searched"] = r.cures_searched;
+    json["cures"] = Json::array();
+    for (const Cure& c : r.cures) json["cures"].push_back(cure(c));
+    json["text"] = reason_text(input_.mesh(), r, &names_);
+    return json;
+  }
+
+ private:
+  static Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+  [[nodiscard]] std::size_t point(VertexId v) const {
+    return input_.points.empty() ? std::size_t{v.index} : input_.points[v.index];
+  }
+  [[nodiscard]] Json vertices(const std::vector<VertexId>& ids) const {
+    Json json = Json::array();
+    for (const VertexId v : ids) json.push_back(point(v));
+    return json;
+  }
+  static Json triangles(const std::vector<TriangleId>& ids) {
+    Json json = Json::array();
+    for (const TriangleId t : ids) json.push_back(t.index);
+    return json;
+  }
+  [[nodiscard]] Json side(const CrossingSide& s) const {
+    return {{"triangles", triangles(s.triangles)},
+            {"from", number(s.from)},
+            {"to", number(s.to)},
+            {"widest_at", point(s.widest)},
+            {"angle_deg", s.angle_deg}};
+  }
+  [[nodiscard]] Json crossing(const CrossingConflict& c) const {
+    return {{"edge", {point(c.p), point(c.q)}}, {"length", c.length}, {"left", side(c.left)}, {"right", side(c.right)}};
+  }
+  [[nodiscard]] Json center(const FanCenter& c) const {
+    return {{"vertex", point(c.vertex)},
+            {"on_boundary", c.on_boundary},
+            {"angle_deg", c.angle_deg},
+            {"shortest_edge", {point(c.vertex), point(c.shortest)}},
+            {"shortest_length", c.shortest_length},
+            {"longest_edge", {point(c.vertex), point(c.longest)}},
+            {"longest_length", c.longest_length}};
+  }
+  [[nodiscard]] Json cure(const Cure& c) const {
+    using Action = Cure::Action;
+    const bool placed =
+        c.action != Action::find_weights && c.action != Action::optimize && c.action != Action::flip_edge;
+    Json json;
+    json["action"] = name(c.action);
+    json["edge"] = c.edge.empty() ? Json(nullptr) : vertices(c.edge);
+    json["vertex"] = c.vertex.valid() ? Json(point(c.vertex)) : Json(nullptr);
+    json["triangle"] = c.triangle.valid() ? Json(c.triangle.index) : Json(nullptr);
+    json["at"] = placed ? Json({c.at.x, c.at.y}) : Json(nullptr);
+    json["verified"] = c.verified;
+    json["conflict_only"] = c.conflict_only;
+    json["margin"] = c.verified ? number(c.margin) : Json(nullptr);
+    json["margin_of"] = c.triangles;
+    json["left_out"] = c.left_out;
+    json["text"] = cure_text(input_.mesh(), c, &names_);
+    return json;
+  }
+
+  const Input& input_;
+  VertexNames names_;
+};
+
+}  // namespace
+
+std::string explanation_text(const Explanation& e, const Input& input, std::size_t limit, const TextStyle& style) {
+  std::string text = headline(e, input) + summary(e);
+  text += section(kConflicts, e, input, limit, style, is_conflict);
+  text += section(kUndecided, e, input, limit, style, [](const Reason& r) { return r.kind == ReasonKind::undecided; });
+  text += section(kWeights, e, input, limit, style, [](const Reason& r) { return r.kind == ReasonKind::weights; });
+  return text;
+}
+
+std::string explanation_json(const Explanation& e, const Input& input) {
+  const JsonWriter writer(input);
+  Json json;
+  json["triangles"] = e.triangles;
+  json["bad"] = e.bad;
+  json["verdict"] = name(e.verdict);
+  json["weights_changed"] = e.verdict == Feasibility::feasible ? Json(e.changed) : Json(nullptr);
+  json["reasons"] = Json::array();
+  for (const Reason& reason : e.reasons) json["reasons"].push_back(writer.reason(reason));
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace temper::app

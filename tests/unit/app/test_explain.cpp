@@ -1,0 +1,78 @@
+// temper explain: what people read, the JSON, and that the page in docs/ shows what the program says.
+#include <regex>
+
+#include "temper/io.hpp"
+#include "workshop.hpp"
+
+namespace temper::test {
+namespace {
+
+class Explain : public Workshop {};
+
+TEST_F(Explain, NamesTheCornersOfAnInfeasibleMesh) {
+  temper_ok({"example", "sparse-horseshoe", "-o", "in.vtu"});
+  const std::string text = temper_ok({"explain", "in.vtu"}).out;
+  EXPECT_TRUE(contains(text, "in.vtu: 4 of 4 triangles are not well-centered"));
+  EXPECT_TRUE(contains(text, "no weights make all of them well-centered"));
+  EXPECT_TRUE(contains(text, "4 in 2 conflicts"));
+  EXPECT_TRUE(contains(text, "at vertex 4"));
+  EXPECT_TRUE(contains(text, "Cures it, verified: move vertex 4"));
+  const std::string one = temper_ok({"explain", "in.vtu", "--limit", "1"}).out;
+  EXPECT_TRUE(contains(one, "and 1 more (--limit 2 or --json has all)"));
+}
+
+TEST_F(Explain, CertificatesOfItsJsonAreVerifiedByWeights) {
+  temper_ok({"example", "sparse-horseshoe", "-o", "in.vtu"});
+  const auto json = nlohmann::json::parse(temper_ok({"explain", "in.vtu", "--json"}).out);
+  EXPECT_EQ(json["bad"], 4);
+  EXPECT_EQ(json["verdict"], "infeasible");
+  ASSERT_EQ(json["reasons"].size(), 2u);
+  for (const auto& reason : json["reasons"]) {
+    write("why.json", reason["certificate"].dump());
+    EXPECT_TRUE(contains(temper_ok({"weights", "in.vtu", "--check-certificate", "why.json"}).out, "proves it"));
+    EXPECT_EQ(reason["kind"], "edge");
+    EXPECT_GT(reason["cures"].size(), 0u);
+  }
+}
+
+TEST_F(Explain, WhatItSaysWeightsCureTheyDo) {
+  temper_ok({"example", "annulus", "-o", "in.vtu"});
+  const auto json = nlohmann::json::parse(temper_ok({"explain", "in.vtu", "--json"}).out);
+  ASSERT_GT(json["bad"], 0);
+  EXPECT_EQ(json["verdict"], "feasible");
+  for (const auto& reason : json["reasons"]) EXPECT_EQ(reason["kind"], "weights");
+  temper_ok({"weights", "in.vtu", "-o", "out.vtu", "--mode", "feasible"});
+  EXPECT_TRUE(contains(temper_ok({"explain", "out.vtu"}).out, "triangles are well-centered"));
+}
+
+TEST_F(Explain, SpeaksTheNumbersOfTheFile) {
+  // Counted from 1 in this format; two obtuse triangles whose weights exist.
+  write("in.mesh",
+        "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n4 0 0\n2 1 0\n2 -1 0\n"
+        "Triangles\n2\n1 2 3 1\n2 1 4 1\nEnd\n");
+  const std::string text = temper_ok({"explain", "in.mesh"}).out;
+  EXPECT_TRUE(contains(text, "edge 1-2") || contains(text, "edge 2-1")) << text;
+  EXPECT_FALSE(contains(text, "vertex 0")) << text;
+}
+
+TEST_F(Explain, ThePageShowsWhatTheProgramSays) {
+  const std::string page = read(TEMPER_SOURCE_DIR "/docs/explain.md");
+  const std::regex block("<!-- (temper example [^\n]*) -->\n```text\n([^`]*)```");
+  std::size_t blocks = 0;
+  for (std::sregex_iterator at(page.begin(), page.end(), block), end; at != end; ++at, ++blocks) {
+    const Outcome outcome = shell("export LC_ALL=C.UTF-8; " + (*at)[1].str());
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, (*at)[2].str());
+  }
+  EXPECT_GE(blocks, 2u);
+}
+
+TEST_F(Explain, BadUsageIsRefused) {
+  temper_ok({"example", "sparse-horseshoe", "-o", "in.vtu"});
+  EXPECT_EQ(temper({"explain"}).exit, 2);
+  EXPECT_EQ(temper({"explain", "in.vtu", "--limit", "-1"}).exit, 2);
+  EXPECT_EQ(temper({"explain", "nosuch.vtu"}).exit, 1);
+}
+
+}  // namespace
+}  // namespace temper::test
