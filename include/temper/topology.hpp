@@ -176,18 +176,37 @@ struct GradingPlan {
 };
 
 /// Cuts edges of the boundary and constrained edges until any two of them that meet at a vertex are within `ratio` of
-/// each other's length (at least 2). No piece is shorter than the shortest edge at the end it grows from, so the
-/// pieces only ever follow what is short already. Each edge is cut into the least number of pieces that its ends
-/// allow. O(n log n).
-[[nodiscard]] GradingPlan plan_boundary_grading(const Mesh& mesh, double ratio = 4);
+/// each other's length (at least 2). No piece is shorter than the smaller of the shortest edges at its edge's two ends,
+/// so the pieces only ever follow what is short already. Each edge is cut into the least number of pieces that its ends
+/// allow. Edges that a corner across sees at more than `widest_angle_deg` are cut in two at least (180: none is): the
+/// mesh is much finer beside them than along them. O(n log n).
+[[nodiscard]] GradingPlan plan_boundary_grading(const Mesh& mesh, double ratio = 4, double widest_angle_deg = 180);
+
+/// Triangles whose corners all are on the boundary or on constrained lines, where no vertex is free to make them well
+/// centered: longest edge first. As corners, the smallest number first, which still name them when slots have changed.
+[[nodiscard]] std::vector<std::array<VertexId, 3>> triangles_without_free_corner(const Mesh& mesh);
+
+/// How to insert a vertex at the orthocenter of a triangle, with the weight interpolated there. outside also when the
+/// triangle is no longer there, or would not be among those that are replaced (its orthocenter is behind a line).
+[[nodiscard]] InsertionPlan plan_center(const Mesh& mesh, const std::array<VertexId, 3>& corners,
+                                        InsertionPlan storage = {});
+
+/// Of grade_boundary: above this angle [degrees] an edge is halved, and so many times the new triangles are looked at.
+/// Measured on the dense horseshoe: any angle from 90 to 120 gives margins h/ℓ and d/ℓ above 0.05 after sweeps.
+inline constexpr double kWidestBoundaryAngle = 120;
+inline constexpr int kGradingPasses = 3;
 
 /// What grade_boundary did.
 struct Grading {
-  std::size_t vertices = 0;  ///< inserted
+  std::size_t vertices = 0;  ///< inserted on edges
+  std::size_t inside = 0;    ///< inserted in triangles without free corner
   std::size_t flips = 0;
   std::size_t refused = 0;  ///< cuts that cannot be made: rounding turns a triangle over there
 };
-/// Commits plan_boundary_grading(mesh, ratio) by plan_split and insert_vertex. Old vertices stay bit for bit.
+/// Makes the boundary fit for optimisation: kGradingPasses times plan_boundary_grading(mesh, ratio,
+/// kWidestBoundaryAngle), committed by plan_split and insert_vertex, then plan_center in all triangles without free
+/// corner. Old vertices stay bit for bit. The mesh should be regular; then it stays so, but for splits that are
+/// not_regular.
 Grading grade_boundary(Mesh& mesh, double ratio = 4, const InsertionObserver* observer = nullptr);
 
 }  // namespace temper

@@ -18,10 +18,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <queue>
 #include <utility>
 
+#include "temper/geometry.hpp"
 #include "temper/topology.hpp"
+#include "topology/locate.hpp"
 
 namespace temper {
 namespace {
@@ -34,6 +37,7 @@ constexpr double kRoomForRounding = 1 - 0x1p-30;
 struct LineEdge {
   VertexId a, b;
   double length;
+  bool halve;  ///< seen at too wide an angle to stay whole
   [[nodiscard]] VertexId other(VertexId v) const { return v == a ? b : a; }
 };
 
@@ -51,8 +55,11 @@ double reach(double s_a, double s_b, std::size_t k, double q, std::vector<double
 }
 
 /// The pieces of an edge between two sizes, from a to b: one where it may stay whole.
-std::vector<double> divide(double length, double s_a, double s_b, double ratio) {
-  if (length <= ratio * std::min(s_a, s_b)) return {length};
+std::vector<double> divide(const LineEdge& edge, double s_a, double s_b, double ratio) {
+  const double length = edge.length;
+  if (length <= ratio * std::min(s_a, s_b)) {
+    return edge.halve ? std::vector<double>{0.5 * length, 0.5 * length} : std::vector<double>{length};
+  }
   ratio *= kRoomForRounding;
   std::size_t k = 2;
   while (reach(s_a, s_b, k, ratio) < length) ++k;
@@ -66,13 +73,24 @@ std::vector<double> divide(double length, double s_a, double s_b, double ratio) 
   return pieces;
 }
 
-std::vector<LineEdge> line_edges(const Mesh& mesh) {
+/// Does the corner across h see its edge at more than the angle whose cosine is given?
+bool is_seen_wide(const Mesh& mesh, HalfedgeId h, double cosine) {
+  if (!h.valid()) return false;
+  const Vec2 c = mesh.position(mesh.opposite(h));
+  const Vec2 to_a = mesh.position(mesh.origin(h)) - c, to_b = mesh.position(mesh.target(h)) - c;
+  return dot(to_a, to_b) < cosine * length(to_a) * length(to_b);
+}
+
+std::vector<LineEdge> line_edges(const Mesh& mesh, double widest_angle_deg) {
+  const double cosine = std::cos(widest_angle_deg * std::numbers::pi / 180);
+  const bool any_angle = !(widest_angle_deg < 180);
   std::vector<LineEdge> edges;
   for (const HalfedgeId h : mesh.halfedges()) {
     if (mesh.is_erased(Mesh::triangle(h)) || !mesh.is_edge_representative(h)) continue;
     if (!mesh.is_boundary(h) && !mesh.is_constrained(h)) continue;
     const VertexId a = std::min(mesh.origin(h), mesh.target(h)), b = std::max(mesh.origin(h), mesh.target(h));
-    edges.push_back({a, b, length(mesh.position(b) - mesh.position(a))});
+    const bool wide = !any_angle && (is_seen_wide(mesh, h, cosine) || is_seen_wide(mesh, mesh.twin(h), cosine));
+    edges.push_back({a, b, length(mesh.position(b) - mesh.position(a)), wide});
   }
   std::sort(edges.begin(), edges.end(),
             [](const LineEdge& e, const LineEdge& f) { return std::pair(e.a, e.b) < std::pair(f.a, f.b); });
@@ -106,7 +124,7 @@ using Sizes = IdVector<VertexId, double>;
 Sizes spread_sizes(const std::vector<LineEdge>& edges, const Incidence& incidence, std::size_t n, double ratio) {
   Sizes sizes(n, HUGE_VAL);
   for (const LineEdge& e : edges) {
-    for (const VertexId v : {e.a, e.b}) sizes[v] = std::min(sizes[v], e.length);
+    for (const VertexId v : {e.a, e.b}) sizes[v] = std::min(sizes[v], e.halve ? 0.5 * e.length : e.length);
   }
   using Entry = std::pair<double, VertexId>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -119,7 +137,9 @@ Sizes spread_sizes(const std::vector<LineEdge>& edges, const Incidence& incidenc
     if (size > sizes[v]) continue;  // has become smaller since
     for (const std::size_t e : incidence.of(v)) {
       const VertexId u = edges[e].other(v);
-      const double last = divide(edges[e].length, size, sizes[u], ratio).back();
+      const bool from_a = v == edges[e].a;
+      const std::vector<double> pieces = divide(edges[e], sizes[edges[e].a], sizes[edges[e].b], ratio);
+      const double last = from_a ? pieces.back() : pieces.front();
       if (last >= sizes[u]) continue;
       sizes[u] = std::max(last, size);  // not below size by rounding: what is taken out stays final
       queue.emplace(sizes[u], u);
@@ -183,16 +203,16 @@ void cut_edge(Mesh& mesh, const EdgeCuts& cuts, const InsertionObserver* observe
 
 }  // namespace
 
-GradingPlan plan_boundary_grading(const Mesh& mesh, double ratio) {
+GradingPlan plan_boundary_grading(const Mesh& mesh, double ratio, double widest_angle_deg) {
   ratio = std::max(kLeastRatio, ratio);
-  const std::vector<LineEdge> edges = line_edges(mesh);
+  const std::vector<LineEdge> edges = line_edges(mesh, widest_angle_deg);
   const std::size_t n = mesh.n_vertices();
   const Sizes sizes = spread_sizes(edges, Incidence(n, edges), n, ratio);
   std::vector<std::vector<double>> whole, pieces;
   GradingPlan plan;
   for (const LineEdge& e : edges) {
     whole.push_back({e.length});
-    pieces.push_back(divide(e.length, sizes[e.a], sizes[e.b], ratio));
+    pieces.push_back(divide(e, sizes[e.a], sizes[e.b], ratio));
     if (pieces.back().size() == 1) continue;
     plan.cuts.push_back({e.a, e.b, cuts_of(pieces.back())});
     plan.vertices += plan.cuts.back().at.size();
@@ -202,10 +222,61 @@ GradingPlan plan_boundary_grading(const Mesh& mesh, double ratio) {
   return plan;
 }
 
+std::vector<std::array<VertexId, 3>> triangles_without_free_corner(const Mesh& mesh) {
+  IdVector<VertexId, std::uint8_t> on_line(mesh.n_vertices(), 0);
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.is_erased(Mesh::triangle(h)) || (!mesh.is_boundary(h) && !mesh.is_constrained(h))) continue;
+    on_line[mesh.origin(h)] = on_line[mesh.target(h)] = 1;
+  }
+  using Entry = std::pair<double, std::array<VertexId, 3>>;  // minus the squared longest edge, and the corners
+  std::vector<Entry> found;
+  for (const TriangleId t : mesh.triangles()) {
+    if (mesh.is_erased(t)) continue;
+    std::array<VertexId, 3> corners = mesh.corners(t);
+    if (on_line[corners[0]] + on_line[corners[1]] + on_line[corners[2]] < 3) continue;
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 side = mesh.position(corners[(k + 1) % 3]) - mesh.position(corners[k]);
+      longest = std::max(longest, squared_length(side));
+    }
+    found.emplace_back(-longest, corners);
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<std::array<VertexId, 3>> triangles;
+  for (const Entry& entry : found) triangles.push_back(entry.second);
+  return triangles;
+}
+
+InsertionPlan plan_center(const Mesh& mesh, const std::array<VertexId, 3>& corners, InsertionPlan storage) {
+  storage.status = InsertionStatus::outside;
+  const HalfedgeId h = mesh.find_halfedge(corners[0], corners[1]);
+  if (!h.valid() || mesh.opposite(h) != corners[2]) return storage;
+  const TriangleId t = Mesh::triangle(h);
+  const Vec2 p = orthocenter(mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2]));
+  const Location location = locate(mesh, p, t);
+  if (!location.triangle.valid()) return storage;
+  const double weight = interpolated_weight(mesh, location.triangle, p);
+  InsertionPlan plan = plan_insertion(mesh, {p.x, p.y, weight}, location.triangle, std::move(storage));
+  const bool replaces = std::find(plan.cavity.begin(), plan.cavity.end(), t) != plan.cavity.end();
+  if (plan.status == InsertionStatus::possible && !replaces) plan.status = InsertionStatus::outside;
+  return plan;
+}
+
 Grading grade_boundary(Mesh& mesh, double ratio, const InsertionObserver* observer) {
   Grading grading;
-  const GradingPlan plan = plan_boundary_grading(mesh, ratio);
-  for (const EdgeCuts& cuts : plan.cuts) cut_edge(mesh, cuts, observer, grading);
+  for (int pass = 0; pass < kGradingPasses; ++pass) {
+    const GradingPlan plan = plan_boundary_grading(mesh, ratio, kWidestBoundaryAngle);
+    for (const EdgeCuts& cuts : plan.cuts) cut_edge(mesh, cuts, observer, grading);
+  }
+  InsertionPlan plan;
+  for (const auto& corners : triangles_without_free_corner(mesh)) {
+    plan = plan_center(mesh, corners, std::move(plan));
+    if (plan.status != InsertionStatus::possible) continue;
+    insert_vertex(mesh, plan, observer);
+    ++grading.inside;
+    grading.flips += plan.flips.size();
+  }
   return grading;
 }
 
