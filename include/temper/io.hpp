@@ -121,18 +121,22 @@ struct LoadedMesh {
 [[nodiscard]] Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags = {});
 
 /// Puts coordinates, weights, triangles and regions of the mesh back into the file it came from, whose dropped points
-/// go with their data. `vertices` is OptimizeReport::vertices: the number in `loaded` of each vertex of the mesh; empty
-/// when none was removed.
+/// go with their data. `vertices` is OptimizeReport::vertices: the number in `loaded` of each vertex of the mesh,
+/// invalid for one that was inserted; empty when none was removed or inserted.
 ///
-/// Point data stay with their point. Where a point is gone that two lines of one tag met at, one line is left; other
-/// lines and marked points go with their points. Cell data stay with their slot, or, when the number of triangles has
+/// Point data stay with their point. Of inserted points they are interpolated linearly on the mesh of before, when
+/// floating; integers are what all corners around have in common, and an array that has nothing in common somewhere is
+/// dropped, as are all of them when the geometry was released. Where a point is gone that two lines of one tag met at,
+/// one line is left; other lines and marked points go with their points. A line whose edge was split is two, with its
+/// tag and data on both. Cell data stay with their slot, or, when the number of triangles has
 /// changed, with their region: what is the same on all triangles of each region is kept, the rest goes. What is lost is
-/// named in file.warnings. May be called again for a later state of the mesh, as long as no vertices are removed.
+/// named in file.warnings. May be called again for a later state of the mesh, as long as no vertices are removed or
+/// inserted.
 void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
             const IdVector<VertexId, VertexId>& vertices = {});
 
-/// Frees the points, weights and triangles of a file whose mesh has been made: update() writes them again. Nothing
-/// when points were dropped.
+/// Frees the points, weights and triangles of a file whose mesh has been made: update() writes them again, but cannot
+/// interpolate then. Nothing when points were dropped.
 void release_geometry(MeshFile& file, const LoadedMesh& loaded);
 
 /// What is to be meshed, as a file says it.

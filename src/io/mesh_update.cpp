@@ -1,14 +1,18 @@
 // From a mesh back to the arrays of the file that it came from.
 //
 // Coordinates, weights, triangles and regions are the mesh's; everything else is the file's and goes with its point,
-// its line or its triangle. When vertices were removed, the points that are left keep their data, bit for bit.
+// its line or its triangle. When vertices were removed or inserted, the points that are left keep their data, bit for
+// bit; those of new points are interpolated on the mesh of before.
 #include <algorithm>
 #include <cstring>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
 #include "io/failure.hpp"
 #include "io/file_names.hpp"
+#include "io/interpolation.hpp"
+#include "io/line_cuts.hpp"
 #include "io/values.hpp"
 #include "temper/io.hpp"
 
@@ -80,6 +84,9 @@ void drop_unused_points(MeshFile& file, const std::vector<std::int32_t>& vertex_
   for (std::size_t p = 0; p < used.size(); ++p) used[p] = vertex_of_point[p] >= 0;
   keep(file.points, used);
   keep(file.point_data, used);
+  for (auto& triangle : file.triangles) {
+    for (std::int32_t& p : triangle) p = vertex_of_point[static_cast<std::size_t>(p)];
+  }
   renumber(file, [&](std::int32_t p) { return vertex_of_point[static_cast<std::size_t>(p)]; });
 }
 
@@ -114,7 +121,8 @@ void drop_data(MeshFile& file, std::vector<DataArray>& arrays, std::string_view 
   arrays.clear();
 }
 
-// --- vertices that were removed -------------------------------------------------------------------------------
+// --- vertices that were removed or inserted
+// -------------------------------------------------------------------------------
 
 using NewNumbers = std::vector<std::int32_t>;  // of the points before; −1: removed
 
@@ -158,19 +166,58 @@ class LineMerger {
   std::unordered_map<std::int32_t, std::vector<std::size_t>> lines_at_;  // of removed points
 };
 
-void keep_vertices(MeshFile& file, std::size_t n_before, const IdVector<VertexId, VertexId>& vertices) {
-  NewNumbers new_index(n_before, -1);
+/// Flags of medit say what is special about a point of the user's: nothing is about a new one.
+bool is_flag(const DataArray& a) { return a.name == "medit:corner" || a.name == "medit:required"; }
+
+/// Point data of the kept points, then of the new ones: see update(). Reads the file's geometry of before.
+void extend_point_data(MeshFile& file, const Mesh& mesh, const IdVector<VertexId, VertexId>& vertices) {
   RunLength old;
+  std::vector<Vec2> places;
   for (const VertexId v : IdRange<VertexId>(vertices.size())) {
-    new_index[vertices[v].index] = static_cast<std::int32_t>(v.index);
-    old.push_back(std::int64_t{vertices[v].index});
+    if (vertices[v].valid()) {
+      old.push_back(std::int64_t{vertices[v].index});
+    } else {
+      places.push_back(mesh.position(v));
+    }
+  }
+  const bool released = file.triangles.empty();
+  const bool needs_means = !places.empty() && !file.point_data.empty() && !released;
+  const auto means = needs_means ? locate(file.points, file.triangles, places) : std::vector<PointMean>();
+  std::vector<DataArray> kept, lost;
+  for (DataArray& a : file.point_data) {
+    DataArray of_new = a;
+    bool known = places.empty();
+    if (!known && is_flag(a)) {
+      of_new.values = zeros(scalar_of(a.values), places.size() * static_cast<std::size_t>(a.components));
+      known = true;
+    } else if (needs_means && append_means(of_new, means)) {
+      RunLength appended(static_cast<std::int64_t>(file.points.size()), places.size());
+      of_new.values = gather(of_new.values, a.components, appended);
+      known = true;
+    }
+    if (known) {
+      a.values = gather(a.values, a.components, old);
+      if (!places.empty()) append(a.values, of_new.values);
+    }
+    (known ? kept : lost).push_back(std::move(a));
+  }
+  file.point_data = std::move(kept);
+  drop_data(file, lost, "point data");
+}
+
+void keep_vertices(MeshFile& file, std::size_t n_before, const Mesh& mesh,
+                   const IdVector<VertexId, VertexId>& vertices) {
+  extend_point_data(file, mesh, vertices);
+  NewNumbers new_index(n_before, -1);
+  for (const VertexId v : IdRange<VertexId>(vertices.size())) {
+    if (vertices[v].valid()) new_index[vertices[v].index] = static_cast<std::int32_t>(v.index);
   }
   const std::size_t n_lines = file.lines.size(), n_marked = file.marked_points.size();
   const std::size_t merged = LineMerger(file, new_index).merge();
   renumber(file, [&](std::int32_t p) { return new_index[static_cast<std::size_t>(p)]; });
   const std::size_t lost = n_lines - merged - file.lines.size() + n_marked - file.marked_points.size();
   if (lost > 0) file.warnings.push_back(text(lost, " lines or marked points have lost their vertices and are dropped"));
-  for (DataArray& a : file.point_data) a.values = gather(a.values, a.components, old);
+  cut_lines(file, mesh, vertices);
 }
 
 /// The same bytes at the two tuples?
@@ -220,9 +267,9 @@ void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh, const Id
   const bool has_unused = file.points.size() == vertex.size() && n_kept < vertex.size();
   if (has_unused) drop_unused_points(file, vertex);
   const bool released = file.points.empty();
-  const bool renumbered = !vertices.empty() && file.points.size() != mesh.n_vertices();  // else it was done before
+  const bool renumbered = !vertices.empty() && (released || file.points.size() == n_kept);  // else it was done before
   if (renumbered) {
-    keep_vertices(file, n_kept, vertices);
+    keep_vertices(file, n_kept, mesh, vertices);
     keep_region_data(file, mesh);
   } else if (!released && (mesh.n_vertices() != file.points.size() || mesh.n_triangles() != file.triangles.size())) {
     find_again(file, mesh);
