@@ -33,6 +33,9 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
         "boundary vertices slide, but where triangles may be inverted nothing keeps them from passing a "
         "corner; expected inversions to be refused");
   }
+  if (!o.flips && o.boundary_vertices == BoundaryVertices::split) {
+    return invalid("boundary edges are to be split, but the connectivity is to stay; expected flips to be allowed");
+  }
   if (o.inversion == Inversion::allow && o.size_band) {
     return invalid("inverted triangles are allowed, but they have no size; expected no size band");
   }
@@ -57,6 +60,9 @@ std::optional<InputError> check(const OptimizeOptions& o, const Mesh& mesh) {
   if (!(o.time_limit >= 0)) return invalid("time limit is " + to_text(o.time_limit) + "; expected at least 0");
   if (o.max_sweeps < 0) return invalid("max sweeps is " + std::to_string(o.max_sweeps) + "; expected at least 0");
   if (o.weights_from < 0) return invalid("weights from is " + std::to_string(o.weights_from) + "; expected at least 0");
+  if (o.repair_trials < 0) {
+    return invalid("repair trials is " + std::to_string(o.repair_trials) + "; expected at least 0");
+  }
   if (o.inner < 0) return invalid("inner is " + std::to_string(o.inner) + "; expected at least 0");
   if (o.outer < 0) return invalid("outer is " + std::to_string(o.outer) + "; expected at least 0");
   if (o.collapse_from && *o.collapse_from < 0) {
