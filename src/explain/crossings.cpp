@@ -92,7 +92,9 @@ class Tree {
     CrossingSide result;
     Polygon inside = region_of(h, result);
     const Interval interval = feet(inside, at(mesh_.origin(h)), at(mesh_.target(h)));
-    result.from = interval.from, result.to = interval.to;
+    // Clipping leaves the last digits beyond the ends.
+    const double l = length(at(mesh_.target(h)) - at(mesh_.origin(h)));
+    result.from = std::max(interval.from, 0.0), result.to = std::min(interval.to, l);
     return result;
   }
 

@@ -176,7 +176,7 @@ class Speaker {
     using Action = Cure::Action;
     switch (c.action) {
       case Action::find_weights:
-        return c.changed > 0 ? "Find weights: " + std::to_string(c.changed) + " of those around here would not be zero"
+        return c.changed > 0 ? "Find weights: near here " + std::to_string(c.changed) + " would differ from zero"
                              : std::string("Find weights, once the conflicts nearby are cured");
       case Action::optimize:
         return "Let the free vertices move";
