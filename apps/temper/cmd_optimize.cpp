@@ -12,6 +12,7 @@
 #include "progress_line.hpp"
 #include "report_json.hpp"
 #include "report_text.hpp"
+#include "size_report.hpp"
 #include "temper/draw.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
@@ -62,6 +63,7 @@ struct Settings {
   std::uint64_t threads = 0;
   bool positions_only = false, weights_only = false, no_flips = false, slide = false, quiet = false;
   bool repair = false, no_repair = false;
+  std::string size_field, size_data = "size";
 };
 
 void set_flips(Settings& s, Flips value) {
@@ -154,6 +156,15 @@ void add_connectivity(CLI::App& app, Settings& s) {
       ->default_function({});
   app.add_flag("--slide-interfaces", s.slide,
                "vertices of straight region interfaces and tagged lines may move along them");
+}
+
+void add_size(CLI::App& app, Settings& s) {
+  add_text(app, "--size-field", "FILE", s.size_field,
+           "a mesh file whose point data say how long edges are meant to be where; without it the input's own sizes");
+  add_text(app, "--size-field-data", "NAME", s.size_data, "of the point data in that file")->default_str(s.size_data);
+  add_number(app, "--size-band", s.options.size_band, {1, std::numeric_limits<double>::infinity(), false},
+             "B: no step takes the size at a vertex out of the size field's 1/B to B times; without it sizes are only "
+             "reported");
 }
 
 void add_paper(CLI::App& app, Settings& s) {
@@ -261,6 +272,9 @@ std::vector<std::string> doubtful_options(const CLI::App& app, const Settings& s
   if (s.gamma.value() && !energy.softened_by_gamma) idle("--gamma");
   if (s.h0.value() && !energy.softened_by_h0) idle("--h0");
   if (s.options.boundary != BoundaryTreatment::as_is && energy.kind != EnergyKind::F) idle("--boundary-treatment");
+  if (s.size_field.empty() && app.count("--size-field-data") > 0) {
+    warnings.push_back("--size-field-data has no effect without --size-field");
+  }
   const auto idle_unless = [&](bool used, std::initializer_list<const char*> options, const char* needed) {
     for (const char* option : options) {
       if (!used && app.count(option) > 0) warnings.push_back(fmt::format("{} has no effect {}", option, needed));
@@ -398,7 +412,8 @@ void write_all(const CLI::App& app, const Settings& s, Input& input, Results& re
 }
 
 void print_result(const Settings& s, const Results& results, const Outputs& outputs) {
-  print(ending(results.report) + "\n\n" + comparison_text(results.before, results.after, s.options.star, text_style()));
+  print(ending(results.report) + "\n\n" + comparison_text(results.before, results.after, s.options.star, text_style()) +
+        size_text(results.report.size));
   for (const std::string& note : results.report.notes) print("note: " + note + "\n");
   print(fmt::format("\n{}: {}\n", s.output, verdict(results.after)));
   std::string written;
@@ -406,11 +421,16 @@ void print_result(const Settings& s, const Results& results, const Outputs& outp
   print(written + "\n");
 }
 
-Exit optimize_mesh(const CLI::App& app, const Settings& s, Outputs& outputs) {
+Exit optimize_mesh(const CLI::App& app, Settings& s, Outputs& outputs) {
   Input input = read_input(s.input, s.fix);
   Results results;
   warn(results, input.warnings());
   warn(results, doubtful_options(app, s));
+  if (!s.size_field.empty()) {
+    ReadSizeField read = read_size_field(s.size_field, s.size_data);
+    warn(results, read.warnings);
+    s.options.size_field = std::move(read.field);
+  }
   io::release_geometry(input.file, input.loaded);  // the mesh has it now; memory is dear on the largest ones
   std::optional<io::TextStream> trace;
   if (!s.trace.empty()) trace = outputs.open(s.trace);
@@ -434,6 +454,7 @@ Exit run_optimize(const Arguments& arguments) {
   add_group(app, settings, "Energy", add_energy);
   add_group(app, settings, "Moves", add_moves);
   add_group(app, settings, "Connectivity and constraints", add_connectivity);
+  add_group(app, settings, "Size", add_size);
   add_group(app, settings, "The paper's switches", add_paper);
   add_group(app, settings, "Stopping", add_stopping);
   app.option_defaults()->group("Help");

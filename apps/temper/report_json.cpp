@@ -49,6 +49,21 @@ Json to_json(const Quality& quality, Points points) {
   return json;
 }
 
+Json to_json(const Spread& s) {
+  return {{"min", number_or_null(s.min)},
+          {"p05", number_or_null(s.p05)},
+          {"median", number_or_null(s.median)},
+          {"p95", number_or_null(s.p95)},
+          {"max", number_or_null(s.max)}};
+}
+
+Json to_json(const SizeReport& size) {
+  return {{"over_field", to_json(size.over_field)},
+          {"gradation", to_json(size.gradation)},
+          {"largest_edge_ratio", number_or_null(size.largest_edge_ratio)},
+          {"vertices_outside_field", size.outside}};
+}
+
 /// The number of a text that was accepted as one: ".5", "1." and "007" are numbers too, but not to JSON.
 Json number_as_json(const std::string& text) {
   std::int64_t whole = 0;
@@ -100,6 +115,7 @@ std::string optimize_json(const OptimizeRecord& record) {
   for (const VertexId v : record.report.hidden) json["hidden_vertices"].push_back(v.index);
   json["vertices_inserted"] = record.report.vertices_inserted;
   json["flips"] = record.report.flips;
+  json["size"] = {{"before", to_json(record.report.size.before)}, {"after", to_json(record.report.size.after)}};
   json["notes"] = record.report.notes;
   json["warnings"] = record.warnings;
   json["history"] = Json::array();

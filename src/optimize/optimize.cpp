@@ -191,6 +191,10 @@ void give_back(Mesh& mesh, WorkingCopy best, const Settings& settings, const Rec
   }
   report.final_energy = total_energy(mesh, settings.model, o.executor);
   report.hidden = hidden_vertices_of(mesh, o.hidden);
+  if (const std::size_t outside = report.size.before.outside; outside > 0) {
+    report.notes.push_back("the size field does not reach " + count_of(outside, "vertex", "vertices") +
+                           " of the input, where its nearest value was taken");
+  }
   if (!std::isfinite(report.final_energy)) report.notes.push_back(kStillInfinite);
   if (report.final_energy < 0) report.notes.push_back(kNegative);
 }
