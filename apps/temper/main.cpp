@@ -18,7 +18,8 @@
 namespace temper::app {
 
 std::span<const Verb> verbs() {
-  static constexpr std::array<Verb, 9> kVerbs = {{
+  static constexpr std::array<Verb, 10> kVerbs = {{
+      {"mesh", "mesh an outline, and optimize that until every triangle is well-centered", run_mesh},
       {"optimize", "move, weigh and flip until every triangle is well-centered", run_optimize},
       {"weights", "find weights for a mesh as it is, or prove that there are none", run_weights},
       {"explain", "say why triangles are not well-centered, and what would cure them", run_explain},

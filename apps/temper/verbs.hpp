@@ -13,6 +13,7 @@ namespace temper::app {
 /// What follows the verb on the command line.
 using Arguments = std::vector<std::string>;
 
+Exit run_mesh(const Arguments& arguments);
 Exit run_optimize(const Arguments& arguments);
 Exit run_check(const Arguments& arguments);
 Exit run_draw(const Arguments& arguments);

@@ -1,0 +1,220 @@
+// temper mesh OUTLINE -o MESH --size h: divides the outline, places points inside, optimises, writes, reports.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "console.hpp"
+#include "help.hpp"
+#include "interrupt.hpp"
+#include "mesh_report.hpp"
+#include "options.hpp"
+#include "outputs.hpp"
+#include "progress_line.hpp"
+#include "report_text.hpp"
+#include "temper/draw.hpp"
+#include "temper/mesher.hpp"
+#include "temper/projection.hpp"
+#include "temper/quality.hpp"
+#include "threads.hpp"
+
+namespace temper::app {
+namespace {
+
+constexpr Choice<Enclosed> kEnclosed[] = {
+    {"by-points", Enclosed::by_points}, {"all", Enclosed::all}, {"alternate", Enclosed::alternate}};
+
+struct Settings {
+  std::string input, output, report, picture, projection, region_sizes;
+  MesherOptions options;
+  double time_limit = 0;
+  std::uint64_t threads = 0;
+  bool no_optimize = false, quiet = false;
+};
+
+void add_files(CLI::App& app, Settings& s) {
+  app.add_option("OUTLINE", s.input, "what to mesh: .poly of Triangle, geometry of JIGSAW, GeoJSON; content decides")
+      ->required();
+  add_text(app, "-o,--output", "MESH", s.output, "where the mesh goes; its suffix tells the format")->required();
+  add_text(app, "--report", "FILE", s.report, "a JSON report: what was read and made, before and after optimising");
+  add_text(app, "--draw", "FILE", s.picture, "an SVG picture of the mesh and its dual");
+  app.add_flag("--quiet", s.quiet, "print warnings and errors only");
+}
+
+void add_sizes(CLI::App& app, Settings& s) {
+  add_number(app, "--size", s.options.size, kPositive, "edge length wanted, in the units of the outline or in metres")
+      ->required()
+      ->default_str("");
+  add_number(app, "--grade", s.options.grade, kPositive,
+             "by how much the size grows on one unit of length away from short edges and narrow places");
+  add_text(app, "--region-size", "REGION,SIZE,...", s.region_sizes, "edge length wanted in these regions, when less");
+  add_choice(app, "--enclosed", kEnclosed, s.options.enclosed,
+             "what is inside: all that is enclosed but for the holes; nested loops in turns; by-points: the first when "
+             "the file has hole or region points, else the second (not for files that say it by polygons or parts)");
+  add_text(app, "--projection", "NAME[:lon,lat]", s.projection,
+           "of longitude and latitude: stereographic, mercator or transverse-mercator about this center (default: the "
+           "middle of the points), in metres; none: take degrees for a plane");
+}
+
+void add_optimisation(CLI::App& app, Settings& s) {
+  app.add_flag("--no-optimize", s.no_optimize, "write the Delaunay mesh as it is");
+  add_count(app, "--attempts", s.options.attempts, 1,
+            "while triangles stay bad the outline is divided finer around them, at most so often");
+  add_number(app, "--time-limit", s.time_limit, kNotNegative, "stop optimising after this many seconds; 0: no limit");
+  add_count(app, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+}
+
+void add_options(CLI::App& app, Settings& s) {
+  app.set_help_flag();
+  app.option_defaults()->group("Files");
+  add_files(app, s);
+  app.option_defaults()->group("Sizes and shape");
+  add_sizes(app, s);
+  app.option_defaults()->group("Optimisation");
+  add_optimisation(app, s);
+  app.option_defaults()->group("Help");
+  app.set_help_flag("-h,--help", "this text");
+  set_help(app, {"OUTLINE -o MESH --size h [options]",
+                 "  temper mesh lake.poly -o lake.vtu --size 0.05\n"
+                 "  temper mesh lake.poly -o lake.msh --size 0.05 --grade 0.15 --draw lake.svg\n"
+                 "  temper mesh plan.poly -o plan.vtu --size 1 --region-size 2,0.25\n"
+                 "  temper mesh coast.geojson -o coast.vtu --size 2000 --projection stereographic\n"
+                 "  temper mesh basin.msh -o basin.vtu --size 500 --projection transverse-mercator:9,0\n",
+                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal}});
+}
+
+std::vector<RegionSize> region_sizes(const std::string& text) {
+  if (text.empty()) return {};
+  const auto numbers = parse_numbers(text);
+  std::vector<RegionSize> sizes;
+  for (std::size_t i = 0; numbers && i + 1 < numbers->size(); i += 2) {
+    const double region = (*numbers)[i], size = (*numbers)[i + 1];
+    if (region != std::floor(region) || std::abs(region) > 2e9 || !(size > 0)) break;
+    sizes.push_back({static_cast<std::int32_t>(region), size});
+  }
+  if (!numbers || numbers->empty() || 2 * sizes.size() != numbers->size()) {
+    throw Failure(Exit::bad_usage, fmt::format("mesh: --region-size: expected REGION,SIZE,... with whole regions and "
+                                               "sizes above 0, found '{}'\nSee temper mesh --help",
+                                               text));
+  }
+  return sizes;
+}
+
+/// The outline in the plane, and how it got there. Longitude and latitude are no plane: nobody's angles are right
+/// there.
+MapUsed take_to_plane(const Settings& s, io::OutlineFile& file) {
+  if (s.projection.empty()) {
+    if (!file.geographic) return {};
+    throw Failure(Exit::bad_usage,
+                  fmt::format("{}: the points are longitude and latitude, in which angles and lengths are distorted; "
+                              "choose --projection stereographic, mercator or transverse-mercator (sizes are then in "
+                              "metres), or --projection none to take degrees for a plane all the same",
+                              s.input));
+  }
+  if (s.projection == kNone) return {};
+  MapUsed map;
+  map.projection = or_fail(parse_projection(s.projection, file.outline.points));
+  file.outline = or_fail(project(file.outline, *map.projection));
+  return map;
+}
+
+void measure_distortion(MapUsed& map, const Mesh& mesh) {
+  if (!map.projection) return;
+  for (const VertexId v : mesh.vertices()) {
+    const double scale = scale_factor(*map.projection, inverse(*map.projection, mesh.position(v)));
+    const bool first = v.index == 0;
+    map.least_scale = first ? scale : std::min(map.least_scale, scale);
+    map.largest_scale = first ? scale : std::max(map.largest_scale, scale);
+  }
+}
+
+/// The mesh with the edges of the outline as tagged lines. Segments without a tag get one all the same, or they would
+/// be lost in a file: 1 on the boundary, as Triangle does, and the first number that is free inside.
+io::MeshFile file_of(const OutlineMesh& made, const MapUsed& map) {
+  io::MeshFile file = io::from_mesh(made.mesh);
+  file.lines.clear();
+  file.line_tags.clear();
+  std::int32_t inside = 2;
+  for (const MeshLine& line : made.lines) inside = std::max(inside, line.tag + 1);
+  for (const MeshLine& line : made.lines) {
+    const HalfedgeId h = made.mesh.find_halfedge(line.a, line.b);
+    const bool boundary = !h.valid() || made.mesh.is_boundary(h);
+    file.lines.push_back({static_cast<std::int32_t>(line.a.index), static_cast<std::int32_t>(line.b.index)});
+    file.line_tags.push_back(line.tag != 0 ? line.tag : boundary ? 1 : inside);
+  }
+  if (!map.projection) return file;
+  std::vector<double> longitudes, latitudes;
+  for (const VertexId v : made.mesh.vertices()) {
+    const Vec2 place = inverse(*map.projection, made.mesh.position(v));
+    longitudes.push_back(place.x);
+    latitudes.push_back(place.y);
+  }
+  file.point_data.push_back({"longitude", 1, std::move(longitudes)});
+  file.point_data.push_back({"latitude", 1, std::move(latitudes)});
+  return file;
+}
+
+OutlineMesh run_library(const Settings& s, const Outline& outline, Executor* executor) {
+  ProgressLine line(!s.quiet && error_is_terminal());
+  const Observer observer = [&line](const Progress& progress) {
+    line.show(progress);
+    return interrupted() ? Continue::no : Continue::yes;
+  };
+  MesherOptions options = s.options;
+  options.region_sizes = region_sizes(s.region_sizes);
+  if (s.no_optimize) options.optimize.reset();
+  if (options.optimize) {
+    options.optimize->executor = executor;
+    options.optimize->time_limit = s.time_limit;
+  }
+  return or_fail(mesh_outline(outline, options, observer));
+}
+
+Exit mesh(const CLI::App& app, const Settings& s, Outputs& outputs) {
+  io::OutlineFile input = or_fail(io::read_outline(s.input));
+  print_warnings(input.warnings);
+  MapUsed map = take_to_plane(s, input);
+  ThreadPool threads(s.threads > 0 ? s.threads : hardware_threads());
+  catch_interrupts();
+  const OutlineMesh made = run_library(s, input.outline, &threads);
+  measure_distortion(map, made.mesh);
+  QualityOptions measuring;
+  measuring.executor = &threads;
+  const Quality after = quality(made.mesh, measuring);
+
+  print_warnings(outputs.write_mesh(s.output, file_of(made, map)));
+  const std::vector<UsedOption> options = used_options(app);
+  const MeshRecord record = {command_line("mesh", {s.input}, options), options, input, map, made, after};
+  if (!s.report.empty()) outputs.write_text(s.report, mesh_json(record));
+  if (!s.picture.empty()) {
+    DrawOptions drawing;
+    drawing.title =
+        fmt::format("{}: {} triangles, {} not well-centered", s.input, after.triangles, bad_triangles(after));
+    outputs.write_text(s.picture, draw_svg(made.mesh, drawing));
+  }
+  if (!s.quiet) print(mesh_text(record) + fmt::format("\n{}: {}\n", s.output, verdict(after)));
+  const bool early = made.report.stopped == Stopped::time_limit || made.report.stopped == Stopped::cancelled;
+  return early ? Exit::stopped_early : Exit::done;
+}
+
+}  // namespace
+
+Exit run_mesh(const Arguments& arguments) {
+  CLI::App app(
+      "Meshes the inside of an outline and optimises that until every triangle is well-centered. Points of the outline "
+      "stay bit for bit.",
+      "mesh");
+  Settings s;
+  add_options(app, s);
+  if (!parse(app, arguments)) return Exit::done;
+  Outputs outputs("mesh");
+  outputs.expect_mesh("--output", s.output);
+  if (same_file(s.input, s.output)) {
+    throw Failure(Exit::bad_usage, "mesh: --output would replace the outline\nSee temper mesh --help");
+  }
+  outputs.expect_text("--report", s.report, {s.input});
+  outputs.expect_text("--draw", s.picture, {s.input});
+  return mesh(app, s, outputs);
+}
+
+}  // namespace temper::app

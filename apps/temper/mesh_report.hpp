@@ -1,0 +1,37 @@
+// What `temper mesh` says it made: as text, and as JSON.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "options.hpp"
+#include "temper/io.hpp"
+#include "temper/mesher.hpp"
+#include "temper/projection.hpp"
+#include "temper/quality.hpp"
+
+namespace temper::app {
+
+/// The map from longitude and latitude to the plane, when there is one.
+struct MapUsed {
+  std::optional<Projection> projection = {};
+  double least_scale = 1, largest_scale = 1;  ///< length on the map over length on the globe, over all vertices
+};
+
+struct MeshRecord {
+  std::string command;
+  std::vector<UsedOption> options;
+  const io::OutlineFile& input;
+  const MapUsed& map;
+  const OutlineMesh& made;
+  const Quality& quality;
+};
+
+/// "stereographic:7.5,51", as --projection takes it.
+[[nodiscard]] std::string spell(const Projection& projection);
+
+[[nodiscard]] std::string mesh_text(const MeshRecord& record);
+[[nodiscard]] std::string mesh_json(const MeshRecord& record);
+
+}  // namespace temper::app
