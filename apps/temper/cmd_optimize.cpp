@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <utility>
 
 #include "console.hpp"
 #include "help.hpp"
@@ -49,6 +50,8 @@ constexpr Choice<SweepOrder> kOrders[] = {{"hilbert", SweepOrder::hilbert},
                                           {"input", SweepOrder::input},
                                           {"reverse", SweepOrder::reverse},
                                           {"random", SweepOrder::random}};
+constexpr Choice<BoundaryVertices> kBoundaries[] = {
+    {"keep", BoundaryVertices::keep}, {"slide", BoundaryVertices::slide}, {"split", BoundaryVertices::split}};
 constexpr Choice<HiddenPolicy> kHiddenPolicies[] = {
     {"undo", HiddenPolicy::undo}, {"remove", HiddenPolicy::remove}, {"keep", HiddenPolicy::keep}};
 constexpr Choice<Inversion> kInversions[] = {{"refuse", Inversion::refuse}, {"allow", Inversion::allow}};
@@ -58,12 +61,13 @@ struct Settings {
   std::string input, output, report, history, picture, trace, anchor;
   std::vector<std::string> fix;
   Method method = Method::production;
+  bool method_given = false;
   OptimizeOptions options;  ///< those of the method, where no option says otherwise
   SofteningOptions gamma, h0;
   std::uint64_t threads = 0;
   bool positions_only = false, weights_only = false, no_flips = false, slide = false, quiet = false;
   bool repair = false, no_repair = false;
-  std::string size_field, size_data = "size";
+  std::string size_field, size_data;
 };
 
 void set_flips(Settings& s, Flips value) {
@@ -130,11 +134,13 @@ void add_moves(CLI::App& app, Settings& s) {
 }
 
 void add_connectivity(CLI::App& app, Settings& s) {
-  app.add_flag("--no-flips", s.no_flips, "keep the connectivity; no step may make an edge non-regular");
+  CLI::Option* no_flips =
+      app.add_flag("--no-flips", s.no_flips, "keep the connectivity; no step may make an edge non-regular");
   spell_default(add_choice(
                     app, "--flips", kFlips, [&s](Flips value) { set_flips(s, value); },
                     "flip edges at once, after the inner sweeps, or never, as --no-flips"),
                 [&s] { return std::string(kFlips[static_cast<std::size_t>(flips_of(s))].name); });
+  no_flips->excludes(app.get_option("--flips"));
   spell_default(
       add_choice(
           app, "--flip-limit", kFlipLimits, [&s](FlipLimit value) { s.options.flip_limit = value; },
@@ -145,15 +151,22 @@ void add_connectivity(CLI::App& app, Settings& s) {
       });
   add_number(app, "--overshoot", s.options.overshoot, {1, std::numeric_limits<double>::infinity(), false},
              "of --flip-limit after, at first: it shrinks towards 1 each sweep");
-  CLI::Option* repair = app.add_flag(
-      "--repair", s.repair,
-      "where sweeps leave triangles bad: remove and insert vertices there, too, and keep what cures most");
+  CLI::Option* repair =
+      app.add_flag("--repair", s.repair,
+                   "where sweeps leave triangles bad: remove and insert vertices there, too, and keep what cures most");
   app.add_flag("--no-repair", s.no_repair, "nor sweep again and kick vertices there, which a barrier does by default")
       ->excludes(repair);
   add_count(app, "--repair-trials", s.options.repair_trials, 0, "at most so many edits are tried, 1 to 3 ms each");
   app.add_option("--fix", s.fix, "vertices with this tag or physical name stay where they are; several may follow")
       ->type_name("TAG ...")
       ->default_function({});
+  add_choice(
+      app, "--boundary", kBoundaries, s.options.boundary_vertices,
+      "keep: the domain's boundary stays bit for bit; slide: vertices of its straight pieces, never corners, may "
+      "move along them; split: edges of boundary and interfaces much longer than one they meet are cut before "
+      "the sweeps, and the vertices that were there stay bit for bit");
+  add_number(app, "--boundary-ratio", s.options.boundary_ratio, {2, std::numeric_limits<double>::infinity(), false},
+             "of --boundary split: how many times as long an edge may be as one it meets");
   app.add_flag("--slide-interfaces", s.slide,
                "vertices of straight region interfaces and tagged lines may move along them");
 }
@@ -161,7 +174,7 @@ void add_connectivity(CLI::App& app, Settings& s) {
 void add_size(CLI::App& app, Settings& s) {
   add_text(app, "--size-field", "FILE", s.size_field,
            "a mesh file whose point data say how long edges are meant to be where; without it the input's own sizes");
-  add_text(app, "--size-field-data", "NAME", s.size_data, "of the point data in that file")->default_str(s.size_data);
+  add_text(app, "--size-field-data", "NAME", s.size_data, "of the point data in that file (default: size)");
   add_number(app, "--size-band", s.options.size_band, {1, std::numeric_limits<double>::infinity(), false},
              "B: no step takes the size at a vertex out of the size field's 1/B to B times; without it sizes are only "
              "reported");
@@ -172,6 +185,10 @@ void add_paper(CLI::App& app, Settings& s) {
   add_choice(
       app, "--method", kMethods,
       [&s](Method value) {
+        // Each time at once, so that what is said twice must be seen here.
+        if (std::exchange(s.method_given, true)) {
+          throw Failure(Exit::bad_usage, "optimize: --method is given more than once\nSee temper optimize --help");
+        }
         s.method = value;
         if (value == Method::paper) s.options = paper_method();
       },
@@ -214,7 +231,8 @@ void add_stopping(CLI::App& app, Settings& s) {
              "the gain relative to the energy, or the paper's: mean energy per triangle, absolute");
   add_number(app, "--time-limit", s.options.time_limit, kNotNegative, "stop after this many seconds; 0: no limit");
   add_count(app, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
-  add_count(app, "--seed", s.options.seed, 0, "of the jitter that frees symmetric grids, of repairs, and of --order random");
+  add_count(app, "--seed", s.options.seed, 0,
+            "of the jitter that frees symmetric grids, of repairs, and of --order random");
 }
 
 /// Options added by `add` go under a title in --help.
@@ -280,6 +298,13 @@ std::vector<std::string> doubtful_options(const CLI::App& app, const Settings& s
       if (!used && app.count(option) > 0) warnings.push_back(fmt::format("{} has no effect {}", option, needed));
     }
   };
+  const FlipLimit limit = s.options.flip_limit.value_or(energy.barrier ? FlipLimit::unlimited : FlipLimit::after);
+  const bool has_flips = s.options.flips;
+  idle_unless(limit == FlipLimit::after && has_flips, {"--overshoot"},
+              has_flips ? "without --flip-limit after" : "without flips");
+  idle_unless(has_flips, {"--flip-limit"}, "without flips");
+  idle_unless(s.options.solver != Solver::golden, {"--relaxation"}, "with --solver golden");
+  idle_unless(s.options.boundary_vertices == BoundaryVertices::split, {"--boundary-ratio"}, "without --boundary split");
   idle_unless(flips_of(s) == Flips::deferred, {"--inner", "--outer"}, "without --flips deferred");
   idle_unless(s.options.collapse_from.has_value(), {"--collapse-energy", "--collapse-ratio"},
               "without --collapse-from");
@@ -294,10 +319,11 @@ std::vector<std::string> doubtful_options(const CLI::App& app, const Settings& s
 std::string ending(const OptimizeReport& report) {
   const char* sweeps = report.sweeps == 1 ? "sweep" : "sweeps";
   std::string work = fmt::format("{} {} in {:.3g} s, {} flips", report.sweeps, sweeps, report.seconds, report.flips);
-  if (report.vertices_removed > 0) {
-    work +=
-        fmt::format(", {} {} removed", report.vertices_removed, report.vertices_removed == 1 ? "vertex" : "vertices");
-  }
+  const auto add_vertices = [&work](std::size_t n, const char* what) {
+    if (n > 0) work += fmt::format(", {} {} {}", n, n == 1 ? "vertex" : "vertices", what);
+  };
+  add_vertices(report.vertices_removed, "removed");
+  add_vertices(report.vertices_inserted, "inserted");
   switch (report.stopped) {
     case Stopped::converged:
       return "converged after " + work;
@@ -382,7 +408,7 @@ void warn(Results& results, std::span<const std::string> warnings) {
 /// Cell data stay with the slot of their triangle, which flips give another place and reversal other corner numbers.
 std::vector<std::string> cell_data_warnings(const Input& input, const Results& results) {
   const std::size_t flips = results.report.flips, reversed = input.loaded.reversed_triangles;
-  const bool by_region = results.report.vertices_removed > 0;  // what is left then is the same all over each region
+  const bool by_region = !results.report.vertices.empty();  // what is left then is the same all over each region
   if (input.file.cell_data.empty() || flips + reversed == 0 || by_region) return {};
   std::string names;
   for (const io::DataArray& array : input.file.cell_data) names += (names.empty() ? "" : ", ") + array.name;
@@ -427,11 +453,12 @@ Exit optimize_mesh(const CLI::App& app, Settings& s, Outputs& outputs) {
   warn(results, input.warnings());
   warn(results, doubtful_options(app, s));
   if (!s.size_field.empty()) {
-    ReadSizeField read = read_size_field(s.size_field, s.size_data);
+    ReadSizeField read = read_size_field(s.size_field, s.size_data.empty() ? "size" : s.size_data);
     warn(results, read.warnings);
     s.options.size_field = std::move(read.field);
   }
-  io::release_geometry(input.file, input.loaded);  // the mesh has it now; memory is dear on the largest ones
+  // The mesh has its geometry now, and memory is dear on the largest ones; data of new points need that of before.
+  if (input.file.point_data.empty()) io::release_geometry(input.file, input.loaded);
   std::optional<io::TextStream> trace;
   if (!s.trace.empty()) trace = outputs.open(s.trace);
   improve(s, input, results, trace ? &*trace : nullptr);
@@ -446,7 +473,8 @@ Exit optimize_mesh(const CLI::App& app, Settings& s, Outputs& outputs) {
 Exit run_optimize(const Arguments& arguments) {
   CLI::App app(
       "Moves vertices, weights them and flips edges until every triangle is well-centered: its orthocenter "
-      "inside, every edge crossed by its dual. The boundary of the domain stays bit for bit.",
+      "inside, every edge crossed by its dual. The boundary of the domain stays bit for bit, unless --boundary says "
+      "otherwise.",
       "optimize");
   Settings settings;
   app.set_help_flag();
