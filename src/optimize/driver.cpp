@@ -224,14 +224,18 @@ void Driver::grade_boundary() {
                               " vertices inserted on the boundary and on lines: edges that meet there differed in "
                               "length by a factor of " +
                               rounded(cuts.ratio_before) + ", now " + rounded(cuts.ratio_after));
+  if (cuts.inside > 0) {
+    run_.report.notes.push_back(std::to_string(cuts.inside) +
+                                " vertices inserted in triangles whose corners all were on the boundary or on lines");
+  }
   if (cuts.refused > 0) {
     run_.report.notes.push_back(std::to_string(cuts.refused) +
                                 " cuts of the boundary were not made: coordinates are too coarse there");
   }
 }
 
-void Driver::repair() {
-  RepairSearch search(work_, settings_, run_, flipper_, recorder_);
+void Driver::repair(std::uint64_t seed) {
+  RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed);
   while (run_.sweeps_left() && search.improve_one_place()) {
     grow();
     if (flipper_.has_removed()) compact();
@@ -241,7 +245,7 @@ void Driver::repair() {
     recorder_.begin_sweep(run_.report.sweeps + 1);
   }
   final_sweep_ = run_.report.sweeps;
-  if (run_.stopped_by_caller() || !std::isfinite(run_.report.history.back().energy)) return;
+  if (run_.stopped_by_caller()) return;
   const WorkingCopy repaired = work_;
   const int sweep = final_sweep_;
   const std::size_t bad = run_.report.history.back().bad;

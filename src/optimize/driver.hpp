@@ -30,7 +30,7 @@ class Driver {
   void jitter(double amount);
 
   /// Local search for what all attempts have left bad; then sweeps once more, unless these lose triangles again.
-  void repair();
+  void repair(std::uint64_t seed);
 
   /// The sweep whose mesh the attempt ended with: the last one, or with HOT the best.
   [[nodiscard]] int final_sweep() const { return final_sweep_; }

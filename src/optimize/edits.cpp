@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/predicates_inline.hpp"
+#include "optimize/fill.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper {
@@ -12,6 +13,8 @@ constexpr int kKicks = 3;
 // A neighbourhood with more bad triangles has more than one place to begin at.
 constexpr std::size_t kMostBad = 6;
 constexpr std::size_t kMostRemovals = 12;
+// From sizes that hardly grow to such that double within their own length.
+constexpr double kGradations[] = {0.3, 0.6, 1};
 
 std::vector<TriangleId> some_bad_triangles(const Mesh& mesh) {
   std::vector<TriangleId> bad;
@@ -21,19 +24,6 @@ std::vector<TriangleId> some_bad_triangles(const Mesh& mesh) {
     if (is_bad && bad.size() < kMostBad) bad.push_back(t);
   }
   return bad;
-}
-
-/// The triangle that p is strictly inside of; invalid when there is none.
-TriangleId locate(const Mesh& mesh, Vec2 p) {
-  for (const TriangleId t : mesh.triangles()) {
-    const auto [a, b, c] = mesh.corners(t);
-    const Vec2 pa = mesh.position(a), pb = mesh.position(b), pc = mesh.position(c);
-    if (inlined::orient2d(pa, pb, p) == Sign::positive && inlined::orient2d(pb, pc, p) == Sign::positive &&
-        inlined::orient2d(pc, pa, p) == Sign::positive) {
-      return t;
-    }
-  }
-  return {};
 }
 
 void add_insertions(const Mesh& mesh, TriangleId t, std::vector<Edit>& edits) {
@@ -66,8 +56,7 @@ std::vector<VertexId> vertices_near(const Mesh& mesh, const std::vector<Triangle
 void add_removals(const Neighborhood& around, const std::vector<TriangleId>& bad, std::vector<Edit>& edits) {
   std::size_t count = 0;
   for (const VertexId v : vertices_near(around.mesh, bad)) {
-    if (around.frozen[v.index] != 0 || around.mesh.is_boundary(v)) continue;
-    if (plan_removal(around.mesh, v).status != RemovalStatus::possible) continue;
+    if (!is_removable(around.mesh, around.frozen, v)) continue;
     if (++count > kMostRemovals) return;
     edits.push_back({.kind = Edit::remove, .vertex = v});
   }
@@ -75,14 +64,18 @@ void add_removals(const Neighborhood& around, const std::vector<TriangleId>& bad
 
 }  // namespace
 
-std::vector<Edit> edits_for(const Neighborhood& around, bool vertices, Rng& rng) {
-  std::vector<Edit> edits = {{.kind = Edit::nothing}};
-  for (int i = 0; i < kKicks; ++i) edits.push_back({.kind = Edit::kick, .seed = rng.next()});
-  if (!vertices) return edits;
+std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool vertices, Rng& rng) {
+  std::vector<Edit> moves = {{.kind = Edit::nothing}}, one, many, anew;
+  for (int i = 0; i < kKicks; ++i) moves.push_back({.kind = Edit::kick, .seed = rng.next()});
+  if (!vertices) return {moves};
   const std::vector<TriangleId> bad = some_bad_triangles(around.mesh);
-  add_removals(around, bad, edits);
-  for (const TriangleId t : bad) add_insertions(around.mesh, t, edits);
-  return edits;
+  add_removals(around, bad, one);
+  for (const TriangleId t : bad) add_insertions(around.mesh, t, one);
+  for (const double gradation : kGradations) {
+    many.push_back({.kind = Edit::fill, .gradation = gradation});
+    anew.push_back({.kind = Edit::refill, .gradation = gradation});
+  }
+  return {moves, one, many, anew};
 }
 
 }  // namespace temper

@@ -199,6 +199,32 @@ void give_back(Mesh& mesh, WorkingCopy best, const Settings& settings, const Rec
   if (report.final_energy < 0) report.notes.push_back(kNegative);
 }
 
+// A search that ends with triangles bad may have gone astray early on.
+constexpr std::uint64_t kSearches = 4;
+
+/// Repairs, from the same beginning until a search leaves nothing bad. The best result is kept.
+Result repaired(Result start, Settings& settings, Run& run) {
+  if (!std::isfinite(total_energy(start.work.mesh, settings.model)))
+    return start;  // for want of weights, not of vertices
+  const auto is_done = [&](const Result& result) {
+    return run.stopped_by_caller() || !run.sweeps_left() || count_bad(result.work.mesh, settings.options.executor) == 0;
+  };
+  Result best = start;
+  for (std::uint64_t i = 0; i < kSearches && !is_done(best); ++i) {
+    Result result = start;
+    Driver driver(result.work, settings, run);
+    if (i > 0) driver.recorder().returned_to(start.sweep);
+    driver.repair(settings.options.seed + i);
+    result.sweep = driver.final_sweep();
+    if (!is_worse(result.work.mesh, best.work.mesh, settings)) {
+      best = std::move(result);
+    } else {
+      driver.recorder().returned_to(best.sweep);
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, const Observer& observer) {
@@ -234,10 +260,8 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
     }
     if (count_bad(best->work.mesh, options.executor) == 0 || run.stopped_by_caller() || !run.sweeps_left()) break;
   }
+  if (repairs(*settings)) best = repaired(*std::move(best), *settings, run);
   Driver driver(best->work, *settings, run);
-  if (repairs(*settings) && !run.stopped_by_caller() && count_bad(best->work.mesh, options.executor) > 0) {
-    driver.repair();
-  }
   const Settings user_settings = in_user_terms(*settings, best->work.frame);
   give_back(mesh, std::move(best->work), user_settings, driver.recorder(), report);
   report.seconds = run.seconds();

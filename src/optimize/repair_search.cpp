@@ -15,7 +15,7 @@ constexpr int kRings = 3;
 constexpr int kFailuresBeforeWider = 6;
 constexpr int kFailuresBeforeSideways = 5;
 // Enough for the random walk of sideways edits to come around; hopeless places are left after that.
-constexpr int kMostFailures = 200, kMostFailuresOfMoves = 10;
+constexpr int kMostFailures = 60, kMostFailuresOfMoves = 10;
 // An edit that helps lowers the violation by this part, or the number of bad triangles.
 constexpr double kHelps = 0.01;
 constexpr std::uint32_t kSidewaysChoice = 4;
@@ -60,21 +60,24 @@ bool RepairSearch::improve_one_place() {
   return false;
 }
 
-/// The edit after which the neighbourhood stands best, if that helps.
+/// The edit after which the neighbourhood stands best, if that helps; of the least tier that has one.
 std::optional<Edit> RepairSearch::choose(const Neighborhood& around) {
   const Standing before = standing(around.mesh);
   std::optional<Edit> best;
   Standing least = before;
   std::vector<Tried> tried;
-  for (const Edit& edit : edits_for(around, settings_.options.repair == Repair::vertices, rng_)) {
-    if (trials_left_-- <= 0 || run_.asked_to_stop(0)) break;
-    const Outcome outcome = try_edit(around, edit, settings_, work_.frame, false);
-    if (!outcome.valid) continue;
-    tried.push_back({edit, outcome.standing});
-    if (!helps(least, outcome.standing)) continue;
-    best = edit;
-    least = outcome.standing;
-    if (least.bad == 0) break;
+  for (const auto& tier : edits_for(around, settings_.options.repair == Repair::vertices, rng_)) {
+    for (const Edit& edit : tier) {
+      if (trials_left_-- <= 0 || run_.asked_to_stop(0)) return best;
+      const Outcome outcome = try_edit(around, edit, settings_, work_.frame, false);
+      if (!outcome.valid) continue;
+      tried.push_back({edit, outcome.standing});
+      if (!helps(least, outcome.standing)) continue;
+      best = edit;
+      least = outcome.standing;
+      if (least.bad == 0) break;
+    }
+    if (best) break;
   }
   if (best) {
     failures_ = 0;

@@ -18,13 +18,15 @@ namespace temper {
 
 class RepairSearch {
  public:
-  RepairSearch(WorkingCopy& work, const Settings& settings, Run& run, Flipper& flipper, const Recorder& recorder)
+  /// `seed`: of all that is random.
+  RepairSearch(WorkingCopy& work, const Settings& settings, Run& run, Flipper& flipper, const Recorder& recorder,
+               std::uint64_t seed)
       : work_(work),
         settings_(settings),
         run_(run),
         flipper_(flipper),
         recorder_(recorder),
-        rng_(settings.options.seed),
+        rng_(seed),
         trials_left_(settings.options.repair_trials) {}
 
   /// Changes the mesh in one place: never to more bad triangles. False when none is left, none can be cured, or it was

@@ -6,6 +6,7 @@
 #include "base/rng.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "geometry/triangle_kernel.hpp"
+#include "optimize/fill.hpp"
 #include "optimize/vertex_step.hpp"
 #include "temper/regularity.hpp"
 
@@ -19,6 +20,8 @@ constexpr double kStart = 0.5, kFactor = 0.7, kFloor = 0.003;
 constexpr double kSharp = 0.1;
 // Of the shortest edge: farther, and most kicks would turn a triangle over.
 constexpr double kKick = 0.4;
+// More than a neighbourhood that lacks vertices ever needs.
+constexpr int kMostFilled = 300;
 
 /// −h/ℓ, −d/ℓ or d/ℓ − 1, whichever is the worst; zero or less inside.
 double violation_of(const Mesh& mesh, TriangleId t) {
@@ -58,9 +61,11 @@ class Trial {
  private:
   static Settings of_trial(const Settings& settings, Tracer tracer);
   bool apply(const Edit& edit);
-  bool insert(const Edit& edit);
+  bool insert(TriangleId t, Vec2 place);
   bool split(HalfedgeId h);
   bool remove(VertexId v);
+  bool fill(double gradation);
+  void remove_free_vertices();
   void kick(std::uint64_t seed);
   void sweep();
   [[nodiscard]] bool any_bad() const;
@@ -110,28 +115,33 @@ bool Trial::apply(const Edit& edit) {
       kick(edit.seed);
       return true;
     case Edit::insert:
-      return insert(edit);
+      return insert(edit.triangle, edit.place);
     case Edit::split:
       return split(edit.edge);
     case Edit::remove:
       return remove(edit.vertex);
+    case Edit::refill:
+      remove_free_vertices();
+      return fill(edit.gradation);
+    case Edit::fill:
+      return fill(edit.gradation);
   }
   return false;
 }
 
 /// With the weight that the plane through the corners has there: never hidden.
-bool Trial::insert(const Edit& edit) {
+bool Trial::insert(TriangleId t, Vec2 place) {
   const Mesh& mesh = work_.mesh;
-  const auto corners = mesh.corners(edit.triangle);
+  const auto corners = mesh.corners(t);
   const auto [a, b, c] = std::array{mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2])};
-  const Vec2 p = grid_.snap(edit.place);
+  const Vec2 p = grid_.snap(place);
   const double sa = cross(b.position() - p, c.position() - p), sb = cross(c.position() - p, a.position() - p),
                sc = cross(a.position() - p, b.position() - p);
   for (const auto& [q, r] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
     if (inlined::orient2d(q.position(), r.position(), p) != Sign::positive) return false;
   }
   const double w = (sa * a.w + sb * b.w + sc * c.w) / (sa + sb + sc);
-  flipper_.insert(work_, edit.triangle, {p.x, p.y, w}, kNoEnergy, kNoEnergy);
+  flipper_.insert(work_, t, {p.x, p.y, w}, kNoEnergy, kNoEnergy);
   step_.grow();
   return true;
 }
@@ -154,6 +164,30 @@ bool Trial::remove(VertexId v) {
   if (plan.status != RemovalStatus::possible) return false;
   flipper_.remove(EventKind::removal, plan, kNoEnergy, kNoEnergy);
   return true;
+}
+
+/// False when nothing was missing, or an edge could not be made regular.
+bool Trial::fill(double gradation) {
+  Fill missing(work_.mesh, gradation);
+  int filled = 0;
+  for (auto place = missing.next(); place && filled < kMostFilled; place = missing.next()) {
+    if (!insert(place->triangle, place->position)) {
+      missing.refuse(place->position);
+      continue;
+    }
+    if (!flipper_.restore_all()) return false;
+    ++filled;
+  }
+  return filled > 0;
+}
+
+void Trial::remove_free_vertices() {
+  for (bool removed = true; removed;) {
+    removed = false;
+    for (const VertexId v : around_.mesh.vertices()) {
+      if (!work_.mesh.is_isolated(v) && is_removable(work_.mesh, around_.frozen, v)) removed = remove(v) || removed;
+    }
+  }
 }
 
 void Trial::kick(std::uint64_t seed) {
@@ -190,6 +224,14 @@ bool Trial::any_bad() const {
 }
 
 }  // namespace
+
+bool is_removable(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, VertexId v) {
+  if (frozen[v.index] != 0 || mesh.is_boundary(v)) return false;
+  for (const HalfedgeId h : mesh.star(v)) {
+    if (mesh.is_constrained(h)) return false;
+  }
+  return plan_removal(mesh, v).status == RemovalStatus::possible;
+}
 
 Standing standing(const Mesh& mesh) {
   Standing s;

@@ -21,11 +21,14 @@ struct Edit {
     insert,   ///< a vertex in a triangle
     split,    ///< an inner edge in its middle
     remove,   ///< a vertex
+    fill,     ///< with vertices, until no triangle is large for its place
+    refill,   ///< the same, after all free vertices have been removed
   } kind = nothing;
   TriangleId triangle = {};  ///< insert
   Vec2 place = {};           ///< insert
   HalfedgeId edge = {};      ///< split
   VertexId vertex = {};      ///< remove
+  double gradation = 0;      ///< fill, refill: growth of the size of triangles with the distance from the boundary
   std::uint64_t seed = 0;    ///< kick
 };
 
@@ -36,6 +39,9 @@ struct Standing {
   friend auto operator<=>(const Standing&, const Standing&) = default;
 };
 [[nodiscard]] Standing standing(const Mesh& mesh);
+
+/// Whether v may go without a trace in the boundary, in the interfaces, in what the user fixed and on the rim.
+[[nodiscard]] bool is_removable(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, VertexId v);
 
 /// What a trial came to.
 struct Outcome {

@@ -16,6 +16,7 @@
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"
 #include "temper/optimize.hpp"
+#include "temper/quality.hpp"
 
 namespace temper {
 namespace {
@@ -335,19 +336,32 @@ TEST(Boundary, SplittingKeepsTheVerticesThatWereThereAndTheShape) {
     ASSERT_EQ(mesh.n_vertices(), input.n_vertices() + report.vertices_inserted);
     ASSERT_EQ(report.vertices.size(), mesh.n_vertices());
     const auto edges = boundary_edges(input);
+    std::size_t on_boundary = 0;  // others free triangles that had no free corner
     for (const VertexId v : mesh.vertices()) {
       if (v.index < input.n_vertices()) {
         EXPECT_EQ(report.vertices[v], v);
         EXPECT_TRUE(!input.is_boundary(v) || mesh.position(v) == input.position(v));
       } else {
         EXPECT_FALSE(report.vertices[v].valid());
-        EXPECT_TRUE(mesh.is_boundary(v));
+        if (!mesh.is_boundary(v)) continue;
+        ++on_boundary;
         EXPECT_LT(distance(mesh.position(v), edges), rounding(input));
       }
     }
+    EXPECT_GT(on_boundary, 0u);
+    EXPECT_EQ(boundary_edges(mesh).size(), edges.size() + on_boundary);
     EXPECT_LT(plan_boundary_grading(mesh, 2).ratio_before, 4 * (1 + 1e-9));
     EXPECT_NE(report.notes.front().find("vertices inserted on the boundary"), std::string::npos);
   }
+}
+
+TEST(Boundary, SplittingLeavesTheDenseHorseshoeWideMargins) {
+  Mesh mesh;
+  run(*horseshoe(), mesh, {.boundary_vertices = BoundaryVertices::split});
+  const Quality q = quality(mesh);
+  EXPECT_EQ(q.well_centered_fraction, 1);
+  EXPECT_GE(q.min_h_over_l, 0.05);
+  EXPECT_GE(q.min_d_over_l, 0.05);
 }
 
 TEST(Boundary, IsKeptBitForBitOtherwise) {

@@ -1,0 +1,202 @@
+// Repairs: what sweeps leave bad is cured place by place, and nothing else is lost on the way.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "optimize/neighborhood.hpp"
+#include "optimize/splice.hpp"
+#include "optimize/trial.hpp"
+#include "support/area.hpp"
+#include "support/hard_meshes.hpp"
+#include "temper/generate.hpp"
+#include "temper/geometry.hpp"
+#include "temper/optimize.hpp"
+#include "temper/regularity.hpp"
+
+namespace temper {
+namespace {
+
+using Edge = std::pair<std::pair<double, double>, std::pair<double, double>>;
+
+/// The boundary as its edges by coordinates: equal sets are equal boundaries, bit for bit.
+std::set<Edge> boundary(const Mesh& mesh) {
+  std::set<Edge> edges;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_boundary(h)) continue;
+    const Vec2 a = mesh.position(mesh.origin(h)), b = mesh.position(mesh.target(h));
+    edges.insert({{a.x, a.y}, {b.x, b.y}});
+  }
+  return edges;
+}
+
+std::size_t bad_triangles(const Mesh& mesh) { return standing(mesh).bad; }
+
+struct HardMesh {
+  const char* name;
+  Mesh mesh;
+  int seeds;  // run here; a seed takes up to a second
+};
+
+std::vector<HardMesh> hard_meshes() {
+  return {{"sparse horseshoe", sparse_horseshoe(), 10},
+          {"dense horseshoe", *horseshoe(), 2},
+          {"60-gon", test::gon(60), 2},
+          {"wedge of 5 degrees", test::wedge(5, 8, 1), 3},
+          {"graded random points", test::graded_points(1), 1}};
+}
+
+TEST(Repair, HardMeshesEndWellCenteredWithTheirBoundaryBitForBit) {
+  for (const auto& [name, input, seeds] : hard_meshes()) {
+    ASSERT_GT(seeds, 0);
+    for (int seed = 1; seed <= seeds; ++seed) {
+      SCOPED_TRACE(testing::Message() << name << ", seed " << seed);
+      Mesh mesh = input;
+      const auto report = optimize(mesh, {.repair = Repair::vertices, .seed = static_cast<std::uint64_t>(seed)});
+      ASSERT_TRUE(report);
+      EXPECT_EQ(bad_triangles(mesh), 0u);
+      EXPECT_EQ(count_non_regular_edges(mesh), 0u);
+      EXPECT_EQ(mesh.validate(), std::nullopt);
+      EXPECT_EQ(boundary(mesh), boundary(input));
+      EXPECT_EQ(mesh.n_vertices(), input.n_vertices() + report->vertices_inserted - report->vertices_removed);
+    }
+  }
+}
+
+TEST(Repair, WithoutInsertionAndRemovalEveryVertexStays) {
+  const Mesh input = *horseshoe();
+  Mesh swept = input, repaired = input;
+  ASSERT_TRUE(optimize(swept, {.repair = Repair::none}));
+  const auto report = optimize(repaired);
+  ASSERT_TRUE(report);
+  EXPECT_GT(bad_triangles(swept), 0u);
+  EXPECT_EQ(bad_triangles(repaired), 0u);
+  EXPECT_EQ(repaired.n_vertices(), input.n_vertices());
+  EXPECT_TRUE(report->vertices.empty());
+}
+
+TEST(Repair, IsTracedLikeAllElse) {
+  for (const Mesh& input : {test::gon(40), *horseshoe()}) {
+    std::vector<TraceEvent> events;
+    Mesh mesh = input;
+    OptimizeOptions options = {.repair = Repair::vertices, .max_sweeps = 300};
+    options.tracer = [&](const TraceEvent& e) { events.push_back(e); };
+    const auto report = optimize(mesh, options);
+    ASSERT_TRUE(report);
+    EXPECT_GT(report->vertices_inserted + report->vertices_removed, 0u);
+    const auto again = replay_with_vertices(input, events);
+    ASSERT_TRUE(again) << again.error().what();
+    EXPECT_EQ(again->mesh, mesh);
+    EXPECT_EQ(again->vertices, report->vertices);
+  }
+}
+
+TEST(Repair, KeepsInterfacesRegionsAndFixedVertices) {
+  // Two halves of a polygon without interior vertices, with a line across that is theirs.
+  std::vector<Vec2> points;
+  std::vector<std::array<std::int32_t, 2>> segments;
+  for (int i = 0; i < 40; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 40;
+    points.push_back({std::cos(angle), std::sin(angle)});
+    segments.push_back({i, (i + 1) % 40});
+  }
+  for (int i = 1; i < 8; ++i) points.push_back({1 - i / 4.0, 0});
+  for (int i = 40; i < 46; ++i) segments.push_back({i, i + 1});
+  segments.push_back({0, 40});
+  segments.push_back({46, 20});
+  Mesh input = *constrained_delaunay({.points = points, .segments = segments});
+  input.set_fixed(VertexId(43), true);
+  std::map<std::int32_t, double> area_before, area_after;
+  for (const TriangleId t : input.triangles()) {
+    const auto [a, b, c] = input.corners(t);
+    const double y = input.position(a).y + input.position(b).y + input.position(c).y;
+    input.set_region(t, y > 0 ? 1 : 2);
+    area_before[input.region(t)] += doubled_area(input.position(a), input.position(b), input.position(c));
+  }
+  ASSERT_EQ(area_before.size(), 2u);
+  Mesh mesh = input;
+  const auto report = optimize(mesh, {.repair = Repair::vertices});
+  ASSERT_TRUE(report);
+  EXPECT_EQ(bad_triangles(mesh), 0u);
+  EXPECT_GT(report->vertices_inserted, 0u);
+  for (int i = 0; i < 47; ++i) EXPECT_EQ(mesh.position(VertexId(i)).x, points[static_cast<std::size_t>(i)].x);
+  for (const auto& [a, b] : segments) {
+    HalfedgeId h = mesh.find_halfedge(VertexId(a), VertexId(b));
+    if (!h.valid()) h = mesh.find_halfedge(VertexId(b), VertexId(a));
+    ASSERT_TRUE(h.valid()) << a << " to " << b;
+  }
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [a, b, c] = mesh.corners(t);
+    area_after[mesh.region(t)] += doubled_area(mesh.position(a), mesh.position(b), mesh.position(c));
+  }
+  EXPECT_NEAR(area_after[1], area_before[1], 1e-12);
+  EXPECT_NEAR(area_after[2], area_before[2], 1e-12);
+}
+
+TEST(Repair, NoTrialsMeansNoRepair) {
+  Mesh none = *horseshoe(), no_trials = none;
+  ASSERT_TRUE(optimize(none, {.repair = Repair::none, .max_sweeps = 60}));
+  const auto report = optimize(no_trials, {.repair = Repair::vertices, .repair_trials = 0, .max_sweeps = 60});
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->vertices_removed + report->vertices_inserted, 0u);
+  EXPECT_GT(bad_triangles(no_trials), 0u);
+  EXPECT_FALSE(optimize(none, {.repair_trials = -1}));
+}
+
+// --- the parts ------------------------------------------------------------------------------------------
+
+TEST(Neighborhood, IsAValidPartWithItsRimFrozen) {
+  const Mesh mesh = *annulus({});
+  std::size_t frozen = 0;
+  for (const int rings : {0, 1, 2, 3, 20}) {
+    for (std::size_t i = 0; i < mesh.n_triangles(); i += 17) {
+      const Neighborhood around = neighborhood_of(mesh, TriangleId(i), rings);
+      ASSERT_EQ(around.mesh.validate(), std::nullopt);
+      ASSERT_TRUE(rim_is_regular(around, around.mesh));
+      for (const VertexId v : around.mesh.vertices()) {
+        const VertexId whole = around.vertices[v.index];
+        ASSERT_EQ(around.mesh.point(v), mesh.point(whole));
+        std::size_t here = 0, there = 0;
+        for ([[maybe_unused]] const HalfedgeId h : around.mesh.star(v)) ++here;
+        for ([[maybe_unused]] const HalfedgeId h : mesh.star(whole)) ++there;
+        ASSERT_EQ(around.frozen[v.index] != 0, here < there);
+        frozen += around.frozen[v.index];
+      }
+    }
+  }
+  EXPECT_GT(frozen, 0u);
+  EXPECT_EQ(neighborhood_of(mesh, TriangleId(0), 100).mesh.n_triangles(), mesh.n_triangles());
+}
+
+TEST(Trial, LeavesFrozenVerticesAndTellsWhatItDid) {
+  Mesh mesh = *horseshoe();
+  ASSERT_TRUE(optimize(mesh, {.repair = Repair::none, .max_sweeps = 40}));
+  Settings settings = *make_settings({}, mesh, Frame());
+  std::size_t applied = 0;
+  for (const TriangleId t : mesh.triangles()) {
+    const Neighborhood around = neighborhood_of(mesh, t, 1);
+    const auto [a, b, c] = around.mesh.corners(TriangleId(0));
+    const Vec2 middle = (1.0 / 3) * (around.mesh.position(a) + around.mesh.position(b) + around.mesh.position(c));
+    const Edit edit{.kind = Edit::insert, .triangle = TriangleId(0), .place = middle};
+    const Outcome quiet = try_edit(around, edit, settings, Frame(), false);
+    const Outcome told = try_edit(around, edit, settings, Frame(), true);
+    EXPECT_EQ(quiet.valid, told.valid);
+    EXPECT_EQ(quiet.standing, told.standing);
+    if (!told.valid) continue;
+    const auto local = replay(around.mesh, told.events);
+    ASSERT_TRUE(local);
+    EXPECT_EQ(standing(*local), told.standing);
+    for (const VertexId v : around.mesh.vertices()) {
+      if (around.frozen[v.index] != 0) {
+        EXPECT_EQ(local->point(v), around.mesh.point(v));
+      }
+    }
+    ++applied;
+  }
+  EXPECT_GT(applied, 10u);
+}
+
+}  // namespace
+}  // namespace temper
