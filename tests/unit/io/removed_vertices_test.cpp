@@ -1,5 +1,5 @@
-// Putting back a mesh that has fewer vertices than its file: in every format the points that are left keep all that
-// they had.
+// Putting back a mesh that has fewer vertices than its file, or more: in every format the points that are left keep all
+// that they had, and new ones get what is around them.
 #include <map>
 #include <utility>
 
@@ -156,6 +156,141 @@ std::vector<std::string> written_formats() {
 
 INSTANTIATE_TEST_SUITE_P(Formats, RemovedVertices, ::testing::ValuesIn(written_formats()),
                          [](const auto& test) { return test.param; });
+
+// --- inserted vertices ----------------------------------------------------------------------------------------
+
+/// Splits the bottom and the interface, inserts a vertex, removes two; what OptimizeReport::vertices would say.
+struct Changed {
+  IdVector<VertexId, VertexId> vertices;
+  Vec2 on_bottom, on_line, inside;
+};
+Changed insert_and_remove(Mesh& mesh) {
+  constexpr std::size_t kRow = kSquares + 1, kHalf = kSquares / 2;
+  const std::size_t n = mesh.n_vertices();
+  const auto split = [&](std::size_t a, std::size_t b, double t) {
+    HalfedgeId h = mesh.find_halfedge(VertexId(a), VertexId(b));
+    if (!h.valid()) h = mesh.find_halfedge(VertexId(b), VertexId(a));
+    const InsertionPlan plan = plan_split(mesh, h, t);
+    EXPECT_TRUE(plan.status == InsertionStatus::possible || plan.status == InsertionStatus::not_regular);
+    return mesh.position(insert_vertex(mesh, plan));
+  };
+  Changed changed;
+  changed.on_bottom = split(1, 2, 0.5);
+  split(n, 2, 0.5);  // the right half once more
+  changed.on_line = split(2 * kRow + kHalf, 3 * kRow + kHalf, 0.25);
+  const auto [a, b, c] = mesh.corners(Mesh::triangle(mesh.outgoing(VertexId(4 * kRow + 1))));
+  const Vec2 middle = (1.0 / 3) * (mesh.position(a) + mesh.position(b) + mesh.position(c));
+  const VertexId v =
+      insert_in_triangle(mesh, Mesh::triangle(mesh.outgoing(VertexId(4 * kRow + 1))), {middle.x, middle.y, 0.001});
+  changed.inside = middle;
+  mesh.set_weight(v, 0.001);
+  changed.vertices = remove(mesh, {kRow + 1, 4});
+  for (VertexId& old : changed.vertices) {
+    if (old.index >= n) old = VertexId();
+  }
+  return changed;
+}
+
+std::size_t index_of(const MeshFile& f, Vec2 p) {
+  const auto found = std::find(f.points.begin(), f.points.end(), p);
+  EXPECT_NE(found, f.points.end());
+  return static_cast<std::size_t>(found - f.points.begin());
+}
+
+class InsertedVertices : public FileTest, public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(InsertedVertices, get_data_and_cut_lines_keep_their_tag_on_all_pieces) {
+  const WriteOptions options{GetParam(), {}};
+  const std::string name = GetParam() == "triangle" ? "m.node" : "m." + GetParam();
+  MeshFile f = grid();
+  std::vector<double> linear;
+  for (const Vec2 p : f.points) linear.push_back(2 * p.x - 3 * p.y + 1);
+  f.point_data.push_back({"linear", 1, linear});
+  ASSERT_TRUE(write(path(name), f, options));
+  auto file = read(path(name));
+  ASSERT_TRUE(file) << file.error().what();
+  const MeshFile before = *file;
+  auto loaded = make_mesh(*file);
+  ASSERT_TRUE(loaded) << loaded.error().what();
+  const Changed changed = insert_and_remove(loaded->mesh);
+  update(*file, *loaded, loaded->mesh, changed.vertices);
+  ASSERT_TRUE(write(path("out." + name), *file, options));
+  const auto again = read(path("out." + name));
+  ASSERT_TRUE(again) << again.error().what();
+  ASSERT_EQ(again->points.size(), before.points.size() + 2);
+  EXPECT_TRUE(make_mesh(*again));
+
+  for (std::size_t p = 0; p < again->points.size(); ++p) {
+    EXPECT_EQ(again->points[p], loaded->mesh.position(VertexId(p)));
+    EXPECT_EQ(again->weights[p], loaded->mesh.weight(VertexId(p)));
+  }
+  if (const DataArray* values = find_data(again->point_data, "linear")) {
+    for (std::size_t p = 0; p < again->points.size(); ++p) {
+      const Vec2 at = again->points[p];
+      EXPECT_NEAR(std::get<std::vector<double>>(values->values)[p], 2 * at.x - 3 * at.y + 1, 1e-12);
+    }
+  } else {
+    EXPECT_TRUE(before.point_data.empty());
+  }
+  if (before.lines.empty()) return;
+  const auto lines = tagged_lines(*again);
+  EXPECT_EQ(lines.size(), tagged_lines(before).size() + 3 - 1) << "three pieces more, and one line of two";
+  const auto tag_between = [&](std::size_t a, std::size_t b) {
+    Line line = {place(*again, static_cast<std::int32_t>(a)), place(*again, static_cast<std::int32_t>(b))};
+    if (line.second < line.first) std::swap(line.first, line.second);
+    const auto found = lines.find(line);
+    return found == lines.end() ? -1 : found->second;
+  };
+  const std::size_t bottom = index_of(*again, changed.on_bottom), middle = index_of(*again, changed.on_line);
+  EXPECT_EQ(tag_between(1, bottom), 4);
+  EXPECT_EQ(tag_between(1, 2), -1);
+  constexpr std::size_t kRow = kSquares + 1, kHalf = kSquares / 2;
+  EXPECT_EQ(tag_between(index_of(*again, before.points[2 * kRow + kHalf]), middle), 9);
+  EXPECT_EQ(tag_between(middle, index_of(*again, before.points[3 * kRow + kHalf])), 9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, InsertedVertices, ::testing::ValuesIn(written_formats()),
+                         [](const auto& test) { return test.param; });
+
+TEST_F(FileTest, integers_of_inserted_points_are_what_is_common_around_or_dropped_and_named) {
+  MeshFile f = grid();
+  const std::size_t n = f.points.size();
+  std::vector<std::int32_t> side(n), number(n);
+  for (std::size_t p = 0; p < n; ++p) side[p] = 7, number[p] = static_cast<std::int32_t>(p);
+  std::vector<std::uint8_t> required(n, 0);
+  required[1] = 1;
+  f.point_data = {{"side", 1, side}, {"number", 1, number}, {"medit:required", 1, required}};
+  auto loaded = make_mesh(f);
+  ASSERT_TRUE(loaded);
+  const Changed changed = insert_and_remove(loaded->mesh);
+  update(f, *loaded, loaded->mesh, changed.vertices);
+  ASSERT_EQ(f.point_data.size(), 2u);
+  EXPECT_EQ(std::get<std::vector<std::int32_t>>(f.point_data[0].values), std::vector<std::int32_t>(n + 2, 7));
+  const auto& flags = std::get<std::vector<std::uint8_t>>(f.point_data[1].values);
+  EXPECT_EQ(flags.size(), n + 2);
+  EXPECT_EQ(std::count(flags.begin(), flags.end(), 1), 1);
+  EXPECT_EQ(f.warnings.at(0), "the mesh has changed in number: point data is dropped: number");
+}
+
+TEST_F(FileTest, markers_of_boundary_points_go_to_points_between_them_where_formats_mark_the_boundary) {
+  for (const char* format : {"triangle", "medit", "gmsh41"}) {
+    MeshFile f = grid();
+    f.format = format;
+    f.marked_points.clear();
+    f.point_tags.clear();
+    for (int i = 0; i <= kSquares; ++i) f.marked_points.push_back(i), f.point_tags.push_back(i < 2 ? 5 : 6);
+    f.point_tags[1] = 6;
+    auto loaded = make_mesh(f);
+    ASSERT_TRUE(loaded);
+    const Changed changed = insert_and_remove(loaded->mesh);
+    update(f, *loaded, loaded->mesh, changed.vertices);
+    const std::string_view name = format;
+    const std::size_t more = name == "gmsh41" ? 0 : 2;
+    EXPECT_EQ(f.marked_points.size(), kSquares + more) << format;  // one of the bottom was removed
+    EXPECT_EQ(f.point_tags.size(), f.marked_points.size());
+    EXPECT_EQ(f.point_tags.back(), 6);
+  }
+}
 
 TEST_F(FileTest, cell_data_that_are_the_same_in_a_region_stay_and_the_others_are_named) {
   MeshFile f = grid();
