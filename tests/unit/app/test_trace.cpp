@@ -331,6 +331,57 @@ TEST_F(Trace, SwitchesThatDoNothingAloneAreNamed) {
         "--collapse-ratio has no effect without --collapse-from"}) {
     EXPECT_TRUE(contains(outcome.err, message));
   }
+  const Outcome others = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--quiet", "--max-sweeps", "1", "--solver",
+                                    "golden", "--relaxation", "1.5", "--overshoot", "1.2", "--boundary-ratio", "3"});
+  for (const char* message :
+       {"--relaxation has no effect with --solver golden", "--overshoot has no effect without --flip-limit after",
+        "--boundary-ratio has no effect without --boundary split"}) {
+    EXPECT_TRUE(contains(others.err, message));
+  }
+}
+
+TEST_F(Trace, SwitchesThatContradictEachOtherAreRefused) {
+  make_input();
+  const auto refused = [](std::vector<std::string> options) {
+    std::vector<std::string> arguments = {"optimize", "in.vtu", "-o", "no.vtu", "--quiet"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = temper(arguments);
+    EXPECT_EQ(outcome.exit, 2) << outcome.err;
+    EXPECT_FALSE(exists("no.vtu"));
+    return outcome.err;
+  };
+  EXPECT_TRUE(contains(refused({"--no-flips", "--flips", "immediate"}), "--no-flips"));
+  EXPECT_TRUE(contains(refused({"--method", "paper", "--method", "production"}), "--method is given more than once"));
+  EXPECT_TRUE(contains(refused({"--boundary", "split", "--no-flips"}), "expected flips to be allowed"));
+  EXPECT_TRUE(contains(refused({"--boundary", "slide", "--inversion", "allow", "--flips", "deferred"}),
+                       "expected inversions to be refused"));
+}
+
+// --- the boundary -------------------------------------------------------------------------------------------------
+
+TEST_F(Trace, OfASplitBoundaryReplaysInEveryFormat) {
+  temper_ok({"example", "horseshoe", "-o", "horseshoe.vtu"});
+  for (const char* name : {"m.msh", "m.msh2", "m.mesh", "m.obj", "m.node", "m.vtu"}) {
+    SCOPED_TRACE(name);
+    temper_ok({"convert", "horseshoe.vtu", "-o", name});
+    const std::string output = std::string("out.") + name;
+    const Outcome outcome = temper_ok({"optimize", name, "-o", output, "--trace", "t.jsonl", "--boundary", "split",
+                                       "--max-sweeps", "15", "--no-repair", "--report", "r.json"});
+    const nlohmann::json report = read_json("r.json");
+    ASSERT_GT(report["vertices_inserted"], 0);
+    EXPECT_EQ(report["vertices_removed"], 0);
+    EXPECT_TRUE(contains(outcome.out, std::to_string(report["vertices_inserted"].get<int>()) + " vertices inserted"));
+    expect_replay_gives(name, output);
+    const std::vector<std::string> all = lines("t.jsonl");
+    std::size_t splits = 0;
+    for (const std::string& line : all) {
+      const nlohmann::json event = nlohmann::json::parse(line);
+      if (event.value("event", "") != "split") continue;
+      EXPECT_GE(event["vertex"], 63);
+      ++splits;
+    }
+    EXPECT_GE(splits, report["vertices_inserted"].get<std::size_t>());
+  }
 }
 
 }  // namespace
