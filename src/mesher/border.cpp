@@ -16,15 +16,16 @@ constexpr double kSharpCosine = 0.51;  // 59°
 
 /// Distances along a segment of given length where it is to be divided: equal parts of the integral of 1/size.
 std::vector<double> divisions(Vec2 from, Vec2 to, const GradedSize& size) {
-  constexpr double kStep = 0.125;    // of the local size: the integrand changes by less than grade/8 in a step
-  constexpr double kStretch = 0.25;  // a piece may be longer than its size by this part, rather than be halved
+  constexpr double kStep = 0.125;      // of the local size: the integrand changes by less than grade/8 in a step
+  constexpr double kStretch = 0.25;    // a piece may be longer than its size by this part, rather than be halved
+  constexpr double kLeastStep = 1e-7;  // of the segment: what is finer takes fewer samples, not all memory
   const double whole = length(to - from);
   const Vec2 direction = (1 / whole) * (to - from);
   std::vector<double> at = {0}, integral = {0};
   double density = 1 / size(from);
   while (at.back() < whole) {
     // The first step must not run past a finer stretch: the size falls by at most grade times the step.
-    const double next = std::min(whole, at.back() + std::max(kStep / density, 1e-9 * whole));
+    const double next = std::min(whole, at.back() + std::max(kStep / density, kLeastStep * whole));
     const double next_density = 1 / size(from + next * direction);
     integral.push_back(integral.back() + 0.5 * (density + next_density) * (next - at.back()));
     at.push_back(next);

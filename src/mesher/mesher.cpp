@@ -117,21 +117,36 @@ class Mesher {
   Expected<Border> resolve() {
     constexpr int kRounds = 20;  // each finds what the last one's longer pieces hid; three or four do nearly always
     Border border = divide(outline_.points, edges_, size(), corners_);
+    if (border.pieces.size() > options_.most_triangles) return too_many();
     for (int round = 0; round < kRounds; ++round) {
-      Expected<Triangulated> triangulated = triangulate(border, {}, areas_);
-      if (!triangulated) return triangulated.error();
+      const Expected<Triangulated> triangulated = triangulate(border, {}, areas_);
+      if (!triangulated) return too_fine(triangulated.error());
       const std::vector<SizeSource> narrow = narrow_places(border, *triangulated, size());
       if (narrow.empty()) break;
       sources_.insert(sources_.end(), narrow.begin(), narrow.end());
       border = divide(outline_.points, edges_, size(), corners_);
+      if (border.pieces.size() > options_.most_triangles) return too_many();
     }
     return border;
   }
 
+  /// Division points that meet or cross others: the outline is narrower there than its coordinates can say.
+  [[nodiscard]] static InputError too_fine(const InputError& error) {
+    return {
+        ErrorCode::out_of_scale, "",
+        "the outline has places too narrow for the precision of its coordinates (dividing it, " + error.message + ")"};
+  }
+  [[nodiscard]] InputError too_many() const {
+    return invalid("short edges and narrow places of the outline, with this grade, would make more than " +
+                   std::to_string(options_.most_triangles) + " triangles");
+  }
+
   Expected<OutlineMesh> make(const Border& border) {
-    const std::vector<Vec2> placed = place_points(border, areas_, size());
-    Expected<Triangulated> triangulated = triangulate(border, placed, areas_);
-    if (!triangulated) return triangulated.error();
+    const std::size_t most_points = options_.most_triangles / 2;  // two triangles a vertex
+    const std::vector<Vec2> placed = place_points(border, areas_, size(), most_points);
+    if (placed.size() >= most_points) return too_many();
+    const Expected<Triangulated> triangulated = triangulate(border, placed, areas_);
+    if (!triangulated) return too_fine(triangulated.error());
     return build(border, placed, *triangulated);
   }
 

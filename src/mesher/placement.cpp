@@ -37,9 +37,9 @@ class Placement {
     for (const Vec2 p : border.points) grid_.add(p, size(p));
   }
 
-  std::vector<Vec2> run() {
+  std::vector<Vec2> run(std::size_t most) {
     for (std::size_t i = 0; i < border_.pieces.size(); ++i) start_from(i);
-    for (std::size_t i = 0; i < front_.size(); ++i) {
+    for (std::size_t i = 0; i < front_.size() && front_.size() < most; ++i) {
       const Front from = front_[i];  // a copy: front_ grows
       const double here = size_at(from.at, from.area);
       for (int k = 0; k < 6; ++k) {
@@ -110,8 +110,8 @@ class Placement {
 
 }  // namespace
 
-std::vector<Vec2> place_points(const Border& border, const Areas& areas, const GradedSize& size) {
-  return Placement(border, areas, size).run();
+std::vector<Vec2> place_points(const Border& border, const Areas& areas, const GradedSize& size, std::size_t most) {
+  return Placement(border, areas, size).run(most);
 }
 
 }  // namespace temper::mesher

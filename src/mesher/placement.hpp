@@ -1,6 +1,7 @@
 // Points inside, about one size apart: a front that starts from the border and moves inwards row by row.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "mesher/areas.hpp"
@@ -8,7 +9,9 @@
 namespace temper::mesher {
 
 /// Places points. Each candidate is one size away from the point or piece it comes from; it is taken when nothing is
-/// too near and no piece lies between. The order is that of the pieces, then of the points: deterministic. O(n log n).
-[[nodiscard]] std::vector<Vec2> place_points(const Border& border, const Areas& areas, const GradedSize& size);
+/// too near and no piece lies between. The order is that of the pieces, then of the points: deterministic. Ends when
+/// there are `most`. O(n log n).
+[[nodiscard]] std::vector<Vec2> place_points(const Border& border, const Areas& areas, const GradedSize& size,
+                                             std::size_t most);
 
 }  // namespace temper::mesher

@@ -230,6 +230,11 @@ TEST(MesherErrors, BadOptionsAreNamed) {
   options.region_sizes = {{3, -1}};
   expect_error(square(), options, ErrorCode::invalid_option, "region 3");
   expect_error(square(), sized(1e-9), ErrorCode::invalid_option, "triangles");
+  options = sized(1);
+  options.most_triangles = 100;  // not for the size, but for a short edge and a grade that hardly grows
+  options.grade = 0.01;
+  expect_error(loop({{0, 0}, {0.5, 0}, {0.501, 0}, {1, 0}, {1, 1}, {0, 1}}), options, ErrorCode::invalid_option,
+               "short edges and narrow places");
 }
 
 TEST(MesherErrors, BadOutlinesAreNamedByTheirElements) {
