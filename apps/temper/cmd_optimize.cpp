@@ -134,13 +134,11 @@ void add_moves(CLI::App& app, Settings& s) {
 }
 
 void add_connectivity(CLI::App& app, Settings& s) {
-  CLI::Option* no_flips =
-      app.add_flag("--no-flips", s.no_flips, "keep the connectivity; no step may make an edge non-regular");
+  app.add_flag("--no-flips", s.no_flips, "keep the connectivity; no step may make an edge non-regular");
   spell_default(add_choice(
                     app, "--flips", kFlips, [&s](Flips value) { set_flips(s, value); },
                     "flip edges at once, after the inner sweeps, or never, as --no-flips"),
                 [&s] { return std::string(kFlips[static_cast<std::size_t>(flips_of(s))].name); });
-  no_flips->excludes(app.get_option("--flips"));
   spell_default(
       add_choice(
           app, "--flip-limit", kFlipLimits, [&s](FlipLimit value) { s.options.flip_limit = value; },
@@ -295,14 +293,15 @@ std::vector<std::string> doubtful_options(const CLI::App& app, const Settings& s
   }
   const auto idle_unless = [&](bool used, std::initializer_list<const char*> options, const char* needed) {
     for (const char* option : options) {
-      if (!used && app.count(option) > 0) warnings.push_back(fmt::format("{} has no effect {}", option, needed));
+      const CLI::Option& given = *app.get_option(option);  // the command of a report gives defaults, too
+      if (used || given.count() == 0 || given.results().front() == given.get_default_str()) continue;
+      warnings.push_back(fmt::format("{} has no effect {}", option, needed));
     }
   };
   const FlipLimit limit = s.options.flip_limit.value_or(energy.barrier ? FlipLimit::unlimited : FlipLimit::after);
   const bool has_flips = s.options.flips;
   idle_unless(limit == FlipLimit::after && has_flips, {"--overshoot"},
               has_flips ? "without --flip-limit after" : "without flips");
-  idle_unless(has_flips, {"--flip-limit"}, "without flips");
   idle_unless(s.options.solver != Solver::golden, {"--relaxation"}, "with --solver golden");
   idle_unless(s.options.boundary_vertices == BoundaryVertices::split, {"--boundary-ratio"}, "without --boundary split");
   idle_unless(flips_of(s) == Flips::deferred, {"--inner", "--outer"}, "without --flips deferred");
@@ -498,7 +497,13 @@ Exit run_optimize(const Arguments& arguments) {
                  {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal}});
   if (!parse(app, arguments)) return Exit::done;
   take_input(app, settings);
-  if (settings.no_flips) set_flips(settings, Flips::none);
+  if (settings.no_flips) {
+    if (app.count("--flips") > 0 && flips_of(settings) != Flips::none) {
+      throw Failure(Exit::bad_usage, "optimize: --no-flips contradicts --flips " +
+                                         app.get_option("--flips")->results().front() + "\nSee temper optimize --help");
+    }
+    set_flips(settings, Flips::none);
+  }
   spell_defaults_again(app);  // --method may have changed them
 
   Outputs outputs("optimize");
