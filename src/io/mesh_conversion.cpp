@@ -102,6 +102,7 @@ class MeshMaker {
   [[nodiscard]] std::vector<std::int32_t> fixed_points(std::span<const std::string> tags) const;
   Expected<BuiltMesh> build(const std::vector<std::int32_t>& fixed_points) const;
   void constrain_lines();
+  void fix_ends_of_tags();
 
   const MeshFile& file_;
   InputNames counting_;
@@ -123,6 +124,7 @@ Expected<LoadedMesh> MeshMaker::make(std::span<const std::string> fixed_tags) {
   if (reversed > 0)
     warn(text(reversed, reversed == 1 ? " clockwise triangle is reversed" : " clockwise triangles are reversed"));
   constrain_lines();
+  fix_ends_of_tags();
   return std::move(loaded_);
 }
 
@@ -239,6 +241,32 @@ void MeshMaker::constrain_lines() {
                 n_lost == 1 ? "line is no edge of the mesh and constrains nothing"
                             : "lines are no edges of the mesh and constrain nothing",
                 lost));
+}
+
+/// Where tagged lines end, or another tag begins, is the user's to say: such a point must not slide along a straight
+/// boundary, or the groups would change their shape.
+void MeshMaker::fix_ends_of_tags() {
+  struct Lines {
+    std::int32_t tag = 0;
+    int count = 0;
+    bool one_tag = true;
+  };
+  Mesh& mesh = loaded_.mesh;
+  IdVector<VertexId, Lines> lines(file_.lines.empty() ? 0 : mesh.n_vertices());
+  for (std::size_t i = 0; i < file_.lines.size(); ++i) {
+    for (const std::int32_t p : file_.lines[i]) {
+      const std::int32_t v = loaded_.vertex_of_point[static_cast<std::size_t>(p)];
+      if (v < 0) continue;
+      Lines& at = lines[VertexId(static_cast<std::size_t>(v))];
+      at.one_tag = at.one_tag && (at.count == 0 || at.tag == file_.line_tags[i]);
+      at.tag = file_.line_tags[i];
+      ++at.count;
+    }
+  }
+  for (const VertexId v : IdRange<VertexId>(lines.size())) {
+    const bool ends = lines[v].count == 1 || !lines[v].one_tag;
+    if (ends && mesh.is_boundary(v)) mesh.set_fixed(v, true);
+  }
 }
 
 }  // namespace
