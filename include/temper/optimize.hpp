@@ -52,8 +52,8 @@ enum class InterfaceVertices {
 enum class BoundaryVertices {
   keep,   ///< the same vertices, bit for bit
   slide,  ///< a vertex whose two boundary edges are in one line may move along it; never corners, or ends of interfaces
-  split,  ///< long edges beside short ones are cut before the sweeps, on the boundary and on constrained lines; the
-          ///< vertices that were there stay bit for bit
+  split,  ///< long edges of boundary and lines beside short ones are cut before the sweeps, and triangles with all
+          ///< corners there get a vertex inside; the vertices that were there stay bit for bit
 };
 
 /// When a new weight is seen by the neighbours (§6.6.2).
@@ -81,7 +81,7 @@ enum class Inversion {
 /// What is done, one neighbourhood at a time, about triangles that sweeps of a barrier leave not well-centered.
 enum class Repair {
   none,
-  moves,     ///< sweeps from a larger γ and random kicks; every vertex stays. Not where γ, h° or a solver is the user's
+  moves,  ///< sweeps from a larger γ and random kicks; every vertex stays. Not where γ, h° or a solver is the user's
   vertices,  ///< the same, and vertices are removed and inserted
 };
 
