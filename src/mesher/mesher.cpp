@@ -197,6 +197,10 @@ class Mesher {
     for (const std::uint32_t p : outline_points) {
       result.vertex_of_point[p] = VertexId(static_cast<std::size_t>(vertex[p]));
     }
+    if (const std::size_t outside = outline_.points.size() - outline_points.size(); outside > 0) {
+      result.notes.push_back("points of the outline outside, or of segments outside, are not in the mesh: " +
+                             std::to_string(outside));
+    }
     fix_points(result);
     return result;
   }

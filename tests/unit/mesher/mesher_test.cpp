@@ -169,6 +169,16 @@ TEST(Mesher, PointsOfNoSegmentBecomeFixedVertices) {
   }
 }
 
+TEST(Mesher, WhatLiesOutsideIsLeftOutAndSaid) {
+  Outline o = square();
+  add_line(o, {{2, 0}, {3, 1}}, false);
+  const OutlineMesh made = mesh_of(o, sized(0.5));
+  EXPECT_NEAR(mesh_area(made.mesh), 1, 1e-12);
+  EXPECT_FALSE(made.vertex_of_point[5].valid());
+  ASSERT_EQ(made.notes.size(), 1u);
+  EXPECT_NE(made.notes[0].find("not in the mesh: 2"), std::string::npos);
+}
+
 TEST(Mesher, SegmentsMayMeetOnOneAnother) {
   Outline o = square();
   o.points.insert(o.points.end(), {{0.5, 0}, {0.5, 0.5}});
