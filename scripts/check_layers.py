@@ -40,7 +40,7 @@ LAYERS = {
 CORE = set(LAYERS) - {"io", "lp"}
 
 # Public headers whose name is not that of their layer.
-HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor", "outline"]} | {"plot": "draw", "trace": "optimize", "projection": "mesher"}
+HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor", "outline"]} | {"plot": "draw", "trace": "optimize", "necessity": "feasibility", "projection": "mesher"}
 
 STANDARD = set("""
 algorithm array atomic bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits cmath
