@@ -112,7 +112,8 @@ consumer_find_package() {
 }
 
 consumer_subdirectory() {
-  cmake -G Ninja -S tests/consumer/subdirectory -B "$scratch/subdirectory" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 "${launcher[@]}" &&
+  cmake -G Ninja -S tests/consumer/subdirectory -B "$scratch/subdirectory" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DTEMPER_UNITY=ON \
+    "${launcher[@]}" &&
     cmake --build "$scratch/subdirectory" -j "$jobs"
 }
 
