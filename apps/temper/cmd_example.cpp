@@ -22,6 +22,9 @@ struct Settings {
   ShearedGrid grid;
   Annulus annulus;
   Airfoil airfoil;
+  RegularPolygon polygon;
+  Wedge wedge;
+  GradedPoints graded;
 };
 
 using Range = std::array<double, 2>;
@@ -77,6 +80,20 @@ void add_airfoil(CLI::App& app, Settings& s) {
   add_count(app, "--seed", s.airfoil.seed, 0, "of the points between");
 }
 
+void add_polygon(CLI::App& app, Settings& s) { add_count(app, "--corners", s.polygon.corners, 3, "of the polygon"); }
+
+void add_wedge(CLI::App& app, Settings& s) {
+  add_number(app, "--angle", s.wedge.angle_deg, {0, 180, true}, "of the corner, in degrees");
+  add_count(app, "--pieces", s.wedge.pieces, 1, "edges on each of the two sides at the corner, and points inside");
+  add_count(app, "--seed", s.wedge.seed, 0, "of the points inside");
+}
+
+void add_graded(CLI::App& app, Settings& s) {
+  add_number(app, "--finest", s.graded.finest, kPositive, "size of triangles at one corner of the unit square");
+  add_number(app, "--growth", s.graded.growth, kNotNegative, "of the size with the distance from there");
+  add_count(app, "--seed", s.graded.seed, 0, "of the points");
+}
+
 Expected<Mesh> make_random(Settings& s) {
   s.random.vertices = s.vertices;
   return random_points(s.random);
@@ -100,6 +117,14 @@ constexpr Generator kGenerators[] = {
      [](Settings& s) { return sheared_grid(s.grid); }},
     {"annulus", "jittered rings between two circles", add_annulus, [](Settings& s) { return annulus(s.annulus); }},
     {"airfoil", "a box with an airfoil-like hole, graded", add_airfoil, [](Settings& s) { return airfoil(s.airfoil); }},
+    {"polygon", "a regular polygon without a vertex inside", add_polygon,
+     [](Settings& s) { return regular_polygon(s.polygon); }},
+    {"letter-a", "a letter A of 29 triangles without a vertex inside", [](CLI::App&, Settings&) {},
+     [](Settings&) -> Expected<Mesh> { return letter_a(); }},
+    {"wedge", "a triangle with a sharp corner, and random points inside", add_wedge,
+     [](Settings& s) { return wedge(s.wedge); }},
+    {"graded", "random points in a square, finer towards one corner", add_graded,
+     [](Settings& s) { return graded_points(s.graded); }},
 };
 
 void add_options(CLI::App& app, Settings& s) {

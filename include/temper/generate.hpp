@@ -84,4 +84,31 @@ struct Airfoil {
 };
 [[nodiscard]] Expected<Mesh> airfoil(const Airfoil& shape = {});
 
+// --- hard ones: what plain sweeps do not, or only just, make well-centered ------------------------------
+
+/// A regular polygon of radius 1 with no vertex inside.
+struct RegularPolygon {
+  int corners = 60;
+};
+[[nodiscard]] Expected<Mesh> regular_polygon(const RegularPolygon& shape = {});
+
+/// A letter A: 29 vertices, 29 triangles, a hole, no vertex inside.
+[[nodiscard]] Mesh letter_a();
+
+/// A triangle with a sharp corner between sides of length 1, each of so many edges, and as many random points inside.
+struct Wedge {
+  double angle_deg = 5;
+  int pieces = 8;
+  std::uint64_t seed = 1;
+};
+[[nodiscard]] Expected<Mesh> wedge(const Wedge& shape = {});
+
+/// Random points in the unit square, whose size grows with the distance from a corner: finest + growth · distance.
+struct GradedPoints {
+  double finest = 1.0 / 64;
+  double growth = 0.2;
+  std::uint64_t seed = 1;
+};
+[[nodiscard]] Expected<Mesh> graded_points(const GradedPoints& shape = {});
+
 }  // namespace temper

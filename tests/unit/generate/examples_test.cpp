@@ -52,6 +52,13 @@ std::vector<Named> all_examples() {
       {"airfoil", [] { return airfoil(); }},
       {"fine airfoil", [] { return airfoil({.around = 300, .growth = 1.1, .seed = 2}); }},
       {"coarse airfoil", [] { return airfoil({.around = 16, .growth = 2}); }},
+      {"polygon", [] { return regular_polygon(); }},
+      {"three corners", [] { return regular_polygon({.corners = 3}); }},
+      {"letter A", []() -> Expected<Mesh> { return letter_a(); }},
+      {"wedge", [] { return wedge(); }},
+      {"needle", [] { return wedge({.angle_deg = 0.1, .pieces = 1}); }},
+      {"graded", [] { return graded_points(); }},
+      {"even", [] { return graded_points({.finest = 0.1, .growth = 0}); }},
   };
 }
 
@@ -244,6 +251,11 @@ TEST(Examples, RefuseWhatMakesNoSense) {
       {"side 0", single_triangle({.a = 0})},
       {"side NaN", single_triangle({.b = nan})},
       {"angle 180", single_triangle({.angle_deg = 180})},
+      {"two corners", regular_polygon({.corners = 2})},
+      {"wedge of angle 0", wedge({.angle_deg = 0})},
+      {"wedge without edges", wedge({.pieces = 0})},
+      {"finest 0", graded_points({.finest = 0})},
+      {"growth NaN", graded_points({.growth = nan})},
       {"fewer vertices than corners", random_points({.vertices = 8})},
       {"two corners", random_points({.polygon = {{0, 0}, {1, 0}}})},
       {"NaN corner", random_points({.polygon = {{0, 0}, {1, 0}, {nan, 1}}})},

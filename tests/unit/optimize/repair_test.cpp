@@ -10,7 +10,6 @@
 #include "optimize/splice.hpp"
 #include "optimize/trial.hpp"
 #include "support/area.hpp"
-#include "support/hard_meshes.hpp"
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"
 #include "temper/optimize.hpp"
@@ -43,9 +42,10 @@ struct HardMesh {
 std::vector<HardMesh> hard_meshes() {
   return {{"sparse horseshoe", sparse_horseshoe(), 10},
           {"dense horseshoe", *horseshoe(), 2},
-          {"60-gon", test::gon(60), 2},
-          {"wedge of 5 degrees", test::wedge(5, 8, 1), 3},
-          {"graded random points", test::graded_points(1), 1}};
+          {"60-gon", *regular_polygon(), 2},
+          {"letter A", letter_a(), 10},
+          {"wedge of 5 degrees", *wedge(), 3},
+          {"graded random points", *graded_points(), 1}};
 }
 
 TEST(Repair, HardMeshesEndWellCenteredWithTheirBoundaryBitForBit) {
@@ -78,7 +78,7 @@ TEST(Repair, WithoutInsertionAndRemovalEveryVertexStays) {
 }
 
 TEST(Repair, IsTracedLikeAllElse) {
-  for (const Mesh& input : {test::gon(40), *horseshoe()}) {
+  for (const Mesh& input : {*regular_polygon({.corners = 40}), *horseshoe()}) {
     std::vector<TraceEvent> events;
     Mesh mesh = input;
     OptimizeOptions options = {.repair = Repair::vertices, .max_sweeps = 300};
