@@ -191,6 +191,11 @@ void give_back(Mesh& mesh, WorkingCopy best, const Settings& settings, const Rec
   }
   report.final_energy = total_energy(mesh, settings.model, o.executor);
   report.hidden = hidden_vertices_of(mesh, o.hidden);
+  if (o.size_band && report.size.before.band() > *o.size_band) {
+    report.notes.push_back("the input is outside of its size band: sizes are up to " +
+                           to_text(report.size.before.band()) +
+                           " times off the size field, and what is outside can only come nearer to it");
+  }
   if (const std::size_t outside = report.size.before.outside; outside > 0) {
     report.notes.push_back("the size field does not reach " + count_of(outside, "vertex", "vertices") +
                            " of the input, where its nearest value was taken");

@@ -70,12 +70,14 @@ double SizeField::Data::on_edge(HalfedgeId h, Vec2 p) const {
 
 /// Linear between the corners; p is in t or on its boundary.
 double SizeField::Data::inside(TriangleId t, Vec2 p) const {
+  for (const VertexId v : mesh->corners(t)) {
+    if (p == mesh->position(v)) return sizes[v];
+  }
   std::array<double, 3> part;  // of corner k + 2: the area across from it
   double value = 0, area = 0;
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(t, k);
     const Vec2 a = mesh->position(mesh->origin(h)), b = mesh->position(mesh->target(h));
-    if (p == a) return sizes[mesh->origin(h)];
     part[static_cast<std::size_t>(k)] = cross(a - p, b - p);
     // Far more than rounding makes of a zero: what is not this near needs no exact test.
     const bool near_edge = std::abs(cross(a - p, b - p)) <= 0x1p-40 * squared_length(b - a);

@@ -94,6 +94,8 @@ TEST(SizeBand, OfAFieldThatTheMeshDoesNotFollowIsNotLeftFurther) {
   const Optimized result = optimized(mesh, options);
   const SizeChange& size = result.report.size;
   EXPECT_GT(size.before.band(), 1.5);
+  ASSERT_EQ(result.report.notes.size(), 1U);
+  EXPECT_EQ(result.report.notes[0].find("the input is outside of its size band"), 0U);
   EXPECT_LE(size.after.band(), size.before.band() * (1 + kRounding));
   EXPECT_EQ(measure_size(result.mesh, *options.size_field).over_field.max, size.after.over_field.max);
 }
