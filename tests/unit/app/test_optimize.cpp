@@ -145,5 +145,67 @@ TEST_F(Optimize, ReportCanGoToStandardOutput) {
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["after"]["orthocenters_outside"], 0);
 }
 
+/// Two triangles with sizes at their corners, as legacy VTK.
+std::string size_file(const std::string& sizes, const std::string& extent = "1") {
+  return "# vtk DataFile Version 3.0\nsizes\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0\n" + extent +
+         " 0 0\n" + extent + " " + extent + " 0\n0 " + extent +
+         " 0\nCELLS 2 8\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5\n5\nPOINT_DATA 4\nSCALARS size double "
+         "1\nLOOKUP_TABLE default\n" +
+         sizes + "\n";
+}
+
+TEST_F(Optimize, ReportsWhatBecameOfTheSizes) {
+  const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--report", "r.json"});
+  for (const char* row : {"size over field, least", "size over field, median", "gradation, 95 %"}) {
+    EXPECT_TRUE(contains(outcome.out, row));
+  }
+  const nlohmann::json size = read_json("r.json")["size"];
+  EXPECT_EQ(size["before"]["over_field"]["min"], 1);
+  EXPECT_EQ(size["before"]["over_field"]["max"], 1);
+  EXPECT_EQ(size["after"]["vertices_outside_field"], 0);
+  EXPECT_GT(size["after"]["over_field"]["max"], 1);
+  EXPECT_GE(size["after"]["gradation"]["max"], size["after"]["gradation"]["median"]);
+  EXPECT_GT(size["after"]["largest_edge_ratio"], 1);
+}
+
+TEST_F(Optimize, KeepsToASizeBand) {
+  temper_ok({"example", "random", "-o", "random.vtu"});
+  temper_ok({"optimize", "random.vtu", "-o", "free.vtu", "--report", "free.json", "--quiet"});
+  temper_ok({"optimize", "random.vtu", "-o", "out.vtu", "--report", "r.json", "--size-band", "1.4", "--quiet"});
+  const double unbound = read_json("free.json")["size"]["after"]["over_field"]["max"];
+  const nlohmann::json sizes = read_json("r.json")["size"]["after"]["over_field"];
+  EXPECT_GT(unbound, 1.4);
+  EXPECT_LE(sizes["max"], 1.4 + 1e-12);
+  EXPECT_GE(sizes["min"], 1 / 1.4 - 1e-12);
+  EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.vtu", "--size-band", "0.5"}).exit, 2);
+}
+
+TEST_F(Optimize, TakesASizeFieldFromAFile) {
+  write("sizes.vtk", size_file("2 2 2 2", "0.125"));
+  const Outcome outcome =
+      temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--size-field", "sizes.vtk", "--report", "r.json"});
+  EXPECT_TRUE(contains(outcome.out, "note: the size field does not reach "));
+  const nlohmann::json report = read_json("r.json");
+  EXPECT_GT(report["size"]["before"]["vertices_outside_field"], 0);
+  EXPECT_EQ(report["options"]["size-field"], "sizes.vtk");
+  temper_ok({"optimize", "in.vtu", "-o", "own.vtu", "--report", "own.json", "--quiet"});
+  EXPECT_EQ(read("own.vtu"), read("out.vtu"));  // without a band nothing but the report looks at it
+  EXPECT_NE(read_json("own.json")["size"], report["size"]);
+}
+
+TEST_F(Optimize, NamesWhatIsWrongWithASizeField) {
+  write("sizes.vtk", size_file("1 1 0 1"));
+  const auto refused = [](std::vector<std::string> options, std::initializer_list<const char*> parts) {
+    options.insert(options.begin(), {"optimize", "in.vtu", "-o", "out.vtu"});
+    const Outcome outcome = temper(options);
+    EXPECT_EQ(outcome.exit, 1);
+    for (const char* part : parts) EXPECT_TRUE(contains(outcome.err, part));
+    EXPECT_FALSE(exists("out.vtu"));
+  };
+  refused({"--size-field", "sizes.vtk"}, {"sizes.vtk", "point 2 has size 0", "expected a finite, positive length"});
+  refused({"--size-field", "sizes.vtk", "--size-field-data", "h"}, {"sizes.vtk", "no point data \"h\"", "size"});
+  refused({"--size-field", "none.vtk"}, {"none.vtk"});
+}
+
 }  // namespace
 }  // namespace temper::test
