@@ -224,6 +224,10 @@ void Driver::grade_boundary() {
                               " vertices inserted on the boundary and on lines: edges that meet there differed in "
                               "length by a factor of " +
                               rounded(cuts.ratio_before) + ", now " + rounded(cuts.ratio_after));
+  if (cuts.conflicts > 0) {
+    run_.report.notes.push_back(std::to_string(cuts.conflicts) +
+                                " of these split edges that left their dual no place to cross, or hardly one");
+  }
   if (cuts.inside > 0) {
     run_.report.notes.push_back(std::to_string(cuts.inside) +
                                 " vertices inserted in triangles whose corners all were on the boundary or on lines");

@@ -3,6 +3,8 @@
 #include <ostream>
 
 #include "temper/io.hpp"
+#include "temper/necessity.hpp"
+#include "temper/optimize.hpp"
 #include "unit/feasibility/support.hpp"
 
 namespace temper::test {
@@ -57,6 +59,52 @@ INSTANTIATE_TEST_SUITE_P(All, PublicMeshWeights, testing::ValuesIn(kMeshes), [](
   }
   return name;
 });
+
+/// Well-centered by their weights: no edge may be said to need a split, whichever edges and vertices are kept.
+TEST_P(PublicMeshWeights, NeedNoSplit) {
+  const std::string path = std::string(TEMPER_PUBLIC_MESHES) + "/" + GetParam().file;
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  const auto file = io::read(path);
+  ASSERT_TRUE(file) << file.error().what();
+  auto loaded = io::make_mesh(*file);
+  ASSERT_TRUE(loaded) << loaded.error().what();
+  for (const HalfedgeId h : loaded->mesh.halfedges()) loaded->mesh.set_constrained(h, true);
+  EXPECT_TRUE(edges_that_must_be_split(loaded->mesh).empty());
+}
+
+struct PublicOutline {
+  const char* file;
+  std::vector<std::array<std::uint32_t, 2>> must_be_split;
+};
+
+TEST(PublicOutlines, MustBeSplitAtTheseEdgesAndThenHaveWellCenteredMeshes) {
+  const std::string folder = std::string(TEMPER_PUBLIC_MESHES) + "/../outlines";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  for (const PublicOutline& outline :
+       {PublicOutline{"cdt_Capital_A.poly", {{3, 4}, {5, 6}, {10, 11}, {17, 18}, {24, 28}}},
+        PublicOutline{"cdt_ditch.poly", {{9, 10}}}, PublicOutline{"cdt_kidney.poly", {}},
+        PublicOutline{"cdt_island.poly", {}}}) {
+    const auto file = io::read_outline(folder + "/" + outline.file);
+    ASSERT_TRUE(file) << file.error().what();
+    std::vector<std::array<std::int32_t, 2>> segments;
+    for (const OutlineSegment& segment : file->outline.segments) segments.push_back(segment.ends);
+    const auto mesh = constrained_delaunay({.points = file->outline.points, .segments = segments});
+    ASSERT_TRUE(mesh) << mesh.error().what();
+    std::vector<std::array<std::uint32_t, 2>> edges;
+    for (const EdgeConflict& c : edges_that_must_be_split(*mesh)) {
+      const auto [u, v] = std::minmax({mesh->origin(c.edge).index, mesh->target(c.edge).index});
+      edges.push_back({u, v});
+    }
+    std::sort(edges.begin(), edges.end());
+    EXPECT_EQ(edges, outline.must_be_split) << outline.file;
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      Mesh split = *mesh;
+      ASSERT_TRUE(
+          optimize(split, {.boundary_vertices = BoundaryVertices::split, .repair = Repair::vertices, .seed = seed}));
+      EXPECT_EQ(bad_triangles(split), 0u) << outline.file << " " << seed;
+    }
+  }
+}
 
 }  // namespace
 }  // namespace temper::test
