@@ -277,6 +277,39 @@ OptimizeOptions library_options(const Settings& s, const Input& input, Executor*
   return options;
 }
 
+/// Switches that need another one, and are not as they would be anyway: the command of a report gives defaults, too.
+std::vector<std::string> idle_switches(const CLI::App& app, const Settings& s, const EnergyInfo& energy) {
+  std::vector<std::string> warnings;
+  const OptimizeOptions& o = s.options;
+  const OptimizeOptions usual = s.method == Method::paper ? paper_method() : OptimizeOptions();
+  const auto idle_unless = [&](bool used, std::initializer_list<std::pair<const char*, bool>> options,
+                               const char* needed) {
+    for (const auto& [option, changed] : options) {
+      if (!used && changed && app.count(option) > 0) {
+        warnings.push_back(fmt::format("{} has no effect {}", option, needed));
+      }
+    }
+  };
+  const FlipLimit limit = o.flip_limit.value_or(energy.barrier ? FlipLimit::unlimited : FlipLimit::after);
+  idle_unless(limit == FlipLimit::after && o.flips, {{"--overshoot", o.overshoot != usual.overshoot}},
+              o.flips ? "without --flip-limit after" : "without flips");
+  idle_unless(o.solver != Solver::golden, {{"--relaxation", o.relaxation != usual.relaxation}}, "with --solver golden");
+  idle_unless(o.boundary_vertices == BoundaryVertices::split,
+              {{"--boundary-ratio", o.boundary_ratio != usual.boundary_ratio}}, "without --boundary split");
+  idle_unless(flips_of(s) == Flips::deferred,
+              {{"--inner", o.inner != usual.inner}, {"--outer", o.outer != usual.outer}}, "without --flips deferred");
+  idle_unless(o.collapse_from.has_value(),
+              {{"--collapse-energy", o.collapse_energy != usual.collapse_energy},
+               {"--collapse-ratio", o.collapse_ratio != usual.collapse_ratio}},
+              "without --collapse-from");
+  idle_unless(o.removal == Removal::patch,
+              {{"--removal-measure", o.removal_measure != usual.removal_measure},
+               {"--removal-margin", o.removal_margin != usual.removal_margin},
+               {"--removal-from", o.removal_from != usual.removal_from}},
+              "without --removal patch");
+  return warnings;
+}
+
 /// Options that were given and cannot have the effect one would expect.
 std::vector<std::string> doubtful_options(const CLI::App& app, const Settings& s) {
   const EnergyInfo energy = or_fail(find_energy(s.options.energy));
@@ -291,24 +324,7 @@ std::vector<std::string> doubtful_options(const CLI::App& app, const Settings& s
   if (s.size_field.empty() && app.count("--size-field-data") > 0) {
     warnings.push_back("--size-field-data has no effect without --size-field");
   }
-  const auto idle_unless = [&](bool used, std::initializer_list<const char*> options, const char* needed) {
-    for (const char* option : options) {
-      const CLI::Option& given = *app.get_option(option);  // the command of a report gives defaults, too
-      if (used || given.count() == 0 || given.results().front() == given.get_default_str()) continue;
-      warnings.push_back(fmt::format("{} has no effect {}", option, needed));
-    }
-  };
-  const FlipLimit limit = s.options.flip_limit.value_or(energy.barrier ? FlipLimit::unlimited : FlipLimit::after);
-  const bool has_flips = s.options.flips;
-  idle_unless(limit == FlipLimit::after && has_flips, {"--overshoot"},
-              has_flips ? "without --flip-limit after" : "without flips");
-  idle_unless(s.options.solver != Solver::golden, {"--relaxation"}, "with --solver golden");
-  idle_unless(s.options.boundary_vertices == BoundaryVertices::split, {"--boundary-ratio"}, "without --boundary split");
-  idle_unless(flips_of(s) == Flips::deferred, {"--inner", "--outer"}, "without --flips deferred");
-  idle_unless(s.options.collapse_from.has_value(), {"--collapse-energy", "--collapse-ratio"},
-              "without --collapse-from");
-  idle_unless(s.options.removal == Removal::patch, {"--removal-measure", "--removal-margin", "--removal-from"},
-              "without --removal patch");
+  for (std::string& warning : idle_switches(app, s, energy)) warnings.push_back(std::move(warning));
   if (!s.report.empty() && same_file(s.input, s.output)) {
     warnings.push_back("--output replaces the input: the command in the report would start from the improved mesh");
   }
