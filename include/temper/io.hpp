@@ -117,8 +117,8 @@ struct LoadedMesh {
   std::size_t reversed_triangles = 0;
   std::vector<std::string> warnings;
 };
-/// `fixed_tags`: tags or physical names whose points must not move. Fixed, too, are boundary points where tagged lines
-/// end or change their tag.
+/// `fixed_tags`: tags or physical names whose points must not move. Fixed, too, are points of straight pieces of the
+/// boundary where tagged lines end or change their tag.
 [[nodiscard]] Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags = {});
 
 /// Puts coordinates, weights, triangles and regions of the mesh back into the file it came from, whose dropped points

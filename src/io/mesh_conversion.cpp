@@ -4,6 +4,7 @@
 // fixed tags and those that medit calls required are fixed.
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "io/failure.hpp"
 #include "io/file_names.hpp"
@@ -101,6 +102,7 @@ class MeshMaker {
   [[nodiscard]] bool whole() const { return n_vertices_ == file_.points.size(); }
   [[nodiscard]] std::vector<std::int32_t> fixed_points(std::span<const std::string> tags) const;
   Expected<BuiltMesh> build(const std::vector<std::int32_t>& fixed_points) const;
+  [[nodiscard]] HalfedgeId find_edge(std::int32_t a, std::int32_t b) const;
   void constrain_lines();
   void fix_ends_of_tags();
 
@@ -215,18 +217,21 @@ Expected<BuiltMesh> MeshMaker::build(const std::vector<std::int32_t>& fixed) con
   return Mesh::build(input);
 }
 
-void MeshMaker::constrain_lines() {
+/// The edge between two points of the file, either way round, or none.
+HalfedgeId MeshMaker::find_edge(std::int32_t a, std::int32_t b) const {
   const auto& vertex = loaded_.vertex_of_point;
+  const std::int32_t u = vertex[static_cast<std::size_t>(a)], v = vertex[static_cast<std::size_t>(b)];
+  if (u < 0 || v < 0) return {};
+  const VertexId from(static_cast<std::size_t>(u)), to(static_cast<std::size_t>(v));
+  const HalfedgeId h = loaded_.mesh.find_halfedge(from, to);
+  return h.valid() ? h : loaded_.mesh.find_halfedge(to, from);
+}
+
+void MeshMaker::constrain_lines() {
   std::vector<std::string> lost;
   std::size_t n_lost = 0;
   for (const auto& [a, b] : file_.lines) {
-    const std::int32_t u = vertex[static_cast<std::size_t>(a)], v = vertex[static_cast<std::size_t>(b)];
-    HalfedgeId h;
-    if (u >= 0 && v >= 0) {
-      h = loaded_.mesh.find_halfedge(VertexId(static_cast<std::size_t>(u)), VertexId(static_cast<std::size_t>(v)));
-      if (!h.valid())
-        h = loaded_.mesh.find_halfedge(VertexId(static_cast<std::size_t>(v)), VertexId(static_cast<std::size_t>(u)));
-    }
+    const HalfedgeId h = find_edge(a, b);
     if (!h.valid()) {
       if (n_lost++ < kNamed) {
         lost.push_back(
@@ -243,29 +248,44 @@ void MeshMaker::constrain_lines() {
                 lost));
 }
 
-/// Where tagged lines end, or another tag begins, is the user's to say: such a point must not slide along a straight
-/// boundary, or the groups would change their shape.
+// A turn of the boundary by more than this (radians) is a corner, which stays anyway; the optimiser's own measure of
+// what is straight is far below.
+constexpr double kCorner = 1e-6;
+
+bool is_corner(const Mesh& mesh, VertexId v) {
+  const HalfedgeId out = mesh.outgoing(v);
+  HalfedgeId last = out;
+  for (const HalfedgeId h : mesh.star(v)) last = h;
+  const Vec2 from = mesh.position(v) - mesh.position(mesh.opposite(last)),
+             to = mesh.position(mesh.target(out)) - mesh.position(v);
+  return dot(from, to) < 0 || std::abs(cross(from, to)) > kCorner * length(from) * length(to);
+}
+
+/// Where tagged lines end on a straight piece of the boundary, or another tag begins, is the user's to say: such a
+/// point must not slide, or the groups would change their shape.
 void MeshMaker::fix_ends_of_tags() {
+  if (file_.lines.empty()) return;
   struct Lines {
     std::int32_t tag = 0;
     int count = 0;
     bool one_tag = true;
   };
   Mesh& mesh = loaded_.mesh;
-  IdVector<VertexId, Lines> lines(file_.lines.empty() ? 0 : mesh.n_vertices());
+  IdVector<VertexId, Lines> lines(mesh.n_vertices());  // of the boundary
   for (std::size_t i = 0; i < file_.lines.size(); ++i) {
-    for (const std::int32_t p : file_.lines[i]) {
-      const std::int32_t v = loaded_.vertex_of_point[static_cast<std::size_t>(p)];
-      if (v < 0) continue;
-      Lines& at = lines[VertexId(static_cast<std::size_t>(v))];
+    const auto [a, b] = file_.lines[i];
+    const HalfedgeId h = find_edge(a, b);
+    if (!h.valid() || !mesh.is_boundary(h)) continue;
+    for (const VertexId v : {mesh.origin(h), mesh.target(h)}) {
+      Lines& at = lines[v];
       at.one_tag = at.one_tag && (at.count == 0 || at.tag == file_.line_tags[i]);
       at.tag = file_.line_tags[i];
       ++at.count;
     }
   }
-  for (const VertexId v : IdRange<VertexId>(lines.size())) {
+  for (const VertexId v : mesh.vertices()) {
     const bool ends = lines[v].count == 1 || !lines[v].one_tag;
-    if (ends && mesh.is_boundary(v)) mesh.set_fixed(v, true);
+    if (ends && !is_corner(mesh, v)) mesh.set_fixed(v, true);
   }
 }
 

@@ -292,6 +292,21 @@ TEST_F(FileTest, markers_of_boundary_points_go_to_points_between_them_where_form
   }
 }
 
+// Between them groups would change their shape if it slid.
+TEST_F(FileTest, points_of_straight_boundaries_where_tags_end_or_change_are_fixed) {
+  MeshFile f = grid();
+  f.line_tags[6] = 5;  // bottom and middle alternate: the fourth piece of the bottom
+  f.lines.pop_back(), f.line_tags.pop_back();
+  f.lines.pop_back(), f.line_tags.pop_back();  // the last piece of the bottom
+  const auto loaded = make_mesh(f);
+  ASSERT_TRUE(loaded) << loaded.error().what();
+  std::vector<std::size_t> fixed;
+  for (const VertexId v : loaded->mesh.vertices()) {
+    if (loaded->mesh.is_fixed(v)) fixed.push_back(v.index);
+  }
+  EXPECT_EQ(fixed, (std::vector<std::size_t>{3, 4, 5}));
+}
+
 TEST_F(FileTest, cell_data_that_are_the_same_in_a_region_stay_and_the_others_are_named) {
   MeshFile f = grid();
   auto loaded = make_mesh(f);
