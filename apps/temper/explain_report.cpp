@@ -17,8 +17,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kIndent = 4;
 
+bool is_split(const Reason& reason) { return reason.kind == ReasonKind::split; }
 bool is_conflict(const Reason& reason) {
-  return reason.kind != ReasonKind::weights && reason.kind != ReasonKind::undecided;
+  return !is_split(reason) && reason.kind != ReasonKind::weights && reason.kind != ReasonKind::undecided;
 }
 
 /// Reasons of one sort, and the triangles that they are for.
@@ -70,7 +71,12 @@ std::string summary(const Explanation& e) {
   const Count conflicts = count(e, is_conflict);
   const Count weights = count(e, [](const Reason& r) { return r.kind == ReasonKind::weights; });
   const Count undecided = count(e, [](const Reason& r) { return r.kind == ReasonKind::undecided; });
+  const Count splits = count(e, is_split);
   std::string text;
+  if (splits.reasons > 0) {
+    text += fmt::format("  {} at {} that must be split: no well-centered mesh keeps {}\n", splits.bad,
+                        plural(splits.reasons, "edge", "edges"), splits.reasons == 1 ? "it" : "them");
+  }
   if (conflicts.reasons > 0) {
     text += fmt::format("  {} in {}: small sets of triangles that no weights suit\n", conflicts.bad,
                         plural(conflicts.reasons, "conflict", "conflicts"));
@@ -102,6 +108,11 @@ std::string paragraph(const Reason& reason, std::size_t number, const Input& inp
 struct Section {
   std::string title, about;
 };
+const Section kSplits = {
+    "Edges that must be split",
+    "The dual of an edge crosses it in one place. A vertex that stays, and sees the edge, lets it cross near one end "
+    "alone; two such vertices can leave no place. No vertices inside, weights or other edges help: the edge must be "
+    "split, or one of the vertices move."};
 const Section kConflicts = {
     "Conflicts",
     "A dual edge crosses its edge in one place, the same for the triangles on both sides. A well-centered triangle "
@@ -144,6 +155,7 @@ class JsonWriter {
     json["free"] = vertices(r.free);
     json["crossing"] = r.crossing ? crossing(*r.crossing) : Json(nullptr);
     json["center"] = r.center ? center(*r.center) : Json(nullptr);
+    json["must_split"] = r.must_split ? must_split(*r.must_split) : Json(nullptr);
     json["certificate"] = r.certificate.terms.empty() ? Json(nullptr) : certificate_json(r.certificate, input_);
     json["cures_searched"] = r.cures_searched;
     json["cures"] = Json::array();
@@ -174,6 +186,15 @@ class JsonWriter {
             {"widest_at", point(s.widest)},
             {"angle_deg", s.angle_deg}};
   }
+  [[nodiscard]] Json must_split(const EdgeConflict& c) const {
+    const VertexId u = input_.mesh().origin(c.edge), v = input_.mesh().target(c.edge);
+    const double l = length(input_.mesh().position(v) - input_.mesh().position(u));
+    return {{"edge", {point(u), point(v)}},
+            {"length", l},
+            {"near", {point(c.near_u), point(c.near_v)}},
+            {"within", {c.a * l, c.b * l}},
+            {"sum", c.sum}};
+  }
   [[nodiscard]] Json crossing(const CrossingConflict& c) const {
     return {{"edge", {point(c.p), point(c.q)}}, {"length", c.length}, {"left", side(c.left)}, {"right", side(c.right)}};
   }
@@ -198,6 +219,7 @@ class JsonWriter {
     json["at"] = placed ? Json({c.at.x, c.at.y}) : Json(nullptr);
     json["verified"] = c.verified;
     json["conflict_only"] = c.conflict_only;
+    json["ends_conflict"] = c.ends_conflict;
     json["margin"] = c.verified ? number(c.margin) : Json(nullptr);
     json["margin_of"] = c.triangles;
     json["left_out"] = c.left_out;
@@ -213,6 +235,7 @@ class JsonWriter {
 
 std::string explanation_text(const Explanation& e, const Input& input, std::size_t limit, const TextStyle& style) {
   std::string text = headline(e, input) + summary(e);
+  text += section(kSplits, e, input, limit, style, is_split);
   text += section(kConflicts, e, input, limit, style, is_conflict);
   text += section(kUndecided, e, input, limit, style, [](const Reason& r) { return r.kind == ReasonKind::undecided; });
   text += section(kWeights, e, input, limit, style, [](const Reason& r) { return r.kind == ReasonKind::weights; });

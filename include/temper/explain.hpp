@@ -19,14 +19,16 @@
 #include "temper/feasibility.hpp"
 #include "temper/ids.hpp"
 #include "temper/mesh.hpp"
+#include "temper/necessity.hpp"
 #include "temper/progress.hpp"
 #include "temper/vec2.hpp"
 
 namespace temper {
 
-/// Why triangles are not well-centered. Of the first three no weights suit all triangles of the conflict at once, as
-/// certified, while they suit any that are left when one is taken away.
+/// Why triangles are not well-centered. Of edge, fan and patch no weights suit all triangles of the conflict at once,
+/// as certified, while they suit any that are left when one is taken away.
 enum class ReasonKind {
+  split,     ///< an edge that stays has to be split: no vertices inside, weights or connectivity help (necessity.hpp)
   edge,      ///< the triangles on the two sides of an edge need its dual to cross it at different places
   fan,       ///< the same, three or more triangles around one vertex
   patch,     ///< any other set of triangles: closed around a vertex, say
@@ -81,6 +83,7 @@ struct Cure {
   /// was found that suits all of the neighbourhood.
   bool conflict_only = false;
   std::size_t triangles = 0;
+  bool ends_conflict = false;  ///< split: neither half of the edge must be split again, exactly checked
   std::size_t left_out = 0;  ///< bad triangles of the neighbourhood that belong to other conflicts, and were not asked
   double margin = 0;  ///< their best margin then, h/ℓ and d/ℓ; find_weights for the whole mesh: Explanation::margin
   std::size_t changed = 0;  ///< find_weights for the whole mesh: weights not zero around the bad triangles
@@ -91,7 +94,8 @@ struct Reason {
   ReasonKind kind = ReasonKind::undecided;
   std::vector<TriangleId> bad;       ///< triangles not well-centered for this reason, worst first
   std::vector<TriangleId> conflict;  ///< edge, fan, patch: the smallest set that no weights suit; `bad` are of these
-  Certificate certificate;           ///< edge, fan, patch: the proof; check_certificate accepts it
+  std::optional<EdgeConflict> must_split;  ///< split
+  Certificate certificate;                 ///< edge, fan, patch: the proof; check_certificate accepts it
   /// edge, fan, patch: best margin of the conflict, at most 0. weights: of the neighbourhood, above 0.
   double margin = 0;
   bool each = false;        ///< weights, undecided: `margin` is the least of each bad triangle with those that touch it

@@ -1,5 +1,6 @@
 // From what is certain and small to what is not:
 //
+//   edges that stay and leave their dual no place to cross: the bad triangles there      split
 //   each bad triangle, worst first: is there a conflict among it and those around it?     edge, fan, patch
 //   what is left, by connected groups: is there one within two rings of the group?        edge, fan, patch
 //   nothing found, the mesh not too large: the whole mesh                                 edge, fan, patch
@@ -21,6 +22,7 @@
 #include "feasibility/region.hpp"
 #include "quality/measure.hpp"
 #include "temper/geometry.hpp"
+#include "temper/topology.hpp"
 
 namespace temper {
 namespace {
@@ -64,6 +66,7 @@ class Explainer {
   Expected<Explanation> run() {
     result_.triangles = mesh_.n_triangles();
     result_.bad = bad_.size();
+    own_edges_to_split();
     if (!ask_rings()) return InputError{ErrorCode::invalid_option, "", "explain: stopped before all was explained"};
     ask_groups();
     ask_whole();
@@ -81,10 +84,12 @@ class Explainer {
   enum State : std::uint8_t { kGood, kUnexplained, kOwned };
 
   [[nodiscard]] static int rank(const Reason& reason) {
+    if (reason.kind == ReasonKind::split) return -1;
     return reason.kind == ReasonKind::weights ? 2 : reason.kind == ReasonKind::undecided ? 1 : 0;
   }
   /// Rounded: twins of a symmetric mesh are told in the order of their places, whatever the last digits say.
   [[nodiscard]] static double severity(const Reason& reason) {
+    if (reason.must_split) return std::round(reason.must_split->sum / kSame);
     return std::round((rank(reason) == 0 ? reason.margin : reason.least_margin) / kSame);
   }
 
@@ -104,6 +109,59 @@ class Explainer {
     for (std::size_t i = 0; i < bad.size(); ++i) reason.bad[i] = bad[i].triangle;
     reason.least_margin = bad.front().margin;
     reason.at = bad.front().at;
+  }
+
+  /// The bad triangles at each edge that must be split; where these are good, the bad ones near.
+  void own_edges_to_split() {
+    if (bad_.empty()) return;
+    for (const EdgeConflict& c : edges_that_must_be_split(mesh_)) {
+      Reason reason;
+      reason.kind = ReasonKind::split;
+      reason.must_split = c;
+      std::vector<TriangleId> at_edge = {Mesh::triangle(c.edge)};
+      if (!mesh_.is_boundary(c.edge)) at_edge.push_back(Mesh::triangle(mesh_.twin(c.edge)));
+      for (int ring = 0; ring <= kRings && reason.bad.empty(); ++ring) {
+        if (ring > 0) at_edge = neighbourhood(mesh_, at_edge);
+        for (const TriangleId t : at_edge) {
+          if (state_[t] != kUnexplained) continue;
+          state_[t] = kOwned;
+          reason.bad.push_back(t);
+        }
+      }
+      if (!reason.bad.empty()) measure_bad(reason);
+      reason.at = split_point(c);
+      result_.reasons.push_back(std::move(reason));
+      result_.verdict = Feasibility::infeasible;
+    }
+  }
+
+  [[nodiscard]] Vec2 split_point(const EdgeConflict& c) const {
+    const Vec2 u = mesh_.position(mesh_.origin(c.edge)), v = mesh_.position(mesh_.target(c.edge));
+    return u + c.split_at * (v - u);
+  }
+
+  void add_split(Reason& reason, bool checked) const {
+    const EdgeConflict& c = *reason.must_split;
+    const VertexId u = mesh_.origin(c.edge), v = mesh_.target(c.edge);
+    Cure cure;
+    cure.action = mesh_.is_boundary(c.edge) ? Cure::Action::split_boundary : Cure::Action::split_edge;
+    cure.edge = {u, v};
+    cure.at = split_point(c);
+    reason.cures_searched = checked;
+    if (checked) {
+      Mesh split = mesh_;
+      const InsertionPlan plan = plan_split(split, c.edge, c.split_at);
+      if (plan.status == InsertionStatus::possible || plan.status == InsertionStatus::not_regular) {
+        const VertexId middle = insert_vertex(split, plan);
+        const auto is_free = [&](VertexId p, VertexId q) {
+          const HalfedgeId h = split.find_halfedge(p, q);
+          return !edge_conflict(split, h.valid() ? h : split.find_halfedge(q, p));
+        };
+        cure.ends_conflict = is_free(u, middle) && is_free(middle, v);
+        cure.at = split.position(middle);
+      }
+    }
+    reason.cures.push_back(cure);
   }
 
   void own(Conflict conflict) {
@@ -250,7 +308,12 @@ class Explainer {
 
   void add_cures() {
     std::vector<Reason*> conflicts;
+    std::size_t splits = 0;
     for (Reason& reason : result_.reasons) {
+      if (reason.kind == ReasonKind::split) {
+        add_split(reason, splits++ < options_.cures);
+        continue;
+      }
       if (rank(reason) == 0) conflicts.push_back(&reason);
       if (reason.kind == ReasonKind::weights) add_find_weights(reason);
       if (rank(reason) != 0 && !reason.free.empty()) reason.cures.emplace_back();  // optimize
@@ -300,7 +363,7 @@ class Explainer {
 }  // namespace
 
 std::string_view name(ReasonKind kind) {
-  constexpr std::array<std::string_view, 5> kNames = {"edge", "fan", "patch", "weights", "undecided"};
+  constexpr std::array<std::string_view, 6> kNames = {"split", "edge", "fan", "patch", "weights", "undecided"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 

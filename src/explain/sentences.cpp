@@ -46,6 +46,8 @@ class Speaker {
 
   [[nodiscard]] std::string reason(const Reason& r) const {
     switch (r.kind) {
+      case ReasonKind::split:
+        return must_split(r);
       case ReasonKind::edge:
       case ReasonKind::fan:
       case ReasonKind::patch:
@@ -63,6 +65,7 @@ class Speaker {
   [[nodiscard]] std::string cure(const Cure& c) const {
     const std::string what = action(c) + command(c);
     if (c.action == Cure::Action::find_weights || c.action == Cure::Action::optimize) return what;
+    if (c.ends_conflict) return "Necessary, and enough for this edge, verified: " + what + ".";
     if (!c.verified) return "May help, not verified: " + what + ".";
     const std::string count = std::to_string(c.triangles);
     if (c.conflict_only) {
@@ -77,6 +80,23 @@ class Speaker {
   }
 
  private:
+  /// "Boundary edge 17-18 must be split: …".
+  [[nodiscard]] std::string must_split(const Reason& r) const {
+    const EdgeConflict& c = *r.must_split;
+    const VertexId u = mesh_.origin(c.edge), v = mesh_.target(c.edge);
+    const double l = length(mesh_.position(v) - mesh_.position(u));
+    std::string text = edge(u, v);
+    text.front() = text.front() == 'b' ? 'B' : 'E';
+    text += " must be split, whatever is done inside. It is " + rounded(l) +
+            " long, and its dual must cross it less than " + rounded(c.a * l) + " from " + vertex(u) +
+            ", for the sake of " + vertex(c.near_u) + ", and less than " + rounded(c.b * l) + " from " + vertex(v) +
+            ", for the sake of " + vertex(c.near_v) +
+            ": no well-centered mesh keeps the edge and these vertices (decided exactly).";
+    if (r.bad.empty()) return text;
+    text += " Not well-centered there: " + triangles(r.bad) + ".";
+    return text;
+  }
+
   /// "Triangles 3, 5 and 8 exclude each other. They lie at the boundary corner of 35.2° at vertex 12, where …"
   [[nodiscard]] std::string opening(const Reason& r) const {
     std::string text = triangles(r.conflict) + " exclude each other. ";

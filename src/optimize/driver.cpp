@@ -220,8 +220,9 @@ void Driver::grade_boundary() {
   grow();
   if (!run_.report.history.empty()) return;  // of the first attempt: others do the same again
   const auto rounded = [](double ratio) { return to_text(std::round(100 * ratio) / 100); };
-  run_.report.notes.push_back(std::to_string(cuts.vertices) +
-                              " vertices inserted on the boundary and on lines: edges that meet there differed in "
+  const auto vertices = [](std::size_t n) { return std::to_string(n) + (n == 1 ? " vertex" : " vertices"); };
+  run_.report.notes.push_back(vertices(cuts.vertices) +
+                              " inserted on the boundary and on lines: edges that meet there differed in "
                               "length by a factor of " +
                               rounded(cuts.ratio_before) + ", now " + rounded(cuts.ratio_after));
   if (cuts.conflicts > 0) {
@@ -229,8 +230,8 @@ void Driver::grade_boundary() {
                                 " of these split edges that left their dual no place to cross, or hardly one");
   }
   if (cuts.inside > 0) {
-    run_.report.notes.push_back(std::to_string(cuts.inside) +
-                                " vertices inserted in triangles whose corners all were on the boundary or on lines");
+    run_.report.notes.push_back(vertices(cuts.inside) +
+                                " inserted in triangles whose corners all were on the boundary or on lines");
   }
   if (cuts.refused > 0) {
     run_.report.notes.push_back(std::to_string(cuts.refused) +

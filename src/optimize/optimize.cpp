@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "optimize/driver.hpp"
 #include "optimize/repair_search.hpp"
+#include "temper/necessity.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
@@ -204,6 +205,23 @@ void give_back(Mesh& mesh, WorkingCopy best, const Settings& settings, const Rec
   if (report.final_energy < 0) report.notes.push_back(kNegative);
 }
 
+/// Triangles that no optimiser can make well-centered, whatever it tries.
+void note_edges_that_must_be_split(const Mesh& mesh, const Settings& settings, OptimizeReport& report) {
+  const OptimizeOptions& o = settings.options;
+  if (!settings.energy.barrier || count_bad(mesh, o.executor) == 0) return;
+  const std::vector<EdgeConflict> edges = edges_that_must_be_split(mesh);
+  if (edges.empty()) return;
+  const HalfedgeId worst = edges.front().edge;
+  const auto vertex = [&](VertexId v) {
+    const std::size_t number = report.vertices.empty() ? v.index : report.vertices[v].index;
+    return o.names != nullptr ? o.names->point(number) : InputNames().point(number);
+  };
+  report.notes.push_back(
+      count_of(edges.size(), "edge of the boundary or of lines has", "edges of the boundary or of lines have") +
+      " to be split before any mesh of this domain can be well-centered, first the one from " +
+      vertex(mesh.origin(worst)) + " to " + vertex(mesh.target(worst)) + ": see temper explain, or --boundary split");
+}
+
 // A search that ends with triangles bad may have gone astray early on.
 constexpr std::uint64_t kSearches = 4;
 
@@ -269,6 +287,7 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
   Driver driver(best->work, *settings, run);
   const Settings user_settings = in_user_terms(*settings, best->work.frame);
   give_back(mesh, std::move(best->work), user_settings, driver.recorder(), report);
+  note_edges_that_must_be_split(mesh, user_settings, report);
   report.seconds = run.seconds();
   return std::move(report);
 }

@@ -64,6 +64,38 @@ std::vector<Mesh> meshes() {
   return all;
 }
 
+/// A rectangle of width 1, with three vertices that divide its far side in four.
+Mesh rectangle(double length) {
+  const std::vector<Vec2> points = {
+      {0, 0}, {length, 0}, {length, 1}, {0.75 * length, 1}, {0.5 * length, 1}, {0.25 * length, 1}, {0, 1}};
+  std::vector<std::array<std::int32_t, 2>> segments;
+  for (int i = 0; i < 7; ++i) segments.push_back({i, (i + 1) % 7});
+  return *constrained_delaunay({.points = points, .segments = segments});
+}
+
+TEST(Explain, AnEdgeThatMustBeSplitIsNamedWithTheVerticesThatLeaveNoPlace) {
+  const Mesh mesh = rectangle(4);
+  const Explanation e = why(mesh, {.cures = 10});
+  ASSERT_FALSE(e.reasons.empty());
+  const Reason& reason = e.reasons.front();
+  ASSERT_EQ(reason.kind, ReasonKind::split);
+  EXPECT_EQ(mesh.origin(reason.must_split->edge), VertexId(0));
+  EXPECT_EQ(mesh.target(reason.must_split->edge), VertexId(1));
+  EXPECT_EQ(reason.must_split->near_u, VertexId(5));
+  EXPECT_EQ(reason.must_split->near_v, VertexId(3));
+  EXPECT_EQ(e.verdict, Feasibility::infeasible);
+  ASSERT_FALSE(reason.cures.empty());
+  EXPECT_TRUE(reason.cures.front().ends_conflict);
+  EXPECT_EQ(reason.cures.front().at, (Vec2{2, 0}));
+  const std::string text = reason_text(mesh, reason);
+  EXPECT_TRUE(contains(text, "Boundary edge 0-1 must be split, whatever is done inside. It is 4 long")) << text;
+  for (std::size_t i = 1; i < e.reasons.size(); ++i) EXPECT_NE(e.reasons[i].kind, ReasonKind::split);
+}
+
+TEST(Explain, AnEdgeWithRoomForItsDualNeedNotBeSplit) {
+  for (const Reason& reason : why(rectangle(3.99)).reasons) EXPECT_NE(reason.kind, ReasonKind::split);
+}
+
 TEST(Explain, SaysNothingWhereEveryTriangleIsWellCentered) {
   for (const Mesh& mesh : {lattice({.jitter = 0, .weight = 0}), lattice({.jitter = 0.05, .weight = 0.05, .seed = 5})}) {
     const Explanation e = why(mesh);

@@ -145,6 +145,23 @@ TEST(Repair, NoTrialsMeansNoRepair) {
   EXPECT_FALSE(optimize(none, {.repair_trials = -1}));
 }
 
+TEST(Repair, SaysWhenAnEdgeMustBeSplitBeforeAnythingHelps) {
+  const std::vector<Vec2> points = {{0, 0}, {5, 0}, {5, 1}, {3.75, 1}, {2.5, 1}, {1.25, 1}, {0, 1}};
+  std::vector<std::array<std::int32_t, 2>> segments;
+  for (int i = 0; i < 7; ++i) segments.push_back({i, (i + 1) % 7});
+  const Mesh input = *constrained_delaunay({.points = points, .segments = segments});
+  Mesh kept = input, split = input;
+  const auto report = optimize(kept, {.repair = Repair::vertices, .repair_trials = 500});
+  ASSERT_TRUE(report);
+  EXPECT_GT(bad_triangles(kept), 0u);
+  ASSERT_FALSE(report->notes.empty());
+  EXPECT_NE(report->notes.back().find("1 edge of the boundary or of lines has to be split"), std::string::npos);
+  EXPECT_NE(report->notes.back().find("from point 0 to point 1"), std::string::npos);
+  const auto after_split = optimize(split, {.boundary_vertices = BoundaryVertices::split});
+  ASSERT_TRUE(after_split);
+  EXPECT_EQ(bad_triangles(split), 0u);
+}
+
 // --- the parts ------------------------------------------------------------------------------------------
 
 TEST(Neighborhood, IsAValidPartWithItsRimFrozen) {
