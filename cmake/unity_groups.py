@@ -40,7 +40,8 @@ def own_names(path):
     blocks = [NOT_CODE.sub("", block) for block in UNNAMED.findall(text)]
     lines = [line for block in blocks for line in block.split("\n") if not NOT_ITS_OWN.match(line)]
     found = [TYPE.match(line) or NAMED.search(line) for line in lines]
-    return {next(filter(None, match.groups())) for match in found if match} - KEYWORDS | set(MACRO.findall(text)) | brought
+    defined = {next(filter(None, match.groups())) for match in found if match} - KEYWORDS
+    return defined | set(MACRO.findall(text)) | brought
 
 
 @functools.cache
