@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "console.hpp"
 #include "help.hpp"
@@ -208,12 +209,11 @@ Exit run_mesh(const Arguments& arguments) {
   add_options(app, s);
   if (!parse(app, arguments)) return Exit::done;
   Outputs outputs("mesh");
-  outputs.expect_mesh("--output", s.output);
-  if (same_file(s.input, s.output)) {
-    throw Failure(Exit::bad_usage, "mesh: --output would replace the outline\nSee temper mesh --help");
-  }
-  outputs.expect_text("--report", s.report, {s.input});
-  outputs.expect_text("--draw", s.picture, {s.input});
+  // The points of a .poly may be in the .node beside it.
+  const std::vector<std::string> inputs = {s.input, std::filesystem::path(s.input).replace_extension(".node").string()};
+  outputs.expect_mesh("--output", s.output, "", inputs);
+  outputs.expect_text("--report", s.report, inputs);
+  outputs.expect_text("--draw", s.picture, inputs);
   return mesh(app, s, outputs);
 }
 

@@ -152,7 +152,8 @@ void add_connectivity(CLI::App& app, Settings& s) {
   CLI::Option* repair =
       app.add_flag("--repair", s.repair,
                    "where sweeps leave triangles bad: remove and insert vertices there, too, and keep what cures most");
-  app.add_flag("--no-repair", s.no_repair, "nor sweep again and kick vertices there, which a barrier does by default")
+  app.add_flag("--no-repair", s.no_repair,
+               "do not even sweep again and kick vertices there, which barriers do by default")
       ->excludes(repair);
   add_count(app, "--repair-trials", s.options.repair_trials, 0, "at most so many edits are tried, 1 to 3 ms each");
   app.add_option("--fix", s.fix, "vertices with this tag or physical name stay where they are; several may follow")
@@ -318,6 +319,16 @@ std::vector<std::string> doubtful_options(const CLI::App& app, const Settings& s
     warnings.push_back(fmt::format("{} has no effect on energy {}", option, energy.name));
   };
   if (s.repair && !energy.barrier) idle("--repair");
+  if (s.repair && (s.weights_only || !s.options.flips)) {
+    warnings.push_back("--repair has no effect where " + std::string(s.weights_only ? "positions" : "edges") +
+                       " may not change");
+  }
+  if (s.no_repair && app.count("--repair-trials") > 0) {
+    warnings.push_back("--repair-trials has no effect with --no-repair");
+  }
+  if (s.repair && s.options.size_band) {
+    warnings.push_back("vertices that --repair removes and inserts are not held to --size-band");
+  }
   if (s.gamma.value() && !energy.softened_by_gamma) idle("--gamma");
   if (s.h0.value() && !energy.softened_by_h0) idle("--h0");
   if (s.options.boundary != BoundaryTreatment::as_is && energy.kind != EnergyKind::F) idle("--boundary-treatment");
@@ -523,11 +534,12 @@ Exit run_optimize(const Arguments& arguments) {
   spell_defaults_again(app);  // --method may have changed them
 
   Outputs outputs("optimize");
-  outputs.expect_mesh("--output", settings.output);
-  outputs.expect_text("--report", settings.report, {settings.input});
-  outputs.expect_text("--history", settings.history, {settings.input});
-  outputs.expect_text("--trace", settings.trace, {settings.input});
-  outputs.expect_text("--draw", settings.picture, {settings.input});
+  const std::vector<std::string> inputs = {settings.input, settings.size_field};
+  outputs.expect_mesh("--output", settings.output, "", {settings.size_field});
+  outputs.expect_text("--report", settings.report, inputs);
+  outputs.expect_text("--history", settings.history, inputs);
+  outputs.expect_text("--trace", settings.trace, inputs);
+  outputs.expect_text("--draw", settings.picture, inputs);
   return optimize_mesh(app, settings, outputs);
 }
 

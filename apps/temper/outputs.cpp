@@ -56,6 +56,16 @@ bool writable_by_suffix(const std::string& path) {
   return false;
 }
 
+/// The files that writing a mesh there makes.
+std::vector<std::string> files_of_mesh(const std::string& path) {
+  constexpr const char* kTriangle[] = {".node", ".ele", ".poly"};
+  std::vector<std::string> files = {path};
+  const fs::path suffix = fs::path(path).extension();
+  if (std::find(std::begin(kTriangle), std::end(kTriangle), suffix) == std::end(kTriangle)) return files;
+  for (const char* other : kTriangle) files.push_back(fs::path(path).replace_extension(other).string());
+  return files;
+}
+
 std::string writable_suffixes() {
   std::string text;
   for (const io::Format& format : io::formats()) {
@@ -85,11 +95,18 @@ void Outputs::expect(const std::string& option, const std::string& path) {
   check_writable(path);
 }
 
-void Outputs::expect_mesh(const std::string& option, const std::string& path, const std::string& format) {
+void Outputs::expect_mesh(const std::string& option, const std::string& path, const std::string& format,
+                          const std::vector<std::string>& others) {
   std::error_code ignored;
   if (format.empty() && !fs::is_directory(path, ignored) && !writable_by_suffix(path)) {
     throw Failure(Exit::bad_usage, fmt::format("{}: {}: {} has no suffix of a format that temper writes ({})", verb_,
                                                option, path, writable_suffixes()));
+  }
+  for (const std::string& file : files_of_mesh(path)) {
+    for (const std::string& other : others) {
+      if (other.empty() || !same_file(file, other)) continue;
+      throw Failure(Exit::bad_usage, fmt::format("{}: {}: {} is an input, and would be replaced", verb_, option, file));
+    }
   }
   expect(option, path);
 }
@@ -97,8 +114,9 @@ void Outputs::expect_mesh(const std::string& option, const std::string& path, co
 void Outputs::expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs) {
   if (path.empty()) return;
   for (const std::string& input : inputs) {
-    if (same_file(path, input)) {
-      throw Failure(Exit::bad_usage, fmt::format("{}: {}: {} is the input mesh", verb_, option, path));
+    if (!input.empty() && same_file(path, input)) {
+      const char* which = &input == &inputs.front() && verb_ != "mesh" ? "the input mesh" : "an input";
+      throw Failure(Exit::bad_usage, fmt::format("{}: {}: {} is {}", verb_, option, path, which));
     }
   }
   expect(option, path);

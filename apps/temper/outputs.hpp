@@ -14,8 +14,10 @@ class Outputs {
  public:
   explicit Outputs(std::string verb) : verb_(std::move(verb)) {}
 
-  /// A mesh file. The format must be one that temper writes; may be the input itself.
-  void expect_mesh(const std::string& option, const std::string& path, const std::string& format = "");
+  /// A mesh file. The format must be one that temper writes. Neither it nor what a format writes beside it (.node, .ele
+  /// and .poly of Triangle) may be one of `others`, inputs that are to stay.
+  void expect_mesh(const std::string& option, const std::string& path, const std::string& format = "",
+                   const std::vector<std::string>& others = {});
   /// A text file that must not be one of these inputs. An empty path: not asked for.
   void expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
 

@@ -36,10 +36,10 @@ enum class EventKind {
 /// so are the numbers that were given in them.) Coordinates and weights are in the user's units.
 struct TraceEvent {
   EventKind kind = EventKind::move;
-  int sweep = 0;         ///< 0: making the input regular
+  int sweep = 0;         ///< 0: making the input regular, and cutting its boundary
   VertexId vertex = {};  ///< invalid for flip, and for undo of whole sweeps; insertion, split: the new one
-  /// Energy at the γ of the sweep before and after: of the vertex's patch, or of all edges that a flip changes. NaN
-  /// where none belongs to the event.
+  /// Energy at the γ of the sweep, in repairs E_BP at theirs, before and after: of the vertex's patch, or of all edges
+  /// that a flip changes. NaN where none belongs to the event.
   double before = 0, after = 0;
   WeightedPoint point = {};  ///< move, weight, insertion, split: where the vertex is now
   /// flip: halfedge a→b, with c on its left and d on its right, becomes d→c; split: a→b was cut, on the boundary with

@@ -213,7 +213,7 @@ class Speaker {
     return {};
   }
 
-  [[nodiscard]] static std::string command(const Cure& c) {
+  [[nodiscard]] std::string command(const Cure& c) const {
     using Action = Cure::Action;
     switch (c.action) {
       case Action::find_weights:
@@ -224,13 +224,21 @@ class Speaker {
       case Action::move_vertex:
       case Action::flip_edge:
         return " (temper optimize moves and flips)";
-      case Action::insert_vertex:
       case Action::split_edge:
+        if (is_line(c.edge[0], c.edge[1])) return " (temper optimize --boundary split)";
+        [[fallthrough]];
+      case Action::insert_vertex:
         return " (temper optimize --repair inserts)";
       case Action::split_boundary:
         return " (temper optimize --boundary split)";
     }
     return {};
+  }
+
+  /// An inner edge that no repair splits.
+  [[nodiscard]] bool is_line(VertexId a, VertexId b) const {
+    const HalfedgeId h = mesh_.find_halfedge(a, b);
+    return h.valid() && mesh_.is_constrained(h);
   }
 
   const Mesh& mesh_;

@@ -113,12 +113,13 @@ class Surroundings {
   [[nodiscard]] std::optional<Bound> least(bool from_u) const {
     std::vector<Bound> bounds;
     for (const VertexId x : vertices_) {
+      if (!stays(mesh_, x)) continue;
       const auto bound = bound_of(x, mesh_.position(x), from_u ? u_ : v_, from_u ? v_ : u_, up_to_);
       if (bound) bounds.push_back(*bound);
     }
     std::sort(bounds.begin(), bounds.end());
     for (const Bound& bound : bounds) {
-      if (stays(mesh_, bound.vertex) && is_visible(bound.at)) return bound;
+      if (is_visible(bound.at)) return bound;
     }
     return std::nullopt;
   }

@@ -221,10 +221,12 @@ void Driver::grade_boundary() {
   if (!run_.report.history.empty()) return;  // of the first attempt: others do the same again
   const auto rounded = [](double ratio) { return to_text(std::round(100 * ratio) / 100); };
   const auto vertices = [](std::size_t n) { return std::to_string(n) + (n == 1 ? " vertex" : " vertices"); };
-  run_.report.notes.push_back(vertices(cuts.vertices) +
-                              " inserted on the boundary and on lines: edges that meet there differed in "
-                              "length by a factor of " +
-                              rounded(cuts.ratio_before) + ", now " + rounded(cuts.ratio_after));
+  if (cuts.vertices > 0) {
+    run_.report.notes.push_back(vertices(cuts.vertices) +
+                                " inserted on the boundary and on lines: edges that meet there differed in "
+                                "length by a factor of " +
+                                rounded(cuts.ratio_before) + ", now " + rounded(cuts.ratio_after));
+  }
   if (cuts.conflicts > 0) {
     run_.report.notes.push_back(std::to_string(cuts.conflicts) +
                                 " of these split edges that left their dual no place to cross, or hardly one");
@@ -234,31 +236,36 @@ void Driver::grade_boundary() {
                                 " inserted in triangles whose corners all were on the boundary or on lines");
   }
   if (cuts.refused > 0) {
-    run_.report.notes.push_back(std::to_string(cuts.refused) +
-                                " cuts of the boundary were not made: coordinates are too coarse there");
+    run_.report.notes.push_back(
+        std::to_string(cuts.refused) +
+        " cuts of the boundary were not made: coordinates are too coarse there, or weights would hide a vertex");
   }
 }
 
-void Driver::repair(std::uint64_t seed) {
+bool Driver::repair(std::uint64_t seed) {
   RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed);
+  bool changed = false;
   while (run_.sweeps_left() && search.improve_one_place()) {
     grow();
     if (flipper_.has_removed()) compact();
+    changed = true;
     ++run_.report.sweeps;
     record();
     show(Snapshot::Moment::after_sweep);
     recorder_.begin_sweep(run_.report.sweeps + 1);
   }
   final_sweep_ = run_.report.sweeps;
-  if (run_.stopped_by_caller()) return;
-  const WorkingCopy repaired = work_;
-  const int sweep = final_sweep_;
-  const std::size_t bad = run_.report.history.back().bad;
+  return changed;
+}
+
+int Driver::polish(int sweep) {
+  const WorkingCopy before = work_;
+  const std::size_t bad = count_bad(mesh_, settings_.options.executor);
   optimize(kPolish, false);
-  if (run_.report.history.back().bad <= bad) return;
-  work_ = repaired;
-  final_sweep_ = sweep;
+  if (count_bad(mesh_, settings_.options.executor) <= bad) return final_sweep_;
+  work_ = before;
   recorder_.returned_to(sweep);
+  return sweep;
 }
 
 void Driver::jitter(double amount) {

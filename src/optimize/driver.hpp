@@ -29,8 +29,11 @@ class Driver {
   /// Moves free vertices by up to `amount` of their shortest edge: symmetric grids are stationary in their positions.
   void jitter(double amount);
 
-  /// Local search for what all attempts have left bad; then sweeps once more, unless these lose triangles again.
-  void repair(std::uint64_t seed);
+  /// Local search for what all attempts have left bad. False when nothing was changed.
+  bool repair(std::uint64_t seed);
+  /// Sweeps at the sharpest γ, after repairs; taken back when they lose triangles again. `sweep`: whose mesh it is.
+  /// Returns the sweep whose mesh it is then.
+  int polish(int sweep);
 
   /// The sweep whose mesh the attempt ended with: the last one, or with HOT the best.
   [[nodiscard]] int final_sweep() const { return final_sweep_; }

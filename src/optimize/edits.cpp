@@ -16,12 +16,14 @@ constexpr std::size_t kMostRemovals = 12;
 // From sizes that hardly grow to such that double within their own length.
 constexpr double kGradations[] = {0.3, 0.6, 1};
 
-std::vector<TriangleId> some_bad_triangles(const Mesh& mesh) {
-  std::vector<TriangleId> bad;
-  for (const TriangleId t : mesh.triangles()) {
-    const auto [p, q, r] = mesh.corners(t);
-    const bool is_bad = !inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r));
-    if (is_bad && bad.size() < kMostBad) bad.push_back(t);
+/// The one that the neighbourhood is around, and others.
+std::vector<TriangleId> some_bad_triangles(const Neighborhood& around) {
+  std::vector<TriangleId> bad = {around.seed};
+  for (const TriangleId t : around.mesh.triangles()) {
+    if (bad.size() == kMostBad) break;
+    const auto [p, q, r] = around.mesh.corners(t);
+    const bool is_bad = !inlined::is_well_centered(around.mesh.point(p), around.mesh.point(q), around.mesh.point(r));
+    if (is_bad && t != around.seed) bad.push_back(t);
   }
   return bad;
 }
@@ -68,7 +70,7 @@ std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool vertic
   std::vector<Edit> moves = {{.kind = Edit::nothing}}, one, many, anew;
   for (int i = 0; i < kKicks; ++i) moves.push_back({.kind = Edit::kick, .seed = rng.next()});
   if (!vertices) return {moves};
-  const std::vector<TriangleId> bad = some_bad_triangles(around.mesh);
+  const std::vector<TriangleId> bad = some_bad_triangles(around);
   add_removals(around, bad, one);
   for (const TriangleId t : bad) add_insertions(around.mesh, t, one);
   for (const double gradation : kGradations) {

@@ -21,7 +21,7 @@ struct FlipPrice {
   void after(const Mesh& mesh, HalfedgeId h) { change += flip_energy(mesh, model, h); }
 };
 
-/// The same, and writes each flip down.
+/// The same sums in the same order, and each flip written down.
 struct FlipLog {
   const EnergyModel& model;
   std::vector<FlipRecord>& records;
@@ -29,10 +29,11 @@ struct FlipLog {
   void before(const Mesh& mesh, HalfedgeId h) {
     const auto [a, b, c, d] = inlined::quad(mesh, h);
     records.push_back({a, b, c, d, flip_energy(mesh, model, h), 0});
+    change -= records.back().before;
   }
   void after(const Mesh& mesh, HalfedgeId h) {
     records.back().after = flip_energy(mesh, model, h);
-    change += records.back().after - records.back().before;
+    change += records.back().after;
   }
 };
 
@@ -60,9 +61,9 @@ LawsonRun run_lawson(Lawson& lawson, Mesh& mesh, Hook&& hook, std::size_t max_fl
 /// Lawson on what is queued. `change`, when there is one, grows by what the flips change of the energy.
 LawsonRun Flipper::run(std::optional<double>& change, std::size_t max_flips, SizeBand* band) {
   if (recorder_.on()) {
-    FlipLog log{settings_.model, records_};
+    FlipLog log{settings_.model, records_, change.value_or(0)};
     const LawsonRun result = run_lawson(lawson_, mesh_, log, max_flips, band);
-    if (change) *change += log.change;
+    if (change) change = log.change;
     return result;
   }
   if (!change) return run_lawson(lawson_, mesh_, IgnoreFlips(), max_flips, band);

@@ -18,9 +18,9 @@ struct Freedom {
 /// What the place of a vertex allows, whatever the sweep: decided once, since moves keep the lines of the boundary and
 /// of constrained edges.
 enum class Mobility : std::uint8_t {
-  frozen,   ///< neither position nor weight: the rim of a neighbourhood
-  fixed,  ///< where the user wants so; corners of the boundary, ends, bends and branches of constrained lines; and all
-          ///< of a line that the options do not let slide
+  frozen,  ///< neither position nor weight: the rim of a neighbourhood
+  fixed,   ///< where the user wants so; corners of the boundary, ends, bends and branches of constrained lines; and all
+           ///< of a line that the options do not let slide
   sliding,  ///< along a straight piece of the boundary, or of a constrained line
   free,
 };

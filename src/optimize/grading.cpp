@@ -28,11 +28,6 @@ class BoundaryCutter {
   void resolve_conflicts();
   /// A vertex at the orthocenter of a triangle that has none free.
   void free(const std::array<VertexId, 3>& corners);
-  /// A split between vertices with weights far apart may leave edges that are not regular.
-  void restore_regularity() {
-    if (!regular_) flipper_.restore_all();
-    regular_ = true;
-  }
   [[nodiscard]] std::size_t vertices() const { return vertices_; }
   [[nodiscard]] std::size_t conflicts() const { return conflicts_; }
   [[nodiscard]] std::size_t inside() const { return inside_; }
@@ -48,7 +43,6 @@ class BoundaryCutter {
   Flipper& flipper_;
   InsertionPlan plan_;
   std::size_t vertices_ = 0, conflicts_ = 0, inside_ = 0, refused_ = 0;
-  bool regular_ = true;
 };
 
 /// An edge of the boundary or of a line, by its ends, which flips elsewhere do not change.
@@ -117,11 +111,10 @@ VertexId BoundaryCutter::split(VertexId a, VertexId b, Vec2 at) {
   const double l2 = squared_length(along), t = dot(at - from, along) / l2;
   const double w = split_weight(mesh_.weight(a), mesh_.weight(b), l2, t);
   plan_ = plan_split(mesh_, find_edge(a, b), WeightedPoint{at.x, at.y, w}, std::move(plan_));
-  if (plan_.status != InsertionStatus::possible && plan_.status != InsertionStatus::not_regular) {
+  if (plan_.status != InsertionStatus::possible) {
     ++refused_;
     return {};
   }
-  regular_ = regular_ && plan_.status == InsertionStatus::possible;
   ++vertices_;
   return commit(plan_);
 }
@@ -130,7 +123,9 @@ void BoundaryCutter::free(const std::array<VertexId, 3>& corners) {
   plan_ = plan_center(mesh_, corners, std::move(plan_));
   if (plan_.status != InsertionStatus::possible) return;
   const Vec2 at = work_.frame.snap(plan_.point.position());
-  plan_ = plan_insertion(mesh_, {at.x, at.y, plan_.point.w}, plan_.triangle, std::move(plan_));
+  const double w = plan_.point.w;
+  const TriangleId near = plan_.triangle;
+  plan_ = plan_insertion(mesh_, {at.x, at.y, w}, near, std::move(plan_));
   if (plan_.status != InsertionStatus::possible) return;
   commit(plan_);
   ++inside_;
@@ -151,12 +146,10 @@ BoundaryCuts cut_boundary(WorkingCopy& work, Flipper& flipper, double ratio) {
   result.ratio_before = plan_boundary_grading(work.mesh, ratio).ratio_before;
   // First: after other cuts more splits are needed, and at sharp corners far more.
   cutter.resolve_conflicts();
-  cutter.restore_regularity();
   for (int pass = 0; pass < kGradingPasses; ++pass) {
     const GradingPlan plan = plan_boundary_grading(work.mesh, ratio, kWidestBoundaryAngle);
     result.ratio_after = plan.ratio_after;
     for (const EdgeCuts& edge : plan.cuts) cutter.cut(edge);
-    cutter.restore_regularity();
   }
   for (const auto& corners : triangles_without_free_corner(work.mesh)) cutter.free(corners);
   result.vertices = cutter.vertices();

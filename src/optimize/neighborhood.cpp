@@ -64,6 +64,8 @@ std::vector<TriangleId> rings_around(const Mesh& mesh, TriangleId seed, int ring
 Neighborhood neighborhood_of(const Mesh& mesh, TriangleId seed, int rings) {
   const std::vector<TriangleId> triangles = rings_around(mesh, seed, rings);
   Neighborhood around;
+  around.seed = TriangleId(
+      static_cast<std::size_t>(std::lower_bound(triangles.begin(), triangles.end(), seed) - triangles.begin()));
   std::unordered_map<std::uint32_t, VertexId> local;
   const auto local_vertex = [&](VertexId v) {
     const auto [entry, is_new] = local.try_emplace(v.index, around.vertices.size());

@@ -15,6 +15,7 @@ namespace temper {
 
 struct Neighborhood {
   Mesh mesh;
+  TriangleId seed;                           ///< that it was taken around, by local number
   std::vector<VertexId> vertices;            ///< of the whole mesh, by local number
   std::vector<std::uint8_t> frozen;          ///< by local number
   std::vector<WeightedPoint> beyond;         ///< across the rim: opposite corner of the triangle outside, by rim edge

@@ -209,42 +209,47 @@ void give_back(Mesh& mesh, WorkingCopy best, const Settings& settings, const Rec
 void note_edges_that_must_be_split(const Mesh& mesh, const Settings& settings, OptimizeReport& report) {
   const OptimizeOptions& o = settings.options;
   if (!settings.energy.barrier || count_bad(mesh, o.executor) == 0) return;
+  if (o.inversion == Inversion::allow && count_inverted(mesh) > 0) return;  // a tangle has no inside to see through
   const std::vector<EdgeConflict> edges = edges_that_must_be_split(mesh);
   if (edges.empty()) return;
   const HalfedgeId worst = edges.front().edge;
   const auto vertex = [&](VertexId v) {
-    const std::size_t number = report.vertices.empty() ? v.index : report.vertices[v].index;
-    return o.names != nullptr ? o.names->point(number) : InputNames().point(number);
+    const VertexId number = report.vertices.empty() ? v : report.vertices[v];
+    if (!number.valid()) return "(" + to_text(mesh.position(v).x) + ", " + to_text(mesh.position(v).y) + ")";
+    return o.names != nullptr ? o.names->point(number.index) : InputNames().point(number.index);
   };
   report.notes.push_back(
       count_of(edges.size(), "edge of the boundary or of lines has", "edges of the boundary or of lines have") +
-      " to be split before any mesh of this domain can be well-centered, first the one from " +
+      " to be split, or a vertex near it moved, before any mesh can be well-centered here, first the one from " +
       vertex(mesh.origin(worst)) + " to " + vertex(mesh.target(worst)) + ": see temper explain, or --boundary split");
 }
 
 // A search that ends with triangles bad may have gone astray early on.
 constexpr std::uint64_t kSearches = 4;
 
-/// Repairs, from the same beginning until a search leaves nothing bad. The best result is kept.
+/// Repairs, from the same beginning until a search leaves nothing bad; the best result is kept, and swept once more.
 Result repaired(Result start, Settings& settings, Run& run) {
-  if (!std::isfinite(total_energy(start.work.mesh, settings.model)))
-    return start;  // for want of weights, not of vertices
   const auto is_done = [&](const Result& result) {
-    return run.stopped_by_caller() || !run.sweeps_left() || count_bad(result.work.mesh, settings.options.executor) == 0;
+    return run.stopped_by_caller() || !run.sweeps_left() || run.repair_trials_left <= 0 ||
+           count_bad(result.work.mesh, settings.options.executor) == 0;
   };
+  if (is_done(start) || !std::isfinite(total_energy(start.work.mesh, settings.model))) return start;
   Result best = start;
   for (std::uint64_t i = 0; i < kSearches && !is_done(best); ++i) {
     Result result = start;
     Driver driver(result.work, settings, run);
-    if (i > 0) driver.recorder().returned_to(start.sweep);
-    driver.repair(settings.options.seed + i);
-    result.sweep = driver.final_sweep();
-    if (!is_worse(result.work.mesh, best.work.mesh, settings)) {
-      best = std::move(result);
-    } else {
-      driver.recorder().returned_to(best.sweep);
+    if (best.sweep != start.sweep) driver.recorder().returned_to(start.sweep);
+    if (driver.repair(settings.options.seed + i)) {
+      result.sweep = driver.final_sweep();
+      if (!is_worse(result.work.mesh, best.work.mesh, settings)) {
+        best = std::move(result);
+        continue;
+      }
     }
+    driver.recorder().returned_to(best.sweep);
   }
+  if (run.stopped_by_caller() || !run.sweeps_left()) return best;
+  best.sweep = Driver(best.work, settings, run).polish(best.sweep);
   return best;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/assert.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "optimize/edits.hpp"
 #include "optimize/neighborhood.hpp"
@@ -37,7 +38,10 @@ bool helps(const Standing& before, const Standing& after) {
 
 bool repairs(const Settings& settings) {
   const OptimizeOptions& o = settings.options;
-  if (o.repair == Repair::none || !settings.energy.barrier || !o.flips || o.unknowns == Unknowns::weights) return false;
+  if (o.repair == Repair::none || o.repair_trials == 0 || !settings.energy.barrier || !o.flips ||
+      o.unknowns == Unknowns::weights)
+    return false;
+  if (o.inversion == Inversion::allow || o.hidden == HiddenPolicy::keep) return false;  // trials need regular meshes
   // A constant γ is a study of that γ; only who asks for vertices to change wants its mesh mended by another.
   return o.repair == Repair::vertices || (!o.gamma && !o.h0 && o.solver == Solver::newton && o.weights_from == 0);
 }
@@ -47,13 +51,14 @@ bool RepairSearch::improve_one_place() {
   const bool vertices = settings_.options.repair == Repair::vertices;
   // Each of many bad places gets its chance.
   const int most_failures = std::max(vertices ? kMostFailures : kMostFailuresOfMoves, static_cast<int>(bad.size()));
-  while (!bad.empty() && failures_ < most_failures && trials_left_ > 0) {
+  while (!bad.empty() && failures_ < most_failures && run_.repair_trials_left > 0) {
     const TriangleId seed = bad[rng_.below(static_cast<std::uint32_t>(bad.size()))];
     const Neighborhood around = neighborhood_of(work_.mesh, seed, kRings + (failures_ >= kFailuresBeforeWider ? 1 : 0));
     const auto edit = choose(around);
-    if (run_.asked_to_stop(0)) return false;
+    if (run_.stopped_by_caller()) return false;
     if (!edit) continue;
     const Outcome outcome = try_edit(around, *edit, settings_, work_.frame, true);
+    TEMPER_ASSERT(outcome.valid);  // as it was without a listener
     splice(work_, flipper_, recorder_, around, outcome.events);
     return true;
   }
@@ -68,7 +73,7 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around) {
   std::vector<Tried> tried;
   for (const auto& tier : edits_for(around, settings_.options.repair == Repair::vertices, rng_)) {
     for (const Edit& edit : tier) {
-      if (trials_left_-- <= 0 || run_.asked_to_stop(0)) return best;
+      if (run_.repair_trials_left-- <= 0 || run_.asked_to_stop(0)) return best;
       const Outcome outcome = try_edit(around, edit, settings_, work_.frame, false);
       if (!outcome.valid) continue;
       tried.push_back({edit, outcome.standing});

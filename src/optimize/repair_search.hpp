@@ -21,13 +21,7 @@ class RepairSearch {
   /// `seed`: of all that is random.
   RepairSearch(WorkingCopy& work, const Settings& settings, Run& run, Flipper& flipper, const Recorder& recorder,
                std::uint64_t seed)
-      : work_(work),
-        settings_(settings),
-        run_(run),
-        flipper_(flipper),
-        recorder_(recorder),
-        rng_(seed),
-        trials_left_(settings.options.repair_trials) {}
+      : work_(work), settings_(settings), run_(run), flipper_(flipper), recorder_(recorder), rng_(seed) {}
 
   /// Changes the mesh in one place: never to more bad triangles. False when none is left, none can be cured, or it was
   /// asked to stop. Removed vertices stay isolated until the caller compacts, which it must before the next call.
@@ -47,7 +41,6 @@ class RepairSearch {
   Flipper& flipper_;
   const Recorder& recorder_;
   Rng rng_;
-  int trials_left_;
   int failures_ = 0;  // places without an edit that helps, since the last one with
 };
 

@@ -17,7 +17,7 @@ namespace temper {
 class Run {
  public:
   Run(const OptimizeOptions& options, const Observer& observer)
-      : options_(options), observer_(observer), start_(Clock::now()) {}
+      : repair_trials_left(options.repair_trials), options_(options), observer_(observer), start_(Clock::now()) {}
 
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   [[nodiscard]] bool sweeps_left() const { return report.sweeps < options_.max_sweeps; }
@@ -28,6 +28,7 @@ class Run {
   bool asked_to_stop(double fraction_of_sweep);
 
   OptimizeReport report;
+  int repair_trials_left;
 
  private:
   using Clock = std::chrono::steady_clock;

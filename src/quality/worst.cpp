@@ -44,8 +44,8 @@ std::string why_not_inside(const Subject& s, int k) {
   }
   why += "angle of " + degrees(angle) + " at vertex " + s.number(s.v[across]);
   why += angle < 90 ? ", but the weights push it there: " : ", and weights of ";
-  return why + rounded(s.weight(across)) + " at vertex " + s.number(s.v[across]) + ", " + rounded(s.weight(k)) + " and " +
-         rounded(s.weight(corner_after(k))) + " on the edge";
+  return why + rounded(s.weight(across)) + " at vertex " + s.number(s.v[across]) + ", " + rounded(s.weight(k)) +
+         " and " + rounded(s.weight(corner_after(k))) + " on the edge";
 }
 
 std::string why_not_crossed(const Subject& s, int k) {
