@@ -17,6 +17,7 @@
 #include "temper/geometry.hpp"
 #include "temper/regularity.hpp"
 #include "temper/topology.hpp"
+#include "topology/rings.hpp"
 
 namespace temper {
 namespace {
@@ -48,7 +49,7 @@ struct Patch {
 
 std::optional<Patch> patch_of(const Mesh& mesh, const Conflict& conflict, std::span<const TriangleId> others) {
   Patch patch;
-  patch.slots = neighbourhood(mesh, conflict.triangles);
+  patch.slots = triangles_around(mesh, conflict.triangles);
   patch.original = vertices_of(mesh, patch.slots);
   std::map<VertexId, std::int32_t> number;
   std::vector<Vec2> points;
@@ -334,18 +335,6 @@ class CureFinder {
 };
 
 }  // namespace
-
-std::vector<TriangleId> neighbourhood(const Mesh& mesh, std::span<const TriangleId> triangles) {
-  std::vector<TriangleId> around;
-  for (const TriangleId t : triangles) {
-    for (const VertexId v : mesh.corners(t)) {
-      for (const HalfedgeId h : mesh.star(v)) around.push_back(Mesh::triangle(h));
-    }
-  }
-  std::sort(around.begin(), around.end());
-  around.erase(std::unique(around.begin(), around.end()), around.end());
-  return around;
-}
 
 bool suits(const Mesh& mesh, std::span<const TriangleId> triangles, const BestMargin& best) {
   const auto at = [&](VertexId v) {

@@ -19,9 +19,6 @@ namespace temper {
 /// What may help, without any search.
 [[nodiscard]] std::vector<Cure> suggested_cures(const Mesh& mesh, const Conflict& conflict);
 
-/// All triangles at the corners of these; sorted.
-[[nodiscard]] std::vector<TriangleId> neighbourhood(const Mesh& mesh, std::span<const TriangleId> triangles);
-
 /// Do the weights of the solved programme make all these triangles well-centered? Exact.
 [[nodiscard]] bool suits(const Mesh& mesh, std::span<const TriangleId> triangles, const BestMargin& best);
 

@@ -23,6 +23,7 @@
 #include "quality/measure.hpp"
 #include "temper/geometry.hpp"
 #include "temper/topology.hpp"
+#include "topology/rings.hpp"
 
 namespace temper {
 namespace {
@@ -121,7 +122,7 @@ class Explainer {
       std::vector<TriangleId> at_edge = {Mesh::triangle(c.edge)};
       if (!mesh_.is_boundary(c.edge)) at_edge.push_back(Mesh::triangle(mesh_.twin(c.edge)));
       for (int ring = 0; ring <= kRings && reason.bad.empty(); ++ring) {
-        if (ring > 0) at_edge = neighbourhood(mesh_, at_edge);
+        if (ring > 0) at_edge = triangles_around(mesh_, at_edge);
         for (const TriangleId t : at_edge) {
           if (state_[t] != kUnexplained) continue;
           state_[t] = kOwned;
@@ -226,7 +227,7 @@ class Explainer {
       }
       if (group.bad.size() <= options_.whole) group.region = group.bad;
       for (int ring = 0; ring < kRings && !group.region.empty(); ++ring) {
-        group.region = neighbourhood(mesh_, group.region);
+        group.region = triangles_around(mesh_, group.region);
         if (group.region.size() > options_.whole) group.region.clear();
       }
       group.region = without_owned(std::move(group.region));
@@ -297,7 +298,7 @@ class Explainer {
 
   [[nodiscard]] std::size_t changed_near(const Reason& reason) const {
     std::vector<VertexId> near;
-    for (const TriangleId t : neighbourhood(mesh_, reason.bad)) {
+    for (const TriangleId t : triangles_around(mesh_, reason.bad)) {
       for (const VertexId v : mesh_.corners(t)) near.push_back(v);
     }
     std::sort(near.begin(), near.end());
@@ -332,7 +333,7 @@ class Explainer {
 
   /// Bad triangles near a conflict that have a reason of their own.
   [[nodiscard]] std::vector<TriangleId> others_near(const Reason& reason) const {
-    std::vector<TriangleId> others = neighbourhood(mesh_, reason.conflict);
+    std::vector<TriangleId> others = triangles_around(mesh_, reason.conflict);
     std::erase_if(others, [&](TriangleId t) {
       const bool own = std::binary_search(reason.conflict.begin(), reason.conflict.end(), t);
       return own || state_[t] != kOwned;

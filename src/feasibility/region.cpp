@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "topology/rings.hpp"
+
 namespace temper {
 namespace {
 
@@ -59,15 +61,7 @@ void grow(const Mesh& mesh, VertexMask& mask, std::vector<VertexId> front, int r
   }
 }
 
-std::vector<TriangleId> ring_of(const Mesh& mesh, TriangleId t) {
-  std::vector<TriangleId> ring;
-  for (const VertexId v : mesh.corners(t)) {
-    for (const HalfedgeId h : mesh.star(v)) ring.push_back(Mesh::triangle(h));
-  }
-  std::sort(ring.begin(), ring.end());
-  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-  return ring;
-}
+std::vector<TriangleId> ring_of(const Mesh& mesh, TriangleId t) { return triangles_around(mesh, {&t, 1}); }
 
 std::vector<Region> components_of(const Mesh& mesh) { return regions_of(mesh, VertexMask(mesh.n_vertices(), 1)); }
 

@@ -31,7 +31,7 @@ Driver::Driver(WorkingCopy& work, Settings& settings, Run& run)
       recorder_(settings.options.tracer, work, energy_unit_),
       flipper_(mesh_, settings, recorder_),
       step_(mesh_, settings, work.frame, flipper_, recorder_) {
-  recorder_.begin_sweep(run.report.sweeps == 0 ? 0 : run.report.sweeps + 1);
+  recorder_.begin_sweep(run.next_sweep());
   const SweepOrder order = settings.options.order;
   if (order != SweepOrder::reverse && order != SweepOrder::random) return;
   for (const VertexId v : mesh_.vertices()) sequence_.push_back(v);
@@ -273,15 +273,7 @@ void Driver::jitter(double amount) {
   if (amount == 0 || o.unknowns == Unknowns::weights || !o.flips) return;
   recorder_.begin_sweep(run_.report.sweeps + 1);
   Rng rng(o.seed);
-  for (const VertexId v : mesh_.vertices()) {
-    const WeightedPoint p = mesh_.point(v);
-    double shortest2 = kInfinity;
-    for (const HalfedgeId h : mesh_.star(v)) {
-      shortest2 = std::min(shortest2, squared_length(mesh_.position(mesh_.target(h)) - p.position()));
-    }
-    const Vec2 away = amount * std::sqrt(shortest2) * Vec2{rng.uniform(-1, 1), rng.uniform(-1, 1)};
-    step_.nudge(v, work_.frame.snap(p.position() + away));
-  }
+  step_.shake(amount, rng);
 }
 
 /// The paper's rule takes a rise for convergence. The relative one waits whether the energy falls again.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "geometry/predicates_inline.hpp"
-#include "optimize/fill.hpp"
+#include "optimize/run.hpp"
 #include "temper/geometry.hpp"
+#include "topology/locate.hpp"
 
 namespace temper {
 namespace {
@@ -21,9 +21,7 @@ std::vector<TriangleId> some_bad_triangles(const Neighborhood& around) {
   std::vector<TriangleId> bad = {around.seed};
   for (const TriangleId t : around.mesh.triangles()) {
     if (bad.size() == kMostBad) break;
-    const auto [p, q, r] = around.mesh.corners(t);
-    const bool is_bad = !inlined::is_well_centered(around.mesh.point(p), around.mesh.point(q), around.mesh.point(r));
-    if (is_bad && t != around.seed) bad.push_back(t);
+    if (t != around.seed && is_bad(around.mesh, t)) bad.push_back(t);
   }
   return bad;
 }
@@ -33,8 +31,10 @@ void add_insertions(const Mesh& mesh, TriangleId t, std::vector<Edit>& edits) {
   const Vec2 middle = (1.0 / 3) * (mesh.position(a) + mesh.position(b) + mesh.position(c));
   edits.push_back({.kind = Edit::insert, .triangle = t, .place = middle});
   const Vec2 o = orthocenter(mesh.point(a), mesh.point(b), mesh.point(c));
-  const TriangleId at = locate(mesh, o);
-  if (at.valid()) edits.push_back({.kind = Edit::insert, .triangle = at, .place = o});
+  const Location at = locate(mesh, o, t);
+  if (at.kind == Location::Kind::in_triangle) {
+    edits.push_back({.kind = Edit::insert, .triangle = at.triangle, .place = o});
+  }
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(t, k);
     if (!mesh.is_boundary(h) && !mesh.is_constrained(h)) edits.push_back({.kind = Edit::split, .edge = h});
@@ -58,7 +58,8 @@ std::vector<VertexId> vertices_near(const Mesh& mesh, const std::vector<Triangle
 void add_removals(const Neighborhood& around, const std::vector<TriangleId>& bad, std::vector<Edit>& edits) {
   std::size_t count = 0;
   for (const VertexId v : vertices_near(around.mesh, bad)) {
-    if (!is_removable(around.mesh, around.frozen, v)) continue;
+    if (!may_be_removed(around.mesh, around.frozen, v)) continue;
+    if (plan_removal(around.mesh, v).status != RemovalStatus::possible) continue;
     if (++count > kMostRemovals) return;
     edits.push_back({.kind = Edit::remove, .vertex = v});
   }

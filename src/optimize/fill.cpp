@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/predicates_inline.hpp"
 #include "temper/geometry.hpp"
+#include "topology/locate.hpp"
 
 namespace temper {
 namespace {
@@ -53,13 +53,13 @@ std::optional<Fill::Place> Fill::next() {
     if (!std::isfinite(o.x) || !std::isfinite(o.y)) continue;
     const double relative = length(o - pa) / size(o);
     if (relative <= worst || refused_.count({o.x, o.y}) > 0) continue;
-    const TriangleId at = too_near_to_edges(o) ? TriangleId() : locate(mesh_, o);
-    if (!at.valid()) {
+    const Location at = too_near_to_edges(o) ? Location() : locate(mesh_, o, t);
+    if (at.kind != Location::Kind::in_triangle) {
       refuse(o);
       continue;
     }
     worst = relative;
-    place = {at, o};
+    place = {at.triangle, o};
   }
   return place;
 }
@@ -75,19 +75,6 @@ bool Fill::too_near_to_edges(Vec2 x) const {
   return std::any_of(segments_.begin(), segments_.end(), [&](const Segment& s) {
     return distance_to_segment(x, s.a, s.b) < kClearance * std::min(length(s.b - s.a), wanted);
   });
-}
-
-TriangleId locate(const Mesh& mesh, Vec2 p) {
-  for (const TriangleId t : mesh.triangles()) {
-    if (mesh.is_erased(t)) continue;
-    const auto [a, b, c] = mesh.corners(t);
-    const Vec2 pa = mesh.position(a), pb = mesh.position(b), pc = mesh.position(c);
-    if (inlined::orient2d(pa, pb, p) == Sign::positive && inlined::orient2d(pb, pc, p) == Sign::positive &&
-        inlined::orient2d(pc, pa, p) == Sign::positive) {
-      return t;
-    }
-  }
-  return {};
 }
 
 }  // namespace temper

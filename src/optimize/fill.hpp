@@ -46,7 +46,4 @@ class Fill {
   std::set<std::pair<double, double>> refused_;
 };
 
-/// The triangle that p is strictly inside of; invalid when there is none. O(n).
-[[nodiscard]] TriangleId locate(const Mesh& mesh, Vec2 p);
-
 }  // namespace temper

@@ -5,22 +5,10 @@
 
 #include "temper/geometry.hpp"
 #include "topology/outgoing.hpp"
+#include "topology/rings.hpp"
 
 namespace temper {
 namespace {
-
-/// All triangles around the corners of these, sorted.
-std::vector<TriangleId> grown(const Mesh& mesh, const std::vector<TriangleId>& triangles) {
-  std::vector<TriangleId> all;
-  for (const TriangleId t : triangles) {
-    for (const VertexId v : mesh.corners(t)) {
-      for (const HalfedgeId h : mesh.star(v)) all.push_back(Mesh::triangle(h));
-    }
-  }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
-}
 
 bool contains(const std::vector<TriangleId>& sorted, TriangleId t) {
   return std::binary_search(sorted.begin(), sorted.end(), t);
@@ -48,7 +36,7 @@ std::vector<VertexId> pinches(const Mesh& mesh, const std::vector<TriangleId>& t
 
 std::vector<TriangleId> rings_around(const Mesh& mesh, TriangleId seed, int rings) {
   std::vector<TriangleId> triangles = {seed};
-  for (int i = 0; i < rings; ++i) triangles = grown(mesh, triangles);
+  for (int i = 0; i < rings; ++i) triangles = triangles_around(mesh, triangles);
   for (auto pinched = pinches(mesh, triangles); !pinched.empty(); pinched = pinches(mesh, triangles)) {
     for (const VertexId v : pinched) {
       for (const HalfedgeId h : mesh.star(v)) triangles.push_back(Mesh::triangle(h));

@@ -289,9 +289,10 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
     if (count_bad(best->work.mesh, options.executor) == 0 || run.stopped_by_caller() || !run.sweeps_left()) break;
   }
   if (repairs(*settings)) best = repaired(*std::move(best), *settings, run);
-  Driver driver(best->work, *settings, run);
+  Recorder recorder(settings->options.tracer, best->work, 1);
+  recorder.begin_sweep(run.next_sweep());
   const Settings user_settings = in_user_terms(*settings, best->work.frame);
-  give_back(mesh, std::move(best->work), user_settings, driver.recorder(), report);
+  give_back(mesh, std::move(best->work), user_settings, recorder, report);
   note_edges_that_must_be_split(mesh, user_settings, report);
   report.seconds = run.seconds();
   return std::move(report);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/assert.hpp"
-#include "geometry/predicates_inline.hpp"
 #include "optimize/edits.hpp"
 #include "optimize/neighborhood.hpp"
 #include "optimize/splice.hpp"
@@ -24,8 +23,7 @@ constexpr std::uint32_t kSidewaysChoice = 4;
 std::vector<TriangleId> bad_triangles(const Mesh& mesh) {
   std::vector<TriangleId> bad;
   for (const TriangleId t : mesh.triangles()) {
-    const auto [p, q, r] = mesh.corners(t);
-    if (!inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r))) bad.push_back(t);
+    if (is_bad(mesh, t)) bad.push_back(t);
   }
   return bad;
 }

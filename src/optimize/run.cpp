@@ -17,11 +17,15 @@ bool Run::asked_to_stop(double fraction_of_sweep) {
   return false;
 }
 
+bool is_bad(const Mesh& mesh, TriangleId t) {
+  if (mesh.is_erased(t)) return false;
+  const auto [p, q, r] = mesh.corners(t);
+  return !inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r));
+}
+
 std::size_t count_bad(const Mesh& mesh, Executor* executor) {
-  return static_cast<std::size_t>(blockwise_sum(mesh.n_triangles(), executor, [&](std::size_t i) {
-    const auto [p, q, r] = mesh.corners(TriangleId(i));
-    return inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r)) ? 0.0 : 1.0;
-  }));
+  return static_cast<std::size_t>(blockwise_sum(
+      mesh.n_triangles(), executor, [&](std::size_t i) { return is_bad(mesh, TriangleId(i)) ? 1.0 : 0.0; }));
 }
 
 std::size_t count_inverted(const Mesh& mesh) {

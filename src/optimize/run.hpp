@@ -8,6 +8,8 @@
 
 namespace temper {
 
+/// Whether a triangle is not well-centered, exact. Erased ones are not bad.
+[[nodiscard]] bool is_bad(const Mesh& mesh, TriangleId t);
 /// Triangles that are not well-centered, exact.
 [[nodiscard]] std::size_t count_bad(const Mesh& mesh, Executor* executor);
 /// Triangles that are not counter-clockwise, exact.
@@ -21,6 +23,8 @@ class Run {
 
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   [[nodiscard]] bool sweeps_left() const { return report.sweeps < options_.max_sweeps; }
+  /// The number of the next sweep; 0 before the first, while the input is made regular.
+  [[nodiscard]] int next_sweep() const { return report.sweeps == 0 ? 0 : report.sweeps + 1; }
   [[nodiscard]] bool stopped_by_caller() const {
     return report.stopped == Stopped::cancelled || report.stopped == Stopped::time_limit;
   }

@@ -7,6 +7,7 @@
 #include "geometry/predicates_inline.hpp"
 #include "geometry/triangle_kernel.hpp"
 #include "optimize/fill.hpp"
+#include "optimize/run.hpp"
 #include "optimize/vertex_step.hpp"
 #include "temper/regularity.hpp"
 
@@ -31,12 +32,6 @@ double violation_of(const Mesh& mesh, TriangleId t) {
     worst = std::max({worst, -e.g / e.l2, 0.5 * (std::abs(e.dw) / e.l2 - 1)});
   }
   return worst;
-}
-
-bool is_bad(const Mesh& mesh, TriangleId t) {
-  if (mesh.is_erased(t)) return false;
-  const auto [p, q, r] = mesh.corners(t);
-  return !inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r));
 }
 
 class Trial {
@@ -66,7 +61,6 @@ class Trial {
   bool remove(VertexId v);
   bool fill(double gradation);
   void remove_free_vertices();
-  void kick(std::uint64_t seed);
   void sweep();
   [[nodiscard]] bool any_bad() const;
 
@@ -111,9 +105,11 @@ bool Trial::apply(const Edit& edit) {
   switch (edit.kind) {
     case Edit::nothing:
       return true;
-    case Edit::kick:
-      kick(edit.seed);
+    case Edit::kick: {
+      Rng rng(edit.seed);
+      step_.shake(kKick, rng);
       return true;
+    }
     case Edit::insert:
       return insert(edit.triangle, edit.place);
     case Edit::split:
@@ -185,21 +181,8 @@ void Trial::remove_free_vertices() {
   for (bool removed = true; removed;) {
     removed = false;
     for (const VertexId v : around_.mesh.vertices()) {
-      if (!work_.mesh.is_isolated(v) && is_removable(work_.mesh, around_.frozen, v)) removed = remove(v) || removed;
+      if (!work_.mesh.is_isolated(v) && may_be_removed(work_.mesh, around_.frozen, v)) removed = remove(v) || removed;
     }
-  }
-}
-
-void Trial::kick(std::uint64_t seed) {
-  Rng rng(seed);
-  const Mesh& mesh = work_.mesh;
-  for (const VertexId v : mesh.vertices()) {
-    double shortest2 = kInfinity;
-    for (const HalfedgeId h : mesh.star(v)) {
-      shortest2 = std::min(shortest2, squared_length(mesh.position(mesh.target(h)) - mesh.position(v)));
-    }
-    const Vec2 away = kKick * std::sqrt(shortest2) * Vec2{rng.uniform(-1, 1), rng.uniform(-1, 1)};
-    step_.nudge(v, grid_.snap(mesh.position(v) + away));
   }
 }
 
@@ -225,12 +208,12 @@ bool Trial::any_bad() const {
 
 }  // namespace
 
-bool is_removable(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, VertexId v) {
+bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, VertexId v) {
   if (frozen[v.index] != 0 || mesh.is_boundary(v)) return false;
   for (const HalfedgeId h : mesh.star(v)) {
     if (mesh.is_constrained(h)) return false;
   }
-  return plan_removal(mesh, v).status == RemovalStatus::possible;
+  return !mesh.is_fixed(v);
 }
 
 Standing standing(const Mesh& mesh) {

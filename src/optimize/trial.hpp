@@ -40,8 +40,8 @@ struct Standing {
 };
 [[nodiscard]] Standing standing(const Mesh& mesh);
 
-/// Whether v may go without a trace in the boundary, in the interfaces, in what the user fixed and on the rim.
-[[nodiscard]] bool is_removable(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, VertexId v);
+/// Whether v is on no boundary, interface or rim and not fixed; plan_removal says whether it can go.
+[[nodiscard]] bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, VertexId v);
 
 /// What a trial came to.
 struct Outcome {

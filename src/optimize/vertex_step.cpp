@@ -275,6 +275,18 @@ void VertexStep::nudge(VertexId v, Vec2 p) {
   if (stays_oriented(there) && keeps_size(there)) place(there, patch_energy(patch_, settings_.model, there), false);
 }
 
+void VertexStep::shake(double amount, Rng& rng) {
+  for (const VertexId v : mesh_.vertices()) {
+    const Vec2 p = mesh_.position(v);
+    double shortest2 = kInfinity;
+    for (const HalfedgeId h : mesh_.star(v)) {
+      shortest2 = std::min(shortest2, squared_length(mesh_.position(mesh_.target(h)) - p));
+    }
+    const Vec2 away = amount * std::sqrt(shortest2) * Vec2{rng.uniform(-1, 1), rng.uniform(-1, 1)};
+    nudge(v, frame_.snap(p + away));
+  }
+}
+
 void VertexStep::end_sweep() {
   for (const auto& [v, w, before, after] : deferred_) {
     if (mesh_.is_isolated(v)) continue;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/rng.hpp"
 #include "energy/patch.hpp"
 #include "optimize/flipper.hpp"
 #include "optimize/freedom.hpp"
@@ -34,6 +35,9 @@ class VertexStep {
 
   /// Moves v to p if it is free, no triangle turns over and no vertex is hidden, whatever that costs.
   void nudge(VertexId v, Vec2 p);
+
+  /// Nudges every vertex, at random, by up to `amount` of its shortest edge on each axis.
+  void shake(double amount, Rng& rng);
 
   /// With deferred weight updates: gives all vertices their new weights.
   void end_sweep();

@@ -11,6 +11,7 @@
 #include "temper/quality.hpp"
 #include "temper/regularity.hpp"
 #include "temper/topology.hpp"
+#include "topology/rings.hpp"
 #include "unit/explain/fans.hpp"
 
 namespace temper::test {
@@ -37,22 +38,10 @@ bool is_bad(const Mesh& mesh, TriangleId t) {
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// A polygon without inner vertices.
-Mesh gon(int n) {
-  std::vector<Vec2> points;
-  std::vector<std::array<std::int32_t, 2>> segments;
-  for (int i = 0; i < n; ++i) {
-    const double turn = 2 * std::numbers::pi * i / n;
-    points.push_back({std::cos(turn), std::sin(turn)});
-    segments.push_back({i, (i + 1) % n});
-  }
-  return *constrained_delaunay({.points = points, .segments = segments});
-}
-
 std::vector<Mesh> meshes() {
   std::vector<Mesh> all = {sparse_horseshoe(),
                            *horseshoe(),
-                           gon(12),
+                           *regular_polygon({.corners = 12}),
                            *random_points({.vertices = 60}),
                            *sheared_grid({.nx = 4, .ny = 4, .shear = 0.7}),
                            one_triangle({0, 0}, {4, 0}, {2, 1})};
@@ -311,7 +300,7 @@ TEST(Explain, VerifiedMovesCureTheNeighbourhood) {
       for (const Cure& cure : reason.cures) {
         if (cure.action != Cure::Action::move_vertex || !cure.verified || cure.conflict_only) continue;
         ++tried;
-        std::vector<TriangleId> asked = neighbourhood(mesh, reason.conflict);
+        std::vector<TriangleId> asked = triangles_around(mesh, reason.conflict);
         std::erase_if(asked, [&](TriangleId t) {
           return !std::binary_search(reason.conflict.begin(), reason.conflict.end(), t) &&
                  std::find(bad.begin(), bad.end(), t) != bad.end();

@@ -1,0 +1,19 @@
+#include "topology/rings.hpp"
+
+#include <algorithm>
+
+namespace temper {
+
+std::vector<TriangleId> triangles_around(const Mesh& mesh, std::span<const TriangleId> triangles) {
+  std::vector<TriangleId> around;
+  for (const TriangleId t : triangles) {
+    for (const VertexId v : mesh.corners(t)) {
+      for (const HalfedgeId h : mesh.star(v)) around.push_back(Mesh::triangle(h));
+    }
+  }
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  return around;
+}
+
+}  // namespace temper
