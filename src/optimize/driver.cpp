@@ -30,7 +30,8 @@ Driver::Driver(WorkingCopy& work, Settings& settings, Run& run)
       run_(run),
       recorder_(settings.options.tracer, work, energy_unit_),
       flipper_(mesh_, settings, recorder_),
-      step_(mesh_, settings, work.frame, flipper_, recorder_) {
+      limits_(mesh_, settings, work.frame),
+      step_(mesh_, settings, work.frame, limits_, flipper_, recorder_) {
   recorder_.begin_sweep(run.next_sweep());
   const SweepOrder order = settings.options.order;
   if (order != SweepOrder::reverse && order != SweepOrder::random) return;
@@ -144,7 +145,7 @@ bool Driver::improve_all_vertices() {
 void Driver::compact() {
   const std::size_t n = mesh_.n_vertices();
   const Compaction kept = work_.compact();
-  step_.renumber(kept);
+  limits_.renumber(kept);
   if (sequence_.empty()) return;
   IdVector<VertexId, VertexId> new_id(n);
   for (const VertexId v : mesh_.vertices()) new_id[kept.vertices[v]] = v;
@@ -154,7 +155,7 @@ void Driver::compact() {
 
 /// Makes room for the vertices that have been inserted, everywhere.
 void Driver::grow() {
-  step_.grow();
+  limits_.grow();
   if (sequence_.empty()) return;
   for (std::size_t i = sequence_.size(); i < mesh_.n_vertices(); ++i) sequence_.push_back(VertexId(i));
 }

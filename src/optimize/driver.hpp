@@ -70,6 +70,7 @@ class Driver {
   Run& run_;
   Recorder recorder_;
   Flipper flipper_;
+  VertexLimits limits_;
   VertexStep step_;
   Softener softener_;
   std::vector<VertexId> sequence_;  // in which a sweep visits the vertices; empty: as they are numbered

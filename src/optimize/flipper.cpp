@@ -50,30 +50,30 @@ struct WithBand {
 };
 
 template <class Hook>
-LawsonRun run_lawson(Lawson& lawson, Mesh& mesh, Hook&& hook, std::size_t max_flips, SizeBand* band) {
-  if (band == nullptr) return lawson.run(mesh, hook, max_flips);
+LawsonRun run_lawson(Lawson& lawson, Mesh& mesh, Hook&& hook, std::size_t max_flips, SizeBand* band, const Part& part) {
+  if (band == nullptr) return lawson.run(mesh, hook, max_flips, PowerTest(), part);
   band->begin_flips();
-  return lawson.run(mesh, WithBand<std::remove_reference_t<Hook>>{hook, *band}, max_flips);
+  return lawson.run(mesh, WithBand<std::remove_reference_t<Hook>>{hook, *band}, max_flips, PowerTest(), part);
 }
 
 }  // namespace
 
 /// Lawson on what is queued. `change`, when there is one, grows by what the flips change of the energy.
-LawsonRun Flipper::run(std::optional<double>& change, std::size_t max_flips, SizeBand* band) {
+LawsonRun Flipper::run(std::optional<double>& change, std::size_t max_flips, SizeBand* band, const Part& part) {
   if (recorder_.on()) {
     FlipLog log{settings_.model, records_, change.value_or(0)};
-    const LawsonRun result = run_lawson(lawson_, mesh_, log, max_flips, band);
+    const LawsonRun result = run_lawson(lawson_, mesh_, log, max_flips, band, part);
     if (change) change = log.change;
     return result;
   }
-  if (!change) return run_lawson(lawson_, mesh_, IgnoreFlips(), max_flips, band);
+  if (!change) return run_lawson(lawson_, mesh_, IgnoreFlips(), max_flips, band, part);
   FlipPrice price{settings_.model, *change};
-  const LawsonRun result = run_lawson(lawson_, mesh_, price, max_flips, band);
+  const LawsonRun result = run_lawson(lawson_, mesh_, price, max_flips, band, part);
   change = price.change;
   return result;
 }
 
-bool Flipper::settle(const Step& step) {
+Flipper::Settled Flipper::settle(const Step& step) {
   lawson_.clear();
   records_.clear();
   bool regular = true;
@@ -88,26 +88,27 @@ bool Flipper::settle(const Step& step) {
   }
   if (regular) {
     recorder_.placed(step.v, step.origin, mesh_.point(step.v), step.before, step.after);
-    return true;
+    return Settled::done;
   }
   std::optional<double> change;
   if (step.must_pay) change = step.after - step.before;
-  const LawsonRun result = run(change, kMostFlips, step.band);
+  const LawsonRun result = run(change, kMostFlips, step.band, step.part);
   const bool pays = !change || *change < 0;
   const WeightedPoint there = mesh_.point(step.v);
-  const bool hides = !lawson_.stuck(mesh_).empty();
+  // What is stuck in an unfinished run may have a quad that is partly outside.
+  const bool hides = result.finished && !lawson_.stuck(mesh_).empty();
   const bool leaves_band = step.band != nullptr && !step.band->allow_flips();
   if (!result.finished || !pays || leaves_band || (hides && !accept_hidden())) {
     lawson_.rollback(mesh_);
     mesh_.set_point(step.v, step.origin);
     recorder_.undone(step.v, step.before, change ? step.before + *change : step.after);
-    return false;
+    return result.escaped ? Settled::escaped : Settled::undone;
   }
   changes_.flips += result.flips;
   recorder_.placed(step.v, step.origin, there, step.before, step.after);
   recorder_.flipped(records_);
   if (hides) treat_hidden();
-  return true;
+  return Settled::done;
 }
 
 /// Whether the policy lets the vertices at stuck edges be hidden.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "optimize/partition.hpp"
 #include "optimize/recorder.hpp"
 #include "optimize/settings.hpp"
 #include "regularity/lawson.hpp"
@@ -26,10 +27,12 @@ class Flipper {
     double before = 0, after = 0;  ///< energy of v's patch
     bool must_pay = false;         ///< with what the flips change, the energy must fall
     SizeBand* band = nullptr;      ///< of local sizes, which flips must not leave
+    Part part = {};                ///< that v is confined to, and flips too
   };
-  /// Makes the edges around a step's vertex regular. Undoes all of it, the step too, and says no when that does not
-  /// pay, or hides a vertex that may not be.
-  bool settle(const Step& step);
+  /// Undone is the step too: because flips do not pay, hide a vertex that may not be, or would escape from the part.
+  enum class Settled { done, undone, escaped };
+  /// Makes the edges around a step's vertex regular. When it is done, v is still confined to the part.
+  Settled settle(const Step& step);
 
   /// Line 20 of Algorithm 1. False when it is undone, because it would hide a vertex.
   bool restore_all();
@@ -51,7 +54,7 @@ class Flipper {
   [[nodiscard]] bool has_removed() const { return changes_.removed > 0; }
 
  private:
-  LawsonRun run(std::optional<double>& change, std::size_t max_flips, SizeBand* band = nullptr);
+  LawsonRun run(std::optional<double>& change, std::size_t max_flips, SizeBand* band = nullptr, const Part& part = {});
   bool accept_hidden();
   void treat_hidden();
   [[nodiscard]] std::vector<VertexId> hidden_at_stuck_edges();

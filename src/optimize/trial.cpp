@@ -44,9 +44,10 @@ class Trial {
         work_(WorkingCopy::part(around.mesh)),
         recorder_(settings_.options.tracer, work_, 1),
         flipper_(work_.mesh, settings_, recorder_),
-        step_(work_.mesh, settings_, grid, flipper_, recorder_) {
+        limits_(work_.mesh, settings_, grid),
+        step_(work_.mesh, settings_, grid, limits_, flipper_, recorder_) {
     for (const VertexId v : around.mesh.vertices()) {
-      if (around.frozen[v.index] != 0) step_.freeze(v);
+      if (around.frozen[v.index] != 0) limits_.freeze(v);
     }
   }
   Trial(const Trial&) = delete;
@@ -71,6 +72,7 @@ class Trial {
   WorkingCopy work_;
   Recorder recorder_;
   Flipper flipper_;
+  VertexLimits limits_;
   VertexStep step_;
 };
 
@@ -138,7 +140,7 @@ bool Trial::insert(TriangleId t, Vec2 place) {
   }
   const double w = (sa * a.w + sb * b.w + sc * c.w) / (sa + sb + sc);
   flipper_.insert(work_, t, {p.x, p.y, w}, kNoEnergy, kNoEnergy);
-  step_.grow();
+  limits_.grow();
   return true;
 }
 
@@ -151,7 +153,7 @@ bool Trial::split(HalfedgeId h) {
   }
   const double w = 0.5 * (mesh.weight(a) + mesh.weight(b));
   flipper_.split(work_, h, {p.x, p.y, w}, kNoEnergy, kNoEnergy);
-  step_.grow();
+  limits_.grow();
   return true;
 }
 

@@ -37,10 +37,20 @@ void VertexStep::begin_sweep(int sweep) {
 }
 
 /// Lines 10 to 16 of Algorithm 1.
-void VertexStep::improve(VertexId v) {
-  if (collapses_ && collapse(v)) return;
+bool VertexStep::improve(VertexId v, const Part& part) {
+  if (!is_confined(mesh_, v, part)) return false;
+  part_ = part;
+  escapes_ = false;
+  if (collapses_ && collapse(v)) return true;
   optimize_point(v);
-  if (removes_) remove_if_better(v);
+  if (removes_ && !escapes_) remove_if_better(v);
+  return !escapes_;
+}
+
+void VertexStep::improve(std::span<const VertexId> vertices, const Part& part, std::vector<VertexId>& left) {
+  for (const VertexId v : vertices) {
+    if (!mesh_.is_isolated(v) && !improve(v, part)) left.push_back(v);
+  }
 }
 
 /// Algorithm 2: where E_c would put v onto a neighbour, the mesh is better without v.
@@ -84,7 +94,7 @@ void VertexStep::optimize_point(VertexId v) {
     case Solver::alternating:
       if (positions.n > 0) {
         newton_search(positions);
-        if (mesh_.is_isolated(v)) return;  // hidden, and removed
+        if (escapes_ || mesh_.is_isolated(v)) return;  // isolated: hidden, and removed
         gather(v);
       }
       if (has_weight) newton_search(weight_only());
@@ -92,7 +102,7 @@ void VertexStep::optimize_point(VertexId v) {
     case Solver::golden:
       for (int i = 0; i < kPositionSearches && positions.n > 0; ++i) {
         golden_search(positions);
-        if (mesh_.is_isolated(v)) return;
+        if (escapes_ || mesh_.is_isolated(v)) return;
         gather(v);
       }
       if (has_weight) golden_search(weight_only());
@@ -113,7 +123,8 @@ void VertexStep::gather(VertexId v) {
 bool VertexStep::enter_domain() {
   if (unknowns_ == Unknowns::positions) return false;
   double low = -kInfinity, high = kInfinity;
-  for (const WeightedPoint& q : patch_.link) {
+  for (std::size_t i = 0; i < patch_.link.size(); ++i) {
+    const WeightedPoint q = patch_.q(i);
     const double l2 = squared_length(q.position() - origin_.position());
     low = std::max(low, q.w - l2);
     high = std::min(high, q.w + l2);
@@ -178,6 +189,7 @@ void VertexStep::newton_search(const Freedom& freedom) {
   for (int trial = 0; trial < kTrials; ++trial) {
     switch (try_step(newton.step, t)) {
       case Outcome::accepted:
+      case Outcome::escaped:
         return;
       case Outcome::blocked_by_flip: {
         // The flip does not pay, or hides a vertex: stop short of it. At a tie, one small step may still pay.
@@ -228,11 +240,12 @@ VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
   if (!(energy < energy_)) return Outcome::not_lower;
   if (settings_.options.inversion == Inversion::refuse && !stays_oriented(p)) return Outcome::inverted;
   if (!keeps_size(p)) return Outcome::out_of_band;
-  return place(p, energy, settings_.energy.barrier) ? Outcome::accepted : Outcome::blocked_by_flip;
+  if (place(p, energy, settings_.energy.barrier)) return Outcome::accepted;
+  return escapes_ ? Outcome::escaped : Outcome::blocked_by_flip;
 }
 
 /// The vertex at p, where its patch has that energy, with what flips that needs; or where it was, and false: when a
-/// vertex would be hidden, or flips cost more than the step gains and it must pay.
+/// vertex would be hidden, or flips cost more than the step gains and it must pay, or they escape from the part.
 bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
   const bool only_weight = p.x == origin_.x && p.y == origin_.y;
   if (only_weight && settings_.options.weight_updates == WeightUpdates::deferred) {
@@ -242,9 +255,11 @@ bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
   if (keeps_connectivity()) note_regular_edges();
   mesh_.set_point(vertex_, p);
   if (flips_at_once()) {
-    const bool settled = flipper_.settle({vertex_, origin_, energy_, energy, must_pay, band_.on() ? &band_ : nullptr});
-    if (settled && !only_weight) band_.moved(vertex_);
-    return settled;
+    SizeBand* const band = band_.on() ? &band_ : nullptr;
+    const auto settled = flipper_.settle({vertex_, origin_, energy_, energy, must_pay, band, part_});
+    escapes_ = settled == Flipper::Settled::escaped;
+    if (settled == Flipper::Settled::done && !only_weight) band_.moved(vertex_);
+    return settled == Flipper::Settled::done;
   }
   const bool fits = !keeps_connectivity() || regular_edges_still_are();
   if (fits && !only_weight) band_.moved(vertex_);
@@ -269,6 +284,7 @@ bool VertexStep::keeps_connectivity() const {
 
 void VertexStep::nudge(VertexId v, Vec2 p) {
   if (!may_go(v)) return;
+  part_ = {};
   gather(v);
   energy_ = patch_energy(patch_, settings_.model, origin_);
   const WeightedPoint there{p.x, p.y, origin_.w};
@@ -295,21 +311,6 @@ void VertexStep::end_sweep() {
     recorder_.placed(v, from, mesh_.point(v), before, after);
   }
   deferred_.clear();
-}
-
-void VertexStep::renumber(const Compaction& kept) {
-  IdVector<VertexId, Mobility> mobility;
-  mobility.reserve(kept.vertices.size());
-  for (const VertexId v : kept.vertices) mobility.push_back(mobility_[v]);
-  mobility_ = std::move(mobility);
-  band_.renumber(kept);
-}
-
-void VertexStep::grow() {
-  for (std::size_t i = mobility_.size(); i < mesh_.n_vertices(); ++i) {
-    mobility_.push_back(mobility(mesh_, VertexId(i), settings_.options));
-  }
-  band_.grow();
 }
 
 bool VertexStep::flips_at_once() const {

@@ -2,36 +2,41 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/rng.hpp"
 #include "energy/patch.hpp"
 #include "optimize/flipper.hpp"
-#include "optimize/freedom.hpp"
 #include "optimize/newton.hpp"
-#include "optimize/settings.hpp"
-#include "optimize/size_band.hpp"
+#include "optimize/partition.hpp"
+#include "optimize/vertex_limits.hpp"
 
 namespace temper {
 
 /// The storage of vertex steps, kept from one vertex to the next: once warm, a step allocates nothing.
 class VertexStep {
  public:
-  VertexStep(Mesh& mesh, const Settings& settings, const Frame& frame, Flipper& flipper, const Recorder& recorder)
+  VertexStep(Mesh& mesh, const Settings& settings, const Frame& frame, VertexLimits& limits, Flipper& flipper,
+             const Recorder& recorder)
       : mesh_(mesh),
         settings_(settings),
         frame_(frame),
+        mobility_(limits.mobility),
+        band_(limits.band),
         flipper_(flipper),
-        recorder_(recorder),
-        band_(mesh, frame, settings.size_field, settings.options.size_band),
-        mobility_(mobilities(mesh, settings.options)) {}
+        recorder_(recorder) {}
 
   /// Of the sweep under way: i ≥ i_w, i ≥ i_c, and the overshoot of FlipLimit::after.
   void begin_sweep(int sweep);
 
   /// Collapses v; or moves it so that the energy falls, flips what must flip, and removes it if its patch is better
-  /// without it; or leaves everything as it was.
-  void improve(VertexId v);
+  /// without it; or leaves everything as it was. False when v is not confined to the part, or its flips would not be:
+  /// it needs a larger one, or another.
+  bool improve(VertexId v, const Part& part = {});
+
+  /// Improves those that are still there, in that order. Those that need another part are appended to `left`.
+  void improve(std::span<const VertexId> vertices, const Part& part, std::vector<VertexId>& left);
 
   /// Moves v to p if it is free, no triangle turns over and no vertex is hidden, whatever that costs.
   void nudge(VertexId v, Vec2 p);
@@ -42,17 +47,8 @@ class VertexStep {
   /// With deferred weight updates: gives all vertices their new weights.
   void end_sweep();
 
-  /// The mesh has been compacted.
-  void renumber(const Compaction& kept);
-
-  /// v stays, weight and all.
-  void freeze(VertexId v) { mobility_[v] = Mobility::frozen; }
-
-  /// Vertices have been inserted, or edges split: new vertices are the last ones of the mesh.
-  void grow();
-
  private:
-  enum class Outcome { accepted, not_lower, inverted, out_of_band, blocked_by_flip };
+  enum class Outcome { accepted, not_lower, inverted, out_of_band, blocked_by_flip, escaped };
 
   bool collapse(VertexId v);
   void optimize_point(VertexId v);
@@ -79,15 +75,17 @@ class VertexStep {
   Mesh& mesh_;
   const Settings& settings_;
   const Frame& frame_;
+  const IdVector<VertexId, Mobility>& mobility_;
+  SizeBand& band_;
   Flipper& flipper_;
   const Recorder& recorder_;
-  SizeBand band_;
-  IdVector<VertexId, Mobility> mobility_;
   Unknowns unknowns_ = Unknowns::positions_and_weights;
   bool collapses_ = false, removes_ = false;
   double overshoot_ = 1;
 
   VertexId vertex_;
+  Part part_;             // that it is confined to
+  bool escapes_ = false;  // from it: what its step has to flip
   WeightedPoint origin_;  // where the vertex is
   double energy_ = 0;     // of the patch there
   Patch patch_;

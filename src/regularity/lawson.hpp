@@ -40,10 +40,16 @@ struct IgnoreFlips {
   void after(const Mesh&, HalfedgeId) {}
 };
 
+/// Where a run may look: at all vertices. Anything with the same member confines it to some.
+struct Everywhere {
+  [[nodiscard]] static constexpr bool contains(VertexId) { return true; }
+};
+
 /// What one run did.
 struct LawsonRun {
   std::size_t flips = 0;
-  bool finished = true;  ///< false: the cap on flips was reached with edges left in the queue
+  bool finished = true;  ///< false: edges are left in the queue, for the cap on flips was reached, or
+  bool escaped = false;  ///< the quad of an edge is not within the vertices that the run may look at
 };
 
 /// Queue, journal and stuck edges: keep one and use it again; once warm it allocates nothing.
@@ -83,16 +89,24 @@ class Lawson {
     }
   }
 
-  /// Flips until the queue is empty, or `max_flips` are done. Appends to the journal what each flip returned.
-  template <class Hook = IgnoreFlips, class Test = PowerTest>
-  LawsonRun run(Mesh& mesh, Hook&& hook = {}, std::size_t max_flips = kNoCap, const Test& test = {}) {
+  /// Flips until the queue is empty, or `max_flips` are done, or the next edge has a quad that is not all within.
+  /// Appends to the journal what each flip returned. Confined, it looks at the quads of constrained edges too, so that
+  /// when it is finished all edges of all triangles that it has touched have theirs within.
+  template <class Hook = IgnoreFlips, class Test = PowerTest, class Within = Everywhere>
+  LawsonRun run(Mesh& mesh, Hook&& hook = {}, std::size_t max_flips = kNoCap, const Test& test = {},
+                const Within& within = {}) {
     LawsonRun result;
     while (!queue_.empty()) {
       const HalfedgeId h = queue_.back();
       queue_.pop_back();
-      if (mesh.is_boundary(h) || mesh.is_constrained(h)) continue;
+      if (mesh.is_boundary(h)) continue;
       const inlined::Quad q = inlined::quad(mesh, h);
-      if (test(mesh, q) != Sign::positive) continue;
+      if (!(within.contains(q.a) && within.contains(q.b) && within.contains(q.c) && within.contains(q.d))) {
+        result.finished = false;
+        result.escaped = true;
+        break;
+      }
+      if (mesh.is_constrained(h) || test(mesh, q) != Sign::positive) continue;
       if (!is_strictly_convex(mesh, q)) {
         stuck_.push_back(h);
         continue;
