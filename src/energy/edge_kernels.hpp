@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pack.hpp"
 #include "geometry/triangle_kernel.hpp"
 #include "temper/energy.hpp"
 
@@ -25,10 +26,9 @@ inline constexpr std::array<double, 3> kAlpha = {1.0 / 4, 1.0 / 3, 1.0 / 12};
 inline constexpr std::array<double, 3> kBeta = {1.0 / 12, 1.0 / 3, 1.0 / 4};
 
 /// Value, gradient and Hessian of an edge energy in (L, w, g).
+template <class T>
 struct EdgeTerm {
-  double f = 0;
-  double f_l = 0, f_w = 0, f_g = 0;
-  double f_ll = 0, f_lw = 0, f_lg = 0, f_ww = 0, f_wg = 0, f_gg = 0;
+  T f, f_l, f_w, f_g, f_ll, f_lw, f_lg, f_ww, f_wg, f_gg;
 };
 
 /// E_F of one edge in one triangle. Odd in g; signs and boundary treatments are factors applied outside.
@@ -36,23 +36,25 @@ struct HotKernel {
   static constexpr bool kBarrier = false;
   double alpha, beta;
 
-  [[nodiscard]] double value(const EdgeShape& e) const {
-    return (0.25 * alpha * (e.l2 * e.l2 + 3 * e.dw * e.dw) + beta * e.g * e.g) * e.g / e.l2;
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE T value(const EdgeShapeOf<T>& e) const {
+    return (0.25 * alpha * (e.l2 * e.l2 + 3 * (e.dw * e.dw)) + beta * (e.g * e.g)) * e.g / e.l2;
   }
 
-  [[nodiscard]] EdgeTerm term(const EdgeShape& e) const {
-    const double l = e.l2, w = e.dw, g = e.g;
-    const double inverse = 1.0 / l;
-    const double wi = w * inverse, gi = g * inverse;
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE EdgeTerm<T> term(const EdgeShapeOf<T>& e) const {
+    const T l = e.l2, w = e.dw, g = e.g;
+    const T inverse = 1.0 / l;
+    const T wi = w * inverse, gi = g * inverse, wi2 = wi * wi, gi2 = gi * gi;
     const double a = 0.25 * alpha;
-    EdgeTerm t;  // f = a g (L + 3 w²/L) + β g³/L
-    t.f = a * g * (l + 3 * w * wi) + beta * g * g * gi;
-    t.f_l = a * g * (1 - 3 * wi * wi) - beta * g * gi * gi;
-    t.f_w = 6 * a * g * wi;
-    t.f_g = a * (l + 3 * w * wi) + 3 * beta * g * gi;
-    t.f_ll = 6 * a * gi * wi * wi + 2 * beta * gi * gi * gi;
-    t.f_lw = -6 * a * gi * wi;
-    t.f_lg = a * (1 - 3 * wi * wi) - 3 * beta * gi * gi;
+    EdgeTerm<T> t;  // f = a g (L + 3 w²/L) + β g³/L
+    t.f = a * g * (l + 3 * (w * wi)) + beta * (g * g * gi);
+    t.f_l = a * g * (1 - 3 * wi2) - beta * (g * gi2);
+    t.f_w = 6 * a * (g * wi);
+    t.f_g = a * (l + 3 * (w * wi)) + 3 * beta * (g * gi);
+    t.f_ll = 6 * a * (gi * wi2) + 2 * beta * (gi * gi2);
+    t.f_lw = -6 * a * (gi * wi);
+    t.f_lg = a * (1 - 3 * wi2) - 3 * beta * gi2;
     t.f_ww = 6 * a * gi;
     t.f_wg = 6 * a * wi;
     t.f_gg = 6 * beta * gi;
@@ -60,30 +62,45 @@ struct HotKernel {
   }
 };
 
-/// Φ and the derivatives of ln Φ.
+/// x/y, not divided yet.
+template <class T>
+struct Fraction {
+  T x, y;
+};
+
+/// 1/Φ and the derivatives of ln Φ.
+template <class T>
 struct Denominator {
-  double phi = 0;
-  double l = 0, g = 0;            // ∂ ln Φ
-  double ll = 0, lg = 0, gg = 0;  // ∂² ln Φ
+  T inverse;
+  T l, g;        // ∂ ln Φ
+  T ll, lg, gg;  // ∂² ln Φ
 };
 
 /// Φ = g + s₁ ℓ + s₂ L: E_BH with s = 0, E_BHs with s₁ = |h°| or s₂ = |h°|/ℓ. Infeasible at Φ ≤ 0.
 struct ShiftedHeight {
   double s1 = 0, s2 = 0;
 
-  [[nodiscard]] double phi(const EdgeShape& e) const { return e.g + s1 * std::sqrt(e.l2) + s2 * e.l2; }
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE T root(const EdgeShapeOf<T>& e) const {
+    return s1 == 0 ? all<T>(0) : s1 * square_root(e.l2);
+  }
 
-  [[nodiscard]] Denominator denominator(const EdgeShape& e) const {
-    const double root = s1 * std::sqrt(e.l2);
-    Denominator d;
-    d.phi = e.g + root + s2 * e.l2;
-    const double inverse = 1.0 / d.phi;
-    const double slope = 0.5 * root / e.l2 + s2;
-    d.l = slope * inverse;
-    d.g = inverse;
-    d.ll = -0.25 * root / (e.l2 * e.l2) * inverse - d.l * d.l;
-    d.lg = -d.l * d.g;
-    d.gg = -inverse * inverse;
+  /// 1/Φ.
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE Fraction<T> inverse(const EdgeShapeOf<T>& e) const {
+    return {all<T>(1), e.g + root(e) + s2 * e.l2};
+  }
+
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE Denominator<T> denominator(const EdgeShapeOf<T>& e) const {
+    const T inverse_l = 1.0 / e.l2, half_root = 0.5 * root(e) * inverse_l;
+    Denominator<T> d;
+    d.inverse = 1.0 / inverse(e).y;
+    d.g = d.inverse;
+    d.l = (half_root + s2) * d.inverse;
+    d.gg = -1.0 * (d.inverse * d.inverse);
+    d.lg = -1.0 * (d.l * d.g);
+    d.ll = -0.5 * (half_root * inverse_l) * d.inverse - d.l * d.l;
     return d;
   }
 };
@@ -92,24 +109,33 @@ struct ShiftedHeight {
 struct SmoothedHeight {
   double m1 = 0, m2 = 0;
 
-  [[nodiscard]] double phi(const EdgeShape& e) const {
-    const double m = (m1 + m2 * e.l2) * e.l2;
-    const double r = std::sqrt(e.g * e.g + m);
-    return e.g >= 0 ? 0.5 * (e.g + r) : 0.5 * m / (r - e.g);  // no cancellation when g < 0
+  /// 1/Φ = 2/(R + |g|) above, 2 (R + |g|)/M below: no cancellation when g < 0.
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE Fraction<T> inverse(const EdgeShapeOf<T>& e) const {
+    const T m = (m1 + m2 * e.l2) * e.l2;
+    const T sum = square_root(e.g * e.g + m) + absolute(e.g);
+    const auto above = e.g >= 0;
+    return {select(above, all<T>(2), 2 * sum), select(above, sum, m)};
   }
 
-  [[nodiscard]] Denominator denominator(const EdgeShape& e) const {
-    const double m = (m1 + m2 * e.l2) * e.l2, slope = m1 + 2 * m2 * e.l2, curvature = 2 * m2;
-    const double r = std::sqrt(e.g * e.g + m);
-    const double inverse_r = 1.0 / r, cube = inverse_r * inverse_r * inverse_r;
-    Denominator d;
-    d.phi = e.g >= 0 ? 0.5 * (e.g + r) : 0.5 * m / (r - e.g);
-    const double inverse = inverse_r / d.phi;  // 1/(R Φ), and ∂(R Φ)/∂L = M' (g + 2R)/(4R)
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE Denominator<T> denominator(const EdgeShapeOf<T>& e) const {
+    const T m = (m1 + m2 * e.l2) * e.l2, slope = m1 + 2 * m2 * e.l2;
+    const T r = square_root(e.g * e.g + m), sum = r + absolute(e.g);
+    const auto above = e.g >= 0;
+    // 1/R and 1/Φ, which is 2/sum or 2 sum/M, by one division.
+    const T divisor = select(above, sum, m);
+    const T quotient = 1.0 / (r * divisor);
+    const T inverse_r = quotient * divisor;
+    const T half_slope_cube = 0.5 * slope * (inverse_r * inverse_r * inverse_r);
+    Denominator<T> d;
+    d.inverse = 2 * (quotient * r) * select(above, all<T>(1), sum);
+    const T inverse = inverse_r * d.inverse;  // 1/(R Φ), and ∂(R Φ)/∂L = M' (g + 2R)/(4R)
     d.g = inverse_r;
     d.l = 0.25 * slope * inverse;
-    d.gg = -e.g * cube;
-    d.lg = -0.5 * slope * cube;
-    d.ll = 0.25 * curvature * inverse - 0.0625 * slope * slope * (e.g + 2 * r) * inverse_r * inverse * inverse;
+    d.gg = -1.0 * e.g * (inverse_r * inverse_r * inverse_r);
+    d.lg = -1.0 * half_slope_cube;
+    d.ll = 0.5 * m2 * inverse - 0.0625 * (slope * slope) * (e.g + 2 * r) * inverse_r * (inverse * inverse);
     return d;
   }
 };
@@ -120,64 +146,95 @@ struct BarrierKernel {
   double alpha, beta;
   Height height;
 
+  /// Outside 0 < d < ℓ, Φ > 0 neither positive nor finite, or not a number.
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE T value_inside(const EdgeShapeOf<T>& e) const {
+    const T q = (e.l2 - e.dw) * (e.l2 + e.dw);
+    const Fraction<T> phi = height.inverse(e);
+    return (alpha * (e.l2 * e.l2 + e.dw * e.dw) + 4 * beta * (e.g * e.g)) * phi.x / (square_root(q) * phi.y);
+  }
+
   /// +∞ outside 0 < d < ℓ, Φ > 0.
   [[nodiscard]] double value(const EdgeShape& e) const {
-    const double q = (e.l2 - e.dw) * (e.l2 + e.dw), phi = height.phi(e);
-    if (!(q > 0 && phi > 0)) return kInfinity;
-    return (alpha * (e.l2 * e.l2 + e.dw * e.dw) + 4 * beta * e.g * e.g) / (std::sqrt(q) * phi);
+    const double f = value_inside(e);
+    return f > 0 ? f : kInfinity;
   }
 
   /// Outside the domain f is not positive and finite, and the rest means nothing.
-  [[nodiscard]] EdgeTerm term(const EdgeShape& e) const {
-    const double l = e.l2, w = e.dw, g = e.g;
-    const double t = alpha * (l * l + w * w) + 4 * beta * g * g, q = (l - w) * (l + w);
-    const double ti = 1.0 / t, qi = 1.0 / q;
-    const Denominator d = height.denominator(e);
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE EdgeTerm<T> term(const EdgeShapeOf<T>& e) const {
+    const T l = e.l2, w = e.dw, g = e.g;
+    const T t = alpha * (l * l + w * w) + 4 * beta * (g * g), q = (l - w) * (l + w);
+    const T quotient = 1.0 / (t * q), ti = quotient * q, qi = quotient * t;
+    const Denominator<T> d = height.denominator(e);
     // f = T Q^(−1/2) / Φ: ∂ ln f, then ∂²f = f (∂ ln f ∂ ln f + ∂² ln f).
-    const double tl = 2 * alpha * l * ti, tw = 2 * alpha * w * ti, tg = 8 * beta * g * ti;
-    const double ql = 2 * l * qi, qw = -2 * w * qi;
-    const double fl = tl - 0.5 * ql - d.l, fw = tw - 0.5 * qw, fg = tg - d.g;
-    EdgeTerm term;
-    term.f = t * std::sqrt(qi) / d.phi;
+    const T tl = 2 * alpha * (l * ti), tw = 2 * alpha * (w * ti), tg = 8 * beta * (g * ti);
+    const T ql = l * qi, qw = w * qi;  // of ln √Q, the latter with its sign turned
+    const T fl = tl - ql - d.l, fw = tw + qw, fg = tg - d.g;
+    EdgeTerm<T> term;
+    term.f = t * square_root(q) * qi * d.inverse;
     term.f_l = term.f * fl;
     term.f_w = term.f * fw;
     term.f_g = term.f * fg;
-    term.f_ll = term.f * (fl * fl + 2 * alpha * ti - tl * tl - qi + 0.5 * ql * ql - d.ll);
-    term.f_lw = term.f * (fl * fw - tl * tw + 0.5 * ql * qw);
+    term.f_ll = term.f * (fl * fl + 2 * alpha * ti - tl * tl - qi + 2 * (ql * ql) - d.ll);
+    term.f_lw = term.f * (fl * fw - tl * tw - 2 * (ql * qw));
     term.f_lg = term.f * (fl * fg - tl * tg - d.lg);
-    term.f_ww = term.f * (fw * fw + 2 * alpha * ti - tw * tw + qi + 0.5 * qw * qw);
+    term.f_ww = term.f * (fw * fw + 2 * alpha * ti - tw * tw + qi + 2 * (qw * qw));
     term.f_wg = term.f * (fw * fg - tw * tg);
     term.f_gg = term.f * (fg * fg + 8 * beta * ti - tg * tg - d.gg);
     return term;
   }
 };
 
-/// Calls visit with the kernel of the model: the one place where an energy's name becomes its formula.
-template <class Visit>
-auto with_kernel(const EnergyModel& model, Visit&& visit) {
+/// Which formula a model's name stands for, and its constants.
+struct EdgeFormula {
+  enum class Form { hot, shifted, smoothed } form = Form::hot;
+  double alpha = 0, beta = 0;
+  double first = 0, second = 0;  ///< s₁, s₂ or m₁, m₂
+};
+
+/// The one place where an energy's name becomes its formula.
+[[nodiscard]] inline EdgeFormula edge_formula(const EnergyModel& model) {
   const std::size_t star = static_cast<std::size_t>(model.star);
-  const double alpha = kAlpha[star], beta = kBeta[star];
-  const auto split = [](const Softening& s, double power) -> std::array<double, 2> {
-    const double value = power == 2 ? s.value * s.value : s.value;
-    return s.scale == LengthScale::absolute ? std::array{value, 0.0} : std::array{0.0, value};
+  EdgeFormula f{EdgeFormula::Form::hot, kAlpha[star], kBeta[star]};
+  const auto soften = [&f](const Softening& s, double value) {
+    (s.scale == LengthScale::absolute ? f.first : f.second) = value;
   };
   switch (model.kind) {
     case EnergyKind::BH:
-      return visit(BarrierKernel<ShiftedHeight>{alpha, beta, {}});
-    case EnergyKind::BHs: {
-      const auto [s1, s2] = split(model.h0, 1);
-      return visit(BarrierKernel<ShiftedHeight>{alpha, beta, {s1, s2}});
-    }
-    case EnergyKind::BP: {
-      const auto [m1, m2] = split(model.gamma, 2);
-      return visit(BarrierKernel<SmoothedHeight>{alpha, beta, {m1, m2}});
-    }
+      f.form = EdgeFormula::Form::shifted;
+      break;
+    case EnergyKind::BHs:
+      f.form = EdgeFormula::Form::shifted;
+      soften(model.h0, model.h0.value);
+      break;
+    case EnergyKind::BP:
+      f.form = EdgeFormula::Form::smoothed;
+      soften(model.gamma, model.gamma.value * model.gamma.value);
+      break;
     case EnergyKind::F:
     case EnergyKind::T:
     case EnergyKind::dT:
       break;
   }
-  return visit(HotKernel{alpha, beta});
+  return f;
+}
+
+/// Calls visit with the kernel of a formula that is a barrier.
+template <class Visit>
+TEMPER_INLINE auto with_barrier(const EdgeFormula& f, Visit&& visit) {
+  if (f.form == EdgeFormula::Form::shifted) {
+    return visit(BarrierKernel<ShiftedHeight>{f.alpha, f.beta, {f.first, f.second}});
+  }
+  return visit(BarrierKernel<SmoothedHeight>{f.alpha, f.beta, {f.first, f.second}});
+}
+
+/// Calls visit with the kernel of the model.
+template <class Visit>
+TEMPER_INLINE auto with_kernel(const EnergyModel& model, Visit&& visit) {
+  const EdgeFormula f = edge_formula(model);
+  if (f.form == EdgeFormula::Form::hot) return visit(HotKernel{f.alpha, f.beta});
+  return with_barrier(f, visit);
 }
 
 }  // namespace temper

@@ -2,6 +2,8 @@
 // both its triangles (sign of the dual of E_T) and at the boundary.
 #include "energy/patch.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/sum.hpp"
@@ -20,78 +22,29 @@ double outer_height(const Mesh& mesh, HalfedgeId h) {
   return same_side(s.edges[0].g, s.doubled_area);
 }
 
-/// Adds factor × the edge term of a link edge: only g depends on the center.
-[[gnu::always_inline]] inline void add_term(VertexDerivatives& sum, const EdgeTerm& t, double factor, const Jet& g) {
-  const double f_g = factor * t.f_g, f_gg = factor * t.f_gg;
-  const auto& [gx, gy, gw] = g.gradient;
-  sum.gradient[0] += f_g * gx;
-  sum.gradient[1] += f_g * gy;
-  sum.gradient[2] += f_g * gw;
-  sum.hessian[0] += f_gg * gx * gx + f_g * g.hessian[0];
-  sum.hessian[1] += f_gg * gx * gy + f_g * g.hessian[1];
-  sum.hessian[2] += f_gg * gx * gw + f_g * g.hessian[2];
-  sum.hessian[3] += f_gg * gy * gy + f_g * g.hessian[3];
-  sum.hessian[4] += f_gg * gy * gw + f_g * g.hessian[4];
-  sum.hessian[5] += f_gg * gw * gw;
-}
-
-/// The same for a spoke, whose ℓ² has gradient −2e (e from the center to the link) and whose w has (0, 0, 1).
-[[gnu::always_inline]] inline void add_spoke_term(VertexDerivatives& sum, const EdgeTerm& t, double factor,
-                                                  const Jet& g, Vec2 e) {
-  add_term(sum, t, factor, g);
-  const double lx = -2 * e.x, ly = -2 * e.y;
-  const auto& [gx, gy, gw] = g.gradient;
-  const double f_l = factor * t.f_l, f_w = factor * t.f_w, f_ll = factor * t.f_ll, f_lw = factor * t.f_lw;
-  const double f_lg = factor * t.f_lg, f_ww = factor * t.f_ww, f_wg = factor * t.f_wg;
-  sum.gradient[0] += f_l * lx;
-  sum.gradient[1] += f_l * ly;
-  sum.gradient[2] += f_w;
-  sum.hessian[0] += f_ll * lx * lx + 2 * f_lg * lx * gx + 2 * f_l;
-  sum.hessian[1] += f_ll * lx * ly + f_lg * (lx * gy + ly * gx);
-  sum.hessian[2] += f_lw * lx + f_lg * lx * gw + f_wg * gx;
-  sum.hessian[3] += f_ll * ly * ly + 2 * f_lg * ly * gy + 2 * f_l;
-  sum.hessian[4] += f_lw * ly + f_lg * ly * gw + f_wg * gy;
-  sum.hessian[5] += f_ww + 2 * f_wg * gw;
-}
-
 template <class Kernel>
 double barrier_triangle(const Kernel& kernel, const TriangleShape& s) {
   return kernel.value(s.edges[0]) + kernel.value(s.edges[1]) + kernel.value(s.edges[2]);
 }
 
-template <class Kernel>
-double barrier_value(const Patch& patch, const Kernel& kernel, const WeightedPoint& p) {
-  double sum = 0;
-  for (std::size_t i = 0; i < patch.size(); ++i) {
-    const TriangleShape s = triangle_shape(p, patch.q(i), patch.r(i));
-    if (!(s.doubled_area > 0)) return kInfinity;
-    sum += barrier_triangle(kernel, s);
-  }
-  return sum;
+constexpr VertexDerivatives outside() {
+  VertexDerivatives d;
+  d.value = kInfinity;
+  return d;
 }
 
-/// A barrier is positive and finite exactly in its domain; outside, the formula gives a negative number, ∞ or NaN.
-bool is_inside(const EdgeTerm& t) { return t.f > 0 && t.f < kInfinity; }
+VertexDerivatives from_sums(const std::array<double, kStarSums>& sums) {
+  VertexDerivatives d;
+  d.value = sums[0];
+  d.feasible = true;
+  std::copy_n(sums.begin() + 1, d.gradient.size(), d.gradient.begin());
+  std::copy_n(sums.begin() + 4, d.hessian.size(), d.hessian.begin());
+  return d;
+}
 
-template <class Kernel>
-VertexDerivatives barrier_derivatives(const Patch& patch, const Kernel& kernel, const WeightedPoint& p) {
-  VertexDerivatives sum;
-  for (std::size_t i = 0; i < patch.size(); ++i) {
-    const TriangleJet jet = triangle_jet(p, patch.q(i), patch.r(i));
-    const auto& [pq, qr, rp] = jet.shape.edges;
-    const EdgeTerm t_pq = kernel.term(pq), t_qr = kernel.term(qr), t_rp = kernel.term(rp);
-    if (!(jet.shape.doubled_area > 0 && is_inside(t_pq) && is_inside(t_qr) && is_inside(t_rp))) {
-      VertexDerivatives outside;
-      outside.value = kInfinity;
-      return outside;
-    }
-    sum.value += t_pq.f + t_qr.f + t_rp.f;
-    add_spoke_term(sum, t_pq, 1, jet.g[0], jet.a);
-    add_term(sum, t_qr, 1, jet.g[1]);
-    add_spoke_term(sum, t_rp, 1, jet.g[2], jet.b);
-  }
-  sum.feasible = true;
-  return sum;
+VertexDerivatives barrier_derivatives(const Patch& patch, const EdgeFormula& formula, const WeightedPoint& p) {
+  std::array<double, kStarSums> sums;
+  return star_kernels().barrier_derivatives(formula, patch.arrays(), p, sums.data()) ? from_sums(sums) : outside();
 }
 
 /// Same-side heights of a triangle's three edges: pq, qr, rp.
@@ -139,7 +92,7 @@ class HotFactors {
 double outer_share(const Patch& patch, const EnergyModel& model, const HotKernel& kernel, std::size_t i,
                    const EdgeShape& link, double factor) {
   if (model.kind != EnergyKind::T || patch.link_boundary[i] != 0) return 0;
-  return factor * kernel.value({link.l2, link.dw, patch.outer_g[i]});
+  return factor * kernel.value(EdgeShape{link.l2, link.dw, patch.outer_g[i]});
 }
 
 double hot_value(const Patch& patch, const EnergyModel& model, const HotKernel& kernel, const WeightedPoint& p) {
@@ -158,27 +111,24 @@ double hot_value(const Patch& patch, const EnergyModel& model, const HotKernel& 
 
 VertexDerivatives hot_derivatives(const Patch& patch, const EnergyModel& model, const HotKernel& kernel,
                                   const WeightedPoint& p) {
+  const std::size_t n = patch.size();
+  std::vector<double> of_edges(3 * (n + kLanes));
+  const std::array factor = {of_edges.data(), of_edges.data() + n + kLanes, of_edges.data() + 2 * (n + kLanes)};
   HotFactors factors(patch, model, p);
-  VertexDerivatives sum;
-  for (std::size_t i = 0; i < patch.size(); ++i) {
-    const TriangleJet jet = triangle_jet(p, patch.q(i), patch.r(i));
-    const TriangleShape& s = jet.shape;
-    if (s.doubled_area == 0) {
-      VertexDerivatives outside;
-      outside.value = kInfinity;
-      return outside;
-    }
-    const auto factor = factors.triangle(i);
+  double outer = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const TriangleShape s = triangle_shape(p, patch.q(i), patch.r(i));
+    if (s.doubled_area == 0) return outside();
+    const auto signs = factors.triangle(i);
     const double orientation = s.doubled_area < 0 ? -1 : 1;
-    const EdgeTerm t_pq = kernel.term(s.edges[0]), t_qr = kernel.term(s.edges[1]), t_rp = kernel.term(s.edges[2]);
-    sum.value += orientation * (factor[0] * t_pq.f + factor[1] * t_qr.f + factor[2] * t_rp.f) +
-                 outer_share(patch, model, kernel, i, s.edges[1], factor[1]);
-    add_spoke_term(sum, t_pq, orientation * factor[0], jet.g[0], jet.a);
-    add_term(sum, t_qr, orientation * factor[1], jet.g[1]);
-    add_spoke_term(sum, t_rp, orientation * factor[2], jet.g[2], jet.b);
+    for (std::size_t k = 0; k < 3; ++k) factor[k][i] = orientation * signs[k];
+    outer += outer_share(patch, model, kernel, i, s.edges[1], signs[1]);
   }
-  sum.feasible = true;
-  return sum;
+  std::array<double, kStarSums> sums;
+  star_kernels().hot_derivatives(edge_formula(model), patch.arrays(), {factor[0], factor[1], factor[2]}, p,
+                                 sums.data());
+  sums[0] += outer;
+  return from_sums(sums);
 }
 
 /// One edge with both its triangles, for the HOT energies.
@@ -189,7 +139,7 @@ double full_edge_energy(const Mesh& mesh, const EnergyModel& model, const HotKer
   edge.g = same_side(edge.g, s.doubled_area);
   const double outer = outer_height(mesh, h);
   const double factor = hot_factor(model, edge.g, outer, mesh.is_boundary(h));
-  return factor * (kernel.value(edge) + kernel.value({edge.l2, edge.dw, outer}));
+  return factor * (kernel.value(edge) + kernel.value(EdgeShape{edge.l2, edge.dw, outer}));
 }
 
 }  // namespace
@@ -207,17 +157,24 @@ double hot_factor(const EnergyModel& model, double g, double g_other, bool bound
 void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch) {
   patch.center = v;
   patch.link.clear();
-  patch.link_vertex.clear();
   patch.spoke.clear();
   patch.outer_g.clear();
   patch.link_boundary.clear();
+  const auto add = [&](VertexId q) {
+    const std::size_t i = patch.link.size();
+    if (i + 2 + kLanes > patch.x.size()) {  // q_0 again, and what is read beyond
+      for (std::vector<double>* c : {&patch.x, &patch.y, &patch.w}) c->resize(2 * (i + 2 + kLanes));
+    }
+    const WeightedPoint p = mesh.point(q);
+    patch.x[i] = p.x, patch.y[i] = p.y, patch.w[i] = p.w;
+    patch.link.push_back(q);
+  };
   const HalfedgeId first = mesh.outgoing(v);
   HalfedgeId h = first;
   HalfedgeId last = first;
   do {
     patch.spoke.push_back(h);
-    patch.link_vertex.push_back(mesh.target(h));
-    patch.link.push_back(mesh.point(mesh.target(h)));
+    add(mesh.target(h));
     if (with_outer) {
       patch.outer_g.push_back(outer_height(mesh, Mesh::next(h)));
       patch.link_boundary.push_back(mesh.is_boundary(Mesh::next(h)) ? 1 : 0);
@@ -226,30 +183,24 @@ void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch) {
     h = mesh.rotate(h);
   } while (h.valid() && h != first);
   patch.closed = h.valid();
-  if (!patch.closed) {
-    patch.link_vertex.push_back(mesh.opposite(last));
-    patch.link.push_back(mesh.point(mesh.opposite(last)));
+  if (patch.closed) {
+    const std::size_t n = patch.link.size();
+    patch.x[n] = patch.x[0], patch.y[n] = patch.y[0], patch.w[n] = patch.w[0];
+  } else {
+    add(mesh.opposite(last));
   }
 }
 
 double patch_energy(const Patch& patch, const EnergyModel& model, const WeightedPoint& p) {
-  return with_kernel(model, [&](const auto& kernel) {
-    if constexpr (std::decay_t<decltype(kernel)>::kBarrier) {
-      return barrier_value(patch, kernel, p);
-    } else {
-      return hot_value(patch, model, kernel, p);
-    }
-  });
+  const EdgeFormula f = edge_formula(model);
+  if (f.form != EdgeFormula::Form::hot) return star_kernels().barrier_value(f, patch.arrays(), p);
+  return hot_value(patch, model, HotKernel{f.alpha, f.beta}, p);
 }
 
 VertexDerivatives patch_derivatives(const Patch& patch, const EnergyModel& model, const WeightedPoint& p) {
-  return with_kernel(model, [&](const auto& kernel) {
-    if constexpr (std::decay_t<decltype(kernel)>::kBarrier) {
-      return barrier_derivatives(patch, kernel, p);
-    } else {
-      return hot_derivatives(patch, model, kernel, p);
-    }
-  });
+  const EdgeFormula f = edge_formula(model);
+  if (f.form != EdgeFormula::Form::hot) return barrier_derivatives(patch, f, p);
+  return hot_derivatives(patch, model, HotKernel{f.alpha, f.beta}, p);
 }
 
 double flip_energy(const Mesh& mesh, const EnergyModel& model, HalfedgeId h) {

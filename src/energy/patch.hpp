@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "energy/edge_kernels.hpp"
+#include "energy/star_kernels.hpp"
 #include "temper/energy.hpp"
 #include "temper/mesh.hpp"
 
@@ -20,16 +20,16 @@ namespace temper {
 struct Patch {
   VertexId center;
   bool closed = true;                       ///< an interior vertex
-  std::vector<WeightedPoint> link;          ///< q_0 … q_{n−1}, and q_n when open
-  std::vector<VertexId> link_vertex;        ///< their ids
+  std::vector<VertexId> link;               ///< of q_0 … q_{n−1}, and q_n when open
   std::vector<HalfedgeId> spoke;            ///< center → q_i, one a triangle
+  std::vector<double> x, y, w;              ///< of q_0 … q_n, where q_n is q_0 again when closed; longer than that
   std::vector<double> outer_g;              ///< h ℓ of link edge i in its outer triangle; empty unless gathered
   std::vector<std::uint8_t> link_boundary;  ///< link edge i is a boundary edge; as long as outer_g
 
   [[nodiscard]] std::size_t size() const { return spoke.size(); }
-  [[nodiscard]] const WeightedPoint& q(std::size_t i) const { return link[i]; }
-  /// q_{i+1}, around the corner when closed.
-  [[nodiscard]] const WeightedPoint& r(std::size_t i) const { return link[i + 1 == link.size() ? 0 : i + 1]; }
+  [[nodiscard]] WeightedPoint q(std::size_t i) const { return {x[i], y[i], w[i]}; }
+  [[nodiscard]] WeightedPoint r(std::size_t i) const { return q(i + 1); }
+  [[nodiscard]] LinkArrays arrays() const { return {x.data(), y.data(), w.data(), size()}; }
 };
 
 /// Fills patch with the star of v; outer heights only for energies without barrier, which need signs.

@@ -67,7 +67,7 @@ double hot_edge(const EnergyModel& model, const HotKernel& kernel, const std::ar
   const double outer_g = beyond.point ? edge_shape(b, a, *beyond.point).g : 0;
   const double factor = hot_factor(model, edge.g, outer_g, !beyond.point);
   const bool shares = model.kind == EnergyKind::T && beyond.stays && beyond.point;
-  return factor * kernel.value(edge) + (shares ? factor * kernel.value({edge.l2, edge.dw, outer_g}) : 0);
+  return factor * kernel.value(edge) + (shares ? factor * kernel.value(EdgeShape{edge.l2, edge.dw, outer_g}) : 0);
 }
 
 double hot_edges(const Mesh& mesh, const EnergyModel& model, const HotKernel& kernel, const RemovalPlan& plan,

@@ -54,7 +54,7 @@ double inversion_limit(const Patch& patch, const WeightedPoint& p, const Step& s
 
 double patch_radius(const Patch& patch, const WeightedPoint& p) {
   double sum = 0;
-  for (const WeightedPoint& q : patch.link) sum += squared_length(q.position() - p.position());
+  for (std::size_t i = 0; i < patch.link.size(); ++i) sum += squared_length(patch.q(i).position() - p.position());
   return std::sqrt(sum / static_cast<double>(patch.link.size()));
 }
 

@@ -37,12 +37,12 @@ bool nearly_collapses(const Patch& patch, const EnergyModel& collapse_model, con
   const Vec2 best = best_position(patch, collapse_model, p, inversion).position();
   const std::size_t n = patch.link.size();
   std::size_t nearest = 0;
-  const auto distance2 = [&](std::size_t i) { return squared_length(patch.link[i].position() - best); };
+  const auto distance2 = [&](std::size_t i) { return squared_length(patch.q(i).position() - best); };
   for (std::size_t i = 1; i < n; ++i) {
     if (distance2(i) < distance2(nearest)) nearest = i;
   }
-  const Vec2 q = patch.link[nearest].position();
-  const Vec2 before = patch.link[(nearest + n - 1) % n].position(), after = patch.link[(nearest + 1) % n].position();
+  const Vec2 q = patch.q(nearest).position();
+  const Vec2 before = patch.q((nearest + n - 1) % n).position(), after = patch.q((nearest + 1) % n).position();
   const double shorter2 = std::min(squared_length(before - q), squared_length(after - q));
   return distance2(nearest) < ratio * ratio * shorter2;
 }

@@ -41,12 +41,12 @@ bool SizeBand::allows(const Patch& patch, Vec2 p) {
   // patch one.
   const std::size_t n = patch.size();
   for (std::size_t i = 0; i < patch.link.size(); ++i) {
-    const Vec2 q = patch.link[i].position();
+    const Vec2 q = patch.q(i).position();
     double gain = 0;
     if (i < n) gain += cross(patch.r(i).position() - q, step);
     if (i > 0 || patch.closed) gain += cross(q - patch.q(i > 0 ? i - 1 : n - 1).position(), step);
-    StarArea star = star_area(mesh_, patch.link_vertex[i]);
-    const double target = squared_field_[patch.link_vertex[i]];
+    StarArea star = star_area(mesh_, patch.link[i]);
+    const double target = squared_field_[patch.link[i]];
     const double before = excess(star.squared_size(), target);
     star.doubled += gain;
     if (excess(star.squared_size(), target) > before) return false;

@@ -1,0 +1,188 @@
+// Eight doubles that are computed with at once, whatever the machine: one register of AVX-512, two of AVX, four of
+// SSE2, NEON or WebAssembly.
+//
+// Each operation is that of IEEE 754 on every lane, in the order written, never contracted: the same bits come out of
+// every instruction set. Sources that use packs are compiled once for each set. So that a linker can never give code
+// of one to another, everything here is inlined always and in a namespace of its set, and so must be what uses it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#define TEMPER_INSTRUCTION_SET avx512
+#define TEMPER_REGISTER_BYTES 64
+#elif defined(__AVX2__)
+#define TEMPER_INSTRUCTION_SET avx2
+#define TEMPER_REGISTER_BYTES 32
+#else
+#define TEMPER_INSTRUCTION_SET baseline
+#define TEMPER_REGISTER_BYTES 16
+#endif
+
+#define TEMPER_INLINE __attribute__((always_inline)) inline
+
+namespace temper {
+
+inline constexpr std::size_t kLanes = 8;
+
+// What a pack has, for one double: formulas are written once for both.
+TEMPER_INLINE double square_root(double x) { return __builtin_sqrt(x); }
+TEMPER_INLINE double absolute(double x) { return __builtin_fabs(x); }
+TEMPER_INLINE double select(bool condition, double a, double b) { return condition ? a : b; }
+/// x in every lane.
+template <class T>
+TEMPER_INLINE T all(double x) {
+  if constexpr (requires { T::all(x); }) {
+    return T::all(x);
+  } else {
+    return x;
+  }
+}
+
+namespace TEMPER_INSTRUCTION_SET {
+
+/// What the hardware has: some doubles, and the mask of a comparison, all bits of a lane set or none.
+struct Register {
+  static constexpr std::size_t kSize = TEMPER_REGISTER_BYTES / sizeof(double);
+  typedef double Doubles __attribute__((vector_size(TEMPER_REGISTER_BYTES)));
+  typedef std::int64_t Bits __attribute__((vector_size(TEMPER_REGISTER_BYTES)));
+
+  struct Mask {
+    Bits m;
+    TEMPER_INLINE static Mask load(const std::int64_t* p) {
+      Mask r;
+      __builtin_memcpy(&r.m, p, sizeof r.m);
+      return r;
+    }
+    friend TEMPER_INLINE Mask operator&(Mask a, Mask b) { return {a.m & b.m}; }
+    friend TEMPER_INLINE Mask operator|(Mask a, Mask b) { return {a.m | b.m}; }
+    friend TEMPER_INLINE Mask operator~(Mask a) { return {~a.m}; }
+    /// Bit i: lane i.
+    [[nodiscard]] TEMPER_INLINE unsigned bits() const {
+#if TEMPER_REGISTER_BYTES == 64
+      return _mm512_movepi64_mask((__m512i)m);
+#elif TEMPER_REGISTER_BYTES == 32
+      return static_cast<unsigned>(_mm256_movemask_pd((__m256d)m));
+#elif defined(__SSE2__)
+      return static_cast<unsigned>(_mm_movemask_pd((__m128d)m));
+#else
+      return (m[0] != 0 ? 1U : 0U) | (m[1] != 0 ? 2U : 0U);
+#endif
+    }
+  };
+
+  Doubles v;
+
+  TEMPER_INLINE static Register all(double x) { return {x - Doubles{}}; }
+  TEMPER_INLINE static Register load(const double* p) {
+    Register r;
+    __builtin_memcpy(&r.v, p, sizeof r.v);
+    return r;
+  }
+  TEMPER_INLINE void store(double* p) const { __builtin_memcpy(p, &v, sizeof v); }
+
+  friend TEMPER_INLINE Register operator+(Register a, Register b) { return {a.v + b.v}; }
+  friend TEMPER_INLINE Register operator-(Register a, Register b) { return {a.v - b.v}; }
+  friend TEMPER_INLINE Register operator*(Register a, Register b) { return {a.v * b.v}; }
+  friend TEMPER_INLINE Register operator/(Register a, Register b) { return {a.v / b.v}; }
+  friend TEMPER_INLINE Register operator-(Register a) { return {-a.v}; }
+  friend TEMPER_INLINE Register operator+(double a, Register b) { return {a + b.v}; }
+  friend TEMPER_INLINE Register operator-(double a, Register b) { return {a - b.v}; }
+  friend TEMPER_INLINE Register operator*(double a, Register b) { return {a * b.v}; }
+  friend TEMPER_INLINE Register operator/(double a, Register b) { return {a / b.v}; }
+  friend TEMPER_INLINE Register operator+(Register a, double b) { return {a.v + b}; }
+  friend TEMPER_INLINE Mask operator<(Register a, Register b) { return {a.v < b.v}; }
+  friend TEMPER_INLINE Mask operator>(Register a, Register b) { return {a.v > b.v}; }
+  friend TEMPER_INLINE Mask operator>=(Register a, Register b) { return {a.v >= b.v}; }
+  friend TEMPER_INLINE Mask operator<(Register a, double b) { return a < all(b); }
+  friend TEMPER_INLINE Mask operator>(Register a, double b) { return a > all(b); }
+  friend TEMPER_INLINE Mask operator>=(Register a, double b) { return a >= all(b); }
+  friend TEMPER_INLINE Register select(Mask m, Register a, Register b) { return {m.m ? a.v : b.v}; }
+  friend TEMPER_INLINE Register square_root(Register a) {
+#if TEMPER_REGISTER_BYTES == 64
+    return {(Doubles)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.v)};  // GCC 12 warns about the one without mask
+#elif TEMPER_REGISTER_BYTES == 32
+    return {(Doubles)_mm256_sqrt_pd((__m256d)a.v)};
+#elif defined(__SSE2__)
+    return {(Doubles)_mm_sqrt_pd((__m128d)a.v)};
+#else
+    return {Doubles{__builtin_sqrt(a.v[0]), __builtin_sqrt(a.v[1])}};
+#endif
+  }
+  friend TEMPER_INLINE Register absolute(Register a) {
+    return {(Doubles)((Bits)a.v & (0x7fff'ffff'ffff'ffff - Bits{}))};
+  }
+  /// Lanes of the two halves first, and so on: the same order whatever the registers.
+  friend TEMPER_INLINE double sum(Register a) {
+#if TEMPER_REGISTER_BYTES == 64
+    const auto four = __builtin_shufflevector(a.v, a.v, 0, 1, 2, 3) + __builtin_shufflevector(a.v, a.v, 4, 5, 6, 7);
+    const auto two = __builtin_shufflevector(four, four, 0, 1) + __builtin_shufflevector(four, four, 2, 3);
+    return two[0] + two[1];
+#elif TEMPER_REGISTER_BYTES == 32
+    const auto two = __builtin_shufflevector(a.v, a.v, 0, 1) + __builtin_shufflevector(a.v, a.v, 2, 3);
+    return two[0] + two[1];
+#else
+    return a.v[0] + a.v[1];
+#endif
+  }
+};
+
+/// Twice as many doubles as Half has.
+template <class Half, std::size_t N>
+struct Pair {
+  struct Mask {
+    typename Half::Mask low, high;
+    TEMPER_INLINE static Mask load(const std::int64_t* p) { return {Half::Mask::load(p), Half::Mask::load(p + N / 2)}; }
+    friend TEMPER_INLINE Mask operator&(Mask a, Mask b) { return {a.low & b.low, a.high & b.high}; }
+    friend TEMPER_INLINE Mask operator|(Mask a, Mask b) { return {a.low | b.low, a.high | b.high}; }
+    friend TEMPER_INLINE Mask operator~(Mask a) { return {~a.low, ~a.high}; }
+    [[nodiscard]] TEMPER_INLINE unsigned bits() const { return low.bits() | high.bits() << (N / 2); }
+  };
+
+  Half low, high;
+
+  TEMPER_INLINE static Pair all(double x) { return {Half::all(x), Half::all(x)}; }
+  TEMPER_INLINE static Pair load(const double* p) { return {Half::load(p), Half::load(p + N / 2)}; }
+  TEMPER_INLINE void store(double* p) const {
+    low.store(p);
+    high.store(p + N / 2);
+  }
+  friend TEMPER_INLINE Pair operator+(Pair a, Pair b) { return {a.low + b.low, a.high + b.high}; }
+  friend TEMPER_INLINE Pair operator-(Pair a, Pair b) { return {a.low - b.low, a.high - b.high}; }
+  friend TEMPER_INLINE Pair operator*(Pair a, Pair b) { return {a.low * b.low, a.high * b.high}; }
+  friend TEMPER_INLINE Pair operator/(Pair a, Pair b) { return {a.low / b.low, a.high / b.high}; }
+  friend TEMPER_INLINE Pair operator-(Pair a) { return {-a.low, -a.high}; }
+  friend TEMPER_INLINE Pair operator+(double a, Pair b) { return {a + b.low, a + b.high}; }
+  friend TEMPER_INLINE Pair operator-(double a, Pair b) { return {a - b.low, a - b.high}; }
+  friend TEMPER_INLINE Pair operator*(double a, Pair b) { return {a * b.low, a * b.high}; }
+  friend TEMPER_INLINE Pair operator/(double a, Pair b) { return {a / b.low, a / b.high}; }
+  friend TEMPER_INLINE Pair operator+(Pair a, double b) { return {a.low + b, a.high + b}; }
+  friend TEMPER_INLINE Mask operator<(Pair a, Pair b) { return {a.low < b.low, a.high < b.high}; }
+  friend TEMPER_INLINE Mask operator>(Pair a, Pair b) { return {a.low > b.low, a.high > b.high}; }
+  friend TEMPER_INLINE Mask operator>=(Pair a, Pair b) { return {a.low >= b.low, a.high >= b.high}; }
+  friend TEMPER_INLINE Mask operator<(Pair a, double b) { return a < all(b); }
+  friend TEMPER_INLINE Mask operator>(Pair a, double b) { return a > all(b); }
+  friend TEMPER_INLINE Mask operator>=(Pair a, double b) { return a >= all(b); }
+  friend TEMPER_INLINE Pair select(Mask m, Pair a, Pair b) {
+    return {select(m.low, a.low, b.low), select(m.high, a.high, b.high)};
+  }
+  friend TEMPER_INLINE Pair square_root(Pair a) { return {square_root(a.low), square_root(a.high)}; }
+  friend TEMPER_INLINE Pair absolute(Pair a) { return {absolute(a.low), absolute(a.high)}; }
+  friend TEMPER_INLINE double sum(Pair a) { return sum(a.low + a.high); }
+};
+
+#if TEMPER_REGISTER_BYTES == 64
+using Pack = Register;
+#elif TEMPER_REGISTER_BYTES == 32
+using Pack = Pair<Register, 8>;
+#else
+using Pack = Pair<Pair<Register, 4>, 8>;
+#endif
+
+}  // namespace TEMPER_INSTRUCTION_SET
+}  // namespace temper

@@ -1,0 +1,49 @@
+// The kernels of stars, in the fastest instruction set that the machine has.
+//
+// Every set computes the same operations in the same order (base/pack.hpp), so results do not depend on the choice.
+#pragma once
+
+#include <cstddef>
+
+#include "energy/edge_kernels.hpp"
+#include "temper/vec2.hpp"
+
+namespace temper {
+
+/// The link of a star: triangle i has the corners p, i and i + 1. Readable up to a multiple of kLanes beyond size.
+struct LinkArrays {
+  const double *x, *y, *w;
+  std::size_t size = 0;  ///< triangles
+};
+
+/// Value, gradient (x, y, w) and Hessian (xx, xy, xw, yy, yw, ww) of a star, in this order.
+inline constexpr std::size_t kStarSums = 10;
+
+/// How often each edge of triangle i counts; readable as far as the link.
+struct EdgeFactors {
+  const double *pq, *qr, *rp;
+};
+
+struct StarKernels {
+  /// Of a barrier at p. False outside its domain, where the sums mean nothing.
+  bool (*barrier_derivatives)(const EdgeFormula& formula, const LinkArrays& link, const WeightedPoint& p, double* sums);
+  /// The value alone; +∞ outside the domain.
+  double (*barrier_value)(const EdgeFormula& formula, const LinkArrays& link, const WeightedPoint& p);
+  void (*hot_derivatives)(const EdgeFormula& formula, const LinkArrays& link, const EdgeFactors& factors,
+                          const WeightedPoint& p, double* sums);
+};
+
+/// Of the instruction set in use.
+[[nodiscard]] const StarKernels& star_kernels();
+
+namespace baseline {
+extern const StarKernels kStarKernels;
+}
+namespace avx2 {
+extern const StarKernels kStarKernels;
+}
+namespace avx512 {
+extern const StarKernels kStarKernels;
+}
+
+}  // namespace temper

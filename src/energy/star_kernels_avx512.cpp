@@ -1,0 +1,1 @@
+#include "energy/star_kernels_set.hpp"

@@ -1,0 +1,80 @@
+// Included by one source for each instruction set, compiled for that set.
+#pragma once
+
+#include "energy/star_kernels.hpp"
+#include "energy/star_sums.hpp"
+
+namespace temper::TEMPER_INSTRUCTION_SET {
+namespace {
+
+// Of n < kLanes lanes, the first n: loaded from kFirstLanes + kLanes − n.
+constexpr std::int64_t kFirstLanes[2 * kLanes] = {-1, -1, -1, -1, -1, -1, -1, -1};
+
+TEMPER_INLINE Pack::Mask first_lanes(std::size_t n) {
+  return Pack::Mask::load(kFirstLanes + (n < kLanes ? kLanes - n : 0));
+}
+
+TEMPER_INLINE PackPoint load(const LinkArrays& link, std::size_t i) {
+  return {Pack::load(link.x + i), Pack::load(link.y + i), Pack::load(link.w + i)};
+}
+
+TEMPER_INLINE PackPoint everywhere(const WeightedPoint& p) { return {Pack::all(p.x), Pack::all(p.y), Pack::all(p.w)}; }
+
+constexpr unsigned kAllLanes = (1U << kLanes) - 1;
+
+TEMPER_INLINE void store(const StarSums& sums, double* out) {
+  const Pack* packs = &sums.value;
+  for (std::size_t k = 0; k < kStarSums; ++k) out[k] = sum(packs[k]);
+}
+
+template <class Kernel>
+TEMPER_INLINE bool star_derivatives(const Kernel& kernel, const LinkArrays& link, const WeightedPoint& at,
+                                    double* out) {
+  const PackPoint p = everywhere(at);
+  StarSums sums;
+  for (std::size_t i = 0; i < link.size; i += kLanes) {
+    const Pack::Mask where = first_lanes(link.size - i);
+    const Pack::Mask inside = add_barrier(kernel, p, load(link, i), load(link, i + 1), where, sums);
+    if ((inside | ~where).bits() != kAllLanes) return false;
+  }
+  store(sums, out);
+  return true;
+}
+
+template <class Kernel>
+TEMPER_INLINE double star_value(const Kernel& kernel, const LinkArrays& link, const WeightedPoint& at) {
+  const PackPoint p = everywhere(at);
+  Pack total = Pack::all(0);
+  for (std::size_t i = 0; i < link.size; i += kLanes) {
+    const Pack::Mask where = first_lanes(link.size - i);
+    const Pack::Mask inside = add_barrier_value(kernel, p, load(link, i), load(link, i + 1), where, total);
+    if ((inside | ~where).bits() != kAllLanes) return kInfinity;
+  }
+  return sum(total);
+}
+
+bool barrier_derivatives(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint& p, double* sums) {
+  return with_barrier(f, [&](const auto& kernel) { return star_derivatives(kernel, link, p, sums); });
+}
+
+double barrier_value(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint& p) {
+  return with_barrier(f, [&](const auto& kernel) { return star_value(kernel, link, p); });
+}
+
+void hot_derivatives(const EdgeFormula& f, const LinkArrays& link, const EdgeFactors& factors, const WeightedPoint& at,
+                     double* out) {
+  const HotKernel kernel{f.alpha, f.beta};
+  const PackPoint p = everywhere(at);
+  StarSums sums;
+  for (std::size_t i = 0; i < link.size; i += kLanes) {
+    add_hot(kernel, p, load(link, i), load(link, i + 1), Pack::load(factors.pq + i), Pack::load(factors.qr + i),
+            Pack::load(factors.rp + i), first_lanes(link.size - i), sums);
+  }
+  store(sums, out);
+}
+
+}  // namespace
+
+const StarKernels kStarKernels = {barrier_derivatives, barrier_value, hot_derivatives};
+
+}  // namespace temper::TEMPER_INSTRUCTION_SET
