@@ -13,7 +13,6 @@
 namespace temper {
 namespace {
 
-constexpr std::size_t kVerticesBetweenCalls = 8192;  // of the observer and the clock: a few milliseconds
 // Sweeps at the last γ without fewer bad triangles, after which another attempt promises more; and without a lower
 // energy, after which none will come.
 constexpr int kPatience = 25;
@@ -22,7 +21,7 @@ constexpr int kInfinitePatience = 5;
 
 }  // namespace
 
-Driver::Driver(WorkingCopy& work, Settings& settings, Run& run)
+Driver::Driver(WorkingCopy& work, Settings& settings, Run& run, std::size_t part_size)
     : work_(work),
       mesh_(work.mesh),
       settings_(settings),
@@ -30,8 +29,7 @@ Driver::Driver(WorkingCopy& work, Settings& settings, Run& run)
       run_(run),
       recorder_(settings.options.tracer, work, energy_unit_),
       flipper_(mesh_, settings, recorder_),
-      limits_(mesh_, settings, work.frame),
-      step_(mesh_, settings, work.frame, limits_, flipper_, recorder_) {
+      sweeper_(mesh_, settings, work.frame, flipper_, recorder_, part_size) {
   recorder_.begin_sweep(run.next_sweep());
   const SweepOrder order = settings.options.order;
   if (order != SweepOrder::reverse && order != SweepOrder::random) return;
@@ -126,16 +124,7 @@ Driver::Verdict Driver::flip_if_deferred(Verdict of_sweeps) {
 
 /// One Gauss-Seidel sweep, lines 9 to 16. False when it was cut short.
 bool Driver::improve_all_vertices() {
-  step_.begin_sweep(iteration_);
-  const std::size_t n = mesh_.n_vertices();
-  bool whole = true;
-  for (std::size_t k = 0; whole && k < n; ++k) {
-    const double done = static_cast<double>(k) / static_cast<double>(n);
-    if (k % kVerticesBetweenCalls == 0 && run_.asked_to_stop(done)) whole = false;
-    const VertexId v = sequence_.empty() ? VertexId(k) : sequence_[k];
-    if (whole && !mesh_.is_isolated(v)) step_.improve(v);
-  }
-  step_.end_sweep();
+  const bool whole = sweeper_.sweep(iteration_, sequence_, run_);
   const bool many_changed = settings_.options.weight_updates == WeightUpdates::deferred;
   if (many_changed && !defers_flips(settings_.options)) flipper_.restore_all();
   return whole;
@@ -145,7 +134,7 @@ bool Driver::improve_all_vertices() {
 void Driver::compact() {
   const std::size_t n = mesh_.n_vertices();
   const Compaction kept = work_.compact();
-  limits_.renumber(kept);
+  sweeper_.renumber(kept);
   if (sequence_.empty()) return;
   IdVector<VertexId, VertexId> new_id(n);
   for (const VertexId v : mesh_.vertices()) new_id[kept.vertices[v]] = v;
@@ -155,7 +144,7 @@ void Driver::compact() {
 
 /// Makes room for the vertices that have been inserted, everywhere.
 void Driver::grow() {
-  limits_.grow();
+  sweeper_.grow();
   if (sequence_.empty()) return;
   for (std::size_t i = sequence_.size(); i < mesh_.n_vertices(); ++i) sequence_.push_back(VertexId(i));
 }
@@ -274,7 +263,7 @@ void Driver::jitter(double amount) {
   if (amount == 0 || o.unknowns == Unknowns::weights || !o.flips) return;
   recorder_.begin_sweep(run_.report.sweeps + 1);
   Rng rng(o.seed);
-  step_.shake(amount, rng);
+  sweeper_.shake(amount, rng);
 }
 
 /// The paper's rule takes a rise for convergence. The relative one waits whether the energy falls again.

@@ -9,7 +9,7 @@
 #include "optimize/run.hpp"
 #include "optimize/schedule.hpp"
 #include "optimize/settings.hpp"
-#include "optimize/vertex_step.hpp"
+#include "optimize/sweeper.hpp"
 #include "optimize/working_copy.hpp"
 #include "temper/optimize.hpp"
 
@@ -17,7 +17,8 @@ namespace temper {
 
 class Driver {
  public:
-  Driver(WorkingCopy& work, Settings& settings, Run& run);
+  /// `part_size`: of sweeps, see sweeper.hpp.
+  Driver(WorkingCopy& work, Settings& settings, Run& run, std::size_t part_size = kPartSize);
 
   /// One attempt. With `may_give_up`, it ends too when triangles stay bad for many sweeps.
   void optimize(const Attempt& attempt, bool may_give_up);
@@ -70,8 +71,7 @@ class Driver {
   Run& run_;
   Recorder recorder_;
   Flipper flipper_;
-  VertexLimits limits_;
-  VertexStep step_;
+  Sweeper sweeper_;
   Softener softener_;
   std::vector<VertexId> sequence_;  // in which a sweep visits the vertices; empty: as they are numbered
   int iteration_ = 0;               // the paper's i, of this attempt

@@ -1,0 +1,199 @@
+#include "optimize/sweeper.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace temper {
+namespace {
+
+constexpr std::size_t kVerticesBetweenCalls = 8192;  // of the observer and the clock: a few milliseconds
+constexpr std::size_t kStretch = 2048;               // vertices between looks at whether to stop; divides the above
+// By how much parts grow from phase to phase, once shifted.
+constexpr std::size_t kGrowth = 4;
+
+/// A different address in each thread.
+const void* this_thread() {
+  thread_local const char here = 0;
+  return &here;
+}
+
+std::size_t pieces_of(std::size_t n, std::size_t most) { return std::max<std::size_t>(1, (n + most - 1) / most); }
+
+}  // namespace
+
+/// Whether the sweep goes on. The thread that called asks the clock and the caller; the others hear of the answer.
+class Sweeper::Watch {
+ public:
+  Watch(Run& run, std::size_t n_vertices)
+      : run_(run), caller_(this_thread()), n_(static_cast<double>(std::max<std::size_t>(1, n_vertices))) {}
+
+  /// From the thread that called: the caller is asked before the next stretch.
+  void ask_soon() { since_asked_ = kVerticesBetweenCalls; }
+  /// Before a stretch of vertices.
+  [[nodiscard]] bool goes_on() {
+    if (stop_.load(std::memory_order_relaxed)) return false;
+    if (this_thread() != caller_ || since_asked_ < kVerticesBetweenCalls) return true;
+    since_asked_ = 0;
+    const bool stop = run_.asked_to_stop(static_cast<double>(done_.load(std::memory_order_relaxed)) / n_);
+    if (stop) stop_.store(true, std::memory_order_relaxed);
+    return !stop;
+  }
+  /// After a stretch, some of which must wait for another phase.
+  void passed(std::size_t vertices, std::size_t left) {
+    done_.fetch_add(vertices - left, std::memory_order_relaxed);
+    if (this_thread() == caller_) since_asked_ += vertices;
+  }
+  [[nodiscard]] bool stopped() const { return stop_.load(std::memory_order_relaxed); }
+
+ private:
+  Run& run_;
+  const void* caller_;
+  double n_;
+  std::size_t since_asked_ = kVerticesBetweenCalls;  // the caller's own
+  std::atomic<bool> stop_ = false;
+  std::atomic<std::size_t> done_ = 0;
+};
+
+Sweeper::Worker::Worker(Sweeper& sweeper)
+    : flipper(sweeper.mesh_, sweeper.settings_, sweeper.recorder_),
+      step(sweeper.mesh_, sweeper.settings_, sweeper.frame_, sweeper.limits_, flipper, sweeper.recorder_) {}
+
+Sweeper::Sweeper(Mesh& mesh, const Settings& settings, const Frame& frame, Flipper& flipper, const Recorder& recorder,
+                 std::size_t part_size)
+    : mesh_(mesh),
+      settings_(settings),
+      frame_(frame),
+      flipper_(flipper),
+      recorder_(recorder),
+      part_size_(part_size),
+      limits_(mesh, settings, frame),
+      main_(mesh, settings, frame, limits_, flipper, recorder) {}
+
+bool Sweeper::sweep(int iteration, std::span<const VertexId> sequence, Run& run) {
+  iteration_ = iteration;
+  main_.begin_sweep(iteration);
+  Watch watch(run, mesh_.n_vertices());
+  const bool along_curve = settings_.options.order == SweepOrder::hilbert;
+  if (along_curve && mesh_.n_vertices() > part_size_) {
+    sweep_in_parts(watch);
+  } else {
+    sweep_in_order(sequence, watch);
+  }
+  main_.end_sweep();
+  return !watch.stopped();
+}
+
+/// One after another, without parts.
+void Sweeper::sweep_in_order(std::span<const VertexId> sequence, Watch& watch) {
+  Piece whole;
+  if (sequence.empty()) {
+    improve_numbers(main_, 0, mesh_.n_vertices(), whole, watch);
+  } else {
+    improve(main_, sequence, whole, watch);
+  }
+}
+
+void Sweeper::sweep_in_parts(Watch& watch) {
+  std::size_t count = pieces_of(mesh_.n_vertices(), part_size_);
+  cut(count, false);
+  run_pieces(true, watch);
+  for (; count > 1; count = pieces_of(count, kGrowth)) {
+    watch.ask_soon();
+    cut(count, true);
+    run_pieces(false, watch);
+  }
+  Piece whole;
+  improve(main_, waiting_, whole, watch);
+}
+
+/// Into parts of equal size; shifted by half of it: one more, the first and the last half as large.
+void Sweeper::cut(std::size_t count, bool shifted) {
+  const std::size_t n = mesh_.n_vertices();
+  n_pieces_ = shifted ? count + 1 : count;
+  if (pieces_.size() < n_pieces_) pieces_.resize(n_pieces_);
+  const auto bound = [&](std::size_t i) {
+    const std::size_t half_parts = shifted ? (i > 0 ? 2 * i - 1 : 0) : 2 * i;
+    return VertexId(std::min(n, half_parts * n / (2 * count)));
+  };
+  for (std::size_t i = 0; i < n_pieces_; ++i) {
+    pieces_[i].part = {bound(i), bound(i + 1)};
+    pieces_[i].left.clear();
+  }
+}
+
+/// Improves what is waiting, or in the first phase all vertices. What is left waits for the next.
+void Sweeper::run_pieces(bool first, Watch& watch) {
+  const auto run_one = [&](Piece& piece, VertexStep& step) {
+    if (first) {
+      improve_numbers(step, piece.part.first.index, piece.part.last.index, piece, watch);
+    } else {
+      const auto begin = std::lower_bound(waiting_.begin(), waiting_.end(), piece.part.first);
+      improve(step, {begin, std::lower_bound(begin, waiting_.end(), piece.part.last)}, piece, watch);
+    }
+  };
+  if (may_run_at_once()) {
+    if (n_desks_ < n_pieces_) {
+      desks_ = std::make_unique<Desk[]>(n_pieces_);
+      n_desks_ = n_pieces_;
+    }
+    settings_.options.executor->run(n_pieces_, [&](std::size_t i) {
+      Desk& desk = take_desk();
+      desk.worker->step.begin_sweep(iteration_);
+      run_one(pieces_[i], desk.worker->step);
+      desk.taken.store(false, std::memory_order_release);
+    });
+    for (std::size_t i = 0; i < n_desks_ && desks_[i].worker; ++i)
+      flipper_.add(desks_[i].worker->flipper.take_changes());
+  } else {
+    for (std::size_t i = 0; i < n_pieces_; ++i) run_one(pieces_[i], main_);
+  }
+  waiting_.clear();
+  for (std::size_t i = 0; i < n_pieces_; ++i) {
+    waiting_.insert(waiting_.end(), pieces_[i].left.begin(), pieces_[i].left.end());
+  }
+}
+
+void Sweeper::improve_numbers(VertexStep& step, std::size_t first, std::size_t last, Piece& piece, Watch& watch) {
+  std::array<VertexId, kStretch> numbers;
+  for (std::size_t begin = first; begin < last; begin += kStretch) {
+    const std::size_t count = std::min(kStretch, last - begin);
+    for (std::size_t i = 0; i < count; ++i) numbers[i] = VertexId(begin + i);
+    if (!improve_stretch(step, {numbers.data(), count}, piece, watch)) return;
+  }
+}
+
+void Sweeper::improve(VertexStep& step, std::span<const VertexId> vertices, Piece& piece, Watch& watch) {
+  for (std::size_t begin = 0; begin < vertices.size(); begin += kStretch) {
+    const std::size_t count = std::min(kStretch, vertices.size() - begin);
+    if (!improve_stretch(step, vertices.subspan(begin, count), piece, watch)) return;
+  }
+}
+
+/// False when the sweep does not go on.
+bool Sweeper::improve_stretch(VertexStep& step, std::span<const VertexId> vertices, Piece& piece, Watch& watch) {
+  if (!watch.goes_on()) return false;
+  const std::size_t left = piece.left.size();
+  step.improve(vertices, piece.part, piece.left);
+  watch.passed(vertices.size(), piece.left.size() - left);
+  return true;
+}
+
+/// The first that is free, with a worker: as many of these are made as parts ever run at once. There are as many desks
+/// as parts, so one is always free, or just about to be.
+Sweeper::Desk& Sweeper::take_desk() {
+  for (std::size_t i = 0;; i = (i + 1) % n_desks_) {
+    if (desks_[i].taken.exchange(true, std::memory_order_acquire)) continue;
+    if (!desks_[i].worker) desks_[i].worker = std::make_unique<Worker>(*this);
+    return desks_[i];
+  }
+}
+
+/// Whether steps only do what sweeper.hpp says of them.
+bool Sweeper::may_run_at_once() const {
+  const OptimizeOptions& o = settings_.options;
+  const bool in_order = recorder_.on() || o.weight_updates == WeightUpdates::deferred;
+  const bool removes = o.hidden == HiddenPolicy::remove || o.collapse_from || o.removal != Removal::none;
+  return o.executor != nullptr && !in_order && !removes && !limits_.band.on();
+}
+
+}  // namespace temper

@@ -1,0 +1,287 @@
+// Sweeps in parts: the same bytes on any number of threads, and what parts may touch of each other.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <limits>
+#include <thread>
+
+#include "optimize/driver.hpp"
+#include "temper/generate.hpp"
+#include "temper/optimize.hpp"
+#include "temper/regularity.hpp"
+#include "temper/size.hpp"
+
+namespace temper::test {
+namespace {
+
+constexpr std::size_t kSmallPart = 100, kPartsVertices = 800;
+
+/// That many threads, the caller's one of them; each takes the next block.
+class Crew final : public Executor {
+ public:
+  explicit Crew(std::size_t threads) : threads_(threads) {}
+  void run(std::size_t n, const std::function<void(std::size_t)>& block) override {
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+      for (std::size_t i = next++; i < n; i = next++) block(i);
+    };
+    std::vector<std::thread> helpers;
+    for (std::size_t i = 1; i < threads_; ++i) helpers.emplace_back(work);
+    work();
+    for (std::thread& helper : helpers) helper.join();
+  }
+
+ private:
+  std::size_t threads_;
+};
+
+class LastBlockFirst final : public Executor {
+ public:
+  void run(std::size_t n, const std::function<void(std::size_t)>& block) override {
+    for (std::size_t i = n; i > 0; --i) block(i - 1);
+  }
+};
+
+/// With two regions, and so a line of constrained edges, some of them in line.
+Mesh mesh_with_regions(std::size_t vertices, std::uint64_t seed) {
+  Mesh mesh = *random_points({.vertices = vertices, .seed = seed});
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [a, b, c] = mesh.corners(t);
+    mesh.set_region(t, mesh.position(a).x + mesh.position(b).x + mesh.position(c).x > 1.2 ? 1 : 0);
+  }
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_boundary(h) && mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(mesh.twin(h)))) {
+      mesh.set_constrained(h, true);
+    }
+  }
+  return mesh;
+}
+
+struct SweptMesh {
+  Mesh mesh;
+  OptimizeReport report;
+};
+
+/// One attempt with small parts, as optimize() makes it.
+SweptMesh swept(const Mesh& input, const OptimizeOptions& options, std::size_t part_size = kSmallPart,
+                const Observer& observer = {}) {
+  WorkingCopy work(input, options.order);
+  Settings settings = *make_settings(options, work.mesh, work.frame);
+  if (options.size_band) settings.size_field = input_size_field_of(input);
+  Run run(options, observer);
+  Driver driver(work, settings, run, part_size);
+  EXPECT_TRUE(!options.flips || driver.make_regular());
+  driver.grade_boundary();
+  const Attempt attempt = attempts(settings.energy, options, work.mesh).front();
+  driver.jitter(attempt.jitter);
+  driver.optimize(attempt, false);
+  return {std::move(work).in_user_terms(), run.report};
+}
+
+void expect_same(const SweptMesh& a, const SweptMesh& b) {
+  EXPECT_TRUE(a.mesh == b.mesh);
+  EXPECT_EQ(a.report.flips, b.report.flips);
+  EXPECT_EQ(a.report.vertices_removed, b.report.vertices_removed);
+  ASSERT_EQ(a.report.history.size(), b.report.history.size());
+  for (std::size_t i = 0; i < a.report.history.size(); ++i) {
+    EXPECT_EQ(a.report.history[i].energy, b.report.history[i].energy);
+    EXPECT_EQ(a.report.history[i].flips, b.report.history[i].flips);
+    EXPECT_EQ(a.report.history[i].bad, b.report.history[i].bad);
+  }
+}
+
+struct PartsCase {
+  const char* name;
+  OptimizeOptions options;
+};
+
+class SweepsInParts : public testing::TestWithParam<PartsCase> {};
+
+TEST_P(SweepsInParts, GiveTheSameBytesOnAnyNumberOfThreadsAndTraced) {
+  const Mesh input = mesh_with_regions(kPartsVertices, 3);
+  OptimizeOptions options = GetParam().options;
+  options.max_sweeps = 4;
+  const SweptMesh alone = swept(input, options);
+  EXPECT_EQ(alone.mesh.validate(), std::nullopt);
+  EXPECT_EQ(count_non_regular_edges(alone.mesh, false), 0u);
+  EXPECT_EQ(alone.report.sweeps, 4);
+
+  for (const std::size_t threads : {1, 2, 3, 8}) {
+    Crew crew(threads);
+    options.executor = &crew;
+    expect_same(swept(input, options), alone);
+  }
+  LastBlockFirst backwards;
+  options.executor = &backwards;
+  expect_same(swept(input, options), alone);
+  std::size_t events = 0;
+  options.tracer = [&](const TraceEvent&) { ++events; };
+  expect_same(swept(input, options), alone);
+  EXPECT_GT(events, kPartsVertices);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Options, SweepsInParts,
+    testing::Values(
+        PartsCase{"newton", {}}, PartsCase{"alternating", {.solver = Solver::alternating}},
+        PartsCase{"golden", {.solver = Solver::golden}},
+        PartsCase{"hot", {.energy = "T", .flip_limit = FlipLimit::after}},
+        PartsCase{"hot_alternating", {.energy = "dT", .solver = Solver::alternating}},
+        PartsCase{"hot_golden", {.energy = "F", .solver = Solver::golden, .flip_limit = FlipLimit::unlimited}},
+        PartsCase{"shifted_barrier", {.energy = "BHs"}},
+        PartsCase{"sliding", {.interfaces = InterfaceVertices::sliding, .boundary_vertices = BoundaryVertices::slide}},
+        PartsCase{"split_boundary", {.boundary_vertices = BoundaryVertices::split}},
+        PartsCase{"before_flips", {.flip_limit = FlipLimit::before}},
+        PartsCase{"frozen_connectivity", {.flips = false}},
+        PartsCase{"deferred_flips", {.flip_timing = FlipTiming::deferred, .inner = 2}},
+        PartsCase{"deferred_weights", {.solver = Solver::alternating, .weight_updates = WeightUpdates::deferred}},
+        PartsCase{"size_band", {.size_band = 2}}, PartsCase{"removal", {.removal = Removal::patch, .removal_from = 2}},
+        PartsCase{"collapse", {.energy = "T", .collapse_from = 1}},
+        PartsCase{"hidden_removed", {.energy = "F", .hidden = HiddenPolicy::remove}},
+        PartsCase{"anchor", {.anchor = 7}}),
+    [](const auto& one) { return std::string(one.param.name); });
+
+TEST(Parts, OfOneMeshThatIsNoLargerAreThePlainOrder) {
+  const Mesh input = mesh_with_regions(600, 5);
+  const SweptMesh one = swept(input, {.max_sweeps = 4}, 600), many = swept(input, {.max_sweeps = 4}, 599);
+  EXPECT_FALSE(one.mesh == many.mesh);
+  Mesh plain = input;
+  ASSERT_TRUE(optimize(plain, {.max_sweeps = 4}));
+  EXPECT_TRUE(one.mesh == plain);
+}
+
+TEST(Parts, LeaveOtherOrdersAlone) {
+  const Mesh input = mesh_with_regions(600, 6);
+  for (const SweepOrder order : {SweepOrder::input, SweepOrder::reverse, SweepOrder::random}) {
+    const OptimizeOptions options{.order = order, .max_sweeps = 3};
+    expect_same(swept(input, options, 50), swept(input, options, 10000));
+  }
+}
+
+TEST(Parts, ReachAsLowAnEnergyAsTheWhole) {
+  const Mesh input = *random_points({.vertices = 2500, .seed = 8});
+  const SweptMesh whole = swept(input, {.max_sweeps = 40}, 2500), parts = swept(input, {.max_sweeps = 40});
+  EXPECT_EQ(parts.report.history.back().bad, 0u);
+  EXPECT_LT(parts.report.history.back().energy, 1.01 * whole.report.history.back().energy);
+}
+
+TEST(Parts, AskTheObserverInTheCallersThreadAndStopWhenToldTo) {
+  const Mesh input = *random_points({.vertices = 2500, .seed = 9});
+  Crew crew(3);
+  const auto caller = std::this_thread::get_id();
+  int calls = 0;
+  const Observer observer = [&](const Progress& progress) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    EXPECT_GE(progress.fraction, 0);
+    EXPECT_LT(progress.fraction, 1);
+    return ++calls == 10 ? Continue::no : Continue::yes;
+  };
+  const SweptMesh result = swept(input, {.executor = &crew}, kSmallPart, observer);
+  EXPECT_EQ(calls, 10);
+  EXPECT_EQ(result.report.stopped, Stopped::cancelled);
+  EXPECT_EQ(result.mesh.validate(), std::nullopt);
+  EXPECT_EQ(count_non_regular_edges(result.mesh, false), 0u);
+}
+
+// --- what one part touches -----------------------------------------------------------------------
+
+bool is_inner(const Mesh& mesh, TriangleId t, const Part& part) {
+  const auto [a, b, c] = mesh.corners(t);
+  return part.contains(a) && part.contains(b) && part.contains(c);
+}
+
+bool has_corner_in(const Mesh& mesh, TriangleId t, const Part& part) {
+  const auto [a, b, c] = mesh.corners(t);
+  return part.contains(a) || part.contains(b) || part.contains(c);
+}
+
+/// Improves the part's vertices, three times over. Returns how many were left.
+std::size_t improve_part(WorkingCopy& work, const Settings& settings, const Part& part) {
+  const Recorder recorder(settings.options.tracer, work, 1);
+  Flipper flipper(work.mesh, settings, recorder);
+  VertexLimits limits(work.mesh, settings, work.frame);
+  VertexStep step(work.mesh, settings, work.frame, limits, flipper, recorder);
+  std::vector<VertexId> vertices, left;
+  for (std::size_t i = part.first.index; i < part.last.index; ++i) vertices.push_back(VertexId(i));
+  for (int sweep = 0; sweep < 3; ++sweep) {
+    step.begin_sweep(sweep);
+    step.improve(vertices, part, left);
+  }
+  EXPECT_GT(flipper.take_changes().flips, 0u);
+  return left.size();
+}
+
+struct OnePart {
+  OnePart(const Mesh& input, const OptimizeOptions& options)
+      : work(input, SweepOrder::hilbert), settings(*make_settings(options, work.mesh, work.frame)) {
+    settings.model.gamma = {0.3, LengthScale::relative};
+  }
+  WorkingCopy work;
+  Settings settings;
+  Part part{VertexId(300), VertexId(700)};
+};
+
+std::vector<OptimizeOptions> ways_to_step() {
+  return {{},
+          {.solver = Solver::alternating},
+          {.energy = "T"},
+          {.energy = "F", .solver = Solver::golden, .flip_limit = FlipLimit::unlimited}};
+}
+
+TEST(OnePart, ChangesNothingOutside) {
+  for (const OptimizeOptions& options : ways_to_step()) {
+    OnePart one(mesh_with_regions(1000, 11), options);
+    const Mesh before = one.work.mesh;
+    const std::size_t left = improve_part(one.work, one.settings, one.part);
+    EXPECT_GT(left, 0u);
+    EXPECT_LT(left, 3u * 300u);
+    const Mesh& after = one.work.mesh;
+    EXPECT_EQ(after.validate(), std::nullopt);
+    for (const VertexId v : before.vertices()) {
+      if (one.part.contains(v)) continue;
+      EXPECT_EQ(after.point(v), before.point(v));
+      EXPECT_EQ(after.outgoing(v), before.outgoing(v));
+    }
+    for (const HalfedgeId h : before.halfedges()) {
+      const bool inner = is_inner(before, Mesh::triangle(h), one.part);
+      EXPECT_EQ(is_inner(after, Mesh::triangle(h), one.part), inner);
+      if (!inner) {
+        EXPECT_EQ(after.origin(h), before.origin(h));
+      }
+      const bool both_ends = one.part.contains(before.origin(h)) && one.part.contains(before.target(h));
+      if (both_ends) continue;
+      EXPECT_EQ(after.twin(h), before.twin(h));
+      EXPECT_EQ(after.is_constrained(h), before.is_constrained(h));
+    }
+  }
+}
+
+TEST(OnePart, DoesNotSeeWhatOtherPartsMayChange) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const OptimizeOptions& options : ways_to_step()) {
+    OnePart seen(mesh_with_regions(1000, 12), options), blind = seen;
+    Mesh& mesh = blind.work.mesh;
+    for (const HalfedgeId h : mesh.halfedges()) {
+      const bool an_end = seen.part.contains(seen.work.mesh.origin(h)) || seen.part.contains(seen.work.mesh.target(h));
+      if (!an_end) mesh.link(h, HalfedgeId());
+    }
+    for (const TriangleId t : seen.work.mesh.triangles()) {
+      if (has_corner_in(seen.work.mesh, t, seen.part)) continue;
+      for (int k = 0; k < 3; ++k) mesh.set_corner(Mesh::halfedge(t, k), VertexId());
+    }
+    for (const VertexId v : mesh.vertices()) {
+      if (seen.part.contains(v)) continue;
+      mesh.set_point(v, {kNan, kNan, kNan});
+      mesh.set_outgoing(v, HalfedgeId());
+    }
+    EXPECT_EQ(improve_part(blind.work, blind.settings, seen.part), improve_part(seen.work, seen.settings, seen.part));
+    for (const VertexId v : mesh.vertices()) {
+      if (!seen.part.contains(v)) continue;
+      EXPECT_EQ(mesh.point(v), seen.work.mesh.point(v));
+      EXPECT_EQ(mesh.outgoing(v), seen.work.mesh.outgoing(v));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace temper::test
