@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "base/sum.hpp"
 #include "base/text.hpp"
+#include "mesh/blocks.hpp"
 #include "mesh/embedding.hpp"
 #include "temper/geometry.hpp"
 #include "temper/mesh.hpp"
@@ -44,11 +47,9 @@ class MeshBuilder {
 
   Expected<BuiltMesh> build() {
     using Step = std::optional<InputError> (MeshBuilder::*)();
-    constexpr Step kSteps[] = {
-        &MeshBuilder::check_sizes,     &MeshBuilder::add_vertices, &MeshBuilder::check_scale,
-        &MeshBuilder::add_triangles,   &MeshBuilder::check_unused, &MeshBuilder::check_duplicates,
-        &MeshBuilder::link_twins,      &MeshBuilder::check_stars,  &MeshBuilder::check_embedding,
-        &MeshBuilder::constrain_edges, &MeshBuilder::fix_vertices};
+    constexpr Step kSteps[] = {&MeshBuilder::check_sizes,     &MeshBuilder::add_vertices, &MeshBuilder::check_scale,
+                               &MeshBuilder::add_triangles,   &MeshBuilder::check_unused, &MeshBuilder::embed,
+                               &MeshBuilder::constrain_edges, &MeshBuilder::fix_vertices};
     for (const Step step : kSteps) {
       if (auto error = (this->*step)()) return *std::move(error);
     }
@@ -81,21 +82,22 @@ class MeshBuilder {
   }
 
   std::optional<InputError> add_vertices() {
-    mesh_.vertices_.reserve(in_.points.size());
-    for (std::size_t i = 0; i < in_.points.size(); ++i) {
+    mesh_.vertices_.resize(in_.points.size());
+    const auto wrong = first_index(in_.points.size(), in_.executor, [&](std::size_t i) {
       const Vec2 p = in_.points[i];
       const double w = in_.weights.empty() ? 0.0 : in_.weights[i];
-      if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
-        return point_error(ErrorCode::not_finite, i,
-                           names_.point(i) + " has coordinates " + coordinates(p) + ", expected finite numbers");
-      }
-      if (!std::isfinite(w)) {
-        return point_error(ErrorCode::not_finite, i,
-                           names_.point(i) + " has weight " + to_text(w) + ", expected a finite number");
-      }
-      mesh_.add_vertex({p.x, p.y, w});
+      mesh_.set_point(VertexId(i), {p.x, p.y, w});
+      return !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(w);
+    });
+    if (!wrong) return std::nullopt;
+    const std::size_t i = *wrong;
+    if (!std::isfinite(in_.points[i].x) || !std::isfinite(in_.points[i].y)) {
+      return point_error(
+          ErrorCode::not_finite, i,
+          names_.point(i) + " has coordinates " + coordinates(in_.points[i]) + ", expected finite numbers");
     }
-    return std::nullopt;
+    return point_error(ErrorCode::not_finite, i,
+                       names_.point(i) + " has weight " + to_text(in_.weights[i]) + ", expected a finite number");
   }
 
   std::optional<InputError> check_scale() {
@@ -140,33 +142,46 @@ class MeshBuilder {
   }
 
   std::optional<InputError> add_triangles() {
-    const std::size_t m = in_.triangles.size(), n = in_.points.size();
-    mesh_.corners_.reserve(3 * m);
-    mesh_.twins_.reserve(3 * m);
-    mesh_.constrained_.reserve(3 * m);
-    mesh_.regions_.reserve(m);
-    for (std::size_t t = 0; t < m; ++t) {
-      auto corners = in_.triangles[t];
-      for (const std::int32_t i : corners) {
-        if (i < 0 || static_cast<std::size_t>(i) >= n) {
-          return triangle_error(ErrorCode::index_out_of_range, t,
-                                names_.triangle(t) + " uses point index " + std::to_string(i) + ", but there are " +
-                                    quantity(n, "points"));
-        }
-      }
-      const auto at = [&](int k) { return in_.points[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])]; };
-      const Sign sign = orient2d(at(0), at(1), at(2));
-      if (sign == Sign::zero) {
-        return triangle_error(ErrorCode::zero_area, t, names_.triangle(t) + " has zero area: " + why_flat(corners));
-      }
-      if (sign == Sign::negative) {
-        std::swap(corners[1], corners[2]);
-        ++reversed_;
-      }
-      mesh_.add_triangle({id(corners[0]), id(corners[1]), id(corners[2])}, in_.regions.empty() ? 0 : in_.regions[t]);
-    }
+    const std::size_t m = in_.triangles.size();
+    mesh_.corners_.resize(3 * m);
+    mesh_.twins_.resize(3 * m);
+    const auto wrong = first_index(m, in_.executor, [&](std::size_t t) { return !add_triangle(t); });
+    if (wrong) return wrong_triangle(*wrong);
+    const auto is_reversed = [&](std::size_t t) {
+      return mesh_.origin(HalfedgeId(3 * t + 1)) != id(in_.triangles[t][1]) ? 1.0 : 0.0;
+    };
+    reversed_ = static_cast<std::size_t>(blockwise_sum(m, in_.executor, is_reversed));
+    for (std::size_t t = 0; t < in_.regions.size(); ++t) mesh_.set_region(TriangleId(t), in_.regions[t]);
     return std::nullopt;
   }
+
+  /// False when it cannot be one.
+  bool add_triangle(std::size_t t) {
+    auto corners = in_.triangles[t];
+    for (const std::int32_t i : corners) {
+      if (!is_point(i)) return false;
+    }
+    const Sign sign = orient2d(at(corners[0]), at(corners[1]), at(corners[2]));
+    if (sign == Sign::negative) std::swap(corners[1], corners[2]);
+    for (std::size_t k = 0; k < 3; ++k) mesh_.corners_[HalfedgeId(3 * t + k)] = id(corners[k]);
+    return sign != Sign::zero;
+  }
+
+  InputError wrong_triangle(std::size_t t) const {
+    for (const std::int32_t i : in_.triangles[t]) {
+      if (is_point(i)) continue;
+      return triangle_error(ErrorCode::index_out_of_range, t,
+                            names_.triangle(t) + " uses point index " + std::to_string(i) + ", but there are " +
+                                quantity(in_.points.size(), "points"));
+    }
+    return triangle_error(ErrorCode::zero_area, t,
+                          names_.triangle(t) + " has zero area: " + why_flat(in_.triangles[t]));
+  }
+
+  [[nodiscard]] bool is_point(std::int32_t i) const {
+    return i >= 0 && static_cast<std::size_t>(i) < in_.points.size();
+  }
+  [[nodiscard]] Vec2 at(std::int32_t i) const { return in_.points[static_cast<std::size_t>(i)]; }
 
   std::optional<InputError> check_unused() {
     for (const HalfedgeId h : mesh_.halfedges()) mesh_.set_outgoing(mesh_.origin(h), h);
@@ -178,7 +193,18 @@ class MeshBuilder {
     return std::nullopt;
   }
 
-  std::optional<InputError> check_duplicates() {
+  /// Where edges are manifold, stars whole and the mesh covers no spot twice, no two points are at the same place: each
+  /// is in the star of the other. So that is only asked when one of these fails, as the likely reason.
+  std::optional<InputError> embed() {
+    auto error = link_twins();
+    if (!error) error = check_stars();
+    if (!error) error = check_embedding();
+    if (!error) return std::nullopt;
+    auto duplicate = find_duplicate();
+    return duplicate ? std::move(duplicate) : std::move(error);
+  }
+
+  std::optional<InputError> find_duplicate() const {
     std::vector<std::uint32_t> order(in_.points.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto before = [&](std::uint32_t a, std::uint32_t b) {
@@ -201,34 +227,62 @@ class MeshBuilder {
   /// Halfedges sorted by their lesser vertex (counting sort), then matched within each small bucket.
   std::optional<InputError> link_twins() {
     const auto lesser = [&](HalfedgeId h) { return std::min(mesh_.origin(h), mesh_.target(h)); };
-    const auto greater = [&](HalfedgeId h) { return std::max(mesh_.origin(h), mesh_.target(h)); };
-    std::vector<std::uint32_t> start(mesh_.n_vertices() + 1, 0);
-    for (const HalfedgeId h : mesh_.halfedges()) ++start[lesser(h).index + 1];
-    for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+    std::vector<std::uint32_t> end(mesh_.n_vertices() + 1, 0);
+    for (const HalfedgeId h : mesh_.halfedges()) ++end[lesser(h).index + 1];
+    for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
     std::vector<HalfedgeId> sorted(mesh_.n_halfedges());
-    {
-      auto next = start;
-      for (const HalfedgeId h : mesh_.halfedges()) sorted[next[lesser(h).index]++] = h;
+    for (const HalfedgeId h : mesh_.halfedges()) sorted[end[lesser(h).index]++] = h;  // from starts to ends
+    const auto bucket = [&](std::size_t v) {
+      const std::size_t first = v == 0 ? 0 : end[v - 1];
+      return std::span(sorted).subspan(first, end[v] - first);
+    };
+    const auto wrong = first_index_by(mesh_.n_vertices(), in_.executor, [&] {
+      return [&, edges = std::vector<Edge>()](std::size_t v) mutable { return !match(bucket(v), edges); };
+    });
+    if (!wrong) return std::nullopt;
+    std::vector<Edge> edges;
+    collect(bucket(*wrong), edges);
+    return wrong_edge(edges);
+  }
+
+  /// A halfedge by its greater vertex.
+  struct Edge {
+    VertexId greater;
+    HalfedgeId halfedge;
+    friend bool operator<(Edge a, Edge b) {
+      return a.greater != b.greater ? a.greater < b.greater : a.halfedge < b.halfedge;
     }
-    for (std::size_t v = 0; v < mesh_.n_vertices(); ++v) {
-      const auto first = sorted.begin() + start[v], last = sorted.begin() + start[v + 1];
-      std::sort(first, last,
-                [&](HalfedgeId a, HalfedgeId b) { return greater(a) != greater(b) ? greater(a) < greater(b) : a < b; });
-      for (auto i = first; i != last;) {
-        auto j = i;
-        while (j != last && greater(*j) == greater(*i)) ++j;
-        if (j - i > 2) return edge_error(ErrorCode::non_manifold_edge, *i, *(j - 1), j - i);
-        if (j - i == 2) {
-          if (mesh_.origin(*i) == mesh_.origin(*(i + 1))) return edge_error(ErrorCode::overlap, *i, *(i + 1), 2);
-          mesh_.link(*i, *(i + 1));
-        }
-        i = j;
-      }
+  };
+
+  void collect(std::span<const HalfedgeId> bucket, std::vector<Edge>& edges) const {
+    edges.clear();
+    for (const HalfedgeId h : bucket) edges.push_back({std::max(mesh_.origin(h), mesh_.target(h)), h});
+    std::sort(edges.begin(), edges.end());
+  }
+
+  /// Links the edges of a lesser vertex. False when one has more than two sides, or two equal ones.
+  bool match(std::span<const HalfedgeId> bucket, std::vector<Edge>& edges) {
+    collect(bucket, edges);
+    if (wrong_edge(edges)) return false;
+    for (std::size_t i = 0; i < edges.size();) {
+      const bool pair = i + 1 < edges.size() && edges[i].greater == edges[i + 1].greater;
+      mesh_.link(edges[i].halfedge, pair ? edges[i + 1].halfedge : HalfedgeId());
+      i += pair ? 2 : 1;
+    }
+    return true;
+  }
+
+  std::optional<InputError> wrong_edge(const std::vector<Edge>& edges) const {
+    for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
+      while (j < edges.size() && edges[j].greater == edges[i].greater) ++j;
+      const HalfedgeId g = edges[i].halfedge, h = edges[j - 1].halfedge;
+      if (j - i > 2) return edge_error(ErrorCode::non_manifold_edge, g, h, j - i);
+      if (j - i == 2 && mesh_.origin(g) == mesh_.origin(h)) return edge_error(ErrorCode::overlap, g, h, 2);
     }
     return std::nullopt;
   }
 
-  InputError edge_error(ErrorCode code, HalfedgeId g, HalfedgeId h, std::ptrdiff_t count) const {
+  InputError edge_error(ErrorCode code, HalfedgeId g, HalfedgeId h, std::size_t count) const {
     const std::size_t s = Mesh::triangle(g).index, t = Mesh::triangle(h).index;
     const std::string edge =
         "the edge from " + names_.point(mesh_.origin(g).index) + " to " + names_.point(mesh_.target(g).index);
@@ -242,7 +296,17 @@ class MeshBuilder {
   }
 
   std::optional<InputError> check_stars() {
-    mesh_.repair_outgoing();
+    for (const HalfedgeId h : mesh_.halfedges()) {
+      if (mesh_.is_boundary(h)) mesh_.set_outgoing(mesh_.origin(h), h);
+    }
+    // A star holds at most the triangles at its vertex: when all together hold all, each is whole.
+    const auto size = [&](std::size_t v) {
+      double count = 0;
+      for ([[maybe_unused]] const HalfedgeId h : mesh_.star(VertexId(v))) ++count;
+      return count;
+    };
+    const double together = blockwise_sum(mesh_.n_vertices(), in_.executor, size);
+    if (together == static_cast<double>(mesh_.n_halfedges())) return std::nullopt;
     std::vector<std::uint32_t> missing(mesh_.n_vertices(), 0);
     for (const HalfedgeId h : mesh_.halfedges()) ++missing[mesh_.origin(h).index];
     for (const VertexId v : mesh_.vertices()) {
@@ -259,7 +323,7 @@ class MeshBuilder {
   }
 
   std::optional<InputError> check_embedding() {
-    const auto overlap = find_overlap(mesh_, names_);
+    const auto overlap = find_overlap(mesh_, names_, in_.executor);
     if (!overlap) return std::nullopt;
     return triangle_error(ErrorCode::overlap, overlap->triangle.index, overlap->message);
   }
@@ -283,6 +347,7 @@ class MeshBuilder {
       }
       mesh_.set_constrained(h, true);
     }
+    if (mesh_.regions_.all_zero()) return std::nullopt;
     for (const HalfedgeId h : mesh_.halfedges()) {
       const HalfedgeId other = mesh_.twin(h);
       if (other.valid() && mesh_.region(Mesh::triangle(h)) != mesh_.region(Mesh::triangle(other))) {

@@ -2,8 +2,11 @@
 #include "mesh/embedding.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <vector>
 
+#include "mesh/blocks.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper {
@@ -14,16 +17,27 @@ bool left_of(Vec2 a, Vec2 b, Vec2 p) { return orient2d(a, b, p) == Sign::positiv
 /// Whether the direction from v to p is in the upper half-plane, the positive x-axis included.
 bool is_upper(Vec2 v, Vec2 p) { return p.y > v.y || (p.y == v.y && p.x > v.x); }
 
-/// An interior star winds once when, going round, the spokes enter the upper half-plane once.
-bool interior_star_overlaps(const Mesh& mesh, VertexId v) {
-  const Vec2 center = mesh.position(v);
-  int entries = 0;
-  for (const HalfedgeId h : mesh.star(v)) {
-    const bool here = is_upper(center, mesh.position(mesh.target(h)));
-    const bool after = is_upper(center, mesh.position(mesh.opposite(h)));
-    entries += !here && after ? 1 : 0;
+/// How often the spokes of each vertex, going round, enter the upper half-plane: once when an interior star winds once.
+/// Counted triangle by triangle, which asks for each position once and not through chains of twins.
+IdVector<VertexId, std::uint32_t> entries_to_upper_half(const Mesh& mesh, Executor* executor) {
+  IdVector<VertexId, std::uint32_t> entries(mesh.n_vertices(), 0);
+  const auto count = [&](std::size_t t, auto&& add) {
+    const auto [a, b, c] = mesh.corners(TriangleId(t));
+    const Vec2 p = mesh.position(a), q = mesh.position(b), r = mesh.position(c);
+    // Of two distinct points one is upper to the other: what ends in the upper half at one end starts below the other.
+    const bool ab = is_upper(p, q), bc = is_upper(q, r), ca = is_upper(r, p);
+    if (!ab && !ca) add(entries[a]);
+    if (!bc && !ab) add(entries[b]);
+    if (!ca && !bc) add(entries[c]);
+  };
+  if (executor == nullptr) {
+    for (const TriangleId t : mesh.triangles()) count(t.index, [](std::uint32_t& n) { ++n; });
+  } else {
+    for_each_index(mesh.n_triangles(), executor, [&](std::size_t t) {
+      count(t, [](std::uint32_t& n) { std::atomic_ref(n).fetch_add(1, std::memory_order_relaxed); });
+    });
   }
-  return entries != 1;
+  return entries;
 }
 
 /// A boundary star overlaps itself when a later triangle contains the direction of its first edge.
@@ -67,10 +81,7 @@ bool segments_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 /// Finds two boundary edges that meet away from a common vertex, by a tree of bounding boxes.
 class BoundaryCrossing {
  public:
-  explicit BoundaryCrossing(const Mesh& mesh) : mesh_(mesh) {
-    for (const HalfedgeId h : mesh.halfedges()) {
-      if (mesh.is_boundary(h)) edges_.push_back(h);
-    }
+  BoundaryCrossing(const Mesh& mesh, std::vector<HalfedgeId> boundary) : mesh_(mesh), edges_(std::move(boundary)) {
     if (!edges_.empty()) root_ = make_node(0, edges_.size());
   }
 
@@ -140,6 +151,44 @@ class BoundaryCrossing {
   std::size_t root_ = 0;
 };
 
+std::vector<HalfedgeId> boundary_of(const Mesh& mesh) {
+  std::vector<HalfedgeId> boundary;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.is_boundary(h)) boundary.push_back(h);
+  }
+  return boundary;
+}
+
+/// Boundary loops with the domain inside, one a component: at their leftmost vertex, the lowest of those, they turn
+/// left, and loops around holes turn right. Precondition: no loop meets itself or another one.
+std::size_t count_outer_loops(const Mesh& mesh, const std::vector<HalfedgeId>& boundary) {
+  std::vector<bool> seen(boundary.size(), false);
+  const auto place = [&](HalfedgeId h) {  // boundary is sorted
+    return static_cast<std::size_t>(std::lower_bound(boundary.begin(), boundary.end(), h) - boundary.begin());
+  };
+  const auto is_before = [&](HalfedgeId g, HalfedgeId h) {
+    const Vec2 p = mesh.position(mesh.origin(g)), q = mesh.position(mesh.origin(h));
+    return p.x != q.x ? p.x < q.x : p.y < q.y;
+  };
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    if (seen[i]) continue;
+    HalfedgeId before_least = boundary[i], h = boundary[i];
+    do {
+      const HalfedgeId next = mesh.outgoing(mesh.target(h));
+      if (is_before(next, mesh.outgoing(mesh.target(before_least)))) before_least = h;
+      seen[place(h)] = true;
+      h = next;
+    } while (h != boundary[i]);
+    const VertexId least = mesh.target(before_least);
+    count += left_of(mesh.position(mesh.origin(before_least)), mesh.position(least),
+                     mesh.position(mesh.target(mesh.outgoing(least))))
+                 ? 1
+                 : 0;
+  }
+  return count;
+}
+
 /// The connected component of every triangle, numbered from 0.
 IdVector<TriangleId, std::uint32_t> components(const Mesh& mesh, std::uint32_t& count) {
   constexpr std::uint32_t kNone = 0xffffffffu;
@@ -167,15 +216,13 @@ IdVector<TriangleId, std::uint32_t> components(const Mesh& mesh, std::uint32_t& 
 
 /// A component whose leftmost vertex has a non-zero winding number with respect to the other components'
 /// boundaries lies in their triangles (and not in a hole of theirs).
-std::optional<TriangleId> component_inside_another(const Mesh& mesh) {
+std::optional<TriangleId> component_inside_another(const Mesh& mesh, const std::vector<HalfedgeId>& boundary) {
+  if (count_outer_loops(mesh, boundary) < 2) return std::nullopt;
   std::uint32_t count = 0;
   const auto component = components(mesh, count);
   if (count < 2) return std::nullopt;
-  std::vector<HalfedgeId> boundary;
   std::vector<HalfedgeId> leftmost(count);  // a halfedge whose origin is the component's leftmost vertex
-  for (const HalfedgeId h : mesh.halfedges()) {
-    if (!mesh.is_boundary(h)) continue;
-    boundary.push_back(h);
+  for (const HalfedgeId h : boundary) {
     HalfedgeId& best = leftmost[component[Mesh::triangle(h)]];
     const Vec2 p = mesh.position(mesh.origin(h));
     if (!best.valid() || p.x < mesh.position(mesh.origin(best)).x) best = h;
@@ -217,21 +264,25 @@ std::string edges_on_each_other(const Mesh& mesh, VertexId v, const InputNames& 
   return {};
 }
 
-std::optional<Overlap> find_overlap(const Mesh& mesh, const InputNames& names) {
-  for (const VertexId v : mesh.vertices()) {
-    const bool overlaps = mesh.is_boundary(v) ? boundary_star_overlaps(mesh, v) : interior_star_overlaps(mesh, v);
-    if (overlaps) {
-      std::string message = mesh.is_boundary(v) ? edges_on_each_other(mesh, v, names) : std::string();
-      if (message.empty()) message = "the triangles around " + names.point(v.index) + " overlap";
-      return Overlap{Mesh::triangle(mesh.outgoing(v)), std::move(message)};
-    }
+std::optional<Overlap> find_overlap(const Mesh& mesh, const InputNames& names, Executor* executor) {
+  const auto entries = entries_to_upper_half(mesh, executor);
+  const auto overlaps = [&](std::size_t i) {
+    const VertexId v(i);
+    return mesh.is_boundary(v) ? boundary_star_overlaps(mesh, v) : entries[v] != 1;
+  };
+  if (const auto first = first_index(mesh.n_vertices(), executor, overlaps)) {
+    const VertexId v(*first);
+    std::string message = mesh.is_boundary(v) ? edges_on_each_other(mesh, v, names) : std::string();
+    if (message.empty()) message = "the triangles around " + names.point(v.index) + " overlap";
+    return Overlap{Mesh::triangle(mesh.outgoing(v)), std::move(message)};
   }
-  if (const auto crossing = BoundaryCrossing(mesh).find()) {
+  const std::vector<HalfedgeId> boundary = boundary_of(mesh);
+  if (const auto crossing = BoundaryCrossing(mesh, boundary).find()) {
     const TriangleId s = Mesh::triangle(crossing->first), t = Mesh::triangle(crossing->second);
     return Overlap{s, names.triangle(s.index) + " and " + names.triangle(t.index) +
                           " have boundary edges that cross or touch away from a common vertex"};
   }
-  if (const auto t = component_inside_another(mesh)) {
+  if (const auto t = component_inside_another(mesh, boundary)) {
     return Overlap{*t, names.triangle(t->index) + " lies on top of another component of the mesh"};
   }
   return std::nullopt;

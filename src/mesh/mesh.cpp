@@ -22,7 +22,7 @@ HalfedgeId Mesh::find_halfedge(VertexId a, VertexId b) const {
 
 std::size_t Mesh::memory_bytes() const {
   return vertices_.size() * sizeof(VertexRecord) + corners_.size() * sizeof(VertexId) +
-         twins_.size() * sizeof(HalfedgeId) + constrained_.size() + regions_.size() * sizeof(std::int32_t);
+         twins_.size() * sizeof(HalfedgeId) + constrained_.memory_bytes() + regions_.memory_bytes();
 }
 
 VertexId Mesh::add_vertex(WeightedPoint p) {
@@ -31,13 +31,14 @@ VertexId Mesh::add_vertex(WeightedPoint p) {
 }
 
 TriangleId Mesh::add_triangle(std::array<VertexId, 3> corners, std::int32_t region) {
+  const TriangleId t(n_triangles());
   for (const VertexId v : corners) {
+    constrained_.push_back(0, corners_.size());
     corners_.push_back(v);
     twins_.push_back(HalfedgeId());
-    constrained_.push_back(0);
   }
-  regions_.push_back(region);
-  return TriangleId(regions_.size() - 1);
+  regions_.push_back(region, t.index);
+  return t;
 }
 
 void Mesh::erase(TriangleId t) {
@@ -46,9 +47,9 @@ void Mesh::erase(TriangleId t) {
     if (twin(h).valid()) twins_[twin(h)] = HalfedgeId();
     twins_[h] = HalfedgeId();
     corners_[h] = VertexId();
-    constrained_[h] = 0;
+    constrained_.set(h, 0, n_halfedges());
   }
-  regions_[t] = 0;
+  set_region(t, 0);
 }
 
 Compaction Mesh::compact() {
@@ -74,19 +75,19 @@ Compaction Mesh::compact() {
       const HalfedgeId h = halfedge(from, k);
       const HalfedgeId other = twin(h);
       corners_[halfedge(to, k)] = new_vertex[corners_[h]];
-      constrained_[halfedge(to, k)] = constrained_[h];
+      constrained_.set(halfedge(to, k), constrained_[h], n_halfedges());
       // Twins of triangles that are still to move keep their old number's meaning: all go through new_triangle.
       twins_[halfedge(to, k)] =
           other.valid() ? halfedge(new_triangle[triangle(other)], static_cast<int>(other.index % 3)) : HalfedgeId();
     }
-    regions_[to] = regions_[from];
+    set_region(to, region(from));
   }
   const std::size_t n_kept = kept.triangles.size();
   vertices_.resize(kept.vertices.size());
   corners_.resize(3 * n_kept);
   twins_.resize(3 * n_kept);
-  constrained_.resize(3 * n_kept);
-  regions_.resize(n_kept);
+  constrained_.truncate(3 * n_kept);
+  regions_.truncate(n_kept);
   repair_outgoing();
   return kept;
 }

@@ -1,24 +1,22 @@
 // Hilbert order: neighbours in the plane become neighbours in memory.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "base/hilbert.hpp"
+#include "mesh/blocks.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
 namespace {
 
-struct Keyed {
-  std::uint64_t key;
-  std::uint32_t index;
-  friend bool operator<(const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; }
-};
-
-/// The vertices, sorted along the curve; equal cells by number.
-IdVector<VertexId, VertexId> vertices_by_hilbert(const Mesh& mesh) {
+/// The vertices, sorted along the curve; equal cells by number. A counting sort by the leading digits of the place
+/// along the curve, about as many buckets as vertices, and a sort of what is in each.
+IdVector<VertexId, VertexId> vertices_by_hilbert(const Mesh& mesh, Executor* executor) {
   constexpr double kInf = std::numeric_limits<double>::infinity();
   Vec2 low{kInf, kInf}, high{-kInf, -kInf};
   for (const VertexId v : mesh.vertices()) {
@@ -27,27 +25,39 @@ IdVector<VertexId, VertexId> vertices_by_hilbert(const Mesh& mesh) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
   const HilbertGrid curve(low, high);
-  std::vector<Keyed> keyed;
-  keyed.reserve(mesh.n_vertices());
-  for (const VertexId v : mesh.vertices()) keyed.push_back({curve(mesh.position(v)), v.index});
-  std::sort(keyed.begin(), keyed.end());
-  IdVector<VertexId, VertexId> order;
-  order.reserve(keyed.size());
-  for (const Keyed& k : keyed) order.push_back(VertexId(k.index));
+  const std::size_t n = mesh.n_vertices();
+  IdVector<VertexId, std::uint64_t> keys(n);
+  for_each_index(n, executor, [&](std::size_t i) { keys[VertexId(i)] = curve(mesh.position(VertexId(i))); });
+
+  const int digits = std::min(static_cast<int>(std::bit_width(n)), 2 * kHilbertBits);
+  const auto bucket = [shift = 2 * kHilbertBits - digits](std::uint64_t key) { return key >> shift; };
+  std::vector<std::uint32_t> start((std::size_t{1} << digits) + 1, 0);
+  for (const std::uint64_t key : keys) ++start[bucket(key) + 1];
+  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+  IdVector<VertexId, VertexId> order(n);
+  for (const VertexId v : mesh.vertices()) order[VertexId(start[bucket(keys[v])]++)] = v;
+  for_each_index(start.size() - 1, executor, [&](std::size_t b) {  // each start has moved to the end of its bucket
+    const auto first = order.begin() + (b == 0 ? 0 : start[b - 1]), last = order.begin() + start[b];
+    if (last - first > 1) {
+      std::sort(first, last, [&](VertexId u, VertexId v) { return keys[u] != keys[v] ? keys[u] < keys[v] : u < v; });
+    }
+  });
   return order;
 }
 
 /// Triangles by their least corner in the new numbering; equal ones by number (counting sort).
-IdVector<TriangleId, TriangleId> triangles_by_vertex(const Mesh& mesh, const IdVector<VertexId, VertexId>& new_vertex) {
-  const auto least = [&](TriangleId t) {
-    const auto [a, b, c] = mesh.corners(t);
-    return std::min({new_vertex[a], new_vertex[b], new_vertex[c]});
-  };
+IdVector<TriangleId, TriangleId> triangles_by_vertex(const Mesh& mesh, const IdVector<VertexId, VertexId>& new_vertex,
+                                                     Executor* executor) {
+  IdVector<TriangleId, std::uint32_t> least(mesh.n_triangles());
+  for_each_index(mesh.n_triangles(), executor, [&](std::size_t i) {
+    const auto [a, b, c] = mesh.corners(TriangleId(i));
+    least[TriangleId(i)] = std::min({new_vertex[a], new_vertex[b], new_vertex[c]}).index;
+  });
   std::vector<std::uint32_t> start(mesh.n_vertices() + 1, 0);
-  for (const TriangleId t : mesh.triangles()) ++start[least(t).index + 1];
+  for (const std::uint32_t v : least) ++start[v + 1];
   for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
   IdVector<TriangleId, TriangleId> order(mesh.n_triangles());
-  for (const TriangleId t : mesh.triangles()) order[TriangleId(start[least(t).index]++)] = t;
+  for (const TriangleId t : mesh.triangles()) order[TriangleId(start[least[t]]++)] = t;
   return order;
 }
 
@@ -75,22 +85,54 @@ void gather(const IdVector<IdType, IdType>& order, Read&& read, Write&& write) {
   }
 }
 
-MeshOrder inverse(const MeshOrder& order) { return {inverse(order.vertices), inverse(order.triangles)}; }
+/// A halfedge by the new number of its triangle; none stays none.
+HalfedgeId renumbered(HalfedgeId h, const IdVector<TriangleId, TriangleId>& new_triangle) {
+  return h.valid() ? Mesh::halfedge(new_triangle[Mesh::triangle(h)], static_cast<int>(h.index % 3)) : h;
+}
+
+/// The order along the curve, and the new number of every vertex, which finding it takes.
+struct Found {
+  MeshOrder order;
+  IdVector<VertexId, VertexId> new_vertex;
+};
+Found find_order(const Mesh& mesh, Executor* executor) {
+  Found found;
+  found.order.vertices = vertices_by_hilbert(mesh, executor);
+  found.new_vertex = inverse(found.order.vertices);
+  found.order.triangles = triangles_by_vertex(mesh, found.new_vertex, executor);
+  return found;
+}
 
 }  // namespace
 
-void permute(Mesh& mesh, const MeshOrder& order, const MeshOrder& inverse) {
+/// Sees the arrays of meshes.
+class MeshPermuter {
+ public:
+  static void move_vertices(Mesh& mesh, const IdVector<VertexId, VertexId>& order) {
+    gather(
+        order, [&](VertexId v) { return mesh.vertices_[v]; },
+        [&](VertexId v, const Mesh::VertexRecord& record) { mesh.vertices_[v] = record; });
+  }
+  static void move_triangles(Mesh& mesh, const IdVector<TriangleId, TriangleId>& order,
+                             const IdVector<VertexId, VertexId>& new_vertex,
+                             const IdVector<TriangleId, TriangleId>& new_triangle);
+  static Mesh copy(const Mesh& mesh, Found& found, Executor* executor);
+  /// Which halfedge stands for a vertex depends on the numbering.
+  static void finish(Mesh& mesh) { mesh.repair_outgoing(); }
+};
+
+void MeshPermuter::move_triangles(Mesh& mesh, const IdVector<TriangleId, TriangleId>& order,
+                                  const IdVector<VertexId, VertexId>& new_vertex,
+                                  const IdVector<TriangleId, TriangleId>& new_triangle) {
   struct Triangle {
     std::array<VertexId, 3> corners;
     std::array<HalfedgeId, 3> twins;
     std::array<std::uint8_t, 3> constrained;
     std::int32_t region;
   };
+  const std::size_t n = mesh.n_halfedges();
   gather(
-      order.vertices, [&](VertexId v) { return mesh.vertices_[v]; },
-      [&](VertexId v, const Mesh::VertexRecord& record) { mesh.vertices_[v] = record; });
-  gather(
-      order.triangles,
+      order,
       [&](TriangleId t) {
         const HalfedgeId a = Mesh::halfedge(t, 0), b = Mesh::halfedge(t, 1), c = Mesh::halfedge(t, 2);
         return Triangle{mesh.corners(t),
@@ -100,28 +142,68 @@ void permute(Mesh& mesh, const MeshOrder& order, const MeshOrder& inverse) {
       },
       [&](TriangleId t, const Triangle& triangle) {
         for (std::size_t k = 0; k < 3; ++k) {
-          const HalfedgeId h = Mesh::halfedge(t, static_cast<int>(k)), twin = triangle.twins[k];
-          mesh.corners_[h] = inverse.vertices[triangle.corners[k]];
-          mesh.constrained_[h] = triangle.constrained[k];
-          mesh.twins_[h] =
-              !twin.valid() ? twin
-                            : Mesh::halfedge(inverse.triangles[Mesh::triangle(twin)], static_cast<int>(twin.index % 3));
+          const HalfedgeId h = Mesh::halfedge(t, static_cast<int>(k));
+          mesh.corners_[h] = new_vertex[triangle.corners[k]];
+          mesh.constrained_.set(h, triangle.constrained[k], n);
+          mesh.twins_[h] = renumbered(triangle.twins[k], new_triangle);
         }
-        mesh.regions_[t] = triangle.region;
+        mesh.set_region(t, triangle.region);
       });
-  mesh.repair_outgoing();  // which halfedge stands for a vertex depends on the numbering
+}
+
+/// One array after the other, and each renumbering gone before the next one is made: what is there at once counts on
+/// the largest meshes.
+Mesh MeshPermuter::copy(const Mesh& mesh, Found& found, Executor* executor) {
+  Mesh result;
+  const MeshOrder& order = found.order;
+  result.vertices_.resize(mesh.n_vertices());
+  for_each_index(mesh.n_vertices(), executor,
+                 [&](std::size_t i) { result.vertices_[VertexId(i)] = mesh.vertices_[order.vertices[VertexId(i)]]; });
+  result.corners_.resize(mesh.n_halfedges());
+  for_each_index(mesh.n_triangles(), executor, [&](std::size_t i) {
+    const auto corners = mesh.corners(order.triangles[TriangleId(i)]);
+    for (std::size_t k = 0; k < 3; ++k) result.corners_[HalfedgeId(3 * i + k)] = found.new_vertex[corners[k]];
+  });
+  found.new_vertex = {};
+  const auto new_triangle = inverse(order.triangles);
+  result.twins_.resize(mesh.n_halfedges());
+  for_each_index(mesh.n_triangles(), executor, [&](std::size_t i) {
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(order.triangles[TriangleId(i)], k);
+      result.twins_[Mesh::halfedge(TriangleId(i), k)] = renumbered(mesh.twin(h), new_triangle);
+    }
+  });
+  if (!mesh.constrained_.all_zero()) {
+    for (const HalfedgeId h : result.halfedges()) {
+      const HalfedgeId from = Mesh::halfedge(order.triangles[Mesh::triangle(h)], static_cast<int>(h.index % 3));
+      result.constrained_.set(h, mesh.constrained_[from], mesh.n_halfedges());
+    }
+  }
+  if (!mesh.regions_.all_zero()) {
+    for (const TriangleId t : result.triangles()) result.set_region(t, mesh.region(order.triangles[t]));
+  }
+  finish(result);
+  return result;
 }
 
 MeshOrder hilbert_order(Mesh& mesh) {
-  MeshOrder order, new_ids;
-  order.vertices = vertices_by_hilbert(mesh);
-  new_ids.vertices = inverse(order.vertices);
-  order.triangles = triangles_by_vertex(mesh, new_ids.vertices);
-  new_ids.triangles = inverse(order.triangles);
-  permute(mesh, order, new_ids);
-  return order;
+  Found found = find_order(mesh, nullptr);
+  MeshPermuter::move_vertices(mesh, found.order.vertices);
+  MeshPermuter::move_triangles(mesh, found.order.triangles, found.new_vertex, inverse(found.order.triangles));
+  MeshPermuter::finish(mesh);
+  return std::move(found.order);
 }
 
-void restore_order(Mesh& mesh, const MeshOrder& order) { permute(mesh, inverse(order), order); }
+OrderedMesh hilbert_ordered(const Mesh& mesh, Executor* executor) {
+  Found found = find_order(mesh, executor);
+  Mesh ordered = MeshPermuter::copy(mesh, found, executor);
+  return {std::move(ordered), std::move(found.order)};
+}
+
+void restore_order(Mesh& mesh, const MeshOrder& order) {
+  MeshPermuter::move_vertices(mesh, inverse(order.vertices));
+  MeshPermuter::move_triangles(mesh, inverse(order.triangles), order.vertices, order.triangles);
+  MeshPermuter::finish(mesh);
+}
 
 }  // namespace temper

@@ -41,8 +41,8 @@ std::optional<std::string> wrong_star(const Mesh& mesh, VertexId v, std::size_t 
 }  // namespace
 
 std::optional<std::string> Mesh::validate() const {
-  if (corners_.size() % 3 != 0 || twins_.size() != corners_.size() || constrained_.size() != corners_.size() ||
-      regions_.size() * 3 != corners_.size()) {
+  if (corners_.size() % 3 != 0 || twins_.size() != corners_.size() || !constrained_.has_size(n_halfedges()) ||
+      !regions_.has_size(n_triangles())) {
     return "arrays have different lengths";
   }
   IdVector<VertexId, std::uint32_t> incident(n_vertices(), 0);

@@ -141,7 +141,7 @@ Settings in_user_terms(Settings settings, const Frame& frame) {
 /// The input with its edges flipped as every attempt begins, for a run that found nothing better.
 Mesh made_regular(const Mesh& mesh, Settings settings) {
   settings.options.tracer = {};
-  WorkingCopy work(mesh, settings.options.order);
+  WorkingCopy work(mesh, settings.options.order, settings.options.executor);
   const Observer nobody;
   Run unheard(settings.options, nobody);
   Driver(work, settings, unheard).make_regular();
@@ -263,7 +263,7 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
   const std::optional<SizeField> band_field = field_of_band(mesh, options);
   std::span<const Attempt> tries;
   for (std::size_t i = 0; i == 0 || i < tries.size(); ++i) {
-    WorkingCopy work(mesh, options.order);
+    WorkingCopy work(mesh, options.order, options.executor);
     auto made = make_settings(options, work.mesh, work.frame);
     if (!made) return made.error();
     settings = *std::move(made);

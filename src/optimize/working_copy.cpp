@@ -38,10 +38,13 @@ IdVector<IdType, IdType> compose(const IdVector<IdType, IdType>& order, const Id
 
 }  // namespace
 
-WorkingCopy::WorkingCopy(const Mesh& user, SweepOrder sweeps) : mesh(user), frame(Frame::of(user)) {
+WorkingCopy::WorkingCopy(const Mesh& user, SweepOrder sweeps, Executor* executor) : frame(Frame::of(user)) {
   if (sweeps == SweepOrder::hilbert) {
-    order = hilbert_order(mesh);
+    OrderedMesh ordered = hilbert_ordered(user, executor);
+    mesh = std::move(ordered.mesh);
+    order = std::move(ordered.order);
   } else {
+    mesh = user;
     order = {identity<VertexId>(mesh.n_vertices()), identity<TriangleId>(mesh.n_triangles())};
   }
   n_input_vertices = n_vertices_named = mesh.n_vertices();
@@ -89,6 +92,7 @@ Mesh WorkingCopy::in_user_terms() && {
   } else {
     restore_order(mesh, order);
   }
+  order = {};
   return std::move(mesh);
 }
 

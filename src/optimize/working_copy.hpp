@@ -19,7 +19,7 @@ struct WorkingCopy {
   std::size_t n_vertices_named = 0;   ///< numbers given so far, input included; never given again
   std::size_t n_triangles_named = 0;  ///< the same of the user's triangle slots
 
-  WorkingCopy(const Mesh& user, SweepOrder sweeps);
+  WorkingCopy(const Mesh& user, SweepOrder sweeps, Executor* executor = nullptr);
   /// Of a part of a mesh that is in its frame already: every number and coordinate is its own name.
   [[nodiscard]] static WorkingCopy part(const Mesh& part);
 
@@ -30,8 +30,8 @@ struct WorkingCopy {
   [[nodiscard]] bool has_inserted() const { return n_vertices_named > n_input_vertices; }
   /// Drops erased triangles and removed vertices from mesh and order.
   Compaction compact();
-  /// Out of the frame, and in the user's order, then in the order of insertion; what was removed leaves no gap. Names
-  /// and frame stay usable.
+  /// Out of the frame, and in the user's order, then in the order of insertion; what was removed leaves no gap. The
+  /// copy stays as it is, or is used up.
   [[nodiscard]] Mesh in_user_terms() const&;
   [[nodiscard]] Mesh in_user_terms() &&;
   /// The number in the input of each vertex of in_user_terms(); invalid for inserted ones.

@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "base/sum.hpp"
 #include "size/star_area.hpp"
@@ -10,19 +14,48 @@ namespace temper {
 namespace {
 
 /// The value of that rank: the least one that at least `part` of all values do not exceed.
-template <class Number>
-double percentile(std::vector<Number>& values, double part) {
-  const auto n = static_cast<double>(values.size());
-  const auto rank = static_cast<std::ptrdiff_t>(std::max(1.0, std::ceil(part * n)) - 1);
+/// The rank of a percentile: that of the least value that at least `part` of all n do not exceed.
+std::size_t rank_of(double part, std::size_t n) {
+  return static_cast<std::size_t>(std::max(1.0, std::ceil(part * static_cast<double>(n)))) - 1;
+}
+
+double percentile(std::vector<double>& values, double part) {
+  const auto rank = static_cast<std::ptrdiff_t>(rank_of(part, values.size()));
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   return values[static_cast<std::size_t>(rank)];
 }
 
-template <class Number>
-Spread spread_of(std::vector<Number> values) {
-  if (values.empty()) return {};
-  return {percentile(values, 0), percentile(values, 0.05), percentile(values, 0.5), percentile(values, 0.95),
-          percentile(values, 1)};
+constexpr std::array<double, 5> kParts = {0, 0.05, 0.5, 0.95, 1};  // of a Spread
+
+/// The spread of positive floats that each(take) hands to take, without keeping them: such floats are in the order of
+/// their bits, so the first pass counts the upper halves, and the second one the lower halves where a percentile lies.
+template <class Each>
+Spread spread_of_floats(Each&& each) {
+  constexpr std::size_t kHalf = std::size_t{1} << 16;
+  std::vector<std::uint32_t> upper(kHalf, 0);
+  std::size_t n = 0;
+  each([&](float x) {
+    ++upper[std::bit_cast<std::uint32_t>(x) >> 16];
+    ++n;
+  });
+  if (n == 0) return {};
+  std::array<std::size_t, kParts.size()> ranks{}, halves{};
+  for (std::size_t i = 0; i < kParts.size(); ++i) {
+    ranks[i] = rank_of(kParts[i], n);
+    while (ranks[i] >= upper[halves[i]]) ranks[i] -= upper[halves[i]++];
+  }
+  std::vector<std::vector<std::uint32_t>> lower(kParts.size(), std::vector<std::uint32_t>(kHalf, 0));
+  each([&](float x) {
+    const auto bits = std::bit_cast<std::uint32_t>(x);
+    for (std::size_t i = 0; i < kParts.size(); ++i) lower[i][bits & (kHalf - 1)] += bits >> 16 == halves[i] ? 1 : 0;
+  });
+  std::array<double, kParts.size()> values{};
+  for (std::size_t i = 0; i < kParts.size(); ++i) {
+    std::size_t half = 0;
+    while (ranks[i] >= lower[i][half]) ranks[i] -= lower[i][half++];
+    values[i] = double{std::bit_cast<float>(static_cast<std::uint32_t>(halves[i] << 16 | half))};
+  }
+  return {values[0], values[1], values[2], values[3], values[4]};
 }
 
 /// The field's triangle to look for v from.
@@ -37,15 +70,14 @@ TriangleId start_for(VertexId v, const Mesh& mesh, const Mesh& of_field, const I
 }
 
 /// The gradation at every edge, from the sizes at the vertices.
-std::vector<float> gradations(const Mesh& mesh, const IdVector<VertexId, double>& sizes) {
-  std::vector<float> ratios;  // as many as there are edges: the largest array here
-  ratios.reserve(mesh.n_halfedges() / 2);
-  for (const HalfedgeId h : mesh.halfedges()) {
-    if (!mesh.is_edge_representative(h)) continue;
-    const auto [low, high] = std::minmax(sizes[mesh.origin(h)], sizes[mesh.target(h)]);
-    ratios.push_back(static_cast<float>(high / low));
-  }
-  return ratios;
+Spread gradation(const Mesh& mesh, const IdVector<VertexId, double>& sizes) {
+  return spread_of_floats([&](auto&& take) {
+    for (const HalfedgeId h : mesh.halfedges()) {
+      if (!mesh.is_edge_representative(h)) continue;
+      const auto [low, high] = std::minmax(sizes[mesh.origin(h)], sizes[mesh.target(h)]);
+      take(static_cast<float>(high / low));
+    }
+  });
 }
 
 double largest_edge_ratio(const Mesh& mesh) {
@@ -63,7 +95,11 @@ double largest_edge_ratio(const Mesh& mesh) {
 
 double local_size(const Mesh& mesh, VertexId v) { return star_area(mesh, v).size(); }
 
-Spread spread(std::vector<double> values) { return spread_of(std::move(values)); }
+Spread spread(std::vector<double> values) {
+  if (values.empty()) return {};
+  return {percentile(values, kParts[0]), percentile(values, kParts[1]), percentile(values, kParts[2]),
+          percentile(values, kParts[3]), percentile(values, kParts[4])};
+}
 
 double SizeReport::band() const { return std::max(over_field.max, 1 / over_field.min); }
 
@@ -80,7 +116,7 @@ SizeReport measure_size(const Mesh& mesh, const SizeField& field, Executor* exec
     return s.outside ? 1.0 : 0.0;
   }));
   report.over_field = spread(std::move(ratios));
-  report.gradation = spread_of(gradations(mesh, sizes));
+  report.gradation = gradation(mesh, sizes);
   report.largest_edge_ratio = largest_edge_ratio(mesh);
   return report;
 }

@@ -1,4 +1,5 @@
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -41,18 +42,31 @@ struct SizeField::Data {
   Mesh own;          // empty when the field looks at a mesh of the caller's
   const Mesh* mesh;  // own, or the caller's
   IdVector<VertexId, double> sizes;
-  BoxTree tree;
+  mutable std::atomic<const BoxTree*> made_tree = nullptr;
 
-  Data(Mesh copy, IdVector<VertexId, double> values)
-      : own(std::move(copy)), mesh(&own), sizes(std::move(values)), tree(own) {}
-  Data(const Mesh* seen, IdVector<VertexId, double> values) : mesh(seen), sizes(std::move(values)), tree(*seen) {}
+  Data(Mesh copy, IdVector<VertexId, double> values) : own(std::move(copy)), mesh(&own), sizes(std::move(values)) {}
+  Data(const Mesh* seen, IdVector<VertexId, double> values) : mesh(seen), sizes(std::move(values)) {}
   Data(const Data&) = delete;
   Data& operator=(const Data&) = delete;
+  ~Data() { delete made_tree.load(); }
+
+  [[nodiscard]] const BoxTree& tree() const;
 
   [[nodiscard]] double on_edge(HalfedgeId h, double along) const;
   [[nodiscard]] double on_edge(HalfedgeId h, Vec2 p) const;
   [[nodiscard]] double inside(TriangleId t, Vec2 p) const;
 };
+
+/// Made when it is first asked: where every point has a good hint it never is, and it takes its time and memory.
+/// Threads that ask at once make one each, all alike, and the first one stays.
+const BoxTree& SizeField::Data::tree() const {
+  const BoxTree* there = made_tree.load(std::memory_order_acquire);
+  if (there != nullptr) return *there;
+  const auto* mine = new BoxTree(*mesh);
+  if (made_tree.compare_exchange_strong(there, mine, std::memory_order_acq_rel)) return *mine;
+  delete mine;
+  return *there;
+}
 
 double SizeField::Data::on_edge(HalfedgeId h, double along) const {
   const double a = sizes[mesh->origin(h)], b = sizes[mesh->target(h)];
@@ -116,7 +130,7 @@ SizeField::Sample SizeField::at(Vec2 p, TriangleId hint) const {
     const TriangleId t = walk(mesh, p, hint);
     if (t.valid()) return {data_->inside(t, p), t, false};
   }
-  const NearestPoint found = data_->tree.nearest(mesh, p);
+  const NearestPoint found = data_->tree().nearest(mesh, p);
   if (found.distance2 == 0) return {data_->inside(found.triangle, p), found.triangle, false};
   return {data_->on_edge(found.edge, found.along), found.triangle, true};
 }

@@ -163,11 +163,58 @@ TEST(Mesh, OfNothingIsEmptyAndValid) {
   EXPECT_EQ(mesh.validate(), std::nullopt);
 }
 
-TEST(Mesh, NeedsLessThan95BytesAVertex) {
-  const Mesh mesh = built(test::squares(60));
-  const double bytes = static_cast<double>(mesh.memory_bytes()) / static_cast<double>(mesh.n_vertices());
-  EXPECT_GT(bytes, 80);
-  EXPECT_LT(bytes, 95);
+TEST(Mesh, NeedsAtMost80BytesAVertexAnd14MoreForConstraintsAndRegions) {
+  Mesh mesh = built(test::squares(60));
+  const auto bytes = [&] { return static_cast<double>(mesh.memory_bytes()) / static_cast<double>(mesh.n_vertices()); };
+  EXPECT_GT(bytes(), 70);
+  EXPECT_LT(bytes(), 80);
+  mesh.set_constrained(HalfedgeId(5), true);
+  mesh.set_region(TriangleId(7), -1);
+  EXPECT_GT(bytes(), 83);
+  EXPECT_LT(bytes(), 94);
+}
+
+TEST(Mesh, DoesNotShowWhetherArraysOfZerosAreThere) {
+  const Mesh untouched = built(test::squares(3));
+  Mesh mesh = untouched;
+  mesh.set_constrained(HalfedgeId(4), false);
+  mesh.set_region(TriangleId(2), 0);
+  EXPECT_EQ(mesh.memory_bytes(), untouched.memory_bytes());
+  mesh.set_constrained(HalfedgeId(4), true);
+  mesh.set_region(TriangleId(2), 3);
+  EXPECT_NE(mesh, untouched);
+  EXPECT_NE(untouched, mesh);
+  EXPECT_EQ(mesh.validate(), std::nullopt);
+  for (const HalfedgeId h : mesh.halfedges()) {
+    EXPECT_EQ(mesh.is_constrained(h), h == HalfedgeId(4) || h == mesh.twin(HalfedgeId(4)));
+  }
+  for (const TriangleId t : mesh.triangles()) EXPECT_EQ(mesh.region(t), t == TriangleId(2) ? 3 : 0);
+  mesh.set_constrained(HalfedgeId(4), false);
+  mesh.set_region(TriangleId(2), 0);
+  EXPECT_GT(mesh.memory_bytes(), untouched.memory_bytes());
+  EXPECT_EQ(mesh, untouched);
+  EXPECT_EQ(untouched, mesh);
+}
+
+TEST(Mesh, KeepsFlagsAndRegionsOfAddedTriangles) {
+  // The second triangle is the first that has a region, the third comes after it.
+  Mesh mesh;
+  for (const Vec2 p : {Vec2{0, 0}, {1, 0}, {0, 1}}) mesh.add_vertex({p.x, p.y, 0});
+  for (const std::int32_t region : {0, 7, 0}) {
+    mesh.add_triangle({VertexId(0), VertexId(1), VertexId(2)}, region);
+  }
+  EXPECT_EQ(mesh.region(TriangleId(0)), 0);
+  EXPECT_EQ(mesh.region(TriangleId(1)), 7);
+  EXPECT_EQ(mesh.region(TriangleId(2)), 0);
+  mesh.set_constrained(HalfedgeId(8), true);
+  mesh.add_triangle({VertexId(0), VertexId(1), VertexId(2)}, 9);
+  EXPECT_TRUE(mesh.is_constrained(HalfedgeId(8)));
+  EXPECT_FALSE(mesh.is_constrained(HalfedgeId(11)));
+  mesh.erase(TriangleId(1));
+  const Compaction kept = mesh.compact();
+  EXPECT_EQ(kept.triangles.size(), 3u);
+  EXPECT_EQ(mesh.region(TriangleId(2)), 9);
+  EXPECT_TRUE(mesh.is_constrained(HalfedgeId(5)));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "support/std_threads.hpp"
 #include "temper/geometry.hpp"
 #include "unit/mesh/inputs.hpp"
 
@@ -411,6 +412,60 @@ TEST(BuildFixes, TheVerticesAskedAndNoOther) {
   arrays.fixed_vertices = {4, 1, 4};
   const Mesh mesh = built(arrays);
   for (const VertexId v : mesh.vertices()) EXPECT_EQ(mesh.is_fixed(v), v.index == 4 || v.index == 1);
+}
+
+/// The mesh or the error, by an executor of so many threads; 0: without one.
+Expected<BuiltMesh> built_by(std::size_t threads, const Arrays& arrays) {
+  test::StdThreads executor(threads);
+  MeshInput input{arrays.points, arrays.weights, arrays.triangles};
+  input.regions = arrays.regions;
+  input.executor = threads > 0 ? &executor : nullptr;
+  auto result = Mesh::build(input);
+  EXPECT_EQ(executor.runs() > 0, threads > 0);
+  return result;
+}
+
+TEST(Build, IsTheSameForAnyNumberOfThreads) {
+  Arrays arrays = squares(150);  // several blocks
+  arrays.regions.assign(arrays.triangles.size(), 0);
+  for (std::size_t t = 0; t < arrays.triangles.size(); t += 3) {
+    std::swap(arrays.triangles[t][0], arrays.triangles[t][1]);
+    arrays.regions[t] = 4;
+  }
+  const auto alone = built_by(0, arrays);
+  ASSERT_TRUE(alone.has_value());
+  EXPECT_EQ(alone->mesh.validate(), std::nullopt);
+  EXPECT_EQ(alone->reversed_triangles, (arrays.triangles.size() + 2) / 3);
+  for (const std::size_t threads : {1u, 2u, 3u, 8u}) {
+    const auto result = built_by(threads, arrays);
+    ASSERT_TRUE(result.has_value());
+    EXPECT_EQ(result->mesh, alone->mesh);
+    EXPECT_EQ(result->reversed_triangles, alone->reversed_triangles);
+  }
+}
+
+TEST(Build, NamesTheSameFirstErrorForAnyNumberOfThreads) {
+  const Arrays good = squares(150);
+  const std::size_t n = good.points.size(), m = good.triangles.size();
+  std::vector<Arrays> all(6, good);
+  all[0].points[n - 5].x = kNaN, all[0].points[n - 9].y = kInf;
+  all[1].triangles[m - 1][0] = -1, all[1].triangles[m - 2] = {0, 1, 2};
+  all[2].triangles.pop_back(), all[2].triangles.pop_back();           // a point without triangles
+  all[3].triangles.push_back(good.triangles[m - 7]);                  // a triangle twice
+  all[4].points[n - 400] = all[4].points[n - 400] + Vec2{0.9, -0.9};  // folded over
+  all[5].points.push_back(good.points[17]);                           // a point twice, and a fold there
+  all[5].triangles.push_back({18, 17 + 151, static_cast<std::int32_t>(n)});
+  for (const Arrays& arrays : all) {
+    const auto alone = built_by(0, arrays);
+    ASSERT_FALSE(alone.has_value());
+    for (const std::size_t threads : {2u, 8u}) {
+      const auto result = built_by(threads, arrays);
+      ASSERT_FALSE(result.has_value());
+      EXPECT_EQ(result.error().what(), alone.error().what());
+      EXPECT_EQ(result.error().code, alone.error().code);
+    }
+  }
+  EXPECT_EQ(built_by(0, all[5]).error().code, ErrorCode::duplicate_point);
 }
 
 }  // namespace

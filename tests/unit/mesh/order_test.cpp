@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "support/std_threads.hpp"
 #include "unit/mesh/random_soup.hpp"
 
 namespace temper {
@@ -71,6 +72,26 @@ TEST(HilbertOrder, IsUndoneBitForBit) {
     EXPECT_EQ(mesh, original);
   }
   EXPECT_GT(moved, 40u);
+}
+
+TEST(HilbertOrder, OfACopyIsThatOfTheMeshForAnyNumberOfThreads) {
+  Rng rng(24);
+  for (const int n : {2, 20, 150}) {  // the last one is several blocks long
+    Mesh mesh = built(shuffled(test::squares(n), rng));
+    for (const bool marked : {false, true}) {
+      if (marked) mesh.set_constrained(HalfedgeId(7), true), mesh.set_region(TriangleId(3), 5);
+      Mesh moved = mesh;
+      const MeshOrder order = hilbert_order(moved);
+      for (const std::size_t threads : {0u, 1u, 2u, 3u, 8u}) {
+        test::StdThreads executor(threads);
+        const OrderedMesh copy = hilbert_ordered(mesh, threads > 0 ? &executor : nullptr);
+        EXPECT_EQ(copy.mesh, moved);
+        EXPECT_EQ(copy.mesh.memory_bytes(), moved.memory_bytes());
+        EXPECT_EQ(copy.order.vertices, order.vertices);
+        EXPECT_EQ(copy.order.triangles, order.triangles);
+      }
+    }
+  }
 }
 
 TEST(HilbertOrder, KeepsFlipsMadeBetween) {
