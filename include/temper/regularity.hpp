@@ -13,12 +13,15 @@
 
 namespace temper {
 
+class Executor;
+
 /// Is the dual length of the edge of h zero or more? Exact; cocircular in the power sense is regular. Boundary edges
 /// always are.
 [[nodiscard]] bool is_regular(const Mesh& mesh, HalfedgeId h);
 
-/// Interior edges that are not regular; with constrained ones or without.
-[[nodiscard]] std::size_t count_non_regular_edges(const Mesh& mesh, bool with_constrained = true);
+/// Interior edges that are not regular; with constrained ones or without. On the executor's threads when there is one.
+[[nodiscard]] std::size_t count_non_regular_edges(const Mesh& mesh, bool with_constrained = true,
+                                                  Executor* executor = nullptr);
 
 /// What becomes of vertices whose power cell is empty: no regular triangulation has them.
 enum class HiddenPolicy {

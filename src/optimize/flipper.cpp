@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/sum.hpp"
 #include "energy/patch.hpp"
 #include "optimize/size_band.hpp"
 #include "regularity/hidden.hpp"
@@ -149,10 +150,32 @@ void Flipper::treat_hidden() {
   for (const VertexId v : stay) recorder_.hidden(v);
 }
 
+/// Queues the edges that are not regular, in the order of push_all. The flips are the same as if all were queued: one
+/// that is regular now is passed over, or a flip that spoils it pushes it before.
+void Flipper::push_irregular() {
+  const std::size_t n = mesh_.n_halfedges(), blocks = (n + kBlockSize - 1) / kBlockSize;
+  std::vector<std::vector<HalfedgeId>> found(blocks);
+  const auto look = [&](std::size_t b) {
+    for (std::size_t i = b * kBlockSize; i < std::min(n, (b + 1) * kBlockSize); ++i) {
+      const HalfedgeId h(i);
+      if (mesh_.is_boundary(h) || !mesh_.is_edge_representative(h) || mesh_.is_constrained(h)) continue;
+      if (PowerTest()(mesh_, inlined::quad(mesh_, h)) == Sign::positive) found[b].push_back(h);
+    }
+  };
+  if (settings_.options.executor != nullptr) {
+    settings_.options.executor->run(blocks, look);
+  } else {
+    for (std::size_t b = 0; b < blocks; ++b) look(b);
+  }
+  for (const auto& edges : found) {
+    for (const HalfedgeId h : edges) lawson_.push(h);
+  }
+}
+
 bool Flipper::restore_all() {
   lawson_.clear();
   records_.clear();
-  lawson_.push_all(mesh_);
+  push_irregular();
   std::optional<double> no_price;
   const LawsonRun result = run(no_price, Lawson::kNoCap);
   const bool hides = !lawson_.stuck(mesh_).empty();

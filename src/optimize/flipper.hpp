@@ -61,6 +61,7 @@ class Flipper {
 
  private:
   LawsonRun run(std::optional<double>& change, std::size_t max_flips, SizeBand* band = nullptr, const Part& part = {});
+  void push_irregular();
   bool accept_hidden();
   void treat_hidden();
   [[nodiscard]] std::vector<VertexId> hidden_at_stuck_edges();
