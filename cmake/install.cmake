@@ -1,4 +1,4 @@
-# Installs the libraries and what find_package(temper COMPONENTS core io lp) needs. The flags of temper's own
+# Installs the libraries and what find_package(temper COMPONENTS core io lp tbb) needs. The flags of temper's own
 # code (temper_flags) stay here: they are linked for the build alone and are in no export.
 include(CMakePackageConfigHelpers)
 
@@ -7,7 +7,8 @@ set(TEMPER_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/temper)
 install(TARGETS temper EXPORT temper_core)
 install(EXPORT temper_core NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperCoreTargets.cmake)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/temper DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.hpp" PATTERN "io.hpp" EXCLUDE PATTERN "lp.hpp" EXCLUDE)
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "io.hpp" EXCLUDE PATTERN "lp.hpp" EXCLUDE
+        PATTERN "tbb_executor.hpp" EXCLUDE)
 
 if(TARGET temper_io)
   # A static library: whoever links the installed one needs pugixml too. temperConfig.cmake finds it.
@@ -24,6 +25,13 @@ if(TARGET temper_lp)
   install(EXPORT temper_lp NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperLpTargets.cmake)
   install(FILES ${PROJECT_SOURCE_DIR}/include/temper/lp.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/temper)
   install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindClp.cmake DESTINATION ${TEMPER_CMAKE_DIR})
+endif()
+
+if(TARGET temper_tbb)
+  target_link_libraries(temper_tbb PRIVATE $<INSTALL_INTERFACE:TBB::tbb>)
+  install(TARGETS temper_tbb EXPORT temper_tbb)
+  install(EXPORT temper_tbb NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperTbbTargets.cmake)
+  install(FILES ${PROJECT_SOURCE_DIR}/include/temper/tbb_executor.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/temper)
 endif()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/temperConfig.cmake.in ${PROJECT_BINARY_DIR}/temperConfig.cmake

@@ -36,11 +36,12 @@ LAYERS = {
     # A library of its own: sees the core's public headers, and no other folder of src/.
     "io": _BELOW,
     "lp": _BELOW + ["feasibility"],
+    "tbb": ["base"],
 }
-CORE = set(LAYERS) - {"io", "lp"}
+CORE = set(LAYERS) - {"io", "lp", "tbb"}
 
 # Public headers whose name is not that of their layer.
-HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor", "instruction_set", "outline"]} | {"plot": "draw", "trace": "optimize", "necessity": "feasibility", "projection": "mesher"}
+HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor", "instruction_set", "outline"]} | {"plot": "draw", "trace": "optimize", "necessity": "feasibility", "projection": "mesher", "tbb_executor": "tbb"}
 
 STANDARD = set("""
 algorithm array atomic bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits cmath

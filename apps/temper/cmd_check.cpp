@@ -1,6 +1,8 @@
 // temper check IN: the quality of a mesh as a table or as JSON, and requirements on it.
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "console.hpp"
 #include "help.hpp"
 #include "input.hpp"
@@ -73,14 +75,14 @@ Exit run_check(const Arguments& arguments) {
     for (Requirement& requirement : parse_requirements(list)) requirements.push_back(std::move(requirement));
   }
 
-  const Input input = read_input(s.input);
+  const std::unique_ptr<Executor> threads = make_threads(s.threads);
+  const Input input = read_input(s.input, {}, threads.get());
   print_warnings(input.warnings());
-  ThreadPool threads(s.threads > 0 ? s.threads : hardware_threads());
   QualityOptions options;
   options.gamma = s.gamma.value().value_or(options.gamma);
   options.h0 = s.h0.value().value_or(options.h0);
   options.worst = s.worst;
-  options.executor = &threads;
+  options.executor = threads.get();
   const Quality measured = quality(input.mesh(), options);
   print(s.json ? quality_json(measured, input.points) : quality_text(measured, input, text_style()));
   flush_output();  // before the verdict on standard error

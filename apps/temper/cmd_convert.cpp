@@ -1,22 +1,21 @@
 // temper convert IN -o OUT: the same file in another format; what the format cannot hold is named.
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "console.hpp"
 #include "help.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "threads.hpp"
 
 namespace temper::app {
 namespace {
 
-constexpr Choice<io::Encoding> kEncodings[] = {{"ascii", io::Encoding::ascii},
-                                               {"base64", io::Encoding::base64},
-                                               {"appended", io::Encoding::appended},
-                                               {"binary", io::Encoding::appended}};
-
 struct Settings {
   std::string input, output;
   io::WriteOptions options;
+  std::uint64_t threads = 0;
 };
 
 void add_options(CLI::App& app, Settings& s) {
@@ -34,6 +33,7 @@ void add_options(CLI::App& app, Settings& s) {
   add_choice(
       app, "--encoding", kEncodings, [&s](io::Encoding value) { s.options.encoding = value; },
       "of formats that have several (default: the compact one)");
+  add_count(app, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
   app.option_defaults()->group("Help");
   app.set_help_flag("-h,--help", "this text");
   set_help(app, {"IN -o OUT [options]",
@@ -56,7 +56,9 @@ Exit run_convert(const Arguments& arguments) {
   Outputs outputs("convert");
   outputs.expect_mesh("--output", s.output, s.options.format);
 
-  const io::MeshFile file = or_fail(io::read(s.input));
+  const std::unique_ptr<Executor> threads = make_threads(s.threads);
+  s.options.executor = threads.get();
+  const io::MeshFile file = or_fail(io::read(s.input, {threads.get()}));
   print_warnings(file.warnings);
   print_warnings(outputs.write_mesh(s.output, file, s.options));
   return Exit::done;

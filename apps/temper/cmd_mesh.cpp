@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include "console.hpp"
 #include "help.hpp"
@@ -175,15 +176,17 @@ Exit mesh(const CLI::App& app, const Settings& s, Outputs& outputs) {
   io::OutlineFile input = or_fail(io::read_outline(s.input));
   print_warnings(input.warnings);
   MapUsed map = take_to_plane(s, input);
-  ThreadPool threads(s.threads > 0 ? s.threads : hardware_threads());
+  const std::unique_ptr<Executor> threads = make_threads(s.threads);
   catch_interrupts();
-  const OutlineMesh made = run_library(s, input.outline, &threads);
+  const OutlineMesh made = run_library(s, input.outline, threads.get());
   measure_distortion(map, made.mesh);
   QualityOptions measuring;
-  measuring.executor = &threads;
+  measuring.executor = threads.get();
   const Quality after = quality(made.mesh, measuring);
 
-  print_warnings(outputs.write_mesh(s.output, file_of(made, map)));
+  io::WriteOptions writing;
+  writing.executor = threads.get();
+  print_warnings(outputs.write_mesh(s.output, file_of(made, map), writing));
   const std::vector<UsedOption> options = used_options(app);
   const MeshRecord record = {command_line("mesh", {s.input}, options), options, input, map, made, after};
   if (!s.report.empty()) outputs.write_text(s.report, mesh_json(record));

@@ -1,6 +1,7 @@
 // temper optimize IN -o OUT: reads, improves, writes, reports.
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -64,6 +65,7 @@ struct Settings {
   bool method_given = false;
   OptimizeOptions options;  ///< those of the method, where no option says otherwise
   SofteningOptions gamma, h0;
+  std::optional<io::Encoding> encoding;
   std::uint64_t threads = 0;
   bool positions_only = false, weights_only = false, no_flips = false, slide = false, quiet = false;
   bool repair = false, no_repair = false;
@@ -96,6 +98,9 @@ void add_files(CLI::App& app, Settings& s) {
   app.add_option("IN", s.input, "the mesh to improve; its content tells the format");
   add_text(app, "-o,--output", "OUT", s.output, "where the improved mesh goes; may be IN; its suffix tells the format")
       ->required();
+  add_choice(
+      app, "--encoding", kEncodings, [&s](io::Encoding value) { s.encoding = value; },
+      "of formats that have several (default: the compact one; fastest: appended)");
   add_text(app, "--report", "FILE", s.report, "a JSON report: before, after, history, and the command to run again");
   add_text(app, "--history", "FILE", s.history, "one line of CSV a sweep");
   add_text(app, "--trace", "FILE", s.trace, "every move, flip and removal, one JSON object a line; see temper replay");
@@ -394,10 +399,9 @@ OptimizeReport run_library(const Settings& s, const Input& input, Mesh& mesh, Ex
 }
 
 /// Improves the mesh of the input in place: a second copy is made only when the picture needs one.
-void improve(const Settings& s, Input& input, Results& results, io::TextStream* trace) {
-  ThreadPool threads(s.threads > 0 ? s.threads : hardware_threads());
+void improve(const Settings& s, Input& input, Results& results, io::TextStream* trace, Executor* threads) {
   QualityOptions measuring;
-  measuring.executor = &threads;
+  measuring.executor = threads;
   Mesh& mesh = input.loaded.mesh;
   const Mesh original = s.picture.empty() ? Mesh() : mesh;
   const bool measured = !s.quiet || !s.report.empty() || !s.picture.empty();  // else nobody would see it
@@ -416,7 +420,7 @@ void improve(const Settings& s, Input& input, Results& results, io::TextStream* 
       ++n_events;
     };
   }
-  results.report = run_library(s, input, mesh, &threads, std::move(tracer));
+  results.report = run_library(s, input, mesh, threads, std::move(tracer));
   if (trace != nullptr) trace->write(trace_end(n_events, mesh, input));
   if (measured) results.after = quality(mesh, measuring);
   if (!s.picture.empty()) {
@@ -446,12 +450,15 @@ std::vector<std::string> cell_data_warnings(const Input& input, const Results& r
 
 /// The mesh first: it is what the time went into.
 void write_all(const CLI::App& app, const Settings& s, Input& input, Results& results, Outputs& outputs,
-               io::TextStream* trace) {
+               io::TextStream* trace, Executor* threads) {
   const std::size_t known = input.file.warnings.size();
   io::update(input.file, input.loaded, input.loaded.mesh, results.report.vertices);
   warn(results, std::span(input.file.warnings).subspan(known));
   warn(results, cell_data_warnings(input, results));
-  warn(results, outputs.write_mesh(s.output, input.file));
+  io::WriteOptions writing;
+  writing.encoding = s.encoding;
+  writing.executor = threads;
+  warn(results, outputs.write_mesh(s.output, input.file, writing));
   if (trace != nullptr) outputs.commit(s.trace, *trace);
   if (!s.report.empty()) {
     const std::vector<UsedOption> options = used_options(app);
@@ -474,7 +481,8 @@ void print_result(const Settings& s, const Results& results, const Outputs& outp
 }
 
 Exit optimize_mesh(const CLI::App& app, Settings& s, Outputs& outputs) {
-  Input input = read_input(s.input, s.fix);
+  const std::unique_ptr<Executor> threads = make_threads(s.threads);
+  Input input = read_input(s.input, s.fix, threads.get());
   Results results;
   warn(results, input.warnings());
   warn(results, doubtful_options(app, s));
@@ -487,8 +495,8 @@ Exit optimize_mesh(const CLI::App& app, Settings& s, Outputs& outputs) {
   if (input.file.point_data.empty()) io::release_geometry(input.file, input.loaded);
   std::optional<io::TextStream> trace;
   if (!s.trace.empty()) trace = outputs.open(s.trace);
-  improve(s, input, results, trace ? &*trace : nullptr);
-  write_all(app, s, input, results, outputs, trace ? &*trace : nullptr);
+  improve(s, input, results, trace ? &*trace : nullptr, threads.get());
+  write_all(app, s, input, results, outputs, trace ? &*trace : nullptr, threads.get());
   if (!s.quiet) print_result(s, results, outputs);
   const Stopped stopped = results.report.stopped;
   return stopped == Stopped::time_limit || stopped == Stopped::cancelled ? Exit::stopped_early : Exit::done;

@@ -36,11 +36,11 @@ std::vector<std::string> Input::warnings() const {
   return all;
 }
 
-Input read_input(const std::string& path, const std::vector<std::string>& fixed_tags) {
+Input read_input(const std::string& path, const std::vector<std::string>& fixed_tags, Executor* executor) {
   Input input;
   input.path = path;
-  input.file = or_fail(io::read(path));
-  input.loaded = or_fail(io::make_mesh(input.file, fixed_tags));
+  input.file = or_fail(io::read(path, {executor}));
+  input.loaded = or_fail(io::make_mesh(input.file, fixed_tags, executor));
   input.n_vertices = input.loaded.mesh.n_vertices();
   input.points = invert(input.loaded);
   input.names = std::make_shared<VertexNames>(input.file.numbering, input.points, input.n_vertices);

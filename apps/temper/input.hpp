@@ -28,7 +28,8 @@ struct Input {
 };
 
 /// Reads a file and builds its mesh; Failure when anything is wrong with it.
-[[nodiscard]] Input read_input(const std::string& path, const std::vector<std::string>& fixed_tags = {});
+[[nodiscard]] Input read_input(const std::string& path, const std::vector<std::string>& fixed_tags = {},
+                               Executor* executor = nullptr);
 
 /// The text with each vertex number in it ("vertex 3", "edge 3-9") called by another name.
 [[nodiscard]] std::string renumber(const std::string& text, const std::function<std::string(VertexId)>& name);

@@ -13,6 +13,7 @@
 #include "console.hpp"
 #include "help.hpp"
 #include "suggest.hpp"
+#include "threads.hpp"
 #include "verbs.hpp"
 
 namespace temper::app {
@@ -51,7 +52,7 @@ Exit run(const Arguments& words) {
   }
   const std::string& first = words.front();
   if (first == "--version") {
-    print("temper " TEMPER_VERSION "\n");
+    print("temper " TEMPER_VERSION "\n" + std::string(threads_note()));
     return Exit::done;
   }
   const bool help = first == "--help" || first == "-h" || first == "help";

@@ -6,9 +6,16 @@
 #include <string_view>
 #include <vector>
 
+#include "options.hpp"
 #include "temper/io.hpp"
 
 namespace temper::app {
+
+/// --encoding, of formats that have several.
+inline constexpr Choice<io::Encoding> kEncodings[] = {{"ascii", io::Encoding::ascii},
+                                                      {"base64", io::Encoding::base64},
+                                                      {"appended", io::Encoding::appended},
+                                                      {"binary", io::Encoding::appended}};
 
 class Outputs {
  public:

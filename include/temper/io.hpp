@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "temper/error.hpp"
+#include "temper/executor.hpp"
 #include "temper/mesh.hpp"
 #include "temper/outline.hpp"
 
@@ -64,9 +65,16 @@ struct MeshFile {
 
 enum class Encoding { ascii, base64, appended };
 
+struct ReadOptions {
+  Executor* executor = nullptr;  ///< threads that unpack compressed data; what is read does not depend on them
+};
+
 struct WriteOptions {
-  std::string format;                ///< row of formats(); empty: by the suffix of the path
-  std::optional<Encoding> encoding;  ///< of formats that have several; VTU's default is zlib in base64
+  std::string format;  ///< row of formats(); empty: by the suffix of the path
+  /// Of formats that have several. VTU: ascii; base64, which is compressed by zlib, its default; appended, raw bytes
+  /// after the XML: the fastest to write and to read, and about half as large again.
+  std::optional<Encoding> encoding;
+  Executor* executor = nullptr;  ///< threads that compress; the bytes written do not depend on them
 };
 
 /// A format temper knows. Adding one is one source file and one row.
@@ -80,7 +88,7 @@ struct Format {
 [[nodiscard]] std::span<const Format> formats();
 
 /// Reads any known format; a side file PATH.weights.csv, when there, gives the weights.
-[[nodiscard]] Expected<MeshFile> read(const std::string& path);
+[[nodiscard]] Expected<MeshFile> read(const std::string& path, const ReadOptions& options = {});
 /// Writes to a temporary file beside path and renames it: on any error what was at path is untouched.
 /// Returns warnings (weights gone to a side file, data that the format cannot hold).
 [[nodiscard]] Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file,
@@ -119,7 +127,8 @@ struct LoadedMesh {
 };
 /// `fixed_tags`: tags or physical names whose points must not move. Fixed, too, are points of straight pieces of the
 /// boundary where tagged lines end or change their tag.
-[[nodiscard]] Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags = {});
+[[nodiscard]] Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags = {},
+                                             Executor* executor = nullptr);
 
 /// Puts coordinates, weights, triangles and regions of the mesh back into the file it came from, whose dropped points
 /// go with their data. `vertices` is OptimizeReport::vertices: the number in `loaded` of each vertex of the mesh,
@@ -137,7 +146,7 @@ void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
             const IdVector<VertexId, VertexId>& vertices = {});
 
 /// Frees the points, weights and triangles of a file whose mesh has been made: update() writes them again, but cannot
-/// interpolate then. Nothing when points were dropped.
+/// interpolate then. Nothing when points were dropped. What is free is given back to the system.
 void release_geometry(MeshFile& file, const LoadedMesh& loaded);
 
 /// What is to be meshed, as a file says it.

@@ -17,6 +17,7 @@ struct WriteJob {
   const std::string& path;
   const MeshFile& file;
   std::optional<Encoding> encoding;
+  Executor* executor;
   OutputSet& outputs;
   std::vector<std::string>& warnings;
 

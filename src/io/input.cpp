@@ -1,6 +1,10 @@
 // Loading files and the checks that all formats share.
 #include "io/input.hpp"
 
+#ifdef __linux__
+#include <malloc.h>
+#endif
+
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -34,12 +38,13 @@ Source load(const std::string& path) {
   if (!file) fail(ErrorCode::not_found, path, text("cannot be read: ", std::strerror(errno)));
 
   Source source{path, {}};
+  constexpr std::size_t kChunk = 1 << 16;
   const auto size = std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
+  source.bytes.reserve((error ? 0 : size) + kChunk);  // the last look for more bytes must not move them all
   source.bytes.resize(error ? 0 : size);
   std::size_t got = std::fread(source.bytes.data(), 1, source.bytes.size(), file.get());
   source.bytes.resize(got);
   // Pipes have no size, and a file may have grown.
-  constexpr std::size_t kChunk = 1 << 16;
   for (;;) {
     source.bytes.resize(got + kChunk);
     const std::size_t more = std::fread(source.bytes.data() + got, 1, kChunk, file.get());
@@ -49,6 +54,12 @@ Source load(const std::string& path) {
   if (std::ferror(file.get())) fail(ErrorCode::not_found, path, text("cannot be read: ", std::strerror(errno)));
   if (source.bytes.empty()) fail(ErrorCode::empty_input, path, "the file is empty");
   return source;
+}
+
+void give_memory_back() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 Document new_document(const std::string& path) { return {MeshFile{}, std::make_shared<FileNames>(path)}; }

@@ -13,6 +13,7 @@ namespace temper::io {
 struct Source {
   std::string path;   ///< as the user gave it
   std::string bytes;  ///< readers may overwrite it while they decode
+  Executor* executor = nullptr;
 };
 
 /// Reads a file, or says why not: missing, a directory, empty.
@@ -20,6 +21,10 @@ struct Source {
 [[nodiscard]] bool exists(const std::string& path);
 /// PATH without its last suffix, when that is `suffix`; else PATH.
 [[nodiscard]] std::string without_suffix(const std::string& path, std::string_view suffix);
+
+/// Lets the system have the memory that was freed between what is in use, where the C library keeps it: what reading a
+/// large file has left would count on top of all that comes after.
+void give_memory_back();
 
 /// What a reader returns: the arrays, and the numbers that the file has for them.
 struct Document {

@@ -90,7 +90,7 @@ bool contains(const std::vector<std::int32_t>& tags, std::int32_t tag) {
 
 class MeshMaker {
  public:
-  explicit MeshMaker(const MeshFile& file) : file_(file) {}
+  MeshMaker(const MeshFile& file, Executor* executor) : file_(file), executor_(executor) {}
   Expected<LoadedMesh> make(std::span<const std::string> fixed_tags);
 
  private:
@@ -107,6 +107,7 @@ class MeshMaker {
   void fix_ends_of_tags();
 
   const MeshFile& file_;
+  Executor* executor_;
   InputNames counting_;
   LoadedMesh loaded_;
   std::size_t n_vertices_ = 0;
@@ -183,6 +184,7 @@ Expected<BuiltMesh> MeshMaker::build(const std::vector<std::int32_t>& fixed) con
   MeshInput input;
   input.regions = file_.regions;
   input.fixed_vertices = fixed;
+  input.executor = executor_;
   if (whole()) {
     const KeptNames kept(names(), {});
     input.points = file_.points;
@@ -291,9 +293,9 @@ void MeshMaker::fix_ends_of_tags() {
 
 }  // namespace
 
-Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags) {
+Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags, Executor* executor) {
   try {
-    return MeshMaker(file).make(fixed_tags);
+    return MeshMaker(file, executor).make(fixed_tags);
   } catch (Failure& failure) {
     return std::move(failure.error);
   }

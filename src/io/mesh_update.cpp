@@ -11,6 +11,7 @@
 
 #include "io/failure.hpp"
 #include "io/file_names.hpp"
+#include "io/input.hpp"
 #include "io/interpolation.hpp"
 #include "io/line_cuts.hpp"
 #include "io/values.hpp"
@@ -286,6 +287,7 @@ void release_geometry(MeshFile& file, const LoadedMesh& loaded) {
   std::vector<Vec2>().swap(file.points);  // assigning {} would keep the capacity
   std::vector<double>().swap(file.weights);
   std::vector<std::array<std::int32_t, 3>>().swap(file.triangles);
+  give_memory_back();
 }
 
 MeshFile from_mesh(const Mesh& mesh) {

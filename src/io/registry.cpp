@@ -44,8 +44,9 @@ const FormatRow& recognise(const Source& source) {
   fail(ErrorCode::syntax, source.path, text("is none of the formats that temper reads: ", names));
 }
 
-MeshFile read_or_throw(const std::string& path) {
+MeshFile read_or_throw(const std::string& path, const ReadOptions& options) {
   Source source = load(path);
+  source.executor = options.executor;
   const FormatRow& row = recognise(source);
   Document document = row.read(source);
   source.bytes = {};
@@ -54,6 +55,8 @@ MeshFile read_or_throw(const std::string& path) {
   read_side_file(document);
   document.file.path = path;
   document.file.numbering = document.names;
+  constexpr std::size_t kLarge = std::size_t{1} << 20;  // below it does not count, and reading is fast
+  if (document.file.points.size() + document.file.triangles.size() > kLarge) give_memory_back();
   return std::move(document.file);
 }
 
@@ -142,8 +145,8 @@ Expected<Result> guarded(const std::string& path, Work work) {
 
 std::span<const Format> formats() { return kFormats; }
 
-Expected<MeshFile> read(const std::string& path) {
-  return guarded<MeshFile>(path, [&] { return read_or_throw(path); });
+Expected<MeshFile> read(const std::string& path, const ReadOptions& options) {
+  return guarded<MeshFile>(path, [&] { return read_or_throw(path, options); });
 }
 
 Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file, const WriteOptions& options) {
@@ -152,7 +155,7 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
     check_sizes(path, file);
     std::vector<std::string> warnings;
     OutputSet outputs;
-    row.write({path, file, options.encoding, outputs, warnings});
+    row.write({path, file, options.encoding, options.executor, outputs, warnings});
     outputs.commit();
     return warnings;
   });

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <new>
+#include <vector>
 
 namespace temper::io {
 
@@ -90,26 +92,59 @@ std::optional<std::size_t> decode_base64(std::string_view in, char* out) {
   return static_cast<std::size_t>(fast - out) + decoder.finish();
 }
 
-void encode_base64(Output& out, std::string_view bytes) {
+namespace {
+
+/// Two characters of base64 for each twelve bits.
+constexpr auto kPairs = [] {
+  std::array<std::array<char, 2>, 4096> pairs{};
+  for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = {kAlphabet[i >> 6], kAlphabet[i & 63]};
+  return pairs;
+}();
+
+void encode_group(const unsigned char* three, char* to) {
+  const std::uint32_t bits = static_cast<std::uint32_t>(three[0] << 16 | three[1] << 8 | three[2]);
+  std::memcpy(to, kPairs[bits >> 12].data(), 2);
+  std::memcpy(to + 2, kPairs[bits & 4095].data(), 2);
+}
+
+}  // namespace
+
+void Base64Encoder::put(std::string_view bytes) {
   const auto* at = reinterpret_cast<const unsigned char*>(bytes.data());
-  std::array<char, 4096> text_block;
-  std::size_t used = 0;
   std::size_t left = bytes.size();
-  while (left > 0) {
-    const std::size_t n = std::min<std::size_t>(left, 3);
-    const std::uint32_t bits = static_cast<std::uint32_t>(at[0] << 16 | (n > 1 ? at[1] << 8 : 0) | (n > 2 ? at[2] : 0));
-    text_block[used] = kAlphabet[bits >> 18];
-    text_block[used + 1] = kAlphabet[bits >> 12 & 63];
-    text_block[used + 2] = n > 1 ? kAlphabet[bits >> 6 & 63] : '=';
-    text_block[used + 3] = n > 2 ? kAlphabet[bits & 63] : '=';
-    used += 4;
-    at += n;
-    left -= n;
-    if (used == text_block.size() || left == 0) {
-      out.put(std::string_view(text_block.data(), used));
-      used = 0;
-    }
+  while (n_left_ > 0 && left > 0) {
+    left_[n_left_++] = *at++;
+    --left;
+    if (n_left_ < 3) continue;
+    put_group(left_.data());
+    n_left_ = 0;
   }
+  constexpr std::size_t kGroups = 1024;
+  std::array<char, 4 * kGroups> text_block;
+  while (left >= 3) {
+    const std::size_t groups = std::min(left / 3, kGroups);
+    for (std::size_t i = 0; i < groups; ++i) encode_group(at + 3 * i, text_block.data() + 4 * i);
+    out_.put(std::string_view(text_block.data(), 4 * groups));
+    at += 3 * groups;
+    left -= 3 * groups;
+  }
+  while (left-- > 0) left_[n_left_++] = *at++;
+}
+
+void Base64Encoder::put_group(const unsigned char* three) {
+  std::array<char, 4> text_group;
+  encode_group(three, text_group.data());
+  out_.put(std::string_view(text_group.data(), text_group.size()));
+}
+
+void Base64Encoder::finish() {
+  if (n_left_ == 0) return;
+  std::fill(left_.begin() + static_cast<std::ptrdiff_t>(n_left_), left_.end(), static_cast<unsigned char>(0));
+  std::array<char, 4> text_group;
+  encode_group(left_.data(), text_group.data());
+  std::fill(text_group.begin() + static_cast<std::ptrdiff_t>(n_left_) + 1, text_group.end(), '=');
+  out_.put(std::string_view(text_group.data(), text_group.size()));
+  n_left_ = 0;
 }
 
 namespace {
@@ -191,18 +226,30 @@ Blocks read_blocks(std::string_view packed, const Packing& packing) {
   return blocks;
 }
 
-void inflate_blocks(const Blocks& blocks, char* out, const Packing& packing) {
-  const auto* data = reinterpret_cast<const Bytef*>(blocks.data.data());
-  auto* to = reinterpret_cast<Bytef*>(out);
-  for (std::size_t i = 0; i < blocks.compressed.size(); ++i) {
-    const uLongf expected = i + 1 < blocks.compressed.size() ? blocks.block : blocks.last;
-    uLongf got = expected;
-    const int status = uncompress(to, &got, data, blocks.compressed[i]);
-    if (status != Z_OK || got != expected) {
+bool inflate_block(const Blocks& blocks, std::size_t i, std::size_t start, char* out) {
+  const uLongf expected = i + 1 < blocks.compressed.size() ? blocks.block : blocks.last;
+  uLongf got = expected;
+  const auto* data = reinterpret_cast<const Bytef*>(blocks.data.data()) + start;
+  auto* to = reinterpret_cast<Bytef*>(out) + i * blocks.block;
+  return uncompress(to, &got, data, blocks.compressed[i]) == Z_OK && got == expected;
+}
+
+/// No block throws on a thread of the executor's: the first damaged one is named afterwards.
+void inflate_blocks(const Blocks& blocks, char* out, const Packing& packing, Executor* executor) {
+  const std::size_t n = blocks.compressed.size();
+  std::vector<std::size_t> starts(n, 0);
+  for (std::size_t i = 1; i < n; ++i) starts[i] = starts[i - 1] + blocks.compressed[i - 1];
+  std::vector<char> damaged(n, 0);
+  const auto inflate = [&](std::size_t i) { damaged[i] = inflate_block(blocks, i, starts[i], out) ? 0 : 1; };
+  if (executor != nullptr) {
+    executor->run(n, inflate);
+  } else {
+    for (std::size_t i = 0; i < n; ++i) inflate(i);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (damaged[i] != 0) {
       fail(ErrorCode::syntax, packing.where, text("block ", i, " of the compressed data is damaged"));
     }
-    data += blocks.compressed[i];
-    to += expected;
   }
 }
 
@@ -213,7 +260,7 @@ void check_whole(std::uint64_t bytes, std::size_t each, const Packing& packing) 
 
 }  // namespace
 
-Values unpack(std::string_view packed, Scalar scalar, const Packing& packing) {
+Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Executor* executor) {
   return with_scalar(scalar, [&](auto zero) -> Values {
     using T = decltype(zero);
     std::vector<T> values;
@@ -221,7 +268,7 @@ Values unpack(std::string_view packed, Scalar scalar, const Packing& packing) {
       const Blocks blocks = read_blocks(packed, packing);
       check_whole(blocks.total, sizeof(T), packing);
       values.resize(blocks.total / sizeof(T));
-      inflate_blocks(blocks, reinterpret_cast<char*>(values.data()), packing);
+      inflate_blocks(blocks, reinterpret_cast<char*>(values.data()), packing, executor);
     } else {
       Header header(packed, packing);
       const std::uint64_t bytes = header.word();
@@ -238,14 +285,28 @@ Values unpack(std::string_view packed, Scalar scalar, const Packing& packing) {
   });
 }
 
-std::string compress_block(std::string_view bytes, int level) {
-  uLongf size = compressBound(bytes.size());
-  std::string packed(size, '\0');
-  // The only errors are a bad level and too small a buffer.
-  compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(),
-            level);
-  packed.resize(size);
-  return packed;
+std::string compress_block(std::string_view bytes, Redundancy redundancy) {
+  constexpr int kLevel = 1, kWindowBits = 15, kMemory = 8;  // fast; the rest as compress() has it
+  z_stream stream{};
+  const int strategy = redundancy == Redundancy::runs ? Z_RLE : Z_DEFAULT_STRATEGY;
+  // The only errors are wrong parameters and no memory.
+  if (deflateInit2(&stream, kLevel, Z_DEFLATED, kWindowBits, kMemory, strategy) != Z_OK) throw std::bad_alloc();
+  std::vector<Bytef> packed(deflateBound(&stream, bytes.size()));
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = packed.data();
+  stream.avail_out = static_cast<uInt>(packed.size());
+  deflate(&stream, Z_FINISH);
+  std::string result(reinterpret_cast<const char*>(packed.data()), stream.total_out);
+  deflateEnd(&stream);
+  return result;
+}
+
+Redundancy choose_redundancy(std::string_view bytes) {
+  constexpr double kWorth = 1.05;  // of the size, for less than half of the time
+  const std::size_t runs = compress_block(bytes, Redundancy::runs).size();
+  const std::size_t strings = compress_block(bytes, Redundancy::strings).size();
+  return static_cast<double>(runs) <= kWorth * static_cast<double>(strings) ? Redundancy::runs : Redundancy::strings;
 }
 
 }  // namespace temper::io

@@ -7,20 +7,35 @@
 // padded on its own; a decoder that goes on past padding reads both forms.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "io/output.hpp"
 #include "io/values.hpp"
+#include "temper/executor.hpp"
 
 namespace temper::io {
 
 /// Decodes in place or elsewhere (out may be in.data()). Returns the bytes written; nothing when a character is not
 /// base64's.
 [[nodiscard]] std::optional<std::size_t> decode_base64(std::string_view in, char* out);
-/// Encodes with padding.
-void encode_base64(Output& out, std::string_view bytes);
+/// Base64 of bytes that come piece by piece.
+class Base64Encoder {
+ public:
+  explicit Base64Encoder(Output& out) : out_(out) {}
+  void put(std::string_view bytes);
+  /// The last call: padding.
+  void finish();
+
+ private:
+  void put_group(const unsigned char* three);
+
+  Output& out_;
+  std::array<unsigned char, 3> left_{};  // over from the piece before
+  std::size_t n_left_ = 0;
+};
 
 struct Packing {
   std::string where;         ///< for errors: file and array
@@ -28,10 +43,15 @@ struct Packing {
   bool compressed;
   bool swap;  ///< byte order is not this machine's
 };
-/// The numbers of one packed array.
-[[nodiscard]] Values unpack(std::string_view packed, Scalar scalar, const Packing& packing);
+/// The numbers of one packed array; blocks are inflated on the executor's threads when there is one.
+[[nodiscard]] Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Executor* executor);
 
-/// One block of numbers, compressed.
-[[nodiscard]] std::string compress_block(std::string_view bytes, int level);
+/// What zlib looks for: any string that was there before, or runs of one byte, which is far faster and loses little on
+/// the digits of measured coordinates.
+enum class Redundancy { strings, runs };
+/// One block of numbers, compressed fast rather than small.
+[[nodiscard]] std::string compress_block(std::string_view bytes, Redundancy redundancy);
+/// Runs, when that makes a first block hardly larger.
+[[nodiscard]] Redundancy choose_redundancy(std::string_view bytes);
 
 }  // namespace temper::io

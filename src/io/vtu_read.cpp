@@ -235,7 +235,7 @@ Values VtuReader::inline_binary(const pugi::xml_node& node, Scalar scalar, const
   char* out = buffer.data() + (packed.empty() ? 0 : packed.data() - buffer.data());
   const auto bytes = decode_base64(packed, out);
   if (!bytes) fail(ErrorCode::syntax, packing.where, "has a character that is not base64");
-  return unpack({out, *bytes}, scalar, packing);
+  return unpack({out, *bytes}, scalar, packing, source_.executor);
 }
 
 Values VtuReader::appended(const pugi::xml_node& node, Scalar scalar, const Packing& packing) {
@@ -250,7 +250,7 @@ Values VtuReader::appended(const pugi::xml_node& node, Scalar scalar, const Pack
          text("starts at byte ", offset, " of the appended data, which have only ", appended_.size()));
   }
   const std::string_view from = appended_.substr(offset);
-  if (!appended_is_base64_) return unpack(from, scalar, packing);
+  if (!appended_is_base64_) return unpack(from, scalar, packing, source_.executor);
   // Base64 ends where the next array starts; what follows it in the same text does no harm to a decoder that
   // knows the length from the header. Not in place: two arrays may share their bytes.
   const std::string_view only = from.substr(0, from.find('<'));
@@ -262,7 +262,7 @@ Values VtuReader::appended(const pugi::xml_node& node, Scalar scalar, const Pack
   std::string bytes(next, '\0');
   const auto n = decode_base64(trimmed(only.substr(0, next)), bytes.data());
   if (!n) fail(ErrorCode::syntax, packing.where, "has a character that is not base64");
-  return unpack(std::string_view(bytes).substr(0, *n), scalar, packing);
+  return unpack(std::string_view(bytes).substr(0, *n), scalar, packing, source_.executor);
 }
 
 std::vector<DataArray> VtuReader::arrays(const pugi::xml_node& parent, std::size_t tuples, std::string_view kind) {

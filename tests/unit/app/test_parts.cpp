@@ -11,24 +11,40 @@
 namespace temper::app {
 namespace {
 
-TEST(ThreadPool, RunsEveryBlockOnceWithAnyNumberOfThreads) {
-  for (const std::size_t threads : {0u, 1u, 2u, 5u}) {
-    ThreadPool pool(threads);
+TEST(Threads, AreThereWhenMoreThanOneIsAskedFor) {
+  EXPECT_EQ(make_threads(1), nullptr);
+  const bool has_threads = threads_note().empty();
+  for (const std::size_t threads : {2u, 3u, 8u}) EXPECT_EQ(make_threads(threads) != nullptr, has_threads);
+}
+
+TEST(Threads, RunEveryBlockOnceHoweverManyTheyAre) {
+  for (const std::size_t threads : {0u, 2u, 3u, 8u}) {
+    const auto executor = make_threads(threads);
+    if (executor == nullptr) continue;
     for (const std::size_t n : {0u, 1u, 2u, 7u, 1000u}) {
       std::vector<int> runs(n, 0);
-      pool.run(n, [&runs](std::size_t i) { ++runs[i]; });
+      executor->run(n, [&runs](std::size_t i) { ++runs[i]; });
       EXPECT_EQ(runs, std::vector<int>(n, 1)) << threads << " threads, " << n << " blocks";
     }
   }
 }
 
-TEST(ThreadPool, ReturnsOnlyWhenAllBlocksAreDone) {
-  ThreadPool pool(3);
+TEST(Threads, ReturnOnlyWhenAllBlocksAreDone) {
+  const auto executor = make_threads(3);
+  if (executor == nullptr) GTEST_SKIP() << "built without oneTBB";
   for (int round = 0; round < 200; ++round) {
     std::atomic<int> done = 0;
-    pool.run(5, [&done](std::size_t) { ++done; });
+    executor->run(5, [&done](std::size_t) { ++done; });
     ASSERT_EQ(done, 5);
   }
+}
+
+TEST(Threads, RunWithinABlock) {
+  const auto executor = make_threads(4);
+  if (executor == nullptr) GTEST_SKIP() << "built without oneTBB";
+  std::atomic<int> done = 0;
+  executor->run(20, [&](std::size_t) { executor->run(30, [&done](std::size_t) { ++done; }); });
+  EXPECT_EQ(done, 600);
 }
 
 TEST(Suggestion, NamesTheNearestAndNeverAGuess) {

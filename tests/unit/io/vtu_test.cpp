@@ -2,6 +2,7 @@
 #include <zlib.h>
 
 #include "support.hpp"
+#include "support/std_threads.hpp"
 
 namespace temper::io {
 namespace {
@@ -165,6 +166,115 @@ TEST_F(FileTest, vtu_errors_name_the_array_and_its_line) {
             "m.vtu: is compressed with vtkLZ4DataCompressor; temper reads vtkZLibDataCompressor");
   EXPECT_EQ(message("NumberOfCells=\"1\"", "NumberOfCells=\"2\""),
             "m.vtu:11: has 1 offsets and 1 types, expected 2 of each");
+}
+
+/// A grid of several compressed blocks an array; its points are moved by a pseudorandom bit of a cell when asked for.
+MeshFile many_blocks(bool random) {
+  constexpr int kSide = 180;
+  MeshFile f;
+  std::uint32_t state = 1;
+  const auto jitter = [&] {
+    state = 1664525 * state + 1013904223;
+    return random ? 0.3 * state / 4294967296.0 : 0.0;
+  };
+  for (int j = 0; j <= kSide; ++j) {
+    for (int i = 0; i <= kSide; ++i) {
+      f.points.push_back({i + jitter(), j + jitter()});
+      f.weights.push_back(jitter());
+    }
+  }
+  for (std::int32_t j = 0; j < kSide; ++j) {
+    for (std::int32_t i = 0; i < kSide; ++i) {
+      const std::int32_t a = j * (kSide + 1) + i, b = a + kSide + 1;
+      f.triangles.push_back({a, a + 1, b + 1});
+      f.triangles.push_back({a, b + 1, b});
+      f.regions.insert(f.regions.end(), 2, i / 50);
+    }
+  }
+  return f;
+}
+
+TEST_F(FileTest, vtu_is_the_same_for_any_number_of_threads) {
+  for (const bool random : {false, true}) {
+    const MeshFile file = many_blocks(random);
+    const auto expected = make_mesh(file);
+    ASSERT_TRUE(expected) << expected.error().what();
+    EXPECT_EQ(expected->mesh.validate(), std::nullopt);
+    for (const Encoding encoding : {Encoding::base64, Encoding::appended}) {
+      ASSERT_TRUE(write(path("alone.vtu"), file, {"", encoding}));
+      const std::string alone = slurp(path("alone.vtu"));
+      for (const std::size_t threads : {1u, 2u, 3u, 8u}) {
+        test::StdThreads executor(threads);
+        ASSERT_TRUE(write(path("threads.vtu"), file, {"", encoding, &executor}));
+        EXPECT_EQ(executor.runs() > 0, encoding == Encoding::base64);
+        EXPECT_TRUE(slurp(path("threads.vtu")) == alone) << threads;
+        const auto back = read(path("threads.vtu"), {&executor});
+        ASSERT_TRUE(back) << back.error().what();
+        expect_same_mesh(*back, file);
+        const auto made = make_mesh(*back, {}, &executor);
+        ASSERT_TRUE(made) << made.error().what();
+        EXPECT_EQ(made->mesh, expected->mesh);
+      }
+    }
+  }
+}
+
+TEST_F(FileTest, vtu_of_a_grid_stays_small) {
+  // Runs of bytes are all that is looked for in coordinates, unless strings of them pay.
+  ASSERT_TRUE(write(path("grid.vtu"), many_blocks(false), {"", Encoding::base64}));
+  ASSERT_TRUE(write(path("raw.vtu"), many_blocks(false), {"", Encoding::appended}));
+  EXPECT_LT(4 * std::filesystem::file_size(path("grid.vtu")), std::filesystem::file_size(path("raw.vtu")));
+}
+
+TEST_F(FileTest, vtu_damaged_blocks_are_named_whoever_unpacks_them) {
+  ASSERT_TRUE(write(path("m.vtu"), many_blocks(true), {"", Encoding::base64}));
+  std::string bytes = slurp(path("m.vtu"));
+  const std::size_t points = bytes.find("Name=\"Points\""), end = bytes.find("</DataArray>", points);
+  bytes.replace(end - 4000, 8, "AAAAAAAA");  // in the last block
+  bytes.replace(end - 400, 8, "AAAAAAAA");
+  spill(path("m.vtu"), bytes);
+  for (const std::size_t threads : {0u, 1u, 3u, 8u}) {
+    test::StdThreads executor(threads);
+    const auto f = read(path("m.vtu"), {threads > 0 ? &executor : nullptr});
+    ASSERT_FALSE(f);
+    EXPECT_EQ(plain(f.error().what()), "m.vtu: array 'Points': block 2 of the compressed data is damaged");
+  }
+}
+
+TEST_F(FileTest, vtu_appended_data_that_are_cut_or_point_nowhere_are_named) {
+  ASSERT_TRUE(write(path("m.vtu"), sample(), {"", Encoding::appended}));
+  const std::string whole = slurp(path("m.vtu"));
+  const std::size_t data = whole.find('_', whole.find("<AppendedData")) + 1;
+  const auto message = [&](std::string_view bytes) {
+    const auto f = read(make("cut.vtu", bytes));
+    return f ? std::string("was read") : plain(f.error().what());
+  };
+  EXPECT_EQ(message(whole), "was read");
+  EXPECT_EQ(message(whole.substr(0, data + 100)), "cut.vtu: array 'Points': announces 144 bytes, but only 92 follow");
+  EXPECT_EQ(message(whole.substr(0, data + 5)), "cut.vtu: array 'Points': the data end within their header");
+  EXPECT_EQ(message(whole.substr(0, data + 200)),
+            "cut.vtu: array 'connectivity': announces 80 bytes, but only 40 follow");
+  EXPECT_EQ(message(whole.substr(0, data - 1)), "cut.vtu: the appended data are missing");
+  std::string longer = whole;
+  longer[data + 3] = 1;  // sixteen million bytes of points
+  EXPECT_EQ(message(longer).substr(0, 57), "cut.vtu: array 'Points': announces 16777360 bytes, but on");
+  std::string beyond = whole;
+  const std::size_t offset = whole.find("offset=\"152\"");
+  ASSERT_NE(offset, std::string::npos);
+  beyond.replace(offset, 12, "offset=\"99999\"");
+  EXPECT_EQ(message(beyond).substr(0, 60), "cut.vtu: array 'connectivity': starts at byte 99999 of the a");
+}
+
+TEST_F(FileTest, vtu_that_cannot_be_written_leaves_what_was_there) {
+  make("m.vtu", "precious");
+  MeshFile file = many_blocks(true);
+  file.weights.pop_back();
+  test::StdThreads executor(3);
+  for (const Encoding encoding : {Encoding::base64, Encoding::appended}) {
+    EXPECT_FALSE(write(path("m.vtu"), file, {"", encoding, &executor}));
+    EXPECT_EQ(slurp(path("m.vtu")), "precious");
+    EXPECT_EQ(files(), std::vector<std::string>{"m.vtu"});
+  }
 }
 
 }  // namespace

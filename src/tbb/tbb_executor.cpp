@@ -1,0 +1,47 @@
+// See temper/tbb_executor.hpp.
+#include "temper/tbb_executor.hpp"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace temper {
+
+struct TbbExecutor::Arena {
+  explicit Arena(std::size_t n) : threads(n), arena(static_cast<int>(n)) {
+    // oneTBB has as many workers as the machine has processors, unless told otherwise for the whole program.
+    if (threads > static_cast<std::size_t>(tbb::info::default_concurrency())) {
+      more.emplace(tbb::global_control::max_allowed_parallelism, threads);
+    }
+  }
+  std::size_t threads;
+  std::optional<tbb::global_control> more;
+  tbb::task_arena arena;
+};
+
+TbbExecutor::TbbExecutor(std::size_t threads)
+    : arena_(std::make_unique<Arena>(
+          threads > 0 ? threads : static_cast<std::size_t>(std::max(1, tbb::info::default_concurrency())))) {}
+
+TbbExecutor::~TbbExecutor() = default;
+
+std::size_t TbbExecutor::threads() const { return arena_->threads; }
+
+void TbbExecutor::run(std::size_t n, const std::function<void(std::size_t)>& block) {
+  if (n < 2 || arena_->threads < 2) {
+    for (std::size_t i = 0; i < n; ++i) block(i);
+    return;
+  }
+  arena_->arena.execute([&] {
+    // Isolated: a thread that waits here for others takes no block of another run(), whose scratch it may be using.
+    tbb::this_task_arena::isolate(
+        [&] { tbb::parallel_for(std::size_t{0}, n, std::size_t{1}, block, tbb::simple_partitioner()); });
+  });
+}
+
+}  // namespace temper
