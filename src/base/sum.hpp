@@ -20,22 +20,27 @@ inline double pairwise_sum(std::vector<double>& values) {
   return values.empty() ? 0.0 : values[0];
 }
 
+/// Σ of what block(b) returns for each block of kBlockSize of n; on the executor's threads when there is one.
+template <class Block>
+double sum_of_blocks(std::size_t n, Executor* executor, Block&& block) {
+  std::vector<double> sums((n + kBlockSize - 1) / kBlockSize, 0.0);
+  const auto run = [&](std::size_t b) { sums[b] = block(b); };
+  if (executor != nullptr) {
+    executor->run(sums.size(), run);
+  } else {
+    for (std::size_t b = 0; b < sums.size(); ++b) run(b);
+  }
+  return pairwise_sum(sums);
+}
+
 /// Σ term(i), i = 0 … n − 1; on the executor's threads when there is one.
 template <class Term>
 double blockwise_sum(std::size_t n, Executor* executor, Term&& term) {
-  const std::size_t blocks = (n + kBlockSize - 1) / kBlockSize;
-  std::vector<double> sums(blocks, 0.0);
-  const auto block = [&](std::size_t b) {
+  return sum_of_blocks(n, executor, [&](std::size_t b) {
     double sum = 0;
     for (std::size_t i = b * kBlockSize; i < std::min(n, (b + 1) * kBlockSize); ++i) sum += term(i);
-    sums[b] = sum;
-  };
-  if (executor != nullptr) {
-    executor->run(blocks, block);
-  } else {
-    for (std::size_t b = 0; b < blocks; ++b) block(b);
-  }
-  return pairwise_sum(sums);
+    return sum;
+  });
 }
 
 }  // namespace temper

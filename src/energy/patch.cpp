@@ -238,22 +238,16 @@ double triangle_energy(const EnergyModel& model, const WeightedPoint& p, const W
   });
 }
 
-double total_energy(const Mesh& mesh, const EnergyModel& model, Executor* executor) {
-  return with_kernel(model, [&](const auto& kernel) {
-    return blockwise_sum(mesh.n_triangles(), executor, [&](std::size_t i) {
-      const TriangleId t(i);
-      if constexpr (std::decay_t<decltype(kernel)>::kBarrier) {
-        const auto [p, q, r] = mesh.corners(t);
-        return barrier_triangle(kernel, triangle_shape(mesh.point(p), mesh.point(q), mesh.point(r)));
-      } else {
-        double sum = 0;
-        for (int k = 0; k < 3; ++k) {
-          const HalfedgeId h = Mesh::halfedge(t, k);
-          if (mesh.is_edge_representative(h)) sum += full_edge_energy(mesh, model, kernel, h);
-        }
-        return sum;
-      }
-    });
+double total_hot_energy(const Mesh& mesh, const EnergyModel& model, Executor* executor) {
+  const EdgeFormula formula = edge_formula(model);
+  const HotKernel kernel{formula.alpha, formula.beta};
+  return blockwise_sum(mesh.n_triangles(), executor, [&](std::size_t i) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(TriangleId(i), k);
+      if (mesh.is_edge_representative(h)) sum += full_edge_energy(mesh, model, kernel, h);
+    }
+    return sum;
   });
 }
 

@@ -50,6 +50,9 @@ void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch);
 /// total(after) − total(before) = flip_energy(after) − flip_energy(before).
 [[nodiscard]] double flip_energy(const Mesh& mesh, const EnergyModel& model, HalfedgeId h);
 
+/// total_energy() of a HOT energy.
+[[nodiscard]] double total_hot_energy(const Mesh& mesh, const EnergyModel& model, Executor* executor);
+
 /// The sign, and for E_F the treatment at the boundary, by which an edge's HOT energy counts.
 /// g and g_other are same-side heights of the edge in its two triangles; g_other is 0 on the boundary.
 [[nodiscard]] double hot_factor(const EnergyModel& model, double g, double g_other, bool boundary);

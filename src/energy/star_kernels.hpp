@@ -5,8 +5,7 @@
 
 #include <cstddef>
 
-#include "energy/edge_kernels.hpp"
-#include "temper/vec2.hpp"
+#include "energy/lanes.hpp"
 
 namespace temper {
 
@@ -24,6 +23,11 @@ struct EdgeFactors {
   const double *pq, *qr, *rp;
 };
 
+/// Triangles, one a lane.
+struct TriangleLanes {
+  LanePoints p, q, r;
+};
+
 struct StarKernels {
   /// Of a barrier at p. False outside its domain, where the sums mean nothing.
   bool (*barrier_derivatives)(const EdgeFormula& formula, const LinkArrays& link, const WeightedPoint& p, double* sums);
@@ -31,6 +35,10 @@ struct StarKernels {
   double (*barrier_value)(const EdgeFormula& formula, const LinkArrays& link, const WeightedPoint& p);
   void (*hot_derivatives)(const EdgeFormula& formula, const LinkArrays& link, const EdgeFactors& factors,
                           const WeightedPoint& p, double* sums);
+  /// The values of a barrier of the first n triangles, summed; +∞ when one is outside the domain.
+  double (*barrier_sum)(const EdgeFormula& formula, const TriangleLanes& triangles, std::size_t n);
+  /// Bit i: triangle i is certainly well-centered. The rest is for exact predicates.
+  unsigned (*well_centered)(const TriangleLanes& triangles);
 };
 
 /// Of the instruction set in use.

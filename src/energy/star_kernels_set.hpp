@@ -3,6 +3,7 @@
 
 #include "energy/star_kernels.hpp"
 #include "energy/star_sums.hpp"
+#include "geometry/predicates_inline.hpp"
 
 namespace temper::TEMPER_INSTRUCTION_SET {
 namespace {
@@ -14,7 +15,7 @@ TEMPER_INLINE Pack::Mask first_lanes(std::size_t n) {
   return Pack::Mask::load(kFirstLanes + (n < kLanes ? kLanes - n : 0));
 }
 
-TEMPER_INLINE PackPoint load(const LinkArrays& link, std::size_t i) {
+TEMPER_INLINE PackPoint load_link(const LinkArrays& link, std::size_t i) {
   return {Pack::load(link.x + i), Pack::load(link.y + i), Pack::load(link.w + i)};
 }
 
@@ -34,7 +35,7 @@ TEMPER_INLINE bool star_derivatives(const Kernel& kernel, const LinkArrays& link
   StarSums sums;
   for (std::size_t i = 0; i < link.size; i += kLanes) {
     const Pack::Mask where = first_lanes(link.size - i);
-    const Pack::Mask inside = add_barrier(kernel, p, load(link, i), load(link, i + 1), where, sums);
+    const Pack::Mask inside = add_barrier(kernel, p, load_link(link, i), load_link(link, i + 1), where, sums);
     if ((inside | ~where).bits() != kAllLanes) return false;
   }
   store(sums, out);
@@ -47,7 +48,7 @@ TEMPER_INLINE double star_value(const Kernel& kernel, const LinkArrays& link, co
   Pack total = Pack::all(0);
   for (std::size_t i = 0; i < link.size; i += kLanes) {
     const Pack::Mask where = first_lanes(link.size - i);
-    const Pack::Mask inside = add_barrier_value(kernel, p, load(link, i), load(link, i + 1), where, total);
+    const Pack::Mask inside = add_barrier_value(kernel, p, load_link(link, i), load_link(link, i + 1), where, total);
     if ((inside | ~where).bits() != kAllLanes) return kInfinity;
   }
   return sum(total);
@@ -67,14 +68,41 @@ void hot_derivatives(const EdgeFormula& f, const LinkArrays& link, const EdgeFac
   const PackPoint p = everywhere(at);
   StarSums sums;
   for (std::size_t i = 0; i < link.size; i += kLanes) {
-    add_hot(kernel, p, load(link, i), load(link, i + 1), Pack::load(factors.pq + i), Pack::load(factors.qr + i),
-            Pack::load(factors.rp + i), first_lanes(link.size - i), sums);
+    add_hot(kernel, p, load_link(link, i), load_link(link, i + 1), Pack::load(factors.pq + i),
+            Pack::load(factors.qr + i), Pack::load(factors.rp + i), first_lanes(link.size - i), sums);
   }
   store(sums, out);
 }
 
+double barrier_sum(const EdgeFormula& f, const TriangleLanes& triangles, std::size_t n) {
+  const PackPoint p = load(triangles.p), q = load(triangles.q), r = load(triangles.r);
+  return with_barrier(f, [&](const auto& kernel) {
+    TriangleVectors<Pack> unused;
+    const PackShape s = triangle_shape(p, q, r, unused);
+    const auto value = [&](const EdgeShapeOf<Pack>& e) {
+      const Pack x = kernel.value_inside(e);
+      return select(x > 0, x, Pack::all(kInfinity));
+    };
+    return sum(select(first_lanes(n), value(s.pq) + value(s.qr) + value(s.rp), Pack::all(0)));
+  });
+}
+
+unsigned well_centered(const TriangleLanes& triangles) {
+  const PackPoint p = load(triangles.p), q = load(triangles.q), r = load(triangles.r);
+  const auto positive = [](const inlined::Filtered<Pack>& x) { return x.value > x.bound; };
+  const auto crosses = [&](const PackPoint& a, const PackPoint& b) {
+    return positive(inlined::filtered_edge_split(a, b)) & positive(inlined::filtered_edge_split(b, a));
+  };
+  const auto above = [&](const PackPoint& a, const PackPoint& b, const PackPoint& c) {
+    return positive(inlined::filtered_height_numerator(a, b, c));
+  };
+  return (positive(inlined::filtered_orient2d(p, q, r)) & above(p, q, r) & above(q, r, p) & above(r, p, q) &
+          crosses(p, q) & crosses(q, r) & crosses(r, p))
+      .bits();
+}
+
 }  // namespace
 
-const StarKernels kStarKernels = {barrier_derivatives, barrier_value, hot_derivatives};
+const StarKernels kStarKernels = {barrier_derivatives, barrier_value, hot_derivatives, barrier_sum, well_centered};
 
 }  // namespace temper::TEMPER_INSTRUCTION_SET

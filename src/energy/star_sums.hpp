@@ -6,13 +6,19 @@
 // g_qr = S − g_pq − g_rp. The Hessian is gathered by what stands beside I, a⊗a, b⊗b and a⊗b + b⊗a.
 #pragma once
 
-#include "energy/edge_kernels.hpp"
+#include "energy/lanes.hpp"
 
 namespace temper::TEMPER_INSTRUCTION_SET {
 
 struct PackPoint {
   Pack x, y, w;
 };
+
+TEMPER_INLINE PackPoint load(const LanePoints& p) {
+  return {Pack::load(p.x.data()), Pack::load(p.y.data()), Pack::load(p.w.data())};
+}
+
+TEMPER_INLINE Pack::Mask load(const LaneMask& m) { return Pack::Mask::load(m.data()); }
 
 using PackShape = TriangleShapeOf<Pack>;
 using PackTerm = EdgeTerm<Pack>;

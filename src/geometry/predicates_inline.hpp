@@ -15,6 +15,7 @@
 
 #include <cmath>
 
+#include "base/pack.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper::exact {
@@ -42,30 +43,48 @@ inline constexpr double kPowerTestBound = 16 * kUnitRoundoff;
 // 11: dot product 4, dot product and weights 5, their product, one sum.
 inline constexpr double kHeightBound = 16 * kUnitRoundoff;
 
+/// What a predicate is the sign of, and what bounds its rounding: the sign is right where the value is beyond the
+/// bound. The functions that return it take points of doubles or of packs (base/pack.hpp).
+template <class T>
+struct Filtered {
+  T value, bound;
+};
+
+template <class Point>
+TEMPER_INLINE auto filtered_orient2d(const Point& a, const Point& b, const Point& c) {
+  using T = decltype(a.x - c.x);
+  const T left = (a.x - c.x) * (b.y - c.y);
+  const T right = (a.y - c.y) * (b.x - c.x);
+  return Filtered<T>{left - right, kOrient2dBound * (absolute(left) + absolute(right))};
+}
+
 [[nodiscard]] inline Sign orient2d(Vec2 a, Vec2 b, Vec2 c) {
-  const double left = (a.x - c.x) * (b.y - c.y);
-  const double right = (a.y - c.y) * (b.x - c.x);
-  const double determinant = left - right;
-  const double bound = kOrient2dBound * (std::abs(left) + std::abs(right));
+  const auto [determinant, bound] = filtered_orient2d(a, b, c);
   if (determinant > bound) return Sign::positive;
   if (determinant < -bound) return Sign::negative;
   return exact::orient2d(a, b, c);
 }
 
+template <class Point>
+TEMPER_INLINE auto filtered_power_test(const Point& a, const Point& b, const Point& c, const Point& d) {
+  using T = decltype(a.x - d.x);
+  const T ax = a.x - d.x, ay = a.y - d.y, aw = a.w - d.w;
+  const T bx = b.x - d.x, by = b.y - d.y, bw = b.w - d.w;
+  const T cx = c.x - d.x, cy = c.y - d.y, cw = c.w - d.w;
+  const T bxcy = bx * cy, bycx = by * cx;
+  const T cxay = cx * ay, cyax = cy * ax;
+  const T axby = ax * by, aybx = ay * bx;
+  const T aa = ax * ax + ay * ay, bb = bx * bx + by * by, cc = cx * cx + cy * cy;
+  const T determinant = (aa - aw) * (bxcy - bycx) + (bb - bw) * (cxay - cyax) + (cc - cw) * (axby - aybx);
+  const T permanent = (aa + absolute(aw)) * (absolute(bxcy) + absolute(bycx)) +
+                      (bb + absolute(bw)) * (absolute(cxay) + absolute(cyax)) +
+                      (cc + absolute(cw)) * (absolute(axby) + absolute(aybx));
+  return Filtered<T>{determinant, kPowerTestBound * permanent};
+}
+
 [[nodiscard]] inline Sign power_test(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
                                      const WeightedPoint& d) {
-  const double ax = a.x - d.x, ay = a.y - d.y, aw = a.w - d.w;
-  const double bx = b.x - d.x, by = b.y - d.y, bw = b.w - d.w;
-  const double cx = c.x - d.x, cy = c.y - d.y, cw = c.w - d.w;
-  const double bxcy = bx * cy, bycx = by * cx;
-  const double cxay = cx * ay, cyax = cy * ax;
-  const double axby = ax * by, aybx = ay * bx;
-  const double aa = ax * ax + ay * ay, bb = bx * bx + by * by, cc = cx * cx + cy * cy;
-  const double determinant = (aa - aw) * (bxcy - bycx) + (bb - bw) * (cxay - cyax) + (cc - cw) * (axby - aybx);
-  const double permanent = (aa + std::abs(aw)) * (std::abs(bxcy) + std::abs(bycx)) +
-                           (bb + std::abs(bw)) * (std::abs(cxay) + std::abs(cyax)) +
-                           (cc + std::abs(cw)) * (std::abs(axby) + std::abs(aybx));
-  const double bound = kPowerTestBound * permanent;
+  const auto [determinant, bound] = filtered_power_test(a, b, c, d);
   if (determinant > bound) return Sign::positive;
   if (determinant < -bound) return Sign::negative;
   return exact::power_test(a, b, c, d);
@@ -73,30 +92,42 @@ inline constexpr double kHeightBound = 16 * kUnitRoundoff;
 
 /// Sign of 2 h ℓ S over edge pq, S twice the signed area. With the dot products D_p = (q − p)·(r − p) and so on,
 /// |q − p|² = D_p + D_q and 2 h ℓ S = D_p (D_r + w_q − w_r) + D_q (D_r + w_p − w_r).
+template <class Point>
+TEMPER_INLINE auto filtered_height_numerator(const Point& p, const Point& q, const Point& r) {
+  using T = decltype(q.x - p.x);
+  const T pqx = q.x - p.x, pqy = q.y - p.y;
+  const T prx = r.x - p.x, pry = r.y - p.y;
+  const T qrx = r.x - q.x, qry = r.y - q.y;
+  const T wqr = q.w - r.w, wpr = p.w - r.w;
+  const T px = pqx * prx, py = pqy * pry;
+  const T qx = -pqx * qrx, qy = -pqy * qry;
+  const T rx = prx * qrx, ry = pry * qry;
+  const T numerator = (px + py) * (rx + ry + wqr) + (qx + qy) * (rx + ry + wpr);
+  const T at_r = absolute(rx) + absolute(ry);
+  const T permanent =
+      (absolute(px) + absolute(py)) * (at_r + absolute(wqr)) + (absolute(qx) + absolute(qy)) * (at_r + absolute(wpr));
+  return Filtered<T>{numerator, kHeightBound * permanent};
+}
+
 [[nodiscard]] inline Sign height_numerator_sign(const WeightedPoint& p, const WeightedPoint& q,
                                                 const WeightedPoint& r) {
-  const double pqx = q.x - p.x, pqy = q.y - p.y;
-  const double prx = r.x - p.x, pry = r.y - p.y;
-  const double qrx = r.x - q.x, qry = r.y - q.y;
-  const double wqr = q.w - r.w, wpr = p.w - r.w;
-  const double px = pqx * prx, py = pqy * pry;
-  const double qx = -pqx * qrx, qy = -pqy * qry;
-  const double rx = prx * qrx, ry = pry * qry;
-  const double numerator = (px + py) * (rx + ry + wqr) + (qx + qy) * (rx + ry + wpr);
-  const double at_r = std::abs(rx) + std::abs(ry);
-  const double permanent =
-      (std::abs(px) + std::abs(py)) * (at_r + std::abs(wqr)) + (std::abs(qx) + std::abs(qy)) * (at_r + std::abs(wpr));
-  const double bound = kHeightBound * permanent;
+  const auto [numerator, bound] = filtered_height_numerator(p, q, r);
   if (numerator > bound) return Sign::positive;
   if (numerator < -bound) return Sign::negative;
   return exact::height_numerator_sign(p, q, r);
 }
 
+/// Sign of 2 d ℓ of edge pq, from p.
+template <class Point>
+TEMPER_INLINE auto filtered_edge_split(const Point& p, const Point& q) {
+  using T = decltype(q.x - p.x);
+  const T x = q.x - p.x, y = q.y - p.y, w = p.w - q.w;
+  const T squared = x * x + y * y;
+  return Filtered<T>{squared + w, kEdgeSplitBound * (squared + absolute(w))};
+}
+
 [[nodiscard]] inline Sign edge_split_sign(const WeightedPoint& p, const WeightedPoint& q) {
-  const double x = q.x - p.x, y = q.y - p.y, w = p.w - q.w;
-  const double squared = x * x + y * y;
-  const double sum = squared + w;
-  const double bound = kEdgeSplitBound * (squared + std::abs(w));
+  const auto [sum, bound] = filtered_edge_split(p, q);
   if (sum > bound) return Sign::positive;
   if (sum < -bound) return Sign::negative;
   return exact::edge_split_sign(p, q);

@@ -326,9 +326,10 @@ void Driver::record() {
 void Driver::amend_record() {
   SweepRecord& r = run_.report.history.back();
   const Flipper::Changes changes = flipper_.take_changes();
-  r.energy = total();
+  const auto [energy, bad] = energy_and_bad(mesh_, settings_.model, settings_.options.executor);
+  r.energy = energy_unit_ * energy;
   r.softening = settings_.energy.softened_by_h0 ? settings_.model.h0.value : settings_.model.gamma.value;
-  r.bad = count_bad(mesh_, settings_.options.executor);
+  r.bad = bad;
   r.flips += changes.flips;
   r.seconds = run_.seconds();
   run_.report.flips += changes.flips;

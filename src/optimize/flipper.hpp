@@ -57,6 +57,7 @@ class Flipper {
     changes_.removed += more.removed;
     changes_.inserted += more.inserted;
   }
+  [[nodiscard]] const Changes& changes() const { return changes_; }
   [[nodiscard]] bool has_removed() const { return changes_.removed > 0; }
 
  private:

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "optimize/golden.hpp"
+#include "optimize/newton_constants.hpp"
 
 namespace temper {
 namespace {
@@ -11,8 +12,6 @@ namespace {
 constexpr double kDifference = 1e-6;
 // Golden section cannot tell energies apart below the root of the roundoff.
 constexpr double kGoldenTolerance = 1e-8;
-// A step goes at most this part of the way to the first triangle's inversion.
-constexpr double kInversionFraction = 0.9;
 
 }  // namespace
 

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "optimize/newton_constants.hpp"
+
 namespace temper {
 namespace {
 
-// Of the scaled unknowns: half a patch radius in position, half a squared one in weight.
-constexpr double kTrustRadius = 0.5;
-// Eigenvalues below this part of the largest are raised to it: the step is then cut by the trust radius anyway.
-constexpr double kEigenvalueFloor = 1e-6;
 // Sweeps of Jacobi rotations on 3 × 3: convergence is quadratic, five reach rounding.
 constexpr int kJacobiSweeps = 8;
 

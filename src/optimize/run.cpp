@@ -1,6 +1,5 @@
 #include "optimize/run.hpp"
 
-#include "base/sum.hpp"
 #include "geometry/predicates_inline.hpp"
 
 namespace temper {
@@ -21,11 +20,6 @@ bool is_bad(const Mesh& mesh, TriangleId t) {
   if (mesh.is_erased(t)) return false;
   const auto [p, q, r] = mesh.corners(t);
   return !inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r));
-}
-
-std::size_t count_bad(const Mesh& mesh, Executor* executor) {
-  return static_cast<std::size_t>(blockwise_sum(
-      mesh.n_triangles(), executor, [&](std::size_t i) { return is_bad(mesh, TriangleId(i)) ? 1.0 : 0.0; }));
 }
 
 std::size_t count_inverted(const Mesh& mesh) {

@@ -4,14 +4,13 @@
 #include <chrono>
 #include <cstddef>
 
+#include "energy/whole_mesh.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {
 
 /// Whether a triangle is not well-centered, exact. Erased ones are not bad.
 [[nodiscard]] bool is_bad(const Mesh& mesh, TriangleId t);
-/// Triangles that are not well-centered, exact.
-[[nodiscard]] std::size_t count_bad(const Mesh& mesh, Executor* executor);
 /// Triangles that are not counter-clockwise, exact.
 [[nodiscard]] std::size_t count_inverted(const Mesh& mesh);
 

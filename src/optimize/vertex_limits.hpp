@@ -1,6 +1,8 @@
 // What limits the steps of each vertex, shared by all that make steps on one mesh.
 #pragma once
 
+#include <cstdint>
+
 #include "optimize/freedom.hpp"
 #include "optimize/settings.hpp"
 #include "optimize/size_band.hpp"
@@ -11,7 +13,8 @@ struct VertexLimits {
   VertexLimits(const Mesh& mesh, const Settings& settings, const Frame& frame);
 
   IdVector<VertexId, Mobility> mobility;
-  SizeBand band;  ///< has scratch of its own: with a band, only one step at a time
+  IdVector<VertexId, std::uint8_t> scratch;  ///< of batches, see batch_step.cpp
+  SizeBand band;                             ///< has scratch of its own: with a band, only one step at a time
 
   /// v stays, weight and all.
   void freeze(VertexId v) { mobility[v] = Mobility::frozen; }

@@ -6,6 +6,7 @@
 #include "geometry/predicates_inline.hpp"
 #include "optimize/cavity.hpp"
 #include "optimize/line_search.hpp"
+#include "optimize/newton_constants.hpp"
 #include "optimize/removal.hpp"
 #include "regularity/power_tests.hpp"
 #include "temper/regularity.hpp"
@@ -17,10 +18,8 @@ namespace {
 constexpr double kBeforeFlip = 0.99;
 // A threshold below this part of the step is a tie: stopping short of it would be standing still.
 constexpr double kTie = 1e-6;
-// Trials a Newton step: over-relaxed, plain, then halved.
-constexpr int kTrials = 6;
-// A model decrease below this part of the patch energy is rounding, not progress.
-constexpr double kNoGain = 1e-15;
+// Fewer vertices than these are improved one by one: little to gain, and much for eight lanes to wait for.
+constexpr std::size_t kLeastForBatches = 1000;
 // HOT has no barrier: nothing may come nearer to a neighbour than this part of the patch radius.
 constexpr double kShortestEdge = 1e-7;
 constexpr double kOvershootShrink = 0.1, kOvershootLeast = 1e-6;
@@ -48,9 +47,21 @@ bool VertexStep::improve(VertexId v, const Part& part) {
 }
 
 void VertexStep::improve(std::span<const VertexId> vertices, const Part& part, std::vector<VertexId>& left) {
+  if (vertices.size() >= kLeastForBatches && can_batch()) {
+    batches_.improve(vertices, unknowns_, part, left);
+    return;
+  }
   for (const VertexId v : vertices) {
     if (!mesh_.is_isolated(v) && !improve(v, part)) left.push_back(v);
   }
+}
+
+/// Whether steps are what batches make: Newton's, of a barrier, with flips at once, and nothing else.
+bool VertexStep::can_batch() const {
+  const OptimizeOptions& o = settings_.options;
+  return settings_.energy.barrier && o.solver == Solver::newton && flips_at_once() &&
+         settings_.flip_limit == FlipLimit::unlimited && o.inversion == Inversion::refuse && !collapses_ && !removes_ &&
+         !band_.on();
 }
 
 /// Algorithm 2: where E_c would put v onto a neighbour, the mesh is better without v.

@@ -7,6 +7,7 @@
 
 #include "base/rng.hpp"
 #include "energy/patch.hpp"
+#include "optimize/batch_step.hpp"
 #include "optimize/flipper.hpp"
 #include "optimize/newton.hpp"
 #include "optimize/partition.hpp"
@@ -25,7 +26,8 @@ class VertexStep {
         mobility_(limits.mobility),
         band_(limits.band),
         flipper_(flipper),
-        recorder_(recorder) {}
+        recorder_(recorder),
+        batches_(mesh, settings, frame, limits, flipper, recorder, *this) {}
 
   /// Of the sweep under way: i ≥ i_w, i ≥ i_c, and the overshoot of FlipLimit::after.
   void begin_sweep(int sweep);
@@ -35,7 +37,8 @@ class VertexStep {
   /// it needs a larger one, or another.
   bool improve(VertexId v, const Part& part = {});
 
-  /// Improves those that are still there, in that order. Those that need another part are appended to `left`.
+  /// Improves those that are still there, in that order, or in batches nearly so. Those that need another part are
+  /// appended to `left`, in the order of their numbers.
   void improve(std::span<const VertexId> vertices, const Part& part, std::vector<VertexId>& left);
 
   /// Moves v to p if it is free, no triangle turns over and no vertex is hidden, whatever that costs.
@@ -67,6 +70,7 @@ class VertexStep {
   [[nodiscard]] bool stays_oriented(const WeightedPoint& p) const;
   [[nodiscard]] bool keeps_size(const WeightedPoint& p);
   bool place(const WeightedPoint& p, double energy, bool must_pay);
+  [[nodiscard]] bool can_batch() const;
   [[nodiscard]] bool keeps_connectivity() const;
   [[nodiscard]] bool flips_at_once() const;
   void note_regular_edges();
@@ -79,6 +83,7 @@ class VertexStep {
   SizeBand& band_;
   Flipper& flipper_;
   const Recorder& recorder_;
+  BatchStep batches_;
   Unknowns unknowns_ = Unknowns::positions_and_weights;
   bool collapses_ = false, removes_ = false;
   double overshoot_ = 1;

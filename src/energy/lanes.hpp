@@ -1,0 +1,23 @@
+// Points for packs: what goes into each lane, and comes out of it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "energy/edge_kernels.hpp"
+#include "temper/vec2.hpp"
+
+namespace temper {
+
+/// Of one coordinate, a value for each lane.
+using Lane = std::array<double, kLanes>;
+/// All bits set where something holds.
+using LaneMask = std::array<std::int64_t, kLanes>;
+
+struct LanePoints {
+  Lane x, y, w;
+  void set(std::size_t lane, const WeightedPoint& p) { x[lane] = p.x, y[lane] = p.y, w[lane] = p.w; }
+  [[nodiscard]] WeightedPoint at(std::size_t lane) const { return {x[lane], y[lane], w[lane]}; }
+};
+
+}  // namespace temper

@@ -1,0 +1,91 @@
+// Sums over all triangles, eight at a time. HOT energies go by edges instead: see patch.cpp.
+#include "energy/whole_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "base/sum.hpp"
+#include "energy/patch.hpp"
+#include "geometry/predicates_inline.hpp"
+
+namespace temper {
+namespace {
+
+/// Some triangles, as their lanes are filled.
+struct Batch {
+  TriangleLanes lanes;
+  std::array<TriangleId, kLanes> ids;
+  std::size_t size = 0;
+};
+
+/// Calls visit with all triangles of a block that are not erased, in batches.
+template <class Visit>
+void for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
+  Batch batch;
+  const std::size_t end = std::min(mesh.n_triangles(), (block + 1) * kBlockSize);
+  for (std::size_t i = block * kBlockSize; i < end; ++i) {
+    const TriangleId t(i);
+    if (!mesh.is_erased(t)) {
+      const auto [p, q, r] = mesh.corners(t);
+      batch.lanes.p.set(batch.size, mesh.point(p));
+      batch.lanes.q.set(batch.size, mesh.point(q));
+      batch.lanes.r.set(batch.size, mesh.point(r));
+      batch.ids[batch.size++] = t;
+    }
+    if (batch.size == kLanes || (i + 1 == end && batch.size > 0)) {
+      visit(batch);
+      batch.size = 0;
+    }
+  }
+}
+
+std::size_t count_bad(const Mesh& mesh, const Batch& batch, const StarKernels& kernels) {
+  const unsigned good = kernels.well_centered(batch.lanes);
+  std::size_t bad = 0;
+  for (std::size_t i = 0; i < batch.size; ++i) {
+    if ((good >> i & 1) != 0) continue;
+    const auto [p, q, r] = mesh.corners(batch.ids[i]);
+    bad += inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r)) ? 0 : 1;
+  }
+  return bad;
+}
+
+}  // namespace
+
+std::size_t count_bad(const Mesh& mesh, Executor* executor) {
+  const StarKernels& kernels = star_kernels();
+  return static_cast<std::size_t>(sum_of_blocks(mesh.n_triangles(), executor, [&](std::size_t block) {
+    std::size_t bad = 0;
+    for_batches(mesh, block, [&](const Batch& batch) { bad += count_bad(mesh, batch, kernels); });
+    return static_cast<double>(bad);
+  }));
+}
+
+EnergyAndBad energy_and_bad(const Mesh& mesh, const EnergyModel& model, Executor* executor) {
+  const EdgeFormula formula = edge_formula(model);
+  if (formula.form == EdgeFormula::Form::hot) return {total_energy(mesh, model, executor), count_bad(mesh, executor)};
+  const StarKernels& kernels = star_kernels();
+  std::vector<double> bad((mesh.n_triangles() + kBlockSize - 1) / kBlockSize, 0.0);
+  const double energy = sum_of_blocks(mesh.n_triangles(), executor, [&](std::size_t block) {
+    double sum = 0;
+    for_batches(mesh, block, [&](const Batch& batch) {
+      sum += kernels.barrier_sum(formula, batch.lanes, batch.size);
+      bad[block] += static_cast<double>(count_bad(mesh, batch, kernels));
+    });
+    return sum;
+  });
+  return {energy, static_cast<std::size_t>(pairwise_sum(bad))};
+}
+
+double total_energy(const Mesh& mesh, const EnergyModel& model, Executor* executor) {
+  const EdgeFormula formula = edge_formula(model);
+  if (formula.form == EdgeFormula::Form::hot) return total_hot_energy(mesh, model, executor);
+  const StarKernels& kernels = star_kernels();
+  return sum_of_blocks(mesh.n_triangles(), executor, [&](std::size_t block) {
+    double sum = 0;
+    for_batches(mesh, block, [&](const Batch& batch) { sum += kernels.barrier_sum(formula, batch.lanes, batch.size); });
+    return sum;
+  });
+}
+
+}  // namespace temper

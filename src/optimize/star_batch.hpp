@@ -1,0 +1,71 @@
+// Eight vertices, none of which the step of another looks at, improved at once: a lane of each pack is a vertex.
+//
+//                 o1                  p: the vertex, moved by the step       p, q_i, q_{i+1}: its triangles
+//               /    \                q: its link                            o: across the link
+//             q2 ---- q1 -- o0
+//            /  \    /  \  /          The step needs the energy of the triangles around p, and then whether the
+//          q3 --- p ---- q0           spokes p q_i and the link edges q_i q_{i+1} are still regular. Both depend on
+//            \  /   \   /             these points alone.
+//
+// What the lanes do is what VertexStep does with a vertex by Newton's method, operation by operation; what is rare is
+// left to VertexStep: a Hessian that is not positive definite, a barrier to get into, a filter that does not decide,
+// flips.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "energy/lanes.hpp"
+#include "temper/ids.hpp"
+
+namespace temper {
+
+struct alignas(64) StarBatch {
+  static constexpr std::size_t kMostTriangles = 14;  // of a star; larger ones are VertexStep's
+
+  // What is given.
+  std::size_t lanes = 0;           ///< in use
+  std::size_t most_triangles = 0;  ///< of a lane
+  LanePoints p;
+  Lane triangles;          ///< how many, as a double
+  LaneMask open;           ///< a boundary vertex: one point more on the link than triangles
+  LaneMask moves, weighs;  ///< position and weight are unknowns; a lane without either is left as it is
+  std::array<LanePoints, kMostTriangles + 1> link;   ///< q_0 … q_n, where q_n is q_0 again in a closed star
+  std::array<LanePoints, kMostTriangles> across;     ///< o_i, where link_flips
+  std::array<LaneMask, kMostTriangles> spoke_flips;  ///< spoke i may flip: inside, and not constrained
+  std::array<LaneMask, kMostTriangles> link_flips;   ///< the same of link edge i
+
+  // What comes out.
+  LanePoints to;       ///< where a lane of `stepped` goes
+  Lane before, after;  ///< its energy
+};
+
+struct StepParameters {
+  EdgeFormula formula;
+  double relaxation = 1;
+  double center_x = 0, center_y = 0;  ///< positions are rounded to multiples as (x + c) − c has them (Frame::snap)
+};
+
+/// Bit i: lane i.
+struct StepOutcome {
+  unsigned stepped = 0;  ///< has a place of lower energy, certainly without inverted triangles
+  unsigned regular = 0;  ///< and there certainly needs no flip
+  unsigned alone = 0;    ///< needs VertexStep
+};
+
+using StepBatch = StepOutcome (*)(const StepParameters& parameters, StarBatch& batch);
+
+/// In the instruction set in use.
+[[nodiscard]] StepBatch step_batch();
+
+namespace baseline {
+StepOutcome step_batch(const StepParameters& parameters, StarBatch& batch);
+}
+namespace avx2 {
+StepOutcome step_batch(const StepParameters& parameters, StarBatch& batch);
+}
+namespace avx512 {
+StepOutcome step_batch(const StepParameters& parameters, StarBatch& batch);
+}
+
+}  // namespace temper

@@ -1,0 +1,1 @@
+#include "optimize/star_batch_set.hpp"
