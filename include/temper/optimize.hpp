@@ -101,8 +101,8 @@ enum class StoppingRule {
 struct OptimizeOptions {
   std::string_view energy = "BP";  ///< a name of the registry
   int star = 1;                    ///< 0, 1 or 2
-  /// γ of E_BP. Absent: relative to each edge, shrinking from 0.5 to 0.003; when triangles stay bad, a second attempt
-  /// from 2. Given: constant.
+  /// γ of E_BP. Absent: relative to each edge, shrinking from 1 to 0.003, there as soon as no triangle is bad; when some
+  /// stay bad, a second attempt from 2. Given: constant.
   std::optional<Softening> gamma = {};
   /// −h° of E_BHs. Absent: relative, just beyond the worst h/ℓ of the mesh, shrinking as that improves. Given:
   /// constant.
@@ -120,7 +120,8 @@ struct OptimizeOptions {
   std::optional<FlipLimit> flip_limit =
       {};                   ///< absent: unlimited for barriers (a flipping step must pay), after for HOT
   double overshoot = 1.1;   ///< of FlipLimit::after
-  double relaxation = 1.7;  ///< over-relaxation of Newton steps, in (0, 2)
+  /// Over-relaxation of Newton steps, in (0, 2). Absent: 1.7, but 1.97 while γ first shrinks. Given: constant.
+  std::optional<double> relaxation = {};
   InterfaceVertices interfaces = InterfaceVertices::fixed;
   BoundaryVertices boundary_vertices = BoundaryVertices::keep;
   double boundary_ratio =

@@ -123,7 +123,7 @@ void BatchStep::run() {
     batch_.open[lane] = batch_.moves[lane] = batch_.weighs[lane] = 0;
   }
   const Vec2 center = (1 / frame_.scale) * frame_.center;
-  const StepParameters parameters{edge_formula(settings_.model), settings_.options.relaxation, center.x, center.y};
+  const StepParameters parameters{edge_formula(settings_.model), settings_.relaxation, center.x, center.y};
   const StepOutcome outcome = step_batch()(parameters, batch_);
   const std::size_t before = n_changes();
   for (std::size_t lane = 0; lane < batch_.lanes; ++lane) {

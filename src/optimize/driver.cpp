@@ -61,6 +61,7 @@ void Driver::optimize(const Attempt& attempt, bool may_give_up) {
 void Driver::begin(const Attempt& attempt) {
   softener_ = Softener(attempt, settings_.energy, settings_.options);
   softener_.start(mesh_, settings_.model);
+  settings_.relaxation = settings_.options.relaxation.value_or(softener_.relaxation());
   if (run_.report.history.empty()) record();
   least_bad_ = mesh_.n_triangles();
   before_ = best_energy_ = total();
@@ -100,7 +101,9 @@ Driver::Verdict Driver::judge_sweep(bool removed, bool may_give_up) {
     return Verdict::settled;
   }
   if (softener_.settled() && may_give_up && stagnates()) return Verdict::stopped;
-  const bool changed = softener_.advance(mesh_, (before_ - after) / std::abs(after), settings_.model);
+  const std::size_t bad = run_.report.history.back().bad;
+  const bool changed = softener_.advance(mesh_, (before_ - after) / std::abs(after), bad, settings_.model);
+  settings_.relaxation = settings_.options.relaxation.value_or(softener_.relaxation());
   before_ = changed ? total() : after;
   return Verdict::improving;
 }

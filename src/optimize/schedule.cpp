@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "energy/whole_mesh.hpp"
 #include "geometry/triangle_kernel.hpp"
 
 namespace temper {
@@ -11,12 +12,17 @@ namespace {
 // Small enough that the least h/ℓ of a converged mesh is that of the hard barrier to three digits.
 constexpr double kFloor = 0.003;
 // On the 7 × 9 horseshoe the second attempt leaves 5 triangles bad where the first leaves 30; on 33 × 25, 0 and 6.
-constexpr std::array<Attempt, 2> kAttempts = {{
-    {.start = 0.5, .factor = 0.7},
-    {.start = 2, .factor = 0.5, .level_sweeps = 30, .level_fall = 1e-4, .jitter = 0.02},
-}};
+constexpr Attempt kThorough = {
+    .start = 2, .factor = 0.5, .relaxation = kRelaxation, .level_sweeps = 30, .level_fall = 1e-4, .jitter = 0.02};
+// Where most of the mesh has to change, the connectivity too; and where a few triangles have.
+constexpr std::array<Attempt, 2> kManyBad = {
+    {{.start = 1, .factor = 0.5, .relaxation = 1.97, .until_good = true}, kThorough}};
+constexpr std::array<Attempt, 2> kFewBad = {
+    {{.start = 0.5, .factor = 0.7, .relaxation = kRelaxation, .until_good = true}, kThorough}};
+constexpr double kMany = 0.25;  // of the triangles
+
 // Already inside, or nothing to soften.
-constexpr std::array<Attempt, 1> kHard = {{{.start = kFloor}}};
+constexpr std::array<Attempt, 1> kHard = {{{.start = kFloor, .relaxation = kRelaxation}}};
 // −h°/ℓ stays this factor beyond the worst h/ℓ of the mesh, so that every term is finite.
 constexpr double kBeyondWorst = 1.25;
 // A relative change of h° that moves no minimum by more than rounding in a picture.
@@ -42,8 +48,9 @@ const Attempt kPolish = kHard.front();
 
 std::span<const Attempt> attempts(const EnergyInfo& energy, const OptimizeOptions& options, const Mesh& mesh) {
   const bool softens = energy.softened_by_gamma && !options.gamma && least_relative_height(mesh) <= 0;
-  if (softens) return kAttempts;
-  return kHard;
+  if (!softens) return kHard;
+  const auto bad = static_cast<double>(count_bad(mesh, options.executor));
+  return bad >= kMany * static_cast<double>(mesh.n_triangles()) ? kManyBad : kFewBad;
 }
 
 void Softener::start(const Mesh& mesh, EnergyModel& model) {
@@ -52,7 +59,7 @@ void Softener::start(const Mesh& mesh, EnergyModel& model) {
   settled_ = !h0_shrinks_ && (!gamma_shrinks_ || model.gamma.value <= kFloor);
 }
 
-bool Softener::advance(const Mesh& mesh, double fall, EnergyModel& model) {
+bool Softener::advance(const Mesh& mesh, double fall, std::size_t bad, EnergyModel& model) {
   if (settled_) return false;
   if (h0_shrinks_) {
     constexpr double kFactor = 0.7;
@@ -61,9 +68,10 @@ bool Softener::advance(const Mesh& mesh, double fall, EnergyModel& model) {
     settled_ = model.h0.value >= (1 - kSettledShift) * last;
     return true;
   }
-  if (++sweeps_at_level_ < attempt_.level_sweeps && fall > attempt_.level_fall) return false;
+  const bool last = attempt_.until_good && bad == 0;
+  if (!last && ++sweeps_at_level_ < attempt_.level_sweeps && fall > attempt_.level_fall) return false;
   sweeps_at_level_ = 0;
-  model.gamma.value = std::max(kFloor, attempt_.factor * model.gamma.value);
+  model.gamma.value = last ? kFloor : std::max(kFloor, attempt_.factor * model.gamma.value);
   settled_ = model.gamma.value <= kFloor;
   return true;
 }

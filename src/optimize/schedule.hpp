@@ -2,9 +2,10 @@
 //
 // A small γ from the start pins every vertex to the few triangles that are bad, and prices out the flips that
 // would cure them; a large one does not see h < 0. So γ starts large and shrinks. Quickly at first, one sweep a
-// level: enough for most meshes. What is still bad then is tried again from the input, with a larger γ, levels that
-// are left only when their energy has settled, and a small jitter against symmetric grids, whose positions are
-// stationary.
+// level, until nothing is bad: enough for most meshes. Nearly all flips happen then, and decide which minimum is
+// reached; steps that go far find a better one, by 1 % of the energy on random points. What is still bad then is tried
+// again from the input, with a larger γ, levels that are left only when their energy has settled, and a small jitter
+// against symmetric grids, whose positions are stationary.
 #pragma once
 
 #include <span>
@@ -17,12 +18,17 @@ namespace temper {
 
 /// One way from the input to a well-centered mesh.
 struct Attempt {
-  double start = 0;       ///< first γ/ℓ
-  double factor = 1;      ///< from level to level
-  int level_sweeps = 1;   ///< most sweeps at one level
-  double level_fall = 0;  ///< a level is left when the energy falls by less than this part of itself
-  double jitter = 0;      ///< of free vertices before the first sweep, relative to their shortest edge
+  double start = 0;         ///< first γ/ℓ
+  double factor = 1;        ///< from level to level
+  double relaxation = 0;    ///< while γ shrinks
+  int level_sweeps = 1;     ///< most sweeps at one level
+  double level_fall = 0;    ///< a level is left when the energy falls by less than this part of itself
+  bool until_good = false;  ///< the last level follows as soon as no triangle is bad
+  double jitter = 0;        ///< of free vertices before the first sweep, relative to their shortest edge
 };
+
+/// Over-relaxation at the last γ.
+inline constexpr double kRelaxation = 1.7;
 
 /// For a mesh that is well-centered already, or as good as can be: the sharpest γ at once.
 extern const Attempt kPolish;
@@ -43,9 +49,11 @@ class Softener {
 
   /// The first sweep's.
   void start(const Mesh& mesh, EnergyModel& model);
-  /// After a sweep that lowered the energy by `fall` times itself. True when the model changed: energies before
-  /// and after do not compare.
-  bool advance(const Mesh& mesh, double fall, EnergyModel& model);
+  /// After a sweep that lowered the energy by `fall` times itself and left `bad` triangles. True when the model
+  /// changed: energies before and after do not compare.
+  bool advance(const Mesh& mesh, double fall, std::size_t bad, EnergyModel& model);
+  /// Of the next sweep, where the options name none.
+  [[nodiscard]] double relaxation() const { return settled_ ? kRelaxation : attempt_.relaxation; }
   /// Whether advance will change the model no more: only then can a run converge.
   [[nodiscard]] bool settled() const { return settled_; }
 

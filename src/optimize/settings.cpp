@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/text.hpp"
+#include "optimize/schedule.hpp"
 
 namespace temper {
 namespace {
@@ -50,8 +51,8 @@ std::optional<InputError> check(const OptimizeOptions& o, const Mesh& mesh) {
   if (o.h0 && !(o.h0->value >= 0 && std::isfinite(o.h0->value))) {
     return invalid("h0 is " + to_text(o.h0->value) + "; expected −h° ≥ 0");
   }
-  if (!(o.relaxation > 0 && o.relaxation < 2)) {
-    return invalid("relaxation is " + to_text(o.relaxation) + "; expected a number between 0 and 2");
+  if (o.relaxation && !(*o.relaxation > 0 && *o.relaxation < 2)) {
+    return invalid("relaxation is " + to_text(*o.relaxation) + "; expected a number between 0 and 2");
   }
   if (!(o.overshoot >= 1 && std::isfinite(o.overshoot))) {
     return invalid("overshoot is " + to_text(o.overshoot) + "; expected at least 1");
@@ -116,6 +117,7 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   s.collapse_model.boundary = options.boundary;
   s.energy = *energy;
   s.options = options;
+  s.relaxation = options.relaxation.value_or(kRelaxation);
   s.model.kind = energy->kind;
   s.model.star = options.star;
   s.model.boundary = options.boundary;

@@ -10,6 +10,7 @@ struct Settings {
   EnergyInfo energy;
   EnergyModel model;           ///< of the sweep under way, in the frame's units
   EnergyModel collapse_model;  ///< E_c
+  double relaxation = 1;       ///< of the sweep under way
   FlipLimit flip_limit = FlipLimit::unlimited;
   OptimizeOptions options;
   std::optional<SizeField> size_field;  ///< that a size band is around, in the user's units; absent without one

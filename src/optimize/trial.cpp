@@ -8,6 +8,7 @@
 #include "geometry/triangle_kernel.hpp"
 #include "optimize/fill.hpp"
 #include "optimize/run.hpp"
+#include "optimize/schedule.hpp"
 #include "optimize/vertex_step.hpp"
 #include "temper/regularity.hpp"
 
@@ -88,6 +89,7 @@ Settings Trial::of_trial(const Settings& settings, Tracer tracer) {
   Settings s = settings;
   s.energy = *find_energy(o.energy);
   s.model.kind = s.energy.kind;
+  s.relaxation = kRelaxation;
   s.flip_limit = FlipLimit::unlimited;
   s.options = std::move(o);
   return s;

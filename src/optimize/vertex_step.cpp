@@ -193,7 +193,7 @@ void VertexStep::newton_search(const Freedom& freedom) {
   energy_ = d.value;
   NewtonStep newton = newton_step(d, freedom, patch_radius(patch_, origin_));
   if (!(newton.predicted > kNoGain * std::abs(energy_))) return;
-  const double relaxation = settings_.options.relaxation;
+  const double relaxation = settings_.relaxation;
   for (double& s : newton.step) s *= relaxation;
   double t = flip_limited(newton.step, farthest(newton.step));
   bool leaves_band = false;

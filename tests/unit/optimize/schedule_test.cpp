@@ -22,15 +22,28 @@ TEST(Schedule, ShrinksGammaToItsFloorInEveryAttempt) {
     double last = model.gamma.value;
     int sweeps = 0;
     while (!softener.settled() && sweeps < 10000) {
-      softener.advance(bad, 1, model);
+      softener.advance(bad, 1, 1, model);
       EXPECT_LE(model.gamma.value, last);
       last = model.gamma.value;
       ++sweeps;
     }
     EXPECT_TRUE(softener.settled());
-    EXPECT_FALSE(softener.advance(bad, 1, model));
+    EXPECT_FALSE(softener.advance(bad, 1, 1, model));
     EXPECT_DOUBLE_EQ(last, 0.003);
   }
+}
+
+TEST(Schedule, IsAtTheFloorAsSoonAsNothingIsBad) {
+  const Mesh bad = lattice({.jitter = 0.45, .weight = 0});
+  Softener softener(attempts(row("BP"), {}, bad)[0], row("BP"), {});
+  EnergyModel model;
+  softener.start(bad, model);
+  EXPECT_TRUE(softener.advance(bad, 1, 1, model));
+  EXPECT_FALSE(softener.settled());
+  EXPECT_TRUE(softener.advance(bad, 1, 0, model));
+  EXPECT_TRUE(softener.settled());
+  EXPECT_DOUBLE_EQ(model.gamma.value, 0.003);
+  EXPECT_EQ(softener.relaxation(), kRelaxation);
 }
 
 TEST(Schedule, OfAWellCenteredMeshIsHardFromTheStart) {
@@ -61,7 +74,7 @@ TEST(Schedule, KeepsTheShiftedBarrierFinite) {
   softener.start(bad, model);
   EXPECT_TRUE(std::isfinite(total_energy(bad, model)));
   for (int i = 0; i < 5; ++i) {
-    softener.advance(bad, 1, model);
+    softener.advance(bad, 1, 1, model);
     EXPECT_TRUE(std::isfinite(total_energy(bad, model)));
   }
 }

@@ -1,0 +1,223 @@
+// Batches of vertices: the step that a vertex would make alone, and the same bits from every instruction set.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "energy/patch.hpp"
+#include "energy/star_kernels.hpp"
+#include "energy/whole_mesh.hpp"
+#include "geometry/predicates_inline.hpp"
+#include "optimize/driver.hpp"
+#include "optimize/star_batch.hpp"
+#include "temper/generate.hpp"
+#include "temper/instruction_set.hpp"
+#include "temper/optimize.hpp"
+#include "temper/regularity.hpp"
+
+namespace temper::test {
+namespace {
+
+constexpr std::size_t kBatchVertices = 1500;
+
+/// The instruction set that was in use comes back at the end of a test.
+class KeepInstructionSet {
+ public:
+  ~KeepInstructionSet() { use_instruction_set(set_); }
+
+ private:
+  InstructionSet set_ = instruction_set();
+};
+
+/// Weighted, and with triangles that are not well-centered, when few sweeps have been made.
+Mesh swept_mesh(int sweeps, std::uint64_t seed = 1) {
+  Mesh mesh = *random_points({.vertices = kBatchVertices, .seed = seed});
+  EXPECT_TRUE(optimize(mesh, {.repair = Repair::none, .max_sweeps = sweeps}));
+  return mesh;
+}
+
+EnergyModel barrier_model(EnergyKind kind, int star) {
+  EnergyModel model;
+  model.kind = kind;
+  model.star = star;
+  model.gamma = {0.1, LengthScale::relative};
+  model.h0 = {5, LengthScale::relative};
+  return model;
+}
+
+/// A vertex alone in a mesh's working copy, stepping as VertexStep does.
+struct Alone {
+  explicit Alone(const Mesh& mesh, const EnergyModel& model)
+      : work(WorkingCopy::part(mesh)),
+        settings(settings_of(work, model)),
+        recorder(settings.options.tracer, work, 1),
+        flipper(work.mesh, settings, recorder),
+        limits(work.mesh, settings, work.frame),
+        step(work.mesh, settings, work.frame, limits, flipper, recorder) {}
+
+  static Settings settings_of(const WorkingCopy& work, const EnergyModel& model) {
+    OptimizeOptions options;
+    for (const EnergyInfo& energy : energies()) {
+      if (energy.kind == model.kind) options.energy = energy.name;
+    }
+    Settings settings = *make_settings(options, work.mesh, work.frame);
+    settings.model = model;
+    return settings;
+  }
+
+  WorkingCopy work;
+  Settings settings;
+  Recorder recorder;
+  Flipper flipper;
+  VertexLimits limits;
+  VertexStep step;
+};
+
+/// The star of v in a lane of a batch, everything about it taken from the patch.
+void put(const Mesh& mesh, VertexId v, StarBatch& batch) {
+  const std::size_t lane = batch.lanes++;
+  Patch patch;
+  gather_patch(mesh, v, false, patch);
+  batch.p.set(lane, mesh.point(v));
+  batch.triangles[lane] = static_cast<double>(patch.size());
+  batch.open[lane] = patch.closed ? 0 : -1;
+  batch.moves[lane] = patch.closed ? -1 : 0;
+  batch.weighs[lane] = -1;
+  batch.most_triangles = std::max(batch.most_triangles, patch.size());
+  for (std::size_t i = 0; i <= patch.size(); ++i) batch.link[i].set(lane, patch.q(i));
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    const HalfedgeId spoke = patch.spoke[i], across = mesh.twin(Mesh::next(spoke));
+    batch.across[i].set(lane, across.valid() ? mesh.point(mesh.opposite(across)) : WeightedPoint{});
+    batch.link_flips[i][lane] = across.valid() ? -1 : 0;
+    batch.spoke_flips[i][lane] = mesh.twin(spoke).valid() ? -1 : 0;
+  }
+}
+
+void leave_empty(StarBatch& batch, std::size_t from) {
+  for (std::size_t lane = from; lane < kLanes; ++lane) {
+    batch.triangles[lane] = 0;
+    batch.open[lane] = batch.moves[lane] = batch.weighs[lane] = 0;
+  }
+}
+
+bool edges_around_are_regular(const Mesh& mesh, VertexId v) {
+  for (const HalfedgeId h : mesh.star(v)) {
+    if (!is_regular(mesh, h) || !is_regular(mesh, Mesh::next(h))) return false;
+  }
+  return true;
+}
+
+class BatchOfBarrier : public testing::TestWithParam<std::tuple<EnergyKind, int>> {};
+
+TEST_P(BatchOfBarrier, MakesTheStepsThatVerticesMakeAlone) {
+  const auto [kind, star] = GetParam();
+  const EnergyModel model = barrier_model(kind, star);
+  const Mesh mesh = swept_mesh(kind == EnergyKind::BH ? 40 : 3);
+  const StepParameters parameters{edge_formula(model), kRelaxation, 0, 0};
+  std::size_t stepped = 0, regular = 0;
+  for (std::size_t first = 0; first + kLanes <= mesh.n_vertices(); first += kLanes) {
+    StarBatch batch;
+    for (std::size_t i = 0; i < kLanes - 1; ++i) put(mesh, VertexId(first + i), batch);
+    leave_empty(batch, batch.lanes);
+    const StepOutcome outcome = step_batch()(parameters, batch);
+    EXPECT_EQ(outcome.stepped & outcome.alone, 0U);
+    EXPECT_EQ(outcome.regular & ~outcome.stepped, 0U);
+    EXPECT_EQ((outcome.stepped | outcome.alone) >> batch.lanes, 0U);
+    for (std::size_t lane = 0; lane < batch.lanes; ++lane) {
+      if ((outcome.stepped >> lane & 1) == 0) continue;
+      const VertexId v(first + lane);
+      Patch patch;
+      gather_patch(mesh, v, false, patch);
+      const double before = patch_energy(patch, model, mesh.point(v));
+      const double after = patch_energy(patch, model, batch.to.at(lane));
+      EXPECT_NEAR(batch.before[lane], before, 1e-12 * before);
+      EXPECT_NEAR(batch.after[lane], after, 1e-12 * after);
+      EXPECT_LT(batch.after[lane], batch.before[lane]);
+      ++stepped;
+      Alone alone(mesh, model);
+      alone.work.mesh.set_point(v, batch.to.at(lane));
+      const bool certain = (outcome.regular >> lane & 1) != 0;
+      EXPECT_TRUE(!certain || edges_around_are_regular(alone.work.mesh, v));
+      if (!certain) continue;
+      ++regular;
+      alone.work.mesh.set_point(v, mesh.point(v));
+      ASSERT_TRUE(alone.step.improve(v));
+      const WeightedPoint expected = alone.work.mesh.point(v), to = batch.to.at(lane);
+      const double radius = std::sqrt(
+          std::abs(cross(patch.q(1).position() - patch.q(0).position(), mesh.position(v) - patch.q(0).position())));
+      EXPECT_NEAR(to.x, expected.x, 1e-7 * radius);
+      EXPECT_NEAR(to.y, expected.y, 1e-7 * radius);
+      EXPECT_NEAR(to.w, expected.w, 1e-7 * radius * radius);
+    }
+  }
+  EXPECT_GT(regular, mesh.n_vertices() / 3);
+  EXPECT_GE(stepped, regular);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BatchOfBarrier,
+                         testing::Combine(testing::Values(EnergyKind::BH, EnergyKind::BHs, EnergyKind::BP),
+                                          testing::Values(0, 1, 2)));
+
+TEST(InstructionSets, TheBaselineIsAlwaysThereAndTheFastestIsUsed) {
+  ASSERT_FALSE(instruction_sets().empty());
+  EXPECT_EQ(instruction_sets().front(), InstructionSet::baseline);
+  EXPECT_EQ(instruction_set(), instruction_sets().back());
+}
+
+TEST(InstructionSets, RunsOfEveryEnergyGiveTheSameBytes) {
+  const KeepInstructionSet keep;
+  for (const EnergyInfo& energy : energies()) {
+    for (int star = 0; star <= 2; ++star) {
+      Mesh start = swept_mesh(30, 2);
+      std::optional<Mesh> first;
+      for (const InstructionSet set : instruction_sets()) {
+        ASSERT_TRUE(use_instruction_set(set));
+        Mesh mesh = start;
+        const auto report = optimize(mesh, {.energy = energy.name, .star = star, .max_sweeps = 4});
+        ASSERT_TRUE(report) << energy.name;
+        EXPECT_GT(report->sweeps, 0);
+        if (!first) first = mesh;
+        EXPECT_TRUE(mesh == *first) << energy.name << " in " << name(set);
+      }
+      EXPECT_FALSE(*first == start);
+    }
+  }
+}
+
+TEST(InstructionSets, RandomPointsBecomeWellCenteredWithTheSameBytes) {
+  const KeepInstructionSet keep;
+  const Mesh start = *random_points({.vertices = 3000, .seed = 5});
+  std::optional<Mesh> first;
+  for (const InstructionSet set : instruction_sets()) {
+    ASSERT_TRUE(use_instruction_set(set));
+    Mesh mesh = start;
+    const auto report = optimize(mesh);
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->history.back().bad, 0U);
+    EXPECT_EQ(count_non_regular_edges(mesh), 0U);
+    EXPECT_EQ(mesh.validate(), std::nullopt);
+    if (!first) first = mesh;
+    EXPECT_TRUE(mesh == *first) << name(set);
+  }
+}
+
+TEST(InstructionSets, BadTrianglesAreCountedAsExactPredicatesDo) {
+  const KeepInstructionSet keep;
+  for (const Mesh& mesh : {swept_mesh(0), swept_mesh(2), *random_points({.vertices = 300, .seed = 3})}) {
+    std::size_t expected = 0;
+    for (const TriangleId t : mesh.triangles()) {
+      const auto [p, q, r] = mesh.corners(t);
+      expected += inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r)) ? 0 : 1;
+    }
+    const EnergyModel model = barrier_model(EnergyKind::BP, 1);
+    for (const InstructionSet set : instruction_sets()) {
+      ASSERT_TRUE(use_instruction_set(set));
+      EXPECT_EQ(count_bad(mesh, nullptr), expected);
+      EXPECT_EQ(energy_and_bad(mesh, model, nullptr).bad, expected);
+      EXPECT_EQ(energy_and_bad(mesh, model, nullptr).energy, total_energy(mesh, model));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace temper::test
