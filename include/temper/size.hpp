@@ -49,7 +49,7 @@ class SizeField {
 
  private:
   friend SizeField input_size_field(const Mesh& mesh);
-  friend SizeField input_size_field_of(const Mesh& mesh);
+  friend SizeField input_size_field_of(const Mesh& mesh, Executor* executor);
   struct Data;
   explicit SizeField(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
@@ -59,7 +59,7 @@ class SizeField {
 /// The field of the mesh's own local sizes. Precondition: no erased triangles. O(n log n).
 [[nodiscard]] SizeField input_size_field(const Mesh& mesh);
 /// The same, looking at the mesh instead of copying it: valid as long as the mesh is there and is not changed.
-[[nodiscard]] SizeField input_size_field_of(const Mesh& mesh);
+[[nodiscard]] SizeField input_size_field_of(const Mesh& mesh, Executor* executor = nullptr);
 
 /// Of many numbers: percentiles by nearest rank. All 0 when there are none.
 struct Spread {

@@ -50,7 +50,8 @@ bool is_worse(const Mesh& a, const Mesh& b, const Settings& settings) {
   const auto standing = [&](const Mesh& mesh) {
     const OptimizeOptions& o = settings.options;
     const std::size_t inverted = o.inversion == Inversion::allow ? count_inverted(mesh) : 0;
-    const std::size_t non_regular = o.hidden == HiddenPolicy::keep ? 0 : count_non_regular_edges(mesh, false);
+    const std::size_t non_regular =
+        o.hidden == HiddenPolicy::keep ? 0 : count_non_regular_edges(mesh, false, o.executor);
     const std::size_t bad = settings.energy.barrier ? count_bad(mesh, o.executor) : 0;
     return std::tuple(inverted, non_regular, bad, total_energy(mesh, settings.model, settings.options.executor));
   };
@@ -116,8 +117,8 @@ InputError hidden_by_input(const Mesh& mesh, const InputNames* names) {
 }
 
 /// Vertices that Lawson's algorithm leaves without a power cell.
-std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, HiddenPolicy policy) {
-  if (policy != HiddenPolicy::keep || count_non_regular_edges(mesh, false) == 0) return {};
+std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, const OptimizeOptions& options) {
+  if (options.hidden != HiddenPolicy::keep || count_non_regular_edges(mesh, false, options.executor) == 0) return {};
   Mesh copy = mesh;
   return restore_regularity(copy).hidden;
 }
@@ -159,22 +160,23 @@ void count_changes(const IdVector<VertexId, VertexId>& vertices, const Mesh& inp
 /// The size field of a run with a band; the input's own is seen where it is, since the run works on copies.
 std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& options) {
   if (!options.size_band) return std::nullopt;
-  return options.size_field ? options.size_field : input_size_field_of(mesh);
+  return options.size_field ? options.size_field : input_size_field_of(mesh, options.executor);
 }
 
 /// Puts the best mesh into `mesh`, unless that is the better one, and says in the report what came of it.
 void give_back(Mesh& mesh, WorkingCopy best, const Settings& settings, const Recorder& recorder,
                OptimizeReport& report) {
   const OptimizeOptions& o = settings.options;
-  report.initial_energy = total_energy(mesh, settings.model, o.executor);
-  const SizeField field = o.size_field ? *o.size_field : input_size_field_of(mesh);  // seen until mesh is replaced
-  report.size.before = report.size.after = measure_size(mesh, field, o.executor);
   auto vertices = best.has_gaps || best.has_inserted() ? best.user_vertices() : IdVector<VertexId, VertexId>();
-  Mesh result = std::move(best).in_user_terms();
+  Mesh result = std::move(best).in_user_terms();  // first: what knew the order takes room no longer
+  report.initial_energy = total_energy(mesh, settings.model, o.executor);
+  const SizeField field =
+      o.size_field ? *o.size_field : input_size_field_of(mesh, o.executor);  // seen until mesh is replaced
+  report.size.before = report.size.after = measure_size(mesh, field, o.executor);
   if (is_worse(result, mesh, settings)) {
     // Where hidden vertices are kept, edges that are not regular make no mesh worse; but those that can be flipped are.
     const bool flips = o.flips && o.hidden == HiddenPolicy::keep && o.boundary_vertices != BoundaryVertices::split &&
-                       count_non_regular_edges(mesh, false) > 0;
+                       count_non_regular_edges(mesh, false, o.executor) > 0;
     if (flips) {
       Mesh regular = made_regular(mesh, settings);
       report.size.after = measure_size(regular, field, o.executor);
@@ -191,7 +193,7 @@ void give_back(Mesh& mesh, WorkingCopy best, const Settings& settings, const Rec
     mesh = std::move(result);
   }
   report.final_energy = total_energy(mesh, settings.model, o.executor);
-  report.hidden = hidden_vertices_of(mesh, o.hidden);
+  report.hidden = hidden_vertices_of(mesh, o);
   if (o.size_band && report.size.before.band() > *o.size_band) {
     report.notes.push_back("the input is outside of its size band: sizes are up to " +
                            to_text(report.size.before.band()) +

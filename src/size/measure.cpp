@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/sum.hpp"
+#include "mesh/blocks.hpp"
 #include "size/star_area.hpp"
 #include "temper/size.hpp"
 
@@ -106,16 +107,18 @@ double SizeReport::band() const { return std::max(over_field.max, 1 / over_field
 SizeReport measure_size(const Mesh& mesh, const SizeField& field, Executor* executor,
                         const IdVector<VertexId, VertexId>& near) {
   SizeReport report;
-  IdVector<VertexId, double> sizes(mesh.n_vertices());
   std::vector<double> ratios(mesh.n_vertices());
   report.outside = static_cast<std::size_t>(blockwise_sum(mesh.n_vertices(), executor, [&](std::size_t i) {
     const VertexId v(i);
     const SizeField::Sample s = field.at(mesh.position(v), start_for(v, mesh, field.mesh(), near));
-    sizes[v] = local_size(mesh, v);
-    ratios[i] = sizes[v] / s.size;
+    ratios[i] = local_size(mesh, v) / s.size;
     return s.outside ? 1.0 : 0.0;
   }));
   report.over_field = spread(std::move(ratios));
+  // Asked again rather than kept: with both arrays a run would never need more than here.
+  IdVector<VertexId, double> sizes(mesh.n_vertices());
+  for_each_index(mesh.n_vertices(), executor,
+                 [&](std::size_t i) { sizes[VertexId(i)] = local_size(mesh, VertexId(i)); });
   report.gradation = gradation(mesh, sizes);
   report.largest_edge_ratio = largest_edge_ratio(mesh);
   return report;

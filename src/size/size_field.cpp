@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "geometry/predicates_inline.hpp"
+#include "mesh/blocks.hpp"
 #include "size/box_tree.hpp"
 #include "temper/size.hpp"
 
@@ -140,20 +141,21 @@ double SizeField::at(VertexId v) const { return data_->sizes[v]; }
 
 namespace {
 
-IdVector<VertexId, double> local_sizes(const Mesh& mesh) {
+IdVector<VertexId, double> local_sizes(const Mesh& mesh, Executor* executor) {
   IdVector<VertexId, double> sizes(mesh.n_vertices());
-  for (const VertexId v : mesh.vertices()) sizes[v] = local_size(mesh, v);
+  for_each_index(mesh.n_vertices(), executor,
+                 [&](std::size_t i) { sizes[VertexId(i)] = local_size(mesh, VertexId(i)); });
   return sizes;
 }
 
 }  // namespace
 
 SizeField input_size_field(const Mesh& mesh) {
-  return SizeField(std::make_shared<const SizeField::Data>(mesh, local_sizes(mesh)));
+  return SizeField(std::make_shared<const SizeField::Data>(mesh, local_sizes(mesh, nullptr)));
 }
 
-SizeField input_size_field_of(const Mesh& mesh) {
-  return SizeField(std::make_shared<const SizeField::Data>(&mesh, local_sizes(mesh)));
+SizeField input_size_field_of(const Mesh& mesh, Executor* executor) {
+  return SizeField(std::make_shared<const SizeField::Data>(&mesh, local_sizes(mesh, executor)));
 }
 
 }  // namespace temper
