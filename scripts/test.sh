@@ -127,6 +127,7 @@ stage "format" formatted
 stage "headers, each alone" tests/consumer/headers.sh
 if stage "build (dev, -Werror)" configure_and_build dev; then
   stage "core without exceptions and RTTI" core_without_exceptions
+  stage "instruction sets keep to themselves" python3 scripts/check_instruction_sets.py build/dev
   stage "every test program is there" every_test_program_is_there
   suite "tests (dev)" build/dev
   stage "consumer: install, find_package" consumer_find_package && suite "consumer: find_package runs" "$scratch/find_package"

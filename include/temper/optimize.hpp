@@ -155,7 +155,7 @@ struct OptimizeOptions {
   double time_limit = 0;              ///< seconds; 0: none
   std::uint64_t seed = 1;             ///< of the jitter that frees symmetric grids, and of repairs
   const InputNames* names = nullptr;  ///< the user's numbering, for errors
-  Executor* executor = nullptr;       ///< threads for sums over the mesh; results do not depend on it
+  Executor* executor = nullptr;       ///< threads for sweeps and sums; results do not depend on it
   Tracer tracer = {};                 ///< sees every event of the run
   std::function<void(const struct Snapshot&)> watch = {};  ///< sees the mesh between sweeps; a copy each time
 };

@@ -38,7 +38,7 @@ struct HotKernel {
 
   template <class T>
   [[nodiscard]] TEMPER_INLINE T value(const EdgeShapeOf<T>& e) const {
-    return (0.25 * alpha * (e.l2 * e.l2 + 3 * (e.dw * e.dw)) + beta * (e.g * e.g)) * e.g / e.l2;
+    return (0.25 * alpha * (e.l2 * e.l2 + 3 * e.dw * e.dw) + beta * e.g * e.g) * e.g / e.l2;
   }
 
   template <class T>

@@ -1,7 +1,6 @@
 // Points for packs: what goes into each lane, and comes out of it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "energy/edge_kernels.hpp"
@@ -9,10 +8,12 @@
 
 namespace temper {
 
+// Plain arrays, since what uses them is compiled for several instruction sets: they come with no functions.
+
 /// Of one coordinate, a value for each lane.
-using Lane = std::array<double, kLanes>;
+using Lane = double[kLanes];
 /// All bits set where something holds.
-using LaneMask = std::array<std::int64_t, kLanes>;
+using LaneMask = std::int64_t[kLanes];
 
 struct LanePoints {
   Lane x, y, w;

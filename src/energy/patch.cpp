@@ -47,87 +47,101 @@ VertexDerivatives barrier_derivatives(const Patch& patch, const EdgeFormula& for
   return star_kernels().barrier_derivatives(formula, patch.arrays(), p, sums.data()) ? from_sums(sums) : outside();
 }
 
-/// Same-side heights of a triangle's three edges: pq, qr, rp.
-struct Heights {
-  std::array<double, 3> g;
+/// Room for some numbers of each triangle of a star: on the stack, but for the largest of stars.
+class StarScratch {
+ public:
+  explicit StarScratch(std::size_t triangles) {
+    length_ = (triangles + kLanes - 1) / kLanes * kLanes;
+    if (kArrays * length_ > here_.size()) elsewhere_.resize(kArrays * length_);
+  }
+  double* array(std::size_t i) { return (elsewhere_.empty() ? here_.data() : elsewhere_.data()) + i * length_; }
+
+ private:
+  static constexpr std::size_t kArrays = 10, kUsual = 24;
+  std::size_t length_;
+  std::array<double, kArrays * kUsual> here_;
+  std::vector<double> elsewhere_;
 };
 
-Heights heights(const TriangleShape& s) {
-  return {{same_side(s.edges[0].g, s.doubled_area), same_side(s.edges[1].g, s.doubled_area),
-           same_side(s.edges[2].g, s.doubled_area)}};
-}
-
-/// Signs and boundary factors of a patch's edges: each spoke is shared by the triangles before and after it.
-class HotFactors {
+/// The edges of a star in a HOT energy, and how often each counts: by its sign, which looks at both its triangles, the
+/// treatment of the boundary, and the sign that makes heights on the left of an inverted triangle's edges same-side
+/// ones.
+class HotStar {
  public:
-  HotFactors(const Patch& patch, const EnergyModel& model, const WeightedPoint& p)
-      : patch_(patch), model_(model), p_(p), last_(at(patch.size() - 1)), here_(at(0)), first_(here_) {}
+  HotStar(const Patch& patch, const EnergyModel& model, const EdgeFormula& formula, const WeightedPoint& p)
+      : patch_(patch), model_(model), formula_(formula), scratch_(patch.size()) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges_.g[k] = scratch_.array(k), edges_.value[k] = scratch_.array(3 + k), factor_[k] = scratch_.array(6 + k);
+    }
+    edges_.doubled_area = scratch_.array(9);
+    star_kernels().hot_edges(formula, patch.arrays(), p, edges_);
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      if (edges_.doubled_area[i] == 0) degenerate_ = true;
+      for (double* g : edges_.g) g[i] = same_side(g[i], edges_.doubled_area[i]);
+    }
+    for (std::size_t i = 0; i < patch.size(); ++i) set_factors(i);
+  }
 
-  /// Factors of pq, qr, rp of triangle i; call with i = 0, 1, … in order.
-  std::array<double, 3> triangle(std::size_t i) {
-    const std::size_t n = patch_.size();
-    const bool first_open = !patch_.closed && i == 0, last_open = !patch_.closed && i + 1 == n;
-    const Heights after = i + 1 < n ? at(i + 1) : first_;
-    const double before_g = first_open ? 0 : last_.g[2];
-    const double after_g = last_open ? 0 : after.g[0];
-    const std::array<double, 3> factors = {
-        hot_factor(model_, here_.g[0], before_g, first_open),
-        hot_factor(model_, here_.g[1], patch_.outer_g[i], patch_.link_boundary[i] != 0),
-        hot_factor(model_, here_.g[2], after_g, last_open)};
-    last_ = here_;
-    here_ = after;
-    return factors;
+  /// A triangle has no area.
+  [[nodiscard]] bool is_degenerate() const { return degenerate_; }
+  [[nodiscard]] EdgeFactors factors() const { return {factor_[0], factor_[1], factor_[2]}; }
+
+  [[nodiscard]] double value() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < patch_.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) sum += factor_[k][i] * edges_.value[k][i];
+      sum += outer_share(i);
+    }
+    return sum;
+  }
+  /// What the triangles across the link count: their sign may depend on the center (E_T).
+  [[nodiscard]] double outer() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < patch_.size(); ++i) sum += outer_share(i);
+    return sum;
   }
 
  private:
-  [[nodiscard]] Heights at(std::size_t i) const { return heights(triangle_shape(p_, patch_.q(i), patch_.r(i))); }
+  void set_factors(std::size_t i) {
+    const std::size_t n = patch_.size();
+    const auto& [pq, qr, rp] = edges_.g;
+    const bool first = i == 0, last = i + 1 == n, opens = !patch_.closed && first, closes = !patch_.closed && last;
+    const double before = opens ? 0 : rp[first ? n - 1 : i - 1], after = closes ? 0 : pq[last ? 0 : i + 1];
+    const double orientation = edges_.doubled_area[i] < 0 ? -1 : 1;
+    factor_[0][i] = orientation * hot_factor(model_, pq[i], before, opens);
+    factor_[1][i] = orientation * hot_factor(model_, qr[i], patch_.outer_g[i], patch_.link_boundary[i] != 0);
+    factor_[2][i] = orientation * hot_factor(model_, rp[i], after, closes);
+  }
+
+  [[nodiscard]] double outer_share(std::size_t i) const {
+    if (model_.kind != EnergyKind::T || patch_.link_boundary[i] != 0) return 0;
+    const WeightedPoint q = patch_.q(i), r = patch_.r(i);
+    const EdgeShape link{squared_length(r.position() - q.position()), q.w - r.w, patch_.outer_g[i]};
+    const double orientation = edges_.doubled_area[i] < 0 ? -1 : 1;
+    return orientation * factor_[1][i] * HotKernel{formula_.alpha, formula_.beta}.value(link);
+  }
 
   const Patch& patch_;
   const EnergyModel& model_;
-  const WeightedPoint& p_;
-  Heights last_, here_, first_;
+  const EdgeFormula& formula_;
+  StarScratch scratch_;
+  HotEdges edges_;
+  std::array<double*, 3> factor_;
+  bool degenerate_ = false;
 };
 
-/// The outer triangle's share of link edge i, whose sign may depend on the center (E_T).
-double outer_share(const Patch& patch, const EnergyModel& model, const HotKernel& kernel, std::size_t i,
-                   const EdgeShape& link, double factor) {
-  if (model.kind != EnergyKind::T || patch.link_boundary[i] != 0) return 0;
-  return factor * kernel.value(EdgeShape{link.l2, link.dw, patch.outer_g[i]});
+double hot_value(const Patch& patch, const EnergyModel& model, const EdgeFormula& formula, const WeightedPoint& p) {
+  const HotStar star(patch, model, formula, p);
+  return star.is_degenerate() ? kInfinity : star.value();
 }
 
-double hot_value(const Patch& patch, const EnergyModel& model, const HotKernel& kernel, const WeightedPoint& p) {
-  HotFactors factors(patch, model, p);
-  double sum = 0;
-  for (std::size_t i = 0; i < patch.size(); ++i) {
-    const TriangleShape s = triangle_shape(p, patch.q(i), patch.r(i));
-    if (s.doubled_area == 0) return kInfinity;
-    const auto factor = factors.triangle(i);
-    const double orientation = s.doubled_area < 0 ? -1 : 1;
-    for (std::size_t k = 0; k < 3; ++k) sum += orientation * factor[k] * kernel.value(s.edges[k]);
-    sum += outer_share(patch, model, kernel, i, s.edges[1], factor[1]);
-  }
-  return sum;
-}
-
-VertexDerivatives hot_derivatives(const Patch& patch, const EnergyModel& model, const HotKernel& kernel,
+VertexDerivatives hot_derivatives(const Patch& patch, const EnergyModel& model, const EdgeFormula& formula,
                                   const WeightedPoint& p) {
-  const std::size_t n = patch.size();
-  std::vector<double> of_edges(3 * (n + kLanes));
-  const std::array factor = {of_edges.data(), of_edges.data() + n + kLanes, of_edges.data() + 2 * (n + kLanes)};
-  HotFactors factors(patch, model, p);
-  double outer = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const TriangleShape s = triangle_shape(p, patch.q(i), patch.r(i));
-    if (s.doubled_area == 0) return outside();
-    const auto signs = factors.triangle(i);
-    const double orientation = s.doubled_area < 0 ? -1 : 1;
-    for (std::size_t k = 0; k < 3; ++k) factor[k][i] = orientation * signs[k];
-    outer += outer_share(patch, model, kernel, i, s.edges[1], signs[1]);
-  }
+  const HotStar star(patch, model, formula, p);
+  if (star.is_degenerate()) return outside();
   std::array<double, kStarSums> sums;
-  star_kernels().hot_derivatives(edge_formula(model), patch.arrays(), {factor[0], factor[1], factor[2]}, p,
-                                 sums.data());
-  sums[0] += outer;
+  star_kernels().hot_derivatives(formula, patch.arrays(), star.factors(), p, sums.data());
+  sums[0] += star.outer();
   return from_sums(sums);
 }
 
@@ -194,13 +208,13 @@ void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch) {
 double patch_energy(const Patch& patch, const EnergyModel& model, const WeightedPoint& p) {
   const EdgeFormula f = edge_formula(model);
   if (f.form != EdgeFormula::Form::hot) return star_kernels().barrier_value(f, patch.arrays(), p);
-  return hot_value(patch, model, HotKernel{f.alpha, f.beta}, p);
+  return hot_value(patch, model, f, p);
 }
 
 VertexDerivatives patch_derivatives(const Patch& patch, const EnergyModel& model, const WeightedPoint& p) {
   const EdgeFormula f = edge_formula(model);
   if (f.form != EdgeFormula::Form::hot) return barrier_derivatives(patch, f, p);
-  return hot_derivatives(patch, model, HotKernel{f.alpha, f.beta}, p);
+  return hot_derivatives(patch, model, f, p);
 }
 
 double flip_energy(const Mesh& mesh, const EnergyModel& model, HalfedgeId h) {

@@ -18,6 +18,14 @@ struct LinkArrays {
 /// Value, gradient (x, y, w) and Hessian (xx, xy, xw, yy, yw, ww) of a star, in this order.
 inline constexpr std::size_t kStarSums = 10;
 
+/// What hot_edges() writes, to a multiple of kLanes: for the edges pq, qr, rp of each triangle h ℓ on their left, and
+/// E_F; and S.
+struct HotEdges {
+  double* g[3];
+  double* value[3];
+  double* doubled_area;
+};
+
 /// How often each edge of triangle i counts; readable as far as the link.
 struct EdgeFactors {
   const double *pq, *qr, *rp;
@@ -33,6 +41,7 @@ struct StarKernels {
   bool (*barrier_derivatives)(const EdgeFormula& formula, const LinkArrays& link, const WeightedPoint& p, double* sums);
   /// The value alone; +∞ outside the domain.
   double (*barrier_value)(const EdgeFormula& formula, const LinkArrays& link, const WeightedPoint& p);
+  void (*hot_edges)(const EdgeFormula& formula, const LinkArrays& link, const WeightedPoint& p, const HotEdges& edges);
   void (*hot_derivatives)(const EdgeFormula& formula, const LinkArrays& link, const EdgeFactors& factors,
                           const WeightedPoint& p, double* sums);
   /// The values of a barrier of the first n triangles, summed; +∞ when one is outside the domain.

@@ -62,6 +62,21 @@ double barrier_value(const EdgeFormula& f, const LinkArrays& link, const Weighte
   return with_barrier(f, [&](const auto& kernel) { return star_value(kernel, link, p); });
 }
 
+void hot_edges(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint& at, const HotEdges& edges) {
+  const HotKernel kernel{f.alpha, f.beta};
+  const PackPoint p = everywhere(at);
+  for (std::size_t i = 0; i < link.size; i += kLanes) {
+    TriangleVectors<Pack> unused;
+    const PackShape s = triangle_shape(p, load_link(link, i), load_link(link, i + 1), unused);
+    const EdgeShapeOf<Pack> shapes[3] = {s.pq, s.qr, s.rp};
+    for (std::size_t k = 0; k < 3; ++k) {
+      shapes[k].g.store(edges.g[k] + i);
+      kernel.value(shapes[k]).store(edges.value[k] + i);
+    }
+    s.doubled_area.store(edges.doubled_area + i);
+  }
+}
+
 void hot_derivatives(const EdgeFormula& f, const LinkArrays& link, const EdgeFactors& factors, const WeightedPoint& at,
                      double* out) {
   const HotKernel kernel{f.alpha, f.beta};
@@ -103,6 +118,7 @@ unsigned well_centered(const TriangleLanes& triangles) {
 
 }  // namespace
 
-const StarKernels kStarKernels = {barrier_derivatives, barrier_value, hot_derivatives, barrier_sum, well_centered};
+const StarKernels kStarKernels = {barrier_derivatives, barrier_value, hot_edges,
+                                  hot_derivatives,     barrier_sum,   well_centered};
 
 }  // namespace temper::TEMPER_INSTRUCTION_SET

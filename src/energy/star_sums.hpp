@@ -14,11 +14,9 @@ struct PackPoint {
   Pack x, y, w;
 };
 
-TEMPER_INLINE PackPoint load(const LanePoints& p) {
-  return {Pack::load(p.x.data()), Pack::load(p.y.data()), Pack::load(p.w.data())};
-}
+TEMPER_INLINE PackPoint load(const LanePoints& p) { return {Pack::load(p.x), Pack::load(p.y), Pack::load(p.w)}; }
 
-TEMPER_INLINE Pack::Mask load(const LaneMask& m) { return Pack::Mask::load(m.data()); }
+TEMPER_INLINE Pack::Mask load(const LaneMask& m) { return Pack::Mask::load(m); }
 
 using PackShape = TriangleShapeOf<Pack>;
 using PackTerm = EdgeTerm<Pack>;

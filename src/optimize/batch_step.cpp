@@ -9,6 +9,8 @@ namespace {
 
 // Vertices to choose from: a batch of eight blocks about a hundred around it, and takes a quarter of the rest.
 constexpr std::size_t kWindow = 256;
+// From where the sweep is, in numbers of vertices, to where the memory is asked for what comes.
+constexpr std::size_t kAhead = 64;
 // With fewer left, what comes together matters less than that lanes are in use.
 constexpr std::size_t kLastFew = 48;
 
@@ -23,8 +25,11 @@ void BatchStep::improve(std::span<const VertexId> vertices, Unknowns unknowns, c
   const std::size_t n_left = left.size();
   auto next = vertices.begin();
   for (std::size_t n_waiting = 0;;) {
-    for (; n_waiting < kWindow && next != vertices.end(); ++next, ++n_waiting)
+    for (; n_waiting < kWindow && next != vertices.end(); ++next, ++n_waiting) {
+      mesh_.prefetch(VertexId(std::size_t{next->index} + kAhead));
+      mesh_.prefetch_star(*next);
       waiting_[kind_of(*next)].push_back(*next);
+    }
     if (n_waiting == 0) break;
     const auto longest = std::max_element(waiting_.begin(), waiting_.end(),
                                           [](const auto& a, const auto& b) { return a.size() < b.size(); });

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "mesh/blocks.hpp"
+
 namespace temper {
 namespace {
 
@@ -65,7 +67,8 @@ Mobility mobility(const Mesh& mesh, VertexId v, const OptimizeOptions& options) 
 
 IdVector<VertexId, Mobility> mobilities(const Mesh& mesh, const OptimizeOptions& options) {
   IdVector<VertexId, Mobility> result(mesh.n_vertices());
-  for (const VertexId v : mesh.vertices()) result[v] = mobility(mesh, v, options);
+  for_each_index(mesh.n_vertices(), options.executor,
+                 [&](std::size_t i) { result[VertexId(i)] = mobility(mesh, VertexId(i), options); });
   return result;
 }
 

@@ -27,13 +27,13 @@ struct alignas(64) StarBatch {
   std::size_t lanes = 0;           ///< in use
   std::size_t most_triangles = 0;  ///< of a lane
   LanePoints p;
-  Lane triangles;          ///< how many, as a double
-  LaneMask open;           ///< a boundary vertex: one point more on the link than triangles
-  LaneMask moves, weighs;  ///< position and weight are unknowns; a lane without either is left as it is
-  std::array<LanePoints, kMostTriangles + 1> link;   ///< q_0 … q_n, where q_n is q_0 again in a closed star
-  std::array<LanePoints, kMostTriangles> across;     ///< o_i, where link_flips
-  std::array<LaneMask, kMostTriangles> spoke_flips;  ///< spoke i may flip: inside, and not constrained
-  std::array<LaneMask, kMostTriangles> link_flips;   ///< the same of link edge i
+  Lane triangles;                        ///< how many, as a double
+  LaneMask open;                         ///< a boundary vertex: one point more on the link than triangles
+  LaneMask moves, weighs;                ///< position and weight are unknowns; a lane without either is left as it is
+  LanePoints link[kMostTriangles + 1];   ///< q_0 … q_n, where q_n is q_0 again in a closed star
+  LanePoints across[kMostTriangles];     ///< o_i, where link_flips
+  LaneMask spoke_flips[kMostTriangles];  ///< spoke i may flip: inside, and not constrained
+  LaneMask link_flips[kMostTriangles];   ///< the same of link edge i
 
   // What comes out.
   LanePoints to;       ///< where a lane of `stepped` goes

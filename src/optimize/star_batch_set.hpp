@@ -23,7 +23,7 @@ struct Derivatives {
 
 template <class Kernel>
 TEMPER_INLINE Derivatives derivatives(const Kernel& kernel, const StarBatch& batch, const PackPoint& p) {
-  const Pack triangles = Pack::load(batch.triangles.data());
+  const Pack triangles = Pack::load(batch.triangles);
   const Mask open = load(batch.open);
   Derivatives d;
   Pack squares = Pack::all(0);
@@ -85,7 +85,7 @@ TEMPER_INLINE PackStep newton_step(const Derivatives& d, Mask moves, Mask weighs
 
 /// inversion_limit of optimize/line_search.hpp.
 TEMPER_INLINE Pack inversion_limit(const StarBatch& batch, const PackPoint& p, const PackStep& step) {
-  const Pack triangles = Pack::load(batch.triangles.data());
+  const Pack triangles = Pack::load(batch.triangles);
   Pack limit = Pack::all(1);
   PackPoint q = load(batch.link[0]);
   for (std::size_t i = 0; i < batch.most_triangles; ++i) {
@@ -108,7 +108,7 @@ struct Trial {
 
 template <class Kernel>
 TEMPER_INLINE Trial energy_at(const Kernel& kernel, const StarBatch& batch, const PackPoint& p) {
-  const Pack triangles = Pack::load(batch.triangles.data());
+  const Pack triangles = Pack::load(batch.triangles);
   Trial trial = {Pack::all(0), {}, {}};
   Mask outside = triangles < 0, uncertain = outside;
   PackPoint q = load(batch.link[0]);
@@ -127,7 +127,7 @@ TEMPER_INLINE Trial energy_at(const Kernel& kernel, const StarBatch& batch, cons
 
 /// Where all spokes and link edges that may flip are certainly regular with the centers at p.
 TEMPER_INLINE Mask regular_at(const StarBatch& batch, const PackPoint& p) {
-  const Pack triangles = Pack::load(batch.triangles.data());
+  const Pack triangles = Pack::load(batch.triangles);
   Mask flips = triangles < 0;
   const auto certain = [](const PackPoint& a, const PackPoint& b, const PackPoint& c, const PackPoint& d) {
     const auto [determinant, bound] = inlined::filtered_power_test(a, b, c, d);
@@ -152,9 +152,9 @@ TEMPER_INLINE Mask regular_at(const StarBatch& batch, const PackPoint& p) {
 }
 
 TEMPER_INLINE void store(const PackPoint& p, LanePoints& to) {
-  p.x.store(to.x.data());
-  p.y.store(to.y.data());
-  p.w.store(to.w.data());
+  p.x.store(to.x);
+  p.y.store(to.y);
+  p.w.store(to.w);
 }
 
 /// VertexStep::newton_search.
@@ -187,8 +187,8 @@ TEMPER_INLINE StepOutcome step(const Kernel& kernel, const StepParameters& param
     t = (trial == 0 && relaxation > 1 ? 1 / relaxation : 0.5) * t;
   }
   store(to, batch.to);
-  d.sums.value.store(batch.before.data());
-  after.store(batch.after.data());
+  d.sums.value.store(batch.before);
+  after.store(batch.after);
   const unsigned used = (1U << batch.lanes) - 1;
   const unsigned alone = (uncertain | ~usable).bits() & (moves | weighs).bits() & used;
   const unsigned done = stepped.bits() & ~alone & used;

@@ -18,7 +18,7 @@ namespace {
 constexpr double kBeforeFlip = 0.99;
 // A threshold below this part of the step is a tie: stopping short of it would be standing still.
 constexpr double kTie = 1e-6;
-// Fewer vertices than these are improved one by one: little to gain, and much for eight lanes to wait for.
+// The vertices of a smaller mesh are improved one by one: there is little to gain, and eight do not find each other.
 constexpr std::size_t kLeastForBatches = 1000;
 // HOT has no barrier: nothing may come nearer to a neighbour than this part of the patch radius.
 constexpr double kShortestEdge = 1e-7;
@@ -47,7 +47,7 @@ bool VertexStep::improve(VertexId v, const Part& part) {
 }
 
 void VertexStep::improve(std::span<const VertexId> vertices, const Part& part, std::vector<VertexId>& left) {
-  if (vertices.size() >= kLeastForBatches && can_batch()) {
+  if (mesh_.n_vertices() >= kLeastForBatches && can_batch()) {
     batches_.improve(vertices, unknowns_, part, left);
     return;
   }
