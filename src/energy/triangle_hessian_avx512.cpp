@@ -1,0 +1,1 @@
+#include "energy/triangle_hessian_set.hpp"
