@@ -1,32 +1,18 @@
 // Kernels one by one, on the patches and edges of a random mesh; times are an item: a predicate, a patch, a flip.
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <vector>
 
 #include "energy/patch.hpp"
+#include "fixtures.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"
-#include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 #include "temper/topology.hpp"
 
-namespace temper {
+namespace temper::bench {
 namespace {
-
-constexpr std::size_t kVertices = 10000;
-
-/// In Hilbert order, as the optimiser has it, and well-centered, so that every energy is finite.
-const Mesh& good_mesh() {
-  static const Mesh mesh = [] {
-    Mesh m = *random_points({.vertices = kVertices, .seed = 1});
-    hilbert_order(m);
-    if (!optimize(m, {.max_sweeps = 60})) std::abort();
-    return m;
-  }();
-  return mesh;
-}
 
 struct Quad {
   WeightedPoint a, b, c, d;
@@ -97,23 +83,6 @@ void well_centered(benchmark::State& state) {
   for_items(state, quads(good_mesh()), [](const Quad& q) { return is_well_centered(q.a, q.b, q.c); });
 }
 BENCHMARK(well_centered);
-
-std::vector<Patch> patches(const Mesh& mesh, bool with_outer) {
-  std::vector<Patch> result;
-  for (const VertexId v : mesh.vertices()) {
-    if (mesh.is_boundary(v)) continue;
-    result.emplace_back();
-    gather_patch(mesh, v, with_outer, result.back());
-  }
-  return result;
-}
-
-EnergyModel model_of(EnergyKind kind) {
-  EnergyModel model;
-  model.kind = kind;
-  model.gamma = {0.003, LengthScale::relative};
-  return model;
-}
 
 void gather(benchmark::State& state) {
   const Mesh& mesh = good_mesh();
@@ -193,4 +162,4 @@ void hilbert(benchmark::State& state) {
 BENCHMARK(hilbert)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace temper
+}  // namespace temper::bench

@@ -1,0 +1,49 @@
+// How long until the energy is what 200 sweeps of plain Gauss-Seidel reach.
+#include <cmath>
+
+#include "measure.hpp"
+#include "sweeps.hpp"
+
+namespace temper::bench {
+namespace {
+
+constexpr int kPlainSweeps = 200;
+
+struct Finish {
+  double seconds = kNone, sweeps = kNone;
+};
+
+/// Energies compare only at the same γ: `last` is that of the plain run.
+Finish time_to(const Mesh& mesh, OptimizeOptions options, const SweepRecord& last) {
+  options.tolerance = 0;
+  options.max_sweeps = kPlainSweeps + 1;
+  Mesh copy = mesh;
+  const auto there = [&](const SweepRecord& now) {
+    return now.softening == last.softening && now.energy <= last.energy;
+  };
+  const TimedRun run = timed_run(copy, options, there);
+  if (!there(run.marks.back().last)) return {};
+  const std::size_t end = run.marks.size() - 1;
+  return {run.cpu_between(0, end), static_cast<double>(run.marks.back().last.sweep)};
+}
+
+}  // namespace
+
+Race measure_race(std::size_t vertices, const Options& options) {
+  const Mesh mesh = random_mesh(vertices);
+  Race race;
+  OptimizeOptions plain = sweeps_only();
+  plain.relaxation = 1;
+  for (int round = 0; round < options.rounds; ++round) {
+    const TimedRun run = timed_sweeps(mesh, plain, kPlainSweeps);
+    race.plain = std::fmin(race.plain, run.cpu_between(0, kPlainSweeps));
+    const Finish relaxed = time_to(mesh, sweeps_only(), run.marks.back().last);
+    const Finish standard = time_to(mesh, {}, run.marks.back().last);
+    race.relaxed = std::fmin(race.relaxed, relaxed.seconds);
+    race.standard = std::fmin(race.standard, standard.seconds);
+    race.relaxed_sweeps = relaxed.sweeps, race.standard_sweeps = standard.sweeps;
+  }
+  return race;
+}
+
+}  // namespace temper::bench
