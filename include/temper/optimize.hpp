@@ -122,6 +122,9 @@ struct OptimizeOptions {
   double overshoot = 1.1;   ///< of FlipLimit::after
   /// Over-relaxation of Newton steps, in (0, 2). Absent: 1.7, but 1.97 while γ first shrinks. Given: constant.
   std::optional<double> relaxation = {};
+  /// Once γ has settled and every triangle is well-centered, every other sweep makes a step of all vertices at once.
+  /// Only for barriers with Solver::newton, and where flips, order, limits and stopping rule are the default ones.
+  bool newton_passes = true;
   InterfaceVertices interfaces = InterfaceVertices::fixed;
   BoundaryVertices boundary_vertices = BoundaryVertices::keep;
   double boundary_ratio =

@@ -18,6 +18,8 @@ namespace {
 constexpr int kPatience = 25;
 // Sweeps in which vertices may bring a barrier's infinite energy down one by one, before all weights shrink.
 constexpr int kInfinitePatience = 5;
+// A sweep that still lowers the energy by this part of itself finds its way among flips and minima: passes wait.
+constexpr double kSlowFall = 0.01;
 
 }  // namespace
 
@@ -65,7 +67,7 @@ void Driver::begin(const Attempt& attempt) {
   if (run_.report.history.empty()) record();
   least_bad_ = mesh_.n_triangles();
   before_ = best_energy_ = total();
-  least_energy_ = kInfinity;
+  least_energy_ = fall_ = kInfinity;
   best_sweep_ = recorder_.sweep();
   run_.report.stopped = Stopped::max_sweeps;
   show(Snapshot::Moment::start);
@@ -74,6 +76,9 @@ void Driver::begin(const Attempt& attempt) {
 /// Lines 9 to 18 of Algorithm 1.
 Driver::Verdict Driver::sweep(bool may_give_up) {
   if (!run_.sweeps_left()) return Verdict::stopped;
+  const bool passed = newton_passes_help();
+  if (passed && !(newton_pass() && run_.sweeps_left())) return Verdict::stopped;
+  const double halfway = run_.report.history.back().energy;
   recorder_.begin_sweep(run_.report.sweeps + 1);
   const bool whole = improve_all_vertices();
   const bool removed = flipper_.has_removed();
@@ -82,6 +87,7 @@ Driver::Verdict Driver::sweep(bool may_give_up) {
   ++iteration_;
   ++run_.report.sweeps;
   record();
+  if (passed) passes_pay_ = before_ - halfway > halfway - run_.report.history.back().energy;
   if (!defers_flips(settings_.options)) keep_if_best();
   show(Snapshot::Moment::after_sweep);
   return whole ? judge_sweep(removed, may_give_up) : Verdict::stopped;  // by the caller or the clock
@@ -102,7 +108,9 @@ Driver::Verdict Driver::judge_sweep(bool removed, bool may_give_up) {
   }
   if (softener_.settled() && may_give_up && stagnates()) return Verdict::stopped;
   const std::size_t bad = run_.report.history.back().bad;
-  const bool changed = softener_.advance(mesh_, (before_ - after) / std::abs(after), bad, settings_.model);
+  const double fall = (before_ - after) / std::abs(after);
+  if (softener_.settled()) fall_ = fall;
+  const bool changed = softener_.advance(mesh_, fall, bad, settings_.model);
   settings_.relaxation = settings_.options.relaxation.value_or(softener_.relaxation());
   before_ = changed ? total() : after;
   return Verdict::improving;
@@ -123,6 +131,22 @@ Driver::Verdict Driver::flip_if_deferred(Verdict of_sweeps) {
   if (of_sweeps == Verdict::settled && !needed && !begin_weights()) return Verdict::stopped;
   run_.report.stopped = outer_ == settings_.options.outer ? Stopped::max_outer : Stopped::max_sweeps;
   return outer_ == settings_.options.outer ? Verdict::stopped : Verdict::improving;
+}
+
+/// Newton's method for many vertices at once is for where nothing is bad and sweeps have become slow.
+bool Driver::newton_passes_help() const {
+  return passes_pay_ && fall_ < kSlowFall && run_.report.history.back().bad == 0 && allows_newton_passes(settings_);
+}
+
+/// A sweep of its own, that makes one step of the stopping rule with the sweep after it. False when it was cut short.
+bool Driver::newton_pass() {
+  recorder_.begin_sweep(run_.report.sweeps + 1);
+  const bool whole = sweeper_.newton_pass(iteration_, run_);
+  ++iteration_;
+  ++run_.report.sweeps;
+  record();
+  show(Snapshot::Moment::after_sweep);
+  return whole;
 }
 
 /// One Gauss-Seidel sweep, lines 9 to 16. False when it was cut short.

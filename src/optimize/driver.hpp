@@ -48,6 +48,8 @@ class Driver {
   Verdict judge_sweep(bool removed, bool may_give_up);
   Verdict flip_if_deferred(Verdict of_sweeps);
   bool improve_all_vertices();
+  [[nodiscard]] bool newton_passes_help() const;
+  bool newton_pass();
   void compact();
   void grow();
   bool halve_weights();
@@ -83,6 +85,8 @@ class Driver {
   int sweeps_since_lower_ = 0;
   int infinite_sweeps_ = 0;
   bool shrunk_ = false;
+  double fall_ = 0;                  // of the energy in the last step at the last γ, relative
+  bool passes_pay_ = true;           // Newton passes of this attempt, more than sweeps do
   std::optional<WorkingCopy> best_;  // of HOT energies: the best sweep
   double best_energy_ = 0;
   int best_sweep_ = 0, final_sweep_ = 0;

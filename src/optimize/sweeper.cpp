@@ -6,53 +6,14 @@
 namespace temper {
 namespace {
 
-constexpr std::size_t kVerticesBetweenCalls = 8192;  // of the observer and the clock: a few milliseconds
-constexpr std::size_t kStretch = 2048;               // vertices between looks at whether to stop; divides the above
+// Vertices between looks at whether to stop.
+constexpr std::size_t kStretch = 2048;
 // By how much parts grow from phase to phase, once shifted.
 constexpr std::size_t kGrowth = 4;
-
-/// A different address in each thread.
-const void* this_thread() {
-  thread_local const char here = 0;
-  return &here;
-}
 
 std::size_t pieces_of(std::size_t n, std::size_t most) { return std::max<std::size_t>(1, (n + most - 1) / most); }
 
 }  // namespace
-
-/// Whether the sweep goes on. The thread that called asks the clock and the caller; the others hear of the answer.
-class Sweeper::Watch {
- public:
-  Watch(Run& run, std::size_t n_vertices)
-      : run_(run), caller_(this_thread()), n_(static_cast<double>(std::max<std::size_t>(1, n_vertices))) {}
-
-  /// From the thread that called: the caller is asked before the next stretch.
-  void ask_soon() { since_asked_ = kVerticesBetweenCalls; }
-  /// Before a stretch of vertices.
-  [[nodiscard]] bool goes_on() {
-    if (stop_.load(std::memory_order_relaxed)) return false;
-    if (this_thread() != caller_ || since_asked_ < kVerticesBetweenCalls) return true;
-    since_asked_ = 0;
-    const bool stop = run_.asked_to_stop(static_cast<double>(done_.load(std::memory_order_relaxed)) / n_);
-    if (stop) stop_.store(true, std::memory_order_relaxed);
-    return !stop;
-  }
-  /// After a stretch, some of which must wait for another phase.
-  void passed(std::size_t vertices, std::size_t left) {
-    done_.fetch_add(vertices - left, std::memory_order_relaxed);
-    if (this_thread() == caller_) since_asked_ += vertices;
-  }
-  [[nodiscard]] bool stopped() const { return stop_.load(std::memory_order_relaxed); }
-
- private:
-  Run& run_;
-  const void* caller_;
-  double n_;
-  std::size_t since_asked_ = kVerticesBetweenCalls;  // the caller's own
-  std::atomic<bool> stop_ = false;
-  std::atomic<std::size_t> done_ = 0;
-};
 
 Sweeper::Worker::Worker(Sweeper& sweeper)
     : flipper(sweeper.mesh_, sweeper.settings_, sweeper.recorder_),
@@ -67,7 +28,8 @@ Sweeper::Sweeper(Mesh& mesh, const Settings& settings, const Frame& frame, Flipp
       recorder_(recorder),
       part_size_(part_size),
       limits_(mesh, settings, frame),
-      main_(mesh, settings, frame, limits_, flipper, recorder) {}
+      main_(mesh, settings, frame, limits_, flipper, recorder),
+      passes_(mesh, settings, frame, limits_, recorder, part_size) {}
 
 bool Sweeper::sweep(int iteration, std::span<const VertexId> sequence, Run& run) {
   iteration_ = iteration;
@@ -80,6 +42,14 @@ bool Sweeper::sweep(int iteration, std::span<const VertexId> sequence, Run& run)
     sweep_in_order(sequence, watch);
   }
   main_.end_sweep();
+  return !watch.stopped();
+}
+
+bool Sweeper::newton_pass(int iteration, Run& run) {
+  const OptimizeOptions& o = settings_.options;
+  const bool without_weights = o.unknowns == Unknowns::positions_and_weights && iteration < o.weights_from;
+  Watch watch(run, mesh_.n_vertices());
+  passes_.run(without_weights ? Unknowns::positions : o.unknowns, watch);
   return !watch.stopped();
 }
 
@@ -132,18 +102,14 @@ void Sweeper::run_pieces(bool first, Watch& watch) {
     }
   };
   if (may_run_at_once()) {
-    if (n_desks_ < n_pieces_) {
-      desks_ = std::make_unique<Desk[]>(n_pieces_);
-      n_desks_ = n_pieces_;
-    }
+    desks_.make_room(n_pieces_);
     settings_.options.executor->run(n_pieces_, [&](std::size_t i) {
-      Desk& desk = take_desk();
+      auto& desk = desks_.take([this] { return std::make_unique<Worker>(*this); });
       desk.worker->step.begin_sweep(iteration_);
       run_one(pieces_[i], desk.worker->step);
-      desk.taken.store(false, std::memory_order_release);
+      desk.leave();
     });
-    for (std::size_t i = 0; i < n_desks_ && desks_[i].worker; ++i)
-      flipper_.add(desks_[i].worker->flipper.take_changes());
+    desks_.for_each_worker([this](Worker& worker) { flipper_.add(worker.flipper.take_changes()); });
   } else {
     for (std::size_t i = 0; i < n_pieces_; ++i) run_one(pieces_[i], main_);
   }
@@ -176,16 +142,6 @@ bool Sweeper::improve_stretch(VertexStep& step, std::span<const VertexId> vertic
   step.improve(vertices, piece.part, piece.left);
   watch.passed(vertices.size(), piece.left.size() - left);
   return true;
-}
-
-/// The first that is free, with a worker: as many of these are made as parts ever run at once. There are as many desks
-/// as parts, so one is always free, or just about to be.
-Sweeper::Desk& Sweeper::take_desk() {
-  for (std::size_t i = 0;; i = (i + 1) % n_desks_) {
-    if (desks_[i].taken.exchange(true, std::memory_order_acquire)) continue;
-    if (!desks_[i].worker) desks_[i].worker = std::make_unique<Worker>(*this);
-    return desks_[i];
-  }
 }
 
 /// Whether steps only do what sweeper.hpp says of them.

@@ -31,19 +31,20 @@
 // in order, or vertices go, the parts run one after another: the same parts, the same order in each, the same bytes.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "optimize/desks.hpp"
 #include "optimize/flipper.hpp"
+#include "optimize/newton_pass.hpp"
 #include "optimize/partition.hpp"
 #include "optimize/recorder.hpp"
 #include "optimize/run.hpp"
 #include "optimize/settings.hpp"
 #include "optimize/vertex_limits.hpp"
 #include "optimize/vertex_step.hpp"
+#include "optimize/watch.hpp"
 
 namespace temper {
 
@@ -60,6 +61,10 @@ class Sweeper {
   /// they are numbered. False when the caller or the clock has cut it short.
   bool sweep(int iteration, std::span<const VertexId> sequence, Run& run);
 
+  /// A step of all vertices of each part at once, where allows_newton_passes() and no triangle is bad: see
+  /// newton_pass.hpp. False when the caller or the clock has cut it short.
+  bool newton_pass(int iteration, Run& run);
+
   /// Moves free vertices by up to `amount` of their shortest edge.
   void shake(double amount, Rng& rng) { main_.shake(amount, rng); }
 
@@ -74,16 +79,11 @@ class Sweeper {
     Flipper flipper;
     VertexStep step;
   };
-  struct Desk {
-    std::atomic<bool> taken = false;
-    std::unique_ptr<Worker> worker;
-  };
   /// A part, and those of its vertices that it could not improve.
   struct Piece {
     Part part;
     std::vector<VertexId> left;
   };
-  class Watch;
 
   void sweep_in_order(std::span<const VertexId> sequence, Watch& watch);
   void sweep_in_parts(Watch& watch);
@@ -92,7 +92,6 @@ class Sweeper {
   void improve_numbers(VertexStep& step, std::size_t first, std::size_t last, Piece& piece, Watch& watch);
   void improve(VertexStep& step, std::span<const VertexId> vertices, Piece& piece, Watch& watch);
   bool improve_stretch(VertexStep& step, std::span<const VertexId> vertices, Piece& piece, Watch& watch);
-  Desk& take_desk();
   [[nodiscard]] bool may_run_at_once() const;
 
   Mesh& mesh_;
@@ -107,8 +106,8 @@ class Sweeper {
   std::vector<Piece> pieces_;  // of the phase under way, the first n_pieces_ of them: storage is kept
   std::size_t n_pieces_ = 0;
   std::vector<VertexId> waiting_;  // for the phase under way, in order
-  std::unique_ptr<Desk[]> desks_;  // one for each part that might run at once; few are ever used
-  std::size_t n_desks_ = 0;
+  Desks<Worker> desks_;
+  NewtonPass passes_;
 };
 
 }  // namespace temper

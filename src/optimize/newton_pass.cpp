@@ -1,0 +1,124 @@
+#include "optimize/newton_pass.hpp"
+
+#include <algorithm>
+
+#include "geometry/predicates_inline.hpp"
+#include "optimize/newton_constants.hpp"
+
+namespace temper {
+namespace {
+
+bool are_well_centered(const TriangleLanes& lanes, std::size_t n) {
+  const unsigned certain = star_kernels().well_centered(lanes);
+  for (std::size_t lane = 0; lane < n; ++lane) {
+    if ((certain >> lane & 1) != 0) continue;
+    if (!inlined::is_well_centered(lanes.p.at(lane), lanes.q.at(lane), lanes.r.at(lane))) return false;
+  }
+  return true;
+}
+
+/// Of the triangles that move; +∞ when one of them is not well-centered.
+double energy_inside(const Mesh& mesh, const PartSystem& system, const EdgeFormula& formula) {
+  double sum = 0;
+  TriangleLanes lanes;
+  for (std::size_t begin = 0; begin < system.n_triangles() && sum < kInfinity; begin += kLanes) {
+    const std::size_t n = system.load(mesh, begin, lanes);
+    sum += star_kernels().barrier_sum(formula, lanes, n);
+    if (!are_well_centered(lanes, n)) return kInfinity;
+  }
+  return sum;
+}
+
+}  // namespace
+
+bool allows_newton_passes(const Settings& settings) {
+  const OptimizeOptions& o = settings.options;
+  const bool flips_at_once = o.flips && o.flip_timing == FlipTiming::immediate &&
+                             settings.flip_limit == FlipLimit::unlimited && o.inversion == Inversion::refuse;
+  const bool only_moves = !o.collapse_from && o.removal == Removal::none && !o.anchor && !o.size_band;
+  return o.newton_passes && settings.energy.barrier && o.solver == Solver::newton && flips_at_once && only_moves &&
+         o.order == SweepOrder::hilbert && o.stopping == StoppingRule::relative;
+}
+
+void NewtonPass::run(Unknowns unknowns, Watch& watch) {
+  const std::size_t count = std::max<std::size_t>(1, (mesh_.n_vertices() + part_size_ / 2) / part_size_);
+  const bool shifted = count > 1 && passes_++ % 2 == 1;
+  const std::size_t n_parts = shifted ? count + 1 : count;
+  desks_.make_room(n_parts);
+  const auto block = [&](std::size_t i) {
+    if (!watch.goes_on()) return;
+    auto& desk = desks_.take([] { return std::make_unique<Worker>(); });
+    const Part here = part(i, count, shifted);
+    improve(here, unknowns, *desk.worker);
+    watch.passed(here.last.index - here.first.index, 0);
+    desk.leave();
+  };
+  if (settings_.options.executor != nullptr && !recorder_.on()) {
+    settings_.options.executor->run(n_parts, block);
+  } else {
+    for (std::size_t i = 0; i < n_parts; ++i) block(i);
+  }
+}
+
+/// Parts of equal size; shifted by half of it: one more, the first and the last half as large.
+Part NewtonPass::part(std::size_t i, std::size_t count, bool shifted) const {
+  const std::size_t n = mesh_.n_vertices();
+  const auto bound = [&](std::size_t k) {
+    const std::size_t half_parts = shifted ? (k > 0 ? 2 * k - 1 : 0) : 2 * k;
+    return VertexId(std::min(n, half_parts * n / (2 * count)));
+  };
+  return {bound(i), bound(i + 1)};
+}
+
+void NewtonPass::improve(const Part& part, Unknowns unknowns, Worker& worker) {
+  const EdgeFormula formula = edge_formula(settings_.model);
+  PartSystem& system = worker.system;
+  system.gather(mesh_, limits_.mobility, unknowns, part);
+  const double before = system.assemble(mesh_, formula);
+  if (!(before < kInfinity)) return;
+  system.solve();
+  worker.before.clear();
+  for (std::size_t i = 0; i < system.size(); ++i) worker.before.push_back(mesh_.point(system.vertex(i)));
+  double t = 1;
+  for (int trial = 0; trial < kTrials; ++trial, t *= 0.5) {
+    place(worker, t);
+    if (energy_inside(mesh_, system, formula) < before) return record(worker);
+  }
+  take_back(worker);
+}
+
+/// What moves, at t of its step.
+void NewtonPass::place(Worker& worker, double t) {
+  const PartSystem& system = worker.system;
+  for (std::size_t i = 0; i < system.size(); ++i) {
+    const Movable movable = system.movable(i);
+    if (movable == Movable::nothing) continue;
+    const auto [x, y, w] = system.step(i);
+    WeightedPoint to = worker.before[i];
+    if (movable != Movable::weight) {
+      const Vec2 p = frame_.snap({to.x + t * x, to.y + t * y});
+      to.x = p.x, to.y = p.y;
+    }
+    if (movable != Movable::position) to.w += t * w;
+    mesh_.set_point(system.vertex(i), to);
+  }
+}
+
+void NewtonPass::take_back(Worker& worker) {
+  const PartSystem& system = worker.system;
+  for (std::size_t i = 0; i < system.size(); ++i) {
+    if (system.movable(i) != Movable::nothing) mesh_.set_point(system.vertex(i), worker.before[i]);
+  }
+}
+
+void NewtonPass::record(const Worker& worker) const {
+  if (!recorder_.on()) return;
+  for (std::size_t i = 0; i < worker.system.size(); ++i) {
+    const VertexId v = worker.system.vertex(i);
+    if (mesh_.point(v) != worker.before[i]) {
+      recorder_.placed(v, worker.before[i], mesh_.point(v), kNoEnergy, kNoEnergy);
+    }
+  }
+}
+
+}  // namespace temper

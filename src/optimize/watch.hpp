@@ -1,0 +1,54 @@
+// Whether a sweep over many vertices goes on: asked by all its threads, answered by one.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+
+#include "optimize/run.hpp"
+
+namespace temper {
+
+/// The thread that called asks the clock and the caller; the others hear of the answer.
+class Watch {
+ public:
+  /// In the thread that is to ask.
+  Watch(Run& run, std::size_t n_vertices)
+      : run_(run), caller_(this_thread()), n_(static_cast<double>(std::max<std::size_t>(1, n_vertices))) {}
+
+  /// From the thread that called: the caller is asked before the next stretch.
+  void ask_soon() { since_asked_ = kVerticesBetweenCalls; }
+  /// Before a stretch of vertices.
+  [[nodiscard]] bool goes_on() {
+    if (stop_.load(std::memory_order_relaxed)) return false;
+    if (this_thread() != caller_ || since_asked_ < kVerticesBetweenCalls) return true;
+    since_asked_ = 0;
+    const bool stop = run_.asked_to_stop(static_cast<double>(done_.load(std::memory_order_relaxed)) / n_);
+    if (stop) stop_.store(true, std::memory_order_relaxed);
+    return !stop;
+  }
+  /// After a stretch, some of which must wait for another phase.
+  void passed(std::size_t vertices, std::size_t left) {
+    done_.fetch_add(vertices - left, std::memory_order_relaxed);
+    if (this_thread() == caller_) since_asked_ += vertices;
+  }
+  [[nodiscard]] bool stopped() const { return stop_.load(std::memory_order_relaxed); }
+
+ private:
+  static constexpr std::size_t kVerticesBetweenCalls = 8192;  // of the observer and the clock: a few milliseconds
+
+  /// A different address in each thread.
+  static const void* this_thread() {
+    thread_local const char here = 0;
+    return &here;
+  }
+
+  Run& run_;
+  const void* caller_;
+  double n_;
+  std::size_t since_asked_ = kVerticesBetweenCalls;  // the caller's own
+  std::atomic<bool> stop_ = false;
+  std::atomic<std::size_t> done_ = 0;
+};
+
+}  // namespace temper
