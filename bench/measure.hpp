@@ -10,7 +10,7 @@ namespace temper::bench {
 [[nodiscard]] SweepCosts measure_sweeps(std::size_t vertices, const Options& options);
 /// `rounds`: of wall times; bytes are compared in any case.
 [[nodiscard]] ThreadCosts measure_threads(std::size_t vertices, int rounds, const Options& options);
-[[nodiscard]] Race measure_race(std::size_t vertices, const Options& options);
+[[nodiscard]] Races measure_races(std::size_t vertices, const Options& options);
 
 /// Writes the random mesh of that many vertices.
 void make_input(std::size_t vertices, const std::string& path);

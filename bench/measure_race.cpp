@@ -27,14 +27,11 @@ Finish time_to(const Mesh& mesh, OptimizeOptions options, const SweepRecord& las
   return {run.cpu_between(0, end), static_cast<double>(run.marks.back().last.sweep)};
 }
 
-}  // namespace
-
-Race measure_race(std::size_t vertices, const Options& options) {
-  const Mesh mesh = random_mesh(vertices);
+Race race_on(const Mesh& mesh, int rounds) {
   Race race;
   OptimizeOptions plain = sweeps_only();
   plain.relaxation = 1;
-  for (int round = 0; round < options.rounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     const TimedRun run = timed_sweeps(mesh, plain, kPlainSweeps);
     race.plain = std::fmin(race.plain, run.cpu_between(0, kPlainSweeps));
     const Finish relaxed = time_to(mesh, sweeps_only(), run.marks.back().last);
@@ -44,6 +41,13 @@ Race measure_race(std::size_t vertices, const Options& options) {
     race.relaxed_sweeps = relaxed.sweeps, race.standard_sweeps = standard.sweeps;
   }
   return race;
+}
+
+}  // namespace
+
+Races measure_races(std::size_t vertices, const Options& options) {
+  const Mesh mesh = random_mesh(vertices);
+  return {race_on(mesh, options.rounds), race_on(well_centered_mesh(mesh), options.rounds)};
 }
 
 }  // namespace temper::bench

@@ -33,6 +33,11 @@ struct Race {
   double relaxed_sweeps = kNone, standard_sweeps = kNone;   ///< and passes
 };
 
+struct Races {
+  Race whole;    ///< from the input: steps that go far while edges flip find a better minimum, too
+  Race settled;  ///< both from the same well-centered mesh, nearly without flips
+};
+
 /// Seconds of a run from file to file: of the processor with one thread, on the wall with several.
 struct Stages {
   double read = kNone, build = kNone;
@@ -60,7 +65,7 @@ struct Row {
   std::size_t vertices = 0;
   SweepCosts costs;
   ThreadCosts threads;
-  Race race;
+  Races races;
   FileRun one, all;  ///< on one thread, and on all that were asked for
   double program_peak_bytes = kNone;
 };

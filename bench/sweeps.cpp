@@ -36,11 +36,7 @@ OptimizeOptions sweeps_only(Solver solver) {
   OptimizeOptions options;
   options.solver = solver;
   options.tolerance = 0;
-  // Passes came after the first benchmarks: this compiles on both sides of that.
-  const auto without_passes = [](auto& o) {
-    if constexpr (requires { o.newton_passes; }) o.newton_passes = false;
-  };
-  without_passes(options);
+  options.newton_passes = false;
   return options;
 }
 

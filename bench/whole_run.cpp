@@ -58,7 +58,7 @@ Row measure(std::size_t vertices, const Options& options, const std::filesystem:
     const bool timed = vertices >= kLeastWithThreads;
     row.threads = measured("threads", [&] { return measure_threads(vertices, timed ? options.rounds : 0, options); });
   }
-  if (vertices == kRace) row.race = measured("race", [&] { return measure_race(vertices, options); });
+  if (vertices == kRace) row.races = measured("races", [&] { return measure_races(vertices, options); });
   run_files(row, options, folder);
   return row;
 }
