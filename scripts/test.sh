@@ -124,6 +124,7 @@ fi
 stage "layers: the checker finds what it should" python3 scripts/check_layers.py --self-test
 stage "layers: who includes whom" python3 scripts/check_layers.py
 stage "format" formatted
+stage "bench: the comparison finds what it should" python3 bench/compare.py --self-test
 stage "headers, each alone" tests/consumer/headers.sh
 if stage "build (dev, -Werror)" configure_and_build dev; then
   stage "core without exceptions and RTTI" core_without_exceptions
