@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+"""Measures everything that docs/performance.md shows, and writes its numbers and pictures anew.
+
+    bench/measure.py BUILD [--sizes 1000,10000,100000,1000000] [--rounds 3] [--tables-only]
+
+BUILD is a build folder of the bench preset. On a quiet machine: 10⁶ vertices take some minutes. The numbers go to
+docs/performance/*.json, from there into the tables of docs/performance.md between their marks, and into the plots
+(bench/plot.py). --tables-only: from the numbers that are there.
+"""
+
+import argparse
+import json
+import math
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+import plot
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+DOCUMENT = ROOT / "docs" / "performance.md"
+SETS = ("baseline", "avx2", "avx512")
+PARTS = {
+    "step_1_gather": "gather the star, and what is across its link",
+    "step_2_derivatives": "value, gradient, Hessian",
+    "step_3_newton": "Newton step, 3 × 3",
+    "step_4_inversion_limit": "how far before a triangle turns over",
+    "step_5_trial": "energy and orientation at the new place (a trial)",
+    "step_6_regular": "regularity of its edges there, filtered",
+    "step_7_commit": "into the mesh",
+}
+KERNELS = {
+    "orient2d_filter": "orient2d, the filter decides",
+    "orient2d_exact": "orient2d, exact",
+    "power_test_filter": "power test, the filter decides",
+    "power_test_of_ties": "power test, a tie",
+    "power_test_exact": "power test, exact",
+    "well_centered": "well-centered, a triangle",
+    "flip_and_back": "flip and undo",
+}
+
+
+def whole_runs(build, options):
+    program = build / "apps" / "temper" / "temper"
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "runs.json"
+        command = [build / "bench" / "bench_whole_run", "--sizes", options.sizes, "--rounds", options.rounds]
+        command += ["--temper", program] if program.exists() else []
+        subprocess.run([*map(str, command), "--json", str(path)], check=True)
+        return json.loads(path.read_text())
+
+
+def kernels(build):
+    """Nanoseconds an iteration by name: the least of three."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "kernels.json"
+        subprocess.run([str(build / "bench" / "bench_kernels"), "--benchmark_repetitions=3", f"--benchmark_out={path}",
+                        "--benchmark_out_format=json"], check=True, stdout=subprocess.DEVNULL)
+        return least_times(json.loads(path.read_text()))
+
+
+def least_times(report):
+    unit = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
+    result = {}
+    for row in report["benchmarks"]:
+        if row.get("run_type", "iteration") != "iteration":
+            continue
+        label = row.get("label", "")
+        name = row["name"].split("/")[0] + (f"/{label}" if label in SETS else "".join(row["name"].partition("/")[1:]))
+        result[name] = min(result.get(name, math.inf), round(row["cpu_time"] * unit[row["time_unit"]], 3))
+    return result
+
+
+def number(x, digits=0):
+    if x is None:
+        return ""
+    if isinstance(x, float) and x != 0 and digits == 0 and abs(x) < 10:
+        return f"{x:.2g}"
+    return f"{x:,.{digits}f}"
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "-|" + "-:|" * (len(head) - 1)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def sweeps_table(rows):
+    keys = ("newton_ns", "settled_ns", "alternating_ns", "golden_ns", "loop_ns", "loop_by_stars_ns", "triad_ns")
+    head = ["vertices", "Newton", "settled", "alternating", "golden", "loop", "loop, eight stars", "triad"]
+    return table(head, [[number(r["vertices"])] + [number(r[k]) for k in keys] for r in rows])
+
+
+def runs_table(rows):
+    def cells(r):
+        peak = [r[k] and r[k] / r["vertices"] for k in ("library_peak_bytes", "program_peak_bytes")]
+        s = r["stages"]
+        share = s["total"] and 100 * (s["read"] + s["build"] + s["update"] + s["write"]) / s["total"]
+        return [number(r["vertices"]), number(r["bad_before"]), number(r["bad_after"]),
+                number(r["sweeps_to_well_centered"]), number(r["sweeps"]), number(r["optimize_seconds"], 2),
+                *map(number, peak), number(share, 1)]
+    head = ["vertices", "bad triangles before", "after", "sweeps until none is bad", "until converged", "seconds",
+            "bytes a vertex, library", "program", "files, %"]
+    return table(head, [cells(r) for r in rows])
+
+
+def threads_table(rows):
+    rows = [r for r in rows if r["wall_ns_by_threads"]]
+    if not rows:
+        return "Not measured: there was no oneTBB."
+    most = max(len(r["wall_ns_by_threads"]) for r in rows)
+    cells = [[number(r["vertices"])] + [f"{number(ns)} ({r['wall_ns_by_threads'][0] / ns:.2f} ×)"
+                                        for ns in r["wall_ns_by_threads"]] for r in rows]
+    return table(["vertices"] + [f"{i} thread{'s' * (i > 1)}" for i in range(1, most + 1)], cells)
+
+
+def stages_table(rows):
+    rows = [r for r in rows if r["stages_with_threads"]["total"] is not None]
+    if not rows:
+        return "Not measured."
+    r = rows[-1]
+    cells = [[name, number(seconds, 3), number(r["stages_with_threads"][name], 3)]
+             for name, seconds in r["stages"].items()]
+    return table([f"{r['vertices']:,} vertices, seconds", "one thread", "all threads"], cells)
+
+
+def race_table(rows):
+    cells = []
+    for r in rows:
+        for key, start in (("race", "the input"), ("settled_race", "well-centered")):
+            race = r[key]
+            if race["plain_seconds"] is None:
+                continue
+            def finish(who, count):
+                return "not reached" if race[who] is None else f"{race[who]:.2f} ({race[count]:.0f})"
+            cells.append([f"{r['vertices']:,}, {start}", f"{race['plain_seconds']:.2f}",
+                          finish("sweeps_alone_seconds", "sweeps_alone"), finish("default_seconds", "default_sweeps")])
+    return table(["vertices, from", "200 plain sweeps, s", "default sweeps, s (sweeps)",
+                  "default, s (sweeps and passes)"], cells)
+
+
+def step_table(times, rows):
+    """Nanoseconds a vertex; batches have eight. The last rows: what a sweep costs besides."""
+    def of(part, instruction_set):
+        ns = times.get(f"{part}/{instruction_set}", times.get(part))
+        return None if ns is None else ns / 8
+    sets = [s for s in SETS if f"step_5_trial/{s}" in times]
+    cells = [[text] + [number(of(part, s), 1) for s in sets] for part, text in PARTS.items()]
+    total = {s: sum(of(part, s) for part in PARTS) for s in sets}
+    cells.append(["together"] + [number(total[s], 1) for s in sets])
+    whole = {s: times[f"energy_and_bad_triangles/{s}"] / 10000 for s in sets}
+    cells.append(["energy and bad triangles of the mesh, once a sweep"] + [number(whole[s], 1) for s in sets])
+    settled = next((r["settled_ns"] for r in rows if r["vertices"] == 10000), None)
+    if settled:
+        rest = settled - total[sets[-1]] - whole[sets[-1]]
+        cells.append(["the rest of a settled sweep: choosing who comes together, further trials, flips"] +
+                     [""] * (len(sets) - 1) + [number(rest, 1)])
+    return table(["ns a vertex"] + list(sets), cells)
+
+
+def kernels_table(times):
+    return table(["kernel", "ns"], [[text, number(times[name], 1)] for name, text in KERNELS.items() if name in times])
+
+
+def bounds_table(bounds):
+    cells = [[b["what"], f"{b['value']:.3g}",
+              f"at least {b['least']:.3g}" if "least" in b else f"at most {b['most']:.3g}", "" if b["met"] else "missed"]
+             for b in bounds if b["met"] is not None]
+    return table(["bound", "measured", "", ""], cells)
+
+
+def write_tables(runs, times):
+    text = DOCUMENT.read_text()
+    rows = runs["sizes"]
+    tables = {"sweeps": sweeps_table(rows), "runs": runs_table(rows), "threads": threads_table(rows),
+              "stages": stages_table(rows), "race": race_table(rows), "step": step_table(times, rows),
+              "kernels": kernels_table(times), "bounds": bounds_table(runs["bounds"])}
+    for name, body in tables.items():
+        mark = re.compile(rf"(<!-- {name}: by bench/measure.py -->\n).*?(<!-- end -->)", re.DOTALL)
+        text, count = mark.subn(lambda m: m[1] + body + "\n" + m[2], text)
+        if count != 1:
+            sys.exit(f"measure: {DOCUMENT.name} has {count} places for the table '{name}'")
+    DOCUMENT.write_text(text)
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("build", type=pathlib.Path, nargs="?")
+    parser.add_argument("--sizes", default="1000,10000,100000,1000000")
+    parser.add_argument("--rounds", default="3")
+    parser.add_argument("--tables-only", action="store_true")
+    options = parser.parse_args(arguments)
+    folder = ROOT / "docs" / "performance"
+    files = {name: folder / f"{name}.json" for name in ("runs", "kernels")}
+    if not options.tables_only:
+        if options.build is None:
+            parser.error("a build folder is expected")
+        folder.mkdir(exist_ok=True)
+        files["kernels"].write_text(json.dumps(kernels(options.build), indent=1) + "\n")
+        files["runs"].write_text(json.dumps(whole_runs(options.build, options), indent=1) + "\n")
+    runs, times = (json.loads(files[name].read_text()) for name in ("runs", "kernels"))
+    write_tables(runs, times)
+    plot.draw(runs, folder)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
