@@ -68,7 +68,7 @@ struct Settings {
   std::optional<io::Encoding> encoding;
   std::uint64_t threads = 0;
   bool positions_only = false, weights_only = false, no_flips = false, slide = false, quiet = false;
-  bool repair = false, no_repair = false;
+  bool repair = false, no_repair = false, no_newton_passes = false;
   std::string size_field, size_data;
 };
 
@@ -132,7 +132,12 @@ void add_moves(CLI::App& app, Settings& s) {
   CLI::Option* weights = app.add_flag("--weights-only", s.weights_only, "leave the positions as they are");
   positions->excludes(weights);
   add_count(app, "--weights-from", s.options.weights_from, 0, "first sweep that changes weights, from 0");
-  add_number(app, "--relaxation", s.options.relaxation, {0, 2, true}, "over-relaxation of Newton steps; without it 1.7, but 1.97 while gamma first shrinks");
+  add_number(app, "--relaxation", s.options.relaxation, {0, 2, true},
+             "over-relaxation of Newton steps; without it 1.7, but 1.97 while gamma first shrinks");
+  app.add_flag(
+      "--no-newton-passes", s.no_newton_passes,
+      "sweeps alone to the end: no steps of all vertices at once, which barriers make in every other sweep once "
+      "every triangle is well-centered");
   add_text(
       app, "--anchor", "VERTEX", s.anchor,
       "shift the weights after each sweep so that this vertex has weight 0 (its number in the file); none: do not");
@@ -272,6 +277,7 @@ OptimizeOptions library_options(const Settings& s, const Input& input, Executor*
   if (s.weights_only) options.unknowns = Unknowns::weights;
   if (s.repair) options.repair = Repair::vertices;
   if (s.no_repair) options.repair = Repair::none;
+  if (s.no_newton_passes) options.newton_passes = false;
   if (s.slide) options.interfaces = InterfaceVertices::sliding;
   if (s.anchor == kNone) {
     options.anchor.reset();

@@ -20,6 +20,8 @@ constexpr std::array<Attempt, 2> kManyBad = {
 constexpr std::array<Attempt, 2> kFewBad = {
     {{.start = 0.5, .factor = 0.7, .relaxation = kRelaxation, .until_good = true}, kThorough}};
 constexpr double kMany = 0.25;  // of the triangles
+// With fewer of them there are not enough flips for going far to pay: which ones is luck.
+constexpr std::size_t kLeastMany = 100;
 
 // Already inside, or nothing to soften.
 constexpr std::array<Attempt, 1> kHard = {{{.start = kFloor, .relaxation = kRelaxation}}};
@@ -49,8 +51,9 @@ const Attempt kPolish = kHard.front();
 std::span<const Attempt> attempts(const EnergyInfo& energy, const OptimizeOptions& options, const Mesh& mesh) {
   const bool softens = energy.softened_by_gamma && !options.gamma && least_relative_height(mesh) <= 0;
   if (!softens) return kHard;
+  const std::size_t n = mesh.n_triangles();
   const auto bad = static_cast<double>(count_bad(mesh, options.executor));
-  return bad >= kMany * static_cast<double>(mesh.n_triangles()) ? kManyBad : kFewBad;
+  return n >= kLeastMany && bad >= kMany * static_cast<double>(n) ? kManyBad : kFewBad;
 }
 
 void Softener::start(const Mesh& mesh, EnergyModel& model) {
