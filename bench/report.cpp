@@ -165,7 +165,7 @@ std::vector<Bound> bounds(const std::vector<Row>& rows, double startup) {
        at(rows, kMiddle, [](const Row& r) { return r.costs.settled / r.costs.by_triangles; }), false, 2.5},
       {"golden / Newton, at 100,000", at(rows, kMiddle, [](const Row& r) { return r.costs.golden / r.costs.newton; }),
        true, 60},
-      {"Newton, ns a vertex-sweep at 10,000", small, false, 600},
+      {"Newton, ns a vertex-sweep at 10,000", small, false, 1000},
       {"Newton at 1,000,000 / at 10,000", at(rows, kLarge, newton) / small, false, 1.3},
       {"Newton at 10,000,000 / at 10,000", at(rows, kHuge, newton) / small, false, 1.3},
       {"settled at 10,000,000 / at 10,000", at(rows, kHuge, settled) / small_settled, false, 1.3},

@@ -101,8 +101,8 @@ enum class StoppingRule {
 struct OptimizeOptions {
   std::string_view energy = "BP";  ///< a name of the registry
   int star = 1;                    ///< 0, 1 or 2
-  /// γ of E_BP. Absent: relative to each edge, shrinking from 1 to 0.003, there as soon as no triangle is bad; when some
-  /// stay bad, a second attempt from 2. Given: constant.
+  /// γ of E_BP. Absent: relative to each edge, shrinking from 1 to 0.003, there as soon as no triangle is bad; when
+  /// some stay bad, a second attempt from 2. Given: constant.
   std::optional<Softening> gamma = {};
   /// −h° of E_BHs. Absent: relative, just beyond the worst h/ℓ of the mesh, shrinking as that improves. Given:
   /// constant.
@@ -118,8 +118,8 @@ struct OptimizeOptions {
   int inner = 1;  ///< with deferred flips: most sweeps before edges are flipped; 0: until they converge
   int outer = 0;  ///< with deferred flips: most rounds of sweeps and flips; 0: until no flips are needed
   std::optional<FlipLimit> flip_limit =
-      {};                   ///< absent: unlimited for barriers (a flipping step must pay), after for HOT
-  double overshoot = 1.1;   ///< of FlipLimit::after
+      {};                  ///< absent: unlimited for barriers (a flipping step must pay), after for HOT
+  double overshoot = 1.1;  ///< of FlipLimit::after
   /// Over-relaxation of Newton steps, in (0, 2). Absent: 1.7, but 1.97 while γ first shrinks. Given: constant.
   std::optional<double> relaxation = {};
   /// Once γ has settled and every triangle is well-centered, every other sweep makes a step of all vertices at once.
@@ -155,11 +155,11 @@ struct OptimizeOptions {
   /// than it is. Removals, insertions, deferred flips, and those that make the input regular are not asked; a repair
   /// asks, but sees only the triangles of its neighbourhood. Absent: no limit.
   std::optional<double> size_band = {};
-  double time_limit = 0;              ///< seconds; 0: none
-  std::uint64_t seed = 1;             ///< of the jitter that frees symmetric grids, and of repairs
-  const InputNames* names = nullptr;  ///< the user's numbering, for errors
-  Executor* executor = nullptr;       ///< threads for sweeps and sums; results do not depend on it
-  Tracer tracer = {};                 ///< sees every event of the run
+  double time_limit = 0;                                   ///< seconds; 0: none
+  std::uint64_t seed = 1;                                  ///< of the jitter that frees symmetric grids, and of repairs
+  const InputNames* names = nullptr;                       ///< the user's numbering, for errors
+  Executor* executor = nullptr;                            ///< threads for sweeps and sums; results do not depend on it
+  Tracer tracer = {};                                      ///< sees every event of the run
   std::function<void(const struct Snapshot&)> watch = {};  ///< sees the mesh between sweeps; a copy each time
 };
 

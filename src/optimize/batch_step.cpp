@@ -35,11 +35,22 @@ void BatchStep::improve(std::span<const VertexId> vertices, Unknowns unknowns, c
                                           [](const auto& a, const auto& b) { return a.size() < b.size(); });
     const bool few = n_waiting < kLastFew;
     for (auto& list : waiting_) {
-      if (few || &list == &*longest) n_waiting -= std::erase_if(list, [&](VertexId v) { return take(v); });
+      if (few || &list == &*longest) n_waiting -= take_from(list);
     }
     run();
   }
   std::sort(left.begin() + static_cast<std::ptrdiff_t>(n_left), left.end());
+}
+
+/// Fills the batch from the front of a list. Returns how many have gone from there.
+std::size_t BatchStep::take_from(std::vector<VertexId>& list) {
+  auto kept = list.begin(), at = kept;
+  for (; at != list.end() && batch_.lanes < kLanes; ++at) {
+    if (!take(*at)) *kept++ = *at;
+  }
+  const auto gone = static_cast<std::size_t>(at - kept);
+  list.erase(kept, at);
+  return gone;
 }
 
 /// Stars of a batch should be alike: the largest decides how long it takes.
@@ -51,7 +62,7 @@ std::size_t BatchStep::kind_of(VertexId v) const {
 
 /// False when v has to wait; else it is in the batch, or there is nothing to be done here.
 bool BatchStep::take(VertexId v) {
-  if (batch_.lanes == kLanes || (limits_.scratch[v] & kMarked) != 0) return false;
+  if ((limits_.scratch[v] & kMarked) != 0) return false;
   const Mobility mobility = limits_.mobility[v];
   const bool stays = mobility == Mobility::fixed && unknowns_ == Unknowns::positions;
   if (stays || mobility == Mobility::frozen || mesh_.is_isolated(v)) return true;

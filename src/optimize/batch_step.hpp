@@ -45,6 +45,7 @@ class BatchStep {
   };
 
   [[nodiscard]] std::size_t kind_of(VertexId v) const;
+  std::size_t take_from(std::vector<VertexId>& list);
   bool take(VertexId v);
   void gather(VertexId v, Mobility mobility);
   [[nodiscard]] bool gather_star(Occupant& occupant, std::size_t lane);

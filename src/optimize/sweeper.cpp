@@ -7,7 +7,7 @@ namespace temper {
 namespace {
 
 // Vertices between looks at whether to stop.
-constexpr std::size_t kStretch = 2048;
+constexpr std::size_t kStretch = 8192;
 // By how much parts grow from phase to phase, once shifted.
 constexpr std::size_t kGrowth = 4;
 

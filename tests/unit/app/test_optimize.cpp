@@ -102,9 +102,8 @@ TEST_F(Optimize, TheCommandInTheReportGivesTheSameBytes) {
 TEST_F(Optimize, TheCommandAndTheOptionsNameEveryOptionWithAValue) {
   temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--report", "r.json"});
   const nlohmann::json report = read_json("r.json");
-  for (const char* option :
-       {"--energy=BP", "--star=1", "--solver=newton", "--tolerance=1e-05", "--seed=1",
-        "--flips=immediate", "--stopping=relative", "--output=out.vtu", "--report=r.json"}) {
+  for (const char* option : {"--energy=BP", "--star=1", "--solver=newton", "--tolerance=1e-05", "--seed=1",
+                             "--flips=immediate", "--stopping=relative", "--output=out.vtu", "--report=r.json"}) {
     EXPECT_TRUE(contains(report["command"], option));
   }
   EXPECT_EQ(report["options"]["energy"], "BP");
