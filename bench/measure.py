@@ -87,8 +87,8 @@ def table(head, rows):
 
 
 def sweeps_table(rows):
-    keys = ("newton_ns", "settled_ns", "alternating_ns", "golden_ns", "loop_ns", "loop_by_stars_ns", "triad_ns")
-    head = ["vertices", "Newton", "settled", "alternating", "golden", "loop", "loop, eight stars", "triad"]
+    keys = ("newton_ns", "settled_ns", "alternating_ns", "golden_ns", "paper_ns", "loop_ns", "loop_by_stars_ns", "triad_ns")
+    head = ["vertices", "Newton", "settled", "alternating", "golden", "paper", "loop", "loop, eight stars", "triad"]
     return table(head, [[number(r["vertices"])] + [number(r[k]) for k in keys] for r in rows])
 
 

@@ -25,8 +25,8 @@ double ns(double seconds, std::size_t vertices, int times) {
   return 1e9 * seconds / (static_cast<double>(vertices) * times);
 }
 
-double sweep_ns(const Mesh& mesh, Solver solver, int sweeps) {
-  const TimedRun run = timed_sweeps(mesh, sweeps_only(solver), sweeps);
+double sweep_ns(const Mesh& mesh, const OptimizeOptions& options, int sweeps) {
+  const TimedRun run = timed_sweeps(mesh, options, sweeps);
   return ns(run.cpu_between(0, static_cast<std::size_t>(sweeps)), mesh.n_vertices(), sweeps);
 }
 
@@ -49,9 +49,11 @@ class Comparison {
     note(costs.by_triangles, loop_ns(n, [this] { keep(stars_.by_triangles()); }));
     note(costs.by_stars, loop_ns(n, [this] { keep(stars_.by_stars()); }));
     note(costs.triad, loop_ns(n, [this] { triad_.run(); }));
-    note(costs.alternating, sweep_ns(mesh_, Solver::alternating, options_.sweeps));
+    note(costs.alternating, sweep_ns(mesh_, sweeps_only(Solver::alternating), options_.sweeps));
     const bool golden = n >= kLeastGolden && n <= kMostGolden;
-    if (golden) note(costs.golden, sweep_ns(mesh_, Solver::golden, options_.golden_sweeps));
+    if (!golden) return;
+    note(costs.golden, sweep_ns(mesh_, sweeps_only(Solver::golden), options_.golden_sweeps));
+    note(costs.paper, sweep_ns(mesh_, paper_sweeps(), options_.golden_sweeps));
   }
 
  private:
@@ -74,8 +76,8 @@ SweepCosts measure_sweeps(std::size_t vertices, const Options& options) {
   if (vertices <= kMostCompared && !options.sweeps_alone) comparison.emplace(settled, mesh, options);
   const double start = cpu_seconds();
   for (int round = 0; round < kMostRounds && (round < options.rounds || cpu_seconds() - start < kSeconds); ++round) {
-    note(costs.newton, sweep_ns(mesh, Solver::newton, options.sweeps));
-    note(costs.settled, sweep_ns(settled, Solver::newton, options.sweeps));
+    note(costs.newton, sweep_ns(mesh, sweeps_only(), options.sweeps));
+    note(costs.settled, sweep_ns(settled, sweeps_only(), options.sweeps));
     if (comparison) comparison->measure(costs);
   }
   return costs;

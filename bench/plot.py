@@ -14,7 +14,8 @@ matplotlib.use("svg")
 import matplotlib.pyplot as pyplot  # noqa: E402: after the choice of the backend
 
 COSTS = {  # name in the file: label, color, marker
-    "golden_ns": ("golden section, the paper's", "#d55e00", "v"),
+    "paper_ns": ("the paper's Algorithm 1", "#cc79a7", "*"),
+    "golden_ns": ("its golden section alone", "#d55e00", "v"),
     "alternating_ns": ("alternating", "#e69f00", "^"),
     "newton_ns": ("Newton, the first sweeps", "#0072b2", "o"),
     "settled_ns": ("Newton, settled", "#56b4e9", "s"),

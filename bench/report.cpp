@@ -38,6 +38,7 @@ Numbers numbers_of(const Row& r) {
           {"settled_ns", r.costs.settled},
           {"alternating_ns", r.costs.alternating},
           {"golden_ns", r.costs.golden},
+          {"paper_ns", r.costs.paper},
           {"loop_ns", r.costs.by_triangles},
           {"loop_by_stars_ns", r.costs.by_stars},
           {"triad_ns", r.costs.triad},
@@ -110,12 +111,12 @@ std::string json_bound(const Bound& b) {
 }
 
 void print_sweeps(const std::vector<Row>& rows) {
-  std::printf("%9s | %7s %7s %7s %7s | %7s %7s %7s | threads, wall\n", "vertices", "newton", "settled", "altern.",
-              "golden", "loop", "stars", "triad");
+  std::printf("%9s | %7s %7s %7s %7s %7s | %7s %7s %7s | threads, wall\n", "vertices", "newton", "settled", "altern.",
+              "golden", "paper", "loop", "stars", "triad");
   for (const Row& r : rows) {
     const SweepCosts& c = r.costs;
-    std::printf("%9zu | %7.0f %7.0f %7.0f %7.0f | %7.0f %7.0f %7.1f |", r.vertices, c.newton, c.settled, c.alternating,
-                c.golden, c.by_triangles, c.by_stars, c.triad);
+    std::printf("%9zu | %7.0f %7.0f %7.0f %7.0f %7.0f | %7.0f %7.0f %7.1f |", r.vertices, c.newton, c.settled,
+                c.alternating, c.golden, c.paper, c.by_triangles, c.by_stars, c.triad);
     for (const double ns : r.threads.ns) {
       if (!std::isnan(ns)) std::printf(" %7.0f", ns);
     }
@@ -165,6 +166,8 @@ std::vector<Bound> bounds(const std::vector<Row>& rows, double startup) {
        at(rows, kMiddle, [](const Row& r) { return r.costs.settled / r.costs.by_triangles; }), false, 2.5},
       {"golden / Newton, at 100,000", at(rows, kMiddle, [](const Row& r) { return r.costs.golden / r.costs.newton; }),
        true, 60},
+      {"the paper's Algorithm 1 / Newton, at 100,000",
+       at(rows, kMiddle, [](const Row& r) { return r.costs.paper / r.costs.newton; }), true, 60},
       {"Newton, ns a vertex-sweep at 10,000", small, false, 1000},
       {"Newton at 1,000,000 / at 10,000", at(rows, kLarge, newton) / small, false, 1.3},
       {"Newton at 10,000,000 / at 10,000", at(rows, kHuge, newton) / small, false, 1.3},

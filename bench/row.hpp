@@ -13,7 +13,8 @@ struct SweepCosts {
   double newton = kNone;                          ///< the first sweeps: most flips, all γ
   double settled = kNone;                         ///< sweeps after the mesh has become well-centered
   double alternating = kNone;                     ///< the first sweeps of Solver::alternating
-  double golden = kNone;                          ///< the first sweeps of the paper's method
+  double golden = kNone;                          ///< the first sweeps of the paper's search, and nothing else of it
+  double paper = kNone;                           ///< the first sweeps of paper_method(): collapses and removals, too
   double by_triangles = kNone, by_stars = kNone;  ///< value, gradient and Hessian of all stars, packed
   double triad = kNone;                           ///< streaming as many bytes as the mesh has
 };

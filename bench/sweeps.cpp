@@ -40,6 +40,13 @@ OptimizeOptions sweeps_only(Solver solver) {
   return options;
 }
 
+OptimizeOptions paper_sweeps() {
+  OptimizeOptions options = paper_method();
+  options.stopping = StoppingRule::relative;
+  options.tolerance = 0;
+  return options;
+}
+
 TimedRun timed_sweeps(const Mesh& mesh, OptimizeOptions options, int count) {
   Mesh copy = mesh;
   options.max_sweeps = count + 1;

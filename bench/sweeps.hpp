@@ -39,6 +39,9 @@ struct TimedRun {
 /// Options of sweeps and nothing else: no passes over all unknowns, no end by convergence.
 [[nodiscard]] OptimizeOptions sweeps_only(Solver solver = Solver::newton);
 
+/// The paper's Algorithm 1 with all its parts, but for its end by convergence.
+[[nodiscard]] OptimizeOptions paper_sweeps();
+
 /// A run of that many sweeps, on a copy of the mesh. The sweeps are marks 0 to `count`.
 [[nodiscard]] TimedRun timed_sweeps(const Mesh& mesh, OptimizeOptions options, int count);
 

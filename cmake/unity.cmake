@@ -27,7 +27,10 @@ endfunction()
 set(unity_targets ${PROJECT_BINARY_DIR}/unity_targets.txt)
 set(unity_groups ${PROJECT_BINARY_DIR}/unity_groups.cmake)
 file(WRITE ${unity_targets} "")
-temper_list_sources(${PROJECT_SOURCE_DIR} ${unity_targets})
+foreach(folder IN LISTS TEMPER_UNITY_FOLDERS)
+  cmake_path(ABSOLUTE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR} NORMALIZE)
+  temper_list_sources(${folder} ${unity_targets})
+endforeach()
 execute_process(
   COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/unity_groups.py ${unity_targets} ${PROJECT_SOURCE_DIR}
   OUTPUT_FILE ${unity_groups} COMMAND_ERROR_IS_FATAL ANY)

@@ -153,7 +153,8 @@ struct OptimizeOptions {
   std::optional<SizeField> size_field = {};  ///< that sizes are compared with; absent: the input's own
   /// B ≥ 1: no step or flip takes the local size of a vertex out of [s/B, B s], s the size field there, or further out
   /// than it is. Removals, insertions, deferred flips, and those that make the input regular are not asked; a repair
-  /// asks, but sees only the triangles of its neighbourhood. Absent: no limit.
+  /// asks, but sees only the triangles of its neighbourhood. With a band sweeps go vertex by vertex, on one thread, and
+  /// without Newton passes. Absent: no limit.
   std::optional<double> size_band = {};
   double time_limit = 0;                                   ///< seconds; 0: none
   std::uint64_t seed = 1;                                  ///< of the jitter that frees symmetric grids, and of repairs
