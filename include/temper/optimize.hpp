@@ -101,8 +101,9 @@ enum class StoppingRule {
 struct OptimizeOptions {
   std::string_view energy = "BP";  ///< a name of the registry
   int star = 1;                    ///< 0, 1 or 2
-  /// γ of E_BP. Absent: relative to each edge, shrinking from 1 to 0.003, there as soon as no triangle is bad; when
-  /// some stay bad, a second attempt from 2. Given: constant.
+  /// γ of E_BP. Absent: relative to each edge, shrinking from 0.5, or from 1 where a quarter of 100 or more
+  /// triangles is bad, to 0.003, there as soon as none is; when some stay bad, a second attempt from 2. Given:
+  /// constant.
   std::optional<Softening> gamma = {};
   /// −h° of E_BHs. Absent: relative, just beyond the worst h/ℓ of the mesh, shrinking as that improves. Given:
   /// constant.
@@ -120,10 +121,11 @@ struct OptimizeOptions {
   std::optional<FlipLimit> flip_limit =
       {};                  ///< absent: unlimited for barriers (a flipping step must pay), after for HOT
   double overshoot = 1.1;  ///< of FlipLimit::after
-  /// Over-relaxation of Newton steps, in (0, 2). Absent: 1.7, but 1.97 while γ first shrinks. Given: constant.
+  /// Over-relaxation of Newton steps, in (0, 2). Absent: 1.7, but 1.97 while γ shrinks from 1. Given: constant.
   std::optional<double> relaxation = {};
-  /// Once γ has settled and every triangle is well-centered, every other sweep makes a step of all vertices at once.
-  /// Only for barriers with Solver::newton, and where flips, order, limits and stopping rule are the default ones.
+  /// Once γ has settled, every triangle is well-centered and sweeps gain less than 1 %, every other sweep makes a step
+  /// of all vertices at once, as long as that gains more. Only for barriers with Solver::newton, where flips, order,
+  /// flip limit and stopping rule are the default ones, and without anchor, collapses, removals and size band.
   bool newton_passes = true;
   InterfaceVertices interfaces = InterfaceVertices::fixed;
   BoundaryVertices boundary_vertices = BoundaryVertices::keep;

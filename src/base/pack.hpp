@@ -13,10 +13,11 @@
 #include <immintrin.h>
 #endif
 
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
+// The set is named by the build, not found out: whoever compiles all of it for a newer processor gets all sets still.
+#if defined(TEMPER_FOR_AVX512)
 #define TEMPER_INSTRUCTION_SET avx512
 #define TEMPER_REGISTER_BYTES 64
-#elif defined(__AVX2__)
+#elif defined(TEMPER_FOR_AVX2)
 #define TEMPER_INSTRUCTION_SET avx2
 #define TEMPER_REGISTER_BYTES 32
 #else

@@ -49,7 +49,7 @@ MeshFile read_or_throw(const std::string& path, const ReadOptions& options) {
   source.executor = options.executor;
   const FormatRow& row = recognise(source);
   Document document = row.read(source);
-  source.bytes = {};
+  std::string().swap(source.bytes);
   if (document.file.format.empty()) document.file.format = row.format.name;
   check(document);
   read_side_file(document);

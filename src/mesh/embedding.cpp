@@ -2,7 +2,6 @@
 #include "mesh/embedding.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -34,7 +33,7 @@ IdVector<VertexId, std::uint32_t> entries_to_upper_half(const Mesh& mesh, Execut
     for (const TriangleId t : mesh.triangles()) count(t.index, [](std::uint32_t& n) { ++n; });
   } else {
     for_each_index(mesh.n_triangles(), executor, [&](std::size_t t) {
-      count(t, [](std::uint32_t& n) { std::atomic_ref(n).fetch_add(1, std::memory_order_relaxed); });
+      count(t, [](std::uint32_t& n) { __atomic_fetch_add(&n, 1U, __ATOMIC_RELAXED); });
     });
   }
   return entries;

@@ -103,10 +103,11 @@ bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
   std::size_t i = 0;
   bool open = false;
   do {
-    const HalfedgeId link = Mesh::next(h), across = mesh_.twin(link);
+    const HalfedgeId link = Mesh::next(h);
     const VertexId r = mesh_.target(link);
-    // Who is across may be read only when both ends of the link edge are in the part.
+    // The twin, and who is across, may be read only when both ends of the link edge are in the part.
     if (!part_.contains(q) || !part_.contains(r)) return false;
+    const HalfedgeId across = mesh_.twin(link);
     const VertexId o = across.valid() ? mesh_.opposite(across) : q;
     if (!part_.contains(o)) return false;
     marked_.push_back(q);
@@ -134,6 +135,7 @@ bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
 }
 
 void BatchStep::run() {
+  if (batch_.lanes == 0) return;
   for (std::size_t lane = batch_.lanes; lane < kLanes; ++lane) {
     batch_.triangles[lane] = 0;
     batch_.open[lane] = batch_.moves[lane] = batch_.weighs[lane] = 0;

@@ -39,8 +39,8 @@ class BatchStep {
   /// One vertex of the batch.
   struct Occupant {
     VertexId v;
-    std::size_t n_link = 0;                                    // as far as there is room
-    std::array<VertexId, StarBatch::kMostTriangles + 1> link;  // as gathered
+    std::size_t n_link = 0;
+    std::array<VertexId, StarBatch::kMostTriangles + 1> link;  // as gathered; the first of it, when alone
     bool alone = false;  // not for vectors: many neighbours, or on a line that it slides along
   };
 

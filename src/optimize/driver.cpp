@@ -68,6 +68,7 @@ void Driver::begin(const Attempt& attempt) {
   least_bad_ = mesh_.n_triangles();
   before_ = best_energy_ = total();
   least_energy_ = fall_ = kInfinity;
+  passes_pay_ = true;
   best_sweep_ = recorder_.sweep();
   run_.report.stopped = Stopped::max_sweeps;
   show(Snapshot::Moment::start);
@@ -311,6 +312,8 @@ bool Driver::begin_weights() {
   const OptimizeOptions& o = settings_.options;
   if (o.unknowns != Unknowns::positions_and_weights || iteration_ >= o.weights_from) return false;
   iteration_ = o.weights_from;
+  fall_ = kInfinity;  // of another problem
+  passes_pay_ = true;
   return true;
 }
 

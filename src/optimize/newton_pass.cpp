@@ -24,7 +24,7 @@ double energy_inside(const Mesh& mesh, const PartSystem& system, const EdgeFormu
   for (std::size_t begin = 0; begin < system.n_triangles() && sum < kInfinity; begin += kLanes) {
     const std::size_t n = system.load(mesh, begin, lanes);
     sum += star_kernels().barrier_sum(formula, lanes, n);
-    if (!are_well_centered(lanes, n)) return kInfinity;
+    if (!(sum < kInfinity) || !are_well_centered(lanes, n)) return kInfinity;
   }
   return sum;
 }
@@ -48,26 +48,17 @@ void NewtonPass::run(Unknowns unknowns, Watch& watch) {
   const auto block = [&](std::size_t i) {
     if (!watch.goes_on()) return;
     auto& desk = desks_.take([] { return std::make_unique<Worker>(); });
-    const Part here = part(i, count, shifted);
+    const Part here = part_of(mesh_.n_vertices(), count, i, shifted);
     improve(here, unknowns, *desk.worker);
     watch.passed(here.last.index - here.first.index, 0);
     desk.leave();
   };
   if (settings_.options.executor != nullptr && !recorder_.on()) {
+    static_cast<void>(watch.goes_on());  // asks, should no part run on this thread
     settings_.options.executor->run(n_parts, block);
   } else {
     for (std::size_t i = 0; i < n_parts; ++i) block(i);
   }
-}
-
-/// Parts of equal size; shifted by half of it: one more, the first and the last half as large.
-Part NewtonPass::part(std::size_t i, std::size_t count, bool shifted) const {
-  const std::size_t n = mesh_.n_vertices();
-  const auto bound = [&](std::size_t k) {
-    const std::size_t half_parts = shifted ? (k > 0 ? 2 * k - 1 : 0) : 2 * k;
-    return VertexId(std::min(n, half_parts * n / (2 * count)));
-  };
-  return {bound(i), bound(i + 1)};
 }
 
 void NewtonPass::improve(const Part& part, Unknowns unknowns, Worker& worker) {

@@ -43,7 +43,6 @@ class NewtonPass {
     std::vector<WeightedPoint> before;  // the part's points
   };
 
-  [[nodiscard]] Part part(std::size_t i, std::size_t count, bool shifted) const;
   void improve(const Part& part, Unknowns unknowns, Worker& worker);
   void place(Worker& worker, double t);
   void take_back(Worker& worker);

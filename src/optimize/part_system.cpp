@@ -14,6 +14,8 @@ namespace {
 constexpr double kUnbalanced = 20;
 // Pivots of D below this part of the diagonal entry are raised to it.
 constexpr double kPivotFloor = 1e-8;
+// Where a triangle is about to leave the domain, what a float may be too small for: its equations mean little anyway.
+constexpr double kMostEntry = 1e30;
 
 using Matrix3 = std::array<double, 9>;  // row by row
 
@@ -194,7 +196,9 @@ void PartSystem::add_pair(std::size_t i, std::size_t j, const Matrix3& block) {
   const std::array<double, 3> rows = {u, u, u * u}, columns = {v, v, v * v};
   float* to = matrix_.block(entry(matrix_.begin_upper(i), j));
   for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t r = 0; r < 3; ++r) to[3 * c + r] += static_cast<float>(rows[r] * columns[c] * block[3 * r + c]);
+    for (std::size_t r = 0; r < 3; ++r) {
+      to[3 * c + r] += static_cast<float>(std::clamp(rows[r] * columns[c] * block[3 * r + c], -kMostEntry, kMostEntry));
+    }
   }
 }
 

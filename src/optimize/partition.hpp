@@ -5,6 +5,9 @@
 // across the link. Why confined steps of different parts may run at once is shown in sweeper.hpp.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -17,6 +20,15 @@ struct Part {
   [[nodiscard]] bool is_whole() const { return first.index == 0 && !last.valid(); }
   friend bool operator==(const Part&, const Part&) = default;
 };
+
+/// Part i of `count` of equal size. Shifted by half of it: one more, the first and the last half as large.
+[[nodiscard]] inline Part part_of(std::size_t n_vertices, std::size_t count, std::size_t i, bool shifted) {
+  const auto bound = [&](std::size_t k) {
+    const std::size_t half_parts = shifted ? (k > 0 ? 2 * k - 1 : 0) : 2 * k;
+    return VertexId(std::min(n_vertices, half_parts * n_vertices / (2 * count)));
+  };
+  return {bound(i), bound(i + 1)};
+}
 
 /// Whether v, which is in the part and not isolated, is confined to it. O(degree). Reads no coordinates.
 [[nodiscard]] inline bool is_confined(const Mesh& mesh, VertexId v, const Part& part) {

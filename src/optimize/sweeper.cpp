@@ -76,17 +76,11 @@ void Sweeper::sweep_in_parts(Watch& watch) {
   improve(main_, waiting_, whole, watch);
 }
 
-/// Into parts of equal size; shifted by half of it: one more, the first and the last half as large.
 void Sweeper::cut(std::size_t count, bool shifted) {
-  const std::size_t n = mesh_.n_vertices();
   n_pieces_ = shifted ? count + 1 : count;
   if (pieces_.size() < n_pieces_) pieces_.resize(n_pieces_);
-  const auto bound = [&](std::size_t i) {
-    const std::size_t half_parts = shifted ? (i > 0 ? 2 * i - 1 : 0) : 2 * i;
-    return VertexId(std::min(n, half_parts * n / (2 * count)));
-  };
   for (std::size_t i = 0; i < n_pieces_; ++i) {
-    pieces_[i].part = {bound(i), bound(i + 1)};
+    pieces_[i].part = part_of(mesh_.n_vertices(), count, i, shifted);
     pieces_[i].left.clear();
   }
 }
@@ -103,6 +97,7 @@ void Sweeper::run_pieces(bool first, Watch& watch) {
   };
   if (may_run_at_once()) {
     desks_.make_room(n_pieces_);
+    static_cast<void>(watch.goes_on());  // asks, should no piece run on this thread
     settings_.options.executor->run(n_pieces_, [&](std::size_t i) {
       auto& desk = desks_.take([this] { return std::make_unique<Worker>(*this); });
       desk.worker->step.begin_sweep(iteration_);

@@ -14,12 +14,12 @@
 namespace temper {
 namespace {
 
-/// The value of that rank: the least one that at least `part` of all values do not exceed.
 /// The rank of a percentile: that of the least value that at least `part` of all n do not exceed.
 std::size_t rank_of(double part, std::size_t n) {
   return static_cast<std::size_t>(std::max(1.0, std::ceil(part * static_cast<double>(n)))) - 1;
 }
 
+/// The value of that rank.
 double percentile(std::vector<double>& values, double part) {
   const auto rank = static_cast<std::ptrdiff_t>(rank_of(part, values.size()));
   std::nth_element(values.begin(), values.begin() + rank, values.end());
