@@ -1,6 +1,6 @@
 #include "step_parts.hpp"
 
-#include "temper/instruction_set.hpp"
+#include "base/instruction_set_choice.hpp"
 
 namespace temper {
 
@@ -16,19 +16,7 @@ extern const bench::StepParts kStepParts;
 
 namespace bench {
 
-const StepParts& step_parts() {
-#ifdef TEMPER_X86_SETS
-  switch (instruction_set()) {
-    case InstructionSet::avx512:
-      return avx512::kStepParts;
-    case InstructionSet::avx2:
-      return avx2::kStepParts;
-    case InstructionSet::baseline:
-      break;
-  }
-#endif
-  return baseline::kStepParts;
-}
+const StepParts& step_parts() { return *TEMPER_IN_USE(kStepParts); }
 
 }  // namespace bench
 }  // namespace temper

@@ -1,21 +1,9 @@
 #include "energy/star_kernels.hpp"
 
-#include "temper/instruction_set.hpp"
+#include "base/instruction_set_choice.hpp"
 
 namespace temper {
 
-const StarKernels& star_kernels() {
-#ifdef TEMPER_X86_SETS
-  switch (instruction_set()) {
-    case InstructionSet::avx512:
-      return avx512::kStarKernels;
-    case InstructionSet::avx2:
-      return avx2::kStarKernels;
-    case InstructionSet::baseline:
-      break;
-  }
-#endif
-  return baseline::kStarKernels;
-}
+const StarKernels& star_kernels() { return *TEMPER_IN_USE(kStarKernels); }
 
 }  // namespace temper

@@ -7,6 +7,7 @@
 
 #include "energy/patch.hpp"
 #include "support/lattice.hpp"
+#include "support/regions.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
@@ -55,19 +56,8 @@ TEST(Optimize, MakesAJitteredLatticeWellCentered) {
 
 TEST(Optimize, KeepsInvariantsOnRandomMeshesWithRegionsAndFixedVertices) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    auto made = random_points({.vertices = 150, .seed = seed});
-    ASSERT_TRUE(made);
-    Mesh mesh = *made;
+    Mesh mesh = mesh_with_regions(150, seed);
     Noise noise(seed);
-    for (const TriangleId t : mesh.triangles()) {
-      const auto [a, b, c] = mesh.corners(t);
-      mesh.set_region(t, mesh.position(a).x + mesh.position(b).x + mesh.position(c).x > 1.2 ? 1 : 0);
-    }
-    for (const HalfedgeId h : mesh.halfedges()) {
-      if (!mesh.is_boundary(h) && mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(mesh.twin(h)))) {
-        mesh.set_constrained(h, true);
-      }
-    }
     for (const VertexId v : mesh.vertices()) {
       if (noise() > 0.9) mesh.set_fixed(v, true);
     }

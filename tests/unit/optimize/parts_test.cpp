@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "optimize/driver.hpp"
+#include "support/regions.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"
@@ -41,21 +42,6 @@ class LastBlockFirst final : public Executor {
     for (std::size_t i = n; i > 0; --i) block(i - 1);
   }
 };
-
-/// With two regions, and so a line of constrained edges, some of them in line.
-Mesh mesh_with_regions(std::size_t vertices, std::uint64_t seed) {
-  Mesh mesh = *random_points({.vertices = vertices, .seed = seed});
-  for (const TriangleId t : mesh.triangles()) {
-    const auto [a, b, c] = mesh.corners(t);
-    mesh.set_region(t, mesh.position(a).x + mesh.position(b).x + mesh.position(c).x > 1.2 ? 1 : 0);
-  }
-  for (const HalfedgeId h : mesh.halfedges()) {
-    if (!mesh.is_boundary(h) && mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(mesh.twin(h)))) {
-      mesh.set_constrained(h, true);
-    }
-  }
-  return mesh;
-}
 
 struct SweptMesh {
   Mesh mesh;
