@@ -114,7 +114,8 @@ void add_energy(CLI::App& app, Settings& s) {
   add_energy_name(app, "--energy", names, s.options.energy,
                   "what to minimise: a barrier (BH, BHs, BP) or a HOT energy (F, T, dT)");
   add_choice(app, "--star", kStars, s.options.star, "Hodge star of the energy");
-  add_gamma(app, s.gamma, "; without it relative to each edge, shrinking from 1 to 0.003");
+  add_gamma(app, s.gamma,
+            "; without it relative to each edge, shrinking from 0.5, or 1 where many triangles are bad, to 0.003");
   spell_default(app.get_option("--gamma"), [&s] {  // the paper's
     const std::optional<Softening>& gamma = s.options.gamma;
     return gamma && !s.gamma.value() ? fmt::format("{}", gamma->value) : std::string();
@@ -133,7 +134,7 @@ void add_moves(CLI::App& app, Settings& s) {
   positions->excludes(weights);
   add_count(app, "--weights-from", s.options.weights_from, 0, "first sweep that changes weights, from 0");
   add_number(app, "--relaxation", s.options.relaxation, {0, 2, true},
-             "over-relaxation of Newton steps; without it 1.7, but 1.97 while gamma first shrinks");
+             "over-relaxation of Newton steps; without it 1.7, but 1.97 while gamma shrinks from 1");
   app.add_flag(
       "--no-newton-passes", s.no_newton_passes,
       "sweeps alone to the end: no steps of all vertices at once, which barriers make in every other sweep once "

@@ -2,7 +2,6 @@
 #include "energy/whole_mesh.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "base/sum.hpp"
 #include "energy/patch.hpp"
@@ -14,7 +13,6 @@ namespace {
 /// Some triangles, as their lanes are filled.
 struct Batch {
   TriangleLanes lanes;
-  std::array<TriangleId, kLanes> ids;
   std::size_t size = 0;
 };
 
@@ -30,7 +28,7 @@ void for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
       batch.lanes.p.set(batch.size, mesh.point(p));
       batch.lanes.q.set(batch.size, mesh.point(q));
       batch.lanes.r.set(batch.size, mesh.point(r));
-      batch.ids[batch.size++] = t;
+      ++batch.size;
     }
     if (batch.size == kLanes || (i + 1 == end && batch.size > 0)) {
       visit(batch);
@@ -39,24 +37,22 @@ void for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
   }
 }
 
-std::size_t count_bad(const Mesh& mesh, const Batch& batch, const StarKernels& kernels) {
-  const unsigned good = kernels.well_centered(batch.lanes);
+}  // namespace
+
+std::size_t count_bad(const TriangleLanes& triangles, std::size_t n) {
+  const unsigned good = star_kernels().well_centered(triangles);
   std::size_t bad = 0;
-  for (std::size_t i = 0; i < batch.size; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     if ((good >> i & 1) != 0) continue;
-    const auto [p, q, r] = mesh.corners(batch.ids[i]);
-    bad += inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r)) ? 0 : 1;
+    bad += inlined::is_well_centered(triangles.p.at(i), triangles.q.at(i), triangles.r.at(i)) ? 0 : 1;
   }
   return bad;
 }
 
-}  // namespace
-
 std::size_t count_bad(const Mesh& mesh, Executor* executor) {
-  const StarKernels& kernels = star_kernels();
   return static_cast<std::size_t>(sum_of_blocks(mesh.n_triangles(), executor, [&](std::size_t block) {
     std::size_t bad = 0;
-    for_batches(mesh, block, [&](const Batch& batch) { bad += count_bad(mesh, batch, kernels); });
+    for_batches(mesh, block, [&](const Batch& batch) { bad += count_bad(batch.lanes, batch.size); });
     return static_cast<double>(bad);
   }));
 }
@@ -70,7 +66,7 @@ EnergyAndBad energy_and_bad(const Mesh& mesh, const EnergyModel& model, Executor
     double sum = 0;
     for_batches(mesh, block, [&](const Batch& batch) {
       sum += kernels.barrier_sum(formula, batch.lanes, batch.size);
-      bad[block] += static_cast<double>(count_bad(mesh, batch, kernels));
+      bad[block] += static_cast<double>(count_bad(batch.lanes, batch.size));
     });
     return sum;
   });

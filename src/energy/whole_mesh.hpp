@@ -3,12 +3,16 @@
 
 #include <cstddef>
 
+#include "energy/star_kernels.hpp"
 #include "temper/energy.hpp"
 
 namespace temper {
 
 /// Triangles that are not well-centered, exact. Erased ones are not bad.
 [[nodiscard]] std::size_t count_bad(const Mesh& mesh, Executor* executor);
+
+/// The same of the first n lanes.
+[[nodiscard]] std::size_t count_bad(const TriangleLanes& triangles, std::size_t n);
 
 struct EnergyAndBad {
   double energy = 0;

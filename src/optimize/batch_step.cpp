@@ -140,7 +140,7 @@ void BatchStep::run() {
     batch_.triangles[lane] = 0;
     batch_.open[lane] = batch_.moves[lane] = batch_.weighs[lane] = 0;
   }
-  const Vec2 center = (1 / frame_.scale) * frame_.center;
+  const Vec2 center = frame_.center_here();
   const StepParameters parameters{edge_formula(settings_.model), settings_.relaxation, center.x, center.y};
   const StepOutcome outcome = step_batch()(parameters, batch_);
   const std::size_t before = n_changes();

@@ -31,9 +31,12 @@ struct Frame {
     return {(p.x - center.x) * inverse, (p.y - center.y) * inverse, p.w * inverse * inverse};
   }
 
+  /// The center, in units of the frame.
+  [[nodiscard]] Vec2 center_here() const { return (1 / scale) * center; }
+
   /// The nearest position that the user's coordinates can hold.
   [[nodiscard]] Vec2 snap(Vec2 p) const {
-    const Vec2 c = (1 / scale) * center;
+    const Vec2 c = center_here();
     return {(p.x + c.x) - c.x, (p.y + c.y) - c.y};
   }
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "optimize/jacobi.hpp"
 #include "optimize/newton_constants.hpp"
 
 namespace temper {
@@ -46,29 +47,14 @@ bool solve_positive_definite(int n, const Matrix& a, const Vector& b, Vector& x)
 }
 
 /// Eigenvectors of a symmetric matrix as columns of v; a becomes diagonal (cyclic Jacobi).
-void diagonalize(int n, Matrix& a, Matrix& v) {
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) v[i][j] = i == j ? 1 : 0;
+void diagonalize(std::size_t n, Matrix& a, Matrix& v) {
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) v[i][j] = i == j ? 1 : 0;
   }
   for (int sweep = 0; sweep < kJacobiSweeps; ++sweep) {
-    for (int p = 0; p < n; ++p) {
-      for (int q = p + 1; q < n; ++q) {
-        if (a[p][q] == 0) continue;
-        const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-        const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
-        const double c = 1 / std::sqrt(t * t + 1), s = t * c;
-        for (int k = 0; k < n; ++k) {
-          const double kp = a[k][p], kq = a[k][q];
-          a[k][p] = c * kp - s * kq, a[k][q] = s * kp + c * kq;
-        }
-        for (int k = 0; k < n; ++k) {
-          const double pk = a[p][k], qk = a[q][k];
-          a[p][k] = c * pk - s * qk, a[q][k] = s * pk + c * qk;
-        }
-        for (int k = 0; k < n; ++k) {
-          const double kp = v[k][p], kq = v[k][q];
-          v[k][p] = c * kp - s * kq, v[k][q] = s * kp + c * kq;
-        }
+    for (std::size_t p = 0; p < n; ++p) {
+      for (std::size_t q = p + 1; q < n; ++q) {
+        if (a[p][q] != 0) jacobi_rotation(a, v, n, p, q);
       }
     }
   }
@@ -77,7 +63,7 @@ void diagonalize(int n, Matrix& a, Matrix& v) {
 /// −|H|⁻¹ g with floored eigenvalues, for a Hessian that is not positive definite.
 Vector solve_absolute(int n, Matrix h, const Vector& minus_gradient) {
   Matrix v;
-  diagonalize(n, h, v);
+  diagonalize(static_cast<std::size_t>(n), h, v);
   double largest = 0;
   for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(h[i][i]));
   Vector x = {};

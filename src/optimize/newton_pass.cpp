@@ -2,20 +2,11 @@
 
 #include <algorithm>
 
-#include "geometry/predicates_inline.hpp"
+#include "energy/whole_mesh.hpp"
 #include "optimize/newton_constants.hpp"
 
 namespace temper {
 namespace {
-
-bool are_well_centered(const TriangleLanes& lanes, std::size_t n) {
-  const unsigned certain = star_kernels().well_centered(lanes);
-  for (std::size_t lane = 0; lane < n; ++lane) {
-    if ((certain >> lane & 1) != 0) continue;
-    if (!inlined::is_well_centered(lanes.p.at(lane), lanes.q.at(lane), lanes.r.at(lane))) return false;
-  }
-  return true;
-}
 
 /// Of the triangles that move; +∞ when one of them is not well-centered.
 double energy_inside(const Mesh& mesh, const PartSystem& system, const EdgeFormula& formula) {
@@ -24,7 +15,7 @@ double energy_inside(const Mesh& mesh, const PartSystem& system, const EdgeFormu
   for (std::size_t begin = 0; begin < system.n_triangles() && sum < kInfinity; begin += kLanes) {
     const std::size_t n = system.load(mesh, begin, lanes);
     sum += star_kernels().barrier_sum(formula, lanes, n);
-    if (!(sum < kInfinity) || !are_well_centered(lanes, n)) return kInfinity;
+    if (!(sum < kInfinity) || count_bad(lanes, n) > 0) return kInfinity;
   }
   return sum;
 }
@@ -33,11 +24,9 @@ double energy_inside(const Mesh& mesh, const PartSystem& system, const EdgeFormu
 
 bool allows_newton_passes(const Settings& settings) {
   const OptimizeOptions& o = settings.options;
-  const bool flips_at_once = o.flips && o.flip_timing == FlipTiming::immediate &&
-                             settings.flip_limit == FlipLimit::unlimited && o.inversion == Inversion::refuse;
   const bool only_moves = !o.collapse_from && o.removal == Removal::none && !o.anchor && !o.size_band;
-  return o.newton_passes && settings.energy.barrier && o.solver == Solver::newton && flips_at_once && only_moves &&
-         o.order == SweepOrder::hilbert && o.stopping == StoppingRule::relative;
+  return o.newton_passes && makes_newton_steps(settings) && only_moves && o.order == SweepOrder::hilbert &&
+         o.stopping == StoppingRule::relative;
 }
 
 void NewtonPass::run(Unknowns unknowns, Watch& watch) {

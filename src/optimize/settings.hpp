@@ -21,6 +21,17 @@ struct Settings {
   return o.flips && o.flip_timing == FlipTiming::deferred;
 }
 
+/// Those that a sweep moves, counted from 0: weights from i_w on.
+[[nodiscard]] inline Unknowns unknowns_of_sweep(const OptimizeOptions& o, int sweep) {
+  return o.unknowns == Unknowns::positions_and_weights && sweep < o.weights_from ? Unknowns::positions : o.unknowns;
+}
+
+/// Whether steps are Newton's, of a barrier, as far as they pay, with flips at once.
+[[nodiscard]] inline bool makes_newton_steps(const Settings& s) {
+  return s.energy.barrier && s.options.solver == Solver::newton && s.options.flips && !defers_flips(s.options) &&
+         s.flip_limit == FlipLimit::unlimited && s.options.inversion == Inversion::refuse;
+}
+
 /// The model with absolute γ and h° in the user's units of length.
 [[nodiscard]] EnergyModel in_user_units(EnergyModel model, const Frame& frame);
 

@@ -46,10 +46,8 @@ bool Sweeper::sweep(int iteration, std::span<const VertexId> sequence, Run& run)
 }
 
 bool Sweeper::newton_pass(int iteration, Run& run) {
-  const OptimizeOptions& o = settings_.options;
-  const bool without_weights = o.unknowns == Unknowns::positions_and_weights && iteration < o.weights_from;
   Watch watch(run, mesh_.n_vertices());
-  passes_.run(without_weights ? Unknowns::positions : o.unknowns, watch);
+  passes_.run(unknowns_of_sweep(settings_.options, iteration), watch);
   return !watch.stopped();
 }
 

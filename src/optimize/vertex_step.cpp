@@ -28,8 +28,7 @@ constexpr double kOvershootShrink = 0.1, kOvershootLeast = 1e-6;
 
 void VertexStep::begin_sweep(int sweep) {
   const OptimizeOptions& o = settings_.options;
-  unknowns_ = o.unknowns;
-  if (sweep < o.weights_from && unknowns_ == Unknowns::positions_and_weights) unknowns_ = Unknowns::positions;
+  unknowns_ = unknowns_of_sweep(o, sweep);
   collapses_ = o.collapse_from && sweep >= *o.collapse_from;
   removes_ = o.removal == Removal::patch && sweep >= o.removal_from;
   overshoot_ = 1 + std::max(kOvershootLeast, (o.overshoot - 1) * std::pow(kOvershootShrink, sweep));
@@ -56,13 +55,8 @@ void VertexStep::improve(std::span<const VertexId> vertices, const Part& part, s
   }
 }
 
-/// Whether steps are what batches make: Newton's, of a barrier, with flips at once, and nothing else.
-bool VertexStep::can_batch() const {
-  const OptimizeOptions& o = settings_.options;
-  return settings_.energy.barrier && o.solver == Solver::newton && flips_at_once() &&
-         settings_.flip_limit == FlipLimit::unlimited && o.inversion == Inversion::refuse && !collapses_ && !removes_ &&
-         !band_.on();
-}
+/// Whether steps are what batches make.
+bool VertexStep::can_batch() const { return makes_newton_steps(settings_) && !collapses_ && !removes_ && !band_.on(); }
 
 /// Algorithm 2: where E_c would put v onto a neighbour, the mesh is better without v.
 bool VertexStep::collapse(VertexId v) {

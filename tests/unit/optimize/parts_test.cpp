@@ -1,12 +1,11 @@
 // Sweeps in parts: the same bytes on any number of threads, and what parts may touch of each other.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <limits>
-#include <thread>
 
 #include "optimize/driver.hpp"
 #include "support/regions.hpp"
+#include "support/std_threads.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"
@@ -16,25 +15,6 @@ namespace temper::test {
 namespace {
 
 constexpr std::size_t kSmallPart = 100, kPartsVertices = 800;
-
-/// That many threads, the caller's one of them; each takes the next block.
-class Crew final : public Executor {
- public:
-  explicit Crew(std::size_t threads) : threads_(threads) {}
-  void run(std::size_t n, const std::function<void(std::size_t)>& block) override {
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&] {
-      for (std::size_t i = next++; i < n; i = next++) block(i);
-    };
-    std::vector<std::thread> helpers;
-    for (std::size_t i = 1; i < threads_; ++i) helpers.emplace_back(work);
-    work();
-    for (std::thread& helper : helpers) helper.join();
-  }
-
- private:
-  std::size_t threads_;
-};
 
 class LastBlockFirst final : public Executor {
  public:
@@ -93,7 +73,7 @@ TEST_P(SweepsInParts, GiveTheSameBytesOnAnyNumberOfThreadsAndTraced) {
   EXPECT_EQ(alone.report.sweeps, 4);
 
   for (const std::size_t threads : {1, 2, 3, 8}) {
-    Crew crew(threads);
+    StdThreads crew(threads);
     options.executor = &crew;
     expect_same(swept(input, options), alone);
   }
@@ -153,7 +133,7 @@ TEST(Parts, ReachAsLowAnEnergyAsTheWhole) {
 
 TEST(Parts, AskTheObserverInTheCallersThreadAndStopWhenToldTo) {
   const Mesh input = *random_points({.vertices = 2500, .seed = 9});
-  Crew crew(3);
+  StdThreads crew(3);
   const auto caller = std::this_thread::get_id();
   int calls = 0;
   const Observer observer = [&](const Progress& progress) {
