@@ -1,0 +1,113 @@
+// Discrete exterior calculus on a weighted triangle mesh: incidence, diagonal stars with signed power duals, and the
+// dual itself. What a finite-volume or DEC solver needs of a mesh, in one value of flat arrays.
+//
+// Conventions (docs/operators.md), with the signs of temper/geometry.hpp:
+//
+//            k            edges:  each once, from the lower vertex number to the higher, sorted by (from, to)
+//          / | \          d0:     −1 at from, +1 at to
+//        /   o   \        d1:     +1 where the edge runs counter-clockwise around the triangle (the triangle is on its
+//      /     |h_k  \              left), −1 where it runs clockwise
+//    i ------+------ j    ★0(v):  Σ d_ij h_k / 2 over the half-edges at v: signed area of the dual cell; they sum to
+//    the
+//      \     |h_l  /              area of the domain
+//        \   o   /        ★1(ij): (h_k + h_l) / ℓ; on the boundary h_k / ℓ: the dual edge ends at the weighted midpoint
+//          \ | /                  of the boundary edge
+//            l            ★2(t):  1 / area
+//
+// A dual length is negative where the edge is not regular, or, on the boundary, where the orthocenter is outside; it is
+// zero exactly where the four points are cocircular in the power sense. These signs are those of the exact predicates.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "temper/ids.hpp"
+#include "temper/mesh.hpp"
+#include "temper/vec2.hpp"
+
+namespace temper {
+
+class Executor;
+
+/// An undirected edge, once. Edges count in the order of their vertices: (0, 1), (0, 2), …, (1, 2), ….
+using EdgeId = Id<struct EdgeTag>;
+
+/// A sparse matrix of entries ±1, in compressed rows: row r has columns[starts[r]] … columns[starts[r + 1] − 1], in
+/// ascending order, and the signs beside them.
+struct IncidenceMatrix {
+  std::size_t n_columns = 0;
+  std::vector<std::int32_t> starts;   ///< rows + 1
+  std::vector<std::int32_t> columns;  ///< one a non-zero
+  std::vector<std::int8_t> signs;     ///< one a non-zero
+
+  [[nodiscard]] std::size_t n_rows() const { return starts.empty() ? 0 : starts.size() - 1; }
+};
+
+struct DecEdge {
+  VertexId from, to;        ///< from < to
+  TriangleId left, right;   ///< of from → to; one of them is invalid on the boundary
+  double length = 0;        ///< ℓ
+  double split = 0;         ///< d, signed distance from `from`, towards `to`, of the weighted midpoint
+  double left_height = 0;   ///< h of the orthocenter of `left` over this edge, > 0 on the side of `left`; 0 without it
+  double right_height = 0;  ///< h of the orthocenter of `right`, > 0 on the side of `right`; 0 without it
+  double dual_length = 0;   ///< left_height + right_height, with the exact sign, and accurate where they cancel
+  Vec2 midpoint;            ///< weighted midpoint: where the line of the dual edge crosses the line of the edge
+
+  [[nodiscard]] bool is_boundary() const { return !left.valid() || !right.valid(); }
+};
+
+/// Operators and dual of a mesh. Vertices and triangles have the numbers of the mesh.
+struct DecComplex {
+  IdVector<EdgeId, DecEdge> edges;
+  IdVector<HalfedgeId, EdgeId> edge_of_halfedge;
+  IncidenceMatrix d0;                  ///< edges × vertices
+  IncidenceMatrix d1;                  ///< triangles × edges
+  IdVector<VertexId, double> star0;    ///< [length²]
+  IdVector<EdgeId, double> star1;      ///< [1]: the transmissibility of a vertex-centered scheme
+  IdVector<TriangleId, double> star2;  ///< [length⁻²]
+  /// [1]: the transmissibility of a two-point flux between orthocenters, ℓ / (h_k + h_l), on the boundary ℓ / h_k; it
+  /// has the sign of ★1, and is +∞ where that is 0.
+  IdVector<EdgeId, double> flux;
+  IdVector<TriangleId, Vec2> orthocenters;  ///< the dual vertices
+  IdVector<TriangleId, double> areas;       ///< of the triangles, > 0
+};
+
+/// The operators of a mesh. Precondition: no erased triangles; fewer than 2³¹ half-edges. O(n).
+[[nodiscard]] DecComplex dec(const Mesh& mesh);
+
+/// What to know of the operators before a solver uses them.
+struct DecSummary {
+  std::size_t vertices = 0, edges = 0, triangles = 0, boundary_edges = 0;
+  std::size_t negative_star0 = 0;
+  std::size_t negative_star1 = 0, zero_star1 = 0;  ///< of interior edges, exact: not regular; cocircular
+  std::size_t negative_boundary_star1 = 0;         ///< of boundary edges, exact: orthocenter outside of the domain
+  std::size_t not_well_centered = 0;               ///< triangles, exact
+  double area = 0;                                 ///< of the domain
+  double star0_sum = 0;                            ///< equal to it but for rounding
+  double min_star0 = 0, min_star1 = 0;
+  double median_star1 = 0, max_star1 = 0;  ///< of |★1| of all edges
+  double median_flux = 0, max_flux = 0;    ///< of |flux| of interior edges; +∞ where a dual edge has length 0
+};
+[[nodiscard]] DecSummary summarize(const Mesh& mesh, const DecComplex& complex);
+
+/// Power cells within the domain, as simple polygons, counter-clockwise. Ascending by vertex; a cell has one polygon,
+/// or several that do not overlap, or none when it lies outside of the domain.
+struct PowerCells {
+  std::vector<VertexId> vertices;   ///< of each polygon
+  std::vector<std::size_t> starts;  ///< polygon p has corners[starts[p]] … corners[starts[p + 1] − 1]
+  std::vector<Vec2> corners;
+  std::vector<double> polygon_areas;  ///< of each polygon, > 0
+  IdVector<VertexId, double> areas;   ///< of each vertex: of all its polygons. Sum: the area of the domain
+
+  [[nodiscard]] std::size_t n_polygons() const { return vertices.size(); }
+};
+
+/// The power cell of each vertex, clipped to the domain. A point of triangle t belongs to the vertex of least power
+/// distance among those that walks over mesh edges reach from the corners of t, through vertices that own some of t. In
+/// a regular triangulation of a convex domain these are the cells of the power diagram; where the domain is not convex,
+/// a cell does not jump over a hole or a notch; where edges are not regular, the cells are still disjoint and cover the
+/// domain. Precondition: no erased triangles. O(n) for well-shaped meshes.
+[[nodiscard]] PowerCells power_cells(const Mesh& mesh, Executor* executor = nullptr);
+
+}  // namespace temper
