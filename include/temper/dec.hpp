@@ -5,14 +5,13 @@
 //
 //            k            edges:  each once, from the lower vertex number to the higher, sorted by (from, to)
 //          / | \          d0:     −1 at from, +1 at to
-//        /   o   \        d1:     +1 where the edge runs counter-clockwise around the triangle (the triangle is on its
-//      /     |h_k  \              left), −1 where it runs clockwise
-//    i ------+------ j    ★0(v):  Σ d_ij h_k / 2 over the half-edges at v: signed area of the dual cell; they sum to
-//    the
-//      \     |h_l  /              area of the domain
-//        \   o   /        ★1(ij): (h_k + h_l) / ℓ; on the boundary h_k / ℓ: the dual edge ends at the weighted midpoint
-//          \ | /                  of the boundary edge
-//            l            ★2(t):  1 / area
+//        /   o   \        d1:     +1 where the triangle is on the left of the edge, −1 where it is on the right
+//      /     |h_k  \      ★0(v):  Σ d_ij h_k / 2 over the half-edges at v: the signed area of the dual cell
+//    i ------+------ j    ★1(ij): (h_k + h_l) / ℓ; on the boundary h_k / ℓ: there the dual edge ends at the weighted
+//      \     |h_l  /              midpoint of the edge, +
+//        \   o   /        ★2(t):  1 / area
+//          \ | /
+//            l            The sum of ★0 is the area of the domain.
 //
 // A dual length is negative where the edge is not regular, or, on the boundary, where the orthocenter is outside; it is
 // zero exactly where the four points are cocircular in the power sense. These signs are those of the exact predicates.

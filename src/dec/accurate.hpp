@@ -1,0 +1,26 @@
+// The determinants that the operators are quotients of, with a small relative error whatever cancels in them.
+//
+// Doubles where the bound on their rounding is small against the value, exact expansions, rounded once at the end,
+// elsewhere: so every sign is right, ties are 0, and no quotient of two of them is worse than kRelativeError times
+// three.
+#pragma once
+
+#include "temper/vec2.hpp"
+
+namespace temper::accurate {
+
+/// What a determinant may be off by, relative to itself. At 2⁻⁴² the exact stage is left to one edge in a hundred of
+/// usual meshes.
+inline constexpr double kRelativeError = 0x1p-42;
+
+/// Twice the signed area of abc.
+[[nodiscard]] double doubled_area(Vec2 a, Vec2 b, Vec2 c);
+/// The lifted determinant whose sign is power_test: > 0 where d conflicts with abc.
+[[nodiscard]] double power_determinant(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
+                                       const WeightedPoint& d);
+/// 2 h ℓ S of edge pq in triangle pqr, S twice its signed area.
+[[nodiscard]] double height_numerator(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
+/// 2 d ℓ of edge pq, from p.
+[[nodiscard]] double doubled_split(const WeightedPoint& p, const WeightedPoint& q);
+
+}  // namespace temper::accurate
