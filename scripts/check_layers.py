@@ -34,7 +34,7 @@ LAYERS = {
     "generate": _BELOW + ["topology", "energy", "regularity"],
     "mesher": _BELOW + ["topology", "energy", "regularity", "feasibility", "optimize", "generate"],
     # A library of its own: sees the core's public headers, and no other folder of src/.
-    "io": _BELOW,
+    "io": _BELOW + ["dec"],
     "lp": _BELOW + ["feasibility"],
     "tbb": ["base"],
 }
