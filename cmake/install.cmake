@@ -1,4 +1,4 @@
-# Installs the libraries and what find_package(temper COMPONENTS core io lp tbb) needs. The flags of temper's own
+# Installs the libraries and what find_package(temper COMPONENTS core io lp tbb verify) needs. The flags of temper's own
 # code (temper_flags) stay here: they are linked for the build alone and are in no export.
 include(CMakePackageConfigHelpers)
 
@@ -8,7 +8,7 @@ install(TARGETS temper EXPORT temper_core)
 install(EXPORT temper_core NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperCoreTargets.cmake)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/temper DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.hpp" PATTERN "io.hpp" EXCLUDE PATTERN "lp.hpp" EXCLUDE
-        PATTERN "tbb_executor.hpp" EXCLUDE)
+        PATTERN "tbb_executor.hpp" EXCLUDE PATTERN "verify.hpp" EXCLUDE)
 
 if(TARGET temper_io)
   # A static library: whoever links the installed one needs pugixml too. temperConfig.cmake finds it.
@@ -32,6 +32,12 @@ if(TARGET temper_tbb)
   install(TARGETS temper_tbb EXPORT temper_tbb)
   install(EXPORT temper_tbb NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperTbbTargets.cmake)
   install(FILES ${PROJECT_SOURCE_DIR}/include/temper/tbb_executor.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/temper)
+endif()
+
+if(TARGET temper_verify)
+  install(TARGETS temper_verify EXPORT temper_verify)
+  install(EXPORT temper_verify NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperVerifyTargets.cmake)
+  install(FILES ${PROJECT_SOURCE_DIR}/include/temper/verify.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/temper)
 endif()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/temperConfig.cmake.in ${PROJECT_BINARY_DIR}/temperConfig.cmake

@@ -37,8 +37,9 @@ LAYERS = {
     "io": _BELOW + ["dec"],
     "lp": _BELOW + ["feasibility"],
     "tbb": ["base"],
+    "verify": _BELOW + ["energy", "regularity", "quality", "dec"],
 }
-CORE = set(LAYERS) - {"io", "lp", "tbb"}
+CORE = set(LAYERS) - {"io", "lp", "tbb", "verify"}
 
 # Public headers whose name is not that of their layer.
 HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor", "instruction_set", "outline"]} | {"plot": "draw", "trace": "optimize", "necessity": "feasibility", "projection": "mesher", "tbb_executor": "tbb"}

@@ -1,0 +1,145 @@
+// What users' solvers feel: the errors that a mesh causes, measured with manufactured solutions, in a library of its
+// own (temper::verify, which needs Eigen). docs/verify.md defines every norm.
+//
+//   ★s       the diagonal stars on smooth s-forms: what the HOT energies bound
+//   Poisson  −Δu = f by discrete exterior calculus, unknowns at the vertices:  d0ᵀ ★1 d0 u = ★0 f
+//   flux     −Δu = f by finite volumes, unknowns at the orthocenters:          Σ T (u_k − u_l) = ∫ f,  T = ℓ / (h_k +
+//   h_l)
+//
+// All errors are relative and have no unit: the fields are scaled with the domain's bounding box.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "temper/error.hpp"
+#include "temper/mesh.hpp"
+#include "temper/vec2.hpp"
+
+namespace temper {
+
+class Executor;
+
+/// What a field is for. An objective may be tuned on the chosen ones; what it is worth, those held back tell.
+enum class FieldGroup {
+  chosen,
+  held_back,
+  exact,  ///< linear: both schemes must reproduce it on any mesh. Not among "all"
+};
+[[nodiscard]] std::string_view name(FieldGroup group);  ///< "chosen", "held-back", "exact"
+
+/// A manufactured solution.
+struct VerifyField {
+  std::string_view name;
+  FieldGroup group;
+  std::string_view formula;  ///< in x and y of the frame
+};
+[[nodiscard]] std::span<const VerifyField> verify_fields();
+
+/// Where the fields lie: they are functions of (p − center) / half_size.
+struct VerifyFrame {
+  Vec2 center;
+  double half_size = 1;  ///< > 0 [length]
+  friend bool operator==(const VerifyFrame&, const VerifyFrame&) = default;
+};
+/// Around the bounding box of the vertices: its longer side goes from −1 to 1.
+[[nodiscard]] VerifyFrame verify_frame(const Mesh& mesh);
+
+struct VerifyOptions {
+  /// Names of fields, or of groups ("chosen", "held-back"), or "all"; none: all.
+  std::vector<std::string> fields;
+  std::optional<VerifyFrame> frame;  ///< none: verify_frame(mesh). Meshes are compared in one frame
+  int refine = 0;                    ///< so many times each triangle becomes four, and orders are measured
+  bool condition = false;            ///< also estimate the condition of both matrices
+  bool local = false;                ///< also list the errors of each vertex, edge and triangle
+  Executor* executor = nullptr;
+};
+
+/// Relative: l2 over the field's root mean square, and the maximum over it. +∞ where the system is singular, or where
+/// the field overflows far outside of the domain.
+struct ErrorNorms {
+  double l2 = 0;
+  double max = 0;
+};
+/// The errors of one field, or their means over fields, or ratios or orders of them.
+struct VerifyErrors {
+  std::array<ErrorNorms, 3> star;  ///< ★0, ★1, ★2
+  ErrorNorms poisson;
+  ErrorNorms flux;
+};
+struct FieldErrors {
+  VerifyField field;
+  VerifyErrors errors;
+};
+
+/// The matrix of a scheme, without what the boundary fixes.
+struct VerifySystem {
+  std::size_t unknowns = 0;
+  /// No positive entry off the diagonal, and diagonally dominant; decided by exact signs of the dual lengths.
+  bool m_matrix = true;
+  bool definite = true;                  ///< positive definite, by its pivots
+  bool singular = false;                 ///< could not be solved: all errors are +∞
+  std::size_t negative = 0;              ///< edges whose coefficient in it is < 0, exact
+  std::size_t merged = 0;                ///< flux: edges whose orthocenters coincide, which makes them one unknown
+  double largest_over_median = 1;        ///< of the |coefficients| of interior edges; 1 without any, +∞ where one is
+  std::optional<double> condition = {};  ///< spectral, a lower bound that is near (by power iterations)
+};
+
+/// One mesh of a refined family.
+struct VerifyLevel {
+  std::size_t vertices = 0, triangles = 0;
+  std::size_t non_regular_edges = 0;  ///< exact
+  std::size_t not_well_centered = 0;  ///< triangles, exact
+  std::vector<FieldErrors> fields;
+};
+
+struct VerifyReport {
+  std::size_t vertices = 0, edges = 0, triangles = 0;
+  std::size_t non_regular_edges = 0;        ///< interior edges of negative dual length, exact
+  std::size_t negative_boundary_duals = 0;  ///< exact
+  std::size_t negative_star0 = 0;
+  std::size_t not_well_centered = 0;  ///< triangles, exact
+  VerifyFrame frame;
+  VerifySystem poisson, flux;
+  std::vector<FieldErrors> fields;
+  /// The mesh itself and its refinements, coarsest first; empty without refine.
+  std::vector<VerifyLevel> levels;
+  /// Of each field, how the errors go with the edge length: the slope by least squares over the levels in logarithms.
+  /// NaN where fewer than two levels have an error that is finite and not 0. Empty without refine.
+  std::vector<FieldErrors> orders;
+  /// With `local`: of each vertex (★0), edge (★1, in the order of DecComplex) and triangle (★2) the relative error of
+  /// the mean over it, its root mean square over the fields.
+  std::array<std::vector<double>, 3> local;
+};
+
+/// Measures a mesh. The same report for any executor. Errors: no triangles, unknown fields, a frame of no size, more
+/// refinement than memory is meant for. Precondition: no erased triangles. O(n^1.5): two sparse factorisations.
+///
+///     const Expected<VerifyReport> report = verify(mesh, {.fields = {"held-back"}});
+///     if (report) use(geometric_mean(report->fields).poisson.l2);
+[[nodiscard]] Expected<VerifyReport> verify(const Mesh& mesh, const VerifyOptions& options = {});
+
+/// One number of VerifyErrors: what tables, JSON and comparisons are made of.
+struct VerifyMeasure {
+  std::string_view key;    ///< "star1.l2"
+  std::string_view label;  ///< "★1, L2"
+  double (*of)(const VerifyErrors&);
+  double& (*at)(VerifyErrors&);
+};
+[[nodiscard]] std::span<const VerifyMeasure> verify_measures();
+
+/// The geometric mean over fields, of all of them or of one group; 1 of none.
+[[nodiscard]] VerifyErrors geometric_mean(std::span<const FieldErrors> fields, std::optional<FieldGroup> group = {});
+/// The arithmetic mean, which is the one for orders; NaN where one is.
+[[nodiscard]] VerifyErrors arithmetic_mean(std::span<const FieldErrors> fields, std::optional<FieldGroup> group = {});
+
+/// Errors over errors, field by field: below 1 where `after` is better. 1 where both are the same, 0 and +∞ included.
+/// Error: not the same fields in the same frame.
+[[nodiscard]] Expected<std::vector<FieldErrors>> error_ratios(const VerifyReport& after, const VerifyReport& before);
+
+}  // namespace temper

@@ -1,0 +1,105 @@
+#include "verify/poisson.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "verify/stars.hpp"
+
+namespace temper::verify_detail {
+namespace {
+
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+/// Inner vertices in their order; kNone of those on the boundary.
+std::vector<std::size_t> number_inner_vertices(const Mesh& mesh, std::size_t& count) {
+  std::vector<std::size_t> unknowns(mesh.n_vertices(), kNone);
+  for (const VertexId v : mesh.vertices()) {
+    if (!mesh.is_isolated(v) && !mesh.is_boundary(v)) unknowns[v.index] = count++;
+  }
+  return unknowns;
+}
+
+std::vector<double> right_side(const Setting& s, const Field& field, const std::vector<std::size_t>& unknowns,
+                               std::size_t count) {
+  std::vector<double> right(count, 0.0);
+  std::vector<double> given(unknowns.size(), 0.0);
+  for (const VertexId v : s.mesh.vertices()) {
+    const FieldValue value = field.at(s.vertex(v));
+    given[v.index] = value.u;
+    if (unknowns[v.index] != kNone) right[unknowns[v.index]] = -s.area_in_frame(s.dec.star0[v]) * value.laplacian;
+  }
+  for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
+    const auto& edge = s.dec.edges[EdgeId(e)];
+    const std::size_t i = unknowns[edge.from.index], j = unknowns[edge.to.index];
+    if (i != kNone && j == kNone) right[i] += s.dec.star1[EdgeId(e)] * given[edge.to.index];
+    if (j != kNone && i == kNone) right[j] += s.dec.star1[EdgeId(e)] * given[edge.from.index];
+  }
+  return right;
+}
+
+void assemble(const Setting& s, const std::vector<std::size_t>& unknowns, LinearSystem& linear, VerifySystem& system) {
+  for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
+    const std::size_t i = unknowns[s.dec.edges[EdgeId(e)].from.index], j = unknowns[s.dec.edges[EdgeId(e)].to.index];
+    if (i == kNone && j == kNone) continue;
+    const double star1 = s.dec.star1[EdgeId(e)];
+    if (star1 < 0) ++system.negative;
+    if (i != kNone) linear.lower.push_back({i, i, star1});
+    if (j != kNone) linear.lower.push_back({j, j, star1});
+    if (i != kNone && j != kNone) linear.lower.push_back({std::max(i, j), std::min(i, j), -star1});
+  }
+}
+
+ErrorNorms poisson_norms(const Setting& s, const Field& field, const std::vector<std::size_t>& unknowns,
+                         const std::vector<double>& solution) {
+  std::vector<double> weights, errors;
+  for (const VertexId v : s.mesh.vertices()) {
+    if (unknowns[v.index] == kNone) continue;
+    weights.push_back(std::abs(s.area_in_frame(s.dec.star0[v])));
+    errors.push_back(solution[unknowns[v.index]] - field.at(s.vertex(v)).u);
+  }
+  const ErrorNorms norms = norms_of(weights, errors);
+  const double size = size_of(field).value;
+  return {norms.l2 / std::sqrt(s.area) / size, norms.max / size};
+}
+
+}  // namespace
+
+double largest_over_median(std::vector<double> coefficients) {
+  if (coefficients.empty()) return 1;
+  for (double& c : coefficients) c = std::abs(c);
+  const double largest = *std::max_element(coefficients.begin(), coefficients.end());
+  const auto middle = coefficients.begin() + static_cast<std::ptrdiff_t>(coefficients.size() / 2);
+  std::nth_element(coefficients.begin(), middle, coefficients.end());
+  double median = *middle;
+  if (coefficients.size() % 2 == 0) median = 0.5 * (median + *std::max_element(coefficients.begin(), middle));
+  return std::isfinite(largest) && median > 0 ? largest / median : std::numeric_limits<double>::infinity();
+}
+
+SchemeErrors poisson_errors(const Setting& s, const std::vector<Field>& fields, bool condition) {
+  SchemeErrors result;
+  LinearSystem linear;
+  const std::vector<std::size_t> unknowns = number_inner_vertices(s.mesh, linear.unknowns);
+  assemble(s, unknowns, linear, result.system);
+  for (const Field& field : fields) linear.right_sides.push_back(right_side(s, field, unknowns, linear.unknowns));
+  const LinearSolution solution = solve(linear, condition);
+
+  std::vector<double> inside;
+  for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
+    if (!s.dec.edges[EdgeId(e)].is_boundary()) inside.push_back(s.dec.star1[EdgeId(e)]);
+  }
+  result.system.unknowns = linear.unknowns;
+  result.system.m_matrix = result.system.negative == 0 && !solution.singular;
+  result.system.definite = solution.definite;
+  result.system.singular = solution.singular;
+  result.system.largest_over_median = largest_over_median(std::move(inside));
+  result.system.condition = solution.condition;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    result.fields.push_back(solution.singular ? ErrorNorms{infinity, infinity}
+                                              : poisson_norms(s, fields[i], unknowns, solution.solutions[i]));
+  }
+  return result;
+}
+
+}  // namespace temper::verify_detail

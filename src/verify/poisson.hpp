@@ -1,0 +1,47 @@
+// The two model problems, −Δu = f with u given on the boundary.
+#pragma once
+
+#include <vector>
+
+#include "verify/edge_means.hpp"
+#include "verify/solve.hpp"
+
+namespace temper::verify_detail {
+
+/// A scheme as a matrix, and what it does to each field in turn: made once, given the fields, solved once.
+struct SchemeErrors {
+  VerifySystem system;
+  std::vector<ErrorNorms> fields;
+};
+
+/// Of the |coefficients| of interior edges, the largest over the median; 1 of none.
+[[nodiscard]] double largest_over_median(std::vector<double> coefficients);
+
+/// Vertex-centered: d0ᵀ ★1 d0 u = ★0 f at inner vertices, f at the vertex; u given at those of the boundary.
+[[nodiscard]] SchemeErrors poisson_errors(const Setting& setting, const std::vector<Field>& fields, bool condition);
+
+/// The two-point flux: its matrix once, then a right side a field.
+class FluxScheme {
+ public:
+  explicit FluxScheme(const Setting& setting);
+  /// `means` of the field: they hold ∫ f of each triangle.
+  void add_field(const Field& field, const IdVector<EdgeId, EdgeMeans>& means);
+  [[nodiscard]] SchemeErrors solve(bool condition);
+
+ private:
+  void merge();
+  void number();
+  void assemble();
+  [[nodiscard]] bool coincident(const DecEdge& edge) const;
+  [[nodiscard]] std::size_t group(TriangleId t) const { return groups_[t.index]; }
+
+  const Setting& setting_;
+  std::vector<std::size_t> groups_;    // triangle → the group of coinciding orthocenters that it is in
+  std::vector<std::size_t> unknowns_;  // group → its unknown, or kGiven
+  std::vector<Vec2> given_at_;         // group → the boundary point that gives its value
+  LinearSystem linear_;
+  std::vector<Field> fields_;
+  VerifySystem system_;
+};
+
+}  // namespace temper::verify_detail
