@@ -27,8 +27,6 @@
 
 namespace temper {
 
-class Executor;
-
 /// An undirected edge, once. Edges count in the order of their vertices: (0, 1), (0, 2), …, (1, 2), ….
 using EdgeId = Id<struct EdgeTag>;
 
@@ -103,10 +101,13 @@ struct PowerCells {
 };
 
 /// The power cell of each vertex, clipped to the domain. A point of triangle t belongs to the vertex of least power
-/// distance among those that walks over mesh edges reach from the corners of t, through vertices that own some of t. In
-/// a regular triangulation of a convex domain these are the cells of the power diagram; where the domain is not convex,
-/// a cell does not jump over a hole or a notch; where edges are not regular, the cells are still disjoint and cover the
-/// domain. Precondition: no erased triangles. O(n) for well-shaped meshes.
-[[nodiscard]] PowerCells power_cells(const Mesh& mesh, Executor* executor = nullptr);
+/// distance among those that walks over mesh edges reach from the corners of t, through vertices that own some of t and
+/// not around reflex corners of the domain. So, whatever the mesh, the cells are disjoint and cover the domain.
+///   - In a regular triangulation of a convex domain they are the cells of the power diagram, half-plane by half-plane.
+///   - In a well-centered mesh of any domain they are the polygons of orthocenters, whose areas are ★0.
+///   - Where the domain is not convex, a cell does not jump over a crack, a notch or a hole.
+/// Precondition: no erased triangles, and `complex` is dec(mesh). O(n) where triangles are well-centered, and some
+/// microseconds for each that is not.
+[[nodiscard]] PowerCells power_cells(const Mesh& mesh, const DecComplex& complex);
 
 }  // namespace temper

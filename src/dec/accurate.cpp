@@ -20,7 +20,7 @@ auto cross_of(const ExactDifference& a, const ExactDifference& b) { return a.x *
 
 /// The terms do not overlap, smallest first: their sum is off by a rounding or two.
 template <int N>
-double rounded(const exact::Expansion<N>& e) {
+double nearest_double(const exact::Expansion<N>& e) {
   double sum = 0;
   for (int i = 0; i < e.size(); ++i) sum += e[i];
   return sum;
@@ -33,7 +33,7 @@ bool is_accurate(const inlined::Filtered<double>& f) { return f.bound < kRelativ
 double doubled_area(Vec2 a, Vec2 b, Vec2 c) {
   const auto fast = inlined::filtered_orient2d(a, b, c);
   if (is_accurate(fast)) return fast.value;
-  return rounded(cross_of(exact_difference(a, c), exact_difference(b, c)));
+  return nearest_double(cross_of(exact_difference(a, c), exact_difference(b, c)));
 }
 
 double power_determinant(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
@@ -46,8 +46,8 @@ double power_determinant(const WeightedPoint& a, const WeightedPoint& b, const W
   const auto lift = [&](const ExactDifference& v, double w) {
     return dot_of(v, v) - exact::Expansion<2>(exact::two_diff(w, d.w));
   };
-  return rounded(lift(ad, a.w) * cross_of(bd, cd) + lift(bd, b.w) * cross_of(cd, ad) +
-                 lift(cd, c.w) * cross_of(ad, bd));
+  return nearest_double(lift(ad, a.w) * cross_of(bd, cd) + lift(bd, b.w) * cross_of(cd, ad) +
+                        lift(cd, c.w) * cross_of(ad, bd));
 }
 
 double height_numerator(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
@@ -57,15 +57,15 @@ double height_numerator(const WeightedPoint& p, const WeightedPoint& q, const We
   const ExactDifference pr = exact_difference(r.position(), p.position());
   const ExactDifference qr = exact_difference(r.position(), q.position());
   const auto at_r = dot_of(pr, qr);
-  return rounded(dot_of(pq, pr) * (at_r + exact::Expansion<2>(exact::two_diff(q.w, r.w))) -
-                 dot_of(pq, qr) * (at_r + exact::Expansion<2>(exact::two_diff(p.w, r.w))));
+  return nearest_double(dot_of(pq, pr) * (at_r + exact::Expansion<2>(exact::two_diff(q.w, r.w))) -
+                        dot_of(pq, qr) * (at_r + exact::Expansion<2>(exact::two_diff(p.w, r.w))));
 }
 
 double doubled_split(const WeightedPoint& p, const WeightedPoint& q) {
   const auto fast = inlined::filtered_edge_split(p, q);
   if (is_accurate(fast)) return fast.value;
   const ExactDifference pq = exact_difference(q.position(), p.position());
-  return rounded(dot_of(pq, pq) + exact::Expansion<2>(exact::two_diff(p.w, q.w)));
+  return nearest_double(dot_of(pq, pq) + exact::Expansion<2>(exact::two_diff(p.w, q.w)));
 }
 
 }  // namespace temper::accurate

@@ -39,9 +39,9 @@ std::vector<HalfedgeId> sorted_edges(const Mesh& mesh) {
   return sorted;
 }
 
-class Builder {
+class DecBuilder {
  public:
-  explicit Builder(const Mesh& mesh) : mesh_(mesh), doubled_(mesh.n_triangles()) {}
+  explicit DecBuilder(const Mesh& mesh) : mesh_(mesh), doubled_(mesh.n_triangles()) {}
   DecComplex build();
 
  private:
@@ -58,7 +58,7 @@ class Builder {
   DecComplex c_;
 };
 
-DecComplex Builder::build() {
+DecComplex DecBuilder::build() {
   triangles();
   const std::vector<HalfedgeId> edges = sorted_edges(mesh_);
   c_.edges.reserve(edges.size());
@@ -71,7 +71,7 @@ DecComplex Builder::build() {
   return std::move(c_);
 }
 
-void Builder::triangles() {
+void DecBuilder::triangles() {
   const std::size_t n = mesh_.n_triangles();
   c_.areas.resize(n);
   c_.star2.resize(n);
@@ -85,7 +85,7 @@ void Builder::triangles() {
   }
 }
 
-void Builder::add_edge(HalfedgeId h) {
+void DecBuilder::add_edge(HalfedgeId h) {
   const bool upwards = mesh_.origin(h) < mesh_.target(h);
   const HalfedgeId left = upwards ? h : mesh_.twin(h), right = upwards ? mesh_.twin(h) : h;
   const EdgeId e(c_.edges.size());
@@ -102,7 +102,7 @@ void Builder::add_edge(HalfedgeId h) {
   c_.flux.push_back(ratio == 0 ? std::numeric_limits<double>::infinity() : 1 / ratio);
 }
 
-void Builder::measure(DecEdge& edge, HalfedgeId left, HalfedgeId right) {
+void DecBuilder::measure(DecEdge& edge, HalfedgeId left, HalfedgeId right) {
   const WeightedPoint from = mesh_.point(edge.from), to = mesh_.point(edge.to);
   const Vec2 along = to.position() - from.position();
   const double l2 = squared_length(along);
@@ -116,13 +116,13 @@ void Builder::measure(DecEdge& edge, HalfedgeId left, HalfedgeId right) {
   if (right.valid()) edge.right = Mesh::triangle(right), edge.right_height = height(right, edge.length);
 }
 
-double Builder::height(HalfedgeId h, double length) const {
+double DecBuilder::height(HalfedgeId h, double length) const {
   const double numerator = accurate::height_numerator(mesh_.point(mesh_.origin(h)), mesh_.point(mesh_.target(h)),
                                                       mesh_.point(mesh_.opposite(h)));
   return 0.5 * (numerator / doubled_[Mesh::triangle(h)]) / length;
 }
 
-double Builder::star1(HalfedgeId left, HalfedgeId right) const {
+double DecBuilder::star1(HalfedgeId left, HalfedgeId right) const {
   const HalfedgeId h = left.valid() ? left : right;
   const WeightedPoint p = mesh_.point(mesh_.origin(h)), q = mesh_.point(mesh_.target(h));
   const WeightedPoint r = mesh_.point(mesh_.opposite(h));
@@ -136,7 +136,7 @@ double Builder::star1(HalfedgeId left, HalfedgeId right) const {
   return 0.5 * ((0 - accurate::power_determinant(p, q, r, s)) / here) / doubled_[Mesh::triangle(right)];
 }
 
-void Builder::incidence() {
+void DecBuilder::incidence() {
   const std::size_t n_edges = c_.edges.size(), n_triangles = mesh_.n_triangles();
   c_.d0 = {mesh_.n_vertices(), std::vector<std::int32_t>(n_edges + 1), {}, {}};
   c_.d0.columns.reserve(2 * n_edges);
@@ -165,7 +165,7 @@ void Builder::incidence() {
 }
 
 // Each edge has its two half-edges' heights, and its two ends' shares of the length.
-void Builder::dual_areas() {
+void DecBuilder::dual_areas() {
   c_.star0.resize(mesh_.n_vertices(), 0.0);
   for (const DecEdge& edge : c_.edges) {
     const double both = edge.left_height + edge.right_height;
@@ -176,6 +176,6 @@ void Builder::dual_areas() {
 
 }  // namespace
 
-DecComplex dec(const Mesh& mesh) { return Builder(mesh).build(); }
+DecComplex dec(const Mesh& mesh) { return DecBuilder(mesh).build(); }
 
 }  // namespace temper

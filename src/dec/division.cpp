@@ -1,0 +1,151 @@
+#include "dec/division.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "temper/geometry.hpp"
+
+namespace temper {
+namespace {
+
+// Pieces below this share of their triangle are rounding: of cells that touch it at a point or along a line.
+constexpr double kNegligible = 1e-15;
+
+/// The angle from a to b, counter-clockwise, in [0, 2π).
+double angle_between(Vec2 a, Vec2 b) {
+  const double angle = std::atan2(cross(a, b), dot(a, b));
+  return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+}
+
+/// Angles of the spokes of a vertex, from the first one on, counter-clockwise, and their far ends.
+struct Fan {
+  std::vector<VertexId> ends;
+  std::vector<double> angles;
+};
+
+Fan fan_of(const Mesh& mesh, VertexId v) {
+  Fan fan;
+  double angle = 0;
+  HalfedgeId last;
+  for (const HalfedgeId h : mesh.star(v)) {
+    fan.ends.push_back(mesh.target(h));
+    fan.angles.push_back(angle);
+    angle += corner_angle(mesh.position(v), mesh.position(mesh.target(h)), mesh.position(mesh.opposite(h)));
+    last = h;
+  }
+  if (mesh.is_boundary(v)) {
+    fan.ends.push_back(mesh.opposite(last));
+    fan.angles.push_back(angle);
+  }
+  return fan;
+}
+
+/// Where in the fan of a boundary vertex a direction is: its angle, or that of the nearer end when it is outside.
+double angle_in(const Fan& fan, Vec2 first, Vec2 direction) {
+  const double angle = angle_between(first, direction), whole = fan.angles.back();
+  if (angle <= whole) return angle;
+  return angle - whole < 2 * std::numbers::pi - angle ? whole : 0;
+}
+
+Vec2 mean_of(const std::vector<PieceCorner>& polygon) {
+  Vec2 sum;
+  for (const PieceCorner& c : polygon) sum = sum + c.at;
+  return (1.0 / static_cast<double>(polygon.size())) * sum;
+}
+
+}  // namespace
+
+double area_of(const std::vector<PieceCorner>& polygon) {
+  double doubled = 0;
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    doubled += cross(polygon[i - 1].at - polygon[0].at, polygon[i].at - polygon[0].at);
+  }
+  return 0.5 * doubled;
+}
+
+std::vector<CellPiece> TriangleDivider::divide(TriangleId t) {
+  const std::array<VertexId, 3> corners = mesh_.corners(t);
+  origin_ = mesh_.position(corners[0]);
+  whole_.clear();
+  for (int k = 0; k < 3; ++k) {
+    whole_.push_back({mesh_.position(corners[static_cast<std::size_t>(k)]) - origin_, {}, Mesh::halfedge(t, k)});
+  }
+  candidates_.clear();
+  for (const VertexId v : corners) add(v);
+  const double negligible = kNegligible * area_of(whole_);
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    if (area_of(candidates_[i].piece) > negligible) expand(i);
+  }
+  std::vector<CellPiece> pieces;
+  for (Candidate& c : candidates_) {
+    if (area_of(c.piece) > negligible) pieces.push_back({c.vertex, t, std::move(c.piece)});
+  }
+  return pieces;
+}
+
+/// Takes from the others what is nearer to v.
+void TriangleDivider::add(VertexId v) {
+  for (const Candidate& c : candidates_) {
+    if (c.vertex == v) return;
+  }
+  candidates_.push_back({v, mesh_.position(v) - origin_, mesh_.weight(v), whole_});
+  Candidate& added = candidates_.back();
+  for (std::size_t i = 0; i + 1 < candidates_.size() && !added.piece.empty(); ++i) {
+    if (!candidates_[i].piece.empty()) clip(added.piece, added, candidates_[i]);
+  }
+  if (added.piece.empty()) return;
+  for (std::size_t i = 0; i + 1 < candidates_.size(); ++i) {
+    if (!candidates_[i].piece.empty()) clip(candidates_[i].piece, candidates_[i], added);
+  }
+}
+
+void TriangleDivider::expand(std::size_t i) {
+  const VertexId v = candidates_[i].vertex;
+  const Fan fan = fan_of(mesh_, v);
+  const bool reflex = mesh_.is_boundary(v) && fan.angles.back() > std::numbers::pi;
+  double here = 0;
+  if (reflex) {
+    const Vec2 first = mesh_.position(fan.ends[0]) - mesh_.position(v);
+    here = angle_in(fan, first, mean_of(candidates_[i].piece) - candidates_[i].at);
+  }
+  for (std::size_t k = 0; k < fan.ends.size(); ++k) {
+    if (!reflex || std::abs(fan.angles[k] - here) < std::numbers::pi) add(fan.ends[k]);
+  }
+}
+
+/// Keeps where the power distance to `owner` is not above that to `other`: with y from the one and e from the one to
+/// the other, 2 y·e − |e|² + w_other − w_owner ≤ 0. Computed from the lower vertex, so that both get the same corners.
+void TriangleDivider::clip(std::vector<PieceCorner>& piece, const Candidate& owner, const Candidate& other) {
+  const bool swapped = other.vertex < owner.vertex;
+  const Candidate& low = swapped ? other : owner;
+  const Candidate& high = swapped ? owner : other;
+  const Vec2 e = high.at - low.at;
+  const double constant = squared_length(e) + (low.weight - high.weight), sign = swapped ? -1 : 1;
+  const std::size_t n = piece.size();
+  sides_.resize(n);
+  bool any_out = false, any_in = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    sides_[i] = sign * (2 * dot(piece[i].at - low.at, e) - constant);
+    (sides_[i] > 0 ? any_out : any_in) = true;
+  }
+  if (!any_out) return;
+  if (!any_in) return piece.clear();
+  scratch_.clear();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = i + 1 == n ? 0 : i + 1;
+    const bool in = sides_[i] <= 0, next_in = sides_[j] <= 0;
+    if (in) scratch_.push_back(piece[i]);
+    if (in == next_in) continue;
+    const double share = sides_[i] / (sides_[i] - sides_[j]);
+    const Vec2 at = piece[i].at + share * (piece[j].at - piece[i].at);
+    if (in) {
+      scratch_.push_back({at, other.vertex, {}});
+    } else {
+      scratch_.push_back({at, piece[i].against, piece[i].along});
+    }
+  }
+  piece.swap(scratch_);
+}
+
+}  // namespace temper
