@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "io/scanner.hpp"
 #include "io/values.hpp"
 
 namespace temper::io {
@@ -67,9 +68,6 @@ void CellSorter::add(int type, const std::int32_t* p, std::size_t n, const std::
   }
 }
 
-namespace {
-
-/// Takes the tags out of the arrays, if they are there. `region` itself is consumed; another name also stays as data.
 std::vector<std::int32_t> tags_of(std::vector<DataArray>& arrays) {
   for (const std::string_view name : kRegionNames) {
     const DataArray* array = find(arrays, name);
@@ -81,8 +79,6 @@ std::vector<std::int32_t> tags_of(std::vector<DataArray>& arrays) {
   }
   return {};
 }
-
-}  // namespace
 
 void CellSorter::distribute(std::vector<DataArray>&& cell_data) {
   MeshFile& f = document_.file;
@@ -111,6 +107,23 @@ void CellSorter::take_tags() {
   f.line_tags.resize(f.lines.size());
   f.point_tags = tags_of(f.marked_point_data);
   f.point_tags.resize(f.marked_points.size());
+}
+
+void take_physical_names(Document& document) {
+  const std::string& path = document.names->path;
+  const auto taken = take(document.file.field_data, "physical_names");
+  if (!taken) return;
+  const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&taken->values);
+  if (bytes == nullptr) fail(ErrorCode::syntax, path, "the field array 'physical_names' is not of type UInt8");
+  const std::string all(bytes->begin(), bytes->end());
+  Scanner scanner(path, all);
+  while (!scanner.at_end()) {
+    PhysicalName name;
+    name.dimension = scanner.integer("the dimension of a physical name");
+    name.tag = scanner.integer("the tag of a physical name");
+    name.name = scanner.rest_of_line();
+    document.file.names.push_back(std::move(name));
+  }
 }
 
 void take_point_data(Document& document, std::vector<DataArray>&& arrays) {

@@ -32,6 +32,13 @@ class CellSorter {
   RunLength triangle_cells_, line_cells_, point_cells_;  // which cell of the file each one was
 };
 
+/// Takes the regions or tags out of the arrays of triangles, lines or points, if they are there. `region` itself is
+/// consumed; an array of another name also stays as data.
+[[nodiscard]] std::vector<std::int32_t> tags_of(std::vector<DataArray>& arrays);
+
+/// Physical names of the VTK family: lines "dimension tag name" in the bytes of the field array `physical_names`.
+void take_physical_names(Document& document);
+
 /// Point data of the VTK family: `weight` becomes the weights.
 void take_point_data(Document& document, std::vector<DataArray>&& arrays);
 

@@ -230,23 +230,6 @@ void warn_of_dropped(const WriteJob& job) {
   warn_of_names(job, "medit");
 }
 
-/// The reference of each vertex: its tag. Of several tags the first is kept.
-std::vector<std::int32_t> vertex_references(const WriteJob& job) {
-  const MeshFile& f = job.file;
-  std::vector<std::int32_t> references(f.points.size());
-  std::size_t lost = 0;
-  for (std::size_t i = 0; i < f.marked_points.size(); ++i) {
-    std::int32_t& r = references[static_cast<std::size_t>(f.marked_points[i])];
-    if (r == 0)
-      r = f.point_tags[i];
-    else
-      ++lost;
-  }
-  if (lost > 0)
-    job.warn(text(lost, " further tags of points that have one already are not written: medit holds one a vertex"));
-  return references;
-}
-
 }  // namespace
 
 Document read_medit(Source& source) { return MeditReader(source).read(); }
@@ -254,9 +237,9 @@ Document read_medit(Source& source) { return MeditReader(source).read(); }
 void write_medit(const WriteJob& job) {
   const MeshFile& f = job.file;
   Output& out = job.outputs.open(job.path);
-  const bool flat = f.z == 0 && !std::signbit(f.z);
+  const bool flat = is_flat(f);
   out.put("MeshVersionFormatted 2\nDimension ", flat ? 2 : 3, "\n\nVertices\n", f.points.size(), '\n');
-  const auto references = vertex_references(job);
+  const auto references = one_tag_a_point(job, "medit");
   for (std::size_t i = 0; i < f.points.size(); ++i) {
     out.put(f.points[i].x, ' ', f.points[i].y, ' ');
     if (!flat) out.put(f.z, ' ');

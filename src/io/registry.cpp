@@ -3,6 +3,7 @@
 // A new format is one source file with a sniff, a read and maybe a write, and one row here.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <iterator>
 #include <new>
@@ -19,10 +20,18 @@ constexpr FormatRow kRows[] = {
     {{"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", true, true}, sniff_gmsh41, read_gmsh, write_gmsh41},
     {{"gmsh22", "Gmsh MSH 2.2", ".msh2", true, true}, sniff_gmsh22, read_gmsh, write_gmsh22},
     {{"medit", "medit (INRIA, Mmg)", ".mesh", true, false}, sniff_medit, read_medit, write_medit},
+    {{"jigsaw", "JIGSAW mesh", ".jigsaw.msh", true, true}, sniff_jigsaw, read_jigsaw_mesh, write_jigsaw_mesh},
+    {{"ply", "PLY", ".ply", true, true}, sniff_ply, read_ply, write_ply},
+    {{"off", "OFF", ".off", true, false}, sniff_off, read_off, write_off},
+    // Before those whose first word may be that of a title.
+    {{"adcirc", "ADCIRC fort.14", ".14 .grd", true, false}, sniff_adcirc, read_adcirc, write_adcirc},
     {{"obj", "Wavefront OBJ", ".obj", true, false}, sniff_obj, read_obj, write_obj},
-    {{"vtk", "legacy VTK", ".vtk", false, true}, sniff_legacy_vtk, read_legacy_vtk, nullptr},
+    {{"vtk", "legacy VTK 2.0 to 4.2", ".vtk", true, true}, sniff_legacy_vtk, read_legacy_vtk, write_legacy_vtk},
+    {{"vtk51", "legacy VTK 5.1", ".vtk51", true, true}, sniff_vtk51, read_legacy_vtk, write_vtk51},
     {{"mfem", "MFEM mesh v1.0", ".mesh", false, false}, sniff_mfem, read_mfem, nullptr},
     {{"triangle", "Triangle", ".node .ele", true, true}, sniff_triangle, read_triangle, write_triangle},
+    {{"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", true, true}, sniff_mpas, read_mpas, write_mpas},
+    {{"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", true, true}, sniff_ugrid, read_ugrid, write_ugrid},
 };
 
 template <std::size_t... I>
@@ -60,14 +69,16 @@ MeshFile read_or_throw(const std::string& path, const ReadOptions& options) {
   return std::move(document.file);
 }
 
-bool has_suffix(const Format& format, const std::string& path) {
+/// The length of the format's suffix that the path ends with, or 0.
+std::size_t suffix_length(const Format& format, const std::string& path) {
   std::string_view left = format.suffixes;
+  std::size_t longest = 0;
   while (!left.empty()) {
     const std::size_t end = std::min(left.find(' '), left.size());
-    if (path.ends_with(left.substr(0, end))) return true;
+    if (path.ends_with(left.substr(0, end))) longest = std::max(longest, end);
     left.remove_prefix(std::min(end + 1, left.size()));
   }
-  return false;
+  return longest;
 }
 
 std::string writable_suffixes() {
@@ -94,9 +105,16 @@ const FormatRow& row_to_write(const std::string& path, const WriteOptions& optio
     fail(ErrorCode::invalid_option, path,
          text("cannot be written as '", options.format, "'; expected one of ", writable_names()));
   }
+  // .jigsaw.msh is more than .msh; of equals the first.
+  const FormatRow* best = nullptr;
+  std::size_t longest = 0;
   for (const FormatRow& row : kRows) {
-    if (row.write != nullptr && has_suffix(row.format, path)) return row;
+    const std::size_t length = row.write == nullptr ? 0 : suffix_length(row.format, path);
+    if (length <= longest) continue;
+    longest = length;
+    best = &row;
   }
+  if (best != nullptr) return *best;
   fail(ErrorCode::invalid_option, path,
        text("the suffix names no format that temper writes; expected one of ", writable_suffixes(), ", or a format"));
 }
@@ -184,5 +202,37 @@ void warn_of_names(const WriteJob& job, std::string_view format) {
   for (const PhysicalName& n : job.file.names) names += text(names.empty() ? "" : ", ", n.name);
   if (!names.empty()) job.warn(text("physical names are not written, ", format, " has no place for them: ", names));
 }
+
+void warn_of_regions(const WriteJob& job, std::string_view format) {
+  const auto& regions = job.file.regions;
+  if (std::any_of(regions.begin(), regions.end(), [](std::int32_t r) { return r != 0; }))
+    job.warn(text("regions are not written, ", format, " has no place for them"));
+}
+
+void warn_of_tags(const WriteJob& job, std::string_view format) {
+  warn_of_regions(job, format);
+  if (!job.file.lines.empty()) job.warn(text("lines are not written, ", format, " has no place for them"));
+  if (!job.file.marked_points.empty())
+    job.warn(text("marked points are not written, ", format, " has no place for them"));
+}
+
+std::vector<std::int32_t> one_tag_a_point(const WriteJob& job, std::string_view format) {
+  const MeshFile& f = job.file;
+  std::vector<std::int32_t> tags(f.points.size());
+  std::size_t lost = 0;
+  for (std::size_t i = 0; i < f.marked_points.size(); ++i) {
+    std::int32_t& tag = tags[static_cast<std::size_t>(f.marked_points[i])];
+    if (tag == 0)
+      tag = f.point_tags[i];
+    else
+      ++lost;
+  }
+  if (lost > 0)
+    job.warn(
+        text(lost, " further tags of points that have one already are not written: ", format, " holds one a point"));
+  return tags;
+}
+
+bool is_flat(const MeshFile& file) { return file.z == 0 && !std::signbit(file.z); }
 
 }  // namespace temper::io

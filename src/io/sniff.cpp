@@ -12,16 +12,6 @@ std::string_view skip_blanks(std::string_view s) {
   return first == std::string_view::npos ? std::string_view{} : s.substr(first);
 }
 
-/// The first line that is neither blank nor a '#' comment.
-std::string_view first_line(std::string_view s) {
-  for (s = skip_blanks(s); s.starts_with('#'); s = skip_blanks(s)) {
-    const std::size_t end = s.find('\n');
-    if (end == std::string_view::npos) return {};
-    s.remove_prefix(end);
-  }
-  return s.substr(0, s.find('\n'));
-}
-
 bool starts_with_any_case(std::string_view s, std::string_view upper) {
   if (s.size() < upper.size()) return false;
   for (std::size_t i = 0; i < upper.size(); ++i) {
@@ -55,7 +45,6 @@ struct Known {
 };
 
 constexpr Known kKnown[] = {
-    {"a JIGSAW mesh", [](std::string_view h) { return starts_with_any_case(first_line(h), "MSHID="); }},
     {"a Fluent mesh",
      [](std::string_view h) {
        const std::string_view s = skip_blanks(h);
@@ -73,8 +62,6 @@ constexpr Known kKnown[] = {
      [](std::string_view h) { return h.find("<VTKFile") != h.npos; }},
     {"an XDMF file", [](std::string_view h) { return h.find("<Xdmf") != h.npos; }},
     {"a DOLFIN XML mesh", [](std::string_view h) { return h.find("<dolfin") != h.npos; }},
-    {"a PLY file", [](std::string_view h) { return h.starts_with("ply"); }},
-    {"an OFF file", [](std::string_view h) { return h.starts_with("OFF"); }},
     {"an STL file", [](std::string_view h) { return h.starts_with("solid"); }},
     {"an Abaqus input file",
      [](std::string_view h) {
@@ -83,8 +70,6 @@ constexpr Known kKnown[] = {
      }},
     {"a 2DM mesh", [](std::string_view h) { return h.starts_with("MESH2D"); }},
     {"a Netgen mesh", [](std::string_view h) { return h.starts_with("mesh3d") || h.starts_with("areamesh"); }},
-    {"a NetCDF file (Exodus?)", [](std::string_view h) { return h.starts_with("CDF"); }},
-    {"an HDF5 file", [](std::string_view h) { return h.starts_with("\x89HDF"); }},
     {"a compressed file", [](std::string_view h) { return h.starts_with("\x1f\x8b") || h.starts_with("PK\3\4"); }},
     {"a FreeFem mesh", is_freefem},
 };

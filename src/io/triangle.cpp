@@ -305,21 +305,11 @@ std::vector<DataArray> without(const std::vector<DataArray>& arrays, std::string
 void write_node(const WriteJob& job, const std::string& base) {
   const MeshFile& f = job.file;
   Output& out = job.outputs.open(base + ".node");
-  std::vector<std::int32_t> markers(f.points.size());
-  std::size_t lost = 0;
-  for (std::size_t i = 0; i < f.marked_points.size(); ++i) {
-    std::int32_t& m = markers[static_cast<std::size_t>(f.marked_points[i])];
-    if (m == 0)
-      m = f.point_tags[i];
-    else
-      ++lost;
-  }
-  if (lost > 0)
-    job.warn(text(lost, " further tags of points that have one already are not written: Triangle holds one a point"));
+  const auto markers = one_tag_a_point(job, "Triangle");
   const auto arrays = f.weights.empty() ? f.point_data : without(f.point_data, "weight", job);
   if (!f.weights.empty()) declare(out, "float64", 1, "weight");
   const std::size_t columns = declare_all(out, arrays) + (f.weights.empty() ? 0 : 1);
-  if (f.z != 0 || std::signbit(f.z)) out.put(kDeclaredZ, f.z, '\n');
+  if (!is_flat(f)) out.put(kDeclaredZ, f.z, '\n');
   for (const PhysicalName& n : f.names) out.put(kDeclaredName, n.dimension, ' ', n.tag, ' ', n.name, '\n');
   const bool marked = !f.marked_points.empty();
   out.put(f.points.size(), " 2 ", columns, ' ', marked ? 1 : 0, '\n');

@@ -45,7 +45,6 @@ class VtuReader {
   void read_cells(const pugi::xml_node& piece);
   void read_point_data(const pugi::xml_node& piece);
   void read_field_data(const pugi::xml_node& grid);
-  void take_names();
 
   DataArray array(const pugi::xml_node& node);
   std::vector<DataArray> arrays(const pugi::xml_node& parent, std::size_t tuples, std::string_view kind);
@@ -84,7 +83,7 @@ Document VtuReader::read() {
   read_points(piece);
   read_cells(piece);
   read_point_data(piece);
-  take_names();
+  take_physical_names(document_);
   return std::move(document_);
 }
 
@@ -359,23 +358,6 @@ void VtuReader::read_field_data(const pugi::xml_node& grid) {
       continue;
     }
     document_.file.field_data.push_back(array(node));
-  }
-}
-
-// Physical names are lines "dimension tag name" in the bytes of the field array physical_names.
-void VtuReader::take_names() {
-  const auto taken = take(document_.file.field_data, "physical_names");
-  if (!taken) return;
-  const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&taken->values);
-  if (bytes == nullptr) fail(ErrorCode::syntax, source_.path, "the field array 'physical_names' is not of type UInt8");
-  const std::string all(bytes->begin(), bytes->end());
-  Scanner scanner(source_.path, all);
-  while (!scanner.at_end()) {
-    PhysicalName name;
-    name.dimension = scanner.integer("the dimension of a physical name");
-    name.tag = scanner.integer("the tag of a physical name");
-    name.name = scanner.rest_of_line();
-    document_.file.names.push_back(std::move(name));
   }
 }
 

@@ -23,8 +23,8 @@ const std::vector<Bad>& bad_files() {
       {"empty_file", "m.mesh", "", ErrorCode::empty_input, "m.mesh: the file is empty"},
       {"garbage", "m.mesh", "once upon a time\n", ErrorCode::syntax,
        "m.mesh: is none of the formats that temper reads: VTK XML unstructured grid, temper's own, Gmsh MSH 4.1, Gmsh "
-       "MSH 2.2, "
-       "medit (INRIA, Mmg), Wavefront OBJ, legacy VTK, MFEM mesh v1.0, Triangle"},
+       "MSH 2.2, medit (INRIA, Mmg), JIGSAW mesh, PLY, OFF, ADCIRC fort.14, Wavefront OBJ, legacy VTK 2.0 to 4.2, "
+       "legacy VTK 5.1, MFEM mesh v1.0, Triangle, MPAS mesh (NetCDF), UGRID (NetCDF)"},
       {"truncated_medit", "m.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n1 0 0\n1 1",
        ErrorCode::truncated, "m.mesh:4: announces 4 vertices, but only 16 bytes follow"},
       {"truncated_inside_a_row", "m.mesh",

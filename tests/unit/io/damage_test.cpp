@@ -32,6 +32,18 @@ class Damage : public FileTest {
     add("medit", "a.mesh", {"medit", {}});
     add("obj", "a.obj", {"obj", {}});
     add("triangle", "a.node", {"triangle", {}});
+    add("vtk binary", "d.vtk", {"vtk", Encoding::appended});
+    add("vtk51 ascii", "e.vtk", {"vtk51", Encoding::ascii});
+    add("vtk51 binary", "f.vtk", {"vtk51", Encoding::appended});
+    add("jigsaw", "e.msh", {"jigsaw", {}});
+    add("ply ascii", "a.ply", {"ply", Encoding::ascii});
+    add("ply binary", "b.ply", {"ply", Encoding::appended});
+    add("off", "a.off", {"off", {}});
+    add("adcirc", "a.14", {"adcirc", {}});
+    if (TEMPER_NETCDF) {
+      add("mpas", "a.nc", {"mpas", {}});
+      add("ugrid", "b.nc", {"ugrid", {}});
+    }
     result.push_back({"triangle ele", "a.ele", slurp(path("a.ele"))});
     result.push_back({"triangle poly", "a.poly", slurp(path("a.poly"))});
     result.push_back({"weights", "a.obj.weights.csv", slurp(path("a.obj.weights.csv"))});
@@ -141,6 +153,11 @@ TEST_F(Damage, counts_larger_than_the_file_are_refused_before_memory_is_asked_fo
       {"a.mesh", "MFEM mesh v1.0\ndimension\n2\nelements\n4000000000000\n"},
       {"b.mesh", "MeshVersionFormatted 2\nDimension 2\nCorners\n4000000000000\n"},
       {"a.node", "4000000000000 2 0 0\n"},
+      {"c.msh", "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=4000000000000\n0;0;0\n"},
+      {"d.msh", "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOWER=4000000000000;1\n0\n"},
+      {"a.off", "OFF\n4000000000000 1 0\n0 0 0\n"},
+      {"a.ply", "ply\nformat binary_big_endian 1.0\nelement vertex 4000000000000\nproperty char x\nend_header\n0"},
+      {"fort.14", "t\n1 4000000000000\n1 0 0 0\n"},
       {"a.vtu",
        "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\"><UnstructuredGrid>"
        "<Piece NumberOfPoints=\"2000000000\" NumberOfCells=\"2000000000\"><Points>"

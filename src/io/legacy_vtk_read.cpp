@@ -1,7 +1,6 @@
 // Legacy VTK, versions 2.0 to 5.1, ASCII and binary (big-endian): UNSTRUCTURED_GRID and POLYDATA of triangles.
 //
-// Attributes of points and cells in all their forms (SCALARS, VECTORS, FIELD, …) are kept as data. Read only: what
-// temper writes for VTK is VTU.
+// Attributes of points and cells in all their forms (SCALARS, VECTORS, FIELD, …) are kept as data.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -15,7 +14,8 @@
 
 namespace temper::io {
 
-bool sniff_legacy_vtk(std::string_view head) { return head.starts_with("# vtk DataFile"); }
+bool sniff_vtk51(std::string_view head) { return head.starts_with("# vtk DataFile Version 5"); }
+bool sniff_legacy_vtk(std::string_view head) { return head.starts_with("# vtk DataFile") && !sniff_vtk51(head); }
 
 namespace {
 
@@ -24,12 +24,22 @@ struct LegacyType {
   std::string_view name;
   Scalar scalar;
 };
-constexpr LegacyType kTypes[] = {
-    {"float", Scalar::f32},          {"double", Scalar::f64},       {"int", Scalar::i32},
-    {"vtkidtype", Scalar::i32},      {"long", Scalar::i64},         {"vtktypeint64", Scalar::i64},
-    {"unsigned_char", Scalar::u8},   {"char", Scalar::i8},          {"short", Scalar::i16},
-    {"unsigned_short", Scalar::u16}, {"unsigned_int", Scalar::u32}, {"unsigned_long", Scalar::u64},
-    {"vtktypeuint64", Scalar::u64},  {"long_long", Scalar::i64},    {"unsigned_long_long", Scalar::u64}};
+constexpr LegacyType kTypes[] = {{"float", Scalar::f32},
+                                 {"double", Scalar::f64},
+                                 {"int", Scalar::i32},
+                                 {"vtkidtype", Scalar::i32},
+                                 {"long", Scalar::i64},
+                                 {"vtktypeint64", Scalar::i64},
+                                 {"unsigned_char", Scalar::u8},
+                                 {"char", Scalar::i8},
+                                 {"signed_char", Scalar::i8},
+                                 {"short", Scalar::i16},
+                                 {"unsigned_short", Scalar::u16},
+                                 {"unsigned_int", Scalar::u32},
+                                 {"unsigned_long", Scalar::u64},
+                                 {"vtktypeuint64", Scalar::u64},
+                                 {"long_long", Scalar::i64},
+                                 {"unsigned_long_long", Scalar::u64}};
 
 std::string lower(std::string_view s) {
   std::string result(s);
@@ -105,6 +115,7 @@ Document LegacyVtkReader::read() {
   if (!has_points_) scanner_.fail_truncated("POINTS");
   finish_cells();
   take_point_data(document_, std::move(point_data_));
+  take_physical_names(document_);
   return std::move(document_);
 }
 

@@ -1,0 +1,38 @@
+// What the reader and the writer of ADCIRC's fort.14 agree on.
+//
+// A boundary is lines of one tag, and its physical name says what it is: "open boundary 2", "land boundary 3, type 20".
+// So it survives in all formats that hold names, and comes back to fort.14. Rows of boundaries with levees (weirs) hold
+// more numbers: their nodes are marked points with that tag, a node and its partner across the levee one after the
+// other.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace temper::io {
+
+inline constexpr std::string_view kAdcircTitle = "adcirc:title";  ///< field data: bytes of the first line
+inline constexpr std::string_view kAdcircDepth = "depth";         ///< point data: positive downwards
+inline constexpr std::string_view kAdcircLevee =
+    "adcirc:levee";                                             ///< of marked points: what follows the node in its row
+inline constexpr std::string_view kAdcircSide = "adcirc:side";  ///< of marked points: 0 the node, 1 its partner
+inline constexpr int kAdcircLeveeNumbers = 6;
+
+struct AdcircBoundary {
+  bool open = false;
+  std::int32_t type = 0;  ///< IBTYPEE or IBTYPE
+};
+
+[[nodiscard]] std::string adcirc_boundary_name(const AdcircBoundary& boundary, std::size_t number);
+[[nodiscard]] std::optional<AdcircBoundary> adcirc_boundary(std::string_view name);
+
+/// Whether nodes of a type have a partner, and how many numbers follow in their row.
+struct AdcircRow {
+  bool paired = false;
+  int numbers = 0;
+};
+[[nodiscard]] AdcircRow adcirc_row(const AdcircBoundary& boundary);
+
+}  // namespace temper::io

@@ -1,0 +1,253 @@
+// JIGSAW's meshes (Engwirda): MSHID=3;EUCLIDEAN-MESH, sections NAME=n of n lines with their numbers between semicolons.
+//
+//   NDIMS=2          3 when the plane of the mesh is not z = 0
+//   POINT=n          x;y;tag               tag 0: none
+//   POWER=n;1        w                     weights, with the sign that temper has
+//   VALUE=n;k        k numbers a point     kept as data `value`, SLOPE as data `slope`
+//   EDGE2=n          a;b;tag               TRIA3=n          a;b;c;tag
+//
+// Points count from 0. Geometries of the same format (edges without triangles) are outlines: outline_jigsaw.cpp.
+#include <algorithm>
+#include <cctype>
+
+#include "io/format.hpp"
+#include "io/scanner.hpp"
+#include "io/values.hpp"
+
+namespace temper::io {
+
+namespace {
+
+constexpr std::pair<std::string_view, std::string_view> kOtherJigsawCells[] = {
+    {"QUAD4", "quadrilateral"}, {"TRIA4", "tetrahedron"}, {"HEXA8", "hexahedron"},
+    {"WEDG6", "wedge"},         {"PYRA5", "pyramid"},
+};
+
+/// Sections of data of the points, and the arrays they become.
+constexpr std::pair<std::string_view, std::string_view> kJigsawData[] = {{"VALUE", "value"}, {"SLOPE", "slope"}};
+
+std::string upper_case(std::string_view s) {
+  std::string result(s);
+  for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return result;
+}
+
+class JigsawMeshReader {
+ public:
+  explicit JigsawMeshReader(Source& source)
+      : document_(new_document(source.path)), scanner_(source.path, separated(source.bytes), '#') {}
+  Document read();
+
+ private:
+  static std::string_view separated(std::string& bytes);
+  void section(const std::string& name);
+  void kind();
+  void dimension();
+  void points();
+  void point_values(const std::string& name);
+  void edges();
+  void triangles();
+  void other(const std::string& name);
+
+  Document document_;
+  Scanner scanner_;
+  int dimension_ = 2;
+};
+
+/// Semicolons and the equals signs of titles are blanks here, so that the scanner finds its words.
+std::string_view JigsawMeshReader::separated(std::string& bytes) {
+  for (char& c : bytes) {
+    if (c == ';' || c == '=') c = ' ';
+  }
+  return bytes;
+}
+
+Document JigsawMeshReader::read() {
+  while (!scanner_.at_end()) section(upper_case(scanner_.word("a section")));
+  MeshFile& f = document_.file;
+  if (std::all_of(f.regions.begin(), f.regions.end(), [](std::int32_t r) { return r == 0; })) f.regions.clear();
+  for (const auto& [name, array] : kJigsawData) {
+    const DataArray* data = find(f.point_data, array);
+    if (data == nullptr || size(data->values) == f.points.size() * static_cast<std::size_t>(data->components)) continue;
+    fail(ErrorCode::size_mismatch, scanner_.path(),
+         text(name, " has ", size(data->values) / static_cast<std::size_t>(data->components), " rows, but there are ",
+              f.points.size(), " points"));
+  }
+  if (!f.weights.empty() && f.weights.size() != f.points.size()) {
+    fail(ErrorCode::size_mismatch, scanner_.path(),
+         text("POWER has ", f.weights.size(), " rows, but there are ", f.points.size(), " points"));
+  }
+  document_.names->triangles = RunLength(0, f.triangles.size());
+  document_.names->lines = RunLength(0, f.lines.size());
+  return std::move(document_);
+}
+
+void JigsawMeshReader::section(const std::string& name) {
+  if (name == "MSHID") return kind();
+  if (name == "NDIMS") return dimension();
+  if (name == "RADII") return scanner_.next_line();
+  if (name == "POINT") return points();
+  if (name == "EDGE2") return edges();
+  if (name == "TRIA3") return triangles();
+  if (name == "POWER" || name == "VALUE" || name == "SLOPE") return point_values(name);
+  other(name);
+}
+
+void JigsawMeshReader::kind() {
+  const auto version = scanner_.integer("the version of the format");
+  if (version < 1 || version > 3)
+    scanner_.fail_here(ErrorCode::unsupported, text("is JIGSAW version ", version, "; temper reads 1 to 3"));
+  // Version 1 had no kinds: all were meshes in the plane or in space.
+  if (!scanner_.more_on_line()) return;
+  const std::string found = upper_case(scanner_.word("the kind of file"));
+  if (found == "EUCLIDEAN-MESH") return;
+  scanner_.fail_here(ErrorCode::unsupported, text("is of kind ", quoted(found), "; temper reads EUCLIDEAN-MESH"));
+}
+
+void JigsawMeshReader::dimension() {
+  dimension_ = scanner_.integer("the dimension");
+  if (dimension_ != 2 && dimension_ != 3)
+    scanner_.fail_here(ErrorCode::unsupported, text("has dimension ", dimension_, "; expected 2 or 3"));
+}
+
+void JigsawMeshReader::points() {
+  MeshFile& f = document_.file;
+  FileNames& names = *document_.names;
+  if (!f.points.empty()) scanner_.fail_here(ErrorCode::syntax, "has a second section POINT");
+  const std::size_t n = scanner_.count("points", 6);
+  f.points.reserve(n);
+  names.points = RunLength(0, n);
+  PlaneCheck plane(document_);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = scanner_.real("the x coordinate of a point");
+    names.point_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+    f.points.push_back({x, scanner_.real("the y coordinate of a point")});
+    if (dimension_ == 3) plane.add(i, scanner_.real("the z coordinate of a point"));
+    const std::int32_t tag = scanner_.integer("the tag of a point");
+    if (tag == 0) continue;
+    f.marked_points.push_back(static_cast<std::int32_t>(i));
+    f.point_tags.push_back(tag);
+  }
+}
+
+void JigsawMeshReader::point_values(const std::string& name) {
+  MeshFile& f = document_.file;
+  const std::size_t n = scanner_.count("rows", 2);
+  const std::size_t columns = scanner_.more_on_line() ? scanner_.count("columns", 1) : 1;
+  constexpr std::size_t kMostColumns = 4096;
+  if (columns < 1 || columns > kMostColumns)
+    scanner_.fail_here(ErrorCode::syntax, text(name, " has ", columns, " columns; expected 1 to ", kMostColumns));
+  if (name == "POWER" && columns != 1)
+    scanner_.fail_here(ErrorCode::unsupported, text("POWER has ", columns, " columns; expected one weight a point"));
+  scanner_.check_room(n * columns, "numbers", 2);
+  std::vector<double> values(n * columns);
+  for (double& value : values) value = scanner_.real(text("a number of ", name));
+  if (name == "POWER") {
+    f.weights = std::move(values);
+    return;
+  }
+  const std::string_view array = name == "VALUE" ? kJigsawData[0].second : kJigsawData[1].second;
+  if (find(f.point_data, array) != nullptr) scanner_.fail_here(ErrorCode::syntax, text("has a second section ", name));
+  if (n > 0) f.point_data.push_back({std::string(array), static_cast<int>(columns), std::move(values)});
+}
+
+void JigsawMeshReader::edges() {
+  MeshFile& f = document_.file;
+  const std::size_t n = scanner_.count("edges", 6);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::int32_t a = scanner_.vertex(0);
+    document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+    f.lines.push_back({a, scanner_.vertex(0)});
+    f.line_tags.push_back(scanner_.integer("the tag of an edge"));
+  }
+}
+
+void JigsawMeshReader::triangles() {
+  MeshFile& f = document_.file;
+  const std::size_t n = scanner_.count("triangles", 8);
+  f.triangles.reserve(f.triangles.size() + n);
+  f.regions.reserve(f.triangles.size() + n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::int32_t a = scanner_.vertex(0);
+    document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+    const std::int32_t b = scanner_.vertex(0);
+    f.triangles.push_back({a, b, scanner_.vertex(0)});
+    f.regions.push_back(scanner_.integer("the tag of a triangle"));
+  }
+}
+
+void JigsawMeshReader::other(const std::string& name) {
+  const bool word = !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0;
+  if (!word) scanner_.fail_here(ErrorCode::syntax, text("expected a section NAME=…, found ", quoted(name)));
+  const std::size_t n = scanner_.count("lines", 2);
+  for (const auto& [cells, kind] : kOtherJigsawCells) {
+    if (name != cells || n == 0) continue;
+    scanner_.next_line();
+    refuse_element(scanner_.where(), 0, kind);
+  }
+  if (n > 0) document_.file.warnings.push_back(text(scanner_.where(), ": section ", quoted(name), " is dropped"));
+  scanner_.next_line();
+  for (std::size_t i = 0; i < n; ++i) scanner_.next_line();
+}
+
+// --- writing ---------------------------------------------------------------------------------------------
+
+const std::vector<double>* jigsaw_values(const DataArray& array) {
+  const bool named = std::any_of(std::begin(kJigsawData), std::end(kJigsawData),
+                                 [&](const auto& row) { return row.second == array.name; });
+  return named ? std::get_if<std::vector<double>>(&array.values) : nullptr;
+}
+
+void write_jigsaw_values(Output& out, std::string_view name, std::size_t columns, const std::vector<double>& values) {
+  out.put(name, '=', values.size() / columns, ';', columns, '\n');
+  for (std::size_t i = 0; i < values.size(); ++i) out.put(values[i], (i + 1) % columns == 0 ? '\n' : ';');
+}
+
+void warn_of_lost_in_jigsaw(const WriteJob& job) {
+  std::vector<DataArray> dropped;
+  for (const DataArray& a : job.file.point_data) {
+    if (jigsaw_values(a) == nullptr) dropped.push_back({a.name, a.components, {}});
+  }
+  warn_of_data(job, "JIGSAW", "point data", dropped);
+  warn_of_data(job, "JIGSAW", "cell data", job.file.cell_data);
+  warn_of_data(job, "JIGSAW", "line data", job.file.line_data);
+  warn_of_data(job, "JIGSAW", "data of marked points", job.file.marked_point_data);
+  warn_of_data(job, "JIGSAW", "field data", job.file.field_data);
+  warn_of_names(job, "JIGSAW");
+}
+
+}  // namespace
+
+Document read_jigsaw_mesh(Source& source) { return JigsawMeshReader(source).read(); }
+
+void write_jigsaw_mesh(const WriteJob& job) {
+  const MeshFile& f = job.file;
+  Output& out = job.outputs.open(job.path);
+  const bool flat = is_flat(f);
+  out.put("MSHID=3;EUCLIDEAN-MESH\nNDIMS=", flat ? 2 : 3, "\nPOINT=", f.points.size(), '\n');
+  const auto tags = one_tag_a_point(job, "JIGSAW");
+  for (std::size_t i = 0; i < f.points.size(); ++i) {
+    out.put(f.points[i].x, ';', f.points[i].y, ';');
+    if (!flat) out.put(f.z, ';');
+    out.put(tags[i], '\n');
+  }
+  if (!f.weights.empty()) write_jigsaw_values(out, "POWER", 1, f.weights);
+  for (const auto& [name, array] : kJigsawData) {
+    const DataArray* data = find(f.point_data, array);
+    const auto* values = data == nullptr ? nullptr : jigsaw_values(*data);
+    if (values != nullptr) write_jigsaw_values(out, name, static_cast<std::size_t>(data->components), *values);
+  }
+  if (!f.lines.empty()) {
+    out.put("EDGE2=", f.lines.size(), '\n');
+    for (std::size_t i = 0; i < f.lines.size(); ++i)
+      out.put(f.lines[i][0], ';', f.lines[i][1], ';', f.line_tags[i], '\n');
+  }
+  out.put("TRIA3=", f.triangles.size(), '\n');
+  for (std::size_t i = 0; i < f.triangles.size(); ++i) {
+    const auto& t = f.triangles[i];
+    out.put(t[0], ';', t[1], ';', t[2], ';', f.regions.empty() ? 0 : f.regions[i], '\n');
+  }
+  warn_of_lost_in_jigsaw(job);
+}
+
+}  // namespace temper::io

@@ -1,0 +1,247 @@
+// MPAS meshes in the plane (MPAS Mesh Specification 1.0): cells are points, MPAS's vertices are triangles.
+//
+// Read are xCell, yCell, zCell and cellsOnVertex; vertices of fewer than three cells, on a boundary, are no triangles.
+// The variable weight, of cells, is temper's own; so is cullCell, 1 for cells at the boundary, which MPAS-Tools' culler
+// removes.
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "io/mpas.hpp"
+#include "io/netcdf_extras.hpp"
+#include "io/scanner.hpp"
+
+namespace temper::io {
+
+bool sniff_mpas(std::string_view head) {
+  return is_netcdf(head) && head.find("vertexDegree") != std::string_view::npos &&
+         head.find("nVertices") != std::string_view::npos;
+}
+
+namespace {
+
+constexpr std::string_view kMpasWeight = "weight";
+
+/// What follows from the mesh and is computed anew.
+const std::set<std::string_view> kMpasDerived = {"latCell",        "lonCell",
+                                                 "xCell",          "yCell",
+                                                 "zCell",          "indexToCellID",
+                                                 "latEdge",        "lonEdge",
+                                                 "xEdge",          "yEdge",
+                                                 "zEdge",          "indexToEdgeID",
+                                                 "latVertex",      "lonVertex",
+                                                 "xVertex",        "yVertex",
+                                                 "zVertex",        "indexToVertexID",
+                                                 "cellsOnEdge",    "nEdgesOnCell",
+                                                 "nEdgesOnEdge",   "edgesOnCell",
+                                                 "edgesOnEdge",    "weightsOnEdge",
+                                                 "dvEdge",         "dcEdge",
+                                                 "dv1Edge",        "dv2Edge",
+                                                 "angleEdge",      "areaCell",
+                                                 "areaTriangle",   "cellsOnCell",
+                                                 "verticesOnCell", "verticesOnEdge",
+                                                 "edgesOnVertex",  "cellsOnVertex",
+                                                 "meshDensity",    "gridSpacing",
+                                                 "cellQuality",    "triangleQuality",
+                                                 "obtuseTriangle", "triangleAngleQuality",
+                                                 "boundaryVertex", "kiteAreasOnVertex",
+                                                 "cullCell"};
+
+class MpasReader {
+ public:
+  MpasReader(const NetcdfReader& in, const std::string& path) : in_(in), document_(new_document(path)) {}
+
+  Document read() {
+    document_.file.format = "mpas";
+    refuse_other_kinds();
+    points();
+    triangles();
+    if (const NetcdfVariable* w = in_.find(kMpasWeight); w != nullptr && w->sizes.size() == 1 && w->scalar) {
+      document_.file.weights = to_doubles(in_.values(*w));
+      expect(document_.file.weights.size() == document_.file.points.size(), kMpasWeight);
+    }
+    read_netcdf_extras(in_, document_);
+    data();
+    return std::move(document_);
+  }
+
+ private:
+  void expect(bool good, std::string_view variable) const {
+    if (!good) fail(ErrorCode::size_mismatch, document_.names->path, text("variable ", variable, " has a wrong size"));
+  }
+
+  void refuse_other_kinds() const {
+    const std::string& path = document_.names->path;
+    const auto yes = [&](const char* name) {
+      const std::string value = in_.text_attribute(nullptr, name);
+      return value.starts_with("YES") || value.starts_with("yes");
+    };
+    if (yes("on_a_sphere"))
+      fail(ErrorCode::unsupported, path, "is an MPAS mesh on a sphere; temper reads meshes in the plane");
+    if (yes("is_periodic"))
+      fail(ErrorCode::unsupported, path, "is a periodic MPAS mesh; temper reads meshes that end at their boundary");
+  }
+
+  std::vector<double> coordinates(const char* name) const {
+    auto values = to_doubles(in_.values(in_.variable(name)));
+    return values;
+  }
+
+  void points() {
+    const auto x = coordinates("xCell"), y = coordinates("yCell");
+    expect(x.size() == y.size(), "yCell");
+    const auto z = in_.find("zCell") != nullptr ? coordinates("zCell") : std::vector<double>(x.size());
+    expect(x.size() == z.size(), "zCell");
+    document_.names->points = RunLength(1, x.size());
+    PlaneCheck plane(document_);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      document_.file.points.push_back({x[i], y[i]});
+      plane.add(i, z[i]);
+    }
+  }
+
+  void triangles() {
+    const NetcdfVariable& v = in_.variable("cellsOnVertex");
+    if (v.sizes.size() != 2 || v.sizes[1] != 3) {
+      fail(ErrorCode::unsupported, document_.names->path,
+           text("vertices have ", v.sizes.size() == 2 ? v.sizes[1] : 0, " cells; temper reads triangles"));
+    }
+    const auto cells = in_.integers(v);
+    std::size_t incomplete = 0;
+    for (std::size_t t = 0; 3 * t < cells.size(); ++t) {
+      const std::int64_t* c = cells.data() + 3 * t;
+      if (c[0] == 0 || c[1] == 0 || c[2] == 0) {
+        ++incomplete;
+        continue;
+      }
+      std::array<std::int32_t, 3> corners = {};
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!std::in_range<std::int32_t>(c[k] - 1) || c[k] < 0) {
+          fail(ErrorCode::index_out_of_range, document_.names->path,
+               text("triangle ", t + 1, " uses vertex ", c[k], ", but the file has ", document_.file.points.size(),
+                    " vertices, numbered from 1"));
+        }
+        corners[k] = static_cast<std::int32_t>(c[k] - 1);
+      }
+      document_.file.triangles.push_back(corners);
+      kept_.push_back(static_cast<std::int64_t>(t));
+      document_.names->triangles.push_back(static_cast<std::int64_t>(t) + 1);
+    }
+    all_triangles_ = incomplete == 0;
+    if (incomplete > 0) {
+      document_.file.warnings.push_back(text(document_.names->path, ": ", incomplete,
+                                             " vertices of fewer than three cells are no triangles and are left out"));
+    }
+  }
+
+  /// Other numbers of cells and vertices are data of points and triangles.
+  void data() {
+    std::string dropped;
+    for (const NetcdfVariable& v : in_.variables()) {
+      if (kMpasDerived.contains(v.name) || v.name == kMpasWeight || is_netcdf_extra(in_, v)) continue;
+      const std::string dimension = v.dimensions.size() == 1 ? in_.dimension_name(v.dimensions[0]) : "";
+      if (v.scalar && dimension == "nCells") {
+        add_netcdf_data(in_, v, document_.file.point_data);
+      } else if (v.scalar && dimension == "nVertices") {
+        add_netcdf_data(in_, v, document_.file.cell_data);
+        DataArray& a = document_.file.cell_data.back();
+        if (!all_triangles_) a.values = gather(a.values, 1, kept_);
+      } else {
+        dropped += text(dropped.empty() ? "" : ", ", v.name);
+      }
+    }
+    if (!dropped.empty())
+      document_.file.warnings.push_back(text(document_.names->path, ": variables are dropped: ", dropped));
+  }
+
+  const NetcdfReader& in_;
+  Document document_;
+  RunLength kept_;  // which vertices are triangles
+  bool all_triangles_ = true;
+};
+
+// --- writing ---------------------------------------------------------------------------------------------
+
+/// x, y and z of cells, edges or vertices, latitudes and longitudes that mean nothing, and their numbers.
+template <class Point>
+void write_mpas_places(NetcdfWriter& out, const char* what, int dimension, std::size_t n, double z, Point point) {
+  std::vector<double> x(n), y(n);
+  std::vector<std::int32_t> numbers(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 p = point(i);
+    x[i] = p.x;
+    y[i] = p.y;
+    numbers[i] = static_cast<std::int32_t>(i) + 1;
+  }
+  out.variable(text("lat", what), {dimension}, std::vector<double>(n));
+  out.variable(text("lon", what), {dimension}, std::vector<double>(n));
+  out.variable(text("x", what), {dimension}, std::move(x));
+  out.variable(text("y", what), {dimension}, std::move(y));
+  out.variable(text("z", what), {dimension}, std::vector<double>(n, z));
+  out.variable(text("indexTo", what, "ID"), {dimension}, std::move(numbers));
+}
+
+template <class IdType>
+std::vector<double> plain_values(const IdVector<IdType, double>& values) {
+  std::vector<double> result;
+  result.reserve(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) result.push_back(values[IdType(i)]);
+  return result;
+}
+
+}  // namespace
+
+Document read_mpas_from(const NetcdfReader& in, const std::string& path) { return MpasReader(in, path).read(); }
+
+Document read_mpas(Source& source) { return read_mpas_from(NetcdfReader(source), source.path); }
+
+void write_mpas(const WriteJob& job) {
+  const NetcdfMesh m = mesh_for_netcdf(job, "MPAS");
+  const DecComplex& c = m.complex;
+  MpasArrays a = mpas_arrays(m.mesh, c);
+  std::size_t n_bad = 0;
+  for (std::size_t e = 0; e < a.dv_edge.size(); ++e) n_bad += a.vertices_on_edge[2 * e + 1] > 0 && a.dv_edge[e] <= 0;
+  if (n_bad > 0)
+    job.warn(text(n_bad, " edges inside have a dvEdge that is not positive; MPAS expects a well-centered mesh"));
+  NetcdfWriter out(job.path, needs_large_types(m.file));
+  const int cells = out.dimension("nCells", m.mesh.n_vertices()), edges = out.dimension("nEdges", c.edges.size()),
+            vertices = out.dimension("nVertices", m.mesh.n_triangles()),
+            around = out.dimension("maxEdges", a.max_edges), around2 = out.dimension("maxEdges2", 2 * a.max_edges),
+            two = out.dimension("TWO", 2), degree = out.dimension("vertexDegree", 3);
+  out.attribute(NetcdfWriter::kFile, "Conventions", "MPAS");
+  out.attribute(NetcdfWriter::kFile, "mesh_spec", "1.0");
+  out.attribute(NetcdfWriter::kFile, "on_a_sphere", "NO");
+  out.attribute(NetcdfWriter::kFile, "sphere_radius", 0.0);
+  out.attribute(NetcdfWriter::kFile, "is_periodic", "NO");
+  out.attribute(NetcdfWriter::kFile, "source", "temper");
+  const double z = m.file.z;
+  write_mpas_places(out, "Cell", cells, m.mesh.n_vertices(), z,
+                    [&](std::size_t i) { return m.mesh.position(VertexId(i)); });
+  write_mpas_places(out, "Edge", edges, c.edges.size(), z, [&](std::size_t i) { return c.edges[EdgeId(i)].midpoint; });
+  write_mpas_places(out, "Vertex", vertices, m.mesh.n_triangles(), z,
+                    [&](std::size_t i) { return c.orthocenters[TriangleId(i)]; });
+  out.variable("cellsOnEdge", {edges, two}, std::move(a.cells_on_edge));
+  out.variable("verticesOnEdge", {edges, two}, std::move(a.vertices_on_edge));
+  out.variable("nEdgesOnCell", {cells}, std::move(a.n_edges_on_cell));
+  out.variable("edgesOnCell", {cells, around}, std::move(a.edges_on_cell));
+  out.variable("cellsOnCell", {cells, around}, std::move(a.cells_on_cell));
+  out.variable("verticesOnCell", {cells, around}, std::move(a.vertices_on_cell));
+  out.variable("edgesOnVertex", {vertices, degree}, std::move(a.edges_on_vertex));
+  out.variable("cellsOnVertex", {vertices, degree}, std::move(a.cells_on_vertex));
+  out.variable("nEdgesOnEdge", {edges}, std::move(a.n_edges_on_edge));
+  out.variable("edgesOnEdge", {edges, around2}, std::move(a.edges_on_edge));
+  out.variable("weightsOnEdge", {edges, around2}, std::move(a.weights_on_edge));
+  out.variable("dcEdge", {edges}, std::move(a.dc_edge));
+  out.variable("dvEdge", {edges}, std::move(a.dv_edge));
+  out.variable("angleEdge", {edges}, std::move(a.angle_edge));
+  out.variable("areaCell", {cells}, plain_values(c.star0));
+  out.variable("areaTriangle", {vertices}, plain_values(c.areas));
+  out.variable("kiteAreasOnVertex", {vertices, degree}, std::move(a.kite_areas_on_vertex));
+  out.variable("meshDensity", {cells}, std::vector<double>(m.mesh.n_vertices(), 1.0));
+  out.variable("cullCell", {cells}, std::move(a.boundary_cell));
+  if (!m.file.weights.empty()) out.variable(std::string(kMpasWeight), {cells}, m.file.weights);
+  write_netcdf_extras(out, job, m.file, {cells, vertices, {}});
+  out.finish(job.outputs.open(job.path));
+}
+
+}  // namespace temper::io

@@ -1,0 +1,391 @@
+// MPAS and UGRID, looked at with NetCDF's own functions: what solvers will find in the files.
+#include "support.hpp"
+
+#if TEMPER_NETCDF
+#include <netcdf.h>
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace temper::io {
+namespace {
+
+/// A file of NetCDF, open while a test looks at it or makes it.
+class Nc {
+ public:
+  static Nc open(const std::string& path) {
+    Nc nc;
+    EXPECT_EQ(nc_open(path.c_str(), NC_NOWRITE, &nc.id), NC_NOERR) << path;
+    return nc;
+  }
+  static Nc create(const std::string& path) {
+    Nc nc;
+    EXPECT_EQ(nc_create(path.c_str(), NC_CLOBBER, &nc.id), NC_NOERR) << path;
+    return nc;
+  }
+  ~Nc() {
+    if (id >= 0) nc_close(id);
+  }
+  Nc(Nc&& other) noexcept : id(std::exchange(other.id, -1)) {}
+  Nc(const Nc&) = delete;
+  Nc& operator=(const Nc&) = delete;
+
+  [[nodiscard]] std::size_t dimension(const char* name) const {
+    int d = -1;
+    std::size_t n = 0;
+    EXPECT_EQ(nc_inq_dimid(id, name, &d), NC_NOERR) << name;
+    EXPECT_EQ(nc_inq_dimlen(id, d, &n), NC_NOERR) << name;
+    return n;
+  }
+  template <class T>
+  [[nodiscard]] std::vector<T> get(const char* name) const {
+    int v = -1, n_dims = 0, dims[NC_MAX_VAR_DIMS];
+    nc_type type = NC_NAT;
+    EXPECT_EQ(nc_inq_varid(id, name, &v), NC_NOERR) << name;
+    EXPECT_EQ(nc_inq_var(id, v, nullptr, &type, &n_dims, dims, nullptr), NC_NOERR) << name;
+    const nc_type expected = std::is_same_v<T, double> ? NC_DOUBLE : NC_INT;
+    EXPECT_EQ(type, expected) << name;
+    std::size_t n = 1;
+    for (int i = 0; i < n_dims; ++i) {
+      std::size_t size = 0;
+      nc_inq_dimlen(id, dims[i], &size);
+      n *= size;
+    }
+    std::vector<T> values(n);
+    EXPECT_EQ(nc_get_var(id, v, values.data()), NC_NOERR) << name;
+    return values;
+  }
+  [[nodiscard]] std::string text(const char* variable, const char* name) const {
+    int v = NC_GLOBAL;
+    if (variable != nullptr) nc_inq_varid(id, variable, &v);
+    std::size_t n = 0;
+    if (nc_inq_attlen(id, v, name, &n) != NC_NOERR) return "";
+    std::string value(n, '\0');
+    nc_get_att_text(id, v, name, value.data());
+    return value;
+  }
+  int add_dimension(const char* name, std::size_t n) {
+    int d = -1;
+    EXPECT_EQ(nc_def_dim(id, name, n, &d), NC_NOERR);
+    return d;
+  }
+  template <class T>
+  int add(const char* name, const std::vector<int>& dims, const std::vector<T>& values,
+          const std::map<std::string, int>& numbers = {}) {
+    int v = -1;
+    nc_redef(id);
+    const nc_type type = std::is_same_v<T, double> ? NC_DOUBLE : NC_INT;
+    EXPECT_EQ(nc_def_var(id, name, type, static_cast<int>(dims.size()), dims.data(), &v), NC_NOERR);
+    for (const auto& [key, value] : numbers) nc_put_att_int(id, v, key.c_str(), NC_INT, 1, &value);
+    nc_enddef(id);
+    EXPECT_EQ(nc_put_var(id, v, values.data()), NC_NOERR);
+    nc_redef(id);
+    return v;
+  }
+  void say(int variable, const char* name, const std::string& value) {
+    nc_redef(id);
+    EXPECT_EQ(nc_put_att_text(id, variable, name, value.size(), value.data()), NC_NOERR);
+  }
+
+  int id = -1;
+
+ private:
+  Nc() = default;
+};
+
+/// A lattice that is bent a little, with weights that keep it well-centered enough.
+MeshFile bent_lattice() {
+  constexpr int kColumns = 5, kRows = 4;
+  MeshFile f;
+  for (int j = 0; j <= kRows; ++j) {
+    for (int i = 0; i <= kColumns; ++i) {
+      f.points.push_back({i + 0.5 * j + 0.05 * std::sin(3.0 * i + j), 0.9 * j + 0.05 * std::cos(2.0 * j + i)});
+      f.weights.push_back(0.04 * std::sin(5.0 * i + 7.0 * j));
+    }
+  }
+  for (int j = 0; j < kRows; ++j) {
+    for (int i = 0; i < kColumns; ++i) {
+      const int a = j * (kColumns + 1) + i, d = a + kColumns + 1;
+      f.triangles.push_back({a, a + 1, d});
+      f.triangles.push_back({a + 1, d + 1, d});
+    }
+  }
+  return f;
+}
+
+class NetcdfFormats : public FileTest {
+ protected:
+  void write_ok(const std::string& name, const MeshFile& f) const {
+    const auto warnings = write(path(name), f);
+    ASSERT_TRUE(warnings) << warnings.error().what();
+    EXPECT_TRUE(warnings->empty()) << (*warnings)[0];
+  }
+};
+
+TEST_F(NetcdfFormats, mpas_cells_and_triangles_are_the_sums_of_their_kites) {
+  const MeshFile f = bent_lattice();
+  write_ok("m.mpas.nc", f);
+  const Nc nc = Nc::open(path("m.mpas.nc"));
+  EXPECT_EQ(nc.text(nullptr, "on_a_sphere"), "NO");
+  const auto kites = nc.get<double>("kiteAreasOnVertex"), cell_areas = nc.get<double>("areaCell"),
+             triangle_areas = nc.get<double>("areaTriangle");
+  const auto cells = nc.get<std::int32_t>("cellsOnVertex");
+  std::vector<double> of_cells(cell_areas.size());
+  double area = 0;
+  for (std::size_t t = 0; t < triangle_areas.size(); ++t) {
+    EXPECT_NEAR(kites[3 * t] + kites[3 * t + 1] + kites[3 * t + 2], triangle_areas[t], 1e-14);
+    area += triangle_areas[t];
+    for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
+      EXPECT_EQ(cells[k] - 1, f.triangles[t][k % 3]) << "corners keep their order";
+      of_cells[static_cast<std::size_t>(cells[k] - 1)] += kites[k];
+    }
+  }
+  double sum = 0;
+  for (std::size_t c = 0; c < cell_areas.size(); ++c) {
+    EXPECT_NEAR(of_cells[c], cell_areas[c], 1e-14);
+    sum += cell_areas[c];
+  }
+  EXPECT_NEAR(sum, area, 1e-12);
+}
+
+TEST_F(NetcdfFormats, mpas_edges_cross_where_the_file_says_and_turn_the_right_way) {
+  write_ok("m.mpas.nc", bent_lattice());
+  const Nc nc = Nc::open(path("m.mpas.nc"));
+  const auto cells = nc.get<std::int32_t>("cellsOnEdge"), vertices = nc.get<std::int32_t>("verticesOnEdge");
+  const auto xc = nc.get<double>("xCell"), yc = nc.get<double>("yCell"), xv = nc.get<double>("xVertex"),
+             yv = nc.get<double>("yVertex"), xe = nc.get<double>("xEdge"), ye = nc.get<double>("yEdge"),
+             dc = nc.get<double>("dcEdge"), dv = nc.get<double>("dvEdge"), angle = nc.get<double>("angleEdge");
+  std::size_t boundary = 0;
+  for (std::size_t e = 0; e < dc.size(); ++e) {
+    const auto cell = [&](std::size_t k) {
+      const auto i = static_cast<std::size_t>(cells[2 * e + k] - 1);
+      return Vec2{xc[i], yc[i]};
+    };
+    const auto vertex = [&](std::size_t k) {
+      const auto i = static_cast<std::size_t>(vertices[2 * e + k] - 1);
+      return Vec2{xv[i], yv[i]};
+    };
+    ASSERT_GT(cells[2 * e], 0);
+    ASSERT_GT(cells[2 * e + 1], 0);
+    ASSERT_GT(vertices[2 * e], 0);
+    const Vec2 at = {xe[e], ye[e]}, along = cell(1) - cell(0);
+    // On the boundary the dual edge ends at the edge.
+    const bool inside = vertices[2 * e + 1] > 0;
+    boundary += inside ? 0 : 1;
+    const Vec2 across = (inside ? vertex(1) : at) - vertex(0);
+    EXPECT_NEAR(length(along), dc[e], 1e-14);
+    EXPECT_NEAR(length(across), dv[e], 1e-13);
+    EXPECT_NEAR(dot(along, across), 0, 1e-13);
+    EXPECT_GT(cross(along, across), 0);
+    EXPECT_NEAR(cross(along, at - cell(0)), 0, 1e-13) << "on the line of the cells";
+    EXPECT_NEAR(dot(along, at - vertex(0)), 0, 1e-13) << "on the line of the vertices";
+    EXPECT_NEAR(std::cos(angle[e]) * dc[e], along.x, 1e-13);
+    EXPECT_NEAR(std::sin(angle[e]) * dc[e], along.y, 1e-13);
+  }
+  EXPECT_EQ(boundary, 18u);
+}
+
+TEST_F(NetcdfFormats, mpas_lists_around_cells_fit_each_other) {
+  write_ok("m.mpas.nc", bent_lattice());
+  const Nc nc = Nc::open(path("m.mpas.nc"));
+  const auto n = nc.get<std::int32_t>("nEdgesOnCell"), edges = nc.get<std::int32_t>("edgesOnCell"),
+             others = nc.get<std::int32_t>("cellsOnCell"), vertices = nc.get<std::int32_t>("verticesOnCell"),
+             cells_of_edge = nc.get<std::int32_t>("cellsOnEdge"),
+             vertices_of_edge = nc.get<std::int32_t>("verticesOnEdge"), cull = nc.get<std::int32_t>("cullCell");
+  const std::size_t width = nc.dimension("maxEdges");
+  const auto has = [](const std::vector<std::int32_t>& pairs, std::int32_t edge, std::int32_t what) {
+    const auto at = 2 * static_cast<std::size_t>(edge - 1);
+    return pairs[at] == what || pairs[at + 1] == what;
+  };
+  for (std::size_t c = 0; c < n.size(); ++c) {
+    const auto degree = static_cast<std::size_t>(n[c]);
+    for (std::size_t i = 0; i < width; ++i) {
+      const std::size_t at = c * width + i;
+      if (i >= degree) {
+        EXPECT_EQ(edges[at], 0);
+        EXPECT_EQ(vertices[at], 0);
+        continue;
+      }
+      EXPECT_TRUE(has(cells_of_edge, edges[at], static_cast<std::int32_t>(c) + 1));
+      EXPECT_TRUE(has(cells_of_edge, edges[at], others[at]));
+      const bool gap = cull[c] == 1 && i + 1 == degree;
+      EXPECT_EQ(vertices[at] == 0, gap);
+      if (gap) continue;
+      EXPECT_TRUE(has(vertices_of_edge, edges[at], vertices[at]));
+      EXPECT_TRUE(has(vertices_of_edge, edges[c * width + (i + 1) % degree], vertices[at]));
+    }
+  }
+}
+
+// The two laws that make TRiSK's tangential velocities: they do no work (antisymmetry), and their divergence on a
+// triangle is that of the cells around it, weighted by kites. (Thuburn et al. 2009.)
+TEST_F(NetcdfFormats, mpas_weights_are_antisymmetric_and_carry_divergence_to_triangles) {
+  write_ok("m.mpas.nc", bent_lattice());
+  const Nc nc = Nc::open(path("m.mpas.nc"));
+  const auto n_on_edge = nc.get<std::int32_t>("nEdgesOnEdge"), edges_on_edge = nc.get<std::int32_t>("edgesOnEdge"),
+             cells = nc.get<std::int32_t>("cellsOnEdge"), vertices = nc.get<std::int32_t>("verticesOnEdge"),
+             edges_on_vertex = nc.get<std::int32_t>("edgesOnVertex"),
+             cells_on_vertex = nc.get<std::int32_t>("cellsOnVertex");
+  const auto w = nc.get<double>("weightsOnEdge"), dc = nc.get<double>("dcEdge"), dv = nc.get<double>("dvEdge"),
+             kites = nc.get<double>("kiteAreasOnVertex"), areas = nc.get<double>("areaCell");
+  const std::size_t width = nc.dimension("maxEdges2"), n = dc.size();
+
+  std::map<std::pair<std::size_t, std::size_t>, double> work;
+  std::vector<double> normal(n), tangential(n), divergence(areas.size());
+  for (std::size_t e = 0; e < n; ++e) normal[e] = std::sin(1.0 + 17.0 * static_cast<double>(e));
+  for (std::size_t e = 0; e < n; ++e) {
+    divergence[static_cast<std::size_t>(cells[2 * e] - 1)] += normal[e] * dv[e];
+    divergence[static_cast<std::size_t>(cells[2 * e + 1] - 1)] -= normal[e] * dv[e];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(n_on_edge[e]); ++k) {
+      const auto other = static_cast<std::size_t>(edges_on_edge[e * width + k] - 1);
+      tangential[e] += w[e * width + k] * normal[other];
+      work[{e, other}] += w[e * width + k] * dc[e] / dv[other];
+    }
+  }
+  ASSERT_GT(work.size(), 4 * n);
+  for (const auto& [pair, value] : work) EXPECT_NEAR(value, -work.at({pair.second, pair.first}), 1e-12);
+  for (std::size_t t = 0; 3 * t < kites.size(); ++t) {
+    double out = 0, expected = 0;
+    for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
+      const auto e = static_cast<std::size_t>(edges_on_vertex[k] - 1),
+                 c = static_cast<std::size_t>(cells_on_vertex[k] - 1);
+      const bool first = vertices[2 * e] == static_cast<std::int32_t>(t) + 1;
+      out += (first ? 1 : -1) * tangential[e] * dc[e];
+      expected += kites[k] / areas[c] * divergence[c];
+    }
+    EXPECT_NEAR(out, expected, 1e-12) << "triangle " << t;
+  }
+}
+
+TEST_F(NetcdfFormats, mpas_of_others_gives_triangles_weights_and_data) {
+  {
+    Nc nc = Nc::create(path("o.nc"));
+    const int cells = nc.add_dimension("nCells", 4), vertices = nc.add_dimension("nVertices", 3),
+              degree = nc.add_dimension("vertexDegree", 3);
+    nc.say(NC_GLOBAL, "on_a_sphere", "NO              ");
+    nc.add<double>("xCell", {cells}, {0, 1, 1, 0});
+    nc.add<double>("yCell", {cells}, {0, 0, 1, 1});
+    nc.add<double>("zCell", {cells}, {3, 3, 3, 3});
+    nc.add<double>("bottomDepth", {cells}, {10, 20, 30, 40});
+    nc.add<double>("fVertex", {vertices}, {5, 6, 7});
+    nc.add<std::int32_t>("cellsOnVertex", {vertices, degree}, {1, 2, 3, 2, 3, 0, 1, 3, 4});
+  }
+  const auto f = read(path("o.nc"));
+  ASSERT_TRUE(f) << f.error().what();
+  EXPECT_EQ(f->format, "mpas");
+  EXPECT_EQ(f->z, 3);
+  EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  ASSERT_EQ(f->point_data.size(), 1u);
+  EXPECT_EQ(f->point_data[0].name, "bottomDepth");
+  ASSERT_EQ(f->cell_data.size(), 1u);
+  EXPECT_EQ(std::get<std::vector<double>>(f->cell_data[0].values), (std::vector<double>{5, 7}));
+  ASSERT_EQ(f->warnings.size(), 1u);
+  EXPECT_EQ(plain(f->warnings[0]), "o.nc: 1 vertices of fewer than three cells are no triangles and are left out");
+}
+
+TEST_F(NetcdfFormats, ugrid_of_others_counts_from_one_fills_up_and_may_lie_on_its_side) {
+  for (const bool turned : {false, true}) {
+    {
+      Nc nc = Nc::create(path("o.nc"));
+      const int nodes = nc.add_dimension("nNode", 4), faces = nc.add_dimension("nFace", 2),
+                most = nc.add_dimension("nMax", 4);
+      nc.add<double>("lon", {nodes}, {0, 1, 1, 0});
+      nc.add<double>("lat", {nodes}, {0, 0, 1, 1});
+      nc.add<double>("depth", {nodes}, {10, 20, 30, 40});
+      nc.add<std::int32_t>("material", {faces}, {7, 8});
+      const std::map<std::string, int> attributes = {{"start_index", 1}, {"_FillValue", -999}};
+      if (turned) {
+        nc.add<std::int32_t>("fn", {most, faces}, {1, 1, 2, 3, 3, 4, -999, -999}, attributes);
+      } else {
+        nc.add<std::int32_t>("fn", {faces, most}, {1, 2, 3, -999, 1, 3, 4, -999}, attributes);
+      }
+      const int mesh = nc.add<std::int32_t>("Mesh2", {}, {0}, {{"topology_dimension", 2}});
+      nc.say(mesh, "cf_role", "mesh_topology");
+      nc.say(mesh, "node_coordinates", "lon lat");
+      nc.say(mesh, "face_node_connectivity", "fn");
+      if (turned) nc.say(mesh, "face_dimension", "nFace");
+    }
+    const auto f = read(path("o.nc"));
+    ASSERT_TRUE(f) << f.error().what();
+    EXPECT_EQ(f->format, "ugrid");
+    EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+    ASSERT_EQ(f->point_data.size(), 1u);
+    EXPECT_EQ(f->point_data[0].name, "depth");
+    ASSERT_EQ(f->cell_data.size(), 1u);
+    EXPECT_EQ(f->numbering->point(0), "point 1");
+  }
+}
+
+TEST_F(NetcdfFormats, ugrid_says_where_orthocenters_and_edges_are) {
+  const MeshFile f = bent_lattice();
+  write_ok("m.nc", f);
+  const Nc nc = Nc::open(path("m.nc"));
+  EXPECT_EQ(nc.text("mesh", "cf_role"), "mesh_topology");
+  EXPECT_EQ(nc.text("mesh", "face_coordinates"), "mesh_face_x mesh_face_y");
+  EXPECT_EQ(nc.text("mesh_node_weight", "location"), "node");
+  EXPECT_TRUE(same_bits(nc.get<double>("mesh_node_weight"), f.weights));
+  const auto x = nc.get<double>("mesh_face_x"), y = nc.get<double>("mesh_face_y");
+  for (std::size_t t = 0; t < f.triangles.size(); ++t) {
+    const auto power = [&](std::size_t k) {
+      const auto p = static_cast<std::size_t>(f.triangles[t][k]);
+      const Vec2 d = Vec2{x[t], y[t]} - f.points[p];
+      return dot(d, d) - f.weights[p];
+    };
+    EXPECT_NEAR(power(0), power(1), 1e-13);
+    EXPECT_NEAR(power(0), power(2), 1e-13);
+  }
+  const auto edge_nodes = nc.get<std::int32_t>("mesh_edge_nodes"), edge_faces = nc.get<std::int32_t>("mesh_edge_faces");
+  EXPECT_EQ(edge_nodes.size() / 2, f.points.size() + f.triangles.size() - 1) << "Euler";
+  EXPECT_EQ(std::count(edge_faces.begin(), edge_faces.end(), -1), 18);
+}
+
+TEST_F(NetcdfFormats, what_is_no_planar_mesh_of_triangles_is_named) {
+  const auto refused = [&](const auto& make_file) {
+    {
+      Nc nc = Nc::create(path("o.nc"));
+      make_file(nc);
+    }
+    const auto f = read(path("o.nc"));
+    EXPECT_FALSE(f);
+    return f ? "" : plain(f.error().what());
+  };
+  EXPECT_EQ(refused([](Nc& nc) {
+              nc.add<double>("x", {nc.add_dimension("n", 2)}, {0, 1});
+            }),
+            "o.nc: is NetCDF without a mesh that temper reads: neither MPAS nor a two-dimensional topology of UGRID");
+  EXPECT_EQ(refused([](Nc& nc) {
+              const int n = nc.add_dimension("nCells", 3), v = nc.add_dimension("nVertices", 1),
+                        d = nc.add_dimension("vertexDegree", 3);
+              nc.say(NC_GLOBAL, "on_a_sphere", "YES");
+              nc.add<double>("xCell", {n}, {0, 1, 0});
+              nc.add<std::int32_t>("cellsOnVertex", {v, d}, {1, 2, 3});
+            }),
+            "o.nc: is an MPAS mesh on a sphere; temper reads meshes in the plane");
+  EXPECT_EQ(refused([](Nc& nc) {
+              const int n = nc.add_dimension("n", 4), f = nc.add_dimension("f", 1), d = nc.add_dimension("four", 4);
+              nc.add<double>("x", {n}, {0, 1, 1, 0});
+              nc.add<double>("y", {n}, {0, 0, 1, 1});
+              nc.add<std::int32_t>("fn", {f, d}, {0, 1, 2, 3});
+              const int mesh = nc.add<std::int32_t>("mesh", {}, {0});
+              nc.say(mesh, "cf_role", "mesh_topology");
+              nc.say(mesh, "node_coordinates", "x y");
+              nc.say(mesh, "face_node_connectivity", "fn");
+            }),
+            "o.nc: face 0 has 4 corners; temper reads triangles");
+}
+
+TEST_F(NetcdfFormats, a_mesh_without_orthocenters_is_refused_and_nothing_is_written) {
+  MeshFile f = bent_lattice();
+  f.points[1] = f.points[0];
+  for (const char* name : {"m.mpas.nc", "m.nc"}) {
+    const auto result = write(path(name), f);
+    ASSERT_FALSE(result);
+    EXPECT_NE(result.error().what().find("holds orthocenters and so needs a valid mesh"), std::string::npos);
+  }
+  EXPECT_TRUE(files().empty());
+}
+
+}  // namespace
+}  // namespace temper::io
+#endif

@@ -1,0 +1,264 @@
+// JIGSAW, OFF, PLY and ADCIRC's fort.14 as other programs write them.
+#include <bit>
+
+#include "support.hpp"
+
+namespace temper::io {
+namespace {
+
+using Triangles = std::vector<std::array<std::int32_t, 3>>;
+using Lines = std::vector<std::array<std::int32_t, 2>>;
+using Tags = std::vector<std::int32_t>;
+
+class OtherFormats : public FileTest {
+ protected:
+  MeshFile read_ok(const std::string& name, const std::string& content) const {
+    auto f = read(make(name, content));
+    EXPECT_TRUE(f) << f.error().what();
+    return f ? *f : MeshFile{};
+  }
+  std::string refused(const std::string& name, const std::string& content) const {
+    const auto f = read(make(name, content));
+    EXPECT_FALSE(f) << content;
+    return f ? "" : plain(f.error().what());
+  }
+};
+
+// --- JIGSAW ----------------------------------------------------------------------------------------------------
+
+TEST_F(OtherFormats, jigsaw_gives_weights_tags_and_values) {
+  const MeshFile f = read_ok("m.msh",
+                             "# a comment; with = and ;\nmshid=3;euclidean-mesh\nNDIMS = 2\nPOINT=4\n0;0;0\n1;0;7\n"
+                             "1;1;0\n0;1;0\nPOWER=4;1\n0.5\n-0\n1e-300\n-2\nVALUE=4;2\n1;2\n3;4\n5;6\n7;8\n"
+                             "EDGE2=1\n0;1;5\nTRIA3=2\n0;1;2;1\n0;2;3;2\nBOUND=1\n1;0;20\n");
+  EXPECT_EQ(f.format, "jigsaw");
+  EXPECT_EQ(f.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(f.regions, (Tags{1, 2}));
+  EXPECT_TRUE(same_bits(f.weights, {0.5, -0.0, 1e-300, -2}));
+  EXPECT_EQ(f.lines, (Lines{{0, 1}}));
+  EXPECT_EQ(f.line_tags, (Tags{5}));
+  EXPECT_EQ(f.marked_points, (Tags{1}));
+  EXPECT_EQ(f.point_tags, (Tags{7}));
+  ASSERT_EQ(f.point_data.size(), 1u);
+  EXPECT_EQ(f.point_data[0].name, "value");
+  EXPECT_EQ(f.point_data[0].components, 2);
+  ASSERT_EQ(f.warnings.size(), 1u);
+  EXPECT_NE(f.warnings[0].find("BOUND"), std::string::npos);
+}
+
+TEST_F(OtherFormats, jigsaw_writes_power_under_the_values_of_its_points) {
+  MeshFile f;
+  f.points = {{0, 0}, {1, 0}, {0, 1}};
+  f.triangles = {{0, 1, 2}};
+  f.weights = {0.25, -0.0, 3};
+  ASSERT_TRUE(write(path("m.jigsaw.msh"), f));
+  EXPECT_EQ(
+      slurp(path("m.jigsaw.msh")),
+      "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=3\n0;0;0\n1;0;0\n0;1;0\nPOWER=3;1\n0.25\n-0\n3\nTRIA3=1\n0;1;2;0\n");
+}
+
+TEST_F(OtherFormats, jigsaw_that_is_no_mesh_of_triangles_is_named) {
+  const std::string head = "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\n", points = "POINT=3\n0;0;0\n1;0;0\n0;1;0\n";
+  EXPECT_EQ(refused("m.msh", "MSHID=3;EUCLIDEAN-GRID\nNDIMS=2\n"),
+            "m.msh:1: is of kind 'EUCLIDEAN-GRID'; temper reads EUCLIDEAN-MESH");
+  EXPECT_EQ(refused("m.msh", head + points + "EDGE2=1\n0;1;0\n"), "m.msh: the file has no triangles");
+  EXPECT_EQ(refused("m.msh", head + points + "QUAD4=1\n0;1;2;0;0\n"),
+            "m.msh:8: element 0 is a quadrilateral; temper reads meshes of linear triangles, with lines and points as "
+            "tags");
+  EXPECT_EQ(refused("m.msh", head + points + "POWER=2;1\n0\n1\nTRIA3=1\n0;1;2;0\n"),
+            "m.msh: POWER has 2 rows, but there are 3 points");
+  EXPECT_EQ(refused("m.msh", head + points + "TRIA3=1\n0;1;9;0\n"),
+            "m.msh:8: triangle 0 uses vertex 9, but the file has 3 vertices, numbered from 0");
+}
+
+// --- OFF -------------------------------------------------------------------------------------------------------
+
+TEST_F(OtherFormats, off_with_colours_and_comments_is_read_and_says_what_it_drops) {
+  const MeshFile f = read_ok("m.off",
+                             "COFF # colours\n4 2 0\n# points\n0 0 2 255 0 0 255\n1 0 2 0 0 0 255\n1 1 2 0 0 0 255\n"
+                             "0 1 2 0 0 0 255\n3 0 1 2 0.5 0.5 0.5\n3 0 2 3\n");
+  EXPECT_EQ(f.format, "off");
+  EXPECT_EQ(f.z, 2);
+  EXPECT_EQ(f.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(f.warnings.size(), 2u);
+  EXPECT_EQ(read_ok("m.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").triangles, (Triangles{{0, 1, 2}}));
+}
+
+TEST_F(OtherFormats, off_of_polygons_or_in_binary_is_named) {
+  EXPECT_EQ(refused("m.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"),
+            "m.off:7: face 0 has 4 corners; temper reads triangles");
+  EXPECT_EQ(refused("m.off", "OFF BINARY\n"), "m.off:1: is an OFF file in binary; temper reads text");
+  EXPECT_EQ(refused("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n"),
+            "m.off:7: expected the end of the file after 1 faces, found '3'");
+}
+
+// --- PLY -------------------------------------------------------------------------------------------------------
+
+template <class T>
+std::string bytes_of(std::endian order, std::initializer_list<T> values) {
+  std::string all;
+  for (const T v : values) {
+    std::string one(reinterpret_cast<const char*>(&v), sizeof v);
+    if (order != std::endian::native) std::reverse(one.begin(), one.end());
+    all += one;
+  }
+  return all;
+}
+
+TEST_F(OtherFormats, binary_ply_of_both_byte_orders_is_read) {
+  for (const std::endian order : {std::endian::little, std::endian::big}) {
+    const std::string name = order == std::endian::little ? "little" : "big";
+    std::string content = "ply\r\nformat binary_" + name +
+                          "_endian 1.0\r\nobj_info by hand\r\nelement vertex 3\r\nproperty float x\r\nproperty float "
+                          "y\r\nproperty float z\r\nproperty double weight\r\nproperty uchar red\r\nelement face 1\r\n"
+                          "property list uchar uint vertex_index\r\nproperty short region\r\nproperty list uchar float "
+                          "texcoord\r\nend_header\r\n";
+    for (int i = 0; i < 3; ++i) {
+      content += bytes_of<float>(order, {i == 1 ? 1.f : 0.f, i == 2 ? 1.f : 0.f, 0.5f});
+      content += bytes_of<double>(order, {i / 3.0});
+      content += static_cast<char>(i + 250);
+    }
+    content += '\3' + bytes_of<std::uint32_t>(order, {0, 1, 2}) + bytes_of<std::int16_t>(order, {-7}) + '\2' +
+               bytes_of<float>(order, {1, 2});
+    const MeshFile f = read_ok("m.ply", content);
+    EXPECT_EQ(f.points, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}));
+    EXPECT_EQ(f.z, 0.5);
+    EXPECT_TRUE(same_bits(f.weights, {0, 1 / 3.0, 2 / 3.0}));
+    EXPECT_EQ(f.triangles, (Triangles{{0, 1, 2}}));
+    EXPECT_EQ(f.regions, (Tags{-7}));
+    ASSERT_EQ(f.point_data.size(), 1u);
+    EXPECT_EQ(std::get<std::vector<std::uint8_t>>(f.point_data[0].values), (std::vector<std::uint8_t>{250, 251, 252}));
+    ASSERT_EQ(f.warnings.size(), 1u);
+    EXPECT_NE(f.warnings[0].find("'texcoord'"), std::string::npos);
+  }
+}
+
+TEST_F(OtherFormats, ply_faces_of_two_corners_and_one_are_lines_and_marked_points) {
+  const MeshFile f = read_ok(
+      "m.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nelement face 3\nproperty list "
+      "uchar int vertex_indices\nproperty int region\nend_header\n0 0\n1 0\n0 1\n2 0 1 5\n3 0 1 2 6\n1 2 7\n");
+  EXPECT_EQ(f.triangles, (Triangles{{0, 1, 2}}));
+  EXPECT_EQ(f.lines, (Lines{{0, 1}}));
+  EXPECT_EQ(f.marked_points, (Tags{2}));
+  EXPECT_EQ(f.regions, (Tags{6}));
+  EXPECT_EQ(f.line_tags, (Tags{5}));
+  EXPECT_EQ(f.point_tags, (Tags{7}));
+}
+
+TEST_F(OtherFormats, ply_keeps_arrays_of_several_components_and_names) {
+  const MeshFile f = rich_sample();
+  for (const Encoding encoding : {Encoding::ascii, Encoding::appended}) {
+    ASSERT_TRUE(write(path("m.ply"), f, {"ply", encoding}));
+    const auto g = read(path("m.ply"));
+    ASSERT_TRUE(g) << g.error().what();
+    ASSERT_EQ(g->point_data.size(), 3u) << "all but the 64-bit integers";
+    EXPECT_EQ(g->point_data[1].name, "velocity");
+    EXPECT_TRUE(g->point_data[1].values == f.point_data[1].values);
+    ASSERT_EQ(g->names.size(), 3u);
+    EXPECT_EQ(g->names[1].name, "inflow and more");
+  }
+}
+
+TEST_F(OtherFormats, bad_ply_is_named) {
+  const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n";
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0\n1 0\n0 1\n";
+  EXPECT_EQ(refused("m.ply", head + faces + "4 0 1 2 0\n"),
+            "m.ply:12: element 0 is a polygon with 4 corners; temper reads meshes of linear triangles, with lines and "
+            "points as tags");
+  EXPECT_EQ(refused("m.ply", head + "property quad w\n" + faces), "m.ply: expected a type of PLY, found 'quad'");
+  EXPECT_EQ(refused("m.ply", "ply\nformat ascii 2.0\n"),
+            "m.ply:2: is PLY in format 'ascii' '2.0'; temper reads ascii, binary_little_endian and binary_big_endian "
+            "1.0");
+  EXPECT_EQ(refused("m.ply", head + "element face 1\nend_header\n0 0\n1 0\n0 1\n"),
+            "m.ply: elements 'face' have no properties");
+  EXPECT_EQ(refused("m.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000000\nproperty int x\nend_header\n0\n"),
+            "m.ply:6: announces 4000000000000 elements 'vertex', but only 2 bytes follow");
+}
+
+// --- ADCIRC ----------------------------------------------------------------------------------------------------
+
+// A square with a node inside, an open boundary below, and land with a weir and an inflow around the rest.
+const std::string kFort14 =
+    "OFF the coast\n4 5 ! NE NP\n10 0 0 1.5\n20 1 0 2.5 # deep\n30 1 1 -3\n40 0 1 4\n50 0.5 0.5 5\n"
+    "1 3 10 20 50\n2 3 20 30 50\n3 3 30 40 50\n4 3 40 10 50\n"
+    "1 = number of open boundaries\n2 = nodes\n2 = nodes of open boundary 1\n10\n20\n"
+    "2\n5\n3 20 = land\n20\n30\n40\n2 23\n40 0.5 1\n10 0.25 0.75\n";
+
+TEST_F(OtherFormats, fort14_gives_depths_and_boundaries_by_their_numbers) {
+  const MeshFile f = read_ok("fort.14", kFort14);
+  EXPECT_EQ(f.format, "adcirc");
+  EXPECT_EQ(f.triangles, (Triangles{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}));
+  ASSERT_EQ(f.point_data.size(), 1u);
+  EXPECT_EQ(f.point_data[0].name, "depth");
+  EXPECT_EQ(std::get<std::vector<double>>(f.point_data[0].values), (std::vector<double>{1.5, 2.5, -3, 4, 5}));
+  EXPECT_EQ(f.lines, (Lines{{0, 1}, {1, 2}, {2, 3}, {3, 0}}));
+  EXPECT_EQ(f.line_tags, (Tags{1, 2, 2, 3}));
+  ASSERT_EQ(f.names.size(), 3u);
+  EXPECT_EQ(f.names[0].name, "open boundary 1");
+  EXPECT_EQ(f.names[1].name, "land boundary 1, type 20");
+  EXPECT_EQ(f.names[2].name, "land boundary 2, type 23");
+  EXPECT_EQ(f.marked_points, (Tags{3, 0}));
+}
+
+TEST_F(OtherFormats, fort14_boundaries_go_through_vtu_and_come_back) {
+  const MeshFile f = read_ok("fort.14", kFort14);
+  ASSERT_TRUE(write(path("m.vtu"), f));
+  const auto g = read(path("m.vtu"));
+  ASSERT_TRUE(g) << g.error().what();
+  const auto warnings = write(path("n.14"), *g);
+  ASSERT_TRUE(warnings) << warnings.error().what();
+  EXPECT_TRUE(warnings->empty()) << (*warnings)[0];
+  EXPECT_EQ(slurp(path("n.14")),
+            "OFF the coast\n4 5\n1 0 0 1.5\n2 1 0 2.5\n3 1 1 -3\n4 0 1 4\n5 0.5 0.5 5\n1 3 1 2 5\n2 3 2 3 5\n"
+            "3 3 3 4 5\n4 3 4 1 5\n1 = number of open boundaries\n2 = number of open boundary nodes\n"
+            "2 0 = number of nodes and type of open boundary 1\n1\n2\n"
+            "2 = number of land boundaries\n5 = number of land boundary nodes\n"
+            "3 20 = number of nodes and type of land boundary 1\n2\n3\n4\n"
+            "2 23 = number of nodes and type of land boundary 2\n4 0.5 1\n1 0.25 0.75\n");
+}
+
+TEST_F(OtherFormats, fort14_closes_islands_and_keeps_pairs_of_levees) {
+  const std::string content =
+      "two halves\n2 6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1.1 0 0\n5 1.1 1 0\n6 0.1 1 0\n1 3 1 2 3\n2 3 4 5 6\n"
+      "0\n0\n2\n7\n3 1\n1\n2\n3\n2 24\n4 2 1 2 3\n6 3 4 5 6\n";
+  const MeshFile f = read_ok("fort.14", content);
+  EXPECT_EQ(f.lines, (Lines{{0, 1}, {1, 2}, {2, 0}, {3, 5}}));
+  EXPECT_EQ(f.marked_points, (Tags{3, 1, 5, 2})) << "a node and its partner";
+  const auto warnings = write(path("n.14"), f);
+  ASSERT_TRUE(warnings);
+  const std::string out = slurp(path("n.14"));
+  EXPECT_NE(out.find("\n4 1 = number of nodes and type of land boundary 1\n1\n2\n3\n1\n"), std::string::npos) << out;
+  // With the domain on the left the edge goes from 6 to 4.
+  EXPECT_NE(out.find("\n2 24 = number of nodes and type of land boundary 2\n6 3 4 5 6\n4 2 1 2 3\n"), std::string::npos)
+      << out;
+}
+
+TEST_F(OtherFormats, fort14_of_lines_without_a_kind_says_what_it_makes_of_them) {
+  MeshFile f = tamed(sample());
+  const auto warnings = write(path("m.14"), f);
+  ASSERT_TRUE(warnings);
+  std::string all;
+  for (const std::string& w : *warnings) all += plain(w) + "\n";
+  EXPECT_NE(all.find("m.14: lines with tag 4 are written as land boundaries of type 0"), std::string::npos) << all;
+  EXPECT_NE(all.find("m.14: 1 lines that are not on the boundary"), std::string::npos) << all;
+  const auto g = read(path("m.14"));
+  ASSERT_TRUE(g) << g.error().what();
+  EXPECT_EQ(g->lines, (Lines{{0, 1}, {1, 2}})) << "with the domain on their left";
+}
+
+TEST_F(OtherFormats, bad_fort14_is_named) {
+  const std::string head = "t\n1 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n";
+  EXPECT_EQ(refused("fort.14", head + "1 3 1 2 9\n"),
+            "fort.14:6: triangle 1 uses vertex 9, but the file has 3 vertices, numbered from 1");
+  EXPECT_EQ(refused("fort.14", head + "7 4 1 2 3 1\n"),
+            "fort.14:6: element 7 is a quadrilateral; temper reads meshes of linear triangles, with lines and points "
+            "as tags");
+  EXPECT_EQ(refused("fort.14", head + "1 3 1 2 3\n1\n2\n2 0\n1\n8\n"),
+            "fort.14:11: open boundary 1 uses vertex 8, but the file has 3 vertices, numbered from 1");
+  EXPECT_EQ(refused("fort.14", head + "1 3 1 2 3\n1\n2\n2 0\n1\n"),
+            "fort.14:11: the file ends where the number of a node was expected");
+}
+
+}  // namespace
+}  // namespace temper::io
