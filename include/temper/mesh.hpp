@@ -130,10 +130,10 @@ class Mesh {
 
   // --- halfedges ---------------------------------------------------------------------------------
   [[nodiscard]] static constexpr HalfedgeId next(HalfedgeId h) {
-    return HalfedgeId(h.index % 3 == 2 ? h.index - 2 : h.index + 1);
+    return HalfedgeId(h.index + (h.index % 3 == 2 ? -2U : 1U));
   }
   [[nodiscard]] static constexpr HalfedgeId prev(HalfedgeId h) {
-    return HalfedgeId(h.index % 3 == 0 ? h.index + 2 : h.index - 1);
+    return HalfedgeId(h.index + (h.index % 3 == 0 ? 2U : -1U));
   }
   [[nodiscard]] static constexpr TriangleId triangle(HalfedgeId h) { return TriangleId(h.index / 3); }
   [[nodiscard]] static constexpr HalfedgeId halfedge(TriangleId t, int k) {

@@ -31,10 +31,22 @@ struct EdgeTerm {
   T f, f_l, f_w, f_g, f_ll, f_lw, f_lg, f_ww, f_wg, f_gg;
 };
 
+// Each kernel computes what does not depend on g, its Base, once for the two triangles of an edge.
+
 /// E_F of one edge in one triangle. Odd in g; signs and boundary treatments are factors applied outside.
 struct HotKernel {
   static constexpr bool kBarrier = false;
   double alpha, beta;
+
+  template <class T>
+  struct Base {
+    T l, w;
+  };
+
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE Base<T> base(const T& l2, const T& dw) const {
+    return {l2, dw};
+  }
 
   template <class T>
   [[nodiscard]] TEMPER_INLINE T value(const EdgeShapeOf<T>& e) const {
@@ -43,7 +55,12 @@ struct HotKernel {
 
   template <class T>
   [[nodiscard]] TEMPER_INLINE EdgeTerm<T> term(const EdgeShapeOf<T>& e) const {
-    const T l = e.l2, w = e.dw, g = e.g;
+    return term(base(e.l2, e.dw), e.g);
+  }
+
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE EdgeTerm<T> term(const Base<T>& edge, const T& g) const {
+    const auto& [l, w] = edge;
     const T inverse = 1.0 / l;
     const T wi = w * inverse, gi = g * inverse, wi2 = wi * wi, gi2 = gi * gi;
     const double a = 0.25 * alpha;
@@ -80,22 +97,41 @@ struct Denominator {
 struct ShiftedHeight {
   double s1 = 0, s2 = 0;
 
+  /// What does not depend on g.
   template <class T>
-  [[nodiscard]] TEMPER_INLINE T root(const EdgeShapeOf<T>& e) const {
-    return s1 == 0 ? all<T>(0) : s1 * square_root(e.l2);
+  struct Base {
+    T l, root;  ///< s₁ ℓ
+  };
+  /// What 1/Φ and its derivatives divide by, and what else they have in common.
+  template <class T>
+  struct Parts {
+    T divisor;
+  };
+
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE Base<T> base(const T& l2) const {
+    return {l2, s1 == 0 ? all<T>(0) : s1 * square_root(l2)};
+  }
+
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE Parts<T> parts(const Base<T>& b, const T& g) const {
+    return {g + b.root + s2 * b.l};
   }
 
   /// 1/Φ.
   template <class T>
-  [[nodiscard]] TEMPER_INLINE Fraction<T> inverse(const EdgeShapeOf<T>& e) const {
-    return {all<T>(1), e.g + root(e) + s2 * e.l2};
+  [[nodiscard]] TEMPER_INLINE Fraction<T> inverse(const Base<T>& b, const T& g) const {
+    return {all<T>(1), parts(b, g).divisor};
   }
 
+  /// `quotient`: 1/divisor.
   template <class T>
-  [[nodiscard]] TEMPER_INLINE Denominator<T> denominator(const EdgeShapeOf<T>& e) const {
-    const T inverse_l = 1.0 / e.l2, half_root = 0.5 * root(e) * inverse_l;
+  [[nodiscard]] TEMPER_INLINE Denominator<T> denominator(const Base<T>& b, const T& /*g*/, const Parts<T>& /*parts*/,
+                                                         const T& quotient) const {
+    const T inverse_l = s1 == 0 ? all<T>(0) : 1.0 / b.l;
+    const T half_root = 0.5 * b.root * inverse_l;
     Denominator<T> d;
-    d.inverse = 1.0 / inverse(e).y;
+    d.inverse = quotient;
     d.g = d.inverse;
     d.l = (half_root + s2) * d.inverse;
     d.gg = -1.0 * (d.inverse * d.inverse);
@@ -109,33 +145,49 @@ struct ShiftedHeight {
 struct SmoothedHeight {
   double m1 = 0, m2 = 0;
 
-  /// 1/Φ = 2/(R + |g|) above, 2 (R + |g|)/M below: no cancellation when g < 0.
   template <class T>
-  [[nodiscard]] TEMPER_INLINE Fraction<T> inverse(const EdgeShapeOf<T>& e) const {
-    const T m = (m1 + m2 * e.l2) * e.l2;
-    const T sum = square_root(e.g * e.g + m) + absolute(e.g);
-    const auto above = e.g >= 0;
-    return {select(above, all<T>(2), 2 * sum), select(above, sum, m)};
+  struct Base {
+    T m, slope;  ///< M, M'
+  };
+  template <class T>
+  struct Parts {
+    T divisor, r, sum, below;  ///< R times R + |g| or M, of which 1/Φ is made
+  };
+
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE Base<T> base(const T& l2) const {
+    return {(m1 + m2 * l2) * l2, m1 + 2 * m2 * l2};
+  }
+
+  /// 1/Φ is 2/(R + |g|) above, 2 (R + |g|)/M below: no cancellation when g < 0.
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE Fraction<T> inverse(const Base<T>& b, const T& g) const {
+    const T sum = square_root(g * g + b.m) + absolute(g);
+    const auto above = g >= 0;
+    return {select(above, all<T>(2), 2 * sum), select(above, sum, b.m)};
   }
 
   template <class T>
-  [[nodiscard]] TEMPER_INLINE Denominator<T> denominator(const EdgeShapeOf<T>& e) const {
-    const T m = (m1 + m2 * e.l2) * e.l2, slope = m1 + 2 * m2 * e.l2;
-    const T r = square_root(e.g * e.g + m), sum = r + absolute(e.g);
-    const auto above = e.g >= 0;
-    // 1/R and 1/Φ, which is 2/sum or 2 sum/M, by one division.
-    const T divisor = select(above, sum, m);
-    const T quotient = 1.0 / (r * divisor);
-    const T inverse_r = quotient * divisor;
-    const T half_slope_cube = 0.5 * slope * (inverse_r * inverse_r * inverse_r);
+  [[nodiscard]] TEMPER_INLINE Parts<T> parts(const Base<T>& b, const T& g) const {
+    const T r = square_root(g * g + b.m), sum = r + absolute(g);
+    const T below = select(g >= 0, sum, b.m);
+    return {r * below, r, sum, below};
+  }
+
+  /// `quotient`: 1/divisor.
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE Denominator<T> denominator(const Base<T>& b, const T& g, const Parts<T>& parts,
+                                                         const T& quotient) const {
+    const T inverse_r = quotient * parts.below;
+    const T half_slope_cube = 0.5 * b.slope * (inverse_r * inverse_r * inverse_r);
     Denominator<T> d;
-    d.inverse = 2 * (quotient * r) * select(above, all<T>(1), sum);
+    d.inverse = 2 * (quotient * parts.r) * select(g >= 0, all<T>(1), parts.sum);
     const T inverse = inverse_r * d.inverse;  // 1/(R Φ), and ∂(R Φ)/∂L = M' (g + 2R)/(4R)
     d.g = inverse_r;
-    d.l = 0.25 * slope * inverse;
-    d.gg = -1.0 * e.g * (inverse_r * inverse_r * inverse_r);
+    d.l = 0.25 * b.slope * inverse;
+    d.gg = -1.0 * g * (inverse_r * inverse_r * inverse_r);
     d.lg = -1.0 * half_slope_cube;
-    d.ll = 0.5 * m2 * inverse - 0.0625 * (slope * slope) * (e.g + 2 * r) * inverse_r * (inverse * inverse);
+    d.ll = 0.5 * m2 * inverse - 0.0625 * (b.slope * b.slope) * (g + 2 * parts.r) * inverse_r * (inverse * inverse);
     return d;
   }
 };
@@ -146,33 +198,53 @@ struct BarrierKernel {
   double alpha, beta;
   Height height;
 
-  /// Outside 0 < d < ℓ, Φ > 0 neither positive nor finite, or not a number.
   template <class T>
-  [[nodiscard]] TEMPER_INLINE T value_inside(const EdgeShapeOf<T>& e) const {
-    const T q = (e.l2 - e.dw) * (e.l2 + e.dw);
-    const Fraction<T> phi = height.inverse(e);
-    return (alpha * (e.l2 * e.l2 + e.dw * e.dw) + 4 * beta * (e.g * e.g)) * phi.x / (square_root(q) * phi.y);
+  struct Base {
+    T l, w;
+    T squares;  ///< α (L² + w²)
+    T q, root;  ///< Q = L² − w², √Q
+    typename Height::template Base<T> height;
+  };
+
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE Base<T> base(const T& l, const T& w) const {
+    const T q = (l - w) * (l + w);
+    return {l, w, alpha * (l * l + w * w), q, square_root(q), height.base(l)};
+  }
+
+  /// The value. Outside 0 < d < ℓ, Φ > 0 the divisor is not positive, or not a number.
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE Fraction<T> fraction(const Base<T>& edge, const T& g) const {
+    const Fraction<T> phi = height.inverse(edge.height, g);
+    return {(edge.squares + 4 * beta * (g * g)) * phi.x, edge.root * phi.y};
   }
 
   /// +∞ outside 0 < d < ℓ, Φ > 0.
   [[nodiscard]] double value(const EdgeShape& e) const {
-    const double f = value_inside(e);
-    return f > 0 ? f : kInfinity;
+    const auto [x, y] = fraction(base(e.l2, e.dw), e.g);
+    return y > 0 ? x / y : kInfinity;
   }
 
   /// Outside the domain f is not positive and finite, and the rest means nothing.
   template <class T>
   [[nodiscard]] TEMPER_INLINE EdgeTerm<T> term(const EdgeShapeOf<T>& e) const {
-    const T l = e.l2, w = e.dw, g = e.g;
-    const T t = alpha * (l * l + w * w) + 4 * beta * (g * g), q = (l - w) * (l + w);
-    const T quotient = 1.0 / (t * q), ti = quotient * q, qi = quotient * t;
-    const Denominator<T> d = height.denominator(e);
+    return term(base(e.l2, e.dw), e.g);
+  }
+
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE EdgeTerm<T> term(const Base<T>& edge, const T& g) const {
+    const T &l = edge.l, &w = edge.w, &q = edge.q, t = edge.squares + 4 * beta * (g * g);
+    // 1/T, 1/Q and what the height divides by, by one division.
+    const auto parts = height.parts(edge.height, g);
+    const T tq = t * q, quotient = 1.0 / (tq * parts.divisor), of_both = quotient * parts.divisor;
+    const T ti = of_both * q, qi = of_both * t;
+    const Denominator<T> d = height.denominator(edge.height, g, parts, quotient * tq);
     // f = T Q^(−1/2) / Φ: ∂ ln f, then ∂²f = f (∂ ln f ∂ ln f + ∂² ln f).
     const T tl = 2 * alpha * (l * ti), tw = 2 * alpha * (w * ti), tg = 8 * beta * (g * ti);
     const T ql = l * qi, qw = w * qi;  // of ln √Q, the latter with its sign turned
     const T fl = tl - ql - d.l, fw = tw + qw, fg = tg - d.g;
     EdgeTerm<T> term;
-    term.f = t * square_root(q) * qi * d.inverse;
+    term.f = t * edge.root * qi * d.inverse;
     term.f_l = term.f * fl;
     term.f_w = term.f * fw;
     term.f_g = term.f * fg;

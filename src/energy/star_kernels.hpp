@@ -36,6 +36,11 @@ struct TriangleLanes {
   LanePoints p, q, r;
 };
 
+/// Bit i: triangle i certainly is well-centered, or certainly is not. The rest is for exact predicates.
+struct WellCentered {
+  unsigned yes, no;
+};
+
 struct StarKernels {
   /// Of a barrier at p. False outside its domain, where the sums mean nothing.
   bool (*barrier_derivatives)(const EdgeFormula& formula, const LinkArrays& link, const WeightedPoint& p, double* sums);
@@ -46,8 +51,7 @@ struct StarKernels {
                           const WeightedPoint& p, double* sums);
   /// The values of a barrier of the first n triangles, summed; +∞ when one is outside the domain.
   double (*barrier_sum)(const EdgeFormula& formula, const TriangleLanes& triangles, std::size_t n);
-  /// Bit i: triangle i is certainly well-centered. The rest is for exact predicates.
-  unsigned (*well_centered)(const TriangleLanes& triangles);
+  WellCentered (*well_centered)(const TriangleLanes& triangles);
 };
 
 /// Of the instruction set in use.

@@ -35,7 +35,8 @@ TEMPER_INLINE bool star_derivatives(const Kernel& kernel, const LinkArrays& link
   StarSums sums;
   for (std::size_t i = 0; i < link.size; i += kLanes) {
     const Pack::Mask where = first_lanes(link.size - i);
-    const Pack::Mask inside = add_barrier(kernel, p, load_link(link, i), load_link(link, i + 1), where, sums);
+    const PackPoint q = load_link(link, i), r = load_link(link, i + 1);
+    const Pack::Mask inside = add_barrier(kernel, spoke_of(kernel, p, q), spoke_of(kernel, p, r), q, r, where, sums);
     if ((inside | ~where).bits() != kAllLanes) return false;
   }
   store(sums, out);
@@ -48,7 +49,9 @@ TEMPER_INLINE double star_value(const Kernel& kernel, const LinkArrays& link, co
   Pack total = Pack::all(0);
   for (std::size_t i = 0; i < link.size; i += kLanes) {
     const Pack::Mask where = first_lanes(link.size - i);
-    const Pack::Mask inside = add_barrier_value(kernel, p, load_link(link, i), load_link(link, i + 1), where, total);
+    const PackPoint q = load_link(link, i), r = load_link(link, i + 1);
+    const Pack::Mask inside =
+        add_barrier_value(kernel, spoke_of(kernel, p, q), spoke_of(kernel, p, r), q, r, where, total);
     if ((inside | ~where).bits() != kAllLanes) return kInfinity;
   }
   return sum(total);
@@ -93,27 +96,29 @@ double barrier_sum(const EdgeFormula& f, const TriangleLanes& triangles, std::si
   const PackPoint p = load(triangles.p), q = load(triangles.q), r = load(triangles.r);
   return with_barrier(f, [&](const auto& kernel) {
     TriangleVectors<Pack> unused;
-    const PackShape s = triangle_shape(p, q, r, unused);
-    const auto value = [&](const EdgeShapeOf<Pack>& e) {
-      const Pack x = kernel.value_inside(e);
-      return select(x > 0, x, Pack::all(kInfinity));
-    };
-    return sum(select(first_lanes(n), value(s.pq) + value(s.qr) + value(s.rp), Pack::all(0)));
+    const auto a = spoke_of(kernel, p, q), b = spoke_of(kernel, p, r);
+    const TriangleValue t = triangle_value(kernel, a, b, triangle_shape(a.to, b.to, q, r, unused));
+    return sum(select(first_lanes(n), select(t.inside, t.value, Pack::all(kInfinity)), Pack::all(0)));
   });
 }
 
-unsigned well_centered(const TriangleLanes& triangles) {
+WellCentered well_centered(const TriangleLanes& triangles) {
   const PackPoint p = load(triangles.p), q = load(triangles.q), r = load(triangles.r);
-  const auto positive = [](const inlined::Filtered<Pack>& x) { return x.value > x.bound; };
-  const auto crosses = [&](const PackPoint& a, const PackPoint& b) {
-    return positive(inlined::filtered_edge_split(a, b)) & positive(inlined::filtered_edge_split(b, a));
+  Pack::Mask yes = Pack::all(0) > -1.0, no = ~yes;
+  const auto must_be_positive = [&](const inlined::Filtered<Pack>& x) {
+    yes = yes & (x.value > x.bound);
+    no = no | (x.value < -x.bound);
   };
-  const auto above = [&](const PackPoint& a, const PackPoint& b, const PackPoint& c) {
-    return positive(inlined::filtered_height_numerator(a, b, c));
+  must_be_positive(inlined::filtered_orient2d(p, q, r));
+  const auto edge_must_be_crossed = [&](const PackPoint& a, const PackPoint& b, const PackPoint& c) {
+    must_be_positive(inlined::filtered_height_numerator(a, b, c));
+    must_be_positive(inlined::filtered_edge_split(a, b));
+    must_be_positive(inlined::filtered_edge_split(b, a));
   };
-  return (positive(inlined::filtered_orient2d(p, q, r)) & above(p, q, r) & above(q, r, p) & above(r, p, q) &
-          crosses(p, q) & crosses(q, r) & crosses(r, p))
-      .bits();
+  edge_must_be_crossed(p, q, r);
+  edge_must_be_crossed(q, r, p);
+  edge_must_be_crossed(r, p, q);
+  return {yes.bits(), no.bits()};
 }
 
 }  // namespace

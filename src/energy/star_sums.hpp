@@ -35,14 +35,27 @@ struct TriangleTerms {
   PackTerm pq, qr, rp;
 };
 
+/// An edge at p, with what its two triangles have in common.
 template <class Kernel>
-TEMPER_INLINE TriangleTerms triangle_terms(const Kernel& kernel, const PackPoint& p, const PackPoint& q,
-                                           const PackPoint& r) {
+struct SpokeOf {
+  Spoke<Pack> to;
+  typename Kernel::template Base<Pack> base;
+};
+
+template <class Kernel>
+TEMPER_INLINE SpokeOf<Kernel> spoke_of(const Kernel& kernel, const PackPoint& p, const PackPoint& q) {
+  const Spoke<Pack> to = spoke(p, q);
+  return {to, kernel.base(to.l2, to.dw)};
+}
+
+template <class Kernel>
+TEMPER_INLINE TriangleTerms triangle_terms(const Kernel& kernel, const SpokeOf<Kernel>& a, const SpokeOf<Kernel>& b,
+                                           const PackPoint& q, const PackPoint& r) {
   TriangleTerms t;
-  t.shape = triangle_shape(p, q, r, t.v);
-  t.pq = kernel.term(t.shape.pq);
+  t.shape = triangle_shape(a.to, b.to, q, r, t.v);
+  t.pq = kernel.term(a.base, t.shape.pq.g);
   t.qr = kernel.term(t.shape.qr);
-  t.rp = kernel.term(t.shape.rp);
+  t.rp = kernel.term(b.base, t.shape.rp.g);
   return t;
 }
 
@@ -54,12 +67,11 @@ TEMPER_INLINE void add_derivatives(const TriangleTerms& t, Mask where, StarSums&
   const Pack sx = ay - by, sy = bx - ax;  // ∇S
   const Pack& ga = t.shape.pq.g;
   const Pack& gb = t.shape.rp.g;
-  const Pack gax = (ub * (-2 * ax) - bx * la + ax * ab + ua * (ax + bx) - ga * sx) * inverse_s;
-  const Pack gay = (ub * (-2 * ay) - by * la + ay * ab + ua * (ay + by) - ga * sy) * inverse_s;
-  const Pack gaw = 0.5 * (la - ab) * inverse_s;
-  const Pack gbx = (ua * (-2 * bx) - ax * lb + bx * ab + ub * (ax + bx) - gb * sx) * inverse_s;
-  const Pack gby = (ua * (-2 * by) - ay * lb + by * ab + ub * (ay + by) - gb * sy) * inverse_s;
-  const Pack gbw = 0.5 * (lb - ab) * inverse_s;
+  const Pack half_inverse = 0.5 * inverse_s, ra = ga * inverse_s, rb = gb * inverse_s;
+  const Pack pa = (ab - 2 * ub + ua) * inverse_s, qa = (ua - la) * inverse_s;
+  const Pack pb = (ab - 2 * ua + ub) * inverse_s, qb = (ub - lb) * inverse_s;
+  const Pack gax = pa * ax + qa * bx - ra * sx, gay = pa * ay + qa * by - ra * sy, gaw = (la - ab) * half_inverse;
+  const Pack gbx = pb * bx + qb * ax - rb * sx, gby = pb * by + qb * ay - rb * sy, gbw = (lb - ab) * half_inverse;
   const Pack gcx = sx - gax - gbx, gcy = sy - gay - gby, gcw = -1.0 * (gaw + gbw);
 
   const Pack fa = a.f_g - c.f_g, fb = b.f_g - c.f_g;
@@ -94,9 +106,9 @@ TEMPER_INLINE void add_derivatives(const TriangleTerms& t, Mask where, StarSums&
 
 /// Adds a barrier. Returns where all is inside its domain: positive and finite terms, S > 0.
 template <class Kernel, class Mask>
-TEMPER_INLINE Mask add_barrier(const Kernel& kernel, const PackPoint& p, const PackPoint& q, const PackPoint& r,
-                               Mask where, StarSums& sum) {
-  const TriangleTerms t = triangle_terms(kernel, p, q, r);
+TEMPER_INLINE Mask add_barrier(const Kernel& kernel, const SpokeOf<Kernel>& a, const SpokeOf<Kernel>& b,
+                               const PackPoint& q, const PackPoint& r, Mask where, StarSums& sum) {
+  const TriangleTerms t = triangle_terms(kernel, a, b, q, r);
   const auto inside = [](Pack f) { return (f > 0) & (f < kInfinity); };
   const Mask all_inside = inside(t.pq.f) & inside(t.qr.f) & inside(t.rp.f) & (t.shape.doubled_area > 0);
   sum.value = sum.value + select(where, t.pq.f + t.qr.f + t.rp.f, Pack::all(0));
@@ -114,7 +126,7 @@ TEMPER_INLINE PackTerm scaled(const PackTerm& t, Pack factor) {
 template <class Mask>
 TEMPER_INLINE void add_hot(const HotKernel& kernel, const PackPoint& p, const PackPoint& q, const PackPoint& r,
                            Pack factor_pq, Pack factor_qr, Pack factor_rp, Mask where, StarSums& sum) {
-  TriangleTerms t = triangle_terms(kernel, p, q, r);
+  TriangleTerms t = triangle_terms(kernel, spoke_of(kernel, p, q), spoke_of(kernel, p, r), q, r);
   t.pq = scaled(t.pq, factor_pq);
   t.qr = scaled(t.qr, factor_qr);
   t.rp = scaled(t.rp, factor_rp);
@@ -122,16 +134,33 @@ TEMPER_INLINE void add_hot(const HotKernel& kernel, const PackPoint& p, const Pa
   add_derivatives(t, where, sum);
 }
 
-/// The value alone. Outside of the domain it means nothing, and `inside` is clear.
+/// A barrier's energy of triangles, whatever their orientation. Outside of the domain of an edge it means nothing, and
+/// `inside` is clear.
+struct TriangleValue {
+  Pack value;
+  Pack::Mask inside;
+};
+
+/// The three edges by one division.
+template <class Kernel>
+TEMPER_INLINE TriangleValue triangle_value(const Kernel& kernel, const SpokeOf<Kernel>& a, const SpokeOf<Kernel>& b,
+                                           const PackShape& shape) {
+  const auto pq = kernel.fraction(a.base, shape.pq.g), rp = kernel.fraction(b.base, shape.rp.g);
+  const auto qr = kernel.fraction(kernel.base(shape.qr.l2, shape.qr.dw), shape.qr.g);
+  const Pack two = pq.y * qr.y;
+  const Pack value = ((pq.x * qr.y + qr.x * pq.y) * rp.y + rp.x * two) / (two * rp.y);
+  return {value, (pq.y > 0) & (qr.y > 0) & (rp.y > 0) & (value < kInfinity)};
+}
+
+/// Adds the value alone. Returns where all is inside its domain.
 template <class Kernel, class Mask>
-TEMPER_INLINE Mask add_barrier_value(const Kernel& kernel, const PackPoint& p, const PackPoint& q, const PackPoint& r,
-                                     Mask where, Pack& sum) {
+TEMPER_INLINE Mask add_barrier_value(const Kernel& kernel, const SpokeOf<Kernel>& a, const SpokeOf<Kernel>& b,
+                                     const PackPoint& q, const PackPoint& r, Mask where, Pack& sum) {
   TriangleVectors<Pack> unused;
-  const PackShape s = triangle_shape(p, q, r, unused);
-  const Pack pq = kernel.value_inside(s.pq), qr = kernel.value_inside(s.qr), rp = kernel.value_inside(s.rp);
-  const auto inside = [](Pack f) { return (f > 0) & (f < kInfinity); };
-  sum = sum + select(where, pq + qr + rp, Pack::all(0));
-  return inside(pq) & inside(qr) & inside(rp) & (s.doubled_area > 0);
+  const PackShape shape = triangle_shape(a.to, b.to, q, r, unused);
+  const TriangleValue triangle = triangle_value(kernel, a, b, shape);
+  sum = sum + select(where, triangle.value, Pack::all(0));
+  return triangle.inside & (shape.doubled_area > 0);
 }
 
 }  // namespace temper::TEMPER_INSTRUCTION_SET

@@ -2,6 +2,8 @@
 #include "energy/whole_mesh.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 #include "base/sum.hpp"
 #include "energy/patch.hpp"
@@ -16,34 +18,43 @@ struct Batch {
   std::size_t size = 0;
 };
 
-/// Calls visit with all triangles of a block that are not erased, in batches.
+/// Calls visit with all triangles of a block that are not erased, in batches. Several of them are filled before the
+/// first is visited: reading eight numbers at once waits long for one that has only just been written.
 template <class Visit>
 void for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
-  Batch batch;
+  std::array<Batch, 4> batches;
+  std::size_t filled = 0;
+  const auto visit_all = [&] {
+    for (std::size_t i = 0; i < batches.size() && i * kLanes < filled; ++i) {
+      batches[i].size = std::min(kLanes, filled - i * kLanes);
+      visit(batches[i]);
+    }
+    filled = 0;
+  };
   const std::size_t end = std::min(mesh.n_triangles(), (block + 1) * kBlockSize);
   for (std::size_t i = block * kBlockSize; i < end; ++i) {
     const TriangleId t(i);
-    if (!mesh.is_erased(t)) {
-      const auto [p, q, r] = mesh.corners(t);
-      batch.lanes.p.set(batch.size, mesh.point(p));
-      batch.lanes.q.set(batch.size, mesh.point(q));
-      batch.lanes.r.set(batch.size, mesh.point(r));
-      ++batch.size;
-    }
-    if (batch.size == kLanes || (i + 1 == end && batch.size > 0)) {
-      visit(batch);
-      batch.size = 0;
-    }
+    if (mesh.is_erased(t)) continue;
+    const auto [p, q, r] = mesh.corners(t);
+    TriangleLanes& lanes = batches[filled / kLanes].lanes;
+    const std::size_t lane = filled % kLanes;
+    lanes.p.set(lane, mesh.point(p));
+    lanes.q.set(lane, mesh.point(q));
+    lanes.r.set(lane, mesh.point(r));
+    if (++filled == batches.size() * kLanes) visit_all();
   }
+  visit_all();
 }
 
 }  // namespace
 
 std::size_t count_bad(const TriangleLanes& triangles, std::size_t n) {
-  const unsigned good = star_kernels().well_centered(triangles);
-  std::size_t bad = 0;
+  const auto [yes, no] = star_kernels().well_centered(triangles);
+  const unsigned used = (1U << n) - 1;
+  auto bad = static_cast<std::size_t>(std::popcount(no & used));
+  if (((yes | no) & used) == used) return bad;
   for (std::size_t i = 0; i < n; ++i) {
-    if ((good >> i & 1) != 0) continue;
+    if (((yes | no) >> i & 1) != 0) continue;
     bad += inlined::is_well_centered(triangles.p.at(i), triangles.q.at(i), triangles.r.at(i)) ? 0 : 1;
   }
   return bad;

@@ -36,6 +36,23 @@ struct TriangleShape {
   double doubled_area = 0;  ///< S, signed
 };
 
+/// From p to another corner.
+template <class T>
+struct Spoke {
+  T x, y;  ///< a
+  T l2;    ///< |a|²
+  T dw;    ///< w_p − w_q
+  T u;     ///< u_a
+};
+
+/// Point: three T's called x, y, w.
+template <class Point>
+[[gnu::always_inline]] inline auto spoke(const Point& p, const Point& q) {
+  using T = decltype(p.x + p.x);
+  const T x = q.x - p.x, y = q.y - p.y, l2 = x * x + y * y, dw = p.w - q.w;
+  return Spoke<T>{x, y, l2, dw, 0.5 * (l2 + dw)};
+}
+
 /// What the shape is made of, besides.
 template <class T>
 struct TriangleVectors {
@@ -44,21 +61,22 @@ struct TriangleVectors {
   T ua, ub, inverse_s;  ///< u_a, u_b, 1/S
 };
 
-/// Point: three T's called x, y, w.
+/// Of the triangle between two spokes.
+template <class Point, class T>
+[[gnu::always_inline]] inline TriangleShapeOf<T> triangle_shape(const Spoke<T>& a, const Spoke<T>& b, const Point& q,
+                                                                const Point& r, TriangleVectors<T>& v) {
+  const T s = a.x * b.y - a.y * b.x, ab = a.x * b.x + a.y * b.y;
+  v = {a.x, a.y, b.x, b.y, a.l2, b.l2, ab, a.u, b.u, 1.0 / s};
+  const T cx = r.x - q.x, cy = r.y - q.y;
+  const T ga = (b.u * a.l2 - a.u * ab) * v.inverse_s;
+  const T gb = (a.u * b.l2 - b.u * ab) * v.inverse_s;
+  return {{a.l2, a.dw, ga}, {cx * cx + cy * cy, q.w - r.w, s - ga - gb}, {b.l2, b.dw, gb}, s};
+}
+
 template <class Point>
 [[gnu::always_inline]] inline auto triangle_shape(const Point& p, const Point& q, const Point& r,
                                                   TriangleVectors<decltype(p.x + p.x)>& v) {
-  using T = decltype(p.x + p.x);
-  v.ax = q.x - p.x, v.ay = q.y - p.y, v.bx = r.x - p.x, v.by = r.y - p.y;
-  const T s = v.ax * v.by - v.ay * v.bx;
-  v.la = v.ax * v.ax + v.ay * v.ay, v.lb = v.bx * v.bx + v.by * v.by, v.ab = v.ax * v.bx + v.ay * v.by;
-  const T cx = r.x - q.x, cy = r.y - q.y;
-  const T wa = p.w - q.w, wb = p.w - r.w;
-  v.ua = 0.5 * (v.la + wa), v.ub = 0.5 * (v.lb + wb);
-  v.inverse_s = 1.0 / s;
-  const T ga = (v.ub * v.la - v.ua * v.ab) * v.inverse_s;
-  const T gb = (v.ua * v.lb - v.ub * v.ab) * v.inverse_s;
-  return TriangleShapeOf<T>{{v.la, wa, ga}, {cx * cx + cy * cy, q.w - r.w, s - ga - gb}, {v.lb, wb, gb}, s};
+  return triangle_shape(spoke(p, q), spoke(p, r), q, r, v);
 }
 
 [[gnu::always_inline]] inline TriangleShape triangle_shape(const WeightedPoint& p, const WeightedPoint& q,

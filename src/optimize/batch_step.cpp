@@ -14,9 +14,6 @@ constexpr std::size_t kAhead = 64;
 // With fewer left, what comes together matters less than that lanes are in use.
 constexpr std::size_t kLastFew = 48;
 
-// What limits_.scratch holds of a vertex: whether a vertex of the batch looks at it, and its last number of triangles.
-constexpr std::uint8_t kMarked = 0x80, kTriangles = 0x7f;
-
 }  // namespace
 
 void BatchStep::improve(std::span<const VertexId> vertices, Unknowns unknowns, const Part& part,
@@ -56,13 +53,12 @@ std::size_t BatchStep::take_from(std::vector<VertexId>& list) {
 /// Stars of a batch should be alike: the largest decides how long it takes.
 std::size_t BatchStep::kind_of(VertexId v) const {
   constexpr std::size_t kSmall = 5;
-  const std::size_t triangles = limits_.scratch[v] & kTriangles;
-  return std::clamp(triangles, kSmall, kSmall + waiting_.size() - 1) - kSmall;
+  return std::clamp<std::size_t>(limits_.scratch[v], kSmall, kSmall + waiting_.size() - 1) - kSmall;
 }
 
 /// False when v has to wait; else it is in the batch, or there is nothing to be done here.
 bool BatchStep::take(VertexId v) {
-  if ((limits_.scratch[v] & kMarked) != 0) return false;
+  if (mark(v) != Mark::none) return false;
   const Mobility mobility = limits_.mobility[v];
   const bool stays = mobility == Mobility::fixed && unknowns_ == Unknowns::positions;
   if (stays || mobility == Mobility::frozen || mesh_.is_isolated(v)) return true;
@@ -74,16 +70,13 @@ void BatchStep::gather(VertexId v, Mobility mobility) {
   const std::size_t lane = batch_.lanes;
   Occupant& occupant = occupants_[lane];
   occupant.v = v;
-  const std::size_t n_marked = marked_.size();
   if (!gather_star(occupant, lane)) {
-    marked_.resize(n_marked);
     left_->push_back(v);
     return;
   }
-  marked_.push_back(v);
-  for (std::size_t i = n_marked; i < marked_.size(); ++i) limits_.scratch[marked_[i]] |= kMarked;
+  mark(v) = Mark::looked_at;
   const std::size_t triangles = batch_.open[lane] != 0 ? occupant.n_link - 1 : occupant.n_link;
-  limits_.scratch[v] = kMarked | static_cast<std::uint8_t>(std::min<std::size_t>(triangles, kTriangles));
+  limits_.scratch[v] = static_cast<std::uint8_t>(std::min<std::size_t>(triangles, 255));
   occupant.alone = mobility == Mobility::sliding || triangles > StarBatch::kMostTriangles;
   batch_.p.set(lane, mesh_.point(v));
   batch_.triangles[lane] = occupant.alone ? 0 : static_cast<double>(triangles);
@@ -93,49 +86,54 @@ void BatchStep::gather(VertexId v, Mobility mobility) {
   ++batch_.lanes;
 }
 
-/// The points that a vertex's step looks at, those to be marked last in marked_. False when they are not all in the
-/// part.
+/// The points that a vertex's step looks at, all marked. False when they are not all in the part.
 bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
   constexpr std::size_t kMost = StarBatch::kMostTriangles;
+  const Part part = part_;
   const HalfedgeId first = mesh_.outgoing(occupant.v);
   HalfedgeId h = first;
   VertexId q = mesh_.target(h);
   std::size_t i = 0;
   bool open = false;
   do {
-    const HalfedgeId link = Mesh::next(h);
-    const VertexId r = mesh_.target(link);
+    const HalfedgeId link = Mesh::next(h), back = Mesh::next(link);
+    const VertexId r = mesh_.origin(back);
     // The twin, and who is across, may be read only when both ends of the link edge are in the part.
-    if (!part_.contains(q) || !part_.contains(r)) return false;
+    if (!part.contains(q) || !part.contains(r)) return false;
     const HalfedgeId across = mesh_.twin(link);
     const VertexId o = across.valid() ? mesh_.opposite(across) : q;
-    if (!part_.contains(o)) return false;
-    marked_.push_back(q);
-    marked_.push_back(o);
+    if (!part.contains(o)) return false;
+    mark(q) = mark(o) = Mark::looked_at;
     if (i < kMost) {
       occupant.link[i] = q;
       batch_.link[i].set(lane, mesh_.point(q));
       batch_.across[i].set(lane, mesh_.point(o));
       batch_.link_flips[i][lane] = across.valid() && !mesh_.is_constrained(link) ? -1 : 0;
-      batch_.spoke_flips[i][lane] = mesh_.twin(h).valid() && !mesh_.is_constrained(h) ? -1 : 0;
+      batch_.spoke_flips[i][lane] = mesh_.is_constrained(h) ? 0 : -1;
     }
     ++i;
     q = r;
-    h = mesh_.rotate(h);
+    h = mesh_.twin(back);
     open = !h.valid();
   } while (!open && h != first);
+  if (open) batch_.spoke_flips[0][lane] = 0;
   batch_.open[lane] = open ? -1 : 0;
   if (i <= kMost) {
     occupant.link[i] = q;
     batch_.link[i].set(lane, mesh_.point(q));
   }
-  if (open) marked_.push_back(q);
+  if (open) mark(q) = Mark::looked_at;
   occupant.n_link = i + (open ? 1 : 0);
   return true;
 }
 
 void BatchStep::run() {
-  if (batch_.lanes == 0) return;
+  if (batch_.lanes > 0) step_and_settle();
+  marks_.fill(Mark::none);
+  batch_.lanes = batch_.most_triangles = 0;
+}
+
+void BatchStep::step_and_settle() {
   for (std::size_t lane = batch_.lanes; lane < kLanes; ++lane) {
     batch_.triangles[lane] = 0;
     batch_.open[lane] = batch_.moves[lane] = batch_.weighs[lane] = 0;
@@ -147,9 +145,6 @@ void BatchStep::run() {
   for (std::size_t lane = 0; lane < batch_.lanes; ++lane) {
     settle(occupants_[lane], lane, outcome, n_changes() != before);
   }
-  for (const VertexId v : marked_) limits_.scratch[v] &= kTriangles;
-  marked_.clear();
-  batch_.lanes = batch_.most_triangles = 0;
 }
 
 /// Takes a step of the batch into the mesh. `flips`: edges have flipped, or vertices gone, since the batch was made.

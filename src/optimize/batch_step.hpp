@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -50,6 +51,7 @@ class BatchStep {
   void gather(VertexId v, Mobility mobility);
   [[nodiscard]] bool gather_star(Occupant& occupant, std::size_t lane);
   void run();
+  void step_and_settle();
   void settle(const Occupant& occupant, std::size_t lane, const StepOutcome& outcome, bool flips);
   void improve_alone(VertexId v);
   [[nodiscard]] bool has_its_link(const Occupant& occupant, bool open) const;
@@ -71,7 +73,12 @@ class BatchStep {
   // Of the batch under way.
   StarBatch batch_;
   std::array<Occupant, kLanes> occupants_;
-  std::vector<VertexId> marked_;
+  // Whether a vertex of the batch looks at one of these numbers, modulo kMarks: who shares a number with another waits
+  // sometimes for nothing.
+  static constexpr std::size_t kMarks = 2048;
+  enum class Mark : std::uint8_t { none, looked_at };
+  std::array<Mark, kMarks> marks_{};
+  [[nodiscard]] Mark& mark(VertexId v) { return marks_[v.index % kMarks]; }
 };
 
 }  // namespace temper

@@ -113,7 +113,7 @@ Driver::Verdict Driver::judge_sweep(bool removed, bool may_give_up) {
   if (softener_.settled()) fall_ = fall;
   const bool changed = softener_.advance(mesh_, fall, bad, settings_.model);
   settings_.relaxation = settings_.options.relaxation.value_or(softener_.relaxation());
-  before_ = changed ? total() : after;
+  before_ = !changed ? after : softener_.compares_energies() ? total() : kInfinity;
   return Verdict::improving;
 }
 

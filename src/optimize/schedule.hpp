@@ -56,6 +56,8 @@ class Softener {
   [[nodiscard]] double relaxation() const { return settled_ ? kRelaxation : attempt_.relaxation; }
   /// Whether advance will change the model no more: only then can a run converge.
   [[nodiscard]] bool settled() const { return settled_; }
+  /// Whether the energy before the next sweep will be asked for.
+  [[nodiscard]] bool compares_energies() const { return settled_ || (gamma_shrinks_ && attempt_.level_sweeps > 1); }
 
  private:
   Attempt attempt_;

@@ -29,15 +29,17 @@ TEMPER_INLINE Derivatives derivatives(const Kernel& kernel, const StarBatch& bat
   Pack squares = Pack::all(0);
   Mask outside = triangles < 0;
   PackPoint q = load(batch.link[0]);
+  SpokeOf<Kernel> a = spoke_of(kernel, p, q);
   for (std::size_t i = 0; i < batch.most_triangles; ++i) {
     const PackPoint r = load(batch.link[i + 1]);
+    const SpokeOf<Kernel> b = spoke_of(kernel, p, r);
     const Mask here = has_triangle(triangles, i);
-    outside = outside | (here & ~add_barrier(kernel, p, q, r, here, d.sums));
-    const auto square = [&](const PackPoint& x) { return (x.x - p.x) * (x.x - p.x) + (x.y - p.y) * (x.y - p.y); };
-    squares = squares + select(here, square(q), Pack::all(0));
+    outside = outside | (here & ~add_barrier(kernel, a, b, q, r, here, d.sums));
+    squares = squares + select(here, a.to.l2, Pack::all(0));
     const Mask last = open & here & ~has_triangle(triangles, i + 1);
-    squares = squares + select(last, square(r), Pack::all(0));
+    squares = squares + select(last, b.to.l2, Pack::all(0));
     q = r;
+    a = b;
   }
   d.squared_radius = squares / (triangles + select(open, Pack::all(1), Pack::all(0)));
   d.feasible = ~outside;
@@ -112,24 +114,46 @@ TEMPER_INLINE Trial energy_at(const Kernel& kernel, const StarBatch& batch, cons
   Trial trial = {Pack::all(0), {}, {}};
   Mask outside = triangles < 0, uncertain = outside;
   PackPoint q = load(batch.link[0]);
+  SpokeOf<Kernel> a = spoke_of(kernel, p, q);
   for (std::size_t i = 0; i < batch.most_triangles; ++i) {
     const PackPoint r = load(batch.link[i + 1]);
+    const SpokeOf<Kernel> b = spoke_of(kernel, p, r);
     const Mask here = has_triangle(triangles, i);
-    outside = outside | (here & ~add_barrier_value(kernel, p, q, r, here, trial.value));
+    outside = outside | (here & ~add_barrier_value(kernel, a, b, q, r, here, trial.value));
     const auto [doubled_area, bound] = inlined::filtered_orient2d(q, r, p);
     uncertain = uncertain | (here & ~(doubled_area > bound));
     q = r;
+    a = b;
   }
   trial.feasible = ~outside;
   trial.certain = ~uncertain;
   return trial;
 }
 
-/// Where all spokes and link edges that may flip are certainly regular with the centers at p.
+/// A triangle's heights over a = pq, b = pr and qr are certainly positive: the triangle reaches to its orthocenter and
+/// beyond on that side.
+struct CertainHeights {
+  Mask over_a, over_b, over_qr;
+};
+
+/// h ℓ S over pq is N = u_b |a|² − u_a a·b, and so on (geometry/triangle_kernel.hpp). With m = |a|² + |b|² + |w_p −
+/// w_q| + |w_p − w_r|, none of its products is larger than m²/2, nor is S²; 35 roundings at most lie on the way to the
+/// last of the three, S² − N_a − N_b.
+TEMPER_INLINE CertainHeights certain_heights(const Spoke<Pack>& a, const Spoke<Pack>& b) {
+  constexpr double kBound = 64 * inlined::kUnitRoundoff;
+  const Pack s = a.x * b.y - a.y * b.x, ab = a.x * b.x + a.y * b.y;
+  const Pack na = b.u * a.l2 - a.u * ab, nb = a.u * b.l2 - b.u * ab;
+  const Pack m = a.l2 + b.l2 + absolute(a.dw) + absolute(b.dw), bound = kBound * (m * m);
+  const Mask oriented = s > 0;
+  return {oriented & (na > bound), oriented & (nb > bound), oriented & (s * s - na - nb > bound)};
+}
+
+/// Where all spokes and link edges that may flip are certainly regular with the centers at p. An edge is, whose two
+/// heights are positive; where they are not, the power test decides.
 TEMPER_INLINE Mask regular_at(const StarBatch& batch, const PackPoint& p) {
   const Pack triangles = Pack::load(batch.triangles);
   Mask flips = triangles < 0;
-  const auto certain = [](const PackPoint& a, const PackPoint& b, const PackPoint& c, const PackPoint& d) {
+  const auto tested = [](const PackPoint& a, const PackPoint& b, const PackPoint& c, const PackPoint& d) {
     const auto [determinant, bound] = inlined::filtered_power_test(a, b, c, d);
     return determinant < -bound;
   };
@@ -140,13 +164,21 @@ TEMPER_INLINE Mask regular_at(const StarBatch& batch, const PackPoint& p) {
     const PackPoint here = load(batch.link[i]);
     before = {select(last, here.x, before.x), select(last, here.y, before.y), select(last, here.w, before.w)};
   }
+  Spoke<Pack> a = spoke(p, q);
+  Mask over_a_before = certain_heights(spoke(p, before), a).over_b;
   for (std::size_t i = 0; i < batch.most_triangles; ++i) {
-    const PackPoint r = load(batch.link[i + 1]);
+    const PackPoint r = load(batch.link[i + 1]), o = load(batch.across[i]);
+    const Spoke<Pack> b = spoke(p, r);
+    const CertainHeights heights = certain_heights(a, b);
     const Mask here = has_triangle(triangles, i);
-    const Mask spoke = load(batch.spoke_flips[i]) & here, link = load(batch.link_flips[i]) & here;
-    flips = flips | (spoke & ~certain(p, q, r, before)) | (link & ~certain(q, r, p, load(batch.across[i])));
+    const Mask link =
+        load(batch.link_flips[i]) & here & ~(heights.over_qr & certain_heights(spoke(q, o), spoke(q, r)).over_b);
+    const Mask spokes = load(batch.spoke_flips[i]) & here & ~(heights.over_a & over_a_before);
+    if ((link | spokes).bits() != 0) flips = flips | (spokes & ~tested(p, q, r, before)) | (link & ~tested(q, r, p, o));
     before = q;
     q = r;
+    a = b;
+    over_a_before = heights.over_b;
   }
   return ~flips;
 }
