@@ -1,0 +1,100 @@
+// The dual for ParaView and its like: power cells as polygons, dual edges as lines between orthocenters.
+#include <cstdint>
+
+#include "io/cells.hpp"
+#include "io/dec_files.hpp"
+#include "io/vtu_document.hpp"
+
+namespace temper::io {
+namespace {
+
+/// An array of doubles, or of 32-bit integers.
+template <class F>
+VtkArray dual_reals(std::string name, std::size_t n, F value) {
+  return computed_vtk_array<double>(std::move(name), Scalar::f64, n, std::move(value));
+}
+template <class F>
+VtkArray dual_integers(std::string name, std::size_t n, F value) {
+  return computed_vtk_array<std::int32_t>(std::move(name), Scalar::i32, n,
+                                          [value](std::size_t i) { return static_cast<std::int32_t>(value(i)); });
+}
+
+/// Three numbers a point.
+template <class F>
+VtkArray dual_points(std::size_t n, double z, F at) {
+  return computed_vtk_array<double>(
+      "Points", Scalar::f64, 3 * n,
+      [at, z](std::size_t i) {
+        const Vec2 p = at(i / 3);
+        return i % 3 == 0 ? p.x : i % 3 == 1 ? p.y : z;
+      },
+      3);
+}
+
+VtkArray one_type(std::size_t n, int type) {
+  return computed_vtk_array<std::uint8_t>("types", Scalar::u8, n,
+                                          [type](std::size_t) { return static_cast<std::uint8_t>(type); });
+}
+
+// A cell of several polygons has the same number, area and star on each of them.
+void write_cells(const DecJob& job) {
+  const PowerCells& cells = job.cells;
+  const std::size_t n = cells.n_polygons(), n_points = cells.corners.size();
+  const auto owner = [&cells](std::size_t p) { return cells.vertices[p]; };
+  VtuDocument vtu(job.open("dual.vtu"), Encoding::base64, job.options.executor);
+  vtu.begin_piece(n_points, n);
+  vtu.section("Points", {dual_points(n_points, job.options.z, [&cells](std::size_t i) { return cells.corners[i]; })});
+  vtu.section("Cells", {dual_integers("connectivity", n_points, [](std::size_t i) { return i; }),
+                        dual_integers("offsets", n, [&cells](std::size_t p) { return cells.starts[p + 1]; }),
+                        one_type(n, kVtkPolygon)});
+  vtu.section("PointData", {});
+  vtu.section("CellData",
+              {dual_integers("vertex", n, [owner](std::size_t p) { return owner(p).index; }),
+               dual_reals("polygon_area", n, [&cells](std::size_t p) { return cells.polygon_areas[p]; }),
+               dual_reals("area", n, [&cells, owner](std::size_t p) { return cells.areas[owner(p)]; }),
+               dual_reals("star0", n, [&job, owner](std::size_t p) { return job.complex.star0[owner(p)]; }),
+               dual_reals("weight", n, [&job, owner](std::size_t p) { return job.mesh.weight(owner(p)); })});
+  vtu.finish();
+}
+
+// Points are the orthocenters, then the weighted midpoints. An interior line runs from the triangle on the left of its
+// edge to the one on the right, a boundary line from the orthocenter to the midpoint.
+void write_dual_edges(const DecJob& job) {
+  const DecComplex& c = job.complex;
+  const std::size_t n_triangles = c.orthocenters.size(), n = c.edges.size(), n_points = n_triangles + n;
+  const auto edge = [&c](std::size_t i) -> const DecEdge& { return c.edges[EdgeId(i)]; };
+  const auto end = [edge, n_triangles](std::size_t i) -> std::size_t {
+    const DecEdge& e = edge(i / 2);
+    const TriangleId first = e.left.valid() ? e.left : e.right;
+    if (i % 2 == 0) return first.index;
+    return e.is_boundary() ? n_triangles + i / 2 : e.right.index;
+  };
+  VtuDocument vtu(job.open("dual_edges.vtu"), Encoding::base64, job.options.executor);
+  vtu.begin_piece(n_points, n);
+  vtu.section("Points", {dual_points(n_points, job.options.z, [&c, edge, n_triangles](std::size_t i) {
+                return i < n_triangles ? c.orthocenters[TriangleId(i)] : edge(i - n_triangles).midpoint;
+              })});
+  vtu.section("Cells", {dual_integers("connectivity", 2 * n, end),
+                        dual_integers("offsets", n, [](std::size_t i) { return 2 * (i + 1); }), one_type(n, kVtkLine)});
+  vtu.section("PointData",
+              {dual_integers("midpoint", n_points, [n_triangles](std::size_t i) { return i < n_triangles ? 0 : 1; }),
+               dual_integers("element", n_points,
+                             [n_triangles](std::size_t i) { return i < n_triangles ? i : i - n_triangles; })});
+  vtu.section("CellData",
+              {dual_integers("from", n, [edge](std::size_t i) { return edge(i).from.index; }),
+               dual_integers("to", n, [edge](std::size_t i) { return edge(i).to.index; }),
+               dual_integers("boundary", n, [edge](std::size_t i) { return edge(i).is_boundary() ? 1 : 0; }),
+               dual_reals("length", n, [edge](std::size_t i) { return edge(i).length; }),
+               dual_reals("dual_length", n, [edge](std::size_t i) { return edge(i).dual_length; }),
+               dual_reals("star1", n, [&c](std::size_t i) { return c.star1[EdgeId(i)]; })});
+  vtu.finish();
+}
+
+}  // namespace
+
+void write_dec_vtu(const DecJob& job) {
+  write_cells(job);
+  write_dual_edges(job);
+}
+
+}  // namespace temper::io

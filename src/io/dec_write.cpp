@@ -1,0 +1,91 @@
+// The door of write_dec: makes the folder, has every format write, and puts all files in their places at the end.
+#include <algorithm>
+#include <filesystem>
+#include <new>
+#include <system_error>
+
+#include "io/dec_files.hpp"
+
+namespace temper::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that is there from now on, and goes again when nothing was put into it.
+class Folder {
+ public:
+  explicit Folder(const std::string& path) : path_(path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path_, error);
+    if (fs::is_directory(status)) return;
+    if (fs::exists(status)) fail(ErrorCode::not_writable, path, "is no folder; expected the name of one, or of none");
+    made_ = fs::create_directory(path_, error);
+    if (error) fail(ErrorCode::not_writable, path, text("cannot be made: ", error.message()));
+  }
+  ~Folder() {
+    std::error_code ignored;
+    if (made_) fs::remove(path_, ignored);  // does nothing when it is not empty
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  void keep() { made_ = false; }
+
+ private:
+  fs::path path_;
+  bool made_ = false;
+};
+
+std::vector<std::string> write_dec_or_throw(const std::string& name, const Mesh& mesh, const DecComplex& complex,
+                                            const PowerCells& cells, const DecWriteOptions& options) {
+  Folder folder(name);
+  std::vector<std::string> written;
+  OutputSet outputs;  // after the folder: its temporary files go first
+  const DecJob job = {name, mesh, complex, cells, options, outputs, written};
+  const auto wants = [&](DecFormat format) {
+    return std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();
+  };
+  if (wants(DecFormat::npz)) write_dec_npz(job);
+  if (wants(DecFormat::mtx)) write_dec_mtx(job);
+  if (wants(DecFormat::vtu)) write_dec_vtu(job);
+  outputs.commit();
+  folder.keep();
+  return written;
+}
+
+}  // namespace
+
+std::span<const std::string_view> dec_file_names(DecFormat format) {
+  static constexpr std::string_view kNpz[] = {"operators.npz", "d0.npz",    "d1.npz",
+                                              "star0.npz",     "star1.npz", "star2.npz"};
+  static constexpr std::string_view kMtx[] = {"d0.mtx",    "d1.mtx",   "star0.mtx",        "star1.mtx",
+                                              "star2.mtx", "flux.mtx", "orthocenters.mtx", "edge_midpoints.mtx"};
+  static constexpr std::string_view kVtu[] = {"dual.vtu", "dual_edges.vtu"};
+  switch (format) {
+    case DecFormat::npz:
+      return kNpz;
+    case DecFormat::mtx:
+      return kMtx;
+    default:
+      return kVtu;
+  }
+}
+
+Output& DecJob::open(std::string_view name) const {
+  const std::string path = (std::filesystem::path(folder) / name).string();
+  Output& output = outputs.open(path);
+  written.push_back(path);
+  return output;
+}
+
+Expected<std::vector<std::string>> write_dec(const std::string& folder, const Mesh& mesh, const DecComplex& complex,
+                                             const PowerCells& cells, const DecWriteOptions& options) {
+  try {
+    return write_dec_or_throw(folder, mesh, complex, cells, options);
+  } catch (Failure& failure) {
+    return std::move(failure.error);
+  } catch (const std::bad_alloc&) {
+    return InputError{ErrorCode::unsupported, folder, "needs more memory than there is"};
+  }
+}
+
+}  // namespace temper::io
