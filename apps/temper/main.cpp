@@ -19,12 +19,13 @@
 namespace temper::app {
 
 std::span<const Verb> verbs() {
-  static constexpr std::array<Verb, 10> kVerbs = {{
+  static constexpr std::array<Verb, 11> kVerbs = {{
       {"mesh", "mesh an outline, and optimize that until every triangle is well-centered", run_mesh},
       {"optimize", "move, weigh and flip until every triangle is well-centered", run_optimize},
       {"weights", "find weights for a mesh as it is, or prove that there are none", run_weights},
       {"explain", "say why triangles are not well-centered, and what would cure them", run_explain},
       {"check", "report on the quality of a mesh, and test requirements", run_check},
+      {"dec", "write the operators of a mesh, for solvers", run_dec},
       {"draw", "draw triangles, dual and weights as SVG", run_draw},
       {"convert", "write a mesh in another file format", run_convert},
       {"example", "make an example mesh", run_example},

@@ -7,7 +7,7 @@
 namespace temper::test {
 namespace {
 
-const std::vector<std::string> kVerbs = {"optimize", "weights", "check",  "draw",
+const std::vector<std::string> kVerbs = {"optimize", "weights", "check",  "dec",      "draw",
                                          "convert",  "example", "replay", "reproduce"};
 
 class Usage : public Workshop {};

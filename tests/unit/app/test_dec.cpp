@@ -1,0 +1,62 @@
+// temper dec.
+#include "workshop.hpp"
+
+namespace temper::test {
+namespace {
+
+class Dec : public Workshop {};
+
+TEST_F(Dec, WritesTheFormatsAskedForAndSaysWhatItWrote) {
+  make_input();
+  const auto all = temper_ok({"dec", "in.vtu", "-o", "all"});
+  EXPECT_TRUE(contains(all.out, "wrote all/operators.npz"));
+  EXPECT_TRUE(contains(all.out, "wrote all/dual_edges.vtu"));
+  EXPECT_TRUE(contains(all.err, "triangles are not well-centered"));
+  const auto json = nlohmann::json::parse(temper_ok({"dec", "in.vtu", "-o", "some", "--format", "vtu", "--json"}).out);
+  EXPECT_EQ(json.at("files"), nlohmann::json({"some/dual.vtu", "some/dual_edges.vtu"}));
+  const auto check = nlohmann::json::parse(temper_ok({"check", "in.vtu", "--json"}).out);
+  for (const char* key : {"vertices", "triangles", "edges", "boundary_edges"})
+    EXPECT_EQ(json.at(key), check.at(key)) << key;
+  EXPECT_EQ(json.at("negative_star1"), check.at("non_regular_edges"));
+  EXPECT_EQ(json.at("negative_boundary_star1"), check.at("negative_boundary_duals"));
+  EXPECT_NEAR(json.at("star0_sum").get<double>(), json.at("area").get<double>(), 1e-12);
+  EXPECT_NEAR(json.at("cell_area_sum").get<double>(), json.at("area").get<double>(), 1e-12);
+}
+
+TEST_F(Dec, AWellCenteredMeshGivesNoWarning) {
+  write("a.mesh",
+        "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n1 0 0\n0.5 0.9 0\n1.5 0.8 0\n"
+        "Triangles\n2\n1 2 3 0\n2 4 3 0\nEnd\n");
+  const auto outcome = temper_ok({"dec", "a.mesh", "-o", "out", "--format", "mtx"});
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(read("out/d0.mtx"),
+            "%%MatrixMarket matrix coordinate real general\n"
+            "% edges x vertices: -1 at the lower vertex, +1 at the higher\n5 4 10\n"
+            "1 1 -1\n1 2 1\n2 1 -1\n2 3 1\n3 2 -1\n3 3 1\n4 2 -1\n4 4 1\n5 3 -1\n5 4 1\n");
+}
+
+TEST_F(Dec, BadInputWritesNothing) {
+  make_input();
+  write("file", "");
+  write("bad.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices\n1\n0 0 0\nTriangles\n1\n1 2 3 0\nEnd\n");
+  const auto before = names();
+  const auto expect_failure = [&](const std::vector<std::string>& arguments, int code, const std::string& message) {
+    const auto outcome = temper(arguments);
+    EXPECT_EQ(outcome.exit, code) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, message));
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(names(), before);
+  };
+  expect_failure({"dec", "bad.mesh", "-o", "out"}, 1, "bad.mesh:8: ");
+  expect_failure({"dec", "in.vtu", "-o", "file"}, 1, "file: is no folder; expected the name of one, or of none");
+  expect_failure({"dec", "in.vtu", "-o", "no/such"}, 1, "no/such: cannot be made: No such file or directory");
+  expect_failure({"dec", "in.vtu"}, 2, "--output");
+  expect_failure({"dec", "in.vtu", "-o", "out", "--format", "npz,vtk"}, 2, "'vtk' is none of npz, mtx, vtu");
+  expect_failure({"dec", "in.vtu", "-o", "out", "--format", "npz,"}, 2, "'' is none of npz, mtx, vtu");
+  shell("cp in.vtu dual.vtu");
+  EXPECT_EQ(temper({"dec", "dual.vtu", "-o", "."}).exit, 2) << "it would be replaced";
+  EXPECT_EQ(read("dual.vtu"), read("in.vtu"));
+}
+
+}  // namespace
+}  // namespace temper::test
