@@ -73,10 +73,13 @@ void star_sums(const EdgeFormula& formula, const bench::StarLanes& stars, Lane (
     const Pack triangles = Pack::load(stars.triangles);
     StarSums sums;
     PackPoint q = load(stars.link[0]);
+    auto a = spoke_of(kernel, p, q);
     for (std::size_t i = 0; i < stars.most_triangles; ++i) {
       const PackPoint r = load(stars.link[i + 1]);
-      add_barrier(kernel, p, q, r, has_triangle(triangles, i), sums);
+      const auto b = spoke_of(kernel, p, r);
+      add_barrier(kernel, a, b, q, r, has_triangle(triangles, i), sums);
       q = r;
+      a = b;
     }
     store_sums(sums, out);
   });
