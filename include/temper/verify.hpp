@@ -52,11 +52,11 @@ struct VerifyFrame {
 
 struct VerifyOptions {
   /// Names of fields, or of groups ("chosen", "held-back"), or "all"; none: all.
-  std::vector<std::string> fields;
-  std::optional<VerifyFrame> frame;  ///< none: verify_frame(mesh). Meshes are compared in one frame
-  int refine = 0;                    ///< so many times each triangle becomes four, and orders are measured
-  bool condition = false;            ///< also estimate the condition of both matrices
-  bool local = false;                ///< also list the errors of each vertex, edge and triangle
+  std::vector<std::string> fields = {};
+  std::optional<VerifyFrame> frame = {};  ///< none: verify_frame(mesh). Meshes are compared in one frame
+  int refine = 0;                         ///< so many times each triangle becomes four, and orders are measured
+  bool condition = false;                 ///< also estimate the condition of both matrices
+  bool local = false;                     ///< also list the errors of each vertex, edge and triangle
   Executor* executor = nullptr;
 };
 
@@ -110,7 +110,7 @@ struct VerifyReport {
   /// The mesh itself and its refinements, coarsest first; empty without refine.
   std::vector<VerifyLevel> levels;
   /// Of each field, how the errors go with the edge length: the slope by least squares over the levels in logarithms.
-  /// NaN where fewer than two levels have an error that is finite and not 0. Empty without refine.
+  /// NaN where fewer than two levels have an error that is finite and more than rounding (1e-12). Empty without refine.
   std::vector<FieldErrors> orders;
   /// With `local`: of each vertex (★0), edge (★1, in the order of DecComplex) and triangle (★2) the relative error of
   /// the mean over it, its root mean square over the fields.

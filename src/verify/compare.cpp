@@ -49,12 +49,15 @@ constexpr std::array<VerifyMeasure, 10> kMeasures = {{
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
+// Relative errors below are those of rounding: five-point stars are exact for quadratic fields.
+constexpr double kRounding = 1e-12;
+
 /// Slope of −log2(error) over the number of the level, which is that of error against edge length: each level halves
 /// it.
 double order_of(const std::vector<double>& errors) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (std::size_t level = 0; level < errors.size(); ++level) {
-    if (!(errors[level] > 0) || !std::isfinite(errors[level])) continue;
+    if (!(errors[level] > kRounding) || !std::isfinite(errors[level])) continue;
     const double i = static_cast<double>(level), log = -std::log2(errors[level]);
     n += 1, x += i, y += log, xx += i * i, xy += i * log;
   }

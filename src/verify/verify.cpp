@@ -144,9 +144,9 @@ VerifyFrame verify_frame(const Mesh& mesh) {
 
 Expected<VerifyReport> verify(const Mesh& mesh, const VerifyOptions& options) {
   using namespace verify_detail;
-  if (const auto checked = check(mesh, options); !checked) return checked.error();
   const auto fields = select_fields(options.fields);
   if (!fields) return fields.error();
+  if (const auto checked = check(mesh, options); !checked) return checked.error();
 
   const Subject subject(mesh, options.frame.value_or(verify_frame(mesh)), options.executor);
   VerifyReport report = report_of(subject, measure(subject.setting, *fields, options.condition), options.local);
