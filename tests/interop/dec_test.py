@@ -4,6 +4,8 @@ dec_test.py TEMPER
 """
 
 import os
+import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -14,6 +16,7 @@ import scipy.io
 import scipy.sparse
 
 TEMPER = sys.argv[1]
+DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs" / "operators.md"
 CHECKS = 0
 
 
@@ -82,6 +85,21 @@ def check_vtu(folder, a):
     check(numpy.isclose(total, a["triangle_areas"].sum(), rtol=1e-12), "dual.vtu: areas sum to the domain's")
 
 
+def check_docs():
+    """The commands and the script of docs/operators.md."""
+    text = DOCS.read_text()
+    run("example", "annulus", "-o", "in.vtu")
+    commands = re.search(r"```sh\n(.*?)```", text, re.S)[1].splitlines()
+    check(len(commands) == 2 and all(line.startswith("temper ") for line in commands), "docs: two commands")
+    for line in commands:
+        run(*line.split()[1:])
+    names = {}
+    exec(re.search(r"```python\n(.*?)```", text, re.S)[1], names)
+    check((names["a"]["star1"] > 0).all(), "docs: every star is positive once optimized")
+    u, inner, boundary = names["u"], names["inner"], names["boundary"]
+    check(len(inner) > 0 and (u[inner] > 0).all() and (u[boundary] == 0).all(), "docs: the solution obeys the maximum principle")
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
@@ -93,6 +111,7 @@ def main():
             check_formats_agree(example, arrays)
             check_laws(example, arrays)
             check_vtu(example, arrays)
+        check_docs()
     print(f"{CHECKS} checks passed")
 
 
