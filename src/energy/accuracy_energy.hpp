@@ -1,0 +1,140 @@
+// The energy of the accuracy objective: HOT with its two parts told apart, over the local size, behind a barrier.
+//
+// Of an interior edge of length ℓ between triangles with heights h_k and h_l, the four half-edge terms of
+// E_F = α d³h + β d h³ are, with D = h_k + h_l the dual length, δ = (w_i − w_j)/(2ℓ) the offset of the weighted
+// midpoint from the middle of the edge, and η = (h_k − h_l)/2 that of the edge from the middle of its dual,
+//
+//     ℓD [ (α ℓ² + β D²)/4 + 3 (α δ² + β η²) ]
+//
+// (d = ℓ/2 ± δ, so Σ d³ = ℓ³/4 + 3ℓδ²; h = D/2 ± η likewise.) The first part is a moment that no mesh of this size
+// avoids; the second one is how far the middles of edge and dual are apart, which is what the error of a diagonal ★ is
+// proportional to at first order. So the offset counts c times as much as in HOT. On the boundary, where the dual ends
+// on the edge, D = h and η = h/2; that offset cannot be avoided, and counts c_b times. With the size s_e at the edge,
+//
+//     E = Σ_edges s_e⁻² ℓD [ (α ℓ² + β D²)/4 + 3 (c α δ² + (c or c_b) β η²) ],    c = c_b = 1: E_F / s_e²
+//
+// which is rational in positions and weights: with L = ℓ², δw = w_i − w_j, G = ℓD = g_k + g_l and H = g_k − g_l,
+// ℓD = G, D² = G²/L, δ² = δw²/(4L), η² = H²/(4L). Scaling exponent 2, with the sizes. Below zero only where a dual is;
+// its absolute value is meant where meshes are compared. (s⁻⁴, by the units of E_F, is not what is wanted: with sizes
+// tied to vertices its minimum has ℓ ~ s², so that grading grows; s⁻² is neutral.)
+//
+// Behind it stands the barrier − μ Σ_triangles s_t² Σ_edges [ln(h/ℓ − ε) + ½ ln(d_ij/ℓ − ε) + ½ ln(d_ji/ℓ − ε)], +∞
+// where a triangle is out of its margin ε: see AccuracyFloors.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "energy/accuracy_edge.hpp"
+#include "temper/energy.hpp"
+#include "temper/executor.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+struct AccuracyModel {
+  EdgeWeights inner, boundary;
+  double margin = 0;   ///< ε
+  double barrier = 0;  ///< μ
+
+  /// α and β of the star, c, c_b.
+  [[nodiscard]] static AccuracyModel of(double alpha, double beta, double offset, double boundary_offset);
+};
+
+using VertexSizes = IdVector<VertexId, double>;
+
+/// Σ |E| over all edges, without barrier: defined for every mesh. The same for any executor. O(n).
+[[nodiscard]] double accuracy_energy(const Mesh& mesh, const VertexSizes& sizes, const AccuracyModel& model,
+                                     Executor* executor = nullptr);
+
+/// The least of h/ℓ, d/ℓ and 1 − d/ℓ over the edges of the triangle, in doubles.
+[[nodiscard]] double triangle_margin(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
+[[nodiscard]] double triangle_margin(const Mesh& mesh, TriangleId t);
+
+/// Whether every triangle is well-centered, exactly, with a margin of more than `margin`.
+[[nodiscard]] bool has_margins(const Mesh& mesh, double margin, Executor* executor = nullptr);
+
+/// The ε of each triangle: that of the model where the triangle has more, else a little less than it has; none where it
+/// is not well-centered, or so hardly that its heights are made of rounding.
+class AccuracyFloors {
+ public:
+  /// Raises the floor of each triangle that has got more room since, never lowers one.
+  void raise(const Mesh& mesh, double margin, Executor* executor = nullptr);
+  /// Whether t has one. What has none is no part of the barrier, and must stay as it is.
+  [[nodiscard]] bool has(TriangleId t) const { return floor_[t] > 0; }
+  [[nodiscard]] double operator[](TriangleId t) const { return floor_[t]; }
+
+ private:
+  IdVector<TriangleId, double> floor_;
+};
+
+/// Energy and barrier of the whole mesh, the barrier over triangles that have a floor.
+struct AccuracyTotal {
+  double energy = 0, barrier = 0;
+};
+[[nodiscard]] AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
+                                           const AccuracyModel& model, Executor* executor = nullptr);
+
+/// Energy and barrier as a function of one vertex. Storage is kept from vertex to vertex.
+///
+///              q2 ------- q1            triangle i = (center, q_i, q_{i+1}), counter-clockwise
+///             /  \  t1  /   \           spoke i    = center → q_i, in triangle i on its left, in i − 1 on its right
+///            /  t2\    /  t0 \          link edge i = q_i → q_{i+1}; the height of its outer triangle stays
+///          q3 ---- center --- q0
+class AccuracyStar {
+ public:
+  /// False when a triangle of the star, or across its link, has no floor.
+  bool gather(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors, const AccuracyModel& model,
+              VertexId v);
+
+  /// Energy and barrier of all that depends on the center, at p: total after − total before = value after − value
+  /// before. +∞ where a triangle turns over or has no more than its floor.
+  [[nodiscard]] double value(const WeightedPoint& p);
+  /// All derivatives where value() was asked for last, and was finite.
+  [[nodiscard]] VertexDerivatives derivatives();
+  /// Whether all triangles of the star are well-centered with the center at p, exactly.
+  [[nodiscard]] bool is_well_centered(const WeightedPoint& p) const;
+  /// The length of the shortest spoke.
+  [[nodiscard]] double shortest_spoke(const WeightedPoint& p) const;
+
+ private:
+  using Vector = std::array<double, 3>;  // in (x, y, w)
+
+  /// One spoke; from x on, with the center where it was asked about last.
+  struct Arm {
+    WeightedPoint q;
+    double scale = 0;                     // s_e⁻²
+    double x = 0, y = 0, l2 = 0, dw = 0;  // q − p, |q − p|², w_p − w_q
+    double inverse_l2 = 0;
+    double left = 0, right = 0;          // g in the triangles on its two sides; 0 where there is none
+    EdgeSlopes slopes;                   // of energy and barrier
+    Vector to_left = {}, to_right = {};  // ∇left, ∇right
+  };
+  /// One triangle and its link edge; from inverse_area on, with the center where it was asked about last.
+  struct Wedge {
+    double barrier = 0, floor = 0;                      // μ s_t², ε
+    double scale = 0, l2 = 0, inverse_l2 = 0, dw2 = 0;  // of the link edge: s_e⁻², L, δw²
+    double x = 0, y = 0;                                // from q_i to q_{i+1}
+    double outer = 0;                                   // g of the link edge in its outer triangle
+    double split_room = 0;                              // (d_ij/ℓ − ε)(d_ji/ℓ − ε) of the link edge
+    bool boundary = false;                              // the link edge
+    double inverse_area = 0, link_g = 0;                // 1/S, g of the link edge
+  };
+
+  [[nodiscard]] std::size_t next(std::size_t i) const { return i + 1 < arms_.size() ? i + 1 : 0; }
+  [[nodiscard]] const EdgeWeights& weights_of_arm(std::size_t i) const;
+  void place(const WeightedPoint& p);
+  [[nodiscard]] double add_wedge(std::size_t i);
+  [[nodiscard]] AccuracyEdge link_edge(const Wedge& t) const;
+  void find_slopes(std::size_t i);
+  void add_triangle(std::size_t i, VertexDerivatives& sum);
+  void add_arm(const Arm& arm, VertexDerivatives& sum) const;
+
+  std::vector<Arm> arms_;  // an open star has one more than wedges
+  std::vector<Wedge> wedges_;
+  const AccuracyModel* model_ = nullptr;
+  bool closed_ = true;
+  double value_ = 0;
+};
+
+}  // namespace temper
