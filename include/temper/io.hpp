@@ -79,7 +79,7 @@ struct WriteOptions {
 
 /// A format temper knows. Adding one is one source file and one row.
 struct Format {
-  std::string_view name;  ///< "vtu", "gmsh22", "gmsh41", "medit", "triangle", "obj", "vtk", "mfem"
+  std::string_view name;  ///< "vtu", "gmsh22", …: docs/formats.md lists them
   std::string_view description;
   std::string_view suffixes;  ///< ".vtu", ".msh", …, separated by spaces; first is the one written
   bool writes;

@@ -153,7 +153,7 @@ void AdcircReader::boundaries(bool open, const NumberLookup& lookup) {
   if (scanner_.at_end()) return;
   const std::size_t n = count_line(open ? "open boundaries" : "land boundaries", 2);
   if (n == 0 && scanner_.at_end()) return;
-  static_cast<void>(count_line("boundary nodes", 0 + 1));
+  static_cast<void>(count_line("boundary nodes", 1));
   for (std::size_t i = 0; i < n; ++i) boundary(open, i + 1, lookup);
 }
 

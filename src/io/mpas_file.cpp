@@ -56,7 +56,8 @@ class MpasReader {
     refuse_other_kinds();
     points();
     triangles();
-    if (const NetcdfVariable* w = in_.find(kMpasWeight); w != nullptr && w->sizes.size() == 1 && w->scalar) {
+    if (const NetcdfVariable* w = in_.find(kMpasWeight);
+        w != nullptr && w->sizes.size() == 1 && w->scalar && !is_netcdf_extra(in_, *w)) {
       document_.file.weights = to_doubles(in_.values(*w));
       expect(document_.file.weights.size() == document_.file.points.size(), kMpasWeight);
     }

@@ -38,6 +38,32 @@ TEST(PublicMeshes, are_read_with_their_numbers_of_vertices_and_triangles) {
   }
 }
 
+class PublicFiles : public FileTest {};
+
+TEST_F(PublicFiles, go_through_every_format_without_losing_a_bit_of_points_and_triangles) {
+  if (!std::filesystem::exists(TEMPER_PUBLIC_MESHES)) GTEST_SKIP() << "no meshes in " << TEMPER_PUBLIC_MESHES;
+  int trips = 0;
+  for (const char* name : {"sfepy_circles_in_square.vtk", "sfepy_its2D.mesh", "skfem_annulus.msh",
+                           "mfem_square-disc.mesh", "pydec_ResonantCavity.vtu"}) {
+    const auto f = read(std::string(TEMPER_PUBLIC_MESHES) + "/" + name);
+    ASSERT_TRUE(f) << f.error().what();
+    for (const Format& format : formats()) {
+      const bool netcdf = format.name == "mpas" || format.name == "ugrid";
+      if (!format.writes || (netcdf && !TEMPER_NETCDF)) continue;
+      const std::string out = path(format.name == "triangle" ? "m.node" : "m");
+      const auto written = write(out, *f, {std::string(format.name), {}});
+      ASSERT_TRUE(written) << written.error().what();
+      const auto g = read(out);
+      ASSERT_TRUE(g) << g.error().what();
+      EXPECT_EQ(g->format, format.name);
+      EXPECT_EQ(g->points, f->points) << name << " as " << format.name;
+      EXPECT_EQ(g->triangles, f->triangles) << name << " as " << format.name;
+      ++trips;
+    }
+  }
+  EXPECT_GE(trips, 60);
+}
+
 TEST(PublicMeshes, keep_their_names_and_lines) {
   if (!std::filesystem::exists(TEMPER_PUBLIC_MESHES)) GTEST_SKIP() << "no meshes in " << TEMPER_PUBLIC_MESHES;
   const auto f = read(std::string(TEMPER_PUBLIC_MESHES) + "/skfem_annulus.msh");
