@@ -18,7 +18,7 @@ double angle_between(Vec2 a, Vec2 b) {
   return angle < 0 ? angle + 2 * std::numbers::pi : angle;
 }
 
-/// Angles of the spokes of a vertex, from the first one on, counter-clockwise, and their far ends.
+/// Angles of the spokes of a boundary vertex, from the first one on, counter-clockwise, and their far ends.
 struct Fan {
   std::vector<VertexId> ends;
   std::vector<double> angles;
@@ -34,10 +34,8 @@ Fan fan_of(const Mesh& mesh, VertexId v) {
     angle += corner_angle(mesh.position(v), mesh.position(mesh.target(h)), mesh.position(mesh.opposite(h)));
     last = h;
   }
-  if (mesh.is_boundary(v)) {
-    fan.ends.push_back(mesh.opposite(last));
-    fan.angles.push_back(angle);
-  }
+  fan.ends.push_back(mesh.opposite(last));
+  fan.angles.push_back(angle);
   return fan;
 }
 
@@ -71,39 +69,64 @@ std::vector<CellPiece> TriangleDivider::divide(TriangleId t) {
   for (int k = 0; k < 3; ++k) {
     whole_.push_back({mesh_.position(corners[static_cast<std::size_t>(k)]) - origin_, {}, Mesh::halfedge(t, k)});
   }
-  candidates_.clear();
+  n_candidates_ = 0;
   for (const VertexId v : corners) add(v);
   const double negligible = kNegligible * area_of(whole_);
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+  for (std::size_t i = 0; i < n_candidates_; ++i) {
     if (area_of(candidates_[i].piece) > negligible) expand(i);
   }
   std::vector<CellPiece> pieces;
-  for (Candidate& c : candidates_) {
-    if (area_of(c.piece) > negligible) pieces.push_back({c.vertex, t, std::move(c.piece)});
+  for (std::size_t i = 0; i < n_candidates_; ++i) {
+    const Candidate& c = candidates_[i];
+    if (area_of(c.piece) > negligible) pieces.push_back({c.vertex, t, c.piece});
   }
   return pieces;
 }
 
 /// Takes from the others what is nearer to v.
 void TriangleDivider::add(VertexId v) {
-  for (const Candidate& c : candidates_) {
-    if (c.vertex == v) return;
+  for (std::size_t i = 0; i < n_candidates_; ++i) {
+    if (candidates_[i].vertex == v) return;
   }
-  candidates_.push_back({v, mesh_.position(v) - origin_, mesh_.weight(v), whole_});
-  Candidate& added = candidates_.back();
-  for (std::size_t i = 0; i + 1 < candidates_.size() && !added.piece.empty(); ++i) {
+  if (n_candidates_ == candidates_.size()) candidates_.emplace_back();
+  Candidate& added = candidates_[n_candidates_];
+  added.vertex = v;
+  added.at = mesh_.position(v) - origin_;
+  added.weight = mesh_.weight(v);
+  added.piece.clear();
+  const std::size_t others = n_candidates_++;
+  if (others > 0 && !wins_anywhere(added, others)) return;
+  added.piece = whole_;
+  for (std::size_t i = 0; i < others && !added.piece.empty(); ++i) {
     if (!candidates_[i].piece.empty()) clip(added.piece, added, candidates_[i]);
   }
   if (added.piece.empty()) return;
-  for (std::size_t i = 0; i + 1 < candidates_.size(); ++i) {
+  for (std::size_t i = 0; i < others; ++i) {
     if (!candidates_[i].piece.empty()) clip(candidates_[i].piece, candidates_[i], added);
   }
 }
 
+/// Whether v is nearer than the owner at a corner of one of the pieces: their difference is linear on each piece.
+bool TriangleDivider::wins_anywhere(const Candidate& added, std::size_t others) const {
+  for (std::size_t i = 0; i < others; ++i) {
+    const Candidate& owner = candidates_[i];
+    const Vec2 e = added.at - owner.at;
+    const double constant = squared_length(e) + (owner.weight - added.weight);
+    for (const PieceCorner& c : owner.piece) {
+      if (2 * dot(c.at - owner.at, e) > constant) return true;
+    }
+  }
+  return false;
+}
+
 void TriangleDivider::expand(std::size_t i) {
   const VertexId v = candidates_[i].vertex;
+  if (!mesh_.is_boundary(v)) {
+    for (const HalfedgeId h : mesh_.star(v)) add(mesh_.target(h));
+    return;
+  }
   const Fan fan = fan_of(mesh_, v);
-  const bool reflex = mesh_.is_boundary(v) && fan.angles.back() > std::numbers::pi;
+  const bool reflex = fan.angles.back() > std::numbers::pi;
   double here = 0;
   if (reflex) {
     const Vec2 first = mesh_.position(fan.ends[0]) - mesh_.position(v);

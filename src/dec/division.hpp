@@ -39,16 +39,18 @@ class TriangleDivider {
   struct Candidate {
     VertexId vertex;
     Vec2 at;  // relative to corner 0 of the triangle
-    double weight;
+    double weight = 0;
     std::vector<PieceCorner> piece;
   };
   void add(VertexId v);
+  [[nodiscard]] bool wins_anywhere(const Candidate& added, std::size_t others) const;
   void expand(std::size_t i);
   void clip(std::vector<PieceCorner>& piece, const Candidate& owner, const Candidate& other);
 
   const Mesh& mesh_;
-  std::vector<Candidate> candidates_;  // of the triangle at hand
-  std::vector<PieceCorner> whole_;     // the triangle
+  std::vector<Candidate> candidates_;  // of the triangle at hand; storage is kept for the next
+  std::size_t n_candidates_ = 0;
+  std::vector<PieceCorner> whole_;  // the triangle
   std::vector<PieceCorner> scratch_;
   std::vector<double> sides_;  // of the corners of the polygon being clipped
   Vec2 origin_;
