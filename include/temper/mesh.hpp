@@ -193,6 +193,15 @@ class Mesh {
   /// Bytes of the arrays.
   [[nodiscard]] std::size_t memory_bytes() const;
 
+  // --- as it lies in memory, for views from other languages: valid until the mesh changes ------------
+  /// x, y, w of vertex 0; those of the next one are kVertexStride bytes on. Null without vertices.
+  static constexpr std::size_t kVertexStride = 32;
+  [[nodiscard]] const double* vertex_data() const { return vertices_.empty() ? nullptr : &vertices_.raw().front().x; }
+  /// The corners of the triangles, three each.
+  [[nodiscard]] std::span<const VertexId> corner_data() const { return corners_.raw(); }
+  /// The twin of each halfedge.
+  [[nodiscard]] std::span<const HalfedgeId> twin_data() const { return twins_.raw(); }
+
   // --- changing the arrays: used by topology, which keeps the invariants -----------------------------
   VertexId add_vertex(WeightedPoint p);
   /// Three halfedges without twins; the caller links them.
@@ -222,7 +231,7 @@ class Mesh {
   static constexpr std::uint32_t kFixed = 1;
 
   // 32 bytes: a vertex is one half of a cache line and never straddles two.
-  struct alignas(32) VertexRecord {
+  struct alignas(kVertexStride) VertexRecord {
     double x = 0, y = 0, w = 0;
     std::uint32_t outgoing = HalfedgeId::kInvalid;
     std::uint32_t flags = 0;

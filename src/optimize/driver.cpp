@@ -96,6 +96,10 @@ Driver::Verdict Driver::sweep(bool may_give_up) {
 
 /// Line 19, and what a softened barrier or an infinite energy ask for besides.
 Driver::Verdict Driver::judge_sweep(bool removed, bool may_give_up) {
+  if (settings_.enough && settings_.enough(mesh_)) {
+    run_.report.stopped = Stopped::converged;  // what comes next needs no more of this energy
+    return Verdict::settled;
+  }
   const double after = run_.report.history.back().energy;
   if (!std::isfinite(after)) {
     if (++infinite_sweeps_ > kInfinitePatience && !halve_weights()) return Verdict::stopped;

@@ -1,6 +1,8 @@
 // Options, checked and completed: what the driver and the vertex step read.
 #pragma once
 
+#include <functional>
+
 #include "optimize/frame.hpp"
 #include "temper/optimize.hpp"
 
@@ -13,7 +15,8 @@ struct Settings {
   double relaxation = 1;       ///< of the sweep under way
   FlipLimit flip_limit = FlipLimit::unlimited;
   OptimizeOptions options;
-  std::optional<SizeField> size_field;  ///< that a size band is around, in the user's units; absent without one
+  std::function<bool(const Mesh&)> enough;  ///< asked after each sweep, when there is one: whether the run may end
+  std::optional<SizeField> size_field;      ///< that a size band is around, in the user's units; absent without one
 };
 
 /// Flips wait for the end of the inner iterations, so that edges may meanwhile not be regular.
