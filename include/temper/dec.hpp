@@ -106,7 +106,7 @@ struct PowerCells {
 ///   - In a regular triangulation of a convex domain they are the cells of the power diagram, half-plane by half-plane.
 ///   - In a well-centered mesh of any domain they are the polygons of orthocenters, whose areas are ★0.
 ///   - Where the domain is not convex, a cell does not jump over a crack, a notch or a hole.
-/// Precondition: no erased triangles, and `complex` is dec(mesh). O(n) where triangles are well-centered, and some
+/// Precondition: no erased triangles, and `complex` is dec(mesh). O(n) where triangles are well-centered, and about ten
 /// microseconds for each that is not.
 [[nodiscard]] PowerCells power_cells(const Mesh& mesh, const DecComplex& complex);
 
