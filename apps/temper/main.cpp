@@ -19,19 +19,22 @@
 namespace temper::app {
 
 std::span<const Verb> verbs() {
-  static constexpr std::array<Verb, 11> kVerbs = {{
+  static constexpr auto kVerbs = std::to_array<Verb>({
       {"mesh", "mesh an outline, and optimize that until every triangle is well-centered", run_mesh},
       {"optimize", "move, weigh and flip until every triangle is well-centered", run_optimize},
       {"weights", "find weights for a mesh as it is, or prove that there are none", run_weights},
       {"explain", "say why triangles are not well-centered, and what would cure them", run_explain},
       {"check", "report on the quality of a mesh, and test requirements", run_check},
+#ifdef TEMPER_WITH_VERIFY
+      {"verify", "measure the errors that solvers make on a mesh", run_verify},
+#endif
       {"dec", "write the operators of a mesh, for solvers", run_dec},
       {"draw", "draw triangles, dual and weights as SVG", run_draw},
       {"convert", "write a mesh in another file format", run_convert},
       {"example", "make an example mesh", run_example},
       {"replay", "do again what a trace of optimize says", run_replay},
       {"reproduce", "make the figures and claims of the paper again", run_reproduce},
-  }};
+  });
   return kVerbs;
 }
 

@@ -24,6 +24,7 @@ Exit run_replay(const Arguments& arguments);
 Exit run_reproduce(const Arguments& arguments);
 Exit run_weights(const Arguments& arguments);
 Exit run_explain(const Arguments& arguments);
+Exit run_verify(const Arguments& arguments);  // only with temper::verify
 
 struct Verb {
   std::string_view name;

@@ -7,8 +7,8 @@
 namespace temper::test {
 namespace {
 
-const std::vector<std::string> kVerbs = {"optimize", "weights", "check",  "dec",      "draw",
-                                         "convert",  "example", "replay", "reproduce"};
+const std::vector<std::string> kVerbs = {"optimize", "weights", "check",   "verify", "dec",
+                                         "draw",     "convert", "example", "replay", "reproduce"};
 
 class Usage : public Workshop {};
 
@@ -81,6 +81,7 @@ TEST_F(Usage, HelpMentionsEveryOption) {
       {"replay", {"--output", "--sweeps", "--quiet", "--help"}},
       {"check",
        {"--json", "--gamma ", "--gamma-rel", "--h0 ", "--h0-rel", "--require", "--worst", "--threads", "--help"}},
+      {"verify", {"--json", "--against", "--edges", "--fields", "--refine", "--condition", "--threads", "--help"}},
       {"draw",
        {"--output", "--before", "--no-primal", "--no-dual", "--no-weights", "--no-bad", "--no-rings", "--no-regions",
         "--numbers", "--weight-scale", "--zoom", "--width", "--title", "--help"}},

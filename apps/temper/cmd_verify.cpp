@@ -1,0 +1,141 @@
+// temper verify IN: the errors that solvers make on a mesh, measured with manufactured solutions.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "console.hpp"
+#include "help.hpp"
+#include "input.hpp"
+#include "options.hpp"
+#include "outputs.hpp"
+#include "threads.hpp"
+#include "verify_report.hpp"
+
+namespace temper::app {
+namespace {
+
+struct Settings {
+  std::string input, against, fields = "all", edges;
+  int refine = 0;
+  std::uint64_t threads = 0;
+  bool condition = false, json = false;
+};
+
+// Of the size of the domain: what a text format may round coordinates by.
+constexpr double kSameBox = 1e-6;
+
+std::string field_names() {
+  std::string text;
+  for (const VerifyField& field : verify_fields()) text += (text.empty() ? "" : ", ") + std::string(field.name);
+  return text;
+}
+
+void add_options(CLI::App& app, Settings& s) {
+  app.set_help_flag();
+  app.option_defaults()->group("Report");
+  app.add_option("IN", s.input, "the mesh; its content tells the format")->required();
+  app.add_flag("--json", s.json, "the report as JSON; null is infinite, and of orders undefined");
+  add_text(app, "--against", "MESH", s.against,
+           "another mesh of the same domain: also print the errors of IN over those of MESH, field by field");
+  add_text(app, "--edges", "FILE", s.edges,
+           "write the error of star 1 at each edge as CSV, with points counted from 0");
+  app.option_defaults()->group("Measures");
+  spell_default(
+      add_text(app, "--fields", "LIST", s.fields,
+               "solutions to try, separated by commas: all, chosen, held-back, exact, or of " + field_names()),
+      [&s] { return s.fields; });
+  spell_default(add_count(app, "--refine", s.refine, 0,
+                          "cut every triangle into four so many times, and print orders of convergence"),
+                [&s] { return std::to_string(s.refine); });
+  app.add_flag("--condition", s.condition, "also estimate the condition of both matrices");
+  add_count(app, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  app.option_defaults()->group("Help");
+  app.set_help_flag("-h,--help", "this text");
+  set_help(app, {"IN [options]",
+                 "  temper verify in.vtu\n"
+                 "  temper verify in.vtu --fields held-back --refine 2 --json\n"
+                 "  # what an optimisation has done to the errors\n"
+                 "  temper example annulus -o ring.vtu && temper optimize ring.vtu -o better.vtu --quiet\n"
+                 "  temper verify better.vtu --against ring.vtu\n",
+                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+}
+
+std::vector<std::string> words_of(const std::string& list) {
+  std::vector<std::string> words(1);
+  for (const char c : list) {
+    if (c == ',') {
+      words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  return words;
+}
+
+/// Fields that are asked for by mistake are told of before a large mesh is read.
+void check_fields(const VerifyOptions& options) {
+  const Mesh none;
+  const auto report = verify(none, options);
+  if (!report && report.error().code == ErrorCode::invalid_option) {
+    throw Failure(Exit::bad_usage, "--fields: " + report.error().message + "\nSee temper verify --help");
+  }
+}
+
+bool same_box(const VerifyFrame& a, const VerifyFrame& b) {
+  return std::abs(a.half_size - b.half_size) <= kSameBox * b.half_size &&
+         length(a.center - b.center) <= kSameBox * b.half_size;
+}
+
+VerifyReference measure_reference(const Settings& s, const VerifyOptions& options, const VerifyFrame& frame) {
+  const Input reference = read_input(s.against, {}, options.executor);
+  print_warnings(reference.warnings());
+  if (!same_box(frame, verify_frame(reference.mesh()))) {
+    print_warnings(std::vector<std::string>{fmt::format(
+        "{} and {} do not have the same bounding box: both are measured in that of {}", s.input, s.against, s.input)});
+  }
+  VerifyOptions same = options;
+  same.refine = 0;
+  same.local = false;
+  return {s.against, or_fail(verify(reference.mesh(), same)), {}};
+}
+
+}  // namespace
+
+Exit run_verify(const Arguments& arguments) {
+  CLI::App app(
+      "Measures the errors that solvers make on a mesh with manufactured solutions: the diagonal Hodge stars, a "
+      "Poisson problem by discrete exterior calculus at the vertices, another by two-point fluxes at the "
+      "orthocenters; "
+      "and says what their matrices are like. docs/verify.md defines every number.",
+      "verify");
+  Settings s;
+  add_options(app, s);
+  if (!parse(app, arguments)) return Exit::done;
+  VerifyOptions options;
+  options.fields = words_of(s.fields);
+  check_fields(options);
+  Outputs outputs("verify");
+  std::vector<std::string> inputs = {s.input};
+  if (!s.against.empty()) inputs.push_back(s.against);
+  outputs.expect_text("--edges", s.edges, inputs);
+
+  const std::unique_ptr<Executor> threads = make_threads(s.threads);
+  options.executor = threads.get();
+  const Input input = read_input(s.input, {}, threads.get());
+  print_warnings(input.warnings());
+  options.frame = verify_frame(input.mesh());
+  options.refine = s.refine;
+  options.condition = s.condition;
+  options.local = !s.edges.empty();
+  VerifyRecord record = {s.input, or_fail(verify(input.mesh(), options)), {}};
+  if (!s.against.empty()) {
+    record.against = measure_reference(s, options, *options.frame);
+    record.against->ratios = or_fail(error_ratios(record.report, record.against->report));
+  }
+  if (!s.edges.empty()) outputs.write_text(s.edges, edge_errors_csv(record.report, input));
+  print(s.json ? verify_json(record) : verify_text(record, text_style()));
+  return Exit::done;
+}
+
+}  // namespace temper::app

@@ -1,0 +1,113 @@
+// temper verify: tables, JSON, comparisons, and what is refused.
+#include <algorithm>
+#include <cmath>
+
+#include "workshop.hpp"
+
+namespace temper::test {
+namespace {
+
+class Verify : public Workshop {};
+
+TEST_F(Verify, PrintsErrorsOfEveryFieldTheirMeansAndTheMatrices) {
+  make_input();
+  const std::string text = temper_ok({"verify", "in.vtu", "--condition"}).out;
+  for (const char* part : {"in.vtu: ", "relative error, L2", "relative error, maximum", "product (chosen)",
+                           "bump (held-back)", "mean, chosen", "mean, held-back", "M-matrix", "positive definite",
+                           "largest coefficient over median", "condition, at least"}) {
+    EXPECT_TRUE(contains(text, part));
+  }
+  EXPECT_FALSE(contains(text, "linear"));
+  EXPECT_FALSE(contains(text, "nan"));
+}
+
+TEST_F(Verify, SaysTheSameAsJsonForAnyNumberOfThreads) {
+  make_input();
+  const std::string text = temper_ok({"verify", "in.vtu", "--json", "--threads", "1"}).out;
+  EXPECT_EQ(temper_ok({"verify", "in.vtu", "--json", "--threads", "3"}).out, text);
+  const auto json = nlohmann::json::parse(text);
+  const auto check = nlohmann::json::parse(temper_ok({"check", "in.vtu", "--json"}).out);
+  EXPECT_EQ(json["triangles"], check["triangles"]);
+  EXPECT_EQ(json["non_regular_edges"], check["non_regular_edges"]);
+  ASSERT_EQ(json["errors"]["fields"].size(), 9u);
+  double logs = 0;
+  for (const auto& field : json["errors"]["fields"]) {
+    for (const char* key : {"star0", "star1", "star2", "poisson", "flux"}) {
+      EXPECT_GT(field[key]["l2"], 0) << key;
+      EXPECT_GT(field[key]["max"], field[key]["l2"]) << key;
+    }
+    logs += std::log(field["poisson"]["l2"].get<double>()) / 9;
+  }
+  EXPECT_NEAR(json["errors"]["mean"]["all"]["poisson"]["l2"].get<double>(), std::exp(logs), 1e-12);
+  EXPECT_TRUE(json["matrices"]["flux"]["condition"].is_null());
+}
+
+TEST_F(Verify, ComparesWithAnotherMesh) {
+  temper_ok({"example", "annulus", "-o", "ring.vtu"});
+  temper_ok({"optimize", "ring.vtu", "-o", "better.vtu", "--max-sweeps", "5", "--quiet"});
+  const auto json = nlohmann::json::parse(temper_ok({"verify", "better.vtu", "--against", "ring.vtu", "--json"}).out);
+  const auto& ratios = json["against"]["ratios"]["fields"];
+  const auto& before = json["against"]["report"]["errors"]["fields"];
+  ASSERT_EQ(ratios.size(), 9u);
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    const double expected =
+        json["errors"]["fields"][i]["flux"]["l2"].get<double>() / before[i]["flux"]["l2"].get<double>();
+    EXPECT_NEAR(ratios[i]["flux"]["l2"], expected, 1e-12 * expected);
+  }
+  const Outcome same = temper_ok({"verify", "ring.vtu", "--against", "ring.vtu", "--fields", "chosen"});
+  EXPECT_TRUE(contains(same.out, "over the errors of ring.vtu:"));
+  EXPECT_EQ(same.err, "");
+  make_input();
+  const Outcome other = temper_ok({"verify", "ring.vtu", "--against", "in.vtu"});
+  EXPECT_TRUE(contains(other.err, "ring.vtu and in.vtu do not have the same bounding box"));
+}
+
+TEST_F(Verify, MeasuresOrders) {
+  temper_ok({"example", "sheared-grid", "--nx", "6", "--ny", "6", "-o", "in.vtu"});
+  const std::string text = temper_ok({"verify", "in.vtu", "--refine", "2", "--fields", "bump,crossed"}).out;
+  EXPECT_TRUE(contains(text, "level 2"));
+  EXPECT_TRUE(contains(text, "order, L2"));
+  const auto json =
+      nlohmann::json::parse(temper_ok({"verify", "in.vtu", "--refine", "2", "--fields", "bump,exact", "--json"}).out);
+  ASSERT_EQ(json["levels"].size(), 3u);
+  EXPECT_EQ(json["levels"][2]["triangles"], 16 * json["triangles"].get<int>());
+  EXPECT_NEAR(json["orders"]["fields"][0]["poisson"]["l2"].get<double>(), 2, 0.3);
+  EXPECT_TRUE(json["orders"]["fields"][1]["poisson"]["l2"].is_null());  // linear: nothing but rounding
+}
+
+TEST_F(Verify, WritesTheErrorOfEachEdge) {
+  make_input();
+  const auto json = nlohmann::json::parse(temper_ok({"verify", "in.vtu", "--edges", "edges.csv", "--json"}).out);
+  const std::string csv = read("edges.csv");
+  EXPECT_EQ(csv.rfind("from,to,star1,error\n", 0), 0u);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), json["edges"].get<int>() + 1);
+}
+
+TEST_F(Verify, BadUsageIsRefusedAndNothingIsWritten) {
+  make_input();
+  const Outcome field = temper({"verify", "in.vtu", "--fields", "chosen,sine", "--edges", "edges.csv"});
+  EXPECT_EQ(field.exit, 2);
+  EXPECT_TRUE(contains(field.err, "--fields: no field 'sine'; there are all, chosen, held-back, exact, product"));
+  EXPECT_EQ(temper({"verify"}).exit, 2);
+  EXPECT_EQ(temper({"verify", "in.vtu", "--fields", ""}).exit, 2);
+  EXPECT_EQ(temper({"verify", "in.vtu", "--refine", "-1"}).exit, 2);
+  EXPECT_EQ(temper({"verify", "in.vtu", "--refine", "30", "--edges", "edges.csv"}).exit, 2);
+  EXPECT_EQ(temper({"verify", "in.vtu", "--edges", "in.vtu"}).exit, 2);
+  EXPECT_EQ(temper({"verify", "nosuch.vtu"}).exit, 1);
+  EXPECT_EQ(temper({"verify", "in.vtu", "--against", "nosuch.vtu"}).exit, 1);
+  EXPECT_EQ(names(), std::vector<std::string>{"in.vtu"});
+}
+
+TEST_F(Verify, TheDocsListTheFieldsAndTheirGroups) {
+  make_input();
+  const std::string page = read(TEMPER_SOURCE_DIR "/docs/verify.md");
+  const auto json = nlohmann::json::parse(temper_ok({"verify", "in.vtu", "--fields", "all,exact", "--json"}).out);
+  ASSERT_EQ(json["errors"]["fields"].size(), 10u);
+  for (const auto& field : json["errors"]["fields"]) {
+    EXPECT_TRUE(
+        contains(page, "| `" + field["name"].get<std::string>() + "` | " + field["group"].get<std::string>() + " | "));
+  }
+}
+
+}  // namespace
+}  // namespace temper::test
