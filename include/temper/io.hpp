@@ -117,11 +117,32 @@ class TextStream {
   std::unique_ptr<State> state_;
 };
 
+/// The vertex that each point of a file has become. Takes no room where all are kept.
+class VertexOfPoint {
+ public:
+  VertexOfPoint() = default;
+  /// All of n points.
+  explicit VertexOfPoint(std::size_t n) : n_(n), n_kept_(n) {}
+  /// Those of the points that are marked, in order.
+  explicit VertexOfPoint(const std::vector<bool>& kept);
+
+  [[nodiscard]] std::size_t size() const { return n_; }
+  [[nodiscard]] std::size_t n_kept() const { return n_kept_; }
+  /// −1 for dropped points.
+  [[nodiscard]] std::int32_t operator[](std::size_t point) const {
+    return vertices_.empty() ? static_cast<std::int32_t>(point) : vertices_[point];
+  }
+
+ private:
+  std::size_t n_ = 0, n_kept_ = 0;
+  std::vector<std::int32_t> vertices_;  // empty: all points are kept
+};
+
 /// The mesh of a file. Points of no triangle are dropped with a warning that names them; clockwise triangles are
 /// reversed and counted in a warning. Interior tagged lines become constrained edges.
 struct LoadedMesh {
   Mesh mesh;
-  std::vector<std::int32_t> vertex_of_point;  ///< −1 for dropped points
+  VertexOfPoint vertex_of_point;
   std::size_t reversed_triangles = 0;
   std::vector<std::string> warnings;
 };

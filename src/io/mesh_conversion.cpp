@@ -99,7 +99,7 @@ class MeshMaker {
     loaded_.warnings.push_back(file_.path.empty() ? std::move(message) : text(file_.path, ": ", message));
   }
   [[nodiscard]] const InputNames& names() const { return file_.numbering ? *file_.numbering : counting_; }
-  [[nodiscard]] bool whole() const { return n_vertices_ == file_.points.size(); }
+  [[nodiscard]] bool whole() const { return loaded_.vertex_of_point.n_kept() == file_.points.size(); }
   [[nodiscard]] std::vector<std::int32_t> fixed_points(std::span<const std::string> tags) const;
   Expected<BuiltMesh> build(const std::vector<std::int32_t>& fixed_points) const;
   [[nodiscard]] HalfedgeId find_edge(std::int32_t a, std::int32_t b) const;
@@ -110,7 +110,6 @@ class MeshMaker {
   Executor* executor_;
   InputNames counting_;
   LoadedMesh loaded_;
-  std::size_t n_vertices_ = 0;
 };
 
 Expected<LoadedMesh> MeshMaker::make(std::span<const std::string> fixed_tags) {
@@ -132,25 +131,21 @@ Expected<LoadedMesh> MeshMaker::make(std::span<const std::string> fixed_tags) {
 }
 
 void MeshMaker::number_vertices() {
-  auto& vertex = loaded_.vertex_of_point;
-  vertex.assign(file_.points.size(), -1);
+  std::vector<bool> used(file_.points.size(), false);
   for (const auto& triangle : file_.triangles) {
     for (const std::int32_t p : triangle) {
-      if (p >= 0 && static_cast<std::size_t>(p) < vertex.size()) vertex[static_cast<std::size_t>(p)] = 0;
+      if (p >= 0 && static_cast<std::size_t>(p) < used.size()) used[static_cast<std::size_t>(p)] = true;
     }
   }
+  loaded_.vertex_of_point = VertexOfPoint(used);
+  if (whole()) return;
   std::vector<std::string> dropped;
-  std::size_t n_dropped = 0;
-  for (std::size_t p = 0; p < vertex.size(); ++p) {
-    if (vertex[p] == 0) {
-      vertex[p] = static_cast<std::int32_t>(n_vertices_++);
-    } else if (n_dropped++ < kNamed) {
-      dropped.push_back(names().point(p));
-    }
+  for (std::size_t p = 0; p < used.size() && dropped.size() < kNamed; ++p) {
+    if (!used[p]) dropped.push_back(names().point(p));
   }
-  if (n_dropped > 0)
-    warn(listed(n_dropped, n_dropped == 1 ? "point of no triangle is dropped" : "points of no triangle are dropped",
-                dropped));
+  const std::size_t n_dropped = used.size() - loaded_.vertex_of_point.n_kept();
+  warn(listed(n_dropped, n_dropped == 1 ? "point of no triangle is dropped" : "points of no triangle are dropped",
+              dropped));
 }
 
 std::vector<std::int32_t> MeshMaker::fixed_points(std::span<const std::string> wanted) const {
@@ -292,6 +287,16 @@ void MeshMaker::fix_ends_of_tags() {
 }
 
 }  // namespace
+
+VertexOfPoint::VertexOfPoint(const std::vector<bool>& kept) : VertexOfPoint(kept.size()) {
+  n_kept_ = static_cast<std::size_t>(std::count(kept.begin(), kept.end(), true));
+  if (n_kept_ == n_) return;
+  vertices_.assign(n_, -1);
+  std::int32_t next = 0;
+  for (std::size_t p = 0; p < n_; ++p) {
+    if (kept[p]) vertices_[p] = next++;
+  }
+}
 
 Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags, Executor* executor) {
   try {

@@ -80,7 +80,7 @@ void renumber(MeshFile& file, NewIndex new_index) {
   keep(file.marked_point_data, kept_points);
 }
 
-void drop_unused_points(MeshFile& file, const std::vector<std::int32_t>& vertex_of_point) {
+void drop_unused_points(MeshFile& file, const VertexOfPoint& vertex_of_point) {
   std::vector<bool> used(vertex_of_point.size());
   for (std::size_t p = 0; p < used.size(); ++p) used[p] = vertex_of_point[p] >= 0;
   keep(file.points, used);
@@ -264,7 +264,7 @@ void keep_region_data(MeshFile& file, const Mesh& mesh) {
 
 void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh, const IdVector<VertexId, VertexId>& vertices) {
   const auto& vertex = loaded.vertex_of_point;
-  const auto n_kept = vertex.size() - static_cast<std::size_t>(std::count(vertex.begin(), vertex.end(), -1));
+  const std::size_t n_kept = vertex.n_kept();
   const bool has_unused = file.points.size() == vertex.size() && n_kept < vertex.size();
   if (has_unused) drop_unused_points(file, vertex);
   const bool released = file.points.empty();
