@@ -56,7 +56,9 @@ constexpr Choice<BoundaryVertices> kBoundaries[] = {
 constexpr Choice<HiddenPolicy> kHiddenPolicies[] = {
     {"undo", HiddenPolicy::undo}, {"remove", HiddenPolicy::remove}, {"keep", HiddenPolicy::keep}};
 constexpr Choice<Inversion> kInversions[] = {{"refuse", Inversion::refuse}, {"allow", Inversion::allow}};
-constexpr Choice<int> kStars[] = {{"0", 0}, {"1", 1}, {"2", 2}};
+constexpr Choice<Objective> kObjectives[] = {{"energy", Objective::energy}, {"accuracy", Objective::accuracy}};
+constexpr Choice<AccuracyStar> kStars[] = {
+    {"0", AccuracyStar::zero}, {"1", AccuracyStar::one}, {"2", AccuracyStar::two}, {"all", AccuracyStar::all}};
 
 struct Settings {
   std::string input, output, report, history, picture, trace, anchor;
@@ -64,6 +66,8 @@ struct Settings {
   Method method = Method::production;
   bool method_given = false;
   OptimizeOptions options;  ///< those of the method, where no option says otherwise
+  Objective objective = Objective::energy;
+  AccuracyOptions accuracy;
   SofteningOptions gamma, h0;
   std::optional<io::Encoding> encoding;
   std::uint64_t threads = 0;
@@ -113,7 +117,10 @@ void add_energy(CLI::App& app, Settings& s) {
   for (const EnergyInfo& energy : energies()) names.push_back(energy.name);
   add_energy_name(app, "--energy", names, s.options.energy,
                   "what to minimise: a barrier (BH, BHs, BP) or a HOT energy (F, T, dT)");
-  add_choice(app, "--star", kStars, s.options.star, "Hodge star of the energy");
+  add_choice(
+      app, "--star", kStars, s.accuracy.star,
+      "Hodge star of the energy, or of --objective accuracy, whose first sweeps are for star 1 then; all: accuracy "
+      "alone");
   add_gamma(app, s.gamma,
             "; without it relative to each edge, shrinking from 0.5, or 1 where many triangles are bad, to 0.003");
   spell_default(app.get_option("--gamma"), [&s] {  // the paper's
@@ -123,6 +130,43 @@ void add_energy(CLI::App& app, Settings& s) {
   add_h0(app, s.h0, "; without it just beyond the least h of the mesh, following it up");
   add_choice(app, "--boundary-treatment", kBoundaryTreatments, s.options.boundary,
              "of energy F: the h of boundary edges as it is, |h|, or as if the mesh were mirrored there");
+}
+
+void add_accuracy(CLI::App& app, Settings& s) {
+  const double most = std::numeric_limits<double>::infinity();
+  AccuracyOptions& a = s.accuracy;
+  add_choice(
+      app, "--objective", kObjectives, s.objective,
+      "energy: the one of --energy, to the end; accuracy: only until every triangle is well-centered with a "
+      "margin, then how far the middles of edges and duals are apart, which a solver's error is proportional to");
+  add_number(app, "--margin", a.margin, {0, 0.25, true},
+             "of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle");
+  add_number(
+      app, "--offset-weight", a.offset_weight, kNotNegative,
+      "of accuracy: how many times as much as in HOT the offset of the middles counts; 1: HOT over size squared");
+  add_number(
+      app, "--boundary-offset-weight", a.boundary_offset_weight, kNotNegative,
+      "of accuracy: the same of the height of boundary edges; 0.5 where unknowns are at vertices and the input is "
+      "symmetric");
+  add_number(app, "--barrier", a.barrier, {0, most, true},
+             "of accuracy: factor of the logarithms that keep the margin");
+  add_count(app, "--accuracy-sweeps", a.sweeps, 0, "of accuracy: at most this many, after those for the energy");
+  add_number(app, "--accuracy-tolerance", a.tolerance, kNotNegative,
+             "of accuracy: stop when a sweep gains less than this part");
+}
+
+/// After all options, since --method replaces those of the library.
+void settle_objective(Settings& s) {
+  const bool for_accuracy = s.objective == Objective::accuracy;
+  if (!for_accuracy && s.accuracy.star == AccuracyStar::all) {
+    throw Failure(
+        Exit::bad_usage,
+        "optimize: --star all is for --objective accuracy; of an energy expected 0, 1 or 2\nSee temper optimize "
+        "--help");
+  }
+  s.options.objective = s.objective;
+  s.options.accuracy = s.accuracy;
+  s.options.star = for_accuracy ? 1 : static_cast<int>(s.accuracy.star);
 }
 
 void add_moves(CLI::App& app, Settings& s) {
@@ -320,6 +364,15 @@ std::vector<std::string> idle_switches(const CLI::App& app, const Settings& s, c
                {"--removal-margin", o.removal_margin != usual.removal_margin},
                {"--removal-from", o.removal_from != usual.removal_from}},
               "without --removal patch");
+  const AccuracyOptions &a = s.accuracy, &first = usual.accuracy;
+  idle_unless(s.objective == Objective::accuracy,
+              {{"--margin", a.margin != first.margin},
+               {"--offset-weight", a.offset_weight != first.offset_weight},
+               {"--boundary-offset-weight", a.boundary_offset_weight != first.boundary_offset_weight},
+               {"--barrier", a.barrier != first.barrier},
+               {"--accuracy-sweeps", a.sweeps != first.sweeps},
+               {"--accuracy-tolerance", a.tolerance != first.tolerance}},
+              "without --objective accuracy");
   return warnings;
 }
 
@@ -369,6 +422,8 @@ std::string ending(const OptimizeReport& report) {
       return "stopped by --max-sweeps after " + work;
     case Stopped::max_outer:
       return "stopped by --outer after " + work;
+    case Stopped::accuracy_sweeps:
+      return "made all --accuracy-sweeps after " + work;
     case Stopped::tangled:
       return "stopped by inverted triangles, among which no edges can be flipped, after " + work;
     case Stopped::hidden:
@@ -521,6 +576,7 @@ Exit run_optimize(const Arguments& arguments) {
   app.set_help_flag();
   add_group(app, settings, "Files", add_files);
   add_group(app, settings, "Energy", add_energy);
+  add_group(app, settings, "Accuracy", add_accuracy);
   add_group(app, settings, "Moves", add_moves);
   add_group(app, settings, "Connectivity and constraints", add_connectivity);
   add_group(app, settings, "Size", add_size);
@@ -534,11 +590,13 @@ Exit run_optimize(const Arguments& arguments) {
                  "  temper optimize in.vtu -o out.vtu --weights-only --no-flips\n"
                  "  temper optimize in.vtu -o out.vtu --energy F --star 1 --solver golden --max-sweeps 20\n"
                  "  temper optimize in.vtu -o out.vtu --gamma-rel 0.1 --time-limit 60\n"
+                 "  temper optimize in.vtu -o out.vtu --objective accuracy\n"
                  "  temper optimize in.vtu -o out.vtu --removal patch --trace trace.jsonl\n"
                  "  temper optimize in.vtu -o out.vtu --method paper --energy dT --removal none\n",
                  {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal}});
   if (!parse(app, arguments)) return Exit::done;
   take_input(app, settings);
+  settle_objective(settings);
   if (settings.no_flips) {
     if (app.count("--flips") > 0 && flips_of(settings) != Flips::none) {
       throw Failure(Exit::bad_usage, "optimize: --no-flips contradicts --flips " +

@@ -98,7 +98,42 @@ enum class StoppingRule {
   paper,     ///< mean energy per triangle fell by less than tolerance, or rose
 };
 
+/// Whose diagonal ★ the accuracy objective is for: it picks α and β of the energies.
+enum class AccuracyStar {
+  zero,  ///< ★0: α = 1/4, β = 1/12
+  one,   ///< ★1: α = β = 1/3
+  two,   ///< ★2: α = 1/12, β = 1/4
+  all,   ///< the sum of the three: α = β = 2/3, twice ★1, so that only the barrier counts half as much beside it
+};
+
+/// Of Objective::accuracy. With L the squared length of an edge, G that times its dual length over its length, H the
+/// difference where G is the sum of the heights times the length on its two sides, δw the difference of the weights of
+/// its ends and s the local size there, what is lowered is
+///
+///     E = Σ_edges s⁻² (G/L) [ (α L² + β G²)/4 + ¾ c (α δw² + β H²) ]
+///
+/// which for c = 1 is E_F / s² (eq. 2 of the paper): a moment of edge and dual, which every mesh of this size has, and
+/// c times as much of the offset between their middles, which is what a diagonal ★ errs by at first order.
+/// docs/accuracy.md derives it. [length²]
+struct AccuracyOptions {
+  AccuracyStar star = AccuracyStar::one;
+  double offset_weight = 10;           ///< c ≥ 0: 1 is HOT itself
+  double boundary_offset_weight = 18;  ///< of H² of edges on the boundary, which no mesh avoids: a smaller one is
+                                       ///< better for vertex-centered solvers, a larger one for cell-centered ones. ≥ 0
+  double margin = 0.02;  ///< ε: all h/ℓ, d/ℓ and 1 − d/ℓ stay above it. 0 < ε < 1/4 (equilateral: h/ℓ = 0.289)
+  double barrier = 0.003;   ///< μ > 0 of the logarithms that keep them there, in units of s² a triangle
+  int sweeps = 30;          ///< at most, after those that make every triangle well-centered; ≥ 0
+  double tolerance = 1e-5;  ///< a sweep that changes E and barrier by less than this part of E is the last. ≥ 0
+};
+
 struct OptimizeOptions {
+  /// accuracy: the run lowers `energy`, which has to be a barrier, until all margins are above accuracy.margin, or it
+  /// ends; then E of AccuracyOptions, with the connectivity as it is. A mesh that has all margins at first goes on to
+  /// the second phase at once, unless its boundary is to be split. `solver`, `order`, `newton_passes`, `tolerance` and
+  /// `stopping` are of the first phase.
+  Objective objective = Objective::energy;
+  AccuracyOptions accuracy = {};
+
   std::string_view energy = "BP";  ///< a name of the registry
   int star = 1;                    ///< 0, 1 or 2
   /// γ of E_BP. Absent: relative to each edge, shrinking from 0.5, or from 1 where a quarter of 100 or more
@@ -188,8 +223,9 @@ enum class Stopped {
   max_outer,
   time_limit,
   cancelled,
-  tangled,  ///< triangles are inverted (Inversion::allow): no flips can make the mesh regular
-  hidden,   ///< deferred flips hid a vertex that HiddenPolicy::undo keeps
+  tangled,          ///< triangles are inverted (Inversion::allow): no flips can make the mesh regular
+  accuracy_sweeps,  ///< all sweeps of AccuracyOptions are made, and E still falls a little: a normal end
+  hidden,           ///< deferred flips hid a vertex that HiddenPolicy::undo keeps
 };
 [[nodiscard]] std::string_view name(Stopped stopped);
 
@@ -209,7 +245,8 @@ struct OptimizeReport {
   IdVector<VertexId, VertexId> vertices;
   std::vector<VertexId> hidden;  ///< vertices that HiddenPolicy::keep left without a power cell
   double seconds = 0;            ///< the optimisation alone
-  double initial_energy = 0;     ///< of the input, at the final γ
+  double initial_energy = 0;     ///< of the input, at the final γ; with Objective::accuracy that of AccuracyOptions,
+                                 ///< its edges taken absolute, with the same sizes before and after
   double final_energy = 0;
   SizeChange size;
   std::vector<SweepRecord> history;  ///< history[0] is the input

@@ -6,14 +6,21 @@
 
 namespace temper {
 
+/// What a run lowers.
+enum class Objective {
+  energy,    ///< one of the registry's
+  accuracy,  ///< after it has made every triangle well-centered: what the errors of a solver are proportional to
+};
+
 /// One sweep over all vertices, as recorded in the history of a run.
 struct SweepRecord {
   int sweep = 0;          ///< 0 is the input
   double energy = 0;      ///< total energy at the end of the sweep, at that sweep's γ
   std::size_t bad = 0;    ///< triangles that are not well-centered
   std::size_t flips = 0;  ///< edge flips of this sweep
-  double softening = 0;   ///< γ or −h° of this sweep, as used (relative to ℓ by default)
-  double seconds = 0;     ///< since the start of the optimisation
+  double softening = 0;  ///< γ or −h° of this sweep, as used (relative to ℓ by default); 0 of sweeps for accuracy
+  double seconds = 0;    ///< since the start of the optimisation
+  Objective objective = Objective::energy;  ///< what the sweep lowered, and `energy` is of
 };
 
 /// Called now and then during a run (at least once a sweep, and on large meshes more often).

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/sum.hpp"
 #include "geometry/predicates_inline.hpp"
@@ -120,21 +121,25 @@ bool has_margins(const Mesh& mesh, double margin, Executor* executor) {
   });
 }
 
-void AccuracyFloors::raise(const Mesh& mesh, double margin, Executor* executor) {
+std::size_t AccuracyFloors::raise(const Mesh& mesh, double margin, Executor* executor) {
   const bool first = floor_.empty();
   if (first) floor_.resize(mesh.n_triangles(), 0.0);
-  for_each_index(mesh.n_triangles(), executor, [&](std::size_t i) {
-    const TriangleId t(i);
+  const auto raised = [&](TriangleId t) {
     if (first) {
       const auto [p, q, r] = mesh.corners(t);
-      if (!inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r))) return;
+      if (!inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r))) return 0.0;
     } else if (!has(t) || floor_[t] == margin) {
-      return;
+      return floor_[t];
     }
     const double now = triangle_margin(mesh, t);
-    if (first && now < kLeastMargin) return;
-    floor_[t] = now > margin ? margin : std::max(floor_[t], kKept * now);
-  });
+    if (first && now < kLeastMargin) return 0.0;
+    return now > margin ? margin : std::max(floor_[t], kKept * now);
+  };
+  return static_cast<std::size_t>(blockwise_sum(mesh.n_triangles(), executor, [&](std::size_t i) {
+    const TriangleId t(i);
+    const double before = std::exchange(floor_[t], raised(t));
+    return floor_[t] > before ? 1.0 : 0.0;
+  }));
 }
 
 AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
@@ -152,8 +157,8 @@ AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const A
   return {energy, barrier};
 }
 
-bool AccuracyStar::gather(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                          const AccuracyModel& model, VertexId v) {
+bool AccuracyPatch::gather(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
+                           const AccuracyModel& model, VertexId v) {
   model_ = &model;
   closed_ = !mesh.is_boundary(v);
   arms_.clear();
@@ -189,11 +194,11 @@ bool AccuracyStar::gather(const Mesh& mesh, const VertexSizes& sizes, const Accu
   return true;
 }
 
-const EdgeWeights& AccuracyStar::weights_of_arm(std::size_t i) const {
+const EdgeWeights& AccuracyPatch::weights_of_arm(std::size_t i) const {
   return !closed_ && (i == 0 || i + 1 == arms_.size()) ? model_->boundary : model_->inner;
 }
 
-void AccuracyStar::place(const WeightedPoint& p) {
+void AccuracyPatch::place(const WeightedPoint& p) {
   for (Arm& arm : arms_) {
     arm.x = arm.q.x - p.x, arm.y = arm.q.y - p.y;
     arm.l2 = arm.x * arm.x + arm.y * arm.y;
@@ -202,12 +207,12 @@ void AccuracyStar::place(const WeightedPoint& p) {
   }
 }
 
-AccuracyEdge AccuracyStar::link_edge(const Wedge& t) const {
+AccuracyEdge AccuracyPatch::link_edge(const Wedge& t) const {
   return {t.l2, t.inverse_l2, t.link_g + t.outer, t.link_g - t.outer, t.dw2};
 }
 
 /// Finds the heights of triangle i; returns its barrier and the energy of its link edge, or +∞.
-double AccuracyStar::add_wedge(std::size_t i) {
+double AccuracyPatch::add_wedge(std::size_t i) {
   Arm &a = arms_[i], &b = arms_[next(i)];
   Wedge& t = wedges_[i];
   const double area = a.x * b.y - a.y * b.x;
@@ -229,7 +234,7 @@ double AccuracyStar::add_wedge(std::size_t i) {
          0.5 * t.barrier * logarithm;
 }
 
-double AccuracyStar::value(const WeightedPoint& p) {
+double AccuracyPatch::value(const WeightedPoint& p) {
   place(p);
   value_ = 0;
   for (std::size_t i = 0; i < wedges_.size(); ++i) {
@@ -245,7 +250,7 @@ double AccuracyStar::value(const WeightedPoint& p) {
 }
 
 /// The derivatives of all that belongs to spoke i in its own terms.
-void AccuracyStar::find_slopes(std::size_t i) {
+void AccuracyPatch::find_slopes(std::size_t i) {
   Arm& a = arms_[i];
   const AccuracyEdge edge{a.l2, a.inverse_l2, a.left + a.right, a.left - a.right, a.dw * a.dw};
   EdgeWeights weights = weights_of_arm(i);
@@ -270,7 +275,7 @@ void AccuracyStar::find_slopes(std::size_t i) {
 ///     ∇g_link  = − κ ω̂                             ∇²g_link  = κ I + κ (m̂ ω̂ᵀ + ω̂ m̂ᵀ)/S
 ///     ∇g_left  = (a_y − ω_y, ω_x − a_x, 0) − k ω̂    ∇²g_left  = k I + (ω̂ (ĉ + k m̂)ᵀ + (ĉ + k m̂) ω̂ᵀ)/S
 ///     ∇g_right = m̂ − ∇g_left − ∇g_link              ∇²g_right = − ∇²g_left − ∇²g_link          (the three sum to S)
-void AccuracyStar::add_triangle(std::size_t i, VertexDerivatives& sum) {
+void AccuracyPatch::add_triangle(std::size_t i, VertexDerivatives& sum) {
   Arm &a = arms_[i], &b = arms_[next(i)];
   const Wedge& t = wedges_[i];
   const double ua = 0.5 * (a.l2 + a.dw), ub = 0.5 * (b.l2 + b.dw), inv = t.inverse_area;
@@ -301,7 +306,7 @@ void AccuracyStar::add_triangle(std::size_t i, VertexDerivatives& sum) {
 }
 
 /// The chain rule in L, left, right and δw; ∇L = −2 (x, y, 0), ∇²L = 2 I, ∇δw = (0, 0, 1).
-void AccuracyStar::add_arm(const Arm& a, VertexDerivatives& sum) const {
+void AccuracyPatch::add_arm(const Arm& a, VertexDerivatives& sum) const {
   const EdgeSlopes& s = a.slopes;
   const Vector to_l = {-2 * a.x, -2 * a.y, 0};
   add_gradient(sum, s.l, to_l);
@@ -326,7 +331,7 @@ void AccuracyStar::add_arm(const Arm& a, VertexDerivatives& sum) const {
   sum.hessian[3] += 2 * s.l;
 }
 
-VertexDerivatives AccuracyStar::derivatives() {
+VertexDerivatives AccuracyPatch::derivatives() {
   VertexDerivatives sum;
   sum.value = value_;
   sum.feasible = true;
@@ -339,14 +344,14 @@ VertexDerivatives AccuracyStar::derivatives() {
   return sum;
 }
 
-bool AccuracyStar::is_well_centered(const WeightedPoint& p) const {
+bool AccuracyPatch::is_well_centered(const WeightedPoint& p) const {
   for (std::size_t i = 0; i < wedges_.size(); ++i) {
     if (!inlined::is_well_centered(p, arms_[i].q, arms_[next(i)].q)) return false;
   }
   return true;
 }
 
-double AccuracyStar::shortest_spoke(const WeightedPoint& p) const {
+double AccuracyPatch::shortest_spoke(const WeightedPoint& p) const {
   double least = kOutside;
   for (const Arm& arm : arms_) least = std::min(least, squared_length(arm.q.position() - p.position()));
   return std::sqrt(least);

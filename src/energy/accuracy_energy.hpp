@@ -58,8 +58,8 @@ using VertexSizes = IdVector<VertexId, double>;
 /// is not well-centered, or so hardly that its heights are made of rounding.
 class AccuracyFloors {
  public:
-  /// Raises the floor of each triangle that has got more room since, never lowers one.
-  void raise(const Mesh& mesh, double margin, Executor* executor = nullptr);
+  /// Raises the floor of each triangle that has got more room since, never lowers one. Returns how many it raised.
+  std::size_t raise(const Mesh& mesh, double margin, Executor* executor = nullptr);
   /// Whether t has one. What has none is no part of the barrier, and must stay as it is.
   [[nodiscard]] bool has(TriangleId t) const { return floor_[t] > 0; }
   [[nodiscard]] double operator[](TriangleId t) const { return floor_[t]; }
@@ -81,7 +81,7 @@ struct AccuracyTotal {
 ///             /  \  t1  /   \           spoke i    = center → q_i, in triangle i on its left, in i − 1 on its right
 ///            /  t2\    /  t0 \          link edge i = q_i → q_{i+1}; the height of its outer triangle stays
 ///          q3 ---- center --- q0
-class AccuracyStar {
+class AccuracyPatch {
  public:
   /// False when a triangle of the star, or across its link, has no floor.
   bool gather(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors, const AccuracyModel& model,

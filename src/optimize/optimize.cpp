@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/text.hpp"
+#include "optimize/accuracy_driver.hpp"
 #include "optimize/driver.hpp"
 #include "optimize/repair_search.hpp"
 #include "temper/necessity.hpp"
@@ -58,6 +59,28 @@ bool is_worse(const Mesh& a, const Mesh& b, const Settings& settings) {
   return standing(b) < standing(a);
 }
 
+/// What the energies of the accuracy objective are told by, in the user's terms.
+struct AccuracyOf {
+  const Mesh& mesh;
+  const VertexSizes& sizes;
+};
+
+double accuracy_of(const AccuracyOf& a, const Settings& settings) {
+  return accuracy_energy(a.mesh, a.sizes, settings.accuracy, settings.options.executor);
+}
+
+/// The same for the accuracy objective: before its energy comes that margins are kept, which its second phase does.
+bool is_worse(const AccuracyOf& a, const AccuracyOf& b, const Settings& settings) {
+  const auto standing = [&](const AccuracyOf& of) {
+    const OptimizeOptions& o = settings.options;
+    const std::size_t non_regular =
+        o.hidden == HiddenPolicy::keep ? 0 : count_non_regular_edges(of.mesh, false, o.executor);
+    return std::tuple(non_regular, count_bad(of.mesh, o.executor),
+                      !has_margins(of.mesh, settings.accuracy.margin, o.executor), accuracy_of(of, settings));
+  };
+  return standing(b) < standing(a);
+}
+
 }  // namespace
 
 std::string_view name(Stopped stopped) {
@@ -72,6 +95,8 @@ std::string_view name(Stopped stopped) {
       return "time_limit";
     case Stopped::cancelled:
       return "cancelled";
+    case Stopped::accuracy_sweeps:
+      return "accuracy_sweeps";
     case Stopped::tangled:
       return "tangled";
     case Stopped::hidden:
@@ -164,16 +189,23 @@ std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& 
 }
 
 /// Puts the best mesh into `mesh`, unless that is the better one, and says in the report what came of it.
-void give_back(Mesh& mesh, WorkingCopy best, const Settings& settings, const Recorder& recorder,
-               OptimizeReport& report) {
+void give_back(Mesh& mesh, WorkingCopy best, const Settings& settings, const AccuracySizes* sizes,
+               const Recorder& recorder, OptimizeReport& report) {
   const OptimizeOptions& o = settings.options;
+  const VertexSizes of_result = sizes != nullptr ? sizes->in_user_terms(best, o.executor) : VertexSizes();
+  const auto energy = [&](const Mesh& of, bool is_result) {
+    if (sizes == nullptr) return total_energy(of, settings.model, o.executor);
+    return accuracy_of({of, is_result ? of_result : sizes->of_input()}, settings);
+  };
   auto vertices = best.has_gaps || best.has_inserted() ? best.user_vertices() : IdVector<VertexId, VertexId>();
   Mesh result = std::move(best).in_user_terms();  // first: what knew the order takes room no longer
-  report.initial_energy = total_energy(mesh, settings.model, o.executor);
+  report.initial_energy = energy(mesh, false);
   const SizeField field =
       o.size_field ? *o.size_field : input_size_field_of(mesh, o.executor);  // seen until mesh is replaced
   report.size.before = report.size.after = measure_size(mesh, field, o.executor);
-  if (is_worse(result, mesh, settings)) {
+  const bool worse = sizes == nullptr ? is_worse(result, mesh, settings)
+                                      : is_worse({result, of_result}, {mesh, sizes->of_input()}, settings);
+  if (worse) {
     // Where hidden vertices are kept, edges that are not regular make no mesh worse; but those that can be flipped are.
     const bool flips = o.flips && o.hidden == HiddenPolicy::keep && o.boundary_vertices != BoundaryVertices::split &&
                        count_non_regular_edges(mesh, false, o.executor) > 0;
@@ -192,7 +224,7 @@ void give_back(Mesh& mesh, WorkingCopy best, const Settings& settings, const Rec
     report.size.after = measure_size(result, field, o.executor, report.vertices);
     mesh = std::move(result);
   }
-  report.final_energy = total_energy(mesh, settings.model, o.executor);
+  report.final_energy = energy(mesh, !worse);
   report.hidden = hidden_vertices_of(mesh, o);
   if (o.size_band && report.size.before.band() > *o.size_band) {
     report.notes.push_back("the input is outside of its size band: sizes are up to " +
@@ -255,21 +287,39 @@ Result repaired(Result start, Settings& settings, Run& run) {
   return best;
 }
 
-}  // namespace
+/// The best mesh so far, and what it is judged by.
+struct Lowered {
+  Result best;
+  Settings settings;
+};
 
-Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, const Observer& observer) {
-  Run run(options, observer);
+/// The input as it is, for a run that needs nothing but the second phase of the accuracy objective.
+Expected<Lowered> not_lowered(const Mesh& mesh, const OptimizeOptions& options, const std::optional<SizeField>& band) {
+  WorkingCopy work(mesh, options.order, options.executor);
+  auto settings = make_settings(options, work.mesh, work.frame);
+  if (!settings) return settings.error();
+  settings->size_field = band;
+  return Lowered{{std::move(work), 0}, *std::move(settings)};
+}
+
+/// Attempts and repairs that lower the energy of the options. For the accuracy objective they end with the margins.
+Expected<Lowered> lowered(const Mesh& mesh, const OptimizeOptions& options, const std::optional<SizeField>& band,
+                          Run& run) {
   OptimizeReport& report = run.report;
   std::optional<Result> best;  // of the attempts so far
   std::optional<Settings> settings;
-  const std::optional<SizeField> band_field = field_of_band(mesh, options);
   std::span<const Attempt> tries;
   for (std::size_t i = 0; i == 0 || i < tries.size(); ++i) {
     WorkingCopy work(mesh, options.order, options.executor);
     auto made = make_settings(options, work.mesh, work.frame);
     if (!made) return made.error();
     settings = *std::move(made);
-    settings->size_field = band_field;
+    settings->size_field = band;
+    if (options.objective == Objective::accuracy) {
+      settings->enough = [&run, &options](const Mesh& now) {
+        return run.report.history.back().bad == 0 && has_margins(now, options.accuracy.margin, options.executor);
+      };
+    }
     Driver driver(work, *settings, run);
     if (i > 0) driver.recorder().returned_to(-1);
     if (options.flips && !driver.make_regular()) return hidden_by_input(mesh, options.names);
@@ -291,11 +341,57 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
     if (count_bad(best->work.mesh, options.executor) == 0 || run.stopped_by_caller() || !run.sweeps_left()) break;
   }
   if (repairs(*settings)) best = repaired(*std::move(best), *settings, run);
-  Recorder recorder(settings->options.tracer, best->work, 1);
+  return Lowered{*std::move(best), *std::move(settings)};
+}
+
+/// What the accuracy objective came to.
+void note_accuracy(const Mesh& mesh, const Settings& settings, OptimizeReport& report) {
+  const OptimizeOptions& o = settings.options;
+  const std::size_t bad = count_bad(mesh, o.executor);
+  std::size_t thin = 0;
+  for (const TriangleId t : mesh.triangles()) thin += triangle_margin(mesh, t) > settings.accuracy.margin ? 0 : 1;
+  thin -= std::min(thin, bad);
+  if (bad > 0) {
+    report.notes.push_back(count_of(bad, "triangle is", "triangles are") +
+                           " not well-centered: vertices there were not moved for accuracy");
+  }
+  if (thin > 0) {
+    report.notes.push_back(count_of(thin, "triangle is", "triangles are") + " well-centered by no more than " +
+                           to_text(settings.accuracy.margin) + " of an edge");
+  }
+  report.notes.push_back("energy of the accuracy objective, edges taken absolute: " + to_text(report.initial_energy) +
+                         " before, " + to_text(report.final_energy) + " after");
+}
+
+/// Whether a mesh is one that the second phase may begin with at once.
+bool is_ready_for_accuracy(const Mesh& mesh, const OptimizeOptions& options) {
+  return options.objective == Objective::accuracy && options.boundary_vertices != BoundaryVertices::split &&
+         has_margins(mesh, options.accuracy.margin, options.executor);
+}
+
+}  // namespace
+
+Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, const Observer& observer) {
+  Run run(options, observer);
+  OptimizeReport& report = run.report;
+  const bool for_accuracy = options.objective == Objective::accuracy;
+  const std::optional<SizeField> band_field = field_of_band(mesh, options);
+  const bool ready = is_ready_for_accuracy(mesh, options);
+  auto done = ready ? not_lowered(mesh, options, band_field) : lowered(mesh, options, band_field, run);
+  if (!done) return done.error();
+  auto& [best, settings] = *done;
+  std::optional<AccuracySizes> sizes;
+  if (for_accuracy) {
+    sizes.emplace(mesh, options.size_field, options.executor);
+    const bool goes_on = !run.stopped_by_caller() && report.stopped != Stopped::hidden;
+    if (goes_on) best.sweep = AccuracyDriver(best.work, settings, run, *sizes).optimize(best.sweep);
+  }
+  Recorder recorder(settings.options.tracer, best.work, 1);
   recorder.begin_sweep(run.next_sweep());
-  const Settings user_settings = in_user_terms(*settings, best->work.frame);
-  give_back(mesh, std::move(best->work), user_settings, recorder, report);
+  const Settings user_settings = in_user_terms(settings, best.work.frame);
+  give_back(mesh, std::move(best.work), user_settings, sizes ? &*sizes : nullptr, recorder, report);
   note_edges_that_must_be_split(mesh, user_settings, report);
+  if (for_accuracy) note_accuracy(mesh, user_settings, report);
   report.seconds = run.seconds();
   return std::move(report);
 }

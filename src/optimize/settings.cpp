@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "base/text.hpp"
 #include "optimize/schedule.hpp"
@@ -9,6 +10,7 @@
 namespace temper {
 namespace {
 
+constexpr double kMostMargin = 0.25;       // of h/ℓ an equilateral triangle has 0.289, and no other one as much
 constexpr double kLeastBoundaryRatio = 2;  // a cut in the middle leaves edges of half the length
 
 InputError invalid(const std::string& message) { return {ErrorCode::invalid_option, {}, message}; }
@@ -41,6 +43,47 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
     return invalid("inverted triangles are allowed, but they have no size; expected no size band");
   }
   return std::nullopt;
+}
+
+std::optional<InputError> check_accuracy(const OptimizeOptions& o, const EnergyInfo& energy) {
+  if (o.objective != Objective::accuracy) return std::nullopt;
+  if (!energy.barrier) {
+    return invalid("objective accuracy begins with an energy that makes triangles well-centered, which " +
+                   std::string(energy.name) + " does not; expected BP, BHs or BH");
+  }
+  if (o.inversion == Inversion::allow) {
+    return invalid(
+        "inverted triangles are allowed, but objective accuracy needs well-centered ones; expected "
+        "inversions to be refused");
+  }
+  const AccuracyOptions& a = o.accuracy;
+  for (const auto& [what, weight] :
+       {std::pair("offset weight", a.offset_weight), std::pair("boundary offset weight", a.boundary_offset_weight)}) {
+    if (!(weight >= 0 && std::isfinite(weight))) {
+      return invalid(std::string(what) + " is " + to_text(weight) + "; expected at least 0");
+    }
+  }
+  if (!(a.margin > 0 && a.margin < kMostMargin)) {
+    return invalid("margin is " + to_text(a.margin) + "; expected a number between 0 and 0.25");
+  }
+  if (!(a.barrier > 0 && std::isfinite(a.barrier))) {
+    return invalid("barrier is " + to_text(a.barrier) + "; expected a positive number");
+  }
+  if (a.sweeps < 0) return invalid("accuracy sweeps is " + std::to_string(a.sweeps) + "; expected at least 0");
+  if (!(a.tolerance >= 0)) return invalid("accuracy tolerance is " + to_text(a.tolerance) + "; expected at least 0");
+  return std::nullopt;
+}
+
+AccuracyModel accuracy_model(const AccuracyOptions& a) {
+  struct Factors {
+    double alpha, beta;
+  };
+  constexpr Factors kFactors[] = {{1.0 / 4, 1.0 / 12}, {1.0 / 3, 1.0 / 3}, {1.0 / 12, 1.0 / 4}, {2.0 / 3, 2.0 / 3}};
+  const auto [alpha, beta] = kFactors[static_cast<std::size_t>(a.star)];
+  AccuracyModel model = AccuracyModel::of(alpha, beta, a.offset_weight, a.boundary_offset_weight);
+  model.margin = a.margin;
+  model.barrier = a.barrier;
+  return model;
 }
 
 std::optional<InputError> check(const OptimizeOptions& o, const Mesh& mesh) {
@@ -103,6 +146,7 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   const auto energy = find_energy(options.energy);
   if (!energy) return energy.error();
   if (auto error = check(options, mesh)) return *std::move(error);
+  if (auto error = check_accuracy(options, *energy)) return *std::move(error);
 
   const auto collapse_energy = find_energy(options.collapse_energy);
   if (!collapse_energy) return collapse_energy.error();
@@ -117,6 +161,7 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   s.collapse_model.boundary = options.boundary;
   s.energy = *energy;
   s.options = options;
+  s.accuracy = accuracy_model(options.accuracy);
   s.relaxation = options.relaxation.value_or(kRelaxation);
   s.model.kind = energy->kind;
   s.model.star = options.star;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
+#include "energy/accuracy_energy.hpp"
 #include "optimize/frame.hpp"
 #include "temper/optimize.hpp"
 
@@ -12,6 +14,7 @@ struct Settings {
   EnergyInfo energy;
   EnergyModel model;           ///< of the sweep under way, in the frame's units
   EnergyModel collapse_model;  ///< E_c
+  AccuracyModel accuracy;      ///< of the second phase of Objective::accuracy; without unit
   double relaxation = 1;       ///< of the sweep under way
   FlipLimit flip_limit = FlipLimit::unlimited;
   OptimizeOptions options;

@@ -140,12 +140,12 @@ TEST(AccuracyEnergy, ScalesWithTheSquareAndKnowsNeitherPlaceNorTurnNorACommonWei
   EXPECT_EQ(accuracy_energy(mesh, uneven_sizes(mesh, 2), model), energy / 4);
 }
 
-TEST(AccuracyStar, ChangesByWhatTheWholeChanges) {
+TEST(AccuracyPatch, ChangesByWhatTheWholeChanges) {
   Mesh mesh = small_lattice();
   const VertexSizes sizes = uneven_sizes(mesh);
   AccuracyFloors floors;
   floors.raise(mesh, kMargin);
-  AccuracyStar star;
+  AccuracyPatch star;
   int cases = 0;
   for (const StarOf& of : kStarsOf) {
     const AccuracyModel model = model_of(of, 10, 18);
@@ -205,14 +205,14 @@ AccuracyErrors errors_at(const Mesh& mesh, const VertexSizes& sizes, const Twin&
   return {e.gradient / (size_g + size_h), e.hessian / size_h};
 }
 
-TEST(AccuracyStar, HasDerivativesToWhichDifferencesOfTheTwinConvergeWithOrderTwo) {
+TEST(AccuracyPatch, HasDerivativesToWhichDifferencesOfTheTwinConvergeWithOrderTwo) {
   int cases = 0;
   for (const double scale : {1.0, 0x1p-30}) {
     const Mesh mesh = small_lattice(scale, {3 * scale, -scale});
     const VertexSizes sizes = uneven_sizes(mesh, scale);
     AccuracyFloors floors;
     floors.raise(mesh, kMargin);
-    AccuracyStar star;
+    AccuracyPatch star;
     for (const StarOf& of : kStarsOf) {
       const AccuracyModel model = model_of(of, 10, 18);
       // Inside, next to the boundary, on it, and a corner of one triangle, of two.
@@ -236,13 +236,13 @@ TEST(AccuracyStar, HasDerivativesToWhichDifferencesOfTheTwinConvergeWithOrderTwo
   EXPECT_EQ(cases, 2 * 4 * 7);
 }
 
-TEST(AccuracyStar, IsInfiniteOutsideOfItsMargins) {
+TEST(AccuracyPatch, IsInfiniteOutsideOfItsMargins) {
   const Mesh mesh = small_lattice();
   const VertexSizes sizes = uneven_sizes(mesh);
   const AccuracyModel model = model_of(kStarsOf[1], 10, 18);
   AccuracyFloors floors;
   floors.raise(mesh, kMargin);
-  AccuracyStar star;
+  AccuracyPatch star;
   ASSERT_TRUE(star.gather(mesh, sizes, floors, model, VertexId(12)));
   const WeightedPoint p = mesh.point(VertexId(12));
   int finite = 0, infinite = 0;

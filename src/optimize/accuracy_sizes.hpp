@@ -1,0 +1,35 @@
+// The size that edges at each vertex are meant to have, for the accuracy objective: what its energy is over, so that
+// grading is kept.
+//
+// With a size field, the field where the vertex is in the input. Else the input's own local sizes, smoothed: those of
+// badly shaped triangles are noise. A size belongs to its vertex and goes with it. A vertex that was inserted has the
+// local size that it has.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "energy/accuracy_energy.hpp"
+#include "optimize/working_copy.hpp"
+#include "temper/executor.hpp"
+#include "temper/size.hpp"
+
+namespace temper {
+
+class AccuracySizes {
+ public:
+  /// Of a mesh in the user's terms.
+  AccuracySizes(const Mesh& input, const std::optional<SizeField>& field, Executor* executor);
+
+  /// Of the input, in the user's units.
+  [[nodiscard]] const VertexSizes& of_input() const { return input_; }
+  /// Of a working copy of it, in the units of its frame.
+  [[nodiscard]] VertexSizes of(const WorkingCopy& work, Executor* executor) const;
+  /// The same of work.in_user_terms(), in the user's units.
+  [[nodiscard]] VertexSizes in_user_terms(const WorkingCopy& work, Executor* executor) const;
+
+ private:
+  VertexSizes input_;
+};
+
+}  // namespace temper

@@ -1,0 +1,404 @@
+// The accuracy objective: its energy falls, margins hold after every sweep, nothing that has to stay moves, and threads
+// do not show.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "optimize/accuracy_driver.hpp"
+#include "support/lattice.hpp"
+#include "support/regions.hpp"
+#include "support/std_threads.hpp"
+#include "temper/generate.hpp"
+#include "temper/optimize.hpp"
+#include "temper/quality.hpp"
+#include "temper/regularity.hpp"
+
+namespace temper::test {
+namespace {
+
+OptimizeOptions for_accuracy() {
+  OptimizeOptions o;
+  o.objective = Objective::accuracy;
+  return o;
+}
+
+OptimizeReport improved(Mesh& mesh, const OptimizeOptions& options, const Observer& observer = {}) {
+  auto report = optimize(mesh, options, observer);
+  EXPECT_TRUE(report) << report.error().what();
+  return report ? *std::move(report) : OptimizeReport{};
+}
+
+/// Well-centered with all margins, but uneven.
+Mesh ready_mesh() { return lattice({.n = 8, .jitter = 0.1, .weight = 0.06, .seed = 4}); }
+
+std::size_t sweeps_for(const OptimizeReport& report, Objective objective) {
+  return static_cast<std::size_t>(std::count_if(report.history.begin(), report.history.end(), [&](const auto& r) {
+    return r.objective == objective && r.sweep > 0;
+  }));
+}
+
+void expect_inside(const Mesh& mesh, double margin) {
+  const Quality q = quality(mesh);
+  EXPECT_EQ(q.well_centered_fraction, 1);
+  EXPECT_EQ(q.non_regular_edges, 0u);
+  EXPECT_GE(q.min_h_over_l, margin);
+  EXPECT_GE(q.min_d_over_l, margin);
+  EXPECT_EQ(mesh.validate(), std::nullopt);
+}
+
+bool same_bits(const WeightedPoint& a, const WeightedPoint& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+TEST(Accuracy, NeverRaisesTheEnergyOfAMeshWithAllMarginsAndKeepsItsEdges) {
+  for (const AccuracyStar star : {AccuracyStar::zero, AccuracyStar::one, AccuracyStar::two, AccuracyStar::all}) {
+    OptimizeOptions o = for_accuracy();
+    o.accuracy.star = star;
+    Mesh mesh = ready_mesh();
+    const Mesh before = mesh;
+    ASSERT_TRUE(has_margins(mesh, o.accuracy.margin));
+    const OptimizeReport report = improved(mesh, o);
+    EXPECT_LT(report.final_energy, 0.99 * report.initial_energy);
+    EXPECT_EQ(sweeps_for(report, Objective::energy), 0u);
+    EXPECT_GT(sweeps_for(report, Objective::accuracy), 0u);
+    EXPECT_EQ(report.history.front().objective, Objective::accuracy);
+    EXPECT_NEAR(report.history.front().energy / report.initial_energy, 1, 1e-12);
+    double least = report.initial_energy;  // near a minimum the energy may rise again, for the barrier
+    for (const SweepRecord& record : report.history) least = std::min(least, record.energy);
+    EXPECT_NEAR(least / report.final_energy, 1, 1e-12);
+    EXPECT_EQ(report.flips, 0u);
+    for (const HalfedgeId h : mesh.halfedges()) EXPECT_EQ(mesh.origin(h), before.origin(h));
+    expect_inside(mesh, o.accuracy.margin);
+  }
+}
+
+TEST(Accuracy, KeepsMarginsAfterEverySweepAndTheBoundaryBitForBit) {
+  Mesh mesh = *random_points({.vertices = 300, .seed = 2});
+  const Mesh before = mesh;
+  int looks = 0;
+  OptimizeOptions o = for_accuracy();
+  o.watch = [&](const Snapshot& shot) {
+    if (!has_margins(shot.mesh, o.accuracy.margin)) {
+      EXPECT_EQ(looks, 0) << "lost after sweep " << shot.sweep;
+      return;
+    }
+    expect_inside(shot.mesh, o.accuracy.margin);
+    ++looks;
+  };
+  const OptimizeReport report = improved(mesh, o);
+  EXPECT_GT(sweeps_for(report, Objective::energy), 0u);
+  EXPECT_GT(looks, 10);
+  EXPECT_GE(static_cast<std::size_t>(looks), sweeps_for(report, Objective::accuracy));
+  expect_inside(mesh, o.accuracy.margin);
+  std::size_t compared = 0;
+  for (const VertexId v : mesh.vertices()) {
+    if (!before.is_boundary(v)) continue;
+    const Vec2 p = before.position(v), q = mesh.position(v);
+    EXPECT_EQ(std::memcmp(&p, &q, sizeof p), 0);
+    ++compared;
+  }
+  EXPECT_GT(compared, 10u);
+  ASSERT_FALSE(report.notes.empty());
+  EXPECT_NE(report.notes.back().find("energy of the accuracy objective"), std::string::npos) << report.notes.back();
+}
+
+TEST(Accuracy, LeavesAMinimumAsItIs) {
+  Mesh mesh = ready_mesh();
+  OptimizeOptions o = for_accuracy();
+  const std::vector<double> ones(mesh.n_vertices(), 1.0);
+  o.size_field = *SizeField::from_values(mesh, ones);  // the same both times
+  o.accuracy.sweeps = 500;
+  o.accuracy.tolerance = 1e-13;
+  const OptimizeReport first = improved(mesh, o);
+  EXPECT_EQ(first.stopped, Stopped::converged);
+  const Mesh there = mesh;
+  const OptimizeReport second = improved(mesh, o);
+  EXPECT_NEAR(second.final_energy / first.final_energy, 1, 1e-9);
+  for (const VertexId v : mesh.vertices()) {
+    EXPECT_NEAR(mesh.point(v).x, there.point(v).x, 1e-4);
+    EXPECT_NEAR(mesh.point(v).y, there.point(v).y, 1e-4);
+    EXPECT_NEAR(mesh.point(v).w, there.point(v).w, 1e-4);
+  }
+}
+
+TEST(Accuracy, KnowsNoUnitOfLength) {
+  Mesh mesh = ready_mesh(), large = mesh;
+  for (const VertexId v : mesh.vertices()) {
+    const WeightedPoint p = mesh.point(v);
+    large.set_point(v, {0x1p10 * p.x, 0x1p10 * p.y, 0x1p20 * p.w});
+  }
+  const OptimizeReport a = improved(mesh, for_accuracy()), b = improved(large, for_accuracy());
+  EXPECT_EQ(0x1p20 * a.final_energy, b.final_energy);
+  for (const VertexId v : mesh.vertices()) {
+    const WeightedPoint p = mesh.point(v);
+    EXPECT_TRUE(same_bits({0x1p10 * p.x, 0x1p10 * p.y, 0x1p20 * p.w}, large.point(v)));
+  }
+}
+
+TEST(Accuracy, MovesWhatItMayAndNothingElse) {
+  const Mesh before = ready_mesh();
+  const auto count = [&](const Mesh& mesh) {
+    struct Changes {
+      int positions = 0, weights = 0, fixed = 0;
+    } n;
+    for (const VertexId v : mesh.vertices()) {
+      const bool moved = mesh.position(v) != before.position(v);
+      n.positions += moved ? 1 : 0;
+      n.weights += mesh.weight(v) != before.weight(v) ? 1 : 0;
+      n.fixed += moved && v.index % 3 == 0 ? 1 : 0;
+    }
+    return n;
+  };
+  OptimizeOptions o = for_accuracy();
+  Mesh mesh = before;
+  o.unknowns = Unknowns::weights;
+  const OptimizeReport by_weights = improved(mesh, o);
+  EXPECT_LT(by_weights.final_energy, by_weights.initial_energy);
+  EXPECT_EQ(count(mesh).positions, 0);
+  EXPECT_GT(count(mesh).weights, 0);
+
+  mesh = before;
+  o.unknowns = Unknowns::positions;
+  const OptimizeReport by_positions = improved(mesh, o);
+  EXPECT_LT(by_positions.final_energy, by_positions.initial_energy);
+  EXPECT_GT(count(mesh).positions, 0);
+  EXPECT_EQ(count(mesh).weights, 0);
+
+  mesh = before;
+  o.unknowns = Unknowns::positions_and_weights;
+  for (const VertexId v : mesh.vertices()) mesh.set_fixed(v, v.index % 3 == 0);
+  improved(mesh, o);
+  EXPECT_GT(count(mesh).positions, 0);
+  EXPECT_EQ(count(mesh).fixed, 0);
+
+  mesh = before;
+  o.anchor = 5;
+  improved(mesh, o);
+  EXPECT_EQ(mesh.weight(VertexId(5)), 0);
+}
+
+TEST(Accuracy, SlidesBoundaryVerticesAlongTheirLinesOnly) {
+  Mesh mesh = ready_mesh();
+  const Mesh before = mesh;
+  OptimizeOptions o = for_accuracy();
+  o.boundary_vertices = BoundaryVertices::slide;
+  const OptimizeReport report = improved(mesh, o);
+  EXPECT_LT(report.final_energy, report.initial_energy);
+  expect_inside(mesh, o.accuracy.margin);
+  int slid = 0;
+  for (const VertexId v : mesh.vertices()) {
+    if (!mesh.is_boundary(v)) continue;
+    slid += mesh.position(v) != before.position(v) ? 1 : 0;
+    if (before.position(v).y == 0) {
+      EXPECT_EQ(mesh.position(v).y, 0);
+    }
+  }
+  EXPECT_GT(slid, 4);
+}
+
+TEST(Accuracy, HoldsASizeBand) {
+  Mesh mesh = ready_mesh();
+  const Mesh before = mesh;
+  OptimizeOptions o = for_accuracy();
+  const OptimizeReport free = improved(mesh, o);
+  ASSERT_GT(free.size.after.band(), 1.03);
+  mesh = before;
+  o.size_band = 1.03;
+  const OptimizeReport held = improved(mesh, o);
+  EXPECT_LE(held.size.after.band(), 1.03 + 1e-12);
+  EXPECT_LT(held.final_energy, held.initial_energy);
+}
+
+/// The second phase alone, with small parts.
+Mesh second_phase(const Mesh& input, const OptimizeOptions& options, std::size_t part_size) {
+  WorkingCopy work(input, options.order);
+  const Settings settings = *make_settings(options, work.mesh, work.frame);
+  const Observer nobody;
+  Run run(options, nobody);
+  const AccuracySizes sizes(input, options.size_field, options.executor);
+  AccuracyDriver(work, settings, run, sizes, part_size).optimize(0);
+  EXPECT_GT(run.report.sweeps, 0);
+  return std::move(work).in_user_terms();
+}
+
+class AccuracyBlocksBackwards final : public Executor {
+ public:
+  void run(std::size_t n, const std::function<void(std::size_t)>& block) override {
+    for (std::size_t i = n; i > 0; --i) block(i - 1);
+  }
+};
+
+TEST(Accuracy, HasTheSameBytesForAnyNumberOfThreads) {
+  Mesh mesh = mesh_with_regions(800, 3);
+  OptimizeOptions o = for_accuracy();
+  improved(mesh, {});
+  o.accuracy.margin = 0.005;
+  o.accuracy.sweeps = 6;
+  ASSERT_EQ(count_bad(mesh, nullptr), 0u);
+  const Mesh alone = second_phase(mesh, o, 100);
+  EXPECT_NE(alone, mesh);
+  EXPECT_NE(alone, second_phase(mesh, o, 1000)) << "parts are not seen: nothing was tested";
+  for (const std::size_t n : {1, 2, 3, 8}) {
+    StdThreads threads(n);
+    o.executor = &threads;
+    EXPECT_TRUE(second_phase(mesh, o, 100) == alone) << n << " threads";
+    EXPECT_GT(threads.runs(), 0u);
+  }
+  AccuracyBlocksBackwards backwards;
+  o.executor = &backwards;
+  EXPECT_TRUE(second_phase(mesh, o, 100) == alone);
+  std::size_t events = 0;
+  o.tracer = [&](const TraceEvent&) { ++events; };
+  EXPECT_TRUE(second_phase(mesh, o, 100) == alone) << "traced";
+  EXPECT_GT(events, mesh.n_vertices());
+}
+
+TEST(Accuracy, IsReplayedByItsTrace) {
+  for (const bool ready : {true, false}) {
+    const Mesh input = ready ? ready_mesh() : *random_points({.vertices = 120, .seed = 6});
+    Mesh mesh = input;
+    OptimizeOptions o = for_accuracy();
+    std::vector<TraceEvent> events;
+    o.tracer = [&](const TraceEvent& event) { events.push_back(event); };
+    improved(mesh, o);
+    const auto again = replay(input, events);
+    ASSERT_TRUE(again) << again.error().what();
+    EXPECT_TRUE(*again == mesh);
+  }
+}
+
+TEST(Accuracy, CountsSweepsOfBothPhasesAndStopsWhereItIsTold) {
+  const Mesh input = *random_points({.vertices = 200, .seed = 8});
+  OptimizeOptions o = for_accuracy();
+  Mesh mesh = input;
+  const OptimizeReport whole = improved(mesh, o);
+  const int first = static_cast<int>(sweeps_for(whole, Objective::energy));
+  EXPECT_EQ(static_cast<std::size_t>(whole.sweeps),
+            sweeps_for(whole, Objective::energy) + sweeps_for(whole, Objective::accuracy));
+
+  mesh = input;
+  o.max_sweeps = first + 3;
+  const OptimizeReport cut = improved(mesh, o);
+  EXPECT_EQ(cut.stopped, Stopped::max_sweeps);
+  EXPECT_EQ(cut.sweeps, first + 3);
+  EXPECT_EQ(sweeps_for(cut, Objective::accuracy), 3u);
+  expect_inside(mesh, o.accuracy.margin);
+
+  mesh = input;
+  o = for_accuracy();
+  o.accuracy.sweeps = 2;
+  o.accuracy.tolerance = 0;
+  EXPECT_EQ(improved(mesh, o).stopped, Stopped::accuracy_sweeps);
+
+  mesh = input;
+  o = for_accuracy();
+  const OptimizeReport cancelled = improved(mesh, o, [](const Progress& progress) {
+    return progress.last.objective == Objective::accuracy ? Continue::no : Continue::yes;
+  });
+  EXPECT_EQ(cancelled.stopped, Stopped::cancelled);
+  EXPECT_LE(sweeps_for(cancelled, Objective::accuracy), 2u);
+  expect_inside(mesh, o.accuracy.margin);
+}
+
+/// One corner triangle has all its vertices on the boundary and is obtuse: without flips and weights nothing mends it.
+Mesh hopeless_mesh() {
+  Mesh mesh = lattice({.n = 7, .jitter = 0.05, .weight = 0});
+  mesh.set_point(VertexId(0), {0.5, 0.3, 0});
+  return mesh;
+}
+
+TEST(Accuracy, WorksAroundWhatCannotBeWellCentered) {
+  Mesh mesh = hopeless_mesh();
+  const Mesh before = mesh;
+  const std::size_t bad = count_bad(mesh, nullptr);
+  OptimizeOptions o = for_accuracy();
+  o.repair = Repair::none;
+  o.unknowns = Unknowns::positions;
+  o.flips = false;
+  Mesh by_energy = mesh;
+  OptimizeOptions energy = o;
+  energy.objective = Objective::energy;
+  improved(by_energy, energy);
+  const std::size_t left = count_bad(by_energy, nullptr);
+  const OptimizeReport report = improved(mesh, o);
+  EXPECT_GT(sweeps_for(report, Objective::accuracy), 0u);
+  EXPECT_LE(count_bad(mesh, nullptr), left);
+  EXPECT_LE(left, bad);
+  ASSERT_GT(left, 0u);
+  EXPECT_TRUE(std::any_of(report.notes.begin(), report.notes.end(), [](const std::string& note) {
+    return note.find("vertices there were not moved for accuracy") != std::string::npos;
+  }));
+  EXPECT_EQ(mesh.validate(), std::nullopt);
+  EXPECT_EQ(count_non_regular_edges(mesh), 0u);
+}
+
+TEST(Accuracy, SizesAreSmoothedAndGoWithTheirVertices) {
+  const Mesh mesh = *graded_points({.finest = 1.0 / 16});
+  const AccuracySizes sizes(mesh, {}, nullptr);
+  ASSERT_EQ(sizes.of_input().size(), mesh.n_vertices());
+  double rough = 0, smooth = 0;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    const VertexId a = mesh.origin(h), b = mesh.target(h);
+    rough = std::max(rough, local_size(mesh, a) / local_size(mesh, b));
+    smooth = std::max(smooth, sizes.of_input()[a] / sizes.of_input()[b]);
+  }
+  EXPECT_LT(smooth, rough);
+  EXPECT_GT(smooth, 1);
+  WorkingCopy work(mesh, SweepOrder::hilbert);
+  const VertexSizes here = sizes.of(work, nullptr), back = sizes.in_user_terms(work, nullptr);
+  for (const VertexId v : mesh.vertices()) {
+    EXPECT_EQ(here[v] * work.frame.scale, sizes.of_input()[work.order.vertices[v]]);
+    EXPECT_EQ(back[v], sizes.of_input()[v]);
+  }
+  std::vector<double> values(mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) values[v.index] = 1 + mesh.position(v).x * mesh.position(v).x;
+  const AccuracySizes of_field(mesh, *SizeField::from_values(mesh, values), nullptr);
+  for (const VertexId v : mesh.vertices()) EXPECT_EQ(of_field.of_input()[v], values[v.index]);
+}
+
+std::string refusal_of(OptimizeOptions options) {
+  options.objective = Objective::accuracy;
+  Mesh mesh = lattice();
+  const Mesh before = mesh;
+  const auto report = optimize(mesh, options);
+  if (report) return "no error";
+  EXPECT_EQ(mesh, before);
+  return report.error().what();
+}
+
+TEST(Accuracy, OptionsOutOfRangeAreRefusedByName) {
+  const auto with = [](auto set) {
+    OptimizeOptions o;
+    set(o);
+    return refusal_of(o);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(with([](OptimizeOptions&) {}), "no error");
+  EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.offset_weight = -1; }),
+            "offset weight is -1; expected at least 0");
+  EXPECT_EQ(with([&](OptimizeOptions& o) { o.accuracy.boundary_offset_weight = nan; }),
+            "boundary offset weight is nan; expected at least 0");
+  EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.margin = 0; }),
+            "margin is 0; expected a number between 0 and 0.25");
+  EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.margin = 0.25; }),
+            "margin is 0.25; expected a number between 0 and 0.25");
+  EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.barrier = 0; }), "barrier is 0; expected a positive number");
+  EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.sweeps = -1; }), "accuracy sweeps is -1; expected at least 0");
+  EXPECT_EQ(with([&](OptimizeOptions& o) { o.accuracy.tolerance = nan; }),
+            "accuracy tolerance is nan; expected at least 0");
+  EXPECT_EQ(with([](OptimizeOptions& o) { o.energy = "F"; }),
+            "objective accuracy begins with an energy that makes triangles well-centered, which F does not; expected "
+            "BP, BHs or BH");
+  EXPECT_EQ(
+      with([](OptimizeOptions& o) {
+        o.flip_timing = FlipTiming::deferred;
+        o.inversion = Inversion::allow;
+      }),
+      "inverted triangles are allowed, but objective accuracy needs well-centered ones; expected inversions to be "
+      "refused");
+}
+
+}  // namespace
+}  // namespace temper::test
