@@ -26,14 +26,19 @@ double averaged(const Mesh& mesh, const VertexSizes& sizes, VertexId v) {
   return sum / count;
 }
 
-VertexSizes smoothed_sizes(const Mesh& mesh, Executor* executor) {
+VertexSizes smoothed(const Mesh& mesh, VertexSizes sizes, Executor* executor) {
   const std::size_t n = mesh.n_vertices();
-  VertexSizes sizes(n), next(n);
-  for_each_index(n, executor, [&](std::size_t i) { sizes[VertexId(i)] = local_size(mesh, VertexId(i)); });
+  VertexSizes next(n);
   for (int k = 0; k < kSmoothings; ++k) {
     for_each_index(n, executor, [&](std::size_t i) { next[VertexId(i)] = averaged(mesh, sizes, VertexId(i)); });
     std::swap(sizes, next);
   }
+  return sizes;
+}
+
+VertexSizes local_sizes(const Mesh& mesh, Executor* executor) {
+  VertexSizes sizes(mesh.n_vertices());
+  for_each_index(sizes.size(), executor, [&](std::size_t i) { sizes[VertexId(i)] = local_size(mesh, VertexId(i)); });
   return sizes;
 }
 
@@ -53,7 +58,8 @@ VertexSizes sizes_of_field(const Mesh& mesh, const SizeField& field, Executor* e
 }  // namespace
 
 AccuracySizes::AccuracySizes(const Mesh& input, const std::optional<SizeField>& field, Executor* executor)
-    : input_(field ? sizes_of_field(input, *field, executor) : smoothed_sizes(input, executor)) {}
+    : input_(
+          smoothed(input, field ? sizes_of_field(input, *field, executor) : local_sizes(input, executor), executor)) {}
 
 VertexSizes AccuracySizes::of(const WorkingCopy& work, Executor* executor) const {
   VertexSizes sizes(work.mesh.n_vertices());

@@ -1,9 +1,10 @@
 // The size that edges at each vertex are meant to have, for the accuracy objective: what its energy is over, so that
 // grading is kept.
 //
-// With a size field, the field where the vertex is in the input. Else the input's own local sizes, smoothed: those of
-// badly shaped triangles are noise. A size belongs to its vertex and goes with it. A vertex that was inserted has the
-// local size that it has.
+// The size field where the vertex is in the input, or without one the input's own local size there; averaged with the
+// neighbours' ten times, since the sizes of badly shaped triangles are noise. A size belongs to its vertex and goes
+// with it: looked up where the vertex has gone to, errors were larger. A vertex that was inserted has the local size
+// that it has.
 #pragma once
 
 #include <optional>

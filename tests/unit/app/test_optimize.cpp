@@ -65,15 +65,41 @@ TEST_F(Optimize, TheReportHasBeforeAfterAndHistory) {
   const std::size_t sweeps = report["sweeps"];
   ASSERT_GT(sweeps, 0u);
   ASSERT_EQ(report["history"].size(), sweeps + 1);
-  for (const char* key : {"sweep", "energy", "bad", "flips", "seconds"}) {
+  for (const char* key : {"sweep", "energy", "bad", "flips", "seconds", "objective"}) {
     EXPECT_TRUE(report["history"][0].contains(key)) << key;
   }
   EXPECT_EQ(report["history"][0]["sweep"], 0);
 
   const std::string csv = read("h.csv");
-  EXPECT_EQ(csv.rfind("sweep,energy,bad,flips,softening,seconds\n0,", 0), 0u);
+  EXPECT_EQ(csv.rfind("sweep,energy,bad,flips,softening,seconds,objective\n0,", 0), 0u);
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), sweeps + 2);
   EXPECT_TRUE(contains(read("p.svg"), "</svg>"));
+}
+
+TEST_F(Optimize, ForAccuracyMarginsHoldAndTheHistorySaysWhatEachSweepWasFor) {
+  const Outcome run =
+      temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--objective", "accuracy", "--report", "r.json"});
+  const nlohmann::json report = read_json("r.json");
+  EXPECT_GE(report["after"]["min_h_over_l"], 0.02);
+  EXPECT_GE(report["after"]["min_d_over_l"], 0.02);
+  EXPECT_EQ(report["after"]["well_centered_fraction"], 1);
+  EXPECT_EQ(report["history"].front()["objective"], "energy");
+  EXPECT_EQ(report["history"].back()["objective"], "accuracy");
+  EXPECT_LT(report["final_energy"], report["initial_energy"]);
+  EXPECT_EQ(report["options"]["objective"], "accuracy");
+  EXPECT_TRUE(contains(run.out, "energy of the accuracy objective, edges taken absolute: "));
+}
+
+TEST_F(Optimize, OptionsOfTheAccuracyObjectiveAreForItAlone) {
+  const Outcome idle = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--margin", "0.1"});
+  EXPECT_TRUE(contains(idle.err, "--margin has no effect without --objective accuracy"));
+  const Outcome all = temper({"optimize", "in.vtu", "-o", "new.vtu", "--star", "all"});
+  EXPECT_EQ(all.exit, 2);
+  EXPECT_TRUE(contains(all.err, "--star all is for --objective accuracy; of an energy expected 0, 1 or 2"));
+  const Outcome hot = temper({"optimize", "in.vtu", "-o", "new.vtu", "--objective", "accuracy", "--energy", "T"});
+  EXPECT_NE(hot.exit, 0);
+  EXPECT_TRUE(contains(hot.err, "objective accuracy begins with an energy that makes triangles well-centered"));
+  EXPECT_FALSE(std::filesystem::exists("new.vtu"));
 }
 
 TEST_F(Optimize, TheCommandInTheReportGivesTheSameBytes) {
@@ -83,6 +109,7 @@ TEST_F(Optimize, TheCommandInTheReportGivesTheSameBytes) {
       {"--gamma", "0.25", "--positions-only", "--seed", "7", "--slide-interfaces", "--anchor", "3"},
       {"--weights-only", "--no-flips", "--energy", "BHs", "--h0-rel", "20", "--overshoot", "1.05", "--flip-limit",
        "at"},
+      {"--objective", "accuracy", "--star", "all", "--accuracy-sweeps", "4", "--margin", "0.01"},
   };
   std::filesystem::rename("in.vtu", "it's a mesh.vtu");
   for (const auto& options : runs) {

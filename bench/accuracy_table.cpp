@@ -1,0 +1,142 @@
+// The tables of docs/accuracy.md: errors over those of the input, of E_BP alone and of the accuracy objective, as
+// Markdown. The fields are the held-back ones of temper verify.
+//
+//     bench_accuracy_table FILE...                 one row a mesh and objective, and their geometric means
+//     bench_accuracy_table --variants FILE...      the means alone, for other stars and weights
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "temper/io.hpp"
+#include "temper/optimize.hpp"
+#include "temper/quality.hpp"
+#include "temper/verify.hpp"
+
+namespace temper::bench {
+namespace {
+
+constexpr std::size_t kMeasures = 7;
+constexpr const char* kHeader =
+    "★0 | ★1 | ★1 max | ★2 | Poisson L2 | Poisson max | flux L2 | min h/ℓ | min d/ℓ | not well-centered | band |";
+
+struct NamedMesh {
+  std::string name;
+  Mesh mesh;
+};
+
+struct Row {
+  std::array<double, kMeasures> errors = {};
+  double h_over_l = 1, d_over_l = 1, bad = 0, band = 1;
+};
+
+struct Variant {
+  std::string name;
+  OptimizeOptions options;
+};
+
+void print(const std::string& name, const Row& row) {
+  std::printf("| %s |", name.c_str());
+  for (const double e : row.errors) std::printf(" %.3f |", e);
+  std::printf(" %.3f | %.3f | %.0f | %.2f |\n", row.h_over_l, row.d_over_l, row.bad, row.band);
+}
+
+std::optional<Row> measured(const Mesh& input, const OptimizeOptions& options) {
+  Mesh mesh = input;
+  const auto report = optimize(mesh, options);
+  VerifyOptions verifying;
+  verifying.frame = verify_frame(input);
+  verifying.fields = {"held-back"};
+  const auto before = verify(input, verifying), after = verify(mesh, verifying);
+  if (!report || !before || !after) return std::nullopt;
+  const auto ratios = error_ratios(*after, *before);
+  if (!ratios) return std::nullopt;
+  const VerifyErrors e = geometric_mean(*ratios);
+  const Quality q = quality(mesh);
+  return Row{{e.star[0].l2, e.star[1].l2, e.star[1].max, e.star[2].l2, e.poisson.l2, e.poisson.max, e.flux.l2},
+             q.min_h_over_l,
+             q.min_d_over_l,
+             std::round((1 - q.well_centered_fraction) * static_cast<double>(q.triangles)),
+             report->size.after.band()};
+}
+
+/// Rows of all meshes when `each`; the geometric mean of errors, with the worst of the rest.
+bool print_variant(const std::vector<NamedMesh>& meshes, const Variant& variant, bool each) {
+  Row mean;
+  for (const NamedMesh& input : meshes) {
+    const std::optional<Row> row = measured(input.mesh, variant.options);
+    if (!row) {
+      std::fprintf(stderr, "%s cannot be measured\n", input.name.c_str());
+      return false;
+    }
+    if (each) print(input.name + " | " + variant.name, *row);
+    for (std::size_t i = 0; i < kMeasures; ++i) mean.errors[i] += std::log(row->errors[i]);
+    mean.h_over_l = std::min(mean.h_over_l, row->h_over_l);
+    mean.d_over_l = std::min(mean.d_over_l, row->d_over_l);
+    mean.bad += row->bad;
+    mean.band = std::max(mean.band, row->band);
+  }
+  for (double& e : mean.errors) e = std::exp(e / static_cast<double>(meshes.size()));
+  print(each ? "**all** | " + variant.name : variant.name, mean);
+  return true;
+}
+
+std::vector<Variant> variants(bool all) {
+  OptimizeOptions energy, accuracy;
+  accuracy.objective = Objective::accuracy;
+  std::vector<Variant> list = {{"E_BP", energy}, {"accuracy", accuracy}};
+  if (!all) return list;
+  const auto add = [&](const char* name, auto change) {
+    list.push_back({name, accuracy});
+    change(list.back().options.accuracy);
+  };
+  add("`--star 0`", [](AccuracyOptions& a) { a.star = AccuracyStar::zero; });
+  add("`--star 2`", [](AccuracyOptions& a) { a.star = AccuracyStar::two; });
+  add("`--star all`", [](AccuracyOptions& a) { a.star = AccuracyStar::all; });
+  add("`--offset-weight 1 --boundary-offset-weight 1` (HOT/s²)",
+      [](AccuracyOptions& a) { a.offset_weight = a.boundary_offset_weight = 1; });
+  add("`--offset-weight 5`", [](AccuracyOptions& a) { a.offset_weight = 5; });
+  add("`--offset-weight 20`", [](AccuracyOptions& a) { a.offset_weight = 20; });
+  add("`--boundary-offset-weight 0.5`", [](AccuracyOptions& a) { a.boundary_offset_weight = 0.5; });
+  add("`--boundary-offset-weight 10`", [](AccuracyOptions& a) { a.boundary_offset_weight = 10; });
+  add("`--boundary-offset-weight 30`", [](AccuracyOptions& a) { a.boundary_offset_weight = 30; });
+  add("`--margin 0.05`", [](AccuracyOptions& a) { a.margin = 0.05; });
+  add("`--barrier 0.03`", [](AccuracyOptions& a) { a.barrier = 0.03; });
+  add("`--barrier 0.0003`", [](AccuracyOptions& a) { a.barrier = 0.0003; });
+  add("`--accuracy-sweeps 5`", [](AccuracyOptions& a) { a.sweeps = 5; });
+  add("`--accuracy-sweeps 10`", [](AccuracyOptions& a) { a.sweeps = 10; });
+  add("`--accuracy-sweeps 100 --accuracy-tolerance 0`", [](AccuracyOptions& a) { a.sweeps = 100, a.tolerance = 0; });
+  return list;
+}
+
+int run(std::span<const std::string_view> arguments) {
+  const bool all = !arguments.empty() && arguments.front() == "--variants";
+  std::vector<NamedMesh> meshes;
+  for (const std::string_view path : arguments.subspan(all ? 1 : 0)) {
+    const auto file = io::read(std::string(path));
+    if (!file) return std::fprintf(stderr, "%s\n", file.error().what().c_str()), 1;
+    auto loaded = io::make_mesh(*file);
+    if (!loaded) return std::fprintf(stderr, "%s\n", loaded.error().what().c_str()), 1;
+    meshes.push_back({std::string(path.substr(path.rfind('/') + 1)), std::move(loaded->mesh)});
+  }
+  if (meshes.empty()) return std::fprintf(stderr, "bench_accuracy_table: expected mesh files\n"), 2;
+  std::printf(all ? "| | %s\n|" : "| mesh | | %s\n|-|", kHeader);
+  for (std::size_t i = 0; i < kMeasures + 5; ++i) std::printf("-|");
+  std::printf("\n");
+  for (const Variant& variant : variants(all)) {
+    if (!print_variant(meshes, variant, !all)) return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace temper::bench
+
+int main(int argc, char** argv) {
+  const std::vector<std::string_view> arguments(argv + 1, argv + argc);
+  return temper::bench::run(arguments);
+}
