@@ -30,26 +30,43 @@ double triangle_scale(double s, double t, double u) { return squared(s + t + u) 
 /// (d_ij/ℓ − ε)(d_ji/ℓ − ε), y = δw/ℓ²; both are positive where this is, for an ε below ½ and |y| < 1.
 double split_room(double y, double floor) { return squared(0.5 - floor) - 0.25 * y * y; }
 
-/// Of a halfedge whose edge it stands for.
-double edge_energy(const Mesh& mesh, const VertexSizes& sizes, const AccuracyModel& model, HalfedgeId h) {
+/// Of a halfedge whose edge it stands for, and which is `inner` in its triangle.
+double edge_energy(const Mesh& mesh, const VertexSizes& sizes, const AccuracyModel& model, HalfedgeId h,
+                   const EdgeShape& inner) {
   const VertexId a = mesh.origin(h), b = mesh.target(h);
-  const WeightedPoint p = mesh.point(a), q = mesh.point(b);
-  const EdgeShape inner = triangle_shape(p, q, mesh.point(mesh.opposite(h))).edges[0];
   const HalfedgeId twin = mesh.twin(h);
-  const double outer = twin.valid() ? triangle_shape(q, p, mesh.point(mesh.opposite(twin))).edges[0].g : 0;
+  const double outer =
+      twin.valid() ? triangle_shape(mesh.point(b), mesh.point(a), mesh.point(mesh.opposite(twin))).edges[0].g : 0;
   const AccuracyEdge edge{inner.l2, 1 / inner.l2, inner.g + outer, inner.g - outer, inner.dw * inner.dw};
   return edge_scale(sizes[a], sizes[b]) * edge_value(twin.valid() ? model.inner : model.boundary, edge);
 }
 
-/// Without its sign and factor μ s_t²: the sum of logarithms is one of a product.
-double triangle_logarithm(const Mesh& mesh, TriangleId t, double floor) {
-  const auto [p, q, r] = mesh.corners(t);
+/// Its sign and factor μ s_t² apart: the sum of logarithms is one of a product.
+double triangle_logarithm(const TriangleShape& shape, double floor) {
   double heights = 1, splits = 1;
-  for (const EdgeShape& e : triangle_shape(mesh.point(p), mesh.point(q), mesh.point(r)).edges) {
-    heights *= e.g / e.l2 - floor;
-    splits *= split_room(e.dw / e.l2, floor);
+  for (const EdgeShape& e : shape.edges) {
+    const double inverse_l2 = 1 / e.l2;
+    heights *= e.g * inverse_l2 - floor;
+    splits *= split_room(e.dw * inverse_l2, floor);
   }
   return 0.5 * portable_log(heights * heights * splits);
+}
+
+TriangleShape shape_of(const Mesh& mesh, TriangleId t) {
+  const auto [p, q, r] = mesh.corners(t);
+  return triangle_shape(mesh.point(p), mesh.point(q), mesh.point(r));
+}
+
+/// Calls visit with the energy of each edge that a halfedge of t stands for.
+template <class Visit>
+void for_own_edges(const Mesh& mesh, const VertexSizes& sizes, const AccuracyModel& model, TriangleId t,
+                   const TriangleShape& shape, Visit&& visit) {
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeId h = Mesh::halfedge(t, k);
+    if (mesh.is_edge_representative(h)) {
+      visit(edge_energy(mesh, sizes, model, h, shape.edges[static_cast<std::size_t>(k)]));
+    }
+  }
 }
 
 void add_outer_product(VertexDerivatives& sum, const std::array<double, 3>& u, const std::array<double, 3>& v) {
@@ -63,23 +80,30 @@ void add_gradient(VertexDerivatives& sum, double slope, const std::array<double,
   for (std::size_t i = 0; i < 3; ++i) sum.gradient[i] += slope * of[i];
 }
 
+/// A triangle's part of the barrier at one of its edges.
+struct EdgeBarrier {
+  double factor, floor;  ///< m = μ s_t², ε
+};
+
 /// Of − m ln(g/L − ε), from the derivatives in g on one side and in L.
-void add_height_barrier(EdgeSlopes& s, bool left, double m, double floor, double l2, double g) {
+void add_height_barrier(EdgeSlopes& s, bool left, EdgeBarrier of, double l2, double inverse_l2, double g) {
+  const auto [m, floor] = of;
   const double room = 1 / (g - floor * l2), by_g = -m * room, by_gg = m * room * room;
   (left ? s.left : s.right) += by_g;
   (left ? s.left_left : s.right_right) += by_gg;
   (left ? s.l_left : s.l_right) -= floor * by_gg;
-  s.l += m / l2 - floor * by_g;
-  s.l_l += floor * floor * by_gg - m / (l2 * l2);
+  s.l += m * inverse_l2 - floor * by_g;
+  s.l_l += floor * floor * by_gg - m * inverse_l2 * inverse_l2;
 }
 
 /// Of − ½ m ln((½ − ε)² − δw²/4L²), with Q = (½ − ε)² L² − δw²/4.
-void add_split_barrier(EdgeSlopes& s, double m, double floor, double l2, double dw) {
+void add_split_barrier(EdgeSlopes& s, EdgeBarrier of, double l2, double inverse_l2, double dw) {
+  const auto [m, floor] = of;
   const double k = squared(0.5 - floor), inverse_q = 1 / (k * l2 * l2 - 0.25 * dw * dw);
   const double m_q = m * inverse_q, m_qq = m_q * inverse_q;
-  s.l += m / l2 - m_q * k * l2;
+  s.l += m * inverse_l2 - m_q * k * l2;
   s.dw += 0.25 * m_q * dw;
-  s.l_l += 2 * m_qq * squared(k * l2) - m_q * k - m / (l2 * l2);
+  s.l_l += 2 * m_qq * squared(k * l2) - m_q * k - m * inverse_l2 * inverse_l2;
   s.l_dw -= 0.5 * m_qq * k * l2 * dw;
   s.dw_dw += 0.25 * m_q + 0.125 * m_qq * dw * dw;
 }
@@ -95,9 +119,11 @@ AccuracyModel AccuracyModel::of(double alpha, double beta, double offset, double
 }
 
 double accuracy_energy(const Mesh& mesh, const VertexSizes& sizes, const AccuracyModel& model, Executor* executor) {
-  return blockwise_sum(mesh.n_halfedges(), executor, [&](std::size_t i) {
-    const HalfedgeId h(i);
-    return mesh.is_edge_representative(h) ? std::abs(edge_energy(mesh, sizes, model, h)) : 0.0;
+  return blockwise_sum(mesh.n_triangles(), executor, [&](std::size_t i) {
+    const TriangleId t(i);
+    double sum = 0;
+    for_own_edges(mesh, sizes, model, t, shape_of(mesh, t), [&](double energy) { sum += std::abs(energy); });
+    return sum;
   });
 }
 
@@ -144,17 +170,22 @@ std::size_t AccuracyFloors::raise(const Mesh& mesh, double margin, Executor* exe
 
 AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
                              const AccuracyModel& model, Executor* executor) {
-  const double energy = blockwise_sum(mesh.n_halfedges(), executor, [&](std::size_t i) {
-    const HalfedgeId h(i);
-    return mesh.is_edge_representative(h) ? edge_energy(mesh, sizes, model, h) : 0.0;
+  std::vector<double> barriers((mesh.n_triangles() + kBlockSize - 1) / kBlockSize, 0.0);
+  const double energy = sum_of_blocks(mesh.n_triangles(), executor, [&](std::size_t block) {
+    double sum = 0, barrier = 0;
+    const std::size_t end = std::min(mesh.n_triangles(), (block + 1) * kBlockSize);
+    for (std::size_t i = block * kBlockSize; i < end; ++i) {
+      const TriangleId t(i);
+      const TriangleShape shape = shape_of(mesh, t);
+      for_own_edges(mesh, sizes, model, t, shape, [&](double of_edge) { sum += of_edge; });
+      if (!floors.has(t)) continue;
+      const auto [p, q, r] = mesh.corners(t);
+      barrier -= triangle_scale(sizes[p], sizes[q], sizes[r]) * triangle_logarithm(shape, floors[t]);
+    }
+    barriers[block] = model.barrier * barrier;
+    return sum;
   });
-  const double barrier = blockwise_sum(mesh.n_triangles(), executor, [&](std::size_t i) {
-    const TriangleId t(i);
-    if (!floors.has(t)) return 0.0;
-    const auto [p, q, r] = mesh.corners(t);
-    return -model.barrier * triangle_scale(sizes[p], sizes[q], sizes[r]) * triangle_logarithm(mesh, t, floors[t]);
-  });
-  return {energy, barrier};
+  return {energy, pairwise_sum(barriers)};
 }
 
 bool AccuracyPatch::gather(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
@@ -257,8 +288,8 @@ void AccuracyPatch::find_slopes(std::size_t i) {
   for (double* w : {&weights.length, &weights.dual, &weights.split, &weights.height}) *w *= a.scale;
   a.slopes = edge_slopes(weights, edge, a.dw);
   const auto add_barrier = [&](const Wedge& t, bool left) {
-    add_height_barrier(a.slopes, left, t.barrier, t.floor, a.l2, left ? a.left : a.right);
-    add_split_barrier(a.slopes, t.barrier, t.floor, a.l2, a.dw);
+    add_height_barrier(a.slopes, left, {t.barrier, t.floor}, a.l2, a.inverse_l2, left ? a.left : a.right);
+    add_split_barrier(a.slopes, {t.barrier, t.floor}, a.l2, a.inverse_l2, a.dw);
   };
   const std::size_t n = wedges_.size();
   if (i < n) add_barrier(wedges_[i], true);
@@ -289,7 +320,7 @@ void AccuracyPatch::add_triangle(std::size_t i, VertexDerivatives& sum) {
   EdgeWeights weights = t.boundary ? model_->boundary : model_->inner;
   for (double* w : {&weights.length, &weights.dual, &weights.split, &weights.height}) *w *= t.scale;
   EdgeSlopes link = edge_slopes(weights, link_edge(t), 0);  // what depends on δw is constant there
-  add_height_barrier(link, true, t.barrier, t.floor, t.l2, t.link_g);
+  add_height_barrier(link, true, {t.barrier, t.floor}, t.l2, t.inverse_l2, t.link_g);
   add_gradient(sum, link.left, to_link);
   Vector curved;
   for (std::size_t j = 0; j < 3; ++j) curved[j] = link.left_left * to_link[j];
