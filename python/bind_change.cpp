@@ -1,0 +1,572 @@
+// What changes meshes: optimize, replay, regularity, topology, size, the mesher.
+#include "bind.hpp"
+#include "optimize_options.hpp"
+#include "temper/geometry.hpp"
+#include "temper/mesher.hpp"
+#include "temper/regularity.hpp"
+#include "temper/size.hpp"
+#include "temper/topology.hpp"
+#include "temper/trace.hpp"
+
+TEMPER_PYTHON_NAMES(temper::Snapshot::Moment, "start", "after_sweep", "before_flips", "after_flips");
+TEMPER_PYTHON_NAMES(temper::EventKind, "move", "weight", "flip", "collapse", "removal", "insertion", "split", "hidden",
+                    "undo");
+TEMPER_PYTHON_NAMES(temper::FlipStatus, "possible", "boundary", "constrained", "not_convex");
+TEMPER_PYTHON_NAMES(temper::RemovalStatus, "possible", "fixed", "boundary_corner", "constrained", "no_triangulation");
+TEMPER_PYTHON_NAMES(temper::InsertionStatus, "possible", "outside", "at_vertex", "on_boundary", "on_constrained",
+                    "hidden", "not_regular", "inverted");
+TEMPER_PYTHON_NAMES(temper::Enclosed, "by_points", "all", "alternate");
+
+namespace temper::python {
+namespace {
+
+// --- optimize -------------------------------------------------------------------------------------------------
+
+py::dict event_to_dict(const TraceEvent& e) {
+  py::list triangles;
+  for (const auto& t : e.triangles) triangles.append(to_python(t));
+  return Record()("kind", name(e.kind))("sweep", e.sweep)("vertex", e.vertex)("before", e.before)("after", e.after)(
+             "point", e.point)("quad", e.quad)("link", e.link)("triangles", py::object(triangles))("to_sweep",
+                                                                                                   e.to_sweep)
+      .dict;
+}
+
+/// Python's observers of a run. Each may be None.
+struct Callbacks {
+  py::object observer, tracer, watch;
+};
+
+Observer observer_of(Visitor& visitor, const py::object& observer) {
+  return [&visitor, &observer](const Progress& progress) {
+    bool go_on = visitor.check_signals();
+    if (go_on && !observer.is_none()) {
+      go_on = visitor.call([&] {
+        const py::object answer = observer(record_to_dict(progress.last), progress.fraction, progress.max_sweeps);
+        return !(answer.is(py::bool_(false)));
+      });
+    }
+    return go_on ? Continue::yes : Continue::no;
+  };
+}
+
+void set_callbacks(OptimizeOptions& options, Visitor& visitor, const Callbacks& callbacks) {
+  if (!callbacks.tracer.is_none()) {
+    options.tracer = [&visitor, &callbacks](const TraceEvent& event) {
+      static_cast<void>(visitor.call([&] {
+        callbacks.tracer(event_to_dict(event));
+        return true;
+      }));
+    };
+  }
+  if (!callbacks.watch.is_none()) {
+    options.watch = [&visitor, &callbacks](const Snapshot& s) {
+      static_cast<void>(visitor.call([&] {
+        callbacks.watch(Record()("moment", name_of(s.moment))("sweep", s.sweep)("outer", s.outer)("energy", s.energy)(
+                            "mesh", py::cast(std::make_unique<PyMesh>(s.mesh)))("vertices", s.vertices)
+                            .dict);
+        return true;
+      }));
+    };
+  }
+}
+
+std::optional<SizeField> size_field_from(const py::object& field) {
+  if (field.is_none()) return std::nullopt;
+  return field.cast<SizeField>();
+}
+
+/// The mesh takes its new state whatever ended the run; what Python raised on the way is raised after that.
+py::dict optimize_mesh(PyMesh& self, const py::dict& given, const py::object& size_field, const py::object& threads,
+                       const Callbacks& callbacks) {
+  OptimizeOptions options = options_from(given, {});
+  options.size_field = size_field_from(size_field);
+  const auto count = threads_from(threads);
+  const auto before = self.read();
+  Visitor visitor;
+  const Observer observer = observer_of(visitor, callbacks.observer);
+  set_callbacks(options, visitor, callbacks);
+  Mesh mesh;
+  std::optional<Expected<OptimizeReport>> report;
+  {
+    const PyMesh::Run run(self);
+    const py::gil_scoped_release release;
+    const auto executor = make_threads(count);
+    options.executor = executor.get();
+    mesh = *before;
+    report = optimize(mesh, options, observer);
+  }
+  if (report->has_value()) self.replace(std::move(mesh), (*report)->vertices);
+  visitor.raise();
+  return report_to_dict(or_raise(*std::move(report)));
+}
+
+template <class T, std::size_t n>
+std::array<T, n> ids_from(const py::handle& sequence) {
+  const auto items = sequence.cast<py::sequence>();
+  if (items.size() != n) throw py::value_error("expected " + std::to_string(n) + " numbers");
+  std::array<T, n> ids;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto index = items[i].cast<std::int64_t>();
+    ids[i] = index < 0 ? T() : T(static_cast<std::size_t>(index));
+  }
+  return ids;
+}
+
+VertexId any_vertex(const py::handle& index) {
+  const auto i = index.cast<std::int64_t>();
+  return i < 0 ? VertexId() : VertexId(static_cast<std::size_t>(i));
+}
+
+TraceEvent event_from(const py::dict& d) {
+  TraceEvent e;
+  e.kind = from_name<EventKind>("kind", d["kind"].cast<std::string>());
+  e.sweep = d["sweep"].cast<int>();
+  e.vertex = any_vertex(d["vertex"]);
+  e.before = d["before"].cast<double>();
+  e.after = d["after"].cast<double>();
+  const auto point = d["point"].cast<py::sequence>();
+  e.point = {point[0].cast<double>(), point[1].cast<double>(), point[2].cast<double>()};
+  e.quad = ids_from<VertexId, 4>(d["quad"]);
+  for (const auto& v : d["link"]) e.link.push_back(any_vertex(v));
+  for (const auto& t : d["triangles"]) e.triangles.push_back(ids_from<VertexId, 3>(t));
+  e.to_sweep = d["to_sweep"].cast<int>();
+  return e;
+}
+
+/// What C++ alone takes for arrays in, a run, arrays out: what bench/python_overhead.py compares with.
+py::tuple cpp_run(const Doubles& points, const Int32s& triangles, const py::dict& given, const py::object& threads) {
+  OptimizeOptions options = options_from(given, {});
+  const auto count = threads_from(threads);
+  std::vector<Vec2> places;
+  std::vector<double> weights;
+  std::vector<std::array<VertexId, 3>> corners;
+  double seconds = 0;
+  {
+    const py::gil_scoped_release release;
+    const auto start = std::chrono::steady_clock::now();
+    const auto executor = make_threads(count);
+    options.executor = executor.get();
+    MeshInput input;
+    input.points = as_span<Vec2>(points);
+    input.triangles = as_span<std::array<std::int32_t, 3>>(triangles);
+    input.executor = executor.get();
+    Mesh mesh = or_raise(Mesh::build(input)).mesh;
+    or_raise(optimize(mesh, options));
+    places.reserve(mesh.n_vertices());
+    weights.reserve(mesh.n_vertices());
+    corners.reserve(mesh.n_triangles());
+    for (const VertexId v : mesh.vertices()) places.push_back(mesh.position(v)), weights.push_back(mesh.weight(v));
+    for (const TriangleId t : mesh.triangles()) corners.push_back(mesh.corners(t));
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  return py::make_tuple(seconds, py::make_tuple(rows_of<double>(std::span<const Vec2>(places)), to_python(weights),
+                                                rows_of<VertexId>(std::span<const std::array<VertexId, 3>>(corners))));
+}
+
+void bind_optimize(py::module_& m) {
+  m.def("cpp_run", cpp_run);
+  m.def("optimize", [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
+                       const py::object& observer, const py::object& tracer, const py::object& watch) {
+    return optimize_mesh(self, options, size_field, threads, {observer, tracer, watch});
+  });
+  m.def("optimize_defaults", [] { return options_to_dict(OptimizeOptions()); });
+  m.def("paper_method", [] { return options_to_dict(paper_method()); });
+  m.def("replay", [](const PyMesh& input, const py::iterable& trace) {
+    std::vector<TraceEvent> events;
+    for (const auto& event : trace) events.push_back(event_from(event.cast<py::dict>()));
+    const auto mesh = input.read();
+    Replay again = or_raise(replay_with_vertices(*mesh, events));
+    auto result = std::make_unique<PyMesh>(input.copy());
+    result->replace(std::move(again.mesh), again.vertices);
+    return py::make_tuple(std::move(result), to_python(again.vertices));
+  });
+}
+
+// --- regularity -----------------------------------------------------------------------------------------------
+
+py::array edges_at(const Mesh& mesh, const std::vector<HalfedgeId>& halfedges) {
+  std::vector<std::array<VertexId, 2>> edges;
+  for (const HalfedgeId h : halfedges) edges.push_back({mesh.origin(h), mesh.target(h)});
+  return rows_of<VertexId>(std::span<const std::array<VertexId, 2>>(edges));
+}
+
+py::dict restore(PyMesh& self, const std::string& policy) {
+  const auto wanted = from_name<HiddenPolicy>("policy", policy);
+  Mesh& mesh = self.change();
+  const Restoration r = restore_regularity(mesh, wanted);
+  Record record;
+  record("flips", r.flips)("stuck", edges_at(mesh, r.stuck))("hidden", r.hidden)("removed", r.removed)(
+      "undone", r.undone)("regular", r.regular());
+  record("vertices", r.removed.empty() ? IdVector<VertexId, VertexId>() : self.compact());
+  return record.dict;
+}
+
+void bind_regularity(py::module_& m) {
+  m.def("is_regular", [](const PyMesh& self, std::int64_t h) {
+    const auto mesh = self.read_with_erased();
+    return is_regular(*mesh, halfedge_id(*mesh, h));
+  });
+  m.def("count_non_regular_edges", [](const PyMesh& self, bool with_constrained, const py::object& threads) {
+    const auto mesh = self.read_with_erased();
+    const auto count = threads_from(threads);
+    const py::gil_scoped_release release;
+    return count_non_regular_edges(*mesh, with_constrained, make_threads(count).get());
+  });
+  m.def("restore_regularity", restore);
+  m.def("flip_threshold", [](const PyMesh& self, std::int64_t v, double x, double y, double w) {
+    const auto mesh = self.read();
+    return flip_threshold(*mesh, vertex_id(*mesh, v), {x, y, w});
+  });
+  m.def("weight_flip_threshold", [](const PyMesh& self, std::int64_t v, double direction) {
+    const auto mesh = self.read();
+    return weight_flip_threshold(*mesh, vertex_id(*mesh, v), direction);
+  });
+  m.def("position_flip_threshold", [](const PyMesh& self, std::int64_t v, double x, double y) {
+    const auto mesh = self.read();
+    return position_flip_threshold(*mesh, vertex_id(*mesh, v), {x, y});
+  });
+}
+
+// --- topology: plans know the state of the mesh that they are for ------------------------------------------------
+
+template <class Plan>
+struct PlanOf {
+  Plan plan;
+  std::uint64_t version;
+};
+using PyRemoval = PlanOf<RemovalPlan>;
+using PyInsertion = PlanOf<InsertionPlan>;
+
+template <class Plan>
+void check_plan(const PyMesh& mesh, const PlanOf<Plan>& plan, bool committable) {
+  if (plan.version != mesh.version()) fail(ErrorCode::invalid_option, "the plan is for another state of the mesh");
+  if (!committable) {
+    fail(ErrorCode::invalid_option, "the plan cannot be committed: " + std::string(name_of(plan.plan.status)));
+  }
+}
+
+WeightedPoint finite_point(double x, double y, double w) {
+  if (!is_exact_coordinate(x) || !is_exact_coordinate(y) || !is_exact_weight(w)) {
+    fail(ErrorCode::out_of_scale, "the point or its weight is not finite, or out of the range of exact arithmetic");
+  }
+  return {x, y, w};
+}
+
+py::list triangles_list(const std::vector<std::array<VertexId, 3>>& triangles) {
+  py::list list;
+  for (const auto& t : triangles) list.append(to_python(t));
+  return list;
+}
+
+void bind_removal(py::module_& m) {
+  py::class_<PyRemoval>(m, "RemovalPlan",
+                        "What remove_vertex will do, for the mesh as it is: a value, to be priced, thrown away, or "
+                        "written down by the vertices' numbers.")
+      .def_property_readonly(
+          "status", [](const PyRemoval& p) { return to_python(name_of(p.plan.status)); },
+          "possible, fixed, boundary_corner, constrained, or no_triangulation.")
+      .def_property_readonly(
+          "vertex", [](const PyRemoval& p) { return to_python(p.plan.vertex); }, "The vertex to be removed.")
+      .def_property_readonly(
+          "first", [](const PyRemoval& p) { return to_python(p.plan.first); }, "A halfedge out of vertex, to link[0].")
+      .def_property_readonly(
+          "link", [](const PyRemoval& p) { return to_python(p.plan.link); }, "Its neighbours, counter-clockwise.")
+      .def_property_readonly(
+          "triangles", [](const PyRemoval& p) { return triangles_list(p.plan.triangles); },
+          "The new triangles, counter-clockwise.");
+  m.def("plan_removal", [](const PyMesh& self, std::int64_t v) {
+    const auto mesh = self.read_with_erased();
+    return PyRemoval{plan_removal(*mesh, vertex_id(*mesh, v)), self.version()};
+  });
+  m.def("plan_collapse", [](const PyMesh& self, std::int64_t v, std::int64_t into) {
+    const auto mesh = self.read_with_erased();
+    return PyRemoval{plan_collapse(*mesh, vertex_id(*mesh, v), vertex_id(*mesh, into)), self.version()};
+  });
+  m.def("removal_from_names", [](const PyMesh& self, std::int64_t v, std::int64_t first, const py::sequence& corners) {
+    const auto mesh = self.read_with_erased();
+    std::vector<std::array<VertexId, 3>> triangles;
+    for (const auto& t : corners) triangles.push_back(ids_from<VertexId, 3>(t));
+    return PyRemoval{removal_from_names(*mesh, vertex_id(*mesh, v), vertex_id(*mesh, first), triangles),
+                     self.version()};
+  });
+  m.def("remove_vertex", [](PyMesh& self, const PyRemoval& plan) {
+    check_plan(self, plan, plan.plan.status == RemovalStatus::possible);
+    remove_vertex(self.change(), plan.plan);
+    self.set_erased();
+  });
+}
+
+void bind_insertion(py::module_& m) {
+  py::class_<PyInsertion>(m, "InsertionPlan",
+                          "What insert_vertex will do, for the mesh as it is: a value, to be priced or thrown away.")
+      .def_property_readonly(
+          "status", [](const PyInsertion& p) { return to_python(name_of(p.plan.status)); },
+          "possible, outside, at_vertex, on_boundary, on_constrained, hidden, not_regular, or inverted.")
+      .def_property_readonly(
+          "point", [](const PyInsertion& p) { return to_python(p.plan.point); }, "x, y, w of the new vertex.")
+      .def_property_readonly(
+          "triangle", [](const PyInsertion& p) { return to_python(p.plan.triangle); },
+          "The triangle that the point is in.")
+      .def_property_readonly(
+          "edge", [](const PyInsertion& p) { return to_python(p.plan.edge); },
+          "The halfedge of this triangle that will be split, or -1.")
+      .def_property_readonly(
+          "cavity", [](const PyInsertion& p) { return to_python(p.plan.cavity); },
+          "The triangles that the new ones replace.")
+      .def_property_readonly(
+          "link", [](const PyInsertion& p) { return to_python(p.plan.link); },
+          "The vertices around the new one, counter-clockwise.")
+      .def_property_readonly(
+          "rim", [](const PyInsertion& p) { return to_python(p.plan.rim); },
+          "The cavity's outer halfedges, from inside it.")
+      .def_property_readonly(
+          "flips",
+          [](const PyInsertion& p) {
+            py::list list;
+            for (const auto& edge : p.plan.flips) list.append(to_python(edge));
+            return list;
+          },
+          "The edges that are flipped to the new vertex, in this order, after the insertion.");
+  m.def("plan_insertion", [](const PyMesh& self, double x, double y, double w, std::int64_t near) {
+    const auto mesh = self.read_with_erased();
+    return PyInsertion{plan_insertion(*mesh, finite_point(x, y, w), triangle_id(*mesh, near)), self.version()};
+  });
+  m.def("plan_split", [](const PyMesh& self, std::int64_t h, double t) {
+    if (!(t > 0 && t < 1)) fail(ErrorCode::invalid_option, "t: expected a number between 0 and 1");
+    const auto mesh = self.read_with_erased();
+    return PyInsertion{plan_split(*mesh, halfedge_id(*mesh, h), t), self.version()};
+  });
+  m.def("plan_split_at", [](const PyMesh& self, std::int64_t h, double x, double y, double w) {
+    const auto mesh = self.read_with_erased();
+    return PyInsertion{plan_split(*mesh, halfedge_id(*mesh, h), finite_point(x, y, w)), self.version()};
+  });
+  m.def("plan_center", [](const PyMesh& self, std::int64_t t) {
+    const auto mesh = self.read_with_erased();
+    return PyInsertion{plan_center(*mesh, mesh->corners(triangle_id(*mesh, t))), self.version()};
+  });
+  m.def("insert_vertex", [](PyMesh& self, const PyInsertion& plan) {
+    const InsertionStatus status = plan.plan.status;
+    check_plan(self, plan, status == InsertionStatus::possible || status == InsertionStatus::not_regular);
+    return to_python(insert_vertex(self.change(), plan.plan));
+  });
+  m.def("interpolated_weight", [](const PyMesh& self, std::int64_t t, double x, double y) {
+    const auto mesh = self.read_with_erased();
+    return interpolated_weight(*mesh, triangle_id(*mesh, t), {x, y});
+  });
+  m.def("split_weight", [](double a, double b, double squared, double t) { return split_weight(a, b, squared, t); });
+}
+
+void bind_topology(py::module_& m) {
+  m.def("can_flip", [](const PyMesh& self, std::int64_t h) {
+    const auto mesh = self.read_with_erased();
+    return std::string(name_of(can_flip(*mesh, halfedge_id(*mesh, h))));
+  });
+  m.def("flip", [](PyMesh& self, std::int64_t index) {
+    const HalfedgeId h = halfedge_id(*self.read_with_erased(), index);
+    if (const FlipStatus status = can_flip(*self.read_with_erased(), h); status != FlipStatus::possible) {
+      fail(ErrorCode::invalid_option,
+           "halfedge " + std::to_string(index) + " cannot be flipped: " + std::string(name_of(status)));
+    }
+    return to_python(flip(self.change(), h));
+  });
+  bind_removal(m);
+  bind_insertion(m);
+  m.def("plan_boundary_grading", [](const PyMesh& self, double ratio, double widest) {
+    const GradingPlan plan = plan_boundary_grading(*self.read(), ratio, widest);
+    py::list cuts;
+    for (const EdgeCuts& c : plan.cuts) cuts.append(py::make_tuple(c.a.index, c.b.index, to_python(c.at)));
+    return Record()("cuts", py::object(cuts))("vertices", plan.vertices)("ratio_before", plan.ratio_before)(
+               "ratio_after", plan.ratio_after)
+        .dict;
+  });
+  m.def("triangles_without_free_corner", [](const PyMesh& self) {
+    const auto triangles = triangles_without_free_corner(*self.read());
+    return rows_of<VertexId>(std::span<const std::array<VertexId, 3>>(triangles));
+  });
+  m.def("grade_boundary", [](PyMesh& self, double ratio) {
+    if (!(ratio >= 2)) fail(ErrorCode::invalid_option, "ratio: expected 2 or more");
+    static_cast<void>(self.read());
+    const std::size_t n = self.read()->n_vertices();
+    Mesh mesh = *self.read();
+    const Grading g = grade_boundary(mesh, ratio);
+    IdVector<VertexId, VertexId> vertices(mesh.n_vertices());
+    for (const VertexId v : IdRange<VertexId>(n)) vertices[v] = v;
+    self.replace(std::move(mesh), vertices);
+    return Record()("vertices", g.vertices)("inside", g.inside)("flips", g.flips)("refused", g.refused).dict;
+  });
+}
+
+// --- size -----------------------------------------------------------------------------------------------------
+
+void bind_size(py::module_& m) {
+  py::class_<SizeField>(m, "SizeField")
+      .def("at",
+           [](const SizeField& field, const Doubles& points) {
+             const auto places = as_span<Vec2>(points);
+             std::vector<double> sizes;
+             py::array_t<bool> outside(Shape{static_cast<py::ssize_t>(places.size())});
+             bool* out = outside.mutable_data();
+             TriangleId hint;
+             for (const Vec2 p : places) {
+               if (!std::isfinite(p.x) || !std::isfinite(p.y)) fail(ErrorCode::not_finite, "points are not finite");
+               const SizeField::Sample sample = field.at(p, hint);
+               hint = sample.triangle;
+               sizes.push_back(sample.size);
+               *out++ = sample.outside;
+             }
+             return py::make_tuple(to_python(sizes), outside);
+           })
+      .def("mesh", [](const SizeField& field) { return PyMesh(field.mesh()); })
+      .def("values", [](const SizeField& field) {
+        std::vector<double> sizes;
+        for (const VertexId v : field.mesh().vertices()) sizes.push_back(field.at(v));
+        return to_python(sizes);
+      });
+  m.def("size_field_from_values", [](const PyMesh& self, const Doubles& sizes) {
+    return or_raise(SizeField::from_values(*self.read(), as_span<double>(sizes)));
+  });
+  m.def("input_size_field", [](const PyMesh& self) { return input_size_field(*self.read()); });
+  m.def("local_size", [](const PyMesh& self) {
+    const auto mesh = self.read();
+    std::vector<double> sizes;
+    for (const VertexId v : mesh->vertices()) sizes.push_back(mesh->is_isolated(v) ? 0 : local_size(*mesh, v));
+    return to_python(sizes);
+  });
+  m.def("spread", [](const Doubles& values) {
+    const auto all = as_span<double>(values);
+    const Spread s = spread({all.begin(), all.end()});
+    return Record()("min", s.min)("p05", s.p05)("median", s.median)("p95", s.p95)("max", s.max).dict;
+  });
+  m.def("measure_size", [](const PyMesh& self, const SizeField& field) {
+    const auto mesh = self.read();
+    return size_report_to_dict(measure_size(*mesh, field));
+  });
+}
+
+// --- the mesher -------------------------------------------------------------------------------------------------
+
+/// The names of a file, kept by an outline that came from it.
+struct PyNames {
+  std::shared_ptr<const OutlineNames> names;
+};
+
+std::optional<double> size_or_none(const py::handle& value) {
+  if (value.is_none()) return std::nullopt;
+  return value.cast<double>();
+}
+
+Outline outline_from(const py::dict& d) {
+  Outline outline;
+  const auto points = d["points"].cast<Doubles>();
+  const auto vertices = as_span<Vec2>(points);
+  outline.points.assign(vertices.begin(), vertices.end());
+  const auto ends = d["segments"].cast<Int32s>();
+  const auto tags = d["segment_tags"].cast<Int32s>();
+  const auto pairs = as_span<std::array<std::int32_t, 2>>(ends);
+  if (static_cast<std::size_t>(tags.size()) != pairs.size()) {
+    fail(ErrorCode::size_mismatch,
+         "segment_tags: expected " + std::to_string(pairs.size()) + ", found " + std::to_string(tags.size()));
+  }
+  for (std::size_t i = 0; i < pairs.size(); ++i) outline.segments.push_back({pairs[i], tags.data()[i]});
+  const auto holes = d["holes"].cast<Doubles>();
+  for (const Vec2 hole : as_span<Vec2>(holes)) outline.holes.push_back(hole);
+  for (const auto& item : d["regions"]) {
+    const auto r = item.cast<py::tuple>();
+    outline.regions.push_back(
+        {{r[0].cast<double>(), r[1].cast<double>()}, r[2].cast<std::int32_t>(), size_or_none(r[3])});
+  }
+  for (const auto& item : d["parts"]) {
+    const auto p = item.cast<py::tuple>();
+    const auto segments = p[1].cast<Int32s>();
+    const auto numbers = as_span<std::int32_t>(segments);
+    outline.parts.push_back({p[0].cast<std::int32_t>(), {numbers.begin(), numbers.end()}, size_or_none(p[2])});
+  }
+  if (!d["names"].is_none()) outline.names = d["names"].cast<PyNames>().names;
+  return outline;
+}
+
+py::dict outline_to_dict(const Outline& outline) {
+  std::vector<std::array<std::int32_t, 2>> ends;
+  std::vector<std::int32_t> tags;
+  for (const OutlineSegment& s : outline.segments) ends.push_back(s.ends), tags.push_back(s.tag);
+  py::list regions, parts;
+  for (const OutlineRegion& r : outline.regions) {
+    regions.append(py::make_tuple(r.at.x, r.at.y, r.region, to_python(r.size)));
+  }
+  for (const OutlinePart& p : outline.parts) {
+    parts.append(py::make_tuple(p.region, array_of<std::int32_t>(p.segments), to_python(p.size)));
+  }
+  return Record()("points", rows_of<double>(std::span<const Vec2>(outline.points)))(
+             "segments", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(ends)))(
+             "segment_tags", array_of<std::int32_t>(tags))(
+             "holes", rows_of<double>(std::span<const Vec2>(outline.holes)))("regions", py::object(regions))(
+             "parts", py::object(parts))("names", outline.names ? py::cast(PyNames{outline.names}) : py::none())
+      .dict;
+}
+
+py::tuple mesh_an_outline(const py::dict& dict, const py::dict& d, const py::object& optimize_options,
+                          const py::object& threads, const py::object& observer) {
+  const Outline outline = outline_from(dict);
+  MesherOptions options;
+  options.size = d["size"].cast<double>();
+  options.grade = d["grade"].cast<double>();
+  for (const auto& item : d["region_sizes"]) {
+    const auto pair = item.cast<py::tuple>();
+    options.region_sizes.push_back({pair[0].cast<std::int32_t>(), pair[1].cast<double>()});
+  }
+  options.enclosed = from_name<Enclosed>("enclosed", d["enclosed"].cast<std::string>());
+  options.attempts = d["attempts"].cast<int>();
+  options.most_triangles = d["most_triangles"].cast<std::size_t>();
+  const auto executor = make_threads(threads_from(threads));
+  if (optimize_options.is_none()) {
+    options.optimize.reset();
+  } else {
+    options.optimize = options_from(optimize_options.cast<py::dict>(), {});
+    options.optimize->executor = executor.get();
+  }
+  Visitor visitor;
+  const Observer watching = observer_of(visitor, observer);
+  std::optional<Expected<OutlineMesh>> made;
+  {
+    const py::gil_scoped_release release;
+    made = mesh_outline(outline, options, watching);
+  }
+  visitor.raise();
+  OutlineMesh result = or_raise(*std::move(made));
+  std::vector<std::array<VertexId, 2>> lines;
+  std::vector<std::int32_t> tags;
+  for (const MeshLine& line : result.lines) lines.push_back({line.a, line.b}), tags.push_back(line.tag);
+  return py::make_tuple(std::make_unique<PyMesh>(std::move(result.mesh)),
+                        Record()("lines", rows_of<VertexId>(std::span<const std::array<VertexId, 2>>(lines)))(
+                            "line_tags", array_of<std::int32_t>(tags))("vertex_of_point", result.vertex_of_point)(
+                            "bad", result.bad)("delaunay_bad", result.delaunay_bad)("attempts", result.attempts)(
+                            "report", py::object(report_to_dict(result.report)))("notes", result.notes)
+                            .dict);
+}
+
+void bind_mesher(py::module_& m) {
+  py::class_<PyNames>(m, "OutlineNames");
+  m.def("read_outline", [](const std::string& path) {
+    const io::OutlineFile file = or_raise(io::read_outline(path));
+    return py::make_tuple(outline_to_dict(file.outline), Record()("path", file.path)("format", file.format)(
+                                                             "geographic", file.geographic)("warnings", file.warnings)
+                                                             .dict);
+  });
+  m.def("project", [](const py::dict& outline, const std::string& kind, double lon, double lat, double radius) {
+    return outline_to_dict(
+        or_raise(project(outline_from(outline), {from_name<ProjectionKind>("projection", kind), {lon, lat}, radius})));
+  });
+  m.def("mesh_outline", mesh_an_outline);
+}
+
+}  // namespace
+
+void bind_change(py::module_& m) {
+  bind_optimize(m);
+  bind_regularity(m);
+  bind_topology(m);
+  bind_size(m);
+  bind_mesher(m);
+}
+
+}  // namespace temper::python

@@ -1,0 +1,140 @@
+// Predicates and constructions, over arrays: geometry.hpp, and the maps of projection.hpp.
+#include "bind.hpp"
+#include "temper/geometry.hpp"
+#include "temper/projection.hpp"
+
+namespace temper::python {
+namespace {
+
+using Points = std::span<const WeightedPoint>;
+
+template <std::size_t n>
+std::array<Points, n> same_length(const std::array<Doubles, n>& arrays) {
+  std::array<Points, n> points;
+  for (std::size_t i = 0; i < n; ++i) {
+    points[i] = as_span<WeightedPoint>(arrays[i]);
+    if (points[i].size() != points[0].size()) throw py::value_error("arrays of different lengths");
+  }
+  return points;
+}
+
+/// An array of f(a_i, b_i, …), whose values are one Value or several.
+template <class Value, std::size_t n, class F>
+py::array over(const std::array<Doubles, n>& arrays, const F& f) {
+  const std::array<Points, n> points = same_length(arrays);
+  using Result = decltype(f(points, std::size_t{0}));
+  constexpr py::ssize_t per = sizeof(Result) / sizeof(Value);
+  const auto size = static_cast<py::ssize_t>(points[0].size());
+  py::array_t<Value> result(per == 1 ? Shape{size} : Shape{size, per});
+  auto* out = reinterpret_cast<Result*>(result.mutable_data());
+  for (std::size_t i = 0; i < points[0].size(); ++i) out[i] = f(points, i);
+  return result;
+}
+
+std::int8_t as_number(Sign sign) { return static_cast<std::int8_t>(sign); }
+
+void bind_predicates(py::module_& m) {
+  m.def("orient2d", [](const Doubles& a, const Doubles& b, const Doubles& c) {
+    return over<std::int8_t, 3>({a, b, c}, [](const auto& p, std::size_t i) {
+      return as_number(orient2d(p[0][i].position(), p[1][i].position(), p[2][i].position()));
+    });
+  });
+  m.def("power_test", [](const Doubles& a, const Doubles& b, const Doubles& c, const Doubles& d) {
+    return over<std::int8_t, 4>({a, b, c, d}, [](const auto& p, std::size_t i) {
+      return as_number(power_test(p[0][i], p[1][i], p[2][i], p[3][i]));
+    });
+  });
+  m.def("power_test_perturbed", [](const Doubles& a, const Doubles& b, const Doubles& c, const Doubles& d,
+                                   const py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>& index) {
+    const auto indices = as_span<std::array<std::uint32_t, 4>>(index);
+    if (indices.size() * 3 != static_cast<std::size_t>(a.size())) throw py::value_error("arrays of different lengths");
+    return over<std::int8_t, 4>({a, b, c, d}, [indices](const auto& p, std::size_t i) {
+      return as_number(power_test_perturbed(p[0][i], p[1][i], p[2][i], p[3][i], indices[i]));
+    });
+  });
+  m.def("signed_height_sign", [](const Doubles& a, const Doubles& b, const Doubles& c) {
+    return over<std::int8_t, 3>({a, b, c}, [](const auto& p, std::size_t i) {
+      return as_number(signed_height_sign(p[0][i], p[1][i], p[2][i]));
+    });
+  });
+  m.def("edge_split_sign", [](const Doubles& a, const Doubles& b) {
+    return over<std::int8_t, 2>(
+        {a, b}, [](const auto& p, std::size_t i) { return as_number(edge_split_sign(p[0][i], p[1][i])); });
+  });
+  m.def("is_well_centered", [](const Doubles& a, const Doubles& b, const Doubles& c) {
+    return over<bool, 3>({a, b, c},
+                         [](const auto& p, std::size_t i) { return is_well_centered(p[0][i], p[1][i], p[2][i]); });
+  });
+  m.def("is_exact_coordinate", [](double x) { return is_exact_coordinate(x); });
+  m.def("is_exact_weight", [](double w) { return is_exact_weight(w); });
+}
+
+void bind_constructions(py::module_& m) {
+  m.def("orthocenter", [](const Doubles& a, const Doubles& b, const Doubles& c) {
+    return over<double, 3>({a, b, c},
+                           [](const auto& p, std::size_t i) { return orthocenter(p[0][i], p[1][i], p[2][i]); });
+  });
+  m.def("edge_split", [](const Doubles& a, const Doubles& b) {
+    return over<double, 2>({a, b}, [](const auto& p, std::size_t i) { return edge_split(p[0][i], p[1][i]); });
+  });
+  m.def("signed_height", [](const Doubles& a, const Doubles& b, const Doubles& c) {
+    return over<double, 3>({a, b, c},
+                           [](const auto& p, std::size_t i) { return signed_height(p[0][i], p[1][i], p[2][i]); });
+  });
+  m.def("scaled_heights", [](const Doubles& a, const Doubles& b, const Doubles& c) {
+    return over<double, 3>({a, b, c},
+                           [](const auto& p, std::size_t i) { return scaled_heights(p[0][i], p[1][i], p[2][i]); });
+  });
+  m.def("doubled_area", [](const Doubles& a, const Doubles& b, const Doubles& c) {
+    return over<double, 3>({a, b, c}, [](const auto& p, std::size_t i) {
+      return doubled_area(p[0][i].position(), p[1][i].position(), p[2][i].position());
+    });
+  });
+  m.def("corner_angle", [](const Doubles& a, const Doubles& b, const Doubles& c) {
+    return over<double, 3>({a, b, c}, [](const auto& p, std::size_t i) {
+      return corner_angle(p[0][i].position(), p[1][i].position(), p[2][i].position());
+    });
+  });
+}
+
+// --- projections ------------------------------------------------------------------------------------------
+
+Projection projection_from(const std::string& kind, double longitude, double latitude, double radius) {
+  return {from_name<ProjectionKind>("projection", kind), {longitude, latitude}, radius};
+}
+
+void bind_projections(py::module_& m) {
+  m.def("parse_projection", [](const std::string& text, const Doubles& places) {
+    const Projection p = or_raise(parse_projection(text, as_span<Vec2>(places)));
+    return py::make_tuple(to_python(name_of(p.kind)), to_python(p.center), p.radius);
+  });
+  m.def("forward", [](const std::string& kind, double lon, double lat, double radius, const Doubles& places) {
+    const Projection projection = projection_from(kind, lon, lat, radius);
+    std::vector<Vec2> result;
+    for (const Vec2 p : as_span<Vec2>(places)) result.push_back(forward(projection, p));
+    return rows_of<double>(std::span<const Vec2>(result));
+  });
+  m.def("inverse", [](const std::string& kind, double lon, double lat, double radius, const Doubles& places) {
+    const Projection projection = projection_from(kind, lon, lat, radius);
+    std::vector<Vec2> result;
+    for (const Vec2 p : as_span<Vec2>(places)) result.push_back(inverse(projection, p));
+    return rows_of<double>(std::span<const Vec2>(result));
+  });
+  m.def("scale_factor", [](const std::string& kind, double lon, double lat, double radius, const Doubles& places) {
+    const Projection projection = projection_from(kind, lon, lat, radius);
+    std::vector<double> result;
+    for (const Vec2 p : as_span<Vec2>(places)) result.push_back(scale_factor(projection, p));
+    return to_python(result);
+  });
+  m.def("mean_place", [](const Doubles& places) { return to_python(mean_place(as_span<Vec2>(places))); });
+}
+
+}  // namespace
+
+void bind_geometry(py::module_& m) {
+  bind_predicates(m);
+  bind_constructions(m);
+  bind_projections(m);
+}
+
+}  // namespace temper::python

@@ -1,0 +1,444 @@
+// What looks at meshes: quality, energy, dec, draw, verify.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "bind.hpp"
+#include "temper/dec.hpp"
+#include "temper/dec_io.hpp"
+#include "temper/draw.hpp"
+#include "temper/energy.hpp"
+#include "temper/geometry.hpp"
+#include "temper/plot.hpp"
+#include "temper/quality.hpp"
+#ifdef TEMPER_WITH_VERIFY
+#include "temper/verify.hpp"
+#endif
+
+TEMPER_PYTHON_NAMES(temper::io::DecFormat, "npz", "mtx", "vtu");
+
+namespace temper::python {
+namespace {
+
+// --- quality and energies ---------------------------------------------------------------------------------------
+
+py::dict histogram_to_dict(const Histogram& h) {
+  return Record()("low", h.low)("high", h.high)("counts", h.counts).dict;
+}
+
+py::dict quality_to_dict(const Quality& q) {
+  py::dict energy;
+  for (std::size_t row = 0; row < energies().size(); ++row) {
+    energy[py::str(std::string(energies()[row].name))] = to_python(q.energy[row]);
+  }
+  py::list worst;
+  for (const WorstTriangle& w : q.worst) {
+    worst.append(Record()("triangle", w.triangle)("vertices", w.vertices)("at", w.at)("h_over_l", w.h_over_l)(
+                     "angle_deg", w.angle_deg)("why", w.why)
+                     .dict);
+  }
+  Record r;
+  r("vertices", q.vertices)("triangles", q.triangles)("edges", q.edges)("boundary_edges", q.boundary_edges)(
+      "regions", q.regions)("inverted_triangles", q.inverted_triangles)("non_regular_edges", q.non_regular_edges);
+  r("negative_boundary_duals", q.negative_boundary_duals)("orthocenters_outside", q.orthocenters_outside)(
+      "edges_not_crossed", q.edges_not_crossed)("well_centered_fraction", q.well_centered_fraction);
+  r("min_h_over_l", q.min_h_over_l)("min_d_over_l", q.min_d_over_l)("min_angle_deg", q.min_angle_deg)(
+      "max_angle_deg", q.max_angle_deg)("max_transmissibility_over_median", q.max_transmissibility_over_median);
+  r("energy", py::object(energy))("worst", py::object(worst));
+  r("angles", py::object(histogram_to_dict(q.angles)))("h_over_l", py::object(histogram_to_dict(q.h_over_l)))(
+      "d_over_l", py::object(histogram_to_dict(q.d_over_l)));
+  return r.dict;
+}
+
+/// Of each triangle: the least of its h/ℓ and d/ℓ, and whether it is well-centered (exact).
+py::tuple triangle_margins(const PyMesh& self) {
+  const auto mesh = self.read();
+  py::array_t<double> margins(Shape{static_cast<py::ssize_t>(mesh->n_triangles())});
+  py::array_t<bool> good(Shape{static_cast<py::ssize_t>(mesh->n_triangles())});
+  double* margin = margins.mutable_data();
+  bool* is_good = good.mutable_data();
+  for (const TriangleId t : mesh->triangles()) {
+    const auto c = mesh->corners(t);
+    const std::array<WeightedPoint, 3> p = {mesh->point(c[0]), mesh->point(c[1]), mesh->point(c[2])};
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const WeightedPoint &a = p[k], &b = p[(k + 1) % 3], &far = p[(k + 2) % 3];
+      const double l = length(b.position() - a.position());
+      const double d = edge_split(a, b) / l;
+      least = std::min({least, signed_height(a, b, far) / l, d, 1 - d});
+    }
+    *margin++ = least;
+    *is_good++ = is_well_centered(p[0], p[1], p[2]);
+  }
+  return py::make_tuple(margins, good);
+}
+
+EnergyModel model_from(const py::dict& d) {
+  EnergyModel model;
+  model.kind = or_raise(find_energy(d["energy"].cast<std::string>())).kind;
+  model.star = d["star"].cast<int>();
+  if (model.star < 0 || model.star > 2) {
+    fail(ErrorCode::invalid_option, "star: expected 0, 1 or 2, found " + std::to_string(model.star));
+  }
+  model.boundary = from_name<BoundaryTreatment>("boundary", d["boundary"].cast<std::string>());
+  model.gamma = softening_from(d["gamma"]);
+  model.h0 = softening_from(d["h0"]);
+  return model;
+}
+
+py::list energies_list() {
+  py::list list;
+  for (const EnergyInfo& e : energies()) {
+    list.append(Record()("name", e.name)("formula", e.formula)("boundary", name_of(e.boundary))("barrier", e.barrier)(
+                    "softened_by_gamma", e.softened_by_gamma)("softened_by_h0", e.softened_by_h0)("length_exponent",
+                                                                                                  e.length_exponent)
+                    .dict);
+  }
+  return list;
+}
+
+void bind_energy(py::module_& m) {
+  m.def("quality", [](const PyMesh& self, const py::object& gamma, const py::object& h0, std::size_t worst,
+                      const py::object& threads) {
+    const auto mesh = self.read();
+    QualityOptions options;
+    options.gamma = softening_from(gamma);
+    options.h0 = softening_from(h0);
+    options.worst = worst;
+    const auto count = threads_from(threads);
+    Quality result;
+    {
+      const py::gil_scoped_release release;
+      const auto executor = make_threads(count);
+      options.executor = executor.get();
+      result = quality(*mesh, options);
+    }
+    return quality_to_dict(result);
+  });
+  m.def("triangle_margins", triangle_margins);
+  m.def("energies", energies_list);
+  m.def("find_energy", [](const std::string& wanted) { return std::string(or_raise(find_energy(wanted)).name); });
+  m.def("total_energy", [](const PyMesh& self, const py::dict& model, const py::object& threads) {
+    const EnergyModel energy = model_from(model);
+    const auto mesh = self.read();
+    const auto count = threads_from(threads);
+    const py::gil_scoped_release release;
+    return total_energy(*mesh, energy, make_threads(count).get());
+  });
+  m.def("triangle_energy", [](const py::dict& model, const Doubles& corners) {
+    const auto p = as_span<WeightedPoint>(corners);
+    if (p.size() != 3) throw py::value_error("expected three weighted points");
+    return triangle_energy(model_from(model), p[0], p[1], p[2]);
+  });
+  m.def("vertex_energy", [](const PyMesh& self, const py::dict& model, std::int64_t v) {
+    const auto mesh = self.read();
+    const VertexDerivatives d = vertex_energy(*mesh, model_from(model), vertex_id(*mesh, v));
+    return Record()("value", d.value)("feasible", d.feasible)("gradient", d.gradient)("hessian", d.hessian).dict;
+  });
+}
+
+// --- dec: views on one value, which the arrays keep ---------------------------------------------------------------
+
+using Complex = std::shared_ptr<const DecComplex>;
+
+/// One member of every element of a vector of structs.
+template <class Value, class IdType, class Struct>
+py::array column(const py::object& owner, const IdVector<IdType, Struct>& rows, const void* first, int width = 1) {
+  const auto n = static_cast<py::ssize_t>(rows.size());
+  const py::ssize_t stride = sizeof(Struct), item = py::dtype::of<Value>().itemsize();
+  if (width == 1) return view(py::dtype::of<Value>(), {n}, {stride}, first, owner);
+  return view(py::dtype::of<Value>(), {n, py::ssize_t{width}}, {stride, item}, first, owner);
+}
+
+template <class T>
+py::array whole(const py::object& owner, const std::vector<T>& values) {
+  return view(dtype_of<T>(), {static_cast<py::ssize_t>(values.size())}, {sizeof(T)}, values.data(), owner);
+}
+
+py::dict edges_to_dict(const py::object& owner, const IdVector<EdgeId, DecEdge>& edges) {
+  const DecEdge none;
+  const DecEdge& e = edges.empty() ? none : edges[EdgeId(0)];
+  using std::int32_t;
+  return Record()("vertices", py::object(column<int32_t>(owner, edges, &e.from, 2)))(
+             "triangles", py::object(column<int32_t>(owner, edges, &e.left, 2)))(
+             "length", py::object(column<double>(owner, edges, &e.length)))(
+             "split", py::object(column<double>(owner, edges, &e.split)))(
+             "left_height", py::object(column<double>(owner, edges, &e.left_height)))(
+             "right_height", py::object(column<double>(owner, edges, &e.right_height)))(
+             "dual_length", py::object(column<double>(owner, edges, &e.dual_length)))(
+             "midpoint", py::object(column<double>(owner, edges, &e.midpoint, 2)))
+      .dict;
+}
+
+py::dict incidence_to_dict(const py::object& owner, const IncidenceMatrix& matrix) {
+  return Record()("n_columns", matrix.n_columns)("starts", py::object(whole(owner, matrix.starts)))(
+             "columns", py::object(whole(owner, matrix.columns)))("signs", py::object(whole(owner, matrix.signs)))
+      .dict;
+}
+
+struct PyDec {
+  std::shared_ptr<const Mesh> mesh;
+  Complex complex;
+};
+
+PyDec make_dec(const PyMesh& self) {
+  const auto mesh = self.read();
+  const py::gil_scoped_release release;
+  return {mesh, std::make_shared<const DecComplex>(dec(*mesh))};
+}
+
+py::dict dec_to_dict(const PyDec& d) {
+  const py::object owner = keep(d.complex);
+  const DecComplex& c = *d.complex;
+  return Record()("edges", py::object(edges_to_dict(owner, c.edges)))(
+             "edge_of_halfedge",
+             py::object(view(py::dtype::of<std::int32_t>(), {static_cast<py::ssize_t>(c.edge_of_halfedge.size())}, {4},
+                             c.edge_of_halfedge.raw().data(), owner)))(
+             "d0", py::object(incidence_to_dict(owner, c.d0)))("d1", py::object(incidence_to_dict(owner, c.d1)))(
+             "star0", py::object(whole(owner, c.star0.raw())))("star1", py::object(whole(owner, c.star1.raw())))(
+             "star2", py::object(whole(owner, c.star2.raw())))("flux", py::object(whole(owner, c.flux.raw())))(
+             "orthocenters",
+             py::object(view(py::dtype::of<double>(), {static_cast<py::ssize_t>(c.orthocenters.size()), 2}, {16, 8},
+                             c.orthocenters.raw().data(), owner)))("areas", py::object(whole(owner, c.areas.raw())))
+      .dict;
+}
+
+py::dict summary_to_dict(const DecSummary& s) {
+  return Record()("vertices", s.vertices)("edges", s.edges)("triangles", s.triangles)(
+             "boundary_edges", s.boundary_edges)("negative_star0", s.negative_star0)(
+             "negative_star1", s.negative_star1)("zero_star1", s.zero_star1)(
+             "negative_boundary_star1", s.negative_boundary_star1)("not_well_centered", s.not_well_centered)(
+             "area", s.area)("star0_sum", s.star0_sum)("min_star0", s.min_star0)("min_star1", s.min_star1)(
+             "median_star1", s.median_star1)("max_star1", s.max_star1)("median_flux", s.median_flux)("max_flux",
+                                                                                                     s.max_flux)
+      .dict;
+}
+
+py::dict cells_to_dict(const PyDec& d) {
+  PowerCells made;
+  {
+    const py::gil_scoped_release release;
+    made = power_cells(*d.mesh, *d.complex);
+  }
+  auto cells = std::make_shared<const PowerCells>(std::move(made));
+  const py::object owner = keep(cells);
+  const PowerCells& c = *cells;
+  return Record()("vertices", py::object(whole(owner, c.vertices)))("starts", c.starts)(
+             "corners", py::object(view(py::dtype::of<double>(), {static_cast<py::ssize_t>(c.corners.size()), 2},
+                                        {16, 8}, c.corners.data(), owner)))(
+             "polygon_areas", py::object(whole(owner, c.polygon_areas)))("areas",
+                                                                         py::object(whole(owner, c.areas.raw())))
+      .dict;
+}
+
+py::object write_dec_files(const PyDec& d, const std::string& folder, const py::sequence& formats,
+                           const py::object& threads) {
+  io::DecWriteOptions options;
+  options.formats.clear();
+  for (const auto& f : formats) options.formats.push_back(from_name<io::DecFormat>("formats", f.cast<std::string>()));
+  const auto count = threads_from(threads);
+  std::vector<std::string> paths;
+  {
+    const py::gil_scoped_release release;
+    const auto executor = make_threads(count);
+    options.executor = executor.get();
+    auto written = io::write_dec(folder, *d.mesh, *d.complex, power_cells(*d.mesh, *d.complex), options);
+    if (!written) throw BadInput{written.error()};
+    paths = *std::move(written);
+  }
+  return to_python(paths);
+}
+
+void bind_dec(py::module_& m) {
+  py::class_<PyDec>(m, "DecComplex")
+      .def("arrays", dec_to_dict)
+      .def("summarize", [](const PyDec& d) { return summary_to_dict(summarize(*d.mesh, *d.complex)); })
+      .def("power_cells", cells_to_dict)
+      .def("write", write_dec_files);
+  m.def("dec", make_dec);
+}
+
+// --- pictures ---------------------------------------------------------------------------------------------------
+
+DrawOptions draw_options_from(const py::dict& d) {
+  DrawOptions o;
+  o.primal = d["primal"].cast<bool>();
+  o.dual = d["dual"].cast<bool>();
+  o.weights = d["weights"].cast<bool>();
+  o.weight_scale = d["weight_scale"].cast<double>();
+  o.bad_triangles = d["bad_triangles"].cast<bool>();
+  o.near_coincident = d["near_coincident"].cast<bool>();
+  o.regions = d["regions"].cast<bool>();
+  o.vertex_numbers = d["vertex_numbers"].cast<bool>();
+  o.width = d["width"].cast<double>();
+  o.title = d["title"].cast<std::string>();
+  if (!d["zoom"].is_none()) {
+    const auto z = d["zoom"].cast<py::tuple>();
+    o.zoom = Box{{z[0].cast<double>(), z[1].cast<double>()}, {z[2].cast<double>(), z[3].cast<double>()}};
+  }
+  return o;
+}
+
+void bind_draw(py::module_& m) {
+  m.def("draw_svg",
+        [](const PyMesh& self, const py::dict& options) { return draw_svg(*self.read(), draw_options_from(options)); });
+  m.def("draw_before_after_svg", [](const PyMesh& before, const PyMesh& after, const py::dict& options) {
+    return draw_before_after_svg(*before.read(), *after.read(), draw_options_from(options));
+  });
+  m.def("grid_svg", [](const py::sequence& documents, std::size_t columns, const std::string& title) {
+    std::vector<std::string> svgs;
+    for (const auto& document : documents) svgs.push_back(document.cast<std::string>());
+    if (columns == 0) fail(ErrorCode::invalid_option, "columns: expected 1 or more, found 0");
+    return grid_svg(svgs, columns, title);
+  });
+}
+
+// --- verify -----------------------------------------------------------------------------------------------------
+
+#ifdef TEMPER_WITH_VERIFY
+
+/// The ten numbers of VerifyErrors, in the order of verify_measures().
+py::dict fields_to_dict(const std::vector<FieldErrors>& fields) {
+  py::list names;
+  std::vector<std::array<double, 10>> values;
+  for (const FieldErrors& f : fields) {
+    names.append(to_python(f.field.name));
+    auto& row = values.emplace_back();
+    for (std::size_t i = 0; i < row.size(); ++i) row[i] = verify_measures()[i].of(f.errors);
+  }
+  return Record()("names", py::object(names))("values",
+                                              rows_of<double>(std::span<const std::array<double, 10>>(values)))
+      .dict;
+}
+
+py::object errors_to_array(const VerifyErrors& errors) {
+  std::vector<double> values;
+  for (const VerifyMeasure& measure : verify_measures()) values.push_back(measure.of(errors));
+  return to_python(values);
+}
+
+std::vector<FieldErrors> fields_from(const py::sequence& names, const Doubles& values) {
+  const auto rows = as_span<std::array<double, 10>>(values);
+  if (rows.size() != names.size()) throw py::value_error("as many rows as fields expected");
+  std::vector<FieldErrors> fields;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto wanted = names[i].cast<std::string>();
+    FieldErrors& row = fields.emplace_back();
+    for (const VerifyField& field : verify_fields()) {
+      if (field.name == wanted) row.field = field;
+    }
+    for (std::size_t k = 0; k < rows[i].size(); ++k) verify_measures()[k].at(row.errors) = rows[i][k];
+  }
+  return fields;
+}
+
+py::dict system_to_dict(const VerifySystem& s) {
+  return Record()("unknowns", s.unknowns)("m_matrix", s.m_matrix)("definite", s.definite)("singular", s.singular)(
+             "negative", s.negative)("merged", s.merged)("largest_over_median", s.largest_over_median)("condition",
+                                                                                                       s.condition)
+      .dict;
+}
+
+py::dict frame_to_dict(const VerifyFrame& f) { return Record()("center", f.center)("half_size", f.half_size).dict; }
+
+VerifyFrame frame_from(const py::handle& frame) {
+  const auto f = frame.cast<py::tuple>();
+  return {{f[0].cast<double>(), f[1].cast<double>()}, f[2].cast<double>()};
+}
+
+py::dict verify_to_dict(const VerifyReport& r) {
+  py::list levels, local;
+  for (const VerifyLevel& level : r.levels) {
+    levels.append(Record()("vertices", level.vertices)("triangles", level.triangles)(
+                      "non_regular_edges", level.non_regular_edges)("not_well_centered", level.not_well_centered)(
+                      "fields", py::object(fields_to_dict(level.fields)))
+                      .dict);
+  }
+  for (const auto& values : r.local) local.append(to_python(values));
+  return Record()("vertices", r.vertices)("edges", r.edges)("triangles", r.triangles)(
+             "non_regular_edges", r.non_regular_edges)("negative_boundary_duals", r.negative_boundary_duals)(
+             "negative_star0", r.negative_star0)("not_well_centered", r.not_well_centered)(
+             "frame", py::object(frame_to_dict(r.frame)))("poisson", py::object(system_to_dict(r.poisson)))(
+             "flux", py::object(system_to_dict(r.flux)))("fields", py::object(fields_to_dict(r.fields)))(
+             "levels", py::object(levels))("orders", py::object(fields_to_dict(r.orders)))("local", py::object(local))
+      .dict;
+}
+
+py::dict verify_mesh(const PyMesh& self, const py::sequence& fields, const py::object& frame, int refine,
+                     bool condition, bool local, const py::object& threads) {
+  const auto mesh = self.read();
+  VerifyOptions options;
+  for (const auto& field : fields) options.fields.push_back(field.cast<std::string>());
+  if (!frame.is_none()) options.frame = frame_from(frame);
+  if (refine < 0) fail(ErrorCode::invalid_option, "refine: expected 0 or more, found " + std::to_string(refine));
+  options.refine = refine;
+  options.condition = condition;
+  options.local = local;
+  const auto count = threads_from(threads);
+  std::optional<Expected<VerifyReport>> report;
+  {
+    const py::gil_scoped_release release;
+    const auto executor = make_threads(count);
+    options.executor = executor.get();
+    report = verify(*mesh, options);
+  }
+  return verify_to_dict(or_raise(*std::move(report)));
+}
+
+std::optional<FieldGroup> group_from(const py::object& group) {
+  if (group.is_none()) return std::nullopt;
+  constexpr std::array<std::string_view, 3> kNames = {"chosen", "held-back", "exact"};
+  return static_cast<FieldGroup>(choose("group", group.cast<std::string>(), kNames));
+}
+
+void bind_verify(py::module_& m) {
+  m.def("verify", verify_mesh);
+  m.def("verify_fields", [] {
+    py::list list;
+    for (const VerifyField& f : verify_fields()) {
+      list.append(Record()("name", f.name)("group", name(f.group))("formula", f.formula).dict);
+    }
+    return list;
+  });
+  m.def("verify_frame", [](const PyMesh& self) { return frame_to_dict(verify_frame(*self.read())); });
+  m.def("verify_measures", [] {
+    py::list list;
+    for (const VerifyMeasure& measure : verify_measures()) {
+      list.append(py::make_tuple(to_python(measure.key), to_python(measure.label)));
+    }
+    return list;
+  });
+  m.def("geometric_mean", [](const py::sequence& names, const Doubles& values, const py::object& group) {
+    return errors_to_array(geometric_mean(fields_from(names, values), group_from(group)));
+  });
+  m.def("arithmetic_mean", [](const py::sequence& names, const Doubles& values, const py::object& group) {
+    return errors_to_array(arithmetic_mean(fields_from(names, values), group_from(group)));
+  });
+  m.def("error_ratios", [](const py::sequence& after_names, const Doubles& after, const py::object& after_frame,
+                           const py::sequence& before_names, const Doubles& before, const py::object& before_frame) {
+    VerifyReport a, b;
+    a.fields = fields_from(after_names, after);
+    a.frame = frame_from(after_frame);
+    b.fields = fields_from(before_names, before);
+    b.frame = frame_from(before_frame);
+    return fields_to_dict(or_raise(error_ratios(a, b)));
+  });
+}
+
+#else
+
+void bind_verify(py::module_&) {}
+
+#endif
+
+}  // namespace
+
+void bind_measure(py::module_& m) {
+  bind_energy(m);
+  bind_dec(m);
+  bind_draw(m);
+  bind_verify(m);
+}
+
+}  // namespace temper::python

@@ -1,0 +1,463 @@
+// Meshes from arrays and files, and back: mesh.hpp, io.hpp, generate.hpp.
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <variant>
+
+#include "bind.hpp"
+#include "temper/generate.hpp"
+#include "temper/geometry.hpp"
+
+namespace temper::python {
+namespace {
+
+// --- from arrays --------------------------------------------------------------------------------------------
+
+/// Vertex numbers of 64 bits as the 32 bits of the library. Those that do not fit are of no vertex; the others are
+/// checked by whoever knows how many there are.
+template <std::size_t n>
+std::vector<std::array<std::int32_t, n>> narrow(const Int64s& array, const char* kind) {
+  const auto wide = as_span<std::array<std::int64_t, n>>(array);
+  std::vector<std::array<std::int32_t, n>> result(wide.size());
+  for (std::size_t i = 0; i < wide.size(); ++i) {
+    for (std::size_t k = 0; k < n; ++k) {
+      if (wide[i][k] < INT32_MIN || wide[i][k] > INT32_MAX) {
+        fail(ErrorCode::index_out_of_range, std::string(kind) + " " + std::to_string(i) + " uses vertex " +
+                                                std::to_string(wide[i][k]) + ", which no mesh has");
+      }
+      result[i][k] = static_cast<std::int32_t>(wide[i][k]);
+    }
+  }
+  return result;
+}
+
+py::tuple mesh_from_arrays(const Doubles& points, const py::array& triangles, const Doubles& weights,
+                           const Int64s& constrained_edges, const Int32s& regions, const Int64s& fixed,
+                           const py::object& threads) {
+  const bool narrow_already = py::isinstance<Int32s>(triangles);
+  const Int32s same = narrow_already ? Int32s(triangles) : Int32s(Shape{0, 3});
+  std::vector<std::array<std::int32_t, 3>> narrowed;
+  if (!narrow_already) narrowed = narrow<3>(Int64s(triangles), "triangle");
+  const auto edges = narrow<2>(constrained_edges, "constrained edge");
+  const auto fixed_vertices = narrow<1>(fixed, "fixed vertex");
+  MeshInput input;
+  input.points = as_span<Vec2>(points);
+  input.weights = as_span<double>(weights);
+  input.triangles = narrow_already ? as_span<std::array<std::int32_t, 3>>(same) : std::span(std::as_const(narrowed));
+  input.constrained_edges = edges;
+  input.regions = as_span<std::int32_t>(regions);
+  input.fixed_vertices = {fixed_vertices.empty() ? nullptr : fixed_vertices.front().data(), fixed_vertices.size()};
+  const auto count = threads_from(threads);
+  std::optional<Expected<BuiltMesh>> built;
+  {
+    const py::gil_scoped_release release;
+    const auto executor = make_threads(count);
+    input.executor = executor.get();
+    built = Mesh::build(input);
+  }
+  BuiltMesh result = or_raise(*std::move(built));
+  return py::make_tuple(std::make_unique<PyMesh>(std::move(result.mesh)), result.reversed_triangles);
+}
+
+// --- arrays of a mesh ---------------------------------------------------------------------------------------
+
+py::array points_of(const std::shared_ptr<const Mesh>& mesh) {
+  const auto n = static_cast<py::ssize_t>(mesh->n_vertices());
+  constexpr py::ssize_t stride = Mesh::kVertexStride;
+  return view(py::dtype::of<double>(), {n, 2}, {stride, py::ssize_t{sizeof(double)}}, mesh->vertex_data(), keep(mesh));
+}
+
+py::array weights_of(const std::shared_ptr<const Mesh>& mesh) {
+  const auto n = static_cast<py::ssize_t>(mesh->n_vertices());
+  constexpr py::ssize_t stride = Mesh::kVertexStride;
+  const double* first = n == 0 ? nullptr : mesh->vertex_data() + 2;
+  return view(py::dtype::of<double>(), {n}, {stride}, first, keep(mesh));
+}
+
+py::array triangles_of(const std::shared_ptr<const Mesh>& mesh) {
+  const auto m = static_cast<py::ssize_t>(mesh->n_triangles());
+  constexpr py::ssize_t item = sizeof(VertexId);
+  return view(dtype_of<VertexId>(), {m, 3}, {3 * item, item}, mesh->corner_data().data(), keep(mesh));
+}
+
+py::array twins_of(const std::shared_ptr<const Mesh>& mesh) {
+  const auto n = static_cast<py::ssize_t>(mesh->n_halfedges());
+  return view(dtype_of<HalfedgeId>(), {n}, {py::ssize_t{sizeof(HalfedgeId)}}, mesh->twin_data().data(), keep(mesh));
+}
+
+py::array regions_of(const Mesh& mesh) {
+  py::array_t<std::int32_t> copy(Shape{static_cast<py::ssize_t>(mesh.n_triangles())});
+  std::int32_t* out = copy.mutable_data();
+  for (const TriangleId t : mesh.triangles()) *out++ = mesh.region(t);
+  return copy;
+}
+
+py::array fixed_of(const Mesh& mesh) {
+  std::vector<VertexId> fixed;
+  for (const VertexId v : mesh.vertices()) {
+    if (mesh.is_fixed(v)) fixed.push_back(v);
+  }
+  return array_of<VertexId>(fixed);
+}
+
+/// The edges that `wanted` says, each once, from the halfedge that stands for it.
+template <class Wanted>
+py::array edges_of(const Mesh& mesh, const Wanted& wanted) {
+  std::vector<std::array<std::int32_t, 2>> edges;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.is_erased(Mesh::triangle(h)) || !mesh.is_edge_representative(h) || !wanted(h)) continue;
+    edges.push_back({static_cast<std::int32_t>(mesh.origin(h).index), static_cast<std::int32_t>(mesh.target(h).index)});
+  }
+  return rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(edges));
+}
+
+// --- changes ------------------------------------------------------------------------------------------------
+
+/// Sets all points or weights at once; a mesh that is none then is left as it was.
+void set_vertices(PyMesh& self, const Doubles& values, bool weights) {
+  const auto before = self.read();
+  const std::size_t per = weights ? 1 : 2;
+  if (static_cast<std::size_t>(values.size()) != per * before->n_vertices()) {
+    fail(ErrorCode::size_mismatch, std::string(weights ? "weights: " : "points: ") + "expected " +
+                                       std::to_string(before->n_vertices()) + ", found " +
+                                       std::to_string(static_cast<std::size_t>(values.size()) / per));
+  }
+  Mesh mesh = *before;
+  const double* in = values.data();
+  for (const VertexId v : mesh.vertices()) {
+    const bool usable = weights ? is_exact_weight(in[0]) : is_exact_coordinate(in[0]) && is_exact_coordinate(in[1]);
+    if (!usable) {
+      const bool finite = std::isfinite(in[0]) && std::isfinite(in[per - 1]);
+      fail(finite ? ErrorCode::out_of_scale : ErrorCode::not_finite,
+           "point " + std::to_string(v.index) + ": " + (weights ? "weight" : "coordinates") +
+               (finite ? " out of the range of exact arithmetic" : " not finite"));
+    }
+    if (weights) {
+      mesh.set_weight(v, *in++);
+    } else {
+      mesh.set_position(v, {in[0], in[1]});
+      in += 2;
+    }
+  }
+  if (!weights) {
+    for (const TriangleId t : mesh.triangles()) {
+      const auto c = mesh.corners(t);
+      if (orient2d(mesh.position(c[0]), mesh.position(c[1]), mesh.position(c[2])) == Sign::positive) continue;
+      fail(ErrorCode::zero_area, "triangle " + std::to_string(t.index) + " is not counter-clockwise at these points");
+    }
+  }
+  self.replace(std::move(mesh), {});
+}
+
+void set_fixed(PyMesh& self, const Int64s& vertices) {
+  std::vector<VertexId> ids;
+  for (const std::int64_t v : as_span<std::int64_t>(vertices)) ids.push_back(vertex_id(*self.read(), v));
+  Mesh& mesh = self.change();
+  for (const VertexId v : mesh.vertices()) mesh.set_fixed(v, false);
+  for (const VertexId v : ids) mesh.set_fixed(v, true);
+}
+
+void set_constrained(PyMesh& self, const Int64s& edges, bool constrained) {
+  std::vector<HalfedgeId> halfedges;
+  const auto before = self.read();
+  for (const auto& [a, b] : as_span<std::array<std::int64_t, 2>>(edges)) {
+    const VertexId from = vertex_id(*before, a), to = vertex_id(*before, b);
+    HalfedgeId h = before->find_halfedge(from, to);
+    if (!h.valid()) h = before->find_halfedge(to, from);
+    if (!h.valid()) {
+      fail(ErrorCode::missing_edge, "the mesh has no edge " + std::to_string(a) + "-" + std::to_string(b));
+    }
+    halfedges.push_back(h);
+  }
+  Mesh& mesh = self.change();
+  for (const HalfedgeId h : halfedges) mesh.set_constrained(h, constrained);
+}
+
+void bind_mesh_class(py::module_& m) {
+  py::class_<PyMesh> type(m, "Mesh");
+  type.def("n_vertices", [](const PyMesh& self) { return self.read_with_erased()->n_vertices(); });
+  type.def("n_triangles", [](const PyMesh& self) { return self.read_with_erased()->n_triangles(); });
+  type.def("n_edges", [](const PyMesh& self) { return self.read_with_erased()->n_edges(); });
+  type.def("memory_bytes", [](const PyMesh& self) { return self.read_with_erased()->memory_bytes(); });
+  type.def("points", [](const PyMesh& self) { return points_of(self.read_with_erased()); });
+  type.def("weights", [](const PyMesh& self) { return weights_of(self.read_with_erased()); });
+  type.def("triangles", [](const PyMesh& self) { return triangles_of(self.read_with_erased()); });
+  type.def("twins", [](const PyMesh& self) { return twins_of(self.read_with_erased()); });
+  type.def("regions", [](const PyMesh& self) { return regions_of(*self.read_with_erased()); });
+  type.def("fixed", [](const PyMesh& self) { return fixed_of(*self.read_with_erased()); });
+  type.def("edges", [](const PyMesh& self) {
+    const auto mesh = self.read_with_erased();
+    return edges_of(*mesh, [](HalfedgeId) { return true; });
+  });
+  type.def("boundary_edges", [](const PyMesh& self) {
+    const auto mesh = self.read_with_erased();
+    return edges_of(*mesh, [&](HalfedgeId h) { return mesh->is_boundary(h); });
+  });
+  type.def("constrained_edges", [](const PyMesh& self) {
+    const auto mesh = self.read_with_erased();
+    return edges_of(*mesh, [&](HalfedgeId h) { return mesh->is_constrained(h); });
+  });
+  type.def("set_points", [](PyMesh& self, const Doubles& points) { set_vertices(self, points, false); });
+  type.def("set_weights", [](PyMesh& self, const Doubles& weights) { set_vertices(self, weights, true); });
+  type.def("set_fixed", set_fixed);
+  type.def("set_constrained", set_constrained);
+  type.def("find_halfedge", [](const PyMesh& self, std::int64_t a, std::int64_t b) {
+    const auto mesh = self.read_with_erased();
+    return to_python(mesh->find_halfedge(vertex_id(*mesh, a), vertex_id(*mesh, b)));
+  });
+  type.def("star", [](const PyMesh& self, std::int64_t v) {
+    const auto mesh = self.read_with_erased();
+    std::vector<HalfedgeId> star;
+    if (const VertexId id = vertex_id(*mesh, v); !mesh->is_isolated(id)) {
+      for (const HalfedgeId h : mesh->star(id)) star.push_back(h);
+    }
+    return to_python(star);
+  });
+  type.def("validate", [](const PyMesh& self) { return to_python(self.read_with_erased()->validate()); });
+  type.def("compact", [](PyMesh& self) { return to_python(self.compact()); });
+  type.def("replace", [](PyMesh& self, const PyMesh& other) { self.assign(other); });
+  type.def("copy", [](const PyMesh& self) { return self.copy(); });
+  type.def("equal", [](const PyMesh& self, const PyMesh& other) {
+    return *self.read_with_erased() == *other.read_with_erased();
+  });
+}
+
+// --- files ------------------------------------------------------------------------------------------------------
+
+py::object to_python_array(const io::DataArray& data) {
+  return std::visit(
+      [&data](const auto& values) -> py::object {
+        using T = typename std::decay_t<decltype(values)>::value_type;
+        const auto n = static_cast<py::ssize_t>(values.size());
+        if (data.components == 1) return py::array(py::dtype::of<T>(), Shape{n}, values.data());
+        return py::array(py::dtype::of<T>(), Shape{n / data.components, py::ssize_t{data.components}}, values.data());
+      },
+      data.values);
+}
+
+py::dict to_python_dict(const std::vector<io::DataArray>& arrays) {
+  py::dict dict;
+  for (const io::DataArray& array : arrays) dict[py::str(array.name)] = to_python_array(array);
+  return dict;
+}
+
+template <class T>
+bool take_values(io::DataArray& data, const py::array& array) {
+  if (!array.dtype().is(py::dtype::of<T>()) && !array.dtype().equal(py::dtype::of<T>())) return false;
+  const auto same = py::array_t<T, py::array::c_style | py::array::forcecast>(array);
+  data.values = std::vector<T>(same.data(), same.data() + same.size());
+  return true;
+}
+
+/// One- or two-dimensional arrays of the types that files have; the Python package has turned others into these.
+io::DataArray from_python_array(const std::string& name, const py::array& array) {
+  io::DataArray data{name, array.ndim() > 1 ? static_cast<int>(array.shape(1)) : 1, {}};
+  const bool taken = take_values<double>(data, array) || take_values<float>(data, array) ||
+                     take_values<std::int64_t>(data, array) || take_values<std::int32_t>(data, array) ||
+                     take_values<std::uint8_t>(data, array) || take_values<std::int8_t>(data, array) ||
+                     take_values<std::int16_t>(data, array) || take_values<std::uint16_t>(data, array) ||
+                     take_values<std::uint32_t>(data, array) || take_values<std::uint64_t>(data, array);
+  if (!taken) throw py::type_error("data '" + name + "': " + std::string(py::str(array.dtype())) + " is not supported");
+  return data;
+}
+
+std::vector<io::DataArray> from_python_dict(const py::dict& dict, std::size_t size, const char* kind) {
+  std::vector<io::DataArray> arrays;
+  for (const auto& [name, value] : dict) {
+    const auto array = value.cast<py::array>();
+    if (static_cast<std::size_t>(array.shape(0)) != size) {
+      fail(ErrorCode::size_mismatch, std::string(kind) + " '" + name.cast<std::string>() + "': expected " +
+                                         std::to_string(size) + " values, found " + std::to_string(array.shape(0)));
+    }
+    arrays.push_back(from_python_array(name.cast<std::string>(), array));
+  }
+  return arrays;
+}
+
+template <class T, class Array>
+std::vector<T> copy_of(const Array& array) {
+  const auto values = as_span<T>(array);
+  return {values.begin(), values.end()};
+}
+
+/// The mesh of a file, with the rest of the file behind it, and the warnings.
+py::tuple load(io::MeshFile file, const std::vector<std::string>& fixed_tags, Executor* executor) {
+  auto source = std::make_shared<Source>();
+  source->file = std::move(file);
+  {
+    const py::gil_scoped_release release;
+    auto loaded = io::make_mesh(source->file, fixed_tags, executor);
+    if (!loaded) throw BadInput{loaded.error()};
+    source->loaded = *std::move(loaded);
+    // Data of new points need the geometry of before; else it would only be held twice.
+    if (source->file.point_data.empty()) io::release_geometry(source->file, source->loaded);
+  }
+  std::vector<std::string> warnings = source->file.warnings;
+  source->file.warnings.clear();
+  warnings.insert(warnings.end(), source->loaded.warnings.begin(), source->loaded.warnings.end());
+  Mesh mesh = std::move(source->loaded.mesh);
+  source->loaded.mesh = Mesh();
+  return py::make_tuple(std::make_unique<PyMesh>(std::move(mesh), std::move(source)), to_python(warnings));
+}
+
+std::vector<std::string> strings_from(const py::sequence& sequence) {
+  std::vector<std::string> strings;
+  for (const auto& item : sequence) strings.push_back(item.cast<std::string>());
+  return strings;
+}
+
+/// What a file with this mesh says: the one it came from, updated, or a new one.
+io::MeshFile file_of(const PyMesh& self) {
+  const auto mesh = self.read();
+  if (!self.source()) return io::from_mesh(*mesh);
+  io::MeshFile file = self.source()->file;
+  io::update(file, self.source()->loaded, *mesh, self.origin());
+  return file;
+}
+
+py::dict file_as_dict(const PyMesh& self) {
+  io::MeshFile file;
+  {
+    const py::gil_scoped_release release;
+    file = file_of(self);
+  }
+  py::list names;
+  for (const io::PhysicalName& n : file.names) names.append(py::make_tuple(n.dimension, n.tag, n.name));
+  return Record()("points", rows_of<double>(std::span<const Vec2>(file.points)))("z", file.z)("weights", file.weights)(
+             "triangles", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 3>>(file.triangles)))(
+             "regions", array_of<std::int32_t>(file.regions))(
+             "lines", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(file.lines)))(
+             "line_tags", array_of<std::int32_t>(file.line_tags))("marked_points",
+                                                                  array_of<std::int32_t>(file.marked_points))(
+             "point_tags", array_of<std::int32_t>(file.point_tags))("names", py::object(names))(
+             "point_data", py::object(to_python_dict(file.point_data)))(
+             "cell_data", py::object(to_python_dict(file.cell_data)))("line_data",
+                                                                      py::object(to_python_dict(file.line_data)))(
+             "marked_point_data", py::object(to_python_dict(file.marked_point_data)))(
+             "field_data", py::object(to_python_dict(file.field_data)))("path", file.path)("format", file.format)(
+             "warnings", file.warnings)
+      .dict;
+}
+
+template <std::size_t n>
+void check_range(const std::vector<std::array<std::int32_t, n>>& cells, std::size_t n_points, const char* kind) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (const std::int32_t p : cells[i]) {
+      if (p >= 0 && static_cast<std::size_t>(p) < n_points) continue;
+      fail(ErrorCode::index_out_of_range, std::string(kind) + " " + std::to_string(i) + " uses point " +
+                                              std::to_string(p) + ", but there are " + std::to_string(n_points) +
+                                              " points");
+    }
+  }
+}
+
+py::tuple mesh_from_file_arrays(const py::dict& d, const py::sequence& fixed_tags) {
+  io::MeshFile file;
+  file.points = copy_of<Vec2>(d["points"].cast<Doubles>());
+  file.z = d["z"].cast<double>();
+  file.weights = copy_of<double>(d["weights"].cast<Doubles>());
+  file.triangles = narrow<3>(d["triangles"].cast<Int64s>(), "triangle");
+  file.regions = copy_of<std::int32_t>(d["regions"].cast<Int32s>());
+  file.lines = narrow<2>(d["lines"].cast<Int64s>(), "line");
+  file.line_tags = copy_of<std::int32_t>(d["line_tags"].cast<Int32s>());
+  file.point_data = from_python_dict(d["point_data"].cast<py::dict>(), file.points.size(), "point data");
+  file.cell_data = from_python_dict(d["cell_data"].cast<py::dict>(), file.triangles.size(), "cell data");
+  file.line_data = from_python_dict(d["line_data"].cast<py::dict>(), file.lines.size(), "line data");
+  check_range<3>(file.triangles, file.points.size(), "triangle");
+  check_range<2>(file.lines, file.points.size(), "line");
+  return load(std::move(file), strings_from(fixed_tags), nullptr);
+}
+
+py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, const py::object& threads) {
+  const auto tags = strings_from(fixed_tags);
+  const auto executor = make_threads(threads_from(threads));
+  std::optional<Expected<io::MeshFile>> file;
+  {
+    const py::gil_scoped_release release;
+    file = io::read(path, {executor.get()});
+  }
+  return load(or_raise(*std::move(file)), tags, executor.get());
+}
+
+py::object write_file(const std::string& path, const PyMesh& self, const std::string& format,
+                      const std::string& encoding, const py::object& threads) {
+  const auto executor = make_threads(threads_from(threads));
+  io::WriteOptions options;
+  options.format = format;
+  if (!encoding.empty()) options.encoding = from_name<io::Encoding>("encoding", encoding);
+  options.executor = executor.get();
+  std::vector<std::string> warnings;
+  {
+    const py::gil_scoped_release release;
+    const io::MeshFile file = file_of(self);
+    auto written = io::write(path, file, options);
+    if (!written) throw BadInput{written.error()};
+    warnings = file.warnings;
+    warnings.insert(warnings.end(), written->begin(), written->end());
+  }
+  return to_python(warnings);
+}
+
+void bind_files(py::module_& m) {
+  m.def("read", read_file);
+  m.def("write", write_file);
+  m.def("mesh_from_arrays", mesh_from_arrays);
+  m.def("mesh_from_file_arrays", mesh_from_file_arrays);
+  m.def("file_as_dict", file_as_dict);
+  m.def("write_text", [](const std::string& path, const std::string& text) { or_raise(io::write_text(path, text)); });
+  m.def("formats", [] {
+    py::list list;
+    for (const io::Format& f : io::formats()) {
+      list.append(Record()("name", f.name)("description", f.description)("suffixes", f.suffixes)("writes", f.writes)(
+                      "holds_weights", f.holds_weights)
+                      .dict);
+    }
+    return list;
+  });
+}
+
+// --- examples -----------------------------------------------------------------------------------------------------
+
+std::unique_ptr<PyMesh> made(Expected<Mesh> mesh) { return std::make_unique<PyMesh>(or_raise(std::move(mesh))); }
+
+void bind_generate(py::module_& m) {
+  m.def("constrained_delaunay", [](const Doubles& points, const Int64s& segments, bool carve) {
+    const auto ends = narrow<2>(segments, "segment");
+    std::optional<Expected<Mesh>> mesh;
+    {
+      const py::gil_scoped_release release;
+      mesh = constrained_delaunay({as_span<Vec2>(points), ends, carve});
+    }
+    return made(*std::move(mesh));
+  });
+  m.def("sparse_horseshoe", [] { return std::make_unique<PyMesh>(sparse_horseshoe()); });
+  m.def("letter_a", [] { return std::make_unique<PyMesh>(letter_a()); });
+  m.def("horseshoe", [](int a, int b, double x0, double x1, double y0, double y1) {
+    return made(horseshoe({a, b, {x0, x1}, {y0, y1}}));
+  });
+  m.def("single_triangle", [](double a, double b, double angle) { return made(single_triangle({a, b, angle})); });
+  m.def("random_points", [](std::size_t vertices, std::uint64_t seed, const Doubles& polygon) {
+    const auto corners = as_span<Vec2>(polygon);
+    return made(random_points({vertices, seed, {corners.begin(), corners.end()}}));
+  });
+  m.def("sheared_grid", [](int nx, int ny, double shear) { return made(sheared_grid({nx, ny, shear})); });
+  m.def("annulus", [](double inner, double outer, int around, int rings, double jitter, std::uint64_t seed) {
+    return made(annulus({inner, outer, around, rings, jitter, seed}));
+  });
+  m.def("airfoil", [](int around, double growth, std::uint64_t seed) { return made(airfoil({around, growth, seed})); });
+  m.def("regular_polygon", [](int corners) { return made(regular_polygon({corners})); });
+  m.def("wedge", [](double angle, int pieces, std::uint64_t seed) { return made(wedge({angle, pieces, seed})); });
+  m.def("graded_points", [](double finest, double growth, std::uint64_t seed) {
+    return made(graded_points({finest, growth, seed}));
+  });
+}
+
+}  // namespace
+
+void bind_mesh(py::module_& m) {
+  bind_mesh_class(m);
+  bind_files(m);
+  bind_generate(m);
+}
+
+}  // namespace temper::python

@@ -1,0 +1,212 @@
+// The compiled half of the Python module: temper._temper. Its functions take and give plain values; signatures,
+// defaults and documentation are those of the Python package around it.
+#include <algorithm>
+
+#include "bind.hpp"
+#include "temper/instruction_set.hpp"
+#ifdef TEMPER_WITH_TBB
+#include "temper/tbb_executor.hpp"
+#endif
+
+namespace temper::python {
+
+void fail(ErrorCode code, std::string message) { throw BadInput{{code, "", std::move(message)}}; }
+
+py::array view(const py::dtype& type, Shape shape, Shape strides, const void* data, const py::object& owner) {
+  py::array array(type, std::move(shape), std::move(strides), data, owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+std::size_t choose(std::string_view option, std::string_view text, std::span<const std::string_view> names) {
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  std::string message(option);
+  message += ": expected one of ";
+  for (const std::string_view name : names) message += (name == names.front() ? "" : ", ") + std::string(name);
+  fail(ErrorCode::invalid_option, message + "; found '" + std::string(text) + "'");
+}
+
+Softening softening_from(const py::handle& value) {
+  const auto pair = value.cast<py::tuple>();
+  return {pair[0].cast<double>(), from_name<LengthScale>("scale", pair[1].cast<std::string>())};
+}
+
+// --- the mesh as Python holds it ------------------------------------------------------------------------
+
+std::shared_ptr<const Mesh> PyMesh::read() const {
+  if (erased_) fail(ErrorCode::unsupported, "the mesh has erased triangles: compact() drops them");
+  return mesh_;
+}
+
+Mesh& PyMesh::change() {
+  refuse_while_running();
+  if (mesh_.use_count() > 1) mesh_ = std::make_shared<Mesh>(*mesh_);
+  ++version_;
+  return *mesh_;
+}
+
+void PyMesh::replace(Mesh mesh, const IdVector<VertexId, VertexId>& vertices) {
+  refuse_while_running();
+  mesh_ = std::make_shared<Mesh>(std::move(mesh));
+  compose(vertices);
+  ++version_;
+  erased_ = false;
+}
+
+void PyMesh::assign(const PyMesh& other) {
+  refuse_while_running();
+  const std::uint64_t version = version_ + 1;
+  *this = other.copy();
+  version_ = version;
+}
+
+PyMesh PyMesh::copy() const {
+  PyMesh copy = *this;
+  copy.running_ = false;
+  return copy;
+}
+
+IdVector<VertexId, VertexId> PyMesh::compact() {
+  IdVector<VertexId, VertexId> vertices = change().compact().vertices;
+  compose(vertices);
+  erased_ = false;
+  return vertices;
+}
+
+std::size_t PyMesh::n_vertices_of_source() const { return source_->loaded.vertex_of_point.n_kept(); }
+
+IdVector<VertexId, VertexId> PyMesh::origin() const {
+  const std::size_t n = mesh_->n_vertices();
+  if (!source_ || (origin_.empty() && n == n_vertices_of_source())) return {};
+  // Vertices that were inserted one by one follow.
+  IdVector<VertexId, VertexId> origin = origin_;
+  if (origin.empty()) {
+    for (const VertexId v : IdRange<VertexId>(n_vertices_of_source())) origin.push_back(v);
+  }
+  origin.resize(n);
+  return origin;
+}
+
+/// Numbers in the former state become numbers in the source.
+void PyMesh::compose(const IdVector<VertexId, VertexId>& vertices) {
+  if (vertices.empty() || !source_) return;
+  const std::size_t known = origin_.empty() ? n_vertices_of_source() : origin_.size();
+  IdVector<VertexId, VertexId> composed = vertices;
+  for (VertexId& v : composed) {
+    if (!v.valid() || v.index >= known) {
+      v = VertexId();
+    } else if (!origin_.empty()) {
+      v = origin_[v];
+    }
+  }
+  origin_ = std::move(composed);
+}
+
+void PyMesh::refuse_while_running() const {
+  if (running_) fail(ErrorCode::unsupported, "the mesh is being changed by a call that has not returned yet");
+}
+
+PyMesh::Run::Run(PyMesh& mesh) : mesh_(mesh) {
+  mesh_.refuse_while_running();
+  mesh_.running_ = true;
+}
+
+// --- threads, signals -----------------------------------------------------------------------------------
+
+std::optional<std::size_t> threads_from(const py::handle& threads) {
+  if (threads.is_none()) return std::nullopt;
+  const auto count = threads.cast<std::int64_t>();
+  if (count < 0) fail(ErrorCode::invalid_option, "threads: expected 0 or more, found " + std::to_string(count));
+  return static_cast<std::size_t>(count);
+}
+
+std::unique_ptr<Executor> make_threads([[maybe_unused]] const std::optional<std::size_t>& threads) {
+#ifdef TEMPER_WITH_TBB
+  if (threads != std::size_t{1}) return std::make_unique<TbbExecutor>(threads.value_or(0));
+#endif
+  return nullptr;
+}
+
+bool Visitor::check_signals() {
+  if (stopped()) return false;
+  constexpr std::chrono::milliseconds kInterval(20);  // nobody notices, and the GIL costs nothing
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_ < kInterval) return true;
+  last_ = now;
+  return call([] {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    return true;
+  });
+}
+
+// --- ids ------------------------------------------------------------------------------------------------
+
+namespace {
+
+std::size_t checked(const char* kind, std::int64_t index, std::size_t size) {
+  if (index >= 0 && static_cast<std::size_t>(index) < size) return static_cast<std::size_t>(index);
+  fail(ErrorCode::index_out_of_range, std::string(kind) + " " + std::to_string(index) + ": expected 0 to " +
+                                          std::to_string(static_cast<std::int64_t>(size) - 1));
+}
+
+void bind_instruction_sets(py::module_& m) {
+  m.def("instruction_sets", [] {
+    py::list list;
+    for (const InstructionSet set : instruction_sets()) list.append(to_python(name(set)));
+    return list;
+  });
+  m.def("instruction_set", [] { return std::string(name(instruction_set())); });
+  m.def("use_instruction_set", [](const std::string& wanted) {
+    for (const InstructionSet set : instruction_sets()) {
+      if (name(set) == wanted) return use_instruction_set(set);
+    }
+    return false;
+  });
+}
+
+void raise_as_temper_error(const InputError& error) {
+  const py::object type = py::module_::import("temper._errors").attr("TemperError");
+  PyErr_SetObject(type.ptr(), type(std::string(name(error.code)), error.where, error.message).ptr());
+}
+
+}  // namespace
+
+VertexId vertex_id(const Mesh& mesh, std::int64_t index) {
+  return VertexId(checked("vertex", index, mesh.n_vertices()));
+}
+TriangleId triangle_id(const Mesh& mesh, std::int64_t index) {
+  const TriangleId t(checked("triangle", index, mesh.n_triangles()));
+  if (mesh.is_erased(t)) fail(ErrorCode::index_out_of_range, "triangle " + std::to_string(index) + " is erased");
+  return t;
+}
+HalfedgeId halfedge_id(const Mesh& mesh, std::int64_t index) {
+  const HalfedgeId h(checked("halfedge", index, mesh.n_halfedges()));
+  static_cast<void>(triangle_id(mesh, Mesh::triangle(h).index));
+  return h;
+}
+
+}  // namespace temper::python
+
+PYBIND11_MODULE(_temper, m) {
+  using namespace temper::python;
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      if (pointer) std::rethrow_exception(pointer);
+    } catch (const BadInput& bad) {
+      raise_as_temper_error(bad.error);
+    }
+  });
+  m.attr("__version__") = TEMPER_VERSION;
+#ifdef TEMPER_WITH_TBB
+  m.attr("has_threads") = true;
+#else
+  m.attr("has_threads") = false;
+#endif
+  bind_instruction_sets(m);
+  bind_mesh(m);
+  bind_geometry(m);
+  bind_change(m);
+  bind_measure(m);
+  bind_weights(m);
+}

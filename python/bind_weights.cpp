@@ -1,0 +1,214 @@
+// Weights by linear programming, certificates, and reasons: feasibility.hpp, necessity.hpp, explain.hpp.
+#include "bind.hpp"
+#include "temper/explain.hpp"
+#include "temper/feasibility.hpp"
+#include "temper/lp.hpp"
+#include "temper/necessity.hpp"
+
+TEMPER_PYTHON_NAMES(temper::LpStatus, "optimal", "infeasible", "unbounded", "failed");
+TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "split");
+TEMPER_PYTHON_NAMES(temper::Conditions, "well_centered", "heights_only");
+TEMPER_PYTHON_NAMES(temper::WeightGoal, "feasible", "minimal", "elastic");
+
+namespace temper::python {
+namespace {
+
+py::tuple constraint_to_tuple(const WeightConstraint& c) {
+  return py::make_tuple(to_python(name_of(c.kind)), to_python(c.p), to_python(c.q), to_python(c.r));
+}
+
+py::dict certificate_to_dict(const Certificate& certificate) {
+  py::list terms;
+  for (const auto& term : certificate.terms) {
+    terms.append(py::make_tuple(constraint_to_tuple(term.constraint), term.multiplier));
+  }
+  return Record()("margin", certificate.margin)("terms", py::object(terms)).dict;
+}
+
+VertexId vertex_or_none(const py::handle& index) {
+  const auto i = index.cast<std::int64_t>();
+  return i < 0 || i >= INT32_MAX ? VertexId() : VertexId(static_cast<std::size_t>(i));
+}
+
+Certificate certificate_from(const py::dict& d) {
+  Certificate certificate;
+  certificate.margin = d["margin"].cast<double>();
+  for (const auto& item : d["terms"]) {
+    const auto term = item.cast<py::tuple>();
+    const auto c = term[0].cast<py::tuple>();
+    certificate.terms.push_back({{from_name<WeightConstraint::Kind>("kind", c[0].cast<std::string>()),
+                                  vertex_or_none(c[1]), vertex_or_none(c[2]), vertex_or_none(c[3])},
+                                 term[1].cast<double>()});
+  }
+  return certificate;
+}
+
+py::dict best_to_dict(const BestMargin& best) {
+  py::list tight;
+  for (const WeightConstraint& c : best.tight) tight.append(constraint_to_tuple(c));
+  return Record()("status", name_of(best.status))("margin", best.margin)("tight", py::object(tight))(
+             "certificate", py::object(certificate_to_dict(best.certificate)))("vertices", best.vertices)("weights",
+                                                                                                          best.weights)
+      .dict;
+}
+
+py::dict weight_report_to_dict(const WeightReport& r) {
+  py::list violations;
+  for (const Violation& v : r.violations) {
+    violations.append(Record()("constraint", py::object(constraint_to_tuple(v.constraint)))("value", v.value)(
+                          "shortfall", v.shortfall)("angle_deg", v.angle_deg)
+                          .dict);
+  }
+  return Record()("verdict", name(r.verdict))("margin", r.margin)("margin_is", name(r.margin_is))("solved", r.solved)(
+             "asked", r.asked)("attained", r.attained)("moved", r.moved)("change", r.change)(
+             "programmes", r.programmes)("largest", r.largest)("weights", r.weights)(
+             "violations", py::object(violations))("certificate", py::object(certificate_to_dict(r.certificate)))
+      .dict;
+}
+
+py::dict find(const PyMesh& self, const std::string& goal, double margin, bool from_input, std::size_t whole,
+              int rings) {
+  const auto mesh = self.read();
+  WeightOptions options;
+  options.goal = from_name<WeightGoal>("goal", goal);
+  options.margin = margin;
+  options.from_input = from_input;
+  options.whole = whole;
+  options.rings = rings;
+  std::optional<Expected<WeightReport>> report;
+  {
+    const py::gil_scoped_release release;
+    report = find_weights(*mesh, *clp_solver(), options);
+  }
+  return weight_report_to_dict(or_raise(*std::move(report)));
+}
+
+void bind_feasibility(py::module_& m) {
+  m.def("find_weights", find);
+  m.def("best_margin", [](const PyMesh& self, const py::object& triangles, const std::string& conditions) {
+    const auto mesh = self.read();
+    const auto wanted = from_name<Conditions>("conditions", conditions);
+    std::vector<TriangleId> ids;
+    if (!triangles.is_none()) {
+      const auto numbers = triangles.cast<Int64s>();
+      for (const std::int64_t t : as_span<std::int64_t>(numbers)) ids.push_back(triangle_id(*mesh, t));
+    }
+    const bool all = triangles.is_none();
+    BestMargin best;
+    {
+      const py::gil_scoped_release release;
+      const auto solver = clp_solver();
+      best = all ? best_margin(*mesh, *solver, wanted) : best_margin(*mesh, ids, *solver, wanted);
+    }
+    return best_to_dict(best);
+  });
+  m.def("weight_margin", [](const PyMesh& self, const std::string& conditions) {
+    return weight_margin(*self.read(), from_name<Conditions>("conditions", conditions));
+  });
+  m.def("check_certificate", [](const PyMesh& self, const py::dict& certificate) {
+    return std::string(name(check_certificate(*self.read(), certificate_from(certificate))));
+  });
+}
+
+// --- necessity ----------------------------------------------------------------------------------------------------
+
+py::dict conflict_to_dict(const Mesh& mesh, const EdgeConflict& c) {
+  return Record()("edge", py::object(py::make_tuple(mesh.origin(c.edge).index, mesh.target(c.edge).index)))(
+             "halfedge", c.edge)("near_u", c.near_u)("near_v", c.near_v)("a", c.a)("b", c.b)("sum", c.sum)("split_at",
+                                                                                                           c.split_at)
+      .dict;
+}
+
+void bind_necessity(py::module_& m) {
+  m.def("edge_conflict", [](const PyMesh& self, std::int64_t h, double up_to) -> py::object {
+    const auto mesh = self.read();
+    const auto conflict = edge_conflict(*mesh, halfedge_id(*mesh, h), up_to);
+    return conflict ? py::object(conflict_to_dict(*mesh, *conflict)) : py::none();
+  });
+  m.def("edges_that_must_be_split", [](const PyMesh& self, double up_to) {
+    const auto mesh = self.read();
+    py::list list;
+    for (const EdgeConflict& c : edges_that_must_be_split(*mesh, up_to)) list.append(conflict_to_dict(*mesh, c));
+    return list;
+  });
+}
+
+// --- explain ------------------------------------------------------------------------------------------------------
+
+py::object side_to_dict(const CrossingSide& side) {
+  return Record()("triangles", side.triangles)("from_", side.from)("to", side.to)("widest", side.widest)("angle_deg",
+                                                                                                         side.angle_deg)
+      .dict;
+}
+
+py::object crossing_to_dict(const std::optional<CrossingConflict>& c) {
+  if (!c) return py::none();
+  return Record()("p", c->p)("q", c->q)("length", c->length)("left", side_to_dict(c->left))("right",
+                                                                                            side_to_dict(c->right))
+      .dict;
+}
+
+py::object center_to_dict(const std::optional<FanCenter>& c) {
+  if (!c) return py::none();
+  return Record()("vertex", c->vertex)("on_boundary", c->on_boundary)("angle_deg", c->angle_deg)(
+             "shortest", c->shortest)("longest", c->longest)("shortest_length", c->shortest_length)("longest_length",
+                                                                                                    c->longest_length)
+      .dict;
+}
+
+py::dict cure_to_dict(const Mesh& mesh, const Cure& c) {
+  return Record()("action", name(c.action))("text", cure_text(mesh, c))("edge", c.edge)("vertex", c.vertex)(
+             "triangle", c.triangle)("at", c.at)("verified", c.verified)("conflict_only", c.conflict_only)(
+             "triangles", c.triangles)("ends_conflict", c.ends_conflict)("left_out", c.left_out)("margin", c.margin)(
+             "changed", c.changed)
+      .dict;
+}
+
+py::dict reason_to_dict(const Mesh& mesh, const Reason& r) {
+  py::list cures;
+  for (const Cure& cure : r.cures) cures.append(cure_to_dict(mesh, cure));
+  const py::object split = r.must_split ? py::object(conflict_to_dict(mesh, *r.must_split)) : py::none();
+  return Record()("kind", name(r.kind))("text", reason_text(mesh, r))("bad", r.bad)("conflict", r.conflict)(
+             "must_split", split)("certificate", py::object(certificate_to_dict(r.certificate)))("margin", r.margin)(
+             "each", r.each)("checked", r.checked)("crossing", crossing_to_dict(r.crossing))(
+             "center", center_to_dict(r.center))("free", r.free)("least_margin", r.least_margin)("at", r.at)(
+             "cures_searched", r.cures_searched)("cures", py::object(cures))
+      .dict;
+}
+
+py::dict explain_mesh(const PyMesh& self, std::size_t cures, std::size_t whole, const py::object& progress) {
+  const auto mesh = self.read();
+  ExplainOptions options;
+  options.cures = cures;
+  options.whole = whole;
+  Visitor visitor;
+  options.progress = [&](std::size_t done, std::size_t all) {
+    bool go_on = visitor.check_signals();
+    if (go_on && !progress.is_none()) {
+      go_on = visitor.call([&] { return !(progress(done, all).is(py::bool_(false))); });
+    }
+    return go_on ? Continue::yes : Continue::no;
+  };
+  std::optional<Expected<Explanation>> result;
+  {
+    const py::gil_scoped_release release;
+    result = explain(*mesh, *clp_solver(), options);
+  }
+  visitor.raise();
+  const Explanation why = or_raise(*std::move(result));
+  py::list reasons;
+  for (const Reason& reason : why.reasons) reasons.append(reason_to_dict(*mesh, reason));
+  return Record()("triangles", why.triangles)("bad", why.bad)("verdict", name(why.verdict))("changed", why.changed)(
+             "margin", why.margin)("reasons", py::object(reasons))
+      .dict;
+}
+
+}  // namespace
+
+void bind_weights(py::module_& m) {
+  bind_feasibility(m);
+  bind_necessity(m);
+  m.def("explain", explain_mesh);
+}
+
+}  // namespace temper::python

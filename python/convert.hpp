@@ -1,0 +1,187 @@
+// Between C++ values and Python's: arrays without copies where memory layout allows, enums as their C++ names, structs
+// as dictionaries that the Python package turns into dataclasses. Little of pybind11's own machinery, which is slow to
+// compile: every enum is a list of names, every struct a few lines.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "temper/energy.hpp"
+#include "temper/error.hpp"
+#include "temper/ids.hpp"
+#include "temper/io.hpp"
+#include "temper/projection.hpp"
+#include "temper/vec2.hpp"
+
+namespace temper::python {
+
+namespace py = pybind11;
+
+// --- errors -------------------------------------------------------------------------------------------
+
+/// Becomes temper.TemperError.
+struct BadInput {
+  InputError error;
+};
+[[noreturn]] void fail(ErrorCode code, std::string message);
+
+template <class T>
+T or_raise(Expected<T> value) {
+  if (!value) throw BadInput{value.error()};
+  return *std::move(value);
+}
+inline void or_raise(const Expected<void>& value) {
+  if (!value) throw BadInput{value.error()};
+}
+
+// --- arrays -------------------------------------------------------------------------------------------
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Int32s = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
+using Int64s = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+
+/// The values of an array whose last dimension is that of T, without a copy. The Python package sees to shapes; what
+/// comes here wrong is refused all the same.
+template <class T, class Array>
+std::span<const T> as_span(const Array& array) {
+  using Value = typename Array::value_type;
+  static_assert(sizeof(T) % sizeof(Value) == 0);
+  constexpr std::size_t per = sizeof(T) / sizeof(Value);
+  const std::size_t size = static_cast<std::size_t>(array.size());
+  if (size % per != 0) throw py::value_error("array of the wrong shape");
+  return {reinterpret_cast<const T*>(array.data()), size / per};
+}
+
+using Shape = std::vector<py::ssize_t>;
+/// A read-only array on memory that `owner` keeps.
+py::array view(const py::dtype& type, Shape shape, Shape strides, const void* data, const py::object& owner);
+
+/// A capsule that keeps a value for views of it.
+template <class T>
+py::capsule keep(T value) {
+  auto owned = std::make_unique<T>(std::move(value));
+  py::capsule capsule(owned.get(), [](void* data) { delete static_cast<T*>(data); });
+  owned.release();
+  return capsule;
+}
+
+/// Ids lie in memory as 32-bit numbers; an invalid one reads −1.
+template <class T>
+py::dtype dtype_of() {
+  if constexpr (std::is_same_v<T, VertexId> || std::is_same_v<T, TriangleId> || std::is_same_v<T, HalfedgeId>) {
+    static_assert(sizeof(T) == sizeof(std::int32_t));
+    return py::dtype::of<std::int32_t>();
+  } else {
+    return py::dtype::of<T>();
+  }
+}
+
+template <class T>
+py::array array_of(std::span<const T> values) {
+  return py::array(dtype_of<T>(), Shape{static_cast<py::ssize_t>(values.size())}, values.data());
+}
+/// (n, k) from n arrays of k numbers, or n structs of k doubles.
+template <class Value, class T>
+py::array rows_of(std::span<const T> values) {
+  constexpr std::size_t per = sizeof(T) / sizeof(Value);
+  return py::array(dtype_of<Value>(), Shape{static_cast<py::ssize_t>(values.size()), static_cast<py::ssize_t>(per)},
+                   values.data());
+}
+
+// --- one value ----------------------------------------------------------------------------------------
+
+inline py::object to_python(bool value) { return py::bool_(value); }
+inline py::object to_python(int value) { return py::int_(value); }
+inline py::object to_python(std::int32_t* value) = delete;
+inline py::object to_python(std::size_t value) { return py::int_(value); }
+inline py::object to_python(double value) { return py::float_(value); }
+inline py::object to_python(std::string_view value) { return py::str(value.data(), value.size()); }
+inline py::object to_python(const std::string& value) { return py::str(value); }
+inline py::object to_python(py::object value) { return value; }
+template <class Tag>
+py::object to_python(Id<Tag> id) {
+  return py::int_(id.valid() ? static_cast<std::int64_t>(id.index) : -1);
+}
+inline py::object to_python(Vec2 p) { return py::make_tuple(p.x, p.y); }
+inline py::object to_python(const WeightedPoint& p) { return py::make_tuple(p.x, p.y, p.w); }
+inline py::object to_python(const Softening& s) {
+  return py::make_tuple(s.value, s.scale == LengthScale::relative ? "relative" : "absolute");
+}
+template <class T>
+py::object to_python(const std::optional<T>& value) {
+  return value ? to_python(*value) : py::none();
+}
+template <class T, std::size_t n>
+py::object to_python(const std::array<T, n>& values) {
+  py::tuple tuple(n);
+  for (std::size_t i = 0; i < n; ++i) tuple[i] = to_python(values[i]);
+  return tuple;
+}
+inline py::object to_python(const std::vector<std::string>& values) {
+  py::list list;
+  for (const std::string& value : values) list.append(py::str(value));
+  return list;
+}
+inline py::object to_python(const std::vector<double>& values) { return array_of<double>(values); }
+inline py::object to_python(const std::vector<VertexId>& values) { return array_of<VertexId>(values); }
+inline py::object to_python(const std::vector<TriangleId>& values) { return array_of<TriangleId>(values); }
+inline py::object to_python(const std::vector<HalfedgeId>& values) { return array_of<HalfedgeId>(values); }
+inline py::object to_python(const std::vector<std::size_t>& values) {
+  return py::array(py::dtype::of<std::uint64_t>(), Shape{static_cast<py::ssize_t>(values.size())}, values.data());
+}
+template <class IdType, class T>
+py::object to_python(const IdVector<IdType, T>& values) {
+  return to_python(values.raw());
+}
+
+/// Record()("name", value)("name", value).dict
+struct Record {
+  py::dict dict;
+  template <class T>
+  Record& operator()(const char* name, const T& value) {
+    dict[name] = to_python(value);
+    return *this;
+  }
+};
+
+// --- enums: their names in the order of their values -----------------------------------------------------
+
+/// The number of `text` among the names, or an error that lists them.
+std::size_t choose(std::string_view option, std::string_view text, std::span<const std::string_view> names);
+
+template <class Enum>
+struct Names;  // static constexpr std::string_view list[]
+
+template <class Enum>
+std::string_view name_of(Enum value) {
+  return Names<Enum>::list[static_cast<std::size_t>(value)];
+}
+template <class Enum>
+Enum from_name(std::string_view option, std::string_view text) {
+  return static_cast<Enum>(choose(option, text, Names<Enum>::list));
+}
+
+#define TEMPER_PYTHON_NAMES(ENUM, ...)                        \
+  template <>                                                 \
+  struct temper::python::Names<ENUM> {                        \
+    static constexpr std::string_view list[] = {__VA_ARGS__}; \
+  }
+
+Softening softening_from(const py::handle& value);
+
+}  // namespace temper::python
+
+TEMPER_PYTHON_NAMES(temper::LengthScale, "absolute", "relative");
+TEMPER_PYTHON_NAMES(temper::BoundaryTreatment, "as_is", "absolute", "mirrored");
+TEMPER_PYTHON_NAMES(temper::ProjectionKind, "stereographic", "mercator", "transverse_mercator");
+TEMPER_PYTHON_NAMES(temper::io::Encoding, "ascii", "base64", "appended");

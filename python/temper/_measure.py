@@ -1,0 +1,212 @@
+"""The report on a primal-dual mesh, and the energies."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _temper
+from ._mesh import MeshLike, _doubles, as_mesh
+from ._options import EnergyName, Softening, SofteningLike, _softening
+from ._records import Record, table
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Histogram(Record):
+    """Counts in equal bins over [low, high]. What lies outside goes to the end bins; each bin holds its lower end."""
+
+    low: float
+    high: float
+    counts: npt.NDArray[np.uint64]
+
+    @property
+    def edges(self) -> npt.NDArray[np.float64]:
+        """The ends of the bins, one more than bins, as ``matplotlib.pyplot.stairs`` takes them."""
+        return np.linspace(self.low, self.high, len(self.counts) + 1)
+
+
+@dataclasses.dataclass(frozen=True)
+class WorstTriangle(Record):
+    """One of the triangles with the least h/ℓ or d/ℓ."""
+
+    triangle: int
+    vertices: tuple[int, int, int]
+    at: tuple[float, float]
+    """Centroid."""
+    h_over_l: float
+    """Least of its three."""
+    angle_deg: float
+    """Largest."""
+    why: str
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Quality(Record):
+    """What ``quality`` measures: counts decided exactly, margins and energies in doubles."""
+
+    vertices: int
+    triangles: int
+    edges: int
+    boundary_edges: int
+    regions: int
+    inverted_triangles: int
+    non_regular_edges: int
+    """Interior edges with negative dual."""
+    negative_boundary_duals: int
+    """Boundary edges with h < 0."""
+    orthocenters_outside: int
+    """Triangles with some h ≤ 0, and inverted ones."""
+    edges_not_crossed: int
+    """Edges without 0 < d < ℓ."""
+    well_centered_fraction: float
+    """Triangles with all h > 0 and 0 < d < ℓ."""
+    min_h_over_l: float
+    """Over triangles and their edges; −inf for an inverted triangle."""
+    min_d_over_l: float
+    """Over edges, the lesser of d/ℓ and 1 − d/ℓ."""
+    min_angle_deg: float
+    max_angle_deg: float
+    max_transmissibility_over_median: float
+    """Of ℓ/\\|h_k + h_l\\| of interior edges. inf when a dual edge has length zero, exactly; 1 without interior edges."""
+    energy: dict[str, tuple[float, float, float]]
+    """Of each energy the totals for ★0, ★1, ★2; inf outside its domain."""
+    worst: list[WorstTriangle]
+    """Worst first."""
+    angles: Histogram = dataclasses.field(repr=False)
+    """Of all angles [degrees]."""
+    h_over_l: Histogram = dataclasses.field(repr=False)
+    d_over_l: Histogram = dataclasses.field(repr=False)
+
+    def _repr_html_(self) -> str:
+        rows = [row for row in self._rows() if row[0] not in ("worst", "energy")]
+        worst = [(f"triangle {w.triangle}", w.why) for w in self.worst]
+        return table("Quality", rows, table("worst triangles", worst) if worst else "")
+
+
+def quality(
+    mesh: MeshLike,
+    *,
+    gamma: SofteningLike = Softening(1.0, "absolute"),
+    h0: SofteningLike = Softening(0.0, "absolute"),
+    worst: int = 5,
+    threads: int | None = None,
+) -> Quality:
+    """Measures a mesh: is it valid, regular, well-centered, and with what margins?
+
+    Parameters
+    ----------
+    mesh : Mesh or meshio.Mesh
+    gamma, h0 : Softening or float
+        γ of E_BP and −h° of E_BHs in the report; plain numbers are relative to each edge.
+    worst : int
+        How many of the worst triangles to list.
+    threads : int, optional
+        None or 0: all of the machine. The report does not depend on it.
+
+    >>> import temper
+    >>> temper.quality(temper.generate.horseshoe()).orthocenters_outside
+    58
+    """
+    d = _temper.quality(as_mesh(mesh)._handle, _softening(gamma), _softening(h0), worst, threads)
+    histograms = {name: Histogram(**d.pop(name)) for name in ("angles", "h_over_l", "d_over_l")}
+    return Quality(**{**d, "worst": [WorstTriangle(**w) for w in d["worst"]]}, **histograms)
+
+
+check = quality
+"""The same as ``quality``, by the name of the program's verb."""
+
+
+def triangle_margins(mesh: MeshLike) -> npt.NDArray[np.float64]:
+    """Of each triangle the least of its h/ℓ, d/ℓ and 1 − d/ℓ, in doubles, (m,) float64: above 0 where well-centered."""
+    return _temper.triangle_margins(as_mesh(mesh)._handle)[0]
+
+
+def well_centered_triangles(mesh: MeshLike) -> npt.NDArray[np.bool_]:
+    """Of each triangle whether it is well-centered, (m,) bool. Exact."""
+    return _temper.triangle_margins(as_mesh(mesh)._handle)[1]
+
+
+# --- energies ------------------------------------------------------------------------------------------------
+
+
+@dataclasses.dataclass(frozen=True)
+class EnergyInfo(Record):
+    """One row of the registry of energies."""
+
+    name: EnergyName
+    formula: str
+    boundary: Literal["as_is", "absolute", "mirrored"]
+    """The treatment of boundary duals that its definition asks for."""
+    barrier: bool
+    """Infinite outside 0 < d < ℓ."""
+    softened_by_gamma: bool
+    softened_by_h0: bool
+    length_exponent: int
+    """E(s · mesh) = s^this · E(mesh) with relative softening."""
+
+
+def energies() -> list[EnergyInfo]:
+    """All energies, for ★s with α = (1/4, 1/3, 1/12), β = (1/12, 1/3, 1/4), per half-edge (eqs. 2 to 7 of the paper)."""
+    return [EnergyInfo(**row) for row in _temper.energies()]
+
+
+def find_energy(name: str) -> EnergyInfo:
+    """The row of that name; TemperError lists the names when there is none."""
+    found = _temper.find_energy(name)
+    return next(row for row in energies() if row.name == found)
+
+
+@dataclasses.dataclass(frozen=True)
+class EnergyModel(Record):
+    """An energy with everything it depends on."""
+
+    energy: EnergyName = "BP"
+    star: Literal[0, 1, 2] = 1
+    boundary: Literal["as_is", "absolute", "mirrored"] = "as_is"
+    """Of F only; the others define their own."""
+    gamma: SofteningLike = Softening(1.0, "absolute")
+    """γ of E_BP; the paper's examples use 1, absolute."""
+    h0: SofteningLike = Softening(0.0, "absolute")
+    """−h° of E_BHs, ≥ 0."""
+
+    def _plain(self) -> dict[str, Any]:
+        values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+        return {**values, "gamma": _softening(self.gamma), "h0": _softening(self.h0)}
+
+
+def total_energy(mesh: MeshLike, model: EnergyModel = EnergyModel(), *, threads: int | None = None) -> float:
+    """The energy of a mesh; inf when any term is outside its domain. The same bits for any number of threads."""
+    return _temper.total_energy(as_mesh(mesh)._handle, model._plain(), threads)
+
+
+def triangle_energy(model: EnergyModel, corners: npt.ArrayLike) -> float:
+    """The energy of one triangle alone, all its edges boundary edges: ``corners`` is (3, 3), rows x, y, w.
+
+    >>> import temper
+    >>> model = temper.EnergyModel("BH")
+    >>> round(temper.triangle_energy(model, [(0, 0, 0), (1, 0, 0), (0.5, 0.75**0.5, 0)]), 12)
+    4.618802153517
+    """
+    return _temper.triangle_energy(model._plain(), _doubles(corners, 3, "corners"))
+
+
+@dataclasses.dataclass(frozen=True)
+class VertexDerivatives(Record):
+    """The energy as a function of one vertex."""
+
+    value: float
+    """inf when not feasible."""
+    feasible: bool
+    """Inside the domain of the energy; else the rest is zero."""
+    gradient: tuple[float, float, float]
+    """∂E/∂x, ∂E/∂y, ∂E/∂w."""
+    hessian: tuple[float, float, float, float, float, float]
+    """xx, xy, xw, yy, yw, ww."""
+
+
+def vertex_energy(mesh: MeshLike, model: EnergyModel, vertex: int) -> VertexDerivatives:
+    """The part of the total energy that depends on a vertex, with its derivatives."""
+    return VertexDerivatives(**_temper.vertex_energy(as_mesh(mesh)._handle, model._plain(), vertex))

@@ -1,0 +1,336 @@
+"""The weighted triangle mesh."""
+
+from __future__ import annotations
+
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _temper
+from ._records import table
+
+_PICTURE = 3000  # triangles of a mesh that is drawn in notebooks
+
+
+def _ints(values: Any, columns: int, name: str) -> npt.NDArray[Any]:
+    """Whole numbers with so many columns (0: none), int32 as they are and all others as int64."""
+    if values is None:
+        return np.empty((0, columns) if columns else 0, dtype=np.int64)
+    array = np.asarray(values)
+    if array.size == 0:
+        return np.empty((0, columns) if columns else 0, dtype=np.int64)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{name}: expected whole numbers, found {array.dtype}")
+    wanted = "(n,)" if columns == 0 else f"(n, {columns})"
+    if array.ndim != (2 if columns else 1) or (columns and array.shape[1] != columns):
+        raise ValueError(f"{name}: expected shape {wanted}, found {array.shape}")
+    return np.ascontiguousarray(array, dtype=np.int32 if array.dtype == np.int32 else np.int64)
+
+
+def _doubles(values: Any, columns: int, name: str) -> npt.NDArray[np.float64]:
+    """Doubles with so many columns (0: none), without a copy when they are so already."""
+    if values is None:
+        return np.empty((0, columns) if columns else 0)
+    array = np.asarray(values)
+    if array.size == 0 and array.ndim <= 2:
+        return np.empty((0, columns) if columns else 0)
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"{name}: expected numbers, found {array.dtype}")
+    wanted = "(n,)" if columns == 0 else f"(n, {columns})"
+    if array.ndim != (2 if columns else 1) or (columns and array.shape[1] != columns):
+        raise ValueError(f"{name}: expected shape {wanted}, found {array.shape}")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+class Mesh:
+    """A triangle mesh whose vertices carry weights.
+
+    Parameters
+    ----------
+    points : (n, 2) float64
+        Positions, in units of your choice; read without a copy when C-contiguous.
+    triangles : (m, 3) int32 or int64
+        Corners, counted from 0. Clockwise triangles are reversed; ``reversed_triangles`` counts them.
+    weights : (n,) float64, optional
+        Squared lengths: the power of a place p to vertex i is \\|x_i − p\\|² − w_i, so that a larger weight makes a
+        larger power cell. Default: all 0.
+    constrained_edges : (k, 2) int, optional
+        Edges that must stay, as pairs of vertices: feature lines. Edges between regions are constrained anyway.
+    regions : (m,) int32, optional
+        A number for each triangle. Default: all 0.
+    fixed : (k,) int, optional
+        Vertices that must not move. (Those of the boundary stay without being named.)
+    threads : int, optional
+        Threads for the checks; None or 0: all of the machine.
+
+    Raises
+    ------
+    TemperError
+        Arrays that make no planar mesh: numbers out of range or not finite, points twice or in no triangle, triangles
+        of no area or on top of another, edges with more than two triangles, vertices where the mesh touches itself.
+        The message names the element.
+
+    Notes
+    -----
+    ``points``, ``weights``, ``triangles`` and ``twins`` are read-only views on the mesh's own memory, without copies. A
+    view keeps what it shows: when the mesh changes afterwards, the mesh is given new memory and the view is that of
+    before. All other arrays are copies. To change a mesh, assign: ``mesh.weights = w``.
+
+    Halfedge 3 t + k runs from corner k to corner k + 1 of triangle t. Triangles are counter-clockwise.
+
+    Examples
+    --------
+    >>> import temper
+    >>> mesh = temper.Mesh([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1, 2), (0, 2, 3)])
+    >>> mesh.n_vertices, mesh.n_triangles, mesh.n_edges
+    (4, 2, 5)
+    """
+
+    __slots__ = ("_handle", "reversed_triangles", "warnings", "__weakref__")
+
+    _handle: _temper.Mesh
+    reversed_triangles: int
+    """Triangles that were clockwise in the input."""
+    warnings: list[str]
+    """What was repaired or dropped when the mesh was read, in sentences."""
+
+    def __init__(
+        self,
+        points: npt.ArrayLike,
+        triangles: npt.ArrayLike,
+        weights: npt.ArrayLike | None = None,
+        *,
+        constrained_edges: npt.ArrayLike | None = None,
+        regions: npt.ArrayLike | None = None,
+        fixed: npt.ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> None:
+        self._handle, self.reversed_triangles = _temper.mesh_from_arrays(
+            _doubles(points, 2, "points"),
+            _ints(triangles, 3, "triangles"),
+            _doubles(weights, 0, "weights"),
+            _ints(constrained_edges, 2, "constrained_edges"),
+            _ints(regions, 0, "regions"),
+            _ints(fixed, 0, "fixed"),
+            threads,
+        )
+        self.warnings = []
+
+    @classmethod
+    def _of(cls, handle: _temper.Mesh) -> Mesh:
+        mesh = cls.__new__(cls)
+        mesh._handle = handle
+        mesh.reversed_triangles = 0
+        mesh.warnings = []
+        return mesh
+
+    # --- sizes ---------------------------------------------------------------------------------------------
+
+    @property
+    def n_vertices(self) -> int:
+        """Number of vertices."""
+        return self._handle.n_vertices()
+
+    @property
+    def n_triangles(self) -> int:
+        """Number of triangles."""
+        return self._handle.n_triangles()
+
+    @property
+    def n_halfedges(self) -> int:
+        """Three times the number of triangles."""
+        return 3 * self._handle.n_triangles()
+
+    @property
+    def n_edges(self) -> int:
+        """Number of edges. O(n)."""
+        return self._handle.n_edges()
+
+    @property
+    def memory_bytes(self) -> int:
+        """Bytes of the mesh's arrays."""
+        return self._handle.memory_bytes()
+
+    # --- arrays --------------------------------------------------------------------------------------------
+
+    @property
+    def points(self) -> npt.NDArray[np.float64]:
+        """Positions, (n, 2) float64 [length]. A read-only view, rows 32 bytes apart.
+
+        Assigning moves all vertices at once; TemperError when a triangle would not be counter-clockwise, and then
+        nothing has changed. O(n).
+        """
+        return self._handle.points()
+
+    @points.setter
+    def points(self, points: npt.ArrayLike) -> None:
+        self._handle.set_points(_doubles(points, 2, "points"))
+
+    @property
+    def weights(self) -> npt.NDArray[np.float64]:
+        """Weights, (n,) float64 [length²]. A read-only view, 32 bytes apart. Assigning sets all at once; the
+        connectivity stays (see ``restore_regularity``). O(n)."""
+        return self._handle.weights()
+
+    @weights.setter
+    def weights(self, weights: npt.ArrayLike) -> None:
+        self._handle.set_weights(_doubles(weights, 0, "weights"))
+
+    @property
+    def triangles(self) -> npt.NDArray[np.int32]:
+        """Corners of each triangle, counter-clockwise, (m, 3) int32. A read-only view."""
+        return self._handle.triangles()
+
+    @property
+    def twins(self) -> npt.NDArray[np.int32]:
+        """The halfedge on the other side of each halfedge, (3 m,) int32; −1 on the boundary. A read-only view."""
+        return self._handle.twins()
+
+    @property
+    def neighbors(self) -> npt.NDArray[np.int32]:
+        """The triangle across the edge from corner k to corner k + 1, (m, 3) int32; −1 on the boundary. A copy."""
+        twins = self._handle.twins().reshape(-1, 3)
+        return np.where(twins < 0, np.int32(-1), twins // 3)
+
+    @property
+    def regions(self) -> npt.NDArray[np.int32]:
+        """Region number of each triangle, (m,) int32. A copy."""
+        return self._handle.regions()
+
+    @property
+    def edges(self) -> npt.NDArray[np.int32]:
+        """Each edge once, as two vertices, (e, 2) int32, in the order of the halfedges (not that of ``dec``). A copy."""
+        return self._handle.edges()
+
+    @property
+    def boundary_edges(self) -> npt.NDArray[np.int32]:
+        """Edges of one triangle, (b, 2) int32, with the domain on their left. A copy."""
+        return self._handle.boundary_edges()
+
+    @property
+    def constrained_edges(self) -> npt.NDArray[np.int32]:
+        """Edges that are never flipped, (k, 2) int32: lines of yours, and interfaces of regions. A copy."""
+        return self._handle.constrained_edges()
+
+    @property
+    def fixed(self) -> npt.NDArray[np.int32]:
+        """Vertices that were marked never to move, (k,) int32, ascending. A copy. Assigning marks others."""
+        return self._handle.fixed()
+
+    @fixed.setter
+    def fixed(self, vertices: npt.ArrayLike) -> None:
+        self._handle.set_fixed(_ints(vertices, 0, "fixed").astype(np.int64))
+
+    # --- methods --------------------------------------------------------------------------------------------
+
+    def set_constrained(self, edges: npt.ArrayLike, constrained: bool = True) -> None:
+        """Marks edges, (k, 2) pairs of vertices, never to be flipped, or takes the mark away. TemperError when the mesh
+        has no such edge."""
+        self._handle.set_constrained(_ints(edges, 2, "edges").astype(np.int64), constrained)
+
+    def find_halfedge(self, a: int, b: int) -> int:
+        """The halfedge from vertex a to vertex b, or −1. O(degree)."""
+        return self._handle.find_halfedge(a, b)
+
+    def star(self, vertex: int) -> npt.NDArray[np.int32]:
+        """The halfedges that leave a vertex, counter-clockwise."""
+        return self._handle.star(vertex)
+
+    def validate(self) -> str | None:
+        """Checks all that must hold of a mesh (every triangle counter-clockwise, exactly); says the first thing that
+        does not, or None. O(n)."""
+        return self._handle.validate()
+
+    def compact(self) -> npt.NDArray[np.int32]:
+        """Drops what ``topology.remove_vertex`` erased. Returns the former number of each vertex."""
+        return self._handle.compact()
+
+    def copy(self) -> Mesh:
+        """A mesh of its own; memory is shared until one of them changes."""
+        mesh = Mesh._of(self._handle.copy())
+        mesh.reversed_triangles = self.reversed_triangles
+        mesh.warnings = list(self.warnings)
+        return mesh
+
+    def __copy__(self) -> Mesh:
+        return self.copy()
+
+    def __deepcopy__(self, memo: Any) -> Mesh:
+        return self.copy()
+
+    def __eq__(self, other: object) -> bool:
+        """The same numbers everywhere, bit for bit in the arrays."""
+        return isinstance(other, Mesh) and self._handle.equal(other._handle)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> Any:
+        constrained = self.constrained_edges
+        parts = (np.array(self.points), np.array(self.triangles), np.array(self.weights), constrained, self.regions)
+        return _unpickle, (*parts, self.fixed)
+
+    # --- data that came with the mesh, and other libraries ----------------------------------------------------
+
+    @property
+    def point_data(self) -> dict[str, npt.NDArray[Any]]:
+        """Data of the points that the mesh's file had, as they are now (interpolated at inserted vertices). Copies."""
+        return _temper.file_as_dict(self._handle)["point_data"]
+
+    @property
+    def cell_data(self) -> dict[str, npt.NDArray[Any]]:
+        """Data of the triangles that the mesh's file had. Copies."""
+        return _temper.file_as_dict(self._handle)["cell_data"]
+
+    def to_meshio(self) -> Any:
+        """The mesh as a ``meshio.Mesh``; see ``temper.to_meshio``."""
+        from ._meshio import to_meshio
+
+        return to_meshio(self)
+
+    # --- how it looks -------------------------------------------------------------------------------------------
+
+    def __repr__(self) -> str:
+        return f"<temper.Mesh: {self.n_vertices} vertices, {self.n_triangles} triangles>"
+
+    def _repr_html_(self) -> str:
+        from ._draw import draw_svg
+        from ._measure import quality
+
+        q = quality(self, threads=1)
+        rows = [
+            ("vertices", f"{q.vertices}"),
+            ("triangles", f"{q.triangles}"),
+            ("edges", f"{q.edges}, {q.boundary_edges} on the boundary"),
+            ("regions", f"{q.regions}"),
+            ("well-centered", f"{100 * q.well_centered_fraction:.4g} %"),
+            ("edges not regular", f"{q.non_regular_edges}"),
+            ("least h/ℓ", f"{q.min_h_over_l:.4g}"),
+            ("angles", f"{q.min_angle_deg:.4g}° to {q.max_angle_deg:.4g}°"),
+        ]
+        small = self.n_triangles <= _PICTURE
+        return table("temper.Mesh", rows, draw_svg(self, width=500) if small else "")
+
+    def _repr_svg_(self) -> str | None:
+        from ._draw import draw_svg
+
+        return str(draw_svg(self, width=500)) if self.n_triangles <= _PICTURE else None
+
+
+def _unpickle(points: Any, triangles: Any, weights: Any, constrained: Any, regions: Any, fixed: Any) -> Mesh:
+    return Mesh(points, triangles, weights, constrained_edges=constrained, regions=regions, fixed=fixed)
+
+
+MeshLike = Union[Mesh, Any]
+"""A ``temper.Mesh``, or a ``meshio.Mesh``, wherever a mesh is taken."""
+
+
+def as_mesh(mesh: MeshLike) -> Mesh:
+    """The mesh itself, or a ``meshio.Mesh`` as a ``temper.Mesh`` (see ``temper.from_meshio``)."""
+    if isinstance(mesh, Mesh):
+        return mesh
+    if hasattr(mesh, "points") and hasattr(mesh, "cells") and hasattr(mesh, "point_data"):
+        from ._meshio import from_meshio
+
+        return from_meshio(mesh)
+    raise TypeError(f"expected a temper.Mesh or a meshio.Mesh, found {type(mesh).__name__}")

@@ -1,0 +1,175 @@
+"""From an outline to a mesh whose every triangle is well-centered."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import warnings
+from typing import Any, Callable, Literal, Mapping, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _temper
+from ._errors import TemperWarning
+from ._mesh import Mesh, _doubles, _ints
+from ._optimize import OptimizeReport, _observer, _report
+from ._options import OptimizeOptions
+from ._progress import Line, Progress
+from ._records import Record
+
+
+@dataclasses.dataclass
+class Outline:
+    """What is to be meshed: points, segments between them, and what they enclose.
+
+    Segments may be long or short, enclose holes and islands, separate regions, end anywhere inside or branch. Points keep
+    their place, bit for bit, in every mesh made of it; points of no segment become fixed vertices.
+    """
+
+    points: npt.ArrayLike
+    """(n, 2) float64 [length]."""
+    segments: npt.ArrayLike
+    """(k, 2) int: the points at their ends."""
+    segment_tags: npt.ArrayLike | None = None
+    """(k,) int32 boundary markers, which edges made of them carry; None: 0."""
+    holes: npt.ArrayLike | None = None
+    """(h, 2) a place in each hole."""
+    regions: Sequence[tuple[float, float, int, float | None]] = ()
+    """x, y, region number, and the edge length wanted there, or None: of what can be reached from (x, y)."""
+    parts: Sequence[tuple[int, Sequence[int], float | None]] = ()
+    """Region number, segments of its border, edge length or None. When there are any they alone say what is inside."""
+    _names: Any = dataclasses.field(default=None, repr=False)
+
+    def _plain(self) -> dict[str, Any]:
+        segments = _ints(self.segments, 2, "segments").astype(np.int32)
+        tags = np.zeros(len(segments), dtype=np.int32)
+        if self.segment_tags is not None:
+            tags = _ints(self.segment_tags, 0, "segment_tags").astype(np.int32)
+        return {
+            "points": _doubles(self.points, 2, "points"),
+            "segments": segments,
+            "segment_tags": tags,
+            "holes": _doubles(self.holes, 2, "holes"),
+            "regions": [(float(x), float(y), int(number), size) for x, y, number, size in self.regions],
+            "parts": [(int(number), _ints(list(s), 0, "parts").astype(np.int32), size) for number, s, size in self.parts],
+            "names": self._names,
+        }
+
+    @classmethod
+    def _of(cls, d: dict[str, Any]) -> Outline:
+        names = d.pop("names")
+        return cls(**d, _names=names)
+
+
+@dataclasses.dataclass(frozen=True)
+class OutlineFile(Record):
+    """What ``read_outline`` read."""
+
+    outline: Outline
+    path: str
+    format: str
+    """``"poly"``, ``"jigsaw"`` or ``"geojson"``."""
+    geographic: bool
+    """Points are longitude and latitude, in degrees: see ``temper.projection``."""
+    warnings: list[str]
+
+
+def read_outline(path: str | os.PathLike[str]) -> OutlineFile:
+    """Reads an outline: Triangle's .poly (with its .node), JIGSAW's geometry, GeoJSON. Its content decides the format."""
+    outline, rest = _temper.read_outline(os.fspath(path))
+    for message in rest["warnings"]:
+        warnings.warn(message, TemperWarning, stacklevel=2)
+    return OutlineFile(Outline._of(outline), **rest)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class OutlineMesh(Record):
+    """What ``mesh_outline`` made."""
+
+    mesh: Mesh
+    lines: npt.NDArray[np.int32]
+    """(k, 2) each edge on the outline once, in the order of the segments."""
+    line_tags: npt.NDArray[np.int32]
+    """(k,) the tag of its segment."""
+    vertex_of_point: npt.NDArray[np.int32]
+    """−1 for points outside."""
+    bad: int
+    """Triangles that are not well-centered."""
+    delaunay_bad: int
+    """As many were before the optimisation."""
+    attempts: int
+    """Divisions of the outline that were tried."""
+    report: OptimizeReport = dataclasses.field(repr=False)
+    """Of the optimisation, of the attempt that was kept."""
+    notes: list[str]
+
+
+def mesh_outline(
+    outline: Outline,
+    size: float,
+    *,
+    grade: float = 0.3,
+    region_sizes: Mapping[int, float] | None = None,
+    enclosed: Literal["by_points", "all", "alternate"] = "by_points",
+    optimize: OptimizeOptions | bool = True,
+    attempts: int = 8,
+    most_triangles: int = 200_000_000,
+    threads: int | None = None,
+    observer: Callable[[Progress], Any] | None = None,
+    progress: bool | None = None,
+) -> OutlineMesh:
+    """Meshes the inside of an outline, and optimises that until every triangle is well-centered.
+
+    Parameters
+    ----------
+    outline : Outline
+    size : float
+        Edge length wanted, > 0 [length].
+    grade : float
+        How fast the size may grow with the distance from what is smaller, > 0.
+    region_sizes : mapping of region number to size, optional
+        Of these regions, when less than ``size``.
+    enclosed : {"by_points", "all", "alternate"}
+        What an outline without parts encloses: ``all``: everything that segments enclose, but for the holes (Triangle's
+        reading); ``alternate``: nested loops take turns; ``by_points``: ``all`` when it has hole or region points.
+    optimize : OptimizeOptions or bool
+        Of the optimisation; False: the Delaunay mesh as it is.
+    attempts : int
+        At most so many divisions of the outline while triangles stay bad.
+    most_triangles : int
+        Sizes that would make more are refused.
+    threads, observer, progress
+        As of ``optimize``.
+
+    Raises
+    ------
+    TemperError
+        What is wrong with the outline, by its names, or with the sizes.
+    KeyboardInterrupt
+
+    Examples
+    --------
+    >>> import temper
+    >>> square = temper.Outline([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1), (1, 2), (2, 3), (3, 0)])
+    >>> temper.mesh_outline(square, 0.2).bad
+    0
+    """
+    options = {
+        "size": float(size),
+        "grade": float(grade),
+        "region_sizes": [(int(r), float(s)) for r, s in (region_sizes or {}).items()],
+        "enclosed": enclosed,
+        "attempts": attempts,
+        "most_triangles": most_triangles,
+    }
+    if isinstance(optimize, bool):
+        plain = OptimizeOptions()._plain() if optimize else None
+    else:
+        plain = optimize._plain()
+    line = Line(progress)
+    try:
+        handle, rest = _temper.mesh_outline(outline._plain(), options, plain, threads, _observer(line, observer))
+    finally:
+        line.clear()
+    return OutlineMesh(Mesh._of(handle), **{**rest, "report": _report(rest["report"])})

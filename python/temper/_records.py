@@ -1,0 +1,95 @@
+"""Reports are dataclasses that show themselves as text, and as tables in notebooks."""
+
+from __future__ import annotations
+
+import dataclasses
+import html
+import math
+from typing import Any
+
+import numpy as np
+
+_SHOWN = 12  # longer arrays and lists are described by their shape
+
+
+def show(value: Any) -> str:
+    """One value in a few characters."""
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, np.ndarray):
+        return f"array {value.dtype} {'×'.join(map(str, value.shape))}"
+    if isinstance(value, (list, tuple)) and (len(value) > _SHOWN or any(dataclasses.is_dataclass(v) for v in value)):
+        return f"{len(value)} {type(value[0]).__name__}" if value else "none"
+    if isinstance(value, (list, tuple)):
+        return ", ".join(show(v) for v in value) if value else "none"
+    if isinstance(value, dict):
+        return "; ".join(f"{k}: {show(v)}" for k, v in value.items())
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return type(value).__name__
+    return str(value)
+
+
+def table(title: str, rows: list[tuple[str, str]], after: str = "") -> str:
+    """Rows of names and values as HTML; ``after`` is HTML that follows."""
+    body = "".join(
+        f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
+        f"<td style='text-align:left'>{html.escape(value)}</td></tr>"
+        for name, value in rows
+    )
+    return f"<div><b>{html.escape(title)}</b><table>{body}</table>{after}</div>"
+
+
+def same(a: Any, b: Any) -> bool:
+    """Whether two values of fields are equal."""
+    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
+        return np.array_equal(a, b, equal_nan=np.asarray(a).dtype.kind == "f")
+    if isinstance(a, float) and isinstance(b, float):
+        return a == b or (a != a and b != b)
+    if isinstance(a, (list, tuple)) and isinstance(b, (list, tuple)):
+        return len(a) == len(b) and all(same(x, y) for x, y in zip(a, b))
+    return bool(a == b)
+
+
+class Record:
+    """Base of the reports: text for ``print``, a table in notebooks, plain values by ``as_dict``."""
+
+    def __eq__(self, other: object) -> bool:
+        """The same numbers everywhere; NaN is equal to itself."""
+        names = [f.name for f in dataclasses.fields(self)]  # type: ignore[arg-type]
+        return type(other) is type(self) and all(same(getattr(self, n), getattr(other, n)) for n in names)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def _rows(self) -> list[tuple[str, str]]:
+        fields = dataclasses.fields(self)  # type: ignore[arg-type]
+        return [(f.name, show(getattr(self, f.name))) for f in fields if f.repr]
+
+    def __str__(self) -> str:
+        rows = self._rows()
+        width = max(len(name) for name, _ in rows)
+        return "\n".join([type(self).__name__, *(f"  {name:<{width}}  {value}" for name, value in rows)])
+
+    def _repr_html_(self) -> str:
+        return table(type(self).__name__, self._rows())
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain numbers, strings, lists and dictionaries, as ``json.dump`` takes them; infinite numbers and NaN are
+        None, as in the reports of the program."""
+        return {f.name: plain(getattr(self, f.name)) for f in dataclasses.fields(self) if f.repr}  # type: ignore[arg-type]
+
+
+def plain(value: Any) -> Any:
+    """The value without NumPy and dataclasses."""
+    if isinstance(value, Record):
+        return value.as_dict()
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, (float, np.floating)):
+        return float(value) if math.isfinite(value) else None
+    if isinstance(value, np.integer):
+        return int(value)
+    if isinstance(value, (list, tuple)):
+        return [plain(v) for v in value]
+    if isinstance(value, dict):
+        return {k: plain(v) for k, v in value.items()}
+    return value

@@ -1,0 +1,102 @@
+"""Example meshes: the paper's, and the classes a mesh method should be tried on.
+
+Each is made here, from its parameters and a seed, by a constrained Delaunay triangulation on temper's own predicates. All
+weights are zero. TemperError says which parameter makes no sense.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _temper
+from ._mesh import Mesh, _doubles, _ints
+
+__all__ = [
+    "airfoil", "annulus", "constrained_delaunay", "graded_points", "horseshoe", "letter_a", "random_points",
+    "regular_polygon", "sheared_grid", "single_triangle", "sparse_horseshoe", "wedge",
+]  # fmt: skip
+
+
+def constrained_delaunay(points: npt.ArrayLike, segments: npt.ArrayLike | None = None, *, carve: bool = True) -> Mesh:
+    """The constrained Delaunay triangulation of points.
+
+    Parameters
+    ----------
+    points : (n, 2) float64
+        They keep their numbers.
+    segments : (k, 2) int, optional
+        Constrained edges, as pairs of points. A segment through other points becomes a chain of edges.
+    carve : bool
+        Drop the triangles outside the outermost closed segments, and inside holes (by parity). False, or without
+        segments: the convex hull.
+
+    Raises
+    ------
+    TemperError
+        By number: fewer than three points, all on one line, not finite, two at one place; segments out of range, of no
+        length, crossing, enclosing nothing; points outside; a domain that touches itself at a point.
+    """
+    ends = _ints(segments, 2, "segments").astype(np.int64)
+    return Mesh._of(_temper.constrained_delaunay(_doubles(points, 2, "points"), ends, carve))
+
+
+def sparse_horseshoe() -> Mesh:
+    """The paper's sparse horseshoe (fig. 11 left): 5 vertices, 4 triangles."""
+    return Mesh._of(_temper.sparse_horseshoe())
+
+
+def horseshoe(
+    a: int = 7, b: int = 9, x: tuple[float, float] = (1.0, 2.0), y: tuple[float, float] = (1.0, 4.0)
+) -> Mesh:
+    """The parameterised horseshoe (§6.5): a × b points, x and y the semi-axes of the inner and the outer arch."""
+    return Mesh._of(_temper.horseshoe(a, b, *x, *y))
+
+
+def single_triangle(a: float = 0.5, b: float = 1.0, angle_deg: float = 120.0) -> Mesh:
+    """Sides of length a and b from vertex 0, with an angle in degrees between them (§3.1.2, fig. 9)."""
+    return Mesh._of(_temper.single_triangle(a, b, angle_deg))
+
+
+def random_points(vertices: int = 1000, seed: int = 1, polygon: npt.ArrayLike | None = None) -> Mesh:
+    """Uniformly random points in a polygon, (k, 2), counter-clockwise (default: a non-convex L shape with a notch), so
+    many vertices in all. About half of the triangles are bad."""
+    return Mesh._of(_temper.random_points(vertices, seed, _doubles(polygon, 2, "polygon")))
+
+
+def sheared_grid(nx: int = 20, ny: int = 20, shear: float = 0.5) -> Mesh:
+    """nx × ny squares, each cut along the same diagonal, then sheared by x += shear · y."""
+    return Mesh._of(_temper.sheared_grid(nx, ny, shear))
+
+
+def annulus(
+    inner: float = 0.4, outer: float = 1.0, around: int = 48, rings: int = 6, jitter: float = 0.3, seed: int = 1
+) -> Mesh:
+    """Rings of points between two circles, the middle rings turned and jittered."""
+    return Mesh._of(_temper.annulus(inner, outer, around, rings, jitter, seed))
+
+
+def airfoil(around: int = 80, growth: float = 1.25, seed: int = 1) -> Mesh:
+    """A box with an airfoil-like hole, graded from fine at the foil, with so many points around it, to coarse at the box;
+    ``growth`` is the ratio of one layer's spacing to the one before."""
+    return Mesh._of(_temper.airfoil(around, growth, seed))
+
+
+def regular_polygon(corners: int = 60) -> Mesh:
+    """A regular polygon of radius 1 with no vertex inside: hard."""
+    return Mesh._of(_temper.regular_polygon(corners))
+
+
+def letter_a() -> Mesh:
+    """A letter A: 29 vertices, 29 triangles, a hole, no vertex inside: hard."""
+    return Mesh._of(_temper.letter_a())
+
+
+def wedge(angle_deg: float = 5.0, pieces: int = 8, seed: int = 1) -> Mesh:
+    """A triangle with a sharp corner between sides of length 1, each of so many edges, and as many random points inside."""
+    return Mesh._of(_temper.wedge(angle_deg, pieces, seed))
+
+
+def graded_points(finest: float = 1.0 / 64, growth: float = 0.2, seed: int = 1) -> Mesh:
+    """Random points in the unit square, whose size grows with the distance from a corner: finest + growth · distance."""
+    return Mesh._of(_temper.graded_points(finest, growth, seed))

@@ -1,0 +1,121 @@
+"""Triangle geometry of the power diagram, and the exact predicates, over arrays.
+
+Points are (…, 2), or (…, 3) with the weight last; two columns mean weight 0. Arguments are broadcast against each other,
+and results have the shape of what is left. Triangle ijk is counter-clockwise; h_k is positive on the left of i → j;
+d_ij = ℓ/2 + (w_i − w_j)/(2ℓ) from i towards j (docs/concepts.md). Signs are −1, 0 or 1, int8, and right for all doubles
+in the range of ``is_exact_coordinate`` and ``is_exact_weight``.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Callable
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _temper
+
+__all__ = [
+    "corner_angle", "doubled_area", "edge_split", "edge_split_sign", "is_exact_coordinate", "is_exact_weight",
+    "is_well_centered", "orient2d", "orthocenter", "power_test", "power_test_perturbed", "scaled_heights",
+    "signed_height", "signed_height_sign",
+]  # fmt: skip
+
+
+def _weighted(points: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
+    array = np.asarray(points, dtype=np.float64)
+    if array.ndim == 0 or array.shape[-1] not in (2, 3):
+        raise ValueError(f"{name}: expected shape (…, 2) or (…, 3), found {array.shape}")
+    if array.shape[-1] == 2:
+        array = np.concatenate([array, np.zeros((*array.shape[:-1], 1))], axis=-1)
+    return array
+
+
+def _over(function: Callable[..., Any], **points: npt.ArrayLike) -> Any:
+    arrays = np.broadcast_arrays(*(_weighted(p, name) for name, p in points.items()))
+    shape = arrays[0].shape[:-1]
+    flat = [np.ascontiguousarray(a.reshape(-1, 3)) for a in arrays]
+    result = function(*flat)
+    return result.reshape(shape + result.shape[1:])[()]
+
+
+def orient2d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> Any:
+    """1 where a, b, c turn counter-clockwise. Exact.
+
+    >>> from temper import geometry
+    >>> int(geometry.orient2d((0, 0), (1, 0), (0, 1)))
+    1
+    """
+    return _over(_temper.orient2d, a=a, b=b, c=c)
+
+
+def power_test(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayLike) -> Any:
+    """For a, b, c counter-clockwise: 1 where d conflicts, so that the edge between abc and d is not regular; 0 where all
+    four are cocircular in the power sense; −1 where regular (eq. 9 of the paper). Exact."""
+    return _over(_temper.power_test, a=a, b=b, c=c, d=d)
+
+
+def power_test_perturbed(
+    a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayLike, index: npt.ArrayLike
+) -> Any:
+    """``power_test`` with ties broken by the vertices' numbers, ``index`` (…, 4): 0 only when all four are collinear."""
+    arrays = np.broadcast_arrays(*(_weighted(p, name) for name, p in (("a", a), ("b", b), ("c", c), ("d", d))))
+    shape = arrays[0].shape[:-1]
+    numbers = np.ascontiguousarray(np.broadcast_to(np.asarray(index), (*shape, 4)).reshape(-1, 4), dtype=np.uint32)
+    flat = [np.ascontiguousarray(p.reshape(-1, 3)) for p in arrays]
+    return _temper.power_test_perturbed(*flat, numbers).reshape(shape)[()]
+
+
+def signed_height_sign(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike) -> Any:
+    """Sign of h, the signed height of the orthocenter of the counter-clockwise triangle pqr over its edge pq. Exact."""
+    return _over(_temper.signed_height_sign, p=p, q=q, r=r)
+
+
+def edge_split_sign(p: npt.ArrayLike, q: npt.ArrayLike) -> Any:
+    """Sign of d_pq = (ℓ² + w_p − w_q)/(2ℓ). Exact."""
+    return _over(_temper.edge_split_sign, p=p, q=q)
+
+
+def is_well_centered(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike) -> Any:
+    """All h > 0 and all 0 < d < ℓ, and counter-clockwise. Exact."""
+    return _over(_temper.is_well_centered, p=p, q=q, r=r)
+
+
+def is_exact_coordinate(x: float) -> bool:
+    """Whether predicates are exact with this coordinate: 0, or of magnitude 2^−214 to 2^250."""
+    return _temper.is_exact_coordinate(x)
+
+
+def is_exact_weight(w: float) -> bool:
+    """Whether predicates are exact with this weight: 0, or of magnitude 2^−428 to 2^500."""
+    return _temper.is_exact_weight(w)
+
+
+def orthocenter(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike) -> Any:
+    """The point of equal power to p, q and r, (…, 2)."""
+    return _over(_temper.orthocenter, p=p, q=q, r=r)
+
+
+def edge_split(p: npt.ArrayLike, q: npt.ArrayLike) -> Any:
+    """d_pq: distance from p, towards q, of the weighted midpoint [length]."""
+    return _over(_temper.edge_split, p=p, q=q)
+
+
+def signed_height(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike) -> Any:
+    """h: signed distance from edge pq to the orthocenter of pqr, positive on the left of p → q [length]."""
+    return _over(_temper.signed_height, p=p, q=q, r=r)
+
+
+def scaled_heights(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike) -> Any:
+    """h ℓ of the three edges qr, rp, pq, (…, 3) [length²]. They sum to twice the area."""
+    return _over(_temper.scaled_heights, p=p, q=q, r=r)
+
+
+def doubled_area(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike) -> Any:
+    """Twice the signed area [length²]."""
+    return _over(_temper.doubled_area, p=p, q=q, r=r)
+
+
+def corner_angle(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike) -> Any:
+    """The angle at p [radians]."""
+    return _over(_temper.corner_angle, p=p, q=q, r=r)

@@ -1,0 +1,68 @@
+"""From longitude and latitude to the plane and back, by conformal maps of the sphere.
+
+Angles stay what they are, so a mesh that is well-centered on the map is so, up to the curvature of single triangles, on
+the globe. The Earth is taken as a sphere of 6371 km. Formulas: J. P. Snyder, Map Projections: A Working Manual, USGS
+Professional Paper 1395, 1987.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _temper
+from ._mesh import _doubles
+from ._outline import Outline
+from ._records import Record
+
+__all__ = ["Projection", "forward", "inverse", "mean_place", "parse_projection", "project", "scale_factor"]
+
+
+@dataclasses.dataclass(frozen=True)
+class Projection(Record):
+    """Longitudes and latitudes are in degrees, x and y in metres from the center."""
+
+    kind: Literal["stereographic", "mercator", "transverse_mercator"] = "stereographic"
+    """Best for round regions, poles included; for belts along the center's parallel; for strips along its meridian."""
+    center: tuple[float, float] = (0.0, 0.0)
+    """Longitude and latitude."""
+    radius: float = 6371000.0
+    """Of the sphere [m]."""
+
+    def _plain(self) -> tuple[str, float, float, float]:
+        return self.kind, self.center[0], self.center[1], self.radius
+
+
+def parse_projection(text: str, places: npt.ArrayLike | None = None) -> Projection:
+    """Reads ``"stereographic"``, ``"mercator:lon"``, ``"transverse-mercator:lon,lat"``. Without a center, that of
+    ``places``, (k, 2)."""
+    return Projection(*_temper.parse_projection(text, _doubles(places, 2, "places")))
+
+
+def forward(projection: Projection, lon_lat: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Places on the map, (k, 2) [m], of (k, 2) longitudes and latitudes [degrees]; inf where the map has no end."""
+    return _temper.forward(*projection._plain(), _doubles(lon_lat, 2, "lon_lat"))
+
+
+def inverse(projection: Projection, places: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Longitudes, in [center − 180, center + 180], and latitudes [degrees], (k, 2), of (k, 2) places on the map."""
+    return _temper.inverse(*projection._plain(), _doubles(places, 2, "places"))
+
+
+def scale_factor(projection: Projection, lon_lat: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Length on the map over length on the sphere, (k,): the same in all directions."""
+    return _temper.scale_factor(*projection._plain(), _doubles(lon_lat, 2, "lon_lat"))
+
+
+def mean_place(lon_lat: npt.ArrayLike) -> tuple[float, float]:
+    """The middle of places on the sphere: the direction of their sum."""
+    return _temper.mean_place(_doubles(lon_lat, 2, "lon_lat"))
+
+
+def project(outline: Outline, projection: Projection) -> Outline:
+    """The outline on the map. TemperError, by its names: latitudes beyond the poles, longitudes beyond ±360, places that
+    are infinitely far away, pieces that are torn apart because the map ends between their ends."""
+    return Outline._of(_temper.project(outline._plain(), *projection._plain()))

@@ -1,0 +1,137 @@
+"""Operations on connectivity. Ask, price, commit: ``can_flip``, then ``flip``; a plan, then what commits it.
+
+All change a ``temper.Mesh`` in place. Halfedge 3 t + k runs from corner k to corner k + 1 of triangle t. A plan is for the
+mesh as it is; TemperError when the mesh has changed since.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Literal, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _temper
+from ._mesh import Mesh
+from ._records import Record
+from ._temper import InsertionPlan, RemovalPlan
+
+__all__ = [
+    "Grading", "GradingPlan", "InsertionPlan", "RemovalPlan", "can_flip", "flip", "grade_boundary", "insert_vertex",
+    "interpolated_weight", "plan_boundary_grading", "plan_center", "plan_collapse", "plan_insertion", "plan_removal",
+    "plan_split", "removal_from_names", "remove_vertex", "split_weight", "triangles_without_free_corner",
+]  # fmt: skip
+
+
+def can_flip(mesh: Mesh, halfedge: int) -> Literal["possible", "boundary", "constrained", "not_convex"]:
+    """Why the edge of a halfedge cannot be flipped, or that it can. Exact."""
+    return _temper.can_flip(mesh._handle, halfedge)
+
+
+def flip(mesh: Mesh, halfedge: int) -> int:
+    """Replaces the edge by the other diagonal, and returns the halfedge of the new edge in the same triangle's slot;
+    flipping it three more times restores every slot. TemperError when it cannot be flipped. O(1), unless an array that
+    looks at the mesh is alive."""
+    return _temper.flip(mesh._handle, halfedge)
+
+
+def plan_removal(mesh: Mesh, vertex: int) -> RemovalPlan:
+    """How to remove a vertex so that the domain and its interfaces keep their shape; ``status`` says whether it can."""
+    return _temper.plan_removal(mesh._handle, vertex)
+
+
+def plan_collapse(mesh: Mesh, vertex: int, into: int) -> RemovalPlan:
+    """How to collapse the edge between a vertex and its neighbour ``into``: the vertex is removed, and all new triangles
+    have ``into`` as a corner."""
+    return _temper.plan_collapse(mesh._handle, vertex, into)
+
+
+def removal_from_names(
+    mesh: Mesh, vertex: int, link_first: int, triangles: Sequence[tuple[int, int, int]]
+) -> RemovalPlan:
+    """The plan that was written down as these numbers: ``plan.vertex``, ``plan.link[0]`` and ``plan.triangles``. All of it
+    is checked."""
+    return _temper.removal_from_names(mesh._handle, vertex, link_first, list(triangles))
+
+
+def remove_vertex(mesh: Mesh, plan: RemovalPlan) -> None:
+    """Commits a plan with status possible. All other numbers stay valid until ``mesh.compact()``, which other functions
+    need, drops what is erased."""
+    _temper.remove_vertex(mesh._handle, plan)
+
+
+def plan_insertion(mesh: Mesh, point: tuple[float, float, float], near: int = 0) -> InsertionPlan:
+    """How to insert a vertex at (x, y, w) [length, length, length²]: by a walk from triangle ``near``, exact."""
+    return _temper.plan_insertion(mesh._handle, *point, near)
+
+
+def plan_split(mesh: Mesh, halfedge: int, at: float | tuple[float, float, float]) -> InsertionPlan:
+    """How to split an edge: at a part of the way, 0 < at < 1, with the weight that keeps its pieces crossed; or at a point
+    (x, y, w) on it."""
+    if isinstance(at, (int, float)):
+        return _temper.plan_split(mesh._handle, halfedge, at)
+    return _temper.plan_split_at(mesh._handle, halfedge, *at)
+
+
+def plan_center(mesh: Mesh, triangle: int) -> InsertionPlan:
+    """How to insert a vertex at the orthocenter of a triangle, with the weight interpolated there."""
+    return _temper.plan_center(mesh._handle, triangle)
+
+
+def insert_vertex(mesh: Mesh, plan: InsertionPlan) -> int:
+    """Commits a plan with status possible or not_regular, and returns the new vertex: the last one."""
+    return _temper.insert_vertex(mesh._handle, plan)
+
+
+def interpolated_weight(mesh: Mesh, triangle: int, point: tuple[float, float]) -> float:
+    """The weight at a point of the linear function through the corners of a triangle [length²]. A vertex of this weight
+    strictly inside the triangle is never hidden."""
+    return _temper.interpolated_weight(mesh._handle, triangle, *point)
+
+
+def split_weight(w_a: float, w_b: float, squared_length: float, t: float) -> float:
+    """The weight for a point that divides an edge of length ℓ (squared_length = ℓ²) into tℓ and (1 − t)ℓ [length²]."""
+    return _temper.split_weight(w_a, w_b, squared_length, t)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class GradingPlan(Record):
+    """How to cut the edges of the boundary and of constrained lines so that neighbours are of like length."""
+
+    cuts: list[tuple[int, int, npt.NDArray[np.float64]]]
+    """a < b, and fractions of the way from a to b, ascending."""
+    vertices: int
+    ratio_before: float
+    """The largest ratio of the lengths of two such edges that meet at a vertex."""
+    ratio_after: float
+
+
+def plan_boundary_grading(mesh: Mesh, ratio: float = 4.0, widest_angle_deg: float = 180.0) -> GradingPlan:
+    """Cuts that make any two edges of boundary and lines that meet at a vertex within ``ratio`` (at least 2) of each
+    other's length; edges that a corner across sees at more than ``widest_angle_deg`` are cut in two at least."""
+    return GradingPlan(**_temper.plan_boundary_grading(mesh._handle, ratio, widest_angle_deg))
+
+
+def triangles_without_free_corner(mesh: Mesh) -> npt.NDArray[np.int32]:
+    """Triangles whose corners all are on the boundary or on constrained lines, (k, 3) vertices: longest edge first."""
+    return _temper.triangles_without_free_corner(mesh._handle)
+
+
+@dataclasses.dataclass(frozen=True)
+class Grading(Record):
+    """What ``grade_boundary`` did."""
+
+    vertices: int
+    """Inserted on edges."""
+    inside: int
+    """Inserted in triangles without free corner."""
+    flips: int
+    refused: int
+    """Cuts that cannot be made: rounding turns a triangle over there."""
+
+
+def grade_boundary(mesh: Mesh, ratio: float = 4.0) -> Grading:
+    """Makes the boundary fit for optimisation: cuts long edges beside short ones, and gives triangles without free corner
+    a vertex inside. Old vertices stay bit for bit."""
+    return Grading(**_temper.grade_boundary(mesh._handle, ratio))

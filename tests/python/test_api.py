@@ -1,0 +1,195 @@
+"""The module has what the C++ headers have, under the same names, documented and typed."""
+
+import ast
+import dataclasses
+import inspect
+import re
+
+import pytest
+from conftest import ROOT
+
+import temper
+
+HEADERS = ROOT / "include" / "temper"
+MODULES = [temper, temper.generate, temper.geometry, temper.projection, temper.topology]
+
+# What Python has otherwise, or not at all, and why.
+ELSEWHERE = {
+    "name": "enums are their names",
+    "dot": "NumPy", "cross": "NumPy", "length": "NumPy", "squared_length": "NumPy",
+    "clp_solver": "find_weights, best_margin and explain use it",
+    "reason_text": "Reason.text", "cure_text": "Cure.text",
+    "make_mesh": "read and from_meshio make the mesh", "update": "write does it", "release_geometry": "read does it",
+    "from_mesh": "write does it", "dec_file_names": "write_dec returns the paths",
+    "hilbert_order": "Python keeps the user's numbers", "restore_order": "as hilbert_order",
+    "hilbert_ordered": "as hilbert_order",
+    "unflip": "flip three times more", "split_edge": "plan_split and insert_vertex, which check",
+    "insert_in_triangle": "plan_insertion and insert_vertex, which check",
+    "line_plot_svg": "matplotlib", "contour_plot_svg": "matplotlib",
+    "input_size_field_of": "input_size_field: Python's meshes may go before their views",
+}  # fmt: skip
+
+# Struct in C++, class in Python, fields that have another name or place there.
+STRUCTS = {
+    "OptimizeOptions": (temper.OptimizeOptions, {"size_field", "names", "executor", "tracer", "watch"}),
+    "OptimizeReport": (temper.OptimizeReport, set()),
+    "SweepRecord": (temper.SweepRecord, set()),
+    "Progress": (temper.Progress, set()),
+    "Quality": (temper.Quality, set()),
+    "WorstTriangle": (temper.WorstTriangle, set()),
+    "DecComplex": (temper.DecComplex, set()),
+    "DecSummary": (temper.DecSummary, set()),
+    "PowerCells": (temper.PowerCells, set()),
+    "IncidenceMatrix": (temper.IncidenceMatrix, set()),
+    "WeightReport": (temper.WeightReport, set()),
+    "BestMargin": (temper.BestMargin, set()),
+    "Reason": (temper.Reason, set()),
+    "Cure": (temper.Cure, set()),
+    "Explanation": (temper.Explanation, set()),
+    "VerifyReport": (temper.VerifyReport, set()),
+    "VerifySystem": (temper.VerifySystem, set()),
+    "Restoration": (temper.Restoration, set()),
+    "SizeReport": (temper.SizeReport, set()),
+    "TraceEvent": (temper.TraceEvent, set()),
+    "EnergyInfo": (temper.EnergyInfo, {"kind"}),
+    "OutlineMesh": (temper.OutlineMesh, set()),
+    "EdgeConflict": (temper.EdgeConflict, set()),
+}
+
+
+def functions_of(header):
+    """Names of the free functions that a header declares."""
+    text = re.sub(r"/\*.*?\*/|//[^\n]*", "", header.read_text(encoding="utf-8"), flags=re.S)
+    names = set()
+    for match in re.finditer(r"^(?:\[\[nodiscard\]\] )?(?:(?:inline|constexpr) )*[A-Za-z_][\w:<>,*& ]*? \*?&?(\w+)\(", text, re.M):
+        names.add(match[1])
+    return names - {"operator", "sqrt"}
+
+
+def fields_of(struct):
+    """Names of the members of a struct, in whichever header it is."""
+    for header in HEADERS.glob("*.hpp"):
+        text = re.sub(r"//[^\n]*", "", header.read_text(encoding="utf-8"))
+        match = re.search(rf"^struct {struct} \{{\n(.*?)^\}};", text, re.M | re.S)
+        if match is None:
+            continue
+        body = re.sub(r"^  (?:enum class|struct) .*?^  \};", "", match[1], flags=re.M | re.S)
+        body = "\n".join(line for line in body.splitlines() if "(" not in line.split("=")[0] or "std::function" in line)
+        found = set()
+        for statement in re.findall(r"^  (?!friend|\[\[|static|return|enum|  )([A-Za-z][^;{}()]*(?:\{[^;]*\})?[^;]*);", body, re.M):
+            for piece in re.split(r",(?![^<{]*[>}])", statement):
+                name = re.search(r"(\w+)\s*(?:=.*)?$", piece.strip(), re.S)
+                if name:
+                    found.add(name[1])
+        return found
+    raise AssertionError(f"no struct {struct} in the headers")
+
+
+def test_every_function_of_the_headers_is_here():
+    missing, seen = [], 0
+    for header in sorted(HEADERS.glob("*.hpp")):
+        for name in sorted(functions_of(header)):
+            seen += 1
+            if name not in ELSEWHERE and not any(hasattr(module, name) for module in MODULES):
+                missing.append(f"{header.name}: {name}")
+    assert not missing and seen > 100, (missing, seen)
+
+
+def test_what_is_elsewhere_is_still_in_the_headers():
+    all_names = set().union(*(functions_of(h) for h in HEADERS.glob("*.hpp")))
+    assert set(ELSEWHERE) <= all_names, set(ELSEWHERE) - all_names
+
+
+@pytest.mark.parametrize("struct", STRUCTS)
+def test_reports_and_options_have_the_fields_of_the_library(struct):
+    python, others = STRUCTS[struct]
+    names = {f.name for f in dataclasses.fields(python)}
+    expected = fields_of(struct)
+    assert len(expected) > 2 and expected - others <= names, expected - others - names
+
+
+def public_objects():
+    for module in MODULES:
+        for name in getattr(module, "__all__"):
+            value = getattr(module, name)
+            if callable(value) and not isinstance(value, type(temper)):
+                yield f"{module.__name__}.{name}", value
+
+
+def test_everything_is_documented():
+    silent = []
+    for name, value in public_objects():
+        if not inspect.getdoc(value) or (inspect.isclass(value) and value.__doc__ is None):
+            silent.append(name)
+        if inspect.isclass(value) and value.__module__.startswith("temper"):
+            for attribute, member in vars(value).items():
+                if attribute.startswith("_") or not (inspect.isfunction(member) or isinstance(member, property)):
+                    continue
+                if not inspect.getdoc(member):
+                    silent.append(f"{name}.{attribute}")
+    assert not silent
+
+
+def test_everything_is_typed():
+    untyped = []
+    for name, value in public_objects():
+        if inspect.isfunction(value):
+            for parameter in inspect.signature(value).parameters.values():
+                if parameter.annotation is inspect.Parameter.empty:
+                    untyped.append(f"{name}({parameter.name})")
+            if inspect.signature(value).return_annotation is inspect.Signature.empty:
+                untyped.append(name)
+    assert not untyped
+
+
+def test_help_of_optimize_shows_the_signature_and_every_option():
+    text = temper.optimize.__doc__
+    signature = inspect.signature(temper.optimize)
+    for name in signature.parameters:
+        assert re.search(rf"^    (?:\w+, )*{name}(?:, \w+)* : ", text, re.M), name
+    assert signature.parameters["energy"].default == "BP" and "_given" not in signature.parameters
+    for word in ("Raises", "Returns", "KeyboardInterrupt", "[seconds]", "Algorithm 1", ">>> import temper"):
+        assert word in text
+
+
+def test_stubs_name_what_the_compiled_module_has():
+    path = ROOT / "python" / "temper" / "_temper.pyi"
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    functions = {n.name: n for n in tree.body if isinstance(n, ast.FunctionDef)}
+    classes = {n.name: n for n in tree.body if isinstance(n, ast.ClassDef)}
+    values = {n.target.id for n in tree.body if isinstance(n, ast.AnnAssign)}
+    module = temper._temper
+    there = {n for n in dir(module) if not n.startswith("__")} | {"__version__"}
+    if not hasattr(module, "verify"):
+        pytest.skip("built without Eigen")
+    assert set(functions) | set(classes) | values == there
+    for name, node in functions.items():
+        promised = len(node.args.posonlyargs) + len(node.args.args)
+        line = getattr(module, name).__doc__.splitlines()[0]
+        assert promised == len(re.findall(r"arg\d+:", line)), (name, line)
+    for name, node in classes.items():
+        promised = {n.name for n in node.body if isinstance(n, ast.FunctionDef)}
+        assert promised == {n for n in vars(getattr(module, name)) if not n.startswith("_")}, name
+    assert (ROOT / "python" / "temper" / "py.typed").exists()
+
+
+def test_errors_can_be_pickled_and_are_value_errors():
+    import pickle
+
+    error = temper.TemperError("syntax", "a.vtu:3", "expected a number")
+    again = pickle.loads(pickle.dumps(error))
+    assert str(again) == "a.vtu:3: expected a number" and again.code == "syntax" and isinstance(again, ValueError)
+
+
+def test_the_instruction_set_can_be_chosen():
+    fastest = temper.instruction_set()
+    assert fastest == temper.instruction_sets()[-1]
+    assert temper.use_instruction_set("baseline") and temper.instruction_set() == "baseline"
+    assert not temper.use_instruction_set("abacus") and temper.use_instruction_set(fastest)
+
+
+def test_the_version_is_that_of_the_project():
+    cmake = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    assert temper.__version__ == re.search(r"project\(temper VERSION ([\d.]+)", cmake)[1]
+    pyproject = (ROOT / "python" / "pyproject.toml").read_text(encoding="utf-8")
+    assert f'version = "{temper.__version__}"' in pyproject

@@ -1,0 +1,94 @@
+"""Every command and script of docs/python.md, docs/howto and examples/python runs, or says why not."""
+
+import doctest
+import importlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+import pytest
+from conftest import PUBLIC_MESHES, ROOT
+
+import temper
+
+PAGES = [ROOT / "docs" / "python.md", *sorted((ROOT / "docs" / "howto").glob("*.md"))]
+BLOCK = re.compile(r"(?:^<!-- (?P<mark>[^\n]*) -->\n)?^```(?P<kind>\w*)\n(?P<text>.*?)^```$", re.M | re.S)
+NOT_IN_DEBIAN = {"PyDEC", "PorePy", "Julia", "JIGSAW", "MODFLOW", "it is how"}
+
+
+def there(tool):
+    if tool == "temper-netcdf":
+        return any("mpas" in f.name for f in temper.formats())
+    return shutil.which(tool) is not None
+
+
+def run(arguments, **options):
+    result = subprocess.run(arguments, capture_output=True, text=True, timeout=300, **options)
+    assert result.returncode == 0, f"{result.stdout}\n{result.stderr}"
+    return result
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_a_page_runs_from_top_to_bottom(page, in_scratch, monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    blocks = list(BLOCK.finditer(page.read_text(encoding="utf-8")))
+    namespace, ran = {}, 0
+    for block in blocks:
+        kind, text, mark = block["kind"], block["text"], block["mark"] or ""
+        if mark.startswith("not run here: "):
+            assert any(name in mark for name in NOT_IN_DEBIAN), mark
+            continue
+        if mark.startswith("runs with: ") and not there(mark.removeprefix("runs with: ")):
+            continue
+        assert kind in ("sh", "python"), f"{page.name}: a block of {kind or 'no kind'}"
+        if kind == "sh":
+            if shutil.which("temper") is None:
+                pytest.skip("the program was not built")
+            run(["bash", "-euo", "pipefail", "-c", text])
+        else:
+            exec(compile(text, str(page), "exec"), namespace)
+        ran += 1
+    assert ran > 0 or page.stem == "README"
+
+
+@pytest.mark.parametrize("example", sorted((ROOT / "examples" / "python").glob("*.py")), ids=lambda path: path.stem)
+def test_an_example_runs(example, in_scratch):
+    environment = {**os.environ, "MPLBACKEND": "agg"}
+    assert run([sys.executable, "-W", "error::temper.TemperWarning", example], env=environment).stdout
+
+
+def test_what_the_example_for_julia_writes_is_the_dual(in_scratch):
+    import numpy as np
+
+    run([sys.executable, ROOT / "examples" / "python" / "combinatorial_spaces.py"])
+    mesh = temper.optimized(temper.generate.annulus())
+    operators = temper.dec(mesh)
+    tables = {name: np.loadtxt(f"dual/{name}.csv", delimiter=",", skiprows=1) for name in ("points", "edges", "triangles")}
+    assert np.array_equal(tables["points"], mesh.points)
+    assert np.array_equal(tables["triangles"][:, :3], mesh.triangles + 1)
+    assert np.array_equal(tables["triangles"][:, 3:], operators.orthocenters)
+    assert np.array_equal(tables["edges"][:, :2], operators.edges.vertices + 1)
+    assert np.array_equal(tables["edges"][:, 2:], np.column_stack([operators.edges.midpoint, operators.edges.dual_length]))
+    assert (tables["edges"][:, 4] > 0).all()  # unsigned lengths are right
+
+
+@pytest.mark.parametrize("mesh", ["skfem_annulus.msh", "sfepy_its2D.mesh"])
+def test_the_first_example_takes_public_meshes(mesh, in_scratch):
+    if not (PUBLIC_MESHES / mesh).exists():
+        pytest.skip("no such mesh here")
+    run([sys.executable, ROOT / "examples" / "python" / "optimise_meshio.py", PUBLIC_MESHES / mesh, "out.png"])
+    assert (in_scratch / "out.png").stat().st_size > 10000
+
+
+MODULES = ["", ".geometry", "._mesh", "._optimize", "._options", "._measure", "._dec", "._verify", "._weights",
+           "._explain", "._size", "._outline"]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_examples_in_docstrings_are_right(name, in_scratch):
+    if name == "._verify" and not hasattr(temper._temper, "verify"):
+        pytest.skip("built without Eigen")
+    result = doctest.testmod(importlib.import_module("temper" + name))
+    assert result.attempted > 0 and result.failed == 0

@@ -1,0 +1,252 @@
+"""What looks at meshes: quality, energies, operators, errors, weights, reasons."""
+
+import numpy as np
+import pytest
+
+import temper
+from temper import geometry, topology
+
+EVERY = [
+    temper.generate.sparse_horseshoe(), temper.generate.horseshoe(), temper.generate.annulus(), temper.generate.airfoil(),
+    temper.generate.sheared_grid(), temper.generate.random_points(300), temper.generate.wedge(), temper.generate.letter_a(),
+    temper.generate.regular_polygon(), temper.generate.graded_points(finest=0.1), temper.generate.single_triangle(),
+    temper.generate.constrained_delaunay(np.random.default_rng(0).uniform(size=(50, 2))),
+]  # fmt: skip
+
+
+def weighted(mesh):
+    """The mesh with weights that are not zero."""
+    mesh = mesh.copy()
+    mesh.weights = 1e-3 * np.sin(np.arange(mesh.n_vertices)) * temper.dec(mesh).areas.mean()
+    return mesh
+
+
+@pytest.mark.parametrize("mesh", EVERY)
+def test_counts_agree_with_the_predicates(mesh):
+    q = temper.quality(mesh)
+    corners = np.column_stack([mesh.points, mesh.weights])[mesh.triangles]
+    good = geometry.is_well_centered(*corners.transpose(1, 0, 2))
+    assert np.array_equal(good, temper.well_centered_triangles(mesh))
+    assert q.well_centered_fraction == pytest.approx(good.mean()) and q.triangles == mesh.n_triangles
+    margins = temper.triangle_margins(mesh)
+    assert margins.min() == pytest.approx(min(q.min_h_over_l, q.min_d_over_l), abs=1e-9)
+    assert q.angles.counts.sum() == 3 * q.triangles and len(q.angles.edges) == len(q.angles.counts) + 1
+
+
+def test_energies_of_the_paper():
+    q = temper.quality(temper.generate.horseshoe())
+    assert q.energy["F"][1] == pytest.approx(2.836890825582, rel=1e-12)
+    assert q.energy["T"][1] == pytest.approx(12.143904187128, rel=1e-12)
+    assert q.energy["BP"][1] == pytest.approx(375.355882218659, rel=1e-12)
+    assert q.energy["BH"] == (np.inf,) * 3 and q.as_dict()["energy"]["BH"] == [None] * 3
+    model = temper.EnergyModel("F")
+    assert temper.total_energy(temper.generate.horseshoe(), model) == q.energy["F"][1]
+    assert [e.name for e in temper.energies()] == list(q.energy) and temper.find_energy("BP").barrier
+    with pytest.raises(temper.TemperError, match="BHs"):
+        temper.find_energy("hot")
+
+
+def test_the_gradient_of_an_energy_is_its_derivative(ring):
+    mesh, model = temper.optimized(ring), temper.EnergyModel("BP", gamma=0.1)
+    vertex = int(np.setdiff1d(np.arange(mesh.n_vertices), mesh.boundary_edges)[3])
+    derivatives = temper.vertex_energy(mesh, model, vertex)
+    step = 1e-6
+    for axis in range(2):
+        values = []
+        for sign in (1, -1):
+            points = np.array(mesh.points)
+            points[vertex, axis] += sign * step
+            moved = mesh.copy()
+            moved.points = points
+            values.append(temper.total_energy(moved, model))
+        assert (values[0] - values[1]) / (2 * step) == pytest.approx(derivatives.gradient[axis], rel=1e-4, abs=1e-4)
+
+
+# --- operators ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("mesh", EVERY)
+def test_laws_of_the_operators_hold_for_any_weights(mesh):
+    mesh = weighted(mesh)
+    c = temper.dec(mesh)
+    d0, d1 = c.d0.toarray(), c.d1.toarray()
+    assert d0.shape == (mesh.n_edges, mesh.n_vertices) and d1.shape == (mesh.n_triangles, mesh.n_edges)
+    assert (d1 @ d0 == 0).all()
+    assert c.star0.sum() == pytest.approx(c.areas.sum(), rel=1e-12)
+    assert c.star2 == pytest.approx(1 / c.areas)
+    boundary = np.unique(mesh.boundary_edges)
+    laplacian = d0.T @ (c.star1[:, None] * d0)
+    scale = np.abs(laplacian).sum(axis=1)
+    for linear in np.asarray(mesh.points).T:
+        residual = np.abs(np.delete(laplacian @ linear, boundary))
+        assert (residual <= 1e-10 * np.delete(scale, boundary) * np.abs(linear).max() + 1e-13).all()
+    cells = c.power_cells()
+    assert cells.areas.sum() == pytest.approx(c.areas.sum(), rel=1e-10)
+    assert len(cells.polygons()) == len(cells.vertices) == len(cells.polygon_areas)
+
+
+def test_star1_is_the_cotangent_formula_without_weights(ring):
+    c = temper.dec(ring)
+    p, t = np.asarray(ring.points), np.asarray(ring.triangles)
+    cotangents = np.zeros((ring.n_vertices,) * 2)
+    for k in range(3):
+        a, b, apex = t[:, k], t[:, (k + 1) % 3], t[:, (k + 2) % 3]
+        u, v = p[a] - p[apex], p[b] - p[apex]
+        values = (u * v).sum(1) / np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2
+        np.add.at(cotangents, (a, b), values)
+        np.add.at(cotangents, (b, a), values)
+    i, j = c.edges.vertices.T
+    assert c.star1 == pytest.approx(cotangents[i, j], abs=1e-12)
+
+
+def test_operators_are_views_on_one_value(ring):
+    c = temper.dec(ring)
+    arrays = [c.star0, c.star1, c.flux, c.orthocenters, c.edges.length, c.edges.midpoint, c.d0.columns]
+    assert not any(a.flags.owndata or a.flags.writeable for a in arrays)
+    kept = c.star1
+    copy = kept.copy()
+    del c, arrays
+    assert np.array_equal(kept, copy)
+
+
+def test_scipy_gets_the_same_matrices(ring):
+    pytest.importorskip("scipy")
+    c = temper.dec(temper.optimized(ring))
+    assert np.array_equal(c.d0.tocsr().toarray(), c.d0.toarray())
+    laplacian = c.laplacian()
+    assert (laplacian - laplacian.T).nnz == 0 or abs(laplacian - laplacian.T).max() < 1e-12
+    off = laplacian - __import__("scipy.sparse").sparse.diags(laplacian.diagonal())
+    assert off.max() <= 0  # an M-matrix: the mesh is well-centered
+    assert c.summarize().not_well_centered == 0 and c.star(2).shape == (ring.n_triangles,) * 2
+
+
+def test_operators_are_written_as_the_program_writes_them(ring, in_scratch):
+    c = temper.dec(ring)
+    paths = temper.write_dec("operators", c, formats=["npz"])
+    assert sorted(p.split("/")[-1] for p in paths)[-1] == "star2.npz"
+    arrays = np.load("operators/operators.npz")
+    assert np.array_equal(arrays["star1"], c.star1) and np.array_equal(arrays["edges"], c.edges.vertices)
+    assert np.array_equal(arrays["cell_areas"], temper.power_cells(c).areas)
+    with pytest.raises(temper.TemperError, match="npz, mtx, vtu"):
+        c.write("operators", formats=["xml"])
+
+
+# --- errors of solvers --------------------------------------------------------------------------------------------
+
+needs_verify = pytest.mark.skipif(not hasattr(temper._temper, "verify"), reason="built without Eigen")
+
+
+@needs_verify
+def test_linear_fields_are_exact_on_any_mesh(ring):
+    report = temper.verify(weighted(ring), fields="exact")
+    assert all(row.field.group == "exact" for row in report.fields)
+    assert max(row.errors.poisson.max for row in report.fields) < 1e-9
+    assert max(row.errors.flux.max for row in report.fields) < 1e-9
+
+
+@needs_verify
+def test_errors_fall_with_refinement_and_ratios_of_a_mesh_to_itself_are_one(ring):
+    mesh = temper.optimized(ring)
+    report = temper.verify(mesh, fields=["held-back"], refine=2, condition=True, local=True)
+    assert len(report.levels) == 3 and report.levels[2].triangles == 16 * mesh.n_triangles
+    assert temper.arithmetic_mean(report.orders).poisson.l2 > 1.5
+    assert [len(values) for values in report.local] == [mesh.n_vertices, mesh.n_edges, mesh.n_triangles]
+    assert report.poisson.m_matrix and report.poisson.condition > 1 and report.frame == temper.verify_frame(mesh)
+    ratios = temper.error_ratios(report, report)
+    assert temper.geometric_mean(ratios)._row() == [1.0] * 10
+    keys = [key for key, _ in temper.verify_measures()]
+    assert keys == temper._verify._KEYS
+    other = temper.verify(mesh, fields=["chosen"])
+    with pytest.raises(temper.TemperError):
+        temper.error_ratios(report, other)
+    with pytest.raises(temper.TemperError, match="held"):
+        temper.verify(mesh, fields=["no such field"])
+    assert {f.group for f in temper.verify_fields()} == {"chosen", "held-back", "exact"}
+
+
+# --- weights, certificates, reasons ----------------------------------------------------------------------------------
+
+
+def test_weights_that_exist_are_found_and_others_refuted():
+    mesh = temper.generate.annulus(jitter=0.1)
+    temper.optimize(mesh)
+    known = np.array(mesh.weights)
+    mesh.weights = np.zeros(mesh.n_vertices)
+    report = temper.find_weights(mesh)
+    assert report.verdict == "feasible" and report.solved and len(report.weights) == len(known)
+    mesh.weights = report.weights
+    assert temper.quality(mesh).well_centered_fraction == 1
+    assert temper.weight_margin(mesh) == pytest.approx(report.attained, abs=1e-9) and report.attained >= 0.0099
+
+    hard = temper.generate.sparse_horseshoe()
+    best = temper.best_margin(hard)
+    assert best.margin == pytest.approx(-8 / 135, abs=1e-10)
+    assert temper.best_margin(hard, conditions="heights_only").margin == pytest.approx(0.05, abs=1e-9)
+    assert temper.check_certificate(hard, best.certificate) == "proves"
+    nothing = temper.Certificate(0.0, [(c, 1.0) for c, _ in best.certificate.terms[:1]])
+    assert temper.check_certificate(hard, nothing) != "proves"
+    assert temper.check_certificate(mesh, best.certificate) != "proves"
+    with pytest.raises(temper.TemperError, match="margin"):
+        temper.find_weights(hard, margin=0.7)
+
+
+def test_reasons_name_every_bad_triangle_once():
+    mesh = temper.generate.horseshoe()
+    seen = []
+    why = temper.explain(mesh, progress=lambda done, all: seen.append((done, all)))
+    bad = np.flatnonzero(~temper.well_centered_triangles(mesh))
+    assert np.array_equal(np.sort(np.concatenate([r.bad for r in why.reasons])), bad) and why.bad == len(bad)
+    assert why.verdict == "infeasible" and all(r.text for r in why.reasons) and "Explanation" in why._repr_html_()
+    for reason in why.reasons:
+        if reason.certificate.terms:
+            assert temper.check_certificate(mesh, reason.certificate) == "proves"
+    with pytest.raises(temper.TemperError):
+        temper.explain(mesh, progress=lambda done, all: False)
+    with pytest.raises(ZeroDivisionError):
+        temper.explain(mesh, progress=lambda done, all: 1 / 0)
+
+
+def test_a_polygon_without_inner_vertices_must_split_its_edges():
+    mesh = temper.generate.regular_polygon(60)
+    conflicts = temper.edges_that_must_be_split(mesh)
+    for conflict in conflicts:
+        assert conflict.sum <= 1 and temper.edge_conflict(mesh, conflict.halfedge) == conflict
+    grading = topology.grade_boundary(mesh)
+    assert grading.inside > 0 and mesh.validate() is None
+
+
+# --- pictures ------------------------------------------------------------------------------------------------------
+
+
+def test_svg_is_text_that_notebooks_show(ring):
+    import xml.etree.ElementTree as xml
+
+    picture = temper.draw_svg(ring, title="a & b", zoom=(0, 0, 1, 1))
+    xml.fromstring(picture)
+    assert isinstance(picture, str) and picture._repr_svg_() == picture
+    both = temper.draw_before_after_svg(ring, temper.optimized(ring))
+    xml.fromstring(both)
+    xml.fromstring(temper.grid_svg([picture, both], 1, title="two"))
+    with pytest.raises(ValueError, match="zoom"):
+        temper.draw_svg(ring, zoom=(0, 1))
+
+
+@pytest.mark.parametrize("color", [None, "quality", "angle", "region", "array"])
+def test_matplotlib_draws_every_kind(ring, in_scratch, color):
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    values = np.arange(ring.n_triangles) if color == "array" else color
+    axes = temper.plot(weighted(ring), color=values, orthocenters=True, weights=True, title="ring")
+    axes.figure.savefig("ring.png")
+    shown = pyplot.imread("ring.png")
+    assert shown.shape[0] > 100 and (shown[..., :3] < 0.9).any(axis=2).mean() > 0.02
+    pyplot.close(axes.figure)
+
+
+def test_plots_refuse_what_they_cannot_color(ring):
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    with pytest.raises(ValueError, match="quality, angle, region"):
+        temper.plot(ring, color="beauty")
+    with pytest.raises(ValueError, match=str(ring.n_triangles)):
+        temper.plot(ring, color=[1, 2])
+    temper.plot_history(temper.optimize(ring))
+    pyplot.close("all")

@@ -1,0 +1,312 @@
+"""Meshes from arrays and back, views, files."""
+
+import copy
+import pickle
+import threading
+
+import numpy as np
+import pytest
+
+import temper
+from temper import geometry, topology
+
+SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
+HALVES = [(0, 1, 2), (0, 2, 3)]
+
+
+def test_arrays_go_in_and_out_unchanged(ring):
+    again = temper.Mesh(ring.points, ring.triangles, ring.weights, regions=ring.regions)
+    assert np.array_equal(again.points, ring.points) and again.points.dtype == np.float64
+    assert np.array_equal(again.triangles, ring.triangles) and again.triangles.dtype == np.int32
+    assert np.array_equal(again.weights, ring.weights)
+    assert again == ring and not (again != ring)
+
+
+@pytest.mark.parametrize("dtype", [np.int32, np.int64, np.uint16])
+def test_triangles_may_have_any_whole_type(ring, dtype):
+    assert temper.Mesh(ring.points, ring.triangles.astype(dtype)) == ring
+
+
+def test_views_are_no_copies_and_cannot_be_written(ring):
+    for name in ("points", "weights", "triangles", "twins"):
+        array = getattr(ring, name)
+        assert not array.flags.owndata and not array.flags.writeable
+        with pytest.raises(ValueError):
+            array[...] = 0
+    assert np.shares_memory(ring.points, ring.weights) is False  # they interleave
+    assert ring.points.strides == (32, 8) and ring.weights.strides == (32,)
+    assert ring.points.__array_interface__["data"][0] == ring.points.__array_interface__["data"][0]
+
+
+def test_a_view_keeps_what_it_showed_when_the_mesh_changes_or_goes(ring):
+    points, weights = ring.points, ring.weights
+    before = points.copy()
+    temper.optimize(ring)
+    assert np.array_equal(points, before) and not np.array_equal(ring.points, before)
+    assert (weights == 0).all() and (ring.weights != 0).any()
+    del ring
+    assert np.array_equal(points, before)
+
+
+def test_a_copy_is_a_mesh_of_its_own(ring):
+    for other in (ring.copy(), copy.copy(ring), copy.deepcopy(ring), pickle.loads(pickle.dumps(ring))):
+        assert other == ring
+        other.weights = np.full(ring.n_vertices, 1e-4)
+        assert other != ring and (ring.weights == 0).all()
+
+
+def test_neighbors_and_twins_agree(ring):
+    twins = ring.twins
+    inner = np.flatnonzero(twins >= 0)
+    assert (twins[twins[inner]] == inner).all()
+    assert np.array_equal(ring.neighbors.ravel()[inner], twins[inner] // 3)
+    assert (twins < 0).sum() == len(ring.boundary_edges)
+    assert len(ring.edges) == ring.n_edges == (ring.n_halfedges + len(ring.boundary_edges)) / 2
+
+
+def test_clockwise_triangles_are_reversed_and_counted():
+    mesh = temper.Mesh(SQUARE, [(0, 2, 1), (0, 2, 3)])
+    assert mesh.reversed_triangles == 1 and mesh.validate() is None
+
+
+@pytest.mark.parametrize(
+    "change, code, says",
+    [
+        (dict(triangles=[(0, 1, 2), (0, 2, 9)]), "index_out_of_range", "triangle 1"),
+        (dict(triangles=[(0, 1, 2), (0, 2, 2**40)]), "index_out_of_range", "triangle 1"),
+        (dict(points=[(0, 0), (1, 0), (1, 1), (0, np.nan)]), "not_finite", "point 3"),
+        (dict(points=SQUARE + [(0, 1), (2, 2)], triangles=HALVES + [(4, 2, 5)]), "duplicate_point", "point 4"),
+        (dict(weights=[0, 0, 0]), "size_mismatch", "3"),
+        (dict(triangles=[(0, 1, 2)]), "unused_point", "point 3"),
+        (dict(constrained_edges=[(1, 3)]), "missing_edge", "1"),
+        (dict(regions=[1]), "size_mismatch", "1"),
+        (dict(triangles=np.empty((0, 3), dtype=int)), "empty_input", ""),
+    ],
+)
+def test_bad_arrays_are_refused_by_name(change, code, says):
+    with pytest.raises(temper.TemperError) as caught:
+        temper.Mesh(**{**dict(points=SQUARE, triangles=HALVES), **change})
+    assert caught.value.code == code and says in caught.value.message and isinstance(caught.value, ValueError)
+    assert str(caught.value) == caught.value.message and caught.value.where == ""
+
+
+@pytest.mark.parametrize(
+    "change, kind",
+    [
+        (dict(points=[(0, 0, 0)] * 4), ValueError),
+        (dict(points=[0, 1, 2]), ValueError),
+        (dict(triangles=[(0.0, 1.0, 2.0)]), TypeError),
+        (dict(points=[("a", "b")]), TypeError),
+        (dict(triangles=[(0, 1, 2, 3)]), ValueError),
+    ],
+)
+def test_arrays_of_the_wrong_shape_or_type_are_refused(change, kind):
+    with pytest.raises(kind):
+        temper.Mesh(**{**dict(points=SQUARE, triangles=HALVES), **change})
+
+
+def test_setting_points_keeps_the_mesh_when_a_triangle_would_turn_over(ring):
+    before = ring.copy()
+    moved = np.array(ring.points)
+    ring.points = moved + (1, 0)
+    assert np.allclose(np.array(ring.points) - moved, (1, 0))
+    ring.points = moved
+    assert ring == before
+    with pytest.raises(temper.TemperError, match="triangle .* not counter-clockwise"):
+        ring.points = -moved[:, ::-1] * (1, -1) * (-1, 1)
+    with pytest.raises(temper.TemperError, match="expected"):
+        ring.weights = [1.0]
+    with pytest.raises(temper.TemperError, match="point 5.*not finite"):
+        ring.weights = np.where(np.arange(ring.n_vertices) == 5, np.inf, 0)
+    assert ring == before
+
+
+def test_constraints_and_fixed_vertices_are_kept_by_an_optimisation(ring):
+    inner = np.setdiff1d(np.arange(ring.n_vertices), ring.boundary_edges)[:5]
+    edge = next(e for e in ring.edges if e[0] in inner and e[1] in inner)
+    ring.fixed = inner
+    ring.set_constrained([edge])
+    places = np.array(ring.points)[inner]
+    temper.optimize(ring)
+    assert np.array_equal(ring.points[inner], places)
+    assert np.array_equal(ring.fixed, np.sort(inner))
+    assert tuple(sorted(edge)) in {tuple(sorted(e)) for e in ring.constrained_edges}
+    with pytest.raises(temper.TemperError, match="no edge"):
+        ring.set_constrained([(0, 0)])
+
+
+def test_interfaces_of_regions_are_constrained():
+    mesh = temper.Mesh(SQUARE, HALVES, regions=[1, 2])
+    assert mesh.constrained_edges.tolist() in ([[0, 2]], [[2, 0]]) and mesh.regions.tolist() == [1, 2]
+
+
+# --- files ---------------------------------------------------------------------------------------------------
+
+
+def test_files_keep_all_bits(ring, in_scratch):
+    temper.optimize(ring)
+    assert temper.write("ring.vtu", ring) == []
+    again = temper.read("ring.vtu")
+    assert again == ring and again.warnings == []
+
+
+def test_formats_without_weights_warn_and_use_a_side_file(ring, in_scratch):
+    temper.optimize(ring)
+    with pytest.warns(temper.TemperWarning, match="weights"):
+        messages = temper.write("ring.obj", ring)
+    assert len(messages) == 1
+    assert np.array_equal(temper.read("ring.obj").weights, ring.weights)
+
+
+def test_errors_of_files_name_the_place(in_scratch):
+    (in_scratch / "bad.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
+    with pytest.raises(temper.TemperError) as caught:
+        temper.read("bad.off")
+    assert caught.value.where.startswith("bad.off") and "7" in caught.value.message
+    with pytest.raises(temper.TemperError) as caught:
+        temper.read("missing.vtu")
+    assert caught.value.code == "not_found"
+    with pytest.raises(temper.TemperError) as caught:
+        temper.write("no/such/folder/x.vtu", temper.generate.annulus())
+    assert caught.value.code == "not_writable"
+    assert list(in_scratch.iterdir()) == [in_scratch / "bad.off"]
+
+
+def test_all_that_was_in_a_file_is_written_again(ring, in_scratch):
+    meshio = pytest.importorskip("meshio")
+    temperature = np.asarray(ring.points)[:, 0] * 2 + 1
+    group = np.arange(ring.n_triangles, dtype=np.int64)
+    meshio.write(
+        "in.vtu",
+        meshio.Mesh(np.column_stack([ring.points, np.full(ring.n_vertices, 2.5)]), [("triangle", ring.triangles)],
+                    point_data={"temperature": temperature}, cell_data={"group": [group]}),
+    )  # fmt: skip
+    mesh = temper.read("in.vtu")
+    assert np.array_equal(mesh.point_data["temperature"], temperature)
+    assert np.array_equal(mesh.cell_data["group"], group)
+    temper.write("out.vtu", mesh)
+    again = meshio.read("out.vtu")
+    assert np.array_equal(again.point_data["temperature"], temperature) and (again.points[:, 2] == 2.5).all()
+
+
+def test_data_follow_vertices_that_were_removed_and_inserted(ring, in_scratch):
+    meshio = pytest.importorskip("meshio")
+    linear = np.asarray(ring.points) @ (2.0, -1.0)
+    source = meshio.Mesh(ring.points, [("triangle", ring.triangles)], point_data={"f": linear})
+    mesh = temper.from_meshio(source)
+    victim = np.setdiff1d(np.arange(mesh.n_vertices), mesh.boundary_edges)[0]
+    topology.remove_vertex(mesh, topology.plan_removal(mesh, victim))
+    with pytest.raises(temper.TemperError, match="compact"):
+        temper.quality(mesh)
+    mesh.compact()
+    plan = topology.plan_split(mesh, int(np.flatnonzero(mesh.twins >= 0)[0]), 0.5)
+    topology.insert_vertex(mesh, plan)
+    assert mesh.validate() is None and mesh.n_vertices == ring.n_vertices
+    values = mesh.point_data["f"]
+    assert np.allclose(values, np.asarray(mesh.points) @ (2.0, -1.0))
+
+
+def test_formats_are_those_of_the_program():
+    names = [f.name for f in temper.formats()]
+    assert {"vtu", "gmsh41", "medit"} <= set(names) and len(names) == len(set(names))
+
+
+# --- topology and geometry ---------------------------------------------------------------------------------------
+
+
+def test_flipping_four_times_changes_nothing(ring):
+    before = ring.copy()
+    h = next(h for h in range(ring.n_halfedges) if topology.can_flip(ring, h) == "possible")
+    for _ in range(4):
+        assert topology.can_flip(ring, h) == "possible"
+        h = topology.flip(ring, h)
+    assert ring == before and ring.validate() is None
+    boundary = int(np.flatnonzero(ring.twins < 0)[0])
+    with pytest.raises(temper.TemperError, match="boundary"):
+        topology.flip(ring, boundary)
+
+
+def test_a_plan_is_for_one_state_of_the_mesh(ring):
+    inner = int(np.setdiff1d(np.arange(ring.n_vertices), ring.boundary_edges)[0])
+    plan = topology.plan_removal(ring, inner)
+    assert plan.status == "possible" and plan.vertex == inner and len(plan.triangles) == len(plan.link) - 2
+    ring.weights = np.zeros(ring.n_vertices)
+    with pytest.raises(temper.TemperError, match="another state"):
+        topology.remove_vertex(ring, plan)
+    on_boundary = topology.plan_removal(ring, int(ring.boundary_edges[0, 0]))
+    with pytest.raises(temper.TemperError, match="cannot be committed"):
+        topology.remove_vertex(ring, on_boundary)
+
+
+@pytest.mark.parametrize("index", [-1, 10**6, 2**40])
+def test_numbers_out_of_range_are_refused(ring, index):
+    for call in (lambda: topology.can_flip(ring, index), lambda: ring.star(index), lambda: topology.plan_removal(ring, index),
+                 lambda: ring.find_halfedge(0, index), lambda: topology.plan_insertion(ring, (0.5, 0.5, 0), index)):  # fmt: skip
+        with pytest.raises(temper.TemperError) as caught:
+            call()
+        assert caught.value.code == "index_out_of_range"
+
+
+def test_restoring_regularity_is_idempotent(ring):
+    ring.weights = np.random.default_rng(3).uniform(0, 2e-3, ring.n_vertices)
+    first = temper.restore_regularity(ring)
+    assert first.flips > 0 and first.regular and temper.count_non_regular_edges(ring) == 0
+    assert temper.restore_regularity(ring).flips == 0
+
+
+def test_signs_follow_the_conventions():
+    p, q, r = (0, 0), (1, 0), (0.5, 1)
+    assert geometry.orient2d(p, q, r) == 1 and geometry.orient2d(p, r, q) == -1
+    assert geometry.signed_height(p, q, r) > 0 and geometry.signed_height(p, q, (0.5, 0.1)) < 0
+    heavy = (0, 0, 0.5)
+    assert geometry.edge_split(heavy, q) == 0.75 and geometry.edge_split(q, heavy) == 0.25
+    center = geometry.orthocenter(heavy, q, r)
+    powers = [((center - np.array(v[:2])) ** 2).sum() - (v[2] if len(v) == 3 else 0) for v in (heavy, q, r)]
+    assert np.ptp(powers) < 1e-14
+
+
+def test_geometry_broadcasts():
+    many = np.random.default_rng(1).uniform(size=(4, 5, 2))
+    signs = geometry.orient2d((0, 0), (1, 0), many)
+    assert signs.shape == (4, 5) and (signs == 1).all()
+    assert geometry.scaled_heights((0, 0), (1, 0), many).shape == (4, 5, 3)
+    assert geometry.orthocenter((0, 0), (1, 0), many).shape == (4, 5, 2)
+    assert np.allclose(geometry.scaled_heights((0, 0), (1, 0), many).sum(-1), geometry.doubled_area((0, 0), (1, 0), many))
+
+
+def test_exactness_of_orient2d_where_doubles_fail():
+    x = 0.5 + np.arange(64) * 2.0**-53
+    signs = geometry.orient2d((12, 12), (24, 24), np.column_stack([x, np.full(64, 0.5)]))
+    assert np.array_equal(signs, -np.sign(x - 0.5))
+
+
+def test_projections_are_inverse_and_conformal():
+    from temper import projection
+
+    places = np.array([(8.0, 54.0), (9.5, 55.5), (7.0, 53.5)])
+    p = projection.parse_projection("stereographic", places)
+    there = projection.forward(p, places)
+    assert np.allclose(projection.inverse(p, there), places)
+    assert (projection.scale_factor(p, places) >= 1).all()
+
+
+def test_threads_of_python_may_read_while_a_mesh_is_optimized(ring):
+    mesh = temper.generate.random_points(4000)
+    before = mesh.copy()
+    seen = []
+
+    def look(progress):
+        seen.append(np.array_equal(mesh.points, before.points))
+        with pytest.raises(temper.TemperError, match="has not returned"):
+            mesh.weights = mesh.weights
+
+    temper.optimize(mesh, max_sweeps=3, observer=look)
+    assert seen and all(seen) and mesh != before
+    ticks = []
+    stop = threading.Event()
+    counter = threading.Thread(target=lambda: [ticks.append(1) for _ in iter(lambda: stop.wait(0.001), True)])
+    counter.start()
+    temper.optimize(before, max_sweeps=20)
+    stop.set()
+    counter.join()
+    assert len(ticks) > 3  # the GIL was free

@@ -1,0 +1,81 @@
+"""meshio's meshes, wherever a mesh is taken."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import temper
+
+meshio = pytest.importorskip("meshio")
+
+
+@pytest.fixture
+def disc():
+    """A mesh as meshio reads it: three coordinates, an unused point, lines, data."""
+    ring = temper.generate.annulus()
+    points = np.column_stack([ring.points, np.full(ring.n_vertices, 3.0)])
+    points = np.vstack([points, [9, 9, 3]])
+    lines = ring.boundary_edges.astype(np.int64)
+    return meshio.Mesh(
+        points, [("line", lines), ("triangle", ring.triangles.astype(np.int64))],
+        point_data={"u": points[:, 0] + 2 * points[:, 1]},
+        cell_data={"gmsh:physical": [np.full(len(lines), 7), np.full(ring.n_triangles, 4)]},
+    )  # fmt: skip
+
+
+def test_a_mesh_goes_in_and_comes_back(disc):
+    with pytest.warns(temper.TemperWarning, match="1 point"):
+        mesh = temper.from_meshio(disc)
+    assert mesh.n_vertices == len(disc.points) - 1 and set(mesh.regions) == {4}
+    again = temper.to_meshio(mesh)
+    assert np.array_equal(again.points, disc.points[:-1])
+    assert np.array_equal(again.cells_dict["triangle"], disc.cells_dict["triangle"])
+    assert np.array_equal(again.point_data["u"], disc.point_data["u"][:-1])
+    assert np.array_equal(np.sort(again.cells_dict["line"], axis=0), np.sort(disc.cells_dict["line"], axis=0))
+    assert set(again.cell_data_dict["gmsh:physical"]["line"]) == {7}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert temper.from_meshio(again) == mesh
+
+
+def test_weights_survive_the_way_through_meshio(disc, in_scratch):
+    with pytest.warns(temper.TemperWarning):
+        mesh = temper.from_meshio(disc)
+    temper.optimize(mesh)
+    mesh.to_meshio().write("disc.vtu")
+    assert temper.read("disc.vtu") == mesh
+    assert temper.from_meshio(meshio.read("disc.vtu")) == mesh
+
+
+@pytest.mark.filterwarnings("ignore::temper.TemperWarning")
+def test_every_function_takes_them(disc):
+    mesh = temper.from_meshio(disc)
+    assert temper.quality(disc) == temper.quality(mesh)
+    assert np.array_equal(temper.dec(disc).star1, temper.dec(mesh).star1)
+    assert temper.draw_svg(disc) == temper.draw_svg(mesh)
+    assert temper.find_weights(disc).verdict == temper.find_weights(mesh).verdict
+    report = temper.optimize(disc)
+    temper.optimize(mesh)
+    assert report.stopped == "converged" and np.array_equal(disc.point_data["weight"], mesh.weights)
+    assert np.array_equal(disc.points[:, :2], mesh.points) and (disc.points[:, 2] == 3).all()
+
+
+def test_what_is_no_planar_triangle_mesh_is_refused():
+    flat = [(0, 0, 0), (1, 0, 0), (0, 1, 0.5)]
+    with pytest.raises(temper.TemperError, match="point 2 has z = 0.5") as caught:
+        temper.from_meshio(meshio.Mesh(flat, [("triangle", [(0, 1, 2)])]))
+    assert caught.value.code == "not_planar"
+    with pytest.raises(temper.TemperError, match="found line"):
+        temper.from_meshio(meshio.Mesh(np.array(flat)[:, :2], [("line", [(0, 1)])]))
+    with pytest.raises(temper.TemperError, match="triangle 0 uses point 9, but there are 3 points"):
+        temper.from_meshio(meshio.Mesh(np.array(flat) * (1, 1, 0), [("triangle", [(0, 1, 9)]), ("tetra", [(0, 1, 2, 0)])]))
+    with pytest.raises(TypeError, match="expected a temper.Mesh"):
+        temper.quality(flat)
+
+
+def test_a_mesh_that_an_error_left_alone_is_the_same_object(disc):
+    points = disc.points
+    with pytest.warns(temper.TemperWarning), pytest.raises(temper.TemperError):
+        temper.optimize(disc, energy="none")
+    assert disc.points is points and "weight" not in disc.point_data

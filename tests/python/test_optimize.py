@@ -1,0 +1,260 @@
+"""Optimisation: the same as the program's, observed, interrupted, replayed."""
+
+import dataclasses
+import inspect
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+
+import numpy as np
+import pytest
+
+import temper
+
+
+def test_it_makes_a_mesh_well_centered_and_keeps_the_boundary(ring):
+    boundary = np.unique(ring.boundary_edges)
+    places = np.array(ring.points)[boundary]
+    report = temper.optimize(ring)
+    assert report.stopped == "converged" and report.history[0].bad > 0 and report.history[-1].bad == 0
+    assert temper.quality(ring).well_centered_fraction == 1
+    assert np.array_equal(ring.points[boundary], places) and ring.validate() is None
+
+
+def test_the_same_bits_for_any_number_of_threads():
+    meshes = [temper.generate.random_points(3000) for _ in range(3)]
+    for mesh, threads in zip(meshes, (1, 2, None)):
+        temper.optimize(mesh, max_sweeps=8, threads=threads)
+    assert meshes[0] == meshes[1] == meshes[2]
+
+
+def test_the_same_bits_as_the_program(ring, in_scratch):
+    program = in_scratch  # the program is on the path, where it was built
+    temper.write("in.vtu", ring)
+    try:
+        subprocess.run(["temper", "optimize", "in.vtu", "-o", "out.vtu", "--quiet"], check=True, cwd=program)
+    except FileNotFoundError:
+        pytest.skip("the program was not built")
+    temper.optimize(ring)
+    assert temper.read("out.vtu") == ring
+
+
+def test_optimized_leaves_its_mesh_alone(ring):
+    before = ring.copy()
+    better = temper.optimized(ring)
+    assert ring == before and temper.quality(better).well_centered_fraction == 1
+
+
+def test_options_have_the_defaults_of_the_library():
+    library = temper._temper.optimize_defaults()
+    python = temper.OptimizeOptions()._plain()
+    assert python == library
+    signature = inspect.signature(temper.optimize)
+    for name, value in vars(temper.OptimizeOptions()).items():
+        assert signature.parameters[name].default == value, name
+        assert signature.parameters[name].kind is inspect.Parameter.KEYWORD_ONLY
+
+
+def test_keywords_win_over_options_even_when_they_say_the_default(ring):
+    options = temper.paper_method(max_sweeps=1)
+    assert options.solver == "golden" and options.gamma == temper.Softening(1.0, "absolute")
+    a, b = ring.copy(), ring.copy()
+    temper.optimize(a, options, max_sweeps=2, solver="newton", weight_updates="immediate", inversion="refuse")
+    merged = dataclasses.replace(options, max_sweeps=2, solver="newton", weight_updates="immediate", inversion="refuse")
+    temper.optimize(b, merged)
+    assert a == b
+
+
+@pytest.mark.parametrize(
+    "options, says",
+    [
+        (dict(energy="HOT"), "BP"),
+        (dict(solver="nwton"), "solver: expected one of newton"),
+        (dict(star=3), "star"),
+        (dict(gamma=-1.0), "gamma|γ"),
+        (dict(max_sweeps=-1), "sweeps"),
+        (dict(anchor=-2), "anchor"),
+        (dict(threads=-1), "threads"),
+        (dict(size_band=0.5), "band"),
+        (dict(gamma=temper.Softening(1.0, "metres")), "scale"),
+    ],
+)
+def test_options_that_make_no_sense_leave_the_mesh_alone(ring, options, says):
+    before = ring.copy()
+    with pytest.raises(temper.TemperError, match=says) as caught:
+        temper.optimize(ring, **options)
+    assert caught.value.code == "invalid_option" and ring == before
+
+
+def test_options_of_the_wrong_type_are_named(ring):
+    with pytest.raises(TypeError, match="max_sweeps"):
+        temper.optimize(ring, max_sweeps="many")
+    with pytest.raises(TypeError, match="unexpected keyword"):
+        temper.optimize(ring, sweeps=3)
+
+
+def test_an_observer_sees_sweeps_and_may_stop(ring):
+    seen = []
+
+    def observe(progress):
+        seen.append(progress)
+        return progress.last.sweep < 2
+
+    report = temper.optimize(ring, observer=observe)
+    assert report.stopped == "cancelled" and seen[-1].last.sweep == 2 and seen[0].max_sweeps == 1000
+
+
+def test_an_exception_of_an_observer_comes_out_when_the_mesh_is_in_place(ring):
+    before = ring.copy()
+
+    def observe(progress):
+        if progress.last.sweep == 2:
+            raise KeyError("mine")
+
+    with pytest.raises(KeyError, match="mine"):
+        temper.optimize(ring, observer=observe)
+    assert ring != before and ring.validate() is None
+    assert temper.quality(ring).well_centered_fraction > temper.quality(before).well_centered_fraction
+    ring.weights = ring.weights  # the run is over
+
+
+def test_ctrl_c_stops_a_run_and_keeps_the_best_mesh():
+    mesh = temper.generate.random_points(30000)
+    before = temper.quality(mesh).well_centered_fraction
+    timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        temper.optimize(mesh, tolerance=0, stopping="paper", max_sweeps=10**6, relaxation=0.01)
+    timer.join()
+    assert mesh.validate() is None and temper.quality(mesh).well_centered_fraction > before
+
+
+def test_a_trace_makes_the_mesh_again():
+    events = []
+    mesh = temper.generate.random_points(300)
+    before = mesh.copy()
+    report = temper.optimize(mesh, tracer=events.append, removal="patch", removal_from=1, max_sweeps=20)
+    assert {e.kind for e in events} >= {"move", "flip"}
+    assert temper.replay(before, events) == mesh
+    again, vertices = temper.replay_with_vertices(before, events)
+    assert np.array_equal(vertices, report.vertices)
+    with pytest.raises(temper.TemperError) as caught:
+        temper.replay(before, [dataclasses.replace(events[0], vertex=10**6)])
+    assert caught.value.code == "trace_mismatch"
+
+
+def test_watching_gives_the_mesh_of_each_sweep(ring):
+    shots = []
+    before = ring.copy()
+    temper.optimize(ring, watch=shots.append, max_sweeps=3)
+    assert shots[0].moment == "start" and shots[-1].sweep == 3
+    assert np.array_equal(shots[0].mesh.points, before.points)
+    assert all(shot.mesh.validate() is None for shot in shots)
+
+
+def test_weights_alone_leave_positions(ring):
+    points = np.array(ring.points)
+    temper.optimize(ring, unknowns="weights")
+    assert np.array_equal(ring.points, points) and (ring.weights != 0).any()
+
+
+def test_the_accuracy_objective_lowers_the_error_of_the_star_and_keeps_its_margin(ring):
+    star1 = lambda mesh: temper.geometric_mean(temper.verify(mesh, fields=["held-back"], frame=frame).fields).star[1].l2
+    frame = temper.verify_frame(ring)
+    plain = temper.optimized(ring)
+    accurate = ring.copy()
+    report = temper.optimize(accurate, objective="accuracy", accuracy=temper.AccuracyOptions(sweeps=15, margin=0.03))
+    assert {record.objective for record in report.history} == {"energy", "accuracy"}
+    assert temper.triangle_margins(accurate).min() >= 0.03 and star1(accurate) < star1(plain)
+    with pytest.raises(temper.TemperError, match="margin"):
+        temper.optimize(accurate, objective="accuracy", accuracy=temper.AccuracyOptions(margin=0.5))
+
+
+def test_sizes_are_reported_and_can_be_held(ring):
+    field = temper.input_size_field(ring)
+    assert temper.measure_size(ring, field).band == pytest.approx(1)
+    report = temper.optimize(ring, size_field=field, size_band=1.3)
+    assert report.size.after.band == pytest.approx(temper.measure_size(ring, field).band)
+    sizes = temper.local_size(ring)
+    own = temper.SizeField.from_values(ring, sizes)
+    assert np.array_equal(own.at(ring.points), sizes) and not own.outside(ring.points).any()
+    with pytest.raises(temper.TemperError, match="point 7|vertex 7"):
+        temper.SizeField.from_values(ring, np.where(np.arange(ring.n_vertices) == 7, -1, 1))
+
+
+def test_an_outline_is_meshed_well_centered():
+    points = [(0, 0), (4, 0), (4, 3), (0, 3), (1, 1), (2, 1), (2, 2), (1, 2)]
+    segments = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4)]
+    outline = temper.Outline(points, segments, segment_tags=[1] * 4 + [2] * 4, holes=[(1.5, 1.5)])
+    made = temper.mesh_outline(outline, 0.4)
+    assert made.bad == 0 and set(made.line_tags) == {1, 2}
+    assert temper.dec(made.mesh).areas.sum() == pytest.approx(11)
+    assert np.array_equal(made.mesh.points[made.vertex_of_point], np.array(points, dtype=float))
+    assert temper.mesh_outline(outline, 0.4, optimize=False).bad >= 0
+    with pytest.raises(temper.TemperError, match="segment"):
+        temper.mesh_outline(temper.Outline(points, [(0, 99)]), 0.4)
+    with pytest.raises(temper.TemperError):
+        temper.mesh_outline(outline, -1)
+
+
+# --- progress --------------------------------------------------------------------------------------------------
+
+PROGRAM = textwrap.dedent(
+    """
+    import temper
+    temper.optimize(temper.generate.random_points(2000), max_sweeps=10)
+    """
+)
+
+
+def test_progress_is_a_line_on_a_terminal_and_nothing_in_a_pipe():
+    environment = {**os.environ}
+    silent = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, env=environment, check=True)
+    assert silent.stdout == b"" and silent.stderr == b""
+    import pty
+
+    ours, theirs = pty.openpty()
+    subprocess.run([sys.executable, "-c", PROGRAM], stderr=theirs, env=environment, check=True)
+    os.close(theirs)
+    shown = os.read(ours, 1 << 16)
+    os.close(ours)
+    assert b"\rsweep 0 of at most 10" in shown or b"\rsweep" in shown
+    assert shown.endswith(b"\r\x1b[K") and b"\n" not in shown
+
+
+def test_progress_in_a_notebook_updates_one_display(monkeypatch, ring):
+    shown = []
+
+    class Handle:
+        def update(self, data, raw):
+            shown.append(data["text/plain"])
+
+    def display(data, raw, display_id):
+        shown.append(data["text/plain"])
+        return Handle()
+
+    import types
+
+    package = types.ModuleType("IPython")
+    package.get_ipython = lambda: types.SimpleNamespace(kernel=object())
+    package.display = types.ModuleType("IPython.display")
+    package.display.display = display
+    monkeypatch.setitem(sys.modules, "IPython", package)
+    monkeypatch.setitem(sys.modules, "IPython.display", package.display)
+    monkeypatch.setattr(temper._progress, "_INTERVAL", 0)
+    temper.optimize(ring, max_sweeps=5)
+    assert shown[0].startswith("sweep") and "left" in shown[-2] and shown[-1] == ""
+
+
+def test_reports_read_well(ring):
+    report = temper.optimize(ring)
+    assert "bad triangles" in str(report) and "→ 0" in str(report)
+    assert "<table>" in report._repr_html_() and "<table>" in temper.quality(ring)._repr_html_()
+    assert "svg" in ring._repr_html_() and repr(ring).startswith("<temper.Mesh: ")
+    import json
+
+    assert json.loads(json.dumps(report.as_dict()))["history"][0]["sweep"] == 0
+    json.dumps(temper.quality(ring).as_dict())
