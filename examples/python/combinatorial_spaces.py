@@ -1,0 +1,31 @@
+"""A file that gives CombinatorialSpaces.jl its dual points: mesh, orthocenters and weighted midpoints, as plain CSV.
+
+    python3 combinatorial_spaces.py [IN [FOLDER]]
+
+docs/howto/decapodes.md has the Julia side. Numbers count from 1, as Julia's do.
+"""
+
+import pathlib
+import sys
+
+import numpy as np
+
+import temper
+
+mesh = temper.read(sys.argv[1]) if len(sys.argv) > 1 else temper.optimized(temper.generate.annulus())
+folder = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else "dual")
+folder.mkdir(exist_ok=True)
+operators = temper.dec(mesh)
+
+
+def save(name, header, *columns):
+    rows = zip(*(np.asarray(c).tolist() for c in columns))
+    lines = [header, *(",".join(map(repr, row)) for row in rows)]  # the shortest text that reads back to the same bits
+    temper.write_text(folder / name, "\n".join(lines) + "\n")
+
+
+save("points.csv", "x,y", *np.asarray(mesh.points).T)
+save("edges.csv", "from,to,x,y,dual_length",
+     *(operators.edges.vertices + 1).T, *operators.edges.midpoint.T, operators.edges.dual_length)  # fmt: skip
+save("triangles.csv", "i,j,k,x,y", *(mesh.triangles + 1).T, *operators.orthocenters.T)
+print(f"{folder}: {mesh.n_vertices} points, {len(operators.edges)} edges, {mesh.n_triangles} triangles")
