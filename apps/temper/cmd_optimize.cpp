@@ -20,6 +20,9 @@
 #include "temper/quality.hpp"
 #include "threads.hpp"
 #include "trace_jsonl.hpp"
+#ifdef TEMPER_WITH_VERIFY
+#include "solver_errors.hpp"
+#endif
 
 namespace temper::app {
 namespace {
@@ -73,6 +76,7 @@ struct Settings {
   std::uint64_t threads = 0;
   bool positions_only = false, weights_only = false, no_flips = false, slide = false, quiet = false;
   bool repair = false, no_repair = false, no_newton_passes = false;
+  bool verify = false;
   std::string size_field, size_data;
 };
 
@@ -109,6 +113,11 @@ void add_files(CLI::App& app, Settings& s) {
   add_text(app, "--history", "FILE", s.history, "one line of CSV a sweep");
   add_text(app, "--trace", "FILE", s.trace, "every move, flip and removal, one JSON object a line; see temper replay");
   add_text(app, "--draw", "FILE", s.picture, "an SVG picture, before and after side by side");
+#ifdef TEMPER_WITH_VERIFY
+  app.add_flag("--verify", s.verify,
+               "also measure the errors of solvers before and after, as temper verify does; with --objective accuracy "
+               "an input that is well-centered and has the smaller ones is returned");
+#endif
   app.add_flag("--quiet", s.quiet, "print warnings and errors only");
 }
 
@@ -445,7 +454,8 @@ std::string picture_title(const Input& input, const Quality& before, const Quali
 struct Results {
   Quality before, after;
   OptimizeReport report;
-  std::string picture;  ///< SVG, when asked for
+  std::string picture;                   ///< SVG, when asked for
+  std::string errors_text, errors_json;  ///< of solvers, when asked for
   std::vector<std::string> warnings;
 };
 
@@ -460,12 +470,47 @@ OptimizeReport run_library(const Settings& s, const Input& input, Mesh& mesh, Ex
   return or_fail(optimize(mesh, options, observer));
 }
 
-/// Improves the mesh of the input in place: a second copy is made only when the picture needs one.
+#ifdef TEMPER_WITH_VERIFY
+/// The input instead of the result, which leaves solvers with larger errors.
+void return_input(Mesh& mesh, const Mesh& original, double ratio, OptimizeReport& report, const Tracer& tracer) {
+  if (tracer) {
+    TraceEvent back;
+    back.kind = EventKind::undo;
+    back.sweep = report.sweeps;
+    back.to_sweep = -1;
+    tracer(back);
+  }
+  mesh = original;
+  report.vertices = {};
+  report.vertices_removed = report.vertices_inserted = 0;
+  report.size.after = report.size.before;
+  report.final_energy = report.initial_energy;
+  report.notes.push_back(fmt::format(
+      "the input was well-centered, and errors of solvers would be {:.3g} times its own in the mean: it is returned as "
+      "it was",
+      ratio));
+}
+
+/// What --verify asks for.
+void verify_result(const Settings& s, SolverErrors& errors, Mesh& mesh, const Mesh& original, Results& results,
+                   const Tracer& tracer) {
+  errors.measure_result(mesh);
+  if (s.objective == Objective::accuracy && errors.input_was_better()) {
+    return_input(mesh, original, errors.mean_ratio(), results.report, tracer);
+    errors.measure_result(mesh);
+  }
+  results.errors_text = errors.text(text_style());
+  results.errors_json = errors.json();
+}
+#endif
+
+/// Improves the mesh of the input in place: a second copy is made only when the picture or --verify needs one.
 void improve(const Settings& s, Input& input, Results& results, io::TextStream* trace, Executor* threads) {
   QualityOptions measuring;
   measuring.executor = threads;
   Mesh& mesh = input.loaded.mesh;
-  const Mesh original = s.picture.empty() ? Mesh() : mesh;
+  const bool may_return_input = s.verify && s.objective == Objective::accuracy;
+  const Mesh original = s.picture.empty() && !may_return_input ? Mesh() : mesh;
   const bool measured = !s.quiet || !s.report.empty() || !s.picture.empty();  // else nobody would see it
   if (measured) results.before = quality(mesh, measuring);
   catch_interrupts();
@@ -482,7 +527,14 @@ void improve(const Settings& s, Input& input, Results& results, io::TextStream* 
       ++n_events;
     };
   }
-  results.report = run_library(s, input, mesh, threads, std::move(tracer));
+#ifdef TEMPER_WITH_VERIFY
+  std::optional<SolverErrors> errors;
+  if (s.verify) errors.emplace(mesh, threads);
+  results.report = run_library(s, input, mesh, threads, tracer);
+  if (errors) verify_result(s, *errors, mesh, original, results, tracer);
+#else
+  results.report = run_library(s, input, mesh, threads, tracer);
+#endif
   if (trace != nullptr) trace->write(trace_end(n_events, mesh, input));
   if (measured) results.after = quality(mesh, measuring);
   if (!s.picture.empty()) {
@@ -526,7 +578,7 @@ void write_all(const CLI::App& app, const Settings& s, Input& input, Results& re
     const std::vector<UsedOption> options = used_options(app);
     const std::string command = command_line("optimize", {s.input}, options);
     outputs.write_text(s.report, optimize_json({command, options, results.before, input.points, results.after,
-                                                results.report, results.warnings}));
+                                                results.report, results.warnings, results.errors_json}));
   }
   if (!s.history.empty()) outputs.write_text(s.history, history_csv(results.report));
   if (!s.picture.empty()) outputs.write_text(s.picture, results.picture);
@@ -535,6 +587,7 @@ void write_all(const CLI::App& app, const Settings& s, Input& input, Results& re
 void print_result(const Settings& s, const Results& results, const Outputs& outputs) {
   print(ending(results.report) + "\n\n" + comparison_text(results.before, results.after, s.options.star, text_style()) +
         size_text(results.report.size));
+  if (!results.errors_text.empty()) print("\n" + results.errors_text);
   for (const std::string& note : results.report.notes) print("note: " + note + "\n");
   print(fmt::format("\n{}: {}\n", s.output, verdict(results.after)));
   std::string written;
@@ -590,7 +643,7 @@ Exit run_optimize(const Arguments& arguments) {
                  "  temper optimize in.vtu -o out.vtu --weights-only --no-flips\n"
                  "  temper optimize in.vtu -o out.vtu --energy F --star 1 --solver golden --max-sweeps 20\n"
                  "  temper optimize in.vtu -o out.vtu --gamma-rel 0.1 --time-limit 60\n"
-                 "  temper optimize in.vtu -o out.vtu --objective accuracy\n"
+                 "  temper optimize in.vtu -o out.vtu --objective accuracy --verify\n"
                  "  temper optimize in.vtu -o out.vtu --removal patch --trace trace.jsonl\n"
                  "  temper optimize in.vtu -o out.vtu --method paper --energy dT --removal none\n",
                  {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal}});

@@ -123,6 +123,7 @@ std::string optimize_json(const OptimizeRecord& record) {
   json["vertices_inserted"] = record.report.vertices_inserted;
   json["flips"] = record.report.flips;
   json["size"] = {{"before", to_json(record.report.size.before)}, {"after", to_json(record.report.size.after)}};
+  if (!record.solver_errors.empty()) json["verify"] = Json::parse(record.solver_errors);
   json["notes"] = record.report.notes;
   json["warnings"] = record.warnings;
   json["history"] = Json::array();

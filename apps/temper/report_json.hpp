@@ -25,6 +25,7 @@ struct OptimizeRecord {
   const Quality& after;
   const OptimizeReport& report;
   std::vector<std::string> warnings;
+  std::string solver_errors = {};  ///< JSON, of --verify; or nothing
 };
 [[nodiscard]] std::string optimize_json(const OptimizeRecord& record);
 

@@ -62,6 +62,36 @@ TEST_F(Verify, ComparesWithAnotherMesh) {
   EXPECT_TRUE(contains(other.err, "ring.vtu and in.vtu do not have the same bounding box"));
 }
 
+TEST_F(Verify, IsPartOfAnOptimisationWhenAskedFor) {
+  make_input();
+  const std::string text =
+      temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--objective", "accuracy", "--verify", "--report", "r.json"})
+          .out;
+  EXPECT_TRUE(contains(text, "mean relative error"));
+  const auto report = nlohmann::json::parse(read("r.json"));
+  const auto against = nlohmann::json::parse(temper_ok({"verify", "out.vtu", "--against", "in.vtu", "--json"}).out);
+  EXPECT_EQ(report["verify"]["before"]["errors"], against["against"]["report"]["errors"]);
+  EXPECT_EQ(report["verify"]["after"]["errors"], against["errors"]);
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--report", "r.json", "--quiet"});
+  EXPECT_FALSE(nlohmann::json::parse(read("r.json")).contains("verify"));
+}
+
+// On even rings the errors of the Poisson problem cancel.
+TEST_F(Verify, KeepsAnInputWhoseErrorsAreSmaller) {
+  temper_ok({"example", "annulus", "--jitter", "0", "-o", "in.vtu"});
+  const Outcome run = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--objective", "accuracy", "--verify",
+                                 "--report", "r.json", "--trace", "t.jsonl"});
+  EXPECT_TRUE(contains(run.out, "the input was well-centered, and errors of solvers would be "));
+  const auto report = nlohmann::json::parse(read("r.json"));
+  EXPECT_EQ(report["verify"]["after"], report["verify"]["before"]);
+  temper_ok({"convert", "in.vtu", "in.off"});
+  temper_ok({"convert", "out.vtu", "out.off"});
+  EXPECT_EQ(read("out.off"), read("in.off"));
+  temper_ok({"replay", "in.vtu", "t.jsonl", "-o", "again.vtu"});
+  temper_ok({"convert", "again.vtu", "again.off"});
+  EXPECT_EQ(read("again.off"), read("in.off"));
+}
+
 TEST_F(Verify, MeasuresOrders) {
   temper_ok({"example", "sheared-grid", "--nx", "6", "--ny", "6", "-o", "in.vtu"});
   const std::string text = temper_ok({"verify", "in.vtu", "--refine", "2", "--fields", "bump,crossed"}).out;

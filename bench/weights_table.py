@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""What weights, positions, and both together are worth: the table of docs/weights-help.md.
+
+    bench/weights_table.py TEMPER MESH ...
+
+Each mesh is optimised with each set of unknowns; errors are those of temper verify on the held-back fields over those
+of the input, and each row gives geometric means over the meshes. Also counted: triangles that stay not well-centered,
+and meshes where the scheme's matrix is an M-matrix in the end.
+"""
+
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+RUNS = {
+    "input": None,
+    "E_BP, weights alone": ["--weights-only"],
+    "E_BP, positions alone": ["--positions-only"],
+    "E_BP, both": [],
+    "accuracy, positions alone": ["--objective", "accuracy", "--positions-only"],
+    "accuracy, both": ["--objective", "accuracy"],
+}
+ERRORS = [("★1, L2", "star1", "l2"), ("Poisson, L2", "poisson", "l2"), ("Poisson, max", "poisson", "max"),
+          ("flux, L2", "flux", "l2")]
+
+
+def run(*words):
+    words = [str(w) for w in words]
+    result = subprocess.run(words, capture_output=True, text=True)
+    if result.returncode != 0:
+        sys.exit(f"{' '.join(words)}: {result.stderr}")
+    return result.stdout
+
+
+def measured(temper, mesh, before):
+    report = json.loads(run(temper, "verify", mesh, "--against", before, "--fields", "held-back", "--json"))
+    mean = report["against"]["ratios"]["mean"]["held-back"]
+    return {"bad": report["not_well_centered"], "triangles": report["triangles"],
+            "poisson": report["matrices"]["poisson"]["m_matrix"], "flux": report["matrices"]["flux"]["m_matrix"],
+            "ratios": [mean[scheme][norm] for _, scheme, norm in ERRORS]}
+
+
+def row(temper, options, meshes, folder):
+    results = []
+    for mesh in meshes:
+        after = mesh
+        if options is not None:
+            after = folder / (mesh.name + ".vtu")
+            run(temper, "optimize", mesh, "-o", after, "--quiet", *options)
+        results.append(measured(temper, after, mesh))
+    return results
+
+
+def mean(values):
+    return math.exp(sum(math.log(v) for v in values) / len(values)) if all(0 < v < math.inf for v in values) else math.inf
+
+
+def main(temper, *meshes):
+    meshes = [pathlib.Path(m) for m in meshes]
+    print("| unknowns | triangles not well-centered | meshes with none | M-matrix: Poisson | flux | " +
+          " | ".join(name for name, _, _ in ERRORS) + " |")
+    print("|-" * (5 + len(ERRORS)) + "|")
+    with tempfile.TemporaryDirectory() as scratch:
+        for name, options in RUNS.items():
+            results = row(temper, options, meshes, pathlib.Path(scratch))
+            ratios = [mean([r["ratios"][i] for r in results]) for i in range(len(ERRORS))]
+            print(f"| {name} | {sum(r['bad'] for r in results)} of {sum(r['triangles'] for r in results)} | "
+                  f"{sum(r['bad'] == 0 for r in results)} of {len(results)} | {sum(r['poisson'] for r in results)} | "
+                  f"{sum(r['flux'] for r in results)} | " + " | ".join(f"{r:.3f}" for r in ratios) + " |", flush=True)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])
