@@ -1,7 +1,7 @@
 """Solves −Δu = f with SciPy, by the exported stars, and compares with the exact solution.
 
-Vertex-centered, by discrete exterior calculus: (d0ᵀ ★1 d0) u = ★0 f, u given on the boundary. Cell-centered, by two-point
-fluxes between orthocenters: (d1 T d1ᵀ) u = ∫ f, where T = ℓ/(h_k + h_l) and on the boundary ℓ/h_k.
+Vertex-centered, by discrete exterior calculus: (d0ᵀ ★1 d0) u = ★0 f, u given on the boundary. Cell-centered, by
+two-point fluxes between orthocenters: (d1 T d1ᵀ) u = ∫ f, where T = ℓ/(h_k + h_l) and on the boundary ℓ/h_k.
 """
 
 import numpy as np

@@ -1,9 +1,9 @@
 """Cell and face centers of PorePy's grid, for its two-point flux approximation; the same problem with SciPy alone.
 
 PorePy's Tpfa takes the vector from cell center to face center, and projects it on the face normal. On simplex grids it
-puts cell centers at centroids and face centers at midpoints: not orthogonal, so the scheme does not converge. With cells at
-temper's orthocenters and faces at its weighted midpoints every such vector is normal to its face, and as long as the h of
-that side: half transmissibilities are ℓ/h, and their harmonic sum is temper's flux.
+puts cell centers at centroids and face centers at midpoints: not orthogonal, so the scheme does not converge. With
+cells at temper's orthocenters and faces at its weighted midpoints every such vector is normal to its face, and as long
+as the h of that side: half transmissibilities are ℓ/h, and their harmonic sum is temper's flux.
 
 Without PorePy the arrays are made and checked, and the pressure is computed with SciPy.
 """

@@ -34,8 +34,8 @@ def by_simplex(simplices, rows, values):
 def give_stars(complex):
     """Sets ★0, ★1, ★2 of a pydec.simplicial_complex of the same mesh to temper's; returns it."""
     vertices = np.arange(mesh.n_vertices)[:, None]
-    values = [(vertices, operators.star0), (operators.edges.vertices, operators.star1), (mesh.triangles, operators.star2)]
-    for level, (rows, star) in enumerate(values):
+    rows_of = (vertices, operators.edges.vertices, mesh.triangles)
+    for level, (rows, star) in enumerate(zip(rows_of, (operators.star0, operators.star1, operators.star2))):
         diagonal = by_simplex(complex[level].simplices, rows, star)
         complex[level].star = sparse.diags(diagonal, format="csr")
         complex[level].star_inv = sparse.diags(1 / diagonal, format="csr")

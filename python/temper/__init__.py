@@ -13,8 +13,8 @@ wherever a mesh is.
 >>> bool((operators.star1 > 0).all())
 True
 
-Conventions: triangles are counter-clockwise; the power of a place p to vertex i is |x_i − p|² − w_i, so that weights are
-squared lengths, and a larger one makes a larger power cell. Vertices and triangles count from 0; −1 is none.
+Conventions: triangles are counter-clockwise; the power of a place p to vertex i is |x_i − p|² − w_i, so that weights
+are squared lengths, and a larger one makes a larger power cell. Vertices and triangles count from 0; −1 is none.
 """
 
 from . import generate, geometry, projection, topology

@@ -107,8 +107,8 @@ class DecSummary(Record):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class PowerCells(Record):
-    """Power cells within the domain, as simple polygons, counter-clockwise, ascending by vertex. A cell has one polygon,
-    or several that do not overlap, or none when it lies outside of the domain."""
+    """Power cells within the domain, as simple polygons, counter-clockwise, ascending by vertex. A cell has one
+    polygon, or several that do not overlap, or none when it lies outside of the domain."""
 
     vertices: npt.NDArray[np.int32]
     """The vertex of each polygon, (p,)."""

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._mesh import MeshLike, as_mesh
-from ._records import Record, table
+from ._records import Record, merged, table
 from ._weights import Certificate, EdgeConflict
 
 
@@ -125,14 +125,14 @@ class Explanation(Record):
 
     def _repr_html_(self) -> str:
         rows = [row for row in self._rows() if row[0] != "reasons"]
-        reasons = [(r.kind, r.text + (" Cure: " + r.cures[0].text if r.cures else "")) for r in self.reasons]
+        reasons = [(str(r.kind), r.text + (" Cure: " + r.cures[0].text if r.cures else "")) for r in self.reasons]
         return table("Explanation", rows, table("reasons", reasons) if reasons else "")
 
 
 def _crossing(d: dict[str, Any] | None) -> CrossingConflict | None:
     if d is None:
         return None
-    return CrossingConflict(**{**d, "left": CrossingSide(**d["left"]), "right": CrossingSide(**d["right"])})
+    return CrossingConflict(**merged(d, left=CrossingSide(**d["left"]), right=CrossingSide(**d["right"])))
 
 
 def _reason(d: dict[str, Any]) -> Reason:
@@ -143,7 +143,7 @@ def _reason(d: dict[str, Any]) -> Reason:
         "center": FanCenter(**d["center"]) if d["center"] is not None else None,
         "cures": [Cure(**cure) for cure in d["cures"]],
     }
-    return Reason(**{**d, **changed})
+    return Reason(**merged(d, **changed))
 
 
 def explain(
@@ -168,8 +168,8 @@ def explain(
 
     Notes
     -----
-    Verdicts rest on exact predicates and on ``check_certificate``. About a millisecond a bad triangle, and some ten more
-    a reason whose cures are searched. Ctrl-C is honoured.
+    Verdicts rest on exact predicates and on ``check_certificate``. About a millisecond a bad triangle, and some ten
+    more a reason whose cures are searched. Ctrl-C is honoured.
 
     >>> import temper
     >>> why = temper.explain(temper.generate.sparse_horseshoe())
@@ -177,4 +177,4 @@ def explain(
     ('infeasible', True)
     """
     d = _temper.explain(as_mesh(mesh)._handle, cures, whole, progress)
-    return Explanation(**{**d, "reasons": [_reason(r) for r in d["reasons"]]})
+    return Explanation(**merged(d, reasons=[_reason(r) for r in d["reasons"]]))

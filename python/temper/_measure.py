@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _temper
 from ._mesh import MeshLike, _doubles, as_mesh
 from ._options import EnergyName, Softening, SofteningLike, _softening
-from ._records import Record, table
+from ._records import Record, merged, table
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -70,7 +70,8 @@ class Quality(Record):
     min_angle_deg: float
     max_angle_deg: float
     max_transmissibility_over_median: float
-    """Of ℓ/\\|h_k + h_l\\| of interior edges. inf when a dual edge has length zero, exactly; 1 without interior edges."""
+    """Of ℓ/\\|h_k + h_l\\| of interior edges. inf when a dual edge has length zero, exactly; 1 without interior
+    edges."""
     energy: dict[str, tuple[float, float, float]]
     """Of each energy the totals for ★0, ★1, ★2; inf outside its domain."""
     worst: list[WorstTriangle]
@@ -111,8 +112,8 @@ def quality(
     58
     """
     d = _temper.quality(as_mesh(mesh)._handle, _softening(gamma), _softening(h0), worst, threads)
-    histograms = {name: Histogram(**d.pop(name)) for name in ("angles", "h_over_l", "d_over_l")}
-    return Quality(**{**d, "worst": [WorstTriangle(**w) for w in d["worst"]]}, **histograms)
+    histograms = {name: Histogram(**d[name]) for name in ("angles", "h_over_l", "d_over_l")}
+    return Quality(**merged(d, worst=[WorstTriangle(**w) for w in d["worst"]], **histograms))
 
 
 check = quality
@@ -149,7 +150,8 @@ class EnergyInfo(Record):
 
 
 def energies() -> list[EnergyInfo]:
-    """All energies, for ★s with α = (1/4, 1/3, 1/12), β = (1/12, 1/3, 1/4), per half-edge (eqs. 2 to 7 of the paper)."""
+    """All energies, for ★s with α = (1/4, 1/3, 1/12), β = (1/12, 1/3, 1/4), per half-edge (eqs. 2 to 7 of the
+    paper)."""
     return [EnergyInfo(**row) for row in _temper.energies()]
 
 

@@ -200,7 +200,8 @@ class Mesh:
 
     @property
     def edges(self) -> npt.NDArray[np.int32]:
-        """Each edge once, as two vertices, (e, 2) int32, in the order of the halfedges (not that of ``dec``). A copy."""
+        """Each edge once, as two vertices, (e, 2) int32, in the order of the halfedges (not that of ``dec``). A
+        copy."""
         return self._handle.edges()
 
     @property

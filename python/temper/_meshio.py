@@ -33,7 +33,8 @@ def _columns(points: Any) -> tuple[Any, float]:
     off = np.flatnonzero(~(z == z[0]))
     if off.size:
         where = int(off[0])
-        raise TemperError("not_planar", "", f"point {where} has z = {z[where]}, but point 0 has z = {z[0]}; expected one z")
+        found = f"point {where} has z = {z[where]}, but point 0 has z = {z[0]}; expected one z"
+        raise TemperError("not_planar", "", found)
     return np.ascontiguousarray(points[:, :2]), float(z[0])
 
 

@@ -150,10 +150,11 @@ def optimize(
 ) -> OptimizeReport:
     """Improves a mesh in place: moves vertices, weighs them and flips edges until every triangle is well-centered.
 
-    A triangle is well-centered when its orthocenter is strictly inside and each of its edges is crossed by its dual: all
-    h > 0 and all 0 < d < ℓ (docs/concepts.md). The domain boundary, fixed vertices and constrained edges stay, bit for
-    bit, unless ``boundary_vertices`` and ``interfaces`` say otherwise; every triangle stays counter-clockwise. Never
-    gives a worse mesh than the input's. The same input, options and seed give the same bits for any number of threads.
+    A triangle is well-centered when its orthocenter is strictly inside and each of its edges is crossed by its dual:
+    all h > 0 and all 0 < d < ℓ (docs/concepts.md). The domain boundary, fixed vertices and constrained edges stay, bit
+    for bit, unless ``boundary_vertices`` and ``interfaces`` say otherwise; every triangle stays counter-clockwise.
+    Never gives a worse mesh than the input's. The same input, options and seed give the same bits for any number of
+    threads.
 
     Parameters
     ----------
@@ -348,8 +349,8 @@ def optimized(mesh: MeshLike, options: OptimizeOptions | None = None, **keywords
 
 
 def replay(input: MeshLike, events: Iterable[TraceEvent]) -> Mesh:
-    """Applies the events of a run (``optimize(tracer=…)``) to its input. What ``optimize`` gave comes out: the same bits,
-    the same slots. TemperError ``trace_mismatch`` names the event, counted from 0, that does not fit."""
+    """Applies the events of a run (``optimize(tracer=…)``) to its input. What ``optimize`` gave comes out: the same
+    bits, the same slots. TemperError ``trace_mismatch`` names the event, counted from 0, that does not fit."""
     return replay_with_vertices(input, events)[0]
 
 

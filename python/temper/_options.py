@@ -37,9 +37,9 @@ EnergyName = Literal["F", "T", "dT", "BH", "BHs", "BP"]
 
 @dataclasses.dataclass(frozen=True)
 class AccuracyOptions(Record):
-    """Of the objective ``accuracy``. With L the squared length of an edge, G that times its dual length over its length,
-    H the difference where G is the sum of the heights times the length on its two sides, δw the difference of the
-    weights of its ends and s the local size there, what is lowered is
+    """Of the objective ``accuracy``. With L the squared length of an edge, G that times its dual length over its
+    length, H the difference where G is the sum of the heights times the length on its two sides, δw the difference of
+    the weights of its ends and s the local size there, what is lowered is
 
         E = Σ_edges s⁻² (G/L) [ (α L² + β G²)/4 + ¾ c (α δw² + β H²) ]   [length²]
 

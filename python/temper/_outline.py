@@ -16,15 +16,15 @@ from ._mesh import Mesh, _doubles, _ints
 from ._optimize import OptimizeReport, _observer, _report
 from ._options import OptimizeOptions
 from ._progress import Line, Progress
-from ._records import Record
+from ._records import Record, merged
 
 
 @dataclasses.dataclass
 class Outline:
     """What is to be meshed: points, segments between them, and what they enclose.
 
-    Segments may be long or short, enclose holes and islands, separate regions, end anywhere inside or branch. Points keep
-    their place, bit for bit, in every mesh made of it; points of no segment become fixed vertices.
+    Segments may be long or short, enclose holes and islands, separate regions, end anywhere inside or branch. Points
+    keep their place, bit for bit, in every mesh made of it; points of no segment become fixed vertices.
     """
 
     points: npt.ArrayLike
@@ -52,7 +52,7 @@ class Outline:
             "segment_tags": tags,
             "holes": _doubles(self.holes, 2, "holes"),
             "regions": [(float(x), float(y), int(number), size) for x, y, number, size in self.regions],
-            "parts": [(int(number), _ints(list(s), 0, "parts").astype(np.int32), size) for number, s, size in self.parts],
+            "parts": [(int(n), _ints(list(s), 0, "parts").astype(np.int32), size) for n, s, size in self.parts],
             "names": self._names,
         }
 
@@ -76,7 +76,8 @@ class OutlineFile(Record):
 
 
 def read_outline(path: str | os.PathLike[str]) -> OutlineFile:
-    """Reads an outline: Triangle's .poly (with its .node), JIGSAW's geometry, GeoJSON. Its content decides the format."""
+    """Reads an outline: Triangle's .poly (with its .node), JIGSAW's geometry, GeoJSON. Its content decides the
+    format."""
     outline, rest = _temper.read_outline(os.fspath(path))
     for message in rest["warnings"]:
         warnings.warn(message, TemperWarning, stacklevel=2)
@@ -172,4 +173,4 @@ def mesh_outline(
         handle, rest = _temper.mesh_outline(outline._plain(), options, plain, threads, _observer(line, observer))
     finally:
         line.clear()
-    return OutlineMesh(Mesh._of(handle), **{**rest, "report": _report(rest["report"])})
+    return OutlineMesh(**merged(rest, mesh=Mesh._of(handle), report=_report(rest["report"])))

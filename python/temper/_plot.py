@@ -67,7 +67,8 @@ def plot(
     orthocenters : bool
         Dots at the orthocenters.
     bad_triangles : bool
-        Fill triangles that are not well-centered, exactly (not when ``color`` is given: then they have a thick outline).
+        Fill triangles that are not well-centered, exactly (not when ``color`` is given: then they have a thick
+        outline).
     weights : bool
         Circles of radius √\\|w\\|: green positive, red negative.
     color : {"quality", "angle", "region"} or (m,) array, optional
@@ -96,15 +97,18 @@ def plot(
     if color is not None:
         _fill(ax, mesh, corners, color, colorbar, cmap)
         if bad_triangles and bad.any():
-            ax.add_collection(PolyCollection(corners[bad], facecolors="none", edgecolors=_BAD, linewidths=3 * width, zorder=3))
+            outlined = {"facecolors": "none", "edgecolors": _BAD, "linewidths": 3 * width}
+            ax.add_collection(PolyCollection(corners[bad], **outlined, zorder=3))
     elif bad_triangles and bad.any():
         ax.add_collection(PolyCollection(corners[bad], facecolors=_BAD, edgecolors="none", alpha=0.45, zorder=1))
     if primal:
         ax.add_collection(LineCollection(points[mesh.edges], colors="#444444", linewidths=width, zorder=2))
-        ax.add_collection(LineCollection(points[mesh.boundary_edges], colors="#000000", linewidths=2 * width, zorder=2.1))
+        boundary = points[mesh.boundary_edges]
+        ax.add_collection(LineCollection(boundary, colors="#000000", linewidths=2 * width, zorder=2.1))
         constrained = mesh.constrained_edges
         outer = {tuple(sorted(edge)) for edge in mesh.boundary_edges.tolist()}
-        constrained = constrained[np.array([tuple(sorted(edge)) not in outer for edge in constrained.tolist()], dtype=bool)]
+        inside = [tuple(sorted(edge)) not in outer for edge in constrained.tolist()]
+        constrained = constrained[np.array(inside, dtype=bool)]
         if len(constrained):
             ax.add_collection(LineCollection(points[constrained], colors="#cc79a7", linewidths=2 * width, zorder=2.2))
     if dual:

@@ -75,7 +75,13 @@ class Record:
     def as_dict(self) -> dict[str, Any]:
         """Plain numbers, strings, lists and dictionaries, as ``json.dump`` takes them; infinite numbers and NaN are
         None, as in the reports of the program."""
-        return {f.name: plain(getattr(self, f.name)) for f in dataclasses.fields(self) if f.repr}  # type: ignore[arg-type]
+        fields = dataclasses.fields(self)  # type: ignore[arg-type]
+        return {f.name: plain(getattr(self, f.name)) for f in fields if f.repr}
+
+
+def merged(values: dict[str, Any], **changes: Any) -> dict[str, Any]:
+    """The values, some of them replaced."""
+    return {**values, **changes}
 
 
 def plain(value: Any) -> Any:

@@ -20,7 +20,8 @@ class Restoration(Record):
 
     flips: int
     stuck: npt.NDArray[np.int32]
-    """(k, 2) edges that are not regular and that no flip sequence cures: they run into a vertex hidden by its weight."""
+    """(k, 2) edges that are not regular and that no flip sequence cures: they run into a vertex hidden by its
+    weight."""
     hidden: npt.NDArray[np.int32]
     """The vertices whose power cell is empty in the regular triangulation of the domain."""
     removed: npt.NDArray[np.int32]
@@ -44,9 +45,9 @@ def count_non_regular_edges(mesh: MeshLike, *, with_constrained: bool = True, th
 
 
 def restore_regularity(mesh: MeshLike, *, policy: Literal["undo", "remove", "keep"] = "keep") -> Restoration:
-    """Flips edges of the mesh, in place, until every unconstrained interior edge is regular or stuck, then treats hidden
-    vertices by the policy: put the mesh back as it was; remove them, inside the domain and on straight parts of lines;
-    leave them in. Lawson's algorithm, exact: about n flips."""
+    """Flips edges of the mesh, in place, until every unconstrained interior edge is regular or stuck, then treats
+    hidden vertices by the policy: put the mesh back as it was; remove them, inside the domain and on straight parts of
+    lines; leave them in. Lawson's algorithm, exact: about n flips."""
     target = as_mesh(mesh)
     restoration = Restoration(**_temper.restore_regularity(target._handle, policy))
     if target is not mesh:
@@ -61,8 +62,8 @@ def flip_threshold(mesh: MeshLike, vertex: int, step: tuple[float, float, float]
 
 
 def weight_flip_threshold(mesh: MeshLike, vertex: int, direction: float) -> float:
-    """The least change of a weight [length²], upwards when direction is positive and downwards when it is negative, past
-    which an edge flips; inf when none does."""
+    """The least change of a weight [length²], upwards when direction is positive and downwards when it is negative,
+    past which an edge flips; inf when none does."""
     return _temper.weight_flip_threshold(as_mesh(mesh)._handle, vertex, direction)
 
 

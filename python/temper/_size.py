@@ -62,8 +62,8 @@ class SizeField:
 
     @classmethod
     def from_values(cls, mesh: MeshLike, sizes: npt.ArrayLike) -> SizeField:
-        """The field of these sizes, (n,) float64 > 0 [length], at the vertices of the mesh, which is copied. TemperError
-        names the vertex whose size makes no sense."""
+        """The field of these sizes, (n,) float64 > 0 [length], at the vertices of the mesh, which is copied.
+        TemperError names the vertex whose size makes no sense."""
         return cls(_temper.size_field_from_values(as_mesh(mesh)._handle, _doubles(sizes, 0, "sizes")))
 
     def at(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:

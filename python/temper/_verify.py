@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._mesh import MeshLike, as_mesh
-from ._records import Record
+from ._records import Record, merged
 
 FieldGroup = Literal["chosen", "held-back", "exact"]
 
@@ -129,7 +129,8 @@ class VerifyReport(Record):
     of the mean over it, its root mean square over the fields."""
 
     def _rows(self) -> list[tuple[str, str]]:
-        rows = [row for row in super()._rows() if row[0] not in ("frame", "poisson", "flux", "fields", "levels", "orders")]
+        nested = ("frame", "poisson", "flux", "fields", "levels", "orders")
+        rows = [row for row in super()._rows() if row[0] not in nested]
         mean = geometric_mean(self.fields)
         for key, label in verify_measures():
             rows.append((label, f"{dict(zip(_KEYS, mean._row()))[key]:.4g}"))
@@ -211,7 +212,7 @@ def verify(
         fields = [fields]
     plain_frame = frame._plain() if frame is not None else None
     d = _temper.verify(as_mesh(mesh)._handle, list(fields), plain_frame, refine, condition, local, threads)
-    levels = [VerifyLevel(**{**level, "fields": _fields(level["fields"])}) for level in d["levels"]]
+    levels = [VerifyLevel(**merged(level, fields=_fields(level["fields"]))) for level in d["levels"]]
     changed = {
         "frame": VerifyFrame(**d["frame"]),
         "poisson": VerifySystem(**d["poisson"]),
@@ -220,7 +221,7 @@ def verify(
         "orders": _fields(d["orders"]),
         "levels": levels,
     }
-    return VerifyReport(**{**d, **changed})
+    return VerifyReport(**merged(d, **changed))
 
 
 def geometric_mean(fields: Sequence[FieldErrors], group: FieldGroup | None = None) -> VerifyErrors:

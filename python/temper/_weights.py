@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._mesh import MeshLike, _ints, as_mesh
-from ._records import Record
+from ._records import Record, merged
 
 Conditions = Literal["well_centered", "heights_only"]
 
@@ -146,19 +146,19 @@ def find_weights(
     'proves'
     """
     d = _temper.find_weights(as_mesh(mesh)._handle, goal, margin, from_input, whole, rings)
-    violations = [Violation(**{**v, "constraint": WeightConstraint(*v["constraint"])}) for v in d["violations"]]
-    return WeightReport(**{**d, "violations": violations, "certificate": Certificate._of(d["certificate"])})
+    violations = [Violation(**merged(v, constraint=WeightConstraint(*v["constraint"]))) for v in d["violations"]]
+    return WeightReport(**merged(d, violations=violations, certificate=Certificate._of(d["certificate"])))
 
 
 def best_margin(
     mesh: MeshLike, triangles: npt.ArrayLike | None = None, *, conditions: Conditions = "well_centered"
 ) -> BestMargin:
-    """The best margin of some triangles, (k,) int, the rest of the mesh being left out; None: of the whole mesh. An upper
-    bound for any set that has them."""
+    """The best margin of some triangles, (k,) int, the rest of the mesh being left out; None: of the whole mesh. An
+    upper bound for any set that has them."""
     chosen = None if triangles is None else _ints(triangles, 0, "triangles").astype(np.int64)
     d = _temper.best_margin(as_mesh(mesh)._handle, chosen, conditions)
     tight = [WeightConstraint(*c) for c in d["tight"]]
-    return BestMargin(**{**d, "tight": tight, "certificate": Certificate._of(d["certificate"])})
+    return BestMargin(**merged(d, tight=tight, certificate=Certificate._of(d["certificate"])))
 
 
 def weight_margin(mesh: MeshLike, *, conditions: Conditions = "well_centered") -> float:
@@ -169,8 +169,8 @@ def weight_margin(mesh: MeshLike, *, conditions: Conditions = "well_centered") -
 def check_certificate(
     mesh: MeshLike, certificate: Certificate
 ) -> str:
-    """Verifies a certificate in exact arithmetic, from the positions alone: ``"proves"`` when no weights exist, else what
-    is wrong with it."""
+    """Verifies a certificate in exact arithmetic, from the positions alone: ``"proves"`` when no weights exist, else
+    what is wrong with it."""
     return _temper.check_certificate(as_mesh(mesh)._handle, certificate._plain())
 
 
@@ -196,8 +196,8 @@ class EdgeConflict(Record):
 
 
 def edge_conflict(mesh: MeshLike, halfedge: int, *, up_to: float = 1.0) -> EdgeConflict | None:
-    """The conflict of one edge when a + b ≤ up_to, exactly: with up_to = 1, no well-centered mesh has this edge and these
-    two vertices (docs/explain.md)."""
+    """The conflict of one edge when a + b ≤ up_to, exactly: with up_to = 1, no well-centered mesh has this edge and
+    these two vertices (docs/explain.md)."""
     d = _temper.edge_conflict(as_mesh(mesh)._handle, halfedge, up_to)
     return None if d is None else EdgeConflict(**d)
 

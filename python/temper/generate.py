@@ -1,7 +1,7 @@
 """Example meshes: the paper's, and the classes a mesh method should be tried on.
 
-Each is made here, from its parameters and a seed, by a constrained Delaunay triangulation on temper's own predicates. All
-weights are zero. TemperError says which parameter makes no sense.
+Each is made here, from its parameters and a seed, by a constrained Delaunay triangulation on temper's own predicates.
+All weights are zero. TemperError says which parameter makes no sense.
 """
 
 from __future__ import annotations
@@ -77,8 +77,8 @@ def annulus(
 
 
 def airfoil(around: int = 80, growth: float = 1.25, seed: int = 1) -> Mesh:
-    """A box with an airfoil-like hole, graded from fine at the foil, with so many points around it, to coarse at the box;
-    ``growth`` is the ratio of one layer's spacing to the one before."""
+    """A box with an airfoil-like hole, graded from fine at the foil, with so many points around it, to coarse at the
+    box; ``growth`` is the ratio of one layer's spacing to the one before."""
     return Mesh._of(_temper.airfoil(around, growth, seed))
 
 
@@ -93,10 +93,12 @@ def letter_a() -> Mesh:
 
 
 def wedge(angle_deg: float = 5.0, pieces: int = 8, seed: int = 1) -> Mesh:
-    """A triangle with a sharp corner between sides of length 1, each of so many edges, and as many random points inside."""
+    """A triangle with a sharp corner between sides of length 1, each of so many edges, and as many random points
+    inside."""
     return Mesh._of(_temper.wedge(angle_deg, pieces, seed))
 
 
 def graded_points(finest: float = 1.0 / 64, growth: float = 0.2, seed: int = 1) -> Mesh:
-    """Random points in the unit square, whose size grows with the distance from a corner: finest + growth · distance."""
+    """Random points in the unit square, whose size grows with the distance from a corner: finest + growth ·
+    distance."""
     return Mesh._of(_temper.graded_points(finest, growth, seed))

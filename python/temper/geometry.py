@@ -1,9 +1,9 @@
 """Triangle geometry of the power diagram, and the exact predicates, over arrays.
 
-Points are (…, 2), or (…, 3) with the weight last; two columns mean weight 0. Arguments are broadcast against each other,
-and results have the shape of what is left. Triangle ijk is counter-clockwise; h_k is positive on the left of i → j;
-d_ij = ℓ/2 + (w_i − w_j)/(2ℓ) from i towards j (docs/concepts.md). Signs are −1, 0 or 1, int8, and right for all doubles
-in the range of ``is_exact_coordinate`` and ``is_exact_weight``.
+Points are (…, 2), or (…, 3) with the weight last; two columns mean weight 0. Arguments are broadcast against each
+other, and results have the shape of what is left. Triangle ijk is counter-clockwise; h_k is positive on the left of i
+→ j; d_ij = ℓ/2 + (w_i − w_j)/(2ℓ) from i towards j (docs/concepts.md). Signs are −1, 0 or 1, int8, and right for all
+doubles in the range of ``is_exact_coordinate`` and ``is_exact_weight``.
 """
 
 from __future__ import annotations
@@ -50,20 +50,21 @@ def orient2d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> Any:
 
 
 def power_test(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayLike) -> Any:
-    """For a, b, c counter-clockwise: 1 where d conflicts, so that the edge between abc and d is not regular; 0 where all
-    four are cocircular in the power sense; −1 where regular (eq. 9 of the paper). Exact."""
+    """For a, b, c counter-clockwise: 1 where d conflicts, so that the edge between abc and d is not regular; 0 where
+    all four are cocircular in the power sense; −1 where regular (eq. 9 of the paper). Exact."""
     return _over(_temper.power_test, a=a, b=b, c=c, d=d)
 
 
 def power_test_perturbed(
     a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayLike, index: npt.ArrayLike
 ) -> Any:
-    """``power_test`` with ties broken by the vertices' numbers, ``index`` (…, 4): 0 only when all four are collinear."""
+    """``power_test`` with ties broken by the vertices' numbers, ``index`` (…, 4): 0 only when all four are
+    collinear."""
     arrays = np.broadcast_arrays(*(_weighted(p, name) for name, p in (("a", a), ("b", b), ("c", c), ("d", d))))
     shape = arrays[0].shape[:-1]
     numbers = np.ascontiguousarray(np.broadcast_to(np.asarray(index), (*shape, 4)).reshape(-1, 4), dtype=np.uint32)
-    flat = [np.ascontiguousarray(p.reshape(-1, 3)) for p in arrays]
-    return _temper.power_test_perturbed(*flat, numbers).reshape(shape)[()]
+    p, q, r, s = (np.ascontiguousarray(array.reshape(-1, 3)) for array in arrays)
+    return _temper.power_test_perturbed(p, q, r, s, numbers).reshape(shape)[()]
 
 
 def signed_height_sign(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike) -> Any:

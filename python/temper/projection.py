@@ -39,7 +39,8 @@ class Projection(Record):
 def parse_projection(text: str, places: npt.ArrayLike | None = None) -> Projection:
     """Reads ``"stereographic"``, ``"mercator:lon"``, ``"transverse-mercator:lon,lat"``. Without a center, that of
     ``places``, (k, 2)."""
-    return Projection(*_temper.parse_projection(text, _doubles(places, 2, "places")))
+    kind, center, radius = _temper.parse_projection(text, _doubles(places, 2, "places"))
+    return dataclasses.replace(Projection(center=center, radius=radius), kind=kind)
 
 
 def forward(projection: Projection, lon_lat: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -63,6 +64,6 @@ def mean_place(lon_lat: npt.ArrayLike) -> tuple[float, float]:
 
 
 def project(outline: Outline, projection: Projection) -> Outline:
-    """The outline on the map. TemperError, by its names: latitudes beyond the poles, longitudes beyond ±360, places that
-    are infinitely far away, pieces that are torn apart because the map ends between their ends."""
+    """The outline on the map. TemperError, by its names: latitudes beyond the poles, longitudes beyond ±360, places
+    that are infinitely far away, pieces that are torn apart because the map ends between their ends."""
     return Outline._of(_temper.project(outline._plain(), *projection._plain()))

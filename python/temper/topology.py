@@ -1,7 +1,7 @@
 """Operations on connectivity. Ask, price, commit: ``can_flip``, then ``flip``; a plan, then what commits it.
 
-All change a ``temper.Mesh`` in place. Halfedge 3 t + k runs from corner k to corner k + 1 of triangle t. A plan is for the
-mesh as it is; TemperError when the mesh has changed since.
+All change a ``temper.Mesh`` in place. Halfedge 3 t + k runs from corner k to corner k + 1 of triangle t. A plan is for
+the mesh as it is; TemperError when the mesh has changed since.
 """
 
 from __future__ import annotations
@@ -42,16 +42,16 @@ def plan_removal(mesh: Mesh, vertex: int) -> RemovalPlan:
 
 
 def plan_collapse(mesh: Mesh, vertex: int, into: int) -> RemovalPlan:
-    """How to collapse the edge between a vertex and its neighbour ``into``: the vertex is removed, and all new triangles
-    have ``into`` as a corner."""
+    """How to collapse the edge between a vertex and its neighbour ``into``: the vertex is removed, and all new
+    triangles have ``into`` as a corner."""
     return _temper.plan_collapse(mesh._handle, vertex, into)
 
 
 def removal_from_names(
     mesh: Mesh, vertex: int, link_first: int, triangles: Sequence[tuple[int, int, int]]
 ) -> RemovalPlan:
-    """The plan that was written down as these numbers: ``plan.vertex``, ``plan.link[0]`` and ``plan.triangles``. All of it
-    is checked."""
+    """The plan that was written down as these numbers: ``plan.vertex``, ``plan.link[0]`` and ``plan.triangles``. All
+    of it is checked."""
     return _temper.removal_from_names(mesh._handle, vertex, link_first, list(triangles))
 
 
@@ -67,8 +67,8 @@ def plan_insertion(mesh: Mesh, point: tuple[float, float, float], near: int = 0)
 
 
 def plan_split(mesh: Mesh, halfedge: int, at: float | tuple[float, float, float]) -> InsertionPlan:
-    """How to split an edge: at a part of the way, 0 < at < 1, with the weight that keeps its pieces crossed; or at a point
-    (x, y, w) on it."""
+    """How to split an edge: at a part of the way, 0 < at < 1, with the weight that keeps its pieces crossed; or at a
+    point (x, y, w) on it."""
     if isinstance(at, (int, float)):
         return _temper.plan_split(mesh._handle, halfedge, at)
     return _temper.plan_split_at(mesh._handle, halfedge, *at)
@@ -132,6 +132,6 @@ class Grading(Record):
 
 
 def grade_boundary(mesh: Mesh, ratio: float = 4.0) -> Grading:
-    """Makes the boundary fit for optimisation: cuts long edges beside short ones, and gives triangles without free corner
-    a vertex inside. Old vertices stay bit for bit."""
+    """Makes the boundary fit for optimisation: cuts long edges beside short ones, and gives triangles without free
+    corner a vertex inside. Old vertices stay bit for bit."""
     return Grading(**_temper.grade_boundary(mesh._handle, ratio))

@@ -69,7 +69,7 @@ def test_what_is_no_planar_triangle_mesh_is_refused():
     with pytest.raises(temper.TemperError, match="found line"):
         temper.from_meshio(meshio.Mesh(np.array(flat)[:, :2], [("line", [(0, 1)])]))
     with pytest.raises(temper.TemperError, match="triangle 0 uses point 9, but there are 3 points"):
-        temper.from_meshio(meshio.Mesh(np.array(flat) * (1, 1, 0), [("triangle", [(0, 1, 9)]), ("tetra", [(0, 1, 2, 0)])]))
+        temper.from_meshio(meshio.Mesh(np.array(flat) * (1, 1, 0), [("triangle", [(0, 1, 9)])]))
     with pytest.raises(TypeError, match="expected a temper.Mesh"):
         temper.quality(flat)
 
