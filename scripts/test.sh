@@ -98,23 +98,20 @@ every_test_program_is_there() {
   ((missing == 0 && count > 0)) && echo "$count programs"
 }
 
-# The other compiler's opinion of the core, where there is one: a layer at once, or, where two of its files have the same
-# name for different things, file by file. What is compiled for several instruction sets has one source that stands for all.
-clang_accepts_layer() {  # FOLDER
+# The other compiler's opinion of the core, where there is one: several sources at once, as in a unity build. What is
+# compiled for several instruction sets has one source that stands for all.
+clang_accepts_core() {
   local flags=(-std=c++20 -fsyntax-only -Iinclude -Isrc -ffp-contract=off -fno-exceptions -fno-rtti
                -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
-  local sources
-  mapfile -t sources < <(find "$1" -name '*.cpp' -not -name '*_avx*' | sort)
-  printf '#include "%s"\n' "${sources[@]/#/$PWD/}" | clang++ "${flags[@]}" -x c++ - 2>/dev/null ||
-    printf '%s\0' "${sources[@]}" | xargs -0 -n 1 clang++ "${flags[@]}"
-}
-export -f clang_accepts_layer
-
-clang_accepts_core() {
-  local layers
-  mapfile -t layers < <(find src -mindepth 1 -maxdepth 1 -type d -not -name io -not -name lp -not -name tbb -not -name verify)
-  printf '%s\0' "${layers[@]}" | xargs -0 -P "$jobs" -I {} bash -c 'clang_accepts_layer {}' &&
-    echo "${#layers[@]} layers"
+  local sources group count=0
+  mapfile -t sources < <(find "$PWD/src" -name '*.cpp' -not -name '*_avx*' | grep -v -E '/src/(io|lp|tbb|verify)/' | sort)
+  (IFS=';' && echo "core;${sources[*]}") >"$scratch/core.txt"
+  while read -r group; do
+    grep -o '"[^"]*"' <<<"$group" | sed 's/^/#include /' >"$scratch/core_$count.cpp"
+    count=$((count + 1))
+  done < <(python3 cmake/unity_groups.py "$scratch/core.txt" "$PWD")
+  ((count > 0)) && printf '%s\0' "$scratch"/core_*.cpp | xargs -0 -P "$jobs" -n 1 clang++ "${flags[@]}" &&
+    echo "${#sources[@]} sources"
 }
 
 consumer_find_package() {

@@ -6,18 +6,19 @@
 namespace temper {
 namespace {
 
-using enum EnergyKind;
-using enum BoundaryTreatment;
-
-constexpr std::array<EnergyInfo, 6> kEnergies = {{
-    // kind, name, formula of a half-edge, boundary, barrier, γ, h°, length exponent
-    {F, "F", "α d³h + β d h³", as_is, false, false, false, 4},
-    {T, "T", "sgn(h_k + h_l) (α d³h + β d h³)", absolute, false, false, false, 4},
-    {dT, "dT", "α d³h + β d h³, |h| on the boundary", absolute, false, false, false, 4},
-    {BH, "BH", "(α d² + β h²) / (√(d_ij d_ji) h)", as_is, true, false, false, 0},
-    {BHs, "BHs", "(α d² + β h²) / (√(d_ij d_ji) (h − h°))", as_is, true, false, true, 0},
-    {BP, "BP", "(α d² + β h²) / (√(d_ij d_ji) φ), φ = (h + √(h² + γ²))/2", as_is, true, true, false, 0},
-}};
+constexpr std::array<EnergyInfo, 6> kEnergies = [] {
+  using enum EnergyKind;
+  using enum BoundaryTreatment;
+  return std::array<EnergyInfo, 6>{{
+      // kind, name, formula of a half-edge, boundary, barrier, γ, h°, length exponent
+      {F, "F", "α d³h + β d h³", as_is, false, false, false, 4},
+      {T, "T", "sgn(h_k + h_l) (α d³h + β d h³)", absolute, false, false, false, 4},
+      {dT, "dT", "α d³h + β d h³, |h| on the boundary", absolute, false, false, false, 4},
+      {BH, "BH", "(α d² + β h²) / (√(d_ij d_ji) h)", as_is, true, false, false, 0},
+      {BHs, "BHs", "(α d² + β h²) / (√(d_ij d_ji) (h − h°))", as_is, true, false, true, 0},
+      {BP, "BP", "(α d² + β h²) / (√(d_ij d_ji) φ), φ = (h + √(h² + γ²))/2", as_is, true, true, false, 0},
+  }};
+}();
 
 }  // namespace
 

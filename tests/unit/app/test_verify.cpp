@@ -84,11 +84,11 @@ TEST_F(Verify, KeepsAnInputWhoseErrorsAreSmaller) {
   EXPECT_TRUE(contains(run.out, "the input was well-centered, and errors of solvers would be "));
   const auto report = nlohmann::json::parse(read("r.json"));
   EXPECT_EQ(report["verify"]["after"], report["verify"]["before"]);
-  temper_ok({"convert", "in.vtu", "in.off"});
-  temper_ok({"convert", "out.vtu", "out.off"});
+  temper_ok({"convert", "in.vtu", "-o", "in.off"});
+  temper_ok({"convert", "out.vtu", "-o", "out.off"});
   EXPECT_EQ(read("out.off"), read("in.off"));
   temper_ok({"replay", "in.vtu", "t.jsonl", "-o", "again.vtu"});
-  temper_ok({"convert", "again.vtu", "again.off"});
+  temper_ok({"convert", "again.vtu", "-o", "again.off"});
   EXPECT_EQ(read("again.off"), read("in.off"));
 }
 
