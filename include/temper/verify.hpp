@@ -3,8 +3,7 @@
 //
 //   ★s       the diagonal stars on smooth s-forms: what the HOT energies bound
 //   Poisson  −Δu = f by discrete exterior calculus, unknowns at the vertices:  d0ᵀ ★1 d0 u = ★0 f
-//   flux     −Δu = f by finite volumes, unknowns at the orthocenters:          Σ T (u_k − u_l) = ∫ f,  T = ℓ / (h_k +
-//   h_l)
+//   flux     −Δu = f by finite volumes, unknowns at the orthocenters:  Σ T (u_k − u_l) = ∫ f,  T = ℓ / (h_k + h_l)
 //
 // All errors are relative and have no unit: the fields are scaled with the domain's bounding box.
 #pragma once
