@@ -1,14 +1,10 @@
 // Exact stages of the predicates, and the ties.
-//
-// Every determinant is a polynomial of differences of the inputs; a difference of two doubles is an expansion of
-// two terms, exactly, so no stage ever rounds. On inputs whose differences are single doubles (lattices, where
-// ties are) the expansions stay a few terms long.
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
 
-#include "geometry/expansion.hpp"
+#include "geometry/exact_determinants.hpp"
 #include "geometry/predicates_inline.hpp"
 
 namespace temper {
@@ -17,54 +13,21 @@ namespace {
 
 constexpr Sign operator*(Sign a, Sign b) { return static_cast<Sign>(static_cast<int>(a) * static_cast<int>(b)); }
 
-exact::Expansion<2> difference(double a, double b) { return exact::two_diff(a, b); }
-
-struct ExactVector {
-  exact::Expansion<2> x, y;
-};
-
-ExactVector difference(const WeightedPoint& a, const WeightedPoint& b) {
-  return {difference(a.x, b.x), difference(a.y, b.y)};
-}
-
-exact::Expansion<16> exact_dot(const ExactVector& a, const ExactVector& b) { return a.x * b.x + a.y * b.y; }
-exact::Expansion<16> exact_cross(const ExactVector& a, const ExactVector& b) { return a.x * b.y - a.y * b.x; }
-
 }  // namespace
 
 namespace exact {
 
-Sign orient2d(Vec2 a, Vec2 b, Vec2 c) {
-  const ExactVector ac = {difference(a.x, c.x), difference(a.y, c.y)};
-  const ExactVector bc = {difference(b.x, c.x), difference(b.y, c.y)};
-  return exact_cross(ac, bc).sign();
-}
+Sign orient2d(Vec2 a, Vec2 b, Vec2 c) { return exact::doubled_area(a, b, c).sign(); }
 
 Sign power_test(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c, const WeightedPoint& d) {
-  const ExactVector ad = difference(a, d);
-  const ExactVector bd = difference(b, d);
-  const ExactVector cd = difference(c, d);
-  const auto lift = [&](const ExactVector& v, double w) { return exact_dot(v, v) - difference(w, d.w); };
-  const auto from_a = lift(ad, a.w) * exact_cross(bd, cd);
-  const auto from_b = lift(bd, b.w) * exact_cross(cd, ad);
-  const auto from_c = lift(cd, c.w) * exact_cross(ad, bd);
-  return (from_a + from_b + from_c).sign();
+  return exact::power_determinant(a, b, c, d).sign();
 }
 
 Sign height_numerator_sign(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
-  const ExactVector pq = difference(q, p);
-  const ExactVector pr = difference(r, p);
-  const ExactVector qr = difference(r, q);
-  const auto at_r = exact_dot(pr, qr);
-  const auto from_p = exact_dot(pq, pr) * (at_r + difference(q.w, r.w));
-  const auto from_q = exact_dot(pq, qr) * (at_r + difference(p.w, r.w));  // minus D_q
-  return (from_p - from_q).sign();
+  return exact::height_numerator(p, q, r).sign();
 }
 
-Sign edge_split_sign(const WeightedPoint& p, const WeightedPoint& q) {
-  const ExactVector pq = difference(q, p);
-  return (exact_dot(pq, pq) + difference(p.w, q.w)).sign();
-}
+Sign edge_split_sign(const WeightedPoint& p, const WeightedPoint& q) { return exact::doubled_split(p, q).sign(); }
 
 }  // namespace exact
 
