@@ -33,6 +33,11 @@ def inner(case):
     return None
 
 
+def started(case):
+    """A GoogleTest program began: without counts it ended before its tests did."""
+    return "[==========] Running" in (case.findtext("system-out") or "")
+
+
 def counts(case):
     """Passed, failed and skipped tests of one entry. A program that fails has a failed test, whatever it prints."""
     if skipped(case):
@@ -40,8 +45,9 @@ def counts(case):
     ran = case.get("status") == "run"
     own = inner(case)
     if own is None:
-        return int(ran), int(not ran), 0
-    return own["passed"], max(own["failed"], int(not ran)), own["skipped"]
+        return int(ran and not started(case)), int(not ran or started(case)), 0
+    nothing = own["passed"] + own["skipped"] == 0
+    return own["passed"], max(own["failed"], int(not ran or nothing)), own["skipped"]
 
 
 cases = ElementTree.parse(sys.argv[1]).getroot().findall("testcase")

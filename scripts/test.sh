@@ -47,7 +47,7 @@ suite() {
   local name=$1 dir=$2 start=$SECONDS counts
   local results="$scratch/results.xml"
   rm -f "$results"
-  ctest --test-dir "$dir" -j "$jobs" --no-tests=error --output-on-failure \
+  env -u GTEST_FILTER -u GTEST_TOTAL_SHARDS ctest --test-dir "$dir" -j "$jobs" --no-tests=error --output-on-failure \
     --test-output-size-passed 10000000 --output-junit "$results" >"$scratch/log" 2>&1
   local status=$?
   read -r -a counts < <(python3 scripts/count_tests.py "$results" 2>/dev/null || echo 0 1 0)

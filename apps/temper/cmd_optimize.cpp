@@ -482,7 +482,8 @@ void return_input(Mesh& mesh, const Mesh& original, double ratio, OptimizeReport
   }
   mesh = original;
   report.vertices = {};
-  report.vertices_removed = report.vertices_inserted = 0;
+  report.vertices_removed = report.vertices_inserted = report.flips = 0;
+  report.hidden = {};
   report.size.after = report.size.before;
   report.final_energy = report.initial_energy;
   report.notes.push_back(fmt::format(

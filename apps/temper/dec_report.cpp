@@ -33,7 +33,7 @@ CellCounts count(const PowerCells& cells) {
   return counts;
 }
 
-double over_median(double largest, double median) { return median > 0 ? largest / median : 1; }
+double over_median(double largest, double median) { return largest > median && median > 0 ? largest / median : 1; }
 
 std::string line(const std::string& label, const std::string& value) {
   constexpr std::size_t kLabelColumns = 34, kValueColumns = 16;

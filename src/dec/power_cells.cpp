@@ -146,6 +146,7 @@ PowerCells CellBuilder::build() {
   cells_.starts.push_back(0);
   std::size_t first = 0;
   for (const VertexId v : mesh_.vertices()) {
+    if (mesh_.is_isolated(v)) continue;  // of no triangle: nothing is owned
     std::size_t end = first;
     while (end < pieces_.size() && pieces_[end].owner == v) ++end;
     if (special_[v] == 0) {

@@ -234,11 +234,9 @@ struct BarrierKernel {
   template <class T>
   [[nodiscard]] TEMPER_INLINE EdgeTerm<T> term(const Base<T>& edge, const T& g) const {
     const T &l = edge.l, &w = edge.w, &q = edge.q, t = edge.squares + 4 * beta * (g * g);
-    // 1/T, 1/Q and what the height divides by, by one division.
+    const T quotient = 1.0 / (t * q), ti = quotient * q, qi = quotient * t;
     const auto parts = height.parts(edge.height, g);
-    const T tq = t * q, quotient = 1.0 / (tq * parts.divisor), of_both = quotient * parts.divisor;
-    const T ti = of_both * q, qi = of_both * t;
-    const Denominator<T> d = height.denominator(edge.height, g, parts, quotient * tq);
+    const Denominator<T> d = height.denominator(edge.height, g, parts, 1.0 / parts.divisor);
     // f = T Q^(−1/2) / Φ: ∂ ln f, then ∂²f = f (∂ ln f ∂ ln f + ∂² ln f).
     const T tl = 2 * alpha * (l * ti), tw = 2 * alpha * (w * ti), tg = 8 * beta * (g * ti);
     const T ql = l * qi, qw = w * qi;  // of ln √Q, the latter with its sign turned

@@ -67,11 +67,12 @@ TEMPER_INLINE void add_derivatives(const TriangleTerms& t, Mask where, StarSums&
   const Pack sx = ay - by, sy = bx - ax;  // ∇S
   const Pack& ga = t.shape.pq.g;
   const Pack& gb = t.shape.rp.g;
-  const Pack half_inverse = 0.5 * inverse_s, ra = ga * inverse_s, rb = gb * inverse_s;
-  const Pack pa = (ab - 2 * ub + ua) * inverse_s, qa = (ua - la) * inverse_s;
-  const Pack pb = (ab - 2 * ua + ub) * inverse_s, qb = (ub - lb) * inverse_s;
-  const Pack gax = pa * ax + qa * bx - ra * sx, gay = pa * ay + qa * by - ra * sy, gaw = (la - ab) * half_inverse;
-  const Pack gbx = pb * bx + qb * ax - rb * sx, gby = pb * by + qb * ay - rb * sy, gbw = (lb - ab) * half_inverse;
+  const Pack gax = (ub * (-2 * ax) - bx * la + ax * ab + ua * (ax + bx) - ga * sx) * inverse_s;
+  const Pack gay = (ub * (-2 * ay) - by * la + ay * ab + ua * (ay + by) - ga * sy) * inverse_s;
+  const Pack gaw = 0.5 * (la - ab) * inverse_s;
+  const Pack gbx = (ua * (-2 * bx) - ax * lb + bx * ab + ub * (ax + bx) - gb * sx) * inverse_s;
+  const Pack gby = (ua * (-2 * by) - ay * lb + by * ab + ub * (ay + by) - gb * sy) * inverse_s;
+  const Pack gbw = 0.5 * (lb - ab) * inverse_s;
   const Pack gcx = sx - gax - gbx, gcy = sy - gay - gby, gcw = -1.0 * (gaw + gbw);
 
   const Pack fa = a.f_g - c.f_g, fb = b.f_g - c.f_g;
@@ -141,14 +142,12 @@ struct TriangleValue {
   Pack::Mask inside;
 };
 
-/// The three edges by one division.
 template <class Kernel>
 TEMPER_INLINE TriangleValue triangle_value(const Kernel& kernel, const SpokeOf<Kernel>& a, const SpokeOf<Kernel>& b,
                                            const PackShape& shape) {
   const auto pq = kernel.fraction(a.base, shape.pq.g), rp = kernel.fraction(b.base, shape.rp.g);
   const auto qr = kernel.fraction(kernel.base(shape.qr.l2, shape.qr.dw), shape.qr.g);
-  const Pack two = pq.y * qr.y;
-  const Pack value = ((pq.x * qr.y + qr.x * pq.y) * rp.y + rp.x * two) / (two * rp.y);
+  const Pack value = pq.x / pq.y + qr.x / qr.y + rp.x / rp.y;
   return {value, (pq.y > 0) & (qr.y > 0) & (rp.y > 0) & (value < kInfinity)};
 }
 

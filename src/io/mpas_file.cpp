@@ -117,7 +117,7 @@ class MpasReader {
       }
       std::array<std::int32_t, 3> corners = {};
       for (std::size_t k = 0; k < 3; ++k) {
-        if (!std::in_range<std::int32_t>(c[k] - 1) || c[k] < 0) {
+        if (!std::in_range<std::int32_t>(c[k]) || c[k] < 0) {
           fail(ErrorCode::index_out_of_range, document_.names->path,
                text("triangle ", t + 1, " uses vertex ", c[k], ", but the file has ", document_.file.points.size(),
                     " vertices, numbered from 1"));

@@ -40,9 +40,20 @@ std::size_t NetcdfVariable::n_values() const {
   return n;
 }
 
+NetcdfId::NetcdfId() {
+  static std::mutex table;
+  turn_ = std::unique_lock(table);
+}
+
+// Of what has not been finished nothing is kept.
+NetcdfId::~NetcdfId() {
+  if (id_ >= 0) nc_abort(id_);
+}
+
 NetcdfReader::NetcdfReader(Source& source) : path_(source.path), bytes_(source.bytes.size()) {
   check_netcdf_header(source);
-  check(nc_open_mem(path_.c_str(), NC_NOWRITE, source.bytes.size(), source.bytes.data(), &id_), "read the file");
+  check(nc_open_mem(path_.c_str(), NC_NOWRITE, source.bytes.size(), source.bytes.data(), id_.to_open()),
+        "read the file");
   int n = 0;
   check(nc_inq_nvars(id_, &n), "count variables");
   for (int i = 0; i < n; ++i) {
@@ -63,10 +74,6 @@ NetcdfReader::NetcdfReader(Source& source) : path_(source.path), bytes_(source.b
     }
     variables_.push_back(std::move(v));
   }
-}
-
-NetcdfReader::~NetcdfReader() {
-  if (id_ >= 0) nc_close(id_);
 }
 
 void NetcdfReader::check(int status, std::string_view doing) const {
@@ -159,13 +166,9 @@ std::optional<double> NetcdfReader::number_attribute(const NetcdfVariable* v, co
 
 NetcdfWriter::NetcdfWriter(std::string path, bool large_types) : path_(std::move(path)) {
   const int mode = large_types ? NC_64BIT_DATA : NC_64BIT_OFFSET;
-  check(nc_create_mem(path_.c_str(), mode, 0, &id_), "make a file");
+  check(nc_create_mem(path_.c_str(), mode, 0, id_.to_open()), "make a file");
   int ignored = 0;
   check(nc_set_fill(id_, NC_NOFILL, &ignored), "make a file");
-}
-
-NetcdfWriter::~NetcdfWriter() {
-  if (id_ >= 0) nc_abort(id_);
 }
 
 void NetcdfWriter::check(int status, std::string_view doing) const {
@@ -212,7 +215,7 @@ void NetcdfWriter::finish(Output& out) {
   }
   NC_memio memory = {};
   const int status = nc_close_memio(id_, &memory);
-  id_ = -1;
+  id_.is_closed();
   const std::unique_ptr<void, void (*)(void*)> owner(memory.memory, std::free);
   check(status, "finish the file");
   out.put(std::string_view(static_cast<const char*>(memory.memory), memory.size));

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,11 +33,29 @@ struct NetcdfVariable {
   [[nodiscard]] std::size_t n_values() const;
 };
 
+/// An open file of libnetcdf's, which is closed in the end. The library keeps a table of open files that only one
+/// thread may touch at a time: others wait until this one is closed.
+class NetcdfId {
+ public:
+  NetcdfId();
+  ~NetcdfId();
+  NetcdfId(const NetcdfId&) = delete;
+  NetcdfId& operator=(const NetcdfId&) = delete;
+
+  operator int() const { return id_; }
+  [[nodiscard]] int* to_open() { return &id_; }
+  /// The library has closed it.
+  void is_closed() { id_ = -1; }
+
+ private:
+  std::unique_lock<std::mutex> turn_;
+  int id_ = -1;
+};
+
 class NetcdfReader {
  public:
   /// The bytes must outlive the reader.
   explicit NetcdfReader(Source& source);
-  ~NetcdfReader();
   NetcdfReader(const NetcdfReader&) = delete;
   NetcdfReader& operator=(const NetcdfReader&) = delete;
 
@@ -56,7 +75,7 @@ class NetcdfReader {
 
   const std::string& path_;
   std::size_t bytes_;
-  int id_ = -1;
+  NetcdfId id_;
   std::vector<NetcdfVariable> variables_;
 };
 
@@ -64,7 +83,6 @@ class NetcdfWriter {
  public:
   /// `large_types`: some array is of a type that only CDF-5 has.
   NetcdfWriter(std::string path, bool large_types);
-  ~NetcdfWriter();
   NetcdfWriter(const NetcdfWriter&) = delete;
   NetcdfWriter& operator=(const NetcdfWriter&) = delete;
 
@@ -83,7 +101,7 @@ class NetcdfWriter {
   void check(int status, std::string_view doing) const;
 
   std::string path_;
-  int id_ = -1;
+  NetcdfId id_;
   std::vector<std::pair<int, Values>> waiting_;
 };
 

@@ -82,9 +82,10 @@ class UgridReader {
                         in_.dimension_name(v.dimensions[0]) != face_dimension;
     face_dimension_ = v.dimensions[turned ? 1 : 0];
     const std::size_t n = v.sizes[turned ? 1 : 0], most = v.sizes[turned ? 0 : 1];
-    const auto start = static_cast<std::int64_t>(in_.number_attribute(&v, "start_index").value_or(0));
-    if (start != 0 && start != 1)
-      fail(ErrorCode::unsupported, path(), text("has start_index ", start, "; expected 0 or 1"));
+    const double first = in_.number_attribute(&v, "start_index").value_or(0);
+    if (first != 0 && first != 1)
+      fail(ErrorCode::unsupported, path(), text("has start_index ", first, "; expected 0 or 1"));
+    const std::int64_t start = first == 1 ? 1 : 0;
     const auto fill = in_.number_attribute(&v, "_FillValue");
     const auto all = in_.integers(v);
     document_.names->points = RunLength(start, document_.file.points.size());
@@ -95,7 +96,7 @@ class UgridReader {
       for (std::size_t k = 0; k < most; ++k) {
         const std::int64_t number = all[turned ? k * n + face : face * most + k];
         if (fill && static_cast<double>(number) == *fill) continue;
-        if (!std::in_range<std::int32_t>(number - start)) {
+        if (!std::in_range<std::int32_t>(number)) {
           fail(ErrorCode::index_out_of_range, path(),
                text("triangle ", static_cast<std::int64_t>(face) + start, " uses vertex ", number,
                     ", which is beyond 32 bits"));

@@ -80,7 +80,7 @@ void FluxScheme::assemble() {
     if (coincident(edge)) continue;
     const std::size_t a = unknowns_[group(inner_triangle(edge))];
     const std::size_t b = edge.is_boundary() ? kNone : unknowns_[group(edge.right)];
-    if (a == kNone && b == kNone) continue;
+    if (a == b) continue;  // both given; or merged by other edges, so that nothing flows between them
     if (a != kNone) linear_.lower.push_back({a, a, flux});
     if (b != kNone) linear_.lower.push_back({b, b, flux});
     if (a != kNone && b != kNone) linear_.lower.push_back({std::max(a, b), std::min(a, b), -flux});

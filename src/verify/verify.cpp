@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "temper/dec.hpp"
@@ -131,14 +132,15 @@ Measured measure(const Setting& setting, const std::vector<Field>& fields, bool 
 }  // namespace verify_detail
 
 VerifyFrame verify_frame(const Mesh& mesh) {
-  if (mesh.n_vertices() == 0) return {};
-  Vec2 low = mesh.position(VertexId(std::size_t{0})), high = low;
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Vec2 low = {kFar, kFar}, high = {-kFar, -kFar};
   for (const VertexId v : mesh.vertices()) {
     if (mesh.is_isolated(v)) continue;
     const Vec2 p = mesh.position(v);
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
+  if (low.x > high.x) return {};  // no vertex of a triangle
   return {0.5 * low + 0.5 * high, 0.5 * std::max(high.x - low.x, high.y - low.y)};
 }
 

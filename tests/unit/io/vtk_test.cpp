@@ -50,6 +50,20 @@ TEST_F(FileTest, binary_vtk_of_version_5_with_metadata_is_read) {
   EXPECT_EQ(f->triangles, kTriangles);
 }
 
+TEST_F(FileTest, types_of_fixed_width_are_known_by_their_names) {
+  const auto f = read(
+      make("m.vtk",
+           "# vtk DataFile Version 5.1\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 vtktypefloat64\n"
+           "0 0 0 1 0 0 1 1 0 0 1 0\nCELLS 3 6\nOFFSETS vtktypeint64\n0 3 6\nCONNECTIVITY vtktypeint64\n0 1 2 0 2 3\n"
+           "CELL_TYPES 2\n5\n5\nCELL_DATA 2\nFIELD FieldData 3\nregion 1 2 vtktypeint32\n6 7\n"
+           "a 1 2 vtktypeuint8\n1 255\nb 1 2 vtktypeuint64\n1 2\n"));
+  ASSERT_TRUE(f) << f.error().what();
+  EXPECT_EQ(f->regions, (std::vector<std::int32_t>{6, 7}));
+  ASSERT_EQ(f->cell_data.size(), 2u);
+  EXPECT_EQ(std::get<std::vector<std::uint8_t>>(f->cell_data[0].values), (std::vector<std::uint8_t>{1, 255}));
+  EXPECT_EQ(std::get<std::vector<std::uint64_t>>(f->cell_data[1].values), (std::vector<std::uint64_t>{1, 2}));
+}
+
 TEST_F(FileTest, polydata_with_lines_and_vertices_is_read) {
   const auto f = read(
       make("m.vtk",
