@@ -92,7 +92,7 @@ class Visitor {
     const py::gil_scoped_acquire gil;
     try {
       return f();
-    } catch (py::error_already_set&) {
+    } catch (...) {  // also what pybind11 throws: the library below is compiled without exceptions
       error_ = std::current_exception();
       return false;
     }
