@@ -216,6 +216,7 @@ void bind_mesh_class(py::module_& m) {
   type.def("validate", [](const PyMesh& self) { return to_python(self.read_with_erased()->validate()); });
   type.def("compact", [](PyMesh& self) { return to_python(self.compact()); });
   type.def("replace", [](PyMesh& self, const PyMesh& other) { self.assign(other); });
+  type.def("version", [](const PyMesh& self) { return self.version(); });
   type.def("copy", [](const PyMesh& self) { return self.copy(); });
   type.def("equal", [](const PyMesh& self, const PyMesh& other) {
     return *self.read_with_erased() == *other.read_with_erased();
@@ -339,6 +340,25 @@ py::dict file_as_dict(const PyMesh& self) {
       .dict;
 }
 
+/// Vertex of each point that the mesh was made of, -1 where it is gone; None for a mesh that no file is behind.
+py::object vertices_of_points(const PyMesh& self) {
+  if (!self.source()) return py::none();
+  const auto origin = self.origin();
+  const io::VertexOfPoint& loaded = self.source()->loaded.vertex_of_point;
+  std::vector<std::int32_t> now(loaded.n_kept(), -1);
+  for (std::size_t v = 0; v < now.size() && origin.empty(); ++v) now[v] = static_cast<std::int32_t>(v);
+  for (std::size_t i = 0; i < origin.size(); ++i) {
+    const VertexId before = origin[VertexId(i)];
+    if (before.valid()) now[before.index] = static_cast<std::int32_t>(i);
+  }
+  std::vector<std::int32_t> vertices;
+  for (std::size_t p = 0; p < loaded.size(); ++p) {
+    const std::int32_t v = loaded[p];
+    vertices.push_back(v < 0 ? -1 : now[static_cast<std::size_t>(v)]);
+  }
+  return array_of<std::int32_t>(vertices);
+}
+
 template <std::size_t n>
 void check_range(const std::vector<std::array<std::int32_t, n>>& cells, std::size_t n_points, const char* kind) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -363,6 +383,12 @@ py::tuple mesh_from_file_arrays(const py::dict& d, const py::sequence& fixed_tag
   file.point_data = from_python_dict(d["point_data"].cast<py::dict>(), file.points.size(), "point data");
   file.cell_data = from_python_dict(d["cell_data"].cast<py::dict>(), file.triangles.size(), "cell data");
   file.line_data = from_python_dict(d["line_data"].cast<py::dict>(), file.lines.size(), "line data");
+  const auto vertex_cells = narrow<1>(d["marked_points"].cast<Int64s>(), "vertex cell");
+  check_range<1>(vertex_cells, file.points.size(), "vertex cell");
+  for (const auto& [point] : vertex_cells) file.marked_points.push_back(point);
+  file.point_tags = copy_of<std::int32_t>(d["point_tags"].cast<Int32s>());
+  file.marked_point_data =
+      from_python_dict(d["marked_point_data"].cast<py::dict>(), file.marked_points.size(), "data of vertex cells");
   check_range<3>(file.triangles, file.points.size(), "triangle");
   check_range<2>(file.lines, file.points.size(), "line");
   return load(std::move(file), strings_from(fixed_tags), nullptr);
@@ -404,6 +430,7 @@ void bind_files(py::module_& m) {
   m.def("mesh_from_arrays", mesh_from_arrays);
   m.def("mesh_from_file_arrays", mesh_from_file_arrays);
   m.def("file_as_dict", file_as_dict);
+  m.def("vertices_of_points", vertices_of_points);
   m.def("write_text", [](const std::string& path, const std::string& text) { or_raise(io::write_text(path, text)); });
   m.def("formats", [] {
     py::list list;

@@ -116,7 +116,12 @@ PyMesh::Run::Run(PyMesh& mesh) : mesh_(mesh) {
 
 std::optional<std::size_t> threads_from(const py::handle& threads) {
   if (threads.is_none()) return std::nullopt;
-  const auto count = threads.cast<std::int64_t>();
+  std::int64_t count = 0;
+  try {
+    count = threads.cast<std::int64_t>();
+  } catch (const py::cast_error&) {
+    throw py::type_error("threads: expected an integer or None, found " + std::string(py::repr(threads)));
+  }
   if (count < 0) fail(ErrorCode::invalid_option, "threads: expected 0 or more, found " + std::to_string(count));
   return static_cast<std::size_t>(count);
 }

@@ -111,7 +111,7 @@ def quality(
     >>> temper.quality(temper.generate.horseshoe()).orthocenters_outside
     58
     """
-    d = _temper.quality(as_mesh(mesh)._handle, _softening(gamma), _softening(h0), worst, threads)
+    d = _temper.quality(as_mesh(mesh)._handle, _softening("gamma", gamma), _softening("h0", h0), worst, threads)
     histograms = {name: Histogram(**d[name]) for name in ("angles", "h_over_l", "d_over_l")}
     return Quality(**merged(d, worst=[WorstTriangle(**w) for w in d["worst"]], **histograms))
 
@@ -176,7 +176,7 @@ class EnergyModel(Record):
 
     def _plain(self) -> dict[str, Any]:
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
-        return {**values, "gamma": _softening(self.gamma), "h0": _softening(self.h0)}
+        return {**values, "gamma": _softening("gamma", self.gamma), "h0": _softening("h0", self.h0)}
 
 
 def total_energy(mesh: MeshLike, model: EnergyModel = EnergyModel(), *, threads: int | None = None) -> float:

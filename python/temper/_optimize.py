@@ -9,7 +9,6 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _temper
-from ._errors import TemperError
 from ._mesh import Mesh, MeshLike, as_mesh
 from ._meshio import put_back
 from ._options import (
@@ -170,7 +169,7 @@ def optimize(
         ``accuracy.margin``, or it ends; then what the errors of a solver are proportional to, with the connectivity as
         it is.
     accuracy : AccuracyOptions
-        Of that second phase.
+        Of that second phase: an error without it.
     energy : {"BP", "BH", "BHs", "F", "T", "dT"}
         Of the registry (``energies()``): the barriers BP, BH, BHs, or a HOT energy.
     star : {0, 1, 2}
@@ -290,9 +289,11 @@ def optimize(
 
     Raises
     ------
+    TypeError
+        An option of the wrong type. The mesh is then as it was.
     TemperError
-        An option out of range, weights that hide a vertex, a mesh outside the barrier of BH or BHs. The mesh is then
-        as it was.
+        An option out of range, ``accuracy`` without ``objective="accuracy"``, weights that hide a vertex, a mesh
+        outside the barrier of BH or BHs. The mesh is then as it was.
     KeyboardInterrupt
         After Ctrl-C: the run has stopped, and the mesh is the best valid one so far.
 
@@ -317,20 +318,22 @@ def optimize(
     """
     values = dict(locals())
     plain = merge(options, {name: values[name] for name in OPTION_NAMES}, _given)
+    for name, call in (("observer", observer), ("tracer", tracer), ("watch", watch)):
+        if call is not None and not callable(call):
+            raise TypeError(f"{name}: expected a callable or None, found {call!r}")
+    if size_field is not None and not isinstance(size_field, SizeField):
+        raise TypeError(f"size_field: expected a SizeField or None, found {type(size_field).__name__}")
     target = as_mesh(mesh)
     line = Line(progress)
     trace = (lambda event: tracer(TraceEvent(**event))) if tracer is not None else None
     look = (lambda shot: watch(Snapshot._of(shot))) if watch is not None else None
     field = size_field._handle if size_field is not None else None
-    changed = True
+    before = target._handle.version()
     try:
         report = _temper.optimize(target._handle, plain, field, threads, _observer(line, observer), trace, look)
-    except TemperError:
-        changed = False
-        raise
     finally:
         line.clear()
-        if changed and target is not mesh:
+        if target is not mesh and target._handle.version() != before:
             put_back(mesh, target)
     return _report(report)
 

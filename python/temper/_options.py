@@ -5,9 +5,11 @@ from __future__ import annotations
 import dataclasses
 import functools
 import inspect
+import numbers
 from typing import Any, Callable, Literal, Optional, TypeVar, Union
 
 from . import _temper
+from ._errors import TemperError
 from ._records import Record
 
 
@@ -26,10 +28,11 @@ class Softening:
 SofteningLike = Union[Softening, float]
 
 
-def _softening(value: SofteningLike) -> tuple[float, str]:
-    if isinstance(value, Softening):
-        return float(value.value), value.scale
-    return float(value), "relative"
+def _softening(name: str, value: SofteningLike) -> tuple[float, str]:
+    length, scale = (value.value, value.scale) if isinstance(value, Softening) else (value, "relative")
+    if not isinstance(length, numbers.Real) or not isinstance(scale, str):
+        raise TypeError(f"{name}: expected a number or a Softening, found {value!r}")
+    return float(length), scale
 
 
 EnergyName = Literal["F", "T", "dT", "BH", "BHs", "BP"]
@@ -116,7 +119,9 @@ class OptimizeOptions(Record):
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         for name in ("gamma", "h0"):
             if values[name] is not None:
-                values[name] = _softening(values[name])
+                values[name] = _softening(name, values[name])
+        if not isinstance(self.accuracy, AccuracyOptions):
+            raise TypeError(f"accuracy: expected AccuracyOptions, found {self.accuracy!r}")
         values["accuracy"] = {f.name: getattr(self.accuracy, f.name) for f in dataclasses.fields(self.accuracy)}
         return values
 
@@ -167,5 +172,12 @@ def merge(options: OptimizeOptions | None, values: dict[str, Any], given: frozen
     if options is not None and not isinstance(options, OptimizeOptions):
         raise TypeError(f"options: expected OptimizeOptions, found {type(options).__name__}")
     if options is None:
-        return OptimizeOptions(**{name: values[name] for name in OPTION_NAMES})._plain()
-    return dataclasses.replace(options, **{name: values[name] for name in OPTION_NAMES if name in given})._plain()
+        merged = OptimizeOptions(**{name: values[name] for name in OPTION_NAMES})
+    else:
+        merged = dataclasses.replace(options, **{name: values[name] for name in OPTION_NAMES if name in given})
+    plain = merged._plain()
+    # Of one value of options, a call may well turn the objective off.
+    meant = "accuracy" in given or ("objective" not in given and merged.accuracy != AccuracyOptions())
+    if merged.objective == "energy" and meant:
+        raise TemperError("invalid_option", "", 'accuracy: expected only with objective="accuracy"; found "energy"')
+    return plain

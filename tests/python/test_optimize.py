@@ -89,11 +89,51 @@ def test_options_that_make_no_sense_leave_the_mesh_alone(ring, options, says):
     assert caught.value.code == "invalid_option" and ring == before
 
 
-def test_options_of_the_wrong_type_are_named(ring):
-    with pytest.raises(TypeError, match="max_sweeps"):
-        temper.optimize(ring, max_sweeps="many")
+@pytest.mark.parametrize(
+    "name, value",
+    [
+        ("max_sweeps", "many"),
+        ("threads", "2"),
+        ("threads", 2**70),
+        ("gamma", "x"),
+        ("h0", temper.Softening("x")),
+        ("accuracy", 3),
+        ("accuracy", {"margin": 0.1}),
+        ("observer", 3),
+        ("tracer", "print"),
+        ("watch", []),
+        ("size_field", 0.1),
+        ("seed", 2**70),
+    ],
+)
+def test_options_of_the_wrong_type_are_named(ring, name, value):
+    before = ring.copy()
+    with pytest.raises(TypeError, match=f"^{name}: "):
+        temper.optimize(ring, **{name: value})
+    assert ring == before
+
+
+def test_unknown_options_are_refused(ring):
     with pytest.raises(TypeError, match="unexpected keyword"):
         temper.optimize(ring, sweeps=3)
+
+
+def test_threads_of_the_wrong_type_are_named_everywhere(ring):
+    for call in (temper.quality, temper.count_non_regular_edges, temper.verify):
+        with pytest.raises(TypeError, match="^threads: "):
+            call(ring, threads="2")
+
+
+def test_options_of_accuracy_need_its_objective(ring):
+    finer = temper.AccuracyOptions(margin=0.1)
+    options = temper.OptimizeOptions(accuracy=finer, max_sweeps=1)
+    for arguments, keywords in (((), dict(accuracy=finer)), ((), dict(accuracy=temper.AccuracyOptions())),
+                                ((options,), {})):  # fmt: skip
+        with pytest.raises(temper.TemperError, match='only with objective="accuracy"') as caught:
+            temper.optimize(ring.copy(), *arguments, **keywords)
+        assert caught.value.code == "invalid_option"
+    both = dataclasses.replace(options, objective="accuracy")
+    assert temper.optimize(ring.copy(), both, objective="energy").sweeps == 1
 
 
 def test_an_observer_sees_sweeps_and_may_stop(ring):
