@@ -331,7 +331,7 @@ def as_mesh(mesh: MeshLike) -> Mesh:
     if isinstance(mesh, Mesh):
         return mesh
     if hasattr(mesh, "points") and hasattr(mesh, "cells") and hasattr(mesh, "point_data"):
-        from ._meshio import from_meshio
+        from ._meshio import borrow
 
-        return from_meshio(mesh)
+        return borrow(mesh)
     raise TypeError(f"expected a temper.Mesh or a meshio.Mesh, found {type(mesh).__name__}")

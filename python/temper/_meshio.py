@@ -87,10 +87,11 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
     Parameters
     ----------
     mesh : meshio.Mesh
-        Its triangles become the mesh; lines inside the domain become constrained edges; other cells are left out, with
-        a warning. Points may have a third coordinate when it is the same for all. Point data ``weight`` are the
-        weights [length²]; integer cell data ``region``, ``gmsh:physical``, ``medit:ref`` or ``cell_tags`` (the first
-        that is there) are the regions. All point and cell data are kept: ``to_meshio`` and ``write`` give them back.
+        Its triangles become the mesh; lines inside the domain become constrained edges; vertex cells stay with their
+        points; other cells, and ``point_sets`` and ``cell_sets``, are left out, with a warning. Points may have a third
+        coordinate when it is the same for all. Point data ``weight`` are the weights [length²]; integer cell data
+        ``region``, ``gmsh:physical``, ``medit:ref`` or ``cell_tags`` (the first that is there) are the regions. All
+        point and cell data are kept: ``to_meshio`` and ``write`` give them back.
     fixed_tags : sequence of str or int
         Lines with these tags: their points must not move.
 
@@ -104,7 +105,12 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
     TemperWarning
         Points of no triangle that are dropped; clockwise triangles that are reversed; data and cells left out.
     """
-    dropped: list[str] = []
+    sets = {"point_sets": mesh.point_sets, "cell_sets": mesh.cell_sets}
+    dropped = [f"{kind} {', '.join(map(repr, names))} are left out" for kind, names in sets.items() if names]
+    return _take(mesh, fixed_tags, dropped)
+
+
+def _take(mesh: Any, fixed_tags: tuple[str | int, ...], dropped: list[str], level: int = 3) -> Mesh:
     for block in mesh.cells:
         if block.type not in ("triangle", "line", "vertex"):
             dropped.append(f"{len(block.data)} cells of type {block.type} are left out")
@@ -124,18 +130,25 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
     corners, ends = _joined(mesh, triangles, 3), _joined(mesh, lines, 2)
     regions, source = _tags(cell_data, -1)
     line_data = _cell_data(mesh, lines, dropped)
+    vertices = _blocks(mesh, "vertex")
+    vertex_data = _cell_data(mesh, vertices, dropped)
+    vertex_cells = _joined(mesh, vertices, 1).reshape(-1)
+    vertex_tags, vertex_source = _tags(vertex_data, len(vertex_cells))
     line_tags, line_source = _tags(line_data, len(ends))
     if source == "region":
         del cell_data["region"]
     if line_source == "region":
         del line_data["region"]
+    if vertex_source == "region":
+        del vertex_data["region"]
     arrays = {
         "points": points, "z": z, "weights": weights, "triangles": corners, "regions": regions, "lines": ends,
         "line_tags": line_tags, "point_data": point_data, "cell_data": cell_data, "line_data": line_data,
+        "marked_points": vertex_cells, "point_tags": vertex_tags, "marked_point_data": vertex_data,
     }  # fmt: skip
     handle, messages = _temper.mesh_from_file_arrays(arrays, [str(tag) for tag in fixed_tags])
     result = Mesh._of(handle)
-    return _warn(result, dropped + list(messages))
+    return _warn(result, dropped + list(messages), level)
 
 
 def to_meshio(mesh: MeshLike) -> Any:
@@ -143,36 +156,49 @@ def to_meshio(mesh: MeshLike) -> Any:
 
     Points are (n, 3) float64 (z as it was, or 0), with point data ``weight`` (float64, [length²]), triangles with cell
     data ``region``, and what else came with the mesh; lines of the file, and constrained edges, are cells of type
-    ``line``, whose ``region`` is their tag. Needs meshio.
+    ``line``, marked points of type ``vertex``; their ``region`` is their tag. Needs meshio.
     """
     import meshio
 
     file = _temper.file_as_dict(as_mesh(mesh)._handle)
-    n, m, k = len(file["points"]), len(file["triangles"]), len(file["lines"])
+    n, m = len(file["points"]), len(file["triangles"])
     points = np.column_stack([file["points"], np.full(n, file["z"])])
     cells = [("triangle", file["triangles"].astype(np.int64))]
     regions = file["regions"] if len(file["regions"]) else np.zeros(m, dtype=np.int32)
-    cell_data: dict[str, list[Any]] = {"region": [regions]}
-    for name, values in file["cell_data"].items():
-        cell_data[name] = [values]
-    if k:
+    blocks = [(m, file["cell_data"], regions)]
+    if len(file["lines"]):
         cells.append(("line", file["lines"].astype(np.int64)))
-        cell_data["region"].append(file["line_tags"])
-        for name, values in file["cell_data"].items():
-            line = file["line_data"].get(name)
-            shape = (k, *values.shape[1:])
-            cell_data[name].append(line if line is not None else np.zeros(shape, dtype=values.dtype))
-        for name, values in file["line_data"].items():
-            if name not in cell_data:
-                cell_data[name] = [np.zeros((m, *values.shape[1:]), dtype=values.dtype), values]
+        blocks.append((len(file["lines"]), file["line_data"], file["line_tags"]))
+    if len(file["marked_points"]):
+        cells.append(("vertex", file["marked_points"].astype(np.int64).reshape(-1, 1)))
+        blocks.append((len(file["marked_points"]), file["marked_point_data"], file["point_tags"]))
+    # meshio wants each array on every block: zeros where a block has none.
+    cell_data: dict[str, list[Any]] = {"region": [tags for _, _, tags in blocks]}
+    for name in dict.fromkeys(name for _, data, _ in blocks for name in data):
+        like = next(data[name] for _, data, _ in blocks if name in data)
+        cell_data[name] = [
+            data[name] if name in data else np.zeros((size, *like.shape[1:]), dtype=like.dtype)
+            for size, data, _ in blocks
+        ]
     point_data = {"weight": file["weights"] if len(file["weights"]) else np.zeros(n), **file["point_data"]}
     return meshio.Mesh(points, cells, point_data=point_data, cell_data=cell_data)
 
 
+def borrow(mesh: Any) -> Mesh:
+    """``from_meshio`` for a call that looks at the mesh, or writes it back: its sets are not lost."""
+    return _take(mesh, (), [], 5)
+
+
 def put_back(mesh: Any, changed: Mesh) -> None:
-    """Writes a mesh that was changed in place into the ``meshio.Mesh`` that it was made of."""
+    """Writes a mesh that was changed in place into the ``meshio.Mesh`` that it was made of. Its sets of points stay,
+    with the numbers of now; sets of cells cannot, for flips change the triangles."""
     new = to_meshio(changed)
+    now = np.asarray(_temper.vertices_of_points(changed._handle))
+    sets = {name: now[np.asarray(points, dtype=np.int64)] for name, points in mesh.point_sets.items()}
+    sets = {name: vertices[vertices >= 0] for name, vertices in sets.items()}
+    lost = ", ".join(f"'{name}'" for name in mesh.cell_sets)
     mesh.points, mesh.cells = new.points, new.cells
     mesh.point_data, mesh.cell_data = new.point_data, new.cell_data
-    mesh.cell_sets = {}
-    mesh.point_sets = {}
+    mesh.point_sets, mesh.cell_sets = sets, {}
+    if lost:
+        warnings.warn(f"the triangles are others: cell_sets {lost} are dropped", TemperWarning, stacklevel=4)

@@ -79,3 +79,63 @@ def test_a_mesh_that_an_error_left_alone_is_the_same_object(disc):
     with pytest.warns(temper.TemperWarning), pytest.raises(temper.TemperError):
         temper.optimize(disc, energy="none")
     assert disc.points is points and "weight" not in disc.point_data
+
+
+@pytest.fixture
+def marked(disc):
+    """With vertex cells, and sets."""
+    n = len(disc.points)
+    cells = [*disc.cells, ("vertex", [[5], [n - 1], [9]])]
+    data = {"gmsh:physical": [*disc.cell_data["gmsh:physical"], np.array([1, 2, 3])]}
+    sets = {"probes": np.array([9, n - 1, 0])}
+    return meshio.Mesh(disc.points, cells, point_data=disc.point_data, cell_data=data, point_sets=sets,
+                       cell_sets={"inner": [np.array([0]), np.array([0]), np.array([], int)]})  # fmt: skip
+
+
+def test_vertex_cells_and_point_sets_stay_with_their_points(marked):
+    places = marked.points[[5, 9, 0]]
+    marked.points = np.roll(marked.points, 1, axis=0)  # the unused point comes first: all others get new numbers
+    marked.point_data = {}
+    n = len(marked.points)
+    for block in marked.cells:
+        block.data = (block.data + 1) % n
+    marked.point_sets["probes"] = (marked.point_sets["probes"] + 1) % n
+    fixed = marked.cells_dict["line"].reshape(-1)
+    assert {6, 10, 1} <= set(fixed)  # they are known by their places again
+    with pytest.warns(temper.TemperWarning, match="cell_sets 'inner' are dropped"):
+        temper.optimize(marked)
+    assert len(marked.points) == n - 1 and marked.cell_sets == {}
+    assert marked.cells_dict["vertex"].tolist() == [[5], [9]]
+    assert marked.cell_data_dict["gmsh:physical"]["vertex"].tolist() == [1, 3]
+    assert marked.point_sets["probes"].tolist() == [9, 0]
+    assert np.array_equal(marked.points[[5, 9, 0]], places)
+
+
+def test_what_a_mesh_cannot_hold_is_named(marked):
+    with pytest.warns(temper.TemperWarning) as caught:
+        again = temper.from_meshio(marked).to_meshio()
+    said = [str(warning.message) for warning in caught]
+    assert "point_sets 'probes' are left out" in said and "cell_sets 'inner' are left out" in said
+    assert all(warning.filename == __file__ for warning in caught)
+    assert again.cells_dict["vertex"].tolist() == [[5], [9]]
+    with pytest.warns(temper.TemperWarning) as caught:
+        temper.quality(marked)
+    assert not any("sets" in str(warning.message) for warning in caught)
+
+
+@pytest.mark.filterwarnings("ignore::temper.TemperWarning")
+def test_a_mesh_is_written_back_when_and_only_when_it_has_changed(marked):
+    points, cells, before = marked.points, marked.cells, temper.quality(marked).well_centered_fraction
+    for wrong in (dict(tolerance="x"), dict(threads="2"), dict(observer=3), dict(max_sweeps=-1)):
+        with pytest.raises((TypeError, temper.TemperError)):
+            temper.optimize(marked, **wrong)
+        assert marked.points is points and marked.cells is cells and marked.cell_sets
+        assert "weight" not in marked.point_data
+
+    def observe(progress):
+        if progress.last.sweep == 2:
+            temper.read("there-is-no-such-file.vtu")
+
+    with pytest.raises(temper.TemperError, match="no-such-file"):
+        temper.optimize(marked, observer=observe)
+    assert marked.points is not points and temper.quality(marked).well_centered_fraction > before
