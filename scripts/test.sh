@@ -62,8 +62,8 @@ suite() {
   printf '%-44s %-6s  %4d s   %d passed, %d failed, %d skipped\n' "$name" "$verdict" $((SECONDS - start)) "${counts[@]}"
 }
 
-configure_and_build() {  # PRESET
-  cmake --preset "$1" "${launcher[@]}" && cmake --build --preset "$1" -j "$jobs"
+configure_and_build() {  # PRESET OPTION …
+  cmake --preset "$1" "${launcher[@]}" "${@:2}" && cmake --build --preset "$1" -j "$jobs"
 }
 
 formatted() {
@@ -89,11 +89,11 @@ PYTHON
 }
 
 # A library that is missing silently drops the tests that need it; here nothing may be dropped.
-every_test_program_is_there() {
+every_test_program_is_there() {  # BUILD
   local name missing=0 count=0
   while read -r name; do
     count=$((count + 1))
-    find build/dev/tests -name "$name" -type f -perm -u+x | grep -q . || { echo "not built: $name"; missing=1; }
+    find "$1/tests" -name "$name" -type f -perm -u+x | grep -q . || { echo "not built: $name"; missing=1; }
   done < <(git ls-files 'tests/*CMakeLists.txt' | xargs sed -n 's/^ *temper_test(\([A-Za-z0-9_]*\).*/\1/p')
   ((missing == 0 && count > 0)) && echo "$count programs"
 }
@@ -135,10 +135,13 @@ stage "layers: who includes whom" python3 scripts/check_layers.py
 stage "format" formatted
 stage "bench: the comparison finds what it should" python3 bench/compare.py --self-test
 stage "headers, each alone" tests/consumer/headers.sh
-if stage "build (dev, -Werror)" configure_and_build dev; then
+# All tests run with sanitizers; of the optimised build, which has none, those that depend on that.
+few=OFF
+if ((!quick)); then few=ON; fi
+if stage "build (dev, -Werror)" configure_and_build dev -DTEMPER_FEW_TESTS=$few; then
   stage "core without exceptions and RTTI" core_without_exceptions
   stage "instruction sets keep to themselves" python3 scripts/check_instruction_sets.py build/dev
-  stage "every test program is there" every_test_program_is_there
+  if ((quick)); then stage "every test program is there" every_test_program_is_there build/dev; fi
   stage "the Python module is tested" grep -q 'add_test.*python.*pytest' build/dev/tests/python/CTestTestfile.cmake
   suite "tests (dev)" build/dev
   stage "consumer: install, find_package" consumer_find_package && suite "consumer: find_package runs" "$scratch/find_package"
@@ -146,7 +149,10 @@ fi
 if command -v clang++ >/dev/null; then stage "clang++ accepts the core" clang_accepts_core; fi
 stage "consumer: subdirectory, exceptions on" consumer_subdirectory && suite "consumer: subdirectory runs" "$scratch/subdirectory"
 if ((!quick)); then
-  stage "build (asan and ubsan)" configure_and_build asan && suite "tests (asan and ubsan)" build/asan
+  if stage "build (asan and ubsan)" configure_and_build asan; then
+    stage "every test program is there" every_test_program_is_there build/asan
+    suite "tests (asan and ubsan)" build/asan
+  fi
 fi
 
 printf '\n%d s in all' "$SECONDS"
