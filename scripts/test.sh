@@ -98,20 +98,24 @@ every_test_program_is_there() {  # BUILD
   ((missing == 0 && count > 0)) && echo "$count programs"
 }
 
-# The other compiler's opinion of the core, where there is one: several sources at once, as in a unity build. What is
-# compiled for several instruction sets has one source that stands for all.
-clang_accepts_core() {
+# The other compiler's opinion of the core, where there is one: several sources at once, as in a unity build, for the time
+# that saves; where it has something against them together, what it says of each alone is the verdict. What is compiled
+# for several instruction sets has one source that stands for all.
+clang_accepts() {  # SOURCE …
   local flags=(-std=c++20 -fsyntax-only -Iinclude -Isrc -ffp-contract=off -fno-exceptions -fno-rtti
                -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
-  local sources group count=0
+  printf '#include "%s"\n' "$@" | clang++ "${flags[@]}" -x c++ - 2>/dev/null ||
+    printf '%s\0' "$@" | xargs -0 -n 1 clang++ "${flags[@]}"
+}
+export -f clang_accepts
+
+clang_accepts_core() {
+  local sources
   mapfile -t sources < <(find "$PWD/src" -name '*.cpp' -not -name '*_avx*' | grep -v -E '/src/(io|lp|tbb|verify)/' | sort)
-  (IFS=';' && echo "core;${sources[*]}") >"$scratch/core.txt"
-  while read -r group; do
-    grep -o '"[^"]*"' <<<"$group" | sed 's/^/#include /' >"$scratch/core_$count.cpp"
-    count=$((count + 1))
-  done < <(python3 cmake/unity_groups.py "$scratch/core.txt" "$PWD")
-  ((count > 0)) && printf '%s\0' "$scratch"/core_*.cpp | xargs -0 -P "$jobs" -n 1 clang++ "${flags[@]}" &&
-    echo "${#sources[@]} sources"
+  ((${#sources[@]} > 0)) && (IFS=';' && echo "core;${sources[*]}") >"$scratch/core.txt" &&
+    python3 cmake/unity_groups.py "$scratch/core.txt" "$PWD" >"$scratch/groups.txt" &&
+    sed 's/^set_source_files_properties(//; s/ TARGET_DIRECTORY .*//; s/.*/clang_accepts &/' "$scratch/groups.txt" |
+    tr '\n' '\0' | xargs -0 -P "$jobs" -n 1 bash -c && echo "${#sources[@]} sources"
 }
 
 consumer_find_package() {

@@ -53,18 +53,15 @@ std::vector<io::DecFormat> parse_formats(std::string_view list) {
   std::vector<io::DecFormat> formats;
   std::vector<std::string_view> names;
   for (const auto& choice : kDecFormats) names.push_back(choice.name);
-  while (true) {
-    const std::size_t comma = std::min(list.find(','), list.size());
-    const std::string name(list.substr(0, comma));
+  for (const std::string& name : comma_separated(list)) {
     const auto known = std::find_if(std::begin(kDecFormats), std::end(kDecFormats),
                                     [&](const auto& choice) { return choice.name == name; });
     if (known == std::end(kDecFormats)) {
       throw Failure(Exit::bad_usage, fmt::format("dec: --format: {}\nSee temper dec --help", none_of(name, names)));
     }
     formats.push_back(known->value);
-    if (comma == list.size()) return formats;
-    list.remove_prefix(comma + 1);
   }
+  return formats;
 }
 
 /// Before the work: a folder can be there, and the input is none of the files that will be replaced.

@@ -61,18 +61,6 @@ void add_options(CLI::App& app, Settings& s) {
                  {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
-std::vector<std::string> words_of(const std::string& list) {
-  std::vector<std::string> words(1);
-  for (const char c : list) {
-    if (c == ',') {
-      words.emplace_back();
-    } else {
-      words.back() += c;
-    }
-  }
-  return words;
-}
-
 /// Fields that are asked for by mistake are told of before a large mesh is read.
 void check_fields(const VerifyOptions& options) {
   const Mesh none;
@@ -113,7 +101,7 @@ Exit run_verify(const Arguments& arguments) {
   add_options(app, s);
   if (!parse(app, arguments)) return Exit::done;
   VerifyOptions options;
-  options.fields = words_of(s.fields);
+  options.fields = comma_separated(s.fields);
   check_fields(options);
   Outputs outputs("verify");
   std::vector<std::string> inputs = {s.input};

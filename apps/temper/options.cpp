@@ -82,16 +82,26 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
+std::vector<std::string> comma_separated(std::string_view list) {
+  std::vector<std::string> words(1);
+  for (const char c : list) {
+    if (c == ',') {
+      words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  return words;
+}
+
 std::optional<std::vector<double>> parse_numbers(std::string_view text) {
   std::vector<double> values;
-  while (true) {
-    const std::size_t comma = std::min(text.find(','), text.size());
-    const std::optional<double> value = parse_number(text.substr(0, comma));
+  for (const std::string& word : comma_separated(text)) {
+    const std::optional<double> value = parse_number(word);
     if (!value) return std::nullopt;
     values.push_back(*value);
-    if (comma == text.size()) return values;
-    text.remove_prefix(comma + 1);
   }
+  return values;
 }
 
 CLI::Option* add_number(CLI::App& app, const std::string& name, double& target, Interval allowed,

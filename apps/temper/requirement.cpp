@@ -88,12 +88,8 @@ bool holds(Better better, double found, double wanted) {
 
 std::vector<Requirement> parse_requirements(std::string_view list) {
   std::vector<Requirement> requirements;
-  while (true) {
-    const std::size_t comma = std::min(list.find(','), list.size());
-    requirements.push_back(parse_requirement(list.substr(0, comma)));
-    if (comma == list.size()) return requirements;
-    list.remove_prefix(comma + 1);
-  }
+  for (const std::string& word : comma_separated(list)) requirements.push_back(parse_requirement(word));
+  return requirements;
 }
 
 std::optional<std::string> unmet(const Requirement& requirement, const Quality& quality) {

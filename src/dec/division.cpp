@@ -54,14 +54,6 @@ Vec2 mean_of(const std::vector<PieceCorner>& polygon) {
 
 }  // namespace
 
-double area_of(const std::vector<PieceCorner>& polygon) {
-  double doubled = 0;
-  for (std::size_t i = 2; i < polygon.size(); ++i) {
-    doubled += cross(polygon[i - 1].at - polygon[0].at, polygon[i].at - polygon[0].at);
-  }
-  return 0.5 * doubled;
-}
-
 std::vector<CellPiece> TriangleDivider::divide(TriangleId t) {
   const std::array<VertexId, 3> corners = mesh_.corners(t);
   origin_ = mesh_.position(corners[0]);

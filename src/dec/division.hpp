@@ -27,7 +27,18 @@ struct CellPiece {
 };
 
 /// Signed area.
-[[nodiscard]] double area_of(const std::vector<PieceCorner>& polygon);
+/// Of a polygon; `at`: where a corner is.
+template <class Corner, class At>
+[[nodiscard]] double area_of(const std::vector<Corner>& polygon, At&& at) {
+  double doubled = 0;
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    doubled += cross(at(polygon[i - 1]) - at(polygon[0]), at(polygon[i]) - at(polygon[0]));
+  }
+  return 0.5 * doubled;
+}
+[[nodiscard]] inline double area_of(const std::vector<PieceCorner>& polygon) {
+  return area_of(polygon, [](const PieceCorner& corner) { return corner.at; });
+}
 
 class TriangleDivider {
  public:

@@ -167,14 +167,6 @@ std::vector<LocalPolygon> PieceJoiner::join() {
 
 }  // namespace
 
-double area_of(const LocalPolygon& polygon) {
-  double doubled = 0;
-  for (std::size_t i = 2; i < polygon.size(); ++i) {
-    doubled += cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
-  }
-  return 0.5 * doubled;
-}
-
 std::vector<LocalPolygon> join_pieces(const Mesh& mesh, std::span<const CellPiece> pieces) {
   double area = 0, joined_area = 0;
   for (const CellPiece& piece : pieces) area += area_of(piece.corners);

@@ -10,7 +10,9 @@ namespace temper {
 
 /// A simple polygon, counter-clockwise, relative to some point.
 using LocalPolygon = std::vector<Vec2>;
-[[nodiscard]] double area_of(const LocalPolygon& polygon);
+[[nodiscard]] inline double area_of(const LocalPolygon& polygon) {
+  return area_of(polygon, [](Vec2 corner) { return corner; });
+}
 
 /// The union of pieces of one owner, relative to it. Pieces that meet along a side of a triangle become one polygon;
 /// where that does not come out as simple polygons of the same area (a cell with a hole in it), the pieces as they are.

@@ -1,23 +1,13 @@
 // What a solver's author wants to know of the operators: signs, sums, extremes.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/median.hpp"
 #include "temper/dec.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper {
 namespace {
-
-/// The mean of the middle two for an even number; 0 of none.
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  const double below = *std::max_element(values.begin(), middle);
-  return *middle < std::numeric_limits<double>::infinity() ? below + (*middle - below) / 2 : *middle;
-}
 
 double largest_of(const std::vector<double>& values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());

@@ -102,36 +102,24 @@ struct ShiftedHeight {
   struct Base {
     T l, root;  ///< s₁ ℓ
   };
-  /// What 1/Φ and its derivatives divide by, and what else they have in common.
-  template <class T>
-  struct Parts {
-    T divisor;
-  };
 
   template <class T>
   [[nodiscard]] TEMPER_INLINE Base<T> base(const T& l2) const {
     return {l2, s1 == 0 ? all<T>(0) : s1 * square_root(l2)};
   }
 
-  template <class T>
-  [[nodiscard]] TEMPER_INLINE Parts<T> parts(const Base<T>& b, const T& g) const {
-    return {g + b.root + s2 * b.l};
-  }
-
   /// 1/Φ.
   template <class T>
   [[nodiscard]] TEMPER_INLINE Fraction<T> inverse(const Base<T>& b, const T& g) const {
-    return {all<T>(1), parts(b, g).divisor};
+    return {all<T>(1), g + b.root + s2 * b.l};
   }
 
-  /// `quotient`: 1/divisor.
   template <class T>
-  [[nodiscard]] TEMPER_INLINE Denominator<T> denominator(const Base<T>& b, const T& /*g*/, const Parts<T>& /*parts*/,
-                                                         const T& quotient) const {
+  [[nodiscard]] TEMPER_INLINE Denominator<T> denominator(const Base<T>& b, const T& g) const {
     const T inverse_l = s1 == 0 ? all<T>(0) : 1.0 / b.l;
     const T half_root = 0.5 * b.root * inverse_l;
     Denominator<T> d;
-    d.inverse = quotient;
+    d.inverse = 1.0 / inverse(b, g).y;
     d.g = d.inverse;
     d.l = (half_root + s2) * d.inverse;
     d.gg = -1.0 * (d.inverse * d.inverse);
@@ -149,10 +137,6 @@ struct SmoothedHeight {
   struct Base {
     T m, slope;  ///< M, M'
   };
-  template <class T>
-  struct Parts {
-    T divisor, r, sum, below;  ///< R times R + |g| or M, of which 1/Φ is made
-  };
 
   template <class T>
   [[nodiscard]] TEMPER_INLINE Base<T> base(const T& l2) const {
@@ -168,26 +152,22 @@ struct SmoothedHeight {
   }
 
   template <class T>
-  [[nodiscard]] TEMPER_INLINE Parts<T> parts(const Base<T>& b, const T& g) const {
+  [[nodiscard]] TEMPER_INLINE Denominator<T> denominator(const Base<T>& b, const T& g) const {
     const T r = square_root(g * g + b.m), sum = r + absolute(g);
-    const T below = select(g >= 0, sum, b.m);
-    return {r * below, r, sum, below};
-  }
-
-  /// `quotient`: 1/divisor.
-  template <class T>
-  [[nodiscard]] TEMPER_INLINE Denominator<T> denominator(const Base<T>& b, const T& g, const Parts<T>& parts,
-                                                         const T& quotient) const {
-    const T inverse_r = quotient * parts.below;
+    const auto above = g >= 0;
+    // 1/R and 1/Φ, which is 2/sum or 2 sum/M, by one division.
+    const T divisor = select(above, sum, b.m);
+    const T quotient = 1.0 / (r * divisor);
+    const T inverse_r = quotient * divisor;
     const T half_slope_cube = 0.5 * b.slope * (inverse_r * inverse_r * inverse_r);
     Denominator<T> d;
-    d.inverse = 2 * (quotient * parts.r) * select(g >= 0, all<T>(1), parts.sum);
+    d.inverse = 2 * (quotient * r) * select(above, all<T>(1), sum);
     const T inverse = inverse_r * d.inverse;  // 1/(R Φ), and ∂(R Φ)/∂L = M' (g + 2R)/(4R)
     d.g = inverse_r;
     d.l = 0.25 * b.slope * inverse;
     d.gg = -1.0 * g * (inverse_r * inverse_r * inverse_r);
     d.lg = -1.0 * half_slope_cube;
-    d.ll = 0.5 * m2 * inverse - 0.0625 * (b.slope * b.slope) * (g + 2 * parts.r) * inverse_r * (inverse * inverse);
+    d.ll = 0.5 * m2 * inverse - 0.0625 * (b.slope * b.slope) * (g + 2 * r) * inverse_r * (inverse * inverse);
     return d;
   }
 };
@@ -235,8 +215,7 @@ struct BarrierKernel {
   [[nodiscard]] TEMPER_INLINE EdgeTerm<T> term(const Base<T>& edge, const T& g) const {
     const T &l = edge.l, &w = edge.w, &q = edge.q, t = edge.squares + 4 * beta * (g * g);
     const T quotient = 1.0 / (t * q), ti = quotient * q, qi = quotient * t;
-    const auto parts = height.parts(edge.height, g);
-    const Denominator<T> d = height.denominator(edge.height, g, parts, 1.0 / parts.divisor);
+    const Denominator<T> d = height.denominator(edge.height, g);
     // f = T Q^(−1/2) / Φ: ∂ ln f, then ∂²f = f (∂ ln f ∂ ln f + ∂² ln f).
     const T tl = 2 * alpha * (l * ti), tw = 2 * alpha * (w * ti), tg = 8 * beta * (g * ti);
     const T ql = l * qi, qw = w * qi;  // of ln √Q, the latter with its sign turned

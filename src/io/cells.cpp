@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "io/physical_names.hpp"
 #include "io/scanner.hpp"
 #include "io/values.hpp"
 
@@ -117,13 +118,7 @@ void take_physical_names(Document& document) {
   if (bytes == nullptr) fail(ErrorCode::syntax, path, "the field array 'physical_names' is not of type UInt8");
   const std::string all(bytes->begin(), bytes->end());
   Scanner scanner(path, all);
-  while (!scanner.at_end()) {
-    PhysicalName name;
-    name.dimension = scanner.integer("the dimension of a physical name");
-    name.tag = scanner.integer("the tag of a physical name");
-    name.name = scanner.rest_of_line();
-    document.file.names.push_back(std::move(name));
-  }
+  read_physical_names(scanner, document.file.names);
 }
 
 void take_point_data(Document& document, std::vector<DataArray>&& arrays) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "io/physical_names.hpp"
 #include "io/scanner.hpp"
 
 namespace temper::io {
@@ -59,9 +60,7 @@ class ExtrasWriter {
   void write() {
     const MeshFile& f = file_;
     if (!is_flat(f)) out_.attribute(NetcdfWriter::kFile, kZAttribute, f.z);
-    std::string names;
-    for (const PhysicalName& n : f.names) names += text(n.dimension, " ", n.tag, " ", n.name, "\n");
-    if (!names.empty()) out_.attribute(NetcdfWriter::kFile, kNamesAttribute, names);
+    if (!f.names.empty()) out_.attribute(NetcdfWriter::kFile, kNamesAttribute, lines_of(f.names));
     if (!f.regions.empty()) put(kExtraKinds[1], std::string(kRegionVariable), {places_.cells}, f.regions);
     if (!f.lines.empty()) {
       lines_ = out_.dimension("temper_lines", f.lines.size());
@@ -165,13 +164,7 @@ void read_netcdf_extras(const NetcdfReader& in, Document& document) {
   if (const auto z = in.number_attribute(nullptr, kZAttribute)) f.z = *z;
   const std::string names = in.text_attribute(nullptr, kNamesAttribute);
   Scanner scanner(document.names->path, names);
-  while (!scanner.at_end()) {
-    PhysicalName name;
-    name.dimension = scanner.integer("the dimension of a physical name");
-    name.tag = scanner.integer("the tag of a physical name");
-    name.name = scanner.rest_of_line();
-    f.names.push_back(std::move(name));
-  }
+  read_physical_names(scanner, f.names);
   if (const NetcdfVariable* v = in.find(kRegionVariable); v != nullptr && v->sizes.size() == 1) {
     expect_rows(document, *v, f.triangles.size());
     f.regions = read_int32(in, document, *v);

@@ -12,6 +12,7 @@
 
 #include "io/cells.hpp"
 #include "io/format.hpp"
+#include "io/physical_names.hpp"
 #include "io/ply.hpp"
 #include "io/scanner.hpp"
 
@@ -148,11 +149,7 @@ void PlyReader::comment(std::string_view words) {
     joined.name = line.word("the name of an array");
     joined_.push_back(std::move(joined));
   } else {
-    PhysicalName physical;
-    physical.dimension = line.integer("the dimension of a physical name");
-    physical.tag = line.integer("the tag of a physical name");
-    physical.name = line.rest_of_line();
-    document_.file.names.push_back(std::move(physical));
+    document_.file.names.push_back(read_physical_name(line));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "io/format.hpp"
+#include "io/physical_names.hpp"
 #include "io/ply.hpp"
 
 namespace temper::io {
@@ -83,8 +84,7 @@ void PlyWriter::header() {
   const MeshFile& f = file_;
   const char* order = std::endian::native == std::endian::little ? "binary_little_endian" : "binary_big_endian";
   out_.put("ply\nformat ", binary_ ? order : "ascii", " 1.0\n");
-  for (const PhysicalName& n : f.names)
-    out_.put("comment ", kPlyNameComment, n.dimension, ' ', n.tag, ' ', n.name, '\n');
+  for (const PhysicalName& n : f.names) out_.put("comment ", kPlyNameComment, line_of(n), '\n');
   point_data_ = choose(f.point_data, "vertex", {"x", "y", "z", std::string(kPlyWeight), std::string(kPlyTag)});
   const std::string region(kPlyRegion);
   cell_data_ = choose(f.cell_data, "face", {"vertex_indices", "vertex_index", region});

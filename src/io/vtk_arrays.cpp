@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "io/cells.hpp"
+#include "io/physical_names.hpp"
 
 namespace temper::io {
 
@@ -180,8 +181,7 @@ std::vector<VtkArray> vtk_cell_data(const WriteJob& job) {
 std::vector<VtkArray> vtk_field_data(const MeshFile& f) {
   std::vector<VtkArray> list;
   if (!f.names.empty()) {
-    std::string all;
-    for (const PhysicalName& n : f.names) all += text(n.dimension, " ", n.tag, " ", n.name, "\n");
+    std::string all = lines_of(f.names);
     const std::size_t n = all.size();
     list.push_back(computed_vtk_array<std::uint8_t>(
         "physical_names", Scalar::u8, n,

@@ -3,9 +3,9 @@
 #include "temper/quality.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
+#include "base/median.hpp"
 #include "quality/tally.hpp"
 #include "temper/executor.hpp"
 
@@ -33,19 +33,6 @@ Tally tally(const Mesh& mesh, const QualityOptions& options) {
     block = Tally(0);  // its list of transmissibilities is in `all` now
   }
   return all;
-}
-
-// The largest over the median, the mean of the middle two for an even number. Without interior edges nothing
-// differs: 1. A median of +∞ leaves nothing to compare with: +∞.
-double largest_over_median(std::vector<double> values) {
-  if (values.empty()) return 1;
-  const double largest = *std::max_element(values.begin(), values.end());
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  double median = *middle;
-  if (values.size() % 2 == 0) median += (*std::max_element(values.begin(), middle) - median) / 2;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  return median < kInfinity && largest < kInfinity ? largest / median : kInfinity;
 }
 
 std::array<std::array<double, 3>, 6> all_energies(const Mesh& mesh, const QualityOptions& options) {

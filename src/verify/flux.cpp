@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/median.hpp"
 #include "verify/poisson.hpp"
 #include "verify/stars.hpp"
 
@@ -75,7 +76,7 @@ void FluxScheme::assemble() {
   for (std::size_t e = 0; e < dec.edges.size(); ++e) {
     const DecEdge& edge = dec.edges[EdgeId(e)];
     const double flux = dec.flux[EdgeId(e)];
-    if (!edge.is_boundary()) inside.push_back(flux);
+    if (!edge.is_boundary()) inside.push_back(std::abs(flux));
     if (flux < 0) ++system_.negative;
     if (coincident(edge)) continue;
     const std::size_t a = unknowns_[group(inner_triangle(edge))];

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/median.hpp"
 #include "verify/stars.hpp"
 
 namespace temper::verify_detail {
@@ -65,17 +66,6 @@ ErrorNorms poisson_norms(const Setting& s, const Field& field, const std::vector
 
 }  // namespace
 
-double largest_over_median(std::vector<double> coefficients) {
-  if (coefficients.empty()) return 1;
-  for (double& c : coefficients) c = std::abs(c);
-  const double largest = *std::max_element(coefficients.begin(), coefficients.end());
-  const auto middle = coefficients.begin() + static_cast<std::ptrdiff_t>(coefficients.size() / 2);
-  std::nth_element(coefficients.begin(), middle, coefficients.end());
-  double median = *middle;
-  if (coefficients.size() % 2 == 0) median = 0.5 * (median + *std::max_element(coefficients.begin(), middle));
-  return std::isfinite(largest) && median > 0 ? largest / median : std::numeric_limits<double>::infinity();
-}
-
 SchemeErrors poisson_errors(const Setting& s, const std::vector<Field>& fields, bool condition) {
   SchemeErrors result;
   LinearSystem linear;
@@ -86,7 +76,7 @@ SchemeErrors poisson_errors(const Setting& s, const std::vector<Field>& fields, 
 
   std::vector<double> inside;
   for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
-    if (!s.dec.edges[EdgeId(e)].is_boundary()) inside.push_back(s.dec.star1[EdgeId(e)]);
+    if (!s.dec.edges[EdgeId(e)].is_boundary()) inside.push_back(std::abs(s.dec.star1[EdgeId(e)]));
   }
   result.system.unknowns = linear.unknowns;
   result.system.m_matrix = result.system.negative == 0 && !solution.singular;

@@ -14,9 +14,6 @@ struct SchemeErrors {
   std::vector<ErrorNorms> fields;
 };
 
-/// Of the |coefficients| of interior edges, the largest over the median; 1 of none.
-[[nodiscard]] double largest_over_median(std::vector<double> coefficients);
-
 /// Vertex-centered: d0ᵀ ★1 d0 u = ★0 f at inner vertices, f at the vertex; u given at those of the boundary.
 [[nodiscard]] SchemeErrors poisson_errors(const Setting& setting, const std::vector<Field>& fields, bool condition);
 
