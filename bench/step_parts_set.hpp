@@ -5,7 +5,7 @@
 #include "step_parts.hpp"
 // That header ends with the definition of step_batch, which the library has already.
 #define step_batch step_batch_of_parts
-#include "optimize/star_batch_set.hpp"
+#include "optimize/step/star_batch_set.hpp"
 #undef step_batch
 
 namespace temper::TEMPER_INSTRUCTION_SET {

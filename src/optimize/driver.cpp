@@ -6,8 +6,8 @@
 
 #include "base/rng.hpp"
 #include "base/text.hpp"
-#include "optimize/grading.hpp"
-#include "optimize/repair_search.hpp"
+#include "optimize/repair/grading.hpp"
+#include "optimize/repair/repair_search.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {

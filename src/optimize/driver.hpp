@@ -4,12 +4,12 @@
 #include <optional>
 #include <vector>
 
-#include "optimize/flipper.hpp"
-#include "optimize/recorder.hpp"
 #include "optimize/run.hpp"
 #include "optimize/schedule.hpp"
 #include "optimize/settings.hpp"
-#include "optimize/sweeper.hpp"
+#include "optimize/step/flipper.hpp"
+#include "optimize/sweep/sweeper.hpp"
+#include "optimize/trace/recorder.hpp"
 #include "optimize/working_copy.hpp"
 #include "temper/optimize.hpp"
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "optimize/accuracy_driver.hpp"
+#include "optimize/accuracy/accuracy_driver.hpp"
 #include "optimize/driver.hpp"
-#include "optimize/repair_search.hpp"
+#include "optimize/repair/repair_search.hpp"
 #include "temper/necessity.hpp"
 #include "temper/regularity.hpp"
 

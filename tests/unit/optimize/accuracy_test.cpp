@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "optimize/accuracy_driver.hpp"
+#include "optimize/accuracy/accuracy_driver.hpp"
 #include "support/lattice.hpp"
 #include "support/regions.hpp"
 #include "support/std_threads.hpp"

@@ -9,7 +9,7 @@
 #include "energy/whole_mesh.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "optimize/driver.hpp"
-#include "optimize/star_batch.hpp"
+#include "optimize/step/star_batch.hpp"
 #include "temper/generate.hpp"
 #include "temper/instruction_set.hpp"
 #include "temper/optimize.hpp"

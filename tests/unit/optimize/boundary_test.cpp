@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/rng.hpp"
-#include "optimize/recorder.hpp"
+#include "optimize/trace/recorder.hpp"
 #include "support/area.hpp"
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"

@@ -1,5 +1,5 @@
 // What the cavity of a vertex costs without it: the change of the total, for every energy and star.
-#include "optimize/cavity.hpp"
+#include "optimize/step/cavity.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Newton's method for all vertices of a part: what a pass keeps, what it gains, and that nothing else decides about it.
-#include "optimize/newton_pass.hpp"
+#include "optimize/sweep/newton_pass.hpp"
 
 #include <gtest/gtest.h>
 
 #include "optimize/driver.hpp"
-#include "optimize/semidefinite.hpp"
+#include "optimize/sweep/semidefinite.hpp"
 #include "support/lattice.hpp"
 #include "support/std_threads.hpp"
 #include "temper/generate.hpp"

@@ -1,11 +1,11 @@
 // The descent step on functions whose minimum is known, and golden section.
-#include "optimize/newton.hpp"
+#include "optimize/step/newton.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "optimize/golden.hpp"
+#include "optimize/step/golden.hpp"
 #include "support/lattice.hpp"
 
 namespace temper::test {

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "optimize/neighborhood.hpp"
-#include "optimize/splice.hpp"
-#include "optimize/trial.hpp"
+#include "optimize/repair/neighborhood.hpp"
+#include "optimize/repair/splice.hpp"
+#include "optimize/repair/trial.hpp"
 #include "support/area.hpp"
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"

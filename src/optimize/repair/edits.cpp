@@ -1,0 +1,84 @@
+#include "optimize/repair/edits.hpp"
+
+#include <algorithm>
+
+#include "optimize/run.hpp"
+#include "temper/geometry.hpp"
+#include "topology/locate.hpp"
+
+namespace temper {
+namespace {
+
+constexpr int kKicks = 3;
+// A neighbourhood with more bad triangles has more than one place to begin at.
+constexpr std::size_t kMostBad = 6;
+constexpr std::size_t kMostRemovals = 12;
+// From sizes that hardly grow to such that double within their own length.
+constexpr double kGradations[] = {0.3, 0.6, 1};
+
+/// The one that the neighbourhood is around, and others.
+std::vector<TriangleId> some_bad_triangles(const Neighborhood& around) {
+  std::vector<TriangleId> bad = {around.seed};
+  for (const TriangleId t : around.mesh.triangles()) {
+    if (bad.size() == kMostBad) break;
+    if (t != around.seed && is_bad(around.mesh, t)) bad.push_back(t);
+  }
+  return bad;
+}
+
+void add_insertions(const Mesh& mesh, TriangleId t, std::vector<Edit>& edits) {
+  const auto [a, b, c] = mesh.corners(t);
+  const Vec2 middle = (1.0 / 3) * (mesh.position(a) + mesh.position(b) + mesh.position(c));
+  edits.push_back({.kind = Edit::insert, .triangle = t, .place = middle});
+  const Vec2 o = orthocenter(mesh.point(a), mesh.point(b), mesh.point(c));
+  const Location at = locate(mesh, o, t);
+  if (at.kind == Location::Kind::in_triangle) {
+    edits.push_back({.kind = Edit::insert, .triangle = at.triangle, .place = o});
+  }
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeId h = Mesh::halfedge(t, k);
+    if (!mesh.is_boundary(h) && !mesh.is_constrained(h)) edits.push_back({.kind = Edit::split, .edge = h});
+  }
+}
+
+/// The corners of these triangles and their neighbours, each once.
+std::vector<VertexId> vertices_near(const Mesh& mesh, const std::vector<TriangleId>& triangles) {
+  std::vector<VertexId> near;
+  for (const TriangleId t : triangles) {
+    for (const VertexId v : mesh.corners(t)) {
+      near.push_back(v);
+      for (const HalfedgeId h : mesh.star(v)) near.push_back(mesh.target(h));
+    }
+  }
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  return near;
+}
+
+void add_removals(const Neighborhood& around, const std::vector<TriangleId>& bad, std::vector<Edit>& edits) {
+  std::size_t count = 0;
+  for (const VertexId v : vertices_near(around.mesh, bad)) {
+    if (!may_be_removed(around.mesh, around.frozen, v)) continue;
+    if (plan_removal(around.mesh, v).status != RemovalStatus::possible) continue;
+    if (++count > kMostRemovals) return;
+    edits.push_back({.kind = Edit::remove, .vertex = v});
+  }
+}
+
+}  // namespace
+
+std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool vertices, Rng& rng) {
+  std::vector<Edit> moves = {{.kind = Edit::nothing}}, one, many, anew;
+  for (int i = 0; i < kKicks; ++i) moves.push_back({.kind = Edit::kick, .seed = rng.next()});
+  if (!vertices) return {moves};
+  const std::vector<TriangleId> bad = some_bad_triangles(around);
+  add_removals(around, bad, one);
+  for (const TriangleId t : bad) add_insertions(around.mesh, t, one);
+  for (const double gradation : kGradations) {
+    many.push_back({.kind = Edit::fill, .gradation = gradation});
+    anew.push_back({.kind = Edit::refill, .gradation = gradation});
+  }
+  return {moves, one, many, anew};
+}
+
+}  // namespace temper

@@ -1,0 +1,16 @@
+// What might cure the bad triangles of a neighbourhood: the edits worth a trial, those that change least first.
+#pragma once
+
+#include <vector>
+
+#include "base/rng.hpp"
+#include "optimize/repair/trial.hpp"
+
+namespace temper {
+
+/// In tiers, of which the next is for when none of the last helps. Sweeps alone and kicks, which keep every vertex.
+/// With `vertices` also: one vertex less near a bad triangle, or one more in its middle, at its orthocenter or on an
+/// edge; then as many more as are missing; then all of them anew. Fixed, boundary and constrained vertices stay.
+[[nodiscard]] std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool vertices, Rng& rng);
+
+}  // namespace temper

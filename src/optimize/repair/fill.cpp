@@ -1,0 +1,80 @@
+#include "optimize/repair/fill.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "temper/geometry.hpp"
+#include "topology/locate.hpp"
+
+namespace temper {
+namespace {
+
+// Circumradius over size: an equilateral triangle of the size has 0.58.
+constexpr double kLarge = 0.75;
+// Nearer to an edge than this part of its length, or of the size, a vertex makes flat triangles.
+constexpr double kClearance = 0.4;
+
+bool keeps_its_place(const Mesh& mesh, HalfedgeId h) { return mesh.is_boundary(h) || mesh.is_constrained(h); }
+
+double distance_to_segment(Vec2 x, Vec2 a, Vec2 b) {
+  const Vec2 along = b - a;
+  const double t = std::clamp(dot(x - a, along) / squared_length(along), 0.0, 1.0);
+  return length(x - (a + t * along));
+}
+
+}  // namespace
+
+Fill::Fill(const Mesh& mesh, double gradation) : mesh_(mesh), gradation_(gradation) {
+  std::vector<double> sum(mesh.n_vertices(), 0);
+  std::vector<int> count(mesh.n_vertices(), 0);
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.is_erased(Mesh::triangle(h)) || !keeps_its_place(mesh, h) || !mesh.is_edge_representative(h)) continue;
+    const VertexId a = mesh.origin(h), b = mesh.target(h);
+    segments_.push_back({mesh.position(a), mesh.position(b)});
+    for (const VertexId v : {a, b}) {
+      sum[v.index] += length(mesh.position(b) - mesh.position(a));
+      ++count[v.index];
+    }
+  }
+  for (const VertexId v : mesh.vertices()) {
+    if (count[v.index] > 0) sources_.push_back({mesh.position(v), sum[v.index] / count[v.index]});
+  }
+}
+
+std::optional<Fill::Place> Fill::next() {
+  double worst = kLarge;
+  std::optional<Place> place;
+  for (const TriangleId t : mesh_.triangles()) {
+    if (mesh_.is_erased(t)) continue;
+    const auto [a, b, c] = mesh_.corners(t);
+    const Vec2 pa = mesh_.position(a), pb = mesh_.position(b), pc = mesh_.position(c);
+    const Vec2 o = orthocenter({pa.x, pa.y, 0}, {pb.x, pb.y, 0}, {pc.x, pc.y, 0});
+    if (!std::isfinite(o.x) || !std::isfinite(o.y)) continue;
+    const double relative = length(o - pa) / size(o);
+    if (relative <= worst || refused_.count({o.x, o.y}) > 0) continue;
+    const Location at = too_near_to_edges(o) ? Location() : locate(mesh_, o, t);
+    if (at.kind != Location::Kind::in_triangle) {
+      refuse(o);
+      continue;
+    }
+    worst = relative;
+    place = {at.triangle, o};
+  }
+  return place;
+}
+
+double Fill::size(Vec2 x) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Source& s : sources_) least = std::min(least, s.size + gradation_ * length(x - s.at));
+  return least;
+}
+
+bool Fill::too_near_to_edges(Vec2 x) const {
+  const double wanted = size(x);
+  return std::any_of(segments_.begin(), segments_.end(), [&](const Segment& s) {
+    return distance_to_segment(x, s.a, s.b) < kClearance * std::min(length(s.b - s.a), wanted);
+  });
+}
+
+}  // namespace temper

@@ -1,0 +1,162 @@
+#include "optimize/repair/grading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "temper/necessity.hpp"
+
+namespace temper {
+namespace {
+
+// Edges whose bounds sum to 1 must be split; up to here they leave so little room that sweeps hardly find it. Measured
+// on the outline of a capital A, ratio 4: 1 leaves 5 triangles bad; 1.2 to 2 none, with 17 cuts at 1.3 and 27 at 2.
+// Above 1.46 the dense horseshoe, which needs none of these splits, loses margin by them.
+constexpr double kLittleRoom = 1.3;
+constexpr double kNoConflict = std::numeric_limits<double>::infinity();
+// For each edge that there is: corners of few degrees could ask for more and more.
+constexpr std::size_t kMostSplits = 20;
+
+class BoundaryCutter {
+ public:
+  BoundaryCutter(WorkingCopy& work, Flipper& flipper) : work_(work), mesh_(work.mesh), flipper_(flipper) {}
+
+  void cut(const EdgeCuts& edge);
+  /// Splits edges that leave their dual no room, or little (necessity.hpp), worst first, until none does.
+  void resolve_conflicts();
+  /// A vertex at the orthocenter of a triangle that has none free.
+  void free(const std::array<VertexId, 3>& corners);
+  [[nodiscard]] std::size_t vertices() const { return vertices_; }
+  [[nodiscard]] std::size_t conflicts() const { return conflicts_; }
+  [[nodiscard]] std::size_t inside() const { return inside_; }
+  [[nodiscard]] std::size_t refused() const { return refused_; }
+
+ private:
+  [[nodiscard]] HalfedgeId find_edge(VertexId a, VertexId b) const;
+  VertexId split(VertexId a, VertexId b, Vec2 at);
+  VertexId commit(const InsertionPlan& plan);
+
+  WorkingCopy& work_;
+  Mesh& mesh_;
+  Flipper& flipper_;
+  InsertionPlan plan_;
+  std::size_t vertices_ = 0, conflicts_ = 0, inside_ = 0, refused_ = 0;
+};
+
+/// An edge of the boundary or of a line, by its ends, which flips elsewhere do not change.
+struct Line {
+  VertexId u, v;
+  double sum = kNoConflict;
+  double split_at = 0.5;
+};
+
+Line line_of(const Mesh& mesh, HalfedgeId h) {
+  if (const auto c = edge_conflict(mesh, h, kLittleRoom)) {
+    return {mesh.origin(c->edge), mesh.target(c->edge), c->sum, c->split_at};
+  }
+  return {mesh.origin(h), mesh.target(h)};
+}
+
+/// Whether a new vertex at p can matter to the edge: the discs from its ends have diameters of kLittleRoom edges.
+bool is_near(const Mesh& mesh, const Line& line, Vec2 p) {
+  const Vec2 u = mesh.position(line.u), v = mesh.position(line.v);
+  return length(p - 0.5 * (u + v)) <= kLittleRoom * length(v - u);
+}
+
+HalfedgeId BoundaryCutter::find_edge(VertexId a, VertexId b) const {
+  const HalfedgeId h = mesh_.find_halfedge(a, b);
+  return h.valid() ? h : mesh_.find_halfedge(b, a);
+}
+
+/// From a towards b, each time what is left of the edge.
+void BoundaryCutter::cut(const EdgeCuts& edge) {
+  const Vec2 a = mesh_.position(edge.a), along = mesh_.position(edge.b) - a;
+  VertexId last = edge.a;
+  for (const double t : edge.at) {
+    const VertexId v = split(last, edge.b, work_.frame.snap(a + t * along));
+    if (v.valid()) last = v;
+  }
+}
+
+void BoundaryCutter::resolve_conflicts() {
+  std::vector<Line> lines;
+  for (const HalfedgeId h : mesh_.halfedges()) {
+    if (mesh_.is_erased(Mesh::triangle(h)) || !mesh_.is_edge_representative(h)) continue;
+    if (mesh_.is_boundary(h) || mesh_.is_constrained(h)) lines.push_back(line_of(mesh_, h));
+  }
+  const auto less = [](const Line& x, const Line& y) { return x.sum < y.sum; };
+  for (std::size_t left = kMostSplits * lines.size(); left > 0; --left) {
+    Line& worst = *std::min_element(lines.begin(), lines.end(), less);
+    if (!std::isfinite(worst.sum)) return;
+    const Vec2 from = mesh_.position(worst.u), to = mesh_.position(worst.v);
+    const VertexId fresh = split(worst.u, worst.v, work_.frame.snap(from + worst.split_at * (to - from)));
+    if (!fresh.valid()) {
+      worst.sum = kNoConflict;
+      continue;
+    }
+    ++conflicts_;
+    const VertexId end = std::exchange(worst.v, fresh);
+    lines.push_back({fresh, end});
+    for (Line& line : lines) {
+      if (is_near(mesh_, line, mesh_.position(fresh))) line = line_of(mesh_, find_edge(line.u, line.v));
+    }
+  }
+}
+
+/// The new vertex on ab, or none.
+VertexId BoundaryCutter::split(VertexId a, VertexId b, Vec2 at) {
+  const Vec2 from = mesh_.position(a), along = mesh_.position(b) - from;
+  const double l2 = squared_length(along), t = dot(at - from, along) / l2;
+  const double w = split_weight(mesh_.weight(a), mesh_.weight(b), l2, t);
+  plan_ = plan_split(mesh_, find_edge(a, b), WeightedPoint{at.x, at.y, w}, std::move(plan_));
+  if (plan_.status != InsertionStatus::possible) {
+    ++refused_;
+    return {};
+  }
+  ++vertices_;
+  return commit(plan_);
+}
+
+void BoundaryCutter::free(const std::array<VertexId, 3>& corners) {
+  plan_ = plan_center(mesh_, corners, std::move(plan_));
+  if (plan_.status != InsertionStatus::possible) return;
+  const Vec2 at = work_.frame.snap(plan_.point.position());
+  const double w = plan_.point.w;
+  const TriangleId near = plan_.triangle;
+  plan_ = plan_insertion(mesh_, {at.x, at.y, w}, near, std::move(plan_));
+  if (plan_.status != InsertionStatus::possible) return;
+  commit(plan_);
+  ++inside_;
+}
+
+VertexId BoundaryCutter::commit(const InsertionPlan& plan) {
+  const VertexId v = plan.edge.valid() ? flipper_.split(work_, plan.edge, plan.point, kNoEnergy, kNoEnergy)
+                                       : flipper_.insert(work_, plan.triangle, plan.point, kNoEnergy, kNoEnergy);
+  for (const auto& [a, b] : plan.flips) flipper_.flip(mesh_.find_halfedge(a, b), kNoEnergy, kNoEnergy);
+  return v;
+}
+
+}  // namespace
+
+BoundaryCuts cut_boundary(WorkingCopy& work, Flipper& flipper, double ratio) {
+  BoundaryCutter cutter(work, flipper);
+  BoundaryCuts result;
+  result.ratio_before = plan_boundary_grading(work.mesh, ratio).ratio_before;
+  // First: after other cuts more splits are needed, and at sharp corners far more.
+  cutter.resolve_conflicts();
+  for (int pass = 0; pass < kGradingPasses; ++pass) {
+    const GradingPlan plan = plan_boundary_grading(work.mesh, ratio, kWidestBoundaryAngle);
+    result.ratio_after = plan.ratio_after;
+    for (const EdgeCuts& edge : plan.cuts) cutter.cut(edge);
+  }
+  for (const auto& corners : triangles_without_free_corner(work.mesh)) cutter.free(corners);
+  result.vertices = cutter.vertices();
+  result.conflicts = cutter.conflicts();
+  result.inside = cutter.inside();
+  result.refused = cutter.refused();
+  return result;
+}
+
+}  // namespace temper

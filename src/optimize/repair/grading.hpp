@@ -1,0 +1,27 @@
+// BoundaryVertices::split: long edges of the boundary and of constrained lines, where they meet short ones, are cut
+// before the sweeps. A long edge beside a short one is what plain sweeps cannot mend: no position of the vertices
+// inside gives both of their triangles an orthocenter of their own.
+//
+// First come edges on which no dual can cross, or hardly (temper/necessity.hpp): no mesh inside makes up for them. The
+// other cuts are those of plan_boundary_grading(), but at places that the user's coordinates can hold, and told to the
+// recorder one by one.
+#pragma once
+
+#include <cstddef>
+
+#include "optimize/step/flipper.hpp"
+
+namespace temper {
+
+struct BoundaryCuts {
+  std::size_t vertices = 0;   ///< inserted on edges
+  std::size_t conflicts = 0;  ///< of these, on edges that left their dual no room or little
+  std::size_t inside = 0;     ///< inserted in triangles whose corners all are on the boundary or on lines
+  std::size_t refused = 0;    ///< cuts after which a triangle would be turned over, by rounding, or a vertex hidden
+  double ratio_before = 1;    ///< of the lengths of two such edges that meet at a vertex
+  double ratio_after = 1;     ///< the same with all cuts
+};
+/// The mesh's unconstrained edges are regular, and so they are left.
+BoundaryCuts cut_boundary(WorkingCopy& work, Flipper& flipper, double ratio);
+
+}  // namespace temper

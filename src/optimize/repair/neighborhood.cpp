@@ -1,0 +1,107 @@
+#include "optimize/repair/neighborhood.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "temper/geometry.hpp"
+#include "topology/outgoing.hpp"
+#include "topology/rings.hpp"
+
+namespace temper {
+namespace {
+
+bool contains(const std::vector<TriangleId>& sorted, TriangleId t) {
+  return std::binary_search(sorted.begin(), sorted.end(), t);
+}
+
+/// Vertices where the triangles meet in more than one fan.
+std::vector<VertexId> pinches(const Mesh& mesh, const std::vector<TriangleId>& triangles) {
+  std::vector<VertexId> corners;
+  for (const TriangleId t : triangles) {
+    for (const VertexId v : mesh.corners(t)) corners.push_back(v);
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  std::erase_if(corners, [&](VertexId v) {
+    int fans = 0;  // begin where the triangle clockwise of one inside is outside
+    for (const HalfedgeId h : mesh.star(v)) {
+      const bool inside = contains(triangles, Mesh::triangle(h));
+      const bool before = !mesh.is_boundary(h) && contains(triangles, Mesh::triangle(mesh.twin(h)));
+      fans += inside && !before ? 1 : 0;
+    }
+    return fans < 2;
+  });
+  return corners;
+}
+
+std::vector<TriangleId> rings_around(const Mesh& mesh, TriangleId seed, int rings) {
+  std::vector<TriangleId> triangles = {seed};
+  for (int i = 0; i < rings; ++i) triangles = triangles_around(mesh, triangles);
+  for (auto pinched = pinches(mesh, triangles); !pinched.empty(); pinched = pinches(mesh, triangles)) {
+    for (const VertexId v : pinched) {
+      for (const HalfedgeId h : mesh.star(v)) triangles.push_back(Mesh::triangle(h));
+    }
+    std::sort(triangles.begin(), triangles.end());
+    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  }
+  return triangles;
+}
+
+}  // namespace
+
+Neighborhood neighborhood_of(const Mesh& mesh, TriangleId seed, int rings) {
+  const std::vector<TriangleId> triangles = rings_around(mesh, seed, rings);
+  Neighborhood around;
+  around.seed = TriangleId(
+      static_cast<std::size_t>(std::lower_bound(triangles.begin(), triangles.end(), seed) - triangles.begin()));
+  std::unordered_map<std::uint32_t, VertexId> local;
+  const auto local_vertex = [&](VertexId v) {
+    const auto [entry, is_new] = local.try_emplace(v.index, around.vertices.size());
+    if (is_new) {
+      around.vertices.push_back(v);
+      around.mesh.add_vertex(mesh.point(v));
+      around.mesh.set_fixed(entry->second, mesh.is_fixed(v));
+    }
+    return entry->second;
+  };
+  for (const TriangleId t : triangles) {
+    const auto [a, b, c] = mesh.corners(t);
+    around.mesh.add_triangle({local_vertex(a), local_vertex(b), local_vertex(c)}, mesh.region(t));
+  }
+  around.frozen.assign(around.vertices.size(), 0);
+  for (const HalfedgeId h : around.mesh.halfedges()) {
+    const HalfedgeId whole(3 * std::size_t{triangles[h.index / 3].index} + h.index % 3);
+    around.mesh.set_constrained(h, mesh.is_constrained(whole));
+    const HalfedgeId twin = mesh.twin(whole);
+    if (!twin.valid()) continue;
+    const auto at = std::lower_bound(triangles.begin(), triangles.end(), Mesh::triangle(twin));
+    if (at != triangles.end() && *at == Mesh::triangle(twin)) {
+      const auto slot = static_cast<std::size_t>(at - triangles.begin());
+      around.mesh.link(h, HalfedgeId(3 * slot + twin.index % 3));
+      continue;
+    }
+    around.rim.push_back({around.mesh.origin(h), around.mesh.target(h)});
+    around.beyond.push_back(mesh.point(mesh.opposite(twin)));
+  }
+  for (const HalfedgeId h : around.mesh.halfedges()) around.mesh.set_outgoing(around.mesh.origin(h), h);
+  for (const VertexId v : around.mesh.vertices()) {
+    around.mesh.set_outgoing(v, canonical_outgoing(around.mesh, around.mesh.outgoing(v)));
+    for (const HalfedgeId h : mesh.star(around.vertices[v.index])) {
+      if (!contains(triangles, Mesh::triangle(h))) around.frozen[v.index] = 1;
+    }
+  }
+  return around;
+}
+
+bool rim_is_regular(const Neighborhood& around, const Mesh& local) {
+  for (std::size_t i = 0; i < around.rim.size(); ++i) {
+    const HalfedgeId h = local.find_halfedge(around.rim[i][0], around.rim[i][1]);
+    if (!h.valid() || local.is_constrained(h)) continue;
+    const Sign conflict = power_test(local.point(local.origin(h)), local.point(local.target(h)),
+                                     local.point(local.opposite(h)), around.beyond[i]);
+    if (conflict == Sign::positive) return false;
+  }
+  return true;
+}
+
+}  // namespace temper

@@ -1,0 +1,102 @@
+#include "optimize/repair/repair_search.hpp"
+
+#include <algorithm>
+
+#include "base/assert.hpp"
+#include "optimize/repair/edits.hpp"
+#include "optimize/repair/neighborhood.hpp"
+#include "optimize/repair/splice.hpp"
+
+namespace temper {
+namespace {
+
+constexpr int kRings = 3;
+// From so many failures on the neighbourhood has a ring more.
+constexpr int kFailuresBeforeWider = 6;
+constexpr int kFailuresBeforeSideways = 5;
+// Enough for the random walk of sideways edits to come around; hopeless places are left after that.
+constexpr int kMostFailures = 60, kMostFailuresOfMoves = 10;
+// An edit that helps lowers the violation by this part, or the number of bad triangles.
+constexpr double kHelps = 0.01;
+constexpr std::uint32_t kSidewaysChoice = 4;
+
+std::vector<TriangleId> bad_triangles(const Mesh& mesh) {
+  std::vector<TriangleId> bad;
+  for (const TriangleId t : mesh.triangles()) {
+    if (is_bad(mesh, t)) bad.push_back(t);
+  }
+  return bad;
+}
+
+bool helps(const Standing& before, const Standing& after) {
+  return after.bad < before.bad || (after.bad == before.bad && after.violation < (1 - kHelps) * before.violation);
+}
+
+}  // namespace
+
+bool repairs(const Settings& settings) {
+  const OptimizeOptions& o = settings.options;
+  if (o.repair == Repair::none || o.repair_trials == 0 || !settings.energy.barrier || !o.flips ||
+      o.unknowns == Unknowns::weights)
+    return false;
+  if (o.inversion == Inversion::allow || o.hidden == HiddenPolicy::keep) return false;  // trials need regular meshes
+  // A constant γ is a study of that γ; only who asks for vertices to change wants its mesh mended by another.
+  return o.repair == Repair::vertices || (!o.gamma && !o.h0 && o.solver == Solver::newton && o.weights_from == 0);
+}
+
+bool RepairSearch::improve_one_place() {
+  const std::vector<TriangleId> bad = bad_triangles(work_.mesh);
+  const bool vertices = settings_.options.repair == Repair::vertices;
+  // Each of many bad places gets its chance.
+  const int most_failures = std::max(vertices ? kMostFailures : kMostFailuresOfMoves, static_cast<int>(bad.size()));
+  while (!bad.empty() && failures_ < most_failures && run_.repair_trials_left > 0) {
+    const TriangleId seed = bad[rng_.below(static_cast<std::uint32_t>(bad.size()))];
+    const Neighborhood around = neighborhood_of(work_.mesh, seed, kRings + (failures_ >= kFailuresBeforeWider ? 1 : 0));
+    const auto edit = choose(around);
+    if (run_.stopped_by_caller()) return false;
+    if (!edit) continue;
+    const Outcome outcome = try_edit(around, *edit, settings_, work_.frame, true);
+    TEMPER_ASSERT(outcome.valid);  // as it was without a listener
+    splice(work_, flipper_, recorder_, around, outcome.events);
+    return true;
+  }
+  return false;
+}
+
+/// The edit after which the neighbourhood stands best, if that helps; of the least tier that has one.
+std::optional<Edit> RepairSearch::choose(const Neighborhood& around) {
+  const Standing before = standing(around.mesh);
+  std::optional<Edit> best;
+  Standing least = before;
+  std::vector<Tried> tried;
+  for (const auto& tier : edits_for(around, settings_.options.repair == Repair::vertices, rng_)) {
+    for (const Edit& edit : tier) {
+      if (run_.repair_trials_left-- <= 0 || run_.asked_to_stop(0)) return best;
+      const Outcome outcome = try_edit(around, edit, settings_, work_.frame, false);
+      if (!outcome.valid) continue;
+      tried.push_back({edit, outcome.standing});
+      if (!helps(least, outcome.standing)) continue;
+      best = edit;
+      least = outcome.standing;
+      if (least.bad == 0) break;
+    }
+    if (best) break;
+  }
+  if (best) {
+    failures_ = 0;
+  } else if (++failures_ % kFailuresBeforeSideways == 0) {
+    best = sideways(std::move(tried), before);
+  }
+  return best;
+}
+
+/// One of the best few that leave no more triangles bad.
+std::optional<Edit> RepairSearch::sideways(std::vector<Tried> tried, Standing before) {
+  std::erase_if(tried, [&](const Tried& t) { return t.standing.bad > before.bad; });
+  if (tried.empty()) return std::nullopt;
+  std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.standing < b.standing; });
+  const auto choice = std::min(kSidewaysChoice, static_cast<std::uint32_t>(tried.size()));
+  return tried[rng_.below(choice)].edit;
+}
+
+}  // namespace temper

@@ -1,0 +1,50 @@
+// Local search where sweeps alone leave triangles that are not well-centered.
+//
+// Inside the well-centered set no edge can flip: h > 0 on both sides of it, so each connectivity is an island, and
+// sweeps, which go downhill, do not leave the one they are on. A repair takes a few rings around a bad triangle, tries
+// every edit that might help on a copy of them (edits.hpp, trial.hpp), and does the best one to the mesh. When none
+// helps, now and then one that does no harm is done, so that the next try begins elsewhere.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/rng.hpp"
+#include "optimize/repair/trial.hpp"
+#include "optimize/run.hpp"
+#include "optimize/step/flipper.hpp"
+
+namespace temper {
+
+class RepairSearch {
+ public:
+  /// `seed`: of all that is random.
+  RepairSearch(WorkingCopy& work, const Settings& settings, Run& run, Flipper& flipper, const Recorder& recorder,
+               std::uint64_t seed)
+      : work_(work), settings_(settings), run_(run), flipper_(flipper), recorder_(recorder), rng_(seed) {}
+
+  /// Changes the mesh in one place: never to more bad triangles. False when none is left, none can be cured, or it was
+  /// asked to stop. Removed vertices stay isolated until the caller compacts, which it must before the next call.
+  bool improve_one_place();
+
+ private:
+  struct Tried {
+    Edit edit;
+    Standing standing;
+  };
+  std::optional<Edit> choose(const Neighborhood& around);
+  std::optional<Edit> sideways(std::vector<Tried> tried, Standing before);
+
+  WorkingCopy& work_;
+  const Settings& settings_;
+  Run& run_;
+  Flipper& flipper_;
+  const Recorder& recorder_;
+  Rng rng_;
+  int failures_ = 0;  // places without an edit that helps, since the last one with
+};
+
+/// Whether these options ask for repairs, and leave room for them.
+[[nodiscard]] bool repairs(const Settings& settings);
+
+}  // namespace temper

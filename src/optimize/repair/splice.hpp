@@ -1,0 +1,16 @@
+// What a trial did in its neighbourhood, done to the whole mesh: so the trace of a run tells repairs like all else.
+#pragma once
+
+#include <span>
+
+#include "optimize/repair/neighborhood.hpp"
+#include "optimize/step/flipper.hpp"
+
+namespace temper {
+
+/// Applies the events of a trial on `around` to the mesh that it was taken from, which must not have changed since.
+/// Removed vertices stay as isolated ones until the caller compacts.
+void splice(WorkingCopy& work, Flipper& flipper, const Recorder& recorder, const Neighborhood& around,
+            std::span<const TraceEvent> events);
+
+}  // namespace temper

@@ -1,0 +1,238 @@
+#include "optimize/repair/trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/rng.hpp"
+#include "geometry/predicates_inline.hpp"
+#include "geometry/triangle_kernel.hpp"
+#include "optimize/repair/fill.hpp"
+#include "optimize/run.hpp"
+#include "optimize/schedule.hpp"
+#include "optimize/step/vertex_step.hpp"
+#include "temper/regularity.hpp"
+
+namespace temper {
+namespace {
+
+// Enough for γ to come from kStart down to kFloor, and a few at the floor.
+constexpr int kSweeps = 25;
+constexpr double kStart = 0.5, kFactor = 0.7, kFloor = 0.003;
+// Below this γ/ℓ sweeps rarely lose again what is well-centered.
+constexpr double kSharp = 0.1;
+// Of the shortest edge: farther, and most kicks would turn a triangle over.
+constexpr double kKick = 0.4;
+// More than a neighbourhood that lacks vertices ever needs.
+constexpr int kMostFilled = 300;
+
+/// −h/ℓ, −d/ℓ or d/ℓ − 1, whichever is the worst; zero or less inside.
+double violation_of(const Mesh& mesh, TriangleId t) {
+  const auto [p, q, r] = mesh.corners(t);
+  double worst = 0;
+  for (const EdgeShape& e : triangle_shape(mesh.point(p), mesh.point(q), mesh.point(r)).edges) {
+    worst = std::max({worst, -e.g / e.l2, 0.5 * (std::abs(e.dw) / e.l2 - 1)});
+  }
+  return worst;
+}
+
+class Trial {
+ public:
+  Trial(const Neighborhood& around, const Settings& settings, const Frame& grid, bool with_events)
+      : around_(around),
+        settings_(
+            of_trial(settings, with_events ? Tracer([this](const TraceEvent& e) { events_.push_back(e); }) : Tracer())),
+        grid_(grid),
+        work_(WorkingCopy::part(around.mesh)),
+        recorder_(settings_.options.tracer, work_, 1),
+        flipper_(work_.mesh, settings_, recorder_),
+        limits_(work_.mesh, settings_, grid),
+        step_(work_.mesh, settings_, grid, limits_, flipper_, recorder_) {
+    for (const VertexId v : around.mesh.vertices()) {
+      if (around.frozen[v.index] != 0) limits_.freeze(v);
+    }
+  }
+  Trial(const Trial&) = delete;
+
+  Outcome run(const Edit& edit) &&;
+
+ private:
+  static Settings of_trial(const Settings& settings, Tracer tracer);
+  bool apply(const Edit& edit);
+  bool insert(TriangleId t, Vec2 place);
+  bool split(HalfedgeId h);
+  bool remove(VertexId v);
+  bool fill(double gradation);
+  void remove_free_vertices();
+  void sweep();
+  [[nodiscard]] bool any_bad() const;
+
+  const Neighborhood& around_;
+  std::vector<TraceEvent> events_;
+  Settings settings_;
+  const Frame& grid_;
+  WorkingCopy work_;
+  Recorder recorder_;
+  Flipper flipper_;
+  VertexLimits limits_;
+  VertexStep step_;
+};
+
+/// Newton steps on E_BP in temper's own way, whatever way the run goes; with the unknowns and constraints of the run.
+Settings Trial::of_trial(const Settings& settings, Tracer tracer) {
+  OptimizeOptions o;
+  o.star = settings.options.star;
+  o.unknowns = settings.options.unknowns;
+  o.interfaces = settings.options.interfaces;
+  o.boundary_vertices = settings.options.boundary_vertices;
+  o.size_band = settings.options.size_band;
+  o.tracer = std::move(tracer);
+  Settings s = settings;
+  s.energy = *find_energy(o.energy);
+  s.model.kind = s.energy.kind;
+  s.relaxation = kRelaxation;
+  s.flip_limit = FlipLimit::unlimited;
+  s.options = std::move(o);
+  return s;
+}
+
+Outcome Trial::run(const Edit& edit) && {
+  if (!apply(edit) || !flipper_.restore_all()) return {};
+  sweep();
+  Outcome outcome;
+  outcome.standing = standing(work_.mesh);
+  outcome.valid = count_non_regular_edges(work_.mesh, false) == 0 && rim_is_regular(around_, work_.mesh);
+  outcome.events = std::move(events_);
+  return outcome;
+}
+
+bool Trial::apply(const Edit& edit) {
+  switch (edit.kind) {
+    case Edit::nothing:
+      return true;
+    case Edit::kick: {
+      Rng rng(edit.seed);
+      step_.shake(kKick, rng);
+      return true;
+    }
+    case Edit::insert:
+      return insert(edit.triangle, edit.place);
+    case Edit::split:
+      return split(edit.edge);
+    case Edit::remove:
+      return remove(edit.vertex);
+    case Edit::refill:
+      remove_free_vertices();
+      return fill(edit.gradation);
+    case Edit::fill:
+      return fill(edit.gradation);
+  }
+  return false;
+}
+
+/// With the weight that the plane through the corners has there: never hidden.
+bool Trial::insert(TriangleId t, Vec2 place) {
+  const Mesh& mesh = work_.mesh;
+  const auto corners = mesh.corners(t);
+  const auto [a, b, c] = std::array{mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2])};
+  const Vec2 p = grid_.snap(place);
+  const double sa = cross(b.position() - p, c.position() - p), sb = cross(c.position() - p, a.position() - p),
+               sc = cross(a.position() - p, b.position() - p);
+  for (const auto& [q, r] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+    if (inlined::orient2d(q.position(), r.position(), p) != Sign::positive) return false;
+  }
+  const double w = (sa * a.w + sb * b.w + sc * c.w) / (sa + sb + sc);
+  flipper_.insert(work_, t, {p.x, p.y, w}, kNoEnergy, kNoEnergy);
+  limits_.grow();
+  return true;
+}
+
+bool Trial::split(HalfedgeId h) {
+  const Mesh& mesh = work_.mesh;
+  const auto [a, b, c, d] = inlined::quad(mesh, h);
+  const Vec2 p = grid_.snap(0.5 * (mesh.position(a) + mesh.position(b)));
+  for (const auto& [q, r] : {std::pair(b, c), std::pair(c, a), std::pair(a, d), std::pair(d, b)}) {
+    if (inlined::orient2d(mesh.position(q), mesh.position(r), p) != Sign::positive) return false;
+  }
+  const double w = 0.5 * (mesh.weight(a) + mesh.weight(b));
+  flipper_.split(work_, h, {p.x, p.y, w}, kNoEnergy, kNoEnergy);
+  limits_.grow();
+  return true;
+}
+
+bool Trial::remove(VertexId v) {
+  const RemovalPlan plan = plan_removal(work_.mesh, v);
+  if (plan.status != RemovalStatus::possible) return false;
+  flipper_.remove(EventKind::removal, plan, kNoEnergy, kNoEnergy);
+  return true;
+}
+
+/// False when nothing was missing, or an edge could not be made regular.
+bool Trial::fill(double gradation) {
+  Fill missing(work_.mesh, gradation);
+  int filled = 0;
+  for (auto place = missing.next(); place && filled < kMostFilled; place = missing.next()) {
+    if (!insert(place->triangle, place->position)) {
+      missing.refuse(place->position);
+      continue;
+    }
+    if (!flipper_.restore_all()) return false;
+    ++filled;
+  }
+  return filled > 0;
+}
+
+void Trial::remove_free_vertices() {
+  for (bool removed = true; removed;) {
+    removed = false;
+    for (const VertexId v : around_.mesh.vertices()) {
+      if (!work_.mesh.is_isolated(v) && may_be_removed(work_.mesh, around_.frozen, v)) removed = remove(v) || removed;
+    }
+  }
+}
+
+void Trial::sweep() {
+  double gamma = kStart;
+  for (int i = 0; i < kSweeps; ++i) {
+    settings_.model.gamma = {gamma, LengthScale::relative};
+    step_.begin_sweep(i);
+    for (const VertexId v : work_.mesh.vertices()) {
+      if (!work_.mesh.is_isolated(v)) step_.improve(v);
+    }
+    gamma = std::max(kFloor, kFactor * gamma);
+    if (gamma < kSharp && !any_bad()) return;
+  }
+}
+
+bool Trial::any_bad() const {
+  for (const TriangleId t : work_.mesh.triangles()) {
+    if (is_bad(work_.mesh, t)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, VertexId v) {
+  if (frozen[v.index] != 0 || mesh.is_boundary(v)) return false;
+  for (const HalfedgeId h : mesh.star(v)) {
+    if (mesh.is_constrained(h)) return false;
+  }
+  return !mesh.is_fixed(v);
+}
+
+Standing standing(const Mesh& mesh) {
+  Standing s;
+  for (const TriangleId t : mesh.triangles()) {
+    if (!is_bad(mesh, t)) continue;
+    ++s.bad;
+    s.violation += violation_of(mesh, t);
+  }
+  return s;
+}
+
+Outcome try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings, const Frame& grid,
+                 bool with_events) {
+  return Trial(around, settings, grid, with_events).run(edit);
+}
+
+}  // namespace temper

@@ -1,0 +1,57 @@
+// One idea for a repair, tried out on a copy of a neighbourhood: an edit, then sweeps of E_BP with a shrinking γ.
+//
+// A trial changes nothing outside of itself. Run again with a listener, the same trial tells its events, and these are
+// what is then applied to the whole mesh (splice.hpp).
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include "optimize/repair/neighborhood.hpp"
+#include "optimize/settings.hpp"
+
+namespace temper {
+
+/// The edit that a trial begins with, in the numbers of the neighbourhood.
+struct Edit {
+  enum Kind {
+    nothing,  ///< only sweep again
+    kick,     ///< all free vertices, at random, by part of their shortest edge
+    insert,   ///< a vertex in a triangle
+    split,    ///< an inner edge in its middle
+    remove,   ///< a vertex
+    fill,     ///< with vertices, until no triangle is large for its place
+    refill,   ///< the same, after all free vertices have been removed
+  } kind = nothing;
+  TriangleId triangle = {};  ///< insert
+  Vec2 place = {};           ///< insert
+  HalfedgeId edge = {};      ///< split
+  VertexId vertex = {};      ///< remove
+  double gradation = 0;      ///< fill, refill: growth of the size of triangles with the distance from the boundary
+  std::uint64_t seed = 0;    ///< kick
+};
+
+/// How far from well-centered: first the number of triangles that are not, then by how much.
+struct Standing {
+  std::size_t bad = 0;
+  double violation = 0;  ///< Σ over bad triangles of the worst of −h/ℓ, −d/ℓ and d/ℓ − 1
+  friend auto operator<=>(const Standing&, const Standing&) = default;
+};
+[[nodiscard]] Standing standing(const Mesh& mesh);
+
+/// Whether v is on no boundary, interface or rim and not fixed; plan_removal says whether it can go.
+[[nodiscard]] bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, VertexId v);
+
+/// What a trial came to.
+struct Outcome {
+  bool valid = false;  ///< all edges regular, those of the rim too, and nothing hidden
+  Standing standing;
+  std::vector<TraceEvent> events;  ///< in the numbers of the neighbourhood, new vertices after its own; when asked for
+};
+
+/// Applies the edit to a copy of the neighbourhood and optimises that. `grid`: of the whole mesh, for positions.
+[[nodiscard]] Outcome try_edit(const Neighborhood& around, const Edit& edit, const Settings& settings,
+                               const Frame& grid, bool with_events);
+
+}  // namespace temper

@@ -1,1 +1,0 @@
-#include "optimize/star_batch_set.hpp"

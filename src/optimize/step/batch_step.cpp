@@ -1,0 +1,194 @@
+#include "optimize/step/batch_step.hpp"
+
+#include <algorithm>
+
+#include "optimize/step/vertex_step.hpp"
+
+namespace temper {
+namespace {
+
+// Vertices to choose from: a batch of eight blocks about a hundred around it, and takes a quarter of the rest.
+constexpr std::size_t kWindow = 256;
+// From where the sweep is, in numbers of vertices, to where the memory is asked for what comes.
+constexpr std::size_t kAhead = 64;
+// With fewer left, what comes together matters less than that lanes are in use.
+constexpr std::size_t kLastFew = 48;
+
+}  // namespace
+
+void BatchStep::improve(std::span<const VertexId> vertices, Unknowns unknowns, const Part& part,
+                        std::vector<VertexId>& left) {
+  unknowns_ = unknowns, part_ = part, left_ = &left;
+  const std::size_t n_left = left.size();
+  auto next = vertices.begin();
+  for (std::size_t n_waiting = 0;;) {
+    for (; n_waiting < kWindow && next != vertices.end(); ++next, ++n_waiting) {
+      mesh_.prefetch(VertexId(std::size_t{next->index} + kAhead));
+      mesh_.prefetch_star(*next);
+      waiting_[kind_of(*next)].push_back(*next);
+    }
+    if (n_waiting == 0) break;
+    const auto longest = std::max_element(waiting_.begin(), waiting_.end(),
+                                          [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    const bool few = n_waiting < kLastFew;
+    for (auto& list : waiting_) {
+      if (few || &list == &*longest) n_waiting -= take_from(list);
+    }
+    run();
+  }
+  std::sort(left.begin() + static_cast<std::ptrdiff_t>(n_left), left.end());
+}
+
+/// Fills the batch from the front of a list. Returns how many have gone from there.
+std::size_t BatchStep::take_from(std::vector<VertexId>& list) {
+  auto kept = list.begin(), at = kept;
+  for (; at != list.end() && batch_.lanes < kLanes; ++at) {
+    if (!take(*at)) *kept++ = *at;
+  }
+  const auto gone = static_cast<std::size_t>(at - kept);
+  list.erase(kept, at);
+  return gone;
+}
+
+/// Stars of a batch should be alike: the largest decides how long it takes.
+std::size_t BatchStep::kind_of(VertexId v) const {
+  constexpr std::size_t kSmall = 5;
+  return std::clamp<std::size_t>(limits_.scratch[v], kSmall, kSmall + waiting_.size() - 1) - kSmall;
+}
+
+/// False when v has to wait; else it is in the batch, or there is nothing to be done here.
+bool BatchStep::take(VertexId v) {
+  if (mark(v) != Mark::none) return false;
+  const Mobility mobility = limits_.mobility[v];
+  const bool stays = mobility == Mobility::fixed && unknowns_ == Unknowns::positions;
+  if (stays || mobility == Mobility::frozen || mesh_.is_isolated(v)) return true;
+  gather(v, mobility);
+  return true;
+}
+
+void BatchStep::gather(VertexId v, Mobility mobility) {
+  const std::size_t lane = batch_.lanes;
+  Occupant& occupant = occupants_[lane];
+  occupant.v = v;
+  if (!gather_star(occupant, lane)) {
+    left_->push_back(v);
+    return;
+  }
+  mark(v) = Mark::looked_at;
+  const std::size_t triangles = batch_.open[lane] != 0 ? occupant.n_link - 1 : occupant.n_link;
+  limits_.scratch[v] = static_cast<std::uint8_t>(std::min<std::size_t>(triangles, 255));
+  occupant.alone = mobility == Mobility::sliding || triangles > StarBatch::kMostTriangles;
+  batch_.p.set(lane, mesh_.point(v));
+  batch_.triangles[lane] = occupant.alone ? 0 : static_cast<double>(triangles);
+  batch_.moves[lane] = !occupant.alone && mobility == Mobility::free && unknowns_ != Unknowns::weights ? -1 : 0;
+  batch_.weighs[lane] = !occupant.alone && unknowns_ != Unknowns::positions ? -1 : 0;
+  if (!occupant.alone) batch_.most_triangles = std::max(batch_.most_triangles, triangles);
+  ++batch_.lanes;
+}
+
+/// The points that a vertex's step looks at, all marked. False when they are not all in the part.
+bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
+  constexpr std::size_t kMost = StarBatch::kMostTriangles;
+  const Part part = part_;
+  const HalfedgeId first = mesh_.outgoing(occupant.v);
+  HalfedgeId h = first;
+  VertexId q = mesh_.target(h);
+  std::size_t i = 0;
+  bool open = false;
+  do {
+    const HalfedgeId link = Mesh::next(h), back = Mesh::next(link);
+    const VertexId r = mesh_.origin(back);
+    // The twin, and who is across, may be read only when both ends of the link edge are in the part.
+    if (!part.contains(q) || !part.contains(r)) return false;
+    const HalfedgeId across = mesh_.twin(link);
+    const VertexId o = across.valid() ? mesh_.opposite(across) : q;
+    if (!part.contains(o)) return false;
+    mark(q) = mark(o) = Mark::looked_at;
+    if (i < kMost) {
+      occupant.link[i] = q;
+      batch_.link[i].set(lane, mesh_.point(q));
+      batch_.across[i].set(lane, mesh_.point(o));
+      batch_.link_flips[i][lane] = across.valid() && !mesh_.is_constrained(link) ? -1 : 0;
+      batch_.spoke_flips[i][lane] = mesh_.is_constrained(h) ? 0 : -1;
+    }
+    ++i;
+    q = r;
+    h = mesh_.twin(back);
+    open = !h.valid();
+  } while (!open && h != first);
+  if (open) batch_.spoke_flips[0][lane] = 0;
+  batch_.open[lane] = open ? -1 : 0;
+  if (i <= kMost) {
+    occupant.link[i] = q;
+    batch_.link[i].set(lane, mesh_.point(q));
+  }
+  if (open) mark(q) = Mark::looked_at;
+  occupant.n_link = i + (open ? 1 : 0);
+  return true;
+}
+
+void BatchStep::run() {
+  if (batch_.lanes > 0) step_and_settle();
+  marks_.fill(Mark::none);
+  batch_.lanes = batch_.most_triangles = 0;
+}
+
+void BatchStep::step_and_settle() {
+  for (std::size_t lane = batch_.lanes; lane < kLanes; ++lane) {
+    batch_.triangles[lane] = 0;
+    batch_.open[lane] = batch_.moves[lane] = batch_.weighs[lane] = 0;
+  }
+  const Vec2 center = frame_.center_here();
+  const StepParameters parameters{edge_formula(settings_.model), settings_.relaxation, center.x, center.y};
+  const StepOutcome outcome = step_batch()(parameters, batch_);
+  const std::size_t before = n_changes();
+  for (std::size_t lane = 0; lane < batch_.lanes; ++lane) {
+    settle(occupants_[lane], lane, outcome, n_changes() != before);
+  }
+}
+
+/// Takes a step of the batch into the mesh. `flips`: edges have flipped, or vertices gone, since the batch was made.
+void BatchStep::settle(const Occupant& occupant, std::size_t lane, const StepOutcome& outcome, bool flips) {
+  const VertexId v = occupant.v;
+  const auto has = [lane](unsigned lanes) { return (lanes >> lane & 1) != 0; };
+  if (flips && mesh_.is_isolated(v)) return;
+  if (occupant.alone || has(outcome.alone) || (flips && !has_its_link(occupant, batch_.open[lane] != 0)))
+    return improve_alone(v);
+  if (!has(outcome.stepped)) return;
+  const WeightedPoint from = batch_.p.at(lane), to = batch_.to.at(lane);
+  const double energy = batch_.before[lane], lower = batch_.after[lane];
+  mesh_.set_point(v, to);
+  if (!flips && has(outcome.regular)) {
+    recorder_.placed(v, from, to, energy, lower);
+    return;
+  }
+  constexpr bool kMustPay = true;  // of all barriers
+  switch (flipper_.settle({v, from, energy, lower, kMustPay, nullptr, part_})) {
+    case Flipper::Settled::done:
+      break;
+    case Flipper::Settled::undone:
+      improve_alone(v);
+      break;
+    case Flipper::Settled::escaped:
+      left_->push_back(v);
+      break;
+  }
+}
+
+void BatchStep::improve_alone(VertexId v) {
+  if (!alone_.improve(v, part_)) left_->push_back(v);
+}
+
+/// Whether no flip has changed the star since it was gathered.
+bool BatchStep::has_its_link(const Occupant& occupant, bool open) const {
+  std::size_t i = 0;
+  for (const HalfedgeId h : mesh_.star(occupant.v)) {
+    if (i == occupant.n_link || mesh_.target(h) != occupant.link[i]) return false;
+    ++i;
+  }
+  return i == occupant.n_link - (open ? 1 : 0);
+}
+
+std::size_t BatchStep::n_changes() const { return flipper_.changes().flips + flipper_.changes().removed; }
+
+}  // namespace temper

@@ -1,0 +1,91 @@
+#include "optimize/step/freedom.hpp"
+
+#include <cmath>
+
+#include "mesh/blocks.hpp"
+
+namespace temper {
+namespace {
+
+// Two edges are one straight line when they turn by less than this (radians): coordinates read from a file, or rounded
+// by earlier sliding, are collinear only so far.
+constexpr double kStraight = 1e-9;
+
+/// How the edges that must keep their place, constrained ones and those of the boundary, pass through a vertex.
+struct FixedLine {
+  enum Shape { none, straight, bent } shape = none;
+  Vec2 direction;  ///< of a straight one, unit length
+};
+
+FixedLine fixed_line(const Mesh& mesh, VertexId v) {
+  int count = 0;
+  std::array<Vec2, 2> ends;
+  const auto add = [&](VertexId end) {
+    if (count < 2) ends[static_cast<std::size_t>(count)] = mesh.position(end) - mesh.position(v);
+    ++count;
+  };
+  for (const HalfedgeId h : mesh.star(v)) {
+    if (mesh.is_boundary(h) || mesh.is_constrained(h)) add(mesh.target(h));
+    if (mesh.is_boundary(Mesh::prev(h))) add(mesh.opposite(h));  // into v: the other end of a boundary vertex's star
+  }
+  if (count == 0) return {FixedLine::none, {}};
+  if (count != 2) return {FixedLine::bent, {}};
+  const double scale = length(ends[0]) * length(ends[1]);
+  if (std::abs(cross(ends[0], ends[1])) > kStraight * scale || dot(ends[0], ends[1]) > 0) return {FixedLine::bent, {}};
+  const Vec2 along = ends[1] - ends[0];
+  return {FixedLine::straight, (1 / length(along)) * along};
+}
+
+void add_axis(Freedom& f, std::array<double, 3> axis) { f.axis[static_cast<std::size_t>(f.n++)] = axis; }
+
+}  // namespace
+
+Freedom weight_only() {
+  Freedom f;
+  add_axis(f, {0, 0, 1});
+  return f;
+}
+
+Freedom position_part(const Freedom& all) {
+  Freedom f;
+  for (int i = 0; i < all.n; ++i) {
+    const auto& axis = all.axis[static_cast<std::size_t>(i)];
+    if (axis[2] == 0) add_axis(f, axis);
+  }
+  return f;
+}
+
+Mobility mobility(const Mesh& mesh, VertexId v, const OptimizeOptions& options) {
+  if (mesh.is_fixed(v)) return Mobility::fixed;
+  const FixedLine line = fixed_line(mesh, v);
+  if (line.shape == FixedLine::none) return Mobility::free;
+  if (line.shape == FixedLine::bent) return Mobility::fixed;
+  const bool slides = mesh.is_boundary(v) ? options.boundary_vertices == BoundaryVertices::slide
+                                          : options.interfaces == InterfaceVertices::sliding;
+  return slides ? Mobility::sliding : Mobility::fixed;
+}
+
+IdVector<VertexId, Mobility> mobilities(const Mesh& mesh, const OptimizeOptions& options) {
+  IdVector<VertexId, Mobility> result(mesh.n_vertices());
+  for_each_index(mesh.n_vertices(), options.executor,
+                 [&](std::size_t i) { result[VertexId(i)] = mobility(mesh, VertexId(i), options); });
+  return result;
+}
+
+Freedom freedom(const Mesh& mesh, VertexId v, Mobility mobility, Unknowns unknowns) {
+  Freedom f;
+  if (mobility == Mobility::frozen) return f;
+  if (unknowns != Unknowns::weights) {
+    if (mobility == Mobility::free) {
+      add_axis(f, {1, 0, 0});
+      add_axis(f, {0, 1, 0});
+    } else if (mobility == Mobility::sliding) {
+      const Vec2 direction = fixed_line(mesh, v).direction;
+      add_axis(f, {direction.x, direction.y, 0});
+    }
+  }
+  if (unknowns != Unknowns::positions) add_axis(f, {0, 0, 1});
+  return f;
+}
+
+}  // namespace temper

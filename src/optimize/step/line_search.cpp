@@ -1,0 +1,60 @@
+#include "optimize/step/line_search.hpp"
+
+#include <cmath>
+
+#include "optimize/step/golden.hpp"
+#include "optimize/step/newton_constants.hpp"
+
+namespace temper {
+namespace {
+
+// Steps of central differences, relative to the reach.
+constexpr double kDifference = 1e-6;
+// Golden section cannot tell energies apart below the root of the roundoff.
+constexpr double kGoldenTolerance = 1e-8;
+
+}  // namespace
+
+std::optional<Step> steepest_descent(const Patch& patch, const EnergyModel& model, const WeightedPoint& p,
+                                     const Freedom& freedom, double reach) {
+  Step direction = {};
+  double norm2 = 0;
+  const double h = kDifference * reach;
+  for (int i = 0; i < freedom.n; ++i) {
+    const Step& axis = freedom.axis[static_cast<std::size_t>(i)];
+    const auto at = [&](double t) { return patch_energy(patch, model, along(p, axis, t)); };
+    const double slope = (at(h) - at(-h)) / (2 * h);
+    if (!std::isfinite(slope)) return std::nullopt;
+    norm2 += slope * slope;
+    for (std::size_t k = 0; k < 3; ++k) direction[k] -= slope * axis[k];
+  }
+  if (!(norm2 > 0)) return std::nullopt;
+  for (double& s : direction) s *= reach / std::sqrt(norm2);
+  return direction;
+}
+
+double line_minimum(const Patch& patch, const EnergyModel& model, const WeightedPoint& p, const Step& step,
+                    double limit) {
+  return golden_section([&](double t) { return patch_energy(patch, model, along(p, step, t)); }, limit,
+                        kGoldenTolerance);
+}
+
+/// Signed areas are linear in t.
+double inversion_limit(const Patch& patch, const WeightedPoint& p, const Step& step) {
+  double limit = 1;
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    const Vec2 a = patch.q(i).position() - p.position(), b = patch.r(i).position() - p.position();
+    const double area = cross(a, b);
+    const double slope = step[0] * (a.y - b.y) + step[1] * (b.x - a.x);
+    if (area + limit * slope < (1 - kInversionFraction) * area) limit = -kInversionFraction * area / slope;
+  }
+  return limit;
+}
+
+double patch_radius(const Patch& patch, const WeightedPoint& p) {
+  double sum = 0;
+  for (std::size_t i = 0; i < patch.link.size(); ++i) sum += squared_length(patch.q(i).position() - p.position());
+  return std::sqrt(sum / static_cast<double>(patch.link.size()));
+}
+
+}  // namespace temper

@@ -1,0 +1,34 @@
+// The paper's Algorithm 5 on one patch: downhill by finite differences, golden section along the line.
+#pragma once
+
+#include <optional>
+
+#include "energy/patch.hpp"
+#include "optimize/step/freedom.hpp"
+#include "optimize/step/newton.hpp"
+
+namespace temper {
+
+/// −∇E at p along the free directions, of length `reach`: R for positions, R² for a weight. Nothing where E is infinite
+/// around p, or stationary.
+[[nodiscard]] std::optional<Step> steepest_descent(const Patch& patch, const EnergyModel& model, const WeightedPoint& p,
+                                                   const Freedom& freedom, double reach);
+
+[[nodiscard]] inline WeightedPoint along(const WeightedPoint& p, const Step& step, double t) {
+  return {p.x + t * step[0], p.y + t * step[1], p.w + t * step[2]};
+}
+
+/// The t in [0, limit] where E(p + t step) is least, by golden section.
+[[nodiscard]] double line_minimum(const Patch& patch, const EnergyModel& model, const WeightedPoint& p,
+                                  const Step& step, double limit);
+
+/// The largest t ≤ 1 along step that stays clear of inverting a triangle of the patch.
+[[nodiscard]] double inversion_limit(const Patch& patch, const WeightedPoint& p, const Step& step);
+
+/// Root mean square length of the spokes: the patch's radius R.
+[[nodiscard]] double patch_radius(const Patch& patch, const WeightedPoint& p);
+
+/// The paper's search count: gradients are no Newton steps, so positions are searched thrice.
+inline constexpr int kPositionSearches = 3;
+
+}  // namespace temper

@@ -1,0 +1,118 @@
+#include "optimize/step/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "optimize/step/jacobi.hpp"
+#include "optimize/step/newton_constants.hpp"
+
+namespace temper {
+namespace {
+
+// Sweeps of Jacobi rotations on 3 × 3: convergence is quadratic, five reach rounding.
+constexpr int kJacobiSweeps = 8;
+
+using Vector = std::array<double, 3>;
+using Matrix = std::array<Vector, 3>;
+
+/// Solves A x = b by Cholesky's LDLᵀ; false unless all pivots are safely positive.
+bool solve_positive_definite(int n, const Matrix& a, const Vector& b, Vector& x) {
+  double largest = 0;
+  for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(a[i][i]));
+  const double floor = kEigenvalueFloor * largest;
+  Matrix l = {};
+  Vector pivot = {};
+  for (int j = 0; j < n; ++j) {
+    double p = a[j][j];
+    for (int k = 0; k < j; ++k) p -= l[j][k] * l[j][k] * pivot[k];
+    if (!(p > floor)) return false;
+    pivot[j] = p;
+    for (int i = j + 1; i < n; ++i) {
+      double sum = a[i][j];
+      for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k] * pivot[k];
+      l[i][j] = sum / p;
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    double sum = b[i];
+    for (int k = 0; k < i; ++k) sum -= l[i][k] * x[k];
+    x[i] = sum;
+  }
+  for (int i = n - 1; i >= 0; --i) {
+    double sum = x[i] / pivot[i];
+    for (int k = i + 1; k < n; ++k) sum -= l[k][i] * x[k];
+    x[i] = sum;
+  }
+  return true;
+}
+
+/// Eigenvectors of a symmetric matrix as columns of v; a becomes diagonal (cyclic Jacobi).
+void diagonalize(std::size_t n, Matrix& a, Matrix& v) {
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) v[i][j] = i == j ? 1 : 0;
+  }
+  for (int sweep = 0; sweep < kJacobiSweeps; ++sweep) {
+    for (std::size_t p = 0; p < n; ++p) {
+      for (std::size_t q = p + 1; q < n; ++q) {
+        if (a[p][q] != 0) jacobi_rotation(a, v, n, p, q);
+      }
+    }
+  }
+}
+
+/// −|H|⁻¹ g with floored eigenvalues, for a Hessian that is not positive definite.
+Vector solve_absolute(int n, Matrix h, const Vector& minus_gradient) {
+  Matrix v;
+  diagonalize(static_cast<std::size_t>(n), h, v);
+  double largest = 0;
+  for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(h[i][i]));
+  Vector x = {};
+  if (!(largest > 0)) return minus_gradient;  // no curvature at all: go downhill, the trust radius decides how far
+  for (int i = 0; i < n; ++i) {
+    double along = 0;
+    for (int k = 0; k < n; ++k) along += v[k][i] * minus_gradient[k];
+    along /= std::max(std::abs(h[i][i]), kEigenvalueFloor * largest);
+    for (int k = 0; k < n; ++k) x[k] += along * v[k][i];
+  }
+  return x;
+}
+
+}  // namespace
+
+NewtonStep newton_step(const VertexDerivatives& d, const Freedom& freedom, double radius) {
+  const int n = freedom.n;
+  const auto& [xx, xy, xw, yy, yw, ww] = d.hessian;
+  const Matrix full = {{{xx, xy, xw}, {xy, yy, yw}, {xw, yw, ww}}};
+  // Columns of the basis, scaled: unknown i moves the vertex by basis[i].
+  Matrix basis = {};
+  for (int i = 0; i < n; ++i) {
+    const double scale = freedom.axis[i][2] == 0 ? radius : radius * radius;
+    for (int k = 0; k < 3; ++k) basis[i][k] = scale * freedom.axis[i][k];
+  }
+  Matrix h = {};
+  Vector g = {};
+  for (int i = 0; i < n; ++i) {
+    Vector row = {};
+    for (int k = 0; k < 3; ++k) {
+      g[i] -= basis[i][k] * d.gradient[k];
+      for (int m = 0; m < 3; ++m) row[k] += full[k][m] * basis[i][m];
+    }
+    for (int j = 0; j < n; ++j) {
+      for (int k = 0; k < 3; ++k) h[i][j] += basis[j][k] * row[k];
+    }
+  }
+  Vector x = {};
+  if (!solve_positive_definite(n, h, g, x)) x = solve_absolute(n, h, g);
+
+  double norm2 = 0;
+  for (int i = 0; i < n; ++i) norm2 += x[i] * x[i];
+  const double shrink = norm2 > kTrustRadius * kTrustRadius ? kTrustRadius / std::sqrt(norm2) : 1;
+  NewtonStep result;
+  for (int i = 0; i < n; ++i) {
+    result.predicted += shrink * x[i] * g[i];
+    for (int k = 0; k < 3; ++k) result.step[k] += shrink * x[i] * basis[i][k];
+  }
+  return result;
+}
+
+}  // namespace temper

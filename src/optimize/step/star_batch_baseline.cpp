@@ -1,0 +1,1 @@
+#include "optimize/step/star_batch_set.hpp"

@@ -1,0 +1,31 @@
+// What limits the steps of each vertex, shared by all that make steps on one mesh.
+#pragma once
+
+#include <cstdint>
+
+#include "optimize/settings.hpp"
+#include "optimize/step/freedom.hpp"
+#include "optimize/step/size_band.hpp"
+
+namespace temper {
+
+struct VertexLimits {
+  VertexLimits(const Mesh& mesh, const Settings& settings, const Frame& frame);
+
+  IdVector<VertexId, Mobility> mobility;
+  IdVector<VertexId, std::uint8_t> scratch;  ///< of batches, see batch_step.cpp
+  SizeBand band;                             ///< has scratch of its own: with a band, only one step at a time
+
+  /// v stays, weight and all.
+  void freeze(VertexId v) { mobility[v] = Mobility::frozen; }
+  /// The mesh has been compacted.
+  void renumber(const Compaction& kept);
+  /// Vertices have been inserted, or edges split: new vertices are the last ones of the mesh.
+  void grow();
+
+ private:
+  const Mesh& mesh_;
+  const Settings& settings_;
+};
+
+}  // namespace temper

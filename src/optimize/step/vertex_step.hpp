@@ -1,0 +1,106 @@
+// One vertex, improved: the body of the paper's inner loop (lines 10 to 16 of Algorithm 1).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/rng.hpp"
+#include "energy/patch.hpp"
+#include "optimize/step/batch_step.hpp"
+#include "optimize/step/flipper.hpp"
+#include "optimize/step/newton.hpp"
+#include "optimize/step/vertex_limits.hpp"
+#include "optimize/sweep/partition.hpp"
+
+namespace temper {
+
+/// The storage of vertex steps, kept from one vertex to the next: once warm, a step allocates nothing.
+class VertexStep {
+ public:
+  VertexStep(Mesh& mesh, const Settings& settings, const Frame& frame, VertexLimits& limits, Flipper& flipper,
+             const Recorder& recorder)
+      : mesh_(mesh),
+        settings_(settings),
+        frame_(frame),
+        mobility_(limits.mobility),
+        band_(limits.band),
+        flipper_(flipper),
+        recorder_(recorder),
+        batches_(mesh, settings, frame, limits, flipper, recorder, *this) {}
+
+  /// Of the sweep under way: i ≥ i_w, i ≥ i_c, and the overshoot of FlipLimit::after.
+  void begin_sweep(int sweep);
+
+  /// Collapses v; or moves it so that the energy falls, flips what must flip, and removes it if its patch is better
+  /// without it; or leaves everything as it was. False when v is not confined to the part, or its flips would not be:
+  /// it needs a larger one, or another.
+  bool improve(VertexId v, const Part& part = {});
+
+  /// Improves those that are still there, in that order, or in batches nearly so. Those that need another part are
+  /// appended to `left`, in the order of their numbers.
+  void improve(std::span<const VertexId> vertices, const Part& part, std::vector<VertexId>& left);
+
+  /// Moves v to p if it is free, no triangle turns over and no vertex is hidden, whatever that costs.
+  void nudge(VertexId v, Vec2 p);
+
+  /// Nudges every vertex, at random, by up to `amount` of its shortest edge on each axis.
+  void shake(double amount, Rng& rng);
+
+  /// With deferred weight updates: gives all vertices their new weights.
+  void end_sweep();
+
+ private:
+  enum class Outcome { accepted, not_lower, inverted, out_of_band, blocked_by_flip, escaped };
+
+  bool collapse(VertexId v);
+  void optimize_point(VertexId v);
+  void remove_if_better(VertexId v);
+  [[nodiscard]] bool may_go(VertexId v) const { return mobility_[v] == Mobility::free; }
+
+  void newton_search(const Freedom& freedom);
+  void golden_search(const Freedom& freedom);
+  void gather(VertexId v);
+  bool enter_domain();
+
+  [[nodiscard]] double farthest(const Step& step) const;
+  [[nodiscard]] double flip_limited(const Step& step, double t) const;
+  [[nodiscard]] WeightedPoint moved(const Step& step, double t) const;
+  Outcome try_step(const Step& step, double t);
+  [[nodiscard]] bool stays_oriented(const WeightedPoint& p) const;
+  [[nodiscard]] bool keeps_size(const WeightedPoint& p);
+  bool place(const WeightedPoint& p, double energy, bool must_pay);
+  [[nodiscard]] bool can_batch() const;
+  [[nodiscard]] bool keeps_connectivity() const;
+  [[nodiscard]] bool flips_at_once() const;
+  void note_regular_edges();
+  [[nodiscard]] bool regular_edges_still_are() const;
+
+  Mesh& mesh_;
+  const Settings& settings_;
+  const Frame& frame_;
+  const IdVector<VertexId, Mobility>& mobility_;
+  SizeBand& band_;
+  Flipper& flipper_;
+  const Recorder& recorder_;
+  BatchStep batches_;
+  Unknowns unknowns_ = Unknowns::positions_and_weights;
+  bool collapses_ = false, removes_ = false;
+  double overshoot_ = 1;
+
+  VertexId vertex_;
+  Part part_;             // that it is confined to
+  bool escapes_ = false;  // from it: what its step has to flip
+  WeightedPoint origin_;  // where the vertex is
+  double energy_ = 0;     // of the patch there
+  Patch patch_;
+  RemovalPlan plan_;
+  std::vector<std::uint8_t> was_regular_;  // of the edges of star and link, in the order of the star
+  struct NewWeight {
+    VertexId v;
+    double w, before, after;
+  };
+  std::vector<NewWeight> deferred_;
+};
+
+}  // namespace temper
