@@ -24,30 +24,25 @@ struct Settings {
   bool json = false;
 };
 
-void add_options(CLI::App& app, Settings& s) {
-  app.set_help_flag();
-  app.option_defaults()->group("Report");
-  app.add_option("IN", s.input, "the mesh; its content tells the format")->required();
-  app.add_flag("--json", s.json, "the report as JSON, with vertices and triangles counted from 0");
-  add_count(app, "--worst", s.worst, 0, "list this many of the worst triangles");
-  add_gamma(app, s.gamma, " (default: 1)");
-  add_h0(app, s.h0, " (default: 0)");
-  add_count(app, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
-  app.option_defaults()->group("Requirements");
-  app.add_option(
-         "--require", s.require,
-         "key=value,key=value,...: exit with 3 when one does not hold. A plain = means: counts equal, minima and "
-         "fractions at least, maxima and energies at most; key<=value and key>=value say it themselves. Keys: " +
-             requirement_keys())
-      ->type_name("LIST")
-      ->allow_extra_args(false);
-  app.option_defaults()->group("Help");
-  app.set_help_flag("-h,--help", "this text");
-  set_help(app, {"IN [options]",
-                 "  temper check in.vtu\n"
-                 "  temper check in.vtu --json --worst 20\n"
-                 "  temper check in.vtu --require inverted=0,\"min_angle>=1\"\n",
-                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
+void add_options(Command& command, Settings& s) {
+  command.group("Report");
+  add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  command.add_flag("--json", s.json, "the report as JSON, with vertices and triangles counted from 0");
+  add_count(command, "--worst", s.worst, 0, "list this many of the worst triangles");
+  add_gamma(command, s.gamma, " (default: 1)");
+  add_h0(command, s.h0, " (default: 0)");
+  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  command.group("Requirements");
+  add_texts(command, "--require", "LIST", Values::repeated, s.require,
+            "key=value,key=value,...: exit with 3 when one does not hold. A plain = means: counts equal, minima and "
+            "fractions at least, maxima and energies at most; key<=value and key>=value say it themselves. Keys: " +
+                requirement_keys());
+  command.group("Help");
+  command.add_help({"IN [options]",
+                    "  temper check in.vtu\n"
+                    "  temper check in.vtu --json --worst 20\n"
+                    "  temper check in.vtu --require inverted=0,\"min_angle>=1\"\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
 }
 
 /// Says which requirements fail, all of them.
@@ -65,11 +60,11 @@ Exit judge(const std::vector<Requirement>& requirements, const Quality& quality,
 }  // namespace
 
 Exit run_check(const Arguments& arguments) {
-  CLI::App app("Reports on a mesh: what is exactly right or wrong with it, margins, energies, the worst triangles.",
-               "check");
+  Command command("check",
+                  "Reports on a mesh: what is exactly right or wrong with it, margins, energies, the worst triangles.");
   Settings s;
-  add_options(app, s);
-  if (!parse(app, arguments)) return Exit::done;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
   std::vector<Requirement> requirements;
   for (const std::string& list : s.require) {
     for (Requirement& requirement : parse_requirements(list)) requirements.push_back(std::move(requirement));

@@ -18,41 +18,38 @@ struct Settings {
   std::uint64_t threads = 0;
 };
 
-void add_options(CLI::App& app, Settings& s) {
-  app.set_help_flag();
-  app.option_defaults()->group("Files");
-  app.add_option("IN", s.input, "the file to read; its content tells the format")->required();
-  add_text(app, "-o,--output", "OUT", s.output, "where it goes; its suffix tells the format")->required();
+void add_options(Command& command, Settings& s) {
+  command.group("Files");
+  add_argument(command, "IN", s.input, "the file to read; its content tells the format").require();
+  add_text(command, "-o,--output", "OUT", s.output, "where it goes; its suffix tells the format").require();
   std::vector<std::string_view> names;
   for (const io::Format& format : io::formats()) {
     if (format.writes) names.push_back(format.name);
   }
   add_name(
-      app, "--format", names, [&s](std::string_view name) { s.options.format = name; },
+      command, "--format", names, [&s](std::string_view name) { s.options.format = name; },
       "the format of OUT, whatever its suffix");
   add_choice(
-      app, "--encoding", kEncodings, [&s](io::Encoding value) { s.options.encoding = value; },
+      command, "--encoding", kEncodings, [&s](io::Encoding value) { s.options.encoding = value; },
       "of formats that have several (default: the compact one)");
-  add_count(app, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
-  app.option_defaults()->group("Help");
-  app.set_help_flag("-h,--help", "this text");
-  set_help(app, {"IN -o OUT [options]",
-                 "  temper convert in.vtu -o out.msh\n"
-                 "  temper convert in.vtu -o out.vtu --encoding ascii\n"
-                 "  temper convert in.vtu -o old.msh --format gmsh22\n",
-                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  command.group("Help");
+  command.add_help({"IN -o OUT [options]",
+                    "  temper convert in.vtu -o out.msh\n"
+                    "  temper convert in.vtu -o out.vtu --encoding ascii\n"
+                    "  temper convert in.vtu -o old.msh --format gmsh22\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
 }  // namespace
 
 Exit run_convert(const Arguments& arguments) {
-  CLI::App app(
-      "Writes a mesh file in another format. Weights, tags, regions, names and data pass through; what the "
-      "format has no place for is named in a warning.",
-      "convert");
+  Command command("convert",
+                  "Writes a mesh file in another format. Weights, tags, regions, names and data pass through; what the "
+                  "format has no place for is named in a warning.");
   Settings s;
-  add_options(app, s);
-  if (!parse(app, arguments)) return Exit::done;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
   Outputs outputs("convert");
   outputs.expect_mesh("--output", s.output, s.options.format);
 

@@ -29,24 +29,22 @@ struct DecSettings {
   bool json = false;
 };
 
-void add_options(CLI::App& app, DecSettings& s) {
-  app.set_help_flag();
-  app.option_defaults()->group("Files");
-  app.add_option("IN", s.input, "the mesh; its content tells the format")->required();
-  add_text(app, "-o,--output", "DIR", s.output, "the folder the files go to; made when it is not there")->required();
-  spell_default(add_text(app, "--format", "LIST", s.formats,
-                         "which files, separated by commas: npz (NumPy and SciPy), mtx (Matrix Market), vtu (the dual, "
-                         "for ParaView)"),
-                [&s] { return s.formats; });
-  app.option_defaults()->group("Report");
-  app.add_flag("--json", s.json, "the summary as JSON");
-  add_count(app, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
-  app.option_defaults()->group("Help");
-  app.set_help_flag("-h,--help", "this text");
-  set_help(app, {"IN -o DIR [options]",
-                 "  temper dec in.vtu -o operators\n"
-                 "  temper dec in.vtu -o operators --format npz --json\n",
-                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+void add_options(Command& command, DecSettings& s) {
+  command.group("Files");
+  add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_text(command, "-o,--output", "DIR", s.output, "the folder the files go to; made when it is not there").require();
+  add_text(command, "--format", "LIST", s.formats,
+           "which files, separated by commas: npz (NumPy and SciPy), mtx (Matrix Market), vtu (the dual, "
+           "for ParaView)")
+      .defaults_to([&s] { return s.formats; });
+  command.group("Report");
+  command.add_flag("--json", s.json, "the summary as JSON");
+  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  command.group("Help");
+  command.add_help({"IN -o DIR [options]",
+                    "  temper dec in.vtu -o operators\n"
+                    "  temper dec in.vtu -o operators --format npz --json\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
 std::vector<io::DecFormat> parse_formats(std::string_view list) {
@@ -82,14 +80,13 @@ void check_folder(const DecSettings& s, const std::vector<io::DecFormat>& format
 }  // namespace
 
 Exit run_dec(const Arguments& arguments) {
-  CLI::App app(
-      "Writes what a solver needs of a mesh: incidence d0 and d1, diagonal stars with signed power duals, "
-      "orthocenters, "
-      "weighted midpoints, transmissibilities, and power cells within the domain.",
-      "dec");
+  Command command("dec",
+                  "Writes what a solver needs of a mesh: incidence d0 and d1, diagonal stars with signed power duals, "
+                  "orthocenters, "
+                  "weighted midpoints, transmissibilities, and power cells within the domain.");
   DecSettings s;
-  add_options(app, s);
-  if (!parse(app, arguments)) return Exit::done;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
   const std::vector<io::DecFormat> formats = parse_formats(s.formats);
   check_folder(s, formats);
 

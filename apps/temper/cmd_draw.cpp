@@ -17,36 +17,34 @@ struct Settings {
   bool no_primal = false, no_dual = false, no_weights = false, no_bad = false, no_rings = false, no_regions = false;
 };
 
-void add_options(CLI::App& app, Settings& s) {
-  app.set_help_flag();
-  app.option_defaults()->group("Files");
-  app.add_option("IN", s.input, "the mesh to draw")->required();
-  add_text(app, "-o,--output", "FILE", s.output, "where the SVG goes")->required();
-  add_text(app, "--before", "IN0", s.before, "a mesh to draw to the left of it, to the same scale");
-  app.option_defaults()->group("Picture");
-  app.add_flag("--no-primal", s.no_primal, "without the triangles' edges");
-  app.add_flag("--no-dual", s.no_dual, "without the dual edges, between orthocenters");
-  app.add_flag("--no-weights", s.no_weights, "without the weight circles (green positive, red negative)");
-  app.add_flag("--no-bad", s.no_bad, "do not fill triangles that are not well-centered");
-  app.add_flag("--no-rings", s.no_rings, "do not ring vertices that nearly coincide with a neighbour");
-  app.add_flag("--no-regions", s.no_regions, "do not tint regions");
-  app.add_flag("--numbers", s.options.vertex_numbers, "number the vertices, from 0");
-  add_number(app, "--weight-scale", s.options.weight_scale, kPositive, "factor on the radius of weight circles");
+void add_options(Command& command, Settings& s) {
+  command.group("Files");
+  add_argument(command, "IN", s.input, "the mesh to draw").require();
+  add_text(command, "-o,--output", "FILE", s.output, "where the SVG goes").require();
+  add_text(command, "--before", "IN0", s.before, "a mesh to draw to the left of it, to the same scale");
+  command.group("Picture");
+  command.add_flag("--no-primal", s.no_primal, "without the triangles' edges");
+  command.add_flag("--no-dual", s.no_dual, "without the dual edges, between orthocenters");
+  command.add_flag("--no-weights", s.no_weights, "without the weight circles (green positive, red negative)");
+  command.add_flag("--no-bad", s.no_bad, "do not fill triangles that are not well-centered");
+  command.add_flag("--no-rings", s.no_rings, "do not ring vertices that nearly coincide with a neighbour");
+  command.add_flag("--no-regions", s.no_regions, "do not tint regions");
+  command.add_flag("--numbers", s.options.vertex_numbers, "number the vertices, from 0");
+  add_number(command, "--weight-scale", s.options.weight_scale, kPositive, "factor on the radius of weight circles");
   add_numbers(
-      app, "--zoom", "x0,y0,x1,y1", 4,
+      command, "--zoom", "x0,y0,x1,y1", 4,
       [&s](const std::vector<double>& v) {
         s.options.zoom = Box{{v[0], v[1]}, {v[2], v[3]}};
       },
       "draw only what meets this rectangle");
-  add_number(app, "--width", s.options.width, kPositive, "of one panel, in CSS pixels");
-  add_text(app, "--title", "TEXT", s.options.title, "under the picture");
-  app.option_defaults()->group("Help");
-  app.set_help_flag("-h,--help", "this text");
-  set_help(app, {"IN -o FILE [options]",
-                 "  temper draw in.vtu -o mesh.svg\n"
-                 "  temper draw out.vtu --before in.vtu -o both.svg --title \"before and after\"\n"
-                 "  temper draw in.vtu -o corner.svg --zoom 0,0,0.5,0.5 --numbers --no-weights\n",
-                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+  add_number(command, "--width", s.options.width, kPositive, "of one panel, in CSS pixels");
+  add_text(command, "--title", "TEXT", s.options.title, "under the picture");
+  command.group("Help");
+  command.add_help({"IN -o FILE [options]",
+                    "  temper draw in.vtu -o mesh.svg\n"
+                    "  temper draw out.vtu --before in.vtu -o both.svg --title \"before and after\"\n"
+                    "  temper draw in.vtu -o corner.svg --zoom 0,0,0.5,0.5 --numbers --no-weights\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
 void check_zoom(const DrawOptions& options) {
@@ -59,10 +57,10 @@ void check_zoom(const DrawOptions& options) {
 }  // namespace
 
 Exit run_draw(const Arguments& arguments) {
-  CLI::App app("Draws triangles, the dual between orthocenters, and weights as circles, as SVG.", "draw");
+  Command command("draw", "Draws triangles, the dual between orthocenters, and weights as circles, as SVG.");
   Settings s;
-  add_options(app, s);
-  if (!parse(app, arguments)) return Exit::done;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
   s.options.primal = !s.no_primal;
   s.options.dual = !s.no_dual;
   s.options.weights = !s.no_weights;

@@ -21,23 +21,21 @@ struct Settings {
   bool json = false;
 };
 
-void add_options(CLI::App& app, Settings& s) {
-  app.set_help_flag();
-  app.option_defaults()->group("Report");
-  app.add_option("IN", s.input, "the mesh; its content tells the format")->required();
-  app.add_flag("--json", s.json, "all reasons as JSON, with vertices and triangles counted from 0");
-  add_count(app, "--limit", s.limit, 0,
+void add_options(Command& command, Settings& s) {
+  command.group("Report");
+  add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  command.add_flag("--json", s.json, "all reasons as JSON, with vertices and triangles counted from 0");
+  add_count(command, "--limit", s.limit, 0,
             "print this many conflicts, and as many places where weights exist, and search cures for these");
-  add_count(app, "--whole", s.whole, 0,
+  add_count(command, "--whole", s.whole, 0,
             "ask whether weights suit the whole mesh when it has at most so many triangles, or so many bad ones");
-  app.option_defaults()->group("Help");
-  app.set_help_flag("-h,--help", "this text");
-  set_help(app, {"IN [options]",
-                 "  temper example sparse-horseshoe -o shoe.vtu && temper explain shoe.vtu\n"
-                 "  temper explain shoe.vtu --json\n"
-                 "  # a mesh whose weights have not been found yet\n"
-                 "  temper example annulus -o ring.vtu && temper explain ring.vtu --limit 3\n",
-                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+  command.group("Help");
+  command.add_help({"IN [options]",
+                    "  temper example sparse-horseshoe -o shoe.vtu && temper explain shoe.vtu\n"
+                    "  temper explain shoe.vtu --json\n"
+                    "  # a mesh whose weights have not been found yet\n"
+                    "  temper example annulus -o ring.vtu && temper explain ring.vtu --limit 3\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
 /// One line on a terminal; nothing in a pipe.
@@ -60,16 +58,16 @@ class Counter {
 }  // namespace
 
 Exit run_explain(const Arguments& arguments) {
-  CLI::App app(
+  Command command(
+      "explain",
       "Says of every triangle that is not well-centered why: a small set of triangles that no weights suit, with a "
       "proof, "
       "or weights that exist and have not been found; and what would cure it, tried on the triangles around. Exits "
       "with "
-      "0 whatever it finds; temper check --require tests.",
-      "explain");
+      "0 whatever it finds; temper check --require tests.");
   Settings s;
-  add_options(app, s);
-  if (!parse(app, arguments)) return Exit::done;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
 
   const Input input = read_input(s.input);
   print_warnings(input.warnings());

@@ -34,55 +34,56 @@ struct Settings {
   bool no_optimize = false, quiet = false;
 };
 
-void add_files(CLI::App& app, Settings& s) {
-  app.add_option("OUTLINE", s.input, "what to mesh: .poly of Triangle, geometry of JIGSAW, GeoJSON; content decides")
-      ->required();
-  add_text(app, "-o,--output", "MESH", s.output, "where the mesh goes; its suffix tells the format")->required();
-  add_text(app, "--report", "FILE", s.report, "a JSON report: what was read and made, before and after optimising");
-  add_text(app, "--draw", "FILE", s.picture, "an SVG picture of the mesh and its dual");
-  app.add_flag("--quiet", s.quiet, "print warnings and errors only");
+void add_files(Command& command, Settings& s) {
+  add_argument(command, "OUTLINE", s.input,
+               "what to mesh: .poly of Triangle, geometry of JIGSAW, GeoJSON; content decides")
+      .require();
+  add_text(command, "-o,--output", "MESH", s.output, "where the mesh goes; its suffix tells the format").require();
+  add_text(command, "--report", "FILE", s.report, "a JSON report: what was read and made, before and after optimising");
+  add_text(command, "--draw", "FILE", s.picture, "an SVG picture of the mesh and its dual");
+  command.add_flag("--quiet", s.quiet, "print warnings and errors only");
 }
 
-void add_sizes(CLI::App& app, Settings& s) {
-  add_number(app, "--size", s.options.size, kPositive, "edge length wanted, in the units of the outline or in metres")
-      ->required()
-      ->default_str("");
-  add_number(app, "--grade", s.options.grade, kPositive,
+void add_sizes(Command& command, Settings& s) {
+  add_number(command, "--size", s.options.size, kPositive,
+             "edge length wanted, in the units of the outline or in metres")
+      .require();
+  add_number(command, "--grade", s.options.grade, kPositive,
              "by how much the size grows on one unit of length away from short edges and narrow places");
-  add_text(app, "--region-size", "REGION,SIZE,...", s.region_sizes, "edge length wanted in these regions, when less");
-  add_choice(app, "--enclosed", kEnclosed, s.options.enclosed,
+  add_text(command, "--region-size", "REGION,SIZE,...", s.region_sizes,
+           "edge length wanted in these regions, when less");
+  add_choice(command, "--enclosed", kEnclosed, s.options.enclosed,
              "what is inside: all that is enclosed but for the holes; nested loops in turns; by-points: the first when "
              "the file has hole or region points, else the second (not for files that say it by polygons or parts)");
-  add_text(app, "--projection", "NAME[:lon,lat]", s.projection,
+  add_text(command, "--projection", "NAME[:lon,lat]", s.projection,
            "of longitude and latitude: stereographic, mercator or transverse-mercator about this center (default: the "
            "middle of the points), in metres; none: take degrees for a plane");
 }
 
-void add_optimisation(CLI::App& app, Settings& s) {
-  app.add_flag("--no-optimize", s.no_optimize, "write the Delaunay mesh as it is");
-  add_count(app, "--attempts", s.options.attempts, 1,
+void add_optimisation(Command& command, Settings& s) {
+  command.add_flag("--no-optimize", s.no_optimize, "write the Delaunay mesh as it is");
+  add_count(command, "--attempts", s.options.attempts, 1,
             "while triangles stay bad the outline is divided finer around them, at most so often");
-  add_number(app, "--time-limit", s.time_limit, kNotNegative, "stop optimising after this many seconds; 0: no limit");
-  add_count(app, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  add_number(command, "--time-limit", s.time_limit, kNotNegative,
+             "stop optimising after this many seconds; 0: no limit");
+  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
 }
 
-void add_options(CLI::App& app, Settings& s) {
-  app.set_help_flag();
-  app.option_defaults()->group("Files");
-  add_files(app, s);
-  app.option_defaults()->group("Sizes and shape");
-  add_sizes(app, s);
-  app.option_defaults()->group("Optimisation");
-  add_optimisation(app, s);
-  app.option_defaults()->group("Help");
-  app.set_help_flag("-h,--help", "this text");
-  set_help(app, {"OUTLINE -o MESH --size h [options]",
-                 "  temper mesh lake.poly -o lake.vtu --size 0.05\n"
-                 "  temper mesh lake.poly -o lake.msh --size 0.05 --grade 0.15 --draw lake.svg\n"
-                 "  temper mesh plan.poly -o plan.vtu --size 1 --region-size 2,0.25\n"
-                 "  temper mesh coast.geojson -o coast.vtu --size 2000 --projection stereographic\n"
-                 "  temper mesh basin.msh -o basin.vtu --size 500 --projection transverse-mercator:9,0\n",
-                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal}});
+void add_options(Command& command, Settings& s) {
+  command.group("Files");
+  add_files(command, s);
+  command.group("Sizes and shape");
+  add_sizes(command, s);
+  command.group("Optimisation");
+  add_optimisation(command, s);
+  command.group("Help");
+  command.add_help({"OUTLINE -o MESH --size h [options]",
+                    "  temper mesh lake.poly -o lake.vtu --size 0.05\n"
+                    "  temper mesh lake.poly -o lake.msh --size 0.05 --grade 0.15 --draw lake.svg\n"
+                    "  temper mesh plan.poly -o plan.vtu --size 1 --region-size 2,0.25\n"
+                    "  temper mesh coast.geojson -o coast.vtu --size 2000 --projection stereographic\n"
+                    "  temper mesh basin.msh -o basin.vtu --size 500 --projection transverse-mercator:9,0\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal}});
 }
 
 std::vector<RegionSize> region_sizes(const std::string& text) {
@@ -172,7 +173,7 @@ OutlineMesh run_library(const Settings& s, const Outline& outline, Executor* exe
   return or_fail(mesh_outline(outline, options, observer));
 }
 
-Exit mesh(const CLI::App& app, const Settings& s, Outputs& outputs) {
+Exit mesh(const Command& command, const Settings& s, Outputs& outputs) {
   io::OutlineFile input = or_fail(io::read_outline(s.input));
   print_warnings(input.warnings);
   MapUsed map = take_to_plane(s, input);
@@ -187,7 +188,7 @@ Exit mesh(const CLI::App& app, const Settings& s, Outputs& outputs) {
   io::WriteOptions writing;
   writing.executor = threads.get();
   print_warnings(outputs.write_mesh(s.output, file_of(made, map), writing));
-  const std::vector<UsedOption> options = used_options(app);
+  const std::vector<UsedOption> options = used_options(command);
   const MeshRecord record = {command_line("mesh", {s.input}, options), options, input, map, made, after};
   if (!s.report.empty()) outputs.write_text(s.report, mesh_json(record));
   if (!s.picture.empty()) {
@@ -204,20 +205,20 @@ Exit mesh(const CLI::App& app, const Settings& s, Outputs& outputs) {
 }  // namespace
 
 Exit run_mesh(const Arguments& arguments) {
-  CLI::App app(
+  Command command(
+      "mesh",
       "Meshes the inside of an outline and optimises that until every triangle is well-centered. Points of the outline "
-      "stay bit for bit.",
-      "mesh");
+      "stay bit for bit.");
   Settings s;
-  add_options(app, s);
-  if (!parse(app, arguments)) return Exit::done;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
   Outputs outputs("mesh");
   // The points of a .poly may be in the .node beside it.
   const std::vector<std::string> inputs = {s.input, std::filesystem::path(s.input).replace_extension(".node").string()};
   outputs.expect_mesh("--output", s.output, "", inputs);
   outputs.expect_text("--report", s.report, inputs);
   outputs.expect_text("--draw", s.picture, inputs);
-  return mesh(app, s, outputs);
+  return mesh(command, s, outputs);
 }
 
 }  // namespace temper::app

@@ -67,7 +67,6 @@ struct Settings {
   std::string input, output, report, history, picture, trace, anchor;
   std::vector<std::string> fix;
   Method method = Method::production;
-  bool method_given = false;
   OptimizeOptions options;  ///< those of the method, where no option says otherwise
   Objective objective = Objective::energy;
   AccuracyOptions accuracy;
@@ -93,74 +92,76 @@ Flips flips_of(const Settings& s) {
 }
 
 /// An energy by its name; the option keeps the registry's own text.
-void add_energy_name(CLI::App& app, const std::string& option, const std::vector<std::string_view>& names,
+void add_energy_name(Command& command, const std::string& option, const std::vector<std::string_view>& names,
                      std::string_view& target, const std::string& description) {
-  spell_default(add_name(
-                    app, option, names, [&target](std::string_view name) { target = or_fail(find_energy(name)).name; },
-                    description),
-                [&target] { return std::string(target); });
+  const auto use = [&target](std::string_view name) { target = or_fail(find_energy(name)).name; };
+  add_name(command, option, names, use, description).defaults_to([&target] { return std::string(target); });
 }
 
-void add_files(CLI::App& app, Settings& s) {
+void add_files(Command& command, Settings& s) {
   // Not marked as required: see take_input.
-  app.add_option("IN", s.input, "the mesh to improve; its content tells the format");
-  add_text(app, "-o,--output", "OUT", s.output, "where the improved mesh goes; may be IN; its suffix tells the format")
-      ->required();
+  add_argument(command, "IN", s.input, "the mesh to improve; its content tells the format");
+  add_text(command, "-o,--output", "OUT", s.output,
+           "where the improved mesh goes; may be IN; its suffix tells the format")
+      .require();
   add_choice(
-      app, "--encoding", kEncodings, [&s](io::Encoding value) { s.encoding = value; },
+      command, "--encoding", kEncodings, [&s](io::Encoding value) { s.encoding = value; },
       "of formats that have several (default: the compact one; fastest: appended)");
-  add_text(app, "--report", "FILE", s.report, "a JSON report: before, after, history, and the command to run again");
-  add_text(app, "--history", "FILE", s.history, "one line of CSV a sweep");
-  add_text(app, "--trace", "FILE", s.trace, "every move, flip and removal, one JSON object a line; see temper replay");
-  add_text(app, "--draw", "FILE", s.picture, "an SVG picture, before and after side by side");
+  add_text(command, "--report", "FILE", s.report,
+           "a JSON report: before, after, history, and the command to run again");
+  add_text(command, "--history", "FILE", s.history, "one line of CSV a sweep");
+  add_text(command, "--trace", "FILE", s.trace,
+           "every move, flip and removal, one JSON object a line; see temper replay");
+  add_text(command, "--draw", "FILE", s.picture, "an SVG picture, before and after side by side");
 #ifdef TEMPER_WITH_VERIFY
-  app.add_flag("--verify", s.verify,
-               "also measure the errors of solvers before and after, as temper verify does; with --objective accuracy "
-               "an input that is well-centered and has the smaller ones is returned");
+  command.add_flag(
+      "--verify", s.verify,
+      "also measure the errors of solvers before and after, as temper verify does; with --objective accuracy "
+      "an input that is well-centered and has the smaller ones is returned");
 #endif
-  app.add_flag("--quiet", s.quiet, "print warnings and errors only");
+  command.add_flag("--quiet", s.quiet, "print warnings and errors only");
 }
 
-void add_energy(CLI::App& app, Settings& s) {
+void add_energy(Command& command, Settings& s) {
   std::vector<std::string_view> names;
   for (const EnergyInfo& energy : energies()) names.push_back(energy.name);
-  add_energy_name(app, "--energy", names, s.options.energy,
+  add_energy_name(command, "--energy", names, s.options.energy,
                   "what to minimise: a barrier (BH, BHs, BP) or a HOT energy (F, T, dT)");
   add_choice(
-      app, "--star", kStars, s.accuracy.star,
+      command, "--star", kStars, s.accuracy.star,
       "Hodge star of the energy, or of --objective accuracy, whose first sweeps are for star 1 then; all: accuracy "
       "alone");
-  add_gamma(app, s.gamma,
+  add_gamma(command, s.gamma,
             "; without it relative to each edge, shrinking from 0.5, or 1 where many triangles are bad, to 0.003");
-  spell_default(app.get_option("--gamma"), [&s] {  // the paper's
+  command.option("--gamma").defaults_to([&s] {  // the paper's
     const std::optional<Softening>& gamma = s.options.gamma;
     return gamma && !s.gamma.value() ? fmt::format("{}", gamma->value) : std::string();
   });
-  add_h0(app, s.h0, "; without it just beyond the least h of the mesh, following it up");
-  add_choice(app, "--boundary-treatment", kBoundaryTreatments, s.options.boundary,
+  add_h0(command, s.h0, "; without it just beyond the least h of the mesh, following it up");
+  add_choice(command, "--boundary-treatment", kBoundaryTreatments, s.options.boundary,
              "of energy F: the h of boundary edges as it is, |h|, or as if the mesh were mirrored there");
 }
 
-void add_accuracy(CLI::App& app, Settings& s) {
+void add_accuracy(Command& command, Settings& s) {
   const double most = std::numeric_limits<double>::infinity();
   AccuracyOptions& a = s.accuracy;
   add_choice(
-      app, "--objective", kObjectives, s.objective,
+      command, "--objective", kObjectives, s.objective,
       "energy: the one of --energy, to the end; accuracy: only until every triangle is well-centered with a "
       "margin, then how far the middles of edges and duals are apart, which a solver's error is proportional to");
-  add_number(app, "--margin", a.margin, {0, 0.25, true},
+  add_number(command, "--margin", a.margin, {0, 0.25, true},
              "of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle");
   add_number(
-      app, "--offset-weight", a.offset_weight, kNotNegative,
+      command, "--offset-weight", a.offset_weight, kNotNegative,
       "of accuracy: how many times as much as in HOT the offset of the middles counts; 1: HOT over size squared");
   add_number(
-      app, "--boundary-offset-weight", a.boundary_offset_weight, kNotNegative,
+      command, "--boundary-offset-weight", a.boundary_offset_weight, kNotNegative,
       "of accuracy: the same of the height of boundary edges; 0.5 where unknowns are at vertices and the input is "
       "symmetric");
-  add_number(app, "--barrier", a.barrier, {0, most, true},
+  add_number(command, "--barrier", a.barrier, {0, most, true},
              "of accuracy: factor of the logarithms that keep the margin");
-  add_count(app, "--accuracy-sweeps", a.sweeps, 0, "of accuracy: at most this many, after those for the energy");
-  add_number(app, "--accuracy-tolerance", a.tolerance, kNotNegative,
+  add_count(command, "--accuracy-sweeps", a.sweeps, 0, "of accuracy: at most this many, after those for the energy");
+  add_number(command, "--accuracy-tolerance", a.tolerance, kNotNegative,
              "of accuracy: stop when a sweep gains less than this part");
 }
 
@@ -178,142 +179,135 @@ void settle_objective(Settings& s) {
   s.options.star = for_accuracy ? 1 : static_cast<int>(s.accuracy.star);
 }
 
-void add_moves(CLI::App& app, Settings& s) {
+void add_moves(Command& command, Settings& s) {
   add_choice(
-      app, "--solver", kSolvers, s.options.solver,
+      command, "--solver", kSolvers, s.options.solver,
       "Newton steps in position and weight together; the paper's golden section; Newton in position, then weight");
-  CLI::Option* positions = app.add_flag("--positions-only", s.positions_only, "leave the weights as they are");
-  CLI::Option* weights = app.add_flag("--weights-only", s.weights_only, "leave the positions as they are");
-  positions->excludes(weights);
-  add_count(app, "--weights-from", s.options.weights_from, 0, "first sweep that changes weights, from 0");
-  add_number(app, "--relaxation", s.options.relaxation, {0, 2, true},
+  command.add_flag("--positions-only", s.positions_only, "leave the weights as they are");
+  command.add_flag("--weights-only", s.weights_only, "leave the positions as they are").excludes = "--positions-only";
+  add_count(command, "--weights-from", s.options.weights_from, 0, "first sweep that changes weights, from 0");
+  add_number(command, "--relaxation", s.options.relaxation, {0, 2, true},
              "over-relaxation of Newton steps; without it 1.7, but 1.97 while gamma shrinks from 1");
-  app.add_flag(
+  command.add_flag(
       "--no-newton-passes", s.no_newton_passes,
       "sweeps alone to the end: no steps of all vertices at once, which barriers make in every other sweep once "
       "every triangle is well-centered");
   add_text(
-      app, "--anchor", "VERTEX", s.anchor,
+      command, "--anchor", "VERTEX", s.anchor,
       "shift the weights after each sweep so that this vertex has weight 0 (its number in the file); none: do not");
 }
 
-void add_connectivity(CLI::App& app, Settings& s) {
-  app.add_flag("--no-flips", s.no_flips, "keep the connectivity; no step may make an edge non-regular");
-  spell_default(add_choice(
-                    app, "--flips", kFlips, [&s](Flips value) { set_flips(s, value); },
-                    "flip edges at once, after the inner sweeps, or never, as --no-flips"),
-                [&s] { return std::string(kFlips[static_cast<std::size_t>(flips_of(s))].name); });
-  spell_default(
-      add_choice(
-          app, "--flip-limit", kFlipLimits, [&s](FlipLimit value) { s.options.flip_limit = value; },
-          "how far a step may go past the point where an edge flips (default: unlimited for barriers, after for HOT)"),
-      [&s] {
+void add_connectivity(Command& command, Settings& s) {
+  command.add_flag("--no-flips", s.no_flips, "keep the connectivity; no step may make an edge non-regular");
+  add_choice(
+      command, "--flips", kFlips, [&s](Flips value) { set_flips(s, value); },
+      "flip edges at once, after the inner sweeps, or never, as --no-flips")
+      .defaults_to([&s] { return std::string(kFlips[static_cast<std::size_t>(flips_of(s))].name); });
+  add_choice(
+      command, "--flip-limit", kFlipLimits, [&s](FlipLimit value) { s.options.flip_limit = value; },
+      "how far a step may go past the point where an edge flips (default: unlimited for barriers, after for HOT)")
+      .defaults_to([&s] {
         if (!s.options.flip_limit) return std::string();
         return std::string(kFlipLimits[static_cast<std::size_t>(*s.options.flip_limit)].name);
       });
-  add_number(app, "--overshoot", s.options.overshoot, {1, std::numeric_limits<double>::infinity(), false},
+  add_number(command, "--overshoot", s.options.overshoot, {1, std::numeric_limits<double>::infinity(), false},
              "of --flip-limit after, at first: it shrinks towards 1 each sweep");
-  CLI::Option* repair =
-      app.add_flag("--repair", s.repair,
+  command.add_flag("--repair", s.repair,
                    "where sweeps leave triangles bad: remove and insert vertices there, too, and keep what cures most");
-  app.add_flag("--no-repair", s.no_repair,
-               "do not even sweep again and kick vertices there, which barriers do by default")
-      ->excludes(repair);
-  add_count(app, "--repair-trials", s.options.repair_trials, 0, "at most so many edits are tried, 1 to 3 ms each");
-  app.add_option("--fix", s.fix, "vertices with this tag or physical name stay where they are; several may follow")
-      ->type_name("TAG ...")
-      ->default_function({});
+  command
+      .add_flag("--no-repair", s.no_repair,
+                "do not even sweep again and kick vertices there, which barriers do by default")
+      .excludes = "--repair";
+  add_count(command, "--repair-trials", s.options.repair_trials, 0, "at most so many edits are tried, 1 to 3 ms each");
+  add_texts(command, "--fix", "TAG ...", Values::words, s.fix,
+            "vertices with this tag or physical name stay where they are; several may follow");
   add_choice(
-      app, "--boundary", kBoundaries, s.options.boundary_vertices,
+      command, "--boundary", kBoundaries, s.options.boundary_vertices,
       "keep: the domain's boundary stays bit for bit; slide: vertices of its straight pieces, never corners, may "
       "move along them; split: edges of boundary and interfaces much longer than one they meet are cut before "
       "the sweeps, and the vertices that were there stay bit for bit");
-  add_number(app, "--boundary-ratio", s.options.boundary_ratio, {2, std::numeric_limits<double>::infinity(), false},
+  add_number(command, "--boundary-ratio", s.options.boundary_ratio, {2, std::numeric_limits<double>::infinity(), false},
              "of --boundary split: how many times as long an edge may be as one it meets");
-  app.add_flag("--slide-interfaces", s.slide,
-               "vertices of straight region interfaces and tagged lines may move along them");
+  command.add_flag("--slide-interfaces", s.slide,
+                   "vertices of straight region interfaces and tagged lines may move along them");
 }
 
-void add_size(CLI::App& app, Settings& s) {
-  add_text(app, "--size-field", "FILE", s.size_field,
+void add_size(Command& command, Settings& s) {
+  add_text(command, "--size-field", "FILE", s.size_field,
            "a mesh file whose point data say how long edges are meant to be where; without it the input's own sizes");
-  add_text(app, "--size-field-data", "NAME", s.size_data, "of the point data in that file (default: size)");
-  add_number(app, "--size-band", s.options.size_band, {1, std::numeric_limits<double>::infinity(), false},
+  add_text(command, "--size-field-data", "NAME", s.size_data, "of the point data in that file (default: size)");
+  add_number(command, "--size-band", s.options.size_band, {1, std::numeric_limits<double>::infinity(), false},
              "B: no step takes the size at a vertex out of the size field's 1/B to B times; without it sizes are only "
              "reported");
 }
 
-void add_paper(CLI::App& app, Settings& s) {
+void add_paper(Command& command, Settings& s) {
   // At once, before all other options are taken: those given override the method's.
-  add_choice(
-      app, "--method", kMethods,
+  Option& method = add_choice(
+      command, "--method", kMethods,
       [&s](Method value) {
-        // Each time at once, so that what is said twice must be seen here.
-        if (std::exchange(s.method_given, true)) {
-          throw Failure(Exit::bad_usage, "optimize: --method is given more than once\nSee temper optimize --help");
-        }
         s.method = value;
         if (value == Method::paper) s.options = paper_method();
       },
       "what all options start from; paper: its Algorithm 1 with golden section, deferred flips, collapses, the patch "
-      "test, inversions allowed, the first vertex as anchor and gamma 1")
-      ->trigger_on_parse()
-      ->default_str("production");
-  add_count(app, "--inner", s.options.inner, 0,
+      "test, inversions allowed, the first vertex as anchor and gamma 1");
+  method.at_once = true;
+  method.default_text = "production";
+  add_count(command, "--inner", s.options.inner, 0,
             "with deferred flips: at most so many sweeps before edges are flipped; 0: until they converge");
-  add_count(app, "--outer", s.options.outer, 0,
+  add_count(command, "--outer", s.options.outer, 0,
             "with deferred flips: at most so many rounds of sweeps and flips; 0: until no flips are needed");
-  add_choice(app, "--weight-updates", kWeightUpdates, s.options.weight_updates,
+  add_choice(command, "--weight-updates", kWeightUpdates, s.options.weight_updates,
              "a new weight is seen by its neighbours at once, or after the sweep (not with --solver newton)");
-  add_count(app, "--collapse-from", s.options.collapse_from, 0,
+  add_count(command, "--collapse-from", s.options.collapse_from, 0,
             "i_c: first sweep with short-edge collapses, from 0 (Algorithm 2)");
   std::vector<std::string_view> names;
   for (const EnergyInfo& energy : energies()) {
     if (!energy.barrier) names.push_back(energy.name);
   }
-  add_energy_name(app, "--collapse-energy", names, s.options.collapse_energy, "E_c, which draws a vertex to an edge");
-  add_number(app, "--collapse-ratio", s.options.collapse_ratio, {0, 1, true},
+  add_energy_name(command, "--collapse-energy", names, s.options.collapse_energy,
+                  "E_c, which draws a vertex to an edge");
+  add_number(command, "--collapse-ratio", s.options.collapse_ratio, {0, 1, true},
              "collapse a vertex that E_c wants this near its neighbour, relative to that one's shorter edge beside");
-  add_choice(app, "--removal", kRemovals, s.options.removal,
+  add_choice(command, "--removal", kRemovals, s.options.removal,
              "patch: remove a vertex when its patch is better without it (Algorithm 1, line 15)");
-  add_choice(app, "--removal-measure", kRemovalMeasures, s.options.removal_measure,
+  add_choice(command, "--removal-measure", kRemovalMeasures, s.options.removal_measure,
              "by what patches are compared: energy summed (the paper), per triangle, or above equilateral triangles");
-  add_number(app, "--removal-margin", s.options.removal_margin, kNotNegative, "by which part the patch must be better");
-  add_count(app, "--removal-from", s.options.removal_from, 0, "first sweep with removals, from 0");
-  add_choice(app, "--hidden", kHiddenPolicies, s.options.hidden,
+  add_number(command, "--removal-margin", s.options.removal_margin, kNotNegative,
+             "by which part the patch must be better");
+  add_count(command, "--removal-from", s.options.removal_from, 0, "first sweep with removals, from 0");
+  add_choice(command, "--hidden", kHiddenPolicies, s.options.hidden,
              "what weights hide: undo the step, remove the vertex, or keep and report it");
-  add_choice(app, "--inversion", kInversions, s.options.inversion,
+  add_choice(command, "--inversion", kInversions, s.options.inversion,
              "steps that turn a triangle over are refused, or allowed as in the paper (with deferred flips)");
-  add_choice(app, "--order", kOrders, s.options.order, "in which a sweep visits the vertices");
+  add_choice(command, "--order", kOrders, s.options.order, "in which a sweep visits the vertices");
 }
 
-void add_stopping(CLI::App& app, Settings& s) {
-  add_count(app, "--max-sweeps", s.options.max_sweeps, 0, "at most this many sweeps over the vertices");
-  add_number(app, "--tolerance", s.options.tolerance, kNotNegative, "stop when a sweep gains less than this");
-  add_choice(app, "--stopping", kStoppingRules, s.options.stopping,
+void add_stopping(Command& command, Settings& s) {
+  add_count(command, "--max-sweeps", s.options.max_sweeps, 0, "at most this many sweeps over the vertices");
+  add_number(command, "--tolerance", s.options.tolerance, kNotNegative, "stop when a sweep gains less than this");
+  add_choice(command, "--stopping", kStoppingRules, s.options.stopping,
              "the gain relative to the energy, or the paper's: mean energy per triangle, absolute");
-  add_number(app, "--time-limit", s.options.time_limit, kNotNegative, "stop after this many seconds; 0: no limit");
-  add_count(app, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
-  add_count(app, "--seed", s.options.seed, 0,
+  add_number(command, "--time-limit", s.options.time_limit, kNotNegative, "stop after this many seconds; 0: no limit");
+  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  add_count(command, "--seed", s.options.seed, 0,
             "of the jitter that frees symmetric grids, of repairs, and of --order random");
 }
 
 /// Options added by `add` go under a title in --help.
-void add_group(CLI::App& app, Settings& s, const std::string& title, void (*add)(CLI::App&, Settings&)) {
-  app.option_defaults()->group(title);
-  add(app, s);
+void add_group(Command& command, Settings& s, const std::string& title, void (*add)(Command&, Settings&)) {
+  command.group(title);
+  add(command, s);
 }
 
 /// `--fix 1 2 IN -o OUT`: --fix takes all words that follow, so the last one is the input when there is none.
-void take_input(CLI::App& app, Settings& s) {
+void take_input(Command& command, Settings& s) {
   if (!s.input.empty()) return;
   if (s.fix.size() < 2)
     throw Failure(Exit::bad_usage, "optimize: IN is missing: the mesh to improve\nSee temper optimize --help");
   s.input = s.fix.back();
   s.fix.pop_back();
-  CLI::Option* fix = app.get_option("--fix");
-  fix->clear();
-  for (const std::string& tag : s.fix) fix->add_result(tag);
+  command.option("--fix").given = s.fix;
 }
 
 std::size_t find_vertex(const Input& input, const std::string& number) {
@@ -344,14 +338,14 @@ OptimizeOptions library_options(const Settings& s, const Input& input, Executor*
 }
 
 /// Switches that need another one, and are not as they would be anyway: the command of a report gives defaults, too.
-std::vector<std::string> idle_switches(const CLI::App& app, const Settings& s, const EnergyInfo& energy) {
+std::vector<std::string> idle_switches(const Command& command, const Settings& s, const EnergyInfo& energy) {
   std::vector<std::string> warnings;
   const OptimizeOptions& o = s.options;
   const OptimizeOptions usual = s.method == Method::paper ? paper_method() : OptimizeOptions();
   const auto idle_unless = [&](bool used, std::initializer_list<std::pair<const char*, bool>> options,
                                const char* needed) {
     for (const auto& [option, changed] : options) {
-      if (!used && changed && app.count(option) > 0) {
+      if (!used && changed && command.was_given(option)) {
         warnings.push_back(fmt::format("{} has no effect {}", option, needed));
       }
     }
@@ -386,7 +380,7 @@ std::vector<std::string> idle_switches(const CLI::App& app, const Settings& s, c
 }
 
 /// Options that were given and cannot have the effect one would expect.
-std::vector<std::string> doubtful_options(const CLI::App& app, const Settings& s) {
+std::vector<std::string> doubtful_options(const Command& command, const Settings& s) {
   const EnergyInfo energy = or_fail(find_energy(s.options.energy));
   std::vector<std::string> warnings;
   const auto idle = [&](const char* option) {
@@ -397,7 +391,7 @@ std::vector<std::string> doubtful_options(const CLI::App& app, const Settings& s
     warnings.push_back("--repair has no effect where " + std::string(s.weights_only ? "positions" : "edges") +
                        " may not change");
   }
-  if (s.no_repair && app.count("--repair-trials") > 0) {
+  if (s.no_repair && command.was_given("--repair-trials")) {
     warnings.push_back("--repair-trials has no effect with --no-repair");
   }
   if (s.repair && s.options.size_band) {
@@ -406,10 +400,10 @@ std::vector<std::string> doubtful_options(const CLI::App& app, const Settings& s
   if (s.gamma.value() && !energy.softened_by_gamma) idle("--gamma");
   if (s.h0.value() && !energy.softened_by_h0) idle("--h0");
   if (s.options.boundary != BoundaryTreatment::as_is && energy.kind != EnergyKind::F) idle("--boundary-treatment");
-  if (s.size_field.empty() && app.count("--size-field-data") > 0) {
+  if (s.size_field.empty() && command.was_given("--size-field-data")) {
     warnings.push_back("--size-field-data has no effect without --size-field");
   }
-  for (std::string& warning : idle_switches(app, s, energy)) warnings.push_back(std::move(warning));
+  for (std::string& warning : idle_switches(command, s, energy)) warnings.push_back(std::move(warning));
   if (!s.report.empty() && same_file(s.input, s.output)) {
     warnings.push_back("--output replaces the input: the command in the report would start from the improved mesh");
   }
@@ -564,7 +558,7 @@ std::vector<std::string> cell_data_warnings(const Input& input, const Results& r
 }
 
 /// The mesh first: it is what the time went into.
-void write_all(const CLI::App& app, const Settings& s, Input& input, Results& results, Outputs& outputs,
+void write_all(const Command& command, const Settings& s, Input& input, Results& results, Outputs& outputs,
                io::TextStream* trace, Executor* threads) {
   const std::size_t known = input.file.warnings.size();
   io::update(input.file, input.loaded, input.loaded.mesh, results.report.vertices);
@@ -576,9 +570,9 @@ void write_all(const CLI::App& app, const Settings& s, Input& input, Results& re
   warn(results, outputs.write_mesh(s.output, input.file, writing));
   if (trace != nullptr) outputs.commit(s.trace, *trace);
   if (!s.report.empty()) {
-    const std::vector<UsedOption> options = used_options(app);
-    const std::string command = command_line("optimize", {s.input}, options);
-    outputs.write_text(s.report, optimize_json({command, options, results.before, input.points, results.after,
+    const std::vector<UsedOption> options = used_options(command);
+    const std::string again = command_line("optimize", {s.input}, options);
+    outputs.write_text(s.report, optimize_json({again, options, results.before, input.points, results.after,
                                                 results.report, results.warnings, results.errors_json}));
   }
   if (!s.history.empty()) outputs.write_text(s.history, history_csv(results.report));
@@ -596,12 +590,12 @@ void print_result(const Settings& s, const Results& results, const Outputs& outp
   print(written + "\n");
 }
 
-Exit optimize_mesh(const CLI::App& app, Settings& s, Outputs& outputs) {
+Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs) {
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   Input input = read_input(s.input, s.fix, threads.get());
   Results results;
   warn(results, input.warnings());
-  warn(results, doubtful_options(app, s));
+  warn(results, doubtful_options(command, s));
   if (!s.size_field.empty()) {
     ReadSizeField read = read_size_field(s.size_field, s.size_data.empty() ? "size" : s.size_data);
     warn(results, read.warnings);
@@ -612,7 +606,7 @@ Exit optimize_mesh(const CLI::App& app, Settings& s, Outputs& outputs) {
   std::optional<io::TextStream> trace;
   if (!s.trace.empty()) trace = outputs.open(s.trace);
   improve(s, input, results, trace ? &*trace : nullptr, threads.get());
-  write_all(app, s, input, results, outputs, trace ? &*trace : nullptr, threads.get());
+  write_all(command, s, input, results, outputs, trace ? &*trace : nullptr, threads.get());
   if (!s.quiet) print_result(s, results, outputs);
   const Stopped stopped = results.report.stopped;
   return stopped == Stopped::time_limit || stopped == Stopped::cancelled ? Exit::stopped_early : Exit::done;
@@ -621,44 +615,42 @@ Exit optimize_mesh(const CLI::App& app, Settings& s, Outputs& outputs) {
 }  // namespace
 
 Exit run_optimize(const Arguments& arguments) {
-  CLI::App app(
+  Command command(
+      "optimize",
       "Moves vertices, weights them and flips edges until every triangle is well-centered: its orthocenter "
       "inside, every edge crossed by its dual. The boundary of the domain stays bit for bit, unless --boundary says "
-      "otherwise.",
-      "optimize");
+      "otherwise.");
   Settings settings;
-  app.set_help_flag();
-  add_group(app, settings, "Files", add_files);
-  add_group(app, settings, "Energy", add_energy);
-  add_group(app, settings, "Accuracy", add_accuracy);
-  add_group(app, settings, "Moves", add_moves);
-  add_group(app, settings, "Connectivity and constraints", add_connectivity);
-  add_group(app, settings, "Size", add_size);
-  add_group(app, settings, "The paper's switches", add_paper);
-  add_group(app, settings, "Stopping", add_stopping);
-  app.option_defaults()->group("Help");
-  app.set_help_flag("-h,--help", "this text");
-  set_help(app, {"IN -o OUT [options]",
-                 "  temper optimize in.vtu -o out.vtu\n"
-                 "  temper optimize in.vtu -o out.vtu --report report.json --draw before-after.svg\n"
-                 "  temper optimize in.vtu -o out.vtu --weights-only --no-flips\n"
-                 "  temper optimize in.vtu -o out.vtu --energy F --star 1 --solver golden --max-sweeps 20\n"
-                 "  temper optimize in.vtu -o out.vtu --gamma-rel 0.1 --time-limit 60\n"
-                 "  temper optimize in.vtu -o out.vtu --objective accuracy --verify\n"
-                 "  temper optimize in.vtu -o out.vtu --removal patch --trace trace.jsonl\n"
-                 "  temper optimize in.vtu -o out.vtu --method paper --energy dT --removal none\n",
-                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal}});
-  if (!parse(app, arguments)) return Exit::done;
-  take_input(app, settings);
+  add_group(command, settings, "Files", add_files);
+  add_group(command, settings, "Energy", add_energy);
+  add_group(command, settings, "Accuracy", add_accuracy);
+  add_group(command, settings, "Moves", add_moves);
+  add_group(command, settings, "Connectivity and constraints", add_connectivity);
+  add_group(command, settings, "Size", add_size);
+  add_group(command, settings, "The paper's switches", add_paper);
+  add_group(command, settings, "Stopping", add_stopping);
+  command.group("Help");
+  command.add_help({"IN -o OUT [options]",
+                    "  temper optimize in.vtu -o out.vtu\n"
+                    "  temper optimize in.vtu -o out.vtu --report report.json --draw before-after.svg\n"
+                    "  temper optimize in.vtu -o out.vtu --weights-only --no-flips\n"
+                    "  temper optimize in.vtu -o out.vtu --energy F --star 1 --solver golden --max-sweeps 20\n"
+                    "  temper optimize in.vtu -o out.vtu --gamma-rel 0.1 --time-limit 60\n"
+                    "  temper optimize in.vtu -o out.vtu --objective accuracy --verify\n"
+                    "  temper optimize in.vtu -o out.vtu --removal patch --trace trace.jsonl\n"
+                    "  temper optimize in.vtu -o out.vtu --method paper --energy dT --removal none\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal}});
+  if (!command.parse(arguments)) return Exit::done;
+  take_input(command, settings);
   settle_objective(settings);
   if (settings.no_flips) {
-    if (app.count("--flips") > 0 && flips_of(settings) != Flips::none) {
+    if (command.was_given("--flips") && flips_of(settings) != Flips::none) {
       throw Failure(Exit::bad_usage, "optimize: --no-flips contradicts --flips " +
-                                         app.get_option("--flips")->results().front() + "\nSee temper optimize --help");
+                                         command.option("--flips").given.front() + "\nSee temper optimize --help");
     }
     set_flips(settings, Flips::none);
   }
-  spell_defaults_again(app);  // --method may have changed them
+  command.spell_defaults();  // --method may have changed them
 
   Outputs outputs("optimize");
   const std::vector<std::string> inputs = {settings.input, settings.size_field};
@@ -667,7 +659,7 @@ Exit run_optimize(const Arguments& arguments) {
   outputs.expect_text("--history", settings.history, inputs);
   outputs.expect_text("--trace", settings.trace, inputs);
   outputs.expect_text("--draw", settings.picture, inputs);
-  return optimize_mesh(app, settings, outputs);
+  return optimize_mesh(command, settings, outputs);
 }
 
 }  // namespace temper::app

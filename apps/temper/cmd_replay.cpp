@@ -22,19 +22,17 @@ struct Settings {
   bool quiet = false;
 };
 
-void add_options(CLI::App& app, Settings& s) {
-  app.set_help_flag();
-  app.option_defaults()->group("Files");
-  app.add_option("IN", s.input, "the mesh that was optimized")->required();
-  app.add_option("TRACE", s.trace, "what temper optimize IN --trace wrote")->required();
-  add_text(app, "-o,--output", "OUT", s.output, "where the mesh goes; its suffix tells the format")->required();
-  add_count(app, "--sweeps", s.sweeps, 0, "only what was done up to the end of this sweep; 0: making IN regular");
-  app.add_flag("--quiet", s.quiet, "print warnings and errors only");
-  app.option_defaults()->group("Help");
-  app.set_help_flag("-h,--help", "this text");
-  set_help(app, {"IN TRACE -o OUT [options]",
-                 "  temper optimize in.vtu -o a.vtu --trace t.jsonl && temper replay in.vtu t.jsonl -o b.vtu\n",
-                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+void add_options(Command& command, Settings& s) {
+  command.group("Files");
+  add_argument(command, "IN", s.input, "the mesh that was optimized").require();
+  add_argument(command, "TRACE", s.trace, "what temper optimize IN --trace wrote").require();
+  add_text(command, "-o,--output", "OUT", s.output, "where the mesh goes; its suffix tells the format").require();
+  add_count(command, "--sweeps", s.sweeps, 0, "only what was done up to the end of this sweep; 0: making IN regular");
+  command.add_flag("--quiet", s.quiet, "print warnings and errors only");
+  command.group("Help");
+  command.add_help({"IN TRACE -o OUT [options]",
+                    "  temper optimize in.vtu -o a.vtu --trace t.jsonl && temper replay in.vtu t.jsonl -o b.vtu\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
 /// The library counts events; a file has lines.
@@ -56,13 +54,13 @@ std::span<const TraceEvent> wanted(const std::vector<TraceEvent>& events, std::o
 }  // namespace
 
 Exit run_replay(const Arguments& arguments) {
-  CLI::App app(
+  Command command(
+      "replay",
       "Does again what a trace says, without any optimization, and writes the mesh: the same bytes as temper "
-      "optimize wrote.",
-      "replay");
+      "optimize wrote.");
   Settings s;
-  add_options(app, s);
-  if (!parse(app, arguments)) return Exit::done;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
   Outputs outputs("replay");
   outputs.expect_mesh("--output", s.output);
 

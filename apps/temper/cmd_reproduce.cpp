@@ -29,24 +29,22 @@ struct Settings {
   bool reduced = false, list = false, require_claims = false;
 };
 
-void add_options(CLI::App& app, Settings& s) {
-  app.set_help_flag();
-  app.option_defaults()->group("Options");
-  app.add_option("FIG", s.figures,
-                 "figures by the paper's numbers: 6, or a list 6,8, or a range 16-18; none: all, "
-                 "which takes minutes");
-  add_text(app, "-o,--output", "DIR", s.output,
+void add_options(Command& command, Settings& s) {
+  command.group("Options");
+  add_texts(command, "FIG", "", Values::words, s.figures,
+            "figures by the paper's numbers: 6, or a list 6,8, or a range 16-18; none: all, "
+            "which takes minutes");
+  add_text(command, "-o,--output", "DIR", s.output,
            "folder of the pictures, index.html and gallery.json: made when missing, files of these names are replaced");
-  app.add_flag("--reduced", s.reduced, "every claim, but fewer samples and shorter runs");
-  app.add_flag("--require-claims", s.require_claims,
-               "exit with 3 when a claim does not hold; all is written all the same");
-  app.add_flag("--list", s.list, "list the figures");
-  app.set_help_flag("-h,--help", "this text");
-  set_help(app, {"[FIG ...] -o DIR [options]",
-                 "  temper reproduce --list\n"
-                 "  temper reproduce 6 -o gallery\n"
-                 "  temper reproduce 3,6-8 -o gallery --reduced\n",
-                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
+  command.add_flag("--reduced", s.reduced, "every claim, but fewer samples and shorter runs");
+  command.add_flag("--require-claims", s.require_claims,
+                   "exit with 3 when a claim does not hold; all is written all the same");
+  command.add_flag("--list", s.list, "list the figures");
+  command.add_help({"[FIG ...] -o DIR [options]",
+                    "  temper reproduce --list\n"
+                    "  temper reproduce 6 -o gallery\n"
+                    "  temper reproduce 3,6-8 -o gallery --reduced\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
 }
 
 [[noreturn]] void bad_usage(const std::string& message) {
@@ -163,11 +161,11 @@ void print_summary(const Made& made) {
 }  // namespace
 
 Exit run_reproduce(const Arguments& arguments) {
-  CLI::App app("Makes the figures of \"Not so HOT Triangulations\" again, and says of each claim whether it holds.",
-               "reproduce");
+  Command command("reproduce",
+                  "Makes the figures of \"Not so HOT Triangulations\" again, and says of each claim whether it holds.");
   Settings s;
-  add_options(app, s);
-  if (!parse(app, arguments)) return Exit::done;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
   const Expected<std::vector<Figure>> chosen = gallery::select(gallery::figures(), s.figures);
   if (!chosen) bad_usage(chosen.error().what());
   if (s.list) {

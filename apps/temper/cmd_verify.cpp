@@ -31,34 +31,30 @@ std::string field_names() {
   return text;
 }
 
-void add_options(CLI::App& app, Settings& s) {
-  app.set_help_flag();
-  app.option_defaults()->group("Report");
-  app.add_option("IN", s.input, "the mesh; its content tells the format")->required();
-  app.add_flag("--json", s.json, "the report as JSON; null is infinite, and of orders undefined");
-  add_text(app, "--against", "MESH", s.against,
+void add_options(Command& command, Settings& s) {
+  command.group("Report");
+  add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  command.add_flag("--json", s.json, "the report as JSON; null is infinite, and of orders undefined");
+  add_text(command, "--against", "MESH", s.against,
            "another mesh of the same domain: also print the errors of IN over those of MESH, field by field");
-  add_text(app, "--edges", "FILE", s.edges,
+  add_text(command, "--edges", "FILE", s.edges,
            "write the error of star 1 at each edge as CSV, with points counted from 0");
-  app.option_defaults()->group("Measures");
-  spell_default(
-      add_text(app, "--fields", "LIST", s.fields,
-               "solutions to try, separated by commas: all, chosen, held-back, exact, or of " + field_names()),
-      [&s] { return s.fields; });
-  spell_default(add_count(app, "--refine", s.refine, 0,
-                          "cut every triangle into four so many times, and print orders of convergence"),
-                [&s] { return std::to_string(s.refine); });
-  app.add_flag("--condition", s.condition, "also estimate the condition of both matrices");
-  add_count(app, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
-  app.option_defaults()->group("Help");
-  app.set_help_flag("-h,--help", "this text");
-  set_help(app, {"IN [options]",
-                 "  temper verify in.vtu\n"
-                 "  temper verify in.vtu --fields held-back --refine 2 --json\n"
-                 "  # what an optimisation has done to the errors\n"
-                 "  temper example annulus -o ring.vtu && temper optimize ring.vtu -o better.vtu --quiet\n"
-                 "  temper verify better.vtu --against ring.vtu\n",
-                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+  command.group("Measures");
+  add_text(command, "--fields", "LIST", s.fields,
+           "solutions to try, separated by commas: all, chosen, held-back, exact, or of " + field_names())
+      .defaults_to([&s] { return s.fields; });
+  add_count(command, "--refine", s.refine, 0,
+            "cut every triangle into four so many times, and print orders of convergence");
+  command.add_flag("--condition", s.condition, "also estimate the condition of both matrices");
+  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  command.group("Help");
+  command.add_help({"IN [options]",
+                    "  temper verify in.vtu\n"
+                    "  temper verify in.vtu --fields held-back --refine 2 --json\n"
+                    "  # what an optimisation has done to the errors\n"
+                    "  temper example annulus -o ring.vtu && temper optimize ring.vtu -o better.vtu --quiet\n"
+                    "  temper verify better.vtu --against ring.vtu\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
 }
 
 /// Fields that are asked for by mistake are told of before a large mesh is read.
@@ -91,15 +87,15 @@ VerifyReference measure_reference(const Settings& s, const VerifyOptions& option
 }  // namespace
 
 Exit run_verify(const Arguments& arguments) {
-  CLI::App app(
+  Command command(
+      "verify",
       "Measures the errors that solvers make on a mesh with manufactured solutions: the diagonal Hodge stars, a "
       "Poisson problem by discrete exterior calculus at the vertices, another by two-point fluxes at the "
       "orthocenters; "
-      "and says what their matrices are like. docs/verify.md defines every number.",
-      "verify");
+      "and says what their matrices are like. docs/verify.md defines every number.");
   Settings s;
-  add_options(app, s);
-  if (!parse(app, arguments)) return Exit::done;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
   VerifyOptions options;
   options.fields = comma_separated(s.fields);
   check_fields(options);

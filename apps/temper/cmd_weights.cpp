@@ -35,52 +35,50 @@ struct Settings {
   bool json = false;
 };
 
-void add_options(CLI::App& app, Settings& s) {
-  app.set_help_flag();
-  app.option_defaults()->group("Files");
-  app.add_option("IN", s.input, "the mesh; its content tells the format")->required();
-  add_text(app, "-o,--output", "OUT", s.output,
+void add_options(Command& command, Settings& s) {
+  command.group("Files");
+  add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_text(command, "-o,--output", "OUT", s.output,
            "where the mesh with its new weights goes; not needed with --mode feasible");
-  add_text(app, "--certificate", "FILE", s.certificate,
+  add_text(command, "--certificate", "FILE", s.certificate,
            "when there are no weights: the proof, as JSON (docs/weights.md has what it says)");
-  add_text(app, "--check-certificate", "FILE", s.check,
+  add_text(command, "--check-certificate", "FILE", s.check,
            "verify such a proof against IN, in exact arithmetic, and stop");
-  app.add_flag("--json", s.json, "the report as JSON, with vertices and triangles counted from 0");
-  app.option_defaults()->group("Weights");
-  add_choice(app, "--mode", kModes, s.mode,
+  command.add_flag("--json", s.json, "the report as JSON, with vertices and triangles counted from 0");
+  command.group("Weights");
+  add_choice(command, "--mode", kModes, s.mode,
              "feasible: are there good weights, and with what best margin; minimal: the least change for the margin; "
              "elastic: where there are none, the least violation; barrier: the least barrier energy");
-  add_number(app, "--margin", s.options.margin, {0, 0.5, true},
+  add_number(command, "--margin", s.options.margin, {0, 0.5, true},
              "wanted of h/l, d/l and 1 - d/l everywhere; feasible and barrier take half of the best when that is less");
-  add_choice(app, "--from", kFrom, s.from, "the weights that change is measured from: all zero, or those of IN");
-  add_choice(app, "--energy", kBarriers, s.barrier, "of --mode barrier");
-  add_count(app, "--whole", s.whole, 0,
+  add_choice(command, "--from", kFrom, s.from, "the weights that change is measured from: all zero, or those of IN");
+  add_choice(command, "--energy", kBarriers, s.barrier, "of --mode barrier");
+  add_count(command, "--whole", s.whole, 0,
             "components of more triangles are solved around their bad triangles only, as far as it takes");
-  app.option_defaults()->group("Help");
-  app.set_help_flag("-h,--help", "this text");
-  set_help(app, {"IN -o OUT [options]",
-                 "  temper example annulus -o ring.vtu && temper weights ring.vtu -o out.vtu\n"
-                 "  temper weights ring.vtu -o least.vtu --mode barrier\n"
-                 "  # a mesh that has none: the proof, its verification, and what gives way\n"
-                 "  temper example sparse-horseshoe -o shoe.vtu\n"
-                 "  temper weights shoe.vtu --mode feasible --certificate why.json; test $? = 6\n"
-                 "  temper weights shoe.vtu --check-certificate why.json\n"
-                 "  temper weights shoe.vtu -o out.vtu --mode elastic --json\n",
-                 {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal, Exit::infeasible}});
+  command.group("Help");
+  command.add_help({"IN -o OUT [options]",
+                    "  temper example annulus -o ring.vtu && temper weights ring.vtu -o out.vtu\n"
+                    "  temper weights ring.vtu -o least.vtu --mode barrier\n"
+                    "  # a mesh that has none: the proof, its verification, and what gives way\n"
+                    "  temper example sparse-horseshoe -o shoe.vtu\n"
+                    "  temper weights shoe.vtu --mode feasible --certificate why.json; test $? = 6\n"
+                    "  temper weights shoe.vtu --check-certificate why.json\n"
+                    "  temper weights shoe.vtu -o out.vtu --mode elastic --json\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal, Exit::infeasible}});
 }
 
-void check_usage(const CLI::App& app, const Settings& s) {
+void check_usage(const Command& command, const Settings& s) {
   const auto fail = [](const std::string& message) {
     throw Failure(Exit::bad_usage, "weights: " + message + "\nSee temper weights --help");
   };
   if (!s.check.empty()) {
     for (const char* option : {"--output", "--certificate", "--mode", "--margin", "--from", "--energy", "--whole"}) {
-      if (app.count(option) > 0) fail(fmt::format("--check-certificate takes no {}", option));
+      if (command.was_given(option)) fail(fmt::format("--check-certificate takes no {}", option));
     }
   } else if (s.output.empty() && s.mode != Mode::feasible) {
     fail("--output is missing");
   }
-  if (s.mode != Mode::barrier && app.count("--energy") > 0) fail("--energy is of --mode barrier alone");
+  if (s.mode != Mode::barrier && command.was_given("--energy")) fail("--energy is of --mode barrier alone");
 }
 
 Exit check(const Settings& s, const Input& input) {
@@ -178,14 +176,14 @@ Exit find(const Settings& s, Input& input, Outputs& outputs) {
 }  // namespace
 
 Exit run_weights(const Arguments& arguments) {
-  CLI::App app(
+  Command command(
+      "weights",
       "Finds weights that make every triangle well-centered, with positions and connectivity as they are; or proves "
-      "that there are none.",
-      "weights");
+      "that there are none.");
   Settings s;
-  add_options(app, s);
-  if (!parse(app, arguments)) return Exit::done;
-  check_usage(app, s);
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
+  check_usage(command, s);
   s.options.goal = goal_of(s.mode);
   s.options.from_input = s.from == From::input;
   s.options.whole = s.whole;

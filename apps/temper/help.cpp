@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <memory>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "console.hpp"
@@ -17,19 +15,16 @@ constexpr std::size_t kWidth = 100;       // of a line: fits half of a wide scre
 constexpr std::size_t kNameColumns = 26;  // of option names; longer ones get a line to themselves
 
 /// "-o, --output FILE"
-std::string option_head(const CLI::Option& option) {
-  if (option.get_snames().empty() && option.get_lnames().empty()) return option.get_name(true);
-  std::string text;
-  for (const std::string& name : option.get_snames()) text += (text.empty() ? "-" : ", -") + name;
-  for (const std::string& name : option.get_lnames()) text += (text.empty() ? "--" : ", --") + name;
-  const bool flag = option.get_items_expected_max() == 0;
-  return flag ? text : text + " " + option.get_type_name();
+std::string option_head(const Option& option) {
+  std::string text = option.names;
+  if (const std::size_t comma = text.find(','); comma != std::string::npos) text.insert(comma + 1, " ");
+  return option.value_name.empty() ? text : text + " " + option.value_name;
 }
 
-std::string option_text(const CLI::Option& option) {
+std::string option_text(const Option& option) {
   const std::string head = option_head(option);
-  std::string description = option.get_description();
-  if (!option.get_default_str().empty()) description += fmt::format(" (default: {})", option.get_default_str());
+  std::string description = option.sentence;
+  if (!option.default_text.empty()) description += fmt::format(" (default: {})", option.default_text);
 
   std::string text = "  " + head;
   const bool own_line = head.size() > kNameColumns;
@@ -44,16 +39,14 @@ std::string option_text(const CLI::Option& option) {
 }
 
 /// Options by group, in the order in which they were added.
-std::string option_groups(const CLI::App& app) {
-  std::vector<std::pair<std::string, std::string>> groups;
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group().empty()) continue;  // hidden
-    const std::string title = option->nonpositional() ? option->get_group() : "Arguments";
-    if (groups.empty() || groups.back().first != title) groups.emplace_back(title, "");
-    groups.back().second += option_text(*option);
+std::string option_groups(const Command& command) {
+  std::string text, group;
+  for (const Option& option : command.options()) {
+    const std::string title = option.is_argument() ? "Arguments" : option.group;
+    if (title != group) text += "\n" + title + ":\n";
+    group = title;
+    text += option_text(option);
   }
-  std::string text;
-  for (const auto& [title, options] : groups) text += "\n" + title + ":\n" + options;
   return text;
 }
 
@@ -83,38 +76,24 @@ std::string_view meaning(Exit exit) {
   return "";
 }
 
-std::string exit_lines(std::initializer_list<Exit> exits) {
+std::string exit_lines(const std::vector<Exit>& exits) {
   std::string text = "\nExit codes:\n";
   for (const Exit exit : exits) text += fmt::format("  {}  {}\n", static_cast<int>(exit), meaning(exit));
   return text;
 }
 
-class HelpFormatter : public CLI::Formatter {
- public:
-  explicit HelpFormatter(const VerbHelp& help)
-      : usage_(help.usage), footer_("\nExamples:\n" + help.examples + exit_lines(help.exits)) {}
-
-  std::string make_help(const CLI::App* app, std::string, CLI::AppFormatMode) const override {
-    std::string text = paragraph(app->get_description());
-    text += fmt::format("\nUsage: temper {} {}\n", app->get_name(), usage_);
-    text += option_groups(*app);
-    for (const CLI::App* inner : app->get_subcommands([](const CLI::App*) { return true; })) {
-      text += fmt::format("\n{}: {}\n", inner->get_name(), inner->get_description());
-      for (const CLI::Option* option : inner->get_options()) text += option_text(*option);
-    }
-    return text + footer_;
-  }
-
- private:
-  std::string usage_, footer_;
-};
-
 }  // namespace
 
-void set_help(CLI::App& app, const VerbHelp& help) { app.formatter(std::make_shared<HelpFormatter>(help)); }
-
-std::string help_text(const CLI::App& app) {
-  return app.get_formatter()->make_help(&app, "", CLI::AppFormatMode::Normal);
+std::string help_text(const Command& command) {
+  const VerbHelp& help = command.help();
+  std::string text = paragraph(command.description());
+  text += fmt::format("\nUsage: temper {} {}\n", command.name(), help.usage);
+  text += option_groups(command);
+  for (const Command& inner : command.subcommands()) {
+    text += fmt::format("\n{}: {}\n", inner.name(), inner.description());
+    for (const Option& option : inner.options()) text += option_text(option);
+  }
+  return text + "\nExamples:\n" + help.examples + exit_lines(help.exits);
 }
 
 std::string short_help() {

@@ -2,26 +2,14 @@
 // the same on every machine, because docs/cli.md holds it word for word.
 #pragma once
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-#include <initializer_list>
 #include <string>
 
-#include "exit.hpp"
+#include "command.hpp"
 
 namespace temper::app {
 
-/// What --help says besides the options.
-struct VerbHelp {
-  std::string usage;     ///< what follows `temper VERB`
-  std::string examples;  ///< lines "temper …"; comments start with #
-  std::initializer_list<Exit> exits;
-};
-void set_help(CLI::App& app, const VerbHelp& help);
-
 /// The help text of a verb.
-[[nodiscard]] std::string help_text(const CLI::App& app);
+[[nodiscard]] std::string help_text(const Command& command);
 
 /// What `temper --help` prints, and what `temper` alone prints.
 [[nodiscard]] std::string full_help();

@@ -1,12 +1,9 @@
-// Options of a verb: CLI11 with strict numbers, named choices, suggestions, and an echo of what was used.
+// The usual kinds of options: strict numbers, named choices, texts; and an echo of what was used.
 //
 // Every option has a value name ("X", "NAME", "newton|golden") and, when it has a default, spells it: help,
 // echo and report are made from what is declared here, so that none of them can forget an option.
 #pragma once
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -17,9 +14,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "suggest.hpp"
+#include "command.hpp"
 #include "temper/energy.hpp"
-#include "verbs.hpp"
 
 namespace temper::app {
 
@@ -40,32 +36,41 @@ inline constexpr Interval kNotNegative = {0, std::numeric_limits<double>::infini
 /// Numbers separated by commas, or nothing.
 [[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
-/// The default of the option, spelled now, and again when a later option (--method) has changed it.
-CLI::Option* spell_default(CLI::Option* option, const std::function<std::string()>& spell);
-void spell_defaults_again(CLI::App& app);
+/// Values of rows that are made elsewhere: the text's value, or BadValue.
+[[nodiscard]] double to_number(const std::string& text, Interval allowed);
+template <class T>  // int or std::uint64_t
+[[nodiscard]] T to_count(const std::string& text, T least);
+/// BadValue, with a suggestion, when the text is none of the names.
+void expect_name(const std::string& text, std::span<const std::string_view> names);
 
 /// How an option that may have no value is told so.
 inline constexpr std::string_view kNone = "none";
 
-CLI::Option* add_number(CLI::App& app, const std::string& name, double& target, Interval allowed,
-                        const std::string& description);
+Option& add_number(Command& command, const std::string& name, double& target, Interval allowed,
+                   const std::string& description);
 /// The same, without a default.
-CLI::Option* add_number(CLI::App& app, const std::string& name, std::optional<double>& target, Interval allowed,
-                        const std::string& description);
+Option& add_number(Command& command, const std::string& name, std::optional<double>& target, Interval allowed,
+                   const std::string& description);
 /// A list "x,y,…" of `count` numbers (0: any even number of them, at least 6: a polygon).
-CLI::Option* add_numbers(CLI::App& app, const std::string& name, const std::string& value_name, std::size_t count,
-                         std::function<void(const std::vector<double>&)> use, const std::string& description);
+Option& add_numbers(Command& command, const std::string& name, const std::string& value_name, std::size_t count,
+                    std::function<void(const std::vector<double>&)> use, const std::string& description);
 
-CLI::Option* add_count(CLI::App& app, const std::string& name, std::uint64_t& target, std::uint64_t least,
-                       const std::string& description);
-CLI::Option* add_count(CLI::App& app, const std::string& name, int& target, int least, const std::string& description);
+Option& add_count(Command& command, const std::string& name, std::uint64_t& target, std::uint64_t least,
+                  const std::string& description);
+Option& add_count(Command& command, const std::string& name, int& target, int least, const std::string& description);
 
 /// The same, or "none".
-CLI::Option* add_count(CLI::App& app, const std::string& name, std::optional<int>& target, int least,
-                       const std::string& description);
+Option& add_count(Command& command, const std::string& name, std::optional<int>& target, int least,
+                  const std::string& description);
 
-CLI::Option* add_text(CLI::App& app, const std::string& name, const std::string& value_name, std::string& target,
-                      const std::string& description);
+Option& add_text(Command& command, const std::string& name, const std::string& value_name, std::string& target,
+                 const std::string& description);
+
+/// An argument known by its place: `temper check IN`.
+Option& add_argument(Command& command, const std::string& name, std::string& target, const std::string& description);
+/// An option, or such arguments, of any number of values.
+Option& add_texts(Command& command, const std::string& name, const std::string& value_name, Values values,
+                  std::vector<std::string>& target, const std::string& description);
 
 /// One of the values of an enumeration, by name.
 template <class T>
@@ -74,29 +79,27 @@ struct Choice {
   T value;
 };
 
-CLI::Option* add_name(CLI::App& app, const std::string& name, std::vector<std::string_view> names,
-                      std::function<void(std::string_view)> use, const std::string& description);
+Option& add_name(Command& command, const std::string& name, std::vector<std::string_view> names,
+                 std::function<void(std::string_view)> use, const std::string& description);
 
 template <class T, std::size_t n>
-CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choice<T> (&choices)[n],
-                        std::type_identity_t<std::function<void(T)>> use, const std::string& description) {
+Option& add_choice(Command& command, const std::string& name, const Choice<T> (&choices)[n],
+                   std::type_identity_t<std::function<void(T)>> use, const std::string& description) {
   std::vector<std::string_view> names;
   for (const Choice<T>& choice : choices) names.push_back(choice.name);
   const std::span<const Choice<T>> table(choices);
-  return add_name(
-      app, name, names,
-      [table, use](std::string_view text) {
-        for (const Choice<T>& choice : table) {
-          if (choice.name == text) use(choice.value);
-        }
-      },
-      description);
+  const auto use_name = [table, use](std::string_view text) {
+    for (const Choice<T>& choice : table) {
+      if (choice.name == text) use(choice.value);
+    }
+  };
+  return add_name(command, name, names, use_name, description);
 }
 
 /// The same, straight into a variable, whose value is the default.
 template <class T, std::size_t n>
-CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choice<T> (&choices)[n], T& target,
-                        const std::string& description) {
+Option& add_choice(Command& command, const std::string& name, const Choice<T> (&choices)[n], T& target,
+                   const std::string& description) {
   const std::span<const Choice<T>> table(choices);
   const auto spell = [table, &target] {
     for (const Choice<T>& choice : table) {
@@ -104,9 +107,8 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, const Choice<T> 
     }
     return std::string();
   };
-  return spell_default(add_choice(
-                           app, name, choices, [&target](T value) { target = value; }, description),
-                       spell);
+  const auto use = [&target](T value) { target = value; };
+  return add_choice(command, name, choices, use, description).defaults_to(spell);
 }
 
 /// γ and h°: the same pair of options for optimize and check.
@@ -114,11 +116,8 @@ struct SofteningOptions {
   std::optional<double> absolute, relative;
   [[nodiscard]] std::optional<Softening> value() const;
 };
-void add_gamma(CLI::App& app, SofteningOptions& target, const std::string& default_text);
-void add_h0(CLI::App& app, SofteningOptions& target, const std::string& default_text);
-
-/// Reads the arguments. Nothing: help was asked for and printed. Bad usage becomes a Failure with a suggestion.
-[[nodiscard]] bool parse(CLI::App& app, const Arguments& arguments);
+void add_gamma(Command& command, SofteningOptions& target, const std::string& default_text);
+void add_h0(Command& command, SofteningOptions& target, const std::string& default_text);
 
 /// One option as it was used: given on the command line, or its default.
 struct UsedOption {
@@ -128,7 +127,7 @@ struct UsedOption {
   bool number = false;
   bool used = false;  ///< given, or has a default
 };
-[[nodiscard]] std::vector<UsedOption> used_options(const CLI::App& app);
+[[nodiscard]] std::vector<UsedOption> used_options(const Command& command);
 
 /// `temper VERB POSITIONALS --option value …` with all used options, quoted for a POSIX shell.
 [[nodiscard]] std::string command_line(const std::string& verb, const std::vector<std::string>& positionals,
