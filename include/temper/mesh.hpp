@@ -202,21 +202,10 @@ class Mesh {
   /// The twin of each halfedge.
   [[nodiscard]] std::span<const HalfedgeId> twin_data() const { return twins_.raw(); }
 
-  // --- changing the arrays: used by topology, which keeps the invariants -----------------------------
-  VertexId add_vertex(WeightedPoint p);
-  /// Three halfedges without twins; the caller links them.
-  TriangleId add_triangle(std::array<VertexId, 3> corners, std::int32_t region);
-  void set_corner(HalfedgeId h, VertexId v) { corners_[h] = v; }
-  /// Makes a and b twins; b may be invalid (a becomes boundary). Flags stay as they are.
-  void link(HalfedgeId a, HalfedgeId b) {
-    twins_[a] = b;
-    if (b.valid()) twins_[b] = a;
-  }
-  void set_outgoing(VertexId v, HalfedgeId h) { record(v).outgoing = h.index; }
-  /// Marks a triangle for compact(); its neighbours get a boundary there, and outgoing() of its corners is the
-  /// caller's to mend. Loops over triangles() meet it still: its corners are invalid, its halfedges boundary ones
-  /// without flags. n_edges(), regularity, flips and validate() pass it over; other functions need compact() first.
-  void erase(TriangleId t);
+  // --- what removals leave behind (connectivity itself is changed by topology.hpp) -------------------
+  /// A triangle that a removal took and compact() has not dropped yet. Loops over triangles() meet it still: its
+  /// corners are invalid, its halfedges boundary ones without flags. n_edges(), regularity, flips and validate() pass
+  /// it over; other functions need compact() first.
   [[nodiscard]] bool is_erased(TriangleId t) const { return !corners_[halfedge(t, 0)].valid(); }
   /// Drops erased triangles and vertices of no triangle, keeps the order of the rest, and repairs
   /// outgoing(). Returns the old ids of what is left.
@@ -226,6 +215,7 @@ class Mesh {
 
  private:
   friend class MeshBuilder;
+  friend class MeshEditor;
   friend class MeshPermuter;
 
   static constexpr std::uint32_t kFixed = 1;

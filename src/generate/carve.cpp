@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "generate/triangulation.hpp"
+#include "mesh/mesh_editor.hpp"
 
 namespace temper::generate {
 namespace {
@@ -66,7 +67,7 @@ std::optional<InputError> carve(Triangulation& triangulation) {
     return InputError{ErrorCode::empty_input, "", "the segments enclose nothing"};
   }
   for (const TriangleId t : mesh.triangles()) {
-    if (level[t] % 2 == 0) mesh.erase(t);
+    if (level[t] % 2 == 0) MeshEditor(mesh).erase(t);
   }
   if (const auto v = unused(mesh)) {
     return InputError{ErrorCode::unused_point, "", triangulation.name(*v) + " lies outside the segments"};

@@ -16,6 +16,7 @@
 #include <unordered_map>
 
 #include "generate/triangulation.hpp"
+#include "mesh/mesh_editor.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper::generate {
@@ -38,7 +39,7 @@ struct Step {
 
 class SegmentInserter {
  public:
-  explicit SegmentInserter(Triangulation& triangulation) : t_(triangulation), mesh_(triangulation.mesh) {}
+  explicit SegmentInserter(Triangulation& triangulation) : t_(triangulation), mesh_(triangulation.mesh), edit_(mesh_) {}
 
   std::optional<InputError> insert(std::uint32_t segment, VertexId from, VertexId to) {
     for (VertexId u = from; u != to;) {
@@ -125,7 +126,7 @@ class SegmentInserter {
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       for (int k = 0; k < 3; ++k) {
         const HalfedgeId h = Mesh::halfedge(strip.triangles[i], k);
-        mesh_.set_corner(h, corners_[i][k]);
+        edit_.set_corner(h, corners_[i][k]);
         inside.emplace(directed(corners_[i][k], corners_[i][(k + 1) % 3]), h);
       }
     }
@@ -133,12 +134,12 @@ class SegmentInserter {
     for (const TriangleId t : strip.triangles) {
       for (int k = 0; k < 3; ++k) {
         const HalfedgeId h = Mesh::halfedge(t, k);
-        mesh_.set_outgoing(mesh_.origin(h), h);
+        edit_.set_outgoing(mesh_.origin(h), h);
         lawson_.push(h);
       }
     }
     for (const Chain* chain : {&strip.left, &strip.right}) {
-      for (const VertexId v : *chain) mesh_.set_outgoing(v, canonical_outgoing(mesh_, mesh_.outgoing(v)));
+      for (const VertexId v : *chain) edit_.set_outgoing(v, canonical_outgoing(mesh_, mesh_.outgoing(v)));
     }
     return inside.at(directed(strip.left.front(), strip.left.back()));
   }
@@ -151,10 +152,10 @@ class SegmentInserter {
     const bool constrained = before != outside.end() && before->second.constrained;
     const auto other = inside.find((edge << 32) | (edge >> 32));
     if (other != inside.end()) {
-      mesh_.link(h, other->second);
+      edit_.link(h, other->second);
     } else {
       TEMPER_ASSERT(before != outside.end());
-      mesh_.link(h, before->second.twin);
+      edit_.link(h, before->second.twin);
     }
     mesh_.set_constrained(h, constrained);
   }
@@ -203,6 +204,7 @@ class SegmentInserter {
 
   Triangulation& t_;
   Mesh& mesh_;
+  MeshEditor edit_;
   Lawson lawson_;
   std::vector<std::array<VertexId, 3>> corners_;
   std::unordered_map<std::uint64_t, Owner> segment_of_;

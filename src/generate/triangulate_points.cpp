@@ -7,6 +7,7 @@
 // every decision is an exact predicate, so offsets, scales and lattices make no difference.
 #include "base/text.hpp"
 #include "generate/triangulation.hpp"
+#include "mesh/mesh_editor.hpp"
 #include "temper/geometry.hpp"
 #include "temper/topology.hpp"
 
@@ -42,11 +43,11 @@ class Inserter {
     if (orient2d(a, b, points_[order[j]]) == Sign::negative) std::swap(corners[1], corners[2]);
     std::array<VertexId, 3> vertices;
     for (int k = 0; k < 3; ++k) {
-      vertices[k] = mesh().add_vertex(weighted(order[corners[k]]));
+      vertices[k] = edit().add_vertex(weighted(order[corners[k]]));
       record(vertices[k], order[corners[k]]);
     }
-    last_ = mesh().add_triangle(vertices, 0);
-    for (int k = 0; k < 3; ++k) mesh().set_outgoing(vertices[k], Mesh::halfedge(last_, k));
+    last_ = edit().add_triangle(vertices, 0);
+    for (int k = 0; k < 3; ++k) edit().set_outgoing(vertices[k], Mesh::halfedge(last_, k));
     return corners;
   }
 
@@ -76,6 +77,7 @@ class Inserter {
 
  private:
   Mesh& mesh() { return result_.mesh; }
+  MeshEditor edit() { return MeshEditor(result_.mesh); }
   [[nodiscard]] WeightedPoint weighted(std::uint32_t i) const { return {points_[i].x, points_[i].y, 0}; }
 
   void record(VertexId v, std::uint32_t i) {
@@ -125,18 +127,18 @@ class Inserter {
   VertexId extend_hull(HalfedgeId seen, std::uint32_t i) {
     const Vec2 p = points_[i];
     for (HalfedgeId h = previous_boundary(seen); sees(p, h); h = previous_boundary(h)) seen = h;
-    const VertexId v = mesh().add_vertex(weighted(i));
+    const VertexId v = edit().add_vertex(weighted(i));
     const VertexId first = mesh().origin(seen);
     HalfedgeId open;  // v → b of the triangle before
     HalfedgeId first_side;
     for (HalfedgeId h = seen; sees(p, h);) {
       const VertexId a = mesh().origin(h), b = mesh().target(h);
       const HalfedgeId following = mesh().outgoing(b);
-      const TriangleId t = mesh().add_triangle({b, a, v}, 0);
-      mesh().link(Mesh::halfedge(t, 0), h);
+      const TriangleId t = edit().add_triangle({b, a, v}, 0);
+      edit().link(Mesh::halfedge(t, 0), h);
       if (open.valid()) {
-        mesh().link(open, Mesh::halfedge(t, 1));
-        mesh().set_outgoing(a, canonical_outgoing(mesh(), h));
+        edit().link(open, Mesh::halfedge(t, 1));
+        edit().set_outgoing(a, canonical_outgoing(mesh(), h));
         lawson_.push(open);
       } else {
         first_side = Mesh::halfedge(t, 1);
@@ -145,8 +147,8 @@ class Inserter {
       open = Mesh::halfedge(t, 2);
       h = following;
     }
-    mesh().set_outgoing(first, first_side);
-    mesh().set_outgoing(v, open);
+    edit().set_outgoing(first, first_side);
+    edit().set_outgoing(v, open);
     return v;
   }
 

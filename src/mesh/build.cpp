@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "mesh/blocks.hpp"
 #include "mesh/embedding.hpp"
+#include "mesh/mesh_editor.hpp"
 #include "temper/geometry.hpp"
 #include "temper/mesh.hpp"
 
@@ -184,7 +185,7 @@ class MeshBuilder {
   [[nodiscard]] Vec2 at(std::int32_t i) const { return in_.points[static_cast<std::size_t>(i)]; }
 
   std::optional<InputError> check_unused() {
-    for (const HalfedgeId h : mesh_.halfedges()) mesh_.set_outgoing(mesh_.origin(h), h);
+    for (const HalfedgeId h : mesh_.halfedges()) MeshEditor(mesh_).set_outgoing(mesh_.origin(h), h);
     for (const VertexId v : mesh_.vertices()) {
       if (!mesh_.outgoing(v).valid()) {
         return point_error(ErrorCode::unused_point, v.index, names_.point(v.index) + " belongs to no triangle");
@@ -266,7 +267,7 @@ class MeshBuilder {
     if (wrong_edge(edges)) return false;
     for (std::size_t i = 0; i < edges.size();) {
       const bool pair = i + 1 < edges.size() && edges[i].greater == edges[i + 1].greater;
-      mesh_.link(edges[i].halfedge, pair ? edges[i + 1].halfedge : HalfedgeId());
+      MeshEditor(mesh_).link(edges[i].halfedge, pair ? edges[i + 1].halfedge : HalfedgeId());
       i += pair ? 2 : 1;
     }
     return true;
@@ -297,7 +298,7 @@ class MeshBuilder {
 
   std::optional<InputError> check_stars() {
     for (const HalfedgeId h : mesh_.halfedges()) {
-      if (mesh_.is_boundary(h)) mesh_.set_outgoing(mesh_.origin(h), h);
+      if (mesh_.is_boundary(h)) MeshEditor(mesh_).set_outgoing(mesh_.origin(h), h);
     }
     // A star holds at most the triangles at its vertex: when all together hold all, each is whole.
     const auto size = [&](std::size_t v) {

@@ -1,4 +1,4 @@
-// The mesh's arrays: adding, linking, erasing and compacting. Everything geometric is elsewhere.
+// The mesh's arrays: sizes, flags, compacting. Everything geometric is elsewhere.
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -23,33 +23,6 @@ HalfedgeId Mesh::find_halfedge(VertexId a, VertexId b) const {
 std::size_t Mesh::memory_bytes() const {
   return vertices_.size() * sizeof(VertexRecord) + corners_.size() * sizeof(VertexId) +
          twins_.size() * sizeof(HalfedgeId) + constrained_.memory_bytes() + regions_.memory_bytes();
-}
-
-VertexId Mesh::add_vertex(WeightedPoint p) {
-  vertices_.push_back({p.x, p.y, p.w, HalfedgeId::kInvalid, 0});
-  return VertexId(vertices_.size() - 1);
-}
-
-TriangleId Mesh::add_triangle(std::array<VertexId, 3> corners, std::int32_t region) {
-  const TriangleId t(n_triangles());
-  for (const VertexId v : corners) {
-    constrained_.push_back(0, corners_.size());
-    corners_.push_back(v);
-    twins_.push_back(HalfedgeId());
-  }
-  regions_.push_back(region, t.index);
-  return t;
-}
-
-void Mesh::erase(TriangleId t) {
-  for (int k = 0; k < 3; ++k) {
-    const HalfedgeId h = halfedge(t, k);
-    if (twin(h).valid()) twins_[twin(h)] = HalfedgeId();
-    twins_[h] = HalfedgeId();
-    corners_[h] = VertexId();
-    constrained_.set(h, 0, n_halfedges());
-  }
-  set_region(t, 0);
 }
 
 Compaction Mesh::compact() {
@@ -93,9 +66,9 @@ Compaction Mesh::compact() {
 }
 
 void Mesh::repair_outgoing() {
-  for (const HalfedgeId h : halfedges()) set_outgoing(origin(h), h);
+  for (const HalfedgeId h : halfedges()) record(origin(h)).outgoing = h.index;
   for (const HalfedgeId h : halfedges()) {
-    if (!twin(h).valid()) set_outgoing(origin(h), h);
+    if (!twin(h).valid()) record(origin(h)).outgoing = h.index;
   }
 }
 

@@ -55,19 +55,20 @@ std::int32_t new_region(const Star& star, std::size_t i) {
 /// The triangles of the plan, in the first slots of the star, linked to one another and to nothing else.
 void write_triangles(Mesh& mesh, const RemovalPlan& plan, const Star& star) {
   const std::size_t n = plan.triangles.size();
+  MeshEditor edit(mesh);
   for (std::size_t i = 0; i < n; ++i) {
     mesh.set_region(star.rim[i].slot, new_region(star, i));
     for (int k = 0; k < 3; ++k) {
       const HalfedgeId h = Mesh::halfedge(star.rim[i].slot, k);
-      mesh.set_corner(h, plan.triangles[i][static_cast<std::size_t>(k)]);
-      mesh.link(h, HalfedgeId());
+      edit.set_corner(h, plan.triangles[i][static_cast<std::size_t>(k)]);
+      edit.link(h, HalfedgeId());
       mesh.set_constrained(h, false);
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
     for (int k = 0; k < 3; ++k) {
       const HalfedgeId h = Mesh::halfedge(star.rim[i].slot, k);
-      mesh.link(h, find_new(mesh, star.rim, n, mesh.target(h), mesh.origin(h)));
+      edit.link(h, find_new(mesh, star.rim, n, mesh.target(h), mesh.origin(h)));
     }
   }
 }
@@ -79,7 +80,8 @@ void remove_vertex(Mesh& mesh, const RemovalPlan& plan) {
   const Star star = gather(mesh, plan);
   const std::size_t n = plan.triangles.size(), k = plan.link.size();
   TEMPER_ASSERT(star.rim.size() > n);
-  for (const Rim& r : star.rim) mesh.erase(r.slot);
+  MeshEditor edit(mesh);
+  for (const Rim& r : star.rim) edit.erase(r.slot);
   write_triangles(mesh, plan, star);
   for (std::size_t i = 0; i < star.rim.size(); ++i) {
     const HalfedgeId h = find_new(mesh, star.rim, n, plan.link[i], plan.link[(i + 1) % k]);
@@ -92,9 +94,9 @@ void remove_vertex(Mesh& mesh, const RemovalPlan& plan) {
   }
   for (std::size_t i = 0; i < k; ++i) {
     const HalfedgeId h = find_new(mesh, star.rim, n, plan.link[i], plan.link[(i + 1) % k]);
-    mesh.set_outgoing(plan.link[i], canonical_outgoing(mesh, h));
+    edit.set_outgoing(plan.link[i], canonical_outgoing(mesh, h));
   }
-  mesh.set_outgoing(plan.vertex, HalfedgeId());
+  edit.set_outgoing(plan.vertex, HalfedgeId());
 }
 
 }  // namespace temper

@@ -39,7 +39,7 @@ struct OuterSide {
   return {mesh.twin(h), mesh.is_constrained(h)};
 }
 inline void attach(Mesh& mesh, HalfedgeId h, OuterSide side) {
-  mesh.link(h, side.twin);
+  MeshEditor(mesh).link(h, side.twin);
   if (mesh.is_constrained(h) != side.constrained) mesh.set_constrained(h, side.constrained);
 }
 
@@ -51,8 +51,9 @@ inline HalfedgeId flip(Mesh& mesh, HalfedgeId h) {
   const OuterSide bc = outer_side(mesh, n), ca = outer_side(mesh, p);
   const OuterSide ad = outer_side(mesh, gn), db = outer_side(mesh, gp);
 
-  mesh.set_corner(h, d), mesh.set_corner(n, c), mesh.set_corner(p, a);
-  mesh.set_corner(g, c), mesh.set_corner(gn, d), mesh.set_corner(gp, b);
+  MeshEditor edit(mesh);
+  edit.set_corner(h, d), edit.set_corner(n, c), edit.set_corner(p, a);
+  edit.set_corner(g, c), edit.set_corner(gn, d), edit.set_corner(gp, b);
   attach(mesh, n, ca), attach(mesh, p, ad), attach(mesh, gn, db), attach(mesh, gp, bc);
 
   update_outgoing(mesh, a, p);
@@ -71,8 +72,9 @@ inline void unflip(Mesh& mesh, HalfedgeId h) {
   const OuterSide bc = outer_side(mesh, n), ca = outer_side(mesh, p);
   const OuterSide ad = outer_side(mesh, gn), db = outer_side(mesh, gp);
 
-  mesh.set_corner(h, c), mesh.set_corner(n, d), mesh.set_corner(p, b);
-  mesh.set_corner(g, d), mesh.set_corner(gn, c), mesh.set_corner(gp, a);
+  MeshEditor edit(mesh);
+  edit.set_corner(h, c), edit.set_corner(n, d), edit.set_corner(p, b);
+  edit.set_corner(g, d), edit.set_corner(gn, c), edit.set_corner(gp, a);
   attach(mesh, n, db), attach(mesh, p, bc), attach(mesh, gn, ca), attach(mesh, gp, ad);
 
   update_outgoing(mesh, a, gp);

@@ -17,25 +17,26 @@ VertexId insert_in_triangle(Mesh& mesh, TriangleId t, WeightedPoint point) {
   TEMPER_ASSERT_SLOW(orient2d(mesh.position(a), mesh.position(b), point.position()) == Sign::positive &&
                      orient2d(mesh.position(b), mesh.position(c), point.position()) == Sign::positive &&
                      orient2d(mesh.position(c), mesh.position(a), point.position()) == Sign::positive);
-  const VertexId v = mesh.add_vertex(point);
-  const TriangleId bcv = mesh.add_triangle({b, c, v}, mesh.region(t));
-  const TriangleId cav = mesh.add_triangle({c, a, v}, mesh.region(t));
+  MeshEditor edit(mesh);
+  const VertexId v = edit.add_vertex(point);
+  const TriangleId bcv = edit.add_triangle({b, c, v}, mesh.region(t));
+  const TriangleId cav = edit.add_triangle({c, a, v}, mesh.region(t));
   const HalfedgeId n = Mesh::halfedge(t, 1), p = Mesh::halfedge(t, 2);  // become b→v and v→a
   const bool was_boundary = mesh.is_boundary(n);
 
   inlined::attach(mesh, Mesh::halfedge(bcv, 0), inlined::outer_side(mesh, n));
   inlined::attach(mesh, Mesh::halfedge(cav, 0), inlined::outer_side(mesh, p));
-  mesh.set_corner(p, v);
-  mesh.link(n, Mesh::halfedge(bcv, 2));
-  mesh.link(Mesh::halfedge(bcv, 1), Mesh::halfedge(cav, 2));
-  mesh.link(Mesh::halfedge(cav, 1), p);
+  edit.set_corner(p, v);
+  edit.link(n, Mesh::halfedge(bcv, 2));
+  edit.link(Mesh::halfedge(bcv, 1), Mesh::halfedge(cav, 2));
+  edit.link(Mesh::halfedge(cav, 1), p);
   mesh.set_constrained(n, false), mesh.set_constrained(p, false);
 
-  mesh.set_outgoing(v, Mesh::halfedge(cav, 2));
+  edit.set_outgoing(v, Mesh::halfedge(cav, 2));
   update_outgoing(mesh, a, Mesh::halfedge(cav, 1));
   update_outgoing(mesh, c, Mesh::halfedge(cav, 0));
   // If b → c was the boundary halfedge of b, its old slot still leaves b, but it is b → v now.
-  if (was_boundary && mesh.outgoing(b) == n) mesh.set_outgoing(b, Mesh::halfedge(bcv, 0));
+  if (was_boundary && mesh.outgoing(b) == n) edit.set_outgoing(b, Mesh::halfedge(bcv, 0));
   update_outgoing(mesh, b, Mesh::halfedge(bcv, 0));
   return v;
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "base/assert.hpp"
+#include "mesh/mesh_editor.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -31,9 +32,9 @@ inline void update_outgoing(Mesh& mesh, VertexId v, HalfedgeId gained) {
   TEMPER_ASSERT(mesh.origin(gained) == v);
   const HalfedgeId old = mesh.outgoing(v);
   if (mesh.origin(old) != v) {
-    mesh.set_outgoing(v, canonical_outgoing(mesh, gained));
+    MeshEditor(mesh).set_outgoing(v, canonical_outgoing(mesh, gained));
   } else if (old < gained && mesh.twin(old).valid()) {  // a boundary vertex keeps its boundary halfedge
-    mesh.set_outgoing(v, gained);
+    MeshEditor(mesh).set_outgoing(v, gained);
   }
   TEMPER_ASSERT(mesh.origin(mesh.outgoing(v)) == v);
 }

@@ -22,10 +22,11 @@ HalfedgeId cut_triangle(Mesh& mesh, HalfedgeId h, VertexId v) {
   const VertexId b = mesh.origin(n), c = mesh.opposite(h);
   TEMPER_ASSERT_SLOW(orient2d(mesh.position(mesh.origin(h)), mesh.position(v), mesh.position(c)) == Sign::positive &&
                      orient2d(mesh.position(v), mesh.position(b), mesh.position(c)) == Sign::positive);
-  const TriangleId vbc = mesh.add_triangle({v, b, c}, mesh.region(Mesh::triangle(h)));
+  MeshEditor edit(mesh);
+  const TriangleId vbc = edit.add_triangle({v, b, c}, mesh.region(Mesh::triangle(h)));
   inlined::attach(mesh, Mesh::halfedge(vbc, 1), inlined::outer_side(mesh, n));
-  mesh.set_corner(n, v);
-  mesh.link(n, Mesh::halfedge(vbc, 2));
+  edit.set_corner(n, v);
+  edit.link(n, Mesh::halfedge(vbc, 2));
   mesh.set_constrained(n, false);
   return Mesh::halfedge(vbc, 0);
 }
@@ -36,13 +37,14 @@ VertexId split_edge(Mesh& mesh, HalfedgeId h, WeightedPoint point) {
   const HalfedgeId g = mesh.twin(h);
   const bool constrained = mesh.is_constrained(h);
   const VertexId a = mesh.origin(h), b = mesh.target(h), c = mesh.opposite(h);
-  const VertexId v = mesh.add_vertex(point);
+  MeshEditor edit(mesh);
+  const VertexId v = edit.add_vertex(point);
   const HalfedgeId vb = cut_triangle(mesh, h, v);
   if (g.valid()) {
     const VertexId d = mesh.opposite(g);
     const HalfedgeId va = cut_triangle(mesh, g, v);
-    mesh.link(vb, g);
-    mesh.link(h, va);
+    edit.link(vb, g);
+    edit.link(h, va);
     update_outgoing(mesh, a, Mesh::next(va));
     update_outgoing(mesh, d, Mesh::prev(va));
   }
@@ -50,7 +52,7 @@ VertexId split_edge(Mesh& mesh, HalfedgeId h, WeightedPoint point) {
   mesh.set_constrained(vb, constrained);
   update_outgoing(mesh, b, Mesh::next(vb));
   update_outgoing(mesh, c, Mesh::prev(vb));
-  mesh.set_outgoing(v, canonical_outgoing(mesh, vb));
+  edit.set_outgoing(v, canonical_outgoing(mesh, vb));
   return v;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "mesh/mesh_editor.hpp"
 #include "temper/geometry.hpp"
 #include "topology/outgoing.hpp"
 #include "topology/rings.hpp"
@@ -52,6 +53,7 @@ std::vector<TriangleId> rings_around(const Mesh& mesh, TriangleId seed, int ring
 Neighborhood neighborhood_of(const Mesh& mesh, TriangleId seed, int rings) {
   const std::vector<TriangleId> triangles = rings_around(mesh, seed, rings);
   Neighborhood around;
+  MeshEditor edit(around.mesh);
   around.seed = TriangleId(
       static_cast<std::size_t>(std::lower_bound(triangles.begin(), triangles.end(), seed) - triangles.begin()));
   std::unordered_map<std::uint32_t, VertexId> local;
@@ -59,14 +61,14 @@ Neighborhood neighborhood_of(const Mesh& mesh, TriangleId seed, int rings) {
     const auto [entry, is_new] = local.try_emplace(v.index, around.vertices.size());
     if (is_new) {
       around.vertices.push_back(v);
-      around.mesh.add_vertex(mesh.point(v));
+      edit.add_vertex(mesh.point(v));
       around.mesh.set_fixed(entry->second, mesh.is_fixed(v));
     }
     return entry->second;
   };
   for (const TriangleId t : triangles) {
     const auto [a, b, c] = mesh.corners(t);
-    around.mesh.add_triangle({local_vertex(a), local_vertex(b), local_vertex(c)}, mesh.region(t));
+    edit.add_triangle({local_vertex(a), local_vertex(b), local_vertex(c)}, mesh.region(t));
   }
   around.frozen.assign(around.vertices.size(), 0);
   for (const HalfedgeId h : around.mesh.halfedges()) {
@@ -77,15 +79,15 @@ Neighborhood neighborhood_of(const Mesh& mesh, TriangleId seed, int rings) {
     const auto at = std::lower_bound(triangles.begin(), triangles.end(), Mesh::triangle(twin));
     if (at != triangles.end() && *at == Mesh::triangle(twin)) {
       const auto slot = static_cast<std::size_t>(at - triangles.begin());
-      around.mesh.link(h, HalfedgeId(3 * slot + twin.index % 3));
+      edit.link(h, HalfedgeId(3 * slot + twin.index % 3));
       continue;
     }
     around.rim.push_back({around.mesh.origin(h), around.mesh.target(h)});
     around.beyond.push_back(mesh.point(mesh.opposite(twin)));
   }
-  for (const HalfedgeId h : around.mesh.halfedges()) around.mesh.set_outgoing(around.mesh.origin(h), h);
+  for (const HalfedgeId h : around.mesh.halfedges()) edit.set_outgoing(around.mesh.origin(h), h);
   for (const VertexId v : around.mesh.vertices()) {
-    around.mesh.set_outgoing(v, canonical_outgoing(around.mesh, around.mesh.outgoing(v)));
+    edit.set_outgoing(v, canonical_outgoing(around.mesh, around.mesh.outgoing(v)));
     for (const HalfedgeId h : mesh.star(around.vertices[v.index])) {
       if (!contains(triangles, Mesh::triangle(h))) around.frozen[v.index] = 1;
     }

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "mesh/mesh_editor.hpp"
 #include "unit/mesh/random_soup.hpp"
 
 namespace temper {
@@ -199,18 +200,18 @@ TEST(Mesh, DoesNotShowWhetherArraysOfZerosAreThere) {
 TEST(Mesh, KeepsFlagsAndRegionsOfAddedTriangles) {
   // The second triangle is the first that has a region, the third comes after it.
   Mesh mesh;
-  for (const Vec2 p : {Vec2{0, 0}, {1, 0}, {0, 1}}) mesh.add_vertex({p.x, p.y, 0});
+  for (const Vec2 p : {Vec2{0, 0}, {1, 0}, {0, 1}}) MeshEditor(mesh).add_vertex({p.x, p.y, 0});
   for (const std::int32_t region : {0, 7, 0}) {
-    mesh.add_triangle({VertexId(0), VertexId(1), VertexId(2)}, region);
+    MeshEditor(mesh).add_triangle({VertexId(0), VertexId(1), VertexId(2)}, region);
   }
   EXPECT_EQ(mesh.region(TriangleId(0)), 0);
   EXPECT_EQ(mesh.region(TriangleId(1)), 7);
   EXPECT_EQ(mesh.region(TriangleId(2)), 0);
   mesh.set_constrained(HalfedgeId(8), true);
-  mesh.add_triangle({VertexId(0), VertexId(1), VertexId(2)}, 9);
+  MeshEditor(mesh).add_triangle({VertexId(0), VertexId(1), VertexId(2)}, 9);
   EXPECT_TRUE(mesh.is_constrained(HalfedgeId(8)));
   EXPECT_FALSE(mesh.is_constrained(HalfedgeId(11)));
-  mesh.erase(TriangleId(1));
+  MeshEditor(mesh).erase(TriangleId(1));
   const Compaction kept = mesh.compact();
   EXPECT_EQ(kept.triangles.size(), 3u);
   EXPECT_EQ(mesh.region(TriangleId(2)), 9);

@@ -1,6 +1,7 @@
 // erase() and compact(): what is left is the same mesh as one built without the erased triangles.
 #include <gtest/gtest.h>
 
+#include "mesh/mesh_editor.hpp"
 #include "unit/mesh/random_soup.hpp"
 
 namespace temper {
@@ -58,7 +59,7 @@ TEST(Compact, OfRandomPartsKeepsOrderFlagsAndTwins) {
       if (rng.uniform() < keep) {
         left.push_back(t);
       } else {
-        mesh.erase(t);
+        MeshEditor(mesh).erase(t);
         EXPECT_TRUE(mesh.is_erased(t));
       }
     }
@@ -87,8 +88,8 @@ TEST(Compact, OfAWholeMeshChangesNothingAndTwiceIsOnce) {
   Rng rng(12);
   // Two erased triangles; compacting again finds nothing to do.
   Mesh mesh = built(test::squares(6));
-  mesh.erase(TriangleId(0));
-  mesh.erase(TriangleId(40));
+  MeshEditor(mesh).erase(TriangleId(0));
+  MeshEditor(mesh).erase(TriangleId(40));
   mesh.compact();
   ASSERT_EQ(mesh.validate(), std::nullopt);
   const Mesh once = mesh;
@@ -100,8 +101,8 @@ TEST(Compact, OfAWholeMeshChangesNothingAndTwiceIsOnce) {
 
 TEST(Compact, DropsVerticesWithoutTriangles) {
   Mesh mesh = built(test::squares(2));
-  mesh.erase(TriangleId(0));
-  mesh.erase(TriangleId(1));  // the square at vertex 0, whose only triangles these are
+  MeshEditor(mesh).erase(TriangleId(0));
+  MeshEditor(mesh).erase(TriangleId(1));  // the square at vertex 0, whose only triangles these are
   const Compaction kept = mesh.compact();
   EXPECT_EQ(mesh.n_vertices(), 8u);
   EXPECT_EQ(kept.vertices[VertexId(0)], VertexId(1));
@@ -110,7 +111,7 @@ TEST(Compact, DropsVerticesWithoutTriangles) {
 
 TEST(Compact, OfAllErasedLeavesTheEmptyMesh) {
   Mesh mesh = built(test::fan());
-  for (const TriangleId t : mesh.triangles()) mesh.erase(t);
+  for (const TriangleId t : mesh.triangles()) MeshEditor(mesh).erase(t);
   mesh.compact();
   EXPECT_EQ(mesh, Mesh());
 }

@@ -1,8 +1,9 @@
-// validate() must find each kind of corruption that the mutators can make, and name it.
+// validate() must find each kind of corruption that an editor can make, and name it.
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "mesh/mesh_editor.hpp"
 #include "unit/mesh/inputs.hpp"
 
 namespace temper {
@@ -21,33 +22,33 @@ TEST(Validate, FindsNothingInAMesh) { EXPECT_EQ(fan().validate(), std::nullopt);
 
 TEST(Validate, FindsACornerThatIsNoVertex) {
   Mesh mesh = fan();
-  mesh.set_corner(HalfedgeId(4), VertexId(5));
+  MeshEditor(mesh).set_corner(HalfedgeId(4), VertexId(5));
   expect_found(mesh, "halfedge 4 starts at no vertex");
-  mesh.set_corner(HalfedgeId(4), VertexId());
+  MeshEditor(mesh).set_corner(HalfedgeId(4), VertexId());
   expect_found(mesh, "halfedge 4 starts at no vertex");
 }
 
 TEST(Validate, FindsACornerOfAnotherTriangle) {
   Mesh mesh = fan();
-  mesh.set_corner(HalfedgeId(4), VertexId(0));
+  MeshEditor(mesh).set_corner(HalfedgeId(4), VertexId(0));
   expect_found(mesh, "halfedge 4 and its twin join different vertices");
 }
 
 TEST(Validate, FindsTwinsOutOfRange) {
   Mesh mesh = test::built({{{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}}});
   // A twin that exists in a larger mesh: linked in one, then copied triangle by triangle is what a bug would do.
-  mesh.add_triangle({VertexId(1), VertexId(0), VertexId(2)}, 0);
-  mesh.link(HalfedgeId(0), HalfedgeId(3));
+  MeshEditor(mesh).add_triangle({VertexId(1), VertexId(0), VertexId(2)}, 0);
+  MeshEditor(mesh).link(HalfedgeId(0), HalfedgeId(3));
   EXPECT_NE(mesh.validate(), std::nullopt);
 }
 
 TEST(Validate, PassesOverErasedTrianglesWhoseCornersWereMended) {
   Mesh mesh = test::built({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2}, {0, 2, 3}}});
-  mesh.erase(TriangleId(0));
+  MeshEditor(mesh).erase(TriangleId(0));
   EXPECT_NE(mesh.validate(), std::nullopt);
-  mesh.set_outgoing(VertexId(0), HalfedgeId(3));
-  mesh.set_outgoing(VertexId(2), HalfedgeId(4));
-  mesh.set_outgoing(VertexId(1), HalfedgeId());
+  MeshEditor(mesh).set_outgoing(VertexId(0), HalfedgeId(3));
+  MeshEditor(mesh).set_outgoing(VertexId(2), HalfedgeId(4));
+  MeshEditor(mesh).set_outgoing(VertexId(1), HalfedgeId());
   EXPECT_EQ(mesh.validate(), std::nullopt);
   EXPECT_EQ(mesh.n_edges(), 3u);
   mesh.compact();
@@ -58,55 +59,55 @@ TEST(Validate, PassesOverErasedTrianglesWhoseCornersWereMended) {
 TEST(Validate, FindsTwinsThatAreNotMutual) {
   Mesh mesh = fan();
   const HalfedgeId h = mesh.find_halfedge(VertexId(1), VertexId(4)), twin = mesh.twin(h);
-  mesh.link(twin, HalfedgeId());
+  MeshEditor(mesh).link(twin, HalfedgeId());
   expect_found(mesh, "halfedge " + std::to_string(h.index) + " is not the twin of its twin");
 }
 
 TEST(Validate, FindsTwinsOfDifferentVertices) {
   Mesh mesh = fan();
-  mesh.link(HalfedgeId(0), HalfedgeId(6));  // bottom and top of the square
+  MeshEditor(mesh).link(HalfedgeId(0), HalfedgeId(6));  // bottom and top of the square
   expect_found(mesh, "halfedge 0 and its twin join different vertices");
 }
 
 TEST(Validate, FindsAMissingOutgoingHalfedge) {
   Mesh mesh = fan();
-  mesh.set_outgoing(VertexId(2), HalfedgeId());
+  MeshEditor(mesh).set_outgoing(VertexId(2), HalfedgeId());
   expect_found(mesh, "vertex 2 has no halfedge");
   mesh = fan();
-  mesh.set_outgoing(VertexId(2), HalfedgeId(99));
+  MeshEditor(mesh).set_outgoing(VertexId(2), HalfedgeId(99));
   expect_found(mesh, "vertex 2 has no halfedge");
   mesh = fan();
-  mesh.add_vertex({3, 3, 0});
+  MeshEditor(mesh).add_vertex({3, 3, 0});
   expect_found(mesh, "vertex 5 has no halfedge");
 }
 
 TEST(Validate, FindsAForeignOutgoingHalfedge) {
   Mesh mesh = fan();
-  mesh.set_outgoing(VertexId(0), HalfedgeId(1));
+  MeshEditor(mesh).set_outgoing(VertexId(0), HalfedgeId(1));
   expect_found(mesh, "vertex 0 has a foreign halfedge in its star");
 }
 
 TEST(Validate, FindsABoundaryStarThatDoesNotBeginOnTheBoundary) {
   Mesh mesh = fan();
   const VertexId v(1);
-  mesh.set_outgoing(v, mesh.rotate(mesh.outgoing(v)));
+  MeshEditor(mesh).set_outgoing(v, mesh.rotate(mesh.outgoing(v)));
   expect_found(mesh, "vertex 1 does not reach all its triangles");
 }
 
 TEST(Validate, FindsAnUnlinkedEdge) {
   Mesh mesh = fan();
   const HalfedgeId h = mesh.find_halfedge(VertexId(1), VertexId(4)), twin = mesh.twin(h);
-  mesh.link(h, HalfedgeId());
-  mesh.link(twin, HalfedgeId());
+  MeshEditor(mesh).link(h, HalfedgeId());
+  MeshEditor(mesh).link(twin, HalfedgeId());
   EXPECT_NE(mesh.validate(), std::nullopt);
 }
 
 TEST(Validate, FindsAnEdgeConstrainedOnOneSide) {
   Mesh mesh = fan();
   const HalfedgeId h = mesh.find_halfedge(VertexId(1), VertexId(4)), twin = mesh.twin(h);
-  mesh.link(h, HalfedgeId());
+  MeshEditor(mesh).link(h, HalfedgeId());
   mesh.set_constrained(h, true);  // the twin does not hear of it
-  mesh.link(h, twin);
+  MeshEditor(mesh).link(h, twin);
   expect_found(mesh, "halfedge " + std::to_string(std::min(h, twin).index) + " is constrained on one side only");
 }
 

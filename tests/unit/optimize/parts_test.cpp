@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "mesh/mesh_editor.hpp"
 #include "optimize/driver.hpp"
 #include "support/regions.hpp"
 #include "support/std_threads.hpp"
@@ -256,16 +257,16 @@ TEST(OnePart, DoesNotSeeWhatOtherPartsMayChange) {
     Mesh& mesh = blind.work.mesh;
     for (const HalfedgeId h : mesh.halfedges()) {
       const bool an_end = seen.part.contains(seen.work.mesh.origin(h)) || seen.part.contains(seen.work.mesh.target(h));
-      if (!an_end) mesh.link(h, HalfedgeId());
+      if (!an_end) MeshEditor(mesh).link(h, HalfedgeId());
     }
     for (const TriangleId t : seen.work.mesh.triangles()) {
       if (has_corner_in(seen.work.mesh, t, seen.part)) continue;
-      for (int k = 0; k < 3; ++k) mesh.set_corner(Mesh::halfedge(t, k), VertexId());
+      for (int k = 0; k < 3; ++k) MeshEditor(mesh).set_corner(Mesh::halfedge(t, k), VertexId());
     }
     for (const VertexId v : mesh.vertices()) {
       if (seen.part.contains(v)) continue;
       mesh.set_point(v, {kNan, kNan, kNan});
-      mesh.set_outgoing(v, HalfedgeId());
+      MeshEditor(mesh).set_outgoing(v, HalfedgeId());
     }
     EXPECT_EQ(improve_part(blind.work, blind.settings, seen.part), improve_part(seen.work, seen.settings, seen.part));
     for (const VertexId v : mesh.vertices()) {

@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "mesh/mesh_editor.hpp"
 #include "property/random_mesh.hpp"
 #include "support/area.hpp"
 #include "temper/regularity.hpp"
@@ -81,8 +82,8 @@ TEST(PlanRemoval, RefusesTheTipOfASlit) {
   // The two boundary edges of vertex 4 run back to back: collinear, but not in line.
   Mesh mesh = built({{1, -1}, {1, 1}, {-1, 1}, {-1, -1}, {0, 0}}, {{4, 0, 1}, {4, 1, 2}, {4, 2, 3}, {4, 3, 0}});
   const HalfedgeId h = mesh.find_halfedge(VertexId(4), VertexId(0)), g = mesh.twin(h);
-  mesh.link(h, HalfedgeId()), mesh.link(g, HalfedgeId());
-  mesh.set_outgoing(VertexId(4), canonical_outgoing(mesh, h));
+  MeshEditor(mesh).link(h, HalfedgeId()), MeshEditor(mesh).link(g, HalfedgeId());
+  MeshEditor(mesh).set_outgoing(VertexId(4), canonical_outgoing(mesh, h));
   EXPECT_EQ(removal_status(mesh, VertexId(4)), RemovalStatus::boundary_corner);
 }
 
@@ -119,12 +120,12 @@ TEST(PlanRemoval, RefusesABoundaryLineWhoseHalvesHaveDifferentFlags) {
 
 TEST(PlanRemoval, HasNoTriangulationOfAnIsolatedVertexOrWhereTheNewEdgeExists) {
   Mesh mesh = bottom_side();
-  const VertexId lonely = mesh.add_vertex({9, 9, 0});
+  const VertexId lonely = MeshEditor(mesh).add_vertex({9, 9, 0});
   EXPECT_EQ(removal_status(mesh, lonely), RemovalStatus::no_triangulation);
   // A flap from vertex 4 to vertex 0, below: with vertex 5 gone the boundary would be edge 4-0 a second time.
-  const VertexId below = mesh.add_vertex({0, -1, 0});
-  const TriangleId flap = mesh.add_triangle({VertexId(4), below, VertexId(0)}, 0);
-  mesh.set_outgoing(VertexId(0), Mesh::halfedge(flap, 2));
+  const VertexId below = MeshEditor(mesh).add_vertex({0, -1, 0});
+  const TriangleId flap = MeshEditor(mesh).add_triangle({VertexId(4), below, VertexId(0)}, 0);
+  MeshEditor(mesh).set_outgoing(VertexId(0), Mesh::halfedge(flap, 2));
   EXPECT_EQ(removal_status(mesh, kBottom), RemovalStatus::no_triangulation);
 }
 

@@ -1,0 +1,33 @@
+// The only way to write a mesh's connectivity entry by entry; users of the library have topology.hpp instead.
+#pragma once
+
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+/// MeshEditor writes single entries of a mesh's arrays and checks nothing: between two of its calls the mesh may be
+/// broken. Whoever uses it leaves a mesh in which validate() finds nothing. It costs nothing to make one.
+class MeshEditor {
+ public:
+  explicit MeshEditor(Mesh& mesh) : mesh_(mesh) {}
+
+  /// The new vertex is in no triangle.
+  VertexId add_vertex(WeightedPoint p);
+  /// Three halfedges without twins; the caller links them.
+  TriangleId add_triangle(std::array<VertexId, 3> corners, std::int32_t region);
+  void set_corner(HalfedgeId h, VertexId v) { mesh_.corners_[h] = v; }
+  /// Makes a and b twins; b may be invalid (a becomes boundary). Flags stay as they are.
+  void link(HalfedgeId a, HalfedgeId b) {
+    mesh_.twins_[a] = b;
+    if (b.valid()) mesh_.twins_[b] = a;
+  }
+  void set_outgoing(VertexId v, HalfedgeId h) { mesh_.record(v).outgoing = h.index; }
+  /// Marks a triangle for compact(). Its neighbours get a boundary there; the outgoing() of its corners is the caller's
+  /// to mend.
+  void erase(TriangleId t);
+
+ private:
+  Mesh& mesh_;
+};
+
+}  // namespace temper
