@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,6 +27,8 @@
 namespace temper {
 
 enum class EnergyKind { F, T, dT, BH, BHs, BP };
+/// How many kinds there are, which is how many rows energies() has.
+inline constexpr std::size_t kEnergyKinds = static_cast<std::size_t>(EnergyKind::BP) + 1;
 
 /// The dual of a boundary edge: where h of the missing triangle is taken from (§3.2.1 of the paper).
 enum class BoundaryTreatment {

@@ -38,6 +38,9 @@ struct Histogram {
   std::vector<std::size_t> counts;
 };
 
+/// The total energies of a mesh: [EnergyKind, the row of energies()][star], +∞ outside the domain of the energy.
+using EnergyTable = std::array<std::array<double, 3>, kEnergyKinds>;
+
 struct Quality {
   std::size_t vertices = 0, triangles = 0, edges = 0, boundary_edges = 0, regions = 0;
   std::size_t inverted_triangles = 0;       ///< exact
@@ -53,8 +56,8 @@ struct Quality {
   /// the orthocenters), the largest over the median. +∞ when a dual edge has length zero, exactly; 1 without interior
   /// edges.
   double max_transmissibility_over_median = 0;
-  std::array<std::array<double, 3>, 6> energy = {};  ///< [row of energies()][star], +∞ outside the domain
-  std::vector<WorstTriangle> worst;                  ///< worst first
+  EnergyTable energy = {};
+  std::vector<WorstTriangle> worst;  ///< worst first
   Histogram angles, h_over_l, d_over_l;
 };
 

@@ -6,10 +6,10 @@
 namespace temper {
 namespace {
 
-constexpr std::array<EnergyInfo, 6> kEnergies = [] {
+constexpr std::array<EnergyInfo, kEnergyKinds> kEnergies = [] {
   using enum EnergyKind;
   using enum BoundaryTreatment;
-  return std::array<EnergyInfo, 6>{{
+  return std::array<EnergyInfo, kEnergyKinds>{{
       // kind, name, formula of a half-edge, boundary, barrier, γ, h°, length exponent
       {F, "F", "α d³h + β d h³", as_is, false, false, false, 4},
       {T, "T", "sgn(h_k + h_l) (α d³h + β d h³)", absolute, false, false, false, 4},
@@ -19,6 +19,14 @@ constexpr std::array<EnergyInfo, 6> kEnergies = [] {
       {BP, "BP", "(α d² + β h²) / (√(d_ij d_ji) φ), φ = (h + √(h² + γ²))/2", as_is, true, true, false, 0},
   }};
 }();
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < kEnergyKinds; ++i) {
+        if (kEnergies[i].kind != static_cast<EnergyKind>(i)) return false;
+      }
+      return true;
+    }(),
+    "each row is at the place of its kind");
 
 }  // namespace
 

@@ -20,6 +20,7 @@
 #include "explain/crossings.hpp"
 #include "explain/cures.hpp"
 #include "feasibility/region.hpp"
+#include "mesh/bad_triangles.hpp"
 #include "quality/measure.hpp"
 #include "temper/geometry.hpp"
 #include "temper/topology.hpp"
@@ -29,7 +30,6 @@ namespace temper {
 namespace {
 
 constexpr int kRings = 2;           // around a group: as find_weights begins
-constexpr double kMargin = 0.01;    // that temper weights asks for by itself
 constexpr double kSame = 1e-9;      // margins are known to about this
 constexpr std::size_t kBeats = 64;  // bad triangles between two calls of progress
 
@@ -45,11 +45,10 @@ struct BadTriangle {
   }
 };
 
-std::vector<BadTriangle> bad_triangles(const Mesh& mesh) {
+std::vector<BadTriangle> worst_first(const Mesh& mesh) {
   std::vector<BadTriangle> bad;
-  for (const TriangleId t : mesh.triangles()) {
+  for (const TriangleId t : bad_triangles(mesh)) {
     const auto [p, q, r] = mesh.corners(t);
-    if (is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r))) continue;
     const Vec2 at = (1.0 / 3) * (mesh.position(p) + mesh.position(q) + mesh.position(r));
     bad.push_back({measure_triangle(mesh, t).margin(), at, t});
   }
@@ -60,7 +59,7 @@ std::vector<BadTriangle> bad_triangles(const Mesh& mesh) {
 class Explainer {
  public:
   Explainer(const Mesh& mesh, LpSolver& solver, const ExplainOptions& options)
-      : mesh_(mesh), solver_(solver), options_(options), bad_(bad_triangles(mesh)), state_(mesh.n_triangles(), kGood) {
+      : mesh_(mesh), solver_(solver), options_(options), bad_(worst_first(mesh)), state_(mesh.n_triangles(), kGood) {
     for (const BadTriangle& bad : bad_) state_[bad.triangle] = kUnexplained;
   }
 
@@ -252,7 +251,6 @@ class Explainer {
     if (mesh_.n_triangles() > options_.whole && bad_.size() > options_.whole) return;
     WeightOptions weights;
     weights.goal = WeightGoal::feasible;
-    weights.margin = kMargin;
     weights.whole = options_.whole;
     auto report = find_weights(mesh_, solver_, weights);
     if (!report) return;

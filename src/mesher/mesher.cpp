@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "mesh/bad_triangles.hpp"
 #include "mesher/areas.hpp"
 #include "mesher/narrow.hpp"
 #include "mesher/placement.hpp"
@@ -214,15 +215,6 @@ class Mesher {
     for (std::size_t i = 0; i < on_edge.size(); ++i) {
       if (on_edge[i] == 0 && made.vertex_of_point[i].valid()) made.mesh.set_fixed(made.vertex_of_point[i], true);
     }
-  }
-
-  [[nodiscard]] static std::vector<TriangleId> bad_triangles(const Mesh& mesh) {
-    std::vector<TriangleId> bad;
-    for (const TriangleId t : mesh.triangles()) {
-      const auto [p, q, r] = mesh.corners(t);
-      if (!is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r))) bad.push_back(t);
-    }
-    return bad;
   }
 
   Expected<OutlineMesh> attempt() {

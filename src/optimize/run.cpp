@@ -16,12 +16,6 @@ bool Run::asked_to_stop(double fraction_of_sweep) {
   return false;
 }
 
-bool is_bad(const Mesh& mesh, TriangleId t) {
-  if (mesh.is_erased(t)) return false;
-  const auto [p, q, r] = mesh.corners(t);
-  return !inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r));
-}
-
 std::size_t count_inverted(const Mesh& mesh) {
   std::size_t count = 0;
   for (const TriangleId t : mesh.triangles()) {

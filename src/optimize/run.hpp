@@ -9,8 +9,6 @@
 
 namespace temper {
 
-/// Whether a triangle is not well-centered, exact. Erased ones are not bad.
-[[nodiscard]] bool is_bad(const Mesh& mesh, TriangleId t);
 /// Triangles that are not counter-clockwise, exact.
 [[nodiscard]] std::size_t count_inverted(const Mesh& mesh);
 

@@ -35,11 +35,11 @@ Tally tally(const Mesh& mesh, const QualityOptions& options) {
   return all;
 }
 
-std::array<std::array<double, 3>, 6> all_energies(const Mesh& mesh, const QualityOptions& options) {
-  std::array<std::array<double, 3>, 6> totals = {};
+EnergyTable all_energies(const Mesh& mesh, const QualityOptions& options) {
+  EnergyTable totals = {};
   run(options.executor, totals.size() * 3, [&](std::size_t i) {
     EnergyModel model;
-    model.kind = energies()[i / 3].kind;
+    model.kind = static_cast<EnergyKind>(i / 3);
     model.star = static_cast<int>(i % 3);
     model.gamma = options.gamma;
     model.h0 = options.h0;

@@ -137,7 +137,7 @@ TEST(CertificateOracle, AgreesThatAcceptedCertificatesAreContradictions) {
     EXPECT_LE(upper_bound(mesh, certificate), 0);
   };
   check(sparse_horseshoe());
-  check(dense_horseshoe());
+  check(*horseshoe());
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     check(jittered_lattice(seed, 5));
     Rng rng(seed);

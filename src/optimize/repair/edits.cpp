@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/bad_triangles.hpp"
 #include "optimize/run.hpp"
 #include "temper/geometry.hpp"
 #include "topology/locate.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/assert.hpp"
+#include "mesh/bad_triangles.hpp"
 #include "optimize/repair/edits.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/splice.hpp"
@@ -19,14 +20,6 @@ constexpr int kMostFailures = 60, kMostFailuresOfMoves = 10;
 // An edit that helps lowers the violation by this part, or the number of bad triangles.
 constexpr double kHelps = 0.01;
 constexpr std::uint32_t kSidewaysChoice = 4;
-
-std::vector<TriangleId> bad_triangles(const Mesh& mesh) {
-  std::vector<TriangleId> bad;
-  for (const TriangleId t : mesh.triangles()) {
-    if (is_bad(mesh, t)) bad.push_back(t);
-  }
-  return bad;
-}
 
 bool helps(const Standing& before, const Standing& after) {
   return after.bad < before.bad || (after.bad == before.bad && after.violation < (1 - kHelps) * before.violation);

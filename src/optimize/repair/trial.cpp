@@ -6,6 +6,7 @@
 #include "base/rng.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "geometry/triangle_kernel.hpp"
+#include "mesh/bad_triangles.hpp"
 #include "optimize/repair/fill.hpp"
 #include "optimize/run.hpp"
 #include "optimize/schedule.hpp"

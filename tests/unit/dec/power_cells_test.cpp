@@ -235,7 +235,7 @@ TEST(PowerCells, DoNotReachThroughACrack) {
 
 TEST(PowerCells, CoverAnyDomainOnceWhateverTheWeights) {
   Rng rng(13);
-  std::vector<Mesh> meshes = {test::dense_horseshoe(), sparse_horseshoe(), letter_a()};
+  std::vector<Mesh> meshes = {*horseshoe(), sparse_horseshoe(), letter_a()};
   meshes.push_back(*airfoil({.around = 24}));
   meshes.push_back(*annulus({.around = 18, .rings = 3}));
   meshes.push_back(*sheared_grid({.nx = 5, .ny = 5}));
@@ -258,7 +258,7 @@ TEST(PowerCells, CoverAnyDomainOnceWhateverTheWeights) {
 }
 
 TEST(PowerCells, ScaleWithTheDomainAndKeepTheirPlaceFarFromTheOrigin) {
-  Mesh mesh = test::dense_horseshoe(), far = mesh;
+  Mesh mesh = *horseshoe(), far = mesh;
   for (const VertexId v : mesh.vertices()) {
     const Vec2 p = {std::round(mesh.position(v).x * 0x1p20) * 0x1p-20,
                     std::round(mesh.position(v).y * 0x1p20) * 0x1p-20};

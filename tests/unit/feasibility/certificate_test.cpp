@@ -7,7 +7,7 @@ namespace {
 Certificate certificate_of(const Mesh& mesh) { return margin_of(mesh).certificate; }
 
 TEST(Certificate, OfTheHorseshoesProves) {
-  for (const Mesh& mesh : {sparse_horseshoe(), dense_horseshoe()}) {
+  for (const Mesh& mesh : {sparse_horseshoe(), *horseshoe()}) {
     const Certificate certificate = certificate_of(mesh);
     EXPECT_GE(certificate.terms.size(), 2u);
     EXPECT_LE(certificate.terms.size(), 20u);  // few constraints, whatever the size of the mesh
@@ -16,7 +16,7 @@ TEST(Certificate, OfTheHorseshoesProves) {
 }
 
 TEST(Certificate, SurvivesScaling) {
-  const Mesh mesh = dense_horseshoe();
+  const Mesh mesh = *horseshoe();
   for (const double factor : {1e-6, 1e6, 0x1p-60, 0x1p60}) {
     const Mesh other = scaled(mesh, factor);
     EXPECT_EQ(check_certificate(other, certificate_of(other)), CertificateCheck::proves) << factor;
@@ -38,7 +38,7 @@ TEST(Certificate, DoesNotDependOnTheWeightsOfTheMesh) {
 
 TEST(Certificate, ProvesNothingWhenAnyMultiplierIsChanged) {
   std::size_t changed = 0;
-  for (const Mesh& mesh : {sparse_horseshoe(), dense_horseshoe()}) {
+  for (const Mesh& mesh : {sparse_horseshoe(), *horseshoe()}) {
     const Certificate certificate = certificate_of(mesh);
     for (std::size_t i = 0; i < certificate.terms.size(); ++i, ++changed) {
       Certificate corrupted = certificate;

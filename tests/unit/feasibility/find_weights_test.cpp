@@ -217,7 +217,7 @@ TEST(FindWeights, DecideNothingWithASolverThatFails) {
   Failing solver;
   for (const WeightGoal goal : {WeightGoal::feasible, WeightGoal::minimal, WeightGoal::elastic}) {
     for (const std::size_t whole : {std::size_t{0}, std::size_t{3000}}) {
-      const auto report = find_weights(dense_horseshoe(), solver, {.goal = goal, .whole = whole});
+      const auto report = find_weights(*horseshoe(), solver, {.goal = goal, .whole = whole});
       ASSERT_TRUE(report);
       EXPECT_EQ(report->verdict, Feasibility::undecided);
       EXPECT_FALSE(report->solved);

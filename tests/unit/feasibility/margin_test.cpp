@@ -35,7 +35,7 @@ TEST(BestMargin, OfTheSparseHorseshoeIsMinusEightOver135) {
 }
 
 TEST(BestMargin, OfTheDenseHorseshoeIsWhatAnIndependentProgrammeFound) {
-  const Mesh mesh = dense_horseshoe();
+  const Mesh mesh = *horseshoe();
   EXPECT_NEAR(margin_of(mesh).margin, -0.3199381998, kSolved);
   EXPECT_NEAR(margin_of(mesh, Conditions::heights_only).margin, -0.1046174535, kSolved);
 }
@@ -58,7 +58,7 @@ TEST(BestMargin, IsAttainedByItsWeightsAndByNoneBetter) {
 }
 
 TEST(BestMargin, DoesNotDependOnSizePlaceOrWeights) {
-  const Mesh mesh = dense_horseshoe();
+  const Mesh mesh = *horseshoe();
   const double expected = margin_of(mesh).margin;
   for (const double factor : {1e-6, 1e-3, 1e3, 1e6}) {
     EXPECT_NEAR(margin_of(scaled(mesh, factor)).margin, expected, kSolved) << factor;
@@ -84,7 +84,7 @@ TEST(BestMargin, OfAGradedMeshIsAttainedWhereItIsFineToo) {
 }
 
 TEST(BestMargin, OfPartOfAMeshIsNoSmaller) {
-  const Mesh mesh = dense_horseshoe();
+  const Mesh mesh = *horseshoe();
   const double whole = margin_of(mesh).margin;
   const auto solver = clp_solver();
   std::vector<TriangleId> part;

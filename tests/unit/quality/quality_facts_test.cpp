@@ -7,6 +7,7 @@
 #include <string>
 
 #include "support/shapes.hpp"
+#include "temper/generate.hpp"
 #include "temper/quality.hpp"
 
 namespace temper {
@@ -111,7 +112,7 @@ TEST(QualityFacts, AnEmptyMeshHasAnEmptyReport) {
 }
 
 TEST(QualityFacts, TheDenseHorseshoe) {
-  const Quality q = quality(test::dense_horseshoe());
+  const Quality q = quality(*horseshoe());
   EXPECT_EQ(q.vertices, 63u);
   EXPECT_EQ(q.triangles, 96u);
   EXPECT_EQ(q.edges, 158u);
