@@ -39,44 +39,6 @@ void check_writable(const std::string& path) {
   }
 }
 
-bool has_suffix(std::string_view path, std::string_view suffixes) {
-  while (!suffixes.empty()) {
-    const std::size_t space = std::min(suffixes.find(' '), suffixes.size());
-    const std::string_view suffix = suffixes.substr(0, space);
-    if (!suffix.empty() && path.size() > suffix.size() && path.ends_with(suffix)) return true;
-    suffixes.remove_prefix(std::min(space + 1, suffixes.size()));
-  }
-  return false;
-}
-
-bool writable_by_suffix(const std::string& path) {
-  for (const io::Format& format : io::formats()) {
-    if (format.writes && has_suffix(path, format.suffixes)) return true;
-  }
-  return false;
-}
-
-/// The files that writing a mesh there makes.
-std::vector<std::string> files_of_mesh(const std::string& path) {
-  constexpr const char* kTriangle[] = {".node", ".ele", ".poly"};
-  std::vector<std::string> files = {path};
-  const fs::path suffix = fs::path(path).extension();
-  if (std::find(std::begin(kTriangle), std::end(kTriangle), suffix) == std::end(kTriangle)) return files;
-  for (const char* other : kTriangle) files.push_back(fs::path(path).replace_extension(other).string());
-  return files;
-}
-
-std::string writable_suffixes() {
-  std::string text;
-  for (const io::Format& format : io::formats()) {
-    if (!format.writes) continue;
-    const std::string_view first = format.suffixes.substr(0, format.suffixes.find(' '));
-    if (text.find(std::string(first) + ",") != std::string::npos) continue;
-    text += std::string(first) + ", ";
-  }
-  return text.substr(0, text.size() - std::min<std::size_t>(2, text.size()));
-}
-
 }  // namespace
 
 bool same_file(const std::string& a, const std::string& b) {
@@ -98,11 +60,10 @@ void Outputs::expect(const std::string& option, const std::string& path) {
 void Outputs::expect_mesh(const std::string& option, const std::string& path, const std::string& format,
                           const std::vector<std::string>& others) {
   std::error_code ignored;
-  if (format.empty() && !fs::is_directory(path, ignored) && !writable_by_suffix(path)) {
-    throw Failure(Exit::bad_usage, fmt::format("{}: {}: {} has no suffix of a format that temper writes ({})", verb_,
-                                               option, path, writable_suffixes()));
-  }
-  for (const std::string& file : files_of_mesh(path)) {
+  if (fs::is_directory(path, ignored)) not_writable(path, "it is a directory");
+  const Expected<std::vector<std::string>> files = io::files_to_write(path, format);
+  if (!files) throw Failure(Exit::bad_usage, fmt::format("{}: {}: {}", verb_, option, files.error().what()));
+  for (const std::string& file : *files) {
     for (const std::string& other : others) {
       if (other.empty() || !same_file(file, other)) continue;
       throw Failure(Exit::bad_usage, fmt::format("{}: {}: {} is an input, and would be replaced", verb_, option, file));

@@ -94,6 +94,10 @@ struct Format {
 [[nodiscard]] Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file,
                                                        const WriteOptions& options = {});
 
+/// The files that write() replaces or makes there, that of the weights included; or why it would write none.
+[[nodiscard]] Expected<std::vector<std::string>> files_to_write(const std::string& path,
+                                                                const std::string& format = {});
+
 /// Any text to a file, by the same temporary-and-rename.
 [[nodiscard]] Expected<void> write_text(const std::string& path, std::string_view text);
 

@@ -100,7 +100,6 @@ void AdcircWriter::write() {
   boundaries(true);
   boundaries(false);
   warn_of_lost();
-  write_side_file(job_, 1);
 }
 
 void AdcircWriter::title() {
@@ -222,32 +221,24 @@ void AdcircWriter::boundaries(bool open) {
 
 void AdcircWriter::warn_of_lost() const {
   const MeshFile& f = file_;
-  const auto others = [](const std::vector<DataArray>& arrays, std::initializer_list<std::string_view> written) {
-    std::vector<DataArray> result;
-    for (const DataArray& a : arrays) {
-      if (std::find(written.begin(), written.end(), a.name) == written.end())
-        result.push_back({a.name, a.components, {}});
-    }
-    return result;
-  };
   if (!is_flat(f)) job_.warn(text("z = ", f.z, " of the points is not written: fort.14 has depths in its place"));
-  warn_of_regions(job_, "fort.14");
-  warn_of_data(job_, "fort.14", "point data", others(f.point_data, {kAdcircDepth}));
-  // Files of the VTK family have such data on all their cells.
-  warn_of_data(job_, "fort.14", "cell data", others(f.cell_data, {kAdcircLevee, kAdcircSide}));
-  warn_of_data(job_, "fort.14", "line data", others(f.line_data, {kAdcircLevee, kAdcircSide}));
-  warn_of_data(job_, "fort.14", "data of marked points", others(f.marked_point_data, {kAdcircLevee, kAdcircSide}));
-  warn_of_data(job_, "fort.14", "field data", others(f.field_data, {kAdcircTitle}));
-  std::string names;
+  std::vector<PhysicalName> names;
   for (const PhysicalName& n : f.names) {
-    if (n.dimension != 1 || !adcirc_boundary(n.name)) names += text(names.empty() ? "" : ", ", n.name);
+    if (n.dimension != 1 || !adcirc_boundary(n.name)) names.push_back(n);
   }
-  if (!names.empty()) job_.warn(text("physical names are not written, fort.14 has no place for them: ", names));
+  warn_of_names(job_, names);
   const bool levees = find(f.marked_point_data, kAdcircSide) != nullptr;
   if (!f.marked_points.empty() && !levees) job_.warn("marked points are not written, fort.14 has no place for them");
 }
 
 }  // namespace
+
+// Files of the VTK family have the data of levees on all their cells.
+bool adcirc_keeps(ArraysOf of, const DataArray& array) {
+  if (of == &MeshFile::point_data) return array.name == kAdcircDepth;
+  if (of == &MeshFile::field_data) return array.name == kAdcircTitle;
+  return array.name == kAdcircLevee || array.name == kAdcircSide;
+}
 
 void write_adcirc(const WriteJob& job) { AdcircWriter(job).write(); }
 

@@ -155,7 +155,6 @@ void GmshWriter::write() {
   version4_ ? elements_4() : elements_2();
   node_data();
   element_data();
-  warn_of_data(job_, "Gmsh", "field data", file_.field_data);
 }
 
 void GmshWriter::physical_names() {

@@ -203,29 +203,20 @@ void write_jigsaw_values(Output& out, std::string_view name, std::size_t columns
   for (std::size_t i = 0; i < values.size(); ++i) out.put(values[i], (i + 1) % columns == 0 ? '\n' : ';');
 }
 
-void warn_of_lost_in_jigsaw(const WriteJob& job) {
-  std::vector<DataArray> dropped;
-  for (const DataArray& a : job.file.point_data) {
-    if (jigsaw_values(a) == nullptr) dropped.push_back({a.name, a.components, {}});
-  }
-  warn_of_data(job, "JIGSAW", "point data", dropped);
-  warn_of_data(job, "JIGSAW", "cell data", job.file.cell_data);
-  warn_of_data(job, "JIGSAW", "line data", job.file.line_data);
-  warn_of_data(job, "JIGSAW", "data of marked points", job.file.marked_point_data);
-  warn_of_data(job, "JIGSAW", "field data", job.file.field_data);
-  warn_of_names(job, "JIGSAW");
-}
-
 }  // namespace
 
 Document read_jigsaw_mesh(Source& source) { return JigsawMeshReader(source).read(); }
+
+bool jigsaw_keeps(ArraysOf of, const DataArray& array) {
+  return of == &MeshFile::point_data && jigsaw_values(array) != nullptr;
+}
 
 void write_jigsaw_mesh(const WriteJob& job) {
   const MeshFile& f = job.file;
   Output& out = job.outputs.open(job.path);
   const bool flat = is_flat(f);
   out.put("MSHID=3;EUCLIDEAN-MESH\nNDIMS=", flat ? 2 : 3, "\nPOINT=", f.points.size(), '\n');
-  const auto tags = one_tag_a_point(job, "JIGSAW");
+  const auto tags = one_tag_a_point(job);
   for (std::size_t i = 0; i < f.points.size(); ++i) {
     out.put(f.points[i].x, ';', f.points[i].y, ';');
     if (!flat) out.put(f.z, ';');
@@ -247,7 +238,6 @@ void write_jigsaw_mesh(const WriteJob& job) {
     const auto& t = f.triangles[i];
     out.put(t[0], ';', t[1], ';', t[2], ';', f.regions.empty() ? 0 : f.regions[i], '\n');
   }
-  warn_of_lost_in_jigsaw(job);
 }
 
 }  // namespace temper::io

@@ -194,12 +194,6 @@ void MeditReader::set_flags(const FlagSection& flag_section, const std::vector<s
 
 // --- writing ---------------------------------------------------------------------------------------------
 
-bool is_flag_array(std::vector<DataArray> MeshFile::*data, const DataArray& array) {
-  return std::any_of(std::begin(kFlagSections), std::end(kFlagSections), [&](const FlagSection& s) {
-    return s.data == data && s.array == array.name && scalar_of(array.values) == Scalar::u8;
-  });
-}
-
 void write_flags(Output& out, const MeshFile& f) {
   for (const FlagSection& s : kFlagSections) {
     const DataArray* array = find(f.*s.data, s.array);
@@ -213,33 +207,22 @@ void write_flags(Output& out, const MeshFile& f) {
   }
 }
 
-void warn_of_dropped(const WriteJob& job) {
-  for (const auto data : {&MeshFile::point_data, &MeshFile::cell_data, &MeshFile::line_data}) {
-    std::vector<DataArray> dropped;
-    for (const DataArray& a : job.file.*data) {
-      if (!is_flag_array(data, a)) dropped.push_back({a.name, a.components, {}});
-    }
-    warn_of_data(job, "medit",
-                 data == &MeshFile::point_data  ? "point data"
-                 : data == &MeshFile::cell_data ? "cell data"
-                                                : "line data",
-                 dropped);
-  }
-  warn_of_data(job, "medit", "data of marked points", job.file.marked_point_data);
-  warn_of_data(job, "medit", "field data", job.file.field_data);
-  warn_of_names(job, "medit");
-}
-
 }  // namespace
 
 Document read_medit(Source& source) { return MeditReader(source).read(); }
+
+bool medit_keeps(ArraysOf of, const DataArray& array) {
+  return std::any_of(std::begin(kFlagSections), std::end(kFlagSections), [&](const FlagSection& s) {
+    return s.data == of && s.array == array.name && scalar_of(array.values) == Scalar::u8;
+  });
+}
 
 void write_medit(const WriteJob& job) {
   const MeshFile& f = job.file;
   Output& out = job.outputs.open(job.path);
   const bool flat = is_flat(f);
   out.put("MeshVersionFormatted 2\nDimension ", flat ? 2 : 3, "\n\nVertices\n", f.points.size(), '\n');
-  const auto references = one_tag_a_point(job, "medit");
+  const auto references = one_tag_a_point(job);
   for (std::size_t i = 0; i < f.points.size(); ++i) {
     out.put(f.points[i].x, ' ', f.points[i].y, ' ');
     if (!flat) out.put(f.z, ' ');
@@ -257,8 +240,6 @@ void write_medit(const WriteJob& job) {
   }
   write_flags(out, f);
   out.put("\nEnd\n", "");
-  warn_of_dropped(job);
-  write_side_file(job, 1);
 }
 
 }  // namespace temper::io

@@ -231,13 +231,7 @@ void write_obj(const WriteJob& job) {
     if (group != f.point_tags[i]) put_group(out, f, 0, *(group = f.point_tags[i]));
     out.put("p ", f.marked_points[i] + 1, '\n');
   }
-  warn_of_data(job, "OBJ", "point data", f.point_data);
-  warn_of_data(job, "OBJ", "cell data", f.cell_data);
-  warn_of_data(job, "OBJ", "line data", f.line_data);
-  warn_of_data(job, "OBJ", "data of marked points", f.marked_point_data);
-  warn_of_data(job, "OBJ", "field data", f.field_data);
   warn_of_unused_names(job);
-  write_side_file(job, 1);
 }
 
 }  // namespace temper::io

@@ -112,14 +112,6 @@ void write_off(const WriteJob& job) {
   out.put("OFF\n", f.points.size(), ' ', f.triangles.size(), " 0\n");
   for (const Vec2 p : f.points) out.put(p.x, ' ', p.y, ' ', f.z, '\n');
   for (const auto& t : f.triangles) out.put("3 ", t[0], ' ', t[1], ' ', t[2], '\n');
-  warn_of_tags(job, "OFF");
-  warn_of_data(job, "OFF", "point data", f.point_data);
-  warn_of_data(job, "OFF", "cell data", f.cell_data);
-  warn_of_data(job, "OFF", "line data", f.line_data);
-  warn_of_data(job, "OFF", "data of marked points", f.marked_point_data);
-  warn_of_data(job, "OFF", "field data", f.field_data);
-  warn_of_names(job, "OFF");
-  write_side_file(job, 0);
 }
 
 }  // namespace temper::io

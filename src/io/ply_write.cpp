@@ -48,7 +48,7 @@ class PlyWriter {
 PlyWriter::Arrays PlyWriter::choose(const std::vector<DataArray>& arrays, std::string_view element,
                                     std::vector<std::string> taken) {
   Arrays chosen;
-  std::vector<DataArray> dropped;
+  std::vector<std::string_view> dropped;
   std::string comments;
   for (const DataArray& a : arrays) {
     const Scalar scalar = scalar_of(a.values);
@@ -58,7 +58,7 @@ PlyWriter::Arrays PlyWriter::choose(const std::vector<DataArray>& arrays, std::s
     for (int k = 0; k < a.components; ++k) names.push_back(a.components == 1 ? a.name : text(a.name, "_", k));
     for (const std::string& name : names) fits = fits && std::find(taken.begin(), taken.end(), name) == taken.end();
     if (!fits) {
-      dropped.push_back({a.name, a.components, {}});
+      dropped.push_back(a.name);
       continue;
     }
     taken.insert(taken.end(), names.begin(), names.end());
@@ -66,7 +66,7 @@ PlyWriter::Arrays PlyWriter::choose(const std::vector<DataArray>& arrays, std::s
     if (a.components > 1) comments += text("comment ", kPlyArrayComment, element, " ", a.components, " ", a.name, "\n");
   }
   out_.put(comments);
-  warn_of_data(job_, "PLY", text("data of elements ", element), dropped);
+  warn_of_arrays(job_, text("data of elements ", element), dropped);
   return chosen;
 }
 
@@ -127,7 +127,7 @@ void PlyWriter::put_row(const Arrays& arrays, std::size_t row) {
 
 void PlyWriter::write() {
   const MeshFile& f = file_;
-  tags_ = one_tag_a_point(job_, "PLY");
+  tags_ = one_tag_a_point(job_);
   header();
   for (std::size_t i = 0; i < f.points.size(); ++i) {
     put(f.points[i].x, true);
@@ -152,8 +152,6 @@ void PlyWriter::write() {
     put_row(line_data_, i);
     end_row();
   }
-  warn_of_data(job_, "PLY", "data of marked points", f.marked_point_data);
-  warn_of_data(job_, "PLY", "field data", f.field_data);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // The table of formats, and the two doors of io: read and write.
 //
-// A new format is one source file with a sniff, a read and maybe a write, and one row here.
+// A new format is one source file with a sniff, a read and maybe a write, declared in format.hpp, and one row here.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,28 +15,38 @@ namespace temper::io {
 
 namespace {
 
+constexpr Contents kAllData = kPointData | kCellData | kLineData | kMarkedPointData | kFieldData;
+constexpr Contents kAllTags = kRegions | kLines | kMarkedPoints;
+constexpr Contents kAll = kWeights | kAllTags | kNames | kAllData;
+
+// Of two rows that recognise a file, or have its suffix, the first is taken.
 constexpr FormatRow kRows[] = {
-    {{"vtu", "VTK XML unstructured grid, temper's own", ".vtu", true, true}, sniff_vtu, read_vtu, write_vtu},
-    {{"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", true, true}, sniff_gmsh41, read_gmsh, write_gmsh41},
-    {{"gmsh22", "Gmsh MSH 2.2", ".msh2", true, true}, sniff_gmsh22, read_gmsh, write_gmsh22},
-    {{"medit", "medit (INRIA, Mmg)", ".mesh", true, false}, sniff_medit, read_medit, write_medit},
-    {{"jigsaw", "JIGSAW mesh", ".jigsaw.msh", true, true}, sniff_jigsaw, read_jigsaw_mesh, write_jigsaw_mesh},
-    {{"ply", "PLY", ".ply", true, true}, sniff_ply, read_ply, write_ply},
-    {{"off", "OFF", ".off", true, false}, sniff_off, read_off, write_off},
-    // Before those whose first word may be that of a title.
-    {{"adcirc", "ADCIRC fort.14", ".14 .grd", true, false}, sniff_adcirc, read_adcirc, write_adcirc},
-    {{"obj", "Wavefront OBJ", ".obj", true, false}, sniff_obj, read_obj, write_obj},
-    {{"vtk", "legacy VTK 2.0 to 4.2", ".vtk", true, true}, sniff_legacy_vtk, read_legacy_vtk, write_legacy_vtk},
-    {{"vtk51", "legacy VTK 5.1", ".vtk51", true, true}, sniff_vtk51, read_legacy_vtk, write_vtk51},
-    {{"mfem", "MFEM mesh v1.0", ".mesh", false, false}, sniff_mfem, read_mfem, nullptr},
-    {{"triangle", "Triangle", ".node .ele", true, true}, sniff_triangle, read_triangle, write_triangle},
-    {{"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", true, true}, sniff_mpas, read_mpas, write_mpas},
-    {{"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", true, true}, sniff_ugrid, read_ugrid, write_ugrid},
+    {"vtu", "VTK XML unstructured grid, temper's own", ".vtu", kAll, sniff_vtu, read_vtu, write_vtu},
+    {"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", kAll & ~kFieldData, sniff_gmsh41, read_gmsh, write_gmsh41},
+    {"gmsh22", "Gmsh MSH 2.2", ".msh2", kAll & ~kFieldData, sniff_gmsh22, read_gmsh, write_gmsh22},
+    {"medit", "medit (INRIA, Mmg)", ".mesh", kAllTags, sniff_medit, read_medit, write_medit, medit_keeps},
+    {"jigsaw", "JIGSAW mesh", ".jigsaw.msh", kWeights | kAllTags, sniff_jigsaw, read_jigsaw_mesh, write_jigsaw_mesh,
+     jigsaw_keeps},
+    {"ply", "PLY", ".ply", kAll & ~(kMarkedPointData | kFieldData), sniff_ply, read_ply, write_ply},
+    {"off", "OFF", ".off", kNothing, sniff_off, read_off, write_off, nullptr, nullptr, 0},
+    // Before those whose first word may be that of a title. Of tags and names it holds boundaries; its writer names the
+    // others.
+    {"adcirc", "ADCIRC fort.14", ".14 .grd", kLines | kMarkedPoints | kNames, sniff_adcirc, read_adcirc, write_adcirc,
+     adcirc_keeps},
+    {"obj", "Wavefront OBJ", ".obj", kAllTags | kNames, sniff_obj, read_obj, write_obj},
+    {"vtk", "legacy VTK 2.0 to 4.2", ".vtk", kAll, sniff_legacy_vtk, read_legacy_vtk, write_legacy_vtk},
+    {"vtk51", "legacy VTK 5.1", ".vtk51", kAll, sniff_vtk51, read_legacy_vtk, write_vtk51},
+    {"mfem", "MFEM mesh v1.0", ".mesh", kNothing, sniff_mfem, read_mfem, nullptr},
+    {"triangle", "Triangle", ".node .ele", kAll & ~(kLineData | kMarkedPointData | kFieldData), sniff_triangle,
+     read_triangle, write_triangle, nullptr, triangle_files},
+    {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll, sniff_mpas, read_mpas, write_mpas},
+    {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll, sniff_ugrid, read_ugrid, write_ugrid},
 };
 
 template <std::size_t... I>
 constexpr std::array<Format, sizeof...(I)> columns(std::index_sequence<I...>) {
-  return {kRows[I].format...};
+  return {Format{kRows[I].name, kRows[I].description, kRows[I].suffixes, kRows[I].write != nullptr,
+                 (kRows[I].holds & kWeights) != 0}...};
 }
 constexpr auto kFormats = columns(std::make_index_sequence<std::size(kRows)>());
 
@@ -59,7 +69,7 @@ MeshFile read_or_throw(const std::string& path, const ReadOptions& options) {
   const FormatRow& row = recognise(source);
   Document document = row.read(source);
   std::string().swap(source.bytes);
-  if (document.file.format.empty()) document.file.format = row.format.name;
+  if (document.file.format.empty()) document.file.format = row.name;
   check(document);
   read_side_file(document);
   document.file.path = path;
@@ -69,9 +79,9 @@ MeshFile read_or_throw(const std::string& path, const ReadOptions& options) {
   return std::move(document.file);
 }
 
-/// The length of the format's suffix that the path ends with, or 0.
-std::size_t suffix_length(const Format& format, const std::string& path) {
-  std::string_view left = format.suffixes;
+/// The length of the row's suffix that the path ends with, or 0.
+std::size_t suffix_length(const FormatRow& row, const std::string& path) {
+  std::string_view left = row.suffixes;
   std::size_t longest = 0;
   while (!left.empty()) {
     const std::size_t end = std::min(left.find(' '), left.size());
@@ -97,19 +107,19 @@ std::string writable_names() {
   return result;
 }
 
-const FormatRow& row_to_write(const std::string& path, const WriteOptions& options) {
-  if (!options.format.empty()) {
+const FormatRow& row_to_write(const std::string& path, const std::string& format) {
+  if (!format.empty()) {
     for (const FormatRow& row : kRows) {
-      if (row.format.name == options.format && row.write != nullptr) return row;
+      if (row.name == format && row.write != nullptr) return row;
     }
     fail(ErrorCode::invalid_option, path,
-         text("cannot be written as '", options.format, "'; expected one of ", writable_names()));
+         text("cannot be written as '", format, "'; expected one of ", writable_names()));
   }
   // .jigsaw.msh is more than .msh; of equals the first.
   const FormatRow* best = nullptr;
   std::size_t longest = 0;
   for (const FormatRow& row : kRows) {
-    const std::size_t length = row.write == nullptr ? 0 : suffix_length(row.format, path);
+    const std::size_t length = row.write == nullptr ? 0 : suffix_length(row, path);
     if (length <= longest) continue;
     longest = length;
     best = &row;
@@ -169,13 +179,25 @@ Expected<MeshFile> read(const std::string& path, const ReadOptions& options) {
 
 Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file, const WriteOptions& options) {
   return guarded<std::vector<std::string>>(path, [&] {
-    const FormatRow& row = row_to_write(path, options);
+    const FormatRow& row = row_to_write(path, options.format);
     check_sizes(path, file);
     std::vector<std::string> warnings;
     OutputSet outputs;
-    row.write({path, file, options.encoding, options.executor, outputs, warnings});
+    const WriteJob job = {path, file, row, options.encoding, options.executor, outputs, warnings};
+    row.write(job);
+    warn_of_losses(job);
+    if ((row.holds & kWeights) == 0) write_side_file(job);
     outputs.commit();
     return warnings;
+  });
+}
+
+Expected<std::vector<std::string>> files_to_write(const std::string& path, const std::string& format) {
+  return guarded<std::vector<std::string>>(path, [&] {
+    const FormatRow& row = row_to_write(path, format);
+    std::vector<std::string> files = row.files == nullptr ? std::vector<std::string>{path} : row.files(path);
+    if ((row.holds & kWeights) == 0) files.push_back(side_file_path(path));
+    return files;
   });
 }
 
@@ -188,49 +210,6 @@ Expected<void> write_text(const std::string& path, std::string_view content) {
   } catch (Failure& failure) {
     return std::move(failure.error);
   }
-}
-
-void warn_of_data(const WriteJob& job, std::string_view format, std::string_view kind,
-                  const std::vector<DataArray>& arrays) {
-  std::string names;
-  for (const DataArray& a : arrays) names += text(names.empty() ? "" : ", ", a.name);
-  if (!names.empty()) job.warn(text(kind, " is not written, ", format, " has no place for it: ", names));
-}
-
-void warn_of_names(const WriteJob& job, std::string_view format) {
-  std::string names;
-  for (const PhysicalName& n : job.file.names) names += text(names.empty() ? "" : ", ", n.name);
-  if (!names.empty()) job.warn(text("physical names are not written, ", format, " has no place for them: ", names));
-}
-
-void warn_of_regions(const WriteJob& job, std::string_view format) {
-  const auto& regions = job.file.regions;
-  if (std::any_of(regions.begin(), regions.end(), [](std::int32_t r) { return r != 0; }))
-    job.warn(text("regions are not written, ", format, " has no place for them"));
-}
-
-void warn_of_tags(const WriteJob& job, std::string_view format) {
-  warn_of_regions(job, format);
-  if (!job.file.lines.empty()) job.warn(text("lines are not written, ", format, " has no place for them"));
-  if (!job.file.marked_points.empty())
-    job.warn(text("marked points are not written, ", format, " has no place for them"));
-}
-
-std::vector<std::int32_t> one_tag_a_point(const WriteJob& job, std::string_view format) {
-  const MeshFile& f = job.file;
-  std::vector<std::int32_t> tags(f.points.size());
-  std::size_t lost = 0;
-  for (std::size_t i = 0; i < f.marked_points.size(); ++i) {
-    std::int32_t& tag = tags[static_cast<std::size_t>(f.marked_points[i])];
-    if (tag == 0)
-      tag = f.point_tags[i];
-    else
-      ++lost;
-  }
-  if (lost > 0)
-    job.warn(
-        text(lost, " further tags of points that have one already are not written: ", format, " holds one a point"));
-  return tags;
 }
 
 bool is_flat(const MeshFile& file) { return file.z == 0 && !std::signbit(file.z); }

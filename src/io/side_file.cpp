@@ -53,7 +53,7 @@ void read_side_file(Document& document) {
   f.weights = std::move(weights);
 }
 
-void write_side_file(const WriteJob& job, std::int64_t first) {
+void write_side_file(const WriteJob& job) {
   const MeshFile& f = job.file;
   const std::string path = side_file_path(job.path);
   bool weighted = false;
@@ -63,7 +63,7 @@ void write_side_file(const WriteJob& job, std::int64_t first) {
   Output& out = job.outputs.open(path);
   out.put("point,weight\n", "");
   for (std::size_t i = 0; i < f.points.size(); ++i) {
-    out.put(first + static_cast<std::int64_t>(i), ',', f.weights.empty() ? 0.0 : f.weights[i], '\n');
+    out.put(job.row.first_point + static_cast<std::int64_t>(i), ',', f.weights.empty() ? 0.0 : f.weights[i], '\n');
   }
   job.warn(text("the format has no place for weights; they are in ", path));
 }

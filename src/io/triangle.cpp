@@ -305,7 +305,7 @@ std::vector<DataArray> without(const std::vector<DataArray>& arrays, std::string
 void write_node(const WriteJob& job, const std::string& base) {
   const MeshFile& f = job.file;
   Output& out = job.outputs.open(base + ".node");
-  const auto markers = one_tag_a_point(job, "Triangle");
+  const auto markers = one_tag_a_point(job);
   const auto arrays = f.weights.empty() ? f.point_data : without(f.point_data, "weight", job);
   if (!f.weights.empty()) declare(out, "float64", 1, "weight");
   const std::size_t columns = declare_all(out, arrays) + (f.weights.empty() ? 0 : 1);
@@ -353,20 +353,24 @@ void write_poly(const WriteJob& job, const std::string& base) {
   out.put("0\n", "");
 }
 
+std::string base_path(const std::string& path) { return without_suffix(without_suffix(path, ".node"), ".ele"); }
+
 }  // namespace
 
 bool sniff_triangle(std::string_view head) { return kind_of(head) != TriangleFile::none; }
 
 Document read_triangle(Source& source) { return TriangleReader(source).read(); }
 
+std::vector<std::string> triangle_files(const std::string& path) {
+  const std::string base = base_path(path);
+  return {base + ".node", base + ".ele", base + ".poly"};
+}
+
 void write_triangle(const WriteJob& job) {
-  const std::string base = without_suffix(without_suffix(job.path, ".node"), ".ele");
+  const std::string base = base_path(job.path);
   write_node(job, base);
   write_ele(job, base);
   write_poly(job, base);
-  warn_of_data(job, "Triangle", "line data", job.file.line_data);
-  warn_of_data(job, "Triangle", "data of marked points", job.file.marked_point_data);
-  warn_of_data(job, "Triangle", "field data", job.file.field_data);
 }
 
 }  // namespace temper::io

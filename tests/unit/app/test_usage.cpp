@@ -213,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"NoOutput", {"optimize", "a.vtu"}, "--output is required"},
         Wrong{"TwoInputs", {"optimize", "a.vtu", "c.vtu", "-o", "b.vtu"}, "unexpected argument 'c.vtu'"},
         Wrong{"OptionAsValue", {"optimize", "a.vtu", "-o", "--quiet"}, "found the option --quiet"},
-        Wrong{"UnknownSuffix", {"optimize", "a.vtu", "-o", "b.xyz"}, "no suffix of a format"},
+        Wrong{"UnknownSuffix", {"optimize", "a.vtu", "-o", "b.xyz"}, "the suffix names no format that temper writes"},
         Wrong{"UnknownEnergy", {"optimize", "a.vtu", "-o", "b.vtu", "--energy", "bp"}, "did you mean 'BP'?"},
         Wrong{"UnknownSolver", {"optimize", "a.vtu", "-o", "b.vtu", "--solver", "newtn"}, "did you mean 'newton'?"},
         Wrong{"UnknownStar", {"optimize", "a.vtu", "-o", "b.vtu", "--star", "3"}, "'3' is none of 0, 1, 2, all"},
