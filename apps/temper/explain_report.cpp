@@ -92,14 +92,41 @@ std::string summary(const Explanation& e) {
   return text;
 }
 
+/// The command that does what the cure asks for, among other things; empty when there is none yet.
+std::string command(const Mesh& mesh, const Cure& cure) {
+  using Action = Cure::Action;
+  const auto on_line = [&] {  // inside the domain, where no repair splits
+    const HalfedgeId h = mesh.find_halfedge(cure.edge[0], cure.edge[1]);
+    return h.valid() && mesh.is_constrained(h);
+  };
+  switch (cure.action) {
+    case Action::find_weights:
+      if (cure.changed == 0) return "";
+      return cure.margin < WeightOptions().margin ? "temper weights --mode feasible" : "temper weights";
+    case Action::optimize:
+    case Action::move_vertex:
+    case Action::flip_edge:
+      return "temper optimize";
+    case Action::insert_vertex:
+      return "temper optimize --repair";
+    case Action::split_edge:
+      return on_line() ? "temper optimize --boundary split" : "temper optimize --repair";
+    case Action::split_boundary:
+      return "temper optimize --boundary split";
+  }
+  return "";
+}
+
 std::string paragraph(const Reason& reason, std::size_t number, const Input& input, const TextStyle& style) {
   const std::string head = pad_left(std::to_string(number) + ". ", kIndent);
   std::string text = head + wrapped(fmt::format("At ({:.4g}, {:.4g}): ", reason.at.x, reason.at.y) +
                                         reason_text(input.mesh(), reason, input.names.get()),
                                     kIndent, style);
   for (const Cure& cure : reason.cures) {
+    const std::string how = command(input.mesh(), cure);
     text += std::string(kIndent, ' ') + "- " +
-            wrapped(cure_text(input.mesh(), cure, input.names.get()), kIndent + 2, style);
+            wrapped(cure_text(input.mesh(), cure, input.names.get()) + (how.empty() ? "" : " Try: " + how), kIndent + 2,
+                    style);
   }
   return text;
 }
@@ -224,6 +251,8 @@ class JsonWriter {
     json["margin_of"] = c.triangles;
     json["left_out"] = c.left_out;
     json["text"] = cure_text(input_.mesh(), c, &names_);
+    const std::string how = command(input_.mesh(), c);
+    json["command"] = how.empty() ? Json(nullptr) : Json(how);
     return json;
   }
 

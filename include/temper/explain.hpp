@@ -64,8 +64,8 @@ struct FanCenter {
 /// What would cure a reason.
 struct Cure {
   enum class Action {
-    find_weights,    ///< temper weights; the rest as it is
-    optimize,        ///< temper optimize: vertices are free to move
+    find_weights,    ///< find_weights(); the rest as it is
+    optimize,        ///< optimize(): vertices are free to move
     move_vertex,     ///< `vertex` to `at`
     flip_edge,       ///< `edge`, for the other diagonal of its two triangles
     insert_vertex,   ///< at `at`, inside `triangle`

@@ -1,4 +1,4 @@
-// Reasons and cures in words. Vertices, edges and triangles are called as temper check calls them.
+// Reasons and cures in words. Vertices, edges and triangles are called as quality reports call them.
 #include <algorithm>
 #include <array>
 
@@ -63,8 +63,8 @@ class Speaker {
   }
 
   [[nodiscard]] std::string cure(const Cure& c) const {
-    const std::string what = action(c) + command(c);
-    if (c.action == Cure::Action::find_weights || c.action == Cure::Action::optimize) return what;
+    const std::string what = action(c);
+    if (c.action == Cure::Action::find_weights || c.action == Cure::Action::optimize) return what + ".";
     if (c.ends_conflict) return "Necessary, and enough for this edge, verified: " + what + ".";
     if (!c.verified) return "May help, not verified: " + what + ".";
     const std::string count = std::to_string(c.triangles);
@@ -211,34 +211,6 @@ class Speaker {
         return "split " + edge(c.edge[0], c.edge[1]) + " at " + place(c.at);
     }
     return {};
-  }
-
-  [[nodiscard]] std::string command(const Cure& c) const {
-    using Action = Cure::Action;
-    switch (c.action) {
-      case Action::find_weights:
-        if (c.changed == 0) return ".";
-        return c.margin < 0.01 ? " (temper weights --mode feasible)." : " (temper weights).";
-      case Action::optimize:
-        return " (temper optimize).";
-      case Action::move_vertex:
-      case Action::flip_edge:
-        return " (temper optimize moves and flips)";
-      case Action::split_edge:
-        if (is_line(c.edge[0], c.edge[1])) return " (temper optimize --boundary split)";
-        [[fallthrough]];
-      case Action::insert_vertex:
-        return " (temper optimize --repair inserts)";
-      case Action::split_boundary:
-        return " (temper optimize --boundary split)";
-    }
-    return {};
-  }
-
-  /// An inner edge that no repair splits.
-  [[nodiscard]] bool is_line(VertexId a, VertexId b) const {
-    const HalfedgeId h = mesh_.find_halfedge(a, b);
-    return h.valid() && mesh_.is_constrained(h);
   }
 
   const Mesh& mesh_;
