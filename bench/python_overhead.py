@@ -4,7 +4,7 @@
     PYTHONPATH=build/python/python bench/python_overhead.py [VERTICES [SWEEPS [REPEATS]]]   default: 1000000 4 5
 
 C++ is timed by the compiled half's own clock around Mesh::build, optimize and a loop that copies points, weights and
-corners to vectors (temper._temper.cpp_run); Python is everything that a user calls: temper.Mesh(points, triangles),
+corners to vectors (bench/cpp_run.cpp, built beside the module with TEMPER_BUILD_BENCH); Python is everything that a user calls: temper.Mesh(points, triangles),
 temper.optimize, and packed copies of mesh.points, mesh.weights and mesh.triangles. Both get the same arrays and
 threads; runs take turns. Results must be the same bits. Printed are the ratios of neighbours, of wall-clock time and
 of the processors' time, which other programs on the machine disturb less, and their medians. Exit code 1 when that of
@@ -17,8 +17,8 @@ import time
 
 import numpy as np
 
+import cpp_run
 import temper
-from temper import _temper
 
 
 def python_run(points, triangles, sweeps):
@@ -29,9 +29,9 @@ def python_run(points, triangles, sweeps):
     return (time.perf_counter() - start, time.process_time() - cpu), arrays
 
 
-def cpp_run(points, triangles, sweeps):
+def plain_run(points, triangles, sweeps):
     cpu = time.process_time()
-    seconds, arrays = _temper.cpp_run(points, triangles, {"max_sweeps": sweeps, "repair": "none"}, None)
+    seconds, arrays = cpp_run.run(points, triangles, sweeps)
     return (seconds, time.process_time() - cpu), arrays
 
 
@@ -42,9 +42,9 @@ def main(vertices=1_000_000, sweeps=4, repeats=5):
     ratios = []
     for turn in range(repeats):
         runs = {}
-        for which in (python_run, cpp_run) if turn % 2 else (cpp_run, python_run):
+        for which in (python_run, plain_run) if turn % 2 else (plain_run, python_run):
             runs[which] = which(points, triangles, sweeps)
-        (python, ours), (cpp, theirs) = runs[python_run], runs[cpp_run]
+        (python, ours), (cpp, theirs) = runs[python_run], runs[plain_run]
         if not all(np.array_equal(a, b) for a, b in zip(ours, theirs)):
             raise SystemExit("not the same mesh")
         ratios.append((python[0] / cpp[0], python[1] / cpp[1]))

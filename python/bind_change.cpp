@@ -133,38 +133,7 @@ TraceEvent event_from(const py::dict& d) {
   return e;
 }
 
-/// What C++ alone takes for arrays in, a run, arrays out: what bench/python_overhead.py compares with.
-py::tuple cpp_run(const Doubles& points, const Int32s& triangles, const py::dict& given, const py::object& threads) {
-  OptimizeOptions options = options_from(given, {});
-  const auto count = threads_from(threads);
-  std::vector<Vec2> places;
-  std::vector<double> weights;
-  std::vector<std::array<VertexId, 3>> corners;
-  double seconds = 0;
-  {
-    const py::gil_scoped_release release;
-    const auto start = std::chrono::steady_clock::now();
-    const auto executor = make_threads(count);
-    options.executor = executor.get();
-    MeshInput input;
-    input.points = as_span<Vec2>(points);
-    input.triangles = as_span<std::array<std::int32_t, 3>>(triangles);
-    input.executor = executor.get();
-    Mesh mesh = or_raise(Mesh::build(input)).mesh;
-    or_raise(optimize(mesh, options));
-    places.reserve(mesh.n_vertices());
-    weights.reserve(mesh.n_vertices());
-    corners.reserve(mesh.n_triangles());
-    for (const VertexId v : mesh.vertices()) places.push_back(mesh.position(v)), weights.push_back(mesh.weight(v));
-    for (const TriangleId t : mesh.triangles()) corners.push_back(mesh.corners(t));
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  }
-  return py::make_tuple(seconds, py::make_tuple(rows_of<double>(std::span<const Vec2>(places)), to_python(weights),
-                                                rows_of<VertexId>(std::span<const std::array<VertexId, 3>>(corners))));
-}
-
 void bind_optimize(py::module_& m) {
-  m.def("cpp_run", cpp_run);
   m.def("optimize", [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
                        const py::object& observer, const py::object& tracer, const py::object& watch) {
     return optimize_mesh(self, options, size_field, threads, {observer, tracer, watch});

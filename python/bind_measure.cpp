@@ -261,20 +261,26 @@ void bind_dec(py::module_& m) {
 
 // --- pictures ---------------------------------------------------------------------------------------------------
 
-DrawOptions draw_options_from(const py::dict& d) {
+/// Takes an option where it is given.
+template <class T>
+void take(const py::dict& given, const char* name, T& option) {
+  if (given.contains(name)) option = given[name].cast<T>();
+}
+
+DrawOptions draw_options_from(const py::dict& given) {
   DrawOptions o;
-  o.primal = d["primal"].cast<bool>();
-  o.dual = d["dual"].cast<bool>();
-  o.weights = d["weights"].cast<bool>();
-  o.weight_scale = d["weight_scale"].cast<double>();
-  o.bad_triangles = d["bad_triangles"].cast<bool>();
-  o.near_coincident = d["near_coincident"].cast<bool>();
-  o.regions = d["regions"].cast<bool>();
-  o.vertex_numbers = d["vertex_numbers"].cast<bool>();
-  o.width = d["width"].cast<double>();
-  o.title = d["title"].cast<std::string>();
-  if (!d["zoom"].is_none()) {
-    const auto z = d["zoom"].cast<py::tuple>();
+  take(given, "primal", o.primal);
+  take(given, "dual", o.dual);
+  take(given, "weights", o.weights);
+  take(given, "weight_scale", o.weight_scale);
+  take(given, "bad_triangles", o.bad_triangles);
+  take(given, "near_coincident", o.near_coincident);
+  take(given, "regions", o.regions);
+  take(given, "vertex_numbers", o.vertex_numbers);
+  take(given, "width", o.width);
+  take(given, "title", o.title);
+  if (given.contains("zoom") && !given["zoom"].is_none()) {
+    const auto z = given["zoom"].cast<py::tuple>();
     o.zoom = Box{{z[0].cast<double>(), z[1].cast<double>()}, {z[2].cast<double>(), z[3].cast<double>()}};
   }
   return o;

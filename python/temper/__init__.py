@@ -40,8 +40,7 @@ from ._measure import (
     vertex_energy,
     well_centered_triangles,
 )
-from ._mesh import Mesh, as_mesh
-from ._meshio import from_meshio, to_meshio
+from ._mesh import Mesh, as_mesh, from_meshio, to_meshio
 from ._optimize import OptimizeReport, SizeChange, optimize, optimized, replay, replay_with_vertices
 from ._options import AccuracyOptions, OptimizeOptions, Softening, paper_method
 from ._outline import Outline, OutlineFile, OutlineMesh, mesh_outline, read_outline

@@ -9,8 +9,7 @@ from typing import Literal
 
 from . import _temper
 from ._errors import TemperWarning
-from ._mesh import Mesh, MeshLike, as_mesh
-from ._meshio import _warn
+from ._mesh import Mesh, MeshLike, _warn, as_mesh
 from ._records import Record
 
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _temper
+from ._errors import TemperWarning
+from ._meshio import handle_of, meshio_of
 from ._records import table
 
 _PICTURE = 3000  # triangles of a mesh that is drawn in notebooks
@@ -285,9 +288,7 @@ class Mesh:
 
     def to_meshio(self) -> Any:
         """The mesh as a ``meshio.Mesh``; see ``temper.to_meshio``."""
-        from ._meshio import to_meshio
-
-        return to_meshio(self)
+        return meshio_of(self._handle)
 
     # --- how it looks -------------------------------------------------------------------------------------------
 
@@ -295,27 +296,21 @@ class Mesh:
         return f"<temper.Mesh: {self.n_vertices} vertices, {self.n_triangles} triangles>"
 
     def _repr_html_(self) -> str:
-        from ._draw import draw_svg
-        from ._measure import quality
-
-        q = quality(self, threads=1)
+        q = _temper.quality(self._handle, (1.0, "relative"), (0.0, "relative"), 0, 1)
         rows = [
-            ("vertices", f"{q.vertices}"),
-            ("triangles", f"{q.triangles}"),
-            ("edges", f"{q.edges}, {q.boundary_edges} on the boundary"),
-            ("regions", f"{q.regions}"),
-            ("well-centered", f"{100 * q.well_centered_fraction:.4g} %"),
-            ("edges not regular", f"{q.non_regular_edges}"),
-            ("least h/ℓ", f"{q.min_h_over_l:.4g}"),
-            ("angles", f"{q.min_angle_deg:.4g}° to {q.max_angle_deg:.4g}°"),
+            ("vertices", f"{q['vertices']}"),
+            ("triangles", f"{q['triangles']}"),
+            ("edges", f"{q['edges']}, {q['boundary_edges']} on the boundary"),
+            ("regions", f"{q['regions']}"),
+            ("well-centered", f"{100 * q['well_centered_fraction']:.4g} %"),
+            ("edges not regular", f"{q['non_regular_edges']}"),
+            ("least h/ℓ", f"{q['min_h_over_l']:.4g}"),
+            ("angles", f"{q['min_angle_deg']:.4g}° to {q['max_angle_deg']:.4g}°"),
         ]
-        small = self.n_triangles <= _PICTURE
-        return table("temper.Mesh", rows, draw_svg(self, width=500) if small else "")
+        return table("temper.Mesh", rows, self._repr_svg_() or "")
 
     def _repr_svg_(self) -> str | None:
-        from ._draw import draw_svg
-
-        return str(draw_svg(self, width=500)) if self.n_triangles <= _PICTURE else None
+        return _temper.draw_svg(self._handle, {"width": 500.0}) if self.n_triangles <= _PICTURE else None
 
 
 def _unpickle(points: Any, triangles: Any, weights: Any, constrained: Any, regions: Any, fixed: Any) -> Mesh:
@@ -331,7 +326,72 @@ def as_mesh(mesh: MeshLike) -> Mesh:
     if isinstance(mesh, Mesh):
         return mesh
     if hasattr(mesh, "points") and hasattr(mesh, "cells") and hasattr(mesh, "point_data"):
-        from ._meshio import borrow
-
-        return borrow(mesh)
+        handle, messages = handle_of(mesh)
+        return _warn(Mesh._of(handle), messages, 3)
     raise TypeError(f"expected a temper.Mesh or a meshio.Mesh, found {type(mesh).__name__}")
+
+
+def _warn(mesh: Mesh, messages: list[str], level: int) -> Mesh:
+    """The mesh, with its messages also as warnings at the line so many calls up."""
+    mesh.warnings = messages
+    for message in messages:
+        warnings.warn(message, TemperWarning, stacklevel=level + 1)
+    return mesh
+
+
+# --- meshio's meshes ------------------------------------------------------------------------------------------
+
+
+def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
+    """A ``meshio.Mesh`` as a ``temper.Mesh``.
+
+    Parameters
+    ----------
+    mesh : meshio.Mesh
+        Its triangles become the mesh; lines inside the domain become constrained edges; vertex cells stay with their
+        points; other cells, and ``point_sets`` and ``cell_sets``, are left out, with a warning. Points may have a third
+        coordinate when it is the same for all. Point data ``weight`` are the weights [length²]; integer cell data
+        ``region``, ``gmsh:physical``, ``medit:ref`` or ``cell_tags`` (the first that is there) are the regions. All
+        point and cell data are kept: ``to_meshio`` and ``write`` give them back.
+    fixed_tags : sequence of str or int
+        Lines with these tags: their points must not move.
+
+    Raises
+    ------
+    TemperError
+        As ``Mesh`` does; also without triangles, and for points of different z.
+
+    Warns
+    -----
+    TemperWarning
+        Points of no triangle that are dropped; clockwise triangles that are reversed; data and cells left out.
+    """
+    sets = {"point_sets": mesh.point_sets, "cell_sets": mesh.cell_sets}
+    lost = [f"{kind} {', '.join(map(repr, names))} are left out" for kind, names in sets.items() if names]
+    handle, messages = handle_of(mesh, fixed_tags)
+    return _warn(Mesh._of(handle), lost + messages, 2)
+
+
+def to_meshio(mesh: MeshLike) -> Any:
+    """The mesh as a ``meshio.Mesh``, which meshio writes to any of its formats.
+
+    Points are (n, 3) float64 (z as it was, or 0), with point data ``weight`` (float64, [length²]), triangles with cell
+    data ``region``, and what else came with the mesh; lines of the file, and constrained edges, are cells of type
+    ``line``, marked points of type ``vertex``; their ``region`` is their tag. Needs meshio.
+    """
+    return meshio_of(as_mesh(mesh)._handle)
+
+
+def put_back(mesh: Any, changed: Mesh) -> None:
+    """Writes a mesh that was changed in place into the ``meshio.Mesh`` that it was made of. Its sets of points stay,
+    with the numbers of now; sets of cells cannot, for flips change the triangles."""
+    new = meshio_of(changed._handle)
+    now = np.asarray(_temper.vertices_of_points(changed._handle))
+    sets = {name: now[np.asarray(points, dtype=np.int64)] for name, points in mesh.point_sets.items()}
+    sets = {name: vertices[vertices >= 0] for name, vertices in sets.items()}
+    lost = ", ".join(f"'{name}'" for name in mesh.cell_sets)
+    mesh.points, mesh.cells = new.points, new.cells
+    mesh.point_data, mesh.cell_data = new.point_data, new.cell_data
+    mesh.point_sets, mesh.cell_sets = sets, {}
+    if lost:
+        warnings.warn(f"the triangles are others: cell_sets {lost} are dropped", TemperWarning, stacklevel=4)

@@ -1,25 +1,16 @@
-"""meshio's meshes, in and out."""
+"""Between ``meshio.Mesh`` and what the compiled half holds. What users call of it is in ``_mesh``."""
 
 from __future__ import annotations
 
-import warnings
 from typing import Any
 
 import numpy as np
 
 from . import _temper
-from ._errors import TemperError, TemperWarning
-from ._mesh import Mesh, MeshLike, as_mesh
+from ._errors import TemperError
 
 _WEIGHTS = ("weight", "weights")
 _REGIONS = ("region", "gmsh:physical", "medit:ref", "cell_tags")
-
-
-def _warn(mesh: Mesh, messages: list[str], level: int = 3) -> Mesh:
-    mesh.warnings = messages
-    for message in messages:
-        warnings.warn(message, TemperWarning, stacklevel=level + 1)
-    return mesh
 
 
 def _columns(points: Any) -> tuple[Any, float]:
@@ -81,36 +72,9 @@ def _tags(data: dict[str, Any], size: int) -> tuple[Any, str | None]:
     return np.zeros(0 if size < 0 else size, dtype=np.int32), None
 
 
-def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
-    """A ``meshio.Mesh`` as a ``temper.Mesh``.
-
-    Parameters
-    ----------
-    mesh : meshio.Mesh
-        Its triangles become the mesh; lines inside the domain become constrained edges; vertex cells stay with their
-        points; other cells, and ``point_sets`` and ``cell_sets``, are left out, with a warning. Points may have a third
-        coordinate when it is the same for all. Point data ``weight`` are the weights [length²]; integer cell data
-        ``region``, ``gmsh:physical``, ``medit:ref`` or ``cell_tags`` (the first that is there) are the regions. All
-        point and cell data are kept: ``to_meshio`` and ``write`` give them back.
-    fixed_tags : sequence of str or int
-        Lines with these tags: their points must not move.
-
-    Raises
-    ------
-    TemperError
-        As ``Mesh`` does; also without triangles, and for points of different z.
-
-    Warns
-    -----
-    TemperWarning
-        Points of no triangle that are dropped; clockwise triangles that are reversed; data and cells left out.
-    """
-    sets = {"point_sets": mesh.point_sets, "cell_sets": mesh.cell_sets}
-    dropped = [f"{kind} {', '.join(map(repr, names))} are left out" for kind, names in sets.items() if names]
-    return _take(mesh, fixed_tags, dropped)
-
-
-def _take(mesh: Any, fixed_tags: tuple[str | int, ...], dropped: list[str], level: int = 3) -> Mesh:
+def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, list[str]]:
+    """A handle of the ``meshio.Mesh``, and what was left out or changed."""
+    dropped: list[str] = []
     for block in mesh.cells:
         if block.type not in ("triangle", "line", "vertex"):
             dropped.append(f"{len(block.data)} cells of type {block.type} are left out")
@@ -147,20 +111,14 @@ def _take(mesh: Any, fixed_tags: tuple[str | int, ...], dropped: list[str], leve
         "marked_points": vertex_cells, "point_tags": vertex_tags, "marked_point_data": vertex_data,
     }  # fmt: skip
     handle, messages = _temper.mesh_from_file_arrays(arrays, [str(tag) for tag in fixed_tags])
-    result = Mesh._of(handle)
-    return _warn(result, dropped + list(messages), level)
+    return handle, dropped + list(messages)
 
 
-def to_meshio(mesh: MeshLike) -> Any:
-    """The mesh as a ``meshio.Mesh``, which meshio writes to any of its formats.
-
-    Points are (n, 3) float64 (z as it was, or 0), with point data ``weight`` (float64, [length²]), triangles with cell
-    data ``region``, and what else came with the mesh; lines of the file, and constrained edges, are cells of type
-    ``line``, marked points of type ``vertex``; their ``region`` is their tag. Needs meshio.
-    """
+def meshio_of(handle: Any) -> Any:
+    """The mesh as a ``meshio.Mesh``: see ``to_meshio``."""
     import meshio
 
-    file = _temper.file_as_dict(as_mesh(mesh)._handle)
+    file = _temper.file_as_dict(handle)
     n, m = len(file["points"]), len(file["triangles"])
     points = np.column_stack([file["points"], np.full(n, file["z"])])
     cells = [("triangle", file["triangles"].astype(np.int64))]
@@ -182,23 +140,3 @@ def to_meshio(mesh: MeshLike) -> Any:
         ]
     point_data = {"weight": file["weights"] if len(file["weights"]) else np.zeros(n), **file["point_data"]}
     return meshio.Mesh(points, cells, point_data=point_data, cell_data=cell_data)
-
-
-def borrow(mesh: Any) -> Mesh:
-    """``from_meshio`` for a call that looks at the mesh, or writes it back: its sets are not lost."""
-    return _take(mesh, (), [], 5)
-
-
-def put_back(mesh: Any, changed: Mesh) -> None:
-    """Writes a mesh that was changed in place into the ``meshio.Mesh`` that it was made of. Its sets of points stay,
-    with the numbers of now; sets of cells cannot, for flips change the triangles."""
-    new = to_meshio(changed)
-    now = np.asarray(_temper.vertices_of_points(changed._handle))
-    sets = {name: now[np.asarray(points, dtype=np.int64)] for name, points in mesh.point_sets.items()}
-    sets = {name: vertices[vertices >= 0] for name, vertices in sets.items()}
-    lost = ", ".join(f"'{name}'" for name in mesh.cell_sets)
-    mesh.points, mesh.cells = new.points, new.cells
-    mesh.point_data, mesh.cell_data = new.point_data, new.cell_data
-    mesh.point_sets, mesh.cell_sets = sets, {}
-    if lost:
-        warnings.warn(f"the triangles are others: cell_sets {lost} are dropped", TemperWarning, stacklevel=4)

@@ -9,8 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _temper
-from ._mesh import Mesh, MeshLike, as_mesh
-from ._meshio import put_back
+from ._mesh import Mesh, MeshLike, as_mesh, put_back
 from ._options import (
     OPTION_NAMES,
     AccuracyOptions,
