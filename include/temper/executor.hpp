@@ -16,4 +16,18 @@ class Executor {
   virtual void run(std::size_t n, const std::function<void(std::size_t)>& block) = 0;
 };
 
+/// Block after block, in the thread that calls.
+class SerialExecutor final : public Executor {
+ public:
+  void run(std::size_t n, const std::function<void(std::size_t)>& block) override {
+    for (std::size_t i = 0; i < n; ++i) block(i);
+  }
+};
+
+/// The executor that is given, or a serial one where there is none.
+[[nodiscard]] inline Executor& or_serial(Executor* executor) {
+  static SerialExecutor serial;
+  return executor != nullptr ? *executor : serial;
+}
+
 }  // namespace temper

@@ -24,12 +24,7 @@ inline double pairwise_sum(std::vector<double>& values) {
 template <class Block>
 double sum_of_blocks(std::size_t n, Executor* executor, Block&& block) {
   std::vector<double> sums((n + kBlockSize - 1) / kBlockSize, 0.0);
-  const auto run = [&](std::size_t b) { sums[b] = block(b); };
-  if (executor != nullptr) {
-    executor->run(sums.size(), run);
-  } else {
-    for (std::size_t b = 0; b < sums.size(); ++b) run(b);
-  }
+  or_serial(executor).run(sums.size(), [&](std::size_t b) { sums[b] = block(b); });
   return pairwise_sum(sums);
 }
 

@@ -240,12 +240,7 @@ void inflate_blocks(const Blocks& blocks, char* out, const Packing& packing, Exe
   std::vector<std::size_t> starts(n, 0);
   for (std::size_t i = 1; i < n; ++i) starts[i] = starts[i - 1] + blocks.compressed[i - 1];
   std::vector<char> damaged(n, 0);
-  const auto inflate = [&](std::size_t i) { damaged[i] = inflate_block(blocks, i, starts[i], out) ? 0 : 1; };
-  if (executor != nullptr) {
-    executor->run(n, inflate);
-  } else {
-    for (std::size_t i = 0; i < n; ++i) inflate(i);
-  }
+  or_serial(executor).run(n, [&](std::size_t i) { damaged[i] = inflate_block(blocks, i, starts[i], out) ? 0 : 1; });
   for (std::size_t i = 0; i < n; ++i) {
     if (damaged[i] != 0) {
       fail(ErrorCode::syntax, packing.where, text("block ", i, " of the compressed data is damaged"));

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "temper/executor.hpp"
 
@@ -16,12 +16,7 @@ inline constexpr std::size_t kLoopBlock = 16384;  // enough work to be worth a t
 template <class Work>
 void for_blocks(std::size_t n, Executor* executor, Work&& work) {
   const std::size_t blocks = (n + kLoopBlock - 1) / kLoopBlock;
-  const auto block = [&](std::size_t b) { work(b * kLoopBlock, std::min(n, (b + 1) * kLoopBlock)); };
-  if (executor != nullptr && blocks > 1) {
-    executor->run(blocks, block);
-  } else {
-    for (std::size_t b = 0; b < blocks; ++b) block(b);
-  }
+  or_serial(executor).run(blocks, [&](std::size_t b) { work(b * kLoopBlock, std::min(n, (b + 1) * kLoopBlock)); });
 }
 
 /// work(i) for each i.
@@ -32,29 +27,21 @@ void for_each_index(std::size_t n, Executor* executor, Work&& work) {
   });
 }
 
-/// The least i with wrong(i), where make_test() gives each block a test of its own. Without an executor nothing is
-/// asked beyond it.
+/// The least i with wrong(i), where make_test() gives each block a test of its own. Blocks beyond one that has been
+/// found are not asked.
 template <class MakeTest>
 std::optional<std::size_t> first_index_by(std::size_t n, Executor* executor, MakeTest&& make_test) {
-  const auto first_in = [&](std::size_t first, std::size_t last) {
+  std::atomic<std::size_t> found = n;
+  for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
+    if (first >= found.load(std::memory_order_relaxed)) return;
     auto wrong = make_test();
     std::size_t i = first;
     while (i < last && !wrong(i)) ++i;
-    return i;
-  };
-  std::size_t found = n;
-  if (executor == nullptr) {
-    found = first_in(0, n);
-  } else {
-    std::vector<std::size_t> of_block((n + kLoopBlock - 1) / kLoopBlock, n);
-    for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
-      const std::size_t i = first_in(first, last);
-      if (i < last) of_block[first / kLoopBlock] = i;
-    });
-    for (const std::size_t i : of_block) found = std::min(found, i);
-  }
-  if (found == n) return std::nullopt;
-  return found;
+    std::size_t least = found.load(std::memory_order_relaxed);
+    while (i < last && i < least && !found.compare_exchange_weak(least, i, std::memory_order_relaxed)) {
+    }
+  });
+  return found < n ? std::optional(found.load()) : std::nullopt;
 }
 
 template <class Wrong>

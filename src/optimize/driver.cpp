@@ -1,11 +1,11 @@
 #include "optimize/driver.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include "base/assert.hpp"
 #include "base/rng.hpp"
-#include "base/text.hpp"
+#include "energy/whole_mesh.hpp"
 #include "optimize/repair/grading.hpp"
 #include "optimize/repair/repair_search.hpp"
 #include "temper/regularity.hpp"
@@ -13,13 +13,11 @@
 namespace temper {
 namespace {
 
-// Sweeps at the last γ without fewer bad triangles, after which another attempt promises more; and without a lower
-// energy, after which none will come.
-constexpr int kPatience = 25;
-// Sweeps in which vertices may bring a barrier's infinite energy down one by one, before all weights shrink.
-constexpr int kInfinitePatience = 5;
-// A sweep that still lowers the energy by this part of itself finds its way among flips and minima: passes wait.
-constexpr double kSlowFall = 0.01;
+/// Whether every sweep leaves all edges regular that may be flipped. Deferred weights may hide a vertex where they
+/// meet, which leaves edges as they are.
+[[maybe_unused]] bool keeps_regular(const OptimizeOptions& o) {
+  return o.flips && !defers_flips(o) && o.hidden != HiddenPolicy::keep && o.weight_updates == WeightUpdates::immediate;
+}
 
 }  // namespace
 
@@ -27,18 +25,17 @@ Driver::Driver(WorkingCopy& work, Settings& settings, Run& run, std::size_t part
     : work_(work),
       mesh_(work.mesh),
       settings_(settings),
-      energy_unit_(std::pow(work.frame.scale, settings.energy.length_exponent)),
       run_(run),
-      recorder_(settings.options.tracer, work, energy_unit_),
+      recorder_(settings.options.tracer, work, energy_unit(settings, work.frame)),
       flipper_(mesh_, settings, recorder_),
       sweeper_(mesh_, settings, work.frame, flipper_, recorder_, part_size) {
   recorder_.begin_sweep(run.next_sweep());
   const SweepOrder order = settings.options.order;
-  if (order != SweepOrder::reverse && order != SweepOrder::random) return;
+  if (order == SweepOrder::hilbert) return;
   for (const VertexId v : mesh_.vertices()) sequence_.push_back(v);
   if (order == SweepOrder::reverse) {
     std::reverse(sequence_.begin(), sequence_.end());
-  } else {
+  } else if (order == SweepOrder::random) {
     Rng rng(settings.options.seed);
     for (std::size_t i = sequence_.size(); i > 1; --i) {
       std::swap(sequence_[i - 1], sequence_[rng.below(static_cast<std::uint32_t>(i))]);
@@ -47,118 +44,92 @@ Driver::Driver(WorkingCopy& work, Settings& settings, Run& run, std::size_t part
 }
 
 /// Algorithm 1.
-void Driver::optimize(const Attempt& attempt, bool may_give_up) {
-  begin(attempt);
+int Driver::run(Phase& phase, int first) {
+  begin(phase, first);
+  const int sweeps = run_.report.sweeps;
   Verdict verdict = Verdict::improving;
   do {    // outer iterations
     do {  // inner iterations
-      verdict = sweep(may_give_up);
+      verdict = sweep(phase);
     } while (verdict == Verdict::improving &&
              !(defers_flips(settings_.options) && ++inner_ == settings_.options.inner));
-    verdict = flip_if_deferred(verdict);
+    verdict = flip_if_deferred(phase, verdict);
   } while (verdict == Verdict::improving);
-  return_best();
+  return return_best(phase, run_.report.sweeps > sweeps ? recorder_.sweep() : first);
 }
 
-void Driver::begin(const Attempt& attempt) {
-  softener_ = Softener(attempt, settings_.energy, settings_.options);
-  softener_.start(mesh_, settings_.model);
-  settings_.relaxation = settings_.options.relaxation.value_or(softener_.relaxation());
-  if (run_.report.history.empty()) record();
-  least_bad_ = mesh_.n_triangles();
-  before_ = best_energy_ = total();
-  least_energy_ = fall_ = kInfinity;
-  passes_pay_ = true;
-  best_sweep_ = recorder_.sweep();
+void Driver::begin(Phase& phase, int sweep) {
+  phase.begin();
+  if (run_.report.history.empty()) record(phase.measure());
+  best_energy_ = phase.total();
+  if (phase.keeps() == Phase::Keeps::best) keep(best_energy_, sweep);
   run_.report.stopped = Stopped::max_sweeps;
-  show(Snapshot::Moment::start);
+  show(Snapshot::Moment::start, phase);
 }
 
-/// Lines 9 to 18 of Algorithm 1.
-Driver::Verdict Driver::sweep(bool may_give_up) {
-  if (!run_.sweeps_left()) return Verdict::stopped;
-  const bool passed = newton_passes_help();
-  if (passed && !(newton_pass() && run_.sweeps_left())) return Verdict::stopped;
+/// Lines 9 to 18 of Algorithm 1, and the phase's verdict on them.
+Driver::Verdict Driver::sweep(Phase& phase) {
+  if (!phase.may_sweep()) return Verdict::stopped;
+  const bool passed = phase.wants_newton_pass();
+  if (passed && !(newton_pass(phase) && run_.sweeps_left())) return Verdict::stopped;
   const double halfway = run_.report.history.back().energy;
   recorder_.begin_sweep(run_.report.sweeps + 1);
-  const bool whole = improve_all_vertices();
+  const bool whole = improve_all_vertices(phase.iteration);
   const bool removed = flipper_.has_removed();
   if (removed) compact();
   shift_weights_to_anchor();
-  ++iteration_;
+  TEMPER_ASSERT_SLOW(!keeps_regular(settings_.options) || count_non_regular_edges(mesh_, false) == 0);
+  ++phase.iteration;
   ++run_.report.sweeps;
-  record();
-  if (passed) passes_pay_ = before_ - halfway > halfway - run_.report.history.back().energy;
-  if (!defers_flips(settings_.options)) keep_if_best();
-  show(Snapshot::Moment::after_sweep);
-  return whole ? judge_sweep(removed, may_give_up) : Verdict::stopped;  // by the caller or the clock
-}
-
-/// Line 19, and what a softened barrier or an infinite energy ask for besides.
-Driver::Verdict Driver::judge_sweep(bool removed, bool may_give_up) {
-  if (settings_.enough && settings_.enough(mesh_)) {
-    run_.report.stopped = Stopped::converged;  // what comes next needs no more of this energy
-    return Verdict::settled;
-  }
-  const double after = run_.report.history.back().energy;
-  if (!std::isfinite(after)) {
-    if (++infinite_sweeps_ > kInfinitePatience && !halve_weights()) return Verdict::stopped;
-    before_ = total();
-    return Verdict::improving;
-  }
-  if (softener_.settled() && !removed && converged(before_, after)) {
-    if (!defers_flips(settings_.options) && begin_weights()) return Verdict::improving;
-    run_.report.stopped = Stopped::converged;
-    return Verdict::settled;
-  }
-  if (softener_.settled() && may_give_up && stagnates()) return Verdict::stopped;
-  const std::size_t bad = run_.report.history.back().bad;
-  const double fall = (before_ - after) / std::abs(after);
-  if (softener_.settled()) fall_ = fall;
-  const bool changed = softener_.advance(mesh_, fall, bad, settings_.model);
-  settings_.relaxation = settings_.options.relaxation.value_or(softener_.relaxation());
-  before_ = !changed ? after : softener_.compares_energies() ? total() : kInfinity;
+  record(phase.measure());
+  if (passed) phase.passed(halfway, run_.report.history.back().energy);
+  if (!defers_flips(settings_.options)) keep_if_best(phase);
+  show(Snapshot::Moment::after_sweep, phase);
+  if (!whole) return Verdict::stopped;  // by the caller or the clock
+  const Verdict verdict = phase.judge(removed);
+  if (verdict != Verdict::infinite) return verdict;
+  if (!halve_weights()) return Verdict::stopped;
+  amend_record(phase.measure());
+  phase.compare_from_here();
   return Verdict::improving;
 }
 
 /// Lines 20 and 21: whether there is another outer iteration.
-Driver::Verdict Driver::flip_if_deferred(Verdict of_sweeps) {
+Driver::Verdict Driver::flip_if_deferred(Phase& phase, Verdict of_sweeps) {
   if (!defers_flips(settings_.options)) return Verdict::stopped;
-  show(Snapshot::Moment::before_flips);
+  show(Snapshot::Moment::before_flips, phase);
   const std::size_t flips = run_.report.flips;
   if (!restore_regularity()) return Verdict::stopped;
-  keep_if_best();
-  show(Snapshot::Moment::after_flips);
+  amend_record(phase.measure());
+  phase.compare_from_here();
+  keep_if_best(phase);
+  show(Snapshot::Moment::after_flips, phase);
   inner_ = 0;
   ++outer_;
   const bool needed = run_.report.flips > flips;
   if (of_sweeps == Verdict::stopped) return Verdict::stopped;
-  if (of_sweeps == Verdict::settled && !needed && !begin_weights()) return Verdict::stopped;
+  if (of_sweeps == Verdict::settled && !needed && !phase.goes_on_with_weights()) return Verdict::stopped;
   run_.report.stopped = outer_ == settings_.options.outer ? Stopped::max_outer : Stopped::max_sweeps;
   return outer_ == settings_.options.outer ? Verdict::stopped : Verdict::improving;
 }
 
-/// Newton's method for many vertices at once is for where nothing is bad and sweeps have become slow.
-bool Driver::newton_passes_help() const {
-  return passes_pay_ && fall_ < kSlowFall && run_.report.history.back().bad == 0 && allows_newton_passes(settings_);
-}
-
 /// A sweep of its own, that makes one step of the stopping rule with the sweep after it. False when it was cut short.
-bool Driver::newton_pass() {
+bool Driver::newton_pass(Phase& phase) {
   recorder_.begin_sweep(run_.report.sweeps + 1);
-  const bool whole = sweeper_.newton_pass(iteration_, run_);
-  ++iteration_;
+  const bool whole = sweeper_.newton_pass(phase.iteration, run_);
+  ++phase.iteration;
   ++run_.report.sweeps;
-  record();
-  show(Snapshot::Moment::after_sweep);
+  record(phase.measure());
+  show(Snapshot::Moment::after_sweep, phase);
   return whole;
 }
 
 /// One Gauss-Seidel sweep, lines 9 to 16. False when it was cut short.
-bool Driver::improve_all_vertices() {
-  const bool whole = sweeper_.sweep(iteration_, sequence_, run_);
-  const bool many_changed = settings_.options.weight_updates == WeightUpdates::deferred;
-  if (many_changed && !defers_flips(settings_.options)) flipper_.restore_all();
+bool Driver::improve_all_vertices(int iteration) {
+  const OptimizeOptions& o = settings_.options;
+  const bool whole = sweeper_.sweep(iteration, sequence_, run_);
+  const bool many_changed = o.weight_updates == WeightUpdates::deferred;
+  if (many_changed && !defers_flips(o)) flipper_.restore_all();
   return whole;
 }
 
@@ -186,8 +157,7 @@ void Driver::grow() {
 bool Driver::halve_weights() {
   const OptimizeOptions& o = settings_.options;
   if (o.unknowns == Unknowns::positions || !o.flips) return false;
-  if (!shrunk_) run_.report.notes.push_back("weights of the input leave edges uncrossed: all were made smaller");
-  shrunk_ = true;
+  run_.facts.weights_shrunk = true;
   recorder_.begin_sweep(run_.report.sweeps + 1);
   for (const VertexId v : mesh_.vertices()) set_weight(v, 0.5 * mesh_.weight(v));
   return restore_regularity();
@@ -221,17 +191,13 @@ bool Driver::restore_regularity() {
     return false;
   }
   if (flipper_.has_removed()) compact();
-  amend_record();
-  before_ = run_.report.history.back().energy;
   return true;
 }
 
 bool Driver::make_regular() {
   if (!flipper_.restore_all()) return false;
   if (flipper_.has_removed()) compact();
-  const Flipper::Changes changes = flipper_.take_changes();
-  run_.report.flips += changes.flips;
-  run_.report.vertices_removed += changes.removed;
+  run_.count(flipper_.take_changes());
   return true;
 }
 
@@ -240,54 +206,7 @@ void Driver::grade_boundary() {
   if (o.boundary_vertices != BoundaryVertices::split) return;
   const BoundaryCuts cuts = cut_boundary(work_, flipper_, o.boundary_ratio);
   grow();
-  if (!run_.report.history.empty()) return;  // of the first attempt: others do the same again
-  const auto rounded = [](double ratio) { return to_text(std::round(100 * ratio) / 100); };
-  const auto vertices = [](std::size_t n) { return std::to_string(n) + (n == 1 ? " vertex" : " vertices"); };
-  if (cuts.vertices > 0) {
-    run_.report.notes.push_back(vertices(cuts.vertices) +
-                                " inserted on the boundary and on lines: edges that meet there differed in "
-                                "length by a factor of " +
-                                rounded(cuts.ratio_before) + ", now " + rounded(cuts.ratio_after));
-  }
-  if (cuts.conflicts > 0) {
-    run_.report.notes.push_back(std::to_string(cuts.conflicts) +
-                                " of these split edges that left their dual no place to cross, or hardly one");
-  }
-  if (cuts.inside > 0) {
-    run_.report.notes.push_back(vertices(cuts.inside) +
-                                " inserted in triangles whose corners all were on the boundary or on lines");
-  }
-  if (cuts.refused > 0) {
-    run_.report.notes.push_back(
-        std::to_string(cuts.refused) +
-        " cuts of the boundary were not made: coordinates are too coarse there, or weights would hide a vertex");
-  }
-}
-
-bool Driver::repair(std::uint64_t seed) {
-  RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed);
-  bool changed = false;
-  while (run_.sweeps_left() && search.improve_one_place()) {
-    grow();
-    if (flipper_.has_removed()) compact();
-    changed = true;
-    ++run_.report.sweeps;
-    record();
-    show(Snapshot::Moment::after_sweep);
-    recorder_.begin_sweep(run_.report.sweeps + 1);
-  }
-  final_sweep_ = run_.report.sweeps;
-  return changed;
-}
-
-int Driver::polish(int sweep) {
-  const WorkingCopy before = work_;
-  const std::size_t bad = count_bad(mesh_, settings_.options.executor);
-  optimize(kPolish, false);
-  if (count_bad(mesh_, settings_.options.executor) <= bad) return final_sweep_;
-  work_ = before;
-  recorder_.returned_to(sweep);
-  return sweep;
+  run_.facts.boundary_cuts = cuts;  // of each attempt the same
 }
 
 void Driver::jitter(double amount) {
@@ -298,84 +217,81 @@ void Driver::jitter(double amount) {
   sweeper_.shake(amount, rng);
 }
 
-/// The paper's rule takes a rise for convergence. The relative one waits whether the energy falls again.
-bool Driver::converged(double before, double after) {
-  const double tolerance = settings_.options.tolerance;
-  if (settings_.options.stopping == StoppingRule::paper) {
-    return before - after < tolerance * static_cast<double>(mesh_.n_triangles());
+bool Driver::repair(std::uint64_t seed) {
+  EnergyPhase phase(work_, settings_, run_, kPolish, false);  // what repairs are told by
+  RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed);
+  bool changed = false;
+  while (run_.sweeps_left() && search.improve_one_place()) {
+    grow();
+    if (flipper_.has_removed()) compact();
+    changed = true;
+    ++run_.report.sweeps;
+    record(phase.measure());
+    show(Snapshot::Moment::after_sweep, phase);
+    recorder_.begin_sweep(run_.report.sweeps + 1);
   }
-  const double change = tolerance * std::abs(after);
-  const bool lower = after < least_energy_ - change;
-  sweeps_since_lower_ = lower ? 0 : sweeps_since_lower_ + 1;
-  least_energy_ = std::min(least_energy_, after);
-  return std::abs(before - after) <= change || sweeps_since_lower_ >= kPatience;
+  return changed;
 }
 
-/// Positions have converged before i_w: the weights' turn has come.
-bool Driver::begin_weights() {
-  const OptimizeOptions& o = settings_.options;
-  if (o.unknowns != Unknowns::positions_and_weights || iteration_ >= o.weights_from) return false;
-  iteration_ = o.weights_from;
-  fall_ = kInfinity;  // of another problem
-  passes_pay_ = true;
-  return true;
+int Driver::polish(int sweep) {
+  const WorkingCopy before = work_;
+  const std::size_t bad = count_bad(mesh_, settings_.options.executor);
+  EnergyPhase phase(work_, settings_, run_, kPolish, false);
+  const int last = run(phase, sweep);
+  if (count_bad(mesh_, settings_.options.executor) <= bad) return last;
+  work_ = before;
+  recorder_.returned_to(sweep);
+  return sweep;
 }
 
-bool Driver::stagnates() {
-  const std::size_t bad = run_.report.history.back().bad;
-  sweeps_since_fewer_bad_ = bad < least_bad_ ? 0 : sweeps_since_fewer_bad_ + 1;
-  least_bad_ = std::min(least_bad_, bad);
-  return bad > 0 && sweeps_since_fewer_bad_ >= kPatience;
-}
-
-/// HOT energies need not fall at every flip: the best sweep is kept. A barrier's does, once γ has settled.
-void Driver::keep_if_best() {
+/// HOT energies need not fall at every flip, and that of accuracy may rise a little in the end, for its barrier. A
+/// barrier's falls, once γ has settled.
+void Driver::keep_if_best(const Phase& phase) {
   const double energy = run_.report.history.back().energy;
-  if (settings_.energy.barrier || !(energy < best_energy_)) return;
+  if (phase.keeps() == Phase::Keeps::last || !(energy < best_energy_)) return;
   if (settings_.options.inversion == Inversion::allow && count_inverted(mesh_) > 0) return;
+  keep(energy, recorder_.sweep());
+}
+
+void Driver::keep(double energy, int sweep) {
   best_ = work_;
   best_energy_ = energy;
-  best_sweep_ = recorder_.sweep();
+  best_sweep_ = sweep;
 }
 
-void Driver::return_best() {
-  final_sweep_ = recorder_.sweep();
-  if (!best_ || !(best_energy_ < run_.report.history.back().energy)) return;
-  work_ = *std::move(best_);
-  final_sweep_ = best_sweep_;
+int Driver::return_best(const Phase& phase, int last_sweep) {
+  if (!best_ || !(best_energy_ < run_.report.history.back().energy)) return last_sweep;
+  work_ = *std::exchange(best_, std::nullopt);
   recorder_.returned_to(best_sweep_);
-  run_.report.notes.push_back("the energy rose in the last sweeps; the mesh with the least one is returned");
+  if (phase.keeps() == Phase::Keeps::best_sweep) run_.facts.energy_rose = true;
+  return best_sweep_;
 }
 
-double Driver::total() const { return energy_unit_ * total_energy(mesh_, settings_.model, settings_.options.executor); }
-
-void Driver::record() {
+void Driver::record(SweepRecord measured) {
   SweepRecord r;
   r.sweep = run_.report.sweeps;
   run_.report.history.push_back(r);
-  amend_record();
+  amend_record(measured);
 }
 
 /// The last record, brought up to date.
-void Driver::amend_record() {
+void Driver::amend_record(const SweepRecord& measured) {
   SweepRecord& r = run_.report.history.back();
   const Flipper::Changes changes = flipper_.take_changes();
-  const auto [energy, bad] = energy_and_bad(mesh_, settings_.model, settings_.options.executor);
-  r.energy = energy_unit_ * energy;
-  r.softening = settings_.energy.softened_by_h0 ? settings_.model.h0.value : settings_.model.gamma.value;
-  r.bad = bad;
+  r.energy = measured.energy;
+  r.softening = measured.softening;
+  r.bad = measured.bad;
+  r.objective = measured.objective;
   r.flips += changes.flips;
   r.seconds = run_.seconds();
-  run_.report.flips += changes.flips;
-  run_.report.vertices_removed += changes.removed;
-  run_.report.vertices_inserted += changes.inserted;
+  run_.count(changes);
 }
 
-void Driver::show(Snapshot::Moment moment) const {
+void Driver::show(Snapshot::Moment moment, const Phase& phase) const {
   if (!settings_.options.watch) return;
   const Mesh mesh = work_.in_user_terms();
   const auto vertices = work_.user_vertices();
-  settings_.options.watch({moment, run_.report.sweeps, outer_, total(), mesh, vertices});
+  settings_.options.watch({moment, run_.report.sweeps, outer_, phase.total(), mesh, vertices});
 }
 
 }  // namespace temper

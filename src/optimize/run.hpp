@@ -1,10 +1,12 @@
-// What the attempts of one call of optimize share, and what they are judged by.
+// What the phases of one call of optimize share: the report that grows, the clock, and the caller's ear.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
 
-#include "energy/whole_mesh.hpp"
+#include "optimize/repair/grading.hpp"
+#include "optimize/step/flipper.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {
@@ -12,7 +14,14 @@ namespace temper {
 /// Triangles that are not counter-clockwise, exact.
 [[nodiscard]] std::size_t count_inverted(const Mesh& mesh);
 
-/// What the attempts of one call of optimize share: the report that grows, the clock, and the caller's ear.
+/// What happened that the report tells in sentences.
+struct RunFacts {
+  std::size_t input_flips = 0;                ///< that made the input regular
+  std::optional<BoundaryCuts> boundary_cuts;  ///< when they were asked for
+  bool weights_shrunk = false;                ///< all of them, since they left edges uncrossed
+  bool energy_rose = false;                   ///< in the last sweeps, which were taken back
+};
+
 class Run {
  public:
   Run(const OptimizeOptions& options, const Observer& observer)
@@ -25,10 +34,19 @@ class Run {
   [[nodiscard]] bool stopped_by_caller() const {
     return report.stopped == Stopped::cancelled || report.stopped == Stopped::time_limit;
   }
+  /// Whether there is time for more than what has been done.
+  [[nodiscard]] bool goes_on() const { return !stopped_by_caller() && sweeps_left(); }
   /// Asks the clock and the caller; sets report.stopped when the answer is yes.
   bool asked_to_stop(double fraction_of_sweep);
 
+  void count(const Flipper::Changes& changes) {
+    report.flips += changes.flips;
+    report.vertices_removed += changes.removed;
+    report.vertices_inserted += changes.inserted;
+  }
+
   OptimizeReport report;
+  RunFacts facts;
   int repair_trials_left;
 
  private:

@@ -135,6 +135,28 @@ std::optional<InputError> check(const OptimizeOptions& o, const Mesh& mesh) {
 
 }  // namespace
 
+OptimizeOptions paper_method() {
+  OptimizeOptions o;
+  o.gamma = Softening{1, LengthScale::absolute};
+  o.solver = Solver::golden;
+  o.flip_timing = FlipTiming::deferred;
+  o.inner = 0;
+  o.flip_limit = FlipLimit::unlimited;
+  o.inversion = Inversion::allow;
+  o.hidden = HiddenPolicy::keep;
+  o.order = SweepOrder::input;
+  o.anchor = 0;
+  o.collapse_from = 0;
+  o.removal = Removal::patch;
+  o.removal_measure = RemovalMeasure::sum;
+  o.removal_margin = 0;
+  o.removal_from = 0;
+  o.repair = Repair::none;
+  o.stopping = StoppingRule::paper;
+  o.tolerance = 1e-6;
+  return o;
+}
+
 EnergyModel in_user_units(EnergyModel model, const Frame& frame) {
   for (Softening* s : {&model.gamma, &model.h0}) {
     if (s->scale == LengthScale::absolute) s->value *= frame.scale;

@@ -1,7 +1,7 @@
 // Options, checked and completed: what the driver and the vertex step read.
 #pragma once
 
-#include <functional>
+#include <cmath>
 #include <optional>
 
 #include "energy/accuracy_energy.hpp"
@@ -10,16 +10,23 @@
 
 namespace temper {
 
+/// What the accuracy energy of a working copy is over: sizes at its vertices, floors of its triangles.
+struct AccuracyDomain {
+  VertexSizes sizes;
+  AccuracyFloors floors;
+};
+
 struct Settings {
   EnergyInfo energy;
   EnergyModel model;           ///< of the sweep under way, in the frame's units
   EnergyModel collapse_model;  ///< E_c
   AccuracyModel accuracy;      ///< of the second phase of Objective::accuracy; without unit
-  double relaxation = 1;       ///< of the sweep under way
+  /// Set while that energy is what sweeps lower; else it is that of `model`.
+  const AccuracyDomain* accuracy_domain = nullptr;
+  double relaxation = 1;  ///< of the sweep under way
   FlipLimit flip_limit = FlipLimit::unlimited;
   OptimizeOptions options;
-  std::function<bool(const Mesh&)> enough;  ///< asked after each sweep, when there is one: whether the run may end
-  std::optional<SizeField> size_field;      ///< that a size band is around, in the user's units; absent without one
+  std::optional<SizeField> size_field;  ///< that a size band is around, in the user's units; absent without one
 };
 
 /// Flips wait for the end of the inner iterations, so that edges may meanwhile not be regular.
@@ -36,6 +43,12 @@ struct Settings {
 [[nodiscard]] inline bool makes_newton_steps(const Settings& s) {
   return s.energy.barrier && s.options.solver == Solver::newton && s.options.flips && !defers_flips(s.options) &&
          s.flip_limit == FlipLimit::unlimited && s.options.inversion == Inversion::refuse;
+}
+
+/// The user's energy of one unit in the frame, of what sweeps lower.
+[[nodiscard]] inline double energy_unit(const Settings& s, const Frame& frame) {
+  constexpr double kAccuracyExponent = 2;
+  return std::pow(frame.scale, s.accuracy_domain != nullptr ? kAccuracyExponent : s.energy.length_exponent);
 }
 
 /// The model with absolute γ and h° in the user's units of length.

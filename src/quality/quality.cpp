@@ -14,15 +14,10 @@ namespace {
 
 constexpr std::size_t kBlock = 8192;  // triangles: some milliseconds of work, some hundred blocks for a million
 
-void run(Executor* executor, std::size_t n, const std::function<void(std::size_t)>& block) {
-  if (executor != nullptr) return executor->run(n, block);
-  for (std::size_t i = 0; i < n; ++i) block(i);
-}
-
 Tally tally(const Mesh& mesh, const QualityOptions& options) {
   const std::size_t n = mesh.n_triangles();
   std::vector<Tally> blocks((n + kBlock - 1) / kBlock, Tally(options.worst));
-  run(options.executor, blocks.size(), [&](std::size_t i) {
+  or_serial(options.executor).run(blocks.size(), [&](std::size_t i) {
     const std::size_t end = std::min(n, (i + 1) * kBlock);
     for (std::size_t t = i * kBlock; t < end; ++t) blocks[i].add(mesh, TriangleId(t));
   });
@@ -37,7 +32,7 @@ Tally tally(const Mesh& mesh, const QualityOptions& options) {
 
 EnergyTable all_energies(const Mesh& mesh, const QualityOptions& options) {
   EnergyTable totals = {};
-  run(options.executor, totals.size() * 3, [&](std::size_t i) {
+  or_serial(options.executor).run(totals.size() * 3, [&](std::size_t i) {
     EnergyModel model;
     model.kind = static_cast<EnergyKind>(i / 3);
     model.star = static_cast<int>(i % 3);

@@ -47,7 +47,7 @@ class Trial {
         recorder_(settings_.options.tracer, work_, 1),
         flipper_(work_.mesh, settings_, recorder_),
         limits_(work_.mesh, settings_, grid),
-        step_(work_.mesh, settings_, grid, limits_, flipper_, recorder_) {
+        step_({work_.mesh, settings_, grid, limits_, recorder_}, flipper_) {
     for (const VertexId v : around.mesh.vertices()) {
       if (around.frozen[v.index] != 0) limits_.freeze(v);
     }

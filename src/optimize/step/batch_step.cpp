@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "optimize/step/vertex_step.hpp"
-
 namespace temper {
 namespace {
 
@@ -16,9 +14,8 @@ constexpr std::size_t kLastFew = 48;
 
 }  // namespace
 
-void BatchStep::improve(std::span<const VertexId> vertices, Unknowns unknowns, const Part& part,
-                        std::vector<VertexId>& left) {
-  unknowns_ = unknowns, part_ = part, left_ = &left;
+void BatchStep::improve(std::span<const VertexId> vertices, const Part& part, std::vector<VertexId>& left) {
+  unknowns_ = alone_.unknowns(), part_ = part, left_ = &left;
   const std::size_t n_left = left.size();
   auto next = vertices.begin();
   for (std::size_t n_waiting = 0;;) {

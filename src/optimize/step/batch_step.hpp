@@ -1,5 +1,5 @@
 // Vertices in batches of eight: Newton's method for all of them at once (star_batch.hpp), then one after the other
-// into the mesh.
+// into the mesh, by steps of single vertices where that is not enough.
 //
 // The vertices of a batch are those that come next in the sweep with about as many triangles, but for any that a step
 // of another one in the batch looks at, or that looks at it: those wait for a later one. So nothing that a step reads
@@ -12,29 +12,25 @@
 #include <vector>
 
 #include "optimize/frame.hpp"
-#include "optimize/step/flipper.hpp"
 #include "optimize/step/star_batch.hpp"
-#include "optimize/step/vertex_limits.hpp"
-#include "optimize/sweep/partition.hpp"
+#include "optimize/step/vertex_step.hpp"
 
 namespace temper {
 
-class VertexStep;
-
 class BatchStep {
  public:
-  BatchStep(Mesh& mesh, const Settings& settings, const Frame& frame, VertexLimits& limits, Flipper& flipper,
-            const Recorder& recorder, VertexStep& alone)
-      : mesh_(mesh),
-        settings_(settings),
-        frame_(frame),
-        limits_(limits),
+  BatchStep(const StepContext& context, Flipper& flipper, VertexStep& alone)
+      : mesh_(context.mesh),
+        settings_(context.settings),
+        frame_(context.frame),
+        limits_(context.limits),
         flipper_(flipper),
-        recorder_(recorder),
+        recorder_(context.recorder),
         alone_(alone) {}
 
-  /// VertexStep::improve, but that vertices wait for each other as described above.
-  void improve(std::span<const VertexId> vertices, Unknowns unknowns, const Part& part, std::vector<VertexId>& left);
+  /// Improves those that are still there, each as VertexStep does, but that vertices wait for each other as described
+  /// above. Those that need another part are appended to `left`, in the order of their numbers.
+  void improve(std::span<const VertexId> vertices, const Part& part, std::vector<VertexId>& left);
 
  private:
   /// One vertex of the batch.

@@ -155,18 +155,13 @@ void Flipper::treat_hidden() {
 void Flipper::push_irregular() {
   const std::size_t n = mesh_.n_halfedges(), blocks = (n + kBlockSize - 1) / kBlockSize;
   std::vector<std::vector<HalfedgeId>> found(blocks);
-  const auto look = [&](std::size_t b) {
+  or_serial(settings_.options.executor).run(blocks, [&](std::size_t b) {
     for (std::size_t i = b * kBlockSize; i < std::min(n, (b + 1) * kBlockSize); ++i) {
       const HalfedgeId h(i);
       if (mesh_.is_boundary(h) || !mesh_.is_edge_representative(h) || mesh_.is_constrained(h)) continue;
       if (PowerTest()(mesh_, inlined::quad(mesh_, h)) == Sign::positive) found[b].push_back(h);
     }
-  };
-  if (settings_.options.executor != nullptr) {
-    settings_.options.executor->run(blocks, look);
-  } else {
-    for (std::size_t b = 0; b < blocks; ++b) look(b);
-  }
+  });
   for (const auto& edges : found) {
     for (const HalfedgeId h : edges) lawson_.push(h);
   }

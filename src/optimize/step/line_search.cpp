@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "optimize/step/golden.hpp"
-#include "optimize/step/newton_constants.hpp"
+#include "optimize/step/search.hpp"
 
 namespace temper {
 namespace {
@@ -39,14 +39,11 @@ double line_minimum(const Patch& patch, const EnergyModel& model, const Weighted
                         kGoldenTolerance);
 }
 
-/// Signed areas are linear in t.
 double inversion_limit(const Patch& patch, const WeightedPoint& p, const Step& step) {
   double limit = 1;
   for (std::size_t i = 0; i < patch.size(); ++i) {
     const Vec2 a = patch.q(i).position() - p.position(), b = patch.r(i).position() - p.position();
-    const double area = cross(a, b);
-    const double slope = step[0] * (a.y - b.y) + step[1] * (b.x - a.x);
-    if (area + limit * slope < (1 - kInversionFraction) * area) limit = -kInversionFraction * area / slope;
+    limit = before_inversion(limit, {a.x, a.y}, {b.x, b.y}, {step[0], step[1]}, true);
   }
   return limit;
 }

@@ -7,11 +7,5 @@ namespace temper {
 inline constexpr double kTrustRadius = 0.5;
 // Eigenvalues below this part of the largest are raised to it: the step is then cut by the trust radius anyway.
 inline constexpr double kEigenvalueFloor = 1e-6;
-// Trials a Newton step: over-relaxed, plain, then halved.
-inline constexpr int kTrials = 6;
-// A model decrease below this part of the patch energy is rounding, not progress.
-inline constexpr double kNoGain = 1e-15;
-// A step goes at most this part of the way to the first triangle's inversion.
-inline constexpr double kInversionFraction = 0.9;
 
 }  // namespace temper

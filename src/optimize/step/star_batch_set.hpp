@@ -4,6 +4,7 @@
 #include "energy/star_sums.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "optimize/step/newton_constants.hpp"
+#include "optimize/step/search.hpp"
 #include "optimize/step/star_batch.hpp"
 
 namespace temper::TEMPER_INSTRUCTION_SET {

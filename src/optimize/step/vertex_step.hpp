@@ -2,15 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "base/rng.hpp"
-#include "energy/patch.hpp"
-#include "optimize/step/batch_step.hpp"
 #include "optimize/step/flipper.hpp"
 #include "optimize/step/newton.hpp"
-#include "optimize/step/vertex_limits.hpp"
+#include "optimize/step/star_energy.hpp"
+#include "optimize/step/step_context.hpp"
 #include "optimize/sweep/partition.hpp"
 
 namespace temper {
@@ -18,16 +16,15 @@ namespace temper {
 /// The storage of vertex steps, kept from one vertex to the next: once warm, a step allocates nothing.
 class VertexStep {
  public:
-  VertexStep(Mesh& mesh, const Settings& settings, const Frame& frame, VertexLimits& limits, Flipper& flipper,
-             const Recorder& recorder)
-      : mesh_(mesh),
-        settings_(settings),
-        frame_(frame),
-        mobility_(limits.mobility),
-        band_(limits.band),
+  VertexStep(const StepContext& context, Flipper& flipper)
+      : mesh_(context.mesh),
+        settings_(context.settings),
+        frame_(context.frame),
+        mobility_(context.limits.mobility),
+        band_(context.limits.band),
         flipper_(flipper),
-        recorder_(recorder),
-        batches_(mesh, settings, frame, limits, flipper, recorder, *this) {}
+        recorder_(context.recorder),
+        star_(context.mesh, context.settings) {}
 
   /// Of the sweep under way: i ≥ i_w, i ≥ i_c, and the overshoot of FlipLimit::after.
   void begin_sweep(int sweep);
@@ -37,10 +34,6 @@ class VertexStep {
   /// it needs a larger one, or another.
   bool improve(VertexId v, const Part& part = {});
 
-  /// Improves those that are still there, in that order, or in batches nearly so. Those that need another part are
-  /// appended to `left`, in the order of their numbers.
-  void improve(std::span<const VertexId> vertices, const Part& part, std::vector<VertexId>& left);
-
   /// Moves v to p if it is free, no triangle turns over and no vertex is hidden, whatever that costs.
   void nudge(VertexId v, Vec2 p);
 
@@ -49,6 +42,10 @@ class VertexStep {
 
   /// With deferred weight updates: gives all vertices their new weights.
   void end_sweep();
+
+  [[nodiscard]] Unknowns unknowns() const { return unknowns_; }
+  /// Whether steps are what batches make.
+  [[nodiscard]] bool suits_batches() const;
 
  private:
   enum class Outcome { accepted, not_lower, inverted, out_of_band, blocked_by_flip, escaped };
@@ -60,17 +57,16 @@ class VertexStep {
 
   void newton_search(const Freedom& freedom);
   void golden_search(const Freedom& freedom);
-  void gather(VertexId v);
+  bool gather(VertexId v);
   bool enter_domain();
 
   [[nodiscard]] double farthest(const Step& step) const;
   [[nodiscard]] double flip_limited(const Step& step, double t) const;
+  [[nodiscard]] double short_of_flip(const Step& step, double t) const;
   [[nodiscard]] WeightedPoint moved(const Step& step, double t) const;
   Outcome try_step(const Step& step, double t);
-  [[nodiscard]] bool stays_oriented(const WeightedPoint& p) const;
   [[nodiscard]] bool keeps_size(const WeightedPoint& p);
   bool place(const WeightedPoint& p, double energy, bool must_pay);
-  [[nodiscard]] bool can_batch() const;
   [[nodiscard]] bool keeps_connectivity() const;
   [[nodiscard]] bool flips_at_once() const;
   void note_regular_edges();
@@ -83,7 +79,6 @@ class VertexStep {
   SizeBand& band_;
   Flipper& flipper_;
   const Recorder& recorder_;
-  BatchStep batches_;
   Unknowns unknowns_ = Unknowns::positions_and_weights;
   bool collapses_ = false, removes_ = false;
   double overshoot_ = 1;
@@ -93,7 +88,8 @@ class VertexStep {
   bool escapes_ = false;  // from it: what its step has to flip
   WeightedPoint origin_;  // where the vertex is
   double energy_ = 0;     // of the patch there
-  Patch patch_;
+  StarEnergy star_;
+  Patch collapsing_;  // with what E_c needs
   RemovalPlan plan_;
   std::vector<std::uint8_t> was_regular_;  // of the edges of star and link, in the order of the star
   struct NewWeight {

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include "base/assert.hpp"
 #include "energy/whole_mesh.hpp"
-#include "optimize/step/newton_constants.hpp"
+#include "optimize/step/search.hpp"
 
 namespace temper {
 namespace {
@@ -29,25 +30,16 @@ bool allows_newton_passes(const Settings& settings) {
          o.stopping == StoppingRule::relative;
 }
 
-void NewtonPass::run(Unknowns unknowns, Watch& watch) {
+void NewtonPass::run(Unknowns unknowns, StopToken& stop) {
+  TEMPER_ASSERT_SLOW(count_bad(mesh_, nullptr) == 0);
   const std::size_t count = std::max<std::size_t>(1, (mesh_.n_vertices() + part_size_ / 2) / part_size_);
-  const bool shifted = count > 1 && passes_++ % 2 == 1;
-  const std::size_t n_parts = shifted ? count + 1 : count;
-  desks_.make_room(n_parts);
-  const auto block = [&](std::size_t i) {
-    if (!watch.goes_on()) return;
-    auto& desk = desks_.take([] { return std::make_unique<Worker>(); });
-    const Part here = part_of(mesh_.n_vertices(), count, i, shifted);
-    improve(here, unknowns, *desk.worker);
-    watch.passed(here.last.index - here.first.index, 0);
-    desk.leave();
-  };
-  if (settings_.options.executor != nullptr && !recorder_.on()) {
-    static_cast<void>(watch.goes_on());  // asks, should no part run on this thread
-    settings_.options.executor->run(n_parts, block);
-  } else {
-    for (std::size_t i = 0; i < n_parts; ++i) block(i);
-  }
+  const Cut cut{mesh_.n_vertices(), count, count > 1 && passes_++ % 2 == 1};
+  Executor& executor = recorder_.on() ? in_order_ : or_serial(settings_.options.executor);
+  for_parts(cut, executor, workers_, stop, [&](Worker& worker, std::size_t, const Part& part) {
+    if (!stop.goes_on()) return;
+    improve(part, unknowns, worker);
+    stop.passed(part.last.index - part.first.index, 0);
+  });
 }
 
 void NewtonPass::improve(const Part& part, Unknowns unknowns, Worker& worker) {
@@ -59,12 +51,14 @@ void NewtonPass::improve(const Part& part, Unknowns unknowns, Worker& worker) {
   system.solve();
   worker.before.clear();
   for (std::size_t i = 0; i < system.size(); ++i) worker.before.push_back(mesh_.point(system.vertex(i)));
-  double t = 1;
-  for (int trial = 0; trial < kTrials; ++trial, t *= 0.5) {
+  bool found = false;
+  damped_search(1, kTrials, 1.0, true, [&](double& t, double shorter, bool) {
     place(worker, t);
-    if (energy_inside(mesh_, system, formula) < before) return record(worker);
-  }
-  take_back(worker);
+    t *= shorter;
+    found = energy_inside(mesh_, system, formula) < before;
+    return !found;
+  });
+  found ? record(worker) : take_back(worker);
 }
 
 /// What moves, at t of its step.

@@ -13,13 +13,9 @@
 // Parts may run at once: each reads and writes points of its own vertices alone, and connectivity does not change.
 #pragma once
 
-#include "optimize/frame.hpp"
-#include "optimize/settings.hpp"
-#include "optimize/step/vertex_limits.hpp"
-#include "optimize/sweep/desks.hpp"
+#include "optimize/step/step_context.hpp"
+#include "optimize/sweep/for_parts.hpp"
 #include "optimize/sweep/part_system.hpp"
-#include "optimize/sweep/watch.hpp"
-#include "optimize/trace/recorder.hpp"
 
 namespace temper {
 
@@ -29,12 +25,16 @@ namespace temper {
 
 class NewtonPass {
  public:
-  NewtonPass(Mesh& mesh, const Settings& settings, const Frame& frame, const VertexLimits& limits,
-             const Recorder& recorder, std::size_t part_size)
-      : mesh_(mesh), settings_(settings), frame_(frame), limits_(limits), recorder_(recorder), part_size_(part_size) {}
+  NewtonPass(const StepContext& context, std::size_t part_size)
+      : mesh_(context.mesh),
+        settings_(context.settings),
+        frame_(context.frame),
+        limits_(context.limits),
+        recorder_(context.recorder),
+        part_size_(part_size) {}
 
   /// One pass. Before it, every triangle of the mesh is well-centered.
-  void run(Unknowns unknowns, Watch& watch);
+  void run(Unknowns unknowns, StopToken& stop);
 
  private:
   /// What one part needs while it runs.
@@ -55,7 +55,8 @@ class NewtonPass {
   const Recorder& recorder_;
   std::size_t part_size_;
   std::size_t passes_ = 0;
-  Desks<Worker> desks_;
+  WorkerPool<Worker> workers_{[] { return std::make_unique<Worker>(); }};
+  SerialExecutor in_order_;
 };
 
 }  // namespace temper

@@ -21,14 +21,20 @@ struct Part {
   friend bool operator==(const Part&, const Part&) = default;
 };
 
-/// Part i of `count` of equal size. Shifted by half of it: one more, the first and the last half as large.
-[[nodiscard]] inline Part part_of(std::size_t n_vertices, std::size_t count, std::size_t i, bool shifted) {
-  const auto bound = [&](std::size_t k) {
-    const std::size_t half_parts = shifted ? (k > 0 ? 2 * k - 1 : 0) : 2 * k;
+/// A mesh cut into `count` parts of equal size. Shifted by half of it: one more, the first and the last half as large.
+struct Cut {
+  std::size_t n_vertices = 0, count = 1;
+  bool shifted = false;
+
+  [[nodiscard]] std::size_t size() const { return shifted ? count + 1 : count; }
+  [[nodiscard]] Part operator[](std::size_t i) const { return {bound(i), bound(i + 1)}; }
+
+ private:
+  [[nodiscard]] VertexId bound(std::size_t i) const {
+    const std::size_t half_parts = shifted ? (i > 0 ? 2 * i - 1 : 0) : 2 * i;
     return VertexId(std::min(n_vertices, half_parts * n_vertices / (2 * count)));
-  };
-  return {bound(i), bound(i + 1)};
-}
+  }
+};
 
 /// Whether v, which is in the part and not isolated, is confined to it. O(degree). Reads no coordinates.
 [[nodiscard]] inline bool is_confined(const Mesh& mesh, VertexId v, const Part& part) {

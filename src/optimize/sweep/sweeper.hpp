@@ -3,10 +3,8 @@
 //
 // The vertices of a working copy are numbered along a Hilbert curve. They are cut into parts, ranges of about 16,000
 // numbers, however many threads there are, and each part improves the vertices that are confined to it (partition.hpp),
-// in order; it lists those that are not, or whose flips would not be. What is listed comes next, with parts that are
-// shifted by half of their size, then with parts four times as large and again, since some neighbours in the plane are
-// far apart on the curve. The last part is the whole mesh: it takes what is left, about 1 % of a million vertices. A
-// mesh of one part is swept as a whole.
+// in order; it lists those that are not, or whose flips would not be. What becomes of these, for_parts.hpp says. A mesh
+// of one part is swept as a whole.
 //
 // Why parts may run at once. Call a triangle inner to a part when all its corners are in there. While parts run:
 //
@@ -33,18 +31,10 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
-#include "optimize/run.hpp"
-#include "optimize/settings.hpp"
-#include "optimize/step/flipper.hpp"
-#include "optimize/step/vertex_limits.hpp"
-#include "optimize/step/vertex_step.hpp"
-#include "optimize/sweep/desks.hpp"
+#include "optimize/step/improver.hpp"
+#include "optimize/sweep/for_parts.hpp"
 #include "optimize/sweep/newton_pass.hpp"
-#include "optimize/sweep/partition.hpp"
-#include "optimize/sweep/watch.hpp"
-#include "optimize/trace/recorder.hpp"
 
 namespace temper {
 
@@ -57,8 +47,11 @@ class Sweeper {
   Sweeper(Mesh& mesh, const Settings& settings, const Frame& frame, Flipper& flipper, const Recorder& recorder,
           std::size_t part_size);
 
-  /// Lines 9 to 16 of Algorithm 1. `sequence`: the order in which to visit the vertices, one after another; empty: as
-  /// they are numbered. False when the caller or the clock has cut it short.
+  Sweeper(const Sweeper&) = delete;
+  Sweeper& operator=(const Sweeper&) = delete;
+
+  /// Lines 9 to 16 of Algorithm 1. `sequence`: the order in which to visit the vertices, one after another; empty: in
+  /// parts along the numbers. False when the caller or the clock has cut it short.
   bool sweep(int iteration, std::span<const VertexId> sequence, Run& run);
 
   /// A step of all vertices of each part at once, where allows_newton_passes() and no triangle is bad: see
@@ -66,48 +59,24 @@ class Sweeper {
   bool newton_pass(int iteration, Run& run);
 
   /// Moves free vertices by up to `amount` of their shortest edge.
-  void shake(double amount, Rng& rng) { main_.shake(amount, rng); }
+  void shake(double amount, Rng& rng);
 
   /// The mesh has been compacted, or has got new vertices.
   void renumber(const Compaction& kept) { limits_.renumber(kept); }
   void grow() { limits_.grow(); }
 
  private:
-  /// What one part needs while it runs.
-  struct Worker {
-    explicit Worker(Sweeper& sweeper);
-    Flipper flipper;
-    VertexStep step;
-  };
-  /// A part, and those of its vertices that it could not improve.
-  struct Piece {
-    Part part;
-    std::vector<VertexId> left;
-  };
+  [[nodiscard]] Executor& executor();
+  void add_changes();
 
-  void sweep_in_order(std::span<const VertexId> sequence, Watch& watch);
-  void sweep_in_parts(Watch& watch);
-  void cut(std::size_t count, bool shifted);
-  void run_pieces(bool first, Watch& watch);
-  void improve_numbers(VertexStep& step, std::size_t first, std::size_t last, Piece& piece, Watch& watch);
-  void improve(VertexStep& step, std::span<const VertexId> vertices, Piece& piece, Watch& watch);
-  bool improve_stretch(VertexStep& step, std::span<const VertexId> vertices, Piece& piece, Watch& watch);
-  [[nodiscard]] bool may_run_at_once() const;
-
-  Mesh& mesh_;
-  const Settings& settings_;
-  const Frame& frame_;
-  Flipper& flipper_;
-  const Recorder& recorder_;
-  std::size_t part_size_;
   VertexLimits limits_;
-  VertexStep main_;  // of the thread that calls
-  int iteration_ = 0;
-  std::vector<Piece> pieces_;  // of the phase under way, the first n_pieces_ of them: storage is kept
-  std::size_t n_pieces_ = 0;
-  std::vector<VertexId> waiting_;  // for the phase under way, in order
-  Desks<Worker> desks_;
+  StepContext context_;
+  Flipper& flipper_;
+  WorkerPool<Improver> improvers_;
+  PartSweep<Improver> parts_;
   NewtonPass passes_;
+  int iteration_ = 0;
+  SerialExecutor in_order_;
 };
 
 }  // namespace temper

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "optimize/accuracy/accuracy_driver.hpp"
+#include "energy/whole_mesh.hpp"
+#include "optimize/accuracy/accuracy_phase.hpp"
+#include "optimize/driver.hpp"
 #include "support/lattice.hpp"
 #include "support/regions.hpp"
 #include "support/std_threads.hpp"
@@ -218,7 +220,8 @@ Mesh second_phase(const Mesh& input, const OptimizeOptions& options, std::size_t
   const Observer nobody;
   Run run(options, nobody);
   const AccuracySizes sizes(input, options.size_field, options.executor);
-  AccuracyDriver(work, settings, run, sizes, part_size).optimize(0);
+  AccuracyPhase phase(work, settings, run, sizes);
+  Driver(work, phase.settings(), run, part_size).run(phase, 0);
   EXPECT_GT(run.report.sweeps, 0);
   return std::move(work).in_user_terms();
 }

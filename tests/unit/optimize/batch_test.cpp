@@ -53,7 +53,7 @@ struct Alone {
         recorder(settings.options.tracer, work, 1),
         flipper(work.mesh, settings, recorder),
         limits(work.mesh, settings, work.frame),
-        step(work.mesh, settings, work.frame, limits, flipper, recorder) {}
+        step({work.mesh, settings, work.frame, limits, recorder}, flipper) {}
 
   static Settings settings_of(const WorkingCopy& work, const EnergyModel& model) {
     OptimizeOptions options;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "energy/whole_mesh.hpp"
 #include "optimize/driver.hpp"
 #include "optimize/sweep/semidefinite.hpp"
 #include "support/lattice.hpp"
@@ -56,14 +57,14 @@ PassResult after_passes(const Mesh& input, int passes, const OptimizeOptions& op
   Run run(options, nobody);
   run.report.history.push_back({});
   const Recorder recorder(settings.options.tracer, work, 1);
-  const VertexLimits limits(work.mesh, settings, work.frame);
-  NewtonPass pass(work.mesh, settings, work.frame, limits, recorder, part_size);
+  VertexLimits limits(work.mesh, settings, work.frame);
+  NewtonPass pass({work.mesh, settings, work.frame, limits, recorder}, part_size);
   PassResult result;
   result.energies.push_back(total_energy(work.mesh, settings.model));
   for (int i = 0; i < passes; ++i) {
-    Watch watch(run, work.mesh.n_vertices());
-    pass.run(options.unknowns, watch);
-    EXPECT_FALSE(watch.stopped());
+    StopToken stop(run, work.mesh.n_vertices());
+    pass.run(options.unknowns, stop);
+    EXPECT_FALSE(stop.stopped());
     result.energies.push_back(total_energy(work.mesh, settings.model));
   }
   result.mesh = std::move(work).in_user_terms();

@@ -41,7 +41,8 @@ SweptMesh swept(const Mesh& input, const OptimizeOptions& options, std::size_t p
   driver.grade_boundary();
   const Attempt attempt = attempts(settings.energy, options, work.mesh).front();
   driver.jitter(attempt.jitter);
-  driver.optimize(attempt, false);
+  EnergyPhase phase(work, settings, run, attempt, false);
+  driver.run(phase, run.next_sweep());
   return {std::move(work).in_user_terms(), run.report};
 }
 
@@ -165,16 +166,15 @@ bool has_corner_in(const Mesh& mesh, TriangleId t, const Part& part) {
 /// Improves the part's vertices, three times over. Returns how many were left.
 std::size_t improve_part(WorkingCopy& work, const Settings& settings, const Part& part) {
   const Recorder recorder(settings.options.tracer, work, 1);
-  Flipper flipper(work.mesh, settings, recorder);
   VertexLimits limits(work.mesh, settings, work.frame);
-  VertexStep step(work.mesh, settings, work.frame, limits, flipper, recorder);
+  Improver improver({work.mesh, settings, work.frame, limits, recorder});
   std::vector<VertexId> vertices, left;
   for (std::size_t i = part.first.index; i < part.last.index; ++i) vertices.push_back(VertexId(i));
   for (int sweep = 0; sweep < 3; ++sweep) {
-    step.begin_sweep(sweep);
-    step.improve(vertices, part, left);
+    improver.step().begin_sweep(sweep);
+    improver.improve(vertices, part, left);
   }
-  EXPECT_GT(flipper.take_changes().flips, 0u);
+  EXPECT_GT(improver.flipper().take_changes().flips, 0u);
   return left.size();
 }
 
@@ -230,10 +230,9 @@ TEST(OnePart, UndoesAStepWhoseFlipsWouldLeaveIt) {
   OnePart one(*random_points({.vertices = 3000, .seed = 13}), {.energy = "T", .flip_limit = FlipLimit::unlimited});
   Mesh& mesh = one.work.mesh;
   const Recorder recorder(one.settings.options.tracer, one.work, 1);
-  Flipper flipper(mesh, one.settings, recorder);
   VertexLimits limits(mesh, one.settings, one.work.frame);
-  VertexStep step(mesh, one.settings, one.work.frame, limits, flipper, recorder);
-  step.begin_sweep(0);
+  Improver improver({mesh, one.settings, one.work.frame, limits, recorder});
+  improver.step().begin_sweep(0);
   std::size_t escapes = 0;
   for (std::size_t first = 0; first + kTiny <= mesh.n_vertices(); first += kTiny) {
     const Part part{VertexId(first), VertexId(first + kTiny)};
@@ -242,7 +241,7 @@ TEST(OnePart, UndoesAStepWhoseFlipsWouldLeaveIt) {
     for (std::size_t i = first; i < first + kTiny; ++i) {
       if (is_confined(mesh, VertexId(i), part)) confined.push_back(VertexId(i));
     }
-    step.improve(confined, part, left);
+    improver.improve(confined, part, left);
     for (const VertexId v : left) escapes += is_confined(mesh, v, part) ? 1 : 0;
     expect_same_outside(before, mesh, part);
   }

@@ -1,4 +1,4 @@
-// Whether a sweep over many vertices goes on: asked by all its threads, answered by one.
+// The stop token of a sweep over many vertices: all threads ask whether to go on, one of them finds out.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 namespace temper {
 
 /// The thread that called asks the clock and the caller; the others hear of the answer.
-class Watch {
+class StopToken {
  public:
   /// In the thread that is to ask.
-  Watch(Run& run, std::size_t n_vertices)
+  StopToken(Run& run, std::size_t n_vertices)
       : run_(run), caller_(this_thread()), n_(static_cast<double>(std::max<std::size_t>(1, n_vertices))) {}
 
   /// From the thread that called: the caller is asked before the next stretch.

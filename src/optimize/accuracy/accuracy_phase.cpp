@@ -1,0 +1,76 @@
+#include "optimize/accuracy/accuracy_phase.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "energy/whole_mesh.hpp"
+
+namespace temper {
+namespace {
+
+/// What the options say of the first phase does not hold here: Newton steps along the curve, all edges kept.
+Settings of_accuracy(Settings s, const AccuracyDomain& domain) {
+  const OptimizeOptions first = std::exchange(s.options, {});
+  s.options.objective = first.objective;
+  s.options.accuracy = first.accuracy;
+  s.options.unknowns = first.unknowns;
+  s.options.interfaces = first.interfaces;
+  s.options.boundary_vertices = first.boundary_vertices;
+  s.options.anchor = first.anchor;
+  s.options.size_band = first.size_band;
+  s.options.executor = first.executor;
+  s.options.tracer = first.tracer;
+  s.options.watch = first.watch;
+  s.options.flips = false;
+  s.relaxation = first.relaxation.value_or(kRelaxation);
+  s.flip_limit = FlipLimit::unlimited;
+  s.accuracy_domain = &domain;
+  return s;
+}
+
+}  // namespace
+
+AccuracyPhase::AccuracyPhase(const WorkingCopy& work, const Settings& settings, Run& run, const AccuracySizes& sizes)
+    : mesh_(work.mesh),
+      domain_{sizes.of(work, settings.options.executor), {}},
+      settings_(of_accuracy(settings, domain_)),
+      run_(run),
+      energy_unit_(energy_unit(settings_, work.frame)),
+      bad_(count_bad(mesh_, settings.options.executor)) {}
+
+void AccuracyPhase::begin() {
+  domain_.floors.raise(mesh_, settings_.accuracy.margin, settings_.options.executor);
+  now_ = sum();
+}
+
+bool AccuracyPhase::may_sweep() const {
+  const bool sweeps_left = iteration < settings_.options.accuracy.sweeps;
+  if (!sweeps_left) run_.report.stopped = Stopped::accuracy_sweeps;
+  return sweeps_left && run_.sweeps_left();
+}
+
+SweepRecord AccuracyPhase::measure() {
+  before_ = std::exchange(now_, sum());
+  SweepRecord r;
+  r.energy = total();
+  r.bad = bad_;
+  r.objective = Objective::accuracy;
+  return r;
+}
+
+Phase::Verdict AccuracyPhase::judge(bool /*removed*/) {
+  if (domain_.floors.raise(mesh_, settings_.accuracy.margin, settings_.options.executor) > 0) {
+    now_ = sum();  // of another barrier
+    return Verdict::improving;
+  }
+  const double change = (before_.energy + before_.barrier) - (now_.energy + now_.barrier);
+  if (std::abs(change) > settings_.options.accuracy.tolerance * std::abs(now_.energy)) return Verdict::improving;
+  run_.report.stopped = Stopped::converged;
+  return Verdict::settled;
+}
+
+AccuracyTotal AccuracyPhase::sum() const {
+  return accuracy_total(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, settings_.options.executor);
+}
+
+}  // namespace temper

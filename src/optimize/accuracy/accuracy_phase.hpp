@@ -1,0 +1,40 @@
+// The second phase of the accuracy objective: sweeps that lower the energy of accuracy_energy.hpp on a mesh whose
+// triangles are well-centered, as far as the first phase could make them so. The connectivity stays.
+#pragma once
+
+#include "optimize/accuracy/accuracy_sizes.hpp"
+#include "optimize/phase.hpp"
+
+namespace temper {
+
+class AccuracyPhase final : public Phase {
+ public:
+  /// `settings`: those of the first phase, of which this one keeps its own.
+  AccuracyPhase(const WorkingCopy& work, const Settings& settings, Run& run, const AccuracySizes& sizes);
+  AccuracyPhase(const AccuracyPhase&) = delete;
+  AccuracyPhase& operator=(const AccuracyPhase&) = delete;
+
+  /// For the driver's steps.
+  [[nodiscard]] Settings& settings() { return settings_; }
+
+  void begin() override;
+  [[nodiscard]] bool may_sweep() const override;
+  [[nodiscard]] double total() const override { return energy_unit_ * now_.energy; }
+  SweepRecord measure() override;
+  Verdict judge(bool removed) override;
+  void compare_from_here() override {}
+  [[nodiscard]] Keeps keeps() const override { return Keeps::best; }
+
+ private:
+  [[nodiscard]] AccuracyTotal sum() const;
+
+  const Mesh& mesh_;
+  AccuracyDomain domain_;
+  Settings settings_;
+  Run& run_;
+  double energy_unit_;
+  std::size_t bad_;             // all through the phase
+  AccuracyTotal before_, now_;  // the last sweep
+};
+
+}  // namespace temper

@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <cmath>
+
+#include "energy/whole_mesh.hpp"
+#include "optimize/phase.hpp"
+#include "optimize/sweep/newton_pass.hpp"
+
+namespace temper {
+namespace {
+
+// Sweeps at the last γ without fewer bad triangles, after which another attempt promises more; and without a lower
+// energy, after which none will come.
+constexpr int kPatience = 25;
+// Sweeps in which vertices may bring a barrier's infinite energy down one by one, before all weights shrink.
+constexpr int kInfinitePatience = 5;
+// A sweep that still lowers the energy by this part of itself finds its way among flips and minima: passes wait.
+constexpr double kSlowFall = 0.01;
+
+}  // namespace
+
+EnergyPhase::EnergyPhase(const WorkingCopy& work, Settings& settings, Run& run, const Attempt& attempt,
+                         bool may_give_up)
+    : mesh_(work.mesh),
+      settings_(settings),
+      run_(run),
+      energy_unit_(energy_unit(settings, work.frame)),
+      softener_(attempt, settings.energy, settings.options),
+      may_give_up_(may_give_up) {}
+
+void EnergyPhase::begin() {
+  softener_.start(mesh_, settings_.model);
+  settings_.relaxation = settings_.options.relaxation.value_or(softener_.relaxation());
+  least_bad_ = mesh_.n_triangles();
+  before_ = total();
+  least_energy_ = fall_ = kInfinity;
+}
+
+double EnergyPhase::total() const {
+  return energy_unit_ * total_energy(mesh_, settings_.model, settings_.options.executor);
+}
+
+SweepRecord EnergyPhase::measure() {
+  const auto [energy, bad] = energy_and_bad(mesh_, settings_.model, settings_.options.executor);
+  SweepRecord r;
+  r.energy = energy_unit_ * energy;
+  r.softening = settings_.energy.softened_by_h0 ? settings_.model.h0.value : settings_.model.gamma.value;
+  r.bad = bad;
+  return r;
+}
+
+/// Line 19 of Algorithm 1, and what a softened barrier or an infinite energy ask for besides.
+Phase::Verdict EnergyPhase::judge(bool removed) {
+  if (settings_.options.objective == Objective::accuracy && has_margins()) {
+    run_.report.stopped = Stopped::converged;  // the next phase needs no more of this energy
+    return Verdict::settled;
+  }
+  const double after = run_.report.history.back().energy;
+  if (!std::isfinite(after)) {
+    if (++infinite_sweeps_ > kInfinitePatience) return Verdict::infinite;
+    compare_from_here();
+    return Verdict::improving;
+  }
+  if (softener_.settled() && !removed && converged(before_, after)) {
+    if (!defers_flips(settings_.options) && goes_on_with_weights()) return Verdict::improving;
+    run_.report.stopped = Stopped::converged;
+    return Verdict::settled;
+  }
+  if (softener_.settled() && may_give_up_ && stagnates()) return Verdict::stopped;
+  const double fall = (before_ - after) / std::abs(after);
+  if (softener_.settled()) fall_ = fall;
+  const bool changed = softener_.advance(mesh_, fall, run_.report.history.back().bad, settings_.model);
+  settings_.relaxation = settings_.options.relaxation.value_or(softener_.relaxation());
+  before_ = !changed ? after : softener_.compares_energies() ? total() : kInfinity;
+  return Verdict::improving;
+}
+
+bool EnergyPhase::has_margins() const {
+  const OptimizeOptions& o = settings_.options;
+  return run_.report.history.back().bad == 0 && temper::has_margins(mesh_, o.accuracy.margin, o.executor);
+}
+
+/// The paper's rule takes a rise for convergence. The relative one waits whether the energy falls again.
+bool EnergyPhase::converged(double before, double after) {
+  const double tolerance = settings_.options.tolerance;
+  if (settings_.options.stopping == StoppingRule::paper) {
+    return before - after < tolerance * static_cast<double>(mesh_.n_triangles());
+  }
+  const double change = tolerance * std::abs(after);
+  const bool lower = after < least_energy_ - change;
+  sweeps_since_lower_ = lower ? 0 : sweeps_since_lower_ + 1;
+  least_energy_ = std::min(least_energy_, after);
+  return std::abs(before - after) <= change || sweeps_since_lower_ >= kPatience;
+}
+
+bool EnergyPhase::stagnates() {
+  const std::size_t bad = run_.report.history.back().bad;
+  sweeps_since_fewer_bad_ = bad < least_bad_ ? 0 : sweeps_since_fewer_bad_ + 1;
+  least_bad_ = std::min(least_bad_, bad);
+  return bad > 0 && sweeps_since_fewer_bad_ >= kPatience;
+}
+
+/// Positions have converged before i_w: the weights' turn has come.
+bool EnergyPhase::goes_on_with_weights() {
+  const OptimizeOptions& o = settings_.options;
+  if (o.unknowns != Unknowns::positions_and_weights || iteration >= o.weights_from) return false;
+  iteration = o.weights_from;
+  fall_ = kInfinity;  // of another problem
+  passes_pay_ = true;
+  return true;
+}
+
+/// Newton's method for many vertices at once is for where nothing is bad and sweeps have become slow.
+bool EnergyPhase::wants_newton_pass() const {
+  return passes_pay_ && fall_ < kSlowFall && run_.report.history.back().bad == 0 && allows_newton_passes(settings_);
+}
+
+void EnergyPhase::passed(double after_pass, double after_sweep) {
+  passes_pay_ = before_ - after_pass > after_pass - after_sweep;
+}
+
+}  // namespace temper

@@ -1,0 +1,80 @@
+// A phase of a run: what its sweeps lower, and when they have lowered it enough. The driver makes the sweeps.
+#pragma once
+
+#include "optimize/run.hpp"
+#include "optimize/schedule.hpp"
+#include "optimize/settings.hpp"
+#include "optimize/working_copy.hpp"
+
+namespace temper {
+
+class Phase {
+ public:
+  enum class Verdict { improving, infinite, settled, stopped };
+  /// Which mesh a phase ends with: that of its last sweep, of its best one, or of its best one and the start.
+  enum class Keeps { last, best_sweep, best };
+
+  virtual ~Phase() = default;
+
+  /// Before the first sweep.
+  virtual void begin() = 0;
+  /// Whether there may be another sweep; if not, the report says why the run stopped.
+  [[nodiscard]] virtual bool may_sweep() const = 0;
+  /// The energy of the mesh as it is, in the user's units.
+  [[nodiscard]] virtual double total() const = 0;
+  /// The mesh as it is for the history of the run.
+  virtual SweepRecord measure() = 0;
+  /// After a sweep that the history has as its last. `removed`: vertices are gone.
+  virtual Verdict judge(bool removed) = 0;
+  /// After flips that the history has been brought up to date for, or when all weights have shrunk.
+  virtual void compare_from_here() = 0;
+  /// Whether there is more to lower once all has settled: weights, after positions.
+  virtual bool goes_on_with_weights() { return false; }
+  /// Whether a step of all vertices at once should go before the next sweep.
+  [[nodiscard]] virtual bool wants_newton_pass() const { return false; }
+  /// What the last pass and the sweep after it left of the energy.
+  virtual void passed(double /*after_pass*/, double /*after_sweep*/) {}
+  [[nodiscard]] virtual Keeps keeps() const = 0;
+
+  int iteration = 0;  ///< the paper's i: sweeps of this phase
+};
+
+/// Lowers an energy of the registry: one attempt, or a polish.
+class EnergyPhase final : public Phase {
+ public:
+  /// With `may_give_up`, it ends too when triangles stay bad for many sweeps.
+  EnergyPhase(const WorkingCopy& work, Settings& settings, Run& run, const Attempt& attempt, bool may_give_up);
+
+  void begin() override;
+  [[nodiscard]] bool may_sweep() const override { return run_.sweeps_left(); }
+  [[nodiscard]] double total() const override;
+  SweepRecord measure() override;
+  Verdict judge(bool removed) override;
+  void compare_from_here() override { before_ = total(); }
+  bool goes_on_with_weights() override;
+  [[nodiscard]] bool wants_newton_pass() const override;
+  void passed(double after_pass, double after_sweep) override;
+  [[nodiscard]] Keeps keeps() const override { return settings_.energy.barrier ? Keeps::last : Keeps::best_sweep; }
+
+ private:
+  [[nodiscard]] bool has_margins() const;
+  bool converged(double before, double after);
+  bool stagnates();
+
+  const Mesh& mesh_;
+  Settings& settings_;
+  Run& run_;
+  double energy_unit_;
+  Softener softener_;
+  bool may_give_up_;
+  double before_ = 0;          // energy at the start of the sweep
+  std::size_t least_bad_ = 0;  // so far, and for how many sweeps
+  int sweeps_since_fewer_bad_ = 0;
+  double least_energy_ = 0;  // at the last γ, and for how many sweeps
+  int sweeps_since_lower_ = 0;
+  int infinite_sweeps_ = 0;
+  double fall_ = 0;         // of the energy in the last step at the last γ, relative
+  bool passes_pay_ = true;  // more than sweeps do
+};
+
+}  // namespace temper

@@ -1,0 +1,26 @@
+// The rank of a mesh among those that a run comes to: which one it returns.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+
+#include "energy/accuracy_energy.hpp"
+#include "optimize/settings.hpp"
+
+namespace temper {
+
+/// Validity comes first, then regularity, but for hidden vertices that the user keeps; for a barrier, which is there to
+/// make triangles well-centered, their number; for the accuracy objective its margins, which its second phase keeps;
+/// then the energy.
+struct Rank {
+  std::size_t inverted = 0, non_regular = 0, bad = 0;
+  bool lacks_margins = false;
+  double energy = 0;
+  friend auto operator<=>(const Rank&, const Rank&) = default;
+};
+
+/// By the energy of the settings, in the units of their model; with the sizes at its vertices by that of the accuracy
+/// objective.
+[[nodiscard]] Rank rank(const Mesh& mesh, const Settings& settings, const VertexSizes* sizes = nullptr);
+
+}  // namespace temper

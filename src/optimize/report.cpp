@@ -1,0 +1,237 @@
+#include "optimize/report.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/text.hpp"
+#include "energy/whole_mesh.hpp"
+#include "optimize/driver.hpp"
+#include "optimize/rank.hpp"
+#include "temper/necessity.hpp"
+#include "temper/regularity.hpp"
+
+namespace temper {
+namespace {
+
+std::string count_of(std::size_t n, const char* one, const char* many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+/// The sentences of a report, in the order in which they are told.
+class Notes {
+ public:
+  Notes(const Mesh& mesh, const Settings& settings, OptimizeReport& report)
+      : mesh_(mesh), settings_(settings), options_(settings.options), report_(report) {}
+
+  void tell(const RunFacts& facts);
+  void tell_what_was_returned(bool input, bool flipped);
+  void tell_sizes();
+  void tell_energy();
+  void tell_edges_that_must_be_split();
+  void tell_accuracy();
+
+ private:
+  void add(std::string note) { report_.notes.push_back(std::move(note)); }
+  void tell_cuts(const BoundaryCuts& cuts);
+  [[nodiscard]] std::string name_of(VertexId v) const;
+
+  const Mesh& mesh_;
+  const Settings& settings_;
+  const OptimizeOptions& options_;
+  OptimizeReport& report_;
+};
+
+void Notes::tell(const RunFacts& facts) {
+  if (facts.boundary_cuts) tell_cuts(*facts.boundary_cuts);
+  if (facts.input_flips > 0) {
+    add(count_of(facts.input_flips, "edge", "edges") + " of the input flipped to make it regular");
+  }
+  if (facts.weights_shrunk) add("weights of the input leave edges uncrossed: all were made smaller");
+  if (facts.energy_rose) add("the energy rose in the last sweeps; the mesh with the least one is returned");
+}
+
+void Notes::tell_cuts(const BoundaryCuts& cuts) {
+  const auto rounded = [](double ratio) { return to_text(std::round(100 * ratio) / 100); };
+  if (cuts.vertices > 0) {
+    add(count_of(cuts.vertices, "vertex", "vertices") +
+        " inserted on the boundary and on lines: edges that meet there differed in length by a factor of " +
+        rounded(cuts.ratio_before) + ", now " + rounded(cuts.ratio_after));
+  }
+  if (cuts.conflicts > 0) {
+    add(std::to_string(cuts.conflicts) + " of these split edges that left their dual no place to cross, or hardly one");
+  }
+  if (cuts.inside > 0) {
+    add(count_of(cuts.inside, "vertex", "vertices") +
+        " inserted in triangles whose corners all were on the boundary or on lines");
+  }
+  if (cuts.refused > 0) {
+    add(std::to_string(cuts.refused) +
+        " cuts of the boundary were not made: coordinates are too coarse there, or weights would hide a vertex");
+  }
+}
+
+void Notes::tell_what_was_returned(bool input, bool flipped) {
+  if (!input) return;
+  add(flipped ? "no better mesh was found: the input is returned, its edges flipped to be regular"
+              : "no better mesh was found: the input is returned as it was");
+}
+
+void Notes::tell_sizes() {
+  const SizeReport& before = report_.size.before;
+  if (options_.size_band && before.band() > *options_.size_band) {
+    add("the input is outside of its size band: sizes are up to " + to_text(before.band()) +
+        " times off the size field, and what is outside can only come nearer to it");
+  }
+  if (before.outside > 0) {
+    add("the size field does not reach " + count_of(before.outside, "vertex", "vertices") +
+        " of the input, where its nearest value was taken");
+  }
+}
+
+void Notes::tell_energy() {
+  if (!std::isfinite(report_.final_energy)) {
+    add("the energy is infinite: on some edges weights differ by more than the squared length, and this run could not "
+        "change that");
+  }
+  if (report_.final_energy < 0) {
+    add("the energy is negative: HOT has no lower bound in the weights; energies T and BP have one");
+  }
+}
+
+std::string Notes::name_of(VertexId v) const {
+  const VertexId number = report_.vertices.empty() ? v : report_.vertices[v];
+  if (!number.valid()) return "(" + to_text(mesh_.position(v).x) + ", " + to_text(mesh_.position(v).y) + ")";
+  return options_.names != nullptr ? options_.names->point(number.index) : InputNames().point(number.index);
+}
+
+/// Triangles that no optimiser can make well-centered, whatever it tries.
+void Notes::tell_edges_that_must_be_split() {
+  if (!settings_.energy.barrier || count_bad(mesh_, options_.executor) == 0) return;
+  if (options_.inversion == Inversion::allow && count_inverted(mesh_) > 0) return;  // no inside to see through
+  const std::vector<EdgeConflict> edges = edges_that_must_be_split(mesh_);
+  if (edges.empty()) return;
+  const HalfedgeId worst = edges.front().edge;
+  add(count_of(edges.size(), "edge of the boundary or of lines has", "edges of the boundary or of lines have") +
+      " to be split, or a vertex near it moved, before any mesh can be well-centered here, first the one from " +
+      name_of(mesh_.origin(worst)) + " to " + name_of(mesh_.target(worst)) +
+      ": see temper explain, or --boundary split");
+}
+
+void Notes::tell_accuracy() {
+  const std::size_t bad = count_bad(mesh_, options_.executor);
+  std::size_t thin = 0;
+  for (const TriangleId t : mesh_.triangles()) thin += triangle_margin(mesh_, t) > settings_.accuracy.margin ? 0 : 1;
+  thin -= std::min(thin, bad);
+  if (bad > 0) {
+    add(count_of(bad, "triangle is", "triangles are") +
+        " not well-centered: vertices there were not moved for accuracy");
+  }
+  if (thin > 0) {
+    add(count_of(thin, "triangle is", "triangles are") + " well-centered by no more than " +
+        to_text(settings_.accuracy.margin) + " of an edge");
+  }
+  add("energy of the accuracy objective, edges taken absolute: " + to_text(report_.initial_energy) + " before, " +
+      to_text(report_.final_energy) + " after");
+}
+
+/// Vertices that Lawson's algorithm leaves without a power cell.
+std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, const OptimizeOptions& options) {
+  if (options.hidden != HiddenPolicy::keep || count_non_regular_edges(mesh, false, options.executor) == 0) return {};
+  Mesh copy = mesh;
+  return restore_regularity(copy).hidden;
+}
+
+/// The input with its edges flipped as every attempt begins, for a run that found nothing better.
+Mesh made_regular(const Mesh& mesh, Settings settings) {
+  settings.options.tracer = {};
+  WorkingCopy work(mesh, settings.options.order, settings.options.executor);
+  const Observer nobody;
+  Run unheard(settings.options, nobody);
+  Driver(work, settings, unheard).make_regular();
+  return std::move(work).in_user_terms();
+}
+
+/// Vertices of the input that are gone, and new ones that are there.
+void count_changes(const Mesh& input, OptimizeReport& report) {
+  report.vertices_removed = report.vertices_inserted = 0;
+  if (report.vertices.empty()) return;
+  for (const VertexId v : report.vertices) report.vertices_inserted += v.valid() ? 0 : 1;
+  report.vertices_removed = input.n_vertices() - (report.vertices.size() - report.vertices_inserted);
+}
+
+/// Whether an input that is returned can be made better by flips alone. Where hidden vertices are kept, edges that are
+/// not regular make no mesh worse; but those that can be flipped are.
+bool lacks_flips(const Mesh& input, const OptimizeOptions& o) {
+  return o.flips && o.hidden == HiddenPolicy::keep && o.boundary_vertices != BoundaryVertices::split &&
+         count_non_regular_edges(input, false, o.executor) > 0;
+}
+
+}  // namespace
+
+std::string_view name(Stopped stopped) {
+  switch (stopped) {
+    case Stopped::converged:
+      return "converged";
+    case Stopped::max_sweeps:
+      return "max_sweeps";
+    case Stopped::max_outer:
+      return "max_outer";
+    case Stopped::time_limit:
+      return "time_limit";
+    case Stopped::cancelled:
+      return "cancelled";
+    case Stopped::accuracy_sweeps:
+      return "accuracy_sweeps";
+    case Stopped::tangled:
+      return "tangled";
+    case Stopped::hidden:
+      return "hidden";
+  }
+  return "unknown";
+}
+
+void give_back(Mesh& mesh, Candidate best, Settings settings, const AccuracySizes* sizes, Run& run) {
+  OptimizeReport& report = run.report;
+  const OptimizeOptions& o = settings.options;
+  WorkingCopy& work = best.work;
+  Recorder recorder(o.tracer, work, 1);
+  recorder.begin_sweep(run.next_sweep());
+  settings.model = in_user_units(settings.model, work.frame);
+  const VertexSizes of_result = sizes != nullptr ? sizes->in_user_terms(work, o.executor) : VertexSizes();
+  const VertexSizes* const of_input = sizes != nullptr ? &sizes->of_input() : nullptr;
+  if (work.has_gaps || work.has_inserted()) report.vertices = work.user_vertices();
+  Mesh result = std::move(work).in_user_terms();  // first: what knew the order takes room no longer
+  const Rank before = rank(mesh, settings, of_input);
+  const Rank after = rank(result, settings, sizes != nullptr ? &of_result : nullptr);
+  const SizeField field =
+      o.size_field ? *o.size_field : input_size_field_of(mesh, o.executor);  // seen until mesh is replaced
+  report.size.before = report.size.after = measure_size(mesh, field, o.executor);
+  report.initial_energy = report.final_energy = before.energy;
+  const bool worse = before < after, flips = worse && lacks_flips(mesh, o);
+  if (worse) {
+    report.vertices = {};
+    result = flips ? made_regular(mesh, settings) : Mesh();
+    if (flips) report.final_energy = rank(result, settings, of_input).energy;
+    recorder.returned_to(flips ? 0 : -1);
+  } else {
+    report.final_energy = after.energy;
+  }
+  count_changes(mesh, report);
+  if (!worse || flips) {
+    report.size.after = measure_size(result, field, o.executor, report.vertices);
+    mesh = std::move(result);
+  }
+  report.hidden = hidden_vertices_of(mesh, o);
+
+  Notes notes(mesh, settings, report);
+  notes.tell(run.facts);
+  notes.tell_what_was_returned(worse, flips);
+  notes.tell_sizes();
+  notes.tell_energy();
+  notes.tell_edges_that_must_be_split();
+  if (sizes != nullptr) notes.tell_accuracy();
+  report.seconds = run.seconds();
+}
+
+}  // namespace temper

@@ -1,0 +1,45 @@
+// What one thread improves vertices with: batches where they suit, else steps one by one.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "optimize/step/batch_step.hpp"
+
+namespace temper {
+
+class Improver {
+ public:
+  explicit Improver(const StepContext& context)
+      : context_(context),
+        flipper_(context.mesh, context.settings, context.recorder),
+        step_(context, flipper_),
+        batches_(context, flipper_, step_) {}
+  Improver(const Improver&) = delete;
+  Improver& operator=(const Improver&) = delete;
+
+  /// Improves those that are still there, in that order, or in batches nearly so. Those that need another part are
+  /// appended to `left`, in the order of their numbers.
+  void improve(std::span<const VertexId> vertices, const Part& part, std::vector<VertexId>& left) {
+    if (context_.mesh.n_vertices() >= kLeastForBatches && step_.suits_batches()) {
+      return batches_.improve(vertices, part, left);
+    }
+    for (const VertexId v : vertices) {
+      if (!context_.mesh.is_isolated(v) && !step_.improve(v, part)) left.push_back(v);
+    }
+  }
+
+  [[nodiscard]] VertexStep& step() { return step_; }
+  [[nodiscard]] Flipper& flipper() { return flipper_; }
+
+ private:
+  // The vertices of a smaller mesh are improved one by one: there is little to gain, and eight do not find each other.
+  static constexpr std::size_t kLeastForBatches = 1000;
+
+  StepContext context_;
+  Flipper flipper_;
+  VertexStep step_;
+  BatchStep batches_;
+};
+
+}  // namespace temper

@@ -1,0 +1,19 @@
+// What all steps on one working copy share.
+#pragma once
+
+#include "optimize/frame.hpp"
+#include "optimize/settings.hpp"
+#include "optimize/step/vertex_limits.hpp"
+#include "optimize/trace/recorder.hpp"
+
+namespace temper {
+
+struct StepContext {
+  Mesh& mesh;
+  const Settings& settings;
+  const Frame& frame;
+  VertexLimits& limits;
+  const Recorder& recorder;
+};
+
+}  // namespace temper
