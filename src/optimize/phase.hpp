@@ -11,7 +11,7 @@ namespace temper {
 class Phase {
  public:
   enum class Verdict { improving, infinite, settled, stopped };
-  /// Which mesh a phase ends with: that of its last sweep, of its best one, or of its best one and the start.
+  /// The mesh that a phase ends with: that of its last sweep, of its best one, or of its best one and the start.
   enum class Keeps { last, best_sweep, best };
 
   virtual ~Phase() = default;
@@ -32,7 +32,7 @@ class Phase {
   virtual bool goes_on_with_weights() { return false; }
   /// Whether a step of all vertices at once should go before the next sweep.
   [[nodiscard]] virtual bool wants_newton_pass() const { return false; }
-  /// What the last pass and the sweep after it left of the energy.
+  /// Learns what the last pass and the sweep after it left of the energy.
   virtual void passed(double /*after_pass*/, double /*after_sweep*/) {}
   [[nodiscard]] virtual Keeps keeps() const = 0;
 

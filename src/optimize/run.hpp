@@ -1,4 +1,4 @@
-// What the phases of one call of optimize share: the report that grows, the clock, and the caller's ear.
+// One run of optimize(): the report that its phases write, the clock, and the caller who may stop it.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@ namespace temper {
 /// Triangles that are not counter-clockwise, exact.
 [[nodiscard]] std::size_t count_inverted(const Mesh& mesh);
 
-/// What happened that the report tells in sentences.
+/// Facts that the report tells in sentences.
 struct RunFacts {
   std::size_t input_flips = 0;                ///< that made the input regular
   std::optional<BoundaryCuts> boundary_cuts;  ///< when they were asked for

@@ -1,4 +1,4 @@
-// How softly a barrier is approached: γ of E_BP and h° of E_BHs from sweep to sweep, as data.
+// The schedule of softening: γ of E_BP and h° of E_BHs from sweep to sweep, as data.
 //
 // A small γ from the start pins every vertex to the few triangles that are bad, and prices out the flips that
 // would cure them; a large one does not see h < 0. So γ starts large and shrinks. Quickly at first, one sweep a
@@ -52,7 +52,7 @@ class Softener {
   /// After a sweep that lowered the energy by `fall` times itself and left `bad` triangles. True when the model
   /// changed: energies before and after do not compare.
   bool advance(const Mesh& mesh, double fall, std::size_t bad, EnergyModel& model);
-  /// Of the next sweep, where the options name none.
+  /// Over-relaxation of the next sweep, where the options name none.
   [[nodiscard]] double relaxation() const { return settled_ ? kRelaxation : attempt_.relaxation; }
   /// Whether advance will change the model no more: only then can a run converge.
   [[nodiscard]] bool settled() const { return settled_; }

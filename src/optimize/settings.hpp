@@ -10,7 +10,7 @@
 
 namespace temper {
 
-/// What the accuracy energy of a working copy is over: sizes at its vertices, floors of its triangles.
+/// The domain of the accuracy energy of a working copy: sizes at its vertices, floors of its triangles.
 struct AccuracyDomain {
   VertexSizes sizes;
   AccuracyFloors floors;
@@ -34,7 +34,7 @@ struct Settings {
   return o.flips && o.flip_timing == FlipTiming::deferred;
 }
 
-/// Those that a sweep moves, counted from 0: weights from i_w on.
+/// The unknowns that a sweep moves, counted from 0: weights from i_w on.
 [[nodiscard]] inline Unknowns unknowns_of_sweep(const OptimizeOptions& o, int sweep) {
   return o.unknowns == Unknowns::positions_and_weights && sweep < o.weights_from ? Unknowns::positions : o.unknowns;
 }

@@ -20,7 +20,7 @@ struct WorkingCopy {
   std::size_t n_triangles_named = 0;  ///< the same of the user's triangle slots
 
   WorkingCopy(const Mesh& user, SweepOrder sweeps, Executor* executor = nullptr);
-  /// Of a part of a mesh that is in its frame already: every number and coordinate is its own name.
+  /// The working copy of a part of a mesh that is in its frame already: every number and coordinate is its own name.
   [[nodiscard]] static WorkingCopy part(const Mesh& part);
 
   /// The vertex of that number in the user's mesh; invalid when it was removed. O(n).

@@ -8,7 +8,7 @@
 namespace temper {
 namespace {
 
-/// What the options say of the first phase does not hold here: Newton steps along the curve, all edges kept.
+/// The settings of the second phase: Newton steps along the curve with all edges kept, whatever the first one did.
 Settings of_accuracy(Settings s, const AccuracyDomain& domain) {
   const OptimizeOptions first = std::exchange(s.options, {});
   s.options.objective = first.objective;

@@ -19,14 +19,14 @@ namespace temper {
 
 class AccuracySizes {
  public:
-  /// Of a mesh in the user's terms.
+  /// The sizes of a mesh in the user's terms.
   AccuracySizes(const Mesh& input, const std::optional<SizeField>& field, Executor* executor);
 
-  /// Of the input, in the user's units.
+  /// The sizes of the input, in the user's units.
   [[nodiscard]] const VertexSizes& of_input() const { return input_; }
-  /// Of a working copy of it, in the units of its frame.
+  /// The sizes of a working copy of it, in the units of its frame.
   [[nodiscard]] VertexSizes of(const WorkingCopy& work, Executor* executor) const;
-  /// The same of work.in_user_terms(), in the user's units.
+  /// The sizes of work.in_user_terms(), in the user's units.
   [[nodiscard]] VertexSizes in_user_terms(const WorkingCopy& work, Executor* executor) const;
 
  private:

@@ -76,8 +76,8 @@ std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool vertic
   add_removals(around, bad, one);
   for (const TriangleId t : bad) add_insertions(around.mesh, t, one);
   for (const double gradation : kGradations) {
-    many.push_back({.kind = Edit::fill, .gradation = gradation});
-    anew.push_back({.kind = Edit::refill, .gradation = gradation});
+    many.push_back({.kind = Edit::refine, .gradation = gradation});
+    anew.push_back({.kind = Edit::remesh, .gradation = gradation});
   }
   return {moves, one, many, anew};
 }

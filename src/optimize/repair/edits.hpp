@@ -1,4 +1,4 @@
-// What might cure the bad triangles of a neighbourhood: the edits worth a trial, those that change least first.
+// Edits that might cure the bad triangles of a neighbourhood: those worth a trial, those that change least first.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What a trial did in its neighbourhood, done to the whole mesh: so the trace of a run tells repairs like all else.
+// The splice of a repair: what its trial did in a neighbourhood is done to the whole mesh, and traced like all else.
 #pragma once
 
 #include <span>

@@ -7,7 +7,7 @@
 #include "geometry/predicates_inline.hpp"
 #include "geometry/triangle_kernel.hpp"
 #include "mesh/bad_triangles.hpp"
-#include "optimize/repair/fill.hpp"
+#include "optimize/repair/refinement.hpp"
 #include "optimize/run.hpp"
 #include "optimize/schedule.hpp"
 #include "optimize/step/vertex_step.hpp"
@@ -24,7 +24,7 @@ constexpr double kSharp = 0.1;
 // Of the shortest edge: farther, and most kicks would turn a triangle over.
 constexpr double kKick = 0.4;
 // More than a neighbourhood that lacks vertices ever needs.
-constexpr int kMostFilled = 300;
+constexpr int kMostInserted = 300;
 
 /// −h/ℓ, −d/ℓ or d/ℓ − 1, whichever is the worst; zero or less inside.
 double violation_of(const Mesh& mesh, TriangleId t) {
@@ -62,7 +62,7 @@ class Trial {
   bool insert(TriangleId t, Vec2 place);
   bool split(HalfedgeId h);
   bool remove(VertexId v);
-  bool fill(double gradation);
+  bool refine(double gradation);
   void remove_free_vertices();
   void sweep();
   [[nodiscard]] bool any_bad() const;
@@ -121,11 +121,11 @@ bool Trial::apply(const Edit& edit) {
       return split(edit.edge);
     case Edit::remove:
       return remove(edit.vertex);
-    case Edit::refill:
+    case Edit::remesh:
       remove_free_vertices();
-      return fill(edit.gradation);
-    case Edit::fill:
-      return fill(edit.gradation);
+      return refine(edit.gradation);
+    case Edit::refine:
+      return refine(edit.gradation);
   }
   return false;
 }
@@ -168,18 +168,18 @@ bool Trial::remove(VertexId v) {
 }
 
 /// False when nothing was missing, or an edge could not be made regular.
-bool Trial::fill(double gradation) {
-  Fill missing(work_.mesh, gradation);
-  int filled = 0;
-  for (auto place = missing.next(); place && filled < kMostFilled; place = missing.next()) {
+bool Trial::refine(double gradation) {
+  DelaunayRefinement refinement(work_.mesh, gradation);
+  int inserted = 0;
+  for (auto place = refinement.next(); place && inserted < kMostInserted; place = refinement.next()) {
     if (!insert(place->triangle, place->position)) {
-      missing.refuse(place->position);
+      refinement.refuse(place->position);
       continue;
     }
     if (!flipper_.restore_all()) return false;
-    ++filled;
+    ++inserted;
   }
-  return filled > 0;
+  return inserted > 0;
 }
 
 void Trial::remove_free_vertices() {

@@ -21,14 +21,14 @@ struct Edit {
     insert,   ///< a vertex in a triangle
     split,    ///< an inner edge in its middle
     remove,   ///< a vertex
-    fill,     ///< with vertices, until no triangle is large for its place
-    refill,   ///< the same, after all free vertices have been removed
+    refine,   ///< with vertices, until no triangle is large for its place
+    remesh,   ///< the same, after all free vertices have been removed
   } kind = nothing;
   TriangleId triangle = {};  ///< insert
   Vec2 place = {};           ///< insert
   HalfedgeId edge = {};      ///< split
   VertexId vertex = {};      ///< remove
-  double gradation = 0;      ///< fill, refill: growth of the size of triangles with the distance from the boundary
+  double gradation = 0;      ///< refine, remesh: growth of the size of triangles with the distance from the boundary
   std::uint64_t seed = 0;    ///< kick
 };
 
@@ -43,7 +43,7 @@ struct Standing {
 /// Whether v is on no boundary, interface or rim and not fixed; plan_removal says whether it can go.
 [[nodiscard]] bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, VertexId v);
 
-/// What a trial came to.
+/// The outcome of a trial.
 struct Outcome {
   bool valid = false;  ///< all edges regular, those of the rim too, and nothing hidden
   Standing standing;

@@ -50,7 +50,7 @@ std::size_t BatchStep::take_from(std::vector<VertexId>& list) {
 /// Stars of a batch should be alike: the largest decides how long it takes.
 std::size_t BatchStep::kind_of(VertexId v) const {
   constexpr std::size_t kSmall = 5;
-  return std::clamp<std::size_t>(limits_.scratch[v], kSmall, kSmall + waiting_.size() - 1) - kSmall;
+  return std::clamp<std::size_t>(limits_.degree[v], kSmall, kSmall + waiting_.size() - 1) - kSmall;
 }
 
 /// False when v has to wait; else it is in the batch, or there is nothing to be done here.
@@ -73,7 +73,7 @@ void BatchStep::gather(VertexId v, Mobility mobility) {
   }
   mark(v) = Mark::looked_at;
   const std::size_t triangles = batch_.open[lane] != 0 ? occupant.n_link - 1 : occupant.n_link;
-  limits_.scratch[v] = static_cast<std::uint8_t>(std::min<std::size_t>(triangles, 255));
+  limits_.degree[v] = static_cast<std::uint8_t>(std::min<std::size_t>(triangles, 255));
   occupant.alone = mobility == Mobility::sliding || triangles > StarBatch::kMostTriangles;
   batch_.p.set(lane, mesh_.point(v));
   batch_.triangles[lane] = occupant.alone ? 0 : static_cast<double>(triangles);

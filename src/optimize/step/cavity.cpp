@@ -31,7 +31,7 @@ VertexId apex_across(const RemovalPlan& plan, VertexId a, VertexId b) {
   return {};
 }
 
-/// What lies across the edge a → b of a new triangle.
+/// The triangle across the edge a → b of a new triangle.
 struct Across {
   VertexId apex;  ///< invalid on the boundary
   bool is_link = false, constrained = false;
@@ -82,7 +82,7 @@ double hot_edges(const Mesh& mesh, const EnergyModel& model, const HotKernel& ke
   return sum;
 }
 
-/// What is across h, a side of a triangle that an insertion replaces.
+/// The triangle across h, a side of a triangle that an insertion replaces.
 Beyond beyond_replaced(const Mesh& mesh, const InsertionPlan& plan, HalfedgeId h) {
   const HalfedgeId g = mesh.twin(h);
   if (!g.valid()) return {};

@@ -1,4 +1,4 @@
-// What plans cost before they are committed: the energy of the triangles that fill a removed vertex's cavity, or that
+// Prices of plans before they are committed: the energy of the triangles that fill a removed vertex's cavity, or that
 // surround an inserted one.
 #pragma once
 

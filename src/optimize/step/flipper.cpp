@@ -22,7 +22,7 @@ struct FlipPrice {
   void after(const Mesh& mesh, HalfedgeId h) { change += flip_energy(mesh, model, h); }
 };
 
-/// The same sums in the same order, and each flip written down.
+/// A FlipPrice, bit for bit, that writes each flip down.
 struct FlipLog {
   const EnergyModel& model;
   std::vector<FlipRecord>& records;
@@ -130,7 +130,7 @@ std::vector<VertexId> Flipper::hidden_at_stuck_edges() {
   return hidden;
 }
 
-/// What the policy asks for, once vertices are hidden and the flips that led there are done.
+/// Does what the policy asks for, once vertices are hidden and the flips that led there are done.
 void Flipper::treat_hidden() {
   std::vector<VertexId> stay = hidden_at_stuck_edges();
   if (settings_.options.hidden == HiddenPolicy::remove) {

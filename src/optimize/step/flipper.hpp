@@ -51,7 +51,7 @@ class Flipper {
     std::size_t flips = 0, removed = 0, inserted = 0;
   };
   Changes take_changes() { return std::exchange(changes_, {}); }
-  /// Those of another flipper, on the same mesh.
+  /// Adds the changes of another flipper on the same mesh.
   void add(const Changes& more) {
     changes_.flips += more.flips;
     changes_.removed += more.removed;

@@ -1,4 +1,4 @@
-// Which way a vertex may go: the directions in (x, y, w) that its optimisation works in.
+// The freedom of a vertex: the directions in (x, y, w) that it may go.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ struct Freedom {
   [[nodiscard]] bool moves() const { return n > 0 && axis[0][2] == 0; }
 };
 
-/// What the place of a vertex allows, whatever the sweep: decided once, since moves keep the lines of the boundary and
-/// of constrained edges.
+/// The mobility that its place leaves a vertex, whatever the sweep. Decided once, since moves keep the lines of the
+/// boundary and of constrained edges.
 enum class Mobility : std::uint8_t {
   frozen,  ///< neither position nor weight: the rim of a neighbourhood
   fixed,   ///< where the user wants so; corners of the boundary, ends, bends and branches of constrained lines; and all

@@ -1,4 +1,4 @@
-// What one thread improves vertices with: batches where they suit, else steps one by one.
+// The improver of one thread: batches of vertices where they suit, else steps one by one.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// Whether a vertex should go: the paper's short-edge rule (Algorithm 2) and patch test (Algorithm 1, line 15). Both
-// only ask; the vertex step commits.
+// Two tests for the removal of a vertex: the paper's short-edge rule (Algorithm 2) and patch test (Algorithm 1, line
+// 15). Both only ask; the vertex step commits.
 #pragma once
 
 #include "energy/patch.hpp"

@@ -19,7 +19,7 @@ namespace temper {
 
 class SizeBand {
  public:
-  /// Of a mesh in the frame, and a field in the user's units; switched off without either of field and band.
+  /// The band of a mesh in the frame around a field in the user's units; switched off without either of field and band.
   SizeBand(const Mesh& mesh, const Frame& frame, const std::optional<SizeField>& field, std::optional<double> band);
 
   [[nodiscard]] bool on() const { return squared_band_ > 0; }

@@ -17,7 +17,7 @@ class StarEnergy {
 
   [[nodiscard]] double value(const WeightedPoint& p);
   [[nodiscard]] VertexDerivatives derivatives(const WeightedPoint& p);
-  /// What a step is measured in: the patch radius, or of the accuracy objective the shortest spoke.
+  /// The unit of steps: the patch radius, or of the accuracy objective the shortest spoke.
   [[nodiscard]] double radius(const WeightedPoint& p) const;
   /// How many trials a search has: near a barrier more of them pay.
   [[nodiscard]] int trials() const;

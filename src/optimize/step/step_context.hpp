@@ -1,4 +1,4 @@
-// What all steps on one working copy share.
+// The mesh and the settings that all steps on one working copy share.
 #pragma once
 
 #include "optimize/frame.hpp"

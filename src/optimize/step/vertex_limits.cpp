@@ -6,7 +6,7 @@ namespace temper {
 
 VertexLimits::VertexLimits(const Mesh& mesh, const Settings& settings, const Frame& frame)
     : mobility(mobilities(mesh, settings.options)),
-      scratch(mesh.n_vertices(), 0),
+      degree(mesh.n_vertices(), 0),
       band(mesh, frame, settings.size_field, settings.options.size_band),
       mesh_(mesh),
       settings_(settings) {}
@@ -16,7 +16,7 @@ void VertexLimits::renumber(const Compaction& kept) {
   left.reserve(kept.vertices.size());
   for (const VertexId v : kept.vertices) left.push_back(mobility[v]);
   mobility = std::move(left);
-  scratch.resize(mobility.size());
+  degree.resize(mobility.size());
   band.renumber(kept);
 }
 
@@ -24,7 +24,7 @@ void VertexLimits::grow() {
   for (std::size_t i = mobility.size(); i < mesh_.n_vertices(); ++i) {
     mobility.push_back(temper::mobility(mesh_, VertexId(i), settings_.options));
   }
-  scratch.resize(mobility.size());
+  degree.resize(mobility.size());
   band.grow();
 }
 

@@ -1,4 +1,4 @@
-// What limits the steps of each vertex, shared by all that make steps on one mesh.
+// The limits of each vertex: mobility and size band, shared by all that make steps on one mesh.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ struct VertexLimits {
   VertexLimits(const Mesh& mesh, const Settings& settings, const Frame& frame);
 
   IdVector<VertexId, Mobility> mobility;
-  IdVector<VertexId, std::uint8_t> scratch;  ///< of batches, see batch_step.cpp
-  SizeBand band;                             ///< has scratch of its own: with a band, only one step at a time
+  IdVector<VertexId, std::uint8_t> degree;  ///< triangles there were when a batch took the vertex last; 0: never
+  SizeBand band;  ///< keeps what it was asked about last: with a band, only one step at a time
 
   /// v stays, weight and all.
   void freeze(VertexId v) { mobility[v] = Mobility::frozen; }

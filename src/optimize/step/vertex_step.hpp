@@ -26,7 +26,7 @@ class VertexStep {
         recorder_(context.recorder),
         star_(context.mesh, context.settings) {}
 
-  /// Of the sweep under way: i ≥ i_w, i ≥ i_c, and the overshoot of FlipLimit::after.
+  /// Prepares for a sweep: whether i ≥ i_w, whether i ≥ i_c, and the overshoot of FlipLimit::after.
   void begin_sweep(int sweep);
 
   /// Collapses v; or moves it so that the energy falls, flips what must flip, and removes it if its patch is better

@@ -9,7 +9,7 @@
 namespace temper {
 namespace {
 
-/// Of the triangles that move; +∞ when one of them is not well-centered.
+/// The energy of the triangles that move; +∞ when one of them is not well-centered.
 double energy_inside(const Mesh& mesh, const PartSystem& system, const EdgeFormula& formula) {
   double sum = 0;
   TriangleLanes lanes;
@@ -61,7 +61,7 @@ void NewtonPass::improve(const Part& part, Unknowns unknowns, Worker& worker) {
   found ? record(worker) : take_back(worker);
 }
 
-/// What moves, at t of its step.
+/// Puts the vertices that move to t of their steps.
 void NewtonPass::place(Worker& worker, double t) {
   const PartSystem& system = worker.system;
   for (std::size_t i = 0; i < system.size(); ++i) {

@@ -37,7 +37,7 @@ class NewtonPass {
   void run(Unknowns unknowns, StopToken& stop);
 
  private:
-  /// What one part needs while it runs.
+  /// The storage of one part while it runs.
   struct Worker {
     PartSystem system;
     std::vector<WeightedPoint> before;  // the part's points

@@ -130,7 +130,7 @@ void PartSystem::add_row(const Mesh& mesh, std::size_t i) {
   matrix_.start.push_back(static_cast<std::uint32_t>(upper - matrix_.column.begin()));
 }
 
-/// Of that column in a row's entries from `begin` on, where it is.
+/// The entry of a column, looked for in its row from `begin` on.
 std::size_t PartSystem::entry(std::size_t begin, std::size_t column) const {
   while (matrix_.column[begin] != column) ++begin;
   return begin;

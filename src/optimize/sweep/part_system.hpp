@@ -18,12 +18,12 @@
 
 namespace temper {
 
-/// What of a vertex moves.
+/// The unknowns of a vertex that move.
 enum class Movable : std::uint8_t { nothing, weight, position, all };
 
 class PartSystem {
  public:
-  /// What moves, and the pattern of the matrix.
+  /// Finds the vertices that move, and the pattern of the matrix.
   void gather(const Mesh& mesh, const IdVector<VertexId, Mobility>& mobility, Unknowns unknowns, const Part& part);
   /// The equations at the mesh as it is. Returns the energy of the triangles that move, +∞ outside the barrier's
   /// domain.
@@ -37,7 +37,7 @@ class PartSystem {
   /// The step of vertex(i) in (x, y, w), of what moves.
   [[nodiscard]] std::array<double, 3> step(std::size_t i) const;
 
-  /// Those with a corner that moves.
+  /// The triangles with a corner that moves.
   [[nodiscard]] std::size_t n_triangles() const { return triangles_.size(); }
   /// The next of them from `begin` on, one a lane, the last one in what is left. Returns how many there are.
   std::size_t load(const Mesh& mesh, std::size_t begin, TriangleLanes& lanes) const;

@@ -41,7 +41,7 @@ void Sweeper::shake(double amount, Rng& rng) {
   add_changes();
 }
 
-/// Of the options, where steps only do what sweeper.hpp says of them; else one part comes after the other.
+/// The executor of the options, where steps do no more than sweeper.hpp says of them; else a serial one.
 Executor& Sweeper::executor() {
   const OptimizeOptions& o = context_.settings.options;
   const bool told_in_order = context_.recorder.on() || o.weight_updates == WeightUpdates::deferred;

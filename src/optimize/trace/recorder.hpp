@@ -11,7 +11,7 @@
 
 namespace temper {
 
-/// Of an event that no energy belongs to.
+/// The energy of an event that has none.
 inline constexpr double kNoEnergy = std::numeric_limits<double>::quiet_NaN();
 
 /// One flip, in the numbers of the working copy: halfedge a→b became d→c.

@@ -1,6 +1,7 @@
-// Vertices for a place that has too few: circumcenters of triangles that are large for where they are.
+// Delaunay refinement of a place that has too few vertices: they come to circumcenters of triangles that are large for
+// where they are.
 //
-// As in Delaunay refinement, but the boundary is never touched: what would come too near to it is not inserted. The
+// But the boundary is never touched: what would come too near to it is not inserted. The
 // size wanted at x is the least of s_v + g |x − v| over the vertices v of boundary, constrained edges and rim, s_v
 // being the mean length of these edges at v.
 #pragma once
@@ -14,12 +15,12 @@
 
 namespace temper {
 
-class Fill {
+class DelaunayRefinement {
  public:
   /// `gradation`: g, the growth of the size with distance.
-  Fill(const Mesh& mesh, double gradation);
+  DelaunayRefinement(const Mesh& mesh, double gradation);
 
-  /// Where the next vertex should come to be, and the triangle strictly around that; nothing when all are small enough.
+  /// The place for the next vertex, and the triangle strictly around it; nothing when all are small enough.
   struct Place {
     TriangleId triangle;
     Vec2 position;

@@ -1,4 +1,4 @@
-#include "optimize/repair/fill.hpp"
+#include "optimize/repair/refinement.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ double distance_to_segment(Vec2 x, Vec2 a, Vec2 b) {
 
 }  // namespace
 
-Fill::Fill(const Mesh& mesh, double gradation) : mesh_(mesh), gradation_(gradation) {
+DelaunayRefinement::Fill(const Mesh& mesh, double gradation) : mesh_(mesh), gradation_(gradation) {
   std::vector<double> sum(mesh.n_vertices(), 0);
   std::vector<int> count(mesh.n_vertices(), 0);
   for (const HalfedgeId h : mesh.halfedges()) {
@@ -42,7 +42,7 @@ Fill::Fill(const Mesh& mesh, double gradation) : mesh_(mesh), gradation_(gradati
   }
 }
 
-std::optional<Fill::Place> Fill::next() {
+std::optional<DelaunayRefinement::Place> DelaunayRefinement::next() {
   double worst = kLarge;
   std::optional<Place> place;
   for (const TriangleId t : mesh_.triangles()) {
@@ -64,13 +64,13 @@ std::optional<Fill::Place> Fill::next() {
   return place;
 }
 
-double Fill::size(Vec2 x) const {
+double DelaunayRefinement::size(Vec2 x) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Source& s : sources_) least = std::min(least, s.size + gradation_ * length(x - s.at));
   return least;
 }
 
-bool Fill::too_near_to_edges(Vec2 x) const {
+bool DelaunayRefinement::too_near_to_edges(Vec2 x) const {
   const double wanted = size(x);
   return std::any_of(segments_.begin(), segments_.end(), [&](const Segment& s) {
     return distance_to_segment(x, s.a, s.b) < kClearance * std::min(length(s.b - s.a), wanted);
