@@ -25,7 +25,7 @@ double distance_to_segment(Vec2 x, Vec2 a, Vec2 b) {
 
 }  // namespace
 
-DelaunayRefinement::Fill(const Mesh& mesh, double gradation) : mesh_(mesh), gradation_(gradation) {
+DelaunayRefinement::DelaunayRefinement(const Mesh& mesh, double gradation) : mesh_(mesh), gradation_(gradation) {
   std::vector<double> sum(mesh.n_vertices(), 0);
   std::vector<int> count(mesh.n_vertices(), 0);
   for (const HalfedgeId h : mesh.halfedges()) {
