@@ -12,7 +12,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/assert.hpp"
 #include "dec/accurate.hpp"
+#include "mesh/erased.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper {
@@ -176,6 +178,10 @@ void DecBuilder::dual_areas() {
 
 }  // namespace
 
-DecComplex dec(const Mesh& mesh) { return DecBuilder(mesh).build(); }
+DecComplex dec(const Mesh& mesh) {
+  TEMPER_ASSERT(mesh.n_halfedges() < std::size_t{1} << 31);
+  TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
+  return DecBuilder(mesh).build();
+}
 
 }  // namespace temper

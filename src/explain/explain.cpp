@@ -16,11 +16,13 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/assert.hpp"
 #include "explain/conflict.hpp"
 #include "explain/crossings.hpp"
 #include "explain/cures.hpp"
 #include "feasibility/region.hpp"
 #include "mesh/bad_triangles.hpp"
+#include "mesh/erased.hpp"
 #include "quality/measure.hpp"
 #include "temper/geometry.hpp"
 #include "temper/topology.hpp"
@@ -373,6 +375,7 @@ std::string_view name(Cure::Action action) {
 }
 
 Expected<Explanation> explain(const Mesh& mesh, LpSolver& solver, const ExplainOptions& options) {
+  TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   return Explainer(mesh, solver, options).run();
 }
 

@@ -15,10 +15,12 @@
 #include <string>
 #include <utility>
 
+#include "base/assert.hpp"
 #include "feasibility/certify.hpp"
 #include "feasibility/change.hpp"
 #include "feasibility/constraints.hpp"
 #include "feasibility/region.hpp"
+#include "mesh/erased.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper {
@@ -334,6 +336,7 @@ std::string_view name(MarginIs is) {
 }
 
 Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options) {
+  TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   const bool elastic = options.goal == WeightGoal::elastic;
   if (!(options.margin < 0.5) || !(elastic ? options.margin >= 0 : options.margin > 0)) {
     return InputError{ErrorCode::invalid_option, "",

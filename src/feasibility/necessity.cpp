@@ -12,8 +12,10 @@
 #include <tuple>
 #include <unordered_set>
 
+#include "base/assert.hpp"
 #include "feasibility/exact_number.hpp"
 #include "geometry/predicates_inline.hpp"
+#include "mesh/erased.hpp"
 
 namespace temper {
 namespace {
@@ -194,6 +196,7 @@ std::optional<EdgeConflict> edge_conflict(const Mesh& mesh, HalfedgeId h, double
 }
 
 std::vector<EdgeConflict> edges_that_must_be_split(const Mesh& mesh, double up_to) {
+  TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   std::vector<EdgeConflict> conflicts;
   for (const HalfedgeId h : mesh.halfedges()) {
     if (!mesh.is_edge_representative(h) || !(mesh.is_boundary(h) || mesh.is_constrained(h))) continue;

@@ -204,8 +204,10 @@ bool Driver::make_regular() {
 void Driver::grade_boundary() {
   const OptimizeOptions& o = settings_.options;
   if (o.boundary_vertices != BoundaryVertices::split) return;
+  TEMPER_ASSERT_SLOW(o.hidden == HiddenPolicy::keep || count_non_regular_edges(mesh_, false) == 0);
   const BoundaryCuts cuts = cut_boundary(work_, flipper_, o.boundary_ratio);
   grow();
+  TEMPER_ASSERT_SLOW(o.hidden == HiddenPolicy::keep || count_non_regular_edges(mesh_, false) == 0);
   run_.facts.boundary_cuts = cuts;  // of each attempt the same
 }
 

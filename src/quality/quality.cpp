@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <set>
 
+#include "base/assert.hpp"
 #include "base/median.hpp"
+#include "mesh/erased.hpp"
 #include "quality/tally.hpp"
 #include "temper/executor.hpp"
 
@@ -52,6 +54,7 @@ std::size_t count_regions(const Mesh& mesh) {
 }  // namespace
 
 Quality quality(const Mesh& mesh, const QualityOptions& options) {
+  TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   const Tally sums = tally(mesh, options);
   Quality q;
   q.vertices = mesh.n_vertices();

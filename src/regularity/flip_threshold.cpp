@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.hpp"
 #include "regularity/power_tests.hpp"
 #include "temper/regularity.hpp"
 
@@ -58,6 +59,7 @@ double first_crossing(Quadratic g) {
 }  // namespace
 
 double flip_threshold(const Mesh& mesh, VertexId v, const std::array<double, 3>& step) {
+  TEMPER_ASSERT(!mesh.is_isolated(v));
   const WeightedPoint p = mesh.point(v);
   const PowerTest test;
   double threshold = kNoThreshold;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/assert.hpp"
 #include "base/hilbert.hpp"
 #include "geometry/predicates_inline.hpp"
 
@@ -86,6 +87,7 @@ BoxTree::BoxTree(const Mesh& mesh) : triangles_(along_curve(mesh)) {
 }
 
 NearestPoint BoxTree::nearest(const Mesh& mesh, Vec2 p) const {
+  TEMPER_ASSERT(!triangles_.empty() && triangles_.size() == mesh.n_triangles());
   NearestPoint best;
   best.distance2 = kInfinite;
   search(mesh, p, levels_.size() - 1, 0, best);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/assert.hpp"
 #include "base/sum.hpp"
 #include "mesh/blocks.hpp"
 #include "size/star_area.hpp"
@@ -94,7 +95,10 @@ double largest_edge_ratio(const Mesh& mesh) {
 
 }  // namespace
 
-double local_size(const Mesh& mesh, VertexId v) { return star_area(mesh, v).size(); }
+double local_size(const Mesh& mesh, VertexId v) {
+  TEMPER_ASSERT(!mesh.is_isolated(v));
+  return star_area(mesh, v).size();
+}
 
 Spread spread(std::vector<double> values) {
   if (values.empty()) return {};

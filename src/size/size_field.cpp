@@ -4,9 +4,11 @@
 #include <string>
 #include <utility>
 
+#include "base/assert.hpp"
 #include "base/text.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "mesh/blocks.hpp"
+#include "mesh/erased.hpp"
 #include "size/box_tree.hpp"
 #include "temper/size.hpp"
 
@@ -142,6 +144,7 @@ double SizeField::at(VertexId v) const { return data_->sizes[v]; }
 namespace {
 
 IdVector<VertexId, double> local_sizes(const Mesh& mesh, Executor* executor) {
+  TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   IdVector<VertexId, double> sizes(mesh.n_vertices());
   for_each_index(mesh.n_vertices(), executor,
                  [&](std::size_t i) { sizes[VertexId(i)] = local_size(mesh, VertexId(i)); });

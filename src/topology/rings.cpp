@@ -2,9 +2,12 @@
 
 #include <algorithm>
 
+#include "base/assert.hpp"
+
 namespace temper {
 
 std::vector<TriangleId> triangles_around(const Mesh& mesh, std::span<const TriangleId> triangles) {
+  TEMPER_ASSERT_SLOW(std::none_of(triangles.begin(), triangles.end(), [&](TriangleId t) { return mesh.is_erased(t); }));
   std::vector<TriangleId> around;
   for (const TriangleId t : triangles) {
     for (const VertexId v : mesh.corners(t)) {

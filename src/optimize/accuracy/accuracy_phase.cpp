@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/assert.hpp"
 #include "energy/whole_mesh.hpp"
 
 namespace temper {
@@ -58,7 +59,9 @@ SweepRecord AccuracyPhase::measure() {
   return r;
 }
 
-Phase::Verdict AccuracyPhase::judge(bool /*removed*/) {
+Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool removed) {
+  TEMPER_ASSERT(!removed && run_.report.history.back().flips == 0);  // the connectivity is what it was
+  TEMPER_ASSERT_SLOW(count_bad(mesh_, nullptr) == bad_);
   if (domain_.floors.raise(mesh_, settings_.accuracy.margin, settings_.options.executor) > 0) {
     now_ = sum();  // of another barrier
     return Verdict::improving;

@@ -84,6 +84,9 @@ void Splice::remove(const TraceEvent& e) {
 
 void splice(WorkingCopy& work, Flipper& flipper, const Recorder& recorder, const Neighborhood& around,
             std::span<const TraceEvent> events) {
+  TEMPER_ASSERT_SLOW(std::all_of(around.mesh.vertices().begin(), around.mesh.vertices().end(), [&](VertexId v) {
+    return around.mesh.point(v) == work.mesh.point(around.vertices[v.index]);
+  }));
   Splice whole(work, flipper, recorder, around);
   for (const TraceEvent& e : events) whole.apply(e);
 }

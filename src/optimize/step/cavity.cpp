@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/assert.hpp"
 #include "energy/edge_kernels.hpp"
 #include "energy/patch.hpp"
 #include "temper/geometry.hpp"
@@ -121,6 +122,7 @@ double new_edges(const Mesh& mesh, const EnergyModel& model, const HotKernel& ke
 }  // namespace
 
 double cavity_energy(const Mesh& mesh, const EnergyModel& model, const RemovalPlan& plan) {
+  TEMPER_ASSERT(!mesh.is_boundary(plan.vertex));
   return with_kernel(model, [&](const auto& kernel) {
     double sum = 0;
     for (const Corners& t : plan.triangles) {

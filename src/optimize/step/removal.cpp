@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.hpp"
 #include "optimize/step/cavity.hpp"
 #include "optimize/step/line_search.hpp"
 
@@ -34,6 +35,7 @@ WeightedPoint best_position(const Patch& patch, const EnergyModel& model, Weight
 
 bool nearly_collapses(const Patch& patch, const EnergyModel& collapse_model, const WeightedPoint& p, double ratio,
                       Inversion inversion) {
+  TEMPER_ASSERT(patch.closed && (!needs_outer(collapse_model.kind) || patch.outer_g.size() == patch.size()));
   const Vec2 best = best_position(patch, collapse_model, p, inversion).position();
   const std::size_t n = patch.link.size();
   std::size_t nearest = 0;

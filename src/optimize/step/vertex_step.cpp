@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.hpp"
 #include "optimize/step/cavity.hpp"
 #include "optimize/step/line_search.hpp"
 #include "optimize/step/removal.hpp"
@@ -37,6 +38,7 @@ bool VertexStep::improve(VertexId v, const Part& part) {
   if (collapses_ && collapse(v)) return true;
   optimize_point(v);
   if (removes_ && !escapes_) remove_if_better(v);
+  TEMPER_ASSERT_SLOW(escapes_ || mesh_.is_isolated(v) || is_confined(mesh_, v, part));
   return !escapes_;
 }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 
+#include "base/assert.hpp"
 #include "optimize/run.hpp"
 
 namespace temper {
@@ -17,7 +18,10 @@ class StopToken {
       : run_(run), caller_(this_thread()), n_(static_cast<double>(std::max<std::size_t>(1, n_vertices))) {}
 
   /// From the thread that called: the caller is asked before the next stretch.
-  void ask_soon() { since_asked_ = kVerticesBetweenCalls; }
+  void ask_soon() {
+    TEMPER_ASSERT(this_thread() == caller_);
+    since_asked_ = kVerticesBetweenCalls;
+  }
   /// Before a stretch of vertices.
   [[nodiscard]] bool goes_on() {
     if (stop_.load(std::memory_order_relaxed)) return false;

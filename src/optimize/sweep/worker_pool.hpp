@@ -1,12 +1,15 @@
 // The workers of parts that run at once: as many are made as ever are at work together, and kept.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <utility>
+
+#include "base/assert.hpp"
 
 namespace temper {
 
@@ -36,6 +39,7 @@ class WorkerPool {
 
   /// Room for n workers; while none is leased.
   void make_room(std::size_t n) {
+    TEMPER_ASSERT_SLOW(std::none_of(places_.begin(), places_.end(), [](const Place& p) { return p.taken.load(); }));
     while (places_.size() < n) places_.emplace_back();
   }
 
