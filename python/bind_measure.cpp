@@ -10,7 +10,6 @@
 #include "temper/draw.hpp"
 #include "temper/energy.hpp"
 #include "temper/geometry.hpp"
-#include "temper/plot.hpp"
 #include "temper/quality.hpp"
 #ifdef TEMPER_WITH_VERIFY
 #include "temper/verify.hpp"

@@ -7,8 +7,8 @@
 
 #include "experiments/minimise.hpp"
 #include "experiments/random.hpp"
+#include "plot/plot.hpp"
 #include "temper/geometry.hpp"
-#include "temper/plot.hpp"
 
 namespace temper::gallery {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "plot/plot.hpp"
 #include "temper/energy.hpp"
-#include "temper/plot.hpp"
 #include "temper/vec2.hpp"
 
 namespace temper::gallery {

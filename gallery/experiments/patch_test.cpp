@@ -7,7 +7,7 @@
 #include "experiments/inputs.hpp"
 #include "experiments/mesh_picture.hpp"
 #include "experiments/text.hpp"
-#include "temper/plot.hpp"
+#include "plot/plot.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::gallery {

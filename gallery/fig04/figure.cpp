@@ -11,7 +11,7 @@
 #include "experiments/text.hpp"
 #include "experiments/triangle_drawing.hpp"
 #include "figures.hpp"
-#include "temper/plot.hpp"
+#include "plot/plot.hpp"
 
 namespace temper::gallery {
 namespace {

@@ -11,10 +11,10 @@
 #include "experiments/sparse_runs.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
+#include "plot/plot.hpp"
 #include "temper/energy.hpp"
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"
-#include "temper/plot.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::gallery {

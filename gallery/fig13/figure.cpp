@@ -14,8 +14,8 @@
 #include "experiments/sparse_runs.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
+#include "plot/plot.hpp"
 #include "temper/energy.hpp"
-#include "temper/plot.hpp"
 
 namespace temper::gallery {
 namespace {

@@ -9,7 +9,7 @@
 #include "experiments/sparse_runs.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
-#include "temper/plot.hpp"
+#include "plot/plot.hpp"
 
 namespace temper::gallery {
 namespace {

@@ -8,7 +8,8 @@
 #include "experiments/sparse_runs.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
-#include "temper/plot.hpp"
+#include "plot/plot.hpp"
+#include "temper/draw.hpp"
 
 namespace temper::gallery {
 namespace {

@@ -10,7 +10,7 @@
 #include "experiments/oscillating_horseshoe.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
-#include "temper/plot.hpp"
+#include "plot/plot.hpp"
 
 namespace temper::gallery {
 namespace {

@@ -11,8 +11,8 @@
 #include "experiments/oscillating_horseshoe.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
+#include "plot/plot.hpp"
 #include "temper/geometry.hpp"
-#include "temper/plot.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper::gallery {

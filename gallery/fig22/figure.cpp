@@ -11,7 +11,7 @@
 #include "experiments/oscillating_horseshoe.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
-#include "temper/plot.hpp"
+#include "plot/plot.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper::gallery {

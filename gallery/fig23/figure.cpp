@@ -10,7 +10,7 @@
 #include "experiments/text.hpp"
 #include "experiments/weight_policies.hpp"
 #include "figures.hpp"
-#include "temper/plot.hpp"
+#include "plot/plot.hpp"
 
 namespace temper::gallery {
 namespace {

@@ -6,7 +6,8 @@
 #include "experiments/text.hpp"
 #include "experiments/weight_policies.hpp"
 #include "figures.hpp"
-#include "temper/plot.hpp"
+#include "plot/plot.hpp"
+#include "temper/draw.hpp"
 
 namespace temper::gallery {
 namespace {

@@ -8,7 +8,7 @@
 #include "experiments/search_loop.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
-#include "temper/plot.hpp"
+#include "plot/plot.hpp"
 
 namespace temper::gallery {
 namespace {

@@ -11,7 +11,7 @@
 #include "experiments/moment_picture.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
-#include "temper/plot.hpp"
+#include "plot/plot.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::gallery {

@@ -10,8 +10,8 @@
 #include "experiments/moment_picture.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
+#include "plot/plot.hpp"
 #include "temper/geometry.hpp"
-#include "temper/plot.hpp"
 
 namespace temper::gallery {
 namespace {

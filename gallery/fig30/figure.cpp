@@ -10,8 +10,8 @@
 #include "experiments/patch_test.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
+#include "plot/plot.hpp"
 #include "temper/generate.hpp"
-#include "temper/plot.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::gallery {

@@ -17,7 +17,7 @@
 #include "experiments/summary_matrix.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
-#include "temper/plot.hpp"
+#include "plot/plot.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::gallery {

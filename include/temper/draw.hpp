@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,5 +33,10 @@ struct DrawOptions {
 [[nodiscard]] std::string draw_svg(const Mesh& mesh, const DrawOptions& options = {});
 /// Two panels side by side, to one scale and one zoom box.
 [[nodiscard]] std::string draw_before_after_svg(const Mesh& before, const Mesh& after, const DrawOptions& options = {});
+
+/// Puts SVG documents side by side in rows of `columns`, under a title. Ids and the references to them are prefixed, so
+/// that they stay unique; each keeps its size, cells are as wide as the widest of their column.
+[[nodiscard]] std::string grid_svg(std::span<const std::string> svgs, std::size_t columns,
+                                   const std::string& title = {});
 
 }  // namespace temper

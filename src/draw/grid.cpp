@@ -3,9 +3,9 @@
 #include <charconv>
 #include <string_view>
 
-#include "draw/plot_text.hpp"
+#include "draw/text.hpp"
 #include "draw/xml.hpp"
-#include "temper/plot.hpp"
+#include "temper/draw.hpp"
 
 namespace temper {
 namespace {
@@ -115,7 +115,7 @@ std::string grid_svg(std::span<const std::string> svgs, std::size_t columns, con
     }
     y += heights[row];
   }
-  return plot_document(std::max(total, 1.0), std::max(y, 1.0), body);
+  return picture_document(std::max(total, 1.0), std::max(y, 1.0), body);
 }
 
 }  // namespace temper

@@ -1,4 +1,4 @@
-#include "draw/contour.hpp"
+#include "plot/contour.hpp"
 
 #include <algorithm>
 #include <array>

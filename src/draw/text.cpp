@@ -1,4 +1,4 @@
-#include "draw/plot_text.hpp"
+#include "draw/text.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -123,7 +123,7 @@ std::string text_element(Vec2 at, std::string_view label, const TextLook& look) 
 }
 
 // Spaces are kept: else they would be lost at either end of a <tspan>.
-std::string plot_document(double width, double height, const std::string& body) {
+std::string picture_document(double width, double height, const std::string& body) {
   const std::string w = short_number(width), h = short_number(height);
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h + "\" viewBox=\"0 0 " + w + " " +
          h + "\" xml:space=\"preserve\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"" +

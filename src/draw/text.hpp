@@ -1,4 +1,4 @@
-// Text of plots: numbers as axes and levels show them, labels with raised and lowered parts, and their width.
+// Text of pictures: numbers for people, labels with raised and lowered parts, and their width.
 //
 // The width is an estimate from the classes of letters of the usual sans-serif fonts, a little on the generous
 // side: what is laid out with it does not overlap, whichever font the viewer has.
@@ -35,7 +35,7 @@ struct TextLook {
 /// A <text> element at a point (pixels, y down) of its baseline.
 [[nodiscard]] std::string text_element(Vec2 at, std::string_view label, const TextLook& look = {});
 
-/// The <svg> element around a plot: size, font, white background.
-[[nodiscard]] std::string plot_document(double width, double height, const std::string& body);
+/// The <svg> element around a picture: size, font, white background.
+[[nodiscard]] std::string picture_document(double width, double height, const std::string& body);
 
 }  // namespace temper

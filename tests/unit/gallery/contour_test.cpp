@@ -1,6 +1,6 @@
 // Contours against what is known of them: lines of a plane, areas of its bands, the length of a circle, and the
 // laws that hold whatever the samples are.
-#include "draw/contour.hpp"
+#include "plot/contour.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "draw/frame.hpp"
-#include "draw/plot_ticks.hpp"
-#include "temper/plot.hpp"
+#include "plot/plot.hpp"
+#include "plot/ticks.hpp"
 
 namespace temper {
 

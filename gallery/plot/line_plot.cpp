@@ -6,10 +6,10 @@
 
 #include "draw/frame.hpp"
 #include "draw/path.hpp"
-#include "draw/plot_axes.hpp"
-#include "draw/plot_text.hpp"
+#include "draw/text.hpp"
 #include "draw/xml.hpp"
-#include "temper/plot.hpp"
+#include "plot/axes.hpp"
+#include "plot/plot.hpp"
 
 namespace temper {
 namespace {
@@ -177,7 +177,7 @@ class LinePainter {
     for (std::size_t i = 0; i < plot_.series.size(); ++i) curves += draw(plot_.series[i], looks_[i]);
     std::string svg = clipped_group(axes_.area, "plot", curves) + axes_.svg() + reference_labels() + marks();
     if (corner) svg += legend(*corner);
-    return plot_document(axes_.width, axes_.height, svg);
+    return picture_document(axes_.width, axes_.height, svg);
   }
 
  private:

@@ -1,11 +1,11 @@
-#include "draw/plot_axes.hpp"
+#include "plot/axes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "draw/path.hpp"
-#include "draw/plot_text.hpp"
+#include "draw/text.hpp"
 #include "draw/xml.hpp"
 
 namespace temper {

@@ -1,10 +1,10 @@
-#include "draw/plot_ticks.hpp"
+#include "plot/ticks.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "draw/plot_text.hpp"
+#include "draw/text.hpp"
 
 namespace temper {
 namespace {

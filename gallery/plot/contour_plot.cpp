@@ -3,14 +3,14 @@
 #include <cmath>
 #include <limits>
 
-#include "draw/contour.hpp"
-#include "draw/line_labels.hpp"
 #include "draw/path.hpp"
-#include "draw/plot_axes.hpp"
-#include "draw/plot_levels.hpp"
-#include "draw/plot_text.hpp"
+#include "draw/text.hpp"
 #include "draw/xml.hpp"
-#include "temper/plot.hpp"
+#include "plot/axes.hpp"
+#include "plot/contour.hpp"
+#include "plot/levels.hpp"
+#include "plot/line_labels.hpp"
+#include "plot/plot.hpp"
 
 namespace temper {
 namespace {
@@ -89,7 +89,7 @@ class ContourPainter {
     std::string content = bands() + lines() + overlay_lines();
     std::string svg = clipped_group(axes_.area, "plot", content) + labels() + axes_.svg() + overlay_labels();
     if (has_key()) svg += key();
-    return plot_document(axes_.width, axes_.height, svg);
+    return picture_document(axes_.width, axes_.height, svg);
   }
 
  private:

@@ -1,5 +1,5 @@
 // Plots as documents: well-formed, deterministic, nothing drawn outside the frame, whatever the numbers are.
-#include "temper/plot.hpp"
+#include "plot/plot.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/rng.hpp"
-#include "draw/plot_axes.hpp"
-#include "draw/plot_levels.hpp"
-#include "draw/plot_text.hpp"
-#include "draw/plot_ticks.hpp"
+#include "draw/text.hpp"
+#include "plot/axes.hpp"
+#include "plot/levels.hpp"
+#include "plot/ticks.hpp"
 #include "support/lattice.hpp"
 #include "temper/draw.hpp"
 #include "unit/draw/svg_reading.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "temper/plot.hpp"
+#include "plot/plot.hpp"
 
 namespace temper {
 

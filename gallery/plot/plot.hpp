@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -104,11 +103,5 @@ struct ContourPlot {
 /// Marching squares on the bilinear surface through the samples. Precondition: values.size() = nx ny. O(values.size() ·
 /// levels crossed).
 [[nodiscard]] std::string contour_plot_svg(const ContourPlot& plot);
-
-/// Puts documents (of draw.hpp or of this header) side by side in rows of `columns`, under a title. Ids and
-/// the references to them are prefixed, so that they stay unique; each keeps its size, cells are as wide as the widest
-/// of their column.
-[[nodiscard]] std::string grid_svg(std::span<const std::string> svgs, std::size_t columns,
-                                   const std::string& title = {});
 
 }  // namespace temper

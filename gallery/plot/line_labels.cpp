@@ -1,4 +1,4 @@
-#include "draw/line_labels.hpp"
+#include "plot/line_labels.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
-#include "draw/plot_levels.hpp"
+#include "plot/levels.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
-#include "draw/plot_axes.hpp"
-#include "draw/plot_ticks.hpp"
+#include "plot/axes.hpp"
+#include "plot/ticks.hpp"
 
 namespace temper {
 namespace {

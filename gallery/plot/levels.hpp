@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "temper/plot.hpp"
+#include "plot/plot.hpp"
 
 namespace temper {
 
