@@ -8,7 +8,7 @@ headers=(include/temper/*.hpp)
 flags=(-std=c++20 -fsyntax-only -Iinclude -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
 
 compilers=0
-for compiler in g++ clang++; do
+for compiler in g++ clang++-19; do
   command -v "$compiler" >/dev/null || continue
   compilers=$((compilers + 1))
   printf '%s\0' "${headers[@]#include/}" |

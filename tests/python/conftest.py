@@ -8,7 +8,7 @@ import pytest
 import temper
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-PUBLIC_MESHES = ROOT.parent / "shared" / "meshes"
+PUBLIC_MESHES = pathlib.Path(os.environ.get("TEMPER_SHARED", ROOT.parent / "shared")) / "meshes"
 
 
 @pytest.fixture

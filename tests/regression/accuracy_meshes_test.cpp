@@ -70,7 +70,7 @@ TEST(AccuracyOfPublicMeshes, LowersTheErrorsOfSolversOnFieldsThatWereHeldBack) {
   Means means;
   for (const char* name : kMeshesForAccuracy) {
     SCOPED_TRACE(name);
-    const std::string path = std::string(TEMPER_PUBLIC_MESHES) + "/" + name;
+    const std::string path = std::string(TEMPER_SHARED "/meshes") + "/" + name;
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
     const auto file = io::read(path);
     ASSERT_TRUE(file) << file.error().what();

@@ -34,7 +34,7 @@ const PublicMesh kMeshes[] = {
     {"skfem_square.msh", 109, 184},
 };
 
-std::string path_of(const PublicMesh& mesh) { return std::string(TEMPER_PUBLIC_MESHES) + "/" + mesh.file; }
+std::string path_of(const PublicMesh& mesh) { return std::string(TEMPER_SHARED "/meshes") + "/" + mesh.file; }
 
 class PublicMeshes : public testing::TestWithParam<PublicMesh> {
  protected:

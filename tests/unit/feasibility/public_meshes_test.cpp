@@ -29,7 +29,7 @@ const PublicMesh kMeshes[] = {
 class PublicMeshWeights : public testing::TestWithParam<PublicMesh> {};
 
 TEST_P(PublicMeshWeights, ExistAndFewHaveToChange) {
-  const std::string path = std::string(TEMPER_PUBLIC_MESHES) + "/" + GetParam().file;
+  const std::string path = std::string(TEMPER_SHARED "/meshes") + "/" + GetParam().file;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
   const auto file = io::read(path);
   ASSERT_TRUE(file) << file.error().what();
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(All, PublicMeshWeights, testing::ValuesIn(kMeshes), [](
 
 /// Well-centered by their weights: no edge may be said to need a split, whichever edges and vertices are kept.
 TEST_P(PublicMeshWeights, NeedNoSplit) {
-  const std::string path = std::string(TEMPER_PUBLIC_MESHES) + "/" + GetParam().file;
+  const std::string path = std::string(TEMPER_SHARED "/meshes") + "/" + GetParam().file;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
   const auto file = io::read(path);
   ASSERT_TRUE(file) << file.error().what();
@@ -78,7 +78,7 @@ struct PublicOutline {
 };
 
 TEST(PublicOutlines, MustBeSplitAtTheseEdgesAndThenHaveWellCenteredMeshes) {
-  const std::string folder = std::string(TEMPER_PUBLIC_MESHES) + "/../outlines";
+  const std::string folder = TEMPER_SHARED "/outlines";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
   for (const PublicOutline& outline :
        {PublicOutline{"cdt_Capital_A.poly", {{3, 4}, {5, 6}, {10, 11}, {17, 18}, {24, 28}}},

@@ -43,7 +43,7 @@ Poly read_poly(const std::filesystem::path& path) {
 }
 
 TEST(Outlines, AreFilledByAConstrainedDelaunayTriangulation) {
-  const std::filesystem::path folder = TEMPER_OUTLINES;
+  const std::filesystem::path folder = TEMPER_SHARED "/outlines";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
   int outlines = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {

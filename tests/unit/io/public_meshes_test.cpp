@@ -11,7 +11,7 @@ struct Public {
 };
 
 TEST(PublicMeshes, are_read_with_their_numbers_of_vertices_and_triangles) {
-  if (!std::filesystem::exists(TEMPER_PUBLIC_MESHES)) GTEST_SKIP() << "no meshes in " << TEMPER_PUBLIC_MESHES;
+  if (!std::filesystem::exists(TEMPER_SHARED "/meshes")) GTEST_SKIP() << "no meshes in " << TEMPER_SHARED "/meshes";
   constexpr Public kFiles[] = {{"sfepy_osteonT1_11.mesh", "medit", 1228, 2292, 0, 67},
                                {"sfepy_circle_in_square.mesh", "medit", 1102, 2102, 0, 2},
                                {"sfepy_its2D.mesh", "medit", 55, 83, 0, 1},
@@ -23,7 +23,7 @@ TEST(PublicMeshes, are_read_with_their_numbers_of_vertices_and_triangles) {
                                {"mfem_beam-tri.mesh", "mfem", 18, 16, 0, 2},
                                {"pydec_ResonantCavity.vtu", "vtu", 191, 336, 0, 1}};
   for (const Public& expected : kFiles) {
-    const auto f = read(std::string(TEMPER_PUBLIC_MESHES) + "/" + expected.file);
+    const auto f = read(std::string(TEMPER_SHARED "/meshes") + "/" + expected.file);
     ASSERT_TRUE(f) << f.error().what();
     EXPECT_EQ(f->format, expected.format) << expected.file;
     const auto made = make_mesh(*f);
@@ -41,11 +41,11 @@ TEST(PublicMeshes, are_read_with_their_numbers_of_vertices_and_triangles) {
 class PublicFiles : public FileTest {};
 
 TEST_F(PublicFiles, go_through_every_format_without_losing_a_bit_of_points_and_triangles) {
-  if (!std::filesystem::exists(TEMPER_PUBLIC_MESHES)) GTEST_SKIP() << "no meshes in " << TEMPER_PUBLIC_MESHES;
+  if (!std::filesystem::exists(TEMPER_SHARED "/meshes")) GTEST_SKIP() << "no meshes in " << TEMPER_SHARED "/meshes";
   int trips = 0;
   for (const char* name : {"sfepy_circles_in_square.vtk", "sfepy_its2D.mesh", "skfem_annulus.msh",
                            "mfem_square-disc.mesh", "pydec_ResonantCavity.vtu"}) {
-    const auto f = read(std::string(TEMPER_PUBLIC_MESHES) + "/" + name);
+    const auto f = read(std::string(TEMPER_SHARED "/meshes") + "/" + name);
     ASSERT_TRUE(f) << f.error().what();
     for (const Format& format : formats()) {
       const bool netcdf = format.name == "mpas" || format.name == "ugrid";
@@ -65,8 +65,8 @@ TEST_F(PublicFiles, go_through_every_format_without_losing_a_bit_of_points_and_t
 }
 
 TEST(PublicMeshes, keep_their_names_and_lines) {
-  if (!std::filesystem::exists(TEMPER_PUBLIC_MESHES)) GTEST_SKIP() << "no meshes in " << TEMPER_PUBLIC_MESHES;
-  const auto f = read(std::string(TEMPER_PUBLIC_MESHES) + "/skfem_annulus.msh");
+  if (!std::filesystem::exists(TEMPER_SHARED "/meshes")) GTEST_SKIP() << "no meshes in " << TEMPER_SHARED "/meshes";
+  const auto f = read(std::string(TEMPER_SHARED "/meshes") + "/skfem_annulus.msh");
   ASSERT_TRUE(f) << f.error().what();
   ASSERT_EQ(f->names.size(), 3u);
   EXPECT_EQ(f->names[0].name, "exter");

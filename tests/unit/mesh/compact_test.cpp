@@ -85,7 +85,6 @@ TEST(Compact, OfRandomPartsKeepsOrderFlagsAndTwins) {
 }
 
 TEST(Compact, OfAWholeMeshChangesNothingAndTwiceIsOnce) {
-  Rng rng(12);
   // Two erased triangles; compacting again finds nothing to do.
   Mesh mesh = built(test::squares(6));
   MeshEditor(mesh).erase(TriangleId(0));

@@ -226,9 +226,9 @@ TEST_F(OutlineFiles, WhatIsNoOutlineIsSaidToBeNone) {
 }
 
 TEST(PublicOutlines, AllAreWellCenteredAtEverySizeInOneGo) {
-  if (!std::filesystem::exists(TEMPER_PUBLIC_OUTLINES)) GTEST_SKIP() << "no public outlines here";
+  if (!std::filesystem::exists(TEMPER_SHARED "/outlines")) GTEST_SKIP() << "no public outlines here";
   std::size_t tested = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(TEMPER_PUBLIC_OUTLINES)) {
+  for (const auto& entry : std::filesystem::directory_iterator(TEMPER_SHARED "/outlines")) {
     if (entry.path().extension() != ".poly") continue;
     const auto file = io::read_outline(entry.path().string());
     ASSERT_TRUE(file.has_value()) << file.error().what();

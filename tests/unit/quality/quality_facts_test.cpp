@@ -175,7 +175,7 @@ struct PublicMesh {
 };
 
 TEST(QualityFacts, PublicMeshes) {
-  const std::filesystem::path folder = std::filesystem::path(TEMPER_SOURCE_DIR) / "../shared/meshes";
+  const std::filesystem::path folder = TEMPER_SHARED "/meshes";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
   // Counted in rational arithmetic: 128 obtuse triangles of osteonT1, and 44 with an exact right angle.
   for (const PublicMesh& known : {PublicMesh{"sfepy_osteonT1_11.mesh", 1228, 2292, 128 + 44},
