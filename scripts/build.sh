@@ -7,9 +7,6 @@ shift || true
 
 launcher=()
 if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
-# The program needs no tests; only the presets made for testing build them.
-extra=()
-if [[ "$preset" == release ]]; then extra=(-DTEMPER_BUILD_TESTS=OFF); fi
 
-cmake --preset "$preset" "${launcher[@]}" "${extra[@]}" >/dev/null
+cmake --preset "$preset" "${launcher[@]}" >/dev/null
 cmake --build --preset "$preset" "$@"

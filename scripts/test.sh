@@ -3,7 +3,7 @@
 # line says how many checks and tests passed and failed, in all builds together.
 #
 #   scripts/test.sh             all stages
-#   scripts/test.sh --quick     without the sanitizer build
+#   scripts/test.sh --quick     without the sanitizers, and so only with those tests that need an optimised library
 #
 # TEMPER_TEST_JOBS: parallel jobs, default all processors.
 set -uo pipefail
@@ -42,12 +42,12 @@ stage() {
   fi
 }
 
-# suite NAME DIR: runs ctest there and counts its tests one by one; no test at all is a failure.
+# suite NAME DIR ARGUMENT OF CTEST …: runs ctest there and counts its tests one by one; no test at all is a failure.
 suite() {
   local name=$1 dir=$2 start=$SECONDS counts
   local results="$scratch/results.xml"
   rm -f "$results"
-  env -u GTEST_FILTER -u GTEST_TOTAL_SHARDS ctest --test-dir "$dir" -j "$jobs" --no-tests=error --output-on-failure \
+  env -u GTEST_FILTER -u GTEST_TOTAL_SHARDS ctest --test-dir "$dir" "${@:3}" -j "$jobs" --no-tests=error --output-on-failure \
     --test-output-size-passed 10000000 --output-junit "$results" >"$scratch/log" 2>&1
   local status=$?
   read -r -a counts < <(python3 scripts/count_tests.py "$results" 2>/dev/null || echo 0 1 0)
@@ -62,8 +62,8 @@ suite() {
   printf '%-44s %-6s  %4d s   %d passed, %d failed, %d skipped\n' "$name" "$verdict" $((SECONDS - start)) "${counts[@]}"
 }
 
-configure_and_build() {  # PRESET OPTION …
-  cmake --preset "$1" "${launcher[@]}" "${@:2}" && cmake --build --preset "$1" -j "$jobs"
+configure_and_build() {  # PRESET ARGUMENT OF THE BUILD …
+  cmake --preset "$1" "${launcher[@]}" && cmake --build --preset "$1" -j "$jobs" "${@:2}"
 }
 
 formatted() {
@@ -77,11 +77,8 @@ formatted() {
 # The core must do without exceptions and RTTI: not one of its sources may be compiled with them.
 core_without_exceptions() {
   python3 - build/dev/compile_commands.json <<'PYTHON'
-import json, pathlib, sys
-layers = {p.name for p in pathlib.Path("src").iterdir() if p.is_dir()} - {"io", "lp", "tbb", "verify"}
-root = pathlib.Path("src").resolve()
-core = [c for c in json.load(open(sys.argv[1])) if root in pathlib.Path(c["file"]).resolve().parents
-        and pathlib.Path(c["file"]).resolve().relative_to(root).parts[0] in layers]
+import json, sys
+core = [c for c in json.load(open(sys.argv[1])) if "/temper.dir/" in c["output"]]
 wrong = [c["file"] for c in core if not all(f in c["command"] for f in ("-fno-exceptions", "-fno-rtti", "-ffp-contract=off"))]
 print("\n".join(wrong) if wrong else f"{len(core)} sources")
 sys.exit(bool(wrong) or not core)
@@ -98,24 +95,28 @@ every_test_program_is_there() {  # BUILD
   ((missing == 0 && count > 0)) && echo "$count programs"
 }
 
-# The other compiler's opinion of the core, where there is one: several sources at once, as in a unity build, for the time
-# that saves; where it has something against them together, what it says of each alone is the verdict. What is compiled
-# for several instruction sets has one source that stands for all.
-clang_accepts() {  # SOURCE …
-  local flags=(-std=c++20 -fsyntax-only -Iinclude -Isrc -ffp-contract=off -fno-exceptions -fno-rtti
-               -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
-  printf '#include "%s"\n' "$@" | clang++ "${flags[@]}" -x c++ - 2>/dev/null ||
-    printf '%s\0' "$@" | xargs -0 -n 1 clang++ "${flags[@]}"
+# The other compiler reads every source of the project alone: nothing is missing there that unity builds or precompiled
+# headers bring.
+clang_accepts_all() {
+  cmake --preset clang >/dev/null || return 1
+  python3 - build/clang/compile_commands.json >"$scratch/commands" <<'PYTHON'
+import json, sys
+for entry in json.load(open(sys.argv[1])):
+    print(entry["command"].partition(" -o ")[0], "-fsyntax-only", entry["file"], end="\0")
+PYTHON
+  (cd build/clang && xargs -0 -P "$jobs" -n 1 sh -c <"$scratch/commands") &&
+    echo "$(tr -dc '\0' <"$scratch/commands" | wc -c) sources"
 }
-export -f clang_accepts
 
-clang_accepts_core() {
-  local sources
-  mapfile -t sources < <(find "$PWD/src" -name '*.cpp' -not -name '*_avx*' | grep -v -E '/src/(io|lp|tbb|verify)/' | sort)
-  ((${#sources[@]} > 0)) && (IFS=';' && echo "core;${sources[*]}") >"$scratch/core.txt" &&
-    python3 cmake/unity_groups.py "$scratch/core.txt" "$PWD" >"$scratch/groups.txt" &&
-    sed 's/^set_source_files_properties(//; s/ TARGET_DIRECTORY .*//; s/.*/clang_accepts &/' "$scratch/groups.txt" |
-    tr '\n' '\0' | xargs -0 -P "$jobs" -n 1 bash -c && echo "${#sources[@]} sources"
+# What has changed since the main branch, or in the last commit.
+tidy() {
+  local base files
+  base=$(git merge-base HEAD origin/main 2>/dev/null || true)
+  if [[ -z "$base" || "$base" == "$(git rev-parse HEAD)" ]]; then base=HEAD~1; fi
+  mapfile -t files < <(git diff --name-only --diff-filter=d "$base" -- 'src/*.cpp' 'apps/*.cpp')
+  ((${#files[@]} == 0)) || printf '%s\0' "${files[@]}" |
+    xargs -0 -P "$jobs" -n 1 clang-tidy-14 -p build/clang --quiet --warnings-as-errors='*' || return 1
+  echo "${#files[@]} sources"
 }
 
 consumer_find_package() {
@@ -125,7 +126,7 @@ consumer_find_package() {
 }
 
 consumer_subdirectory() {
-  cmake -G Ninja -S tests/consumer/subdirectory -B "$scratch/subdirectory" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DTEMPER_UNITY=ON \
+  cmake -G Ninja -S tests/consumer/subdirectory -B "$scratch/subdirectory" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DCMAKE_UNITY_BUILD=ON \
     "${launcher[@]}" &&
     cmake --build "$scratch/subdirectory" -j "$jobs"
 }
@@ -139,24 +140,20 @@ stage "layers: who includes whom" python3 scripts/check_layers.py
 stage "format" formatted
 stage "bench: the comparison finds what it should" python3 bench/compare.py --self-test
 stage "headers, each alone" tests/consumer/headers.sh
-# All tests run with sanitizers; of the optimised build, which has none, those that depend on that.
-few=OFF
-if ((!quick)); then few=ON; fi
-if stage "build (dev, -Werror)" configure_and_build dev -DTEMPER_FEW_TESTS=$few; then
+stage "clang++ accepts every source" clang_accepts_all && stage "clang-tidy on what has changed" tidy
+# Those tests whose findings depend on how the library is optimised.
+if stage "build (optimised, -Werror)" configure_and_build dev --target optimised; then
   stage "core without exceptions and RTTI" core_without_exceptions
   stage "instruction sets keep to themselves" python3 scripts/check_instruction_sets.py build/dev
-  if ((quick)); then stage "every test program is there" every_test_program_is_there build/dev; fi
   stage "the Python module is tested" grep -q 'add_test.*python.*pytest' build/dev/tests/python/CTestTestfile.cmake
-  suite "tests (dev)" build/dev
+  suite "tests (optimised)" build/dev -L optimised
   stage "consumer: install, find_package" consumer_find_package && suite "consumer: find_package runs" "$scratch/find_package"
 fi
-if command -v clang++ >/dev/null; then stage "clang++ accepts the core" clang_accepts_core; fi
 stage "consumer: subdirectory, exceptions on" consumer_subdirectory && suite "consumer: subdirectory runs" "$scratch/subdirectory"
-if ((!quick)); then
-  if stage "build (asan and ubsan)" configure_and_build asan; then
-    stage "every test program is there" every_test_program_is_there build/asan
-    suite "tests (asan and ubsan)" build/asan
-  fi
+# All tests.
+if ((!quick)) && stage "build (sanitizers)" configure_and_build asan; then
+  stage "every test program is there" every_test_program_is_there build/asan
+  suite "tests (sanitizers)" build/asan
 fi
 
 printf '\n%d s in all' "$SECONDS"

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "exit.hpp"
@@ -113,6 +114,10 @@ Json certificate_json(const Certificate& certificate, const Input& input) {
     terms.push_back(std::move(term));
   }
   return {{"temper_certificate", kVersion}, {"margin", certificate.margin}, {"terms", std::move(terms)}};
+}
+
+std::string certificate_text(const Certificate& certificate, const Input& input) {
+  return certificate_json(certificate, input).dump(2) + "\n";
 }
 
 Certificate read_certificate(const std::string& path, const Input& input) {

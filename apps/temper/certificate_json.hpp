@@ -8,7 +8,7 @@
 // that of a split is directed: d from its first point. docs/weights.md has what the multipliers multiply.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "input.hpp"
@@ -17,6 +17,9 @@
 namespace temper::app {
 
 [[nodiscard]] nlohmann::ordered_json certificate_json(const Certificate& certificate, const Input& input);
+
+/// The same, as a file of its own.
+[[nodiscard]] std::string certificate_text(const Certificate& certificate, const Input& input);
 
 /// Failure when the file cannot be read or is no certificate.
 [[nodiscard]] Certificate read_certificate(const std::string& path, const Input& input);

@@ -166,7 +166,7 @@ Exit find(const Settings& s, Input& input, Outputs& outputs) {
     record.output = s.output;
   }
   if (proved && !s.certificate.empty()) {
-    outputs.write_text(s.certificate, certificate_json(report.certificate, input).dump(2) + "\n");
+    outputs.write_text(s.certificate, certificate_text(report.certificate, input));
     record.certificate = s.certificate;
   }
   print(s.json ? weights_json(record) : weights_text(record));

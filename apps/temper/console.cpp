@@ -67,6 +67,10 @@ std::string pad_right(std::string_view text, std::size_t width) {
   return std::string(text).append(width > used ? width - used : 0, ' ');
 }
 
+std::string plural(std::size_t n, std::string_view one, std::string_view several) {
+  return fmt::format("{} {}", n, n == 1 ? one : several);
+}
+
 std::vector<std::string> wrap(std::string_view text, std::size_t width) {
   std::vector<std::string> lines = {""};
   while (!text.empty()) {

@@ -27,6 +27,8 @@ void flush_output();
 [[nodiscard]] std::size_t display_width(std::string_view text);
 [[nodiscard]] std::string pad_left(std::string_view text, std::size_t width);
 [[nodiscard]] std::string pad_right(std::string_view text, std::size_t width);
+/// "1 edge", "3 edges"
+[[nodiscard]] std::string plural(std::size_t n, std::string_view one, std::string_view several);
 /// Lines of at most width columns, broken at spaces.
 [[nodiscard]] std::vector<std::string> wrap(std::string_view text, std::size_t width);
 

@@ -36,8 +36,8 @@ CellCounts count(const PowerCells& cells) {
 double over_median(double largest, double median) { return largest > median && median > 0 ? largest / median : 1; }
 
 std::string line(const std::string& label, const std::string& value) {
-  constexpr std::size_t kLabelColumns = 34, kValueColumns = 16;
-  return pad_right(label, kLabelColumns) + pad_left(value, kValueColumns) + "\n";
+  constexpr std::size_t kNameColumns = 34, kValueColumns = 16;
+  return pad_right(label, kNameColumns) + pad_left(value, kValueColumns) + "\n";
 }
 std::string line(const std::string& label, std::size_t value) { return line(label, fmt::format("{}", value)); }
 std::string line(const std::string& label, double value) { return line(label, fmt::format("{:.9g}", value)); }

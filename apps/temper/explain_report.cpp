@@ -36,10 +36,6 @@ Count count(const Explanation& e, const Which& which) {
   }
   return c;
 }
-std::string plural(std::size_t n, const char* one, const char* many) {
-  return fmt::format("{} {}", n, n == 1 ? one : many);
-}
-
 std::string wrapped(const std::string& text, std::size_t indent, const TextStyle& style) {
   const std::size_t width = style.columns > indent + 40 ? style.columns - indent : 40;
   std::string result;

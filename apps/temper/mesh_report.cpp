@@ -4,16 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "console.hpp"
 #include "report_json.hpp"
 
 namespace temper::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string plural(std::size_t n, const char* one, const char* several) {
-  return fmt::format("{} {}", n, n == 1 ? one : several);
-}
 
 std::string_view name(ProjectionKind kind) {
   switch (kind) {

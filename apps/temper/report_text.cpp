@@ -13,8 +13,6 @@
 namespace temper::app {
 namespace {
 
-constexpr std::size_t kLabelColumns = 30;
-constexpr std::size_t kNumberColumns = 14;
 constexpr std::size_t kEnergyColumns = 24;
 constexpr std::size_t kRangeColumns = 12;
 constexpr std::size_t kBarColumns = 10;

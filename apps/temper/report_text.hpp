@@ -8,6 +8,9 @@
 
 namespace temper::app {
 
+/// Columns of the tables of `temper check` and `temper optimize`.
+inline constexpr std::size_t kLabelColumns = 30, kNumberColumns = 14;
+
 /// How the terminal wants it.
 struct TextStyle {
   bool utf8 = true;  ///< else bars and symbols in ASCII

@@ -8,13 +8,10 @@
 #include "console.hpp"
 #include "exit.hpp"
 #include "input.hpp"
+#include "report_text.hpp"
 
 namespace temper::app {
 namespace {
-
-// As wide as the table they end.
-constexpr std::size_t kLabelColumns = 30;
-constexpr std::size_t kNumberColumns = 14;
 
 const io::DataArray& find_data(const Input& input, const std::string& name) {
   std::string others;

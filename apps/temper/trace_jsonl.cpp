@@ -20,9 +20,9 @@
 namespace temper::app {
 namespace {
 
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 
-constexpr int kVersion = 2;
+constexpr int kTraceVersion = 2;
 constexpr int kVersionWithoutEnd = 1;
 constexpr std::string_view kNumbering = "points of the input, from 0";
 constexpr std::string_view kEnd = "end";
@@ -103,10 +103,10 @@ class Record {
  public:
   Record(const std::string& text, std::string where, const Input& input) : where_(std::move(where)), input_(input) {
     try {
-      json_ = Json::parse(text);
-    } catch (const Json::parse_error& error) {
+      json_ = ParsedJson::parse(text);
+    } catch (const ParsedJson::parse_error& error) {
       fail(fmt::format("is no JSON object: {}", reason(error.what())));
-    } catch (const Json::out_of_range&) {
+    } catch (const ParsedJson::out_of_range&) {
       fail("holds a number beyond what a double can hold");
     }
     if (!json_.is_object()) fail("is no JSON object");
@@ -119,12 +119,12 @@ class Record {
   [[nodiscard]] bool has(const char* key) const { return json_.contains(key); }
 
   [[nodiscard]] std::string text(const char* key) const {
-    const Json& value = at(key);
+    const ParsedJson& value = at(key);
     if (!value.is_string()) expected(key, "a text", value);
     return value.get<std::string>();
   }
   [[nodiscard]] std::int64_t whole(const char* key) const {
-    const Json& value = at(key);
+    const ParsedJson& value = at(key);
     const auto number = as_whole(value);
     if (!number) expected(key, "a whole number", value);
     return *number;
@@ -140,7 +140,7 @@ class Record {
     return static_cast<int>(number);
   }
   [[nodiscard]] double real(const char* key) const {
-    const Json& value = at(key);
+    const ParsedJson& value = at(key);
     if (!value.is_number()) expected(key, "a number", value);
     return value.get<double>();
   }
@@ -156,17 +156,17 @@ class Record {
     return fixed_list<n>(key, at(key));
   }
   [[nodiscard]] std::vector<VertexId> all_vertices(const char* key) const {
-    const Json& list = at(key);
+    const ParsedJson& list = at(key);
     if (!list.is_array()) expected(key, "a list of vertices", list);
     std::vector<VertexId> all;
-    for (const Json& value : list) all.push_back(vertex(key, value));
+    for (const ParsedJson& value : list) all.push_back(vertex(key, value));
     return all;
   }
   [[nodiscard]] std::vector<std::array<VertexId, 3>> triangles(const char* key) const {
-    const Json& list = at(key);
+    const ParsedJson& list = at(key);
     if (!list.is_array()) expected(key, "a list of triangles", list);
     std::vector<std::array<VertexId, 3>> all;
-    for (const Json& value : list) all.push_back(fixed_list<3>(key, value));
+    for (const ParsedJson& value : list) all.push_back(fixed_list<3>(key, value));
     return all;
   }
 
@@ -176,23 +176,23 @@ class Record {
     const std::size_t at = what.find("column ");
     return at == std::string::npos ? what : what.substr(at);
   }
-  [[noreturn]] void expected(const char* key, std::string_view what, const Json& found) const {
+  [[noreturn]] void expected(const char* key, std::string_view what, const ParsedJson& found) const {
     fail(fmt::format("expected {} as \"{}\", found {}", what, key,
-                     found.dump(-1, ' ', false, Json::error_handler_t::replace)));
+                     found.dump(-1, ' ', false, ParsedJson::error_handler_t::replace)));
   }
-  [[nodiscard]] const Json& at(const char* key) const {
+  [[nodiscard]] const ParsedJson& at(const char* key) const {
     const auto found = json_.find(key);
     if (found == json_.end()) fail(fmt::format("has no \"{}\"", key));
     return *found;
   }
-  [[nodiscard]] static std::optional<std::int64_t> as_whole(const Json& value) {
+  [[nodiscard]] static std::optional<std::int64_t> as_whole(const ParsedJson& value) {
     if (!value.is_number_integer()) return std::nullopt;
     if (value.is_number_unsigned() && value.get<std::uint64_t>() > std::numeric_limits<std::int64_t>::max()) {
       return std::nullopt;
     }
     return value.get<std::int64_t>();
   }
-  [[nodiscard]] VertexId vertex(const char* key, const Json& value) const {
+  [[nodiscard]] VertexId vertex(const char* key, const ParsedJson& value) const {
     const auto number = as_whole(value);
     if (!number) expected(key, "a vertex", value);
     const auto& vertex_of_point = input_.loaded.vertex_of_point;
@@ -208,14 +208,14 @@ class Record {
     return VertexId(static_cast<std::size_t>(v));
   }
   template <std::size_t n>
-  [[nodiscard]] std::array<VertexId, n> fixed_list(const char* key, const Json& list) const {
+  [[nodiscard]] std::array<VertexId, n> fixed_list(const char* key, const ParsedJson& list) const {
     if (!list.is_array() || list.size() != n) expected(key, fmt::format("{} vertices", n), list);
     std::array<VertexId, n> all;
     for (std::size_t i = 0; i < n; ++i) all[i] = vertex(key, list[i]);
     return all;
   }
 
-  Json json_;
+  ParsedJson json_;
   std::string where_;
   const Input& input_;
   std::size_t n_inserted_ = 0;
@@ -228,8 +228,9 @@ void check_header(const Record& header, const Input& input) {
         "is a trace of version 1, which has no end line to tell whether it is whole; write it anew with temper "
         "optimize --trace");
   }
-  if (header.whole("trace") != kVersion) {
-    header.fail(fmt::format("is a trace of version {}; this temper reads version {}", header.whole("trace"), kVersion));
+  if (header.whole("trace") != kTraceVersion) {
+    header.fail(
+        fmt::format("is a trace of version {}; this temper reads version {}", header.whole("trace"), kTraceVersion));
   }
   if (header.text("numbering") != kNumbering) {
     header.fail(fmt::format("numbers its vertices as '{}'; expected '{}'", header.text("numbering"), kNumbering));
@@ -328,7 +329,7 @@ TraceEnd read_end(const Record& record, std::size_t n_events) {
 
 std::string trace_header(const Input& input) {
   nlohmann::ordered_json header = {{"temper", TEMPER_VERSION},
-                                   {"trace", kVersion},
+                                   {"trace", kTraceVersion},
                                    {"input", input.path},
                                    {"vertices", input.mesh().n_vertices()},
                                    {"triangles", input.mesh().n_triangles()},

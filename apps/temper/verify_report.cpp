@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "console.hpp"
 #include "temper/dec.hpp"
@@ -12,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kLabelColumns = 34;
+constexpr std::size_t kMeasureColumns = 34;
 constexpr std::size_t kColumns = 12;
 
 // --- text ------------------------------------------------------------------------------------------------------------
@@ -44,7 +45,7 @@ std::string label_of(const VerifyMeasure& measure, const TextStyle& style) {
 }
 
 std::string row_text(const std::string& label, const std::vector<std::string>& cells) {
-  std::string text = pad_right(label, kLabelColumns);
+  std::string text = pad_right(label, kMeasureColumns);
   for (const std::string& cell : cells) text += pad_left(cell, kColumns);
   return text + "\n";
 }

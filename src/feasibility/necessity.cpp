@@ -36,7 +36,7 @@ Number product(Vec2 from, Vec2 a, Vec2 b) {
 }
 
 /// |X − near|² / ((far − near)·(X − near)): the part of the edge, from `near`, in which the dual must cross it.
-struct Bound {
+struct CrossingBound {
   VertexId vertex;
   double value = 0, error = 0;  ///< rounded, and by how much at most
   Vec2 near, far, at;
@@ -44,7 +44,7 @@ struct Bound {
   [[nodiscard]] Number numerator() const { return product(near, at, at); }
   [[nodiscard]] Number denominator() const { return product(near, far, at); }
 
-  friend bool operator<(const Bound& x, const Bound& y) {
+  friend bool operator<(const CrossingBound& x, const CrossingBound& y) {
     if (std::abs(x.value - y.value) > x.error + y.error) return x.value < y.value;
     const Sign sign = (x.numerator() * y.denominator() - y.numerator() * x.denominator()).sign();
     return sign == Sign::zero ? x.vertex < y.vertex : sign == Sign::negative;
@@ -52,7 +52,7 @@ struct Bound {
 };
 
 /// a + b ≤ up_to, exactly.
-bool is_at_most(const Bound& a, const Bound& b, double up_to) {
+bool is_at_most(const CrossingBound& a, const CrossingBound& b, double up_to) {
   const double sum = a.value + b.value, error = a.error + b.error + kRounding * sum;
   if (std::abs(sum - up_to) > error) return sum < up_to;
   const Number da = a.denominator(), db = b.denominator();
@@ -61,12 +61,12 @@ bool is_at_most(const Bound& a, const Bound& b, double up_to) {
 }
 
 /// None when X does not bound the crossing below up_to, and so cannot be part of a conflict.
-std::optional<Bound> bound_of(VertexId vertex, Vec2 at, Vec2 near, Vec2 far, double up_to) {
+std::optional<CrossingBound> bound_of(VertexId vertex, Vec2 at, Vec2 near, Vec2 far, double up_to) {
   const Vec2 along = far - near, to = at - near;
   const double numerator = squared_length(to), denominator = dot(along, to);
   const double error = kRounding * (std::abs(along.x * to.x) + std::abs(along.y * to.y));
   if (denominator + error < 0 || numerator > 2 * up_to * (denominator + error)) return std::nullopt;
-  Bound bound = {vertex, numerator / denominator, 0, near, far, at};
+  CrossingBound bound = {vertex, numerator / denominator, 0, near, far, at};
   if (denominator <= 2 * error) {  // even the sign is not known
     if (bound.denominator().sign() != Sign::positive) return std::nullopt;
     bound.value = bound.numerator().approximation() / bound.denominator().approximation();
@@ -112,15 +112,15 @@ class Surroundings {
   }
 
   /// The least bound from u or from v that a vertex which sees the edge sets.
-  [[nodiscard]] std::optional<Bound> least(bool from_u) const {
-    std::vector<Bound> bounds;
+  [[nodiscard]] std::optional<CrossingBound> least(bool from_u) const {
+    std::vector<CrossingBound> bounds;
     for (const VertexId x : vertices_) {
       if (!stays(mesh_, x)) continue;
       const auto bound = bound_of(x, mesh_.position(x), from_u ? u_ : v_, from_u ? v_ : u_, up_to_);
       if (bound) bounds.push_back(*bound);
     }
     std::sort(bounds.begin(), bounds.end());
-    for (const Bound& bound : bounds) {
+    for (const CrossingBound& bound : bounds) {
       if (is_visible(bound.at)) return bound;
     }
     return std::nullopt;
@@ -172,7 +172,7 @@ class Surroundings {
   std::vector<Segment> walls_;
 };
 
-std::optional<Bound> lesser(const std::optional<Bound>& x, const std::optional<Bound>& y) {
+std::optional<CrossingBound> lesser(const std::optional<CrossingBound>& x, const std::optional<CrossingBound>& y) {
   if (!x || !y) return x ? x : y;
   return *y < *x ? y : x;
 }
@@ -182,7 +182,7 @@ std::optional<Bound> lesser(const std::optional<Bound>& x, const std::optional<B
 std::optional<EdgeConflict> edge_conflict(const Mesh& mesh, HalfedgeId h, double up_to) {
   const HalfedgeId edge = mesh.is_edge_representative(h) ? h : mesh.twin(h);
   const Surroundings left(mesh, edge, up_to);
-  std::optional<Bound> a = left.least(true), b = left.least(false);
+  std::optional<CrossingBound> a = left.least(true), b = left.least(false);
   if (!mesh.is_boundary(edge)) {  // one crossing serves both sides
     const Surroundings right(mesh, mesh.twin(edge), up_to);
     a = lesser(a, right.least(false));

@@ -153,7 +153,7 @@ Document GmshReader::read() {
   while (!scanner_.at_end()) {
     const std::string name(scanner_.word("a section"));
     if (!name.starts_with('$'))
-      scanner_.fail_here(ErrorCode::syntax, text("expected a section ($…), found ", quoted(name)));
+      scanner_.fail_here(ErrorCode::syntax, text("expected a section ($…), found ", in_quotes(name)));
     section(name.substr(1));
   }
   if (!has_nodes_) scanner_.fail_truncated("the section $Nodes");
@@ -183,7 +183,8 @@ void GmshReader::section(const std::string& name) {
     return;
   }
   const std::string_view end = scanner_.word(text("$End", name));
-  if (end != text("$End", name)) fail(ErrorCode::syntax, where(), text("expected $End", name, ", found ", quoted(end)));
+  if (end != text("$End", name))
+    fail(ErrorCode::syntax, where(), text("expected $End", name, ", found ", in_quotes(end)));
 }
 
 void GmshReader::mesh_format() {
@@ -422,8 +423,8 @@ void GmshReader::data(const std::string& section_name) {
   }
   constexpr std::int32_t kMostComponents = 64;  // Gmsh itself knows 1, 3 and 9
   if (integers[1] < 1 || integers[1] > kMostComponents || integers[2] < 0) {
-    scanner_.fail_here(ErrorCode::syntax,
-                       text("data ", quoted(name), " have ", integers[1], " components and ", integers[2], " entries"));
+    scanner_.fail_here(ErrorCode::syntax, text("data ", in_quotes(name), " have ", integers[1], " components and ",
+                                               integers[2], " entries"));
   }
   const auto components = static_cast<std::size_t>(integers[1]), entries = static_cast<std::size_t>(integers[2]);
   scanner_.check_room(entries, "entries", binary_ ? 4 + 8 * components : 2 + 2 * components);
@@ -445,7 +446,7 @@ void GmshReader::node_values(const std::string& name, std::size_t components, st
     const auto index = lookup_->find(number);
     if (!index) {
       fail(ErrorCode::index_out_of_range, where(),
-           text("node data ", quoted(name), " are given for node ", number, ", which is none"));
+           text("node data ", in_quotes(name), " are given for node ", number, ", which is none"));
     }
     given[*index] = true;
     for (std::size_t k = 0; k < components; ++k) values[*index * components + k] = get<double>("a value of node data");
@@ -462,7 +463,7 @@ void GmshReader::node_values(const std::string& name, std::size_t components, st
     return;
   }
   if (missing > 0)
-    f.warnings.push_back(text(where(), ": node data ", quoted(name), " miss ", missing, " points: read as NaN"));
+    f.warnings.push_back(text(where(), ": node data ", in_quotes(name), " miss ", missing, " points: read as NaN"));
   f.point_data.push_back({name, static_cast<int>(components), std::move(values)});
 }
 
@@ -491,7 +492,7 @@ void GmshReader::element_values(const std::string& name, std::size_t components,
     }
     if (target == nullptr) {
       fail(ErrorCode::index_out_of_range, where(),
-           text("element data ", quoted(name), " are given for element ", number, ", which is none"));
+           text("element data ", in_quotes(name), " are given for element ", number, ", which is none"));
     }
     if (target->values.empty()) target->values.assign(target->n * components, std::numeric_limits<double>::quiet_NaN());
     ++target->given;
@@ -501,8 +502,8 @@ void GmshReader::element_values(const std::string& name, std::size_t components,
   for (Target& target : targets) {
     if (target.values.empty()) continue;
     if (target.given < target.n) {
-      f.warnings.push_back(
-          text(where(), ": element data ", quoted(name), " miss ", target.n - target.given, " elements: read as NaN"));
+      f.warnings.push_back(text(where(), ": element data ", in_quotes(name), " miss ", target.n - target.given,
+                                " elements: read as NaN"));
     }
     target.list->push_back({name, static_cast<int>(components), std::move(target.values)});
   }

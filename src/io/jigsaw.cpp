@@ -101,7 +101,7 @@ void JigsawMeshReader::kind() {
   if (!scanner_.more_on_line()) return;
   const std::string found = upper_case(scanner_.word("the kind of file"));
   if (found == "EUCLIDEAN-MESH") return;
-  scanner_.fail_here(ErrorCode::unsupported, text("is of kind ", quoted(found), "; temper reads EUCLIDEAN-MESH"));
+  scanner_.fail_here(ErrorCode::unsupported, text("is of kind ", in_quotes(found), "; temper reads EUCLIDEAN-MESH"));
 }
 
 void JigsawMeshReader::dimension() {
@@ -178,14 +178,14 @@ void JigsawMeshReader::triangles() {
 
 void JigsawMeshReader::other(const std::string& name) {
   const bool word = !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0;
-  if (!word) scanner_.fail_here(ErrorCode::syntax, text("expected a section NAME=…, found ", quoted(name)));
+  if (!word) scanner_.fail_here(ErrorCode::syntax, text("expected a section NAME=…, found ", in_quotes(name)));
   const std::size_t n = scanner_.count("lines", 2);
   for (const auto& [cells, kind] : kOtherJigsawCells) {
     if (name != cells || n == 0) continue;
     scanner_.next_line();
     refuse_element(scanner_.where(), 0, kind);
   }
-  if (n > 0) document_.file.warnings.push_back(text(scanner_.where(), ": section ", quoted(name), " is dropped"));
+  if (n > 0) document_.file.warnings.push_back(text(scanner_.where(), ": section ", in_quotes(name), " is dropped"));
   scanner_.next_line();
   for (std::size_t i = 0; i < n; ++i) scanner_.next_line();
 }

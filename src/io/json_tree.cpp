@@ -31,7 +31,8 @@ class Parser {
     fail(rest_.empty() ? ErrorCode::truncated : ErrorCode::syntax, text(path_, ":", line_), message);
   }
   [[nodiscard]] std::string found() const {
-    return rest_.empty() ? "the end of the file" : quoted(rest_.substr(0, std::min<std::size_t>(rest_.find('\n'), 20)));
+    return rest_.empty() ? "the end of the file"
+                         : in_quotes(rest_.substr(0, std::min<std::size_t>(rest_.find('\n'), 20)));
   }
 
   void skip_space() {
@@ -85,7 +86,7 @@ class Parser {
       skip_space();
       if (!rest_.starts_with('"')) fail_here(text("expected a name in quotes, found ", found()));
       std::string name = string();
-      if (!take(':')) fail_here(text("expected ':' after ", quoted(name), ", found ", found()));
+      if (!take(':')) fail_here(text("expected ':' after ", in_quotes(name), ", found ", found()));
       v.items.push_back(value(depth + 1));
       v.names.push_back(std::move(name));
     } while (take(','));

@@ -134,12 +134,12 @@ void LegacyVtkReader::header() {
   if (std::from_chars(number.data(), number.data() + number.size(), version_).ec != std::errc() || version_ < 1 ||
       version_ >= 6) {
     fail(ErrorCode::unsupported, text(scanner_.path(), ":1"),
-         text("is legacy VTK version ", quoted(number), "; temper reads 2.0 to 5.1"));
+         text("is legacy VTK version ", in_quotes(number), "; temper reads 2.0 to 5.1"));
   }
   scanner_.rest_of_line();
   const std::string encoding = lower(scanner_.word("ASCII or BINARY"));
   if (encoding != "ascii" && encoding != "binary")
-    scanner_.fail_here(ErrorCode::syntax, text("expected ASCII or BINARY, found ", quoted(encoding)));
+    scanner_.fail_here(ErrorCode::syntax, text("expected ASCII or BINARY, found ", in_quotes(encoding)));
   binary_ = encoding == "binary";
 }
 
@@ -147,8 +147,8 @@ void LegacyVtkReader::keyword(const std::string& word) {
   if (word == "dataset") {
     const std::string kind = lower(scanner_.word("the kind of data set"));
     if (kind != "unstructured_grid" && kind != "polydata") {
-      scanner_.fail_here(ErrorCode::unsupported,
-                         text("is a data set of kind ", quoted(kind), "; temper reads UNSTRUCTURED_GRID and POLYDATA"));
+      scanner_.fail_here(ErrorCode::unsupported, text("is a data set of kind ", in_quotes(kind),
+                                                      "; temper reads UNSTRUCTURED_GRID and POLYDATA"));
     }
     poly_ = kind == "polydata";
   } else if (word == "points") {
@@ -183,7 +183,7 @@ Scalar LegacyVtkReader::type(std::string_view name, const std::string& array) {
   for (const LegacyType& row : kTypes) {
     if (row.name == plain) return row.scalar;
   }
-  scanner_.fail_here(ErrorCode::unsupported, text("array ", quoted(array), " has the type ", quoted(name)));
+  scanner_.fail_here(ErrorCode::unsupported, text("array ", in_quotes(array), " has the type ", in_quotes(name)));
 }
 
 Values LegacyVtkReader::values(Scalar scalar, std::size_t n, const std::string& name) {
@@ -284,7 +284,7 @@ LegacyVtkReader::CellArray LegacyVtkReader::cells_with_offsets(std::size_t n_off
   for (const std::string_view expected : {"offsets", "connectivity"}) {
     const std::string found = lower(scanner_.word(expected));
     if (found != expected)
-      scanner_.fail_here(ErrorCode::syntax, text("expected ", expected, ", found ", quoted(found)));
+      scanner_.fail_here(ErrorCode::syntax, text("expected ", expected, ", found ", in_quotes(found)));
     const Scalar scalar = type(scanner_.word("a type"), found);
     auto all = integers(scalar, expected == "offsets" ? n_offsets : n_points, found);
     (expected == "offsets" ? result.ends : result.points) = std::move(all);
@@ -348,8 +348,8 @@ void LegacyVtkReader::finish_cells() {
     const std::size_t expected = sorter.n_cells() * static_cast<std::size_t>(a.components);
     if (size(a.values) == expected) continue;
     fail(ErrorCode::size_mismatch, scanner_.path(),
-         text("cell data ", quoted(a.name), " has ", size(a.values), " values, expected ", sorter.n_cells(), " times ",
-              a.components));
+         text("cell data ", in_quotes(a.name), " has ", size(a.values), " values, expected ", sorter.n_cells(),
+              " times ", a.components));
   }
   sorter.distribute(std::move(cell_data_));
   document_.names->triangle_lines = std::move(triangle_lines);
@@ -367,7 +367,7 @@ void LegacyVtkReader::add_attribute(DataArray&& array) {
   const std::size_t expected_tuples = attributes_ == Attributes::points ? document_.file.points.size() : n;
   if (size(array.values) != expected_tuples * static_cast<std::size_t>(array.components)) {
     fail(ErrorCode::size_mismatch, where(),
-         text("array ", quoted(array.name), " has ", size(array.values), " values, expected ", expected_tuples,
+         text("array ", in_quotes(array.name), " has ", size(array.values), " values, expected ", expected_tuples,
               " times ", array.components));
   }
   auto& list = attributes_ == Attributes::points ? point_data_ : cell_data_;
@@ -377,7 +377,7 @@ void LegacyVtkReader::add_attribute(DataArray&& array) {
 
 void LegacyVtkReader::attribute(const std::string& word) {
   if (attributes_ == Attributes::none)
-    scanner_.fail_here(ErrorCode::syntax, text("expected a keyword of legacy VTK, found ", quoted(word)));
+    scanner_.fail_here(ErrorCode::syntax, text("expected a keyword of legacy VTK, found ", in_quotes(word)));
   if (word == "scalars") return scalars();
   const auto plain = [&](int components) {
     const std::string name = decoded(scanner_.word("a name"));
@@ -393,7 +393,7 @@ void LegacyVtkReader::attribute(const std::string& word) {
     const std::string name = decoded(scanner_.word("a name"));
     const std::size_t n = scanner_.count("components", 1);
     if (n < 1 || n > kMostComponents)
-      scanner_.fail_here(ErrorCode::syntax, text("array ", quoted(name), " has ", n, " components"));
+      scanner_.fail_here(ErrorCode::syntax, text("array ", in_quotes(name), " has ", n, " components"));
     // Colours are bytes in binary files and fractions in text.
     const Scalar scalar =
         word == "color_scalars" ? (binary_ ? Scalar::u8 : Scalar::f32) : type(scanner_.word("a type"), name);
@@ -406,7 +406,7 @@ void LegacyVtkReader::attribute(const std::string& word) {
     static_cast<void>(values(binary_ ? Scalar::u8 : Scalar::f32, 4 * n, "LOOKUP_TABLE"));
     return;
   }
-  scanner_.fail_here(ErrorCode::syntax, text("expected an attribute, found ", quoted(word)));
+  scanner_.fail_here(ErrorCode::syntax, text("expected an attribute, found ", in_quotes(word)));
 }
 
 void LegacyVtkReader::scalars() {
@@ -417,7 +417,7 @@ void LegacyVtkReader::scalars() {
   constexpr std::int32_t kMost = 4;
   if (components < 1 || components > kMost) {
     scanner_.fail_here(ErrorCode::syntax,
-                       text("array ", quoted(name), " has ", components, " components; expected 1 to 4"));
+                       text("array ", in_quotes(name), " has ", components, " components; expected 1 to 4"));
   }
   if (lower(scanner_.peek()) == "lookup_table") {
     scanner_.word("LOOKUP_TABLE");
@@ -439,13 +439,13 @@ void LegacyVtkReader::field() {
     const std::size_t tuples = scanner_.count("tuples", 1);
     const std::string_view type_word = scanner_.word("a type");
     if (components > 0 && tuples > scanner_.remaining() / components) {
-      scanner_.fail_here(ErrorCode::truncated, text("array ", quoted(name), " announces more than the file holds"));
+      scanner_.fail_here(ErrorCode::truncated, text("array ", in_quotes(name), " announces more than the file holds"));
     }
     if (lower(type_word) == "string") {
       scanner_.next_line();
       for (std::size_t k = 0; k < components * tuples && !binary_; ++k) scanner_.next_line();
-      if (binary_) scanner_.fail_here(ErrorCode::unsupported, text("array ", quoted(name), " is text in binary"));
-      document_.file.warnings.push_back(text(scanner_.where(), ": array ", quoted(name), " is text and is dropped"));
+      if (binary_) scanner_.fail_here(ErrorCode::unsupported, text("array ", in_quotes(name), " is text in binary"));
+      document_.file.warnings.push_back(text(scanner_.where(), ": array ", in_quotes(name), " is text and is dropped"));
       continue;
     }
     const Scalar scalar = type(type_word, name);

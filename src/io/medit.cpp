@@ -156,14 +156,14 @@ void MeditReader::triangles() {
 void MeditReader::refuse_or_skip(std::string_view keyword) {
   const bool known_keyword =
       !keyword.empty() && ((keyword[0] >= 'A' && keyword[0] <= 'Z') || (keyword[0] >= 'a' && keyword[0] <= 'z'));
-  if (!known_keyword) scanner_.fail_here(ErrorCode::syntax, text("expected a keyword, found ", quoted(keyword)));
+  if (!known_keyword) scanner_.fail_here(ErrorCode::syntax, text("expected a keyword, found ", in_quotes(keyword)));
   for (const auto& [unsupported, kind] : kUnsupported) {
     if (keyword != unsupported) continue;
     if (scanner_.count("elements", 2) == 0) return;
     scanner_.skip_space();
     refuse_element(scanner_.where(), 1, kind);
   }
-  document_.file.warnings.push_back(text(scanner_.where(), ": section ", quoted(keyword), " is dropped"));
+  document_.file.warnings.push_back(text(scanner_.where(), ": section ", in_quotes(keyword), " is dropped"));
   for (std::string_view next = scanner_.peek(); !next.empty(); next = scanner_.peek()) {
     const bool number = next.find_first_of("0123456789") != std::string_view::npos;
     if (!number) return;

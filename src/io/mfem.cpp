@@ -52,7 +52,7 @@ Document MfemReader::read() {
     } else if (section == "nodes") {
       scanner_.fail_here(ErrorCode::unsupported, "is a curved mesh (section nodes); temper reads linear triangles");
     } else {
-      scanner_.fail_here(ErrorCode::syntax, text("expected a section of an MFEM mesh, found ", quoted(section)));
+      scanner_.fail_here(ErrorCode::syntax, text("expected a section of an MFEM mesh, found ", in_quotes(section)));
     }
   }
   if (!has_vertices) scanner_.fail_truncated("the section vertices");

@@ -91,7 +91,7 @@ class ExtrasWriter {
     const auto components = static_cast<std::size_t>(a.components);
     const std::size_t tuples = size(a.values) / components;
     if (tuples == 0) {
-      job_.warn(text(kind.name, " data ", quoted(a.name), " have no values and are not written"));
+      job_.warn(text(kind.name, " data ", in_quotes(a.name), " have no values and are not written"));
       return;
     }
     std::vector<int> dimensions;

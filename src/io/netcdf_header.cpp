@@ -75,7 +75,7 @@ class ClassicHeader {
     constexpr std::size_t kLongest = 256;  // NC_MAX_NAME
     bool fine = n > 0 && n <= kLongest && result[0] > ' ';
     for (const char c : result) fine = fine && c >= ' ' && c < 127 && c != '/';
-    if (!fine) refuse(text("has a name ", quoted(result)));
+    if (!fine) refuse(text("has a name ", in_quotes(result)));
     return result;
   }
 

@@ -77,7 +77,7 @@ void ObjReader::statement(std::string_view word) {
   constexpr std::array<std::string_view, 12> kIgnored = {"vt",     "vn", "vp",  "o",      "s",      "usemtl",
                                                          "mtllib", "fo", "lod", "usemap", "maplib", "bevel"};
   if (std::find(kIgnored.begin(), kIgnored.end(), word) == kIgnored.end()) {
-    scanner_.fail_here(ErrorCode::syntax, text("expected a statement of OBJ, found ", quoted(word)));
+    scanner_.fail_here(ErrorCode::syntax, text("expected a statement of OBJ, found ", in_quotes(word)));
   }
   if (std::find(ignored_.begin(), ignored_.end(), word) == ignored_.end()) ignored_.emplace_back(word);
   scanner_.next_line();
@@ -101,7 +101,7 @@ std::int32_t ObjReader::index() {
   std::int32_t value = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
   if (error != std::errc() || end != number.data() + number.size()) {
-    scanner_.fail_here(ErrorCode::syntax, text("expected a vertex number, found ", quoted(word)));
+    scanner_.fail_here(ErrorCode::syntax, text("expected a vertex number, found ", in_quotes(word)));
   }
   const auto so_far = static_cast<std::int32_t>(document_.file.points.size());
   if (value == 0 || -std::int64_t{value} > so_far) {

@@ -45,8 +45,8 @@ Document OffReader::read() {
   vertices(n);
   faces(n_faces);
   if (!scanner_.at_end()) {
-    scanner_.fail_here(ErrorCode::syntax,
-                       text("expected the end of the file after ", n_faces, " faces, found ", quoted(scanner_.peek())));
+    scanner_.fail_here(ErrorCode::syntax, text("expected the end of the file after ", n_faces, " faces, found ",
+                                               in_quotes(scanner_.peek())));
   }
   auto& warnings = document_.file.warnings;
   if (more_of_vertices_ > 0)

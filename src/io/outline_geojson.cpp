@@ -79,7 +79,7 @@ class GeoJsonReader {
     const JsonValue* member = owner.find(name);
     if (member == nullptr || member->type != Type::array) {
       fail_at(member != nullptr ? *member : owner, ErrorCode::syntax,
-              text("expected an array ", quoted(name), ", found ",
+              text("expected an array ", in_quotes(name), ", found ",
                    member != nullptr ? describe(*member) : std::string_view("none")));
     }
     return member->items;
@@ -116,7 +116,7 @@ class GeoJsonReader {
   }
 
   [[nodiscard]] static std::string kind(const JsonValue& value) {
-    return value.type == Type::object ? quoted(value.text("type")) : std::string(describe(value));
+    return value.type == Type::object ? in_quotes(value.text("type")) : std::string(describe(value));
   }
 
   void geometry(const JsonValue& value, const Feature& about) {

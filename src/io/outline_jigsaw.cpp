@@ -61,7 +61,7 @@ class JigsawReader {
   void section() {
     const std::size_t equals = line_.find('=');
     if (equals == std::string_view::npos) {
-      fail_here(ErrorCode::syntax, text("expected a section NAME=…, found ", quoted(line_)));
+      fail_here(ErrorCode::syntax, text("expected a section NAME=…, found ", in_quotes(line_)));
     }
     std::string name(line_.substr(0, equals));
     while (!name.empty() && name.back() == ' ') name.pop_back();
@@ -90,7 +90,7 @@ class JigsawReader {
     };
     if (has("GRID", "grid")) {
       fail_here(ErrorCode::unsupported,
-                text("is a grid (", quoted(type), "); expected EUCLIDEAN-MESH or ELLIPSOID-MESH"));
+                text("is a grid (", in_quotes(type), "); expected EUCLIDEAN-MESH or ELLIPSOID-MESH"));
     }
     document_.file.geographic = has("ELLIPSOID", "ellipsoid");
   }
@@ -104,7 +104,7 @@ class JigsawReader {
     std::size_t n = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
     if (error != std::errc() || end != digits.data() + digits.size()) {
-      fail_here(ErrorCode::syntax, text("expected the number of lines of ", name, ", found ", quoted(value)));
+      fail_here(ErrorCode::syntax, text("expected the number of lines of ", name, ", found ", in_quotes(value)));
     }
     if (n > rest_.size()) {
       fail_here(ErrorCode::truncated, text(name, " announces ", n, " lines, but only ", rest_.size(), " bytes follow"));
@@ -124,9 +124,9 @@ class JigsawReader {
       try {
         result[i] = scanner.number<T>(expected);
       } catch (const Failure&) {
-        fail_here(ErrorCode::syntax, text("expected ", expected, ", found ", quoted(line_)));
+        fail_here(ErrorCode::syntax, text("expected ", expected, ", found ", in_quotes(line_)));
       }
-      if (!scanner.at_end()) fail_here(ErrorCode::syntax, text("expected ", expected, ", found ", quoted(line_)));
+      if (!scanner.at_end()) fail_here(ErrorCode::syntax, text("expected ", expected, ", found ", in_quotes(line_)));
       rest.remove_prefix(std::min(field.size() + 1, rest.size()));
     }
     return result;

@@ -89,7 +89,7 @@ Document PlyReader::read() {
   for (const PlyElement& e : elements_) {
     if (e.n == 0 || e.name == "vertex" || e.name == "face" || e.name == "edge") continue;
     if (e.name == "tristrips") refuse_element(scanner_.path(), 0, "triangle strip");
-    document_.file.warnings.push_back(text(scanner_.path(), ": elements ", quoted(e.name), " are dropped"));
+    document_.file.warnings.push_back(text(scanner_.path(), ": elements ", in_quotes(e.name), " are dropped"));
   }
   return std::move(document_);
 }
@@ -121,7 +121,7 @@ void PlyReader::header() {
     } else if (word == "property") {
       property(line);
     } else if (word != "obj_info") {
-      fail(ErrorCode::syntax, where, text("expected a statement of a PLY header, found ", quoted(word)));
+      fail(ErrorCode::syntax, where, text("expected a statement of a PLY header, found ", in_quotes(word)));
     }
   }
   if (!has_format) fail(ErrorCode::syntax, scanner_.path(), "the header has no format");
@@ -133,7 +133,7 @@ void PlyReader::format(Scanner& line) {
   endian_ = name == "binary_big_endian" ? std::endian::big : std::endian::little;
   if ((binary_ && name != "binary_big_endian" && name != "binary_little_endian") || version != "1.0") {
     fail(ErrorCode::unsupported, line.path(),
-         text("is PLY in format ", quoted(name), " ", quoted(version),
+         text("is PLY in format ", in_quotes(name), " ", in_quotes(version),
               "; temper reads ascii, binary_little_endian and binary_big_endian 1.0"));
   }
 }
@@ -160,7 +160,7 @@ void PlyReader::element(Scanner& line) {
   if (n < 0) fail(ErrorCode::syntax, line.path(), text("expected the number of elements, found ", n));
   e.n = static_cast<std::size_t>(n);
   if (find_element(e.name) != nullptr)
-    fail(ErrorCode::syntax, line.path(), text("declares element ", quoted(e.name), " a second time"));
+    fail(ErrorCode::syntax, line.path(), text("declares element ", in_quotes(e.name), " a second time"));
   elements_.push_back(std::move(e));
 }
 
@@ -168,7 +168,7 @@ Scalar PlyReader::type(std::string_view name) const {
   for (const PlyType& row : kPlyTypes) {
     if (name == row.name || name == row.other_name) return row.scalar;
   }
-  fail(ErrorCode::unsupported, scanner_.path(), text("expected a type of PLY, found ", quoted(name)));
+  fail(ErrorCode::unsupported, scanner_.path(), text("expected a type of PLY, found ", in_quotes(name)));
 }
 
 void PlyReader::property(Scanner& line) {
@@ -203,8 +203,8 @@ void PlyReader::body(PlyElement& e) {
   if (e.n == 0) return;
   std::size_t least = 0;  // bytes an element
   for (const PlyProperty& p : e.properties) least += binary_ ? info(p.count.value_or(p.scalar)).bytes : 2;
-  if (least == 0) fail(ErrorCode::syntax, scanner_.path(), text("elements ", quoted(e.name), " have no properties"));
-  scanner_.check_room(e.n, text("elements ", quoted(e.name)), least);
+  if (least == 0) fail(ErrorCode::syntax, scanner_.path(), text("elements ", in_quotes(e.name), " have no properties"));
+  scanner_.check_room(e.n, text("elements ", in_quotes(e.name)), least);
   for (PlyProperty& p : e.properties) {
     if (!p.count) p.values = zeros(p.scalar, e.n);
   }
@@ -339,7 +339,7 @@ void PlyReader::faces(PlyElement& e) {
     fail(ErrorCode::syntax, scanner_.path(), "faces have no list vertex_indices, or have two");
   for (const PlyProperty& p : e.properties) {
     if (p.count && p.name != "vertex_indices" && p.name != "vertex_index")
-      document_.file.warnings.push_back(text(scanner_.path(), ": lists ", quoted(p.name), " of faces are dropped"));
+      document_.file.warnings.push_back(text(scanner_.path(), ": lists ", in_quotes(p.name), " of faces are dropped"));
   }
   const auto tags = document_.file.point_tags;  // of vertices
   CellSorter sorter(document_);

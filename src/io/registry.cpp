@@ -142,7 +142,7 @@ void check_sizes(const std::string& path, const MeshFile& f) {
     for (const DataArray& a : arrays) {
       const std::size_t have = std::visit([](const auto& v) { return v.size(); }, a.values);
       insist(a.components >= 1 && have == n * static_cast<std::size_t>(a.components),
-             text(kind, " ", quoted(a.name), " with ", have, " values, expected ", n, " times ", a.components));
+             text(kind, " ", in_quotes(a.name), " with ", have, " values, expected ", n, " times ", a.components));
     }
   };
   check_data(f.point_data, f.points.size(), "point data");

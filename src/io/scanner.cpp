@@ -13,7 +13,7 @@ bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' |
 
 }  // namespace
 
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
   constexpr std::size_t kMost = 40;
   std::string result = "'";
   for (const char c : word.substr(0, kMost)) result += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
@@ -140,10 +140,10 @@ T Scanner::unusual_number(std::string_view w, std::string_view expected) const {
       const T magnitude = tiny ? T(0) : std::numeric_limits<T>::infinity();
       return plain.starts_with('-') ? -magnitude : magnitude;
     } else {
-      fail_here(ErrorCode::syntax, text("expected ", expected, ", found ", quoted(w), ", which is out of range"));
+      fail_here(ErrorCode::syntax, text("expected ", expected, ", found ", in_quotes(w), ", which is out of range"));
     }
   }
-  fail_here(ErrorCode::syntax, text("expected ", expected, ", found ", quoted(w)));
+  fail_here(ErrorCode::syntax, text("expected ", expected, ", found ", in_quotes(w)));
 }
 
 template double Scanner::unusual_number(std::string_view, std::string_view) const;

@@ -81,6 +81,6 @@ class Scanner {
 };
 
 /// A word for a message: at most 40 characters, control characters shown as '?'.
-[[nodiscard]] std::string quoted(std::string_view word);
+[[nodiscard]] std::string in_quotes(std::string_view word);
 
 }  // namespace temper::io

@@ -25,7 +25,7 @@ void read_side_file(Document& document) {
   for (const std::string_view title : {"point", "weight"}) {
     const std::string_view found = scanner.word("the title line 'point,weight'");
     if (found != title)
-      scanner.fail_here(ErrorCode::syntax, text("expected the title line 'point,weight', found ", quoted(found)));
+      scanner.fail_here(ErrorCode::syntax, text("expected the title line 'point,weight', found ", in_quotes(found)));
   }
   std::vector<double> weights;
   weights.reserve(f.points.size());

@@ -121,7 +121,8 @@ void VtuReader::read_attributes(const pugi::xml_node& root) {
   }
   const std::string_view header = root.attribute("header_type").as_string("UInt32");
   if (header != "UInt32" && header != "UInt64") {
-    fail(ErrorCode::unsupported, source_.path, text("header_type is ", quoted(header), "; expected UInt32 or UInt64"));
+    fail(ErrorCode::unsupported, source_.path,
+         text("header_type is ", in_quotes(header), "; expected UInt32 or UInt64"));
   }
   header_bytes_ = header == "UInt64" ? 8 : 4;
   const std::string_view compressor = root.attribute("compressor").value();
@@ -133,7 +134,7 @@ void VtuReader::read_attributes(const pugi::xml_node& root) {
   const std::string_view order = root.attribute("byte_order").as_string("LittleEndian");
   if (order != "LittleEndian" && order != "BigEndian") {
     fail(ErrorCode::syntax, source_.path,
-         text("byte_order is ", quoted(order), "; expected LittleEndian or BigEndian"));
+         text("byte_order is ", in_quotes(order), "; expected LittleEndian or BigEndian"));
   }
   swap_ = (order == "BigEndian") != (std::endian::native == std::endian::big);
 }
@@ -163,7 +164,7 @@ std::size_t VtuReader::count_attribute(const pugi::xml_node& piece, const char* 
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), n);
   if (error != std::errc() || end != value.data() + value.size() || n < 0 ||
       n > std::numeric_limits<std::int32_t>::max()) {
-    fail(ErrorCode::syntax, where(piece), text(name, " is ", quoted(value), "; expected a number"));
+    fail(ErrorCode::syntax, where(piece), text(name, " is ", in_quotes(value), "; expected a number"));
   }
   return static_cast<std::size_t>(n);
 }
@@ -189,11 +190,12 @@ DataArray VtuReader::array(const pugi::xml_node& node) {
   const std::string_view type = node.attribute("type").value();
   const auto scalar = scalar_of_vtu(type);
   if (!scalar)
-    fail(ErrorCode::unsupported, where(node), text("array ", quoted(result.name), " has the type ", quoted(type)));
+    fail(ErrorCode::unsupported, where(node),
+         text("array ", in_quotes(result.name), " has the type ", in_quotes(type)));
   result.values = values(node, *scalar, result.name);
   if (size(result.values) % static_cast<std::size_t>(result.components) != 0) {
     fail(ErrorCode::size_mismatch, where(node),
-         text("array ", quoted(result.name), " has ", size(result.values), " values, not a multiple of its ",
+         text("array ", in_quotes(result.name), " has ", size(result.values), " values, not a multiple of its ",
               result.components, " components"));
   }
   return result;
@@ -202,16 +204,16 @@ DataArray VtuReader::array(const pugi::xml_node& node) {
 Values VtuReader::values(const pugi::xml_node& node, Scalar scalar, const std::string& name) {
   const std::string_view format = node.attribute("format").as_string("ascii");
   if (format == "ascii") return ascii(node, scalar);
-  const Packing packing{text(source_.path, ": array ", quoted(name)), header_bytes_, compressed_, swap_};
+  const Packing packing{text(source_.path, ": array ", in_quotes(name)), header_bytes_, compressed_, swap_};
   if (format == "binary") return inline_binary(node, scalar, packing);
   if (format == "appended") return appended(node, scalar, packing);
   fail(ErrorCode::syntax, where(node),
-       text("array ", quoted(name), " has the format ", quoted(format), "; expected ascii, binary or appended"));
+       text("array ", in_quotes(name), " has the format ", in_quotes(format), "; expected ascii, binary or appended"));
 }
 
 Values VtuReader::ascii(const pugi::xml_node& node, Scalar scalar) {
   Scanner scanner(source_.path, node.child_value());
-  const std::string expected = text("a number of array ", quoted(node.attribute("Name").value()));
+  const std::string expected = text("a number of array ", in_quotes(node.attribute("Name").value()));
   return with_scalar(scalar, [&](auto zero) -> Values {
     using T = decltype(zero);
     std::vector<T> result;
@@ -242,7 +244,7 @@ Values VtuReader::appended(const pugi::xml_node& node, Scalar scalar, const Pack
   std::uint64_t offset = 0;
   const auto [end, error] = std::from_chars(attribute.data(), attribute.data() + attribute.size(), offset);
   if (error != std::errc() || end == attribute.data()) {
-    fail(ErrorCode::syntax, packing.where, text("has the offset ", quoted(attribute)));
+    fail(ErrorCode::syntax, packing.where, text("has the offset ", in_quotes(attribute)));
   }
   if (offset > appended_.size()) {
     fail(ErrorCode::truncated, packing.where,
@@ -271,7 +273,7 @@ std::vector<DataArray> VtuReader::arrays(const pugi::xml_node& parent, std::size
     if (tag != "DataArray" && tag != "Array") continue;
     if (tag == "Array" || std::string_view(node.attribute("type").value()) == "String") {
       document_.file.warnings.push_back(
-          text(source_.path, ": ", kind, " ", quoted(node.attribute("Name").value()), " is text and is dropped"));
+          text(source_.path, ": ", kind, " ", in_quotes(node.attribute("Name").value()), " is text and is dropped"));
       continue;
     }
     result.push_back(array(node));
@@ -279,7 +281,7 @@ std::vector<DataArray> VtuReader::arrays(const pugi::xml_node& parent, std::size
     const std::size_t expected = tuples * static_cast<std::size_t>(last.components);
     if (size(last.values) == expected) continue;
     fail(ErrorCode::size_mismatch, where(node),
-         text(kind, " ", quoted(last.name), " has ", size(last.values), " values, expected ", tuples, " times ",
+         text(kind, " ", in_quotes(last.name), " has ", size(last.values), " values, expected ", tuples, " times ",
               last.components));
   }
   return result;
@@ -310,12 +312,13 @@ void VtuReader::read_points(const pugi::xml_node& piece) {
 
 std::vector<std::int32_t> VtuReader::integers(const pugi::xml_node& cells, const char* name) {
   const pugi::xml_node node = cells.find_child_by_attribute("DataArray", "Name", name);
-  if (!node) fail(ErrorCode::truncated, source_.path, text("the array ", quoted(name), " of the cells is missing"));
+  if (!node) fail(ErrorCode::truncated, source_.path, text("the array ", in_quotes(name), " of the cells is missing"));
   DataArray found = array(node);
   if (auto* same = std::get_if<std::vector<std::int32_t>>(&found.values)) return std::move(*same);
   auto converted = to_int32(found.values);
   if (!converted)
-    fail(ErrorCode::index_out_of_range, where(node), text("the array ", quoted(name), " has a value beyond 32 bits"));
+    fail(ErrorCode::index_out_of_range, where(node),
+         text("the array ", in_quotes(name), " has a value beyond 32 bits"));
   return std::move(*converted);
 }
 
@@ -354,7 +357,7 @@ void VtuReader::read_field_data(const pugi::xml_node& grid) {
   for (const pugi::xml_node node : grid.child("FieldData").children("DataArray")) {
     if (std::string_view(node.attribute("type").value()) == "String") {
       document_.file.warnings.push_back(
-          text(source_.path, ": field data ", quoted(node.attribute("Name").value()), " is text and is dropped"));
+          text(source_.path, ": field data ", in_quotes(node.attribute("Name").value()), " is text and is dropped"));
       continue;
     }
     document_.file.field_data.push_back(array(node));

@@ -11,9 +11,6 @@
 namespace temper::mesher {
 namespace {
 
-// Two edges that meet at less than this leave room for one triangle only between pieces of equal length.
-constexpr double kSharpCosine = 0.51;  // 59°
-
 /// Distances along a segment of given length where it is to be divided: equal parts of the integral of 1/size.
 std::vector<double> divisions(Vec2 from, Vec2 to, const GradedSize& size) {
   constexpr double kStep = 0.125;      // of the local size: the integrand changes by less than grade/8 in a step

@@ -11,6 +11,9 @@
 
 namespace temper::mesher {
 
+/// Cosine of 59°: two edges that meet at less leave room for one triangle only between pieces of equal length.
+inline constexpr double kSharpCosine = 0.51;
+
 /// A piece of an edge of the outline, small enough to be an edge of the mesh.
 struct Piece {
   std::array<std::uint32_t, 2> ends = {};  ///< of Border::points
@@ -33,7 +36,7 @@ using CornerRadii = std::vector<double>;
 /// About how many pieces that makes.
 [[nodiscard]] double count_pieces(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges, double size);
 
-/// Corners of the outline narrower than kSharp, and how far they reach: to a half of their shortest edge (a third when
+/// Corners of the outline sharper than kSharpCosine, and how far they reach: to a half of their shortest edge (a third when
 /// that has a sharp corner at its other end too), and never near anything that does not belong to the corner.
 [[nodiscard]] CornerRadii corner_radii(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges,
                                        double largest);

@@ -50,7 +50,6 @@ class Narrow {
       for (const std::uint32_t d : around_[b.index]) {
         if (c != d) continue;
         const Vec2 to_a = at(a) - border_.points[c], to_b = at(b) - border_.points[c];
-        constexpr double kSharpCosine = 0.51;
         if (dot(to_a, to_b) <= kSharpCosine * length(to_a) * length(to_b)) return true;
       }
     }

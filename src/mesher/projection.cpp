@@ -53,7 +53,7 @@ Vec2 transverse_inverse(Vec2 p, double phi0) {  // (8-6), (8-7), (8-8)
   return {std::atan2(s, std::cos(d)), std::atan2(std::sin(d), std::hypot(std::cos(d), s))};
 }
 
-InputError invalid(std::string message) { return {ErrorCode::invalid_option, "", std::move(message)}; }
+InputError invalid_projection(std::string message) { return {ErrorCode::invalid_option, "", std::move(message)}; }
 
 /// "lon" or "lon,lat".
 std::optional<std::array<std::optional<double>, 2>> parse_center(std::string_view text) {
@@ -82,20 +82,21 @@ Expected<Projection> parse_projection(std::string_view text, std::span<const Vec
     if (kind.name == name) found = &kind;
   }
   if (found == nullptr) {
-    return invalid("expected a projection (stereographic, mercator, transverse-mercator), found '" + std::string(text) +
-                   "'");
+    return invalid_projection("expected a projection (stereographic, mercator, transverse-mercator), found '" +
+                              std::string(text) + "'");
   }
   projection.kind = found->kind;
   projection.center = mean_place(places);
   if (name.size() == text.size()) return projection;
   const auto center = parse_center(text.substr(name.size() + 1));
   if (!center) {
-    return invalid("expected " + std::string(name) + ":lon,lat in degrees, found '" + std::string(text) + "'");
+    return invalid_projection("expected " + std::string(name) + ":lon,lat in degrees, found '" + std::string(text) +
+                              "'");
   }
   projection.center = {*(*center)[0], (*center)[1].value_or(projection.center.y)};
   const bool on_globe = std::abs(projection.center.x) <= 360 && std::abs(projection.center.y) <= 90;
   const bool pole = projection.kind == ProjectionKind::mercator && std::abs(projection.center.y) >= 90;
-  if (!on_globe || pole) return invalid("'" + std::string(text) + "' has its center off the map");
+  if (!on_globe || pole) return invalid_projection("'" + std::string(text) + "' has its center off the map");
   return projection;
 }
 

@@ -10,11 +10,11 @@
 namespace temper::verify_detail {
 namespace {
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+constexpr std::size_t kGiven = static_cast<std::size_t>(-1);
 
-/// Inner vertices in their order; kNone of those on the boundary.
+/// Inner vertices in their order; kGiven of those on the boundary.
 std::vector<std::size_t> number_inner_vertices(const Mesh& mesh, std::size_t& count) {
-  std::vector<std::size_t> unknowns(mesh.n_vertices(), kNone);
+  std::vector<std::size_t> unknowns(mesh.n_vertices(), kGiven);
   for (const VertexId v : mesh.vertices()) {
     if (!mesh.is_isolated(v) && !mesh.is_boundary(v)) unknowns[v.index] = count++;
   }
@@ -28,13 +28,13 @@ std::vector<double> right_side(const Setting& s, const Field& field, const std::
   for (const VertexId v : s.mesh.vertices()) {
     const FieldValue value = field.at(s.vertex(v));
     given[v.index] = value.u;
-    if (unknowns[v.index] != kNone) right[unknowns[v.index]] = -s.area_in_frame(s.dec.star0[v]) * value.laplacian;
+    if (unknowns[v.index] != kGiven) right[unknowns[v.index]] = -s.area_in_frame(s.dec.star0[v]) * value.laplacian;
   }
   for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
     const auto& edge = s.dec.edges[EdgeId(e)];
     const std::size_t i = unknowns[edge.from.index], j = unknowns[edge.to.index];
-    if (i != kNone && j == kNone) right[i] += s.dec.star1[EdgeId(e)] * given[edge.to.index];
-    if (j != kNone && i == kNone) right[j] += s.dec.star1[EdgeId(e)] * given[edge.from.index];
+    if (i != kGiven && j == kGiven) right[i] += s.dec.star1[EdgeId(e)] * given[edge.to.index];
+    if (j != kGiven && i == kGiven) right[j] += s.dec.star1[EdgeId(e)] * given[edge.from.index];
   }
   return right;
 }
@@ -42,12 +42,12 @@ std::vector<double> right_side(const Setting& s, const Field& field, const std::
 void assemble(const Setting& s, const std::vector<std::size_t>& unknowns, LinearSystem& linear, VerifySystem& system) {
   for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
     const std::size_t i = unknowns[s.dec.edges[EdgeId(e)].from.index], j = unknowns[s.dec.edges[EdgeId(e)].to.index];
-    if (i == kNone && j == kNone) continue;
+    if (i == kGiven && j == kGiven) continue;
     const double star1 = s.dec.star1[EdgeId(e)];
     if (star1 < 0) ++system.negative;
-    if (i != kNone) linear.lower.push_back({i, i, star1});
-    if (j != kNone) linear.lower.push_back({j, j, star1});
-    if (i != kNone && j != kNone) linear.lower.push_back({std::max(i, j), std::min(i, j), -star1});
+    if (i != kGiven) linear.lower.push_back({i, i, star1});
+    if (j != kGiven) linear.lower.push_back({j, j, star1});
+    if (i != kGiven && j != kGiven) linear.lower.push_back({std::max(i, j), std::min(i, j), -star1});
   }
 }
 
@@ -55,7 +55,7 @@ ErrorNorms poisson_norms(const Setting& s, const Field& field, const std::vector
                          const std::vector<double>& solution) {
   std::vector<double> weights, errors;
   for (const VertexId v : s.mesh.vertices()) {
-    if (unknowns[v.index] == kNone) continue;
+    if (unknowns[v.index] == kGiven) continue;
     weights.push_back(std::abs(s.area_in_frame(s.dec.star0[v])));
     errors.push_back(solution[unknowns[v.index]] - field.at(s.vertex(v)).u);
   }

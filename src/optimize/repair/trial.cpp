@@ -16,9 +16,9 @@
 namespace temper {
 namespace {
 
-// Enough for γ to come from kStart down to kFloor, and a few at the floor.
+// Enough for γ to come from kStart down to kLeastGamma, and a few at the floor.
 constexpr int kSweeps = 25;
-constexpr double kStart = 0.5, kFactor = 0.7, kFloor = 0.003;
+constexpr double kStart = 0.5, kFactor = 0.7, kLeastGamma = 0.003;
 // Below this γ/ℓ sweeps rarely lose again what is well-centered.
 constexpr double kSharp = 0.1;
 // Of the shortest edge: farther, and most kicks would turn a triangle over.
@@ -199,7 +199,7 @@ void Trial::sweep() {
     for (const VertexId v : work_.mesh.vertices()) {
       if (!work_.mesh.is_isolated(v)) step_.improve(v);
     }
-    gamma = std::max(kFloor, kFactor * gamma);
+    gamma = std::max(kLeastGamma, kFactor * gamma);
     if (gamma < kSharp && !any_bad()) return;
   }
 }

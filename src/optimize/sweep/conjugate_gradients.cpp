@@ -4,7 +4,7 @@ namespace temper {
 namespace {
 
 // ω. From 1 to 1.3 it makes no difference; 1.4 and more is worse.
-constexpr float kRelaxation = 1.2F;
+constexpr float kOverRelaxation = 1.2F;
 // Of the residual. What is solved for is a model of the energy; less wastes its Hessian, more is not worth iterations.
 constexpr double kTolerance = 0.1;
 constexpr int kMostIterations = 60;
@@ -24,7 +24,7 @@ void ConjugateGradients::divide_by_lower(const BlockMatrix& a, const std::vector
     for (std::size_t k = a.begin_lower(i); k < a.begin_upper(i); ++k) {
       sum = sum - a.times(k, residual_[a.column[k]]);
     }
-    residual_[i] = kRelaxation * sum;
+    residual_[i] = kOverRelaxation * sum;
   }
 }
 
@@ -33,20 +33,20 @@ void ConjugateGradients::divide_by_upper(const BlockMatrix& a, const std::vector
   for (std::size_t i = a.size(); i-- > 0;) {
     Float4 sum = p[i];
     for (std::size_t k = a.begin_upper(i); k < a.end_upper(i); ++k) sum = sum - a.times(k, upper_[a.column[k]]);
-    upper_[i] = kRelaxation * sum;
+    upper_[i] = kOverRelaxation * sum;
   }
 }
 
 /// product_ = the split system's matrix times direction_. Returns their scalar product.
 double ConjugateGradients::multiply(const BlockMatrix& a) {
-  constexpr float kDiagonal = 1 - 2 / kRelaxation;
+  constexpr float kDiagonal = 1 - 2 / kOverRelaxation;
   divide_by_upper(a, direction_);
   for (std::size_t i = 0; i < a.size(); ++i) {
     Float4 sum = direction_[i] + kDiagonal * upper_[i];
     for (std::size_t k = a.begin_lower(i); k < a.begin_upper(i); ++k) {
       sum = sum - a.times(k, product_[a.column[k]]);
     }
-    product_[i] = kRelaxation * sum;
+    product_[i] = kOverRelaxation * sum;
   }
   double curvature = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
