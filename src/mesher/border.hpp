@@ -36,8 +36,8 @@ using CornerRadii = std::vector<double>;
 /// About how many pieces that makes.
 [[nodiscard]] double count_pieces(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges, double size);
 
-/// Corners of the outline sharper than kSharpCosine, and how far they reach: to a half of their shortest edge (a third when
-/// that has a sharp corner at its other end too), and never near anything that does not belong to the corner.
+/// Corners of the outline sharper than kSharpCosine, and how far they reach: to a half of their shortest edge (a third
+/// when that has a sharp corner at its other end too), and never near anything that does not belong to the corner.
 [[nodiscard]] CornerRadii corner_radii(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges,
                                        double largest);
 
