@@ -92,24 +92,25 @@ std::vector<Variant> variants(bool all) {
   if (!all) return list;
   const auto add = [&](const char* name, auto change) {
     list.push_back({name, accuracy});
-    change(list.back().options.accuracy);
+    change(list.back().options);
   };
-  add("`--star 0`", [](AccuracyOptions& a) { a.star = AccuracyStar::zero; });
-  add("`--star 2`", [](AccuracyOptions& a) { a.star = AccuracyStar::two; });
-  add("`--star all`", [](AccuracyOptions& a) { a.star = AccuracyStar::all; });
+  add("`--star 0`", [](OptimizeOptions& o) { o.star = Star::zero; });
+  add("`--star 2`", [](OptimizeOptions& o) { o.star = Star::two; });
+  add("`--star all`", [](OptimizeOptions& o) { o.star = Star::all; });
   add("`--offset-weight 1 --boundary-offset-weight 1` (HOT/s²)",
-      [](AccuracyOptions& a) { a.offset_weight = a.boundary_offset_weight = 1; });
-  add("`--offset-weight 5`", [](AccuracyOptions& a) { a.offset_weight = 5; });
-  add("`--offset-weight 20`", [](AccuracyOptions& a) { a.offset_weight = 20; });
-  add("`--boundary-offset-weight 0.5`", [](AccuracyOptions& a) { a.boundary_offset_weight = 0.5; });
-  add("`--boundary-offset-weight 10`", [](AccuracyOptions& a) { a.boundary_offset_weight = 10; });
-  add("`--boundary-offset-weight 30`", [](AccuracyOptions& a) { a.boundary_offset_weight = 30; });
-  add("`--margin 0.05`", [](AccuracyOptions& a) { a.margin = 0.05; });
-  add("`--barrier 0.03`", [](AccuracyOptions& a) { a.barrier = 0.03; });
-  add("`--barrier 0.0003`", [](AccuracyOptions& a) { a.barrier = 0.0003; });
-  add("`--accuracy-sweeps 5`", [](AccuracyOptions& a) { a.sweeps = 5; });
-  add("`--accuracy-sweeps 10`", [](AccuracyOptions& a) { a.sweeps = 10; });
-  add("`--accuracy-sweeps 100 --accuracy-tolerance 0`", [](AccuracyOptions& a) { a.sweeps = 100, a.tolerance = 0; });
+      [](OptimizeOptions& o) { o.accuracy.offset_weight = o.accuracy.boundary_offset_weight = 1; });
+  add("`--offset-weight 5`", [](OptimizeOptions& o) { o.accuracy.offset_weight = 5; });
+  add("`--offset-weight 20`", [](OptimizeOptions& o) { o.accuracy.offset_weight = 20; });
+  add("`--boundary-offset-weight 0.5`", [](OptimizeOptions& o) { o.accuracy.boundary_offset_weight = 0.5; });
+  add("`--boundary-offset-weight 10`", [](OptimizeOptions& o) { o.accuracy.boundary_offset_weight = 10; });
+  add("`--boundary-offset-weight 30`", [](OptimizeOptions& o) { o.accuracy.boundary_offset_weight = 30; });
+  add("`--margin 0.05`", [](OptimizeOptions& o) { o.accuracy.margin = 0.05; });
+  add("`--barrier 0.03`", [](OptimizeOptions& o) { o.accuracy.barrier = 0.03; });
+  add("`--barrier 0.0003`", [](OptimizeOptions& o) { o.accuracy.barrier = 0.0003; });
+  add("`--accuracy-sweeps 5`", [](OptimizeOptions& o) { o.accuracy.sweeps = 5; });
+  add("`--accuracy-sweeps 10`", [](OptimizeOptions& o) { o.accuracy.sweeps = 10; });
+  add("`--accuracy-sweeps 100 --accuracy-tolerance 0`",
+      [](OptimizeOptions& o) { o.accuracy.sweeps = 100, o.accuracy.tolerance = 0; });
   return list;
 }
 

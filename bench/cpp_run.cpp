@@ -42,17 +42,19 @@ py::tuple run(const Rows<double>& points, const Rows<std::int32_t>& triangles, i
     temper::OptimizeOptions options;
     options.max_sweeps = sweeps;
     options.repair = temper::Repair::none;
+    temper::OptimizeHooks hooks;
     temper::MeshInput input;
     input.points = rows<temper::Vec2>(points);
     input.triangles = rows<std::array<std::int32_t, 3>>(triangles);
 #ifdef TEMPER_WITH_TBB
     temper::TbbExecutor threads;
-    options.executor = input.executor = &threads;
+    hooks.executor = input.executor = &threads;
 #endif
     auto built = temper::Mesh::build(input);
     if (!built) throw std::runtime_error(built.error().what());
     temper::Mesh mesh = std::move(built->mesh);
-    if (const auto report = temper::optimize(mesh, options); !report) throw std::runtime_error(report.error().what());
+    const auto report = temper::optimize(mesh, options, hooks);
+    if (!report) throw std::runtime_error(report.error().what());
     places.reserve(mesh.n_vertices());
     weights.reserve(mesh.n_vertices());
     corners.reserve(mesh.n_triangles());

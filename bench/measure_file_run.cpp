@@ -53,8 +53,6 @@ void make_input(std::size_t vertices, const std::string& path) {
 
 FileRun measure_file_run(const std::string& input, const std::string& output, std::size_t threads) {
   const auto executor = make_executor(threads);
-  OptimizeOptions options;
-  options.executor = executor.get();
   const auto now = executor ? wall_seconds : cpu_seconds;
   const double start = now();
   auto file = io::read(input, {executor.get()});
@@ -69,7 +67,7 @@ FileRun measure_file_run(const std::string& input, const std::string& output, st
   const double order = now() - built;
 
   FileRun run;
-  const TimedRun timed = timed_run(loaded->mesh, options);
+  const TimedRun timed = timed_run(loaded->mesh, {}, {}, executor.get());
   run.seconds = executor ? stages_of(timed, &Mark::wall, timed.before_wall, timed.wall, order)
                          : stages_of(timed, &Mark::cpu, timed.before_cpu, timed.cpu, order);
   const double optimized = now();

@@ -15,7 +15,7 @@ struct Finish {
 
 /// Energies compare only at the same γ: `last` is that of the plain run.
 Finish time_to(const Mesh& mesh, OptimizeOptions options, const SweepRecord& last) {
-  options.tolerance = 0;
+  options.paper.tolerance = 0;
   options.max_sweeps = kPlainSweeps + 1;
   Mesh copy = mesh;
   const auto there = [&](const SweepRecord& now) {
@@ -30,7 +30,7 @@ Finish time_to(const Mesh& mesh, OptimizeOptions options, const SweepRecord& las
 Race race_on(const Mesh& mesh, int rounds) {
   Race race;
   OptimizeOptions plain = sweeps_only();
-  plain.relaxation = 1;
+  plain.paper.relaxation = 1;
   for (int round = 0; round < rounds; ++round) {
     const TimedRun run = timed_sweeps(mesh, plain, kPlainSweeps);
     race.plain = std::fmin(race.plain, run.cpu_between(0, kPlainSweeps));

@@ -12,9 +12,7 @@ namespace {
 
 double wall_ns(const Mesh& mesh, int sweeps, std::size_t threads) {
   const auto executor = make_executor(threads);
-  OptimizeOptions options = sweeps_only();
-  options.executor = executor.get();
-  const TimedRun run = timed_sweeps(mesh, options, sweeps);
+  const TimedRun run = timed_sweeps(mesh, sweeps_only(), sweeps, executor.get());
   const double seconds = run.wall_between(0, static_cast<std::size_t>(sweeps));
   return 1e9 * seconds / (static_cast<double>(mesh.n_vertices()) * sweeps);
 }
@@ -26,9 +24,8 @@ std::uint64_t result_with(const Mesh& mesh, std::size_t threads) {
   const auto executor = make_executor(threads);
   OptimizeOptions options;
   options.max_sweeps = mesh.n_vertices() < kLarge ? 16 : 4;
-  options.executor = executor.get();
   Mesh copy = mesh;
-  static_cast<void>(timed_run(copy, options));
+  static_cast<void>(timed_run(copy, options, {}, executor.get()));
   return fingerprint(copy);
 }
 

@@ -15,7 +15,8 @@ Mesh random_mesh(std::size_t vertices) {
   return std::move(*mesh);
 }
 
-TimedRun timed_run(Mesh& mesh, const OptimizeOptions& options, const std::function<bool(const SweepRecord&)>& enough) {
+TimedRun timed_run(Mesh& mesh, const OptimizeOptions& options, const std::function<bool(const SweepRecord&)>& enough,
+                   Executor* executor) {
   TimedRun run;
   const double cpu = cpu_seconds(), wall = wall_seconds();
   const auto observer = [&](const Progress& progress) {
@@ -23,7 +24,7 @@ TimedRun timed_run(Mesh& mesh, const OptimizeOptions& options, const std::functi
     run.marks.push_back({progress.last, cpu_seconds(), wall_seconds()});
     return enough && enough(progress.last) ? Continue::no : Continue::yes;
   };
-  auto report = optimize(mesh, options, observer);
+  auto report = optimize(mesh, options, {.executor = executor, .observer = observer});
   run.cpu = cpu_seconds() - cpu, run.wall = wall_seconds() - wall;
   if (!report) fail(report.error().what());
   if (run.marks.empty()) fail("a run without sweeps");
@@ -34,23 +35,24 @@ TimedRun timed_run(Mesh& mesh, const OptimizeOptions& options, const std::functi
 
 OptimizeOptions sweeps_only(Solver solver) {
   OptimizeOptions options;
-  options.solver = solver;
-  options.tolerance = 0;
-  options.newton_passes = false;
+  options.paper.solver = solver;
+  options.paper.tolerance = 0;
+  options.paper.newton_passes = false;
   return options;
 }
 
 OptimizeOptions paper_sweeps() {
   OptimizeOptions options = paper_method();
-  options.stopping = StoppingRule::relative;
-  options.tolerance = 0;
+  options.paper.stopping = StoppingRule::relative;
+  options.paper.tolerance = 0;
   return options;
 }
 
-TimedRun timed_sweeps(const Mesh& mesh, OptimizeOptions options, int count) {
+TimedRun timed_sweeps(const Mesh& mesh, OptimizeOptions options, int count, Executor* executor) {
   Mesh copy = mesh;
   options.max_sweeps = count + 1;
-  TimedRun run = timed_run(copy, options, [count](const SweepRecord& last) { return last.sweep == count; });
+  TimedRun run = timed_run(
+      copy, options, [count](const SweepRecord& last) { return last.sweep == count; }, executor);
   if (run.marks.size() != static_cast<std::size_t>(count) + 1) fail("a run ended early");
   return run;
 }

@@ -34,7 +34,8 @@ struct TimedRun {
 
 /// Improves the mesh until it is done, or until `enough` says so between two sweeps.
 [[nodiscard]] TimedRun timed_run(Mesh& mesh, const OptimizeOptions& options,
-                                 const std::function<bool(const SweepRecord&)>& enough = {});
+                                 const std::function<bool(const SweepRecord&)>& enough = {},
+                                 Executor* executor = nullptr);
 
 /// Options of sweeps and nothing else: no passes over all unknowns, no end by convergence.
 [[nodiscard]] OptimizeOptions sweeps_only(Solver solver = Solver::newton);
@@ -43,7 +44,7 @@ struct TimedRun {
 [[nodiscard]] OptimizeOptions paper_sweeps();
 
 /// A run of that many sweeps, on a copy of the mesh. The sweeps are marks 0 to `count`.
-[[nodiscard]] TimedRun timed_sweeps(const Mesh& mesh, OptimizeOptions options, int count);
+[[nodiscard]] TimedRun timed_sweeps(const Mesh& mesh, OptimizeOptions options, int count, Executor* executor = nullptr);
 
 /// The mesh as sweeps leave it as soon as every triangle is well-centered and γ is at its last.
 [[nodiscard]] Mesh well_centered_mesh(const Mesh& mesh);

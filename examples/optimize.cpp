@@ -17,10 +17,11 @@ int main() {
   if (!built) return std::fprintf(stderr, "%s\n", built.error().what().c_str()), 1;
   temper::Mesh& mesh = built->mesh;
 
-  const auto report = temper::optimize(mesh, {.energy = "BP", .max_sweeps = 100}, [](const temper::Progress& progress) {
+  const auto show = [](const temper::Progress& progress) {
     std::printf("sweep %d: %zu triangles to go\n", progress.last.sweep, progress.last.bad);
     return temper::Continue::yes;  // Continue::no stops with the best mesh so far
-  });
+  };
+  const auto report = temper::optimize(mesh, {.energy = temper::EnergyKind::BP, .max_sweeps = 100}, {.observer = show});
   if (!report) return std::fprintf(stderr, "%s\n", report.error().what().c_str()), 1;
 
   const temper::Quality quality = temper::quality(mesh);

@@ -49,9 +49,9 @@ Observer observer_of(Visitor& visitor, const py::object& observer) {
   };
 }
 
-void set_callbacks(OptimizeOptions& options, Visitor& visitor, const Callbacks& callbacks) {
+void set_callbacks(OptimizeHooks& hooks, Visitor& visitor, const Callbacks& callbacks) {
   if (!callbacks.tracer.is_none()) {
-    options.tracer = [&visitor, &callbacks](const TraceEvent& event) {
+    hooks.tracer = [&visitor, &callbacks](const TraceEvent& event) {
       static_cast<void>(visitor.call([&] {
         callbacks.tracer(event_to_dict(event));
         return true;
@@ -59,7 +59,7 @@ void set_callbacks(OptimizeOptions& options, Visitor& visitor, const Callbacks& 
     };
   }
   if (!callbacks.watch.is_none()) {
-    options.watch = [&visitor, &callbacks](const Snapshot& s) {
+    hooks.snapshots = [&visitor, &callbacks](const Snapshot& s) {
       static_cast<void>(visitor.call([&] {
         callbacks.watch(Record()("moment", name_of(s.moment))("sweep", s.sweep)("outer", s.outer)("energy", s.energy)(
                             "mesh", py::cast(std::make_unique<PyMesh>(s.mesh)))("vertices", s.vertices)
@@ -84,16 +84,18 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const py::object& si
   const auto before = self.read();
   Visitor visitor;
   const Observer observer = observer_of(visitor, callbacks.observer);
-  set_callbacks(options, visitor, callbacks);
+  OptimizeHooks hooks;
+  hooks.observer = observer;
+  set_callbacks(hooks, visitor, callbacks);
   Mesh mesh;
   std::optional<Expected<OptimizeReport>> report;
   {
     const PyMesh::Run run(self);
     const py::gil_scoped_release release;
     const auto executor = make_threads(count);
-    options.executor = executor.get();
+    hooks.executor = executor.get();
     mesh = *before;
-    report = optimize(mesh, options, observer);
+    report = optimize(mesh, options, hooks);
   }
   if (report->has_value()) self.replace(std::move(mesh), (*report)->vertices);
   visitor.raise();
@@ -491,14 +493,13 @@ py::tuple mesh_an_outline(const py::dict& dict, const py::dict& d, const py::obj
     options.optimize.reset();
   } else {
     options.optimize = options_from(optimize_options.cast<py::dict>(), {});
-    options.optimize->executor = executor.get();
   }
   Visitor visitor;
   const Observer watching = observer_of(visitor, observer);
   std::optional<Expected<OutlineMesh>> made;
   {
     const py::gil_scoped_release release;
-    made = mesh_outline(outline, options, watching);
+    made = mesh_outline(outline, options, {.executor = executor.get(), .observer = watching});
   }
   visitor.raise();
   OutlineMesh result = or_raise(*std::move(made));

@@ -76,10 +76,11 @@ py::tuple triangle_margins(const PyMesh& self) {
 EnergyModel model_from(const py::dict& d) {
   EnergyModel model;
   model.kind = or_raise(find_energy(d["energy"].cast<std::string>())).kind;
-  model.star = d["star"].cast<int>();
-  if (model.star < 0 || model.star > 2) {
-    fail(ErrorCode::invalid_option, "star: expected 0, 1 or 2, found " + std::to_string(model.star));
+  const int star = d["star"].cast<int>();
+  if (star < 0 || star > 2) {
+    fail(ErrorCode::invalid_option, "star: expected 0, 1 or 2, found " + std::to_string(star));
   }
+  model.star = static_cast<Star>(star);
   model.boundary = from_name<BoundaryTreatment>("boundary", d["boundary"].cast<std::string>());
   model.gamma = softening_from(d["gamma"]);
   model.h0 = softening_from(d["h0"]);

@@ -23,25 +23,25 @@ class OptionReader {
   template <class T>
   static void read(const char* name, const py::object& value, T& target) {
     if constexpr (std::is_enum_v<T>) {
-      target = from_name<T>(name, value.cast<std::string>());
+      target = from_name<T>(
+          name, py::isinstance<py::int_>(value) ? py::str(value).cast<std::string>() : value.cast<std::string>());
     } else {
       target = value.cast<T>();
     }
-  }
-  static void read(const char* /*name*/, const py::object& value, std::string_view& target) {
-    target = or_raise(find_energy(value.cast<std::string>())).name;  // the registry's own text, which stays
   }
   static void read(const char* /*name*/, const py::object& value, AccuracyOptions& target) {
     const auto dict = value.cast<py::dict>();
     each_accuracy_option(target, OptionReader(dict));
   }
   static void read(const char* /*name*/, const py::object& value, Softening& target) { target = softening_from(value); }
-  static void read(const char* name, const py::object& value, std::size_t& target) {
+  static void read(const char* name, const py::object& value, VertexId& target) {
+    target = {};
+    if (value.is_none()) return;
     const auto number = value.cast<std::int64_t>();
     if (number < 0) {
       fail(ErrorCode::invalid_option, std::string(name) + ": expected 0 or more, found " + std::to_string(number));
     }
-    target = static_cast<std::size_t>(number);
+    target = VertexId(static_cast<std::size_t>(number));
   }
   template <class T>
   static void read(const char* name, const py::object& value, std::optional<T>& target) {
@@ -60,7 +60,13 @@ struct OptionWriter {
   template <class T>
   void operator()(const char* name, const T& value) const {
     if constexpr (std::is_enum_v<T>) {
-      dict[name] = to_python(name_of(value));
+      if (std::is_same_v<T, Star> && value != static_cast<T>(Star::all)) {
+        dict[name] = py::int_(static_cast<int>(value));
+      } else {
+        dict[name] = to_python(name_of(value));
+      }
+    } else if constexpr (std::is_same_v<T, VertexId>) {
+      dict[name] = value.valid() ? to_python(value) : py::none();
     } else if constexpr (std::is_same_v<T, AccuracyOptions>) {
       py::dict nested;
       each_accuracy_option(value, OptionWriter{nested});

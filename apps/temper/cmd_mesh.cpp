@@ -167,10 +167,9 @@ OutlineMesh run_library(const Settings& s, const Outline& outline, Executor* exe
   options.region_sizes = region_sizes(s.region_sizes);
   if (s.no_optimize) options.optimize.reset();
   if (options.optimize) {
-    options.optimize->executor = executor;
     options.optimize->time_limit = s.time_limit;
   }
-  return or_fail(mesh_outline(outline, options, observer));
+  return or_fail(mesh_outline(outline, options, {.executor = executor, .observer = observer}));
 }
 
 Exit mesh(const Command& command, const Settings& s, Outputs& outputs) {

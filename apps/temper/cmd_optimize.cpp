@@ -27,8 +27,6 @@
 namespace temper::app {
 namespace {
 
-/// When edges are flipped, if ever: two options of the library.
-enum class Flips { immediate, deferred, none };
 enum class Method { production, paper };
 
 constexpr Choice<Method> kMethods[] = {{"production", Method::production}, {"paper", Method::paper}};
@@ -60,8 +58,7 @@ constexpr Choice<HiddenPolicy> kHiddenPolicies[] = {
     {"undo", HiddenPolicy::undo}, {"remove", HiddenPolicy::remove}, {"keep", HiddenPolicy::keep}};
 constexpr Choice<Inversion> kInversions[] = {{"refuse", Inversion::refuse}, {"allow", Inversion::allow}};
 constexpr Choice<Objective> kObjectives[] = {{"energy", Objective::energy}, {"accuracy", Objective::accuracy}};
-constexpr Choice<AccuracyStar> kStars[] = {
-    {"0", AccuracyStar::zero}, {"1", AccuracyStar::one}, {"2", AccuracyStar::two}, {"all", AccuracyStar::all}};
+constexpr Choice<Star> kStars[] = {{"0", Star::zero}, {"1", Star::one}, {"2", Star::two}, {"all", Star::all}};
 
 struct Settings {
   std::string input, output, report, history, picture, trace, anchor;
@@ -70,6 +67,7 @@ struct Settings {
   OptimizeOptions options;  ///< those of the method, where no option says otherwise
   Objective objective = Objective::energy;
   AccuracyOptions accuracy;
+  Star star = Star::one;
   SofteningOptions gamma, h0;
   std::optional<io::Encoding> encoding;
   std::uint64_t threads = 0;
@@ -79,23 +77,13 @@ struct Settings {
   std::string size_field, size_data;
 };
 
-void set_flips(Settings& s, Flips value) {
-  s.options.flips = value != Flips::none;
-  if (value != Flips::none) {
-    s.options.flip_timing = value == Flips::deferred ? FlipTiming::deferred : FlipTiming::immediate;
-  }
-}
-
-Flips flips_of(const Settings& s) {
-  if (!s.options.flips) return Flips::none;
-  return s.options.flip_timing == FlipTiming::deferred ? Flips::deferred : Flips::immediate;
-}
-
-/// An energy by its name; the option keeps the registry's own text.
+/// An energy by its name.
 void add_energy_name(Command& command, const std::string& option, const std::vector<std::string_view>& names,
-                     std::string_view& target, const std::string& description) {
-  const auto use = [&target](std::string_view name) { target = or_fail(find_energy(name)).name; };
-  add_name(command, option, names, use, description).defaults_to([&target] { return std::string(target); });
+                     EnergyKind& target, const std::string& description) {
+  const auto use = [&target](std::string_view name) { target = or_fail(find_energy(name)).kind; };
+  add_name(command, option, names, use, description).defaults_to([&target] {
+    return std::string(energy_info(target).name);
+  });
 }
 
 void add_files(Command& command, Settings& s) {
@@ -128,17 +116,17 @@ void add_energy(Command& command, Settings& s) {
   add_energy_name(command, "--energy", names, s.options.energy,
                   "what to minimise: a barrier (BH, BHs, BP) or a HOT energy (F, T, dT)");
   add_choice(
-      command, "--star", kStars, s.accuracy.star,
+      command, "--star", kStars, s.star,
       "Hodge star of the energy, or of --objective accuracy, whose first sweeps are for star 1 then; all: accuracy "
       "alone");
   add_gamma(command, s.gamma,
             "; without it relative to each edge, shrinking from 0.5, or 1 where many triangles are bad, to 0.003");
   command.option("--gamma").defaults_to([&s] {  // the paper's
-    const std::optional<Softening>& gamma = s.options.gamma;
+    const std::optional<Softening>& gamma = s.options.paper.gamma;
     return gamma && !s.gamma.value() ? fmt::format("{}", gamma->value) : std::string();
   });
   add_h0(command, s.h0, "; without it just beyond the least h of the mesh, following it up");
-  add_choice(command, "--boundary-treatment", kBoundaryTreatments, s.options.boundary,
+  add_choice(command, "--boundary-treatment", kBoundaryTreatments, s.options.paper.boundary_treatment,
              "of energy F: the h of boundary edges as it is, |h|, or as if the mesh were mirrored there");
 }
 
@@ -168,7 +156,7 @@ void add_accuracy(Command& command, Settings& s) {
 /// After all options, since --method replaces those of the library.
 void settle_objective(Settings& s) {
   const bool for_accuracy = s.objective == Objective::accuracy;
-  if (!for_accuracy && s.accuracy.star == AccuracyStar::all) {
+  if (!for_accuracy && s.star == Star::all) {
     throw Failure(
         Exit::bad_usage,
         "optimize: --star all is for --objective accuracy; of an energy expected 0, 1 or 2\nSee temper optimize "
@@ -176,17 +164,17 @@ void settle_objective(Settings& s) {
   }
   s.options.objective = s.objective;
   s.options.accuracy = s.accuracy;
-  s.options.star = for_accuracy ? 1 : static_cast<int>(s.accuracy.star);
+  s.options.star = s.star;
 }
 
 void add_moves(Command& command, Settings& s) {
   add_choice(
-      command, "--solver", kSolvers, s.options.solver,
+      command, "--solver", kSolvers, s.options.paper.solver,
       "Newton steps in position and weight together; the paper's golden section; Newton in position, then weight");
   command.add_flag("--positions-only", s.positions_only, "leave the weights as they are");
   command.add_flag("--weights-only", s.weights_only, "leave the positions as they are").excludes = "--positions-only";
-  add_count(command, "--weights-from", s.options.weights_from, 0, "first sweep that changes weights, from 0");
-  add_number(command, "--relaxation", s.options.relaxation, {0, 2, true},
+  add_count(command, "--weights-from", s.options.paper.weights_from, 0, "first sweep that changes weights, from 0");
+  add_number(command, "--relaxation", s.options.paper.relaxation, {0, 2, true},
              "over-relaxation of Newton steps; without it 1.7, but 1.97 while gamma shrinks from 1");
   command.add_flag(
       "--no-newton-passes", s.no_newton_passes,
@@ -200,17 +188,17 @@ void add_moves(Command& command, Settings& s) {
 void add_connectivity(Command& command, Settings& s) {
   command.add_flag("--no-flips", s.no_flips, "keep the connectivity; no step may make an edge non-regular");
   add_choice(
-      command, "--flips", kFlips, [&s](Flips value) { set_flips(s, value); },
+      command, "--flips", kFlips, [&s](Flips value) { s.options.flips = value; },
       "flip edges at once, after the inner sweeps, or never, as --no-flips")
-      .defaults_to([&s] { return std::string(kFlips[static_cast<std::size_t>(flips_of(s))].name); });
+      .defaults_to([&s] { return std::string(kFlips[static_cast<std::size_t>(s.options.flips)].name); });
   add_choice(
-      command, "--flip-limit", kFlipLimits, [&s](FlipLimit value) { s.options.flip_limit = value; },
+      command, "--flip-limit", kFlipLimits, [&s](FlipLimit value) { s.options.paper.flip_limit = value; },
       "how far a step may go past the point where an edge flips (default: unlimited for barriers, after for HOT)")
       .defaults_to([&s] {
-        if (!s.options.flip_limit) return std::string();
-        return std::string(kFlipLimits[static_cast<std::size_t>(*s.options.flip_limit)].name);
+        if (!s.options.paper.flip_limit) return std::string();
+        return std::string(kFlipLimits[static_cast<std::size_t>(*s.options.paper.flip_limit)].name);
       });
-  add_number(command, "--overshoot", s.options.overshoot, {1, std::numeric_limits<double>::infinity(), false},
+  add_number(command, "--overshoot", s.options.paper.overshoot, {1, std::numeric_limits<double>::infinity(), false},
              "of --flip-limit after, at first: it shrinks towards 1 each sweep");
   command.add_flag("--repair", s.repair,
                    "where sweeps leave triangles bad: remove and insert vertices there, too, and keep what cures most");
@@ -222,7 +210,7 @@ void add_connectivity(Command& command, Settings& s) {
   add_texts(command, "--fix", "TAG ...", Values::words, s.fix,
             "vertices with this tag or physical name stay where they are; several may follow");
   add_choice(
-      command, "--boundary", kBoundaries, s.options.boundary_vertices,
+      command, "--boundary", kBoundaries, s.options.boundary,
       "keep: the domain's boundary stays bit for bit; slide: vertices of its straight pieces, never corners, may "
       "move along them; split: edges of boundary and interfaces much longer than one they meet are cut before "
       "the sweeps, and the vertices that were there stay bit for bit");
@@ -253,44 +241,44 @@ void add_paper(Command& command, Settings& s) {
       "test, inversions allowed, the first vertex as anchor and gamma 1");
   method.at_once = true;
   method.default_text = "production";
-  add_count(command, "--inner", s.options.inner, 0,
+  add_count(command, "--inner", s.options.paper.inner, 0,
             "with deferred flips: at most so many sweeps before edges are flipped; 0: until they converge");
-  add_count(command, "--outer", s.options.outer, 0,
+  add_count(command, "--outer", s.options.paper.outer, 0,
             "with deferred flips: at most so many rounds of sweeps and flips; 0: until no flips are needed");
-  add_choice(command, "--weight-updates", kWeightUpdates, s.options.weight_updates,
+  add_choice(command, "--weight-updates", kWeightUpdates, s.options.paper.weight_updates,
              "a new weight is seen by its neighbours at once, or after the sweep (not with --solver newton)");
-  add_count(command, "--collapse-from", s.options.collapse_from, 0,
+  add_count(command, "--collapse-from", s.options.paper.collapse_from, 0,
             "i_c: first sweep with short-edge collapses, from 0 (Algorithm 2)");
   std::vector<std::string_view> names;
   for (const EnergyInfo& energy : energies()) {
     if (!energy.barrier) names.push_back(energy.name);
   }
-  add_energy_name(command, "--collapse-energy", names, s.options.collapse_energy,
+  add_energy_name(command, "--collapse-energy", names, s.options.paper.collapse_energy,
                   "E_c, which draws a vertex to an edge");
-  add_number(command, "--collapse-ratio", s.options.collapse_ratio, {0, 1, true},
+  add_number(command, "--collapse-ratio", s.options.paper.collapse_ratio, {0, 1, true},
              "collapse a vertex that E_c wants this near its neighbour, relative to that one's shorter edge beside");
-  add_choice(command, "--removal", kRemovals, s.options.removal,
+  add_choice(command, "--removal", kRemovals, s.options.paper.removal,
              "patch: remove a vertex when its patch is better without it (Algorithm 1, line 15)");
-  add_choice(command, "--removal-measure", kRemovalMeasures, s.options.removal_measure,
+  add_choice(command, "--removal-measure", kRemovalMeasures, s.options.paper.removal_measure,
              "by what patches are compared: energy summed (the paper), per triangle, or above equilateral triangles");
-  add_number(command, "--removal-margin", s.options.removal_margin, kNotNegative,
+  add_number(command, "--removal-margin", s.options.paper.removal_margin, kNotNegative,
              "by which part the patch must be better");
-  add_count(command, "--removal-from", s.options.removal_from, 0, "first sweep with removals, from 0");
-  add_choice(command, "--hidden", kHiddenPolicies, s.options.hidden,
+  add_count(command, "--removal-from", s.options.paper.removal_from, 0, "first sweep with removals, from 0");
+  add_choice(command, "--hidden", kHiddenPolicies, s.options.paper.hidden,
              "what weights hide: undo the step, remove the vertex, or keep and report it");
-  add_choice(command, "--inversion", kInversions, s.options.inversion,
+  add_choice(command, "--inversion", kInversions, s.options.paper.inversion,
              "steps that turn a triangle over are refused, or allowed as in the paper (with deferred flips)");
-  add_choice(command, "--order", kOrders, s.options.order, "in which a sweep visits the vertices");
+  add_choice(command, "--order", kOrders, s.options.paper.order, "in which a sweep visits the vertices");
 }
 
 void add_stopping(Command& command, Settings& s) {
   add_count(command, "--max-sweeps", s.options.max_sweeps, 0, "at most this many sweeps over the vertices");
-  add_number(command, "--tolerance", s.options.tolerance, kNotNegative, "stop when a sweep gains less than this");
-  add_choice(command, "--stopping", kStoppingRules, s.options.stopping,
+  add_number(command, "--tolerance", s.options.paper.tolerance, kNotNegative, "stop when a sweep gains less than this");
+  add_choice(command, "--stopping", kStoppingRules, s.options.paper.stopping,
              "the gain relative to the energy, or the paper's: mean energy per triangle, absolute");
   add_number(command, "--time-limit", s.options.time_limit, kNotNegative, "stop after this many seconds; 0: no limit");
   add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
-  add_count(command, "--seed", s.options.seed, 0,
+  add_count(command, "--seed", s.options.paper.seed, 0,
             "of the jitter that frees symmetric grids, of repairs, and of --order random");
 }
 
@@ -317,23 +305,21 @@ std::size_t find_vertex(const Input& input, const std::string& number) {
   throw Failure(Exit::bad_usage, fmt::format("{}: --anchor: there is no vertex {}", input.path, number));
 }
 
-OptimizeOptions library_options(const Settings& s, const Input& input, Executor* executor) {
+OptimizeOptions library_options(const Settings& s, const Input& input) {
   OptimizeOptions options = s.options;
-  if (s.gamma.value()) options.gamma = s.gamma.value();
-  if (s.h0.value()) options.h0 = s.h0.value();
+  if (s.gamma.value()) options.paper.gamma = s.gamma.value();
+  if (s.h0.value()) options.paper.h0 = s.h0.value();
   if (s.positions_only) options.unknowns = Unknowns::positions;
   if (s.weights_only) options.unknowns = Unknowns::weights;
   if (s.repair) options.repair = Repair::vertices;
   if (s.no_repair) options.repair = Repair::none;
-  if (s.no_newton_passes) options.newton_passes = false;
+  if (s.no_newton_passes) options.paper.newton_passes = false;
   if (s.slide) options.interfaces = InterfaceVertices::sliding;
   if (s.anchor == kNone) {
-    options.anchor.reset();
+    options.paper.anchor = {};
   } else if (!s.anchor.empty()) {
-    options.anchor = find_vertex(input, s.anchor);
+    options.paper.anchor = VertexId(find_vertex(input, s.anchor));
   }
-  options.names = input.names.get();
-  options.executor = executor;
   return options;
 }
 
@@ -350,22 +336,25 @@ std::vector<std::string> idle_switches(const Command& command, const Settings& s
       }
     }
   };
-  const FlipLimit limit = o.flip_limit.value_or(energy.barrier ? FlipLimit::unlimited : FlipLimit::after);
-  idle_unless(limit == FlipLimit::after && o.flips, {{"--overshoot", o.overshoot != usual.overshoot}},
-              o.flips ? "without --flip-limit after" : "without flips");
-  idle_unless(o.solver != Solver::golden, {{"--relaxation", o.relaxation != usual.relaxation}}, "with --solver golden");
-  idle_unless(o.boundary_vertices == BoundaryVertices::split,
-              {{"--boundary-ratio", o.boundary_ratio != usual.boundary_ratio}}, "without --boundary split");
-  idle_unless(flips_of(s) == Flips::deferred,
-              {{"--inner", o.inner != usual.inner}, {"--outer", o.outer != usual.outer}}, "without --flips deferred");
-  idle_unless(o.collapse_from.has_value(),
-              {{"--collapse-energy", o.collapse_energy != usual.collapse_energy},
-               {"--collapse-ratio", o.collapse_ratio != usual.collapse_ratio}},
+  const FlipLimit limit = o.paper.flip_limit.value_or(energy.barrier ? FlipLimit::unlimited : FlipLimit::after);
+  idle_unless(limit == FlipLimit::after && o.flips != Flips::none,
+              {{"--overshoot", o.paper.overshoot != usual.paper.overshoot}},
+              o.flips != Flips::none ? "without --flip-limit after" : "without flips");
+  idle_unless(o.paper.solver != Solver::golden, {{"--relaxation", o.paper.relaxation != usual.paper.relaxation}},
+              "with --solver golden");
+  idle_unless(o.boundary == BoundaryVertices::split, {{"--boundary-ratio", o.boundary_ratio != usual.boundary_ratio}},
+              "without --boundary split");
+  idle_unless(s.options.flips == Flips::deferred,
+              {{"--inner", o.paper.inner != usual.paper.inner}, {"--outer", o.paper.outer != usual.paper.outer}},
+              "without --flips deferred");
+  idle_unless(o.paper.collapse_from.has_value(),
+              {{"--collapse-energy", o.paper.collapse_energy != usual.paper.collapse_energy},
+               {"--collapse-ratio", o.paper.collapse_ratio != usual.paper.collapse_ratio}},
               "without --collapse-from");
-  idle_unless(o.removal == Removal::patch,
-              {{"--removal-measure", o.removal_measure != usual.removal_measure},
-               {"--removal-margin", o.removal_margin != usual.removal_margin},
-               {"--removal-from", o.removal_from != usual.removal_from}},
+  idle_unless(o.paper.removal == Removal::patch,
+              {{"--removal-measure", o.paper.removal_measure != usual.paper.removal_measure},
+               {"--removal-margin", o.paper.removal_margin != usual.paper.removal_margin},
+               {"--removal-from", o.paper.removal_from != usual.paper.removal_from}},
               "without --removal patch");
   const AccuracyOptions &a = s.accuracy, &first = usual.accuracy;
   idle_unless(s.objective == Objective::accuracy,
@@ -381,13 +370,13 @@ std::vector<std::string> idle_switches(const Command& command, const Settings& s
 
 /// Options that were given and cannot have the effect one would expect.
 std::vector<std::string> doubtful_options(const Command& command, const Settings& s) {
-  const EnergyInfo energy = or_fail(find_energy(s.options.energy));
+  const EnergyInfo& energy = energy_info(s.options.energy);
   std::vector<std::string> warnings;
   const auto idle = [&](const char* option) {
     warnings.push_back(fmt::format("{} has no effect on energy {}", option, energy.name));
   };
   if (s.repair && !energy.barrier) idle("--repair");
-  if (s.repair && (s.weights_only || !s.options.flips)) {
+  if (s.repair && (s.weights_only || s.options.flips == Flips::none)) {
     warnings.push_back("--repair has no effect where " + std::string(s.weights_only ? "positions" : "edges") +
                        " may not change");
   }
@@ -399,7 +388,8 @@ std::vector<std::string> doubtful_options(const Command& command, const Settings
   }
   if (s.gamma.value() && !energy.softened_by_gamma) idle("--gamma");
   if (s.h0.value() && !energy.softened_by_h0) idle("--h0");
-  if (s.options.boundary != BoundaryTreatment::as_is && energy.kind != EnergyKind::F) idle("--boundary-treatment");
+  if (s.options.paper.boundary_treatment != BoundaryTreatment::as_is && energy.kind != EnergyKind::F)
+    idle("--boundary-treatment");
   if (s.size_field.empty() && command.was_given("--size-field-data")) {
     warnings.push_back("--size-field-data has no effect without --size-field");
   }
@@ -459,9 +449,12 @@ OptimizeReport run_library(const Settings& s, const Input& input, Mesh& mesh, Ex
     line.show(progress);
     return interrupted() ? Continue::no : Continue::yes;
   };
-  OptimizeOptions options = library_options(s, input, executor);
-  options.tracer = std::move(tracer);
-  return or_fail(optimize(mesh, options, observer));
+  OptimizeHooks hooks;
+  hooks.executor = executor;
+  hooks.names = input.names.get();
+  hooks.observer = observer;
+  hooks.tracer = std::move(tracer);
+  return or_fail(optimize(mesh, library_options(s, input), hooks));
 }
 
 #ifdef TEMPER_WITH_VERIFY
@@ -579,8 +572,14 @@ void write_all(const Command& command, const Settings& s, Input& input, Results&
   if (!s.picture.empty()) outputs.write_text(s.picture, results.picture);
 }
 
+/// The row of energies that is of interest.
+int star_shown(const OptimizeOptions& options) {
+  return options.objective == Objective::accuracy ? 1 : static_cast<int>(options.star);
+}
+
 void print_result(const Settings& s, const Results& results, const Outputs& outputs) {
-  print(ending(results.report) + "\n\n" + comparison_text(results.before, results.after, s.options.star, text_style()) +
+  print(ending(results.report) + "\n\n" +
+        comparison_text(results.before, results.after, star_shown(s.options), text_style()) +
         size_text(results.report.size));
   if (!results.errors_text.empty()) print("\n" + results.errors_text);
   for (const std::string& note : results.report.notes) print("note: " + note + "\n");
@@ -644,11 +643,11 @@ Exit run_optimize(const Arguments& arguments) {
   take_input(command, settings);
   settle_objective(settings);
   if (settings.no_flips) {
-    if (command.was_given("--flips") && flips_of(settings) != Flips::none) {
+    if (command.was_given("--flips") && settings.options.flips != Flips::none) {
       throw Failure(Exit::bad_usage, "optimize: --no-flips contradicts --flips " +
                                          command.option("--flips").given.front() + "\nSee temper optimize --help");
     }
-    set_flips(settings, Flips::none);
+    settings.options.flips = Flips::none;
   }
   command.spell_defaults();  // --method may have changed them
 

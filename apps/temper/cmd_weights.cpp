@@ -128,11 +128,10 @@ bool all_well_centered(const Mesh& mesh) {
 void lower_energy(const Settings& s, const Input& input, WeightReport& report) {
   Mesh moving = with_weights(input.mesh(), report.weights);
   OptimizeOptions options;
-  options.energy = s.barrier == Barrier::hard ? "BH" : "BP";
+  options.energy = s.barrier == Barrier::hard ? EnergyKind::BH : EnergyKind::BP;
   options.unknowns = Unknowns::weights;
-  options.flips = false;
-  options.names = input.names.get();
-  or_fail(optimize(moving, options));
+  options.flips = Flips::none;
+  or_fail(optimize(moving, options, {.names = input.names.get()}));
   IdVector<VertexId, double> weights = report.weights;
   for (const VertexId v : moving.vertices()) weights[v] = moving.weight(v);
   const Mesh lowered = with_weights(input.mesh(), weights);

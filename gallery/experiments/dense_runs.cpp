@@ -13,11 +13,11 @@ namespace temper::gallery {
 
 OptimizeOptions dense_options(std::string_view energy, const VertexOrder& order) {
   OptimizeOptions o = paper_method();
-  o.energy = energy;
-  o.h0 = shift_beyond(dense_horseshoe());
-  o.removal = Removal::none;
-  o.collapse_from.reset();
-  o.outer = 1;
+  o.energy = find_energy(energy)->kind;
+  o.paper.h0 = shift_beyond(dense_horseshoe());
+  o.paper.removal = Removal::none;
+  o.paper.collapse_from.reset();
+  o.paper.outer = 1;
   visit_in(order, o);
   return o;
 }
@@ -25,7 +25,7 @@ OptimizeOptions dense_options(std::string_view energy, const VertexOrder& order)
 OptimizeOptions dense_positions(std::string_view energy, const VertexOrder& order) {
   OptimizeOptions o = dense_options(energy, order);
   o.unknowns = Unknowns::positions;
-  o.inversion = Inversion::refuse;
+  o.paper.inversion = Inversion::refuse;
   return o;
 }
 

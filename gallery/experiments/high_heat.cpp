@@ -49,12 +49,12 @@ const std::vector<OrderedHeat>& high_heat_by_order(Effort effort) {
 
 OptimizeOptions high_heat_options(std::string_view energy) {
   OptimizeOptions options = paper_method();
-  options.energy = energy;
-  options.gamma = Softening{kPaperGamma, LengthScale::absolute};
-  options.h0 = shift_beyond(dense_horseshoe());
-  options.removal = Removal::none;
-  options.collapse_energy = "F";
-  options.weights_from = kWeightsFrom;
+  options.energy = find_energy(energy)->kind;
+  options.paper.gamma = Softening{kPaperGamma, LengthScale::absolute};
+  options.paper.h0 = shift_beyond(dense_horseshoe());
+  options.paper.removal = Removal::none;
+  options.paper.collapse_energy = EnergyKind::F;
+  options.paper.weights_from = kWeightsFrom;
   return options;
 }
 

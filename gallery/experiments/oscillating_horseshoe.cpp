@@ -46,13 +46,13 @@ VertexOrder shown_order() { return {"reverse", SweepOrder::reverse}; }
 
 OptimizeOptions positions_and_collapses() {
   OptimizeOptions options = paper_method();
-  options.energy = "dT";
+  options.energy = EnergyKind::dT;
   options.unknowns = Unknowns::positions;
-  options.removal = Removal::none;
-  options.collapse_energy = "F";
-  options.inversion = Inversion::refuse;
-  options.order = shown_order().order;
-  options.outer = kOuter;
+  options.paper.removal = Removal::none;
+  options.paper.collapse_energy = EnergyKind::F;
+  options.paper.inversion = Inversion::refuse;
+  options.paper.order = shown_order().order;
+  options.paper.outer = kOuter;
   return options;
 }
 

@@ -26,8 +26,8 @@ struct VertexOrder {
 };
 /// Makes the sweeps of a run visit the vertices in that order.
 inline void visit_in(const VertexOrder& order, OptimizeOptions& options) {
-  options.order = order.order;
-  options.seed = order.seed;
+  options.paper.order = order.order;
+  options.paper.seed = order.seed;
 }
 /// As numbered, reverse, along a Hilbert curve, and so many at random.
 [[nodiscard]] std::vector<VertexOrder> vertex_orders(int random);

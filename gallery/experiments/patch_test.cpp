@@ -46,11 +46,11 @@ double mean_energy(const Mesh& mesh) {
 OptimizeOptions immediate_options(Unknowns unknowns, RemovalRule rule) {
   OptimizeOptions options = paper_method();
   options.unknowns = unknowns;
-  options.flip_timing = FlipTiming::immediate;
-  options.inversion = Inversion::refuse;
-  options.collapse_energy = "F";
-  if (rule != RemovalRule::patch) options.removal = Removal::none;
-  if (rule != RemovalRule::short_edge) options.collapse_from = {};
+  options.flips = Flips::immediate;
+  options.paper.inversion = Inversion::refuse;
+  options.paper.collapse_energy = EnergyKind::F;
+  if (rule != RemovalRule::patch) options.paper.removal = Removal::none;
+  if (rule != RemovalRule::short_edge) options.paper.collapse_from = {};
   return options;
 }
 

@@ -47,15 +47,16 @@ const Moment& Recording::begin_of(int iteration) const {
   return found == moments.end() ? moments.back() : *found;
 }
 
-Recording record(const Mesh& start, OptimizeOptions options, Keep keep) {
+Recording record(const Mesh& start, const OptimizeOptions& options, Keep keep) {
   Recording recording;
   recording.result = start;
-  options.watch = [&](const Snapshot& s) {
+  OptimizeHooks hooks;
+  hooks.snapshots = [&](const Snapshot& s) {
     if (keep == Keep::outer && s.moment == Snapshot::Moment::after_sweep) return;
     recording.moments.push_back({s.moment, s.sweep, s.outer, s.energy, s.mesh, s.vertices});
   };
-  options.tracer = [&](const TraceEvent& event) { recording.events.push_back(event); };
-  auto report = optimize(recording.result, options);
+  hooks.tracer = [&](const TraceEvent& event) { recording.events.push_back(event); };
+  auto report = optimize(recording.result, options, hooks);
   if (report) {
     recording.report = *std::move(report);
   } else {

@@ -42,6 +42,6 @@ struct Recording {
 /// What is kept of a run: the meshes between outer iterations, or also those after each sweep.
 enum class Keep { outer, sweeps };
 
-[[nodiscard]] Recording record(const Mesh& start, OptimizeOptions options, Keep keep);
+[[nodiscard]] Recording record(const Mesh& start, const OptimizeOptions& options, Keep keep);
 
 }  // namespace temper::gallery

@@ -30,7 +30,7 @@ Corners angle_triangle(double theta, double weight) {
 EnergyModel paper_model(EnergyKind kind, int star) {
   EnergyModel model;
   model.kind = kind;
-  model.star = star;
+  model.star = static_cast<Star>(star);
   model.gamma = {1.0, LengthScale::absolute};
   model.h0 = {0.15, LengthScale::absolute};
   return model;
@@ -80,7 +80,7 @@ std::optional<BestWeight> best_weight(const EnergyModel& model, double theta) {
   };
   const auto energy = [&](double w) { return energy_at(model, theta, w); };
   if (model.kind == EnergyKind::F) {
-    const auto at = extrema(weight_polynomial(model.star, theta));
+    const auto at = extrema(weight_polynomial(static_cast<int>(model.star), theta));
     if (!at) return std::nullopt;
     return with_margins({at->minimum, energy(at->minimum)});
   }

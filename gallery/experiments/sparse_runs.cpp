@@ -37,19 +37,23 @@ Mesh numbered(const VertexSequence& sequence) {
 
 OptimizeOptions options_of(const SparseSetting& setting, const Mesh& input) {
   OptimizeOptions o = paper_method();
-  o.energy = setting.energy;
+  o.energy = find_energy(setting.energy)->kind;
   o.unknowns = setting.weights_from ? Unknowns::positions_and_weights : Unknowns::positions;
-  o.weights_from = setting.weights_from.value_or(0);
-  o.removal = Removal::none;
-  o.collapse_from.reset();
-  if (setting.collapse_energy) o.collapse_from = 0, o.collapse_energy = *setting.collapse_energy;
-  o.anchor = static_cast<std::size_t>(std::ranges::find(setting.sequence, 0u) - setting.sequence.begin());
-  o.inversion = setting.inversion;
-  o.outer = 1;
-  if (o.weights_from > 0) o.tolerance = 0;
+  o.paper.weights_from = setting.weights_from.value_or(0);
+  o.paper.removal = Removal::none;
+  o.paper.collapse_from.reset();
+  if (setting.collapse_energy) {
+    o.paper.collapse_from = 0;
+    o.paper.collapse_energy = find_energy(*setting.collapse_energy)->kind;
+  }
+  o.paper.anchor =
+      VertexId(static_cast<std::size_t>(std::ranges::find(setting.sequence, 0u) - setting.sequence.begin()));
+  o.paper.inversion = setting.inversion;
+  o.paper.outer = 1;
+  if (o.paper.weights_from > 0) o.paper.tolerance = 0;
   o.max_sweeps = setting.sweeps;
-  o.gamma = Softening{setting.softening.value_or(kPaperGamma), LengthScale::absolute};
-  o.h0 = setting.softening ? Softening{*setting.softening, LengthScale::absolute} : shift_beyond(input);
+  o.paper.gamma = Softening{setting.softening.value_or(kPaperGamma), LengthScale::absolute};
+  o.paper.h0 = setting.softening ? Softening{*setting.softening, LengthScale::absolute} : shift_beyond(input);
   return o;
 }
 

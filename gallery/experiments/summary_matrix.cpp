@@ -19,12 +19,12 @@ constexpr double kBeyondBounds = 1000;
 OptimizeOptions options_of(const Cell& cell, Effort effort, Inversion inversion) {
   OptimizeOptions options = high_heat_options(cell.energy);
   options.unknowns = cell.unknowns;
-  options.weights_from = 0;
-  options.inversion = inversion;
-  options.outer = 4;
+  options.paper.weights_from = 0;
+  options.paper.inversion = inversion;
+  options.paper.outer = 4;
   options.max_sweeps = effort == Effort::full ? 150 : 20;
-  if (cell.rule == RemovalRule::patch) options.removal = Removal::patch;
-  if (cell.rule != RemovalRule::short_edge) options.collapse_from = {};
+  if (cell.rule == RemovalRule::patch) options.paper.removal = Removal::patch;
+  if (cell.rule != RemovalRule::short_edge) options.paper.collapse_from = {};
   return options;
 }
 
@@ -80,7 +80,7 @@ std::vector<Ending> endings(std::string_view energy, Unknowns unknowns, RemovalR
                             Effort effort) {
   Cell cell{energy, unknowns, rule, {}};
   OptimizeOptions options = options_of(cell, effort, Inversion::refuse);
-  options.hidden = hidden;
+  options.paper.hidden = hidden;
   run_cell(cell, options, effort);
   return std::move(cell.endings);
 }

@@ -54,9 +54,9 @@ std::vector<WeightPolicy> weight_policies() {
        {std::pair{FlipLimit::unlimited, "unlimited"}, std::pair{FlipLimit::before, "before"},
         std::pair{FlipLimit::after, "after"}}) {
     using enum WeightUpdates;
-    policies.push_back({limit_name, "weights and flips at once", limit, immediate, FlipTiming::immediate});
-    policies.push_back({limit_name, "flips deferred", limit, immediate, FlipTiming::deferred});
-    policies.push_back({limit_name, "weights and flips deferred", limit, deferred, FlipTiming::deferred});
+    policies.push_back({limit_name, "weights and flips at once", limit, immediate, Flips::immediate});
+    policies.push_back({limit_name, "flips deferred", limit, immediate, Flips::deferred});
+    policies.push_back({limit_name, "weights and flips deferred", limit, deferred, Flips::deferred});
   }
   return policies;
 }
@@ -64,26 +64,26 @@ std::vector<WeightPolicy> weight_policies() {
 OptimizeOptions policy_options(const WeightPolicy& policy, const VertexOrder& order) {
   OptimizeOptions options = positions_and_collapses();
   options.unknowns = Unknowns::weights;
-  options.collapse_from = {};
+  options.paper.collapse_from = {};
   visit_in(order, options);
-  options.weight_updates = policy.weights;
-  options.flip_timing = policy.flips;
-  options.flip_limit = policy.limit;
-  options.hidden = HiddenPolicy::remove;
-  options.inner = 1;
-  options.outer = 1;
+  options.paper.weight_updates = policy.weights;
+  options.flips = policy.flips;
+  options.paper.flip_limit = policy.limit;
+  options.paper.hidden = HiddenPolicy::remove;
+  options.paper.inner = 1;
+  options.paper.outer = 1;
   options.max_sweeps = 1;
   return options;
 }
 
 PolicyRun run_policy(const WeightPolicy& policy, const Mesh& start, const VertexOrder& order, int sweeps) {
   OptimizeOptions options = policy_options(policy, order);
-  const double overshoot = options.overshoot - 1;
+  const double overshoot = options.paper.overshoot - 1;
   PolicyRun run{policy, {total_energy(start, energy_dt())}, start, {}, 0, 0, 0, 0, 0, 0};
   for (const VertexId v : start.vertices()) run.vertices.push_back(v);
   Reversals reversals(start.n_vertices());
   for (int i = 0; i < sweeps; ++i) {
-    options.overshoot = 1 + overshoot * std::pow(0.1, i);  // as it would shrink in one run
+    options.paper.overshoot = 1 + overshoot * std::pow(0.1, i);  // as it would shrink in one run
     Moment after = one_sweep(run.end, options, run.flips);
     std::vector<VertexId> vertices;
     for (const VertexId v : after.mesh.vertices()) {

@@ -19,7 +19,7 @@ struct WeightPolicy {
   std::string limit_name, update_name;  ///< row and column of figure 23
   FlipLimit limit = FlipLimit::after;
   WeightUpdates weights = WeightUpdates::immediate;
-  FlipTiming flips = FlipTiming::immediate;
+  Flips flips = Flips::immediate;
 };
 
 /// Row by row as in figure 23: unlimited, before, after; in each immediate, deferred flips, deferred weights and flips.

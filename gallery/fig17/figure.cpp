@@ -87,12 +87,12 @@ Ending run(std::string_view energy, const VertexOrder& order, const Remedy& reme
   Mesh mesh = dense_horseshoe();
   if (remedy.delay) {
     OptimizeOptions positions = dense_positions(energy, order);
-    if (remedy.collapses) positions.collapse_from = 0, positions.collapse_energy = "F";
+    if (remedy.collapses) positions.paper.collapse_from = 0, positions.paper.collapse_energy = EnergyKind::F;
     mesh = record(mesh, positions, Keep::outer).moments.back().mesh;
   }
   OptimizeOptions both = dense_options(energy, order);
-  if (remedy.collapses) both.collapse_from = 0, both.collapse_energy = "F";
-  both.flip_limit = remedy.limit;
+  if (remedy.collapses) both.paper.collapse_from = 0, both.paper.collapse_energy = EnergyKind::F;
+  both.paper.flip_limit = remedy.limit;
   both.max_sweeps = sweeps;
   return ending_of(record(mesh, both, Keep::sweeps), energy);
 }

@@ -43,8 +43,8 @@ struct Run {
 
 Run make_run(std::string_view energy, int weights_from, double tolerance, const VertexOrder& order = {}) {
   OptimizeOptions options = dense_options(energy, order);
-  options.weights_from = weights_from;
-  options.tolerance = tolerance;
+  options.paper.weights_from = weights_from;
+  options.paper.tolerance = tolerance;
   const Recording recording = record(dense_horseshoe(), options, Keep::outer);
   Run run;
   for (const SweepRecord& r : recording.report.history) run.energies.push_back(r.energy);
@@ -62,7 +62,7 @@ struct Pair {
 std::array<Pair, 3> make_runs(double tolerance) {
   std::array<Pair, 3> pairs;
   for (std::size_t i = 0; i < kEnergies.size(); ++i) {
-    const double enough = kEnergies[i] == "T" ? paper_method().tolerance : tolerance;  // few sweeps in any case
+    const double enough = kEnergies[i] == "T" ? paper_method().paper.tolerance : tolerance;  // few sweeps in any case
     pairs[i] = {make_run(kEnergies[i], 0, enough), make_run(kEnergies[i], 2, enough)};
   }
   return pairs;
@@ -185,7 +185,7 @@ Claim little_difference(const std::array<Pair, 3>& pairs) {
 
 /// Of E_T, whose optima depend on the order: in how many orders i_w = 2 needs fewer sweeps.
 std::string orders_with_fewer(int random) {
-  const double tolerance = paper_method().tolerance;
+  const double tolerance = paper_method().paper.tolerance;
   std::size_t all = 0, fewer = 0;
   for (const VertexOrder& order : vertex_orders(random)) {
     ++all;
@@ -224,7 +224,7 @@ Claim fewer_iterations(const std::array<Pair, 3>& pairs, int random) {
 
 Page make_fig18(Effort effort) {
   const bool full = effort == Effort::full;
-  const double tolerance = full ? paper_method().tolerance : kReducedTolerance;
+  const double tolerance = full ? paper_method().paper.tolerance : kReducedTolerance;
   const std::array<Pair, 3> pairs = make_runs(tolerance);
   Page page;
   page.pictures.push_back({"fig18", panels(pairs),

@@ -166,7 +166,7 @@ Stability stability(Effort effort) {
   for (const VertexOrder& order : vertex_orders(effort == Effort::full ? 12 : 0)) {
     OptimizeOptions options = positions_and_collapses();
     visit_in(order, options);
-    options.outer = 1;
+    options.paper.outer = 1;
     add(record(dense_horseshoe(), options, Keep::sweeps), s);
   }
   return s;

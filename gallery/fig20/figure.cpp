@@ -73,8 +73,8 @@ std::vector<OrderedRun> runs(Effort effort) {
     for (const VertexOrder& order : vertex_orders(effort == Effort::full ? 7 : 0)) {
       OptimizeOptions options = positions_and_collapses();
       visit_in(order, options);
-      options.collapse_energy = energy;
-      options.outer = outer;
+      options.paper.collapse_energy = find_energy(energy)->kind;
+      options.paper.outer = outer;
       all.push_back({order.name, energy, oscillation_of(record(dense_horseshoe(), options, Keep::outer))});
     }
   }

@@ -24,10 +24,10 @@ constexpr const char* kKite = "#dcecf9";
 /// Flips as soon as they are due, searches limited.
 OptimizeOptions limited(FlipLimit limit, double overshoot) {
   OptimizeOptions options = positions_and_collapses();
-  options.outer = 0;
-  options.flip_timing = FlipTiming::immediate;
-  options.flip_limit = limit;
-  options.overshoot = overshoot;
+  options.paper.outer = 0;
+  options.flips = Flips::immediate;
+  options.paper.flip_limit = limit;
+  options.paper.overshoot = overshoot;
   return options;
 }
 
@@ -39,8 +39,8 @@ const Recording& converged_run() {
 /// On from the converged mesh, with no tolerance: sweeps until the energy falls no more at all.
 Recording run_on(FlipLimit limit) {
   OptimizeOptions options = limited(limit, 1.1);
-  options.stopping = StoppingRule::relative;
-  options.tolerance = 0;
+  options.paper.stopping = StoppingRule::relative;
+  options.paper.tolerance = 0;
   options.max_sweeps = 200;
   return record(converged_run().result, options, Keep::sweeps);
 }
@@ -113,7 +113,7 @@ std::vector<const Moment*> sweeps_of(const Recording& run) {
 /// The same start with flips deferred: two more rounds of the oscillation.
 std::string energies_by_sweep() {
   OptimizeOptions deferred = positions_and_collapses();
-  deferred.outer = 2;
+  deferred.paper.outer = 2;
   const Recording oscillating = record(oscillating_mesh(), deferred, Keep::sweeps);
   std::vector<const Moment*> moments;
   for (const Moment& m : oscillating.moments) moments.push_back(&m);
@@ -235,7 +235,7 @@ void run_constant(Mesh mesh, OptimizeOptions options, Outcome& outcome) {
   double energy = total_energy(mesh, energy_dt());
   int sweeps = 0;
   for (double fall = energy;
-       sweeps < kMostSweeps && fall >= options.tolerance * static_cast<double>(mesh.n_triangles()); ++sweeps) {
+       sweeps < kMostSweeps && fall >= options.paper.tolerance * static_cast<double>(mesh.n_triangles()); ++sweeps) {
     const Recording run = record(mesh, options, Keep::sweeps);
     mesh = run.moments.back().mesh;
     outcome.flips += run.report.flips;

@@ -136,12 +136,12 @@ std::string optimizer_messes(Effort effort) {
   for (const VertexOrder& order : vertex_orders(effort == Effort::full ? 5 : 0)) {
     OptimizeOptions options = positions_and_collapses();
     options.unknowns = Unknowns::positions_and_weights;
-    options.collapse_from = {};
+    options.paper.collapse_from = {};
     visit_in(order, options);
-    options.inner = 1;
-    options.outer = 0;
+    options.paper.inner = 1;
+    options.paper.outer = 0;
     options.max_sweeps = kShownSweeps;
-    options.inversion = Inversion::allow;
+    options.paper.inversion = Inversion::allow;
     messes += record(oscillating_mesh(), options, Keep::outer).report.stopped == Stopped::tangled ? 1 : 0;
     ++runs;
   }

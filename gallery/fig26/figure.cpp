@@ -102,7 +102,7 @@ Table table() {
 /// Collapses in outer iterations 0 and 1, early in the latter, when the rule asks for another ratio.
 std::vector<std::size_t> with_ratio(double ratio) {
   OptimizeOptions options = high_heat_options("BP");
-  options.collapse_ratio = ratio;
+  options.paper.collapse_ratio = ratio;
   options.max_sweeps = kEarlySweeps;
   std::vector<std::size_t> counts = collapses_by_outer(record(dense_horseshoe(), options, Keep::outer));
   counts.resize(2);

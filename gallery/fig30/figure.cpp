@@ -115,7 +115,7 @@ Claim same_and_more(const Overlap& o) {
 struct Case {
   const Mesh* mesh;
   Unknowns unknowns;
-  FlipTiming timing;
+  Flips timing;
   RemovalMeasure measure;
   double gamma;  ///< of the length scale of the mesh's edges
   VertexOrder order;
@@ -128,9 +128,9 @@ struct Validity {
 
 void run_case(const Case& c, Validity& v) {
   OptimizeOptions options = immediate_options(c.unknowns, RemovalRule::patch);
-  options.flip_timing = c.timing;
-  options.removal_measure = c.measure;
-  options.gamma = Softening{c.gamma, LengthScale::relative};
+  options.flips = c.timing;
+  options.paper.removal_measure = c.measure;
+  options.paper.gamma = Softening{c.gamma, LengthScale::relative};
   visit_in(c.order, options);
   options.max_sweeps = 15;
   Mesh mesh = *c.mesh;
@@ -157,7 +157,7 @@ Validity survey_validity(Effort effort) {
   Validity v;
   for (const Mesh& mesh : meshes) {
     for (const Unknowns unknowns : {Unknowns::positions, Unknowns::positions_and_weights}) {
-      for (const FlipTiming timing : {FlipTiming::immediate, FlipTiming::deferred}) {
+      for (const Flips timing : {Flips::immediate, Flips::deferred}) {
         for (const RemovalMeasure measure : {RemovalMeasure::sum, RemovalMeasure::mean, RemovalMeasure::excess}) {
           for (const double gamma : full ? std::vector{0.02, 0.3, 2.0} : std::vector{0.3}) {
             for (const VertexOrder& order : orders) {

@@ -46,7 +46,7 @@ Movement movement(const VertexOrder& order, Unknowns unknowns) {
   constexpr int kSweeps = 60;
   OptimizeOptions options = high_heat_options("BP");
   options.unknowns = unknowns;
-  options.weights_from = 0;
+  options.paper.weights_from = 0;
   visit_in(order, options);
   options.max_sweeps = kSweeps;
   const Recording run = record(dense_horseshoe(), options, Keep::outer);
@@ -108,10 +108,10 @@ std::vector<LargeRun> large_runs(Effort effort) {
   if (!input) return runs;
   for (const Measure& m : kMeasures) {
     OptimizeOptions options;
-    options.removal = Removal::patch;
-    options.removal_measure = m.measure;
-    options.removal_margin = m.margin;
-    if (m.margin == 0) options.removal_from = 0;
+    options.paper.removal = Removal::patch;
+    options.paper.removal_measure = m.measure;
+    options.paper.removal_margin = m.margin;
+    if (m.margin == 0) options.paper.removal_from = 0;
     options.max_sweeps = effort == Effort::full ? 60 : 30;
     Mesh mesh = *input;
     if (!optimize(mesh, options)) continue;

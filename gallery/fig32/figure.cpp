@@ -298,7 +298,7 @@ std::vector<Delay> delays(Effort effort, int sweeps) {
     Delay d{from, {}, 0};
     for (const VertexOrder& order : orders) {
       OptimizeOptions options = high_heat_options("BP");
-      options.weights_from = from;
+      options.paper.weights_from = from;
       visit_in(order, options);
       options.max_sweeps = sweeps;
       Mesh mesh = dense_horseshoe();

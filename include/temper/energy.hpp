@@ -30,6 +30,15 @@ enum class EnergyKind { F, T, dT, BH, BHs, BP };
 /// How many kinds there are, which is how many rows energies() has.
 inline constexpr std::size_t kEnergyKinds = static_cast<std::size_t>(EnergyKind::BP) + 1;
 
+/// The Hodge star that an energy is for: it picks α and β.
+enum class Star {
+  zero,  ///< ★0: α = 1/4, β = 1/12
+  one,   ///< ★1: α = β = 1/3
+  two,   ///< ★2: α = 1/12, β = 1/4
+  all,  ///< of Objective::accuracy only, the sum of the three: α = β = 2/3, twice ★1, so that only the barrier counts
+        ///< half as much beside it
+};
+
 /// The dual of a boundary edge: where h of the missing triangle is taken from (§3.2.1 of the paper).
 enum class BoundaryTreatment {
   as_is,     ///< h of the missing triangle is 0; h may be negative
@@ -64,13 +73,15 @@ struct EnergyInfo {
 
 /// All energies, in the order of the table above.
 [[nodiscard]] std::span<const EnergyInfo> energies();
+/// The row of an energy.
+[[nodiscard]] const EnergyInfo& energy_info(EnergyKind kind);
 /// The row of that name, or an error that lists the names.
 [[nodiscard]] Expected<EnergyInfo> find_energy(std::string_view name);
 
 /// An energy with everything it depends on.
 struct EnergyModel {
   EnergyKind kind = EnergyKind::BP;
-  int star = 1;                                           ///< 0, 1 or 2
+  Star star = Star::one;                                  ///< zero, one or two
   BoundaryTreatment boundary = BoundaryTreatment::as_is;  ///< of F only; the others define their own
   Softening gamma = {1.0, LengthScale::absolute};         ///< γ of E_BP; the paper's examples use 1, absolute
   Softening h0 = {0.0, LengthScale::absolute};            ///< −h° of E_BHs, ≥ 0

@@ -64,6 +64,6 @@ struct OutlineMesh {
 /// length or crossing, nothing enclosed, holes and regions outside, parts that overlap, a domain that touches itself at
 /// a point; sizes that are not positive or would make too many triangles. About O(n log n) an attempt.
 [[nodiscard]] Expected<OutlineMesh> mesh_outline(const Outline& outline, const MesherOptions& options,
-                                                 const Observer& observer = {});
+                                                 const OptimizeHooks& hooks = {});
 
 }  // namespace temper

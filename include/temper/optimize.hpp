@@ -1,6 +1,9 @@
 // Algorithm 1 of the paper. By default in its production form: Gauss-Seidel over the vertices, each with its own
-// Newton step in (x, y, w), edges flipped as soon as they stop being regular. paper_method() gives the paper's own;
-// each of its switches is an option by itself.
+// Newton step in (x, y, w), edges flipped as soon as they stop being regular. paper_method() gives the paper's own.
+//
+// Options come in groups: OptimizeOptions are those of every run, AccuracyOptions those of its second objective,
+// PaperSwitches those of the algorithm. Each has a row in optimize_table.hpp, by which it is checked, and from which
+// the command line, Python and the documentation take it. Who listens to a run is apart from them, in OptimizeHooks.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +39,12 @@ enum class FlipLimit {
   after,      ///< past it by an overshoot that shrinks each sweep: 1.1, 1.01, 1.001, …
 };
 
-/// When edges are flipped.
-enum class FlipTiming { immediate, deferred };
+/// When edges that have stopped being regular are flipped.
+enum class Flips {
+  immediate,  ///< at once
+  deferred,   ///< in rounds, after the inner sweeps; until then edges may be not regular
+  none,       ///< never: the connectivity is frozen, and no step may make an edge non-regular
+};
 
 /// Which unknowns of a vertex move.
 enum class Unknowns { positions_and_weights, positions, weights };
@@ -98,14 +105,6 @@ enum class StoppingRule {
   paper,     ///< mean energy per triangle fell by less than tolerance, or rose
 };
 
-/// Whose diagonal ★ the accuracy objective is for: it picks α and β of the energies.
-enum class AccuracyStar {
-  zero,  ///< ★0: α = 1/4, β = 1/12
-  one,   ///< ★1: α = β = 1/3
-  two,   ///< ★2: α = 1/12, β = 1/4
-  all,   ///< the sum of the three: α = β = 2/3, twice ★1, so that only the barrier counts half as much beside it
-};
-
 /// Of Objective::accuracy. With L the squared length of an edge, G that times its dual length over its length, H the
 /// difference where G is the sum of the heights times the length on its two sides, δw the difference of the weights of
 /// its ends and s the local size there, what is lowered is
@@ -113,10 +112,9 @@ enum class AccuracyStar {
 ///     E = Σ_edges s⁻² (G/L) [ (α L² + β G²)/4 + ¾ c (α δw² + β H²) ]
 ///
 /// which for c = 1 is E_F / s² (eq. 2 of the paper): a moment of edge and dual, which every mesh of this size has, and
-/// c times as much of the offset between their middles, which is what a diagonal ★ errs by at first order.
-/// docs/accuracy.md derives it. [length²]
+/// c times as much of the offset between their middles, which is what a diagonal ★ errs by at first order. The star
+/// picks α and β. docs/accuracy.md derives it. [length²]
 struct AccuracyOptions {
-  AccuracyStar star = AccuracyStar::one;
   double offset_weight = 10;           ///< c ≥ 0: 1 is HOT itself
   double boundary_offset_weight = 18;  ///< of H² of edges on the boundary, which no mesh avoids: a smaller one is
                                        ///< better for vertex-centered solvers, a larger one for cell-centered ones. ≥ 0
@@ -126,16 +124,9 @@ struct AccuracyOptions {
   double tolerance = 1e-5;  ///< a sweep that changes E and barrier by less than this part of E is the last. ≥ 0
 };
 
-struct OptimizeOptions {
-  /// accuracy: the run lowers `energy`, which has to be a barrier, until all margins are above accuracy.margin, or it
-  /// ends; then E of AccuracyOptions, with the connectivity as it is. A mesh that has all margins at first goes on to
-  /// the second phase at once, unless its boundary is to be split. `solver`, `order`, `newton_passes`, `tolerance` and
-  /// `stopping` are of the first phase.
-  Objective objective = Objective::energy;
-  AccuracyOptions accuracy = {};
-
-  std::string_view energy = "BP";  ///< a name of the registry
-  int star = 1;                    ///< 0, 1 or 2
+/// The switches of Algorithm 1: where the paper offers a choice, or does otherwise than the production form. The
+/// defaults are the latter's, paper_method() has the paper's.
+struct PaperSwitches {
   /// γ of E_BP. Absent: relative to each edge, shrinking from 0.5, or from 1 where a quarter of 100 or more
   /// triangles is bad, to 0.003, there as soon as none is; when some stay bad, a second attempt from 2. Given:
   /// constant.
@@ -143,62 +134,68 @@ struct OptimizeOptions {
   /// −h° of E_BHs. Absent: relative, just beyond the worst h/ℓ of the mesh, shrinking as that improves. Given:
   /// constant.
   std::optional<Softening> h0 = {};
-  BoundaryTreatment boundary = BoundaryTreatment::as_is;  ///< of E_F only
+  BoundaryTreatment boundary_treatment = BoundaryTreatment::as_is;  ///< of E_F only
 
   Solver solver = Solver::newton;
-  Unknowns unknowns = Unknowns::positions_and_weights;
-  int weights_from = 0;                                     ///< i_w: first sweep that changes weights
-  WeightUpdates weight_updates = WeightUpdates::immediate;  ///< deferred: not with Solver::newton, which is joint
-  bool flips = true;  ///< false: the connectivity is frozen and no step may make an edge non-regular
-  FlipTiming flip_timing = FlipTiming::immediate;
-  int inner = 1;  ///< with deferred flips: most sweeps before edges are flipped; 0: until they converge
-  int outer = 0;  ///< with deferred flips: most rounds of sweeps and flips; 0: until no flips are needed
-  std::optional<FlipLimit> flip_limit =
-      {};                  ///< absent: unlimited for barriers (a flipping step must pay), after for HOT
-  double overshoot = 1.1;  ///< of FlipLimit::after
   /// Over-relaxation of Newton steps, in (0, 2). Absent: 1.7, but 1.97 while γ shrinks from 1. Given: constant.
   std::optional<double> relaxation = {};
   /// Once γ has settled, every triangle is well-centered and sweeps gain less than 1 %, every other sweep makes a step
   /// of all vertices at once, as long as that gains more. Only for barriers with Solver::newton, where flips, order,
   /// flip limit and stopping rule are the default ones, and without anchor, collapses, removals and size band.
   bool newton_passes = true;
-  InterfaceVertices interfaces = InterfaceVertices::fixed;
-  BoundaryVertices boundary_vertices = BoundaryVertices::keep;
-  double boundary_ratio =
-      4;  ///< BoundaryVertices::split: most between the lengths of edges that meet there; at least 2
+  SweepOrder order = SweepOrder::hilbert;
+  std::uint64_t seed = 1;  ///< of SweepOrder::random, of the jitter that frees symmetric grids, and of repairs
+  int weights_from = 0;    ///< i_w: first sweep that changes weights
+  WeightUpdates weight_updates = WeightUpdates::immediate;  ///< deferred: not with Solver::newton, which is joint
+  VertexId anchor = {};  ///< whose weight is shifted to 0 after each sweep (Algorithm 1, line 17); invalid: none
+
+  int inner = 1;  ///< with deferred flips: most sweeps before edges are flipped; 0: until they converge
+  int outer = 0;  ///< with deferred flips: most rounds of sweeps and flips; 0: until no flips are needed
+  std::optional<FlipLimit> flip_limit =
+      {};                  ///< absent: unlimited for barriers (a flipping step must pay), after for HOT
+  double overshoot = 1.1;  ///< of FlipLimit::after
   Inversion inversion = Inversion::refuse;
   HiddenPolicy hidden = HiddenPolicy::undo;
-  SweepOrder order = SweepOrder::hilbert;
-  std::optional<std::size_t> anchor =
-      {};  ///< vertex whose weight is shifted to 0 after each sweep (Algorithm 1, line 17)
 
   // Only with these are vertices removed: never on the boundary, on constrained edges or where fixed.
-  std::optional<int> collapse_from = {};    ///< i_c: first sweep with short-edge collapses (Algorithm 2); absent: none
-  std::string_view collapse_energy = "dT";  ///< E_c: F, T or dT
+  std::optional<int> collapse_from = {};        ///< i_c: first sweep with short-edge collapses (Algorithm 2)
+  EnergyKind collapse_energy = EnergyKind::dT;  ///< E_c: F, T or dT
   double collapse_ratio = 0.1;  ///< of the distance to the nearest neighbour to that one's shorter edge on the link
   Removal removal = Removal::none;
   RemovalMeasure removal_measure = RemovalMeasure::mean;
   double removal_margin = 0.1;  ///< by which the patch must be better, relative
   int removal_from = 10;        ///< first sweep with removals
 
-  Repair repair = Repair::moves;
-  int repair_trials = 20000;  ///< most edits that are tried, each on a copy of a neighbourhood; 1 to 3 ms each
-
-  int max_sweeps = 1000;  ///< each repair counts as a sweep of its own
   double tolerance = 1e-5;
   StoppingRule stopping = StoppingRule::relative;
+};
+
+struct OptimizeOptions {
+  /// accuracy: the run lowers `energy`, which has to be a barrier, until all margins are above accuracy.margin, or it
+  /// ends; then E of AccuracyOptions, with the connectivity as it is. A mesh that has all margins at first goes on to
+  /// the second phase at once, unless its boundary is to be split. `solver`, `order`, `newton_passes`, `tolerance` and
+  /// `stopping` are of the first phase.
+  Objective objective = Objective::energy;
+  AccuracyOptions accuracy = {};
+  EnergyKind energy = EnergyKind::BP;
+  Star star = Star::one;  ///< of the energy; with Objective::accuracy of that, whose first phase is for ★1 then
+  Unknowns unknowns = Unknowns::positions_and_weights;
+  Flips flips = Flips::immediate;
+  BoundaryVertices boundary = BoundaryVertices::keep;
+  double boundary_ratio =
+      4;  ///< BoundaryVertices::split: most between the lengths of edges that meet there; at least 2
+  InterfaceVertices interfaces = InterfaceVertices::fixed;
   std::optional<SizeField> size_field = {};  ///< that sizes are compared with; absent: the input's own
   /// B ≥ 1: no step or flip takes the local size of a vertex out of [s/B, B s], s the size field there, or further out
   /// than it is. Removals, insertions, deferred flips, and those that make the input regular are not asked; a repair
   /// asks, but sees only the triangles of its neighbourhood. With a band sweeps go vertex by vertex, on one thread, and
   /// without Newton passes. Absent: no limit.
   std::optional<double> size_band = {};
-  double time_limit = 0;                                   ///< seconds; 0: none
-  std::uint64_t seed = 1;                                  ///< of the jitter that frees symmetric grids, and of repairs
-  const InputNames* names = nullptr;                       ///< the user's numbering, for errors
-  Executor* executor = nullptr;                            ///< threads for sweeps and sums; results do not depend on it
-  Tracer tracer = {};                                      ///< sees every event of the run
-  std::function<void(const struct Snapshot&)> watch = {};  ///< sees the mesh between sweeps; a copy each time
+  Repair repair = Repair::moves;
+  int repair_trials = 20000;  ///< most edits that are tried, each on a copy of a neighbourhood; 1 to 3 ms each
+  int max_sweeps = 1000;      ///< each repair counts as a sweep of its own
+  double time_limit = 0;      ///< seconds; 0: none
+  PaperSwitches paper = {};
 };
 
 /// The options of the paper's Algorithm 1 with all its parts: golden section, flips after the inner iterations have
@@ -215,6 +212,15 @@ struct Snapshot {
   double energy = 0;  ///< of the mesh, at the γ of the sweep
   const Mesh& mesh;   ///< in the user's units; may hold inverted triangles when those are allowed
   const IdVector<VertexId, VertexId>& vertices;  ///< number in the input of each vertex; invalid: inserted
+};
+
+/// What a run works with, and who listens: the result does not depend on any of it, unless the observer stops the run.
+struct OptimizeHooks {
+  Executor* executor = nullptr;                         ///< threads for sweeps and sums
+  const InputNames* names = nullptr;                    ///< the user's numbering, for errors and notes
+  Observer observer = {};                               ///< hears of the progress, and may stop the run
+  Tracer tracer = {};                                   ///< sees every event of the run
+  std::function<void(const Snapshot&)> snapshots = {};  ///< sees the mesh between sweeps; a copy each time
 };
 
 enum class Stopped {
@@ -254,10 +260,10 @@ struct OptimizeReport {
 };
 
 /// Improves the mesh in place. The domain boundary, fixed vertices and constrained edges stay, bit for bit, unless
-/// boundary_vertices and interfaces say otherwise; every triangle stays counter-clockwise. Never returns a worse mesh
-/// than the input's. Errors, which leave the mesh as it was: an unknown energy, star or value out of range; weights
-/// that hide a vertex; a mesh outside the barrier of E_BH or E_BHs. O(sweeps · n).
+/// `boundary` and `interfaces` say otherwise; every triangle stays counter-clockwise. Never returns a worse mesh
+/// than the input's. Errors, which leave the mesh as it was: a value out of range; weights that hide a vertex; a mesh
+/// outside the barrier of E_BH or E_BHs. O(sweeps · n).
 [[nodiscard]] Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options = {},
-                                                const Observer& observer = {});
+                                                const OptimizeHooks& hooks = {});
 
 }  // namespace temper

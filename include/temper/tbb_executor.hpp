@@ -1,8 +1,7 @@
 // Threads by oneTBB, for whatever takes an Executor: in a library of its own (temper::tbb).
 //
 //   temper::TbbExecutor threads;
-//   temper::OptimizeOptions options;
-//   options.executor = &threads;
+//   temper::optimize(mesh, {}, {.executor = &threads});
 #pragma once
 
 #include <cstddef>

@@ -1,9 +1,8 @@
 // What an optimisation did, event by event: enough to do it again, bit for bit, without any energy.
 //
 //     std::vector<TraceEvent> events;
-//     options.tracer = [&](const TraceEvent& e) { events.push_back(e); };
 //     const Mesh input = mesh;
-//     auto report = optimize(mesh, options);
+//     auto report = optimize(mesh, {}, {.tracer = [&](const TraceEvent& e) { events.push_back(e); }});
 //     auto again = replay(input, events);   // *again == mesh
 #pragma once
 

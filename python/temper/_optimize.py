@@ -100,16 +100,15 @@ def optimize(
     objective: Literal["energy", "accuracy"] = "energy",
     accuracy: AccuracyOptions = AccuracyOptions(),
     energy: EnergyName = "BP",
-    star: Literal[0, 1, 2] = 1,
+    star: Literal[0, 1, 2, "all"] = 1,
     gamma: SofteningLike | None = None,
     h0: SofteningLike | None = None,
-    boundary: Literal["as_is", "absolute", "mirrored"] = "as_is",
+    boundary_treatment: Literal["as_is", "absolute", "mirrored"] = "as_is",
     solver: Literal["newton", "golden", "alternating"] = "newton",
     unknowns: Literal["positions_and_weights", "positions", "weights"] = "positions_and_weights",
     weights_from: int = 0,
     weight_updates: Literal["immediate", "deferred"] = "immediate",
-    flips: bool = True,
-    flip_timing: Literal["immediate", "deferred"] = "immediate",
+    flips: Literal["immediate", "deferred", "none"] = "immediate",
     inner: int = 1,
     outer: int = 0,
     flip_limit: Literal["unlimited", "before", "at", "after"] | None = None,
@@ -117,7 +116,7 @@ def optimize(
     relaxation: float | None = None,
     newton_passes: bool = True,
     interfaces: Literal["fixed", "sliding"] = "fixed",
-    boundary_vertices: Literal["keep", "slide", "split"] = "keep",
+    boundary: Literal["keep", "slide", "split"] = "keep",
     boundary_ratio: float = 4.0,
     inversion: Literal["refuse", "allow"] = "refuse",
     hidden: Literal["undo", "remove", "keep"] = "undo",
@@ -150,7 +149,7 @@ def optimize(
 
     A triangle is well-centered when its orthocenter is strictly inside and each of its edges is crossed by its dual:
     all h > 0 and all 0 < d < ℓ (docs/concepts.md). The domain boundary, fixed vertices and constrained edges stay, bit
-    for bit, unless ``boundary_vertices`` and ``interfaces`` say otherwise; every triangle stays counter-clockwise.
+    for bit, unless ``boundary`` and ``interfaces`` say otherwise; every triangle stays counter-clockwise.
     Never gives a worse mesh than the input's. The same input, options and seed give the same bits for any number of
     threads.
 
@@ -171,15 +170,15 @@ def optimize(
         Of that second phase: an error without it.
     energy : {"BP", "BH", "BHs", "F", "T", "dT"}
         Of the registry (``energies()``): the barriers BP, BH, BHs, or a HOT energy.
-    star : {0, 1, 2}
-        Hodge star of the energy.
+    star : {0, 1, 2, "all"}
+        Hodge star of the energy, or of the objective ``accuracy``, which alone has all.
     gamma : float or Softening, optional
         γ of E_BP, relative to each edge when a plain number. None: shrinking from 0.5, or from 1 where a quarter of 100
         or more triangles is bad, to 0.003, there as soon as none is; when some stay bad, a second attempt from 2.
         Given: constant.
     h0 : float or Softening, optional
         −h° of E_BHs. None: relative, just beyond the worst h/ℓ of the mesh, shrinking as that improves.
-    boundary : {"as_is", "absolute", "mirrored"}
+    boundary_treatment : {"as_is", "absolute", "mirrored"}
         Of energy F only: the h of the triangle that a boundary edge lacks is 0; \\|h\\|; or as if mirrored at the edge.
 
     How vertices move
@@ -205,7 +204,7 @@ def optimize(
         Steps that would turn a triangle over.
     interfaces : {"fixed", "sliding"}
         Vertices of constrained edges stay, or move along the line when their two constrained edges are collinear.
-    boundary_vertices : {"keep", "slide", "split"}
+    boundary : {"keep", "slide", "split"}
         ``slide``: vertices of straight pieces of the boundary, never corners, may move along them; ``split``: long
         edges of boundary and lines beside short ones are cut before the sweeps, and triangles with all corners there
         get a vertex inside.
@@ -214,10 +213,9 @@ def optimize(
 
     Connectivity
 
-    flips : bool
-        False: the connectivity is frozen, and no step may make an edge non-regular.
-    flip_timing : {"immediate", "deferred"}
-        Edges are flipped as soon as they stop being regular, or after ``inner`` sweeps.
+    flips : {"immediate", "deferred", "none"}
+        Edges are flipped as soon as they stop being regular, or after ``inner`` sweeps; or the connectivity is frozen,
+        and no step may make an edge non-regular.
     inner, outer : int
         With deferred flips: most sweeps before edges are flipped (0: until they converge), and most rounds of sweeps
         and flips (0: until no flips are needed).

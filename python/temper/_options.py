@@ -49,8 +49,6 @@ class AccuracyOptions(Record):
     which for c = 1 is E_F / s² (eq. 2 of the paper). docs/accuracy.md derives it.
     """
 
-    star: Literal["zero", "one", "two", "all"] = "one"
-    """Whose diagonal ★ the objective is for: it picks α and β."""
     offset_weight: float = 10.0
     """c ≥ 0: 1 is HOT itself."""
     boundary_offset_weight: float = 18.0
@@ -76,16 +74,15 @@ class OptimizeOptions(Record):
     objective: Literal["energy", "accuracy"] = "energy"
     accuracy: AccuracyOptions = AccuracyOptions()
     energy: EnergyName = "BP"
-    star: Literal[0, 1, 2] = 1
+    star: Literal[0, 1, 2, "all"] = 1
     gamma: Optional[SofteningLike] = None
     h0: Optional[SofteningLike] = None
-    boundary: Literal["as_is", "absolute", "mirrored"] = "as_is"
+    boundary_treatment: Literal["as_is", "absolute", "mirrored"] = "as_is"
     solver: Literal["newton", "golden", "alternating"] = "newton"
     unknowns: Literal["positions_and_weights", "positions", "weights"] = "positions_and_weights"
     weights_from: int = 0
     weight_updates: Literal["immediate", "deferred"] = "immediate"
-    flips: bool = True
-    flip_timing: Literal["immediate", "deferred"] = "immediate"
+    flips: Literal["immediate", "deferred", "none"] = "immediate"
     inner: int = 1
     outer: int = 0
     flip_limit: Optional[Literal["unlimited", "before", "at", "after"]] = None
@@ -93,7 +90,7 @@ class OptimizeOptions(Record):
     relaxation: Optional[float] = None
     newton_passes: bool = True
     interfaces: Literal["fixed", "sliding"] = "fixed"
-    boundary_vertices: Literal["keep", "slide", "split"] = "keep"
+    boundary: Literal["keep", "slide", "split"] = "keep"
     boundary_ratio: float = 4.0
     inversion: Literal["refuse", "allow"] = "refuse"
     hidden: Literal["undo", "remove", "keep"] = "undo"

@@ -32,6 +32,8 @@ static_assert(
 
 std::span<const EnergyInfo> energies() { return kEnergies; }
 
+const EnergyInfo& energy_info(EnergyKind kind) { return kEnergies[static_cast<std::size_t>(kind)]; }
+
 Expected<EnergyInfo> find_energy(std::string_view name) {
   std::string names;
   for (const EnergyInfo& info : kEnergies) {

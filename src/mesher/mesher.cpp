@@ -56,8 +56,8 @@ class MeshNames final : public InputNames {
 
 class Mesher {
  public:
-  Mesher(const Outline& outline, const MesherOptions& options, const Observer& observer)
-      : outline_(outline), options_(options), observer_(observer) {}
+  Mesher(const Outline& outline, const MesherOptions& options, const OptimizeHooks& hooks)
+      : outline_(outline), options_(options), hooks_(hooks) {}
 
   Expected<OutlineMesh> run() {
     if (auto error = check(options_)) return *error;
@@ -232,7 +232,7 @@ class Mesher {
   }
 
   std::optional<InputError> improve(OutlineMesh& made, const OptimizeOptions& options) const {
-    Expected<OptimizeReport> report = optimize(made.mesh, options, observer_);
+    Expected<OptimizeReport> report = optimize(made.mesh, options, hooks_);
     if (!report) return report.error();
     if (!report->vertices.empty()) renumber(made, report->vertices);
     made.report = *std::move(report);
@@ -291,7 +291,7 @@ class Mesher {
 
   const Outline& outline_;
   const MesherOptions& options_;
-  const Observer& observer_;
+  const OptimizeHooks& hooks_;
   std::vector<OutlineEdge> edges_;
   Areas areas_;
   CornerRadii corners_;
@@ -300,8 +300,8 @@ class Mesher {
 
 }  // namespace
 
-Expected<OutlineMesh> mesh_outline(const Outline& outline, const MesherOptions& options, const Observer& observer) {
-  return Mesher(outline, options, observer).run();
+Expected<OutlineMesh> mesh_outline(const Outline& outline, const MesherOptions& options, const OptimizeHooks& hooks) {
+  return Mesher(outline, options, hooks).run();
 }
 
 }  // namespace temper

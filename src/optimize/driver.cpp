@@ -16,7 +16,8 @@ namespace {
 /// Whether every sweep leaves all edges regular that may be flipped. Deferred weights may hide a vertex where they
 /// meet, which leaves edges as they are.
 [[maybe_unused]] bool keeps_regular(const OptimizeOptions& o) {
-  return o.flips && !defers_flips(o) && o.hidden != HiddenPolicy::keep && o.weight_updates == WeightUpdates::immediate;
+  return o.flips != Flips::none && !defers_flips(o) && o.paper.hidden != HiddenPolicy::keep &&
+         o.paper.weight_updates == WeightUpdates::immediate;
 }
 
 }  // namespace
@@ -26,17 +27,17 @@ Driver::Driver(WorkingCopy& work, Settings& settings, Run& run, std::size_t part
       mesh_(work.mesh),
       settings_(settings),
       run_(run),
-      recorder_(settings.options.tracer, work, energy_unit(settings, work.frame)),
+      recorder_(settings.hooks.tracer, work, energy_unit(settings, work.frame)),
       flipper_(mesh_, settings, recorder_),
       sweeper_(mesh_, settings, work.frame, flipper_, recorder_, part_size) {
   recorder_.begin_sweep(run.next_sweep());
-  const SweepOrder order = settings.options.order;
+  const SweepOrder order = settings.options.paper.order;
   if (order == SweepOrder::hilbert) return;
   for (const VertexId v : mesh_.vertices()) sequence_.push_back(v);
   if (order == SweepOrder::reverse) {
     std::reverse(sequence_.begin(), sequence_.end());
   } else if (order == SweepOrder::random) {
-    Rng rng(settings.options.seed);
+    Rng rng(settings.options.paper.seed);
     for (std::size_t i = sequence_.size(); i > 1; --i) {
       std::swap(sequence_[i - 1], sequence_[rng.below(static_cast<std::uint32_t>(i))]);
     }
@@ -52,7 +53,7 @@ int Driver::run(Phase& phase, int first) {
     do {  // inner iterations
       verdict = sweep(phase);
     } while (verdict == Verdict::improving &&
-             !(defers_flips(settings_.options) && ++inner_ == settings_.options.inner));
+             !(defers_flips(settings_.options) && ++inner_ == settings_.options.paper.inner));
     verdict = flip_if_deferred(phase, verdict);
   } while (verdict == Verdict::improving);
   return return_best(phase, run_.report.sweeps > sweeps ? recorder_.sweep() : first);
@@ -109,8 +110,8 @@ Driver::Verdict Driver::flip_if_deferred(Phase& phase, Verdict of_sweeps) {
   const bool needed = run_.report.flips > flips;
   if (of_sweeps == Verdict::stopped) return Verdict::stopped;
   if (of_sweeps == Verdict::settled && !needed && !phase.goes_on_with_weights()) return Verdict::stopped;
-  run_.report.stopped = outer_ == settings_.options.outer ? Stopped::max_outer : Stopped::max_sweeps;
-  return outer_ == settings_.options.outer ? Verdict::stopped : Verdict::improving;
+  run_.report.stopped = outer_ == settings_.options.paper.outer ? Stopped::max_outer : Stopped::max_sweeps;
+  return outer_ == settings_.options.paper.outer ? Verdict::stopped : Verdict::improving;
 }
 
 /// A sweep of its own, that makes one step of the stopping rule with the sweep after it. False when it was cut short.
@@ -128,7 +129,7 @@ bool Driver::newton_pass(Phase& phase) {
 bool Driver::improve_all_vertices(int iteration) {
   const OptimizeOptions& o = settings_.options;
   const bool whole = sweeper_.sweep(iteration, sequence_, run_);
-  const bool many_changed = o.weight_updates == WeightUpdates::deferred;
+  const bool many_changed = o.paper.weight_updates == WeightUpdates::deferred;
   if (many_changed && !defers_flips(o)) flipper_.restore_all();
   return whole;
 }
@@ -156,7 +157,7 @@ void Driver::grow() {
 /// last, where every barrier on d is satisfied. False when weights or connectivity may not change.
 bool Driver::halve_weights() {
   const OptimizeOptions& o = settings_.options;
-  if (o.unknowns == Unknowns::positions || !o.flips) return false;
+  if (o.unknowns == Unknowns::positions || o.flips == Flips::none) return false;
   run_.facts.weights_shrunk = true;
   recorder_.begin_sweep(run_.report.sweeps + 1);
   for (const VertexId v : mesh_.vertices()) set_weight(v, 0.5 * mesh_.weight(v));
@@ -165,12 +166,12 @@ bool Driver::halve_weights() {
 
 /// Line 17 of Algorithm 1. Equal shifts of all weights change no energy and, but for their rounding, no edge.
 void Driver::shift_weights_to_anchor() {
-  if (!settings_.options.anchor) return;
-  const VertexId anchor = work_.from_user(VertexId(*settings_.options.anchor));
+  if (!settings_.options.paper.anchor.valid()) return;
+  const VertexId anchor = work_.from_user(settings_.options.paper.anchor);
   if (!anchor.valid()) return;  // removed: any other constant would do as well
   const double shift = mesh_.weight(anchor);
   for (const VertexId v : mesh_.vertices()) set_weight(v, mesh_.weight(v) - shift);
-  if (settings_.options.flips && !defers_flips(settings_.options)) flipper_.restore_all();
+  if (settings_.options.flips != Flips::none && !defers_flips(settings_.options)) flipper_.restore_all();
 }
 
 void Driver::set_weight(VertexId v, double w) {
@@ -182,7 +183,7 @@ void Driver::set_weight(VertexId v, double w) {
 /// Line 20 of Algorithm 1. False when no flips can: among inverted triangles, or around a hidden vertex that may not
 /// be.
 bool Driver::restore_regularity() {
-  if (settings_.options.inversion == Inversion::allow && count_inverted(mesh_) > 0) {
+  if (settings_.options.paper.inversion == Inversion::allow && count_inverted(mesh_) > 0) {
     run_.report.stopped = Stopped::tangled;
     return false;
   }
@@ -203,19 +204,19 @@ bool Driver::make_regular() {
 
 void Driver::grade_boundary() {
   const OptimizeOptions& o = settings_.options;
-  if (o.boundary_vertices != BoundaryVertices::split) return;
-  TEMPER_ASSERT_SLOW(o.hidden == HiddenPolicy::keep || count_non_regular_edges(mesh_, false) == 0);
+  if (o.boundary != BoundaryVertices::split) return;
+  TEMPER_ASSERT_SLOW(o.paper.hidden == HiddenPolicy::keep || count_non_regular_edges(mesh_, false) == 0);
   const BoundaryCuts cuts = cut_boundary(work_, flipper_, o.boundary_ratio);
   grow();
-  TEMPER_ASSERT_SLOW(o.hidden == HiddenPolicy::keep || count_non_regular_edges(mesh_, false) == 0);
+  TEMPER_ASSERT_SLOW(o.paper.hidden == HiddenPolicy::keep || count_non_regular_edges(mesh_, false) == 0);
   run_.facts.boundary_cuts = cuts;  // of each attempt the same
 }
 
 void Driver::jitter(double amount) {
   const OptimizeOptions& o = settings_.options;
-  if (amount == 0 || o.unknowns == Unknowns::weights || !o.flips) return;
+  if (amount == 0 || o.unknowns == Unknowns::weights || o.flips == Flips::none) return;
   recorder_.begin_sweep(run_.report.sweeps + 1);
-  Rng rng(o.seed);
+  Rng rng(o.paper.seed);
   sweeper_.shake(amount, rng);
 }
 
@@ -237,10 +238,10 @@ bool Driver::repair(std::uint64_t seed) {
 
 int Driver::polish(int sweep) {
   const WorkingCopy before = work_;
-  const std::size_t bad = count_bad(mesh_, settings_.options.executor);
+  const std::size_t bad = count_bad(mesh_, settings_.hooks.executor);
   EnergyPhase phase(work_, settings_, run_, kPolish, false);
   const int last = run(phase, sweep);
-  if (count_bad(mesh_, settings_.options.executor) <= bad) return last;
+  if (count_bad(mesh_, settings_.hooks.executor) <= bad) return last;
   work_ = before;
   recorder_.returned_to(sweep);
   return sweep;
@@ -251,7 +252,7 @@ int Driver::polish(int sweep) {
 void Driver::keep_if_best(const Phase& phase) {
   const double energy = run_.report.history.back().energy;
   if (phase.keeps() == Phase::Keeps::last || !(energy < best_energy_)) return;
-  if (settings_.options.inversion == Inversion::allow && count_inverted(mesh_) > 0) return;
+  if (settings_.options.paper.inversion == Inversion::allow && count_inverted(mesh_) > 0) return;
   keep(energy, recorder_.sweep());
 }
 
@@ -290,10 +291,10 @@ void Driver::amend_record(const SweepRecord& measured) {
 }
 
 void Driver::show(Snapshot::Moment moment, const Phase& phase) const {
-  if (!settings_.options.watch) return;
+  if (!settings_.hooks.snapshots) return;
   const Mesh mesh = work_.in_user_terms();
   const auto vertices = work_.user_vertices();
-  settings_.options.watch({moment, run_.report.sweeps, outer_, phase.total(), mesh, vertices});
+  settings_.hooks.snapshots({moment, run_.report.sweeps, outer_, phase.total(), mesh, vertices});
 }
 
 }  // namespace temper

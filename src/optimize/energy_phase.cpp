@@ -29,18 +29,18 @@ EnergyPhase::EnergyPhase(const WorkingCopy& work, Settings& settings, Run& run, 
 
 void EnergyPhase::begin() {
   softener_.start(mesh_, settings_.model);
-  settings_.relaxation = settings_.options.relaxation.value_or(softener_.relaxation());
+  settings_.relaxation = settings_.options.paper.relaxation.value_or(softener_.relaxation());
   least_bad_ = mesh_.n_triangles();
   before_ = total();
   least_energy_ = fall_ = kInfinity;
 }
 
 double EnergyPhase::total() const {
-  return energy_unit_ * total_energy(mesh_, settings_.model, settings_.options.executor);
+  return energy_unit_ * total_energy(mesh_, settings_.model, settings_.hooks.executor);
 }
 
 SweepRecord EnergyPhase::measure() {
-  const auto [energy, bad] = energy_and_bad(mesh_, settings_.model, settings_.options.executor);
+  const auto [energy, bad] = energy_and_bad(mesh_, settings_.model, settings_.hooks.executor);
   SweepRecord r;
   r.energy = energy_unit_ * energy;
   r.softening = settings_.energy.softened_by_h0 ? settings_.model.h0.value : settings_.model.gamma.value;
@@ -69,20 +69,20 @@ Phase::Verdict EnergyPhase::judge(bool removed) {
   const double fall = (before_ - after) / std::abs(after);
   if (softener_.settled()) fall_ = fall;
   const bool changed = softener_.advance(mesh_, fall, run_.report.history.back().bad, settings_.model);
-  settings_.relaxation = settings_.options.relaxation.value_or(softener_.relaxation());
+  settings_.relaxation = settings_.options.paper.relaxation.value_or(softener_.relaxation());
   before_ = !changed ? after : softener_.compares_energies() ? total() : kInfinity;
   return Verdict::improving;
 }
 
 bool EnergyPhase::has_margins() const {
   const OptimizeOptions& o = settings_.options;
-  return run_.report.history.back().bad == 0 && temper::has_margins(mesh_, o.accuracy.margin, o.executor);
+  return run_.report.history.back().bad == 0 && temper::has_margins(mesh_, o.accuracy.margin, settings_.hooks.executor);
 }
 
 /// The paper's rule takes a rise for convergence. The relative one waits whether the energy falls again.
 bool EnergyPhase::converged(double before, double after) {
-  const double tolerance = settings_.options.tolerance;
-  if (settings_.options.stopping == StoppingRule::paper) {
+  const double tolerance = settings_.options.paper.tolerance;
+  if (settings_.options.paper.stopping == StoppingRule::paper) {
     return before - after < tolerance * static_cast<double>(mesh_.n_triangles());
   }
   const double change = tolerance * std::abs(after);
@@ -102,8 +102,8 @@ bool EnergyPhase::stagnates() {
 /// Positions have converged before i_w: the weights' turn has come.
 bool EnergyPhase::goes_on_with_weights() {
   const OptimizeOptions& o = settings_.options;
-  if (o.unknowns != Unknowns::positions_and_weights || iteration >= o.weights_from) return false;
-  iteration = o.weights_from;
+  if (o.unknowns != Unknowns::positions_and_weights || iteration >= o.paper.weights_from) return false;
+  iteration = o.paper.weights_from;
   fall_ = kInfinity;  // of another problem
   passes_pay_ = true;
   return true;

@@ -25,7 +25,7 @@ bool is_worse(const Candidate& a, const Candidate& b, const Settings& settings) 
 }
 
 bool has_bad(const Candidate& candidate, const Settings& settings) {
-  return count_bad(candidate.work.mesh, settings.options.executor) > 0;
+  return count_bad(candidate.work.mesh, settings.hooks.executor) > 0;
 }
 
 /// Attempts from the input until one leaves nothing bad; the best of them.
@@ -34,14 +34,14 @@ Expected<Candidate> best_attempt(const Mesh& mesh, Settings& settings, Run& run)
   std::optional<Candidate> best;
   std::span<const Attempt> tries;
   for (std::size_t i = 0; i == 0 || i < tries.size(); ++i) {
-    Candidate now{WorkingCopy(mesh, o.order, o.executor)};
+    Candidate now{WorkingCopy(mesh, o.paper.order, settings.hooks.executor)};
     Driver driver(now.work, settings, run);
     if (i > 0) driver.recorder().returned_to(-1);
-    if (o.flips && !driver.make_regular()) return hidden_vertices_error(mesh, o.names);
+    if (o.flips != Flips::none && !driver.make_regular()) return hidden_vertices_error(mesh, settings.hooks.names);
     driver.grade_boundary();
     if (i == 0) {
       if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
-      tries = attempts(settings.energy, o, now.work.mesh);
+      tries = attempts(settings.energy, o, now.work.mesh, settings.hooks.executor);
       run.facts.input_flips = run.report.flips;
     }
     driver.jitter(tries[i].jitter);
@@ -70,7 +70,7 @@ Candidate repaired(Candidate start, Settings& settings, Run& run) {
     Candidate now = start;
     Driver driver(now.work, settings, run);
     if (best.sweep != start.sweep) driver.recorder().returned_to(start.sweep);
-    const bool changed = driver.repair(settings.options.seed + i);
+    const bool changed = driver.repair(settings.options.paper.seed + i);
     now.sweep = run.report.sweeps;
     if (changed && !is_worse(now, best, settings)) {
       best = std::move(now);
@@ -83,32 +83,33 @@ Candidate repaired(Candidate start, Settings& settings, Run& run) {
 }
 
 /// Whether the input is one that the second phase may begin with at once.
-bool is_ready_for_accuracy(const Mesh& mesh, const OptimizeOptions& o) {
-  return o.objective == Objective::accuracy && o.boundary_vertices != BoundaryVertices::split &&
-         has_margins(mesh, o.accuracy.margin, o.executor);
+bool is_ready_for_accuracy(const Mesh& mesh, const OptimizeOptions& o, Executor* executor) {
+  return o.objective == Objective::accuracy && o.boundary != BoundaryVertices::split &&
+         has_margins(mesh, o.accuracy.margin, executor);
 }
 
 /// The size field of a run with a band; the input's own is seen where it is, since the run works on copies.
-std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& options) {
+std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& options, Executor* executor) {
   if (!options.size_band) return std::nullopt;
-  return options.size_field ? options.size_field : input_size_field_of(mesh, options.executor);
+  return options.size_field ? options.size_field : input_size_field_of(mesh, executor);
 }
 
 }  // namespace
 
-Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, const Observer& observer) {
-  Run run(options, observer);
-  auto settings = make_settings(options, mesh, Frame::of(mesh));
+Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks) {
+  Run run(options, hooks.observer);
+  auto settings = make_settings(options, mesh, Frame::of(mesh), hooks);
   if (!settings) return settings.error();
-  settings->size_field = field_of_band(mesh, options);
+  settings->size_field = field_of_band(mesh, options, hooks.executor);
 
-  auto best = is_ready_for_accuracy(mesh, options) ? Candidate{WorkingCopy(mesh, options.order, options.executor)}
-                                                   : best_attempt(mesh, *settings, run);
+  auto best = is_ready_for_accuracy(mesh, options, hooks.executor)
+                  ? Candidate{WorkingCopy(mesh, options.paper.order, hooks.executor)}
+                  : best_attempt(mesh, *settings, run);
   if (!best) return best.error();
   best = repaired(*std::move(best), *settings, run);
   std::optional<AccuracySizes> sizes;
   if (options.objective == Objective::accuracy) {
-    sizes.emplace(mesh, options.size_field, options.executor);
+    sizes.emplace(mesh, options.size_field, hooks.executor);
     AccuracyPhase phase(best->work, *settings, run, *sizes);
     const bool goes_on = !run.stopped_by_caller() && run.report.stopped != Stopped::hidden;
     if (goes_on) best->sweep = Driver(best->work, phase.settings(), run).run(phase, best->sweep);

@@ -27,13 +27,14 @@ InputError hidden_vertices_error(const Mesh& input, const InputNames* names) {
 }
 
 std::optional<InputError> outside_domain_error(const Mesh& mesh, const Settings& settings) {
-  const bool gets_in = settings.energy.softened_by_gamma || (settings.energy.softened_by_h0 && !settings.options.h0);
+  const bool gets_in =
+      settings.energy.softened_by_gamma || (settings.energy.softened_by_h0 && !settings.options.paper.h0);
   if (!settings.energy.barrier || gets_in || std::isfinite(total_energy(mesh, settings.model))) return std::nullopt;
   return InputError{
       ErrorCode::invalid_option,
       {},
       "energy " + std::string(settings.energy.name) + " is infinite on this mesh, where " +
-          std::to_string(count_bad(mesh, settings.options.executor)) + " of " + std::to_string(mesh.n_triangles()) +
+          std::to_string(count_bad(mesh, settings.hooks.executor)) + " of " + std::to_string(mesh.n_triangles()) +
           " triangles are not well-centered; expected a mesh inside its barrier, or energy BP, which needs none"};
 }
 

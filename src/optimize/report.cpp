@@ -102,13 +102,14 @@ void Notes::tell_energy() {
 std::string Notes::name_of(VertexId v) const {
   const VertexId number = report_.vertices.empty() ? v : report_.vertices[v];
   if (!number.valid()) return "(" + to_text(mesh_.position(v).x) + ", " + to_text(mesh_.position(v).y) + ")";
-  return options_.names != nullptr ? options_.names->point(number.index) : InputNames().point(number.index);
+  return settings_.hooks.names != nullptr ? settings_.hooks.names->point(number.index)
+                                          : InputNames().point(number.index);
 }
 
 /// Triangles that no optimiser can make well-centered, whatever it tries.
 void Notes::tell_edges_that_must_be_split() {
-  if (!settings_.energy.barrier || count_bad(mesh_, options_.executor) == 0) return;
-  if (options_.inversion == Inversion::allow && count_inverted(mesh_) > 0) return;  // no inside to see through
+  if (!settings_.energy.barrier || count_bad(mesh_, settings_.hooks.executor) == 0) return;
+  if (options_.paper.inversion == Inversion::allow && count_inverted(mesh_) > 0) return;  // no inside to see through
   const std::vector<EdgeConflict> edges = edges_that_must_be_split(mesh_);
   if (edges.empty()) return;
   const HalfedgeId worst = edges.front().edge;
@@ -119,7 +120,7 @@ void Notes::tell_edges_that_must_be_split() {
 }
 
 void Notes::tell_accuracy() {
-  const std::size_t bad = count_bad(mesh_, options_.executor);
+  const std::size_t bad = count_bad(mesh_, settings_.hooks.executor);
   std::size_t thin = 0;
   for (const TriangleId t : mesh_.triangles()) thin += triangle_margin(mesh_, t) > settings_.accuracy.margin ? 0 : 1;
   thin -= std::min(thin, bad);
@@ -136,16 +137,17 @@ void Notes::tell_accuracy() {
 }
 
 /// Vertices that Lawson's algorithm leaves without a power cell.
-std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, const OptimizeOptions& options) {
-  if (options.hidden != HiddenPolicy::keep || count_non_regular_edges(mesh, false, options.executor) == 0) return {};
+std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, const Settings& settings) {
+  const bool keeps = settings.options.paper.hidden == HiddenPolicy::keep;
+  if (!keeps || count_non_regular_edges(mesh, false, settings.hooks.executor) == 0) return {};
   Mesh copy = mesh;
   return restore_regularity(copy).hidden;
 }
 
 /// The input with its edges flipped as every attempt begins, for a run that found nothing better.
 Mesh made_regular(const Mesh& mesh, Settings settings) {
-  settings.options.tracer = {};
-  WorkingCopy work(mesh, settings.options.order, settings.options.executor);
+  settings.hooks.tracer = {};
+  WorkingCopy work(mesh, settings.options.paper.order, settings.hooks.executor);
   const Observer nobody;
   Run unheard(settings.options, nobody);
   Driver(work, settings, unheard).make_regular();
@@ -162,9 +164,10 @@ void count_changes(const Mesh& input, OptimizeReport& report) {
 
 /// Whether an input that is returned can be made better by flips alone. Where hidden vertices are kept, edges that are
 /// not regular make no mesh worse; but those that can be flipped are.
-bool lacks_flips(const Mesh& input, const OptimizeOptions& o) {
-  return o.flips && o.hidden == HiddenPolicy::keep && o.boundary_vertices != BoundaryVertices::split &&
-         count_non_regular_edges(input, false, o.executor) > 0;
+bool lacks_flips(const Mesh& input, const Settings& settings) {
+  const OptimizeOptions& o = settings.options;
+  return o.flips != Flips::none && o.paper.hidden == HiddenPolicy::keep && o.boundary != BoundaryVertices::split &&
+         count_non_regular_edges(input, false, settings.hooks.executor) > 0;
 }
 
 }  // namespace
@@ -195,20 +198,20 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const AccuracySize
   OptimizeReport& report = run.report;
   const OptimizeOptions& o = settings.options;
   WorkingCopy& work = best.work;
-  Recorder recorder(o.tracer, work, 1);
+  Recorder recorder(settings.hooks.tracer, work, 1);
   recorder.begin_sweep(run.next_sweep());
   settings.model = in_user_units(settings.model, work.frame);
-  const VertexSizes of_result = sizes != nullptr ? sizes->in_user_terms(work, o.executor) : VertexSizes();
+  const VertexSizes of_result = sizes != nullptr ? sizes->in_user_terms(work, settings.hooks.executor) : VertexSizes();
   const VertexSizes* const of_input = sizes != nullptr ? &sizes->of_input() : nullptr;
   if (work.has_gaps || work.has_inserted()) report.vertices = work.user_vertices();
   Mesh result = std::move(work).in_user_terms();  // first: what knew the order takes room no longer
   const Rank before = rank(mesh, settings, of_input);
   const Rank after = rank(result, settings, sizes != nullptr ? &of_result : nullptr);
   const SizeField field =
-      o.size_field ? *o.size_field : input_size_field_of(mesh, o.executor);  // seen until mesh is replaced
-  report.size.before = report.size.after = measure_size(mesh, field, o.executor);
+      o.size_field ? *o.size_field : input_size_field_of(mesh, settings.hooks.executor);  // seen until mesh is replaced
+  report.size.before = report.size.after = measure_size(mesh, field, settings.hooks.executor);
   report.initial_energy = report.final_energy = before.energy;
-  const bool worse = before < after, flips = worse && lacks_flips(mesh, o);
+  const bool worse = before < after, flips = worse && lacks_flips(mesh, settings);
   if (worse) {
     report.vertices = {};
     result = flips ? made_regular(mesh, settings) : Mesh();
@@ -219,10 +222,10 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const AccuracySize
   }
   count_changes(mesh, report);
   if (!worse || flips) {
-    report.size.after = measure_size(result, field, o.executor, report.vertices);
+    report.size.after = measure_size(result, field, settings.hooks.executor, report.vertices);
     mesh = std::move(result);
   }
-  report.hidden = hidden_vertices_of(mesh, o);
+  report.hidden = hidden_vertices_of(mesh, settings);
 
   Notes notes(mesh, settings, report);
   notes.tell(run.facts);

@@ -48,11 +48,12 @@ double least_shift(const Mesh& mesh) { return std::max(kFloor, -kBeyondWorst * l
 
 const Attempt kPolish = kHard.front();
 
-std::span<const Attempt> attempts(const EnergyInfo& energy, const OptimizeOptions& options, const Mesh& mesh) {
-  const bool softens = energy.softened_by_gamma && !options.gamma && least_relative_height(mesh) <= 0;
+std::span<const Attempt> attempts(const EnergyInfo& energy, const OptimizeOptions& options, const Mesh& mesh,
+                                  Executor* executor) {
+  const bool softens = energy.softened_by_gamma && !options.paper.gamma && least_relative_height(mesh) <= 0;
   if (!softens) return kHard;
   const std::size_t n = mesh.n_triangles();
-  const auto bad = static_cast<double>(count_bad(mesh, options.executor));
+  const auto bad = static_cast<double>(count_bad(mesh, executor));
   return n >= kLeastMany && bad >= kMany * static_cast<double>(n) ? kManyBad : kFewBad;
 }
 

@@ -36,7 +36,7 @@ extern const Attempt kPolish;
 /// The attempts for this mesh and these options, in order; at least one. A user's γ, or an energy without one, leaves
 /// a single attempt, and so does a mesh that is well-centered already.
 [[nodiscard]] std::span<const Attempt> attempts(const EnergyInfo& energy, const OptimizeOptions& options,
-                                                const Mesh& mesh);
+                                                const Mesh& mesh, Executor* executor = nullptr);
 
 /// γ and h° of the sweeps of one attempt.
 class Softener {
@@ -44,8 +44,8 @@ class Softener {
   Softener() = default;
   Softener(const Attempt& attempt, const EnergyInfo& energy, const OptimizeOptions& options)
       : attempt_(attempt),
-        gamma_shrinks_(energy.softened_by_gamma && !options.gamma),
-        h0_shrinks_(energy.softened_by_h0 && !options.h0) {}
+        gamma_shrinks_(energy.softened_by_gamma && !options.paper.gamma),
+        h0_shrinks_(energy.softened_by_h0 && !options.paper.h0) {}
 
   /// The first sweep's.
   void start(const Mesh& mesh, EnergyModel& model);

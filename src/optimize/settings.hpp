@@ -26,23 +26,23 @@ struct Settings {
   double relaxation = 1;  ///< of the sweep under way
   FlipLimit flip_limit = FlipLimit::unlimited;
   OptimizeOptions options;
+  OptimizeHooks hooks;
   std::optional<SizeField> size_field;  ///< that a size band is around, in the user's units; absent without one
 };
 
 /// Flips wait for the end of the inner iterations, so that edges may meanwhile not be regular.
-[[nodiscard]] inline bool defers_flips(const OptimizeOptions& o) {
-  return o.flips && o.flip_timing == FlipTiming::deferred;
-}
+[[nodiscard]] inline bool defers_flips(const OptimizeOptions& o) { return o.flips == Flips::deferred; }
 
 /// The unknowns that a sweep moves, counted from 0: weights from i_w on.
 [[nodiscard]] inline Unknowns unknowns_of_sweep(const OptimizeOptions& o, int sweep) {
-  return o.unknowns == Unknowns::positions_and_weights && sweep < o.weights_from ? Unknowns::positions : o.unknowns;
+  return o.unknowns == Unknowns::positions_and_weights && sweep < o.paper.weights_from ? Unknowns::positions
+                                                                                       : o.unknowns;
 }
 
 /// Whether steps are Newton's, of a barrier, as far as they pay, with flips at once.
 [[nodiscard]] inline bool makes_newton_steps(const Settings& s) {
-  return s.energy.barrier && s.options.solver == Solver::newton && s.options.flips && !defers_flips(s.options) &&
-         s.flip_limit == FlipLimit::unlimited && s.options.inversion == Inversion::refuse;
+  return s.energy.barrier && s.options.paper.solver == Solver::newton && s.options.flips == Flips::immediate &&
+         s.flip_limit == FlipLimit::unlimited && s.options.paper.inversion == Inversion::refuse;
 }
 
 /// The user's energy of one unit in the frame, of what sweeps lower.
@@ -55,6 +55,7 @@ struct Settings {
 [[nodiscard]] EnergyModel in_user_units(EnergyModel model, const Frame& frame);
 
 /// Errors: unknown energy, star, values out of range.
-[[nodiscard]] Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh, const Frame& frame);
+[[nodiscard]] Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh, const Frame& frame,
+                                               const OptimizeHooks& hooks = {});
 
 }  // namespace temper

@@ -37,7 +37,7 @@ EnergyTable all_energies(const Mesh& mesh, const QualityOptions& options) {
   or_serial(options.executor).run(totals.size() * 3, [&](std::size_t i) {
     EnergyModel model;
     model.kind = static_cast<EnergyKind>(i / 3);
-    model.star = static_cast<int>(i % 3);
+    model.star = static_cast<Star>(i % 3);
     model.gamma = options.gamma;
     model.h0 = options.h0;
     totals[i / 3][i % 3] = total_energy(mesh, model);

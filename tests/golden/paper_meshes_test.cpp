@@ -14,7 +14,9 @@ constexpr double kHalfUnit = 5e-13;  // of the twelfth decimal
 TEST(PaperMeshes, EnergiesOfTheDenseHorseshoe) {
   const auto mesh = horseshoe();
   ASSERT_TRUE(mesh);
-  const auto energy = [&](EnergyKind kind, int star) { return total_energy(*mesh, {.kind = kind, .star = star}); };
+  const auto energy = [&](EnergyKind kind, int star) {
+    return total_energy(*mesh, {.kind = kind, .star = Star(star)});
+  };
   EXPECT_NEAR(energy(EnergyKind::F, 0), 0.581320957789, kHalfUnit);
   EXPECT_NEAR(energy(EnergyKind::F, 1), 2.836890825582, kHalfUnit);
   EXPECT_NEAR(energy(EnergyKind::F, 2), 2.255569867793, kHalfUnit);

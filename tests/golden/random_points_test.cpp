@@ -22,7 +22,7 @@ TEST(RandomPoints, OfANonConvexPolygonEndWellCentered) {
   const Quality before = quality(*mesh);
   EXPECT_GT(before.orthocenters_outside, before.triangles * 2 / 5);
   // Converging to more digits would only take time.
-  const auto report = optimize(*mesh, {.tolerance = 1e-3});
+  const auto report = optimize(*mesh, {.paper = {.tolerance = 1e-3}});
   ASSERT_TRUE(report);
   const Quality after = quality(*mesh);
   EXPECT_EQ(after.well_centered_fraction, 1);

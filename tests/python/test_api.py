@@ -15,7 +15,7 @@ MODULES = [temper, temper.generate, temper.geometry, temper.projection, temper.t
 
 # What Python has otherwise, or not at all, and why.
 ELSEWHERE = {
-    "name": "enums are their names",
+    "name": "enums are their names", "energy_info": "energies() lists the rows",
     "dot": "NumPy", "cross": "NumPy", "length": "NumPy", "squared_length": "NumPy",
     "clp_solver": "find_weights, best_margin and explain use it",
     "reason_text": "Reason.text", "cure_text": "Cure.text",
@@ -32,7 +32,8 @@ ELSEWHERE = {
 
 # Struct in C++, class in Python, fields that have another name or place there.
 STRUCTS = {
-    "OptimizeOptions": (temper.OptimizeOptions, {"size_field", "names", "executor", "tracer", "watch"}),
+    "OptimizeOptions": (temper.OptimizeOptions, {"size_field", "paper"}),
+    "PaperSwitches": (temper.OptimizeOptions, set()),
     "OptimizeReport": (temper.OptimizeReport, set()),
     "SweepRecord": (temper.SweepRecord, set()),
     "Progress": (temper.Progress, set()),

@@ -16,14 +16,11 @@ Settings of_accuracy(Settings s, const AccuracyDomain& domain) {
   s.options.accuracy = first.accuracy;
   s.options.unknowns = first.unknowns;
   s.options.interfaces = first.interfaces;
-  s.options.boundary_vertices = first.boundary_vertices;
-  s.options.anchor = first.anchor;
+  s.options.boundary = first.boundary;
+  s.options.paper.anchor = first.paper.anchor;
   s.options.size_band = first.size_band;
-  s.options.executor = first.executor;
-  s.options.tracer = first.tracer;
-  s.options.watch = first.watch;
-  s.options.flips = false;
-  s.relaxation = first.relaxation.value_or(kRelaxation);
+  s.options.flips = Flips::none;
+  s.relaxation = first.paper.relaxation.value_or(kRelaxation);
   s.flip_limit = FlipLimit::unlimited;
   s.accuracy_domain = &domain;
   return s;
@@ -33,14 +30,14 @@ Settings of_accuracy(Settings s, const AccuracyDomain& domain) {
 
 AccuracyPhase::AccuracyPhase(const WorkingCopy& work, const Settings& settings, Run& run, const AccuracySizes& sizes)
     : mesh_(work.mesh),
-      domain_{sizes.of(work, settings.options.executor), {}},
+      domain_{sizes.of(work, settings.hooks.executor), {}},
       settings_(of_accuracy(settings, domain_)),
       run_(run),
       energy_unit_(energy_unit(settings_, work.frame)),
-      bad_(count_bad(mesh_, settings.options.executor)) {}
+      bad_(count_bad(mesh_, settings.hooks.executor)) {}
 
 void AccuracyPhase::begin() {
-  domain_.floors.raise(mesh_, settings_.accuracy.margin, settings_.options.executor);
+  domain_.floors.raise(mesh_, settings_.accuracy.margin, settings_.hooks.executor);
   now_ = sum();
 }
 
@@ -62,7 +59,7 @@ SweepRecord AccuracyPhase::measure() {
 Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool removed) {
   TEMPER_ASSERT(!removed && run_.report.history.back().flips == 0);  // the connectivity is what it was
   TEMPER_ASSERT_SLOW(count_bad(mesh_, nullptr) == bad_);
-  if (domain_.floors.raise(mesh_, settings_.accuracy.margin, settings_.options.executor) > 0) {
+  if (domain_.floors.raise(mesh_, settings_.accuracy.margin, settings_.hooks.executor) > 0) {
     now_ = sum();  // of another barrier
     return Verdict::improving;
   }
@@ -73,7 +70,7 @@ Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool removed) {
 }
 
 AccuracyTotal AccuracyPhase::sum() const {
-  return accuracy_total(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, settings_.options.executor);
+  return accuracy_total(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, settings_.hooks.executor);
 }
 
 }  // namespace temper

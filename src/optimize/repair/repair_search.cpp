@@ -29,12 +29,14 @@ bool helps(const Standing& before, const Standing& after) {
 
 bool repairs(const Settings& settings) {
   const OptimizeOptions& o = settings.options;
-  if (o.repair == Repair::none || o.repair_trials == 0 || !settings.energy.barrier || !o.flips ||
+  if (o.repair == Repair::none || o.repair_trials == 0 || !settings.energy.barrier || o.flips == Flips::none ||
       o.unknowns == Unknowns::weights)
     return false;
-  if (o.inversion == Inversion::allow || o.hidden == HiddenPolicy::keep) return false;  // trials need regular meshes
+  if (o.paper.inversion == Inversion::allow || o.paper.hidden == HiddenPolicy::keep)
+    return false;  // trials need regular meshes
   // A constant γ is a study of that γ; only who asks for vertices to change wants its mesh mended by another.
-  return o.repair == Repair::vertices || (!o.gamma && !o.h0 && o.solver == Solver::newton && o.weights_from == 0);
+  return o.repair == Repair::vertices ||
+         (!o.paper.gamma && !o.paper.h0 && o.paper.solver == Solver::newton && o.paper.weights_from == 0);
 }
 
 bool RepairSearch::improve_one_place() {

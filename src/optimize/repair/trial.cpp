@@ -44,7 +44,7 @@ class Trial {
             of_trial(settings, with_events ? Tracer([this](const TraceEvent& e) { events_.push_back(e); }) : Tracer())),
         grid_(grid),
         work_(WorkingCopy::part(around.mesh)),
-        recorder_(settings_.options.tracer, work_, 1),
+        recorder_(settings_.hooks.tracer, work_, 1),
         flipper_(work_.mesh, settings_, recorder_),
         limits_(work_.mesh, settings_, grid),
         step_({work_.mesh, settings_, grid, limits_, recorder_}, flipper_) {
@@ -84,15 +84,16 @@ Settings Trial::of_trial(const Settings& settings, Tracer tracer) {
   o.star = settings.options.star;
   o.unknowns = settings.options.unknowns;
   o.interfaces = settings.options.interfaces;
-  o.boundary_vertices = settings.options.boundary_vertices;
+  o.boundary = settings.options.boundary;
   o.size_band = settings.options.size_band;
-  o.tracer = std::move(tracer);
   Settings s = settings;
-  s.energy = *find_energy(o.energy);
+  s.energy = energy_info(o.energy);
   s.model.kind = s.energy.kind;
   s.relaxation = kRelaxation;
   s.flip_limit = FlipLimit::unlimited;
   s.options = std::move(o);
+  s.hooks = {};
+  s.hooks.tracer = std::move(tracer);
   return s;
 }
 

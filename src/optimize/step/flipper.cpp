@@ -114,7 +114,8 @@ Flipper::Settled Flipper::settle(const Step& step) {
 
 /// Whether the policy lets the vertices at stuck edges be hidden.
 bool Flipper::accept_hidden() {
-  if (settings_.options.hidden != HiddenPolicy::remove) return settings_.options.hidden == HiddenPolicy::keep;
+  if (settings_.options.paper.hidden != HiddenPolicy::remove)
+    return settings_.options.paper.hidden == HiddenPolicy::keep;
   for (const VertexId v : hidden_at_stuck_edges()) {
     plan_ = plan_removal(mesh_, v, std::move(plan_));
     if (plan_.status != RemovalStatus::possible) return false;
@@ -133,7 +134,7 @@ std::vector<VertexId> Flipper::hidden_at_stuck_edges() {
 /// Does what the policy asks for, once vertices are hidden and the flips that led there are done.
 void Flipper::treat_hidden() {
   std::vector<VertexId> stay = hidden_at_stuck_edges();
-  if (settings_.options.hidden == HiddenPolicy::remove) {
+  if (settings_.options.paper.hidden == HiddenPolicy::remove) {
     RestorationObserver observer;
     observer.flipped = [&](VertexId a, VertexId b, VertexId c, VertexId d) {
       const FlipRecord record{a, b, c, d, kNoEnergy, kNoEnergy};
@@ -155,7 +156,7 @@ void Flipper::treat_hidden() {
 void Flipper::push_irregular() {
   const std::size_t n = mesh_.n_halfedges(), blocks = (n + kBlockSize - 1) / kBlockSize;
   std::vector<std::vector<HalfedgeId>> found(blocks);
-  or_serial(settings_.options.executor).run(blocks, [&](std::size_t b) {
+  or_serial(settings_.hooks.executor).run(blocks, [&](std::size_t b) {
     for (std::size_t i = b * kBlockSize; i < std::min(n, (b + 1) * kBlockSize); ++i) {
       const HalfedgeId h(i);
       if (mesh_.is_boundary(h) || !mesh_.is_edge_representative(h) || mesh_.is_constrained(h)) continue;
@@ -174,7 +175,7 @@ bool Flipper::restore_all() {
   std::optional<double> no_price;
   const LawsonRun result = run(no_price, Lawson::kNoCap);
   const bool hides = !lawson_.stuck(mesh_).empty();
-  if (hides && settings_.options.hidden == HiddenPolicy::undo) {
+  if (hides && settings_.options.paper.hidden == HiddenPolicy::undo) {
     lawson_.rollback(mesh_);
     return false;
   }

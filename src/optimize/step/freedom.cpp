@@ -60,14 +60,14 @@ Mobility mobility(const Mesh& mesh, VertexId v, const OptimizeOptions& options) 
   const FixedLine line = fixed_line(mesh, v);
   if (line.shape == FixedLine::none) return Mobility::free;
   if (line.shape == FixedLine::bent) return Mobility::fixed;
-  const bool slides = mesh.is_boundary(v) ? options.boundary_vertices == BoundaryVertices::slide
+  const bool slides = mesh.is_boundary(v) ? options.boundary == BoundaryVertices::slide
                                           : options.interfaces == InterfaceVertices::sliding;
   return slides ? Mobility::sliding : Mobility::fixed;
 }
 
-IdVector<VertexId, Mobility> mobilities(const Mesh& mesh, const OptimizeOptions& options) {
+IdVector<VertexId, Mobility> mobilities(const Mesh& mesh, const OptimizeOptions& options, Executor* executor) {
   IdVector<VertexId, Mobility> result(mesh.n_vertices());
-  for_each_index(mesh.n_vertices(), options.executor,
+  for_each_index(mesh.n_vertices(), executor,
                  [&](std::size_t i) { result[VertexId(i)] = mobility(mesh, VertexId(i), options); });
   return result;
 }

@@ -25,7 +25,8 @@ enum class Mobility : std::uint8_t {
   free,
 };
 [[nodiscard]] Mobility mobility(const Mesh& mesh, VertexId v, const OptimizeOptions& options);
-[[nodiscard]] IdVector<VertexId, Mobility> mobilities(const Mesh& mesh, const OptimizeOptions& options);
+[[nodiscard]] IdVector<VertexId, Mobility> mobilities(const Mesh& mesh, const OptimizeOptions& options,
+                                                      Executor* executor = nullptr);
 
 /// The directions that a vertex of that mobility is optimised in.
 [[nodiscard]] Freedom freedom(const Mesh& mesh, VertexId v, Mobility mobility, Unknowns unknowns);

@@ -5,7 +5,7 @@
 namespace temper {
 
 VertexLimits::VertexLimits(const Mesh& mesh, const Settings& settings, const Frame& frame)
-    : mobility(mobilities(mesh, settings.options)),
+    : mobility(mobilities(mesh, settings.options, settings.hooks.executor)),
       degree(mesh.n_vertices(), 0),
       band(mesh, frame, settings.size_field, settings.options.size_band),
       mesh_(mesh),

@@ -25,9 +25,9 @@ constexpr double kOvershootShrink = 0.1, kOvershootLeast = 1e-6;
 void VertexStep::begin_sweep(int sweep) {
   const OptimizeOptions& o = settings_.options;
   unknowns_ = unknowns_of_sweep(o, sweep);
-  collapses_ = o.collapse_from && sweep >= *o.collapse_from;
-  removes_ = o.removal == Removal::patch && sweep >= o.removal_from;
-  overshoot_ = 1 + std::max(kOvershootLeast, (o.overshoot - 1) * std::pow(kOvershootShrink, sweep));
+  collapses_ = o.paper.collapse_from && sweep >= *o.paper.collapse_from;
+  removes_ = o.paper.removal == Removal::patch && sweep >= o.paper.removal_from;
+  overshoot_ = 1 + std::max(kOvershootLeast, (o.paper.overshoot - 1) * std::pow(kOvershootShrink, sweep));
 }
 
 /// Lines 10 to 16 of Algorithm 1.
@@ -52,7 +52,7 @@ bool VertexStep::collapse(VertexId v) {
   const EnergyModel& model = settings_.collapse_model;
   gather_patch(mesh_, v, needs_outer(model.kind), collapsing_);
   const OptimizeOptions& o = settings_.options;
-  if (!nearly_collapses(collapsing_, model, mesh_.point(v), o.collapse_ratio, o.inversion)) return false;
+  if (!nearly_collapses(collapsing_, model, mesh_.point(v), o.paper.collapse_ratio, o.paper.inversion)) return false;
   plan_ = plan_removal(mesh_, v, std::move(plan_));
   if (plan_.status != RemovalStatus::possible) return false;
   if (!defers_flips(settings_.options) && !is_regular(mesh_, plan_)) return false;
@@ -68,8 +68,8 @@ void VertexStep::remove_if_better(VertexId v) {
   if (plan_.status != RemovalStatus::possible) return;
   gather(v);
   const OptimizeOptions& o = settings_.options;
-  const PatchComparison e = compare_patch(mesh_, star_.patch(), settings_.model, plan_, o.removal_measure);
-  if (!e.better_without(o.removal_margin)) return;
+  const PatchComparison e = compare_patch(mesh_, star_.patch(), settings_.model, plan_, o.paper.removal_measure);
+  if (!e.better_without(o.paper.removal_margin)) return;
   if (!defers_flips(settings_.options) && !is_regular(mesh_, plan_)) return;
   flipper_.remove(EventKind::removal, plan_, e.with, e.without);
 }
@@ -80,7 +80,7 @@ void VertexStep::optimize_point(VertexId v) {
   const Freedom positions = position_part(all);
   const bool has_weight = all.n > positions.n;
   if (!gather(v)) return;
-  switch (settings_.options.solver) {
+  switch (settings_.options.paper.solver) {
     case Solver::newton:
       if (all.n > 0) newton_search(all);
       break;
@@ -134,7 +134,7 @@ bool VertexStep::enter_domain() {
 
 /// How far along step a search may go.
 double VertexStep::farthest(const Step& step) const {
-  return settings_.options.inversion == Inversion::allow ? 1 : inversion_limit(star_.patch(), origin_, step);
+  return settings_.options.paper.inversion == Inversion::allow ? 1 : inversion_limit(star_.patch(), origin_, step);
 }
 
 /// t, cut to what the flip limit allows along step.
@@ -229,7 +229,7 @@ VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
   const WeightedPoint p = moved(step, t);
   const double energy = star_.value(p);
   if (!(energy < energy_)) return Outcome::not_lower;
-  if (settings_.options.inversion == Inversion::refuse && !star_.is_valid(p)) return Outcome::inverted;
+  if (settings_.options.paper.inversion == Inversion::refuse && !star_.is_valid(p)) return Outcome::inverted;
   if (!keeps_size(p)) return Outcome::out_of_band;
   if (place(p, energy, settings_.energy.barrier)) return Outcome::accepted;
   return escapes_ ? Outcome::escaped : Outcome::blocked_by_flip;
@@ -239,7 +239,7 @@ VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
 /// vertex would be hidden, or flips cost more than the step gains and it must pay, or they escape from the part.
 bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
   const bool only_weight = p.x == origin_.x && p.y == origin_.y;
-  if (only_weight && settings_.options.weight_updates == WeightUpdates::deferred) {
+  if (only_weight && settings_.options.paper.weight_updates == WeightUpdates::deferred) {
     deferred_.push_back({vertex_, p.w, energy_, energy});
     return true;
   }
@@ -271,7 +271,7 @@ bool VertexStep::keeps_size(const WeightedPoint& p) {
 
 /// Thresholds are computed in doubles; that no edge flips is decided exactly.
 bool VertexStep::keeps_connectivity() const {
-  return !settings_.options.flips || settings_.flip_limit == FlipLimit::before;
+  return settings_.options.flips == Flips::none || settings_.flip_limit == FlipLimit::before;
 }
 
 void VertexStep::nudge(VertexId v, Vec2 p) {
@@ -305,9 +305,7 @@ void VertexStep::end_sweep() {
   deferred_.clear();
 }
 
-bool VertexStep::flips_at_once() const {
-  return !keeps_connectivity() && settings_.options.flip_timing == FlipTiming::immediate;
-}
+bool VertexStep::flips_at_once() const { return !keeps_connectivity() && settings_.options.flips == Flips::immediate; }
 
 /// With its connectivity kept an edge that is regular must stay so; one that is not may wait.
 void VertexStep::note_regular_edges() {

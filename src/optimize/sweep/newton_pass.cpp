@@ -25,16 +25,17 @@ double energy_inside(const Mesh& mesh, const PartSystem& system, const EdgeFormu
 
 bool allows_newton_passes(const Settings& settings) {
   const OptimizeOptions& o = settings.options;
-  const bool only_moves = !o.collapse_from && o.removal == Removal::none && !o.anchor && !o.size_band;
-  return o.newton_passes && makes_newton_steps(settings) && only_moves && o.order == SweepOrder::hilbert &&
-         o.stopping == StoppingRule::relative;
+  const bool only_moves =
+      !o.paper.collapse_from && o.paper.removal == Removal::none && !o.paper.anchor.valid() && !o.size_band;
+  return o.paper.newton_passes && makes_newton_steps(settings) && only_moves && o.paper.order == SweepOrder::hilbert &&
+         o.paper.stopping == StoppingRule::relative;
 }
 
 void NewtonPass::run(Unknowns unknowns, StopToken& stop) {
   TEMPER_ASSERT_SLOW(count_bad(mesh_, nullptr) == 0);
   const std::size_t count = std::max<std::size_t>(1, (mesh_.n_vertices() + part_size_ / 2) / part_size_);
   const Cut cut{mesh_.n_vertices(), count, count > 1 && passes_++ % 2 == 1};
-  Executor& executor = recorder_.on() ? in_order_ : or_serial(settings_.options.executor);
+  Executor& executor = recorder_.on() ? in_order_ : or_serial(settings_.hooks.executor);
   for_parts(cut, executor, workers_, stop, [&](Worker& worker, std::size_t, const Part& part) {
     if (!stop.goes_on()) return;
     improve(part, unknowns, worker);

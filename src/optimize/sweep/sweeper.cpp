@@ -44,9 +44,10 @@ void Sweeper::shake(double amount, Rng& rng) {
 /// The executor of the options, where steps do no more than sweeper.hpp says of them; else a serial one.
 Executor& Sweeper::executor() {
   const OptimizeOptions& o = context_.settings.options;
-  const bool told_in_order = context_.recorder.on() || o.weight_updates == WeightUpdates::deferred;
-  const bool removes = o.hidden == HiddenPolicy::remove || o.collapse_from || o.removal != Removal::none;
-  return told_in_order || removes || limits_.band.on() ? in_order_ : or_serial(o.executor);
+  const bool told_in_order = context_.recorder.on() || o.paper.weight_updates == WeightUpdates::deferred;
+  const bool removes =
+      o.paper.hidden == HiddenPolicy::remove || o.paper.collapse_from || o.paper.removal != Removal::none;
+  return told_in_order || removes || limits_.band.on() ? in_order_ : or_serial(context_.settings.hooks.executor);
 }
 
 void Sweeper::add_changes() {

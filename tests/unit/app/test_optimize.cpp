@@ -137,7 +137,7 @@ TEST_F(Optimize, TheCommandAndTheOptionsNameEveryOptionWithAValue) {
   const OptimizeOptions defaults;
   EXPECT_TRUE(contains(report["command"], "--max-sweeps=" + std::to_string(defaults.max_sweeps)));
   EXPECT_EQ(report["options"]["max-sweeps"], defaults.max_sweeps);
-  EXPECT_EQ(report["options"]["tolerance"], defaults.tolerance);
+  EXPECT_EQ(report["options"]["tolerance"], defaults.paper.tolerance);
   EXPECT_EQ(report["options"]["no-flips"], false);
   EXPECT_TRUE(report["options"]["gamma"].is_null());
   EXPECT_TRUE(report["options"]["relaxation"].is_null());

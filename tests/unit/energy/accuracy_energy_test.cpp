@@ -85,7 +85,7 @@ TEST(AccuracyEnergy, WithoutExtraWeightAndAtSizeOneIsHot) {
   for (int star = 0; star < 3; ++star) {
     EnergyModel hot;
     hot.kind = EnergyKind::F;
-    hot.star = star;
+    hot.star = Star(star);
     const AccuracyModel model = model_of(kStarsOf[star], 1, 1);
     EXPECT_NEAR(accuracy_energy(mesh, ones, model) / total_energy(mesh, hot), 1, 1e-14) << star;
   }

@@ -97,7 +97,7 @@ TEST_P(Derivatives, ConvergeWithOrderTwoToTheNaiveTwin) {
       };
       const Errors coarse = errors(4e-3L), fine = errors(2e-3L);
       const std::string what = "energy " + std::string(energies()[static_cast<std::size_t>(model.kind)].name) +
-                               " star " + std::to_string(model.star) + " at " + place.name;
+                               " star " + std::to_string(static_cast<int>(model.star)) + " at " + place.name;
       ASSERT_GT(size_g, 0) << what;
       ASSERT_GT(size_h, 0) << what;
       // Where the differences are exact to rounding (polynomials of low degree) there is no order to see.

@@ -103,7 +103,7 @@ TEST(Energy, OfABarrierIsInfiniteOutsideItsDomainAndNeverNaN) {
   const WeightedPoint heavy{0, 0, 1.5};  // d from q towards p is negative
   for (const EnergyInfo& info : energies()) {
     for (int star = 0; star < 3; ++star) {
-      const double e = triangle_energy({.kind = info.kind, .star = star}, heavy, kQ, kR);
+      const double e = triangle_energy({.kind = info.kind, .star = Star(star)}, heavy, kQ, kR);
       EXPECT_EQ(std::isinf(e), info.barrier) << info.name;
       EXPECT_FALSE(std::isnan(e));
     }
@@ -147,7 +147,7 @@ TEST(Energy, OfPseudoBarrierKeepsItsDigitsFarOutside) {
 TEST(Energy, TheoryExtrapolationIsNeverNegative) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     const Mesh mesh = lattice({.n = 4, .jitter = 0.25, .weight = 1, .seed = seed});
-    for (int star = 0; star < 3; ++star) EXPECT_GE(total_energy(mesh, {.kind = EnergyKind::T, .star = star}), 0);
+    for (int star = 0; star < 3; ++star) EXPECT_GE(total_energy(mesh, {.kind = EnergyKind::T, .star = Star(star)}), 0);
   }
 }
 

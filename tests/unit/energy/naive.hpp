@@ -105,7 +105,7 @@ inline std::vector<EnergyModel> all_models(double length) {
     for (int star = 0; star < 3; ++star) {
       EnergyModel m;
       m.kind = info.kind;
-      m.star = star;
+      m.star = Star(star);
       if (info.kind == EnergyKind::F) {
         for (const auto b : {BoundaryTreatment::as_is, BoundaryTreatment::absolute, BoundaryTreatment::mirrored}) {
           m.boundary = b;

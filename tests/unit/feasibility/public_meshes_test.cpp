@@ -100,7 +100,7 @@ TEST(PublicOutlines, MustBeSplitAtTheseEdgesAndThenHaveWellCenteredMeshes) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       Mesh split = *mesh;
       ASSERT_TRUE(
-          optimize(split, {.boundary_vertices = BoundaryVertices::split, .repair = Repair::vertices, .seed = seed}));
+          optimize(split, {.boundary = BoundaryVertices::split, .repair = Repair::vertices, .paper = {.seed = seed}}));
       EXPECT_EQ(bad_triangles(split), 0u) << outline.file << " " << seed;
     }
   }

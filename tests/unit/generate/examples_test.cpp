@@ -140,7 +140,7 @@ TEST(HorseshoeExample, OfSevenByNineIsThePapersDenseOne) {
 TEST(HorseshoeExample, HasTheEnergiesOfThePrototype) {
   const Mesh mesh = *horseshoe();
   const auto energy = [&](EnergyKind kind, int star) {
-    return total_energy(mesh, {.kind = kind, .star = star, .gamma = {1, LengthScale::absolute}});
+    return total_energy(mesh, {.kind = kind, .star = Star(star), .gamma = {1, LengthScale::absolute}});
   };
   EXPECT_NEAR(energy(EnergyKind::F, 0), 0.581320957789, 1e-12);
   EXPECT_NEAR(energy(EnergyKind::F, 1), 2.836890825582, 1e-12);

@@ -28,8 +28,8 @@ OptimizeOptions for_accuracy() {
   return o;
 }
 
-OptimizeReport improved(Mesh& mesh, const OptimizeOptions& options, const Observer& observer = {}) {
-  auto report = optimize(mesh, options, observer);
+OptimizeReport improved(Mesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks = {}) {
+  auto report = optimize(mesh, options, hooks);
   EXPECT_TRUE(report) << report.error().what();
   return report ? *std::move(report) : OptimizeReport{};
 }
@@ -55,9 +55,9 @@ void expect_inside(const Mesh& mesh, double margin) {
 bool same_bits(const WeightedPoint& a, const WeightedPoint& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 TEST(Accuracy, NeverRaisesTheEnergyOfAMeshWithAllMarginsAndKeepsItsEdges) {
-  for (const AccuracyStar star : {AccuracyStar::zero, AccuracyStar::one, AccuracyStar::two, AccuracyStar::all}) {
+  for (const Star star : {Star::zero, Star::one, Star::two, Star::all}) {
     OptimizeOptions o = for_accuracy();
-    o.accuracy.star = star;
+    o.star = star;
     Mesh mesh = ready_mesh();
     const Mesh before = mesh;
     ASSERT_TRUE(has_margins(mesh, o.accuracy.margin));
@@ -81,7 +81,8 @@ TEST(Accuracy, KeepsMarginsAfterEverySweepAndTheBoundaryBitForBit) {
   const Mesh before = mesh;
   int looks = 0;
   OptimizeOptions o = for_accuracy();
-  o.watch = [&](const Snapshot& shot) {
+  OptimizeHooks hooks;
+  hooks.snapshots = [&](const Snapshot& shot) {
     if (!has_margins(shot.mesh, o.accuracy.margin)) {
       EXPECT_EQ(looks, 0) << "lost after sweep " << shot.sweep;
       return;
@@ -89,7 +90,7 @@ TEST(Accuracy, KeepsMarginsAfterEverySweepAndTheBoundaryBitForBit) {
     expect_inside(shot.mesh, o.accuracy.margin);
     ++looks;
   };
-  const OptimizeReport report = improved(mesh, o);
+  const OptimizeReport report = improved(mesh, o, hooks);
   EXPECT_GT(sweeps_for(report, Objective::energy), 0u);
   EXPECT_GT(looks, 10);
   EXPECT_GE(static_cast<std::size_t>(looks), sweeps_for(report, Objective::accuracy));
@@ -176,7 +177,7 @@ TEST(Accuracy, MovesWhatItMayAndNothingElse) {
   EXPECT_EQ(count(mesh).fixed, 0);
 
   mesh = before;
-  o.anchor = 5;
+  o.paper.anchor = VertexId(5);
   improved(mesh, o);
   EXPECT_EQ(mesh.weight(VertexId(5)), 0);
 }
@@ -185,7 +186,7 @@ TEST(Accuracy, SlidesBoundaryVerticesAlongTheirLinesOnly) {
   Mesh mesh = ready_mesh();
   const Mesh before = mesh;
   OptimizeOptions o = for_accuracy();
-  o.boundary_vertices = BoundaryVertices::slide;
+  o.boundary = BoundaryVertices::slide;
   const OptimizeReport report = improved(mesh, o);
   EXPECT_LT(report.final_energy, report.initial_energy);
   expect_inside(mesh, o.accuracy.margin);
@@ -214,12 +215,13 @@ TEST(Accuracy, HoldsASizeBand) {
 }
 
 /// The second phase alone, with small parts.
-Mesh second_phase(const Mesh& input, const OptimizeOptions& options, std::size_t part_size) {
-  WorkingCopy work(input, options.order);
-  const Settings settings = *make_settings(options, work.mesh, work.frame);
+Mesh second_phase(const Mesh& input, const OptimizeOptions& options, std::size_t part_size,
+                  const OptimizeHooks& hooks = {}) {
+  WorkingCopy work(input, options.paper.order);
+  const Settings settings = *make_settings(options, work.mesh, work.frame, hooks);
   const Observer nobody;
   Run run(options, nobody);
-  const AccuracySizes sizes(input, options.size_field, options.executor);
+  const AccuracySizes sizes(input, options.size_field, hooks.executor);
   AccuracyPhase phase(work, settings, run, sizes);
   Driver(work, phase.settings(), run, part_size).run(phase, 0);
   EXPECT_GT(run.report.sweeps, 0);
@@ -245,16 +247,18 @@ TEST(Accuracy, HasTheSameBytesForAnyNumberOfThreads) {
   EXPECT_NE(alone, second_phase(mesh, o, 1000)) << "parts are not seen: nothing was tested";
   for (const std::size_t n : {1, 2, 3, 8}) {
     StdThreads threads(n);
-    o.executor = &threads;
-    EXPECT_TRUE(second_phase(mesh, o, 100) == alone) << n << " threads";
+    OptimizeHooks hooks;
+    hooks.executor = &threads;
+    EXPECT_TRUE(second_phase(mesh, o, 100, hooks) == alone) << n << " threads";
     EXPECT_GT(threads.runs(), 0u);
   }
   AccuracyBlocksBackwards backwards;
-  o.executor = &backwards;
-  EXPECT_TRUE(second_phase(mesh, o, 100) == alone);
+  OptimizeHooks hooks;
+  hooks.executor = &backwards;
+  EXPECT_TRUE(second_phase(mesh, o, 100, hooks) == alone);
   std::size_t events = 0;
-  o.tracer = [&](const TraceEvent&) { ++events; };
-  EXPECT_TRUE(second_phase(mesh, o, 100) == alone) << "traced";
+  hooks.tracer = [&](const TraceEvent&) { ++events; };
+  EXPECT_TRUE(second_phase(mesh, o, 100, hooks) == alone) << "traced";
   EXPECT_GT(events, mesh.n_vertices());
 }
 
@@ -264,8 +268,9 @@ TEST(Accuracy, IsReplayedByItsTrace) {
     Mesh mesh = input;
     OptimizeOptions o = for_accuracy();
     std::vector<TraceEvent> events;
-    o.tracer = [&](const TraceEvent& event) { events.push_back(event); };
-    improved(mesh, o);
+    OptimizeHooks hooks;
+    hooks.tracer = [&](const TraceEvent& event) { events.push_back(event); };
+    improved(mesh, o, hooks);
     const auto again = replay(input, events);
     ASSERT_TRUE(again) << again.error().what();
     EXPECT_TRUE(*again == mesh);
@@ -297,9 +302,10 @@ TEST(Accuracy, CountsSweepsOfBothPhasesAndStopsWhereItIsTold) {
 
   mesh = input;
   o = for_accuracy();
-  const OptimizeReport cancelled = improved(mesh, o, [](const Progress& progress) {
-    return progress.last.objective == Objective::accuracy ? Continue::no : Continue::yes;
-  });
+  const OptimizeReport cancelled =
+      improved(mesh, o, {.observer = [](const Progress& progress) {
+                 return progress.last.objective == Objective::accuracy ? Continue::no : Continue::yes;
+               }});
   EXPECT_EQ(cancelled.stopped, Stopped::cancelled);
   EXPECT_LE(sweeps_for(cancelled, Objective::accuracy), 2u);
   expect_inside(mesh, o.accuracy.margin);
@@ -319,7 +325,7 @@ TEST(Accuracy, WorksAroundWhatCannotBeWellCentered) {
   OptimizeOptions o = for_accuracy();
   o.repair = Repair::none;
   o.unknowns = Unknowns::positions;
-  o.flips = false;
+  o.flips = Flips::none;
   Mesh by_energy = mesh;
   OptimizeOptions energy = o;
   energy.objective = Objective::energy;
@@ -392,13 +398,13 @@ TEST(Accuracy, OptionsOutOfRangeAreRefusedByName) {
   EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.sweeps = -1; }), "accuracy sweeps is -1; expected at least 0");
   EXPECT_EQ(with([&](OptimizeOptions& o) { o.accuracy.tolerance = nan; }),
             "accuracy tolerance is nan; expected at least 0");
-  EXPECT_EQ(with([](OptimizeOptions& o) { o.energy = "F"; }),
+  EXPECT_EQ(with([](OptimizeOptions& o) { o.energy = EnergyKind::F; }),
             "objective accuracy begins with an energy that makes triangles well-centered, which F does not; expected "
             "BP, BHs or BH");
   EXPECT_EQ(
       with([](OptimizeOptions& o) {
-        o.flip_timing = FlipTiming::deferred;
-        o.inversion = Inversion::allow;
+        o.flips = Flips::deferred;
+        o.paper.inversion = Inversion::allow;
       }),
       "inverted triangles are allowed, but objective accuracy needs well-centered ones; expected inversions to be "
       "refused");

@@ -36,7 +36,7 @@ Mesh swept_mesh(int sweeps, std::uint64_t seed = 1) {
   return mesh;
 }
 
-EnergyModel barrier_model(EnergyKind kind, int star) {
+EnergyModel barrier_model(EnergyKind kind, Star star) {
   EnergyModel model;
   model.kind = kind;
   model.star = star;
@@ -50,16 +50,14 @@ struct Alone {
   explicit Alone(const Mesh& mesh, const EnergyModel& model)
       : work(WorkingCopy::part(mesh)),
         settings(settings_of(work, model)),
-        recorder(settings.options.tracer, work, 1),
+        recorder(settings.hooks.tracer, work, 1),
         flipper(work.mesh, settings, recorder),
         limits(work.mesh, settings, work.frame),
         step({work.mesh, settings, work.frame, limits, recorder}, flipper) {}
 
   static Settings settings_of(const WorkingCopy& work, const EnergyModel& model) {
     OptimizeOptions options;
-    for (const EnergyInfo& energy : energies()) {
-      if (energy.kind == model.kind) options.energy = energy.name;
-    }
+    options.energy = model.kind;
     Settings settings = *make_settings(options, work.mesh, work.frame);
     settings.model = model;
     return settings;
@@ -111,7 +109,7 @@ class BatchOfBarrier : public testing::TestWithParam<std::tuple<EnergyKind, int>
 
 TEST_P(BatchOfBarrier, MakesTheStepsThatVerticesMakeAlone) {
   const auto [kind, star] = GetParam();
-  const EnergyModel model = barrier_model(kind, star);
+  const EnergyModel model = barrier_model(kind, Star(star));
   const Mesh mesh = swept_mesh(kind == EnergyKind::BH ? 40 : 3);
   const StepParameters parameters{edge_formula(model), kRelaxation, 0, 0};
   std::size_t stepped = 0, regular = 0;
@@ -173,7 +171,7 @@ TEST(InstructionSets, RunsOfEveryEnergyGiveTheSameBytes) {
       for (const InstructionSet set : instruction_sets()) {
         ASSERT_TRUE(use_instruction_set(set));
         Mesh mesh = start;
-        const auto report = optimize(mesh, {.energy = energy.name, .star = star, .max_sweeps = 4});
+        const auto report = optimize(mesh, {.energy = energy.kind, .star = Star(star), .max_sweeps = 4});
         ASSERT_TRUE(report) << energy.name;
         EXPECT_GT(report->sweeps, 0);
         if (!first) first = mesh;
@@ -209,7 +207,7 @@ TEST(InstructionSets, BadTrianglesAreCountedAsExactPredicatesDo) {
       const auto [p, q, r] = mesh.corners(t);
       expected += inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r)) ? 0 : 1;
     }
-    const EnergyModel model = barrier_model(EnergyKind::BP, 1);
+    const EnergyModel model = barrier_model(EnergyKind::BP, Star::one);
     for (const InstructionSet set : instruction_sets()) {
       ASSERT_TRUE(use_instruction_set(set));
       EXPECT_EQ(count_bad(mesh, nullptr), expected);

@@ -263,10 +263,11 @@ double perimeter(const Mesh& mesh) {
 /// Runs, replays, and checks what holds of any choice for the boundary.
 OptimizeReport run(const Mesh& input, Mesh& mesh, OptimizeOptions options) {
   Events events;
-  options.tracer = [&](const TraceEvent& e) { events.push_back(e); };
+  OptimizeHooks hooks;
+  hooks.tracer = [&](const TraceEvent& e) { events.push_back(e); };
   options.max_sweeps = kSweeps;
   mesh = input;
-  const auto report = optimize(mesh, options);
+  const auto report = optimize(mesh, options, hooks);
   EXPECT_TRUE(report) << report.error().what();
   if (!report) return {};
   const auto again = replay_with_vertices(input, events);
@@ -286,7 +287,7 @@ TEST(Boundary, SlidingKeepsShapeAndCorners) {
     const Mesh input = rotated(straight, angle);
     for (const Solver solver : {Solver::newton, Solver::golden, Solver::alternating}) {
       Mesh mesh;
-      run(input, mesh, {.solver = solver, .boundary_vertices = BoundaryVertices::slide, .repair = Repair::none});
+      run(input, mesh, {.boundary = BoundaryVertices::slide, .repair = Repair::none, .paper = {.solver = solver}});
       ASSERT_EQ(mesh.n_vertices(), input.n_vertices());
       const auto edges = boundary_edges(input);
       int slid = 0;
@@ -320,7 +321,7 @@ TEST(Boundary, FixedVerticesAndEndsOfInterfacesDoNotSlide) {
   }
   input.set_fixed(VertexId(2), true);
   Mesh mesh;
-  run(input, mesh, {.boundary_vertices = BoundaryVertices::slide, .repair = Repair::none});
+  run(input, mesh, {.boundary = BoundaryVertices::slide, .repair = Repair::none});
   for (const std::size_t v : {2u, 5u, 71u}) EXPECT_EQ(mesh.position(VertexId(v)), input.position(VertexId(v))) << v;
   EXPECT_NE(mesh.position(VertexId(3)), input.position(VertexId(3)));
 }
@@ -329,8 +330,7 @@ TEST(Boundary, SplittingKeepsTheVerticesThatWereThereAndTheShape) {
   for (const bool far_away : {false, true}) {
     const Mesh input = far_away ? displaced(*horseshoe()) : *horseshoe();
     Mesh mesh;
-    const OptimizeReport report =
-        run(input, mesh, {.boundary_vertices = BoundaryVertices::split, .repair = Repair::none});
+    const OptimizeReport report = run(input, mesh, {.boundary = BoundaryVertices::split, .repair = Repair::none});
     ASSERT_GT(report.vertices_inserted, 0u);
     EXPECT_EQ(report.vertices_removed, 0u);
     ASSERT_EQ(mesh.n_vertices(), input.n_vertices() + report.vertices_inserted);
@@ -357,7 +357,7 @@ TEST(Boundary, SplittingKeepsTheVerticesThatWereThereAndTheShape) {
 
 TEST(Boundary, SplittingLeavesTheDenseHorseshoeWideMargins) {
   Mesh mesh;
-  run(*horseshoe(), mesh, {.boundary_vertices = BoundaryVertices::split});
+  run(*horseshoe(), mesh, {.boundary = BoundaryVertices::split});
   const Quality q = quality(mesh);
   EXPECT_EQ(q.well_centered_fraction, 1);
   EXPECT_GE(q.min_h_over_l, 0.05);

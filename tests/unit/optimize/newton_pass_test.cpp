@@ -27,8 +27,8 @@ Mesh start_of_passes(std::uint64_t seed = 1) {
     const auto [a, b, c] = mesh.corners(t);
     mesh.set_region(t, mesh.position(a).x + mesh.position(b).x + mesh.position(c).x > 1.2 ? 1 : 0);
   }
-  OptimizeOptions options{.newton_passes = false, .max_sweeps = 60};
-  options.tolerance = 1e-3;
+  OptimizeOptions options{.max_sweeps = 60, .paper = {.newton_passes = false}};
+  options.paper.tolerance = 1e-3;
   EXPECT_TRUE(optimize(mesh, options));
   for (const HalfedgeId h : mesh.halfedges()) {
     if (!mesh.is_boundary(h) && mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(mesh.twin(h)))) {
@@ -48,15 +48,15 @@ struct PassResult {
 
 /// Passes alone, without sweeps.
 PassResult after_passes(const Mesh& input, int passes, const OptimizeOptions& options = {},
-                        std::size_t part_size = kPart) {
-  WorkingCopy work(input, options.order);
-  Settings settings = *make_settings(options, work.mesh, work.frame);
+                        std::size_t part_size = kPart, const OptimizeHooks& hooks = {}) {
+  WorkingCopy work(input, options.paper.order);
+  Settings settings = *make_settings(options, work.mesh, work.frame, hooks);
   settings.model.gamma = {0.003, LengthScale::relative};
   settings.model.h0 = {0.05, LengthScale::relative};
   const Observer nobody;
   Run run(options, nobody);
   run.report.history.push_back({});
-  const Recorder recorder(settings.options.tracer, work, 1);
+  const Recorder recorder(settings.hooks.tracer, work, 1);
   VertexLimits limits(work.mesh, settings, work.frame);
   NewtonPass pass({work.mesh, settings, work.frame, limits, recorder}, part_size);
   PassResult result;
@@ -93,10 +93,10 @@ void expect_kept(const Mesh& before, const Mesh& after) {
 
 TEST(NewtonPasses, LowerEveryBarrierAndKeepWhatMustStay) {
   const Mesh input = start_of_passes();
-  for (const char* energy : {"BP", "BHs", "BH"}) {
+  for (const EnergyKind energy : {EnergyKind::BP, EnergyKind::BHs, EnergyKind::BH}) {
     for (int star = 0; star <= 2; ++star) {
-      SCOPED_TRACE(std::string(energy) + " " + std::to_string(star));
-      const PassResult result = after_passes(input, 4, {.energy = energy, .star = star});
+      SCOPED_TRACE(std::string(energy_info(energy).name) + " " + std::to_string(star));
+      const PassResult result = after_passes(input, 4, {.energy = energy, .star = Star(star)});
       for (std::size_t i = 1; i < result.energies.size(); ++i) {
         EXPECT_LT(result.energies[i], result.energies[i - 1]);
       }
@@ -134,11 +134,12 @@ TEST(NewtonPasses, GiveTheSameBytesOnThreadsInInstructionSetsAndTraced) {
   EXPECT_FALSE(first == input);
   for (const std::size_t threads : {1, 2, 3, 8}) {
     StdThreads executor(threads);
-    EXPECT_TRUE(after_passes(input, 3, {.executor = &executor}).mesh == first);
+    EXPECT_TRUE(after_passes(input, 3, {}, kPart, {.executor = &executor}).mesh == first);
     EXPECT_GT(executor.runs(), 0U);
   }
   std::vector<TraceEvent> events;
-  EXPECT_TRUE(after_passes(input, 3, {.tracer = [&](const TraceEvent& e) { events.push_back(e); }}).mesh == first);
+  EXPECT_TRUE(after_passes(input, 3, {}, kPart, {.tracer = [&](const TraceEvent& e) { events.push_back(e); }}).mesh ==
+              first);
   EXPECT_GT(events.size(), kVertices);
   const auto again = replay(input, events);
   ASSERT_TRUE(again) << again.error().what();
@@ -167,7 +168,7 @@ TEST(RunsWithNewtonPasses, EndLowerAfterFewerSweeps) {
     for (const std::uint64_t seed : {1, 2}) {
       SCOPED_TRACE(std::to_string(vertices) + " vertices, seed " + std::to_string(seed));
       const Mesh input = *random_points({.vertices = vertices, .seed = seed});
-      const PassesRun sweeps = optimized(input, {.newton_passes = false}), passes = optimized(input, {});
+      const PassesRun sweeps = optimized(input, {.paper = {.newton_passes = false}}), passes = optimized(input, {});
       EXPECT_EQ(passes.report.stopped, Stopped::converged);
       EXPECT_LE(passes.report.history.back().bad, sweeps.report.history.back().bad);
       EXPECT_LT(passes.report.final_energy, sweeps.report.final_energy * (1 + 1e-6));
@@ -187,8 +188,9 @@ TEST(RunsWithNewtonPasses, EndWhenSweepsAreUsedUpOrTheCallerSaysSo) {
     EXPECT_EQ(report.sweeps, most);
     EXPECT_EQ(report.stopped, Stopped::max_sweeps);
     Mesh mesh = input;
-    const auto stopped = optimize(
-        mesh, {}, [&](const Progress& progress) { return progress.last.sweep >= most ? Continue::no : Continue::yes; });
+    OptimizeHooks hooks;
+    hooks.observer = [&](const Progress& p) { return p.last.sweep >= most ? Continue::no : Continue::yes; };
+    const auto stopped = optimize(mesh, {}, hooks);
     EXPECT_EQ(stopped->stopped, Stopped::cancelled);
     EXPECT_EQ(mesh.validate(), std::nullopt);
     EXPECT_EQ(count_non_regular_edges(mesh), 0U);
@@ -197,17 +199,17 @@ TEST(RunsWithNewtonPasses, EndWhenSweepsAreUsedUpOrTheCallerSaysSo) {
 
 TEST(RunsWithNewtonPasses, AreThoseOfSweepsAloneWhereOptionsAskForMore) {
   const Mesh input = *random_points({.vertices = 300, .seed = 6});
-  for (OptimizeOptions options : std::vector<OptimizeOptions>{{.solver = Solver::alternating},
-                                                              {.energy = "T"},
-                                                              {.flips = false},
-                                                              {.flip_limit = FlipLimit::before},
-                                                              {.order = SweepOrder::input},
-                                                              {.anchor = 0},
-                                                              {.removal = Removal::patch},
+  for (OptimizeOptions options : std::vector<OptimizeOptions>{{.paper = {.solver = Solver::alternating}},
+                                                              {.energy = EnergyKind::T},
+                                                              {.flips = Flips::none},
+                                                              {.paper = {.flip_limit = FlipLimit::before}},
+                                                              {.paper = {.order = SweepOrder::input}},
+                                                              {.paper = {.anchor = VertexId(0)}},
+                                                              {.paper = {.removal = Removal::patch}},
                                                               {.size_band = 3}}) {
     options.max_sweeps = 15;
     const PassesRun with = optimized(input, options);
-    options.newton_passes = false;
+    options.paper.newton_passes = false;
     EXPECT_TRUE(with.mesh == optimized(input, options).mesh);
   }
 }

@@ -71,7 +71,7 @@ TEST(Optimize, KeepsInvariantsOnRandomMeshesWithRegionsAndFixedVertices) {
 
 TEST(Optimize, EnergyOfABarrierFallsInEverySweepAtOneGamma) {
   Mesh mesh = lattice({.n = 10, .jitter = 0.3, .weight = 0});
-  const auto report = optimize(mesh, {.gamma = Softening{0.05}, .tolerance = 1e-12});
+  const auto report = optimize(mesh, {.paper = {.gamma = Softening{0.05}, .tolerance = 1e-12}});
   ASSERT_TRUE(report);
   ASSERT_GT(report->history.size(), 5u);
   for (std::size_t i = 1; i < report->history.size(); ++i) {
@@ -82,7 +82,7 @@ TEST(Optimize, EnergyOfABarrierFallsInEverySweepAtOneGamma) {
 TEST(Optimize, IsStationaryWhenConverged) {
   Mesh mesh = lattice({.n = 8, .jitter = 0.2, .weight = 0});
   const Softening gamma{0.05};
-  ASSERT_TRUE(optimize(mesh, {.gamma = gamma, .max_sweeps = 5000, .tolerance = 0}));
+  ASSERT_TRUE(optimize(mesh, {.max_sweeps = 5000, .paper = {.gamma = gamma, .tolerance = 0}}));
   const EnergyModel model{.kind = EnergyKind::BP, .gamma = gamma};
   const double total = total_energy(mesh, model);
   int free = 0;
@@ -98,8 +98,8 @@ TEST(Optimize, IsStationaryWhenConverged) {
 
 TEST(Optimize, AgainChangesLittle) {
   Mesh mesh = lattice({.n = 10, .jitter = 0.3, .weight = 0});
-  ASSERT_TRUE(optimize(mesh, {.tolerance = 1e-10}));
-  const auto again = optimize(mesh, {.tolerance = 1e-6});
+  ASSERT_TRUE(optimize(mesh, {.paper = {.tolerance = 1e-10}}));
+  const auto again = optimize(mesh, {.paper = {.tolerance = 1e-6}});
   ASSERT_TRUE(again);
   EXPECT_LE(again->sweeps, 2);
   EXPECT_LE(again->final_energy, again->initial_energy);
@@ -118,7 +118,7 @@ TEST(Optimize, GivesTheSameBytesTwiceAndForAnyExecutor) {
   Mesh first = *made, second = *made, third = *made;
   ASSERT_TRUE(optimize(first, {.max_sweeps = 20}));
   ASSERT_TRUE(optimize(second, {.max_sweeps = 20}));
-  ASSERT_TRUE(optimize(third, {.max_sweeps = 20, .executor = &backwards}));
+  ASSERT_TRUE(optimize(third, {.max_sweeps = 20}, {.executor = &backwards}));
   EXPECT_EQ(first, second);
   EXPECT_EQ(first, third);
 }
@@ -130,8 +130,8 @@ TEST(Optimize, CommutesWithScalingByPowersOfTwo) {
   for (const EnergyInfo& info : energies()) {
     if (info.name == "BH") continue;  // the lattice is outside its barrier
     Mesh a = lattice(unit), b = lattice(scaled);
-    ASSERT_TRUE(optimize(a, {.energy = info.name, .max_sweeps = 10}));
-    ASSERT_TRUE(optimize(b, {.energy = info.name, .max_sweeps = 10}));
+    ASSERT_TRUE(optimize(a, {.energy = info.kind, .max_sweeps = 10}));
+    ASSERT_TRUE(optimize(b, {.energy = info.kind, .max_sweeps = 10}));
     for (const VertexId v : a.vertices()) {
       EXPECT_EQ(scaled.scale * a.position(v).x, b.position(v).x) << info.name;
       EXPECT_EQ(scaled.scale * a.position(v).y, b.position(v).y) << info.name;

@@ -51,9 +51,9 @@ TEST(Modes, WeightsOnlyKeepsPositions) {
 
 TEST(Modes, WeightsWaitForTheirSweep) {
   Mesh mesh = random_mesh();
-  ASSERT_TRUE(optimize(mesh, {.weights_from = 5, .max_sweeps = 5}));
+  ASSERT_TRUE(optimize(mesh, {.max_sweeps = 5, .paper = {.weights_from = 5}}));
   for (const VertexId v : mesh.vertices()) EXPECT_EQ(mesh.weight(v), 0);
-  ASSERT_TRUE(optimize(mesh, {.weights_from = 5, .max_sweeps = 7}));
+  ASSERT_TRUE(optimize(mesh, {.max_sweeps = 7, .paper = {.weights_from = 5}}));
   EXPECT_TRUE(
       std::any_of(mesh.vertices().begin(), mesh.vertices().end(), [&](VertexId v) { return mesh.weight(v) != 0; }));
 }
@@ -62,7 +62,7 @@ TEST(Modes, FrozenConnectivityIsKeptAndStaysRegular) {
   for (const Solver solver : {Solver::newton, Solver::alternating, Solver::golden}) {
     Mesh mesh = random_mesh();
     const auto before = connectivity(mesh);
-    const auto report = optimize(mesh, {.solver = solver, .flips = false, .max_sweeps = 12});
+    const auto report = optimize(mesh, {.flips = Flips::none, .max_sweeps = 12, .paper = {.solver = solver}});
     ASSERT_TRUE(report);
     EXPECT_EQ(report->flips, 0u);
     EXPECT_EQ(connectivity(mesh), before);
@@ -80,7 +80,7 @@ TEST(Modes, FrozenConnectivityThatIsNotRegularGetsNoWorse) {
   }
   ASSERT_LT(regular.size(), mesh.n_halfedges());
   const auto before = connectivity(mesh);
-  const auto report = optimize(mesh, {.flips = false, .max_sweeps = 40});
+  const auto report = optimize(mesh, {.flips = Flips::none, .max_sweeps = 40});
   ASSERT_TRUE(report);
   EXPECT_EQ(connectivity(mesh), before);
   for (const HalfedgeId h : regular) EXPECT_TRUE(is_regular(mesh, h));
@@ -93,7 +93,7 @@ TEST(Modes, FrozenConnectivityStaysRegularWhereWeightsLeaveEdgesUncrossed) {
     Mesh mesh = lattice({.n = 6, .jitter = 0.2, .weight = 0.55, .seed = seed});
     if (!restore_regularity(mesh).regular()) continue;
     infinite += std::isinf(total_energy(mesh, {.kind = EnergyKind::BP})) ? 1 : 0;
-    ASSERT_TRUE(optimize(mesh, {.flips = false, .max_sweeps = 5}));
+    ASSERT_TRUE(optimize(mesh, {.flips = Flips::none, .max_sweeps = 5}));
     EXPECT_EQ(count_non_regular_edges(mesh), 0u);
   }
   EXPECT_GT(infinite, 3);
@@ -131,7 +131,8 @@ TEST(Modes, EverySolverLowersEveryEnergyAndKeepsTheMeshValid) {
       for (const Solver solver : {Solver::newton, Solver::alternating, Solver::golden}) {
         Mesh mesh =
             info.name == "BH" ? lattice({.n = 7, .jitter = 0.02}) : lattice({.n = 7, .jitter = 0.3, .weight = 0});
-        const auto report = optimize(mesh, {.energy = info.name, .star = star, .solver = solver, .max_sweeps = 6});
+        const auto report =
+            optimize(mesh, {.energy = info.kind, .star = Star(star), .max_sweeps = 6, .paper = {.solver = solver}});
         ASSERT_TRUE(report) << info.name << ": " << report.error().what();
         EXPECT_LT(report->final_energy, report->initial_energy) << info.name << " star " << star;
         EXPECT_EQ(mesh.validate(), std::nullopt);
@@ -145,16 +146,16 @@ TEST(Modes, EverySolverLowersEveryEnergyAndKeepsTheMeshValid) {
 
 TEST(Modes, EveryFlipLimitAndTimingKeepsTheMeshRegular) {
   int runs = 0;
-  for (const char* energy : {"BP", "dT", "T"}) {
+  for (const EnergyKind energy : {EnergyKind::BP, EnergyKind::dT, EnergyKind::T}) {
     for (const auto limit : {FlipLimit::unlimited, FlipLimit::before, FlipLimit::at, FlipLimit::after}) {
-      for (const auto timing : {FlipTiming::immediate, FlipTiming::deferred}) {
+      for (const auto timing : {Flips::immediate, Flips::deferred}) {
         Mesh mesh = lattice({.n = 9, .jitter = 0.3, .weight = 0});
         const std::size_t non_regular = count_non_regular_edges(mesh);
         const auto report =
-            optimize(mesh, {.energy = energy, .flip_timing = timing, .flip_limit = limit, .max_sweeps = 8});
+            optimize(mesh, {.energy = energy, .flips = timing, .max_sweeps = 8, .paper = {.flip_limit = limit}});
         ASSERT_TRUE(report);
         EXPECT_EQ(mesh.validate(), std::nullopt);
-        EXPECT_EQ(count_non_regular_edges(mesh), 0u) << energy;
+        EXPECT_EQ(count_non_regular_edges(mesh), 0u) << energy_info(energy).name;
         if (limit == FlipLimit::before) {
           // Only what made the input regular was flipped.
           Mesh restored = lattice({.n = 9, .jitter = 0.3, .weight = 0});
@@ -199,7 +200,7 @@ TEST(Modes, InterfaceVerticesStayOrSlideAlongTheirLine) {
 
 TEST(Modes, AnchorHasWeightZeroAtTheEnd) {
   Mesh mesh = random_mesh();
-  ASSERT_TRUE(optimize(mesh, {.anchor = 17, .max_sweeps = 10}));
+  ASSERT_TRUE(optimize(mesh, {.max_sweeps = 10, .paper = {.anchor = VertexId(17)}}));
   EXPECT_EQ(mesh.weight(VertexId(17)), 0);
   EXPECT_EQ(count_non_regular_edges(mesh), 0u);
 }
@@ -220,11 +221,13 @@ TEST(Modes, StopsAtTheSweepLimitTheTimeLimitAndWhenAsked) {
 
   Mesh asked = random_mesh();
   int calls = 0;
-  const auto cancelled = optimize(asked, {}, [&](const Progress& p) {
+  OptimizeHooks hooks;
+  hooks.observer = [&](const Progress& p) {
     EXPECT_EQ(p.max_sweeps, OptimizeOptions().max_sweeps);
     EXPECT_EQ(p.last.sweep, calls);
     return ++calls > 4 ? Continue::no : Continue::yes;
-  });
+  };
+  const auto cancelled = optimize(asked, {}, hooks);
   ASSERT_TRUE(cancelled);
   EXPECT_EQ(cancelled->stopped, Stopped::cancelled);
   EXPECT_EQ(calls, 5);
@@ -234,7 +237,8 @@ TEST(Modes, StopsAtTheSweepLimitTheTimeLimitAndWhenAsked) {
 
 TEST(Modes, ThePapersStoppingRuleLooksAtTheMeanEnergyOfATriangle) {
   Mesh mesh = lattice({.n = 8, .jitter = 0.2, .weight = 0});
-  const auto report = optimize(mesh, {.gamma = Softening{0.1}, .tolerance = 1e-3, .stopping = StoppingRule::paper});
+  const auto report =
+      optimize(mesh, {.paper = {.gamma = Softening{0.1}, .tolerance = 1e-3, .stopping = StoppingRule::paper}});
   ASSERT_TRUE(report);
   ASSERT_EQ(report->stopped, Stopped::converged);
   ASSERT_GE(report->history.size(), 3u);
@@ -247,7 +251,7 @@ TEST(Modes, ThePapersStoppingRuleLooksAtTheMeanEnergyOfATriangle) {
 TEST(Modes, JitterFreesASymmetricGridAndIsSeeded) {
   const auto solve = [](std::uint64_t seed) {
     Mesh mesh = *sheared_grid({.nx = 8, .ny = 8, .shear = 0});
-    EXPECT_TRUE(optimize(mesh, {.unknowns = Unknowns::positions, .max_sweeps = 120, .seed = seed}));
+    EXPECT_TRUE(optimize(mesh, {.unknowns = Unknowns::positions, .max_sweeps = 120, .paper = {.seed = seed}}));
     return mesh;
   };
   const Mesh start = *sheared_grid({.nx = 8, .ny = 8, .shear = 0});
@@ -269,7 +273,7 @@ TEST(Modes, ASecondAttemptImprovesTheDenseHorseshoe) {
 
 TEST(Modes, HotWithoutBarrierKeepsTheMeshValidWhereEdgesCollapse) {
   Mesh mesh = *horseshoe();
-  const auto report = optimize(mesh, {.energy = "F", .max_sweeps = 40});
+  const auto report = optimize(mesh, {.energy = EnergyKind::F, .max_sweeps = 40});
   ASSERT_TRUE(report);
   EXPECT_EQ(mesh.validate(), std::nullopt);
   EXPECT_EQ(count_non_regular_edges(mesh), 0u);

@@ -34,10 +34,10 @@ std::vector<Vec2> boundary(const Mesh& mesh) {
 
 OptimizeOptions dense_positions() {
   OptimizeOptions o = paper_method();
-  o.energy = "dT";
+  o.energy = EnergyKind::dT;
   o.unknowns = Unknowns::positions;
-  o.inversion = Inversion::refuse;
-  o.removal = Removal::none;
+  o.paper.inversion = Inversion::refuse;
+  o.paper.removal = Removal::none;
   o.max_sweeps = 60;
   return o;
 }
@@ -56,8 +56,8 @@ TEST(Collapses, KeepDomainRegularityAndTheOtherNames) {
   const Mesh input = dense();
   Mesh mesh = input;
   OptimizeOptions o = dense_positions();
-  o.flip_timing = FlipTiming::immediate;
-  o.flip_limit = FlipLimit::after;
+  o.flips = Flips::immediate;
+  o.paper.flip_limit = FlipLimit::after;
   const auto report = optimize(mesh, o);
   ASSERT_TRUE(report);
   EXPECT_GT(report->vertices_removed, 0u);
@@ -78,13 +78,14 @@ TEST(Collapses, KeepDomainRegularityAndTheOtherNames) {
 
 TEST(Collapses, BeginWithTheirSweep) {
   OptimizeOptions o = dense_positions();
-  o.collapse_from = 3;
+  o.paper.collapse_from = 3;
   std::vector<std::size_t> vertices;
-  o.watch = [&](const Snapshot& s) {
+  OptimizeHooks hooks;
+  hooks.snapshots = [&](const Snapshot& s) {
     if (s.moment == Snapshot::Moment::after_sweep) vertices.push_back(s.mesh.n_vertices());
   };
   Mesh mesh = dense();
-  ASSERT_TRUE(optimize(mesh, o));
+  ASSERT_TRUE(optimize(mesh, o, hooks));
   ASSERT_GT(vertices.size(), 4u);
   EXPECT_EQ(vertices[2], 63u);
   EXPECT_LT(vertices[3], 63u);
@@ -92,7 +93,7 @@ TEST(Collapses, BeginWithTheirSweep) {
 
 TEST(Collapses, NeverWithoutTheSwitch) {
   OptimizeOptions o = dense_positions();
-  o.collapse_from = std::nullopt;
+  o.paper.collapse_from = std::nullopt;
   Mesh mesh = dense();
   const auto report = optimize(mesh, o);
   ASSERT_TRUE(report);
@@ -105,7 +106,7 @@ TEST(Collapses, AHigherRatioCollapsesMore) {
   std::vector<std::size_t> removed;
   for (const double ratio : {1e-6, 0.1, 0.5}) {
     OptimizeOptions o = dense_positions();
-    o.collapse_ratio = ratio;
+    o.paper.collapse_ratio = ratio;
     o.max_sweeps = 3;
     Mesh mesh = dense();
     const auto report = optimize(mesh, o);
@@ -121,7 +122,7 @@ TEST(Collapses, LeaveFixedVerticesAlone) {
   for (const VertexId v : mesh.vertices()) mesh.set_fixed(v, true);
   const Mesh input = mesh;
   OptimizeOptions o = paper_method();
-  o.inversion = Inversion::refuse;
+  o.paper.inversion = Inversion::refuse;
   ASSERT_TRUE(optimize(mesh, o));
   EXPECT_EQ(mesh.n_vertices(), input.n_vertices());
   for (const VertexId v : mesh.vertices()) EXPECT_EQ(mesh.position(v), input.position(v));
@@ -138,7 +139,7 @@ TEST(Collapses, LeaveInterfacesAlone) {
   }
   ASSERT_GT(line.size(), 4u);
   OptimizeOptions o = paper_method();
-  o.inversion = Inversion::refuse;
+  o.paper.inversion = Inversion::refuse;
   const auto report = optimize(mesh, o);
   ASSERT_TRUE(report);
   EXPECT_GT(report->vertices_removed, 10u);
@@ -154,11 +155,11 @@ TEST(PatchTest, SumGutsWhereMeanAndExcessSpare) {
   std::vector<std::size_t> left;
   for (const RemovalMeasure measure : {RemovalMeasure::sum, RemovalMeasure::mean, RemovalMeasure::excess}) {
     Mesh mesh = random_mesh();
-    const auto report = optimize(mesh, {.gamma = Softening{1, LengthScale::relative},
-                                        .removal = Removal::patch,
-                                        .removal_measure = measure,
-                                        .removal_from = 0,
-                                        .max_sweeps = 40});
+    const auto report = optimize(mesh, {.max_sweeps = 40,
+                                        .paper = {.gamma = Softening{1, LengthScale::relative},
+                                                  .removal = Removal::patch,
+                                                  .removal_measure = measure,
+                                                  .removal_from = 0}});
     ASSERT_TRUE(report);
     EXPECT_EQ(mesh.validate(), std::nullopt);
     EXPECT_EQ(count_non_regular_edges(mesh), 0u);
@@ -172,8 +173,8 @@ TEST(PatchTest, AWiderMarginRemovesFewer) {
   std::vector<std::size_t> removed;
   for (const double margin : {0.0, 0.1, 0.3}) {
     Mesh mesh = random_mesh();
-    const auto report =
-        optimize(mesh, {.removal = Removal::patch, .removal_margin = margin, .removal_from = 5, .max_sweeps = 30});
+    const auto report = optimize(
+        mesh, {.max_sweeps = 30, .paper = {.removal = Removal::patch, .removal_margin = margin, .removal_from = 5}});
     ASSERT_TRUE(report);
     removed.push_back(report->vertices_removed);
   }
@@ -185,7 +186,8 @@ TEST(OuterIterations, FlipOnlyWhenTheInnerOnesHaveConverged) {
   OptimizeOptions o = dense_positions();
   int before = 0, after = 0;
   std::size_t non_regular = 0;
-  o.watch = [&](const Snapshot& s) {
+  OptimizeHooks hooks;
+  hooks.snapshots = [&](const Snapshot& s) {
     if (s.moment == Snapshot::Moment::before_flips) {
       ++before;
       non_regular += count_non_regular_edges(s.mesh);
@@ -196,7 +198,7 @@ TEST(OuterIterations, FlipOnlyWhenTheInnerOnesHaveConverged) {
     }
   };
   Mesh mesh = dense();
-  const auto report = optimize(mesh, o);
+  const auto report = optimize(mesh, o, hooks);
   ASSERT_TRUE(report);
   EXPECT_EQ(before, after);
   EXPECT_GT(before, 3);
@@ -207,11 +209,12 @@ TEST(OuterIterations, FlipOnlyWhenTheInnerOnesHaveConverged) {
 TEST(OuterIterations, EndWithTheirNumber) {
   for (const int outer : {1, 3}) {
     OptimizeOptions o = dense_positions();
-    o.outer = outer;
+    o.paper.outer = outer;
     int rounds = 0;
-    o.watch = [&](const Snapshot& s) { rounds += s.moment == Snapshot::Moment::after_flips ? 1 : 0; };
+    OptimizeHooks hooks;
+    hooks.snapshots = [&](const Snapshot& s) { rounds += s.moment == Snapshot::Moment::after_flips ? 1 : 0; };
     Mesh mesh = dense();
-    const auto report = optimize(mesh, o);
+    const auto report = optimize(mesh, o, hooks);
     ASSERT_TRUE(report);
     EXPECT_EQ(rounds, outer);
     EXPECT_EQ(report->stopped, Stopped::max_outer);
@@ -220,14 +223,15 @@ TEST(OuterIterations, EndWithTheirNumber) {
 
 TEST(OuterIterations, InnerOnesEndWithTheirNumber) {
   OptimizeOptions o = dense_positions();
-  o.inner = 2;
+  o.paper.inner = 2;
   o.max_sweeps = 10;
   std::vector<int> sweeps;
-  o.watch = [&](const Snapshot& s) {
+  OptimizeHooks hooks;
+  hooks.snapshots = [&](const Snapshot& s) {
     if (s.moment == Snapshot::Moment::before_flips) sweeps.push_back(s.sweep);
   };
   Mesh mesh = dense();
-  ASSERT_TRUE(optimize(mesh, o));
+  ASSERT_TRUE(optimize(mesh, o, hooks));
   ASSERT_GE(sweeps.size(), 2u);
   EXPECT_EQ(sweeps[0], 2);
   EXPECT_EQ(sweeps[1], 4);
@@ -240,11 +244,11 @@ TEST(DeferredWeights, DoNotDependOnTheOrderOfTheVertices) {
     ASSERT_TRUE(restore_regularity(mesh).regular());
     OptimizeOptions o = paper_method();
     o.unknowns = Unknowns::weights;
-    o.weight_updates = WeightUpdates::deferred;
-    o.anchor = std::nullopt;
-    o.collapse_from = std::nullopt;
-    o.removal = Removal::none;
-    o.order = order;
+    o.paper.weight_updates = WeightUpdates::deferred;
+    o.paper.anchor = {};
+    o.paper.collapse_from = std::nullopt;
+    o.paper.removal = Removal::none;
+    o.paper.order = order;
     o.max_sweeps = 1;
     ASSERT_TRUE(optimize(mesh, o));
     results.push_back(std::move(mesh));
@@ -262,24 +266,25 @@ TEST(HiddenVertices, AreKeptRemovedOrNeverThereByThePolicy) {
   std::size_t kept = 0, removed = 0;
   for (const HiddenPolicy policy : {HiddenPolicy::undo, HiddenPolicy::keep, HiddenPolicy::remove}) {
     OptimizeOptions o = paper_method();
-    o.energy = "dT";
+    o.energy = EnergyKind::dT;
     o.unknowns = Unknowns::weights;
-    o.collapse_from = std::nullopt;
-    o.removal = Removal::none;
-    o.flip_timing = FlipTiming::immediate;
-    o.inversion = Inversion::refuse;
-    o.hidden = policy;
+    o.paper.collapse_from = std::nullopt;
+    o.paper.removal = Removal::none;
+    o.flips = Flips::immediate;
+    o.paper.inversion = Inversion::refuse;
+    o.paper.hidden = policy;
     o.max_sweeps = 8;
     std::set<std::uint32_t> hidden;
     std::size_t removals = 0;
-    o.tracer = [&](const TraceEvent& e) {
+    OptimizeHooks hooks;
+    hooks.tracer = [&](const TraceEvent& e) {
       if (e.kind == EventKind::hidden) hidden.insert(e.vertex.index);
       removals += e.kind == EventKind::removal ? 1 : 0;
     };
     bool regular = true;
-    o.watch = [&](const Snapshot& s) { regular = regular && count_non_regular_edges(s.mesh) == 0; };
+    hooks.snapshots = [&](const Snapshot& s) { regular = regular && count_non_regular_edges(s.mesh) == 0; };
     Mesh mesh = dense();
-    ASSERT_TRUE(optimize(mesh, o));
+    ASSERT_TRUE(optimize(mesh, o, hooks));
     EXPECT_EQ(mesh.validate(), std::nullopt);
     if (policy == HiddenPolicy::undo) {
       EXPECT_TRUE(hidden.empty());
@@ -296,16 +301,17 @@ TEST(HiddenVertices, AreKeptRemovedOrNeverThereByThePolicy) {
 TEST(Inversions, AreTakenOnlyWhereAllowed) {
   for (const Inversion inversion : {Inversion::refuse, Inversion::allow}) {
     OptimizeOptions o = paper_method();
-    o.energy = "F";
-    o.collapse_from = std::nullopt;
-    o.removal = Removal::none;
-    o.inversion = inversion;
+    o.energy = EnergyKind::F;
+    o.paper.collapse_from = std::nullopt;
+    o.paper.removal = Removal::none;
+    o.paper.inversion = inversion;
     o.max_sweeps = 10;
     bool inverted = false;
-    o.watch = [&](const Snapshot& s) { inverted = inverted || s.mesh.validate().has_value(); };
+    OptimizeHooks hooks;
+    hooks.snapshots = [&](const Snapshot& s) { inverted = inverted || s.mesh.validate().has_value(); };
     const Mesh input = dense();
     Mesh mesh = input;
-    const auto report = optimize(mesh, o);
+    const auto report = optimize(mesh, o, hooks);
     ASSERT_TRUE(report);
     EXPECT_EQ(inverted, inversion == Inversion::allow);
     if (inverted) {
@@ -316,18 +322,19 @@ TEST(Inversions, AreTakenOnlyWhereAllowed) {
 }
 
 TEST(FlipLimits, BeforeNeverFlips) {
-  for (const FlipTiming timing : {FlipTiming::immediate, FlipTiming::deferred}) {
+  for (const Flips timing : {Flips::immediate, Flips::deferred}) {
     for (const bool weights : {false, true}) {
       OptimizeOptions o = dense_positions();
-      o.collapse_from = std::nullopt;
-      o.flip_timing = timing;
-      o.flip_limit = FlipLimit::before;
-      o.order = SweepOrder::input;
+      o.paper.collapse_from = std::nullopt;
+      o.flips = timing;
+      o.paper.flip_limit = FlipLimit::before;
+      o.paper.order = SweepOrder::input;
       if (weights) o.unknowns = Unknowns::positions_and_weights;
       std::size_t flips = 0, moves = 0;
-      o.tracer = [&](const TraceEvent& e) { ++(e.kind == EventKind::flip ? flips : moves); };
+      OptimizeHooks hooks;
+      hooks.tracer = [&](const TraceEvent& e) { ++(e.kind == EventKind::flip ? flips : moves); };
       Mesh mesh = dense();
-      ASSERT_TRUE(optimize(mesh, o));
+      ASSERT_TRUE(optimize(mesh, o, hooks));
       EXPECT_EQ(flips, 0u);
       EXPECT_GT(moves, 200u);
       EXPECT_EQ(count_non_regular_edges(mesh), 0u);
@@ -339,12 +346,13 @@ TEST(PaperMethod, GivesTheInputBackRegularWhenItFindsNothingBetter) {
   const Mesh input = *sheared_grid({.nx = 6, .ny = 5});
   ASSERT_GT(count_non_regular_edges(input), 0u);
   OptimizeOptions o = paper_method();
-  o.energy = "dT";
-  o.star = 0;
+  o.energy = EnergyKind::dT;
+  o.star = Star::zero;
   std::vector<TraceEvent> events;
-  o.tracer = [&](const TraceEvent& e) { events.push_back(e); };
+  OptimizeHooks hooks;
+  hooks.tracer = [&](const TraceEvent& e) { events.push_back(e); };
   Mesh mesh = input;
-  const auto report = optimize(mesh, o);
+  const auto report = optimize(mesh, o, hooks);
   ASSERT_TRUE(report);
   ASSERT_NE(report->notes.back().find("no better mesh"), std::string::npos);
   EXPECT_EQ(count_non_regular_edges(mesh), 0u);
@@ -356,12 +364,13 @@ TEST(PaperMethod, GivesTheInputBackRegularWhenItFindsNothingBetter) {
 TEST(Orders, EachIsItsOwnAndSeeded) {
   const auto first_moved = [](SweepOrder order, std::uint64_t seed) {
     std::vector<std::uint32_t> moved;
-    OptimizeOptions o{.order = order, .max_sweeps = 1, .seed = seed};
-    o.tracer = [&](const TraceEvent& e) {
+    OptimizeOptions o{.max_sweeps = 1, .paper = {.order = order, .seed = seed}};
+    OptimizeHooks hooks;
+    hooks.tracer = [&](const TraceEvent& e) {
       if (e.sweep == 1 && e.kind == EventKind::move) moved.push_back(e.vertex.index);
     };
     Mesh mesh = random_mesh();
-    EXPECT_TRUE(optimize(mesh, o));
+    EXPECT_TRUE(optimize(mesh, o, hooks));
     EXPECT_GT(moved.size(), 100u);
     return moved;
   };
@@ -377,15 +386,14 @@ TEST(Options, SwitchesThatContradictEachOtherAreRefused) {
   Mesh mesh = random_mesh();
   const Mesh input = mesh;
   for (const OptimizeOptions& o : std::vector<OptimizeOptions>{
-           {.weight_updates = WeightUpdates::deferred},
-           {.solver = Solver::golden, .weight_updates = WeightUpdates::deferred, .flips = false},
-           {.inversion = Inversion::allow},
-           {.collapse_energy = "BP"},
-           {.collapse_energy = "HOT"},
-           {.collapse_ratio = 0},
-           {.removal_margin = -1},
-           {.inner = -1},
-           {.outer = -1}}) {
+           {.paper = {.weight_updates = WeightUpdates::deferred}},
+           {.flips = Flips::none, .paper = {.solver = Solver::golden, .weight_updates = WeightUpdates::deferred}},
+           {.paper = {.inversion = Inversion::allow}},
+           {.paper = {.collapse_energy = EnergyKind::BP}},
+           {.paper = {.collapse_ratio = 0}},
+           {.paper = {.removal_margin = -1}},
+           {.paper = {.inner = -1}},
+           {.paper = {.outer = -1}}}) {
     const auto report = optimize(mesh, o);
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::invalid_option);
@@ -396,11 +404,12 @@ TEST(Options, SwitchesThatContradictEachOtherAreRefused) {
 TEST(Traces, ChangeNothingOfTheRun) {
   Mesh plain = random_mesh(), traced = plain;
   std::size_t events = 0, snapshots = 0;
-  OptimizeOptions o{.removal = Removal::patch, .removal_from = 2, .max_sweeps = 12};
+  OptimizeOptions o{.max_sweeps = 12, .paper = {.removal = Removal::patch, .removal_from = 2}};
   ASSERT_TRUE(optimize(plain, o));
-  o.tracer = [&](const TraceEvent&) { ++events; };
-  o.watch = [&](const Snapshot&) { ++snapshots; };
-  ASSERT_TRUE(optimize(traced, o));
+  OptimizeHooks hooks;
+  hooks.tracer = [&](const TraceEvent&) { ++events; };
+  hooks.snapshots = [&](const Snapshot&) { ++snapshots; };
+  ASSERT_TRUE(optimize(traced, o, hooks));
   EXPECT_EQ(plain, traced);
   EXPECT_GT(events, 1000u);
   EXPECT_EQ(snapshots, 13u);

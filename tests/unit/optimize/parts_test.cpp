@@ -31,13 +31,13 @@ struct SweptMesh {
 
 /// One attempt with small parts, as optimize() makes it.
 SweptMesh swept(const Mesh& input, const OptimizeOptions& options, std::size_t part_size = kSmallPart,
-                const Observer& observer = {}) {
-  WorkingCopy work(input, options.order);
-  Settings settings = *make_settings(options, work.mesh, work.frame);
+                const OptimizeHooks& hooks = {}) {
+  WorkingCopy work(input, options.paper.order);
+  Settings settings = *make_settings(options, work.mesh, work.frame, hooks);
   if (options.size_band) settings.size_field = input_size_field_of(input);
-  Run run(options, observer);
+  Run run(options, hooks.observer);
   Driver driver(work, settings, run, part_size);
-  EXPECT_TRUE(!options.flips || driver.make_regular());
+  EXPECT_TRUE(options.flips == Flips::none || driver.make_regular());
   driver.grade_boundary();
   const Attempt attempt = attempts(settings.energy, options, work.mesh).front();
   driver.jitter(attempt.jitter);
@@ -76,37 +76,42 @@ TEST_P(SweepsInParts, GiveTheSameBytesOnAnyNumberOfThreadsAndTraced) {
 
   for (const std::size_t threads : {1, 2, 3, 8}) {
     StdThreads crew(threads);
-    options.executor = &crew;
-    expect_same(swept(input, options), alone);
+    OptimizeHooks hooks;
+    hooks.executor = &crew;
+    expect_same(swept(input, options, kSmallPart, hooks), alone);
   }
   LastBlockFirst backwards;
-  options.executor = &backwards;
-  expect_same(swept(input, options), alone);
+  OptimizeHooks hooks;
+  hooks.executor = &backwards;
+  expect_same(swept(input, options, kSmallPart, hooks), alone);
   std::size_t events = 0;
-  options.tracer = [&](const TraceEvent&) { ++events; };
-  expect_same(swept(input, options), alone);
+  hooks.tracer = [&](const TraceEvent&) { ++events; };
+  expect_same(swept(input, options, kSmallPart, hooks), alone);
   EXPECT_GT(events, kPartsVertices);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Options, SweepsInParts,
     testing::Values(
-        PartsCase{"newton", {}}, PartsCase{"alternating", {.solver = Solver::alternating}},
-        PartsCase{"golden", {.solver = Solver::golden}},
-        PartsCase{"hot", {.energy = "T", .flip_limit = FlipLimit::after}},
-        PartsCase{"hot_alternating", {.energy = "dT", .solver = Solver::alternating}},
-        PartsCase{"hot_golden", {.energy = "F", .solver = Solver::golden, .flip_limit = FlipLimit::unlimited}},
-        PartsCase{"shifted_barrier", {.energy = "BHs"}},
-        PartsCase{"sliding", {.interfaces = InterfaceVertices::sliding, .boundary_vertices = BoundaryVertices::slide}},
-        PartsCase{"split_boundary", {.boundary_vertices = BoundaryVertices::split}},
-        PartsCase{"before_flips", {.flip_limit = FlipLimit::before}},
-        PartsCase{"frozen_connectivity", {.flips = false}},
-        PartsCase{"deferred_flips", {.flip_timing = FlipTiming::deferred, .inner = 2}},
-        PartsCase{"deferred_weights", {.solver = Solver::alternating, .weight_updates = WeightUpdates::deferred}},
-        PartsCase{"size_band", {.size_band = 2}}, PartsCase{"removal", {.removal = Removal::patch, .removal_from = 2}},
-        PartsCase{"collapse", {.energy = "T", .collapse_from = 1}},
-        PartsCase{"hidden_removed", {.energy = "F", .hidden = HiddenPolicy::remove}},
-        PartsCase{"anchor", {.anchor = 7}}),
+        PartsCase{"newton", {}}, PartsCase{"alternating", {.paper = {.solver = Solver::alternating}}},
+        PartsCase{"golden", {.paper = {.solver = Solver::golden}}},
+        PartsCase{"hot", {.energy = EnergyKind::T, .paper = {.flip_limit = FlipLimit::after}}},
+        PartsCase{"hot_alternating", {.energy = EnergyKind::dT, .paper = {.solver = Solver::alternating}}},
+        PartsCase{"hot_golden",
+                  {.energy = EnergyKind::F, .paper = {.solver = Solver::golden, .flip_limit = FlipLimit::unlimited}}},
+        PartsCase{"shifted_barrier", {.energy = EnergyKind::BHs}},
+        PartsCase{"sliding", {.boundary = BoundaryVertices::slide, .interfaces = InterfaceVertices::sliding}},
+        PartsCase{"split_boundary", {.boundary = BoundaryVertices::split}},
+        PartsCase{"before_flips", {.paper = {.flip_limit = FlipLimit::before}}},
+        PartsCase{"frozen_connectivity", {.flips = Flips::none}},
+        PartsCase{"deferred_flips", {.flips = Flips::deferred, .paper = {.inner = 2}}},
+        PartsCase{"deferred_weights",
+                  {.paper = {.solver = Solver::alternating, .weight_updates = WeightUpdates::deferred}}},
+        PartsCase{"size_band", {.size_band = 2}},
+        PartsCase{"removal", {.paper = {.removal = Removal::patch, .removal_from = 2}}},
+        PartsCase{"collapse", {.energy = EnergyKind::T, .paper = {.collapse_from = 1}}},
+        PartsCase{"hidden_removed", {.energy = EnergyKind::F, .paper = {.hidden = HiddenPolicy::remove}}},
+        PartsCase{"anchor", {.paper = {.anchor = VertexId(7)}}}),
     [](const auto& one) { return std::string(one.param.name); });
 
 TEST(Parts, OfOneMeshThatIsNoLargerAreThePlainOrder) {
@@ -121,7 +126,7 @@ TEST(Parts, OfOneMeshThatIsNoLargerAreThePlainOrder) {
 TEST(Parts, LeaveOtherOrdersAlone) {
   const Mesh input = mesh_with_regions(600, 6);
   for (const SweepOrder order : {SweepOrder::input, SweepOrder::reverse, SweepOrder::random}) {
-    const OptimizeOptions options{.order = order, .max_sweeps = 3};
+    const OptimizeOptions options{.max_sweeps = 3, .paper = {.order = order}};
     expect_same(swept(input, options, 50), swept(input, options, 10000));
   }
 }
@@ -144,7 +149,7 @@ TEST(Parts, AskTheObserverInTheCallersThreadAndStopWhenToldTo) {
     EXPECT_LT(progress.fraction, 1);
     return ++calls == 10 ? Continue::no : Continue::yes;
   };
-  const SweptMesh result = swept(input, {.executor = &crew}, kSmallPart, observer);
+  const SweptMesh result = swept(input, {}, kSmallPart, {.executor = &crew, .observer = observer});
   EXPECT_EQ(calls, 10);
   EXPECT_EQ(result.report.stopped, Stopped::cancelled);
   EXPECT_EQ(result.mesh.validate(), std::nullopt);
@@ -165,7 +170,7 @@ bool has_corner_in(const Mesh& mesh, TriangleId t, const Part& part) {
 
 /// Improves the part's vertices, three times over. Returns how many were left.
 std::size_t improve_part(WorkingCopy& work, const Settings& settings, const Part& part) {
-  const Recorder recorder(settings.options.tracer, work, 1);
+  const Recorder recorder(settings.hooks.tracer, work, 1);
   VertexLimits limits(work.mesh, settings, work.frame);
   Improver improver({work.mesh, settings, work.frame, limits, recorder});
   std::vector<VertexId> vertices, left;
@@ -190,9 +195,9 @@ struct OnePart {
 
 std::vector<OptimizeOptions> ways_to_step() {
   return {{},
-          {.solver = Solver::alternating},
-          {.energy = "T"},
-          {.energy = "F", .solver = Solver::golden, .flip_limit = FlipLimit::unlimited}};
+          {.paper = {.solver = Solver::alternating}},
+          {.energy = EnergyKind::T},
+          {.energy = EnergyKind::F, .paper = {.solver = Solver::golden, .flip_limit = FlipLimit::unlimited}}};
 }
 
 void expect_same_outside(const Mesh& before, const Mesh& after, const Part& part) {
@@ -227,9 +232,10 @@ TEST(OnePart, ChangesNothingOutside) {
 
 TEST(OnePart, UndoesAStepWhoseFlipsWouldLeaveIt) {
   constexpr std::size_t kTiny = 60;  // vertices: cascades of flips come to its rim
-  OnePart one(*random_points({.vertices = 3000, .seed = 13}), {.energy = "T", .flip_limit = FlipLimit::unlimited});
+  OnePart one(*random_points({.vertices = 3000, .seed = 13}),
+              {.energy = EnergyKind::T, .paper = {.flip_limit = FlipLimit::unlimited}});
   Mesh& mesh = one.work.mesh;
-  const Recorder recorder(one.settings.options.tracer, one.work, 1);
+  const Recorder recorder(one.settings.hooks.tracer, one.work, 1);
   VertexLimits limits(mesh, one.settings, one.work.frame);
   Improver improver({mesh, one.settings, one.work.frame, limits, recorder});
   improver.step().begin_sweep(0);

@@ -54,7 +54,8 @@ TEST(Repair, HardMeshesEndWellCenteredWithTheirBoundaryBitForBit) {
     for (int seed = 1; seed <= seeds; ++seed) {
       SCOPED_TRACE(testing::Message() << name << ", seed " << seed);
       Mesh mesh = input;
-      const auto report = optimize(mesh, {.repair = Repair::vertices, .seed = static_cast<std::uint64_t>(seed)});
+      const auto report =
+          optimize(mesh, {.repair = Repair::vertices, .paper = {.seed = static_cast<std::uint64_t>(seed)}});
       ASSERT_TRUE(report);
       EXPECT_EQ(bad_triangles(mesh), 0u);
       EXPECT_EQ(count_non_regular_edges(mesh), 0u);
@@ -82,8 +83,9 @@ TEST(Repair, IsTracedLikeAllElse) {
     std::vector<TraceEvent> events;
     Mesh mesh = input;
     OptimizeOptions options = {.repair = Repair::vertices, .max_sweeps = 300};
-    options.tracer = [&](const TraceEvent& e) { events.push_back(e); };
-    const auto report = optimize(mesh, options);
+    OptimizeHooks hooks;
+    hooks.tracer = [&](const TraceEvent& e) { events.push_back(e); };
+    const auto report = optimize(mesh, options, hooks);
     ASSERT_TRUE(report);
     EXPECT_GT(report->vertices_inserted + report->vertices_removed, 0u);
     const auto again = replay_with_vertices(input, events);
@@ -157,7 +159,7 @@ TEST(Repair, SaysWhenAnEdgeMustBeSplitBeforeAnythingHelps) {
   ASSERT_FALSE(report->notes.empty());
   EXPECT_NE(report->notes.back().find("1 edge of the boundary or of lines has to be split"), std::string::npos);
   EXPECT_NE(report->notes.back().find("from point 0 to point 1"), std::string::npos);
-  const auto after_split = optimize(split, {.boundary_vertices = BoundaryVertices::split});
+  const auto after_split = optimize(split, {.boundary = BoundaryVertices::split});
   ASSERT_TRUE(after_split);
   EXPECT_EQ(bad_triangles(split), 0u);
 }

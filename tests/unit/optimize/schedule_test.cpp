@@ -55,15 +55,15 @@ TEST(Schedule, OfAWellCenteredMeshIsHardFromTheStart) {
 TEST(Schedule, LeavesTheUsersGammaAlone) {
   const Mesh bad = lattice({.jitter = 0.45, .weight = 0});
   OptimizeOptions options;
-  options.gamma = Softening{0.25, LengthScale::absolute};
+  options.paper.gamma = Softening{0.25, LengthScale::absolute};
   const auto tries = attempts(row("BP"), options, bad);
   ASSERT_EQ(tries.size(), 1u);
   Softener softener(tries[0], row("BP"), options);
   EnergyModel model;
-  model.gamma = *options.gamma;
+  model.gamma = *options.paper.gamma;
   softener.start(bad, model);
   EXPECT_TRUE(softener.settled());
-  EXPECT_EQ(model.gamma, *options.gamma);
+  EXPECT_EQ(model.gamma, *options.paper.gamma);
 }
 
 TEST(Schedule, KeepsTheShiftedBarrierFinite) {

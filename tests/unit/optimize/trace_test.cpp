@@ -29,49 +29,49 @@ std::vector<Case> cases() {
   for (const EnergyInfo& energy : energies()) {
     if (energy.name == "BH") continue;  // starts inside its barrier only
     const std::string name(energy.name);
-    add(name, {.energy = energy.name});
-    add(name + " alternating", {.energy = energy.name, .solver = Solver::alternating});
-    add(name + " golden", {.energy = energy.name, .solver = Solver::golden, .max_sweeps = 3});
+    add(name, {.energy = energy.kind});
+    add(name + " alternating", {.energy = energy.kind, .paper = {.solver = Solver::alternating}});
+    add(name + " golden", {.energy = energy.kind, .max_sweeps = 3, .paper = {.solver = Solver::golden}});
     add(name + " deferred",
-        {.energy = energy.name, .solver = Solver::alternating, .flip_timing = FlipTiming::deferred, .inner = 2});
-    add(name + " collapses", {.energy = energy.name, .collapse_from = 1, .collapse_ratio = 0.4});
-    add(name + " patch test", {.energy = energy.name, .removal = Removal::patch, .removal_from = 2});
+        {.energy = energy.kind, .flips = Flips::deferred, .paper = {.solver = Solver::alternating, .inner = 2}});
+    add(name + " collapses", {.energy = energy.kind, .paper = {.collapse_from = 1, .collapse_ratio = 0.4}});
+    add(name + " patch test", {.energy = energy.kind, .paper = {.removal = Removal::patch, .removal_from = 2}});
   }
   for (const FlipLimit limit : {FlipLimit::unlimited, FlipLimit::before, FlipLimit::at, FlipLimit::after}) {
     const std::string number = std::to_string(static_cast<int>(limit));
-    add("F, flip limit " + number, {.energy = "F", .flip_limit = limit});
-    add("BP, flip limit " + number, {.flip_limit = limit});
+    add("F, flip limit " + number, {.energy = EnergyKind::F, .paper = {.flip_limit = limit}});
+    add("BP, flip limit " + number, {.paper = {.flip_limit = limit}});
   }
   for (const RemovalMeasure measure : {RemovalMeasure::sum, RemovalMeasure::mean, RemovalMeasure::excess}) {
     add("removal measure " + std::to_string(static_cast<int>(measure)),
-        {.removal = Removal::patch, .removal_measure = measure, .removal_margin = 0, .removal_from = 0});
+        {.paper = {.removal = Removal::patch, .removal_measure = measure, .removal_margin = 0, .removal_from = 0}});
   }
   for (const SweepOrder order : {SweepOrder::input, SweepOrder::reverse, SweepOrder::random}) {
     add("order " + std::to_string(static_cast<int>(order)),
-        {.energy = "T", .order = order, .collapse_from = 2, .collapse_ratio = 0.3});
+        {.energy = EnergyKind::T, .paper = {.order = order, .collapse_from = 2, .collapse_ratio = 0.3}});
   }
   for (const HiddenPolicy policy : {HiddenPolicy::undo, HiddenPolicy::remove, HiddenPolicy::keep}) {
-    OptimizeOptions o{.energy = "F", .solver = Solver::alternating, .hidden = policy};
-    o.weight_updates = WeightUpdates::deferred;
+    OptimizeOptions o{.energy = EnergyKind::F, .paper = {.solver = Solver::alternating, .hidden = policy}};
+    o.paper.weight_updates = WeightUpdates::deferred;
     add("hidden " + std::to_string(static_cast<int>(policy)) + ", deferred weights", o);
-    o.flip_timing = FlipTiming::deferred;
-    o.inner = 3;
+    o.flips = Flips::deferred;
+    o.paper.inner = 3;
     add("hidden " + std::to_string(static_cast<int>(policy)) + ", all deferred", o);
   }
   add("weights only", {.unknowns = Unknowns::weights});
-  add("positions only", {.energy = "dT", .unknowns = Unknowns::positions});
-  add("anchor", {.anchor = 5});
-  add("frozen", {.flips = false});
+  add("positions only", {.energy = EnergyKind::dT, .unknowns = Unknowns::positions});
+  add("anchor", {.paper = {.anchor = VertexId(5)}});
+  add("frozen", {.flips = Flips::none});
   add("two attempts", {.max_sweeps = 120});
   OptimizeOptions paper = paper_method();
   paper.max_sweeps = 6;
-  paper.inner = 2;
-  for (const char* energy : {"F", "T", "dT", "BP", "BHs"}) {
-    paper.energy = energy;
-    add(std::string("paper, ") + energy, paper);
-    paper.inversion = Inversion::refuse;
-    add(std::string("paper without inversion, ") + energy, paper);
-    paper.inversion = Inversion::allow;
+  paper.paper.inner = 2;
+  for (const std::string energy : {"F", "T", "dT", "BP", "BHs"}) {
+    paper.energy = find_energy(energy)->kind;
+    add("paper, " + energy, paper);
+    paper.paper.inversion = Inversion::refuse;
+    add("paper without inversion, " + energy, paper);
+    paper.paper.inversion = Inversion::allow;
   }
   for (Case& c : all) c.options.max_sweeps = c.title == "two attempts" ? 120 : c.options.max_sweeps;
   return all;
@@ -102,9 +102,10 @@ TEST(Trace, OfEveryRunReplaysToTheSameMesh) {
       SCOPED_TRACE(mesh_title + ": " + title);
       std::vector<TraceEvent> events;
       OptimizeOptions options = given;
-      options.tracer = [&](const TraceEvent& e) { events.push_back(e); };
+      OptimizeHooks hooks;
+      hooks.tracer = [&](const TraceEvent& e) { events.push_back(e); };
       Mesh mesh = input;
-      const auto report = optimize(mesh, options);
+      const auto report = optimize(mesh, options, hooks);
       if (!report) {
         EXPECT_EQ(mesh, input);
         continue;
@@ -131,9 +132,9 @@ TEST(Trace, OfEveryRunReplaysToTheSameMesh) {
 TEST(Trace, ChangesNothing) {
   for (const auto& [title, options] : cases()) {
     Mesh traced = *random_points({.vertices = 80}), silent = traced;
-    OptimizeOptions with_tracer = options;
-    with_tracer.tracer = [](const TraceEvent&) {};
-    const auto a = optimize(traced, with_tracer), b = optimize(silent, options);
+    OptimizeHooks hooks;
+    hooks.tracer = [](const TraceEvent&) {};
+    const auto a = optimize(traced, options, hooks), b = optimize(silent, options, hooks);
     ASSERT_EQ(a.has_value(), b.has_value()) << title;
     EXPECT_EQ(traced, silent) << title;
   }
@@ -144,12 +145,13 @@ TEST(Trace, SweepsNeverGoDown) {
   int last = 0;
   std::size_t events = 0;
   OptimizeOptions options;
-  options.tracer = [&](const TraceEvent& e) {
+  OptimizeHooks hooks;
+  hooks.tracer = [&](const TraceEvent& e) {
     EXPECT_GE(e.sweep, last);
     last = e.sweep;
     ++events;
   };
-  ASSERT_TRUE(optimize(mesh, options));
+  ASSERT_TRUE(optimize(mesh, options, hooks));
   EXPECT_GT(events, 100u);
 }
 

@@ -58,7 +58,7 @@ TEST(SizeBand, IsKeptByEverySolver) {
   const Mesh mesh = *random_points({200, 5, {}});
   for (const Solver solver : {Solver::newton, Solver::golden, Solver::alternating}) {
     OptimizeOptions options = in_band(1.3);
-    options.solver = solver;
+    options.paper.solver = solver;
     options.max_sweeps = 20;
     const Optimized result = optimized(mesh, options);
     EXPECT_GT(result.report.size.after.band(), 1);
@@ -68,7 +68,7 @@ TEST(SizeBand, IsKeptByEverySolver) {
 
 TEST(SizeBand, ThatNeverBindsChangesNoByteOfSweepsVertexByVertex) {
   const Mesh mesh = *random_points({300, 3, {}});
-  const Optimized without = optimized(mesh, {.newton_passes = false});  // a band goes without them
+  const Optimized without = optimized(mesh, {.paper = {.newton_passes = false}});  // a band goes without them
   ASSERT_NE(without.mesh, mesh);
   for (const double band : {1e6, std::numeric_limits<double>::infinity()}) {
     const Optimized with = optimized(mesh, in_band(band));
