@@ -29,7 +29,7 @@ struct Axes {
   double width = 0, height = 0;
   Ticks x_ticks, y_ticks;
 
-  /// Where a point of the plot is on the page; not finite when y ≤ 0 on a logarithmic axis.
+  /// The place on the page of a point of the plot; not finite when y ≤ 0 on a logarithmic axis.
   [[nodiscard]] Vec2 pixel(Vec2 p) const;
   /// Title, frame, ticks and labels.
   [[nodiscard]] std::string svg() const;

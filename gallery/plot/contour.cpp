@@ -8,7 +8,7 @@
 namespace temper {
 namespace {
 
-// A point of a contour or of the border of the domain, named by what it lies on.
+// A point of a contour or of the boundary of the domain, named by what it lies on.
 struct Node {
   std::uint64_t name = 0;
   Vec2 at;
@@ -19,8 +19,8 @@ struct Link {
 };
 
 struct Links {
-  std::vector<Link> level;   // along f = level
-  std::vector<Link> border;  // along the border of the domain, where f ≥ level
+  std::vector<Link> level;     // along f = level
+  std::vector<Link> boundary;  // along the boundary of the domain, where f ≥ level
 };
 
 struct Corner {
@@ -84,7 +84,7 @@ class Marcher {
   }
 
   // Is there domain on the other side of a → b, where this cell is on the left?
-  [[nodiscard]] bool is_border(const Corner& a, const Corner& b) const {
+  [[nodiscard]] bool is_boundary(const Corner& a, const Corner& b) const {
     if (a.i != b.i && a.j != b.j) return true;
     const std::size_t i = std::min(a.i, b.i), j = std::min(a.j, b.j);
     if (a.j == b.j) return !(b.i > a.i ? in_domain(i, j - 1) : in_domain(i, j));
@@ -104,9 +104,9 @@ class Marcher {
         const Node at = crossing(a, b);
         if (n_exits + n_entries == 0) exit_first = from;
         (from ? exits[n_exits++] : entries[n_entries++]) = at;
-        if (is_border(a, b)) links_.border.push_back(from ? Link{corner_node(a), at} : Link{at, corner_node(b)});
-      } else if (from && is_border(a, b)) {
-        links_.border.push_back({corner_node(a), corner_node(b)});
+        if (is_boundary(a, b)) links_.boundary.push_back(from ? Link{corner_node(a), at} : Link{at, corner_node(b)});
+      } else if (from && is_boundary(a, b)) {
+        links_.boundary.push_back({corner_node(a), corner_node(b)});
       }
     }
     if (n_exits == 1) links_.level.push_back({exits[0], entries[0]});
@@ -190,8 +190,8 @@ std::vector<std::vector<Vec2>> contour_lines(const SampleGrid& grid, double leve
 
 std::vector<std::vector<Vec2>> superlevel_loops(const SampleGrid& grid, double level) {
   Links links = Marcher(grid, level).march();
-  links.border.insert(links.border.end(), links.level.begin(), links.level.end());
-  std::vector<std::vector<Vec2>> loops = Joiner(std::move(links.border)).join();
+  links.boundary.insert(links.boundary.end(), links.level.begin(), links.level.end());
+  std::vector<std::vector<Vec2>> loops = Joiner(std::move(links.boundary)).join();
   for (auto& loop : loops) loop.pop_back();
   return loops;
 }

@@ -3,7 +3,7 @@
 //     3-----2     A cell whose four corners are finite is a square: a line cuts a side where the linear
 //     | \ f<L     interpolant has the level; when it cuts all four (a saddle) the value at the saddle point of the
 //     |f≥L \ |    bilinear interpolant says which corners are joined. A cell with three finite corners is a triangle,
-//     0-----1     so that a slanted border of the domain is no staircase. Others are outside.
+//     0-----1     so that a slanted boundary of the domain is no staircase. Others are outside.
 //
 // Points are joined by the name of the grid edge that they lie on, never by coordinates, so nothing depends on
 // rounding.
@@ -24,8 +24,8 @@ struct SampleGrid {
   [[nodiscard]] double at(std::size_t i, std::size_t j) const { return values[j * nx + i]; }
 };
 
-/// Where f = level: open polylines that end at the border of the domain, and loops, which repeat their first point.
-/// f ≥ level is on the left. In sample units. O(cells).
+/// The lines where f = level: open polylines that end at the boundary of the domain, and loops, which repeat their
+/// first point. f ≥ level is on the left. In sample units. O(cells).
 [[nodiscard]] std::vector<std::vector<Vec2>> contour_lines(const SampleGrid& grid, double level);
 
 /// The part of the domain where f ≥ level, as loops with the part on their left (each without its first point

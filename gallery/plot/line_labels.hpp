@@ -1,4 +1,4 @@
-// Where along a contour line its level is written: where the line is straight and nothing else is near.
+// The place along a contour line where its level is written: where the line is straight and nothing else is near.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct LabelPlace {
   double angle = 0;  ///< degrees, clockwise, in (−90, 90]: text is never upside down
 };
 
-/// What is drawn already, in squares of a few pixels. Owners are small numbers: one a level.
+/// The places that are drawn on already, in squares of a few pixels. Owners are small numbers: one a level.
 class Occupancy {
  public:
   explicit Occupancy(const Box& area);

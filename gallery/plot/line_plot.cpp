@@ -127,7 +127,7 @@ PlotRange x_range(const LinePlot& plot) {
   return drawable(extent.range(), false);
 }
 
-// What the points within the range of x need, and a little more.
+// The range of y that the points within the range of x need, and a little more.
 PlotRange y_range(const LinePlot& plot, const PlotRange& x) {
   if (plot.y_range) return drawable(*plot.y_range, plot.log_y);
   Extent extent;

@@ -1,4 +1,4 @@
-// Where an axis has its ticks: multiples of 1, 2 or 5 times a power of ten, or the powers themselves on a
+// The ticks of an axis: multiples of 1, 2 or 5 times a power of ten, or the powers themselves on a
 // logarithmic axis.
 #pragma once
 
@@ -21,7 +21,7 @@ struct Ticks {
 
 /// The least of 1, 2, 5 × 10^k that cuts the length into at most `most` parts. Precondition: length > 0, most > 0.
 [[nodiscard]] double nice_step(double length, double most);
-/// Every multiple of a nice step in the range, at most `most` + 1. Precondition: range.low < range.high, finite.
+/// The multiples of a nice step in the range, at most `most` + 1. Precondition: range.low < range.high, finite.
 [[nodiscard]] Ticks linear_ticks(const PlotRange& range, double most);
 /// Powers of ten, at most about `most`; when there are few, 2 and 5 times them too. Precondition: 0 < low < high.
 [[nodiscard]] Ticks log_ticks(const PlotRange& range, double most);

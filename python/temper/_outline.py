@@ -38,7 +38,7 @@ class Outline:
     regions: Sequence[tuple[float, float, int, float | None]] = ()
     """x, y, region number, and the edge length wanted there, or None: of what can be reached from (x, y)."""
     parts: Sequence[tuple[int, Sequence[int], float | None]] = ()
-    """Region number, segments of its border, edge length or None. When there are any they alone say what is inside."""
+    """Region number, segments of its boundary, edge length or None. When there are any they alone say what is inside."""
     _names: Any = dataclasses.field(default=None, repr=False)
 
     def _plain(self) -> dict[str, Any]:

@@ -36,7 +36,7 @@ Box ordered(const Box& box) {
           {std::max(box.low.x, box.high.x), std::max(box.low.y, box.high.y)}};
 }
 
-// Weight circles at the border of the domain are shown whole, unless they would shrink the mesh too much.
+// Weight circles at the boundary of the domain are shown whole, unless they would shrink the mesh too much.
 double margin(std::span<const Mesh* const> meshes, const DrawOptions& options, double side) {
   double radius = 0;
   for (const Mesh* mesh : meshes) {

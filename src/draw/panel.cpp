@@ -210,7 +210,7 @@ Panel draw_panel(const Mesh& mesh, const PageFrame& frame, const DrawOptions& op
   const std::string size = "width=\"" + short_number(frame.width) + "\" height=\"" + short_number(frame.height) + "\"";
   panel.svg = "<clipPath id=\"" + id + "\"><rect " + size + "/></clipPath>\n<g clip-path=\"url(#" + id +
               ")\">\n<g transform=\"scale(" + short_number(frame.unit) + ")\" stroke-linejoin=\"round\">\n" +
-              panel.svg + "</g>\n</g>\n<rect " + size + " fill=\"none\" stroke=\"" + Palette::border + "\"/>\n";
+              panel.svg + "</g>\n</g>\n<rect " + size + " fill=\"none\" stroke=\"" + Palette::frame + "\"/>\n";
   return panel;
 }
 

@@ -10,7 +10,7 @@
 
 namespace temper {
 
-/// What a panel shows, for its caption and the legend.
+/// A panel of a picture, with what its caption and the legend need to know.
 struct Panel {
   std::string svg;            ///< a <g> element, its origin the upper left corner of the panel
   std::size_t triangles = 0;  ///< of the whole mesh
@@ -33,7 +33,7 @@ struct Palette {
   static constexpr const char* positive = "#00845f";
   static constexpr const char* negative = "#c8320a";
   static constexpr const char* ring = "#b0389a";
-  static constexpr const char* border = "#c8c8c8";
+  static constexpr const char* frame = "#c8c8c8";
 };
 
 }  // namespace temper

@@ -30,7 +30,7 @@ void for_each_piece(std::string_view label, Piece&& piece) {
   if (from < label.size()) piece(label.substr(from), '\0');
 }
 
-// Of the font size.
+// Relative to the font size.
 double letter_width(char c) {
   if (std::string_view("iIjl.,:;'|! ").find(c) != std::string_view::npos) return 0.3;
   if (std::string_view("ftr()[]-/\"").find(c) != std::string_view::npos) return 0.36;

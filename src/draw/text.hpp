@@ -22,7 +22,7 @@ inline constexpr const char* kPlotInk = "#222222";
 
 /// A number for people: four significant digits at most, a true minus sign, powers of ten raised (markup).
 [[nodiscard]] std::string number_label(double value);
-/// With this many digits after the point.
+/// A number with this many digits after the point.
 [[nodiscard]] std::string fixed_label(double value, int decimals);
 
 struct TextLook {

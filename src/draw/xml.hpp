@@ -10,7 +10,7 @@ namespace temper {
 /// replaced by U+FFFD, so that any title makes a valid document.
 [[nodiscard]] std::string xml_text(std::string_view text);
 
-/// At most three digits after the point, without trailing zeros, never in scientific form.
+/// A number with at most three digits after the point, without trailing zeros, never in scientific form.
 [[nodiscard]] std::string short_number(double value);
 
 }  // namespace temper

@@ -1,9 +1,9 @@
 // GeoJSON (RFC 7946): polygons become parts, lines stay inside as constrained edges, points as fixed vertices.
 //
-// Equal positions are one point, so polygons that share a border share its edges. Of a feature's properties three mean
-// something here: "region" (a number; without it features count from 1 when there are several), "size" (edge length
-// wanted inside) and "tag" (of the edges on its lines). Positions are longitude and latitude unless a crs member, which
-// older files have, names another system.
+// Equal positions are one point, so polygons that share a piece of boundary share its edges. Of a feature's properties
+// three mean something here: "region" (a number; without it features count from 1 when there are several), "size" (edge
+// length wanted inside) and "tag" (of the edges on its lines). Positions are longitude and latitude unless a crs
+// member, which older files have, names another system.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +25,7 @@ struct PlaceHash {
   }
 };
 
-/// What the feature around a geometry says.
+/// The properties of the feature around a geometry.
 struct Feature {
   std::string name = "the geometry";
   std::optional<std::int32_t> region, tag;
@@ -159,7 +159,7 @@ class GeoJsonReader {
     return value.items;
   }
 
-  /// All polygons of one geometry are one part: where they touch there is no border between regions.
+  /// All polygons of one geometry are one part: where they touch there is no interface between regions.
   void polygons(const std::vector<const JsonValue*>& all, const Feature& about) {
     OutlinePart part;
     part.size = about.size;

@@ -2,7 +2,7 @@
 //
 //   POINT=n, then: x;y;tag        coordinates of an ELLIPSOID-MESH are longitude and latitude in radians
 //   EDGE2=n, then: a;b;tag        points from 0
-//   BOUND=n, then: part;edge;20   an edge (20: an EDGE2, from 0) of the border of a part
+//   BOUND=n, then: part;edge;20   an edge (20: an EDGE2, from 0) of the boundary of a part
 //
 // Without BOUND nested loops take turns. Other sections are passed over.
 #include <algorithm>
@@ -147,7 +147,7 @@ class JigsawReader {
 
   void bound() {
     constexpr std::int32_t kEdge2 = 20;  // JIGSAW_EDGE2_TAG
-    const auto [part, edge, type] = numbers<std::int32_t, 3>("a border part;edge;type");
+    const auto [part, edge, type] = numbers<std::int32_t, 3>("a line part;edge;type of BOUND");
     if (type != kEdge2) {
       fail_here(ErrorCode::unsupported, text("bounds a part by elements of type ", type, "; expected 20, edges"));
     }

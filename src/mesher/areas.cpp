@@ -111,7 +111,7 @@ class AreaFinder {
   }
   [[nodiscard]] std::uint32_t component(HalfedgeId h) const { return component_[Mesh::triangle(h)]; }
 
-  /// How many edges lie between each component and the outside of the hull, at least.
+  /// The depth of each component: the least number of edges between it and the outside of the hull.
   [[nodiscard]] std::vector<std::uint32_t> depths() const {
     std::vector<std::uint32_t> depth(n_components_, kNone), here, beyond;
     for (const auto& [c, piece] : from_outside_) (piece == kNone ? here : beyond).push_back(c);
@@ -284,10 +284,11 @@ Expected<Areas> find_areas(const Outline& outline, const std::vector<OutlineEdge
   return AreaFinder(outline, edges, options).run();
 }
 
-Expected<Triangulated> triangulate(const Border& border, const std::vector<Vec2>& further, const Areas& areas) {
-  std::vector<Vec2> points = border.points;
+Expected<Triangulated> triangulate(const DividedOutline& divided, const std::vector<Vec2>& further,
+                                   const Areas& areas) {
+  std::vector<Vec2> points = divided.points;
   points.insert(points.end(), further.begin(), further.end());
-  Expected<Hull> hull = triangulate_hull(std::move(points), border.pieces);
+  Expected<Hull> hull = triangulate_hull(std::move(points), divided.pieces);
   if (!hull) return hull.error();
   Triangulated result{std::move(hull->mesh), {}, std::move(hull->piece)};
   const Mesh& mesh = result.mesh;
@@ -296,7 +297,7 @@ Expected<Triangulated> triangulate(const Border& border, const std::vector<Vec2>
   std::vector<TriangleId> stack;
   for (const HalfedgeId h : mesh.halfedges()) {
     if (result.piece[h] == kNone) continue;
-    const Piece& piece = border.pieces[result.piece[h]];
+    const Piece& piece = divided.pieces[result.piece[h]];
     const bool along = mesh.origin(h).index == piece.ends[0];
     const TriangleId t = Mesh::triangle(h);
     if (known[t] == 0) stack.push_back(t);

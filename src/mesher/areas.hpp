@@ -1,4 +1,4 @@
-// What is inside: the areas that the edges of the outline enclose, and on which sides of each edge they lie.
+// The areas inside the outline: those that its edges enclose, and the sides of each edge on which they lie.
 //
 // Found once, on the triangulation of the outline itself; a triangulation of the divided outline, with whatever points
 // inside, then gets its areas from its pieces.
@@ -7,14 +7,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesher/border.hpp"
+#include "mesher/divided_outline.hpp"
 #include "temper/mesher.hpp"
 
 namespace temper::mesher {
 
 inline constexpr std::int32_t kOutside = -1;
 
-/// What is connected without crossing an edge, and inside.
+/// An area: a part of the inside that is connected without crossing an edge.
 struct Area {
   std::int32_t region = 0;
   double size = 0;  ///< edge length wanted
@@ -36,8 +36,8 @@ struct Triangulated {
   IdVector<TriangleId, std::int32_t> area;    ///< or kOutside
   IdVector<HalfedgeId, std::uint32_t> piece;  ///< or kNoPiece
 };
-/// Further points come after those of the border.
-[[nodiscard]] Expected<Triangulated> triangulate(const Border& border, const std::vector<Vec2>& further,
+/// Further points come after those of the divided outline.
+[[nodiscard]] Expected<Triangulated> triangulate(const DividedOutline& divided, const std::vector<Vec2>& further,
                                                  const Areas& areas);
 
 }  // namespace temper::mesher

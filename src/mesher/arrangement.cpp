@@ -215,7 +215,7 @@ class Arranger {
     return merged;
   }
 
-  /// What is there an odd number of times, once, sorted.
+  /// Keeps once each value that is there an odd number of times, sorted.
   static void keep_odd(std::vector<std::int32_t>& values) {
     std::sort(values.begin(), values.end());
     std::size_t kept = 0;

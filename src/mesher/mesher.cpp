@@ -115,20 +115,20 @@ class Mesher {
   [[nodiscard]] GradedSize size() const { return {sources_, options_.size, options_.grade}; }
 
   /// Divides the outline, finer where that shows pieces that face each other, until nothing changes.
-  Expected<Border> resolve() {
+  Expected<DividedOutline> resolve() {
     constexpr int kRounds = 20;  // each finds what the last one's longer pieces hid; three or four do nearly always
-    Border border = divide(outline_.points, edges_, size(), corners_);
-    if (border.pieces.size() > options_.most_triangles) return too_many();
+    DividedOutline divided = divide(outline_.points, edges_, size(), corners_);
+    if (divided.pieces.size() > options_.most_triangles) return too_many();
     for (int round = 0; round < kRounds; ++round) {
-      const Expected<Triangulated> triangulated = triangulate(border, {}, areas_);
+      const Expected<Triangulated> triangulated = triangulate(divided, {}, areas_);
       if (!triangulated) return too_fine(triangulated.error());
-      const std::vector<SizeSource> narrow = narrow_places(border, *triangulated, size());
+      const std::vector<SizeSource> narrow = narrow_places(divided, *triangulated, size());
       if (narrow.empty()) break;
       sources_.insert(sources_.end(), narrow.begin(), narrow.end());
-      border = divide(outline_.points, edges_, size(), corners_);
-      if (border.pieces.size() > options_.most_triangles) return too_many();
+      divided = divide(outline_.points, edges_, size(), corners_);
+      if (divided.pieces.size() > options_.most_triangles) return too_many();
     }
-    return border;
+    return divided;
   }
 
   /// Division points that meet or cross others: the outline is narrower there than its coordinates can say.
@@ -142,17 +142,17 @@ class Mesher {
                    std::to_string(options_.most_triangles) + " triangles");
   }
 
-  Expected<OutlineMesh> make(const Border& border) {
+  Expected<OutlineMesh> make(const DividedOutline& divided) {
     const std::size_t most_points = options_.most_triangles / 2;  // two triangles a vertex
-    const std::vector<Vec2> placed = place_points(border, areas_, size(), most_points);
+    const std::vector<Vec2> placed = place_points(divided, areas_, size(), most_points);
     if (placed.size() >= most_points) return too_many();
-    const Expected<Triangulated> triangulated = triangulate(border, placed, areas_);
+    const Expected<Triangulated> triangulated = triangulate(divided, placed, areas_);
     if (!triangulated) return too_fine(triangulated.error());
-    return build(border, placed, *triangulated);
+    return build(divided, placed, *triangulated);
   }
 
-  Expected<OutlineMesh> build(const Border& border, const std::vector<Vec2>& placed, const Triangulated& all) {
-    const std::size_t n = border.points.size() + placed.size();
+  Expected<OutlineMesh> build(const DividedOutline& divided, const std::vector<Vec2>& placed, const Triangulated& all) {
+    const std::size_t n = divided.points.size() + placed.size();
     std::vector<std::int32_t> vertex(n, -1);
     for (const TriangleId t : all.mesh.triangles()) {
       if (all.area[t] == kOutside) continue;
@@ -163,7 +163,7 @@ class Mesher {
     for (std::size_t i = 0; i < n; ++i) {
       if (vertex[i] < 0) continue;
       vertex[i] = static_cast<std::int32_t>(points.size());
-      points.push_back(i < border.points.size() ? border.points[i] : placed[i - border.points.size()]);
+      points.push_back(i < divided.points.size() ? divided.points[i] : placed[i - divided.points.size()]);
       if (i < outline_.points.size()) outline_points.push_back(static_cast<std::uint32_t>(i));
     }
     std::vector<std::array<std::int32_t, 3>> triangles;
@@ -176,7 +176,7 @@ class Mesher {
     }
     OutlineMesh result;
     std::vector<std::array<std::int32_t, 2>> constrained;
-    for (const Piece& piece : border.pieces) {
+    for (const Piece& piece : divided.pieces) {
       const auto [left, right] = areas_.sides[piece.edge];
       if (left == kOutside && right == kOutside) continue;
       const std::int32_t a = vertex[piece.ends[0]], b = vertex[piece.ends[1]];
@@ -218,9 +218,9 @@ class Mesher {
   }
 
   Expected<OutlineMesh> attempt() {
-    const Expected<Border> border = resolve();
-    if (!border) return border.error();
-    Expected<OutlineMesh> made = make(*border);
+    const Expected<DividedOutline> divided = resolve();
+    if (!divided) return divided.error();
+    Expected<OutlineMesh> made = make(*divided);
     if (!made) return made;
     made->delaunay_bad = made->bad = bad_triangles(made->mesh).size();
     if (!options_.optimize) return made;

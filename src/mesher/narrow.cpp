@@ -1,5 +1,6 @@
-// In the constrained Delaunay triangulation of the border alone every edge inside spans a gap, and every triangle on a
-// piece measures the distance to what is across. Neighbours along the border are no gap, unless their corner is sharp.
+// In the constrained Delaunay triangulation of the divided outline alone every edge inside spans a gap, and every
+// triangle on a piece measures the distance to what is across. Neighbours along the outline are no gap, unless their
+// corner is sharp.
 #include "mesher/narrow.hpp"
 
 #include <algorithm>
@@ -10,15 +11,15 @@ namespace {
 
 // Two rows of equilateral triangles across a gap have edges of 0.577 of it.
 constexpr double kOfGap = 0.6;
-// What is less than this part of the present size is new.
+// A size that is less than this part of the present one is new.
 constexpr double kLess = 0.9;
 
 class Narrow {
  public:
-  Narrow(const Border& border, const Triangulated& triangulated, const GradedSize& size)
-      : border_(border), mesh_(triangulated.mesh), triangulated_(triangulated), size_(size) {
-    around_.resize(border.points.size());
-    for (const Piece& p : border.pieces) {
+  Narrow(const DividedOutline& divided, const Triangulated& triangulated, const GradedSize& size)
+      : divided_(divided), mesh_(triangulated.mesh), triangulated_(triangulated), size_(size) {
+    around_.resize(divided.points.size());
+    for (const Piece& p : divided.pieces) {
       around_[p.ends[0]].push_back(p.ends[1]);
       around_[p.ends[1]].push_back(p.ends[0]);
     }
@@ -37,7 +38,7 @@ class Narrow {
   }
 
  private:
-  [[nodiscard]] Vec2 at(VertexId v) const { return border_.points[v.index]; }
+  [[nodiscard]] Vec2 at(VertexId v) const { return divided_.points[v.index]; }
   [[nodiscard]] bool isolated(VertexId v) const { return around_[v.index].empty(); }
 
   void add(Vec2 p, double size) {
@@ -49,7 +50,7 @@ class Narrow {
     for (const std::uint32_t c : around_[a.index]) {
       for (const std::uint32_t d : around_[b.index]) {
         if (c != d) continue;
-        const Vec2 to_a = at(a) - border_.points[c], to_b = at(b) - border_.points[c];
+        const Vec2 to_a = at(a) - divided_.points[c], to_b = at(b) - divided_.points[c];
         if (dot(to_a, to_b) <= kSharpCosine * length(to_a) * length(to_b)) return true;
       }
     }
@@ -82,7 +83,7 @@ class Narrow {
     add(at(c), size);
   }
 
-  const Border& border_;
+  const DividedOutline& divided_;
   const Mesh& mesh_;
   const Triangulated& triangulated_;
   const GradedSize& size_;
@@ -92,8 +93,9 @@ class Narrow {
 
 }  // namespace
 
-std::vector<SizeSource> narrow_places(const Border& border, const Triangulated& triangulated, const GradedSize& size) {
-  return Narrow(border, triangulated, size).run();
+std::vector<SizeSource> narrow_places(const DividedOutline& divided, const Triangulated& triangulated,
+                                      const GradedSize& size) {
+  return Narrow(divided, triangulated, size).run();
 }
 
 }  // namespace temper::mesher

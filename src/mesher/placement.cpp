@@ -13,7 +13,7 @@
 namespace temper::mesher {
 namespace {
 
-// Parts of the local size. Neighbours in a perfect row are 1 apart, the first row 0.87 from the border; what is taken
+// Parts of the local size. Neighbours in a perfect row are 1 apart, the first row 0.87 from the outline; what is taken
 // much nearer than that makes the short edges that a denser packing needs, what is refused leaves holes.
 constexpr double kApart = 0.72;
 constexpr double kClear = 0.5;
@@ -28,17 +28,17 @@ struct Front {
 
 class Placement {
  public:
-  Placement(const Border& border, const Areas& areas, const GradedSize& size)
-      : border_(border), areas_(areas), size_(size) {
+  Placement(const DividedOutline& divided, const Areas& areas, const GradedSize& size)
+      : divided_(divided), areas_(areas), size_(size) {
     std::vector<Box> boxes;
-    boxes.reserve(border.pieces.size());
-    for (const Piece& p : border.pieces) boxes.push_back(box_of(border.points[p.ends[0]], border.points[p.ends[1]]));
+    boxes.reserve(divided.pieces.size());
+    for (const Piece& p : divided.pieces) boxes.push_back(box_of(divided.points[p.ends[0]], divided.points[p.ends[1]]));
     tree_ = BoxTree(boxes);
-    for (const Vec2 p : border.points) grid_.add(p, size(p));
+    for (const Vec2 p : divided.points) grid_.add(p, size(p));
   }
 
   std::vector<Vec2> run(std::size_t most) {
-    for (std::size_t i = 0; i < border_.pieces.size(); ++i) start_from(i);
+    for (std::size_t i = 0; i < divided_.pieces.size(); ++i) start_from(i);
     for (std::size_t i = 0; i < front_.size() && front_.size() < most; ++i) {
       const Front from = front_[i];  // a copy: front_ grows
       const double here = size_at(from.at, from.area);
@@ -65,8 +65,8 @@ class Placement {
 
   /// The apex of the triangle on a piece, on each side that is inside.
   void start_from(std::size_t i) {
-    const Piece& piece = border_.pieces[i];
-    const Vec2 a = border_.points[piece.ends[0]], b = border_.points[piece.ends[1]];
+    const Piece& piece = divided_.pieces[i];
+    const Vec2 a = divided_.points[piece.ends[0]], b = divided_.points[piece.ends[1]];
     const Vec2 middle = 0.5 * (a + b), normal = (1 / length(b - a)) * Vec2{a.y - b.y, b.x - a.x};
     for (const int side : {0, 1}) {
       const std::int32_t area = areas_.sides[piece.edge][static_cast<std::size_t>(side)];
@@ -92,7 +92,7 @@ class Placement {
   [[nodiscard]] bool is_clear(Vec2 p, Vec2 from, double distance, std::size_t own_piece) const {
     const Box box = united(Box{p, p}.grown(distance), box_of(p, from));
     return tree_.visit(box, [&](std::size_t i) {
-      const Vec2 a = border_.points[border_.pieces[i].ends[0]], b = border_.points[border_.pieces[i].ends[1]];
+      const Vec2 a = divided_.points[divided_.pieces[i].ends[0]], b = divided_.points[divided_.pieces[i].ends[1]];
       const double along = std::clamp(dot(p - a, b - a) / squared_length(b - a), 0.0, 1.0);
       if (squared_length(p - a - along * (b - a)) < distance * distance) return false;
       return i == own_piece ||
@@ -100,7 +100,7 @@ class Placement {
     });
   }
 
-  const Border& border_;
+  const DividedOutline& divided_;
   const Areas& areas_;
   const GradedSize& size_;
   BoxTree tree_;
@@ -110,8 +110,9 @@ class Placement {
 
 }  // namespace
 
-std::vector<Vec2> place_points(const Border& border, const Areas& areas, const GradedSize& size, std::size_t most) {
-  return Placement(border, areas, size).run(most);
+std::vector<Vec2> place_points(const DividedOutline& divided, const Areas& areas, const GradedSize& size,
+                               std::size_t most) {
+  return Placement(divided, areas, size).run(most);
 }
 
 }  // namespace temper::mesher

@@ -1,4 +1,4 @@
-// Points inside, about one size apart: a front that starts from the border and moves inwards row by row.
+// Points inside, about one size apart: a front that starts from the outline and moves inwards row by row.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace temper::mesher {
 /// Places points. Each candidate is one size away from the point or piece it comes from; it is taken when nothing is
 /// too near and no piece lies between. The order is that of the pieces, then of the points: deterministic. Ends when
 /// there are `most`. O(n log n).
-[[nodiscard]] std::vector<Vec2> place_points(const Border& border, const Areas& areas, const GradedSize& size,
+[[nodiscard]] std::vector<Vec2> place_points(const DividedOutline& divided, const Areas& areas, const GradedSize& size,
                                              std::size_t most);
 
 }  // namespace temper::mesher

@@ -1,4 +1,4 @@
-// The outline divided: its vertices, its short edges, and on which side of each something is inside.
+// The outline divided into pieces that are small enough to be edges of the mesh.
 #pragma once
 
 #include <array>
@@ -16,22 +16,23 @@ inline constexpr double kSharpCosine = 0.51;
 
 /// A piece of an edge of the outline, small enough to be an edge of the mesh.
 struct Piece {
-  std::array<std::uint32_t, 2> ends = {};  ///< of Border::points
+  std::array<std::uint32_t, 2> ends = {};  ///< of DividedOutline::points
   std::uint32_t edge = 0;                  ///< of the arrangement
 };
 
-struct Border {
+/// The outline after the division: its points and those of the division, and the pieces between them.
+struct DividedOutline {
   std::vector<Vec2> points;  ///< those of the outline first, with their numbers
   std::vector<Piece> pieces;
 };
 
-/// How far from each point of the outline its edges have their first division: positive at sharp corners only, 0
-/// elsewhere. All edges of one corner are cut at one distance, so that the triangle in the corner is isosceles.
+/// The distance from each point of the outline at which its edges have their first division: positive at sharp corners
+/// only, 0 elsewhere. All edges of one corner are cut at one distance, so that the triangle in the corner is isosceles.
 using CornerRadii = std::vector<double>;
 
 /// Divides every edge so that its pieces follow the size.
-[[nodiscard]] Border divide(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges,
-                            const GradedSize& size, const CornerRadii& corners);
+[[nodiscard]] DividedOutline divide(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges,
+                                    const GradedSize& size, const CornerRadii& corners);
 
 /// About how many pieces that makes.
 [[nodiscard]] double count_pieces(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges, double size);

@@ -1,5 +1,5 @@
 // Division of edges by the integral of 1/size, and how far sharp corners reach.
-#include "mesher/border.hpp"
+#include "mesher/divided_outline.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -116,9 +116,9 @@ CornerRadii corner_radii(const std::vector<Vec2>& points, const std::vector<Outl
   return radii;
 }
 
-Border divide(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges, const GradedSize& size,
-              const CornerRadii& corners) {
-  Border border{points, {}};
+DividedOutline divide(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges, const GradedSize& size,
+                      const CornerRadii& corners) {
+  DividedOutline divided{points, {}};
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto a = static_cast<std::uint32_t>(edges[e].ends[0]), b = static_cast<std::uint32_t>(edges[e].ends[1]);
     const double whole = length(points[b] - points[a]);
@@ -132,14 +132,14 @@ Border divide(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& e
     if (last < whole) at.push_back(last);
     std::uint32_t from = a;
     for (const double t : at) {
-      const auto p = static_cast<std::uint32_t>(border.points.size());
-      border.points.push_back(points[a] + t * direction);
-      border.pieces.push_back({{from, p}, static_cast<std::uint32_t>(e)});
+      const auto p = static_cast<std::uint32_t>(divided.points.size());
+      divided.points.push_back(points[a] + t * direction);
+      divided.pieces.push_back({{from, p}, static_cast<std::uint32_t>(e)});
       from = p;
     }
-    border.pieces.push_back({{from, b}, static_cast<std::uint32_t>(e)});
+    divided.pieces.push_back({{from, b}, static_cast<std::uint32_t>(e)});
   }
-  return border;
+  return divided;
 }
 
 double count_pieces(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges, double size) {
