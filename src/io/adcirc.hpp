@@ -1,4 +1,4 @@
-// What the reader and the writer of ADCIRC's fort.14 agree on.
+// The conventions that the reader and the writer of ADCIRC's fort.14 share.
 //
 // A boundary is lines of one tag, and its physical name says what it is: "open boundary 2", "land boundary 3, type 20".
 // So it survives in all formats that hold names, and comes back to fort.14. Rows of boundaries with levees (weirs) hold
@@ -28,7 +28,7 @@ struct AdcircBoundary {
 [[nodiscard]] std::string adcirc_boundary_name(const AdcircBoundary& boundary, std::size_t number);
 [[nodiscard]] std::optional<AdcircBoundary> adcirc_boundary(std::string_view name);
 
-/// Whether nodes of a type have a partner, and how many numbers follow in their row.
+/// The row of a node by the type of its boundary: whether it has a partner, and how many numbers follow.
 struct AdcircRow {
   bool paired = false;
   int numbers = 0;

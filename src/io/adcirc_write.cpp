@@ -221,7 +221,6 @@ void AdcircWriter::boundaries(bool open) {
 
 void AdcircWriter::warn_of_lost() const {
   const MeshFile& f = file_;
-  if (!is_flat(f)) job_.warn(text("z = ", f.z, " of the points is not written: fort.14 has depths in its place"));
   std::vector<PhysicalName> names;
   for (const PhysicalName& n : f.names) {
     if (n.dimension != 1 || !adcirc_boundary(n.name)) names.push_back(n);

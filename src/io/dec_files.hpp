@@ -1,4 +1,4 @@
-// What each format of write_dec makes of the operators: one source file a format.
+// The writers behind write_dec: one source file for each format.
 #pragma once
 
 #include <string>

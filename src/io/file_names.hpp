@@ -1,6 +1,5 @@
-// How a file numbers its points and triangles, and on which lines they are, so that errors speak the
-// user's numbers. Numbers nearly always count up by one, so they are kept as runs: a few bytes, not
-// eight for each of a million points.
+// The numbers and lines that a file gives its points and triangles, so that errors speak the user's numbers. Numbers
+// nearly always count up by one, so they are kept as runs: a few bytes, not eight for each of a million points.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +24,7 @@ class RunLength {
   [[nodiscard]] bool empty() const { return size_ == 0; }
   /// The value at an index. Past either end the nearest run goes on: what the number would be.
   [[nodiscard]] std::int64_t operator[](std::int64_t index) const;
-  /// Whether it is first, first + 1, …
+  /// Says whether the numbers are first, first + 1, …
   [[nodiscard]] bool counts_from(std::int64_t first) const;
 
  private:
@@ -38,7 +37,7 @@ class RunLength {
   std::size_t size_ = 0;
 };
 
-/// From a file's number to the index, in O(log runs), and O(1) for numbers asked in order.
+/// A lookup from a file's numbers to indices, in O(log runs), and O(1) for numbers asked in order.
 class NumberLookup {
  public:
   explicit NumberLookup(const RunLength& numbers);

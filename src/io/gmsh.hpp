@@ -1,4 +1,4 @@
-// What the reader and the writer of Gmsh files share.
+// The names that the reader and the writer of Gmsh files share.
 #pragma once
 
 #include <cstdint>

@@ -130,7 +130,7 @@ class GmshReader {
     std::memcpy(&value, copy.data(), sizeof(T));
     return value;
   }
-  /// How many things follow, of at least so many bytes each as text and in binary.
+  /// Reads the number of things that follow, of at least so many bytes each as text and in binary.
   std::size_t get_count(std::string_view things, std::size_t text_bytes, std::size_t binary_bytes) {
     const auto n = get<std::uint64_t>(text("the number of ", things));
     scanner_.check_room(n, things, binary_ ? binary_bytes : text_bytes);

@@ -26,15 +26,15 @@ struct Source {
 /// large file has left would count on top of all that comes after.
 void give_memory_back();
 
-/// What a reader returns: the arrays, and the numbers that the file has for them.
+/// The result of a reader: the arrays, and the numbers that the file has for them.
 struct Document {
   MeshFile file;
   std::shared_ptr<FileNames> names;
 };
 [[nodiscard]] Document new_document(const std::string& path);
 
-/// What every format must fulfil once its arrays are read: points and triangles exist, numbers in range, coordinates
-/// and weights finite.
+/// Checks what every format must fulfil once its arrays are read: points and triangles exist, numbers are in range,
+/// coordinates and weights finite.
 void check(const Document& document);
 
 /// Collects z and insists that it is the same for all points.
@@ -52,7 +52,7 @@ class PlaneCheck {
   Document& document_;
 };
 
-/// Why an element that is neither point, line nor triangle is refused.
+/// Refuses an element that is neither point, line nor triangle, with the reason.
 [[noreturn]] void refuse_element(const std::string& where, std::int64_t number, std::string_view kind);
 
 }  // namespace temper::io

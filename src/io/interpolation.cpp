@@ -10,7 +10,7 @@ namespace {
 
 using Corners = std::array<std::int32_t, 3>;
 
-// Of barycentric coordinates: a place this near to an edge, relative to its triangle's height, is on the edge.
+// Tolerance of barycentric coordinates: a place this near to an edge, relative to its triangle's height, is on it.
 constexpr double kOnEdge = 1e-12;
 // So far outside, relative to the triangle's height, rounding puts nothing: the place belongs to another triangle.
 constexpr double kOutside = 1e-9;

@@ -258,8 +258,8 @@ bool is_corner(const Mesh& mesh, VertexId v) {
   return dot(from, to) < 0 || std::abs(cross(from, to)) > kCorner * length(from) * length(to);
 }
 
-/// Where tagged lines end on a straight piece of the boundary, or another tag begins, is the user's to say: such a
-/// point must not slide, or the groups would change their shape.
+/// Fixes the points of straight pieces of the boundary where tagged lines end or another tag begins: if such a point
+/// slid, the user's groups would change their shape.
 void MeshMaker::fix_ends_of_tags() {
   if (file_.lines.empty()) return;
   struct Lines {

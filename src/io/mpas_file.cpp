@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view kMpasWeight = "weight";
 
-/// What follows from the mesh and is computed anew.
+/// The variables that follow from the mesh and are computed anew.
 const std::set<std::string_view> kMpasDerived = {"latCell",        "lonCell",
                                                  "xCell",          "yCell",
                                                  "zCell",          "indexToCellID",

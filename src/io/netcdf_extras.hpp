@@ -1,5 +1,5 @@
-// What a mesh file holds besides points, weights and triangles, in NetCDF of any convention: variables of temper's own,
-// each with the attributes temper_kind (point, cell, line, marked or field) and temper_name.
+// All that a mesh file holds besides points, weights and triangles, in NetCDF of any convention: as variables of
+// temper's own, each with the attributes temper_kind (point, cell, line, marked or field) and temper_name.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ void write_netcdf_extras(NetcdfWriter& out, const WriteJob& job, const MeshFile&
 
 /// Regions, lines, marked points, names, z and data of temper's own.
 void read_netcdf_extras(const NetcdfReader& in, Document& document);
-/// Whether a variable is one of those.
+/// Says whether a variable is one of temper's own.
 [[nodiscard]] bool is_netcdf_extra(const NetcdfReader& in, const NetcdfVariable& variable);
 /// A variable of one number an element as data, when it has numbers and no other dimension.
 void add_netcdf_data(const NetcdfReader& in, const NetcdfVariable& variable, std::vector<DataArray>& arrays);

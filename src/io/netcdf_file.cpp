@@ -45,7 +45,7 @@ NetcdfId::NetcdfId() {
   turn_ = std::unique_lock(table);
 }
 
-// Of what has not been finished nothing is kept.
+// A file that has not been finished is not kept.
 NetcdfId::~NetcdfId() {
   if (id_ >= 0) nc_abort(id_);
 }
@@ -97,7 +97,7 @@ std::string NetcdfReader::dimension_name(int dimension) const {
   return name;
 }
 
-// What is compressed may be larger than the file, but not beyond measure: zlib packs at most 1032 to 1.
+// Data may be larger than the file when they are compressed, but not beyond measure: zlib packs at most 1032 to 1.
 Values NetcdfReader::values(const NetcdfVariable& v) const {
   if (!v.scalar) fail(ErrorCode::unsupported, path_, text("variable ", v.name, " holds no numbers"));
   constexpr std::size_t kMostPacked = 1032;

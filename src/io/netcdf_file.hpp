@@ -105,7 +105,7 @@ class NetcdfWriter {
   std::vector<std::pair<int, Values>> waiting_;
 };
 
-/// Whether CDF-5 is needed.
+/// Says whether the types of CDF-5 are needed.
 [[nodiscard]] bool needs_large_types(const MeshFile& file);
 
 }  // namespace temper::io

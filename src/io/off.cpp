@@ -11,7 +11,7 @@ namespace temper::io {
 
 namespace {
 
-/// Whether the word is OFF with none or some of its prefixes, in their order.
+/// Says whether the word is OFF with none or some of its prefixes, in their order.
 bool is_off_word(std::string_view word) {
   for (const std::string_view prefix : {"ST", "C", "N"}) {
     if (word.starts_with(prefix)) word.remove_prefix(prefix.size());

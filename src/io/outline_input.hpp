@@ -1,4 +1,4 @@
-// What the readers of outlines share: the file they fill, and the names of its elements.
+// The file that all readers of outlines fill, and the names of its elements.
 #pragma once
 
 #include <cstdint>

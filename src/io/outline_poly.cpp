@@ -31,7 +31,7 @@ class PolyReader {
   }
 
  private:
-  /// How many there were.
+  /// Reads the points, and returns how many there were.
   std::size_t points(Scanner& s) {
     Outline& o = document_.file.outline;
     OutlineFileNames& names = *document_.names;

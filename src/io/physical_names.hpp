@@ -18,12 +18,12 @@ inline PhysicalName read_physical_name(Scanner& scanner) {
   return name;
 }
 
-/// All lines of a text, behind the names that are there.
+/// Reads a name from each line of a text, and appends them to `names`.
 inline void read_physical_names(Scanner& scanner, std::vector<PhysicalName>& names) {
   while (!scanner.at_end()) names.push_back(read_physical_name(scanner));
 }
 
-/// Without the end of the line.
+/// The line of a name, without its end.
 inline std::string line_of(const PhysicalName& name) { return text(name.dimension, " ", name.tag, " ", name.name); }
 
 inline std::string lines_of(const std::vector<PhysicalName>& names) {

@@ -1,4 +1,4 @@
-// What PLY's reader and writer agree on: names of types, of properties, and of what temper says in comments.
+// The names that PLY's reader and writer share: of types, of properties, and of what temper says in comments.
 //
 //   comment temper array vertex 3 velocity    properties velocity_0, velocity_1 and velocity_2 are one array
 //   comment temper name 2 7 steel             physical name: dimension, tag, name

@@ -1,6 +1,6 @@
 // The table of formats, and the two doors of io: read and write.
 //
-// A new format is one source file with a sniff, a read and maybe a write, declared in format.hpp, and one row here.
+// A new format is one source file with a sniff, a read and maybe a write, declared here, and one row of the table.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,30 +13,77 @@
 
 namespace temper::io {
 
-namespace {
+// Each is defined in the source file of its format.
+bool sniff_vtu(std::string_view head);
+bool sniff_gmsh22(std::string_view head);
+bool sniff_gmsh41(std::string_view head);
+bool sniff_medit(std::string_view head);
+bool sniff_triangle(std::string_view head);
+bool sniff_obj(std::string_view head);
+bool sniff_legacy_vtk(std::string_view head);
+bool sniff_vtk51(std::string_view head);
+bool sniff_jigsaw(std::string_view head);
+bool sniff_off(std::string_view head);
+bool sniff_ply(std::string_view head);
+bool sniff_adcirc(std::string_view head);
+bool sniff_mpas(std::string_view head);
+bool sniff_ugrid(std::string_view head);
+bool sniff_mfem(std::string_view head);
 
-constexpr Contents kAllData = kPointData | kCellData | kLineData | kMarkedPointData | kFieldData;
-constexpr Contents kAllTags = kRegions | kLines | kMarkedPoints;
-constexpr Contents kAll = kWeights | kAllTags | kNames | kAllData;
+Document read_vtu(Source& source);
+Document read_gmsh(Source& source);
+Document read_medit(Source& source);
+Document read_triangle(Source& source);
+Document read_obj(Source& source);
+Document read_legacy_vtk(Source& source);
+Document read_jigsaw_mesh(Source& source);
+Document read_off(Source& source);
+Document read_ply(Source& source);
+Document read_adcirc(Source& source);
+Document read_mpas(Source& source);
+Document read_ugrid(Source& source);
+Document read_mfem(Source& source);
+
+void write_vtu(const WriteJob& job);
+void write_gmsh22(const WriteJob& job);
+void write_gmsh41(const WriteJob& job);
+void write_medit(const WriteJob& job);
+void write_triangle(const WriteJob& job);
+void write_obj(const WriteJob& job);
+void write_legacy_vtk(const WriteJob& job);
+void write_vtk51(const WriteJob& job);
+void write_jigsaw_mesh(const WriteJob& job);
+void write_off(const WriteJob& job);
+void write_ply(const WriteJob& job);
+void write_adcirc(const WriteJob& job);
+void write_mpas(const WriteJob& job);
+void write_ugrid(const WriteJob& job);
+
+bool adcirc_keeps(ArraysOf of, const DataArray& array);
+bool jigsaw_keeps(ArraysOf of, const DataArray& array);
+bool medit_keeps(ArraysOf of, const DataArray& array);
+std::vector<std::string> triangle_files(const std::string& path);
+
+namespace {
 
 // Of two rows that recognise a file, or have its suffix, the first is taken.
 constexpr FormatRow kRows[] = {
     {"vtu", "VTK XML unstructured grid, temper's own", ".vtu", kAll, sniff_vtu, read_vtu, write_vtu},
     {"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", kAll & ~kFieldData, sniff_gmsh41, read_gmsh, write_gmsh41},
     {"gmsh22", "Gmsh MSH 2.2", ".msh2", kAll & ~kFieldData, sniff_gmsh22, read_gmsh, write_gmsh22},
-    {"medit", "medit (INRIA, Mmg)", ".mesh", kAllTags, sniff_medit, read_medit, write_medit, medit_keeps},
-    {"jigsaw", "JIGSAW mesh", ".jigsaw.msh", kWeights | kAllTags, sniff_jigsaw, read_jigsaw_mesh, write_jigsaw_mesh,
-     jigsaw_keeps},
+    {"medit", "medit (INRIA, Mmg)", ".mesh", kZ | kAllTags, sniff_medit, read_medit, write_medit, medit_keeps},
+    {"jigsaw", "JIGSAW mesh", ".jigsaw.msh", kZ | kWeights | kAllTags, sniff_jigsaw, read_jigsaw_mesh,
+     write_jigsaw_mesh, jigsaw_keeps},
     {"ply", "PLY", ".ply", kAll & ~(kMarkedPointData | kFieldData), sniff_ply, read_ply, write_ply},
-    {"off", "OFF", ".off", kNothing, sniff_off, read_off, write_off, nullptr, nullptr, 0},
+    {"off", "OFF", ".off", kZ, sniff_off, read_off, write_off, nullptr, nullptr, 0},
     // Before those whose first word may be that of a title. Of tags and names it holds boundaries; its writer names the
     // others.
     {"adcirc", "ADCIRC fort.14", ".14 .grd", kLines | kMarkedPoints | kNames, sniff_adcirc, read_adcirc, write_adcirc,
      adcirc_keeps},
-    {"obj", "Wavefront OBJ", ".obj", kAllTags | kNames, sniff_obj, read_obj, write_obj},
+    {"obj", "Wavefront OBJ", ".obj", kZ | kAllTags | kNames, sniff_obj, read_obj, write_obj},
     {"vtk", "legacy VTK 2.0 to 4.2", ".vtk", kAll, sniff_legacy_vtk, read_legacy_vtk, write_legacy_vtk},
     {"vtk51", "legacy VTK 5.1", ".vtk51", kAll, sniff_vtk51, read_legacy_vtk, write_vtk51},
-    {"mfem", "MFEM mesh v1.0", ".mesh", kNothing, sniff_mfem, read_mfem, nullptr},
+    {"mfem", "MFEM mesh v1.0", ".mesh", 0, sniff_mfem, read_mfem, nullptr},
     {"triangle", "Triangle", ".node .ele", kAll & ~(kLineData | kMarkedPointData | kFieldData), sniff_triangle,
      read_triangle, write_triangle, nullptr, triangle_files},
     {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll, sniff_mpas, read_mpas, write_mpas},
@@ -109,9 +156,8 @@ std::string writable_names() {
 
 const FormatRow& row_to_write(const std::string& path, const std::string& format) {
   if (!format.empty()) {
-    for (const FormatRow& row : kRows) {
-      if (row.name == format && row.write != nullptr) return row;
-    }
+    const FormatRow* row = find_row(format);
+    if (row != nullptr && row->write != nullptr) return *row;
     fail(ErrorCode::invalid_option, path,
          text("cannot be written as '", format, "'; expected one of ", writable_names()));
   }
@@ -172,6 +218,12 @@ Expected<Result> guarded(const std::string& path, Work work) {
 }  // namespace
 
 std::span<const Format> formats() { return kFormats; }
+
+const FormatRow* find_row(std::string_view name) {
+  const auto* row =
+      std::find_if(std::begin(kRows), std::end(kRows), [&](const FormatRow& each) { return each.name == name; });
+  return row == std::end(kRows) ? nullptr : row;
+}
 
 Expected<MeshFile> read(const std::string& path, const ReadOptions& options) {
   return guarded<MeshFile>(path, [&] { return read_or_throw(path, options); });

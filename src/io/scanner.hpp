@@ -36,9 +36,9 @@ class Scanner {
   std::string_view word(std::string_view expected);
   /// The next word, left where it is; empty at the end.
   [[nodiscard]] std::string_view peek();
-  /// What is left of this line, without blanks at its ends; then on to the next line.
+  /// Returns the rest of this line, without blanks at its ends, and goes on to the next line.
   std::string_view rest_of_line();
-  /// Whether another word follows on this line.
+  /// Says whether another word follows on this line.
   [[nodiscard]] bool more_on_line();
 
   template <class T>
@@ -51,7 +51,7 @@ class Scanner {
   }
   double real(std::string_view expected) { return number<double>(expected); }
   std::int32_t integer(std::string_view expected) { return number<std::int32_t>(expected); }
-  /// How many things follow, each of at least `bytes_each` bytes.
+  /// Reads the number of things that follow, each of at least `bytes_each` bytes.
   std::size_t count(std::string_view things, std::size_t bytes_each);
   void check_room(std::uint64_t count, std::string_view things, std::size_t bytes_each) const;
   /// The index of a vertex number that counts from `first`; checked against the number of vertices later.

@@ -61,7 +61,7 @@ TriangleFile kind_of(std::string_view head) {
   return TriangleFile::none;
 }
 
-/// What the comments of a file declare.
+/// The declarations in the comments of a file.
 struct Declarations {
   std::vector<DataArray> arrays;  // empty values
   double z = 0;

@@ -220,7 +220,7 @@ class UgridWriter {
     }
     for (std::size_t i = 0; i < c.edges.size(); ++i) {
       const DecEdge& e = c.edges[EdgeId(i)];
-      // What there is comes first.
+      // The triangle that exists comes first.
       const TriangleId first = e.left.valid() ? e.left : e.right, second = e.left.valid() ? e.right : e.left;
       edge_nodes.insert(edge_nodes.end(), {number(e.from), number(e.to)});
       edge_faces.insert(edge_faces.end(), {number(first), number(second)});

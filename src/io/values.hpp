@@ -63,9 +63,9 @@ using ElementOf = typename std::remove_cvref_t<Vector>::value_type;
 
 /// An array of n zeros.
 [[nodiscard]] Values zeros(Scalar scalar, std::size_t n);
-/// As doubles; moved when they are.
+/// The values as doubles; moved when they are doubles already.
 [[nodiscard]] std::vector<double> to_doubles(Values&& values);
-/// As 32-bit integers, or nothing when a value is none.
+/// The values as 32-bit integers, or nothing when one of them is none.
 [[nodiscard]] std::optional<std::vector<std::int32_t>> to_int32(const Values& values);
 /// The tuples at the indices (runs of a longer array).
 [[nodiscard]] Values gather(const Values& values, int components, const RunLength& indices);

@@ -46,7 +46,7 @@ void put_big_endian(Output& out, const VtkArray& array);
 }
 [[nodiscard]] VtkArray vtk_points(const MeshFile& f);
 [[nodiscard]] VtkArray vtk_connectivity(const MeshFile& f);
-/// Where the points of each cell end.
+/// The index after the last point of each cell.
 [[nodiscard]] VtkArray vtk_cell_ends(const MeshFile& f);
 [[nodiscard]] VtkArray vtk_cell_types(const MeshFile& f);
 [[nodiscard]] std::vector<VtkArray> vtk_point_data(const WriteJob& job);

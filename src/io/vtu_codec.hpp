@@ -1,4 +1,4 @@
-// How VTU packs an array: base64 of a header and blocks, each block compressed by zlib or not.
+// The packing of an array in VTU: base64 of a header and blocks, each block compressed by zlib or not.
 //
 //   uncompressed  [bytes] data
 //   zlib          [blocks, bytes of a block, bytes of the last block (0: whole), compressed bytes of each] data
@@ -46,8 +46,8 @@ struct Packing {
 /// The numbers of one packed array; blocks are inflated on the executor's threads when there is one.
 [[nodiscard]] Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Executor* executor);
 
-/// What zlib looks for: any string that was there before, or runs of one byte, which is far faster and loses little on
-/// the digits of measured coordinates.
+/// The repetitions that zlib looks for: any string that was there before, or runs of one byte, which is far faster and
+/// loses little on the digits of measured coordinates.
 enum class Redundancy { strings, runs };
 /// One block of numbers, compressed fast rather than small.
 [[nodiscard]] std::string compress_block(std::string_view bytes, Redundancy redundancy);

@@ -4,6 +4,15 @@
 namespace temper::io {
 namespace {
 
+/// What the rows say, between separators.
+std::string list_of(std::string_view Format::*column, const char* separator, bool written_only) {
+  std::string list;
+  for (const Format& f : formats()) {
+    if (f.writes || !written_only) list += (list.empty() ? "" : separator) + std::string(f.*column);
+  }
+  return list;
+}
+
 TEST(Formats, have_distinct_names_and_a_suffix) {
   std::vector<std::string_view> names;
   for (const Format& f : formats()) {
@@ -16,6 +25,21 @@ TEST(Formats, have_distinct_names_and_a_suffix) {
                            "ply", "off", "adcirc", "mpas", "ugrid"}) {
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
   }
+}
+
+TEST(Formats, are_in_the_documentation) {
+  const std::string docs = slurp(TEMPER_SOURCE_DIR "/docs/formats.md");
+  for (const Format& f : formats()) {
+    EXPECT_NE(docs.find("| `" + std::string(f.name) + "` | "), std::string::npos) << f.name;
+  }
+}
+
+TEST_F(FileTest, a_file_of_none_of_the_formats_says_which_there_are) {
+  const auto result = read(make("m.mesh", "once upon a time\n"));
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::syntax);
+  EXPECT_EQ(plain(result.error().what()),
+            "m.mesh: is none of the formats that temper reads: " + list_of(&Format::description, ", ", false));
 }
 
 TEST_F(FileTest, the_content_decides_the_format_and_not_the_suffix) {
@@ -56,18 +80,15 @@ TEST_F(FileTest, an_output_without_a_known_suffix_says_which_there_are) {
   const auto result = write(path("mesh.xyz"), sample());
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::invalid_option);
-  EXPECT_EQ(plain(result.error().what()),
-            "mesh.xyz: the suffix names no format that temper writes; expected one of .vtu .msh .msh4 .msh2 .mesh "
-            ".jigsaw.msh .ply .off .14 .grd .obj .vtk .vtk51 .node .ele .mpas.nc "
-            ".ugrid.nc .nc, or a format");
+  EXPECT_EQ(plain(result.error().what()), "mesh.xyz: the suffix names no format that temper writes; expected one of " +
+                                              list_of(&Format::suffixes, " ", true) + ", or a format");
 }
 
 TEST_F(FileTest, a_format_that_is_only_read_cannot_be_written) {
   const auto result = write(path("mesh.mesh"), sample(), {"mfem", {}});
   ASSERT_FALSE(result);
   EXPECT_EQ(plain(result.error().what()),
-            "mesh.mesh: cannot be written as 'mfem'; expected one of vtu, gmsh41, gmsh22, medit, jigsaw, ply, off, "
-            "adcirc, obj, vtk, vtk51, triangle, mpas, ugrid");
+            "mesh.mesh: cannot be written as 'mfem'; expected one of " + list_of(&Format::name, ", ", true));
 }
 
 TEST_F(FileTest, a_file_whose_arrays_do_not_fit_is_refused_before_anything_is_written) {

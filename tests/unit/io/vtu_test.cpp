@@ -7,7 +7,7 @@
 namespace temper::io {
 namespace {
 
-/// How a test writes its VTU.
+/// The style in which a test writes its VTU.
 struct Style {
   std::string name;
   std::size_t header_bytes = 4;
