@@ -33,40 +33,43 @@ std::string place(Vec2 p) {
   return "(" + part(p.x) + ", " + part(p.y) + ")";
 }
 
-Picture contours(const EnergyInfo& info, std::size_t per_unit) {
+/// One of the figure's six energies.
+struct Contours {
+  EnergyKind kind;
+  std::vector<double> levels;
+  const char* caption;
+};
+const Contours kContours[] = {
+    {EnergyKind::F,
+     {0.1, 0.2, 0.3, 0.4, 0.5132, 0.7, 1, 1.5, 2, 3, 5, 8},
+     "E_F: zero where the free vertex meets a fixed one."},
+    {EnergyKind::T,
+     {0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5, 8, 15},
+     "E_T: like E_F, but steeper where the triangle is obtuse: |h| on all three edges."},
+    {EnergyKind::dT,
+     {0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5, 8, 15},
+     "E_∂T: all edges of a lone triangle are boundary edges, so it equals E_T."},
+    {EnergyKind::BH,
+     {4.7, 5, 5.5, 6, 7, 8, 10, 15, 30},
+     "E_BH: +∞ (white) unless the triangle is acute; least at the equilateral one."},
+    {EnergyKind::BHs, {3.1, 3.3, 3.6, 4, 4.5, 5, 6, 8, 12, 30}, "E_BHs with h° = −0.3: the walls are moved outwards."},
+    {EnergyKind::BP,
+     {3.05, 3.2, 3.5, 4, 5, 6, 8, 12, 20, 50, 200},
+     "E_BP with γ = 1: finite everywhere, but very large at the edge."},
+};
+
+Picture contour_picture(const Contours& contours, bool full) {
+  const EnergyInfo& info = energies()[static_cast<std::size_t>(contours.kind)];
+  // Hard walls end at a sample: enough of them that the boundary of the domain is smooth.
+  const bool hard_wall = info.barrier && info.kind != EnergyKind::BP;
   PositionLandscape landscape;
   landscape.title = plot_symbol(info.name) + ", ★1";
-  landscape.per_unit = per_unit;
-  std::string caption;
-  switch (info.kind) {
-    case EnergyKind::F:
-      landscape.levels = {0.1, 0.2, 0.3, 0.4, 0.5132, 0.7, 1, 1.5, 2, 3, 5, 8};
-      caption = "E_F: zero where the free vertex meets a fixed one.";
-      break;
-    case EnergyKind::T:
-    case EnergyKind::dT:
-      landscape.levels = {0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5, 8, 15};
-      caption = info.kind == EnergyKind::T
-                    ? "E_T: like E_F, but steeper where the triangle is obtuse: |h| on all three edges."
-                    : "E_∂T: all edges of a lone triangle are boundary edges, so it equals E_T.";
-      break;
-    case EnergyKind::BH:
-      landscape.levels = {4.7, 5, 5.5, 6, 7, 8, 10, 15, 30};
-      caption = "E_BH: +∞ (white) unless the triangle is acute; least at the equilateral one.";
-      break;
-    case EnergyKind::BHs:
-      landscape.levels = {3.1, 3.3, 3.6, 4, 4.5, 5, 6, 8, 12, 30};
-      caption = "E_BHs with h° = −0.3: the walls are moved outwards.";
-      break;
-    case EnergyKind::BP:
-      landscape.levels = {3.05, 3.2, 3.5, 4, 5, 6, 8, 12, 20, 50, 200};
-      caption = "E_BP with γ = 1: finite everywhere, but very large at the edge.";
-      break;
-  }
+  landscape.per_unit = !full ? 14 : hard_wall ? 120 : 45;
+  landscape.levels = contours.levels;
   if (info.barrier) {
     landscape.overlays = {{.points = {best_position(drawn_model(info.kind)).at}, .line = false, .label = "minimum"}};
   }
-  return {"fig08_" + std::string(info.name), position_contours(drawn_model(info.kind), landscape), caption};
+  return {"fig08_" + std::string(info.name), position_contours(drawn_model(info.kind), landscape), contours.caption};
 }
 
 Claim collapsed_minima() {
@@ -210,12 +213,7 @@ Claim domains() {
 Page make_fig08(Effort effort) {
   const bool full = effort == Effort::full;
   Page page;
-  // Hard walls end at a sample: enough of them that the border of the domain is smooth.
-  const auto per_unit = [&](const EnergyInfo& info) -> std::size_t {
-    const bool hard_wall = info.barrier && info.kind != EnergyKind::BP;
-    return !full ? 14 : hard_wall ? 120 : 45;
-  };
-  for (const EnergyInfo& info : energies()) page.pictures.push_back(contours(info, per_unit(info)));
+  for (const Contours& contours : kContours) page.pictures.push_back(contour_picture(contours, full));
   Table table{.caption = "The best free vertex, its apex angle and its energy (★1)",
               .header = {"energy", "parameter", "free vertex", "apex angle", "E"},
               .rows = {}};

@@ -19,6 +19,29 @@
 
 namespace temper {
 
+/// The registry: one row for each kind of energy. Tests, command line, Python and docs iterate over it.
+inline constexpr std::array<EnergyInfo, kEnergyKinds> kEnergies = [] {
+  using enum EnergyKind;
+  using enum BoundaryTreatment;
+  return std::array<EnergyInfo, kEnergyKinds>{{
+      // kind, name, formula of a half-edge, boundary, barrier, γ, h°, length exponent
+      {F, "F", "α d³h + β d h³", as_is, false, false, false, 4},
+      {T, "T", "sgn(h_k + h_l) (α d³h + β d h³)", absolute, false, false, false, 4},
+      {dT, "dT", "α d³h + β d h³, |h| on the boundary", absolute, false, false, false, 4},
+      {BH, "BH", "(α d² + β h²) / (√(d_ij d_ji) h)", as_is, true, false, false, 0},
+      {BHs, "BHs", "(α d² + β h²) / (√(d_ij d_ji) (h − h°))", as_is, true, false, true, 0},
+      {BP, "BP", "(α d² + β h²) / (√(d_ij d_ji) φ), φ = (h + √(h² + γ²))/2", as_is, true, true, false, 0},
+  }};
+}();
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < kEnergyKinds; ++i) {
+        if (kEnergies[i].kind != static_cast<EnergyKind>(i)) return false;
+      }
+      return true;
+    }(),
+    "each row is at the place of its kind");
+
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// α and β of ★0, ★1, ★2.

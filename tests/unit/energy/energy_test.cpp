@@ -13,7 +13,7 @@ namespace {
 const WeightedPoint kP{0, 0, 0}, kQ{1, 0, 0}, kR{0.5, std::sqrt(0.75), 0};
 
 TEST(Energy, TableHasOneRowForEachKindInOrder) {
-  ASSERT_EQ(energies().size(), 6u);
+  ASSERT_EQ(energies().size(), kEnergyKinds);
   for (std::size_t i = 0; i < energies().size(); ++i) {
     EXPECT_EQ(static_cast<std::size_t>(energies()[i].kind), i);
     const auto found = find_energy(energies()[i].name);

@@ -64,7 +64,7 @@ inline Real naive_total(const Mesh& mesh, const EnergyModel& m, VertexId v, cons
     const WeightedPoint q = mesh.point(u);
     return {q.x, q.y, q.w};
   };
-  const bool barrier = m.kind == EnergyKind::BH || m.kind == EnergyKind::BHs || m.kind == EnergyKind::BP;
+  const bool barrier = energies()[static_cast<std::size_t>(m.kind)].barrier;
   const auto side = [&](HalfedgeId h) {
     return naive_edge(at(mesh.origin(h)), at(mesh.target(h)), at(mesh.opposite(h)));
   };
