@@ -34,8 +34,8 @@ void add_options(Command& command, Settings& s) {
   add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
   command.group("Requirements");
   add_texts(command, "--require", "LIST", Values::repeated, s.require,
-            "key=value,key=value,...: exit with 3 when one does not hold. A plain = means: counts equal, minima and "
-            "fractions at least, maxima and energies at most; key<=value and key>=value say it themselves. Keys: " +
+            "key=value,key=value,...: exit with 3 when one does not hold. With = counts must be equal, minima and "
+            "fractions at least the value, maxima and energies at most; or write key<=value, key>=value. Keys: " +
                 requirement_keys());
   command.group("Help");
   command.add_help({"IN [options]",

@@ -31,7 +31,7 @@ void add_options(Command& command, Settings& s) {
       "the format of OUT, whatever its suffix");
   add_choice(
       command, "--encoding", kEncodings, [&s](io::Encoding value) { s.options.encoding = value; },
-      "of formats that have several (default: the compact one)");
+      "the encoding, for formats that have several (default: the compact one)");
   add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
   command.group("Help");
   command.add_help({"IN -o OUT [options]",
@@ -45,8 +45,8 @@ void add_options(Command& command, Settings& s) {
 
 Exit run_convert(const Arguments& arguments) {
   Command command("convert",
-                  "Writes a mesh file in another format. Weights, tags, regions, names and data pass through; what the "
-                  "format has no place for is named in a warning.");
+                  "Writes a mesh file in another format. Weights, tags, regions, names and data pass through; a "
+                  "warning names what the new format has no place for.");
   Settings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

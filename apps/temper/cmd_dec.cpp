@@ -32,10 +32,10 @@ struct DecSettings {
 void add_options(Command& command, DecSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
-  add_text(command, "-o,--output", "DIR", s.output, "the folder the files go to; made when it is not there").require();
+  add_text(command, "-o,--output", "DIR", s.output, "the folder for the files; made when it is missing").require();
   add_text(command, "--format", "LIST", s.formats,
-           "which files, separated by commas: npz (NumPy and SciPy), mtx (Matrix Market), vtu (the dual, "
-           "for ParaView)")
+           "the kinds of files to write, separated by commas: npz (NumPy and SciPy), mtx (Matrix Market), vtu (the "
+           "dual, for ParaView)")
       .defaults_to([&s] { return s.formats; });
   command.group("Report");
   command.add_flag("--json", s.json, "the summary as JSON");

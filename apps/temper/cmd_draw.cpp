@@ -21,7 +21,7 @@ void add_options(Command& command, Settings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the mesh to draw").require();
   add_text(command, "-o,--output", "FILE", s.output, "where the SVG goes").require();
-  add_text(command, "--before", "IN0", s.before, "a mesh to draw to the left of it, to the same scale");
+  add_text(command, "--before", "IN0", s.before, "a mesh to draw to the left of IN, at the same scale");
   command.group("Picture");
   command.add_flag("--no-primal", s.no_primal, "without the triangles' edges");
   command.add_flag("--no-dual", s.no_dual, "without the dual edges, between orthocenters");
@@ -37,8 +37,8 @@ void add_options(Command& command, Settings& s) {
         s.options.zoom = Box{{v[0], v[1]}, {v[2], v[3]}};
       },
       "draw only what meets this rectangle");
-  add_number(command, "--width", s.options.width, kPositive, "of one panel, in CSS pixels");
-  add_text(command, "--title", "TEXT", s.options.title, "under the picture");
+  add_number(command, "--width", s.options.width, kPositive, "the width of one panel, in CSS pixels");
+  add_text(command, "--title", "TEXT", s.options.title, "a title under the picture");
   command.group("Help");
   command.add_help({"IN -o FILE [options]",
                     "  temper draw in.vtu -o mesh.svg\n"

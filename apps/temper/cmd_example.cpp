@@ -46,12 +46,12 @@ void add_horseshoe(Command& command, Settings& s) {
 void add_triangle(Command& command, Settings& s) {
   add_number(command, "--a", s.triangle.a, kPositive, "one side at vertex 0");
   add_number(command, "--b", s.triangle.b, kPositive, "the other side");
-  add_number(command, "--angle", s.triangle.angle_deg, {0, 180, true}, "between them, in degrees");
+  add_number(command, "--angle", s.triangle.angle_deg, {0, 180, true}, "the angle between them, in degrees");
 }
 
 void add_random(Command& command, Settings& s) {
   add_count(command, "--vertices", s.vertices, kLeastVertices, "vertices in all");
-  add_count(command, "--seed", s.random.seed, 0, "of the random points");
+  add_count(command, "--seed", s.random.seed, 0, "the seed of the random points");
   const auto use = [&s](const std::vector<double>& v) {
     s.random.polygon.clear();
     for (std::size_t i = 0; i + 1 < v.size(); i += 2) s.random.polygon.push_back({v[i], v[i + 1]});
@@ -71,31 +71,33 @@ void add_annulus(Command& command, Settings& s) {
   add_number(command, "--outer", s.annulus.outer, kPositive, "outer radius");
   add_count(command, "--around", s.annulus.around, 3, "points on a ring");
   add_count(command, "--rings", s.annulus.rings, 2, "rings");
-  add_number(command, "--jitter", s.annulus.jitter, kNotNegative, "of inner rings, times the spacing");
-  add_count(command, "--seed", s.annulus.seed, 0, "of the jitter");
+  add_number(command, "--jitter", s.annulus.jitter, kNotNegative,
+             "the jitter of inner rings, as a part of the "
+             "spacing");
+  add_count(command, "--seed", s.annulus.seed, 0, "the seed of the jitter");
 }
 
 void add_airfoil(Command& command, Settings& s) {
   add_count(command, "--around", s.airfoil.around, 3, "points on the foil");
   add_number(command, "--growth", s.airfoil.growth, {1, std::numeric_limits<double>::infinity(), true},
              "ratio of one layer's spacing to the one before");
-  add_count(command, "--seed", s.airfoil.seed, 0, "of the points between");
+  add_count(command, "--seed", s.airfoil.seed, 0, "the seed of the points between");
 }
 
 void add_polygon(Command& command, Settings& s) {
-  add_count(command, "--corners", s.polygon.corners, 3, "of the polygon");
+  add_count(command, "--corners", s.polygon.corners, 3, "corners of the polygon");
 }
 
 void add_wedge(Command& command, Settings& s) {
-  add_number(command, "--angle", s.wedge.angle_deg, {0, 180, true}, "of the corner, in degrees");
+  add_number(command, "--angle", s.wedge.angle_deg, {0, 180, true}, "the angle of the corner, in degrees");
   add_count(command, "--pieces", s.wedge.pieces, 1, "edges on each of the two sides at the corner, and points inside");
-  add_count(command, "--seed", s.wedge.seed, 0, "of the points inside");
+  add_count(command, "--seed", s.wedge.seed, 0, "the seed of the points inside");
 }
 
 void add_graded(Command& command, Settings& s) {
   add_number(command, "--finest", s.graded.finest, kPositive, "size of triangles at one corner of the unit square");
-  add_number(command, "--growth", s.graded.growth, kNotNegative, "of the size with the distance from there");
-  add_count(command, "--seed", s.graded.seed, 0, "of the points");
+  add_number(command, "--growth", s.graded.growth, kNotNegative, "growth of the size with the distance from there");
+  add_count(command, "--seed", s.graded.seed, 0, "the seed of the points");
 }
 
 Expected<Mesh> make_random(Settings& s) {

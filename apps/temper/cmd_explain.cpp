@@ -26,9 +26,10 @@ void add_options(Command& command, Settings& s) {
   add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
   command.add_flag("--json", s.json, "all reasons as JSON, with vertices and triangles counted from 0");
   add_count(command, "--limit", s.limit, 0,
-            "print this many conflicts, and as many places where weights exist, and search cures for these");
+            "print at most this many conflicts and this many places where weights exist; cures are searched for "
+            "these only");
   add_count(command, "--whole", s.whole, 0,
-            "ask whether weights suit the whole mesh when it has at most so many triangles, or so many bad ones");
+            "look for weights of the whole mesh when it has at most this many triangles, or this many bad ones");
   command.group("Help");
   command.add_help({"IN [options]",
                     "  temper example sparse-horseshoe -o shoe.vtu && temper explain shoe.vtu\n"
@@ -60,11 +61,9 @@ class Counter {
 Exit run_explain(const Arguments& arguments) {
   Command command(
       "explain",
-      "Says of every triangle that is not well-centered why: a small set of triangles that no weights suit, with a "
-      "proof, "
-      "or weights that exist and have not been found; and what would cure it, tried on the triangles around. Exits "
-      "with "
-      "0 whatever it finds; temper check --require tests.");
+      "Explains every triangle that is not well-centered. The reason is either a small set of triangles that no "
+      "weights suit, with a proof, or that weights exist but have not been found. Cures are tried on the triangles "
+      "around. Exits with 0 whatever it finds; temper check --require is the test.");
   Settings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

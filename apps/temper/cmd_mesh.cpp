@@ -36,7 +36,7 @@ struct Settings {
 
 void add_files(Command& command, Settings& s) {
   add_argument(command, "OUTLINE", s.input,
-               "what to mesh: .poly of Triangle, geometry of JIGSAW, GeoJSON; content decides")
+               "the outline: .poly of Triangle, geometry of JIGSAW, or GeoJSON; its content tells which")
       .require();
   add_text(command, "-o,--output", "MESH", s.output, "where the mesh goes; its suffix tells the format").require();
   add_text(command, "--report", "FILE", s.report, "a JSON report: what was read and made, before and after optimising");
@@ -49,21 +49,24 @@ void add_sizes(Command& command, Settings& s) {
              "edge length wanted, in the units of the outline or in metres")
       .require();
   add_number(command, "--grade", s.options.grade, kPositive,
-             "by how much the size grows on one unit of length away from short edges and narrow places");
+             "growth of the size per unit of length, away from short edges and narrow places");
   add_text(command, "--region-size", "REGION,SIZE,...", s.region_sizes,
-           "edge length wanted in these regions, when less");
+           "edge length wanted in these regions, where it is less than --size");
   add_choice(command, "--enclosed", kEnclosed, s.options.enclosed,
-             "what is inside: all that is enclosed but for the holes; nested loops in turns; by-points: the first when "
-             "the file has hole or region points, else the second (not for files that say it by polygons or parts)");
+             "what counts as inside. all: everything that segments enclose, except holes; alternate: nested loops "
+             "take turns (land, lake, island); by-points: as all when the file has hole or region points, else as "
+             "alternate. Files with polygons or parts say it themselves");
   add_text(command, "--projection", "NAME[:lon,lat]", s.projection,
-           "of longitude and latitude: stereographic, mercator or transverse-mercator about this center (default: the "
-           "middle of the points), in metres; none: take degrees for a plane");
+           "the map for points in longitude and latitude: stereographic, mercator or transverse-mercator about "
+           "this center (default: the middle of the points), to metres; none: treat degrees as coordinates of a "
+           "plane");
 }
 
 void add_optimisation(Command& command, Settings& s) {
   command.add_flag("--no-optimize", s.no_optimize, "write the Delaunay mesh as it is");
   add_count(command, "--attempts", s.options.attempts, 1,
-            "while triangles stay bad the outline is divided finer around them, at most so often");
+            "while triangles stay bad, divide the outline finer around them and mesh it again; at most this many "
+            "times");
   add_number(command, "--time-limit", s.time_limit, kNotNegative,
              "stop optimising after this many seconds; 0: no limit");
   add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");

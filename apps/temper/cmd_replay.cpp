@@ -25,9 +25,9 @@ struct Settings {
 void add_options(Command& command, Settings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the mesh that was optimized").require();
-  add_argument(command, "TRACE", s.trace, "what temper optimize IN --trace wrote").require();
+  add_argument(command, "TRACE", s.trace, "the file that temper optimize IN --trace wrote").require();
   add_text(command, "-o,--output", "OUT", s.output, "where the mesh goes; its suffix tells the format").require();
-  add_count(command, "--sweeps", s.sweeps, 0, "only what was done up to the end of this sweep; 0: making IN regular");
+  add_count(command, "--sweeps", s.sweeps, 0, "stop at the end of this sweep; 0: after IN was made regular");
   command.add_flag("--quiet", s.quiet, "print warnings and errors only");
   command.group("Help");
   command.add_help({"IN TRACE -o OUT [options]",
@@ -56,7 +56,7 @@ std::span<const TraceEvent> wanted(const std::vector<TraceEvent>& events, std::o
 Exit run_replay(const Arguments& arguments) {
   Command command(
       "replay",
-      "Does again what a trace says, without any optimization, and writes the mesh: the same bytes as temper "
+      "Repeats what a trace records, without any optimization, and writes the mesh: the same bytes that temper "
       "optimize wrote.");
   Settings s;
   add_options(command, s);

@@ -35,10 +35,11 @@ void add_options(Command& command, Settings& s) {
             "figures by the paper's numbers: 6, or a list 6,8, or a range 16-18; none: all, "
             "which takes minutes");
   add_text(command, "-o,--output", "DIR", s.output,
-           "folder of the pictures, index.html and gallery.json: made when missing, files of these names are replaced");
+           "the folder for the pictures, index.html and gallery.json; made when it is missing, and files of these "
+           "names are replaced");
   command.add_flag("--reduced", s.reduced, "every claim, but fewer samples and shorter runs");
   command.add_flag("--require-claims", s.require_claims,
-                   "exit with 3 when a claim does not hold; all is written all the same");
+                   "exit with 3 when a claim does not hold; everything is written first");
   command.add_flag("--list", s.list, "list the figures");
   command.add_help({"[FIG ...] -o DIR [options]",
                     "  temper reproduce --list\n"

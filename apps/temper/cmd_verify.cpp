@@ -22,7 +22,7 @@ struct Settings {
   bool condition = false, json = false;
 };
 
-// Of the size of the domain: what a text format may round coordinates by.
+// Relative to the size of the domain: what a text format may round coordinates by.
 constexpr double kSameBox = 1e-6;
 
 std::string field_names() {
@@ -34,7 +34,7 @@ std::string field_names() {
 void add_options(Command& command, Settings& s) {
   command.group("Report");
   add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
-  command.add_flag("--json", s.json, "the report as JSON; null is infinite, and of orders undefined");
+  command.add_flag("--json", s.json, "the report as JSON; null means infinite, or undefined for an order");
   add_text(command, "--against", "MESH", s.against,
            "another mesh of the same domain: also print the errors of IN over those of MESH, field by field");
   add_text(command, "--edges", "FILE", s.edges,
@@ -44,7 +44,7 @@ void add_options(Command& command, Settings& s) {
            "solutions to try, separated by commas: all, chosen, held-back, exact, or of " + field_names())
       .defaults_to([&s] { return s.fields; });
   add_count(command, "--refine", s.refine, 0,
-            "cut every triangle into four so many times, and print orders of convergence");
+            "cut every triangle into four, this many times, and print orders of convergence");
   command.add_flag("--condition", s.condition, "also estimate the condition of both matrices");
   add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
   command.group("Help");
@@ -89,10 +89,9 @@ VerifyReference measure_reference(const Settings& s, const VerifyOptions& option
 Exit run_verify(const Arguments& arguments) {
   Command command(
       "verify",
-      "Measures the errors that solvers make on a mesh with manufactured solutions: the diagonal Hodge stars, a "
-      "Poisson problem by discrete exterior calculus at the vertices, another by two-point fluxes at the "
-      "orthocenters; "
-      "and says what their matrices are like. docs/verify.md defines every number.");
+      "Measures the errors that solvers make on a mesh, with manufactured solutions: of the diagonal Hodge stars, "
+      "of a Poisson problem solved by discrete exterior calculus at the vertices, and of one solved by two-point "
+      "fluxes at the orthocenters. Also describes their matrices. docs/verify.md defines every number.");
   Settings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

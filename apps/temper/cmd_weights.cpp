@@ -38,23 +38,24 @@ struct Settings {
 void add_options(Command& command, Settings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
-  add_text(command, "-o,--output", "OUT", s.output,
-           "where the mesh with its new weights goes; not needed with --mode feasible");
+  add_text(command, "-o,--output", "OUT", s.output, "the mesh with its new weights; not needed with --mode feasible");
   add_text(command, "--certificate", "FILE", s.certificate,
-           "when there are no weights: the proof, as JSON (docs/weights.md has what it says)");
+           "write the proof that no weights exist, if so, as JSON (docs/weights.md describes it)");
   add_text(command, "--check-certificate", "FILE", s.check,
-           "verify such a proof against IN, in exact arithmetic, and stop");
+           "check such a proof against IN in exact arithmetic, and do nothing else");
   command.add_flag("--json", s.json, "the report as JSON, with vertices and triangles counted from 0");
   command.group("Weights");
   add_choice(command, "--mode", kModes, s.mode,
              "feasible: are there good weights, and with what best margin; minimal: the least change for the margin; "
              "elastic: where there are none, the least violation; barrier: the least barrier energy");
   add_number(command, "--margin", s.options.margin, {0, 0.5, true},
-             "wanted of h/l, d/l and 1 - d/l everywhere; feasible and barrier take half of the best when that is less");
+             "the least h/l, d/l and 1 - d/l wanted anywhere; feasible and barrier take half of the best when that "
+             "is less");
   add_choice(command, "--from", kFrom, s.from, "the weights that change is measured from: all zero, or those of IN");
-  add_choice(command, "--energy", kBarriers, s.barrier, "of --mode barrier");
+  add_choice(command, "--energy", kBarriers, s.barrier, "the energy of --mode barrier");
   add_count(command, "--whole", s.whole, 0,
-            "components of more triangles are solved around their bad triangles only, as far as it takes");
+            "components of more triangles than this are solved around their bad triangles only, as far out as "
+            "needed");
   command.group("Help");
   command.add_help({"IN -o OUT [options]",
                     "  temper example annulus -o ring.vtu && temper weights ring.vtu -o out.vtu\n"

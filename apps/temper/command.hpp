@@ -31,7 +31,7 @@ struct BadValue : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// How many values an option takes.
+/// The number of values that an option takes.
 enum class Values {
   one,       ///< `--gamma 1`, and only once
   repeated,  ///< `--require a --require b`
@@ -66,7 +66,7 @@ struct Option {
 /// "--output" of "-o,--output": how messages call an option.
 [[nodiscard]] std::string long_name(const std::string& names);
 
-/// What --help says besides the options.
+/// The parts of --help besides the options.
 struct VerbHelp {
   std::string usage;     ///< what follows `temper VERB`
   std::string examples;  ///< lines "temper …"; comments start with #

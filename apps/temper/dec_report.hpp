@@ -1,4 +1,4 @@
-// What `temper dec` says of the operators it wrote: as text, as JSON, and as warnings.
+// The reports of `temper dec` on the operators it wrote: as text, as JSON, and as warnings.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct DecRecord {
 
 [[nodiscard]] std::string dec_text(const DecRecord& record);
 [[nodiscard]] std::string dec_json(const DecRecord& record);
-/// What a solver's author should know before using them: nothing for a well-centered mesh.
+/// The warnings that the author of a solver should read before using the operators: none for a well-centered mesh.
 [[nodiscard]] std::vector<std::string> dec_warnings(const DecRecord& record);
 
 }  // namespace temper::app

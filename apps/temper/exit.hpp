@@ -1,4 +1,4 @@
-// How the program ends: its exit codes, and the exception that carries one to main.
+// The exit codes of the program, and the exception that carries one to main.
 //
 // The library returns bad input as values; the program, which has nothing to do but report it and stop,
 // turns them into a Failure with or_fail.

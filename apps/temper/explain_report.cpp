@@ -133,16 +133,15 @@ struct Section {
 };
 const Section kSplits = {
     "Edges that must be split",
-    "The dual of an edge crosses it in one place. A vertex that stays, and sees the edge, lets it cross near one end "
-    "alone; two such vertices can leave no place. No vertices inside, weights or other edges help: the edge must be "
+    "The dual of an edge crosses it in one place. A vertex that stays and sees the edge lets it cross near one end "
+    "only; two such vertices can leave no place. No other vertices inside, weights or edges help: the edge must be "
     "split, or one of the vertices move."};
 const Section kConflicts = {
     "Conflicts",
-    "A dual edge crosses its edge in one place, the same for the triangles on both sides. A well-centered triangle "
-    "that is "
-    "obtuse lets the edges at its obtuse corner be crossed close to that corner alone, and the edge across from it "
-    "away "
-    "from both ends alone. Where two sides need different places, no weights help: a vertex or an edge has to change."};
+    "A dual edge crosses its edge in one place, the same for the triangles on both sides. If an obtuse triangle is "
+    "to be well-centered, the edges at its obtuse corner must be crossed close to that corner, and the edge across "
+    "from it away from both ends. Where the two sides need different places, no weights help: a vertex or an edge "
+    "has to change."};
 const Section kUndecided = {"Not known", "Neither weights nor a proof that there are none were found."};
 const Section kWeights = {"Weights exist", "No vertex and no edge has to change here: the weights of the mesh do."};
 

@@ -1,4 +1,4 @@
-// What temper explain says: for people, and as JSON.
+// The reports of `temper explain`: text for people, and JSON.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// How --help looks: usage, options in groups with wrapped descriptions, examples, exit codes. Plain ASCII, and
+// The layout of --help: usage, options in groups with wrapped descriptions, examples, exit codes. Plain ASCII, and
 // the same on every machine, because docs/cli.md holds it word for word.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace temper::app {
 /// The help text of a verb.
 [[nodiscard]] std::string help_text(const Command& command);
 
-/// What `temper --help` prints, and what `temper` alone prints.
+/// The texts that `temper --help` prints, and `temper` alone.
 [[nodiscard]] std::string full_help();
 [[nodiscard]] std::string short_help();
 

@@ -11,7 +11,7 @@
 
 namespace temper::app {
 
-/// How a value is compared when a requirement just says key=value.
+/// The comparison that a requirement key=value stands for.
 enum class Better {
   equal,   ///< counts
   larger,  ///< minima and fractions: at least

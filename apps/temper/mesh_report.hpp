@@ -1,4 +1,4 @@
-// What `temper mesh` says it made: as text, and as JSON.
+// The reports of `temper mesh` on the mesh it made: as text, and as JSON.
 #pragma once
 
 #include <optional>

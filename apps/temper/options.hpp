@@ -19,7 +19,7 @@
 
 namespace temper::app {
 
-/// Which numbers an option takes.
+/// The interval of numbers that an option takes.
 struct Interval {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -43,7 +43,7 @@ template <class T>  // int or std::uint64_t
 /// BadValue, with a suggestion, when the text is none of the names.
 void expect_name(const std::string& text, std::span<const std::string_view> names);
 
-/// How an option that may have no value is told so.
+/// The word that tells an option, which may have no value, that it has none.
 inline constexpr std::string_view kNone = "none";
 
 Option& add_number(Command& command, const std::string& name, double& target, Interval allowed,

@@ -11,7 +11,7 @@ namespace temper::app {
 /// Columns of the tables of `temper check` and `temper optimize`.
 inline constexpr std::size_t kLabelColumns = 30, kNumberColumns = 14;
 
-/// How the terminal wants it.
+/// The style of text that the terminal wants.
 struct TextStyle {
   bool utf8 = true;  ///< else bars and symbols in ASCII
   std::size_t columns = 100;

@@ -1,4 +1,4 @@
-// What a run did to the errors of solvers: temper optimize --verify.
+// The errors of solvers before and after a run: `temper optimize --verify`.
 #pragma once
 
 #include <string>

@@ -12,7 +12,7 @@ namespace temper::app {
 /// As many threads as asked for (0: as the machine has). Null when that is one: then everything runs in the caller.
 [[nodiscard]] std::unique_ptr<Executor> make_threads(std::size_t threads);
 
-/// What --version says of a program that has one thread only; empty when it has more.
+/// The note of --version in a program that has one thread only; empty when it has more.
 [[nodiscard]] std::string_view threads_note();
 
 }  // namespace temper::app

@@ -32,7 +32,7 @@ constexpr std::array kKinds = {EventKind::move,     EventKind::weight,  EventKin
 
 // --- out ------------------------------------------------------------------------------------------------------
 
-/// What the positions, weights and triangles are, in 64 bits (FNV-1a): that a trace is not taken for another mesh's.
+/// A hash of positions, weights and triangles, 64 bits (FNV-1a), so that a trace is not taken for another mesh's.
 std::string checksum(const Mesh& mesh) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   const auto add = [&hash](std::uint64_t value) {
@@ -171,7 +171,7 @@ class Record {
   }
 
  private:
-  /// What the parser has to say, without its own name and number: "… at line 1, column 3: …".
+  /// The parser's message without its own name and number: "… at line 1, column 3: …".
   static std::string reason(const std::string& what) {
     const std::size_t at = what.find("column ");
     return at == std::string::npos ? what : what.substr(at);

@@ -24,7 +24,7 @@ namespace temper::app {
 /// The last line, with the mesh that came out.
 [[nodiscard]] std::string trace_end(std::size_t n_events, const Mesh& result, const Input& input);
 
-/// What the last line says. Traces made by hand may say nothing of the result.
+/// The last line of a trace. Traces made by hand may say nothing of the result.
 struct TraceEnd {
   std::size_t events = 0;
   std::optional<std::size_t> vertices, triangles;

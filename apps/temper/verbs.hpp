@@ -10,7 +10,7 @@
 
 namespace temper::app {
 
-/// What follows the verb on the command line.
+/// The words after the verb on the command line.
 using Arguments = std::vector<std::string>;
 
 Exit run_mesh(const Arguments& arguments);

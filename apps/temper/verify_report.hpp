@@ -1,4 +1,4 @@
-// What temper verify says: tables for people, and JSON.
+// The reports of `temper verify`: tables for people, and JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,4 +1,4 @@
-// What temper weights says: for people, and as JSON.
+// The reports of `temper weights`: text for people, and JSON.
 #pragma once
 
 #include <string>
