@@ -2,9 +2,11 @@
 """Checks that every #include keeps to the layers, and that the core stays what it promises to be.
 
     scripts/check_layers.py [ROOT]       exit 1 and one line a violation: file:line: why
+    scripts/check_layers.py --picture    draws the layers anew in docs/architecture.md
     scripts/check_layers.py --self-test  plants violations in a scratch tree and expects each to be found
 
-The table below is the architecture. A public header belongs to the layer it speaks for; a file of a layer
+The table below is the architecture, and docs/architecture.md shows it: the picture there must be that of the table, and
+every folder of src/ must be named there. A public header belongs to the layer it speaks for; a file of a layer
 may include its own layer and the layers its row names, nothing else. The core includes the standard C++
 headers alone, and of those none that prints, opens files, starts threads or needs RTTI.
 """
@@ -126,6 +128,43 @@ def sources(root):
             yield path, "app"
 
 
+PAGE = "docs/architecture.md"
+PICTURE = re.compile(r"(<!-- layers: drawn by scripts/check_layers.py --picture -->\n)```text\n.*?```\n", re.S)
+
+
+def picture():
+    """The layers as a wall, and for each layer those it stands on: what they stand on it may include, too."""
+    width = 100  # two more with the edges
+    reach, row = {}, {}
+    for layer, below in LAYERS.items():  # the table goes upwards
+        reach[layer] = set(below).union(*(reach[b] for b in below))
+        row[layer] = max((row[b] + 1 for b in below), default=0)
+    rows = [["apps/temper", "python", "gallery"]]
+    for height in range(max(row.values()), -1, -1):
+        rows.append([layer + ("" if layer in CORE else "*") for layer in LAYERS if row[layer] == height])
+    lines = ["+" + "-" * width + "+"]
+    for bricks in rows:
+        wall = "|".join(brick.center(width // len(bricks)) for brick in bricks)
+        lines += ["|" + wall.center(width) + "|", "+" + "-" * width + "+"]
+    lines += ["", "* a library of its own; all others are the core", "", "apps/temper, python, gallery  on the public headers"]
+    for layer in reversed(LAYERS):
+        stands_on = [b for b in LAYERS[layer] if not any(b in reach[other] for other in LAYERS[layer])]
+        lines += [f"{layer:<30}on {', '.join(stands_on)}"] if stands_on else []
+    return "\n".join(lines) + "\n"
+
+
+def check_page(root):
+    """What docs/architecture.md does not show as it is."""
+    page = (root / PAGE).read_text(encoding="utf-8") if (root / PAGE).exists() else ""
+    drawn = PICTURE.search(page)
+    if drawn is None or drawn[0] != f"{drawn[1]}```text\n{picture()}```\n":
+        yield f"{PAGE}:1: the picture of the layers is not that of scripts/check_layers.py; its --picture draws it anew"
+    for folder in sorted(p for p in (root / "src").glob("**/") if p != root / "src"):
+        name = folder.relative_to(root).as_posix()
+        if f"`{name}`" not in page:
+            yield f"{PAGE}:1: does not say what is in `{name}`"
+
+
 def check(root):
     """All violations, and how many files were read."""
     violations, files = [], 0
@@ -181,16 +220,38 @@ def self_test():
             violations, files = check(pathlib.Path(scratch))
         if files != 1 or bool(violations) != expected:
             wrong.append(f"self-test: {file}: {line}: expected {'a violation' if expected else 'none'}, got {violations}")
-    return wrong, len(planted)
+    pages = [  # docs/architecture.md, how many violations of a tree with src/mesh and src/mesh/room
+        (f"<!-- layers: drawn by scripts/check_layers.py --picture -->\n```text\n{picture()}```\n`src/mesh` `src/mesh/room`", 0),
+        (f"<!-- layers: drawn by scripts/check_layers.py --picture -->\n```text\n{picture()}```\n`src/mesh`", 1),
+        ("<!-- layers: drawn by scripts/check_layers.py --picture -->\n```text\n[mesh]\n```\n`src/mesh` `src/mesh/room`", 1),
+        ("", 3),
+    ]
+    for page, expected in pages:
+        with tempfile.TemporaryDirectory() as scratch:
+            root = pathlib.Path(scratch)
+            (root / "src/mesh/room").mkdir(parents=True)
+            (root / "docs").mkdir()
+            (root / PAGE).write_text(page, encoding="utf-8")
+            found = list(check_page(root))
+        if len(found) != expected:
+            wrong.append(f"self-test: a page with {expected} violations: got {found}")
+    return wrong, len(planted) + len(pages)
 
 
 def main(arguments):
+    here = pathlib.Path(__file__).resolve().parent.parent
     if arguments == ["--self-test"]:
         problems, count = self_test()
-        done = f"{count} planted lines, each judged as expected"
+        done = f"{count} planted lines and pages, each judged as expected"
+    elif arguments == ["--picture"]:
+        page = (here / PAGE).read_text(encoding="utf-8")
+        page, count = PICTURE.subn(lambda found: f"{found[1]}```text\n{picture()}```\n", page)
+        (here / PAGE).write_text(page, encoding="utf-8")
+        problems, done = [] if count == 1 else [f"{PAGE}: has no place for the picture"], f"drew it in {PAGE}"
     else:
-        root = pathlib.Path(arguments[0]) if arguments else pathlib.Path(__file__).resolve().parent.parent
+        root = pathlib.Path(arguments[0]) if arguments else here
         problems, count = check(root)
+        problems += check_page(root)
         done = f"{count} files keep to the layers"
         if count == 0:
             problems = [f"{root}: no sources here"]
