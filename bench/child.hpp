@@ -27,7 +27,7 @@ inline double wall_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// What work() returns in a fork of this process, or nothing when it died.
+/// The result of work() in a fork of this process, or nothing when it died.
 template <class Work>
 auto in_child(Work&& work) {
   using Result = std::invoke_result_t<Work>;

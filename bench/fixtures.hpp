@@ -1,4 +1,4 @@
-// What kernels are timed on: a random mesh of 10,000 vertices, improved.
+// The mesh that kernels are timed on: random, of 10,000 vertices, improved.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What bounds a sweep from below on this machine: the arithmetic of its derivatives, and the traffic of its memory.
+// Lower bounds for the time of a sweep on this machine: the arithmetic of its derivatives, and its memory traffic.
 #pragma once
 
 #include <memory>

@@ -15,7 +15,7 @@ namespace temper::bench {
 #ifdef TEMPER_WITH_IO
 namespace {
 
-/// What optimize() did, and when. `order`: seconds that ordering the mesh takes by itself.
+/// The stages of optimize() and their times. `order`: seconds that ordering the mesh takes by itself.
 Stages stages_of(const TimedRun& timed, double Mark::*clock, double before, double total, double order) {
   const std::vector<Mark>& marks = timed.marks;
   // The last sweep ends after the last mark: the history knows when.

@@ -1,4 +1,4 @@
-// How long until the energy is what 200 sweeps of plain Gauss-Seidel reach.
+// The time until the energy is what 200 sweeps of plain Gauss-Seidel reach.
 #include <cmath>
 
 #include "measure.hpp"

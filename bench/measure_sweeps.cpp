@@ -30,7 +30,7 @@ double sweep_ns(const Mesh& mesh, const OptimizeOptions& options, int sweeps) {
   return ns(run.cpu_between(0, static_cast<std::size_t>(sweeps)), mesh.n_vertices(), sweeps);
 }
 
-/// Of a loop over all vertices, as often as it takes for the clock.
+/// The time per vertex of a loop over all vertices, run as often as the clock needs.
 double loop_ns(std::size_t vertices, const std::function<void()>& loop) {
   const double start = cpu_seconds();
   double seconds = 0;

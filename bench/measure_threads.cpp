@@ -17,8 +17,8 @@ double wall_ns(const Mesh& mesh, int sweeps, std::size_t threads) {
   return 1e9 * seconds / (static_cast<double>(mesh.n_vertices()) * sweeps);
 }
 
-/// What a run makes of the mesh, with all that runs do by default: long enough for passes, but on large meshes, where
-/// the first sweeps show all kinds of parts, and each run takes seconds.
+/// A hash of the mesh after a run with all defaults: long enough for passes, but on large meshes, where the first
+/// sweeps show all kinds of parts, and each run takes seconds.
 std::uint64_t result_with(const Mesh& mesh, std::size_t threads) {
   constexpr std::size_t kLarge = 200000;
   const auto executor = make_executor(threads);

@@ -1,4 +1,5 @@
-// What is measured at one size; NaN where it was not. Plain numbers, so that a child process can send them.
+// One row of measurements, for one size; NaN where nothing was measured. Plain numbers, so that a child process can
+// send them.
 #pragma once
 
 #include <array>

@@ -8,7 +8,7 @@
 
 namespace temper::bench {
 
-/// What one part leaves for the next.
+/// The results that one part leaves for the next.
 struct alignas(64) PartsState {
   Lane sums[kStarSums];  ///< value, gradient, Hessian
   Lane squared_radius;
@@ -36,7 +36,7 @@ struct StepParts {
   void (*star_sums)(const EdgeFormula&, const StarLanes&, Lane (&)[kStarSums]);
 };
 
-/// Of the instruction set in use.
+/// The parts, compiled for the instruction set in use.
 [[nodiscard]] const StepParts& step_parts();
 
 }  // namespace temper::bench

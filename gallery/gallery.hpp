@@ -40,8 +40,8 @@ struct Page {
   std::vector<Claim> claims;
 };
 
-/// How much work a figure may do: everything, or what the tests have time for (fewer samples, shorter runs, but
-/// every claim).
+/// The work that a figure may do: everything, or what the tests have time for (fewer samples, shorter runs, but every
+/// claim).
 enum class Effort { full, reduced };
 
 /// A figure of the paper.

@@ -111,7 +111,7 @@ std::string contents_html(std::span<const Result> results) {
   return html + "</ol></nav>\n";
 }
 
-/// What a reader wants to know first: which claims fail.
+/// The claims that fail, which a reader wants to know first.
 std::string failing_html(std::span<const Result> results) {
   std::string items;
   for (const Result& result : results) {

@@ -41,7 +41,7 @@ bool is_among(std::span<const Figure> all, int number) {
   return std::ranges::find(all, number, &Figure::number) != all.end();
 }
 
-/// Why the figures of this range cannot be made, or nothing.
+/// The reason why the figures of this range cannot be made, or nothing.
 std::optional<std::string> problem(std::span<const Figure> all, std::string_view text, Range range) {
   if (range.first > range.last) return "'" + std::string(text) + "' is an empty range";
   for (const int number : {range.first, range.last}) {

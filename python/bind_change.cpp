@@ -1,4 +1,4 @@
-// What changes meshes: optimize, replay, regularity, topology, size, the mesher.
+// Bindings of all that changes meshes: optimize, replay, regularity, topology, size, the mesher.
 #include "bind.hpp"
 #include "optimize_options.hpp"
 #include "temper/geometry.hpp"

@@ -1,4 +1,4 @@
-// What looks at meshes: quality, energy, dec, draw, verify.
+// Bindings of all that only looks at meshes: quality, energy, dec, draw, verify.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -50,7 +50,7 @@ py::dict quality_to_dict(const Quality& q) {
   return r.dict;
 }
 
-/// Of each triangle: the least of its h/ℓ and d/ℓ, and whether it is well-centered (exact).
+/// The least h/ℓ or d/ℓ of each triangle, and whether it is well-centered (exact).
 py::tuple triangle_margins(const PyMesh& self) {
   const auto mesh = self.read();
   py::array_t<double> margins(Shape{static_cast<py::ssize_t>(mesh->n_triangles())});

@@ -307,7 +307,7 @@ std::vector<std::string> strings_from(const py::sequence& sequence) {
   return strings;
 }
 
-/// What a file with this mesh says: the one it came from, updated, or a new one.
+/// The file of this mesh: the one it came from, updated, or a new one.
 io::MeshFile file_of(const PyMesh& self) {
   const auto mesh = self.read();
   if (!self.source()) return io::from_mesh(*mesh);

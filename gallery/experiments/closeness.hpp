@@ -1,4 +1,4 @@
-// How nearly two vertices coincide, by the measure of the paper's short-edge rule (Algorithm 2), for marks and claims.
+// A measure of how nearly two vertices coincide, from the paper's short-edge rule (Algorithm 2), for marks and claims.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Where the vertices of the dual lie: orthocenters of triangles, and the domain that should hold them.
+// The vertices of the dual, which are orthocenters of triangles, and the domain that should hold them.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace temper::gallery {
 /// From p to the nearest boundary edge; +∞ without one.
 [[nodiscard]] double distance_to_boundary(const Mesh& mesh, Vec2 p);
 
-/// How many vertices are not on the boundary.
+/// The number of vertices that are not on the boundary.
 [[nodiscard]] std::size_t count_interior(const Mesh& mesh);
 
 }  // namespace temper::gallery

@@ -15,7 +15,7 @@ namespace temper::gallery {
 inline constexpr std::array<std::string_view, 3> kHotEnergies = {"F", "dT", "T"};
 inline constexpr std::array<std::string_view, 2> kBarriers = {"BP", "BHs"};
 inline constexpr std::array<std::string_view, 5> kFiveEnergies = {"F", "dT", "T", "BP", "BHs"};
-/// Where one of the five stands among them.
+/// The index of an energy among the five.
 [[nodiscard]] std::size_t place_of(std::string_view energy);
 
 /// "E_∂T" of "dT", for prose.

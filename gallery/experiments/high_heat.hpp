@@ -38,7 +38,7 @@ struct CollapseEvent {
   std::size_t event = 0;
 };
 [[nodiscard]] std::vector<CollapseEvent> collapses(const Recording& run);
-/// How many there are in each outer iteration, to the last.
+/// The number of collapses in each outer iteration, to the last.
 [[nodiscard]] std::vector<std::size_t> collapses_by_outer(const Recording& run);
 
 /// The same run under E_BP with another vertex order.

@@ -9,7 +9,7 @@
 
 namespace temper::gallery {
 
-/// Of the interval that a search looks at: what golden section can tell apart in doubles.
+/// The tolerance of a search, relative to its interval: what golden section can tell apart in doubles.
 inline constexpr double kSearchTolerance = 1e-8;
 
 /// Root mean square of the distances to v's neighbours.

@@ -1,4 +1,4 @@
-// What pictures of a run show of a moment: vertices by their number in the input, and what flips between two moments.
+// A moment of a run as a picture: vertices by their number in the input, and the edges that flip between two moments.
 #pragma once
 
 #include <vector>

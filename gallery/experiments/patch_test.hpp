@@ -33,7 +33,7 @@ using Removals = std::map<int, std::vector<VertexId>>;
 /// Mean iteration; 0 when there are none.
 [[nodiscard]] double mean_iteration(const Removals& removals);
 
-/// What each rule removes with one vertex order.
+/// The removals of each rule with one vertex order.
 struct RuleComparison {
   std::string order;
   Removals patch_positions, patch_weights;            ///< the patch test, without and with weights

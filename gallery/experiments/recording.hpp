@@ -39,7 +39,7 @@ struct Recording {
   [[nodiscard]] const Moment& begin_of(int iteration) const;
 };
 
-/// What is kept of a run: the meshes between outer iterations, or also those after each sweep.
+/// The meshes that are kept of a run: those between outer iterations, or also those after each sweep.
 enum class Keep { outer, sweeps };
 
 [[nodiscard]] Recording record(const Mesh& start, const OptimizeOptions& options, Keep keep);

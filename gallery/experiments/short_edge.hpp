@@ -11,7 +11,7 @@
 
 namespace temper::gallery {
 
-/// Where E_F would put an inner vertex, and how near that is to the nearest neighbour.
+/// The place where E_F would put an inner vertex, and its distance to the nearest neighbour.
 struct ShortEdge {
   Vec2 best;                ///< the E_F-optimal position
   VertexId nearest;         ///< the neighbour nearest to it
@@ -22,8 +22,8 @@ struct ShortEdge {
 };
 [[nodiscard]] ShortEdge short_edge(const Mesh& mesh, VertexId v);
 
-/// What taking v away changes of the energy of the mesh: the patch test removes it when this is negative. +∞ when v
-/// cannot be removed.
+/// The change of the mesh's energy when v is removed: the patch test removes it when this is negative. +∞ when v cannot
+/// be removed.
 [[nodiscard]] double energy_change_without(const Mesh& mesh, const EnergyModel& model, VertexId v);
 
 /// Edges at v.

@@ -26,7 +26,7 @@ using Corners = std::array<WeightedPoint, 3>;
 /// The ★1 model of figs. 8 to 10: γ = 1 and h° = −0.15, lengths.
 [[nodiscard]] EnergyModel paper_model(EnergyKind kind, int star = 1);
 
-/// How well-centered a triangle is.
+/// The margins by which a triangle is well-centered.
 struct Margins {
   double min_d = 0;  ///< least d_ij over the six half-edges
   double min_h = 0;  ///< least h_k
@@ -52,7 +52,7 @@ struct BestWeight {
 /// E_F by weight is a cubic polynomial, E_F of ★2 a quadratic one: c[0] + c[1] w + c[2] w² + c[3] w³, through four
 /// values.
 [[nodiscard]] std::array<double, 4> weight_polynomial(int star, double theta);
-/// Where the cubic has its local minimum and maximum; nothing when it has none.
+/// The places of the local minimum and maximum of the cubic; nothing when it has none.
 struct Extrema {
   double minimum = 0, maximum = 0;
 };

@@ -69,7 +69,7 @@ struct SequenceCount {
 };
 /// With reduced effort, 24 of the 120 sequences.
 inline constexpr std::size_t kReducedStride = 5;
-/// Of all 120 sequences, or of each stride-th.
+/// Counts over all 120 sequences, or over each stride-th.
 [[nodiscard]] SequenceCount count_sequences(const SparseSetting& setting, std::size_t stride = 1);
 
 /// The mesh with numbered vertices; weight circles at a quarter of their radius, as in figures 13 to 15.

@@ -14,7 +14,7 @@
 
 namespace temper::gallery {
 
-/// How a run ends, the worst first.
+/// The ends that a run may have, the worst first.
 enum class Verdict {
   mess,       ///< inverted triangles, or an energy a thousand times the input's: a HOT mess
   hidden,     ///< regular only without some vertices
@@ -40,7 +40,7 @@ struct Cell {
   std::vector<Ending> endings;  ///< one a vertex order; the first as numbered
 
   [[nodiscard]] std::size_t count(Verdict verdict) const;
-  /// Of most runs; the worse of two as frequent.
+  /// The verdict on most runs; the worse of two that are as frequent.
   [[nodiscard]] Verdict verdict() const;
 };
 

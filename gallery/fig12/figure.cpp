@@ -64,7 +64,7 @@ std::string energy_plot() {
   return line_plot_svg(plot);
 }
 
-/// Where p_4 ends by γ or −h°.
+/// The places where p_4 ends, by γ or −h°.
 std::vector<Vec2> heights_by(std::string_view energy, const std::vector<double>& softenings) {
   std::vector<Vec2> points;
   for (const double s : softenings) {
@@ -205,7 +205,7 @@ Claim better_without() {
           "angles at the input positions"};
 }
 
-/// What a triangle that is turned over counts, times the energy of its mirror image.
+/// The factor by which a triangle that is turned over counts, times the energy of its mirror image.
 enum class Inverted { like_others = 1, left_out = 0, negative = -1 };
 
 /// E_F with p_4 at (0, y).

@@ -14,7 +14,7 @@
 namespace temper::gallery {
 namespace {
 
-/// How runs end over the vertex orders, by energy.
+/// Counts of how runs end over the vertex orders, by energy.
 struct Counts {
   std::array<SequenceCount, kFiveEnergies.size()> immediate, deferred;  ///< i_w = 0 and 2
 };

@@ -22,7 +22,8 @@ constexpr double kAbsurd = 10;  // times the energy of the input, either sign
 
 std::size_t inverted(const Mesh& mesh) { return quality(mesh).inverted_triangles; }
 
-/// What a sweep changed: the energy of the mesh, and the energies of the patches, step by step. Equal but for rounding.
+/// The change in a sweep of the energy of the mesh, and of the energies of the patches, step by step. Equal but for
+/// rounding.
 struct Change {
   int sweep = 0;
   double energy = 0;  ///< after the sweep
@@ -45,7 +46,7 @@ std::vector<Change> changes(const Recording& run) {
   return all;
 }
 
-/// What became of one run.
+/// The end of one run.
 struct Ending {
   int sweeps = 0;
   int first_inverted = 0;  ///< sweep; 0: none
@@ -103,7 +104,7 @@ struct Sample {
   int sweeps = kSweeps;  ///< at most
 };
 
-/// How they end, by remedy and energy.
+/// Counts of how runs end, by remedy and energy.
 struct Count {
   std::size_t all = 0, mess = 0, inverted = 0, negative = 0;
   int latest_inverted = 0;
@@ -184,7 +185,7 @@ Claim quickly(const Count& f) {
           "energies are as absurd"};
 }
 
-/// How the run with vertices as numbered stops.
+/// A sentence on how the run with vertices as numbered stops.
 std::string early_stop() {
   const std::vector<Change> all = changes(record(dense_horseshoe(), dense_options("F"), Keep::sweeps));
   if (all.empty()) return "it does not start";

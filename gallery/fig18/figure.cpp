@@ -183,7 +183,7 @@ Claim little_difference(const std::array<Pair, 3>& pairs) {
           "little is less than 2 % and 10 %. The barriers' two meshes are the same optimum"};
 }
 
-/// Of E_T, whose optima depend on the order: in how many orders i_w = 2 needs fewer sweeps.
+/// The number of orders in which i_w = 2 needs fewer sweeps, for E_T, whose optima depend on the order.
 std::string orders_with_fewer(int random) {
   const double tolerance = paper_method().paper.tolerance;
   std::size_t all = 0, fewer = 0;

@@ -34,7 +34,7 @@ Replay mesh_before(const Recording& run, std::size_t at) {
   return replayed ? *std::move(replayed) : Replay{};
 }
 
-/// Where three line searches under E_F put v: the test of Algorithm 2.
+/// The place to which three line searches under E_F move v: the test of Algorithm 2.
 Vec2 collapse_position(const Mesh& mesh, VertexId v) {
   EnergyModel model;
   model.kind = EnergyKind::F;
@@ -102,8 +102,8 @@ Picture panels() {
       "iteration later and dark green after two."};
 }
 
-/// How far a vertex of the input goes in an iteration, over the mean length of its edges at the end of it; nothing when
-/// it has been removed by then.
+/// The distance that a vertex of the input goes in an iteration, over the mean length of its edges at the end of it;
+/// nothing when it has been removed by then.
 std::optional<double> relative_displacement(const Recording& run, VertexId input, int iteration) {
   const Moment &from = run.begin_of(iteration), &to = run.begin_of(iteration + 1);
   const VertexId before = from.find(input), after = to.find(input);

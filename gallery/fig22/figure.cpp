@@ -205,7 +205,7 @@ std::vector<Limit> limits() {
           {"unlimited", FlipLimit::unlimited}};
 }
 
-/// What one policy ends in, over vertex orders.
+/// The outcome of one policy, over vertex orders.
 struct Outcome {
   std::vector<double> energies, sweeps;
   std::size_t flips = 0;

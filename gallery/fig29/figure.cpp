@@ -80,7 +80,7 @@ Claim final_meshes_are_valid() {
           "Exact tests on the final meshes of both runs."};
 }
 
-/// What is asked of each 4-valent vertex: the rule, and the patch test.
+/// Counts of 4-valent vertices that the rule, or the patch test, misses.
 struct Missed {
   std::size_t vertices = 0, not_by_rule = 0, farther_apart = 0, by_patch_test = 0;
   std::string numbers;  ///< of the distances

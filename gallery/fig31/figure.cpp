@@ -85,7 +85,7 @@ Claim weights_move_less(Effort effort) {
           digits(orders.size()) + " vertex orders."};
 }
 
-/// How the patch test fares on a larger mesh, by how it measures a patch.
+/// The success of the patch test on a larger mesh, by the measure that it takes of a patch.
 struct Measure {
   const char* name;
   RemovalMeasure measure;

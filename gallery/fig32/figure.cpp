@@ -280,7 +280,7 @@ Claim barriers_always_work(const Matrix& m, const Matrix& inverting) {
       "in several vertex orders."};
 }
 
-/// What E_BP reaches in a number of iterations when weights join at i_w; one energy a vertex order.
+/// The energies E_BP that a number of iterations reaches when weights join at i_w; one energy for each vertex order.
 struct Delay {
   int weights_from = 0;
   std::vector<double> energies;

@@ -66,7 +66,7 @@ struct LinePlot {
 /// The plot as a document of its own. O(points).
 [[nodiscard]] std::string line_plot_svg(const LinePlot& plot);
 
-/// What is drawn over a contour plot: a polyline (not closed unless it ends where it began), dots at its points.
+/// An overlay of a contour plot: a polyline (not closed unless it ends where it began), dots at its points.
 struct PlotOverlay {
   std::vector<Vec2> points = {};
   bool line = true;

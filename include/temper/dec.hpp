@@ -73,7 +73,7 @@ struct DecComplex {
 /// The operators of a mesh. Precondition: no erased triangles; fewer than 2³¹ half-edges. O(n).
 [[nodiscard]] DecComplex dec(const Mesh& mesh);
 
-/// What to know of the operators before a solver uses them.
+/// A summary of the operators, to be read before a solver uses them.
 struct DecSummary {
   std::size_t vertices = 0, edges = 0, triangles = 0, boundary_edges = 0;
   std::size_t negative_star0 = 0;

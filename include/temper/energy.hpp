@@ -27,7 +27,7 @@
 namespace temper {
 
 enum class EnergyKind { F, T, dT, BH, BHs, BP };
-/// How many kinds there are, which is how many rows energies() has.
+/// The number of kinds, which is the number of rows of energies().
 inline constexpr std::size_t kEnergyKinds = static_cast<std::size_t>(EnergyKind::BP) + 1;
 
 /// The Hodge star that an energy is for: it picks α and β.
@@ -46,7 +46,7 @@ enum class BoundaryTreatment {
   mirrored,  ///< the triangle mirrored at the edge (Mullen et al. 2011): the edge counts twice
 };
 
-/// What φ and h° are measured by.
+/// The unit of γ and h°.
 enum class LengthScale {
   absolute,  ///< a length in the user's units
   relative,  ///< times the length of the edge: exactly scale-free
@@ -63,7 +63,7 @@ struct Softening {
 struct EnergyInfo {
   EnergyKind kind;
   std::string_view name;       ///< "F", "T", "dT", "BH", "BHs", "BP"
-  std::string_view formula;    ///< for --help and docs
+  std::string_view formula;    ///< for help texts and docs
   BoundaryTreatment boundary;  ///< the one its definition asks for
   bool barrier;                ///< +∞ outside 0 < d < ℓ
   bool softened_by_gamma;      ///< has a γ

@@ -38,7 +38,7 @@ enum class ErrorCode {
 /// "duplicate_point", … : the name of the code, stable across versions.
 [[nodiscard]] std::string_view name(ErrorCode code);
 
-/// What is wrong with the input, for a person: `where: message`.
+/// An error in the input, told to a person: `where: message`.
 struct InputError {
   ErrorCode code = ErrorCode::syntax;
   std::string where;    ///< "coast.msh:41", or empty when the input came as arrays

@@ -1,4 +1,4 @@
-// Where threads come from: one small interface, so that the core itself starts none.
+// An executor runs work on threads: one small interface, so that the core itself starts none.
 //
 // Work is cut into blocks whose number does not depend on the number of threads, and every block writes
 // only its own results: the same bytes come out for any executor.

@@ -1,4 +1,4 @@
-// Why not: for every triangle that is not well-centered, the reason and what would cure it.
+// Explanations: for every triangle that is not well-centered, the reason and what would cure it.
 //
 // A reason is a smallest set of triangles that no weights suit all at once, with its certificate
 // (temper/feasibility.hpp), or that weights do exist and only have to be found. What forces a conflict is said in
@@ -25,8 +25,8 @@
 
 namespace temper {
 
-/// Why triangles are not well-centered. Of edge, fan and patch no weights suit all triangles of the conflict at once,
-/// as certified, while they suit any that are left when one is taken away.
+/// Kinds of reasons why triangles are not well-centered. For edge, fan and patch no weights suit all triangles of the
+/// conflict at once, as certified, while some suit all that are left when any one of them is taken away.
 enum class ReasonKind {
   split,     ///< an edge that stays has to be split: no vertices inside, weights or connectivity help (necessity.hpp)
   edge,      ///< the triangles on the two sides of an edge need its dual to cross it at different places
@@ -61,7 +61,7 @@ struct FanCenter {
   double shortest_length = 0, longest_length = 0;
 };
 
-/// What would cure a reason.
+/// A change that would cure a reason.
 struct Cure {
   enum class Action {
     find_weights,    ///< find_weights(); the rest as it is
@@ -120,7 +120,7 @@ struct ExplainOptions {
 
 struct Explanation {
   std::size_t triangles = 0, bad = 0;
-  /// Of the whole mesh, positions and connectivity as they are. Feasible when nothing is bad.
+  /// The verdict on the whole mesh, positions and connectivity as they are. Feasible when nothing is bad.
   Feasibility verdict = Feasibility::undecided;
   std::size_t changed = 0;      ///< feasible: weights that differ from zero in the answer of find_weights,
   double margin = 0;            ///< and the margin it was asked for: 0.01, or half of the best when that is less
@@ -136,9 +136,9 @@ struct Explanation {
 ///     for (const Reason& reason : why->reasons) puts(reason_text(mesh, reason).c_str());
 [[nodiscard]] Expected<Explanation> explain(const Mesh& mesh, LpSolver& solver, const ExplainOptions& options = {});
 
-/// What a reason says to people, in the user's numbers: some sentences. `names` may be null: counted from 0.
+/// A reason in words, some sentences, with the user's numbers. `names` may be null: counted from 0.
 [[nodiscard]] std::string reason_text(const Mesh& mesh, const Reason& reason, const InputNames* names = nullptr);
-/// What one cure says, a sentence.
+/// A cure in words, a sentence.
 [[nodiscard]] std::string cure_text(const Mesh& mesh, const Cure& cure, const InputNames* names = nullptr);
 
 }  // namespace temper

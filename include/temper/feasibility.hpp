@@ -69,7 +69,7 @@ struct WeightConstraint {
   friend bool operator==(const WeightConstraint&, const WeightConstraint&) = default;
 };
 
-/// Why no weights exist (Farkas). Each constraint c is a polynomial N_c > margin · M_c, linear in the weights:
+/// A proof that no weights exist (Farkas). Each constraint c is a polynomial N_c > margin · M_c, linear in the weights:
 ///
 ///   height  N = D_p (D_r + w_q − w_r) + D_q (D_r + w_p − w_r) = 2 h ℓ S,   M = 2 ℓ² S
 ///   split   N = ℓ² + w_p − w_q                                = 2 d ℓ,     M = 2 ℓ²
@@ -87,7 +87,7 @@ struct Certificate {
   friend bool operator==(const Certificate&, const Certificate&) = default;
 };
 
-/// What the checker says.
+/// The verdicts of check_certificate.
 enum class CertificateCheck {
   proves,            ///< no weights exist
   proves_nothing,    ///< the sum is not a contradiction
@@ -104,7 +104,7 @@ enum class CertificateCheck {
 
 // --- margins ------------------------------------------------------------------------------------------
 
-/// Which inequalities count.
+/// The inequalities that count.
 enum class Conditions {
   well_centered,  ///< heights and splits
   heights_only,   ///< orthocenters inside; dual edges need not cross their own edges
@@ -126,7 +126,7 @@ struct BestMargin {
 /// The largest margin makes a worse mesh than a small one: weights go far for its sake.
 [[nodiscard]] BestMargin best_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver,
                                      Conditions conditions = Conditions::well_centered);
-/// Of the whole mesh: the least of its components.
+/// The best margin of the whole mesh: the least of its components.
 [[nodiscard]] BestMargin best_margin(const Mesh& mesh, LpSolver& solver,
                                      Conditions conditions = Conditions::well_centered);
 
@@ -155,7 +155,7 @@ enum class Feasibility {
 };
 [[nodiscard]] std::string_view name(Feasibility verdict);
 
-/// What is known of the best margin of the mesh.
+/// The meaning of a margin that is reported as the best of the mesh.
 enum class MarginIs {
   exact,     ///< up to rounding
   at_least,  ///< attained; more was not tried

@@ -50,7 +50,7 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 /// Sign of d_pq = (ℓ² + w_p − w_q)/(2ℓ). Exact.
 [[nodiscard]] Sign edge_split_sign(const WeightedPoint& p, const WeightedPoint& q);
 
-/// All h > 0 and all 0 < d < ℓ, and counter-clockwise. Exact.
+/// Says whether a triangle is well-centered: all h > 0, all 0 < d < ℓ, and counter-clockwise. Exact.
 [[nodiscard]] bool is_well_centered(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
 
 // --- constructions, in doubles ---------------------------------------------------------------------

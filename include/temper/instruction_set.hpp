@@ -1,4 +1,5 @@
-// Which instructions of the processor the energies are computed with. Results are the same, bit for bit, for each.
+// The choice of the processor's instructions that energies are computed with. Results are the same for each, bit for
+// bit.
 #pragma once
 
 #include <span>
@@ -13,12 +14,12 @@ enum class InstructionSet {
 };
 [[nodiscard]] std::string_view name(InstructionSet set);
 
-/// Those that this processor has, and this build has code for, the slowest first.
+/// The instruction sets that this processor has and this build has code for, the slowest first.
 [[nodiscard]] std::span<const InstructionSet> instruction_sets();
 /// The one in use: at first the fastest.
 [[nodiscard]] InstructionSet instruction_set();
-/// For comparisons: of the whole process, for what starts from now on. False, and nothing changes, where
-/// instruction_sets() does not have it.
+/// Makes the whole process use this set for what starts from now on; meant for comparisons. False, and nothing changes,
+/// where instruction_sets() does not have it.
 bool use_instruction_set(InstructionSet set);
 
 }  // namespace temper

@@ -71,8 +71,8 @@ struct ReadOptions {
 
 struct WriteOptions {
   std::string format;  ///< row of formats(); empty: by the suffix of the path
-  /// Of formats that have several. VTU: ascii; base64, which is compressed by zlib, its default; appended, raw bytes
-  /// after the XML: the fastest to write and to read, and about half as large again.
+  /// The encoding, for formats that have several. VTU: ascii; base64, which is compressed by zlib, its default;
+  /// appended, raw bytes after the XML: the fastest to write and to read, and about half as large again.
   std::optional<Encoding> encoding;
   Executor* executor = nullptr;  ///< threads that compress; the bytes written do not depend on them
 };
@@ -125,9 +125,9 @@ class TextStream {
 class VertexOfPoint {
  public:
   VertexOfPoint() = default;
-  /// All of n points.
+  /// Keeps all of n points.
   explicit VertexOfPoint(std::size_t n) : n_(n), n_kept_(n) {}
-  /// Those of the points that are marked, in order.
+  /// Keeps the points that are marked, in order.
   explicit VertexOfPoint(const std::vector<bool>& kept);
 
   [[nodiscard]] std::size_t size() const { return n_; }
@@ -174,7 +174,7 @@ void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
 /// interpolate then. Nothing when points were dropped. What is free is given back to the system.
 void release_geometry(MeshFile& file, const LoadedMesh& loaded);
 
-/// What is to be meshed, as a file says it.
+/// An outline, as a file gives it.
 struct OutlineFile {
   Outline outline;                    ///< its names are the file's own numbers and lines
   std::string path;                   ///< where it was read from

@@ -27,7 +27,7 @@ namespace temper {
 
 class Executor;
 
-/// How the user counts points and triangles, so that errors speak the user's numbers.
+/// The user's numbers of points and triangles, so that errors speak them.
 /// The base class counts from 0 and knows no file. (Inline, so that classes derived from it find its type information
 /// wherever they are compiled: the library is built without.)
 class InputNames {
@@ -65,7 +65,7 @@ class ZeroUntilSet {
     }
     values_[id.index] = value;
   }
-  /// After the last of `size` ids another one follows.
+  /// Appends the number of one more id, after `size` of them.
   void push_back(T value, std::size_t size) {
     if (values_.empty() && value == T()) return;
     values_.resize(size);
@@ -125,7 +125,7 @@ class Mesh {
   void set_fixed(VertexId v, bool fixed);
   /// Precondition: v is not isolated.
   [[nodiscard]] bool is_boundary(VertexId v) const { return !twin(outgoing(v)).valid(); }
-  /// In no triangle: just added, or removed and not yet dropped by compact().
+  /// Says whether v is in no triangle: just added, or removed and not yet dropped by compact().
   [[nodiscard]] bool is_isolated(VertexId v) const { return !outgoing(v).valid(); }
 
   // --- halfedges ---------------------------------------------------------------------------------
@@ -152,7 +152,8 @@ class Mesh {
     constrained_.set(h, constrained ? 1 : 0, n_halfedges());
     if (twin(h).valid()) constrained_.set(twin(h), constrained ? 1 : 0, n_halfedges());
   }
-  /// Each edge once: the halfedge that stands for it (the boundary one, or the smaller of two twins).
+  /// Says whether h stands for its edge, as one halfedge of each edge does: the boundary one, or the smaller of two
+  /// twins.
   [[nodiscard]] bool is_edge_representative(HalfedgeId h) const { return !twin(h).valid() || h < twin(h); }
   [[nodiscard]] std::size_t n_edges() const;
 
@@ -266,13 +267,13 @@ class Mesh {
   ZeroUntilSet<TriangleId, std::int32_t> regions_;
 };
 
-/// What Mesh::build made, and what it had to repair.
+/// The result of Mesh::build, and what it had to repair.
 struct BuiltMesh {
   Mesh mesh;
   std::size_t reversed_triangles = 0;  ///< clockwise in the input
 };
 
-/// What compact() kept: new id → old id.
+/// The vertices and triangles that compact() kept: new id → old id.
 struct Compaction {
   IdVector<VertexId, VertexId> vertices;
   IdVector<TriangleId, TriangleId> triangles;

@@ -19,7 +19,7 @@
 
 namespace temper {
 
-/// What an outline without parts encloses.
+/// The meaning of the segments of an outline without parts: what they enclose.
 enum class Enclosed {
   by_points,  ///< like `all` when it has hole or region points, else like `alternate`
   all,        ///< everything that segments enclose, but for the holes (Triangle's reading)

@@ -1,5 +1,5 @@
-// What every well-centered mesh of a domain must keep to, whatever its inner vertices, weights and connectivity: which
-// edges of the boundary and of constrained lines have to be split before there can be one.
+// A necessary condition for well-centered meshes of a domain, whatever their inner vertices, weights and connectivity:
+// it names the edges of the boundary and of constrained lines that have to be split before there can be one.
 //
 // The dual of an edge uv crosses it at one place, a part s of the way from u. A vertex X that sees the edge wants
 //
@@ -37,7 +37,7 @@ struct EdgeConflict {
 /// the triangles that meet the disc around the edge.
 [[nodiscard]] std::optional<EdgeConflict> edge_conflict(const Mesh& mesh, HalfedgeId h, double up_to = 1);
 
-/// All edges of the boundary and of constrained lines with such a conflict, least sum first. None does not mean that
+/// The edges of the boundary and of constrained lines with such a conflict, least sum first. None does not mean that
 /// there is a well-centered mesh. Precondition: no erased triangles, all counter-clockwise. O(n) and the triangles near
 /// the edges.
 ///

@@ -1,7 +1,8 @@
-// What is to be meshed: points, segments between them, and what they enclose.
+// An outline is the input of the mesher: a planar straight-line graph (PSLG), that is points and segments between them,
+// with what they enclose.
 //
-// An outline is the input of a mesher, not a mesh: its segments may be long or short, enclose holes and islands,
-// separate regions, end anywhere inside or branch. Points keep their place bit for bit in every mesh made of it.
+// Its segments may be long or short, enclose holes and islands, separate regions, end anywhere inside or branch. Points
+// keep their place bit for bit in every mesh made of it.
 #pragma once
 
 #include <array>
@@ -28,14 +29,14 @@ struct OutlineRegion {
   std::optional<double> size = {};  ///< edge length wanted there, when less than elsewhere
 };
 
-/// An area given by its border: inside is what a ray leaves across an odd number of these segments.
+/// An area given by its boundary: inside is what a ray leaves across an odd number of these segments.
 struct OutlinePart {
   std::int32_t region = 0;
   std::vector<std::int32_t> segments;
   std::optional<double> size = {};  ///< edge length wanted inside, when less than elsewhere
 };
 
-/// How the user counts the elements of an outline, so that errors speak the user's numbers. (Inline, as InputNames.)
+/// The user's numbers of the elements of an outline, so that errors speak them. (Inline, as InputNames.)
 class OutlineNames {
  public:
   virtual ~OutlineNames() = default;

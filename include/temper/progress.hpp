@@ -1,4 +1,4 @@
-// What a long computation tells its caller, and how the caller stops it.
+// Progress: a long computation tells its caller how far it is, and the caller may stop it.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace temper {
 
-/// What a run lowers.
+/// The objective that a run lowers.
 enum class Objective {
   energy,    ///< one of the registry's
   accuracy,  ///< after it has made every triangle well-centered: what the errors of a solver are proportional to

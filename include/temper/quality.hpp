@@ -52,8 +52,8 @@ struct Quality {
   double min_h_over_l = 0;                  ///< over triangles and their edges; −∞ for an inverted triangle
   double min_d_over_l = 0;                  ///< over edges, the lesser of d/ℓ and 1 − d/ℓ
   double min_angle_deg = 0, max_angle_deg = 0;
-  /// Of the two-point-flux transmissibilities ℓ/|h_k + h_l| of interior edges (face length over the distance between
-  /// the orthocenters), the largest over the median. +∞ when a dual edge has length zero, exactly; 1 without interior
+  /// The largest over the median of the two-point-flux transmissibilities ℓ/|h_k + h_l| of interior edges (face length
+  /// over the distance between the orthocenters). +∞ when a dual edge has length zero, exactly; 1 without interior
   /// edges.
   double max_transmissibility_over_median = 0;
   EnergyTable energy = {};

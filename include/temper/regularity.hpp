@@ -23,14 +23,14 @@ class Executor;
 [[nodiscard]] std::size_t count_non_regular_edges(const Mesh& mesh, bool with_constrained = true,
                                                   Executor* executor = nullptr);
 
-/// What becomes of vertices whose power cell is empty: no regular triangulation has them.
+/// The fate of vertices whose power cell is empty: no regular triangulation has them.
 enum class HiddenPolicy {
   undo,    ///< put the mesh back as it was, bit for bit, when any vertex is hidden
   remove,  ///< remove them: inside the domain, and on straight parts of the boundary and of interfaces; others stay
   keep,    ///< leave them in, with the edges that run into them not regular, and report both
 };
 
-/// What restore_regularity did.
+/// The result of restore_regularity.
 struct Restoration {
   std::size_t flips = 0;
   /// Edges that are not regular and that no flip sequence cures: they run into a vertex hidden by its weight.
@@ -38,21 +38,22 @@ struct Restoration {
   /// The hidden vertices, by number: those whose power cell is empty in the regular triangulation of the domain. A
   /// vertex at a corner of the boundary or of constrained edges is named when an edge is stuck at it.
   std::vector<VertexId> hidden;
-  /// Those of them that were removed (HiddenPolicy::remove), in this order. Mesh::compact() is left to the caller.
+  /// The hidden vertices that were removed (HiddenPolicy::remove), in this order. Mesh::compact() is left to the
+  /// caller.
   std::vector<VertexId> removed;
   /// The mesh is what it was (HiddenPolicy::undo, and some vertex hidden). Flips and stuck edges are then none.
   bool undone = false;
-  /// Every unconstrained interior edge is regular now.
+  /// Says whether every unconstrained interior edge is regular now.
   [[nodiscard]] bool regular() const { return stuck.empty() && !undone; }
 };
 
-/// Who wants to see each change as it happens, for traces: in the vertices' numbers. Functions may be empty.
+/// An observer sees each change as it happens, for traces: in the vertices' numbers. Functions may be empty.
 struct RestorationObserver {
   /// Just before: edge a→b, with c on its left and d on its right, is replaced by d→c in a→b's slot (flip()).
   std::function<void(VertexId a, VertexId b, VertexId c, VertexId d)> flipped;
   /// Just before remove_vertex(mesh, plan).
   std::function<void(const RemovalPlan& plan)> removing;
-  /// All flips seen since the call began have been taken back.
+  /// Called when all flips seen since the call began have been taken back.
   std::function<void()> undone;
 };
 
@@ -75,7 +76,7 @@ Restoration restore_regularity(Mesh& mesh, HiddenPolicy policy = HiddenPolicy::k
 // link). The threshold is the least root over both. Before it no edge of the mesh flips, and no vertex is hidden: the
 // edges around a vertex cease to be regular no later than its power cell vanishes.
 
-/// No flip however far one goes.
+/// The threshold that says that no edge flips, however far one goes.
 inline constexpr double kNoThreshold = std::numeric_limits<double>::infinity();
 
 /// The least t ≥ 0 past which an unconstrained edge of v's star or link that is regular now is not when v moves along
@@ -91,8 +92,9 @@ inline constexpr double kNoThreshold = std::numeric_limits<double>::infinity();
 ///     const double up = weight_flip_threshold(mesh, v, +1);  // regular for weights from w to w + up
 [[nodiscard]] double weight_flip_threshold(const Mesh& mesh, VertexId v, double direction);
 
-/// How far v may go along `direction`, its weight as it is, before an edge flips: in units of the direction's length,
-/// so that p + threshold · direction is the place. kNoThreshold when the line meets none, or the direction is zero.
+/// The distance that v may go along `direction`, its weight as it is, before an edge flips: in units of the direction's
+/// length, so that p + threshold · direction is the place. kNoThreshold when the line meets none, or the direction is
+/// zero.
 [[nodiscard]] double position_flip_threshold(const Mesh& mesh, VertexId v, Vec2 direction);
 
 }  // namespace temper

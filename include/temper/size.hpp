@@ -32,7 +32,7 @@ class SizeField {
   [[nodiscard]] static Expected<SizeField> from_values(const Mesh& mesh, std::span<const double> sizes,
                                                        const InputNames* names = nullptr);
 
-  /// What the field says at a point.
+  /// The value of the field at a point.
   struct Sample {
     double size = 0;
     TriangleId triangle;   ///< of the field's mesh, in or next to which the point is: the hint for a point nearby
@@ -61,7 +61,7 @@ class SizeField {
 /// The same, looking at the mesh instead of copying it: valid as long as the mesh is there and is not changed.
 [[nodiscard]] SizeField input_size_field_of(const Mesh& mesh, Executor* executor = nullptr);
 
-/// Of many numbers: percentiles by nearest rank. All 0 when there are none.
+/// The spread of many numbers: percentiles by nearest rank. All 0 when there are none.
 struct Spread {
   double min = 0, p05 = 0, median = 0, p95 = 0, max = 0;
 };

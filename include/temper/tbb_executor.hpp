@@ -15,7 +15,7 @@ namespace temper {
 /// A task arena. Nothing is started before the first run(); threads are oneTBB's, shared with all else that uses it.
 class TbbExecutor final : public Executor {
  public:
-  /// At most this many threads at once, the caller of run() among them; 0: as many as the machine has.
+  /// `threads`: at most so many at once, the caller of run() among them; 0: as many as the machine has.
   explicit TbbExecutor(std::size_t threads = 0);
   ~TbbExecutor() override;
   TbbExecutor(const TbbExecutor&) = delete;

@@ -15,7 +15,7 @@
 
 namespace temper {
 
-/// Why an edge cannot be flipped, or that it can.
+/// The answer of can_flip: the edge can be flipped, or why not.
 enum class FlipStatus { possible, boundary, constrained, not_convex };
 /// Decided by exact predicates.
 [[nodiscard]] FlipStatus can_flip(const Mesh& mesh, HalfedgeId h);
@@ -34,7 +34,7 @@ VertexId insert_in_triangle(Mesh& mesh, TriangleId t, WeightedPoint p);
 /// counter-clockwise. Flags of the edge go to both halves. Returns the new vertex. O(1).
 VertexId split_edge(Mesh& mesh, HalfedgeId h, WeightedPoint p);
 
-/// Why a vertex cannot be removed, or that it can.
+/// The answer of plan_removal: the vertex can be removed, or why not.
 enum class RemovalStatus {
   possible,
   fixed,             ///< the user wants it to stay
@@ -43,7 +43,7 @@ enum class RemovalStatus {
   no_triangulation,  ///< in no triangle, or the cavity has no triangulation whose edges are new to the mesh
 };
 
-/// What remove_vertex will do: a value, to be priced, thrown away, or written down by the vertices' numbers.
+/// The plan that remove_vertex commits: a value, to be priced, thrown away, or written down by the vertices' numbers.
 struct RemovalPlan {
   RemovalStatus status = RemovalStatus::no_triangulation;
   VertexId vertex;
@@ -56,7 +56,7 @@ struct RemovalPlan {
   std::vector<std::array<VertexId, 3>> triangles;
 };
 
-/// How to remove v so that the domain and its interfaces keep their shape. The star becomes a cavity, whose new
+/// Plans to remove v so that the domain and its interfaces keep their shape. The star becomes a cavity, whose new
 /// triangles are counter-clockwise by the exact test and, of all such triangulations, have the least volume under the
 /// lifted surface z = |x|² − w: the regular triangulation of the cavity, up to rounding. Lawson's algorithm on the
 /// edges of the new triangles mends what rounding chose wrongly. A vertex with exactly two boundary edges, or two
@@ -80,15 +80,15 @@ struct RemovalPlan {
 /// all other ids stay valid, until Mesh::compact() drops what is erased. O(k).
 void remove_vertex(Mesh& mesh, const RemovalPlan& plan);
 
-/// How to collapse the edge between v and its neighbour `into`: v is removed, and all new triangles have `into` as a
-/// corner. As a removal, so that remove_vertex commits it. The status is plan_removal's for v; constrained also when v
-/// is on a line inside the domain and `into` is not; no_triangulation when they have no edge, a new triangle would not
-/// be counter-clockwise, or a new edge is there already (the link condition). O(k²).
+/// Plans to collapse the edge between v and its neighbour `into`: v is removed, and all new triangles have `into` as a
+/// corner. It is a removal, so that remove_vertex commits it. The status is plan_removal's for v; constrained also when
+/// v is on a line inside the domain and `into` is not; no_triangulation when they have no edge, a new triangle would
+/// not be counter-clockwise, or a new edge is there already (the link condition). O(k²).
 [[nodiscard]] RemovalPlan plan_collapse(const Mesh& mesh, VertexId v, VertexId into, RemovalPlan storage = {});
 
 // --- insertion and split --------------------------------------------------------------------------
 
-/// Why a vertex cannot be inserted, or that it can.
+/// The answer of plan_insertion and plan_split: the vertex can be inserted, or why not.
 enum class InsertionStatus {
   possible,
   outside,         ///< in no triangle
@@ -101,7 +101,7 @@ enum class InsertionStatus {
   inverted,        ///< of a split: the point is rounded so far off the edge that a new triangle turns over
 };
 
-/// What insert_vertex will do: a value, to be priced or thrown away.
+/// The plan that insert_vertex commits: a value, to be priced or thrown away.
 struct InsertionPlan {
   InsertionStatus status = InsertionStatus::outside;
   WeightedPoint point;
@@ -118,18 +118,18 @@ struct InsertionPlan {
   std::vector<std::array<VertexId, 2>> flips;
 };
 
-/// How to insert a vertex at p. Where: by a walk from `near` (any triangle that is not erased), exact. From there
-/// outwards, edges that would not be regular are flipped to the new vertex; never constrained ones. In a mesh whose
-/// unconstrained edges are regular, so they are after the commit. Ties keep the edges that are there; the order of the
-/// flips depends on the numbers of the vertices alone. About O(√n) for the walk (O(n) where the domain's shape stops
-/// it), O(k²) for k flips. `storage` lends its memory.
+/// Plans to insert a vertex at p, whose triangle an exact walk from `near` finds (any triangle that is not erased).
+/// From there outwards, edges that would not be regular are flipped to the new vertex; never constrained ones. In a
+/// mesh whose unconstrained edges are regular, so they are after the commit. Ties keep the edges that are there; the
+/// order of the flips depends on the numbers of the vertices alone. About O(√n) for the walk (O(n) where the domain's
+/// shape stops it), O(k²) for k flips. `storage` lends its memory.
 ///
 ///     plan = plan_insertion(mesh, {p.x, p.y, interpolated_weight(mesh, t, p)}, t, std::move(plan));
 ///     if (plan.status == InsertionStatus::possible) v = insert_vertex(mesh, plan);
 [[nodiscard]] InsertionPlan plan_insertion(const Mesh& mesh, const WeightedPoint& p, TriangleId near,
                                            InsertionPlan storage = {});
 
-/// How to split the edge of h, of the boundary, constrained or neither, at a + t (b − a), 0 < t < 1, with the weight
+/// Plans to split the edge of h, of the boundary, constrained or neither, at a + t (b − a), 0 < t < 1, with the weight
 /// split_weight(…); flags and regions are kept. The point is rounded: on an axis-parallel edge it lies exactly on it,
 /// as do midpoints of few bits, and the domain is kept exactly; elsewhere the edge is bent by up to three units in the
 /// last place of its ends' coordinates. The flips of either side keep to it.
@@ -138,7 +138,7 @@ struct InsertionPlan {
 [[nodiscard]] InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p,
                                        InsertionPlan storage = {});
 
-/// Who wants to see each change as it happens, for traces. Functions may be empty.
+/// An observer sees each change as it happens, for traces. Functions may be empty.
 struct InsertionObserver {
   /// Just before insert_in_triangle(mesh, plan.triangle, plan.point) or split_edge(mesh, plan.edge, plan.point).
   std::function<void(const InsertionPlan& plan)> inserting;
@@ -167,7 +167,7 @@ struct EdgeCuts {
   std::vector<double> at;  ///< fractions of the way from a to b, ascending, strictly between 0 and 1
 };
 
-/// How to cut the edges of the boundary and of constrained lines so that neighbours are of like length.
+/// A plan that cuts the edges of the boundary and of constrained lines so that neighbours are of like length.
 struct GradingPlan {
   std::vector<EdgeCuts> cuts;  ///< by a, then b
   std::size_t vertices = 0;    ///< how many vertices that makes
@@ -186,17 +186,18 @@ struct GradingPlan {
 /// centered: longest edge first. As corners, the smallest number first, which still name them when slots have changed.
 [[nodiscard]] std::vector<std::array<VertexId, 3>> triangles_without_free_corner(const Mesh& mesh);
 
-/// How to insert a vertex at the orthocenter of a triangle, with the weight interpolated there. outside also when the
+/// Plans to insert a vertex at the orthocenter of a triangle, with the weight interpolated there. outside also when the
 /// triangle is no longer there, or would not be among those that are replaced (its orthocenter is behind a line).
 [[nodiscard]] InsertionPlan plan_center(const Mesh& mesh, const std::array<VertexId, 3>& corners,
                                         InsertionPlan storage = {});
 
-/// Of grade_boundary: above this angle [degrees] an edge is halved, and so many times the new triangles are looked at.
-/// Measured on the dense horseshoe: any angle from 90 to 120 gives margins h/ℓ and d/ℓ above 0.05 after sweeps.
+/// Constants of grade_boundary: above kWidestBoundaryAngle [degrees] an edge is halved, and kGradingPasses times the
+/// new triangles are looked at. On the dense horseshoe any angle from 90 to 120 gives margins h/ℓ and d/ℓ above 0.05
+/// after sweeps.
 inline constexpr double kWidestBoundaryAngle = 120;
 inline constexpr int kGradingPasses = 3;
 
-/// What grade_boundary did.
+/// The result of grade_boundary.
 struct Grading {
   std::size_t vertices = 0;  ///< inserted on edges
   std::size_t inside = 0;    ///< inserted in triangles without free corner

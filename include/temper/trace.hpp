@@ -1,4 +1,4 @@
-// What an optimisation did, event by event: enough to do it again, bit for bit, without any energy.
+// A trace records an optimisation event by event: enough to do it again, bit for bit, without any energy.
 //
 //     std::vector<TraceEvent> events;
 //     const Mesh input = mesh;

@@ -1,5 +1,5 @@
-// What users' solvers feel: the errors that a mesh causes, measured with manufactured solutions, in a library of its
-// own (temper::verify, which needs Eigen). docs/verify.md defines every norm.
+// The errors that a mesh causes in users' solvers, measured with manufactured solutions. A library of its own
+// (temper::verify), because it needs Eigen. docs/verify.md defines every norm.
 //
 //   ★s       the diagonal stars on smooth s-forms: what the HOT energies bound
 //   Poisson  −Δu = f by discrete exterior calculus, unknowns at the vertices:  d0ᵀ ★1 d0 u = ★0 f
@@ -24,7 +24,7 @@ namespace temper {
 
 class Executor;
 
-/// What a field is for. An objective may be tuned on the chosen ones; what it is worth, those held back tell.
+/// The purpose of a field. An objective may be tuned on the chosen ones; those held back tell what it is worth.
 enum class FieldGroup {
   chosen,
   held_back,
@@ -40,7 +40,7 @@ struct VerifyField {
 };
 [[nodiscard]] std::span<const VerifyField> verify_fields();
 
-/// Where the fields lie: they are functions of (p − center) / half_size.
+/// The frame of the fields: they are functions of (p − center) / half_size.
 struct VerifyFrame {
   Vec2 center;
   double half_size = 1;  ///< > 0 [length]
@@ -79,7 +79,7 @@ struct FieldErrors {
 /// The matrix of a scheme, without what the boundary fixes.
 struct VerifySystem {
   std::size_t unknowns = 0;
-  /// No positive entry off the diagonal, and diagonally dominant; decided by exact signs of the dual lengths.
+  /// The matrix has no positive entry off the diagonal and is diagonally dominant, by exact signs of the dual lengths.
   bool m_matrix = true;
   bool definite = true;                  ///< positive definite, by its pivots
   bool singular = false;                 ///< could not be solved: all errors are +∞
@@ -108,8 +108,9 @@ struct VerifyReport {
   std::vector<FieldErrors> fields;
   /// The mesh itself and its refinements, coarsest first; empty without refine.
   std::vector<VerifyLevel> levels;
-  /// Of each field, how the errors go with the edge length: the slope by least squares over the levels in logarithms.
-  /// NaN where fewer than two levels have an error that is finite and more than rounding (1e-12). Empty without refine.
+  /// The order of the errors of each field in the edge length: the slope by least squares over the levels in
+  /// logarithms. NaN where fewer than two levels have an error that is finite and more than rounding (1e-12). Empty
+  /// without refine.
   std::vector<FieldErrors> orders;
   /// With `local`: of each vertex (★0), edge (★1, in the order of DecComplex) and triangle (★2) the relative error of
   /// the mean over it, its root mean square over the fields.

@@ -1,4 +1,4 @@
-// Of one name in the namespaces of all instruction sets, a pointer to that of the set in use.
+// A pointer to the function of the instruction set in use, of those that have one name in the namespaces of all sets.
 #pragma once
 
 #include "temper/instruction_set.hpp"

@@ -18,7 +18,8 @@ inline double median_of(std::vector<double> values) {
   return *middle + (*std::max_element(values.begin(), middle) - *middle) / 2;
 }
 
-/// Of values ≥ 0. Where there are none nothing differs: 1. A median of 0 or +∞ leaves nothing to compare with: +∞.
+/// The largest of the values over their median; all are ≥ 0. Where there are none nothing differs: 1. A median of 0 or
+/// +∞ leaves nothing to compare with: +∞.
 inline double largest_over_median(std::vector<double> values) {
   if (values.empty()) return 1;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -31,7 +31,7 @@ namespace temper {
 
 inline constexpr std::size_t kLanes = 8;
 
-// What a pack has, for one double: formulas are written once for both.
+// The functions of a pack, for one double: formulas are written once for both.
 TEMPER_INLINE double square_root(double x) { return __builtin_sqrt(x); }
 TEMPER_INLINE double absolute(double x) { return __builtin_fabs(x); }
 TEMPER_INLINE double select(bool condition, double a, double b) { return condition ? a : b; }
@@ -47,7 +47,7 @@ TEMPER_INLINE T all(double x) {
 
 namespace TEMPER_INSTRUCTION_SET {
 
-/// What the hardware has: some doubles, and the mask of a comparison, all bits of a lane set or none.
+/// A register of the hardware: some doubles, and the mask of a comparison, all bits of a lane set or none.
 struct Register {
   static constexpr std::size_t kSize = TEMPER_REGISTER_BYTES / sizeof(double);
   typedef double Doubles __attribute__((vector_size(TEMPER_REGISTER_BYTES)));

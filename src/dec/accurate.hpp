@@ -9,8 +9,8 @@
 
 namespace temper::accurate {
 
-/// What a determinant may be off by, relative to itself. At 2⁻⁴² the exact stage is left to one edge in a hundred of
-/// usual meshes.
+/// The error that a determinant may have, relative to itself. At 2⁻⁴² one edge in a hundred of usual meshes goes to the
+/// exact stage.
 inline constexpr double kRelativeError = 0x1p-42;
 
 /// Twice the signed area of abc.

@@ -39,7 +39,7 @@ Fan fan_of(const Mesh& mesh, VertexId v) {
   return fan;
 }
 
-/// Where in the fan of a boundary vertex a direction is: its angle, or that of the nearer end when it is outside.
+/// The angle of a direction in the fan of a boundary vertex, or that of the nearer end when it is outside.
 double angle_in(const Fan& fan, Vec2 first, Vec2 direction) {
   const double angle = angle_between(first, direction), whole = fan.angles.back();
   if (angle <= whole) return angle;
@@ -98,7 +98,8 @@ void TriangleDivider::add(VertexId v) {
   }
 }
 
-/// Whether v is nearer than the owner at a corner of one of the pieces: their difference is linear on each piece.
+/// Says whether the vertex added is nearer than the owner anywhere: at a corner of one of the pieces, since the
+/// difference is linear on each piece.
 bool TriangleDivider::wins_anywhere(const Candidate& added, std::size_t others) const {
   for (std::size_t i = 0; i < others; ++i) {
     const Candidate& owner = candidates_[i];

@@ -19,7 +19,7 @@ struct PieceCorner {
   HalfedgeId along;  ///< the side is on this side of the triangle
 };
 
-/// What a vertex owns of a triangle: convex, counter-clockwise.
+/// The piece of a triangle that a vertex owns: convex, counter-clockwise.
 struct CellPiece {
   VertexId owner;
   TriangleId triangle;
@@ -27,7 +27,7 @@ struct CellPiece {
 };
 
 /// Signed area.
-/// Of a polygon; `at`: where a corner is.
+/// The area of a polygon; `at` gives the place of a corner.
 template <class Corner, class At>
 [[nodiscard]] double area_of(const std::vector<Corner>& polygon, At&& at) {
   double doubled = 0;

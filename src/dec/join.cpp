@@ -14,7 +14,7 @@ namespace {
 // Corners that should be one differ by the rounding of two computations of them, amplified where a bisector meets the
 // edge at a small angle. Relative to the size of the cell; a wrong join would be seen in the area.
 constexpr double kSamePlace = 1e-10;
-// What joining may change in the area of a cell.
+// The change that joining may make to the area of a cell.
 constexpr double kSameArea = 1e-12;
 
 struct Arc {

@@ -1,4 +1,4 @@
-// What a solver's author wants to know of the operators: signs, sums, extremes.
+// A summary of the operators for the authors of solvers: signs, sums, extremes.
 #include <algorithm>
 #include <cmath>
 

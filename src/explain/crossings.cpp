@@ -11,7 +11,7 @@
 namespace temper {
 namespace {
 
-// Of the edge's length: less disagreement than this is rounding, and no sentence is made of it.
+// Relative to the edge's length: less disagreement than this is rounding, and no sentence is made of it.
 constexpr double kDisagreement = 1e-9;
 
 /// A half plane n · x > offset.
@@ -87,7 +87,8 @@ class Tree {
            vertices_of(mesh_, triangles_).size() == triangles_.size() + 2;
   }
 
-  /// What the triangle of h, and all that hangs on it but not across h, says about d along h. Precondition: is_tree().
+  /// The crossings of h that suit its triangle and all triangles that hang on it, but not across h, as an interval of
+  /// d. Precondition: is_tree().
   [[nodiscard]] CrossingSide side(HalfedgeId h) const {
     CrossingSide result;
     Polygon inside = region_of(h, result);
@@ -112,7 +113,7 @@ class Tree {
     side.widest = p;
   }
 
-  /// Where the orthocenter of h's triangle may be, given what hangs on its other two edges.
+  /// The places where the orthocenter of h's triangle may be, given the triangles that hang on its other two edges.
   Polygon region_of(HalfedgeId h, CrossingSide& side) const {
     side.triangles.push_back(Mesh::triangle(h));
     Polygon region;

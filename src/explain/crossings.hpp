@@ -1,4 +1,5 @@
-// Where the dual may cross the edges of a triangle that is to be well-centered, and what follows across several.
+// The places where the dual may cross the edges of a triangle that is to be well-centered, for one triangle and for
+// several that share edges.
 //
 // The orthocenter of a triangle is any point, by choice of weights, and determines the weights' differences. It must
 // lie inside, and its foot on each edge between the ends: an open convex polygon with at most six corners. The foot
@@ -27,9 +28,9 @@ struct Interval {
   [[nodiscard]] bool empty() const { return !(from < to); }
 };
 
-/// Of d_pq over all weights that make the counter-clockwise triangle pqr well-centered. With angles A, B, C at p, q, r
-/// and lengths a, b, c across: C obtuse (c − a / cos B, b / cos A); A obtuse (0, b sin A tan C); B obtuse (c − a sin B
-/// tan C, c); else (0, c).
+/// The interval of d_pq over all weights that make the counter-clockwise triangle pqr well-centered. With angles A, B,
+/// C at p, q, r and lengths a, b, c across: C obtuse (c − a / cos B, b / cos A); A obtuse (0, b sin A tan C); B obtuse
+/// (c − a sin B tan C, c); else (0, c).
 [[nodiscard]] Interval crossing_interval(Vec2 p, Vec2 q, Vec2 r);
 
 /// The shared edge on which the two sides of a set of triangles disagree most, relative to its length; nothing when the

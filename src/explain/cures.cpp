@@ -87,7 +87,7 @@ std::optional<Patch> patch_of(const Mesh& mesh, const Conflict& conflict, std::s
   return patch;
 }
 
-/// How good a changed patch can be made by weights.
+/// A change that was tried, and how good weights can make the patch after it.
 struct Trial {
   double margin = -kUnbounded;
   std::size_t triangles = 0;
@@ -95,7 +95,7 @@ struct Trial {
   [[nodiscard]] bool cures() const { return exact && margin > kCured; }
 };
 
-/// Of all triangles, but these.
+/// Judges a mesh by all its triangles but the excused ones.
 Trial judge(const Mesh& mesh, const std::vector<Triple>& excused, LpSolver& solver) {
   std::vector<TriangleId> asked;
   for (const TriangleId t : mesh.triangles()) {
@@ -281,7 +281,7 @@ class CureFinder {
     }
   }
 
-  /// Where to split the edge of h: the middle, and below the corner across on either side.
+  /// The places where the edge of h may be split: its middle, and below the corner across on either side.
   [[nodiscard]] std::vector<Vec2> places_on(HalfedgeId h) const {
     const Mesh& mesh = patch_.mesh;
     const Vec2 p = mesh.position(mesh.origin(h)), q = mesh.position(mesh.target(h));

@@ -1,4 +1,4 @@
-// What would cure a conflict: changes tried one by one on a copy of its neighbourhood, by the programme.
+// Cures of a conflict: changes are tried one by one on a copy of its neighbourhood, and judged by the linear programme.
 #pragma once
 
 #include <span>
@@ -12,11 +12,11 @@ namespace temper {
 
 /// Cures for a conflict: of each way to change the mesh the best that was found, those that leave the boundary and the
 /// vertices as they are first. `others` are bad triangles that other reasons own: they are not asked to be good.
-/// Without any that is verified, what may help.
+/// When none is verified: the cures that may help.
 [[nodiscard]] std::vector<Cure> find_cures(const Mesh& mesh, const Conflict& conflict,
                                            std::span<const TriangleId> others, LpSolver& solver);
 
-/// What may help, without any search.
+/// Cures that may help and need no search.
 [[nodiscard]] std::vector<Cure> suggested_cures(const Mesh& mesh, const Conflict& conflict);
 
 /// Do the weights of the solved programme make all these triangles well-centered? Exact.

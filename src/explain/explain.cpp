@@ -275,7 +275,7 @@ class Explainer {
     }
   }
 
-  /// Of these triangles, asked together. false: no weights were found that suit them.
+  /// Says whether weights were found that suit these triangles, asked together; measures their margin.
   bool have_weights(Reason& reason, const std::vector<TriangleId>& triangles) {
     const BestMargin best = best_margin(mesh_, triangles, solver_);
     reason.margin = std::min(reason.margin, best.margin);
@@ -283,7 +283,8 @@ class Explainer {
     return best.status == LpStatus::optimal && suits(mesh_, triangles, best);
   }
 
-  /// Of the region; where that is too large or close to a conflict, of each bad triangle with those that touch it.
+  /// Finds the margin of the region; where that is too large or close to a conflict, that of each bad triangle with
+  /// those that touch it.
   void find_margin(Reason& reason, const std::vector<TriangleId>& region) {
     reason.margin = kUnbounded;
     bool found = !region.empty() && have_weights(reason, region);

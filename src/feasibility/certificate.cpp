@@ -83,7 +83,7 @@ struct Scale {
   bool in_range = true;
 
   [[nodiscard]] Vec2 position(Vec2 p) const { return {std::ldexp(p.x, -length), std::ldexp(p.y, -length)}; }
-  /// Of N: degree 4 for heights and 2 for splits, so that the sum stays the same up to a factor.
+  /// The scale of N: degree 4 for heights and 2 for splits, so that the sum stays the same up to a factor.
   [[nodiscard]] double of(const Certificate::Term& term) const {
     const int shift = term.constraint.kind == Kind::height ? 4 * length : 2 * length;
     return std::ldexp(term.multiplier, shift - multiplier);

@@ -22,7 +22,8 @@ namespace {
 
 // Smaller changes, in their unit, are the solver's: ten times its tolerance on h/ℓ and d/ℓ, which are of that order.
 constexpr double kNoChange = 1e-8;
-// Of a unit of u, where an edge's costs ℓ/2: too little to matter but where the sum over the edges does not decide.
+// The cost of a unit of u, where an edge's costs ℓ/2: so little that it decides only where the sum over the edges is
+// equal.
 constexpr double kTieBreak = 1e-4;
 // The second elastic programme may violate this much more than the least, relative and absolute: its own tolerance.
 constexpr double kSameViolation = 1e-9;

@@ -37,11 +37,11 @@ double value_of(const LinearForm& form, const WeightOf& weight_of) {
 [[nodiscard]] WeightConstraint height_constraint(const Mesh& mesh, HalfedgeId h);
 [[nodiscard]] WeightConstraint split_constraint(VertexId from, VertexId to);
 
-/// Each edge of these triangles once, by a halfedge that is in one of them. `triangles` is sorted.
+/// The edges of these triangles, each once, by a halfedge that is in one of them. `triangles` is sorted.
 [[nodiscard]] std::vector<HalfedgeId> edges_of(const Mesh& mesh, std::span<const TriangleId> triangles);
 /// The corners of these triangles, sorted, each once.
 [[nodiscard]] std::vector<VertexId> vertices_of(const Mesh& mesh, std::span<const TriangleId> triangles);
-/// All constraints of these triangles: three heights each, and two splits an edge.
+/// The constraints of these triangles: three heights each, and two splits an edge.
 [[nodiscard]] std::vector<WeightConstraint> constraints_of(const Mesh& mesh, std::span<const TriangleId> triangles,
                                                            Conditions conditions);
 

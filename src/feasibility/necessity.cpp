@@ -90,7 +90,8 @@ struct Segment {
   Vec2 p, q;
 };
 
-/// Whether pq meets the inside of the counter-clockwise triangle abc: no line along one of the four separates them.
+/// Says whether pq meets the inside of the counter-clockwise triangle abc: no line along one of the four separates
+/// them.
 bool meets_inside(const Segment& s, Vec2 a, Vec2 b, Vec2 c) {
   const auto is_left = [](Vec2 x, Vec2 y, Vec2 z) { return inlined::orient2d(x, y, z) == Sign::positive; };
   const auto side_separates = [&](Vec2 x, Vec2 y) { return !is_left(x, y, s.p) && !is_left(x, y, s.q); };
@@ -100,7 +101,7 @@ bool meets_inside(const Segment& s, Vec2 a, Vec2 b, Vec2 c) {
   return any_left && any_right;
 }
 
-/// What the left side of an edge u → v has in the disc.
+/// The vertices and edges in the disc on the left side of an edge u → v.
 class Surroundings {
  public:
   Surroundings(const Mesh& mesh, HalfedgeId h, double up_to)
@@ -147,7 +148,7 @@ class Surroundings {
     std::erase_if(vertices_, [&](VertexId x) { return !is_left(mesh_.position(x)); });
   }
 
-  /// Whether the edge has points in the disc and on the left of u → v.
+  /// Says whether the edge has points in the disc and on the left of u → v.
   [[nodiscard]] bool reaches(HalfedgeId h) const {
     const Vec2 p = mesh_.position(mesh_.origin(h)), q = mesh_.position(mesh_.target(h));
     if (!is_left(p) && !is_left(q)) return false;

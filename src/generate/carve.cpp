@@ -1,4 +1,4 @@
-// What is inside: regions between segments, counted from the outside in.
+// Removes the triangles outside the segments. Inside and outside alternate, counted from the outside in.
 //
 // Level 0 is what can be reached from outside the convex hull without crossing a segment; level 1 what can be
 // reached from level 0 across one, and so on. Odd levels are inside. A segment that encloses nothing, or divides the

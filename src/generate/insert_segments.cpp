@@ -24,7 +24,7 @@ namespace {
 
 using Chain = std::vector<VertexId>;
 
-/// What a segment crosses between two vertices.
+/// The strip of triangles that a segment crosses between two vertices.
 struct Strip {
   std::vector<TriangleId> triangles;
   Chain left, right;  ///< from u to w, both included

@@ -27,7 +27,7 @@ struct Outline {
 [[nodiscard]] double perimeter(const Polygon& polygon);
 /// The polygon with each side cut into equal pieces of about `spacing`, at least one.
 [[nodiscard]] Polygon divide_sides(const Polygon& polygon, double spacing);
-/// How many points divide_sides makes.
+/// The number of points that divide_sides makes.
 [[nodiscard]] std::size_t count_pieces(const Polygon& polygon, double spacing);
 [[nodiscard]] bool contains(const Polygon& polygon, Vec2 p);
 [[nodiscard]] double squared_distance(const Polygon& polygon, Vec2 p);

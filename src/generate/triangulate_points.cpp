@@ -16,7 +16,7 @@ namespace {
 
 enum class Place { inside, edge, vertex, outside };
 
-/// Where a point is: in the triangle of h, on h, at the origin of h, or outside, strictly right of boundary edge h.
+/// The place of a point: in the triangle of h, on h, at the origin of h, or outside, strictly right of boundary edge h.
 struct Location {
   Place place;
   HalfedgeId h;

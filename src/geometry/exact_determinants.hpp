@@ -1,4 +1,4 @@
-// What the predicates are the signs of, exactly, as expansions.
+// The determinants whose signs are the predicates, exactly, as expansions.
 //
 // Every determinant is a polynomial of differences of the inputs; a difference of two doubles is an expansion of
 // two terms, exactly, so nothing here ever rounds. On inputs whose differences are single doubles (lattices, where

@@ -43,7 +43,7 @@ inline constexpr double kPowerTestBound = 16 * kUnitRoundoff;
 // 11: dot product 4, dot product and weights 5, their product, one sum.
 inline constexpr double kHeightBound = 16 * kUnitRoundoff;
 
-/// What a predicate is the sign of, and what bounds its rounding: the sign is right where the value is beyond the
+/// A value whose sign is a predicate, with a bound of its rounding: the sign is right where the value is beyond the
 /// bound. The functions that return it take points of doubles or of packs (base/pack.hpp).
 template <class T>
 struct Filtered {

@@ -194,8 +194,9 @@ class MeshBuilder {
     return std::nullopt;
   }
 
-  /// Where edges are manifold, stars whole and the mesh covers no spot twice, no two points are at the same place: each
-  /// is in the star of the other. So that is only asked when one of these fails, as the likely reason.
+  /// Checks that the mesh lies in the plane as it should. Where edges are manifold, stars whole and the mesh covers no
+  /// spot twice, no two points are at the same place: each is in the star of the other. So duplicate points are looked
+  /// for only when one of these fails, as the likely reason.
   std::optional<InputError> embed() {
     auto error = link_twins();
     if (!error) error = check_stars();

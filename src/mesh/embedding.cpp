@@ -13,11 +13,11 @@ namespace {
 
 bool left_of(Vec2 a, Vec2 b, Vec2 p) { return orient2d(a, b, p) == Sign::positive; }
 
-/// Whether the direction from v to p is in the upper half-plane, the positive x-axis included.
+/// Says whether the direction from v to p is in the upper half-plane, the positive x-axis included.
 bool is_upper(Vec2 v, Vec2 p) { return p.y > v.y || (p.y == v.y && p.x > v.x); }
 
-/// How often the spokes of each vertex, going round, enter the upper half-plane: once when an interior star winds once.
-/// Counted triangle by triangle, which asks for each position once and not through chains of twins.
+/// Counts for each vertex how often its spokes, going round, enter the upper half-plane: once when an interior star
+/// winds once. Counted triangle by triangle, which asks for each position once and not through chains of twins.
 IdVector<VertexId, std::uint32_t> entries_to_upper_half(const Mesh& mesh, Executor* executor) {
   IdVector<VertexId, std::uint32_t> entries(mesh.n_vertices(), 0);
   const auto count = [&](std::size_t t, auto&& add) {

@@ -18,7 +18,8 @@ struct Overlap {
 /// v. Empty when there are none. O(n), for error messages.
 [[nodiscard]] std::string edges_on_each_other(const Mesh& mesh, VertexId v, const InputNames& names);
 
-/// Nothing when the mesh is embedded. Preconditions: all triangles counter-clockwise, manifold.
+/// Finds why the mesh is not embedded in the plane; nothing when it is. Preconditions: all triangles counter-clockwise,
+/// manifold.
 ///
 /// A connected mesh whose stars wind once and whose boundary loops neither cross nor touch covers every
 /// point at most once: the turning numbers of its loops sum to its Euler characteristic, which leaves

@@ -117,7 +117,7 @@ class MeshPermuter {
                              const IdVector<VertexId, VertexId>& new_vertex,
                              const IdVector<TriangleId, TriangleId>& new_triangle);
   static Mesh copy(const Mesh& mesh, Found& found, Executor* executor);
-  /// Which halfedge stands for a vertex depends on the numbering.
+  /// Renews outgoing(): the halfedge that stands for a vertex depends on the numbering.
   static void finish(Mesh& mesh) { mesh.repair_outgoing(); }
 };
 

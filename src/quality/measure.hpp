@@ -1,4 +1,4 @@
-// What the report says of one triangle: signs from the exact predicates, lengths and angles from doubles.
+// The measures of one triangle for the report: signs from the exact predicates, lengths and angles from doubles.
 //
 // Edge k runs from corner k to corner k + 1, like halfedge 3 t + k; the corner across from it is k + 2.
 // A triangle that is not counter-clockwise has no inside: its heights count as −∞ and its signs as negative.

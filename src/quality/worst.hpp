@@ -38,7 +38,7 @@ class WorstList {
 /// The entry of the report on one triangle; `why` in these numbers, or counted from 0.
 [[nodiscard]] WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names = nullptr);
 
-/// What the reports call a vertex and a triangle: the last word of its name, "12" of "point 12".
+/// The number by which reports call a vertex or a triangle: the last word of its name, "12" of "point 12".
 [[nodiscard]] std::string number_of(VertexId v, const InputNames* names);
 [[nodiscard]] std::string number_of(TriangleId t, const InputNames* names);
 /// "0.1234", and "138.3°": as many digits as people read.

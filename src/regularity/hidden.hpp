@@ -24,7 +24,7 @@ struct FlipObserver {
 /// The end at which the quad of a stuck edge is not strictly convex. Exactly one of the two is.
 [[nodiscard]] VertexId reflex_end(const Mesh& mesh, HalfedgeId stuck);
 
-/// What remove_hidden found and did.
+/// The result of remove_hidden: the vertices that it found, and what became of them.
 struct HiddenVertices {
   std::vector<VertexId> hidden;   ///< all, by number
   std::vector<VertexId> removed;  ///< those that could be, in this order

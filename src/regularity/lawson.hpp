@@ -40,12 +40,12 @@ struct IgnoreFlips {
   void after(const Mesh&, HalfedgeId) {}
 };
 
-/// Where a run may look: at all vertices. Anything with the same member confines it to some.
+/// The range of a run that may look at all vertices. Any class with the same member confines a run to some of them.
 struct Everywhere {
   [[nodiscard]] static constexpr bool contains(VertexId) { return true; }
 };
 
-/// What one run did.
+/// The result of one run.
 struct LawsonRun {
   std::size_t flips = 0;
   bool finished = true;  ///< false: edges are left in the queue, for the cap on flips was reached, or
@@ -133,7 +133,7 @@ class Lawson {
     clear();
   }
 
-  /// What the flips since clear() returned, in order.
+  /// The halfedges that the flips since clear() returned, in order.
   [[nodiscard]] const std::vector<HalfedgeId>& journal() const { return journal_; }
   /// Forgets the flips so far, so that rollback returns to the present state.
   void commit() { journal_.clear(); }

@@ -1,4 +1,4 @@
-// Which triangle of a mesh a point is in, or nearest to: a packed tree of boxes.
+// A packed tree of boxes that finds the triangle of a mesh that a point is in, or nearest to.
 //
 // Triangles are sorted along a Hilbert curve; each box holds kFan consecutive ones of them, each box above kFan
 // consecutive boxes. The shape of the tree follows from the number of triangles, so nothing but the boxes is stored.
@@ -24,7 +24,8 @@ class BoxTree {
   BoxTree() = default;
   explicit BoxTree(const Mesh& mesh);
 
-  /// Of equally near triangles, always the same one. Precondition: the mesh it was made of, with at least one triangle.
+  /// The triangle nearest to p; of equally near ones always the same. Precondition: the mesh that the tree was made of,
+  /// with at least one triangle.
   [[nodiscard]] NearestPoint nearest(const Mesh& mesh, Vec2 p) const;
 
  private:

@@ -19,7 +19,7 @@ namespace {
 // (in meshes that are not Delaunay some do) must end.
 constexpr int kLongestWalk = 32;
 
-/// Where a walk towards p ended: in the triangle that has it, or nowhere.
+/// Walks towards p, to the triangle that has it; invalid when the walk leaves the mesh.
 TriangleId walk(const Mesh& mesh, Vec2 p, TriangleId from) {
   TriangleId t = from;
   HalfedgeId entered;

@@ -1,4 +1,4 @@
-// Which triangle a point is in, exactly.
+// Point location: finds the triangle that a point is in, exactly.
 //
 // A visibility walk: from a triangle across the first of its edges that has the point on its outer side, to the next.
 // It may run into a hole or a bay of the domain, and where the mesh is not Delaunay even in circles; then all triangles
@@ -9,7 +9,7 @@
 
 namespace temper {
 
-/// Where a point is.
+/// The place of a point in a mesh.
 struct Location {
   enum class Kind { outside, in_triangle, on_edge, at_vertex };
   Kind kind = Kind::outside;

@@ -38,7 +38,7 @@ namespace {
 
 using Corners = std::array<VertexId, 3>;
 
-/// What the star of a vertex is to a removal.
+/// The star of a vertex as a removal sees it.
 struct StarShape {
   RemovalStatus status = RemovalStatus::possible;
   HalfedgeId first;              ///< the first spoke, as the numbers of the vertices decide it
@@ -119,7 +119,7 @@ void gather_link(const Mesh& mesh, HalfedgeId first, std::vector<VertexId>& link
   link.push_back(mesh.opposite(last));
 }
 
-/// Where in the link the line ends that starts at link[0].
+/// The index in the link at which the line that starts at link[0] ends.
 std::size_t line_end_index(const Mesh& mesh, const StarShape& shape, const std::vector<VertexId>& link) {
   if (!shape.line_end.valid()) return link.size() - 1;
   const auto end = std::find(link.begin(), link.end(), mesh.target(shape.line_end));

@@ -8,7 +8,7 @@
 
 namespace temper {
 
-/// All triangles at the corners of these, themselves included; sorted. Precondition: none is erased.
+/// The triangles at the corners of these, themselves included; sorted. Precondition: none is erased.
 [[nodiscard]] std::vector<TriangleId> triangles_around(const Mesh& mesh, std::span<const TriangleId> triangles);
 
 }  // namespace temper

@@ -16,7 +16,7 @@ struct EdgeMeans {
   double to_antiderivative = 0;    ///< and from there to `to`
 };
 
-/// On the executor's threads; the same for any.
+/// The means over each edge, computed on the executor's threads; the same for any.
 [[nodiscard]] IdVector<EdgeId, EdgeMeans> edge_means(const Setting& setting, const Field& field);
 
 }  // namespace temper::verify_detail

@@ -8,7 +8,7 @@
 
 namespace temper::verify_detail {
 
-/// All that the measures need of a field at a point.
+/// The values of a field at a point that the measures need.
 struct FieldValue {
   double u = 0;
   Vec2 gradient;

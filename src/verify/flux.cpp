@@ -17,7 +17,7 @@ namespace temper::verify_detail {
 namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-// Of the dual length against the edge's: a coefficient beyond 1e10 would take as many digits from all others.
+// The dual length against the edge's: a coefficient beyond 1e10 would take as many digits from all others.
 constexpr double kCoincident = 1e-10;
 
 /// The least member of the set that i is in.

@@ -22,7 +22,7 @@ inline constexpr std::array<GaussNode, 4> kGauss = {{{0.5 - 0.5 * 0.861136311594
                                                      {0.5 + 0.5 * 0.3399810435848562648, 0.5 * 0.6521451548625461426},
                                                      {0.5 + 0.5 * 0.8611363115940525752, 0.5 * 0.3478548451374538574}}};
 
-/// Of [0, 1] in equal pieces.
+/// The nodes of Gauss's rule on [0, 1], divided into equal pieces.
 inline std::vector<GaussNode> gauss_nodes(int pieces) {
   std::vector<GaussNode> nodes;
   for (int i = 0; i < pieces; ++i) {

@@ -13,7 +13,7 @@ struct Measured {
 };
 [[nodiscard]] Measured measure(const Setting& setting, const std::vector<Field>& fields, bool condition);
 
-/// By least squares, of each field. See VerifyReport::orders.
+/// The orders of convergence of each field, by least squares. See VerifyReport::orders.
 [[nodiscard]] std::vector<FieldErrors> convergence_orders(const std::vector<VerifyLevel>& levels);
 
 }  // namespace temper::verify_detail

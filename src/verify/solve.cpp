@@ -16,7 +16,7 @@ using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 using Index = Eigen::Index;
 
-// Of the residual against |A| |x| + |b|: rounding leaves 1e-16 times a small power of n; a failed solution leaves 1.
+// The residual against |A| |x| + |b|: rounding leaves 1e-16 times a small power of n; a failed solution leaves 1.
 constexpr double kResidual = 1e-8;
 // Of the matrix scaled to a diagonal of ±1. Rounding of its entries alone turns a singular matrix into one of 1e16; a
 // million unknowns of a sound one make 1e7.
@@ -110,7 +110,7 @@ bool solve_all(const Scaled& scaled, const Solver& solver, LinearSolution& resul
   return true;
 }
 
-/// Of the matrix as it is: A x = S⁻¹ (S A S) S⁻¹ x.
+/// The condition number of the matrix as it is, not of the scaled one: A x = S⁻¹ (S A S) S⁻¹ x.
 template <class Solver>
 double condition_of(const Scaled& scaled, const Solver& solver) {
   const Vector& s = scaled.scaling;

@@ -23,8 +23,8 @@ namespace {
 constexpr std::size_t kFiguresOfPaper = 29;  // 3 to 32 without the drawing 5
 constexpr std::size_t kLeastClaims = 40;
 
-/// What the paper says and is not so: a figure, or section, and a part of the claim. One that comes to hold must go
-/// from here.
+/// A claim of the paper that does not hold: a figure, or section, and a part of the claim. One that comes to hold must
+/// go from here.
 struct Exception {
   std::string_view figure, part;
 };

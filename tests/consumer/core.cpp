@@ -1,4 +1,4 @@
-// What a user of the core library writes: builds a mesh, measures it, draws it.
+// A program as users of the core library write it: it builds a mesh, measures it, draws it.
 #include <array>
 #include <cstdint>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// What a user of mesh files writes: reads the file named on the command line, as the installed library does.
+// A program as users of mesh files write it: it reads the file named on the command line with the installed library.
 #include "temper/io.hpp"
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// What a user of threads writes: an executor, and a run whose result does not depend on it.
+// A program as users of threads write it: an executor, and a run whose result does not depend on it.
 #include <cstdio>
 
 #include "temper/generate.hpp"

@@ -1,4 +1,4 @@
-// What the exact checker accepts, added up again in rational arithmetic; and its arithmetic, number by number.
+// Certificates that the exact checker accepts, added up again in rational arithmetic; its arithmetic, number by number.
 //
 // The oracle shares no formula with the library: h comes from the orthocenter by Cramer's rule, with unit weights put
 // on one vertex after the other, and the bounds on differences of weights are shortest paths over all edges of the

@@ -1,7 +1,7 @@
-// What the accuracy objective promises, on public meshes that nobody here made and on fields that no parameter was
+// The promises of the accuracy objective, on public meshes that nobody here made and on fields that no parameter was
 // chosen by: errors over those of the input, each mesh well-centered and regular with its margins.
 //
-// The bounds are those of the issue that asked for it; docs/accuracy.md has what is reached, and how.
+// docs/accuracy.md says which errors are reached, and how.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -34,7 +34,7 @@ double area(const Corners& corners) {
   return doubled / 2;
 }
 
-/// How much nearer, in the power sense, x is to v than to u: their difference, > 0 outside of the cell of v.
+/// The power distance of x to v minus that to u: > 0 outside of the cell of v.
 double excess(const Mesh& mesh, VertexId v, VertexId u, Vec2 x) {
   const Vec2 y = x - mesh.position(v), e = mesh.position(u) - mesh.position(v);
   return 2 * dot(y, e) - squared_length(e) + mesh.weight(u) - mesh.weight(v);
@@ -82,7 +82,7 @@ void expect_simple(const Corners& corners) {
   }
 }
 
-/// What holds on any domain, whatever the weights: polygons simple, areas theirs, the whole covered once.
+/// Expects what holds on any domain, whatever the weights: polygons simple, areas theirs, the whole covered once.
 void expect_partition(const Mesh& mesh, const PowerCells& cells, double tolerance = kAbsolute) {
   ASSERT_GT(cells.n_polygons(), 0u);
   ASSERT_EQ(cells.starts.size(), cells.n_polygons() + 1);

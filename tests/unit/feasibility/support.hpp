@@ -1,4 +1,4 @@
-// What tests of weights alone share: meshes that have good weights and that have none, and meshes scaled or weighted.
+// Fixtures for tests of weights alone: meshes that have good weights and that have none, and meshes scaled or weighted.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Which figures words on the command line name.
+// Selections: the figures that words on the command line name.
 #include "gallery/selection.hpp"
 
 #include <gtest/gtest.h>

@@ -21,7 +21,7 @@ Mesh marked_mesh(Rng& rng) {
   return mesh;
 }
 
-/// What compact() says it kept, read in the old mesh, is what the new mesh says.
+/// Expects the new mesh to be what compact() says it kept of the old one.
 void expect_same_where_kept(const Mesh& old, const Mesh& mesh, const Compaction& kept) {
   ASSERT_EQ(kept.vertices.size(), mesh.n_vertices());
   ASSERT_EQ(kept.triangles.size(), mesh.n_triangles());

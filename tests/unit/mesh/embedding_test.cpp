@@ -52,7 +52,7 @@ Arrays random_part(Rng& rng, const Mesh& mesh) {
   return test::arrays_of(mesh, triangles);
 }
 
-/// How often each outcome occurred: a property that never met one of them has not been tested.
+/// Counts of each outcome: a property that never met one of them has not been tested.
 struct Outcomes {
   int embedded = 0, overlapping = 0, not_manifold = 0;
 };

@@ -245,7 +245,7 @@ double distance(Vec2 p, const std::vector<std::pair<Vec2, Vec2>>& edges) {
 
 constexpr int kSweeps = 40;
 
-/// How far a place may be rounded off its line: by one unit in the last place of the coordinates, each sweep.
+/// The distance that a place may be rounded off its line: one unit in the last place of the coordinates, each sweep.
 double rounding(const Mesh& mesh) {
   double largest = 0;
   for (const VertexId v : mesh.vertices()) {

@@ -1,4 +1,4 @@
-// What the cavity of a vertex costs without it: the change of the total, for every energy and star.
+// The energy of a vertex's cavity without the vertex: the change of the total, for every energy and star.
 #include "optimize/step/cavity.hpp"
 
 #include <gtest/gtest.h>

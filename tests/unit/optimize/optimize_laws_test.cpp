@@ -1,4 +1,4 @@
-// What must hold of every optimisation, whatever the mesh.
+// Laws that hold for every optimisation, whatever the mesh.
 #include <gtest/gtest.h>
 
 #include <algorithm>

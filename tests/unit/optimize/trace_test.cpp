@@ -1,4 +1,4 @@
-// What the optimiser writes down is what it did: replayed, every run gives the same mesh, bit for bit.
+// Traces are true: replayed, every run gives the same mesh, bit for bit.
 #include "temper/trace.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What becomes of hidden vertices, by each policy, and what an observer sees of it.
+// The fate of hidden vertices under each policy, and what an observer sees of it.
 #include <gtest/gtest.h>
 
 #include "property/random_mesh.hpp"

@@ -1,4 +1,4 @@
-// What a mesh's sizes are compared with a field: facts by hand, and invariance.
+// The sizes of a mesh compared with a size field: facts by hand, and invariance.
 #include <gtest/gtest.h>
 
 #include "support/lattice.hpp"
