@@ -23,7 +23,7 @@ ELSEWHERE = {
     "from_mesh": "write does it", "files_to_write": "write does it",
     "dec_file_names": "write_dec returns the paths",
     "hilbert_order": "Python keeps the user's numbers", "restore_order": "as hilbert_order",
-    "hilbert_ordered": "as hilbert_order",
+    "hilbert_ordered": "as hilbert_order", "or_serial": "threads=1",
     "unflip": "flip three times more", "split_edge": "plan_split and insert_vertex, which check",
     "insert_in_triangle": "plan_insertion and insert_vertex, which check",
     "line_plot_svg": "matplotlib", "contour_plot_svg": "matplotlib",
