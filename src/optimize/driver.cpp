@@ -13,7 +13,7 @@
 namespace temper {
 namespace {
 
-/// Whether every sweep leaves all edges regular that may be flipped. Deferred weights may hide a vertex where they
+/// Says whether every sweep leaves all edges regular that may be flipped. Deferred weights may hide a vertex where they
 /// meet, which leaves edges as they are.
 [[maybe_unused]] bool keeps_regular(const OptimizeOptions& o) {
   return o.flips != Flips::none && !defers_flips(o) && o.paper.hidden != HiddenPolicy::keep &&

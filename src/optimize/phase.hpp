@@ -16,21 +16,21 @@ class Phase {
 
   virtual ~Phase() = default;
 
-  /// Before the first sweep.
+  /// Begins the phase; to be called before the first sweep.
   virtual void begin() = 0;
-  /// Whether there may be another sweep; if not, the report says why the run stopped.
+  /// Says whether there may be another sweep; if not, the report says why the run stopped.
   [[nodiscard]] virtual bool may_sweep() const = 0;
   /// The energy of the mesh as it is, in the user's units.
   [[nodiscard]] virtual double total() const = 0;
   /// The mesh as it is for the history of the run.
   virtual SweepRecord measure() = 0;
-  /// After a sweep that the history has as its last. `removed`: vertices are gone.
+  /// Judges a sweep that the history has as its last. `removed`: vertices are gone.
   virtual Verdict judge(bool removed) = 0;
-  /// After flips that the history has been brought up to date for, or when all weights have shrunk.
+  /// Compares with the mesh as it is from now on: after flips that the history knows, or when all weights have shrunk.
   virtual void compare_from_here() = 0;
-  /// Whether there is more to lower once all has settled: weights, after positions.
+  /// Says whether there is more to lower once all has settled: weights, after positions.
   virtual bool goes_on_with_weights() { return false; }
-  /// Whether a step of all vertices at once should go before the next sweep.
+  /// Says whether a step of all vertices at once should go before the next sweep.
   [[nodiscard]] virtual bool wants_newton_pass() const { return false; }
   /// Learns what the last pass and the sweep after it left of the energy.
   virtual void passed(double /*after_pass*/, double /*after_sweep*/) {}
@@ -42,7 +42,7 @@ class Phase {
 /// Lowers an energy of the registry: one attempt, or a polish.
 class EnergyPhase final : public Phase {
  public:
-  /// With `may_give_up`, it ends too when triangles stay bad for many sweeps.
+  /// `may_give_up`: the phase ends too when triangles stay bad for many sweeps.
   EnergyPhase(const WorkingCopy& work, Settings& settings, Run& run, const Attempt& attempt, bool may_give_up);
 
   void begin() override;

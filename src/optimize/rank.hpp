@@ -19,8 +19,8 @@ struct Rank {
   friend auto operator<=>(const Rank&, const Rank&) = default;
 };
 
-/// By the energy of the settings, in the units of their model; with the sizes at its vertices by that of the accuracy
-/// objective.
+/// The rank by the energy of the settings, in the units of their model; with the sizes at its vertices by that of the
+/// accuracy objective.
 [[nodiscard]] Rank rank(const Mesh& mesh, const Settings& settings, const VertexSizes* sizes = nullptr);
 
 }  // namespace temper

@@ -1,4 +1,4 @@
-// Why a run refuses its input: errors that only the mesh and its energy show.
+// Refusals: the errors of a run that only its mesh and its energy show.
 #pragma once
 
 #include "optimize/settings.hpp"

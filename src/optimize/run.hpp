@@ -34,7 +34,7 @@ class Run {
   [[nodiscard]] bool stopped_by_caller() const {
     return report.stopped == Stopped::cancelled || report.stopped == Stopped::time_limit;
   }
-  /// Whether there is time for more than what has been done.
+  /// Says whether there is time for more.
   [[nodiscard]] bool goes_on() const { return !stopped_by_caller() && sweeps_left(); }
   /// Asks the clock and the caller; sets report.stopped when the answer is yes.
   bool asked_to_stop(double fraction_of_sweep);

@@ -14,7 +14,7 @@ constexpr double kFloor = 0.003;
 // On the 7 × 9 horseshoe the second attempt leaves 5 triangles bad where the first leaves 30; on 33 × 25, 0 and 6.
 constexpr Attempt kThorough = {
     .start = 2, .factor = 0.5, .relaxation = kRelaxation, .level_sweeps = 30, .level_fall = 1e-4, .jitter = 0.02};
-// Where most of the mesh has to change, the connectivity too; and where a few triangles have.
+// The attempts where most of the mesh has to change, the connectivity too; and where a few triangles have to.
 constexpr std::array<Attempt, 2> kManyBad = {
     {{.start = 1, .factor = 0.5, .relaxation = 1.97, .until_good = true}, kThorough}};
 constexpr std::array<Attempt, 2> kFewBad = {

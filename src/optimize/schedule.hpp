@@ -30,7 +30,7 @@ struct Attempt {
 /// Over-relaxation at the last γ.
 inline constexpr double kRelaxation = 1.7;
 
-/// For a mesh that is well-centered already, or as good as can be: the sharpest γ at once.
+/// The attempt for a mesh that is well-centered already, or as good as can be: the sharpest γ at once.
 extern const Attempt kPolish;
 
 /// The attempts for this mesh and these options, in order; at least one. A user's γ, or an energy without one, leaves
@@ -49,14 +49,14 @@ class Softener {
 
   /// The first sweep's.
   void start(const Mesh& mesh, EnergyModel& model);
-  /// After a sweep that lowered the energy by `fall` times itself and left `bad` triangles. True when the model
-  /// changed: energies before and after do not compare.
+  /// To be called after a sweep that lowered the energy by `fall` times itself and left `bad` triangles. True when the
+  /// model changed: energies before and after do not compare.
   bool advance(const Mesh& mesh, double fall, std::size_t bad, EnergyModel& model);
   /// Over-relaxation of the next sweep, where the options name none.
   [[nodiscard]] double relaxation() const { return settled_ ? kRelaxation : attempt_.relaxation; }
-  /// Whether advance will change the model no more: only then can a run converge.
+  /// Says whether advance will change the model no more: only then can a run converge.
   [[nodiscard]] bool settled() const { return settled_; }
-  /// Whether the energy before the next sweep will be asked for.
+  /// Says whether the energy before the next sweep will be asked for.
   [[nodiscard]] bool compares_energies() const { return settled_ || (gamma_shrinks_ && attempt_.level_sweeps > 1); }
 
  private:

@@ -39,7 +39,7 @@ struct Settings {
                                                                                        : o.unknowns;
 }
 
-/// Whether steps are Newton's, of a barrier, as far as they pay, with flips at once.
+/// Says whether steps are Newton's, of a barrier, as far as they pay, with flips at once.
 [[nodiscard]] inline bool makes_newton_steps(const Settings& s) {
   return s.energy.barrier && s.options.paper.solver == Solver::newton && s.options.flips == Flips::immediate &&
          s.flip_limit == FlipLimit::unlimited && s.options.paper.inversion == Inversion::refuse;

@@ -14,7 +14,7 @@ class AccuracyPhase final : public Phase {
   AccuracyPhase(const AccuracyPhase&) = delete;
   AccuracyPhase& operator=(const AccuracyPhase&) = delete;
 
-  /// For the driver's steps.
+  /// The settings for the driver's steps.
   [[nodiscard]] Settings& settings() { return settings_; }
 
   void begin() override;

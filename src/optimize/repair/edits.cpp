@@ -14,7 +14,7 @@ constexpr int kKicks = 3;
 // A neighbourhood with more bad triangles has more than one place to begin at.
 constexpr std::size_t kMostBad = 6;
 constexpr std::size_t kMostRemovals = 12;
-// From sizes that hardly grow to such that double within their own length.
+// Gradations of sizes, from such that hardly grow to such that double within their own length.
 constexpr double kGradations[] = {0.3, 0.6, 1};
 
 /// The one that the neighbourhood is around, and others.

@@ -16,7 +16,7 @@ namespace {
 // Above 1.46 the dense horseshoe, which needs none of these splits, loses margin by them.
 constexpr double kLittleRoom = 1.3;
 constexpr double kNoConflict = std::numeric_limits<double>::infinity();
-// For each edge that there is: corners of few degrees could ask for more and more.
+// Splits for each edge that there is: corners of few degrees could ask for more and more.
 constexpr std::size_t kMostSplits = 20;
 
 class BoundaryCutter {
@@ -59,7 +59,7 @@ Line line_of(const Mesh& mesh, HalfedgeId h) {
   return {mesh.origin(h), mesh.target(h)};
 }
 
-/// Whether a new vertex at p can matter to the edge: the discs from its ends have diameters of kLittleRoom edges.
+/// Says whether a new vertex at p can matter to the edge: the discs from its ends have diameters of kLittleRoom edges.
 bool is_near(const Mesh& mesh, const Line& line, Vec2 p) {
   const Vec2 u = mesh.position(line.u), v = mesh.position(line.v);
   return length(p - 0.5 * (u + v)) <= kLittleRoom * length(v - u);
@@ -70,7 +70,7 @@ HalfedgeId BoundaryCutter::find_edge(VertexId a, VertexId b) const {
   return h.valid() ? h : mesh_.find_halfedge(b, a);
 }
 
-/// From a towards b, each time what is left of the edge.
+/// Cuts the edge from a towards b, each time what is left of it.
 void BoundaryCutter::cut(const EdgeCuts& edge) {
   const Vec2 a = mesh_.position(edge.a), along = mesh_.position(edge.b) - a;
   VertexId last = edge.a;

@@ -12,7 +12,7 @@ namespace temper {
 namespace {
 
 constexpr int kRings = 3;
-// From so many failures on the neighbourhood has a ring more.
+// After so many failures the neighbourhood has one ring more.
 constexpr int kFailuresBeforeWider = 6;
 constexpr int kFailuresBeforeSideways = 5;
 // Enough for the random walk of sideways edits to come around; hopeless places are left after that.

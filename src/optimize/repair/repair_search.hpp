@@ -44,7 +44,7 @@ class RepairSearch {
   int failures_ = 0;  // places without an edit that helps, since the last one with
 };
 
-/// Whether these options ask for repairs, and leave room for them.
+/// Says whether these options ask for repairs, and leave room for them.
 [[nodiscard]] bool repairs(const Settings& settings);
 
 }  // namespace temper

@@ -21,7 +21,7 @@ constexpr int kSweeps = 25;
 constexpr double kStart = 0.5, kFactor = 0.7, kLeastGamma = 0.003;
 // Below this γ/ℓ sweeps rarely lose again what is well-centered.
 constexpr double kSharp = 0.1;
-// Of the shortest edge: farther, and most kicks would turn a triangle over.
+// The length of a kick, relative to the shortest edge: farther, and most kicks would turn a triangle over.
 constexpr double kKick = 0.4;
 // More than a neighbourhood that lacks vertices ever needs.
 constexpr int kMostInserted = 300;
@@ -131,7 +131,7 @@ bool Trial::apply(const Edit& edit) {
   return false;
 }
 
-/// With the weight that the plane through the corners has there: never hidden.
+/// Inserts a vertex with the weight that the plane through the corners has there: never hidden.
 bool Trial::insert(TriangleId t, Vec2 place) {
   const Mesh& mesh = work_.mesh;
   const auto corners = mesh.corners(t);

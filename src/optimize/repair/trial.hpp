@@ -32,7 +32,8 @@ struct Edit {
   std::uint64_t seed = 0;    ///< kick
 };
 
-/// How far from well-centered: first the number of triangles that are not, then by how much.
+/// The standing of a mesh, how far it is from well-centered: first the number of triangles that are not, then by how
+/// much.
 struct Standing {
   std::size_t bad = 0;
   double violation = 0;  ///< Σ over bad triangles of the worst of −h/ℓ, −d/ℓ and d/ℓ − 1
@@ -40,7 +41,7 @@ struct Standing {
 };
 [[nodiscard]] Standing standing(const Mesh& mesh);
 
-/// Whether v is on no boundary, interface or rim and not fixed; plan_removal says whether it can go.
+/// Says whether v is on no boundary, interface or rim and not fixed; plan_removal says whether it can go.
 [[nodiscard]] bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, VertexId v);
 
 /// The outcome of a trial.

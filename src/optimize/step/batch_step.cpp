@@ -7,7 +7,7 @@ namespace {
 
 // Vertices to choose from: a batch of eight blocks about a hundred around it, and takes a quarter of the rest.
 constexpr std::size_t kWindow = 256;
-// From where the sweep is, in numbers of vertices, to where the memory is asked for what comes.
+// The distance, in numbers of vertices, from where the sweep is to where memory is asked for what comes.
 constexpr std::size_t kAhead = 64;
 // With fewer left, what comes together matters less than that lanes are in use.
 constexpr std::size_t kLastFew = 48;
@@ -176,7 +176,7 @@ void BatchStep::improve_alone(VertexId v) {
   if (!alone_.improve(v, part_)) left_->push_back(v);
 }
 
-/// Whether no flip has changed the star since it was gathered.
+/// Says whether no flip has changed the star since it was gathered.
 bool BatchStep::has_its_link(const Occupant& occupant, bool open) const {
   std::size_t i = 0;
   for (const HalfedgeId h : mesh_.star(occupant.v)) {

@@ -112,7 +112,7 @@ Flipper::Settled Flipper::settle(const Step& step) {
   return Settled::done;
 }
 
-/// Whether the policy lets the vertices at stuck edges be hidden.
+/// Says whether the policy lets the vertices at stuck edges be hidden.
 bool Flipper::accept_hidden() {
   if (settings_.options.paper.hidden != HiddenPolicy::remove)
     return settings_.options.paper.hidden == HiddenPolicy::keep;

@@ -11,7 +11,7 @@ namespace {
 // by earlier sliding, are collinear only so far.
 constexpr double kStraight = 1e-9;
 
-/// How the edges that must keep their place, constrained ones and those of the boundary, pass through a vertex.
+/// The edges that must keep their place, constrained ones and those of the boundary, as they pass through a vertex.
 struct FixedLine {
   enum Shape { none, straight, bent } shape = none;
   Vec2 direction;  ///< of a straight one, unit length

@@ -3,7 +3,7 @@
 
 namespace temper {
 
-// Of the scaled unknowns: half a patch radius in position, half a squared one in weight.
+// The trust radius of the scaled unknowns: half a patch radius in position, half a squared one in weight.
 inline constexpr double kTrustRadius = 0.5;
 // Eigenvalues below this part of the largest are raised to it: the step is then cut by the trust radius anyway.
 inline constexpr double kEigenvalueFloor = 1e-6;

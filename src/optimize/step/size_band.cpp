@@ -15,7 +15,7 @@ SizeBand::SizeBand(const Mesh& mesh, const Frame& frame, const std::optional<Siz
   grow();
 }
 
-/// By how much more than 1 a vertex is out of its field's size, squared, up or down; the band counts as inside.
+/// The factor by which a vertex is out of its band, squared, up or down; 1 inside.
 double SizeBand::excess(double squared_size, double squared_field) const {
   const double ratio = squared_size / squared_field;
   return std::max({squared_band_, ratio, 1 / ratio});

@@ -24,7 +24,7 @@ class SizeBand {
 
   [[nodiscard]] bool on() const { return squared_band_ > 0; }
 
-  /// Whether the center of the patch may go from where it is to p. What the field is there is kept for moved().
+  /// Says whether the center of the patch may go from where it is to p. The field's value there is kept for moved().
   [[nodiscard]] bool allows(const Patch& patch, Vec2 p);
   /// The center of the patch that allows() was last asked about has gone there.
   void moved(VertexId v) {

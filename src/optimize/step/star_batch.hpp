@@ -55,7 +55,7 @@ struct StepOutcome {
 
 using StepBatch = StepOutcome (*)(const StepParameters& parameters, StarBatch& batch);
 
-/// In the instruction set in use.
+/// The function of the instruction set in use.
 [[nodiscard]] StepBatch step_batch();
 
 namespace baseline {

@@ -149,8 +149,8 @@ TEMPER_INLINE CertainHeights certain_heights(const Spoke<Pack>& a, const Spoke<P
   return {oriented & (na > bound), oriented & (nb > bound), oriented & (s * s - na - nb > bound)};
 }
 
-/// Where all spokes and link edges that may flip are certainly regular with the centers at p. An edge is, whose two
-/// heights are positive; where they are not, the power test decides.
+/// The lanes where all spokes and link edges that may flip are certainly regular with the centers at p. An edge is
+/// whose two heights are positive; where they are not, the power test decides.
 TEMPER_INLINE Mask regular_at(const StarBatch& batch, const PackPoint& p) {
   const Pack triangles = Pack::load(batch.triangles);
   Mask flips = triangles < 0;

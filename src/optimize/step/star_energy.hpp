@@ -19,14 +19,14 @@ class StarEnergy {
   [[nodiscard]] VertexDerivatives derivatives(const WeightedPoint& p);
   /// The unit of steps: the patch radius, or of the accuracy objective the shortest spoke.
   [[nodiscard]] double radius(const WeightedPoint& p) const;
-  /// How many trials a search has: near a barrier more of them pay.
+  /// The number of trials of a search: near a barrier more of them pay.
   [[nodiscard]] int trials() const;
-  /// With the vertex at p all triangles of the star are counter-clockwise, of the accuracy objective well-centered too.
+  /// Says whether with the vertex at p all triangles of the star are counter-clockwise, for accuracy well-centered too.
   /// Exact. An energy without barrier keeps its edges a little apart besides.
   [[nodiscard]] bool is_valid(const WeightedPoint& p) const;
-  /// Whether no edge can stop being regular. The dual of an edge between two triangles is h_k + h_l long, and the edge
-  /// is regular where that is not negative. The accuracy objective has the triangles of the star and those across its
-  /// link well-centered before a step, and those of the star, which alone change, after it.
+  /// Says whether no edge can stop being regular. The dual of an edge between two triangles is h_k + h_l long, and the
+  /// edge is regular where that is not negative. The accuracy objective has the triangles of the star and those across
+  /// its link well-centered before a step, and those of the star, which alone change, after it.
   [[nodiscard]] bool keeps_edges_regular() const { return settings_.accuracy_domain != nullptr; }
 
   [[nodiscard]] const Patch& patch() const { return patch_; }

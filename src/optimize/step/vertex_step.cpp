@@ -132,7 +132,7 @@ bool VertexStep::enter_domain() {
   return std::isfinite(star_.value(origin_));
 }
 
-/// How far along step a search may go.
+/// The part of the step that a search may go.
 double VertexStep::farthest(const Step& step) const {
   return settings_.options.paper.inversion == Inversion::allow ? 1 : inversion_limit(star_.patch(), origin_, step);
 }
@@ -263,7 +263,7 @@ bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
   return fits;
 }
 
-/// To be asked before place(), which tells the band where its vertex went.
+/// Says whether the band allows p; to be asked before place(), which tells the band where its vertex went.
 bool VertexStep::keeps_size(const WeightedPoint& p) {
   const bool only_weight = p.x == origin_.x && p.y == origin_.y;
   return only_weight || !band_.on() || band_.allows(star_.patch(), p.position());
@@ -307,7 +307,7 @@ void VertexStep::end_sweep() {
 
 bool VertexStep::flips_at_once() const { return !keeps_connectivity() && settings_.options.flips == Flips::immediate; }
 
-/// With its connectivity kept an edge that is regular must stay so; one that is not may wait.
+/// Notes which edges are regular: with connectivity kept these must stay so, and one that is not regular may wait.
 void VertexStep::note_regular_edges() {
   was_regular_.clear();
   for (const HalfedgeId h : mesh_.star(vertex_)) {

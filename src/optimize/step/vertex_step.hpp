@@ -40,11 +40,11 @@ class VertexStep {
   /// Nudges every vertex, at random, by up to `amount` of its shortest edge on each axis.
   void shake(double amount, Rng& rng);
 
-  /// With deferred weight updates: gives all vertices their new weights.
+  /// Gives all vertices their new weights, with deferred weight updates.
   void end_sweep();
 
   [[nodiscard]] Unknowns unknowns() const { return unknowns_; }
-  /// Whether steps are what batches make.
+  /// Says whether batches make the same steps.
   [[nodiscard]] bool suits_batches() const;
 
  private:

@@ -5,7 +5,8 @@ namespace {
 
 // ω. From 1 to 1.3 it makes no difference; 1.4 and more is worse.
 constexpr float kOverRelaxation = 1.2F;
-// Of the residual. What is solved for is a model of the energy; less wastes its Hessian, more is not worth iterations.
+// Relative to the first residual. The system is only a model of the energy: a looser solution wastes its Hessian, a
+// tighter one is not worth the iterations.
 constexpr double kTolerance = 0.1;
 constexpr int kMostIterations = 60;
 

@@ -14,7 +14,8 @@ namespace {
 constexpr double kUnbalanced = 20;
 // Pivots of D below this part of the diagonal entry are raised to it.
 constexpr double kPivotFloor = 1e-8;
-// Where a triangle is about to leave the domain, what a float may be too small for: its equations mean little anyway.
+// The largest entry: where a triangle is about to leave the domain, a float may be too small. Its equations mean
+// little.
 constexpr double kMostEntry = 1e30;
 
 using Matrix3 = std::array<double, 9>;  // row by row
@@ -38,7 +39,7 @@ Matrix6 hessian_of(const TriangleHessians& hessians, std::size_t lane) {
   return h;
 }
 
-/// In numbers that are scaled by R, R, R² with R² the doubled area.
+/// Works in numbers that are scaled by R, R, R² with R² the doubled area.
 void project_if_unbalanced(const TriangleHessians& hessians, std::size_t lane, Matrix6& h) {
   const double r2 = hessians.doubled_area[lane];
   const auto square = [&](std::size_t i) { return hessians.gradient[i][lane] * hessians.gradient[i][lane]; };

@@ -36,7 +36,7 @@ struct Cut {
   }
 };
 
-/// Whether v, which is in the part and not isolated, is confined to it. O(degree). Reads no coordinates.
+/// Says whether v, which is in the part and not isolated, is confined to it. O(degree). Reads no coordinates.
 [[nodiscard]] inline bool is_confined(const Mesh& mesh, VertexId v, const Part& part) {
   if (part.is_whole()) return true;
   for (const HalfedgeId h : mesh.star(v)) {

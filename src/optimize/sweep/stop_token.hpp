@@ -13,16 +13,16 @@ namespace temper {
 /// The thread that called asks the clock and the caller; the others hear of the answer.
 class StopToken {
  public:
-  /// In the thread that is to ask.
+  /// To be made in the thread that is to ask.
   StopToken(Run& run, std::size_t n_vertices)
       : run_(run), caller_(this_thread()), n_(static_cast<double>(std::max<std::size_t>(1, n_vertices))) {}
 
-  /// From the thread that called: the caller is asked before the next stretch.
+  /// Has the caller asked before the next stretch. To be called from the thread that asks.
   void ask_soon() {
     TEMPER_ASSERT(this_thread() == caller_);
     since_asked_ = kVerticesBetweenCalls;
   }
-  /// Before a stretch of vertices.
+  /// To be asked before each stretch of vertices: says whether to go on.
   [[nodiscard]] bool goes_on() {
     if (stop_.load(std::memory_order_relaxed)) return false;
     if (this_thread() != caller_ || since_asked_ < kVerticesBetweenCalls) return true;
@@ -31,7 +31,7 @@ class StopToken {
     if (stop) stop_.store(true, std::memory_order_relaxed);
     return !stop;
   }
-  /// After a stretch, some of which must wait for another phase.
+  /// To be told after each stretch, some of whose vertices must wait for another phase.
   void passed(std::size_t vertices, std::size_t left) {
     done_.fetch_add(vertices - left, std::memory_order_relaxed);
     if (this_thread() == caller_) since_asked_ += vertices;

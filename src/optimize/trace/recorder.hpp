@@ -1,4 +1,4 @@
-// From what happens in the working copy to the events of a trace, in the user's numbers and units.
+// A recorder turns what happens in the working copy into the events of a trace, in the user's numbers and units.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ class Recorder {
   Recorder(const Tracer& tracer, const WorkingCopy& work, double energy_unit)
       : tracer_(tracer), work_(work), energy_unit_(energy_unit) {}
 
-  /// Whether anybody listens: if not, nothing else need be called.
+  /// Says whether anybody listens: if not, nothing else need be called.
   [[nodiscard]] bool on() const { return static_cast<bool>(tracer_); }
   void begin_sweep(int sweep) { sweep_ = sweep; }
   [[nodiscard]] int sweep() const { return sweep_; }
