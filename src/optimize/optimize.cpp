@@ -82,7 +82,7 @@ Candidate repaired(Candidate start, Settings& settings, Run& run) {
   return best;
 }
 
-/// Whether the input is one that the second phase may begin with at once.
+/// Says whether the second phase may begin at once with the input.
 bool is_ready_for_accuracy(const Mesh& mesh, const OptimizeOptions& o, Executor* executor) {
   return o.objective == Objective::accuracy && o.boundary != BoundaryVertices::split &&
          has_margins(mesh, o.accuracy.margin, executor);

@@ -162,8 +162,8 @@ void count_changes(const Mesh& input, OptimizeReport& report) {
   report.vertices_removed = input.n_vertices() - (report.vertices.size() - report.vertices_inserted);
 }
 
-/// Whether an input that is returned can be made better by flips alone. Where hidden vertices are kept, edges that are
-/// not regular make no mesh worse; but those that can be flipped are.
+/// Says whether an input that is returned can be made better by flips alone. Where hidden vertices are kept, edges that
+/// are not regular make no mesh worse; but those that can be flipped are.
 bool lacks_flips(const Mesh& input, const Settings& settings) {
   const OptimizeOptions& o = settings.options;
   return o.flips != Flips::none && o.paper.hidden == HiddenPolicy::keep && o.boundary != BoundaryVertices::split &&
