@@ -16,7 +16,7 @@
 namespace temper::app {
 namespace {
 
-struct Settings {
+struct CheckSettings {
   std::string input;
   std::vector<std::string> require;
   SofteningOptions gamma, h0;
@@ -24,7 +24,7 @@ struct Settings {
   bool json = false;
 };
 
-void add_options(Command& command, Settings& s) {
+void add_options(Command& command, CheckSettings& s) {
   command.group("Report");
   add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
   command.add_flag("--json", s.json, "the report as JSON, with vertices and triangles counted from 0");
@@ -62,7 +62,7 @@ Exit judge(const std::vector<Requirement>& requirements, const Quality& quality,
 Exit run_check(const Arguments& arguments) {
   Command command("check",
                   "Reports on a mesh: what is exactly right or wrong with it, margins, energies, the worst triangles.");
-  Settings s;
+  CheckSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   std::vector<Requirement> requirements;

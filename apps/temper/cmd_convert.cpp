@@ -12,13 +12,13 @@
 namespace temper::app {
 namespace {
 
-struct Settings {
+struct ConvertSettings {
   std::string input, output;
   io::WriteOptions options;
   std::uint64_t threads = 0;
 };
 
-void add_options(Command& command, Settings& s) {
+void add_options(Command& command, ConvertSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the file to read; its content tells the format").require();
   add_text(command, "-o,--output", "OUT", s.output, "where it goes; its suffix tells the format").require();
@@ -47,7 +47,7 @@ Exit run_convert(const Arguments& arguments) {
   Command command("convert",
                   "Writes a mesh file in another format. Weights, tags, regions, names and data pass through; a "
                   "warning names what the new format has no place for.");
-  Settings s;
+  ConvertSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   Outputs outputs("convert");

@@ -11,13 +11,13 @@
 namespace temper::app {
 namespace {
 
-struct Settings {
+struct DrawSettings {
   std::string input, before, output;
   DrawOptions options;
   bool no_primal = false, no_dual = false, no_weights = false, no_bad = false, no_rings = false, no_regions = false;
 };
 
-void add_options(Command& command, Settings& s) {
+void add_options(Command& command, DrawSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the mesh to draw").require();
   add_text(command, "-o,--output", "FILE", s.output, "where the SVG goes").require();
@@ -58,7 +58,7 @@ void check_zoom(const DrawOptions& options) {
 
 Exit run_draw(const Arguments& arguments) {
   Command command("draw", "Draws triangles, the dual between orthocenters, and weights as circles, as SVG.");
-  Settings s;
+  DrawSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   s.options.primal = !s.no_primal;

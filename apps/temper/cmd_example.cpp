@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kLeastVertices = 3;
 
-struct Settings {
+struct ExampleSettings {
   std::string output;
   bool list = false;
   Horseshoe horseshoe;
@@ -34,7 +34,7 @@ std::function<void(const std::vector<double>&)> into(Range& target) {
   return [&target](const std::vector<double>& values) { target = {values[0], values[1]}; };
 }
 
-void add_horseshoe(Command& command, Settings& s) {
+void add_horseshoe(Command& command, ExampleSettings& s) {
   add_count(command, "--a", s.horseshoe.a, 2, "points along each arch");
   add_count(command, "--b", s.horseshoe.b, 2, "arches");
   add_numbers(command, "--x", "X0,X1", 2, into(s.horseshoe.x), "horizontal semi-axes of the inner and the outer arch")
@@ -43,13 +43,13 @@ void add_horseshoe(Command& command, Settings& s) {
       .default_text = "1,4";
 }
 
-void add_triangle(Command& command, Settings& s) {
+void add_triangle(Command& command, ExampleSettings& s) {
   add_number(command, "--a", s.triangle.a, kPositive, "one side at vertex 0");
   add_number(command, "--b", s.triangle.b, kPositive, "the other side");
   add_number(command, "--angle", s.triangle.angle_deg, {0, 180, true}, "the angle between them, in degrees");
 }
 
-void add_random(Command& command, Settings& s) {
+void add_random(Command& command, ExampleSettings& s) {
   add_count(command, "--vertices", s.vertices, kLeastVertices, "vertices in all");
   add_count(command, "--seed", s.random.seed, 0, "the seed of the random points");
   const auto use = [&s](const std::vector<double>& v) {
@@ -60,13 +60,13 @@ void add_random(Command& command, Settings& s) {
               "the outline, counter-clockwise (default: an L with a notch)");
 }
 
-void add_sheared_grid(Command& command, Settings& s) {
+void add_sheared_grid(Command& command, ExampleSettings& s) {
   add_count(command, "--nx", s.grid.nx, 1, "squares across");
   add_count(command, "--ny", s.grid.ny, 1, "squares up");
   add_number(command, "--shear", s.grid.shear, kAnyNumber, "x += shear * y");
 }
 
-void add_annulus(Command& command, Settings& s) {
+void add_annulus(Command& command, ExampleSettings& s) {
   add_number(command, "--inner", s.annulus.inner, kPositive, "inner radius");
   add_number(command, "--outer", s.annulus.outer, kPositive, "outer radius");
   add_count(command, "--around", s.annulus.around, 3, "points on a ring");
@@ -77,30 +77,30 @@ void add_annulus(Command& command, Settings& s) {
   add_count(command, "--seed", s.annulus.seed, 0, "the seed of the jitter");
 }
 
-void add_airfoil(Command& command, Settings& s) {
+void add_airfoil(Command& command, ExampleSettings& s) {
   add_count(command, "--around", s.airfoil.around, 3, "points on the foil");
   add_number(command, "--growth", s.airfoil.growth, {1, std::numeric_limits<double>::infinity(), true},
              "ratio of one layer's spacing to the one before");
   add_count(command, "--seed", s.airfoil.seed, 0, "the seed of the points between");
 }
 
-void add_polygon(Command& command, Settings& s) {
+void add_polygon(Command& command, ExampleSettings& s) {
   add_count(command, "--corners", s.polygon.corners, 3, "corners of the polygon");
 }
 
-void add_wedge(Command& command, Settings& s) {
+void add_wedge(Command& command, ExampleSettings& s) {
   add_number(command, "--angle", s.wedge.angle_deg, {0, 180, true}, "the angle of the corner, in degrees");
   add_count(command, "--pieces", s.wedge.pieces, 1, "edges on each of the two sides at the corner, and points inside");
   add_count(command, "--seed", s.wedge.seed, 0, "the seed of the points inside");
 }
 
-void add_graded(Command& command, Settings& s) {
+void add_graded(Command& command, ExampleSettings& s) {
   add_number(command, "--finest", s.graded.finest, kPositive, "size of triangles at one corner of the unit square");
   add_number(command, "--growth", s.graded.growth, kNotNegative, "growth of the size with the distance from there");
   add_count(command, "--seed", s.graded.seed, 0, "the seed of the points");
 }
 
-Expected<Mesh> make_random(Settings& s) {
+Expected<Mesh> make_random(ExampleSettings& s) {
   s.random.vertices = s.vertices;
   return random_points(s.random);
 }
@@ -108,32 +108,34 @@ Expected<Mesh> make_random(Settings& s) {
 struct Generator {
   const char* name;
   const char* description;
-  void (*add_options)(Command&, Settings&);
-  Expected<Mesh> (*make)(Settings&);
+  void (*add_options)(Command&, ExampleSettings&);
+  Expected<Mesh> (*make)(ExampleSettings&);
 };
 
 constexpr Generator kGenerators[] = {
-    {"sparse-horseshoe", "the paper's horseshoe of 5 vertices and 4 triangles", [](Command&, Settings&) {},
-     [](Settings&) -> Expected<Mesh> { return sparse_horseshoe(); }},
+    {"sparse-horseshoe", "the paper's horseshoe of 5 vertices and 4 triangles", [](Command&, ExampleSettings&) {},
+     [](ExampleSettings&) -> Expected<Mesh> { return sparse_horseshoe(); }},
     {"horseshoe", "the paper's parameterised horseshoe, constrained Delaunay", add_horseshoe,
-     [](Settings& s) { return horseshoe(s.horseshoe); }},
-    {"triangle", "a single triangle", add_triangle, [](Settings& s) { return single_triangle(s.triangle); }},
+     [](ExampleSettings& s) { return horseshoe(s.horseshoe); }},
+    {"triangle", "a single triangle", add_triangle, [](ExampleSettings& s) { return single_triangle(s.triangle); }},
     {"random", "random points in a polygon, Delaunay: about half of the triangles are bad", add_random, make_random},
     {"sheared-grid", "squares cut along one diagonal, then sheared", add_sheared_grid,
-     [](Settings& s) { return sheared_grid(s.grid); }},
-    {"annulus", "jittered rings between two circles", add_annulus, [](Settings& s) { return annulus(s.annulus); }},
-    {"airfoil", "a box with an airfoil-like hole, graded", add_airfoil, [](Settings& s) { return airfoil(s.airfoil); }},
+     [](ExampleSettings& s) { return sheared_grid(s.grid); }},
+    {"annulus", "jittered rings between two circles", add_annulus,
+     [](ExampleSettings& s) { return annulus(s.annulus); }},
+    {"airfoil", "a box with an airfoil-like hole, graded", add_airfoil,
+     [](ExampleSettings& s) { return airfoil(s.airfoil); }},
     {"polygon", "a regular polygon without a vertex inside", add_polygon,
-     [](Settings& s) { return regular_polygon(s.polygon); }},
-    {"letter-a", "a letter A of 29 triangles without a vertex inside", [](Command&, Settings&) {},
-     [](Settings&) -> Expected<Mesh> { return letter_a(); }},
+     [](ExampleSettings& s) { return regular_polygon(s.polygon); }},
+    {"letter-a", "a letter A of 29 triangles without a vertex inside", [](Command&, ExampleSettings&) {},
+     [](ExampleSettings&) -> Expected<Mesh> { return letter_a(); }},
     {"wedge", "a triangle with a sharp corner, and random points inside", add_wedge,
-     [](Settings& s) { return wedge(s.wedge); }},
+     [](ExampleSettings& s) { return wedge(s.wedge); }},
     {"graded", "random points in a square, finer towards one corner", add_graded,
-     [](Settings& s) { return graded_points(s.graded); }},
+     [](ExampleSettings& s) { return graded_points(s.graded); }},
 };
 
-void add_options(Command& command, Settings& s) {
+void add_options(Command& command, ExampleSettings& s) {
   command.group("Options");
   add_text(command, "-o,--output", "OUT", s.output, "where the mesh goes; its suffix tells the format");
   command.add_flag("--list", s.list, "list the examples");
@@ -175,7 +177,7 @@ void check_name(const Arguments& arguments) {
 Exit run_example(const Arguments& arguments) {
   Command command("example",
                   "Makes an example mesh: the paper's, and the classes that a mesh method should be tried on.");
-  Settings s;
+  ExampleSettings s;
   add_options(command, s);
   check_name(arguments);
   if (!command.parse(arguments)) return Exit::done;

@@ -14,14 +14,14 @@
 namespace temper::app {
 namespace {
 
-struct Settings {
+struct ExplainSettings {
   std::string input;
   std::uint64_t limit = 10;
   std::uint64_t whole = ExplainOptions().whole;
   bool json = false;
 };
 
-void add_options(Command& command, Settings& s) {
+void add_options(Command& command, ExplainSettings& s) {
   command.group("Report");
   add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
   command.add_flag("--json", s.json, "all reasons as JSON, with vertices and triangles counted from 0");
@@ -64,7 +64,7 @@ Exit run_explain(const Arguments& arguments) {
       "Explains every triangle that is not well-centered. The reason is either a small set of triangles that no "
       "weights suit, with a proof, or that weights exist but have not been found. Cures are tried on the triangles "
       "around. Exits with 0 whatever it finds; temper check --require is the test.");
-  Settings s;
+  ExplainSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
 

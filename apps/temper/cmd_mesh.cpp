@@ -26,7 +26,7 @@ namespace {
 constexpr Choice<Enclosed> kEnclosed[] = {
     {"by-points", Enclosed::by_points}, {"all", Enclosed::all}, {"alternate", Enclosed::alternate}};
 
-struct Settings {
+struct MeshSettings {
   std::string input, output, report, picture, projection, region_sizes;
   MesherOptions options;
   double time_limit = 0;
@@ -34,7 +34,7 @@ struct Settings {
   bool no_optimize = false, quiet = false;
 };
 
-void add_files(Command& command, Settings& s) {
+void add_files(Command& command, MeshSettings& s) {
   add_argument(command, "OUTLINE", s.input,
                "the outline: .poly of Triangle, geometry of JIGSAW, or GeoJSON; its content tells which")
       .require();
@@ -44,7 +44,7 @@ void add_files(Command& command, Settings& s) {
   command.add_flag("--quiet", s.quiet, "print warnings and errors only");
 }
 
-void add_sizes(Command& command, Settings& s) {
+void add_sizes(Command& command, MeshSettings& s) {
   add_number(command, "--size", s.options.size, kPositive,
              "edge length wanted, in the units of the outline or in metres")
       .require();
@@ -62,7 +62,7 @@ void add_sizes(Command& command, Settings& s) {
            "plane");
 }
 
-void add_optimisation(Command& command, Settings& s) {
+void add_optimisation(Command& command, MeshSettings& s) {
   command.add_flag("--no-optimize", s.no_optimize, "write the Delaunay mesh as it is");
   add_count(command, "--attempts", s.options.attempts, 1,
             "while triangles stay bad, divide the outline finer around them and mesh it again; at most this many "
@@ -72,7 +72,7 @@ void add_optimisation(Command& command, Settings& s) {
   add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
 }
 
-void add_options(Command& command, Settings& s) {
+void add_options(Command& command, MeshSettings& s) {
   command.group("Files");
   add_files(command, s);
   command.group("Sizes and shape");
@@ -108,7 +108,7 @@ std::vector<RegionSize> region_sizes(const std::string& text) {
 
 /// The outline in the plane, and how it got there. Longitude and latitude are no plane: nobody's angles are right
 /// there.
-MapUsed take_to_plane(const Settings& s, io::OutlineFile& file) {
+MapUsed take_to_plane(const MeshSettings& s, io::OutlineFile& file) {
   if (s.projection.empty()) {
     if (!file.geographic) return {};
     throw Failure(Exit::bad_usage,
@@ -160,7 +160,7 @@ io::MeshFile file_of(const OutlineMesh& made, const MapUsed& map) {
   return file;
 }
 
-OutlineMesh run_library(const Settings& s, const Outline& outline, Executor* executor) {
+OutlineMesh run_library(const MeshSettings& s, const Outline& outline, Executor* executor) {
   ProgressLine line(!s.quiet && error_is_terminal());
   const Observer observer = [&line](const Progress& progress) {
     line.show(progress);
@@ -175,7 +175,7 @@ OutlineMesh run_library(const Settings& s, const Outline& outline, Executor* exe
   return or_fail(mesh_outline(outline, options, {.executor = executor, .observer = observer}));
 }
 
-Exit mesh(const Command& command, const Settings& s, Outputs& outputs) {
+Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   io::OutlineFile input = or_fail(io::read_outline(s.input));
   print_warnings(input.warnings);
   MapUsed map = take_to_plane(s, input);
@@ -211,7 +211,7 @@ Exit run_mesh(const Arguments& arguments) {
       "mesh",
       "Meshes the inside of an outline and optimises that until every triangle is well-centered. Points of the outline "
       "stay bit for bit.");
-  Settings s;
+  MeshSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   Outputs outputs("mesh");

@@ -16,13 +16,13 @@
 namespace temper::app {
 namespace {
 
-struct Settings {
+struct ReplaySettings {
   std::string input, trace, output;
   std::optional<int> sweeps;
   bool quiet = false;
 };
 
-void add_options(Command& command, Settings& s) {
+void add_options(Command& command, ReplaySettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the mesh that was optimized").require();
   add_argument(command, "TRACE", s.trace, "the file that temper optimize IN --trace wrote").require();
@@ -58,7 +58,7 @@ Exit run_replay(const Arguments& arguments) {
       "replay",
       "Repeats what a trace records, without any optimization, and writes the mesh: the same bytes that temper "
       "optimize wrote.");
-  Settings s;
+  ReplaySettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   Outputs outputs("replay");

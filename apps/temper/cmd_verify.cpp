@@ -15,7 +15,7 @@
 namespace temper::app {
 namespace {
 
-struct Settings {
+struct VerifySettings {
   std::string input, against, fields = "all", edges;
   int refine = 0;
   std::uint64_t threads = 0;
@@ -31,7 +31,7 @@ std::string field_names() {
   return text;
 }
 
-void add_options(Command& command, Settings& s) {
+void add_options(Command& command, VerifySettings& s) {
   command.group("Report");
   add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
   command.add_flag("--json", s.json, "the report as JSON; null means infinite, or undefined for an order");
@@ -71,7 +71,7 @@ bool same_box(const VerifyFrame& a, const VerifyFrame& b) {
          length(a.center - b.center) <= kSameBox * b.half_size;
 }
 
-VerifyReference measure_reference(const Settings& s, const VerifyOptions& options, const VerifyFrame& frame) {
+VerifyReference measure_reference(const VerifySettings& s, const VerifyOptions& options, const VerifyFrame& frame) {
   const Input reference = read_input(s.against, {}, options.executor);
   print_warnings(reference.warnings());
   if (!same_box(frame, verify_frame(reference.mesh()))) {
@@ -92,7 +92,7 @@ Exit run_verify(const Arguments& arguments) {
       "Measures the errors that solvers make on a mesh, with manufactured solutions: of the diagonal Hodge stars, "
       "of a Poisson problem solved by discrete exterior calculus at the vertices, and of one solved by two-point "
       "fluxes at the orthocenters. Also describes their matrices. docs/verify.md defines every number.");
-  Settings s;
+  VerifySettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   VerifyOptions options;

@@ -25,7 +25,7 @@ constexpr Choice<From> kFrom[] = {{"zero", From::zero}, {"input", From::input}};
 enum class Barrier { hard, soft };
 constexpr Choice<Barrier> kBarriers[] = {{"BH", Barrier::hard}, {"BP", Barrier::soft}};
 
-struct Settings {
+struct WeightsSettings {
   std::string input, output, certificate, check;
   Mode mode = Mode::minimal;
   From from = From::zero;
@@ -35,7 +35,7 @@ struct Settings {
   bool json = false;
 };
 
-void add_options(Command& command, Settings& s) {
+void add_options(Command& command, WeightsSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
   add_text(command, "-o,--output", "OUT", s.output, "the mesh with its new weights; not needed with --mode feasible");
@@ -68,7 +68,7 @@ void add_options(Command& command, Settings& s) {
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal, Exit::infeasible}});
 }
 
-void check_usage(const Command& command, const Settings& s) {
+void check_usage(const Command& command, const WeightsSettings& s) {
   const auto fail = [](const std::string& message) {
     throw Failure(Exit::bad_usage, "weights: " + message + "\nSee temper weights --help");
   };
@@ -82,7 +82,7 @@ void check_usage(const Command& command, const Settings& s) {
   if (s.mode != Mode::barrier && command.was_given("--energy")) fail("--energy is of --mode barrier alone");
 }
 
-Exit check(const Settings& s, const Input& input) {
+Exit check(const WeightsSettings& s, const Input& input) {
   const Certificate certificate = read_certificate(s.check, input);
   const CertificateCheck result = check_certificate(input.mesh(), certificate);
   const bool proves = result == CertificateCheck::proves;
@@ -126,7 +126,7 @@ bool all_well_centered(const Mesh& mesh) {
 }
 
 /// From good weights to those of least energy; the good ones stay when these are not good.
-void lower_energy(const Settings& s, const Input& input, WeightReport& report) {
+void lower_energy(const WeightsSettings& s, const Input& input, WeightReport& report) {
   Mesh moving = with_weights(input.mesh(), report.weights);
   OptimizeOptions options;
   options.energy = s.barrier == Barrier::hard ? EnergyKind::BH : EnergyKind::BP;
@@ -150,7 +150,7 @@ void lower_energy(const Settings& s, const Input& input, WeightReport& report) {
   report.weights = std::move(weights);
 }
 
-Exit find(const Settings& s, Input& input, Outputs& outputs) {
+Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
   const auto solver = clp_solver();
   WeightReport report = or_fail(find_weights(input.mesh(), *solver, s.options));
   if (s.mode == Mode::barrier && report.solved) lower_energy(s, input, report);
@@ -180,7 +180,7 @@ Exit run_weights(const Arguments& arguments) {
       "weights",
       "Finds weights that make every triangle well-centered, with positions and connectivity as they are; or proves "
       "that there are none.");
-  Settings s;
+  WeightsSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   check_usage(command, s);

@@ -19,7 +19,7 @@ namespace {
 
 using Type = JsonValue::Type;
 
-struct PlaceHash {
+struct LonLatHash {
   std::size_t operator()(const std::array<double, 2>& p) const {
     return std::hash<double>()(p[0]) * 31 + std::hash<double>()(p[1]);
   }
@@ -236,7 +236,7 @@ class GeoJsonReader {
   std::string path_;
   JsonValue root_;
   OutlineDocument document_;
-  std::unordered_map<std::array<double, 2>, std::int32_t, PlaceHash> point_at_;
+  std::unordered_map<std::array<double, 2>, std::int32_t, LonLatHash> point_at_;
   std::vector<std::uint8_t> given_region_;
   std::size_t dropped_ = 0;
   bool heights_ = false;
