@@ -211,7 +211,7 @@ TEST(Mesher, WithoutOptimisationTheMeshIsConstrainedDelaunay) {
 
 TEST(Mesher, StoppingEarlyStillGivesAMesh) {
   const auto stop = [](const Progress&) { return Continue::no; };
-  const Expected<OutlineMesh> made = mesh_outline(comb(), sized(0.1), stop);
+  const Expected<OutlineMesh> made = mesh_outline(comb(), sized(0.1), {.observer = stop});
   ASSERT_TRUE(made.has_value());
   EXPECT_EQ(made->report.stopped, Stopped::cancelled);
   EXPECT_EQ(made->mesh.validate(), std::nullopt);
