@@ -26,7 +26,6 @@ ELSEWHERE = {
     "hilbert_ordered": "as hilbert_order", "or_serial": "threads=1",
     "unflip": "flip three times more", "split_edge": "plan_split and insert_vertex, which check",
     "insert_in_triangle": "plan_insertion and insert_vertex, which check",
-    "line_plot_svg": "matplotlib", "contour_plot_svg": "matplotlib",
     "input_size_field_of": "input_size_field: Python's meshes may go before their views",
 }  # fmt: skip
 

@@ -177,7 +177,7 @@ TEST_F(Trace, ReplayStopsAfterASweepWhenAsked) {
 }
 
 TEST_F(Trace, OfARunStoppedByASignalIsThatOfItsMesh) {
-  temper_ok({"example", "random", "--vertices", "500", "-o", "in.vtu"});
+  temper_ok({"example", "random", "--vertices", "5000", "-o", "in.vtu"});
   const pid_t process = start(
       {"optimize", "in.vtu", "-o", "out.vtu", "--max-sweeps", "1000000", "--tolerance", "0", "--trace", "t.jsonl"},
       "out.txt", "err.txt");
