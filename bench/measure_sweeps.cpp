@@ -30,6 +30,22 @@ double sweep_ns(const Mesh& mesh, const OptimizeOptions& options, int sweeps) {
   return ns(run.cpu_between(0, static_cast<std::size_t>(sweeps)), mesh.n_vertices(), sweeps);
 }
 
+/// The time per vertex of sweeps of the accuracy objective, from a mesh whose triangles are well-centered: some for the
+/// energy may come first.
+double accuracy_sweep_ns(const Mesh& mesh, int sweeps) {
+  OptimizeOptions options;
+  options.objective = Objective::accuracy;
+  options.accuracy.tolerance = 0;
+  options.accuracy.sweeps = sweeps + 1;
+  Mesh copy = mesh;
+  const TimedRun run = timed_run(copy, options);
+  const auto is_first = [](const Mark& mark) { return mark.last.objective == Objective::accuracy; };
+  const auto first = std::find_if(run.marks.begin(), run.marks.end(), is_first);
+  if (run.marks.end() - first <= sweeps) fail("accuracy sweeps ended early");
+  const auto at = static_cast<std::size_t>(first - run.marks.begin());
+  return ns(run.cpu_between(at, at + static_cast<std::size_t>(sweeps)), mesh.n_vertices(), sweeps);
+}
+
 /// The time per vertex of a loop over all vertices, run as often as the clock needs.
 double loop_ns(std::size_t vertices, const std::function<void()>& loop) {
   const double start = cpu_seconds();
@@ -78,6 +94,7 @@ SweepCosts measure_sweeps(std::size_t vertices, const Options& options) {
   for (int round = 0; round < kMostRounds && (round < options.rounds || cpu_seconds() - start < kSeconds); ++round) {
     note(costs.newton, sweep_ns(mesh, sweeps_only(), options.sweeps));
     note(costs.settled, sweep_ns(settled, sweeps_only(), options.sweeps));
+    note(costs.accuracy, accuracy_sweep_ns(settled, options.sweeps));
     if (comparison) comparison->measure(costs);
   }
   return costs;

@@ -13,6 +13,7 @@ namespace temper::bench {
 struct SweepCosts {
   double newton = kNone;                          ///< the first sweeps: most flips, all γ
   double settled = kNone;                         ///< sweeps after the mesh has become well-centered
+  double accuracy = kNone;                        ///< sweeps of the accuracy objective, all triangles well-centered
   double alternating = kNone;                     ///< the first sweeps of Solver::alternating
   double golden = kNone;                          ///< the first sweeps of the paper's search, and nothing else of it
   double paper = kNone;                           ///< the first sweeps of paper_method(): collapses and removals, too

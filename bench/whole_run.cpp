@@ -3,8 +3,8 @@
 //   bench_whole_run [--sizes 1000,10000,100000,1000000] [--rounds 3] [--sweeps 10] [--golden-sweeps 3] [--threads N]
 //                   [--sweeps-alone] [--temper PATH] [--json FILE] [--check]
 //
-// --sweeps-alone: nothing but the cost of Newton sweeps, for comparing builds. --check: exit 1 when a bound is missed.
-// Times are processor time, but for those with several threads. Each measurement has its own process.
+// --sweeps-alone: nothing but the cost of Newton and accuracy sweeps, for comparing builds. --check: exit 1 when a
+// bound is missed. Times are processor time, but for those with several threads. Each measurement has its own process.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
