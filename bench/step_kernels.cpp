@@ -148,7 +148,7 @@ void step_2_to_6_at_once(benchmark::State& state) {
   const WithInstructionSet set(state);
   std::vector<StarBatch> batches = some_batches();
   const StepParameters p = parameters();
-  const StepBatch step = step_batch();
+  const auto step = batch_steps().barrier;
   std::size_t i = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(step(p, batches[i]));

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "step_parts.hpp"
-// That header ends with the definition of step_batch, which the library has already.
-#define step_batch step_batch_of_parts
+// That header ends with the definition of kBatchSteps, which the library has already.
+#define kBatchSteps kBatchStepsOfParts
 #include "optimize/step/star_batch_set.hpp"
-#undef step_batch
+#undef kBatchSteps
 
 namespace temper::TEMPER_INSTRUCTION_SET {
 
@@ -17,7 +17,8 @@ namespace {
 using bench::PartsState;
 
 TEMPER_INLINE void store_sums(const StarSums& sums, Lane (&to)[kStarSums]) {
-  const Pack* packs = &sums.value;
+  const auto& [g, h] = sums.derivatives;
+  const Pack packs[kStarSums] = {sums.value, g.x, g.y, g.w, h.xx, h.xy, h.xw, h.yy, h.yw, h.ww};
   for (std::size_t k = 0; k < kStarSums; ++k) packs[k].store(to[k]);
 }
 
@@ -44,8 +45,10 @@ void part_derivatives(const StepParameters& parameters, const StarBatch& batch, 
 
 void part_newton(const StarBatch& batch, PartsState& state) {
   Derivatives d;
-  Pack* packs = &d.sums.value;
+  Pack packs[kStarSums];
   for (std::size_t k = 0; k < kStarSums; ++k) packs[k] = Pack::load(state.sums[k]);
+  const auto& [value, x, y, w, xx, xy, xw, yy, yw, ww] = packs;
+  d.sums = {value, {{x, y, w}, {xx, xy, xw, yy, yw, ww}}};
   d.squared_radius = Pack::load(state.squared_radius);
   const PackStep step = newton_step(d, load(batch.moves), load(batch.weighs));
   step.x.store(state.step_x);

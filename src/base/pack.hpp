@@ -6,6 +6,7 @@
 // of one to another, everything here is inlined always and in a namespace of its set, and so must be what uses it.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -35,6 +36,19 @@ inline constexpr std::size_t kLanes = 8;
 TEMPER_INLINE double square_root(double x) { return __builtin_sqrt(x); }
 TEMPER_INLINE double absolute(double x) { return __builtin_fabs(x); }
 TEMPER_INLINE double select(bool condition, double a, double b) { return condition ? a : b; }
+
+// A normal x > 0 is mantissa(x) 2^exponent(x) with a mantissa in [√½, √2): of bits, √½ and what is more than that.
+inline constexpr std::uint64_t kHalfRoot = 0x3fe6'a09e'667f'3bcd, kFraction = 0x000f'ffff'ffff'ffff;
+// The exponent and 1023 in the last bits of 2^52 is that sum, as a double.
+inline constexpr std::uint64_t kBiased = std::uint64_t{1023} << 52, kTwo52 = 0x4330'0000'0000'0000;
+inline constexpr double kTwo52And1023 = 0x1p52 + 1023;
+TEMPER_INLINE double mantissa(double x) {
+  return std::bit_cast<double>(((std::bit_cast<std::uint64_t>(x) - kHalfRoot) & kFraction) + kHalfRoot);
+}
+TEMPER_INLINE double exponent(double x) {
+  return std::bit_cast<double>((std::bit_cast<std::uint64_t>(x) - kHalfRoot + kBiased) >> 52 | kTwo52) - kTwo52And1023;
+}
+
 /// x in every lane.
 template <class T>
 TEMPER_INLINE T all(double x) {
@@ -52,6 +66,7 @@ struct Register {
   static constexpr std::size_t kSize = TEMPER_REGISTER_BYTES / sizeof(double);
   typedef double Doubles __attribute__((vector_size(TEMPER_REGISTER_BYTES)));
   typedef std::int64_t Bits __attribute__((vector_size(TEMPER_REGISTER_BYTES)));
+  typedef std::uint64_t Words __attribute__((vector_size(TEMPER_REGISTER_BYTES)));
 
   struct Mask {
     Bits m;
@@ -118,6 +133,12 @@ struct Register {
   friend TEMPER_INLINE Register absolute(Register a) {
     return {(Doubles)((Bits)a.v & (0x7fff'ffff'ffff'ffff - Bits{}))};
   }
+  friend TEMPER_INLINE Register mantissa(Register a) {
+    return {(Doubles)((((Words)a.v - kHalfRoot) & kFraction) + kHalfRoot)};
+  }
+  friend TEMPER_INLINE Register exponent(Register a) {
+    return {(Doubles)(((Words)a.v - kHalfRoot + kBiased) >> 52 | kTwo52) - kTwo52And1023};
+  }
   /// Lanes of the two halves first, and so on: the same order whatever the registers.
   friend TEMPER_INLINE double sum(Register a) {
 #if TEMPER_REGISTER_BYTES == 64
@@ -174,6 +195,8 @@ struct Pair {
   }
   friend TEMPER_INLINE Pair square_root(Pair a) { return {square_root(a.low), square_root(a.high)}; }
   friend TEMPER_INLINE Pair absolute(Pair a) { return {absolute(a.low), absolute(a.high)}; }
+  friend TEMPER_INLINE Pair mantissa(Pair a) { return {mantissa(a.low), mantissa(a.high)}; }
+  friend TEMPER_INLINE Pair exponent(Pair a) { return {exponent(a.low), exponent(a.high)}; }
   friend TEMPER_INLINE double sum(Pair a) { return sum(a.low + a.high); }
 };
 

@@ -1,78 +1,129 @@
-// The energy of one edge for the accuracy objective, and its derivatives: see accuracy_energy.hpp.
+// The energy of one edge for the accuracy objective, the barrier behind it, and their derivatives, for one edge
+// (T = double) or for eight at once (T = Pack): see accuracy_energy.hpp.
 //
-//     W(L, G, H, δw) = (G/L) (a L² + b G² + p δw² + q H²) = a G L + K/L,    K = G (b G² + p δw² + q H²)
+//     W(L, G, H, δw) = s_e⁻² (G/L) (a L² + b G² + p δw² + q H²) = s_e⁻² (a G L + K/L),    K = G (b G² + p δw² + q H²)
 //
-// Domain L > 0. Scaling exponent 4. Odd in G and H together, even in δw.
+// Domain L > 0. Scaling exponent 4, without s_e. Odd in G and H together, even in δw.
 #pragma once
 
-#include <bit>
-#include <cstdint>
-#include <initializer_list>
 #include <numbers>
+
+#include "base/pack.hpp"
 
 namespace temper {
 
-/// E of an edge is scale · (G/L) (length L² + dual G² + split δw² + height H²).
-struct EdgeWeights {
-  double length = 0, dual = 0, split = 0, height = 0;
+struct AccuracyModel {
+  double length = 0, dual = 0, split = 0, height = 0;  ///< a, b, p, q
+  double boundary_height = 0;                          ///< q of an edge on the boundary
+  double margin = 0;                                   ///< ε
+  double barrier = 0;                                  ///< μ
+
+  /// α and β of the star, c, c_b.
+  [[nodiscard]] static AccuracyModel of(double alpha, double beta, double offset, double boundary_offset);
 };
 
-/// What an edge is made of.
+/// An edge: all that its energy depends on.
+template <class T>
 struct AccuracyEdge {
-  double l2, inverse_l2;
-  double sum, difference;  ///< G, H: of the heights times ℓ on the two sides
-  double dw2;              ///< δw²
+  T scale, height;   ///< s_e⁻², q
+  T l2, inverse_l2;  ///< L, 1/L
+  T dw;              ///< δw
+  T left, right;     ///< g on its two sides: G = left + right, H = left − right
 };
 
-[[nodiscard]] inline double edge_value(const EdgeWeights& k, const AccuracyEdge& e) {
-  return e.sum * (k.length * e.l2 +
-                  (k.dual * e.sum * e.sum + k.split * e.dw2 + k.height * e.difference * e.difference) * e.inverse_l2);
+template <class T>
+[[nodiscard]] TEMPER_INLINE T edge_value(const AccuracyModel& k, const AccuracyEdge<T>& e) {
+  const T sum = e.left + e.right, difference = e.left - e.right;
+  const T rest = k.split * (e.dw * e.dw) + e.height * difference * difference;
+  return e.scale * (sum * (k.length * e.l2 + (k.dual * sum * sum + rest) * e.inverse_l2));
 }
 
-/// ∂ and ∂² of W in L, the g on the left, the g on the right (G = left + right, H = left − right) and δw.
+/// The derivatives ∂ and ∂² of W in L, in g on the left and on the right, and in δw.
+template <class T>
 struct EdgeSlopes {
-  double l = 0, left = 0, right = 0, dw = 0;
-  double l_l = 0, l_left = 0, l_right = 0, l_dw = 0;
-  double left_left = 0, left_right = 0, right_right = 0, side_dw = 0, dw_dw = 0;  // side: left or right, the same
+  struct Side {
+    T g, gg, lg;
+  };
+  Side left, right;
+  T l, dw, l_l, l_dw, dw_dw;
+  T left_right, side_dw;  // side: left or right, the same
 };
 
-[[nodiscard]] inline EdgeSlopes edge_slopes(const EdgeWeights& k, const AccuracyEdge& e, double dw) {
-  const double g = e.sum, h = e.difference, inv = e.inverse_l2, inv2 = inv * inv;
-  const double rest = k.split * e.dw2 + k.height * h * h;
-  const double cubic = g * (k.dual * g * g + rest);  // K
-  const double by_g = 3 * k.dual * g * g + rest;     // K_G
-  const double by_h = 2 * k.height * g * h;          // K_H
-  const double by_dw = 2 * k.split * g * dw;         // K_δw
-  const double w_g = k.length * e.l2 + by_g * inv, w_h = by_h * inv;
-  const double w_lg = k.length - by_g * inv2, w_lh = -by_h * inv2;
-  const double w_gg = 6 * k.dual * g * inv, w_hh = 2 * k.height * g * inv, w_gh = 2 * k.height * h * inv;
-  EdgeSlopes s;
-  s.l = k.length * g - cubic * inv2;
-  s.left = w_g + w_h, s.right = w_g - w_h;
-  s.dw = by_dw * inv;
-  s.l_l = 2 * cubic * inv2 * inv;
-  s.l_left = w_lg + w_lh, s.l_right = w_lg - w_lh;
-  s.l_dw = -by_dw * inv2;
-  s.left_left = w_gg + 2 * w_gh + w_hh, s.right_right = w_gg - 2 * w_gh + w_hh, s.left_right = w_gg - w_hh;
-  s.side_dw = 2 * k.split * dw * inv;
-  s.dw_dw = 2 * k.split * g * inv;
+template <class T>
+[[nodiscard]] TEMPER_INLINE EdgeSlopes<T> edge_slopes(const AccuracyModel& model, const AccuracyEdge<T>& e) {
+  const T length = model.length * e.scale, dual = model.dual * e.scale, split = model.split * e.scale;
+  const T height = e.height * e.scale;
+  const T g = e.left + e.right, h = e.left - e.right, inverse2 = e.inverse_l2 * e.inverse_l2;
+  const T rest = split * (e.dw * e.dw) + height * h * h;
+  const T cubic = g * (dual * g * g + rest), by_g = 3 * (dual * g * g) + rest;  // K, ∂K
+  const T by_h = 2 * (height * g * h), by_dw = 2 * (split * g * e.dw);
+  const T w_g = length * e.l2 + by_g * e.inverse_l2, w_h = by_h * e.inverse_l2;
+  const T w_lg = length - by_g * inverse2, w_lh = by_h * inverse2;
+  const T w_gg = 6 * (dual * g * e.inverse_l2), w_hh = 2 * (height * g * e.inverse_l2);
+  const T w_gh = 4 * (height * h * e.inverse_l2);  // twice
+  EdgeSlopes<T> s;
+  s.left = {w_g + w_h, w_gg + w_hh + w_gh, w_lg - w_lh};
+  s.right = {w_g - w_h, w_gg + w_hh - w_gh, w_lg + w_lh};
+  s.left_right = w_gg - w_hh;
+  s.l = length * g - cubic * inverse2;
+  s.l_l = 2 * (cubic * (inverse2 * e.inverse_l2));
+  s.dw = by_dw * e.inverse_l2;
+  s.l_dw = -by_dw * inverse2;
+  s.side_dw = 2 * (split * e.dw * e.inverse_l2);
+  s.dw_dw = 2 * (split * g * e.inverse_l2);
   return s;
+}
+
+/// A triangle's barrier: m = μ s_t² and ε.
+template <class T>
+struct TriangleBarrier {
+  T factor, floor;
+};
+
+/// Adds − m ln(g/L − ε) of the triangle on one side.
+template <class T>
+TEMPER_INLINE void add_height_barrier(const TriangleBarrier<T>& of, const T& l2, const T& inverse_l2, const T& g,
+                                      EdgeSlopes<T>& s, typename EdgeSlopes<T>::Side& side) {
+  const T room = 1.0 / (g - of.floor * l2), by_g = -of.factor * room, by_gg = of.factor * room * room;
+  const T m_over_l = of.factor * inverse_l2;
+  side.g = side.g + by_g;
+  side.gg = side.gg + by_gg;
+  side.lg = side.lg - of.floor * by_gg;
+  s.l = s.l + (m_over_l - of.floor * by_g);
+  s.l_l = s.l_l + (of.floor * of.floor * by_gg - m_over_l * inverse_l2);
+}
+
+/// Adds − ½ m ln((½ − ε)² − δw²/4L²), with Q = (½ − ε)² L² − δw²/4.
+template <class T>
+TEMPER_INLINE void add_split_barrier(const TriangleBarrier<T>& of, const T& l2, const T& inverse_l2, const T& dw,
+                                     EdgeSlopes<T>& s) {
+  const T most = 0.5 - of.floor, kl = most * most * l2, dw4 = 0.25 * dw;
+  const T inverse_q = 1.0 / (kl * l2 - dw4 * dw), m_q = of.factor * inverse_q, m_qq = m_q * inverse_q;
+  const T m_over_l = of.factor * inverse_l2;
+  s.l = s.l + (m_over_l - m_q * kl);
+  s.dw = s.dw + m_q * dw4;
+  s.l_l = s.l_l + (2 * (m_qq * kl * kl) - m_q * (most * most) - m_over_l * inverse_l2);
+  s.l_dw = s.l_dw - 2 * (m_qq * kl * dw4);
+  s.dw_dw = s.dw_dw + (0.25 * m_q + 2 * (m_qq * dw4 * dw4));
+}
+
+/// (d_ij/ℓ − ε)(d_ji/ℓ − ε), y = δw/ℓ²; both are positive where this is, for an ε below ½ and |y| < 1.
+template <class T>
+[[nodiscard]] TEMPER_INLINE T split_room(const T& y, const T& floor) {
+  const T most = 0.5 - floor;
+  return most * most - 0.25 * y * y;
 }
 
 /// The natural logarithm of a normal x > 0, to 2⁻⁵¹ or so: with the same bits wherever IEEE arithmetic is, which those
 /// of C libraries do not have.
-[[nodiscard]] inline double portable_log(double x) {
+template <class T>
+[[nodiscard]] TEMPER_INLINE T portable_log(const T& x) {
   // x = m 2^k with m in [√½, √2); ln m = 2 artanh z, z = (m − 1)/(m + 1), z² < 0.0295: eleven terms reach rounding.
-  constexpr std::uint64_t kHalfRoot = 0x3fe6a09e667f3bcd;  // √½
-  const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
-  const std::int64_t k = static_cast<std::int64_t>(bits - kHalfRoot) >> 52;
-  const double m = std::bit_cast<double>(bits - (static_cast<std::uint64_t>(k) << 52));
-  const double z = (m - 1) / (m + 1), z2 = z * z;
-  double series = 1.0 / 21;
-  for (const double term : {1.0 / 19, 1.0 / 17, 1.0 / 15, 1.0 / 13, 1.0 / 11, 1.0 / 9, 1.0 / 7, 1.0 / 5, 1.0 / 3}) {
-    series = series * z2 + term;
-  }
-  return static_cast<double>(k) * std::numbers::ln2 + 2 * (z + z * z2 * series);
+  const T m = mantissa(x), one = all<T>(1), z = (m - one) / (m + one), z2 = z * z;
+  constexpr double kTerms[] = {1.0 / 19, 1.0 / 17, 1.0 / 15, 1.0 / 13, 1.0 / 11, 1.0 / 9, 1.0 / 7, 1.0 / 5, 1.0 / 3};
+  T series = all<T>(1.0 / 21);
+  for (const double term : kTerms) series = series * z2 + term;
+  return std::numbers::ln2 * exponent(x) + 2 * (z + z * z2 * series);
 }
 
 }  // namespace temper

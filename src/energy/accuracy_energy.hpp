@@ -22,24 +22,14 @@
 // where a triangle is out of its margin ε: see AccuracyFloors.
 #pragma once
 
-#include <array>
 #include <vector>
 
-#include "energy/accuracy_edge.hpp"
+#include "energy/accuracy_star.hpp"
 #include "temper/energy.hpp"
 #include "temper/executor.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
-
-struct AccuracyModel {
-  EdgeWeights inner, boundary;
-  double margin = 0;   ///< ε
-  double barrier = 0;  ///< μ
-
-  /// α and β of the star, c, c_b.
-  [[nodiscard]] static AccuracyModel of(double alpha, double beta, double offset, double boundary_offset);
-};
 
 using VertexSizes = IdVector<VertexId, double>;
 
@@ -76,11 +66,6 @@ struct AccuracyTotal {
                                            const AccuracyModel& model, Executor* executor = nullptr);
 
 /// Energy and barrier as a function of one vertex. Storage is kept from vertex to vertex.
-///
-///              q2 ------- q1            triangle i = (center, q_i, q_{i+1}), counter-clockwise
-///             /  \  t1  /   \           spoke i    = center → q_i, in triangle i on its left, in i − 1 on its right
-///            /  t2\    /  t0 \          link edge i = q_i → q_{i+1}; the height of its outer triangle stays
-///          q3 ---- center --- q0
 class AccuracyPatch {
  public:
   /// False when a triangle of the star, or across its link, has no floor.
@@ -98,42 +83,12 @@ class AccuracyPatch {
   [[nodiscard]] double shortest_spoke(const WeightedPoint& p) const;
 
  private:
-  using Vector = std::array<double, 3>;  // in (x, y, w)
+  [[nodiscard]] AccuracyStarOf<double> star();
 
-  /// One spoke; from x on, with the center where it was asked about last.
-  struct Arm {
-    WeightedPoint q;
-    double scale = 0;                     // s_e⁻²
-    double x = 0, y = 0, l2 = 0, dw = 0;  // q − p, |q − p|², w_p − w_q
-    double inverse_l2 = 0;
-    double left = 0, right = 0;          // g in the triangles on its two sides; 0 where there is none
-    EdgeSlopes slopes;                   // of energy and barrier
-    Vector to_left = {}, to_right = {};  // ∇left, ∇right
-  };
-  /// One triangle and its link edge; from inverse_area on, with the center where it was asked about last.
-  struct Wedge {
-    double barrier = 0, floor = 0;                      // μ s_t², ε
-    double scale = 0, l2 = 0, inverse_l2 = 0, dw2 = 0;  // of the link edge: s_e⁻², L, δw²
-    double x = 0, y = 0;                                // from q_i to q_{i+1}
-    double outer = 0;                                   // g of the link edge in its outer triangle
-    double split_room = 0;                              // (d_ij/ℓ − ε)(d_ji/ℓ − ε) of the link edge
-    bool boundary = false;                              // the link edge
-    double inverse_area = 0, link_g = 0;                // 1/S, g of the link edge
-  };
-
-  [[nodiscard]] std::size_t next(std::size_t i) const { return i + 1 < arms_.size() ? i + 1 : 0; }
-  [[nodiscard]] const EdgeWeights& weights_of_arm(std::size_t i) const;
-  void place(const WeightedPoint& p);
-  [[nodiscard]] double add_wedge(std::size_t i);
-  [[nodiscard]] AccuracyEdge link_edge(const Wedge& t) const;
-  void find_slopes(std::size_t i);
-  void add_triangle(std::size_t i, VertexDerivatives& sum);
-  void add_arm(const Arm& arm, VertexDerivatives& sum) const;
-
-  std::vector<Arm> arms_;  // an open star has one more than wedges
-  std::vector<Wedge> wedges_;
+  std::vector<AccuracySpoke<double>> spokes_;  // one more than triangles
+  std::vector<AccuracyTriangle<double>> triangles_;
   const AccuracyModel* model_ = nullptr;
-  bool closed_ = true;
+  bool open_ = false;
   double value_ = 0;
 };
 

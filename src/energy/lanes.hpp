@@ -21,4 +21,9 @@ struct LanePoints {
   [[nodiscard]] WeightedPoint at(std::size_t lane) const { return {x[lane], y[lane], w[lane]}; }
 };
 
+/// Triangles, one a lane.
+struct TriangleLanes {
+  LanePoints p, q, r;
+};
+
 }  // namespace temper

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "energy/lanes.hpp"
+#include "energy/triangle_hessian.hpp"
 
 namespace temper {
 
@@ -31,11 +32,6 @@ struct EdgeFactors {
   const double *pq, *qr, *rp;
 };
 
-/// Triangles, one a lane.
-struct TriangleLanes {
-  LanePoints p, q, r;
-};
-
 /// Bit i: triangle i certainly is well-centered, or certainly is not. The rest is for exact predicates.
 struct WellCentered {
   unsigned yes, no;
@@ -52,6 +48,8 @@ struct StarKernels {
   /// The values of a barrier of the first n triangles, summed; +∞ when one is outside the domain.
   double (*barrier_sum)(const EdgeFormula& formula, const TriangleLanes& triangles, std::size_t n);
   WellCentered (*well_centered)(const TriangleLanes& triangles);
+  /// Of a barrier. Bit i of the result: triangle i is inside the domain; elsewhere its numbers mean nothing.
+  unsigned (*triangle_hessians)(const EdgeFormula& formula, const TriangleLanes& triangles, TriangleHessians& result);
 };
 
 /// Of the instruction set in use.

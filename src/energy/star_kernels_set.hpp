@@ -3,6 +3,7 @@
 
 #include "energy/star_kernels.hpp"
 #include "energy/star_sums.hpp"
+#include "energy/triangle_hessian_set.hpp"
 #include "geometry/predicates_inline.hpp"
 
 namespace temper::TEMPER_INSTRUCTION_SET {
@@ -24,7 +25,8 @@ TEMPER_INLINE PackPoint everywhere(const WeightedPoint& p) { return {Pack::all(p
 constexpr unsigned kAllLanes = (1U << kLanes) - 1;
 
 TEMPER_INLINE void store(const StarSums& sums, double* out) {
-  const Pack* packs = &sums.value;
+  const auto& [g, h] = sums.derivatives;
+  const Pack packs[kStarSums] = {sums.value, g.x, g.y, g.w, h.xx, h.xy, h.xw, h.yy, h.yw, h.ww};
   for (std::size_t k = 0; k < kStarSums; ++k) out[k] = sum(packs[k]);
 }
 
@@ -69,8 +71,8 @@ void hot_edges(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint
   const HotKernel kernel{f.alpha, f.beta};
   const PackPoint p = everywhere(at);
   for (std::size_t i = 0; i < link.size; i += kLanes) {
-    TriangleVectors<Pack> unused;
-    const PackShape s = triangle_shape(p, load_link(link, i), load_link(link, i + 1), unused);
+    const PackPoint q = load_link(link, i), r = load_link(link, i + 1);
+    const PackShape s = triangle_shape(spoke(p, q), spoke(p, r), q, r);
     const EdgeShapeOf<Pack> shapes[3] = {s.pq, s.qr, s.rp};
     for (std::size_t k = 0; k < 3; ++k) {
       shapes[k].g.store(edges.g[k] + i);
@@ -95,9 +97,8 @@ void hot_derivatives(const EdgeFormula& f, const LinkArrays& link, const EdgeFac
 double barrier_sum(const EdgeFormula& f, const TriangleLanes& triangles, std::size_t n) {
   const PackPoint p = load(triangles.p), q = load(triangles.q), r = load(triangles.r);
   return with_barrier(f, [&](const auto& kernel) {
-    TriangleVectors<Pack> unused;
     const auto a = spoke_of(kernel, p, q), b = spoke_of(kernel, p, r);
-    const TriangleValue t = triangle_value(kernel, a, b, triangle_shape(a.to, b.to, q, r, unused));
+    const TriangleValue t = triangle_value(kernel, a, b, triangle_shape(a.to, b.to, q, r));
     return sum(select(first_lanes(n), select(t.inside, t.value, Pack::all(kInfinity)), Pack::all(0)));
   });
 }
@@ -123,7 +124,7 @@ WellCentered well_centered(const TriangleLanes& triangles) {
 
 }  // namespace
 
-const StarKernels kStarKernels = {barrier_derivatives, barrier_value, hot_edges,
-                                  hot_derivatives,     barrier_sum,   well_centered};
+const StarKernels kStarKernels = {barrier_derivatives, barrier_value, hot_edges,        hot_derivatives,
+                                  barrier_sum,         well_centered, triangle_hessians};
 
 }  // namespace temper::TEMPER_INSTRUCTION_SET

@@ -28,12 +28,18 @@ template <class T>
 struct TriangleShapeOf {
   EdgeShapeOf<T> pq, qr, rp;
   T doubled_area = {};  ///< S, signed
+  T inverse_area = {};  ///< 1/S
 };
 
 /// The edges pq, qr, rp.
 struct TriangleShape {
   std::array<EdgeShape, 3> edges;
   double doubled_area = 0;  ///< S, signed
+};
+
+template <class T>
+struct PointOf {
+  T x, y, w;
 };
 
 /// From p to another corner.
@@ -45,7 +51,7 @@ struct Spoke {
   T u;     ///< u_a
 };
 
-/// Point: three T's called x, y, w.
+/// Point: PointOf<T>, or what else has x, y, w.
 template <class Point>
 [[gnu::always_inline]] inline auto spoke(const Point& p, const Point& q) {
   using T = decltype(p.x + p.x);
@@ -53,36 +59,20 @@ template <class Point>
   return Spoke<T>{x, y, l2, dw, 0.5 * (l2 + dw)};
 }
 
-/// What the shape is made of, besides.
-template <class T>
-struct TriangleVectors {
-  T ax, ay, bx, by;     ///< q − p, r − p
-  T la, lb, ab;         ///< |a|², |b|², a·b
-  T ua, ub, inverse_s;  ///< u_a, u_b, 1/S
-};
-
-/// Of the triangle between two spokes.
+/// The triangle between two spokes, to q and to r.
 template <class Point, class T>
 [[gnu::always_inline]] inline TriangleShapeOf<T> triangle_shape(const Spoke<T>& a, const Spoke<T>& b, const Point& q,
-                                                                const Point& r, TriangleVectors<T>& v) {
-  const T s = a.x * b.y - a.y * b.x, ab = a.x * b.x + a.y * b.y;
-  v = {a.x, a.y, b.x, b.y, a.l2, b.l2, ab, a.u, b.u, 1.0 / s};
+                                                                const Point& r) {
+  const T s = a.x * b.y - a.y * b.x, ab = a.x * b.x + a.y * b.y, inverse = 1.0 / s;
   const T cx = r.x - q.x, cy = r.y - q.y;
-  const T ga = (b.u * a.l2 - a.u * ab) * v.inverse_s;
-  const T gb = (a.u * b.l2 - b.u * ab) * v.inverse_s;
-  return {{a.l2, a.dw, ga}, {cx * cx + cy * cy, q.w - r.w, s - ga - gb}, {b.l2, b.dw, gb}, s};
-}
-
-template <class Point>
-[[gnu::always_inline]] inline auto triangle_shape(const Point& p, const Point& q, const Point& r,
-                                                  TriangleVectors<decltype(p.x + p.x)>& v) {
-  return triangle_shape(spoke(p, q), spoke(p, r), q, r, v);
+  const T ga = (b.u * a.l2 - a.u * ab) * inverse;
+  const T gb = (a.u * b.l2 - b.u * ab) * inverse;
+  return {{a.l2, a.dw, ga}, {cx * cx + cy * cy, q.w - r.w, s - ga - gb}, {b.l2, b.dw, gb}, s, inverse};
 }
 
 [[gnu::always_inline]] inline TriangleShape triangle_shape(const WeightedPoint& p, const WeightedPoint& q,
                                                            const WeightedPoint& r) {
-  TriangleVectors<double> unused;
-  const TriangleShapeOf<double> s = triangle_shape(p, q, r, unused);
+  const TriangleShapeOf<double> s = triangle_shape(spoke(p, q), spoke(p, r), q, r);
   return {{s.pq, s.qr, s.rp}, s.doubled_area};
 }
 

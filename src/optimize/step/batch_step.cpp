@@ -79,6 +79,7 @@ void BatchStep::gather(VertexId v, Mobility mobility) {
   batch_.triangles[lane] = occupant.alone ? 0 : static_cast<double>(triangles);
   batch_.moves[lane] = !occupant.alone && mobility == Mobility::free && unknowns_ != Unknowns::weights ? -1 : 0;
   batch_.weighs[lane] = !occupant.alone && unknowns_ != Unknowns::positions ? -1 : 0;
+  if (settings_.accuracy_domain != nullptr) gather_domain(occupant, lane);
   if (!occupant.alone) batch_.most_triangles = std::max(batch_.most_triangles, triangles);
   ++batch_.lanes;
 }
@@ -124,6 +125,25 @@ bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
   return true;
 }
 
+/// Sizes and floors around an occupant. What touches a triangle without a floor stays.
+void BatchStep::gather_domain(const Occupant& occupant, std::size_t lane) {
+  if (occupant.alone) return;
+  const auto& [sizes, floors] = *settings_.accuracy_domain;
+  accuracy_.size[lane] = sizes[occupant.v];
+  std::size_t i = 0;
+  for (const HalfedgeId h : mesh_.star(occupant.v)) {
+    const HalfedgeId across = mesh_.twin(Mesh::next(h));
+    const TriangleId t = Mesh::triangle(h);
+    if (!floors.has(t) || (across.valid() && !floors.has(Mesh::triangle(across)))) {
+      batch_.moves[lane] = batch_.weighs[lane] = 0;
+    }
+    accuracy_.floor[i][lane] = floors[t];
+    accuracy_.inner[i][lane] = across.valid() ? -1 : 0;
+    accuracy_.link_size[i++][lane] = sizes[mesh_.target(h)];
+  }
+  accuracy_.link_size[i][lane] = sizes[occupant.link[i]];
+}
+
 void BatchStep::run() {
   if (batch_.lanes > 0) step_and_settle();
   marks_.fill(Mark::none);
@@ -137,7 +157,10 @@ void BatchStep::step_and_settle() {
   }
   const Vec2 center = frame_.center_here();
   const StepParameters parameters{edge_formula(settings_.model), settings_.relaxation, center.x, center.y};
-  const StepOutcome outcome = step_batch()(parameters, batch_);
+  const BatchSteps& steps = batch_steps();
+  const bool lowers_accuracy = settings_.accuracy_domain != nullptr;
+  const StepOutcome outcome = lowers_accuracy ? steps.accuracy(parameters, settings_.accuracy, accuracy_, batch_)
+                                              : steps.barrier(parameters, batch_);
   const std::size_t before = n_changes();
   for (std::size_t lane = 0; lane < batch_.lanes; ++lane) {
     settle(occupants_[lane], lane, outcome, n_changes() != before);

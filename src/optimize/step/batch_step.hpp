@@ -46,6 +46,7 @@ class BatchStep {
   bool take(VertexId v);
   void gather(VertexId v, Mobility mobility);
   [[nodiscard]] bool gather_star(Occupant& occupant, std::size_t lane);
+  void gather_domain(const Occupant& occupant, std::size_t lane);
   void run();
   void step_and_settle();
   void settle(const Occupant& occupant, std::size_t lane, const StepOutcome& outcome, bool flips);
@@ -68,6 +69,7 @@ class BatchStep {
   std::array<std::vector<VertexId>, 4> waiting_;  // with up to 5 triangles, 6, 7, and more
   // Of the batch under way.
   StarBatch batch_;
+  AccuracyLanes accuracy_;
   std::array<Occupant, kLanes> occupants_;
   // Whether a vertex of the batch looks at one of these numbers, modulo kMarks: who shares a number with another waits
   // sometimes for nothing.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "optimize/step/jacobi.hpp"
-#include "optimize/step/newton_constants.hpp"
+#include "optimize/step/newton_system.hpp"
 
 namespace temper {
 namespace {
@@ -14,37 +14,6 @@ constexpr int kJacobiSweeps = 8;
 
 using Vector = std::array<double, 3>;
 using Matrix = std::array<Vector, 3>;
-
-/// Solves A x = b by Cholesky's LDLᵀ; false unless all pivots are safely positive.
-bool solve_positive_definite(int n, const Matrix& a, const Vector& b, Vector& x) {
-  double largest = 0;
-  for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(a[i][i]));
-  const double floor = kEigenvalueFloor * largest;
-  Matrix l = {};
-  Vector pivot = {};
-  for (int j = 0; j < n; ++j) {
-    double p = a[j][j];
-    for (int k = 0; k < j; ++k) p -= l[j][k] * l[j][k] * pivot[k];
-    if (!(p > floor)) return false;
-    pivot[j] = p;
-    for (int i = j + 1; i < n; ++i) {
-      double sum = a[i][j];
-      for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k] * pivot[k];
-      l[i][j] = sum / p;
-    }
-  }
-  for (int i = 0; i < n; ++i) {
-    double sum = b[i];
-    for (int k = 0; k < i; ++k) sum -= l[i][k] * x[k];
-    x[i] = sum;
-  }
-  for (int i = n - 1; i >= 0; --i) {
-    double sum = x[i] / pivot[i];
-    for (int k = i + 1; k < n; ++k) sum -= l[k][i] * x[k];
-    x[i] = sum;
-  }
-  return true;
-}
 
 /// Eigenvectors of a symmetric matrix as columns of v; a becomes diagonal (cyclic Jacobi).
 void diagonalize(std::size_t n, Matrix& a, Matrix& v) {
@@ -101,16 +70,18 @@ NewtonStep newton_step(const VertexDerivatives& d, const Freedom& freedom, doubl
       for (int k = 0; k < 3; ++k) h[i][j] += basis[j][k] * row[k];
     }
   }
-  Vector x = {};
-  if (!solve_positive_definite(n, h, g, x)) x = solve_absolute(n, h, g);
-
-  double norm2 = 0;
-  for (int i = 0; i < n; ++i) norm2 += x[i] * x[i];
-  const double shrink = norm2 > kTrustRadius * kTrustRadius ? kTrustRadius / std::sqrt(norm2) : 1;
+  for (int i = n; i < 3; ++i) h[i][i] = h[0][0];
+  const CornerVector<double> slope = {g[0], g[1], g[2]};
+  NewtonStepOf<double> x = scaled_newton_step({h[0][0], h[0][1], h[0][2], h[1][1], h[1][2], h[2][2]}, slope);
+  if (!x.definite) {
+    const Vector y = solve_absolute(n, h, g);
+    x = within_trust_radius(y[0], y[1], y[2], slope, false);
+  }
+  const Vector length = {x.x, x.y, x.w};
   NewtonStep result;
+  result.predicted = x.predicted;
   for (int i = 0; i < n; ++i) {
-    result.predicted += shrink * x[i] * g[i];
-    for (int k = 0; k < 3; ++k) result.step[k] += shrink * x[i] * basis[i][k];
+    for (int k = 0; k < 3; ++k) result.step[k] += length[i] * basis[i][k];
   }
   return result;
 }

@@ -7,6 +7,8 @@ namespace temper {
 
 // Trials a Newton step: over-relaxed, plain, then halved.
 inline constexpr int kTrials = 6;
+// The same with margins, of which one is near more often than not.
+inline constexpr int kTrialsWithMargins = 12;
 // A model decrease below this part of the patch energy is rounding, not progress.
 inline constexpr double kNoGain = 1e-15;
 // A step goes at most this part of the way to the first triangle's inversion.

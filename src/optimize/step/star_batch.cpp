@@ -4,6 +4,6 @@
 
 namespace temper {
 
-StepBatch step_batch() { return TEMPER_IN_USE(step_batch); }
+const BatchSteps& batch_steps() { return *TEMPER_IN_USE(kBatchSteps); }
 
 }  // namespace temper

@@ -7,21 +7,21 @@
 //          q3 --- p ---- q0           spokes p q_i and the link edges q_i q_{i+1} are still regular. Both depend on
 //            \  /   \   /             these points alone.
 //
-// What the lanes do is what VertexStep does with a vertex by Newton's method, operation by operation; what is rare is
-// left to VertexStep: a Hessian that is not positive definite, a barrier to get into, a filter that does not decide,
+// What the lanes do is what the step of a single vertex does by Newton's method, operation by operation; what is rare
+// is left to that: a Hessian that is not positive definite, a barrier to get into, a filter that does not decide,
 // flips.
 #pragma once
 
 #include <array>
 #include <cstddef>
 
+#include "energy/accuracy_edge.hpp"
 #include "energy/lanes.hpp"
-#include "temper/ids.hpp"
 
 namespace temper {
 
 struct alignas(64) StarBatch {
-  static constexpr std::size_t kMostTriangles = 14;  // of a star; larger ones are VertexStep's
+  static constexpr std::size_t kMostTriangles = 14;  // of a star; larger ones go alone
 
   // What is given.
   std::size_t lanes = 0;           ///< in use
@@ -41,7 +41,7 @@ struct alignas(64) StarBatch {
 };
 
 struct StepParameters {
-  EdgeFormula formula;
+  EdgeFormula formula;  ///< of a barrier energy
   double relaxation = 1;
   double center_x = 0, center_y = 0;  ///< positions are rounded to multiples as (x + c) − c has them (Frame::snap)
 };
@@ -50,22 +50,37 @@ struct StepParameters {
 struct StepOutcome {
   unsigned stepped = 0;  ///< has a place of lower energy, certainly without inverted triangles
   unsigned regular = 0;  ///< and there certainly needs no flip
-  unsigned alone = 0;    ///< needs VertexStep
+  unsigned alone = 0;    ///< needs the step of a single vertex
 };
 
-using StepBatch = StepOutcome (*)(const StepParameters& parameters, StarBatch& batch);
+/// The sizes and floors around each vertex, for the accuracy objective.
+struct alignas(64) AccuracyLanes {
+  Lane size;                                      ///< s at p
+  Lane link_size[StarBatch::kMostTriangles + 1];  ///< s at q_i
+  Lane floor[StarBatch::kMostTriangles];          ///< ε of triangle i
+  LaneMask inner[StarBatch::kMostTriangles];      ///< there is a triangle across link edge i
+};
 
-/// The function of the instruction set in use.
-[[nodiscard]] StepBatch step_batch();
+/// The steps of a batch in one instruction set.
+struct BatchSteps {
+  /// A step that lowers a barrier energy.
+  StepOutcome (*barrier)(const StepParameters& parameters, StarBatch& batch);
+  /// A step that lowers the energy of the accuracy objective. What steps is certainly well-centered, and so regular.
+  StepOutcome (*accuracy)(const StepParameters& parameters, const AccuracyModel& model, const AccuracyLanes& lanes,
+                          StarBatch& batch);
+};
+
+/// Those of the instruction set in use.
+[[nodiscard]] const BatchSteps& batch_steps();
 
 namespace baseline {
-StepOutcome step_batch(const StepParameters& parameters, StarBatch& batch);
+extern const BatchSteps kBatchSteps;
 }
 namespace avx2 {
-StepOutcome step_batch(const StepParameters& parameters, StarBatch& batch);
+extern const BatchSteps kBatchSteps;
 }
 namespace avx512 {
-StepOutcome step_batch(const StepParameters& parameters, StarBatch& batch);
+extern const BatchSteps kBatchSteps;
 }
 
 }  // namespace temper

@@ -1,9 +1,10 @@
 // Included by one source for each instruction set, compiled for that set.
 #pragma once
 
+#include "energy/accuracy_star.hpp"
 #include "energy/star_sums.hpp"
 #include "geometry/predicates_inline.hpp"
-#include "optimize/step/newton_constants.hpp"
+#include "optimize/step/newton_system.hpp"
 #include "optimize/step/search.hpp"
 #include "optimize/step/star_batch.hpp"
 
@@ -13,7 +14,6 @@ namespace {
 using Mask = Pack::Mask;
 
 TEMPER_INLINE Mask has_triangle(const Pack& triangles, std::size_t i) { return triangles > static_cast<double>(i); }
-TEMPER_INLINE Pack larger(Pack a, Pack b) { return select(a > b, a, b); }
 
 /// Value, gradient and Hessian of all stars, and the squares of their radii.
 struct Derivatives {
@@ -47,43 +47,36 @@ TEMPER_INLINE Derivatives derivatives(const Kernel& kernel, const StarBatch& bat
   return d;
 }
 
-struct PackStep {
-  Pack x, y, w;
-  Pack predicted;  ///< twice the decrease of the quadratic model
-  Mask definite;   ///< the Hessian is: elsewhere this is no step
-};
+/// The derivatives of the accuracy energy, with the length of the shortest spoke as the radius.
+TEMPER_INLINE Derivatives derivatives(const AccuracyStarOf<Pack>& star, const StarBatch&, const PackPoint& p) {
+  Derivatives d;
+  d.sums.value = accuracy_value(star, p);
+  d.feasible = d.sums.value < kInfinity;
+  d.sums.derivatives = accuracy_derivatives(star);
+  d.squared_radius = Pack::all(kInfinity);
+  for (std::size_t i = 0; i <= star.most; ++i) {
+    const Pack l2 = star.spokes[i].to.l2;
+    d.squared_radius = select(star.has_spoke(i) & (l2 < d.squared_radius), l2, d.squared_radius);
+  }
+  return d;
+}
+
+using PackStep = NewtonStepOf<Pack>;
 
 /// newton_step of optimize/step/newton.hpp, for a positive definite Hessian.
 TEMPER_INLINE PackStep newton_step(const Derivatives& d, Mask moves, Mask weighs) {
   const Pack zero = Pack::all(0), r2 = d.squared_radius, r = square_root(r2);
-  const StarSums& s = d.sums;
+  const auto& [gradient, hessian] = d.sums.derivatives;
   const Mask both = moves & weighs;
   // Scaled by (R, R, R²). What is no unknown gets the curvature of what is, and no slope.
-  Pack xx = s.xx * r2, yy = s.yy * r2, ww = s.ww * (r2 * r2);
-  const Pack xy = select(moves, s.xy * r2, zero);
-  const Pack xw = select(both, s.xw * (r * r2), zero), yw = select(both, s.yw * (r * r2), zero);
-  xx = select(moves, xx, ww), yy = select(moves, yy, ww), ww = select(weighs, ww, xx);
-  const Pack gx = select(moves, -s.x * r, zero), gy = select(moves, -s.y * r, zero);
-  const Pack gw = select(weighs, -s.w * r2, zero);
-
-  // LDLᵀ.
-  const Pack floor = kEigenvalueFloor * larger(larger(absolute(xx), absolute(yy)), absolute(ww));
-  const Pack inverse_0 = 1.0 / xx;
-  const Pack l10 = xy * inverse_0, l20 = xw * inverse_0;
-  const Pack pivot_1 = yy - l10 * xy, inverse_1 = 1.0 / pivot_1;
-  const Pack below = yw - l20 * xy;
-  const Pack l21 = below * inverse_1;
-  const Pack pivot_2 = ww - l20 * xw - l21 * below, inverse_2 = 1.0 / pivot_2;
-  const Pack b1 = gy - l10 * gx, b2 = gw - l20 * gx - l21 * b1;
-  const Pack w = b2 * inverse_2, y = b1 * inverse_1 - l21 * w, x = gx * inverse_0 - l10 * y - l20 * w;
-
-  const Pack norm2 = x * x + y * y + w * w;
-  const Pack shrink = select(norm2 > kTrustRadius * kTrustRadius, kTrustRadius / square_root(norm2), Pack::all(1));
-  PackStep step;
-  step.predicted = shrink * (x * gx + y * gy + w * gw);
-  step.x = shrink * x * r, step.y = shrink * y * r, step.w = shrink * w * r2;
-  step.definite = (xx > floor) & (pivot_1 > floor) & (pivot_2 > floor);
-  return step;
+  const Pack xx = hessian.xx * r2, yy = hessian.yy * r2, ww = hessian.ww * (r2 * r2);
+  const CornerMatrix<Pack> h = {
+      select(moves, xx, ww), select(moves, hessian.xy * r2, zero),      select(both, hessian.xw * (r * r2), zero),
+      select(moves, yy, ww), select(both, hessian.yw * (r * r2), zero), select(weighs, ww, xx)};
+  const CornerVector<Pack> g = {select(moves, -gradient.x * r, zero), select(moves, -gradient.y * r, zero),
+                                select(weighs, -gradient.w * r2, zero)};
+  const PackStep step = scaled_newton_step(h, g);
+  return {step.x * r, step.y * r, step.w * r2, step.predicted, step.definite};
 }
 
 /// inversion_limit of optimize/step/line_search.hpp.
@@ -93,11 +86,8 @@ TEMPER_INLINE Pack inversion_limit(const StarBatch& batch, const PackPoint& p, c
   PackPoint q = load(batch.link[0]);
   for (std::size_t i = 0; i < batch.most_triangles; ++i) {
     const PackPoint r = load(batch.link[i + 1]);
-    const Pack ax = q.x - p.x, ay = q.y - p.y, bx = r.x - p.x, by = r.y - p.y;
-    const Pack area = ax * by - ay * bx;
-    const Pack slope = step.x * (ay - by) + step.y * (bx - ax);
-    const Mask cut = has_triangle(triangles, i) & (area + limit * slope < (1 - kInversionFraction) * area);
-    limit = select(cut, -kInversionFraction * area / slope, limit);
+    limit = before_inversion(limit, {q.x - p.x, q.y - p.y}, {r.x - p.x, r.y - p.y}, {step.x, step.y},
+                             has_triangle(triangles, i));
     q = r;
   }
   return limit;
@@ -129,6 +119,12 @@ TEMPER_INLINE Trial energy_at(const Kernel& kernel, const StarBatch& batch, cons
   trial.feasible = ~outside;
   trial.certain = ~uncertain;
   return trial;
+}
+
+/// The accuracy energy of all stars with their centers at p. What is certain, well_centered_at() finds out in the end.
+TEMPER_INLINE Trial energy_at(const AccuracyStarOf<Pack>& star, const StarBatch&, const PackPoint& p) {
+  const Pack value = accuracy_value(star, p);
+  return {value, value<kInfinity, value> - kInfinity};
 }
 
 /// A triangle's heights over a = pq, b = pr and qr are certainly positive: the triangle reaches to its orthocenter and
@@ -184,54 +180,107 @@ TEMPER_INLINE Mask regular_at(const StarBatch& batch, const PackPoint& p) {
   return ~flips;
 }
 
+/// The lanes where all triangles certainly are well-centered with the centers at p. Link edges have been crossed
+/// before, and are.
+TEMPER_INLINE Mask well_centered_at(const StarBatch& batch, const PackPoint& p) {
+  const Pack triangles = Pack::load(batch.triangles);
+  const auto crossed = [](const Spoke<Pack>& a) {
+    const Pack dw = absolute(a.dw);
+    return a.l2 - dw > inlined::kEdgeSplitBound * (a.l2 + dw);
+  };
+  Mask uncertain = triangles < 0;
+  Spoke<Pack> a = spoke(p, load(batch.link[0]));
+  for (std::size_t i = 0; i < batch.most_triangles; ++i) {
+    const Spoke<Pack> b = spoke(p, load(batch.link[i + 1]));
+    const auto [over_a, over_b, over_qr] = certain_heights(a, b);
+    uncertain = uncertain | (has_triangle(triangles, i) & ~(over_a & over_b & over_qr & crossed(a) & crossed(b)));
+    a = b;
+  }
+  return ~uncertain;
+}
+
 TEMPER_INLINE void store(const PackPoint& p, LanePoints& to) {
   p.x.store(to.x);
   p.y.store(to.y);
   p.w.store(to.w);
 }
 
-/// VertexStep::newton_search.
-template <class Kernel>
-TEMPER_INLINE StepOutcome step(const Kernel& kernel, const StepParameters& parameters, StarBatch& batch) {
+/// The outcome of a search.
+struct Found {
+  PackPoint to;
+  Mask stepped, alone;
+};
+
+/// VertexStep::newton_search. The energy of all stars: a barrier's kernel, or what the accuracy objective knows of
+/// them.
+template <class Energy>
+TEMPER_INLINE Found newton_search(const Energy& energy, int trials, const StepParameters& parameters,
+                                  StarBatch& batch) {
   const PackPoint p = load(batch.p);
   const Mask moves = load(batch.moves), weighs = load(batch.weighs);
-  const Derivatives d = derivatives(kernel, batch, p);
+  const Derivatives d = derivatives(energy, batch, p);
   const PackStep newton = newton_step(d, moves, weighs);
   const Mask usable = d.feasible & newton.definite & (moves | weighs);
   const double relaxation = parameters.relaxation;
   const PackStep step = {relaxation * newton.x, relaxation * newton.y, relaxation * newton.w, {}, {}};
-  Pack t = inversion_limit(batch, p, step);
 
   const Pack cx = Pack::all(parameters.center_x), cy = Pack::all(parameters.center_y);
   PackPoint to = p;
   Pack after = d.sums.value;
-  Mask searching = usable & (newton.predicted > kNoGain * absolute(d.sums.value));
-  Mask stepped = searching & ~searching, uncertain = stepped;
-  for (int trial = 0; trial < kTrials && searching.bits() != 0; ++trial) {
+  const Mask promising = usable & (newton.predicted > kNoGain * absolute(d.sums.value));
+  Mask stepped = promising & ~promising, uncertain = stepped;
+  const auto attempt = [&](Pack& t, double shorter, Mask searching) {
     const PackPoint there = {select(moves, (p.x + t * step.x + cx) - cx, p.x),
                              select(moves, (p.y + t * step.y + cy) - cy, p.y), p.w + t * step.w};
-    const Trial e = energy_at(kernel, batch, there);
+    const Trial e = energy_at(energy, batch, there);
     const Mask lower = searching & e.feasible & (e.value < d.sums.value);
     to = {select(lower, there.x, to.x), select(lower, there.y, to.y), select(lower, there.w, to.w)};
     after = select(lower, e.value, after);
     stepped = stepped | lower;
     uncertain = uncertain | (lower & ~e.certain);
-    searching = searching & ~lower;
-    t = (trial == 0 && relaxation > 1 ? 1 / relaxation : 0.5) * t;
-  }
+    t = shorter * t;
+    return searching & ~lower;
+  };
+  damped_search(relaxation, trials, inversion_limit(batch, p, step), promising, attempt);
   store(to, batch.to);
   d.sums.value.store(batch.before);
   after.store(batch.after);
-  const unsigned used = (1U << batch.lanes) - 1;
-  const unsigned alone = (uncertain | ~usable).bits() & (moves | weighs).bits() & used;
-  const unsigned done = stepped.bits() & ~alone & used;
-  return {done, done != 0 ? regular_at(batch, to).bits() & done : 0, alone};
+  const Mask alone = (uncertain | ~usable) & (moves | weighs);
+  return {to, stepped & ~alone, alone};
+}
+
+StepOutcome barrier_step(const StepParameters& parameters, StarBatch& batch) {
+  return with_barrier(parameters.formula, [&](const auto& kernel) {
+    const auto [to, stepped, alone] = newton_search(kernel, kTrials, parameters, batch);
+    const unsigned used = (1U << batch.lanes) - 1, done = stepped.bits() & used;
+    return StepOutcome{done, done != 0 ? regular_at(batch, to).bits() & done : 0, alone.bits() & used};
+  });
+}
+
+StepOutcome accuracy_step(const StepParameters& parameters, const AccuracyModel& model, const AccuracyLanes& lanes,
+                          StarBatch& batch) {
+  AccuracySpoke<Pack> spokes[StarBatch::kMostTriangles + 1];
+  AccuracyTriangle<Pack> triangles[StarBatch::kMostTriangles];
+  const Pack n = Pack::load(batch.triangles), size = Pack::load(lanes.size);
+  const Mask open = load(batch.open);
+  const AccuracyStarOf<Pack> star = {
+      model, spokes, triangles, batch.most_triangles, n, n + select(open, Pack::all(1), Pack::all(0)), open};
+  SizedPoint<Pack> q = {load(batch.link[0]), Pack::load(lanes.link_size[0])};
+  set_spoke(star, 0, size, q);
+  for (std::size_t i = 0; i < star.most; ++i) {
+    const SizedPoint<Pack> r = {load(batch.link[i + 1]), Pack::load(lanes.link_size[i + 1])};
+    set_triangle(star, i, size, q, r, Pack::load(lanes.floor[i]), load(lanes.inner[i]), load(batch.across[i]));
+    set_spoke(star, i + 1, size, r);
+    q = r;
+  }
+  const auto [to, stepped, alone] = newton_search(star, kTrialsWithMargins, parameters, batch);
+  const Mask certain = well_centered_at(batch, to);
+  const unsigned used = (1U << batch.lanes) - 1, done = (stepped & certain).bits() & used;
+  return {done, done, (alone | (stepped & ~certain)).bits() & used};
 }
 
 }  // namespace
 
-StepOutcome step_batch(const StepParameters& parameters, StarBatch& batch) {
-  return with_barrier(parameters.formula, [&](const auto& kernel) { return step(kernel, parameters, batch); });
-}
+const BatchSteps kBatchSteps = {barrier_step, accuracy_step};
 
 }  // namespace temper::TEMPER_INSTRUCTION_SET

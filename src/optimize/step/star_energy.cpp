@@ -9,8 +9,6 @@ namespace {
 
 // HOT has no barrier: nothing may come nearer to a neighbour than this part of the patch radius.
 constexpr double kShortestEdge = 1e-7;
-// A margin is near more often than not.
-constexpr int kTrialsWithMargins = 12;
 
 }  // namespace
 

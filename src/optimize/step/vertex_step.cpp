@@ -43,7 +43,8 @@ bool VertexStep::improve(VertexId v, const Part& part) {
 }
 
 bool VertexStep::suits_batches() const {
-  return makes_newton_steps(settings_) && !collapses_ && !removes_ && !band_.on();
+  const bool only_steps = !collapses_ && !removes_ && !band_.on();
+  return only_steps && (star_.keeps_edges_regular() || makes_newton_steps(settings_));
 }
 
 /// Algorithm 2: where E_c would put v onto a neighbour, the mesh is better without v.

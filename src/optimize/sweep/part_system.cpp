@@ -152,7 +152,7 @@ double PartSystem::assemble(const Mesh& mesh, const EdgeFormula& formula) {
   matrix_.clear_blocks();
   diagonal_.assign(size(), {});
   gradient_.assign(size(), {});
-  const TriangleHessiansOf kernel = triangle_hessians();
+  const auto kernel = star_kernels().triangle_hessians;
   double energy = 0;
   TriangleLanes lanes;
   TriangleHessians hessians;

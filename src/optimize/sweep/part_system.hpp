@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "energy/triangle_hessian.hpp"
+#include "energy/star_kernels.hpp"
 #include "optimize/step/freedom.hpp"
 #include "optimize/sweep/conjugate_gradients.hpp"
 #include "optimize/sweep/partition.hpp"

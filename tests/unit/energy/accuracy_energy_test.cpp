@@ -297,7 +297,7 @@ TEST(PortableLog, IsTheLogarithm) {
     const double x = std::ldexp(1 + 0.5 * (noise() + 1), static_cast<int>(500 * noise()));
     EXPECT_NEAR(portable_log(x), std::log(x), 4e-16 * (1 + std::abs(std::log(x)))) << x;
   }
-  EXPECT_EQ(portable_log(1), 0);
+  EXPECT_EQ(portable_log(1.0), 0);
 }
 
 }  // namespace

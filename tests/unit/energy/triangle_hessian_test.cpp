@@ -1,13 +1,12 @@
 // Triangles with all corners free: their derivatives against those of each corner alone, which have been held against
 // differences, and against differences where two corners meet.
-#include "energy/triangle_hessian.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <cstring>
 
+#include "energy/star_kernels.hpp"
 #include "support/lattice.hpp"
 #include "temper/energy.hpp"
 #include "temper/instruction_set.hpp"
@@ -50,7 +49,7 @@ struct Evaluated {
 
 Evaluated evaluated(const EnergyModel& model, const TriangleLanes& lanes) {
   Evaluated e;
-  e.inside = triangle_hessians()(edge_formula(model), lanes, e.numbers);
+  e.inside = star_kernels().triangle_hessians(edge_formula(model), lanes, e.numbers);
   return e;
 }
 

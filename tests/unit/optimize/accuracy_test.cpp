@@ -236,7 +236,7 @@ class AccuracyBlocksBackwards final : public Executor {
 };
 
 TEST(Accuracy, HasTheSameBytesForAnyNumberOfThreads) {
-  Mesh mesh = mesh_with_regions(800, 3);
+  Mesh mesh = mesh_with_regions(1500, 3);  // enough for batches
   OptimizeOptions o = for_accuracy();
   improved(mesh, {});
   o.accuracy.margin = 0.005;

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <cstring>
 
+#include "energy/accuracy_energy.hpp"
 #include "energy/patch.hpp"
 #include "energy/star_kernels.hpp"
 #include "energy/whole_mesh.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "optimize/driver.hpp"
 #include "optimize/step/star_batch.hpp"
+#include "support/lattice.hpp"
 #include "temper/generate.hpp"
 #include "temper/instruction_set.hpp"
 #include "temper/optimize.hpp"
@@ -45,9 +47,20 @@ EnergyModel barrier_model(EnergyKind kind, Star star) {
   return model;
 }
 
+/// What the accuracy objective lowers.
+struct AccuracyTask {
+  AccuracyModel model;
+  AccuracyDomain domain;
+};
+
 /// A vertex alone in a mesh's working copy, stepping as VertexStep does.
 struct Alone {
-  explicit Alone(const Mesh& mesh, const EnergyModel& model)
+  Alone(const Mesh& mesh, const AccuracyTask& task) : Alone(mesh, EnergyModel{.kind = EnergyKind::BP}) {
+    settings.accuracy = task.model;
+    settings.accuracy_domain = &task.domain;
+    settings.options.flips = Flips::none;
+  }
+  Alone(const Mesh& mesh, const EnergyModel& model)
       : work(WorkingCopy::part(mesh)),
         settings(settings_of(work, model)),
         recorder(settings.hooks.tracer, work, 1),
@@ -117,7 +130,7 @@ TEST_P(BatchOfBarrier, MakesTheStepsThatVerticesMakeAlone) {
     StarBatch batch;
     for (std::size_t i = 0; i < kLanes - 1; ++i) put(mesh, VertexId(first + i), batch);
     leave_empty(batch, batch.lanes);
-    const StepOutcome outcome = step_batch()(parameters, batch);
+    const StepOutcome outcome = batch_steps().barrier(parameters, batch);
     EXPECT_EQ(outcome.stepped & outcome.alone, 0U);
     EXPECT_EQ(outcome.regular & ~outcome.stepped, 0U);
     EXPECT_EQ((outcome.stepped | outcome.alone) >> batch.lanes, 0U);
@@ -155,6 +168,105 @@ TEST_P(BatchOfBarrier, MakesTheStepsThatVerticesMakeAlone) {
 INSTANTIATE_TEST_SUITE_P(All, BatchOfBarrier,
                          testing::Combine(testing::Values(EnergyKind::BH, EnergyKind::BHs, EnergyKind::BP),
                                           testing::Values(0, 1, 2)));
+
+/// What the accuracy objective asks of the star that has been put into the last lane.
+void put_domain(const Mesh& mesh, VertexId v, const AccuracyDomain& domain, const StarBatch& batch,
+                AccuracyLanes& lanes) {
+  const std::size_t lane = batch.lanes - 1;
+  Patch patch;
+  gather_patch(mesh, v, false, patch);
+  lanes.size[lane] = domain.sizes[v];
+  for (std::size_t i = 0; i <= patch.size(); ++i) {
+    lanes.link_size[i][lane] = domain.sizes[patch.link[i == patch.link.size() ? 0 : i]];
+  }
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    lanes.floor[i][lane] = domain.floors[Mesh::triangle(patch.spoke[i])];
+    lanes.inner[i][lane] = mesh.twin(Mesh::next(patch.spoke[i])).valid() ? -1 : 0;
+  }
+}
+
+AccuracyTask task_of(const Mesh& mesh) {
+  AccuracyTask task{AccuracyModel::of(2.0 / 3, 2.0 / 3, 10, 18), {VertexSizes(mesh.n_vertices()), {}}};
+  task.model.margin = 0.02, task.model.barrier = 0.003;
+  Noise noise(7);
+  for (double& s : task.domain.sizes) s = 1 + 0.2 * noise();
+  task.domain.floors.raise(mesh, task.model.margin);
+  return task;
+}
+
+struct AccuracyBatch {
+  StarBatch stars;
+  AccuracyLanes lanes;
+  StepOutcome outcome;
+};
+
+/// A step of all lanes but one, of vertices from `first` on.
+AccuracyBatch accuracy_batch(const Mesh& mesh, const AccuracyTask& task, std::size_t first) {
+  AccuracyBatch b;
+  for (std::size_t i = 0; i < kLanes - 1; ++i) {
+    put(mesh, VertexId(first + i), b.stars);
+    put_domain(mesh, VertexId(first + i), task.domain, b.stars, b.lanes);
+  }
+  leave_empty(b.stars, b.stars.lanes);
+  b.outcome = batch_steps().accuracy({{}, kRelaxation, 0, 0}, task.model, b.lanes, b.stars);
+  return b;
+}
+
+TEST(BatchOfAccuracy, MakesTheStepsThatVerticesMakeAlone) {
+  const Mesh mesh = lattice({.n = 16, .jitter = 0.1, .weight = 0.06, .seed = 3});
+  const AccuracyTask task = task_of(mesh);
+  std::size_t stepped = 0, on_boundary = 0;
+  for (std::size_t first = 0; first + kLanes <= mesh.n_vertices(); first += kLanes) {
+    const auto [stars, lanes, outcome] = accuracy_batch(mesh, task, first);
+    EXPECT_EQ(outcome.stepped, outcome.regular);
+    EXPECT_EQ(outcome.stepped & outcome.alone, 0U);
+    EXPECT_EQ((outcome.stepped | outcome.alone) >> stars.lanes, 0U);
+    for (std::size_t lane = 0; lane < stars.lanes; ++lane) {
+      const VertexId v(first + lane);
+      AccuracyPatch patch;
+      ASSERT_TRUE(patch.gather(mesh, task.domain.sizes, task.domain.floors, task.model, v));
+      const WeightedPoint to = stars.to.at(lane);
+      EXPECT_EQ(stars.before[lane], patch.value(mesh.point(v)));  // to the last bit
+      EXPECT_EQ(stars.after[lane], patch.value(to));
+      if ((outcome.alone >> lane & 1) != 0) continue;
+      Alone alone(mesh, task);
+      ASSERT_TRUE(alone.step.improve(v));
+      const WeightedPoint expected = alone.work.mesh.point(v);
+      EXPECT_NEAR(to.x, expected.x, 1e-10);
+      EXPECT_NEAR(to.y, expected.y, 1e-10);
+      EXPECT_NEAR(to.w, expected.w, 1e-10);
+      if ((outcome.stepped >> lane & 1) == 0) continue;
+      EXPECT_LT(stars.after[lane], stars.before[lane]);
+      EXPECT_TRUE(patch.is_well_centered(to));
+      ++stepped;
+      on_boundary += mesh.is_boundary(v) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(stepped, mesh.n_vertices() / 2);
+  EXPECT_GT(on_boundary, 10U);
+}
+
+TEST(BatchOfAccuracy, MakesTheSameStepsInEveryInstructionSet) {
+  const KeepInstructionSet keep;
+  const Mesh mesh = lattice({.n = 16, .jitter = 0.15, .weight = 0.1, .seed = 4});
+  const AccuracyTask task = task_of(mesh);
+  for (std::size_t first = 0; first + kLanes <= mesh.n_vertices(); first += kLanes) {
+    std::optional<AccuracyBatch> expected;
+    for (const InstructionSet set : instruction_sets()) {
+      ASSERT_TRUE(use_instruction_set(set));
+      const AccuracyBatch batch = accuracy_batch(mesh, task, first);
+      if (!expected) expected = batch;
+      EXPECT_EQ(batch.outcome.stepped, expected->outcome.stepped);
+      EXPECT_EQ(batch.outcome.alone, expected->outcome.alone);
+      for (std::size_t lane = 0; lane < batch.stars.lanes; ++lane) {
+        EXPECT_EQ(batch.stars.to.x[lane], expected->stars.to.x[lane]) << name(set);
+        EXPECT_EQ(batch.stars.to.y[lane], expected->stars.to.y[lane]) << name(set);
+        EXPECT_EQ(batch.stars.to.w[lane], expected->stars.to.w[lane]) << name(set);
+        EXPECT_EQ(batch.stars.after[lane], expected->stars.after[lane]) << name(set);
+      }
+    }
+  }
+}
 
 TEST(InstructionSets, TheBaselineIsAlwaysThereAndTheFastestIsUsed) {
   ASSERT_FALSE(instruction_sets().empty());
@@ -197,6 +309,24 @@ TEST(InstructionSets, RandomPointsBecomeWellCenteredWithTheSameBytes) {
     if (!first) first = mesh;
     EXPECT_TRUE(mesh == *first) << name(set);
   }
+}
+
+TEST(InstructionSets, RunsForAccuracyGiveTheSameBytes) {
+  const KeepInstructionSet keep;
+  Mesh start = *random_points({.vertices = kBatchVertices, .seed = 3});
+  ASSERT_TRUE(optimize(start));
+  OptimizeOptions options;
+  options.objective = Objective::accuracy;
+  options.accuracy.sweeps = 5;
+  std::optional<Mesh> first;
+  for (const InstructionSet set : instruction_sets()) {
+    ASSERT_TRUE(use_instruction_set(set));
+    Mesh mesh = start;
+    ASSERT_TRUE(optimize(mesh, options));
+    if (!first) first = mesh;
+    EXPECT_TRUE(mesh == *first) << name(set);
+  }
+  EXPECT_FALSE(*first == start);
 }
 
 TEST(InstructionSets, BadTrianglesAreCountedAsExactPredicatesDo) {

@@ -1,0 +1,233 @@
+// Energy and barrier of the accuracy objective as a function of one vertex (T = double), or of eight (T = Pack), a lane
+// each.
+//
+//              q2 ------- q1            triangle i = (center, q_i, q_{i+1}), counter-clockwise
+//             /  \  t1  /   \           spoke i    = center → q_i, in triangle i on its left, in i − 1 on its right
+//            /  t2\    /  t0 \          link edge i = q_i → q_{i+1}; the height of its outer triangle stays
+//          q3 ---- center --- q0        closed: q_n is q_0 again, and spoke n is none
+//
+// Lanes may have different numbers of triangles: what a lane has no more is computed with all the same, and left out.
+#pragma once
+
+#include "energy/accuracy_edge.hpp"
+#include "energy/edge_kernels.hpp"
+#include "geometry/height_derivatives.hpp"
+
+namespace temper {
+
+template <class T>
+struct AccuracySpoke {
+  PointOf<T> q;
+  T scale, height;                    ///< of its edge: s_e⁻², q
+  Spoke<T> to;                        ///< from here on: with the center where it was asked about last
+  T inverse_l2;                       ///< 1/L
+  T left, right;                      ///< g in the triangles on its two sides; 0 where there is none
+  EdgeSlopes<T> slopes;               ///< of energy and barrier
+  CornerVector<T> to_left, to_right;  ///< ∇left, ∇right
+
+  [[nodiscard]] TEMPER_INLINE AccuracyEdge<T> edge() const {
+    return {scale, height, to.l2, inverse_l2, to.dw, left, right};
+  }
+};
+
+template <class T>
+struct AccuracyTriangle {
+  TriangleBarrier<T> barrier;
+  AccuracyEdge<T> link;  ///< g in the outer triangle on its right; that on its left changes with the center
+  T split_room;          ///< (d_ij/ℓ − ε)(d_ji/ℓ − ε) of the link edge
+  T inverse_area;        ///< with the center where it was asked about last
+};
+
+/// A star in views of the storage of all its spokes and triangles.
+template <class T>
+struct AccuracyStarOf {
+  using Mask = decltype(T{} < T{});
+  const AccuracyModel& model;
+  AccuracySpoke<T>* spokes;        ///< most + 1
+  AccuracyTriangle<T>* triangles;  ///< most
+  std::size_t most;                ///< triangles, of any lane
+  T n_triangles, n_spokes;         ///< of each lane
+  Mask open;
+
+  [[nodiscard]] TEMPER_INLINE Mask has_triangle(std::size_t i) const {
+    return n_triangles > all<T>(static_cast<double>(i));
+  }
+  [[nodiscard]] TEMPER_INLINE Mask has_spoke(std::size_t i) const { return n_spokes > all<T>(static_cast<double>(i)); }
+};
+
+/// The factor s_e⁻² of an edge between vertices of sizes s and t.
+template <class T>
+[[nodiscard]] TEMPER_INLINE T edge_scale(const T& s, const T& t) {
+  return 4.0 / ((s + t) * (s + t));
+}
+
+/// The factor s_t² of a triangle.
+template <class T>
+[[nodiscard]] TEMPER_INLINE T triangle_scale(const T& s, const T& t, const T& u) {
+  return (1.0 / 9) * ((s + t + u) * (s + t + u));
+}
+
+/// A point of the mesh and its size.
+template <class T>
+struct SizedPoint {
+  PointOf<T> at;
+  T size;
+};
+
+/// Sets what spoke i is given; it leads to q. The ends of an open star are on the boundary.
+template <class T>
+TEMPER_INLINE void set_spoke(const AccuracyStarOf<T>& star, std::size_t i, const T& size, const SizedPoint<T>& q) {
+  AccuracySpoke<T>& s = star.spokes[i];
+  const auto is_end = i == 0 ? star.open : star.open & (all<T>(static_cast<double>(i)) >= star.n_triangles);
+  s.q = q.at;
+  s.scale = edge_scale(size, q.size);
+  s.height = select(is_end, all<T>(star.model.boundary_height), all<T>(star.model.height));
+}
+
+/// Sets what triangle i is given, with q and r. `inner`: there is o across its link edge.
+template <class T, class Mask>
+TEMPER_INLINE void set_triangle(const AccuracyStarOf<T>& star, std::size_t i, const T& size, const SizedPoint<T>& q,
+                                const SizedPoint<T>& r, const T& floor, Mask inner, const PointOf<T>& o) {
+  const AccuracyModel& model = star.model;
+  const Spoke<T> back = spoke(r.at, q.at);
+  const T outer = triangle_shape(back, spoke(r.at, o), q.at, o).pq.g, inverse_l2 = 1.0 / back.l2;
+  AccuracyTriangle<T>& t = star.triangles[i];
+  t.barrier = {model.barrier * triangle_scale(size, q.size, r.size), floor};
+  t.split_room = split_room(back.dw * inverse_l2, floor);
+  t.link.scale = edge_scale(q.size, r.size);
+  t.link.height = select(inner, all<T>(model.height), all<T>(model.boundary_height));
+  t.link.l2 = back.l2, t.link.inverse_l2 = inverse_l2, t.link.dw = back.dw;
+  t.link.right = select(inner, outer, all<T>(0));
+}
+
+template <class T>
+TEMPER_INLINE void place_spoke(AccuracySpoke<T>& s, const PointOf<T>& p) {
+  s.to = spoke(p, s.q);
+  s.inverse_l2 = 1.0 / s.to.l2;
+}
+
+/// Finds the heights of triangle i; returns its barrier and the energy of its link edge, or +∞.
+template <class T>
+[[nodiscard]] TEMPER_INLINE T place_triangle(const AccuracyStarOf<T>& star, std::size_t i) {
+  AccuracySpoke<T>&a = star.spokes[i], &b = star.spokes[i + 1];
+  AccuracyTriangle<T>& t = star.triangles[i];
+  const auto [m, floor] = t.barrier;
+  const TriangleShapeOf<T> shape = triangle_shape(a.to, b.to, a.q, b.q);
+  t.inverse_area = shape.inverse_area;
+  a.left = shape.pq.g, b.right = shape.rp.g, t.link.left = shape.qr.g;
+  const T ha = a.left * a.inverse_l2 - floor, hb = b.right * b.inverse_l2 - floor;
+  const T hc = t.link.left * t.link.inverse_l2 - floor, heights = ha * hb * hc;
+  const T da = split_room(a.to.dw * a.inverse_l2, floor), db = split_room(b.to.dw * b.inverse_l2, floor);
+  const T zero = all<T>(0);
+  const auto inside = (shape.doubled_area > zero) & (ha > zero) & (hb > zero) & (hc > zero) & (da > zero) & (db > zero);
+  const T logarithm = portable_log(heights * heights * (da * db * t.split_room));
+  return select(inside, edge_value(star.model, t.link) - 0.5 * m * logarithm, all<T>(kInfinity));
+}
+
+/// Energy and barrier with the center at p; +∞ where a triangle turns over or has no more than its floor.
+template <class T>
+[[nodiscard]] TEMPER_INLINE T accuracy_value(const AccuracyStarOf<T>& star, const PointOf<T>& p) {
+  const T zero = all<T>(0);
+  T sum = zero, last_right = zero;
+  place_spoke(star.spokes[0], p);
+  for (std::size_t i = 0; i < star.most; ++i) {
+    const auto here = star.has_triangle(i);
+    place_spoke(star.spokes[i + 1], p);
+    sum = sum + select(here, place_triangle(star, i), zero);
+    star.spokes[i].left = select(here, star.spokes[i].left, zero);
+    last_right = select(here, star.spokes[i + 1].right, last_right);
+  }
+  star.spokes[0].right = select(star.open, zero, last_right);
+  star.spokes[star.most].left = zero;
+  for (std::size_t i = 0; i <= star.most; ++i) {
+    sum = sum + select(star.has_spoke(i), edge_value(star.model, star.spokes[i].edge()), zero);
+  }
+  return select(sum < all<T>(kInfinity), sum, all<T>(kInfinity));
+}
+
+/// Finds the derivatives of all that belongs to spoke i in its own terms, with the barriers of the triangles on its
+/// sides. A factor of 0 is none, whatever the floor: one that is below.
+template <class T>
+TEMPER_INLINE void find_slopes(const AccuracyStarOf<T>& star, std::size_t i, const TriangleBarrier<T>& left,
+                               const TriangleBarrier<T>& right) {
+  AccuracySpoke<T>& a = star.spokes[i];
+  EdgeSlopes<T>& s = a.slopes;
+  s = edge_slopes(star.model, a.edge());
+  add_height_barrier(left, a.to.l2, a.inverse_l2, a.left, s, s.left);
+  add_height_barrier(right, a.to.l2, a.inverse_l2, a.right, s, s.right);
+  add_split_barrier(left, a.to.l2, a.inverse_l2, a.to.dw, s);
+  add_split_barrier(right, a.to.l2, a.inverse_l2, a.to.dw, s);
+}
+
+/// Finds the gradients of the heights of triangle i; adds what their Hessians and the link edge give.
+template <class T>
+TEMPER_INLINE void add_triangle(const AccuracyStarOf<T>& star, std::size_t i, CornerDerivatives<T>& sum) {
+  AccuracySpoke<T>&a = star.spokes[i], &b = star.spokes[i + 1];
+  const AccuracyTriangle<T>& t = star.triangles[i];
+  const HeightsAtCorner<T> g = heights_at_corner(a.to, b.to, t.inverse_area);
+  a.to_left = g.pq, b.to_right = g.rp;
+  EdgeSlopes<T> link = edge_slopes(star.model, t.link);
+  add_height_barrier(t.barrier, t.link.l2, t.link.inverse_l2, t.link.left, link, link.left);
+  // Of a closed star, the last triangle has spoke 0 on its right.
+  const T right = select(star.has_spoke(i + 1), b.slopes.right.g, star.spokes[0].slopes.right.g);
+  auto h = CornerMatrix<T>::product(g.qr, link.left.gg * g.qr);
+  g.add_hessian(a.slopes.left.g, link.left.g, right, h);
+  sum.add(star.has_triangle(i), link.left.g * g.qr, h);
+}
+
+/// Adds spoke i by the chain rule in L, left, right and δw: ∇L = −2 (x, y, 0), ∇²L = 2 I, ∇δw = (0, 0, 1).
+template <class T>
+TEMPER_INLINE void add_spoke(const AccuracyStarOf<T>& star, std::size_t i, CornerDerivatives<T>& sum) {
+  const AccuracySpoke<T>& a = star.spokes[i];
+  const EdgeSlopes<T>& s = a.slopes;
+  const CornerVector<T>&left = a.to_left, &right = a.to_right;
+  const PlaneVector<T> to_l = {-2.0 * a.to.x, -2.0 * a.to.y};
+  CornerVector<T> by_l = s.left.lg * left + s.right.lg * right;
+  CornerVector<T> by_left = s.left.gg * left + s.left_right * right;
+  CornerVector<T> by_right = s.left_right * left + s.right.gg * right;
+  by_l = by_l + CornerVector<T>{s.l_l * to_l.x, s.l_l * to_l.y, s.l_dw};
+  by_left = by_left + CornerVector<T>{s.left.lg * to_l.x, s.left.lg * to_l.y, s.side_dw};
+  by_right = by_right + CornerVector<T>{s.right.lg * to_l.x, s.right.lg * to_l.y, s.side_dw};
+  auto h = CornerMatrix<T>::product(left, by_left);
+  h.add(right, by_right);
+  h.add(to_l, by_l);
+  h.add_in_plane(2.0 * s.l);
+  h.ww = h.ww + (s.side_dw * (left.w + right.w) + s.dw_dw);
+  const CornerVector<T> by_l_and_dw = {s.l * to_l.x, s.l * to_l.y, s.dw};
+  sum.add(star.has_spoke(i), by_l_and_dw + (s.left.g * left + s.right.g * right), h);
+}
+
+/// All derivatives where accuracy_value() was asked for last, and was finite.
+template <class T>
+[[nodiscard]] TEMPER_INLINE CornerDerivatives<T> accuracy_derivatives(const AccuracyStarOf<T>& star) {
+  const T zero = all<T>(0), below = all<T>(-1);
+  const CornerVector<T> none = {zero, zero, zero};
+  const TriangleBarrier<T> no_barrier = {zero, below};
+  const auto where = [](auto mask, const TriangleBarrier<T>& x, const TriangleBarrier<T>& y) {
+    return TriangleBarrier<T>{select(mask, x.factor, y.factor), select(mask, x.floor, y.floor)};
+  };
+  TriangleBarrier<T> right = no_barrier;
+  for (std::size_t i = 0; i < star.most; ++i) right = where(star.has_triangle(i), star.triangles[i].barrier, right);
+  right = where(star.open, no_barrier, right);
+  for (std::size_t i = 0; i <= star.most; ++i) {
+    const bool is_last = i == star.most;
+    const TriangleBarrier<T> left =
+        is_last ? no_barrier : where(star.has_triangle(i), star.triangles[i].barrier, no_barrier);
+    find_slopes(star, i, left, right);
+    if (!is_last) right = star.triangles[i].barrier;
+  }
+  CornerDerivatives<T> sum = {};
+  CornerVector<T> last = none;
+  for (std::size_t i = 0; i < star.most; ++i) {
+    const auto here = star.has_triangle(i);
+    add_triangle(star, i, sum);
+    star.spokes[i].to_left = select(here, star.spokes[i].to_left, none);
+    last = select(here, star.spokes[i + 1].to_right, last);
+  }
+  star.spokes[0].to_right = select(star.open, none, last);
+  star.spokes[star.most].to_left = none;
+  for (std::size_t i = 0; i <= star.most; ++i) add_spoke(star, i, sum);
+  return sum;
+}
+
+}  // namespace temper

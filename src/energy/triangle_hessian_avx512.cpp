@@ -1,1 +1,0 @@
-#include "energy/triangle_hessian_set.hpp"
