@@ -33,7 +33,7 @@ py::dict event_to_dict(const TraceEvent& e) {
 
 /// Python's observers of a run. Each may be None.
 struct Callbacks {
-  py::object observer, tracer, watch;
+  py::object observer, tracer, snapshots;
 };
 
 Observer observer_of(Visitor& visitor, const py::object& observer) {
@@ -58,12 +58,13 @@ void set_callbacks(OptimizeHooks& hooks, Visitor& visitor, const Callbacks& call
       }));
     };
   }
-  if (!callbacks.watch.is_none()) {
+  if (!callbacks.snapshots.is_none()) {
     hooks.snapshots = [&visitor, &callbacks](const Snapshot& s) {
       static_cast<void>(visitor.call([&] {
-        callbacks.watch(Record()("moment", name_of(s.moment))("sweep", s.sweep)("outer", s.outer)("energy", s.energy)(
-                            "mesh", py::cast(std::make_unique<PyMesh>(s.mesh)))("vertices", s.vertices)
-                            .dict);
+        callbacks.snapshots(
+            Record()("moment", name_of(s.moment))("sweep", s.sweep)("outer", s.outer)("energy", s.energy)(
+                "mesh", py::cast(std::make_unique<PyMesh>(s.mesh)))("vertices", s.vertices)
+                .dict);
         return true;
       }));
     };
@@ -78,7 +79,7 @@ std::optional<SizeField> size_field_from(const py::object& field) {
 /// The mesh takes its new state whatever ended the run; what Python raised on the way is raised after that.
 py::dict optimize_mesh(PyMesh& self, const py::dict& given, const py::object& size_field, const py::object& threads,
                        const Callbacks& callbacks) {
-  OptimizeOptions options = options_from(given, {});
+  OptimizeOptions options = options_from(given);
   options.size_field = size_field_from(size_field);
   const auto count = threads_from(threads);
   const auto before = self.read();
@@ -137,11 +138,12 @@ TraceEvent event_from(const py::dict& d) {
 
 void bind_optimize(py::module_& m) {
   m.def("optimize", [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
-                       const py::object& observer, const py::object& tracer, const py::object& watch) {
-    return optimize_mesh(self, options, size_field, threads, {observer, tracer, watch});
+                       const py::object& observer, const py::object& tracer, const py::object& snapshots) {
+    return optimize_mesh(self, options, size_field, threads, {observer, tracer, snapshots});
   });
-  m.def("optimize_defaults", [] { return options_to_dict(OptimizeOptions()); });
   m.def("paper_method", [] { return options_to_dict(paper_method()); });
+  m.def("option_table", option_table);
+  m.def("idle_options", idle_options);
   m.def("replay", [](const PyMesh& input, const py::iterable& trace) {
     std::vector<TraceEvent> events;
     for (const auto& event : trace) events.push_back(event_from(event.cast<py::dict>()));
@@ -492,7 +494,7 @@ py::tuple mesh_an_outline(const py::dict& dict, const py::dict& d, const py::obj
   if (optimize_options.is_none()) {
     options.optimize.reset();
   } else {
-    options.optimize = options_from(optimize_options.cast<py::dict>(), {});
+    options.optimize = options_from(optimize_options.cast<py::dict>());
   }
   Visitor visitor;
   const Observer watching = observer_of(visitor, observer);

@@ -172,7 +172,7 @@ void bind_instruction_sets(py::module_& m) {
 
 void raise_as_temper_error(const InputError& error) {
   const py::object type = py::module_::import("temper._errors").attr("TemperError");
-  PyErr_SetObject(type.ptr(), type(std::string(name(error.code)), error.where, error.message).ptr());
+  PyErr_SetObject(type.ptr(), type(std::string(name(error.code)), error.where, spelled(error.message)).ptr());
 }
 
 }  // namespace

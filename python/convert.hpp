@@ -179,6 +179,9 @@ Enum from_name(std::string_view option, std::string_view text) {
 
 Softening softening_from(const py::handle& value);
 
+/// A text of the library with its options as Python's users write them.
+std::string spelled(std::string_view text);
+
 }  // namespace temper::python
 
 TEMPER_PYTHON_NAMES(temper::LengthScale, "absolute", "relative");

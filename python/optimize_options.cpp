@@ -3,84 +3,82 @@
 namespace temper::python {
 namespace {
 
-/// Reads one option; says which one it was when the type is wrong.
-class OptionReader {
- public:
-  explicit OptionReader(const py::dict& dict) : dict_(dict) {}
+/// Choices that are numbers to Python's users: star=1.
+bool is_number(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
 
-  template <class T>
-  void operator()(const char* name, T& target) const {
-    if (!dict_.contains(name)) return;
-    const py::object value = dict_[name];
-    try {
-      read(name, value, target);
-    } catch (const py::cast_error&) {
-      throw py::type_error(std::string(name) + ": " + std::string(py::repr(value)) + " is of the wrong type");
+py::object choice_to_python(std::string_view name) {
+  const py::str text(name.data(), name.size());
+  return is_number(name) ? py::object(py::int_(text)) : py::object(text);
+}
+
+py::object value_to_python(const OptionValue& value) {
+  return std::visit(
+      [&](const auto& v) -> py::object {
+        using T = std::decay_t<decltype(v)>;
+        if constexpr (std::is_same_v<T, std::monostate>) {
+          return py::none();
+        } else if constexpr (std::is_same_v<T, std::int64_t>) {
+          return py::int_(v);
+        } else if constexpr (std::is_same_v<T, std::string_view>) {
+          return choice_to_python(v);
+        } else {
+          return to_python(v);
+        }
+      },
+      value);
+}
+
+/// Throws py::cast_error when the type is wrong. `text` keeps the name of a choice.
+OptionValue value_from_python(const OptionRow& row, const py::handle& value, std::string& text) {
+  if (value.is_none()) return {};
+  switch (row.kind) {
+    case OptionKind::flag:
+      if (!py::isinstance<py::bool_>(value)) throw py::cast_error();
+      return value.cast<bool>();
+    case OptionKind::count:
+      return value.cast<std::int64_t>();
+    case OptionKind::number:
+      return value.cast<double>();
+    case OptionKind::choice:
+      text = py::isinstance<py::int_>(value) ? py::str(value).cast<std::string>() : value.cast<std::string>();
+      return std::string_view(text);
+    case OptionKind::softening:
+      return softening_from(value);
+    case OptionKind::vertex: {
+      const auto number = value.cast<std::int64_t>();
+      return number < 0 ? OptionValue(number) : OptionValue(VertexId(static_cast<std::size_t>(number)));
     }
   }
+  return {};
+}
 
- private:
-  template <class T>
-  static void read(const char* name, const py::object& value, T& target) {
-    if constexpr (std::is_enum_v<T>) {
-      target = from_name<T>(
-          name, py::isinstance<py::int_>(value) ? py::str(value).cast<std::string>() : value.cast<std::string>());
-    } else {
-      target = value.cast<T>();
-    }
-  }
-  static void read(const char* /*name*/, const py::object& value, AccuracyOptions& target) {
-    const auto dict = value.cast<py::dict>();
-    each_accuracy_option(target, OptionReader(dict));
-  }
-  static void read(const char* /*name*/, const py::object& value, Softening& target) { target = softening_from(value); }
-  static void read(const char* name, const py::object& value, VertexId& target) {
-    target = {};
-    if (value.is_none()) return;
-    const auto number = value.cast<std::int64_t>();
-    if (number < 0) {
-      fail(ErrorCode::invalid_option, std::string(name) + ": expected 0 or more, found " + std::to_string(number));
-    }
-    target = VertexId(static_cast<std::size_t>(number));
-  }
-  template <class T>
-  static void read(const char* name, const py::object& value, std::optional<T>& target) {
-    target.reset();
-    if (value.is_none()) return;
-    T given{};
-    read(name, value, given);
-    target = given;
-  }
+std::string quoted(std::string_view choice) {
+  return is_number(choice) ? std::string(choice) : "\"" + std::string(choice) + "\"";
+}
 
-  const py::dict& dict_;
-};
-
-struct OptionWriter {
-  py::dict& dict;
-  template <class T>
-  void operator()(const char* name, const T& value) const {
-    if constexpr (std::is_enum_v<T>) {
-      if (std::is_same_v<T, Star> && value != static_cast<T>(Star::all)) {
-        dict[name] = py::int_(static_cast<int>(value));
-      } else {
-        dict[name] = to_python(name_of(value));
+/// The type of an option, as in a stub.
+std::string type_of(const OptionRow& row) {
+  const auto plain = [&]() -> std::string {
+    switch (row.kind) {
+      case OptionKind::flag:
+        return "bool";
+      case OptionKind::number:
+        return "float";
+      case OptionKind::softening:
+        return "SofteningLike";
+      case OptionKind::choice: {
+        std::string list;
+        for (const std::string_view choice : row.choices) list += (list.empty() ? "" : ", ") + quoted(choice);
+        return "Literal[" + list + "]";
       }
-    } else if constexpr (std::is_same_v<T, VertexId>) {
-      dict[name] = value.valid() ? to_python(value) : py::none();
-    } else if constexpr (std::is_same_v<T, AccuracyOptions>) {
-      py::dict nested;
-      each_accuracy_option(value, OptionWriter{nested});
-      dict[name] = nested;
-    } else {
-      dict[name] = to_python(value);
+      default:
+        return "int";
     }
-  }
-  template <class T>
-  requires std::is_enum_v<T>
-  void operator()(const char* name, const std::optional<T>& value) const {
-    dict[name] = value ? to_python(name_of(*value)) : py::none();
-  }
-};
+  };
+  return plain() + (row.optional ? " | None" : "");
+}
 
 py::dict spread_to_dict(const Spread& s) {
   return Record()("min", s.min)("p05", s.p05)("median", s.median)("p95", s.p95)("max", s.max).dict;
@@ -88,15 +86,68 @@ py::dict spread_to_dict(const Spread& s) {
 
 }  // namespace
 
-OptimizeOptions options_from(const py::dict& dict, OptimizeOptions options) {
-  each_option(options, OptionReader(dict));
+std::string spelled(std::string_view text) {
+  return spell_options(text, [](const OptionRow& row, std::string_view value) {
+    const std::string name(row.name);
+    if (value.empty()) return name;
+    return name + "=" + (row.kind == OptionKind::choice ? quoted(value) : std::string(value));
+  });
+}
+
+OptimizeOptions options_from(const py::dict& dict) {
+  OptimizeOptions options;
+  for (const auto& [key, value] : dict) {
+    const auto name = key.cast<std::string>();
+    const OptionRow* row = find_option(name);
+    if (row == nullptr) throw py::type_error("there is no option " + name);
+    std::string text;
+    try {
+      const OptionValue given = value_from_python(*row, value, text);
+      or_raise(check_option(*row, given));
+      row->set(options, given);
+    } catch (const py::cast_error&) {
+      throw py::type_error(name + ": " + py::repr(value).cast<std::string>() + " is of the wrong type");
+    }
+  }
   return options;
 }
 
 py::dict options_to_dict(const OptimizeOptions& options) {
   py::dict dict;
-  each_option(options, OptionWriter{dict});
+  for (const OptionGroup& group : option_groups()) {
+    for (const OptionRow& row : group.rows) {
+      dict[py::str(std::string(row.name))] = value_to_python(row.get(options));
+    }
+  }
   return dict;
+}
+
+py::list option_table() {
+  py::list table;
+  for (const OptionGroup& group : option_groups()) {
+    for (const OptionRow& row : group.rows) {
+      py::list choices;
+      for (const std::string_view choice : row.choices) choices.append(choice_to_python(choice));
+      table.append(Record()("name", row.name)("group", group.title)("sentence", spelled(row.sentence))(
+                       "type", type_of(row))("choices", py::object(choices))("range", option_range_text(row))(
+                       "absent", row.absent)("default", value_to_python(row.get({})))
+                       .dict);
+    }
+  }
+  return table;
+}
+
+py::list idle_options(const py::dict& given, const py::list& names) {
+  const OptimizeOptions options = options_from(given);
+  py::list sentences;
+  for (const py::handle& item : names) {
+    const auto name = item.cast<std::string>();
+    const OptionRow* row = find_option(name);
+    const std::string missing = missing_need(*row, options);
+    if (missing.empty() || row->get(options) == row->get({})) continue;
+    sentences.append(name + " has no effect without " + spelled(missing));
+  }
+  return sentences;
 }
 
 py::dict record_to_dict(const SweepRecord& r) {
@@ -113,14 +164,15 @@ py::dict size_report_to_dict(const SizeReport& report) {
 }
 
 py::dict report_to_dict(const OptimizeReport& r) {
-  py::list history;
+  py::list history, notes;
   for (const SweepRecord& record : r.history) history.append(record_to_dict(record));
+  for (const std::string& note : r.notes) notes.append(spelled(note));
   return Record()("stopped", name(r.stopped))("sweeps", r.sweeps)("flips", r.flips)(
              "vertices_removed", r.vertices_removed)("vertices_inserted", r.vertices_inserted)("vertices", r.vertices)(
              "hidden", r.hidden)("seconds", r.seconds)("initial_energy", r.initial_energy)(
              "final_energy", r.final_energy)("size_before", py::object(size_report_to_dict(r.size.before)))(
-             "size_after", py::object(size_report_to_dict(r.size.after)))("history", py::object(history))("notes",
-                                                                                                          r.notes)
+             "size_after", py::object(size_report_to_dict(r.size.after)))("history", py::object(history))(
+             "notes", py::object(notes))
       .dict;
 }
 

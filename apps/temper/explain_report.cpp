@@ -104,9 +104,9 @@ std::string command(const Mesh& mesh, const Cure& cure) {
     case Action::flip_edge:
       return "temper optimize";
     case Action::insert_vertex:
-      return "temper optimize --repair";
+      return "temper optimize --repair vertices";
     case Action::split_edge:
-      return on_line() ? "temper optimize --boundary split" : "temper optimize --repair";
+      return on_line() ? "temper optimize --boundary split" : "temper optimize --repair vertices";
     case Action::split_boundary:
       return "temper optimize --boundary split";
   }

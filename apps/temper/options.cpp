@@ -54,6 +54,7 @@ T to_count(const std::string& text, T least) {
   return value;
 }
 template int to_count(const std::string& text, int least);
+template std::int64_t to_count(const std::string& text, std::int64_t least);
 template std::uint64_t to_count(const std::string& text, std::uint64_t least);
 
 void expect_name(const std::string& text, std::span<const std::string_view> names) {
@@ -196,7 +197,7 @@ std::vector<UsedOption> used_options(const Command& command) {
     if (!item.flag && item.used) item.values = given ? option.given : std::vector<std::string>{option.default_text};
     const bool none = !item.values.empty() && item.values.front() == kNone;
     const std::string& type = option.value_name;
-    item.number = type == "X" || type == "N" || (type.starts_with("N|") && !none) ||
+    item.number = type == "X" || type == "N" || ((type.starts_with("X|") || type.starts_with("N|")) && !none) ||
                   type.find_first_not_of("0123456789|") == std::string::npos;
     used.push_back(std::move(item));
   }

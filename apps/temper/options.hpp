@@ -16,15 +16,12 @@
 
 #include "command.hpp"
 #include "temper/energy.hpp"
+#include "temper/optimize_table.hpp"
 
 namespace temper::app {
 
 /// The interval of numbers that an option takes.
-struct Interval {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool open = false;  ///< the ends do not belong to it
-};
+using Interval = OptionRange;
 inline constexpr Interval kAnyNumber = {};
 inline constexpr Interval kPositive = {0, std::numeric_limits<double>::infinity(), true};
 inline constexpr Interval kNotNegative = {0, std::numeric_limits<double>::infinity(), false};
@@ -38,7 +35,7 @@ inline constexpr Interval kNotNegative = {0, std::numeric_limits<double>::infini
 
 /// Values of rows that are made elsewhere: the text's value, or BadValue.
 [[nodiscard]] double to_number(const std::string& text, Interval allowed);
-template <class T>  // int or std::uint64_t
+template <class T>  // int, std::int64_t or std::uint64_t
 [[nodiscard]] T to_count(const std::string& text, T least);
 /// BadValue, with a suggestion, when the text is none of the names.
 void expect_name(const std::string& text, std::span<const std::string_view> names);

@@ -116,7 +116,7 @@ void Notes::tell_edges_that_must_be_split() {
   add(count_of(edges.size(), "edge of the boundary or of lines has", "edges of the boundary or of lines have") +
       " to be split, or a vertex near it moved, before any mesh can be well-centered here, first the one from " +
       name_of(mesh_.origin(worst)) + " to " + name_of(mesh_.target(worst)) +
-      ": see temper explain, or --boundary split");
+      ": explain tells more, and `boundary=split` splits them");
 }
 
 void Notes::tell_accuracy() {

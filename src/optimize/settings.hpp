@@ -33,6 +33,12 @@ struct Settings {
 /// Flips wait for the end of the inner iterations, so that edges may meanwhile not be regular.
 [[nodiscard]] inline bool defers_flips(const OptimizeOptions& o) { return o.flips == Flips::deferred; }
 
+/// A barrier prices every flip, so it needs no limit; HOT is continuous at a flip and may be led past one, a little.
+[[nodiscard]] inline FlipLimit flip_limit_of(const OptimizeOptions& o) {
+  if (o.flips == Flips::none) return FlipLimit::before;
+  return o.paper.flip_limit.value_or(energy_info(o.energy).barrier ? FlipLimit::unlimited : FlipLimit::after);
+}
+
 /// The unknowns that a sweep moves, counted from 0: weights from i_w on.
 [[nodiscard]] inline Unknowns unknowns_of_sweep(const OptimizeOptions& o, int sweep) {
   return o.unknowns == Unknowns::positions_and_weights && sweep < o.paper.weights_from ? Unknowns::positions
@@ -54,7 +60,7 @@ struct Settings {
 /// The model with absolute γ and h° in the user's units of length.
 [[nodiscard]] EnergyModel in_user_units(EnergyModel model, const Frame& frame);
 
-/// Errors: unknown energy, star, values out of range.
+/// Errors: values out of range, or that contradict each other.
 [[nodiscard]] Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh, const Frame& frame,
                                                const OptimizeHooks& hooks = {});
 

@@ -82,7 +82,7 @@ def test_the_first_example_takes_public_meshes(mesh, in_scratch):
     assert (in_scratch / "out.png").stat().st_size > 10000
 
 
-MODULES = ["", ".geometry", "._mesh", "._optimize", "._options", "._measure", "._dec", "._verify", "._weights",
+MODULES = ["", ".geometry", "._mesh", "._optimize", "._optimize_options", "._measure", "._dec", "._verify", "._weights",
            "._explain", "._size", "._outline"]  # fmt: skip
 
 

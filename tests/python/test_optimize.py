@@ -1,13 +1,17 @@
 """Optimisation: the same as the program's, observed, interrupted, replayed."""
 
+import ast
 import dataclasses
 import inspect
 import os
+import pathlib
+import re
 import signal
 import subprocess
 import sys
 import textwrap
 import threading
+import warnings
 
 import numpy as np
 import pytest
@@ -48,14 +52,42 @@ def test_optimized_leaves_its_mesh_alone(ring):
     assert ring == before and temper.quality(better).well_centered_fraction == 1
 
 
-def test_options_have_the_defaults_of_the_library():
-    library = temper._temper.optimize_defaults()
-    python = temper.OptimizeOptions()._plain()
-    assert python == library
-    signature = inspect.signature(temper.optimize)
-    for name, value in vars(temper.OptimizeOptions()).items():
-        assert signature.parameters[name].default == value, name
+def test_options_are_the_rows_of_the_table(ring):
+    rows = temper._temper.option_table()
+    options, signature = temper.OptimizeOptions(), inspect.signature(temper.optimize)
+    assert [f.name for f in dataclasses.fields(options)] == [row["name"] for row in rows] and len(rows) > 40
+    for row in rows:
+        name, default = row["name"], getattr(options, row["name"])
+        assert signature.parameters[name].default == default
         assert signature.parameters[name].kind is inspect.Parameter.KEYWORD_ONLY
+        assert re.search(rf"^{name} : ", temper.OptimizeOptions.__doc__, re.M) and row["sentence"]
+        assert default in row["choices"] or not row["choices"] or default is None
+    temper.optimize(ring, **{row["name"]: getattr(options, row["name"]) for row in rows}, threads=1)
+
+
+def test_every_choice_is_taken_and_every_range_is_checked(ring):
+    choices = refused = 0
+    for row in temper._temper.option_table():
+        for choice in row["choices"]:
+            assert temper._temper.idle_options({row["name"]: choice}, []) == []
+            choices += 1
+        wrong = {"int": -1, "float": -1.0, "SofteningLike": -1.0}.get(row["type"].removesuffix(" | None"))
+        if wrong is None:
+            continue
+        with pytest.raises(temper.TemperError, match=f"^{row['name']} is -1; expected {row['range']}") as caught:
+            temper.optimize(ring, **{row["name"]: wrong})
+        assert caught.value.code == "invalid_option"
+        refused += 1
+    assert choices > 50 and refused > 20
+
+
+def test_stubs_have_every_option():
+    stub = (pathlib.Path(temper.__file__).parent / "_optimize_options.pyi").read_text(encoding="utf-8")
+    classes = {node.name: node for node in ast.parse(stub).body if isinstance(node, ast.ClassDef)}
+    for name in ("OptimizeOptions", "OptionChanges"):
+        fields = {n.target.id: ast.unparse(n.annotation) for n in classes[name].body if isinstance(n, ast.AnnAssign)}
+        types = {row["name"]: ast.unparse(ast.parse(row["type"])) for row in temper._temper.option_table()}
+        assert fields == types
 
 
 def test_keywords_win_over_options_even_when_they_say_the_default(ring):
@@ -72,7 +104,7 @@ def test_keywords_win_over_options_even_when_they_say_the_default(ring):
     "options, says",
     [
         (dict(energy="HOT"), "BP"),
-        (dict(solver="nwton"), "solver: expected one of newton"),
+        (dict(solver="nwton"), "solver is nwton; expected newton, golden or alternating"),
         (dict(star=3), "star"),
         (dict(gamma=-1.0), "gamma|γ"),
         (dict(max_sweeps=-1), "sweeps"),
@@ -97,11 +129,11 @@ def test_options_that_make_no_sense_leave_the_mesh_alone(ring, options, says):
         ("threads", 2**70),
         ("gamma", "x"),
         ("h0", temper.Softening("x")),
-        ("accuracy", 3),
-        ("accuracy", {"margin": 0.1}),
+        ("solver", 3.0),
+        ("newton_passes", 1),
         ("observer", 3),
         ("tracer", "print"),
-        ("watch", []),
+        ("snapshots", []),
         ("size_field", 0.1),
         ("seed", 2**70),
     ],
@@ -124,16 +156,15 @@ def test_threads_of_the_wrong_type_are_named_everywhere(ring):
             call(ring, threads="2")
 
 
-def test_options_of_accuracy_need_its_objective(ring):
-    finer = temper.AccuracyOptions(margin=0.1)
-    options = temper.OptimizeOptions(accuracy=finer, max_sweeps=1)
-    for arguments, keywords in (((), dict(accuracy=finer)), ((), dict(accuracy=temper.AccuracyOptions())),
-                                ((options,), {})):  # fmt: skip
-        with pytest.raises(temper.TemperError, match='only with objective="accuracy"') as caught:
-            temper.optimize(ring.copy(), *arguments, **keywords)
-        assert caught.value.code == "invalid_option"
-    both = dataclasses.replace(options, objective="accuracy")
-    assert temper.optimize(ring.copy(), both, objective="energy").sweeps == 1
+def test_options_without_effect_are_a_warning(ring):
+    with pytest.warns(temper.TemperWarning, match='^margin has no effect without objective="accuracy"$'):
+        temper.optimize(ring.copy(), margin=0.1, max_sweeps=1)
+    with pytest.warns(temper.TemperWarning, match='^overshoot has no effect without flip_limit="after"$'):
+        temper.optimize(ring.copy(), overshoot=1.2, max_sweeps=1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        temper.optimize(ring.copy(), temper.OptimizeOptions(margin=0.1), max_sweeps=1)
+        temper.optimize(ring.copy(), energy="F", overshoot=1.2, max_sweeps=1)
 
 
 def test_an_observer_sees_sweeps_and_may_stop(ring):
@@ -189,7 +220,7 @@ def test_a_trace_makes_the_mesh_again():
 def test_watching_gives_the_mesh_of_each_sweep(ring):
     shots = []
     before = ring.copy()
-    temper.optimize(ring, watch=shots.append, max_sweeps=3)
+    temper.optimize(ring, snapshots=shots.append, max_sweeps=3)
     assert shots[0].moment == "start" and shots[-1].sweep == 3
     assert np.array_equal(shots[0].mesh.points, before.points)
     assert all(shot.mesh.validate() is None for shot in shots)
@@ -206,11 +237,11 @@ def test_the_accuracy_objective_lowers_the_error_of_the_star_and_keeps_its_margi
     frame = temper.verify_frame(ring)
     plain = temper.optimized(ring)
     accurate = ring.copy()
-    report = temper.optimize(accurate, objective="accuracy", accuracy=temper.AccuracyOptions(sweeps=15, margin=0.03))
+    report = temper.optimize(accurate, objective="accuracy", accuracy_sweeps=15, margin=0.03)
     assert {record.objective for record in report.history} == {"energy", "accuracy"}
     assert temper.triangle_margins(accurate).min() >= 0.03 and star1(accurate) < star1(plain)
     with pytest.raises(temper.TemperError, match="margin"):
-        temper.optimize(accurate, objective="accuracy", accuracy=temper.AccuracyOptions(margin=0.5))
+        temper.optimize(accurate, objective="accuracy", margin=0.5)
 
 
 def test_sizes_are_reported_and_can_be_held(ring):

@@ -106,7 +106,7 @@ TEST_F(Optimize, TheCommandInTheReportGivesTheSameBytes) {
   const std::vector<std::vector<std::string>> runs = {
       {},
       {"--energy", "F", "--solver", "alternating", "--max-sweeps", "5", "--flips", "deferred", "--stopping", "paper"},
-      {"--gamma", "0.25", "--positions-only", "--seed", "7", "--slide-interfaces", "--anchor", "3"},
+      {"--gamma", "0.25", "--positions-only", "--seed", "7", "--interfaces", "sliding", "--anchor", "3"},
       {"--weights-only", "--no-flips", "--energy", "BHs", "--h0-rel", "20", "--overshoot", "1.05", "--flip-limit",
        "at"},
       {"--objective", "accuracy", "--star", "all", "--accuracy-sweeps", "4", "--margin", "0.01"},
@@ -158,7 +158,7 @@ TEST_F(Optimize, FixTakesSeveralTagsAndStillFindsTheInput) {
 TEST_F(Optimize, OptionsWithoutEffectAreNamed) {
   const Outcome outcome =
       temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--energy", "F", "--gamma", "1", "--max-sweeps", "2"});
-  EXPECT_TRUE(contains(outcome.err, "temper: warning: --gamma has no effect on energy F"));
+  EXPECT_TRUE(contains(outcome.err, "temper: warning: --gamma has no effect without --energy BP"));
 }
 
 TEST_F(Optimize, SweepLimitIsKept) {

@@ -387,17 +387,17 @@ TEST(Accuracy, OptionsOutOfRangeAreRefusedByName) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(with([](OptimizeOptions&) {}), "no error");
   EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.offset_weight = -1; }),
-            "offset weight is -1; expected at least 0");
+            "`offset_weight` is -1; expected at least 0");
   EXPECT_EQ(with([&](OptimizeOptions& o) { o.accuracy.boundary_offset_weight = nan; }),
-            "boundary offset weight is nan; expected at least 0");
+            "`boundary_offset_weight` is nan; expected at least 0");
   EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.margin = 0; }),
-            "margin is 0; expected a number between 0 and 0.25");
+            "`margin` is 0; expected more than 0 and less than 0.25");
   EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.margin = 0.25; }),
-            "margin is 0.25; expected a number between 0 and 0.25");
-  EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.barrier = 0; }), "barrier is 0; expected a positive number");
-  EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.sweeps = -1; }), "accuracy sweeps is -1; expected at least 0");
+            "`margin` is 0.25; expected more than 0 and less than 0.25");
+  EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.barrier = 0; }), "`barrier` is 0; expected more than 0");
+  EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.sweeps = -1; }), "`accuracy_sweeps` is -1; expected at least 0");
   EXPECT_EQ(with([&](OptimizeOptions& o) { o.accuracy.tolerance = nan; }),
-            "accuracy tolerance is nan; expected at least 0");
+            "`accuracy_tolerance` is nan; expected at least 0");
   EXPECT_EQ(with([](OptimizeOptions& o) { o.energy = EnergyKind::F; }),
             "objective accuracy begins with an energy that makes triangles well-centered, which F does not; expected "
             "BP, BHs or BH");

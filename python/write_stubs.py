@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+"""Writes what type checkers see of the options: write_stubs.py FOLDER, where the compiled module was built.
+
+The module itself has the table; NumPy, and the package around it, need not be there.
+"""
+import pathlib
+import sys
+
+HEAD = '''"""Made from the table of options when the module was built."""
+
+import dataclasses
+from typing import Any, Callable, Literal, TypedDict, TypeVar
+
+from typing_extensions import Unpack
+
+from ._options import SofteningLike
+from ._records import Record
+
+TABLE: list[dict[str, Any]]
+OPTION_NAMES: tuple[str, ...]
+
+class OptionChanges(TypedDict, total=False):
+'''
+
+OPTIONS = '''
+@dataclasses.dataclass(frozen=True)
+class OptimizeOptions(Record):
+'''
+
+TAIL = '''    def _plain(self) -> dict[str, Any]: ...
+
+def changed(options: OptimizeOptions | None, changes: OptionChanges) -> OptimizeOptions: ...
+def paper_method(**changes: Unpack[OptionChanges]) -> OptimizeOptions: ...
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+def shows_options(function: F) -> F: ...
+'''
+
+
+def main(folder):
+    sys.path.insert(0, str(folder))
+    import _temper
+
+    fields = [(row["name"], row["type"]) for row in _temper.option_table()]
+    changes = "".join(f"    {name}: {kind}\n" for name, kind in fields)
+    options = "".join(f"    {name}: {kind} = ...\n" for name, kind in fields)
+    text = HEAD + changes + OPTIONS + options + TAIL
+    (folder / "_optimize_options.pyi").write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    main(pathlib.Path(sys.argv[1]))

@@ -1,0 +1,318 @@
+// Each option once: its name, what it does, what values it may have, and what it needs to have an effect. Its default
+// is that of the field.
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "optimize/settings.hpp"
+#include "temper/optimize_table.hpp"
+
+namespace temper {
+namespace {
+
+// --- names of enumerators, in their order --------------------------------------------------------------
+
+using Name = std::string_view;
+using Options = OptimizeOptions;
+
+template <class Enum>
+constexpr int kNames = 0;  // of no enumeration
+template <>
+constexpr std::array<Name, 6> kNames<EnergyKind> = {"F", "T", "dT", "BH", "BHs", "BP"};
+template <>
+constexpr std::array<Name, 4> kNames<Star> = {"0", "1", "2", "all"};
+template <>
+constexpr std::array<Name, 3> kNames<BoundaryTreatment> = {"as_is", "absolute", "mirrored"};
+template <>
+constexpr std::array<Name, 2> kNames<Objective> = {"energy", "accuracy"};
+template <>
+constexpr std::array<Name, 3> kNames<Solver> = {"newton", "golden", "alternating"};
+template <>
+constexpr std::array<Name, 3> kNames<Unknowns> = {"positions_and_weights", "positions", "weights"};
+template <>
+constexpr std::array<Name, 3> kNames<Flips> = {"immediate", "deferred", "none"};
+template <>
+constexpr std::array<Name, 4> kNames<FlipLimit> = {"unlimited", "before", "at", "after"};
+template <>
+constexpr std::array<Name, 3> kNames<Repair> = {"none", "moves", "vertices"};
+template <>
+constexpr std::array<Name, 3> kNames<BoundaryVertices> = {"keep", "slide", "split"};
+template <>
+constexpr std::array<Name, 2> kNames<InterfaceVertices> = {"fixed", "sliding"};
+template <>
+constexpr std::array<Name, 2> kNames<WeightUpdates> = {"immediate", "deferred"};
+template <>
+constexpr std::array<Name, 2> kNames<Removal> = {"none", "patch"};
+template <>
+constexpr std::array<Name, 3> kNames<RemovalMeasure> = {"sum", "mean", "excess"};
+template <>
+constexpr std::array<Name, 3> kNames<HiddenPolicy> = {"undo", "remove", "keep"};
+template <>
+constexpr std::array<Name, 2> kNames<Inversion> = {"refuse", "allow"};
+template <>
+constexpr std::array<Name, 4> kNames<SweepOrder> = {"hilbert", "input", "reverse", "random"};
+template <>
+constexpr std::array<Name, 2> kNames<StoppingRule> = {"relative", "paper"};
+
+// --- rows from fields ------------------------------------------------------------------------------------
+
+template <class T>
+struct Without {  // what is in an optional one
+  using Type = T;
+  static constexpr bool optional = std::is_same_v<T, VertexId>;
+};
+template <class T>
+struct Without<std::optional<T>> {
+  using Type = T;
+  static constexpr bool optional = true;
+};
+
+template <class T>
+OptionValue value_of(const T& field) {
+  if constexpr (std::is_enum_v<T>) {
+    return kNames<T>[static_cast<std::size_t>(field)];
+  } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+    return static_cast<std::int64_t>(field);
+  } else if constexpr (std::is_same_v<T, VertexId>) {
+    return field.valid() ? OptionValue(field) : OptionValue();
+  } else {
+    return field;
+  }
+}
+template <class T>
+OptionValue value_of(const std::optional<T>& field) {
+  return field ? value_of(*field) : OptionValue();
+}
+
+template <class T>
+T field_of(const OptionValue& value) {
+  if constexpr (std::is_enum_v<T>) {
+    std::size_t i = 0;
+    while (kNames<T>[i] != *std::get_if<Name>(&value)) ++i;
+    return static_cast<T>(i);
+  } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+    return static_cast<T>(*std::get_if<std::int64_t>(&value));
+  } else {
+    return *std::get_if<T>(&value);
+  }
+}
+
+template <class T>
+constexpr OptionKind kind_of() {
+  if (std::is_enum_v<T>) return OptionKind::choice;
+  if (std::is_same_v<T, bool>) return OptionKind::flag;
+  if (std::is_integral_v<T>) return OptionKind::count;
+  if (std::is_same_v<T, Softening>) return OptionKind::softening;
+  return std::is_same_v<T, VertexId> ? OptionKind::vertex : OptionKind::number;
+}
+
+/// The field at the end of a path of members.
+template <auto... path>
+constexpr auto& field(auto& options) {
+  // clang-format off
+  return (options .* ... .* path);
+  // clang-format on
+}
+
+/// The row of that field.
+template <auto... path>
+constexpr OptionRow row(Name name, Name sentence, OptionRow more = {}) {
+  using Field = std::remove_reference_t<decltype(field<path...>(std::declval<Options&>()))>;
+  using T = typename Without<Field>::Type;
+  more.name = name;
+  more.sentence = sentence;
+  more.kind = kind_of<T>();
+  more.optional = Without<Field>::optional;
+  if constexpr (std::is_enum_v<T>) {
+    if (more.choices.empty()) more.choices = kNames<T>;
+  }
+  if (more.kind == OptionKind::count) more.range.low = 0;
+  if (std::is_same_v<T, int>) more.range.high = std::numeric_limits<int>::max();
+  more.get = [](const Options& o) { return value_of(field<path...>(o)); };
+  more.set = [](Options& o, const OptionValue& value) {
+    field<path...>(o) = std::holds_alternative<std::monostate>(value) ? Field() : Field(field_of<T>(value));
+  };
+  return more;
+}
+
+// --- the rows ----------------------------------------------------------------------------------------------
+
+using Accuracy = AccuracyOptions;
+using Paper = PaperSwitches;
+constexpr auto kAccuracy = &Options::accuracy;
+constexpr auto kPaper = &Options::paper;
+
+constexpr OptionRange at_least(double low) { return {.low = low}; }
+constexpr OptionRange more_than(double low) { return {.low = low, .open = true}; }
+constexpr OptionRange inside(double low, double high) { return {low, high, true}; }
+
+constexpr double kMostMargin = 0.25;       // of h/ℓ an equilateral triangle has 0.289, and no other one as much
+constexpr double kLeastBoundaryRatio = 2;  // a cut in the middle leaves edges of half the length
+
+constexpr OptionNeed kForAccuracy = {"objective", "accuracy"};
+constexpr OptionNeed kBarrier = {"energy", "BH|BHs|BP"};
+constexpr OptionNeed kDeferredFlips = {"flips", "deferred"};
+constexpr OptionNeed kCollapses = {"collapse_from", ""};
+constexpr OptionNeed kRemovals = {"removal", "patch"};
+
+bool limits_after_flips(const Options& o) { return flip_limit_of(o) == FlipLimit::after; }
+
+constexpr OptionRow kEnergyRows[] = {
+    row<&Options::energy>("energy", "what to minimise: a barrier (BH, BHs, BP) or a HOT energy (F, T, dT)"),
+    row<&Options::star>("star",
+                        "Hodge star of the energy, or of `objective=accuracy`, whose first sweeps are for star 1 then; "
+                        "all: accuracy alone"),
+    row<kPaper, &Paper::gamma>("gamma", "gamma of E_BP",
+                               {.range = more_than(0),
+                                .absent = "relative to each edge, shrinking from 0.5, or 1 where many triangles are "
+                                          "bad, to 0.003",
+                                .needs = {{{"energy", "BP"}}}}),
+    row<kPaper, &Paper::h0>("h0", "how far below zero E_BHs lets h go (-h0 of the paper, so >= 0)",
+                            {.range = at_least(0),
+                             .absent = "just beyond the least h of the mesh, following it up",
+                             .needs = {{{"energy", "BHs"}}}}),
+    row<kPaper, &Paper::boundary_treatment>(
+        "boundary_treatment",
+        "of energy F: the h of boundary edges as it is, |h|, or as if the mesh were mirrored there",
+        {.needs = {{{"energy", "F"}}}}),
+};
+
+constexpr OptionRow kAccuracyRows[] = {
+    row<&Options::objective>(
+        "objective",
+        "energy: the one of `energy`, to the end; accuracy: only until every triangle is well-centered with a margin, "
+        "then how far the middles of edges and duals are apart, which a solver's error is proportional to"),
+    row<kAccuracy, &Accuracy::margin>("margin", "of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle",
+                                      {.range = inside(0, kMostMargin), .needs = {kForAccuracy}}),
+    row<kAccuracy, &Accuracy::offset_weight>(
+        "offset_weight",
+        "of accuracy: how many times as much as in HOT the offset of the middles counts; 1: HOT over size squared",
+        {.range = at_least(0), .needs = {kForAccuracy}}),
+    row<kAccuracy, &Accuracy::boundary_offset_weight>(
+        "boundary_offset_weight",
+        "of accuracy: the same of the height of boundary edges; 0.5 where unknowns are at vertices and the input is "
+        "symmetric",
+        {.range = at_least(0), .needs = {kForAccuracy}}),
+    row<kAccuracy, &Accuracy::barrier>("barrier", "of accuracy: factor of the logarithms that keep the margin",
+                                       {.range = more_than(0), .needs = {kForAccuracy}}),
+    row<kAccuracy, &Accuracy::sweeps>("accuracy_sweeps", "of accuracy: at most this many, after those for the energy",
+                                      {.needs = {kForAccuracy}}),
+    row<kAccuracy, &Accuracy::tolerance>("accuracy_tolerance",
+                                         "of accuracy: stop when a sweep gains less than this part",
+                                         {.range = at_least(0), .needs = {kForAccuracy}}),
+};
+
+constexpr OptionRow kMoveRows[] = {
+    row<kPaper, &Paper::solver>("solver",
+                                "Newton steps in position and weight together; the paper's golden section; Newton in "
+                                "position, then weight"),
+    row<&Options::unknowns>("unknowns", "what steps may change; the others stay as they are"),
+    row<kPaper, &Paper::weights_from>("weights_from", "first sweep that changes weights, from 0",
+                                      {.needs = {{{"unknowns", "positions_and_weights"}}}}),
+    row<kPaper, &Paper::relaxation>("relaxation", "over-relaxation of Newton steps",
+                                    {.range = inside(0, 2),
+                                     .absent = "1.7, but 1.97 while gamma shrinks from 1",
+                                     .needs = {{{"solver", "newton|alternating"}}}}),
+    row<kPaper, &Paper::newton_passes>(
+        "newton_passes",
+        "steps of all vertices at once, which barriers make in every other sweep once every triangle is well-centered "
+        "and sweeps gain little"),
+    row<kPaper, &Paper::anchor>("anchor", "shift the weights after each sweep so that this vertex has weight 0",
+                                {.absent = "they stay"}),
+};
+
+constexpr OptionRow kConnectivityRows[] = {
+    row<&Options::flips>("flips",
+                         "flip edges at once, after the inner sweeps, or never: then the connectivity stays, and no "
+                         "step may make an edge non-regular"),
+    row<kPaper, &Paper::flip_limit>(
+        "flip_limit", "how far a step may go past the point where an edge flips",
+        {.absent = "unlimited for barriers, after for HOT", .needs = {{{"flips", "immediate|deferred"}}}}),
+    row<kPaper, &Paper::overshoot>(
+        "overshoot", "of `flip_limit=after`, at first: it shrinks towards 1 each sweep",
+        {.range = at_least(1),
+         .needs = {{{"flips", "immediate|deferred"}, {"flip_limit", "after", limits_after_flips}}}}),
+    row<&Options::repair>(
+        "repair",
+        "where sweeps leave triangles bad: nothing; sweep again and kick vertices there; remove and insert vertices "
+        "there, too, and keep what cures most",
+        {.needs = {{kBarrier, {"unknowns", "positions_and_weights|positions"}, {"flips", "immediate|deferred"}}}}),
+    row<&Options::repair_trials>("repair_trials", "at most so many edits are tried, 1 to 3 ms each",
+                                 {.needs = {{{"repair", "moves|vertices"}}}}),
+    row<&Options::boundary>(
+        "boundary",
+        "keep: the domain's boundary stays bit for bit; slide: vertices of its straight pieces, never corners, may "
+        "move along them; split: edges of boundary and interfaces much longer than one they meet are cut before the "
+        "sweeps, and the vertices that were there stay bit for bit"),
+    row<&Options::boundary_ratio>("boundary_ratio",
+                                  "of `boundary=split`: how many times as long an edge may be as one it meets",
+                                  {.range = at_least(kLeastBoundaryRatio), .needs = {{{"boundary", "split"}}}}),
+    row<&Options::interfaces>("interfaces",
+                              "vertices of straight region interfaces and tagged lines stay, or may move along them"),
+};
+
+constexpr OptionRow kSizeRows[] = {
+    row<&Options::size_band>("size_band",
+                             "B: no step takes the size at a vertex out of the size field's 1/B to B times",
+                             {.range = at_least(1), .absent = "sizes are only reported"}),
+};
+
+constexpr OptionRow kPaperRows[] = {
+    row<kPaper, &Paper::inner>("inner",
+                               "with deferred flips: at most so many sweeps before edges are flipped; 0: until they "
+                               "converge",
+                               {.needs = {kDeferredFlips}}),
+    row<kPaper, &Paper::outer>("outer",
+                               "with deferred flips: at most so many rounds of sweeps and flips; 0: until no flips are "
+                               "needed",
+                               {.needs = {kDeferredFlips}}),
+    row<kPaper, &Paper::weight_updates>(
+        "weight_updates",
+        "a new weight is seen by its neighbours at once, or after the sweep (not with `solver=newton`)"),
+    row<kPaper, &Paper::collapse_from>("collapse_from",
+                                       "i_c: first sweep with short-edge collapses, from 0 (Algorithm 2)",
+                                       {.absent = "no collapses"}),
+    row<kPaper, &Paper::collapse_energy>("collapse_energy", "E_c, which draws a vertex to an edge",
+                                         {.choices = std::span(kNames<EnergyKind>).first<3>(), .needs = {kCollapses}}),
+    row<kPaper, &Paper::collapse_ratio>("collapse_ratio",
+                                        "collapse a vertex that E_c wants this near its neighbour, relative to that "
+                                        "one's shorter edge beside",
+                                        {.range = inside(0, 1), .needs = {kCollapses}}),
+    row<kPaper, &Paper::removal>("removal",
+                                 "patch: remove a vertex when its patch is better without it (Algorithm 1, line 15)"),
+    row<kPaper, &Paper::removal_measure>("removal_measure",
+                                         "by what patches are compared: energy summed (the paper), per triangle, or "
+                                         "above equilateral triangles",
+                                         {.needs = {kRemovals}}),
+    row<kPaper, &Paper::removal_margin>("removal_margin", "by which part the patch must be better",
+                                        {.range = at_least(0), .needs = {kRemovals}}),
+    row<kPaper, &Paper::removal_from>("removal_from", "first sweep with removals, from 0", {.needs = {kRemovals}}),
+    row<kPaper, &Paper::hidden>("hidden", "what weights hide: undo the step, remove the vertex, or keep and report it"),
+    row<kPaper, &Paper::inversion>("inversion",
+                                   "steps that turn a triangle over are refused, or allowed as in the paper (with "
+                                   "deferred flips)"),
+    row<kPaper, &Paper::order>("order", "in which a sweep visits the vertices"),
+};
+
+constexpr OptionRow kStoppingRows[] = {
+    row<&Options::max_sweeps>("max_sweeps", "at most this many sweeps over the vertices"),
+    row<kPaper, &Paper::tolerance>("tolerance", "stop when a sweep gains less than this", {.range = at_least(0)}),
+    row<kPaper, &Paper::stopping>("stopping",
+                                  "the gain relative to the energy, or the paper's: mean energy per triangle, "
+                                  "absolute"),
+    row<&Options::time_limit>("time_limit", "stop after this many seconds; 0: no limit", {.range = at_least(0)}),
+    row<kPaper, &Paper::seed>("seed", "of the jitter that frees symmetric grids, of repairs, and of `order=random`"),
+};
+
+constexpr OptionGroup kGroups[] = {
+    {"Energy", kEnergyRows},     {"Accuracy", kAccuracyRows},
+    {"Moves", kMoveRows},        {"Connectivity and constraints", kConnectivityRows},
+    {"Size", kSizeRows},         {"The paper's switches", kPaperRows},
+    {"Stopping", kStoppingRows},
+};
+
+}  // namespace
+
+std::span<const OptionGroup> option_groups() { return kGroups; }
+
+}  // namespace temper
