@@ -12,12 +12,12 @@
 namespace temper {
 namespace {
 
-// What a triangle with less than ε keeps at least, of what it has: the barrier must be finite where it is.
+// The part of its margin that a triangle with less than ε keeps at least: the barrier must be finite where it is.
 constexpr double kKept = 0.9;
 // Below this part of ℓ a height is mostly rounding, and so would be its logarithm.
 constexpr double kLeastMargin = 1e-9;
 
-/// Of a halfedge whose edge it stands for, and which is `inner` in its triangle.
+/// The energy of the edge that the halfedge stands for, which is `inner` in its triangle.
 double edge_energy(const Mesh& mesh, const VertexSizes& sizes, const AccuracyModel& model, HalfedgeId h,
                    const EdgeShape& inner) {
   const VertexId a = mesh.origin(h), b = mesh.target(h);

@@ -41,7 +41,7 @@ using VertexSizes = IdVector<VertexId, double>;
 [[nodiscard]] double triangle_margin(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
 [[nodiscard]] double triangle_margin(const Mesh& mesh, TriangleId t);
 
-/// Whether every triangle is well-centered, exactly, with a margin of more than `margin`.
+/// Says whether every triangle is well-centered, exactly, with a margin of more than `margin`.
 [[nodiscard]] bool has_margins(const Mesh& mesh, double margin, Executor* executor = nullptr);
 
 /// The ε of each triangle: that of the model where the triangle has more, else a little less than it has; none where it
@@ -50,7 +50,7 @@ class AccuracyFloors {
  public:
   /// Raises the floor of each triangle that has got more room since, never lowers one. Returns how many it raised.
   std::size_t raise(const Mesh& mesh, double margin, Executor* executor = nullptr);
-  /// Whether t has one. What has none is no part of the barrier, and must stay as it is.
+  /// Says whether t has one. A triangle without is no part of the barrier, and must stay as it is.
   [[nodiscard]] bool has(TriangleId t) const { return floor_[t] > 0; }
   [[nodiscard]] double operator[](TriangleId t) const { return floor_[t]; }
 
@@ -77,7 +77,7 @@ class AccuracyPatch {
   [[nodiscard]] double value(const WeightedPoint& p);
   /// All derivatives where value() was asked for last, and was finite.
   [[nodiscard]] VertexDerivatives derivatives();
-  /// Whether all triangles of the star are well-centered with the center at p, exactly.
+  /// Says whether all triangles of the star are well-centered with the center at p, exactly.
   [[nodiscard]] bool is_well_centered(const WeightedPoint& p) const;
   /// The length of the shortest spoke.
   [[nodiscard]] double shortest_spoke(const WeightedPoint& p) const;

@@ -120,7 +120,7 @@ struct Denominator {
 struct ShiftedHeight {
   double s1 = 0, s2 = 0;
 
-  /// What does not depend on g.
+  /// The part that does not depend on g.
   template <class T>
   struct Base {
     T l, root;  ///< s₁ ℓ
@@ -258,7 +258,7 @@ struct BarrierKernel {
   }
 };
 
-/// Which formula a model's name stands for, and its constants.
+/// The formula that a model's name stands for, and its constants.
 struct EdgeFormula {
   enum class Form { hot, shifted, smoothed } form = Form::hot;
   double alpha = 0, beta = 0;

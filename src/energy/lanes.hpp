@@ -10,9 +10,9 @@ namespace temper {
 
 // Plain arrays, since what uses them is compiled for several instruction sets: they come with no functions.
 
-/// Of one coordinate, a value for each lane.
+/// A coordinate: one value for each lane.
 using Lane = double[kLanes];
-/// All bits set where something holds.
+/// A mask: all bits of a lane are set where something holds.
 using LaneMask = std::int64_t[kLanes];
 
 struct LanePoints {

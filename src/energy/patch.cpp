@@ -94,7 +94,7 @@ class HotStar {
     }
     return sum;
   }
-  /// What the triangles across the link count: their sign may depend on the center (E_T).
+  /// The part of the triangles across the link: their sign may depend on the center (E_T).
   [[nodiscard]] double outer() const {
     double sum = 0;
     for (std::size_t i = 0; i < patch_.size(); ++i) sum += outer_share(i);

@@ -35,7 +35,7 @@ struct Patch {
 /// Fills patch with the star of v; outer heights only for energies without barrier, which need signs.
 void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch);
 
-/// Whether the model looks across link edges and at boundary flags.
+/// Says whether the model looks across link edges and at boundary flags.
 [[nodiscard]] constexpr bool needs_outer(EnergyKind kind) {
   return kind == EnergyKind::F || kind == EnergyKind::T || kind == EnergyKind::dT;
 }

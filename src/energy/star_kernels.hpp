@@ -19,15 +19,15 @@ struct LinkArrays {
 /// Value, gradient (x, y, w) and Hessian (xx, xy, xw, yy, yw, ww) of a star, in this order.
 inline constexpr std::size_t kStarSums = 10;
 
-/// What hot_edges() writes, to a multiple of kLanes: for the edges pq, qr, rp of each triangle h ℓ on their left, and
-/// E_F; and S.
+/// The results of hot_edges(), written to a multiple of kLanes: for the edges pq, qr, rp of each triangle h ℓ on their
+/// left, and E_F; and S.
 struct HotEdges {
   double* g[3];
   double* value[3];
   double* doubled_area;
 };
 
-/// How often each edge of triangle i counts; readable as far as the link.
+/// The factors by which the edges of triangle i count; readable as far as the link.
 struct EdgeFactors {
   const double *pq, *qr, *rp;
 };
@@ -38,7 +38,7 @@ struct WellCentered {
 };
 
 struct StarKernels {
-  /// Of a barrier at p. False outside its domain, where the sums mean nothing.
+  /// The sums of a barrier at p. False outside its domain, where they mean nothing.
   bool (*barrier_derivatives)(const EdgeFormula& formula, const LinkArrays& link, const WeightedPoint& p, double* sums);
   /// The value alone; +∞ outside the domain.
   double (*barrier_value)(const EdgeFormula& formula, const LinkArrays& link, const WeightedPoint& p);
@@ -48,11 +48,12 @@ struct StarKernels {
   /// The values of a barrier of the first n triangles, summed; +∞ when one is outside the domain.
   double (*barrier_sum)(const EdgeFormula& formula, const TriangleLanes& triangles, std::size_t n);
   WellCentered (*well_centered)(const TriangleLanes& triangles);
-  /// Of a barrier. Bit i of the result: triangle i is inside the domain; elsewhere its numbers mean nothing.
+  /// The Hessians of a barrier. Bit i of the result: triangle i is inside the domain; elsewhere its numbers mean
+  /// nothing.
   unsigned (*triangle_hessians)(const EdgeFormula& formula, const TriangleLanes& triangles, TriangleHessians& result);
 };
 
-/// Of the instruction set in use.
+/// The kernels, compiled for the instruction set in use.
 [[nodiscard]] const StarKernels& star_kernels();
 
 namespace baseline {

@@ -9,7 +9,7 @@
 namespace temper::TEMPER_INSTRUCTION_SET {
 namespace {
 
-// Of n < kLanes lanes, the first n: loaded from kFirstLanes + kLanes − n.
+// A mask of the first n < kLanes lanes: loaded from kFirstLanes + kLanes − n.
 constexpr std::int64_t kFirstLanes[2 * kLanes] = {-1, -1, -1, -1, -1, -1, -1, -1};
 
 TEMPER_INLINE Pack::Mask first_lanes(std::size_t n) {

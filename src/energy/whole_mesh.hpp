@@ -1,4 +1,4 @@
-// What is asked of all triangles after every sweep.
+// Sums and counts over all triangles of a mesh, as they are wanted after every sweep.
 #pragma once
 
 #include <cstddef>

@@ -91,9 +91,10 @@ TEST(Energy, IsInvariantUnderRotationTranslationAndEqualShiftsOfWeights) {
 TEST(Energy, ScalesWithThePowerInTheTable) {
   const Mesh mesh = lattice(), large = lattice({.scale = 8});
   for (EnergyModel model : all_models(1)) {
-    if (model.gamma.scale == LengthScale::absolute && model.kind == EnergyKind::BP) continue;
-    if (model.h0.scale == LengthScale::absolute && model.kind == EnergyKind::BHs) continue;
-    const int exponent = energies()[static_cast<std::size_t>(model.kind)].length_exponent;
+    const EnergyInfo& info = energies()[static_cast<std::size_t>(model.kind)];
+    if (info.softened_by_gamma && model.gamma.scale == LengthScale::absolute) continue;
+    if (info.softened_by_h0 && model.h0.scale == LengthScale::absolute) continue;
+    const int exponent = info.length_exponent;
     const double e = total_energy(mesh, model);
     EXPECT_NEAR(total_energy(large, model), std::pow(8, exponent) * e, 1e-12 * std::pow(8, exponent) * std::abs(e));
   }
