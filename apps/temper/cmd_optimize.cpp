@@ -314,7 +314,9 @@ void write_all(const Command& command, const Settings& s, Input& input, Results&
 }
 
 /// The row of energies that is of interest.
-int star_shown(const OptimizeOptions& options) { return options.objective == Objective::accuracy ? 1 : static_cast<int>(options.star); }
+int star_shown(const OptimizeOptions& options) {
+  return options.objective == Objective::accuracy ? 1 : static_cast<int>(options.star);
+}
 
 void print_result(const Settings& s, const Results& results, const Outputs& outputs) {
   print(ending(results.report) + "\n\n" +
