@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "energy/edge_kernels.hpp"
 #include "optimize/settings.hpp"
 #include "temper/optimize_table.hpp"
 
@@ -18,7 +19,11 @@ using Options = OptimizeOptions;
 template <class Enum>
 constexpr int kNames = 0;  // of no enumeration
 template <>
-constexpr std::array<Name, 6> kNames<EnergyKind> = {"F", "T", "dT", "BH", "BHs", "BP"};
+constexpr std::array<Name, kEnergyKinds> kNames<EnergyKind> = [] {
+  std::array<Name, kEnergyKinds> names;
+  for (std::size_t i = 0; i < kEnergyKinds; ++i) names[i] = kEnergies[i].name;
+  return names;
+}();
 template <>
 constexpr std::array<Name, 4> kNames<Star> = {"0", "1", "2", "all"};
 template <>
