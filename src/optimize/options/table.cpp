@@ -1,5 +1,6 @@
 // Each option once: its name, what it does, what values it may have, and what it needs to have an effect. Its default
 // is that of the field.
+#include <algorithm>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -131,7 +132,7 @@ constexpr OptionRow row(Name name, Name sentence, OptionRow more = {}) {
   if constexpr (std::is_enum_v<T>) {
     if (more.choices.empty()) more.choices = kNames<T>;
   }
-  if (more.kind == OptionKind::count) more.range.low = 0;
+  if (more.kind == OptionKind::count) more.range.low = std::max(0.0, more.range.low);
   if (std::is_same_v<T, int>) more.range.high = std::numeric_limits<int>::max();
   more.get = [](const Options& o) { return value_of(field<path...>(o)); };
   more.set = [](Options& o, const OptionValue& value) {
