@@ -95,7 +95,8 @@ constexpr std::array<Format, sizeof...(I)> columns(std::index_sequence<I...>) {
   return {Format{kRows[I].name, kRows[I].description, kRows[I].suffixes, kRows[I].write != nullptr,
                  (kRows[I].holds & kWeights) != 0}...};
 }
-constexpr auto kFormats = columns(std::make_index_sequence<std::size(kRows)>());
+// Not constexpr: with its sanitizers GCC does not know that a function has an address.
+const auto kFormats = columns(std::make_index_sequence<std::size(kRows)>());
 
 const FormatRow& recognise(const Source& source) {
   const std::string_view head = std::string_view(source.bytes).substr(0, kSniffBytes);
