@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "exit.hpp"
+#include "json_depth.hpp"
 
 namespace temper::app {
 namespace {
@@ -122,11 +123,15 @@ std::string certificate_text(const Certificate& certificate, const Input& input)
 
 Certificate read_certificate(const std::string& path, const Input& input) {
   const std::string text = text_of(path);
+  const auto fail = [&](const std::string& why) -> Failure { return {Exit::bad_input, path + ": " + why}; };
+  if (is_too_deep(text)) throw fail(fmt::format("nested more than {} deep", kDeepestJson));
   Json json;
   try {
     json = Json::parse(text);
   } catch (const Json::parse_error& error) {
-    throw Failure(Exit::bad_input, fmt::format("{}: not JSON: byte {}", path, error.byte));
+    throw fail(fmt::format("not JSON: byte {}", error.byte));
+  } catch (const Json::out_of_range&) {
+    throw fail("holds a number beyond what a double can hold");
   }
   return Reader(path, input).read(json);
 }

@@ -69,7 +69,7 @@ Exit run_draw(const Arguments& arguments) {
   s.options.regions = !s.no_regions;
   check_zoom(s.options);
   Outputs outputs("draw");
-  outputs.expect_text("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});
+  outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});
 
   const Input input = read_input(s.input);
   print_warnings(input.warnings());

@@ -219,7 +219,7 @@ Exit run_mesh(const Arguments& arguments) {
   const std::vector<std::string> inputs = {s.input, std::filesystem::path(s.input).replace_extension(".node").string()};
   outputs.expect_mesh("--output", s.output, "", inputs);
   outputs.expect_text("--report", s.report, inputs);
-  outputs.expect_text("--draw", s.picture, inputs);
+  outputs.expect_picture("--draw", s.picture, inputs);
   return mesh(command, s, outputs);
 }
 

@@ -388,7 +388,7 @@ Exit run_optimize(const Arguments& arguments) {
   outputs.expect_text("--report", settings.report, inputs);
   outputs.expect_text("--history", settings.history, inputs);
   outputs.expect_text("--trace", settings.trace, inputs);
-  outputs.expect_text("--draw", settings.picture, inputs);
+  outputs.expect_picture("--draw", settings.picture, inputs);
   return optimize_mesh(command, settings, outputs);
 }
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -70,6 +71,19 @@ void Outputs::expect_mesh(const std::string& option, const std::string& path, co
     }
   }
   expect(option, path);
+}
+
+void Outputs::expect_picture(const std::string& option, const std::string& path,
+                             const std::vector<std::string>& inputs) {
+  std::string suffix = fs::path(path).extension().string();
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (!suffix.empty() && suffix != ".svg") {
+    throw Failure(Exit::bad_usage,
+                  fmt::format("{}: {}: {} is no name of an SVG file, and temper draws no other pictures; expected one "
+                              "that ends in .svg",
+                              verb_, option, path));
+  }
+  expect_text(option, path, inputs);
 }
 
 void Outputs::expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs) {

@@ -27,6 +27,8 @@ class Outputs {
                    const std::vector<std::string>& others = {});
   /// A text file that must not be one of these inputs. An empty path: not asked for.
   void expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
+  /// The same of a picture, which is SVG whatever it is called, so that it may not be called anything else.
+  void expect_picture(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
 
   /// The warnings of writing.
   std::vector<std::string> write_mesh(const std::string& path, const io::MeshFile& file,

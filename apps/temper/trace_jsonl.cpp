@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "exit.hpp"
+#include "json_depth.hpp"
 #include "suggest.hpp"
 
 namespace temper::app {
@@ -102,6 +103,7 @@ class Line {
 class Record {
  public:
   Record(const std::string& text, std::string where, const Input& input) : where_(std::move(where)), input_(input) {
+    if (is_too_deep(text)) fail(fmt::format("is nested more than {} deep", kDeepestJson));
     try {
       json_ = ParsedJson::parse(text);
     } catch (const ParsedJson::parse_error& error) {

@@ -216,9 +216,9 @@ Blocks read_blocks(std::string_view packed, const Packing& packing) {
   }
   // zlib packs at most 1032 bytes into one: whoever announces more would make us allocate for nothing.
   constexpr std::uint64_t kBestRatio = 1032;
+  // Divided, not multiplied: a product of what a file says may wrap around. `most` is of what the file has.
   const std::uint64_t most = (sum + 64 * n) * kBestRatio;
-  const std::uint64_t whole = n > 1 ? blocks.block : 0;
-  if (whole > most || blocks.last > most || (n - 1) * whole > most) {
+  if (blocks.last > most || (n > 1 && blocks.block > most / (n - 1))) {
     fail(ErrorCode::syntax, packing.where,
          text("announces ", n, " blocks of ", blocks.block, " bytes, more than zlib can pack into ", sum));
   }

@@ -21,6 +21,17 @@ TEST_F(Draw, WritesOnePanelOrTwo) {
   EXPECT_EQ(names(), (std::vector<std::string>{"a.vtu", "one.svg", "two.svg"}));
 }
 
+TEST_F(Draw, RefusesTheNameOfAPictureThatItDoesNotWrite) {
+  make_input("a.vtu");
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"draw", "a.vtu", "-o", "a.png"},
+                                                {"optimize", "a.vtu", "-o", "b.vtu", "--draw", "a.PNG"}}) {
+    const Outcome outcome = temper(words);
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_TRUE(contains(outcome.err, "expected one that ends in .svg")) << outcome.err;
+  }
+  EXPECT_EQ(names(), std::vector<std::string>{"a.vtu"});
+}
+
 TEST_F(Draw, EveryOptionChangesThePicture) {
   write("a.mesh",
         "MeshVersionFormatted 2\nDimension 2\nVertices\n6\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.2 0\n0.5 0.2001 0\n"

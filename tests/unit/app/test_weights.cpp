@@ -56,6 +56,22 @@ TEST_F(Weights, AChangedCertificateIsRefused) {
   }
 }
 
+TEST_F(Weights, CertificatesThatNestWithoutEndOrHoldNoNumberAreRefused) {
+  make_infeasible();
+  const std::string deep(200000, '[');
+  for (const std::string& text :
+       {"{\"temper_certificate\": 1, \"margin\": " + deep, "{\"temper_certificate\": " + deep}) {
+    write("deep.json", text);
+    const Outcome outcome = temper({"weights", "in.vtu", "--check-certificate", "deep.json"});
+    EXPECT_EQ(outcome.exit, 1);
+    EXPECT_TRUE(contains(outcome.err, "deep.json: nested more than 16 deep")) << outcome.err;
+  }
+  write("huge.json", "{\"temper_certificate\": 1, \"margin\": 1e999, \"terms\": []}");
+  const Outcome outcome = temper({"weights", "in.vtu", "--check-certificate", "huge.json"});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.err, "huge.json: holds a number beyond what a double can hold")) << outcome.err;
+}
+
 TEST_F(Weights, CertificatesThatAreNoneAreNamed) {
   make_infeasible();
   const std::vector<std::pair<std::string, std::string>> texts = {

@@ -1,6 +1,8 @@
 // VTU in the forms that other programs write, made here by hand: every encoding, header type and byte order.
 #include <zlib.h>
 
+#include "io/failure.hpp"
+#include "io/vtu_codec.hpp"
 #include "support.hpp"
 #include "support/std_threads.hpp"
 
@@ -263,6 +265,20 @@ TEST_F(FileTest, vtu_appended_data_that_are_cut_or_point_nowhere_are_named) {
   ASSERT_NE(offset, std::string::npos);
   beyond.replace(offset, 12, "offset=\"99999\"");
   EXPECT_EQ(message(beyond).substr(0, 60), "cut.vtu: array 'connectivity': starts at byte 99999 of the a");
+}
+
+/// n blocks of 2⁴⁰ bytes and a last one: (n − 1) · 2⁴⁰ + 72 is 72 in 64 bits, where n − 1 is 2²⁴.
+TEST(Vtu, RefusesBlocksWhoseSizesWrapAround) {
+  const std::uint64_t n = (1U << 24) + 1;
+  std::vector<std::uint64_t> words(3 + n, 0);
+  words[0] = n, words[1] = std::uint64_t{1} << 40, words[2] = 72;
+  const std::string_view packed(reinterpret_cast<const char*>(words.data()), 8 * words.size());
+  try {
+    static_cast<void>(unpack(packed, Scalar::f64, {"m.vtu: array 'Points'", 8, true, false}, nullptr));
+    FAIL() << "was read";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.error.code, ErrorCode::syntax);
+  }
 }
 
 TEST_F(FileTest, vtu_that_cannot_be_written_leaves_what_was_there) {
