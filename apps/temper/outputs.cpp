@@ -75,6 +75,7 @@ void Outputs::expect_mesh(const std::string& option, const std::string& path, co
 
 void Outputs::expect_picture(const std::string& option, const std::string& path,
                              const std::vector<std::string>& inputs) {
+  expect_text(option, path, inputs);
   std::string suffix = fs::path(path).extension().string();
   for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (!suffix.empty() && suffix != ".svg") {
@@ -83,7 +84,6 @@ void Outputs::expect_picture(const std::string& option, const std::string& path,
                               "that ends in .svg",
                               verb_, option, path));
   }
-  expect_text(option, path, inputs);
 }
 
 void Outputs::expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs) {

@@ -101,7 +101,7 @@ std::vector<Tally> tallies(Effort effort) {
     for (const Policy& policy : {kMess, kLimited, kTheory}) {
       Tally tally{policy, reach};
       for (const VertexOrder& order : vertex_orders(full ? 5 : 1)) {
-        if (order.order != SweepOrder::hilbert) add(stages(policy, reach, order, 10), tally);
+        if (order.order != SweepOrder::hilbert) add(stages(policy, reach, order, kShownSweeps), tally);
       }
       all.push_back(tally);
     }

@@ -215,7 +215,7 @@ TEST_F(Trace, WrongOnesAreRefusedWithTheirLine) {
   temper_ok({"replay", "in.vtu", "good.jsonl", "-o", "moved.vtu"});
 
   expect_refused("", ": the file is empty");
-  expect_refused(header + "{\"event\":" + std::string(200000, '['), ":2: is nested more than 16 deep");
+  expect_refused(header + "{\"event\":" + std::string(200000, '[') + "\n", ":2: is nested more than 16 deep");
   expect_refused("$MeshFormat\n", ":1: is no JSON object");
   expect_refused("{\"a\":1}\n", ":1: is not the header of a trace");
   expect_refused("{\"trace\":3}\n", ":1: is a trace of version 3; this temper reads version 2");
