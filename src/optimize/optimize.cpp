@@ -24,9 +24,7 @@ bool is_worse(const Candidate& a, const Candidate& b, const Settings& settings) 
   return rank(b.work.mesh, settings) < rank(a.work.mesh, settings);
 }
 
-bool has_bad(const Candidate& candidate, const Settings& settings) {
-  return count_bad(candidate.work.mesh, settings.hooks.executor) > 0;
-}
+bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.hooks.executor) > 0; }
 
 /// Attempts from the input until one leaves nothing bad; the best of them.
 Expected<Candidate> best_attempt(const Mesh& mesh, Settings& settings, Run& run) {
