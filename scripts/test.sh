@@ -78,7 +78,7 @@ formatted() {
 core_without_exceptions() {
   python3 - build/dev/compile_commands.json <<'PYTHON'
 import json, sys
-core = [c for c in json.load(open(sys.argv[1])) if "/temper.dir/" in c["output"]]
+core = [c for c in json.load(open(sys.argv[1])) if " src/CMakeFiles/temper.dir/" in c["command"]]
 wrong = [c["file"] for c in core if not all(f in c["command"] for f in ("-fno-exceptions", "-fno-rtti", "-ffp-contract=off"))]
 print("\n".join(wrong) if wrong else f"{len(core)} sources")
 sys.exit(bool(wrong) or not core)
