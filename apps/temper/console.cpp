@@ -11,16 +11,18 @@
 #include <cstring>
 
 #include "exit.hpp"
+#include "temper/error.hpp"
 
 namespace temper::app {
 
-void print_error(std::string_view message) { fmt::print(stderr, "temper: error: {}\n", message); }
+void print_error(std::string_view message) { fmt::print(stderr, "temper: error: {}\n", printable(message)); }
 
 void print_warnings(std::span<const std::string> messages) {
-  for (const std::string& message : messages) fmt::print(stderr, "temper: warning: {}\n", message);
+  for (const std::string& message : messages) fmt::print(stderr, "temper: warning: {}\n", printable(message));
 }
 
-void print(std::string_view text) {
+void print(std::string_view any_text) {
+  const std::string text = printable(any_text);
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
     throw Failure(Exit::bad_input, fmt::format("standard output: {}", std::strerror(errno)));
   }

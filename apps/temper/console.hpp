@@ -9,6 +9,7 @@
 
 namespace temper::app {
 
+// What they print is printable: names and paths of others' making reach no terminal as they are.
 void print_error(std::string_view message);
 void print_warnings(std::span<const std::string> messages);
 

@@ -69,7 +69,11 @@ std::vector<NodeString> strings_of(const std::vector<DirectedEdge>& edges) {
 
 class AdcircWriter {
  public:
-  explicit AdcircWriter(const WriteJob& job) : job_(job), file_(job.file), out_(job.outputs.open(job.path)) {}
+  explicit AdcircWriter(const WriteJob& job) : job_(job), file_(job.file), out_(job.outputs.open(job.path)) {
+    for (const PhysicalName& n : file_.names) {
+      if (n.dimension == 1) names_.emplace(n.tag, n.name);
+    }
+  }
   void write();
 
  private:
@@ -77,7 +81,9 @@ class AdcircWriter {
   void nodes();
   void collect_boundaries();
   AdcircBoundary kind_of(std::int32_t tag);
-  [[nodiscard]] std::map<std::int32_t, std::size_t> levees_of(std::int32_t tag, bool paired) const;
+  void collect_levees();
+  /// The marked point that is this node of the string, when it has a levee.
+  [[nodiscard]] const std::size_t* levee(const AdcircString& string, std::int32_t node) const;
   void boundaries(bool open);
   void levee_string(AdcircString& string);
   void warn_of_lost() const;
@@ -85,7 +91,11 @@ class AdcircWriter {
   const WriteJob& job_;
   const MeshFile& file_;
   Output& out_;
+  std::multimap<std::int32_t, std::string_view> names_;  // of lines, by tag
   std::vector<AdcircString> strings_;
+  using TagAndNode = std::pair<std::int32_t, std::int32_t>;
+  std::map<TagAndNode, std::size_t> levees_, paired_levees_;  // marked points
+  std::vector<double> levee_numbers_;                         // of all marked points
 };
 
 void AdcircWriter::write() {
@@ -96,6 +106,7 @@ void AdcircWriter::write() {
     const auto& t = f.triangles[i];
     out_.put(i + 1, " 3 ", t[0] + 1, ' ', t[1] + 1, ' ', t[2] + 1, '\n');
   }
+  collect_levees();
   collect_boundaries();
   boundaries(true);
   boundaries(false);
@@ -121,10 +132,10 @@ void AdcircWriter::nodes() {
 
 AdcircBoundary AdcircWriter::kind_of(std::int32_t tag) {
   std::string_view name;
-  for (const PhysicalName& n : file_.names) {
-    if (n.dimension != 1 || n.tag != tag) continue;
-    if (const auto kind = adcirc_boundary(n.name)) return *kind;
-    name = n.name;
+  const auto [first, last] = names_.equal_range(tag);
+  for (auto named = first; named != last; ++named) {
+    if (const auto kind = adcirc_boundary(named->second)) return *kind;
+    name = named->second;
   }
   job_.warn(text("lines with tag ", tag, name.empty() ? "" : ", ", name,
                  " are written as land boundaries of type 0; the name 'open boundary 1' or 'land boundary 1, type 20' "
@@ -159,29 +170,36 @@ void AdcircWriter::collect_boundaries() {
   for (AdcircString& s : strings_) levee_string(s);
 }
 
-/// The marked point that is each node of the boundary.
-std::map<std::int32_t, std::size_t> AdcircWriter::levees_of(std::int32_t tag, bool paired) const {
+void AdcircWriter::collect_levees() {
   const MeshFile& f = file_;
   const DataArray* side_data = find(f.marked_point_data, kAdcircSide);
   const DataArray* levee_data = find(f.marked_point_data, kAdcircLevee);
-  std::map<std::int32_t, std::size_t> found;
-  if (side_data == nullptr || levee_data == nullptr || levee_data->components != kAdcircLeveeNumbers) return found;
+  if (side_data == nullptr || levee_data == nullptr || levee_data->components != kAdcircLeveeNumbers) return;
   const auto sides = to_int32(side_data->values);
-  if (!sides || side_data->components != 1) return found;
+  if (!sides || side_data->components != 1) return;
+  levee_numbers_ = to_doubles(Values(levee_data->values));
   for (std::size_t i = 0; i < f.marked_points.size(); ++i) {
-    if (f.point_tags[i] != tag || (*sides)[i] != 0) continue;
-    const bool has_partner = i + 1 < f.marked_points.size() && f.point_tags[i + 1] == tag && (*sides)[i + 1] == 1;
-    if (!paired || has_partner) found.emplace(f.marked_points[i], i);
+    if ((*sides)[i] != 0) continue;
+    const TagAndNode node(f.point_tags[i], f.marked_points[i]);
+    const bool has_partner =
+        i + 1 < f.marked_points.size() && f.point_tags[i + 1] == node.first && (*sides)[i + 1] == 1;
+    levees_.emplace(node, i);
+    if (has_partner) paired_levees_.emplace(node, i);
   }
-  return found;
+}
+
+const std::size_t* AdcircWriter::levee(const AdcircString& string, std::int32_t node) const {
+  const auto& levees = adcirc_row(string.kind).paired ? paired_levees_ : levees_;
+  const auto found = levees.find({string.tag, node});
+  return found == levees.end() ? nullptr : &found->second;
 }
 
 /// A boundary whose nodes have lost their levees is written as one that has none.
 void AdcircWriter::levee_string(AdcircString& string) {
   const AdcircRow row = adcirc_row(string.kind);
   if (row.numbers == 0) return;
-  const auto levees = levees_of(string.tag, row.paired);
-  if (std::all_of(string.nodes.begin(), string.nodes.end(), [&](std::int32_t p) { return levees.contains(p); })) return;
+  const auto has_levee = [&](std::int32_t p) { return levee(string, p) != nullptr; };
+  if (std::all_of(string.nodes.begin(), string.nodes.end(), has_levee)) return;
   constexpr std::int32_t kNatural = 20, kTypesOfOneKind = 10;
   const std::int32_t type = string.kind.type == 64 ? kNatural : string.kind.type - string.kind.type % kTypesOfOneKind;
   job_.warn(
@@ -203,16 +221,14 @@ void AdcircWriter::boundaries(bool open) {
     if (s.kind.open != open) continue;
     out_.put(s.nodes.size(), ' ', s.kind.type, " = number of nodes and type of ", which, " boundary ", ++number, '\n');
     const AdcircRow row = adcirc_row(s.kind);
-    const auto levees = row.numbers > 0 ? levees_of(s.tag, row.paired) : std::map<std::int32_t, std::size_t>();
-    const DataArray* data = row.numbers > 0 ? find(file_.marked_point_data, kAdcircLevee) : nullptr;
-    const auto numbers = data == nullptr ? std::vector<double>() : to_doubles(Values(data->values));
     for (const std::int32_t p : s.nodes) {
       out_.put(p + 1);
       if (row.numbers > 0) {
-        const std::size_t at = levees.at(p);
+        const std::size_t at = *levee(s, p);
         if (row.paired) out_.put(' ', file_.marked_points[at + 1] + 1);
         for (int k = 0; k < row.numbers; ++k)
-          out_.put(' ', numbers[at * static_cast<std::size_t>(kAdcircLeveeNumbers) + static_cast<std::size_t>(k)]);
+          out_.put(' ',
+                   levee_numbers_[at * static_cast<std::size_t>(kAdcircLeveeNumbers) + static_cast<std::size_t>(k)]);
       }
       out_.put('\n');
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "io/array_names.hpp"
 #include "io/physical_names.hpp"
 #include "io/scanner.hpp"
 #include "io/values.hpp"
@@ -83,13 +84,16 @@ std::vector<std::int32_t> tags_of(std::vector<DataArray>& arrays) {
 
 void CellSorter::distribute(std::vector<DataArray>&& cell_data) {
   MeshFile& f = document_.file;
+  make_names_unique(cell_data);
   const bool only_triangles = triangle_cells_.size() == n_cells_ && triangle_cells_.counts_from(0);
   for (DataArray& array : cell_data) {
     if (only_triangles) {
       f.cell_data.push_back(std::move(array));
       continue;
     }
+    // One cell may be many lines or points, and each gets its data.
     const auto part = [&](const RunLength& cells) {
+      allowance_.take(cells.size(), static_cast<std::uint64_t>(array.components), document_.names->path);
       return DataArray{array.name, array.components, gather(array.values, array.components, cells)};
     };
     f.cell_data.push_back(part(triangle_cells_));
@@ -124,6 +128,7 @@ void take_physical_names(Document& document) {
 void take_point_data(Document& document, std::vector<DataArray>&& arrays) {
   MeshFile& f = document.file;
   f.point_data = std::move(arrays);
+  make_names_unique(f.point_data);
   const DataArray* weight = find(f.point_data, "weight");
   if (weight == nullptr || weight->components != 1) return;
   f.weights = to_doubles(std::move(take(f.point_data, "weight")->values));

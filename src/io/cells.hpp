@@ -17,7 +17,8 @@ inline constexpr int kVtkVertex = 1, kVtkPolyVertex = 2, kVtkLine = 3, kVtkPolyL
 
 class CellSorter {
  public:
-  explicit CellSorter(Document& document) : document_(document) {}
+  /// Both must outlive the sorter.
+  CellSorter(Document& document, Allowance& allowance) : document_(document), allowance_(allowance) {}
   void reserve(std::size_t triangles) { document_.file.triangles.reserve(triangles); }
   /// The next cell of the file. `where`: for errors.
   void add(int type, const std::int32_t* points, std::size_t n, const std::string& where);
@@ -28,6 +29,7 @@ class CellSorter {
  private:
   void take_tags();
   Document& document_;
+  Allowance& allowance_;
   std::size_t n_cells_ = 0;
   RunLength triangle_cells_, line_cells_, point_cells_;  // which cell of the file each one was
 };
@@ -39,7 +41,7 @@ class CellSorter {
 /// Physical names of the VTK family: lines "dimension tag name" in the bytes of the field array `physical_names`.
 void take_physical_names(Document& document);
 
-/// Point data of the VTK family: `weight` becomes the weights.
+/// Point data of the VTK family: the first `weight` becomes the weights.
 void take_point_data(Document& document, std::vector<DataArray>&& arrays);
 
 }  // namespace temper::io

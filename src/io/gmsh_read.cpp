@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "io/format.hpp"
 #include "io/gmsh.hpp"
@@ -92,7 +93,8 @@ void Elements<N>::sort_by_number() {
 
 class GmshReader {
  public:
-  explicit GmshReader(Source& source) : scanner_(source.path, source.bytes), document_(new_document(source.path)) {}
+  explicit GmshReader(Source& source)
+      : scanner_(source.path, source.bytes), document_(new_document(source.path)), allowance_(source.allowance) {}
   Document read();
 
  private:
@@ -139,6 +141,7 @@ class GmshReader {
 
   Scanner scanner_;
   Document document_;
+  Allowance& allowance_;
   bool binary_ = false, swap_ = false, version4_ = false, has_nodes_ = false, has_elements_ = false;
   std::optional<NumberLookup> lookup_;
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> physical_of_entity_;
@@ -147,6 +150,7 @@ class GmshReader {
   Elements<2> lines_;
   Elements<1> points_;
   std::optional<NumberLookup> triangle_lookup_, line_lookup_, point_lookup_;
+  std::set<std::string> node_data_, element_data_;  // names
 };
 
 Document GmshReader::read() {
@@ -191,7 +195,7 @@ void GmshReader::mesh_format() {
   const std::string version(scanner_.word("the version"));
   version4_ = version == "4.1";
   if (!version4_ && !version.starts_with('2')) {
-    scanner_.fail_here(ErrorCode::unsupported, text("is Gmsh MSH ", version, "; temper reads 2 and 4.1"));
+    scanner_.fail_here(ErrorCode::unsupported, text("is Gmsh MSH ", in_quotes(version), "; temper reads 2 and 4.1"));
   }
   const std::int32_t type = scanner_.integer("the file type");
   const std::int32_t data_size = scanner_.integer("the data size");
@@ -429,16 +433,19 @@ void GmshReader::data(const std::string& section_name) {
   const auto components = static_cast<std::size_t>(integers[1]), entries = static_cast<std::size_t>(integers[2]);
   scanner_.check_room(entries, "entries", binary_ ? 4 + 8 * components : 2 + 2 * components);
   if (binary_) scanner_.next_line();
-  const MeshFile& f = document_.file;
   const bool nodes = section_name == "NodeData";
-  const bool known = nodes ? find(f.point_data, name) != nullptr || (name == "weight" && !f.weights.empty())
-                           : find(f.cell_data, name) != nullptr || find(f.line_data, name) != nullptr;
-  if (known) name = text(name, "@", time);
+  auto& names = nodes ? node_data_ : element_data_;
+  if (names.contains(name)) {
+    name = text(name, "@", time);
+  } else if (nodes || entries > 0) {
+    names.insert(name);
+  }
   nodes ? node_values(name, components, entries) : element_values(name, components, entries);
 }
 
 void GmshReader::node_values(const std::string& name, std::size_t components, std::size_t entries) {
   MeshFile& f = document_.file;
+  allowance_.take(f.points.size(), components, where());
   std::vector<double> values(f.points.size() * components, std::numeric_limits<double>::quiet_NaN());
   std::vector<bool> given(f.points.size());
   for (std::size_t i = 0; i < entries; ++i) {
@@ -494,7 +501,10 @@ void GmshReader::element_values(const std::string& name, std::size_t components,
       fail(ErrorCode::index_out_of_range, where(),
            text("element data ", in_quotes(name), " are given for element ", number, ", which is none"));
     }
-    if (target->values.empty()) target->values.assign(target->n * components, std::numeric_limits<double>::quiet_NaN());
+    if (target->values.empty()) {
+      allowance_.take(target->n, components, where());
+      target->values.assign(target->n * components, std::numeric_limits<double>::quiet_NaN());
+    }
     ++target->given;
     for (std::size_t k = 0; k < components; ++k)
       target->values[index * components + k] = get<double>("a value of element data");

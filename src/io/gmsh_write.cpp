@@ -160,7 +160,7 @@ void GmshWriter::write() {
 void GmshWriter::physical_names() {
   if (file_.names.empty()) return;
   out_.put("$PhysicalNames\n", file_.names.size(), '\n');
-  for (const PhysicalName& n : file_.names) out_.put(n.dimension, ' ', n.tag, " \"", n.name, "\"\n");
+  for (const PhysicalName& n : file_.names) out_.put(n.dimension, ' ', n.tag, " \"", job_.written(n.name), "\"\n");
   out_.put("$EndPhysicalNames\n", "");
 }
 
@@ -287,7 +287,7 @@ void GmshWriter::note_type(const DataArray& array, std::string_view kind) const 
 }
 
 void GmshWriter::data_header(std::string_view section, const std::string& name, int components, std::size_t entries) {
-  out_.put("$", section, "\n1\n\"", name, "\"\n1\n0\n3\n0\n", components, '\n', entries, '\n');
+  out_.put("$", section, "\n1\n\"", job_.written(name), "\"\n1\n0\n3\n0\n", components, '\n', entries, '\n');
 }
 
 void GmshWriter::data_row(std::int32_t number, const double* values, std::size_t components, std::size_t padded) {
@@ -325,11 +325,13 @@ void GmshWriter::node_data() {
 }
 
 void GmshWriter::element_data() {
-  std::vector<std::string> done = {std::string(kGmshEntity)};
+  std::set<std::string_view> done = {kGmshEntity};
+  const std::pair<const Kind*, ArraysByName> named[] = {{&points_, ArraysByName(*points_.data)},
+                                                        {&lines_, ArraysByName(*lines_.data)},
+                                                        {&triangles_, ArraysByName(*triangles_.data)}};
   for (const Kind* leading : kinds()) {
     for (const DataArray& a : *leading->data) {
-      if (std::find(done.begin(), done.end(), a.name) != done.end()) continue;
-      done.push_back(a.name);
+      if (!done.insert(a.name).second) continue;
       const int padded = components_in_gmsh(a, "cell data");
       if (padded == 0) continue;
       note_type(a, "cell data");
@@ -337,8 +339,8 @@ void GmshWriter::element_data() {
       std::vector<std::pair<const Kind*, std::vector<double>>> parts;
       std::size_t rows = 0;
       const auto c = static_cast<std::size_t>(a.components);
-      for (const Kind* kind : kinds()) {
-        const DataArray* same = find(*kind->data, a.name);
+      for (const auto& [kind, arrays] : named) {
+        const DataArray* same = arrays.find(a.name);
         if (same == nullptr || same->components != a.components) continue;
         parts.emplace_back(kind, to_doubles(Values(same->values)));
         for (std::size_t i = 0; i < kind->n; ++i) rows += has_value(&parts.back().second[i * c], c);

@@ -37,7 +37,7 @@ Source load(const std::string& path) {
   const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
   if (!file) fail(ErrorCode::not_found, path, text("cannot be read: ", std::strerror(errno)));
 
-  Source source{path, {}};
+  Source source{.path = path, .bytes = {}};
   constexpr std::size_t kChunk = 1 << 16;
   const auto size = std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
   source.bytes.reserve((error ? 0 : size) + kChunk);  // the last look for more bytes must not move them all
@@ -53,6 +53,7 @@ Source load(const std::string& path) {
   }
   if (std::ferror(file.get())) fail(ErrorCode::not_found, path, text("cannot be read: ", std::strerror(errno)));
   if (source.bytes.empty()) fail(ErrorCode::empty_input, path, "the file is empty");
+  source.allowance = Allowance(source.bytes.size());
   return source;
 }
 

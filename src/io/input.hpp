@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "io/allowance.hpp"
 #include "io/failure.hpp"
 #include "io/file_names.hpp"
 #include "temper/io.hpp"
@@ -14,6 +15,7 @@ struct Source {
   std::string path;   ///< as the user gave it
   std::string bytes;  ///< readers may overwrite it while they decode
   Executor* executor = nullptr;
+  Allowance allowance = {};
 };
 
 /// Reads a file, or says why not: missing, a directory, empty.

@@ -74,7 +74,7 @@ std::string decoded(std::string_view name) {
 class LegacyVtkReader {
  public:
   explicit LegacyVtkReader(Source& source)
-      : scanner_(source.path, source.bytes), document_(new_document(source.path)) {}
+      : scanner_(source.path, source.bytes), document_(new_document(source.path)), allowance_(source.allowance) {}
   Document read();
 
  private:
@@ -107,6 +107,7 @@ class LegacyVtkReader {
 
   Scanner scanner_;
   Document document_;
+  Allowance& allowance_;
   double version_ = 0;
   bool binary_ = false, poly_ = false, has_points_ = false;
   CellArray cells_;
@@ -222,12 +223,13 @@ std::vector<std::int32_t> LegacyVtkReader::integers(Scalar scalar, std::size_t n
 // --- geometry and cells ----------------------------------------------------------------------------------
 
 void LegacyVtkReader::points() {
+  // Data may have been read already, one tuple a point.
+  if (has_points_) scanner_.fail_here(ErrorCode::syntax, "has a second section POINTS");
   const std::size_t n = scanner_.count("points", 3);
   const Scalar scalar = type(scanner_.word("a type"), "POINTS");
   MeshFile& f = document_.file;
   FileNames& names = *document_.names;
   names.points = RunLength(0, n);
-  f.points.clear();
   PlaneCheck plane(document_);
   if (binary_) {
     const std::vector<double> all = to_doubles(values(scalar, 3 * n, "POINTS"));
@@ -324,7 +326,7 @@ void LegacyVtkReader::finish_cells() {
     fail(ErrorCode::size_mismatch, scanner_.path(),
          text("has ", cells_.ends.size(), " CELLS and ", types_.size(), " CELL_TYPES"));
   }
-  CellSorter sorter(document_);
+  CellSorter sorter(document_, allowance_);
   RunLength triangle_lines, line_lines;
   const auto add_all = [&](const CellArray& array, auto type_of) {
     std::int32_t start = 0;
@@ -371,7 +373,6 @@ void LegacyVtkReader::add_attribute(DataArray&& array) {
               " times ", array.components));
   }
   auto& list = attributes_ == Attributes::points ? point_data_ : cell_data_;
-  array.name = unique_name(list, std::move(array.name));
   list.push_back(std::move(array));
 }
 

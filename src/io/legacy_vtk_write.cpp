@@ -3,6 +3,7 @@
 //
 // Version 3.0 is what every reader of the format takes: a cell is its number of points and the points. Version 5.1 has
 // OFFSETS and CONNECTIVITY, and names for 64-bit integers that mean the same on every system.
+#include "io/array_names.hpp"
 #include "io/vtk_arrays.hpp"
 
 namespace temper::io {
@@ -15,14 +16,13 @@ constexpr std::string_view kLegacyTypeNames[] = {"double", "float", "long",     
 
 /// Names end at a blank, so blanks and all that is not ASCII are written as %20.
 std::string encoded(std::string_view name) {
-  constexpr std::string_view kHex = "0123456789ABCDEF";
   std::string result;
   for (const char c : name) {
     const auto code = static_cast<unsigned char>(c);
     if (code > 32 && code < 127 && c != '%' && c != '"') {
       result += c;
     } else {
-      result += {'%', kHex[code >> 4], kHex[code & 15]};
+      append_percent(result, c);
     }
   }
   return result;

@@ -1,6 +1,7 @@
 // Warnings of losses: they name what a mesh file has and the format written has no place for, for all formats alike.
 #include <algorithm>
 
+#include "io/array_names.hpp"
 #include "io/format.hpp"
 
 namespace temper::io {
@@ -21,13 +22,21 @@ std::string has_no_place_for(const WriteJob& job, std::string_view what) {
   return text(" not written, ", job.row.description, " has no place for ", what);
 }
 
-std::string list_of(const std::vector<std::string_view>& names) {
-  std::string list;
-  for (const std::string_view name : names) list += text(list.empty() ? "" : ", ", name);
-  return list;
-}
-
 }  // namespace
+
+std::string WriteJob::written(std::string_view name) const {
+  if (row.name_ends.empty() || name.find_first_of(row.name_ends) == std::string_view::npos) return std::string(name);
+  std::string result;
+  for (const char c : name) {
+    if (row.name_ends.find(c) == std::string_view::npos) {
+      result += c;
+    } else {
+      append_percent(result, c);
+    }
+  }
+  warn(text("the name '", name, "' is written as '", result, "': in ", row.description, " it would end early"));
+  return result;
+}
 
 void warn_of_losses(const WriteJob& job) {
   const MeshFile& f = job.file;

@@ -54,6 +54,8 @@ class MeditReader {
   void edges();
   void triangles();
   void refuse_or_skip(std::string_view keyword);
+  /// The numbers that sections of this row have listed so far.
+  std::vector<std::int32_t>& flags_of(const FlagSection& section);
   void set_flags(const FlagSection& section, const std::vector<std::int32_t>& numbers);
   std::size_t count_of(std::vector<DataArray> MeshFile::*data) const;
 
@@ -99,9 +101,9 @@ void MeditReader::section(std::string_view keyword) {
   } else {
     for (const FlagSection& flag_section : kFlagSections) {
       if (flag_section.keyword != keyword) continue;
-      std::vector<std::int32_t> numbers(scanner_.count("entries", 2));
-      for (std::int32_t& n : numbers) n = scanner_.integer("the number of an element");
-      flags_.emplace_back(&flag_section, std::move(numbers));
+      std::vector<std::int32_t>& numbers = flags_of(flag_section);
+      for (std::size_t n = scanner_.count("entries", 2); n > 0; --n)
+        numbers.push_back(scanner_.integer("the number of an element"));
       return;
     }
     refuse_or_skip(keyword);
@@ -169,6 +171,13 @@ void MeditReader::refuse_or_skip(std::string_view keyword) {
     if (!number) return;
     scanner_.word("a number");
   }
+}
+
+std::vector<std::int32_t>& MeditReader::flags_of(const FlagSection& flag_section) {
+  for (auto& [row, numbers] : flags_) {
+    if (row == &flag_section) return numbers;
+  }
+  return flags_.emplace_back(&flag_section, std::vector<std::int32_t>()).second;
 }
 
 std::size_t MeditReader::count_of(std::vector<DataArray> MeshFile::*data) const {

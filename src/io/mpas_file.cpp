@@ -7,6 +7,7 @@
 #include <array>
 #include <set>
 
+#include "io/array_names.hpp"
 #include "io/mpas.hpp"
 #include "io/netcdf_extras.hpp"
 #include "io/scanner.hpp"
@@ -137,7 +138,7 @@ class MpasReader {
 
   /// Other numbers of cells and vertices are data of points and triangles.
   void data() {
-    std::string dropped;
+    std::vector<std::string_view> dropped;
     for (const NetcdfVariable& v : in_.variables()) {
       if (kMpasDerived.contains(v.name) || v.name == kMpasWeight || is_netcdf_extra(in_, v)) continue;
       const std::string dimension = v.dimensions.size() == 1 ? in_.dimension_name(v.dimensions[0]) : "";
@@ -148,11 +149,11 @@ class MpasReader {
         DataArray& a = document_.file.cell_data.back();
         if (!all_triangles_) a.values = gather(a.values, 1, kept_);
       } else {
-        dropped += text(dropped.empty() ? "" : ", ", v.name);
+        dropped.push_back(v.name);
       }
     }
     if (!dropped.empty())
-      document_.file.warnings.push_back(text(document_.names->path, ": variables are dropped: ", dropped));
+      document_.file.warnings.push_back(text(document_.names->path, ": variables are dropped: ", list_of(dropped)));
   }
 
   const NetcdfReader& in_;

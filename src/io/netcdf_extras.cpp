@@ -145,7 +145,7 @@ void read_own_data(const NetcdfReader& in, Document& document, const NetcdfVaria
   if (kind.name == "line") expect_rows(document, v, f.lines.size());
   if (kind.name == "marked") expect_rows(document, v, f.marked_points.size());
   auto& arrays = f.*kind.data;
-  arrays.push_back({unique_name(arrays, std::move(name)), static_cast<int>(components), in.values(v)});
+  arrays.push_back({std::move(name), static_cast<int>(components), in.values(v)});
 }
 
 }  // namespace
@@ -195,7 +195,7 @@ void read_netcdf_extras(const NetcdfReader& in, Document& document) {
 }
 
 void add_netcdf_data(const NetcdfReader& in, const NetcdfVariable& v, std::vector<DataArray>& arrays) {
-  arrays.push_back({unique_name(arrays, v.name), 1, in.values(v)});
+  arrays.push_back({v.name, 1, in.values(v)});
 }
 
 NetcdfMesh mesh_for_netcdf(const WriteJob& job, std::string_view format) {

@@ -50,7 +50,8 @@ NetcdfId::~NetcdfId() {
   if (id_ >= 0) nc_abort(id_);
 }
 
-NetcdfReader::NetcdfReader(Source& source) : path_(source.path), bytes_(source.bytes.size()) {
+NetcdfReader::NetcdfReader(Source& source)
+    : path_(source.path), bytes_(source.bytes.size()), allowance_(source.allowance) {
   check_netcdf_header(source);
   check(nc_open_mem(path_.c_str(), NC_NOWRITE, source.bytes.size(), source.bytes.data(), id_.to_open()),
         "read the file");
@@ -97,16 +98,17 @@ std::string NetcdfReader::dimension_name(int dimension) const {
   return name;
 }
 
-// Data may be larger than the file when they are compressed, but not beyond measure: zlib packs at most 1032 to 1.
+// Data may be larger than the file when they are compressed, and several variables may be the same bytes of it.
 Values NetcdfReader::values(const NetcdfVariable& v) const {
   if (!v.scalar) fail(ErrorCode::unsupported, path_, text("variable ", v.name, " holds no numbers"));
-  constexpr std::size_t kMostPacked = 1032;
-  std::size_t room = bytes_ * kMostPacked / info(*v.scalar).bytes;
+  if (std::find(v.sizes.begin(), v.sizes.end(), 0u) != v.sizes.end()) return zeros(*v.scalar, 0);
+  const std::string where = text(path_, ": variable ", v.name);
+  std::uint64_t rows = 1;
   for (const std::size_t size : v.sizes) {
-    if (size == 0) return zeros(*v.scalar, 0);
-    room /= size;
+    allowance_.check(rows, size, where);
+    rows *= size;
   }
-  if (room == 0) fail(ErrorCode::truncated, path_, text("variable ", v.name, " announces more than the file holds"));
+  allowance_.take(rows, 1, where);
   Values result = zeros(*v.scalar, v.n_values());
   std::visit([&](auto& values) { check(nc_get_var(id_, v.id, values.data()), text("read variable ", v.name)); },
              result);

@@ -75,6 +75,7 @@ class NetcdfReader {
 
   const std::string& path_;
   std::size_t bytes_;
+  Allowance& allowance_;
   NetcdfId id_;
   std::vector<NetcdfVariable> variables_;
 };

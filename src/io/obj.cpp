@@ -5,7 +5,10 @@
 //   g inlet              any other name: numbered from 1 in the order of appearance, the name becomes a physical name
 #include <algorithm>
 #include <array>
+#include <map>
+#include <set>
 
+#include "io/array_names.hpp"
 #include "io/format.hpp"
 #include "io/scanner.hpp"
 
@@ -43,6 +46,8 @@ class ObjReader {
   std::string group_name_;                        // physical name of the current group, or empty
   std::array<std::int32_t, 3> tags_ = {0, 0, 0};  // of the current group, by dimension
   std::int32_t last_number_ = 0;
+  std::map<std::string, std::int32_t> tag_of_name_;  // of the names that are kept
+  std::set<std::pair<int, std::int32_t>> named_;     // dimension and tag of each
   bool has_regions_ = false;
   std::vector<std::string> ignored_;
 };
@@ -167,71 +172,81 @@ void ObjReader::group() {
     return;
   }
   group_name_ = all;
-  const auto& names = document_.file.names;
-  const auto known =
-      std::find_if(names.begin(), names.end(), [&](const PhysicalName& n) { return n.name == group_name_; });
-  const std::int32_t tag = known != names.end() ? known->tag : ++last_number_;
+  const auto known = tag_of_name_.find(group_name_);
+  const std::int32_t tag = known != tag_of_name_.end() ? known->second : ++last_number_;
   tags_ = {tag, tag, tag};
 }
 
 void ObjReader::keep_name(int dimension) {
   if (group_name_.empty()) return;
   const std::int32_t tag = tags_[static_cast<std::size_t>(dimension)];
-  auto& names = document_.file.names;
-  const bool known = std::any_of(names.begin(), names.end(),
-                                 [&](const PhysicalName& n) { return n.dimension == dimension && n.tag == tag; });
-  if (!known) names.push_back({dimension, tag, group_name_});
+  if (!named_.emplace(dimension, tag).second) return;
+  document_.file.names.push_back({dimension, tag, group_name_});
+  tag_of_name_.emplace(group_name_, tag);
 }
 
 // --- writing ---------------------------------------------------------------------------------------------
 
-/// The group line of a tag, when it is another than that of the element before.
-void put_group(Output& out, const MeshFile& f, int dimension, std::int32_t tag) {
-  out.put("g ", kGroupPrefix[static_cast<std::size_t>(dimension)], tag);
-  for (const PhysicalName& n : f.names) {
-    if (n.dimension == dimension && n.tag == tag) {
-      out.put(' ', n.name);
-      break;
-    }
+/// Writes elements of one dimension after the other, each under the group line of its tag.
+class ObjWriter {
+ public:
+  explicit ObjWriter(const WriteJob& job) : job_(job), file_(job.file), out_(job.outputs.open(job.path)) {
+    for (const PhysicalName& n : file_.names) name_of_.emplace(std::pair(n.dimension, n.tag), n.name);
   }
-  out.put('\n');
-}
 
-void warn_of_unused_names(const WriteJob& job) {
-  const MeshFile& f = job.file;
-  std::string unused;
-  for (const PhysicalName& n : f.names) {
-    const auto& tags = n.dimension == 0 ? f.point_tags : n.dimension == 1 ? f.line_tags : f.regions;
-    if (std::find(tags.begin(), tags.end(), n.tag) == tags.end()) unused += text(unused.empty() ? "" : ", ", n.name);
+  void write() {
+    const MeshFile& f = file_;
+    for (const Vec2 p : f.points) out_.put("v ", p.x, ' ', p.y, ' ', f.z, '\n');
+    for (std::size_t i = 0; i < f.triangles.size(); ++i) {
+      if (!f.regions.empty()) group(2, f.regions[i]);
+      const auto& t = f.triangles[i];
+      out_.put("f ", t[0] + 1, ' ', t[1] + 1, ' ', t[2] + 1, '\n');
+    }
+    for (std::size_t i = 0; i < f.lines.size(); ++i) {
+      group(1, f.line_tags[i]);
+      out_.put("l ", f.lines[i][0] + 1, ' ', f.lines[i][1] + 1, '\n');
+    }
+    for (std::size_t i = 0; i < f.marked_points.size(); ++i) {
+      group(0, f.point_tags[i]);
+      out_.put("p ", f.marked_points[i] + 1, '\n');
+    }
+    warn_of_unused_names();
   }
-  if (!unused.empty()) job.warn(text("physical names of nothing are not written: ", unused));
-}
+
+ private:
+  using Group = std::pair<int, std::int32_t>;  // dimension and tag
+
+  /// The group line, when the element before was of another one.
+  void group(int dimension, std::int32_t tag) {
+    const Group next(dimension, tag);
+    if (last_ == next) return;
+    last_ = next;
+    used_.insert(next);
+    out_.put("g ", kGroupPrefix[static_cast<std::size_t>(dimension)], tag);
+    if (const auto name = name_of_.find(next); name != name_of_.end()) out_.put(' ', name->second);
+    out_.put('\n');
+  }
+
+  void warn_of_unused_names() {
+    std::vector<std::string_view> unused;
+    for (const PhysicalName& n : file_.names) {
+      if (!used_.contains({n.dimension, n.tag})) unused.push_back(n.name);
+    }
+    if (!unused.empty()) job_.warn(text("physical names of nothing are not written: ", list_of(unused)));
+  }
+
+  const WriteJob& job_;
+  const MeshFile& file_;
+  Output& out_;
+  std::map<Group, std::string_view> name_of_;
+  std::optional<Group> last_;
+  std::set<Group> used_;
+};
 
 }  // namespace
 
 Document read_obj(Source& source) { return ObjReader(source).read(); }
 
-void write_obj(const WriteJob& job) {
-  const MeshFile& f = job.file;
-  Output& out = job.outputs.open(job.path);
-  for (const Vec2 p : f.points) out.put("v ", p.x, ' ', p.y, ' ', f.z, '\n');
-  std::optional<std::int32_t> group;
-  for (std::size_t i = 0; i < f.triangles.size(); ++i) {
-    if (!f.regions.empty() && group != f.regions[i]) put_group(out, f, 2, *(group = f.regions[i]));
-    const auto& t = f.triangles[i];
-    out.put("f ", t[0] + 1, ' ', t[1] + 1, ' ', t[2] + 1, '\n');
-  }
-  group.reset();
-  for (std::size_t i = 0; i < f.lines.size(); ++i) {
-    if (group != f.line_tags[i]) put_group(out, f, 1, *(group = f.line_tags[i]));
-    out.put("l ", f.lines[i][0] + 1, ' ', f.lines[i][1] + 1, '\n');
-  }
-  group.reset();
-  for (std::size_t i = 0; i < f.marked_points.size(); ++i) {
-    if (group != f.point_tags[i]) put_group(out, f, 0, *(group = f.point_tags[i]));
-    out.put("p ", f.marked_points[i] + 1, '\n');
-  }
-  warn_of_unused_names(job);
-}
+void write_obj(const WriteJob& job) { ObjWriter(job).write(); }
 
 }  // namespace temper::io

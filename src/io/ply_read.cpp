@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <map>
 
 #include "io/cells.hpp"
 #include "io/format.hpp"
@@ -37,15 +38,16 @@ struct PlyElement {
   std::vector<std::int32_t> corners, ends;  // of vertex_indices: ends[i] is where those of face i end
 };
 
-/// An array that is several properties.
+/// An array that is several properties: name_0, name_1, …
 struct PlyJoined {
-  std::string element, name;
-  int components = 1;
+  std::string name;
+  std::size_t components = 1;
 };
 
 class PlyReader {
  public:
-  explicit PlyReader(Source& source) : scanner_(source.path, source.bytes), document_(new_document(source.path)) {}
+  explicit PlyReader(Source& source)
+      : scanner_(source.path, source.bytes), document_(new_document(source.path)), allowance_(source.allowance) {}
   Document read();
 
  private:
@@ -65,6 +67,8 @@ class PlyReader {
   PlyElement* find_element(std::string_view name);
   static std::optional<Values> take(PlyElement& element, std::string_view name);
   std::vector<DataArray> take_data(PlyElement& element) const;
+  /// The array that begins with property i of the element, when its properties follow one another; else null.
+  const PlyJoined* joined_at(const PlyElement& element, std::size_t i) const;
   void vertices(PlyElement& element);
   void faces(PlyElement& element);
   void edges(PlyElement& element);
@@ -72,10 +76,12 @@ class PlyReader {
 
   Scanner scanner_;
   Document document_;
+  Allowance& allowance_;
   bool binary_ = false;
   std::endian endian_ = std::endian::native;
   std::vector<PlyElement> elements_;
-  std::vector<PlyJoined> joined_;
+  std::map<std::string, std::size_t, std::less<>> element_of_name_;
+  std::map<std::pair<std::string, std::string>, PlyJoined> joined_;  // of an element and a first property
 };
 
 Document PlyReader::read() {
@@ -95,8 +101,8 @@ Document PlyReader::read() {
 }
 
 PlyElement* PlyReader::find_element(std::string_view name) {
-  const auto it = std::find_if(elements_.begin(), elements_.end(), [&](const PlyElement& e) { return e.name == name; });
-  return it == elements_.end() ? nullptr : &*it;
+  const auto it = element_of_name_.find(name);
+  return it == element_of_name_.end() ? nullptr : &elements_[it->second];
 }
 
 // --- the header ------------------------------------------------------------------------------------------
@@ -143,11 +149,11 @@ void PlyReader::comment(std::string_view words) {
   if (!array && !name) return;
   Scanner line(scanner_.path(), words.substr((array ? kPlyArrayComment : kPlyNameComment).size()));
   if (array) {
-    PlyJoined joined;
-    joined.element = line.word("an element");
-    joined.components = line.integer("a number of components");
-    joined.name = line.word("the name of an array");
-    joined_.push_back(std::move(joined));
+    const std::string owner(line.word("an element"));
+    const std::int32_t components = line.integer("a number of components");
+    const std::string joined(line.word("the name of an array"));
+    if (components > 1)
+      joined_.emplace(std::pair(owner, text(joined, "_0")), PlyJoined{joined, static_cast<std::size_t>(components)});
   } else {
     document_.file.names.push_back(read_physical_name(line));
   }
@@ -159,7 +165,7 @@ void PlyReader::element(Scanner& line) {
   const auto n = line.number<std::int64_t>("the number of elements");
   if (n < 0) fail(ErrorCode::syntax, line.path(), text("expected the number of elements, found ", n));
   e.n = static_cast<std::size_t>(n);
-  if (find_element(e.name) != nullptr)
+  if (!element_of_name_.emplace(e.name, elements_.size()).second)
     fail(ErrorCode::syntax, line.path(), text("declares element ", in_quotes(e.name), " a second time"));
   elements_.push_back(std::move(e));
 }
@@ -275,22 +281,10 @@ std::vector<DataArray> PlyReader::take_data(PlyElement& e) const {
   const auto& properties = e.properties;
   for (std::size_t i = 0; i < properties.size(); ++i) {
     if (properties[i].count) continue;
-    std::size_t n = 1;
-    std::string name = properties[i].name;
-    for (const PlyJoined& j : joined_) {
-      if (j.element != e.name || j.components < 2 || name != text(j.name, "_0")) continue;
-      const auto wanted = static_cast<std::size_t>(j.components);
-      while (n < wanted && i + n < properties.size() && !properties[i + n].count &&
-             properties[i + n].name == text(j.name, "_", n) && properties[i + n].scalar == properties[i].scalar) {
-        ++n;
-      }
-      if (n == wanted) {
-        name = j.name;
-        break;
-      }
-      n = 1;
-    }
-    DataArray array{unique_name(arrays, std::move(name)), static_cast<int>(n), zeros(properties[i].scalar, e.n * n)};
+    const PlyJoined* joined = joined_at(e, i);
+    const std::size_t n = joined == nullptr ? 1 : joined->components;
+    DataArray array{joined == nullptr ? properties[i].name : joined->name, static_cast<int>(n),
+                    zeros(properties[i].scalar, e.n * n)};
     std::visit(
         [&](auto& v) {
           for (std::size_t k = 0; k < n; ++k) {
@@ -303,6 +297,19 @@ std::vector<DataArray> PlyReader::take_data(PlyElement& e) const {
     i += n - 1;
   }
   return arrays;
+}
+
+const PlyJoined* PlyReader::joined_at(const PlyElement& e, std::size_t i) const {
+  const auto it = joined_.find({e.name, e.properties[i].name});
+  if (it == joined_.end()) return nullptr;
+  for (std::size_t n = 1; n < it->second.components; ++n) {
+    if (i + n >= e.properties.size()) return nullptr;
+    const PlyProperty& next = e.properties[i + n];
+    const bool follows =
+        !next.count && next.scalar == e.properties[i].scalar && next.name == text(it->second.name, "_", n);
+    if (!follows) return nullptr;
+  }
+  return &it->second;
 }
 
 void PlyReader::vertices(PlyElement& e) {
@@ -342,7 +349,7 @@ void PlyReader::faces(PlyElement& e) {
       document_.file.warnings.push_back(text(scanner_.path(), ": lists ", in_quotes(p.name), " of faces are dropped"));
   }
   const auto tags = document_.file.point_tags;  // of vertices
-  CellSorter sorter(document_);
+  CellSorter sorter(document_, allowance_);
   sorter.reserve(e.n);
   std::int32_t start = 0;
   for (std::size_t i = 0; i < e.n; ++i) {

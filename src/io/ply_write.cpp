@@ -1,6 +1,7 @@
 // Writes PLY: weights as a property of type double, lines as elements edge, in ASCII or in the machine's byte order.
 #include <algorithm>
 #include <bit>
+#include <set>
 
 #include "io/format.hpp"
 #include "io/physical_names.hpp"
@@ -26,7 +27,7 @@ class PlyWriter {
  private:
   using Arrays = std::vector<const DataArray*>;
   /// Those of the arrays that PLY can hold beside the properties in `taken`; the others are named in warnings.
-  Arrays choose(const std::vector<DataArray>& arrays, std::string_view element, std::vector<std::string> taken);
+  Arrays choose(const std::vector<DataArray>& arrays, std::string_view element, std::set<std::string> taken);
   void declare(const Arrays& arrays);
   void header();
   template <class T>
@@ -46,7 +47,7 @@ class PlyWriter {
 };
 
 PlyWriter::Arrays PlyWriter::choose(const std::vector<DataArray>& arrays, std::string_view element,
-                                    std::vector<std::string> taken) {
+                                    std::set<std::string> taken) {
   Arrays chosen;
   std::vector<std::string_view> dropped;
   std::string comments;
@@ -56,12 +57,12 @@ PlyWriter::Arrays PlyWriter::choose(const std::vector<DataArray>& arrays, std::s
                 std::all_of(a.name.begin(), a.name.end(), [](char c) { return c > 32 && c < 127; });
     std::vector<std::string> names;
     for (int k = 0; k < a.components; ++k) names.push_back(a.components == 1 ? a.name : text(a.name, "_", k));
-    for (const std::string& name : names) fits = fits && std::find(taken.begin(), taken.end(), name) == taken.end();
+    for (const std::string& name : names) fits = fits && !taken.contains(name);
     if (!fits) {
       dropped.push_back(a.name);
       continue;
     }
-    taken.insert(taken.end(), names.begin(), names.end());
+    taken.insert(names.begin(), names.end());
     chosen.push_back(&a);
     if (a.components > 1) comments += text("comment ", kPlyArrayComment, element, " ", a.components, " ", a.name, "\n");
   }

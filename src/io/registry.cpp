@@ -8,6 +8,7 @@
 #include <iterator>
 #include <new>
 
+#include "io/array_names.hpp"
 #include "io/format.hpp"
 #include "io/scanner.hpp"
 
@@ -69,8 +70,10 @@ namespace {
 // Of two rows that recognise a file, or have its suffix, the first is taken.
 constexpr FormatRow kRows[] = {
     {"vtu", "VTK XML unstructured grid, temper's own", ".vtu", kAll, sniff_vtu, read_vtu, write_vtu},
-    {"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", kAll & ~kFieldData, sniff_gmsh41, read_gmsh, write_gmsh41},
-    {"gmsh22", "Gmsh MSH 2.2", ".msh2", kAll & ~kFieldData, sniff_gmsh22, read_gmsh, write_gmsh22},
+    {"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", kAll & ~kFieldData, sniff_gmsh41, read_gmsh, write_gmsh41, nullptr,
+     nullptr, 1, "\""},
+    {"gmsh22", "Gmsh MSH 2.2", ".msh2", kAll & ~kFieldData, sniff_gmsh22, read_gmsh, write_gmsh22, nullptr, nullptr, 1,
+     "\""},
     {"medit", "medit (INRIA, Mmg)", ".mesh", kZ | kAllTags, sniff_medit, read_medit, write_medit, medit_keeps},
     {"jigsaw", "JIGSAW mesh", ".jigsaw.msh", kZ | kWeights | kAllTags, sniff_jigsaw, read_jigsaw_mesh,
      write_jigsaw_mesh, jigsaw_keeps},
@@ -111,6 +114,22 @@ const FormatRow& recognise(const Source& source) {
   fail(ErrorCode::syntax, source.path, text("is none of the formats that temper reads: ", names));
 }
 
+/// Names of their own for all arrays of a kind, without what a terminal or a text file would take for more than a name.
+void tidy_names(MeshFile& file) {
+  make_names_plain(file);
+  for (auto* arrays : {&file.point_data, &file.cell_data, &file.line_data, &file.marked_point_data, &file.field_data})
+    make_names_unique(*arrays);
+}
+
+/// A file of a hundred thousand sections that temper drops needs no warning for each.
+void tidy_warnings(MeshFile& file) {
+  constexpr std::size_t kMost = 20;
+  const std::size_t n = file.warnings.size();
+  if (n <= kMost) return;
+  file.warnings.resize(kMost - 1);
+  file.warnings.push_back(text(file.path, ": ", n - kMost + 1, " more warnings like these"));
+}
+
 MeshFile read_or_throw(const std::string& path, const ReadOptions& options) {
   Source source = load(path);
   source.executor = options.executor;
@@ -122,6 +141,8 @@ MeshFile read_or_throw(const std::string& path, const ReadOptions& options) {
   read_side_file(document);
   document.file.path = path;
   document.file.numbering = document.names;
+  tidy_names(document.file);
+  tidy_warnings(document.file);
   constexpr std::size_t kLarge = std::size_t{1} << 20;  // below it does not count, and reading is fast
   if (document.file.points.size() + document.file.triangles.size() > kLarge) give_memory_back();
   return std::move(document.file);
@@ -234,6 +255,7 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
   return guarded<std::vector<std::string>>(path, [&] {
     const FormatRow& row = row_to_write(path, options.format);
     check_sizes(path, file);
+    check_names(path, file);
     std::vector<std::string> warnings;
     OutputSet outputs;
     const WriteJob job = {path, file, row, options.encoding, options.executor, outputs, warnings};

@@ -10,6 +10,7 @@
 #include <limits>
 #include <set>
 
+#include "io/array_names.hpp"
 #include "io/netcdf_extras.hpp"
 #include "io/scanner.hpp"
 
@@ -121,7 +122,7 @@ class UgridReader {
       static_cast<void>(named(attribute));
     }
     used_.insert(topology_.name);
-    std::string dropped;
+    std::vector<std::string_view> dropped;
     for (const NetcdfVariable& v : in_.variables()) {
       if (used_.contains(v.name) || is_netcdf_extra(in_, v)) continue;
       const bool one = v.scalar && v.dimensions.size() == 1;
@@ -130,10 +131,11 @@ class UgridReader {
       } else if (one && v.dimensions[0] == face_dimension_) {
         add_netcdf_data(in_, v, document_.file.cell_data);
       } else {
-        dropped += text(dropped.empty() ? "" : ", ", v.name);
+        dropped.push_back(v.name);
       }
     }
-    if (!dropped.empty()) document_.file.warnings.push_back(text(path(), ": variables are dropped: ", dropped));
+    if (!dropped.empty())
+      document_.file.warnings.push_back(text(path(), ": variables are dropped: ", list_of(dropped)));
   }
 
   const NetcdfReader& in_;

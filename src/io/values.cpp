@@ -111,12 +111,4 @@ std::optional<DataArray> take(std::vector<DataArray>& arrays, std::string_view n
   return taken;
 }
 
-std::string unique_name(const std::vector<DataArray>& arrays, std::string name) {
-  if (!find(arrays, name)) return name;
-  for (int i = 2;; ++i) {
-    std::string other = text(name, "_", i);
-    if (!find(arrays, other)) return other;
-  }
-}
-
 }  // namespace temper::io

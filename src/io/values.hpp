@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <type_traits>
@@ -74,9 +75,21 @@ void append(Values& values, const Values& more);
 
 /// The array of that name, or null.
 [[nodiscard]] const DataArray* find(const std::vector<DataArray>& arrays, std::string_view name);
+/// The same for many names: each costs O(log n).
+class ArraysByName {
+ public:
+  explicit ArraysByName(const std::vector<DataArray>& arrays) {
+    for (const DataArray& a : arrays) first_.emplace(a.name, &a);
+  }
+  [[nodiscard]] const DataArray* find(std::string_view name) const {
+    const auto it = first_.find(name);
+    return it == first_.end() ? nullptr : it->second;
+  }
+
+ private:
+  std::map<std::string_view, const DataArray*> first_;
+};
 /// Removes the array of that name and returns it.
 [[nodiscard]] std::optional<DataArray> take(std::vector<DataArray>& arrays, std::string_view name);
-/// `name`, or when an array has it already, name_2, name_3, …
-[[nodiscard]] std::string unique_name(const std::vector<DataArray>& arrays, std::string name);
 
 }  // namespace temper::io

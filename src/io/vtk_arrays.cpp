@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <set>
 
 #include "io/cells.hpp"
 #include "io/physical_names.hpp"
@@ -152,18 +153,19 @@ std::vector<VtkArray> vtk_cell_data(const WriteJob& job) {
 
   const std::vector<DataArray>* kinds[] = {&f.cell_data, &f.line_data, &f.marked_point_data};
   const std::size_t counts[] = {f.triangles.size(), f.lines.size(), f.marked_points.size()};
-  std::vector<std::string> done;
+  const ArraysByName named[] = {ArraysByName(f.cell_data), ArraysByName(f.line_data),
+                                ArraysByName(f.marked_point_data)};
+  std::set<std::string_view> done;
   for (const auto* kind : kinds) {
     for (const DataArray& a : *kind) {
-      if (std::find(done.begin(), done.end(), a.name) != done.end()) continue;
-      done.push_back(a.name);
+      if (!done.insert(a.name).second) continue;
       if (a.name == "region" && tagged) {
         job.warn("cell data 'region' is not written: the name is that of the regions");
         continue;
       }
       std::vector<Part> parts;
       for (std::size_t k = 0; k < 3; ++k) {
-        const DataArray* other = find(*kinds[k], a.name);
+        const DataArray* other = named[k].find(a.name);
         const bool alike =
             other != nullptr && other->components == a.components && other->values.index() == a.values.index();
         if (other != nullptr && !alike) {

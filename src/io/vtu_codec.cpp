@@ -255,13 +255,15 @@ void check_whole(std::uint64_t bytes, std::size_t each, const Packing& packing) 
 
 }  // namespace
 
-Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Executor* executor) {
+Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Allowance& allowance,
+              Executor* executor) {
   return with_scalar(scalar, [&](auto zero) -> Values {
     using T = decltype(zero);
     std::vector<T> values;
     if (packing.compressed) {
       const Blocks blocks = read_blocks(packed, packing);
       check_whole(blocks.total, sizeof(T), packing);
+      allowance.take(blocks.total / sizeof(T), 1, packing.where);
       values.resize(blocks.total / sizeof(T));
       inflate_blocks(blocks, reinterpret_cast<char*>(values.data()), packing, executor);
     } else {
@@ -272,6 +274,7 @@ Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Ex
              text("announces ", bytes, " bytes, but only ", header.rest().size(), " follow"));
       }
       check_whole(bytes, sizeof(T), packing);
+      allowance.take(bytes / sizeof(T), 1, packing.where);
       values.resize(bytes / sizeof(T));
       if (bytes > 0) std::memcpy(values.data(), header.rest().data(), bytes);
     }

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "io/allowance.hpp"
 #include "io/output.hpp"
 #include "io/values.hpp"
 #include "temper/executor.hpp"
@@ -44,7 +45,8 @@ struct Packing {
   bool swap;  ///< byte order is not this machine's
 };
 /// The numbers of one packed array; blocks are inflated on the executor's threads when there is one.
-[[nodiscard]] Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Executor* executor);
+[[nodiscard]] Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Allowance& allowance,
+                            Executor* executor);
 
 /// The repetitions that zlib looks for: any string that was there before, or runs of one byte, which is far faster and
 /// loses little on the digits of measured coordinates.

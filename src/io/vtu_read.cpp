@@ -38,6 +38,7 @@ class VtuReader {
  private:
   void parse();
   void cut_off_appended_data();
+  void list_offsets();
   void read_attributes(const pugi::xml_node& root);
   pugi::xml_node single_piece(const pugi::xml_node& grid);
   std::size_t count_attribute(const pugi::xml_node& piece, const char* name);
@@ -63,6 +64,7 @@ class VtuReader {
   std::string head_;           // the XML before appended data
   std::string_view appended_;  // what follows its underscore
   bool appended_is_base64_ = false;
+  std::vector<std::uint64_t> offsets_;  // of all arrays in appended base64, in order
   std::size_t header_bytes_ = 4;
   bool compressed_ = false, swap_ = false;
   std::size_t n_points_ = 0, n_cells_ = 0;
@@ -93,7 +95,7 @@ void VtuReader::parse() {
   // No entity or line end conversion is needed: names are plain and numbers are ours to split.
   const auto result =
       xml_.load_buffer_inplace(xml.data(), xml.size(), pugi::parse_minimal | pugi::parse_escapes, pugi::encoding_utf8);
-  if (result) return;
+  if (result) return list_offsets();
   const auto at = static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0));
   const bool cut = at + 1 >= xml.size() || result.status == pugi::status_end_element_mismatch;
   fail(cut ? ErrorCode::truncated : ErrorCode::syntax, source_.path,
@@ -113,11 +115,18 @@ void VtuReader::cut_off_appended_data() {
   head_ = text(all.substr(0, tag), "</VTKFile>");
 }
 
+void VtuReader::list_offsets() {
+  if (!appended_is_base64_) return;
+  for (const pugi::xpath_node& array : xml_.select_nodes("//DataArray[@offset]"))
+    offsets_.push_back(array.node().attribute("offset").as_ullong());
+  std::sort(offsets_.begin(), offsets_.end());
+}
+
 void VtuReader::read_attributes(const pugi::xml_node& root) {
   const std::string_view type = root.attribute("type").value();
   if (type != "UnstructuredGrid") {
     fail(ErrorCode::unsupported, source_.path,
-         text("is a VTK XML file of type ", type, "; temper reads UnstructuredGrid"));
+         text("is a VTK XML file of type ", in_quotes(type), "; temper reads UnstructuredGrid"));
   }
   const std::string_view header = root.attribute("header_type").as_string("UInt32");
   if (header != "UInt32" && header != "UInt64") {
@@ -128,7 +137,7 @@ void VtuReader::read_attributes(const pugi::xml_node& root) {
   const std::string_view compressor = root.attribute("compressor").value();
   if (!compressor.empty() && compressor != "vtkZLibDataCompressor") {
     fail(ErrorCode::unsupported, source_.path,
-         text("is compressed with ", compressor, "; temper reads vtkZLibDataCompressor"));
+         text("is compressed with ", in_quotes(compressor), "; temper reads vtkZLibDataCompressor"));
   }
   compressed_ = !compressor.empty();
   const std::string_view order = root.attribute("byte_order").as_string("LittleEndian");
@@ -236,7 +245,7 @@ Values VtuReader::inline_binary(const pugi::xml_node& node, Scalar scalar, const
   char* out = buffer.data() + (packed.empty() ? 0 : packed.data() - buffer.data());
   const auto bytes = decode_base64(packed, out);
   if (!bytes) fail(ErrorCode::syntax, packing.where, "has a character that is not base64");
-  return unpack({out, *bytes}, scalar, packing, source_.executor);
+  return unpack({out, *bytes}, scalar, packing, source_.allowance, source_.executor);
 }
 
 Values VtuReader::appended(const pugi::xml_node& node, Scalar scalar, const Packing& packing) {
@@ -251,19 +260,17 @@ Values VtuReader::appended(const pugi::xml_node& node, Scalar scalar, const Pack
          text("starts at byte ", offset, " of the appended data, which have only ", appended_.size()));
   }
   const std::string_view from = appended_.substr(offset);
-  if (!appended_is_base64_) return unpack(from, scalar, packing, source_.executor);
+  if (!appended_is_base64_) return unpack(from, scalar, packing, source_.allowance, source_.executor);
   // Base64 ends where the next array starts; what follows it in the same text does no harm to a decoder that
   // knows the length from the header. Not in place: two arrays may share their bytes.
   const std::string_view only = from.substr(0, from.find('<'));
-  std::uint64_t next = only.size();
-  for (const pugi::xpath_node& other : xml_.select_nodes("//DataArray[@offset]")) {
-    const std::uint64_t at = other.node().attribute("offset").as_ullong();
-    if (at > offset && at - offset < next) next = at - offset;
-  }
-  std::string bytes(next, '\0');
-  const auto n = decode_base64(trimmed(only.substr(0, next)), bytes.data());
+  const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), offset);
+  const std::size_t most = next == offsets_.end() ? only.size() : std::min<std::uint64_t>(only.size(), *next - offset);
+  source_.allowance.take(most, 1, packing.where);
+  std::string bytes(most, '\0');
+  const auto n = decode_base64(trimmed(only.substr(0, most)), bytes.data());
   if (!n) fail(ErrorCode::syntax, packing.where, "has a character that is not base64");
-  return unpack(std::string_view(bytes).substr(0, *n), scalar, packing, source_.executor);
+  return unpack(std::string_view(bytes).substr(0, *n), scalar, packing, source_.allowance, source_.executor);
 }
 
 std::vector<DataArray> VtuReader::arrays(const pugi::xml_node& parent, std::size_t tuples, std::string_view kind) {
@@ -324,7 +331,7 @@ std::vector<std::int32_t> VtuReader::integers(const pugi::xml_node& cells, const
 
 void VtuReader::read_cells(const pugi::xml_node& piece) {
   const pugi::xml_node cells = piece.child("Cells");
-  CellSorter sorter(document_);
+  CellSorter sorter(document_, source_.allowance);
   {
     const auto connectivity = integers(cells, "connectivity");
     const auto offsets = integers(cells, "offsets");

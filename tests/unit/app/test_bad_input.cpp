@@ -34,6 +34,16 @@ TEST_F(BadInput, MissingFile) {
   EXPECT_TRUE(names().empty());
 }
 
+TEST_F(BadInput, NoPathOrNameOrdersTheTerminalAround) {
+  const Outcome missing = temper({"check", "\x1b[2Jnone.vtu"});
+  EXPECT_TRUE(contains(missing.err, "temper: error: \\x1b[2Jnone.vtu: ")) << missing.err;
+  write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ng \x1b[2Jsteel\nf 1 2 3\n");
+  const Outcome fixed = temper({"optimize", "m.obj", "-o", "out.vtu", "--fix", "\x1b[2J"});
+  EXPECT_TRUE(contains(fixed.err, "there are: \\x1b[2Jsteel")) << fixed.err;
+  for (const std::string& text : {missing.err, missing.out, fixed.err, fixed.out})
+    EXPECT_EQ(text.find('\x1b'), std::string::npos) << text;
+}
+
 TEST_F(BadInput, DirectoryAsInput) {
   std::filesystem::create_directory("folder");
   EXPECT_EQ(temper({"check", "folder"}).exit, 1);

@@ -165,7 +165,7 @@ TEST_F(FileTest, vtu_errors_name_the_array_and_its_line) {
             "m.vtu: element 0 ends at 7 of 3 connectivity values, and starts at 0");
   EXPECT_EQ(message("\"offsets\"", "\"ofsets\""), "m.vtu: the array 'offsets' of the cells is missing");
   EXPECT_EQ(message("\"LittleEndian\"", "\"LittleEndian\" compressor=\"vtkLZ4DataCompressor\""),
-            "m.vtu: is compressed with vtkLZ4DataCompressor; temper reads vtkZLibDataCompressor");
+            "m.vtu: is compressed with 'vtkLZ4DataCompressor'; temper reads vtkZLibDataCompressor");
   EXPECT_EQ(message("NumberOfCells=\"1\"", "NumberOfCells=\"2\""),
             "m.vtu:11: has 1 offsets and 1 types, expected 2 of each");
 }
@@ -273,8 +273,9 @@ TEST(Vtu, RefusesBlocksWhoseSizesWrapAround) {
   std::vector<std::uint64_t> words(3 + n, 0);
   words[0] = n, words[1] = std::uint64_t{1} << 40, words[2] = 72;
   const std::string_view packed(reinterpret_cast<const char*>(words.data()), 8 * words.size());
+  Allowance allowance(packed.size());
   try {
-    static_cast<void>(unpack(packed, Scalar::f64, {"m.vtu: array 'Points'", 8, true, false}, nullptr));
+    static_cast<void>(unpack(packed, Scalar::f64, {"m.vtu: array 'Points'", 8, true, false}, allowance, nullptr));
     FAIL() << "was read";
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.error.code, ErrorCode::syntax);
