@@ -195,7 +195,9 @@ std::vector<double> plain_values(const IdVector<IdType, double>& values) {
 
 Document read_mpas_from(const NetcdfReader& in, const std::string& path) { return MpasReader(in, path).read(); }
 
-Document read_mpas(Source& source) { return read_mpas_from(NetcdfReader(source), source.path); }
+Document read_mpas(Source& source) {
+  return read_netcdf(source, [&](const NetcdfReader& in) { return read_mpas_from(in, source.path); });
+}
 
 void write_mpas(const WriteJob& job) {
   const NetcdfMesh m = mesh_for_netcdf(job, "MPAS");

@@ -8,6 +8,8 @@
 #include <array>
 #include <cstdlib>
 
+#include "io/trial.hpp"
+
 namespace temper::io {
 
 namespace {
@@ -40,10 +42,12 @@ std::size_t NetcdfVariable::n_values() const {
   return n;
 }
 
-NetcdfId::NetcdfId() {
+std::mutex& netcdf_table() {
   static std::mutex table;
-  turn_ = std::unique_lock(table);
+  return table;
 }
+
+NetcdfId::NetcdfId() : turn_(netcdf_table()) {}
 
 // A file that has not been finished is not kept.
 NetcdfId::~NetcdfId() {
@@ -162,6 +166,19 @@ std::optional<double> NetcdfReader::number_attribute(const NetcdfVariable* v, co
   double value = 0;
   if (nc_get_att_double(id_, id, name, &value) != NC_NOERR) return std::nullopt;
   return value;
+}
+
+bool is_hdf5(std::string_view head) { return is_netcdf(head) && !head.starts_with("CDF"); }
+
+Document read_netcdf(Source& source, const std::function<Document(const NetcdfReader&)>& work) {
+  if (is_hdf5(source.bytes)) {
+    std::unique_lock turn(netcdf_table());  // no other thread is within the library when the child comes to be
+    try_in_child(trial_budget(source.bytes.size()), source.path, "libnetcdf", [&] {
+      turn.unlock();
+      static_cast<void>(work(NetcdfReader(source)));
+    });
+  }
+  return work(NetcdfReader(source));
 }
 
 // --- writing ---------------------------------------------------------------------------------------------

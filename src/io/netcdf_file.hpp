@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -79,6 +80,10 @@ class NetcdfReader {
   NetcdfId id_;
   std::vector<NetcdfVariable> variables_;
 };
+
+/// work(NetcdfReader&) on the file. HDF5 is read by a large library that has few doubts: such a file goes through all
+/// of work in a child process first, under a budget, and is refused here as it is there.
+[[nodiscard]] Document read_netcdf(Source& source, const std::function<Document(const NetcdfReader&)>& work);
 
 class NetcdfWriter {
  public:

@@ -248,19 +248,22 @@ class UgridWriter {
   int nodes_ = -1, faces_ = -1, edges_ = -1;
 };
 
-}  // namespace
-
 /// NetCDF of any kind whose first bytes do not tell: the variables do.
-Document read_ugrid(Source& source) {
-  const NetcdfReader in(source);
-  if (in.find("cellsOnVertex") != nullptr && in.find("xCell") != nullptr) return read_mpas_from(in, source.path);
+Document read_ugrid_from(const NetcdfReader& in, const std::string& path) {
+  if (in.find("cellsOnVertex") != nullptr && in.find("xCell") != nullptr) return read_mpas_from(in, path);
   for (const NetcdfVariable& v : in.variables()) {
     if (in.text_attribute(&v, "cf_role") != "mesh_topology") continue;
     if (in.number_attribute(&v, "topology_dimension").value_or(2) != 2) continue;
-    return UgridReader(in, v, source.path).read();
+    return UgridReader(in, v, path).read();
   }
-  fail(ErrorCode::unsupported, source.path,
+  fail(ErrorCode::unsupported, path,
        "is NetCDF without a mesh that temper reads: neither MPAS nor a two-dimensional topology of UGRID");
+}
+
+}  // namespace
+
+Document read_ugrid(Source& source) {
+  return read_netcdf(source, [&](const NetcdfReader& in) { return read_ugrid_from(in, source.path); });
 }
 
 void write_ugrid(const WriteJob& job) { UgridWriter(job).write(); }

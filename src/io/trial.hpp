@@ -1,0 +1,26 @@
+// A first try, in a process of its own, of what a foreign library makes of a file. Libraries have bugs: on a damaged
+// file they may loop for ever or crash, and then only the child does.
+//
+// The child is a fork: it has the file, the code and one thread, and must do without what other threads may hold.
+// Nothing of the library may be under way on another thread when try_in_child is called.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace temper::io {
+
+struct TrialBudget {
+  unsigned seconds = 0;     ///< of processor time
+  std::uint64_t bytes = 0;  ///< of memory, on top of what the process has; where the system tells how much that is
+};
+/// For a file of that size: what reading and unpacking it takes, many times over.
+[[nodiscard]] TrialBudget trial_budget(std::uint64_t file_bytes);
+
+/// Runs work in a child process. Failure, when work fails there, dies, or takes more than the budget: the same work is
+/// then not to be done here. `where`, `library`: for the message.
+void try_in_child(const TrialBudget& budget, const std::string& where, const std::string& library,
+                  const std::function<void()>& work);
+
+}  // namespace temper::io
