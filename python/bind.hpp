@@ -48,6 +48,9 @@ class PyMesh {
   [[nodiscard]] const std::shared_ptr<const Source>& source() const { return source_; }
   /// Number in the source of each vertex; empty: the same.
   [[nodiscard]] IdVector<VertexId, VertexId> origin() const;
+  /// How data of its points follow the vertices.
+  [[nodiscard]] const io::DataRules& data_rules() const { return data_rules_; }
+  void set_data_rules(io::DataRules rules) { data_rules_ = std::move(rules); }
   /// Grows with each change: what was planned for one state does not fit another.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 
@@ -71,6 +74,7 @@ class PyMesh {
   std::shared_ptr<Mesh> mesh_;
   std::shared_ptr<const Source> source_;
   IdVector<VertexId, VertexId> origin_;
+  io::DataRules data_rules_;
   std::uint64_t version_ = 0;
   bool erased_ = false, running_ = false;
 };

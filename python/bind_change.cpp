@@ -407,8 +407,7 @@ void bind_size(py::module_& m) {
   });
   m.def("spread", [](const Doubles& values) {
     const auto all = as_span<double>(values);
-    const Spread s = spread({all.begin(), all.end()});
-    return Record()("min", s.min)("p05", s.p05)("median", s.median)("p95", s.p95)("max", s.max).dict;
+    return to_python(spread({all.begin(), all.end()}));
   });
   m.def("measure_size", [](const PyMesh& self, const SizeField& field) {
     const auto mesh = self.read();

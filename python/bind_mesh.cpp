@@ -216,6 +216,10 @@ void bind_mesh_class(py::module_& m) {
   type.def("validate", [](const PyMesh& self) { return to_python(self.read_with_erased()->validate()); });
   type.def("compact", [](PyMesh& self) { return to_python(self.compact()); });
   type.def("replace", [](PyMesh& self, const PyMesh& other) { self.assign(other); });
+  type.def("has_data", [](const PyMesh& self) {
+    const auto& source = self.source();
+    return source && source->file.point_data.size() + source->file.cell_data.size() > 0;
+  });
   type.def("version", [](const PyMesh& self) { return self.version(); });
   type.def("copy", [](const PyMesh& self) { return self.copy(); });
   type.def("equal", [](const PyMesh& self, const PyMesh& other) {
@@ -290,8 +294,7 @@ py::tuple load(io::MeshFile file, const std::vector<std::string>& fixed_tags, Ex
     auto loaded = io::make_mesh(source->file, fixed_tags, executor);
     if (!loaded) throw BadInput{loaded.error()};
     source->loaded = *std::move(loaded);
-    // Data of new points need the geometry of before; else it would only be held twice.
-    if (source->file.point_data.empty()) io::release_geometry(source->file, source->loaded);
+    io::release_geometry(source->file, source->loaded);  // else it would be held twice
   }
   std::vector<std::string> warnings = source->file.warnings;
   source->file.warnings.clear();
@@ -307,13 +310,50 @@ std::vector<std::string> strings_from(const py::sequence& sequence) {
   return strings;
 }
 
-/// The file of this mesh: the one it came from, updated, or a new one.
-io::MeshFile file_of(const PyMesh& self) {
+/// The file of a mesh, and what became of its data.
+struct UpdatedFile {
+  io::MeshFile file;
+  io::DataReport data;
+};
+
+/// The one that the mesh came from, updated, or a new one.
+UpdatedFile updated_file_of(const PyMesh& self, Executor* executor) {
   const auto mesh = self.read();
-  if (!self.source()) return io::from_mesh(*mesh);
-  io::MeshFile file = self.source()->file;
-  io::update(file, self.source()->loaded, *mesh, self.origin());
-  return file;
+  if (!self.source()) return {io::from_mesh(*mesh), {}};
+  UpdatedFile result{self.source()->file, {}};
+  result.data = io::update(result.file, self.source()->loaded, *mesh, self.origin(), {self.data_rules(), executor});
+  return result;
+}
+
+io::MeshFile file_of(const PyMesh& self, Executor* executor = nullptr) { return updated_file_of(self, executor).file; }
+
+io::DataRules data_rules_from(const PyMesh& self, const py::sequence& words) {
+  const auto rules = io::parse_data_rules(strings_from(words));
+  if (!rules) throw BadInput{rules.error()};
+  or_raise(io::check_data_rules(*rules, self.source() ? self.source()->file : io::MeshFile()));
+  return *rules;
+}
+
+/// The words of the rules that a mesh has.
+std::vector<std::string> data_words(const PyMesh& self) {
+  const auto spell = [](io::DataRule rule) { return std::string(rule == io::DataRule::keep ? "keep" : "interpolate"); };
+  std::vector<std::string> words = {spell(self.data_rules().rule)};
+  for (const auto& [name, rule] : self.data_rules().exceptions) words.push_back(spell(rule) + "=" + name);
+  return words;
+}
+
+py::dict data_report(const PyMesh& self, const py::object& threads) {
+  const auto executor = make_threads(threads_from(threads));
+  io::DataReport r;
+  {
+    const py::gil_scoped_release release;
+    r = updated_file_of(self, executor.get()).data;
+  }
+  return Record()("points", r.points)("points_moved", r.points_moved)("distance", r.distance)(
+             "points_inserted", r.points_inserted)("interpolated", r.interpolated)("kept", r.kept)(
+             "dropped", r.dropped)("triangles", r.triangles)("triangles_changed", r.triangles_changed)("of_triangles",
+                                                                                                       r.of_triangles)
+      .dict;
 }
 
 py::dict file_as_dict(const PyMesh& self) {
@@ -415,7 +455,7 @@ py::object write_file(const std::string& path, const PyMesh& self, const std::st
   std::vector<std::string> warnings;
   {
     const py::gil_scoped_release release;
-    const io::MeshFile file = file_of(self);
+    const io::MeshFile file = file_of(self, executor.get());
     auto written = io::write(path, file, options);
     if (!written) throw BadInput{written.error()};
     warnings = file.warnings;
@@ -430,6 +470,11 @@ void bind_files(py::module_& m) {
   m.def("mesh_from_arrays", mesh_from_arrays);
   m.def("mesh_from_file_arrays", mesh_from_file_arrays);
   m.def("file_as_dict", file_as_dict);
+  m.def("data_rules", [](const PyMesh& self) { return to_python(data_words(self)); });
+  m.def("check_data_rules", [](const PyMesh& self, const py::sequence& words) { data_rules_from(self, words); });
+  m.def("set_data_rules",
+        [](PyMesh& self, const py::sequence& words) { self.set_data_rules(data_rules_from(self, words)); });
+  m.def("data_report", data_report);
   m.def("vertices_of_points", vertices_of_points);
   m.def("write_text", [](const std::string& path, const std::string& text) { or_raise(io::write_text(path, text)); });
   m.def("formats", [] {

@@ -21,6 +21,7 @@
 #include "temper/ids.hpp"
 #include "temper/io.hpp"
 #include "temper/projection.hpp"
+#include "temper/size.hpp"
 #include "temper/vec2.hpp"
 
 namespace temper::python {
@@ -114,6 +115,11 @@ py::object to_python(Id<Tag> id) {
 }
 inline py::object to_python(Vec2 p) { return py::make_tuple(p.x, p.y); }
 inline py::object to_python(const WeightedPoint& p) { return py::make_tuple(p.x, p.y, p.w); }
+inline py::object to_python(const Spread& s) {
+  py::dict dict;
+  dict["min"] = s.min, dict["p05"] = s.p05, dict["median"] = s.median, dict["p95"] = s.p95, dict["max"] = s.max;
+  return dict;
+}
 inline py::object to_python(const Softening& s) {
   return py::make_tuple(s.value, s.scale == LengthScale::relative ? "relative" : "absolute");
 }

@@ -80,10 +80,6 @@ std::string type_of(const OptionRow& row) {
   return plain() + (row.optional ? " | None" : "");
 }
 
-py::dict spread_to_dict(const Spread& s) {
-  return Record()("min", s.min)("p05", s.p05)("median", s.median)("p95", s.p95)("max", s.max).dict;
-}
-
 }  // namespace
 
 std::string spelled(std::string_view text) {
@@ -157,8 +153,7 @@ py::dict record_to_dict(const SweepRecord& r) {
 }
 
 py::dict size_report_to_dict(const SizeReport& report) {
-  return Record()("over_field", py::object(spread_to_dict(report.over_field)))(
-             "gradation", py::object(spread_to_dict(report.gradation)))(
+  return Record()("over_field", report.over_field)("gradation", report.gradation)(
              "largest_edge_ratio", report.largest_edge_ratio)("outside", report.outside)("band", report.band())
       .dict;
 }

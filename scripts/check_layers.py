@@ -22,7 +22,8 @@ LAYERS = {
     "base": [],
     "geometry": ["base"],
     "mesh": ["base", "geometry"],
-    "size": _BELOW,
+    "places": _BELOW,
+    "size": _BELOW + ["places"],
     "topology": _BELOW,
     "energy": _BELOW,
     "regularity": _BELOW + ["topology", "energy"],
@@ -36,7 +37,7 @@ LAYERS = {
     "generate": _BELOW + ["topology", "energy", "regularity"],
     "mesher": _BELOW + ["topology", "energy", "regularity", "feasibility", "optimize", "generate"],
     # A library of its own: sees the core's public headers, and no other folder of src/.
-    "io": _BELOW + ["dec"],
+    "io": _BELOW + ["places", "size", "dec"],
     "lp": _BELOW + ["feasibility"],
     "tbb": ["base"],
     "verify": _BELOW + ["energy", "regularity", "quality", "dec"],

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "console.hpp"
+#include "data_report.hpp"
 #include "help.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
@@ -40,6 +41,8 @@ struct Settings {
   std::uint64_t threads = 0;
   bool quiet = false, verify = false;
   std::string size_field, size_data;
+  std::vector<std::string> point_data;
+  io::DataRules rules;  ///< of point_data
 
   [[nodiscard]] const OptimizeOptions& options() const { return table.options; }
   [[nodiscard]] bool for_accuracy() const { return options().objective == Objective::accuracy; }
@@ -55,6 +58,7 @@ void add_files(Command& command, Settings& s) {
   add_choice(
       command, "--encoding", kEncodings, [&s](io::Encoding value) { s.encoding = value; },
       "of formats that have several (default: the compact one; fastest: appended)");
+  add_point_data(command, s.point_data);
   add_text(command, "--report", "FILE", s.report,
            "a JSON report: before, after, history, and the command to run again");
   add_text(command, "--history", "FILE", s.history, "one line of CSV a sweep");
@@ -176,6 +180,7 @@ std::string picture_title(const Input& input, const Quality& before, const Quali
 struct Results {
   Quality before, after;
   OptimizeReport report;
+  io::DataReport data;
   std::string picture;                   ///< SVG, when asked for
   std::string errors_text, errors_json;  ///< of solvers, when asked for
   std::vector<std::string> warnings;
@@ -278,26 +283,12 @@ void warn(Results& results, std::span<const std::string> warnings) {
   results.warnings.insert(results.warnings.end(), warnings.begin(), warnings.end());
 }
 
-/// Cell data stay with the slot of their triangle, which flips give another place and reversal other corner numbers.
-std::vector<std::string> cell_data_warnings(const Input& input, const Results& results) {
-  const std::size_t flips = results.report.flips, reversed = input.loaded.reversed_triangles;
-  const bool by_region = !results.report.vertices.empty();  // what is left then is the same all over each region
-  if (input.file.cell_data.empty() || flips + reversed == 0 || by_region) return {};
-  std::string names;
-  for (const io::DataArray& array : input.file.cell_data) names += (names.empty() ? "" : ", ") + array.name;
-  return {
-      fmt::format("{}: cell data ({}) stay with their triangle's number, but {} edges were flipped and {} triangles "
-                  "reversed: check what depends on a triangle's place or on its local edges",
-                  input.path, names, flips, reversed)};
-}
-
 /// The mesh first: it is what the time went into.
 void write_all(const Command& command, const Settings& s, Input& input, Results& results, Outputs& outputs,
                io::TextStream* trace, Executor* threads) {
   const std::size_t known = input.file.warnings.size();
-  io::update(input.file, input.loaded, input.loaded.mesh, results.report.vertices);
+  results.data = io::update(input.file, input.loaded, input.loaded.mesh, results.report.vertices, {s.rules, threads});
   warn(results, std::span(input.file.warnings).subspan(known));
-  warn(results, cell_data_warnings(input, results));
   io::WriteOptions writing;
   writing.encoding = s.encoding;
   writing.executor = threads;
@@ -307,7 +298,7 @@ void write_all(const Command& command, const Settings& s, Input& input, Results&
     const std::vector<UsedOption> options = used_options(command);
     const std::string again = command_line("optimize", {s.input}, options);
     outputs.write_text(s.report, optimize_json({again, options, results.before, input.points, results.after,
-                                                results.report, results.warnings, results.errors_json}));
+                                                results.report, results.data, results.warnings, results.errors_json}));
   }
   if (!s.history.empty()) outputs.write_text(s.history, history_csv(results.report));
   if (!s.picture.empty()) outputs.write_text(s.picture, results.picture);
@@ -322,6 +313,7 @@ void print_result(const Settings& s, const Results& results, const Outputs& outp
   print(ending(results.report) + "\n\n" +
         comparison_text(results.before, results.after, star_shown(s.options()), text_style()) +
         size_text(results.report.size));
+  if (const std::string data = data_text(results.data); !data.empty()) print("\n" + data);
   if (!results.errors_text.empty()) print("\n" + results.errors_text);
   for (const std::string& note : results.report.notes) print("note: " + note + "\n");
   print(fmt::format("\n{}: {}\n", s.output, verdict(results.after)));
@@ -336,14 +328,15 @@ Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs) {
   Results results;
   warn(results, input.warnings());
   find_vertices(s.table, input);
+  s.rules = data_rules(s.point_data, input.file);
   warn(results, doubtful_options(command, s));
   if (!s.size_field.empty()) {
     ReadSizeField read = read_size_field(s.size_field, s.size_data.empty() ? "size" : s.size_data);
     warn(results, read.warnings);
     s.table.options.size_field = std::move(read.field);
   }
-  // The mesh has its geometry now, and memory is dear on the largest ones; data of new points need that of before.
-  if (input.file.point_data.empty()) io::release_geometry(input.file, input.loaded);
+  // The mesh has its geometry now, and memory is dear on the largest ones.
+  io::release_geometry(input.file, input.loaded);
   std::optional<io::TextStream> trace;
   if (!s.trace.empty()) trace = outputs.open(s.trace);
   improve(s, input, results, trace ? &*trace : nullptr, threads.get());

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "console.hpp"
+#include "data_report.hpp"
 #include "help.hpp"
 #include "input.hpp"
 #include "options.hpp"
@@ -19,6 +20,7 @@ namespace {
 struct ReplaySettings {
   std::string input, trace, output;
   std::optional<int> sweeps;
+  std::vector<std::string> point_data;
   bool quiet = false;
 };
 
@@ -27,6 +29,7 @@ void add_options(Command& command, ReplaySettings& s) {
   add_argument(command, "IN", s.input, "the mesh that was optimized").require();
   add_argument(command, "TRACE", s.trace, "the file that temper optimize IN --trace wrote").require();
   add_text(command, "-o,--output", "OUT", s.output, "where the mesh goes; its suffix tells the format").require();
+  add_point_data(command, s.point_data);
   add_count(command, "--sweeps", s.sweeps, 0, "stop at the end of this sweep; 0: after IN was made regular");
   command.add_flag("--quiet", s.quiet, "print warnings and errors only");
   command.group("Help");
@@ -66,6 +69,7 @@ Exit run_replay(const Arguments& arguments) {
 
   Input input = read_input(s.input);
   print_warnings(input.warnings());
+  const io::DataRules rules = data_rules(s.point_data, input.file);
   const Trace trace = read_trace(s.trace, input);
   const std::vector<TraceEvent>& events = trace.events;
   const auto applied = wanted(events, s.sweeps);
@@ -78,7 +82,7 @@ Exit run_replay(const Arguments& arguments) {
   }
 
   const std::size_t known = input.file.warnings.size();
-  io::update(input.file, input.loaded, replayed->mesh, replayed->vertices);
+  io::update(input.file, input.loaded, replayed->mesh, replayed->vertices, {rules});
   print_warnings(std::span(input.file.warnings).subspan(known));
   print_warnings(outputs.write_mesh(s.output, input.file));
   if (!s.quiet) {

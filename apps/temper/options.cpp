@@ -192,6 +192,7 @@ std::vector<UsedOption> used_options(const Command& command) {
     UsedOption item;
     item.name = long_name(option.names).substr(2);
     item.flag = option.is_flag();
+    item.list = option.values != Values::one;
     const bool given = !option.given.empty();
     item.used = given || !option.default_text.empty();
     if (!item.flag && item.used) item.values = given ? option.given : std::vector<std::string>{option.default_text};

@@ -122,6 +122,7 @@ struct UsedOption {
   std::vector<std::string> values;  ///< none for a flag
   bool flag = false;
   bool number = false;
+  bool list = false;  ///< may have several values
   bool used = false;  ///< given, or has a default
 };
 [[nodiscard]] std::vector<UsedOption> used_options(const Command& command);

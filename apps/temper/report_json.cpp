@@ -64,6 +64,19 @@ Json to_json(const SizeReport& size) {
           {"vertices_outside_field", size.outside}};
 }
 
+Json to_json(const io::DataReport& data) {
+  return {{"points", data.points},
+          {"points_moved", data.points_moved},
+          {"distance", to_json(data.distance)},
+          {"points_inserted", data.points_inserted},
+          {"interpolated", data.interpolated},
+          {"kept", data.kept},
+          {"dropped", data.dropped},
+          {"triangles", data.triangles},
+          {"triangles_changed", data.triangles_changed},
+          {"of_triangles", data.of_triangles}};
+}
+
 /// The number of a text that was accepted as one: ".5", "1." and "007" are numbers too, but not to JSON.
 Json number_as_json(const std::string& text) {
   std::int64_t whole = 0;
@@ -77,7 +90,7 @@ Json number_as_json(const std::string& text) {
 Json to_json(const UsedOption& option) {
   if (option.flag) return option.used;
   if (!option.used) return nullptr;
-  if (option.name == "fix") return option.values;  // the only one that may be repeated
+  if (option.list) return option.values;
   if (option.number) return number_as_json(option.values.front());
   return option.values.front();
 }
@@ -123,6 +136,7 @@ std::string optimize_json(const OptimizeRecord& record) {
   json["vertices_inserted"] = record.report.vertices_inserted;
   json["flips"] = record.report.flips;
   json["size"] = {{"before", to_json(record.report.size.before)}, {"after", to_json(record.report.size.after)}};
+  json["data"] = to_json(record.data);
   if (!record.solver_errors.empty()) json["verify"] = Json::parse(record.solver_errors);
   json["notes"] = record.report.notes;
   json["warnings"] = record.warnings;

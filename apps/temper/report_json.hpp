@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "options.hpp"
+#include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 
@@ -24,6 +25,7 @@ struct OptimizeRecord {
   std::span<const std::size_t> points_before;  ///< of IN; OUT has the points of the mesh
   const Quality& after;
   const OptimizeReport& report;
+  const io::DataReport& data;
   std::vector<std::string> warnings;
   std::string solver_errors = {};  ///< JSON, of --verify; or nothing
 };

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,6 +20,7 @@
 #include "temper/executor.hpp"
 #include "temper/mesh.hpp"
 #include "temper/outline.hpp"
+#include "temper/size.hpp"
 
 namespace temper::io {
 
@@ -155,23 +157,62 @@ struct LoadedMesh {
 [[nodiscard]] Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags = {},
                                              Executor* executor = nullptr);
 
+/// What floating point data of points do where vertices move. (Integers, and flags and tags, stay with their points.)
+enum class DataRule {
+  interpolate,  ///< are of the place: linear on the triangles of the input, so that a depth stays where it was measured
+  keep,         ///< are of the point: a load that it carries
+};
+
+/// DataRules: a rule, and arrays for which another holds.
+struct DataRules {
+  DataRule rule = DataRule::interpolate;
+  std::map<std::string, DataRule> exceptions = {};  ///< by the array's name
+
+  /// The rule of an array of point data; keep for integers.
+  [[nodiscard]] DataRule of(const DataArray& array) const;
+};
+/// The rules that words say, of which each is interpolate or keep, or interpolate=NAME or keep=NAME for one array.
+[[nodiscard]] Expected<DataRules> parse_data_rules(std::span<const std::string> words);
+/// An error unless each exception names an array of point data, and one of floating point where it says interpolate.
+[[nodiscard]] Expected<void> check_data_rules(const DataRules& rules, const MeshFile& file);
+
+struct UpdateOptions {
+  DataRules rules = {};
+  Executor* executor = nullptr;  ///< threads that look for places; the result does not depend on them
+};
+
+/// What update() did with data of points and triangles; all 0 for a file without.
+struct DataReport {
+  std::size_t points = 0;             ///< of the file that are left
+  std::size_t points_moved = 0;       ///< of those, elsewhere than in the file
+  Spread distance = {};               ///< by which the moved ones are [length]
+  std::size_t points_inserted = 0;    ///< that the file did not have
+  std::size_t triangles = 0;          ///< of the mesh
+  std::size_t triangles_changed = 0;  ///< of those, that the file does not have at this number and these places
+  std::vector<std::string> interpolated, kept, dropped;  ///< names of point data, by what became of them
+  std::vector<std::string> of_triangles;                 ///< names of cell data
+};
+
 /// Puts coordinates, weights, triangles and regions of the mesh back into the file it came from, whose dropped points
 /// go with their data. `vertices` is OptimizeReport::vertices: the number in `loaded` of each vertex of the mesh,
-/// invalid for one that was inserted; empty when none was removed or inserted.
+/// invalid for one that was inserted. Empty: none was removed or inserted; else vertices are known by their place.
 ///
-/// Point data stay with their point. Of inserted points they are interpolated linearly on the mesh of before, when
-/// floating; integers are what all corners around have in common, and an array that has nothing in common somewhere is
-/// dropped, as are all of them when the geometry was released. Where a point is gone that two lines of one tag met at,
-/// one line is left; other lines and marked points go with their points. A line whose edge was split is two, with its
-/// tag and data on both. Cell data stay with their slot, or, when the number of triangles has
-/// changed, with their region: what is the same on all triangles of each region is kept, the rest goes. What is lost is
-/// named in file.warnings. May be called again for a later state of the mesh, as long as no vertices are removed or
-/// inserted.
-void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
-            const IdVector<VertexId, VertexId>& vertices = {});
+/// Floating point data of points are interpolated on the triangles of the file, at the place where a vertex is now,
+/// unless the rules say that they stay with their point; bit for bit the same where a vertex is still at its place, or
+/// at that of another one. Integers stay with their point. Of inserted points they are what all corners around have in
+/// common; an array that has nothing in common somewhere is dropped. Cell data are those of the file's triangle that
+/// the middle of a triangle is in; nothing is averaged. Where a point is gone that two lines of one tag met at, one
+/// line is left; other lines and marked points go with their points. A line whose edge was split is two, with its tag
+/// and data on both. What is lost is named in file.warnings.
+///
+/// May be called again for a later state of the mesh, as long as no vertices are removed or inserted; data are then
+/// interpolated on what the last call has left. O(n log n) when there are data that move, else O(n).
+DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
+                  const IdVector<VertexId, VertexId>& vertices = {}, const UpdateOptions& options = {});
 
-/// Frees the points, weights and triangles of a file whose mesh has been made: update() writes them again, but cannot
-/// interpolate then. Nothing when points were dropped. What is free is given back to the system.
+/// Frees the points, weights and triangles of a file whose mesh has been made: update() writes them again. Nothing when
+/// points were dropped, or there are data of points or triangles, which update() needs the former geometry for. What is
+/// free is given back to the system.
 void release_geometry(MeshFile& file, const LoadedMesh& loaded);
 
 /// An outline, as a file gives it.

@@ -18,6 +18,7 @@ are squared lengths, and a larger one makes a larger power cell. Vertices and tr
 """
 
 from . import generate, geometry, projection, topology
+from ._data import DataReport
 from ._dec import DecComplex, DecEdges, DecSummary, IncidenceMatrix, PowerCells, dec, power_cells, summarize, write_dec
 from ._draw import Svg, draw_before_after_svg, draw_svg, grid_svg
 from ._errors import TemperError, TemperWarning

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any, Union
+from typing import Any, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -44,6 +44,18 @@ def _doubles(values: Any, columns: int, name: str) -> npt.NDArray[np.float64]:
     if array.ndim != (2 if columns else 1) or (columns and array.shape[1] != columns):
         raise ValueError(f"{name}: expected shape {wanted}, found {array.shape}")
     return np.ascontiguousarray(array, dtype=np.float64)
+
+
+DataRules = Union[str, Sequence[str]]
+"""What data do where vertices move: see ``Mesh.point_data_rules``."""
+
+
+def data_rules(words: DataRules) -> tuple[str, ...]:
+    """One word or several as a tuple."""
+    rules = (words,) if isinstance(words, str) else tuple(words)
+    if not all(isinstance(word, str) for word in rules):
+        raise TypeError(f"point_data: expected a word or a sequence of words, found {words!r}")
+    return rules
 
 
 class Mesh:
@@ -278,13 +290,26 @@ class Mesh:
 
     @property
     def point_data(self) -> dict[str, npt.NDArray[Any]]:
-        """Data of the points that the mesh's file had, as they are now (interpolated at inserted vertices). Copies."""
+        """Data of the points that the mesh's file had, as they are now (``point_data_rules``). Copies."""
         return _temper.file_as_dict(self._handle)["point_data"]
 
     @property
     def cell_data(self) -> dict[str, npt.NDArray[Any]]:
-        """Data of the triangles that the mesh's file had. Copies."""
+        """Data of the triangles that the mesh's file had: of each triangle those of the one there that its middle is
+        in. Copies."""
         return _temper.file_as_dict(self._handle)["cell_data"]
+
+    @property
+    def point_data_rules(self) -> tuple[str, ...]:
+        """What floating point data of points do where vertices move, in words. ``"interpolate"`` (the default): they are
+        of the place, linear on the triangles that the mesh came with, so that a depth stays where it was measured.
+        ``"keep"``: they go with their point. ``"keep=NAME"`` and ``"interpolate=NAME"`` are for one array. Integers stay
+        with their points. Assigning one word or several sets all of them; TemperError when there is no such array."""
+        return tuple(_temper.data_rules(self._handle))
+
+    @point_data_rules.setter
+    def point_data_rules(self, words: DataRules) -> None:
+        _temper.set_data_rules(self._handle, data_rules(words))
 
     def to_meshio(self) -> Any:
         """The mesh as a ``meshio.Mesh``; see ``temper.to_meshio``."""

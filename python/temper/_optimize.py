@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _temper
-from ._mesh import Mesh, MeshLike, as_mesh, put_back
+from ._data import DataReport
+from ._mesh import DataRules, Mesh, MeshLike, as_mesh, data_rules, put_back
 from ._optimize_options import OptimizeOptions, changed, shows_options
 from ._progress import Line, Progress, SweepRecord
 from ._records import Record
@@ -54,6 +55,8 @@ class OptimizeReport(Record):
     """Of the input, at the final γ."""
     final_energy: float
     size: SizeChange
+    data: DataReport | None
+    """Of the data that came with the mesh; None without."""
     history: list[SweepRecord] = dataclasses.field(repr=False)
     """``history[0]`` is the input."""
     notes: list[str]
@@ -61,9 +64,12 @@ class OptimizeReport(Record):
 
     def _rows(self) -> list[tuple[str, str]]:
         bad = [str(record.bad) for record in (self.history[:1] + self.history[-1:])]
-        rows = [row for row in super()._rows() if row[0] not in ("vertices", "hidden", "size", "notes")]
+        rows = [row for row in super()._rows() if row[0] not in ("vertices", "hidden", "size", "data", "notes")]
         rows.insert(1, ("bad triangles", " → ".join(bad)))
         rows.append(("sizes within", f"1/{self.size.after.band:.3g} to {self.size.after.band:.3g} of the field"))
+        if self.data is not None and self.data.interpolated:
+            moved = f"of {self.data.points_moved} moved points: {', '.join(self.data.interpolated)}"
+            rows.append(("interpolated", moved))
         return rows + [("note", note) for note in self.notes]
 
     def as_dict(self) -> dict[str, Any]:
@@ -71,10 +77,10 @@ class OptimizeReport(Record):
         return {**super().as_dict(), "history": [record.as_dict() for record in self.history]}
 
 
-def _report(d: dict[str, Any]) -> OptimizeReport:
+def _report(d: dict[str, Any], data: DataReport | None = None) -> OptimizeReport:
     size = SizeChange(_size_report(d.pop("size_before")), _size_report(d.pop("size_after")))
     history = [SweepRecord(**record) for record in d.pop("history")]
-    return OptimizeReport(**d, size=size, history=history)
+    return OptimizeReport(**d, size=size, data=data, history=history)
 
 
 def _observer(line: Line, observer: Callable[[Progress], Any] | None) -> Callable[..., bool] | None:
@@ -95,6 +101,7 @@ def optimize(
     options: OptimizeOptions | None = None,
     *,
     size_field: SizeField | None = None,
+    point_data: DataRules | None = None,
     threads: int | None = None,
     observer: Callable[[Progress], Any] | None = None,
     progress: bool | None = None,
@@ -121,6 +128,8 @@ def optimize(
         ``help(temper.OptimizeOptions)`` says what each is for.
     size_field : SizeField, optional
         That sizes are compared with. None: the input's own.
+    point_data : str or sequence of str, optional
+        What floating point data of points do where vertices move: ``Mesh.point_data_rules``, which this sets.
     threads : int, optional
         None or 0: as many as the machine has. The result does not depend on it.
     observer : callable, optional
@@ -172,6 +181,8 @@ def optimize(
     if size_field is not None and not isinstance(size_field, SizeField):
         raise TypeError(f"size_field: expected a SizeField or None, found {type(size_field).__name__}")
     target = as_mesh(mesh)
+    rules = target.point_data_rules if point_data is None else data_rules(point_data)
+    _temper.check_data_rules(target._handle, rules)
     plain = changed(options, changes)._plain()
     line = Line(progress)
     trace = (lambda event: tracer(TraceEvent(**event))) if tracer is not None else None
@@ -182,9 +193,11 @@ def optimize(
         report = _temper.optimize(target._handle, plain, field, threads, _observer(line, observer), trace, look)
     finally:
         line.clear()
-        if target is not mesh and target._handle.version() != before:
-            put_back(mesh, target)
-    return _report(report)
+        if target._handle.version() != before:
+            target.point_data_rules = rules
+            if target is not mesh:
+                put_back(mesh, target)
+    return _report(report, DataReport._of(target, threads) if target._handle.has_data() else None)
 
 
 def optimized(mesh: MeshLike, options: OptimizeOptions | None = None, **keywords: Any) -> Mesh:

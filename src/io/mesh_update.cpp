@@ -1,18 +1,17 @@
 // From a mesh back to the arrays of the file that it came from.
 //
 // Coordinates, weights, triangles and regions are the mesh's; everything else is the file's and goes with its point,
-// its line or its triangle. When vertices were removed or inserted, the points that are left keep their data, bit for
-// bit; those of new points are interpolated on the mesh of before.
+// its line or its triangle; data_update.cpp says how data of points and triangles follow.
 #include <algorithm>
 #include <cstring>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
+#include "io/data_update.hpp"
 #include "io/failure.hpp"
 #include "io/file_names.hpp"
 #include "io/input.hpp"
-#include "io/interpolation.hpp"
 #include "io/line_cuts.hpp"
 #include "io/values.hpp"
 #include "temper/io.hpp"
@@ -101,29 +100,19 @@ struct PlaceHash {
   }
 };
 
-/// Vertices were removed or inserted: what is on lines has not moved and is found again by its place.
-void find_again(MeshFile& file, const Mesh& mesh) {
-  std::unordered_map<Vec2, std::int32_t, PlaceHash> places;
-  for (const VertexId v : mesh.vertices()) places.emplace(mesh.position(v), static_cast<std::int32_t>(v.index));
-  const std::vector<Vec2> old = file.points;
-  const std::size_t n_lines = file.lines.size(), n_marked = file.marked_points.size();
-  renumber(file, [&](std::int32_t p) {
-    const auto found = places.find(old[static_cast<std::size_t>(p)]);
-    return found == places.end() ? std::int32_t{-1} : found->second;
-  });
-  const std::size_t lost = n_lines - file.lines.size() + n_marked - file.marked_points.size();
-  if (lost > 0) file.warnings.push_back(text(lost, " lines or marked points have lost their vertices and are dropped"));
+/// The point that each vertex is at the place of.
+Former vertices_by_place(const std::vector<Vec2>& points, const Mesh& mesh) {
+  std::unordered_map<Vec2, VertexId, PlaceHash> places;
+  for (std::size_t p = 0; p < points.size(); ++p) places.emplace(points[p], VertexId(p));
+  Former former(mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) {
+    const auto found = places.find(mesh.position(v));
+    if (found != places.end()) former[v] = found->second;
+  }
+  return former;
 }
 
-void drop_data(MeshFile& file, std::vector<DataArray>& arrays, std::string_view kind) {
-  std::string names;
-  for (const DataArray& a : arrays) names += text(names.empty() ? "" : ", ", a.name);
-  if (!names.empty()) file.warnings.push_back(text("the mesh has changed in number: ", kind, " is dropped: ", names));
-  arrays.clear();
-}
-
-// --- vertices that were removed or inserted
-// -------------------------------------------------------------------------------
+// --- vertices that were removed or inserted ----------------------------------------------------------------------
 
 using NewNumbers = std::vector<std::int32_t>;  // of the points before; −1: removed
 
@@ -167,123 +156,46 @@ class LineMerger {
   std::unordered_map<std::int32_t, std::vector<std::size_t>> lines_at_;  // of removed points
 };
 
-/// Flags of medit say what is special about a point of the user's: nothing is about a new one.
-bool is_flag(const DataArray& a) { return a.name == "medit:corner" || a.name == "medit:required"; }
-
-/// Point data of the kept points, then of the new ones: see update(). Reads the file's geometry of before.
-void extend_point_data(MeshFile& file, const Mesh& mesh, const IdVector<VertexId, VertexId>& vertices) {
-  RunLength old;
-  std::vector<Vec2> places;
-  for (const VertexId v : IdRange<VertexId>(vertices.size())) {
-    if (vertices[v].valid()) {
-      old.push_back(std::int64_t{vertices[v].index});
-    } else {
-      places.push_back(mesh.position(v));
-    }
-  }
-  const bool released = file.triangles.empty();
-  const bool needs_means = !places.empty() && !file.point_data.empty() && !released;
-  const auto means = needs_means ? locate(file.points, file.triangles, places) : std::vector<PointMean>();
-  std::vector<DataArray> kept, lost;
-  for (DataArray& a : file.point_data) {
-    DataArray of_new = a;
-    bool known = places.empty();
-    if (!known && is_flag(a)) {
-      of_new.values = zeros(scalar_of(a.values), places.size() * static_cast<std::size_t>(a.components));
-      known = true;
-    } else if (needs_means && append_means(of_new, means)) {
-      RunLength appended(static_cast<std::int64_t>(file.points.size()), places.size());
-      of_new.values = gather(of_new.values, a.components, appended);
-      known = true;
-    }
-    if (known) {
-      a.values = gather(a.values, a.components, old);
-      if (!places.empty()) append(a.values, of_new.values);
-    }
-    (known ? kept : lost).push_back(std::move(a));
-  }
-  file.point_data = std::move(kept);
-  drop_data(file, lost, "point data");
-}
-
-void keep_vertices(MeshFile& file, std::size_t n_before, const Mesh& mesh,
-                   const IdVector<VertexId, VertexId>& vertices) {
-  extend_point_data(file, mesh, vertices);
-  NewNumbers new_index(n_before, -1);
-  for (const VertexId v : IdRange<VertexId>(vertices.size())) {
-    if (vertices[v].valid()) new_index[vertices[v].index] = static_cast<std::int32_t>(v.index);
+/// Lines and marked points of n points go on with the vertices that these have become.
+void follow(MeshFile& file, std::size_t n, const Mesh& mesh, const Former& former) {
+  NewNumbers new_index(n, -1);
+  for (const VertexId v : mesh.vertices()) {
+    if (former[v].valid()) new_index[former[v].index] = static_cast<std::int32_t>(v.index);
   }
   const std::size_t n_lines = file.lines.size(), n_marked = file.marked_points.size();
   const std::size_t merged = LineMerger(file, new_index).merge();
   renumber(file, [&](std::int32_t p) { return new_index[static_cast<std::size_t>(p)]; });
   const std::size_t lost = n_lines - merged - file.lines.size() + n_marked - file.marked_points.size();
   if (lost > 0) file.warnings.push_back(text(lost, " lines or marked points have lost their vertices and are dropped"));
-  cut_lines(file, mesh, vertices);
-}
-
-/// The same bytes at the two tuples?
-bool same_tuple(const DataArray& a, std::size_t s, std::size_t t) {
-  return std::visit(
-      [&](const auto& v) {
-        const std::size_t bytes = static_cast<std::size_t>(a.components) * sizeof v[0];
-        const auto* data = reinterpret_cast<const char*>(v.data());
-        return std::memcmp(data + s * bytes, data + t * bytes, bytes) == 0;
-      },
-      a.values);
-}
-
-/// Triangles are others than before, but each is within one region: what a region's triangles had in common they have.
-/// Reads the file's regions of before.
-void keep_region_data(MeshFile& file, const Mesh& mesh) {
-  if (file.cell_data.empty()) return;
-  const DataArray& any = file.cell_data.front();
-  const std::size_t n_before = size(any.values) / static_cast<std::size_t>(any.components);
-  std::unordered_map<std::int32_t, std::size_t> first_of_region;
-  std::vector<std::size_t> first(n_before);
-  for (std::size_t t = 0; t < n_before; ++t) {
-    first[t] = first_of_region.emplace(file.regions.empty() ? 0 : file.regions[t], t).first->second;
-  }
-  RunLength source;
-  for (const TriangleId t : mesh.triangles()) {
-    const auto found = first_of_region.find(mesh.region(t));
-    if (found == first_of_region.end()) return drop_data(file, file.cell_data, "cell data");
-    source.push_back(static_cast<std::int64_t>(found->second));
-  }
-  std::vector<DataArray> kept, lost;
-  for (DataArray& a : file.cell_data) {
-    bool by_region = true;
-    for (std::size_t t = 0; t < n_before && by_region; ++t) by_region = same_tuple(a, first[t], t);
-    if (by_region) a.values = gather(a.values, a.components, source);
-    (by_region ? kept : lost).push_back(std::move(a));
-  }
-  file.cell_data = std::move(kept);
-  drop_data(file, lost, "cell data");
+  cut_lines(file, mesh, former);
 }
 
 }  // namespace
 
-void update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh, const IdVector<VertexId, VertexId>& vertices) {
+DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
+                  const IdVector<VertexId, VertexId>& vertices, const UpdateOptions& options) {
   const auto& vertex = loaded.vertex_of_point;
-  const std::size_t n_kept = vertex.n_kept();
-  const bool has_unused = file.points.size() == vertex.size() && n_kept < vertex.size();
+  const bool has_unused = file.points.size() == vertex.size() && vertex.n_kept() < vertex.size();
   if (has_unused) drop_unused_points(file, vertex);
   const bool released = file.points.empty();
-  const bool renumbered = !vertices.empty() && (released || file.points.size() == n_kept);  // else it was done before
-  if (renumbered) {
-    keep_vertices(file, n_kept, mesh, vertices);
-    keep_region_data(file, mesh);
-  } else if (!released && (mesh.n_vertices() != file.points.size() || mesh.n_triangles() != file.triangles.size())) {
-    find_again(file, mesh);
-    drop_data(file, file.point_data, "point data");
-    keep_region_data(file, mesh);
+  const std::size_t n_before = released ? vertex.n_kept() : file.points.size();
+  Former former;  // empty: the same numbers
+  if (!vertices.empty() && n_before == vertex.n_kept()) {
+    former = vertices;
+  } else if (!released && mesh.n_vertices() != n_before) {
+    former = vertices_by_place(file.points, mesh);
   }
+  DataReport report = update_data(file, mesh, former, options);
+  if (!former.empty()) follow(file, n_before, mesh, former);
   copy_vertices(file, mesh);
   copy_triangles(file, mesh);
-  if (has_unused || renumbered) file.numbering = nullptr;  // the file's numbers are no longer those of its points
+  if (has_unused || !former.empty()) file.numbering = nullptr;  // its numbers are no longer those of the points
+  return report;
 }
 
 void release_geometry(MeshFile& file, const LoadedMesh& loaded) {
   if (file.points.size() != loaded.mesh.n_vertices()) return;
+  if (!file.point_data.empty() || !file.cell_data.empty()) return;
   std::vector<Vec2>().swap(file.points);  // assigning {} would keep the capacity
   std::vector<double>().swap(file.weights);
   std::vector<std::array<std::int32_t, 3>>().swap(file.triangles);

@@ -31,6 +31,7 @@ struct ScalarInfo {
 [[nodiscard]] inline Scalar scalar_of(const Values& values) { return static_cast<Scalar>(values.index()); }
 [[nodiscard]] inline std::string_view type_name(const Values& values) { return info(scalar_of(values)).text; }
 [[nodiscard]] std::size_t size(const Values& values);
+[[nodiscard]] inline bool is_floating(const Values& values) { return scalar_of(values) <= Scalar::f32; }
 
 /// Calls f(T()) with a value of the type; all calls return the same type.
 template <class F>

@@ -329,3 +329,66 @@ def test_reports_read_well(ring):
 
     assert json.loads(json.dumps(report.as_dict()))["history"][0]["sweep"] == 0
     json.dumps(temper.quality(ring).as_dict())
+
+
+# --- data ------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def sea(ring):
+    """A mesh with depths, numbers and cell data, as a file gives them."""
+    meshio = pytest.importorskip("meshio")
+    points = np.asarray(ring.points)
+    data = {"depth": points @ (3.0, -1.0) + 2, "load": points[:, 0] ** 2, "node": np.arange(len(points))}
+    cells = [("triangle", np.asarray(ring.triangles))]
+    return meshio.Mesh(points, cells, point_data=data, cell_data={"cell": [np.arange(ring.n_triangles)]})
+
+
+def test_data_follow_the_vertices(sea):
+    before = np.array(sea.points)
+    mesh = temper.from_meshio(sea)
+    report = temper.optimize(mesh, point_data="keep=load")
+    points, data = np.asarray(mesh.points), mesh.point_data
+    assert np.allclose(data["depth"], points @ (3.0, -1.0) + 2, atol=1e-14)
+    assert np.array_equal(data["load"], sea.point_data["load"]) and np.array_equal(data["node"], np.arange(len(points)))
+    moved = (points != before).any(axis=1)
+    assert report.data.points_moved == moved.sum() > 10 and report.data.interpolated == ["depth"]
+    assert report.data.distance.max == pytest.approx(np.linalg.norm(points - before, axis=1).max())
+    assert report.data.kept == ["load", "node"] and report.data.of_triangles == ["cell"]
+    assert "depth" in str(report) and report.as_dict()["data"]["points"] == len(points)
+    assert mesh.point_data_rules == ("interpolate", "keep=load") == mesh.copy().point_data_rules
+    mesh.point_data_rules = "keep"
+    assert np.array_equal(mesh.point_data["depth"], sea.point_data["depth"])
+
+
+def test_data_follow_the_vertices_of_a_meshio_mesh_in_place(sea):
+    temper.optimize(sea)
+    assert np.allclose(sea.point_data["depth"], sea.points[:, :2] @ (3.0, -1.0) + 2, atol=1e-14)
+    middles = sea.points[sea.cells[0].data, :2].mean(axis=1)
+    assert len(sea.cell_data["cell"][0]) == len(middles)
+
+
+def test_data_are_the_same_as_the_programs(sea, in_scratch):
+    temper.write("in.vtu", sea)
+    try:
+        subprocess.run(["temper", "optimize", "in.vtu", "-o", "out.vtu", "--quiet", "--point-data", "keep=load"], check=True)
+    except FileNotFoundError:
+        pytest.skip("the program was not built")
+    mesh = temper.read("in.vtu")
+    temper.optimize(mesh, point_data=["keep=load"])
+    program = temper.read("out.vtu")
+    for name, values in mesh.point_data.items():
+        assert np.array_equal(program.point_data[name], values), name
+    assert np.array_equal(program.cell_data["cell"], mesh.cell_data["cell"])
+
+
+def test_rules_of_data_that_make_no_sense_leave_the_mesh_as_it_was(sea):
+    mesh = temper.from_meshio(sea)
+    before = mesh.copy()
+    for rules, words in (("keep=dept", "there are: depth"), ("interpolate=node", "integers"), (["keep", "drop"], "drop")):
+        with pytest.raises(temper.TemperError, match=words):
+            temper.optimize(mesh, point_data=rules)
+    with pytest.raises(TypeError, match="point_data"):
+        temper.optimize(mesh, point_data=[1])
+    assert mesh == before and mesh.point_data_rules == ("interpolate",)
+    assert temper.optimize(temper.generate.annulus()).data is None

@@ -284,7 +284,7 @@ TEST_F(FileTest, integers_of_inserted_points_are_what_is_common_around_or_droppe
   const auto& flags = std::get<std::vector<std::uint8_t>>(f.point_data[1].values);
   EXPECT_EQ(flags.size(), n + 2);
   EXPECT_EQ(std::count(flags.begin(), flags.end(), 1), 1);
-  EXPECT_EQ(f.warnings.at(0), "the mesh has changed in number: point data is dropped: number");
+  EXPECT_EQ(f.warnings.at(0), "data are dropped, because integers differ around a new point: number");
 }
 
 TEST_F(FileTest, markers_of_boundary_points_go_to_points_between_them_where_formats_mark_the_boundary) {
@@ -320,23 +320,6 @@ TEST_F(FileTest, points_of_straight_boundaries_where_tags_end_or_change_are_fixe
     if (loaded->mesh.is_fixed(v)) fixed.push_back(v.index);
   }
   EXPECT_EQ(fixed, (std::vector<std::size_t>{3, 4, 5}));
-}
-
-TEST_F(FileTest, cell_data_that_are_the_same_in_a_region_stay_and_the_others_are_named) {
-  MeshFile f = grid();
-  auto loaded = make_mesh(f);
-  ASSERT_TRUE(loaded) << loaded.error().what();
-  const auto left = remove(loaded->mesh, {kSquares + 2, 2});
-  for (int twice = 0; twice < 2; ++twice) {
-    update(f, *loaded, loaded->mesh, left);
-    ASSERT_EQ(f.cell_data.size(), 1u);
-    EXPECT_EQ(f.cell_data[0].name, "material");
-    const auto& material = std::get<std::vector<std::int32_t>>(f.cell_data[0].values);
-    ASSERT_EQ(material.size(), f.triangles.size());
-    for (std::size_t t = 0; t < material.size(); ++t) EXPECT_EQ(material[t], 10 * f.regions[t]);
-    ASSERT_EQ(f.warnings.size(), 1u);
-    EXPECT_EQ(f.warnings[0], "the mesh has changed in number: cell data is dropped: number");
-  }
 }
 
 TEST_F(FileTest, a_marked_point_that_was_removed_is_counted) {

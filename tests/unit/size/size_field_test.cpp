@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "size/box_tree.hpp"
+#include "places/box_tree.hpp"
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/generate.hpp"

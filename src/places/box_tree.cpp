@@ -1,4 +1,4 @@
-#include "size/box_tree.hpp"
+#include "places/box_tree.hpp"
 
 #include <algorithm>
 #include <array>

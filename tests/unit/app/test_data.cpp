@@ -1,0 +1,125 @@
+// Data of points and triangles, from file to file: depths stay where they were measured.
+#include <cmath>
+#include <variant>
+
+#include "temper/generate.hpp"
+#include "temper/io.hpp"
+#include "workshop.hpp"
+
+namespace temper::test {
+namespace {
+
+/// A bay: dry land around water, deepest in the middle.
+double depth(Vec2 p) { return 8 - 2.5 * ((p.x - 2) * (p.x - 2) + (p.y - 2) * (p.y - 2)); }
+
+class Data : public Workshop {
+ protected:
+  static void write_bay(const std::string& path) {
+    io::MeshFile file = io::from_mesh(*random_points({.vertices = 400, .seed = 5}));
+    std::vector<double> depths;
+    std::vector<std::int32_t> node, bottom;
+    for (const Vec2 p : file.points) depths.push_back(depth(p)), node.push_back(static_cast<int>(node.size()));
+    for (std::size_t t = 0; t < file.triangles.size(); ++t) bottom.push_back(static_cast<int>(t));
+    file.point_data = {{"depth", 1, depths}, {"node", 1, node}};
+    file.cell_data = {{"bottom", 1, bottom}};
+    ASSERT_TRUE(io::write(path, file));
+  }
+  static std::vector<double> depths(const io::MeshFile& file) {
+    return std::get<std::vector<double>>(file.point_data.at(0).values);
+  }
+  /// The greatest error of the depths, and how many points are wet that should be dry or the other way round.
+  struct Errors {
+    double greatest = 0;
+    int crossed = 0;
+  };
+  static Errors errors_of(const std::string& path) {
+    const auto file = io::read(path);
+    Errors errors;
+    EXPECT_TRUE(file);
+    if (!file) return errors;
+    for (std::size_t p = 0; p < file->points.size(); ++p) {
+      const double found = depths(*file)[p], right = depth(file->points[p]);
+      errors.greatest = std::max(errors.greatest, std::abs(found - right));
+      errors.crossed += (found > 0) != (right > 0) ? 1 : 0;
+    }
+    return errors;
+  }
+};
+
+TEST_F(Data, DepthsStayAtTheirPlaceUnlessToldToKeepToTheirPoints) {
+  write_bay("bay.vtu");
+  ASSERT_EQ(errors_of("bay.vtu").greatest, 0);
+  temper_ok({"convert", "bay.vtu", "-o", "fort.14"});
+  for (const std::string input : {"bay.vtu", "fort.14"}) {
+    temper_ok({"optimize", input, "-o", "out-" + input, "--quiet"});
+    temper_ok({"optimize", input, "-o", "kept-" + input, "--quiet", "--point-data", "keep=depth"});
+    const Errors interpolated = errors_of("out-" + input), kept = errors_of("kept-" + input);
+    EXPECT_LT(interpolated.greatest, 0.5) << "linear between points 0.2 apart: a few times 2.5 · 0.2²";
+    EXPECT_LT(10 * interpolated.crossed, kept.crossed);
+    EXPECT_GT(kept.greatest, 4 * interpolated.greatest);
+  }
+}
+
+TEST_F(Data, TheReportSaysWhatMovedHowFarAndWhatWasInterpolated) {
+  write_bay("bay.vtu");
+  const Outcome outcome = temper_ok({"optimize", "bay.vtu", "-o", "out.vtu", "--report", "r.json"});
+  const nlohmann::json data = read_json("r.json")["data"];
+  EXPECT_EQ(data["points"], 400);
+  EXPECT_GT(data["points_moved"], 200);
+  EXPECT_GT(data["distance"]["median"], 0);
+  EXPECT_EQ(data["interpolated"], nlohmann::json::array({"depth"}));
+  EXPECT_EQ(data["kept"], nlohmann::json::array({"node"}));
+  EXPECT_EQ(data["of_triangles"], nlohmann::json::array({"bottom"}));
+  EXPECT_GT(data["triangles_changed"], 200);
+  EXPECT_TRUE(contains(outcome.out, "point data: " + data["points_moved"].dump() + " of 400 points moved, by "));
+  EXPECT_TRUE(contains(outcome.out, "interpolated on the triangles of the input: depth\n"));
+  EXPECT_TRUE(contains(outcome.out, "kept with their points: node\n"));
+  EXPECT_TRUE(contains(outcome.out, "of the input's triangle that the middle is in: bottom\n"));
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST_F(Data, AReplayPutsTheSameDataBackToTheByte) {
+  write_bay("bay.vtu");
+  for (const std::vector<std::string>& rules : {std::vector<std::string>{},
+                                                {"--point-data", "keep"},
+                                                {"--point-data", "keep", "--point-data", "interpolate=depth"}}) {
+    std::vector<std::string> run = {"optimize", "bay.vtu", "-o", "out.vtu", "--quiet", "--trace", "t.jsonl"};
+    std::vector<std::string> again = {"replay", "bay.vtu", "t.jsonl", "-o", "again.vtu", "--quiet"};
+    run.insert(run.end(), rules.begin(), rules.end());
+    again.insert(again.end(), rules.begin(), rules.end());
+    temper_ok(run);
+    temper_ok(again);
+    EXPECT_EQ(read("out.vtu"), read("again.vtu"));
+  }
+}
+
+TEST_F(Data, RulesThatFitNoArrayAreRefusedBeforeTheWork) {
+  write_bay("bay.vtu");
+  const auto refused = [](const std::vector<std::string>& rules, const std::string& part) {
+    std::vector<std::string> arguments = {"optimize", "bay.vtu", "-o", "out.vtu"};
+    for (const std::string& rule : rules) arguments.insert(arguments.end(), {"--point-data", rule});
+    const Outcome outcome = temper(arguments);
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_TRUE(contains(outcome.err, part));
+    EXPECT_FALSE(exists("out.vtu"));
+  };
+  refused({"keep=dept"}, "bay.vtu: --point-data: there is no point data 'dept'; there are: depth, node");
+  refused({"interpolate=node"}, "only floating point data are interpolated");
+  refused({"keep", "interpolate"}, "--point-data: 'interpolate' contradicts what was said before it");
+  refused({"move"}, "--point-data: 'move' is not interpolate, keep, interpolate=NAME or keep=NAME");
+}
+
+TEST_F(Data, TheCommandOfAReportMakesTheSameData) {
+  write_bay("bay.vtu");
+  temper_ok({"optimize", "bay.vtu", "-o", "out.vtu", "--report", "r.json", "--quiet", "--point-data", "keep",
+             "--point-data", "interpolate=depth"});
+  const nlohmann::json report = read_json("r.json");
+  EXPECT_EQ(report["options"]["point-data"], nlohmann::json::array({"keep", "interpolate=depth"}));
+  const std::string first = read("out.vtu");
+  const Outcome again = shell(report["command"].get<std::string>());
+  EXPECT_EQ(again.exit, 0);
+  EXPECT_EQ(read("out.vtu"), first);
+}
+
+}  // namespace
+}  // namespace temper::test

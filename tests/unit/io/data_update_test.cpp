@@ -1,0 +1,246 @@
+// Data of points and triangles follow a mesh that changes: what is of the place stays at the place.
+#include <cmath>
+
+#include "support.hpp"
+#include "temper/generate.hpp"
+#include "temper/optimize.hpp"
+#include "temper/topology.hpp"
+
+namespace temper::io {
+namespace {
+
+constexpr double kRounding = 1e-13, kFloatRounding = 1e-6;  // coordinates are up to 5
+
+double depth(Vec2 p) { return 100 + 40 * p.x - 25 * p.y; }
+
+/// Random points with data of several kinds, and what they are after an optimisation.
+struct Changed {
+  MeshFile before, after;
+  Mesh mesh;
+  OptimizeReport run;
+  DataReport report;
+};
+
+MeshFile file_with_data(const Mesh& mesh = *random_points({.vertices = 150, .seed = 3})) {
+  MeshFile f = from_mesh(mesh);
+  std::vector<double> depths, id;
+  std::vector<float> coarse;
+  std::vector<std::int32_t> node, triangle;
+  std::vector<double> east;
+  for (const Vec2 p : f.points) {
+    depths.push_back(depth(p));
+    coarse.push_back(static_cast<float>(p.x)), coarse.push_back(static_cast<float>(-p.y));
+    node.push_back(static_cast<std::int32_t>(node.size()));
+    id.push_back(static_cast<double>(id.size()));
+  }
+  for (const auto& corners : f.triangles) {
+    triangle.push_back(static_cast<std::int32_t>(triangle.size()));
+    double sum = 0;
+    for (const std::int32_t p : corners) sum += f.points[static_cast<std::size_t>(p)].x;
+    east.push_back(sum / 3);
+  }
+  f.point_data = {{"depth", 1, depths}, {"coarse", 2, coarse}, {"node", 1, node}, {"id", 1, id}};
+  f.cell_data = {{"triangle", 1, triangle}, {"east", 1, east}};
+  return f;
+}
+
+Changed change(const OptimizeOptions& options = {}, const DataRules& rules = {},
+               const MeshFile& file = file_with_data()) {
+  Changed c;
+  c.before = c.after = file;
+  auto loaded = make_mesh(c.before);
+  EXPECT_TRUE(loaded);
+  auto run = optimize(loaded->mesh, options);
+  EXPECT_TRUE(run);
+  c.run = *std::move(run);
+  c.mesh = loaded->mesh;
+  c.report = update(c.after, *loaded, c.mesh, c.run.vertices, {rules});
+  return c;
+}
+
+template <class T>
+const std::vector<T>& values(const std::vector<DataArray>& arrays, std::string_view name) {
+  for (const DataArray& a : arrays) {
+    if (a.name == name) return std::get<std::vector<T>>(a.values);
+  }
+  throw std::runtime_error("there is no such array");
+}
+
+TEST(PointData, of_floating_point_are_of_the_place_and_integers_of_the_point) {
+  const Changed c = change();
+  ASSERT_GT(c.report.points_moved, 50u);
+  const auto& depths = values<double>(c.after.point_data, "depth");
+  const auto& coarse = values<float>(c.after.point_data, "coarse");
+  for (std::size_t p = 0; p < c.after.points.size(); ++p) {
+    const Vec2 at = c.after.points[p];
+    EXPECT_NEAR(depths[p], depth(at), 100 * kRounding);
+    EXPECT_NEAR(coarse[2 * p], at.x, kFloatRounding);
+    EXPECT_NEAR(coarse[2 * p + 1], -at.y, kFloatRounding);
+    if (at == c.before.points[p]) {
+      EXPECT_EQ(depths[p], values<double>(c.before.point_data, "depth")[p]);
+    }
+  }
+  EXPECT_EQ(values<std::int32_t>(c.after.point_data, "node"), values<std::int32_t>(c.before.point_data, "node"));
+}
+
+TEST(PointData, are_those_of_new_vertices_too_and_of_those_around_removed_ones) {
+  OptimizeOptions options;
+  options.boundary = BoundaryVertices::split;
+  options.paper.removal = Removal::patch;
+  options.paper.removal_from = 0;
+  const Changed c = change(options, {}, file_with_data(*horseshoe()));
+  ASSERT_GT(c.report.points_inserted, 0u);
+  ASSERT_LT(c.report.points, c.before.points.size());
+  EXPECT_EQ(c.report.points + c.report.points_inserted, c.after.points.size());
+  EXPECT_EQ(c.report.dropped, std::vector<std::string>{"node"});
+  const auto& depths = values<double>(c.after.point_data, "depth");
+  ASSERT_EQ(depths.size(), c.after.points.size());
+  for (std::size_t p = 0; p < depths.size(); ++p) EXPECT_NEAR(depths[p], depth(c.after.points[p]), 100 * kRounding);
+}
+
+TEST(PointData, stay_with_their_points_when_told_to_each_by_its_name) {
+  const auto rules = [](const std::vector<std::string>& words) { return *parse_data_rules(words); };
+  const Changed keep = change({}, rules({"keep"}));
+  expect_same_data(keep.before.point_data, keep.after.point_data, "point data");
+  const Changed but_one = change({}, rules({"keep=id"}));
+  EXPECT_EQ(values<double>(but_one.after.point_data, "id"), values<double>(but_one.before.point_data, "id"));
+  EXPECT_NE(values<double>(but_one.after.point_data, "depth"), values<double>(but_one.before.point_data, "depth"));
+  EXPECT_EQ(but_one.report.interpolated, (std::vector<std::string>{"depth", "coarse"}));
+  EXPECT_EQ(but_one.report.kept, (std::vector<std::string>{"node", "id"}));
+  const Changed one = change({}, rules({"keep", "interpolate=depth"}));
+  EXPECT_EQ(one.report.interpolated, std::vector<std::string>{"depth"});
+  EXPECT_EQ(values<double>(one.after.point_data, "depth"), values<double>(but_one.after.point_data, "depth"));
+}
+
+TEST(PointData, of_a_place_that_was_another_vertex_are_those_of_that_vertex_bit_for_bit) {
+  MeshFile f = file_with_data();
+  auto loaded = make_mesh(f);
+  ASSERT_TRUE(loaded);
+  Mesh& mesh = loaded->mesh;
+  // All vertices change their numbers: every place is that of another one.
+  const MeshOrder order = hilbert_order(mesh);
+  const MeshFile before = f;
+  update(f, *loaded, mesh);
+  for (const VertexId v : mesh.vertices()) {
+    for (const char* name : {"depth", "id"}) {
+      EXPECT_EQ(values<double>(f.point_data, name)[v.index],
+                values<double>(before.point_data, name)[order.vertices[v].index]);
+    }
+  }
+  for (const TriangleId t : mesh.triangles()) {
+    EXPECT_EQ(values<std::int32_t>(f.cell_data, "triangle")[t.index], static_cast<int>(order.triangles[t].index));
+  }
+}
+
+TEST(CellData, are_those_of_the_triangle_that_the_middle_is_in) {
+  for (const bool flips : {true, false}) {
+    OptimizeOptions options;
+    if (!flips) options.flips = Flips::none;
+    const Changed c = change(options);
+    ASSERT_GT(c.report.triangles_changed, 50u);
+    EXPECT_EQ(c.report.of_triangles, (std::vector<std::string>{"triangle", "east"}));
+    const auto& triangle = values<std::int32_t>(c.after.cell_data, "triangle");
+    const auto& east = values<double>(c.after.cell_data, "east");
+    std::size_t others = 0;
+    for (std::size_t t = 0; t < c.after.triangles.size(); ++t) {
+      const auto source = static_cast<std::size_t>(triangle[t]);
+      EXPECT_EQ(east[t], values<double>(c.before.cell_data, "east")[source]) << "all arrays from one triangle";
+      Vec2 middle;
+      for (const std::int32_t p : c.after.triangles[t]) {
+        middle = middle + (1.0 / 3) * c.after.points[static_cast<std::size_t>(p)];
+      }
+      Vec2 last = c.before.points[static_cast<std::size_t>(c.before.triangles[source][2])];
+      for (const std::int32_t p : c.before.triangles[source]) {
+        const Vec2 next = c.before.points[static_cast<std::size_t>(p)];
+        EXPECT_GT(cross(next - last, middle - last), -kRounding);
+        last = next;
+      }
+      others += source != t ? 1 : 0;
+    }
+    EXPECT_GT(others, 0u);
+  }
+}
+
+TEST(CellData, stay_in_their_region_when_vertices_are_removed_and_nothing_is_lost) {
+  MeshFile f = from_mesh(*sheared_grid({6, 6, 0.25}));
+  std::vector<std::int32_t> material;
+  std::vector<float> head;
+  f.regions.clear();
+  for (const auto& corners : f.triangles) {
+    const int low = std::min({corners[0] % 7, corners[1] % 7, corners[2] % 7});
+    f.regions.push_back(low < 3 ? 1 : 2);
+    material.push_back(10 * f.regions.back());
+    head.push_back(static_cast<float>(head.size()));
+  }
+  f.cell_data = {{"material", 1, material}, {"head", 1, head}};
+  auto loaded = make_mesh(f);
+  ASSERT_TRUE(loaded);
+  for (const std::size_t v : {8u, 2u, 24u}) {  // inside, on the boundary, between the regions
+    const RemovalPlan plan = plan_removal(loaded->mesh, VertexId(v));
+    ASSERT_EQ(plan.status, RemovalStatus::possible);
+    remove_vertex(loaded->mesh, plan);
+  }
+  const auto left = loaded->mesh.compact().vertices;
+  for (int twice = 0; twice < 2; ++twice) {
+    update(f, *loaded, loaded->mesh, left);
+    ASSERT_EQ(values<std::int32_t>(f.cell_data, "material").size(), f.triangles.size());
+    for (std::size_t t = 0; t < f.triangles.size(); ++t) {
+      EXPECT_EQ(values<std::int32_t>(f.cell_data, "material")[t], 10 * f.regions[t]);
+    }
+    EXPECT_EQ(values<float>(f.cell_data, "head").size(), f.triangles.size());
+    EXPECT_TRUE(f.warnings.empty());
+  }
+}
+
+TEST(DataReport, counts_points_and_triangles_and_says_how_far_points_have_moved) {
+  MeshFile f = file_with_data();
+  auto loaded = make_mesh(f);
+  ASSERT_TRUE(loaded);
+  const std::size_t n = f.points.size(), m = f.triangles.size();
+  {
+    MeshFile same = f;
+    const DataReport nothing = update(same, *loaded, loaded->mesh);
+    EXPECT_EQ(nothing.points, n);
+    EXPECT_EQ(nothing.points_moved + nothing.points_inserted + nothing.triangles_changed, 0u);
+    EXPECT_EQ(nothing.distance.max, 0);
+    expect_same_data(same.point_data, f.point_data, "point data");
+    expect_same_data(same.cell_data, f.cell_data, "cell data");
+  }
+  VertexId inner(0);
+  while (loaded->mesh.is_boundary(inner)) inner = VertexId(inner.index + 1);
+  const Vec2 step{0x1p-12, 0};
+  loaded->mesh.set_position(inner, loaded->mesh.position(inner) + step);
+  std::size_t degree = 0;
+  for ([[maybe_unused]] const HalfedgeId h : loaded->mesh.star(inner)) ++degree;
+  const DataReport report = update(f, *loaded, loaded->mesh);
+  EXPECT_EQ(report.points, n);
+  EXPECT_EQ(report.points_moved, 1u);
+  EXPECT_NEAR(report.distance.max, 0x1p-12, 1e-15);
+  EXPECT_EQ(report.triangles, m);
+  EXPECT_EQ(report.triangles_changed, degree);
+  MeshFile without = from_mesh(loaded->mesh);
+  EXPECT_EQ(update(without, *loaded, loaded->mesh).points, 0u) << "there are no data";
+}
+
+TEST(DataRules, that_make_no_sense_are_refused_by_name) {
+  const auto error = [](const std::vector<std::string>& words) {
+    const auto rules = parse_data_rules(words);
+    if (!rules) return rules.error().message;
+    const auto checked = check_data_rules(*rules, file_with_data());
+    return checked ? std::string() : checked.error().message;
+  };
+  EXPECT_EQ(error({}), "");
+  EXPECT_EQ(error({"keep", "interpolate=depth", "keep=id"}), "");
+  EXPECT_EQ(error({"keep=node"}), "");
+  EXPECT_EQ(error({"drop"}), "'drop' is not interpolate, keep, interpolate=NAME or keep=NAME");
+  EXPECT_EQ(error({"keep="}), "'keep=' is not interpolate, keep, interpolate=NAME or keep=NAME");
+  EXPECT_EQ(error({"keep", "interpolate"}), "'interpolate' contradicts what was said before it");
+  EXPECT_EQ(error({"keep=id", "interpolate=id"}), "'interpolate=id' contradicts what was said before it");
+  EXPECT_EQ(error({"keep=dept"}), "there is no point data 'dept'; there are: depth, coarse, node, id");
+  EXPECT_EQ(error({"interpolate=node"}),
+            "point data 'node' are integers (int32), which stay with their points: only floating point data are "
+            "interpolated");
+}
+
+}  // namespace
+}  // namespace temper::io
