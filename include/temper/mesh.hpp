@@ -182,7 +182,7 @@ class Mesh {
   [[nodiscard]] HalfedgeId rotate(HalfedgeId h) const { return twin(prev(h)); }
   /// The halfedges out of v, one a triangle, counter-clockwise. for (HalfedgeId h : mesh.star(v)) …
   [[nodiscard]] auto star(VertexId v) const { return Star(this, outgoing(v)); }
-  /// The halfedge from a to b, or invalid. O(degree).
+  /// The halfedge from a to b, or invalid. O(the lesser degree).
   [[nodiscard]] HalfedgeId find_halfedge(VertexId a, VertexId b) const;
 
   // --- whole mesh --------------------------------------------------------------------------------

@@ -13,9 +13,13 @@ std::size_t Mesh::n_edges() const {
   return count;
 }
 
+/// Walks around both ends at once: one of them may have as many triangles as the mesh.
 HalfedgeId Mesh::find_halfedge(VertexId a, VertexId b) const {
-  for (const HalfedgeId h : star(a)) {
-    if (target(h) == b) return h;
+  const Star around_a = star(a), around_b = star(b);
+  auto out = around_a.begin(), back = around_b.begin();
+  for (; out != around_a.end() && back != around_b.end(); ++out, ++back) {
+    if (target(*out) == b) return *out;
+    if (opposite(*back) == a) return prev(*back);
   }
   return {};
 }

@@ -184,7 +184,7 @@ TEST(BuildRefuses, ABoundaryThatCrossesItself) {
   const Arrays crossing =
       strip({{0, 9}, {0, 0}, {9, 0}, {9, 5}, {-3, 5}}, {{-1, 9}, {-1, -1}, {10, -1}, {10, 6}, {-3, 6}});
   expect_error(crossing, ErrorCode::overlap,
-               "triangle 7 and triangle 1 have boundary edges that cross or touch away from a common vertex");
+               "triangle 0 and triangle 7 have boundary edges that cross or touch away from a common vertex");
   // The same strip ends short of its beginning.
   const Arrays open = strip({{0, 9}, {0, 0}, {9, 0}, {9, 5}, {3, 5}}, {{-1, 9}, {-1, -1}, {10, -1}, {10, 6}, {3, 6}});
   EXPECT_EQ(built(open).validate(), std::nullopt);

@@ -157,5 +157,76 @@ TEST(Embedding, OfRibbonsAgreesWithBruteForce) {
   EXPECT_EQ(outcomes.not_manifold, 0);
 }
 
+/// Convex sets without any common point are separated by a line along an edge of one of them, which misses the other.
+bool strictly_separated_by_an_edge_of(const Corners& s, const Corners& t) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2 a = s[k], b = s[(k + 1) % 3];
+    if (std::all_of(t.begin(), t.end(), [&](Vec2 p) { return orient2d(a, b, p) == Sign::negative; })) return true;
+  }
+  return false;
+}
+
+bool brute_force_contact(const Arrays& arrays) {
+  for (std::size_t s = 0; s < arrays.triangles.size(); ++s) {
+    for (std::size_t t = 0; t < s; ++t) {
+      const Corners a = corners(arrays, s), b = corners(arrays, t);
+      if (!strictly_separated_by_an_edge_of(a, b) && !strictly_separated_by_an_edge_of(b, a)) return true;
+    }
+  }
+  return false;
+}
+
+Vec2 lattice_point(Rng& rng, std::uint32_t side) {
+  return {static_cast<double>(rng.below(side)), static_cast<double>(rng.below(side))};
+}
+
+// Ends on edges, edges on edges and under each other, several edges through one point.
+TEST(Embedding, OfSeparateTrianglesOnALatticeAgreesWithBruteForce) {
+  Rng rng(5);
+  int embedded = 0, refused = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Arrays arrays;
+    const std::uint32_t side = 4 + rng.below(9), n = 2 + rng.below(5);
+    while (arrays.triangles.size() < n) {
+      const Corners c = {lattice_point(rng, side), lattice_point(rng, side), lattice_point(rng, side)};
+      if (orient2d(c[0], c[1], c[2]) == Sign::zero) continue;
+      const auto first = static_cast<std::int32_t>(arrays.points.size());
+      arrays.points.insert(arrays.points.end(), c.begin(), c.end());
+      arrays.triangles.push_back({first, first + 1, first + 2});
+    }
+    const bool builds = arrays.build().has_value();
+    EXPECT_EQ(builds, !brute_force_contact(arrays)) << "in soup " << i;
+    if (HasFailure()) return;
+    ++(builds ? embedded : refused);
+  }
+  EXPECT_GT(embedded, 1000);
+  EXPECT_GT(refused, 10000);
+}
+
+// A search for each component among all edges, or for pairs of edges with boxes that meet, would take minutes.
+TEST(Embedding, OfManyComponentsAndLongEdgesTakesNoTime) {
+  constexpr int kRings = 20000, kTeeth = 50000;
+  Arrays nested;  // each ring in the hole of the next one
+  for (int k = 0; k < kRings; ++k) {
+    for (const double r : {2.0 * k + 1, 2.0 * k + 2})
+      nested.points.insert(nested.points.end(), {{r, r}, {-r, r}, {-r, -r}, {r, -r}});
+    for (std::int32_t i = 0; i < 4; ++i) {
+      const std::int32_t a = 8 * k + i, b = 8 * k + (i + 1) % 4;
+      nested.triangles.insert(nested.triangles.end(), {{a, a + 4, b + 4}, {a, b + 4, b}});
+    }
+  }
+  EXPECT_TRUE(nested.build().has_value());
+  Arrays comb;  // teeth that lean over all that follow them
+  for (int k = 0; k < kTeeth; ++k) {
+    const auto first = static_cast<std::int32_t>(comb.points.size());
+    comb.points.insert(comb.points.end(), {{1.0 * k, 0}, {k + 0.5, 0}, {k + 1.0 * kTeeth, 1.0 * kTeeth}});
+    comb.triangles.push_back({first, first + 1, first + 2});
+  }
+  EXPECT_TRUE(comb.build().has_value());
+  comb.points.back() = {0.5 * kTeeth, 0.25 * kTeeth};  // the last one falls on the others
+  ASSERT_FALSE(comb.build().has_value());
+  EXPECT_EQ(comb.build().error().code, ErrorCode::overlap);
+}
+
 }  // namespace
 }  // namespace temper

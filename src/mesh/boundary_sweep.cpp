@@ -1,0 +1,155 @@
+#include "mesh/boundary_sweep.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "geometry/predicates_inline.hpp"
+
+namespace temper {
+namespace {
+
+/// The order in which the line meets points: from left to right, and upwards where x is equal.
+bool is_before(Vec2 p, Vec2 q) { return p.x != q.x ? p.x < q.x : p.y < q.y; }
+
+/// p on the closed segment ab, given that the three are collinear.
+bool is_between(Vec2 a, Vec2 b, Vec2 p) {
+  return !is_before(p, std::min(a, b, is_before)) && !is_before(std::max(a, b, is_before), p);
+}
+
+bool segments_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const Sign abc = inlined::orient2d(a, b, c), abd = inlined::orient2d(a, b, d);
+  const Sign cda = inlined::orient2d(c, d, a), cdb = inlined::orient2d(c, d, b);
+  if (abc == Sign::zero && is_between(a, b, c)) return true;
+  if (abd == Sign::zero && is_between(a, b, d)) return true;
+  if (cda == Sign::zero && is_between(c, d, a)) return true;
+  if (cdb == Sign::zero && is_between(c, d, b)) return true;
+  return abc == -abd && cda == -cdb && abc != Sign::zero && cda != Sign::zero;
+}
+
+/// A boundary edge, from the end that the line meets first.
+struct SweptEdge {
+  Vec2 left, right;
+  HalfedgeId halfedge;
+  bool mesh_above;
+};
+
+/// The order of edges on the line, from below; of such as do not meet. Those with a common left end count by their
+/// directions.
+struct IsBelow {
+  bool operator()(const SweptEdge& e, const SweptEdge& f) const {
+    const bool e_first = !is_before(f.left, e.left);
+    const Sign side = e_first ? side_of(e, f) : -side_of(f, e);
+    return side != Sign::zero ? side == Sign::positive : e.halfedge < f.halfedge;
+  }
+
+ private:
+  /// Positive when `later`, which begins no sooner, is above `first`.
+  static Sign side_of(const SweptEdge& first, const SweptEdge& later) {
+    const Sign side = inlined::orient2d(first.left, first.right, later.left);
+    return side != Sign::zero ? side : inlined::orient2d(first.left, first.right, later.right);
+  }
+};
+
+class BoundarySweep {
+ public:
+  explicit BoundarySweep(const Mesh& mesh);
+
+  std::optional<BoundaryClash> find_clash();
+
+ private:
+  using Line = std::set<SweptEdge, IsBelow>;
+
+  /// An end of an edge. Those that end at a point go before those that begin there.
+  struct Event {
+    Vec2 at;
+    std::uint32_t edge;
+    bool begins;
+  };
+  static bool comes_before(const Event& a, const Event& b) {
+    if (a.at != b.at) return is_before(a.at, b.at);
+    return a.begins != b.begins ? b.begins : a.edge < b.edge;
+  }
+
+  bool begin(std::uint32_t edge);
+  bool end(std::uint32_t edge);
+  bool covers_twice(const Event& one, const Event& other);
+  bool meet(Line::const_iterator below, Line::const_iterator above);
+  [[nodiscard]] VertexId vertex(const Event& event) const;
+
+  const Mesh& mesh_;
+  std::vector<SweptEdge> edges_;
+  std::vector<Event> events_;
+  std::vector<Line::const_iterator> places_;  // by edge, of those on the line
+  Line line_;
+  std::optional<BoundaryClash> clash_;
+};
+
+BoundarySweep::BoundarySweep(const Mesh& mesh) : mesh_(mesh) {
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_boundary(h)) continue;
+    const Vec2 a = mesh.position(mesh.origin(h)), b = mesh.position(mesh.target(h));
+    const bool rightwards = is_before(a, b);
+    const auto edge = static_cast<std::uint32_t>(edges_.size());
+    edges_.push_back({rightwards ? a : b, rightwards ? b : a, h, rightwards});
+    events_.push_back({edges_.back().left, edge, true});
+    events_.push_back({edges_.back().right, edge, false});
+  }
+  places_.resize(edges_.size());
+  std::sort(events_.begin(), events_.end(), comes_before);
+}
+
+std::optional<BoundaryClash> BoundarySweep::find_clash() {
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    const Event& event = events_[i];
+    const bool with_last = i > 0 && events_[i - 1].at == event.at;
+    if (with_last && vertex(events_[i - 1]) != vertex(event)) {
+      return BoundaryClash{BoundaryClash::meeting, edges_[events_[i - 1].edge].halfedge, edges_[event.edge].halfedge};
+    }
+    if (event.begins ? begin(event.edge) : end(event.edge)) return clash_;
+    if (with_last && event.begins && events_[i - 1].begins && covers_twice(events_[i - 1], event)) return clash_;
+  }
+  return std::nullopt;
+}
+
+VertexId BoundarySweep::vertex(const Event& event) const {
+  const HalfedgeId h = edges_[event.edge].halfedge;
+  return event.begins == edges_[event.edge].mesh_above ? mesh_.origin(h) : mesh_.target(h);
+}
+
+bool BoundarySweep::begin(std::uint32_t edge) {
+  const auto place = line_.insert(edges_[edge]).first;
+  places_[edge] = place;
+  return (place != line_.begin() && meet(std::prev(place), place)) ||
+         (std::next(place) != line_.end() && meet(place, std::next(place)));
+}
+
+bool BoundarySweep::end(std::uint32_t edge) {
+  const auto above = line_.erase(places_[edge]);
+  return above != line_.begin() && above != line_.end() && meet(std::prev(above), above);
+}
+
+/// Two edges begin at a vertex: do their triangles, between them, lie on those that begin below?
+bool BoundarySweep::covers_twice(const Event& one, const Event& other) {
+  const auto first = places_[one.edge], second = places_[other.edge];
+  const auto lower = IsBelow()(*first, *second) ? first : second;
+  if (!lower->mesh_above || lower == line_.begin() || !std::prev(lower)->mesh_above) return false;
+  clash_ = {BoundaryClash::covered, lower->halfedge, std::prev(lower)->halfedge};
+  return true;
+}
+
+/// Notes it when two neighbours meet. Edges at a common vertex do not count.
+bool BoundarySweep::meet(Line::const_iterator below, Line::const_iterator above) {
+  const HalfedgeId g = below->halfedge, h = above->halfedge;
+  if (mesh_.target(g) == mesh_.origin(h) || mesh_.target(h) == mesh_.origin(g)) return false;
+  if (!segments_meet(below->left, below->right, above->left, above->right)) return false;
+  clash_ = {BoundaryClash::meeting, g, h};
+  return true;
+}
+
+}  // namespace
+
+std::optional<BoundaryClash> find_boundary_clash(const Mesh& mesh) { return BoundarySweep(mesh).find_clash(); }
+
+}  // namespace temper
