@@ -20,6 +20,7 @@
 #include "temper/draw.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
+#include "temper/regularity.hpp"
 #include "threads.hpp"
 #include "trace_jsonl.hpp"
 #ifdef TEMPER_WITH_VERIFY
@@ -322,6 +323,13 @@ void print_result(const Settings& s, const Results& results, const Outputs& outp
   print(written + "\n");
 }
 
+/// Says whether edges are not regular that should be.
+bool lacks_flips(const Settings& s, const Mesh& mesh, Executor* executor) {
+  const OptimizeOptions& o = s.options();
+  return o.flips != Flips::none && o.paper.hidden != HiddenPolicy::keep &&
+         count_non_regular_edges(mesh, false, executor) > 0;
+}
+
 Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs) {
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   Input input = read_input(s.input, s.fix, threads.get());
@@ -343,7 +351,8 @@ Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs) {
   write_all(command, s, input, results, outputs, trace ? &*trace : nullptr, threads.get());
   if (!s.quiet) print_result(s, results, outputs);
   const Stopped stopped = results.report.stopped;
-  return stopped == Stopped::time_limit || stopped == Stopped::cancelled ? Exit::stopped_early : Exit::done;
+  const bool early = stopped == Stopped::time_limit || stopped == Stopped::cancelled;
+  return early || lacks_flips(s, input.loaded.mesh, threads.get()) ? Exit::stopped_early : Exit::done;
 }
 
 }  // namespace

@@ -231,7 +231,7 @@ enum class Stopped {
   cancelled,
   tangled,          ///< triangles are inverted (Inversion::allow): no flips can make the mesh regular
   accuracy_sweeps,  ///< all sweeps of AccuracyOptions are made, and E still falls a little: a normal end
-  hidden,           ///< deferred flips hid a vertex that HiddenPolicy::undo keeps
+  hidden,           ///< deferred flips hid a vertex that may not be: the mesh is the last or best one that was regular
 };
 [[nodiscard]] std::string_view name(Stopped stopped);
 
@@ -260,9 +260,12 @@ struct OptimizeReport {
 };
 
 /// Improves the mesh in place. The domain boundary, fixed vertices and constrained edges stay, bit for bit, unless
-/// `boundary` and `interfaces` say otherwise; every triangle stays counter-clockwise. Never returns a worse mesh
-/// than the input's. Errors, which leave the mesh as it was: a value out of range; weights that hide a vertex; a mesh
-/// outside the barrier of E_BH or E_BHs. O(sweeps · n).
+/// `boundary` and `interfaces` say otherwise; every triangle stays counter-clockwise. Never returns a worse
+/// mesh than the input, or than that with its edges flipped to be regular. Compared are, in this order: inverted
+/// triangles; edges that are not regular, unless hidden vertices are kept; for barriers, triangles that are not
+/// well-centered; for accuracy, whether margins are kept; the energy. So a HOT energy may leave more triangles not
+/// well-centered, which a note says. Errors, which leave the mesh as it was: a value out of range; weights that hide a
+/// vertex; a mesh outside the barrier of E_BH or E_BHs. O(sweeps · n).
 [[nodiscard]] Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options = {},
                                                 const OptimizeHooks& hooks = {});
 

@@ -39,8 +39,8 @@ class OptimizeReport(Record):
         "converged", "max_sweeps", "max_outer", "time_limit", "cancelled", "tangled", "hidden", "accuracy_sweeps"
     ]
     """Why the run ended. ``tangled``: triangles are inverted (``inversion="allow"``) and no flips can make the mesh
-    regular; ``hidden``: deferred flips hid a vertex that ``hidden="undo"`` keeps; ``accuracy_sweeps``: the second phase
-    of the objective ``accuracy`` made all its sweeps, a normal end."""
+    regular; ``hidden``: deferred flips hid a vertex that may not be, and the mesh is one of before;
+    ``accuracy_sweeps``: the second phase of the objective ``accuracy`` made all its sweeps, a normal end."""
     sweeps: int
     flips: int
     vertices_removed: int
@@ -114,8 +114,9 @@ def optimize(
     A triangle is well-centered when its orthocenter is strictly inside and each of its edges is crossed by its dual:
     all h > 0 and all 0 < d < ℓ (docs/concepts.md). The domain boundary, fixed vertices and constrained edges stay, bit
     for bit, unless ``boundary`` and ``interfaces`` say otherwise; every triangle stays counter-clockwise.
-    Never gives a worse mesh than the input's. The same input, options and seed give the same bits for any number of
-    threads.
+    For barriers (``BP``, ``BHs``, ``BH``) the result never has more triangles that are not well-centered than the input.
+    HOT energies (``F``, ``T``, ``dT``) are lowered, whatever that does to them (docs/concepts.md). The same input,
+    options and seed give the same bits for any number of threads.
 
     Parameters
     ----------

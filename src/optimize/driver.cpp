@@ -8,6 +8,7 @@
 #include "energy/whole_mesh.hpp"
 #include "optimize/repair/grading.hpp"
 #include "optimize/repair/repair_search.hpp"
+#include "optimize/ties.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
@@ -56,7 +57,8 @@ int Driver::run(Phase& phase, int first) {
              !(defers_flips(settings_.options) && ++inner_ == settings_.options.paper.inner));
     verdict = flip_if_deferred(phase, verdict);
   } while (verdict == Verdict::improving);
-  return return_best(phase, run_.report.sweeps > sweeps ? recorder_.sweep() : first);
+  const int last = run_.report.sweeps > sweeps ? recorder_.sweep() : first;
+  return run_.report.stopped == Stopped::hidden ? return_regular(last) : return_best(phase, last);
 }
 
 void Driver::begin(Phase& phase, int sweep) {
@@ -64,6 +66,7 @@ void Driver::begin(Phase& phase, int sweep) {
   if (run_.report.history.empty()) record(phase.measure());
   best_energy_ = phase.total();
   if (phase.keeps() == Phase::Keeps::best) keep(best_energy_, sweep);
+  keep_regular(sweep);
   run_.report.stopped = Stopped::max_sweeps;
   show(Snapshot::Moment::start, phase);
 }
@@ -104,6 +107,7 @@ Driver::Verdict Driver::flip_if_deferred(Phase& phase, Verdict of_sweeps) {
   amend_record(phase.measure());
   phase.compare_from_here();
   keep_if_best(phase);
+  keep_regular(recorder_.sweep());
   show(Snapshot::Moment::after_flips, phase);
   inner_ = 0;
   ++outer_;
@@ -220,6 +224,22 @@ void Driver::jitter(double amount) {
   sweeper_.shake(amount, rng);
 }
 
+bool Driver::weigh_ties(double amount) {
+  if (amount == 0) return false;
+  recorder_.begin_sweep(run_.next_sweep());
+  std::vector<std::pair<VertexId, double>> before;
+  for (const auto& [v, shortest2] : heavier_ends_of_ties(mesh_, settings_.options)) {
+    before.emplace_back(v, mesh_.weight(v));
+    set_weight(v, mesh_.weight(v) + amount * shortest2);
+  }
+  if (!make_regular()) {  // a vertex would be hidden
+    for (const auto& [v, w] : before) set_weight(v, w);
+  }
+  ++run_.report.sweeps;
+  record(EnergyPhase(work_, settings_, run_, kPolish, false).measure());
+  return run_.report.history.back().bad == 0;
+}
+
 bool Driver::repair(std::uint64_t seed) {
   EnergyPhase phase(work_, settings_, run_, kPolish, false);  // what repairs are told by
   RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed);
@@ -268,6 +288,23 @@ int Driver::return_best(const Phase& phase, int last_sweep) {
   recorder_.returned_to(best_sweep_);
   if (phase.keeps() == Phase::Keeps::best_sweep) run_.facts.energy_rose = true;
   return best_sweep_;
+}
+
+/// Deferred flips may find a vertex hidden, which leaves edges that no flip makes regular.
+void Driver::keep_regular(int sweep) {
+  const OptimizeOptions& o = settings_.options;
+  if (!defers_flips(o) || o.paper.hidden == HiddenPolicy::keep) return;
+  regular_ = work_;
+  regular_sweep_ = sweep;
+}
+
+/// The best mesh, if one is kept, else the last one that was regular.
+int Driver::return_regular(int last_sweep) {
+  if (best_) std::swap(best_, regular_), std::swap(best_sweep_, regular_sweep_);
+  if (!regular_) return last_sweep;
+  work_ = *std::exchange(regular_, std::nullopt);
+  recorder_.returned_to(regular_sweep_);
+  return regular_sweep_;
 }
 
 void Driver::record(SweepRecord measured) {

@@ -20,6 +20,9 @@ class Driver {
   void grade_boundary();
   /// Moves free vertices by up to `amount` of their shortest edge: symmetric grids are stationary in their positions.
   void jitter(double amount);
+  /// Makes the heavier ends of ties (ties.hpp) heavier by `amount` of their shortest edge squared, and flips: a sweep
+  /// of its own. True when that is all it takes: sweeps with a large γ would undo it.
+  bool weigh_ties(double amount);
 
   /// Sweeps of one phase. `sweep`: whose mesh the working copy is. Returns the sweep whose mesh it is then.
   int run(Phase& phase, int sweep);
@@ -47,7 +50,9 @@ class Driver {
   bool restore_regularity();
   void keep_if_best(const Phase& phase);
   void keep(double energy, int sweep);
+  void keep_regular(int sweep);
   int return_best(const Phase& phase, int last_sweep);
+  int return_regular(int last_sweep);
   void record(SweepRecord measured);
   void amend_record(const SweepRecord& measured);
   void show(Snapshot::Moment moment, const Phase& phase) const;
@@ -64,6 +69,8 @@ class Driver {
   std::optional<WorkingCopy> best_;  // where the phase keeps one
   double best_energy_ = 0;
   int best_sweep_ = 0;
+  std::optional<WorkingCopy> regular_;  // where flips are deferred, and may fail: after the last that did not
+  int regular_sweep_ = 0;
 };
 
 }  // namespace temper

@@ -25,7 +25,8 @@ EnergyPhase::EnergyPhase(const WorkingCopy& work, Settings& settings, Run& run, 
       run_(run),
       energy_unit_(energy_unit(settings, work.frame)),
       softener_(attempt, settings.energy, settings.options),
-      may_give_up_(may_give_up) {}
+      may_give_up_(may_give_up),
+      fewer_(attempt.fewer) {}
 
 void EnergyPhase::begin() {
   softener_.start(mesh_, settings_.model);
@@ -94,8 +95,9 @@ bool EnergyPhase::converged(double before, double after) {
 
 bool EnergyPhase::stagnates() {
   const std::size_t bad = run_.report.history.back().bad;
-  sweeps_since_fewer_bad_ = bad < least_bad_ ? 0 : sweeps_since_fewer_bad_ + 1;
-  least_bad_ = std::min(least_bad_, bad);
+  const bool fewer = static_cast<double>(bad) < fewer_ * static_cast<double>(least_bad_);
+  sweeps_since_fewer_bad_ = fewer ? 0 : sweeps_since_fewer_bad_ + 1;
+  if (fewer) least_bad_ = bad;
   return bad > 0 && sweeps_since_fewer_bad_ >= kPatience;
 }
 

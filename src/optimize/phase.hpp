@@ -67,8 +67,9 @@ class EnergyPhase final : public Phase {
   double energy_unit_;
   Softener softener_;
   bool may_give_up_;
+  double fewer_;
   double before_ = 0;          // energy at the start of the sweep
-  std::size_t least_bad_ = 0;  // so far, and for how many sweeps
+  std::size_t least_bad_ = 0;  // when they last were fewer, and for how many sweeps
   int sweeps_since_fewer_bad_ = 0;
   double least_energy_ = 0;  // at the last γ, and for how many sweeps
   int sweeps_since_lower_ = 0;

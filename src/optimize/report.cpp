@@ -18,6 +18,11 @@ std::string count_of(std::size_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
+/// The part of the triangles that is not well-centered.
+double bad_part(const Mesh& mesh, const Settings& settings) {
+  return static_cast<double>(count_bad(mesh, settings.hooks.executor)) / static_cast<double>(mesh.n_triangles());
+}
+
 /// The sentences of a report, in the order in which they are told.
 class Notes {
  public:
@@ -26,6 +31,7 @@ class Notes {
 
   void tell(const RunFacts& facts);
   void tell_what_was_returned(bool input, bool flipped);
+  void tell_what_became_worse(double bad_before);
   void tell_sizes();
   void tell_energy();
   void tell_edges_that_must_be_split();
@@ -75,6 +81,21 @@ void Notes::tell_what_was_returned(bool input, bool flipped) {
   if (!input) return;
   add(flipped ? "no better mesh was found: the input is returned, its edges flipped to be regular"
               : "no better mesh was found: the input is returned as it was");
+}
+
+/// HOT energies do not ask how many triangles are well-centered, and hidden vertices keep edges from being regular.
+/// `bad_before`: part of the input's triangles.
+void Notes::tell_what_became_worse(double bad_before) {
+  const auto percent = [](double part) { return to_text(std::round(1000 * part) / 10) + " %"; };
+  const double bad = bad_part(mesh_, settings_);
+  if (bad > bad_before) {
+    add(percent(bad) + " of the triangles are not well-centered, " + percent(bad_before) + " of the input's: energy " +
+        std::string(settings_.energy.name) + " does not ask for that, energy BP does");
+  }
+  if (options_.paper.hidden != HiddenPolicy::keep) return;
+  const std::size_t edges = count_non_regular_edges(mesh_, false, settings_.hooks.executor);
+  if (edges > 0)
+    add(count_of(edges, "edge is", "edges are") + " not regular, since `hidden=keep` keeps hidden vertices");
 }
 
 void Notes::tell_sizes() {
@@ -162,11 +183,10 @@ void count_changes(const Mesh& input, OptimizeReport& report) {
   report.vertices_removed = input.n_vertices() - (report.vertices.size() - report.vertices_inserted);
 }
 
-/// Says whether an input that is returned can be made better by flips alone. Where hidden vertices are kept, edges that
-/// are not regular make no mesh worse; but those that can be flipped are.
+/// Says whether an input that is returned can be made better by flips alone.
 bool lacks_flips(const Mesh& input, const Settings& settings) {
   const OptimizeOptions& o = settings.options;
-  return o.flips != Flips::none && o.paper.hidden == HiddenPolicy::keep && o.boundary != BoundaryVertices::split &&
+  return o.flips != Flips::none && o.boundary != BoundaryVertices::split &&
          count_non_regular_edges(input, false, settings.hooks.executor) > 0;
 }
 
@@ -211,12 +231,17 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const AccuracySize
       o.size_field ? *o.size_field : input_size_field_of(mesh, settings.hooks.executor);  // seen until mesh is replaced
   report.size.before = report.size.after = measure_size(mesh, field, settings.hooks.executor);
   report.initial_energy = report.final_energy = before.energy;
-  const bool worse = before < after, flips = worse && lacks_flips(mesh, settings);
+  const double bad_before = settings.energy.barrier ? 1 : bad_part(mesh, settings);
+  Mesh regular;  // the input with its edges flipped, where that may be the better one
+  const bool flips = (before < after || after.bad > 0) && lacks_flips(mesh, settings);
+  if (flips) regular = made_regular(mesh, settings);
+  const Rank flipped = flips ? rank(regular, settings, of_input) : before;
+  const bool worse = before < after || flipped < after;
   if (worse) {
     report.vertices = {};
-    result = flips ? made_regular(mesh, settings) : Mesh();
-    if (flips) report.final_energy = rank(result, settings, of_input).energy;
+    report.final_energy = flipped.energy;
     recorder.returned_to(flips ? 0 : -1);
+    result = std::move(regular);
   } else {
     report.final_energy = after.energy;
   }
@@ -230,6 +255,7 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const AccuracySize
   Notes notes(mesh, settings, report);
   notes.tell(run.facts);
   notes.tell_what_was_returned(worse, flips);
+  notes.tell_what_became_worse(bad_before);
   notes.tell_sizes();
   notes.tell_energy();
   notes.tell_edges_that_must_be_split();

@@ -5,6 +5,7 @@
 
 #include "energy/whole_mesh.hpp"
 #include "geometry/triangle_kernel.hpp"
+#include "optimize/ties.hpp"
 
 namespace temper {
 namespace {
@@ -15,10 +16,27 @@ constexpr double kFloor = 0.003;
 constexpr Attempt kThorough = {
     .start = 2, .factor = 0.5, .relaxation = kRelaxation, .level_sweeps = 30, .level_fall = 1e-4, .jitter = 0.02};
 // The attempts where most of the mesh has to change, the connectivity too; and where a few triangles have to.
-constexpr std::array<Attempt, 2> kManyBad = {
-    {{.start = 1, .factor = 0.5, .relaxation = 1.97, .until_good = true}, kThorough}};
-constexpr std::array<Attempt, 2> kFewBad = {
-    {{.start = 0.5, .factor = 0.7, .relaxation = kRelaxation, .until_good = true}, kThorough}};
+constexpr Attempt kFar = {.start = 1, .factor = 0.5, .relaxation = 1.97, .until_good = true};
+constexpr Attempt kNear = {.start = 0.5, .factor = 0.7, .relaxation = kRelaxation, .until_good = true};
+constexpr std::array<Attempt, 2> kManyBad = {kFar, kThorough};
+constexpr std::array<Attempt, 2> kFewBad = {kNear, kThorough};
+// Between 0, where ties stay, and 1, where the shortest edge of a vertex is not crossed by its dual any more; in a
+// strip of squares it puts the orthocenters a quarter of the way from the diagonal to where they leave the triangle.
+constexpr double kTieWeight = 0.25;
+constexpr Attempt with_ties(Attempt attempt) {
+  attempt.tie_weight = kTieWeight;
+  return attempt;
+}
+// Along a row of ties weights grow from its ends, some triangles a sweep: not to wait for, when another attempt chooses
+// their diagonals.
+constexpr double kManyFewer = 0.75;
+constexpr Attempt without_ties(Attempt attempt) {
+  attempt.fewer = kManyFewer;
+  return attempt;
+}
+// The same where ties cannot move.
+constexpr std::array<Attempt, 3> kManyBadAndTied = {without_ties(kFar), with_ties(kFar), with_ties(kThorough)};
+constexpr std::array<Attempt, 3> kFewBadAndTied = {without_ties(kNear), with_ties(kNear), with_ties(kThorough)};
 constexpr double kMany = 0.25;  // of the triangles
 // With fewer of them there are not enough flips for going far to pay: which ones is luck.
 constexpr std::size_t kLeastMany = 100;
@@ -54,7 +72,9 @@ std::span<const Attempt> attempts(const EnergyInfo& energy, const OptimizeOption
   if (!softens) return kHard;
   const std::size_t n = mesh.n_triangles();
   const auto bad = static_cast<double>(count_bad(mesh, executor));
-  return n >= kLeastMany && bad >= kMany * static_cast<double>(n) ? kManyBad : kFewBad;
+  const bool many = n >= kLeastMany && bad >= kMany * static_cast<double>(n);
+  if (has_tied_quads(mesh, options)) return many ? kManyBadAndTied : kFewBadAndTied;
+  return many ? kManyBad : kFewBad;
 }
 
 void Softener::start(const Mesh& mesh, EnergyModel& model) {

@@ -4,8 +4,9 @@
 // would cure them; a large one does not see h < 0. So γ starts large and shrinks. Quickly at first, one sweep a
 // level, until nothing is bad: enough for most meshes. Nearly all flips happen then, and decide which minimum is
 // reached; steps that go far find a better one, by 1 % of the energy on random points. What is still bad then is tried
-// again from the input, with a larger γ, levels that are left only when their energy has settled, and a small jitter
-// against symmetric grids, whose positions are stationary.
+// again from the input: where ties cannot move, with weights that choose their diagonals (ties.hpp); then with a larger
+// γ, levels that are left only when their energy has settled, and a small jitter against symmetric grids, whose
+// positions are stationary.
 #pragma once
 
 #include <span>
@@ -25,6 +26,8 @@ struct Attempt {
   double level_fall = 0;    ///< a level is left when the energy falls by less than this part of itself
   bool until_good = false;  ///< the last level follows as soon as no triangle is bad
   double jitter = 0;        ///< of free vertices before the first sweep, relative to their shortest edge
+  double fewer = 1;         ///< it is given up when bad triangles do not become fewer than this part of them for long
+  double tie_weight = 0;    ///< added before it to the heavier ends of ties, relative to their shortest edge squared
 };
 
 /// Over-relaxation at the last γ.

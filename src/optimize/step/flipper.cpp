@@ -182,7 +182,7 @@ bool Flipper::restore_all() {
   changes_.flips += result.flips;
   recorder_.flipped(records_);
   if (hides) treat_hidden();
-  return true;
+  return settings_.options.paper.hidden == HiddenPolicy::keep || lawson_.stuck(mesh_).empty();
 }
 
 void Flipper::remove(EventKind kind, const RemovalPlan& plan, double before, double after) {

@@ -34,7 +34,8 @@ class Flipper {
   /// Makes the edges around a step's vertex regular. When it is done, v is still confined to the part.
   Settled settle(const Step& step);
 
-  /// Line 20 of Algorithm 1. False when it is undone, because it would hide a vertex.
+  /// Line 20 of Algorithm 1. False when a vertex is hidden that may not be: where hidden vertices are removed, one that
+  /// cannot be; else all is undone.
   bool restore_all();
 
   /// Removes the plan's vertex. The edges of what fills its place are left to the caller.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "support/area.hpp"
@@ -260,6 +261,73 @@ TEST(DeferredWeights, DoNotDependOnTheOrderOfTheVertices) {
     EXPECT_NEAR(results[1].weight(v), results[0].weight(v), 1e-6);
     EXPECT_NEAR(results[2].weight(v), results[0].weight(v), 1e-6);
   }
+}
+
+/// A strip, whose vertices all are on the boundary and cannot be removed, and meshes with many to hide.
+std::vector<Mesh> meshes_to_hide_in() {
+  std::vector<Vec2> points;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (std::int32_t i = 0; i < 9; ++i) {
+    points.insert(points.end(), {{1.0 * i, 0.0}, {1.0 * i, 1.0}});
+    if (i < 8) triangles.insert(triangles.end(), {{2 * i, 2 * i + 2, 2 * i + 3}, {2 * i, 2 * i + 3, 2 * i + 1}});
+  }
+  return {Mesh::build({.points = points, .triangles = triangles})->mesh, dense(), random_mesh()};
+}
+
+// HOT energies are lowered, whatever that does to triangles and, where hidden vertices stay, to edges.
+TEST(PaperMethod, SaysWhenMoreTrianglesAreBadOrEdgesNotRegular) {
+  Mesh mesh = *random_points({.vertices = 130, .seed = 5});
+  OptimizeOptions o = paper_method();
+  o.energy = EnergyKind::dT;
+  o.paper.inversion = Inversion::refuse;
+  o.max_sweeps = 100;
+  const auto report = optimize(mesh, o);
+  ASSERT_TRUE(report);
+  EXPECT_GT(count_non_regular_edges(mesh, false), 0u);
+  const auto says = [&](const char* text) {
+    return std::any_of(report->notes.begin(), report->notes.end(),
+                       [&](const std::string& note) { return note.find(text) != std::string::npos; });
+  };
+  EXPECT_TRUE(says("of the triangles are not well-centered"));
+  EXPECT_TRUE(says("not regular, since `hidden=keep`"));
+}
+
+// Runs that end early, where flips wait and may then find a vertex hidden that has to stay.
+TEST(HiddenVertices, LeaveEdgesRegularAtTheEndUnlessTheyAreKept) {
+  std::size_t runs = 0, stopped = 0, with_progress = 0;
+  for (const Mesh& input : meshes_to_hide_in()) {
+    for (const Unknowns unknowns : {Unknowns::weights, Unknowns::positions_and_weights}) {
+      for (const HiddenPolicy policy : {HiddenPolicy::undo, HiddenPolicy::remove}) {
+        for (const EnergyKind energy : {EnergyKind::BP, EnergyKind::T, EnergyKind::F}) {
+          for (const int inner : {1, 3, 0}) {
+            for (const int sweeps : {1, 2, 5, 20}) {
+              OptimizeOptions o;
+              o.energy = energy;
+              o.unknowns = unknowns;
+              o.flips = Flips::deferred;
+              o.max_sweeps = sweeps;
+              o.paper.inner = inner;
+              o.paper.hidden = policy;
+              Mesh mesh = input;
+              const auto report = optimize(mesh, o);
+              ASSERT_TRUE(report) << report.error().what();
+              EXPECT_EQ(count_non_regular_edges(mesh, false), 0u)
+                  << input.n_vertices() << " vertices, energy " << energy_info(energy).name << ", inner " << inner
+                  << ", " << sweeps << " sweeps";
+              EXPECT_EQ(mesh.validate(), std::nullopt);
+              const bool hidden = report->stopped == Stopped::hidden;
+              stopped += hidden ? 1 : 0;
+              with_progress += hidden && report->final_energy < report->initial_energy ? 1 : 0;
+              ++runs;
+            }
+          }
+        }
+      }
+    }
+  }
+  EXPECT_EQ(runs, 432u);
+  EXPECT_GT(stopped, 10u);
+  EXPECT_GT(with_progress, 0u);  // of the rounds before the one that failed
 }
 
 TEST(HiddenVertices, AreKeptRemovedOrNeverThereByThePolicy) {
