@@ -286,11 +286,13 @@ std::vector<T> copy_of(const Array& array) {
 }
 
 /// The mesh of a file, with the rest of the file behind it, and the warnings.
-py::tuple load(io::MeshFile file, const std::vector<std::string>& fixed_tags, Executor* executor) {
+py::tuple load(io::MeshFile file, const std::string& projection, const std::vector<std::string>& fixed_tags,
+               Executor* executor) {
   auto source = std::make_shared<Source>();
   source->file = std::move(file);
   {
     const py::gil_scoped_release release;
+    if (!projection.empty()) or_raise(io::project(source->file, projection));
     auto loaded = io::make_mesh(source->file, fixed_tags, executor);
     if (!loaded) throw BadInput{loaded.error()};
     source->loaded = *std::move(loaded);
@@ -431,10 +433,11 @@ py::tuple mesh_from_file_arrays(const py::dict& d, const py::sequence& fixed_tag
       from_python_dict(d["marked_point_data"].cast<py::dict>(), file.marked_points.size(), "data of vertex cells");
   check_range<3>(file.triangles, file.points.size(), "triangle");
   check_range<2>(file.lines, file.points.size(), "line");
-  return load(std::move(file), strings_from(fixed_tags), nullptr);
+  return load(std::move(file), {}, strings_from(fixed_tags), nullptr);
 }
 
-py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, const py::object& threads) {
+py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, const std::string& projection,
+                    const py::object& threads) {
   const auto tags = strings_from(fixed_tags);
   const auto executor = make_threads(threads_from(threads));
   std::optional<Expected<io::MeshFile>> file;
@@ -442,7 +445,7 @@ py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, con
     const py::gil_scoped_release release;
     file = io::read(path, {executor.get()});
   }
-  return load(or_raise(*std::move(file)), tags, executor.get());
+  return load(or_raise(*std::move(file)), projection, tags, executor.get());
 }
 
 py::object write_file(const std::string& path, const PyMesh& self, const std::string& format,

@@ -22,6 +22,7 @@ LAYERS = {
     "base": [],
     "geometry": ["base"],
     "mesh": ["base", "geometry"],
+    "projection": _BELOW,
     "places": _BELOW,
     "size": _BELOW + ["places"],
     "topology": _BELOW,
@@ -35,9 +36,9 @@ LAYERS = {
     "dec": _BELOW + ["topology", "energy", "regularity"],
     "draw": _BELOW + ["topology", "energy", "regularity", "quality"],
     "generate": _BELOW + ["topology", "energy", "regularity"],
-    "mesher": _BELOW + ["topology", "energy", "regularity", "feasibility", "optimize", "generate"],
+    "mesher": _BELOW + ["topology", "energy", "regularity", "feasibility", "optimize", "generate", "projection"],
     # A library of its own: sees the core's public headers, and no other folder of src/.
-    "io": _BELOW + ["places", "size", "dec"],
+    "io": _BELOW + ["projection", "places", "size", "dec"],
     "lp": _BELOW + ["feasibility"],
     "tbb": ["base"],
     "verify": _BELOW + ["energy", "regularity", "quality", "dec"],
@@ -45,7 +46,7 @@ LAYERS = {
 CORE = set(LAYERS) - {"io", "lp", "tbb", "verify"}
 
 # Public headers whose name is not that of their layer.
-HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor", "instruction_set", "outline"]} | {"trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "projection": "mesher", "tbb_executor": "tbb", "dec_io": "io"}
+HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor", "instruction_set", "outline"]} | {"trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "tbb_executor": "tbb", "dec_io": "io"}
 
 STANDARD = set("""
 algorithm array atomic bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits cmath

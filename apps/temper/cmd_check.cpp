@@ -7,6 +7,7 @@
 #include "help.hpp"
 #include "input.hpp"
 #include "options.hpp"
+#include "projection_option.hpp"
 #include "report_json.hpp"
 #include "report_text.hpp"
 #include "requirement.hpp"
@@ -17,6 +18,7 @@ namespace temper::app {
 namespace {
 
 struct CheckSettings {
+  std::string projection;
   std::string input;
   std::vector<std::string> require;
   SofteningOptions gamma, h0;
@@ -27,6 +29,7 @@ struct CheckSettings {
 void add_options(Command& command, CheckSettings& s) {
   command.group("Report");
   add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_projection(command, s.projection);
   command.add_flag("--json", s.json, "the report as JSON, with vertices and triangles counted from 0");
   add_count(command, "--worst", s.worst, 0, "list this many of the worst triangles");
   add_gamma(command, s.gamma, " (default: 1)");
@@ -71,7 +74,7 @@ Exit run_check(const Arguments& arguments) {
   }
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  const Input input = read_input(s.input, {}, threads.get());
+  const Input input = read_input(s.input, {s.projection, {}, threads.get()});
   print_warnings(input.warnings());
   QualityOptions options;
   options.gamma = s.gamma.value().value_or(options.gamma);

@@ -7,12 +7,14 @@
 #include "help.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "projection_option.hpp"
 #include "threads.hpp"
 
 namespace temper::app {
 namespace {
 
 struct ConvertSettings {
+  std::string projection;
   std::string input, output;
   io::WriteOptions options;
   std::uint64_t threads = 0;
@@ -21,6 +23,7 @@ struct ConvertSettings {
 void add_options(Command& command, ConvertSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the file to read; its content tells the format").require();
+  add_projection(command, s.projection);
   add_text(command, "-o,--output", "OUT", s.output, "where it goes; its suffix tells the format").require();
   std::vector<std::string_view> names;
   for (const io::Format& format : io::formats()) {
@@ -55,7 +58,8 @@ Exit run_convert(const Arguments& arguments) {
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   s.options.executor = threads.get();
-  const io::MeshFile file = or_fail(io::read(s.input, {threads.get()}));
+  io::MeshFile file = or_fail(io::read(s.input, {threads.get()}));
+  if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
   print_warnings(file.warnings);
   print_warnings(outputs.write_mesh(s.output, file, s.options));
   return Exit::done;

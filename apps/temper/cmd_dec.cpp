@@ -11,6 +11,7 @@
 #include "input.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "projection_option.hpp"
 #include "suggest.hpp"
 #include "temper/dec_io.hpp"
 #include "threads.hpp"
@@ -24,6 +25,7 @@ constexpr Choice<io::DecFormat> kDecFormats[] = {
     {"npz", io::DecFormat::npz}, {"mtx", io::DecFormat::mtx}, {"vtu", io::DecFormat::vtu}};
 
 struct DecSettings {
+  std::string projection;
   std::string input, output, formats = "npz,mtx,vtu";
   std::uint64_t threads = 0;
   bool json = false;
@@ -32,6 +34,7 @@ struct DecSettings {
 void add_options(Command& command, DecSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_projection(command, s.projection);
   add_text(command, "-o,--output", "DIR", s.output, "the folder for the files; made when it is missing").require();
   add_text(command, "--format", "LIST", s.formats,
            "the kinds of files to write, separated by commas: npz (NumPy and SciPy), mtx (Matrix Market), vtu (the "
@@ -91,7 +94,7 @@ Exit run_dec(const Arguments& arguments) {
   check_folder(s, formats);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  const Input input = read_input(s.input, {}, threads.get());
+  const Input input = read_input(s.input, {s.projection, {}, threads.get()});
   print_warnings(input.warnings());
   const DecComplex complex = dec(input.mesh());
   const PowerCells cells = power_cells(input.mesh(), complex);

@@ -6,12 +6,14 @@
 #include "input.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "projection_option.hpp"
 #include "temper/draw.hpp"
 
 namespace temper::app {
 namespace {
 
 struct DrawSettings {
+  std::string projection;
   std::string input, before, output;
   DrawOptions options;
   bool no_primal = false, no_dual = false, no_weights = false, no_bad = false, no_rings = false, no_regions = false;
@@ -20,6 +22,7 @@ struct DrawSettings {
 void add_options(Command& command, DrawSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the mesh to draw").require();
+  add_projection(command, s.projection);
   add_text(command, "-o,--output", "FILE", s.output, "where the SVG goes").require();
   add_text(command, "--before", "IN0", s.before, "a mesh to draw to the left of IN, at the same scale");
   command.group("Picture");
@@ -71,12 +74,12 @@ Exit run_draw(const Arguments& arguments) {
   Outputs outputs("draw");
   outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});
 
-  const Input input = read_input(s.input);
+  const Input input = read_input(s.input, {s.projection});
   print_warnings(input.warnings());
   if (s.before.empty()) {
     outputs.write_text(s.output, draw_svg(input.mesh(), s.options));
   } else {
-    const Input before = read_input(s.before);
+    const Input before = read_input(s.before, {same_projection(input, s.projection)});
     print_warnings(before.warnings());
     outputs.write_text(s.output, draw_before_after_svg(before.mesh(), input.mesh(), s.options));
   }

@@ -8,6 +8,7 @@
 #include "help.hpp"
 #include "input.hpp"
 #include "options.hpp"
+#include "projection_option.hpp"
 #include "report_text.hpp"
 #include "temper/lp.hpp"
 
@@ -15,6 +16,7 @@ namespace temper::app {
 namespace {
 
 struct ExplainSettings {
+  std::string projection;
   std::string input;
   std::uint64_t limit = 10;
   std::uint64_t whole = ExplainOptions().whole;
@@ -24,6 +26,7 @@ struct ExplainSettings {
 void add_options(Command& command, ExplainSettings& s) {
   command.group("Report");
   add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_projection(command, s.projection);
   command.add_flag("--json", s.json, "all reasons as JSON, with vertices and triangles counted from 0");
   add_count(command, "--limit", s.limit, 0,
             "print at most this many conflicts and this many places where weights exist; cures are searched for "
@@ -68,7 +71,7 @@ Exit run_explain(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
 
-  const Input input = read_input(s.input);
+  const Input input = read_input(s.input, {s.projection});
   print_warnings(input.warnings());
   const auto solver = clp_solver();
   Counter counter;

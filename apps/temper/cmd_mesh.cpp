@@ -13,6 +13,7 @@
 #include "options.hpp"
 #include "outputs.hpp"
 #include "progress_line.hpp"
+#include "projection_option.hpp"
 #include "report_text.hpp"
 #include "temper/draw.hpp"
 #include "temper/mesher.hpp"
@@ -109,17 +110,11 @@ std::vector<RegionSize> region_sizes(const std::string& text) {
 /// The outline in the plane, and how it got there. Longitude and latitude are no plane: nobody's angles are right
 /// there.
 MapUsed take_to_plane(const MeshSettings& s, io::OutlineFile& file) {
-  if (s.projection.empty()) {
-    if (!file.geographic) return {};
-    throw Failure(Exit::bad_usage,
-                  fmt::format("{}: the points are longitude and latitude, in which angles and lengths are distorted; "
-                              "choose --projection stereographic, mercator or transverse-mercator (sizes are then in "
-                              "metres), or --projection none to take degrees for a plane all the same",
-                              s.input));
-  }
-  if (s.projection == kNone) return {};
+  expect_projection(s.input, file.geographic, s.projection);
+  if (s.projection.empty() || s.projection == io::kNoProjection) return {};
   MapUsed map;
   map.projection = or_fail(parse_projection(s.projection, file.outline.points));
+  map.lon_lat = file.outline.points;
   file.outline = or_fail(project(file.outline, *map.projection));
   return map;
 }
@@ -150,10 +145,15 @@ io::MeshFile file_of(const OutlineMesh& made, const MapUsed& map) {
   }
   if (!map.projection) return file;
   std::vector<double> longitudes, latitudes;
+  const LongitudeTurn turn(map.lon_lat);
   for (const VertexId v : made.mesh.vertices()) {
-    const Vec2 place = inverse(*map.projection, made.mesh.position(v));
+    const Vec2 place = turn(inverse(*map.projection, made.mesh.position(v)));
     longitudes.push_back(place.x);
     latitudes.push_back(place.y);
+  }
+  for (std::size_t p = 0; p < map.lon_lat.size(); ++p) {  // bit for bit
+    const VertexId v = made.vertex_of_point[p];
+    if (v.valid()) longitudes[v.index] = map.lon_lat[p].x, latitudes[v.index] = map.lon_lat[p].y;
   }
   file.point_data.push_back({"longitude", 1, std::move(longitudes)});
   file.point_data.push_back({"latitude", 1, std::move(latitudes)});
@@ -210,7 +210,7 @@ Exit run_mesh(const Arguments& arguments) {
   Command command(
       "mesh",
       "Meshes the inside of an outline and optimises that until every triangle is well-centered. Points of the outline "
-      "stay bit for bit.");
+      "stay bit for bit; of one in longitude and latitude, these do.");
   MeshSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;

@@ -13,6 +13,7 @@
 #include "options.hpp"
 #include "outputs.hpp"
 #include "progress_line.hpp"
+#include "projection_option.hpp"
 #include "report_json.hpp"
 #include "report_text.hpp"
 #include "size_report.hpp"
@@ -34,6 +35,7 @@ enum class Method { production, paper };
 
 constexpr Choice<Method> kMethods[] = {{"production", Method::production}, {"paper", Method::paper}};
 struct Settings {
+  std::string projection;
   std::string input, output, report, history, picture, trace;
   std::vector<std::string> fix;
   Method method = Method::production;
@@ -53,6 +55,7 @@ void add_files(Command& command, Settings& s) {
   command.group("Files");
   // Not marked as required: see take_input.
   add_argument(command, "IN", s.input, "the mesh to improve; its content tells the format");
+  add_projection(command, s.projection);
   add_text(command, "-o,--output", "OUT", s.output,
            "where the improved mesh goes; may be IN; its suffix tells the format")
       .require();
@@ -332,14 +335,15 @@ bool lacks_flips(const Settings& s, const Mesh& mesh, Executor* executor) {
 
 Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs) {
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  Input input = read_input(s.input, s.fix, threads.get());
+  Input input = read_input(s.input, {s.projection, s.fix, threads.get()});
   Results results;
   warn(results, input.warnings());
   find_vertices(s.table, input);
   s.rules = data_rules(s.point_data, input.file);
   warn(results, doubtful_options(command, s));
   if (!s.size_field.empty()) {
-    ReadSizeField read = read_size_field(s.size_field, s.size_data.empty() ? "size" : s.size_data);
+    ReadSizeField read = read_size_field(s.size_field, s.size_data.empty() ? "size" : s.size_data,
+                                         same_projection(input, s.projection));
     warn(results, read.warnings);
     s.table.options.size_field = std::move(read.field);
   }

@@ -11,6 +11,7 @@
 #include "input.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "projection_option.hpp"
 #include "temper/trace.hpp"
 #include "trace_jsonl.hpp"
 
@@ -18,6 +19,7 @@ namespace temper::app {
 namespace {
 
 struct ReplaySettings {
+  std::string projection;
   std::string input, trace, output;
   std::optional<int> sweeps;
   std::vector<std::string> point_data;
@@ -27,6 +29,7 @@ struct ReplaySettings {
 void add_options(Command& command, ReplaySettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the mesh that was optimized").require();
+  add_projection(command, s.projection);
   add_argument(command, "TRACE", s.trace, "the file that temper optimize IN --trace wrote").require();
   add_text(command, "-o,--output", "OUT", s.output, "where the mesh goes; its suffix tells the format").require();
   add_point_data(command, s.point_data);
@@ -67,7 +70,7 @@ Exit run_replay(const Arguments& arguments) {
   Outputs outputs("replay");
   outputs.expect_mesh("--output", s.output);
 
-  Input input = read_input(s.input);
+  Input input = read_input(s.input, {s.projection});
   print_warnings(input.warnings());
   const io::DataRules rules = data_rules(s.point_data, input.file);
   const Trace trace = read_trace(s.trace, input);

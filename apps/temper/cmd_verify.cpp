@@ -9,6 +9,7 @@
 #include "input.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "projection_option.hpp"
 #include "threads.hpp"
 #include "verify_report.hpp"
 
@@ -16,6 +17,7 @@ namespace temper::app {
 namespace {
 
 struct VerifySettings {
+  std::string projection;
   std::string input, against, fields = "all", edges;
   int refine = 0;
   std::uint64_t threads = 0;
@@ -34,6 +36,7 @@ std::string field_names() {
 void add_options(Command& command, VerifySettings& s) {
   command.group("Report");
   add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_projection(command, s.projection);
   command.add_flag("--json", s.json, "the report as JSON; null means infinite, or undefined for an order");
   add_text(command, "--against", "MESH", s.against,
            "another mesh of the same domain: also print the errors of IN over those of MESH, field by field");
@@ -71,8 +74,9 @@ bool same_box(const VerifyFrame& a, const VerifyFrame& b) {
          length(a.center - b.center) <= kSameBox * b.half_size;
 }
 
-VerifyReference measure_reference(const VerifySettings& s, const VerifyOptions& options, const VerifyFrame& frame) {
-  const Input reference = read_input(s.against, {}, options.executor);
+VerifyReference measure_reference(const VerifySettings& s, const std::string& projection, const VerifyOptions& options,
+                                  const VerifyFrame& frame) {
+  const Input reference = read_input(s.against, {projection, {}, options.executor});
   print_warnings(reference.warnings());
   if (!same_box(frame, verify_frame(reference.mesh()))) {
     print_warnings(std::vector<std::string>{fmt::format(
@@ -105,7 +109,7 @@ Exit run_verify(const Arguments& arguments) {
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   options.executor = threads.get();
-  const Input input = read_input(s.input, {}, threads.get());
+  const Input input = read_input(s.input, {s.projection, {}, threads.get()});
   print_warnings(input.warnings());
   options.frame = verify_frame(input.mesh());
   options.refine = s.refine;
@@ -113,7 +117,7 @@ Exit run_verify(const Arguments& arguments) {
   options.local = !s.edges.empty();
   VerifyRecord record = {s.input, or_fail(verify(input.mesh(), options)), {}};
   if (!s.against.empty()) {
-    record.against = measure_reference(s, options, *options.frame);
+    record.against = measure_reference(s, same_projection(input, s.projection), options, *options.frame);
     record.against->ratios = or_fail(error_ratios(record.report, record.against->report));
   }
   if (!s.edges.empty()) outputs.write_text(s.edges, edge_errors_csv(record.report, input));

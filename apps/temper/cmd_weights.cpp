@@ -9,6 +9,7 @@
 #include "input.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "projection_option.hpp"
 #include "temper/geometry.hpp"
 #include "temper/lp.hpp"
 #include "temper/optimize.hpp"
@@ -26,6 +27,7 @@ enum class Barrier { hard, soft };
 constexpr Choice<Barrier> kBarriers[] = {{"BH", Barrier::hard}, {"BP", Barrier::soft}};
 
 struct WeightsSettings {
+  std::string projection;
   std::string input, output, certificate, check;
   Mode mode = Mode::minimal;
   From from = From::zero;
@@ -38,6 +40,7 @@ struct WeightsSettings {
 void add_options(Command& command, WeightsSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_projection(command, s.projection);
   add_text(command, "-o,--output", "OUT", s.output, "the mesh with its new weights; not needed with --mode feasible");
   add_text(command, "--certificate", "FILE", s.certificate,
            "write the proof that no weights exist, if so, as JSON (docs/weights.md describes it)");
@@ -191,7 +194,7 @@ Exit run_weights(const Arguments& arguments) {
   if (!s.output.empty()) outputs.expect_mesh("--output", s.output);
   outputs.expect_text("--certificate", s.certificate, {s.input});
 
-  Input input = read_input(s.input);
+  Input input = read_input(s.input, {s.projection});
   print_warnings(input.warnings());
   return s.check.empty() ? find(s, input, outputs) : check(s, input);
 }

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "exit.hpp"
+#include "projection_option.hpp"
 #include "vertex_names.hpp"
 
 namespace temper::app {
@@ -36,15 +37,20 @@ std::vector<std::string> Input::warnings() const {
   return all;
 }
 
-Input read_input(const std::string& path, const std::vector<std::string>& fixed_tags, Executor* executor) {
+Input read_input(const std::string& path, const ReadingOptions& options) {
   Input input;
   input.path = path;
-  input.file = or_fail(io::read(path, {executor}));
-  input.loaded = or_fail(io::make_mesh(input.file, fixed_tags, executor));
+  input.file = or_fail(io::read(path, {options.executor}));
+  take_to_map(input.file, path, options.projection);
+  input.loaded = or_fail(io::make_mesh(input.file, options.fixed_tags, options.executor));
   input.n_vertices = input.loaded.mesh.n_vertices();
   input.points = invert(input.loaded);
   input.names = std::make_shared<VertexNames>(input.file.numbering, input.points, input.n_vertices);
   return input;
+}
+
+std::string same_projection(const Input& input, const std::string& projection) {
+  return input.file.map ? projection_text(input.file.map->projection) : projection;
 }
 
 std::string renumber(const std::string& text, const std::function<std::string(VertexId)>& name) {

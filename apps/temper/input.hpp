@@ -27,9 +27,17 @@ struct Input {
   [[nodiscard]] std::vector<std::string> warnings() const;
 };
 
+/// How a file is read.
+struct ReadingOptions {
+  std::string projection = {};  ///< of points in degrees: see projection_option.hpp
+  std::vector<std::string> fixed_tags = {};
+  Executor* executor = nullptr;
+};
 /// Reads a file and builds its mesh; Failure when anything is wrong with it.
-[[nodiscard]] Input read_input(const std::string& path, const std::vector<std::string>& fixed_tags = {},
-                               Executor* executor = nullptr);
+[[nodiscard]] Input read_input(const std::string& path, const ReadingOptions& options = {});
+
+/// The projection of another file that is to be on the same map: with the center that was chosen for this one.
+[[nodiscard]] std::string same_projection(const Input& input, const std::string& projection);
 
 /// The text with each vertex number in it ("vertex 3", "edge 3-9") called by another name.
 [[nodiscard]] std::string renumber(const std::string& text, const std::function<std::string(VertexId)>& name);

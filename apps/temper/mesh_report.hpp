@@ -16,6 +16,7 @@ namespace temper::app {
 /// The map from longitude and latitude to the plane, when there is one.
 struct MapUsed {
   std::optional<Projection> projection = {};
+  std::vector<Vec2> lon_lat = {};             ///< of the outline's points, as they were given
   double least_scale = 1, largest_scale = 1;  ///< length on the map over length on the globe, over all vertices
 };
 

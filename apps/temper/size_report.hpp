@@ -14,7 +14,8 @@ struct ReadSizeField {
   SizeField field;
   std::vector<std::string> warnings;  ///< of reading the file
 };
-[[nodiscard]] ReadSizeField read_size_field(const std::string& path, const std::string& data);
+[[nodiscard]] ReadSizeField read_size_field(const std::string& path, const std::string& data,
+                                            const std::string& projection);
 
 /// Rows of the table of `temper optimize`, below those of comparison_text.
 [[nodiscard]] std::string size_text(const SizeChange& size);

@@ -28,6 +28,7 @@ enum class ErrorCode {
   non_manifold_vertex,  ///< a vertex where the mesh touches itself (bow tie)
   overlap,              ///< triangles that cover the same place twice
   missing_edge,         ///< a constrained edge that is no edge of the mesh
+  geographic,           ///< longitude and latitude, where a plane is needed
   out_of_scale,         ///< coordinates too large or too small for exact arithmetic
   invalid_option,       ///< an option whose value makes no sense
   hidden_vertex,        ///< weights that leave a vertex without power cell

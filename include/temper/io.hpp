@@ -20,6 +20,7 @@
 #include "temper/executor.hpp"
 #include "temper/mesh.hpp"
 #include "temper/outline.hpp"
+#include "temper/projection.hpp"
 #include "temper/size.hpp"
 
 namespace temper::io {
@@ -43,6 +44,13 @@ struct PhysicalName {
   std::string name;
 };
 
+/// Where the points of a file in degrees are on a map.
+struct GeographicMap {
+  Projection projection;
+  std::vector<Vec2> lon_lat;  ///< as the file has them [degrees]
+  std::vector<Vec2> places;   ///< the same on the map [m]
+};
+
 struct MeshFile {
   std::vector<Vec2> points;
   double z = 0;                                        ///< common z of all points, written back
@@ -59,6 +67,9 @@ struct MeshFile {
   std::vector<DataArray> line_data;             ///< one tuple a line
   std::vector<DataArray> marked_point_data;     ///< one tuple a marked point
   std::vector<DataArray> field_data;            ///< of the file as a whole
+  bool geographic = false;                      ///< points are longitude and latitude, in degrees: see project()
+  bool geographic_is_guessed = false;           ///< which the file does not say, but its depths
+  std::shared_ptr<const GeographicMap> map;     ///< points are on this map, and are written in degrees; null: on none
   std::string path;                             ///< where it was read from, for messages
   std::string format;                           ///< "vtu", "gmsh41", …: the row of formats() it came from
   std::vector<std::string> warnings;            ///< what was dropped or repaired in reading
@@ -144,8 +155,20 @@ class VertexOfPoint {
   std::vector<std::int32_t> vertices_;  // empty: all points are kept
 };
 
-/// The mesh of a file. Points of no triangle are dropped with a warning that names them; clockwise triangles are
-/// reversed and counted in a warning. Interior tagged lines become constrained edges.
+/// Why points in longitude and latitude are refused where a plane is needed, and the cure. `guessed`: their format does
+/// not say what they are, as fort.14 does not.
+[[nodiscard]] std::string needs_projection(bool guessed = false);
+/// The word that is no projection: coordinates are those of a plane, whatever they look like.
+inline constexpr std::string_view kNoProjection = "none";
+/// Puts the points of a file in degrees on a map, in metres, as parse_projection reads it; about the middle of its
+/// points when it says no center. write() takes them back: a point at the place of one that was read has its degrees
+/// bit for bit. kNoProjection: they are of a plane. Errors: those of project() for outlines; a text that is no
+/// projection.
+[[nodiscard]] Expected<void> project(MeshFile& file, std::string_view projection);
+
+/// The mesh of a file, in a plane: of one in degrees only after project(). Points of no triangle are dropped with a
+/// warning that names them; clockwise triangles are reversed and counted in a warning. Interior tagged lines become
+/// constrained edges.
 struct LoadedMesh {
   Mesh mesh;
   VertexOfPoint vertex_of_point;

@@ -5,12 +5,16 @@
 // which no mesh notices. Formulas: J. P. Snyder, Map Projections: A Working Manual, USGS Professional Paper 1395, 1987.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "temper/error.hpp"
+#include "temper/mesh.hpp"
 #include "temper/outline.hpp"
 #include "temper/vec2.hpp"
 
@@ -32,10 +36,24 @@ struct Projection {
 /// Reads "stereographic", "mercator:lon" … "transverse-mercator:lon,lat". Without a center, that of `places`.
 [[nodiscard]] Expected<Projection> parse_projection(std::string_view text, std::span<const Vec2> places);
 
+/// The text that parse_projection reads as this projection, its radius apart.
+[[nodiscard]] std::string projection_text(const Projection& projection);
+
 /// The place on the map. Infinite where the map has no end (antipodes, poles): project() refuses such points.
 [[nodiscard]] Vec2 forward(const Projection& projection, Vec2 lon_lat);
 /// The longitude, in [center − 180, center + 180], and latitude of a place on the map.
 [[nodiscard]] Vec2 inverse(const Projection& projection, Vec2 place);
+/// The turn of the globe that longitudes are on: −100 and 260 are the same meridian, and one file has one of them.
+class LongitudeTurn {
+ public:
+  explicit LongitudeTurn(std::span<const Vec2> lon_lat);
+  /// The same place, its longitude within 180 degrees of the middle of those given.
+  [[nodiscard]] Vec2 operator()(Vec2 lon_lat) const;
+
+ private:
+  double middle_ = 0;
+};
+
 /// Length on the map over length on the sphere: the same in all directions.
 [[nodiscard]] double scale_factor(const Projection& projection, Vec2 lon_lat);
 
@@ -45,5 +63,9 @@ struct Projection {
 /// The outline on the map. Errors, by its names: latitudes beyond the poles, longitudes beyond ±360, places that are
 /// infinitely far away, and pieces that are torn apart because the map ends between their ends.
 [[nodiscard]] Expected<Outline> project(const Outline& lon_lat, const Projection& projection);
+/// The points of a mesh on the map. The same errors, by its names.
+[[nodiscard]] Expected<std::vector<Vec2>> project(std::span<const Vec2> lon_lat,
+                                                  std::span<const std::array<std::int32_t, 3>> triangles,
+                                                  const Projection& projection, const InputNames& names);
 
 }  // namespace temper

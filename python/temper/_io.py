@@ -33,7 +33,11 @@ def formats() -> list[Format]:
 
 
 def read(
-    path: str | os.PathLike[str], *, fixed_tags: tuple[str | int, ...] = (), threads: int | None = None
+    path: str | os.PathLike[str],
+    *,
+    fixed_tags: tuple[str | int, ...] = (),
+    projection: str | None = None,
+    threads: int | None = None,
 ) -> Mesh:
     """Reads a mesh file; its content tells the format, never its name.
 
@@ -44,6 +48,11 @@ def read(
         ``PATH.weights.csv``, when there, gives the weights [length²].
     fixed_tags : sequence of str or int
         Tags or physical names whose points must not move.
+    projection : str, optional
+        The map for points in longitude and latitude, to metres: ``"stereographic"``, ``"mercator:lon"``,
+        ``"transverse-mercator:lon,lat"`` (``temper.projection``); about the middle of the points without a center.
+        ``write`` gives degrees again, bit for bit where a point has not moved; weights are squared metres of the map.
+        ``"none"``: coordinates are those of a plane, whatever they look like.
     threads : int, optional
         Threads that unpack; None or 0: all of the machine. What is read does not depend on them.
 
@@ -63,7 +72,7 @@ def read(
     TemperWarning
         Each of ``Mesh.warnings``.
     """
-    handle, messages = _temper.read(os.fspath(path), [str(tag) for tag in fixed_tags], threads)
+    handle, messages = _temper.read(os.fspath(path), [str(tag) for tag in fixed_tags], projection or "", threads)
     return _warn(Mesh._of(handle), messages, 2)
 
 

@@ -36,6 +36,8 @@ std::string_view name(ErrorCode code) {
       return "overlap";
     case ErrorCode::missing_edge:
       return "missing_edge";
+    case ErrorCode::geographic:
+      return "geographic";
     case ErrorCode::out_of_scale:
       return "out_of_scale";
     case ErrorCode::invalid_option:

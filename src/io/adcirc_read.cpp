@@ -13,6 +13,7 @@
 
 #include "io/adcirc.hpp"
 #include "io/format.hpp"
+#include "io/geographic.hpp"
 #include "io/scanner.hpp"
 #include "io/values.hpp"
 
@@ -111,6 +112,7 @@ void AdcircReader::nodes(std::size_t n) {
     depths[i] = scanner_.real("the depth of a node");
     scanner_.next_line();
   }
+  f.geographic = f.geographic_is_guessed = look_like_degrees(f.points, depths);
   f.point_data.push_back({std::string(kAdcircDepth), 1, std::move(depths)});
 }
 

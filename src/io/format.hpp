@@ -34,6 +34,13 @@ inline constexpr Contents kAllTags = kRegions | kLines | kMarkedPoints;
 inline constexpr Contents kAllData = kPointData | kCellData | kLineData | kMarkedPointData | kFieldData;
 inline constexpr Contents kAll = kZ | kWeights | kAllTags | kNames | kAllData;
 
+/// Which meshes are written in longitude and latitude.
+enum class Degrees {
+  as_they_came,  ///< those that were read in degrees
+  where_known,   ///< those in the plane, too, that have longitude and latitude as data
+  by_writer,     ///< the writer needs the plane for orthocenters, and sees to degrees itself
+};
+
 struct FormatRow {
   std::string_view name, description, suffixes;  ///< as in Format
   Contents holds;                                ///< what a file has beyond it is named in a warning
@@ -45,6 +52,7 @@ struct FormatRow {
   std::vector<std::string> (*files)(const std::string& path) = nullptr;  ///< that are written; null: path alone
   std::int64_t first_point = 1;                                          ///< the number of the first point in a file
   std::string_view name_ends = "";  ///< characters that would end a name: written as %22
+  Degrees degrees = Degrees::as_they_came;
 };
 inline constexpr std::size_t kSniffBytes = 4096;
 /// The row of that name, or null.

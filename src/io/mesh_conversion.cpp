@@ -299,6 +299,8 @@ VertexOfPoint::VertexOfPoint(const std::vector<bool>& kept) : VertexOfPoint(kept
 }
 
 Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags, Executor* executor) {
+  if (file.geographic && !file.map)
+    return InputError{ErrorCode::geographic, file.path, needs_projection(file.geographic_is_guessed)};
   try {
     return MeshMaker(file, executor).make(fixed_tags);
   } catch (Failure& failure) {

@@ -3,7 +3,6 @@
 // Coordinates, weights, triangles and regions are the mesh's; everything else is the file's and goes with its point,
 // its line or its triangle; data_update.cpp says how data of points and triangles follow.
 #include <algorithm>
-#include <cstring>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "io/file_names.hpp"
 #include "io/input.hpp"
 #include "io/line_cuts.hpp"
+#include "io/place_hash.hpp"
 #include "io/values.hpp"
 #include "temper/io.hpp"
 
@@ -89,16 +89,6 @@ void drop_unused_points(MeshFile& file, const VertexOfPoint& vertex_of_point) {
   }
   renumber(file, [&](std::int32_t p) { return vertex_of_point[static_cast<std::size_t>(p)]; });
 }
-
-struct PlaceHash {
-  std::size_t operator()(Vec2 p) const {
-    std::uint64_t x, y;
-    p = {p.x + 0.0, p.y + 0.0};  // −0 is the same place as 0
-    std::memcpy(&x, &p.x, sizeof x);
-    std::memcpy(&y, &p.y, sizeof y);
-    return static_cast<std::size_t>((x * 0x9E3779B97F4A7C15u) ^ (y + (x >> 29)) * 0xBF58476D1CE4E5B9u);
-  }
-};
 
 /// The point that each vertex is at the place of.
 Former vertices_by_place(const std::vector<Vec2>& points, const Mesh& mesh) {

@@ -5,9 +5,12 @@
 // removes.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "io/array_names.hpp"
+#include "io/geographic.hpp"
 #include "io/mpas.hpp"
 #include "io/netcdf_extras.hpp"
 #include "io/scanner.hpp"
@@ -164,22 +167,36 @@ class MpasReader {
 
 // --- writing ---------------------------------------------------------------------------------------------
 
-/// x, y and z of cells, edges or vertices, latitudes and longitudes that mean nothing, and their numbers.
-template <class Point>
-void write_mpas_places(NetcdfWriter& out, const char* what, int dimension, std::size_t n, double z, Point point) {
+/// Latitudes and longitudes in radians, from 0 to 2 π; 0 where they are not known.
+void write_mpas_angles(NetcdfWriter& out, const char* what, int dimension, std::size_t n,
+                       const std::vector<Vec2>& lon_lat) {
+  constexpr double kRadians = std::numbers::pi / 180;
+  std::vector<double> lon(n), lat(n);
+  for (std::size_t i = 0; i < lon_lat.size(); ++i) {
+    lon[i] = (lon_lat[i].x - 360 * std::floor(lon_lat[i].x / 360)) * kRadians;
+    lat[i] = lon_lat[i].y * kRadians;
+  }
+  out.variable(text("lat", what), {dimension}, std::move(lat));
+  out.variable(text("lon", what), {dimension}, std::move(lon));
+}
+
+/// x, y and z of cells, edges or vertices, latitudes and longitudes, and their numbers.
+void write_mpas_places(NetcdfWriter& out, const char* what, int dimension, const NetcdfMesh& m,
+                       const std::vector<Vec2>& places) {
+  const std::size_t n = places.size();
   std::vector<double> x(n), y(n);
   std::vector<std::int32_t> numbers(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec2 p = point(i);
-    x[i] = p.x;
-    y[i] = p.y;
+    x[i] = places[i].x;
+    y[i] = places[i].y;
     numbers[i] = static_cast<std::int32_t>(i) + 1;
   }
-  out.variable(text("lat", what), {dimension}, std::vector<double>(n));
-  out.variable(text("lon", what), {dimension}, std::vector<double>(n));
+  std::vector<Vec2> lon_lat = lon_lat_of_points(m.file).value_or(std::vector<Vec2>());
+  if (!lon_lat.empty() && &places != &m.file.points) lon_lat = lon_lat_of_places(m.file, m.mesh, places);
+  write_mpas_angles(out, what, dimension, n, lon_lat);
   out.variable(text("x", what), {dimension}, std::move(x));
   out.variable(text("y", what), {dimension}, std::move(y));
-  out.variable(text("z", what), {dimension}, std::vector<double>(n, z));
+  out.variable(text("z", what), {dimension}, std::vector<double>(n, m.file.z));
   out.variable(text("indexTo", what, "ID"), {dimension}, std::move(numbers));
 }
 
@@ -218,12 +235,11 @@ void write_mpas(const WriteJob& job) {
   out.attribute(NetcdfWriter::kFile, "sphere_radius", 0.0);
   out.attribute(NetcdfWriter::kFile, "is_periodic", "NO");
   out.attribute(NetcdfWriter::kFile, "source", "temper");
-  const double z = m.file.z;
-  write_mpas_places(out, "Cell", cells, m.mesh.n_vertices(), z,
-                    [&](std::size_t i) { return m.mesh.position(VertexId(i)); });
-  write_mpas_places(out, "Edge", edges, c.edges.size(), z, [&](std::size_t i) { return c.edges[EdgeId(i)].midpoint; });
-  write_mpas_places(out, "Vertex", vertices, m.mesh.n_triangles(), z,
-                    [&](std::size_t i) { return c.orthocenters[TriangleId(i)]; });
+  std::vector<Vec2> midpoints;
+  for (std::size_t i = 0; i < c.edges.size(); ++i) midpoints.push_back(c.edges[EdgeId(i)].midpoint);
+  write_mpas_places(out, "Cell", cells, m, m.file.points);
+  write_mpas_places(out, "Edge", edges, m, midpoints);
+  write_mpas_places(out, "Vertex", vertices, m, c.orthocenters.raw());
   out.variable("cellsOnEdge", {edges, two}, std::move(a.cells_on_edge));
   out.variable("verticesOnEdge", {edges, two}, std::move(a.vertices_on_edge));
   out.variable("nEdgesOnCell", {cells}, std::move(a.n_edges_on_cell));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "io/geographic.hpp"
 #include "io/physical_names.hpp"
 #include "io/scanner.hpp"
 
@@ -105,6 +106,7 @@ class ExtrasWriter {
     }
     if (components > 1) dimensions.push_back(out_.dimension(text("temper_components_", components), components));
     const int id = put(kind, free_name(out_, kind, a.name), dimensions, a.values);
+    if (a.name == kLongitude || a.name == kLatitude) name_degrees(out_, id, a.name);
     out_.attribute(id, kKindAttribute, kind.name);
     out_.attribute(id, kNameAttribute, a.name);
   }
@@ -149,6 +151,11 @@ void read_own_data(const NetcdfReader& in, Document& document, const NetcdfVaria
 }
 
 }  // namespace
+
+void name_degrees(NetcdfWriter& out, int variable, std::string_view standard_name) {
+  out.attribute(variable, "standard_name", standard_name);
+  out.attribute(variable, "units", standard_name == kLongitude ? "degrees_east" : "degrees_north");
+}
 
 void write_netcdf_extras(NetcdfWriter& out, const WriteJob& job, const MeshFile& file, const NetcdfPlaces& places) {
   ExtrasWriter(out, job, file, places).write();

@@ -19,6 +19,9 @@ struct NetcdfPlaces {
 };
 void write_netcdf_extras(NetcdfWriter& out, const WriteJob& job, const MeshFile& file, const NetcdfPlaces& places);
 
+/// Says by the names of CF that a variable is longitude or latitude, in degrees.
+void name_degrees(NetcdfWriter& out, int variable, std::string_view standard_name);
+
 /// Regions, lines, marked points, names, z and data of temper's own.
 void read_netcdf_extras(const NetcdfReader& in, Document& document);
 /// Says whether a variable is one of temper's own.

@@ -19,6 +19,24 @@ namespace {
 
 using Type = JsonValue::Type;
 
+constexpr std::array<std::string_view, 3> kProperties = {"region", "size", "tag"};
+
+/// The property that a name is a misspelling of: one letter is too many, missing or another, two
+/// are swapped, or some are capitals; else empty.
+std::string_view meant_by(std::string_view name) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  for (const std::string_view property : kProperties) {
+    const std::size_t shorter = std::min(name.size(), property.size()), longer = std::max(name.size(), property.size());
+    std::size_t head = 0, tail = 0;
+    while (head < shorter && lower(name[head]) == property[head]) ++head;
+    while (tail < shorter && lower(name[name.size() - 1 - tail]) == property[property.size() - 1 - tail]) ++tail;
+    const bool swapped = shorter == longer && head + tail + 2 == longer && lower(name[head]) == property[head + 1] &&
+                         lower(name[head + 1]) == property[head];
+    if (head + tail + 1 >= longer || swapped) return property;
+  }
+  return {};
+}
+
 struct LonLatHash {
   std::size_t operator()(const std::array<double, 2>& p) const {
     return std::hash<double>()(p[0]) * 31 + std::hash<double>()(p[1]);
@@ -92,6 +110,7 @@ class GeoJsonReader {
     Feature about;
     about.name = name;
     if (const JsonValue* properties = value.find("properties")) {
+      warn_of_misspelt(*properties, name);
       about.region = integer(*properties, "region", name);
       about.tag = integer(*properties, "tag", name);
       if (const JsonValue* size = properties->find("size"); size != nullptr && size->type == Type::number) {
@@ -103,6 +122,43 @@ class GeoJsonReader {
     const JsonValue* shape = value.find("geometry");
     if (shape == nullptr || shape->type == Type::null) return;  // allowed: a feature without a place
     geometry(*shape, about);
+    warn_of_idle(*shape, about);
+  }
+
+  void warn_at(const JsonValue& value, const std::string& message) {
+    document_.file.warnings.push_back(text(path_, ":", value.line, ": ", message));
+  }
+
+  /// Numbers under a name that is nearly one of those with a meaning, and what is no number under one of those.
+  void warn_of_misspelt(const JsonValue& properties, const std::string& feature) {
+    for (std::size_t i = 0; i < properties.names.size(); ++i) {
+      const std::string& name = properties.names[i];
+      const JsonValue& value = properties.items[i];
+      const std::string_view meant = meant_by(name);
+      const bool number = value.type == Type::number, exact = name == meant;
+      if (meant.empty() || value.type == Type::null || number == exact) continue;
+      if (exact) {
+        warn_at(value, text(feature, ": property ", in_quotes(name), " is ", describe(value),
+                            ", not a number, and passed over"));
+      } else {
+        warn_at(value,
+                text(feature, ": property ", in_quotes(name), " is passed over; is ", in_quotes(meant), " meant?"));
+      }
+    }
+  }
+
+  /// Properties of polygons on what is none.
+  void warn_of_idle(const JsonValue& shape, const Feature& about) {
+    const std::string_view type = shape.text("type");
+    const bool point = type == "Point" || type == "MultiPoint";
+    const bool polygon = type == "Polygon" || type == "MultiPolygon" || type == "GeometryCollection";
+    const auto warn_if = [&](bool idle, std::string_view property, std::string_view of) {
+      if (idle)
+        warn_at(shape, text(about.name, ": ", in_quotes(property), " is for ", of, " and has no effect on a ", type));
+    };
+    warn_if(about.size && !polygon, "size", "polygons");
+    warn_if(about.region && !polygon, "region", "polygons");
+    warn_if(about.tag && point, "tag", "polygons and lines");
   }
 
   std::optional<std::int32_t> integer(const JsonValue& properties, std::string_view key,

@@ -10,6 +10,7 @@
 
 #include "io/array_names.hpp"
 #include "io/format.hpp"
+#include "io/geographic.hpp"
 #include "io/scanner.hpp"
 
 namespace temper::io {
@@ -82,15 +83,17 @@ constexpr FormatRow kRows[] = {
     // Before those whose first word may be that of a title. Of tags and names it holds boundaries; its writer names the
     // others.
     {"adcirc", "ADCIRC fort.14", ".14 .grd", kLines | kMarkedPoints | kNames, sniff_adcirc, read_adcirc, write_adcirc,
-     adcirc_keeps},
+     adcirc_keeps, nullptr, 1, "", Degrees::where_known},
     {"obj", "Wavefront OBJ", ".obj", kZ | kAllTags | kNames, sniff_obj, read_obj, write_obj},
     {"vtk", "legacy VTK 2.0 to 4.2", ".vtk", kAll, sniff_legacy_vtk, read_legacy_vtk, write_legacy_vtk},
     {"vtk51", "legacy VTK 5.1", ".vtk51", kAll, sniff_vtk51, read_legacy_vtk, write_vtk51},
     {"mfem", "MFEM mesh v1.0", ".mesh", 0, sniff_mfem, read_mfem, nullptr},
     {"triangle", "Triangle", ".node .ele", kAll & ~(kLineData | kMarkedPointData | kFieldData), sniff_triangle,
      read_triangle, write_triangle, nullptr, triangle_files},
-    {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll, sniff_mpas, read_mpas, write_mpas},
-    {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll, sniff_ugrid, read_ugrid, write_ugrid},
+    {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll, sniff_mpas, read_mpas, write_mpas, nullptr, nullptr, 1, "",
+     Degrees::by_writer},
+    {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll, sniff_ugrid, read_ugrid, write_ugrid, nullptr, nullptr, 1, "",
+     Degrees::by_writer},
 };
 
 template <std::size_t... I>
@@ -251,6 +254,25 @@ Expected<MeshFile> read(const std::string& path, const ReadOptions& options) {
   return guarded<MeshFile>(path, [&] { return read_or_throw(path, options); });
 }
 
+namespace {
+
+bool goes_back_to_degrees(const FormatRow& row, const MeshFile& file) {
+  if (row.degrees == Degrees::by_writer) return false;
+  return file.map || (row.degrees == Degrees::where_known && lon_lat_of_points(file));
+}
+
+/// Weights are lengths, squared: of the map, whatever the points beside them are.
+void warn_of_weights_beside_degrees(const WriteJob& job, const MeshFile& on_map) {
+  const auto& weights = on_map.weights;
+  if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; })) return;
+  const std::string map = on_map.map ? text(" on the map ", projection_text(on_map.map->projection),
+                                            ", in metres: give this projection where the file is read again")
+                                     : std::string(" of the plane that the mesh was in");
+  job.warn(text("points are longitude and latitude, but weights are squared lengths", map));
+}
+
+}  // namespace
+
 Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file, const WriteOptions& options) {
   return guarded<std::vector<std::string>>(path, [&] {
     const FormatRow& row = row_to_write(path, options.format);
@@ -258,7 +280,10 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
     check_names(path, file);
     std::vector<std::string> warnings;
     OutputSet outputs;
-    const WriteJob job = {path, file, row, options.encoding, options.executor, outputs, warnings};
+    const bool turned = goes_back_to_degrees(row, file);
+    const MeshFile degrees = turned ? in_degrees(file) : MeshFile();
+    const WriteJob job = {path, turned ? degrees : file, row, options.encoding, options.executor, outputs, warnings};
+    if (turned) warn_of_weights_beside_degrees(job, file);
     row.write(job);
     warn_of_losses(job);
     if ((row.holds & kWeights) == 0) write_side_file(job);

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "io/array_names.hpp"
+#include "io/geographic.hpp"
 #include "io/netcdf_extras.hpp"
 #include "io/scanner.hpp"
 
@@ -69,7 +70,22 @@ class UgridReader {
     expect(vy.sizes == vx.sizes, vy.name);
     node_dimension_ = vx.dimensions[0];
     const auto x = to_doubles(in_.values(vx)), y = to_doubles(in_.values(vy));
-    for (std::size_t i = 0; i < x.size(); ++i) document_.file.points.push_back({x[i], y[i]});
+    const std::string_view of_x = axis(vx), of_y = axis(vy);
+    document_.file.geographic = !of_x.empty() && !of_y.empty() && of_x != of_y;
+    const bool turned = document_.file.geographic && of_x == kLatitude;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      document_.file.points.push_back(turned ? Vec2{y[i], x[i]} : Vec2{x[i], y[i]});
+    }
+  }
+
+  /// Longitude or latitude, by CF's standard names and units (degrees_east, degree_N, degreesE, …), or neither: those
+  /// of a rotated pole are plain degrees.
+  std::string_view axis(const NetcdfVariable& v) const {
+    const std::string name = in_.text_attribute(&v, "standard_name"), units = in_.text_attribute(&v, "units");
+    const auto ends = [&](std::string_view word) { return units.starts_with("degree") && units.ends_with(word); };
+    if (name == kLongitude || ends("_east") || ends("E")) return kLongitude;
+    if (name == kLatitude || ends("_north") || ends("N")) return kLatitude;
+    return {};
   }
 
   void faces() {
@@ -162,7 +178,10 @@ class UgridWriter {
     connectivity();
     if (!m_.file.weights.empty()) {
       const int id = out_.variable("mesh_node_weight", {nodes_}, m_.file.weights);
-      out_.attribute(id, "long_name", "weight of the power diagram, a squared length");
+      const std::string map =
+          m_.file.map ? text(" on the map ", projection_text(m_.file.map->projection)) : std::string();
+      out_.attribute(id, "long_name", text("weight of the power diagram, a squared length", map));
+      out_.attribute(id, "units", "m2");
       on(id, "node");
     }
     write_netcdf_extras(out_, job_, m_.file, {nodes_, faces_, "mesh"});
@@ -192,13 +211,21 @@ class UgridWriter {
 
   template <class Point>
   void places(const std::string& what, int dimension, std::size_t n, const char* long_name, Point point) {
+    std::vector<Vec2> all(n);
+    for (std::size_t i = 0; i < n; ++i) all[i] = point(i);
+    const bool degrees = m_.file.map != nullptr;
+    if (degrees) all = what == "node" ? *lon_lat_of_points(m_.file) : lon_lat_of_places(m_.file, m_.mesh, all);
     for (const bool is_x : {true, false}) {
       std::vector<double> values(n);
-      for (std::size_t i = 0; i < n; ++i) values[i] = is_x ? point(i).x : point(i).y;
+      for (std::size_t i = 0; i < n; ++i) values[i] = is_x ? all[i].x : all[i].y;
       const int id = out_.variable(text("mesh_", what, is_x ? "_x" : "_y"), {dimension}, std::move(values));
-      out_.attribute(id, "standard_name", is_x ? "projection_x_coordinate" : "projection_y_coordinate");
       out_.attribute(id, "long_name", long_name);
-      out_.attribute(id, "units", "m");
+      if (degrees) {
+        name_degrees(out_, id, is_x ? kLongitude : kLatitude);
+      } else {
+        out_.attribute(id, "standard_name", is_x ? "projection_x_coordinate" : "projection_y_coordinate");
+        out_.attribute(id, "units", "m");
+      }
     }
   }
 

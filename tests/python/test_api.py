@@ -25,6 +25,7 @@ ELSEWHERE = {
     "make_mesh": "read and from_meshio make the mesh", "update": "write does it", "release_geometry": "read does it",
     "parse_data_rules": "Mesh.point_data_rules", "check_data_rules": "as parse_data_rules",
     "places_of_vertices": "Mesh.point_data", "sources_of_triangles": "Mesh.cell_data", "interpolated": "Mesh.point_data",
+    "printable": "messages are", "needs_projection": "TemperError says it", "projection_text": "Projection's fields",
     "from_mesh": "write does it", "files_to_write": "write does it",
     "dec_file_names": "write_dec returns the paths",
     "hilbert_order": "Python keeps the user's numbers", "restore_order": "as hilbert_order",

@@ -392,3 +392,28 @@ def test_rules_of_data_that_make_no_sense_leave_the_mesh_as_it_was(sea):
         temper.optimize(mesh, point_data=[1])
     assert mesh == before and mesh.point_data_rules == ("interpolate",)
     assert temper.optimize(temper.generate.annulus()).data is None
+
+
+# --- longitude and latitude -----------------------------------------------------------------------------------
+
+
+def test_a_mesh_in_degrees_is_optimised_on_a_map_and_written_in_degrees(in_scratch):
+    mesh = temper.generate.random_points(200)
+    places = np.asarray(mesh.points) * (2, 1) + (-14, 55)
+    nodes = [f"{i + 1} {x!r} {y!r} {3000.0 + y!r}" for i, (x, y) in enumerate(places.tolist())]
+    triangles = [f"{i + 1} 3 {a + 1} {b + 1} {c + 1}" for i, (a, b, c) in enumerate(mesh.triangles.tolist())]
+    head = ["sea", f"{len(triangles)} {len(nodes)}"]
+    (in_scratch / "fort.14").write_text("\n".join(head + nodes + triangles + ["0", "0", "0", "0"]) + "\n")
+    with pytest.raises(temper.TemperError, match="longitude and latitude") as refused:
+        temper.read("fort.14")
+    assert refused.value.code == "geographic"
+    sea = temper.read("fort.14", projection="stereographic:-10,57")
+    assert np.ptp(np.asarray(sea.points)) > 1e5  # metres
+    temper.optimize(sea)
+    with pytest.warns(temper.TemperWarning, match="stereographic:-10,57, in metres"):
+        temper.write("out.14", sea)
+    rows = [line.split() for line in (in_scratch / "out.14").read_text().splitlines()[2 : 2 + len(nodes)]]
+    written = np.array([[float(x), float(y)] for _, x, y, _ in rows])
+    coast = np.unique(sea.boundary_edges)
+    assert np.array_equal(written[coast], places[coast]) and np.abs(written - places).max() < 2
+    assert np.array_equal(np.asarray(temper.read("fort.14", projection="none").points), places)

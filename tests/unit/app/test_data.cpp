@@ -10,7 +10,7 @@ namespace temper::test {
 namespace {
 
 /// A bay: dry land around water, deepest in the middle.
-double depth(Vec2 p) { return 8 - 2.5 * ((p.x - 2) * (p.x - 2) + (p.y - 2) * (p.y - 2)); }
+double depth(Vec2 p) { return 0.8 - 0.25 * ((p.x - 2) * (p.x - 2) + (p.y - 2) * (p.y - 2)); }
 
 class Data : public Workshop {
  protected:
@@ -54,7 +54,7 @@ TEST_F(Data, DepthsStayAtTheirPlaceUnlessToldToKeepToTheirPoints) {
     temper_ok({"optimize", input, "-o", "out-" + input, "--quiet"});
     temper_ok({"optimize", input, "-o", "kept-" + input, "--quiet", "--point-data", "keep=depth"});
     const Errors interpolated = errors_of("out-" + input), kept = errors_of("kept-" + input);
-    EXPECT_LT(interpolated.greatest, 0.5) << "linear between points 0.2 apart: a few times 2.5 · 0.2²";
+    EXPECT_LT(interpolated.greatest, 0.05) << "linear between points 0.2 apart: a few times 0.25 · 0.2²";
     EXPECT_LT(10 * interpolated.crossed, kept.crossed);
     EXPECT_GT(kept.greatest, 4 * interpolated.greatest);
   }

@@ -6,7 +6,11 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
+
+#include "temper/generate.hpp"
+#include "temper/optimize.hpp"
 
 namespace temper::io {
 namespace {
@@ -338,6 +342,48 @@ TEST_F(NetcdfFormats, ugrid_says_where_orthocenters_and_edges_are) {
   const auto edge_nodes = nc.get<std::int32_t>("mesh_edge_nodes"), edge_faces = nc.get<std::int32_t>("mesh_edge_faces");
   EXPECT_EQ(edge_nodes.size() / 2, f.points.size() + f.triangles.size() - 1) << "Euler";
   EXPECT_EQ(std::count(edge_faces.begin(), edge_faces.end(), -1), 18);
+}
+
+TEST_F(NetcdfFormats, mpas_has_latitudes_and_longitudes_of_a_mesh_that_knows_them) {
+  constexpr double kRadians = std::numbers::pi / 180;
+  Mesh mesh = *random_points({.vertices = 60, .seed = 2});
+  ASSERT_TRUE(optimize(mesh));  // no orthocenter is beyond the mesh
+  MeshFile on_map = from_mesh(mesh);
+  const Projection about_greenwich = {ProjectionKind::stereographic, {0, 49}};
+  for (Vec2& p : on_map.points) p = inverse(about_greenwich, 1e5 * (p - Vec2{2, 2}));
+  for (double& w : on_map.weights) w *= 1e10;
+  const std::vector<Vec2> degrees = on_map.points;
+  ASSERT_TRUE(project(on_map, "stereographic:0,49"));
+  const Projection projection = on_map.map->projection;
+  MeshFile with_data = on_map;
+  with_data.map = nullptr;
+  with_data.geographic = false;
+  std::vector<double> longitude, latitude;
+  for (const Vec2 p : degrees) longitude.push_back(p.x), latitude.push_back(p.y);
+  with_data.point_data = {{"longitude", 1, longitude}, {"latitude", 1, latitude}};
+  for (const MeshFile* f : {&on_map, &with_data}) {
+    ASSERT_TRUE(write(path("m.mpas.nc"), *f));
+    const Nc nc = Nc::open(path("m.mpas.nc"));
+    const auto lat = nc.get<double>("latCell"), lon = nc.get<double>("lonCell");
+    ASSERT_EQ(lat.size(), degrees.size());
+    for (std::size_t i = 0; i < lat.size(); ++i) {
+      EXPECT_NEAR(lat[i], degrees[i].y * kRadians, 1e-15);
+      EXPECT_NEAR(lon[i], (degrees[i].x + (degrees[i].x < 0 ? 360 : 0)) * kRadians, 1e-14);
+      EXPECT_TRUE(lon[i] >= 0 && lon[i] < 2 * std::numbers::pi);
+    }
+    for (const std::string what : {"Vertex", "Edge"}) {
+      const auto x = nc.get<double>(("x" + what).c_str()), y = nc.get<double>(("y" + what).c_str());
+      const auto lats = nc.get<double>(("lat" + what).c_str()), lons = nc.get<double>(("lon" + what).c_str());
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        const Vec2 place = inverse(projection, {x[i], y[i]});
+        // Linear between the cells, an edge of 1 degree apart, where the map itself is not known.
+        const double tolerance = f == &on_map ? 1e-12 : 2e-4;
+        EXPECT_NEAR(lats[i], place.y * kRadians, tolerance);
+        EXPECT_NEAR(std::remainder(lons[i] - place.x * kRadians, 2 * std::numbers::pi), 0, 2 * tolerance);
+      }
+      EXPECT_GT(x.size(), 50u);
+    }
+  }
 }
 
 TEST_F(NetcdfFormats, what_is_no_planar_mesh_of_triangles_is_named) {

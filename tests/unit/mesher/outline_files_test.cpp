@@ -143,6 +143,30 @@ TEST_F(OutlineFiles, GeoJsonPolygonsShareBordersAndLinesStayInside) {
   EXPECT_GT(tagged, 2u);
 }
 
+TEST_F(OutlineFiles, GeoJsonPropertiesThatAreMisspeltOrHaveNoEffectAreNamed) {
+  const auto warnings = [&](const std::string& properties, const std::string& geometry) {
+    std::string all;
+    const io::OutlineFile file =
+        read(R"({"type": "Feature", "properties": {)" + properties + R"(}, "geometry": {"type": )" + geometry + "}}");
+    for (const std::string& warning : file.warnings) all += warning.substr(warning.find(": ") + 2) + "\n";
+    return all;
+  };
+  const std::string square = R"("Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]])";
+  const std::string line = R"("LineString", "coordinates": [[0, 0], [1, 0]])";
+  EXPECT_EQ(warnings(R"("size": 1, "region": 2, "tag": 3, "area": 4, "name": "Sizewell", "Region": "north")", square),
+            "");
+  EXPECT_EQ(warnings(R"("siez": 1, "Size": 1, "sizes": 1, "reigon": 2, "tags": 3)", square),
+            "the feature: property 'siez' is passed over; is 'size' meant?\n"
+            "the feature: property 'Size' is passed over; is 'size' meant?\n"
+            "the feature: property 'sizes' is passed over; is 'size' meant?\n"
+            "the feature: property 'reigon' is passed over; is 'region' meant?\n"
+            "the feature: property 'tags' is passed over; is 'tag' meant?\n");
+  EXPECT_EQ(warnings(R"("size": "0.1")", square),
+            "the feature: property 'size' is a string, not a number, and passed over\n");
+  EXPECT_EQ(warnings(R"("size": 0.1, "tag": 2)", line),
+            "the feature: 'size' is for polygons and has no effect on a LineString\n");
+}
+
 TEST_F(OutlineFiles, GeoJsonWithAProjectedCrsIsPlanar) {
   const std::string polygon = R"("type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]]})";
   const auto with_crs = [&](const std::string& name) {

@@ -1,14 +1,16 @@
 // Snyder's formulas for the sphere, in the forms that keep their digits near poles and centers (atan2 for asin).
 #include "temper/projection.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "mesher/arrangement.hpp"
+#include "base/text.hpp"
 
 namespace temper {
 namespace {
@@ -132,6 +134,17 @@ Vec2 inverse(const Projection& p, Vec2 place) {
   return {p.center.x + angles.x / kDegree, angles.y / kDegree};
 }
 
+LongitudeTurn::LongitudeTurn(std::span<const Vec2> lon_lat) {
+  if (lon_lat.empty()) return;
+  const auto [west, east] =
+      std::minmax_element(lon_lat.begin(), lon_lat.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
+  middle_ = (west->x + east->x) / 2;
+}
+
+Vec2 LongitudeTurn::operator()(Vec2 lon_lat) const {
+  return {lon_lat.x + 360 * std::round((middle_ - lon_lat.x) / 360), lon_lat.y};
+}
+
 double scale_factor(const Projection& p, Vec2 lon_lat) {
   const double lambda = from_center(p, lon_lat.x), phi = lon_lat.y * kDegree, phi0 = p.center.y * kDegree;
   switch (p.kind) {
@@ -158,50 +171,96 @@ Vec2 mean_place(std::span<const Vec2> lon_lat) {
   return {std::atan2(y, x) / kDegree, std::atan2(z, std::hypot(x, y)) / kDegree};
 }
 
+namespace {
+
+// Further away from the center than this the map is of no use, and soon infinite.
+constexpr double kLargestScale = 1e3;
+
+/// The place on the map, if it has one.
+std::optional<Vec2> mapped(const Projection& projection, Vec2 place) {
+  const bool on_globe = std::abs(place.x) <= 360 && std::abs(place.y) <= 90;  // false for NaN
+  if (!on_globe || !(scale_factor(projection, place) < kLargestScale)) return {};
+  return forward(projection, place);
+}
+
+InputError off_the_map(const std::string& where, const std::string& name, Vec2 place) {
+  return {ErrorCode::out_of_scale, where,
+          name + " is at longitude " + std::to_string(place.x) + " and latitude " + std::to_string(place.y) +
+              "; expected degrees on the globe, and not at the end of the map"};
+}
+
+/// Says whether the map ends between two places. Stereographic ones have their end at one point.
+bool is_torn(const Projection& projection, Vec2 a, Vec2 b) {
+  if (projection.kind == ProjectionKind::stereographic) return false;
+  return std::abs(from_center(projection, b.x) - from_center(projection, a.x)) > std::numbers::pi;
+}
+
+InputError torn(const std::string& where, const std::string& name) {
+  return {ErrorCode::out_of_scale, where,
+          name + " crosses the end of the map, 180 degrees from its center; choose another center"};
+}
+
+}  // namespace
+
 Expected<Outline> project(const Outline& lon_lat, const Projection& projection) {
   Outline result = lon_lat;
-  const OutlineNames& names = mesher::names_of(lon_lat);
-  // Further away from the center than this the map is of no use, and soon infinite.
-  constexpr double kLargestScale = 1e3;
-  const auto map = [&](Vec2 place) -> std::optional<Vec2> {
-    const bool on_globe = std::abs(place.x) <= 360 && std::abs(place.y) <= 90;  // false for NaN
-    if (!on_globe || !(scale_factor(projection, place) < kLargestScale)) return {};
-    return forward(projection, place);
-  };
-  const auto error = [](const std::string& where, const std::string& name, Vec2 place) {
-    return InputError{ErrorCode::out_of_scale, where,
-                      name + " is at longitude " + std::to_string(place.x) + " and latitude " +
-                          std::to_string(place.y) + "; expected degrees on the globe, and not at the end of the map"};
-  };
+  const OutlineNames numbers_from_0;
+  const OutlineNames& names = lon_lat.names ? *lon_lat.names : numbers_from_0;
   for (std::size_t i = 0; i < result.points.size(); ++i) {
-    const auto place = map(lon_lat.points[i]);
-    if (!place) return error(names.point_where(i), names.point(i), lon_lat.points[i]);
+    const auto place = mapped(projection, lon_lat.points[i]);
+    if (!place) return off_the_map(names.point_where(i), names.point(i), lon_lat.points[i]);
     result.points[i] = *place;
   }
   for (std::size_t i = 0; i < result.holes.size(); ++i) {
-    const auto place = map(lon_lat.holes[i]);
-    if (!place) return error(names.hole_where(i), names.hole(i), lon_lat.holes[i]);
+    const auto place = mapped(projection, lon_lat.holes[i]);
+    if (!place) return off_the_map(names.hole_where(i), names.hole(i), lon_lat.holes[i]);
     result.holes[i] = *place;
   }
   for (std::size_t i = 0; i < result.regions.size(); ++i) {
-    const auto place = map(lon_lat.regions[i].at);
-    if (!place) return error(names.region_where(i), names.region(i), lon_lat.regions[i].at);
+    const auto place = mapped(projection, lon_lat.regions[i].at);
+    if (!place) return off_the_map(names.region_where(i), names.region(i), lon_lat.regions[i].at);
     result.regions[i].at = *place;
   }
-  if (projection.kind == ProjectionKind::stereographic) return result;
   for (std::size_t i = 0; i < result.segments.size(); ++i) {
     const auto& ends = result.segments[i].ends;
     const auto n = static_cast<std::int64_t>(result.points.size());
     if (ends[0] < 0 || ends[1] < 0 || ends[0] >= n || ends[1] >= n) continue;  // the mesher's to name
-    const double turn = from_center(projection, lon_lat.points[static_cast<std::size_t>(ends[1])].x) -
-                        from_center(projection, lon_lat.points[static_cast<std::size_t>(ends[0])].x);
-    if (std::abs(turn) <= std::numbers::pi) continue;
-    return InputError{ErrorCode::out_of_scale, names.segment_where(i),
-                      names.segment(i) +
-                          " crosses the end of the map, 180 degrees from its center; choose another "
-                          "center"};
+    const Vec2 a = lon_lat.points[static_cast<std::size_t>(ends[0])];
+    const Vec2 b = lon_lat.points[static_cast<std::size_t>(ends[1])];
+    if (is_torn(projection, a, b)) return torn(names.segment_where(i), names.segment(i));
   }
   return result;
+}
+
+Expected<std::vector<Vec2>> project(std::span<const Vec2> lon_lat,
+                                    std::span<const std::array<std::int32_t, 3>> triangles,
+                                    const Projection& projection, const InputNames& names) {
+  std::vector<Vec2> places;
+  places.reserve(lon_lat.size());
+  for (std::size_t i = 0; i < lon_lat.size(); ++i) {
+    const auto place = mapped(projection, lon_lat[i]);
+    if (!place) return off_the_map(names.point_where(i), names.point(i), lon_lat[i]);
+    places.push_back(*place);
+  }
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t a = triangles[t][k], b = triangles[t][(k + 1) % 3];
+      const auto n = static_cast<std::int64_t>(lon_lat.size());
+      if (std::min(a, b) < 0 || std::max(a, b) >= n) continue;  // Mesh::build's to name
+      if (is_torn(projection, lon_lat[static_cast<std::size_t>(a)], lon_lat[static_cast<std::size_t>(b)])) {
+        return torn(names.triangle_where(t), names.triangle(t));
+      }
+    }
+  }
+  return places;
+}
+
+std::string projection_text(const Projection& projection) {
+  std::string text;
+  for (const KindName& kind : kKinds) {
+    if (kind.kind == projection.kind) text = kind.name;
+  }
+  return text + ":" + to_text(projection.center.x) + "," + to_text(projection.center.y);
 }
 
 }  // namespace temper

@@ -136,5 +136,34 @@ TEST(Projection, PlacesOffTheGlobeOrTheMapAreNamed) {
   EXPECT_NE(torn.error().what().find("segment 1 crosses the end of the map"), std::string::npos);
 }
 
+TEST(Projection, TextsGiveTheSameProjectionBack) {
+  for (const Projection& p : all_kinds()) {
+    const auto again = parse_projection(projection_text(p), {});
+    ASSERT_TRUE(again.has_value()) << again.error().what();
+    EXPECT_EQ(again->kind, p.kind);
+    EXPECT_EQ(again->center, p.center);
+  }
+  EXPECT_EQ(projection_text({ProjectionKind::transverse_mercator, {9, -0.5}}), "transverse-mercator:9,-0.5");
+}
+
+TEST(Projection, MeshesThatTheEndOfTheMapTearsAreRefusedByTheirNames) {
+  const std::vector<Vec2> places = {{-1, 50}, {1, 50}, {0, 52}};
+  const std::vector<std::array<std::int32_t, 3>> triangles = {{0, 1, 2}};
+  EXPECT_TRUE(project(places, triangles, {ProjectionKind::mercator, {0, 50}}, InputNames()).has_value());
+  const auto torn = project(places, triangles, {ProjectionKind::mercator, {180, 50}}, InputNames());
+  ASSERT_FALSE(torn.has_value());
+  EXPECT_EQ(torn.error().message,
+            "triangle 0 crosses the end of the map, 180 degrees from its center; choose another center");
+  EXPECT_TRUE(project(places, triangles, {ProjectionKind::stereographic, {180, 50}}, InputNames()).has_value());
+}
+
+TEST(LongitudeTurn, PutsLongitudesOnTheTurnOfThoseGiven) {
+  const std::vector<Vec2> pacific = {{150, 0}, {230, 10}};
+  const LongitudeTurn turn(pacific);
+  EXPECT_EQ(turn({-170, 5}), (Vec2{190, 5}));
+  EXPECT_EQ(turn({170, 5}), (Vec2{170, 5}));
+  EXPECT_EQ(LongitudeTurn(std::span<const Vec2>())({12, 3}), (Vec2{12, 3}));
+}
+
 }  // namespace
 }  // namespace temper

@@ -1,0 +1,134 @@
+#include "io/geographic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+#include "io/failure.hpp"
+#include "io/place_hash.hpp"
+#include "io/values.hpp"
+
+namespace temper::io {
+namespace {
+
+std::vector<Vec2> back_from_map(const GeographicMap& map, const std::vector<Vec2>& points) {
+  std::unordered_map<Vec2, std::size_t, PlaceHash> known;
+  for (std::size_t i = 0; i < map.places.size(); ++i) known.emplace(map.places[i], i);
+  const LongitudeTurn turn(map.lon_lat);
+  std::vector<Vec2> lon_lat;
+  lon_lat.reserve(points.size());
+  for (const Vec2 p : points) {
+    const auto found = known.find(p);
+    lon_lat.push_back(found != known.end() ? map.lon_lat[found->second] : turn(inverse(map.projection, p)));
+  }
+  return lon_lat;
+}
+
+const std::vector<double>* doubles_of(const MeshFile& file, std::string_view name) {
+  const DataArray* array = find(file.point_data, name);
+  return array != nullptr && array->components == 1 ? std::get_if<std::vector<double>>(&array->values) : nullptr;
+}
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+struct Direction {
+  double x = 0, y = 0, z = 0;
+};
+Direction direction_of(Vec2 lon_lat) {
+  const double lon = lon_lat.x * kRadians, lat = lon_lat.y * kRadians;
+  return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
+}
+Vec2 lon_lat_of(Direction d) {
+  return {std::atan2(d.y, d.x) / kRadians, std::atan2(d.z, std::hypot(d.x, d.y)) / kRadians};
+}
+
+Vec2 between_corners(const Place& place, const std::vector<Vec2>& lon_lat) {
+  Direction sum;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(place.n); ++k) {
+    const Direction d = direction_of(lon_lat[place.corners[k].index]);
+    sum = {sum.x + place.shares[k] * d.x, sum.y + place.shares[k] * d.y, sum.z + place.shares[k] * d.z};
+  }
+  return lon_lat_of(sum);
+}
+
+}  // namespace
+
+bool look_like_degrees(std::span<const Vec2> points, std::span<const double> depths) {
+  if (points.empty() || depths.empty()) return false;
+  Vec2 low = points[0], high = low;
+  for (const Vec2 p : points) {
+    if (!(std::abs(p.x) <= 360 && std::abs(p.y) <= 90)) return false;
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const double deepest = *std::max_element(depths.begin(), depths.end());
+  return deepest > std::max(high.x - low.x, high.y - low.y);
+}
+
+std::optional<std::vector<Vec2>> lon_lat_of_points(const MeshFile& file) {
+  if (file.map) return back_from_map(*file.map, file.points);
+  const auto *longitude = doubles_of(file, kLongitude), *latitude = doubles_of(file, kLatitude);
+  if (longitude == nullptr || latitude == nullptr) return {};
+  std::vector<Vec2> lon_lat;
+  lon_lat.reserve(file.points.size());
+  for (std::size_t i = 0; i < file.points.size(); ++i) lon_lat.push_back({(*longitude)[i], (*latitude)[i]});
+  return lon_lat;
+}
+
+std::vector<Vec2> lon_lat_of_places(const MeshFile& file, const Mesh& mesh, std::span<const Vec2> places) {
+  std::vector<Vec2> result;
+  result.reserve(places.size());
+  if (file.map) {
+    const LongitudeTurn turn(file.map->lon_lat);
+    for (const Vec2 p : places) result.push_back(turn(inverse(file.map->projection, p)));
+    return result;
+  }
+  const std::vector<Vec2> corners = lon_lat_of_points(file).value_or(std::vector<Vec2>());
+  const LongitudeTurn turn(corners);
+  const PlaceFinder finder(mesh);
+  TriangleId near;
+  for (const Vec2 p : places) {
+    const Place place = finder.find(p, near);
+    near = place.triangle;
+    result.push_back(turn(between_corners(place, corners)));
+  }
+  return result;
+}
+
+MeshFile in_degrees(const MeshFile& file) {
+  MeshFile result = file;
+  result.points = *lon_lat_of_points(file);
+  result.geographic = true;
+  result.map = nullptr;
+  return result;
+}
+
+std::string needs_projection(bool guessed) {
+  const std::string_view what =
+      guessed ? "the points look like longitude and latitude, for in metres the water would be deeper than the mesh is "
+                "wide; in degrees angles and lengths are distorted"
+              : "the points are longitude and latitude, in which angles and lengths are distorted";
+  return text(what,
+              "; choose a `projection`: stereographic, mercator or transverse-mercator (lengths are then in "
+              "metres); or none, to take the coordinates for those of a plane");
+}
+
+Expected<void> project(MeshFile& file, std::string_view projection) {
+  if (projection == kNoProjection) {
+    file.geographic = false;
+    return {};
+  }
+  auto parsed = parse_projection(projection, file.points);
+  if (!parsed) return parsed.error();
+  const InputNames numbers_from_0;
+  const InputNames& names = file.numbering ? *file.numbering : numbers_from_0;
+  auto places = temper::project(file.points, file.triangles, *parsed, names);
+  if (!places) return places.error();
+  file.geographic = true;
+  file.map = std::make_shared<const GeographicMap>(GeographicMap{*parsed, std::move(file.points), *places});
+  file.points = *std::move(places);
+  return {};
+}
+
+}  // namespace temper::io

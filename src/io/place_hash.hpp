@@ -1,0 +1,21 @@
+// Places as keys of hash tables, for points that have not moved by a bit.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "temper/vec2.hpp"
+
+namespace temper::io {
+
+struct PlaceHash {
+  std::size_t operator()(Vec2 p) const {
+    std::uint64_t x, y;
+    p = {p.x + 0.0, p.y + 0.0};  // −0 is the same place as 0
+    std::memcpy(&x, &p.x, sizeof x);
+    std::memcpy(&y, &p.y, sizeof y);
+    return static_cast<std::size_t>((x * 0x9E3779B97F4A7C15u) ^ (y + (x >> 29)) * 0xBF58476D1CE4E5B9u);
+  }
+};
+
+}  // namespace temper::io

@@ -1,0 +1,82 @@
+// Meshes in longitude and latitude, from file to file.
+#include <algorithm>
+
+#include "temper/generate.hpp"
+#include "temper/io.hpp"
+#include "workshop.hpp"
+
+namespace temper::test {
+namespace {
+
+class Degrees : public Workshop {
+ protected:
+  /// A sea of 8° × 4°, 3 km deep, as fort.14.
+  static void write_sea(const std::string& path) {
+    io::MeshFile file = io::from_mesh(*random_points({.vertices = 300, .seed = 4}));
+    std::vector<double> depths;
+    for (Vec2& p : file.points) {
+      p = {2 * p.x - 14, p.y + 55};
+      depths.push_back(3000 + 100 * p.y);
+    }
+    file.point_data = {{"depth", 1, depths}};
+    file.weights.clear();
+    ASSERT_TRUE(io::write(path, file, {"adcirc", {}}));
+  }
+};
+
+TEST_F(Degrees, AreRefusedWithTheCureWhereAPlaneIsNeeded) {
+  write_sea("fort.14");
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"optimize", "fort.14", "-o", "out.14"},
+                                             {"check", "fort.14"},
+                                             {"draw", "fort.14", "-o", "out.svg"},
+                                             {"weights", "fort.14", "-o", "out.14"},
+                                             {"explain", "fort.14"},
+                                             {"verify", "fort.14"},
+                                             {"dec", "fort.14", "-o", "out"}}) {
+    const Outcome outcome = temper(arguments);
+    EXPECT_EQ(outcome.exit, 2) << arguments[0];
+    EXPECT_TRUE(contains(outcome.err, "fort.14: the points look like longitude and latitude"));
+    EXPECT_TRUE(contains(outcome.err, "choose a --projection: stereographic, mercator or transverse-mercator"));
+  }
+  EXPECT_EQ(names(), std::vector<std::string>{"fort.14"});
+  temper_ok({"convert", "fort.14", "-o", "same.vtu"});
+  temper_ok({"optimize", "fort.14", "-o", "out.14", "--projection", "none", "--quiet"});
+}
+
+TEST_F(Degrees, AreOptimisedOnAMapAndWrittenAsTheyCame) {
+  write_sea("fort.14");
+  const Outcome run = temper_ok({"optimize", "fort.14", "-o", "out.14", "--projection", "stereographic:-10,57"});
+  EXPECT_TRUE(contains(run.err, "weights are squared lengths on the map stereographic:-10,57, in metres"));
+  const auto before = io::read("fort.14"), after = io::read("out.14");
+  ASSERT_TRUE(before && after);
+  ASSERT_EQ(before->points.size(), after->points.size());
+  std::size_t stayed = 0;
+  for (std::size_t p = 0; p < before->points.size(); ++p) {
+    stayed += before->points[p] == after->points[p] ? 1 : 0;
+    EXPECT_LT(length(before->points[p] - after->points[p]), 2) << "degrees";
+  }
+  EXPECT_GT(stayed, 20u) << "the coast";
+  EXPECT_LT(stayed, before->points.size() / 2);
+  // On the same map it is what the run said that it is, and a run on the plane of degrees would not be.
+  temper_ok({"check", "out.14", "--projection", "stereographic:-10,57", "--require", "outside=0,not_crossed=0"});
+  temper_ok({"optimize", "fort.14", "-o", "plane.14", "--projection", "none", "--quiet"});
+  EXPECT_EQ(temper({"check", "plane.14", "--projection", "stereographic:-10,57", "--require", "outside=0"}).exit, 3);
+  temper_ok({"draw", "out.14", "--before", "fort.14", "-o", "both.svg", "--projection", "stereographic"});
+}
+
+TEST_F(Degrees, AReplayOnTheSameMapMakesTheSameFile) {
+  write_sea("fort.14");
+  temper_ok({"optimize", "fort.14", "-o", "out.14", "--projection", "mercator", "--trace", "t.jsonl", "--quiet"});
+  temper_ok({"replay", "fort.14", "t.jsonl", "-o", "again.14", "--projection", "mercator", "--quiet"});
+  EXPECT_EQ(read("out.14"), read("again.14"));
+}
+
+TEST_F(Degrees, PlainMeshesInTheRangeOfDegreesAreNot) {
+  temper_ok({"example", "random", "--vertices", "60", "-o", "in.vtu"});
+  temper_ok({"convert", "in.vtu", "-o", "fort.14"});
+  for (const char* input : {"in.vtu", "fort.14"}) temper_ok({"optimize", input, "-o", "out.vtu", "--quiet"});
+}
+
+}  // namespace
+}  // namespace temper::test
