@@ -342,8 +342,8 @@ Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs) {
   s.rules = data_rules(s.point_data, input.file);
   warn(results, doubtful_options(command, s));
   if (!s.size_field.empty()) {
-    ReadSizeField read = read_size_field(s.size_field, s.size_data.empty() ? "size" : s.size_data,
-                                         same_projection(input, s.projection));
+    ReadSizeField read =
+        read_size_field(s.size_field, s.size_data.empty() ? "size" : s.size_data, same_projection(input, s.projection));
     warn(results, read.warnings);
     s.table.options.size_field = std::move(read.field);
   }
