@@ -11,6 +11,7 @@
 
 #include "console.hpp"
 #include "exit.hpp"
+#include "projection_option.hpp"
 #include "suggest.hpp"
 
 namespace temper::app {
@@ -98,7 +99,7 @@ void Outputs::expect_text(const std::string& option, const std::string& path, co
 }
 
 void Outputs::fail(const InputError& error) const {
-  std::string message = error.what();
+  std::string message = spell_projection(error.what());
   for (std::size_t i = 0; i < written_.size(); ++i)
     message += (i == 0 ? "; written before that: " : ", ") + written_[i];
   throw Failure(Exit::bad_input, message);

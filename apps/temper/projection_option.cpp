@@ -13,12 +13,15 @@ void add_projection(Command& command, std::string& target) {
            "coordinates are those of a plane, whatever they look like");
 }
 
+std::string spell_projection(std::string message) {
+  constexpr std::string_view kOption = "`projection`";
+  const std::size_t at = message.find(kOption);
+  return at == std::string::npos ? message : message.replace(at, kOption.size(), "--projection");
+}
+
 void expect_projection(const std::string& path, bool geographic, const std::string& projection, bool guessed) {
   if (!geographic || !projection.empty()) return;
-  constexpr std::string_view kOption = "`projection`";
-  std::string message = io::needs_projection(guessed);
-  message.replace(message.find(kOption), kOption.size(), "--projection");
-  throw Failure(Exit::bad_usage, fmt::format("{}: {}", path, message));
+  throw Failure(Exit::bad_usage, fmt::format("{}: {}", path, spell_projection(io::needs_projection(guessed))));
 }
 
 void take_to_map(io::MeshFile& file, const std::string& path, const std::string& projection) {

@@ -11,6 +11,9 @@ namespace temper::app {
 /// --projection, of verbs that read a mesh.
 void add_projection(Command& command, std::string& target);
 
+/// The library's sentence with the option as it is called here.
+[[nodiscard]] std::string spell_projection(std::string message);
+
 /// Failure, with the cure, where points are in degrees and no projection is chosen.
 void expect_projection(const std::string& path, bool geographic, const std::string& projection, bool guessed = false);
 

@@ -40,6 +40,7 @@ TEST_F(Degrees, AreRefusedWithTheCureWhereAPlaneIsNeeded) {
     EXPECT_TRUE(contains(outcome.err, "choose a --projection: stereographic, mercator or transverse-mercator"));
   }
   EXPECT_EQ(names(), std::vector<std::string>{"fort.14"});
+  EXPECT_EQ(temper({"convert", "fort.14", "-o", "m.ugrid.nc"}).err.find("`projection`"), std::string::npos);
   temper_ok({"convert", "fort.14", "-o", "same.vtu"});
   temper_ok({"optimize", "fort.14", "-o", "out.14", "--projection", "none", "--quiet"});
 }
