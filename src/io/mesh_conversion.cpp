@@ -102,7 +102,7 @@ class MeshMaker {
   [[nodiscard]] bool whole() const { return loaded_.vertex_of_point.n_kept() == file_.points.size(); }
   [[nodiscard]] std::vector<std::int32_t> fixed_points(std::span<const std::string> tags) const;
   Expected<BuiltMesh> build(const std::vector<std::int32_t>& fixed_points) const;
-  [[nodiscard]] HalfedgeId find_edge(std::int32_t a, std::int32_t b) const;
+  void find_edges();
   void constrain_lines();
   void fix_ends_of_tags();
 
@@ -110,6 +110,7 @@ class MeshMaker {
   Executor* executor_;
   InputNames counting_;
   LoadedMesh loaded_;
+  std::vector<HalfedgeId> edges_;  // of each line of the file; invalid: it is none of the mesh
 };
 
 Expected<LoadedMesh> MeshMaker::make(std::span<const std::string> fixed_tags) {
@@ -125,6 +126,7 @@ Expected<LoadedMesh> MeshMaker::make(std::span<const std::string> fixed_tags) {
   const std::size_t reversed = loaded_.reversed_triangles;
   if (reversed > 0)
     warn(text(reversed, reversed == 1 ? " clockwise triangle is reversed" : " clockwise triangles are reversed"));
+  find_edges();
   constrain_lines();
   fix_ends_of_tags();
   return std::move(loaded_);
@@ -214,21 +216,36 @@ Expected<BuiltMesh> MeshMaker::build(const std::vector<std::int32_t>& fixed) con
   return Mesh::build(input);
 }
 
-/// The edge between two points of the file, either way round, or none.
-HalfedgeId MeshMaker::find_edge(std::int32_t a, std::int32_t b) const {
+// All at once: around a vertex with very many lines, looking for one after the other would take the square of their
+// number.
+void MeshMaker::find_edges() {
   const auto& vertex = loaded_.vertex_of_point;
-  const std::int32_t u = vertex[static_cast<std::size_t>(a)], v = vertex[static_cast<std::size_t>(b)];
-  if (u < 0 || v < 0) return {};
-  const VertexId from(static_cast<std::size_t>(u)), to(static_cast<std::size_t>(v));
-  const HalfedgeId h = loaded_.mesh.find_halfedge(from, to);
-  return h.valid() ? h : loaded_.mesh.find_halfedge(to, from);
+  using Ends = std::pair<std::int32_t, std::int32_t>;
+  std::vector<std::pair<Ends, std::size_t>> wanted;
+  for (std::size_t i = 0; i < file_.lines.size(); ++i) {
+    const auto [a, b] = file_.lines[i];
+    wanted.push_back({std::minmax({vertex[static_cast<std::size_t>(a)], vertex[static_cast<std::size_t>(b)]}), i});
+  }
+  std::sort(wanted.begin(), wanted.end());
+  edges_.assign(file_.lines.size(), HalfedgeId());
+  if (wanted.empty()) return;
+  const Mesh& mesh = loaded_.mesh;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_edge_representative(h)) continue;
+    const auto from = static_cast<std::int32_t>(mesh.origin(h).index),
+               to = static_cast<std::int32_t>(mesh.target(h).index);
+    const Ends ends = std::minmax({from, to});
+    auto line = std::lower_bound(wanted.begin(), wanted.end(), std::pair(ends, std::size_t{0}));
+    for (; line != wanted.end() && line->first == ends; ++line) edges_[line->second] = h;
+  }
 }
 
 void MeshMaker::constrain_lines() {
   std::vector<std::string> lost;
   std::size_t n_lost = 0;
-  for (const auto& [a, b] : file_.lines) {
-    const HalfedgeId h = find_edge(a, b);
+  for (std::size_t i = 0; i < file_.lines.size(); ++i) {
+    const auto [a, b] = file_.lines[i];
+    const HalfedgeId h = edges_[i];
     if (!h.valid()) {
       if (n_lost++ < kNamed) {
         lost.push_back(
@@ -270,8 +287,7 @@ void MeshMaker::fix_ends_of_tags() {
   Mesh& mesh = loaded_.mesh;
   IdVector<VertexId, Lines> lines(mesh.n_vertices());  // of the boundary
   for (std::size_t i = 0; i < file_.lines.size(); ++i) {
-    const auto [a, b] = file_.lines[i];
-    const HalfedgeId h = find_edge(a, b);
+    const HalfedgeId h = edges_[i];
     if (!h.valid() || !mesh.is_boundary(h)) continue;
     for (const VertexId v : {mesh.origin(h), mesh.target(h)}) {
       Lines& at = lines[v];

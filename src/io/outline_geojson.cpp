@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
-#include <unordered_map>
 
 #include "io/json_tree.hpp"
 #include "io/outline_input.hpp"
@@ -36,12 +36,6 @@ std::string_view meant_by(std::string_view name) {
   }
   return {};
 }
-
-struct LonLatHash {
-  std::size_t operator()(const std::array<double, 2>& p) const {
-    return std::hash<double>()(p[0]) * 31 + std::hash<double>()(p[1]);
-  }
-};
 
 /// The properties of the feature around a geometry.
 struct Feature {
@@ -271,7 +265,7 @@ class GeoJsonReader {
       fail_at(position, ErrorCode::syntax, text(name, ": expected a position [x, y], found ", describe(position)));
     }
     heights_ = heights_ || position.numbers.size() > 2;
-    // Negative zero is the same place as zero, with another hash.
+    // Negative zero is the same place as zero.
     const std::array<double, 2> place = {position.numbers[0] + 0.0, position.numbers[1] + 0.0};
     Outline& o = document_.file.outline;
     const auto [known, is_new] = point_at_.emplace(place, static_cast<std::int32_t>(o.points.size()));
@@ -292,7 +286,7 @@ class GeoJsonReader {
   std::string path_;
   JsonValue root_;
   OutlineDocument document_;
-  std::unordered_map<std::array<double, 2>, std::int32_t, LonLatHash> point_at_;
+  std::map<std::array<double, 2>, std::int32_t> point_at_;  // no hash, which a file could be made to defeat
   std::vector<std::uint8_t> given_region_;
   std::size_t dropped_ = 0;
   bool heights_ = false;

@@ -5,6 +5,8 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <cmath>
+
 #include "support.hpp"
 
 namespace temper::io {
@@ -150,6 +152,18 @@ std::string obj_of_many_used_names() {
   return "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" +
          filled(900000, [](std::size_t i) { return "g a" + number(i) + "\nl 1 2\n"; });
 }
+/// Triangles around one vertex, each edge there a line.
+std::string obj_of_a_fan_with_lines() {
+  const std::size_t n = 20000;
+  std::string vertices = "v 0 0\n", faces, lines;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double t = 6 * static_cast<double>(i) / static_cast<double>(n);
+    vertices += "v " + std::to_string(std::cos(t)) + " " + std::to_string(std::sin(t)) + "\n";
+    if (i + 1 < n) faces += "f 1 " + number(i + 2) + " " + number(i + 3) + "\n";
+    lines += "l 1 " + number(i + 2) + "\n";
+  }
+  return vertices + faces + lines;
+}
 std::string fort14_of_many_levees() {
   const std::size_t n = 40000;
   return "t\n1 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n1 3 1 2 3\n0\n0\n" + number(n) + "\n" + number(2 * n) + "\n" +
@@ -214,6 +228,7 @@ const std::vector<Hostile>& hostile_files() {
       {"medit_of_many_flags", "m.mesh", medit_of_many_flags},
       {"obj_of_many_groups", "m.obj", obj_of_many_groups},
       {"obj_of_many_used_names", "m.obj", obj_of_many_used_names},
+      {"obj_of_a_fan_with_lines", "m.obj", obj_of_a_fan_with_lines},
       {"fort14_of_many_levees", "m.14", fort14_of_many_levees},
       {"jigsaw_of_many_sections", "m.jigsaw.msh", jigsaw_of_many_sections},
       {"netcdf_of_variables_in_one_place", "m.nc", netcdf_of_variables_in_one_place},

@@ -46,6 +46,20 @@ TEST_F(TriangleFiles, undeclared_attributes_are_data_and_a_warning_says_how_to_m
   EXPECT_TRUE(g->warnings.empty());
 }
 
+// Found by fuzzing: the first point decides what a file is, and "inf" was no number to it.
+TEST_F(TriangleFiles, with_data_that_are_not_finite_are_recognised) {
+  constexpr double kInf = std::numeric_limits<double>::infinity(), kNan = std::numeric_limits<double>::quiet_NaN();
+  MeshFile file = sample();
+  file.point_data = {{"depth", 1, std::vector<double>{-kInf, kInf, kNan, 0, 1, 2}}};
+  ASSERT_TRUE(write(path("m.node"), file));
+  const auto f = read(path("m.node"));
+  ASSERT_TRUE(f) << f.error().what();
+  const auto& depths = std::get<std::vector<double>>(f->point_data.at(0).values);
+  EXPECT_EQ(depths[0], -kInf);
+  EXPECT_EQ(depths[1], kInf);
+  EXPECT_TRUE(std::isnan(depths[2]));
+}
+
 TEST_F(TriangleFiles, may_count_from_one) {
   make("m.node", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n");
   make("m.ele", "1 3 0\n1 1 2 3\n");

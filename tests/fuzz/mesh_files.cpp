@@ -1,0 +1,89 @@
+// Readers and writers of meshes, a target for each row of formats(): what is read is a mesh or an error with a message;
+// what a mesh was read from can be written in every format, and read again.
+#include "target.hpp"
+#include "unit/io/support.hpp"
+
+namespace temper::fuzz {
+namespace {
+
+// Triangle's meshes are two files, here one after the other.
+constexpr char kBetweenFiles = '\f';
+
+std::string place(const Scratch& scratch, std::string_view format, std::string_view bytes) {
+  if (format != "triangle") return scratch.make("m", bytes);
+  const std::size_t cut = std::min(bytes.find(kBetweenFiles), bytes.size());
+  static_cast<void>(scratch.make("m.ele", bytes.substr(std::min(cut + 1, bytes.size()))));
+  return scratch.make("m.node", bytes.substr(0, cut));
+}
+
+void insist_on_message(const InputError& error) {
+  insist(!error.message.empty(), "an error has a message");
+  insist(printable(error.message) == error.message || !error.where.empty(), "an error says where");
+}
+
+/// The row of formats() that these bytes choose, so that each input is written in one.
+const io::Format& chosen_format(std::string_view bytes) {
+  std::vector<const io::Format*> writable;
+  for (const io::Format& format : io::formats()) {
+    if (format.writes) writable.push_back(&format);
+  }
+  std::size_t sum = bytes.size();
+  for (const char c : bytes.substr(0, 64)) sum += static_cast<unsigned char>(c);
+  return *writable[sum % writable.size()];
+}
+
+void write_and_read_again(const Scratch& scratch, const io::MeshFile& file, const io::Format& format) {
+  const std::string out = scratch.path(format.name == "triangle" ? "out.node" : "out");
+  const auto written = io::write(out, file, {std::string(format.name), {}});
+  if (!written) return insist_on_message(written.error());
+  const auto again = io::read(out);
+  insist(again.has_value(), again ? "" : std::string(format.name) + ": " + again.error().what());
+  insist(again->triangles.size() == file.triangles.size(), "as many triangles are read as were written");
+}
+
+void run(const std::string& format, std::string_view bytes) {
+  static const Scratch scratch;
+  scratch.clear();
+  if (bytes.starts_with("\x89HDF")) return;  // a process for each is too slow, and it is not our code
+  const auto file = io::read(place(scratch, format, bytes));
+  if (!file) return insist_on_message(file.error());
+  insist(printable(file->warnings.empty() ? "" : file->warnings[0]).size() < 100000, "warnings are short");
+  const auto made = io::make_mesh(*file);
+  if (!made) return insist_on_message(made.error());
+  const auto wrong = made->mesh.validate();
+  insist(!wrong, wrong.value_or(""));
+  write_and_read_again(scratch, *file, chosen_format(bytes));
+}
+
+std::vector<std::string> seeds(const io::Format& format) {
+  if (!format.writes) {
+    return {
+        "MFEM mesh v1.0\n\n# c\ndimension\n2\n\nelements\n2\n1 2 0 1 2\n1 2 0 2 3\n\nboundary\n1\n3 1 0 1\n\n"
+        "vertices\n4\n2\n0 0\n1 0\n1 1\n0 1\n"};
+  }
+  const Scratch scratch;
+  std::vector<std::string> all;
+  const std::string out = scratch.path(format.name == "triangle" ? "m.node" : "m");
+  for (const auto& file : {io::tamed(io::sample()), io::tamed(io::rich_sample())}) {
+    for (const auto encoding : {io::Encoding::ascii, io::Encoding::base64, io::Encoding::appended}) {
+      if (!io::write(out, file, {std::string(format.name), encoding})) continue;
+      std::string bytes = io::slurp(out);
+      if (format.name == "triangle") bytes += kBetweenFiles + io::slurp(scratch.path("m.ele"));
+      if (std::find(all.begin(), all.end(), bytes) == all.end()) all.push_back(std::move(bytes));
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Target> mesh_file_targets() {
+  std::vector<Target> all;
+  for (const io::Format& format : io::formats()) {
+    const std::string name(format.name);
+    all.push_back({name, [name](std::string_view bytes) { run(name, bytes); }, [&format] { return seeds(format); }});
+  }
+  return all;
+}
+
+}  // namespace temper::fuzz

@@ -1,0 +1,141 @@
+// Bytes as a list of choices: a triangulation of a square by insertions and flips, with weights, constraints, regions
+// and fixed vertices; a value for some rows of the table of options; then optimize(). What comes out is valid and
+// regular, or the mesh of before with an error; a trace of it makes the same mesh again.
+#include <algorithm>
+
+#include "base/rng.hpp"
+#include "property/random_mesh.hpp"
+#include "target.hpp"
+#include "temper/optimize_table.hpp"
+#include "temper/regularity.hpp"
+#include "temper/trace.hpp"
+
+namespace temper::fuzz {
+namespace {
+
+/// Choices, a byte each; zeros when there are no more.
+class Choices {
+ public:
+  explicit Choices(std::string_view bytes) : bytes_(bytes) {}
+  std::size_t below(std::size_t n) {
+    if (bytes_.empty()) return 0;
+    const auto byte = static_cast<unsigned char>(bytes_.front());
+    bytes_.remove_prefix(1);
+    return byte % n;
+  }
+  /// −1 to 1, in steps that make ties.
+  double coordinate() { return -1 + 0.125 * static_cast<double>(below(17)); }
+  bool one_in(std::size_t n) { return below(n) == 1; }
+
+ private:
+  std::string_view bytes_;
+};
+
+Mesh make_mesh(Choices& choices) {
+  Mesh mesh = test::square();
+  const std::size_t n = choices.below(24);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = choices.coordinate();
+    test::insert_anywhere(mesh, {x, choices.coordinate(), 0});
+    const HalfedgeId h(choices.below(mesh.n_halfedges()));
+    if (choices.one_in(2) && can_flip(mesh, h) == FlipStatus::possible) flip(mesh, h);
+  }
+  for (const VertexId v : mesh.vertices()) {
+    if (choices.one_in(4)) mesh.set_weight(v, 0.02 * choices.coordinate());
+    if (choices.one_in(16)) mesh.set_fixed(v, true);
+  }
+  for (const TriangleId t : mesh.triangles()) {
+    if (choices.one_in(8)) mesh.set_region(t, static_cast<std::int32_t>(choices.below(3)));
+  }
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_boundary(h) && choices.one_in(16)) mesh.set_constrained(h, true);
+  }
+  return mesh;
+}
+
+OptionValue some_value(const OptionRow& row, Choices& choices) {
+  const double low = std::max(row.range.low, -4.0), high = std::min(row.range.high, std::max(low, 0.0) + 4);
+  const double number = low + (high - low) * static_cast<double>(1 + choices.below(15)) / 16;
+  switch (row.kind) {
+    case OptionKind::flag:
+      return choices.one_in(2);
+    case OptionKind::count:
+      return static_cast<std::int64_t>(std::max(row.range.low, 0.0)) + static_cast<std::int64_t>(choices.below(8));
+    case OptionKind::number:
+      return number;
+    case OptionKind::choice:
+      return row.choices[choices.below(row.choices.size())];
+    case OptionKind::softening:
+      return Softening{std::max(number, 1e-3)};
+    case OptionKind::vertex:
+      return VertexId(choices.below(8));
+  }
+  return {};
+}
+
+OptimizeOptions make_options(Choices& choices) {
+  OptimizeOptions options = choices.one_in(3) ? paper_method() : OptimizeOptions();
+  for (const OptionGroup& group : option_groups()) {
+    for (const OptionRow& row : group.rows) {
+      if (!choices.one_in(6)) continue;
+      const OptionValue value = some_value(row, choices);
+      if (check_option(row, value)) row.set(options, value);
+    }
+  }
+  // What a run may cost.
+  options.max_sweeps = std::min(options.max_sweeps, 4);
+  options.accuracy.sweeps = std::min(options.accuracy.sweeps, 2);
+  options.repair_trials = std::min(options.repair_trials, 30);
+  options.time_limit = 0;  // the same at every run
+  return options;
+}
+
+void insist_on_result(const Mesh& before, const Mesh& mesh, const OptimizeReport& report,
+                      const OptimizeOptions& options) {
+  const auto wrong = mesh.validate();
+  const bool tangled = report.stopped == Stopped::tangled || options.paper.inversion == Inversion::allow;
+  insist(!wrong || tangled, wrong.value_or(""));
+  insist(report.vertices.empty() || report.vertices.size() == mesh.n_vertices(), "every vertex has a number");
+  insist(!report.vertices.empty() || mesh.n_vertices() == before.n_vertices(), "or there are as many as before");
+  const bool stops_early = report.stopped != Stopped::converged && options.flips == Flips::deferred;
+  if (wrong || tangled || stops_early || !report.hidden.empty() || options.flips == Flips::none) return;
+  insist(count_non_regular_edges(mesh, false) == 0, "every free edge is regular");
+}
+
+void run(std::string_view bytes) {
+  Choices choices(bytes);
+  const Mesh before = make_mesh(choices);
+  insist(!before.validate(), "the mesh to begin with is valid");
+  const OptimizeOptions options = make_options(choices);
+  Mesh mesh = before;
+  std::vector<TraceEvent> events;
+  OptimizeHooks hooks;
+  hooks.tracer = [&](const TraceEvent& event) { events.push_back(event); };
+  const auto report = optimize(mesh, options, hooks);
+  if (!report) {
+    insist(mesh == before, "an error leaves the mesh as it was");
+    return insist(!report.error().message.empty(), "an error has a message");
+  }
+  insist_on_result(before, mesh, *report, options);
+  const auto again = replay(before, events);
+  insist(again.has_value(), again ? "" : again.error().what());
+  insist(*again == mesh, "the trace makes the same mesh");
+}
+
+/// Bytes without meaning: each is a mesh and options.
+std::vector<std::string> some_bytes() {
+  std::vector<std::string> all;
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    Rng rng(seed);
+    std::string bytes(60 + 12 * seed, '\0');
+    for (char& c : bytes) c = static_cast<char>(rng.below(256));
+    all.push_back(std::move(bytes));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Target> optimize_targets() { return {{"optimize", run, some_bytes}}; }
+
+}  // namespace temper::fuzz

@@ -1,0 +1,91 @@
+// Traces and certificates, as the program reads them, of one small mesh: what is read is checked and done again.
+#include <vector>
+
+#include "apps/temper/certificate_json.hpp"
+#include "apps/temper/exit.hpp"
+#include "apps/temper/trace_jsonl.hpp"
+#include "target.hpp"
+#include "temper/generate.hpp"
+#include "temper/optimize.hpp"
+
+namespace temper::fuzz {
+namespace {
+
+using app::Input;
+
+/// A random mesh, through a file, as the program has it.
+const Input& input() {
+  static const Scratch scratch;
+  static const Input kInput = [] {
+    const auto mesh = random_points({.vertices = 12, .seed = 3});
+    insist(mesh.has_value(), "an example is made");
+    insist(io::write(scratch.path("m.vtu"), io::from_mesh(*mesh)).has_value(), "and written");
+    return app::read_input(scratch.path("m.vtu"));
+  }();
+  return kInput;
+}
+
+/// work, of which the only way to fail is a message with an exit code for bad input.
+template <class Work>
+void survive(Work work) {
+  try {
+    work();
+  } catch (const app::Failure& failure) {
+    insist(failure.what()[0] != '\0' && failure.exit == app::Exit::bad_input, "bad input is told");
+  }
+}
+
+void read_certificate(std::string_view bytes) {
+  static const Scratch scratch;
+  survive([&] {
+    const Certificate certificate = app::read_certificate(scratch.make("c.json", bytes), input());
+    static_cast<void>(check_certificate(input().mesh(), certificate));
+    static_cast<void>(
+        app::read_certificate(scratch.make("d.json", app::certificate_text(certificate, input())), input()));
+  });
+}
+
+void read_trace(std::string_view bytes) {
+  static const Scratch scratch;
+  survive([&] {
+    const app::Trace trace = app::read_trace(scratch.make("t.jsonl", bytes), input());
+    const auto replayed = replay_with_vertices(input().mesh(), trace.events, input().names.get());
+    if (!replayed) return insist(!replayed.error().message.empty(), "an error has a message");
+    static_cast<void>(app::is_end_of(trace.end, replayed->mesh));
+  });
+}
+
+std::vector<std::string> certificates() {
+  Certificate certificate;
+  const Mesh& mesh = input().mesh();
+  const auto [p, q, r] = mesh.corners(TriangleId(0));
+  certificate.terms.push_back({{WeightConstraint::Kind::height, p, q, r}, 0.25});
+  certificate.terms.push_back({{WeightConstraint::Kind::split, q, p, VertexId()}, 1.5});
+  return {app::certificate_text(certificate, input())};
+}
+
+std::vector<std::string> traces() {
+  std::vector<std::string> all;
+  OptimizeOptions with_removals = paper_method();
+  with_removals.max_sweeps = 2;
+  for (const OptimizeOptions& options : {OptimizeOptions{.max_sweeps = 3}, with_removals}) {
+    std::string text = app::trace_header(input());
+    std::size_t n = 0;
+    OptimizeHooks hooks;
+    hooks.tracer = [&](const TraceEvent& event) {
+      text += app::trace_line(event, input());
+      ++n;
+    };
+    Mesh mesh = input().mesh();
+    if (optimize(mesh, options, hooks)) all.push_back(text + app::trace_end(n, mesh, input()));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Target> program_file_targets() {
+  return {{"certificate", read_certificate, certificates}, {"trace", read_trace, traces}};
+}
+
+}  // namespace temper::fuzz
