@@ -212,10 +212,6 @@ bool sniff_adcirc(std::string_view head) {
     head.remove_prefix(std::min(end + 1, head.size()));
     return line;
   };
-  const auto is_number = [](std::string_view w) {
-    return !w.empty() && w.find_first_of("0123456789") != std::string_view::npos &&
-           w.find_first_not_of("0123456789+-.eEdD") == std::string_view::npos;
-  };
   const auto is_count = [](std::string_view w) {
     return !w.empty() && w.find_first_not_of("0123456789") == std::string_view::npos && w != "0";
   };
@@ -225,10 +221,10 @@ bool sniff_adcirc(std::string_view head) {
     if (!is_count(counts.peek())) return false;
     static_cast<void>(counts.word("a count"));
   }
-  if (is_number(counts.peek()) || !is_count(node.peek())) return false;
+  if (looks_like_number(counts.peek()) || !is_count(node.peek())) return false;
   static_cast<void>(node.word("a number"));
   for (int i = 0; i < 3; ++i) {
-    if (!is_number(node.peek())) return false;
+    if (!looks_like_number(node.peek())) return false;
     static_cast<void>(node.word("a number"));
   }
   return true;

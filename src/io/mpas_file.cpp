@@ -216,9 +216,29 @@ Document read_mpas(Source& source) {
   return read_netcdf(source, [&](const NetcdfReader& in) { return read_mpas_from(in, source.path); });
 }
 
+namespace {
+
+/// MPAS's tables are as wide as the cell with the most edges: one vertex with thousands would make a file of gigabytes.
+void refuse_too_wide(const WriteJob& job, const Mesh& mesh, std::size_t n_edges) {
+  constexpr std::size_t kUsual = 64, kMostNumbers = std::size_t{1} << 25;
+  std::size_t most = 0;
+  for (const VertexId v : mesh.vertices()) {
+    std::size_t n = 0;
+    for ([[maybe_unused]] const HalfedgeId h : mesh.star(v)) ++n;
+    most = std::max(most, n);
+  }
+  if (most <= kUsual || most <= kMostNumbers / (2 * n_edges)) return;
+  fail(ErrorCode::unsupported, job.path,
+       text("MPAS has columns for as many edges as any cell has, here ", most, " for each of ", n_edges,
+            " edges: too many to be written"));
+}
+
+}  // namespace
+
 void write_mpas(const WriteJob& job) {
   const NetcdfMesh m = mesh_for_netcdf(job, "MPAS");
   const DecComplex& c = m.complex;
+  refuse_too_wide(job, m.mesh, c.edges.size());
   MpasArrays a = mpas_arrays(m.mesh, c);
   std::size_t n_bad = 0;
   for (std::size_t e = 0; e < a.dv_edge.size(); ++e) n_bad += a.vertices_on_edge[2 * e + 1] > 0 && a.dv_edge[e] <= 0;

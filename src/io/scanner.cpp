@@ -13,6 +13,12 @@ bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' |
 
 }  // namespace
 
+bool looks_like_number(std::string_view word) {
+  if (word == "inf" || word == "-inf" || word == "nan" || word == "-nan") return true;
+  return word.find_first_of("0123456789") != std::string_view::npos &&
+         word.find_first_not_of("0123456789+-.eEdD") == std::string_view::npos;
+}
+
 std::string in_quotes(std::string_view word) {
   constexpr std::size_t kMost = 40;
   std::string result = "'";

@@ -80,6 +80,10 @@ class Scanner {
   char comment_;
 };
 
+/// Says whether a word may be a number, Fortran's and those of data that are not finite included: for guesses at
+/// formats.
+[[nodiscard]] bool looks_like_number(std::string_view word);
+
 /// A word for a message: at most 40 characters, control characters shown as '?'.
 [[nodiscard]] std::string in_quotes(std::string_view word);
 

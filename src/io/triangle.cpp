@@ -34,8 +34,7 @@ std::vector<std::vector<std::string_view>> first_lines(std::string_view head, st
     lines.emplace_back();
     while (scanner.more_on_line()) {
       const std::string_view word = scanner.word("a number");
-      const bool not_finite = word == "inf" || word == "-inf" || word == "nan" || word == "-nan";  // of data
-      if (!not_finite && word.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return {};
+      if (!looks_like_number(word)) return {};
       lines.back().push_back(word);
     }
   }

@@ -174,8 +174,14 @@ void Driver::shift_weights_to_anchor() {
   const VertexId anchor = work_.from_user(settings_.options.paper.anchor);
   if (!anchor.valid()) return;  // removed: any other constant would do as well
   const double shift = mesh_.weight(anchor);
-  for (const VertexId v : mesh_.vertices()) set_weight(v, mesh_.weight(v) - shift);
-  if (settings_.options.flips != Flips::none && !defers_flips(settings_.options)) flipper_.restore_all();
+  IdVector<VertexId, double> before(mesh_.n_vertices());
+  for (const VertexId v : mesh_.vertices()) {
+    before[v] = mesh_.weight(v);
+    set_weight(v, before[v] - shift);
+  }
+  if (settings_.options.flips == Flips::none || defers_flips(settings_.options) || flipper_.restore_all()) return;
+  // Rounded differences hide a vertex that was all but hidden: no constant is worth that.
+  for (const VertexId v : mesh_.vertices()) set_weight(v, before[v]);
 }
 
 void Driver::set_weight(VertexId v, double w) {

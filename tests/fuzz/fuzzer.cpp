@@ -18,7 +18,7 @@ std::string chosen() {
 
 void write_seeds(const std::string& folder) {
   int n = 0;
-  for (const std::string& seed : temper::fuzz::target(chosen()).seeds()) {
+  for (const std::string& seed : temper::fuzz::seeds_and_finds(temper::fuzz::target(chosen()))) {
     std::ofstream(folder + "/seed" + std::to_string(n++), std::ios::binary)
         .write(seed.data(), static_cast<std::streamsize>(seed.size()));
   }

@@ -67,7 +67,7 @@ void mutate(std::string& bytes, const std::vector<std::string>& seeds, Rng& rng)
 
 std::size_t smoke(const Target& target, double seconds) {
   current_target = target.name;
-  const std::vector<std::string> seeds = target.seeds();
+  const std::vector<std::string> seeds = seeds_and_finds(target);
   insist(!seeds.empty(), "there are seeds of " + target.name);
   const auto until = Clock::now() + std::chrono::duration<double>(seconds);
   std::size_t n = 0;

@@ -31,6 +31,16 @@ Target target(const std::string& name) {
   std::exit(2);
 }
 
+std::vector<std::string> seeds_and_finds(const Target& target) {
+  std::vector<std::string> all = target.seeds();
+  for (const auto& entry : fs::directory_iterator(TEMPER_FUZZ_FINDS)) {
+    if (!entry.path().filename().string().starts_with(target.name + "-")) continue;
+    std::ifstream file(entry.path(), std::ios::binary);
+    all.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  }
+  return all;
+}
+
 void insist(bool holds, std::string_view what) {
   if (holds) return;
   std::fprintf(stderr, "fuzz: does not hold: %.*s\n", static_cast<int>(what.size()), what.data());

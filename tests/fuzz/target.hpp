@@ -29,6 +29,9 @@ struct Target {
 /// The one of that name; ends the process when there is none.
 [[nodiscard]] Target target(const std::string& name);
 
+/// Its seeds, and what it once did not survive: the files finds/NAME-….
+[[nodiscard]] std::vector<std::string> seeds_and_finds(const Target& target);
+
 /// Ends the process, with a word on why, unless it holds.
 void insist(bool holds, std::string_view what);
 
