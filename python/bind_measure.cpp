@@ -81,7 +81,7 @@ EnergyModel model_from(const py::dict& d) {
     fail(ErrorCode::invalid_option, "star: expected 0, 1 or 2, found " + std::to_string(star));
   }
   model.star = static_cast<Star>(star);
-  model.boundary = from_name<BoundaryTreatment>("boundary", d["boundary"].cast<std::string>());
+  model.boundary_treatment = from_name<BoundaryTreatment>("boundary_treatment", d["boundary_treatment"].cast<std::string>());
   model.gamma = softening_from(d["gamma"]);
   model.h0 = softening_from(d["h0"]);
   return model;
@@ -90,7 +90,7 @@ EnergyModel model_from(const py::dict& d) {
 py::list energies_list() {
   py::list list;
   for (const EnergyInfo& e : energies()) {
-    list.append(Record()("name", e.name)("formula", e.formula)("boundary", name_of(e.boundary))("barrier", e.barrier)(
+    list.append(Record()("name", e.name)("formula", e.formula)("boundary_treatment", name_of(e.boundary_treatment))("barrier", e.barrier)(
                     "softened_by_gamma", e.softened_by_gamma)("softened_by_h0", e.softened_by_h0)("length_exponent",
                                                                                                   e.length_exponent)
                     .dict);
@@ -252,6 +252,7 @@ py::object write_dec_files(const PyDec& d, const std::string& folder, const py::
 
 void bind_dec(py::module_& m) {
   py::class_<PyDec>(m, "DecComplex")
+      .def("mesh", [](const PyDec& d) { return std::make_unique<PyMesh>(Mesh(*d.mesh)); })
       .def("arrays", dec_to_dict)
       .def("summarize", [](const PyDec& d) { return summary_to_dict(summarize(*d.mesh, *d.complex)); })
       .def("power_cells", cells_to_dict)

@@ -102,7 +102,7 @@ OptimizeOptions options_from(const py::dict& dict) {
       or_raise(check_option(*row, given));
       row->set(options, given);
     } catch (const py::cast_error&) {
-      throw py::type_error(name + ": " + py::repr(value).cast<std::string>() + " is of the wrong type");
+      throw py::type_error(name + ": expected " + type_of(*row) + ", found " + py::repr(value).cast<std::string>());
     }
   }
   return options;

@@ -68,6 +68,9 @@ class Command::Parser {
     } catch (const CLI::ExtrasError&) {
       const std::vector<CLI::App*> inner = app_.get_subcommands();
       message = explain_extras(inner.empty() || inner.front()->remaining_size() == 0 ? app_ : *inner.front());
+    } catch (const CLI::ArgumentMismatch& error) {
+      const CLI::Option* const twice = given_twice();
+      message = twice != nullptr ? twice->get_name() + " is given more than once" : error.what();
     } catch (const CLI::ParseError& error) {
       message = error.what();
     }
@@ -134,6 +137,17 @@ class Command::Parser {
     } catch (const BadValue& bad) {
       throw CLI::ValidationError(name, bad.what());
     }
+  }
+
+  [[nodiscard]] const CLI::Option* given_twice() const {
+    std::vector<const CLI::App*> apps = {&app_};
+    for (const CLI::App* inner : app_.get_subcommands()) apps.push_back(inner);
+    for (const CLI::App* app : apps) {
+      for (const CLI::Option* option : app->get_options()) {
+        if (option->get_items_expected_max() == 1 && option->results().size() > 1) return option;
+      }
+    }
+    return nullptr;
   }
 
   static std::string explain_extras(const CLI::App& app) {

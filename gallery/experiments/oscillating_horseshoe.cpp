@@ -29,7 +29,7 @@ VertexId most_moved(const Moment& from, const Moment& to, double side) {
 EnergyModel energy_dt() {
   EnergyModel model;
   model.kind = EnergyKind::dT;
-  model.boundary = BoundaryTreatment::absolute;
+  model.boundary_treatment = BoundaryTreatment::absolute;
   return model;
 }
 

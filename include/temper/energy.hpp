@@ -64,7 +64,7 @@ struct EnergyInfo {
   EnergyKind kind;
   std::string_view name;       ///< "F", "T", "dT", "BH", "BHs", "BP"
   std::string_view formula;    ///< for help texts and docs
-  BoundaryTreatment boundary;  ///< the one its definition asks for
+  BoundaryTreatment boundary_treatment;  ///< the one its definition asks for
   bool barrier;                ///< +∞ outside 0 < d < ℓ
   bool softened_by_gamma;      ///< has a γ
   bool softened_by_h0;         ///< has an h°
@@ -82,7 +82,7 @@ struct EnergyInfo {
 struct EnergyModel {
   EnergyKind kind = EnergyKind::BP;
   Star star = Star::one;                                  ///< zero, one or two
-  BoundaryTreatment boundary = BoundaryTreatment::as_is;  ///< of F only; the others define their own
+  BoundaryTreatment boundary_treatment = BoundaryTreatment::as_is;  ///< of F only; the others define their own
   Softening gamma = {1.0, LengthScale::absolute};         ///< γ of E_BP; the paper's examples use 1, absolute
   Softening h0 = {0.0, LengthScale::absolute};            ///< −h° of E_BHs, ≥ 0
 };

@@ -167,17 +167,6 @@ class Mesh {
   // --- around a vertex ---------------------------------------------------------------------------
   /// One halfedge that leaves v; on the boundary, the boundary one, so that a walk sees the whole star.
   [[nodiscard]] HalfedgeId outgoing(VertexId v) const { return HalfedgeId(std::size_t{record(v).outgoing}); }
-  /// Asks the memory for v's record, and for its first triangle, which takes the record: for loops that know early what
-  /// they will need. v may be any number.
-  void prefetch(VertexId v) const {
-    if (v.index < vertices_.size()) __builtin_prefetch(&vertices_[v]);
-  }
-  void prefetch_star(VertexId v) const {
-    const HalfedgeId h = outgoing(v);
-    if (!h.valid()) return;
-    __builtin_prefetch(&corners_[h]);
-    __builtin_prefetch(&twins_[h]);
-  }
   /// The next halfedge out of origin(h), counter-clockwise; invalid past the last one of a boundary vertex.
   [[nodiscard]] HalfedgeId rotate(HalfedgeId h) const { return twin(prev(h)); }
   /// The halfedges out of v, one a triangle, counter-clockwise. for (HalfedgeId h : mesh.star(v)) …

@@ -17,6 +17,15 @@ Conventions: triangles are counter-clockwise; the power of a place p to vertex i
 are squared lengths, and a larger one makes a larger power cell. Vertices and triangles count from 0; −1 is none.
 """
 
+try:
+    from . import _temper  # noqa: F401
+except ImportError as error:
+    if "cannot import name '_temper'" not in str(error):
+        raise
+    raise ImportError(
+        f"temper: the compiled module _temper is not in {__path__[0]}: build it (docs/python.md) or install temper"
+    ) from None
+
 from . import generate, geometry, projection, topology
 from ._data import DataReport
 from ._dec import DecComplex, DecEdges, DecSummary, IncidenceMatrix, PowerCells, dec, power_cells, summarize, write_dec

@@ -156,6 +156,9 @@ class DecComplex(Record):
     """(m,) of the triangles, > 0 [length²]."""
     _handle: Any = dataclasses.field(repr=False)
 
+    def __reduce__(self) -> Any:
+        return dec, (Mesh._of(self._handle.mesh()),)
+
     def star(self, s: Literal[0, 1, 2]) -> Any:
         """★s as a diagonal ``scipy.sparse`` matrix. Needs SciPy."""
         from scipy import sparse

@@ -139,7 +139,7 @@ class EnergyInfo(Record):
 
     name: EnergyName
     formula: str
-    boundary: Literal["as_is", "absolute", "mirrored"]
+    boundary_treatment: Literal["as_is", "absolute", "mirrored"]
     """The treatment of boundary duals that its definition asks for."""
     barrier: bool
     """Infinite outside 0 < d < ℓ."""
@@ -167,7 +167,7 @@ class EnergyModel(Record):
 
     energy: EnergyName = "BP"
     star: Literal[0, 1, 2] = 1
-    boundary: Literal["as_is", "absolute", "mirrored"] = "as_is"
+    boundary_treatment: Literal["as_is", "absolute", "mirrored"] = "as_is"
     """Of F only; the others define their own."""
     gamma: SofteningLike = Softening(1.0, "absolute")
     """γ of E_BP; the paper's examples use 1, absolute."""

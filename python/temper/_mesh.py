@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._errors import TemperWarning
-from ._meshio import handle_of, meshio_of
+from ._meshio import columns, handle_of, meshio_of
 from ._records import table
 
 _PICTURE = 3000  # triangles of a mesh that is drawn in notebooks
@@ -58,13 +58,24 @@ def data_rules(words: DataRules) -> tuple[str, ...]:
     return rules
 
 
+def _planar(points: Any) -> npt.NDArray[np.float64]:
+    """(n, 2) points, of (n, 3) ones that have one z."""
+    array = np.asarray(points)
+    if array.ndim != 2 or array.shape[1] != 3 or array.size == 0 or array.dtype.kind not in "iuf":
+        return _doubles(points, 2, "points")
+    plane, z = columns(array)
+    if z != 0:
+        warnings.warn(f"points: z = {z} of all of them is dropped", TemperWarning, stacklevel=3)
+    return plane
+
+
 class Mesh:
     """A triangle mesh whose vertices carry weights.
 
     Parameters
     ----------
     points : (n, 2) float64
-        Positions, in units of your choice; read without a copy when C-contiguous.
+        Positions, in units of your choice; read without a copy when C-contiguous. Or (n, 3) with one z.
     triangles : (m, 3) int32 or int64
         Corners, counted from 0. Clockwise triangles are reversed; ``reversed_triangles`` counts them.
     weights : (n,) float64, optional
@@ -122,7 +133,7 @@ class Mesh:
         threads: int | None = None,
     ) -> None:
         self._handle, self.reversed_triangles = _temper.mesh_from_arrays(
-            _doubles(points, 2, "points"),
+            _planar(points),
             _ints(triangles, 3, "triangles"),
             _doubles(weights, 0, "weights"),
             _ints(constrained_edges, 2, "constrained_edges"),
@@ -180,7 +191,7 @@ class Mesh:
 
     @points.setter
     def points(self, points: npt.ArrayLike) -> None:
-        self._handle.set_points(_doubles(points, 2, "points"))
+        self._handle.set_points(_planar(points))
 
     @property
     def weights(self) -> npt.NDArray[np.float64]:

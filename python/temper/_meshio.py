@@ -13,7 +13,7 @@ _WEIGHTS = ("weight", "weights")
 _REGIONS = ("region", "gmsh:physical", "medit:ref", "cell_tags")
 
 
-def _columns(points: Any) -> tuple[Any, float]:
+def columns(points: Any) -> tuple[Any, float]:
     """Points in the plane, and the z that all of them have."""
     points = np.asarray(points, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] not in (2, 3):
@@ -78,7 +78,7 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
     for block in mesh.cells:
         if block.type not in ("triangle", "line", "vertex"):
             dropped.append(f"{len(block.data)} cells of type {block.type} are left out")
-    points, z = _columns(mesh.points)
+    points, z = columns(mesh.points)
     triangles, lines = _blocks(mesh, "triangle"), _blocks(mesh, "line")
     if not triangles:
         raise TemperError("empty_input", "", "expected cells of type triangle; found " +

@@ -39,8 +39,7 @@ class Projection(Record):
 def parse_projection(text: str, places: npt.ArrayLike | None = None) -> Projection:
     """Reads ``"stereographic"``, ``"mercator:lon"``, ``"transverse-mercator:lon,lat"``. Without a center, that of
     ``places``, (k, 2)."""
-    kind, center, radius = _temper.parse_projection(text, _doubles(places, 2, "places"))
-    return dataclasses.replace(Projection(center=center, radius=radius), kind=kind)
+    return Projection(*_temper.parse_projection(text, _doubles(places, 2, "places")))
 
 
 def forward(projection: Projection, lon_lat: npt.ArrayLike) -> npt.NDArray[np.float64]:

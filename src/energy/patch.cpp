@@ -161,8 +161,8 @@ double full_edge_energy(const Mesh& mesh, const EnergyModel& model, const HotKer
 double hot_factor(const EnergyModel& model, double g, double g_other, bool boundary) {
   const auto sign = [](double x) { return x < 0 ? -1.0 : 1.0; };
   if (boundary) {
-    if (model.kind == EnergyKind::F && model.boundary == BoundaryTreatment::as_is) return 1;
-    if (model.kind == EnergyKind::F && model.boundary == BoundaryTreatment::mirrored) return 2;
+    if (model.kind == EnergyKind::F && model.boundary_treatment == BoundaryTreatment::as_is) return 1;
+    if (model.kind == EnergyKind::F && model.boundary_treatment == BoundaryTreatment::mirrored) return 2;
     return sign(g);
   }
   return model.kind == EnergyKind::T ? sign(g + g_other) : 1;

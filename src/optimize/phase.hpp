@@ -26,7 +26,7 @@ class Phase {
   virtual SweepRecord measure() = 0;
   /// Judges a sweep that the history has as its last. `removed`: vertices are gone.
   virtual Verdict judge(bool removed) = 0;
-  /// Compares with the mesh as it is from now on: after flips that the history knows, or when all weights have shrunk.
+  /// Compares with the last of the history from now on: after flips, or when all weights have shrunk.
   virtual void compare_from_here() = 0;
   /// Says whether there is more to lower once all has settled: weights, after positions.
   virtual bool goes_on_with_weights() { return false; }
@@ -50,7 +50,7 @@ class EnergyPhase final : public Phase {
   [[nodiscard]] double total() const override;
   SweepRecord measure() override;
   Verdict judge(bool removed) override;
-  void compare_from_here() override { before_ = total(); }
+  void compare_from_here() override { before_ = run_.report.history.back().energy; }
   bool goes_on_with_weights() override;
   [[nodiscard]] bool wants_newton_pass() const override;
   void passed(double after_pass, double after_sweep) override;

@@ -28,21 +28,23 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
         "deferred weight updates need positions and weights in turn; expected `solver=alternating` or `solver=golden`");
   }
   if (p.weight_updates == WeightUpdates::deferred && o.flips == Flips::none) {
-    return invalid("deferred weight updates cannot keep edges regular; expected flips to be allowed");
+    return invalid("`weight_updates=deferred` keeps edges regular by flips alone; expected `flips=immediate` or `flips=deferred`");
   }
   if (p.inversion == Inversion::allow && !defers_flips(o)) {
-    return invalid("inverted triangles are allowed, but edges cannot be flipped among them; expected deferred flips");
+    return invalid(
+        "`inversion=allow` needs `flips=deferred`, since edges cannot be flipped among inverted triangles; or "
+        "`inversion=refuse`");
   }
   if (p.inversion == Inversion::allow && o.boundary == BoundaryVertices::slide) {
     return invalid(
-        "boundary vertices slide, but where triangles may be inverted nothing keeps them from passing a corner; "
-        "expected inversions to be refused");
+        "`boundary=slide` needs `inversion=refuse`: where triangles may be inverted nothing keeps vertices from passing a "
+        "corner");
   }
   if (o.flips == Flips::none && o.boundary == BoundaryVertices::split) {
-    return invalid("boundary edges are to be split, but the connectivity is to stay; expected flips to be allowed");
+    return invalid("`boundary=split` changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or `flips=deferred`");
   }
   if (p.inversion == Inversion::allow && o.size_band) {
-    return invalid("inverted triangles are allowed, but they have no size; expected no size band");
+    return invalid("`size_band` needs `inversion=refuse`: inverted triangles have no size");
   }
   return std::nullopt;
 }
@@ -52,13 +54,12 @@ std::optional<InputError> check_accuracy(const OptimizeOptions& o) {
   if (o.objective != Objective::accuracy) return std::nullopt;
   const EnergyInfo& energy = energy_info(o.energy);
   if (!energy.barrier) {
-    return invalid("objective accuracy begins with an energy that makes triangles well-centered, which " +
-                   std::string(energy.name) + " does not; expected BP, BHs or BH");
+    return invalid("`objective=accuracy` begins with an energy that makes triangles well-centered, which " +
+                   std::string(energy.name) + " does not; expected `energy=BP`, `energy=BHs` or `energy=BH`");
   }
   if (o.paper.inversion == Inversion::allow) {
     return invalid(
-        "inverted triangles are allowed, but objective accuracy needs well-centered ones; expected inversions to be "
-        "refused");
+        "`objective=accuracy` needs `inversion=refuse`: its second phase is for well-centered triangles");
   }
   return std::nullopt;
 }
@@ -124,7 +125,7 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   Settings s;
   s.collapse_model.kind = options.paper.collapse_energy;
   s.collapse_model.star = star;
-  s.collapse_model.boundary = options.paper.boundary_treatment;
+  s.collapse_model.boundary_treatment = options.paper.boundary_treatment;
   s.energy = energy;
   s.options = options;
   s.hooks = hooks;
@@ -132,7 +133,7 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   s.relaxation = options.paper.relaxation.value_or(kRelaxation);
   s.model.kind = energy.kind;
   s.model.star = star;
-  s.model.boundary = options.paper.boundary_treatment;
+  s.model.boundary_treatment = options.paper.boundary_treatment;
   if (options.paper.gamma) s.model.gamma = in_frame(*options.paper.gamma, frame);
   if (options.paper.h0) s.model.h0 = in_frame(*options.paper.h0, frame);
   s.flip_limit = flip_limit_of(options);

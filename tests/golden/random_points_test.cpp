@@ -1,6 +1,7 @@
 // A large Delaunay mesh of random points in a non-convex polygon ends well-centered, every triangle.
 #include <gtest/gtest.h>
 
+#include "support/sanitizers.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
@@ -9,11 +10,7 @@ namespace temper::test {
 namespace {
 
 // Sanitizers make the run twenty times slower: what they look for shows in a smaller mesh.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::size_t kVertices = 4000;
-#else
-constexpr std::size_t kVertices = 100000;
-#endif
+constexpr std::size_t kVertices = TEMPER_SANITIZED ? 4000 : 100000;
 
 TEST(RandomPoints, OfANonConvexPolygonEndWellCentered) {
   auto mesh = random_points({.vertices = kVertices});

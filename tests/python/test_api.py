@@ -182,6 +182,29 @@ def test_stubs_name_what_the_compiled_module_has():
     assert (ROOT / "python" / "temper" / "py.typed").exists()
 
 
+def test_the_names_of_energies_are_those_of_the_library():
+    from typing import get_args
+
+    assert get_args(temper._options.EnergyName) == tuple(row.name for row in temper.energies())
+
+
+def test_a_wrong_type_is_told_what_is_expected(ring):
+    with pytest.raises(TypeError, match=r"max_sweeps: expected int, found 'ten'"):
+        temper.optimize(ring, max_sweeps="ten")
+    with pytest.raises(temper.TemperError, match=r"repair.*none.*moves.*vertices.*True"):
+        temper.optimize(ring, repair=True)
+
+
+def test_a_package_that_is_not_built_says_so(tmp_path):
+    import shutil
+    import subprocess
+    import sys
+
+    shutil.copytree(ROOT / "python" / "temper", tmp_path / "temper")
+    run = subprocess.run([sys.executable, "-c", "import temper"], cwd=tmp_path, capture_output=True, text=True, env={"PYTHONPATH": ""})
+    assert run.returncode == 1 and f"_temper is not in {tmp_path / 'temper'}: build it" in run.stderr
+
+
 def test_errors_can_be_pickled_and_are_value_errors():
     import pickle
 

@@ -55,6 +55,22 @@ def test_a_copy_is_a_mesh_of_its_own(ring):
         assert other != ring and (ring.weights == 0).all()
 
 
+def test_points_in_space_are_taken_when_they_have_one_z():
+    flat = temper.Mesh([(x, y, 0) for x, y in SQUARE], HALVES)
+    assert flat == temper.Mesh(SQUARE, HALVES)
+    with pytest.warns(temper.TemperWarning, match=r"points: z = 2\.0 of all of them is dropped"):
+        assert temper.Mesh([(x, y, 2) for x, y in SQUARE], HALVES) == flat
+    with pytest.raises(temper.TemperError, match=r"point 1 has z = 1\.0, but point 0 has z = 0\.0; expected one z"):
+        temper.Mesh([(x, y, x) for x, y in SQUARE], HALVES)
+    flat.points = np.column_stack([flat.points, np.zeros(4)])
+
+
+def test_operators_can_be_pickled(ring):
+    operators = temper.dec(ring)
+    again = pickle.loads(pickle.dumps(operators))
+    assert again == operators and again.power_cells() == operators.power_cells()
+
+
 def test_neighbors_and_twins_agree(ring):
     twins = ring.twins
     inner = np.flatnonzero(twins >= 0)

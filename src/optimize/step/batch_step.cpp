@@ -12,6 +12,19 @@ constexpr std::size_t kAhead = 64;
 // With fewer left, what comes together matters less than that lanes are in use.
 constexpr std::size_t kLastFew = 48;
 
+/// Asks the memory for the point of v, if there is such a vertex.
+void prefetch_point(const Mesh& mesh, std::size_t v) {
+  if (v < mesh.n_vertices()) __builtin_prefetch(mesh.vertex_data() + v * (Mesh::kVertexStride / sizeof(double)));
+}
+
+/// And for the first triangle around v.
+void prefetch_star(const Mesh& mesh, VertexId v) {
+  const HalfedgeId h = mesh.outgoing(v);
+  if (!h.valid()) return;
+  __builtin_prefetch(&mesh.corner_data()[h.index]);
+  __builtin_prefetch(&mesh.twin_data()[h.index]);
+}
+
 }  // namespace
 
 void BatchStep::improve(std::span<const VertexId> vertices, const Part& part, std::vector<VertexId>& left) {
@@ -20,8 +33,8 @@ void BatchStep::improve(std::span<const VertexId> vertices, const Part& part, st
   auto next = vertices.begin();
   for (std::size_t n_waiting = 0;;) {
     for (; n_waiting < kWindow && next != vertices.end(); ++next, ++n_waiting) {
-      mesh_.prefetch(VertexId(std::size_t{next->index} + kAhead));
-      mesh_.prefetch_star(*next);
+      prefetch_point(mesh_, std::size_t{next->index} + kAhead);
+      prefetch_star(mesh_, *next);
       waiting_[kind_of(*next)].push_back(*next);
     }
     if (n_waiting == 0) break;

@@ -22,6 +22,22 @@ struct Derivatives {
   Mask feasible;
 };
 
+/// Calls visit(i, here, a, b, q, r) for triangle i of all stars with their centers at p: `here`, the lanes that have
+/// one, its spokes a = pq and b = pr, and the edge qr of the link.
+template <class Kernel, class Visit>
+TEMPER_INLINE void for_triangles(const Kernel& kernel, const StarBatch& batch, const PackPoint& p, Visit visit) {
+  const Pack triangles = Pack::load(batch.triangles);
+  PackPoint q = load(batch.link[0]);
+  SpokeOf<Kernel> a = spoke_of(kernel, p, q);
+  for (std::size_t i = 0; i < batch.most_triangles; ++i) {
+    const PackPoint r = load(batch.link[i + 1]);
+    const SpokeOf<Kernel> b = spoke_of(kernel, p, r);
+    visit(i, has_triangle(triangles, i), a, b, q, r);
+    q = r;
+    a = b;
+  }
+}
+
 template <class Kernel>
 TEMPER_INLINE Derivatives derivatives(const Kernel& kernel, const StarBatch& batch, const PackPoint& p) {
   const Pack triangles = Pack::load(batch.triangles);
@@ -29,19 +45,12 @@ TEMPER_INLINE Derivatives derivatives(const Kernel& kernel, const StarBatch& bat
   Derivatives d;
   Pack squares = Pack::all(0);
   Mask outside = triangles < 0;
-  PackPoint q = load(batch.link[0]);
-  SpokeOf<Kernel> a = spoke_of(kernel, p, q);
-  for (std::size_t i = 0; i < batch.most_triangles; ++i) {
-    const PackPoint r = load(batch.link[i + 1]);
-    const SpokeOf<Kernel> b = spoke_of(kernel, p, r);
-    const Mask here = has_triangle(triangles, i);
+  for_triangles(kernel, batch, p, [&](auto i, Mask here, const auto& a, const auto& b, const auto& q, const auto& r) {
     outside = outside | (here & ~add_barrier(kernel, a, b, q, r, here, d.sums));
     squares = squares + select(here, a.to.l2, Pack::all(0));
     const Mask last = open & here & ~has_triangle(triangles, i + 1);
     squares = squares + select(last, b.to.l2, Pack::all(0));
-    q = r;
-    a = b;
-  }
+  });
   d.squared_radius = squares / (triangles + select(open, Pack::all(1), Pack::all(0)));
   d.feasible = ~outside;
   return d;
@@ -101,21 +110,13 @@ struct Trial {
 
 template <class Kernel>
 TEMPER_INLINE Trial energy_at(const Kernel& kernel, const StarBatch& batch, const PackPoint& p) {
-  const Pack triangles = Pack::load(batch.triangles);
   Trial trial = {Pack::all(0), {}, {}};
-  Mask outside = triangles < 0, uncertain = outside;
-  PackPoint q = load(batch.link[0]);
-  SpokeOf<Kernel> a = spoke_of(kernel, p, q);
-  for (std::size_t i = 0; i < batch.most_triangles; ++i) {
-    const PackPoint r = load(batch.link[i + 1]);
-    const SpokeOf<Kernel> b = spoke_of(kernel, p, r);
-    const Mask here = has_triangle(triangles, i);
+  Mask outside = Pack::load(batch.triangles) < 0, uncertain = outside;
+  for_triangles(kernel, batch, p, [&](auto, Mask here, const auto& a, const auto& b, const auto& q, const auto& r) {
     outside = outside | (here & ~add_barrier_value(kernel, a, b, q, r, here, trial.value));
     const auto [doubled_area, bound] = inlined::filtered_orient2d(q, r, p);
     uncertain = uncertain | (here & ~(doubled_area > bound));
-    q = r;
-    a = b;
-  }
+  });
   trial.feasible = ~outside;
   trial.certain = ~uncertain;
   return trial;

@@ -14,32 +14,31 @@ constexpr double kShortestEdge = 1e-7;
 
 bool StarEnergy::gather(VertexId v) {
   origin_ = mesh_.point(v);
-  const bool lowers_accuracy = settings_.accuracy_domain != nullptr;
-  gather_patch(mesh_, v, !lowers_accuracy && needs_outer(settings_.model.kind), patch_);
-  if (!lowers_accuracy) return true;
+  gather_patch(mesh_, v, !is_of_accuracy() && needs_outer(settings_.model.kind), patch_);
+  if (!is_of_accuracy()) return true;
   const auto& [sizes, floors] = *settings_.accuracy_domain;
   return accuracy_.gather(mesh_, sizes, floors, settings_.accuracy, v);
 }
 
 double StarEnergy::value(const WeightedPoint& p) {
-  return settings_.accuracy_domain != nullptr ? accuracy_.value(p) : patch_energy(patch_, settings_.model, p);
+  return is_of_accuracy() ? accuracy_.value(p) : patch_energy(patch_, settings_.model, p);
 }
 
 VertexDerivatives StarEnergy::derivatives(const WeightedPoint& p) {
-  if (settings_.accuracy_domain == nullptr) return patch_derivatives(patch_, settings_.model, p);
+  if (!is_of_accuracy()) return patch_derivatives(patch_, settings_.model, p);
   VertexDerivatives outside;
   outside.value = accuracy_.value(p);
   return outside.value < kInfinity ? accuracy_.derivatives() : outside;
 }
 
 double StarEnergy::radius(const WeightedPoint& p) const {
-  return settings_.accuracy_domain != nullptr ? accuracy_.shortest_spoke(p) : patch_radius(patch_, p);
+  return is_of_accuracy() ? accuracy_.shortest_spoke(p) : patch_radius(patch_, p);
 }
 
-int StarEnergy::trials() const { return settings_.accuracy_domain != nullptr ? kTrialsWithMargins : kTrials; }
+int StarEnergy::trials() const { return is_of_accuracy() ? kTrialsWithMargins : kTrials; }
 
 bool StarEnergy::is_valid(const WeightedPoint& p) const {
-  if (settings_.accuracy_domain != nullptr) return accuracy_.is_well_centered(p);
+  if (is_of_accuracy()) return accuracy_.is_well_centered(p);
   const double nearest = settings_.energy.barrier ? 0 : kShortestEdge * patch_radius(patch_, origin_);
   for (std::size_t i = 0; i < patch_.size(); ++i) {
     const Vec2 q = patch_.q(i).position();

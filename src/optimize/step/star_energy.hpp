@@ -27,11 +27,14 @@ class StarEnergy {
   /// Says whether no edge can stop being regular. The dual of an edge between two triangles is h_k + h_l long, and the
   /// edge is regular where that is not negative. The accuracy objective has the triangles of the star and those across
   /// its link well-centered before a step, and those of the star, which alone change, after it.
-  [[nodiscard]] bool keeps_edges_regular() const { return settings_.accuracy_domain != nullptr; }
+  [[nodiscard]] bool keeps_edges_regular() const { return is_of_accuracy(); }
 
   [[nodiscard]] const Patch& patch() const { return patch_; }
 
  private:
+  /// Says whether it is that of the accuracy objective.
+  [[nodiscard]] bool is_of_accuracy() const { return settings_.accuracy_domain != nullptr; }
+
   const Mesh& mesh_;
   const Settings& settings_;
   Patch patch_;

@@ -2,6 +2,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "support/sanitizers.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -143,7 +144,7 @@ TEST_F(BadInput, FullDiskForStandardOutput) {
   EXPECT_TRUE(contains(outcome.err, "standard output: No space left on device"));
 }
 
-#if !defined(__SANITIZE_ADDRESS__)  // which maps terabytes before main
+#if !TEMPER_SANITIZED
 TEST_F(BadInput, OutOfMemoryIsNoCrash) {
   const Outcome outcome = shell("ulimit -v 300000; temper example random --vertices 50000000 -o out.vtu");
   EXPECT_EQ(outcome.exit, 5);

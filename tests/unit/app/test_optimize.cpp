@@ -98,7 +98,7 @@ TEST_F(Optimize, OptionsOfTheAccuracyObjectiveAreForItAlone) {
   EXPECT_TRUE(contains(all.err, "--star all is for --objective accuracy; of an energy expected 0, 1 or 2"));
   const Outcome hot = temper({"optimize", "in.vtu", "-o", "new.vtu", "--objective", "accuracy", "--energy", "T"});
   EXPECT_NE(hot.exit, 0);
-  EXPECT_TRUE(contains(hot.err, "objective accuracy begins with an energy that makes triangles well-centered"));
+  EXPECT_TRUE(contains(hot.err, "--objective accuracy begins with an energy that makes triangles well-centered"));
   EXPECT_FALSE(std::filesystem::exists("new.vtu"));
 }
 

@@ -79,8 +79,8 @@ inline Real naive_total(const Mesh& mesh, const EnergyModel& m, VertexId v, cons
       sum += both_halves(e, e.h_left);
       if (mesh.twin(h).valid()) sum += both_halves(e, side(mesh.twin(h)).h_left);
     } else if (!mesh.twin(h).valid()) {
-      const bool as_is = m.kind == EnergyKind::F && m.boundary == BoundaryTreatment::as_is;
-      const bool mirrored = m.kind == EnergyKind::F && m.boundary == BoundaryTreatment::mirrored;
+      const bool as_is = m.kind == EnergyKind::F && m.boundary_treatment == BoundaryTreatment::as_is;
+      const bool mirrored = m.kind == EnergyKind::F && m.boundary_treatment == BoundaryTreatment::mirrored;
       sum += as_is      ? both_halves(e, e.h_same)
              : mirrored ? 2 * both_halves(e, e.h_same)
                         : both_halves(e, std::abs(e.h_same));
@@ -108,7 +108,7 @@ inline std::vector<EnergyModel> all_models(double length) {
       m.star = Star(star);
       if (info.kind == EnergyKind::F) {
         for (const auto b : {BoundaryTreatment::as_is, BoundaryTreatment::absolute, BoundaryTreatment::mirrored}) {
-          m.boundary = b;
+          m.boundary_treatment = b;
           models.push_back(m);
         }
       } else if (info.softened_by_gamma || info.softened_by_h0) {

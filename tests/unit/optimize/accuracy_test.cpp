@@ -399,15 +399,14 @@ TEST(Accuracy, OptionsOutOfRangeAreRefusedByName) {
   EXPECT_EQ(with([&](OptimizeOptions& o) { o.accuracy.tolerance = nan; }),
             "`accuracy_tolerance` is nan; expected at least 0");
   EXPECT_EQ(with([](OptimizeOptions& o) { o.energy = EnergyKind::F; }),
-            "objective accuracy begins with an energy that makes triangles well-centered, which F does not; expected "
-            "BP, BHs or BH");
+            "`objective=accuracy` begins with an energy that makes triangles well-centered, which F does not; expected "
+            "`energy=BP`, `energy=BHs` or `energy=BH`");
   EXPECT_EQ(
       with([](OptimizeOptions& o) {
         o.flips = Flips::deferred;
         o.paper.inversion = Inversion::allow;
       }),
-      "inverted triangles are allowed, but objective accuracy needs well-centered ones; expected inversions to be "
-      "refused");
+      "`objective=accuracy` needs `inversion=refuse`: its second phase is for well-centered triangles");
 }
 
 }  // namespace

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Runs on ten meshes with ten sets of options end with the bytes of tests/golden/bytes.txt, whatever compiles the
+# library and whatever it runs on. One line a compiler; fails when a hash differs.
+#
+#   scripts/same_bytes.sh             all that this machine has
+#   scripts/same_bytes.sh --write     makes the table anew, after a change that is meant to move bytes
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+table=tests/golden/bytes.txt
+
+bytes() {  # NAME COMPILER ARGUMENT OF CMAKE …: builds the program, and says where it is
+  local build=build/bytes-$1
+  cmake -G Ninja -S tests/consumer/subdirectory -B "$build" -DCMAKE_CXX_COMPILER="$2" -DCMAKE_UNITY_BUILD=ON \
+    -DCMAKE_BUILD_TYPE=Release "${@:3}" >/dev/null && cmake --build "$build" --target bytes >/dev/null && echo "$build/bytes"
+}
+
+if [[ ${1:-} == --write ]]; then
+  "$(bytes g++ g++)" >"$table.new" && mv "$table.new" "$table"
+  exit
+fi
+
+failed=0
+row() {  # NAME COMMAND …
+  printf '%-40s ' "$1"
+  "${@:2}" "$table" || failed=1
+}
+row "g++ -O3" "$(bytes g++ g++)"
+row "g++ -O0" "$(bytes debug g++ -DCMAKE_BUILD_TYPE=Debug)"
+if command -v clang++-19 >/dev/null; then row "clang++-19 -O3" "$(bytes clang clang++-19)"; fi
+if command -v aarch64-linux-gnu-g++ >/dev/null && command -v qemu-aarch64 >/dev/null; then
+  row "aarch64-linux-gnu-g++ -O3, qemu-aarch64" qemu-aarch64 \
+    "$(bytes aarch64 aarch64-linux-gnu-g++ -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DCMAKE_EXE_LINKER_FLAGS=-static)"
+fi
+exit $failed
