@@ -81,7 +81,8 @@ EnergyModel model_from(const py::dict& d) {
     fail(ErrorCode::invalid_option, "star: expected 0, 1 or 2, found " + std::to_string(star));
   }
   model.star = static_cast<Star>(star);
-  model.boundary_treatment = from_name<BoundaryTreatment>("boundary_treatment", d["boundary_treatment"].cast<std::string>());
+  model.boundary_treatment =
+      from_name<BoundaryTreatment>("boundary_treatment", d["boundary_treatment"].cast<std::string>());
   model.gamma = softening_from(d["gamma"]);
   model.h0 = softening_from(d["h0"]);
   return model;
@@ -90,9 +91,9 @@ EnergyModel model_from(const py::dict& d) {
 py::list energies_list() {
   py::list list;
   for (const EnergyInfo& e : energies()) {
-    list.append(Record()("name", e.name)("formula", e.formula)("boundary_treatment", name_of(e.boundary_treatment))("barrier", e.barrier)(
-                    "softened_by_gamma", e.softened_by_gamma)("softened_by_h0", e.softened_by_h0)("length_exponent",
-                                                                                                  e.length_exponent)
+    list.append(Record()("name", e.name)("formula", e.formula)("boundary_treatment", name_of(e.boundary_treatment))(
+                    "barrier", e.barrier)("softened_by_gamma", e.softened_by_gamma)("softened_by_h0", e.softened_by_h0)(
+                    "length_exponent", e.length_exponent)
                     .dict);
   }
   return list;

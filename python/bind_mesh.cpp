@@ -285,25 +285,30 @@ std::vector<T> copy_of(const Array& array) {
   return {values.begin(), values.end()};
 }
 
+/// A file, on the map of the projection when one is named, and the mesh in it.
+std::shared_ptr<Source> source_of(io::MeshFile file, const std::string& projection,
+                                  const std::vector<std::string>& fixed_tags, Executor* executor) {
+  auto source = std::make_shared<Source>();
+  source->file = std::move(file);
+  const py::gil_scoped_release release;
+  if (!projection.empty()) or_raise(io::project(source->file, projection));
+  auto loaded = io::make_mesh(source->file, fixed_tags, executor);
+  if (!loaded) throw BadInput{loaded.error()};
+  source->loaded = *std::move(loaded);
+  io::release_geometry(source->file, source->loaded);  // else it would be held twice
+  return source;
+}
+
 /// The mesh of a file, with the rest of the file behind it, and the warnings.
 py::tuple load(io::MeshFile file, const std::string& projection, const std::vector<std::string>& fixed_tags,
                Executor* executor) {
-  auto source = std::make_shared<Source>();
-  source->file = std::move(file);
-  {
-    const py::gil_scoped_release release;
-    if (!projection.empty()) or_raise(io::project(source->file, projection));
-    auto loaded = io::make_mesh(source->file, fixed_tags, executor);
-    if (!loaded) throw BadInput{loaded.error()};
-    source->loaded = *std::move(loaded);
-    io::release_geometry(source->file, source->loaded);  // else it would be held twice
-  }
+  const auto source = source_of(std::move(file), projection, fixed_tags, executor);
   std::vector<std::string> warnings = source->file.warnings;
   source->file.warnings.clear();
   warnings.insert(warnings.end(), source->loaded.warnings.begin(), source->loaded.warnings.end());
   Mesh mesh = std::move(source->loaded.mesh);
   source->loaded.mesh = Mesh();
-  return py::make_tuple(std::make_unique<PyMesh>(std::move(mesh), std::move(source)), to_python(warnings));
+  return py::make_tuple(std::make_unique<PyMesh>(std::move(mesh), source), to_python(warnings));
 }
 
 std::vector<std::string> strings_from(const py::sequence& sequence) {
@@ -328,6 +333,16 @@ UpdatedFile updated_file_of(const PyMesh& self, Executor* executor) {
 }
 
 io::MeshFile file_of(const PyMesh& self, Executor* executor = nullptr) { return updated_file_of(self, executor).file; }
+
+/// Replaces the data of points and of triangles: the mesh is as if it came from a file with these.
+void set_data(PyMesh& self, const py::dict& points, const py::dict& cells) {
+  io::MeshFile file = file_of(self);
+  file.point_data = from_python_dict(points, file.points.size(), "point data");
+  file.cell_data = from_python_dict(cells, file.triangles.size(), "cell data");
+  const auto source = source_of(std::move(file), {}, {}, nullptr);
+  source->loaded.mesh = Mesh();
+  self.set_source(source);
+}
 
 io::DataRules data_rules_from(const PyMesh& self, const py::sequence& words) {
   const auto rules = io::parse_data_rules(strings_from(words));
@@ -478,6 +493,7 @@ void bind_files(py::module_& m) {
   m.def("set_data_rules",
         [](PyMesh& self, const py::sequence& words) { self.set_data_rules(data_rules_from(self, words)); });
   m.def("data_report", data_report);
+  m.def("set_data", set_data);
   m.def("vertices_of_points", vertices_of_points);
   m.def("write_text", [](const std::string& path, const std::string& text) { or_raise(io::write_text(path, text)); });
   m.def("formats", [] {

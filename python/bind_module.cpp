@@ -61,6 +61,13 @@ void PyMesh::assign(const PyMesh& other) {
   version_ = version;
 }
 
+void PyMesh::set_source(std::shared_ptr<const Source> source) {
+  refuse_while_running();
+  source_ = std::move(source);
+  origin_ = {};
+  ++version_;
+}
+
 PyMesh PyMesh::copy() const {
   PyMesh copy = *this;
   copy.running_ = false;

@@ -31,7 +31,8 @@ Softening shift_beyond(const Mesh& input) {
 
 EnergyModel model_of(std::string_view energy, const Mesh& input) {
   EnergyModel model;
-  if (const auto info = find_energy(energy)) model.kind = info->kind, model.boundary_treatment = info->boundary_treatment;
+  if (const auto info = find_energy(energy))
+    model.kind = info->kind, model.boundary_treatment = info->boundary_treatment;
   model.gamma = {kPaperGamma, LengthScale::absolute};
   model.h0 = shift_beyond(input);
   return model;

@@ -62,13 +62,13 @@ struct Softening {
 /// One row of the registry.
 struct EnergyInfo {
   EnergyKind kind;
-  std::string_view name;       ///< "F", "T", "dT", "BH", "BHs", "BP"
-  std::string_view formula;    ///< for help texts and docs
+  std::string_view name;                 ///< "F", "T", "dT", "BH", "BHs", "BP"
+  std::string_view formula;              ///< for help texts and docs
   BoundaryTreatment boundary_treatment;  ///< the one its definition asks for
-  bool barrier;                ///< +∞ outside 0 < d < ℓ
-  bool softened_by_gamma;      ///< has a γ
-  bool softened_by_h0;         ///< has an h°
-  int length_exponent;         ///< E(s·mesh) = s^this · E(mesh) with relative softening
+  bool barrier;                          ///< +∞ outside 0 < d < ℓ
+  bool softened_by_gamma;                ///< has a γ
+  bool softened_by_h0;                   ///< has an h°
+  int length_exponent;                   ///< E(s·mesh) = s^this · E(mesh) with relative softening
 };
 
 /// All energies, in the order of the table above.
@@ -81,10 +81,10 @@ struct EnergyInfo {
 /// An energy with everything it depends on.
 struct EnergyModel {
   EnergyKind kind = EnergyKind::BP;
-  Star star = Star::one;                                  ///< zero, one or two
+  Star star = Star::one;                                            ///< zero, one or two
   BoundaryTreatment boundary_treatment = BoundaryTreatment::as_is;  ///< of F only; the others define their own
-  Softening gamma = {1.0, LengthScale::absolute};         ///< γ of E_BP; the paper's examples use 1, absolute
-  Softening h0 = {0.0, LengthScale::absolute};            ///< −h° of E_BHs, ≥ 0
+  Softening gamma = {1.0, LengthScale::absolute};  ///< γ of E_BP; the paper's examples use 1, absolute
+  Softening h0 = {0.0, LengthScale::absolute};     ///< −h° of E_BHs, ≥ 0
 };
 
 /// E of one triangle alone, all its edges boundary edges.

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any, Sequence, Union
+from typing import Any, Iterator, Literal, MutableMapping, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _temper
 from ._errors import TemperWarning
-from ._meshio import columns, handle_of, meshio_of
+from ._meshio import data_of, handle_of, in_the_plane, meshio_of
 from ._records import table
 
 _PICTURE = 3000  # triangles of a mesh that is drawn in notebooks
@@ -63,10 +63,50 @@ def _planar(points: Any) -> npt.NDArray[np.float64]:
     array = np.asarray(points)
     if array.ndim != 2 or array.shape[1] != 3 or array.size == 0 or array.dtype.kind not in "iuf":
         return _doubles(points, 2, "points")
-    plane, z = columns(array)
+    plane, z = in_the_plane(array)
     if z != 0:
         warnings.warn(f"points: z = {z} of all of them is dropped", TemperWarning, stacklevel=3)
     return plane
+
+
+class Data(MutableMapping[str, npt.NDArray[Any]]):
+    """Named arrays of a mesh, a row for each point or triangle, as they are when asked for. Assigning an array, or
+    deleting one, changes the mesh; the arrays themselves are read-only copies."""
+
+    def __init__(self, mesh: Mesh, kind: Literal["point_data", "cell_data"]) -> None:
+        self._mesh, self._kind = mesh, kind
+        self._arrays = _temper.file_as_dict(mesh._handle)[kind]
+        for array in self._arrays.values():
+            array.flags.writeable = False
+
+    def __getitem__(self, name: str) -> npt.NDArray[Any]:
+        return self._arrays[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._arrays)
+
+    def __len__(self) -> int:
+        return len(self._arrays)
+
+    def __setitem__(self, name: str, values: npt.ArrayLike) -> None:
+        refused: list[str] = []
+        array = data_of(name, values, refused)
+        if not isinstance(name, str) or array is None:
+            raise TypeError(f"{self._kind}: expected a name and an array of numbers, found {name!r} and {type(values).__name__}")
+        self._store({**_temper.file_as_dict(self._mesh._handle)[self._kind], name: array})
+
+    def __delitem__(self, name: str) -> None:
+        arrays = _temper.file_as_dict(self._mesh._handle)[self._kind]
+        del arrays[name]
+        self._store(arrays)
+
+    def __repr__(self) -> str:
+        return repr(self._arrays)
+
+    def _store(self, arrays: dict[str, Any]) -> None:
+        file = {**_temper.file_as_dict(self._mesh._handle), self._kind: arrays}
+        _temper.set_data(self._mesh._handle, file["point_data"], file["cell_data"])
+        self._arrays = Data(self._mesh, self._kind)._arrays
 
 
 class Mesh:
@@ -295,20 +335,23 @@ class Mesh:
     def __reduce__(self) -> Any:
         constrained = self.constrained_edges
         parts = (np.array(self.points), np.array(self.triangles), np.array(self.weights), constrained, self.regions)
-        return _unpickle, (*parts, self.fixed)
+        has = self._handle.has_data()
+        data = (dict(self.point_data), dict(self.cell_data), self.point_data_rules) if has else ({}, {}, ())
+        return _unpickle, (*parts, self.fixed, *data)
 
     # --- data that came with the mesh, and other libraries ----------------------------------------------------
 
     @property
-    def point_data(self) -> dict[str, npt.NDArray[Any]]:
-        """Data of the points that the mesh's file had, as they are now (``point_data_rules``). Copies."""
-        return _temper.file_as_dict(self._handle)["point_data"]
+    def point_data(self) -> Data:
+        """Data of the points that the mesh's file had, or that were assigned, as they are now (``point_data_rules``):
+        ``mesh.point_data["depth"] = depth``."""
+        return Data(self, "point_data")
 
     @property
-    def cell_data(self) -> dict[str, npt.NDArray[Any]]:
-        """Data of the triangles that the mesh's file had: of each triangle those of the one there that its middle is
-        in. Copies."""
-        return _temper.file_as_dict(self._handle)["cell_data"]
+    def cell_data(self) -> Data:
+        """Data of the triangles that the mesh's file had, or that were assigned: of each triangle those of the one there
+        that its middle is in."""
+        return Data(self, "cell_data")
 
     @property
     def point_data_rules(self) -> tuple[str, ...]:
@@ -349,8 +392,16 @@ class Mesh:
         return _temper.draw_svg(self._handle, {"width": 500.0}) if self.n_triangles <= _PICTURE else None
 
 
-def _unpickle(points: Any, triangles: Any, weights: Any, constrained: Any, regions: Any, fixed: Any) -> Mesh:
-    return Mesh(points, triangles, weights, constrained_edges=constrained, regions=regions, fixed=fixed)
+def _unpickle(
+    points: Any, triangles: Any, weights: Any, constrained: Any, regions: Any, fixed: Any, point_data: Any, cell_data: Any,
+    rules: Any,
+) -> Mesh:  # fmt: skip
+    mesh = Mesh(points, triangles, weights, constrained_edges=constrained, regions=regions, fixed=fixed)
+    mesh.point_data.update(point_data)
+    mesh.cell_data.update(cell_data)
+    if rules:
+        mesh.point_data_rules = rules
+    return mesh
 
 
 MeshLike = Union[Mesh, Any]

@@ -13,7 +13,7 @@ _WEIGHTS = ("weight", "weights")
 _REGIONS = ("region", "gmsh:physical", "medit:ref", "cell_tags")
 
 
-def columns(points: Any) -> tuple[Any, float]:
+def in_the_plane(points: Any) -> tuple[Any, float]:
     """Points in the plane, and the z that all of them have."""
     points = np.asarray(points, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] not in (2, 3):
@@ -32,7 +32,7 @@ def columns(points: Any) -> tuple[Any, float]:
 _TYPES = {np.dtype(t) for t in ("f8", "f4", "i8", "i4", "u1", "i1", "i2", "u2", "u4", "u8")}
 
 
-def _data(name: str, values: Any, dropped: list[str]) -> Any:
+def data_of(name: str, values: Any, dropped: list[str]) -> Any:
     """The array as one of the types that files have, or None."""
     array = np.asarray(values)
     if array.dtype == bool:
@@ -59,7 +59,7 @@ def _cell_data(mesh: Any, blocks: list[int], dropped: list[str]) -> dict[str, An
     result = {}
     for name, values in mesh.cell_data.items():
         parts = [np.asarray(values[i]) for i in blocks]
-        if parts and (array := _data(name, np.concatenate(parts), dropped)) is not None:
+        if parts and (array := data_of(name, np.concatenate(parts), dropped)) is not None:
             result[name] = array
     return result
 
@@ -78,7 +78,7 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
     for block in mesh.cells:
         if block.type not in ("triangle", "line", "vertex"):
             dropped.append(f"{len(block.data)} cells of type {block.type} are left out")
-    points, z = columns(mesh.points)
+    points, z = in_the_plane(mesh.points)
     triangles, lines = _blocks(mesh, "triangle"), _blocks(mesh, "line")
     if not triangles:
         raise TemperError("empty_input", "", "expected cells of type triangle; found " +
@@ -88,7 +88,7 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
     for name, values in mesh.point_data.items():
         if name in _WEIGHTS and weights.size == 0 and np.asarray(values).size == len(points):
             weights = np.ascontiguousarray(np.asarray(values, dtype=np.float64).reshape(-1))
-        elif (array := _data(name, values, dropped)) is not None:
+        elif (array := data_of(name, values, dropped)) is not None:
             point_data[name] = array
     cell_data = _cell_data(mesh, triangles, dropped)
     corners, ends = _joined(mesh, triangles, 3), _joined(mesh, lines, 2)

@@ -28,7 +28,8 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
         "deferred weight updates need positions and weights in turn; expected `solver=alternating` or `solver=golden`");
   }
   if (p.weight_updates == WeightUpdates::deferred && o.flips == Flips::none) {
-    return invalid("`weight_updates=deferred` keeps edges regular by flips alone; expected `flips=immediate` or `flips=deferred`");
+    return invalid(
+        "`weight_updates=deferred` keeps edges regular by flips alone; expected `flips=immediate` or `flips=deferred`");
   }
   if (p.inversion == Inversion::allow && !defers_flips(o)) {
     return invalid(
@@ -37,11 +38,14 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
   }
   if (p.inversion == Inversion::allow && o.boundary == BoundaryVertices::slide) {
     return invalid(
-        "`boundary=slide` needs `inversion=refuse`: where triangles may be inverted nothing keeps vertices from passing a "
+        "`boundary=slide` needs `inversion=refuse`: where triangles may be inverted nothing keeps vertices from "
+        "passing a "
         "corner");
   }
   if (o.flips == Flips::none && o.boundary == BoundaryVertices::split) {
-    return invalid("`boundary=split` changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or `flips=deferred`");
+    return invalid(
+        "`boundary=split` changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or "
+        "`flips=deferred`");
   }
   if (p.inversion == Inversion::allow && o.size_band) {
     return invalid("`size_band` needs `inversion=refuse`: inverted triangles have no size");
@@ -58,8 +62,7 @@ std::optional<InputError> check_accuracy(const OptimizeOptions& o) {
                    std::string(energy.name) + " does not; expected `energy=BP`, `energy=BHs` or `energy=BH`");
   }
   if (o.paper.inversion == Inversion::allow) {
-    return invalid(
-        "`objective=accuracy` needs `inversion=refuse`: its second phase is for well-centered triangles");
+    return invalid("`objective=accuracy` needs `inversion=refuse`: its second phase is for well-centered triangles");
   }
   return std::nullopt;
 }

@@ -66,7 +66,8 @@ std::vector<Options> option_sets() {
           {"HOT", {.energy = EnergyKind::T, .max_sweeps = 30}},
           {"positions", {.unknowns = Unknowns::positions, .max_sweeps = 30}},
           {"weights", {.unknowns = Unknowns::weights, .max_sweeps = 30}},
-          {"split_and_repair", {.boundary = BoundaryVertices::split, .repair = Repair::vertices, .repair_trials = 200, .max_sweeps = 60}},
+          {"split_and_repair",
+           {.boundary = BoundaryVertices::split, .repair = Repair::vertices, .repair_trials = 200, .max_sweeps = 60}},
           {"size_band", {.size_band = 1.5, .max_sweeps = 30}}};
 }
 

@@ -65,6 +65,37 @@ def test_points_in_space_are_taken_when_they_have_one_z():
     flat.points = np.column_stack([flat.points, np.zeros(4)])
 
 
+def test_data_are_assigned_and_travel_with_the_mesh(ring, tmp_path):
+    depth, number = ring.points @ (3.0, -1.0), np.arange(ring.n_triangles)
+    ring.point_data["depth"] = depth
+    ring.cell_data["number"] = number
+    ring.cell_data["gone"] = np.zeros((ring.n_triangles, 2))
+    del ring.cell_data["gone"]
+    assert list(ring.point_data) == ["depth"] and list(ring.cell_data) == ["number"]
+    assert np.array_equal(ring.point_data["depth"], depth) and np.array_equal(ring.cell_data["number"], number)
+    temper.optimize(ring, max_sweeps=5)
+    assert np.allclose(ring.point_data["depth"], ring.points @ (3.0, -1.0), atol=1e-14)
+    before = ring.point_data["depth"]
+    ring.point_data["shallow"] = before < 1  # of the vertices as they are now
+    assert np.array_equal(ring.point_data["depth"], before)
+    temper.write(tmp_path / "ring.vtu", ring)
+    for other in (temper.read(tmp_path / "ring.vtu"), pickle.loads(pickle.dumps(ring)), ring.copy()):
+        assert list(other.point_data) == ["depth", "shallow"]
+        assert all(np.array_equal(other.point_data[name], values) for name, values in ring.point_data.items())
+    assert ring.point_data["shallow"].dtype == np.uint8
+
+
+def test_data_that_fit_no_mesh_are_refused(ring):
+    with pytest.raises(temper.TemperError, match=rf"point data 'u': expected {ring.n_vertices} values, found 3"):
+        ring.point_data["u"] = [1.0, 2.0, 3.0]
+    with pytest.raises(TypeError, match="expected a name and an array of numbers, found 'u' and list"):
+        ring.point_data["u"] = ["a"] * ring.n_vertices
+    assert len(ring.point_data) == 0
+    ring.point_data["u"] = np.zeros(ring.n_vertices)
+    with pytest.raises(ValueError, match="read-only"):
+        ring.point_data["u"][0] = 1
+
+
 def test_operators_can_be_pickled(ring):
     operators = temper.dec(ring)
     again = pickle.loads(pickle.dumps(operators))

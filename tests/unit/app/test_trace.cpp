@@ -355,9 +355,11 @@ TEST_F(Trace, SwitchesThatContradictEachOtherAreRefused) {
   };
   EXPECT_TRUE(contains(refused({"--no-flips", "--flips", "immediate"}), "--no-flips"));
   EXPECT_TRUE(contains(refused({"--method", "paper", "--method", "production"}), "--method is given more than once"));
-  EXPECT_TRUE(contains(refused({"--boundary", "split", "--no-flips"}), "expected flips to be allowed"));
+  EXPECT_TRUE(contains(refused({"--boundary", "split", "--no-flips"}), "expected --flips immediate"));
   EXPECT_TRUE(contains(refused({"--boundary", "slide", "--inversion", "allow", "--flips", "deferred"}),
-                       "expected inversions to be refused"));
+                       "--boundary slide needs --inversion refuse"));
+  EXPECT_TRUE(contains(refused({"--method", "paper", "--flips", "immediate"}), "needs --flips deferred"));
+  EXPECT_TRUE(contains(refused({"--energy", "T", "--energy", "BP"}), "--energy is given more than once"));
 }
 
 // --- the boundary -------------------------------------------------------------------------------------------------

@@ -401,12 +401,11 @@ TEST(Accuracy, OptionsOutOfRangeAreRefusedByName) {
   EXPECT_EQ(with([](OptimizeOptions& o) { o.energy = EnergyKind::F; }),
             "`objective=accuracy` begins with an energy that makes triangles well-centered, which F does not; expected "
             "`energy=BP`, `energy=BHs` or `energy=BH`");
-  EXPECT_EQ(
-      with([](OptimizeOptions& o) {
-        o.flips = Flips::deferred;
-        o.paper.inversion = Inversion::allow;
-      }),
-      "`objective=accuracy` needs `inversion=refuse`: its second phase is for well-centered triangles");
+  EXPECT_EQ(with([](OptimizeOptions& o) {
+              o.flips = Flips::deferred;
+              o.paper.inversion = Inversion::allow;
+            }),
+            "`objective=accuracy` needs `inversion=refuse`: its second phase is for well-centered triangles");
 }
 
 }  // namespace
