@@ -200,8 +200,25 @@ HalfedgeId halfedge_id(const Mesh& mesh, std::int64_t index) {
 
 }  // namespace temper::python
 
+namespace temper::python {
+namespace {
+
+/// NumPy 2 lays types out in another way, which pybind11 knows from 2.12 on: arrays would silently be of zeros.
+constexpr bool kKnowsNumPy2 = PYBIND11_VERSION_HEX >= 0x020C0000;
+
+void refuse_unknown_numpy() {
+  const auto version = py::module_::import("numpy").attr("__version__").cast<std::string>();
+  if (kKnowsNumPy2 || version.rfind("1.", 0) == 0) return;
+  throw py::import_error("temper was built with a pybind11 before 2.12, which knows NumPy 1 only; found NumPy " +
+                         version + ": install \"numpy<2\", or build temper with a newer pybind11");
+}
+
+}  // namespace
+}  // namespace temper::python
+
 PYBIND11_MODULE(_temper, m) {
   using namespace temper::python;
+  refuse_unknown_numpy();
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) std::rethrow_exception(pointer);
@@ -210,6 +227,7 @@ PYBIND11_MODULE(_temper, m) {
     }
   });
   m.attr("__version__") = TEMPER_VERSION;
+  m.attr("knows_numpy_2") = kKnowsNumPy2;
 #ifdef TEMPER_WITH_TBB
   m.attr("has_threads") = true;
 #else

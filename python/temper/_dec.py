@@ -154,7 +154,7 @@ class DecComplex(Record):
     """(m, 2) the dual vertices [length]."""
     areas: npt.NDArray[np.float64]
     """(m,) of the triangles, > 0 [length²]."""
-    _handle: Any = dataclasses.field(repr=False)
+    _handle: Any = dataclasses.field(repr=False, compare=False)
 
     def __reduce__(self) -> Any:
         return dec, (Mesh._of(self._handle.mesh()),)

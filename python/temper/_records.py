@@ -55,7 +55,7 @@ class Record:
 
     def __eq__(self, other: object) -> bool:
         """The same numbers everywhere; NaN is equal to itself."""
-        names = [f.name for f in dataclasses.fields(self)]  # type: ignore[arg-type]
+        names = [f.name for f in dataclasses.fields(self) if f.compare]  # type: ignore[arg-type]
         return type(other) is type(self) and all(same(getattr(self, n), getattr(other, n)) for n in names)
 
     __hash__ = None  # type: ignore[assignment]
