@@ -30,7 +30,6 @@ constexpr Choice<Enclosed> kEnclosed[] = {
 struct MeshSettings {
   std::string input, output, report, picture, projection, region_sizes;
   MesherOptions options;
-  double time_limit = 0;
   std::uint64_t threads = 0;
   bool no_optimize = false, quiet = false;
 };
@@ -68,8 +67,8 @@ void add_optimisation(Command& command, MeshSettings& s) {
   add_count(command, "--attempts", s.options.attempts, 1,
             "while triangles stay bad, divide the outline finer around them and mesh it again; at most this many "
             "times");
-  add_number(command, "--time-limit", s.time_limit, kNotNegative,
-             "stop optimising after this many seconds; 0: no limit");
+  add_number(command, "--time-limit", s.options.time_limit, kNotNegative,
+             "stop after this many seconds, with the best mesh so far, if there is one; 0: no limit");
   add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
 }
 
@@ -169,9 +168,6 @@ OutlineMesh run_library(const MeshSettings& s, const Outline& outline, Executor*
   MesherOptions options = s.options;
   options.region_sizes = region_sizes(s.region_sizes);
   if (s.no_optimize) options.optimize.reset();
-  if (options.optimize) {
-    options.optimize->time_limit = s.time_limit;
-  }
   return or_fail(mesh_outline(outline, options, {.executor = executor, .observer = observer}));
 }
 

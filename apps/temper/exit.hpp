@@ -29,7 +29,10 @@ class Failure : public std::runtime_error {
 };
 
 inline Failure as_failure(const InputError& error) {
-  return {error.code == ErrorCode::invalid_option ? Exit::bad_usage : Exit::bad_input, error.what()};
+  const Exit exit = error.code == ErrorCode::invalid_option ? Exit::bad_usage
+                    : error.code == ErrorCode::stopped      ? Exit::stopped_early
+                                                            : Exit::bad_input;
+  return {exit, error.what()};
 }
 
 /// The value, or a Failure that says why there is none.

@@ -32,6 +32,7 @@ enum class ErrorCode {
   out_of_scale,         ///< coordinates too large or too small for exact arithmetic
   invalid_option,       ///< an option whose value makes no sense
   hidden_vertex,        ///< weights that leave a vertex without power cell
+  stopped,              ///< by the caller or a time limit, before there was a result
   trace_mismatch,       ///< an event of a trace that does not fit the mesh
   not_writable,         ///< an output that cannot be written; nothing was changed
 };

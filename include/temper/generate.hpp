@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,6 +26,8 @@ struct DelaunayInput {
   /// Drop the triangles outside the outermost closed segments, and inside holes (by parity). A segment that encloses
   /// nothing stays as a constrained edge. false, or no segments at all: the convex hull.
   bool carve = true;
+  /// Asked at each point and segment; true ends it with ErrorCode::stopped.
+  std::function<bool()> stop = {};
 };
 /// The constrained Delaunay triangulation, all weights zero. Points keep their numbers, and ties are broken by them, so
 /// that the triangulation depends on points and segments alone. About O(n log n); a million points take 2 seconds.

@@ -39,6 +39,7 @@ struct MesherOptions {
   std::optional<OptimizeOptions> optimize = OptimizeOptions();  ///< absent: the Delaunay mesh as it is
   int attempts = 8;                          ///< at most so many divisions of the outline while triangles stay bad
   std::size_t most_triangles = 200'000'000;  ///< sizes that would make more are refused
+  double time_limit = 0;                     ///< of all of it, seconds; 0: none
 };
 
 /// An edge of the mesh that is part of a segment.
@@ -62,7 +63,8 @@ struct OutlineMesh {
 /// stay where they are; points of no segment become fixed vertices. Errors, by the outline's names: no points, ends of
 /// segments out of range, not finite, out of the range of exact arithmetic, two points at one place, segments of no
 /// length or crossing, nothing enclosed, holes and regions outside, parts that overlap, a domain that touches itself at
-/// a point; sizes that are not positive or would make too many triangles. About O(n log n) an attempt.
+/// a point; sizes that are not positive or would make too many triangles; stopped, when the time or the caller's
+/// patience ends before there is a mesh (later the best mesh so far is returned). About O(n log n) an attempt.
 [[nodiscard]] Expected<OutlineMesh> mesh_outline(const Outline& outline, const MesherOptions& options,
                                                  const OptimizeHooks& hooks = {});
 

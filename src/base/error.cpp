@@ -44,6 +44,8 @@ std::string_view name(ErrorCode code) {
       return "invalid_option";
     case ErrorCode::hidden_vertex:
       return "hidden_vertex";
+    case ErrorCode::stopped:
+      return "stopped";
     case ErrorCode::trace_mismatch:
       return "trace_mismatch";
     case ErrorCode::not_writable:

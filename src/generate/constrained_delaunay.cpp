@@ -27,9 +27,9 @@ Mesh in_input_order(Triangulation triangulation) {
 }  // namespace generate
 
 Expected<Mesh> constrained_delaunay(const DelaunayInput& input) {
-  Expected<generate::Triangulation> triangulation = generate::triangulate_points(input.points);
+  Expected<generate::Triangulation> triangulation = generate::triangulate_points(input.points, input.stop);
   if (!triangulation) return triangulation.error();
-  if (auto error = generate::insert_segments(*triangulation, input.segments)) return *error;
+  if (auto error = generate::insert_segments(*triangulation, input.segments, input.stop)) return *error;
   if (input.carve && !input.segments.empty()) {
     if (auto error = generate::carve(*triangulation)) return *error;
   }

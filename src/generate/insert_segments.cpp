@@ -213,10 +213,12 @@ class SegmentInserter {
 }  // namespace
 
 std::optional<InputError> insert_segments(Triangulation& triangulation,
-                                          std::span<const std::array<std::int32_t, 2>> segments) {
+                                          std::span<const std::array<std::int32_t, 2>> segments,
+                                          const std::function<bool()>& stop) {
   const auto n = static_cast<std::int64_t>(triangulation.vertex.size());
   SegmentInserter inserter(triangulation);
   for (std::uint32_t s = 0; s < segments.size(); ++s) {
+    if (stop && stop()) return stopped_error();
     const auto [i, j] = segments[s];
     for (const std::int32_t end : segments[s]) {
       if (end < 0 || end >= n) {

@@ -180,13 +180,14 @@ std::optional<InputError> check_points(std::span<const Vec2> points) {
 
 }  // namespace
 
-Expected<Triangulation> triangulate_points(std::span<const Vec2> points) {
+Expected<Triangulation> triangulate_points(std::span<const Vec2> points, const std::function<bool()>& stop) {
   if (auto error = check_points(points)) return *error;
   const std::vector<std::uint32_t> order = insertion_order(points);
   Inserter inserter(points);
   const auto corners = inserter.start(order);
   if (!corners) return InputError{ErrorCode::zero_area, "", "all points lie on one line"};
   for (std::size_t k = 0; k < order.size(); ++k) {
+    if (stop && stop()) return stopped_error();
     if (k == (*corners)[0] || k == (*corners)[1] || k == (*corners)[2]) continue;
     if (const auto there = inserter.insert(order[k])) {
       const auto [low, high] = std::minmax(inserter.result().number[there->index], order[k]);

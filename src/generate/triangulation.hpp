@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,12 +34,19 @@ struct Triangulation {
 /// the walks a coarse map of the whole domain; within a round the next point is near the last.
 [[nodiscard]] std::vector<std::uint32_t> insertion_order(std::span<const Vec2> points);
 
-/// The Delaunay triangulation of the convex hull.
-[[nodiscard]] Expected<Triangulation> triangulate_points(std::span<const Vec2> points);
+/// The error of what `stop` has ended.
+[[nodiscard]] inline InputError stopped_error() {
+  return {ErrorCode::stopped, "", "the triangulation was stopped before its end"};
+}
+
+/// The Delaunay triangulation of the convex hull. `stop`: asked at each point.
+[[nodiscard]] Expected<Triangulation> triangulate_points(std::span<const Vec2> points,
+                                                         const std::function<bool()>& stop = {});
 
 /// Makes the segments edges, or chains of edges where points lie on them, and constrains those.
 [[nodiscard]] std::optional<InputError> insert_segments(Triangulation& triangulation,
-                                                        std::span<const std::array<std::int32_t, 2>> segments);
+                                                        std::span<const std::array<std::int32_t, 2>> segments,
+                                                        const std::function<bool()>& stop = {});
 
 /// Erases the triangles outside the segments and in holes.
 [[nodiscard]] std::optional<InputError> carve(Triangulation& triangulation);

@@ -8,6 +8,7 @@
 
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"
+#include "topology/locate.hpp"
 
 namespace temper::mesher {
 namespace {
@@ -20,13 +21,13 @@ struct Hull {
   IdVector<HalfedgeId, std::uint32_t> piece;
 };
 
-Expected<Hull> triangulate_hull(std::vector<Vec2> points, const std::vector<Piece>& pieces) {
+Expected<Hull> triangulate_hull(std::vector<Vec2> points, const std::vector<Piece>& pieces, Watch& watch) {
   std::vector<std::array<std::int32_t, 2>> segments;
   segments.reserve(pieces.size());
   for (const Piece& p : pieces) {
     segments.push_back({static_cast<std::int32_t>(p.ends[0]), static_cast<std::int32_t>(p.ends[1])});
   }
-  Expected<Mesh> mesh = constrained_delaunay({points, segments, false});
+  Expected<Mesh> mesh = constrained_delaunay({points, segments, false, [&] { return watch.asked_to_stop(); }});
   if (!mesh) return mesh.error();
   Hull hull{*std::move(mesh), {}};
   hull.piece.resize(hull.mesh.n_halfedges(), kNone);
@@ -47,8 +48,8 @@ void each_halfedge(TriangleId t, const F& f) {
 
 class AreaFinder {
  public:
-  AreaFinder(const Outline& outline, const std::vector<OutlineEdge>& edges, const MesherOptions& options)
-      : outline_(outline), names_(names_of(outline)), edges_(edges), options_(options) {}
+  AreaFinder(const Outline& outline, const std::vector<OutlineEdge>& edges, const MesherOptions& options, Watch& watch)
+      : outline_(outline), names_(names_of(outline)), edges_(edges), options_(options), watch_(watch) {}
 
   Expected<Areas> run() {
     std::vector<Piece> pieces;
@@ -57,7 +58,7 @@ class AreaFinder {
       pieces.push_back(
           {{static_cast<std::uint32_t>(ends[0]), static_cast<std::uint32_t>(ends[1])}, static_cast<std::uint32_t>(i)});
     }
-    Expected<Hull> hull = triangulate_hull(outline_.points, pieces);
+    Expected<Hull> hull = triangulate_hull(outline_.points, pieces, watch_);
     if (!hull) return hull.error();
     hull_ = *std::move(hull);
     find_components();
@@ -218,16 +219,13 @@ class AreaFinder {
     return {};
   }
 
-  /// The component of a place, or none outside the hull. A place on an edge belongs to one of its sides.
-  [[nodiscard]] std::uint32_t locate(Vec2 p) const {
-    for (const TriangleId t : hull_.mesh.triangles()) {
-      const auto [a, b, c] = hull_.mesh.corners(t);
-      const auto left = [&](VertexId u, VertexId v) {
-        return orient2d(hull_.mesh.position(u), hull_.mesh.position(v), p) != Sign::negative;
-      };
-      if (left(a, b) && left(b, c) && left(c, a)) return component_[t];
-    }
-    return kNone;
+  /// The component of a place, or none outside the hull. A place on an edge belongs to one of its sides. Looked for
+  /// from the last one.
+  [[nodiscard]] std::uint32_t locate(Vec2 p) {
+    const Location at = temper::locate(hull_.mesh, p, located_);
+    if (at.kind == Location::Kind::outside) return kNone;
+    located_ = at.triangle;
+    return component_[at.triangle];
   }
 
   [[nodiscard]] InputError nothing_enclosed() const {
@@ -267,7 +265,9 @@ class AreaFinder {
   const OutlineNames& names_;
   const std::vector<OutlineEdge>& edges_;
   const MesherOptions& options_;
+  Watch& watch_;
   Hull hull_;
+  TriangleId located_ = TriangleId(0);
   IdVector<TriangleId, std::uint32_t> component_;
   std::uint32_t n_components_ = 0;
   std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> neighbours_;  // component, and the edge between
@@ -279,16 +279,16 @@ class AreaFinder {
 
 }  // namespace
 
-Expected<Areas> find_areas(const Outline& outline, const std::vector<OutlineEdge>& edges,
-                           const MesherOptions& options) {
-  return AreaFinder(outline, edges, options).run();
+Expected<Areas> find_areas(const Outline& outline, const std::vector<OutlineEdge>& edges, const MesherOptions& options,
+                           Watch& watch) {
+  return AreaFinder(outline, edges, options, watch).run();
 }
 
-Expected<Triangulated> triangulate(const DividedOutline& divided, const std::vector<Vec2>& further,
-                                   const Areas& areas) {
+Expected<Triangulated> triangulate(const DividedOutline& divided, const std::vector<Vec2>& further, const Areas& areas,
+                                   Watch& watch) {
   std::vector<Vec2> points = divided.points;
   points.insert(points.end(), further.begin(), further.end());
-  Expected<Hull> hull = triangulate_hull(std::move(points), divided.pieces);
+  Expected<Hull> hull = triangulate_hull(std::move(points), divided.pieces, watch);
   if (!hull) return hull.error();
   Triangulated result{std::move(hull->mesh), {}, std::move(hull->piece)};
   const Mesh& mesh = result.mesh;

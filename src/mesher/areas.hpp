@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesher/divided_outline.hpp"
+#include "mesher/watch.hpp"
 #include "temper/mesher.hpp"
 
 namespace temper::mesher {
@@ -27,7 +28,7 @@ struct Areas {
 
 /// Errors: nothing enclosed, hole and region points on an edge or outside, parts that overlap.
 [[nodiscard]] Expected<Areas> find_areas(const Outline& outline, const std::vector<OutlineEdge>& edges,
-                                         const MesherOptions& options);
+                                         const MesherOptions& options, Watch& watch);
 
 /// The triangulation of points and pieces over their convex hull, and what belongs to each triangle and halfedge.
 struct Triangulated {
@@ -36,8 +37,8 @@ struct Triangulated {
   IdVector<TriangleId, std::int32_t> area;    ///< or kOutside
   IdVector<HalfedgeId, std::uint32_t> piece;  ///< or kNoPiece
 };
-/// Further points come after those of the divided outline.
+/// Further points come after those of the divided outline. ErrorCode::stopped when it is time to stop.
 [[nodiscard]] Expected<Triangulated> triangulate(const DividedOutline& divided, const std::vector<Vec2>& further,
-                                                 const Areas& areas);
+                                                 const Areas& areas, Watch& watch);
 
 }  // namespace temper::mesher

@@ -7,6 +7,7 @@
 
 #include "mesher/arrangement.hpp"
 #include "mesher/graded_size.hpp"
+#include "mesher/watch.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper::mesher {
@@ -30,9 +31,9 @@ struct DividedOutline {
 /// only, 0 elsewhere. All edges of one corner are cut at one distance, so that the triangle in the corner is isosceles.
 using CornerRadii = std::vector<double>;
 
-/// Divides every edge so that its pieces follow the size.
+/// Divides every edge so that its pieces follow the size. What is left when it is time to stop is divided less.
 [[nodiscard]] DividedOutline divide(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges,
-                                    const GradedSize& size, const CornerRadii& corners);
+                                    const GradedSize& size, const CornerRadii& corners, Watch& watch);
 
 /// About how many pieces that makes.
 [[nodiscard]] double count_pieces(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges, double size);

@@ -34,6 +34,7 @@ std::optional<InputError> check(const MesherOptions& options) {
                      std::to_string(r.size));
     }
   }
+  if (!(options.time_limit >= 0)) return invalid("expected a time limit of 0 or more seconds");
   if (options.attempts < 1) return invalid("expected at least one attempt");
   return {};
 }
@@ -57,14 +58,14 @@ class MeshNames final : public InputNames {
 class Mesher {
  public:
   Mesher(const Outline& outline, const MesherOptions& options, const OptimizeHooks& hooks)
-      : outline_(outline), options_(options), hooks_(hooks) {}
+      : outline_(outline), options_(options), hooks_(hooks), watch_(options.time_limit, hooks_.observer) {}
 
   Expected<OutlineMesh> run() {
     if (auto error = check(options_)) return *error;
     Expected<std::vector<OutlineEdge>> edges = arrange(outline_);
     if (!edges) return edges.error();
     edges_ = *std::move(edges);
-    Expected<Areas> areas = find_areas(outline_, edges_, options_);
+    Expected<Areas> areas = find_areas(outline_, edges_, options_, watch_);
     if (!areas) return areas.error();
     areas_ = *std::move(areas);
     if (auto error = check_count()) return *error;
@@ -117,20 +118,28 @@ class Mesher {
   /// Divides the outline, finer where that shows pieces that face each other, until nothing changes.
   Expected<DividedOutline> resolve() {
     constexpr int kRounds = 20;  // each finds what the last one's longer pieces hid; three or four do nearly always
-    DividedOutline divided = divide(outline_.points, edges_, size(), corners_);
+    DividedOutline divided = divide(outline_.points, edges_, size(), corners_, watch_);
+    if (watch_.stopped()) return stopped("divided");
     if (divided.pieces.size() > options_.most_triangles) return too_many();
     for (int round = 0; round < kRounds; ++round) {
-      const Expected<Triangulated> triangulated = triangulate(divided, {}, areas_);
+      const Expected<Triangulated> triangulated = triangulate(divided, {}, areas_, watch_);
+      if (watch_.stopped()) return stopped("divided");
       if (!triangulated) return too_fine(triangulated.error());
-      const std::vector<SizeSource> narrow = narrow_places(divided, *triangulated, size());
+      const std::vector<SizeSource> narrow = narrow_places(divided, *triangulated, size(), watch_);
       if (narrow.empty()) break;
       sources_.insert(sources_.end(), narrow.begin(), narrow.end());
-      divided = divide(outline_.points, edges_, size(), corners_);
+      divided = divide(outline_.points, edges_, size(), corners_, watch_);
+      if (watch_.stopped()) return stopped("divided");
       if (divided.pieces.size() > options_.most_triangles) return too_many();
     }
     return divided;
   }
 
+  [[nodiscard]] static InputError stopped(const std::string& doing) {
+    return {ErrorCode::stopped, "",
+            "there is no mesh yet: it was time to stop while the outline was " + doing +
+                "; sizes far below the outline's, and narrow places along its long edges, take many triangles"};
+  }
   /// Division points that meet or cross others: the outline is narrower there than its coordinates can say.
   [[nodiscard]] static InputError too_fine(const InputError& error) {
     return {
@@ -144,9 +153,10 @@ class Mesher {
 
   Expected<OutlineMesh> make(const DividedOutline& divided) {
     const std::size_t most_points = options_.most_triangles / 2;  // two triangles a vertex
-    const std::vector<Vec2> placed = place_points(divided, areas_, size(), most_points);
+    const std::vector<Vec2> placed = place_points(divided, areas_, size(), most_points, watch_);
     if (placed.size() >= most_points) return too_many();
-    const Expected<Triangulated> triangulated = triangulate(divided, placed, areas_);
+    const Expected<Triangulated> triangulated = triangulate(divided, placed, areas_, watch_);
+    if (watch_.stopped()) return stopped("filled with points");
     if (!triangulated) return too_fine(triangulated.error());
     return build(divided, placed, *triangulated);
   }
@@ -231,7 +241,9 @@ class Mesher {
     return made;
   }
 
-  std::optional<InputError> improve(OutlineMesh& made, const OptimizeOptions& options) const {
+  std::optional<InputError> improve(OutlineMesh& made, OptimizeOptions options) const {
+    const double left = watch_.time_left();
+    if (left > 0 && !(options.time_limit > 0 && options.time_limit < left)) options.time_limit = left;
     Expected<OptimizeReport> report = optimize(made.mesh, options, hooks_);
     if (!report) return report.error();
     if (!report->vertices.empty()) renumber(made, report->vertices);
@@ -264,8 +276,8 @@ class Mesher {
     }
   }
 
-  [[nodiscard]] static bool stopped_early(const OutlineMesh& made) {
-    return made.report.stopped == Stopped::cancelled || made.report.stopped == Stopped::time_limit;
+  [[nodiscard]] bool stopped_early(const OutlineMesh& made) const {
+    return watch_.stopped() || made.report.stopped == Stopped::cancelled || made.report.stopped == Stopped::time_limit;
   }
 
   Expected<OutlineMesh> best_of_attempts() {
@@ -276,7 +288,7 @@ class Mesher {
     for (; best->bad > 0 && attempts < options_.attempts && !stopped_early(*best); ++attempts) {
       refine_around_bad(last);
       Expected<OutlineMesh> next = attempt();
-      if (!next) break;  // sizes too small for the coordinates: the best so far stays
+      if (!next) break;  // no time, or sizes too small for the coordinates: the best so far stays
       last = next->mesh;
       const bool last_stopped_early = stopped_early(*next);
       if (next->bad < best->bad) best = std::move(next);
@@ -286,12 +298,14 @@ class Mesher {
       if (auto error = improve(*best, *options_.optimize)) return *error;
     }
     best->attempts = attempts;
+    if (watch_.stopped()) best->report.stopped = watch_.out_of_time() ? Stopped::time_limit : Stopped::cancelled;
     return best;
   }
 
   const Outline& outline_;
   const MesherOptions& options_;
   const OptimizeHooks& hooks_;
+  Watch watch_;
   std::vector<OutlineEdge> edges_;
   Areas areas_;
   CornerRadii corners_;

@@ -4,12 +4,13 @@
 #include <vector>
 
 #include "mesher/areas.hpp"
+#include "mesher/watch.hpp"
 
 namespace temper::mesher {
 
 /// Sizes that leave room for a row of vertices between facing pieces; only those that are less than `size` by more
 /// than a tenth. Isolated points count as pieces of no length.
 [[nodiscard]] std::vector<SizeSource> narrow_places(const DividedOutline& divided, const Triangulated& triangulated,
-                                                    const GradedSize& size);
+                                                    const GradedSize& size, Watch& watch);
 
 }  // namespace temper::mesher

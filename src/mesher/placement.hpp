@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "mesher/areas.hpp"
+#include "mesher/watch.hpp"
 
 namespace temper::mesher {
 
 /// Places points. Each candidate is one size away from the point or piece it comes from; it is taken when nothing is
 /// too near and no piece lies between. The order is that of the pieces, then of the points: deterministic. Ends when
-/// there are `most`. O(n log n).
+/// there are `most`, or when it is time to stop. O(n log n).
 [[nodiscard]] std::vector<Vec2> place_points(const DividedOutline& divided, const Areas& areas, const GradedSize& size,
-                                             std::size_t most);
+                                             std::size_t most, Watch& watch);
 
 }  // namespace temper::mesher

@@ -299,5 +299,39 @@ TEST(MesherErrors, BadOutlinesAreNamedByTheirElements) {
   expect_error(touching, options, ErrorCode::non_manifold_vertex, "point 2");
 }
 
+double seconds_of(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// 10⁹ by 10: whatever the size, some 10⁸ pieces or none are right for it.
+TEST(Mesher, EndsInTimeWhereScalesDiffer) {
+  const Outline narrow = loop({{0, 0}, {1e9, 0}, {1e9, 10}, {0, 10}});
+  const Outline spike = loop({{0, 0}, {1e9, 0}, {3, 5}, {0, 4}});
+  for (const Outline& outline : {narrow, spike}) {
+    for (const double size : {1e2, 1e5, 1e12}) {
+      MesherOptions options;
+      options.size = size;
+      options.time_limit = 0.2;
+      const double seconds = seconds_of([&] {
+        const auto made = mesh_outline(outline, options);
+        ASSERT_FALSE(made);
+        EXPECT_EQ(made.error().code, ErrorCode::stopped);
+      });
+      EXPECT_LT(seconds, 5);
+    }
+  }
+}
+
+TEST(Mesher, StopsWhenItsCallerSaysSoBeforeThereIsAMesh) {
+  MesherOptions options;
+  options.size = 0.01;
+  const Observer no = [](const Progress&) { return Continue::no; };
+  const auto made = mesh_outline(square(), options, {.observer = no});
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, ErrorCode::stopped);
+}
+
 }  // namespace
 }  // namespace temper::test
