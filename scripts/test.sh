@@ -143,7 +143,7 @@ stage "consumer: subdirectory, exceptions on" consumer_subdirectory && suite "co
 if ((!quick)) && stage "build (sanitizers, clang++)" configure_and_build asan; then
   stage "every test program is there" every_test_program_is_there build/asan
   suite "tests (sanitizers)" build/asan
-  stage "fuzzing, without libFuzzer, 2 s a target" env -C build/asan tests/fuzz/fuzz_smoke 2
+  stage "fuzzing, without libFuzzer, 1 s a target" env -C build/asan tests/fuzz/fuzz_smoke 1
 fi
 
 printf '\n%d s in all' "$SECONDS"
