@@ -489,6 +489,7 @@ py::tuple mesh_an_outline(const py::dict& dict, const py::dict& d, const py::obj
   options.enclosed = from_name<Enclosed>("enclosed", d["enclosed"].cast<std::string>());
   options.attempts = d["attempts"].cast<int>();
   options.most_triangles = d["most_triangles"].cast<std::size_t>();
+  options.time_limit = d["time_limit"].cast<double>();
   const auto executor = make_threads(threads_from(threads));
   if (optimize_options.is_none()) {
     options.optimize.reset();

@@ -18,6 +18,7 @@ from ._records import Record
 
 TABLE: list[dict[str, Any]]
 OPTION_NAMES: tuple[str, ...]
+EnergyName = {energy}
 
 class OptionChanges(TypedDict, total=False):
 '''
@@ -45,7 +46,7 @@ def main(folder):
     fields = [(row["name"], row["type"]) for row in _temper.option_table()]
     changes = "".join(f"    {name}: {kind}\n" for name, kind in fields)
     options = "".join(f"    {name}: {kind} = ...\n" for name, kind in fields)
-    text = HEAD + changes + OPTIONS + options + TAIL
+    text = HEAD.format(energy=dict(fields)["energy"]) + changes + OPTIONS + options + TAIL
     (folder / "_optimize_options.pyi").write_text(text, encoding="utf-8")
 
 

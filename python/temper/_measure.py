@@ -10,7 +10,8 @@ import numpy.typing as npt
 
 from . import _temper
 from ._mesh import MeshLike, _doubles, as_mesh
-from ._options import EnergyName, Softening, SofteningLike, _softening
+from ._optimize_options import EnergyName
+from ._options import Softening, SofteningLike, _softening
 from ._records import Record, merged, table
 
 

@@ -10,7 +10,7 @@ import inspect
 import itertools
 import textwrap
 import warnings
-from typing import Any, Callable, TypeVar
+from typing import Any, Callable, Literal, TypeVar
 
 from . import _temper
 from ._errors import TemperWarning
@@ -19,6 +19,7 @@ from ._records import Record
 
 TABLE: list[dict[str, Any]] = _temper.option_table()
 OPTION_NAMES = tuple(row["name"] for row in TABLE)
+EnergyName = Literal[tuple(next(row["choices"] for row in TABLE if row["name"] == "energy"))]
 _SOFTENINGS = [row["name"] for row in TABLE if row["type"].startswith("SofteningLike")]
 
 

@@ -27,6 +27,3 @@ def _softening(name: str, value: SofteningLike) -> tuple[float, str]:
     if not isinstance(length, numbers.Real) or not isinstance(scale, str):
         raise TypeError(f"{name}: expected a number or a Softening, found {value!r}")
     return float(length), scale
-
-
-EnergyName = Literal["F", "T", "dT", "BH", "BHs", "BP"]

@@ -116,6 +116,7 @@ def mesh_outline(
     optimize: OptimizeOptions | bool = True,
     attempts: int = 8,
     most_triangles: int = 200_000_000,
+    time_limit: float = 0.0,
     threads: int | None = None,
     observer: Callable[[Progress], Any] | None = None,
     progress: bool | None = None,
@@ -140,13 +141,16 @@ def mesh_outline(
         At most so many divisions of the outline while triangles stay bad.
     most_triangles : int
         Sizes that would make more are refused.
+    time_limit : float
+        Of all of it [s]; 0: none.
     threads, observer, progress
         As of ``optimize``.
 
     Raises
     ------
     TemperError
-        What is wrong with the outline, by its names, or with the sizes.
+        What is wrong with the outline, by its names, or with the sizes; with ``code`` "stopped", that there was no mesh
+        yet when the time was over.
     KeyboardInterrupt
 
     Examples
@@ -163,6 +167,7 @@ def mesh_outline(
         "enclosed": enclosed,
         "attempts": attempts,
         "most_triangles": most_triangles,
+        "time_limit": float(time_limit),
     }
     if isinstance(optimize, bool):
         plain = OptimizeOptions()._plain() if optimize else None

@@ -22,10 +22,10 @@ inline double median_of(std::vector<double> values) {
 /// +∞ leaves nothing to compare with: +∞.
 inline double largest_over_median(std::vector<double> values) {
   if (values.empty()) return 1;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double largest = *std::max_element(values.begin(), values.end());
   const double median = median_of(std::move(values));
-  return median > 0 && largest < kInfinity ? largest / median : kInfinity;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return median > 0 && largest < infinity ? largest / median : infinity;
 }
 
 }  // namespace temper

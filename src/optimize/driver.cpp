@@ -230,6 +230,13 @@ void Driver::jitter(double amount) {
   sweeper_.shake(amount, rng);
 }
 
+int Driver::attempt(const Attempt& attempt, bool may_give_up) {
+  if (weigh_ties(attempt.tie_weight)) return polish(run_.report.sweeps);
+  jitter(attempt.jitter);
+  EnergyPhase phase(work_, settings_, run_, attempt, may_give_up);
+  return run(phase, run_.next_sweep());
+}
+
 bool Driver::weigh_ties(double amount) {
   if (amount == 0) return false;
   recorder_.begin_sweep(run_.next_sweep());

@@ -18,13 +18,9 @@ class Driver {
   bool make_regular();
   /// Cuts edges of the boundary and of lines, when the options ask for it.
   void grade_boundary();
-  /// Moves free vertices by up to `amount` of their shortest edge: symmetric grids are stationary in their positions.
-  void jitter(double amount);
-  /// Makes the heavier ends of ties (ties.hpp) heavier by `amount` of their shortest edge squared, and flips: a sweep
-  /// of its own. True when that is all it takes: sweeps with a large γ would undo it.
-  bool weigh_ties(double amount);
-
-  /// Sweeps of one phase. `sweep`: whose mesh the working copy is. Returns the sweep whose mesh it is then.
+  /// One attempt on the input. Returns the sweep whose mesh the working copy is then. `may_give_up`: as EnergyPhase.
+  int attempt(const Attempt& attempt, bool may_give_up);
+  /// Sweeps of one phase. `sweep`: whose mesh the working copy is. Returns as above.
   int run(Phase& phase, int sweep);
 
   /// Local search for what all attempts have left bad. False when nothing was changed.
@@ -37,6 +33,11 @@ class Driver {
  private:
   using Verdict = Phase::Verdict;
 
+  /// Moves free vertices by up to `amount` of their shortest edge: symmetric grids are stationary in their positions.
+  void jitter(double amount);
+  /// Makes the heavier ends of ties (ties.hpp) heavier by `amount` of their shortest edge squared, and flips: a sweep
+  /// of its own. True when that is all it takes: sweeps with a large γ would undo it.
+  bool weigh_ties(double amount);
   void begin(Phase& phase, int sweep);
   Verdict sweep(Phase& phase);
   Verdict flip_if_deferred(Phase& phase, Verdict of_sweeps);

@@ -42,13 +42,7 @@ Expected<Candidate> best_attempt(const Mesh& mesh, Settings& settings, Run& run)
       tries = attempts(settings.energy, o, now.work.mesh, settings.hooks.executor);
       run.facts.input_flips = run.report.flips;
     }
-    if (driver.weigh_ties(tries[i].tie_weight)) {
-      now.sweep = driver.polish(run.report.sweeps);
-    } else {
-      driver.jitter(tries[i].jitter);
-      EnergyPhase phase(now.work, settings, run, tries[i], i + 1 < tries.size() || repairs(settings));
-      now.sweep = driver.run(phase, run.next_sweep());
-    }
+    now.sweep = driver.attempt(tries[i], i + 1 < tries.size() || repairs(settings));
     if (!best || !is_worse(now, *best, settings)) {
       best = std::move(now);
     } else {

@@ -185,7 +185,7 @@ def test_stubs_name_what_the_compiled_module_has():
 def test_the_names_of_energies_are_those_of_the_library():
     from typing import get_args
 
-    assert get_args(temper._options.EnergyName) == tuple(row.name for row in temper.energies())
+    assert get_args(temper._optimize_options.EnergyName) == tuple(row.name for row in temper.energies())
 
 
 def test_a_wrong_type_is_told_what_is_expected(ring):

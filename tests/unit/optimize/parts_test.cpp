@@ -39,10 +39,7 @@ SweptMesh swept(const Mesh& input, const OptimizeOptions& options, std::size_t p
   Driver driver(work, settings, run, part_size);
   EXPECT_TRUE(options.flips == Flips::none || driver.make_regular());
   driver.grade_boundary();
-  const Attempt attempt = attempts(settings.energy, options, work.mesh).front();
-  driver.jitter(attempt.jitter);
-  EnergyPhase phase(work, settings, run, attempt, false);
-  driver.run(phase, run.next_sweep());
+  driver.attempt(attempts(settings.energy, options, work.mesh).front(), false);
   return {std::move(work).in_user_terms(), run.report};
 }
 
