@@ -226,4 +226,11 @@ std::string command_line(const std::string& verb, const std::vector<std::string>
   return text;
 }
 
+void add_projection(Command& command, std::string& target) {
+  add_text(command, "--projection", "KIND[:lon,lat]|none", target,
+           "the map for points in longitude and latitude: stereographic, mercator or transverse-mercator about this "
+           "center (default: the middle of the points), to metres; a mesh that is written has degrees again; none: "
+           "coordinates are those of a plane, whatever they look like");
+}
+
 }  // namespace temper::app

@@ -132,4 +132,7 @@ struct UsedOption {
                                        const std::vector<UsedOption>& options);
 [[nodiscard]] std::string shell_quote(const std::string& word);
 
+/// --projection, of verbs that read a mesh in longitude and latitude (projection_option.hpp).
+void add_projection(Command& command, std::string& target);
+
 }  // namespace temper::app

@@ -6,13 +6,6 @@
 
 namespace temper::app {
 
-void add_projection(Command& command, std::string& target) {
-  add_text(command, "--projection", "KIND[:lon,lat]|none", target,
-           "the map for points in longitude and latitude: stereographic, mercator or transverse-mercator about this "
-           "center (default: the middle of the points), to metres; a mesh that is written has degrees again; none: "
-           "coordinates are those of a plane, whatever they look like");
-}
-
 std::string spell_projection(std::string message) {
   constexpr std::string_view kOption = "`projection`";
   const std::size_t at = message.find(kOption);

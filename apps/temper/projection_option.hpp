@@ -8,9 +8,6 @@
 
 namespace temper::app {
 
-/// --projection, of verbs that read a mesh.
-void add_projection(Command& command, std::string& target);
-
 /// The library's sentence with the option as it is called here.
 [[nodiscard]] std::string spell_projection(std::string message);
 
