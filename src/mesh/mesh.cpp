@@ -13,8 +13,9 @@ std::size_t Mesh::n_edges() const {
   return count;
 }
 
-/// Walks around both ends at once: one of them may have as many triangles as the mesh.
+/// Walks around both ends at once: one of them may have as many triangles as the mesh. Both may be any numbers.
 HalfedgeId Mesh::find_halfedge(VertexId a, VertexId b) const {
+  if (a.index >= n_vertices() || b.index >= n_vertices()) return {};
   const Star around_a = star(a), around_b = star(b);
   auto out = around_a.begin(), back = around_b.begin();
   for (; out != around_a.end() && back != around_b.end(); ++out, ++back) {

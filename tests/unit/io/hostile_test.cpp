@@ -8,15 +8,13 @@
 #include <cmath>
 
 #include "support.hpp"
+#include "support/sanitizers.hpp"
 
 namespace temper::io {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kSlower = 8, kLarger = 4;  // what sanitizers cost; tests are not compiled for speed, either
-#else
-constexpr int kSlower = 1, kLarger = 1;
-#endif
+// What sanitizers cost; tests are not compiled for speed, either.
+constexpr int kSlower = TEMPER_SANITIZED ? 8 : 1, kLarger = TEMPER_SANITIZED ? 4 : 1;
 constexpr int kSeconds = 5 * kSlower;
 constexpr long kKilobytes = (1L << 20) * kLarger;
 constexpr std::size_t kMegabyte = 1 << 20;
