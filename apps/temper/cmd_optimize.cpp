@@ -326,10 +326,10 @@ void print_result(const Settings& s, const Results& results, const Outputs& outp
   print(written + "\n");
 }
 
-/// Says whether edges are not regular that should be.
-bool lacks_flips(const Settings& s, const Mesh& mesh, Executor* executor) {
+/// Says whether edges are not regular that should be: `after` counts those that may not be flipped, too.
+bool lacks_flips(const Settings& s, const Quality& after, const Mesh& mesh, Executor* executor) {
   const OptimizeOptions& o = s.options();
-  return o.flips != Flips::none && o.paper.hidden != HiddenPolicy::keep &&
+  return after.non_regular_edges > 0 && o.flips != Flips::none && o.paper.hidden != HiddenPolicy::keep &&
          count_non_regular_edges(mesh, false, executor) > 0;
 }
 
@@ -356,7 +356,7 @@ Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs) {
   if (!s.quiet) print_result(s, results, outputs);
   const Stopped stopped = results.report.stopped;
   const bool early = stopped == Stopped::time_limit || stopped == Stopped::cancelled;
-  return early || lacks_flips(s, input.loaded.mesh, threads.get()) ? Exit::stopped_early : Exit::done;
+  return early || lacks_flips(s, results.after, input.loaded.mesh, threads.get()) ? Exit::stopped_early : Exit::done;
 }
 
 }  // namespace

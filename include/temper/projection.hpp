@@ -57,8 +57,8 @@ class LongitudeTurn {
 /// Length on the map over length on the sphere: the same in all directions.
 [[nodiscard]] double scale_factor(const Projection& projection, Vec2 lon_lat);
 
-/// The middle of places on the sphere: the direction of their sum.
-[[nodiscard]] Vec2 mean_place(std::span<const Vec2> lon_lat);
+/// The middle of places on the sphere: the direction of their sum. `shares`: of each in it; empty: the same.
+[[nodiscard]] Vec2 mean_place(std::span<const Vec2> lon_lat, std::span<const double> shares = {});
 
 /// The outline on the map. Errors, by its names: latitudes beyond the poles, longitudes beyond ±360, places that are
 /// infinitely far away, and pieces that are torn apart because the map ends between their ends.

@@ -14,6 +14,7 @@
 
 #include "feasibility/certify.hpp"
 #include "feasibility/constraints.hpp"
+#include "mesh/neighbours.hpp"
 #include "temper/geometry.hpp"
 #include "temper/regularity.hpp"
 #include "temper/topology.hpp"
@@ -106,16 +107,6 @@ Trial judge(const Mesh& mesh, const std::vector<Triple>& excused, LpSolver& solv
   const Bound bound = bound_margin(mesh, asked, solver);
   if (bound.best.status != LpStatus::optimal) return {};
   return {bound.best.margin, asked.size(), bound.best.margin > kCured && suits(mesh, asked, bound.best)};
-}
-
-double nearest_neighbour(const Mesh& mesh, VertexId v) {
-  double nearest = kUnbounded;
-  for (const HalfedgeId h : mesh.star(v)) {
-    for (const VertexId u : {mesh.target(h), mesh.opposite(h)}) {
-      nearest = std::min(nearest, length(mesh.position(u) - mesh.position(v)));
-    }
-  }
-  return nearest;
 }
 
 std::vector<Vec2> compass(std::optional<Vec2> along) {
@@ -220,7 +211,7 @@ class CureFinder {
         mesh.set_position(v, at);
         return std::optional<Mesh>(std::move(mesh));
       };
-      const double step = kFirstStep * nearest_neighbour(patch_.mesh, v);
+      const double step = kFirstStep * std::sqrt(squared_shortest_edge(patch_.mesh, v));
       const Place best = search(moved, v, patch_.mesh.position(v), step, std::nullopt);
       Cure cure;
       cure.action = Action::move_vertex;

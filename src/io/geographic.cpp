@@ -1,8 +1,8 @@
 #include "io/geographic.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 #include <unordered_map>
 
 #include "io/failure.hpp"
@@ -30,26 +30,11 @@ const std::vector<double>* doubles_of(const MeshFile& file, std::string_view nam
   return array != nullptr && array->components == 1 ? std::get_if<std::vector<double>>(&array->values) : nullptr;
 }
 
-constexpr double kRadians = std::numbers::pi / 180;
-
-struct Direction {
-  double x = 0, y = 0, z = 0;
-};
-Direction direction_of(Vec2 lon_lat) {
-  const double lon = lon_lat.x * kRadians, lat = lon_lat.y * kRadians;
-  return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
-}
-Vec2 lon_lat_of(Direction d) {
-  return {std::atan2(d.y, d.x) / kRadians, std::atan2(d.z, std::hypot(d.x, d.y)) / kRadians};
-}
-
 Vec2 between_corners(const Place& place, const std::vector<Vec2>& lon_lat) {
-  Direction sum;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(place.n); ++k) {
-    const Direction d = direction_of(lon_lat[place.corners[k].index]);
-    sum = {sum.x + place.shares[k] * d.x, sum.y + place.shares[k] * d.y, sum.z + place.shares[k] * d.z};
-  }
-  return lon_lat_of(sum);
+  const auto n = static_cast<std::size_t>(place.n);
+  std::array<Vec2, 3> corners;
+  for (std::size_t k = 0; k < n; ++k) corners[k] = lon_lat[place.corners[k].index];
+  return mean_place(std::span(corners).first(n), std::span(place.shares).first(n));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "geometry/between.hpp"
 #include "geometry/predicates_inline.hpp"
 
 namespace temper {
@@ -12,11 +13,6 @@ namespace {
 
 /// The order in which the line meets points: from left to right, and upwards where x is equal.
 bool is_before(Vec2 p, Vec2 q) { return p.x != q.x ? p.x < q.x : p.y < q.y; }
-
-/// p on the closed segment ab, given that the three are collinear.
-bool is_between(Vec2 a, Vec2 b, Vec2 p) {
-  return !is_before(p, std::min(a, b, is_before)) && !is_before(std::max(a, b, is_before), p);
-}
 
 bool segments_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const Sign abc = inlined::orient2d(a, b, c), abd = inlined::orient2d(a, b, d);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/between.hpp"
 #include "mesh/blocks.hpp"
 #include "mesh/boundary_sweep.hpp"
 #include "temper/geometry.hpp"
@@ -52,12 +53,6 @@ bool boundary_star_overlaps(const Mesh& mesh, VertexId v) {
   return false;
 }
 
-/// p on the closed segment ab, given that the three are collinear.
-bool within(Vec2 a, Vec2 b, Vec2 p) {
-  return std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
-         p.y <= std::max(a.y, b.y);
-}
-
 }  // namespace
 
 std::string edges_on_each_other(const Mesh& mesh, VertexId v, const InputNames& names) {
@@ -72,7 +67,7 @@ std::string edges_on_each_other(const Mesh& mesh, VertexId v, const InputNames& 
   for (std::size_t i = 0; i < ends.size(); ++i) {
     for (std::size_t j = i + 1; j < ends.size(); ++j) {
       const Vec2 a = mesh.position(ends[i]), b = mesh.position(ends[j]);
-      if (orient2d(p, a, b) != Sign::zero || !(within(p, a, b) || within(p, b, a))) continue;
+      if (orient2d(p, a, b) != Sign::zero || !(is_between(p, a, b) || is_between(p, b, a))) continue;
       return "the mesh touches itself at " + names.point(v.index) + ": its edges to " + names.point(ends[i].index) +
              " and " + names.point(ends[j].index) +
              " lie on each other (a hanging node, or an edge whose two sides are not joined)";

@@ -313,11 +313,13 @@ void Driver::keep_regular(int sweep) {
 
 /// The best mesh, if one is kept, else the last one that was regular.
 int Driver::return_regular(int last_sweep) {
-  if (best_) std::swap(best_, regular_), std::swap(best_sweep_, regular_sweep_);
-  if (!regular_) return last_sweep;
-  work_ = *std::exchange(regular_, std::nullopt);
-  recorder_.returned_to(regular_sweep_);
-  return regular_sweep_;
+  const bool has_best = best_.has_value();
+  std::optional<WorkingCopy>& kept = has_best ? best_ : regular_;
+  if (!kept) return last_sweep;
+  const int sweep = has_best ? best_sweep_ : regular_sweep_;
+  work_ = *std::exchange(kept, std::nullopt);
+  recorder_.returned_to(sweep);
+  return sweep;
 }
 
 void Driver::record(SweepRecord measured) {

@@ -1,6 +1,7 @@
 #include "optimize/report.hpp"
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -31,7 +32,8 @@ class Notes {
 
   void tell(const RunFacts& facts);
   void tell_what_was_returned(bool input, bool flipped);
-  void tell_what_became_worse(double bad_before);
+  void tell_if_more_are_bad(double bad_before);
+  void tell_what_is_not_regular();
   void tell_sizes();
   void tell_energy();
   void tell_edges_that_must_be_split();
@@ -83,15 +85,18 @@ void Notes::tell_what_was_returned(bool input, bool flipped) {
               : "no better mesh was found: the input is returned as it was");
 }
 
-/// HOT energies do not ask how many triangles are well-centered, and hidden vertices keep edges from being regular.
-/// `bad_before`: part of the input's triangles.
-void Notes::tell_what_became_worse(double bad_before) {
+/// HOT energies do not ask how many triangles are well-centered. `bad_before`: part of the input's.
+void Notes::tell_if_more_are_bad(double bad_before) {
   const auto percent = [](double part) { return to_text(std::round(1000 * part) / 10) + " %"; };
   const double bad = bad_part(mesh_, settings_);
   if (bad > bad_before) {
     add(percent(bad) + " of the triangles are not well-centered, " + percent(bad_before) + " of the input's: energy " +
         std::string(settings_.energy.name) + " does not ask for that, energy BP does");
   }
+}
+
+/// Hidden vertices that are kept keep edges from being regular.
+void Notes::tell_what_is_not_regular() {
   if (options_.paper.hidden != HiddenPolicy::keep) return;
   const std::size_t edges = count_non_regular_edges(mesh_, false, settings_.hooks.executor);
   if (edges > 0)
@@ -231,7 +236,8 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const AccuracySize
       o.size_field ? *o.size_field : input_size_field_of(mesh, settings.hooks.executor);  // seen until mesh is replaced
   report.size.before = report.size.after = measure_size(mesh, field, settings.hooks.executor);
   report.initial_energy = report.final_energy = before.energy;
-  const double bad_before = settings.energy.barrier ? 1 : bad_part(mesh, settings);
+  const std::optional<double> bad_before =
+      settings.energy.barrier ? std::nullopt : std::optional(bad_part(mesh, settings));
   Mesh regular;  // the input with its edges flipped, where that may be the better one
   const bool flips = (before < after || after.bad > 0) && lacks_flips(mesh, settings);
   if (flips) regular = made_regular(mesh, settings);
@@ -255,7 +261,8 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const AccuracySize
   Notes notes(mesh, settings, report);
   notes.tell(run.facts);
   notes.tell_what_was_returned(worse, flips);
-  notes.tell_what_became_worse(bad_before);
+  if (bad_before) notes.tell_if_more_are_bad(*bad_before);
+  notes.tell_what_is_not_regular();
   notes.tell_sizes();
   notes.tell_energy();
   notes.tell_edges_that_must_be_split();

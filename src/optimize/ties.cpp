@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/triangle_kernel.hpp"
+#include "mesh/neighbours.hpp"
 #include "optimize/step/freedom.hpp"
 #include "topology/flip_inline.hpp"
 
@@ -99,16 +100,6 @@ class Coloring {
   IdVector<VertexId, std::uint8_t> differs_;  // from the parent
 };
 
-double shortest_edge2(const Mesh& mesh, VertexId v) {
-  double least = kInfinity;
-  for (const HalfedgeId h : mesh.star(v)) {
-    for (const VertexId end : {mesh.target(h), mesh.opposite(h)}) {
-      least = std::min(least, squared_length(mesh.position(end) - mesh.position(v)));
-    }
-  }
-  return least;
-}
-
 }  // namespace
 
 bool has_tied_quads(const Mesh& mesh, const OptimizeOptions& options) {
@@ -141,7 +132,7 @@ std::vector<TieEnd> heavier_ends_of_ties(const Mesh& mesh, const OptimizeOptions
   for (const VertexId v : mesh.vertices()) {
     if (of_quads[v] == 0) continue;
     const auto p = coloring.place(v);
-    if (p.differs == (majority[p.root] < 0)) heavier.push_back({v, shortest_edge2(mesh, v)});
+    if (p.differs == (majority[p.root] < 0)) heavier.push_back({v, squared_shortest_edge(mesh, v)});
   }
   return heavier;
 }

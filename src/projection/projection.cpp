@@ -160,12 +160,13 @@ double scale_factor(const Projection& p, Vec2 lon_lat) {
   return 1;
 }
 
-Vec2 mean_place(std::span<const Vec2> lon_lat) {
+Vec2 mean_place(std::span<const Vec2> lon_lat, std::span<const double> shares) {
   double x = 0, y = 0, z = 0;
-  for (const Vec2 p : lon_lat) {
-    x += std::cos(p.y * kDegree) * std::cos(p.x * kDegree);
-    y += std::cos(p.y * kDegree) * std::sin(p.x * kDegree);
-    z += std::sin(p.y * kDegree);
+  for (std::size_t i = 0; i < lon_lat.size(); ++i) {
+    const double lon = lon_lat[i].x * kDegree, lat = lon_lat[i].y * kDegree, share = shares.empty() ? 1 : shares[i];
+    x += share * (std::cos(lat) * std::cos(lon));
+    y += share * (std::cos(lat) * std::sin(lon));
+    z += share * std::sin(lat);
   }
   if (x == 0 && y == 0 && z == 0) return {};
   return {std::atan2(y, x) / kDegree, std::atan2(z, std::hypot(x, y)) / kDegree};
