@@ -108,9 +108,9 @@ SHAPES = [
 # Options of a verb's run; {mesh} is the shape's file, {out} a place for what it writes.
 VERBS = {
     "check": "check {mesh}",
-    "convert": "convert {mesh} {out}.vtu",
+    "convert": "convert {mesh} -o {out}.vtu",
     "draw": "draw {mesh} -o {out}.svg",
-    "dec": "dec {mesh} -o {out}.npz",
+    "dec": "dec {mesh} -o {out}",
     "explain": "explain {mesh}",
     "optimize": "optimize {mesh} -o {out}.vtu --quiet",
     "optimize --repair vertices": "optimize {mesh} -o {out}.vtu --quiet --repair vertices",

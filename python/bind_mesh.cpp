@@ -266,16 +266,19 @@ io::DataArray from_python_array(const std::string& name, const py::array& array)
   return data;
 }
 
+/// The same of so many rows.
+io::DataArray from_python_array(const std::string& name, const py::array& array, std::size_t size, const char* kind) {
+  if (static_cast<std::size_t>(array.shape(0)) != size) {
+    fail(ErrorCode::size_mismatch, std::string(kind) + " '" + name + "': expected " + std::to_string(size) +
+                                       " values, found " + std::to_string(array.shape(0)));
+  }
+  return from_python_array(name, array);
+}
+
 std::vector<io::DataArray> from_python_dict(const py::dict& dict, std::size_t size, const char* kind) {
   std::vector<io::DataArray> arrays;
-  for (const auto& [name, value] : dict) {
-    const auto array = value.cast<py::array>();
-    if (static_cast<std::size_t>(array.shape(0)) != size) {
-      fail(ErrorCode::size_mismatch, std::string(kind) + " '" + name.cast<std::string>() + "': expected " +
-                                         std::to_string(size) + " values, found " + std::to_string(array.shape(0)));
-    }
-    arrays.push_back(from_python_array(name.cast<std::string>(), array));
-  }
+  for (const auto& [name, value] : dict)
+    arrays.push_back(from_python_array(name.cast<std::string>(), value.cast<py::array>(), size, kind));
   return arrays;
 }
 
@@ -334,11 +337,19 @@ UpdatedFile updated_file_of(const PyMesh& self, Executor* executor) {
 
 io::MeshFile file_of(const PyMesh& self, Executor* executor = nullptr) { return updated_file_of(self, executor).file; }
 
-/// Replaces the data of points and of triangles: the mesh is as if it came from a file with these.
-void set_data(PyMesh& self, const py::dict& points, const py::dict& cells) {
+/// Sets an array of point data or cell data, or with None takes it away: the mesh is as if it came from such a file.
+void set_data(PyMesh& self, bool of_points, const std::string& name, const py::object& values) {
   io::MeshFile file = file_of(self);
-  file.point_data = from_python_dict(points, file.points.size(), "point data");
-  file.cell_data = from_python_dict(cells, file.triangles.size(), "cell data");
+  std::vector<io::DataArray>& arrays = of_points ? file.point_data : file.cell_data;
+  auto array = std::find_if(arrays.begin(), arrays.end(), [&](const io::DataArray& a) { return a.name == name; });
+  if (values.is_none()) {
+    if (array == arrays.end()) throw py::key_error(name);
+    arrays.erase(array);
+  } else {
+    if (array == arrays.end()) array = arrays.insert(array, io::DataArray());
+    *array = from_python_array(name, values.cast<py::array>(), of_points ? file.points.size() : file.triangles.size(),
+                               of_points ? "point data" : "cell data");
+  }
   const auto source = source_of(std::move(file), {}, {}, nullptr);
   source->loaded.mesh = Mesh();
   self.set_source(source);

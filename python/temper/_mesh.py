@@ -93,19 +93,16 @@ class Data(MutableMapping[str, npt.NDArray[Any]]):
         array = data_of(name, values, refused)
         if not isinstance(name, str) or array is None:
             raise TypeError(f"{self._kind}: expected a name and an array of numbers, found {name!r} and {type(values).__name__}")
-        self._store({**_temper.file_as_dict(self._mesh._handle)[self._kind], name: array})
+        self._store(name, array)
 
     def __delitem__(self, name: str) -> None:
-        arrays = _temper.file_as_dict(self._mesh._handle)[self._kind]
-        del arrays[name]
-        self._store(arrays)
+        self._store(name, None)
 
     def __repr__(self) -> str:
         return repr(self._arrays)
 
-    def _store(self, arrays: dict[str, Any]) -> None:
-        file = {**_temper.file_as_dict(self._mesh._handle), self._kind: arrays}
-        _temper.set_data(self._mesh._handle, file["point_data"], file["cell_data"])
+    def _store(self, name: str, array: npt.NDArray[Any] | None) -> None:
+        _temper.set_data(self._mesh._handle, self._kind == "point_data", name, array)
         self._arrays = Data(self._mesh, self._kind)._arrays
 
 
