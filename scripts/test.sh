@@ -145,6 +145,10 @@ if ((!quick)) && stage "build (sanitizers, clang++)" configure_and_build asan; t
   suite "tests (sanitizers)" build/asan
   stage "fuzzing, without libFuzzer, 1 s a target" env -C build/asan tests/fuzz/fuzz_smoke 1
 fi
+# What runs on threads, and nothing else.
+if ((!quick)) && stage "build (ThreadSanitizer, clang++)" configure_and_build tsan --target threads; then
+  suite "threads (ThreadSanitizer)" build/tsan -R '^threads$'
+fi
 
 printf '\n%d s in all' "$SECONDS"
 if ((skipped > 0)); then printf '; %d skipped (they need meshes that are not in the repository)' "$skipped"; fi

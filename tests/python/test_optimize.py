@@ -35,6 +35,81 @@ def test_the_same_bits_for_any_number_of_threads():
     assert meshes[0] == meshes[1] == meshes[2]
 
 
+def at_once(*works):
+    """What the works return, each called in a thread of its own."""
+    results = [None] * len(works)
+
+    def run(i):
+        try:
+            results[i] = works[i]()
+        except Exception as error:
+            results[i] = error
+
+    threads = [threading.Thread(target=run, args=(i,)) for i in range(len(works))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    return results
+
+
+def test_two_threads_of_python_optimise_two_meshes_at_once():
+    alone = [temper.generate.random_points(3000, seed=seed) for seed in (1, 2)]
+    together = [mesh.copy() for mesh in alone]
+    for mesh in alone:
+        temper.optimize(mesh, max_sweeps=5, threads=1)
+    running, overlapped = set(), []
+
+    def optimised(mesh):
+        def observer(_):
+            running.add(id(mesh))
+            overlapped.append(len(running) == 2)
+
+        try:
+            temper.optimize(mesh, max_sweeps=5, threads=1, observer=observer)
+        finally:
+            running.discard(id(mesh))
+        return mesh
+
+    assert at_once(*[lambda mesh=mesh: optimised(mesh) for mesh in together]) == alone
+    assert any(overlapped), "one run waited for the other: the GIL is not released"
+
+
+def test_two_threads_of_python_look_at_one_mesh():
+    mesh = temper.generate.random_points(5000)
+    quality, energy = repr(temper.quality(mesh)), temper.total_energy(mesh)
+
+    def look():
+        for _ in range(5):
+            assert repr(temper.quality(mesh)) == quality and temper.total_energy(mesh) == energy
+        return temper.optimized(mesh, max_sweeps=2, threads=1)
+
+    first, second = at_once(look, look)
+    assert first == second and first != mesh
+
+
+def test_a_mesh_that_another_thread_optimises_shows_its_old_state_and_refuses_changes():
+    mesh = temper.generate.random_points(3000)
+    before, seen, begun, looked = mesh.copy(), [], threading.Event(), threading.Event()
+
+    def observer(_):
+        begun.set()
+        return looked.wait(60)
+
+    def look():
+        assert begun.wait(60)
+        seen.append(mesh == before)
+        try:
+            temper.optimize(mesh, max_sweeps=1)
+        except Exception as error:
+            seen.append(error)
+        looked.set()
+
+    report, _ = at_once(lambda: temper.optimize(mesh, max_sweeps=2, observer=observer), look)
+    assert report.sweeps == 2 and seen[0] and mesh != before
+    assert isinstance(seen[1], temper.TemperError) and "a call that has not returned" in str(seen[1])
+
+
 def test_the_same_bits_as_the_program(ring, in_scratch):
     program = in_scratch  # the program is on the path, where it was built
     temper.write("in.vtu", ring)
