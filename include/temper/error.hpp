@@ -34,6 +34,7 @@ enum class ErrorCode {
   hidden_vertex,        ///< weights that leave a vertex without power cell
   stopped,              ///< by the caller or a time limit, before there was a result
   trace_mismatch,       ///< an event of a trace that does not fit the mesh
+  checkpoint_mismatch,  ///< a checkpoint of a run with another mesh or other options
   not_writable,         ///< an output that cannot be written; nothing was changed
 };
 

@@ -85,6 +85,7 @@ class ZeroUntilSet {
   }
 
  private:
+  friend class MeshArchive;
   [[nodiscard]] bool is_zero() const {
     for (const T value : values_) {
       if (value != T()) return false;
@@ -204,6 +205,7 @@ class Mesh {
   friend bool operator==(const Mesh&, const Mesh&) = default;
 
  private:
+  friend class MeshArchive;
   friend class MeshBuilder;
   friend class MeshEditor;
   friend class MeshPermuter;

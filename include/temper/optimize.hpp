@@ -214,6 +214,11 @@ struct Snapshot {
   const IdVector<VertexId, VertexId>& vertices;  ///< number in the input of each vertex; invalid: inserted
 };
 
+/// Hears of each place of a run where it can be stopped and resumed: before a sweep, and before a repair of a place.
+/// state() makes the bytes for OptimizeHooks::resume. They take about as long to make as a copy of the mesh, some 100
+/// bytes a vertex, and several times that while attempts or repairs compare meshes.
+using StateListener = std::function<void(const std::function<std::string()>& state)>;
+
 /// What a run works with, and who listens: the result does not depend on any of it, unless the observer stops the run.
 struct OptimizeHooks {
   Executor* executor = nullptr;                         ///< threads for sweeps and sums
@@ -221,6 +226,11 @@ struct OptimizeHooks {
   Observer observer = {};                               ///< hears of the progress, and may stop the run
   Tracer tracer = {};                                   ///< sees every event of the run
   std::function<void(const Snapshot&)> snapshots = {};  ///< sees the mesh between sweeps; a copy each time
+  StateListener checkpoints = {};                       ///< may take the state of the run
+  /// A state that a run with the same mesh and options gave to `checkpoints`; empty: none. The run goes on from there
+  /// and ends with the same bytes; who listens hears what comes after it. Times are those of all runs together, but for
+  /// the time limit. Errors: no state, a damaged one, one of another version, mesh, or set of options.
+  std::string_view resume = {};
 };
 
 enum class Stopped {
@@ -265,7 +275,7 @@ struct OptimizeReport {
 /// triangles; edges that are not regular, unless hidden vertices are kept; for barriers, triangles that are not
 /// well-centered; for accuracy, whether margins are kept; the energy. So a HOT energy may leave more triangles not
 /// well-centered, which a note says. Errors, which leave the mesh as it was: a value out of range; weights that hide a
-/// vertex; a mesh outside the barrier of E_BH or E_BHs. O(sweeps · n).
+/// vertex; a mesh outside the barrier of E_BH or E_BHs; a state that cannot be resumed. O(sweeps · n).
 [[nodiscard]] Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options = {},
                                                 const OptimizeHooks& hooks = {});
 

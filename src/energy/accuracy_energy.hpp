@@ -53,6 +53,13 @@ class AccuracyFloors {
   /// Says whether t has one. A triangle without is no part of the barrier, and must stay as it is.
   [[nodiscard]] bool has(TriangleId t) const { return floor_[t] > 0; }
   [[nodiscard]] double operator[](TriangleId t) const { return floor_[t]; }
+  [[nodiscard]] std::size_t size() const { return floor_.size(); }
+
+  /// For an archive.
+  template <class Archive>
+  void visit(Archive& archive) {
+    archive(floor_);
+  }
 
  private:
   IdVector<TriangleId, double> floor_;

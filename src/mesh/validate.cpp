@@ -1,8 +1,8 @@
 // validate(): the invariants of the arrays, one sentence for the first that does not hold.
 #include <string>
 
+#include "mesh/connectivity.hpp"
 #include "temper/geometry.hpp"
-#include "temper/mesh.hpp"
 
 namespace temper {
 namespace {
@@ -40,29 +40,32 @@ std::optional<std::string> wrong_star(const Mesh& mesh, VertexId v, std::size_t 
 
 }  // namespace
 
+std::optional<std::string> broken_connectivity(const Mesh& mesh) {
+  IdVector<VertexId, std::uint32_t> incident(mesh.n_vertices(), 0);
+  bool any_erased = false;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.is_erased(Mesh::triangle(h))) {
+      any_erased = true;
+      continue;
+    }
+    if (auto wrong = wrong_halfedge(mesh, h)) return wrong;
+    ++incident[mesh.origin(h)];
+  }
+  for (const VertexId v : mesh.vertices()) {
+    const auto [x, y, w] = mesh.point(v);
+    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(w)) return text("vertex", v.index) + " is not finite";
+    if (any_erased && incident[v] == 0 && mesh.is_isolated(v)) continue;
+    if (auto wrong = wrong_star(mesh, v, incident[v])) return wrong;
+  }
+  return std::nullopt;
+}
+
 std::optional<std::string> Mesh::validate() const {
   if (corners_.size() % 3 != 0 || twins_.size() != corners_.size() || !constrained_.has_size(n_halfedges()) ||
       !regions_.has_size(n_triangles())) {
     return "arrays have different lengths";
   }
-  IdVector<VertexId, std::uint32_t> incident(n_vertices(), 0);
-  bool any_erased = false;
-  for (const HalfedgeId h : halfedges()) {
-    if (is_erased(triangle(h))) {
-      any_erased = true;
-      continue;
-    }
-    if (auto wrong = wrong_halfedge(*this, h)) return wrong;
-    ++incident[origin(h)];
-  }
-  for (const VertexId v : vertices()) {
-    const VertexRecord& r = record(v);
-    if (!std::isfinite(r.x) || !std::isfinite(r.y) || !std::isfinite(r.w)) {
-      return text("vertex", v.index) + " is not finite";
-    }
-    if (any_erased && incident[v] == 0 && is_isolated(v)) continue;
-    if (auto wrong = wrong_star(*this, v, incident[v])) return wrong;
-  }
+  if (auto broken = broken_connectivity(*this)) return broken;
   for (const TriangleId t : triangles()) {
     if (is_erased(t)) continue;
     const auto [a, b, c] = corners(t);

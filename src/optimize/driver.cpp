@@ -47,11 +47,13 @@ Driver::Driver(WorkingCopy& work, Settings& settings, Run& run, std::size_t part
 
 /// Algorithm 1.
 int Driver::run(Phase& phase, int first) {
-  begin(phase, first);
-  const int sweeps = run_.report.sweeps;
+  int sweeps = run_.report.sweeps;
+  const Resumable here(run_.checkpoints, first, sweeps, phase, *this);
+  if (!here.resumed()) begin(phase, first);
   Verdict verdict = Verdict::improving;
   do {    // outer iterations
     do {  // inner iterations
+      if (!run_.checkpoints.here()) return first;
       verdict = sweep(phase);
     } while (verdict == Verdict::improving &&
              !(defers_flips(settings_.options) && ++inner_ == settings_.options.paper.inner));
@@ -78,12 +80,12 @@ Driver::Verdict Driver::sweep(Phase& phase) {
   if (passed && !(newton_pass(phase) && run_.sweeps_left())) return Verdict::stopped;
   const double halfway = run_.report.history.back().energy;
   recorder_.begin_sweep(run_.report.sweeps + 1);
-  const bool whole = improve_all_vertices(phase.iteration);
+  const bool whole = improve_all_vertices(phase.iteration());
   const bool removed = flipper_.has_removed();
   if (removed) compact();
   shift_weights_to_anchor();
   TEMPER_ASSERT_SLOW(!keeps_regular(settings_.options) || count_non_regular_edges(mesh_, false) == 0);
-  ++phase.iteration;
+  ++phase.iteration();
   ++run_.report.sweeps;
   record(phase.measure());
   if (passed) phase.passed(halfway, run_.report.history.back().energy);
@@ -121,8 +123,8 @@ Driver::Verdict Driver::flip_if_deferred(Phase& phase, Verdict of_sweeps) {
 /// A sweep of its own, that makes one step of the stopping rule with the sweep after it. False when it was cut short.
 bool Driver::newton_pass(Phase& phase) {
   recorder_.begin_sweep(run_.report.sweeps + 1);
-  const bool whole = sweeper_.newton_pass(phase.iteration, run_);
-  ++phase.iteration;
+  const bool whole = sweeper_.newton_pass(phase.iteration(), run_);
+  ++phase.iteration();
   ++run_.report.sweeps;
   record(phase.measure());
   show(Snapshot::Moment::after_sweep, phase);
@@ -231,8 +233,11 @@ void Driver::jitter(double amount) {
 }
 
 int Driver::attempt(const Attempt& attempt, bool may_give_up) {
-  if (weigh_ties(attempt.tie_weight)) return polish(run_.report.sweeps);
-  jitter(attempt.jitter);
+  bool good = false;  // with the weights of ties alone
+  const Resumable here(run_.checkpoints, good);
+  if (!here.resumed()) good = weigh_ties(attempt.tie_weight);
+  if (good) return polish(run_.report.sweeps);
+  if (!here.resumed()) jitter(attempt.jitter);
   EnergyPhase phase(work_, settings_, run_, attempt, may_give_up);
   return run(phase, run_.next_sweep());
 }
@@ -257,6 +262,7 @@ bool Driver::repair(std::uint64_t seed) {
   EnergyPhase phase(work_, settings_, run_, kPolish, false);  // what repairs are told by
   RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed);
   bool changed = false;
+  const Resumable here(run_.checkpoints, search, changed, *this);
   while (run_.sweeps_left() && search.improve_one_place()) {
     grow();
     if (flipper_.has_removed()) compact();
@@ -270,8 +276,9 @@ bool Driver::repair(std::uint64_t seed) {
 }
 
 int Driver::polish(int sweep) {
-  const WorkingCopy before = work_;
-  const std::size_t bad = count_bad(mesh_, settings_.hooks.executor);
+  WorkingCopy before = work_;
+  std::size_t bad = count_bad(mesh_, settings_.hooks.executor);
+  const Resumable here(run_.checkpoints, before, bad, sweep);
   EnergyPhase phase(work_, settings_, run_, kPolish, false);
   const int last = run(phase, sweep);
   if (count_bad(mesh_, settings_.hooks.executor) <= bad) return last;

@@ -30,6 +30,8 @@ class Driver {
 
   [[nodiscard]] const Recorder& recorder() const { return recorder_; }
 
+  void visit(Archive& archive);
+
  private:
   using Verdict = Phase::Verdict;
 

@@ -104,8 +104,8 @@ bool EnergyPhase::stagnates() {
 /// Positions have converged before i_w: the weights' turn has come.
 bool EnergyPhase::goes_on_with_weights() {
   const OptimizeOptions& o = settings_.options;
-  if (o.unknowns != Unknowns::positions_and_weights || iteration >= o.paper.weights_from) return false;
-  iteration = o.paper.weights_from;
+  if (o.unknowns != Unknowns::positions_and_weights || iteration_ >= o.paper.weights_from) return false;
+  iteration_ = o.paper.weights_from;
   fall_ = kInfinity;  // of another problem
   passes_pay_ = true;
   return true;

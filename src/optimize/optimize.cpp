@@ -3,8 +3,8 @@
 
 #include <cmath>
 #include <optional>
-#include <span>
 #include <utility>
+#include <vector>
 
 #include "energy/whole_mesh.hpp"
 #include "optimize/accuracy/accuracy_phase.hpp"
@@ -24,25 +24,45 @@ bool is_worse(const Candidate& a, const Candidate& b, const Settings& settings) 
   return rank(b.work.mesh, settings) < rank(a.work.mesh, settings);
 }
 
+/// The stage of a run: attempts from the input, repairs of the best of them, the second objective.
+enum class Stage { attempts, repairs, accuracy };
+
 bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.hooks.executor) > 0; }
+
+/// The input made regular, and its boundary cut, as every attempt begins.
+std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Settings& settings) {
+  if (settings.options.flips != Flips::none && !driver.make_regular()) {
+    return hidden_vertices_error(input, settings.hooks.names);
+  }
+  driver.grade_boundary();
+  return std::nullopt;
+}
 
 /// Attempts from the input until one leaves nothing bad; the best of them.
 Expected<Candidate> best_attempt(const Mesh& mesh, Settings& settings, Run& run) {
   const OptimizeOptions& o = settings.options;
   std::optional<Candidate> best;
-  std::span<const Attempt> tries;
-  for (std::size_t i = 0; i == 0 || i < tries.size(); ++i) {
-    Candidate now{WorkingCopy(mesh, o.paper.order, settings.hooks.executor)};
+  Candidate now;
+  std::vector<Attempt> tries(1);
+  std::size_t i = 0;
+  const Resumable here(run.checkpoints, best, now, tries, i);
+  if (run.checkpoints.failed() || i >= tries.size()) return *run.checkpoints.error();
+  for (; i < tries.size(); ++i) {
+    const bool begins = !run.checkpoints.resumes();
+    if (begins) now = {WorkingCopy(mesh, o.paper.order, settings.hooks.executor)};
     Driver driver(now.work, settings, run);
-    if (i > 0) driver.recorder().returned_to(-1);
-    if (o.flips != Flips::none && !driver.make_regular()) return hidden_vertices_error(mesh, settings.hooks.names);
-    driver.grade_boundary();
-    if (i == 0) {
+    if (begins && i > 0) driver.recorder().returned_to(-1);
+    if (begins) {
+      if (auto error = prepare(driver, mesh, settings)) return *std::move(error);
+    }
+    if (begins && i == 0) {
       if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
-      tries = attempts(settings.energy, o, now.work.mesh, settings.hooks.executor);
+      const auto all = attempts(settings.energy, o, now.work.mesh, settings.hooks.executor);
+      tries.assign(all.begin(), all.end());
       run.facts.input_flips = run.report.flips;
     }
     now.sweep = driver.attempt(tries[i], i + 1 < tries.size() || repairs(settings));
+    if (auto error = run.checkpoints.error()) return *std::move(error);
     if (!best || !is_worse(now, *best, settings)) {
       best = std::move(now);
     } else {
@@ -58,14 +78,22 @@ Candidate repaired(Candidate start, Settings& settings, Run& run) {
   const auto is_done = [&](const Candidate& c) {
     return !run.goes_on() || run.repair_trials_left <= 0 || !has_bad(c, settings);
   };
-  if (!repairs(settings) || is_done(start) || !std::isfinite(total_energy(start.work.mesh, settings.model))) {
-    return start;
+  Candidate best, now;
+  std::uint64_t i = 0;
+  bool polishes = false;
+  const Resumable here(run.checkpoints, start, best, now, i, polishes);
+  if (!here.resumed()) {
+    if (!repairs(settings) || is_done(start) || !std::isfinite(total_energy(start.work.mesh, settings.model))) {
+      return start;
+    }
+    best = start;
   }
-  Candidate best = start;
-  for (std::uint64_t i = 0; i < kSearches && !is_done(best); ++i) {
-    Candidate now = start;
+  for (; !polishes && i < kSearches; ++i) {
+    const bool begins = !run.checkpoints.resumes();
+    if (begins && is_done(best)) break;
+    if (begins) now = start;
     Driver driver(now.work, settings, run);
-    if (best.sweep != start.sweep) driver.recorder().returned_to(start.sweep);
+    if (begins && best.sweep != start.sweep) driver.recorder().returned_to(start.sweep);
     const bool changed = driver.repair(settings.options.paper.seed + i);
     now.sweep = run.report.sweeps;
     if (changed && !is_worse(now, best, settings)) {
@@ -74,7 +102,8 @@ Candidate repaired(Candidate start, Settings& settings, Run& run) {
       driver.recorder().returned_to(best.sweep);
     }
   }
-  if (run.goes_on()) best.sweep = Driver(best.work, settings, run).polish(best.sweep);
+  polishes = true;
+  if (run.checkpoints.resumes() || run.goes_on()) best.sweep = Driver(best.work, settings, run).polish(best.sweep);
   return best;
 }
 
@@ -98,19 +127,35 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
   if (!settings) return settings.error();
   settings->size_field = field_of_band(mesh, options, hooks.executor);
 
-  auto best = is_ready_for_accuracy(mesh, options, hooks.executor)
-                  ? Candidate{WorkingCopy(mesh, options.paper.order, hooks.executor)}
-                  : best_attempt(mesh, *settings, run);
-  if (!best) return best.error();
-  best = repaired(*std::move(best), *settings, run);
+  auto checkpoints = Checkpoints::of(hooks, options, mesh);
+  if (!checkpoints) return checkpoints.error();
+  run.checkpoints = *std::move(checkpoints);
+
+  auto stage = Stage::attempts;
+  Candidate best;
+  const Resumable here(run.checkpoints, run, *settings, stage, best);
+  if (run.checkpoints.failed()) return *run.checkpoints.error();
+  if (stage == Stage::attempts) {
+    auto found = is_ready_for_accuracy(mesh, options, hooks.executor)
+                     ? Candidate{WorkingCopy(mesh, options.paper.order, hooks.executor)}
+                     : best_attempt(mesh, *settings, run);
+    if (!found) return found.error();
+    best = *std::move(found);
+    stage = Stage::repairs;
+  }
+  if (stage == Stage::repairs) {
+    best = repaired(std::move(best), *settings, run);
+    stage = Stage::accuracy;
+  }
   std::optional<AccuracySizes> sizes;
   if (options.objective == Objective::accuracy) {
     sizes.emplace(mesh, options.size_field, hooks.executor);
-    AccuracyPhase phase(best->work, *settings, run, *sizes);
+    AccuracyPhase phase(best.work, *settings, run, *sizes);
     const bool goes_on = !run.stopped_by_caller() && run.report.stopped != Stopped::hidden;
-    if (goes_on) best->sweep = Driver(best->work, phase.settings(), run).run(phase, best->sweep);
+    if (goes_on) best.sweep = Driver(best.work, phase.settings(), run).run(phase, best.sweep);
   }
-  give_back(mesh, *std::move(best), *std::move(settings), sizes ? &*sizes : nullptr, run);
+  if (auto error = run.checkpoints.error()) return *std::move(error);
+  give_back(mesh, std::move(best), *std::move(settings), sizes ? &*sizes : nullptr, run);
   return std::move(run.report);
 }
 

@@ -35,8 +35,9 @@ class Phase {
   /// Learns what the last pass and the sweep after it left of the energy.
   virtual void passed(double /*after_pass*/, double /*after_sweep*/) {}
   [[nodiscard]] virtual Keeps keeps() const = 0;
-
-  int iteration = 0;  ///< the paper's i: sweeps of this phase
+  /// The paper's i: sweeps of this phase.
+  virtual int& iteration() = 0;
+  virtual void visit(Archive& archive) = 0;
 };
 
 /// Lowers an energy of the registry: one attempt, or a polish.
@@ -55,6 +56,8 @@ class EnergyPhase final : public Phase {
   [[nodiscard]] bool wants_newton_pass() const override;
   void passed(double after_pass, double after_sweep) override;
   [[nodiscard]] Keeps keeps() const override { return settings_.energy.barrier ? Keeps::last : Keeps::best_sweep; }
+  int& iteration() override { return iteration_; }
+  void visit(Archive& archive) override;
 
  private:
   [[nodiscard]] bool has_margins() const;
@@ -65,6 +68,7 @@ class EnergyPhase final : public Phase {
   Settings& settings_;
   Run& run_;
   double energy_unit_;
+  int iteration_ = 0;
   Softener softener_;
   bool may_give_up_;
   double fewer_;

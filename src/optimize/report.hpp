@@ -12,6 +12,7 @@ struct Candidate {
   WorkingCopy work;
   int sweep = 0;
 };
+void visit(Archive& archive, Candidate& candidate);
 
 /// Puts the candidate into `mesh`, unless that is the better one, and completes the report of the run. `sizes`: of the
 /// accuracy objective, else null.

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "optimize/checkpoints.hpp"
 #include "optimize/repair/grading.hpp"
 #include "optimize/step/flipper.hpp"
 #include "temper/optimize.hpp"
@@ -27,7 +28,8 @@ class Run {
   Run(const OptimizeOptions& options, const Observer& observer)
       : repair_trials_left(options.repair_trials), options_(options), observer_(observer), start_(Clock::now()) {}
 
-  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  /// Since the start, and in the runs that this one goes on with.
+  [[nodiscard]] double seconds() const { return earlier_seconds_ + seconds_here(); }
   [[nodiscard]] bool sweeps_left() const { return report.sweeps < options_.max_sweeps; }
   /// The number of the next sweep; 0 before the first, while the input is made regular.
   [[nodiscard]] int next_sweep() const { return report.sweeps == 0 ? 0 : report.sweeps + 1; }
@@ -48,13 +50,18 @@ class Run {
   OptimizeReport report;
   RunFacts facts;
   int repair_trials_left;
+  Checkpoints checkpoints;
 
  private:
+  friend void visit(Archive& archive, Run& run);
   using Clock = std::chrono::steady_clock;
+
+  [[nodiscard]] double seconds_here() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   const OptimizeOptions& options_;
   const Observer& observer_;
   Clock::time_point start_;
+  double earlier_seconds_ = 0;
 };
 
 }  // namespace temper

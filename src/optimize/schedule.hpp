@@ -11,6 +11,7 @@
 
 #include <span>
 
+#include "base/archive.hpp"
 #include "temper/energy.hpp"
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
@@ -29,6 +30,8 @@ struct Attempt {
   double fewer = 1;         ///< it is given up when bad triangles do not become fewer than this part of them for long
   double tie_weight = 0;    ///< added before it to the heavier ends of ties, relative to their shortest edge squared
 };
+
+void visit(Archive& archive, Attempt& attempt);
 
 /// Over-relaxation at the last γ.
 inline constexpr double kRelaxation = 1.7;
@@ -61,6 +64,8 @@ class Softener {
   [[nodiscard]] bool settled() const { return settled_; }
   /// Says whether the energy before the next sweep will be asked for.
   [[nodiscard]] bool compares_energies() const { return settled_ || (gamma_shrinks_ && attempt_.level_sweeps > 1); }
+
+  void visit(Archive& archive);
 
  private:
   Attempt attempt_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/archive.hpp"
 #include "energy/accuracy_energy.hpp"
 #include "optimize/frame.hpp"
 #include "temper/optimize.hpp"
@@ -29,6 +30,8 @@ struct Settings {
   OptimizeHooks hooks;
   std::optional<SizeField> size_field;  ///< that a size band is around, in the user's units; absent without one
 };
+
+void visit(Archive& archive, Settings& settings);
 
 /// Flips wait for the end of the inner iterations, so that edges may meanwhile not be regular.
 [[nodiscard]] inline bool defers_flips(const OptimizeOptions& o) { return o.flips == Flips::deferred; }

@@ -4,6 +4,7 @@
 // that was never used. A mesh that is never compacted, as in a replay, has them in the slots of these numbers.
 #pragma once
 
+#include "base/archive.hpp"
 #include "optimize/frame.hpp"
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
@@ -19,6 +20,8 @@ struct WorkingCopy {
   std::size_t n_vertices_named = 0;   ///< numbers given so far, input included; never given again
   std::size_t n_triangles_named = 0;  ///< the same of the user's triangle slots
 
+  /// Of no mesh.
+  WorkingCopy() = default;
   WorkingCopy(const Mesh& user, SweepOrder sweeps, Executor* executor = nullptr);
   /// The working copy of a part of a mesh that is in its frame already: every number and coordinate is its own name.
   [[nodiscard]] static WorkingCopy part(const Mesh& part);
@@ -40,5 +43,6 @@ struct WorkingCopy {
  private:
   WorkingCopy(const Mesh& part, const Frame& its_frame);
 };
+void visit(Archive& archive, WorkingCopy& work);
 
 }  // namespace temper

@@ -42,7 +42,7 @@ void AccuracyPhase::begin() {
 }
 
 bool AccuracyPhase::may_sweep() const {
-  const bool sweeps_left = iteration < settings_.options.accuracy.sweeps;
+  const bool sweeps_left = iteration_ < settings_.options.accuracy.sweeps;
   if (!sweeps_left) run_.report.stopped = Stopped::accuracy_sweeps;
   return sweeps_left && run_.sweeps_left();
 }

@@ -24,6 +24,8 @@ class AccuracyPhase final : public Phase {
   Verdict judge(bool removed) override;
   void compare_from_here() override {}
   [[nodiscard]] Keeps keeps() const override { return Keeps::best; }
+  int& iteration() override { return iteration_; }
+  void visit(Archive& archive) override;
 
  private:
   [[nodiscard]] AccuracyTotal sum() const;
@@ -33,6 +35,7 @@ class AccuracyPhase final : public Phase {
   Settings settings_;
   Run& run_;
   double energy_unit_;
+  int iteration_ = 0;
   std::size_t bad_;             // all through the phase
   AccuracyTotal before_, now_;  // the last sweep
 };

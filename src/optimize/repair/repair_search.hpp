@@ -27,6 +27,8 @@ class RepairSearch {
   /// asked to stop. Removed vertices stay isolated until the caller compacts, which it must before the next call.
   bool improve_one_place();
 
+  void visit(Archive& archive);
+
  private:
   struct Tried {
     Edit edit;

@@ -61,6 +61,8 @@ class Flipper {
   [[nodiscard]] const Changes& changes() const { return changes_; }
   [[nodiscard]] bool has_removed() const { return changes_.removed > 0; }
 
+  void visit(Archive& archive);
+
  private:
   LawsonRun run(std::optional<double>& change, std::size_t max_flips, SizeBand* band = nullptr, const Part& part = {});
   void push_irregular();

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/archive.hpp"
 #include "energy/patch.hpp"
 #include "optimize/frame.hpp"
 #include "temper/size.hpp"
@@ -39,6 +40,8 @@ class SizeBand {
   /// The mesh has been compacted, or has new vertices: its last ones.
   void renumber(const Compaction& kept);
   void grow();
+
+  void visit(Archive& archive);
 
  private:
   void sample(VertexId v);

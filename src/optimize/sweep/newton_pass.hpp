@@ -36,6 +36,8 @@ class NewtonPass {
   /// One pass. Before it, every triangle of the mesh is well-centered.
   void run(Unknowns unknowns, StopToken& stop);
 
+  void visit(Archive& archive);
+
  private:
   /// The storage of one part while it runs.
   struct Worker {

@@ -65,6 +65,8 @@ class Sweeper {
   void renumber(const Compaction& kept) { limits_.renumber(kept); }
   void grow() { limits_.grow(); }
 
+  void visit(Archive& archive);
+
  private:
   [[nodiscard]] Executor& executor();
   void add_changes();
