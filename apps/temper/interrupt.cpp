@@ -1,27 +1,51 @@
 #include "interrupt.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
+#include <string_view>
+
+#include "temper/io.hpp"
 
 namespace temper::app {
 namespace {
 
 volatile std::sig_atomic_t signal_seen = 0;
 
+void handle(int signal, void (*handler)(int), int flags) {
+  struct sigaction before = {}, action = {};
+  sigaction(signal, nullptr, &before);
+  if (before.sa_handler == SIG_IGN) return;
+  action.sa_handler = handler;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = flags;
+  sigaction(signal, &action, nullptr);
+}
+
+extern "C" void end_program(int signal) {
+  io::discard_unfinished();
+  constexpr std::string_view kMessage =
+      "\ntemper: stopped by a signal; a file that was not finished is as it was before\n";
+  static_cast<void>(!write(STDERR_FILENO, kMessage.data(), kMessage.size()));  // nobody may be there to read it
+  raise(signal);                                                               // which has its first meaning again
+}
+
+void end_on(int signal) { handle(signal, end_program, static_cast<int>(SA_RESETHAND | SA_NODEFER)); }
+
 extern "C" void note_signal(int) {
   signal_seen = 1;
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  end_on(SIGINT);
+  end_on(SIGTERM);
 }
 
 }  // namespace
 
+void end_on_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) end_on(signal);
+}
+
 void catch_interrupts() {
-  struct sigaction action = {};
-  action.sa_handler = note_signal;
-  sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESTART;  // a write under way is not cut short
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM}) handle(signal, note_signal, SA_RESTART);  // no write is cut short
 }
 
 bool interrupted() { return signal_seen != 0; }

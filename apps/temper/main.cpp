@@ -7,12 +7,17 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
 #include "console.hpp"
 #include "help.hpp"
+#include "interrupt.hpp"
 #include "suggest.hpp"
+#include "temper/io.hpp"
 #include "threads.hpp"
 #include "verbs.hpp"
 
@@ -77,6 +82,23 @@ int internal_error(std::string_view what) {
   return static_cast<int>(Exit::internal);
 }
 
+/// What is thrown where nothing may be, such as by an allocation that fails while something is destroyed: nothing more
+/// can be undone, but files that are not finished go, and the message is the same.
+[[noreturn]] void end_on_terminate() {
+  io::discard_unfinished();
+  const char* message = "temper: error: internal error, in a place that cannot fail; please report that\n";
+  if (std::current_exception()) {
+    try {
+      throw;
+    } catch (const std::bad_alloc&) {
+      message = "temper: error: out of memory\n";
+    } catch (...) {
+    }
+  }
+  std::fputs(message, stderr);
+  std::_Exit(static_cast<int>(Exit::internal));
+}
+
 }  // namespace
 }  // namespace temper::app
 
@@ -85,6 +107,9 @@ int main(int argc, char** argv) {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 1 << 20);  // arrays that are freed after reading go back to the system
 #endif
+  std::set_terminate(end_on_terminate);
+  end_on_signals();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
   try {
     const Exit exit = run(Arguments(argv + std::min(argc, 1), argv + argc));
     flush_output();

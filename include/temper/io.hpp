@@ -114,6 +114,10 @@ struct Format {
 /// Any text to a file, by the same temporary-and-rename.
 [[nodiscard]] Expected<void> write_text(const std::string& path, std::string_view text);
 
+/// Removes the temporary files of all writes under way: for the handler of a signal that ends the program, in which it
+/// may be called. What is written meanwhile comes to nothing.
+void discard_unfinished() noexcept;
+
 /// Text too long to be held, written as it comes, by the same temporary-and-rename: nothing is at path before commit(),
 /// and nothing is left of it when there is none.
 class TextStream {

@@ -1,10 +1,14 @@
 // See output.hpp.
 #include "io/output.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 namespace temper::io {
 
@@ -14,22 +18,20 @@ namespace {
 
 constexpr std::size_t kBuffer = std::size_t{1} << 18;
 
-struct Temporary {
-  std::FILE* file = nullptr;  // null: errno says why
-  std::string path;
-};
-
-/// Creates a file beside `target` that did not exist before.
-Temporary create_beside(const std::string& target) {
-  constexpr int kTries = 1000;  // each name is free unless a run was killed while it wrote
-  for (int i = 0; i < kTries; ++i) {
-    std::string path = text(target, ".tmp", i);
-    std::FILE* file = std::fopen(path.c_str(), "wbx");
-    if (file != nullptr) return {file, std::move(path)};
-    if (errno != EEXIST) break;
+/// False: errno says why.
+bool write_all(int file, const char* bytes, std::size_t n) {
+  while (n > 0) {
+    const ssize_t written = ::write(file, bytes, n);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes += written;
+    n -= static_cast<std::size_t>(written);
   }
-  return {};
+  return true;
 }
+
+/// A disk that is full or broken may say so only now. Some file systems cannot be asked.
+bool reach_disk(int file) { return fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS; }
 
 }  // namespace
 
@@ -42,20 +44,17 @@ Output::Output(std::string path) : path_(std::move(path)), target_(path_), buffe
   }
   const bool direct = fs::exists(status) && !fs::is_regular_file(status);
   if (direct) {
-    file_ = std::fopen(target_.c_str(), "wb");
+    file_ = ::open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
   } else {
-    Temporary temporary = create_beside(target_);
-    file_ = temporary.file;
-    temporary_ = std::move(temporary.path);
+    temporary_ = Temporary::beside(target_);
+    file_ = temporary_.exists() ? temporary_.open() : -1;
   }
-  if (file_ == nullptr) fail(ErrorCode::not_writable, path_, text("cannot be written: ", std::strerror(errno)));
-  std::setvbuf(file_, nullptr, _IONBF, 0);
-  if (fs::is_regular_file(status) && !temporary_.empty()) fs::permissions(temporary_, status.permissions(), error);
+  if (file_ < 0) fail(ErrorCode::not_writable, path_, text("cannot be written: ", std::strerror(errno)));
+  if (fs::is_regular_file(status)) fs::permissions(temporary_.path(), status.permissions(), error);
 }
 
 Output::~Output() {
-  if (file_ != nullptr) std::fclose(file_);
-  if (!temporary_.empty()) std::remove(temporary_.c_str());
+  if (file_ >= 0) ::close(file_);
 }
 
 void Output::put(std::string_view bytes) {
@@ -69,28 +68,23 @@ void Output::put(std::string_view bytes) {
 }
 
 void Output::flush() {
-  if (std::fwrite(buffer_.data(), 1, used_, file_) != used_) fail_writing("cannot be written");
+  if (!write_all(file_, buffer_.data(), used_)) fail_writing("cannot be written");
   used_ = 0;
 }
 
 void Output::close() {
   flush();
-  std::FILE* file = file_;
-  file_ = nullptr;
-  if (std::fclose(file) != 0) fail_writing("cannot be written");
+  if (temporary_.exists() && !reach_disk(file_)) fail_writing("cannot be written");
+  if (::close(std::exchange(file_, -1)) != 0 && errno != EINTR) fail_writing("cannot be written");
 }
 
 void Output::commit() {
-  if (temporary_.empty()) return;
-  std::error_code error;
-  fs::rename(temporary_, target_, error);
-  if (error) fail(ErrorCode::not_writable, path_, text("cannot be replaced: ", error.message()));
-  temporary_.clear();
+  if (temporary_.exists() && !temporary_.rename_to(target_)) fail_writing("cannot be replaced");
 }
 
-void Output::fail_writing(const char* doing) {
+void Output::fail_writing(const char* doing) const {
   const int code = errno;
-  const char* kept = temporary_.empty() ? "" : "; what was there before is unchanged";
+  const char* kept = !temporary_.exists() ? "" : "; what was there before is unchanged";
   fail(ErrorCode::not_writable, path_, text(doing, ": ", std::strerror(code), kept));
 }
 
@@ -101,7 +95,16 @@ Output& OutputSet::open(const std::string& path) {
 
 void OutputSet::commit() {
   for (auto& output : outputs_) output->close();
-  for (auto& output : outputs_) output->commit();
+  std::string replaced;
+  for (auto& output : outputs_) {
+    try {
+      output->commit();
+    } catch (Failure& failure) {
+      if (!replaced.empty()) failure.error.message += "; written before that: " + replaced;
+      throw;
+    }
+    replaced += (replaced.empty() ? "" : ", ") + output->path();
+  }
 }
 
 }  // namespace temper::io

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <charconv>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "io/failure.hpp"
+#include "io/temporary.hpp"
 
 namespace temper::io {
 
@@ -26,6 +26,9 @@ class Output {
     if (used_ == buffer_.size()) flush();
     buffer_[used_++] = c;
   }
+  /// As the user gave it.
+  [[nodiscard]] const std::string& path() const { return path_; }
+
   void put(std::string_view bytes);
   /// Shortest text that reads back to the same bits.
   template <class T>
@@ -50,14 +53,14 @@ class Output {
  private:
   friend class OutputSet;
   void flush();
-  void close();   // all bytes are in the temporary file, or Failure
+  void close();   // all bytes are in the temporary file and on the disk, or Failure
   void commit();  // the temporary takes the place of the target
-  [[noreturn]] void fail_writing(const char* doing);
+  [[noreturn]] void fail_writing(const char* doing) const;
 
-  std::string path_;       // as the user gave it
-  std::string target_;     // what it stands for, links resolved
-  std::string temporary_;  // empty: written directly
-  std::FILE* file_ = nullptr;
+  std::string path_;
+  std::string target_;   // what it stands for, links resolved
+  Temporary temporary_;  // none: written directly
+  int file_ = -1;
   std::vector<char> buffer_;
   std::size_t used_ = 0;
 };

@@ -293,12 +293,14 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
 }
 
 Expected<std::vector<std::string>> files_to_write(const std::string& path, const std::string& format) {
-  return guarded<std::vector<std::string>>(path, [&] {
+  try {
     const FormatRow& row = row_to_write(path, format);
     std::vector<std::string> files = row.files == nullptr ? std::vector<std::string>{path} : row.files(path);
     if ((row.holds & kWeights) == 0) files.push_back(side_file_path(path));
     return files;
-  });
+  } catch (Failure& failure) {
+    return std::move(failure.error);
+  }
 }
 
 Expected<void> write_text(const std::string& path, std::string_view content) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <new>
 
 #include "temper/lp.hpp"
 
@@ -171,6 +172,8 @@ class ClpSolver final : public LpSolver {
     // Clp throws CoinError on what it takes for misuse; to the caller it has then just failed.
     try {
       return solve_carefully(problem);
+    } catch (const std::bad_alloc&) {
+      throw;  // which is nothing that is true of the problem
     } catch (const std::exception&) {
       return {};
     } catch (...) {

@@ -1,6 +1,8 @@
 // Output is whole or not at all.
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 
@@ -86,6 +88,47 @@ TEST_F(FileTest, a_link_stays_a_link_and_permissions_stay) {
   EXPECT_TRUE(slurp(path("real.vtu")).starts_with("<?xml"));
   EXPECT_EQ(std::filesystem::status(path("real.vtu")).permissions(),
             std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+}
+
+TEST_F(FileTest, what_a_killed_run_left_is_removed_by_the_next_one) {
+  const pid_t child = fork();
+  if (child == 0) {
+    auto stream = TextStream::open(path("a.svg"));
+    stream->write(std::string(1000000, 'x'));
+    raise(SIGKILL);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(files(), std::vector<std::string>{"a.svg.tmp0"});
+  ASSERT_TRUE(write_text(path("a.svg"), "whole"));
+  EXPECT_EQ(files(), std::vector<std::string>{"a.svg"});
+  EXPECT_EQ(slurp(path("a.svg")), "whole");
+}
+
+TEST_F(FileTest, two_runs_that_write_one_file_do_not_meet) {
+  auto first = TextStream::open(path("a.svg")), second = TextStream::open(path("a.svg"));
+  ASSERT_TRUE(first && second);
+  first->write("first");
+  second->write("second");
+  EXPECT_EQ(files(), (std::vector<std::string>{"a.svg.tmp0", "a.svg.tmp1"}));
+  EXPECT_TRUE(first->commit());
+  EXPECT_EQ(slurp(path("a.svg")), "first");
+  EXPECT_TRUE(second->commit());
+  EXPECT_EQ(slurp(path("a.svg")), "second");
+}
+
+TEST_F(FileTest, what_is_unfinished_can_be_discarded) {
+  make("a.svg", "old");
+  auto stream = TextStream::open(path("a.svg"));
+  ASSERT_TRUE(stream);
+  stream->write("new");
+  discard_unfinished();
+  EXPECT_EQ(files(), std::vector<std::string>{"a.svg"});
+  const auto result = stream->commit();
+  ASSERT_FALSE(result);
+  EXPECT_EQ(plain(result.error().what()),
+            "a.svg: cannot be replaced: No such file or directory; what was there before is unchanged");
+  EXPECT_EQ(slurp(path("a.svg")), "old");
 }
 
 TEST_F(FileTest, text_is_written_whole) {

@@ -1,0 +1,136 @@
+// See temporary.hpp.
+#include "io/temporary.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+#include "io/failure.hpp"
+#include "temper/io.hpp"
+
+namespace temper::io {
+
+namespace {
+
+constexpr std::size_t kEntries = 32, kNoEntry = kEntries;  // more at once than any format writes
+
+/// The list of what is to be removed when the program ends, where the handler of a signal may read it: no storage that
+/// is ever freed.
+struct Entry {
+  enum State : int { free, being_written, listed };
+  std::atomic<int> state = free;
+  std::array<char, PATH_MAX> path = {};
+};
+std::array<Entry, kEntries> entries;
+
+/// A path that the list has no room for stays where it is when the program ends: the next run takes it.
+std::size_t enter(const std::string& path) {
+  if (path.size() >= PATH_MAX) return kNoEntry;
+  for (std::size_t i = 0; i < kEntries; ++i) {
+    int expected = Entry::free;
+    if (!entries[i].state.compare_exchange_strong(expected, Entry::being_written)) continue;
+    std::memcpy(entries[i].path.data(), path.c_str(), path.size() + 1);
+    entries[i].state = Entry::listed;
+    return i;
+  }
+  return kNoEntry;
+}
+
+void strike(std::size_t entry) {
+  if (entry != kNoEntry) entries[entry].state = Entry::free;
+}
+
+bool lock(int file) { return flock(file, LOCK_EX | LOCK_NB) == 0; }
+
+/// Says whether the file that is open is the one of this name, and this user's own. Its owner may have renamed it just
+/// before the lock was ours.
+bool is_ours(int file, const std::string& path) {
+  struct stat opened, named;
+  return fstat(file, &opened) == 0 && lstat(path.c_str(), &named) == 0 && S_ISREG(opened.st_mode) &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino && opened.st_nlink == 1 &&
+         opened.st_uid == geteuid();
+}
+
+/// Removes what a killed run has left. False when the file is not that.
+bool remove_left_over(const std::string& path) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) return false;
+  const bool removed = lock(file) && is_ours(file, path) && unlink(path.c_str()) == 0;
+  close(file);
+  return removed;
+}
+
+/// A file that was not there, locked; −1 when there is none, with EEXIST when another run has this name.
+int create(const std::string& path) {
+  constexpr mode_t kAsUsual = 0666;  // less what the user's mask takes away
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kAsUsual);
+  // A file system without locks has no run that takes it for left over, either.
+  if (file < 0 || lock(file) || errno != EWOULDBLOCK) return file;
+  close(file);
+  errno = EEXIST;
+  return -1;
+}
+
+}  // namespace
+
+void discard_unfinished() noexcept {
+  for (const Entry& entry : entries) {
+    if (entry.state == Entry::listed) unlink(entry.path.data());
+  }
+}
+
+Temporary::Temporary(int lock, std::string path) : path_(std::move(path)), entry_(enter(path_)), lock_(lock) {}
+
+Temporary Temporary::beside(const std::string& target) {
+  constexpr int kTries = 1000;  // as many runs may write the same file at once
+  for (int i = 0; i < kTries; ++i) {
+    std::string path = text(target, ".tmp", i);
+    int file = create(path);
+    const bool taken = file < 0 && errno == EEXIST;
+    if (taken && remove_left_over(path)) file = create(path);
+    if (file >= 0) return {file, std::move(path)};
+    if (!taken) break;
+  }
+  return {};
+}
+
+Temporary& Temporary::operator=(Temporary&& other) noexcept {
+  if (this == &other) return *this;
+  remove();
+  path_ = std::exchange(other.path_, {});
+  entry_ = other.entry_;
+  lock_ = other.lock_;
+  return *this;
+}
+
+int Temporary::open() const { return dup(lock_); }
+
+bool Temporary::rename_to(const std::string& target) {
+  if (std::rename(path_.c_str(), target.c_str()) != 0) return false;
+  end();
+  return true;
+}
+
+void Temporary::remove() {
+  if (!exists()) return;
+  unlink(path_.c_str());
+  end();
+}
+
+/// The file has gone, whichever way.
+void Temporary::end() {
+  path_.clear();
+  strike(entry_);
+  close(lock_);
+}
+
+}  // namespace temper::io
