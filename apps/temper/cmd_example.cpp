@@ -158,7 +158,7 @@ const Generator& chosen(const Command& command) {
   std::vector<std::string_view> names;
   for (const Generator& generator : kGenerators) {
     if (command.chosen() != nullptr && command.chosen()->name() == generator.name) return generator;
-    names.push_back(generator.name);
+    names.emplace_back(generator.name);
   }
   bad_usage("NAME is missing: one of " + join(names));
 }
@@ -167,7 +167,7 @@ const Generator& chosen(const Command& command) {
 void check_name(const Arguments& arguments) {
   if (arguments.empty() || arguments.front().starts_with("-")) return;
   std::vector<std::string_view> names;
-  for (const Generator& generator : kGenerators) names.push_back(generator.name);
+  for (const Generator& generator : kGenerators) names.emplace_back(generator.name);
   if (std::find(names.begin(), names.end(), arguments.front()) == names.end())
     bad_usage(none_of(arguments.front(), names));
 }

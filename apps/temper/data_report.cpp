@@ -51,7 +51,7 @@ void add_point_data(Command& command, std::vector<std::string>& words) {
 }
 
 io::DataRules data_rules(const std::vector<std::string>& words, const io::MeshFile& file) {
-  const io::DataRules rules = or_fail(io::parse_data_rules(words));
+  io::DataRules rules = or_fail(io::parse_data_rules(words));
   if (const auto checked = io::check_data_rules(rules, file); !checked) {
     throw Failure(Exit::bad_usage, fmt::format("{}: --point-data: {}", file.path, checked.error().message));
   }

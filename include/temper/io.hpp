@@ -125,6 +125,8 @@ class TextStream {
   [[nodiscard]] static Expected<TextStream> open(const std::string& path);
   TextStream(TextStream&&) noexcept;
   TextStream& operator=(TextStream&&) noexcept;
+  TextStream(const TextStream&) = delete;
+  TextStream& operator=(const TextStream&) = delete;
   ~TextStream();
 
   /// Once writing has failed the rest is ignored: commit() says why.

@@ -64,9 +64,9 @@ namespace TEMPER_INSTRUCTION_SET {
 /// A register of the hardware: some doubles, and the mask of a comparison, all bits of a lane set or none.
 struct Register {
   static constexpr std::size_t kSize = TEMPER_REGISTER_BYTES / sizeof(double);
-  typedef double Doubles __attribute__((vector_size(TEMPER_REGISTER_BYTES)));
-  typedef std::int64_t Bits __attribute__((vector_size(TEMPER_REGISTER_BYTES)));
-  typedef std::uint64_t Words __attribute__((vector_size(TEMPER_REGISTER_BYTES)));
+  using Doubles [[gnu::vector_size(TEMPER_REGISTER_BYTES)]] = double;
+  using Bits [[gnu::vector_size(TEMPER_REGISTER_BYTES)]] = std::int64_t;
+  using Words [[gnu::vector_size(TEMPER_REGISTER_BYTES)]] = std::uint64_t;
 
   struct Mask {
     Bits m;

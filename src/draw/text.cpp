@@ -107,7 +107,7 @@ std::string number_label(double value) {
   if (mantissa.back() == '.') mantissa.pop_back();
   const bool negative = exponent.starts_with('-');
   exponent.erase(0, exponent.find_first_not_of("-0"));
-  const std::string power = "10^{" + (negative ? std::string(kMinus) : "") + exponent + "}";
+  std::string power = "10^{" + (negative ? std::string(kMinus) : "") + exponent + "}";
   if (mantissa == "1") return power;
   if (mantissa == "-1") return std::string(kMinus) + power;
   return with_minus(mantissa) + "\xc2\xb7" + power;

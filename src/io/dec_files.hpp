@@ -20,7 +20,7 @@ struct DecJob {
   std::vector<std::string>& written;
 
   /// A file of the folder.
-  Output& open(std::string_view name) const;
+  [[nodiscard]] Output& open(std::string_view name) const;
 };
 
 void write_dec_npz(const DecJob& job);

@@ -59,7 +59,7 @@ class NumberLookup {
 
 class FileNames final : public InputNames {
  public:
-  explicit FileNames(std::string path_) : path(std::move(path_)) {}
+  explicit FileNames(std::string of) : path(std::move(of)) {}
 
   [[nodiscard]] std::string point(std::size_t index) const override;
   [[nodiscard]] std::string triangle(std::size_t index) const override;

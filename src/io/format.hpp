@@ -51,7 +51,7 @@ struct FormatRow {
   bool (*keeps)(ArraysOf of, const DataArray& array) = nullptr;
   std::vector<std::string> (*files)(const std::string& path) = nullptr;  ///< that are written; null: path alone
   std::int64_t first_point = 1;                                          ///< the number of the first point in a file
-  std::string_view name_ends = "";  ///< characters that would end a name: written as %22
+  std::string_view name_ends = {};  ///< characters that would end a name: written as %22
   Degrees degrees = Degrees::as_they_came;
 };
 inline constexpr std::size_t kSniffBytes = 4096;
@@ -68,7 +68,7 @@ struct WriteJob {
   OutputSet& outputs;
   std::vector<std::string>& warnings;
 
-  void warn(std::string message) const { warnings.push_back(text(path, ": ", message)); }
+  void warn(std::string_view message) const { warnings.push_back(text(path, ": ", message)); }
   /// The name as the format can hold it.
   [[nodiscard]] std::string written(std::string_view name) const;
 };

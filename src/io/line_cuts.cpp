@@ -107,6 +107,7 @@ bool is_edge(const Mesh& mesh, VertexId a, VertexId b) {
 template <class T>
 std::vector<T> at(const std::vector<T>& values, const std::vector<std::size_t>& indices) {
   std::vector<T> result;
+  result.reserve(indices.size());
   for (const std::size_t i : indices) result.push_back(values[i]);
   return result;
 }

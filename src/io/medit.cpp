@@ -57,7 +57,7 @@ class MeditReader {
   /// The numbers that sections of this row have listed so far.
   std::vector<std::int32_t>& flags_of(const FlagSection& section);
   void set_flags(const FlagSection& section, const std::vector<std::int32_t>& numbers);
-  std::size_t count_of(std::vector<DataArray> MeshFile::*data) const;
+  [[nodiscard]] std::size_t count_of(std::vector<DataArray> MeshFile::*data) const;
 
   Scanner scanner_;
   Document document_;

@@ -224,7 +224,7 @@ void MeshMaker::find_edges() {
   std::vector<std::pair<Ends, std::size_t>> wanted;
   for (std::size_t i = 0; i < file_.lines.size(); ++i) {
     const auto [a, b] = file_.lines[i];
-    wanted.push_back({std::minmax({vertex[static_cast<std::size_t>(a)], vertex[static_cast<std::size_t>(b)]}), i});
+    wanted.emplace_back(std::minmax({vertex[static_cast<std::size_t>(a)], vertex[static_cast<std::size_t>(b)]}), i);
   }
   std::sort(wanted.begin(), wanted.end());
   edges_.assign(file_.lines.size(), HalfedgeId());

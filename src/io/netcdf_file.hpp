@@ -59,6 +59,7 @@ class NetcdfReader {
   explicit NetcdfReader(Source& source);
   NetcdfReader(const NetcdfReader&) = delete;
   NetcdfReader& operator=(const NetcdfReader&) = delete;
+  ~NetcdfReader() = default;
 
   [[nodiscard]] const std::vector<NetcdfVariable>& variables() const { return variables_; }
   [[nodiscard]] const NetcdfVariable* find(std::string_view name) const;
@@ -91,6 +92,7 @@ class NetcdfWriter {
   NetcdfWriter(std::string path, bool large_types);
   NetcdfWriter(const NetcdfWriter&) = delete;
   NetcdfWriter& operator=(const NetcdfWriter&) = delete;
+  ~NetcdfWriter() = default;
 
   /// The dimension of that name; made when it is not there. Precondition: size > 0.
   int dimension(const std::string& name, std::size_t size);

@@ -20,7 +20,7 @@ class OutlineFileNames final : public OutlineNames {
     std::string name;       ///< what follows the number of a segment
     std::size_t first = 0;  ///< segment
   };
-  explicit OutlineFileNames(std::string path_) : path(std::move(path_)) {}
+  explicit OutlineFileNames(std::string of) : path(std::move(of)) {}
 
   [[nodiscard]] std::string point(std::size_t i) const override;
   [[nodiscard]] std::string segment(std::size_t i) const override;

@@ -10,7 +10,7 @@ namespace temper::io {
 
 struct PlaceHash {
   std::size_t operator()(Vec2 p) const {
-    std::uint64_t x, y;
+    std::uint64_t x = 0, y = 0;
     p = {p.x + 0.0, p.y + 0.0};  // −0 is the same place as 0
     std::memcpy(&x, &p.x, sizeof x);
     std::memcpy(&y, &p.y, sizeof y);

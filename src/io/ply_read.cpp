@@ -56,7 +56,7 @@ class PlyReader {
   void comment(std::string_view words);
   void element(Scanner& line);
   void property(Scanner& line);
-  Scalar type(std::string_view name) const;
+  [[nodiscard]] Scalar type(std::string_view name) const;
 
   void body(PlyElement& element);
   void list(PlyElement& element, const PlyProperty& property);
@@ -68,7 +68,7 @@ class PlyReader {
   static std::optional<Values> take(PlyElement& element, std::string_view name);
   std::vector<DataArray> take_data(PlyElement& element) const;
   /// The array that begins with property i of the element, when its properties follow one another; else null.
-  const PlyJoined* joined_at(const PlyElement& element, std::size_t i) const;
+  [[nodiscard]] const PlyJoined* joined_at(const PlyElement& element, std::size_t i) const;
   void vertices(PlyElement& element);
   void faces(PlyElement& element);
   void edges(PlyElement& element);

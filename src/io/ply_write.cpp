@@ -56,6 +56,7 @@ PlyWriter::Arrays PlyWriter::choose(const std::vector<DataArray>& arrays, std::s
     bool fits = scalar != Scalar::i64 && scalar != Scalar::u64 && !a.name.empty() &&
                 std::all_of(a.name.begin(), a.name.end(), [](char c) { return c > 32 && c < 127; });
     std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(a.components));
     for (int k = 0; k < a.components; ++k) names.push_back(a.components == 1 ? a.name : text(a.name, "_", k));
     for (const std::string& name : names) fits = fits && !taken.contains(name);
     if (!fits) {

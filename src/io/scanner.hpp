@@ -70,7 +70,7 @@ class Scanner {
 
  private:
   template <class T>
-  T unusual_number(std::string_view word, std::string_view expected) const;
+  [[nodiscard]] T unusual_number(std::string_view word, std::string_view expected) const;
 
   std::string path_;
   const char* begin_;

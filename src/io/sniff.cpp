@@ -59,9 +59,9 @@ constexpr Known kKnown[] = {
      }},
     {"an MFEM mesh of another version than v1.0", [](std::string_view h) { return h.starts_with("MFEM "); }},
     {"a VTK XML file of another type than UnstructuredGrid",
-     [](std::string_view h) { return h.find("<VTKFile") != h.npos; }},
-    {"an XDMF file", [](std::string_view h) { return h.find("<Xdmf") != h.npos; }},
-    {"a DOLFIN XML mesh", [](std::string_view h) { return h.find("<dolfin") != h.npos; }},
+     [](std::string_view h) { return h.find("<VTKFile") != std::string_view::npos; }},
+    {"an XDMF file", [](std::string_view h) { return h.find("<Xdmf") != std::string_view::npos; }},
+    {"a DOLFIN XML mesh", [](std::string_view h) { return h.find("<dolfin") != std::string_view::npos; }},
     {"an STL file", [](std::string_view h) { return h.starts_with("solid"); }},
     {"an Abaqus input file",
      [](std::string_view h) {

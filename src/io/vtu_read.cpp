@@ -55,8 +55,8 @@ class VtuReader {
   Values appended(const pugi::xml_node& node, Scalar scalar, const Packing& packing);
   std::vector<std::int32_t> integers(const pugi::xml_node& cells, const char* name);
 
-  std::size_t line_of(const pugi::xml_node& node) const;
-  std::string where(const pugi::xml_node& node) const { return text(source_.path, ":", line_of(node)); }
+  [[nodiscard]] std::size_t line_of(const pugi::xml_node& node) const;
+  [[nodiscard]] std::string where(const pugi::xml_node& node) const { return text(source_.path, ":", line_of(node)); }
 
   Source& source_;
   Document document_;

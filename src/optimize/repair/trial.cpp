@@ -53,6 +53,8 @@ class Trial {
     }
   }
   Trial(const Trial&) = delete;
+  Trial& operator=(const Trial&) = delete;
+  ~Trial() = default;
 
   Outcome run(const Edit& edit) &&;
 

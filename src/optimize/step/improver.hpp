@@ -17,6 +17,7 @@ class Improver {
         batches_(context, flipper_, step_) {}
   Improver(const Improver&) = delete;
   Improver& operator=(const Improver&) = delete;
+  ~Improver() = default;
 
   /// Improves those that are still there, in that order, or in batches nearly so. Those that need another part are
   /// appended to `left`, in the order of their numbers.

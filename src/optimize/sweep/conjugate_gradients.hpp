@@ -20,7 +20,7 @@ namespace temper {
 
 /// Three numbers, and a fourth that means nothing.
 struct Float4 {
-  typedef float Floats __attribute__((vector_size(16)));
+  using Floats [[gnu::vector_size(16)]] = float;
   Floats v = {};
 
   [[nodiscard]] TEMPER_INLINE float operator[](int i) const { return v[i]; }

@@ -49,6 +49,7 @@ class Sweeper {
 
   Sweeper(const Sweeper&) = delete;
   Sweeper& operator=(const Sweeper&) = delete;
+  ~Sweeper() = default;
 
   /// Lines 9 to 16 of Algorithm 1. `sequence`: the order in which to visit the vertices, one after another; empty: in
   /// parts along the numbers. False when the caller or the clock has cut it short.
