@@ -7,7 +7,7 @@ set(TEMPER_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/temper)
 install(TARGETS temper EXPORT temper_core)
 install(EXPORT temper_core NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperCoreTargets.cmake)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/temper DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.hpp" PATTERN "io.hpp" EXCLUDE PATTERN "dec_io.hpp" EXCLUDE PATTERN "lp.hpp" EXCLUDE
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "io.hpp" EXCLUDE PATTERN "checkpoint.hpp" EXCLUDE PATTERN "dec_io.hpp" EXCLUDE PATTERN "lp.hpp" EXCLUDE
         PATTERN "tbb_executor.hpp" EXCLUDE PATTERN "verify.hpp" EXCLUDE)
 
 if(TARGET temper_io)
@@ -17,6 +17,7 @@ if(TARGET temper_io)
   install(TARGETS temper_io EXPORT temper_io)
   install(EXPORT temper_io NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperIoTargets.cmake)
   install(FILES ${PROJECT_SOURCE_DIR}/include/temper/io.hpp ${PROJECT_SOURCE_DIR}/include/temper/dec_io.hpp
+                ${PROJECT_SOURCE_DIR}/include/temper/checkpoint.hpp
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/temper)
   if(temper_io_netcdf)
     install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindNetCDF.cmake DESTINATION ${TEMPER_CMAKE_DIR})

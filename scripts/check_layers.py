@@ -46,7 +46,7 @@ LAYERS = {
 CORE = set(LAYERS) - {"io", "lp", "tbb", "verify"}
 
 # Public headers whose name is not that of their layer.
-HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor", "instruction_set", "outline"]} | {"trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "tbb_executor": "tbb", "dec_io": "io"}
+HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor", "instruction_set", "outline", "archive", "envelope"]} | {"trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "tbb_executor": "tbb", "dec_io": "io", "checkpoint": "io"}
 
 STANDARD = set("""
 algorithm array atomic bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits cmath

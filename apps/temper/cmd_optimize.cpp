@@ -1,6 +1,7 @@
 // temper optimize IN -o OUT: reads, improves, writes, reports.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -16,8 +17,10 @@
 #include "projection_option.hpp"
 #include "report_json.hpp"
 #include "report_text.hpp"
+#include "resume.hpp"
 #include "size_report.hpp"
 #include "table_options.hpp"
+#include "temper/checkpoint.hpp"
 #include "temper/draw.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
@@ -43,6 +46,8 @@ struct Settings {
   std::optional<io::Encoding> encoding;
   std::uint64_t threads = 0;
   bool quiet = false, verify = false;
+  std::string checkpoint, resume;
+  double every = 600;  ///< seconds between checkpoints
   std::string size_field, size_data;
   std::vector<std::string> point_data;
   io::DataRules rules;  ///< of point_data
@@ -53,12 +58,11 @@ struct Settings {
 
 void add_files(Command& command, Settings& s) {
   command.group("Files");
-  // Not marked as required: see take_input.
+  // These two are not marked as required: see take_input.
   add_argument(command, "IN", s.input, "the mesh to improve; its content tells the format");
   add_projection(command, s.projection);
   add_text(command, "-o,--output", "OUT", s.output,
-           "where the improved mesh goes; may be IN; its suffix tells the format")
-      .require();
+           "where the improved mesh goes; may be IN; its suffix tells the format");
   add_choice(
       command, "--encoding", kEncodings, [&s](io::Encoding value) { s.encoding = value; },
       "of formats that have several (default: the compact one; fastest: appended)");
@@ -90,6 +94,12 @@ void add_constraints(Command& command, Settings& s) {
 void add_run(Command& command, Settings& s) {
   command.group("The run");
   add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  add_text(command, "--checkpoint", "FILE", s.checkpoint,
+           "the state of the run, for --resume: at its beginning, now and then, and when it is stopped early");
+  add_number(command, "--every", s.every, kNotNegative, "seconds between checkpoints; 0: as many as there can be");
+  add_text(command, "--resume", "FILE", s.resume,
+           "go on with the run of a checkpoint, to what it would have ended with; IN and options are those of the run, "
+           "but for outputs, --threads, --time-limit (of each run alone), --checkpoint and --every");
   // At once, before all other options are taken: those given override the method's.
   Option& method = add_choice(
       command, "--method", kMethods,
@@ -105,6 +115,7 @@ void add_run(Command& command, Settings& s) {
 
 /// `--fix 1 2 IN -o OUT`: --fix takes all words that follow, so the last one is the input when there is none.
 void take_input(Command& command, Settings& s) {
+  if (s.output.empty()) throw Failure(Exit::bad_usage, "optimize: --output is required\nSee temper optimize --help");
   if (!s.input.empty()) return;
   if (s.fix.size() < 2)
     throw Failure(Exit::bad_usage, "optimize: IN is missing: the mesh to improve\nSee temper optimize --help");
@@ -139,6 +150,9 @@ std::vector<std::string> doubtful_options(const Command& command, const Settings
   }
   if (s.size_field.empty() && command.was_given("--size-field-data")) {
     warnings.push_back("--size-field-data has no effect without --size-field");
+  }
+  if (s.checkpoint.empty() && command.was_given("--every")) {
+    warnings.push_back("--every has no effect without --checkpoint");
   }
   if (!s.report.empty() && same_file(s.input, s.output)) {
     warnings.push_back("--output replaces the input: the command in the report would start from the improved mesh");
@@ -190,19 +204,70 @@ struct Results {
   std::vector<std::string> warnings;
 };
 
-OptimizeReport run_library(const Settings& s, const Input& input, Mesh& mesh, Executor* executor, Tracer tracer) {
+/// The checkpoint that a run goes on from.
+struct Resumed {
+  std::string path;
+  io::Checkpoint checkpoint;
+};
+
+/// A trace that is being written.
+struct TraceFile {
+  io::TextStream stream;
+  io::CheckpointFile::TracePlace place;  ///< how far it is
+
+  void write(std::string_view text) {
+    stream.write(text);
+    place.bytes += text.size();
+  }
+};
+
+/// All that a run works with, besides its settings. Null: there is none.
+struct RunFiles {
+  Executor* threads = nullptr;
+  const Resumed* resumed = nullptr;
+  TraceFile* trace = nullptr;
+  io::CheckpointFile* checkpoint = nullptr;
+};
+
+/// A file that the run reads: that of the checkpoint, when it is resumed; and it goes into its own.
+io::MeshFile read_file(const RunFiles& files, const std::string& path) {
+  io::MeshFile file;
+  if (files.resumed != nullptr) {
+    const std::vector<io::MeshFile>& inputs = files.resumed->checkpoint.inputs;
+    const auto found = std::find_if(inputs.begin(), inputs.end(), [&](const auto& each) { return each.path == path; });
+    if (found == inputs.end()) throw Failure(Exit::bad_input, files.resumed->path + ": does not have " + path);
+    file = *found;
+  } else {
+    file = or_fail(io::read(path, {files.threads}));
+  }
+  if (files.checkpoint != nullptr) files.checkpoint->add_input(file);
+  return file;
+}
+
+/// A run whose checkpoints cannot be written goes on.
+void keep(io::CheckpointFile& file, const std::function<std::string()>& state) {
+  if (const Expected<void> kept = file.keep(state); !kept) print_warnings(std::vector{kept.error().what()});
+}
+
+OptimizeReport run_library(const Settings& s, const Input& input, Mesh& mesh, const RunFiles& files, Tracer tracer) {
   ProgressLine line(!s.quiet && error_is_terminal());
   const Observer observer = [&line](const Progress& progress) {
     line.show(progress);
     return interrupted() ? Continue::no : Continue::yes;
   };
   OptimizeHooks hooks;
-  hooks.executor = executor;
+  hooks.executor = files.threads;
   hooks.names = input.names.get();
   hooks.observer = observer;
   hooks.tracer = std::move(tracer);
+  if (files.checkpoint != nullptr) hooks.checkpoints = [&](const auto& state) { keep(*files.checkpoint, state); };
+  if (files.resumed != nullptr) hooks.resume = files.resumed->checkpoint.state;
   Expected<OptimizeReport> report = optimize(mesh, s.options(), hooks);
-  if (!report) throw as_failure(spell_options(report.error()));
+  if (!report) {
+    InputError error = spell_options(report.error());
+    if (files.resumed != nullptr && error.where.empty()) error.where = files.resumed->path;
+    throw as_failure(error);
+  }
   for (std::string& note : report->notes) note = spell_options(note);
   return *std::move(report);
 }
@@ -242,10 +307,23 @@ void verify_result(const Settings& s, SolverErrors& errors, Mesh& mesh, const Me
 }
 #endif
 
+/// The tracer of the trace, if there is one. The beginning of a resumed one is written before.
+Tracer tracer_of(const RunFiles& files, const Input& input) {
+  TraceFile* const trace = files.trace;
+  if (trace == nullptr) return {};
+  const bool begun = files.resumed != nullptr && !files.resumed->checkpoint.trace.empty();
+  trace->write(begun ? files.resumed->checkpoint.trace : trace_header(input));
+  if (begun) trace->place.events = files.resumed->checkpoint.events;
+  return [trace, &input](const TraceEvent& event) {
+    trace->write(trace_line(event, input));
+    ++trace->place.events;
+  };
+}
+
 /// Improves the mesh of the input in place: a second copy is made only when the picture or --verify needs one.
-void improve(const Settings& s, Input& input, Results& results, io::TextStream* trace, Executor* threads) {
+void improve(const Settings& s, Input& input, Results& results, const RunFiles& files) {
   QualityOptions measuring;
-  measuring.executor = threads;
+  measuring.executor = files.threads;
   Mesh& mesh = input.loaded.mesh;
   const bool may_return_input = s.verify && s.for_accuracy();
   const Mesh original = s.picture.empty() && !may_return_input ? Mesh() : mesh;
@@ -256,24 +334,16 @@ void improve(const Settings& s, Input& input, Results& results, io::TextStream* 
     print(fmt::format("{}: {} vertices, {} triangles\n", s.input, results.before.vertices, results.before.triangles));
     flush_output();
   }
-  Tracer tracer;
-  std::size_t n_events = 0;
-  if (trace != nullptr) {
-    trace->write(trace_header(input));
-    tracer = [trace, &input, &n_events](const TraceEvent& event) {
-      trace->write(trace_line(event, input));
-      ++n_events;
-    };
-  }
+  const Tracer tracer = tracer_of(files, input);
 #ifdef TEMPER_WITH_VERIFY
   std::optional<SolverErrors> errors;
-  if (s.verify) errors.emplace(mesh, threads);
-  results.report = run_library(s, input, mesh, threads, tracer);
+  if (s.verify) errors.emplace(mesh, files.threads);
+  results.report = run_library(s, input, mesh, files, tracer);
   if (errors) verify_result(s, *errors, mesh, original, results, tracer);
 #else
-  results.report = run_library(s, input, mesh, threads, tracer);
+  results.report = run_library(s, input, mesh, files, tracer);
 #endif
-  if (trace != nullptr) trace->write(trace_end(n_events, mesh, input));
+  if (files.trace != nullptr) files.trace->write(trace_end(files.trace->place.events, mesh, input));
   if (measured) results.after = quality(mesh, measuring);
   if (!s.picture.empty()) {
     DrawOptions drawing;
@@ -287,17 +357,23 @@ void warn(Results& results, std::span<const std::string> warnings) {
   results.warnings.insert(results.warnings.end(), warnings.begin(), warnings.end());
 }
 
+bool stopped_early(const OptimizeReport& report) {
+  return report.stopped == Stopped::time_limit || report.stopped == Stopped::cancelled;
+}
+
 /// The mesh first: it is what the time went into.
 void write_all(const Command& command, const Settings& s, Input& input, Results& results, Outputs& outputs,
-               io::TextStream* trace, Executor* threads) {
+               const RunFiles& files) {
   const std::size_t known = input.file.warnings.size();
-  results.data = io::update(input.file, input.loaded, input.loaded.mesh, results.report.vertices, {s.rules, threads});
+  results.data =
+      io::update(input.file, input.loaded, input.loaded.mesh, results.report.vertices, {s.rules, files.threads});
   warn(results, std::span(input.file.warnings).subspan(known));
   io::WriteOptions writing;
   writing.encoding = s.encoding;
-  writing.executor = threads;
+  writing.executor = files.threads;
   warn(results, outputs.write_mesh(s.output, input.file, writing));
-  if (trace != nullptr) outputs.commit(s.trace, *trace);
+  if (files.checkpoint != nullptr && stopped_early(results.report)) outputs.write(*files.checkpoint);
+  if (files.trace != nullptr) outputs.commit(s.trace, files.trace->stream);
   if (!s.report.empty()) {
     const std::vector<UsedOption> options = used_options(command);
     const std::string again = command_line("optimize", {s.input}, options);
@@ -324,6 +400,9 @@ void print_result(const Settings& s, const Results& results, const Outputs& outp
   std::string written;
   for (const std::string& path : outputs.written()) written += (written.empty() ? "wrote " : ", ") + path;
   print(written + "\n");
+  if (!s.checkpoint.empty() && stopped_early(results.report)) {
+    print(fmt::format("to go on: temper optimize --resume {}\n", shell_quote(s.checkpoint)));
+  }
 }
 
 /// Says whether edges are not regular that should be: `after` counts those that may not be flipped, too.
@@ -333,41 +412,63 @@ bool lacks_flips(const Settings& s, const Quality& after, const Mesh& mesh, Exec
          count_non_regular_edges(mesh, false, executor) > 0;
 }
 
-Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs) {
+/// The checkpoints that are asked for.
+std::optional<io::CheckpointFile> checkpoint_of(const Command& command, const Settings& s, TraceFile* trace) {
+  if (s.checkpoint.empty()) return std::nullopt;
+  io::CheckpointFile file(s.checkpoint, s.every);
+  file.set_command(given_words(command));
+  if (trace != nullptr) {
+    or_fail(trace->stream.so_far());
+    file.set_trace([trace] { return trace->place; }, [trace] { return trace->stream.so_far(); });
+  }
+  return file;
+}
+
+/// As a person would give it: without what is not given.
+std::string words_of_run(const Command& command) {
+  std::string text = "temper optimize";
+  for (const std::string& word : given_words(command)) text += " " + shell_quote(word);
+  return text;
+}
+
+Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs, const Resumed* resumed) {
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  Input input = read_input(s.input, {s.projection, s.fix, threads.get()});
+  std::optional<TraceFile> trace;
+  if (!s.trace.empty()) trace.emplace(TraceFile{outputs.open(s.trace), {}});
+  std::optional<io::CheckpointFile> checkpoint = checkpoint_of(command, s, trace ? &*trace : nullptr);
+  const RunFiles files = {threads.get(), resumed, trace ? &*trace : nullptr, checkpoint ? &*checkpoint : nullptr};
+  const auto read = [&files](const std::string& path) { return read_file(files, path); };
+  if (resumed != nullptr && !s.quiet) {
+    print(fmt::format("{}: goes on with {}\n", resumed->path, words_of_run(command)));
+  }
+  Input input = read_input(s.input, {s.projection, s.fix, threads.get(), read});
   Results results;
   warn(results, input.warnings());
   find_vertices(s.table, input);
   s.rules = data_rules(s.point_data, input.file);
   warn(results, doubtful_options(command, s));
   if (!s.size_field.empty()) {
-    ReadSizeField read =
-        read_size_field(s.size_field, s.size_data.empty() ? "size" : s.size_data, same_projection(input, s.projection));
-    warn(results, read.warnings);
-    s.table.options.size_field = std::move(read.field);
+    ReadSizeField sizes = read_size_field(s.size_field, s.size_data.empty() ? "size" : s.size_data,
+                                          {same_projection(input, s.projection), {}, threads.get(), read});
+    warn(results, sizes.warnings);
+    s.table.options.size_field = std::move(sizes.field);
   }
   // The mesh has its geometry now, and memory is dear on the largest ones.
   io::release_geometry(input.file, input.loaded);
-  std::optional<io::TextStream> trace;
-  if (!s.trace.empty()) trace = outputs.open(s.trace);
-  improve(s, input, results, trace ? &*trace : nullptr, threads.get());
-  write_all(command, s, input, results, outputs, trace ? &*trace : nullptr, threads.get());
+  improve(s, input, results, files);
+  write_all(command, s, input, results, outputs, files);
   if (!s.quiet) print_result(s, results, outputs);
-  const Stopped stopped = results.report.stopped;
-  const bool early = stopped == Stopped::time_limit || stopped == Stopped::cancelled;
-  return early || lacks_flips(s, results.after, input.loaded.mesh, threads.get()) ? Exit::stopped_early : Exit::done;
+  return stopped_early(results.report) || lacks_flips(s, results.after, input.loaded.mesh, threads.get())
+             ? Exit::stopped_early
+             : Exit::done;
 }
 
-}  // namespace
-
-Exit run_optimize(const Arguments& arguments) {
+Command command_with(Settings& settings) {
   Command command(
       "optimize",
       "Moves vertices, weights them and flips edges until every triangle is well-centered: its orthocenter "
       "inside, every edge crossed by its dual. The boundary of the domain stays bit for bit, unless --boundary says "
       "otherwise.");
-  Settings settings;
   add_files(command, settings);
   add_run(command, settings);
   add_constraints(command, settings);
@@ -381,9 +482,15 @@ Exit run_optimize(const Arguments& arguments) {
                     "  temper optimize in.vtu -o out.vtu --gamma-rel 0.1 --time-limit 60\n"
                     "  temper optimize in.vtu -o out.vtu --objective accuracy --verify\n"
                     "  temper optimize in.vtu -o out.vtu --removal patch --trace trace.jsonl\n"
-                    "  temper optimize in.vtu -o out.vtu --method paper --energy dT --removal none\n",
+                    "  temper optimize in.vtu -o out.vtu --method paper --energy dT --removal none\n"
+                    "  temper optimize in.vtu -o out.vtu --checkpoint run.ckpt --time-limit 3600\n"
+                    "  temper optimize --resume run.ckpt\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal}});
-  if (!command.parse(arguments)) return Exit::done;
+  return command;
+}
+
+/// A command that has been parsed. `resumed`: the run that it goes on with, or null.
+Exit run_command(Command& command, Settings& settings, const Resumed* resumed) {
   take_input(command, settings);
   expect_no_contradictions(command);
   command.spell_defaults();  // --method may have changed them
@@ -395,7 +502,29 @@ Exit run_optimize(const Arguments& arguments) {
   outputs.expect_text("--history", settings.history, inputs);
   outputs.expect_text("--trace", settings.trace, inputs);
   outputs.expect_picture("--draw", settings.picture, inputs);
-  return optimize_mesh(command, settings, outputs);
+  outputs.expect_text("--checkpoint", settings.checkpoint, inputs);
+  return optimize_mesh(command, settings, outputs, resumed);
+}
+
+/// The command of the checkpoint, with what is given now.
+Exit resume(const Command& now, const std::string& path) {
+  const Resumed resumed = {path, or_fail(io::read_checkpoint(path))};
+  if (resumed.checkpoint.command.empty()) {
+    throw Failure(Exit::bad_input, path + ": is a checkpoint of a run that no command started");
+  }
+  Settings then_settings, settings;
+  Command then = command_with(then_settings), command = command_with(settings);
+  if (!then.parse(resumed.checkpoint.command) || !command.parse(resumed_words(now, then))) return Exit::done;
+  return run_command(command, settings, &resumed);
+}
+
+}  // namespace
+
+Exit run_optimize(const Arguments& arguments) {
+  Settings settings;
+  Command command = command_with(settings);
+  if (!command.parse(arguments)) return Exit::done;
+  return settings.resume.empty() ? run_command(command, settings, nullptr) : resume(command, settings.resume);
 }
 
 }  // namespace temper::app

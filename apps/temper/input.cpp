@@ -40,7 +40,7 @@ std::vector<std::string> Input::warnings() const {
 Input read_input(const std::string& path, const ReadingOptions& options) {
   Input input;
   input.path = path;
-  input.file = or_fail(io::read(path, {options.executor}));
+  input.file = options.read ? options.read(path) : or_fail(io::read(path, {options.executor}));
   take_to_map(input.file, path, options.projection);
   input.loaded = or_fail(io::make_mesh(input.file, options.fixed_tags, options.executor));
   input.n_vertices = input.loaded.mesh.n_vertices();

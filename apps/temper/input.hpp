@@ -32,6 +32,8 @@ struct ReadingOptions {
   std::string projection = {};  ///< of points in degrees: see projection_option.hpp
   std::vector<std::string> fixed_tags = {};
   Executor* executor = nullptr;
+  /// Where the file comes from; none: from the disk.
+  std::function<io::MeshFile(const std::string& path)> read = {};
 };
 /// Reads a file and builds its mesh; Failure when anything is wrong with it.
 [[nodiscard]] Input read_input(const std::string& path, const ReadingOptions& options = {});

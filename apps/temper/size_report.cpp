@@ -42,8 +42,8 @@ std::vector<double> at_vertices(const Input& input, const io::DataArray& array) 
 
 }  // namespace
 
-ReadSizeField read_size_field(const std::string& path, const std::string& data, const std::string& projection) {
-  const Input input = read_input(path, {projection});
+ReadSizeField read_size_field(const std::string& path, const std::string& data, const ReadingOptions& options) {
+  const Input input = read_input(path, options);
   const std::vector<double> sizes = at_vertices(input, find_data(input, data));
   const auto field = SizeField::from_values(input.mesh(), sizes, input.names.get());
   if (!field) {

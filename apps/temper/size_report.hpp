@@ -15,7 +15,7 @@ struct ReadSizeField {
   std::vector<std::string> warnings;  ///< of reading the file
 };
 [[nodiscard]] ReadSizeField read_size_field(const std::string& path, const std::string& data,
-                                            const std::string& projection);
+                                            const ReadingOptions& options);
 
 /// Rows of the table of `temper optimize`, below those of comparison_text.
 [[nodiscard]] std::string size_text(const SizeChange& size);

@@ -131,6 +131,8 @@ class TextStream {
 
   /// Once writing has failed the rest is ignored: commit() says why.
   void write(std::string_view text);
+  /// All that was written. An error where it cannot be read again: of a pipe.
+  [[nodiscard]] Expected<std::string> so_far();
   /// The last call. What was written takes its place, or there is an error and what was there before is unchanged.
   [[nodiscard]] Expected<void> commit();
 

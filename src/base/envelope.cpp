@@ -1,6 +1,6 @@
-#include "base/envelope.hpp"
+#include "temper/envelope.hpp"
 
-#include "base/archive.hpp"
+#include "temper/archive.hpp"
 
 namespace temper {
 namespace {

@@ -28,7 +28,7 @@ class Rng {
   /// Uniform in 0 … n − 1, n > 0; the bias of n / 2³² is far below what a seed matters.
   constexpr std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(((next() >> 32) * n) >> 32); }
 
-  /// For an archive: where the stream is.
+  /// For an archive (temper/archive.hpp): where the stream is.
   template <class Archive>
   void visit(Archive& archive) {
     archive(state_);

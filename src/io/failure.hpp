@@ -3,6 +3,7 @@
 #pragma once
 
 #include <charconv>
+#include <new>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -35,6 +36,18 @@ template <class... Parts>
   std::string joined;
   (joined.append(to_text(parts)), ...);
   return joined;
+}
+
+/// Runs work; whatever stops it comes back as a value.
+template <class Result, class Work>
+Expected<Result> guarded(const std::string& path, Work work) {
+  try {
+    return work();
+  } catch (Failure& failure) {
+    return std::move(failure.error);
+  } catch (const std::bad_alloc&) {
+    return InputError{ErrorCode::unsupported, path, "needs more memory than there is"};
+  }
 }
 
 }  // namespace temper::io

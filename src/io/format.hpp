@@ -94,4 +94,8 @@ void read_side_file(Document& document);
 /// Writes the side file when there are weights, or one is there.
 void write_side_file(const WriteJob& job);
 
+/// Fails unless the arrays of the file fit each other: of one that was made by hand, or kept in another file, as
+/// writers would read past their ends.
+void check_sizes(const std::string& path, const MeshFile& file);
+
 }  // namespace temper::io

@@ -10,6 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "io/input.hpp"
+
 namespace temper::io {
 
 namespace fs = std::filesystem;
@@ -65,6 +67,14 @@ void Output::put(std::string_view bytes) {
     used_ += n;
     bytes.remove_prefix(n);
   }
+}
+
+std::string Output::so_far() {
+  if (!temporary_.exists())
+    fail(ErrorCode::not_writable, path_, "is no file that can be read again while it is written");
+  flush();
+  std::error_code error;
+  return fs::file_size(temporary_.path(), error) == 0 ? std::string() : load(temporary_.path()).bytes;
 }
 
 void Output::flush() {

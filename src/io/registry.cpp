@@ -200,7 +200,8 @@ const FormatRow& row_to_write(const std::string& path, const std::string& format
        text("the suffix names no format that temper writes; expected one of ", writable_suffixes(), ", or a format"));
 }
 
-/// The arrays of a file made by hand must fit each other, or writers would read past their ends.
+}  // namespace
+
 void check_sizes(const std::string& path, const MeshFile& f) {
   const auto insist = [&](bool good, std::string_view what) {
     if (!good) fail(ErrorCode::size_mismatch, path, text("the mesh to be written has ", what));
@@ -227,20 +228,6 @@ void check_sizes(const std::string& path, const MeshFile& f) {
   for (const auto& l : f.lines) insist(std::all_of(l.begin(), l.end(), in_range), "a line with a vertex that is none");
   insist(std::all_of(f.marked_points.begin(), f.marked_points.end(), in_range), "a marked point that is none");
 }
-
-/// Runs work; whatever stops it comes back as a value.
-template <class Result, class Work>
-Expected<Result> guarded(const std::string& path, Work work) {
-  try {
-    return work();
-  } catch (Failure& failure) {
-    return std::move(failure.error);
-  } catch (const std::bad_alloc&) {
-    return InputError{ErrorCode::unsupported, path, "needs more memory than there is"};
-  }
-}
-
-}  // namespace
 
 std::span<const Format> formats() { return kFormats; }
 

@@ -1,7 +1,7 @@
 // A mesh in an archive: its arrays as they are in memory, so that all ids mean what they meant.
 #pragma once
 
-#include "base/archive.hpp"
+#include "temper/archive.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {

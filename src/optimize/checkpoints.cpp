@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "base/envelope.hpp"
 #include "mesh/mesh_archive.hpp"
+#include "temper/envelope.hpp"
 #include "temper/optimize_table.hpp"
 
 namespace temper {

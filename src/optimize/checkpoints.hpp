@@ -21,7 +21,7 @@
 #include <tuple>
 #include <vector>
 
-#include "base/archive.hpp"
+#include "temper/archive.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {

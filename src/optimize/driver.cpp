@@ -51,16 +51,20 @@ int Driver::run(Phase& phase, int first) {
   const Resumable here(run_.checkpoints, first, sweeps, phase, *this);
   if (!here.resumed()) begin(phase, first);
   Verdict verdict = Verdict::improving;
-  do {    // outer iterations
-    do {  // inner iterations
+  std::optional<Stopped> asked;  // by the caller, whatever the flips after it find
+  do {                           // outer iterations
+    do {                         // inner iterations
       if (!run_.checkpoints.here()) return first;
       verdict = sweep(phase);
     } while (verdict == Verdict::improving &&
              !(defers_flips(settings_.options) && ++inner_ == settings_.options.paper.inner));
+    if (run_.stopped_by_caller()) asked = run_.report.stopped;
     verdict = flip_if_deferred(phase, verdict);
   } while (verdict == Verdict::improving);
   const int last = run_.report.sweeps > sweeps ? recorder_.sweep() : first;
-  return run_.report.stopped == Stopped::hidden ? return_regular(last) : return_best(phase, last);
+  const int kept = run_.report.stopped == Stopped::hidden ? return_regular(last) : return_best(phase, last);
+  if (asked) run_.report.stopped = *asked;
+  return kept;
 }
 
 void Driver::begin(Phase& phase, int sweep) {

@@ -102,6 +102,7 @@ Candidate repaired(Candidate start, Settings& settings, Run& run) {
       driver.recorder().returned_to(best.sweep);
     }
   }
+  now = {};
   polishes = true;
   if (run.checkpoints.resumes() || run.goes_on()) best.sweep = Driver(best.work, settings, run).polish(best.sweep);
   return best;

@@ -11,7 +11,7 @@
 
 #include <span>
 
-#include "base/archive.hpp"
+#include "temper/archive.hpp"
 #include "temper/energy.hpp"
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include "base/archive.hpp"
 #include "energy/accuracy_energy.hpp"
 #include "optimize/frame.hpp"
+#include "temper/archive.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {

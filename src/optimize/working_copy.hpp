@@ -4,8 +4,8 @@
 // that was never used. A mesh that is never compacted, as in a replay, has them in the slots of these numbers.
 #pragma once
 
-#include "base/archive.hpp"
 #include "optimize/frame.hpp"
+#include "temper/archive.hpp"
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
 

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/archive.hpp"
 #include "energy/patch.hpp"
 #include "optimize/frame.hpp"
+#include "temper/archive.hpp"
 #include "temper/size.hpp"
 
 namespace temper {

@@ -1,9 +1,10 @@
 // Archives and envelopes: what is written is read, and what was not written so is refused, whatever it is.
-#include "base/archive.hpp"
+#include "temper/archive.hpp"
 
 #include <gtest/gtest.h>
 
-#include "base/envelope.hpp"
+#include "base/rng.hpp"
+#include "temper/envelope.hpp"
 
 namespace temper {
 namespace {

@@ -17,9 +17,10 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
-#include "base/rng.hpp"
 #include "temper/ids.hpp"
 #include "temper/vec2.hpp"
 
@@ -36,6 +37,12 @@ template <>
 inline constexpr bool kIsPlain<WeightedPoint> = true;
 template <class T, std::size_t n>
 inline constexpr bool kIsPlain<std::array<T, n>> = kIsPlain<T>;
+
+/// A hash of one more number: a bijection of the number, and of the hash before.
+[[nodiscard]] constexpr std::uint64_t mixed(std::uint64_t hash, std::uint64_t number) {
+  hash = (hash ^ number) * 0x9e3779b97f4a7c15U;
+  return hash ^ (hash >> 32);
+}
 
 class Archive {
  public:
@@ -108,6 +115,19 @@ class Archive {
     if (value) one(*value);
   }
 
+  template <class... T>
+  void one(std::variant<T...>& value) {
+    std::uint64_t index = value.index();
+    one(index);
+    require(index < sizeof...(T));
+    if (reads() && !failed_) choose(value, static_cast<std::size_t>(index), std::index_sequence_for<T...>());
+    std::visit([this](auto& each) { one(each); }, value);
+  }
+  template <class Variant, std::size_t... i>
+  static void choose(Variant& value, std::size_t index, std::index_sequence<i...>) {
+    static_cast<void>(((index == i && (value.template emplace<i>(), true)) || ...));
+  }
+
   /// Elements of any array. Each takes a byte at least: no count can ask for more memory than the bytes are worth.
   template <class T, class Values>
   void many(Values& values) {
@@ -143,7 +163,7 @@ class Archive {
                                     : std::is_enum_v<T>         ? 2
                                     : std::is_class_v<T>        ? 3
                                                                 : 0;
-    kinds_ = mix64(kinds_ ^ (4 * sizeof(T) + kKind));
+    kinds_ = mixed(kinds_, 4 * sizeof(T) + kKind);
   }
 
   std::string* out_ = nullptr;
@@ -152,17 +172,17 @@ class Archive {
   bool failed_ = false;
 };
 
-/// A checksum of bytes.
+/// A checksum of bytes, that another one of them changes.
 [[nodiscard]] inline std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t sum = mix64(bytes.size());
+  std::uint64_t sum = bytes.size();
   for (; bytes.size() >= sizeof sum; bytes.remove_prefix(sizeof sum)) {
     std::uint64_t word = 0;
     std::memcpy(&word, bytes.data(), sizeof word);
-    sum = mix64(sum ^ word);
+    sum = mixed(sum, word);
   }
   std::uint64_t last = 0;
   if (!bytes.empty()) std::memcpy(&last, bytes.data(), bytes.size());
-  return mix64(sum ^ last);
+  return mixed(sum, last);
 }
 
 }  // namespace temper

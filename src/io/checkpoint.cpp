@@ -1,0 +1,141 @@
+// The file is an envelope (temper/envelope.hpp) around an archive (temper/archive.hpp). Each visit() names all members of
+// its class, so that a new one does not compile before it is looked at here.
+#include "temper/checkpoint.hpp"
+
+#include <utility>
+
+#include "temper/archive.hpp"
+#include "temper/envelope.hpp"
+#include "io/failure.hpp"
+#include "io/file_names.hpp"
+#include "io/format.hpp"
+#include "io/input.hpp"
+#include "io/output.hpp"
+
+namespace temper {
+
+namespace {
+
+constexpr std::string_view kKind = "temper checkpoint";
+
+}  // namespace
+
+namespace io {
+
+void visit(Archive& archive, DataArray& array) {
+  auto& [name, components, values] = array;
+  archive(name, components, values);
+}
+
+void visit(Archive& archive, PhysicalName& physical) {
+  auto& [dimension, tag, name] = physical;
+  archive(dimension, tag, name);
+}
+
+void RunLength::visit(Archive& archive) {
+  auto& [runs, size] = *this;
+  static_assert(sizeof(Run) == sizeof(std::size_t) + sizeof(std::int64_t));  // no gaps
+  archive.plain(runs);
+  archive(size);
+}
+
+void visit(Archive& archive, FileNames& names) {
+  archive(names.path, names.triangle_path, names.points, names.triangles, names.lines, names.point_lines,
+          names.triangle_lines, names.line_lines);
+}
+
+/// The names are those of a file that was read.
+void visit_names(Archive& archive, MeshFile& file) {
+  const auto* known = dynamic_cast<const FileNames*>(file.numbering.get());
+  auto names = std::make_shared<FileNames>(known != nullptr ? *known : FileNames(file.path));
+  archive(*names);
+  if (archive.reads()) file.numbering = std::move(names);
+}
+
+void visit(Archive& archive, MeshFile& file) {
+  auto& [points, z, weights, triangles, regions, lines, line_tags, marked_points, point_tags, names, point_data,
+         cell_data, line_data, marked_point_data, field_data, geographic, geographic_is_guessed, map, path, format,
+         warnings, numbering] = file;  // map: put there by project(), after reading
+  archive(points, z, weights, triangles, regions, lines, line_tags, marked_points, point_tags, names, point_data,
+          cell_data, line_data, marked_point_data, field_data, geographic, geographic_is_guessed, path, format,
+          warnings);
+  visit_names(archive, file);
+}
+
+void visit(Archive& archive, Checkpoint& checkpoint) {
+  auto& [command, inputs, trace, events, state] = checkpoint;
+  archive(command, inputs, trace, events, state);
+  archive.seal();
+}
+
+namespace {
+
+/// What read() makes sure of.
+void check_file(MeshFile& file) {
+  check_sizes(file.path, file);
+  Document document = new_document(file.path);
+  std::swap(document.file, file);
+  check(document);
+  std::swap(document.file, file);
+}
+
+}  // namespace
+
+Expected<Checkpoint> read_checkpoint(const std::string& path) {
+  return guarded<Checkpoint>(path, [&] {
+    const Source source = load(path);
+    const Expected<std::string_view> bytes = from_envelope(kKind, source.bytes);
+    if (!bytes) fail(bytes.error().code, path, bytes.error().message);
+    Archive archive(*bytes);
+    Checkpoint checkpoint;
+    archive(checkpoint);
+    if (!archive.at_end()) {
+      fail(ErrorCode::unsupported, path,
+           "was written by another build of temper: only the one that wrote it can read it");
+    }
+    for (MeshFile& file : checkpoint.inputs) check_file(file);
+    return checkpoint;
+  });
+}
+
+CheckpointFile::CheckpointFile(std::string path, double seconds) : path_(std::move(path)), between_(seconds) {}
+
+void CheckpointFile::add_input(const MeshFile& file) { now_.inputs.push_back(file); }
+
+void CheckpointFile::set_trace(std::function<TracePlace()> place, std::function<Expected<std::string>()> text) {
+  trace_place_ = std::move(place);
+  trace_text_ = std::move(text);
+}
+
+Expected<void> CheckpointFile::keep(const std::function<std::string()>& state) {
+  constexpr int kSpared = 20;  // times what it takes to keep a state pass before the next is kept
+  const Clock::time_point begin = Clock::now();
+  const bool is_time = !written_ || begin - *written_ >= between_;
+  if (begin < next_ && !is_time) return {};
+  now_.state = state();
+  if (trace_place_) trace_at_ = trace_place_();
+  const Clock::time_point end = Clock::now();
+  next_ = end + kSpared * (end - begin);
+  if (!is_time) return {};
+  Expected<void> written = write();
+  written_ = Clock::now();
+  return written;
+}
+
+Expected<void> CheckpointFile::write() {
+  if (trace_text_) {
+    Expected<std::string> text = trace_text_();
+    if (!text) return text.error();
+    now_.trace = *std::move(text);
+    now_.trace.resize(std::min<std::size_t>(now_.trace.size(), static_cast<std::size_t>(trace_at_.bytes)));
+    now_.events = trace_at_.events;
+  }
+  std::string bytes;
+  Archive archive(bytes);
+  archive(now_);
+  now_.trace = {};
+  return write_text(path_, in_envelope(kKind, bytes));
+}
+
+}  // namespace io
+}  // namespace temper
