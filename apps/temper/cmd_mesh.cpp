@@ -20,6 +20,7 @@
 #include "temper/projection.hpp"
 #include "temper/quality.hpp"
 #include "threads.hpp"
+#include "time_limit.hpp"
 
 namespace temper::app {
 namespace {
@@ -28,6 +29,7 @@ constexpr Choice<Enclosed> kEnclosed[] = {
     {"by-points", Enclosed::by_points}, {"all", Enclosed::all}, {"alternate", Enclosed::alternate}};
 
 struct MeshSettings {
+  TimeLimit since;
   std::string input, output, report, picture, projection, region_sizes;
   MesherOptions options;
   std::uint64_t threads = 0;
@@ -166,6 +168,7 @@ OutlineMesh run_library(const MeshSettings& s, const Outline& outline, Executor*
     return interrupted() ? Continue::no : Continue::yes;
   };
   MesherOptions options = s.options;
+  options.time_limit = s.since.left(options.time_limit);
   options.region_sizes = region_sizes(s.region_sizes);
   if (s.no_optimize) options.optimize.reset();
   return or_fail(mesh_outline(outline, options, {.executor = executor, .observer = observer}));

@@ -26,6 +26,7 @@
 #include "temper/quality.hpp"
 #include "temper/regularity.hpp"
 #include "threads.hpp"
+#include "time_limit.hpp"
 #include "trace_jsonl.hpp"
 #ifdef TEMPER_WITH_VERIFY
 #include "solver_errors.hpp"
@@ -38,6 +39,7 @@ enum class Method { production, paper };
 
 constexpr Choice<Method> kMethods[] = {{"production", Method::production}, {"paper", Method::paper}};
 struct Settings {
+  TimeLimit since;
   std::string projection;
   std::string input, output, report, history, picture, trace;
   std::vector<std::string> fix;
@@ -262,7 +264,9 @@ OptimizeReport run_library(const Settings& s, const Input& input, Mesh& mesh, co
   hooks.tracer = std::move(tracer);
   if (files.checkpoint != nullptr) hooks.checkpoints = [&](const auto& state) { keep(*files.checkpoint, state); };
   if (files.resumed != nullptr) hooks.resume = files.resumed->checkpoint.state;
-  Expected<OptimizeReport> report = optimize(mesh, s.options(), hooks);
+  OptimizeOptions options = s.options();
+  options.time_limit = s.since.left(options.time_limit);
+  Expected<OptimizeReport> report = optimize(mesh, options, hooks);
   if (!report) {
     InputError error = spell_options(report.error());
     if (files.resumed != nullptr && error.where.empty()) error.where = files.resumed->path;

@@ -74,6 +74,7 @@ void Driver::begin(Phase& phase, int sweep) {
   if (phase.keeps() == Phase::Keeps::best) keep(best_energy_, sweep);
   keep_regular(sweep);
   run_.report.stopped = Stopped::max_sweeps;
+  run_.begin_sweeps();
   show(Snapshot::Moment::start, phase);
 }
 

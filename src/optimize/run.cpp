@@ -5,7 +5,7 @@
 namespace temper {
 
 bool Run::asked_to_stop(double fraction_of_sweep) {
-  if (options_.time_limit > 0 && seconds_here() > options_.time_limit) {
+  if (options_.time_limit > 0 && seconds_here() + ending_seconds_ > options_.time_limit) {
     report.stopped = Stopped::time_limit;
     return true;
   }

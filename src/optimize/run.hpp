@@ -38,6 +38,11 @@ class Run {
   }
   /// Says whether there is time for more.
   [[nodiscard]] bool goes_on() const { return !stopped_by_caller() && sweeps_left(); }
+  /// From here on there are sweeps. What has been done so far, copies and measures of the whole mesh, is done again
+  /// when they end, and takes about as long: the time limit is of all of it.
+  void begin_sweeps() {
+    if (ending_seconds_ == 0) ending_seconds_ = seconds_here();
+  }
   /// Asks the clock and the caller; sets report.stopped when the answer is yes.
   bool asked_to_stop(double fraction_of_sweep);
 
@@ -62,6 +67,7 @@ class Run {
   const Observer& observer_;
   Clock::time_point start_;
   double earlier_seconds_ = 0;
+  double ending_seconds_ = 0;  // after the last sweep, about
 };
 
 }  // namespace temper

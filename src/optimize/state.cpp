@@ -71,7 +71,8 @@ void visit(Archive& archive, Attempt& attempt) {
 }
 
 void visit(Archive& archive, Run& run) {
-  auto& [report, facts, repair_trials_left, checkpoints, options, observer, start, earlier_seconds] = run;
+  auto& [report, facts, repair_trials_left, checkpoints, options, observer, start, earlier_seconds, ending_seconds] =
+      run;
   double seconds = run.seconds();
   archive(report, facts, repair_trials_left, seconds);
   archive.require(!report.history.empty());

@@ -72,11 +72,11 @@ TriangleId start_for(VertexId v, const Mesh& mesh, const Mesh& of_field, const I
 }
 
 /// The gradation at every edge, from the sizes at the vertices.
-Spread gradation(const Mesh& mesh, const IdVector<VertexId, double>& sizes) {
+Spread gradation(const Mesh& mesh, const std::vector<double>& sizes) {
   return spread_of_floats([&](auto&& take) {
     for (const HalfedgeId h : mesh.halfedges()) {
       if (!mesh.is_edge_representative(h)) continue;
-      const auto [low, high] = std::minmax(sizes[mesh.origin(h)], sizes[mesh.target(h)]);
+      const auto [low, high] = std::minmax(sizes[mesh.origin(h).index], sizes[mesh.target(h).index]);
       take(static_cast<float>(high / low));
     }
   });
@@ -111,19 +111,18 @@ double SizeReport::band() const { return std::max(over_field.max, 1 / over_field
 SizeReport measure_size(const Mesh& mesh, const SizeField& field, Executor* executor,
                         const IdVector<VertexId, VertexId>& near) {
   SizeReport report;
-  std::vector<double> ratios(mesh.n_vertices());
-  report.outside = static_cast<std::size_t>(blockwise_sum(mesh.n_vertices(), executor, [&](std::size_t i) {
+  std::vector<double> sizes(mesh.n_vertices());
+  for_each_index(sizes.size(), executor, [&](std::size_t i) { sizes[i] = local_size(mesh, VertexId(i)); });
+  report.gradation = gradation(mesh, sizes);
+  // In place: with another array a run would never need more memory than here.
+  std::vector<double> ratios = std::move(sizes);
+  report.outside = static_cast<std::size_t>(blockwise_sum(ratios.size(), executor, [&](std::size_t i) {
     const VertexId v(i);
     const SizeField::Sample s = field.at(mesh.position(v), start_for(v, mesh, field.mesh(), near));
-    ratios[i] = local_size(mesh, v) / s.size;
+    ratios[i] /= s.size;
     return s.outside ? 1.0 : 0.0;
   }));
   report.over_field = spread(std::move(ratios));
-  // Asked again rather than kept: with both arrays a run would never need more than here.
-  IdVector<VertexId, double> sizes(mesh.n_vertices());
-  for_each_index(mesh.n_vertices(), executor,
-                 [&](std::size_t i) { sizes[VertexId(i)] = local_size(mesh, VertexId(i)); });
-  report.gradation = gradation(mesh, sizes);
   report.largest_edge_ratio = largest_edge_ratio(mesh);
   return report;
 }

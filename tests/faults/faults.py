@@ -4,6 +4,7 @@
     faults.py PROGRAM SHIM              a sample of each kind, with a fixed seed: some seconds
     faults.py PROGRAM SHIM --all        each allocation and each call that writes; many moments
     faults.py PROGRAM SHIM --verb mesh --kind allocate
+    faults.py PROGRAM SHIM --vertices 100000 --kind interrupt --kind limit      how soon large runs end
 
 What is run are the examples in the help of each verb, in a folder with the files that they name: a new verb is tested
 without a line here. After a fault every output is as it was or whole, the exit code and a message say what happened,
@@ -35,10 +36,8 @@ LAKE = """6 2 0 0
 1 1 2\n2 2 3\n3 3 4\n4 4 5\n5 5 6\n6 6 1
 0
 """
-# What an example reads that no other example makes.
-INPUTS = [["example", "random", "--vertices", "60", "--seed", "7", "-o", "in.vtu"]]
+LATEST = 1.0  # seconds from a signal or the end of --time-limit to the end of the program
 FINE = (0, 3, 6)  # done, a requirement that is not met, no weights: the verb did its work
-MOST_ALLOCATIONS = 1000000  # of an example that is tried: each of its runs is as long as it
 ERRORS = {"open": (errno.EACCES, errno.ENOSPC), "write": (errno.ENOSPC, errno.EIO), "short": (0,),
           "fsync": (errno.EIO,), "close": (errno.EIO, errno.ENOSPC), "rename": (errno.EIO,)}
 
@@ -73,8 +72,8 @@ def files_in(folder):
 
 
 class Runner:
-    def __init__(self, program, shim, scratch):
-        self.program, self.shim, self.scratch = program, shim, scratch
+    def __init__(self, program, shim, scratch, vertices):
+        self.program, self.shim, self.scratch, self.vertices = program, shim, scratch, str(vertices)
 
     def fill(self, files):
         folder = self.scratch / "run"
@@ -141,15 +140,15 @@ def measured(runner, case):
 def cases_of(runner, verb):
     """The examples of a verb, in the folder that those before leave behind."""
     files = {"lake.poly": LAKE.encode()}
-    for command in INPUTS:
-        files = runner.run(command, files).files
+    # in.vtu is what examples read that none of them makes.
+    files = runner.run(["example", "random", "--vertices", runner.vertices, "--seed", "7", "-o", "in.vtu"], files).files
     found = []
     for command in examples(runner.help(verb)):
         case = measured(runner, Case(verb, command, files))
         if case is None:
             continue
         files = {**files, **case.outputs}
-        if command[0] == verb and case.counts["allocate"] <= MOST_ALLOCATIONS and "--list" not in command:
+        if command[0] == verb and "--list" not in command:
             found.append(case)
     return found
 
@@ -265,6 +264,7 @@ def interrupt(runner, case, judge, wanted, rng):
         before_main = outcome.exit == -sent and outcome.error == ""
         if not before_main:
             judge.failure(case, fault, outcome, (case.exit, 4, -sent))
+        judge.expect(outcome.seconds <= LATEST, case, fault, f"ended {outcome.seconds:.2f} s later")
         # Stopped early, a verb writes another mesh.
         if outcome.exit != 4:
             judge.files(case, fault, outcome)
@@ -272,8 +272,22 @@ def interrupt(runner, case, judge, wanted, rng):
             judge.all_new(case, fault, outcome)
 
 
+def limit_time(runner, case, judge, wanted, rng):
+    if "--time-limit" not in runner.help(case.verb) or "--time-limit" in case.arguments:
+        return
+    for _ in range(wanted or 5):
+        limit = rng.uniform(0.5, 1.0) * case.seconds
+        fault = f"--time-limit {limit:.4f}"
+        outcome = runner.run([*case.arguments, "--time-limit", f"{limit:.4f}"], with_old_outputs(case))
+        judge.injected["--time-limit"] += 1
+        judge.failure(case, fault, outcome, (case.exit, 4))
+        late = outcome.seconds - limit
+        judge.expect(late <= max(LATEST, 0.05 * limit), case, fault, f"ended {late:.2f} s later")
+
+
 # How many of each kind a sample has: of the calls of each kind, or moments.
-KINDS = {"allocate": (fail_allocations, 3), "write": (fail_writes, 2), "kill": (kill, 1), "interrupt": (interrupt, 3)}
+KINDS = {"allocate": (fail_allocations, 3), "write": (fail_writes, 2), "kill": (kill, 1), "interrupt": (interrupt, 3),
+         "limit": (limit_time, 1)}
 
 
 def main():
@@ -283,10 +297,11 @@ def main():
     parser.add_argument("--all", action="store_true")
     parser.add_argument("--verb", action="append")
     parser.add_argument("--kind", action="append", choices=KINDS)
+    parser.add_argument("--vertices", type=int, default=60, help="of the mesh that examples read")
     given = parser.parse_args()
     judge, rng = Judge(), random.Random(1)
     with tempfile.TemporaryDirectory() as scratch:
-        runner = Runner(os.path.abspath(given.program), os.path.abspath(given.shim), pathlib.Path(scratch))
+        runner = Runner(os.path.abspath(given.program), os.path.abspath(given.shim), pathlib.Path(scratch), given.vertices)
         for verb in given.verb or verbs(runner):
             cases = cases_of(runner, verb)
             if not cases:
