@@ -37,8 +37,9 @@ void add_options(Command& command, CheckSettings& s) {
   add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
   command.group("Requirements");
   add_texts(command, "--require", "LIST", Values::repeated, s.require,
-            "key=value,key=value,...: exit with 3 when one does not hold. With = counts must be equal, minima and "
-            "fractions at least the value, maxima and energies at most; or write key<=value, key>=value. Keys: " +
+            "key=value,key>=value,key<=value,...: exit with 3 when one does not hold. key=value asks of a count that "
+            "it is the value, of a minimum or a fraction that it is no less, of a maximum or an energy that it is no "
+            "more. Keys: " +
                 requirement_keys());
   command.group("Help");
   command.add_help({"IN [options]",

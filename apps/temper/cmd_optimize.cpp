@@ -78,8 +78,8 @@ void add_files(Command& command, Settings& s) {
 #ifdef TEMPER_WITH_VERIFY
   command.add_flag(
       "--verify", s.verify,
-      "also measure the errors of solvers before and after, as temper verify does; with --objective accuracy "
-      "an input that is well-centered and has the smaller ones is returned");
+      "measure the errors of solvers, too, before and after: see temper verify. With --objective accuracy the input "
+      "is returned when it is well-centered and its errors are the smaller ones");
 #endif
   command.add_flag("--quiet", s.quiet, "print warnings and errors only");
 }

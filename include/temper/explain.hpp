@@ -113,7 +113,7 @@ struct ExplainOptions {
   std::size_t cures = 20;  ///< cures are searched for so many reasons, the worst
   /// Weights are asked of the whole mesh when it has at most so many triangles, or so many bad ones; else reasons of
   /// the kind `weights` speak for their neighbourhood alone.
-  std::size_t whole = 3000;
+  std::size_t whole = 1000;
   /// Called now and then with how many of the bad triangles are explained; Continue::no stops, with an error.
   std::function<Continue(std::size_t done, std::size_t all)> progress = {};
 };

@@ -178,7 +178,8 @@ struct OptimizeOptions {
   Objective objective = Objective::energy;
   AccuracyOptions accuracy = {};
   EnergyKind energy = EnergyKind::BP;
-  Star star = Star::one;  ///< of the energy; with Objective::accuracy of that, whose first phase is for ★1 then
+  Star star =
+      Star::one;  ///< whose error is to be small; Objective::accuracy begins with a phase for ★1 whatever this is
   Unknowns unknowns = Unknowns::positions_and_weights;
   Flips flips = Flips::immediate;
   BoundaryVertices boundary = BoundaryVertices::keep;

@@ -150,7 +150,7 @@ def explain(
     mesh: MeshLike,
     *,
     cures: int = 20,
-    whole: int = 3000,
+    whole: int = 1000,
     progress: Callable[[int, int], Any] | None = None,
 ) -> Explanation:
     """Explains each triangle that is not well-centered, by exactly one reason (docs/explain.md).

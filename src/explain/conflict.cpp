@@ -28,6 +28,7 @@ void sort_for_dropping(const Mesh& mesh, TriangleId kept, std::vector<TriangleId
     TriangleId triangle;
   };
   std::vector<Key> keys;
+  keys.reserve(triangles.size());
   for (const TriangleId t : triangles) keys.push_back({measure_triangle(mesh, t).margin(), centroid(mesh, t), t});
   std::sort(keys.begin(), keys.end(), [kept](const Key& a, const Key& b) {
     if ((a.triangle == kept) != (b.triangle == kept)) return b.triangle == kept;

@@ -80,7 +80,7 @@ std::optional<Patch> patch_of(const Mesh& mesh, const Conflict& conflict, std::s
   for (std::size_t i = 0; i < patch.slots.size(); ++i) {
     const TriangleId t = patch.slots[i];
     if (std::binary_search(conflict.triangles.begin(), conflict.triangles.end(), t)) {
-      patch.conflict.push_back(TriangleId(i));
+      patch.conflict.emplace_back(i);
     } else if (std::find(others.begin(), others.end(), t) != others.end()) {
       patch.excused.push_back(sorted_corners(patch.mesh, TriangleId(i)));
     }
@@ -112,6 +112,7 @@ Trial judge(const Mesh& mesh, const std::vector<Triple>& excused, LpSolver& solv
 std::vector<Vec2> compass(std::optional<Vec2> along) {
   if (along) return {*along, -1.0 * *along};
   std::vector<Vec2> directions;
+  directions.reserve(8);
   for (int i = 0; i < 8; ++i) {
     directions.push_back({std::cos(i * std::numbers::pi / 4), std::sin(i * std::numbers::pi / 4)});
   }

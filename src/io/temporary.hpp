@@ -20,6 +20,8 @@ class Temporary {
   static Temporary beside(const std::string& target);
   Temporary(Temporary&& other) noexcept { *this = std::move(other); }
   Temporary& operator=(Temporary&& other) noexcept;
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
   ~Temporary() { remove(); }
 
   [[nodiscard]] bool exists() const { return !path_.empty(); }

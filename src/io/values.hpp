@@ -36,8 +36,8 @@ struct ScalarInfo {
 /// Calls f(T()) with a value of the type; all calls return the same type.
 template <class F>
 decltype(auto) with_scalar(Scalar scalar, F&& f) {
-  switch (scalar) {  // NOLINT(bugprone-branch-clone): each branch has its type
-    case Scalar::f64:
+  switch (scalar) {
+    case Scalar::f64:  // NOLINT(bugprone-branch-clone): each branch has its type
       return f(double());
     case Scalar::f32:
       return f(float());

@@ -161,7 +161,7 @@ void Driver::compact() {
 void Driver::grow() {
   sweeper_.grow();
   if (sequence_.empty()) return;
-  for (std::size_t i = sequence_.size(); i < mesh_.n_vertices(); ++i) sequence_.push_back(VertexId(i));
+  for (std::size_t i = sequence_.size(); i < mesh_.n_vertices(); ++i) sequence_.emplace_back(i);
 }
 
 /// Weights that leave edges uncrossed and that single vertices cannot mend: half of all of them, until zero weights at

@@ -165,9 +165,10 @@ bool limits_after_flips(const Options& o) { return flip_limit_of(o) == FlipLimit
 
 constexpr OptionRow kEnergyRows[] = {
     row<&Options::energy>("energy", "what to minimise: a barrier (BH, BHs, BP) or a HOT energy (F, T, dT)"),
-    row<&Options::star>("star",
-                        "Hodge star of the energy, or of `objective=accuracy`, whose first sweeps are for star 1 then; "
-                        "all: accuracy alone"),
+    row<&Options::star>(
+        "star",
+        "Hodge star whose error is to be small. all: the three at once, with `objective=accuracy`, which "
+        "begins with sweeps for star 1 whatever this is"),
     row<kPaper, &Paper::gamma>("gamma", "gamma of E_BP",
                                {.range = more_than(0),
                                 .absent = "relative to each edge, shrinking from 0.5, or 1 where many triangles are "
