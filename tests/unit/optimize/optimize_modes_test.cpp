@@ -141,7 +141,7 @@ TEST(Modes, EverySolverLowersEveryEnergyAndKeepsTheMeshValid) {
       }
     }
   }
-  EXPECT_EQ(runs, 6 * 3 * 3);
+  EXPECT_EQ(runs, int{kEnergyKinds} * 3 * 3);
 }
 
 TEST(Modes, EveryFlipLimitAndTimingKeepsTheMeshRegular) {
