@@ -147,17 +147,17 @@ std::vector<std::string> doubtful_options(const Command& command, const Settings
   std::vector<std::string> warnings =
       idle_options(command, s.table, s.method == Method::paper ? paper_method() : OptimizeOptions());
   if (s.options().repair == Repair::vertices && s.options().size_band) {
-    warnings.push_back(
+    warnings.emplace_back(
         spell_options("vertices that `repair=vertices` removes and inserts are not held to `size_band`"));
   }
   if (s.size_field.empty() && command.was_given("--size-field-data")) {
-    warnings.push_back("--size-field-data has no effect without --size-field");
+    warnings.emplace_back("--size-field-data has no effect without --size-field");
   }
   if (s.checkpoint.empty() && command.was_given("--every")) {
-    warnings.push_back("--every has no effect without --checkpoint");
+    warnings.emplace_back("--every has no effect without --checkpoint");
   }
   if (!s.report.empty() && same_file(s.input, s.output)) {
-    warnings.push_back("--output replaces the input: the command in the report would start from the improved mesh");
+    warnings.emplace_back("--output replaces the input: the command in the report would start from the improved mesh");
   }
   return warnings;
 }

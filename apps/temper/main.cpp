@@ -99,11 +99,8 @@ int internal_error(std::string_view what) {
   std::_Exit(static_cast<int>(Exit::internal));
 }
 
-}  // namespace
-}  // namespace temper::app
-
-int main(int argc, char** argv) {
-  using namespace temper::app;
+/// Runs the command line; its exit status.
+int run_program(int argc, char** argv) {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 1 << 20);  // arrays that are freed after reading go back to the system
 #endif
@@ -126,3 +123,8 @@ int main(int argc, char** argv) {
     return internal_error("unknown exception");
   }
 }
+
+}  // namespace
+}  // namespace temper::app
+
+int main(int argc, char** argv) { return temper::app::run_program(argc, argv); }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "input.hpp"
 #include "temper/optimize.hpp"
 #include "temper/size.hpp"
 

@@ -121,7 +121,7 @@ class Archive {
     one(index);
     require(index < sizeof...(T));
     if (reads() && !failed_) choose(value, static_cast<std::size_t>(index), std::index_sequence_for<T...>());
-    std::visit([this](auto& each) { one(each); }, value);
+    std::visit([this](auto& each) { this->one(each); }, value);
   }
   template <class Variant, std::size_t... i>
   static void choose(Variant& value, std::size_t index, std::index_sequence<i...>) {

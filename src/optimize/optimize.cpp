@@ -50,7 +50,7 @@ Expected<Candidate> best_attempt(const Mesh& mesh, Settings& settings, Run& run)
   for (; i < tries.size(); ++i) {
     const bool begins = !run.checkpoints.resumes();
     if (begins) now = {WorkingCopy(mesh, o.paper.order, settings.hooks.executor)};
-    Driver driver(now.work, settings, run);
+    Driver driver(now.work, settings, run);  // NOLINT(bugprone-use-after-move): what begins has been made anew
     if (begins && i > 0) driver.recorder().returned_to(-1);
     if (begins) {
       if (auto error = prepare(driver, mesh, settings)) return *std::move(error);
@@ -92,7 +92,7 @@ Candidate repaired(Candidate start, Settings& settings, Run& run) {
     const bool begins = !run.checkpoints.resumes();
     if (begins && is_done(best)) break;
     if (begins) now = start;
-    Driver driver(now.work, settings, run);
+    Driver driver(now.work, settings, run);  // NOLINT(bugprone-use-after-move): what begins has been made anew
     if (begins && best.sweep != start.sweep) driver.recorder().returned_to(start.sweep);
     const bool changed = driver.repair(settings.options.paper.seed + i);
     now.sweep = run.report.sweeps;

@@ -103,7 +103,7 @@ void Driver::visit(Archive& archive) {
   auto& [work, mesh, settings, run, recorder, flipper, sweeper, sequence, inner, outer, best, best_energy, best_sweep,
          regular, regular_sweep] = *this;  // work and settings are those of the callers
   archive(recorder, flipper, sweeper, sequence, inner, outer, best, best_energy, best_sweep, regular, regular_sweep);
-  const auto is_there = [&](VertexId v) { return v.index < mesh.n_vertices(); };
+  const auto is_there = [n = mesh_.n_vertices()](VertexId v) { return v.index < n; };
   archive.require(std::all_of(sequence.begin(), sequence.end(), is_there));
 }
 

@@ -13,6 +13,7 @@ class AccuracyPhase final : public Phase {
   AccuracyPhase(const WorkingCopy& work, const Settings& settings, Run& run, const AccuracySizes& sizes);
   AccuracyPhase(const AccuracyPhase&) = delete;
   AccuracyPhase& operator=(const AccuracyPhase&) = delete;
+  ~AccuracyPhase() override = default;
 
   /// The settings for the driver's steps.
   [[nodiscard]] Settings& settings() { return settings_; }
