@@ -1,16 +1,16 @@
-// The file is an envelope (temper/envelope.hpp) around an archive (temper/archive.hpp). Each visit() names all members of
-// its class, so that a new one does not compile before it is looked at here.
+// The file is an envelope (temper/envelope.hpp) around an archive (temper/archive.hpp). Each visit() names all members
+// of its class, so that a new one does not compile before it is looked at here.
 #include "temper/checkpoint.hpp"
 
 #include <utility>
 
-#include "temper/archive.hpp"
-#include "temper/envelope.hpp"
 #include "io/failure.hpp"
 #include "io/file_names.hpp"
 #include "io/format.hpp"
 #include "io/input.hpp"
 #include "io/output.hpp"
+#include "temper/archive.hpp"
+#include "temper/envelope.hpp"
 
 namespace temper {
 

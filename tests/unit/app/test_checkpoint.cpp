@@ -4,8 +4,8 @@
 #include <chrono>
 #include <thread>
 
-#include "temper/envelope.hpp"
 #include "temper/checkpoint.hpp"
+#include "temper/envelope.hpp"
 #include "temper/generate.hpp"
 #include "workshop.hpp"
 
