@@ -10,8 +10,10 @@
 #include <atomic>
 #include <cerrno>
 #include <climits>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <utility>
 
 #include "io/failure.hpp"
@@ -32,21 +34,48 @@ struct Entry {
 };
 std::array<Entry, kEntries> entries;
 
-/// A path that the list has no room for stays where it is when the program ends: the next run takes it.
-std::size_t enter(const std::string& path) {
-  if (path.size() >= PATH_MAX) return kNoEntry;
-  for (std::size_t i = 0; i < kEntries; ++i) {
-    int expected = Entry::free;
-    if (!entries[i].state.compare_exchange_strong(expected, Entry::being_written)) continue;
-    std::memcpy(entries[i].path.data(), path.c_str(), path.size() + 1);
-    entries[i].state = Entry::listed;
-    return i;
-  }
-  return kNoEntry;
-}
-
 void strike(std::size_t entry) {
   if (entry != kNoEntry) entries[entry].state = Entry::free;
+}
+
+/// A place in the list for a file that is about to be made, and goes into it before any signal ends the program: this
+/// thread takes none so long, and the handler in another one waits. A path that the list has no room for stays where it
+/// is when the program ends: the next run takes it.
+class Place {
+ public:
+  Place() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+    for (entry_ = 0; entry_ < kEntries; ++entry_) {
+      int expected = Entry::free;
+      if (entries[entry_].state.compare_exchange_strong(expected, Entry::being_written)) break;
+    }
+  }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+  ~Place() {
+    strike(entry_);
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+
+  /// Puts the file into the list. Returns its entry there.
+  std::size_t take(const std::string& path) {
+    if (entry_ == kNoEntry || path.size() >= PATH_MAX) return kNoEntry;
+    std::memcpy(entries[entry_].path.data(), path.c_str(), path.size() + 1);
+    entries[entry_].state = Entry::listed;
+    return std::exchange(entry_, kNoEntry);
+  }
+
+ private:
+  sigset_t before_ = {};
+  std::size_t entry_ = kNoEntry;
+};
+
+/// Waits for the file that another thread is just making, a second at most.
+void wait_for(const Entry& entry) {
+  constexpr timespec kMillisecond = {0, 1000000};
+  for (int i = 0; i < 1000 && entry.state == Entry::being_written; ++i) nanosleep(&kMillisecond, nullptr);
 }
 
 bool lock(int file) { return flock(file, LOCK_EX | LOCK_NB) == 0; }
@@ -84,20 +113,26 @@ int create(const std::string& path) {
 
 void discard_unfinished() noexcept {
   for (const Entry& entry : entries) {
+    wait_for(entry);
     if (entry.state == Entry::listed) unlink(entry.path.data());
   }
 }
 
-Temporary::Temporary(int lock, std::string path) : path_(std::move(path)), entry_(enter(path_)), lock_(lock) {}
+Temporary::Temporary(std::string path, std::size_t entry, int lock)
+    : path_(std::move(path)), entry_(entry), lock_(lock) {}
 
 Temporary Temporary::beside(const std::string& target) {
   constexpr int kTries = 1000;  // as many runs may write the same file at once
+  Place place;
   for (int i = 0; i < kTries; ++i) {
     std::string path = text(target, ".tmp", i);
     int file = create(path);
     const bool taken = file < 0 && errno == EEXIST;
     if (taken && remove_left_over(path)) file = create(path);
-    if (file >= 0) return {file, std::move(path)};
+    if (file >= 0) {
+      const std::size_t entry = place.take(path);
+      return {std::move(path), entry, file};
+    }
     if (!taken) break;
   }
   return {};

@@ -33,7 +33,7 @@ class Temporary {
   void remove();
 
  private:
-  Temporary(int lock, std::string path);
+  Temporary(std::string path, std::size_t entry, int lock);
   void end();
 
   std::string path_;

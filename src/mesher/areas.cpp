@@ -21,13 +21,13 @@ struct Hull {
   IdVector<HalfedgeId, std::uint32_t> piece;
 };
 
-Expected<Hull> triangulate_hull(std::vector<Vec2> points, const std::vector<Piece>& pieces, Watch& watch) {
+Expected<Hull> triangulate_hull(std::vector<Vec2> points, const std::vector<Piece>& pieces, Deadline& deadline) {
   std::vector<std::array<std::int32_t, 2>> segments;
   segments.reserve(pieces.size());
   for (const Piece& p : pieces) {
     segments.push_back({static_cast<std::int32_t>(p.ends[0]), static_cast<std::int32_t>(p.ends[1])});
   }
-  Expected<Mesh> mesh = constrained_delaunay({points, segments, false, [&] { return watch.asked_to_stop(); }});
+  Expected<Mesh> mesh = constrained_delaunay({points, segments, false, [&] { return deadline.asked_to_stop(); }});
   if (!mesh) return mesh.error();
   Hull hull{*std::move(mesh), {}};
   hull.piece.resize(hull.mesh.n_halfedges(), kNone);
@@ -48,8 +48,9 @@ void each_halfedge(TriangleId t, const F& f) {
 
 class AreaFinder {
  public:
-  AreaFinder(const Outline& outline, const std::vector<OutlineEdge>& edges, const MesherOptions& options, Watch& watch)
-      : outline_(outline), names_(names_of(outline)), edges_(edges), options_(options), watch_(watch) {}
+  AreaFinder(const Outline& outline, const std::vector<OutlineEdge>& edges, const MesherOptions& options,
+             Deadline& deadline)
+      : outline_(outline), names_(names_of(outline)), edges_(edges), options_(options), deadline_(deadline) {}
 
   Expected<Areas> run() {
     std::vector<Piece> pieces;
@@ -58,7 +59,7 @@ class AreaFinder {
       pieces.push_back(
           {{static_cast<std::uint32_t>(ends[0]), static_cast<std::uint32_t>(ends[1])}, static_cast<std::uint32_t>(i)});
     }
-    Expected<Hull> hull = triangulate_hull(outline_.points, pieces, watch_);
+    Expected<Hull> hull = triangulate_hull(outline_.points, pieces, deadline_);
     if (!hull) return hull.error();
     hull_ = *std::move(hull);
     find_components();
@@ -265,7 +266,7 @@ class AreaFinder {
   const OutlineNames& names_;
   const std::vector<OutlineEdge>& edges_;
   const MesherOptions& options_;
-  Watch& watch_;
+  Deadline& deadline_;
   Hull hull_;
   TriangleId located_ = TriangleId(0);
   IdVector<TriangleId, std::uint32_t> component_;
@@ -280,15 +281,15 @@ class AreaFinder {
 }  // namespace
 
 Expected<Areas> find_areas(const Outline& outline, const std::vector<OutlineEdge>& edges, const MesherOptions& options,
-                           Watch& watch) {
-  return AreaFinder(outline, edges, options, watch).run();
+                           Deadline& deadline) {
+  return AreaFinder(outline, edges, options, deadline).run();
 }
 
 Expected<Triangulated> triangulate(const DividedOutline& divided, const std::vector<Vec2>& further, const Areas& areas,
-                                   Watch& watch) {
+                                   Deadline& deadline) {
   std::vector<Vec2> points = divided.points;
   points.insert(points.end(), further.begin(), further.end());
-  Expected<Hull> hull = triangulate_hull(std::move(points), divided.pieces, watch);
+  Expected<Hull> hull = triangulate_hull(std::move(points), divided.pieces, deadline);
   if (!hull) return hull.error();
   Triangulated result{std::move(hull->mesh), {}, std::move(hull->piece)};
   const Mesh& mesh = result.mesh;

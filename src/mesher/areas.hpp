@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesher/deadline.hpp"
 #include "mesher/divided_outline.hpp"
-#include "mesher/watch.hpp"
 #include "temper/mesher.hpp"
 
 namespace temper::mesher {
@@ -28,7 +28,7 @@ struct Areas {
 
 /// Errors: nothing enclosed, hole and region points on an edge or outside, parts that overlap.
 [[nodiscard]] Expected<Areas> find_areas(const Outline& outline, const std::vector<OutlineEdge>& edges,
-                                         const MesherOptions& options, Watch& watch);
+                                         const MesherOptions& options, Deadline& deadline);
 
 /// The triangulation of points and pieces over their convex hull, and what belongs to each triangle and halfedge.
 struct Triangulated {
@@ -39,6 +39,6 @@ struct Triangulated {
 };
 /// Further points come after those of the divided outline. ErrorCode::stopped when it is time to stop.
 [[nodiscard]] Expected<Triangulated> triangulate(const DividedOutline& divided, const std::vector<Vec2>& further,
-                                                 const Areas& areas, Watch& watch);
+                                                 const Areas& areas, Deadline& deadline);
 
 }  // namespace temper::mesher

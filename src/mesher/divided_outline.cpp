@@ -12,7 +12,7 @@ namespace temper::mesher {
 namespace {
 
 /// Distances along a segment of given length where it is to be divided: equal parts of the integral of 1/size.
-std::vector<double> divisions(Vec2 from, Vec2 to, const GradedSize& size, Watch& watch) {
+std::vector<double> divisions(Vec2 from, Vec2 to, const GradedSize& size, Deadline& deadline) {
   constexpr double kStep = 0.125;      // of the local size: the integrand changes by less than grade/8 in a step
   constexpr double kStretch = 0.25;    // a piece may be longer than its size by this part, rather than be halved
   constexpr double kLeastStep = 1e-7;  // of the segment: what is finer takes fewer samples, not all memory
@@ -20,7 +20,7 @@ std::vector<double> divisions(Vec2 from, Vec2 to, const GradedSize& size, Watch&
   const Vec2 direction = (1 / whole) * (to - from);
   std::vector<double> at = {0}, integral = {0};
   double density = 1 / size(from);
-  while (at.back() < whole && !watch.asked_to_stop()) {
+  while (at.back() < whole && !deadline.asked_to_stop()) {
     // The first step must not run past a finer stretch: the size falls by at most grade times the step.
     const double next = std::min(whole, at.back() + std::max(kStep / density, kLeastStep * whole));
     const double next_density = 1 / size(from + next * direction);
@@ -28,7 +28,7 @@ std::vector<double> divisions(Vec2 from, Vec2 to, const GradedSize& size, Watch&
     at.push_back(next);
     density = next_density;
   }
-  if (watch.stopped()) return {};
+  if (deadline.stopped()) return {};
   const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil(integral.back() - kStretch)));
   std::vector<double> result;
   std::size_t k = 1;
@@ -99,6 +99,7 @@ CornerRadii corner_radii(const std::vector<Vec2>& points, const std::vector<Outl
   std::vector<std::uint8_t> sharp(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) sharp[i] = is_sharp(points, i, around[i]) ? 1 : 0;
   std::vector<Box> boxes;
+  boxes.reserve(edges.size());
   for (const OutlineEdge& e : edges) {
     boxes.push_back(box_of(points[static_cast<std::size_t>(e.ends[0])], points[static_cast<std::size_t>(e.ends[1])]));
   }
@@ -118,7 +119,7 @@ CornerRadii corner_radii(const std::vector<Vec2>& points, const std::vector<Outl
 }
 
 DividedOutline divide(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges, const GradedSize& size,
-                      const CornerRadii& corners, Watch& watch) {
+                      const CornerRadii& corners, Deadline& deadline) {
   DividedOutline divided{points, {}};
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto a = static_cast<std::uint32_t>(edges[e].ends[0]), b = static_cast<std::uint32_t>(edges[e].ends[1]);
@@ -127,7 +128,7 @@ DividedOutline divide(const std::vector<Vec2>& points, const std::vector<Outline
     const double first = corners[a], last = whole - corners[b];
     std::vector<double> at;
     if (first > 0) at.push_back(first);
-    for (const double t : divisions(points[a] + first * direction, points[a] + last * direction, size, watch)) {
+    for (const double t : divisions(points[a] + first * direction, points[a] + last * direction, size, deadline)) {
       at.push_back(first + t);
     }
     if (last < whole) at.push_back(last);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "mesher/arrangement.hpp"
+#include "mesher/deadline.hpp"
 #include "mesher/graded_size.hpp"
-#include "mesher/watch.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper::mesher {
@@ -33,7 +33,7 @@ using CornerRadii = std::vector<double>;
 
 /// Divides every edge so that its pieces follow the size. What is left when it is time to stop is divided less.
 [[nodiscard]] DividedOutline divide(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges,
-                                    const GradedSize& size, const CornerRadii& corners, Watch& watch);
+                                    const GradedSize& size, const CornerRadii& corners, Deadline& deadline);
 
 /// About how many pieces that makes.
 [[nodiscard]] double count_pieces(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges, double size);

@@ -58,14 +58,14 @@ class MeshNames final : public InputNames {
 class Mesher {
  public:
   Mesher(const Outline& outline, const MesherOptions& options, const OptimizeHooks& hooks)
-      : outline_(outline), options_(options), hooks_(hooks), watch_(options.time_limit, hooks_.observer) {}
+      : outline_(outline), options_(options), hooks_(hooks), deadline_(options.time_limit, hooks_.observer) {}
 
   Expected<OutlineMesh> run() {
     if (auto error = check(options_)) return *error;
     Expected<std::vector<OutlineEdge>> edges = arrange(outline_);
     if (!edges) return edges.error();
     edges_ = *std::move(edges);
-    Expected<Areas> areas = find_areas(outline_, edges_, options_, watch_);
+    Expected<Areas> areas = find_areas(outline_, edges_, options_, deadline_);
     if (!areas) return areas.error();
     areas_ = *std::move(areas);
     if (auto error = check_count()) return *error;
@@ -118,18 +118,18 @@ class Mesher {
   /// Divides the outline, finer where that shows pieces that face each other, until nothing changes.
   Expected<DividedOutline> resolve() {
     constexpr int kRounds = 20;  // each finds what the last one's longer pieces hid; three or four do nearly always
-    DividedOutline divided = divide(outline_.points, edges_, size(), corners_, watch_);
-    if (watch_.stopped()) return stopped("divided");
+    DividedOutline divided = divide(outline_.points, edges_, size(), corners_, deadline_);
+    if (deadline_.stopped()) return stopped("divided");
     if (divided.pieces.size() > options_.most_triangles) return too_many();
     for (int round = 0; round < kRounds; ++round) {
-      const Expected<Triangulated> triangulated = triangulate(divided, {}, areas_, watch_);
-      if (watch_.stopped()) return stopped("divided");
+      const Expected<Triangulated> triangulated = triangulate(divided, {}, areas_, deadline_);
+      if (deadline_.stopped()) return stopped("divided");
       if (!triangulated) return too_fine(triangulated.error());
-      const std::vector<SizeSource> narrow = narrow_places(divided, *triangulated, size(), watch_);
+      const std::vector<SizeSource> narrow = narrow_places(divided, *triangulated, size(), deadline_);
       if (narrow.empty()) break;
       sources_.insert(sources_.end(), narrow.begin(), narrow.end());
-      divided = divide(outline_.points, edges_, size(), corners_, watch_);
-      if (watch_.stopped()) return stopped("divided");
+      divided = divide(outline_.points, edges_, size(), corners_, deadline_);
+      if (deadline_.stopped()) return stopped("divided");
       if (divided.pieces.size() > options_.most_triangles) return too_many();
     }
     return divided;
@@ -153,10 +153,10 @@ class Mesher {
 
   Expected<OutlineMesh> make(const DividedOutline& divided) {
     const std::size_t most_points = options_.most_triangles / 2;  // two triangles a vertex
-    const std::vector<Vec2> placed = place_points(divided, areas_, size(), most_points, watch_);
+    const std::vector<Vec2> placed = place_points(divided, areas_, size(), most_points, deadline_);
     if (placed.size() >= most_points) return too_many();
-    const Expected<Triangulated> triangulated = triangulate(divided, placed, areas_, watch_);
-    if (watch_.stopped()) return stopped("filled with points");
+    const Expected<Triangulated> triangulated = triangulate(divided, placed, areas_, deadline_);
+    if (deadline_.stopped()) return stopped("filled with points");
     if (!triangulated) return too_fine(triangulated.error());
     return build(divided, placed, *triangulated);
   }
@@ -242,7 +242,7 @@ class Mesher {
   }
 
   std::optional<InputError> improve(OutlineMesh& made, OptimizeOptions options) const {
-    const double left = watch_.time_left();
+    const double left = deadline_.time_left();
     if (left > 0 && !(options.time_limit > 0 && options.time_limit < left)) options.time_limit = left;
     Expected<OptimizeReport> report = optimize(made.mesh, options, hooks_);
     if (!report) return report.error();
@@ -277,7 +277,8 @@ class Mesher {
   }
 
   [[nodiscard]] bool stopped_early(const OutlineMesh& made) const {
-    return watch_.stopped() || made.report.stopped == Stopped::cancelled || made.report.stopped == Stopped::time_limit;
+    return deadline_.stopped() || made.report.stopped == Stopped::cancelled ||
+           made.report.stopped == Stopped::time_limit;
   }
 
   Expected<OutlineMesh> best_of_attempts() {
@@ -298,14 +299,14 @@ class Mesher {
       if (auto error = improve(*best, *options_.optimize)) return *error;
     }
     best->attempts = attempts;
-    if (watch_.stopped()) best->report.stopped = watch_.out_of_time() ? Stopped::time_limit : Stopped::cancelled;
+    if (deadline_.stopped()) best->report.stopped = deadline_.out_of_time() ? Stopped::time_limit : Stopped::cancelled;
     return best;
   }
 
   const Outline& outline_;
   const MesherOptions& options_;
   const OptimizeHooks& hooks_;
-  Watch watch_;
+  Deadline deadline_;
   std::vector<OutlineEdge> edges_;
   Areas areas_;
   CornerRadii corners_;

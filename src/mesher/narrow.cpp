@@ -25,9 +25,9 @@ class Narrow {
     }
   }
 
-  std::vector<SizeSource> run(Watch& watch) {
+  std::vector<SizeSource> run(Deadline& deadline) {
     for (const HalfedgeId h : mesh_.halfedges()) {
-      if (watch.asked_to_stop()) break;
+      if (deadline.asked_to_stop()) break;
       if (triangulated_.area[Mesh::triangle(h)] == kOutside) continue;
       if (triangulated_.piece[h] != Triangulated::kNoPiece) {
         across(h);
@@ -95,8 +95,8 @@ class Narrow {
 }  // namespace
 
 std::vector<SizeSource> narrow_places(const DividedOutline& divided, const Triangulated& triangulated,
-                                      const GradedSize& size, Watch& watch) {
-  return Narrow(divided, triangulated, size).run(watch);
+                                      const GradedSize& size, Deadline& deadline) {
+  return Narrow(divided, triangulated, size).run(deadline);
 }
 
 }  // namespace temper::mesher

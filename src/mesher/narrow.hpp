@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "mesher/areas.hpp"
-#include "mesher/watch.hpp"
+#include "mesher/deadline.hpp"
 
 namespace temper::mesher {
 
 /// Sizes that leave room for a row of vertices between facing pieces; only those that are less than `size` by more
 /// than a tenth. Isolated points count as pieces of no length.
 [[nodiscard]] std::vector<SizeSource> narrow_places(const DividedOutline& divided, const Triangulated& triangulated,
-                                                    const GradedSize& size, Watch& watch);
+                                                    const GradedSize& size, Deadline& deadline);
 
 }  // namespace temper::mesher

@@ -28,8 +28,8 @@ struct Front {
 
 class Placement {
  public:
-  Placement(const DividedOutline& divided, const Areas& areas, const GradedSize& size, Watch& watch)
-      : divided_(divided), areas_(areas), size_(size), watch_(watch) {
+  Placement(const DividedOutline& divided, const Areas& areas, const GradedSize& size, Deadline& deadline)
+      : divided_(divided), areas_(areas), size_(size), deadline_(deadline) {
     std::vector<Box> boxes;
     boxes.reserve(divided.pieces.size());
     for (const Piece& p : divided.pieces) boxes.push_back(box_of(divided.points[p.ends[0]], divided.points[p.ends[1]]));
@@ -38,8 +38,8 @@ class Placement {
   }
 
   std::vector<Vec2> run(std::size_t most) {
-    for (std::size_t i = 0; i < divided_.pieces.size() && !watch_.asked_to_stop(); ++i) start_from(i);
-    for (std::size_t i = 0; i < front_.size() && front_.size() < most && !watch_.asked_to_stop(); ++i) {
+    for (std::size_t i = 0; i < divided_.pieces.size() && !deadline_.asked_to_stop(); ++i) start_from(i);
+    for (std::size_t i = 0; i < front_.size() && front_.size() < most && !deadline_.asked_to_stop(); ++i) {
       const Front from = front_[i];  // a copy: front_ grows
       const double here = size_at(from.at, from.area);
       for (int k = 0; k < 6; ++k) {
@@ -103,7 +103,7 @@ class Placement {
   const DividedOutline& divided_;
   const Areas& areas_;
   const GradedSize& size_;
-  Watch& watch_;
+  Deadline& deadline_;
   BoxTree tree_;
   PointGrid grid_;
   std::vector<Front> front_;
@@ -112,8 +112,8 @@ class Placement {
 }  // namespace
 
 std::vector<Vec2> place_points(const DividedOutline& divided, const Areas& areas, const GradedSize& size,
-                               std::size_t most, Watch& watch) {
-  return Placement(divided, areas, size, watch).run(most);
+                               std::size_t most, Deadline& deadline) {
+  return Placement(divided, areas, size, deadline).run(most);
 }
 
 }  // namespace temper::mesher

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesher/areas.hpp"
-#include "mesher/watch.hpp"
+#include "mesher/deadline.hpp"
 
 namespace temper::mesher {
 
@@ -13,6 +13,6 @@ namespace temper::mesher {
 /// too near and no piece lies between. The order is that of the pieces, then of the points: deterministic. Ends when
 /// there are `most`, or when it is time to stop. O(n log n).
 [[nodiscard]] std::vector<Vec2> place_points(const DividedOutline& divided, const Areas& areas, const GradedSize& size,
-                                             std::size_t most, Watch& watch);
+                                             std::size_t most, Deadline& deadline);
 
 }  // namespace temper::mesher

@@ -19,7 +19,7 @@ struct Target {
 [[nodiscard]] std::vector<Target> mesh_file_targets();
 /// Outlines of each format, and JSON.
 [[nodiscard]] std::vector<Target> outline_targets();
-/// Traces and certificates of the program.
+/// Traces, certificates and checkpoints of the program.
 [[nodiscard]] std::vector<Target> program_file_targets();
 /// Meshes and options made of the bytes, through optimize().
 [[nodiscard]] std::vector<Target> optimize_targets();

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <thread>
 
+#include "support/sanitizers.hpp"
 #include "temper/checkpoint.hpp"
 #include "temper/envelope.hpp"
 #include "temper/generate.hpp"
@@ -69,7 +70,7 @@ class Checkpoint : public Workshop {
     while (outcome.exit == 4) {
       ++stopped;
       EXPECT_TRUE(contains(outcome.out, "to go on: temper optimize --resume run.ckpt"));
-      limit *= 1.8;
+      limit *= TEMPER_SANITIZED ? 4 : 1.8;
       for (const char* input : {"in.vtu", "field.vtu"}) std::filesystem::remove(input);  // they are in the checkpoint
       const char* threads = stopped % 2 == 0 ? "1" : "2";
       outcome =

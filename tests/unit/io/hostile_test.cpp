@@ -15,7 +15,7 @@ namespace {
 
 // What they hold to is measured on files of nearly a megabyte, in the optimised build. Sanitizers, which take ten times
 // as long, look for other things, and find them in a small part of that.
-constexpr std::size_t kShare = TEMPER_SANITIZED ? 64 : 1;
+constexpr std::size_t kShare = TEMPER_SANITIZED ? 256 : 1;
 constexpr int kSeconds = TEMPER_SANITIZED ? 40 : 5;
 constexpr long kKilobytes = TEMPER_SANITIZED ? 1L << 22 : 1L << 20;
 constexpr std::size_t kMegabyte = 1 << 20;

@@ -10,10 +10,12 @@
 
 namespace temper::mesher {
 
-class Watch {
+/// When a run must end, by its time limit or its observer.
+class Deadline {
  public:
   /// `time_limit`: seconds from now; 0: none.
-  Watch(double time_limit, const Observer& observer) : limit_(time_limit), observer_(observer), start_(Clock::now()) {}
+  Deadline(double time_limit, const Observer& observer)
+      : limit_(time_limit), observer_(observer), start_(Clock::now()) {}
 
   /// Says whether to stop, and goes on saying so. Cheap: most calls only count, some hundredths of a second of them.
   /// What takes no longer than that is not stopped.
