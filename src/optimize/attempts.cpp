@@ -1,0 +1,106 @@
+// See attempts.hpp.
+#include "optimize/attempts.hpp"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "energy/whole_mesh.hpp"
+#include "optimize/driver.hpp"
+#include "optimize/rank.hpp"
+#include "optimize/refusal.hpp"
+#include "optimize/repair/repair_search.hpp"
+
+namespace temper {
+namespace {
+
+// A search that ends with triangles bad may have gone astray early on.
+constexpr std::uint64_t kSearches = 4;
+
+bool is_worse(const Candidate& a, const Candidate& b, const Settings& settings) {
+  return rank(b.work.mesh, settings) < rank(a.work.mesh, settings);
+}
+
+bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.hooks.executor) > 0; }
+
+/// The input made regular, and its boundary cut, as every attempt begins.
+std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Settings& settings) {
+  if (settings.options.flips != Flips::none && !driver.make_regular()) {
+    return hidden_vertices_error(input, settings.hooks.names);
+  }
+  driver.grade_boundary();
+  return std::nullopt;
+}
+
+}  // namespace
+
+Expected<Candidate> best_attempt(const Mesh& mesh, Settings& settings, Run& run) {
+  const OptimizeOptions& o = settings.options;
+  std::optional<Candidate> best;
+  Candidate now;
+  std::vector<Attempt> tries(1);
+  std::size_t i = 0;
+  const Resumable here(run.checkpoints, best, now, tries, i);
+  if (run.checkpoints.failed() || i >= tries.size()) return *run.checkpoints.error();
+  for (; i < tries.size(); ++i) {
+    const bool begins = !run.checkpoints.resumes();
+    if (begins) now = {WorkingCopy(mesh, o.paper.order, settings.hooks.executor)};
+    Driver driver(now.work, settings, run);  // NOLINT(bugprone-use-after-move): what begins has been made anew
+    if (begins && i > 0) driver.recorder().returned_to(-1);
+    if (begins) {
+      if (auto error = prepare(driver, mesh, settings)) return *std::move(error);
+    }
+    if (begins && i == 0) {
+      if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
+      const auto all = attempts(settings.energy, o, now.work.mesh, settings.hooks.executor);
+      tries.assign(all.begin(), all.end());
+      run.facts.input_flips = run.report.flips;
+    }
+    now.sweep = driver.attempt(tries[i], i + 1 < tries.size() || repairs(settings));
+    if (auto error = run.checkpoints.error()) return *std::move(error);
+    if (!best || !is_worse(now, *best, settings)) {
+      best = std::move(now);
+    } else {
+      driver.recorder().returned_to(best->sweep);
+    }
+    if (!has_bad(*best, settings) || !run.goes_on()) break;
+  }
+  return *std::move(best);
+}
+
+Candidate repaired(Candidate start, Settings& settings, Run& run) {
+  const auto is_done = [&](const Candidate& c) {
+    return !run.goes_on() || run.repair_trials_left <= 0 || !has_bad(c, settings);
+  };
+  Candidate best, now;
+  std::uint64_t i = 0;
+  bool polishes = false;
+  const Resumable here(run.checkpoints, start, best, now, i, polishes);
+  if (!here.resumed()) {
+    if (!repairs(settings) || is_done(start) || !std::isfinite(total_energy(start.work.mesh, settings.model))) {
+      return start;
+    }
+    best = start;
+  }
+  for (; !polishes && i < kSearches; ++i) {
+    const bool begins = !run.checkpoints.resumes();
+    if (begins && is_done(best)) break;
+    if (begins) now = start;
+    Driver driver(now.work, settings, run);  // NOLINT(bugprone-use-after-move): what begins has been made anew
+    if (begins && best.sweep != start.sweep) driver.recorder().returned_to(start.sweep);
+    const bool changed = driver.repair(settings.options.paper.seed + i);
+    now.sweep = run.report.sweeps;
+    if (changed && !is_worse(now, best, settings)) {
+      best = std::move(now);
+    } else {
+      driver.recorder().returned_to(best.sweep);
+    }
+  }
+  now = {};
+  polishes = true;
+  if (run.checkpoints.resumes() || run.goes_on()) best.sweep = Driver(best.work, settings, run).polish(best.sweep);
+  return best;
+}
+
+}  // namespace temper
