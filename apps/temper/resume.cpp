@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "suggest.hpp"
+
 namespace temper::app {
 namespace {
 
@@ -29,10 +31,8 @@ void add_words(const Option& option, Arguments& words) {
 }
 
 [[noreturn]] void refuse(const Command& command, const std::string& what) {
-  std::string expected;
-  for (const std::string_view name : kAnew) expected += fmt::format("{}{}", expected.empty() ? "" : ", ", name);
   throw Failure(Exit::bad_usage, fmt::format("{}: {}; beside {} expected no more than {}\nSee temper {} --help",
-                                             command.name(), what, kResume, expected, command.name()));
+                                             command.name(), what, kResume, join(kAnew), command.name()));
 }
 
 }  // namespace

@@ -178,8 +178,7 @@ struct OptimizeOptions {
   Objective objective = Objective::energy;
   AccuracyOptions accuracy = {};
   EnergyKind energy = EnergyKind::BP;
-  Star star =
-      Star::one;  ///< whose error is to be small; Objective::accuracy begins with a phase for ★1 whatever this is
+  Star star = Star::one;  ///< whose error is to be small; sweeps before Objective::accuracy are for ★1
   Unknowns unknowns = Unknowns::positions_and_weights;
   Flips flips = Flips::immediate;
   BoundaryVertices boundary = BoundaryVertices::keep;

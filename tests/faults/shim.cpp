@@ -57,6 +57,13 @@ bool fails(Kind kind) {
   return kind == failing && (and_all_after ? n >= nth : n == nth);
 }
 
+/// The same, with the error that the system gives.
+bool fails_with(Kind kind, int error) {
+  if (!fails(kind)) return false;
+  errno = error;
+  return true;
+}
+
 bool is_written(int file) { return file >= 0 && file < kFiles && written[file]; }
 
 template <class Function>
@@ -97,25 +104,13 @@ int __libc_start_main(int (*program)(int, char**, char**), int argc, char** argv
                                                                 stack_end);
 }
 
-void* malloc(std::size_t n) {
-  if (!fails(allocate)) return __libc_malloc(n);
-  errno = ENOMEM;
-  return nullptr;
-}
+void* malloc(std::size_t n) { return fails_with(allocate, ENOMEM) ? nullptr : __libc_malloc(n); }
 void* calloc(std::size_t n, std::size_t each) {
-  if (!fails(allocate)) return __libc_calloc(n, each);
-  errno = ENOMEM;
-  return nullptr;
+  return fails_with(allocate, ENOMEM) ? nullptr : __libc_calloc(n, each);
 }
-void* realloc(void* old, std::size_t n) {
-  if (!fails(allocate)) return __libc_realloc(old, n);
-  errno = ENOMEM;
-  return nullptr;
-}
+void* realloc(void* old, std::size_t n) { return fails_with(allocate, ENOMEM) ? nullptr : __libc_realloc(old, n); }
 void* aligned_alloc(std::size_t alignment, std::size_t n) {
-  if (!fails(allocate)) return __libc_memalign(alignment, n);
-  errno = ENOMEM;
-  return nullptr;
+  return fails_with(allocate, ENOMEM) ? nullptr : __libc_memalign(alignment, n);
 }
 int posix_memalign(void** result, std::size_t alignment, std::size_t n) {
   if (fails(allocate)) return ENOMEM;
@@ -131,10 +126,7 @@ int open(const char* path, int flags, ...) {
     mode = va_arg(more, mode_t);
     va_end(more);
   }
-  if ((flags & O_ACCMODE) != O_RDONLY && fails(open_file)) {
-    errno = code;
-    return -1;
-  }
+  if ((flags & O_ACCMODE) != O_RDONLY && fails_with(open_file, code)) return -1;
   return opened(next<int(const char*, int, ...)>("open")(path, flags, mode), flags);
 }
 int dup(int file) { return opened(next<int(int)>("dup")(file), is_written(file) ? O_WRONLY : O_RDONLY); }
@@ -142,17 +134,10 @@ int dup(int file) { return opened(next<int(int)>("dup")(file), is_written(file) 
 ssize_t write(int file, const void* bytes, std::size_t n) {
   const auto real = next<ssize_t(int, const void*, std::size_t)>("write");
   if (!is_written(file)) return real(file, bytes, n);
-  if (fails(write_file)) {
-    errno = code;
-    return -1;
-  }
+  if (fails_with(write_file, code)) return -1;
   return real(file, bytes, n > 1 && fails(short_write) ? n / 2 : n);
 }
-int fsync(int file) {
-  if (!fails(fsync_file)) return next<int(int)>("fsync")(file);
-  errno = code;
-  return -1;
-}
+int fsync(int file) { return fails_with(fsync_file, code) ? -1 : next<int(int)>("fsync")(file); }
 int close(int file) {
   const bool fail = is_written(file) && fails(close_file);
   if (is_written(file)) written[file] = false;
@@ -162,9 +147,7 @@ int close(int file) {
   return -1;
 }
 int rename(const char* from, const char* to) {
-  if (!fails(rename_file)) return next<int(const char*, const char*)>("rename")(from, to);
-  errno = code;
-  return -1;
+  return fails_with(rename_file, code) ? -1 : next<int(const char*, const char*)>("rename")(from, to);
 }
 
 }  // extern "C"

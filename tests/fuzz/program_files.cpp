@@ -1,6 +1,4 @@
 // Traces, certificates and checkpoints, as the program reads them: what is read is checked and done again.
-#include <fstream>
-#include <iterator>
 #include <vector>
 
 #include "apps/temper/certificate_json.hpp"
@@ -113,8 +111,7 @@ std::vector<std::string> checkpoints() {
   hooks.checkpoints = [&](const auto& state) { insist(file.keep(state).has_value(), "a checkpoint is written"); };
   Mesh mesh = input().mesh();
   insist(optimize(mesh, {.max_sweeps = 2}, hooks).has_value(), "a run ends");
-  std::ifstream stream(path, std::ios::binary);
-  const std::string all((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  const std::string all = content_of(path);
   const auto inside = from_envelope(kCheckpoint, all);
   insist(inside.has_value(), "what was written is read");
   return {all, std::string(*inside)};

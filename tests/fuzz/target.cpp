@@ -35,10 +35,14 @@ std::vector<std::string> seeds_and_finds(const Target& target) {
   std::vector<std::string> all = target.seeds();
   for (const auto& entry : fs::directory_iterator(TEMPER_FUZZ_FINDS)) {
     if (!entry.path().filename().string().starts_with(target.name + "-")) continue;
-    std::ifstream file(entry.path(), std::ios::binary);
-    all.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    all.push_back(content_of(entry.path()));
   }
   return all;
+}
+
+std::string content_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 void insist(bool holds, std::string_view what) {

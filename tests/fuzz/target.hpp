@@ -32,6 +32,9 @@ struct Target {
 /// Its seeds, and what it once did not survive: the files finds/NAME-….
 [[nodiscard]] std::vector<std::string> seeds_and_finds(const Target& target);
 
+/// The bytes of a file.
+[[nodiscard]] std::string content_of(const std::string& path);
+
 /// Ends the process, with a word on why, unless it holds.
 void insist(bool holds, std::string_view what);
 
