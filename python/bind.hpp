@@ -13,6 +13,7 @@
 #include "temper/executor.hpp"
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"
+#include "temper/progress.hpp"
 
 namespace temper::python {
 
@@ -113,6 +114,9 @@ class Visitor {
   std::chrono::steady_clock::time_point last_ = {};
 };
 
+/// Tells Python's observer, which may be None, and hears of Ctrl-C.
+Observer observer_of(Visitor& visitor, const py::object& observer);
+
 VertexId vertex_id(const Mesh& mesh, std::int64_t index);
 TriangleId triangle_id(const Mesh& mesh, std::int64_t index);
 HalfedgeId halfedge_id(const Mesh& mesh, std::int64_t index);
@@ -120,6 +124,7 @@ HalfedgeId halfedge_id(const Mesh& mesh, std::int64_t index);
 void bind_mesh(py::module_& m);
 void bind_geometry(py::module_& m);
 void bind_change(py::module_& m);
+void bind_optimize(py::module_& m);
 void bind_measure(py::module_& m);
 void bind_weights(py::module_& m);
 

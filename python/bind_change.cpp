@@ -1,4 +1,4 @@
-// Bindings of all that changes meshes: optimize, replay, regularity, topology, size, the mesher.
+// Bindings of what changes meshes, but for optimize (bind_optimize.cpp): regularity, topology, size, the mesher.
 #include "bind.hpp"
 #include "optimize_options.hpp"
 #include "temper/geometry.hpp"
@@ -6,11 +6,7 @@
 #include "temper/regularity.hpp"
 #include "temper/size.hpp"
 #include "temper/topology.hpp"
-#include "temper/trace.hpp"
 
-TEMPER_PYTHON_NAMES(temper::Snapshot::Moment, "start", "after_sweep", "before_flips", "after_flips");
-TEMPER_PYTHON_NAMES(temper::EventKind, "move", "weight", "flip", "collapse", "removal", "insertion", "split", "hidden",
-                    "undo");
 TEMPER_PYTHON_NAMES(temper::FlipStatus, "possible", "boundary", "constrained", "not_convex");
 TEMPER_PYTHON_NAMES(temper::RemovalStatus, "possible", "fixed", "boundary_corner", "constrained", "no_triangulation");
 TEMPER_PYTHON_NAMES(temper::InsertionStatus, "possible", "outside", "at_vertex", "on_boundary", "on_constrained",
@@ -19,141 +15,6 @@ TEMPER_PYTHON_NAMES(temper::Enclosed, "by_points", "all", "alternate");
 
 namespace temper::python {
 namespace {
-
-// --- optimize -------------------------------------------------------------------------------------------------
-
-py::dict event_to_dict(const TraceEvent& e) {
-  py::list triangles;
-  for (const auto& t : e.triangles) triangles.append(to_python(t));
-  return Record()("kind", name(e.kind))("sweep", e.sweep)("vertex", e.vertex)("before", e.before)("after", e.after)(
-             "point", e.point)("quad", e.quad)("link", e.link)("triangles", py::object(triangles))("to_sweep",
-                                                                                                   e.to_sweep)
-      .dict;
-}
-
-/// Python's observers of a run. Each may be None.
-struct Callbacks {
-  py::object observer, tracer, snapshots;
-};
-
-Observer observer_of(Visitor& visitor, const py::object& observer) {
-  return [&visitor, &observer](const Progress& progress) {
-    bool go_on = visitor.check_signals();
-    if (go_on && !observer.is_none()) {
-      go_on = visitor.call([&] {
-        const py::object answer = observer(record_to_dict(progress.last), progress.fraction, progress.max_sweeps);
-        return !(answer.is(py::bool_(false)));
-      });
-    }
-    return go_on ? Continue::yes : Continue::no;
-  };
-}
-
-void set_callbacks(OptimizeHooks& hooks, Visitor& visitor, const Callbacks& callbacks) {
-  if (!callbacks.tracer.is_none()) {
-    hooks.tracer = [&visitor, &callbacks](const TraceEvent& event) {
-      static_cast<void>(visitor.call([&] {
-        callbacks.tracer(event_to_dict(event));
-        return true;
-      }));
-    };
-  }
-  if (!callbacks.snapshots.is_none()) {
-    hooks.snapshots = [&visitor, &callbacks](const Snapshot& s) {
-      static_cast<void>(visitor.call([&] {
-        callbacks.snapshots(
-            Record()("moment", name_of(s.moment))("sweep", s.sweep)("outer", s.outer)("energy", s.energy)(
-                "mesh", py::cast(std::make_unique<PyMesh>(s.mesh)))("vertices", s.vertices)
-                .dict);
-        return true;
-      }));
-    };
-  }
-}
-
-std::optional<SizeField> size_field_from(const py::object& field) {
-  if (field.is_none()) return std::nullopt;
-  return field.cast<SizeField>();
-}
-
-/// The mesh takes its new state whatever ended the run; what Python raised on the way is raised after that.
-py::dict optimize_mesh(PyMesh& self, const py::dict& given, const py::object& size_field, const py::object& threads,
-                       const Callbacks& callbacks) {
-  OptimizeOptions options = options_from(given);
-  options.size_field = size_field_from(size_field);
-  const auto count = threads_from(threads);
-  const auto before = self.read();
-  Visitor visitor;
-  const Observer observer = observer_of(visitor, callbacks.observer);
-  OptimizeHooks hooks;
-  hooks.observer = observer;
-  set_callbacks(hooks, visitor, callbacks);
-  Mesh mesh;
-  std::optional<Expected<OptimizeReport>> report;
-  {
-    const PyMesh::Run run(self);
-    const py::gil_scoped_release release;
-    const auto executor = make_threads(count);
-    hooks.executor = executor.get();
-    mesh = *before;
-    report = optimize(mesh, options, hooks);
-  }
-  if (report->has_value()) self.replace(std::move(mesh), (*report)->vertices);
-  visitor.raise();
-  return report_to_dict(or_raise(*std::move(report)));
-}
-
-template <class T, std::size_t n>
-std::array<T, n> ids_from(const py::handle& sequence) {
-  const auto items = sequence.cast<py::sequence>();
-  if (items.size() != n) throw py::value_error("expected " + std::to_string(n) + " numbers");
-  std::array<T, n> ids;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto index = items[i].cast<std::int64_t>();
-    ids[i] = index < 0 ? T() : T(static_cast<std::size_t>(index));
-  }
-  return ids;
-}
-
-VertexId any_vertex(const py::handle& index) {
-  const auto i = index.cast<std::int64_t>();
-  return i < 0 ? VertexId() : VertexId(static_cast<std::size_t>(i));
-}
-
-TraceEvent event_from(const py::dict& d) {
-  TraceEvent e;
-  e.kind = from_name<EventKind>("kind", d["kind"].cast<std::string>());
-  e.sweep = d["sweep"].cast<int>();
-  e.vertex = any_vertex(d["vertex"]);
-  e.before = d["before"].cast<double>();
-  e.after = d["after"].cast<double>();
-  const auto point = d["point"].cast<py::sequence>();
-  e.point = {point[0].cast<double>(), point[1].cast<double>(), point[2].cast<double>()};
-  e.quad = ids_from<VertexId, 4>(d["quad"]);
-  for (const auto& v : d["link"]) e.link.push_back(any_vertex(v));
-  for (const auto& t : d["triangles"]) e.triangles.push_back(ids_from<VertexId, 3>(t));
-  e.to_sweep = d["to_sweep"].cast<int>();
-  return e;
-}
-
-void bind_optimize(py::module_& m) {
-  m.def("optimize", [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
-                       const py::object& observer, const py::object& tracer, const py::object& snapshots) {
-    return optimize_mesh(self, options, size_field, threads, {observer, tracer, snapshots});
-  });
-  m.def("paper_method", [] { return options_to_dict(paper_method()); });
-  m.def("option_table", option_table);
-  m.def("idle_options", idle_options);
-  m.def("replay", [](const PyMesh& input, const py::iterable& trace) {
-    std::vector<TraceEvent> events;
-    for (const auto& event : trace) events.push_back(event_from(event.cast<py::dict>()));
-    const auto mesh = input.read();
-    Replay again = or_raise(replay_with_vertices(*mesh, events));
-    auto result = std::make_unique<PyMesh>(input.copy());
-    result->replace(std::move(again.mesh), again.vertices);
-    return py::make_tuple(std::move(result), to_python(again.vertices));
-  });
-}
 
 // --- regularity -----------------------------------------------------------------------------------------------
 
@@ -534,7 +395,6 @@ void bind_mesher(py::module_& m) {
 }  // namespace
 
 void bind_change(py::module_& m) {
-  bind_optimize(m);
   bind_regularity(m);
   bind_topology(m);
   bind_size(m);

@@ -237,6 +237,7 @@ PYBIND11_MODULE(_temper, m) {
   bind_mesh(m);
   bind_geometry(m);
   bind_change(m);
+  bind_optimize(m);
   bind_measure(m);
   bind_weights(m);
 }

@@ -160,6 +160,19 @@ struct Record {
   }
 };
 
+/// Numbers of Python's as ids; a negative one is invalid.
+template <class T, std::size_t n>
+std::array<T, n> ids_from(const py::handle& sequence) {
+  const auto items = sequence.cast<py::sequence>();
+  if (items.size() != n) throw py::value_error("expected " + std::to_string(n) + " numbers");
+  std::array<T, n> ids;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto index = items[i].cast<std::int64_t>();
+    ids[i] = index < 0 ? T() : T(static_cast<std::size_t>(index));
+  }
+  return ids;
+}
+
 // --- enums: their names in the order of their values -----------------------------------------------------
 
 /// The number of `text` among the names, or an error that lists them.

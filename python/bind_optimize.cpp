@@ -1,0 +1,137 @@
+// Bindings of optimize and replay: options, who listens, the mesh in place whatever ended the run.
+#include "bind.hpp"
+#include "optimize_options.hpp"
+#include "temper/trace.hpp"
+
+TEMPER_PYTHON_NAMES(temper::Snapshot::Moment, "start", "after_sweep", "before_flips", "after_flips");
+TEMPER_PYTHON_NAMES(temper::EventKind, "move", "weight", "flip", "collapse", "removal", "insertion", "split", "hidden",
+                    "undo");
+
+namespace temper::python {
+
+Observer observer_of(Visitor& visitor, const py::object& observer) {
+  return [&visitor, &observer](const Progress& progress) {
+    bool go_on = visitor.check_signals();
+    if (go_on && !observer.is_none()) {
+      go_on = visitor.call([&] {
+        const py::object answer = observer(record_to_dict(progress.last), progress.fraction, progress.max_sweeps);
+        return !(answer.is(py::bool_(false)));
+      });
+    }
+    return go_on ? Continue::yes : Continue::no;
+  };
+}
+
+namespace {
+
+py::dict event_to_dict(const TraceEvent& e) {
+  py::list triangles;
+  for (const auto& t : e.triangles) triangles.append(to_python(t));
+  return Record()("kind", name(e.kind))("sweep", e.sweep)("vertex", e.vertex)("before", e.before)("after", e.after)(
+             "point", e.point)("quad", e.quad)("link", e.link)("triangles", py::object(triangles))("to_sweep",
+                                                                                                   e.to_sweep)
+      .dict;
+}
+
+/// Python's observers of a run. Each may be None.
+struct Callbacks {
+  py::object observer, tracer, snapshots;
+};
+
+void set_callbacks(OptimizeHooks& hooks, Visitor& visitor, const Callbacks& callbacks) {
+  if (!callbacks.tracer.is_none()) {
+    hooks.tracer = [&visitor, &callbacks](const TraceEvent& event) {
+      static_cast<void>(visitor.call([&] {
+        callbacks.tracer(event_to_dict(event));
+        return true;
+      }));
+    };
+  }
+  if (!callbacks.snapshots.is_none()) {
+    hooks.snapshots = [&visitor, &callbacks](const Snapshot& s) {
+      static_cast<void>(visitor.call([&] {
+        callbacks.snapshots(
+            Record()("moment", name_of(s.moment))("sweep", s.sweep)("outer", s.outer)("energy", s.energy)(
+                "mesh", py::cast(std::make_unique<PyMesh>(s.mesh)))("vertices", s.vertices)
+                .dict);
+        return true;
+      }));
+    };
+  }
+}
+
+std::optional<SizeField> size_field_from(const py::object& field) {
+  if (field.is_none()) return std::nullopt;
+  return field.cast<SizeField>();
+}
+
+/// The mesh takes its new state whatever ended the run; what Python raised on the way is raised after that.
+py::dict optimize_mesh(PyMesh& self, const py::dict& given, const py::object& size_field, const py::object& threads,
+                       const Callbacks& callbacks) {
+  OptimizeOptions options = options_from(given);
+  options.size_field = size_field_from(size_field);
+  const auto count = threads_from(threads);
+  const auto before = self.read();
+  Visitor visitor;
+  const Observer observer = observer_of(visitor, callbacks.observer);
+  OptimizeHooks hooks;
+  hooks.observer = observer;
+  set_callbacks(hooks, visitor, callbacks);
+  Mesh mesh;
+  std::optional<Expected<OptimizeReport>> report;
+  {
+    const PyMesh::Run run(self);
+    const py::gil_scoped_release release;
+    const auto executor = make_threads(count);
+    hooks.executor = executor.get();
+    mesh = *before;
+    report = optimize(mesh, options, hooks);
+  }
+  if (report->has_value()) self.replace(std::move(mesh), (*report)->vertices);
+  visitor.raise();
+  return report_to_dict(or_raise(*std::move(report)));
+}
+
+VertexId any_vertex(const py::handle& index) {
+  const auto i = index.cast<std::int64_t>();
+  return i < 0 ? VertexId() : VertexId(static_cast<std::size_t>(i));
+}
+
+TraceEvent event_from(const py::dict& d) {
+  TraceEvent e;
+  e.kind = from_name<EventKind>("kind", d["kind"].cast<std::string>());
+  e.sweep = d["sweep"].cast<int>();
+  e.vertex = any_vertex(d["vertex"]);
+  e.before = d["before"].cast<double>();
+  e.after = d["after"].cast<double>();
+  const auto point = d["point"].cast<py::sequence>();
+  e.point = {point[0].cast<double>(), point[1].cast<double>(), point[2].cast<double>()};
+  e.quad = ids_from<VertexId, 4>(d["quad"]);
+  for (const auto& v : d["link"]) e.link.push_back(any_vertex(v));
+  for (const auto& t : d["triangles"]) e.triangles.push_back(ids_from<VertexId, 3>(t));
+  e.to_sweep = d["to_sweep"].cast<int>();
+  return e;
+}
+
+}  // namespace
+
+void bind_optimize(py::module_& m) {
+  m.def("optimize", [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
+                       const py::object& observer, const py::object& tracer, const py::object& snapshots) {
+    return optimize_mesh(self, options, size_field, threads, {observer, tracer, snapshots});
+  });
+  m.def("paper_method", [] { return options_to_dict(paper_method()); });
+  m.def("option_table", option_table);
+  m.def("idle_options", idle_options);
+  m.def("replay", [](const PyMesh& input, const py::iterable& trace) {
+    std::vector<TraceEvent> events;
+    for (const auto& event : trace) events.push_back(event_from(event.cast<py::dict>()));
+    const auto mesh = input.read();
+    Replay again = or_raise(replay_with_vertices(*mesh, events));
+    auto result = std::make_unique<PyMesh>(input.copy());
+    result->replace(std::move(again.mesh), again.vertices);
+    return py::make_tuple(std::move(result), to_python(again.vertices));
+  });
+}
+
+}  // namespace temper::python
