@@ -271,7 +271,7 @@ struct OptimizeReport {
 
 /// Improves the mesh in place. The domain boundary, fixed vertices and constrained edges stay, bit for bit, unless
 /// `boundary` and `interfaces` say otherwise; every triangle stays counter-clockwise. Never returns a worse
-/// mesh than the input, or than that with its edges flipped to be regular. Compared are, in this order: inverted
+/// mesh than the input, its edges flipped to be regular where that can be. Compared are, in this order: inverted
 /// triangles; edges that are not regular, unless hidden vertices are kept; for barriers, triangles that are not
 /// well-centered; for accuracy, whether margins are kept; the energy. So a HOT energy may leave more triangles not
 /// well-centered, which a note says. Errors, which leave the mesh as it was: a value out of range; weights that hide a

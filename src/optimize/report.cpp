@@ -31,7 +31,7 @@ class Notes {
       : mesh_(mesh), settings_(settings), options_(settings.options), report_(report) {}
 
   void tell(const RunFacts& facts);
-  void tell_what_was_returned(bool input, bool flipped);
+  void tell_input_is_returned(const RunFacts& facts, bool flipped);
   void tell_if_more_are_bad(double bad_before);
   void tell_what_is_not_regular();
   void tell_sizes();
@@ -41,6 +41,7 @@ class Notes {
 
  private:
   void add(std::string note) { report_.notes.push_back(std::move(note)); }
+  void tell_input_flips(std::size_t flips);
   void tell_cuts(const BoundaryCuts& cuts);
   [[nodiscard]] std::string name_of(VertexId v) const;
 
@@ -52,11 +53,13 @@ class Notes {
 
 void Notes::tell(const RunFacts& facts) {
   if (facts.boundary_cuts) tell_cuts(*facts.boundary_cuts);
-  if (facts.input_flips > 0) {
-    add(count_of(facts.input_flips, "edge", "edges") + " of the input flipped to make it regular");
-  }
+  tell_input_flips(facts.input_flips);
   if (facts.weights_shrunk) add("weights of the input leave edges uncrossed: all were made smaller");
   if (facts.energy_rose) add("the energy rose in the last sweeps; the mesh with the least one is returned");
+}
+
+void Notes::tell_input_flips(std::size_t flips) {
+  if (flips > 0) add(count_of(flips, "edge", "edges") + " of the input flipped to make it regular");
 }
 
 void Notes::tell_cuts(const BoundaryCuts& cuts) {
@@ -79,8 +82,9 @@ void Notes::tell_cuts(const BoundaryCuts& cuts) {
   }
 }
 
-void Notes::tell_what_was_returned(bool input, bool flipped) {
-  if (!input) return;
+/// What else the run did is not in the mesh.
+void Notes::tell_input_is_returned(const RunFacts& facts, bool flipped) {
+  if (flipped) tell_input_flips(facts.input_flips);
   add(flipped ? "no better mesh was found: the input is returned, its edges flipped to be regular"
               : "no better mesh was found: the input is returned as it was");
 }
@@ -170,14 +174,31 @@ std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, const Settings& setti
   return restore_regularity(copy).hidden;
 }
 
-/// The input with its edges flipped as every attempt begins, for a run that found nothing better.
-Mesh made_regular(const Mesh& mesh, Settings settings) {
-  settings.hooks.tracer = {};
+/// A mesh that may be given back.
+struct Result {
+  Mesh mesh;
+  IdVector<VertexId, VertexId> vertices;  ///< of OptimizeReport
+  Rank rank;
+};
+
+/// `settings`: in the user's units.
+Result result_of(WorkingCopy work, const Settings& settings, const AccuracySizes* sizes) {
+  Result result;
+  const VertexSizes own = sizes != nullptr ? sizes->in_user_terms(work, settings.hooks.executor) : VertexSizes();
+  if (work.has_gaps || work.has_inserted()) result.vertices = work.user_vertices();
+  result.mesh = std::move(work).in_user_terms();  // what knew the order takes room no longer
+  result.rank = rank(result.mesh, settings, sizes != nullptr ? &own : nullptr);
+  return result;
+}
+
+/// The input with its edges flipped as every attempt begins, for a run that found nothing better in so many sweeps.
+WorkingCopy made_regular(const Mesh& mesh, Settings settings, int sweeps) {
   WorkingCopy work(mesh, settings.options.paper.order, settings.hooks.executor);
   const Observer nobody;
   Run unheard(settings.options, nobody);
+  unheard.report.sweeps = sweeps;
   Driver(work, settings, unheard).make_regular();
-  return std::move(work).in_user_terms();
+  return work;
 }
 
 /// Vertices of the input that are gone, and new ones that are there.
@@ -188,11 +209,12 @@ void count_changes(const Mesh& input, OptimizeReport& report) {
   report.vertices_removed = input.n_vertices() - (report.vertices.size() - report.vertices_inserted);
 }
 
-/// Says whether an input that is returned can be made better by flips alone.
-bool lacks_flips(const Mesh& input, const Settings& settings) {
+/// Says whether flips alone make an input that is returned better: what hidden vertices keep from being regular stays
+/// so.
+bool lacks_flips(const Mesh& input, const Settings& settings, const RunFacts& facts) {
   const OptimizeOptions& o = settings.options;
-  return o.flips != Flips::none && o.boundary != BoundaryVertices::split &&
-         count_non_regular_edges(input, false, settings.hooks.executor) > 0;
+  if (o.flips == Flips::none || (o.paper.hidden == HiddenPolicy::keep && facts.input_flips == 0)) return false;
+  return count_non_regular_edges(input, false, settings.hooks.executor) > 0;
 }
 
 }  // namespace
@@ -222,45 +244,48 @@ std::string_view name(Stopped stopped) {
 void give_back(Mesh& mesh, Candidate best, Settings settings, const AccuracySizes* sizes, Run& run) {
   OptimizeReport& report = run.report;
   const OptimizeOptions& o = settings.options;
-  WorkingCopy& work = best.work;
-  Recorder recorder(settings.hooks.tracer, work, 1);
+  Recorder recorder(settings.hooks.tracer, best.work, 1);
   recorder.begin_sweep(run.next_sweep());
-  settings.model = in_user_units(settings.model, work.frame);
-  const VertexSizes of_result = sizes != nullptr ? sizes->in_user_terms(work, settings.hooks.executor) : VertexSizes();
-  const VertexSizes* const of_input = sizes != nullptr ? &sizes->of_input() : nullptr;
-  if (work.has_gaps || work.has_inserted()) report.vertices = work.user_vertices();
-  Mesh result = std::move(work).in_user_terms();  // first: what knew the order takes room no longer
-  const Rank before = rank(mesh, settings, of_input);
-  const Rank after = rank(result, settings, sizes != nullptr ? &of_result : nullptr);
+  const Settings in_frame = settings;
+  settings.model = in_user_units(settings.model, best.work.frame);
+  Result result = result_of(std::move(best.work), settings, sizes);
+  const Rank before = rank(mesh, settings, sizes != nullptr ? &sizes->of_input() : nullptr);
   const SizeField field =
       o.size_field ? *o.size_field : input_size_field_of(mesh, settings.hooks.executor);  // seen until mesh is replaced
   report.size.before = report.size.after = measure_size(mesh, field, settings.hooks.executor);
-  report.initial_energy = report.final_energy = before.energy;
+  report.initial_energy = before.energy;
   const std::optional<double> bad_before =
       settings.energy.barrier ? std::nullopt : std::optional(bad_part(mesh, settings));
-  Mesh regular;  // the input with its edges flipped, where that may be the better one
-  const bool flips = (before < after || after.bad > 0) && lacks_flips(mesh, settings);
-  if (flips) regular = made_regular(mesh, settings);
-  const Rank flipped = flips ? rank(regular, settings, of_input) : before;
-  const bool worse = before < after || flipped < after;
-  if (worse) {
-    report.vertices = {};
-    report.final_energy = flipped.energy;
-    recorder.returned_to(flips ? 0 : -1);
-    result = std::move(regular);
-  } else {
-    report.final_energy = after.energy;
+  // Flips that make the input regular come before all else that may be better or worse.
+  const bool flips = (before < result.rank || result.rank.bad > 0) && lacks_flips(mesh, settings, run.facts);
+  Result input;
+  input.rank = before;
+  if (flips) {
+    Settings silent = in_frame;
+    silent.hooks.tracer = {};
+    input = result_of(made_regular(mesh, silent, report.sweeps), settings, sizes);
   }
+  const bool worse = input.rank < result.rank;
+  if (worse) {
+    recorder.returned_to(-1);
+    if (flips && recorder.on()) static_cast<void>(made_regular(mesh, in_frame, report.sweeps));
+    result = std::move(input);
+  }
+  report.vertices = std::move(result.vertices);
+  report.final_energy = result.rank.energy;
   count_changes(mesh, report);
   if (!worse || flips) {
-    report.size.after = measure_size(result, field, settings.hooks.executor, report.vertices);
-    mesh = std::move(result);
+    report.size.after = measure_size(result.mesh, field, settings.hooks.executor, report.vertices);
+    mesh = std::move(result.mesh);
   }
   report.hidden = hidden_vertices_of(mesh, settings);
 
   Notes notes(mesh, settings, report);
-  notes.tell(run.facts);
-  notes.tell_what_was_returned(worse, flips);
+  if (worse) {
+    notes.tell_input_is_returned(run.facts, flips);
+  } else {
+    notes.tell(run.facts);
+  }
   if (bad_before) notes.tell_if_more_are_bad(*bad_before);
   notes.tell_what_is_not_regular();
   notes.tell_sizes();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "property/random_mesh.hpp"
 #include "support/area.hpp"
 #include "support/lattice.hpp"
 #include "temper/generate.hpp"
@@ -427,6 +428,56 @@ TEST(PaperMethod, GivesTheInputBackRegularWhenItFindsNothingBetter) {
   const auto again = replay(input, events);
   ASSERT_TRUE(again);
   EXPECT_EQ(*again, mesh);
+}
+
+TEST(PaperMethod, GivesAnInputBackRegularWhateverIsCutOrKeptHidden) {
+  std::size_t given_back = 0, cut = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Rng rng(seed);
+    Mesh input = test::random_mesh(rng, 10, 16);
+    if (seed % 2 == 1) input.set_weight(VertexId(6), -0.2);
+    for (const HiddenPolicy policy : {HiddenPolicy::undo, HiddenPolicy::remove, HiddenPolicy::keep}) {
+      for (const BoundaryVertices boundary : {BoundaryVertices::keep, BoundaryVertices::split}) {
+        SCOPED_TRACE(std::to_string(seed) + ", " + std::to_string(static_cast<int>(policy)) + ", " +
+                     std::to_string(static_cast<int>(boundary)));
+        OptimizeOptions o = paper_method();
+        o.energy = seed % 3 == 0 ? EnergyKind::dT : EnergyKind::BP;
+        o.boundary = boundary;
+        o.boundary_ratio = 2;
+        o.max_sweeps = seed % 2 == 0 ? 0 : 3;
+        o.paper.hidden = policy;
+        std::vector<TraceEvent> events;
+        OptimizeHooks hooks;
+        hooks.tracer = [&](const TraceEvent& e) { events.push_back(e); };
+        Mesh mesh = input;
+        const auto report = optimize(mesh, o, hooks);
+        if (!report) {  // a vertex that is hidden and may not be
+          EXPECT_EQ(report.error().code, ErrorCode::hidden_vertex);
+          continue;
+        }
+        const auto says = [&](const char* text) {
+          return std::any_of(report->notes.begin(), report->notes.end(),
+                             [&](const std::string& note) { return note.find(text) != std::string::npos; });
+        };
+        Mesh again = mesh;
+        const Restoration restored = restore_regularity(again);
+        EXPECT_EQ(restored.flips, 0u);
+        EXPECT_EQ(restored.hidden, report->hidden);
+        EXPECT_EQ(says("`hidden=keep`"), !restored.stuck.empty());
+        const auto replayed = replay_with_vertices(input, events);
+        ASSERT_TRUE(replayed) << replayed.error().what();
+        EXPECT_EQ(replayed->mesh, mesh);
+        EXPECT_EQ(replayed->vertices, report->vertices);
+        if (!says("no better mesh")) continue;
+        ++given_back;
+        cut += boundary == BoundaryVertices::split ? 1 : 0;
+        EXPECT_EQ(report->vertices_inserted, 0u);
+        EXPECT_FALSE(says("inserted"));
+      }
+    }
+  }
+  EXPECT_GT(given_back, 5u);
+  EXPECT_GT(cut, 2u);
 }
 
 TEST(Orders, EachIsItsOwnAndSeeded) {
