@@ -1,6 +1,7 @@
-// Bindings of optimize and replay: options, who listens, the mesh in place whatever ended the run.
+// Bindings of optimize and replay: options, who listens, checkpoints, the mesh in place whatever ended the run.
 #include "bind.hpp"
 #include "optimize_options.hpp"
+#include "temper/checkpoint.hpp"
 #include "temper/trace.hpp"
 
 TEMPER_PYTHON_NAMES(temper::Snapshot::Moment, "start", "after_sweep", "before_flips", "after_flips");
@@ -65,18 +66,75 @@ std::optional<SizeField> size_field_from(const py::object& field) {
   return field.cast<SizeField>();
 }
 
+/// The checkpoints of a run. It ends when the first cannot be written; that a later one was not is a warning.
+class Checkpoints {
+ public:
+  /// `given`: path, seconds between, and who is told of warnings.
+  Checkpoints(const py::tuple& given, Visitor& visitor)
+      : file_(given[0].cast<std::string>(), given[1].cast<double>()), warn_(given[2]), visitor_(visitor) {}
+
+  void keep(const std::function<std::string()>& state) { heed(file_.keep(state)); }
+  /// The last state, of a run that was stopped.
+  void write() { heed(file_.write()); }
+  [[nodiscard]] bool refused() const { return refused_; }
+
+ private:
+  void heed(const Expected<void>& written) {
+    if (written) {
+      begun_ = true;
+      return;
+    }
+    refused_ = !begun_;
+    static_cast<void>(visitor_.call([&] {
+      if (refused_) throw BadInput{written.error()};
+      warn_(written.error().what());
+      return true;
+    }));
+  }
+
+  io::CheckpointFile file_;
+  py::object warn_;
+  Visitor& visitor_;
+  bool begun_ = false, refused_ = false;
+};
+
+bool stopped_early(const OptimizeReport& report) {
+  return report.stopped == Stopped::time_limit || report.stopped == Stopped::cancelled;
+}
+
+/// What a run of Python's works with, besides mesh and options. Each may be None.
+struct RunArguments {
+  py::object size_field, threads;
+  Callbacks callbacks;
+  py::object checkpoint;  ///< see Checkpoints
+  py::object resume;      ///< path of a checkpoint
+};
+
+/// An error of the run, which says in which file the state is that it was to go on from.
+InputError error_of_run(InputError error, const py::object& resume) {
+  if (!resume.is_none() && error.where.empty()) error.where = resume.cast<std::string>();
+  return error;
+}
+
 /// The mesh takes its new state whatever ended the run; what Python raised on the way is raised after that.
-py::dict optimize_mesh(PyMesh& self, const py::dict& given, const py::object& size_field, const py::object& threads,
-                       const Callbacks& callbacks) {
+py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& arguments) {
   OptimizeOptions options = options_from(given);
-  options.size_field = size_field_from(size_field);
-  const auto count = threads_from(threads);
+  options.size_field = size_field_from(arguments.size_field);
+  const auto count = threads_from(arguments.threads);
   const auto before = self.read();
+  io::Checkpoint resumed;
+  if (!arguments.resume.is_none()) resumed = or_raise(io::read_checkpoint(arguments.resume.cast<std::string>()));
   Visitor visitor;
-  const Observer observer = observer_of(visitor, callbacks.observer);
+  const Observer observer = observer_of(visitor, arguments.callbacks.observer);
   OptimizeHooks hooks;
   hooks.observer = observer;
-  set_callbacks(hooks, visitor, callbacks);
+  hooks.resume = resumed.state;
+  set_callbacks(hooks, visitor, arguments.callbacks);
+  std::optional<Checkpoints> checkpoints;
+  if (!arguments.checkpoint.is_none()) {
+    checkpoints.emplace(arguments.checkpoint.cast<py::tuple>(), visitor);
+    hooks.checkpoints = [&](const auto& state) { checkpoints->keep(state); };
+  }
   Mesh mesh;
   std::optional<Expected<OptimizeReport>> report;
   {
@@ -86,10 +144,13 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const py::object& si
     hooks.executor = executor.get();
     mesh = *before;
     report = optimize(mesh, options, hooks);
+    if (checkpoints && !checkpoints->refused() && report->has_value() && stopped_early(**report)) checkpoints->write();
   }
+  if (checkpoints && checkpoints->refused()) visitor.raise();
   if (report->has_value()) self.replace(std::move(mesh), (*report)->vertices);
   visitor.raise();
-  return report_to_dict(or_raise(*std::move(report)));
+  if (!*report) throw BadInput{error_of_run(report->error(), arguments.resume)};
+  return report_to_dict(**report);
 }
 
 VertexId any_vertex(const py::handle& index) {
@@ -117,8 +178,9 @@ TraceEvent event_from(const py::dict& d) {
 
 void bind_optimize(py::module_& m) {
   m.def("optimize", [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
-                       const py::object& observer, const py::object& tracer, const py::object& snapshots) {
-    return optimize_mesh(self, options, size_field, threads, {observer, tracer, snapshots});
+                       const py::object& observer, const py::object& tracer, const py::object& snapshots,
+                       const py::object& checkpoint, const py::object& resume) {
+    return optimize_mesh(self, options, {size_field, threads, {observer, tracer, snapshots}, checkpoint, resume});
   });
   m.def("paper_method", [] { return options_to_dict(paper_method()); });
   m.def("option_table", option_table);

@@ -27,7 +27,7 @@ ELSEWHERE = {
     "places_of_vertices": "Mesh.point_data", "sources_of_triangles": "Mesh.cell_data", "interpolated": "Mesh.point_data",
     "printable": "messages are", "needs_projection": "TemperError says it", "projection_text": "Projection's fields",
     "from_mesh": "write does it", "files_to_write": "write does it",
-    "discard_unfinished": "a signal ends Python by an exception", "read_checkpoint": "temper optimize --resume",
+    "discard_unfinished": "a signal ends Python by an exception", "read_checkpoint": "optimize(resume=…)",
     "in_envelope": "files of the program", "from_envelope": "as in_envelope", "checksum": "as in_envelope",
     "mixed": "as in_envelope",
     "dec_file_names": "write_dec returns the paths",

@@ -346,6 +346,145 @@ def test_an_outline_is_meshed_well_centered():
         temper.mesh_outline(outline, -1)
 
 
+# --- checkpoints ---------------------------------------------------------------------------------------------------
+
+
+def without_times(report):
+    """All that two runs have to agree on."""
+    fields = report.as_dict()
+    fields["history"] = [{k: v for k, v in record.items() if k != "seconds"} for record in fields["history"]]
+    return repr({k: v for k, v in fields.items() if k != "seconds"})
+
+
+def until(sweep):
+    return lambda progress: progress.last.sweep < sweep
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        dict(seed=7),
+        dict(objective="accuracy", accuracy_sweeps=4),
+        dict(removal="patch", removal_from=1, max_sweeps=20),
+        dict(flips="deferred", inner=2, energy="T", max_sweeps=12),
+    ],
+)
+def test_a_run_in_pieces_ends_with_the_bits_of_the_whole_run(options, in_scratch):
+    mesh = temper.generate.random_points(400, seed=3)
+    whole = mesh.copy()
+    report = temper.optimize(whole, **options)
+    first = temper.optimized(mesh, checkpoint="run.ckpt", every=0, observer=until(1), **options)
+    assert first != whole
+    pieces = 1
+    for pieces in range(2, 100):
+        again = mesh.copy()
+        go_on = dict(resume="run.ckpt", checkpoint="run.ckpt", every=0, threads=1 + pieces % 2)
+        rest = temper.optimize(again, observer=until(2 * pieces), **go_on, **options)
+        if rest.stopped != "cancelled":
+            break
+    assert pieces > 2 and again == whole and without_times(rest) == without_times(report)
+
+
+def test_a_run_that_is_killed_goes_on_in_another_process(in_scratch):
+    program = """
+        import os, signal, temper
+        def observer(progress):
+            if progress.last.sweep == 4:
+                os.kill(os.getpid(), signal.SIGKILL)
+        temper.optimize(temper.generate.random_points(600), observer=observer, checkpoint="run.ckpt", every=0)
+        """
+    killed = subprocess.run([sys.executable, "-c", textwrap.dedent(program)])
+    assert killed.returncode == -signal.SIGKILL
+    mesh, seen = temper.generate.random_points(600), []
+    assert temper.optimized(mesh, resume="run.ckpt", observer=seen.append) == temper.optimized(mesh)
+    assert seen[0].last.sweep >= 3, "it did not begin anew"
+
+
+def test_a_run_that_ctrl_c_stops_leaves_a_checkpoint(in_scratch):
+    mesh = temper.generate.random_points(2000)
+
+    def observer(progress):
+        if progress.last.sweep == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        temper.optimized(mesh, observer=observer, checkpoint=pathlib.Path("run.ckpt"))
+    assert temper.optimized(mesh, resume=pathlib.Path("run.ckpt")) == temper.optimized(mesh)
+
+
+def test_a_checkpoint_of_the_program_is_gone_on_with_but_not_the_other_way_round(ring, in_scratch):
+    temper.write("in.vtu", ring)
+    command = ["temper", "optimize", "in.vtu", "-o", "out.vtu", "--quiet", "--checkpoint", "run.ckpt", "--every", "0"]
+    try:
+        subprocess.run(command, check=True)
+    except FileNotFoundError:
+        pytest.skip("the program was not built")
+    seen = []
+    assert temper.optimized(temper.read("in.vtu"), resume="run.ckpt", observer=seen.append) == temper.read("out.vtu")
+    assert seen[0].last.sweep > 0
+    temper.optimized(ring, checkpoint="run.ckpt", observer=until(1))
+    refused = subprocess.run(["temper", "optimize", "--resume", "run.ckpt"], capture_output=True, text=True)
+    assert refused.returncode == 1 and "a run that no command started" in refused.stderr
+
+
+def test_a_checkpoint_of_another_run_or_none_is_refused(ring, in_scratch):
+    before = ring.copy()
+    temper.optimized(ring, checkpoint="run.ckpt", observer=until(1))
+    temper.optimized(ring, resume="run.ckpt", time_limit=60)  # of each run alone
+    pathlib.Path("no.ckpt").write_bytes(pathlib.Path("run.ckpt").read_bytes()[:-9])
+    for mesh, options, code in (
+        (temper.optimized(ring, max_sweeps=1), dict(resume="run.ckpt"), "checkpoint_mismatch"),
+        (ring, dict(resume="run.ckpt", seed=2), "checkpoint_mismatch"),
+        (ring, dict(resume="no.ckpt"), "truncated"),
+        (ring, dict(resume="none.ckpt"), "not_found"),
+    ):
+        with pytest.raises(temper.TemperError, match=f"^{options['resume']}: ") as caught:
+            temper.optimize(mesh, **options)
+        assert caught.value.code == code
+    assert ring == before
+
+
+def test_a_checkpoint_that_cannot_be_written_is_an_error_at_first_and_a_warning_later(ring, in_scratch):
+    before = ring.copy()
+    with pytest.raises(temper.TemperError, match="^no/run.ckpt: ") as caught:
+        temper.optimize(ring, checkpoint="no/run.ckpt")
+    assert caught.value.code == "not_writable" and ring == before
+    folder = pathlib.Path("folder")
+    folder.mkdir()
+
+    def observer(progress):
+        if progress.last.sweep == 2 and folder.exists():
+            for file in folder.iterdir():
+                file.unlink()
+            folder.rmdir()
+
+    with pytest.warns(temper.TemperWarning, match="^folder/run.ckpt: ") as warned:
+        report = temper.optimize(ring, checkpoint=folder / "run.ckpt", every=0, observer=observer)
+    assert report.stopped == "converged" and {w.filename for w in warned} == {__file__}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        folder.mkdir()
+        with pytest.raises(temper.TemperWarning, match="^folder/run.ckpt: "):
+            temper.optimize(before, checkpoint=folder / "run.ckpt", every=0, observer=observer)
+    assert before.validate() is None
+
+
+@pytest.mark.parametrize("wrong", [dict(checkpoint=3), dict(resume=b"run.ckpt"), dict(every="600"), dict(every=True)])
+def test_arguments_of_checkpoints_of_the_wrong_type_are_named(ring, wrong):
+    with pytest.raises(TypeError, match=f"^{list(wrong)[0]}: expected"):
+        temper.optimize(ring, **wrong)
+
+
+def test_seconds_between_checkpoints_are_checked(ring, in_scratch):
+    for wrong in (-1, float("nan"), float("inf")):
+        with pytest.raises(temper.TemperError, match="^every is ") as caught:
+            temper.optimize(ring, checkpoint="run.ckpt", every=wrong)
+        assert caught.value.code == "invalid_option" and not pathlib.Path("run.ckpt").exists()
+    with pytest.warns(temper.TemperWarning, match="^every has no effect without checkpoint$") as warned:
+        temper.optimize(ring, every=3, max_sweeps=1)
+    assert warned[0].filename == __file__
+
+
 # --- progress --------------------------------------------------------------------------------------------------
 
 PROGRAM = textwrap.dedent(
