@@ -14,11 +14,9 @@
 namespace temper {
 namespace {
 
-/// Says whether every sweep leaves all edges regular that may be flipped. Deferred weights may hide a vertex where they
-/// meet, which leaves edges as they are.
+/// Says whether every sweep leaves all edges regular that may be flipped.
 [[maybe_unused]] bool keeps_regular(const OptimizeOptions& o) {
-  return o.flips != Flips::none && !defers_flips(o) && o.paper.hidden != HiddenPolicy::keep &&
-         o.paper.weight_updates == WeightUpdates::immediate;
+  return o.flips != Flips::none && !defers_flips(o) && o.paper.hidden != HiddenPolicy::keep;
 }
 
 }  // namespace
@@ -139,10 +137,30 @@ bool Driver::newton_pass(Phase& phase) {
 /// One Gauss-Seidel sweep, lines 9 to 16. False when it was cut short.
 bool Driver::improve_all_vertices(int iteration) {
   const OptimizeOptions& o = settings_.options;
+  if (o.paper.weight_updates == WeightUpdates::immediate || defers_flips(o)) {
+    return sweeper_.sweep(iteration, sequence_, run_);
+  }
+  const IdVector<VertexId, double> before = weights();
   const bool whole = sweeper_.sweep(iteration, sequence_, run_);
-  const bool many_changed = o.paper.weight_updates == WeightUpdates::deferred;
-  if (many_changed && !defers_flips(o)) flipper_.restore_all();
+  settle_weights(before);
   return whole;
+}
+
+/// Deferred weights may hide a vertex where they meet: then half of each change is made, and so on, and at last none.
+void Driver::settle_weights(const IdVector<VertexId, double>& before) {
+  constexpr int kHalvings = 6;  // what is left then is hardly worth a step
+  for (int i = 0; !flipper_.restore_all() && i <= kHalvings; ++i) {
+    const double kept = i < kHalvings ? 0.5 : 0;
+    for (const VertexId v : mesh_.vertices()) {
+      if (!mesh_.is_isolated(v)) set_weight(v, before[v] + kept * (mesh_.weight(v) - before[v]));
+    }
+  }
+}
+
+IdVector<VertexId, double> Driver::weights() const {
+  IdVector<VertexId, double> all(mesh_.n_vertices());
+  for (const VertexId v : mesh_.vertices()) all[v] = mesh_.weight(v);
+  return all;
 }
 
 /// Drops what the sweep has removed, everywhere.
@@ -181,11 +199,8 @@ void Driver::shift_weights_to_anchor() {
   const VertexId anchor = work_.from_user(settings_.options.paper.anchor);
   if (!anchor.valid()) return;  // removed: any other constant would do as well
   const double shift = mesh_.weight(anchor);
-  IdVector<VertexId, double> before(mesh_.n_vertices());
-  for (const VertexId v : mesh_.vertices()) {
-    before[v] = mesh_.weight(v);
-    set_weight(v, before[v] - shift);
-  }
+  const IdVector<VertexId, double> before = weights();
+  for (const VertexId v : mesh_.vertices()) set_weight(v, before[v] - shift);
   if (settings_.options.flips == Flips::none || defers_flips(settings_.options) || flipper_.restore_all()) return;
   // Rounded differences hide a vertex that was all but hidden: no constant is worth that.
   for (const VertexId v : mesh_.vertices()) set_weight(v, before[v]);

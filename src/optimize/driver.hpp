@@ -44,11 +44,13 @@ class Driver {
   Verdict sweep(Phase& phase);
   Verdict flip_if_deferred(Phase& phase, Verdict of_sweeps);
   bool improve_all_vertices(int iteration);
+  void settle_weights(const IdVector<VertexId, double>& before);
   bool newton_pass(Phase& phase);
   void compact();
   void grow();
   bool halve_weights();
   void shift_weights_to_anchor();
+  [[nodiscard]] IdVector<VertexId, double> weights() const;
   void set_weight(VertexId v, double w);
   bool restore_regularity();
   void keep_if_best(const Phase& phase);

@@ -257,7 +257,8 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const AccuracySize
   const std::optional<double> bad_before =
       settings.energy.barrier ? std::nullopt : std::optional(bad_part(mesh, settings));
   // Flips that make the input regular come before all else that may be better or worse.
-  const bool flips = (before < result.rank || result.rank.bad > 0) && lacks_flips(mesh, settings, run.facts);
+  const bool may_be_better = before < result.rank || result.rank.bad > 0 || result.rank.non_regular > 0;
+  const bool flips = may_be_better && lacks_flips(mesh, settings, run.facts);
   Result input;
   input.rank = before;
   if (flips) {

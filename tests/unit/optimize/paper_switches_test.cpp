@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "property/random_mesh.hpp"
@@ -329,6 +330,38 @@ TEST(HiddenVertices, LeaveEdgesRegularAtTheEndUnlessTheyAreKept) {
   EXPECT_EQ(runs, 432u);
   EXPECT_GT(stopped, 10u);
   EXPECT_GT(with_progress, 0u);  // of the rounds before the one that failed
+}
+
+// All weights of a sweep at once may hide a vertex that none of them hides alone.
+TEST(DeferredWeights, LeaveEveryEdgeRegularWhereFlipsDoNotWait) {
+  std::size_t sweeps = 0, set_twice = 0;
+  for (const Mesh& input : meshes_to_hide_in()) {
+    for (const HiddenPolicy policy : {HiddenPolicy::undo, HiddenPolicy::remove}) {
+      for (const EnergyKind energy : {EnergyKind::BP, EnergyKind::T, EnergyKind::F}) {
+        OptimizeOptions o{.energy = energy, .max_sweeps = 6, .paper = {.solver = Solver::alternating}};
+        o.paper.weight_updates = WeightUpdates::deferred;
+        o.paper.hidden = policy;
+        OptimizeHooks hooks;
+        hooks.snapshots = [&](const Snapshot& s) {
+          EXPECT_EQ(count_non_regular_edges(s.mesh, false), 0u);
+          ++sweeps;
+        };
+        std::set<std::pair<int, std::uint32_t>> set;
+        std::vector<TraceEvent> events;
+        hooks.tracer = [&](const TraceEvent& e) {
+          events.push_back(e);
+          if (e.kind == EventKind::weight && !set.emplace(e.sweep, e.vertex.index).second) ++set_twice;
+        };
+        Mesh mesh = input;
+        ASSERT_TRUE(optimize(mesh, o, hooks));
+        const auto again = replay(input, events);
+        ASSERT_TRUE(again) << again.error().what();
+        EXPECT_EQ(*again, mesh);
+      }
+    }
+  }
+  EXPECT_GT(sweeps, 60u);
+  EXPECT_GT(set_twice, 0u);
 }
 
 TEST(HiddenVertices, AreKeptRemovedOrNeverThereByThePolicy) {
