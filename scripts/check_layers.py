@@ -28,7 +28,7 @@ LAYERS = {
     "topology": _BELOW,
     "energy": _BELOW,
     "regularity": _BELOW + ["topology", "energy"],
-    "feasibility": _BELOW + ["topology", "energy"],
+    "feasibility": _BELOW + ["topology", "energy", "regularity"],
     "optimize": _BELOW + ["size", "topology", "energy", "regularity", "feasibility"],
     # What looks at meshes: never at how they were optimised.
     "quality": _BELOW + ["topology", "energy", "regularity", "feasibility"],
@@ -46,7 +46,7 @@ LAYERS = {
 CORE = set(LAYERS) - {"io", "lp", "tbb", "verify"}
 
 # Public headers whose name is not that of their layer.
-HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor", "instruction_set", "outline", "archive", "envelope"]} | {"trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "tbb_executor": "tbb", "dec_io": "io", "checkpoint": "io"}
+HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor", "instruction_set", "outline", "archive", "envelope"]} | {"trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "tbb_executor": "tbb", "dec_io": "io", "checkpoint": "io"}
 
 STANDARD = set("""
 algorithm array atomic bit bitset cassert cctype cerrno cfenv cfloat charconv chrono cinttypes climits cmath

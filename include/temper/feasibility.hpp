@@ -1,9 +1,10 @@
 // Weights alone: can a mesh become well-centered when neither its positions nor its connectivity may change?
 //
 // For fixed positions and connectivity every h/ℓ and d/ℓ is linear in the weights, so that "all h ≥ tℓ and all
-// tℓ ≤ d ≤ (1 − t)ℓ" is a linear programme. It finds the best margin t, the least change of weights that attains a
-// given margin, or the least violation; and when no weights exist it says why, with a certificate that exact
-// arithmetic verifies without any linear programming. Solvers come through one small interface (temper/lp.hpp has Clp).
+// tℓ ≤ d ≤ (1 − t)ℓ" is a linear programme; so is "all h ≥ tℓ" alone, and "these edges have dual lengths ≥ tℓ". It
+// finds the best margin t, the least change of weights that attains a given margin, or the least violation; and when no
+// weights exist it says why, with a certificate that exact arithmetic verifies without any linear programming. Solvers
+// come through one small interface (temper/lp.hpp has Clp). Over connectivities: temper/connectivity.hpp.
 #pragma once
 
 #include <cstddef>
@@ -55,35 +56,70 @@ class LpSolver {
   [[nodiscard]] virtual LpSolution solve(const LpProblem& problem) = 0;
 };
 
+// --- conditions ---------------------------------------------------------------------------------------
+
+/// The inequalities that count.
+enum class Conditions {
+  well_centered,  ///< heights and splits
+  heights_only,   ///< orthocenters inside their triangles; dual edges need not cross their own edges
+  regular,        ///< dual lengths of edges inside the mesh: of all of them, or of those prescribed
+};
+
+/// A row of the table of conditions.
+struct ConditionsInfo {
+  Conditions conditions;
+  std::string_view name;     ///< "well_centered", …: stable across versions
+  std::string_view keeps;    ///< the inequalities for a margin t
+  std::string_view success;  ///< "weights make every triangle well-centered", a sentence of what was found
+  std::string_view failure;  ///< "no weights make every triangle well-centered"
+};
+/// One row for each of Conditions, in their order.
+[[nodiscard]] std::span<const ConditionsInfo> conditions_table();
+[[nodiscard]] std::string_view name(Conditions conditions);
+
 // --- certificates -------------------------------------------------------------------------------------
 
-/// One inequality that a well-centered mesh keeps.
+/// One inequality of some conditions.
 struct WeightConstraint {
   enum class Kind {
     height,  ///< h over edge pq of the triangle pqr, counter-clockwise
     split,   ///< d from p towards q, for any edge pq
+    dual,    ///< dual length of pq: h over it in the triangle pqr and in qps, both counter-clockwise
   };
   Kind kind = Kind::height;
   VertexId p, q, r;  ///< r is invalid for a split
+  VertexId s = {};   ///< of a dual only
 
   friend bool operator==(const WeightConstraint&, const WeightConstraint&) = default;
 };
+/// "height", "split", "dual".
+[[nodiscard]] std::string_view name(WeightConstraint::Kind kind);
+
+/// Certificates of `regular` speak of weights that differ by less than this many ℓ² along the edges of their triangles.
+/// (The other conditions bound these differences themselves.) With greater ones h would have lost 20 of its 53 bits.
+inline constexpr double kWeightReach = 0x1p20;
+/// … and of margins no greater than this one: with w = |x|² − z all dual lengths are linear in z, so that who attains
+/// one margin attains any.
+inline constexpr double kRefutedDual = 0x1p-10;
 
 /// A proof that no weights exist (Farkas). Each constraint c is a polynomial N_c > margin · M_c, linear in the weights:
 ///
-///   height  N = D_p (D_r + w_q − w_r) + D_q (D_r + w_p − w_r) = 2 h ℓ S,   M = 2 ℓ² S
-///   split   N = ℓ² + w_p − w_q                                = 2 d ℓ,     M = 2 ℓ²
+///   height  N = D_p (D_r + w_q − w_r) + D_q (D_r + w_p − w_r) = 2 h ℓ S,               M = 2 ℓ² S
+///   split   N = ℓ² + w_p − w_q                                = 2 d ℓ,                 M = 2 ℓ²
+///   dual    N = λ_q (r × s) + λ_r (s × q) + λ_s (q × r)       = 2 (h_r + h_s) S T / ℓ, M = 2 S T
 ///
-/// with D_p = (q − p)·(r − p) and so on, and S twice the area. A sum of the constraints with multipliers ≥ 0 in which
-/// the weights cancel and the rest is ≤ 0 contradicts itself.
+/// with D_p = (q − p)·(r − p) and so on, and S twice the area of pqr; for a dual p is the origin, λ_v = |v|² − w_v +
+/// w_p, and T twice the area of qps. A sum of the constraints with multipliers ≥ 0 in which the weights cancel and the
+/// rest is ≤ 0 contradicts itself.
 struct Certificate {
   struct Term {
     WeightConstraint constraint;
     double multiplier = 0;
     friend bool operator==(const Term&, const Term&) = default;
   };
-  double margin = 0;  ///< refuted: no weights have all h > margin ℓ and margin ℓ < d < (1 − margin) ℓ
+  double margin = 0;  ///< refuted: no weights keep the conditions with more than this margin
   std::vector<Term> terms;
+  Conditions conditions = Conditions::well_centered;
   friend bool operator==(const Certificate&, const Certificate&) = default;
 };
 
@@ -91,44 +127,50 @@ struct Certificate {
 enum class CertificateCheck {
   proves,            ///< no weights exist
   proves_nothing,    ///< the sum is not a contradiction
-  not_of_this_mesh,  ///< a constraint of a triangle or an edge that the mesh does not have
+  not_of_this_mesh,  ///< a constraint of a triangle or an edge that the mesh does not have, or not of the conditions
   bad_multiplier,    ///< not finite, negative, all of them zero, or a margin outside [0, 1/2)
   out_of_range,      ///< numbers so far apart that exact arithmetic could underflow
 };
 [[nodiscard]] std::string_view name(CertificateCheck check);
 
 /// Verifies a certificate in exact arithmetic, from the positions alone. Multipliers are doubles, so the weights need
-/// not cancel quite: what is left of each is bounded by the splits themselves, |w_p − w_q| < ℓ² along the edges of the
-/// certificate, which every well-centered mesh keeps. About O(n) for n terms, with a large factor.
+/// not cancel quite: what is left of each is bounded by how much weights can differ. Along an edge pq of a triangle pqr
+/// that is |w_p − w_q| < ℓ² when the conditions have splits; the greater of ℓ² and ||r − p|² − |r − q|²| when they have
+/// heights alone (the orthocenter is in the triangle, and both distances are squares minus weights); kWeightReach ℓ²,
+/// without a reason, when they are dual lengths. About O(n) for n terms, with a large factor.
 [[nodiscard]] CertificateCheck check_certificate(const Mesh& mesh, const Certificate& certificate);
 
 // --- margins ------------------------------------------------------------------------------------------
 
-/// The inequalities that count.
-enum class Conditions {
-  well_centered,  ///< heights and splits
-  heights_only,   ///< orthocenters inside; dual edges need not cross their own edges
-};
+/// `regular`: any margin can be attained when one can, and this is what programmes stop at. Its best margin is this or
+/// 0.
+inline constexpr double kMostMargin = 0.5;
 
-/// The least h/ℓ, d/ℓ and 1 − d/ℓ of the mesh's own weights, in doubles. O(n).
-[[nodiscard]] double weight_margin(const Mesh& mesh, Conditions conditions = Conditions::well_centered);
+/// The least h/ℓ, d/ℓ, 1 − d/ℓ or dual length/ℓ that the conditions have, of the mesh's own weights, in doubles;
+/// kUnbounded when they have none. `edges`: of `regular`, by either of their halfedges; none: all. Those on the
+/// boundary are regular whatever the weights. O(n).
+[[nodiscard]] double weight_margin(const Mesh& mesh, Conditions conditions = Conditions::well_centered,
+                                   std::span<const HalfedgeId> edges = {});
 
 struct BestMargin {
   LpStatus status = LpStatus::failed;
   double margin = 0;                    ///< t*: the largest margin that any weights attain; negative: none are good
   std::vector<WeightConstraint> tight;  ///< the constraints that keep it from being larger
-  Certificate certificate;              ///< refutes margin 0; no terms unless t* ≤ 0 and the checker agrees
-  std::vector<VertexId> vertices;       ///< of the triangles asked about
-  std::vector<double> weights;          ///< of these vertices, with margin t*: for proofs, not for meshes (see below)
+  Certificate certificate;         ///< refutes margin 0, of `regular` kRefutedDual; no terms unless t* ≤ 0 and the
+                                   ///< checker agrees
+  std::vector<VertexId> vertices;  ///< of the triangles asked about
+  std::vector<double> weights;     ///< of these vertices, with margin t*: for proofs, not for meshes (see below)
 };
 
 /// The best margin of some triangles, the rest of the mesh being left out: an upper bound for any set that has them.
 /// The largest margin makes a worse mesh than a small one: weights go far for its sake.
 [[nodiscard]] BestMargin best_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver,
-                                     Conditions conditions = Conditions::well_centered);
+                                     Conditions conditions = Conditions::well_centered,
+                                     std::span<const HalfedgeId> edges = {});
 /// The best margin of the whole mesh: the least of its components.
 [[nodiscard]] BestMargin best_margin(const Mesh& mesh, LpSolver& solver,
-                                     Conditions conditions = Conditions::well_centered);
+                                     Conditions conditions = Conditions::well_centered,
+                                     std::span<const HalfedgeId> edges = {});
 
 // --- weights ------------------------------------------------------------------------------------------
 
@@ -146,10 +188,12 @@ struct WeightOptions {
   /// triangles only, in neighbourhoods that grow until everything outside can stay as it is.
   std::size_t whole = 3000;
   int rings = 2;  ///< of vertices around bad triangles, at first
+  Conditions conditions = Conditions::well_centered;
+  std::vector<HalfedgeId> edges = {};  ///< of `regular`: those prescribed, by either of their halfedges; none: all
 };
 
 enum class Feasibility {
-  feasible,    ///< the weights found make every triangle well-centered, by the exact predicate
+  feasible,    ///< the weights found keep the conditions, by exact predicates
   infeasible,  ///< no weights do, by a certificate that the exact checker accepts
   undecided,   ///< the best margin is zero up to rounding, or the solver failed
 };
@@ -166,7 +210,7 @@ enum class MarginIs {
 /// A constraint that elastic weights do not keep.
 struct Violation {
   WeightConstraint constraint;
-  double value = 0;      ///< h/ℓ or d/ℓ that the weights give
+  double value = 0;      ///< h/ℓ, d/ℓ or dual length/ℓ that the weights give
   double shortfall = 0;  ///< of the margin asked for
   double angle_deg = 0;  ///< height: of the triangle at r, across from the edge
 };
@@ -184,7 +228,8 @@ struct WeightReport {
   std::size_t largest = 0;             ///< triangles of the largest one
   IdVector<VertexId, double> weights;  ///< one a vertex of the mesh
   std::vector<Violation> violations;   ///< elastic: worst first
-  /// Refutes margin 0 when infeasible, or the margin asked for when only that cannot be had. May have no terms.
+  /// Refutes margin 0 (of `regular`: kRefutedDual, or what was asked for when that is less) when infeasible, or the
+  /// margin asked for when only that cannot be had. May have no terms.
   Certificate certificate;
 };
 

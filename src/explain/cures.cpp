@@ -104,7 +104,7 @@ Trial judge(const Mesh& mesh, const std::vector<Triple>& excused, LpSolver& solv
     if (orient2d(mesh.position(p), mesh.position(q), mesh.position(r)) != Sign::positive) return {};
     if (std::find(excused.begin(), excused.end(), sorted_corners(mesh, t)) == excused.end()) asked.push_back(t);
   }
-  const Bound bound = bound_margin(mesh, asked, solver);
+  const Bound bound = bound_margin(mesh, asked, solver, Demand(mesh, Conditions::well_centered, {}));
   if (bound.best.status != LpStatus::optimal) return {};
   return {bound.best.margin, asked.size(), bound.best.margin > kCured && suits(mesh, asked, bound.best)};
 }

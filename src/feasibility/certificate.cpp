@@ -4,8 +4,9 @@
 //   Σ m_c (N_c − t M_c)  =  C + Σ R_v w_v        C of degree 4 in the coordinates, R_v of degree 2
 //
 // The coefficients of each N_c sum to zero, so Σ R_v = 0 over each connected part of the certificate and R_v w_v may
-// be read as R_v (w_v − w_root). A well-centered mesh has |w_p − w_q| < ℓ_pq² on every edge, hence |w_v − w_root| <
-// W_v, the sum along a path from the root. If C + Σ |R_v| W_v ≤ 0, no weights make every summand positive.
+// be read as R_v (w_v − w_root). Along an edge weights differ by less than some b_pq (feasibility.hpp), hence
+// |w_v − w_root| < W_v, the sum along a path from the root. If C + Σ |R_v| W_v ≤ 0, no weights make every summand
+// positive.
 //
 // Everything is exact: coordinates are scaled by a power of two, differences are two-term sums, and the rest is
 // arithmetic of expansions.
@@ -38,7 +39,7 @@ Number cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
 
 /// N − t M of one constraint: coefficients of the weights of its vertices, and the rest.
 struct Polynomial {
-  std::array<Number, 3> coefficients;
+  std::array<Number, 4> coefficients;
   Number constant;
 };
 
@@ -46,7 +47,7 @@ Polynomial height_polynomial(Vec2 p, Vec2 q, Vec2 r, double margin) {
   const Vector pq = difference(q, p), pr = difference(r, p), qr = difference(r, q);
   const Number at_p = dot(pq, pr), at_q = -dot(pq, qr), at_r = dot(pr, qr);
   const Number l2 = at_p + at_q;
-  Polynomial polynomial = {{at_q, at_p, -l2}, l2 * at_r};
+  Polynomial polynomial = {{at_q, at_p, -l2, Number()}, l2 * at_r};
   if (margin != 0) polynomial.constant += -(Number(2 * margin) * l2 * cross(pq, pr));
   return polynomial;
 }
@@ -54,17 +55,39 @@ Polynomial height_polynomial(Vec2 p, Vec2 q, Vec2 r, double margin) {
 Polynomial split_polynomial(Vec2 p, Vec2 q, double margin) {
   const Vector pq = difference(q, p);
   const Number l2 = dot(pq, pq);
-  Polynomial polynomial = {{Number(1), Number(-1), Number()}, l2};
+  Polynomial polynomial = {{Number(1), Number(-1), Number(), Number()}, l2};
   if (margin != 0) polynomial.constant += -(Number(2 * margin) * l2);
   return polynomial;
+}
+
+Polynomial dual_polynomial(Vec2 p, Vec2 q, Vec2 r, Vec2 s, double margin) {
+  const Vector pq = difference(q, p), pr = difference(r, p), ps = difference(s, p);
+  const Number at_q = cross(pr, ps), at_r = cross(ps, pq), at_s = cross(pq, pr);
+  Polynomial polynomial = {{at_q + at_r + at_s, -at_q, -at_r, -at_s},
+                           dot(pq, pq) * at_q + dot(pr, pr) * at_r + dot(ps, ps) * at_s};
+  if (margin != 0) polynomial.constant += -(Number(2 * margin) * at_s * at_r);
+  return polynomial;
+}
+
+bool counts(Conditions conditions, Kind kind) {
+  switch (conditions) {
+    case Conditions::well_centered:
+      return kind == Kind::height || kind == Kind::split;
+    case Conditions::heights_only:
+      return kind == Kind::height;
+    case Conditions::regular:
+      return kind == Kind::dual;
+  }
+  return false;
 }
 
 bool is_of(const Mesh& mesh, const WeightConstraint& c) {
   const auto is_vertex = [&](VertexId v) { return v.index < mesh.n_vertices() && !mesh.is_isolated(v); };
   if (!is_vertex(c.p) || !is_vertex(c.q)) return false;
-  const HalfedgeId h = mesh.find_halfedge(c.p, c.q);
-  if (c.kind == Kind::height) return h.valid() && mesh.opposite(h) == c.r;
-  return h.valid() || mesh.find_halfedge(c.q, c.p).valid();
+  const HalfedgeId h = mesh.find_halfedge(c.p, c.q), back = mesh.find_halfedge(c.q, c.p);
+  if (c.kind == Kind::split) return h.valid() || back.valid();
+  if (!h.valid() || mesh.opposite(h) != c.r) return false;
+  return c.kind == Kind::height || (back.valid() && mesh.opposite(back) == c.s);
 }
 
 bool has_good_multipliers(const Certificate& certificate) {
@@ -83,17 +106,18 @@ struct Scale {
   bool in_range = true;
 
   [[nodiscard]] Vec2 position(Vec2 p) const { return {std::ldexp(p.x, -length), std::ldexp(p.y, -length)}; }
-  /// The scale of N: degree 4 for heights and 2 for splits, so that the sum stays the same up to a factor.
+  /// The scale of N: degree 2 for splits, else 4, so that the sum stays the same up to a factor.
+  [[nodiscard]] int shift(Kind kind) const { return kind == Kind::split ? 2 * length : 4 * length; }
   [[nodiscard]] double of(const Certificate::Term& term) const {
-    const int shift = term.constraint.kind == Kind::height ? 4 * length : 2 * length;
-    return std::ldexp(term.multiplier, shift - multiplier);
+    return std::ldexp(term.multiplier, shift(term.constraint.kind) - multiplier);
   }
 };
 
 template <class Use>
 void for_each_vertex(const WeightConstraint& c, const Use& use) {
   use(c.p), use(c.q);
-  if (c.kind == Kind::height) use(c.r);
+  if (c.kind != Kind::split) use(c.r);
+  if (c.kind == Kind::dual) use(c.s);
 }
 
 Scale scale_of(const Mesh& mesh, const Certificate& certificate) {
@@ -114,7 +138,7 @@ Scale scale_of(const Mesh& mesh, const Certificate& certificate) {
     if (term.multiplier == 0) continue;
     int exponent = 0;
     std::frexp(term.multiplier, &exponent);
-    exponent += term.constraint.kind == Kind::height ? 4 * scale.length : 2 * scale.length;
+    exponent += scale.shift(term.constraint.kind);
     most = std::max(most, exponent), fewest = std::min(fewest, exponent);
   }
   scale.multiplier = most;
@@ -124,51 +148,95 @@ Scale scale_of(const Mesh& mesh, const Certificate& certificate) {
   return scale;
 }
 
-/// The sum, vertex by vertex, and the edges that bound differences of weights.
-struct Sum {
+/// The sum, vertex by vertex, and the edges along which differences of weights are bounded.
+class Sum {
+ public:
+  Sum(const Mesh& mesh, const Certificate& certificate, const Scale& scale)
+      : mesh_(mesh), scale_(scale), conditions_(certificate.conditions) {
+    for (const auto& term : certificate.terms) {
+      if (term.multiplier > 0) add(term, certificate.margin);
+    }
+  }
+  /// C + Σ |R_v| W_v.
+  [[nodiscard]] Number upper_bound() const { return constant_ + residual_bound(); }
+
+ private:
   struct Node {
     Number residual;
-    std::vector<VertexId> neighbours;
+    std::vector<std::pair<VertexId, Number>> neighbours;  ///< with b_pq
   };
-  Number constant;
-  std::map<VertexId, Node> nodes;  // ordered: the same path whatever the order of the terms
+
+  [[nodiscard]] Vec2 at(VertexId v) const { return scale_.position(mesh_.position(v)); }
+  [[nodiscard]] Number squared_distance(VertexId a, VertexId b) const {
+    const Vector edge = difference(at(a), at(b));
+    return dot(edge, edge);
+  }
+
+  void join(VertexId a, VertexId b, const Number& bound) {
+    nodes_[a].neighbours.emplace_back(b, bound);
+    nodes_[b].neighbours.emplace_back(a, bound);
+  }
+  /// An edge of a triangle whose third corner is r; of a split there is none.
+  void join_edge(VertexId a, VertexId b, VertexId r) {
+    Number bound = squared_distance(a, b);
+    if (conditions_ == Conditions::regular) bound = Number(kWeightReach) * bound;
+    if (conditions_ == Conditions::heights_only) {
+      const Number across = abs(squared_distance(a, r) - squared_distance(b, r));
+      if ((across - bound).sign() == Sign::positive) bound = across;
+    }
+    join(a, b, bound);
+  }
+  void join_triangle(VertexId a, VertexId b, VertexId c) { join_edge(a, b, c), join_edge(b, c, a), join_edge(c, a, b); }
+
+  void add(const Certificate::Term& term, double margin) {
+    const auto [kind, p, q, r, s] = term.constraint;
+    const Polynomial polynomial = polynomial_of(term.constraint, margin);
+    const Number multiplier(scale_.of(term));
+    constant_ += multiplier * polynomial.constant;
+    int k = 0;
+    for_each_vertex(term.constraint, [&](VertexId v) {
+      nodes_[v].residual += multiplier * polynomial.coefficients[static_cast<std::size_t>(k++)];
+    });
+    if (kind == Kind::split) join_edge(p, q, VertexId());
+    if (kind != Kind::split) join_triangle(p, q, r);
+    if (kind == Kind::dual) join_triangle(q, p, s);
+  }
+
+  [[nodiscard]] Polynomial polynomial_of(const WeightConstraint& c, double margin) const {
+    switch (c.kind) {
+      case Kind::height:
+        return height_polynomial(at(c.p), at(c.q), at(c.r), margin);
+      case Kind::split:
+        return split_polynomial(at(c.p), at(c.q), margin);
+      case Kind::dual:
+        return dual_polynomial(at(c.p), at(c.q), at(c.r), at(c.s), margin);
+    }
+    return {};
+  }
+
+  [[nodiscard]] Number residual_bound() const;
+
+  const Mesh& mesh_;
+  const Scale& scale_;
+  Conditions conditions_;
+  Number constant_;
+  std::map<VertexId, Node> nodes_;  // ordered: the same path whatever the order of the terms
 };
 
-void join(Sum& sum, VertexId a, VertexId b) {
-  sum.nodes[a].neighbours.push_back(b);
-  sum.nodes[b].neighbours.push_back(a);
-}
-
-void add(Sum& sum, const Mesh& mesh, const Certificate::Term& term, const Scale& scale, double margin) {
-  const auto [kind, p, q, r] = term.constraint;
-  const auto at = [&](VertexId v) { return scale.position(mesh.position(v)); };
-  const Polynomial polynomial =
-      kind == Kind::height ? height_polynomial(at(p), at(q), at(r), margin) : split_polynomial(at(p), at(q), margin);
-  const Number multiplier(scale.of(term));
-  sum.constant += multiplier * polynomial.constant;
-  int k = 0;
-  for_each_vertex(term.constraint, [&](VertexId v) {
-    sum.nodes[v].residual += multiplier * polynomial.coefficients[static_cast<std::size_t>(k++)];
-  });
-  join(sum, p, q);
-  if (kind == Kind::height) join(sum, q, r), join(sum, r, p);
-}
-
 /// Σ |R_v| W_v, W_v along a breadth-first tree of each connected part.
-Number residual_bound(const Sum& sum, const Mesh& mesh, const Scale& scale) {
+Number Sum::residual_bound() const {
   Number bound;
   std::map<VertexId, Number> reach;  // W_v
-  for (const auto& [root, unused] : sum.nodes) {
+  for (const auto& [root, unused] : nodes_) {
     if (reach.count(root) > 0) continue;
     reach[root] = Number();
     std::vector<VertexId> queue = {root};
     for (std::size_t i = 0; i < queue.size(); ++i) {
       const VertexId v = queue[i];
-      bound += abs(sum.nodes.at(v).residual) * reach[v];
-      for (const VertexId u : sum.nodes.at(v).neighbours) {
+      bound += abs(nodes_.at(v).residual) * reach[v];
+      for (const auto& [u, difference] : nodes_.at(v).neighbours) {
         if (reach.count(u) > 0) continue;
-        const Vector edge = difference(scale.position(mesh.position(u)), scale.position(mesh.position(v)));
-        reach[u] = reach[v] + dot(edge, edge);
+        reach[u] = reach[v] + difference;
         queue.push_back(u);
       }
     }
@@ -187,15 +255,13 @@ std::string_view name(CertificateCheck check) {
 CertificateCheck check_certificate(const Mesh& mesh, const Certificate& certificate) {
   if (!has_good_multipliers(certificate)) return CertificateCheck::bad_multiplier;
   for (const auto& term : certificate.terms) {
-    if (!is_of(mesh, term.constraint)) return CertificateCheck::not_of_this_mesh;
+    if (!counts(certificate.conditions, term.constraint.kind) || !is_of(mesh, term.constraint)) {
+      return CertificateCheck::not_of_this_mesh;
+    }
   }
   const Scale scale = scale_of(mesh, certificate);
   if (!scale.in_range) return CertificateCheck::out_of_range;
-  Sum sum;
-  for (const auto& term : certificate.terms) {
-    if (term.multiplier > 0) add(sum, mesh, term, scale, certificate.margin);
-  }
-  const Number total = sum.constant + residual_bound(sum, mesh, scale);
+  const Number total = Sum(mesh, certificate, scale).upper_bound();
   return total.sign() == Sign::positive ? CertificateCheck::proves_nothing : CertificateCheck::proves;
 }
 

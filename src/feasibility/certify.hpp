@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "feasibility/constraints.hpp"
 #include "temper/feasibility.hpp"
 
 namespace temper {
@@ -20,10 +21,9 @@ struct Bound {
 };
 /// `triangles` is sorted.
 [[nodiscard]] Bound bound_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver,
-                                 Conditions conditions = Conditions::well_centered);
+                                 const Demand& demand);
 
 /// A certificate that refutes the margin, with as few terms as will do; without terms when the checker accepts none.
-[[nodiscard]] Certificate certify(const Mesh& mesh, std::span<const WeightConstraint> constraints,
-                                  std::span<const double> dual, double margin);
+[[nodiscard]] Certificate certify(const Mesh& mesh, const Bound& bound, Conditions conditions, double margin);
 
 }  // namespace temper

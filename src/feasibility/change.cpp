@@ -3,11 +3,12 @@
 //   Δw_v = unit_v (u⁺ − u⁻)          cost (u⁺ + u⁻) · 10⁻⁴: without rim a constant on all Δw is free otherwise
 //   Δw_i − Δw_j = ℓ² (e⁺ − e⁻)       cost (e⁺ + e⁻) ℓ/2, the |Δw_i − Δw_j| / (2ℓ) of the edge
 //   splits                           bounds of e⁺ and e⁻, since one of them is zero in any optimum
-//   heights                          one row each
+//   heights, dual lengths            one row each
 //
 // Lengths are counted in the region's mean edge length. The sum of absolute differences is what makes few weights move:
 // all of a region but the neighbourhood of what is bad keeps its weights.
-// Elastic programmes have a column more for each height and two for each edge, which pay for what is lacking.
+// Elastic programmes have a column more for each height and dual length, and two for each edge that has splits, which
+// pay for what is lacking.
 #include "feasibility/change.hpp"
 
 #include <algorithm>
@@ -37,9 +38,13 @@ struct Programme {
 
 class ProgrammeBuilder {
  public:
-  ProgrammeBuilder(const Mesh& mesh, const Region& region, const IdVector<VertexId, double>& start, double margin,
-                   bool elastic)
-      : mesh_(mesh), region_(region), start_(start), margin_(margin), elastic_(elastic) {}
+  ProgrammeBuilder(const RegionProblem& problem, const Region& region, bool elastic)
+      : mesh_(problem.mesh),
+        region_(region),
+        demand_(problem.demand),
+        start_(problem.start),
+        margin_(problem.margin),
+        elastic_(elastic) {}
 
   Programme build() {
     const std::vector<HalfedgeId> edges = edges_of(mesh_, region_.triangles);
@@ -52,7 +57,10 @@ class ProgrammeBuilder {
     const double mean = total / static_cast<double>(edges.size());
     for (const HalfedgeId h : edges) add_edge(h, mean);
     for (const TriangleId t : region_.triangles) {
-      for (int k = 0; k < 3; ++k) add_height(Mesh::halfedge(t, k));
+      for (int k = 0; k < 3 && demand_.has_heights(); ++k) add_row(height_constraint(mesh_, Mesh::halfedge(t, k)));
+    }
+    for (const HalfedgeId h : edges) {
+      if (demand_.has_dual(mesh_, h)) add_row(dual_constraint(mesh_, h));
     }
     return std::move(p_);
   }
@@ -83,16 +91,17 @@ class ProgrammeBuilder {
     // margin ≤ d/ℓ ≤ 1 − margin, as bounds of (Δw_i − Δw_j)/ℓ².
     const double before = (start_[i] - start_[j]) / (l * l);
     const double low = -(1 - 2 * margin_) - before, high = (1 - 2 * margin_) - before;
-    const auto bound = [&](double x) { return elastic_ ? kUnbounded : std::max(x, 0.0); };
-    const double most_needed = elastic_ ? 0 : std::max(low, 0.0), least_needed = elastic_ ? 0 : std::max(-high, 0.0);
-    const int up = p_.lp.add_column(0, most_needed, bound(high));
-    const int down = p_.lp.add_column(0, least_needed, bound(-low));
+    const bool bounded = demand_.has_splits() && !elastic_;
+    const auto least = [&](double x) { return bounded ? std::max(x, 0.0) : 0; };
+    const auto most = [&](double x) { return bounded ? std::max(x, 0.0) : kUnbounded; };
+    const int up = p_.lp.add_column(0, least(low), most(high));
+    const int down = p_.lp.add_column(0, least(-high), most(-low));
     p_.change_costs.emplace_back(up, 0.5 * l / mean_length);
     p_.change_costs.emplace_back(down, 0.5 * l / mean_length);
     p_.lp.add_entry(up, -1);
     p_.lp.add_entry(down, 1);
     p_.lp.end_row(0, 0);
-    if (!elastic_) return;
+    if (!elastic_ || !demand_.has_splits()) return;
     const int below = add_violation(0.5), above = add_violation(0.5);  // d/ℓ is half of w/ℓ²
     p_.lp.add_entry(up, 1);
     p_.lp.add_entry(down, -1);
@@ -101,15 +110,18 @@ class ProgrammeBuilder {
     p_.lp.end_row(low, high);
   }
 
-  void add_height(HalfedgeId h) {
-    const LinearForm form = linear_form(mesh_, height_constraint(mesh_, h));
-    for (int k = 0; k < form.size; ++k) add_weight(form.vertices[k], form.coefficients[k]);
+  void add_row(const WeightConstraint& constraint) {
+    const LinearForm form = linear_form(mesh_, constraint);
+    bool any_free = false;
+    for (int k = 0; k < form.size; ++k) any_free = add_weight(form.vertices[k], form.coefficients[k]) || any_free;
+    if (!any_free) return;
     if (elastic_) p_.lp.add_entry(add_violation(1), 1);
     p_.lp.end_row(margin_ - value_of(form, [&](VertexId v) { return start_[v]; }), kUnbounded);
   }
 
   const Mesh& mesh_;
   const Region& region_;
+  const Demand& demand_;
   const IdVector<VertexId, double>& start_;
   double margin_;
   bool elastic_;
@@ -150,16 +162,14 @@ RegionChange read_change(const Region& region, const std::vector<double>& units,
 
 }  // namespace
 
-RegionChange least_change(const Mesh& mesh, const Region& region, const IdVector<VertexId, double>& start,
-                          double margin, LpSolver& solver) {
-  Programme p = ProgrammeBuilder(mesh, region, start, margin, false).build();
+RegionChange least_change(const RegionProblem& problem, const Region& region, LpSolver& solver) {
+  Programme p = ProgrammeBuilder(problem, region, false).build();
   for (const auto& [column, cost] : p.change_costs) p.lp.set_cost(column, cost);
   return read_change(region, p.units, solver.solve(p.lp.problem()));
 }
 
-RegionChange least_violation(const Mesh& mesh, const Region& region, const IdVector<VertexId, double>& start,
-                             double margin, LpSolver& solver) {
-  Programme p = ProgrammeBuilder(mesh, region, start, margin, true).build();
+RegionChange least_violation(const RegionProblem& problem, const Region& region, LpSolver& solver) {
+  Programme p = ProgrammeBuilder(problem, region, true).build();
   for (const auto& [column, cost] : p.violation_costs) p.lp.set_cost(column, cost);
   const LpSolution least = solver.solve(p.lp.problem());
   if (least.status != LpStatus::optimal) return read_change(region, p.units, least);

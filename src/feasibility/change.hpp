@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "feasibility/constraints.hpp"
 #include "feasibility/region.hpp"
 #include "temper/feasibility.hpp"
 
@@ -13,13 +14,19 @@ struct RegionChange {
   std::vector<double> change;  ///< Δw of each free vertex; exactly 0 where nothing has to change
 };
 
-/// Minimises Σ |Δw_i − Δw_j| / (2ℓ) over the edges of the region, subject to the margin. `start`: weights that change
-/// is measured from; those of the rim stay.
-[[nodiscard]] RegionChange least_change(const Mesh& mesh, const Region& region, const IdVector<VertexId, double>& start,
-                                        double margin, LpSolver& solver);
+/// What is asked of the weights of a region.
+struct RegionProblem {
+  const Mesh& mesh;
+  const Demand& demand;
+  const IdVector<VertexId, double>& start;  ///< weights that change is measured from; those of the rim stay
+  double margin = 0;
+};
 
-/// Minimises what h/ℓ, d/ℓ and 1 − d/ℓ lack of the margin, summed; of all such weights those that change least.
-[[nodiscard]] RegionChange least_violation(const Mesh& mesh, const Region& region,
-                                           const IdVector<VertexId, double>& start, double margin, LpSolver& solver);
+/// Minimises Σ |Δw_i − Δw_j| / (2ℓ) over the edges of the region, subject to the margin.
+[[nodiscard]] RegionChange least_change(const RegionProblem& problem, const Region& region, LpSolver& solver);
+
+/// Minimises what h/ℓ, d/ℓ, 1 − d/ℓ and dual length/ℓ lack of the margin, summed; of all such weights those that change
+/// least.
+[[nodiscard]] RegionChange least_violation(const RegionProblem& problem, const Region& region, LpSolver& solver);
 
 }  // namespace temper

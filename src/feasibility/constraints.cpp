@@ -1,18 +1,50 @@
 #include "feasibility/constraints.hpp"
 
 #include <algorithm>
+#include <array>
+#include <tuple>
 
 namespace temper {
+namespace {
+
+/// h over pq in the triangle pqr and h over qp in qps are one form: the vertices of the second are q, p, s.
+LinearForm dual_form(const Mesh& mesh, const WeightConstraint& c) {
+  const LinearForm left = linear_form(mesh, {WeightConstraint::Kind::height, c.p, c.q, c.r});
+  const LinearForm right = linear_form(mesh, {WeightConstraint::Kind::height, c.q, c.p, c.s});
+  const auto& [a, b] = std::tie(left.coefficients, right.coefficients);
+  return {4, {c.p, c.q, c.r, c.s}, {a[0] + b[1], a[1] + b[0], a[2], b[2]}, left.constant + right.constant};
+}
+
+constexpr std::array<ConditionsInfo, 3> kConditions = {{
+    {Conditions::well_centered, "well_centered", "h >= t l and t l <= d <= (1 - t) l",
+     "weights make every triangle well-centered", "no weights make every triangle well-centered"},
+    {Conditions::heights_only, "heights_only", "h >= t l", "weights bring every orthocenter inside its triangle",
+     "no weights bring every orthocenter inside its triangle"},
+    {Conditions::regular, "regular", "dual length >= t l", "weights make these edges regular",
+     "no weights make these edges regular (of those that differ by less than 2^20 l^2 along edges)"},
+}};
+
+}  // namespace
+
+std::span<const ConditionsInfo> conditions_table() { return kConditions; }
+
+std::string_view name(Conditions conditions) { return kConditions[static_cast<std::size_t>(conditions)].name; }
+
+std::string_view name(WeightConstraint::Kind kind) {
+  constexpr std::array<std::string_view, 3> kNames = {"height", "split", "dual"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
 
 LinearForm linear_form(const Mesh& mesh, const WeightConstraint& constraint) {
-  const auto [kind, p, q, r] = constraint;
+  if (constraint.kind == WeightConstraint::Kind::dual) return dual_form(mesh, constraint);
+  const auto [kind, p, q, r, s] = constraint;
   const Vec2 pq = mesh.position(q) - mesh.position(p);
   const double l2 = squared_length(pq);
-  if (kind == WeightConstraint::Kind::split) return {2, {p, q, {}}, {0.5 / l2, -0.5 / l2, 0}, 0.5};
+  if (kind == WeightConstraint::Kind::split) return {2, {p, q}, {0.5 / l2, -0.5 / l2}, 0.5};
   const Vec2 pr = mesh.position(r) - mesh.position(p);
   const Vec2 qr = mesh.position(r) - mesh.position(q);
   const double scale = 0.5 / cross(pq, pr);
-  return {3, {p, q, r}, {-scale * dot(pq, qr) / l2, scale * dot(pq, pr) / l2, -scale}, scale * dot(pr, qr)};
+  return {3, {p, q, r, {}}, {-scale * dot(pq, qr) / l2, scale * dot(pq, pr) / l2, -scale, 0}, scale * dot(pr, qr)};
 }
 
 WeightConstraint height_constraint(const Mesh& mesh, HalfedgeId h) {
@@ -21,6 +53,19 @@ WeightConstraint height_constraint(const Mesh& mesh, HalfedgeId h) {
 
 WeightConstraint split_constraint(VertexId from, VertexId to) {
   return {WeightConstraint::Kind::split, from, to, VertexId()};
+}
+
+WeightConstraint dual_constraint(const Mesh& mesh, HalfedgeId h) {
+  return {WeightConstraint::Kind::dual, mesh.origin(h), mesh.target(h), mesh.opposite(h), mesh.opposite(mesh.twin(h))};
+}
+
+Demand::Demand(const Mesh& mesh, Conditions conditions, std::span<const HalfedgeId> edges) : conditions_(conditions) {
+  if (edges.empty()) return;
+  prescribed_ = IdVector<HalfedgeId, std::uint8_t>(mesh.n_halfedges(), 0);
+  for (const HalfedgeId h : edges) {
+    prescribed_[h] = 1;
+    if (!mesh.is_boundary(h)) prescribed_[mesh.twin(h)] = 1;
+  }
 }
 
 std::vector<HalfedgeId> edges_of(const Mesh& mesh, std::span<const TriangleId> triangles) {
@@ -48,15 +93,22 @@ std::vector<VertexId> vertices_of(const Mesh& mesh, std::span<const TriangleId> 
 }
 
 std::vector<WeightConstraint> constraints_of(const Mesh& mesh, std::span<const TriangleId> triangles,
-                                             Conditions conditions) {
+                                             const Demand& demand) {
   std::vector<WeightConstraint> constraints;
   for (const TriangleId t : triangles) {
-    for (int k = 0; k < 3; ++k) constraints.push_back(height_constraint(mesh, Mesh::halfedge(t, k)));
+    for (int k = 0; k < 3 && demand.has_heights(); ++k) {
+      constraints.push_back(height_constraint(mesh, Mesh::halfedge(t, k)));
+    }
   }
-  if (conditions == Conditions::heights_only) return constraints;
   for (const HalfedgeId h : edges_of(mesh, triangles)) {
-    constraints.push_back(split_constraint(mesh.origin(h), mesh.target(h)));
-    constraints.push_back(split_constraint(mesh.target(h), mesh.origin(h)));
+    if (demand.has_splits()) {
+      constraints.push_back(split_constraint(mesh.origin(h), mesh.target(h)));
+      constraints.push_back(split_constraint(mesh.target(h), mesh.origin(h)));
+    }
+    if (demand.has_dual(mesh, h) &&
+        std::binary_search(triangles.begin(), triangles.end(), Mesh::triangle(mesh.twin(h)))) {
+      constraints.push_back(dual_constraint(mesh, h));
+    }
   }
   return constraints;
 }

@@ -1,24 +1,28 @@
-// Heights and splits as linear functions of the weights, over the length of their edge.
+// Heights, splits and dual lengths as linear functions of the weights, over the length of their edge.
 //
 //   height  h/ℓ = (D_r + (D_p w_q + D_q w_p)/ℓ² − w_r) / (2 S)      D_p = (q − p)·(r − p), …; S twice the area
 //   split   d/ℓ = 1/2 + (w_p − w_q)/(2 ℓ²)
+//   dual    (h_r + h_s)/ℓ, the sum of the heights over either side
 //
 // The coefficients of one form sum to zero: a constant on all weights changes nothing.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "temper/feasibility.hpp"
+#include "temper/geometry.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
 
 struct LinearForm {
-  int size = 0;  ///< 3 for a height, 2 for a split
-  std::array<VertexId, 3> vertices;
-  std::array<double, 3> coefficients = {};
+  int size = 0;  ///< 3 for a height, 2 for a split, 4 for a dual
+  std::array<VertexId, 4> vertices;
+  std::array<double, 4> coefficients = {};
   double constant = 0;
 };
 
@@ -33,16 +37,69 @@ double value_of(const LinearForm& form, const WeightOf& weight_of) {
   return value;
 }
 
-/// The height over the edge of h in its triangle, and the splits of an edge from either end.
+/// The height over the edge of h in its triangle, the splits of an edge from either end, and its dual length.
 [[nodiscard]] WeightConstraint height_constraint(const Mesh& mesh, HalfedgeId h);
 [[nodiscard]] WeightConstraint split_constraint(VertexId from, VertexId to);
+/// Precondition: h is inside the mesh.
+[[nodiscard]] WeightConstraint dual_constraint(const Mesh& mesh, HalfedgeId h);
+
+/// Conditions on a mesh, with the edges that they are about.
+class Demand {
+ public:
+  Demand(const Mesh& mesh, Conditions conditions, std::span<const HalfedgeId> edges);
+
+  [[nodiscard]] Conditions conditions() const { return conditions_; }
+  [[nodiscard]] bool has_heights() const { return conditions_ != Conditions::regular; }
+  [[nodiscard]] bool has_splits() const { return conditions_ == Conditions::well_centered; }
+  [[nodiscard]] bool has_duals() const { return conditions_ == Conditions::regular; }
+  /// Says whether the dual length of the edge of h counts.
+  [[nodiscard]] bool has_dual(const Mesh& mesh, HalfedgeId h) const {
+    return has_duals() && !mesh.is_boundary(h) && (prescribed_.empty() || prescribed_[h] != 0);
+  }
+  /// All that t has to keep, exactly, where weight_of(v) are the weights.
+  template <class WeightOf>
+  [[nodiscard]] bool is_kept(const Mesh& mesh, TriangleId t, const WeightOf& weight_of) const {
+    const auto at = [&](VertexId v) { return WeightedPoint{mesh.position(v).x, mesh.position(v).y, weight_of(v)}; };
+    const auto [a, b, c] = mesh.corners(t);
+    if (has_splits()) return is_well_centered(at(a), at(b), at(c));
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(t, k);
+      const WeightedPoint p = at(mesh.origin(h)), q = at(mesh.target(h)), r = at(mesh.opposite(h));
+      if (has_heights() && signed_height_sign(p, q, r) != Sign::positive) return false;
+      if (!has_dual(mesh, h)) continue;
+      if (power_test(p, q, r, at(mesh.opposite(mesh.twin(h)))) != Sign::negative) return false;
+    }
+    return true;
+  }
+  /// The least that t's constraints are, in doubles; kUnbounded when it has none.
+  template <class WeightOf>
+  [[nodiscard]] double margin_of(const Mesh& mesh, TriangleId t, const WeightOf& weight_of) const {
+    double margin = kUnbounded;
+    const auto value = [&](const WeightConstraint& c) { return value_of(linear_form(mesh, c), weight_of); };
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(t, k);
+      if (has_heights()) margin = std::min(margin, value(height_constraint(mesh, h)));
+      if (has_splits()) {
+        const double split = value(split_constraint(mesh.origin(h), mesh.target(h)));
+        margin = std::min({margin, split, 1 - split});
+      }
+      if (has_dual(mesh, h)) margin = std::min(margin, value(dual_constraint(mesh, h)));
+    }
+    return margin;
+  }
+
+ private:
+  Conditions conditions_;
+  IdVector<HalfedgeId, std::uint8_t> prescribed_;  ///< none: every edge is
+};
 
 /// The edges of these triangles, each once, by a halfedge that is in one of them. `triangles` is sorted.
 [[nodiscard]] std::vector<HalfedgeId> edges_of(const Mesh& mesh, std::span<const TriangleId> triangles);
 /// The corners of these triangles, sorted, each once.
 [[nodiscard]] std::vector<VertexId> vertices_of(const Mesh& mesh, std::span<const TriangleId> triangles);
-/// The constraints of these triangles: three heights each, and two splits an edge.
+/// The constraints of these triangles: three heights each, two splits an edge, or one dual length an edge that has both
+/// its triangles among them.
 [[nodiscard]] std::vector<WeightConstraint> constraints_of(const Mesh& mesh, std::span<const TriangleId> triangles,
-                                                           Conditions conditions);
+                                                           const Demand& demand);
 
 }  // namespace temper

@@ -29,6 +29,7 @@ namespace {
 constexpr int kMoreRings = 2;   // a ring more each time would solve each programme twice as often
 constexpr int kHalvings = 30;   // of the margin asked for: down to the rounding of the programmes
 constexpr double kKept = 1e-9;  // a margin is kept when no more than this is lacking: the solvers' tolerance
+constexpr double kLeastRefutedDual = 0x1p-20;  // what check_certificate has bits for
 constexpr double kDegrees = 57.29577951308232;
 
 /// A region that is done with: its change of weights, or the proof that there is none.
@@ -44,6 +45,7 @@ class WeightFinder {
       : mesh_(mesh),
         solver_(solver),
         options_(options),
+        demand_(mesh, options.conditions, options.edges),
         start_(mesh.n_vertices(), 0.0),
         components_(components_of(mesh)) {
     if (!options.from_input) return;
@@ -52,7 +54,7 @@ class WeightFinder {
 
   WeightReport run() {
     if (options_.goal == WeightGoal::feasible) measure_components();
-    double asked = std::min(options_.margin, small_margin_ / 2);
+    double asked = std::min(options_.margin, demand_.has_duals() ? small_margin_ : small_margin_ / 2);
     if (options_.goal == WeightGoal::elastic) {
       attempt(asked);
       if (failures() > 0) relax(asked);
@@ -73,25 +75,30 @@ class WeightFinder {
     return value_of(linear_form(mesh_, constraint), [&](VertexId v) { return weights[v]; });
   }
   [[nodiscard]] double margin_of(TriangleId t, const IdVector<VertexId, double>& weights) const {
-    double margin = kUnbounded;
-    for (int k = 0; k < 3; ++k) {
-      const HalfedgeId h = Mesh::halfedge(t, k);
-      const double split = value(split_constraint(mesh_.origin(h), mesh_.target(h)), weights);
-      margin = std::min({margin, split, 1 - split, value(height_constraint(mesh_, h), weights)});
-    }
-    return margin;
+    return demand_.margin_of(mesh_, t, [&](VertexId v) { return weights[v]; });
   }
-  [[nodiscard]] bool is_well_centered(TriangleId t, const IdVector<VertexId, double>& weights) const {
-    const auto at = [&](VertexId v) { return WeightedPoint{mesh_.position(v).x, mesh_.position(v).y, weights[v]}; };
-    const auto [p, q, r] = mesh_.corners(t);
-    return temper::is_well_centered(at(p), at(q), at(r));
+  [[nodiscard]] bool is_kept(TriangleId t, const IdVector<VertexId, double>& weights) const {
+    return demand_.is_kept(mesh_, t, [&](VertexId v) { return weights[v]; });
+  }
+  [[nodiscard]] Bound bound_of(std::span<const TriangleId> triangles) const {
+    return bound_margin(mesh_, triangles, solver_, demand_);
+  }
+  [[nodiscard]] RegionProblem problem(double asked) const { return {mesh_, demand_, start_, asked}; }
+
+  /// A best margin that leaves no hope: of dual lengths, which are all zero where w = |x|², none is below zero.
+  [[nodiscard]] bool is_hopeless(double margin) const {
+    return margin <= (demand_.has_duals() ? kNoMargin : -kNoMargin);
+  }
+  /// The margin that is refuted when no weights keep the conditions.
+  [[nodiscard]] double refuted_margin() const {
+    return demand_.has_duals() ? std::clamp(options_.margin, kLeastRefutedDual, kRefutedDual) : 0;
   }
 
   /// The best margins of components that are one programme.
   void measure_components() {
     for (const Region& component : components_) {
       if (component.triangles.size() > options_.whole) continue;
-      Bound bound = bound_margin(mesh_, component.triangles, solver_);
+      Bound bound = bound_of(component.triangles);
       if (bound.best.status != LpStatus::optimal) bound.best.margin = 0;
       if (bound.best.margin >= small_margin_) continue;
       small_margin_ = bound.best.margin;
@@ -100,7 +107,7 @@ class WeightFinder {
   }
 
   [[nodiscard]] bool is_bad(TriangleId t, double asked) const {
-    return margin_of(t, start_) < asked || !is_well_centered(t, start_);
+    return margin_of(t, start_) < asked || !is_kept(t, start_);
   }
 
   /// The cheapest proof there can be, where programmes of regions may be large: the ring of one bad triangle.
@@ -109,13 +116,13 @@ class WeightFinder {
       if (component.triangles.size() <= options_.whole) continue;
       for (const TriangleId t : component.triangles) {
         if (!is_bad(t, asked)) continue;
-        Bound bound = bound_margin(mesh_, ring_of(mesh_, t), solver_);
-        if (bound.best.status != LpStatus::optimal || bound.best.margin > -kNoMargin) continue;
+        Bound bound = bound_of(ring_of(mesh_, t));
+        if (bound.best.status != LpStatus::optimal || !is_hopeless(bound.best.margin)) continue;
         if (!bound_ || bound.best.margin < bound_->best.margin) bound_ = std::move(bound);
       }
     }
     if (!bound_) return false;
-    refuted_ = certify_bound(*bound_, 0);
+    refuted_ = certify_bound(*bound_, refuted_margin());
     if (refuted_->terms.empty()) refuted_.reset();
     bound_is_exact_ = false;
     return refuted_.has_value();
@@ -143,7 +150,7 @@ class WeightFinder {
     for (bool grown = true; grown;) {
       grown = false;
       std::vector<Outcome> next;
-      for (Region& region : regions_of(mesh_, mask)) {
+      for (Region& region : regions_of(mesh_, mask, demand_.has_duals())) {
         if (std::optional<Outcome> known = take_outcome(region)) {
           next.push_back(*std::move(known));
         } else if (std::optional<Outcome> found = solve(region, asked)) {
@@ -169,9 +176,9 @@ class WeightFinder {
 
   /// Nothing: the region must grow.
   std::optional<Outcome> solve(Region& region, double asked) {
-    RegionChange change = least_change(mesh_, region, start_, asked, solver_);
+    RegionChange change = least_change(problem(asked), region, solver_);
     if (change.status == LpStatus::optimal) return Outcome{std::move(region), std::move(change), {}};
-    Bound bound = bound_margin(mesh_, region.triangles, solver_);
+    Bound bound = bound_of(region.triangles);
     const bool proof = bound.best.status == LpStatus::optimal && bound.best.margin < asked;
     if (!proof && region.has_rim) return std::nullopt;
     return Outcome{std::move(region), std::nullopt, std::move(bound)};
@@ -192,19 +199,19 @@ class WeightFinder {
       bound_ = outcome.bound;
     }
     if (bound_->best.margin >= asked) bound_->best.margin = 0;  // the solver contradicts itself: nothing is known
-    if (!refuted_) refuted_ = certify_bound(*bound_, bound_->best.margin < kNoMargin ? 0 : asked);
+    if (!refuted_) refuted_ = certify_bound(*bound_, bound_->best.margin < kNoMargin ? refuted_margin() : asked);
   }
 
   [[nodiscard]] Certificate certify_bound(const Bound& bound, double margin) const {
     if (bound.best.status != LpStatus::optimal) return {};
-    return certify(mesh_, bound.constraints, bound.dual, margin);
+    return certify(mesh_, bound, options_.conditions, margin);
   }
 
   void relax(double asked) {
     note_bound(asked);
     for (Outcome& outcome : outcomes_) {
       if (outcome.change) continue;
-      RegionChange change = least_violation(mesh_, outcome.region, start_, asked, solver_);
+      RegionChange change = least_violation(problem(asked), outcome.region, solver_);
       if (change.status == LpStatus::optimal) outcome.change = std::move(change);
     }
   }
@@ -229,7 +236,7 @@ class WeightFinder {
     for (const Outcome& outcome : outcomes_) r.largest = std::max(r.largest, outcome.region.triangles.size());
     measure(r);
     const bool all_good = std::all_of(mesh_.triangles().begin(), mesh_.triangles().end(),
-                                      [&](TriangleId t) { return is_well_centered(t, r.weights); });
+                                      [&](TriangleId t) { return is_kept(t, r.weights); });
     const bool found = all_good && asked > kNoMargin && failures() == 0;
     judge_margin(r, found);
     judge(r, found);
@@ -256,7 +263,7 @@ class WeightFinder {
                               });
     if (all_measured) {
       r.margin = small_margin_;
-      r.margin_is = MarginIs::exact;
+      r.margin_is = demand_.has_duals() && small_margin_ > kNoMargin ? MarginIs::at_least : MarginIs::exact;
     } else if (bound_) {
       r.margin = std::min(bound_->best.margin, small_margin_);
       r.margin_is = bound_is_exact_ ? MarginIs::exact : MarginIs::at_most;
@@ -273,9 +280,9 @@ class WeightFinder {
     if (refuted_) {
       r.certificate = *refuted_;
     } else if (worst_component_ && small_margin_ <= kNoMargin) {
-      r.certificate = certify_bound(*worst_component_, 0);
+      r.certificate = certify_bound(*worst_component_, refuted_margin());
     }
-    const bool refuted = !r.certificate.terms.empty() && r.certificate.margin == 0;
+    const bool refuted = !r.certificate.terms.empty() && r.certificate.margin == refuted_margin();
     r.verdict = refuted ? Feasibility::infeasible : found ? Feasibility::feasible : Feasibility::undecided;
     switch (options_.goal) {
       case WeightGoal::feasible:
@@ -306,12 +313,13 @@ class WeightFinder {
 
   [[nodiscard]] std::vector<WeightConstraint> all_constraints() const {
     const std::vector<TriangleId> all(mesh_.triangles().begin(), mesh_.triangles().end());
-    return constraints_of(mesh_, all, Conditions::well_centered);
+    return constraints_of(mesh_, all, demand_);
   }
 
   const Mesh& mesh_;
   LpSolver& solver_;
   const WeightOptions& options_;
+  Demand demand_;
   IdVector<VertexId, double> start_;
   std::vector<Region> components_;
 
@@ -337,6 +345,16 @@ std::string_view name(MarginIs is) {
 
 Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
+  for (const HalfedgeId h : options.edges) {
+    if (h.index >= mesh.n_halfedges()) {
+      return InputError{ErrorCode::index_out_of_range, "",
+                        "edges: expected halfedges 0 to " + std::to_string(mesh.n_halfedges() - 1) + ", found " +
+                            std::to_string(h.index)};
+    }
+  }
+  if (!options.edges.empty() && options.conditions != Conditions::regular) {
+    return InputError{ErrorCode::invalid_option, "", "edges: only conditions regular are about some edges"};
+  }
   const bool elastic = options.goal == WeightGoal::elastic;
   if (!(options.margin < 0.5) || !(elastic ? options.margin >= 0 : options.margin > 0)) {
     return InputError{ErrorCode::invalid_option, "",

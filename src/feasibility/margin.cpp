@@ -1,6 +1,7 @@
-// The best margin: maximise t with every h/ℓ, d/ℓ and 1 − d/ℓ at least t.
+// The best margin: maximise t ≤ 1/2 with every h/ℓ, d/ℓ and 1 − d/ℓ, or every dual length/ℓ, at least t.
 //
-// The programme always has a solution, and an optimal one since d/ℓ and 1 − d/ℓ sum to one. Its dual is the
+// The programme always has a solution, and an optimal one since t is bounded (by d/ℓ and 1 − d/ℓ, which sum to one, and
+// by the heights of one triangle before that). Its dual is the
 // certificate: multipliers y ≥ 0 that sum to one, in whose combination of the constraints the weights cancel, and whose
 // constant is t* (so no ray of an infeasible programme is needed). A weight is counted in units of the mean ℓ² around
 // its vertex: coefficients are then of the order of one on meshes of any size, and on graded ones.
@@ -25,11 +26,11 @@ struct MarginProgramme {
   LpProblem problem;
 };
 
-MarginProgramme margin_programme(const Mesh& mesh, std::span<const TriangleId> triangles, Conditions conditions) {
+MarginProgramme margin_programme(const Mesh& mesh, std::span<const TriangleId> triangles, const Demand& demand) {
   MarginProgramme p;
   p.vertices = vertices_of(mesh, triangles);
   p.units = weight_units(mesh, p.vertices, edges_of(mesh, triangles));
-  p.constraints = constraints_of(mesh, triangles, conditions);
+  p.constraints = constraints_of(mesh, triangles, demand);
   LpBuilder lp;
   // One weight is zero, or a constant on all would be free: that of the smallest triangles, whose unit would feel it
   // most.
@@ -38,7 +39,7 @@ MarginProgramme margin_programme(const Mesh& mesh, std::span<const TriangleId> t
     const double most = i == static_cast<std::size_t>(anchor) ? 0 : kUnbounded;
     lp.add_column(0, -most, most);
   }
-  const int t = lp.add_column(-1, -kUnbounded, 0.5);
+  const int t = lp.add_column(-1, -kUnbounded, kMostMargin);
   for (const WeightConstraint& constraint : p.constraints) {
     const LinearForm form = linear_form(mesh, constraint);
     for (int k = 0; k < form.size; ++k) {
@@ -50,6 +51,20 @@ MarginProgramme margin_programme(const Mesh& mesh, std::span<const TriangleId> t
   }
   p.problem = lp.problem();
   return p;
+}
+
+/// N of a constraint over its value in the programme, h/ℓ, d/ℓ or dual length/ℓ.
+double scale_of_polynomial(const Mesh& mesh, const WeightConstraint& c) {
+  const Vec2 p = mesh.position(c.p), q = mesh.position(c.q);
+  switch (c.kind) {
+    case WeightConstraint::Kind::height:
+      return 2 * squared_length(q - p) * doubled_area(p, q, mesh.position(c.r));
+    case WeightConstraint::Kind::split:
+      return 2 * squared_length(q - p);
+    case WeightConstraint::Kind::dual:
+      return 2 * doubled_area(p, q, mesh.position(c.r)) * doubled_area(q, p, mesh.position(c.s));
+  }
+  return 0;
 }
 
 std::vector<TriangleId> sorted(std::span<const TriangleId> triangles) {
@@ -82,44 +97,39 @@ std::vector<double> weight_units(const Mesh& mesh, std::span<const VertexId> ver
   return sums;
 }
 
-double weight_margin(const Mesh& mesh, Conditions conditions) {
+double weight_margin(const Mesh& mesh, Conditions conditions, std::span<const HalfedgeId> edges) {
+  const Demand demand(mesh, conditions, edges);
   double margin = kUnbounded;
-  const auto weight_of = [&](VertexId v) { return mesh.weight(v); };
-  for (const HalfedgeId h : mesh.halfedges()) {
-    margin = std::min(margin, value_of(linear_form(mesh, height_constraint(mesh, h)), weight_of));
-    if (conditions == Conditions::heights_only || !mesh.is_edge_representative(h)) continue;
-    const double split = value_of(linear_form(mesh, split_constraint(mesh.origin(h), mesh.target(h))), weight_of);
-    margin = std::min({margin, split, 1 - split});
+  for (const TriangleId t : mesh.triangles()) {
+    margin = std::min(margin, demand.margin_of(mesh, t, [&](VertexId v) { return mesh.weight(v); }));
   }
   return margin;
 }
 
-Certificate certify(const Mesh& mesh, std::span<const WeightConstraint> constraints, std::span<const double> dual,
-                    double margin) {
+Certificate certify(const Mesh& mesh, const Bound& bound, Conditions conditions, double margin) {
+  const std::vector<double>& dual = bound.dual;
   double largest = 0;
   for (const double y : dual) largest = std::max(largest, std::abs(y));
   // Few terms are easier to read; what is dropped is paid for in the check, so each candidate is tried.
   for (const double dropped : {1e-9, 1e-12, 1e-15}) {
     Certificate certificate;
     certificate.margin = margin;
-    for (std::size_t i = 0; i < constraints.size(); ++i) {
+    certificate.conditions = conditions;
+    for (std::size_t i = 0; i < dual.size(); ++i) {
       if (!(dual[i] > dropped * largest)) continue;
-      // y is the multiplier of h/ℓ = N/(2ℓ²S) or d/ℓ = N/(2ℓ²).
-      const auto [kind, p, q, r] = constraints[i];
-      const Vec2 pq = mesh.position(q) - mesh.position(p);
-      const double s = kind == WeightConstraint::Kind::height ? cross(pq, mesh.position(r) - mesh.position(p)) : 1;
-      certificate.terms.push_back({constraints[i], dual[i] / (2 * squared_length(pq) * s)});
+      certificate.terms.push_back({bound.constraints[i], dual[i] / scale_of_polynomial(mesh, bound.constraints[i])});
     }
     if (check_certificate(mesh, certificate) == CertificateCheck::proves) return certificate;
   }
   Certificate nothing;
   nothing.margin = margin;
+  nothing.conditions = conditions;
   return nothing;
 }
 
-Bound bound_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, Conditions conditions) {
+Bound bound_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, const Demand& demand) {
   Bound bound;
-  MarginProgramme programme = margin_programme(mesh, triangles, conditions);
+  MarginProgramme programme = margin_programme(mesh, triangles, demand);
   LpSolution solution = solver.solve(programme.problem);
   bound.constraints = std::move(programme.constraints);
   bound.best.status = solution.status;
@@ -138,20 +148,29 @@ Bound bound_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSo
   return bound;
 }
 
-BestMargin best_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver,
-                       Conditions conditions) {
-  Bound bound = bound_margin(mesh, sorted(triangles), solver, conditions);
+namespace {
+
+BestMargin best_of(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, const Demand& demand) {
+  Bound bound = bound_margin(mesh, triangles, solver, demand);
   if (bound.best.status == LpStatus::optimal && bound.best.margin < kNoMargin) {
-    bound.best.certificate = certify(mesh, bound.constraints, bound.dual, 0);
+    bound.best.certificate = certify(mesh, bound, demand.conditions(), demand.has_duals() ? kRefutedDual : 0);
   }
   return std::move(bound.best);
 }
 
-BestMargin best_margin(const Mesh& mesh, LpSolver& solver, Conditions conditions) {
+}  // namespace
+
+BestMargin best_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, Conditions conditions,
+                       std::span<const HalfedgeId> edges) {
+  return best_of(mesh, sorted(triangles), solver, Demand(mesh, conditions, edges));
+}
+
+BestMargin best_margin(const Mesh& mesh, LpSolver& solver, Conditions conditions, std::span<const HalfedgeId> edges) {
+  const Demand demand(mesh, conditions, edges);
   BestMargin worst;
   worst.margin = kUnbounded;
   for (const Region& component : components_of(mesh)) {
-    BestMargin best = best_margin(mesh, component.triangles, solver, conditions);
+    BestMargin best = best_of(mesh, component.triangles, solver, demand);
     if (best.status != LpStatus::optimal) return best;
     if (best.margin < worst.margin) worst = std::move(best);
   }

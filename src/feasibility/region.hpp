@@ -2,7 +2,7 @@
 //
 // A region has free vertices and all triangles that touch them; the other corners of these triangles are its rim and
 // keep their weights. Free vertices of one triangle are in one region, so that regions do not see each other and can be
-// solved one by one.
+// solved one by one. Where dual lengths count, free vertices on the two sides of an edge are, too.
 //
 //     . . r - r - r . .       f  free vertex
 //     . r - f - f - r .       r  rim: its weight is a constant
@@ -25,8 +25,9 @@ struct Region {
 /// A subset of the vertices.
 using VertexMask = IdVector<VertexId, std::uint8_t>;
 
-/// The regions that these free vertices fall into, in the order of their least vertices. O(n).
-[[nodiscard]] std::vector<Region> regions_of(const Mesh& mesh, const VertexMask& free);
+/// The regions that these free vertices fall into, in the order of their least vertices. across_edges: those that see
+/// each other across an edge are one. O(n).
+[[nodiscard]] std::vector<Region> regions_of(const Mesh& mesh, const VertexMask& free, bool across_edges = false);
 
 /// Adds the neighbours of these vertices to the mask, so many times.
 void grow(const Mesh& mesh, VertexMask& mask, std::vector<VertexId> front, int rings);

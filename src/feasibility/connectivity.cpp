@@ -1,0 +1,183 @@
+// The search over connectivities: weights first, flips after, until the margin stops growing.
+//
+//   weights of the best margin → Lawson's flips → best margin     greater: that is the mesh now
+//   else for each flip that breaks the proof of the margin        the greatest, when it is greater: the same
+//   else done
+#include "temper/connectivity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "base/assert.hpp"
+#include "feasibility/certify.hpp"
+#include "feasibility/constraints.hpp"
+#include "feasibility/region.hpp"
+#include "mesh/erased.hpp"
+#include "temper/regularity.hpp"
+#include "temper/topology.hpp"
+#include "topology/rings.hpp"
+
+namespace temper {
+namespace {
+
+// Margins that differ by less are one: ten times what the solver's tolerance on each row can add up to.
+constexpr double kGrowth = 1e-7;
+
+/// The best margin of a connectivity, the weights that attain it, and the constraints of the proof that there is no
+/// greater one.
+struct Optimum {
+  double margin = kUnbounded;
+  IdVector<VertexId, double> weights;
+  std::vector<WeightConstraint> proof;
+};
+
+class ConnectivitySearch {
+ public:
+  ConnectivitySearch(const Mesh& mesh, LpSolver& solver, const ConnectivityOptions& options)
+      : solver_(solver), options_(options), demand_(mesh, options.conditions, {}) {
+    report_.mesh = mesh;
+  }
+
+  ConnectivityReport run() {
+    if (auto first = optimum_of(report_.mesh)) {
+      best_ = *std::move(first);
+      report_.before = best_.margin;
+      report_.end = SearchEnd::no_better_neighbour;
+      while (try_regular() || try_flips()) {
+      }
+      report_.margin = best_.margin;
+      report_.weights = std::move(best_.weights);
+    }
+    return std::move(report_);
+  }
+
+ private:
+  /// Of each component on its own; nothing when the solver fails, or may not be asked any more.
+  std::optional<Optimum> optimum_of(const Mesh& mesh) {
+    if (report_.programmes == options_.programmes) {
+      report_.end = SearchEnd::limit;
+      return std::nullopt;
+    }
+    ++report_.programmes;
+    Optimum optimum;
+    optimum.weights = IdVector<VertexId, double>(mesh.n_vertices(), 0.0);
+    for (const Region& component : components_of(mesh)) {
+      Bound bound = bound_margin(mesh, component.triangles, solver_, demand_);
+      if (bound.best.status != LpStatus::optimal) return std::nullopt;
+      for (std::size_t i = 0; i < bound.best.vertices.size(); ++i) {
+        optimum.weights[bound.best.vertices[i]] = bound.best.weights[i];
+      }
+      // A flip may make a triangle so flat that the solver's tolerance is all of its heights: what is attained counts.
+      const double margin = std::min(bound.best.margin, attained(mesh, component.triangles, optimum.weights));
+      if (margin >= optimum.margin) continue;
+      optimum.margin = margin;
+      optimum.proof = std::move(bound.best.tight);
+    }
+    return optimum;
+  }
+
+  [[nodiscard]] double attained(const Mesh& mesh, const std::vector<TriangleId>& triangles,
+                                const IdVector<VertexId, double>& weights) const {
+    double margin = kUnbounded;
+    for (const TriangleId t : triangles) {
+      margin = std::min(margin, demand_.margin_of(mesh, t, [&](VertexId v) { return weights[v]; }));
+    }
+    return margin;
+  }
+
+  [[nodiscard]] bool is_greater(double margin) const { return margin > best_.margin + kGrowth; }
+
+  void take(Mesh mesh, Optimum optimum, ConnectivityStep::Kind kind, std::size_t flips) {
+    report_.steps.push_back({kind, flips, optimum.margin});
+    report_.mesh = std::move(mesh);
+    best_ = std::move(optimum);
+  }
+
+  bool try_regular() {
+    Mesh trial = report_.mesh;
+    for (const VertexId v : trial.vertices()) trial.set_weight(v, best_.weights[v]);
+    const std::size_t flips = restore_regularity(trial, HiddenPolicy::undo).flips;
+    if (flips == 0) return false;
+    for (const VertexId v : trial.vertices()) trial.set_weight(v, report_.mesh.weight(v));
+    auto optimum = optimum_of(trial);
+    if (!optimum || !is_greater(optimum->margin)) return false;
+    take(std::move(trial), *std::move(optimum), ConnectivityStep::Kind::regular, flips);
+    return true;
+  }
+
+  bool try_flips() {
+    std::optional<Optimum> best;
+    Mesh best_mesh;
+    for (const HalfedgeId h : flips_that_break_the_proof()) {
+      Mesh trial = report_.mesh;
+      flip(trial, h);
+      if (is_ruled_out(trial, {Mesh::triangle(h), Mesh::triangle(report_.mesh.twin(h))})) continue;
+      auto optimum = optimum_of(trial);
+      if (!optimum || !is_greater(optimum->margin)) continue;
+      if (best && optimum->margin <= best->margin + kGrowth) continue;
+      best = std::move(optimum);
+      best_mesh = std::move(trial);
+    }
+    if (!best) return false;
+    take(std::move(best_mesh), *std::move(best), ConnectivityStep::Kind::flip, 1);
+    return true;
+  }
+
+  /// The edges of the proof's triangles, and those of its splits, that can be flipped; each once, by its vertices.
+  [[nodiscard]] std::vector<HalfedgeId> flips_that_break_the_proof() const {
+    const Mesh& mesh = report_.mesh;
+    std::vector<std::pair<std::array<VertexId, 2>, HalfedgeId>> edges;
+    const auto add = [&](VertexId a, VertexId b) {
+      const HalfedgeId h = mesh.find_halfedge(std::min(a, b), std::max(a, b));
+      if (!h.valid() || mesh.is_boundary(h) || can_flip(mesh, h) != FlipStatus::possible) return;
+      edges.push_back({{std::min(a, b), std::max(a, b)}, h});
+    };
+    for (const WeightConstraint& c : best_.proof) {
+      add(c.p, c.q);
+      if (c.kind == WeightConstraint::Kind::height) add(c.q, c.r), add(c.r, c.p);
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    std::vector<HalfedgeId> halfedges;
+    halfedges.reserve(edges.size());
+    for (const auto& [vertices, h] : edges) halfedges.push_back(h);
+    return halfedges;
+  }
+
+  /// The triangles around the flipped edge, the rest left out, bound the margin from above.
+  [[nodiscard]] bool is_ruled_out(const Mesh& flipped, const std::array<TriangleId, 2>& changed) const {
+    const Bound bound = bound_margin(flipped, triangles_around(flipped, changed), solver_, demand_);
+    return bound.best.status == LpStatus::optimal && !is_greater(bound.best.margin);
+  }
+
+  LpSolver& solver_;
+  const ConnectivityOptions& options_;
+  Demand demand_;
+  Optimum best_;
+  ConnectivityReport report_;
+};
+
+}  // namespace
+
+std::string_view name(ConnectivityStep::Kind kind) {
+  return kind == ConnectivityStep::Kind::regular ? "regular" : "flip";
+}
+
+std::string_view name(SearchEnd end) {
+  constexpr std::array<std::string_view, 3> kNames = {"no_better_neighbour", "limit", "failed"};
+  return kNames[static_cast<std::size_t>(end)];
+}
+
+Expected<ConnectivityReport> best_connectivity(const Mesh& mesh, LpSolver& solver, const ConnectivityOptions& options) {
+  TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
+  if (options.conditions == Conditions::regular) {
+    return InputError{ErrorCode::invalid_option, "",
+                      "conditions: expected well_centered or heights_only, found regular: every regular triangulation "
+                      "keeps them"};
+  }
+  return ConnectivitySearch(mesh, solver, options).run();
+}
+
+}  // namespace temper

@@ -1,0 +1,133 @@
+// The search over connectivities: what it must keep, and what it finds where the answer is known.
+#include "temper/connectivity.hpp"
+
+#include <set>
+
+#include "temper/regularity.hpp"
+#include "unit/feasibility/support.hpp"
+
+namespace temper::test {
+namespace {
+
+ConnectivityReport search(const Mesh& mesh, const ConnectivityOptions& options = {}) {
+  const auto solver = clp_solver();
+  auto report = best_connectivity(mesh, *solver, options);
+  if (!report) {
+    ADD_FAILURE() << report.error().what();
+    return {};
+  }
+  return *std::move(report);
+}
+
+using Edges = std::set<std::array<VertexId, 2>>;
+template <class Which>
+Edges edges_of(const Mesh& mesh, const Which& which) {
+  Edges edges;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    const auto [a, b] = std::minmax(mesh.origin(h), mesh.target(h));
+    if (which(h)) edges.insert({a, b});
+  }
+  return edges;
+}
+
+void expect_laws(const Mesh& mesh, Conditions conditions) {
+  const ConnectivityReport report = search(mesh, {.conditions = conditions});
+  SCOPED_TRACE(testing::Message() << name(conditions) << ", " << mesh.n_vertices() << " vertices, "
+                                  << report.steps.size() << " steps, " << report.before << " to " << report.margin);
+  EXPECT_EQ(report.end, SearchEnd::no_better_neighbour);
+  EXPECT_EQ(report.mesh.validate(), std::nullopt);
+  double last = report.before;
+  EXPECT_NEAR(report.before, margin_of(mesh, conditions).margin, 1e-8);
+  for (const ConnectivityStep& step : report.steps) {
+    EXPECT_GT(step.margin, last);
+    EXPECT_GT(step.flips, 0u);
+    last = step.margin;
+  }
+  EXPECT_EQ(report.margin, last);
+  EXPECT_NEAR(report.margin, margin_of(report.mesh, conditions).margin, 1e-8);
+  EXPECT_NEAR(weight_margin(with_weights(report.mesh, report.weights), conditions), report.margin, 1e-7);
+  if (report.margin > 1e-7) {
+    EXPECT_EQ(count_non_regular_edges(with_weights(report.mesh, report.weights)), 0u);
+  }
+  ASSERT_EQ(report.mesh.n_vertices(), mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) EXPECT_EQ(report.mesh.point(v), mesh.point(v));
+  const auto boundary = [](const Mesh& m) { return [&m](HalfedgeId h) { return m.is_boundary(h); }; };
+  const auto constrained = [](const Mesh& m) { return [&m](HalfedgeId h) { return m.is_constrained(h); }; };
+  EXPECT_EQ(edges_of(mesh, boundary(mesh)), edges_of(report.mesh, boundary(report.mesh)));
+  EXPECT_EQ(edges_of(mesh, constrained(mesh)), edges_of(report.mesh, constrained(report.mesh)));
+}
+
+TEST(BestConnectivity, NeverLosesMarginPointsBoundaryOrLines) {
+  for (const Conditions conditions : {Conditions::well_centered, Conditions::heights_only}) {
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+      expect_laws(jittered_lattice(seed, 5), conditions);
+      Mesh lined = jittered_lattice(seed, 5);
+      for (const HalfedgeId h : lined.halfedges()) {
+        if (h.index % 5 == 0 && !lined.is_boundary(h)) lined.set_constrained(h, true);
+      }
+      expect_laws(lined, conditions);
+    }
+    expect_laws(sparse_horseshoe(), conditions);
+  }
+}
+
+/// Every triangulation of the points with this boundary that flips reach: all of them, in the plane.
+double best_of_all(const Mesh& mesh, Conditions conditions, std::size_t& triangulations) {
+  const auto key = [](const Mesh& m) { return edges_of(m, [](HalfedgeId) { return true; }); };
+  std::set<Edges> seen = {key(mesh)};
+  std::vector<Mesh> queue = {mesh};
+  double best = -kUnbounded;
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    const Mesh current = queue[i];
+    best = std::max(best, margin_of(current, conditions).margin);
+    for (const HalfedgeId h : current.halfedges()) {
+      if (!current.is_edge_representative(h) || can_flip(current, h) != FlipStatus::possible) continue;
+      Mesh other = current;
+      flip(other, h);
+      if (seen.insert(key(other)).second) queue.push_back(other);
+    }
+  }
+  triangulations += queue.size();
+  return best;
+}
+
+TEST(BestConnectivity, OfTheSparseHorseshoeIsTheBestOfAllItsTriangulations) {
+  for (const Conditions conditions : {Conditions::well_centered, Conditions::heights_only}) {
+    std::size_t triangulations = 0;
+    const double best = best_of_all(sparse_horseshoe(), conditions, triangulations);
+    EXPECT_NEAR(search(sparse_horseshoe(), {.conditions = conditions}).margin, best, 1e-8)
+        << name(conditions) << ", " << triangulations << " triangulations";
+  }
+}
+
+// A local search: no proof says that it finds the best, and it does not always. What it finds is never more.
+TEST(BestConnectivity, IsNoBetterThanTheBestOfAllAndOftenThat) {
+  std::size_t tried = 0, found = 0, better = 0, triangulations = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Rng rng(seed);
+    const Mesh mesh = random_mesh(rng, 3);
+    if (mesh.n_triangles() > 10) continue;
+    const ConnectivityReport report = search(mesh);
+    const double best = best_of_all(mesh, Conditions::well_centered, triangulations);
+    EXPECT_LE(report.margin, best + 1e-8) << seed;
+    ++tried, found += report.margin > best - 1e-6 ? 1 : 0, better += report.margin > report.before + 1e-6 ? 1 : 0;
+  }
+  EXPECT_GT(tried, 10u);
+  EXPECT_GT(better, 0u);
+  EXPECT_GT(2 * found, tried) << found << " of " << tried << ", " << triangulations << " triangulations";
+}
+
+TEST(BestConnectivity, StopsWhereNothingIsAllowed) {
+  const ConnectivityReport none = search(jittered_lattice(1, 5), {.programmes = 0});
+  EXPECT_TRUE(none.steps.empty());
+  EXPECT_EQ(none.end, SearchEnd::limit);
+  const ConnectivityReport one = search(jittered_lattice(1, 5), {.programmes = 1});
+  EXPECT_EQ(one.end, SearchEnd::limit);
+  EXPECT_EQ(one.programmes, 1u);
+  EXPECT_EQ(one.before, one.margin);
+  const auto solver = clp_solver();
+  EXPECT_FALSE(best_connectivity(sparse_horseshoe(), *solver, {.conditions = Conditions::regular}));
+}
+
+}  // namespace
+}  // namespace temper::test
