@@ -1,20 +1,22 @@
-// Weights by linear programming, certificates, and reasons: feasibility.hpp, necessity.hpp, explain.hpp.
+// Weights by linear programming, certificates, and reasons: feasibility.hpp, connectivity.hpp, necessity.hpp,
+// explain.hpp.
 #include "bind.hpp"
+#include "temper/connectivity.hpp"
 #include "temper/explain.hpp"
 #include "temper/feasibility.hpp"
 #include "temper/lp.hpp"
 #include "temper/necessity.hpp"
 
 TEMPER_PYTHON_NAMES(temper::LpStatus, "optimal", "infeasible", "unbounded", "failed");
-TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "split");
-TEMPER_PYTHON_NAMES(temper::Conditions, "well_centered", "heights_only");
+TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "split", "dual");
+TEMPER_PYTHON_NAMES(temper::Conditions, "well_centered", "heights_only", "regular");
 TEMPER_PYTHON_NAMES(temper::WeightGoal, "feasible", "minimal", "elastic");
 
 namespace temper::python {
 namespace {
 
 py::tuple constraint_to_tuple(const WeightConstraint& c) {
-  return py::make_tuple(to_python(name_of(c.kind)), to_python(c.p), to_python(c.q), to_python(c.r));
+  return py::make_tuple(to_python(name_of(c.kind)), to_python(c.p), to_python(c.q), to_python(c.r), to_python(c.s));
 }
 
 py::dict certificate_to_dict(const Certificate& certificate) {
@@ -22,7 +24,8 @@ py::dict certificate_to_dict(const Certificate& certificate) {
   for (const auto& term : certificate.terms) {
     terms.append(py::make_tuple(constraint_to_tuple(term.constraint), term.multiplier));
   }
-  return Record()("margin", certificate.margin)("terms", py::object(terms)).dict;
+  return Record()("margin", certificate.margin)("terms", py::object(terms))("conditions", name(certificate.conditions))
+      .dict;
 }
 
 VertexId vertex_or_none(const py::handle& index) {
@@ -33,14 +36,33 @@ VertexId vertex_or_none(const py::handle& index) {
 Certificate certificate_from(const py::dict& d) {
   Certificate certificate;
   certificate.margin = d["margin"].cast<double>();
+  certificate.conditions = from_name<Conditions>("conditions", d["conditions"].cast<std::string>());
   for (const auto& item : d["terms"]) {
     const auto term = item.cast<py::tuple>();
     const auto c = term[0].cast<py::tuple>();
-    certificate.terms.push_back({{from_name<WeightConstraint::Kind>("kind", c[0].cast<std::string>()),
-                                  vertex_or_none(c[1]), vertex_or_none(c[2]), vertex_or_none(c[3])},
-                                 term[1].cast<double>()});
+    certificate.terms.push_back(
+        {{from_name<WeightConstraint::Kind>("kind", c[0].cast<std::string>()), vertex_or_none(c[1]),
+          vertex_or_none(c[2]), vertex_or_none(c[3]), vertex_or_none(c[4])},
+         term[1].cast<double>()});
   }
   return certificate;
+}
+
+/// Edges by their vertices; none: all.
+std::vector<HalfedgeId> prescribed(const Mesh& mesh, const py::object& edges) {
+  std::vector<HalfedgeId> halfedges;
+  if (edges.is_none()) return halfedges;
+  const auto ends = edges.cast<Int64s>();
+  for (py::ssize_t i = 0; i < ends.shape(0); ++i) {
+    const VertexId a = vertex_id(mesh, ends.at(i, 0)), b = vertex_id(mesh, ends.at(i, 1));
+    const HalfedgeId h = mesh.find_halfedge(a, b);
+    halfedges.push_back(h.valid() ? h : mesh.find_halfedge(b, a));
+    if (halfedges.back().valid()) continue;
+    fail(ErrorCode::missing_edge, "edges: row " + std::to_string(i) + ": there is no edge between vertices " +
+                                      std::to_string(a.index) + " and " + std::to_string(b.index));
+  }
+  if (halfedges.empty()) fail(ErrorCode::invalid_option, "edges: expected at least one, or None for all; found none");
+  return halfedges;
 }
 
 py::dict best_to_dict(const BestMargin& best) {
@@ -66,8 +88,8 @@ py::dict weight_report_to_dict(const WeightReport& r) {
       .dict;
 }
 
-py::dict find(const PyMesh& self, const std::string& goal, double margin, bool from_input, std::size_t whole,
-              int rings) {
+py::dict find(const PyMesh& self, const std::string& goal, double margin, bool from_input, std::size_t whole, int rings,
+              const std::string& conditions, const py::object& edges) {
   const auto mesh = self.read();
   WeightOptions options;
   options.goal = from_name<WeightGoal>("goal", goal);
@@ -75,6 +97,8 @@ py::dict find(const PyMesh& self, const std::string& goal, double margin, bool f
   options.from_input = from_input;
   options.whole = whole;
   options.rings = rings;
+  options.conditions = from_name<Conditions>("conditions", conditions);
+  options.edges = prescribed(*mesh, edges);
   std::optional<Expected<WeightReport>> report;
   {
     const py::gil_scoped_release release;
@@ -83,27 +107,61 @@ py::dict find(const PyMesh& self, const std::string& goal, double margin, bool f
   return weight_report_to_dict(or_raise(*std::move(report)));
 }
 
+py::dict search_connectivity(const PyMesh& self, const std::string& conditions, std::size_t programmes) {
+  const auto mesh = self.read();
+  const ConnectivityOptions options = {from_name<Conditions>("conditions", conditions), programmes};
+  std::optional<Expected<ConnectivityReport>> found;
+  {
+    const py::gil_scoped_release release;
+    found = best_connectivity(*mesh, *clp_solver(), options);
+  }
+  ConnectivityReport report = or_raise(*std::move(found));
+  py::list steps;
+  for (const ConnectivityStep& step : report.steps) {
+    steps.append(Record()("kind", name(step.kind))("flips", step.flips)("margin", step.margin).dict);
+  }
+  PyMesh flipped = self.copy();
+  flipped.replace(std::move(report.mesh), {});
+  return Record()("mesh", py::cast(std::move(flipped)))("end", name(report.end))("before", report.before)(
+             "margin", report.margin)("steps", py::object(steps))("programmes", report.programmes)("weights",
+                                                                                                   report.weights)
+      .dict;
+}
+
+py::list conditions_rows() {
+  py::list rows;
+  for (const ConditionsInfo& row : conditions_table()) {
+    rows.append(Record()("name", row.name)("keeps", row.keeps)("success", row.success)("failure", row.failure).dict);
+  }
+  return rows;
+}
+
 void bind_feasibility(py::module_& m) {
+  m.def("conditions_table", conditions_rows);
+  m.def("best_connectivity", search_connectivity);
   m.def("find_weights", find);
-  m.def("best_margin", [](const PyMesh& self, const py::object& triangles, const std::string& conditions) {
+  m.def("best_margin",
+        [](const PyMesh& self, const py::object& triangles, const std::string& conditions, const py::object& edges) {
+          const auto mesh = self.read();
+          const auto wanted = from_name<Conditions>("conditions", conditions);
+          std::vector<TriangleId> ids;
+          if (!triangles.is_none()) {
+            const auto numbers = triangles.cast<Int64s>();
+            for (const std::int64_t t : as_span<std::int64_t>(numbers)) ids.push_back(triangle_id(*mesh, t));
+          }
+          const bool all = triangles.is_none();
+          const std::vector<HalfedgeId> chosen = prescribed(*mesh, edges);
+          BestMargin best;
+          {
+            const py::gil_scoped_release release;
+            const auto solver = clp_solver();
+            best = all ? best_margin(*mesh, *solver, wanted, chosen) : best_margin(*mesh, ids, *solver, wanted, chosen);
+          }
+          return best_to_dict(best);
+        });
+  m.def("weight_margin", [](const PyMesh& self, const std::string& conditions, const py::object& edges) {
     const auto mesh = self.read();
-    const auto wanted = from_name<Conditions>("conditions", conditions);
-    std::vector<TriangleId> ids;
-    if (!triangles.is_none()) {
-      const auto numbers = triangles.cast<Int64s>();
-      for (const std::int64_t t : as_span<std::int64_t>(numbers)) ids.push_back(triangle_id(*mesh, t));
-    }
-    const bool all = triangles.is_none();
-    BestMargin best;
-    {
-      const py::gil_scoped_release release;
-      const auto solver = clp_solver();
-      best = all ? best_margin(*mesh, *solver, wanted) : best_margin(*mesh, ids, *solver, wanted);
-    }
-    return best_to_dict(best);
-  });
-  m.def("weight_margin", [](const PyMesh& self, const std::string& conditions) {
-    return weight_margin(*self.read(), from_name<Conditions>("conditions", conditions));
+    return weight_margin(*mesh, from_name<Conditions>("conditions", conditions), prescribed(*mesh, edges));
   });
   m.def("check_certificate", [](const PyMesh& self, const py::dict& certificate) {
     return std::string(name(check_certificate(*self.read(), certificate_from(certificate))));

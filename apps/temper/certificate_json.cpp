@@ -45,6 +45,7 @@ class Reader {
     }
     Certificate certificate;
     certificate.margin = number(json, "margin");
+    if (json.contains("conditions")) certificate.conditions = conditions(json["conditions"]);
     const Json& terms = member(json, "terms");
     if (!terms.is_array()) fail("expected \"terms\" to be an array");
     for (const Json& term : terms) {
@@ -66,6 +67,14 @@ class Reader {
     const Json& value = member(json, key);
     if (!value.is_number()) fail(fmt::format("expected \"{}\" to be a number, found {}", key, value.dump()));
     return value.get<double>();
+  }
+  Conditions conditions(const Json& value) const {
+    std::string names;
+    for (const ConditionsInfo& row : conditions_table()) {
+      if (value == row.name) return row.conditions;
+      names += (names.empty() ? "" : ", ") + std::string(row.name);
+    }
+    fail(fmt::format("expected \"conditions\" to be one of {}, found {}", names, value.dump()));
   }
   VertexId vertex(const Json& value) const {
     const auto& vertex_of_point = input_.loaded.vertex_of_point;
@@ -89,9 +98,13 @@ class Reader {
     const auto [p, q] = vertices<2>(json, "edge");
     const double multiplier = number(json, "multiplier");
     if (kind == "split") return {{Kind::split, p, q, VertexId()}, multiplier};
-    if (kind != "height") fail(fmt::format("expected \"kind\" to be \"height\" or \"split\", found {}", kind.dump()));
+    if (kind != "height" && kind != "dual") {
+      fail(fmt::format("expected \"kind\" to be \"height\", \"split\" or \"dual\", found {}", kind.dump()));
+    }
     for (const VertexId r : vertices<3>(json, "triangle")) {
-      if (r != p && r != q) return {{Kind::height, p, q, r}, multiplier};
+      if (r == p || r == q) continue;
+      if (kind == "height") return {{Kind::height, p, q, r}, multiplier};
+      return {{Kind::dual, p, q, r, vertex(member(json, "across"))}, multiplier};
     }
     fail("\"triangle\" has no third corner");
   }
@@ -106,15 +119,19 @@ Json certificate_json(const Certificate& certificate, const Input& input) {
   const auto point = [&](VertexId v) { return input.points.empty() ? std::size_t{v.index} : input.points[v.index]; };
   Json terms = Json::array();
   for (const auto& [constraint, multiplier] : certificate.terms) {
-    const auto [kind, p, q, r] = constraint;
+    const auto [kind, p, q, r, s] = constraint;
     Json term;
-    term["kind"] = kind == Kind::height ? "height" : "split";
-    if (kind == Kind::height) term["triangle"] = {point(p), point(q), point(r)};
+    term["kind"] = name(kind);
+    if (kind != Kind::split) term["triangle"] = {point(p), point(q), point(r)};
+    if (kind == Kind::dual) term["across"] = point(s);
     term["edge"] = {point(p), point(q)};
     term["multiplier"] = multiplier;
     terms.push_back(std::move(term));
   }
-  return {{"temper_certificate", kVersion}, {"margin", certificate.margin}, {"terms", std::move(terms)}};
+  return {{"temper_certificate", kVersion},
+          {"conditions", name(certificate.conditions)},
+          {"margin", certificate.margin},
+          {"terms", std::move(terms)}};
 }
 
 std::string certificate_text(const Certificate& certificate, const Input& input) {

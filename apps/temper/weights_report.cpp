@@ -30,11 +30,12 @@ std::string listed(const std::vector<std::string>& lines) {
 }
 
 std::string verdict_text(const WeightsRecord& r) {
+  const ConditionsInfo& row = conditions_table()[static_cast<std::size_t>(r.options.conditions)];
   switch (r.report.verdict) {
     case Feasibility::feasible:
-      return "feasible: weights make every triangle well-centered";
+      return fmt::format("feasible: {}", row.success);
     case Feasibility::infeasible:
-      return "infeasible: no weights make every triangle well-centered";
+      return fmt::format("infeasible: {}{}", row.failure, r.search ? ", with this connectivity" : "");
     case Feasibility::undecided:
       return "undecided: the best margin is zero up to rounding, or the solver failed";
   }
@@ -57,10 +58,22 @@ std::string certificate_text(const WeightsRecord& r) {
   const Certificate& certificate = r.report.certificate;
   if (certificate.terms.empty()) return {};
   std::vector<std::string> lines;
-  for (const auto& term : certificate.terms) lines.push_back(constraint_text(term.constraint, r.input));
+  for (const auto& term : certificate.terms) lines.push_back(constraint_text(term.constraint, r.input, r.mesh));
   const std::string what = certificate.margin == 0 ? "all positive" : fmt::format("all above {}", certificate.margin);
   return fmt::format("These {} cannot be {} (a certificate, verified exactly):\n", certificate.terms.size(), what) +
          listed(lines);
+}
+
+std::string_view end_text(SearchEnd end) {
+  switch (end) {
+    case SearchEnd::no_better_neighbour:
+      return "no flip raises it further";
+    case SearchEnd::limit:
+      return "stopped by --programmes";
+    case SearchEnd::failed:
+      return "the solver failed";
+  }
+  return {};
 }
 
 std::string violations_text(const WeightsRecord& r) {
@@ -68,21 +81,46 @@ std::string violations_text(const WeightsRecord& r) {
   std::vector<std::string> lines;
   double total = 0;
   for (const Violation& v : r.report.violations) {
-    lines.push_back(
-        fmt::format("{:.4g} instead of {:.4g}: {}", v.value, r.report.asked, constraint_text(v.constraint, r.input)));
+    lines.push_back(fmt::format("{:.4g} instead of {:.4g}: {}", v.value, r.report.asked,
+                                constraint_text(v.constraint, r.input, r.mesh)));
     total += v.shortfall;
   }
-  return fmt::format("{} of the h/l and d/l give way, by {:.6g} in all:\n", lines.size(), total) + listed(lines);
+  return fmt::format("{} of the {} give way, by {:.6g} in all:\n", lines.size(),
+                     r.options.conditions == Conditions::regular ? "dual lengths/l" : "h/l and d/l", total) +
+         listed(lines);
 }
 
-Json violation_json(const Violation& v, const Input& input) {
-  const auto point = [&](VertexId u) { return input.points.empty() ? std::size_t{u.index} : input.points[u.index]; };
-  const auto [kind, p, q, r] = v.constraint;
+std::string search_text(const WeightsRecord& r) {
+  if (!r.search) return {};
+  std::size_t flips = 0;
+  for (const ConnectivityStep& step : r.search->steps) flips += step.flips;
+  return fmt::format(
+      "search over connectivities: best margin {:.10g} -> {:.10g}, {} steps, {} flips, {} programmes; {}\n",
+      r.search->before, r.search->margin, r.search->steps.size(), flips, r.search->programmes, end_text(r.search->end));
+}
+
+Json search_json(const WeightsRecord& r) {
+  if (!r.search) return nullptr;
   Json json;
-  json["kind"] = kind == Kind::height ? "height" : "split";
+  json["before"] = r.search->before;
+  json["margin"] = r.search->margin;
+  json["end"] = name(r.search->end);
+  json["programmes"] = r.search->programmes;
+  json["steps"] = Json::array();
+  for (const ConnectivityStep& step : r.search->steps) {
+    json["steps"].push_back({{"kind", name(step.kind)}, {"flips", step.flips}, {"margin", step.margin}});
+  }
+  return json;
+}
+
+Json violation_json(const Violation& v, const Input& input, const Mesh& mesh) {
+  const auto point = [&](VertexId u) { return input.points.empty() ? std::size_t{u.index} : input.points[u.index]; };
+  const auto [kind, p, q, r, s] = v.constraint;
+  Json json;
+  json["kind"] = name(kind);
   json["edge"] = {point(p), point(q)};
   if (kind == Kind::height) {
-    json["triangle"] = triangle_of(input.mesh(), v.constraint).index;
+    json["triangle"] = triangle_of(mesh, v.constraint).index;
     json["vertex"] = point(r);
     json["angle_deg"] = v.angle_deg;
   }
@@ -93,10 +131,13 @@ Json violation_json(const Violation& v, const Input& input) {
 
 }  // namespace
 
-std::string constraint_text(const WeightConstraint& c, const Input& input) {
-  const Mesh& mesh = input.mesh();
+std::string constraint_text(const WeightConstraint& c, const Input& input, const Mesh& mesh) {
   const std::string p = input.vertex_number(c.p), q = input.vertex_number(c.q);
   if (c.kind == Kind::split) return fmt::format("d of edge {}-{} from vertex {}", p, q, p);
+  if (c.kind == Kind::dual) {
+    return fmt::format("dual length of edge {}-{} between vertices {} and {}", p, q, input.vertex_number(c.r),
+                       input.vertex_number(c.s));
+  }
   const double angle =
       corner_angle(mesh.position(c.r), mesh.position(c.p), mesh.position(c.q)) * 180 / std::numbers::pi;
   return fmt::format("h over edge {}-{} in triangle {} (angle of {:.1f} degrees at vertex {})", p, q,
@@ -105,10 +146,10 @@ std::string constraint_text(const WeightConstraint& c, const Input& input) {
 
 std::string weights_text(const WeightsRecord& r) {
   const WeightReport& report = r.report;
-  std::string text = fmt::format("{}: {} vertices, {} triangles\n{}\n{}\n", r.input.path, r.input.mesh().n_vertices(),
-                                 r.input.mesh().n_triangles(), verdict_text(r), margin_text(report));
+  std::string text = fmt::format("{}: {} vertices, {} triangles\n{}{}\n{}\n", r.input.path, r.mesh.n_vertices(),
+                                 r.mesh.n_triangles(), search_text(r), verdict_text(r), margin_text(report));
   if (!report.solved && report.verdict == Feasibility::feasible) {
-    text += fmt::format("a margin of {} cannot be had\n", r.wanted);
+    text += fmt::format("a margin of {} cannot be had\n", r.options.margin);
   }
   text += certificate_text(r) + violations_text(r);
   if (report.solved) {
@@ -124,12 +165,15 @@ std::string weights_json(const WeightsRecord& r) {
   const WeightReport& report = r.report;
   Json json;
   json["mode"] = r.mode;
+  json["conditions"] = name(r.options.conditions);
+  json["edges"] = r.options.conditions == Conditions::regular ? Json(r.options.edges.size()) : Json(nullptr);
+  json["search"] = search_json(r);
   json["verdict"] = name(report.verdict);
   json["feasible"] =
       report.verdict == Feasibility::undecided ? Json(nullptr) : Json(report.verdict == Feasibility::feasible);
   json["margin"] = report.margin;
   json["margin_is"] = name(report.margin_is);
-  json["wanted"] = r.wanted;
+  json["wanted"] = r.options.margin;
   json["solved"] = report.solved;
   json["attained"] = report.solved ? Json(report.attained) : Json(nullptr);
   json["weights"] = report.weights.size();
@@ -138,7 +182,7 @@ std::string weights_json(const WeightsRecord& r) {
   json["programmes"] = report.programmes;
   json["largest_programme"] = report.largest;
   json["violations"] = Json::array();
-  for (const Violation& v : report.violations) json["violations"].push_back(violation_json(v, r.input));
+  for (const Violation& v : report.violations) json["violations"].push_back(violation_json(v, r.input, r.mesh));
   json["certificate"] =
       report.certificate.terms.empty() ? Json(nullptr) : certificate_json(report.certificate, r.input);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

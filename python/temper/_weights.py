@@ -1,4 +1,5 @@
-"""Weights alone: can a mesh become well-centered when neither its positions nor its connectivity may change?"""
+"""Weights alone: can a mesh become well-centered when neither its positions nor its connectivity may change? And with
+which connectivity does it have better weights?"""
 
 from __future__ import annotations
 
@@ -9,22 +10,47 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _temper
-from ._mesh import MeshLike, _ints, as_mesh
+from ._mesh import Mesh, MeshLike, _ints, as_mesh
 from ._records import Record, merged
 
-Conditions = Literal["well_centered", "heights_only"]
+Conditions = Literal["well_centered", "heights_only", "regular"]
+
+
+@dataclasses.dataclass(frozen=True)
+class ConditionsInfo(Record):
+    """A row of the table of conditions: the inequalities that count."""
+
+    name: Conditions
+    keeps: str
+    """The inequalities for a margin t."""
+    success: str
+    """A sentence of what was found."""
+    failure: str
+
+
+def conditions_table() -> list[ConditionsInfo]:
+    """well_centered: all h and d; heights_only: all h, so that orthocenters are inside their triangles; regular: the dual
+    lengths of edges inside the mesh, of all of them or of those prescribed."""
+    return [ConditionsInfo(**row) for row in _temper.conditions_table()]
+
+
+def _edges(edges: npt.ArrayLike | None) -> npt.NDArray[np.int64] | None:
+    return None if edges is None else _ints(edges, 2, "edges").astype(np.int64)
 
 
 @dataclasses.dataclass(frozen=True)
 class WeightConstraint:
-    """One inequality that a well-centered mesh keeps."""
+    """One inequality of some conditions."""
 
-    kind: Literal["height", "split"]
-    """height: h over edge pq of the triangle pqr, counter-clockwise; split: d from p towards q, for any edge pq."""
+    kind: Literal["height", "split", "dual"]
+    """height: h over edge pq of the triangle pqr, counter-clockwise; split: d from p towards q, for any edge pq; dual:
+    the dual length of pq between the triangles pqr and qps."""
     p: int
     q: int
     r: int
     """−1 for a split."""
+    s: int = -1
+    """Of a dual only, else −1."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -33,16 +59,19 @@ class Certificate(Record):
     in ``temper/feasibility.hpp`` and docs/weights.md."""
 
     margin: float
-    """Refuted: no weights have all h > margin ℓ and margin ℓ < d < (1 − margin) ℓ."""
+    """Refuted: no weights keep the conditions with more than this margin."""
     terms: list[tuple[WeightConstraint, float]]
     """Constraints and their multipliers; none: no certificate."""
+    conditions: Conditions = "well_centered"
+    """Those of ``regular`` speak of weights that differ by less than 2²⁰ ℓ² along edges."""
 
     def _plain(self) -> dict[str, Any]:
-        return {"margin": self.margin, "terms": [((c.kind, c.p, c.q, c.r), float(m)) for c, m in self.terms]}
+        terms = [((c.kind, c.p, c.q, c.r, c.s), float(m)) for c, m in self.terms]
+        return {"margin": self.margin, "terms": terms, "conditions": self.conditions}
 
     @classmethod
     def _of(cls, d: dict[str, Any]) -> Certificate:
-        return cls(d["margin"], [(WeightConstraint(*c), m) for c, m in d["terms"]])
+        return cls(d["margin"], [(WeightConstraint(*c), m) for c, m in d["terms"]], d["conditions"])
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -55,7 +84,7 @@ class BestMargin(Record):
     tight: list[WeightConstraint]
     """The constraints that keep it from being larger."""
     certificate: Certificate
-    """Refutes margin 0; no terms unless t* ≤ 0 and the checker agrees."""
+    """Refutes margin 0, of ``regular`` 2⁻¹⁰; no terms unless t* ≤ 0 and the checker agrees."""
     vertices: npt.NDArray[np.int32]
     """Of the triangles asked about."""
     weights: npt.NDArray[np.float64]
@@ -68,7 +97,7 @@ class Violation(Record):
 
     constraint: WeightConstraint
     value: float
-    """h/ℓ or d/ℓ that the weights give."""
+    """h/ℓ, d/ℓ or dual length/ℓ that the weights give."""
     shortfall: float
     """Of the margin asked for."""
     angle_deg: float
@@ -80,8 +109,8 @@ class WeightReport(Record):
     """What ``find_weights`` found."""
 
     verdict: Literal["feasible", "infeasible", "undecided"]
-    """feasible: the weights found make every triangle well-centered, by the exact predicate; infeasible: no weights do,
-    by a certificate that the exact checker accepts."""
+    """feasible: the weights found keep the conditions, by exact predicates; infeasible: no weights do, by a certificate
+    that the exact checker accepts."""
     margin: float
     """Best margin."""
     margin_is: Literal["exact", "at_least", "at_most"]
@@ -112,6 +141,8 @@ def find_weights(
     from_input: bool = False,
     whole: int = 3000,
     rings: int = 2,
+    conditions: Conditions = "well_centered",
+    edges: npt.ArrayLike | None = None,
 ) -> WeightReport:
     """Finds weights for a mesh whose positions and connectivity stay, by linear programming (Clp). The mesh is not
     changed.
@@ -123,7 +154,7 @@ def find_weights(
         The least change for the margin asked for; the best margin, and the least change for the margin asked for or for
         half of the best one; the least violation, and then the least change.
     margin : float
-        t in [0, 1/2): all h ≥ tℓ and tℓ ≤ d ≤ (1 − t)ℓ.
+        t in [0, 1/2): all h ≥ tℓ and tℓ ≤ d ≤ (1 − t)ℓ, or what the conditions are.
     from_input : bool
         Change is measured from the mesh's weights; else from zero.
     whole : int
@@ -131,6 +162,10 @@ def find_weights(
         triangles only.
     rings : int
         Of vertices around bad triangles, at first.
+    conditions : {"well_centered", "heights_only", "regular"}
+        What the weights have to keep: see ``conditions_table``.
+    edges : (k, 2) int, optional
+        Of ``regular``: the edges prescribed, by their vertices; None: all. Those on the boundary always are regular.
 
     Notes
     -----
@@ -144,26 +179,37 @@ def find_weights(
     ('infeasible', -0.0592592593)
     >>> temper.check_certificate(mesh, report.certificate)
     'proves'
+    >>> temper.find_weights(mesh, conditions="heights_only").verdict
+    'feasible'
     """
-    d = _temper.find_weights(as_mesh(mesh)._handle, goal, margin, from_input, whole, rings)
+    handle = as_mesh(mesh)._handle
+    d = _temper.find_weights(handle, goal, margin, from_input, whole, rings, conditions, _edges(edges))
     violations = [Violation(**merged(v, constraint=WeightConstraint(*v["constraint"]))) for v in d["violations"]]
     return WeightReport(**merged(d, violations=violations, certificate=Certificate._of(d["certificate"])))
 
 
 def best_margin(
-    mesh: MeshLike, triangles: npt.ArrayLike | None = None, *, conditions: Conditions = "well_centered"
+    mesh: MeshLike,
+    triangles: npt.ArrayLike | None = None,
+    *,
+    conditions: Conditions = "well_centered",
+    edges: npt.ArrayLike | None = None,
 ) -> BestMargin:
     """The best margin of some triangles, (k,) int, the rest of the mesh being left out; None: of the whole mesh. An
-    upper bound for any set that has them."""
+    upper bound for any set that has them. ``edges`` as for ``find_weights``; of ``regular`` it is 1/2, where programmes
+    stop, or 0."""
     chosen = None if triangles is None else _ints(triangles, 0, "triangles").astype(np.int64)
-    d = _temper.best_margin(as_mesh(mesh)._handle, chosen, conditions)
+    d = _temper.best_margin(as_mesh(mesh)._handle, chosen, conditions, _edges(edges))
     tight = [WeightConstraint(*c) for c in d["tight"]]
     return BestMargin(**merged(d, tight=tight, certificate=Certificate._of(d["certificate"])))
 
 
-def weight_margin(mesh: MeshLike, *, conditions: Conditions = "well_centered") -> float:
-    """The least h/ℓ, d/ℓ and 1 − d/ℓ of the mesh's own weights, in doubles."""
-    return _temper.weight_margin(as_mesh(mesh)._handle, conditions)
+def weight_margin(
+    mesh: MeshLike, *, conditions: Conditions = "well_centered", edges: npt.ArrayLike | None = None
+) -> float:
+    """The least h/ℓ, d/ℓ, 1 − d/ℓ or dual length/ℓ that the conditions have, of the mesh's own weights, in doubles;
+    infinite when they have none."""
+    return _temper.weight_margin(as_mesh(mesh)._handle, conditions, _edges(edges))
 
 
 def check_certificate(
@@ -172,6 +218,58 @@ def check_certificate(
     """Verifies a certificate in exact arithmetic, from the positions alone: ``"proves"`` when no weights exist, else
     what is wrong with it."""
     return _temper.check_certificate(as_mesh(mesh)._handle, certificate._plain())
+
+
+# --- connectivity ----------------------------------------------------------------------------------------------
+
+
+@dataclasses.dataclass(frozen=True)
+class ConnectivityStep(Record):
+    """A change of connectivity that made the best margin greater."""
+
+    kind: Literal["regular", "flip"]
+    """regular: to the regular triangulation of the weights that have the best margin; flip: of one edge."""
+    flips: int
+    margin: float
+    """The best one, after it."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ConnectivityReport(Record):
+    """What ``best_connectivity`` found."""
+
+    mesh: Mesh
+    """With the connectivity found; positions, weights and all else are the input's."""
+    end: Literal["no_better_neighbour", "limit", "failed"]
+    before: float
+    """The best margin of the input's connectivity."""
+    margin: float
+    """That of the one found."""
+    steps: list[ConnectivityStep]
+    """Their margins grow."""
+    programmes: int
+    weights: npt.NDArray[np.float64]
+    """With margin ``margin`` [length²]: for proofs, not for meshes."""
+
+
+def best_connectivity(
+    mesh: MeshLike,
+    *,
+    conditions: Literal["well_centered", "heights_only"] = "well_centered",
+    programmes: int = 10000,
+) -> ConnectivityReport:
+    """Looks for a connectivity with a greater best margin: from the best one so far, the regular triangulation of the
+    weights of its best margin, else the one flip that raises it most. A local search: there may be better ones. The mesh
+    is not changed; ``programmes`` is the most linear programmes of the whole mesh.
+
+    >>> import temper
+    >>> report = temper.best_connectivity(temper.generate.sparse_horseshoe())
+    >>> report.end, len(report.steps), report.margin == report.before
+    ('no_better_neighbour', 0, True)
+    """
+    d = _temper.best_connectivity(as_mesh(mesh)._handle, conditions, programmes)
+    steps = [ConnectivityStep(**step) for step in d["steps"]]
+    return ConnectivityReport(**merged(d, mesh=Mesh._of(d["mesh"]), steps=steps))
 
 
 # --- necessity -------------------------------------------------------------------------------------------------

@@ -79,7 +79,16 @@ std::vector<std::string> certificates() {
   const auto [p, q, r] = mesh.corners(TriangleId(0));
   certificate.terms.push_back({{WeightConstraint::Kind::height, p, q, r}, 0.25});
   certificate.terms.push_back({{WeightConstraint::Kind::split, q, p, VertexId()}, 1.5});
-  return {app::certificate_text(certificate, input())};
+  Certificate of_duals;
+  of_duals.conditions = Conditions::regular;
+  of_duals.margin = kRefutedDual;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_edge_representative(h) || mesh.is_boundary(h)) continue;
+    of_duals.terms.push_back(
+        {{WeightConstraint::Kind::dual, mesh.origin(h), mesh.target(h), mesh.opposite(h), mesh.opposite(mesh.twin(h))},
+         0.5});
+  }
+  return {app::certificate_text(certificate, input()), app::certificate_text(of_duals, input())};
 }
 
 std::vector<std::string> traces() {

@@ -2,7 +2,7 @@
 //
 // The oracle shares no formula with the library: h comes from the orthocenter by Cramer's rule, with unit weights put
 // on one vertex after the other, and the bounds on differences of weights are shortest paths over all edges of the
-// mesh.
+// mesh, by the bounds of the conditions.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -45,11 +45,33 @@ Rational value(const Mesh& mesh, const WeightConstraint& c, const Rational& marg
   if (c.kind == WeightConstraint::Kind::split) return l2 + p.w - q.w - 2 * margin * l2;
   const RationalPoint r = point(c.r);
   const Rational area = doubled_area(p, q, r);
+  if (c.kind == WeightConstraint::Kind::dual) {
+    const RationalPoint s = point(c.s);
+    const Rational across = doubled_area(q, p, s);
+    const Rational dual = scaled_height(p, q, r) + scaled_height(q, p, s);
+    return 2 * dual / l2 * area * across - 2 * margin * area * across;
+  }
   return 2 * scaled_height(p, q, r) * area - 2 * margin * l2 * area;
 }
 
-/// Shortest paths by ℓ² from a vertex (Bellman and Ford: the meshes are small).
-std::vector<Rational> reach(const Mesh& mesh, VertexId root) {
+Rational squared_distance(const Mesh& mesh, VertexId a, VertexId b) {
+  const RationalPoint p = at(mesh, a, 0), q = at(mesh, b, 0);
+  return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y);
+}
+
+/// How much weights of the ends of h can differ: the triangle of h may be the one that the certificate names, or not.
+Rational most_difference(const Mesh& mesh, HalfedgeId h, Conditions conditions) {
+  const VertexId p = mesh.origin(h), q = mesh.target(h), r = mesh.opposite(h);
+  const Rational l2 = squared_distance(mesh, p, q);
+  if (conditions == Conditions::well_centered) return l2;
+  if (conditions == Conditions::regular) return Rational(kWeightReach) * l2;
+  // Squares of distances of the orthocenter: their difference is linear, so greatest at a corner.
+  const Rational at_r = abs(squared_distance(mesh, p, r) - squared_distance(mesh, q, r));
+  return at_r > l2 ? at_r : l2;
+}
+
+/// Shortest paths by these bounds from a vertex (Bellman and Ford: the meshes are small).
+std::vector<Rational> reach(const Mesh& mesh, VertexId root, Conditions conditions) {
   std::vector<Rational> distance(mesh.n_vertices(), Rational(-1));
   distance[root.index] = 0;
   for (bool changed = true; changed;) {
@@ -57,8 +79,7 @@ std::vector<Rational> reach(const Mesh& mesh, VertexId root) {
     for (const HalfedgeId h : mesh.halfedges()) {
       for (const auto& [from, to] : {std::pair(mesh.origin(h), mesh.target(h)), {mesh.target(h), mesh.origin(h)}}) {
         if (distance[from.index] < 0) continue;
-        const RationalPoint a = at(mesh, from, 0), b = at(mesh, to, 0);
-        const Rational there = distance[from.index] + (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
+        const Rational there = distance[from.index] + most_difference(mesh, h, conditions);
         if (distance[to.index] >= 0 && distance[to.index] <= there) continue;
         distance[to.index] = there;
         changed = true;
@@ -68,23 +89,27 @@ std::vector<Rational> reach(const Mesh& mesh, VertexId root) {
   return distance;
 }
 
+std::array<VertexId, 4> vertices_of(const WeightConstraint& c) { return {c.p, c.q, c.r, c.s}; }
+
 /// Parts of a certificate that share no vertex, by the least vertex of each.
 std::map<VertexId, VertexId> parts_of(const Certificate& certificate) {
   std::map<VertexId, VertexId> part;
   for (const auto& term : certificate.terms) {
     if (term.multiplier == 0) continue;
-    for (const VertexId v : {term.constraint.p, term.constraint.q, term.constraint.r}) {
+    for (const VertexId v : vertices_of(term.constraint)) {
       if (v.valid()) part.emplace(v, v);
     }
   }
   for (std::size_t round = 0; round < part.size(); ++round) {
     for (const auto& term : certificate.terms) {
       if (term.multiplier == 0) continue;
-      const auto [kind, p, q, r] = term.constraint;
-      VertexId least = std::min(part[p], part[q]);
-      if (r.valid()) least = std::min(least, part[r]);
-      part[p] = part[q] = least;
-      if (r.valid()) part[r] = least;
+      VertexId least = part[term.constraint.p];
+      for (const VertexId v : vertices_of(term.constraint)) {
+        if (v.valid()) least = std::min(least, part[v]);
+      }
+      for (const VertexId v : vertices_of(term.constraint)) {
+        if (v.valid()) part[v] = least;
+      }
     }
   }
   return part;
@@ -92,11 +117,11 @@ std::map<VertexId, VertexId> parts_of(const Certificate& certificate) {
 
 /// Most that Σ R_v w_v can be when no weights differ by more than the way between their vertices: what is positive is
 /// carried to what is negative. Any plan is a bound, and none costs more than one that goes by way of a root.
-Rational carried(const Mesh& mesh, std::map<VertexId, Rational> residual) {
+Rational carried(const Mesh& mesh, Conditions conditions, std::map<VertexId, Rational> residual) {
   Rational bound = 0;
   for (auto& [from, surplus] : residual) {
     if (surplus <= 0) continue;
-    const std::vector<Rational> distance = reach(mesh, from);
+    const std::vector<Rational> distance = reach(mesh, from, conditions);
     for (auto& [to, lack] : residual) {
       if (lack >= 0 || surplus <= 0) continue;
       const Rational amount = surplus < -lack ? surplus : Rational(-lack);
@@ -109,7 +134,7 @@ Rational carried(const Mesh& mesh, std::map<VertexId, Rational> residual) {
   return bound;
 }
 
-/// The largest that the sum of a certificate can be, over weights that keep all splits.
+/// The largest that the sum of a certificate can be, over weights that differ no more than its conditions let them.
 Rational upper_bound(const Mesh& mesh, const Certificate& certificate) {
   Rational bound = 0;
   const std::map<VertexId, VertexId> part = parts_of(certificate);
@@ -119,23 +144,27 @@ Rational upper_bound(const Mesh& mesh, const Certificate& certificate) {
     const Rational m(multiplier), t(certificate.margin);
     const Rational zero = value(mesh, c, t, VertexId());
     bound += m * zero;
-    for (const VertexId v : {c.p, c.q, c.r}) {
+    for (const VertexId v : vertices_of(c)) {
       if (v.valid()) residuals[part.at(v)][v] += m * (value(mesh, c, t, v) - zero);
     }
   }
-  for (const auto& [least, residual] : residuals) bound += carried(mesh, residual);
+  for (const auto& [least, residual] : residuals) bound += carried(mesh, certificate.conditions, residual);
   return bound;
 }
 
 TEST(CertificateOracle, AgreesThatAcceptedCertificatesAreContradictions) {
-  std::size_t accepted = 0;
-  const auto check = [&](const Mesh& mesh) {
-    const Certificate certificate = margin_of(mesh).certificate;
+  std::map<Conditions, std::size_t> accepted;
+  const auto check_one = [&](const Mesh& mesh, Conditions conditions) {
+    const Certificate certificate = margin_of(mesh, conditions).certificate;
     if (certificate.terms.empty()) return;
-    ++accepted;
+    ++accepted[conditions];
     ASSERT_EQ(check_certificate(mesh, certificate), CertificateCheck::proves);
     EXPECT_LE(upper_bound(mesh, certificate), 0);
   };
+  const auto check = [&](const Mesh& mesh) {
+    for (const ConditionsInfo& row : conditions_table()) check_one(mesh, row.conditions);
+  };
+  for (const double turn : {0.02, 0.1, 0.15}) check(pinwheel(turn));
   check(sparse_horseshoe());
   check(*horseshoe());
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
@@ -143,7 +172,9 @@ TEST(CertificateOracle, AgreesThatAcceptedCertificatesAreContradictions) {
     Rng rng(seed);
     check(random_mesh(rng, 8));
   }
-  EXPECT_GT(accepted, 20u);
+  EXPECT_GT(accepted[Conditions::well_centered], 20u);
+  EXPECT_GT(accepted[Conditions::heights_only], 20u);
+  EXPECT_GE(accepted[Conditions::regular], 3u);
 }
 
 TEST(CertificateOracle, AgreesWhateverIsAcceptedAfterCorruption) {

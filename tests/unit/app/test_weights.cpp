@@ -1,4 +1,5 @@
 // temper weights: every mode, what it writes, and that nothing else changes.
+#include "temper/feasibility.hpp"
 #include "temper/io.hpp"
 #include "workshop.hpp"
 
@@ -8,6 +9,12 @@ namespace {
 class Weights : public Workshop {
  protected:
   static void make_infeasible() { temper_ok({"example", "sparse-horseshoe", "-o", "in.vtu"}); }
+  /// Two nested triangles, the ring between them cut like a pinwheel: no weights make all of its edges regular.
+  static void make_pinwheel() {
+    write("pinwheel.mesh",
+          "MeshVersionFormatted 2\nDimension 2\nVertices\n6\n4 0 0\n-2 3.5 0\n-2 -3.5 0\n1 0.1 0\n-0.6 0.8 0\n"
+          "-0.4 -0.9 0\nTriangles\n7\n4 5 6 1\n1 2 5 1\n1 5 4 1\n2 3 6 1\n2 6 5 1\n3 1 4 1\n3 4 6 1\nEnd\n");
+  }
   /// A square around a point near one side: bad, and weights cure it.
   static void make_feasible() {
     write("in.mesh",
@@ -133,6 +140,87 @@ TEST_F(Weights, ElasticNamesWhatGivesWay) {
   EXPECT_TRUE(exists("out.vtu"));
 }
 
+TEST_F(Weights, EveryConditionHasAVerdictAndAProofThatIsReadAgain) {
+  temper_ok({"example", "horseshoe", "-o", "dense.vtu"});
+  make_pinwheel();
+  make_feasible();
+  for (const ConditionsInfo& row : conditions_table()) {
+    std::string name(row.name);
+    std::replace(name.begin(), name.end(), '_', '-');
+    const std::string bad = row.conditions == Conditions::regular ? "pinwheel.mesh" : "dense.vtu";
+    const Outcome none = temper({"weights", bad, "-o", "none.vtu", "--conditions", name, "--certificate", "why.json"});
+    EXPECT_EQ(none.exit, 6) << none.err;
+    EXPECT_TRUE(contains(none.out, std::string("infeasible: ") + std::string(row.failure))) << none.out;
+    EXPECT_FALSE(exists("none.vtu"));
+    EXPECT_EQ(read_json("why.json")["conditions"], row.name);
+    EXPECT_TRUE(contains(temper_ok({"weights", bad, "--check-certificate", "why.json"}).out, std::string(row.failure)));
+    const Outcome some = temper_ok({"weights", "in.mesh", "-o", "out.vtu", "--conditions", name});
+    EXPECT_TRUE(contains(some.out, std::string("feasible: ") + std::string(row.success))) << some.out;
+    const auto json = nlohmann::json::parse(
+        temper_ok({"weights", bad, "-o", "out.vtu", "--conditions", name, "--mode", "elastic", "--json"}).out);
+    EXPECT_EQ(json["conditions"], row.name);
+    EXPECT_GT(json["violations"].size(), 0u);
+  }
+}
+
+TEST_F(Weights, PrescribedEdgesAreThoseOfTheFileOrTheLines) {
+  make_pinwheel();
+  const auto find = [](const std::string& edges) {
+    return temper({"weights", "pinwheel.mesh", "-o", "out.vtu", "--conditions", "regular", "--edges", edges, "--json"});
+  };
+  const Outcome all = find("all");
+  EXPECT_EQ(all.exit, 6);
+  EXPECT_EQ(nlohmann::json::parse(all.out)["edges"], 9);
+  write("edges.txt", "# two of the three diagonals, and an edge of the boundary\n1 5\n\n6 2  # either way\n1 2\n");
+  const Outcome two = find("edges.txt");
+  EXPECT_EQ(two.exit, 0) << two.out;
+  EXPECT_EQ(nlohmann::json::parse(two.out)["edges"], 2);
+  for (const auto& [text, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"1 5\n7 2\n", "edges.txt:2: pinwheel.mesh has no vertex 7 in a triangle"},
+           {"# none\n1 6\n", "edges.txt:2: pinwheel.mesh has no edge 1-6"},
+           {"1 1\n", "edges.txt:1: pinwheel.mesh has no edge 1-1"},
+           {"1 5 2\n", "edges.txt:1: expected two vertices, found 3 words"},
+           {"1\n", "edges.txt:1: expected two vertices, found 1 words"},
+           {"x y\n", "edges.txt:1: pinwheel.mesh has no vertex x in a triangle"},
+           {"# nothing\n", "edges.txt: expected edges, found none"},
+           {"1 2\n2 3\n", "none of the edges that --edges edges.txt names is inside the mesh"}}) {
+    write("edges.txt", text);
+    const Outcome outcome = find("edges.txt");
+    EXPECT_EQ(outcome.exit, 1) << text;
+    EXPECT_TRUE(contains(outcome.err, expected)) << outcome.err;
+  }
+  EXPECT_TRUE(contains(find("lines").err, "none of the edges that --edges lines names is inside the mesh"));
+  EXPECT_TRUE(contains(find("nosuch.txt").err, "nosuch.txt: cannot be read"));
+  EXPECT_TRUE(contains(find(".").err, "cannot be read"));
+  make_feasible();  // two regions
+  const auto json = nlohmann::json::parse(
+      temper_ok({"weights", "in.mesh", "-o", "out.vtu", "--conditions", "regular", "--edges", "lines", "--json"}).out);
+  EXPECT_EQ(json["edges"], 2);
+}
+
+TEST_F(Weights, TheSearchOverConnectivitiesWritesARegularMeshWithOtherEdges) {
+  temper_ok({"example", "random", "--vertices", "40", "-o", "in.vtu"});
+  const std::vector<std::string> heights = {"weights",      "in.vtu", "-o",       "out.vtu", "--conditions",
+                                            "heights-only", "--mode", "feasible", "--json"};
+  EXPECT_EQ(temper(heights).exit, 6);
+  EXPECT_FALSE(exists("out.vtu"));
+  std::vector<std::string> searching = heights;
+  searching.insert(searching.end(), {"--connectivity", "search"});
+  const auto json = nlohmann::json::parse(temper_ok(searching).out);
+  EXPECT_EQ(json["search"]["end"], "no_better_neighbour");
+  EXPECT_LT(json["search"]["before"].get<double>(), 0);
+  EXPECT_GT(json["search"]["margin"].get<double>(), 0);
+  EXPECT_EQ(json["search"]["steps"].back()["margin"], json["search"]["margin"]);
+  EXPECT_NEAR(json["margin"].get<double>(), json["search"]["margin"].get<double>(), 1e-7);
+  temper_ok({"check", "out.vtu", "--require", "outside=0,nonregular=0"});
+  const auto before = io::read("in.vtu"), after = io::read("out.vtu");
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(before->points, after->points);
+  EXPECT_NE(before->triangles, after->triangles);
+  searching.insert(searching.end(), {"--programmes", "2"});
+  EXPECT_EQ(nlohmann::json::parse(temper(searching).out)["search"]["end"], "limit");
+}
+
 TEST_F(Weights, BadUsageIsRefused) {
   make_infeasible();
   const std::vector<std::vector<std::string>> mistakes = {
@@ -141,7 +229,15 @@ TEST_F(Weights, BadUsageIsRefused) {
       {"in.vtu", "-o", "out.vtu", "--margin", "0"},
       {"in.vtu", "-o", "out.vtu", "--energy", "BP"},
       {"in.vtu", "-o", "out.vtu", "--mode", "best"},
-      {"in.vtu", "-o", "out.vtu", "--check-certificate", "why.json"}};
+      {"in.vtu", "-o", "out.vtu", "--check-certificate", "why.json"},
+      {"in.vtu", "-o", "out.vtu", "--conditions", "both"},
+      {"in.vtu", "-o", "out.vtu", "--edges", "lines"},
+      {"in.vtu", "-o", "out.vtu", "--conditions", "heights-only", "--mode", "barrier"},
+      {"in.vtu", "-o", "out.vtu", "--programmes", "10"},
+      {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--programmes", "0"},
+      {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--certificate", "why.json"},
+      {"in.vtu", "-o", "out.vtu", "--connectivity", "search", "--conditions", "regular"},
+      {"in.vtu", "--check-certificate", "why.json", "--conditions", "heights-only"}};
   for (std::vector<std::string> arguments : mistakes) {
     arguments.insert(arguments.begin(), "weights");
     EXPECT_EQ(temper(arguments).exit, 2) << arguments.back();

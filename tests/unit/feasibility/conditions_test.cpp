@@ -1,6 +1,5 @@
 // Conditions other than well-centeredness: heights alone, and dual lengths of all edges or of prescribed ones.
 #include <map>
-#include <numbers>
 
 #include "feasibility/constraints.hpp"
 #include "temper/regularity.hpp"
@@ -17,16 +16,6 @@ std::vector<HalfedgeId> inner_edges(const Mesh& mesh) {
     if (mesh.is_edge_representative(h) && !mesh.is_boundary(h)) edges.push_back(h);
   }
   return edges;
-}
-
-/// Two nested triangles, the ring between them divided like a pinwheel: no weights make all of its edges regular. The
-/// inner triangle is turned about its middle; all sum of weights cancel around.
-Mesh pinwheel(double turn = 0.1) {
-  std::vector<Vec2> points;
-  const double third = 2 * std::numbers::pi / 3;
-  for (int k = 0; k < 3; ++k) points.push_back({4 * std::cos(k * third), 4 * std::sin(k * third)});
-  for (int k = 0; k < 3; ++k) points.push_back({std::cos(k * third + turn), std::sin(k * third + turn)});
-  return build_or_die(points, {{3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}});
 }
 
 Mesh rotated(Mesh mesh, double angle) {

@@ -95,8 +95,8 @@ TEST(BestConnectivity, OfTheSparseHorseshoeIsTheBestOfAllItsTriangulations) {
   for (const Conditions conditions : {Conditions::well_centered, Conditions::heights_only}) {
     std::size_t triangulations = 0;
     const double best = best_of_all(sparse_horseshoe(), conditions, triangulations);
-    EXPECT_NEAR(search(sparse_horseshoe(), {.conditions = conditions}).margin, best, 1e-8)
-        << name(conditions) << ", " << triangulations << " triangulations";
+    EXPECT_NEAR(search(sparse_horseshoe(), {.conditions = conditions}).margin, best, 1e-8) << name(conditions);
+    EXPECT_EQ(triangulations, 1u);  // none of its edges can be flipped
   }
 }
 

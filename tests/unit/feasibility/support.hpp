@@ -1,6 +1,8 @@
 // Fixtures for tests of weights alone: meshes that have good weights and that have none, and meshes scaled or weighted.
 #pragma once
 
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "base/rng.hpp"
@@ -39,6 +41,16 @@ inline std::size_t bad_triangles(const Mesh& mesh) {
 /// A lattice jittered so much that most of its triangulations have bad triangles, and many have weights that cure them.
 inline Mesh jittered_lattice(std::uint64_t seed, int n = 6) {
   return lattice({.n = n, .jitter = 0.38, .weight = 0, .seed = seed});
+}
+
+/// Two nested triangles, the ring between them divided like a pinwheel: no weights make all of its edges regular. The
+/// inner triangle is turned about its middle; all sum of weights cancel around.
+inline Mesh pinwheel(double turn = 0.1) {
+  std::vector<Vec2> points;
+  const double third = 2 * std::numbers::pi / 3;
+  for (int k = 0; k < 3; ++k) points.push_back({4 * std::cos(k * third), 4 * std::sin(k * third)});
+  for (int k = 0; k < 3; ++k) points.push_back({std::cos(k * third + turn), std::sin(k * third + turn)});
+  return build_or_die(points, {{3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}});
 }
 
 inline WeightReport weights_of(const Mesh& mesh, const WeightOptions& options = {}) {
