@@ -5,6 +5,16 @@ namespace temper::gallery {
 namespace {
 
 constexpr Figure kFigures[] = {
+    {1, "Distances in a triangle and its dual",
+     "A triangle ijk with its orthocenter o, the weighted midpoints m of its edges, the distances d along the edges "
+     "and "
+     "h from the edges to o.",
+     make_fig01},
+    {2, "Signs of the distances",
+     "An unweighted obtuse triangle with one h < 0; weighted ones with some d < 0 although all h > 0, and with both; "
+     "the "
+     "orthocenter can be put anywhere.",
+     make_fig02},
     {3, "HOT energy of a triangle with one free vertex",
      "Contours of E_F for ★0, ★1 and ★2 over the position of the free vertex, the other two at (−1, 0) and (1, 0), "
      "without weights: zero where an edge collapses, a saddle for ★1, negative values near the edge for ★0.",
@@ -13,6 +23,9 @@ constexpr Figure kFigures[] = {
      "Below, E_F for ★0, ★1 and ★2 while one vertex of a triangle with sides 0.5 and 1 changes its weight: ★1 has a "
      "shallow local minimum and falls without bound. Above, the triangles and their duals at that minimum and far out.",
      make_fig04},
+    {5, "Distances of the barrier energies",
+     "The sub-triangle of an edge with legs d_ij and h_k, by whose area E_F is normalised to make a barrier.",
+     make_fig05},
     {6, "Hard barrier energy of one edge",
      "Contours of E_BH for ★1 over (d, h): one minimum, at d = h = ℓ/2, and walls at h = 0, d = 0 and d = ℓ.",
      make_fig06},

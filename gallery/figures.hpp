@@ -1,14 +1,18 @@
-// The figures' makers: make_figNN is defined in figNN/figure.cpp. Figures 1, 2 and 5 of the paper are drawings of
-// its notation, with nothing to compute.
+// The figures' makers: make_figNN is defined in figNN/figure.cpp.
 #pragma once
 
 #include "gallery.hpp"
 
 namespace temper::gallery {
 
+// Distances of a triangle and its dual.
+Page make_fig01(Effort effort);
+Page make_fig02(Effort effort);
+
 // Energy landscapes and the single triangle.
 Page make_fig03(Effort effort);
 Page make_fig04(Effort effort);
+Page make_fig05(Effort effort);
 Page make_fig06(Effort effort);
 Page make_fig07(Effort effort);
 Page make_fig08(Effort effort);

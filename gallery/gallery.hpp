@@ -25,6 +25,9 @@ struct Table {
   std::vector<std::vector<std::string>> rows;  ///< each as long as the header
 };
 
+/// Whose sentence a claim is. Ours add to the paper's, and are counted apart.
+enum class Author { paper, temper };
+
 struct Claim {
   std::string figure;  ///< "12", or "2.4" for a section
   std::string claim;   ///< the sentence, in our words
@@ -32,6 +35,7 @@ struct Claim {
   std::string temper;  ///< what was measured here, with numbers
   bool holds = false;
   std::string why;  ///< when it does not hold: the experiment that explains it; else what was measured, and how
+  Author author = Author::paper;
 };
 
 struct Page {

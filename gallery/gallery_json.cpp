@@ -15,8 +15,13 @@ Json figure_json(const Result& result) {
 }
 
 Json claim_json(const Claim& claim) {
-  return {{"figure", claim.figure}, {"claim", claim.claim}, {"paper", claim.paper},
-          {"temper", claim.temper}, {"holds", claim.holds}, {"why", claim.why}};
+  return {{"figure", claim.figure},
+          {"claim", claim.claim},
+          {"paper", claim.paper},
+          {"temper", claim.temper},
+          {"holds", claim.holds},
+          {"why", claim.why},
+          {"author", claim.author == Author::paper ? "paper" : "temper"}};
 }
 
 }  // namespace

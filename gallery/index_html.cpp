@@ -12,6 +12,7 @@ namespace {
 
 std::string anchor(const Figure& figure) { return "fig" + std::to_string(figure.number); }
 
+std::string of(Tally tally) { return std::to_string(tally.hold) + " of " + std::to_string(tally.all); }
 std::string fraction(Tally tally) { return std::to_string(tally.hold) + "/" + std::to_string(tally.all); }
 
 std::string verdict_mark(bool holds) {
@@ -71,6 +72,7 @@ std::string picture_html(const Picture& picture) {
 std::string claim_html(const Claim& claim, const Figure& figure) {
   std::string html = claim.holds ? "<tr><td>" : "<tr class=\"failed\"><td>";
   html += verdict_mark(claim.holds) + "</td><td>" + prose(claim.claim);
+  if (claim.author == Author::temper) html += " <span class=\"where\">(ours)</span>";
   if (claim.figure != std::to_string(figure.number)) html += " <span class=\"where\">(" + place(claim) + ")</span>";
   html += "<span class=\"why\">" + prose(claim.why) + "</span></td>";
   html += "<td data-label=\"Paper\">" + prose(claim.paper) + "</td>";
@@ -103,7 +105,8 @@ std::string section_html(const Result& result) {
 std::string contents_html(std::span<const Result> results) {
   std::string html = "<nav><h2>Figures, and their claims that hold</h2>\n<ol>\n";
   for (const Result& result : results) {
-    const Tally tally = count_claims(result.page);
+    Tally tally = count_claims(result.page, Author::paper);
+    tally += count_claims(result.page, Author::temper);
     html += "<li><span class=\"number\">" + std::to_string(result.figure.number) + "</span><a href=\"#" +
             anchor(result.figure) + "\">" + prose(result.figure.title) + "</a><span class=\"count" +
             (tally.hold < tally.all ? " no" : "") + "\">" + (tally.all > 0 ? fraction(tally) : "") + "</span></li>\n";
@@ -126,14 +129,13 @@ std::string failing_html(std::span<const Result> results) {
 }
 
 std::string header_html(std::span<const Result> results, Effort effort) {
-  const Tally tally = count_claims(results);
   std::string html =
       "<header>\n<h1>“Not so HOT Triangulations”, made again</h1>\n"
       "<p>The figures of S. A. Mitchell, P. Knupp, S. Mackay and M. F. Deakin, <i>Not so HOT Triangulations</i>, "
       "Computer-Aided Design 158 (2023), computed anew by temper. Beside each stands what the paper says, what temper "
       "finds, and whether the two agree.</p>\n";
-  html += "<p class=\"sum\"><b>" + std::to_string(tally.hold) + " of " + std::to_string(tally.all) +
-          "</b> claims hold, over " + std::to_string(results.size()) + (results.size() == 1 ? " figure." : " figures.");
+  html += "<p class=\"sum\"><b>" + verdict_sentence(results) + "</b> " + std::to_string(results.size()) +
+          (results.size() == 1 ? " figure." : " figures.");
   if (effort == Effort::reduced) html += " Made with reduced effort: fewer samples and shorter runs.";
   return html + "</p>\n" + failing_html(results) + "</header>\n";
 }
@@ -146,14 +148,25 @@ Tally& Tally::operator+=(Tally other) {
   return *this;
 }
 
-Tally count_claims(const Page& page) {
-  return {static_cast<std::size_t>(std::ranges::count(page.claims, true, &Claim::holds)), page.claims.size()};
+Tally count_claims(const Page& page, Author author) {
+  Tally tally;
+  for (const Claim& claim : page.claims) {
+    if (claim.author == author) tally += {claim.holds ? 1U : 0U, 1};
+  }
+  return tally;
 }
 
-Tally count_claims(std::span<const Result> results) {
+Tally count_claims(std::span<const Result> results, Author author) {
   Tally sum;
-  for (const Result& result : results) sum += count_claims(result.page);
+  for (const Result& result : results) sum += count_claims(result.page, author);
   return sum;
+}
+
+std::string verdict_sentence(std::span<const Result> results) {
+  const Tally papers = count_claims(results, Author::paper), ours = count_claims(results, Author::temper);
+  std::string text = of(papers) + " claims of the paper hold";
+  if (ours.all > 0) text += ", and " + of(ours) + " of ours";
+  return text + ".";
 }
 
 std::string index_html(std::span<const Result> results, Effort effort, std::string_view version) {

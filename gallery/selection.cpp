@@ -10,7 +10,6 @@ namespace temper::gallery {
 namespace {
 
 constexpr int kLastOfPaper = 32;
-constexpr int kDrawings[] = {1, 2, 5};  // triangles with their distances: notation, nothing to compute
 
 struct Range {
   int first, last;
@@ -35,8 +34,6 @@ std::optional<Range> parse_range(std::string_view text) {
   return Range{*first, *last};
 }
 
-bool is_drawing(int number) { return std::ranges::find(kDrawings, number) != std::end(kDrawings); }
-
 bool is_among(std::span<const Figure> all, int number) {
   return std::ranges::find(all, number, &Figure::number) != all.end();
 }
@@ -50,16 +47,10 @@ std::optional<std::string> problem(std::span<const Figure> all, std::string_view
              std::to_string(kLastOfPaper);
     }
   }
-  bool any = false;
   for (int number = range.first; number <= range.last; ++number) {
-    if (is_drawing(number)) continue;
     if (!is_among(all, number)) return "figure " + std::to_string(number) + " is not in this gallery";
-    any = true;
   }
-  if (any) return std::nullopt;
-  const bool one = range.first == range.last;
-  return (one ? "figure " : "figures ") + std::string(text) + (one ? " is a drawing" : " are drawings") +
-         " of the paper's notation, with nothing to compute";
+  return std::nullopt;
 }
 
 }  // namespace

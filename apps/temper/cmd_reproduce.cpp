@@ -1,7 +1,7 @@
 // temper reproduce [FIG...] -o DIR: the figures and claims of the paper, made again; see gallery/.
 //
-// After each figure its pictures are written, then index.html and gallery.json of all figures so far: whoever
-// stops the run has a folder of whole files that fit together.
+// After each figure its pictures are written, then index.html, gallery.json and claims.md of all figures so far:
+// whoever stops the run has a folder of whole files that fit together.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -35,7 +35,8 @@ void add_options(Command& command, Settings& s) {
             "figures by the paper's numbers: 6, or a list 6,8, or a range 16-18; none: all, "
             "which takes minutes");
   add_text(command, "-o,--output", "DIR", s.output,
-           "the folder for the pictures, index.html and gallery.json; made when it is missing, and files of these "
+           "the folder for the pictures, index.html, gallery.json and claims.md; made when it is missing, and files of "
+           "these "
            "names are replaced");
   command.add_flag("--reduced", s.reduced, "every claim, but fewer samples and shorter runs");
   command.add_flag("--require-claims", s.require_claims,
@@ -86,7 +87,8 @@ class Folder {
  public:
   Folder(std::string path, Effort effort) : path_(std::move(path)), effort_(effort) {
     make_folder(path_);
-    for (const char* name : {"index.html", "gallery.json"}) outputs_.expect_text("--output", file(name), {});
+    for (const char* name : {"index.html", "gallery.json", "claims.md"})
+      outputs_.expect_text("--output", file(name), {});
   }
 
   [[nodiscard]] std::string file(const std::string& name) const { return (fs::path(path_) / name).string(); }
@@ -98,6 +100,7 @@ class Folder {
       outputs_.write_text(file(picture.name + ".svg"), picture.svg);
     outputs_.write_text(file("index.html"), gallery::index_html(results, effort_, TEMPER_VERSION));
     outputs_.write_text(file("gallery.json"), gallery::gallery_json(results, TEMPER_VERSION));
+    outputs_.write_text(file("claims.md"), gallery::claims_markdown(results));
   }
 
  private:
@@ -139,6 +142,17 @@ std::string summary_row(std::string_view number, std::string_view title, std::st
   return fmt::format("{:>6}  {}{:>9}{:>9}\n", number, pad_right(title, 58), seconds, claims);
 }
 
+/// The claims of both authors.
+Tally all_claims(const Result& result) {
+  Tally tally = gallery::count_claims(result.page, gallery::Author::paper);
+  return tally += gallery::count_claims(result.page, gallery::Author::temper);
+}
+Tally all_claims(std::span<const Result> results) {
+  Tally tally;
+  for (const Result& result : results) tally += all_claims(result);
+  return tally;
+}
+
 std::string fraction(Tally tally) { return fmt::format("{}/{}", tally.hold, tally.all); }
 
 void print_summary(const Made& made) {
@@ -148,9 +162,10 @@ void print_summary(const Made& made) {
     const Result& result = made.results[i];
     seconds += made.seconds[i];
     text += summary_row(std::to_string(result.figure.number), result.figure.title,
-                        fmt::format("{:.1f}", made.seconds[i]), fraction(count_claims(result.page)));
+                        fmt::format("{:.1f}", made.seconds[i]), fraction(all_claims(result)));
   }
-  text += summary_row("", "", fmt::format("{:.1f}", seconds), fraction(gallery::count_claims(made.results)));
+  text += summary_row("", "", fmt::format("{:.1f}", seconds), fraction(all_claims(made.results)));
+  text += gallery::verdict_sentence(made.results) + "\n";
   for (const Result& result : made.results) {
     for (const gallery::Claim& claim : result.page.claims) {
       if (!claim.holds) text += fmt::format("does not hold, in figure {}: {}\n", result.figure.number, claim.claim);
@@ -181,7 +196,7 @@ Exit run_reproduce(const Arguments& arguments) {
   print_summary(made);
   print(folder.file("index.html") + "\n");
   flush_output();  // before the verdict on standard error
-  const Tally tally = gallery::count_claims(made.results);
+  const Tally tally = all_claims(made.results);
   if (!s.require_claims || tally.hold == tally.all) return Exit::done;
   print_error(fmt::format("reproduce: {} of {} claims do not hold", tally.all - tally.hold, tally.all));
   return Exit::requirement;

@@ -1,6 +1,7 @@
 #include "experiments/oscillating_horseshoe.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "experiments/inputs.hpp"
 
@@ -22,6 +23,26 @@ VertexId most_moved(const Moment& from, const Moment& to, double side) {
     if (moved > furthest) furthest = moved, most = to.vertices[v];
   }
   return most;
+}
+
+std::vector<OrderedRun> run_orders(Effort effort) {
+  const int outer = effort == Effort::full ? 50 : 16;
+  std::vector<OrderedRun> all;
+  for (const char* energy : {"F", "dT"}) {
+    for (const VertexOrder& order : vertex_orders(effort == Effort::full ? 7 : 0)) {
+      OptimizeOptions options = positions_and_collapses();
+      visit_in(order, options);
+      options.paper.collapse_energy = find_energy(energy)->kind;
+      options.paper.outer = outer;
+      all.push_back({order.name, energy, oscillation_of(record(dense_horseshoe(), options, Keep::outer))});
+    }
+  }
+  return all;
+}
+
+/// a and b between two moments.
+std::array<VertexId, 2> oscillating_between(const Moment& from, const Moment& to) {
+  return {most_moved(from, to, -1), most_moved(from, to, +1)};
 }
 
 }  // namespace
@@ -65,8 +86,7 @@ const Mesh& oscillating_mesh() { return oscillating_run().all(Snapshot::Moment::
 
 std::array<VertexId, 2> oscillating_vertices() {
   const auto flipped = oscillating_run().all(Snapshot::Moment::after_flips);
-  const Moment &from = *flipped[flipped.size() - 2], &to = *flipped.back();
-  return {most_moved(from, to, -1), most_moved(from, to, +1)};
+  return oscillating_between(*flipped[flipped.size() - 2], *flipped.back());
 }
 
 Oscillation oscillation_of(const Recording& run) {
@@ -87,7 +107,29 @@ Oscillation oscillation_of(const Recording& run) {
   o.low = *low, o.high = *high;
   o.vertices = flipped.back()->mesh.n_vertices();
   o.flipped = differ(n - 1, n - 2);
+  const Moment &one = *flipped[n - 2], &other = *flipped[n - 1];
+  const std::array<VertexId, 2> movers = oscillating_between(one, other);
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    const auto place = [&](const Moment& m) { return m.mesh.position(m.find(movers[i])); };
+    o.places_low[i] = place(one.energy < other.energy ? one : other);
+    o.places_high[i] = place(one.energy < other.energy ? other : one);
+  }
   return o;
+}
+
+bool as_in_the_paper(const Oscillation& o) {
+  constexpr double kPaperLow = 3.41, kPaperHigh = 4.08, kNear = 0.05;  // relative
+  const auto near = [](double ours, double paper) { return std::abs(ours - paper) <= kNear * paper; };
+  return o.period == 2 && near(o.low, kPaperLow) && near(o.high, kPaperHigh);
+}
+
+const std::vector<OrderedRun>& oscillations_by_order(Effort effort) {
+  if (effort == Effort::full) {
+    static const std::vector<OrderedRun> full = run_orders(Effort::full);
+    return full;
+  }
+  static const std::vector<OrderedRun> reduced = run_orders(Effort::reduced);
+  return reduced;
 }
 
 }  // namespace temper::gallery

@@ -45,7 +45,7 @@ struct RuleComparison {
 [[nodiscard]] std::string removal_panels(const Recording& run, double weight_scale);
 /// Removals by iteration and the mesh before and after.
 [[nodiscard]] Table removal_table(const Recording& run);
-/// Coarse but of high quality: fewer vertices, better shapes.
-[[nodiscard]] Claim coarse_but_good(const Recording& run, const std::string& figure);
+/// Coarse but of high quality: fewer vertices, better shapes than in the input and than without removals.
+[[nodiscard]] Claim coarse_but_good(Unknowns unknowns, const std::string& figure);
 
 }  // namespace temper::gallery

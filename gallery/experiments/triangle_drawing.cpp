@@ -14,15 +14,6 @@ constexpr double kFont = 14, kSmallFont = 12;
 constexpr double kGap = 8;  // between cells and around the table, pixels
 constexpr const char *kInk = "#222222", *kDual = "#005fa3", *kPositive = "#00845f", *kNegative = "#c8320a";
 
-// "E_{F}" with the part in braces lowered.
-std::string label(const std::string& text) {
-  const std::size_t at = text.find("_{"), end = text.find('}');
-  if (at == std::string::npos || end == std::string::npos) return escaped(text);
-  return escaped(text.substr(0, at)) + "<tspan dy=\"0.3em\" font-size=\"70%\">" +
-         escaped(text.substr(at + 2, end - at - 2)) + "</tspan><tspan dy=\"-0.21em\">" + escaped(text.substr(end + 1)) +
-         "</tspan>";
-}
-
 // Generous: markup and the bytes of a Greek letter count too.
 double width_of(const std::string& text) {
   constexpr double kPerByte = 7.5;
@@ -31,7 +22,7 @@ double width_of(const std::string& text) {
 
 std::string text_at(double x, double y, const std::string& text, double size = kFont, const char* anchor = "middle") {
   return "<text x=\"" + pixels(x) + "\" y=\"" + pixels(y) + "\" font-size=\"" + pixels(size) + "\" text-anchor=\"" +
-         anchor + "\">" + label(text) + "</text>\n";
+         anchor + "\">" + subscripted(text) + "</text>\n";
 }
 
 // One cell: pixels from the triangle's own coordinates.
@@ -79,6 +70,14 @@ class Cell {
 };
 
 }  // namespace
+
+std::string subscripted(const std::string& text) {
+  const std::size_t at = text.find("_{"), end = text.find('}');
+  if (at == std::string::npos || end == std::string::npos) return escaped(text);
+  return escaped(text.substr(0, at)) + "<tspan dy=\"0.3em\" font-size=\"70%\">" +
+         escaped(text.substr(at + 2, end - at - 2)) + "</tspan><tspan dy=\"-0.21em\">" + escaped(text.substr(end + 1)) +
+         "</tspan>";
+}
 
 std::string triangle_table_svg(const TriangleTable& table) {
   std::size_t columns = table.columns.size();

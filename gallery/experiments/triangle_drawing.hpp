@@ -23,6 +23,9 @@ struct TriangleTable {
   double cell_width = 110;                     ///< pixels
 };
 
+/// "d_{ij} and more" as what an SVG text holds: the part in braces lowered.
+[[nodiscard]] std::string subscripted(const std::string& text);
+
 /// Triangles black, duals blue from the orthocenter to each edge's line (dashed where they miss the edge), circles of
 /// radius √|w|: green for positive weights, red and dashed for negative ones.
 [[nodiscard]] std::string triangle_table_svg(const TriangleTable& table);

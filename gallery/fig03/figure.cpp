@@ -169,10 +169,10 @@ Claim middle_of_edge() {
   return {"3",
           "Collapsing the vertex into the middle of the opposite edge is a local minimum of E_F^0",
           "a local minimum",
-          "least at x = " + digits(best, 2) + " of all |x| < 1; there y · E_F^0 → " + digits(times_y, 4) +
-              ", so E_F^0 falls without bound",
+          "least at x = " + digits(best, 2) + " of all |x| < 1, but as a pole and no minimum: there y · E_F^0 → " +
+              digits(times_y, 4) + ", so that E_F^0 falls without bound and a search has nothing to end at",
           best == 0 && energy(0, {0, 1e-6}) < energy(0, {0, 1e-4}),
-          "grid of x at y = 1e−4, and y → 1e−6 at x = 0: the minimum is a pole, −1/(12 y), not a value"};
+          "grid of x at y = 1e−4, and y → 1e−6 at x = 0, where E_F^0 goes like −1/(12 y)"};
 }
 
 // The most that E_F in the middle of a segment exceeds the mean of its ends.

@@ -121,21 +121,24 @@ Claim unbounded() {
 
 Claim other_angles() {
   const double turning = turning_angle();
-  std::size_t unbounded = 0, left = 0, n = 0;
+  std::size_t unbounded = 0, left = 0, with_minimum = 0, n = 0;
   for (int k = 1; k <= 99; ++k) {
     const double lead = weight_polynomial(1, k * kPi / 100)[3];
     const double value = energy(1, k * kPi / 100, lead > 0 ? -1e4 : 1e4);
     unbounded += value < -1e3;
     left += lead > 0;
+    with_minimum += extrema(weight_polynomial(1, k * kPi / 100)).has_value();
     ++n;
   }
   return {"4",
           "Triangles with other angles behave alike: a local minimum, and no bound",
           "qualitatively similar",
-          "unbounded at " + digits(unbounded) + " of " + digits(n) + " angles, towards w → −∞ at " + digits(left) +
-              "; at angles below " + digits(turning, 4) + "π the unbounded side is w → +∞ instead",
-          unbounded == n,
-          "sign of the cubic's leading coefficient, and E_F^1 < −1000 on that side, each hundredth of π"};
+          "alike but for the side: a local minimum at " + digits(with_minimum) + " and no bound at " +
+              digits(unbounded) + " of " + digits(n) + " angles, but w → −∞ is the unbounded side at " + digits(left) +
+              " only; at angles below " + digits(turning, 4) + "π it is w → +∞",
+          unbounded == n && with_minimum == n,
+          "extrema of the cubic, sign of the cubic's leading coefficient, and E_F^1 < −1000 on that side, each "
+          "hundredth of π"};
 }
 
 Claim shallower() {

@@ -85,7 +85,8 @@ Claim heights_alone() {
           "left open (its open problem: weights with all h positive)",
           "weights (" + weights + ") give every h ≥ " + digits(search.margin, 3) + " ℓ",
           search.margin > 0,
-          digits(search.tries) + " random trials, each better one kept"};
+          digits(search.tries) + " random trials, each better one kept",
+          Author::temper};
 }
 
 Claim dense_input(const Mesh& mesh) {

@@ -189,14 +189,14 @@ Claim coincident_orthocenters(const SparseRun& as_numbered, const CoincidentCent
   if (found.example) {
     text += "; order " + name(*found.example) + ": distance " + digits(shortest_dual(found.run.last().mesh), 1);
   }
-  return {
-      "13",
-      "E_T has nearly coincident orthocenters",
-      "nearly coincident",
-      text + "; as numbered they are " + digits(shortest_dual(as_numbered.last().mesh), 2) + " apart",
-      found.coincident > 0,
-      "depends on the order of the vertices, which the paper does not give: shortest dual of an interior edge at the "
-      "end of each run"};
+  return {"13",
+          "E_T has nearly coincident orthocenters",
+          "nearly coincident",
+          text + "; as numbered they are " + digits(shortest_dual(as_numbered.last().mesh), 2) + " apart",
+          2 * found.coincident > found.all,
+          "more than half of the orders were asked for. It depends on the order of the vertices, which the paper does "
+          "not give: shortest dual of an interior edge at the "
+          "end of each run"};
 }
 
 }  // namespace

@@ -136,7 +136,8 @@ Claim good_in_any_order(int random, double tolerance) {
           "one order shown",
           "good meshes: " + found,
           holds,
-          "the same runs over vertex orders, to a mean fall of " + digits(tolerance, 1) + " per triangle"};
+          "the same runs over vertex orders, to a mean fall of " + digits(tolerance, 1) + " per triangle",
+          Author::temper};
 }
 
 Claim bhs_like_bp(const std::array<Pair, 3>& pairs) {

@@ -207,7 +207,8 @@ Claim stable_in_any_order(const Stability& s) {
           digits(early) + " of these follow a collapse of iteration 0 (" + digits(s.after_first.size()) +
               " cases), on a mesh that is far from optimal still, and " + digits(late) + " of " +
               digits(s.after_later.size()) + " a later one. In " + digits(s.removed) +
-              " more the kept vertex itself collapsed next."};
+              " more the kept vertex itself collapsed next.",
+          Author::temper};
 }
 
 Claim collapses_meet_the_rule(const Stability& s) {

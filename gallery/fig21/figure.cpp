@@ -292,13 +292,39 @@ Claim first_search_ends_at_its_limit() {
           ". The paper does not define its radius."};
 }
 
+std::string place_text(Vec2 p) { return "(" + digits(p.x, 3) + ", " + digits(p.y, 3) + ")"; }
+
+Claim places_of_the_states(Effort effort) {
+  std::size_t runs = 0, a_leftmost = 0, b_leftmost = 0;
+  for (const OrderedRun& r : oscillations_by_order(effort)) {
+    const Oscillation& o = r.oscillation;
+    if (!as_in_the_paper(o)) continue;
+    ++runs;
+    a_leftmost += o.places_low[0].x < o.places_high[0].x;
+    b_leftmost += o.places_low[1].x < o.places_high[1].x;
+  }
+  const Oscillation shown = oscillation_of(oscillating_run());
+  return {
+      "21",
+      "In the state of less energy a, the vertex of the left arm, is at its leftmost place.",
+      "left-most: 1.14; right-most: 0.986, then 1.49",
+      "a is at " + place_text(shown.places_low[0]) + " in the state of less energy and at " +
+          place_text(shown.places_high[0]) + " in the other; leftmost in the former in " + digits(a_leftmost) + " of " +
+          digits(runs) + " runs, b of the right arm in " + digits(b_leftmost),
+      runs > 0 && 2 * a_leftmost > runs,
+      "The runs of figure 20 that end in two states with the paper's energies, whatever their vertex order. In both "
+      "arms the vertex stands inwards in the state of less energy: the energies are those of the paper, and its "
+      "places those of b, at " +
+          place_text(shown.places_low[1]) + " and " + place_text(shown.places_high[1]) + "."};
+}
+
 }  // namespace
 
-Page make_fig21(Effort) {
+Page make_fig21(Effort effort) {
   return {{curves()},
           {energies()},
           {one_search_leaves_regularity(), energies_go_down_and_up(), flip_is_a_minimum(), mostly_extrapolated(),
-           first_search_ends_at_its_limit()}};
+           first_search_ends_at_its_limit(), places_of_the_states(effort)}};
 }
 
 }  // namespace temper::gallery

@@ -189,7 +189,8 @@ Claim replays() {
               " vertices with the same bits in x, y and w; connectivity " +
               (again && *again == run.result ? "the same" : "different"),
           again && *again == run.result && same == run.result.n_vertices() && !run.events.empty(),
-          "Moves, weights, flips and collapses applied to the input without any energy."};
+          "Moves, weights, flips and collapses applied to the input without any energy.",
+          Author::temper};
 }
 
 }  // namespace

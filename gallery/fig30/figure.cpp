@@ -196,7 +196,7 @@ Page make_fig30(Effort effort) {
             "Positions alone under E_BP with γ = 1, flips at once, vertices visited as numbered."},
            plot()},
           {removal_table(run), comparison_table(effort)},
-          {coarse_but_good(run, "30"), removes_more(o), same_and_more(o), always_valid(effort)}};
+          {coarse_but_good(Unknowns::positions, "30"), removes_more(o), same_and_more(o), always_valid(effort)}};
 }
 
 }  // namespace temper::gallery

@@ -153,13 +153,13 @@ Claim summed_energy_guts(const std::vector<LargeRun>& runs) {
 Page make_fig31(Effort effort) {
   const Recording& run = patch_test_run(Unknowns::positions_and_weights);
   const std::vector<LargeRun> large = large_runs(effort);
-  return {
-      {{"fig31", removal_panels(run, 1),
-        "The mesh with which each iteration begins, the vertices that it removes in red, and the final mesh. "
-        "Positions and weights under E_BP with γ = 1, weights from iteration 0, flips at once, vertices visited as "
-        "numbered. Weight circles to scale."}},
-      {removal_table(run), large_table(large)},
-      {coarse_but_good(run, "31"), later_with_weights(effort), weights_move_less(effort), summed_energy_guts(large)}};
+  return {{{"fig31", removal_panels(run, 1),
+            "The mesh with which each iteration begins, the vertices that it removes in red, and the final mesh. "
+            "Positions and weights under E_BP with γ = 1, weights from iteration 0, flips at once, vertices visited as "
+            "numbered. Weight circles to scale."}},
+          {removal_table(run), large_table(large)},
+          {coarse_but_good(Unknowns::positions_and_weights, "31"), later_with_weights(effort),
+           weights_move_less(effort), summed_energy_guts(large)}};
 }
 
 }  // namespace temper::gallery

@@ -1,17 +1,21 @@
-// Every claim of the paper is a test: it holds, or it is known not to.
+// Every claim of the paper is a test: it holds, or it is known not to; and docs/paper.md says what was found.
 //
-// The pages are made with reduced effort, once for all tests of this process.
+// The pages are made once for all tests of this process. Built with TEMPER_QUICK_CLAIMS the figures are those that take
+// little time with reduced effort, which finds other numbers than docs/paper.md has.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <ostream>
 #include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "gallery/gallery.hpp"
+#include "gallery/results.hpp"
 
 namespace temper::gallery {
 
@@ -20,8 +24,7 @@ void PrintTo(const Figure& figure, std::ostream* out) { *out << "figure " << fig
 
 namespace {
 
-constexpr std::size_t kFiguresOfPaper = 29;  // 3 to 32 without the drawing 5
-constexpr std::size_t kLeastClaims = 40;
+constexpr std::size_t kFiguresOfPaper = 32;
 
 /// A claim of the paper that does not hold: a figure, or section, and a part of the claim. One that comes to hold must
 /// go from here.
@@ -29,26 +32,52 @@ struct Exception {
   std::string_view figure, part;
 };
 constexpr Exception kDoesNotHold[] = {
+    {"2.1", "pushes the midpoint and the orthocenter"},
+    {"2.3", "alone gives no barrier"},
+    {"4 Barriers", "tends to zero where an edge collapses"},
     {"6", "is concave, as its Hessian"},
     {"7", "is negative definite"},
+    {"8", "have minima where the free vertex coincides"},
     {"12", "can send p_4's y to −∞"},
+    {"13", "E_T has nearly coincident orthocenters"},
+    {"14", "E_T is similar to E_∂T"},
+    {"15", "neither near-collapses nor explicit collapses"},
     {"16", "The number of circumcenters in no triangle"},
     {"18", "converge in fewer iterations"},
     {"19", "whatever the order in which vertices are visited"},
     {"21", "the first stops at its limit"},
+    {"21", "at its leftmost place"},
+    {"6.6.1", "The best strategy is"},
     {"23", "many vertices become hidden, inside and three on the boundary"},
     {"23", "All dual vertices have moved inside"},
     {"23", "Unlimited weights with deferred flips are chaotic"},
     {"6.6.2", "lowest energy in all cases"},
     {"26", "a fifth at the start of the third"},
     {"29", "Two adjacent 4-valent nodes"},
+    {"30", "coarse mesh of high quality"},
+    {"31", "coarse mesh of high quality"},
 };
+
+#ifdef TEMPER_QUICK_CLAIMS
+constexpr Effort kEffort = Effort::reduced;
+constexpr int kQuick[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+#else
+constexpr Effort kEffort = Effort::full;
+#endif
+
+/// The figures whose claims are asked for here.
+std::vector<Figure> asked() {
+  std::vector<Figure> chosen(figures().begin(), figures().end());
+#ifdef TEMPER_QUICK_CLAIMS
+  std::erase_if(chosen, [](const Figure& f) { return std::ranges::find(kQuick, f.number) == std::end(kQuick); });
+#endif
+  return chosen;
+}
 
 const Page& page(const Figure& figure) {
   static std::map<int, Page> pages;
   const auto found = pages.find(figure.number);
-  return found != pages.end() ? found->second
-                              : pages.emplace(figure.number, figure.make(Effort::reduced)).first->second;
+  return found != pages.end() ? found->second : pages.emplace(figure.number, figure.make(kEffort)).first->second;
 }
 
 bool matches(const Exception& exception, const Claim& claim) {
@@ -98,11 +127,11 @@ TEST_P(EachFigure, HasPicturesNamedAfterItAndCompleteTables) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Gallery, EachFigure, testing::ValuesIn(figures().begin(), figures().end()),
+INSTANTIATE_TEST_SUITE_P(Gallery, EachFigure, testing::ValuesIn(asked()),
                          [](const auto& test) { return "Figure" + std::to_string(test.param.number); });
 
-TEST(Gallery, FiguresAreInOrderAndTitled) {
-  ASSERT_FALSE(figures().empty());
+TEST(Gallery, FiguresAreThoseOfThePaperInOrderAndTitled) {
+  EXPECT_EQ(figures().size(), kFiguresOfPaper);
   int last = 0;
   for (const Figure& figure : figures()) {
     EXPECT_GT(figure.number, last);
@@ -115,7 +144,7 @@ TEST(Gallery, FiguresAreInOrderAndTitled) {
 TEST(Gallery, NoTwoClaimsOrPicturesAreTheSame) {
   std::set<std::pair<std::string, std::string>> claims;
   std::set<std::string> pictures;
-  for (const Figure& figure : figures()) {
+  for (const Figure& figure : asked()) {
     for (const Claim& claim : page(figure).claims)
       EXPECT_TRUE(claims.emplace(claim.figure, claim.claim).second) << claim.figure << ": " << claim.claim;
     for (const Picture& picture : page(figure).pictures)
@@ -124,12 +153,7 @@ TEST(Gallery, NoTwoClaimsOrPicturesAreTheSame) {
   EXPECT_FALSE(pictures.empty());
 }
 
-TEST(Gallery, AllFiguresTogetherMakeFortyClaims) {
-  EXPECT_EQ(figures().size(), kFiguresOfPaper);
-  std::size_t claims = 0;
-  for (const Figure& figure : figures()) claims += page(figure).claims.size();
-  EXPECT_GE(claims, kLeastClaims);
-}
+#ifndef TEMPER_QUICK_CLAIMS
 
 TEST(Gallery, EveryKnownExceptionIsAClaim) {
   for (const Exception& exception : kDoesNotHold) {
@@ -140,6 +164,43 @@ TEST(Gallery, EveryKnownExceptionIsAClaim) {
     EXPECT_EQ(claims, 1) << exception.figure << ": " << exception.part;
   }
 }
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// What docs/paper.md has between its marks.
+std::vector<std::string> documented() {
+  std::ifstream file(TEMPER_SOURCE_DIR "/docs/paper.md");
+  std::ostringstream text;
+  text << file.rdbuf();
+  constexpr std::string_view kBegin = "<!-- claims -->\n\n", kEnd = "\n<!-- /claims -->";
+  const std::string page = text.str();
+  const std::size_t begin = page.find(kBegin), end = page.find(kEnd);
+  if (begin == page.npos || end == page.npos) return {};
+  return lines_of(page.substr(begin + kBegin.size(), end - begin - kBegin.size()));
+}
+
+TEST(Gallery, TheDocsHaveEveryRowAsItIsFound) {
+  std::vector<Result> results;
+  for (const Figure& figure : figures()) results.push_back({figure, page(figure)});
+  const std::vector<std::string> found = lines_of(claims_markdown(results)), docs = documented();
+  const auto missing = [](const std::vector<std::string>& lines, const std::vector<std::string>& among) {
+    std::string text;
+    for (const std::string& line : lines) {
+      if (std::ranges::find(among, line) == among.end()) text += line + "\n";
+    }
+    return text;
+  };
+  EXPECT_TRUE(found == docs) << "Found, and not in docs/paper.md:\n"
+                             << missing(found, docs) << "In docs/paper.md, and not found:\n"
+                             << missing(docs, found) << "temper reproduce -o DIR && gallery/update_docs.py DIR";
+}
+
+#endif
 
 }  // namespace
 }  // namespace temper::gallery

@@ -37,8 +37,9 @@ TEST_F(Reproduce, WritesPicturesAPageAndClaims) {
   for (const nlohmann::json& claim : json["claims"]) {
     for (const char* key : {"figure", "claim", "paper", "temper", "why"}) EXPECT_TRUE(claim[key].is_string()) << key;
     EXPECT_TRUE(claim["holds"].is_boolean());
+    EXPECT_TRUE(claim["author"] == "paper" || claim["author"] == "temper");
   }
-  EXPECT_EQ(without_pictures(names()), (Names{"folder", "gallery.json", "index.html", "new"}));
+  EXPECT_EQ(without_pictures(names()), (Names{"claims.md", "folder", "gallery.json", "index.html", "new"}));
 }
 
 TEST_F(Reproduce, WritesTheSameBytesTwice) {
@@ -61,7 +62,7 @@ TEST_F(Reproduce, ListNamesEveryFigureAndWritesNothing) {
 }
 
 TEST_F(Reproduce, BadUsageTouchesNothing) {
-  for (const char* figure : {"1", "33", "six", "6,", "7-6"}) {
+  for (const char* figure : {"0", "33", "six", "6,", "7-6"}) {
     EXPECT_EQ(temper({"reproduce", figure, "-o", "out"}).exit, 2) << figure;
   }
   EXPECT_EQ(temper({"reproduce", "6"}).exit, 2);
@@ -105,6 +106,8 @@ TEST_F(Reproduce, ASignalLeavesWholeFilesThatFitTogether) {
         for (const nlohmann::json& figure : json["figures"]) {
           for (const std::string picture : figure["pictures"]) EXPECT_TRUE(exists("out/" + picture)) << picture;
         }
+      } else if (name == "claims.md") {
+        EXPECT_TRUE(read("out/" + name).ends_with("\n"));
       } else {
         EXPECT_TRUE(contains(read("out/" + name), name == "index.html" ? "</html>" : "</svg>")) << name;
       }

@@ -19,7 +19,7 @@ std::vector<Result> two_results() {
   first.page.claims = {{"6", "the minimum is 4/3", "4", "1.3333", true, "minimised from 20 starts"},
                        {"4", "B is \"concave\"", "yes", "no", false, "midpoint below"}};
   Result second = {{8, "Six energies", "landscapes", nothing}, {}};
-  second.page.claims = {{"2.4", "thresholds", "", "", true, ""}};
+  second.page.claims = {{"2.4", "thresholds", "", "", true, "", Author::temper}};
   return {first, second};
 }
 
@@ -29,12 +29,15 @@ std::size_t count(const std::string& text, const std::string& part) {
   return n;
 }
 
-TEST(Results, ClaimsAreCounted) {
+TEST(Results, ClaimsAreCountedByTheirAuthor) {
   const std::vector<Result> results = two_results();
-  EXPECT_EQ(count_claims(results[0].page).hold, 1u);
-  EXPECT_EQ(count_claims(results[0].page).all, 2u);
-  EXPECT_EQ(count_claims(results).hold, 2u);
-  EXPECT_EQ(count_claims(results).all, 3u);
+  EXPECT_EQ(count_claims(results[0].page, Author::paper).hold, 1u);
+  EXPECT_EQ(count_claims(results[0].page, Author::paper).all, 2u);
+  EXPECT_EQ(count_claims(results, Author::paper).all, 2u);
+  EXPECT_EQ(count_claims(results, Author::temper).hold, 1u);
+  EXPECT_EQ(count_claims(results, Author::temper).all, 1u);
+  EXPECT_EQ(verdict_sentence(results), "1 of 2 claims of the paper hold, and 1 of 1 of ours.");
+  EXPECT_EQ(verdict_sentence(std::span(results).first(1)), "1 of 2 claims of the paper hold.");
 }
 
 TEST(GalleryJson, HasEveryFigureAndEveryClaimWithAllKeys) {
@@ -46,14 +49,35 @@ TEST(GalleryJson, HasEveryFigureAndEveryClaimWithAllKeys) {
     {"number": 8, "title": "Six energies", "pictures": []}])"));
   ASSERT_EQ(document["claims"].size(), 3u);
   EXPECT_EQ(document["claims"][1], json::parse(R"({"figure": "4", "claim": "B is \"concave\"", "paper": "yes",
-    "temper": "no", "holds": false, "why": "midpoint below"})"));
-  EXPECT_EQ(
-      document["claims"][2],
-      json::parse(R"({"figure": "2.4", "claim": "thresholds", "paper": "", "temper": "", "holds": true, "why": ""})"));
+    "temper": "no", "holds": false, "why": "midpoint below", "author": "paper"})"));
+  EXPECT_EQ(document["claims"][2],
+            json::parse(R"({"figure": "2.4", "claim": "thresholds", "paper": "", "temper": "", "holds": true, "why": "",
+    "author": "temper"})"));
 }
 
 TEST(GalleryJson, OfNoFiguresStillHasItsKeys) {
   EXPECT_EQ(json::parse(gallery_json({}, "1")), json::parse(R"({"version": "1", "figures": [], "claims": []})"));
+}
+
+TEST(ClaimsMarkdown, HasARowForEachClaimAndAReasonForEachThatDoesNotHold) {
+  EXPECT_EQ(claims_markdown(two_results()), R"(1 of 2 claims of the paper hold, and 1 of 1 of ours.
+
+| where | claim | the paper | temper | holds |
+|-|-|-|-|-|
+| fig. 6 | the minimum is 4/3 | 4 | 1.3333 | ✓ |
+| fig. 4 | B is "concave" | yes | no | **✗** |
+| §2.4 | thresholds | (ours)  |  | ✓ |
+
+Why the others do not:
+
+- *B is "concave"* (fig. 4): midpoint below
+)");
+}
+
+TEST(ClaimsMarkdown, EscapesWhatTablesAndEmphasisAreMadeOf) {
+  std::vector<Result> results = two_results();
+  results[0].page.claims = {{"6", "a|b", "a*b", "a<b\nc", true, ""}};
+  EXPECT_NE(claims_markdown(results).find("| a\\|b | a\\*b | a&lt;b c | ✓ |"), std::string::npos);
 }
 
 TEST(IndexHtml, ShowsPicturesTablesAndClaimsOfEachFigure) {
@@ -61,8 +85,9 @@ TEST(IndexHtml, ShowsPicturesTablesAndClaimsOfEachFigure) {
   for (const char* part :
        {"<img src=\"fig06.svg\" alt=\"E_BH over (d, h)\">", "<img src=\"fig06_zoom.svg\"", "Edge &lt;hard&gt;",
         "walls &amp; a minimum", "<i>E</i><sub>BH</sub> over (d, h)</figcaption>", "<p class=\"caption\">Minima</p>",
-        "<th class=\"n\">value</th>", "<td class=\"n\">1.333</td>", "<td>d = h</td>", "<b>2 of 3</b> claims hold",
-        "minimised from 20 starts", "temper 1.2.3", "id=\"fig8\"", "href=\"#fig8\"", "§2.4"}) {
+        "<th class=\"n\">value</th>", "<td class=\"n\">1.333</td>", "<td>d = h</td>",
+        "<b>1 of 2 claims of the paper hold, and 1 of 1 of ours.</b>", "minimised from 20 starts", "temper 1.2.3",
+        "id=\"fig8\"", "href=\"#fig8\"", "§2.4"}) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
   }
   EXPECT_EQ(count(html, "✓"), 2u);
