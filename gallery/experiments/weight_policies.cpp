@@ -33,9 +33,15 @@ class Reversals {
 };
 
 /// One sweep, and the flips after it.
-Moment one_sweep(const Mesh& mesh, const OptimizeOptions& options, std::size_t& flips) {
-  Recording run = record(mesh, options, Keep::sweeps);
-  for (const TraceEvent& e : run.events) flips += e.kind == EventKind::flip ? 1 : 0;
+Moment one_sweep(PolicyRun& policy_run, const OptimizeOptions& options) {
+  Recording run = record(policy_run.end, options, Keep::sweeps);
+  VertexId last;  // whose weight was the last to change
+  for (const TraceEvent& e : run.events) {
+    if (e.kind == EventKind::weight || e.kind == EventKind::move) last = e.vertex;
+    if (e.kind != EventKind::flip) continue;
+    ++policy_run.flips;
+    if (last.valid()) ++policy_run.flips_by_vertex[policy_run.vertices[last.index]];
+  }
   return std::move(run.moments.back());
 }
 
@@ -79,12 +85,15 @@ OptimizeOptions policy_options(const WeightPolicy& policy, const VertexOrder& or
 PolicyRun run_policy(const WeightPolicy& policy, const Mesh& start, const VertexOrder& order, int sweeps) {
   OptimizeOptions options = policy_options(policy, order);
   const double overshoot = options.paper.overshoot - 1;
-  PolicyRun run{policy, {total_energy(start, energy_dt())}, start, {}, 0, 0, 0, 0, 0, 0};
+  PolicyRun run;
+  run.policy = policy;
+  run.energies = {total_energy(start, energy_dt())};
+  run.end = start;
   for (const VertexId v : start.vertices()) run.vertices.push_back(v);
   Reversals reversals(start.n_vertices());
   for (int i = 0; i < sweeps; ++i) {
     options.paper.overshoot = 1 + overshoot * std::pow(0.1, i);  // as it would shrink in one run
-    Moment after = one_sweep(run.end, options, run.flips);
+    Moment after = one_sweep(run, options);
     std::vector<VertexId> vertices;
     for (const VertexId v : after.mesh.vertices()) {
       const VertexId before = after.vertices[v];

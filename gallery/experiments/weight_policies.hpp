@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ struct PolicyRun {
   Mesh end;
   std::vector<VertexId> vertices;  ///< of `end`: numbers in the start
   std::size_t flips = 0;
+  std::map<VertexId, std::size_t>
+      flips_by_vertex;  ///< flips that follow a change of the vertex's weight, by its number
   std::size_t hidden_inside = 0, hidden_on_boundary = 0;
   std::size_t rises = 0;  ///< sweeps after which the energy was higher
   double reversals = 0;   ///< part of all weight changes that undo some of the vertex's last one

@@ -6,6 +6,7 @@
 #include "experiments/edge_energy.hpp"
 #include "experiments/minimise.hpp"
 #include "experiments/random.hpp"
+#include "experiments/random_triangle.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "temper/geometry.hpp"
@@ -205,6 +206,104 @@ Claim best_weights(const WeightFormulas& w) {
           digits(w.triangles) + " random triangles"};
 }
 
+/// Random segments between two points at which a function is finite: those with a point above both ends, and those with
+/// one above the chord.
+struct Segments {
+  std::size_t all = 0, above_ends = 0, above_chord = 0;
+  [[nodiscard]] std::string text() const {
+    return digits(above_ends) + " of " + digits(all) + " segments have a point above both ends, " +
+           digits(above_chord) + " one above the chord";
+  }
+};
+/// make(random) gives a function of t in [0, 1].
+template <class Make>
+Segments sample_segments(std::uint64_t seed, std::size_t count, Make&& make) {
+  constexpr double kMost = 1e4;  // at a wall h and d have lost their digits
+  Random random(seed);
+  Segments s;
+  while (s.all < count) {
+    const auto f = make(random);
+    const double a = f(0.0), b = f(1.0);
+    if (!(std::max(a, b) < kMost)) continue;
+    const double t = random(0, 1), between = f(t), larger = std::max(a, b);
+    ++s.all;
+    s.above_ends += between > larger * (1 + kRounding);
+    s.above_chord += between > a + t * (b - a) + larger * kRounding;
+  }
+  return s;
+}
+
+Corners between(const Corners& p, const Corners& q, double t) {
+  Corners r = p;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    r[i] = {p[i].x + t * (q[i].x - p[i].x), p[i].y + t * (q[i].y - p[i].y), p[i].w + t * (q[i].w - p[i].w)};
+  }
+  return r;
+}
+Corners with_weights(Corners p, Random& random) {
+  for (WeightedPoint& v : p) v.w = random(-1, 1);
+  return p;
+}
+
+Claim quasi_convex_in_weights(std::size_t count) {
+  const Segments s = sample_segments(61, count, [](Random& random) {
+    const Corners p = random_triangle(random, 0), a = with_weights(p, random), b = with_weights(p, random);
+    return [=](double t) {
+      const Corners c = between(a, b, t);
+      const EdgeEnergy e{EnergyKind::BH, length(c[1].position() - c[0].position()), 0};
+      return e(edge_split(c[0], c[1]), signed_height(c[0], c[1], c[2]));
+    };
+  });
+  return {"4 Quasi-convexity for Weights",
+          "E_BH^1 of an edge is a quasi-convex function of the three weights",
+          "level sets convex",
+          s.text(),
+          s.above_ends == 0,
+          "segments between random weights of random triangles, one random point on each"};
+}
+
+Claim triangle_in_weights(std::size_t count) {
+  const EnergyModel hard = paper_model(EnergyKind::BH);
+  const Segments s = sample_segments(62, count, [&](Random& random) {
+    const Corners p = random_triangle(random, 0), a = with_weights(p, random), b = with_weights(p, random);
+    return [=](double t) {
+      const Corners c = between(a, b, t);
+      return triangle_energy(hard, c[0], c[1], c[2]);
+    };
+  });
+  return {
+      "7 Further Exploration",
+      "E_BH^1 of a whole triangle is quasi-convex in its weights, too",
+      "“needs to be extended”",
+      s.text(),
+      s.above_ends == 0,
+      "the sum over three edges, segments as for one; a sample and no proof: sums of quasi-convex functions need not "
+      "be so",
+      Author::temper};
+}
+
+Claim triangle_in_positions(std::size_t count) {
+  const EnergyModel hard = paper_model(EnergyKind::BH);
+  const Segments one = sample_segments(63, count, [&](Random& random) {
+    const Corners a = random_triangle(random, 0);
+    Corners b = a;
+    b[2] = {random(-1, 1), random(-1, 1), 0};
+    return [=](double t) {
+      const Corners c = between(a, b, t);
+      return triangle_energy(hard, c[0], c[1], c[2]);
+    };
+  });
+  return {
+      "7 Further Exploration",
+      "E_BH^1 is quasi-convex in the position of a vertex",
+      "“investigate the convexity (or lack thereof)”",
+      one.text(),
+      one.above_ends == 0,
+      "one vertex of random acute triangles moves to another place where the triangle is acute. Between the two it may "
+      "be obtuse, and E_BH infinite: the acute triangles over an edge are no convex set",
+      Author::temper};
+}
+
 }  // namespace
 
 Page make_fig06(Effort effort) {
@@ -235,7 +334,10 @@ Page make_fig06(Effort effort) {
                  shifted_minimiser(full ? 60 : 10),
                  quasi_convex("E_BHs^1", shifted, "established to be quasi-convex"),
                  equations(weights),
-                 best_weights(weights)};
+                 best_weights(weights),
+                 quasi_convex_in_weights(full ? 50000 : 2000),
+                 triangle_in_weights(full ? 50000 : 2000),
+                 triangle_in_positions(full ? 50000 : 2000)};
   return page;
 }
 

@@ -9,7 +9,9 @@
 #include "experiments/text.hpp"
 #include "experiments/triangle_drawing.hpp"
 #include "figures.hpp"
+#include "temper/generate.hpp"
 #include "temper/geometry.hpp"
+#include "temper/optimize.hpp"
 
 namespace temper::gallery {
 namespace {
@@ -185,13 +187,127 @@ Claim sign_of_weights() {
           "five energies, angles 0.02π apart; E_BH and E_BHs where they have a solution"};
 }
 
+/// Over all angles, with the best weight: how many triangles have their orthocenter inside, and the mean of the least
+/// h.
+struct Centering {
+  std::size_t solved = 0, inside = 0;
+  double mean_h = 0;
+};
+Centering centering(EnergyKind kind, double softening) {
+  EnergyModel model = paper_model(kind);
+  model.gamma.value = model.h0.value = softening;
+  Centering c;
+  for (int k = 1; k < 100; ++k) {
+    const auto found = best_weight(model, k * kPi / 100);
+    if (!found) continue;
+    ++c.solved;
+    c.inside += found->margins.min_h > 0;
+    c.mean_h += found->margins.min_h;
+  }
+  c.mean_h /= static_cast<double>(std::max(c.solved, std::size_t{1}));
+  return c;
+}
+
+Claim smaller_constants_center() {
+  bool holds = true;
+  std::string found;
+  for (const EnergyKind kind : {EnergyKind::BP, EnergyKind::BHs}) {
+    std::size_t before = 0;
+    found += kind == EnergyKind::BP ? "E_BP: " : "; E_BHs: ";
+    for (const double softening : {1.0, 0.5, 0.15, 0.05}) {
+      const Centering c = centering(kind, softening);
+      holds = holds && c.inside >= before;
+      before = c.inside;
+      found +=
+          (softening < 1 ? ", " : "") + digits(c.inside) + " of " + digits(c.solved) + " at " + digits(softening, 2);
+    }
+    holds = holds && before > centering(kind, 1).inside;
+  }
+  return {"6.1.2",
+          "Smaller constants encourage E_BP and E_BHs towards well-centered orthocenters",
+          "by setting smaller constants",
+          "orthocenter inside with the best weight, by γ and −h°: " + found,
+          holds,
+          "99 angles, of which E_BHs has a solution where it is counted"};
+}
+
+/// Correlation of an inner vertex's valence with its weight less the mean of its neighbours', over the square of the
+/// mean distance to them.
+struct Correlation {
+  double coefficient = 0;
+  std::array<double, 2> mean = {};         ///< of low (five and less) and high (seven and more) valences
+  std::array<std::size_t, 2> number = {};  ///< of such vertices
+};
+Correlation weight_by_valence(const Mesh& mesh) {
+  std::vector<Vec2> pairs;
+  Correlation c;
+  for (const VertexId v : mesh.vertices()) {
+    if (mesh.is_boundary(v)) continue;
+    double weights = 0, lengths = 0, n = 0;
+    for (const HalfedgeId h : mesh.star(v)) {
+      weights += mesh.weight(mesh.target(h));
+      lengths += length(mesh.position(mesh.target(h)) - mesh.position(v));
+      n += 1;
+    }
+    const double excess = (mesh.weight(v) - weights / n) * n * n / (lengths * lengths);
+    pairs.push_back({n, excess});
+    if (n == 6) continue;
+    const std::size_t high = n > 6 ? 1 : 0;
+    c.mean[high] += excess;
+    ++c.number[high];
+  }
+  for (std::size_t i = 0; i < 2; ++i) c.mean[i] /= static_cast<double>(std::max(c.number[i], std::size_t{1}));
+  Vec2 mean;
+  for (const Vec2 p : pairs) mean = mean + (1 / static_cast<double>(pairs.size())) * p;
+  double xy = 0, xx = 0, yy = 0;
+  for (const Vec2 p : pairs) {
+    const Vec2 d = p - mean;
+    xy += d.x * d.y, xx += d.x * d.x, yy += d.y * d.y;
+  }
+  c.coefficient = xy / std::sqrt(xx * yy);
+  return c;
+}
+
+Claim valence_and_weight(Effort effort) {
+  bool holds = true;
+  std::string found;
+  for (const EnergyKind kind : {EnergyKind::BP, EnergyKind::T}) {
+    auto mesh = random_points({.vertices = effort == Effort::full ? 400U : 120U});
+    OptimizeOptions options = kind == EnergyKind::T ? paper_method() : OptimizeOptions();
+    options.energy = kind;
+    options.paper.removal = Removal::none;
+    options.paper.collapse_from = {};
+    options.paper.inversion = Inversion::refuse;
+    options.max_sweeps = 40;
+    if (!mesh || !optimize(*mesh, options)) {
+      holds = false;
+      continue;
+    }
+    const Correlation c = weight_by_valence(*mesh);
+    holds = holds && c.coefficient > 0.3 && c.mean[0] < 0 && c.mean[1] > 0;
+    found += std::string(kind == EnergyKind::BP ? "E_BP" : "; E_T") + " correlation " + digits(c.coefficient, 2) +
+             ", mean weight " + digits(c.mean[0], 2) + " at " + digits(c.number[0]) +
+             " vertices of valence 5 and less, " + digits(c.mean[1], 2) + " at " + digits(c.number[1]) +
+             " of 7 and more";
+  }
+  return {
+      "6.2",
+      "On optimised meshes low-valence nodes have negative weights, high-valence nodes positive ones",
+      "Engwirda's observation",
+      found,
+      holds,
+      "random points, positions and weights optimised without removals; weights less the mean of the neighbours', in "
+      "units of the squared mean edge there"};
+}
+
 }  // namespace
 
 Page make_fig09(Effort effort) {
   const int steps = effort == Effort::full ? 10000 : 1000;
   Page page;
   page.pictures = {drawings()};
-  page.claims = {no_single_weight(steps), two_weights(steps), t_equals_f(), obtuse_t(), sign_of_weights()};
+  page.claims = {no_single_weight(steps),    two_weights(steps),        t_equals_f(), obtuse_t(), sign_of_weights(),
+                 smaller_constants_center(), valence_and_weight(effort)};
   return page;
 }
 
