@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include "experiments/closeness.hpp"
@@ -16,13 +18,14 @@ namespace {
 // Energies of a mess are 1e12 and more, of meshes without one at most a few times the input's.
 constexpr double kBeyondBounds = 1000;
 
-OptimizeOptions options_of(const Cell& cell, Effort effort, Inversion inversion) {
+OptimizeOptions options_of(const Cell& cell, Effort effort, Inversion inversion, Star star) {
   OptimizeOptions options = high_heat_options(cell.energy);
   options.unknowns = cell.unknowns;
   options.paper.weights_from = 0;
   options.paper.inversion = inversion;
   options.paper.outer = 4;
-  options.max_sweeps = effort == Effort::full ? 150 : 20;
+  options.star = star;
+  options.max_sweeps = effort == Effort::reduced ? 20 : star == Star::one ? 150 : 60;
   if (cell.rule == RemovalRule::patch) options.paper.removal = Removal::patch;
   if (cell.rule != RemovalRule::short_edge) options.paper.collapse_from = {};
   return options;
@@ -51,6 +54,7 @@ Ending ending_of(const Recording& run) {
 
 void run_cell(Cell& cell, const OptimizeOptions& setting, Effort effort) {
   std::vector<VertexOrder> orders = vertex_orders(effort == Effort::full ? 1 : 0);
+  if (setting.star != Star::one) orders.resize(2);
   if (effort == Effort::reduced) orders.resize(1);
   for (const VertexOrder& order : orders) {
     OptimizeOptions options = setting;
@@ -60,13 +64,13 @@ void run_cell(Cell& cell, const OptimizeOptions& setting, Effort effort) {
   }
 }
 
-Matrix compute(Effort effort, Inversion inversion) {
+Matrix compute(Effort effort, Inversion inversion, Star star) {
   Matrix matrix;
   for (const std::string_view energy : kFiveEnergies) {
     for (const Unknowns unknowns : kUnknowns) {
       for (const RemovalRule rule : kRules) {
         Cell cell{energy, unknowns, rule, {}};
-        run_cell(cell, options_of(cell, effort, inversion), effort);
+        run_cell(cell, options_of(cell, effort, inversion, star), effort);
         matrix.cells.push_back(std::move(cell));
       }
     }
@@ -79,7 +83,7 @@ Matrix compute(Effort effort, Inversion inversion) {
 std::vector<Ending> endings(std::string_view energy, Unknowns unknowns, RemovalRule rule, HiddenPolicy hidden,
                             Effort effort) {
   Cell cell{energy, unknowns, rule, {}};
-  OptimizeOptions options = options_of(cell, effort, Inversion::refuse);
+  OptimizeOptions options = options_of(cell, effort, Inversion::refuse, Star::one);
   options.paper.hidden = hidden;
   run_cell(cell, options, effort);
   return std::move(cell.endings);
@@ -108,11 +112,12 @@ const Cell& Matrix::at(std::string_view energy, Unknowns unknowns, RemovalRule r
       cells, [&](const Cell& c) { return c.energy == energy && c.unknowns == unknowns && c.rule == rule; });
 }
 
-const Matrix& summary_matrix(Effort effort, Inversion inversion) {
-  static std::array<std::vector<Matrix>, 4> computed;
-  auto& slot = computed[(effort == Effort::full ? 0U : 1U) + (inversion == Inversion::refuse ? 0U : 2U)];
-  if (slot.empty()) slot.push_back(compute(effort, inversion));
-  return slot.front();
+const Matrix& summary_matrix(Effort effort, Inversion inversion, Star star) {
+  static std::map<std::tuple<Effort, Inversion, Star>, Matrix> computed;
+  const auto key = std::tuple(effort, inversion, star);
+  const auto found = computed.find(key);
+  return found != computed.end() ? found->second
+                                 : computed.emplace(key, compute(effort, inversion, star)).first->second;
 }
 
 }  // namespace temper::gallery

@@ -45,12 +45,13 @@ struct Cell {
 };
 
 /// 5 energies × {positions, positions and weights} × {no removal, short edges, patch test}, in this order; flips
-/// deferred, weights from iteration 0, a few outer iterations.
+/// deferred, weights from iteration 0, a few outer iterations. Of ★0 and ★2 two vertex orders and fewer sweeps, as many
+/// as tell their ends.
 struct Matrix {
   std::vector<Cell> cells;
   [[nodiscard]] const Cell& at(std::string_view energy, Unknowns unknowns, RemovalRule rule) const;
 };
-[[nodiscard]] const Matrix& summary_matrix(Effort effort, Inversion inversion);
+[[nodiscard]] const Matrix& summary_matrix(Effort effort, Inversion inversion, Star star = Star::one);
 
 /// One cell again, hidden vertices treated by another policy.
 [[nodiscard]] std::vector<Ending> endings(std::string_view energy, Unknowns unknowns, RemovalRule rule,

@@ -1,12 +1,14 @@
 // Figure 31: the patch test with positions and weights: later than with positions alone, and with care on large meshes.
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/domain.hpp"
 #include "experiments/high_heat.hpp"
 #include "experiments/inputs.hpp"
 #include "experiments/patch_test.hpp"
+#include "experiments/star_matrices.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "temper/generate.hpp"
@@ -192,13 +194,15 @@ Claim mean_is_no_cure() {
 Page make_fig31(Effort effort) {
   const Recording& run = patch_test_run(Unknowns::positions_and_weights);
   const std::vector<LargeRun> large = large_runs(effort);
+  std::vector<Claim> claims = {coarse_but_good(Unknowns::positions_and_weights, "31"), later_with_weights(effort),
+                               weights_move_less(effort), summed_energy_guts(large), mean_is_no_cure()};
+  for (Claim& claim : star_claims(effort)) claims.push_back(std::move(claim));
   return {{{"fig31", removal_panels(run, 1),
             "The mesh with which each iteration begins, the vertices that it removes in red, and the final mesh. "
             "Positions and weights under E_BP with γ = 1, weights from iteration 0, flips at once, vertices visited as "
             "numbered. Weight circles to scale."}},
-          {removal_table(run), large_table(large)},
-          {coarse_but_good(Unknowns::positions_and_weights, "31"), later_with_weights(effort),
-           weights_move_less(effort), summed_energy_guts(large), mean_is_no_cure()}};
+          {removal_table(run), large_table(large), star_table(effort)},
+          std::move(claims)};
 }
 
 }  // namespace temper::gallery
