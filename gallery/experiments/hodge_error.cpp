@@ -32,7 +32,7 @@ struct Measure {
 
 Measure point(Vec2 p) { return {1, {p}, {1}}; }
 
-/// Gauss's rule with four nodes on each of `pieces`: exact for polynomials of degree 7.
+/// Gauss's rule with four nodes: exact for polynomials of degree 7.
 Measure segment(Vec2 a, Vec2 b) {
   constexpr double kNode[] = {0.8611363115940526, 0.3399810435848563},
                    kPart[] = {0.3478548451374538, 0.6521451548625461};
@@ -173,7 +173,7 @@ double monotone_cost(const Pair& pair, bool turned) {
 }  // namespace
 
 std::vector<Mesh> weighted_meshes(Effort effort) {
-  constexpr double kWeight = 0.2;  // of the square of the mean edge
+  constexpr double kWeight = 0.1;  // of the square of the mean edge
   const std::size_t vertices = effort == Effort::full ? 400 : 80;
   std::vector<Mesh> meshes;
   for (auto& made :

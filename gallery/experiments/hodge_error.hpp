@@ -17,7 +17,8 @@
 
 namespace temper::gallery {
 
-/// Regular meshes with weights, without hidden vertices.
+/// Regular meshes with weights, without hidden vertices: random points, an annulus, a sheared grid.
+inline constexpr std::size_t kWeightedMeshes = 3;
 [[nodiscard]] std::vector<Mesh> weighted_meshes(Effort effort);
 
 struct StarComparison {

@@ -210,7 +210,7 @@ Claim definition_is_formula(const std::vector<Mesh>& meshes) {
           "Eq. 1, transport of a simplex to its dual, is eq. 2 with (α, β) = (1/4, 1/12), (1/3, 1/3), (1/12, 1/4)",
           "reduces to eq. 2",
           "differ at an inner simplex by at most, relative: " + found,
-          holds && meshes.size() > 1,
+          holds && meshes.size() == kWeightedMeshes,
           digits(meshes.size()) + " regular weighted meshes, " + counts +
               " vertices, edges and triangles; costs by quadrature over the power cells, dual edges and triangles "
               "themselves. An edge and its dual are at right angles, so that every way to move one to the other costs "
@@ -230,7 +230,7 @@ Claim energy_bounds_error(const std::vector<Mesh>& meshes, std::size_t densities
       "HOT is an upper bound on the error of the diagonal Hodge star",
       "upper bound",
       "squared error over HOT: " + found,
-      holds && meshes.size() > 1,
+      holds && meshes.size() == kWeightedMeshes,
       digits(densities) +
           " random waves of slope at most 1 on each of the same meshes; Σ |*σ| |σ| (mean on σ − mean on *σ)², "
           "simplices inside the domain; of 1-forms what the direction of the edge sees. A ratio above 1 would refute, "
