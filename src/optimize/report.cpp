@@ -145,8 +145,8 @@ void Notes::tell_edges_that_must_be_split() {
   const HalfedgeId worst = edges.front().edge;
   add(count_of(edges.size(), "edge of the boundary or of lines has", "edges of the boundary or of lines have") +
       " to be split, or a vertex near it moved, before any mesh can be well-centered here, first the one from " +
-      name_of(mesh_.origin(worst)) + " to " + name_of(mesh_.target(worst)) +
-      ": explain tells more, and `boundary=split` splits them");
+      name_of(mesh_.origin(worst)) + " to " + name_of(mesh_.target(worst)) + ": explain tells more" +
+      (options_.boundary == BoundaryVertices::split ? "" : ", and `boundary=split` splits them"));
 }
 
 void Notes::tell_accuracy() {
