@@ -4,8 +4,8 @@
     bench/growth.py BUILD [--verbs check,optimize] [--shapes fan,strip] [--limit 60] [--check]
 
 BUILD is a build folder with the program. Each row is a run of the program at sizes that grow by a factor of 3; a row
-ends at the shape's largest size, or with the first run that takes longer than --limit seconds. What is shown are the
-processor seconds of the largest run and the exponent p of n^p, between the two largest ones that took a tenth of a
+ends at the shape's largest size, or with the first run that takes more than --limit processor seconds. What is shown are
+those of the largest run and the exponent p of n^p, between the two largest ones that took a tenth of a
 second or more: n log n is below 1.1 at these sizes. --check exits with 1 when an exponent is above 1.35, which noise
 alone does not do, or a run is cut off.
 """
@@ -14,11 +14,11 @@ import argparse
 import math
 import os
 import pathlib
+import resource
 import signal
 import subprocess
 import sys
 import tempfile
-import time
 
 FACTOR = 3
 LARGEST_EXPONENT = 1.35
@@ -119,6 +119,7 @@ VERBS = {
     "verify": "verify {mesh}",
 }
 
+
 def write_off(path, points, triangles):
     with open(path, "w") as file:
         file.write(f"OFF\n{len(points)} {len(triangles)} 0\n")
@@ -128,17 +129,17 @@ def write_off(path, points, triangles):
 
 def run(command, limit):
     """Processor seconds of a run, or None when it was cut off; and its exit status."""
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    end = time.monotonic() + limit
-    while True:
-        pid, status, usage = os.wait4(process.pid, os.WNOHANG)
-        if pid != 0:
-            return usage.ru_utime + usage.ru_stime, os.waitstatus_to_exitcode(status)
-        if time.monotonic() > end:
-            process.send_signal(signal.SIGKILL)
-            os.wait4(process.pid, 0)
-            return None, None
-        time.sleep(0.005)
+
+    def set_limit():
+        seconds = math.ceil(limit)
+        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))  # SIGXCPU, and if that is of no use SIGKILL
+
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=set_limit)
+    _, status, usage = os.wait4(process.pid, 0)
+    code = os.waitstatus_to_exitcode(status)
+    if code == -signal.SIGXCPU:
+        return None, None
+    return usage.ru_utime + usage.ru_stime, code
 
 
 def exponent(runs):
@@ -161,7 +162,7 @@ def measured(program, template, shape, limit, folder):
         seconds, status = run([program, *words], limit)
         if seconds is None:
             return runs, f"over {limit:g} s at {len(triangles)}"
-        if status not in (0, 3, 4):  # 3, 4: what it found is bad, or stayed so
+        if status not in (0, 3, 4, 6):  # what it found is bad, or stayed so; no weights
             return runs, f"exit {status} at {len(triangles)}"
         runs.append((len(triangles), seconds))
         n *= FACTOR
@@ -173,7 +174,7 @@ def main():
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--verbs", default=",".join(VERBS), help="of the table, separated by commas")
     parser.add_argument("--shapes", default=",".join(s.name for s in SHAPES))
-    parser.add_argument("--limit", type=float, default=60, help="seconds a run")
+    parser.add_argument("--limit", type=float, default=60, help="processor seconds a run")
     parser.add_argument("--check", action="store_true", help="exit with 1 when a row grows too fast or is cut off")
     given = parser.parse_args()
     program, failed = given.build / "apps" / "temper" / "temper", False
