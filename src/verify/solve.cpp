@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace temper::verify_detail {
 namespace {
@@ -138,6 +139,21 @@ bool all_finite(const LinearSystem& system) {
                      [](const MatrixEntry& entry) { return std::isfinite(entry.value); });
 }
 
+using Lu = Eigen::SparseLU<Matrix>;
+
+/// Eigen 3.4 gives back a vector's memory before it asks for more, and gives it back again in the destructor when there
+/// is no more. So what memory ran out for is left as it is, and never ends.
+std::unique_ptr<Lu> lu_of(const Matrix& matrix) {
+  auto lu = std::make_unique<Lu>();
+  try {
+    lu->compute(matrix);
+  } catch (...) {
+    static_cast<void>(lu.release());
+    throw;
+  }
+  return lu;
+}
+
 /// LDLᵀ, or LU: false when neither solves it.
 bool factor_and_solve(const LinearSystem& system, bool with_condition, LinearSolution& result) {
   const Vector scaling = scaling_of(system);
@@ -145,9 +161,8 @@ bool factor_and_solve(const LinearSystem& system, bool with_condition, LinearSol
   const Eigen::SimplicialLDLT<Matrix> ldlt(scaled.matrix);
   result.definite = ldlt.info() == Eigen::Success && (ldlt.vectorD().array() > 0).all();
   if (result.definite) return solve_with(scaled, ldlt, with_condition, result);
-  Eigen::SparseLU<Matrix> lu;
-  lu.compute(scaled.matrix);
-  return lu.info() == Eigen::Success && solve_with(scaled, lu, with_condition, result);
+  const std::unique_ptr<Lu> lu = lu_of(scaled.matrix);
+  return lu->info() == Eigen::Success && solve_with(scaled, *lu, with_condition, result);
 }
 
 }  // namespace
