@@ -8,6 +8,9 @@
 //   BH   (α d² + β h²) / (χ h),  χ² = d_ij d_ji            eq. 4;  needs h > 0 and 0 < d < ℓ
 //   BHs  (α d² + β h²) / (χ (h − h°)),  h° ≤ 0             eq. 6;  needs h > h° and 0 < d < ℓ
 //   BP   (α d² + β h²) / (χ φ),  φ = (h + √(h² + γ²))/2    eq. 7;  needs 0 < d < ℓ
+//   nF, nT, ndT   F, T and dT of each triangle over its squared area    Mousley et al. 2011; no unit
+//   ODT  d³h (5/12) + d h³ (1/4), |h| on the boundary          with zero weights the interpolation error of |x|²,
+//        S Σℓ²/24 of a triangle, which optimal Delaunay triangulations (Chen and Xu 2004) minimise; of no star
 //
 // summed over the six half-edges of each triangle. (The paper's eqs. 11, 17, 18 leave out the factor 1/3 of
 // ★1: there the least E_BH of an edge is 4, here 4/3.) A barrier is +∞ outside its domain, never NaN.
@@ -26,9 +29,9 @@
 
 namespace temper {
 
-enum class EnergyKind { F, T, dT, BH, BHs, BP };
+enum class EnergyKind { F, T, dT, BH, BHs, BP, nF, nT, ndT, ODT };
 /// The number of kinds, which is the number of rows of energies().
-inline constexpr std::size_t kEnergyKinds = static_cast<std::size_t>(EnergyKind::BP) + 1;
+inline constexpr std::size_t kEnergyKinds = static_cast<std::size_t>(EnergyKind::ODT) + 1;
 
 /// The Hodge star that an energy is for: it picks α and β.
 enum class Star {
@@ -62,13 +65,16 @@ struct Softening {
 /// One row of the registry.
 struct EnergyInfo {
   EnergyKind kind;
-  std::string_view name;                 ///< "F", "T", "dT", "BH", "BHs", "BP"
+  std::string_view name;                 ///< "F", "T", "dT", …
   std::string_view formula;              ///< for help texts and docs
   BoundaryTreatment boundary_treatment;  ///< the one its definition asks for
   bool barrier;                          ///< +∞ outside 0 < d < ℓ
   bool softened_by_gamma;                ///< has a γ
   bool softened_by_h0;                   ///< has an h°
   int length_exponent;                   ///< E(s·mesh) = s^this · E(mesh) with relative softening
+  bool signed_by_dual = false;           ///< the sign of an edge is that of its dual length
+  bool normalized = false;               ///< each triangle over its squared area
+  bool positions_alone = false;          ///< for meshes without weights, which stay so
 };
 
 /// All energies, in the order of the table above.
@@ -82,9 +88,11 @@ struct EnergyInfo {
 struct EnergyModel {
   EnergyKind kind = EnergyKind::BP;
   Star star = Star::one;                                            ///< zero, one or two
-  BoundaryTreatment boundary_treatment = BoundaryTreatment::as_is;  ///< of F only; the others define their own
+  BoundaryTreatment boundary_treatment = BoundaryTreatment::as_is;  ///< of F and nF; the others define their own
   Softening gamma = {1.0, LengthScale::absolute};  ///< γ of E_BP; the paper's examples use 1, absolute
   Softening h0 = {0.0, LengthScale::absolute};     ///< −h° of E_BHs, ≥ 0
+  /// A barrier is +∞ on inverted triangles too. The paper's are not: E_BP has any h in its domain, E_BHs all h > h°.
+  bool wall = false;
 };
 
 /// E of one triangle alone, all its edges boundary edges.

@@ -26,11 +26,15 @@ inline constexpr std::array<EnergyInfo, kEnergyKinds> kEnergies = [] {
   return std::array<EnergyInfo, kEnergyKinds>{{
       // kind, name, formula of a half-edge, boundary, barrier, γ, h°, length exponent
       {F, "F", "α d³h + β d h³", as_is, false, false, false, 4},
-      {T, "T", "sgn(h_k + h_l) (α d³h + β d h³)", absolute, false, false, false, 4},
+      {T, "T", "sgn(h_k + h_l) (α d³h + β d h³)", absolute, false, false, false, 4, true},
       {dT, "dT", "α d³h + β d h³, |h| on the boundary", absolute, false, false, false, 4},
       {BH, "BH", "(α d² + β h²) / (√(d_ij d_ji) h)", as_is, true, false, false, 0},
       {BHs, "BHs", "(α d² + β h²) / (√(d_ij d_ji) (h − h°))", as_is, true, false, true, 0},
       {BP, "BP", "(α d² + β h²) / (√(d_ij d_ji) φ), φ = (h + √(h² + γ²))/2", as_is, true, true, false, 0},
+      {nF, "nF", "(α d³h + β d h³) / area²", as_is, false, false, false, 0, false, true},
+      {nT, "nT", "sgn(h_k + h_l) (α d³h + β d h³) / area²", absolute, false, false, false, 0, true, true},
+      {ndT, "ndT", "(α d³h + β d h³) / area², |h| on the boundary", absolute, false, false, false, 0, false, true},
+      {ODT, "ODT", "5/12 d³h + 1/4 d h³, |h| on the boundary", absolute, false, false, false, 4, false, false, true},
   }};
 }();
 static_assert(
@@ -48,6 +52,9 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr std::array<double, 3> kAlpha = {1.0 / 4, 1.0 / 3, 1.0 / 12};
 inline constexpr std::array<double, 3> kBeta = {1.0 / 12, 1.0 / 3, 1.0 / 4};
 
+/// α and β of E_ODT: the interpolation error of |x|² over a triangle is ρ² A − ∫|x − o|², with the circumradius ρ.
+inline constexpr double kAlphaOdt = 5.0 / 12, kBetaOdt = 1.0 / 4;
+
 /// Value, gradient and Hessian of an edge energy in (L, w, g).
 template <class T>
 struct EdgeTerm {
@@ -56,10 +63,18 @@ struct EdgeTerm {
 
 // Each kernel computes what does not depend on g, its Base, once for the two triangles of an edge.
 
-/// E_F of one edge in one triangle. Odd in g; signs and boundary treatments are factors applied outside.
+/// E_F of one edge in one triangle. Odd in g; signs and boundary treatments are factors applied outside, and so is
+/// 1/area², of the whole triangle.
 struct HotKernel {
   static constexpr bool kBarrier = false;
   double alpha, beta;
+  bool normalized = false;
+
+  /// What the edges of a triangle count: 1, or 1/area².
+  template <class T>
+  [[nodiscard]] TEMPER_INLINE T per_area(const T& doubled_area) const {
+    return normalized ? 4.0 / (doubled_area * doubled_area) : all<T>(1);
+  }
 
   template <class T>
   struct Base {
@@ -200,6 +215,7 @@ struct BarrierKernel {
   static constexpr bool kBarrier = true;
   double alpha, beta;
   Height height;
+  double least_area = -kInfinity;  ///< a triangle must have a larger doubled area
 
   template <class T>
   struct Base {
@@ -262,13 +278,17 @@ struct BarrierKernel {
 struct EdgeFormula {
   enum class Form { hot, shifted, smoothed } form = Form::hot;
   double alpha = 0, beta = 0;
-  double first = 0, second = 0;  ///< s₁, s₂ or m₁, m₂
+  double first = 0, second = 0;    ///< s₁, s₂ or m₁, m₂
+  bool normalized = false;         ///< of hot
+  double least_area = -kInfinity;  ///< of the others
 };
 
 /// The one place where an energy's name becomes its formula.
 [[nodiscard]] inline EdgeFormula edge_formula(const EnergyModel& model) {
   const std::size_t star = static_cast<std::size_t>(model.star);
   EdgeFormula f{EdgeFormula::Form::hot, kAlpha[star], kBeta[star]};
+  f.normalized = kEnergies[static_cast<std::size_t>(model.kind)].normalized;
+  if (model.wall) f.least_area = 0;
   const auto soften = [&f](const Softening& s, double value) {
     (s.scale == LengthScale::absolute ? f.first : f.second) = value;
   };
@@ -284,9 +304,16 @@ struct EdgeFormula {
       f.form = EdgeFormula::Form::smoothed;
       soften(model.gamma, model.gamma.value * model.gamma.value);
       break;
+    case EnergyKind::ODT:
+      f.alpha = kAlphaOdt;
+      f.beta = kBetaOdt;
+      break;
     case EnergyKind::F:
     case EnergyKind::T:
     case EnergyKind::dT:
+    case EnergyKind::nF:
+    case EnergyKind::nT:
+    case EnergyKind::ndT:
       break;
   }
   return f;
@@ -296,16 +323,16 @@ struct EdgeFormula {
 template <class Visit>
 TEMPER_INLINE auto with_barrier(const EdgeFormula& f, Visit&& visit) {
   if (f.form == EdgeFormula::Form::shifted) {
-    return visit(BarrierKernel<ShiftedHeight>{f.alpha, f.beta, {f.first, f.second}});
+    return visit(BarrierKernel<ShiftedHeight>{f.alpha, f.beta, {f.first, f.second}, f.least_area});
   }
-  return visit(BarrierKernel<SmoothedHeight>{f.alpha, f.beta, {f.first, f.second}});
+  return visit(BarrierKernel<SmoothedHeight>{f.alpha, f.beta, {f.first, f.second}, f.least_area});
 }
 
 /// Calls visit with the kernel of the model.
 template <class Visit>
 TEMPER_INLINE auto with_kernel(const EnergyModel& model, Visit&& visit) {
   const EdgeFormula f = edge_formula(model);
-  if (f.form == EdgeFormula::Form::hot) return visit(HotKernel{f.alpha, f.beta});
+  if (f.form == EdgeFormula::Form::hot) return visit(HotKernel{f.alpha, f.beta, f.normalized});
   return with_barrier(f, visit);
 }
 

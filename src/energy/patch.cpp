@@ -14,16 +14,29 @@ namespace {
 /// HOT measures h towards the third corner: the sign of the left-hand height turns with the triangle.
 double same_side(double g, double doubled_area) { return doubled_area < 0 ? -g : g; }
 
-double outer_height(const Mesh& mesh, HalfedgeId h) {
-  const HalfedgeId other = mesh.twin(h);
-  if (!other.valid()) return 0;
+/// An edge in one of its triangles, h measured towards the third corner.
+struct EdgeInTriangle {
+  EdgeShape edge;
+  double doubled_area;
+};
+
+EdgeInTriangle edge_in_triangle(const Mesh& mesh, HalfedgeId h) {
   const TriangleShape s =
-      triangle_shape(mesh.point(mesh.origin(other)), mesh.point(mesh.target(other)), mesh.point(mesh.opposite(other)));
-  return same_side(s.edges[0].g, s.doubled_area);
+      triangle_shape(mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)), mesh.point(mesh.opposite(h)));
+  EdgeInTriangle result{s.edges[0], s.doubled_area};
+  result.edge.g = same_side(result.edge.g, s.doubled_area);
+  return result;
+}
+
+/// h ℓ = 0 on the boundary.
+EdgeInTriangle beyond(const Mesh& mesh, HalfedgeId h) {
+  const HalfedgeId other = mesh.twin(h);
+  return other.valid() ? edge_in_triangle(mesh, other) : EdgeInTriangle{{1, 0, 0}, 1};
 }
 
 template <class Kernel>
 double barrier_triangle(const Kernel& kernel, const TriangleShape& s) {
+  if (!(s.doubled_area > kernel.least_area)) return kInfinity;
   return kernel.value(s.edges[0]) + kernel.value(s.edges[1]) + kernel.value(s.edges[2]);
 }
 
@@ -114,11 +127,12 @@ class HotStar {
   }
 
   [[nodiscard]] double outer_share(std::size_t i) const {
-    if (model_.kind != EnergyKind::T || patch_.link_boundary[i] != 0) return 0;
+    if (!energy_info(model_.kind).signed_by_dual || patch_.link_boundary[i] != 0) return 0;
     const WeightedPoint q = patch_.q(i), r = patch_.r(i);
     const EdgeShape link{squared_length(r.position() - q.position()), q.w - r.w, patch_.outer_g[i]};
     const double orientation = edges_.doubled_area[i] < 0 ? -1 : 1;
-    return orientation * factor_[1][i] * HotKernel{formula_.alpha, formula_.beta}.value(link);
+    const HotKernel kernel{formula_.alpha, formula_.beta, formula_.normalized};
+    return orientation * factor_[1][i] * (kernel.value(link) * kernel.per_area(patch_.outer_doubled_area[i]));
   }
 
   const Patch& patch_;
@@ -147,25 +161,25 @@ VertexDerivatives hot_derivatives(const Patch& patch, const EnergyModel& model, 
 
 /// One edge with both its triangles, for the HOT energies.
 double full_edge_energy(const Mesh& mesh, const EnergyModel& model, const HotKernel& kernel, HalfedgeId h) {
-  const TriangleShape s =
-      triangle_shape(mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)), mesh.point(mesh.opposite(h)));
-  EdgeShape edge = s.edges[0];
-  edge.g = same_side(edge.g, s.doubled_area);
-  const double outer = outer_height(mesh, h);
-  const double factor = hot_factor(model, edge.g, outer, mesh.is_boundary(h));
-  return factor * (kernel.value(edge) + kernel.value(EdgeShape{edge.l2, edge.dw, outer}));
+  const auto [edge, area] = edge_in_triangle(mesh, h);
+  const auto [outer, outer_area] = beyond(mesh, h);
+  const double factor = hot_factor(model, edge.g, outer.g, mesh.is_boundary(h));
+  return factor * (kernel.value(edge) * kernel.per_area(area) +
+                   kernel.value(EdgeShape{edge.l2, edge.dw, outer.g}) * kernel.per_area(outer_area));
 }
 
 }  // namespace
 
 double hot_factor(const EnergyModel& model, double g, double g_other, bool boundary) {
+  const EnergyInfo& info = energy_info(model.kind);
   const auto sign = [](double x) { return x < 0 ? -1.0 : 1.0; };
   if (boundary) {
-    if (model.kind == EnergyKind::F && model.boundary_treatment == BoundaryTreatment::as_is) return 1;
-    if (model.kind == EnergyKind::F && model.boundary_treatment == BoundaryTreatment::mirrored) return 2;
+    const bool asks_model = info.boundary_treatment == BoundaryTreatment::as_is;
+    if (asks_model && model.boundary_treatment == BoundaryTreatment::as_is) return 1;
+    if (asks_model && model.boundary_treatment == BoundaryTreatment::mirrored) return 2;
     return sign(g);
   }
-  return model.kind == EnergyKind::T ? sign(g + g_other) : 1;
+  return info.signed_by_dual ? sign(g + g_other) : 1;
 }
 
 void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch) {
@@ -173,6 +187,7 @@ void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch) {
   patch.link.clear();
   patch.spoke.clear();
   patch.outer_g.clear();
+  patch.outer_doubled_area.clear();
   patch.link_boundary.clear();
   const auto add = [&](VertexId q) {
     const std::size_t i = patch.link.size();
@@ -190,7 +205,9 @@ void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch) {
     patch.spoke.push_back(h);
     add(mesh.target(h));
     if (with_outer) {
-      patch.outer_g.push_back(outer_height(mesh, Mesh::next(h)));
+      const EdgeInTriangle outer = beyond(mesh, Mesh::next(h));
+      patch.outer_g.push_back(outer.edge.g);
+      patch.outer_doubled_area.push_back(outer.doubled_area);
       patch.link_boundary.push_back(mesh.is_boundary(Mesh::next(h)) ? 1 : 0);
     }
     last = h;
@@ -247,14 +264,14 @@ double triangle_energy(const EnergyModel& model, const WeightedPoint& p, const W
         edge.g = same_side(edge.g, s.doubled_area);
         sum += hot_factor(model, edge.g, 0, true) * kernel.value(edge);
       }
-      return sum;
+      return sum * kernel.per_area(s.doubled_area);
     }
   });
 }
 
 double total_hot_energy(const Mesh& mesh, const EnergyModel& model, Executor* executor) {
   const EdgeFormula formula = edge_formula(model);
-  const HotKernel kernel{formula.alpha, formula.beta};
+  const HotKernel kernel{formula.alpha, formula.beta, formula.normalized};
   return blockwise_sum(mesh.n_triangles(), executor, [&](std::size_t i) {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {

@@ -24,6 +24,7 @@ struct Patch {
   std::vector<HalfedgeId> spoke;            ///< center → q_i, one a triangle
   std::vector<double> x, y, w;              ///< of q_0 … q_n, where q_n is q_0 again when closed; longer than that
   std::vector<double> outer_g;              ///< h ℓ of link edge i in its outer triangle; empty unless gathered
+  std::vector<double> outer_doubled_area;   ///< of that triangle; as long as outer_g
   std::vector<std::uint8_t> link_boundary;  ///< link edge i is a boundary edge; as long as outer_g
 
   [[nodiscard]] std::size_t size() const { return spoke.size(); }
@@ -36,11 +37,9 @@ struct Patch {
 void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch);
 
 /// Says whether the model looks across link edges and at boundary flags.
-[[nodiscard]] constexpr bool needs_outer(EnergyKind kind) {
-  return kind == EnergyKind::F || kind == EnergyKind::T || kind == EnergyKind::dT;
-}
+[[nodiscard]] inline bool needs_outer(EnergyKind kind) { return !energy_info(kind).barrier; }
 
-/// The patch's energy with its center at p. +∞ outside the domain of a barrier or when a triangle inverts there.
+/// The patch's energy with its center at p. +∞ outside the domain of a barrier.
 [[nodiscard]] double patch_energy(const Patch& patch, const EnergyModel& model, const WeightedPoint& p);
 
 /// Value, gradient and Hessian at p.

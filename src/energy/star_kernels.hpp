@@ -20,7 +20,7 @@ struct LinkArrays {
 inline constexpr std::size_t kStarSums = 10;
 
 /// The results of hot_edges(), written to a multiple of kLanes: for the edges pq, qr, rp of each triangle h ℓ on their
-/// left, and E_F; and S.
+/// left, and E_F, or E_nF; and S.
 struct HotEdges {
   double* g[3];
   double* value[3];

@@ -68,15 +68,16 @@ double barrier_value(const EdgeFormula& f, const LinkArrays& link, const Weighte
 }
 
 void hot_edges(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint& at, const HotEdges& edges) {
-  const HotKernel kernel{f.alpha, f.beta};
+  const HotKernel kernel{f.alpha, f.beta, f.normalized};
   const PackPoint p = everywhere(at);
   for (std::size_t i = 0; i < link.size; i += kLanes) {
     const PackPoint q = load_link(link, i), r = load_link(link, i + 1);
     const PackShape s = triangle_shape(spoke(p, q), spoke(p, r), q, r);
     const EdgeShapeOf<Pack> shapes[3] = {s.pq, s.qr, s.rp};
+    const Pack per_area = kernel.per_area(s.doubled_area);
     for (std::size_t k = 0; k < 3; ++k) {
       shapes[k].g.store(edges.g[k] + i);
-      kernel.value(shapes[k]).store(edges.value[k] + i);
+      (kernel.value(shapes[k]) * per_area).store(edges.value[k] + i);
     }
     s.doubled_area.store(edges.doubled_area + i);
   }
@@ -84,7 +85,7 @@ void hot_edges(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint
 
 void hot_derivatives(const EdgeFormula& f, const LinkArrays& link, const EdgeFactors& factors, const WeightedPoint& at,
                      double* out) {
-  const HotKernel kernel{f.alpha, f.beta};
+  const HotKernel kernel{f.alpha, f.beta, f.normalized};
   const PackPoint p = everywhere(at);
   StarSums sums;
   for (std::size_t i = 0; i < link.size; i += kLanes) {

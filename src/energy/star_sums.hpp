@@ -58,12 +58,28 @@ struct TriangleDerivatives {
     hessian.ww = hessian.ww + (f.f_wg * dg.w + f.f_ww);
     hessian.add_in_plane(2 * f.f_l);
   }
+  /// The derivatives of 4 F/S² from those of F, with m = ∇S; S is linear in p:
+  ///
+  ///   4/S² (∇F − 2 F m/S)      4/S² (∇²F − 2 (∇F⊗m + m⊗∇F)/S + 6 F m⊗m/S²)
+  TEMPER_INLINE void divide_by_area2(const Pack& f, const PlaneVector<Pack>& m, const Pack& inverse_area) {
+    const Pack factor = 4.0 * (inverse_area * inverse_area);
+    const PlaneVector<Pack> u = {-2.0 * inverse_area * m.x, -2.0 * inverse_area * m.y};
+    hessian.add(u, gradient);  // the upper half of u⊗∇F …
+    const PlaneVector<Pack> slope = {gradient.x, gradient.y};
+    const Pack f_u = 1.5 * f;
+    hessian.add(slope, {u.x, u.y, Pack::all(0)});  // … and of ∇F⊗u
+    hessian.add(u, {f_u * u.x, f_u * u.y, Pack::all(0)});
+    gradient = gradient + f * CornerVector<Pack>{u.x, u.y, Pack::all(0)};
+    gradient = factor * gradient;
+    for (Pack* h : {&hessian.xx, &hessian.xy, &hessian.xw, &hessian.yy, &hessian.yw, &hessian.ww}) *h = factor * *h;
+  }
 };
 
-/// Adds a triangle where `where` is set. The terms of its edges are asked for one after the other.
+/// Adds a triangle where `where` is set. The terms of its edges are asked for one after the other. With `over_area2`
+/// all of it is divided by the squared area.
 template <class Mask, class OfQr, class OfPq, class OfRp>
 TEMPER_INLINE void add_triangle(const Spoke<Pack>& a, const Spoke<Pack>& b, const PackShape& shape, Mask where,
-                                OfQr&& of_qr, OfPq&& of_pq, OfRp&& of_rp, StarSums& sum) {
+                                OfQr&& of_qr, OfPq&& of_pq, OfRp&& of_rp, StarSums& sum, bool over_area2 = false) {
   TriangleDerivatives d;
   d.g = heights_at_corner(a, b, shape.inverse_area);
   const PackTerm qr = of_qr();
@@ -73,19 +89,24 @@ TEMPER_INLINE void add_triangle(const Spoke<Pack>& a, const Spoke<Pack>& b, cons
   const PackTerm rp = of_rp();
   d.add(rp, b, d.g.rp);
   d.g.add_hessian(pq.f_g, qr.f_g, rp.f_g, d.hessian);
-  sum.value = sum.value + select(where, pq.f + qr.f + rp.f, Pack::all(0));
+  Pack value = pq.f + qr.f + rp.f;
+  if (over_area2) {
+    d.divide_by_area2(value, {a.y - b.y, b.x - a.x}, shape.inverse_area);
+    value = 4.0 * (shape.inverse_area * shape.inverse_area) * value;
+  }
+  sum.value = sum.value + select(where, value, Pack::all(0));
   sum.derivatives.add(where, d.gradient, d.hessian);
 }
 
 /// The lanes where the term of a barrier is inside its domain: positive and finite.
 TEMPER_INLINE Pack::Mask is_inside(const PackTerm& t) { return (t.f > 0) & (t.f < kInfinity); }
 
-/// Adds a barrier. Returns where all is inside its domain, and S > 0.
+/// Adds a barrier. Returns where all is inside its domain, behind the wall if it has one.
 template <class Kernel, class Mask>
 TEMPER_INLINE Mask add_barrier(const Kernel& kernel, const SpokeOf<Kernel>& a, const SpokeOf<Kernel>& b,
                                const PackPoint& q, const PackPoint& r, Mask where, StarSums& sum) {
   const PackShape s = triangle_shape(a.to, b.to, q, r);
-  Mask inside = s.doubled_area > 0;
+  Mask inside = s.doubled_area > kernel.least_area;
   const auto checked = [&inside](const PackTerm& t) {
     inside = inside & is_inside(t);
     return t;
@@ -110,7 +131,8 @@ TEMPER_INLINE void add_hot(const HotKernel& kernel, const PackPoint& p, const Pa
   const PackShape s = triangle_shape(a, b, q, r);
   add_triangle(
       a, b, s, where, [&] { return scaled(kernel.term(s.qr), factor_qr); },
-      [&] { return scaled(kernel.term(s.pq), factor_pq); }, [&] { return scaled(kernel.term(s.rp), factor_rp); }, sum);
+      [&] { return scaled(kernel.term(s.pq), factor_pq); }, [&] { return scaled(kernel.term(s.rp), factor_rp); }, sum,
+      kernel.normalized);
 }
 
 struct TriangleValue {
@@ -124,7 +146,8 @@ TEMPER_INLINE TriangleValue triangle_value(const Kernel& kernel, const SpokeOf<K
   const auto pq = kernel.fraction(a.base, shape.pq.g), rp = kernel.fraction(b.base, shape.rp.g);
   const auto qr = kernel.fraction(kernel.base(shape.qr.l2, shape.qr.dw), shape.qr.g);
   const Pack value = pq.x / pq.y + qr.x / qr.y + rp.x / rp.y;
-  return {value, (pq.y > 0) & (qr.y > 0) & (rp.y > 0) & (value < kInfinity)};
+  const Pack::Mask upright = shape.doubled_area > kernel.least_area;
+  return {value, upright & (pq.y > 0) & (qr.y > 0) & (rp.y > 0) & (value < kInfinity)};
 }
 
 /// Adds the value alone. Returns where all is inside its domain.
@@ -134,7 +157,7 @@ TEMPER_INLINE Mask add_barrier_value(const Kernel& kernel, const SpokeOf<Kernel>
   const PackShape shape = triangle_shape(a.to, b.to, q, r);
   const TriangleValue triangle = triangle_value(kernel, a, b, shape);
   sum = sum + select(where, triangle.value, Pack::all(0));
-  return triangle.inside & (shape.doubled_area > 0);
+  return triangle.inside;
 }
 
 }  // namespace temper::TEMPER_INSTRUCTION_SET

@@ -84,7 +84,7 @@ TEMPER_INLINE unsigned hessians(const Kernel& kernel, const TriangleLanes& lanes
   s.doubled_area.store(&result.doubled_area[0]);
   for (std::size_t i = 0; i < 6; ++i) d.gradient[i].store(&result.gradient[i][0]);
   for (std::size_t i = 0; i < 21; ++i) d.hessian.v[i].store(&result.hessian[i][0]);
-  return (is_inside(pq) & is_inside(qr) & is_inside(rp) & (s.doubled_area > 0)).bits();
+  return (is_inside(pq) & is_inside(qr) & is_inside(rp) & (s.doubled_area > kernel.least_area)).bits();
 }
 
 unsigned triangle_hessians(const EdgeFormula& formula, const TriangleLanes& triangles, TriangleHessians& result) {

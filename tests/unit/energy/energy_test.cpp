@@ -118,6 +118,84 @@ TEST(Energy, OfABarrierIsInfiniteOutsideItsDomainAndNeverNaN) {
   EXPECT_TRUE(std::isfinite(triangle_energy({.kind = EnergyKind::BP}, kP, kQ, obtuse)));
 }
 
+/// One vertex is pushed across its link, so that triangles around it turn over; weights leave 0 < d < ℓ.
+Mesh inverted_lattice() {
+  Mesh mesh = lattice({.jitter = 0.1, .weight = 0.05});
+  const WeightedPoint p = mesh.point(VertexId(12));
+  mesh.set_point(VertexId(12), {p.x + 1.2, p.y + 0.1, p.w});
+  return mesh;
+}
+
+TEST(Energy, OfTheSoftenedBarriersIsFiniteOnInvertedTrianglesUnlessThereIsAWall) {
+  const Mesh mesh = inverted_lattice();
+  const VertexId v(12);
+  int finite = 0;
+  for (EnergyModel model : all_models(1)) {
+    model.h0 = {100, LengthScale::relative};
+    if (!energy_info(model.kind).barrier) continue;
+    const double total = total_energy(mesh, model), naive = double(naive_total(mesh, model, v, naive_point(mesh, v)));
+    const VertexDerivatives star = vertex_energy(mesh, model, v);
+    EXPECT_EQ(std::isfinite(total), model.kind != EnergyKind::BH);
+    EXPECT_EQ(star.feasible, model.kind != EnergyKind::BH);
+    if (std::isfinite(total)) {
+      EXPECT_NEAR(total, naive, 1e-11 * naive);
+      ++finite;
+    }
+    model.wall = true;
+    EXPECT_TRUE(std::isinf(total_energy(mesh, model)));
+    EXPECT_TRUE(std::isinf(vertex_energy(mesh, model, v).value));
+    EXPECT_TRUE(std::isinf(triangle_energy(model, kQ, kP, kR)));
+  }
+  EXPECT_EQ(finite, 12);  // BP and BHs, three stars, both scales
+}
+
+TEST(Energy, DifferencesBehindNoWallAreTheDerivatives) {
+  const Mesh mesh = inverted_lattice();
+  const VertexId v(12);
+  int cases = 0;
+  for (EnergyModel model : all_models(1)) {
+    model.h0 = {100, LengthScale::relative};
+    const VertexDerivatives exact = vertex_energy(mesh, model, v);
+    if (!exact.feasible) continue;
+    const NaivePoint p = naive_point(mesh, v);
+    const auto at = [&](Real x, Real y, Real w) { return naive_total(mesh, model, v, {p.x + x, p.y + y, p.w + w}); };
+    const auto error = [&](Real h) {
+      const std::array<Real, 3> rise = {at(h, 0, 0) - at(-h, 0, 0), at(0, h, 0) - at(0, -h, 0),
+                                        at(0, 0, h) - at(0, 0, -h)};
+      Real largest = 0;
+      for (std::size_t i = 0; i < 3; ++i) largest = std::max(largest, std::abs(exact.gradient[i] - rise[i] / (2 * h)));
+      return largest;
+    };
+    EXPECT_NEAR(double(error(2e-5L) / error(1e-5L)), 4, 0.1) << energy_info(model.kind).name;
+    ++cases;
+  }
+  EXPECT_GT(cases, 25);
+}
+
+TEST(Energy, OfOptimalDelaunayTriangulationsIsTheInterpolationErrorOfTheSquare) {
+  Noise noise(3);
+  for (int i = 0; i < 100; ++i) {
+    const auto point = [&] { return WeightedPoint{noise(), noise(), 0}; };
+    const WeightedPoint p = point(), q = point(), r = point();
+    const Vec2 a = q.position() - p.position(), b = r.position() - p.position();
+    const double s = cross(a, b), squares = squared_length(a) + squared_length(b) + squared_length(b - a);
+    const bool acute = dot(a, b) > 0 && dot(b, b - a) > 0 && dot(a, a - b) > 0;
+    if (!(s > 0) || !acute) continue;  // |h| is h
+    EXPECT_NEAR(triangle_energy({.kind = EnergyKind::ODT}, p, q, r), s * squares / 24, 1e-12 * squares * squares);
+  }
+}
+
+TEST(Energy, OverSquaredAreaGrowsWithoutBoundWhereAnEdgeCollapses) {
+  for (const double e : {0.1, 0.01, 0.001}) {
+    const WeightedPoint near{e, 0, 0};
+    const double energy = triangle_energy({.kind = EnergyKind::nF}, kP, near, kR);
+    const double hot = triangle_energy({.kind = EnergyKind::F}, kP, near, kR), area = 0.5 * e * kR.y;
+    EXPECT_NEAR(energy, hot / (area * area), 1e-10 * energy);
+    EXPECT_GT(energy, 0.3 / e);
+    EXPECT_LT(hot, e);
+  }
+}
+
 TEST(Energy, OfPseudoBarrierTendsToTheHardBarrier) {
   const double hard = triangle_energy({.kind = EnergyKind::BH}, kP, kQ, kR);
   double last = std::numeric_limits<double>::infinity();

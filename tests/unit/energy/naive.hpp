@@ -16,9 +16,9 @@ struct NaivePoint {
   Real x, y, w;
 };
 
-/// d_ij, ℓ, and the same-side and left-hand signed heights of edge ij in triangle ijk.
+/// d_ij, ℓ, the same-side and left-hand signed heights of edge ij in triangle ijk, and the triangle's area.
 struct NaiveEdge {
-  Real d_ij, d_ji, l, h_same, h_left;
+  Real d_ij, d_ji, l, h_same, h_left, area;
 };
 
 inline NaiveEdge naive_edge(const NaivePoint& i, const NaivePoint& j, const NaivePoint& k) {
@@ -32,13 +32,16 @@ inline NaiveEdge naive_edge(const NaivePoint& i, const NaivePoint& j, const Naiv
   e.d_ji = e.l - e.d_ij;
   e.h_left = (ax * oy - ay * ox) / e.l;
   e.h_same = area2 > 0 ? e.h_left : -e.h_left;
+  e.area = area2 / 2;
   return e;
 }
 
 inline Real naive_half(const EnergyModel& m, Real d, Real d_other, Real h, Real l) {
   const std::array<Real, 3> alphas = {Real(1) / 4, Real(1) / 3, Real(1) / 12},
                             betas = {Real(1) / 12, Real(1) / 3, Real(1) / 4};
-  const Real alpha = alphas[static_cast<std::size_t>(m.star)], beta = betas[static_cast<std::size_t>(m.star)];
+  const bool odt = m.kind == EnergyKind::ODT;  // of no star
+  const Real alpha = odt ? Real(5) / 12 : alphas[static_cast<std::size_t>(m.star)];
+  const Real beta = odt ? Real(1) / 4 : betas[static_cast<std::size_t>(m.star)];
   const auto length_of = [&](const Softening& s) {
     return s.scale == LengthScale::relative ? s.value * l : Real(s.value);
   };
@@ -65,11 +68,15 @@ inline Real naive_total(const Mesh& mesh, const EnergyModel& m, VertexId v, cons
     return {q.x, q.y, q.w};
   };
   const bool barrier = energies()[static_cast<std::size_t>(m.kind)].barrier;
+  const bool normalized = m.kind == EnergyKind::nF || m.kind == EnergyKind::nT || m.kind == EnergyKind::ndT;
+  const bool by_dual_sign = m.kind == EnergyKind::T || m.kind == EnergyKind::nT;
+  const bool asks_for_treatment = m.kind == EnergyKind::F || m.kind == EnergyKind::nF;
   const auto side = [&](HalfedgeId h) {
     return naive_edge(at(mesh.origin(h)), at(mesh.target(h)), at(mesh.opposite(h)));
   };
   const auto both_halves = [&](const NaiveEdge& e, Real height) {
-    return naive_half(m, e.d_ij, e.d_ji, height, e.l) + naive_half(m, e.d_ji, e.d_ij, height, e.l);
+    const Real both = naive_half(m, e.d_ij, e.d_ji, height, e.l) + naive_half(m, e.d_ji, e.d_ij, height, e.l);
+    return normalized ? both / (e.area * e.area) : both;
   };
   Real sum = 0;
   for (const HalfedgeId h : mesh.halfedges()) {
@@ -79,15 +86,15 @@ inline Real naive_total(const Mesh& mesh, const EnergyModel& m, VertexId v, cons
       sum += both_halves(e, e.h_left);
       if (mesh.twin(h).valid()) sum += both_halves(e, side(mesh.twin(h)).h_left);
     } else if (!mesh.twin(h).valid()) {
-      const bool as_is = m.kind == EnergyKind::F && m.boundary_treatment == BoundaryTreatment::as_is;
-      const bool mirrored = m.kind == EnergyKind::F && m.boundary_treatment == BoundaryTreatment::mirrored;
+      const bool as_is = asks_for_treatment && m.boundary_treatment == BoundaryTreatment::as_is;
+      const bool mirrored = asks_for_treatment && m.boundary_treatment == BoundaryTreatment::mirrored;
       sum += as_is      ? both_halves(e, e.h_same)
              : mirrored ? 2 * both_halves(e, e.h_same)
                         : both_halves(e, std::abs(e.h_same));
     } else {
       const NaiveEdge other = side(mesh.twin(h));
-      const Real sign = m.kind == EnergyKind::T && e.h_same + other.h_same < 0 ? -1 : 1;
-      sum += sign * (both_halves(e, e.h_same) + both_halves(e, other.h_same));
+      const Real sign = by_dual_sign && e.h_same + other.h_same < 0 ? -1 : 1;
+      sum += sign * (both_halves(e, e.h_same) + both_halves(other, other.h_same));
     }
   }
   return sum;
@@ -106,7 +113,7 @@ inline std::vector<EnergyModel> all_models(double length) {
       EnergyModel m;
       m.kind = info.kind;
       m.star = Star(star);
-      if (info.kind == EnergyKind::F) {
+      if (info.kind == EnergyKind::F || info.kind == EnergyKind::nF) {
         for (const auto b : {BoundaryTreatment::as_is, BoundaryTreatment::absolute, BoundaryTreatment::mirrored}) {
           m.boundary_treatment = b;
           models.push_back(m);
