@@ -85,6 +85,7 @@ EnergyModel model_from(const py::dict& d) {
       from_name<BoundaryTreatment>("boundary_treatment", d["boundary_treatment"].cast<std::string>());
   model.gamma = softening_from(d["gamma"]);
   model.h0 = softening_from(d["h0"]);
+  model.wall = d["wall"].cast<bool>();
   return model;
 }
 
@@ -93,7 +94,8 @@ py::list energies_list() {
   for (const EnergyInfo& e : energies()) {
     list.append(Record()("name", e.name)("formula", e.formula)("boundary_treatment", name_of(e.boundary_treatment))(
                     "barrier", e.barrier)("softened_by_gamma", e.softened_by_gamma)("softened_by_h0", e.softened_by_h0)(
-                    "length_exponent", e.length_exponent)
+                    "length_exponent", e.length_exponent)("signed_by_dual", e.signed_by_dual)(
+                    "normalized", e.normalized)("positions_alone", e.positions_alone)
                     .dict);
   }
   return list;

@@ -182,7 +182,11 @@ void bind_optimize(py::module_& m) {
                        const py::object& checkpoint, const py::object& resume) {
     return optimize_mesh(self, options, {size_field, threads, {observer, tracer, snapshots}, checkpoint, resume});
   });
-  m.def("paper_method", [] { return options_to_dict(paper_method()); });
+  m.def("methods", [] {
+    py::dict all;
+    for (const Method& method : methods()) all[py::str(std::string(method.name))] = options_to_dict(method.options());
+    return all;
+  });
   m.def("option_table", option_table);
   m.def("idle_options", idle_options);
   m.def("replay", [](const PyMesh& input, const py::iterable& trace) {

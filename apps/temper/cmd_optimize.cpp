@@ -35,15 +35,12 @@
 namespace temper::app {
 namespace {
 
-enum class Method { production, paper };
-
-constexpr Choice<Method> kMethods[] = {{"production", Method::production}, {"paper", Method::paper}};
 struct Settings {
   TimeLimit since;
   std::string projection;
   std::string input, output, report, history, picture, trace;
   std::vector<std::string> fix;
-  Method method = Method::production;
+  const Method* method = methods().data();
   TableOptions table;  ///< first those of the method
   std::optional<io::Encoding> encoding;
   std::uint64_t threads = 0;
@@ -102,17 +99,20 @@ void add_run(Command& command, Settings& s) {
   add_text(command, "--resume", "FILE", s.resume,
            "go on with the run of a checkpoint, to what it would have ended with; IN and options are those of the run, "
            "but for outputs, --threads, --time-limit (of each run alone), --checkpoint and --every");
+  std::vector<std::string_view> names;
+  std::string help = "what all options start from";
+  for (const Method& method : methods()) {
+    names.push_back(method.name);
+    help += fmt::format("; {}: {}", method.name, method.sentence);
+  }
   // At once, before all other options are taken: those given override the method's.
-  Option& method = add_choice(
-      command, "--method", kMethods,
-      [&s](Method value) {
-        s.method = value;
-        if (value == Method::paper) s.table.options = paper_method();
-      },
-      "what all options start from; paper: its Algorithm 1 with golden section, deferred flips, collapses, the patch "
-      "test, inversions allowed, the first vertex as anchor and gamma 1");
-  method.at_once = true;
-  method.default_text = "production";
+  const auto take = [&s](std::string_view name) {
+    s.method = &*std::find_if(methods().begin(), methods().end(), [&](const Method& m) { return m.name == name; });
+    s.table.options = s.method->options();
+  };
+  Option& option = add_name(command, "--method", names, take, help);
+  option.at_once = true;
+  option.default_text = std::string(methods().front().name);
 }
 
 /// `--fix 1 2 IN -o OUT`: --fix takes all words that follow, so the last one is the input when there is none.
@@ -144,8 +144,7 @@ void find_vertices(TableOptions& table, const Input& input) {
 
 /// Options that were given and cannot have the effect one would expect.
 std::vector<std::string> doubtful_options(const Command& command, const Settings& s) {
-  std::vector<std::string> warnings =
-      idle_options(command, s.table, s.method == Method::paper ? paper_method() : OptimizeOptions());
+  std::vector<std::string> warnings = idle_options(command, s.table, s.method->options());
   if (s.options().repair == Repair::vertices && s.options().size_band) {
     warnings.emplace_back(
         spell_options("vertices that `repair=vertices` removes and inserts are not held to `size_band`"));

@@ -63,14 +63,32 @@ enum class BoundaryVertices {
           ///< corners there get a vertex inside; the vertices that were there stay bit for bit
 };
 
-/// When a new weight is seen by the neighbours (§6.6.2).
-enum class WeightUpdates {
+/// When a new position or weight is seen by the neighbours (§5.2, §6.6.2).
+enum class Updates {
   immediate,  ///< at once
-  deferred,   ///< at the end of the sweep: every weight is optimised against those of the sweep before
+  deferred,   ///< at the end of the sweep: each is optimised against those of the sweep before
 };
 
-/// Removing a vertex whose patch is better without it (Algorithm 1, line 15).
-enum class Removal { none, patch };
+/// How often a sweep visits a vertex (§5.2).
+enum class Visits {
+  once,   ///< for its position and its weight
+  twice,  ///< the positions of all vertices first, then the weights of all
+};
+
+/// How far golden section searches for a position: the paper's "patch radius", which it does not define (§5.2).
+enum class SearchRadius {
+  rms,  ///< the root mean square distance to the neighbours
+  max,  ///< the distance to the farthest one
+  min,  ///< to the nearest one
+};
+
+/// Removing vertices besides the collapses of Algorithm 2.
+enum class Removal {
+  none,
+  patch,   ///< those whose patch is better without them (Algorithm 1, line 15)
+  weight,  ///< those whose weight is so far below the mean of their neighbours' that they are on the way to be hidden
+           ///< (§7)
+};
 
 /// By what a patch with k triangles is compared with the k − 2 that fill it without its center.
 enum class RemovalMeasure {
@@ -81,8 +99,9 @@ enum class RemovalMeasure {
 
 /// Steps that would turn a triangle over.
 enum class Inversion {
-  refuse,  ///< are not taken
-  allow,   ///< are, as in the paper: energies extrapolate, and the mesh may end as a tangle (a "HOT mess")
+  refuse,    ///< are not taken, and searches end at nine tenths of the way to the first of them
+  allow,     ///< are, as in the paper: energies extrapolate, and the mesh may end as a tangle (a "HOT mess")
+  infinite,  ///< of barriers: their energy is +∞ there, so that searches step over such places, but never onto one
 };
 
 /// What is done, one neighbourhood at a time, about triangles that sweeps of a barrier leave not well-centered.
@@ -146,14 +165,23 @@ struct PaperSwitches {
   SweepOrder order = SweepOrder::hilbert;
   std::uint64_t seed = 1;  ///< of SweepOrder::random, of the jitter that frees symmetric grids, and of repairs
   int weights_from = 0;    ///< i_w: first sweep that changes weights
-  WeightUpdates weight_updates = WeightUpdates::immediate;  ///< deferred: not with Solver::newton, which is joint
-  VertexId anchor = {};  ///< whose weight is shifted to 0 after each sweep (Algorithm 1, line 17); invalid: none
+  /// Deferred: not with Solver::newton, which is joint, unless positions are deferred too.
+  Updates weight_updates = Updates::immediate;
+  /// Deferred: all unknowns from the state at the beginning of the sweep (Jacobi instead of Gauss-Seidel); weights, if
+  /// they move, have to be deferred too. With Inversion::refuse a vertex stays whose neighbours have moved so that it
+  /// would turn a triangle over.
+  Updates position_updates = Updates::immediate;
+  Visits visits = Visits::once;
+  SearchRadius search_radius = SearchRadius::rms;  ///< R of Solver::golden, and of the search for E_c
+  double weight_reach = 1;  ///< Solver::golden searches for a weight as far as this times R². > 0
+  VertexId anchor = {};     ///< whose weight is shifted to 0 after each sweep (Algorithm 1, line 17); invalid: none
 
   int inner = 1;  ///< with deferred flips: most sweeps before edges are flipped; 0: until they converge
   int outer = 0;  ///< with deferred flips: most rounds of sweeps and flips; 0: until no flips are needed
   std::optional<FlipLimit> flip_limit =
-      {};                  ///< absent: unlimited for barriers (a flipping step must pay), after for HOT
-  double overshoot = 1.1;  ///< of FlipLimit::after
+      {};                         ///< absent: unlimited for barriers (a flipping step must pay), after for HOT
+  double overshoot = 1.1;         ///< k of Algorithm 5, with FlipLimit::after; > 0
+  double overshoot_factor = 0.1;  ///< by which k − 1 shrinks from sweep to sweep; 1: k is constant. 0 ≤ factor ≤ 1
   Inversion inversion = Inversion::refuse;
   HiddenPolicy hidden = HiddenPolicy::undo;
 
@@ -162,10 +190,19 @@ struct PaperSwitches {
   EnergyKind collapse_energy = EnergyKind::dT;  ///< E_c: F, T or dT
   double collapse_ratio = 0.1;  ///< of the distance to the nearest neighbour to that one's shorter edge on the link
   Removal removal = Removal::none;
-  RemovalMeasure removal_measure = RemovalMeasure::mean;
-  double removal_margin = 0.1;  ///< by which the patch must be better, relative
-  int removal_from = 10;        ///< first sweep with removals
+  RemovalMeasure removal_measure = RemovalMeasure::mean;  ///< of insertions too
+  double removal_margin = 0.1;                            ///< by which the patch must be better, relative
+  double removal_weight = 1;                              ///< Removal::weight: how far below, relative to R², rms. > 0
+  int removal_from = 10;                                  ///< first sweep with removals
+  /// First sweep after which vertices are inserted: at the orthocenters of triangles of large energy, where the mesh is
+  /// better with them (§7). Absent: never.
+  std::optional<int> insertion_from = {};
+  double insertion_ratio = 4;  ///< an energy above so many times the mean is large; > 1
 
+  /// What the first sweeps lower, before `energy`: "E_∂T, then switching to E_BP" (§7). Absent: `energy` from the first
+  /// sweep on. The γ and h° of both are the same options.
+  std::optional<EnergyKind> first_energy = {};
+  int switch_at = 20;  ///< the first sweep that lowers `energy`; an earlier one when the first energy has converged
   double tolerance = 1e-5;
   StoppingRule stopping = StoppingRule::relative;
 };
@@ -202,6 +239,13 @@ struct OptimizeOptions {
 /// converged, unlimited steps, inversions allowed, hidden vertices kept, collapses and the patch test from the first
 /// sweep, vertex 0 as anchor, γ = 1, vertices in their order, convergence by mean energy.
 [[nodiscard]] OptimizeOptions paper_method();
+/// The options of two older methods of §1.2, for comparison. Both move positions alone and keep edges Delaunay; the
+/// weights have to be equal.
+/// Optimal Delaunay triangulations (Chen and Xu 2004): E_ODT.
+[[nodiscard]] OptimizeOptions odt_method();
+/// Centroidal Voronoi tessellations (Du, Faber and Gunzburger 1999): E_F for ★0, the moment of the Voronoi cells about
+/// their vertices, which Lloyd's iterations lower.
+[[nodiscard]] OptimizeOptions cvt_method();
 
 /// The mesh as it is at one moment of a run.
 struct Snapshot {

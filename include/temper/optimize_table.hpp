@@ -57,6 +57,16 @@ struct OptionGroup {
   std::span<const OptionRow> rows;
 };
 
+/// A set of options that a run may start from.
+struct Method {
+  std::string_view name;
+  std::string_view sentence;
+  OptimizeOptions (*options)();
+};
+
+/// The methods; the first is the default.
+[[nodiscard]] std::span<const Method> methods();
+
 /// The table.
 [[nodiscard]] std::span<const OptionGroup> option_groups();
 /// The row of that name, or null.

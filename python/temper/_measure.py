@@ -148,6 +148,12 @@ class EnergyInfo(Record):
     softened_by_h0: bool
     length_exponent: int
     """E(s · mesh) = s^this · E(mesh) with relative softening."""
+    signed_by_dual: bool
+    """The sign of an edge is that of its dual length."""
+    normalized: bool
+    """Each triangle over its squared area."""
+    positions_alone: bool
+    """For meshes without weights, which stay so."""
 
 
 def energies() -> list[EnergyInfo]:
@@ -169,11 +175,13 @@ class EnergyModel(Record):
     energy: EnergyName = "BP"
     star: Literal[0, 1, 2] = 1
     boundary_treatment: Literal["as_is", "absolute", "mirrored"] = "as_is"
-    """Of F only; the others define their own."""
+    """Of F and nF; the others define their own."""
     gamma: SofteningLike = Softening(1.0, "absolute")
     """γ of E_BP; the paper's examples use 1, absolute."""
     h0: SofteningLike = Softening(0.0, "absolute")
     """−h° of E_BHs, ≥ 0."""
+    wall: bool = False
+    """A barrier is infinite on inverted triangles too; the paper's E_BP and E_BHs are not."""
 
     def _plain(self) -> dict[str, Any]:
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}

@@ -88,7 +88,34 @@ def paper_method(**changes: Any) -> Any:
     >>> temper.paper_method(max_sweeps=20).solver
     'golden'
     """
-    plain = _temper.paper_method()
+    return _method("paper", changes)
+
+
+def odt_method(**changes: Any) -> Any:
+    """The options of optimal Delaunay triangulations (Chen and Xu 2004), for comparison: the energy ``"ODT"``, whose
+    unknowns are positions alone. Weights have to be equal. ``changes`` replace some.
+
+    >>> import temper
+    >>> temper.odt_method().energy
+    'ODT'
+    """
+    return _method("odt", changes)
+
+
+def cvt_method(**changes: Any) -> Any:
+    """The options of centroidal Voronoi tessellations (Du, Faber and Gunzburger 1999), for comparison: the energy
+    ``"F"`` for ★0, the moment of the Voronoi cells about their vertices, which Lloyd's iterations lower. Unknowns are
+    positions alone. ``changes`` replace some.
+
+    >>> import temper
+    >>> temper.cvt_method().star
+    0
+    """
+    return _method("cvt", changes)
+
+
+def _method(method: str, changes: dict[str, Any]) -> Any:
+    plain = _temper.methods()[method]
     options = OptimizeOptions(**{name: _from_plain(name, value) for name, value in plain.items()})
     return dataclasses.replace(options, **changes)
 

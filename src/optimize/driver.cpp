@@ -6,6 +6,7 @@
 #include "base/assert.hpp"
 #include "base/rng.hpp"
 #include "energy/whole_mesh.hpp"
+#include "optimize/insertion.hpp"
 #include "optimize/repair/grading.hpp"
 #include "optimize/repair/repair_search.hpp"
 #include "optimize/ties.hpp"
@@ -67,6 +68,7 @@ int Driver::run(Phase& phase, int first) {
 
 void Driver::begin(Phase& phase, int sweep) {
   phase.begin();
+  recorder_.set_energy_unit(energy_unit(settings_, work_.frame));
   if (run_.report.history.empty()) record(phase.measure());
   best_energy_ = phase.total();
   if (phase.keeps() == Phase::Keeps::best) keep(best_energy_, sweep);
@@ -84,7 +86,7 @@ Driver::Verdict Driver::sweep(Phase& phase) {
   const double halfway = run_.report.history.back().energy;
   recorder_.begin_sweep(run_.report.sweeps + 1);
   const bool whole = improve_all_vertices(phase.iteration());
-  const bool removed = flipper_.has_removed();
+  const bool removed = flipper_.has_removed(), inserted = whole && insert_vertices(phase.iteration());
   if (removed) compact();
   shift_weights_to_anchor();
   TEMPER_ASSERT_SLOW(!keeps_regular(settings_.options) || count_non_regular_edges(mesh_, false) == 0);
@@ -95,7 +97,13 @@ Driver::Verdict Driver::sweep(Phase& phase) {
   if (!defers_flips(settings_.options)) keep_if_best(phase);
   show(Snapshot::Moment::after_sweep, phase);
   if (!whole) return Verdict::stopped;  // by the caller or the clock
-  const Verdict verdict = phase.judge(removed);
+  const Verdict verdict = phase.judge(removed || inserted);
+  if (verdict == Verdict::restarted) {
+    best_.reset();
+    best_energy_ = phase.total();
+    recorder_.set_energy_unit(energy_unit(settings_, work_.frame));
+    return Verdict::improving;
+  }
   if (verdict != Verdict::infinite) return verdict;
   if (!halve_weights()) return Verdict::stopped;
   amend_record(phase.measure());
@@ -137,30 +145,42 @@ bool Driver::newton_pass(Phase& phase) {
 /// One Gauss-Seidel sweep, lines 9 to 16. False when it was cut short.
 bool Driver::improve_all_vertices(int iteration) {
   const OptimizeOptions& o = settings_.options;
-  if (o.paper.weight_updates == WeightUpdates::immediate || defers_flips(o)) {
-    return sweeper_.sweep(iteration, sequence_, run_);
-  }
-  const IdVector<VertexId, double> before = weights();
+  if (!defers_updates(o) || defers_flips(o)) return sweeper_.sweep(iteration, sequence_, run_);
+  const IdVector<VertexId, WeightedPoint> before = points();
   const bool whole = sweeper_.sweep(iteration, sequence_, run_);
-  settle_weights(before);
+  settle_updates(before);
   return whole;
 }
 
-/// Deferred weights may hide a vertex where they meet: then half of each change is made, and so on, and at last none.
-void Driver::settle_weights(const IdVector<VertexId, double>& before) {
+/// Deferred updates may hide a vertex where they meet: then half of each change of a weight is made, and so on, and at
+/// last none, nor any move.
+void Driver::settle_updates(const IdVector<VertexId, WeightedPoint>& before) {
   constexpr int kHalvings = 6;  // what is left then is hardly worth a step
+  const bool moved = settings_.options.paper.position_updates == Updates::deferred;
   for (int i = 0; !flipper_.restore_all() && i <= kHalvings; ++i) {
-    const double kept = i < kHalvings ? 0.5 : 0;
     for (const VertexId v : mesh_.vertices()) {
-      if (!mesh_.is_isolated(v)) set_weight(v, before[v] + kept * (mesh_.weight(v) - before[v]));
+      if (mesh_.is_isolated(v)) continue;
+      const WeightedPoint now = mesh_.point(v), old = before[v];
+      const double w = old.w + (i < kHalvings ? 0.5 : 0.0) * (now.w - old.w);
+      const WeightedPoint& place = moved && i == kHalvings ? old : now;
+      set_point(v, {place.x, place.y, w});
     }
   }
 }
 
-IdVector<VertexId, double> Driver::weights() const {
-  IdVector<VertexId, double> all(mesh_.n_vertices());
-  for (const VertexId v : mesh_.vertices()) all[v] = mesh_.weight(v);
+IdVector<VertexId, WeightedPoint> Driver::points() const {
+  IdVector<VertexId, WeightedPoint> all(mesh_.n_vertices());
+  for (const VertexId v : mesh_.vertices()) all[v] = mesh_.point(v);
   return all;
+}
+
+/// True when there are new ones.
+bool Driver::insert_vertices(int iteration) {
+  const PaperSwitches& o = settings_.options.paper;
+  if (!o.insertion_from || iteration < *o.insertion_from) return false;
+  if (!insert_where_energy_is_large(work_, flipper_, settings_)) return false;
+  grow();
+  return true;
 }
 
 /// Drops what the sweep has removed, everywhere.
@@ -199,17 +219,22 @@ void Driver::shift_weights_to_anchor() {
   const VertexId anchor = work_.from_user(settings_.options.paper.anchor);
   if (!anchor.valid()) return;  // removed: any other constant would do as well
   const double shift = mesh_.weight(anchor);
-  const IdVector<VertexId, double> before = weights();
-  for (const VertexId v : mesh_.vertices()) set_weight(v, before[v] - shift);
+  const IdVector<VertexId, WeightedPoint> before = points();
+  for (const VertexId v : mesh_.vertices()) set_weight(v, before[v].w - shift);
   if (settings_.options.flips == Flips::none || defers_flips(settings_.options) || flipper_.restore_all()) return;
   // Rounded differences hide a vertex that was all but hidden: no constant is worth that.
-  for (const VertexId v : mesh_.vertices()) set_weight(v, before[v]);
+  for (const VertexId v : mesh_.vertices()) set_weight(v, before[v].w);
+}
+
+void Driver::set_point(VertexId v, const WeightedPoint& p) {
+  const WeightedPoint from = mesh_.point(v);
+  mesh_.set_point(v, p);
+  if (!(p == from)) recorder_.placed(v, from, p, kNoEnergy, kNoEnergy);
 }
 
 void Driver::set_weight(VertexId v, double w) {
-  const WeightedPoint from = mesh_.point(v);
-  mesh_.set_weight(v, w);
-  if (w != from.w) recorder_.placed(v, from, mesh_.point(v), kNoEnergy, kNoEnergy);
+  const WeightedPoint p = mesh_.point(v);
+  set_point(v, {p.x, p.y, w});
 }
 
 /// Line 20 of Algorithm 1. False when no flips can: among inverted triangles, or around a hidden vertex that may not
@@ -259,7 +284,9 @@ int Driver::attempt(const Attempt& attempt, bool may_give_up) {
   if (good) return polish(run_.report.sweeps);
   if (!here.resumed()) jitter(attempt.jitter);
   EnergyPhase phase(work_, settings_, run_, attempt, may_give_up);
-  return run(phase, run_.next_sweep());
+  const int last = run(phase, run_.next_sweep());
+  phase.take_last_energy();
+  return last;
 }
 
 bool Driver::weigh_ties(double amount) {

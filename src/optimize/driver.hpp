@@ -44,13 +44,15 @@ class Driver {
   Verdict sweep(Phase& phase);
   Verdict flip_if_deferred(Phase& phase, Verdict of_sweeps);
   bool improve_all_vertices(int iteration);
-  void settle_weights(const IdVector<VertexId, double>& before);
+  void settle_updates(const IdVector<VertexId, WeightedPoint>& before);
+  bool insert_vertices(int iteration);
   bool newton_pass(Phase& phase);
   void compact();
   void grow();
   bool halve_weights();
   void shift_weights_to_anchor();
-  [[nodiscard]] IdVector<VertexId, double> weights() const;
+  [[nodiscard]] IdVector<VertexId, WeightedPoint> points() const;
+  void set_point(VertexId v, const WeightedPoint& p);
   void set_weight(VertexId v, double w);
   bool restore_regularity();
   void keep_if_best(const Phase& phase);

@@ -23,17 +23,34 @@ EnergyPhase::EnergyPhase(const WorkingCopy& work, Settings& settings, Run& run, 
     : mesh_(work.mesh),
       settings_(settings),
       run_(run),
+      frame_(work.frame),
+      attempt_(attempt),
       energy_unit_(energy_unit(settings, work.frame)),
       softener_(attempt, settings.energy, settings.options),
       may_give_up_(may_give_up),
       fewer_(attempt.fewer) {}
 
 void EnergyPhase::begin() {
+  before_switch_ = attempt_.first_energy && settings_.options.paper.switch_at > 0;
+  take_energy(before_switch_ ? *attempt_.first_energy : settings_.options.energy);
+}
+
+void EnergyPhase::take_energy(EnergyKind kind) {
+  set_energy(settings_, kind);
+  energy_unit_ = energy_unit(settings_, frame_);
+  softener_ = Softener(attempt_, settings_.energy, settings_.options);
   softener_.start(mesh_, settings_.model);
   settings_.relaxation = settings_.options.paper.relaxation.value_or(softener_.relaxation());
   least_bad_ = mesh_.n_triangles();
+  sweeps_since_fewer_bad_ = sweeps_since_lower_ = infinite_sweeps_ = 0;
   before_ = total();
   least_energy_ = fall_ = kInfinity;
+}
+
+void EnergyPhase::take_last_energy() {
+  if (!before_switch_) return;
+  before_switch_ = false;
+  take_energy(settings_.options.energy);
 }
 
 double EnergyPhase::total() const {
@@ -50,7 +67,11 @@ SweepRecord EnergyPhase::measure() {
 }
 
 /// Line 19 of Algorithm 1, and what a softened barrier or an infinite energy ask for besides.
-Phase::Verdict EnergyPhase::judge(bool removed) {
+Phase::Verdict EnergyPhase::judge(bool changed) {
+  if (before_switch_ && iteration_ >= settings_.options.paper.switch_at) {
+    take_last_energy();
+    return Verdict::restarted;
+  }
   if (settings_.options.objective == Objective::accuracy && has_margins()) {
     run_.report.stopped = Stopped::converged;  // the next phase needs no more of this energy
     return Verdict::settled;
@@ -61,7 +82,11 @@ Phase::Verdict EnergyPhase::judge(bool removed) {
     compare_from_here();
     return Verdict::improving;
   }
-  if (softener_.settled() && !removed && converged(before_, after)) {
+  if (softener_.settled() && !changed && converged(before_, after)) {
+    if (before_switch_) {
+      take_last_energy();
+      return Verdict::restarted;
+    }
     if (!defers_flips(settings_.options) && goes_on_with_weights()) return Verdict::improving;
     run_.report.stopped = Stopped::converged;
     return Verdict::settled;
@@ -69,9 +94,9 @@ Phase::Verdict EnergyPhase::judge(bool removed) {
   if (softener_.settled() && may_give_up_ && stagnates()) return Verdict::stopped;
   const double fall = (before_ - after) / std::abs(after);
   if (softener_.settled()) fall_ = fall;
-  const bool changed = softener_.advance(mesh_, fall, run_.report.history.back().bad, settings_.model);
+  const bool sharper = softener_.advance(mesh_, fall, run_.report.history.back().bad, settings_.model);
   settings_.relaxation = settings_.options.paper.relaxation.value_or(softener_.relaxation());
-  before_ = !changed ? after : softener_.compares_energies() ? total() : kInfinity;
+  before_ = !sharper ? after : softener_.compares_energies() ? total() : kInfinity;
   return Verdict::improving;
 }
 

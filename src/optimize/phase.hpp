@@ -10,7 +10,8 @@ namespace temper {
 
 class Phase {
  public:
-  enum class Verdict { improving, infinite, settled, stopped };
+  /// restarted: what is lowered from here on is another energy; no mesh so far compares.
+  enum class Verdict { improving, restarted, infinite, settled, stopped };
   /// The mesh that a phase ends with: that of its last sweep, of its best one, or of its best one and the start.
   enum class Keeps { last, best_sweep, best };
 
@@ -24,8 +25,8 @@ class Phase {
   [[nodiscard]] virtual double total() const = 0;
   /// The mesh as it is for the history of the run.
   virtual SweepRecord measure() = 0;
-  /// Judges a sweep that the history has as its last. `removed`: vertices are gone.
-  virtual Verdict judge(bool removed) = 0;
+  /// Judges a sweep that the history has as its last. `changed`: vertices are gone, or new ones there.
+  virtual Verdict judge(bool changed) = 0;
   /// Compares with the last of the history from now on: after flips, or when all weights have shrunk.
   virtual void compare_from_here() = 0;
   /// Says whether there is more to lower once all has settled: weights, after positions.
@@ -50,7 +51,7 @@ class EnergyPhase final : public Phase {
   [[nodiscard]] bool may_sweep() const override { return run_.sweeps_left(); }
   [[nodiscard]] double total() const override;
   SweepRecord measure() override;
-  Verdict judge(bool removed) override;
+  Verdict judge(bool changed) override;
   void compare_from_here() override { before_ = run_.report.history.back().energy; }
   bool goes_on_with_weights() override;
   [[nodiscard]] bool wants_newton_pass() const override;
@@ -58,8 +59,11 @@ class EnergyPhase final : public Phase {
   [[nodiscard]] Keeps keeps() const override { return settings_.energy.barrier ? Keeps::last : Keeps::best_sweep; }
   int& iteration() override { return iteration_; }
   void visit(Archive& archive) override;
+  /// From the attempt's first energy to that of the options, if it has not been reached.
+  void take_last_energy();
 
  private:
+  void take_energy(EnergyKind kind);
   [[nodiscard]] bool has_margins() const;
   bool converged(double before, double after);
   bool stagnates();
@@ -67,8 +71,11 @@ class EnergyPhase final : public Phase {
   const Mesh& mesh_;
   Settings& settings_;
   Run& run_;
-  double energy_unit_;
+  const Frame& frame_;
+  Attempt attempt_;
+  double energy_unit_ = 1;
   int iteration_ = 0;
+  bool before_switch_ = false;  // from the first energy to that of the options
   Softener softener_;
   bool may_give_up_;
   double fewer_;

@@ -9,6 +9,7 @@
 // positions are stationary.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "temper/archive.hpp"
@@ -29,6 +30,7 @@ struct Attempt {
   double jitter = 0;        ///< of free vertices before the first sweep, relative to their shortest edge
   double fewer = 1;         ///< it is given up when bad triangles do not become fewer than this part of them for long
   double tie_weight = 0;    ///< added before it to the heavier ends of ties, relative to their shortest edge squared
+  std::optional<EnergyKind> first_energy = {};  ///< of its first sweeps
 };
 
 void visit(Archive& archive, Attempt& attempt);

@@ -23,20 +23,41 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
   if (o.star == Star::all && o.objective == Objective::energy) {
     return invalid("`star=all` is for `objective=accuracy`; of an energy expected 0, 1 or 2");
   }
-  if (p.weight_updates == WeightUpdates::deferred && p.solver == Solver::newton) {
+  const bool all_deferred = p.position_updates == Updates::deferred;
+  if (all_deferred && o.unknowns == Unknowns::positions_and_weights && p.weight_updates != Updates::deferred) {
+    return invalid(
+        "`position_updates=deferred` takes all unknowns from the sweep before; expected `weight_updates=deferred` too, "
+        "or `unknowns=positions`");
+  }
+  if (all_deferred && o.size_band) {
+    return invalid("`size_band` needs `position_updates=immediate`: where all move at once sizes are known afterwards");
+  }
+  if (p.weight_updates == Updates::deferred && p.solver == Solver::newton && !all_deferred) {
     return invalid(
         "deferred weight updates need positions and weights in turn; expected `solver=alternating` or `solver=golden`");
   }
-  if (p.weight_updates == WeightUpdates::deferred && o.flips == Flips::none) {
+  if (defers_updates(o) && o.flips == Flips::none) {
+    return invalid(std::string(all_deferred ? "`position_updates=deferred`" : "`weight_updates=deferred`") +
+                   " keeps edges regular by flips alone; expected `flips=immediate` or `flips=deferred`");
+  }
+  if (o.flips == Flips::none && p.insertion_from) {
     return invalid(
-        "`weight_updates=deferred` keeps edges regular by flips alone; expected `flips=immediate` or `flips=deferred`");
+        "`insertion_from` changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or "
+        "`flips=deferred`");
+  }
+  if (p.first_energy && o.objective == Objective::accuracy) {
+    return invalid("`first_energy` is for `objective=energy`");
   }
   if (p.inversion == Inversion::allow && !defers_flips(o)) {
     return invalid(
         "`inversion=allow` needs `flips=deferred`, since edges cannot be flipped among inverted triangles; or "
         "`inversion=refuse`");
   }
-  if (p.inversion == Inversion::allow && o.boundary == BoundaryVertices::slide) {
+  if (p.inversion == Inversion::infinite && !energy_info(o.energy).barrier) {
+    return invalid("`inversion=infinite` is for barriers, which energy " + std::string(energy_info(o.energy).name) +
+                   " is not; expected `inversion=refuse` or `inversion=allow`");
+  }
+  if (p.inversion != Inversion::refuse && o.boundary == BoundaryVertices::slide) {
     return invalid(
         "`boundary=slide` needs `inversion=refuse`: where triangles may be inverted nothing keeps vertices from "
         "passing a "
@@ -47,8 +68,25 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
         "`boundary=split` changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or "
         "`flips=deferred`");
   }
-  if (p.inversion == Inversion::allow && o.size_band) {
+  if (p.inversion != Inversion::refuse && o.size_band) {
     return invalid("`size_band` needs `inversion=refuse`: inverted triangles have no size");
+  }
+  return std::nullopt;
+}
+
+/// What an energy that knows no weights cannot do with.
+std::optional<InputError> check_weights(const OptimizeOptions& o, const Mesh& mesh) {
+  const EnergyInfo& energy = energy_info(o.energy);
+  if (!energy.positions_alone) return std::nullopt;
+  const std::string name = "`energy=" + std::string(energy.name) + "`";
+  if (o.unknowns == Unknowns::weights) {
+    return invalid(name + " is of positions alone; expected `unknowns=positions`");
+  }
+  for (const VertexId v : mesh.vertices()) {
+    if (mesh.weight(v) != mesh.weight(VertexId(0))) {
+      return invalid(name + " is for meshes without weights, or with equal ones; vertex " + std::to_string(v.index) +
+                     " has another weight than vertex 0");
+    }
   }
   return std::nullopt;
 }
@@ -61,7 +99,7 @@ std::optional<InputError> check_accuracy(const OptimizeOptions& o) {
     return invalid("`objective=accuracy` begins with an energy that makes triangles well-centered, which " +
                    std::string(energy.name) + " does not; expected `energy=BP`, `energy=BHs` or `energy=BH`");
   }
-  if (o.paper.inversion == Inversion::allow) {
+  if (o.paper.inversion != Inversion::refuse) {
     return invalid("`objective=accuracy` needs `inversion=refuse`: its second phase is for well-centered triangles");
   }
   return std::nullopt;
@@ -109,6 +147,27 @@ OptimizeOptions paper_method() {
   return o;
 }
 
+OptimizeOptions odt_method() {
+  OptimizeOptions o;
+  o.energy = EnergyKind::ODT;
+  o.unknowns = Unknowns::positions;
+  return o;
+}
+
+OptimizeOptions cvt_method() {
+  OptimizeOptions o;
+  o.energy = EnergyKind::F;
+  o.star = Star::zero;
+  o.unknowns = Unknowns::positions;
+  return o;
+}
+
+void set_energy(Settings& settings, EnergyKind kind) {
+  settings.energy = energy_info(kind);
+  settings.model.kind = kind;
+  settings.flip_limit = flip_limit_of(settings.options, settings.energy);
+}
+
 EnergyModel in_user_units(EnergyModel model, const Frame& frame) {
   for (Softening* s : {&model.gamma, &model.h0}) {
     if (s->scale == LengthScale::absolute) s->value *= frame.scale;
@@ -122,24 +181,23 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   if (auto error = check_combinations(options)) return *std::move(error);
   if (auto error = check_accuracy(options)) return *std::move(error);
   if (auto error = check_anchor(options.paper.anchor, mesh)) return *std::move(error);
+  if (auto error = check_weights(options, mesh)) return *std::move(error);
 
-  const EnergyInfo& energy = energy_info(options.energy);
   const Star star = options.objective == Objective::accuracy ? Star::one : options.star;
   Settings s;
   s.collapse_model.kind = options.paper.collapse_energy;
   s.collapse_model.star = star;
   s.collapse_model.boundary_treatment = options.paper.boundary_treatment;
-  s.energy = energy;
   s.options = options;
   s.hooks = hooks;
   s.accuracy = accuracy_model(options.accuracy, options.star);
   s.relaxation = options.paper.relaxation.value_or(kRelaxation);
-  s.model.kind = energy.kind;
   s.model.star = star;
   s.model.boundary_treatment = options.paper.boundary_treatment;
+  s.model.wall = options.paper.inversion != Inversion::allow;
   if (options.paper.gamma) s.model.gamma = in_frame(*options.paper.gamma, frame);
   if (options.paper.h0) s.model.h0 = in_frame(*options.paper.h0, frame);
-  s.flip_limit = flip_limit_of(options);
+  set_energy(s, options.energy);
   return s;
 }
 

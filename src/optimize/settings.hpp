@@ -18,8 +18,8 @@ struct AccuracyDomain {
 };
 
 struct Settings {
-  EnergyInfo energy;
-  EnergyModel model;           ///< of the sweep under way, in the frame's units
+  EnergyInfo energy;           ///< of the sweep under way
+  EnergyModel model;           ///< the same, in the frame's units
   EnergyModel collapse_model;  ///< E_c
   AccuracyModel accuracy;      ///< of the second phase of Objective::accuracy; without unit
   /// Set while that energy is what sweeps lower; else it is that of `model`.
@@ -33,17 +33,22 @@ struct Settings {
 
 void visit(Archive& archive, Settings& settings);
 
+/// Makes sweeps lower that energy.
+void set_energy(Settings& settings, EnergyKind kind);
+
 /// Flips wait for the end of the inner iterations, so that edges may meanwhile not be regular.
 [[nodiscard]] inline bool defers_flips(const OptimizeOptions& o) { return o.flips == Flips::deferred; }
 
 /// A barrier prices every flip, so it needs no limit; HOT is continuous at a flip and may be led past one, a little.
-[[nodiscard]] inline FlipLimit flip_limit_of(const OptimizeOptions& o) {
+[[nodiscard]] inline FlipLimit flip_limit_of(const OptimizeOptions& o, const EnergyInfo& energy) {
   if (o.flips == Flips::none) return FlipLimit::before;
-  return o.paper.flip_limit.value_or(energy_info(o.energy).barrier ? FlipLimit::unlimited : FlipLimit::after);
+  return o.paper.flip_limit.value_or(energy.barrier ? FlipLimit::unlimited : FlipLimit::after);
 }
 
 /// The unknowns that a sweep moves, counted from 0: weights from i_w on.
-[[nodiscard]] inline Unknowns unknowns_of_sweep(const OptimizeOptions& o, int sweep) {
+[[nodiscard]] inline Unknowns unknowns_of_sweep(const Settings& s, int sweep) {
+  const OptimizeOptions& o = s.options;
+  if (s.energy.positions_alone) return Unknowns::positions;
   return o.unknowns == Unknowns::positions_and_weights && sweep < o.paper.weights_from ? Unknowns::positions
                                                                                        : o.unknowns;
 }
@@ -51,7 +56,18 @@ void visit(Archive& archive, Settings& settings);
 /// Says whether steps are Newton's, of a barrier, as far as they pay, with flips at once.
 [[nodiscard]] inline bool makes_newton_steps(const Settings& s) {
   return s.energy.barrier && s.options.paper.solver == Solver::newton && s.options.flips == Flips::immediate &&
-         s.flip_limit == FlipLimit::unlimited && s.options.paper.inversion == Inversion::refuse;
+         s.flip_limit == FlipLimit::unlimited && s.options.paper.inversion == Inversion::refuse &&
+         s.options.paper.position_updates == Updates::immediate;
+}
+
+/// Says whether something waits for the end of the sweep.
+[[nodiscard]] inline bool defers_updates(const OptimizeOptions& o) {
+  return o.paper.weight_updates == Updates::deferred || o.paper.position_updates == Updates::deferred;
+}
+
+/// Says whether sweeps remove or insert vertices.
+[[nodiscard]] inline bool changes_vertices(const OptimizeOptions& o) {
+  return o.paper.collapse_from || o.paper.removal != Removal::none || o.paper.insertion_from;
 }
 
 /// The user's energy of one unit in the frame, of what sweeps lower.

@@ -38,8 +38,8 @@ void visit(Archive& archive, Softening& softening) {
 }
 
 void visit(Archive& archive, EnergyModel& model) {
-  auto& [kind, star, boundary_treatment, gamma, h0] = model;
-  archive(kind, star, boundary_treatment, gamma, h0);
+  auto& [kind, star, boundary_treatment, gamma, h0, wall] = model;
+  archive(kind, star, boundary_treatment, gamma, h0, wall);
 }
 
 void visit(Archive& archive, AccuracyTotal& total) {
@@ -63,11 +63,13 @@ void visit(Archive& archive, Settings& settings) {
   auto& [energy, model, collapse_model, accuracy, accuracy_domain, relaxation, flip_limit, options, hooks, size_field] =
       settings;
   archive(model, relaxation);
+  if (archive.reads()) set_energy(settings, model.kind);
 }
 
 void visit(Archive& archive, Attempt& attempt) {
-  auto& [start, factor, relaxation, level_sweeps, level_fall, until_good, jitter, fewer, tie_weight] = attempt;
-  archive(start, factor, relaxation, level_sweeps, level_fall, until_good, jitter, fewer, tie_weight);
+  auto& [start, factor, relaxation, level_sweeps, level_fall, until_good, jitter, fewer, tie_weight, first_energy] =
+      attempt;
+  archive(start, factor, relaxation, level_sweeps, level_fall, until_good, jitter, fewer, tie_weight, first_energy);
 }
 
 void visit(Archive& archive, Run& run) {
@@ -109,7 +111,7 @@ void Driver::visit(Archive& archive) {
 
 void Recorder::visit(Archive& archive) {
   auto& [tracer, work, energy_unit, sweep] = *this;
-  archive(sweep);
+  archive(energy_unit, sweep);
 }
 
 void Flipper::visit(Archive& archive) {
@@ -119,7 +121,7 @@ void Flipper::visit(Archive& archive) {
 }
 
 void Sweeper::visit(Archive& archive) {
-  auto& [limits, context, flipper, improvers, parts, passes, iteration, in_order] = *this;
+  auto& [limits, context, flipper, improvers, parts, passes, iteration, unknowns, in_order] = *this;
   archive(limits, passes, iteration);
 }
 
@@ -145,10 +147,12 @@ void NewtonPass::visit(Archive& archive) {
 // --- of phases and searches -----------------------------------------------------------------------------------------
 
 void EnergyPhase::visit(Archive& archive) {
-  auto& [mesh, settings, run, energy_unit, iteration, softener, may_give_up, fewer, before, least_bad,
-         sweeps_since_fewer_bad, least_energy, sweeps_since_lower, infinite_sweeps, fall, passes_pay] = *this;
-  archive(iteration, softener, before, least_bad, sweeps_since_fewer_bad, least_energy, sweeps_since_lower,
-          infinite_sweeps, fall, passes_pay);
+  auto& [mesh, settings, run, frame, attempt, energy_unit, iteration, before_switch, softener, may_give_up, fewer,
+         before, least_bad, sweeps_since_fewer_bad, least_energy, sweeps_since_lower, infinite_sweeps, fall,
+         passes_pay] = *this;
+  if (archive.reads()) softener = Softener(attempt, settings.energy, settings.options);
+  archive(energy_unit, iteration, before_switch, softener, before, least_bad, sweeps_since_fewer_bad, least_energy,
+          sweeps_since_lower, infinite_sweeps, fall, passes_pay);
 }
 
 void Softener::visit(Archive& archive) {

@@ -22,7 +22,7 @@ class AccuracyPhase final : public Phase {
   [[nodiscard]] bool may_sweep() const override;
   [[nodiscard]] double total() const override { return energy_unit_ * now_.energy; }
   SweepRecord measure() override;
-  Verdict judge(bool removed) override;
+  Verdict judge(bool changed) override;
   void compare_from_here() override {}
   [[nodiscard]] Keeps keeps() const override { return Keeps::best; }
   int& iteration() override { return iteration_; }

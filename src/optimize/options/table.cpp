@@ -46,15 +46,19 @@ constexpr std::array<Name, 3> kNames<BoundaryVertices> = {"keep", "slide", "spli
 template <>
 constexpr std::array<Name, 2> kNames<InterfaceVertices> = {"fixed", "sliding"};
 template <>
-constexpr std::array<Name, 2> kNames<WeightUpdates> = {"immediate", "deferred"};
+constexpr std::array<Name, 2> kNames<Updates> = {"immediate", "deferred"};
 template <>
-constexpr std::array<Name, 2> kNames<Removal> = {"none", "patch"};
+constexpr std::array<Name, 2> kNames<Visits> = {"once", "twice"};
+template <>
+constexpr std::array<Name, 3> kNames<SearchRadius> = {"rms", "max", "min"};
+template <>
+constexpr std::array<Name, 3> kNames<Removal> = {"none", "patch", "weight"};
 template <>
 constexpr std::array<Name, 3> kNames<RemovalMeasure> = {"sum", "mean", "excess"};
 template <>
 constexpr std::array<Name, 3> kNames<HiddenPolicy> = {"undo", "remove", "keep"};
 template <>
-constexpr std::array<Name, 2> kNames<Inversion> = {"refuse", "allow"};
+constexpr std::array<Name, 3> kNames<Inversion> = {"refuse", "allow", "infinite"};
 template <>
 constexpr std::array<Name, 4> kNames<SweepOrder> = {"hilbert", "input", "reverse", "random"};
 template <>
@@ -159,12 +163,18 @@ constexpr OptionNeed kForAccuracy = {"objective", "accuracy"};
 constexpr OptionNeed kBarrier = {"energy", "BH|BHs|BP"};
 constexpr OptionNeed kDeferredFlips = {"flips", "deferred"};
 constexpr OptionNeed kCollapses = {"collapse_from", ""};
-constexpr OptionNeed kRemovals = {"removal", "patch"};
+constexpr OptionNeed kRemovals = {"removal", "patch|weight"};
+constexpr OptionNeed kGolden = {"solver", "golden"};
+constexpr OptionNeed kInsertions = {"insertion_from", ""};
 
-bool limits_after_flips(const Options& o) { return flip_limit_of(o) == FlipLimit::after; }
+bool limits_after_flips(const Options& o) { return flip_limit_of(o, energy_info(o.energy)) == FlipLimit::after; }
+bool compares_patches(const Options& o) { return o.paper.removal == Removal::patch || o.paper.insertion_from; }
+bool makes_golden_searches(const Options& o) { return o.paper.solver == Solver::golden || o.paper.collapse_from; }
 
 constexpr OptionRow kEnergyRows[] = {
-    row<&Options::energy>("energy", "what to minimise: a barrier (BH, BHs, BP) or a HOT energy (F, T, dT)"),
+    row<&Options::energy>("energy",
+                          "what to minimise: a barrier (BH, BHs, BP), a HOT energy (F, T, dT), one of these over "
+                          "squared areas (nF, nT, ndT), or what optimal Delaunay triangulations do (ODT)"),
     row<&Options::star>(
         "star",
         "Hodge star whose error is to be small. all: the three at once, with `objective=accuracy`, which "
@@ -181,7 +191,15 @@ constexpr OptionRow kEnergyRows[] = {
     row<kPaper, &Paper::boundary_treatment>(
         "boundary_treatment",
         "of energy F: the h of boundary edges as it is, |h|, or as if the mesh were mirrored there",
-        {.needs = {{{"energy", "F"}}}}),
+        {.needs = {{{"energy", "F|nF"}}}}),
+    row<kPaper, &Paper::first_energy>("first_energy",
+                                      "what the first sweeps lower instead, before they switch to `energy`",
+                                      {.absent = "`energy` from the first sweep on"}),
+    row<kPaper, &Paper::switch_at>(
+        "switch_at",
+        "of `first_energy`: the first sweep that lowers `energy`, from 0; an earlier one when "
+        "the first energy has converged",
+        {.needs = {{{"first_energy", ""}}}}),
 };
 
 constexpr OptionRow kAccuracyRows[] = {
@@ -224,6 +242,16 @@ constexpr OptionRow kMoveRows[] = {
         "newton_passes",
         "steps of all vertices at once, which barriers make in every other sweep once every triangle is well-centered "
         "and sweeps gain little"),
+    row<kPaper, &Paper::search_radius>("search_radius",
+                                       "how far golden section searches for a position: the root mean square distance "
+                                       "to the neighbours, or that of the farthest or the nearest",
+                                       {.needs = {{{"solver", "golden", makes_golden_searches}}}}),
+    row<kPaper, &Paper::weight_reach>(
+        "weight_reach", "how far golden section searches for a weight, relative to the search radius squared",
+        {.range = more_than(0), .needs = {kGolden}}),
+    row<kPaper, &Paper::visits>("visits",
+                                "a sweep visits each vertex once, or twice: all positions first, then all weights",
+                                {.needs = {{{"unknowns", "positions_and_weights"}}}}),
     row<kPaper, &Paper::anchor>("anchor", "shift the weights after each sweep so that this vertex has weight 0",
                                 {.absent = "they stay"}),
 };
@@ -236,9 +264,12 @@ constexpr OptionRow kConnectivityRows[] = {
         "flip_limit", "how far a step may go past the point where an edge flips",
         {.absent = "unlimited for barriers, after for HOT", .needs = {{{"flips", "immediate|deferred"}}}}),
     row<kPaper, &Paper::overshoot>(
-        "overshoot", "of `flip_limit=after`, at first: it shrinks towards 1 each sweep",
-        {.range = at_least(1),
+        "overshoot", "of `flip_limit=after`: where steps end, relative to the way to the flip, at first",
+        {.range = more_than(0),
          .needs = {{{"flips", "immediate|deferred"}, {"flip_limit", "after", limits_after_flips}}}}),
+    row<kPaper, &Paper::overshoot_factor>(
+        "overshoot_factor", "by which the overshoot's part above 1 shrinks each sweep; 1: it is constant",
+        {.range = {0, 1}, .needs = {{{"flips", "immediate|deferred"}, {"flip_limit", "after", limits_after_flips}}}}),
     row<&Options::repair>(
         "repair",
         "where sweeps leave triangles bad: nothing; sweep again and kick vertices there; remove and insert vertices "
@@ -276,6 +307,10 @@ constexpr OptionRow kPaperRows[] = {
     row<kPaper, &Paper::weight_updates>(
         "weight_updates",
         "a new weight is seen by its neighbours at once, or after the sweep (not with `solver=newton`)"),
+    row<kPaper, &Paper::position_updates>("position_updates",
+                                          "the same of positions; deferred, with `weight_updates=deferred` where "
+                                          "weights move: all unknowns are those of the "
+                                          "sweep before"),
     row<kPaper, &Paper::collapse_from>("collapse_from",
                                        "i_c: first sweep with short-edge collapses, from 0 (Algorithm 2)",
                                        {.absent = "no collapses"}),
@@ -286,18 +321,32 @@ constexpr OptionRow kPaperRows[] = {
                                         "one's shorter edge beside",
                                         {.range = inside(0, 1), .needs = {kCollapses}}),
     row<kPaper, &Paper::removal>("removal",
-                                 "patch: remove a vertex when its patch is better without it (Algorithm 1, line 15)"),
+                                 "patch: remove a vertex when its patch is better without it (Algorithm 1, line 15); "
+                                 "weight: when its weight is far below its neighbours'"),
     row<kPaper, &Paper::removal_measure>("removal_measure",
                                          "by what patches are compared: energy summed (the paper), per triangle, or "
                                          "above equilateral triangles",
-                                         {.needs = {kRemovals}}),
+                                         {.needs = {{{"removal", "patch", compares_patches}}}}),
     row<kPaper, &Paper::removal_margin>("removal_margin", "by which part the patch must be better",
-                                        {.range = at_least(0), .needs = {kRemovals}}),
+                                        {.range = at_least(0), .needs = {{{"removal", "patch", compares_patches}}}}),
+    row<kPaper, &Paper::removal_weight>(
+        "removal_weight",
+        "of `removal=weight`: how far below the mean of its neighbours', relative to their "
+        "mean squared distance",
+        {.range = more_than(0), .needs = {{{"removal", "weight"}}}}),
     row<kPaper, &Paper::removal_from>("removal_from", "first sweep with removals, from 0", {.needs = {kRemovals}}),
+    row<kPaper, &Paper::insertion_from>(
+        "insertion_from",
+        "first sweep after which vertices are inserted at the orthocenters of triangles of "
+        "large energy, where that makes the mesh better, from 0",
+        {.absent = "no insertions"}),
+    row<kPaper, &Paper::insertion_ratio>("insertion_ratio", "how many times the mean energy of a triangle is large",
+                                         {.range = more_than(1), .needs = {kInsertions}}),
     row<kPaper, &Paper::hidden>("hidden", "what weights hide: undo the step, remove the vertex, or keep and report it"),
     row<kPaper, &Paper::inversion>("inversion",
                                    "steps that turn a triangle over are refused, or allowed as in the paper (with "
-                                   "deferred flips)"),
+                                   "deferred flips); infinite: where a triangle is turned over a barrier is, so that "
+                                   "searches step over such places, but not onto them"),
     row<kPaper, &Paper::order>("order", "in which a sweep visits the vertices"),
 };
 
@@ -321,5 +370,19 @@ constexpr OptionGroup kGroups[] = {
 }  // namespace
 
 std::span<const OptionGroup> option_groups() { return kGroups; }
+
+std::span<const Method> methods() {
+  static constexpr Method kMethods[] = {
+      {"production", "temper's own", [] { return OptimizeOptions(); }},
+      {"paper",
+       "Algorithm 1 of the paper with golden section, deferred flips, collapses, the patch test, inversions allowed, "
+       "the "
+       "first vertex as anchor and gamma 1",
+       paper_method},
+      {"odt", "optimal Delaunay triangulation: energy ODT of the positions alone", odt_method},
+      {"cvt", "centroidal Voronoi tessellation: energy F of star 0, of the positions alone", cvt_method},
+  };
+  return kMethods;
+}
 
 }  // namespace temper

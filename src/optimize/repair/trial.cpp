@@ -89,11 +89,10 @@ Settings Trial::of_trial(const Settings& settings, Tracer tracer) {
   o.boundary = settings.options.boundary;
   o.size_band = settings.options.size_band;
   Settings s = settings;
-  s.energy = energy_info(o.energy);
-  s.model.kind = s.energy.kind;
   s.relaxation = kRelaxation;
-  s.flip_limit = FlipLimit::unlimited;
   s.options = std::move(o);
+  s.model.wall = true;
+  set_energy(s, s.options.energy);
   s.hooks = {};
   s.hooks.tracer = std::move(tracer);
   return s;
@@ -198,7 +197,7 @@ void Trial::sweep() {
   double gamma = kStart;
   for (int i = 0; i < kSweeps; ++i) {
     settings_.model.gamma = {gamma, LengthScale::relative};
-    step_.begin_sweep(i);
+    step_.begin_sweep(i, settings_.options.unknowns);
     for (const VertexId v : work_.mesh.vertices()) {
       if (!work_.mesh.is_isolated(v)) step_.improve(v);
     }

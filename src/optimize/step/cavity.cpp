@@ -45,12 +45,17 @@ Across across(const Mesh& mesh, const RemovalPlan& plan, VertexId a, VertexId b)
   return {mesh.opposite(mesh.twin(h)), true, mesh.is_constrained(h)};
 }
 
-/// An edge as seen from its triangle, h measured towards the third corner.
-EdgeShape edge_shape(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c) {
+/// An edge as seen from its triangle, h measured towards the third corner, and what the triangle counts.
+struct EdgeOfTriangle {
+  EdgeShape edge;
+  double per_area;
+};
+EdgeOfTriangle edge_of_triangle(const HotKernel& kernel, const WeightedPoint& a, const WeightedPoint& b,
+                                const WeightedPoint& c) {
   const TriangleShape s = triangle_shape(a, b, c);
   EdgeShape e = s.edges[0];
   if (s.doubled_area < 0) e.g = -e.g;
-  return e;
+  return {e, kernel.per_area(s.doubled_area)};
 }
 
 /// The point across an edge, and whether its triangle stays while the one on this side is replaced.
@@ -64,11 +69,12 @@ struct Beyond {
 double hot_edge(const EnergyModel& model, const HotKernel& kernel, const std::array<WeightedPoint, 3>& abc,
                 const Beyond& beyond) {
   const auto& [a, b, c] = abc;
-  const EdgeShape edge = edge_shape(a, b, c);
-  const double outer_g = beyond.point ? edge_shape(b, a, *beyond.point).g : 0;
-  const double factor = hot_factor(model, edge.g, outer_g, !beyond.point);
-  const bool shares = model.kind == EnergyKind::T && beyond.stays && beyond.point;
-  return factor * kernel.value(edge) + (shares ? factor * kernel.value(EdgeShape{edge.l2, edge.dw, outer_g}) : 0);
+  const auto [edge, per_area] = edge_of_triangle(kernel, a, b, c);
+  const auto [outer, per_outer_area] =
+      beyond.point ? edge_of_triangle(kernel, b, a, *beyond.point) : EdgeOfTriangle{{edge.l2, edge.dw, 0}, 1};
+  const double factor = hot_factor(model, edge.g, outer.g, !beyond.point);
+  const bool shares = energy_info(model.kind).signed_by_dual && beyond.stays && beyond.point;
+  return factor * (kernel.value(edge) * per_area) + (shares ? factor * (kernel.value(outer) * per_outer_area) : 0);
 }
 
 double hot_edges(const Mesh& mesh, const EnergyModel& model, const HotKernel& kernel, const RemovalPlan& plan,

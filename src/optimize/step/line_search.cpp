@@ -1,5 +1,6 @@
 #include "optimize/step/line_search.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "optimize/step/golden.hpp"
@@ -48,10 +49,24 @@ double inversion_limit(const Patch& patch, const WeightedPoint& p, const Step& s
   return limit;
 }
 
-double patch_radius(const Patch& patch, const WeightedPoint& p) {
-  double sum = 0;
-  for (std::size_t i = 0; i < patch.link.size(); ++i) sum += squared_length(patch.q(i).position() - p.position());
-  return std::sqrt(sum / static_cast<double>(patch.link.size()));
+double patch_radius(const Patch& patch, const WeightedPoint& p, SearchRadius which) {
+  const std::size_t n = patch.link.size();
+  double sum = 0, largest = 0, least = kInfinity;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double l2 = squared_length(patch.q(i).position() - p.position());
+    sum += l2;
+    largest = std::max(largest, l2);
+    least = std::min(least, l2);
+  }
+  switch (which) {
+    case SearchRadius::rms:
+      return std::sqrt(sum / static_cast<double>(n));
+    case SearchRadius::max:
+      return std::sqrt(largest);
+    case SearchRadius::min:
+      return std::sqrt(least);
+  }
+  return 0;
 }
 
 }  // namespace temper

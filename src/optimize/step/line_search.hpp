@@ -6,11 +6,12 @@
 #include "energy/patch.hpp"
 #include "optimize/step/freedom.hpp"
 #include "optimize/step/newton.hpp"
+#include "temper/optimize.hpp"
 
 namespace temper {
 
-/// −∇E at p along the free directions, of length `reach`: R for positions, R² for a weight. Nothing where E is infinite
-/// around p, or stationary.
+/// −∇E at p along the free directions, of length `reach`, R for positions, so many times R² for a weight. Nothing where
+/// E is infinite around p, or stationary.
 [[nodiscard]] std::optional<Step> steepest_descent(const Patch& patch, const EnergyModel& model, const WeightedPoint& p,
                                                    const Freedom& freedom, double reach);
 
@@ -25,8 +26,8 @@ namespace temper {
 /// The largest t ≤ 1 along step that stays clear of inverting a triangle of the patch.
 [[nodiscard]] double inversion_limit(const Patch& patch, const WeightedPoint& p, const Step& step);
 
-/// Root mean square length of the spokes: the patch's radius R.
-[[nodiscard]] double patch_radius(const Patch& patch, const WeightedPoint& p);
+/// The patch's radius R, which the paper leaves undefined: that of the spokes' lengths which is asked for.
+[[nodiscard]] double patch_radius(const Patch& patch, const WeightedPoint& p, SearchRadius which = SearchRadius::rms);
 
 /// The paper's search count: gradients are no Newton steps, so positions are searched thrice.
 inline constexpr int kPositionSearches = 3;

@@ -16,14 +16,37 @@ double equilateral_energy(const EnergyModel& model, double doubled_area) {
   return triangle_energy(model, {0, 0, 0}, {side, 0, 0}, {side / 2, side * std::sqrt(3.0) / 2, 0});
 }
 
+/// Triangles, and the energy of as many equilateral ones of the same areas.
+struct Ideal {
+  std::size_t n = 0;
+  double energy = 0;
+  void add(const EnergyModel& model, const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c) {
+    ++n;
+    energy += equilateral_energy(model, cross(b.position() - a.position(), c.position() - a.position()));
+  }
+};
+
+double measured(double energy, const Ideal& ideal, RemovalMeasure measure) {
+  switch (measure) {
+    case RemovalMeasure::sum:
+      return energy;
+    case RemovalMeasure::mean:
+      return energy / static_cast<double>(ideal.n);
+    case RemovalMeasure::excess:
+      return energy - ideal.energy;
+  }
+  return energy;
+}
+
 /// The point of least E_c that three line searches find.
-WeightedPoint best_position(const Patch& patch, const EnergyModel& model, WeightedPoint p, Inversion inversion) {
+WeightedPoint best_position(const Patch& patch, const EnergyModel& model, WeightedPoint p,
+                            const PaperSwitches& switches) {
   const Freedom plane{2, {{{1, 0, 0}, {0, 1, 0}, {}}}};
   for (int i = 0; i < kPositionSearches; ++i) {
     const double energy = patch_energy(patch, model, p);
-    const auto direction = steepest_descent(patch, model, p, plane, patch_radius(patch, p));
+    const auto direction = steepest_descent(patch, model, p, plane, patch_radius(patch, p, switches.search_radius));
     if (!direction) break;
-    const double limit = inversion == Inversion::allow ? 1 : inversion_limit(patch, p, *direction);
+    const double limit = switches.inversion == Inversion::refuse ? inversion_limit(patch, p, *direction) : 1;
     const WeightedPoint there = along(p, *direction, line_minimum(patch, model, p, *direction, limit));
     if (!(patch_energy(patch, model, there) < energy)) break;
     p = there;
@@ -33,10 +56,17 @@ WeightedPoint best_position(const Patch& patch, const EnergyModel& model, Weight
 
 }  // namespace
 
-bool nearly_collapses(const Patch& patch, const EnergyModel& collapse_model, const WeightedPoint& p, double ratio,
-                      Inversion inversion) {
+double relative_lightness(const Patch& patch, const WeightedPoint& p) {
+  double sum = 0;
+  for (std::size_t i = 0; i < patch.link.size(); ++i) sum += patch.q(i).w;
+  const double r = patch_radius(patch, p);
+  return (sum / static_cast<double>(patch.link.size()) - p.w) / (r * r);
+}
+
+bool nearly_collapses(const Patch& patch, const EnergyModel& collapse_model, const WeightedPoint& p,
+                      const PaperSwitches& switches) {
   TEMPER_ASSERT(patch.closed && (!needs_outer(collapse_model.kind) || patch.outer_g.size() == patch.size()));
-  const Vec2 best = best_position(patch, collapse_model, p, inversion).position();
+  const Vec2 best = best_position(patch, collapse_model, p, switches).position();
   const std::size_t n = patch.link.size();
   std::size_t nearest = 0;
   const auto distance2 = [&](std::size_t i) { return squared_length(patch.q(i).position() - best); };
@@ -46,32 +76,37 @@ bool nearly_collapses(const Patch& patch, const EnergyModel& collapse_model, con
   const Vec2 q = patch.q(nearest).position();
   const Vec2 before = patch.q((nearest + n - 1) % n).position(), after = patch.q((nearest + 1) % n).position();
   const double shorter2 = std::min(squared_length(before - q), squared_length(after - q));
-  return distance2(nearest) < ratio * ratio * shorter2;
+  return distance2(nearest) < switches.collapse_ratio * switches.collapse_ratio * shorter2;
 }
 
 bool PatchComparison::better_without(double margin) const {
   return without < with - margin * std::abs(with) && std::isfinite(without);
 }
 
+bool PatchComparison::better_with(double margin) const { return PatchComparison{without, with}.better_without(margin); }
+
 PatchComparison compare_patch(const Mesh& mesh, const Patch& patch, const EnergyModel& model, const RemovalPlan& plan,
                               RemovalMeasure measure) {
   const WeightedPoint p = mesh.point(patch.center);
-  PatchComparison e{patch_energy(patch, model, p), cavity_energy(mesh, model, plan)};
-  if (measure == RemovalMeasure::mean) {
-    e.with /= static_cast<double>(patch.size());
-    e.without /= static_cast<double>(plan.triangles.size());
+  Ideal with, without;
+  for (std::size_t i = 0; i < patch.size(); ++i) with.add(model, p, patch.q(i), patch.r(i));
+  for (const auto& [a, b, c] : plan.triangles) without.add(model, mesh.point(a), mesh.point(b), mesh.point(c));
+  return {measured(patch_energy(patch, model, p), with, measure),
+          measured(cavity_energy(mesh, model, plan), without, measure)};
+}
+
+PatchComparison compare_patch(const Mesh& mesh, const EnergyModel& model, const InsertionPlan& plan,
+                              RemovalMeasure measure) {
+  Ideal with, without;
+  for (std::size_t i = 0; i < plan.rim.size(); ++i) {
+    with.add(model, plan.point, mesh.point(plan.link[i]), mesh.point(plan.link[(i + 1) % plan.link.size()]));
   }
-  if (measure == RemovalMeasure::excess) {
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      const Vec2 q = patch.q(i).position(), r = patch.r(i).position();
-      e.with -= equilateral_energy(model, cross(q - p.position(), r - p.position()));
-    }
-    for (const auto& [a, b, c] : plan.triangles) {
-      const Vec2 o = mesh.position(a);
-      e.without -= equilateral_energy(model, cross(mesh.position(b) - o, mesh.position(c) - o));
-    }
+  for (const TriangleId t : plan.cavity) {
+    const auto [a, b, c] = mesh.corners(t);
+    without.add(model, mesh.point(a), mesh.point(b), mesh.point(c));
   }
-  return e;
+  return {measured(insertion_energy(mesh, model, plan), with, measure),
+          measured(replaced_energy(mesh, model, plan), without, measure)};
 }
 
 }  // namespace temper

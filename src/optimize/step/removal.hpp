@@ -1,5 +1,5 @@
-// Two tests for the removal of a vertex: the paper's short-edge rule (Algorithm 2) and patch test (Algorithm 1, line
-// 15). Both only ask; the vertex step commits.
+// Tests for the removal of a vertex: the paper's short-edge rule (Algorithm 2), patch test (Algorithm 1, line 15) and,
+// of §7, its weight; and the patch test of a new one. They only ask; others commit.
 #pragma once
 
 #include "energy/patch.hpp"
@@ -8,18 +8,26 @@
 
 namespace temper {
 
-/// Lines 3 to 5 of Algorithm 2: does the position that is best by E_c come nearer to a vertex of the link than `ratio`
-/// times the shorter of that one's two link edges? The patch is closed and gathered with what E_c needs.
+/// Lines 3 to 5 of Algorithm 2: does the position that is best by E_c come nearer to a vertex of the link than
+/// `collapse_ratio` times the shorter of that one's two link edges? The patch is closed and gathered with what E_c
+/// needs.
 [[nodiscard]] bool nearly_collapses(const Patch& patch, const EnergyModel& collapse_model, const WeightedPoint& p,
-                                    double ratio, Inversion inversion);
+                                    const PaperSwitches& switches);
+
+/// How far the weight of p is below the mean of its neighbours', relative to R², the mean squared length of the spokes.
+[[nodiscard]] double relative_lightness(const Patch& patch, const WeightedPoint& p);
 
 /// The energies of P and of P∖p, as `measure` compares them.
 struct PatchComparison {
   double with = 0, without = 0;
-  /// Better without, by at least `margin` relative to what it is.
+  /// Better without or with p, by at least `margin` relative to what it is.
   [[nodiscard]] bool better_without(double margin) const;
+  [[nodiscard]] bool better_with(double margin) const;
 };
 [[nodiscard]] PatchComparison compare_patch(const Mesh& mesh, const Patch& patch, const EnergyModel& model,
                                             const RemovalPlan& plan, RemovalMeasure measure);
+/// The same of a vertex that is not there yet.
+[[nodiscard]] PatchComparison compare_patch(const Mesh& mesh, const EnergyModel& model, const InsertionPlan& plan,
+                                            RemovalMeasure measure);
 
 }  // namespace temper

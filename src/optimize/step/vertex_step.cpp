@@ -18,16 +18,18 @@ namespace {
 constexpr double kBeforeFlip = 0.99;
 // A threshold below this part of the step is a tie: stopping short of it would be standing still.
 constexpr double kTie = 1e-6;
-constexpr double kOvershootShrink = 0.1, kOvershootLeast = 1e-6;
+// A threshold that is met exactly is a tie, which rounding decides.
+constexpr double kOvershootLeast = 1e-6;
 
 }  // namespace
 
-void VertexStep::begin_sweep(int sweep) {
+void VertexStep::begin_sweep(int sweep, Unknowns unknowns) {
   const OptimizeOptions& o = settings_.options;
-  unknowns_ = unknowns_of_sweep(o, sweep);
+  unknowns_ = unknowns;
   collapses_ = o.paper.collapse_from && sweep >= *o.paper.collapse_from;
-  removes_ = o.paper.removal == Removal::patch && sweep >= o.paper.removal_from;
-  overshoot_ = 1 + std::max(kOvershootLeast, (o.paper.overshoot - 1) * std::pow(kOvershootShrink, sweep));
+  removes_ = o.paper.removal != Removal::none && sweep >= o.paper.removal_from;
+  const double excess = (o.paper.overshoot - 1) * std::pow(o.paper.overshoot_factor, sweep);
+  overshoot_ = 1 + (excess >= 0 ? std::max(kOvershootLeast, excess) : excess);
 }
 
 /// Lines 10 to 16 of Algorithm 1.
@@ -53,7 +55,7 @@ bool VertexStep::collapse(VertexId v) {
   const EnergyModel& model = settings_.collapse_model;
   gather_patch(mesh_, v, needs_outer(model.kind), collapsing_);
   const OptimizeOptions& o = settings_.options;
-  if (!nearly_collapses(collapsing_, model, mesh_.point(v), o.paper.collapse_ratio, o.paper.inversion)) return false;
+  if (!nearly_collapses(collapsing_, model, mesh_.point(v), o.paper)) return false;
   plan_ = plan_removal(mesh_, v, std::move(plan_));
   if (plan_.status != RemovalStatus::possible) return false;
   if (!defers_flips(settings_.options) && !is_regular(mesh_, plan_)) return false;
@@ -62,25 +64,35 @@ bool VertexStep::collapse(VertexId v) {
   return true;
 }
 
-/// Line 15 of Algorithm 1: E(P∖p) < E(P).
+/// Line 15 of Algorithm 1: E(P∖p) < E(P). Or, of §7, what the weights are about to hide.
 void VertexStep::remove_if_better(VertexId v) {
   if (!may_go(v) || mesh_.is_isolated(v)) return;
+  gather(v);
+  const PaperSwitches& o = settings_.options.paper;
+  const bool by_weight = o.removal == Removal::weight;
+  if (by_weight && !(relative_lightness(star_.patch(), origin_) > o.removal_weight)) return;
   plan_ = plan_removal(mesh_, v, std::move(plan_));
   if (plan_.status != RemovalStatus::possible) return;
-  gather(v);
-  const OptimizeOptions& o = settings_.options;
-  const PatchComparison e = compare_patch(mesh_, star_.patch(), settings_.model, plan_, o.paper.removal_measure);
-  if (!e.better_without(o.paper.removal_margin)) return;
+  const PatchComparison e = compare_patch(mesh_, star_.patch(), settings_.model, plan_, o.removal_measure);
+  if (!by_weight && !e.better_without(o.removal_margin)) return;
   if (!defers_flips(settings_.options) && !is_regular(mesh_, plan_)) return;
   flipper_.remove(EventKind::removal, plan_, e.with, e.without);
 }
 
 /// Lines 13 and 14 of Algorithm 1.
 void VertexStep::optimize_point(VertexId v) {
-  const Freedom all = freedom(mesh_, v, mobility_[v], unknowns_);
+  waiting_.reset();
+  if (gather(v)) make_steps(freedom(mesh_, v, mobility_[v], unknowns_));
+  if (!waiting_) return;
+  waiting_->to = mesh_.point(v);
+  mesh_.set_point(v, waiting_->from);
+  deferred_.push_back(*waiting_);
+}
+
+void VertexStep::make_steps(const Freedom& all) {
+  const VertexId v = vertex_;
   const Freedom positions = position_part(all);
   const bool has_weight = all.n > positions.n;
-  if (!gather(v)) return;
   switch (settings_.options.paper.solver) {
     case Solver::newton:
       if (all.n > 0) newton_search(all);
@@ -135,7 +147,7 @@ bool VertexStep::enter_domain() {
 
 /// The part of the step that a search may go.
 double VertexStep::farthest(const Step& step) const {
-  return settings_.options.paper.inversion == Inversion::allow ? 1 : inversion_limit(star_.patch(), origin_, step);
+  return settings_.options.paper.inversion == Inversion::refuse ? inversion_limit(star_.patch(), origin_, step) : 1;
 }
 
 /// t, cut to what the flip limit allows along step.
@@ -209,8 +221,10 @@ void VertexStep::golden_search(const Freedom& freedom) {
     energy_ = star_.value(origin_);
   }
   const Patch& patch = star_.patch();
-  const double r = patch_radius(patch, origin_);
-  const auto direction = steepest_descent(patch, settings_.model, origin_, freedom, freedom.moves() ? r : r * r);
+  const PaperSwitches& o = settings_.options.paper;
+  const double r = patch_radius(patch, origin_, o.search_radius);
+  const double reach = freedom.moves() ? r : o.weight_reach * (r * r);
+  const auto direction = steepest_descent(patch, settings_.model, origin_, freedom, reach);
   if (!direction) return;
   const double limit = flip_limited(*direction, farthest(*direction));
   if (!(limit > 0)) return;
@@ -230,7 +244,7 @@ VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
   const WeightedPoint p = moved(step, t);
   const double energy = star_.value(p);
   if (!(energy < energy_)) return Outcome::not_lower;
-  if (settings_.options.paper.inversion == Inversion::refuse && !star_.is_valid(p)) return Outcome::inverted;
+  if (settings_.options.paper.inversion != Inversion::allow && !star_.is_valid(p)) return Outcome::inverted;
   if (!keeps_size(p)) return Outcome::out_of_band;
   if (place(p, energy, settings_.energy.barrier)) return Outcome::accepted;
   return escapes_ ? Outcome::escaped : Outcome::blocked_by_flip;
@@ -240,8 +254,11 @@ VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
 /// vertex would be hidden, or flips cost more than the step gains and it must pay, or they escape from the part.
 bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
   const bool only_weight = p.x == origin_.x && p.y == origin_.y;
-  if (only_weight && settings_.options.paper.weight_updates == WeightUpdates::deferred) {
-    deferred_.push_back({vertex_, p.w, energy_, energy});
+  const PaperSwitches& o = settings_.options.paper;
+  if ((only_weight ? o.weight_updates : o.position_updates) == Updates::deferred) {
+    if (!waiting_) waiting_ = Deferred{vertex_, origin_, origin_, energy_, energy};
+    waiting_->after = energy;
+    mesh_.set_point(vertex_, p);
     return true;
   }
   const bool may_break_edges = keeps_connectivity() && !star_.keeps_edges_regular();
@@ -296,12 +313,23 @@ void VertexStep::shake(double amount, Rng& rng) {
   }
 }
 
+/// Where triangles may not turn over, positions whose neighbours are no longer where the search has seen them are
+/// tested once more.
 void VertexStep::end_sweep() {
-  for (const auto& [v, w, before, after] : deferred_) {
+  for (const auto& [v, old, to, before, after] : deferred_) {
     if (mesh_.is_isolated(v)) continue;
     const WeightedPoint from = mesh_.point(v);
-    mesh_.set_weight(v, w);
-    recorder_.placed(v, from, mesh_.point(v), before, after);
+    WeightedPoint p = from;
+    if (to.x != old.x || to.y != old.y) p.x = to.x, p.y = to.y;
+    if (to.w != old.w) p.w = to.w;
+    const bool moves = p.x != from.x || p.y != from.y;
+    if (moves && settings_.options.paper.inversion != Inversion::allow) {
+      gather(v);
+      if (!star_.is_valid(p)) p.x = from.x, p.y = from.y;
+    }
+    if (p == from) continue;
+    mesh_.set_point(v, p);
+    recorder_.placed(v, from, p, before, after);
   }
   deferred_.clear();
 }

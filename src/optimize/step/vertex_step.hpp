@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/rng.hpp"
@@ -26,8 +27,8 @@ class VertexStep {
         recorder_(context.recorder),
         star_(context.mesh, context.settings) {}
 
-  /// Prepares for a sweep: whether i ≥ i_w, whether i ≥ i_c, and the overshoot of FlipLimit::after.
-  void begin_sweep(int sweep);
+  /// Prepares for a sweep, or one visit of two: whether i ≥ i_c, and the overshoot of FlipLimit::after.
+  void begin_sweep(int sweep, Unknowns unknowns);
 
   /// Collapses v; or moves it so that the energy falls, flips what must flip, and removes it if its patch is better
   /// without it; or leaves everything as it was. False when v is not confined to the part, or its flips would not be:
@@ -40,7 +41,7 @@ class VertexStep {
   /// Nudges every vertex, at random, by up to `amount` of its shortest edge on each axis.
   void shake(double amount, Rng& rng);
 
-  /// Gives all vertices their new weights, with deferred weight updates.
+  /// Gives all vertices what deferred updates have kept from them.
   void end_sweep();
 
   [[nodiscard]] Unknowns unknowns() const { return unknowns_; }
@@ -53,6 +54,7 @@ class VertexStep {
   bool collapse(VertexId v);
   void optimize_point(VertexId v);
   void remove_if_better(VertexId v);
+  void make_steps(const Freedom& all);
   [[nodiscard]] bool may_go(VertexId v) const { return mobility_[v] == Mobility::free; }
 
   void newton_search(const Freedom& freedom);
@@ -92,11 +94,14 @@ class VertexStep {
   Patch collapsing_;  // with what E_c needs
   RemovalPlan plan_;
   std::vector<std::uint8_t> was_regular_;  // of the edges of star and link, in the order of the star
-  struct NewWeight {
+  /// What waits for the end of the sweep. While v is under way it is where it will be.
+  struct Deferred {
     VertexId v;
-    double w, before, after;
+    WeightedPoint from, to;
+    double before = 0, after = 0;
   };
-  std::vector<NewWeight> deferred_;
+  std::optional<Deferred> waiting_;  // of the vertex under way
+  std::vector<Deferred> deferred_;
 };
 
 }  // namespace temper

@@ -26,7 +26,7 @@ double energy_inside(const Mesh& mesh, const PartSystem& system, const EdgeFormu
 bool allows_newton_passes(const Settings& settings) {
   const OptimizeOptions& o = settings.options;
   const bool only_moves =
-      !o.paper.collapse_from && o.paper.removal == Removal::none && !o.paper.anchor.valid() && !o.size_band;
+      !changes_vertices(o) && !o.paper.anchor.valid() && !o.size_band && o.paper.visits == Visits::once;
   return o.paper.newton_passes && makes_newton_steps(settings) && only_moves && o.paper.order == SweepOrder::hilbert &&
          o.paper.stopping == StoppingRule::relative;
 }

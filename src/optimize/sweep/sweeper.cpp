@@ -9,15 +9,26 @@ Sweeper::Sweeper(Mesh& mesh, const Settings& settings, const Frame& frame, Flipp
       flipper_(flipper),
       improvers_([this] {
         auto improver = std::make_unique<Improver>(context_);
-        improver->step().begin_sweep(iteration_);
+        improver->step().begin_sweep(iteration_, unknowns_);
         return improver;
       }),
       parts_(part_size, improvers_),
       passes_(context_, part_size) {}
 
 bool Sweeper::sweep(int iteration, std::span<const VertexId> sequence, Run& run) {
+  const OptimizeOptions& o = context_.settings.options;
+  const Unknowns all = unknowns_of_sweep(context_.settings, iteration);
+  if (o.paper.visits == Visits::once || all != Unknowns::positions_and_weights) {
+    return visit_all(iteration, all, sequence, run);
+  }
+  return visit_all(iteration, Unknowns::positions, sequence, run) &&
+         visit_all(iteration, Unknowns::weights, sequence, run);
+}
+
+bool Sweeper::visit_all(int iteration, Unknowns unknowns, std::span<const VertexId> sequence, Run& run) {
   iteration_ = iteration;
-  improvers_.for_each([&](Improver& improver) { improver.step().begin_sweep(iteration); });
+  unknowns_ = unknowns;
+  improvers_.for_each([&](Improver& improver) { improver.step().begin_sweep(iteration, unknowns); });
   StopToken stop(run, context_.mesh.n_vertices());
   if (sequence.empty()) {
     parts_.in_parts(context_.mesh.n_vertices(), executor(), stop);
@@ -31,7 +42,7 @@ bool Sweeper::sweep(int iteration, std::span<const VertexId> sequence, Run& run)
 
 bool Sweeper::newton_pass(int iteration, Run& run) {
   StopToken stop(run, context_.mesh.n_vertices());
-  passes_.run(unknowns_of_sweep(context_.settings.options, iteration), stop);
+  passes_.run(unknowns_of_sweep(context_.settings, iteration), stop);
   return !stop.stopped();
 }
 
@@ -44,9 +55,8 @@ void Sweeper::shake(double amount, Rng& rng) {
 /// The executor of the options, where steps do no more than sweeper.hpp says of them; else a serial one.
 Executor& Sweeper::executor() {
   const OptimizeOptions& o = context_.settings.options;
-  const bool told_in_order = context_.recorder.on() || o.paper.weight_updates == WeightUpdates::deferred;
-  const bool removes =
-      o.paper.hidden == HiddenPolicy::remove || o.paper.collapse_from || o.paper.removal != Removal::none;
+  const bool told_in_order = context_.recorder.on() || defers_updates(o);
+  const bool removes = o.paper.hidden == HiddenPolicy::remove || changes_vertices(o);
   return told_in_order || removes || limits_.band.on() ? in_order_ : or_serial(context_.settings.hooks.executor);
 }
 

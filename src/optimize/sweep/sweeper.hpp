@@ -69,6 +69,8 @@ class Sweeper {
   void visit(Archive& archive);
 
  private:
+  /// One visit of each vertex, of these unknowns.
+  bool visit_all(int iteration, Unknowns unknowns, std::span<const VertexId> sequence, Run& run);
   [[nodiscard]] Executor& executor();
   void add_changes();
 
@@ -79,6 +81,7 @@ class Sweeper {
   PartSweep<Improver> parts_;
   NewtonPass passes_;
   int iteration_ = 0;
+  Unknowns unknowns_ = Unknowns::positions_and_weights;
   SerialExecutor in_order_;
 };
 

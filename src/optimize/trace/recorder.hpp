@@ -26,6 +26,7 @@ class Recorder {
   Recorder(const Tracer& tracer, const WorkingCopy& work, double energy_unit)
       : tracer_(tracer), work_(work), energy_unit_(energy_unit) {}
 
+  void set_energy_unit(double energy_unit) { energy_unit_ = energy_unit; }
   /// Says whether anybody listens: if not, nothing else need be called.
   [[nodiscard]] bool on() const { return static_cast<bool>(tracer_); }
   void begin_sweep(int sweep) { sweep_ = sweep; }

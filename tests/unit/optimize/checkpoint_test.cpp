@@ -176,6 +176,16 @@ INSTANTIATE_TEST_SUITE_P(
                     random_mesh,
                     {.energy = EnergyKind::F, .max_sweeps = 12, .paper = {.hidden = HiddenPolicy::remove}}},
         ResumedCase{"removal", random_mesh, {.paper = {.removal = Removal::patch, .removal_from = 2}}},
+        ResumedCase{"insertion",
+                    random_mesh,
+                    {.energy = EnergyKind::T,
+                     .max_sweeps = 8,
+                     .paper = {.removal_measure = RemovalMeasure::sum, .insertion_from = 1, .insertion_ratio = 1.5}}},
+        ResumedCase{"first_energy", random_mesh, {.paper = {.first_energy = EnergyKind::dT, .switch_at = 4}}},
+        ResumedCase{
+            "all_deferred",
+            random_mesh,
+            {.max_sweeps = 8, .paper = {.weight_updates = Updates::deferred, .position_updates = Updates::deferred}}},
         ResumedCase{"size_band", random_mesh, {.size_band = 2}},
         ResumedCase{
             "sliding", regions, {.boundary = BoundaryVertices::slide, .interfaces = InterfaceVertices::sliding}},

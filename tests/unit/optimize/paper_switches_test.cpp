@@ -247,7 +247,7 @@ TEST(DeferredWeights, DoNotDependOnTheOrderOfTheVertices) {
     ASSERT_TRUE(restore_regularity(mesh).regular());
     OptimizeOptions o = paper_method();
     o.unknowns = Unknowns::weights;
-    o.paper.weight_updates = WeightUpdates::deferred;
+    o.paper.weight_updates = Updates::deferred;
     o.paper.anchor = {};
     o.paper.collapse_from = std::nullopt;
     o.paper.removal = Removal::none;
@@ -339,7 +339,7 @@ TEST(DeferredWeights, LeaveEveryEdgeRegularWhereFlipsDoNotWait) {
     for (const HiddenPolicy policy : {HiddenPolicy::undo, HiddenPolicy::remove}) {
       for (const EnergyKind energy : {EnergyKind::BP, EnergyKind::T, EnergyKind::F}) {
         OptimizeOptions o{.energy = energy, .max_sweeps = 6, .paper = {.solver = Solver::alternating}};
-        o.paper.weight_updates = WeightUpdates::deferred;
+        o.paper.weight_updates = Updates::deferred;
         o.paper.hidden = policy;
         OptimizeHooks hooks;
         hooks.snapshots = [&](const Snapshot& s) {
@@ -538,14 +538,22 @@ TEST(Options, SwitchesThatContradictEachOtherAreRefused) {
   Mesh mesh = random_mesh();
   const Mesh input = mesh;
   for (const OptimizeOptions& o : std::vector<OptimizeOptions>{
-           {.paper = {.weight_updates = WeightUpdates::deferred}},
-           {.flips = Flips::none, .paper = {.solver = Solver::golden, .weight_updates = WeightUpdates::deferred}},
+           {.paper = {.weight_updates = Updates::deferred}},
+           {.flips = Flips::none, .paper = {.solver = Solver::golden, .weight_updates = Updates::deferred}},
            {.paper = {.inversion = Inversion::allow}},
            {.paper = {.collapse_energy = EnergyKind::BP}},
            {.paper = {.collapse_ratio = 0}},
            {.paper = {.removal_margin = -1}},
            {.paper = {.inner = -1}},
-           {.paper = {.outer = -1}}}) {
+           {.paper = {.outer = -1}},
+           {.paper = {.position_updates = Updates::deferred}},
+           {.unknowns = Unknowns::positions, .size_band = 2, .paper = {.position_updates = Updates::deferred}},
+           {.flips = Flips::none, .paper = {.insertion_from = 0}},
+           {.objective = Objective::accuracy, .paper = {.first_energy = EnergyKind::dT}},
+           {.paper = {.weight_reach = 0}},
+           {.paper = {.overshoot_factor = 1.5}},
+           {.paper = {.insertion_ratio = 1}},
+           {.energy = EnergyKind::ODT, .unknowns = Unknowns::weights}}) {
     const auto report = optimize(mesh, o);
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::invalid_option);

@@ -102,8 +102,7 @@ INSTANTIATE_TEST_SUITE_P(
         PartsCase{"before_flips", {.paper = {.flip_limit = FlipLimit::before}}},
         PartsCase{"frozen_connectivity", {.flips = Flips::none}},
         PartsCase{"deferred_flips", {.flips = Flips::deferred, .paper = {.inner = 2}}},
-        PartsCase{"deferred_weights",
-                  {.paper = {.solver = Solver::alternating, .weight_updates = WeightUpdates::deferred}}},
+        PartsCase{"deferred_weights", {.paper = {.solver = Solver::alternating, .weight_updates = Updates::deferred}}},
         PartsCase{"size_band", {.size_band = 2}},
         PartsCase{"removal", {.paper = {.removal = Removal::patch, .removal_from = 2}}},
         PartsCase{"collapse", {.energy = EnergyKind::T, .paper = {.collapse_from = 1}}},
@@ -173,7 +172,7 @@ std::size_t improve_part(WorkingCopy& work, const Settings& settings, const Part
   std::vector<VertexId> vertices, left;
   for (std::size_t i = part.first.index; i < part.last.index; ++i) vertices.push_back(VertexId(i));
   for (int sweep = 0; sweep < 3; ++sweep) {
-    improver.step().begin_sweep(sweep);
+    improver.step().begin_sweep(sweep, settings.options.unknowns);
     improver.improve(vertices, part, left);
   }
   EXPECT_GT(improver.flipper().take_changes().flips, 0u);
@@ -235,7 +234,7 @@ TEST(OnePart, UndoesAStepWhoseFlipsWouldLeaveIt) {
   const Recorder recorder(one.settings.hooks.tracer, one.work, 1);
   VertexLimits limits(mesh, one.settings, one.work.frame);
   Improver improver({mesh, one.settings, one.work.frame, limits, recorder});
-  improver.step().begin_sweep(0);
+  improver.step().begin_sweep(0, one.settings.options.unknowns);
   std::size_t escapes = 0;
   for (std::size_t first = 0; first + kTiny <= mesh.n_vertices(); first += kTiny) {
     const Part part{VertexId(first), VertexId(first + kTiny)};

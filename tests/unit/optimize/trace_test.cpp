@@ -52,12 +52,32 @@ std::vector<Case> cases() {
   }
   for (const HiddenPolicy policy : {HiddenPolicy::undo, HiddenPolicy::remove, HiddenPolicy::keep}) {
     OptimizeOptions o{.energy = EnergyKind::F, .paper = {.solver = Solver::alternating, .hidden = policy}};
-    o.paper.weight_updates = WeightUpdates::deferred;
+    o.paper.weight_updates = Updates::deferred;
     add("hidden " + std::to_string(static_cast<int>(policy)) + ", deferred weights", o);
     o.flips = Flips::deferred;
     o.paper.inner = 3;
     add("hidden " + std::to_string(static_cast<int>(policy)) + ", all deferred", o);
   }
+  const auto add_paper = [&](std::string title, auto change) {
+    OptimizeOptions o{.energy = EnergyKind::dT, .flips = Flips::deferred, .paper = {.solver = Solver::golden}};
+    o.max_sweeps = 6;
+    change(o.paper);
+    add(std::move(title), o);
+  };
+  for (const SearchRadius radius : {SearchRadius::max, SearchRadius::min}) {
+    add_paper("search radius " + std::to_string(static_cast<int>(radius)),
+              [&](PaperSwitches& p) { p.search_radius = radius, p.weight_reach = 4; });
+  }
+  add_paper("all deferred", [](PaperSwitches& p) { p.position_updates = p.weight_updates = Updates::deferred; });
+  add_paper("visits twice", [](PaperSwitches& p) { p.visits = Visits::twice; });
+  add_paper("constant overshoot",
+            [](PaperSwitches& p) { p.flip_limit = FlipLimit::after, p.overshoot = 1.5, p.overshoot_factor = 1; });
+  add_paper("removal by weight",
+            [](PaperSwitches& p) { p.removal = Removal::weight, p.removal_weight = 0.2, p.removal_from = 1; });
+  add("Newton, all deferred", {.paper = {.weight_updates = Updates::deferred, .position_updates = Updates::deferred}});
+  add("insertion", {.energy = EnergyKind::T,
+                    .paper = {.removal_measure = RemovalMeasure::sum, .insertion_from = 1, .insertion_ratio = 1.5}});
+  add("first energy", {.paper = {.first_energy = EnergyKind::dT, .switch_at = 4}});
   add("weights only", {.unknowns = Unknowns::weights});
   add("positions only", {.energy = EnergyKind::dT, .unknowns = Unknowns::positions});
   add("anchor", {.paper = {.anchor = VertexId(5)}});
