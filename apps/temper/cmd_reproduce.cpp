@@ -7,10 +7,13 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "console.hpp"
+#include "gallery/reading.hpp"
 #include "gallery/results.hpp"
 #include "gallery/selection.hpp"
 #include "help.hpp"
@@ -27,7 +30,33 @@ struct Settings {
   std::vector<std::string> figures;
   std::string output;
   bool reduced = false, list = false, require_claims = false;
+  gallery::Reading reading;
 };
+
+/// An option of optimize, as a reading of the paper.
+void add_reading(Command& command, const char* name, std::vector<std::string_view> values,
+                 std::function<void(std::string_view)> use, const std::string& what) {
+  add_name(command, name, std::move(values), std::move(use), what).default_text = "as each figure has it";
+}
+
+/// One reading in the place of those of the figures.
+void add_readings(Command& command, gallery::Reading& reading) {
+  command.group("How the paper is read");
+  add_reading(
+      command, "--search-radius", {"rms", "max", "min"},
+      [&](std::string_view name) {
+        reading.search_radius = name == "rms"   ? SearchRadius::rms
+                                : name == "max" ? SearchRadius::max
+                                                : SearchRadius::min;
+      },
+      "the \"patch radius\" that searches go");
+  add_number(command, "--weight-reach", reading.weight_reach, kPositive,
+             "how far they go for a weight, over its square");
+  add_reading(
+      command, "--inversion", {"refuse", "allow"},
+      [&](std::string_view name) { reading.inversion = name == "allow" ? Inversion::allow : Inversion::refuse; },
+      "whether steps may turn triangles over");
+}
 
 void add_options(Command& command, Settings& s) {
   command.group("Options");
@@ -42,6 +71,7 @@ void add_options(Command& command, Settings& s) {
   command.add_flag("--require-claims", s.require_claims,
                    "exit with 3 when a claim does not hold; everything is written first");
   command.add_flag("--list", s.list, "list the figures");
+  add_readings(command, s.reading);
   command.add_help({"[FIG ...] -o DIR [options]",
                     "  temper reproduce --list\n"
                     "  temper reproduce 6 -o gallery\n"
@@ -192,6 +222,7 @@ Exit run_reproduce(const Arguments& arguments) {
   const Effort effort = s.reduced ? Effort::reduced : Effort::full;
   Folder folder(s.output, effort);
 
+  gallery::set_reading(s.reading);
   const Made made = make(*chosen, effort, folder);
   print_summary(made);
   print(folder.file("index.html") + "\n");

@@ -14,7 +14,8 @@
 
 namespace temper::gallery {
 
-/// Positions and weights from iteration 0, γ = 1, −h° a quarter more than the worst h of the input; inversions allowed.
+/// Positions and weights from iteration 0, γ = 1, −h° a quarter more than the worst h of the input. Inversions
+/// are allowed, but for barriers, which without a rule against them lose triangles (figure 32).
 [[nodiscard]] OptimizeOptions dense_options(std::string_view energy, const VertexOrder& order = {});
 /// Positions only, where no step turns a triangle over: a golden section over the whole patch radius that may do so
 /// jumps over the narrow minima at collapsed edges.

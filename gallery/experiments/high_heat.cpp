@@ -55,6 +55,7 @@ OptimizeOptions high_heat_options(std::string_view energy) {
   options.paper.removal = Removal::none;
   options.paper.collapse_energy = EnergyKind::F;
   options.paper.weights_from = kWeightsFrom;
+  options.paper.inversion = Inversion::infinite;
   return options;
 }
 

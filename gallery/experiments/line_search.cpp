@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "experiments/minimise.hpp"
 
 namespace temper::gallery {
 namespace {
 
+constexpr int kSearches = 3;
 constexpr double kInversionFraction = 0.9;  // of the way to the first triangle without area
 
 /// Areas are linear along the step.
@@ -23,27 +25,38 @@ double inversion_limit(const Mesh& mesh, VertexId v, Vec2 step) {
 
 }  // namespace
 
-double patch_radius(const Mesh& mesh, VertexId v) {
-  double sum = 0;
+double patch_radius(const Mesh& mesh, VertexId v, SearchRadius which) {
+  double sum = 0, least = std::numeric_limits<double>::infinity(), largest = 0;
   std::size_t n = 0;
   const auto add = [&](VertexId neighbour) {
-    sum += squared_length(mesh.position(neighbour) - mesh.position(v));
+    const double l2 = squared_length(mesh.position(neighbour) - mesh.position(v));
+    sum += l2;
+    least = std::min(least, l2);
+    largest = std::max(largest, l2);
     ++n;
   };
   for (const HalfedgeId h : mesh.star(v)) {
     add(mesh.target(h));
     if (!mesh.rotate(h).valid()) add(mesh.opposite(h));  // the last neighbour along the boundary
   }
-  return std::sqrt(sum / static_cast<double>(n));
+  switch (which) {
+    case SearchRadius::rms:
+      return std::sqrt(sum / static_cast<double>(n));
+    case SearchRadius::max:
+      return std::sqrt(largest);
+    case SearchRadius::min:
+      return std::sqrt(least);
+  }
+  return 0;
 }
 
-std::vector<LineSearch> line_searches(Mesh mesh, const EnergyModel& model, VertexId v, int searches) {
+std::vector<LineSearch> line_searches(Mesh mesh, const EnergyModel& model, VertexId v, SearchRadius radius) {
   std::vector<LineSearch> done;
-  for (int i = 0; i < searches; ++i) {
+  for (int i = 0; i < kSearches; ++i) {
     const VertexDerivatives here = vertex_energy(mesh, model, v);
     const Vec2 downhill{-here.gradient[0], -here.gradient[1]};
     if (!(squared_length(downhill) > 0)) break;
-    const Vec2 from = mesh.position(v), step = (patch_radius(mesh, v) / length(downhill)) * downhill;
+    const Vec2 from = mesh.position(v), step = (patch_radius(mesh, v, radius) / length(downhill)) * downhill;
     const double limit = inversion_limit(mesh, v, step);
     const auto along = [&](double t) {
       mesh.set_position(v, from + t * step);

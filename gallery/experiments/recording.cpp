@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "reading.hpp"
+
 namespace temper::gallery {
 namespace {
 
@@ -56,7 +58,7 @@ Recording record(const Mesh& start, const OptimizeOptions& options, Keep keep) {
     recording.moments.push_back({s.moment, s.sweep, s.outer, s.energy, s.mesh, s.vertices});
   };
   hooks.tracer = [&](const TraceEvent& event) { recording.events.push_back(event); };
-  auto report = optimize(recording.result, options, hooks);
+  auto report = optimize(recording.result, as_read(options), hooks);
   if (report) {
     recording.report = *std::move(report);
   } else {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "experiments/recording.hpp"
 
@@ -32,9 +33,14 @@ class Reversals {
   std::size_t all_ = 0, reversed_ = 0;
 };
 
-/// One sweep, and the flips after it.
+/// One sweep, and the flips after it. Where the weights hide a corner of the domain it is kept.
 Moment one_sweep(PolicyRun& policy_run, const OptimizeOptions& options) {
   Recording run = record(policy_run.end, options, Keep::sweeps);
+  if (!run.error.empty()) {
+    OptimizeOptions keeping = options;
+    keeping.paper.hidden = HiddenPolicy::keep;
+    run = record(policy_run.end, keeping, Keep::sweeps);
+  }
   VertexId last;  // whose weight was the last to change
   for (const TraceEvent& e : run.events) {
     if (e.kind == EventKind::weight || e.kind == EventKind::move) last = e.vertex;
@@ -59,7 +65,7 @@ std::vector<WeightPolicy> weight_policies() {
   for (const auto& [limit, limit_name] :
        {std::pair{FlipLimit::unlimited, "unlimited"}, std::pair{FlipLimit::before, "before"},
         std::pair{FlipLimit::after, "after"}}) {
-    using enum WeightUpdates;
+    using enum Updates;
     policies.push_back({limit_name, "weights and flips at once", limit, immediate, Flips::immediate});
     policies.push_back({limit_name, "flips deferred", limit, immediate, Flips::deferred});
     policies.push_back({limit_name, "weights and flips deferred", limit, deferred, Flips::deferred});
@@ -82,12 +88,17 @@ OptimizeOptions policy_options(const WeightPolicy& policy, const VertexOrder& or
   return options;
 }
 
-PolicyRun run_policy(const WeightPolicy& policy, const Mesh& start, const VertexOrder& order, int sweeps) {
+PolicyRun run_policy(const WeightPolicy& policy, const Mesh& start, const VertexOrder& order, int sweeps,
+                     const WeightReading& reading) {
   OptimizeOptions options = policy_options(policy, order);
+  options.energy = reading.energy;
+  options.paper.weight_reach = reading.reach;
+  EnergyModel model = energy_dt();
+  model.kind = reading.energy;
   const double overshoot = options.paper.overshoot - 1;
   PolicyRun run;
   run.policy = policy;
-  run.energies = {total_energy(start, energy_dt())};
+  run.energies = {total_energy(start, model)};
   run.end = start;
   for (const VertexId v : start.vertices()) run.vertices.push_back(v);
   Reversals reversals(start.n_vertices());
@@ -114,17 +125,19 @@ PolicyRun run_policy(const WeightPolicy& policy, const Mesh& start, const Vertex
   return run;
 }
 
-std::vector<PolicyRun> run_policies(const VertexOrder& order) {
+std::vector<PolicyRun> run_policies(const VertexOrder& order, const WeightReading& reading) {
   std::vector<PolicyRun> all;
   for (const WeightPolicy& policy : weight_policies()) {
-    all.push_back(run_policy(policy, oscillating_mesh(), order, kSweeps));
+    all.push_back(run_policy(policy, oscillating_mesh(), order, kSweeps, reading));
   }
   return all;
 }
 
-const std::vector<PolicyRun>& policy_runs() {
-  static const std::vector<PolicyRun> runs = run_policies(shown_order());
-  return runs;
+const std::vector<PolicyRun>& policy_runs(const WeightReading& reading) {
+  static std::map<WeightReading, std::vector<PolicyRun>> runs;
+  const auto found = runs.find(reading);
+  return found != runs.end() ? found->second
+                             : runs.emplace(reading, run_policies(shown_order(), reading)).first->second;
 }
 
 const PolicyRun& policy_run(const std::vector<PolicyRun>& runs, FlipLimit limit, std::size_t column) {

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/oscillating_horseshoe.hpp"
@@ -19,7 +20,7 @@ namespace temper::gallery {
 struct WeightPolicy {
   std::string limit_name, update_name;  ///< row and column of figure 23
   FlipLimit limit = FlipLimit::after;
-  WeightUpdates weights = WeightUpdates::immediate;
+  Updates weights = Updates::immediate;
   Flips flips = Flips::immediate;
 };
 
@@ -27,6 +28,17 @@ struct WeightPolicy {
 [[nodiscard]] std::vector<WeightPolicy> weight_policies();
 inline constexpr std::size_t kPolicyColumns = 3;
 inline constexpr FlipLimit kPolicyRows[] = {FlipLimit::unlimited, FlipLimit::before, FlipLimit::after};
+
+/// What the paper leaves open: how far a search for a weight reaches, over r², the mean square distance to the
+/// neighbours; and whether it is E_∂T that is lowered, as the captions say, or "the normalized energy" of the text.
+struct WeightReading {
+  double reach = 1;
+  EnergyKind energy = EnergyKind::dT;
+  friend bool operator<(const WeightReading& a, const WeightReading& b) {
+    return std::pair(a.reach, a.energy) < std::pair(b.reach, b.energy);
+  }
+};
+inline constexpr WeightReading kFarSearches{4, EnergyKind::dT}, kNormalized{1, EnergyKind::ndT};
 
 struct PolicyRun {
   WeightPolicy policy;
@@ -46,13 +58,14 @@ struct PolicyRun {
 };
 
 /// One policy from a mesh.
-[[nodiscard]] PolicyRun run_policy(const WeightPolicy& policy, const Mesh& start, const VertexOrder& order, int sweeps);
+[[nodiscard]] PolicyRun run_policy(const WeightPolicy& policy, const Mesh& start, const VertexOrder& order, int sweeps,
+                                   const WeightReading& reading = {});
 
 /// All nine from oscillating_mesh(), one vertex order, as many sweeps as in figure 24.
-[[nodiscard]] std::vector<PolicyRun> run_policies(const VertexOrder& order);
+[[nodiscard]] std::vector<PolicyRun> run_policies(const VertexOrder& order, const WeightReading& reading = {});
 
-/// Those of figures 23 and 24: in the order of the run that led to the start. Computed once.
-[[nodiscard]] const std::vector<PolicyRun>& policy_runs();
+/// Those of figures 23 and 24: in the order of the run that led to the start. Computed once for each reading.
+[[nodiscard]] const std::vector<PolicyRun>& policy_runs(const WeightReading& reading = {});
 
 /// One of the nine, by its place in figure 23.
 [[nodiscard]] const PolicyRun& policy_run(const std::vector<PolicyRun>& runs, FlipLimit limit, std::size_t column);

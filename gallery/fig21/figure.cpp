@@ -61,15 +61,11 @@ class Direction {
     find_region();
   }
 
-  /// Distance from a to its nearest neighbour, at the start.
-  [[nodiscard]] double nearest() const {
-    double least = kNoThreshold;
-    for (const HalfedgeId h : mesh_.star(a_)) {
-      least = std::min(least, length(mesh_.position(mesh_.target(h)) - mesh_.position(a_)));
-    }
-    return least;
-  }
   [[nodiscard]] const std::vector<LineSearch>& searches() const { return searches_; }
+  /// The same with another patch radius.
+  [[nodiscard]] std::vector<LineSearch> searches_within(SearchRadius radius) const {
+    return line_searches(mesh_, energy_dt(), a_, radius);
+  }
   [[nodiscard]] Vec2 step(std::size_t i) const { return searches_[i].to - searches_[i].from; }
   /// Multiple of the first search's step at which the first edge must flip.
   [[nodiscard]] double flip_at() const { return flip_at_; }
@@ -277,19 +273,36 @@ Claim mostly_extrapolated() {
 
 Claim first_search_ends_at_its_limit() {
   constexpr double kEnd = 0.999;  // of the interval
-  const LineSearch &there = cycle().there.searches().front(), &back = cycle().back.searches().front();
+  const auto parts = [](const Direction& d, SearchRadius radius) {
+    std::vector<double> found;
+    for (const LineSearch& search : d.searches_within(radius)) found.push_back(search.part);
+    return found;
+  };
+  const auto as_claimed = [](const std::vector<double>& part) {
+    return part.size() == 3 && part[0] > kEnd && part[1] < kEnd && part[2] < kEnd;
+  };
+  const auto text = [](const std::vector<double>& part) {
+    std::string all;
+    for (const double p : part) all += (all.empty() ? "" : ", ") + digits(p, 2);
+    return all;
+  };
+  const auto both = [&](SearchRadius radius) {
+    return text(parts(cycle().there, radius)) + " outwards and " + text(parts(cycle().back, radius)) + " inwards";
+  };
+  const std::vector<double> there = parts(cycle().there, SearchRadius::min);
+  const std::vector<double> back = parts(cycle().back, SearchRadius::min);
   return {
       "21",
       "Of the three searches for vertex a the first stops at its limit, the other two at minima.",
       "the first search stops at its limit",
-      "outwards it ends at " + digits(there.part, 2) + " of its limit, inwards at " + digits(back.part, 2),
-      there.part > kEnd && back.part > kEnd,
-      "The searches are " + digits(length(there.to - there.from), 2) + " and " +
-          digits(length(back.to - back.from), 2) +
-          " long. The limit is the patch radius, here the root mean square of the distances to a's neighbours, cut at "
-          "0.9 of the way to an inversion; the nearest neighbour is at " +
-          digits(cycle().there.nearest(), 2) + " and " + digits(cycle().back.nearest(), 2) +
-          ". The paper does not define its radius."};
+      "up to the nearest neighbour they end at " + both(SearchRadius::min) +
+          " of their limits; up to the root mean "
+          "square distance at " +
+          both(SearchRadius::rms),
+      as_claimed(there) && as_claimed(back),
+      "The limit is \"the patch radius\", which the paper does not define, cut at 0.9 of the way to an inversion. Up "
+      "to the farthest neighbour " +
+          both(SearchRadius::max) + "."};
 }
 
 std::string place_text(Vec2 p) { return "(" + digits(p.x, 3) + ", " + digits(p.y, 3) + ")"; }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "experiments/mesh_picture.hpp"
-#include "experiments/search_loop.hpp"
+#include "experiments/position_weight_loop.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "plot/plot.hpp"
@@ -130,8 +130,8 @@ Table table(const std::vector<Tally>& all) {
 
 // --- claims ------------------------------------------------------------------------------------------------
 
-/// Runs of optimize() itself, inversions allowed, that turn a triangle over.
-std::string optimizer_messes(Effort effort) {
+/// Runs with positions and weights vertex by vertex that turn a triangle over.
+std::string messes_vertex_by_vertex(Effort effort) {
   std::size_t messes = 0, runs = 0;
   for (const VertexOrder& order : vertex_orders(effort == Effort::full ? 5 : 0)) {
     OptimizeOptions options = positions_and_collapses();
@@ -159,9 +159,8 @@ Claim makes_a_mess(const std::vector<Tally>& all, Effort effort) {
           digits(near.runs) + " up to r²",
       far.runs > 0 && far.tangled == far.runs,
       "It is the reach of the search that decides: farther out E_∂T is lower than at the local minimum. The paper does "
-      "not give its reach for weights. The optimiser's own is r²; of its runs, weights at once and inversions "
-      "allowed, " +
-          optimizer_messes(effort) + " end as a mess."};
+      "not give its reach for weights. With each weight right after its position, up to r², " +
+          messes_vertex_by_vertex(effort) + " end as a mess."};
 }
 
 Claim duals_first() {
