@@ -3,12 +3,14 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/closeness.hpp"
 #include "experiments/dense_runs.hpp"
 #include "experiments/energies.hpp"
 #include "experiments/text.hpp"
+#include "experiments/variations.hpp"
 #include "figures.hpp"
 #include "plot/plot.hpp"
 #include "temper/quality.hpp"
@@ -249,6 +251,7 @@ Page make_fig18(Effort effort) {
   page.tables.push_back(table_of(pairs));
   page.claims = {good_meshes(pairs), good_in_any_order(full ? 5 : 0, full ? 1e-4 : kReducedTolerance),
                  bhs_like_bp(pairs), little_difference(pairs), fewer_iterations(pairs, full ? 5 : 0)};
+  for (Claim& claim : claims_on_variations(effort)) page.claims.push_back(std::move(claim));
   return page;
 }
 

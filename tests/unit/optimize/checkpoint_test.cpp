@@ -11,6 +11,7 @@
 #include "base/rng.hpp"
 #include "support/lattice.hpp"
 #include "support/regions.hpp"
+#include "support/sanitizers.hpp"
 #include "support/shapes.hpp"
 #include "support/std_threads.hpp"
 #include "temper/generate.hpp"
@@ -102,7 +103,7 @@ void expect_end_of(const std::vector<TraceEvent>& whole, std::size_t begin, cons
 
 /// Every so many of the stops, so that about a dozen are tried, the last ones among them.
 std::vector<Stop> some_of(const std::vector<Stop>& stops) {
-  constexpr std::size_t kTried = 12;
+  constexpr std::size_t kTried = TEMPER_SANITIZED ? 4 : 12;
   std::vector<Stop> some;
   for (std::size_t i = stops.size(); i > 0; i -= std::min(i, 1 + stops.size() / kTried)) some.push_back(stops[i - 1]);
   return some;
