@@ -65,6 +65,8 @@ constexpr Exception kDoesNotHold[] = {
     {"7 Conclusion", "any metric can be used"},
     {"31", "coarse mesh of high quality"},
     {"7 Conclusion", "by its barrier alone"},
+    {"7 Further Exploration", "ends with less energy than E_BP alone"},
+    {"7 Further Exploration", "should be removed explicitly"},
 };
 
 #ifdef TEMPER_QUICK_CLAIMS
