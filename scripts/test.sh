@@ -128,6 +128,7 @@ stage "layers: the checker finds what it should" python3 scripts/check_layers.py
 stage "layers: who includes whom" python3 scripts/check_layers.py
 stage "format" formatted
 stage "bench: the comparison finds what it should" python3 bench/compare.py --self-test
+stage "bench: the rates are what they should be" python3 bench/rates.py --self-test
 stage "headers, each alone" tests/consumer/headers.sh
 stage "clang-tidy on what has changed" tidy
 # Those tests whose findings depend on how the library is optimised.
