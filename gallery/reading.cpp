@@ -20,7 +20,7 @@ OptimizeOptions as_read(OptimizeOptions options) {
   PaperSwitches& p = options.paper;
   p.search_radius = r.search_radius.value_or(p.search_radius);
   p.weight_reach = r.weight_reach.value_or(p.weight_reach);
-  if (options.flips == Flips::deferred) p.inversion = r.inversion.value_or(p.inversion);
+  if (r.refuses_inversions) p.inversion = Inversion::refuse;
   return options;
 }
 

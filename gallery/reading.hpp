@@ -12,7 +12,7 @@ namespace temper::gallery {
 struct Reading {
   std::optional<SearchRadius> search_radius;  ///< §5.2: "the maximum search distance is the patch radius"
   std::optional<double> weight_reach;         ///< of a weight, relative to its square
-  std::optional<Inversion> inversion;         ///< whether steps may turn triangles over
+  bool refuses_inversions = false;            ///< no step turns a triangle over, in any figure
 };
 
 /// Before the first figure is made: some keep their runs.

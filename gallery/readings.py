@@ -15,12 +15,11 @@ import sys
 FIGURES = "11-32"
 READINGS = [
     ("as each figure has it", []),
-    ("no step turns a triangle over", ["--inversion", "refuse"]),
-    ("steps may turn triangles over", ["--inversion", "allow"]),
+    ("no step turns a triangle over", ["--refuse-inversions"]),
     ("R is the distance to the farthest neighbour", ["--search-radius", "max"]),
     ("R is the distance to the nearest neighbour", ["--search-radius", "min"]),
     ("weights are searched up to 4 R²", ["--weight-reach", "4"]),
-    ("no step turns a triangle over, and weights up to 4 R²", ["--inversion", "refuse", "--weight-reach", "4"]),
+    ("no step turns a triangle over, and weights up to 4 R²", ["--refuse-inversions", "--weight-reach", "4"]),
 ]
 BEGIN, END = "<!-- readings -->", "<!-- /readings -->"
 

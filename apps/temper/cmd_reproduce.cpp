@@ -33,29 +33,17 @@ struct Settings {
   gallery::Reading reading;
 };
 
-/// An option of optimize, as a reading of the paper.
-void add_reading(Command& command, const char* name, std::vector<std::string_view> values,
-                 std::function<void(std::string_view)> use, const std::string& what) {
-  add_name(command, name, std::move(values), std::move(use), what).default_text = "as each figure has it";
-}
-
 /// One reading in the place of those of the figures.
 void add_readings(Command& command, gallery::Reading& reading) {
   command.group("How the paper is read");
-  add_reading(
-      command, "--search-radius", {"rms", "max", "min"},
-      [&](std::string_view name) {
-        reading.search_radius = name == "rms"   ? SearchRadius::rms
-                                : name == "max" ? SearchRadius::max
-                                                : SearchRadius::min;
-      },
-      "the \"patch radius\" that searches go");
+  const auto take_radius = [&](std::string_view name) {
+    reading.search_radius = name == "rms" ? SearchRadius::rms : name == "max" ? SearchRadius::max : SearchRadius::min;
+  };
+  add_name(command, "--search-radius", {"rms", "max", "min"}, take_radius, "the \"patch radius\" that searches go")
+      .default_text = "as each figure has it";
   add_number(command, "--weight-reach", reading.weight_reach, kPositive,
              "how far they go for a weight, over its square");
-  add_reading(
-      command, "--inversion", {"refuse", "allow"},
-      [&](std::string_view name) { reading.inversion = name == "allow" ? Inversion::allow : Inversion::refuse; },
-      "whether steps may turn triangles over");
+  command.add_flag("--refuse-inversions", reading.refuses_inversions, "no step turns a triangle over, in any figure");
 }
 
 void add_options(Command& command, Settings& s) {

@@ -9,8 +9,8 @@
 //   BHs  (α d² + β h²) / (χ (h − h°)),  h° ≤ 0             eq. 6;  needs h > h° and 0 < d < ℓ
 //   BP   (α d² + β h²) / (χ φ),  φ = (h + √(h² + γ²))/2    eq. 7;  needs 0 < d < ℓ
 //   nF, nT, ndT   F, T and dT of each triangle over its squared area    Mousley et al. 2011; no unit
-//   ODT  d³h (5/12) + d h³ (1/4), |h| on the boundary          with zero weights the interpolation error of |x|²,
-//        S Σℓ²/24 of a triangle, which optimal Delaunay triangulations (Chen and Xu 2004) minimise; of no star
+//   ODT  5/12 d³h + 1/4 d h³                   with zero weights S Σℓ²/24 of a triangle of doubled area S: the error
+//        of |x|² interpolated there, which optimal Delaunay triangulations (Chen and Xu 2004) make least; of no star
 //
 // summed over the six half-edges of each triangle. (The paper's eqs. 11, 17, 18 leave out the factor 1/3 of
 // ★1: there the least E_BH of an edge is 4, here 4/3.) A barrier is +∞ outside its domain, never NaN.

@@ -181,7 +181,7 @@ struct PaperSwitches {
   std::optional<FlipLimit> flip_limit =
       {};                         ///< absent: unlimited for barriers (a flipping step must pay), after for HOT
   double overshoot = 1.1;         ///< k of Algorithm 5, with FlipLimit::after; > 0
-  double overshoot_factor = 0.1;  ///< by which k − 1 shrinks from sweep to sweep; 1: k is constant. 0 ≤ factor ≤ 1
+  double overshoot_factor = 0.1;  ///< by which k − 1 shrinks from sweep to sweep, to ±1e-6; 1: k is constant. In [0, 1]
   Inversion inversion = Inversion::refuse;
   HiddenPolicy hidden = HiddenPolicy::undo;
 

@@ -34,7 +34,7 @@ inline constexpr std::array<EnergyInfo, kEnergyKinds> kEnergies = [] {
       {nF, "nF", "(α d³h + β d h³) / area²", as_is, false, false, false, 0, false, true},
       {nT, "nT", "sgn(h_k + h_l) (α d³h + β d h³) / area²", absolute, false, false, false, 0, true, true},
       {ndT, "ndT", "(α d³h + β d h³) / area², |h| on the boundary", absolute, false, false, false, 0, false, true},
-      {ODT, "ODT", "5/12 d³h + 1/4 d h³, |h| on the boundary", absolute, false, false, false, 4, false, false, true},
+      {ODT, "ODT", "5/12 d³h + 1/4 d h³", as_is, false, false, false, 4, false, false, true},
   }};
 }();
 static_assert(

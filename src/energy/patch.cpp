@@ -174,6 +174,7 @@ double hot_factor(const EnergyModel& model, double g, double g_other, bool bound
   const EnergyInfo& info = energy_info(model.kind);
   const auto sign = [](double x) { return x < 0 ? -1.0 : 1.0; };
   if (boundary) {
+    if (info.positions_alone) return 1;
     const bool asks_model = info.boundary_treatment == BoundaryTreatment::as_is;
     if (asks_model && model.boundary_treatment == BoundaryTreatment::as_is) return 1;
     if (asks_model && model.boundary_treatment == BoundaryTreatment::mirrored) return 2;

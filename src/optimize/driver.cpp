@@ -86,8 +86,9 @@ Driver::Verdict Driver::sweep(Phase& phase) {
   const double halfway = run_.report.history.back().energy;
   recorder_.begin_sweep(run_.report.sweeps + 1);
   const bool whole = improve_all_vertices(phase.iteration());
-  const bool removed = flipper_.has_removed(), inserted = whole && insert_vertices(phase.iteration());
+  const bool removed = flipper_.has_removed();
   if (removed) compact();
+  const bool inserted = whole && insert_vertices(phase.iteration());
   shift_weights_to_anchor();
   TEMPER_ASSERT_SLOW(!keeps_regular(settings_.options) || count_non_regular_edges(mesh_, false) == 0);
   ++phase.iteration();
@@ -156,13 +157,15 @@ bool Driver::improve_all_vertices(int iteration) {
 /// last none, nor any move.
 void Driver::settle_updates(const IdVector<VertexId, WeightedPoint>& before) {
   constexpr int kHalvings = 6;  // what is left then is hardly worth a step
-  const bool moved = settings_.options.paper.position_updates == Updates::deferred;
+  const PaperSwitches& o = settings_.options.paper;
+  // With another policy flips may have been made, for which vertices are where they are.
+  const bool moves_back = o.position_updates == Updates::deferred && o.hidden == HiddenPolicy::undo;
   for (int i = 0; !flipper_.restore_all() && i <= kHalvings; ++i) {
     for (const VertexId v : mesh_.vertices()) {
       if (mesh_.is_isolated(v)) continue;
       const WeightedPoint now = mesh_.point(v), old = before[v];
       const double w = old.w + (i < kHalvings ? 0.5 : 0.0) * (now.w - old.w);
-      const WeightedPoint& place = moved && i == kHalvings ? old : now;
+      const WeightedPoint& place = moves_back && i == kHalvings ? old : now;
       set_point(v, {place.x, place.y, w});
     }
   }
@@ -174,10 +177,11 @@ IdVector<VertexId, WeightedPoint> Driver::points() const {
   return all;
 }
 
-/// True when there are new ones.
+/// True when there are new ones. Among inverted triangles no point has its place.
 bool Driver::insert_vertices(int iteration) {
   const PaperSwitches& o = settings_.options.paper;
   if (!o.insertion_from || iteration < *o.insertion_from) return false;
+  if (o.inversion == Inversion::allow && count_inverted(mesh_) > 0) return false;
   if (!insert_where_energy_is_large(work_, flipper_, settings_)) return false;
   grow();
   return true;

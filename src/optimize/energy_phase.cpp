@@ -91,7 +91,7 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
     run_.report.stopped = Stopped::converged;
     return Verdict::settled;
   }
-  if (softener_.settled() && may_give_up_ && stagnates()) return Verdict::stopped;
+  if (softener_.settled() && may_give_up_ && !before_switch_ && stagnates()) return Verdict::stopped;
   const double fall = (before_ - after) / std::abs(after);
   if (softener_.settled()) fall_ = fall;
   const bool sharper = softener_.advance(mesh_, fall, run_.report.history.back().bad, settings_.model);

@@ -27,13 +27,17 @@ InputError hidden_vertices_error(const Mesh& input, const InputNames* names) {
 }
 
 std::optional<InputError> outside_domain_error(const Mesh& mesh, const Settings& settings) {
-  const bool gets_in =
-      settings.energy.softened_by_gamma || (settings.energy.softened_by_h0 && !settings.options.paper.h0);
-  if (!settings.energy.barrier || gets_in || std::isfinite(total_energy(mesh, settings.model))) return std::nullopt;
+  const PaperSwitches& p = settings.options.paper;
+  const bool has_first = p.first_energy && p.switch_at > 0;
+  const EnergyInfo& energy = has_first ? energy_info(*p.first_energy) : settings.energy;
+  EnergyModel model = settings.model;
+  model.kind = energy.kind;
+  const bool gets_in = energy.softened_by_gamma || (energy.softened_by_h0 && !p.h0);
+  if (!energy.barrier || gets_in || std::isfinite(total_energy(mesh, model))) return std::nullopt;
   return InputError{
       ErrorCode::invalid_option,
       {},
-      "energy " + std::string(settings.energy.name) + " is infinite on this mesh, where " +
+      "energy " + std::string(energy.name) + " is infinite on this mesh, where " +
           std::to_string(count_bad(mesh, settings.hooks.executor)) + " of " + std::to_string(mesh.n_triangles()) +
           " triangles are not well-centered; expected a mesh inside its barrier, or energy BP, which needs none"};
 }

@@ -54,7 +54,7 @@ class Notes {
 void Notes::tell(const RunFacts& facts) {
   if (facts.boundary_cuts) tell_cuts(*facts.boundary_cuts);
   tell_input_flips(facts.input_flips);
-  if (facts.weights_shrunk) add("weights of the input leave edges uncrossed: all were made smaller");
+  if (facts.weights_shrunk) add("weights left edges uncrossed that a barrier needs crossed: all were made smaller");
   if (facts.energy_rose) add("the energy rose in the last sweeps; the mesh with the least one is returned");
 }
 

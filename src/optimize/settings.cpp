@@ -45,16 +45,25 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
         "`insertion_from` changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or "
         "`flips=deferred`");
   }
+  if (p.insertion_from && o.size_band) {
+    return invalid("`size_band` does not hold what `insertion_from` inserts; expected one of the two");
+  }
   if (p.first_energy && o.objective == Objective::accuracy) {
     return invalid("`first_energy` is for `objective=energy`");
+  }
+  if (all_deferred && p.visits == Visits::twice) {
+    return invalid(
+        "`visits=twice` shows weights the new positions, which `position_updates=deferred` keeps from them; expected "
+        "`visits=once`");
   }
   if (p.inversion == Inversion::allow && !defers_flips(o)) {
     return invalid(
         "`inversion=allow` needs `flips=deferred`, since edges cannot be flipped among inverted triangles; or "
         "`inversion=refuse`");
   }
-  if (p.inversion == Inversion::infinite && !energy_info(o.energy).barrier) {
-    return invalid("`inversion=infinite` is for barriers, which energy " + std::string(energy_info(o.energy).name) +
+  for (const EnergyKind kind : {o.energy, p.first_energy.value_or(o.energy)}) {
+    if (p.inversion != Inversion::infinite || energy_info(kind).barrier) continue;
+    return invalid("`inversion=infinite` is for barriers, which energy " + std::string(energy_info(kind).name) +
                    " is not; expected `inversion=refuse` or `inversion=allow`");
   }
   if (p.inversion != Inversion::refuse && o.boundary == BoundaryVertices::slide) {
@@ -76,9 +85,10 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
 
 /// What an energy that knows no weights cannot do with.
 std::optional<InputError> check_weights(const OptimizeOptions& o, const Mesh& mesh) {
-  const EnergyInfo& energy = energy_info(o.energy);
+  const bool first = o.paper.first_energy && energy_info(*o.paper.first_energy).positions_alone;
+  const EnergyInfo& energy = energy_info(first ? *o.paper.first_energy : o.energy);
   if (!energy.positions_alone) return std::nullopt;
-  const std::string name = "`energy=" + std::string(energy.name) + "`";
+  const std::string name = (first ? "`first_energy=" : "`energy=") + std::string(energy.name) + "`";
   if (o.unknowns == Unknowns::weights) {
     return invalid(name + " is of positions alone; expected `unknowns=positions`");
   }

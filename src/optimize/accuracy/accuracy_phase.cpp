@@ -56,8 +56,8 @@ SweepRecord AccuracyPhase::measure() {
   return r;
 }
 
-Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool removed) {
-  TEMPER_ASSERT(!removed && run_.report.history.back().flips == 0);  // the connectivity is what it was
+Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool changed) {
+  TEMPER_ASSERT(!changed && run_.report.history.back().flips == 0);  // the connectivity is what it was
   TEMPER_ASSERT_SLOW(count_bad(mesh_, nullptr) == bad_);
   if (domain_.floors.raise(mesh_, settings_.accuracy.margin, settings_.hooks.executor) > 0) {
     now_ = sum();  // of another barrier

@@ -268,7 +268,7 @@ constexpr OptionRow kConnectivityRows[] = {
         {.range = more_than(0),
          .needs = {{{"flips", "immediate|deferred"}, {"flip_limit", "after", limits_after_flips}}}}),
     row<kPaper, &Paper::overshoot_factor>(
-        "overshoot_factor", "by which the overshoot's part above 1 shrinks each sweep; 1: it is constant",
+        "overshoot_factor", "by which what the overshoot is above or below 1 shrinks each sweep; 1: it is constant",
         {.range = {0, 1}, .needs = {{{"flips", "immediate|deferred"}, {"flip_limit", "after", limits_after_flips}}}}),
     row<&Options::repair>(
         "repair",
@@ -376,8 +376,7 @@ std::span<const Method> methods() {
       {"production", "temper's own", [] { return OptimizeOptions(); }},
       {"paper",
        "Algorithm 1 of the paper with golden section, deferred flips, collapses, the patch test, inversions allowed, "
-       "the "
-       "first vertex as anchor and gamma 1",
+       "the first vertex as anchor and gamma 1",
        paper_method},
       {"odt", "optimal Delaunay triangulation: energy ODT of the positions alone", odt_method},
       {"cvt", "centroidal Voronoi tessellation: energy F of star 0, of the positions alone", cvt_method},

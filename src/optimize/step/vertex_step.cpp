@@ -29,7 +29,7 @@ void VertexStep::begin_sweep(int sweep, Unknowns unknowns) {
   collapses_ = o.paper.collapse_from && sweep >= *o.paper.collapse_from;
   removes_ = o.paper.removal != Removal::none && sweep >= o.paper.removal_from;
   const double excess = (o.paper.overshoot - 1) * std::pow(o.paper.overshoot_factor, sweep);
-  overshoot_ = 1 + (excess >= 0 ? std::max(kOvershootLeast, excess) : excess);
+  overshoot_ = 1 + (o.paper.overshoot >= 1 ? std::max(kOvershootLeast, excess) : std::min(-kOvershootLeast, excess));
 }
 
 /// Lines 10 to 16 of Algorithm 1.

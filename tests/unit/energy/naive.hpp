@@ -86,7 +86,8 @@ inline Real naive_total(const Mesh& mesh, const EnergyModel& m, VertexId v, cons
       sum += both_halves(e, e.h_left);
       if (mesh.twin(h).valid()) sum += both_halves(e, side(mesh.twin(h)).h_left);
     } else if (!mesh.twin(h).valid()) {
-      const bool as_is = asks_for_treatment && m.boundary_treatment == BoundaryTreatment::as_is;
+      const bool as_is =
+          m.kind == EnergyKind::ODT || (asks_for_treatment && m.boundary_treatment == BoundaryTreatment::as_is);
       const bool mirrored = asks_for_treatment && m.boundary_treatment == BoundaryTreatment::mirrored;
       sum += as_is      ? both_halves(e, e.h_same)
              : mirrored ? 2 * both_halves(e, e.h_same)

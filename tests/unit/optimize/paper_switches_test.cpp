@@ -553,7 +553,12 @@ TEST(Options, SwitchesThatContradictEachOtherAreRefused) {
            {.paper = {.weight_reach = 0}},
            {.paper = {.overshoot_factor = 1.5}},
            {.paper = {.insertion_ratio = 1}},
-           {.energy = EnergyKind::ODT, .unknowns = Unknowns::weights}}) {
+           {.energy = EnergyKind::ODT, .unknowns = Unknowns::weights},
+           {.unknowns = Unknowns::weights, .paper = {.first_energy = EnergyKind::ODT}},
+           {.size_band = 2, .paper = {.insertion_from = 0}},
+           {.unknowns = Unknowns::positions, .paper = {.position_updates = Updates::deferred, .visits = Visits::twice}},
+           {.paper = {.inversion = Inversion::infinite, .first_energy = EnergyKind::dT}},
+           {.energy = EnergyKind::T, .paper = {.inversion = Inversion::infinite}}}) {
     const auto report = optimize(mesh, o);
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::invalid_option);

@@ -188,6 +188,17 @@ TEST(FirstEnergy, IsARunOfItsOwnBeforeTheOther) {
   expect_same(both, after(std::move(naive), o));
 }
 
+TEST(FirstEnergy, IsNotGivenUpBeforeTheOtherHasBeenTried) {
+  OptimizeOptions o{.energy = EnergyKind::BP, .max_sweeps = 300};
+  o.paper.first_energy = EnergyKind::dT;
+  o.paper.switch_at = 900;
+  o.paper.tolerance = 1e-12;
+  Mesh mesh = *horseshoe();
+  const auto report = optimize(mesh, o);
+  ASSERT_TRUE(report);
+  EXPECT_LT(report->history.back().softening, 0.01);  // γ of E_BP, come down
+}
+
 TEST(FirstEnergy, GivesWayWhenItHasConvergedOrTheRunEnds) {
   OptimizeOptions o{.energy = EnergyKind::BP, .max_sweeps = 400};
   o.paper.first_energy = EnergyKind::T;
@@ -206,7 +217,7 @@ TEST(FirstEnergy, GivesWayWhenItHasConvergedOrTheRunEnds) {
 
 TEST(Overshoot, BelowOneNeverFlipsAsLongAsItIsConstant) {
   const Mesh input = random_mesh();
-  for (const double factor : {1.0, 0.0}) {
+  for (const double factor : {1.0, 0.1, 0.0}) {
     OptimizeOptions o{.energy = EnergyKind::T, .max_sweeps = 8};
     o.paper.flip_limit = FlipLimit::after;
     o.paper.overshoot = 0.5;
@@ -215,7 +226,9 @@ TEST(Overshoot, BelowOneNeverFlipsAsLongAsItIsConstant) {
     const auto report = optimize(mesh, o);
     ASSERT_TRUE(report);
     EXPECT_EQ(report->history[1].flips, 0u);
-    EXPECT_EQ(report->flips > 0, factor == 0);
+    if (factor == 1) {
+      EXPECT_EQ(report->flips, 0u);
+    }
   }
 }
 
@@ -271,6 +284,22 @@ TEST(Insertion, BreaksUpTrianglesOfLargeEnergy) {
   }
 }
 
+// Algorithm 1 with all its parts besides: removals in the same sweeps, and triangles that turn over.
+TEST(Insertion, GoesWithRemovalsAndWaitsWhereTrianglesAreInverted) {
+  OptimizeOptions o = paper_method();
+  o.energy = EnergyKind::F;
+  o.paper.inner = 3;
+  o.paper.insertion_from = 0;
+  o.paper.insertion_ratio = 1.1;
+  o.paper.removal_measure = RemovalMeasure::sum;
+  o.max_sweeps = 12;
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    Mesh mesh = *random_points({.vertices = 80, .seed = seed});
+    ASSERT_TRUE(optimize(mesh, o));
+    EXPECT_EQ(mesh.validate(), std::nullopt);
+  }
+}
+
 // Lloyd's iteration moves a vertex to the centroid of its cell, where the moment is least: a stationary point of E_F⁰.
 TEST(Methods, CvtEndsWithVerticesAtTheCentroidsOfTheirCells) {
   Mesh mesh = lattice({.n = 7, .jitter = 0.2, .weight = 0});
@@ -311,20 +340,17 @@ TEST(Methods, OdtEndsWithVerticesAtTheMeanOfCircumcenters) {
     if (mesh.is_boundary(v)) continue;
     double area = 0, longest = 0;
     Vec2 sum{0, 0};
-    bool at_boundary = false;  // where |h| may not be h
     for (const HalfedgeId h : mesh.star(v)) {
       const WeightedPoint p = mesh.point(v), q = mesh.point(mesh.target(h)), r = mesh.point(mesh.opposite(h));
       const double s = 0.5 * cross(q.position() - p.position(), r.position() - p.position());
       area += s;
       sum = sum + s * (orthocenter(p, q, r) - p.position());
       longest = std::max(longest, squared_length(q.position() - p.position()));
-      at_boundary = at_boundary || mesh.is_boundary(Mesh::next(h));
     }
-    if (at_boundary) continue;
     EXPECT_LT(std::hypot(sum.x, sum.y), 2e-5 * area * std::sqrt(longest));
     ++inner;
   }
-  EXPECT_GT(inner, 8);
+  EXPECT_GT(inner, 20);
 }
 
 }  // namespace
