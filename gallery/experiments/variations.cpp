@@ -195,7 +195,7 @@ Claim light_vertices_should_go(Effort effort) {
           "perhaps",
           "runs that end with hidden vertices: " + digits(kept) + " of " + digits(runs) + ", with explicit removal " +
               digits(removed),
-          removed < kept || kept == 0,
+          removed < kept,
           "E_T, positions and weights, short-edge collapses, deferred flips; removed is what is more than R² below the "
           "mean weight of its neighbours.",
           Author::temper};

@@ -24,7 +24,7 @@ template <class Which>
 Edges edges_of(const Mesh& mesh, const Which& which) {
   Edges edges;
   for (const HalfedgeId h : mesh.halfedges()) {
-    const auto [a, b] = std::minmax(mesh.origin(h), mesh.target(h));
+    const auto [a, b] = std::minmax({mesh.origin(h), mesh.target(h)});  // by value
     if (which(h)) edges.insert({a, b});
   }
   return edges;
