@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "temper/executor.hpp"
@@ -26,6 +27,20 @@ double sum_of_blocks(std::size_t n, Executor* executor, Block&& block) {
   std::vector<double> sums((n + kBlockSize - 1) / kBlockSize, 0.0);
   or_serial(executor).run(sums.size(), [&](std::size_t b) { sums[b] = block(b); });
   return pairwise_sum(sums);
+}
+
+/// Several such sums in one walk: block(b, sums) adds to what begins as zeros.
+template <class Block>
+std::vector<double> sums_of_blocks(std::size_t n, std::size_t n_sums, Executor* executor, Block&& block) {
+  const std::size_t blocks = (n + kBlockSize - 1) / kBlockSize;
+  std::vector<double> of_blocks(blocks * n_sums, 0.0);
+  or_serial(executor).run(blocks, [&](std::size_t b) { block(b, std::span(of_blocks).subspan(b * n_sums, n_sums)); });
+  std::vector<double> totals(n_sums), one(blocks);
+  for (std::size_t k = 0; k < n_sums; ++k) {
+    for (std::size_t b = 0; b < blocks; ++b) one[b] = of_blocks[b * n_sums + k];
+    totals[k] = pairwise_sum(one);
+  }
+  return totals;
 }
 
 /// Σ term(i), i = 0 … n − 1; on the executor's threads when there is one.

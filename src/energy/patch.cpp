@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/sum.hpp"
-
 namespace temper {
 namespace {
 
@@ -160,13 +158,20 @@ VertexDerivatives hot_derivatives(const Patch& patch, const EnergyModel& model, 
 }
 
 /// One edge with both its triangles, for the HOT energies.
-double full_edge_energy(const Mesh& mesh, const EnergyModel& model, const HotKernel& kernel, HalfedgeId h) {
-  const auto [edge, area] = edge_in_triangle(mesh, h);
-  const auto [outer, outer_area] = beyond(mesh, h);
-  const double factor = hot_factor(model, edge.g, outer.g, mesh.is_boundary(h));
-  return factor * (kernel.value(edge) * kernel.per_area(area) +
-                   kernel.value(EdgeShape{edge.l2, edge.dw, outer.g}) * kernel.per_area(outer_area));
-}
+struct FullEdge {
+  FullEdge(const Mesh& mesh, HalfedgeId h)
+      : here(edge_in_triangle(mesh, h)), across(beyond(mesh, h)), boundary(mesh.is_boundary(h)) {}
+
+  [[nodiscard]] double energy(const EnergyModel& model, const HotKernel& kernel) const {
+    const EdgeShape& edge = here.edge;
+    const double factor = hot_factor(model, edge.g, across.edge.g, boundary);
+    return factor * (kernel.value(edge) * kernel.per_area(here.doubled_area) +
+                     kernel.value(EdgeShape{edge.l2, edge.dw, across.edge.g}) * kernel.per_area(across.doubled_area));
+  }
+
+  EdgeInTriangle here, across;
+  bool boundary;
+};
 
 }  // namespace
 
@@ -243,9 +248,9 @@ double flip_energy(const Mesh& mesh, const EnergyModel& model, HalfedgeId h) {
       return barrier_triangle(kernel, triangle_shape(a, b, mesh.point(mesh.opposite(h)))) +
              barrier_triangle(kernel, triangle_shape(b, a, mesh.point(mesh.opposite(t))));
     } else {
-      double sum = full_edge_energy(mesh, model, kernel, h);
+      double sum = FullEdge(mesh, h).energy(model, kernel);
       for (const HalfedgeId outer : {Mesh::next(h), Mesh::prev(h), Mesh::next(t), Mesh::prev(t)}) {
-        sum += full_edge_energy(mesh, model, kernel, outer);
+        sum += FullEdge(mesh, outer).energy(model, kernel);
       }
       return sum;
     }
@@ -270,17 +275,30 @@ double triangle_energy(const EnergyModel& model, const WeightedPoint& p, const W
   });
 }
 
-double total_hot_energy(const Mesh& mesh, const EnergyModel& model, Executor* executor) {
-  const EdgeFormula formula = edge_formula(model);
-  const HotKernel kernel{formula.alpha, formula.beta, formula.normalized};
-  return blockwise_sum(mesh.n_triangles(), executor, [&](std::size_t i) {
-    double sum = 0;
+void add_hot_energies(const Mesh& mesh, std::span<const EnergyModel> models, std::size_t first, std::size_t last,
+                      std::span<double> sums) {
+  struct Term {
+    const EnergyModel* model;
+    HotKernel kernel;
+    double* sum;
+    double of_triangle;
+  };
+  std::vector<Term> terms;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const EdgeFormula f = edge_formula(models[i]);
+    if (f.form == EdgeFormula::Form::hot) terms.push_back({&models[i], {f.alpha, f.beta, f.normalized}, &sums[i], 0});
+  }
+  if (terms.empty()) return;
+  for (std::size_t i = first; i < last; ++i) {
+    for (Term& term : terms) term.of_triangle = 0;
     for (int k = 0; k < 3; ++k) {
       const HalfedgeId h = Mesh::halfedge(TriangleId(i), k);
-      if (mesh.is_edge_representative(h)) sum += full_edge_energy(mesh, model, kernel, h);
+      if (!mesh.is_edge_representative(h)) continue;
+      const FullEdge edge(mesh, h);
+      for (Term& term : terms) term.of_triangle += edge.energy(*term.model, term.kernel);
     }
-    return sum;
-  });
+    for (const Term& term : terms) *term.sum += term.of_triangle;
+  }
 }
 
 VertexDerivatives vertex_energy(const Mesh& mesh, const EnergyModel& model, VertexId v) {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "energy/star_kernels.hpp"
@@ -49,8 +50,10 @@ void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch);
 /// total(after) − total(before) = flip_energy(after) − flip_energy(before).
 [[nodiscard]] double flip_energy(const Mesh& mesh, const EnergyModel& model, HalfedgeId h);
 
-/// total_energy() of a HOT energy.
-[[nodiscard]] double total_hot_energy(const Mesh& mesh, const EnergyModel& model, Executor* executor);
+/// Adds what triangles first … last − 1 and their edges have of the HOT energies to `sums`, one a model; to those of
+/// barriers nothing.
+void add_hot_energies(const Mesh& mesh, std::span<const EnergyModel> models, std::size_t first, std::size_t last,
+                      std::span<double> sums);
 
 /// The sign, and for E_F the treatment at the boundary, by which an edge's HOT energy counts.
 /// g and g_other are same-side heights of the edge in its two triangles; g_other is 0 on the boundary.

@@ -7,6 +7,7 @@
 
 #include "base/sum.hpp"
 #include "energy/patch.hpp"
+#include "energy/total_energies.hpp"
 #include "geometry/predicates_inline.hpp"
 
 namespace temper {
@@ -84,15 +85,30 @@ EnergyAndBad energy_and_bad(const Mesh& mesh, const EnergyModel& model, Executor
   return {energy, static_cast<std::size_t>(pairwise_sum(bad))};
 }
 
-double total_energy(const Mesh& mesh, const EnergyModel& model, Executor* executor) {
-  const EdgeFormula formula = edge_formula(model);
-  if (formula.form == EdgeFormula::Form::hot) return total_hot_energy(mesh, model, executor);
+std::vector<double> total_energies(const Mesh& mesh, std::span<const EnergyModel> models, Executor* executor) {
+  struct Barrier {
+    EdgeFormula formula;
+    std::size_t place;
+  };
+  std::vector<Barrier> barriers;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const EdgeFormula formula = edge_formula(models[i]);
+    if (formula.form != EdgeFormula::Form::hot) barriers.push_back({formula, i});
+  }
   const StarKernels& kernels = star_kernels();
-  return sum_of_blocks(mesh.n_triangles(), executor, [&](std::size_t block) {
-    double sum = 0;
-    for_batches(mesh, block, [&](const Batch& batch) { sum += kernels.barrier_sum(formula, batch.lanes, batch.size); });
-    return sum;
+  const std::size_t n = mesh.n_triangles();
+  return sums_of_blocks(n, models.size(), executor, [&](std::size_t block, std::span<double> sums) {
+    if (!barriers.empty()) {
+      for_batches(mesh, block, [&](const Batch& batch) {
+        for (const Barrier& b : barriers) sums[b.place] += kernels.barrier_sum(b.formula, batch.lanes, batch.size);
+      });
+    }
+    add_hot_energies(mesh, models, block * kBlockSize, std::min(n, (block + 1) * kBlockSize), sums);
   });
+}
+
+double total_energy(const Mesh& mesh, const EnergyModel& model, Executor* executor) {
+  return total_energies(mesh, {&model, 1}, executor).front();
 }
 
 }  // namespace temper

@@ -43,6 +43,7 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
   Candidate best;
   const Resumable here(run.checkpoints, run, *settings, stage, best);
   if (run.checkpoints.failed()) return *run.checkpoints.error();
+  const InputMeasures of_input = measure_input(mesh, *settings);
   if (stage == Stage::attempts) {
     auto found = is_ready_for_accuracy(mesh, options, hooks.executor)
                      ? Candidate{WorkingCopy(mesh, options.paper.order, hooks.executor)}
@@ -63,7 +64,7 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
     if (goes_on) best.sweep = Driver(best.work, phase.settings(), run).run(phase, best.sweep);
   }
   if (auto error = run.checkpoints.error()) return *std::move(error);
-  give_back(mesh, std::move(best), *std::move(settings), sizes ? &*sizes : nullptr, run);
+  give_back(mesh, std::move(best), *std::move(settings), of_input, sizes ? &*sizes : nullptr, run);
   return std::move(run.report);
 }
 

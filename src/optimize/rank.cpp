@@ -6,13 +6,33 @@
 
 namespace temper {
 
+namespace {
+
+std::size_t count_inverted_if_allowed(const Mesh& mesh, const OptimizeOptions& o) {
+  return o.paper.inversion == Inversion::allow ? count_inverted(mesh) : 0;
+}
+
+}  // namespace
+
+Counts count(const Mesh& mesh, const Settings& settings) {
+  return {count_inverted_if_allowed(mesh, settings.options),
+          count_non_regular_edges(mesh, false, settings.hooks.executor), count_bad(mesh, settings.hooks.executor)};
+}
+
 Rank rank(const Mesh& mesh, const Settings& settings, const VertexSizes* sizes) {
-  const OptimizeOptions& o = settings.options;
+  Counts counts;  // those that count
+  counts.inverted = count_inverted_if_allowed(mesh, settings.options);
+  if (settings.options.paper.hidden != HiddenPolicy::keep)
+    counts.non_regular = count_non_regular_edges(mesh, false, settings.hooks.executor);
+  if (settings.energy.barrier) counts.bad = count_bad(mesh, settings.hooks.executor);
+  return rank(mesh, counts, settings, sizes);
+}
+
+Rank rank(const Mesh& mesh, const Counts& counts, const Settings& settings, const VertexSizes* sizes) {
   Rank r;
-  if (o.paper.inversion == Inversion::allow) r.inverted = count_inverted(mesh);
-  if (o.paper.hidden != HiddenPolicy::keep)
-    r.non_regular = count_non_regular_edges(mesh, false, settings.hooks.executor);
-  if (settings.energy.barrier) r.bad = count_bad(mesh, settings.hooks.executor);
+  r.inverted = counts.inverted;
+  if (settings.options.paper.hidden != HiddenPolicy::keep) r.non_regular = counts.non_regular;
+  if (settings.energy.barrier) r.bad = counts.bad;
   if (sizes != nullptr) {
     r.lacks_margins = !has_margins(mesh, settings.accuracy.margin, settings.hooks.executor);
     r.energy = accuracy_energy(mesh, *sizes, settings.accuracy, settings.hooks.executor);

@@ -19,8 +19,17 @@ struct Rank {
   friend auto operator<=>(const Rank&, const Rank&) = default;
 };
 
+/// What is counted for a rank, whatever the energy.
+struct Counts {
+  std::size_t inverted = 0;  ///< none are looked for unless they are allowed
+  std::size_t non_regular = 0, bad = 0;
+};
+[[nodiscard]] Counts count(const Mesh& mesh, const Settings& settings);
+
 /// The rank by the energy of the settings, in the units of their model; with the sizes at its vertices by that of the
 /// accuracy objective.
 [[nodiscard]] Rank rank(const Mesh& mesh, const Settings& settings, const VertexSizes* sizes = nullptr);
+/// The same of a mesh where all has been counted.
+[[nodiscard]] Rank rank(const Mesh& mesh, const Counts& counts, const Settings& settings, const VertexSizes* sizes);
 
 }  // namespace temper

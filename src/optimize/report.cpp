@@ -20,8 +20,15 @@ std::string count_of(std::size_t n, const char* one, const char* many) {
 }
 
 /// The part of the triangles that is not well-centered.
-double bad_part(const Mesh& mesh, const Settings& settings) {
-  return static_cast<double>(count_bad(mesh, settings.hooks.executor)) / static_cast<double>(mesh.n_triangles());
+double bad_part(const Mesh& mesh, std::size_t bad) {
+  return static_cast<double>(bad) / static_cast<double>(mesh.n_triangles());
+}
+
+/// What sizes are compared with; the input's own are seen until it is replaced.
+SizeField field_of(const Mesh& input, const Settings& settings) {
+  if (settings.size_field) return *settings.size_field;
+  return settings.options.size_field ? *settings.options.size_field
+                                     : input_size_field_of(input, settings.hooks.executor);
 }
 
 /// The sentences of a report, in the order in which they are told.
@@ -36,7 +43,7 @@ class Notes {
   void tell_what_is_not_regular();
   void tell_sizes();
   void tell_energy();
-  void tell_edges_that_must_be_split();
+  void tell_edges_that_must_be_split(std::size_t bad);
   void tell_accuracy();
 
  private:
@@ -92,7 +99,7 @@ void Notes::tell_input_is_returned(const RunFacts& facts, bool flipped) {
 /// HOT energies do not ask how many triangles are well-centered. `bad_before`: part of the input's.
 void Notes::tell_if_more_are_bad(double bad_before) {
   const auto percent = [](double part) { return to_text(std::round(1000 * part) / 10) + " %"; };
-  const double bad = bad_part(mesh_, settings_);
+  const double bad = bad_part(mesh_, count_bad(mesh_, settings_.hooks.executor));
   if (bad > bad_before) {
     add(percent(bad) + " of the triangles are not well-centered, " + percent(bad_before) + " of the input's: energy " +
         std::string(settings_.energy.name) + " does not ask for that, energy BP does");
@@ -137,8 +144,8 @@ std::string Notes::name_of(VertexId v) const {
 }
 
 /// Triangles that no optimiser can make well-centered, whatever it tries.
-void Notes::tell_edges_that_must_be_split() {
-  if (!settings_.energy.barrier || count_bad(mesh_, settings_.hooks.executor) == 0) return;
+void Notes::tell_edges_that_must_be_split(std::size_t bad) {
+  if (!settings_.energy.barrier || bad == 0) return;
   if (options_.paper.inversion == Inversion::allow && count_inverted(mesh_) > 0) return;  // no inside to see through
   const std::vector<EdgeConflict> edges = edges_that_must_be_split(mesh_);
   if (edges.empty()) return;
@@ -211,10 +218,10 @@ void count_changes(const Mesh& input, OptimizeReport& report) {
 
 /// Says whether flips alone make an input that is returned better: what hidden vertices keep from being regular stays
 /// so.
-bool lacks_flips(const Mesh& input, const Settings& settings, const RunFacts& facts) {
+bool lacks_flips(const Counts& input, const Settings& settings, const RunFacts& facts) {
   const OptimizeOptions& o = settings.options;
   if (o.flips == Flips::none || (o.paper.hidden == HiddenPolicy::keep && facts.input_flips == 0)) return false;
-  return count_non_regular_edges(input, false, settings.hooks.executor) > 0;
+  return input.non_regular > 0;
 }
 
 }  // namespace
@@ -241,24 +248,26 @@ std::string_view name(Stopped stopped) {
   return "unknown";
 }
 
-void give_back(Mesh& mesh, Candidate best, Settings settings, const AccuracySizes* sizes, Run& run) {
+InputMeasures measure_input(const Mesh& mesh, const Settings& settings) {
+  return {count(mesh, settings), measure_size(mesh, field_of(mesh, settings), settings.hooks.executor)};
+}
+
+void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasures& of_input, const AccuracySizes* sizes,
+               Run& run) {
   OptimizeReport& report = run.report;
-  const OptimizeOptions& o = settings.options;
   Recorder recorder(settings.hooks.tracer, best.work, 1);
   recorder.begin_sweep(run.next_sweep());
   const Settings in_frame = settings;
   settings.model = in_user_units(settings.model, best.work.frame);
   Result result = result_of(std::move(best.work), settings, sizes);
-  const Rank before = rank(mesh, settings, sizes != nullptr ? &sizes->of_input() : nullptr);
-  const SizeField field =
-      o.size_field ? *o.size_field : input_size_field_of(mesh, settings.hooks.executor);  // seen until mesh is replaced
-  report.size.before = report.size.after = measure_size(mesh, field, settings.hooks.executor);
+  const Rank before = rank(mesh, of_input.counts, settings, sizes != nullptr ? &sizes->of_input() : nullptr);
+  report.size.before = report.size.after = of_input.size;
   report.initial_energy = before.energy;
   const std::optional<double> bad_before =
-      settings.energy.barrier ? std::nullopt : std::optional(bad_part(mesh, settings));
+      settings.energy.barrier ? std::nullopt : std::optional(bad_part(mesh, of_input.counts.bad));
   // Flips that make the input regular come before all else that may be better or worse.
   const bool may_be_better = before < result.rank || result.rank.bad > 0 || result.rank.non_regular > 0;
-  const bool flips = may_be_better && lacks_flips(mesh, settings, run.facts);
+  const bool flips = may_be_better && lacks_flips(of_input.counts, settings, run.facts);
   Result input;
   input.rank = before;
   if (flips) {
@@ -276,7 +285,7 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const AccuracySize
   report.final_energy = result.rank.energy;
   count_changes(mesh, report);
   if (!worse || flips) {
-    report.size.after = measure_size(result.mesh, field, settings.hooks.executor, report.vertices);
+    report.size.after = measure_size(result.mesh, field_of(mesh, settings), settings.hooks.executor, report.vertices);
     mesh = std::move(result.mesh);
   }
   report.hidden = hidden_vertices_of(mesh, settings);
@@ -291,7 +300,7 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const AccuracySize
   notes.tell_what_is_not_regular();
   notes.tell_sizes();
   notes.tell_energy();
-  notes.tell_edges_that_must_be_split();
+  notes.tell_edges_that_must_be_split(result.rank.bad);
   if (sizes != nullptr) notes.tell_accuracy();
   report.seconds = run.seconds();
 }

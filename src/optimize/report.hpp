@@ -2,6 +2,7 @@
 #pragma once
 
 #include "optimize/accuracy/accuracy_sizes.hpp"
+#include "optimize/rank.hpp"
 #include "optimize/run.hpp"
 #include "optimize/settings.hpp"
 
@@ -14,8 +15,17 @@ struct Candidate {
 };
 void visit(Archive& archive, Candidate& candidate);
 
+/// What the report compares with, as far as it depends on the input alone. It is measured before the sweeps: whoever
+/// stops them need not wait for it, and Run::begin_sweeps() learns how long the like takes at the end.
+struct InputMeasures {
+  Counts counts;
+  SizeReport size;
+};
+[[nodiscard]] InputMeasures measure_input(const Mesh& mesh, const Settings& settings);
+
 /// Puts the candidate into `mesh`, unless that is the better one, and completes the report of the run. `sizes`: of the
 /// accuracy objective, else null.
-void give_back(Mesh& mesh, Candidate best, Settings settings, const AccuracySizes* sizes, Run& run);
+void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasures& of_input, const AccuracySizes* sizes,
+               Run& run);
 
 }  // namespace temper

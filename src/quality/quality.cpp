@@ -1,5 +1,5 @@
-// The report: one pass over the triangles in blocks of a fixed size, then the energies, one row and star at a
-// time. Blocks go to the executor; the merge is in their order, so the report does not depend on threads.
+// The report: one pass over the triangles in blocks of a fixed size, then another one for all energies. Blocks go to
+// the executor; the merge is in their order, so the report does not depend on threads.
 #include "temper/quality.hpp"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 
 #include "base/assert.hpp"
 #include "base/median.hpp"
+#include "energy/total_energies.hpp"
 #include "mesh/erased.hpp"
 #include "quality/tally.hpp"
 #include "temper/executor.hpp"
@@ -33,16 +34,17 @@ Tally tally(const Mesh& mesh, const QualityOptions& options) {
 }
 
 EnergyTable all_energies(const Mesh& mesh, const QualityOptions& options) {
-  EnergyTable totals = {};
-  or_serial(options.executor).run(totals.size() * 3, [&](std::size_t i) {
-    EnergyModel model;
-    model.kind = static_cast<EnergyKind>(i / 3);
-    model.star = static_cast<Star>(i % 3);
-    model.gamma = options.gamma;
-    model.h0 = options.h0;
-    totals[i / 3][i % 3] = total_energy(mesh, model);
-  });
-  return totals;
+  EnergyTable table = {};
+  std::vector<EnergyModel> models(table.size() * 3);
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    models[i].kind = static_cast<EnergyKind>(i / 3);
+    models[i].star = static_cast<Star>(i % 3);
+    models[i].gamma = options.gamma;
+    models[i].h0 = options.h0;
+  }
+  const std::vector<double> totals = total_energies(mesh, models, options.executor);
+  for (std::size_t i = 0; i < totals.size(); ++i) table[i / 3][i % 3] = totals[i];
+  return table;
 }
 
 std::size_t count_regions(const Mesh& mesh) {

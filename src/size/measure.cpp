@@ -82,15 +82,20 @@ Spread gradation(const Mesh& mesh, const std::vector<double>& sizes) {
   });
 }
 
-double largest_edge_ratio(const Mesh& mesh) {
-  double largest2 = 1;
-  for (const TriangleId t : mesh.triangles()) {
-    const auto [a, b, c] = mesh.corners(t);
-    const Vec2 p = mesh.position(a), q = mesh.position(b), r = mesh.position(c);
-    const auto [low, high] = std::minmax({squared_length(q - p), squared_length(r - q), squared_length(p - r)});
-    largest2 = std::max(largest2, high / low);
-  }
-  return std::sqrt(largest2);
+double largest_edge_ratio(const Mesh& mesh, Executor* executor) {
+  const std::size_t n = mesh.n_triangles();
+  std::vector<double> largest2((n + kLoopBlock - 1) / kLoopBlock, 1.0);
+  for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
+    double largest = 1;
+    for (std::size_t t = first; t < last; ++t) {
+      const auto [a, b, c] = mesh.corners(TriangleId(t));
+      const Vec2 p = mesh.position(a), q = mesh.position(b), r = mesh.position(c);
+      const auto [low, high] = std::minmax({squared_length(q - p), squared_length(r - q), squared_length(p - r)});
+      largest = std::max(largest, high / low);
+    }
+    largest2[first / kLoopBlock] = largest;
+  });
+  return std::sqrt(largest2.empty() ? 1.0 : *std::max_element(largest2.begin(), largest2.end()));
 }
 
 }  // namespace
@@ -123,7 +128,7 @@ SizeReport measure_size(const Mesh& mesh, const SizeField& field, Executor* exec
     return s.outside ? 1.0 : 0.0;
   }));
   report.over_field = spread(std::move(ratios));
-  report.largest_edge_ratio = largest_edge_ratio(mesh);
+  report.largest_edge_ratio = largest_edge_ratio(mesh, executor);
   return report;
 }
 

@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "energy/total_energies.hpp"
 #include "support/lattice.hpp"
 #include "unit/energy/naive.hpp"
 
@@ -245,6 +247,15 @@ TEST(Energy, TotalDoesNotDependOnTheExecutor) {
   for (const EnergyModel& model : all_models(1)) {
     EXPECT_EQ(total_energy(mesh, model), total_energy(mesh, model, &backwards));
   }
+}
+
+TEST(Energy, TotalsOfOneWalkAreThoseOfEachModelAlone) {
+  const Mesh mesh = lattice({.n = 80, .jitter = 0.3, .weight = 0.3});
+  const std::vector<EnergyModel> models = all_models(1);
+  const std::vector<double> totals = total_energies(mesh, models, nullptr);
+  ASSERT_EQ(totals.size(), models.size());
+  for (std::size_t i = 0; i < models.size(); ++i) EXPECT_EQ(totals[i], total_energy(mesh, models[i]));
+  EXPECT_TRUE(total_energies(mesh, {}, nullptr).empty());
 }
 
 }  // namespace
