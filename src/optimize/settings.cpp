@@ -17,12 +17,9 @@ Softening in_frame(Softening s, const Frame& frame) {
   return s;
 }
 
-/// Options that contradict each other.
-std::optional<InputError> check_combinations(const OptimizeOptions& o) {
+/// Deferred updates, and what they contradict.
+std::optional<InputError> check_updates(const OptimizeOptions& o) {
   const PaperSwitches& p = o.paper;
-  if (o.star == Star::all && o.objective == Objective::energy) {
-    return invalid("`star=all` is for `objective=accuracy`; of an energy expected 0, 1 or 2");
-  }
   const bool all_deferred = p.position_updates == Updates::deferred;
   if (all_deferred && o.unknowns == Unknowns::positions_and_weights && p.weight_updates != Updates::deferred) {
     return invalid(
@@ -40,22 +37,17 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
     return invalid(std::string(all_deferred ? "`position_updates=deferred`" : "`weight_updates=deferred`") +
                    " keeps edges regular by flips alone; expected `flips=immediate` or `flips=deferred`");
   }
-  if (o.flips == Flips::none && p.insertion_from) {
-    return invalid(
-        "`insertion_from` changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or "
-        "`flips=deferred`");
-  }
-  if (p.insertion_from && o.size_band) {
-    return invalid("`size_band` does not hold what `insertion_from` inserts; expected one of the two");
-  }
-  if (p.first_energy && o.objective == Objective::accuracy) {
-    return invalid("`first_energy` is for `objective=energy`");
-  }
   if (all_deferred && p.visits == Visits::twice) {
     return invalid(
         "`visits=twice` shows weights the new positions, which `position_updates=deferred` keeps from them; expected "
         "`visits=once`");
   }
+  return std::nullopt;
+}
+
+/// Rules against inverted triangles, and what they contradict.
+std::optional<InputError> check_inversions(const OptimizeOptions& o) {
+  const PaperSwitches& p = o.paper;
   if (p.inversion == Inversion::allow && !defers_flips(o)) {
     return invalid(
         "`inversion=allow` needs `flips=deferred`, since edges cannot be flipped among inverted triangles; or "
@@ -72,13 +64,33 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
         "passing a "
         "corner");
   }
+  if (p.inversion != Inversion::refuse && o.size_band) {
+    return invalid("`size_band` needs `inversion=refuse`: inverted triangles have no size");
+  }
+  return std::nullopt;
+}
+
+/// Other options that contradict each other.
+std::optional<InputError> check_combinations(const OptimizeOptions& o) {
+  const PaperSwitches& p = o.paper;
+  if (o.star == Star::all && o.objective == Objective::energy) {
+    return invalid("`star=all` is for `objective=accuracy`; of an energy expected 0, 1 or 2");
+  }
+  if (o.flips == Flips::none && p.insertion_from) {
+    return invalid(
+        "`insertion_from` changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or "
+        "`flips=deferred`");
+  }
+  if (p.insertion_from && o.size_band) {
+    return invalid("`size_band` does not hold what `insertion_from` inserts; expected one of the two");
+  }
+  if (p.first_energy && o.objective == Objective::accuracy) {
+    return invalid("`first_energy` is for `objective=energy`");
+  }
   if (o.flips == Flips::none && o.boundary == BoundaryVertices::split) {
     return invalid(
         "`boundary=split` changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or "
         "`flips=deferred`");
-  }
-  if (p.inversion != Inversion::refuse && o.size_band) {
-    return invalid("`size_band` needs `inversion=refuse`: inverted triangles have no size");
   }
   return std::nullopt;
 }
@@ -188,6 +200,8 @@ EnergyModel in_user_units(EnergyModel model, const Frame& frame) {
 Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh, const Frame& frame,
                                  const OptimizeHooks& hooks) {
   if (auto right = check_options(options); !right) return right.error();
+  if (auto error = check_updates(options)) return *std::move(error);
+  if (auto error = check_inversions(options)) return *std::move(error);
   if (auto error = check_combinations(options)) return *std::move(error);
   if (auto error = check_accuracy(options)) return *std::move(error);
   if (auto error = check_anchor(options.paper.anchor, mesh)) return *std::move(error);
