@@ -319,6 +319,9 @@ struct EdgeFormula {
   return f;
 }
 
+/// The kernel of a formula that is no barrier.
+TEMPER_INLINE HotKernel hot_kernel(const EdgeFormula& f) { return {f.alpha, f.beta, f.normalized}; }
+
 /// Calls visit with the kernel of a formula that is a barrier.
 template <class Visit>
 TEMPER_INLINE auto with_barrier(const EdgeFormula& f, Visit&& visit) {
@@ -332,7 +335,7 @@ TEMPER_INLINE auto with_barrier(const EdgeFormula& f, Visit&& visit) {
 template <class Visit>
 TEMPER_INLINE auto with_kernel(const EnergyModel& model, Visit&& visit) {
   const EdgeFormula f = edge_formula(model);
-  if (f.form == EdgeFormula::Form::hot) return visit(HotKernel{f.alpha, f.beta, f.normalized});
+  if (f.form == EdgeFormula::Form::hot) return visit(hot_kernel(f));
   return with_barrier(f, visit);
 }
 

@@ -129,7 +129,7 @@ class HotStar {
     const WeightedPoint q = patch_.q(i), r = patch_.r(i);
     const EdgeShape link{squared_length(r.position() - q.position()), q.w - r.w, patch_.outer_g[i]};
     const double orientation = edges_.doubled_area[i] < 0 ? -1 : 1;
-    const HotKernel kernel{formula_.alpha, formula_.beta, formula_.normalized};
+    const HotKernel kernel = hot_kernel(formula_);
     return orientation * factor_[1][i] * (kernel.value(link) * kernel.per_area(patch_.outer_doubled_area[i]));
   }
 
@@ -286,7 +286,7 @@ void add_hot_energies(const Mesh& mesh, std::span<const EnergyModel> models, std
   std::vector<Term> terms;
   for (std::size_t i = 0; i < models.size(); ++i) {
     const EdgeFormula f = edge_formula(models[i]);
-    if (f.form == EdgeFormula::Form::hot) terms.push_back({&models[i], {f.alpha, f.beta, f.normalized}, &sums[i], 0});
+    if (f.form == EdgeFormula::Form::hot) terms.push_back({&models[i], hot_kernel(f), &sums[i], 0});
   }
   if (terms.empty()) return;
   for (std::size_t i = first; i < last; ++i) {

@@ -68,7 +68,7 @@ double barrier_value(const EdgeFormula& f, const LinkArrays& link, const Weighte
 }
 
 void hot_edges(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint& at, const HotEdges& edges) {
-  const HotKernel kernel{f.alpha, f.beta, f.normalized};
+  const HotKernel kernel = hot_kernel(f);
   const PackPoint p = everywhere(at);
   for (std::size_t i = 0; i < link.size; i += kLanes) {
     const PackPoint q = load_link(link, i), r = load_link(link, i + 1);
@@ -85,7 +85,7 @@ void hot_edges(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint
 
 void hot_derivatives(const EdgeFormula& f, const LinkArrays& link, const EdgeFactors& factors, const WeightedPoint& at,
                      double* out) {
-  const HotKernel kernel{f.alpha, f.beta, f.normalized};
+  const HotKernel kernel = hot_kernel(f);
   const PackPoint p = everywhere(at);
   StarSums sums;
   for (std::size_t i = 0; i < link.size; i += kLanes) {

@@ -55,7 +55,7 @@ Expected<Candidate> best_attempt(const Mesh& mesh, Settings& settings, Run& run)
       if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
       const auto all = attempts(settings.energy, o, now.work.mesh, settings.hooks.executor);
       tries.assign(all.begin(), all.end());
-      for (Attempt& attempt : tries) attempt.first_energy = o.paper.first_energy;
+      for (Attempt& attempt : tries) attempt.first_energy = first_energy_of(o);
       run.facts.input_flips = run.report.flips;
     }
     now.sweep = driver.attempt(tries[i], i + 1 < tries.size() || repairs(settings));

@@ -27,12 +27,11 @@ EnergyPhase::EnergyPhase(const WorkingCopy& work, Settings& settings, Run& run, 
       attempt_(attempt),
       energy_unit_(energy_unit(settings, work.frame)),
       softener_(attempt, settings.energy, settings.options),
-      may_give_up_(may_give_up),
-      fewer_(attempt.fewer) {}
+      may_give_up_(may_give_up) {}
 
 void EnergyPhase::begin() {
-  before_switch_ = attempt_.first_energy && settings_.options.paper.switch_at > 0;
-  take_energy(before_switch_ ? *attempt_.first_energy : settings_.options.energy);
+  before_switch_ = attempt_.first_energy.has_value();
+  take_energy(attempt_.first_energy.value_or(settings_.options.energy));
 }
 
 void EnergyPhase::take_energy(EnergyKind kind) {
@@ -120,7 +119,7 @@ bool EnergyPhase::converged(double before, double after) {
 
 bool EnergyPhase::stagnates() {
   const std::size_t bad = run_.report.history.back().bad;
-  const bool fewer = static_cast<double>(bad) < fewer_ * static_cast<double>(least_bad_);
+  const bool fewer = static_cast<double>(bad) < attempt_.fewer * static_cast<double>(least_bad_);
   sweeps_since_fewer_bad_ = fewer ? 0 : sweeps_since_fewer_bad_ + 1;
   if (fewer) least_bad_ = bad;
   return bad > 0 && sweeps_since_fewer_bad_ >= kPatience;

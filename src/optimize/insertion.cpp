@@ -79,8 +79,7 @@ bool Insertion::insert_at_orthocenter(TriangleId t) {
   const PaperSwitches& switches = settings_.options.paper;
   const PatchComparison e = compare_patch(mesh_, settings_.model, plan_, switches.removal_measure);
   if (!e.better_with(switches.removal_margin)) return false;
-  flipper_.insert(work_, plan_.triangle, plan_.point, e.without, e.with);
-  for (const auto& [from, to] : plan_.flips) flipper_.flip(mesh_.find_halfedge(from, to), kNoEnergy, kNoEnergy);
+  flipper_.commit(work_, plan_, e.without, e.with);
   return true;
 }
 

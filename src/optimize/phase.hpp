@@ -78,7 +78,6 @@ class EnergyPhase final : public Phase {
   bool before_switch_ = false;  // from the first energy to that of the options
   Softener softener_;
   bool may_give_up_;
-  double fewer_;
   double before_ = 0;          // energy at the start of the sweep
   std::size_t least_bad_ = 0;  // when they last were fewer, and for how many sweeps
   int sweeps_since_fewer_bad_ = 0;

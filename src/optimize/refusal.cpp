@@ -27,12 +27,10 @@ InputError hidden_vertices_error(const Mesh& input, const InputNames* names) {
 }
 
 std::optional<InputError> outside_domain_error(const Mesh& mesh, const Settings& settings) {
-  const PaperSwitches& p = settings.options.paper;
-  const bool has_first = p.first_energy && p.switch_at > 0;
-  const EnergyInfo& energy = has_first ? energy_info(*p.first_energy) : settings.energy;
+  const EnergyInfo& energy = energy_info(first_energy_of(settings.options).value_or(settings.energy.kind));
   EnergyModel model = settings.model;
   model.kind = energy.kind;
-  const bool gets_in = energy.softened_by_gamma || (energy.softened_by_h0 && !p.h0);
+  const bool gets_in = energy.softened_by_gamma || (energy.softened_by_h0 && !settings.options.paper.h0);
   if (!energy.barrier || gets_in || std::isfinite(total_energy(mesh, model))) return std::nullopt;
   return InputError{
       ErrorCode::invalid_option,

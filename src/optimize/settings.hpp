@@ -65,6 +65,11 @@ void set_energy(Settings& settings, EnergyKind kind);
   return o.paper.weight_updates == Updates::deferred || o.paper.position_updates == Updates::deferred;
 }
 
+/// The energy of the first sweeps, where it is another one.
+[[nodiscard]] inline std::optional<EnergyKind> first_energy_of(const OptimizeOptions& o) {
+  return o.paper.switch_at > 0 ? o.paper.first_energy : std::nullopt;
+}
+
 /// Says whether sweeps remove or insert vertices.
 [[nodiscard]] inline bool changes_vertices(const OptimizeOptions& o) {
   return o.paper.collapse_from || o.paper.removal != Removal::none || o.paper.insertion_from;

@@ -147,9 +147,9 @@ void NewtonPass::visit(Archive& archive) {
 // --- of phases and searches -----------------------------------------------------------------------------------------
 
 void EnergyPhase::visit(Archive& archive) {
-  auto& [mesh, settings, run, frame, attempt, energy_unit, iteration, before_switch, softener, may_give_up, fewer,
-         before, least_bad, sweeps_since_fewer_bad, least_energy, sweeps_since_lower, infinite_sweeps, fall,
-         passes_pay] = *this;
+  auto& [mesh, settings, run, frame, attempt, energy_unit, iteration, before_switch, softener, may_give_up, before,
+         least_bad, sweeps_since_fewer_bad, least_energy, sweeps_since_lower, infinite_sweeps, fall, passes_pay] =
+      *this;
   if (archive.reads()) softener = Softener(attempt, settings.energy, settings.options);
   archive(energy_unit, iteration, before_switch, softener, before, least_bad, sweeps_since_fewer_bad, least_energy,
           sweeps_since_lower, infinite_sweeps, fall, passes_pay);

@@ -36,7 +36,6 @@ class BoundaryCutter {
  private:
   [[nodiscard]] HalfedgeId find_edge(VertexId a, VertexId b) const;
   VertexId split(VertexId a, VertexId b, Vec2 at);
-  VertexId commit(const InsertionPlan& plan);
 
   WorkingCopy& work_;
   Mesh& mesh_;
@@ -116,7 +115,7 @@ VertexId BoundaryCutter::split(VertexId a, VertexId b, Vec2 at) {
     return {};
   }
   ++vertices_;
-  return commit(plan_);
+  return flipper_.commit(work_, plan_, kNoEnergy, kNoEnergy);
 }
 
 void BoundaryCutter::free(const std::array<VertexId, 3>& corners) {
@@ -127,15 +126,8 @@ void BoundaryCutter::free(const std::array<VertexId, 3>& corners) {
   const TriangleId near = plan_.triangle;
   plan_ = plan_insertion(mesh_, {at.x, at.y, w}, near, std::move(plan_));
   if (plan_.status != InsertionStatus::possible) return;
-  commit(plan_);
+  flipper_.commit(work_, plan_, kNoEnergy, kNoEnergy);
   ++inside_;
-}
-
-VertexId BoundaryCutter::commit(const InsertionPlan& plan) {
-  const VertexId v = plan.edge.valid() ? flipper_.split(work_, plan.edge, plan.point, kNoEnergy, kNoEnergy)
-                                       : flipper_.insert(work_, plan.triangle, plan.point, kNoEnergy, kNoEnergy);
-  for (const auto& [a, b] : plan.flips) flipper_.flip(mesh_.find_halfedge(a, b), kNoEnergy, kNoEnergy);
-  return v;
 }
 
 }  // namespace

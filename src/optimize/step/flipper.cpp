@@ -219,4 +219,11 @@ VertexId Flipper::split(WorkingCopy& work, HalfedgeId h, const WeightedPoint& p,
   return v;
 }
 
+VertexId Flipper::commit(WorkingCopy& work, const InsertionPlan& plan, double before, double after) {
+  const VertexId v = plan.edge.valid() ? split(work, plan.edge, plan.point, before, after)
+                                       : insert(work, plan.triangle, plan.point, before, after);
+  for (const auto& [a, b] : plan.flips) flip(mesh_.find_halfedge(a, b), kNoEnergy, kNoEnergy);
+  return v;
+}
+
 }  // namespace temper

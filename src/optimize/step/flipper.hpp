@@ -46,6 +46,8 @@ class Flipper {
   /// A new vertex in a triangle, or on an edge: named and told. The edges around it are left to the caller.
   VertexId insert(WorkingCopy& work, TriangleId t, const WeightedPoint& p, double before, double after);
   VertexId split(WorkingCopy& work, HalfedgeId h, const WeightedPoint& p, double before, double after);
+  /// The vertex of a plan, with the plan's flips.
+  VertexId commit(WorkingCopy& work, const InsertionPlan& plan, double before, double after);
 
   /// Since the last call of this.
   struct Changes {
