@@ -1,48 +1,66 @@
-# Installs the libraries and what find_package(temper COMPONENTS core io lp tbb verify) needs. The flags of temper's own
-# code (temper_flags) stay here: they are linked for the build alone and are in no export.
+# Installs the libraries, and what find_package(temper COMPONENTS core io lp tbb verify) and pkg-config need. The flags of
+# temper's own code (temper_flags) stay here: they are linked for the build alone and are in no export.
+#
+# Components: `program` (apps/temper), `libraries` (shared ones, for programs to run), `development`, `python`.
 include(CMakePackageConfigHelpers)
 
 set(TEMPER_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/temper)
+set(TEMPER_PKGCONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH TEMPER_PREFIX_OF_PKGCONFIG ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 
-install(TARGETS temper EXPORT temper_core)
-install(EXPORT temper_core NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperCoreTargets.cmake)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/temper DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.hpp" PATTERN "io.hpp" EXCLUDE PATTERN "checkpoint.hpp" EXCLUDE PATTERN "dec_io.hpp" EXCLUDE PATTERN "lp.hpp" EXCLUDE
-        PATTERN "tbb_executor.hpp" EXCLUDE PATTERN "verify.hpp" EXCLUDE)
+# One library: temper_install(TARGET NAME DESCRIPTION [HEADERS …] [REQUIRES …: its pkg-config packages] [LIBS …: its other
+# libraries]). What only it needs is for whoever links it as a static library: pkg-config --static.
+function(temper_install target name description)
+  cmake_parse_arguments(ARG "" "" "HEADERS;REQUIRES;LIBS" ${ARGN})
+  string(SUBSTRING ${name} 0 1 first)
+  string(SUBSTRING ${name} 1 -1 rest)
+  string(TOUPPER ${first} first)
+  install(TARGETS ${target} EXPORT temper_${name}
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libraries NAMELINK_COMPONENT development
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+  install(EXPORT temper_${name} NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temper${first}${rest}Targets.cmake
+          COMPONENT development)
+  foreach(header IN LISTS ARG_HEADERS)
+    install(FILES ${PROJECT_SOURCE_DIR}/include/temper/${header}.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/temper
+            COMPONENT development)
+  endforeach()
 
-if(TARGET temper_io)
-  # A static library: whoever links the installed one needs pugixml too. temperConfig.cmake finds it.
-  target_link_libraries(temper_io PRIVATE $<INSTALL_INTERFACE:pugixml::pugixml>)
-  set_target_properties(temper_io PROPERTIES EXPORT_NAME io)
-  install(TARGETS temper_io EXPORT temper_io)
-  install(EXPORT temper_io NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperIoTargets.cmake)
-  install(FILES ${PROJECT_SOURCE_DIR}/include/temper/io.hpp ${PROJECT_SOURCE_DIR}/include/temper/dec_io.hpp
-                ${PROJECT_SOURCE_DIR}/include/temper/checkpoint.hpp
-          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/temper)
-  if(temper_io_netcdf)
-    install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindNetCDF.cmake DESTINATION ${TEMPER_CMAKE_DIR})
+  set(module temper)
+  set(requires "")
+  if(NOT name STREQUAL core)
+    set(module temper-${name})
+    set(requires "temper = ${PROJECT_VERSION}")
   endif()
-endif()
+  string(REPLACE ";" ", " private "${ARG_REQUIRES}")
+  list(TRANSFORM ARG_LIBS PREPEND -l OUTPUT_VARIABLE libs)
+  string(REPLACE ";" " " libs "${libs}")
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/temper.pc.in ${PROJECT_BINARY_DIR}/${module}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${module}.pc DESTINATION ${TEMPER_PKGCONFIG_DIR} COMPONENT development)
+endfunction()
 
+temper_install(temper core "Primal-dual triangle meshes that solvers can trust: the core")
+# Headers of the other libraries come with them; build_info.hpp is of the program.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/temper DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
+        FILES_MATCHING PATTERN "*.hpp"
+        PATTERN "build_info.hpp" EXCLUDE PATTERN "io.hpp" EXCLUDE PATTERN "checkpoint.hpp" EXCLUDE PATTERN "dec_io.hpp" EXCLUDE
+        PATTERN "lp.hpp" EXCLUDE PATTERN "tbb_executor.hpp" EXCLUDE PATTERN "verify.hpp" EXCLUDE)
+
+# Static libraries: whoever links the installed ones needs their libraries too, which temperConfig.cmake finds.
+if(TARGET temper_io)
+  target_link_libraries(temper_io PRIVATE $<INSTALL_INTERFACE:pugixml::pugixml>)
+  temper_install(temper_io io "temper's mesh files" HEADERS io dec_io checkpoint REQUIRES pugixml zlib LIBS ${CMAKE_DL_LIBS})
+endif()
 if(TARGET temper_lp)
   target_link_libraries(temper_lp PRIVATE $<INSTALL_INTERFACE:Clp::Clp>)
-  install(TARGETS temper_lp EXPORT temper_lp)
-  install(EXPORT temper_lp NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperLpTargets.cmake)
-  install(FILES ${PROJECT_SOURCE_DIR}/include/temper/lp.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/temper)
-  install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindClp.cmake DESTINATION ${TEMPER_CMAKE_DIR})
+  temper_install(temper_lp lp "temper's linear programmes, by Clp" HEADERS lp REQUIRES clp)
+  install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindClp.cmake DESTINATION ${TEMPER_CMAKE_DIR} COMPONENT development)
 endif()
-
 if(TARGET temper_tbb)
   target_link_libraries(temper_tbb PRIVATE $<INSTALL_INTERFACE:TBB::tbb>)
-  install(TARGETS temper_tbb EXPORT temper_tbb)
-  install(EXPORT temper_tbb NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperTbbTargets.cmake)
-  install(FILES ${PROJECT_SOURCE_DIR}/include/temper/tbb_executor.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/temper)
+  temper_install(temper_tbb tbb "temper's threads, by oneTBB" HEADERS tbb_executor REQUIRES tbb)
 endif()
-
 if(TARGET temper_verify)
-  install(TARGETS temper_verify EXPORT temper_verify)
-  install(EXPORT temper_verify NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temperVerifyTargets.cmake)
-  install(FILES ${PROJECT_SOURCE_DIR}/include/temper/verify.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/temper)
+  temper_install(temper_verify verify "Errors of solvers on temper's meshes" HEADERS verify)
 endif()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/temperConfig.cmake.in ${PROJECT_BINARY_DIR}/temperConfig.cmake
@@ -50,5 +68,13 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/temperConfig.cmake.in ${
 # Before 1.0 a new minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/temperConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/temperConfig.cmake ${PROJECT_BINARY_DIR}/temperConfigVersion.cmake
-        DESTINATION ${TEMPER_CMAKE_DIR})
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+        DESTINATION ${TEMPER_CMAKE_DIR} COMPONENT development)
+
+if(NOT TEMPER_DEBIAN)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+endif()
+
+if(PROJECT_IS_TOP_LEVEL)
+  add_custom_target(uninstall VERBATIM
+    COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -P ${CMAKE_CURRENT_LIST_DIR}/uninstall.cmake)
+endif()

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bind.hpp"
+#include "temper/build_info.hpp"
 #include "temper/instruction_set.hpp"
 #ifdef TEMPER_WITH_TBB
 #include "temper/tbb_executor.hpp"
@@ -177,6 +178,14 @@ void bind_instruction_sets(py::module_& m) {
   });
 }
 
+void bind_build_info(py::module_& m) {
+  m.def("build_info", [] {
+    py::dict info;
+    for (const BuildFact& fact : build_info()) info[to_python(fact.name)] = to_python(fact.value);
+    return info;
+  });
+}
+
 void raise_as_temper_error(const InputError& error) {
   const py::object type = py::module_::import("temper._errors").attr("TemperError");
   PyErr_SetObject(type.ptr(), type(std::string(name(error.code)), error.where, spelled(error.message)).ptr());
@@ -226,7 +235,8 @@ PYBIND11_MODULE(_temper, m) {
       raise_as_temper_error(bad.error);
     }
   });
-  m.attr("__version__") = TEMPER_VERSION;
+  m.attr("__version__") = to_python(temper::version());
+  bind_build_info(m);
   m.attr("knows_numpy_2") = kKnowsNumPy2;
 #ifdef TEMPER_WITH_TBB
   m.attr("has_threads") = true;

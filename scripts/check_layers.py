@@ -42,8 +42,9 @@ LAYERS = {
     "lp": _BELOW + ["feasibility"],
     "tbb": ["base"],
     "verify": _BELOW + ["energy", "regularity", "quality", "dec"],
+    "build_info": ["base", "io"],
 }
-CORE = set(LAYERS) - {"io", "lp", "tbb", "verify"}
+CORE = set(LAYERS) - {"io", "lp", "tbb", "verify", "build_info"}
 
 # Public headers whose name is not that of their layer.
 HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "error", "progress", "executor", "instruction_set", "outline", "archive", "envelope"]} | {"trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "tbb_executor": "tbb", "dec_io": "io", "checkpoint": "io"}

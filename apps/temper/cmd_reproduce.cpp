@@ -19,6 +19,7 @@
 #include "help.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "temper/build_info.hpp"
 
 namespace temper::app {
 namespace {
@@ -116,8 +117,8 @@ class Folder {
     const SignalsHeld until_whole;
     for (const gallery::Picture& picture : results.back().page.pictures)
       outputs_.write_text(file(picture.name + ".svg"), picture.svg);
-    outputs_.write_text(file("index.html"), gallery::index_html(results, effort_, TEMPER_VERSION));
-    outputs_.write_text(file("gallery.json"), gallery::gallery_json(results, TEMPER_VERSION));
+    outputs_.write_text(file("index.html"), gallery::index_html(results, effort_, version()));
+    outputs_.write_text(file("gallery.json"), gallery::gallery_json(results, version()));
     outputs_.write_text(file("claims.md"), gallery::claims_markdown(results));
   }
 

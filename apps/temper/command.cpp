@@ -9,12 +9,11 @@
 
 #include "console.hpp"
 #include "help.hpp"
+#include "help_formats.hpp"
 #include "suggest.hpp"
 
 namespace temper::app {
-namespace {
 
-/// "-o,--output" as "-o" and "--output".
 std::vector<std::string> single_names(const std::string& names) {
   std::vector<std::string> single;
   std::size_t begin = 0;
@@ -25,8 +24,6 @@ std::vector<std::string> single_names(const std::string& names) {
   single.push_back(names.substr(begin));
   return single;
 }
-
-}  // namespace
 
 std::string long_name(const std::string& names) { return single_names(names).back(); }
 
@@ -200,6 +197,10 @@ Command& Command::add_subcommand(std::string name, std::string description) {
 }
 
 bool Command::parse(const Arguments& arguments) {
+  if (const HelpFormat* format = asked_help_format(arguments)) {
+    print(format->verb(*this));
+    return false;
+  }
   Parser parser(*this);
   if (!parser.read(arguments)) {
     print(help_text(*this));

@@ -63,6 +63,8 @@ struct Option {
   Option& defaults_to(std::function<std::string()> spell);
 };
 
+/// "-o,--output" as "-o" and "--output".
+[[nodiscard]] std::vector<std::string> single_names(const std::string& names);
 /// "--output" of "-o,--output": how messages call an option.
 [[nodiscard]] std::string long_name(const std::string& names);
 

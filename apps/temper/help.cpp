@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -21,22 +22,21 @@ std::string option_head(const Option& option) {
   return option.value_name.empty() ? text : text + " " + option.value_name;
 }
 
-std::string option_text(const Option& option) {
-  const std::string head = option_head(option);
-  std::string description = option.sentence;
-  if (!option.default_text.empty()) description += fmt::format(" (default: {})", option.default_text);
-
+/// A head, and what it means in the columns to its right.
+std::string beside(const std::string& head, const std::string& description) {
   std::string text = "  " + head;
   const bool own_line = head.size() > kNameColumns;
   bool first = true;
   for (const std::string& line : wrap(description, kWidth - kNameColumns - 4)) {
-    const bool beside = first && !own_line;
-    text += beside ? std::string(kNameColumns + 2 - head.size(), ' ') : "\n" + std::string(kNameColumns + 4, ' ');
+    text += first && !own_line ? std::string(kNameColumns + 2 - head.size(), ' ')
+                               : "\n" + std::string(kNameColumns + 4, ' ');
     text += line;
     first = false;
   }
   return text + "\n";
 }
+
+std::string option_text(const Option& option) { return beside(option_head(option), described(option)); }
 
 /// Options by group, in the order in which they were added.
 std::string option_groups(const Command& command) {
@@ -54,6 +54,19 @@ std::string paragraph(const std::string& text) {
   std::string wrapped;
   for (const std::string& line : wrap(text, kWidth)) wrapped += line + "\n";
   return wrapped;
+}
+
+std::string exit_lines(const std::vector<Exit>& exits) {
+  std::string text = "\nExit codes:\n";
+  for (const Exit exit : exits) text += fmt::format("  {}  {}\n", static_cast<int>(exit), meaning(exit));
+  return text;
+}
+
+}  // namespace
+
+std::string described(const Option& option) {
+  if (option.default_text.empty()) return option.sentence;
+  return fmt::format("{} (default: {})", option.sentence, option.default_text);
 }
 
 std::string_view meaning(Exit exit) {
@@ -76,13 +89,27 @@ std::string_view meaning(Exit exit) {
   return "";
 }
 
-std::string exit_lines(const std::vector<Exit>& exits) {
-  std::string text = "\nExit codes:\n";
-  for (const Exit exit : exits) text += fmt::format("  {}  {}\n", static_cast<int>(exit), meaning(exit));
-  return text;
+std::span<const ProgramOption> program_options() {
+  static constexpr auto kOptions = std::to_array<ProgramOption>({
+      {"-h, --help", "this text; temper VERB --help has the options and examples of a verb"},
+      {"--help=FORMAT", "the same for man, or completions for bash, zsh or fish: man <(temper optimize --help=man)"},
+      {"--version", "the version, and what the program was built from"},
+  });
+  return kOptions;
 }
 
-}  // namespace
+const VerbHelp& program_help() {
+  static const VerbHelp help = {
+      .usage = "VERB ...",
+      .examples =
+          "  temper example horseshoe -o horseshoe.vtu\n"
+          "  temper check horseshoe.vtu\n"
+          "  temper optimize horseshoe.vtu -o tempered.vtu --draw before-after.svg\n",
+      .exits = {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early, Exit::internal,
+                Exit::infeasible},
+  };
+  return help;
+}
 
 std::string help_text(const Command& command) {
   const VerbHelp& help = command.help();
@@ -103,18 +130,13 @@ std::string short_help() {
 }
 
 std::string full_help() {
-  std::string text = "temper: primal-dual triangle meshes that solvers can trust\n\nUsage: temper VERB ...\n\nVerbs:\n";
+  std::string text = fmt::format("temper: {}\n\nUsage: temper VERB ...\n\nVerbs:\n", kProgramSummary);
   for (const Verb& verb : verbs()) text += fmt::format("  {:<11}{}\n", verb.name, verb.summary);
-  text +=
-      "\nOptions:\n"
-      "  -h, --help                this text; temper VERB --help has the options and examples of a verb\n"
-      "  --version                 the version\n"
-      "\nExamples:\n"
-      "  temper example horseshoe -o horseshoe.vtu\n"
-      "  temper check horseshoe.vtu\n"
-      "  temper optimize horseshoe.vtu -o tempered.vtu --draw before-after.svg\n";
-  return text + exit_lines({Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early,
-                            Exit::internal, Exit::infeasible});
+  text += "\nOptions:\n";
+  for (const ProgramOption& option : program_options()) {
+    text += beside(std::string(option.names), std::string(option.sentence));
+  }
+  return text + "\nExamples:\n" + program_help().examples + exit_lines(program_help().exits);
 }
 
 }  // namespace temper::app

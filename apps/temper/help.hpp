@@ -2,7 +2,9 @@
 // the same on every machine, because docs/cli.md holds it word for word.
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "command.hpp"
 
@@ -10,6 +12,19 @@ namespace temper::app {
 
 /// The help text of a verb.
 [[nodiscard]] std::string help_text(const Command& command);
+
+/// The sentence of an option, and its default.
+[[nodiscard]] std::string described(const Option& option);
+/// What an exit code says.
+[[nodiscard]] std::string_view meaning(Exit exit);
+
+/// The program itself, whose options come before a verb.
+struct ProgramOption {
+  std::string_view names, sentence;
+};
+[[nodiscard]] std::span<const ProgramOption> program_options();
+[[nodiscard]] const VerbHelp& program_help();
+inline constexpr std::string_view kProgramSummary = "primal-dual triangle meshes that solvers can trust";
 
 /// The texts that `temper --help` prints, and `temper` alone.
 [[nodiscard]] std::string full_help();

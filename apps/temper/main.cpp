@@ -15,10 +15,11 @@
 
 #include "console.hpp"
 #include "help.hpp"
+#include "help_formats.hpp"
 #include "interrupt.hpp"
 #include "suggest.hpp"
+#include "temper/build_info.hpp"
 #include "temper/io.hpp"
-#include "threads.hpp"
 #include "verbs.hpp"
 
 namespace temper::app {
@@ -54,6 +55,14 @@ Exit run_verb(const std::string& name, const Arguments& arguments) {
   throw Failure(Exit::bad_usage, none_of(name, names) + "\nSee temper --help");
 }
 
+std::string version_text() {
+  std::string text = fmt::format("temper {}\n\n", version());
+  for (const BuildFact& fact : build_info()) {
+    if (fact.name != "version") text += fmt::format("  {:<14}{}\n", fact.name, fact.value);
+  }
+  return text;
+}
+
 Exit run(const Arguments& words) {
   if (words.empty()) {
     fmt::print(stderr, "{}", short_help());
@@ -61,7 +70,15 @@ Exit run(const Arguments& words) {
   }
   const std::string& first = words.front();
   if (first == "--version") {
-    print("temper " TEMPER_VERSION "\n" + std::string(threads_note()));
+    print(version_text());
+    return Exit::done;
+  }
+  if (const HelpFormat* format = asked_help_format(words)) {
+    print(format->program());
+    if (format->has_verbs) {
+      for (const Verb& verb : verbs()) verb.run(words);
+      if (format->end != nullptr) print(format->end());
+    }
     return Exit::done;
   }
   const bool help = first == "--help" || first == "-h" || first == "help";
@@ -77,8 +94,8 @@ Exit run(const Arguments& words) {
 
 int internal_error(std::string_view what) {
   print_error(fmt::format("internal error: {}", what));
-  fmt::print(stderr, "This is a defect of temper " TEMPER_VERSION
-                     ". Please report it, with the command and the mesh it was run on.\n");
+  fmt::print(stderr, "This is a defect of temper {}. Please report it, with the command and the mesh it was run on.\n",
+             version());
   return static_cast<int>(Exit::internal);
 }
 

@@ -6,6 +6,7 @@
 
 #include "console.hpp"
 #include "report_json.hpp"
+#include "temper/build_info.hpp"
 
 namespace temper::app {
 namespace {
@@ -56,7 +57,7 @@ std::string mesh_text(const MeshRecord& r) {
 std::string mesh_json(const MeshRecord& r) {
   Json json;
   json["command"] = r.command;
-  json["version"] = TEMPER_VERSION;
+  json["version"] = version();
   const Outline& o = r.input.outline;
   json["outline"] = {{"format", r.input.format},    {"points", o.points.size()},   {"segments", o.segments.size()},
                      {"holes", o.holes.size()},     {"regions", o.regions.size()}, {"parts", o.parts.size()},

@@ -10,6 +10,7 @@
 
 #include "input.hpp"
 #include "measures.hpp"
+#include "temper/build_info.hpp"
 
 namespace temper::app {
 namespace {
@@ -121,7 +122,7 @@ std::string quality_json(const Quality& quality, std::span<const std::size_t> po
 std::string optimize_json(const OptimizeRecord& record) {
   Json json;
   json["command"] = record.command;
-  json["version"] = TEMPER_VERSION;
+  json["version"] = version();
   for (const UsedOption& option : record.options) json["options"][option.name] = to_json(option);
   json["before"] = to_json(record.before, record.points_before);
   json["after"] = to_json(record.after, Points());

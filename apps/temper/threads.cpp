@@ -15,15 +15,9 @@ std::unique_ptr<Executor> make_threads(std::size_t threads) {
   return executor;
 }
 
-std::string_view threads_note() { return {}; }
-
 #else
 
 std::unique_ptr<Executor> make_threads(std::size_t) { return nullptr; }
-
-std::string_view threads_note() {
-  return "built without oneTBB: everything runs on one thread, whatever --threads says\n";
-}
 
 #endif
 

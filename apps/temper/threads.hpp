@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <string_view>
 
 #include "temper/executor.hpp"
 
@@ -11,8 +10,5 @@ namespace temper::app {
 
 /// As many threads as asked for (0: as the machine has). Null when that is one: then everything runs in the caller.
 [[nodiscard]] std::unique_ptr<Executor> make_threads(std::size_t threads);
-
-/// The note of --version in a program that has one thread only; empty when it has more.
-[[nodiscard]] std::string_view threads_note();
 
 }  // namespace temper::app

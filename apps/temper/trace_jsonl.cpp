@@ -17,6 +17,7 @@
 #include "exit.hpp"
 #include "json_depth.hpp"
 #include "suggest.hpp"
+#include "temper/build_info.hpp"
 
 namespace temper::app {
 namespace {
@@ -330,7 +331,7 @@ TraceEnd read_end(const Record& record, std::size_t n_events) {
 }  // namespace
 
 std::string trace_header(const Input& input) {
-  nlohmann::ordered_json header = {{"temper", TEMPER_VERSION},
+  nlohmann::ordered_json header = {{"temper", version()},
                                    {"trace", kTraceVersion},
                                    {"input", input.path},
                                    {"vertices", input.mesh().n_vertices()},

@@ -14,6 +14,8 @@ enum class InstructionSet {
 };
 [[nodiscard]] std::string_view name(InstructionSet set);
 
+/// The instruction sets that this build has code for, the slowest first.
+[[nodiscard]] std::span<const InstructionSet> compiled_instruction_sets();
 /// The instruction sets that this processor has and this build has code for, the slowest first.
 [[nodiscard]] std::span<const InstructionSet> instruction_sets();
 /// The one in use: at first the fastest.

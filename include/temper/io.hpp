@@ -99,6 +99,8 @@ struct Format {
   bool holds_weights;  ///< else weights go to PATH.weights.csv, with a warning
 };
 [[nodiscard]] std::span<const Format> formats();
+/// "4.9.0": of libnetcdf, which is loaded when a file needs it, or now; empty when there is none.
+[[nodiscard]] std::string netcdf_version();
 
 /// Reads any known format; a side file PATH.weights.csv, when there, gives the weights.
 [[nodiscard]] Expected<MeshFile> read(const std::string& path, const ReadOptions& options = {});

@@ -9,12 +9,18 @@ namespace {
 
 constexpr std::array kSets = {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512};
 
+#ifdef TEMPER_X86_SETS
+constexpr std::size_t kCompiled = kSets.size();
+#else
+constexpr std::size_t kCompiled = 1;
+#endif
+
 std::size_t count_sets() {
 #ifdef TEMPER_X86_SETS
   if (!__builtin_cpu_supports("avx2")) return 1;
   return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") ? 3 : 2;
 #else
-  return 1;
+  return kCompiled;
 #endif
 }
 
@@ -30,6 +36,8 @@ std::string_view name(InstructionSet set) {
   constexpr std::array<std::string_view, kSets.size()> kNames = {"baseline", "avx2", "avx512"};
   return kNames[static_cast<std::size_t>(set)];
 }
+
+std::span<const InstructionSet> compiled_instruction_sets() { return std::span(kSets).first(kCompiled); }
 
 std::span<const InstructionSet> instruction_sets() {
   static const std::size_t count = count_sets();

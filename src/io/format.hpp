@@ -49,8 +49,9 @@ struct FormatRow {
   void (*write)(const WriteJob& job);  ///< null: read only
   /// Says of an array whose content is not in `holds` whether it has a place nevertheless. Null: none has.
   bool (*keeps)(ArraysOf of, const DataArray& array) = nullptr;
-  std::vector<std::string> (*files)(const std::string& path) = nullptr;  ///< that are written; null: path alone
-  std::int64_t first_point = 1;                                          ///< the number of the first point in a file
+  std::vector<std::string> (*files)(const std::string& path) =
+      nullptr;                      ///< that are written, or why none can be; null: path alone
+  std::int64_t first_point = 1;     ///< the number of the first point in a file
   std::string_view name_ends = {};  ///< characters that would end a name: written as %22
   Degrees degrees = Degrees::as_they_came;
 };

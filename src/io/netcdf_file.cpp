@@ -1,9 +1,6 @@
 // See netcdf_file.hpp.
 #include "io/netcdf_file.hpp"
 
-#include <netcdf.h>
-#include <netcdf_mem.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -22,10 +19,6 @@ std::optional<Scalar> scalar_of_netcdf(nc_type type) {
   const auto it = std::find(kNetcdfTypes.begin(), kNetcdfTypes.end(), type);
   if (it == kNetcdfTypes.end()) return std::nullopt;
   return static_cast<Scalar>(it - kNetcdfTypes.begin());
-}
-
-[[noreturn]] void fail_netcdf(const std::string& path, int status, std::string_view doing) {
-  fail(ErrorCode::syntax, path, text("NetCDF cannot ", doing, ": ", nc_strerror(status)));
 }
 
 }  // namespace
@@ -47,34 +40,38 @@ std::mutex& netcdf_table() {
   return table;
 }
 
-NetcdfId::NetcdfId() : turn_(netcdf_table()) {}
+NetcdfId::NetcdfId(const NetcdfLibrary& library) : turn_(netcdf_table()), library_(library) {}
 
 // A file that has not been finished is not kept.
 NetcdfId::~NetcdfId() {
-  if (id_ >= 0) nc_abort(id_);
+  if (id_ >= 0) library_.nc_abort(id_);
 }
 
 NetcdfReader::NetcdfReader(Source& source)
-    : path_(source.path), bytes_(source.bytes.size()), allowance_(source.allowance) {
+    : path_(source.path),
+      bytes_(source.bytes.size()),
+      allowance_(source.allowance),
+      library_(netcdf_library(path_)),
+      id_(library_) {
   check_netcdf_header(source);
-  check(nc_open_mem(path_.c_str(), NC_NOWRITE, source.bytes.size(), source.bytes.data(), id_.to_open()),
+  check(library_.nc_open_mem(path_.c_str(), NC_NOWRITE, source.bytes.size(), source.bytes.data(), id_.to_open()),
         "read the file");
   int n = 0;
-  check(nc_inq_nvars(id_, &n), "count variables");
+  check(library_.nc_inq_nvars(id_, &n), "count variables");
   for (int i = 0; i < n; ++i) {
     char name[NC_MAX_NAME + 1] = {};
     nc_type type = NC_NAT;
     int n_dimensions = 0;
-    check(nc_inq_var(id_, i, name, &type, &n_dimensions, nullptr, nullptr), "look at a variable");
+    check(library_.nc_inq_var(id_, i, name, &type, &n_dimensions, nullptr, nullptr), "look at a variable");
     NetcdfVariable v;
     v.id = i;
     v.name = name;
     v.scalar = scalar_of_netcdf(type);
     v.dimensions.resize(static_cast<std::size_t>(n_dimensions));
-    check(nc_inq_vardimid(id_, i, v.dimensions.data()), "look at a variable");
+    check(library_.nc_inq_vardimid(id_, i, v.dimensions.data()), "look at a variable");
     for (const int d : v.dimensions) {
       std::size_t size = 0;
-      check(nc_inq_dimlen(id_, d, &size), "look at a dimension");
+      check(library_.nc_inq_dimlen(id_, d, &size), "look at a dimension");
       v.sizes.push_back(size);
     }
     variables_.push_back(std::move(v));
@@ -82,7 +79,8 @@ NetcdfReader::NetcdfReader(Source& source)
 }
 
 void NetcdfReader::check(int status, std::string_view doing) const {
-  if (status != NC_NOERR) fail_netcdf(path_, status, doing);
+  if (status != NC_NOERR)
+    fail(ErrorCode::syntax, path_, text("NetCDF cannot ", doing, ": ", library_.nc_strerror(status)));
 }
 
 const NetcdfVariable* NetcdfReader::find(std::string_view name) const {
@@ -98,7 +96,7 @@ const NetcdfVariable& NetcdfReader::variable(std::string_view name) const {
 
 std::string NetcdfReader::dimension_name(int dimension) const {
   char name[NC_MAX_NAME + 1] = {};
-  check(nc_inq_dimname(id_, dimension, name), "look at a dimension");
+  check(library_.nc_inq_dimname(id_, dimension, name), "look at a dimension");
   return name;
 }
 
@@ -114,8 +112,9 @@ Values NetcdfReader::values(const NetcdfVariable& v) const {
   }
   allowance_.take(rows, 1, where);
   Values result = zeros(*v.scalar, v.n_values());
-  std::visit([&](auto& values) { check(nc_get_var(id_, v.id, values.data()), text("read variable ", v.name)); },
-             result);
+  std::visit(
+      [&](auto& values) { check(library_.nc_get_var(id_, v.id, values.data()), text("read variable ", v.name)); },
+      result);
   return result;
 }
 
@@ -143,17 +142,17 @@ std::string NetcdfReader::text_attribute(const NetcdfVariable* v, const char* na
   const int id = v == nullptr ? NC_GLOBAL : v->id;
   nc_type type = NC_NAT;
   std::size_t n = 0;
-  if (nc_inq_att(id_, id, name, &type, &n) != NC_NOERR) return {};
+  if (library_.nc_inq_att(id_, id, name, &type, &n) != NC_NOERR) return {};
   if (type == NC_STRING && n == 1) {
     char* value = nullptr;
-    check(nc_get_att_string(id_, id, name, &value), text("read attribute ", name));
+    check(library_.nc_get_att_string(id_, id, name, &value), text("read attribute ", name));
     std::string result = value == nullptr ? "" : value;
-    nc_free_string(1, &value);
+    library_.nc_free_string(1, &value);
     return result;
   }
   if (type != NC_CHAR || n > bytes_) return {};
   std::string result(n, '\0');
-  if (n > 0) check(nc_get_att_text(id_, id, name, result.data()), text("read attribute ", name));
+  if (n > 0) check(library_.nc_get_att_text(id_, id, name, result.data()), text("read attribute ", name));
   while (!result.empty() && (result.back() == '\0' || result.back() == ' ')) result.pop_back();
   return result;
 }
@@ -162,9 +161,10 @@ std::optional<double> NetcdfReader::number_attribute(const NetcdfVariable* v, co
   const int id = v == nullptr ? NC_GLOBAL : v->id;
   nc_type type = NC_NAT;
   std::size_t n = 0;
-  if (nc_inq_att(id_, id, name, &type, &n) != NC_NOERR || n != 1 || !scalar_of_netcdf(type)) return std::nullopt;
+  if (library_.nc_inq_att(id_, id, name, &type, &n) != NC_NOERR || n != 1 || !scalar_of_netcdf(type))
+    return std::nullopt;
   double value = 0;
-  if (nc_get_att_double(id_, id, name, &value) != NC_NOERR) return std::nullopt;
+  if (library_.nc_get_att_double(id_, id, name, &value) != NC_NOERR) return std::nullopt;
   return value;
 }
 
@@ -172,7 +172,8 @@ bool is_hdf5(std::string_view head) { return is_netcdf(head) && !head.starts_wit
 
 Document read_netcdf(Source& source, const std::function<Document(const NetcdfReader&)>& work) {
   if (is_hdf5(source.bytes)) {
-    std::unique_lock turn(netcdf_table());  // no other thread is within the library when the child comes to be
+    static_cast<void>(netcdf_library(source.path));  // not in the child, whose budget is that of the file
+    std::unique_lock turn(netcdf_table());           // no other thread is within the library when the child comes to be
     try_in_child(trial_budget(source.bytes.size()), source.path, "libnetcdf", [&] {
       turn.unlock();
       static_cast<void>(work(NetcdfReader(source)));
@@ -183,57 +184,59 @@ Document read_netcdf(Source& source, const std::function<Document(const NetcdfRe
 
 // --- writing ---------------------------------------------------------------------------------------------
 
-NetcdfWriter::NetcdfWriter(std::string path, bool large_types) : path_(std::move(path)) {
+NetcdfWriter::NetcdfWriter(std::string path, bool large_types)
+    : path_(std::move(path)), library_(netcdf_library(path_)), id_(library_) {
   const int mode = large_types ? NC_64BIT_DATA : NC_64BIT_OFFSET;
-  check(nc_create_mem(path_.c_str(), mode, 0, id_.to_open()), "make a file");
+  check(library_.nc_create_mem(path_.c_str(), mode, 0, id_.to_open()), "make a file");
   int ignored = 0;
-  check(nc_set_fill(id_, NC_NOFILL, &ignored), "make a file");
+  check(library_.nc_set_fill(id_, NC_NOFILL, &ignored), "make a file");
 }
 
 void NetcdfWriter::check(int status, std::string_view doing) const {
   if (status != NC_NOERR)
-    fail(ErrorCode::not_writable, path_, text("NetCDF cannot ", doing, ": ", nc_strerror(status)));
+    fail(ErrorCode::not_writable, path_, text("NetCDF cannot ", doing, ": ", library_.nc_strerror(status)));
 }
 
 int NetcdfWriter::dimension(const std::string& name, std::size_t size) {
   int id = -1;
-  if (nc_inq_dimid(id_, name.c_str(), &id) == NC_NOERR) return id;
-  check(nc_def_dim(id_, name.c_str(), size, &id), text("define dimension ", name));
+  if (library_.nc_inq_dimid(id_, name.c_str(), &id) == NC_NOERR) return id;
+  check(library_.nc_def_dim(id_, name.c_str(), size, &id), text("define dimension ", name));
   return id;
 }
 
 bool NetcdfWriter::has(const std::string& name) const {
   int id = -1;
-  return nc_inq_varid(id_, name.c_str(), &id) == NC_NOERR;
+  return library_.nc_inq_varid(id_, name.c_str(), &id) == NC_NOERR;
 }
 
 int NetcdfWriter::variable(const std::string& name, const std::vector<int>& dimensions, Values values) {
   int id = -1;
-  check(nc_def_var(id_, name.c_str(), kNetcdfTypes[values.index()], static_cast<int>(dimensions.size()),
-                   dimensions.data(), &id),
+  check(library_.nc_def_var(id_, name.c_str(), kNetcdfTypes[values.index()], static_cast<int>(dimensions.size()),
+                            dimensions.data(), &id),
         text("define variable ", name));
   waiting_.emplace_back(id, std::move(values));
   return id;
 }
 
 void NetcdfWriter::attribute(int variable, const char* name, std::string_view value) {
-  check(nc_put_att_text(id_, variable, name, value.size(), value.data()), text("define attribute ", name));
+  check(library_.nc_put_att_text(id_, variable, name, value.size(), value.data()), text("define attribute ", name));
 }
 void NetcdfWriter::attribute(int variable, const char* name, double value) {
-  check(nc_put_att_double(id_, variable, name, NC_DOUBLE, 1, &value), text("define attribute ", name));
+  check(library_.nc_put_att_double(id_, variable, name, NC_DOUBLE, 1, &value), text("define attribute ", name));
 }
 void NetcdfWriter::attribute(int variable, const char* name, std::int32_t value) {
-  check(nc_put_att_int(id_, variable, name, NC_INT, 1, &value), text("define attribute ", name));
+  check(library_.nc_put_att_int(id_, variable, name, NC_INT, 1, &value), text("define attribute ", name));
 }
 
 void NetcdfWriter::finish(Output& out) {
-  check(nc_enddef(id_), "define the file");
+  check(library_.nc_enddef(id_), "define the file");
   for (auto& [id, values] : waiting_) {
-    std::visit([&, v = id](const auto& each) { check(nc_put_var(id_, v, each.data()), "write a variable"); }, values);
+    std::visit([&, v = id](const auto& each) { check(library_.nc_put_var(id_, v, each.data()), "write a variable"); },
+               values);
     values = std::vector<double>();
   }
   NC_memio memory = {};
-  const int status = nc_close_memio(id_, &memory);
+  const int status = library_.nc_close_memio(id_, &memory);
   id_.is_closed();
   const std::unique_ptr<void, void (*)(void*)> owner(memory.memory, std::free);
   check(status, "finish the file");

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "io/input.hpp"
+#include "io/netcdf_library.hpp"
 #include "io/output.hpp"
 #include "io/values.hpp"
 
@@ -38,7 +39,7 @@ struct NetcdfVariable {
 /// thread may touch at a time: others wait until this one is closed.
 class NetcdfId {
  public:
-  NetcdfId();
+  explicit NetcdfId(const NetcdfLibrary& library);
   ~NetcdfId();
   NetcdfId(const NetcdfId&) = delete;
   NetcdfId& operator=(const NetcdfId&) = delete;
@@ -50,6 +51,7 @@ class NetcdfId {
 
  private:
   std::unique_lock<std::mutex> turn_;
+  const NetcdfLibrary& library_;
   int id_ = -1;
 };
 
@@ -78,6 +80,7 @@ class NetcdfReader {
   const std::string& path_;
   std::size_t bytes_;
   Allowance& allowance_;
+  const NetcdfLibrary& library_;
   NetcdfId id_;
   std::vector<NetcdfVariable> variables_;
 };
@@ -109,6 +112,7 @@ class NetcdfWriter {
   void check(int status, std::string_view doing) const;
 
   std::string path_;
+  const NetcdfLibrary& library_;
   NetcdfId id_;
   std::vector<std::pair<int, Values>> waiting_;
 };

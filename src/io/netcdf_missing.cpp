@@ -1,4 +1,4 @@
-// In place of NetCDF's formats where the library was not there when temper was built.
+// In place of NetCDF's formats where its headers were not there when temper was built.
 #include "io/format.hpp"
 
 namespace temper::io {
@@ -13,9 +13,12 @@ bool sniff_mpas(std::string_view) { return false; }
 bool sniff_ugrid(std::string_view head) { return head.starts_with("CDF") || head.starts_with("\x89HDF"); }
 Document read_mpas(Source& source) { fail(ErrorCode::unsupported, source.path, std::string(kMissing)); }
 Document read_ugrid(Source& source) { fail(ErrorCode::unsupported, source.path, std::string(kMissing)); }
-void write_mpas(const WriteJob& job) {
-  fail(ErrorCode::unsupported, job.path, "cannot be written: this temper was built without NetCDF");
+std::vector<std::string> netcdf_files(const std::string& path) {
+  fail(ErrorCode::unsupported, path, "cannot be written: this temper was built without NetCDF");
 }
-void write_ugrid(const WriteJob& job) { write_mpas(job); }
+void write_mpas(const WriteJob& job) { static_cast<void>(netcdf_files(job.path)); }
+void write_ugrid(const WriteJob& job) { static_cast<void>(netcdf_files(job.path)); }
+
+std::string netcdf_version() { return {}; }
 
 }  // namespace temper::io

@@ -65,6 +65,7 @@ bool adcirc_keeps(ArraysOf of, const DataArray& array);
 bool jigsaw_keeps(ArraysOf of, const DataArray& array);
 bool medit_keeps(ArraysOf of, const DataArray& array);
 std::vector<std::string> triangle_files(const std::string& path);
+std::vector<std::string> netcdf_files(const std::string& path);
 
 namespace {
 
@@ -90,10 +91,10 @@ constexpr FormatRow kRows[] = {
     {"mfem", "MFEM mesh v1.0", ".mesh", 0, sniff_mfem, read_mfem, nullptr},
     {"triangle", "Triangle", ".node .ele", kAll & ~(kLineData | kMarkedPointData | kFieldData), sniff_triangle,
      read_triangle, write_triangle, nullptr, triangle_files},
-    {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll, sniff_mpas, read_mpas, write_mpas, nullptr, nullptr, 1, "",
+    {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll, sniff_mpas, read_mpas, write_mpas, nullptr, netcdf_files, 1, "",
      Degrees::by_writer},
-    {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll, sniff_ugrid, read_ugrid, write_ugrid, nullptr, nullptr, 1, "",
-     Degrees::by_writer},
+    {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll, sniff_ugrid, read_ugrid, write_ugrid, nullptr, netcdf_files, 1,
+     "", Degrees::by_writer},
 };
 
 template <std::size_t... I>

@@ -3,7 +3,10 @@
 import ast
 import dataclasses
 import inspect
+import os
+import pathlib
 import re
+import subprocess
 
 import pytest
 from conftest import ROOT
@@ -20,6 +23,8 @@ ELSEWHERE = {
     "check_options": "as check_option", "option_text": "repr", "option_range_text": "as option_groups",
     "missing_need": "optimize warns", "spell_options": "texts are spelled",
     "dot": "NumPy", "cross": "NumPy", "length": "NumPy", "squared_length": "NumPy",
+    "version": "__version__", "compiled_instruction_sets": "build_info says them",
+    "netcdf_version": "as compiled_instruction_sets",
     "clp_solver": "find_weights, best_margin and explain use it",
     "reason_text": "Reason.text", "cure_text": "Cure.text",
     "make_mesh": "read and from_meshio make the mesh", "update": "write does it", "release_geometry": "read does it",
@@ -243,3 +248,16 @@ def test_the_version_is_that_of_the_project():
     pyproject = (ROOT / "python" / "pyproject.toml").read_text(encoding="utf-8")
     pattern = re.search(r"^regex = '(.*)'$", pyproject, re.M)[1]
     assert re.search(pattern, cmake)["value"] == temper.__version__
+
+
+def test_build_info_is_what_the_program_says():
+    program = pathlib.Path(os.environ["TEMPER_PROGRAM_DIR"]) / "temper"
+    printed = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout
+    head, rows = printed.split("\n\n")
+    assert head == f"temper {temper.__version__}"
+    printed = dict(row.split(maxsplit=1) for row in rows.splitlines())
+    info = temper.build_info()
+    assert info.pop("version") == temper.__version__
+    # What is being built while a file changes may name another commit.
+    assert printed.pop("commit") and info.pop("commit")
+    assert printed == info

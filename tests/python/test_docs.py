@@ -20,7 +20,7 @@ NOT_IN_DEBIAN = {"PyDEC", "PorePy", "Julia", "JIGSAW", "it is how"}
 
 def there(tool):
     if tool == "temper-netcdf":
-        return any("mpas" in f.name for f in temper.formats())
+        return temper.build_info()["NetCDF"][0].isdigit()
     return shutil.which(tool) is not None or importlib.util.find_spec(tool) is not None
 
 

@@ -164,5 +164,23 @@ TEST_F(BadInput, FullDiskForTheMeshKeepsTheOldOne) {
   EXPECT_EQ(names(), (std::vector<std::string>{"in.vtu", "out.vtu"}));
 }
 
+// Where libnetcdf is not found: whoever has no NetCDF files does not notice, and others are told before anything is
+// done.
+TEST_F(BadInput, WithoutLibnetcdfFilesOfNetcdfAreRefusedBeforeTheWork) {
+  make_input();
+  const std::string without = "TEMPER_NETCDF=/nowhere/libnetcdf.so temper ";
+  EXPECT_EQ(shell(without + "check in.vtu").exit, 0);
+  for (const char* command : {"optimize in.vtu -o out.mpas.nc", "convert in.vtu -o out.ugrid.nc"}) {
+    const Outcome outcome = shell(without + command);
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_TRUE(contains(outcome.err, ".nc: NetCDF files need libnetcdf 4.6.2 or later")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "/nowhere/libnetcdf.so")) << outcome.err;
+  }
+  write("in.nc", std::string("CDF\1\0\0\0\0", 8));
+  EXPECT_TRUE(contains(shell(without + "check in.nc").err, "in.nc: NetCDF files need libnetcdf"));
+  EXPECT_TRUE(contains(shell(without + "--version").out, "\n  NetCDF        not found"));
+  EXPECT_EQ(names(), (std::vector<std::string>{"in.nc", "in.vtu"}));
+}
+
 }  // namespace
 }  // namespace temper::test

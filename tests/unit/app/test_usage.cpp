@@ -13,10 +13,21 @@ const std::vector<std::string> kVerbs = {"optimize", "weights", "check",   "veri
 
 class Usage : public Workshop {};
 
-TEST_F(Usage, VersionIsOneLine) {
+TEST_F(Usage, VersionSaysWhatTheProgramIsMadeOf) {
   const Outcome outcome = temper_ok({"--version"});
-  EXPECT_EQ(outcome.out, "temper " TEMPER_VERSION "\n");
+  EXPECT_TRUE(outcome.out.starts_with("temper " TEMPER_VERSION "\n\n")) << outcome.out;
   EXPECT_EQ(outcome.err, "");
+  for (const char* row : {"commit", "compiler", "processor", "instructions", "threads", "oneTBB", "NetCDF", "zlib",
+                          "pugixml", "Clp", "Eigen"}) {
+    EXPECT_TRUE(contains(outcome.out, "\n  " + std::string(row) + " ")) << row << " in\n" << outcome.out;
+  }
+  for (std::istringstream lines(outcome.out); !lines.eof();) {
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_LE(line.size(), 100u) << line;
+    EXPECT_FALSE(line.ends_with(' ')) << line;
+  }
+  EXPECT_EQ(outcome.out, temper_ok({"--version"}).out);
 }
 
 TEST_F(Usage, WithoutArgumentsAShortHelpAndBadUsage) {

@@ -1,0 +1,31 @@
+# cmake -DBUILD=… -P uninstall.cmake: removes what `cmake --install` has put to its places, and folders called temper that
+# are empty then.
+file(GLOB manifests ${BUILD}/install_manifest*.txt)
+if(NOT manifests)
+  message(FATAL_ERROR "nothing to uninstall: no install_manifest.txt in ${BUILD}, which cmake --install writes")
+endif()
+
+set(folders "")
+foreach(manifest IN LISTS manifests)
+  file(STRINGS ${manifest} files)
+  foreach(file IN LISTS files)
+    set(path "$ENV{DESTDIR}${file}")
+    if(EXISTS "${path}" OR IS_SYMLINK "${path}")
+      message(STATUS "Removing: ${path}")
+      file(REMOVE "${path}")
+    endif()
+    cmake_path(GET path PARENT_PATH folder)
+    list(APPEND folders "${folder}")
+  endforeach()
+endforeach()
+
+# Folders of temper's own: others were there before, or could have been.
+list(REMOVE_DUPLICATES folders)
+list(FILTER folders INCLUDE REGEX "/temper$")
+foreach(folder IN LISTS folders)
+  file(GLOB rest LIST_DIRECTORIES true "${folder}/*")
+  if(NOT rest)
+    file(REMOVE_RECURSE "${folder}")
+  endif()
+endforeach()
+file(REMOVE ${manifests})
