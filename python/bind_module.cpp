@@ -7,6 +7,7 @@
 #include "temper/instruction_set.hpp"
 #ifdef TEMPER_WITH_TBB
 #include "temper/tbb_executor.hpp"
+#include "temper/version.hpp"
 #endif
 
 namespace temper::python {

@@ -19,7 +19,7 @@
 #include "help.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
-#include "temper/build_info.hpp"
+#include "temper/version.hpp"
 
 namespace temper::app {
 namespace {

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "completions.hpp"
-#include "temper/build_info.hpp"
+#include "temper/version.hpp"
 
 namespace temper::app {
 namespace {

@@ -20,6 +20,7 @@
 #include "suggest.hpp"
 #include "temper/build_info.hpp"
 #include "temper/io.hpp"
+#include "temper/version.hpp"
 #include "verbs.hpp"
 
 namespace temper::app {

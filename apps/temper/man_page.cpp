@@ -6,7 +6,7 @@
 
 #include "console.hpp"
 #include "help.hpp"
-#include "temper/build_info.hpp"
+#include "temper/version.hpp"
 
 namespace temper::app {
 namespace {

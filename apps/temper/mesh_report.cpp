@@ -6,7 +6,7 @@
 
 #include "console.hpp"
 #include "report_json.hpp"
-#include "temper/build_info.hpp"
+#include "temper/version.hpp"
 
 namespace temper::app {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "input.hpp"
 #include "measures.hpp"
-#include "temper/build_info.hpp"
+#include "temper/version.hpp"
 
 namespace temper::app {
 namespace {

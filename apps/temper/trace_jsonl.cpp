@@ -17,7 +17,7 @@
 #include "exit.hpp"
 #include "json_depth.hpp"
 #include "suggest.hpp"
-#include "temper/build_info.hpp"
+#include "temper/version.hpp"
 
 namespace temper::app {
 namespace {

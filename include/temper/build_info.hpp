@@ -13,9 +13,6 @@ struct BuildFact {
   std::string value;
 };
 
-/// "0.1.0"
-[[nodiscard]] std::string_view version();
-
 /// Version, commit ("unknown" where the sources are no clone), compiler, processor, instruction sets, threads, and the
 /// libraries with their versions: those that are linked as they are now, not as they were when temper was built.
 [[nodiscard]] std::vector<BuildFact> build_info();

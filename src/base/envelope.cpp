@@ -1,6 +1,7 @@
 #include "temper/envelope.hpp"
 
 #include "temper/archive.hpp"
+#include "temper/version.hpp"
 
 namespace temper {
 namespace {
@@ -25,7 +26,7 @@ void append_number(std::string& bytes, std::uint64_t number) {
 }  // namespace
 
 std::string in_envelope(std::string_view kind, std::string_view bytes) {
-  std::string envelope = first_line(kind, TEMPER_VERSION);
+  std::string envelope = first_line(kind, version());
   envelope.reserve(envelope.size() + bytes.size() + 2 * sizeof(std::uint64_t));
   append_number(envelope, bytes.size());
   envelope += bytes;
@@ -35,15 +36,14 @@ std::string in_envelope(std::string_view kind, std::string_view bytes) {
 
 Expected<std::string_view> from_envelope(std::string_view kind, std::string_view envelope) {
   const auto wrong = [&](ErrorCode code, const std::string& what) { return InputError{code, {}, what}; };
-  const std::string expected = first_line(kind, TEMPER_VERSION);
+  const std::string expected = first_line(kind, version());
   if (!envelope.starts_with(expected)) {
     if (expected.starts_with(envelope)) return wrong(ErrorCode::truncated, "is cut off in its first line");
     const std::string_view line = envelope.substr(0, std::min(envelope.find('\n'), kLongestLine));
     if (!line.starts_with(first_line(kind, {}).substr(0, kind.size() + 1))) {
       return wrong(ErrorCode::syntax, "is no " + std::string(kind) + "; expected a file that begins with these words");
     }
-    return wrong(ErrorCode::unsupported, "is a " + printable(line) +
-                                             ", and this is temper " TEMPER_VERSION
+    return wrong(ErrorCode::unsupported, "is a " + printable(line) + ", and this is temper " + std::string(version()) +
                                              ": only the version that wrote it can read it");
   }
   envelope.remove_prefix(expected.size());

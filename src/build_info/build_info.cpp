@@ -16,6 +16,7 @@
 #include "build_info/commit.hpp"
 #include "temper/instruction_set.hpp"
 #include "temper/io.hpp"
+#include "temper/version.hpp"
 
 namespace temper {
 namespace {
@@ -70,8 +71,6 @@ std::string netcdf_text() {
 }
 
 }  // namespace
-
-std::string_view version() { return TEMPER_VERSION; }
 
 std::vector<BuildFact> build_info() {
   return {

@@ -1,0 +1,7 @@
+#include "temper/version.hpp"
+
+namespace temper {
+
+std::string_view version() { return TEMPER_VERSION; }
+
+}  // namespace temper
