@@ -4,6 +4,8 @@
 #   scripts/bootstrap.sh          everything
 #   scripts/bootstrap.sh build    what the library and the program need
 #   scripts/bootstrap.sh test     what the tests need besides
+#   scripts/bootstrap.sh clients  what scripts/clients.sh needs: not a part of everything
+#   scripts/bootstrap.sh docs     what scripts/docs.sh needs: not a part of everything
 set -euo pipefail
 
 build=(g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev libnetcdf-dev
@@ -11,14 +13,18 @@ build=(g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev nlohmann-json3-d
        pybind11-dev python3-dev python3-numpy)
 test=(libgtest-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-meshio python3-scipy python3-matplotlib
       python3-pytest zsh fish mandoc groff-base gmsh librsvg2-bin clang-format-14 clang-tidy-14 clang-19 libclang-rt-19-dev)
+clients=(python3-venv liblapack3 libblas3 libglu1-mesa libgl1 libegl1 libxcursor1 libxft2 libxinerama1 libxrender1)
+docs=(python3-venv doxygen)
 
 wanted=()
 for group in "${@:-all}"; do
   case "$group" in
     build) wanted+=("${build[@]}") ;;
     test) wanted+=("${test[@]}") ;;
+    clients) wanted+=("${clients[@]}") ;;
+    docs) wanted+=("${docs[@]}") ;;
     all) wanted+=("${build[@]}" "${test[@]}") ;;
-    *) echo "bootstrap: no group '$group'; there are build, test and all" >&2; exit 2 ;;
+    *) echo "bootstrap: no group '$group'; there are build, test, clients, docs and all" >&2; exit 2 ;;
   esac
 done
 

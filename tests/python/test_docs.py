@@ -1,27 +1,20 @@
 """Every command and script of docs/python.md, docs/howto and examples/python runs, or says why not."""
 
 import doctest
-import importlib.util
+import importlib
 import os
-import re
 import shutil
 import subprocess
 import sys
 
 import pytest
 from conftest import PUBLIC_MESHES, ROOT
+from pages import blocks_of, lacking
 
 import temper
 
 PAGES = [ROOT / "docs" / "python.md", *sorted((ROOT / "docs" / "howto").glob("*.md"))]
-BLOCK = re.compile(r"(?:^<!-- (?P<mark>[^\n]*) -->\n)?^```(?P<kind>\w*)\n(?P<text>.*?)^```$", re.M | re.S)
 NOT_IN_DEBIAN = {"PyDEC", "PorePy", "Julia", "JIGSAW", "it is how"}
-
-
-def there(tool):
-    if tool == "temper-netcdf":
-        return temper.build_info()["NetCDF"][0].isdigit()
-    return shutil.which(tool) is not None or importlib.util.find_spec(tool) is not None
 
 
 def run(arguments, **options):
@@ -33,22 +26,19 @@ def run(arguments, **options):
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_a_page_runs_from_top_to_bottom(page, in_scratch, monkeypatch):
     monkeypatch.setenv("MPLBACKEND", "agg")
-    blocks = list(BLOCK.finditer(page.read_text(encoding="utf-8")))
     namespace, ran = {}, 0
-    for block in blocks:
-        kind, text, mark = block["kind"], block["text"], block["mark"] or ""
-        if mark.startswith("not run here: "):
-            assert any(name in mark for name in NOT_IN_DEBIAN), mark
+    for block in blocks_of(page):
+        if block.not_run:
+            assert any(name in block.not_run for name in NOT_IN_DEBIAN), block.not_run
             continue
-        if mark.startswith("runs with: ") and not there(mark.removeprefix("runs with: ")):
+        if lacking(block):
             continue
-        assert kind in ("sh", "python"), f"{page.name}: a block of {kind or 'no kind'}"
-        if kind == "sh":
+        if block.kind == "sh":
             if shutil.which("temper") is None:
                 pytest.skip("the program was not built")
-            run(["bash", "-euo", "pipefail", "-c", text])
+            run(["bash", "-euo", "pipefail", "-c", block.text])
         else:
-            exec(compile(text, str(page), "exec"), namespace)
+            exec(compile(block.text, str(page), "exec"), namespace)
         ran += 1
     assert ran > 0 or page.stem == "README"
 

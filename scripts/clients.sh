@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Installs the solvers that docs/howto is about, as the package index has them, in versions that are pinned, and runs the pages
+# against them: what they promise is checked, and what they print is compared. Not a part of scripts/test.sh.
+#
+#   scripts/clients.sh                       all pages
+#   scripts/clients.sh fipy landlab          these
+#   scripts/clients.sh --write               puts numbers into the pages, and the table into docs/howto/README.md
+#   scripts/clients.sh --from DIR …          also installs a client that the index lacks, from its sources in DIR (PorePy, PyDEC)
+#
+# Clients go to build/clients. The program and the module are built (preset python), unless TEMPER_BUILD names a build.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+from=() arguments=()
+while (($#)); do
+  case "$1" in
+    --from) [[ -d "${2:-}" ]] || { echo "clients: --from wants a folder, not '${2:-}'" >&2; exit 2; }
+            from+=("$(realpath "$2")"); shift ;;
+    *) arguments+=("$1") ;;
+  esac
+  shift
+done
+
+scripts/bootstrap.sh build clients
+if [[ -z "${TEMPER_BUILD:-}" ]]; then
+  scripts/build.sh python
+  TEMPER_BUILD=build/python
+fi
+TEMPER_BUILD=$(realpath "$TEMPER_BUILD")
+
+# The module is built for Debian's Python; the environment must be of the same version.
+venv=$PWD/build/clients
+requirements=tests/clients/requirements.txt constraints=tests/clients/constraints.txt
+stamp=$(cat "$requirements" "$constraints" | sha256sum)
+if [[ "$(cat "$venv/stamp" 2>/dev/null)" != "$stamp" ]]; then
+  /usr/bin/python3 -m venv --clear "$venv"
+  "$venv/bin/pip" install --quiet --disable-pip-version-check -r "$requirements" -c "$constraints"
+  echo "$stamp" >"$venv/stamp"
+fi
+for folder in "${from[@]}"; do
+  "$venv/bin/pip" install --quiet --disable-pip-version-check -c "$constraints" "$folder"
+done
+
+export PATH="$TEMPER_BUILD/apps/temper:$venv/bin:$PATH" PYTHONPATH="$TEMPER_BUILD/python" MPLBACKEND=agg
+# One thread, and one BLAS: the last digits are the same from run to run.
+export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 DEVSIM_MATH_LIBS=liblapack.so.3:libblas.so.3
+export PYTHONDONTWRITEBYTECODE=1
+exec "$venv/bin/python" tests/clients/run_pages.py "${arguments[@]}"
