@@ -217,8 +217,9 @@ namespace {
 constexpr bool kKnowsNumPy2 = PYBIND11_VERSION_HEX >= 0x020C0000;
 
 void refuse_unknown_numpy() {
+  if (kKnowsNumPy2) return;
   const auto version = py::module_::import("numpy").attr("__version__").cast<std::string>();
-  if (kKnowsNumPy2 || version.rfind("1.", 0) == 0) return;
+  if (version.rfind("1.", 0) == 0) return;
   throw py::import_error("temper was built with a pybind11 before 2.12, which knows NumPy 1 only; found NumPy " +
                          version + ": install \"numpy<2\", or build temper with a newer pybind11");
 }

@@ -46,7 +46,7 @@ expect "bash: nothing for a number" "" "$(offers temper optimize in.vtu --seed '
 expect "bash: files" $'folder\nin.vtu' "$(offers temper optimize '')"
 expect "bash: files of an option" "in.vtu" "$(offers temper optimize -o in)"
 expect "bash: words before files" "all" "$(offers temper weights in.vtu --edges al)"
-expect "bash: folders" "folder" "$(offers temper reproduce -o '')"
+expect "bash: folders" "folder" "$(offers temper dec in.vtu -o '')"
 expect "bash: examples" $'random' "$(offers temper example rand)"
 expect "bash: options of an example" $'--polygon\n--seed\n--vertices' \
   "$(offers temper example random -- | grep -vxF -f <(options_of example))"

@@ -245,7 +245,7 @@ def test_the_instruction_set_can_be_chosen():
 def test_the_version_is_that_of_the_project():
     cmake = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
     assert temper.__version__ == re.search(r"project\(temper VERSION ([\d.]+)", cmake)[1]
-    pyproject = (ROOT / "python" / "pyproject.toml").read_text(encoding="utf-8")
+    pyproject = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     pattern = re.search(r"^regex = '(.*)'$", pyproject, re.M)[1]
     assert re.search(pattern, cmake)["value"] == temper.__version__
 

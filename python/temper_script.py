@@ -1,0 +1,12 @@
+#!python
+"""The script `temper` of a wheel: becomes the program in the package, which is not imported, so that it starts at once."""
+
+import importlib.util
+import os
+import sys
+
+package = importlib.util.find_spec("temper")
+if package is None:
+    sys.exit("temper: error: the Python package temper, which has the program, is not installed beside this script")
+program = os.path.join(os.path.dirname(package.origin), "bin", "temper")
+os.execv(program, [program, *sys.argv[1:]])
