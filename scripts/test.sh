@@ -126,6 +126,8 @@ if ! stage "bootstrap" scripts/bootstrap.sh build test; then
 fi
 stage "layers: the checker finds what it should" python3 scripts/check_layers.py --self-test
 stage "layers: who includes whom" python3 scripts/check_layers.py
+stage "links: the checker finds what it should" python3 scripts/check_links.py --self-test
+stage "links: none is dead" python3 scripts/check_links.py
 stage "format" formatted
 stage "bench: the comparison finds what it should" python3 bench/compare.py --self-test
 stage "bench: the rates are what they should be" python3 bench/rates.py --self-test
