@@ -1,7 +1,9 @@
-// temper check IN: the quality of a mesh as a table or as JSON, and requirements on it.
+// temper check IN...: the quality of meshes as a table or as JSON, and requirements on it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "console.hpp"
 #include "help.hpp"
@@ -19,7 +21,7 @@ namespace {
 
 struct CheckSettings {
   std::string projection;
-  std::string input;
+  std::vector<std::string> inputs;
   std::vector<std::string> require;
   SofteningOptions gamma, h0;
   std::uint64_t worst = 5, threads = 0;
@@ -28,38 +30,76 @@ struct CheckSettings {
 
 void add_options(Command& command, CheckSettings& s) {
   command.group("Report");
-  add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_texts(command, "IN", "", Values::words, s.inputs,
+            "the mesh, or several; the content of each tells its format; -: standard input")
+      .require();
   add_projection(command, s.projection);
-  command.add_flag("--json", s.json, "the report as JSON, with vertices and triangles counted from 0");
+  command.add_flag("--json", s.json,
+                   "the report as JSON, of several meshes a list of them; vertices and triangles count from 0");
   add_count(command, "--worst", s.worst, 0, "list this many of the worst triangles");
   add_gamma(command, s.gamma, " (default: 1)");
   add_h0(command, s.h0, " (default: 0)");
   add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
   command.group("Requirements");
-  add_texts(command, "--require", "LIST", Values::repeated, s.require,
-            "key=value,key>=value,key<=value,...: exit with 3 when one does not hold. key=value asks of a count that "
-            "it is the value, of a minimum or a fraction that it is no less, of a maximum or an energy that it is no "
-            "more. Keys: " +
-                requirement_keys());
+  add_requirements(command, s.require);
   command.group("Help");
-  command.add_help({"IN [options]",
+  command.add_help({"IN ... [options]",
                     "  temper check in.vtu\n"
                     "  temper check in.vtu --json --worst 20\n"
-                    "  temper check in.vtu --require inverted=0,\"min_angle>=1\"\n",
+                    "  temper check in.vtu --require inverted=0,\"min_angle>=1\"\n"
+                    "  temper check in.vtu in.vtu --require inverted=0\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
 }
 
-/// Says which requirements fail, all of them.
-Exit judge(const std::vector<Requirement>& requirements, const Quality& quality, const std::string& path) {
-  Exit exit = Exit::done;
-  for (const Requirement& requirement : requirements) {
-    const std::optional<std::string> problem = unmet(requirement, quality);
-    if (!problem) continue;
-    print_error(fmt::format("{}: requirement not met: {}", path, *problem));
-    exit = Exit::requirement;
+/// The meshes of one call.
+class Checks {
+ public:
+  Checks(const CheckSettings& settings, std::vector<Requirement> requirements)
+      : s_(settings), requirements_(std::move(requirements)), threads_(make_threads(settings.threads)) {
+    options_.gamma = s_.gamma.value().value_or(options_.gamma);
+    options_.h0 = s_.h0.value().value_or(options_.h0);
+    options_.worst = s_.worst;
+    options_.executor = threads_.get();
   }
-  return exit;
-}
+
+  void add(const std::string& path) {
+    const Input input = read_input(path, {s_.projection, {}, threads_.get()});
+    print_warnings(input.warnings());
+    const Quality measured = quality(input.mesh(), options_);
+    const std::vector<Outcome> outcomes = judge(requirements_, measured);
+    if (s_.json) {
+      reports_.push_back(check_json(path, measured, input.points, outcomes));
+    } else {
+      print((std::exchange(first_, false) ? "" : "\n") + quality_text(measured, input, text_style()));
+      flush_output();  // before the verdict on standard error
+    }
+    if (const Exit verdict = report_unmet(outcomes, path); exit_ == Exit::done) exit_ = verdict;
+  }
+
+  /// What is wrong with one mesh keeps none of the others from being looked at.
+  void add_of_several(const std::string& path) {
+    try {
+      add(path);
+    } catch (const Failure& failure) {
+      print_error(failure.what());
+      exit_ = failure.exit;
+    }
+  }
+
+  Exit end() {
+    if (s_.json) print(s_.inputs.size() == 1 ? reports_.front() : json_list(reports_));
+    return exit_;
+  }
+
+ private:
+  const CheckSettings& s_;
+  std::vector<Requirement> requirements_;
+  std::unique_ptr<Executor> threads_;
+  QualityOptions options_;
+  std::vector<std::string> reports_;
+  bool first_ = true;
+  Exit exit_ = Exit::done;
+};
 
 }  // namespace
 
@@ -69,23 +109,14 @@ Exit run_check(const Arguments& arguments) {
   CheckSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
-  std::vector<Requirement> requirements;
-  for (const std::string& list : s.require) {
-    for (Requirement& requirement : parse_requirements(list)) requirements.push_back(std::move(requirement));
+  std::ranges::replace(s.inputs, "-", kStandardInput);
+  Checks checks(s, parse_requirements("check", s.require));
+  if (s.inputs.size() == 1) {
+    checks.add(s.inputs.front());
+  } else {
+    for (const std::string& path : s.inputs) checks.add_of_several(path);
   }
-
-  const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  const Input input = read_input(s.input, {s.projection, {}, threads.get()});
-  print_warnings(input.warnings());
-  QualityOptions options;
-  options.gamma = s.gamma.value().value_or(options.gamma);
-  options.h0 = s.h0.value().value_or(options.h0);
-  options.worst = s.worst;
-  options.executor = threads.get();
-  const Quality measured = quality(input.mesh(), options);
-  print(s.json ? quality_json(measured, input.points) : quality_text(measured, input, text_style()));
-  flush_output();  // before the verdict on standard error
-  return judge(requirements, measured, s.input);
+  return checks.end();
 }
 
 }  // namespace temper::app

@@ -15,8 +15,8 @@ namespace {
 
 struct ConvertSettings {
   std::string projection;
-  std::string input, output;
-  io::WriteOptions options;
+  std::string input;
+  MeshOutput output;
   std::uint64_t threads = 0;
 };
 
@@ -24,17 +24,8 @@ void add_options(Command& command, ConvertSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the file to read; its content tells the format").require();
   add_projection(command, s.projection);
-  add_text(command, "-o,--output", "OUT", s.output, "where it goes; its suffix tells the format").require();
-  std::vector<std::string_view> names;
-  for (const io::Format& format : io::formats()) {
-    if (format.writes) names.push_back(format.name);
-  }
-  add_name(
-      command, "--format", names, [&s](std::string_view name) { s.options.format = name; },
-      "the format of OUT, whatever its suffix");
-  add_choice(
-      command, "--encoding", kEncodings, [&s](io::Encoding value) { s.options.encoding = value; },
-      "the encoding, for formats that have several (default: the compact one)");
+  add_mesh_output(command, s.output, "OUT", "where it goes; its suffix tells the format");
+  command.option("--output").require();
   add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
   command.group("Help");
   command.add_help({"IN -o OUT [options]",
@@ -54,14 +45,13 @@ Exit run_convert(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   Outputs outputs("convert");
-  outputs.expect_mesh("--output", s.output, s.options.format);
+  outputs.expect_mesh(s.output);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  s.options.executor = threads.get();
   io::MeshFile file = or_fail(io::read(s.input, {threads.get()}));
   if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
   print_warnings(file.warnings);
-  print_warnings(outputs.write_mesh(s.output, file, s.options));
+  print_warnings(outputs.write_mesh(s.output, file, threads.get()));
   return Exit::done;
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint64_t kLeastVertices = 3;
 
 struct ExampleSettings {
-  std::string output;
+  MeshOutput output;
   bool list = false;
   Horseshoe horseshoe;
   SingleTriangle triangle;
@@ -137,7 +137,7 @@ constexpr Generator kGenerators[] = {
 
 void add_options(Command& command, ExampleSettings& s) {
   command.group("Options");
-  add_text(command, "-o,--output", "OUT", s.output, "where the mesh goes; its suffix tells the format");
+  add_mesh_output(command, s.output, "OUT");
   command.add_flag("--list", s.list, "list the examples");
   command.add_help({"NAME -o OUT [options of NAME]",
                     "  temper example --list\n"
@@ -187,9 +187,9 @@ Exit run_example(const Arguments& arguments) {
     return Exit::done;
   }
   const Generator& generator = chosen(command);
-  if (s.output.empty()) bad_usage("--output is required");
+  if (s.output.path.empty()) bad_usage("--output is required");
   Outputs outputs("example");
-  outputs.expect_mesh("--output", s.output);
+  outputs.expect_mesh(s.output);
 
   const Expected<Mesh> mesh = generator.make(s);
   if (!mesh) bad_usage(std::string(generator.name) + ": " + mesh.error().what());  // options are its only input

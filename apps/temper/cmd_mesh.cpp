@@ -30,7 +30,8 @@ constexpr Choice<Enclosed> kEnclosed[] = {
 
 struct MeshSettings {
   TimeLimit since;
-  std::string input, output, report, picture, projection, region_sizes;
+  std::string input, report, picture, projection, region_sizes;
+  MeshOutput output;
   MesherOptions options;
   std::uint64_t threads = 0;
   bool no_optimize = false, quiet = false;
@@ -40,7 +41,8 @@ void add_files(Command& command, MeshSettings& s) {
   add_argument(command, "OUTLINE", s.input,
                "the outline: .poly of Triangle, geometry of JIGSAW, or GeoJSON; its content tells which")
       .require();
-  add_text(command, "-o,--output", "MESH", s.output, "where the mesh goes; its suffix tells the format").require();
+  add_mesh_output(command, s.output, "MESH");
+  command.option("--output").require();
   add_text(command, "--report", "FILE", s.report, "a JSON report: what was read and made, before and after optimising");
   add_text(command, "--draw", "FILE", s.picture, "an SVG picture of the mesh and its dual");
   command.add_flag("--quiet", s.quiet, "print warnings and errors only");
@@ -186,9 +188,7 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
   measuring.executor = threads.get();
   const Quality after = quality(made.mesh, measuring);
 
-  io::WriteOptions writing;
-  writing.executor = threads.get();
-  print_warnings(outputs.write_mesh(s.output, file_of(made, map), writing));
+  print_warnings(outputs.write_mesh(s.output, file_of(made, map), threads.get()));
   const std::vector<UsedOption> options = used_options(command);
   const MeshRecord record = {command_line("mesh", {s.input}, options), options, input, map, made, after};
   if (!s.report.empty()) outputs.write_text(s.report, mesh_json(record));
@@ -198,7 +198,7 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
         fmt::format("{}: {} triangles, {} not well-centered", s.input, after.triangles, bad_triangles(after));
     outputs.write_text(s.picture, draw_svg(made.mesh, drawing));
   }
-  if (!s.quiet) print(mesh_text(record) + fmt::format("\n{}: {}\n", s.output, verdict(after)));
+  if (!s.quiet) print(mesh_text(record) + fmt::format("\n{}: {}\n", s.output.path, verdict(after)));
   const bool early = made.report.stopped == Stopped::time_limit || made.report.stopped == Stopped::cancelled;
   return early ? Exit::stopped_early : Exit::done;
 }
@@ -216,7 +216,7 @@ Exit run_mesh(const Arguments& arguments) {
   Outputs outputs("mesh");
   // The points of a .poly may be in the .node beside it.
   const std::vector<std::string> inputs = {s.input, std::filesystem::path(s.input).replace_extension(".node").string()};
-  outputs.expect_mesh("--output", s.output, "", inputs);
+  outputs.expect_mesh(s.output, inputs);
   outputs.expect_text("--report", s.report, inputs);
   outputs.expect_picture("--draw", s.picture, inputs);
   return mesh(command, s, outputs);

@@ -17,6 +17,7 @@
 #include "projection_option.hpp"
 #include "report_json.hpp"
 #include "report_text.hpp"
+#include "requirement.hpp"
 #include "resume.hpp"
 #include "size_report.hpp"
 #include "table_options.hpp"
@@ -38,15 +39,16 @@ namespace {
 struct Settings {
   TimeLimit since;
   std::string projection;
-  std::string input, output, report, history, picture, trace;
-  std::vector<std::string> fix;
+  std::string input, report, history, picture, trace;
+  MeshOutput output;
+  std::vector<std::string> fix, require;
   const Method* method = methods().data();
   TableOptions table;  ///< first those of the method
-  std::optional<io::Encoding> encoding;
   std::uint64_t threads = 0;
   bool quiet = false, verify = false;
   std::string checkpoint, resume;
   double every = 600;  ///< seconds between checkpoints
+  std::vector<Requirement> requirements;
   std::string size_field, size_data;
   std::vector<std::string> point_data;
   io::DataRules rules;  ///< of point_data
@@ -60,11 +62,7 @@ void add_files(Command& command, Settings& s) {
   // These two are not marked as required: see take_input.
   add_argument(command, "IN", s.input, "the mesh to improve; its content tells the format");
   add_projection(command, s.projection);
-  add_text(command, "-o,--output", "OUT", s.output,
-           "where the improved mesh goes; may be IN; its suffix tells the format");
-  add_choice(
-      command, "--encoding", kEncodings, [&s](io::Encoding value) { s.encoding = value; },
-      "of formats that have several (default: the compact one; fastest: appended)");
+  add_mesh_output(command, s.output, "OUT", "where the improved mesh goes; may be IN; its suffix tells the format");
   add_point_data(command, s.point_data);
   add_text(command, "--report", "FILE", s.report,
            "a JSON report: before, after, history, and the command to run again");
@@ -78,6 +76,8 @@ void add_files(Command& command, Settings& s) {
       "measure the errors of solvers, too, before and after: see temper verify. With --objective accuracy the input "
       "is returned when it is well-centered and its errors are the smaller ones");
 #endif
+  add_requirements(command, s.require).sentence =
+      "outside=0,min_h=0.05,...: exit with 3 when the result is not so, with everything written; see temper check";
   command.add_flag("--quiet", s.quiet, "print warnings and errors only");
 }
 
@@ -117,7 +117,8 @@ void add_run(Command& command, Settings& s) {
 
 /// `--fix 1 2 IN -o OUT`: --fix takes all words that follow, so the last one is the input when there is none.
 void take_input(Command& command, Settings& s) {
-  if (s.output.empty()) throw Failure(Exit::bad_usage, "optimize: --output is required\nSee temper optimize --help");
+  if (s.output.path.empty())
+    throw Failure(Exit::bad_usage, "optimize: --output is required\nSee temper optimize --help");
   if (!s.input.empty()) return;
   if (s.fix.size() < 2)
     throw Failure(Exit::bad_usage, "optimize: IN is missing: the mesh to improve\nSee temper optimize --help");
@@ -155,7 +156,7 @@ std::vector<std::string> doubtful_options(const Command& command, const Settings
   if (s.checkpoint.empty() && command.was_given("--every")) {
     warnings.emplace_back("--every has no effect without --checkpoint");
   }
-  if (!s.report.empty() && same_file(s.input, s.output)) {
+  if (!s.report.empty() && same_file(s.input, s.output.path)) {
     warnings.emplace_back("--output replaces the input: the command in the report would start from the improved mesh");
   }
   return warnings;
@@ -199,6 +200,7 @@ std::string picture_title(const Input& input, const Quality& before, const Quali
 struct Results {
   Quality before, after;
   OptimizeReport report;
+  std::vector<Outcome> outcomes;  ///< of --require
   io::DataReport data;
   std::string picture;                   ///< SVG, when asked for
   std::string errors_text, errors_json;  ///< of solvers, when asked for
@@ -330,7 +332,8 @@ void improve(const Settings& s, Input& input, Results& results, const RunFiles& 
   Mesh& mesh = input.loaded.mesh;
   const bool may_return_input = s.verify && s.for_accuracy();
   const Mesh original = s.picture.empty() && !may_return_input ? Mesh() : mesh;
-  const bool measured = !s.quiet || !s.report.empty() || !s.picture.empty();  // else nobody would see it
+  // Else nobody would see it.
+  const bool measured = !s.quiet || !s.report.empty() || !s.picture.empty() || !s.requirements.empty();
   if (measured) results.before = quality(mesh, measuring);
   catch_interrupts();
   if (!s.quiet) {
@@ -348,6 +351,7 @@ void improve(const Settings& s, Input& input, Results& results, const RunFiles& 
 #endif
   if (files.trace != nullptr) files.trace->write(trace_end(files.trace->place.events, mesh, input));
   if (measured) results.after = quality(mesh, measuring);
+  results.outcomes = judge(s.requirements, results.after);
   if (!s.picture.empty()) {
     DrawOptions drawing;
     drawing.title = picture_title(input, results.before, results.after);
@@ -371,17 +375,15 @@ void write_all(const Command& command, const Settings& s, Input& input, Results&
   results.data =
       io::update(input.file, input.loaded, input.loaded.mesh, results.report.vertices, {s.rules, files.threads});
   warn(results, std::span(input.file.warnings).subspan(known));
-  io::WriteOptions writing;
-  writing.encoding = s.encoding;
-  writing.executor = files.threads;
-  warn(results, outputs.write_mesh(s.output, input.file, writing));
+  warn(results, outputs.write_mesh(s.output, input.file, files.threads));
   if (files.checkpoint != nullptr && stopped_early(results.report)) outputs.write(*files.checkpoint);
   if (files.trace != nullptr) outputs.commit(s.trace, files.trace->stream);
   if (!s.report.empty()) {
     const std::vector<UsedOption> options = used_options(command);
     const std::string again = command_line("optimize", {s.input}, options);
-    outputs.write_text(s.report, optimize_json({again, options, results.before, input.points, results.after,
-                                                results.report, results.data, results.warnings, results.errors_json}));
+    outputs.write_text(s.report,
+                       optimize_json({again, options, results.before, input.points, results.after, results.report,
+                                      results.data, results.outcomes, results.warnings, results.errors_json}));
   }
   if (!s.history.empty()) outputs.write_text(s.history, history_csv(results.report));
   if (!s.picture.empty()) outputs.write_text(s.picture, results.picture);
@@ -399,7 +401,7 @@ void print_result(const Settings& s, const Results& results, const Outputs& outp
   if (const std::string data = data_text(results.data); !data.empty()) print("\n" + data);
   if (!results.errors_text.empty()) print("\n" + results.errors_text);
   for (const std::string& note : results.report.notes) print("note: " + note + "\n");
-  print(fmt::format("\n{}: {}\n", s.output, verdict(results.after)));
+  print(fmt::format("\n{}: {}\n", s.output.path, verdict(results.after)));
   std::string written;
   for (const std::string& path : outputs.written()) written += (written.empty() ? "wrote " : ", ") + path;
   print(written + "\n");
@@ -461,10 +463,17 @@ Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs, const 
   improve(s, input, results, files);
   write_all(command, s, input, results, outputs, files);
   if (!s.quiet) print_result(s, results, outputs);
+  flush_output();  // before the verdict on standard error
+  if (const Exit verdict = report_unmet(results.outcomes, s.output.path); verdict != Exit::done) return verdict;
   return stopped_early(results.report) || lacks_flips(s, results.after, input.loaded.mesh, threads.get())
              ? Exit::stopped_early
              : Exit::done;
 }
+
+/// Of this verb's own options those that a first run does without; of the library's the table says it.
+constexpr const char* kRare[] = {"--projection", "--format",     "--encoding",       "--point-data", "--history",
+                                 "--trace",      "--threads",    "--method",         "--checkpoint", "--every",
+                                 "--resume",     "--size-field", "--size-field-data"};
 
 Command command_with(Settings& settings) {
   Command command(
@@ -476,19 +485,22 @@ Command command_with(Settings& settings) {
   add_run(command, settings);
   add_constraints(command, settings);
   for (const OptionGroup& group : option_groups()) add_group(command, group, settings.table);
+  for (const char* name : kRare) command.option(name).rare = true;
   command.group("Help");
-  command.add_help({"IN -o OUT [options]",
-                    "  temper optimize in.vtu -o out.vtu\n"
-                    "  temper optimize in.vtu -o out.vtu --report report.json --draw before-after.svg\n"
-                    "  temper optimize in.vtu -o out.vtu --weights-only --no-flips\n"
-                    "  temper optimize in.vtu -o out.vtu --energy F --star 1 --solver golden --max-sweeps 20\n"
-                    "  temper optimize in.vtu -o out.vtu --gamma-rel 0.1 --time-limit 60\n"
-                    "  temper optimize in.vtu -o out.vtu --objective accuracy --verify\n"
-                    "  temper optimize in.vtu -o out.vtu --removal patch --trace trace.jsonl\n"
-                    "  temper optimize in.vtu -o out.vtu --method paper --energy dT --removal none\n"
-                    "  temper optimize in.vtu -o out.vtu --checkpoint run.ckpt --time-limit 3600\n"
-                    "  temper optimize --resume run.ckpt\n",
-                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal}});
+  command.add_help(
+      {"IN -o OUT [options]",
+       "  temper optimize in.vtu -o out.vtu\n"
+       "  temper optimize in.vtu -o out.vtu --report report.json --draw before-after.svg\n"
+       "  temper optimize in.vtu -o out.vtu --require outside=0,not_crossed=0\n"
+       "  temper optimize in.vtu -o out.vtu --weights-only --no-flips\n"
+       "  temper optimize in.vtu -o out.vtu --energy F --star 1 --solver golden --max-sweeps 20\n"
+       "  temper optimize in.vtu -o out.vtu --gamma-rel 0.1 --time-limit 60\n"
+       "  temper optimize in.vtu -o out.vtu --objective accuracy --verify\n"
+       "  temper optimize in.vtu -o out.vtu --removal patch --trace trace.jsonl\n"
+       "  temper optimize in.vtu -o out.vtu --method paper --energy dT --removal none\n"
+       "  temper optimize in.vtu -o out.vtu --checkpoint run.ckpt --time-limit 3600\n"
+       "  temper optimize --resume run.ckpt\n",
+       {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early, Exit::internal}});
   return command;
 }
 
@@ -497,10 +509,11 @@ Exit run_command(Command& command, Settings& settings, const Resumed* resumed) {
   take_input(command, settings);
   expect_no_contradictions(command);
   command.spell_defaults();  // --method may have changed them
+  settings.requirements = parse_requirements("optimize", settings.require);
 
   Outputs outputs("optimize");
   const std::vector<std::string> inputs = {settings.input, settings.size_field};
-  outputs.expect_mesh("--output", settings.output, "", {settings.size_field});
+  outputs.expect_mesh(settings.output, {settings.size_field});
   outputs.expect_text("--report", settings.report, inputs);
   outputs.expect_text("--history", settings.history, inputs);
   outputs.expect_text("--trace", settings.trace, inputs);

@@ -20,7 +20,8 @@ namespace {
 
 struct ReplaySettings {
   std::string projection;
-  std::string input, trace, output;
+  std::string input, trace;
+  MeshOutput output;
   std::optional<int> sweeps;
   std::vector<std::string> point_data;
   bool quiet = false;
@@ -31,7 +32,8 @@ void add_options(Command& command, ReplaySettings& s) {
   add_argument(command, "IN", s.input, "the mesh that was optimized").require();
   add_projection(command, s.projection);
   add_argument(command, "TRACE", s.trace, "the file that temper optimize IN --trace wrote").require();
-  add_text(command, "-o,--output", "OUT", s.output, "where the mesh goes; its suffix tells the format").require();
+  add_mesh_output(command, s.output, "OUT");
+  command.option("--output").require();
   add_point_data(command, s.point_data);
   add_count(command, "--sweeps", s.sweeps, 0, "stop at the end of this sweep; 0: after IN was made regular");
   command.add_flag("--quiet", s.quiet, "print warnings and errors only");
@@ -68,7 +70,7 @@ Exit run_replay(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   Outputs outputs("replay");
-  outputs.expect_mesh("--output", s.output);
+  outputs.expect_mesh(s.output);
 
   Input input = read_input(s.input, {s.projection});
   print_warnings(input.warnings());
@@ -90,7 +92,7 @@ Exit run_replay(const Arguments& arguments) {
   print_warnings(outputs.write_mesh(s.output, input.file));
   if (!s.quiet) {
     print(fmt::format("{} of {} events: {} vertices, {} triangles\nwrote {}\n", applied.size(), events.size(),
-                      replayed->mesh.n_vertices(), replayed->mesh.n_triangles(), s.output));
+                      replayed->mesh.n_vertices(), replayed->mesh.n_triangles(), s.output.path));
   }
   return Exit::done;
 }

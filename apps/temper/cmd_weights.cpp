@@ -43,7 +43,8 @@ constexpr Choice<Connectivity> kConnectivities[] = {{"fixed", Connectivity::fixe
 
 struct WeightsSettings {
   std::string projection;
-  std::string input, output, certificate, check;
+  std::string input, certificate, check;
+  MeshOutput output;
   Mode mode = Mode::minimal;
   From from = From::zero;
   Barrier barrier = Barrier::hard;
@@ -77,7 +78,7 @@ void add_options(Command& command, WeightsSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
   add_projection(command, s.projection);
-  add_text(command, "-o,--output", "OUT", s.output, "the mesh with its new weights; not needed with --mode feasible");
+  add_mesh_output(command, s.output, "OUT", "the mesh with its new weights; not needed with --mode feasible");
   add_text(command, "--certificate", "FILE", s.certificate,
            "write the proof that no weights exist, if so, as JSON (docs/weights.md describes it)");
   add_text(command, "--check-certificate", "FILE", s.check,
@@ -129,7 +130,7 @@ void check_usage(const Command& command, const WeightsSettings& s) {
                                "--conditions", "--edges", "--connectivity", "--programmes"}) {
       if (command.was_given(option)) fail(fmt::format("--check-certificate takes no {}", option));
     }
-  } else if (s.output.empty() && s.mode != Mode::feasible) {
+  } else if (s.output.path.empty() && s.mode != Mode::feasible) {
     fail("--output is missing");
   }
   const bool regular = s.options.conditions == Conditions::regular, search = s.connectivity == Connectivity::search;
@@ -231,13 +232,13 @@ Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
   const bool proved = !report.certificate.terms.empty();
   WeightsRecord record = {
       kModes[static_cast<std::size_t>(s.mode)].name, s.options, report, input, mesh, search, {}, {}};
-  if (report.solved && !s.output.empty()) {
+  if (report.solved && !s.output.path.empty()) {
     const Mesh weighted = with_weights(mesh, report.weights);
     const std::size_t known = input.file.warnings.size();
     io::update(input.file, input.loaded, weighted);
     print_warnings(std::span(input.file.warnings).subspan(known));
     print_warnings(outputs.write_mesh(s.output, input.file));
-    record.output = s.output;
+    record.output = s.output.path;
   }
   if (proved && !s.certificate.empty()) {
     outputs.write_text(s.certificate, certificate_text(report.certificate, input));
@@ -263,7 +264,7 @@ Exit run_weights(const Arguments& arguments) {
   s.options.from_input = s.from == From::input;
   s.options.whole = s.whole;
   Outputs outputs("weights");
-  if (!s.output.empty()) outputs.expect_mesh("--output", s.output);
+  if (!s.output.path.empty()) outputs.expect_mesh(s.output);
   outputs.expect_text("--certificate", s.certificate, {s.input});
 
   Input input = read_input(s.input, {s.projection});

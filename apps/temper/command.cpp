@@ -13,6 +13,11 @@
 #include "suggest.hpp"
 
 namespace temper::app {
+namespace {
+
+constexpr std::string_view kWholeHelp = "--help-all";
+
+}  // namespace
 
 std::vector<std::string> single_names(const std::string& names) {
   std::vector<std::string> single;
@@ -43,7 +48,7 @@ Option& Option::defaults_to(std::function<std::string()> function) {
 /// Parser: CLI11, made for one command line.
 class Command::Parser {
  public:
-  explicit Parser(Command& command) : app_(command.description_, command.name_) {
+  explicit Parser(Command& command) : command_(command), app_(command.description_, command.name_) {
     declare(command, app_);
     app_.require_subcommand(0, 1);
     for (Command& inner : command.subcommands_) {
@@ -53,21 +58,26 @@ class Command::Parser {
     }
   }
 
-  /// False: help was asked for.
-  bool read(const Arguments& arguments) {
+  enum class Asked { work, help, whole_help };
+
+  Asked read(const Arguments& arguments) {
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());  // CLI11 takes them from the back
     std::string message;
     try {
       app_.parse(reversed);
-      return true;
+      return Asked::work;
     } catch (const CLI::CallForHelp&) {
-      return false;
+      return Asked::help;
+    } catch (const CLI::CallForAllHelp&) {
+      return Asked::whole_help;
     } catch (const CLI::ExtrasError&) {
       const std::vector<CLI::App*> inner = app_.get_subcommands();
       message = explain_extras(inner.empty() || inner.front()->remaining_size() == 0 ? app_ : *inner.front());
     } catch (const CLI::ArgumentMismatch& error) {
       const CLI::Option* const twice = given_twice();
-      message = twice != nullptr ? twice->get_name() + " is given more than once" : error.what();
+      message = twice != nullptr ? twice->get_name() + " is given more than once" : explain_lack(error.what());
+    } catch (const CLI::ExcludesError&) {
+      message = explain_both();
     } catch (const CLI::ParseError& error) {
       message = error.what();
     }
@@ -92,6 +102,7 @@ class Command::Parser {
 
   void declare(const Command& command, CLI::App& app) {
     app.set_help_flag();
+    app.set_help_all_flag(std::string(kWholeHelp));
     for (const Option& option : command.options_) declare(option, app);
     for (const Option& option : command.options_) {
       if (!option.excludes.empty()) app.get_option(long_name(option.names))->excludes(app.get_option(option.excludes));
@@ -100,7 +111,7 @@ class Command::Parser {
 
   void declare(const Option& option, CLI::App& app) {
     if (option.is_help()) {
-      app.set_help_flag(option.names);
+      if (option.names != kWholeHelp) app.set_help_flag(option.names);
       return;
     }
     CLI::Option* declared = nullptr;
@@ -147,6 +158,41 @@ class Command::Parser {
     return nullptr;
   }
 
+  /// Calls f(option, parsed) for each option of the verb and of the word that was chosen; until it says true.
+  template <class F>
+  void find_declared(F&& f) const {
+    const auto look = [&](const Command& command, const CLI::App& app) {
+      return std::ranges::any_of(command.options_, [&](const Option& option) {
+        return !option.is_help() && f(option, *app.get_option(long_name(option.names)));
+      });
+    };
+    if (look(command_, app_)) return;
+    for (const Command& inner : command_.subcommands_) {
+      if (look(inner, *app_.get_subcommand(inner.name_))) return;
+    }
+  }
+
+  /// The parser's words begin with the option's name.
+  [[nodiscard]] std::string explain_lack(const std::string& words) const {
+    std::string message = words;
+    find_declared([&](const Option& option, const CLI::Option&) {
+      const bool found = words.starts_with(long_name(option.names) + ":");
+      if (found) message = long_name(option.names) + " needs a value, " + option.value_name;
+      return found;
+    });
+    return message;
+  }
+
+  [[nodiscard]] std::string explain_both() const {
+    std::string message;
+    find_declared([&](const Option& option, const CLI::Option& parsed) {
+      const bool both = !option.excludes.empty() && parsed.count() > 0 && app_.count(option.excludes) > 0;
+      if (both) message = option.excludes + " and " + long_name(option.names) + " cannot be given together";
+      return both;
+    });
+    return message;
+  }
+
   static std::string explain_extras(const CLI::App& app) {
     const std::vector<std::string> extras = app.remaining();
     if (extras.empty()) return "unexpected arguments";
@@ -168,6 +214,7 @@ class Command::Parser {
     }
   }
 
+  const Command& command_;
   CLI::App app_;
   std::set<const Option*> taken_at_once_;
 };
@@ -189,7 +236,12 @@ Option& Command::add_flag(std::string name, bool& target, std::string sentence) 
 
 void Command::add_help(VerbHelp help) {
   help_ = std::move(help);
-  add({.names = "-h,--help", .value_name = "", .sentence = "this text", .take = nullptr});
+  const bool in_two = std::ranges::any_of(options_, &Option::rare);
+  add({.names = "-h,--help",
+       .value_name = "",
+       .sentence = in_two ? "this text, without the options that most runs do not need" : "this text",
+       .take = nullptr});
+  if (in_two) add({.names = std::string(kWholeHelp), .value_name = "", .sentence = "all options", .take = nullptr});
 }
 
 Command& Command::add_subcommand(std::string name, std::string description) {
@@ -202,8 +254,9 @@ bool Command::parse(const Arguments& arguments) {
     return false;
   }
   Parser parser(*this);
-  if (!parser.read(arguments)) {
-    print(help_text(*this));
+  const Parser::Asked asked = parser.read(arguments);
+  if (asked != Parser::Asked::work) {
+    print(asked == Parser::Asked::help ? help_text(*this) : whole_help_text(*this));
     return false;
   }
   parser.store(*this);

@@ -48,6 +48,7 @@ struct Option {
   std::function<std::string()> spell = {};  ///< the default; none: there is none, or default_text says it
   Values values = Values::one;
   bool required = false;
+  bool rare = false;          ///< left out by --help, not by --help-all
   bool at_once = false;       ///< taken while the command line is read, before all others
   std::string excludes = {};  ///< the option that may not be given, too
   std::string default_text = {};

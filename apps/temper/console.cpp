@@ -21,9 +21,20 @@ void print_warnings(std::span<const std::string> messages) {
   for (const std::string& message : messages) fmt::print(stderr, "temper: warning: {}\n", printable(message));
 }
 
+namespace {
+
+std::FILE*& printed_to() {
+  static std::FILE* file = stdout;
+  return file;
+}
+
+}  // namespace
+
+void print_to_standard_error() { printed_to() = stderr; }
+
 void print(std::string_view any_text) {
   const std::string text = printable(any_text);
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
+  if (std::fwrite(text.data(), 1, text.size(), printed_to()) != text.size()) {
     throw Failure(Exit::bad_input, fmt::format("standard output: {}", std::strerror(errno)));
   }
 }

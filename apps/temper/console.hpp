@@ -15,6 +15,8 @@ void print_warnings(std::span<const std::string> messages);
 
 /// Text to standard output. Throws Failure when it cannot be written.
 void print(std::string_view text);
+/// From now on print() does so there: standard output is taken by a mesh.
+void print_to_standard_error();
 /// Everything printed so far really is written, or Failure: a full disk behind a redirection.
 void flush_output();
 

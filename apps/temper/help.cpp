@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -38,11 +40,13 @@ std::string beside(const std::string& head, const std::string& description) {
 
 std::string option_text(const Option& option) { return beside(option_head(option), described(option)); }
 
-/// Options by group, in the order in which they were added.
-std::string option_groups(const Command& command) {
+/// Options in the order in which they were added: all, by group, or those that are not rare.
+std::string option_groups(const Command& command, bool all) {
   std::string text, group;
+  const bool grouped = all || std::ranges::none_of(command.options(), &Option::rare);
   for (const Option& option : command.options()) {
-    const std::string title = option.is_argument() ? "Arguments" : option.group;
+    if (option.rare && !all) continue;
+    const std::string title = option.is_argument() ? "Arguments" : grouped ? option.group : "Options";
     if (title != group) text += "\n" + title + ":\n";
     group = title;
     text += option_text(option);
@@ -111,17 +115,37 @@ const VerbHelp& program_help() {
   return help;
 }
 
-std::string help_text(const Command& command) {
+namespace {
+
+/// All examples, or those without rare options.
+std::string examples(const Command& command, bool all) {
+  std::string text;
+  std::istringstream lines(command.help().examples);
+  for (std::string line; std::getline(lines, line);) {
+    const auto uses = [&line](const Option& option) {
+      return option.rare && (line + " ").find(" " + long_name(option.names) + " ") != std::string::npos;
+    };
+    if (all || std::ranges::none_of(command.options(), uses)) text += line + "\n";
+  }
+  return text;
+}
+
+std::string help_text(const Command& command, bool all) {
   const VerbHelp& help = command.help();
   std::string text = paragraph(command.description());
   text += fmt::format("\nUsage: temper {} {}\n", command.name(), help.usage);
-  text += option_groups(command);
+  text += option_groups(command, all);
   for (const Command& inner : command.subcommands()) {
     text += fmt::format("\n{}: {}\n", inner.name(), inner.description());
     for (const Option& option : inner.options()) text += option_text(option);
   }
-  return text + "\nExamples:\n" + help.examples + exit_lines(help.exits);
+  return text + "\nExamples:\n" + examples(command, all) + exit_lines(help.exits);
 }
+
+}  // namespace
+
+std::string help_text(const Command& command) { return help_text(command, false); }
+std::string whole_help_text(const Command& command) { return help_text(command, true); }
 
 std::string short_help() {
   std::string text = "Usage: temper VERB ...\n\n";

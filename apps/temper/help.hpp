@@ -10,8 +10,9 @@
 
 namespace temper::app {
 
-/// The help text of a verb.
+/// The help text of a verb, without its rare options; and with them, in groups.
 [[nodiscard]] std::string help_text(const Command& command);
+[[nodiscard]] std::string whole_help_text(const Command& command);
 
 /// The sentence of an option, and its default.
 [[nodiscard]] std::string described(const Option& option);

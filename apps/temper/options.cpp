@@ -145,7 +145,7 @@ Option& add_text(Command& command, const std::string& name, const std::string& v
 }
 
 Option& add_argument(Command& command, const std::string& name, std::string& target, const std::string& description) {
-  const auto take = [&target](const std::string& text) { target = text; };
+  const auto take = [&target](const std::string& text) { target = text == "-" ? kStandardInput : text; };
   return command.add({.names = name, .value_name = "", .sentence = description, .take = take});
 }
 

@@ -63,7 +63,11 @@ Option& add_count(Command& command, const std::string& name, std::optional<int>&
 Option& add_text(Command& command, const std::string& name, const std::string& value_name, std::string& target,
                  const std::string& description);
 
-/// An argument known by its place: `temper check IN`.
+/// What "-" stands for.
+inline constexpr const char* kStandardInput = "/dev/stdin";
+inline constexpr const char* kStandardOutput = "/dev/stdout";
+
+/// An argument known by its place: `temper check IN`. "-": standard input.
 Option& add_argument(Command& command, const std::string& name, std::string& target, const std::string& description);
 /// An option, or such arguments, of any number of values.
 Option& add_texts(Command& command, const std::string& name, const std::string& value_name, Values values,

@@ -43,6 +43,28 @@ void check_writable(const std::string& path) {
 
 }  // namespace
 
+void add_mesh_output(Command& command, MeshOutput& target, const std::string& value_name, const std::string& sentence) {
+  add_text(command, "-o,--output", value_name, target.path, sentence + "; -: standard output");
+  command.option("--output").take = [&target](const std::string& text) {
+    if (text.empty()) throw BadValue("needs a value, found an empty one");
+    target.path = text == "-" ? kStandardOutput : text;
+  };
+  std::vector<std::string_view> names;
+  for (const io::Format& format : io::formats()) {
+    if (format.writes) names.push_back(format.name);
+  }
+  add_name(
+      command, "--format", names, [&target](std::string_view name) { target.options.format = name; },
+      "the format of " + value_name + ", whatever its suffix");
+  static constexpr Choice<io::Encoding> kEncodings[] = {{"ascii", io::Encoding::ascii},
+                                                        {"base64", io::Encoding::base64},
+                                                        {"appended", io::Encoding::appended},
+                                                        {"binary", io::Encoding::appended}};
+  add_choice(
+      command, "--encoding", kEncodings, [&target](io::Encoding value) { target.options.encoding = value; },
+      "the encoding, of formats that have several (default: the compact one; fastest: appended)");
+}
+
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error)) return true;
@@ -59,11 +81,12 @@ void Outputs::expect(const std::string& option, const std::string& path) {
   check_writable(path);
 }
 
-void Outputs::expect_mesh(const std::string& option, const std::string& path, const std::string& format,
-                          const std::vector<std::string>& others) {
+void Outputs::expect_mesh(const MeshOutput& output, const std::vector<std::string>& others) {
+  constexpr std::string_view option = "--output";
+  const auto& [path, options] = output;
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) not_writable(path, "it is a directory");
-  const Expected<std::vector<std::string>> files = io::files_to_write(path, format);
+  const Expected<std::vector<std::string>> files = io::files_to_write(path, options.format);
   if (!files) throw Failure(Exit::bad_usage, fmt::format("{}: {}: {}", verb_, option, files.error().what()));
   for (const std::string& file : *files) {
     for (const std::string& other : others) {
@@ -71,7 +94,8 @@ void Outputs::expect_mesh(const std::string& option, const std::string& path, co
       throw Failure(Exit::bad_usage, fmt::format("{}: {}: {} is an input, and would be replaced", verb_, option, file));
     }
   }
-  expect(option, path);
+  expect(std::string(option), path);
+  if (path == kStandardOutput) print_to_standard_error();
 }
 
 void Outputs::expect_picture(const std::string& option, const std::string& path,
@@ -105,11 +129,12 @@ void Outputs::fail(const InputError& error) const {
   throw Failure(Exit::bad_input, message);
 }
 
-std::vector<std::string> Outputs::write_mesh(const std::string& path, const io::MeshFile& file,
-                                             const io::WriteOptions& options) {
-  Expected<std::vector<std::string>> warnings = io::write(path, file, options);
+std::vector<std::string> Outputs::write_mesh(const MeshOutput& output, const io::MeshFile& file, Executor* executor) {
+  io::WriteOptions options = output.options;
+  options.executor = executor;
+  Expected<std::vector<std::string>> warnings = io::write(output.path, file, options);
   if (!warnings) fail(warnings.error());
-  written_.push_back(path);
+  written_.push_back(output.path);
   return *std::move(warnings);
 }
 

@@ -12,28 +12,30 @@
 
 namespace temper::app {
 
-/// --encoding, of formats that have several.
-inline constexpr Choice<io::Encoding> kEncodings[] = {{"ascii", io::Encoding::ascii},
-                                                      {"base64", io::Encoding::base64},
-                                                      {"appended", io::Encoding::appended},
-                                                      {"binary", io::Encoding::appended}};
+/// A mesh file that a verb writes.
+struct MeshOutput {
+  std::string path;  ///< empty: none
+  io::WriteOptions options;
+};
+/// -o,--output, --format and --encoding. The output is not marked as required.
+void add_mesh_output(Command& command, MeshOutput& target, const std::string& value_name,
+                     const std::string& sentence = "where the mesh goes; its suffix tells the format");
 
 class Outputs {
  public:
   explicit Outputs(std::string verb) : verb_(std::move(verb)) {}
 
   /// A mesh file. The format must be one that temper writes. Neither it nor what a format writes beside it (.node, .ele
-  /// and .poly of Triangle) may be one of `others`, inputs that are to stay.
-  void expect_mesh(const std::string& option, const std::string& path, const std::string& format = "",
-                   const std::vector<std::string>& others = {});
+  /// and .poly of Triangle) may be one of `others`, inputs that are to stay. What is printed after this goes to
+  /// standard error where the mesh itself goes to standard output.
+  void expect_mesh(const MeshOutput& output, const std::vector<std::string>& others = {});
   /// A text file that must not be one of these inputs. An empty path: not asked for.
   void expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
   /// The same of a picture, which is SVG whatever it is called, so that it may not be called anything else.
   void expect_picture(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
 
   /// The warnings of writing.
-  std::vector<std::string> write_mesh(const std::string& path, const io::MeshFile& file,
-                                      const io::WriteOptions& options = {});
+  std::vector<std::string> write_mesh(const MeshOutput& output, const io::MeshFile& file, Executor* executor = nullptr);
   void write_text(const std::string& path, std::string_view text);
   /// Text that comes bit by bit: opened before the work, put in its place after it.
   [[nodiscard]] io::TextStream open(const std::string& path) const;

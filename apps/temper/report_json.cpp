@@ -50,6 +50,22 @@ Json to_json(const Quality& quality, Points points) {
   return json;
 }
 
+Json to_json(const Outcome& outcome) {
+  const Requirement& requirement = outcome.requirement;
+  return {{"text", requirement.text},
+          {"key", requirement.key},
+          {"wants", sign(requirement.better)},
+          {"value", requirement.value},
+          {"found", number_or_null(outcome.found)},
+          {"met", outcome.met}};
+}
+
+Json to_json(std::span<const Outcome> outcomes) {
+  Json list = Json::array();
+  for (const Outcome& outcome : outcomes) list.push_back(to_json(outcome));
+  return list;
+}
+
 Json to_json(const Spread& s) {
   return {{"min", number_or_null(s.min)},
           {"p05", number_or_null(s.p05)},
@@ -119,13 +135,30 @@ std::string quality_json(const Quality& quality, std::span<const std::size_t> po
   return dump(to_json(quality, points));
 }
 
+std::string check_json(const std::string& path, const Quality& quality, std::span<const std::size_t> points,
+                       std::span<const Outcome> outcomes) {
+  Json json = {{"schema", kSchema}, {"file", path}};
+  json.update(to_json(quality, points));
+  json["requirements"] = to_json(outcomes);
+  return dump(json);
+}
+
+std::string json_list(std::span<const std::string> reports) {
+  std::string list;
+  for (const std::string& report : reports)
+    list += (list.empty() ? "[\n" : ",\n") + report.substr(0, report.size() - 1);
+  return (list.empty() ? "[" : list + "\n") + "]\n";
+}
+
 std::string optimize_json(const OptimizeRecord& record) {
   Json json;
+  json["schema"] = kSchema;
   json["command"] = record.command;
   json["version"] = version();
   for (const UsedOption& option : record.options) json["options"][option.name] = to_json(option);
   json["before"] = to_json(record.before, record.points_before);
   json["after"] = to_json(record.after, Points());
+  json["requirements"] = to_json(record.outcomes);
   json["sweeps"] = record.report.sweeps;
   json["seconds"] = record.report.seconds;
   json["stopped"] = name(record.report.stopped);

@@ -8,14 +8,24 @@
 #include <vector>
 
 #include "options.hpp"
+#include "requirement.hpp"
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::app {
 
-/// `temper check --json`. `points`: mesh vertex → point of the file; empty when they are the same.
+/// The first number of a report: another one when a key is gone or means something else. docs/schema says what there
+/// is.
+inline constexpr int kSchema = 1;
+
+/// The numbers of a mesh. `points`: mesh vertex → point of the file; empty when they are the same.
 [[nodiscard]] std::string quality_json(const Quality& quality, std::span<const std::size_t> points);
+/// `temper check --json`: these, and the outcomes of --require.
+[[nodiscard]] std::string check_json(const std::string& path, const Quality& quality,
+                                     std::span<const std::size_t> points, std::span<const Outcome> outcomes);
+/// Such texts as one.
+[[nodiscard]] std::string json_list(std::span<const std::string> reports);
 
 /// Everything `temper optimize --report` says.
 struct OptimizeRecord {
@@ -26,6 +36,7 @@ struct OptimizeRecord {
   const Quality& after;
   const OptimizeReport& report;
   const io::DataReport& data;
+  std::span<const Outcome> outcomes;  ///< of --require, on `after`
   std::vector<std::string> warnings;
   std::string solver_errors = {};  ///< JSON, of --verify; or nothing
 };

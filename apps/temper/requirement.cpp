@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "exit.hpp"
+#include "console.hpp"
 #include "options.hpp"
 #include "suggest.hpp"
 
@@ -25,9 +25,7 @@ bool is_energy_key(std::string_view key) {
   return false;
 }
 
-[[noreturn]] void refuse(const std::string& message) {
-  throw Failure(Exit::bad_usage, "check: --require: " + message + "\nSee temper check --help");
-}
+[[noreturn]] void refuse(const std::string& message) { throw BadValue(message); }
 
 [[noreturn]] void refuse_key(std::string_view key) {
   std::vector<std::string_view> names;
@@ -84,21 +82,7 @@ bool holds(Better better, double found, double wanted) {
   return false;
 }
 
-}  // namespace
-
-std::vector<Requirement> parse_requirements(std::string_view list) {
-  std::vector<Requirement> requirements;
-  for (const std::string& word : comma_separated(list)) requirements.push_back(parse_requirement(word));
-  return requirements;
-}
-
-std::optional<std::string> unmet(const Requirement& requirement, const Quality& quality) {
-  const double found = value_of(requirement.key, quality);
-  if (holds(requirement.better, found, requirement.value)) return std::nullopt;
-  const char* sign = requirement.better == Better::equal ? "=" : requirement.better == Better::larger ? ">=" : "<=";
-  return fmt::format("{} wants {} {} {}, found {}", requirement.text, requirement.key, sign, requirement.value, found);
-}
-
+/// The keys and short names, for --help.
 std::string requirement_keys() {
   std::string text;
   for (const Measure& measure : measures()) {
@@ -107,6 +91,51 @@ std::string requirement_keys() {
     if (!measure.alias.empty()) text += fmt::format(" ({})", measure.alias);
   }
   return text + ", energy.NAME.STAR";
+}
+
+}  // namespace
+
+Option& add_requirements(Command& command, std::vector<std::string>& lists) {
+  return add_texts(
+      command, "--require", "LIST", Values::repeated, lists,
+      "key=value,key>=value,key<=value,...: exit with 3 when one does not hold. key=value asks of a count that "
+      "it is the value, of a minimum or a fraction that it is no less, of a maximum or an energy that it is no "
+      "more. Keys: " +
+          requirement_keys());
+}
+
+std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists) {
+  std::vector<Requirement> requirements;
+  try {
+    for (const std::string& list : lists) {
+      for (const std::string& word : comma_separated(list)) requirements.push_back(parse_requirement(word));
+    }
+  } catch (const BadValue& bad) {
+    throw Failure(Exit::bad_usage, fmt::format("{0}: --require: {1}\nSee temper {0} --help", verb, bad.what()));
+  }
+  return requirements;
+}
+
+std::string_view sign(Better better) { return better == Better::equal ? "=" : better == Better::larger ? ">=" : "<="; }
+
+std::vector<Outcome> judge(std::span<const Requirement> requirements, const Quality& quality) {
+  std::vector<Outcome> outcomes;
+  for (const Requirement& requirement : requirements) {
+    const double found = value_of(requirement.key, quality);
+    outcomes.push_back({requirement, found, holds(requirement.better, found, requirement.value)});
+  }
+  return outcomes;
+}
+
+Exit report_unmet(std::span<const Outcome> outcomes, const std::string& path) {
+  Exit exit = Exit::done;
+  for (const auto& [requirement, found, met] : outcomes) {
+    if (met) continue;
+    print_error(fmt::format("{}: requirement not met: {} wants {} {} {}, found {}", path, requirement.text,
+                            requirement.key, sign(requirement.better), requirement.value, found));
+    exit = Exit::requirement;
+  }
+  return exit;
 }
 
 }  // namespace temper::app

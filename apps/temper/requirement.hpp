@@ -1,4 +1,4 @@
-// check --require outside=0,min_h=0.05: the grammar, and the judgement.
+// --require outside=0,min_h=0.05, of check and optimize: the grammar, and the judgement.
 //
 //   list         requirement , requirement , …
 //   requirement  key = value | key <= value | key >= value | key == value
@@ -8,11 +8,12 @@
 // energies at most.
 #pragma once
 
-#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "command.hpp"
 #include "measures.hpp"
 
 namespace temper::app {
@@ -24,13 +25,22 @@ struct Requirement {
   double value = 0;
 };
 
-/// The requirements of a list; Failure (bad usage) for a key or a value that makes no sense.
-[[nodiscard]] std::vector<Requirement> parse_requirements(std::string_view list);
+/// A requirement, and what was found.
+struct Outcome {
+  Requirement requirement;
+  double found = 0;
+  bool met = false;
+};
 
-/// "min_h=0.05 wants min_h_over_l >= 0.05, found 0.013", or nothing when it holds.
-[[nodiscard]] std::optional<std::string> unmet(const Requirement& requirement, const Quality& quality);
+/// --require, with all keys in its help.
+Option& add_requirements(Command& command, std::vector<std::string>& lists);
+/// The requirements of the lists; Failure (bad usage of the verb) for a key or a value that makes no sense.
+[[nodiscard]] std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists);
 
-/// The keys and short names, for --help.
-[[nodiscard]] std::string requirement_keys();
+/// "=", ">=" or "<=".
+[[nodiscard]] std::string_view sign(Better better);
+[[nodiscard]] std::vector<Outcome> judge(std::span<const Requirement> requirements, const Quality& quality);
+/// Says on standard error which are not met; Exit::requirement when there are some.
+[[nodiscard]] Exit report_unmet(std::span<const Outcome> outcomes, const std::string& path);
 
 }  // namespace temper::app

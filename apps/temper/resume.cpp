@@ -12,8 +12,9 @@ namespace {
 
 constexpr std::string_view kResume = "--resume";
 /// Of which no result depends.
-constexpr std::string_view kAnew[] = {"--output", "--encoding", "--report",     "--history",    "--trace", "--draw",
-                                      "--quiet",  "--threads",  "--time-limit", "--checkpoint", "--every"};
+constexpr std::string_view kAnew[] = {"--output",     "--format",     "--encoding", "--require", "--report",
+                                      "--history",    "--trace",      "--draw",     "--quiet",   "--threads",
+                                      "--time-limit", "--checkpoint", "--every"};
 
 bool may_be_anew(const Option& option) {
   return std::find(std::begin(kAnew), std::end(kAnew), long_name(option.names)) != std::end(kAnew);

@@ -14,10 +14,11 @@ struct Shorthand {
   std::string flag;
   std::string_view option, value;
   std::string sentence;
+  bool rare = true;
 };
 
 const Shorthand kShorthands[] = {
-    {"--positions-only", "unknowns", "positions", "leave the weights as they are"},
+    {"--positions-only", "unknowns", "positions", "leave the weights as they are", false},
     {"--weights-only", "unknowns", "weights", "leave the positions as they are"},
     {"--no-flips", "flips", "none", "keep the connectivity"},
 };
@@ -92,7 +93,8 @@ void add_softening(Command& command, const OptionRow& row, OptimizeOptions& targ
       const auto* softening = std::get_if<Softening>(&value);
       return softening != nullptr && softening->scale == scale ? option_text(value) : std::string();
     };
-    return command.add({.names = name, .value_name = "X", .sentence = sentence, .take = take, .spell = spell});
+    return command.add(
+        {.names = name, .value_name = "X", .sentence = sentence, .take = take, .spell = spell, .rare = !row.common});
   };
   add(name_of(row), LengthScale::absolute,
       fmt::format("{}, as a length in the units of the mesh; without it {}", row.sentence, row.absent));
@@ -103,7 +105,8 @@ void add_softening(Command& command, const OptionRow& row, OptimizeOptions& targ
 void add_row(Command& command, const OptionRow& row, TableOptions& target) {
   OptimizeOptions& options = target.options;
   if (row.kind == OptionKind::softening) return add_softening(command, row, options);
-  Option option = {.names = name_of(row), .value_name = "", .sentence = sentence_of(row), .take = {}};
+  Option option = {
+      .names = name_of(row), .value_name = "", .sentence = sentence_of(row), .take = {}, .rare = !row.common};
   if (row.kind == OptionKind::flag) {
     option.sentence = (is_on(row) ? "without " : "") + option.sentence;
     option.take = [&row, &options, on = is_on(row)](const std::string&) { row.set(options, !on); };
@@ -129,12 +132,28 @@ void add_shorthands(Command& command, const OptionRow& row, OptimizeOptions& opt
   for (const Shorthand& s : kShorthands) {
     if (s.option != row.name) continue;
     const auto take = [&row, &options, &s](const std::string&) { row.set(options, s.value); };
-    command.add({.names = s.flag, .value_name = "", .sentence = s.sentence, .take = take}).excludes = before;
+    command.add({.names = s.flag, .value_name = "", .sentence = s.sentence, .take = take, .rare = s.rare}).excludes =
+        before;
     before = s.flag;
   }
 }
 
 }  // namespace
+
+void add_option(Command& command, const OptionRow& row, TableOptions& target) {
+  add_row(command, row, target);
+  for (const std::string& name : names_of(row)) {
+    Option& option = command.option(name);
+    option.spell = {};
+    option.default_text.clear();
+    option.rare = false;
+  }
+}
+
+bool was_given(const Command& command, const OptionRow& row) {
+  const std::vector<std::string> names = names_of(row);
+  return std::ranges::any_of(names, [&](const std::string& name) { return command.was_given(name); });
+}
 
 void add_group(Command& command, const OptionGroup& group, TableOptions& target) {
   command.group(std::string(group.title));

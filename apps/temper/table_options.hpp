@@ -19,6 +19,11 @@ struct TableOptions {
   std::map<std::string_view, std::string> vertices = {};
 };
 
+/// Adds one option, without a default: the one of `target` is not its own.
+void add_option(Command& command, const OptionRow& row, TableOptions& target);
+/// After parse.
+[[nodiscard]] bool was_given(const Command& command, const OptionRow& row);
+
 /// Adds the options of a group under its title.
 void add_group(Command& command, const OptionGroup& group, TableOptions& target);
 /// Flags that stand for a value of an option may not be given beside another one. After parse.

@@ -46,6 +46,7 @@ struct OptionRow {
   std::span<const std::string_view> choices = {};  ///< of OptionKind::choice
   OptionRange range = {};                          ///< of counts, numbers and softenings
   bool optional = false;                           ///< may be none
+  bool common = false;                             ///< one of the few that a first run may need
   std::string_view absent = {};                    ///< what none stands for
   std::array<OptionNeed, 3> needs = {};
   OptionValue (*get)(const OptimizeOptions&) = nullptr;

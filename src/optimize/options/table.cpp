@@ -206,7 +206,8 @@ constexpr OptionRow kAccuracyRows[] = {
     row<&Options::objective>(
         "objective",
         "energy: the one of `energy`, to the end; accuracy: only until every triangle is well-centered with a margin, "
-        "then how far the middles of edges and duals are apart, which a solver's error is proportional to"),
+        "then how far the middles of edges and duals are apart, which a solver's error is proportional to",
+        {.common = true}),
     row<kAccuracy, &Accuracy::margin>("margin", "of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle",
                                       {.range = inside(0, kMostMargin), .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::offset_weight>(
@@ -274,14 +275,16 @@ constexpr OptionRow kConnectivityRows[] = {
         "repair",
         "where sweeps leave triangles bad: nothing; sweep again and kick vertices there; remove and insert vertices "
         "there, too, and keep what cures most",
-        {.needs = {{kBarrier, {"unknowns", "positions_and_weights|positions"}, {"flips", "immediate|deferred"}}}}),
+        {.common = true,
+         .needs = {{kBarrier, {"unknowns", "positions_and_weights|positions"}, {"flips", "immediate|deferred"}}}}),
     row<&Options::repair_trials>("repair_trials", "at most so many edits are tried, 1 to 3 ms each",
                                  {.needs = {{{"repair", "moves|vertices"}}}}),
     row<&Options::boundary>(
         "boundary",
         "keep: the domain's boundary stays bit for bit; slide: vertices of its straight pieces, never corners, may "
         "move along them; split: edges of boundary and interfaces much longer than one they meet are cut before the "
-        "sweeps, and the vertices that were there stay bit for bit"),
+        "sweeps, and the vertices that were there stay bit for bit",
+        {.common = true}),
     row<&Options::boundary_ratio>("boundary_ratio",
                                   "of `boundary=split`: how many times as long an edge may be as one it meets",
                                   {.range = at_least(kLeastBoundaryRatio), .needs = {{{"boundary", "split"}}}}),
@@ -356,7 +359,8 @@ constexpr OptionRow kStoppingRows[] = {
     row<kPaper, &Paper::stopping>("stopping",
                                   "the gain relative to the energy, or the paper's: mean energy per triangle, "
                                   "absolute"),
-    row<&Options::time_limit>("time_limit", "stop after this many seconds; 0: no limit", {.range = at_least(0)}),
+    row<&Options::time_limit>("time_limit", "stop after this many seconds; 0: no limit",
+                              {.range = at_least(0), .common = true}),
     row<kPaper, &Paper::seed>("seed", "of the jitter that frees symmetric grids, of repairs, and of `order=random`"),
 };
 

@@ -28,11 +28,27 @@ TEST_F(Check, JsonHasExactlyTheKeysOfTheReport) {
   const Json report = check({"in.vtu"});
   std::vector<std::string> keys;
   for (const auto& item : report.items()) keys.push_back(item.key());
-  EXPECT_EQ(keys, (std::vector<std::string>{"vertices", "triangles", "edges", "boundary_edges", "regions",
-                                            "inverted_triangles", "non_regular_edges", "negative_boundary_duals",
-                                            "orthocenters_outside", "edges_not_crossed", "well_centered_fraction",
-                                            "min_h_over_l", "min_d_over_l", "min_angle_deg", "max_angle_deg",
-                                            "max_transmissibility_over_median", "energy", "worst"}));
+  EXPECT_EQ(keys, (std::vector<std::string>{"schema",
+                                            "file",
+                                            "vertices",
+                                            "triangles",
+                                            "edges",
+                                            "boundary_edges",
+                                            "regions",
+                                            "inverted_triangles",
+                                            "non_regular_edges",
+                                            "negative_boundary_duals",
+                                            "orthocenters_outside",
+                                            "edges_not_crossed",
+                                            "well_centered_fraction",
+                                            "min_h_over_l",
+                                            "min_d_over_l",
+                                            "min_angle_deg",
+                                            "max_angle_deg",
+                                            "max_transmissibility_over_median",
+                                            "energy",
+                                            "worst",
+                                            "requirements"}));
   std::vector<std::string> names;
   for (const auto& item : report["energy"].items()) {
     names.push_back(item.key());
@@ -146,7 +162,7 @@ TEST_F(Check, EveryKeyOfTheReportCanBeRequired) {
   const Json report = check({"in.vtu"});
   int keys = 0;
   for (const auto& item : report.items()) {
-    if (!item.value().is_number()) continue;
+    if (!item.value().is_number() || item.key() == "schema") continue;
     ++keys;
     EXPECT_EQ(temper({"check", "in.vtu", "--require", item.key() + "=" + item.value().dump()}).exit, 0) << item.key();
     EXPECT_EQ(temper({"check", "in.vtu", "--require", item.key() + "==-12345"}).exit, 3) << item.key();
@@ -155,6 +171,39 @@ TEST_F(Check, EveryKeyOfTheReportCanBeRequired) {
   const std::string bp = report["energy"]["BP"][1].dump();
   EXPECT_EQ(temper({"check", "in.vtu", "--require", "energy.BP.1=" + bp}).exit, 0);
   EXPECT_EQ(temper({"check", "in.vtu", "--require", "energy.BH.1=1e300"}).exit, 3);
+}
+
+TEST_F(Check, OutcomesOfRequirementsAreInTheReport) {
+  make_input();
+  const Outcome outcome = temper({"check", "in.vtu", "--json", "--require", "inverted=0,min_h>=0.5"});
+  EXPECT_EQ(outcome.exit, 3);
+  const Json report = Json::parse(outcome.out);
+  ASSERT_EQ(report["requirements"].size(), 2u);
+  EXPECT_EQ(report["requirements"][0], (Json{{"text", "inverted=0"},
+                                             {"key", "inverted_triangles"},
+                                             {"wants", "="},
+                                             {"value", 0.0},
+                                             {"found", 0.0},
+                                             {"met", true}}));
+  EXPECT_EQ(report["requirements"][1]["wants"], ">=");
+  EXPECT_EQ(report["requirements"][1]["found"], report["min_h_over_l"]);
+  EXPECT_EQ(report["requirements"][1]["met"], false);
+}
+
+TEST_F(Check, SeveralMeshesAreAListAndNoneKeepsAnotherFromBeingLookedAt) {
+  make_input("a.vtu");
+  temper_ok({"example", "horseshoe", "-o", "b.vtu"});
+  const Json both = Json::parse(temper_ok({"check", "a.vtu", "b.vtu", "--json"}).out);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0], check({"a.vtu"}));
+  EXPECT_EQ(both[1], check({"b.vtu"}));
+
+  const Outcome outcome = temper({"check", "a.vtu", "missing.vtu", "b.vtu", "--require", "regions=7"});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.out, "a.vtu: "));
+  EXPECT_TRUE(contains(outcome.out, "\n\nb.vtu: "));
+  EXPECT_TRUE(contains(outcome.err, "missing.vtu: cannot be read"));
+  EXPECT_TRUE(contains(outcome.err, "b.vtu: requirement not met: regions=7"));
 }
 
 }  // namespace

@@ -59,11 +59,23 @@ TEST_F(Draw, EveryOptionChangesThePicture) {
 
 TEST_F(Convert, GoesThereAndBack) {
   make_input("a.vtu");
-  const std::string before = temper_ok({"check", "a.vtu", "--json"}).out;
+  const nlohmann::json before = numbers_of("a.vtu");
   for (const char* path : {"b.msh", "b.vtu", "b.mesh"}) {
     temper_ok({"convert", "a.vtu", "-o", path});
-    EXPECT_EQ(temper_ok({"check", path, "--json"}).out, before) << path;
+    EXPECT_EQ(numbers_of(path), before) << path;
   }
+}
+
+TEST_F(Convert, DashIsStandardInputAndOutput) {
+  make_input("a.vtu");
+  temper_ok({"convert", "a.vtu", "-o", "b.msh"});
+  const Outcome piped =
+      shell("temper convert - -o - --format gmsh41 < a.vtu | temper optimize - -o - --format vtu > c.vtu");
+  EXPECT_EQ(piped.exit, 0) << piped.err;
+  EXPECT_TRUE(contains(piped.err, "/dev/stdout: all 72 triangles are well-centered"));  // what is said leaves the mesh alone
+  temper_ok({"optimize", "b.msh", "-o", "d.vtu"});
+  EXPECT_EQ(numbers_of("c.vtu"), numbers_of("d.vtu"));
+  EXPECT_TRUE(contains(shell("temper check - < c.vtu").out, "/dev/stdin: "));
 }
 
 TEST_F(Convert, FormatAndEncodingAreAsAsked) {

@@ -322,7 +322,7 @@ TEST_F(Trace, RemovalsAreSaidAndCounted) {
   ASSERT_GT(removed, 1u);
   EXPECT_TRUE(contains(outcome.out, std::to_string(removed) + " vertices removed"));
   EXPECT_EQ(report["after"]["vertices"], 63 - removed);
-  EXPECT_EQ(report["after"], nlohmann::json::parse(temper_ok({"check", "out.vtu", "--json"}).out));
+  EXPECT_EQ(report["after"], numbers_of("out.vtu"));
 }
 
 TEST_F(Trace, SwitchesThatDoNothingAloneAreNamed) {

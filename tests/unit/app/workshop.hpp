@@ -40,6 +40,9 @@ class Workshop : public ::testing::Test {
   /// Names in the folder, sorted: to see that nothing was written.
   static std::vector<std::string> names();
 
+  /// The numbers of `temper check --json`, without what belongs to the call.
+  static nlohmann::json numbers_of(const std::string& path);
+
   /// A sheared grid with bad triangles, quick to cure.
   static void make_input(const std::string& path = "in.vtu");
 
