@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <string>
 
 namespace temper::app {
@@ -28,8 +29,10 @@ void ProgressLine::show(const Progress& progress) {
   const double sweeps = progress.last.sweep + progress.fraction;
   std::string text = fmt::format("sweep {} of at most {}, {} triangles bad, energy {:.6g}, {}", progress.last.sweep,
                                  progress.max_sweeps, progress.last.bad, progress.last.energy, duration(seconds));
-  // Convergence usually ends it sooner: the estimate is what the sweeps left would take.
-  if (sweeps > 0) text += fmt::format(", at most {} left", duration(seconds / sweeps * (progress.max_sweeps - sweeps)));
+  if (progress.sweeps_left && sweeps > 0) {
+    const double left = std::max(0.0, *progress.sweeps_left - progress.fraction);
+    text += fmt::format(", about {} left", duration(seconds / sweeps * left));
+  }
   fmt::print(stderr, "\r{}\x1b[K", text);
   std::fflush(stderr);
 }

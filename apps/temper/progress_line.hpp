@@ -1,4 +1,4 @@
-// One line on a terminal that says how far a long run is, and how long it may still take at most.
+// One line on a terminal that says how far a long run is, and how long it will about take when that can be told.
 #pragma once
 
 #include <chrono>

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 
 namespace temper {
 
@@ -28,6 +29,9 @@ struct Progress {
   SweepRecord last;     ///< the last whole sweep
   double fraction = 0;  ///< of the sweep under way, in [0, 1)
   int max_sweeps = 0;
+  /// An estimate of the sweeps after the last one, while the energy converges: none in the first sweeps of a stage (one
+  /// objective, one γ). Repairs may follow.
+  std::optional<double> sweeps_left = {};
 };
 
 enum class Continue { yes, no };

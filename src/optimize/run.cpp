@@ -1,6 +1,7 @@
 #include "optimize/run.hpp"
 
 #include "geometry/predicates_inline.hpp"
+#include "optimize/estimate.hpp"
 
 namespace temper {
 
@@ -9,7 +10,11 @@ bool Run::asked_to_stop(double fraction_of_sweep) {
     report.stopped = Stopped::time_limit;
     return true;
   }
-  if (observer_ && observer_({report.history.back(), fraction_of_sweep, options_.max_sweeps}) == Continue::no) {
+  const auto progress = [&]() -> Progress {
+    return {report.history.back(), fraction_of_sweep, options_.max_sweeps,
+            estimate_sweeps_left(report.history, options_)};
+  };
+  if (observer_ && observer_(progress()) == Continue::no) {
     report.stopped = Stopped::cancelled;
     return true;
   }

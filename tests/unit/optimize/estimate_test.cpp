@@ -1,0 +1,75 @@
+// How long a run may still take.
+#include "optimize/estimate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "temper/generate.hpp"
+
+namespace temper::test {
+namespace {
+
+/// Energies 1 + q^k at one γ.
+std::vector<SweepRecord> geometric(double q, int sweeps) {
+  std::vector<SweepRecord> history;
+  for (int k = 0; k <= sweeps; ++k) {
+    SweepRecord record;
+    record.sweep = k;
+    record.energy = 1 + std::pow(q, k);
+    history.push_back(record);
+  }
+  return history;
+}
+
+TEST(Estimate, IsExactWhereGainsAreAGeometricSeries) {
+  OptimizeOptions o;
+  for (const double q : {0.3, 0.7, 0.95}) {
+    const std::vector<SweepRecord> history = geometric(q, 10);
+    const double energy = history.back().energy;
+    // The gain of sweep k is q^(k−1) (1 − q).
+    const double last = 1 + std::log(o.paper.tolerance * energy / (1 - q)) / std::log(q);
+    const auto left = estimate_sweeps_left(history, o);
+    ASSERT_TRUE(left);
+    EXPECT_NEAR(*left, std::max(0.0, last - 10), 1e-6) << q;
+    o.max_sweeps = 12;
+    EXPECT_LE(*estimate_sweeps_left(history, o), 2);
+    o.max_sweeps = 1000;
+  }
+}
+
+TEST(Estimate, IsNoneWhereItCannotBeTold) {
+  const OptimizeOptions o;
+  const std::vector<SweepRecord> good = geometric(0.5, 6);
+  ASSERT_TRUE(estimate_sweeps_left(good, o));
+  std::vector<SweepRecord> rising = good, staged = good;
+  rising.back().energy = 2;
+  staged[4].softening = 0.1;
+  OptimizeOptions paper = o;
+  paper.paper.stopping = StoppingRule::paper;
+  EXPECT_FALSE(estimate_sweeps_left(std::span(good).first(4), o));
+  EXPECT_FALSE(estimate_sweeps_left(rising, o));
+  EXPECT_FALSE(estimate_sweeps_left(staged, o));
+  EXPECT_FALSE(estimate_sweeps_left(good, paper));
+  EXPECT_FALSE(estimate_sweeps_left(geometric(1, 6), o));
+}
+
+TEST(Estimate, OfARunIsNearItsEnd) {
+  RandomPoints points;
+  points.vertices = 2000;
+  Mesh mesh = *random_points(points);
+  std::vector<std::pair<int, double>> estimates;
+  OptimizeHooks hooks;
+  hooks.observer = [&](const Progress& p) {
+    if (p.sweeps_left && p.fraction == 0) estimates.emplace_back(p.last.sweep, *p.sweeps_left);
+    return Continue::yes;
+  };
+  const auto report = optimize(mesh, {}, hooks);
+  ASSERT_TRUE(report);
+  ASSERT_FALSE(estimates.empty());
+  for (const auto& [sweep, left] : estimates) EXPECT_NEAR(sweep + left, report->sweeps, 10) << sweep;
+}
+
+}  // namespace
+}  // namespace temper::test
