@@ -303,7 +303,8 @@ struct OptimizeReport {
   /// Number in the input of each vertex, in its order. Inserted vertices follow, in the order in which they came, with
   /// an invalid one. Empty when no vertex was removed or inserted.
   IdVector<VertexId, VertexId> vertices;
-  std::vector<VertexId> hidden;  ///< vertices that HiddenPolicy::keep left without a power cell
+  /// Vertices that HiddenPolicy::keep left without a power cell; none while triangles are inverted.
+  std::vector<VertexId> hidden;
   double seconds = 0;            ///< the optimisation alone
   double initial_energy = 0;     ///< of the input, at the final γ; with Objective::accuracy that of AccuracyOptions,
                                  ///< its edges taken absolute, with the same sizes before and after

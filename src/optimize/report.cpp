@@ -173,10 +173,12 @@ void Notes::tell_accuracy() {
       to_text(report_.final_energy) + " after");
 }
 
-/// Vertices that Lawson's algorithm leaves without a power cell.
+/// Vertices that Lawson's algorithm leaves without a power cell; none where it has no meaning, among inverted
+/// triangles.
 std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, const Settings& settings) {
   const bool keeps = settings.options.paper.hidden == HiddenPolicy::keep;
-  if (!keeps || count_non_regular_edges(mesh, false, settings.hooks.executor) == 0) return {};
+  if (!keeps || count_non_regular_edges(mesh, false, settings.hooks.executor) == 0 || count_inverted(mesh) > 0)
+    return {};
   Mesh copy = mesh;
   return restore_regularity(copy).hidden;
 }

@@ -423,6 +423,23 @@ TEST(Inversions, AreTakenOnlyWhereAllowed) {
   }
 }
 
+// Lawson's algorithm, which finds what is hidden, has no meaning among them.
+TEST(Inversions, OfTheInputThatStayNameNoHiddenVertices) {
+  Mesh mesh = dense();
+  VertexId inner;
+  for (const VertexId v : mesh.vertices()) {
+    if (!mesh.is_boundary(v)) inner = v;
+  }
+  mesh.set_position(inner, {100, 100});
+  OptimizeOptions o = paper_method();
+  o.energy = EnergyKind::F;
+  o.max_sweeps = 1;
+  const auto report = optimize(mesh, o);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->stopped, Stopped::tangled);
+  EXPECT_TRUE(report->hidden.empty());
+}
+
 TEST(FlipLimits, BeforeNeverFlips) {
   for (const Flips timing : {Flips::immediate, Flips::deferred}) {
     for (const bool weights : {false, true}) {
