@@ -305,9 +305,9 @@ struct OptimizeReport {
   IdVector<VertexId, VertexId> vertices;
   /// Vertices that HiddenPolicy::keep left without a power cell; none while triangles are inverted.
   std::vector<VertexId> hidden;
-  double seconds = 0;            ///< the optimisation alone
-  double initial_energy = 0;     ///< of the input, at the final γ; with Objective::accuracy that of AccuracyOptions,
-                                 ///< its edges taken absolute, with the same sizes before and after
+  double seconds = 0;         ///< the optimisation alone
+  double initial_energy = 0;  ///< of the input, at the final γ; with Objective::accuracy that of AccuracyOptions,
+                              ///< its edges taken absolute, with the same sizes before and after
   double final_energy = 0;
   SizeChange size;
   std::vector<SweepRecord> history;  ///< history[0] is the input
