@@ -1,11 +1,11 @@
 // Several documents in one: nested <svg> elements, their ids told apart by a prefix.
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 
 #include "draw/text.hpp"
 #include "draw/xml.hpp"
 #include "temper/draw.hpp"
+#include "temper/read_number.hpp"
 
 namespace temper {
 namespace {
@@ -23,7 +23,7 @@ std::string_view attribute(std::string_view tag, std::string_view name) {
 
 double number(std::string_view text) {
   double value = 0;
-  std::from_chars(text.data(), text.data() + text.size(), value);
+  read_number(text.data(), text.data() + text.size(), value);
   return value;
 }
 

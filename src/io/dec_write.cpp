@@ -1,37 +1,37 @@
 // The door of write_dec: makes the folder, has every format write, and puts all files in their places at the end.
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
-#include <filesystem>
+#include <cerrno>
+#include <cstring>
 #include <new>
-#include <system_error>
 
 #include "io/dec_files.hpp"
+#include "io/disk.hpp"
 
 namespace temper::io {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// A folder that is there from now on, and goes again when nothing was put into it.
 class Folder {
  public:
   explicit Folder(const std::string& path) : path_(path) {
-    std::error_code error;
-    const fs::file_status status = fs::status(path_, error);
-    if (fs::is_directory(status)) return;
-    if (fs::exists(status)) fail(ErrorCode::not_writable, path, "is no folder; expected the name of one, or of none");
-    made_ = fs::create_directory(path_, error);
-    if (error) fail(ErrorCode::not_writable, path, text("cannot be made: ", error.message()));
+    const OnDisk there = look_at(path_);
+    if (there.kind == OnDisk::Kind::folder) return;
+    if (there.exists()) fail(ErrorCode::not_writable, path, "is no folder; expected the name of one, or of none");
+    made_ = mkdir(path_.c_str(), 0777) == 0;
+    if (!made_) fail(ErrorCode::not_writable, path, text("cannot be made: ", std::strerror(errno)));
   }
   ~Folder() {
-    std::error_code ignored;
-    if (made_) fs::remove(path_, ignored);  // does nothing when it is not empty
+    if (made_) rmdir(path_.c_str());  // does nothing when it is not empty
   }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
   void keep() { made_ = false; }
 
  private:
-  fs::path path_;
+  std::string path_;
   bool made_ = false;
 };
 
@@ -71,7 +71,7 @@ std::span<const std::string_view> dec_file_names(DecFormat format) {
 }
 
 Output& DecJob::open(std::string_view name) const {
-  const std::string path = (std::filesystem::path(folder) / name).string();
+  const std::string path = folder.empty() || folder.ends_with('/') ? text(folder, name) : text(folder, "/", name);
   Output& output = outputs.open(path);
   written.push_back(path);
   return output;

@@ -9,8 +9,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <system_error>
+#include <memory>
+
+#include "io/disk.hpp"
 
 namespace temper::io {
 
@@ -22,26 +23,21 @@ struct Closer {
 
 }  // namespace
 
-bool exists(const std::string& path) {
-  std::error_code ignored;
-  return std::filesystem::exists(path, ignored);
-}
-
 std::string without_suffix(const std::string& path, std::string_view suffix) {
   return path.ends_with(suffix) ? path.substr(0, path.size() - suffix.size()) : path;
 }
 
 Source load(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) fail(ErrorCode::not_found, path, "is a directory, not a mesh file");
+  const OnDisk there = look_at(path);
+  if (there.kind == OnDisk::Kind::folder) fail(ErrorCode::not_found, path, "is a directory, not a mesh file");
   const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
   if (!file) fail(ErrorCode::not_found, path, text("cannot be read: ", std::strerror(errno)));
 
   Source source{.path = path, .bytes = {}};
   constexpr std::size_t kChunk = 1 << 16;
-  const auto size = std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
-  source.bytes.reserve((error ? 0 : size) + kChunk);  // the last look for more bytes must not move them all
-  source.bytes.resize(error ? 0 : size);
+  const auto size = static_cast<std::size_t>(there.bytes);
+  source.bytes.reserve(size + kChunk);  // the last look for more bytes must not move them all
+  source.bytes.resize(size);
   std::size_t got = std::fread(source.bytes.data(), 1, source.bytes.size(), file.get());
   source.bytes.resize(got);
   // Pipes have no size, and a file may have grown.

@@ -20,7 +20,6 @@ struct Source {
 
 /// Reads a file, or says why not: missing, a directory, empty.
 [[nodiscard]] Source load(const std::string& path);
-[[nodiscard]] bool exists(const std::string& path);
 /// PATH without its last suffix, when that is `suffix`; else PATH.
 [[nodiscard]] std::string without_suffix(const std::string& path, std::string_view suffix);
 

@@ -8,6 +8,7 @@
 
 #include "io/failure.hpp"
 #include "io/scanner.hpp"
+#include "temper/read_number.hpp"
 
 namespace temper::io {
 namespace {
@@ -118,7 +119,7 @@ class Parser {
     std::size_t n = 0;
     while (n < rest_.size() && std::string_view("+-.0123456789eE").find(rest_[n]) != std::string_view::npos) ++n;
     double result = 0;
-    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + n, result);
+    const auto [end, error] = read_number(rest_.data(), rest_.data() + n, result);
     if (n == 0 || end != rest_.data() + n) fail_here(text("expected a value, found ", found()));
     if (error == std::errc::result_out_of_range) result = std::numeric_limits<double>::infinity();
     rest_.remove_prefix(n);

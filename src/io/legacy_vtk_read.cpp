@@ -132,7 +132,7 @@ void LegacyVtkReader::header() {
   const std::string_view first = scanner_.rest_of_line();
   const std::size_t at = first.rfind(' ');
   const std::string_view number = first.substr(at == std::string_view::npos ? 0 : at + 1);
-  if (std::from_chars(number.data(), number.data() + number.size(), version_).ec != std::errc() || version_ < 1 ||
+  if (read_number(number.data(), number.data() + number.size(), version_).ec != std::errc() || version_ < 1 ||
       version_ >= 6) {
     fail(ErrorCode::unsupported, text(scanner_.path(), ":1"),
          text("is legacy VTK version ", in_quotes(number), "; temper reads 2.0 to 5.1"));

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/disk.hpp"
 #include "io/outline_input.hpp"
 #include "io/scanner.hpp"
 

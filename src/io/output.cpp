@@ -6,15 +6,12 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
+#include "io/disk.hpp"
 #include "io/input.hpp"
 
 namespace temper::io {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -38,21 +35,18 @@ bool reach_disk(int file) { return fsync(file) == 0 || errno == EINVAL || errno 
 }  // namespace
 
 Output::Output(std::string path) : path_(std::move(path)), target_(path_), buffer_(kBuffer) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path_, error);
-  if (fs::is_directory(status)) fail(ErrorCode::not_writable, path_, "is a directory; expected the name of a file");
-  if (fs::exists(status)) {
-    if (const fs::path real = fs::canonical(path_, error); !error) target_ = real.string();
-  }
-  const bool direct = fs::exists(status) && !fs::is_regular_file(status);
-  if (direct) {
+  const OnDisk there = look_at(path_);
+  if (there.kind == OnDisk::Kind::folder)
+    fail(ErrorCode::not_writable, path_, "is a directory; expected the name of a file");
+  if (there.exists()) target_ = without_links(path_);
+  if (there.kind == OnDisk::Kind::other) {
     file_ = ::open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
   } else {
     temporary_ = Temporary::beside(target_);
     file_ = temporary_.exists() ? temporary_.open() : -1;
   }
   if (file_ < 0) fail(ErrorCode::not_writable, path_, text("cannot be written: ", std::strerror(errno)));
-  if (fs::is_regular_file(status)) fs::permissions(temporary_.path(), status.permissions(), error);
+  if (there.kind == OnDisk::Kind::file) temporary_.take_permissions(target_);
 }
 
 Output::~Output() {
@@ -73,8 +67,7 @@ std::string Output::so_far() {
   if (!temporary_.exists())
     fail(ErrorCode::not_writable, path_, "is no file that can be read again while it is written");
   flush();
-  std::error_code error;
-  return fs::file_size(temporary_.path(), error) == 0 ? std::string() : load(temporary_.path()).bytes;
+  return look_at(temporary_.path()).bytes == 0 ? std::string() : load(temporary_.path()).bytes;
 }
 
 void Output::flush() {

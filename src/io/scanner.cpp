@@ -135,7 +135,7 @@ T Scanner::unusual_number(std::string_view w, std::string_view expected) const {
     }
   }
   T value{};
-  const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value);
+  const auto [end, error] = read_number(plain.data(), plain.data() + plain.size(), value);
   if (end == plain.data() + plain.size()) {
     if (error == std::errc()) return value;
     if constexpr (std::is_floating_point_v<T>) {

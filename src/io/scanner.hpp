@@ -2,13 +2,13 @@
 // left of the file before anything is allocated.
 #pragma once
 
-#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "io/failure.hpp"
+#include "temper/read_number.hpp"
 
 namespace temper::io {
 
@@ -45,7 +45,7 @@ class Scanner {
   T number(std::string_view expected) {
     const std::string_view w = word(expected);
     T value{};
-    const auto [end, error] = std::from_chars(w.data(), w.data() + w.size(), value);
+    const auto [end, error] = read_number(w.data(), w.data() + w.size(), value);
     if (error == std::errc() && end == w.data() + w.size()) return value;
     return unusual_number<T>(w, expected);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "io/disk.hpp"
 #include "io/format.hpp"
 #include "io/scanner.hpp"
 

@@ -12,6 +12,7 @@
 #include <climits>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <utility>
@@ -149,6 +150,12 @@ Temporary& Temporary::operator=(Temporary&& other) noexcept {
 
 int Temporary::open() const { return dup(lock_); }
 
+void Temporary::take_permissions(const std::string& target) const {
+  constexpr mode_t kPermissions = 07777;
+  struct stat found;
+  if (stat(target.c_str(), &found) == 0) chmod(path_.c_str(), found.st_mode & kPermissions);
+}
+
 bool Temporary::rename_to(const std::string& target) {
   if (std::rename(path_.c_str(), target.c_str()) != 0) return false;
   end();
@@ -166,6 +173,14 @@ void Temporary::end() {
   path_.clear();
   strike(entry_);
   close(lock_);
+}
+
+std::string without_links(const std::string& path) {
+  char* const real = realpath(path.c_str(), nullptr);
+  if (real == nullptr) return path;
+  std::string result = real;
+  std::free(real);
+  return result;
 }
 
 }  // namespace temper::io

@@ -28,6 +28,8 @@ class Temporary {
   [[nodiscard]] const std::string& path() const { return path_; }
   /// The file, open for writing, to be closed by the caller; −1: errno says why. (What holds the lock stays here.)
   [[nodiscard]] int open() const;
+  /// Gives it the permissions of the file whose place it is to take, as far as it may have them.
+  void take_permissions(const std::string& target) const;
   /// Puts it in the place of `target`. False: errno says why, and nothing has changed.
   bool rename_to(const std::string& target);
   void remove();
@@ -40,5 +42,8 @@ class Temporary {
   std::size_t entry_ = 0;  // of the list that discard_unfinished() goes through
   int lock_ = -1;          // the open file that has it
 };
+
+/// The path of the file itself, where links lead to it.
+[[nodiscard]] std::string without_links(const std::string& path);
 
 }  // namespace temper::io

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 
+#include "io/disk.hpp"
 #include "io/format.hpp"
 #include "io/scanner.hpp"
 #include "io/values.hpp"

@@ -227,18 +227,18 @@ Blocks read_blocks(std::string_view packed, const Packing& packing) {
 }
 
 bool inflate_block(const Blocks& blocks, std::size_t i, std::size_t start, char* out) {
-  const uLongf expected = i + 1 < blocks.compressed.size() ? blocks.block : blocks.last;
+  const auto expected = static_cast<uLongf>(i + 1 < blocks.compressed.size() ? blocks.block : blocks.last);
   uLongf got = expected;
   const auto* data = reinterpret_cast<const Bytef*>(blocks.data.data()) + start;
   auto* to = reinterpret_cast<Bytef*>(out) + i * blocks.block;
-  return uncompress(to, &got, data, blocks.compressed[i]) == Z_OK && got == expected;
+  return uncompress(to, &got, data, static_cast<uLong>(blocks.compressed[i])) == Z_OK && got == expected;
 }
 
 /// No block throws on a thread of the executor's: the first damaged one is named afterwards.
 void inflate_blocks(const Blocks& blocks, char* out, const Packing& packing, Executor* executor) {
   const std::size_t n = blocks.compressed.size();
   std::vector<std::size_t> starts(n, 0);
-  for (std::size_t i = 1; i < n; ++i) starts[i] = starts[i - 1] + blocks.compressed[i - 1];
+  for (std::size_t i = 1; i < n; ++i) starts[i] = starts[i - 1] + static_cast<std::size_t>(blocks.compressed[i - 1]);
   std::vector<char> damaged(n, 0);
   or_serial(executor).run(n, [&](std::size_t i) { damaged[i] = inflate_block(blocks, i, starts[i], out) ? 0 : 1; });
   for (std::size_t i = 0; i < n; ++i) {
@@ -253,6 +253,13 @@ void check_whole(std::uint64_t bytes, std::size_t each, const Packing& packing) 
   fail(ErrorCode::syntax, packing.where, text("has ", bytes, " bytes, which is not a multiple of ", each));
 }
 
+/// Where the system has 32 bits a file may announce more than can be counted.
+template <class T>
+void resize(std::vector<T>& values, std::uint64_t n) {
+  if (n > values.max_size()) throw std::bad_alloc();
+  values.resize(static_cast<std::size_t>(n));
+}
+
 }  // namespace
 
 Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Allowance& allowance,
@@ -264,7 +271,7 @@ Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Al
       const Blocks blocks = read_blocks(packed, packing);
       check_whole(blocks.total, sizeof(T), packing);
       allowance.take(blocks.total / sizeof(T), 1, packing.where);
-      values.resize(blocks.total / sizeof(T));
+      resize(values, blocks.total / sizeof(T));
       inflate_blocks(blocks, reinterpret_cast<char*>(values.data()), packing, executor);
     } else {
       Header header(packed, packing);
@@ -275,8 +282,8 @@ Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Al
       }
       check_whole(bytes, sizeof(T), packing);
       allowance.take(bytes / sizeof(T), 1, packing.where);
-      values.resize(bytes / sizeof(T));
-      if (bytes > 0) std::memcpy(values.data(), header.rest().data(), bytes);
+      resize(values, bytes / sizeof(T));
+      if (bytes > 0) std::memcpy(values.data(), header.rest().data(), static_cast<std::size_t>(bytes));
     }
     if (packing.swap) swap_bytes(values);
     return values;

@@ -259,13 +259,14 @@ Values VtuReader::appended(const pugi::xml_node& node, Scalar scalar, const Pack
     fail(ErrorCode::truncated, packing.where,
          text("starts at byte ", offset, " of the appended data, which have only ", appended_.size()));
   }
-  const std::string_view from = appended_.substr(offset);
+  const std::string_view from = appended_.substr(static_cast<std::size_t>(offset));
   if (!appended_is_base64_) return unpack(from, scalar, packing, source_.allowance, source_.executor);
   // Base64 ends where the next array starts; what follows it in the same text does no harm to a decoder that
   // knows the length from the header. Not in place: two arrays may share their bytes.
   const std::string_view only = from.substr(0, from.find('<'));
   const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), offset);
-  const std::size_t most = next == offsets_.end() ? only.size() : std::min<std::uint64_t>(only.size(), *next - offset);
+  const auto most = static_cast<std::size_t>(
+      next == offsets_.end() ? only.size() : std::min<std::uint64_t>(only.size(), *next - offset));
   source_.allowance.take(most, 1, packing.where);
   std::string bytes(most, '\0');
   const auto n = decode_base64(trimmed(only.substr(0, most)), bytes.data());

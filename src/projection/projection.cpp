@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "base/text.hpp"
+#include "temper/read_number.hpp"
 
 namespace temper {
 namespace {
@@ -63,7 +63,7 @@ std::optional<std::array<std::optional<double>, 2>> parse_center(std::string_vie
   for (std::size_t i = 0; i < 2 && !text.empty(); ++i) {
     const std::string_view field = text.substr(0, text.find(','));
     double value = 0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    const auto [end, error] = read_number(field.data(), field.data() + field.size(), value);
     if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) return {};
     center[i] = value;
     const bool last = field.size() == text.size();

@@ -1,0 +1,16 @@
+// See disk.hpp.
+#include "io/disk.hpp"
+
+#include <sys/stat.h>
+
+namespace temper::io {
+
+OnDisk look_at(const std::string& path) {
+  struct stat found = {};
+  if (stat(path.c_str(), &found) != 0) return {};
+  if (S_ISDIR(found.st_mode)) return {OnDisk::Kind::folder};
+  if (!S_ISREG(found.st_mode)) return {OnDisk::Kind::other};
+  return {OnDisk::Kind::file, static_cast<std::uint64_t>(found.st_size)};
+}
+
+}  // namespace temper::io
