@@ -1,0 +1,42 @@
+// See held_mesh.hpp.
+#include "held_mesh.hpp"
+
+#include <utility>
+
+namespace temper::wasm {
+
+Expected<std::unique_ptr<HeldMesh>> HeldMesh::of_file(io::MeshFile file, const std::vector<std::string>& fixed_tags,
+                                                      std::vector<std::string>& warnings) {
+  auto source = std::make_shared<Source>();
+  source->file = std::move(file);
+  Expected<io::LoadedMesh> loaded = io::make_mesh(source->file, fixed_tags);
+  if (!loaded) return loaded.error();
+  source->loaded = *std::move(loaded);
+  io::release_geometry(source->file, source->loaded);  // else it would be held twice
+  warnings = std::move(source->file.warnings);
+  source->file.warnings.clear();
+  warnings.insert(warnings.end(), source->loaded.warnings.begin(), source->loaded.warnings.end());
+  auto held = std::make_unique<HeldMesh>(std::exchange(source->loaded.mesh, Mesh()));
+  held->source_ = std::move(source);
+  return held;
+}
+
+/// Numbers in the former state become numbers in the source.
+void HeldMesh::replace(Mesh other, const IdVector<VertexId, VertexId>& vertices) {
+  mesh = std::move(other);
+  if (vertices.empty() || !source_) return;
+  IdVector<VertexId, VertexId> composed = vertices;
+  for (VertexId& v : composed) {
+    if (v.valid() && !origin_.empty()) v = v.index < origin_.size() ? origin_[v] : VertexId();
+  }
+  origin_ = std::move(composed);
+}
+
+io::MeshFile HeldMesh::file() const {
+  if (!source_) return io::from_mesh(mesh);
+  io::MeshFile file = source_->file;
+  io::update(file, source_->loaded, mesh, origin_);
+  return file;
+}
+
+}  // namespace temper::wasm

@@ -1,0 +1,360 @@
+// See records.hpp.
+#include "records.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <variant>
+
+#include "temper/optimize_table.hpp"
+
+namespace temper::wasm {
+namespace {
+
+constexpr std::string_view kScales[] = {"absolute", "relative"};               // LengthScale
+constexpr std::string_view kTreatments[] = {"as_is", "absolute", "mirrored"};  // BoundaryTreatment
+constexpr std::string_view kObjectives[] = {"energy", "accuracy"};             // Objective
+
+/// The value of an enum by its name.
+template <class Enum, std::size_t n>
+Enum from_name(std::string_view option, std::string_view text, const std::string_view (&names)[n]) {
+  const auto* found = std::find(std::begin(names), std::end(names), text);
+  if (found != std::end(names)) return static_cast<Enum>(found - std::begin(names));
+  std::string message(option);
+  message += ": expected one of ";
+  for (const std::string_view name : names) message += (&name == &names[0] ? "" : ", ") + std::string(name);
+  fail(ErrorCode::invalid_option, message + "; found '" + std::string(text) + "'");
+}
+
+// --- options ------------------------------------------------------------------------------------------------------
+
+/// Choices that are numbers: star: 1.
+bool is_number(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+Json choice(std::string_view name) { return is_number(name) ? Json(std::stoi(std::string(name))) : Json(name); }
+
+Json to_json(const Softening& s) {
+  return {{"value", number(s.value)}, {"scale", kScales[static_cast<std::size_t>(s.scale)]}};
+}
+
+Json to_json(const OptionValue& value) {
+  return std::visit(
+      [](const auto& v) -> Json {
+        using T = std::decay_t<decltype(v)>;
+        if constexpr (std::is_same_v<T, std::monostate>) {
+          return nullptr;
+        } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, VertexId>) {
+          return number(v);
+        } else if constexpr (std::is_same_v<T, std::string_view>) {
+          return choice(v);
+        } else if constexpr (std::is_same_v<T, Softening>) {
+          return to_json(v);
+        } else {
+          return v;
+        }
+      },
+      value);
+}
+
+/// The TypeScript type of an option.
+std::string type_of(const OptionRow& row) {
+  const auto plain = [&row]() -> std::string {
+    switch (row.kind) {
+      case OptionKind::flag:
+        return "boolean";
+      case OptionKind::softening:
+        return "SofteningLike";
+      case OptionKind::choice: {
+        std::string list;
+        for (const std::string_view each : row.choices) list += (list.empty() ? "" : " | ") + choice(each).dump();
+        return list;
+      }
+      default:
+        return "number";
+    }
+  };
+  return plain() + (row.optional ? " | null" : "");
+}
+
+/// Throws Json::exception when the type is wrong. `text` keeps the name of a choice.
+OptionValue value_from(const OptionRow& row, const Json& given, std::string& text) {
+  if (given.is_null()) return {};
+  const auto whole = [&given] {
+    if (given.is_number_integer()) return given.get<std::int64_t>();
+    const double value = given.get<double>();
+    const auto rounded = static_cast<std::int64_t>(value);
+    if (static_cast<double>(rounded) != value) throw WrongType{};
+    return rounded;
+  };
+  switch (row.kind) {
+    case OptionKind::flag:
+      return given.get<bool>();
+    case OptionKind::count:
+      return whole();
+    case OptionKind::number:
+      if (!given.is_number()) throw WrongType{};
+      return given.get<double>();
+    case OptionKind::choice:
+      text = given.is_number() ? std::to_string(whole()) : given.get<std::string>();
+      return std::string_view(text);
+    case OptionKind::softening:
+      return softening_from(row.name, given);
+    case OptionKind::vertex: {
+      const std::int64_t v = whole();
+      return v < 0 ? OptionValue(v) : OptionValue(VertexId(static_cast<std::size_t>(v)));
+    }
+  }
+  return {};
+}
+
+/// Numbers that JSON has not come marked, as they go.
+Json unmarked(const Json& given) {
+  if (!given.is_string()) return given;
+  for (const double special : {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::quiet_NaN()}) {
+    if (given == number(special)) return Json(special);
+  }
+  return given;
+}
+
+// --- reports --------------------------------------------------------------------------------------------------------
+
+Json to_json(const Histogram& h) { return {{"low", h.low}, {"high", h.high}, {"counts", h.counts}}; }
+
+Json to_json(const Spread& s) {
+  return {{"min", number(s.min)},
+          {"p05", number(s.p05)},
+          {"median", number(s.median)},
+          {"p95", number(s.p95)},
+          {"max", number(s.max)}};
+}
+
+Json to_json(const SizeReport& r) {
+  return {{"over_field", to_json(r.over_field)},
+          {"gradation", to_json(r.gradation)},
+          {"largest_edge_ratio", number(r.largest_edge_ratio)},
+          {"outside", r.outside},
+          {"band", number(r.band())}};
+}
+
+template <class Ids>
+Json list(const Ids& ids) {
+  Json json = Json::array();
+  for (const auto id : ids) json.push_back(number(id));
+  return json;
+}
+
+VertexId vertex(const Json& given) {
+  const auto v = given.get<std::int64_t>();
+  return v < 0 ? VertexId() : VertexId(static_cast<std::size_t>(v));
+}
+
+}  // namespace
+
+Softening softening_from(std::string_view name, const Json& given) {
+  const Json plain = unmarked(given);
+  if (plain.is_number()) return {plain.get<double>(), LengthScale::relative};
+  if (!plain.is_object() || !plain.contains("value") || !plain.contains("scale")) throw WrongType{};
+  return {unmarked(plain["value"]).get<double>(),
+          from_name<LengthScale>(name, plain["scale"].get<std::string>(), kScales)};
+}
+
+EnergyModel model_from(const Json& given) {
+  constexpr std::string_view kNames[] = {"energy", "star", "boundary_treatment", "gamma", "h0", "wall"};
+  expect_names(given, kNames);
+  EnergyModel model;
+  std::string energy(energy_info(model.kind).name), treatment(kTreatments[0]);
+  int star = static_cast<int>(model.star);
+  take(given, "energy", energy), take(given, "star", star), take(given, "boundary_treatment", treatment);
+  take(given, "wall", model.wall);
+  model.kind = or_fail(find_energy(energy)).kind;
+  if (star < 0 || star > 2) fail(ErrorCode::invalid_option, "star: expected 0, 1 or 2, found " + std::to_string(star));
+  model.star = static_cast<Star>(star);
+  model.boundary_treatment = from_name<BoundaryTreatment>("boundary_treatment", treatment, kTreatments);
+  if (given.contains("gamma")) model.gamma = softening_from("gamma", given["gamma"]);
+  if (given.contains("h0")) model.h0 = softening_from("h0", given["h0"]);
+  return model;
+}
+
+OptimizeOptions options_from(const Json& given) {
+  OptimizeOptions options;
+  for (const auto& [key, value] : given.items()) {
+    const OptionRow* row = find_option(key);
+    if (row == nullptr) throw WrongType{"there is no option " + key};
+    std::string text;
+    const auto wrong = [&] { return WrongType{key + ": expected " + type_of(*row) + ", found " + value.dump()}; };
+    OptionValue taken;
+    try {
+      taken = value_from(*row, unmarked(value), text);
+    } catch (const Json::exception&) {
+      throw wrong();
+    } catch (const WrongType&) {
+      throw wrong();
+    }
+    if (const Expected<void> good = check_option(*row, taken); !good) throw BadInput{spelled(good.error())};
+    row->set(options, taken);
+  }
+  return options;
+}
+
+std::string spelled(std::string_view text) {
+  return spell_options(text, [](const OptionRow& row, std::string_view value) {
+    const std::string name(row.name);
+    if (value.empty()) return name;
+    return name + ": " + (row.kind == OptionKind::choice ? choice(value).dump() : std::string(value));
+  });
+}
+
+InputError spelled(InputError error) {
+  error.message = spelled(std::string_view(error.message));
+  return error;
+}
+
+Json to_json(const Quality& q) {
+  Json json = {{"vertices", q.vertices},
+               {"triangles", q.triangles},
+               {"edges", q.edges},
+               {"boundary_edges", q.boundary_edges},
+               {"regions", q.regions},
+               {"inverted_triangles", q.inverted_triangles},
+               {"non_regular_edges", q.non_regular_edges},
+               {"negative_boundary_duals", q.negative_boundary_duals},
+               {"orthocenters_outside", q.orthocenters_outside},
+               {"edges_not_crossed", q.edges_not_crossed},
+               {"well_centered_fraction", number(q.well_centered_fraction)},
+               {"min_h_over_l", number(q.min_h_over_l)},
+               {"min_d_over_l", number(q.min_d_over_l)},
+               {"min_angle_deg", number(q.min_angle_deg)},
+               {"max_angle_deg", number(q.max_angle_deg)},
+               {"max_transmissibility_over_median", number(q.max_transmissibility_over_median)}};
+  for (std::size_t row = 0; row < energies().size(); ++row) {
+    Json& stars = json["energy"][std::string(energies()[row].name)] = Json::array();
+    for (const double value : q.energy[row]) stars.push_back(number(value));
+  }
+  json["worst"] = Json::array();
+  for (const WorstTriangle& w : q.worst) {
+    json["worst"].push_back({{"triangle", w.triangle.index},
+                             {"vertices", list(w.vertices)},
+                             {"at", {number(w.at.x), number(w.at.y)}},
+                             {"h_over_l", number(w.h_over_l)},
+                             {"angle_deg", number(w.angle_deg)},
+                             {"why", w.why}});
+  }
+  json["angles"] = to_json(q.angles);
+  json["h_over_l"] = to_json(q.h_over_l);
+  json["d_over_l"] = to_json(q.d_over_l);
+  return json;
+}
+
+Json to_json(const SweepRecord& r) {
+  return {{"sweep", r.sweep},
+          {"energy", number(r.energy)},
+          {"bad", r.bad},
+          {"flips", r.flips},
+          {"softening", number(r.softening)},
+          {"seconds", r.seconds},
+          {"objective", kObjectives[static_cast<std::size_t>(r.objective)]}};
+}
+
+Json to_json(const OptimizeReport& r) {
+  Json json = {{"stopped", name(r.stopped)},
+               {"sweeps", r.sweeps},
+               {"flips", r.flips},
+               {"vertices_removed", r.vertices_removed},
+               {"vertices_inserted", r.vertices_inserted},
+               {"vertices", list(r.vertices)},
+               {"hidden", list(r.hidden)},
+               {"seconds", r.seconds},
+               {"initial_energy", number(r.initial_energy)},
+               {"final_energy", number(r.final_energy)},
+               {"size", {{"before", to_json(r.size.before)}, {"after", to_json(r.size.after)}}},
+               {"history", Json::array()},
+               {"notes", Json::array()}};
+  for (const SweepRecord& record : r.history) json["history"].push_back(to_json(record));
+  for (const std::string& note : r.notes) json["notes"].push_back(spelled(note));
+  return json;
+}
+
+Json to_json(const TraceEvent& e) {
+  Json json = {{"kind", name(e.kind)},       {"sweep", e.sweep},         {"vertex", number(e.vertex)},
+               {"before", number(e.before)}, {"after", number(e.after)}, {"point", {e.point.x, e.point.y, e.point.w}},
+               {"quad", list(e.quad)},       {"link", list(e.link)},     {"triangles", Json::array()},
+               {"to_sweep", e.to_sweep}};
+  for (const auto& t : e.triangles) json["triangles"].push_back(list(t));
+  return json;
+}
+
+TraceEvent event_from(const Json& given) {
+  TraceEvent e;
+  const auto kind = given.at("kind").get<std::string>();
+  bool known = false;
+  for (int k = 0; k <= static_cast<int>(EventKind::undo) && !known; ++k) {
+    e.kind = static_cast<EventKind>(k);
+    known = name(e.kind) == kind;
+  }
+  if (!known) fail(ErrorCode::trace_mismatch, "there is no kind of event '" + kind + "'");
+  e.sweep = given.at("sweep").get<int>();
+  e.vertex = vertex(given.at("vertex"));
+  e.before = unmarked(given.at("before")).get<double>();
+  e.after = unmarked(given.at("after")).get<double>();
+  const auto point = given.at("point").get<std::array<double, 3>>();
+  e.point = {point[0], point[1], point[2]};
+  for (std::size_t i = 0; i < 4; ++i) e.quad[i] = vertex(given.at("quad").at(i));
+  for (const Json& v : given.at("link")) e.link.push_back(vertex(v));
+  for (const Json& t : given.at("triangles"))
+    e.triangles.push_back({vertex(t.at(0)), vertex(t.at(1)), vertex(t.at(2))});
+  e.to_sweep = given.at("to_sweep").get<int>();
+  return e;
+}
+
+Json option_table() {
+  Json table = Json::array();
+  for (const OptionGroup& group : option_groups()) {
+    for (const OptionRow& row : group.rows) {
+      Json choices = Json::array();
+      for (const std::string_view each : row.choices) choices.push_back(choice(each));
+      table.push_back({{"name", row.name},
+                       {"group", group.title},
+                       {"sentence", spelled(row.sentence)},
+                       {"type", type_of(row)},
+                       {"choices", choices},
+                       {"optional", row.optional},
+                       {"range", option_range_text(row)},
+                       {"absent", row.absent},
+                       {"default", to_json(row.get({}))}});
+    }
+  }
+  return table;
+}
+
+Json method_table() {
+  Json table;
+  for (const Method& method : methods()) {
+    Json& options = table[std::string(method.name)];
+    const OptimizeOptions values = method.options();
+    for (const OptionGroup& group : option_groups()) {
+      for (const OptionRow& row : group.rows) options[std::string(row.name)] = to_json(row.get(values));
+    }
+  }
+  return table;
+}
+
+Json energy_table() {
+  Json rows = Json::array();
+  for (const EnergyInfo& e : energies()) {
+    rows.push_back({{"name", e.name},
+                    {"formula", e.formula},
+                    {"boundary_treatment", kTreatments[static_cast<std::size_t>(e.boundary_treatment)]},
+                    {"barrier", e.barrier},
+                    {"softened_by_gamma", e.softened_by_gamma},
+                    {"softened_by_h0", e.softened_by_h0},
+                    {"length_exponent", e.length_exponent},
+                    {"signed_by_dual", e.signed_by_dual},
+                    {"normalized", e.normalized},
+                    {"positions_alone", e.positions_alone}});
+  }
+  return rows;
+}
+
+}  // namespace temper::wasm

@@ -1,0 +1,31 @@
+// Reports as JSON, and options from it, with the names that Python has.
+#pragma once
+
+#include "answer.hpp"
+#include "temper/energy.hpp"
+#include "temper/optimize.hpp"
+#include "temper/quality.hpp"
+#include "temper/trace.hpp"
+
+namespace temper::wasm {
+
+/// A number, relative to each edge, or {"value", "scale": "absolute" | "relative"}.
+[[nodiscard]] Softening softening_from(std::string_view name, const Json& given);
+/// The model of {"energy", "star", "boundary_treatment", "gamma", "h0", "wall"}, each of which may be left out.
+[[nodiscard]] EnergyModel model_from(const Json& given);
+[[nodiscard]] OptimizeOptions options_from(const Json& given);
+/// A text of the library with its options as JavaScript has them: boundary: "split".
+[[nodiscard]] std::string spelled(std::string_view text);
+[[nodiscard]] InputError spelled(InputError error);
+
+[[nodiscard]] Json to_json(const Quality& quality);
+[[nodiscard]] Json to_json(const SweepRecord& record);
+[[nodiscard]] Json to_json(const OptimizeReport& report);
+[[nodiscard]] Json to_json(const TraceEvent& event);
+[[nodiscard]] TraceEvent event_from(const Json& given);
+/// The table of options, and what each is by default.
+[[nodiscard]] Json option_table();
+[[nodiscard]] Json method_table();
+[[nodiscard]] Json energy_table();
+
+}  // namespace temper::wasm
