@@ -6,6 +6,8 @@
 #   scripts/bootstrap.sh test     what the tests need besides
 #   scripts/bootstrap.sh clients  what scripts/clients.sh needs: not a part of everything
 #   scripts/bootstrap.sh docs     what scripts/docs.sh needs: not a part of everything
+#   scripts/bootstrap.sh wasm     what the preset wasm needs besides build, and web/ to be built: not a part of everything
+#   scripts/bootstrap.sh browser  what tests of pages need: not a part of everything
 set -euo pipefail
 
 build=(g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev nlohmann-json3-dev libpugixml-dev zlib1g-dev libnetcdf-dev
@@ -16,6 +18,10 @@ test=(libgtest-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-meshio pyt
       libclang-rt-19-dev)
 clients=(python3-venv liblapack3 libblas3 libglu1-mesa libgl1 libegl1 libxcursor1 libxft2 libxinerama1 libxrender1)
 docs=(python3-venv doxygen)
+wasm=(clang-19 lld-19 llvm-19 wasi-libc libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32)
+# Whoever has another Node than Debian's has its npm, too.
+command -v npm >/dev/null || wasm+=(nodejs npm)
+browser=(chromium)
 
 wanted=()
 for group in "${@:-all}"; do
@@ -24,8 +30,10 @@ for group in "${@:-all}"; do
     test) wanted+=("${test[@]}") ;;
     clients) wanted+=("${clients[@]}") ;;
     docs) wanted+=("${docs[@]}") ;;
+    wasm) wanted+=("${wasm[@]}") ;;
+    browser) wanted+=("${browser[@]}") ;;
     all) wanted+=("${build[@]}" "${test[@]}") ;;
-    *) echo "bootstrap: no group '$group'; there are build, test, clients, docs and all" >&2; exit 2 ;;
+    *) echo "bootstrap: no group '$group'; there are build, test, clients, docs, wasm, browser and all" >&2; exit 2 ;;
   esac
 done
 

@@ -1,0 +1,60 @@
+// Builds the package into dist/: the module, the two platforms, the types. `node build.mjs --options` also writes
+// src/options.ts anew from the table of options in the module.
+import { execFileSync } from 'node:child_process';
+import { copyFileSync, existsSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { build } from 'esbuild';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const root = join(here, '..', '..');
+const wasm = process.env.TEMPER_WASM ?? join(root, 'build', 'wasm', 'web', 'wasm', 'temper.wasm');
+if (!existsSync(wasm)) {
+  console.error(`npm: ${wasm} is missing: scripts/build.sh wasm makes it`);
+  process.exit(1);
+}
+
+rmSync(join(here, 'dist'), { recursive: true, force: true });
+const shim = readFileSync(join(dirname(createRequire(import.meta.url).resolve('@bjorn3/browser_wasi_shim')), '..', 'LICENSE-MIT'), 'utf8');
+await build({
+  entryPoints: [join(here, 'src', 'node.ts'), join(here, 'src', 'browser.ts')],
+  outdir: join(here, 'dist'),
+  bundle: true,
+  format: 'esm',
+  target: 'es2022',
+  external: ['node:*'],
+  banner: { js: `/*! temper, Apache-2.0. With @bjorn3/browser_wasi_shim:\n\n${shim.trim()}\n*/` },
+});
+copyFileSync(wasm, join(here, 'dist', 'temper.wasm'));
+copyFileSync(join(root, 'LICENSE'), join(here, 'LICENSE'));
+
+/** The options as an interface, a member a row. */
+export function optionsSource(table) {
+  const members = table.map((row) => {
+    const range = row.range && row.choices.length === 0 ? `; ${row.range}` : '';
+    const absent = row.optional && row.absent ? `; null: ${row.absent}` : '';
+    return `  /** ${row.sentence}${range}${absent}. Default: ${JSON.stringify(row.default)}. */\n  ${row.name}?: ${row.type};`;
+  });
+  return `// Written by build.mjs --options from the table of options in the library. Not to be edited.
+import type { SofteningLike } from './records.ts';
+
+/** The options of \`optimize\`. */
+export interface OptimizeOptions {
+${members.join('\n')}
+}
+`;
+}
+
+const temper = await import('./dist/node.js');
+const source = optionsSource(temper.option_table());
+const target = join(here, 'src', 'options.ts');
+if (process.argv.includes('--options')) {
+  writeFileSync(target, source);
+} else if (readFileSync(target, 'utf8') !== source) {
+  console.error('npm: src/options.ts is not what the library has: node build.mjs --options writes it anew');
+  process.exit(1);
+}
+
+const tsc = createRequire(import.meta.url).resolve('typescript/bin/tsc');
+execFileSync(process.execPath, [tsc, '-p', join(here, 'tsconfig.json')], { stdio: 'inherit' });

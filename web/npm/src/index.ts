@@ -1,0 +1,249 @@
+// temper: primal-dual triangle meshes that solvers can trust. The names are those of Python.
+import { Mesh } from './mesh.ts';
+import { answer, answerBytes, answerText, call, type Files, fromJson, listening, module, takeWritten, toJson, withFiles } from './module.ts';
+import type { OptimizeOptions } from './options.ts';
+import type {
+  DecComplex, DecSummary, DrawOptions, EnergyInfo, EnergyModel, Format, IncidenceMatrix, OptimizeReport, OptionRow, Progress, Quality,
+  Restoration, SofteningLike, SweepRecord, TraceEvent, VertexDerivatives,
+} from './records.ts';
+
+export { Mesh, type MeshParts, type Numbers } from './mesh.ts';
+export { type Files, TemperError } from './module.ts';
+export type { OptimizeOptions } from './options.ts';
+export type * from './records.ts';
+
+/** What a function of the module without arguments answers. */
+function told<T>(name: string): T {
+  module()[name]();
+  return answer<T>();
+}
+
+/** The version of the library. */
+export function version(): string {
+  module().version();
+  return answerText();
+}
+
+// --- files ---------------------------------------------------------------------------------------------------------
+
+/** The file formats that `read` and `write` know. */
+export function formats(): Format[] {
+  return told('formats');
+}
+
+export interface ReadOptions {
+  /** The files by their names, of which the path is one; without them, in Node, the path is on the disk. */
+  files?: Files;
+  /** Tags or physical names whose points must not move. */
+  fixed_tags?: (string | number)[];
+  /** The map for points in longitude and latitude: "stereographic", "mercator:lon", …; "none". */
+  projection?: string;
+}
+
+/** Reads a mesh file; its content tells the format, never its name. A file PATH.weights.csv beside it gives the weights.
+ * `warnings` of the mesh are what was repaired. */
+export function read(path: string, options: ReadOptions = {}): Mesh {
+  const { files, fixed_tags = [], projection = '' } = options;
+  return withFiles(path, files, (name) => {
+    const mesh = Mesh.of(call('mesh_read', name, toJson({ fixed_tags: fixed_tags.map(String), projection })));
+    Object.assign(mesh, answer<{ warnings: string[]; format: string }>());
+    return mesh;
+  });
+}
+
+export interface WriteOptions {
+  /** Takes what is written, by names; without it, in Node, the path is on the disk. */
+  files?: Files;
+  /** A name of `formats()`; by default the suffix of the path tells it. */
+  format?: string;
+  /** Of formats that have several. VTU: base64, compressed, is its default. */
+  encoding?: 'ascii' | 'base64' | 'appended';
+}
+
+/** Writes a mesh, with all else that was in the file it came from. Returns warnings: weights gone to a file beside it, data
+ * that the format cannot hold. */
+export function write(path: string, mesh: Mesh, options: WriteOptions = {}): string[] {
+  const { files, format = '', encoding = '' } = options;
+  return withFiles(path, files, (name) => {
+    call('mesh_write', mesh.handle, name, toJson({ format, encoding }));
+    const result = answer<{ warnings: string[]; files: string[] }>();
+    takeWritten(result.files, files);
+    return result.warnings;
+  });
+}
+
+// --- optimisation ----------------------------------------------------------------------------------------------------
+
+export interface OptimizeHooks {
+  /** Hears of the progress, a few times a sweep; false stops the run, with the best mesh so far. */
+  observer?: (progress: Progress) => boolean | void;
+  /** Sees every move, flip, removal: enough for `replay`. */
+  tracer?: (event: TraceEvent) => void;
+}
+
+/** Makes the mesh well-centered, in place. An exception of a listener is thrown on when the best mesh so far is in place. */
+export function optimize(mesh: Mesh, options: OptimizeOptions & OptimizeHooks = {}): OptimizeReport {
+  const { observer, tracer, ...given } = options;
+  const listener = {
+    progress: (record: string, fraction: number, max_sweeps: number): boolean =>
+      observer === undefined || observer({ last: fromJson(record) as SweepRecord, fraction, max_sweeps }) !== false,
+    trace: tracer && ((event: string): void => tracer(fromJson(event) as TraceEvent)),
+  };
+  return listening(listener, () => {
+    call('mesh_optimize', mesh.handle, toJson(given), tracer ? 1 : 0);
+    return answer<OptimizeReport>();
+  });
+}
+
+/** Another mesh, optimised. */
+export function optimized(mesh: Mesh, options: OptimizeOptions & OptimizeHooks = {}): Mesh {
+  const other = mesh.copy();
+  optimize(other, options);
+  return other;
+}
+
+/** The input after these events of a run: with all of them what came out, bit for bit. */
+export function replay(input: Mesh, events: readonly TraceEvent[]): Mesh {
+  return Mesh.of(call('mesh_replay', input.handle, toJson(events)));
+}
+
+/** The options, from the table in the library. */
+export function option_table(): OptionRow[] {
+  return told('option_table');
+}
+
+const method = (name: string): Required<OptimizeOptions> => told<Record<string, Required<OptimizeOptions>>>('methods')[name];
+/** The options of the paper's Algorithm 1 with all its parts. */
+export const paper_method = (): Required<OptimizeOptions> => method('paper');
+/** Optimal Delaunay triangulations (Chen and Xu 2004). */
+export const odt_method = (): Required<OptimizeOptions> => method('odt');
+/** Centroidal Voronoi tessellations (Du, Faber and Gunzburger 1999). */
+export const cvt_method = (): Required<OptimizeOptions> => method('cvt');
+
+/** Flips edges until all are regular that can be. */
+export function restore_regularity(mesh: Mesh): Restoration {
+  call('mesh_restore_regularity', mesh.handle);
+  return answer();
+}
+
+// --- measures ----------------------------------------------------------------------------------------------------------
+
+/** Measures a mesh: is it valid, regular, well-centered, and with what margins? */
+export function quality(mesh: Mesh, options: { gamma?: SofteningLike; h0?: SofteningLike; worst?: number } = {}): Quality {
+  call('mesh_quality', mesh.handle, toJson(options));
+  return answer();
+}
+/** The same as `quality`, by the name of the program's verb. */
+export const check = quality;
+
+/** Of each triangle the least of its h/ℓ, d/ℓ and 1 − d/ℓ: above 0 where well-centered. */
+export function triangle_margins(mesh: Mesh): Float64Array {
+  call('mesh_triangle_margins', mesh.handle);
+  return new Float64Array(answerBytes().buffer);
+}
+/** Of each triangle 1 where it is well-centered, else 0. Exact. */
+export function well_centered_triangles(mesh: Mesh): Uint8Array {
+  call('mesh_well_centered_triangles', mesh.handle);
+  return answerBytes();
+}
+
+/** All energies. */
+export function energies(): EnergyInfo[] {
+  return told('energies');
+}
+/** The energy of a mesh; Infinity when any term is outside its domain. */
+export function total_energy(mesh: Mesh, model: EnergyModel = {}): number {
+  call('mesh_total_energy', mesh.handle, toJson(model));
+  return answer();
+}
+/** The part of the total energy that depends on a vertex, with its derivatives. */
+export function vertex_energy(mesh: Mesh, model: EnergyModel, vertex: number): VertexDerivatives {
+  call('mesh_vertex_energy', mesh.handle, toJson(model), vertex);
+  return answer();
+}
+
+/** The operators of discrete exterior calculus. */
+export function dec(mesh: Mesh): DecComplex {
+  const complex = call('dec_make', mesh.handle);
+  const bytes = (name: string): ArrayBuffer => {
+    call('dec_array', complex, name);
+    return answerBytes().buffer;
+  };
+  const reals = (name: string): Float64Array => new Float64Array(bytes(name));
+  const whole = (name: string): Int32Array => new Int32Array(bytes(name));
+  const matrix = (name: string): IncidenceMatrix => ({
+    starts: whole(`${name}.starts`),
+    columns: whole(`${name}.columns`),
+    signs: new Int8Array(bytes(`${name}.signs`)),
+  });
+  try {
+    call('dec_summary', mesh.handle, complex);
+    const summary = answer<DecSummary>();
+    return {
+      edges: {
+        vertices: whole('edges.vertices'),
+        triangles: whole('edges.triangles'),
+        length: reals('edges.length'),
+        split: reals('edges.split'),
+        left_height: reals('edges.left_height'),
+        right_height: reals('edges.right_height'),
+        dual_length: reals('edges.dual_length'),
+        midpoint: reals('edges.midpoint'),
+      },
+      edge_of_halfedge: whole('edge_of_halfedge'),
+      d0: matrix('d0'),
+      d1: matrix('d1'),
+      star0: reals('star0'),
+      star1: reals('star1'),
+      star2: reals('star2'),
+      flux: reals('flux'),
+      orthocenters: reals('orthocenters'),
+      areas: reals('areas'),
+      summary,
+    };
+  } finally {
+    module().dec_release(complex);
+  }
+}
+
+/** An SVG picture: primal and dual, weights as circles, bad triangles filled. */
+export function draw_svg(mesh: Mesh, options: DrawOptions = {}): string {
+  call('mesh_draw_svg', mesh.handle, 0, toJson(options));
+  return answerText();
+}
+/** Two panels side by side, to one scale. */
+export function draw_before_after_svg(before: Mesh, after: Mesh, options: DrawOptions = {}): string {
+  call('mesh_draw_svg', before.handle, after.handle, toJson(options));
+  return answerText();
+}
+
+// --- examples ----------------------------------------------------------------------------------------------------------
+
+const make = (name: string, parameters: object = {}): Mesh => Mesh.of(call('mesh_generate', name, toJson(parameters)));
+
+/** Example meshes: the paper's, and the classes a mesh method should be tried on. */
+export const generate = {
+  /** The paper's sparse horseshoe: 5 vertices, 4 triangles. */
+  sparse_horseshoe: (): Mesh => make('sparse_horseshoe'),
+  /** The paper's parameterised horseshoe: a × b points, x and y the semi-axes of the inner and the outer arch. */
+  horseshoe: (p: { a?: number; b?: number; x?: [number, number]; y?: [number, number] } = {}): Mesh => make('horseshoe', p),
+  /** Sides of length a and b from vertex 0, with an angle between them. */
+  single_triangle: (p: { a?: number; b?: number; angle_deg?: number } = {}): Mesh => make('single_triangle', p),
+  /** Random points in a polygon, counter-clockwise (default: an L with a notch). */
+  random_points: (p: { vertices?: number; seed?: number; polygon?: [number, number][] } = {}): Mesh => make('random_points', p),
+  /** nx × ny squares, each cut along the same diagonal, then sheared. */
+  sheared_grid: (p: { nx?: number; ny?: number; shear?: number } = {}): Mesh => make('sheared_grid', p),
+  /** Rings of points between two circles, the middle rings jittered. */
+  annulus: (p: { inner?: number; outer?: number; around?: number; rings?: number; jitter?: number; seed?: number } = {}): Mesh =>
+    make('annulus', p),
+  /** A box with an airfoil-like hole, graded from fine at the foil. */
+  airfoil: (p: { around?: number; growth?: number; seed?: number } = {}): Mesh => make('airfoil', p),
+  /** A regular polygon with no vertex inside: hard. */
+  regular_polygon: (p: { corners?: number } = {}): Mesh => make('regular_polygon', p),
+  /** A letter A with no vertex inside: hard. */
+  letter_a: (): Mesh => make('letter_a'),
+  /** A triangle with a sharp corner. */
+  wedge: (p: { angle_deg?: number; pieces?: number; seed?: number } = {}): Mesh => make('wedge', p),
+  /** Random points in the unit square, finer towards a corner. */
+  graded_points: (p: { finest?: number; growth?: number; seed?: number } = {}): Mesh => make('graded_points', p),
+};

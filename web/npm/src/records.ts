@@ -1,0 +1,290 @@
+// What functions give back, with the names that they have in Python and in reports.
+
+export interface Histogram {
+  low: number;
+  high: number;
+  /** In equal bins; each holds its lower end, and the end bins what lies outside. */
+  counts: number[];
+}
+
+/** One of the triangles with the least h/ℓ or d/ℓ. */
+export interface WorstTriangle {
+  triangle: number;
+  vertices: [number, number, number];
+  /** Centroid. */
+  at: [number, number];
+  h_over_l: number;
+  angle_deg: number;
+  /** "orthocenter outside across edge 3-9: angle of 138.3° at vertex 10" */
+  why: string;
+}
+
+/** Counts decided exactly, margins and energies in doubles. */
+export interface Quality {
+  vertices: number;
+  triangles: number;
+  edges: number;
+  boundary_edges: number;
+  regions: number;
+  inverted_triangles: number;
+  /** Interior edges with negative dual. */
+  non_regular_edges: number;
+  /** Boundary edges with h < 0. */
+  negative_boundary_duals: number;
+  /** Triangles with some h ≤ 0, and inverted ones. */
+  orthocenters_outside: number;
+  /** Edges without 0 < d < ℓ. */
+  edges_not_crossed: number;
+  well_centered_fraction: number;
+  min_h_over_l: number;
+  min_d_over_l: number;
+  min_angle_deg: number;
+  max_angle_deg: number;
+  max_transmissibility_over_median: number;
+  /** Of each energy the totals for ★0, ★1, ★2; Infinity outside its domain. */
+  energy: Record<EnergyName, [number, number, number]>;
+  /** Worst first. */
+  worst: WorstTriangle[];
+  angles: Histogram;
+  h_over_l: Histogram;
+  d_over_l: Histogram;
+}
+
+export type EnergyName = 'F' | 'T' | 'dT' | 'BH' | 'BHs' | 'BP' | 'nF' | 'nT' | 'ndT' | 'ODT';
+export type BoundaryTreatment = 'as_is' | 'absolute' | 'mirrored';
+
+/** A length: absolute, or relative to each edge. */
+export interface Softening {
+  value: number;
+  scale: 'absolute' | 'relative';
+}
+/** A plain number is relative to each edge. */
+export type SofteningLike = number | Softening;
+
+/** A row of the registry of energies. */
+export interface EnergyInfo {
+  name: EnergyName;
+  formula: string;
+  boundary_treatment: BoundaryTreatment;
+  /** Infinite outside 0 < d < ℓ. */
+  barrier: boolean;
+  softened_by_gamma: boolean;
+  softened_by_h0: boolean;
+  length_exponent: number;
+  signed_by_dual: boolean;
+  normalized: boolean;
+  positions_alone: boolean;
+}
+
+/** An energy with everything it depends on. */
+export interface EnergyModel {
+  energy?: EnergyName;
+  star?: 0 | 1 | 2;
+  boundary_treatment?: BoundaryTreatment;
+  gamma?: SofteningLike;
+  h0?: SofteningLike;
+  wall?: boolean;
+}
+
+/** The energy as a function of one vertex. */
+export interface VertexDerivatives {
+  /** Infinity when not feasible. */
+  value: number;
+  feasible: boolean;
+  /** ∂E/∂x, ∂E/∂y, ∂E/∂w. */
+  gradient: [number, number, number];
+  /** xx, xy, xw, yy, yw, ww. */
+  hessian: [number, number, number, number, number, number];
+}
+
+export interface SweepRecord {
+  /** 0 is the input. */
+  sweep: number;
+  energy: number;
+  /** Triangles that are not well-centered. */
+  bad: number;
+  flips: number;
+  softening: number;
+  seconds: number;
+  objective: 'energy' | 'accuracy';
+}
+
+/** How far a run is. */
+export interface Progress {
+  /** The last whole sweep. */
+  last: SweepRecord;
+  /** Of the sweep under way, in [0, 1). */
+  fraction: number;
+  max_sweeps: number;
+}
+
+export interface Spread {
+  min: number;
+  p05: number;
+  median: number;
+  p95: number;
+  max: number;
+}
+
+export interface SizeReport {
+  over_field: Spread;
+  gradation: Spread;
+  largest_edge_ratio: number;
+  outside: number;
+  band: number;
+}
+
+export type Stopped =
+  | 'converged' | 'max_sweeps' | 'max_outer' | 'time_limit' | 'cancelled' | 'tangled' | 'hidden' | 'accuracy_sweeps';
+
+/** What `optimize` did. */
+export interface OptimizeReport {
+  stopped: Stopped;
+  sweeps: number;
+  flips: number;
+  vertices_removed: number;
+  vertices_inserted: number;
+  /** Number in the input of each vertex, −1 for inserted ones; empty when none was removed or inserted. */
+  vertices: number[];
+  hidden: number[];
+  seconds: number;
+  initial_energy: number;
+  final_energy: number;
+  size: { before: SizeReport; after: SizeReport };
+  /** history[0] is the input. */
+  history: SweepRecord[];
+  /** What the user should know, in sentences. */
+  notes: string[];
+}
+
+/** What a run did, event by event. Vertices are numbered as in the input, inserted ones follow. */
+export interface TraceEvent {
+  kind: 'move' | 'weight' | 'flip' | 'collapse' | 'removal' | 'insertion' | 'split' | 'hidden' | 'undo';
+  sweep: number;
+  /** −1 for flip, and for undo of whole sweeps. */
+  vertex: number;
+  before: number;
+  after: number;
+  /** x, y, w of the vertex now. */
+  point: [number, number, number];
+  /** flip: edge a→b, with c on its left and d on its right, becomes d→c; split: a→b was cut. */
+  quad: [number, number, number, number];
+  link: number[];
+  triangles: [number, number, number][];
+  to_sweep: number;
+}
+
+/** A file format: a row of `formats()`. */
+export interface Format {
+  name: string;
+  description: string;
+  /** ".vtu", …, separated by spaces; the first is the one written. */
+  suffixes: string;
+  writes: boolean;
+  /** Else weights go to a file PATH.weights.csv. */
+  holds_weights: boolean;
+}
+
+export interface Restoration {
+  flips: number;
+  regular: boolean;
+  /** Halfedges whose edges no flips make regular. */
+  stuck: number[];
+  /** Vertices that their weights hide. */
+  hidden: number[];
+}
+
+/** A row of the table of options. */
+export interface OptionRow {
+  name: string;
+  group: string;
+  sentence: string;
+  /** In TypeScript. */
+  type: string;
+  choices: (string | number)[];
+  /** May be null. */
+  optional: boolean;
+  /** "at least 2" */
+  range: string;
+  /** What null stands for. */
+  absent: string;
+  default: unknown;
+}
+
+export interface DecSummary {
+  vertices: number;
+  edges: number;
+  triangles: number;
+  boundary_edges: number;
+  negative_star0: number;
+  negative_star1: number;
+  zero_star1: number;
+  negative_boundary_star1: number;
+  not_well_centered: number;
+  area: number;
+  star0_sum: number;
+  min_star0: number;
+  min_star1: number;
+  median_star1: number;
+  max_star1: number;
+  median_flux: number;
+  max_flux: number;
+}
+
+/** A sparse matrix of entries ±1, in compressed rows. */
+export interface IncidenceMatrix {
+  /** Rows + 1. */
+  starts: Int32Array;
+  columns: Int32Array;
+  signs: Int8Array;
+}
+
+/** Of each edge, in the order of (from, to); left and right of from → to. Pairs lie one after the other. */
+export interface DecEdges {
+  vertices: Int32Array;
+  /** Left and right; −1 on the boundary. */
+  triangles: Int32Array;
+  length: Float64Array;
+  /** d from `from`. */
+  split: Float64Array;
+  left_height: Float64Array;
+  right_height: Float64Array;
+  /** With the sign of the exact predicates. */
+  dual_length: Float64Array;
+  /** x, y of the weighted midpoint. */
+  midpoint: Float64Array;
+}
+
+/** Discrete exterior calculus on a mesh: incidence, diagonal stars with signed power duals, and the dual itself. */
+export interface DecComplex {
+  edges: DecEdges;
+  edge_of_halfedge: Int32Array;
+  /** Edges × vertices. */
+  d0: IncidenceMatrix;
+  /** Triangles × edges. */
+  d1: IncidenceMatrix;
+  star0: Float64Array;
+  star1: Float64Array;
+  star2: Float64Array;
+  /** Transmissibility of a two-point flux between orthocenters; Infinity where a dual edge has no length. */
+  flux: Float64Array;
+  /** x, y of each triangle's. */
+  orthocenters: Float64Array;
+  areas: Float64Array;
+  summary: DecSummary;
+}
+
+export interface DrawOptions {
+  primal?: boolean;
+  dual?: boolean;
+  weights?: boolean;
+  weight_scale?: number;
+  bad_triangles?: boolean;
+  near_coincident?: boolean;
+  regions?: boolean;
+  vertex_numbers?: boolean;
+  /** x0, y0, x1, y1: draw only what meets this box. */
+  zoom?: [number, number, number, number] | null;
+  width?: number;
+  title?: string;
+}

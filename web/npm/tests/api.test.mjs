@@ -1,0 +1,147 @@
+// The package's own side: arrays in and out, listeners, errors, memory. (Meshes themselves are tested in C++.)
+import assert from 'node:assert/strict';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import * as temper from 'temper-mesh';
+
+const folder = mkdtempSync(join(tmpdir(), 'temper-api-'));
+after(() => rmSync(folder, { recursive: true }));
+
+const square = () => new temper.Mesh([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]]);
+
+test('arrays go in as rows or flat, and come out as they were', () => {
+  const points = Float64Array.from([0, 0, 1, 0, 1, 1, 0, 1]);
+  const mesh = new temper.Mesh(points, Int32Array.from([0, 1, 2, 3, 2, 0]), [0, 0.1, 0, 0.1], { regions: [1, 2], fixed: [2] });
+  assert.deepEqual(mesh.points, points);
+  assert.deepEqual(mesh.weights, Float64Array.from([0, 0.1, 0, 0.1]));
+  assert.equal(mesh.reversed_triangles, 1);
+  assert.deepEqual(mesh.regions, Int32Array.from([1, 2]));
+  assert.deepEqual(mesh.fixed, Int32Array.from([2]));
+  assert.deepEqual([mesh.n_vertices, mesh.n_triangles, mesh.n_edges, mesh.n_halfedges], [4, 2, 5, 6]);
+  assert.equal(mesh.constrained_edges.length, 2, 'regions differ across the diagonal');
+  assert.equal(mesh.boundary_edges.length, 8);
+  assert.equal(mesh.validate(), null);
+  assert(square().equals(square()) && !square().equals(mesh));
+  assert.deepEqual(mesh.point(1), [1, 0, 0.1]);
+});
+
+test('wrong arguments are TypeErrors that name them, bad meshes TemperErrors', () => {
+  assert.throws(() => new temper.Mesh([[0, 0, 0]], []), /points: expected rows of 2 numbers, found 3 in row 0/);
+  assert.throws(() => new temper.Mesh([0, 0, 1], []), /points: expected rows of 2 numbers, found 3 in all/);
+  assert.throws(() => new temper.Mesh([0, 0], [0.5, 1, 2]), /triangles: expected whole numbers/);
+  assert.throws(() => temper.optimize(square(), { sweeps: 3 }), { name: 'TypeError', message: 'there is no option sweeps' });
+  assert.throws(() => temper.optimize(square(), { max_sweeps: 1.5 }), { name: 'TypeError', message: 'max_sweeps: expected number, found 1.5' });
+  assert.throws(() => temper.optimize(square(), { energy: 'XY' }), { name: 'TemperError', code: 'invalid_option' });
+  assert.throws(() => temper.optimize(square(), { size_band: Infinity }), temper.TemperError);
+  assert.throws(() => temper.generate.annulus({ inside: 3 }), TypeError);
+  assert.throws(() => new temper.Mesh([[0, 0], [1, 0], [0, 1], [0, 0], [1, 1]], [[0, 1, 2], [3, 4, 2]]), { code: 'duplicate_point' });
+  assert.throws(() => temper.read('none.vtu', { files: {} }), { code: 'not_found', where: 'none.vtu' });
+});
+
+test('every kind of exception of the module comes through, and leaves it whole', () => {
+  const text = (s) => ({ 'a.vtu': new TextEncoder().encode(s) });
+  for (const [content, code] of [
+    ['', 'empty_input'],
+    ['<VTKFile type="UnstructuredGrid">', 'truncated'],
+    ['<VTKFile type="UnstructuredGrid"><UnstructuredGrid></UnstructuredGrid></VTKFile>', 'truncated'],
+    ['nothing', 'syntax'],
+  ]) {
+    for (let i = 0; i < 100; i++) assert.throws(() => temper.read('a.vtu', { files: text(content) }), { name: 'TemperError', code });
+  }
+  assert.throws(() => temper.generate.random_points({ vertices: 4e8 }), /memory|vertices/);
+  assert.equal(square().validate(), null);
+});
+
+test('positions that turn a triangle over are refused, and nothing has changed', () => {
+  const mesh = temper.generate.annulus();
+  const before = mesh.copy();
+  assert.throws(() => (mesh.points = mesh.points.map(() => 0)), temper.TemperError);
+  assert.throws(() => mesh.set_point(0, 9, 9, 0), /is not counter-clockwise/);
+  assert.throws(() => (mesh.weights = [1]), TypeError);
+  assert(mesh.equals(before));
+  mesh.weights = mesh.weights.map((_, i) => i * 1e-6);
+  assert(!mesh.equals(before));
+  mesh.free();
+  assert.throws(() => mesh.n_vertices, /freed/);
+});
+
+test('an observer hears of sweeps and stops the run; what it throws is thrown when the mesh is in place', () => {
+  const mesh = temper.generate.random_points({ vertices: 400 });
+  const sweeps = [];
+  const report = temper.optimize(mesh, { observer: ({ last }) => void sweeps.push(last.sweep) });
+  assert.equal(report.stopped, 'converged');
+  assert(sweeps.length >= report.sweeps);
+  const stopped = temper.optimize(temper.generate.random_points({ vertices: 400 }), { observer: ({ last }) => last.sweep < 2 });
+  assert.equal(stopped.stopped, 'cancelled');
+  assert(stopped.sweeps <= 3);
+  const thrown = temper.generate.random_points({ vertices: 400 });
+  const before = temper.quality(thrown).orthocenters_outside;
+  assert.throws(() => temper.optimize(thrown, { observer: ({ last }) => { if (last.sweep === 2) throw new RangeError('enough'); } }), /enough/);
+  assert(temper.quality(thrown).orthocenters_outside < before);
+  let inner = 0;
+  temper.optimize(temper.generate.letter_a(), { max_sweeps: 2, repair: 'none', observer: () => void (inner += temper.quality(square()).triangles) });
+  assert(inner > 0, 'other calls may be made meanwhile');
+});
+
+test('a trace replays to the same bits, and its beginning to a mesh', () => {
+  const input = temper.generate.letter_a(), output = input.copy(), events = [];
+  const report = temper.optimize(output, { repair: 'vertices', boundary: 'split', tracer: (event) => void events.push(event) });
+  assert(report.vertices_inserted > 0 && events.length > 100);
+  assert(temper.replay(input, events).equals(output));
+  assert.equal(temper.replay(input, events.slice(0, 50)).validate(), null);
+  assert.throws(() => temper.replay(temper.generate.sparse_horseshoe(), events), { code: 'trace_mismatch' });
+});
+
+test('operators fit together', () => {
+  const mesh = temper.optimized(temper.generate.annulus());
+  const { d0, d1, star0, star1, star2, edges, areas, orthocenters, summary } = temper.dec(mesh);
+  const n = [star0, star1, star2].map((star) => star.length);
+  assert.deepEqual(n, [mesh.n_vertices, mesh.n_edges, mesh.n_triangles]);
+  assert.deepEqual([d0.starts.length, d1.starts.length, orthocenters.length], [n[1] + 1, n[2] + 1, 2 * n[2]]);
+  assert(Math.abs(star0.reduce((a, b) => a + b) - areas.reduce((a, b) => a + b)) < 1e-12 * summary.area * n[0]);
+  // d1 d0 = 0.
+  for (let t = 0; t < n[2]; t++) {
+    const sums = new Map();
+    for (let i = d1.starts[t]; i < d1.starts[t + 1]; i++) {
+      const e = d1.columns[i];
+      for (let j = d0.starts[e]; j < d0.starts[e + 1]; j++) sums.set(d0.columns[j], (sums.get(d0.columns[j]) ?? 0) + d1.signs[i] * d0.signs[j]);
+    }
+    assert([...sums.values()].every((sum) => sum === 0));
+  }
+  assert.equal(edges.vertices.length, 2 * n[1]);
+});
+
+test('numbers that JSON has not come through', () => {
+  const q = temper.quality(temper.generate.letter_a());
+  assert.equal(q.energy.BH[1], Infinity);
+  assert.equal(temper.total_energy(temper.generate.letter_a(), { energy: 'BH' }), Infinity);
+  assert.equal(temper.triangle_margins(temper.generate.letter_a()).length, 29);
+});
+
+test('in Node paths are those of the disk, side files too', () => {
+  const mesh = temper.optimized(temper.generate.annulus());
+  const path = join(folder, 'ring.node');
+  const warnings = temper.write(path, mesh);
+  const again = temper.read(join(folder, 'ring.ele'));
+  assert.deepEqual(again.points, mesh.points);
+  const weighted = temper.write(join(folder, 'ring.off'), mesh);
+  assert(weighted.some((w) => w.includes('ring.off.weights.csv')), weighted.join());
+  assert.deepEqual(temper.read(join(folder, 'ring.off')).weights, mesh.weights);
+  assert(readFileSync(join(folder, 'ring.off.weights.csv'), 'utf8').length > 0);
+  assert(Array.isArray(warnings));
+  assert.throws(() => temper.read(folder), { code: 'not_found' });
+  writeFileSync(join(folder, 'bad.off'), 'OFF\n3 1 0\n');
+  assert.throws(() => temper.read(join(folder, 'bad.off')), (error) => error.message.startsWith(join(folder, 'bad.off')));
+  assert.throws(() => temper.write(join(folder, 'none', 'ring.off'), mesh), /ENOENT|cannot be written/);
+});
+
+test('SVG is drawn, and options are those of the table', () => {
+  assert.match(temper.draw_svg(square(), { title: 'a <square>' }), /^<svg[^]*a &lt;square&gt;/);
+  assert.match(temper.draw_before_after_svg(square(), square()), /^<svg/);
+  const names = temper.option_table().map((row) => row.name);
+  assert(names.includes('objective') && names.includes('max_sweeps'));
+  for (const method of [temper.paper_method(), temper.odt_method(), temper.cvt_method()]) assert.deepEqual(Object.keys(method), names);
+  temper.optimize(temper.generate.annulus(), { ...temper.paper_method(), max_sweeps: 1 });
+});
