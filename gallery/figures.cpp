@@ -1,6 +1,8 @@
 // The registry: every figure of the paper that is made again, with what the paper's own shows.
 #include "figures.hpp"
 
+#include "reading.hpp"
+
 namespace temper::gallery {
 namespace {
 
@@ -119,5 +121,11 @@ constexpr Figure kFigures[] = {
 }  // namespace
 
 std::span<const Figure> figures() { return kFigures; }
+
+Page make(const Figure& figure, Effort effort) {
+  Page page = figure.make(effort);
+  page.settings = take_run_settings();
+  return page;
+}
 
 }  // namespace temper::gallery

@@ -4,8 +4,12 @@
 // found, what temper finds, and whether the two agree: computed, never typed in.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <functional>
+#include <set>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,15 +42,28 @@ struct Claim {
   Author author = Author::paper;
 };
 
+/// How the runs of the optimiser that a figure made took what the paper leaves open (reading.hpp).
+inline constexpr std::size_t kOpenOptions = 5;
+struct RunSettings {
+  std::size_t runs = 0;
+  std::array<std::set<std::string>, kOpenOptions> values;  ///< of each such option, where it has an effect
+};
+
 struct Page {
   std::vector<Picture> pictures;
   std::vector<Table> tables;
   std::vector<Claim> claims;
+  RunSettings settings = {};  ///< make() fills it in
 };
 
 /// The work that a figure may do: everything, or what the tests have time for (fewer samples, shorter runs, but every
 /// claim).
 enum class Effort { full, reduced };
+
+/// CannotBeMade: a run that a figure is about does not come to what the figure shows, under the reading that was set.
+struct CannotBeMade : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// A figure of the paper.
 struct Figure {
@@ -58,5 +75,9 @@ struct Figure {
 
 /// All figures, by number. Figures that come from one run share it: it is computed once.
 [[nodiscard]] std::span<const Figure> figures();
+
+/// The figure, and how its runs were read; those that an earlier figure has made are not among them. May throw
+/// CannotBeMade.
+[[nodiscard]] Page make(const Figure& figure, Effort effort);
 
 }  // namespace temper::gallery

@@ -1,58 +1,93 @@
 #!/usr/bin/env python3
-"""How many of the paper's claims hold when all figures take one and the same reading of what it leaves open.
+"""Which of the paper's claims hold when all figures take one and the same reading of what it leaves open.
 
     gallery/readings.py PROGRAM DIR
 
 runs `temper reproduce` for figures 11 to 32, which are made by the optimiser, once as each figure has it and once for
-each reading below, into folders of DIR (one that has its gallery.json is not made again), and writes the table into
-docs/paper.md.
+each reading below, into folders of DIR (one that has its gallery.json is not made again), and writes two tables into
+docs/paper.md: how many claims hold under each reading, and under which readings those hold that do not hold under all.
+Claims of a figure that cannot be made under a reading do not hold under it.
 """
 import json
 import pathlib
+import re
 import subprocess
 import sys
 
-FIGURES = "11-32"
-READINGS = [
-    ("as each figure has it", []),
-    ("no step turns a triangle over", ["--refuse-inversions"]),
-    ("R is the distance to the farthest neighbour", ["--search-radius", "max"]),
-    ("R is the distance to the nearest neighbour", ["--search-radius", "min"]),
-    ("weights are searched up to 4 R²", ["--weight-reach", "4"]),
-    ("no step turns a triangle over, and weights up to 4 R²", ["--refuse-inversions", "--weight-reach", "4"]),
+FIGURES = range(11, 33)
+READINGS = [  # letter, name, options
+    ("own", "as each figure has it", ""),
+    ("r", "no step turns a triangle over", "--inversion refuse"),
+    ("a", "steps may turn triangles over", "--inversion allow"),
+    ("f", "R is the distance to the farthest neighbour", "--search-radius max"),
+    ("n", "R is the distance to the nearest neighbour", "--search-radius min"),
+    ("4", "weights are searched up to 4 R²", "--weight-reach 4"),
+    ("i", "points are visited as numbered", "--order input"),
+    ("v", "points are visited in reverse", "--order reverse"),
+    ("r4", "no step turns a triangle over, and weights up to 4 R²", "--inversion refuse --weight-reach 4"),
+    ("all", "everything as `--method paper` has it",
+     "--order input --search-radius rms --weight-reach 1 --inversion allow --gamma 1"),
 ]
-BEGIN, END = "<!-- readings -->", "<!-- /readings -->"
 
 
-def claims(program: str, folder: pathlib.Path, options: list[str]) -> dict[str, bool]:
-    """Of the paper's claims in FIGURES, whether each holds."""
-    result = folder / "gallery.json"
-    if not result.exists():
-        subprocess.run([program, "reproduce", FIGURES, "-o", str(folder), *options], check=True,
-                       stdout=subprocess.DEVNULL)
-    found = json.loads(result.read_text())["claims"]
-    return {f"{c['figure']}: {c['claim']}": c["holds"] for c in found if c["author"] == "paper"}
+def claims(program: str, folder: pathlib.Path, options: str) -> dict[tuple[str, str], bool]:
+    """Of the paper's claims in FIGURES, by place and sentence, whether each holds."""
+    found = {}
+    for figure in FIGURES:
+        result = folder / str(figure) / "gallery.json"
+        if not result.exists():
+            run = subprocess.run([program, "reproduce", str(figure), "-o", str(result.parent), *options.split()],
+                                 capture_output=True, text=True)
+            if run.returncode != 0 and "cannot be made" not in run.stderr:
+                sys.exit(run.stderr)
+            if run.returncode != 0:
+                result.write_text('{"claims": []}')
+        for c in json.loads(result.read_text())["claims"]:
+            if c["author"] == "paper":
+                found[c["figure"], c["claim"]] = c["holds"]
+    return found
+
+
+def counts(held: list[dict]) -> str:
+    """How many claims hold under each reading."""
+    rows = ["| | one reading for figures 11 to 32 | options | claims that hold | lost | won |", "|-|-|-|-|-|-|"]
+    own = held[0]
+    for (letter, name, options), now in zip(READINGS, held):
+        holds = {claim: now.get(claim, False) for claim in own}
+        lost, won = sum(own[c] and not holds[c] for c in own), sum(holds[c] and not own[c] for c in own)
+        changes = [lost, won] if options else ["", ""]
+        rows.append(f"| {letter} | {name} | {f'`{options}`' if options else ''} | {sum(holds.values())} of {len(own)} | "
+                    f"{changes[0]} | {changes[1]} |")
+    return "\n".join(rows)
+
+
+def by_claim(held: list[dict]) -> str:
+    """Under which readings each claim holds that does not hold under all."""
+    rows = ["| where | claim | " + " | ".join(letter for letter, _, _ in READINGS) + " |", "|-|-" + "|-" * len(READINGS) + "|"]
+    for place, claim in held[0]:
+        marks = [now.get((place, claim), False) for now in held]
+        if all(marks):
+            continue
+        where = place if re.search("[^0-9-]", place) is None else "§" + place
+        sentence = claim.replace("|", "\\|").replace("*", "\\*").replace("<", "&lt;")
+        rows.append(f"| {where} | {sentence} | " + " | ".join("✓" if m else "✗" for m in marks) + " |")
+    return "\n".join(rows)
 
 
 def main() -> None:
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     program, top = sys.argv[1], pathlib.Path(sys.argv[2])
-    rows = ["| one reading for figures 11 to 32 | options | claims that hold | lost | won |", "|-|-|-|-|-|"]
-    own: dict[str, bool] = {}
-    for number, (name, options) in enumerate(READINGS):
-        held = claims(program, top / str(number), options)
-        own = own or held
-        lost = sum(own[c] and not held[c] for c in own)
-        won = sum(held[c] and not own[c] for c in own)
-        rows.append(f"| {name} | {' '.join(f'`{o}`' for o in [' '.join(options)] if o)} | "
-                    f"{sum(held.values())} of {len(held)} | {lost if number else ''} | {won if number else ''} |")
+    held = [claims(program, top / letter, options) for letter, _, options in READINGS]
     page = pathlib.Path(__file__).resolve().parent.parent / "docs" / "paper.md"
-    text = page.read_text()
-    before, rest = text.split(BEGIN)
-    after = rest.split(END)[1]
-    page.write_text(before + BEGIN + "\n\n" + "\n".join(rows) + "\n\n" + END + after)
-    print("\n".join(rows))
+    text = page.read_text(encoding="utf-8")
+    for name, table in (("readings", counts(held)), ("claims by reading", by_claim(held))):
+        text, blocks = re.subn(rf"(<!-- {name} -->\n).*?(<!-- /{name} -->)",
+                               lambda m: m[1] + "\n" + table + "\n\n" + m[2], text, flags=re.S)
+        if blocks != 1:
+            sys.exit(f"docs/paper.md must have one place for the {name}")
+        print(table)
+    page.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 // Figures that were made, and the files that tell of them all: index.html for people, gallery.json for programs,
-// claims.md for docs/paper.md.
+// claims.md and settings.md for docs/paper.md.
 //
 // None holds a date, a duration or a path: the same pages give the same bytes.
 #pragma once
@@ -39,5 +39,8 @@ struct Tally {
 
 /// The claims as a table of Markdown, and after it what explains those that do not hold.
 [[nodiscard]] std::string claims_markdown(std::span<const Result> results);
+
+/// How each figure's runs took what the paper leaves open, as a table of Markdown.
+[[nodiscard]] std::string settings_markdown(std::span<const Result> results);
 
 }  // namespace temper::gallery

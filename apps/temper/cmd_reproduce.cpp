@@ -1,7 +1,7 @@
 // temper reproduce [FIG...] -o DIR: the figures and claims of the paper, made again; see gallery/.
 //
-// After each figure its pictures are written, then index.html, gallery.json and claims.md of all figures so far:
-// whoever stops the run has a folder of whole files that fit together.
+// After each figure its pictures are written, then index.html, gallery.json, claims.md and settings.md of all figures
+// so far: whoever stops the run has a folder of whole files that fit together.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -19,6 +19,7 @@
 #include "help.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "table_options.hpp"
 #include "temper/version.hpp"
 
 namespace temper::app {
@@ -31,20 +32,22 @@ struct Settings {
   std::vector<std::string> figures;
   std::string output;
   bool reduced = false, list = false, require_claims = false;
-  gallery::Reading reading;
+  TableOptions readings;
 };
 
-/// One reading in the place of those of the figures.
-void add_readings(Command& command, gallery::Reading& reading) {
-  command.group("How the paper is read");
-  const auto take_radius = [&](std::string_view name) {
-    reading.search_radius = name == "rms" ? SearchRadius::rms : name == "max" ? SearchRadius::max : SearchRadius::min;
-  };
-  add_name(command, "--search-radius", {"rms", "max", "min"}, take_radius, "the \"patch radius\" that searches go")
-      .default_text = "as each figure has it";
-  add_number(command, "--weight-reach", reading.weight_reach, kPositive,
-             "how far they go for a weight, over its square");
-  command.add_flag("--refuse-inversions", reading.refuses_inversions, "no step turns a triangle over, in any figure");
+/// One reading in the place of those of the figures: what is left open, as for optimize.
+void add_readings(Command& command, TableOptions& target) {
+  command.group("How the paper is read; what is not given is as each figure has it");
+  for (const std::string_view name : gallery::kOpen) add_option(command, *find_option(name), target);
+}
+
+gallery::Reading reading(const Command& command, const TableOptions& target) {
+  gallery::Reading given;
+  for (const std::string_view name : gallery::kOpen) {
+    const OptionRow& row = *find_option(name);
+    if (was_given(command, row)) given.push_back({&row, row.get(target.options)});
+  }
+  return given;
 }
 
 void add_options(Command& command, Settings& s) {
@@ -53,14 +56,15 @@ void add_options(Command& command, Settings& s) {
             "figures by the paper's numbers: 6, or a list 6,8, or a range 16-18; none: all, "
             "which takes minutes");
   add_text(command, "-o,--output", "DIR", s.output,
-           "the folder for the pictures, index.html, gallery.json and claims.md; made when it is missing, and files of "
+           "the folder for the pictures, index.html, gallery.json, claims.md and settings.md; made when it is missing, "
+           "and files of "
            "these "
            "names are replaced");
   command.add_flag("--reduced", s.reduced, "every claim, but fewer samples and shorter runs");
   command.add_flag("--require-claims", s.require_claims,
                    "exit with 3 when a claim does not hold; everything is written first");
   command.add_flag("--list", s.list, "list the figures");
-  add_readings(command, s.reading);
+  add_readings(command, s.readings);
   command.add_help({"[FIG ...] -o DIR [options]",
                     "  temper reproduce --list\n"
                     "  temper reproduce 6 -o gallery\n"
@@ -106,7 +110,7 @@ class Folder {
  public:
   Folder(std::string path, Effort effort) : path_(std::move(path)), effort_(effort) {
     make_folder(path_);
-    for (const char* name : {"index.html", "gallery.json", "claims.md"})
+    for (const char* name : {"index.html", "gallery.json", "claims.md", "settings.md"})
       outputs_.expect_text("--output", file(name), {});
   }
 
@@ -120,6 +124,7 @@ class Folder {
     outputs_.write_text(file("index.html"), gallery::index_html(results, effort_, version()));
     outputs_.write_text(file("gallery.json"), gallery::gallery_json(results, version()));
     outputs_.write_text(file("claims.md"), gallery::claims_markdown(results));
+    outputs_.write_text(file("settings.md"), gallery::settings_markdown(results));
   }
 
  private:
@@ -148,7 +153,12 @@ Made make(std::span<const Figure> figures, Effort effort, Folder& folder) {
   for (const Figure& figure : figures) {
     show_progress(figure, made.results.size() + 1, figures.size());
     const auto start = std::chrono::steady_clock::now();
-    made.results.push_back({figure, figure.make(effort)});
+    try {
+      made.results.push_back({figure, gallery::make(figure, effort)});
+    } catch (const gallery::CannotBeMade& error) {
+      throw Failure(Exit::bad_input,
+                    fmt::format("figure {} cannot be made under this reading: {}", figure.number, error.what()));
+    }
     made.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     folder.write(made.results);
   }
@@ -211,7 +221,7 @@ Exit run_reproduce(const Arguments& arguments) {
   const Effort effort = s.reduced ? Effort::reduced : Effort::full;
   Folder folder(s.output, effort);
 
-  gallery::set_reading(s.reading);
+  gallery::set_reading(reading(command, s.readings));
   const Made made = make(*chosen, effort, folder);
   print_summary(made);
   print(folder.file("index.html") + "\n");

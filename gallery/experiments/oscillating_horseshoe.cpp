@@ -79,6 +79,9 @@ OptimizeOptions positions_and_collapses() {
 
 const Recording& oscillating_run() {
   static const Recording run = record(dense_horseshoe(), positions_and_collapses(), Keep::sweeps);
+  if (run.all(Snapshot::Moment::after_flips).size() < 2) {
+    throw CannotBeMade("the run of figures 19 and 20 ends before it oscillates");
+  }
   return run;
 }
 

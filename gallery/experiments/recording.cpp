@@ -61,6 +61,8 @@ Recording record(const Mesh& start, const OptimizeOptions& options, Keep keep) {
   auto report = optimize(recording.result, as_read(options), hooks);
   if (report) {
     recording.report = *std::move(report);
+  } else if (report.error().code == ErrorCode::invalid_option) {
+    throw CannotBeMade(report.error().what());
   } else {
     recording.error = report.error().what();
   }

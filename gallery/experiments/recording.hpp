@@ -42,6 +42,7 @@ struct Recording {
 /// The meshes that are kept of a run: those between outer iterations, or also those after each sweep.
 enum class Keep { outer, sweeps };
 
+/// CannotBeMade: optimize() refuses the options, as the reading has them.
 [[nodiscard]] Recording record(const Mesh& start, const OptimizeOptions& options, Keep keep);
 
 }  // namespace temper::gallery

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "experiments/recording.hpp"
 
@@ -33,8 +34,21 @@ class Reversals {
   std::size_t all_ = 0, reversed_ = 0;
 };
 
+/// Edges that flips took away and did not bring back, by the start's numbers of their ends.
+class EdgesGone {
+ public:
+  /// Whether the edge that the flip makes is one of them.
+  bool add_flip(VertexId a, VertexId b, VertexId c, VertexId d) {
+    edges_.insert(std::minmax({a, b}));
+    return edges_.erase(std::minmax({c, d})) > 0;
+  }
+
+ private:
+  std::set<std::pair<VertexId, VertexId>> edges_;
+};
+
 /// One sweep, and the flips after it. Where the weights hide a corner of the domain it is kept.
-Moment one_sweep(PolicyRun& policy_run, const OptimizeOptions& options) {
+Moment one_sweep(PolicyRun& policy_run, EdgesGone& gone, const OptimizeOptions& options) {
   Recording run = record(policy_run.end, options, Keep::sweeps);
   if (!run.error.empty()) {
     OptimizeOptions keeping = options;
@@ -46,7 +60,12 @@ Moment one_sweep(PolicyRun& policy_run, const OptimizeOptions& options) {
     if (e.kind == EventKind::weight || e.kind == EventKind::move) last = e.vertex;
     if (e.kind != EventKind::flip) continue;
     ++policy_run.flips;
-    if (last.valid()) ++policy_run.flips_by_vertex[policy_run.vertices[last.index]];
+    const auto& names = policy_run.vertices;
+    const auto [a, b, c, d] = e.quad;
+    const bool back = gone.add_flip(names[a.index], names[b.index], names[c.index], names[d.index]);
+    if (!last.valid()) continue;
+    ++policy_run.flips_by_vertex[names[last.index]];
+    if (back) ++policy_run.flips_back_by_vertex[names[last.index]];
   }
   return std::move(run.moments.back());
 }
@@ -102,9 +121,10 @@ PolicyRun run_policy(const WeightPolicy& policy, const Mesh& start, const Vertex
   run.end = start;
   for (const VertexId v : start.vertices()) run.vertices.push_back(v);
   Reversals reversals(start.n_vertices());
+  EdgesGone gone;
   for (int i = 0; i < sweeps; ++i) {
     options.paper.overshoot = 1 + overshoot * std::pow(0.1, i);  // as it would shrink in one run
-    Moment after = one_sweep(run, options);
+    Moment after = one_sweep(run, gone, options);
     std::vector<VertexId> vertices;
     for (const VertexId v : after.mesh.vertices()) {
       const VertexId before = after.vertices[v];

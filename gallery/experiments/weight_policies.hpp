@@ -48,6 +48,8 @@ struct PolicyRun {
   std::size_t flips = 0;
   std::map<VertexId, std::size_t>
       flips_by_vertex;  ///< flips that follow a change of the vertex's weight, by its number
+  /// Flips that bring back an edge that a flip had taken away, by that vertex, too.
+  std::map<VertexId, std::size_t> flips_back_by_vertex;
   std::size_t hidden_inside = 0, hidden_on_boundary = 0;
   std::size_t rises = 0;  ///< sweeps after which the energy was higher
   double reversals = 0;   ///< part of all weight changes that undo some of the vertex's last one

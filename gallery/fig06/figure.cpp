@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "experiments/edge_energy.hpp"
 #include "experiments/minimise.hpp"
@@ -215,6 +216,7 @@ struct Segments {
            digits(above_chord) + " one above the chord";
   }
 };
+constexpr std::size_t kPlaces = 64;  // of a segment that are looked at
 /// make(random) gives a function of t in [0, 1].
 template <class Make>
 Segments sample_segments(std::uint64_t seed, std::size_t count, Make&& make) {
@@ -282,17 +284,38 @@ Claim triangle_in_weights(std::size_t count) {
       Author::temper};
 }
 
-Claim triangle_in_positions(std::size_t count) {
+/// E_BH^1 of a triangle, of which corners from `first` on move; where `stays_acute`, only on segments along which it is
+/// finite.
+Segments segments_of_positions(std::uint64_t seed, std::size_t count, std::size_t first, bool stays_acute) {
   const EnergyModel hard = paper_model(EnergyKind::BH);
-  const Segments one = sample_segments(63, count, [&](Random& random) {
+  return sample_segments(seed, count, [&](Random& random) {
     const Corners a = random_triangle(random, 0);
     Corners b = a;
-    b[2] = {random(-1, 1), random(-1, 1), 0};
-    return [=](double t) {
+    for (std::size_t i = first; i < b.size(); ++i) b[i] = {random(-1, 1), random(-1, 1), 0};
+    const auto energy = [=](double t) {
       const Corners c = between(a, b, t);
       return triangle_energy(hard, c[0], c[1], c[2]);
     };
+    bool finite = true;
+    for (std::size_t i = 0; i <= kPlaces && stays_acute && finite; ++i)
+      finite = std::isfinite(energy(static_cast<double>(i) / kPlaces));
+    return [=](double t) { return finite ? energy(t) : std::numeric_limits<double>::infinity(); };
   });
+}
+
+Claim triangle_in_all_positions(std::size_t count) {
+  const Segments one = segments_of_positions(64, count, 2, true), all = segments_of_positions(65, count, 0, true);
+  return {"7 Further Exploration",
+          "Where the triangle stays acute all along, E_BH^1 is quasi-convex in the positions of its vertices",
+          "“investigate the convexity (or lack thereof)”",
+          "one vertex: " + one.text() + "; all three: " + all.text(),
+          one.above_ends + all.above_ends == 0,
+          "segments between random acute triangles, finite at " + digits(kPlaces + 1) + " places of each",
+          Author::temper};
+}
+
+Claim triangle_in_positions(std::size_t count) {
+  const Segments one = segments_of_positions(63, count, 2, false);
   return {
       "7 Further Exploration",
       "E_BH^1 is quasi-convex in the position of a vertex",
@@ -337,7 +360,8 @@ Page make_fig06(Effort effort) {
                  best_weights(weights),
                  quasi_convex_in_weights(full ? 50000 : 2000),
                  triangle_in_weights(full ? 50000 : 2000),
-                 triangle_in_positions(full ? 50000 : 2000)};
+                 triangle_in_positions(full ? 50000 : 2000),
+                 triangle_in_all_positions(full ? 20000 : 1000)};
   return page;
 }
 

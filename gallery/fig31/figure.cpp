@@ -25,6 +25,7 @@ Claim later_with_weights(Effort effort) {
   std::size_t later = 0, last_later = 0;
   const auto& all = rule_comparisons(effort);
   for (const RuleComparison& c : all) {
+    if (c.patch_positions.empty() || c.patch_weights.empty()) throw CannotBeMade("the patch test removes no vertex");
     positions += mean_iteration(c.patch_positions) / static_cast<double>(all.size());
     weights += mean_iteration(c.patch_weights) / static_cast<double>(all.size());
     if (mean_iteration(c.patch_weights) > mean_iteration(c.patch_positions)) ++later;

@@ -39,7 +39,18 @@ TEST_F(Reproduce, WritesPicturesAPageAndClaims) {
     EXPECT_TRUE(claim["holds"].is_boolean());
     EXPECT_TRUE(claim["author"] == "paper" || claim["author"] == "temper");
   }
-  EXPECT_EQ(without_pictures(names()), (Names{"claims.md", "folder", "gallery.json", "index.html", "new"}));
+  EXPECT_EQ(without_pictures(names()),
+            (Names{"claims.md", "folder", "gallery.json", "index.html", "new", "settings.md"}));
+}
+
+TEST_F(Reproduce, OneReadingIsInThePlaceOfTheFiguresOwn) {
+  temper_ok({"reproduce", "13", "-o", "own", "--reduced"});
+  temper_ok({"reproduce", "13", "-o", "read", "--reduced", "--order", "reverse", "--gamma", "0.5"});
+  EXPECT_TRUE(contains(read("own/settings.md"), " | input | rms | 1 | refuse | 1 |"));
+  EXPECT_TRUE(contains(read("read/settings.md"), " | reverse | rms | 1 | refuse | 0.5 |"));
+  const Outcome outcome = temper({"reproduce", "20", "-o", "none", "--reduced", "--inversion", "allow"});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.err, "figure 20 cannot be made under this reading: "));
 }
 
 TEST_F(Reproduce, WritesTheSameBytesTwice) {
@@ -106,7 +117,7 @@ TEST_F(Reproduce, ASignalLeavesWholeFilesThatFitTogether) {
         for (const nlohmann::json& figure : json["figures"]) {
           for (const std::string picture : figure["pictures"]) EXPECT_TRUE(exists("out/" + picture)) << picture;
         }
-      } else if (name == "claims.md") {
+      } else if (name == "claims.md" || name == "settings.md") {
         EXPECT_TRUE(read("out/" + name).ends_with("\n"));
       } else {
         EXPECT_TRUE(contains(read("out/" + name), name == "index.html" ? "</html>" : "</svg>")) << name;
