@@ -70,7 +70,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/temperConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/temperConfig.cmake ${PROJECT_BINARY_DIR}/temperConfigVersion.cmake
         DESTINATION ${TEMPER_CMAKE_DIR} COMPONENT development)
 
-if(NOT TEMPER_DEBIAN)
+if(NOT TEMPER_DEBIAN AND NOT SKBUILD)  # which have it elsewhere
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 endif()
 

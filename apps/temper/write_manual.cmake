@@ -1,5 +1,5 @@
 # cmake -DPROGRAM=… -DFOLDER=… -P write_manual.cmake: has the program write its manual pages and completions, to
-# FOLDER/man1 and FOLDER/completions.
+# FOLDER/man1 and FOLDER/completions. -DGZIP=1: pages are packed, as Debian has them.
 function(write_help file)
   execute_process(COMMAND ${PROGRAM} ${ARGN} OUTPUT_FILE ${FOLDER}/${file} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
@@ -16,3 +16,8 @@ foreach(line IN LISTS others)
   string(REGEX REPLACE "^\\.BR temper..([a-z]+) .*" "\\1" verb "${line}")
   write_help(man1/temper-${verb}.1 ${verb} --help=man)
 endforeach()
+
+if(GZIP)
+  file(GLOB pages ${FOLDER}/man1/*)
+  execute_process(COMMAND gzip -9n ${pages} COMMAND_ERROR_IS_FATAL ANY)
+endif()

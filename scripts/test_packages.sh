@@ -1,0 +1,150 @@
+#!/usr/bin/env bash
+# Tries what scripts/package.sh has made where nothing else is: the wheel in a new virtual environment, Debian packages in a
+# new root folder (debootstrap), shared libraries in a prefix of their own. Ends with a table of sizes and seconds.
+#
+#   scripts/test_packages.sh [DIR]      default: packages/
+#
+# Needs root, for chroot. TEMPER_CHROOT: a folder for the root folders, default a temporary one; the bare system that
+# debootstrap makes there is used again, a copy for each run.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source_folder=$PWD
+packages=$(realpath "${1:-packages}")
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+rows=()
+row() { rows+=("$(printf '%-58s %12s' "$1" "$2")"); }
+# timed WHAT COMMAND …: its seconds become a row.
+timed() {
+  local what=$1 start=$EPOCHREALTIME
+  shift
+  "$@" >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; echo "test_packages: $what failed" >&2; exit 1; }
+  row "$what" "$(awk "BEGIN {printf \"%.2f s\", $EPOCHREALTIME - $start}")"
+}
+size() { row "$1" "$(awk "BEGIN {printf \"%.0f kB\", $(stat -c %s "$2") / 1000}")"; }
+must() { "$@" || { echo "test_packages: not so: $*" >&2; exit 1; }; }
+
+# The first commands of the README, and what they promise.
+readme_commands() {
+  sed -n '/^temper example random/,/^```/p' README.md | sed '/^```/d'
+}
+[[ $(readme_commands | wc -l) -ge 3 ]] || { echo "test_packages: no commands in README.md" >&2; exit 1; }
+
+try_wheel() {
+  local venv=$scratch/venv wheel here=$scratch/wheel
+  wheel=$(ls "$packages"/temper-*manylinux*.whl)
+  mkdir "$here"
+  readme_commands >"$here/readme.sh"
+  size "wheel: $(basename "$wheel")" "$wheel"
+  size "source distribution" "$(ls "$packages"/temper-*.tar.gz)"
+  python3 -m venv "$venv"
+  timed "wheel: pip install, with NumPy" "$venv/bin/pip" install -q "$wheel"
+  row "wheel: installed, without NumPy" "$(du -sk "$venv"/lib/python3*/site-packages/temper{,.libs} | awk '{n += $1} END {print n " kB"}')"
+  cd "$here"
+  # A first time, for the byte code.
+  "$venv/bin/python" -c 'import temper'
+  timed "wheel: import temper" "$venv/bin/python" -c 'import temper'
+  row "wheel: import temper, without Python's start and NumPy" "$("$venv/bin/python" -c '
+import time, numpy
+start = time.perf_counter()
+import temper
+print(f"{time.perf_counter() - start:.3f} s")')"
+  timed "wheel: README's first commands" env PATH="$venv/bin:$PATH" sh -e readme.sh
+  timed "wheel: python -m temper --version" "$venv/bin/python" -m temper --version
+  timed "wheel: temper --version" "$venv/bin/temper" --version
+  "$venv/bin/python" - <<'PYTHON'
+import importlib.resources, pathlib, sys, temper
+mesh = temper.generate.annulus()
+temper.optimize(mesh)
+assert temper.quality(mesh).well_centered_fraction == 1
+assert temper.build_info()["version"] == temper.__version__
+files = importlib.resources.files("temper")
+assert (files / "py.typed").is_file() and (files / "_temper.pyi").is_file() and "Algorithm 1" in temper.optimize.__doc__
+prefix = pathlib.Path(sys.prefix)
+for path in ["share/man/man1/temper-optimize.1", "share/bash-completion/completions/temper"]:
+    assert (prefix / path).exists(), path
+PYTHON
+  # Without libnetcdf an error that says what to install; with pip's netCDF4 it works.
+  "$venv/bin/temper" example annulus -o ring.vtu
+  if ! ldconfig -p | grep -q libnetcdf; then
+    must grep -q 'pip: netCDF4' <("$venv/bin/temper" convert ring.vtu -o ring.ugrid.nc 2>&1)
+  fi
+  must grep -q 'needs\? libnetcdf' <(TEMPER_NETCDF=/nowhere "$venv/bin/temper" convert ring.vtu -o ring.ugrid.nc 2>&1)
+  must test -z "$(find "$venv"/lib/python3*/site-packages/temper* -name '*netcdf*.so*')"
+  timed "wheel: pip uninstall" "$venv/bin/pip" uninstall -q -y temper
+  must test -z "$(find "$venv" -name '*temper*' -not -path '*/pip/*')"
+  cd "$source_folder"
+}
+
+in_root() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
+# What packages leave behind would be a difference; apt's and dpkg's own lists and logs are theirs.
+files_of_root() {
+  find "$root" -xdev \( -path "$root/var/lib/dpkg" -o -path "$root/var/lib/apt" -o -path "$root/var/cache" -o -path "$root/var/log" \
+    -o -path "$root/proc" -o -path "$root/packages" -o -path "$root/tmp" \) -prune -o -print | sed "s|^$root||" | sort
+}
+
+try_debian() {
+  local base=${TEMPER_CHROOT:-$scratch}/base release debs=()
+  root=$scratch/root
+  release=$(. /etc/os-release && echo "$VERSION_CODENAME")
+  command -v debootstrap >/dev/null || apt-get install -y -qq --no-install-recommends debootstrap >/dev/null
+  [[ -d $base ]] || timed "Debian: debootstrap $release" debootstrap --variant=minbase "$release" "$base"
+  cp -a "$base" "$root"
+  cp /etc/resolv.conf "$root/etc/resolv.conf"
+  cp -a /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
+  mkdir "$root/packages"
+  cp "$packages"/*.deb "$root/packages"
+  readme_commands >"$root/packages/readme.sh"
+  for deb in "$packages"/*.deb; do
+    size "Debian: $(basename "$deb")" "$deb"
+    debs+=("/packages/$(basename "$deb")")
+  done
+  timed "Debian: apt-get update" in_root apt-get update -qq
+  # The program alone, as most will have it.
+  local library program
+  library=$(cd "$root/packages" && ls libtemper0*.deb)
+  program=$(cd "$root/packages" && ls temper_*.deb)
+  files_of_root >"$scratch/before"
+  local others
+  others=$(in_root dpkg -l | grep -c ^ii)
+  timed "Debian: apt-get install, the program" in_root apt-get install -y -qq --no-install-recommends "/packages/$library" "/packages/$program"
+  row "Debian: packages that came with the program" "$(($(in_root dpkg -l | grep -c ^ii) - others - 2))"
+  must test "$(in_root dpkg -l | grep -c libnetcdf)" = 0
+  timed "Debian: README's first commands" in_root sh -ec 'cd /tmp; . /packages/readme.sh'
+  must grep -q "version\|commit" <(in_root temper --version)
+  timed "Debian: apt-get install, all four packages" in_root apt-get install -y -qq --no-install-recommends "${debs[@]}"
+  timed "Debian: import temper" in_root python3 -c 'import temper'
+  in_root python3 -m temper check /tmp/tempered.vtu >/dev/null
+  timed "Debian: apt-get purge" in_root sh -c 'apt-get purge -y -qq temper libtemper-dev libtemper0.1 python3-temper && apt-get autoremove --purge -y -qq'
+  files_of_root >"$scratch/after"
+  diff "$scratch/before" "$scratch/after" | grep -i temper && { echo "test_packages: purge leaves these" >&2; exit 1; }
+  row "Debian: files of temper that purge leaves" 0
+}
+
+# A prefix of its own with shared libraries: runs by RUNPATH, is found by pkg-config and CMake, and goes by `uninstall`.
+try_prefix() {
+  local build=build/shared prefix=$scratch/prefix
+  cmake -G Ninja -B "$build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DBUILD_SHARED_LIBS=ON -DTEMPER_BUILD_PYTHON=ON \
+    -DTEMPER_PYTHON=/usr/bin/python3 >/dev/null
+  cmake --build "$build" >/dev/null
+  timed "shared libraries: cmake --install" cmake --install "$build" --prefix "$prefix"
+  must test -z "$(ldd "$prefix/bin/temper" "$prefix"/lib/libtemper*.so | grep 'not found')"
+  must test "$(ldd "$prefix/bin/temper" | grep -c "$scratch/prefix/.*libtemper")" -ge 4
+  must "$prefix/bin/temper" example annulus -o "$scratch/ring.vtu"
+  PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$(echo "$prefix"/lib/python3*/site-packages) /usr/bin/python3 -c 'import temper; print(temper.read("'"$scratch"'/ring.vtu"))'
+  # shellcheck disable=SC2046 # flags are words
+  PKG_CONFIG_PATH=$prefix/lib/pkgconfig sh -ec 'g++ -std=c++20 tests/consumer/io.cpp $(pkg-config --cflags --libs temper-io) -Wl,-rpath,'"$prefix/lib"' -o '"$scratch/io"
+  must "$scratch/io" tests/consumer/one_triangle.obj
+  cmake -G Ninja -S tests/consumer/find_package -B "$scratch/find_package" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
+  cmake --build "$scratch/find_package" >/dev/null
+  must ctest --test-dir "$scratch/find_package" --output-on-failure --no-tests=error -Q
+  cmake --build "$build" --target uninstall >/dev/null
+  must test -z "$(find "$prefix" -type f -o -type l)"
+  row "shared libraries: files that uninstall leaves" 0
+}
+
+try_wheel
+try_prefix
+try_debian
+printf '%s\n' "${rows[@]}"
+echo "all packages work"
