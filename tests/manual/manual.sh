@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Completions really complete, and manual pages are well-formed: manual.sh PROGRAM
 #
-# What a shell offers after `temper VERB --` must be the options of `temper VERB --help`. Shells and mandoc that are not
+# What a shell offers after `temper VERB --` must be the options of `temper VERB --help-all`. Shells and mandoc that are not
 # there are named in the last line.
 set -uo pipefail
 program=$1
@@ -24,7 +24,7 @@ there() { command -v "$1" >/dev/null || { missing+=("$1"); false; }; }
 mapfile -t verbs < <("$program" --help | sed -n '/^Verbs:/,/^$/s/^  \([a-z]*\) .*/\1/p')
 ((${#verbs[@]} > 5)) || { echo "no verbs in $program --help"; exit 1; }
 options_of() {  # VERB: the options of its own, not those of the words after it
-  "$program" "$1" --help | sed '/^[a-z-]*: /,$d' | sed -nE 's/^  ((-[a-z], )?--[a-z0-9-]+).*/\1/p' | sed 's/, /\n/' | sort
+  { "$program" "$1" --help-all 2>/dev/null || "$program" "$1" --help; } | sed '/^[a-z-]*: /,$d' | sed -nE 's/^  ((-[a-z], )?--[a-z0-9-]+).*/\1/p' | sed 's/, /\n/' | sort
 }
 
 # --- bash: the function itself, with the words of a command line -------------------------------------------
