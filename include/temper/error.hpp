@@ -50,7 +50,7 @@ struct InputError {
   [[nodiscard]] std::string what() const { return where.empty() ? message : where + ": " + message; }
 };
 
-/// Text that a terminal may show: control characters but newlines and tabs as \x1b, bytes that are no UTF-8 as the
+/// Text that a terminal may show: control characters but newlines and tabs as `\x1b`, bytes that are no UTF-8 as the
 /// characters of Latin-1.
 [[nodiscard]] std::string printable(std::string_view text);
 

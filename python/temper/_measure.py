@@ -108,6 +108,8 @@ def quality(
     threads : int, optional
         None or 0: all of the machine. The report does not depend on it.
 
+    Examples
+    --------
     >>> import temper
     >>> temper.quality(temper.generate.horseshoe()).orthocenters_outside
     58
