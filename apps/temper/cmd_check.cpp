@@ -7,8 +7,10 @@
 
 #include "console.hpp"
 #include "help.hpp"
+#include "html_pages.hpp"
 #include "input.hpp"
 #include "options.hpp"
+#include "outputs.hpp"
 #include "projection_option.hpp"
 #include "report_json.hpp"
 #include "report_text.hpp"
@@ -22,6 +24,7 @@ namespace {
 struct CheckSettings {
   std::string projection;
   std::vector<std::string> inputs;
+  std::string html;
   std::vector<std::string> require;
   SofteningOptions gamma, h0;
   std::uint64_t worst = 5, threads = 0;
@@ -36,6 +39,8 @@ void add_options(Command& command, CheckSettings& s) {
   add_projection(command, s.projection);
   command.add_flag("--json", s.json,
                    "the report as JSON, of several meshes a list of them; vertices and triangles count from 0");
+  add_text(command, "--html", "FILE", s.html,
+           "an HTML report beside it, of one mesh: its measures, and each triangle's numbers");
   add_count(command, "--worst", s.worst, 0, "list this many of the worst triangles");
   add_gamma(command, s.gamma, " (default: 1)");
   add_h0(command, s.h0, " (default: 0)");
@@ -46,6 +51,7 @@ void add_options(Command& command, CheckSettings& s) {
   command.add_help({"IN ... [options]",
                     "  temper check in.vtu\n"
                     "  temper check in.vtu --json --worst 20\n"
+                    "  temper check in.vtu --html report.html\n"
                     "  temper check in.vtu --require inverted=0,\"min_angle>=1\"\n"
                     "  temper check in.vtu in.vtu --require inverted=0\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
@@ -54,12 +60,21 @@ void add_options(Command& command, CheckSettings& s) {
 /// The meshes of one call.
 class Checks {
  public:
-  Checks(const CheckSettings& settings, std::vector<Requirement> requirements)
-      : s_(settings), requirements_(std::move(requirements)), threads_(make_threads(settings.threads)) {
+  Checks(const Command& command, const CheckSettings& settings, std::vector<Requirement> requirements)
+      : command_(command),
+        s_(settings),
+        requirements_(std::move(requirements)),
+        threads_(make_threads(settings.threads)) {
     options_.gamma = s_.gamma.value().value_or(options_.gamma);
     options_.h0 = s_.h0.value().value_or(options_.h0);
     options_.worst = s_.worst;
     options_.executor = threads_.get();
+    if (!s_.html.empty() && s_.inputs.size() > 1) {
+      throw Failure(Exit::bad_usage, fmt::format("check: --html: it is the report of one mesh, and {} are given\n"
+                                                 "See temper check --help",
+                                                 s_.inputs.size()));
+    }
+    outputs_.expect_text("--html", s_.html, s_.inputs);
   }
 
   void add(const std::string& path) {
@@ -67,6 +82,10 @@ class Checks {
     print_warnings(input.warnings());
     const Quality measured = quality(input.mesh(), options_);
     const std::vector<Outcome> outcomes = judge(requirements_, measured);
+    if (!s_.html.empty()) {
+      const std::string again = command_line("check", {path}, used_options(command_));
+      outputs_.write_text(s_.html, check_html(again, input, measured));
+    }
     if (s_.json) {
       reports_.push_back(check_json(path, measured, input.points, outcomes));
     } else {
@@ -92,7 +111,9 @@ class Checks {
   }
 
  private:
+  const Command& command_;
   const CheckSettings& s_;
+  Outputs outputs_ = Outputs("check");
   std::vector<Requirement> requirements_;
   std::unique_ptr<Executor> threads_;
   QualityOptions options_;
@@ -110,7 +131,7 @@ Exit run_check(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   std::ranges::replace(s.inputs, "-", kStandardInput);
-  Checks checks(s, parse_requirements("check", s.require));
+  Checks checks(command, s, parse_requirements("check", s.require));
   if (s.inputs.size() == 1) {
     checks.add(s.inputs.front());
   } else {

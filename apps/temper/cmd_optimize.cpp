@@ -9,6 +9,7 @@
 #include "console.hpp"
 #include "data_report.hpp"
 #include "help.hpp"
+#include "html_pages.hpp"
 #include "input.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
@@ -39,7 +40,7 @@ namespace {
 struct Settings {
   TimeLimit since;
   std::string projection;
-  std::string input, report, history, picture, trace;
+  std::string input, report, html, history, picture, trace;
   MeshOutput output;
   std::vector<std::string> fix, require;
   const Method* method = methods().data();
@@ -66,6 +67,8 @@ void add_files(Command& command, Settings& s) {
   add_point_data(command, s.point_data);
   add_text(command, "--report", "FILE", s.report,
            "a JSON report: before, after, history, and the command to run again");
+  add_text(command, "--html", "FILE", s.html,
+           "an HTML report: the mesh before and after, measures, history, and the command to run again");
   add_text(command, "--history", "FILE", s.history, "one line of CSV a sweep");
   add_text(command, "--trace", "FILE", s.trace,
            "every move, flip and removal, one JSON object a line; see temper replay");
@@ -156,7 +159,7 @@ std::vector<std::string> doubtful_options(const Command& command, const Settings
   if (s.checkpoint.empty() && command.was_given("--every")) {
     warnings.emplace_back("--every has no effect without --checkpoint");
   }
-  if (!s.report.empty() && same_file(s.input, s.output.path)) {
+  if (!(s.report.empty() && s.html.empty()) && same_file(s.input, s.output.path)) {
     warnings.emplace_back("--output replaces the input: the command in the report would start from the improved mesh");
   }
   return warnings;
@@ -199,6 +202,7 @@ std::string picture_title(const Input& input, const Quality& before, const Quali
 /// What a run made, apart from the mesh.
 struct Results {
   Quality before, after;
+  Mesh original;  ///< when a picture, a page or --verify needs it
   OptimizeReport report;
   std::vector<Outcome> outcomes;  ///< of --require
   io::DataReport data;
@@ -325,15 +329,16 @@ Tracer tracer_of(const RunFiles& files, const Input& input) {
   };
 }
 
-/// Improves the mesh of the input in place: a second copy is made only when the picture or --verify needs one.
+/// Improves the mesh of the input in place: a second copy is made only when something needs one.
 void improve(const Settings& s, Input& input, Results& results, const RunFiles& files) {
   QualityOptions measuring;
   measuring.executor = files.threads;
   Mesh& mesh = input.loaded.mesh;
   const bool may_return_input = s.verify && s.for_accuracy();
-  const Mesh original = s.picture.empty() && !may_return_input ? Mesh() : mesh;
-  // Else nobody would see it.
-  const bool measured = !s.quiet || !s.report.empty() || !s.picture.empty() || !s.requirements.empty();
+  const Mesh& original = results.original;
+  if (!s.picture.empty() || !s.html.empty() || may_return_input) results.original = mesh;
+  const bool shown = !s.report.empty() || !s.html.empty() || !s.picture.empty();
+  const bool measured = !s.quiet || shown || !s.requirements.empty();  // else nobody would see it
   if (measured) results.before = quality(mesh, measuring);
   catch_interrupts();
   if (!s.quiet) {
@@ -378,12 +383,15 @@ void write_all(const Command& command, const Settings& s, Input& input, Results&
   warn(results, outputs.write_mesh(s.output, input.file, files.threads));
   if (files.checkpoint != nullptr && stopped_early(results.report)) outputs.write(*files.checkpoint);
   if (files.trace != nullptr) outputs.commit(s.trace, files.trace->stream);
-  if (!s.report.empty()) {
+  if (!s.report.empty() || !s.html.empty()) {
     const std::vector<UsedOption> options = used_options(command);
     const std::string again = command_line("optimize", {s.input}, options);
-    outputs.write_text(s.report,
-                       optimize_json({again, options, results.before, input.points, results.after, results.report,
-                                      results.data, results.outcomes, results.warnings, results.errors_json}));
+    const OptimizeRecord record = {
+        again,          options,      results.before,   input.points,     results.after,
+        results.report, results.data, results.outcomes, results.warnings, results.errors_json};
+    if (!s.report.empty()) outputs.write_text(s.report, optimize_json(record));
+    if (!s.html.empty())
+      outputs.write_text(s.html, optimize_html({record, input, results.original, input.loaded.mesh}));
   }
   if (!s.history.empty()) outputs.write_text(s.history, history_csv(results.report));
   if (!s.picture.empty()) outputs.write_text(s.picture, results.picture);
@@ -491,6 +499,7 @@ Command command_with(Settings& settings) {
       {"IN -o OUT [options]",
        "  temper optimize in.vtu -o out.vtu\n"
        "  temper optimize in.vtu -o out.vtu --report report.json --draw before-after.svg\n"
+       "  temper optimize in.vtu -o out.vtu --html report.html\n"
        "  temper optimize in.vtu -o out.vtu --require outside=0,not_crossed=0\n"
        "  temper optimize in.vtu -o out.vtu --weights-only --no-flips\n"
        "  temper optimize in.vtu -o out.vtu --energy F --star 1 --solver golden --max-sweeps 20\n"
@@ -515,6 +524,7 @@ Exit run_command(Command& command, Settings& settings, const Resumed* resumed) {
   const std::vector<std::string> inputs = {settings.input, settings.size_field};
   outputs.expect_mesh(settings.output, {settings.size_field});
   outputs.expect_text("--report", settings.report, inputs);
+  outputs.expect_text("--html", settings.html, inputs);
   outputs.expect_text("--history", settings.history, inputs);
   outputs.expect_text("--trace", settings.trace, inputs);
   outputs.expect_picture("--draw", settings.picture, inputs);

@@ -45,6 +45,12 @@ Json to_json(const Quality& quality, Points points) {
     Json& stars = energy[std::string(energies()[row].name)] = Json::array();
     for (const double value : quality.energy[row]) stars.push_back(number_or_null(value));
   }
+  const auto histogram = [](const Histogram& h) -> Json {
+    return {{"low", h.low}, {"high", h.high}, {"counts", h.counts}};
+  };
+  json["histograms"] = {{"angles", histogram(quality.angles)},
+                        {"h_over_l", histogram(quality.h_over_l)},
+                        {"d_over_l", histogram(quality.d_over_l)}};
   json["worst"] = Json::array();
   for (const WorstTriangle& worst : quality.worst) json["worst"].push_back(worst_triangle(worst, points));
   return json;

@@ -109,6 +109,20 @@ void encode_group(const unsigned char* three, char* to) {
 
 }  // namespace
 
+std::string base64(std::string_view bytes) {
+  const std::size_t whole = bytes.size() / 3 * 3;
+  std::string encoded((bytes.size() + 2) / 3 * 4, '=');
+  const auto* at = reinterpret_cast<const unsigned char*>(bytes.data());
+  for (std::size_t i = 0; i < whole; i += 3) encode_group(at + i, encoded.data() + i / 3 * 4);
+  if (whole == bytes.size()) return encoded;
+  std::array<unsigned char, 3> rest{};
+  std::copy(at + whole, at + bytes.size(), rest.begin());
+  std::array<char, 4> group;
+  encode_group(rest.data(), group.data());
+  std::copy_n(group.begin(), bytes.size() - whole + 1, encoded.end() - 4);
+  return encoded;
+}
+
 void Base64Encoder::put(std::string_view bytes) {
   const auto* at = reinterpret_cast<const unsigned char*>(bytes.data());
   std::size_t left = bytes.size();
@@ -138,12 +152,7 @@ void Base64Encoder::put_group(const unsigned char* three) {
 }
 
 void Base64Encoder::finish() {
-  if (n_left_ == 0) return;
-  std::fill(left_.begin() + static_cast<std::ptrdiff_t>(n_left_), left_.end(), static_cast<unsigned char>(0));
-  std::array<char, 4> text_group;
-  encode_group(left_.data(), text_group.data());
-  std::fill(text_group.begin() + static_cast<std::ptrdiff_t>(n_left_) + 1, text_group.end(), '=');
-  out_.put(std::string_view(text_group.data(), text_group.size()));
+  out_.put(base64(std::string_view(reinterpret_cast<const char*>(left_.data()), n_left_)));
   n_left_ = 0;
 }
 

@@ -22,6 +22,8 @@ namespace temper::io {
 /// Decodes in place or elsewhere (out may be in.data()). Returns the bytes written; nothing when a character is not
 /// base64's.
 [[nodiscard]] std::optional<std::size_t> decode_base64(std::string_view in, char* out);
+/// Base64 of some bytes, padded.
+[[nodiscard]] std::string base64(std::string_view bytes);
 /// Base64 of bytes that come piece by piece.
 class Base64Encoder {
  public:

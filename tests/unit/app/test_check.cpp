@@ -47,6 +47,7 @@ TEST_F(Check, JsonHasExactlyTheKeysOfTheReport) {
                                             "max_angle_deg",
                                             "max_transmissibility_over_median",
                                             "energy",
+                                            "histograms",
                                             "worst",
                                             "requirements"}));
   std::vector<std::string> names;

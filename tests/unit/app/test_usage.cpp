@@ -74,7 +74,7 @@ TEST_F(Usage, HelpMentionsEveryOption) {
                     "--no-flips",   "--gamma-rel",       "--h0-rel",         "--help"}},
       {"replay", {"--output", "--sweeps", "--quiet", "--help"}},
       {"check",
-       {"--json", "--gamma ", "--gamma-rel", "--h0 ", "--h0-rel", "--require", "--worst", "--threads", "--help"}},
+       {"--json", "--html", "--gamma ", "--gamma-rel", "--h0 ", "--h0-rel", "--require", "--worst", "--threads", "--help"}},
       {"verify", {"--json", "--against", "--edges", "--fields", "--refine", "--condition", "--threads", "--help"}},
       {"draw",
        {"--output", "--before", "--no-primal", "--no-dual", "--no-weights", "--no-bad", "--no-rings", "--no-regions",

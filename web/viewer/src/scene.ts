@@ -84,7 +84,8 @@ class Table {
     private readonly type: number,
     private readonly components: number,
   ) {
-    this.texture = twgl.createTexture(gl, { min: gl.NEAREST, mag: gl.NEAREST, wrap: gl.CLAMP_TO_EDGE, src: [0, 0, 0, 255] });
+    const sampling = { minMag: gl.NEAREST, wrap: gl.CLAMP_TO_EDGE, auto: false };
+    this.texture = twgl.createTexture(gl, { ...sampling, width: 1, height: 1, internalFormat, format, type });
   }
 
   /** Elements that fill whole rows: see padded(). */

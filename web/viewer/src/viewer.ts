@@ -48,7 +48,7 @@ export interface ViewerOptions {
   onPick?(pick: Pick | null): void;
   /** The pointer is over another triangle or vertex. */
   onHover?(pick: Pick | null): void;
-  /** After each frame: milliseconds that its drawing took. */
+  /** After each frame: milliseconds until the card was done with it. */
   onFrame?(milliseconds: number): void;
   /** How a vertex is called in labels. */
   vertexName?(vertex: number, side: Side): string;
@@ -56,6 +56,8 @@ export interface ViewerOptions {
 }
 
 const kNear = 9; // pixels between pointer and vertex
+const kSlow = 40; // milliseconds of a frame: beyond, moving slides the picture that is there
+const kPause = 120; // milliseconds without a move until such a picture is drawn anew
 const kMargin = 24; // pixels around a mesh that fits
 
 export class Viewer {
@@ -82,6 +84,9 @@ export class Viewer {
   private scheduled = 0;
   private dirty = false;
   private dragged = -1;
+  private drawn: ZoomTransform = zoomIdentity; // of the picture on the canvas
+  private frameTime = 0; // until the card was done with the last one
+  private pause = 0;
 
   constructor(
     readonly host: HTMLElement,
@@ -105,7 +110,8 @@ export class Viewer {
       .filter((event: Event) => this.movesView(event))
       .on('zoom', (event: D3ZoomEvent<HTMLElement, unknown>) => {
         this.transform = event.transform;
-        this.redraw();
+        if (event.sourceEvent && this.frameTime > kSlow) this.slide();
+        else this.redraw();
       });
     this.surface.call(this.zoom);
     this.listen();
@@ -244,6 +250,7 @@ export class Viewer {
 
   destroy(): void {
     cancelAnimationFrame(this.scheduled);
+    clearTimeout(this.pause);
     this.resizes.disconnect();
     for (const scene of Object.values(this.scenes)) scene.delete();
     this.surface.on('.zoom', null);
@@ -342,8 +349,39 @@ export class Viewer {
       gl.scissor(edge, 0, view.width - edge, view.height);
       after.draw(view, this.layers, this.theme);
     }
+    this.drawn = this.transform;
+    this.canvas.style.transform = '';
     this.drawSelection();
-    this.options.onFrame?.(performance.now() - begin);
+    this.timeFrame(begin);
+  }
+
+  /** Waits for the card without holding up the page. */
+  private timeFrame(begin: number): void {
+    const { gl } = this;
+    const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    if (!fence) return;
+    gl.flush();
+    const look = (): void => {
+      if (gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED && !gl.isContextLost()) {
+        setTimeout(look, 3);
+        return;
+      }
+      gl.deleteSync(fence);
+      this.frameTime = performance.now() - begin;
+      this.options.onFrame?.(this.frameTime);
+    };
+    setTimeout(look, 0);
+  }
+
+  /** Moves the picture as it is, and draws it anew when the move pauses: a slow card follows the hand, too. */
+  private slide(): void {
+    const { drawn, transform } = this;
+    const k = transform.k / drawn.k;
+    this.canvas.style.transformOrigin = '0 0';
+    this.canvas.style.transform = `translate(${transform.x - k * drawn.x}px,${transform.y - k * drawn.y}px) scale(${k})`;
+    this.drawSelection();
+    clearTimeout(this.pause);
+    this.pause = window.setTimeout(() => this.redraw(), kPause);
   }
 
   private updateGeometry(): void {

@@ -1,0 +1,199 @@
+// The HTML report: the page that the build has put into the library, with data elements where it has its mark. An array
+// is
+//
+//   <script type="text/plain" id="after.points" data-type="float64" data-length="12" data-delta="0">…</script>
+//
+// and its text base64 of zlib's stream of planes: all first bytes of the little-endian numbers, then all second ones,
+// and so on, since bytes of one place resemble each other. With data-delta="k" each number is the difference to the one
+// k places before, in zigzag form: corners of neighbours are near each other.
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/html_page.hpp"
+#include "io/vtu_codec.hpp"
+#include "temper/geometry.hpp"
+#include "temper/html.hpp"
+
+namespace temper::io {
+namespace {
+
+constexpr std::string_view kMark = "<!--data-->";  // in the page
+constexpr std::string_view kTitle = "<title>temper</title>";
+
+struct ArrayText {
+  std::string name;
+  const char* type;
+  std::size_t bytes_each;
+  std::size_t delta;
+  std::string planes;  ///< before compression
+};
+
+template <class T>
+std::string planes_of(std::span<const T> values) {
+  std::string planes(values.size() * sizeof(T), '\0');
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(values[i]);
+    for (std::size_t b = 0; b < sizeof(T); ++b) {
+      const std::size_t place = std::endian::native == std::endian::little ? b : sizeof(T) - 1 - b;
+      planes[place * values.size() + i] = bytes[b];
+    }
+  }
+  return planes;
+}
+
+/// Differences to `delta` places before, wrapped around, small ones of either sign as small numbers.
+std::vector<std::uint32_t> differences(std::span<const std::int32_t> values, std::size_t delta) {
+  std::vector<std::uint32_t> result(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::uint32_t former = i < delta ? 0 : static_cast<std::uint32_t>(values[i - delta]);
+    const std::uint32_t step = static_cast<std::uint32_t>(values[i]) - former;
+    result[i] = step << 1 ^ (step >> 31 != 0 ? ~std::uint32_t{0} : 0);
+  }
+  return result;
+}
+
+/// The arrays of one mesh.
+class MeshArrays {
+ public:
+  MeshArrays(const HtmlMesh& from, std::string prefix)
+      : mesh_(from.mesh), names_(from.names), prefix_(std::move(prefix)) {
+    add_vertices();
+    add_triangles();
+    add_numbers();
+  }
+  [[nodiscard]] std::vector<ArrayText> take() { return std::move(arrays_); }
+
+ private:
+  void add_vertices() {
+    const std::size_t n = mesh_.n_vertices();
+    std::vector<double> points(2 * n), weights(n);
+    bool weighted = false;
+    for (const VertexId v : mesh_.vertices()) {
+      points[2 * v.index] = mesh_.position(v).x;
+      points[2 * v.index + 1] = mesh_.position(v).y;
+      weights[v.index] = mesh_.weight(v);
+      weighted = weighted || weights[v.index] != 0;
+    }
+    add("points", std::span<const double>(points));
+    if (weighted) add("weights", std::span<const double>(weights));
+  }
+
+  void add_triangles() {
+    const std::size_t n = mesh_.n_triangles();
+    std::vector<std::int32_t> corners(3 * n), regions(n);
+    std::vector<std::uint8_t> verdicts(n), constrained(3 * n);
+    bool several = false, lines = false;
+    for (const TriangleId t : mesh_.triangles()) {
+      const std::array<VertexId, 3> c = mesh_.corners(t);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const HalfedgeId h = Mesh::halfedge(t, static_cast<int>(k));
+        corners[3 * t.index + k] = static_cast<std::int32_t>(c[k].index);
+        constrained[3 * t.index + k] = mesh_.is_constrained(h) && !mesh_.is_boundary(h) ? 1 : 0;
+        lines = lines || constrained[3 * t.index + k] != 0;
+      }
+      regions[t.index] = mesh_.region(t);
+      several = several || regions[t.index] != 0;
+      verdicts[t.index] = verdict(c);
+    }
+    add("triangles", corners, 3);
+    add("verdicts", std::span<const std::uint8_t>(verdicts));
+    if (several) add("regions", regions, 1);
+    if (lines) add("constrained", std::span<const std::uint8_t>(constrained));
+  }
+
+  /// Bit k: the orthocenter is not inside across edge k; bit 3 + k: edge k is not crossed; bit 6: not
+  /// counter-clockwise.
+  [[nodiscard]] std::uint8_t verdict(const std::array<VertexId, 3>& corners) const {
+    const std::array<WeightedPoint, 3> p = {mesh_.point(corners[0]), mesh_.point(corners[1]), mesh_.point(corners[2])};
+    if (orient2d(p[0].position(), p[1].position(), p[2].position()) != Sign::positive) return 64;
+    unsigned bits = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      const WeightedPoint &a = p[k], &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
+      if (signed_height_sign(a, b, c) != Sign::positive) bits |= 1U << k;
+      if (edge_split_sign(a, b) != Sign::positive || edge_split_sign(b, a) != Sign::positive) bits |= 8U << k;
+    }
+    return static_cast<std::uint8_t>(bits);
+  }
+
+  void add_numbers() {
+    if (names_ == nullptr) return;
+    add_numbers("vertex_numbers", mesh_.n_vertices(), [this](std::size_t i) { return names_->point(i); });
+    add_numbers("triangle_numbers", mesh_.n_triangles(), [this](std::size_t i) { return names_->triangle(i); });
+  }
+
+  /// The number that ends each name, unless they count from 0.
+  template <class NameOf>
+  void add_numbers(const char* what, std::size_t n, const NameOf& name_of) {
+    std::vector<std::int32_t> numbers(n);
+    bool from_0 = true;
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::string name = name_of(i);
+      numbers[i] = static_cast<std::int32_t>(i);
+      std::from_chars(name.data() + name.rfind(' ') + 1, name.data() + name.size(), numbers[i]);
+      from_0 = from_0 && numbers[i] == static_cast<std::int32_t>(i);
+    }
+    if (!from_0) add(what, numbers, 1);
+  }
+
+  void add(const char* name, std::span<const double> values) {
+    arrays_.push_back({prefix_ + name, "float64", sizeof(double), 0, planes_of(values)});
+  }
+  void add(const char* name, std::span<const std::uint8_t> values) {
+    arrays_.push_back({prefix_ + name, "uint8", 1, 0, planes_of(values)});
+  }
+  void add(const char* name, std::span<const std::int32_t> values, std::size_t delta) {
+    const std::vector<std::uint32_t> steps = differences(values, delta);
+    arrays_.push_back({prefix_ + name, "int32", 4, delta, planes_of(std::span<const std::uint32_t>(steps))});
+  }
+
+  const Mesh& mesh_;
+  const InputNames* names_;
+  std::string prefix_;
+  std::vector<ArrayText> arrays_;
+};
+
+std::string element(const ArrayText& array) {
+  const std::string packed = compress_block(array.planes, Redundancy::strings);
+  return text("<script type=\"text/plain\" id=\"", array.name, "\" data-type=\"", array.type, "\" data-length=\"",
+              array.planes.size() / array.bytes_each, "\" data-delta=\"", array.delta, "\">", base64(packed),
+              "</script>\n");
+}
+
+/// What may stand in an element: `<` could end it.
+std::string escaped(std::string_view plain, std::string_view less, std::string_view ampersand) {
+  std::string result;
+  for (const char c : plain) {
+    if (c == '<') {
+      result += less;
+    } else if (c == '&') {
+      result += ampersand;
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string html_report(const HtmlReport& report) {
+  std::vector<ArrayText> arrays = MeshArrays(report.mesh, "after.").take();
+  if (report.before) {
+    for (ArrayText& array : MeshArrays(*report.before, "before.").take()) arrays.push_back(std::move(array));
+  }
+  const std::string_view page = html_page();
+  const std::size_t title = page.find(kTitle), mark = page.find(kMark);
+  std::string html(page.substr(0, title));
+  html += text("<title>", escaped(report.title, "&lt;", "&amp;"), "</title>");
+  html += page.substr(title + kTitle.size(), mark - title - kTitle.size());
+  html += text("<script type=\"application/json\" id=\"report\">", escaped(report.json, "\\u003c", "&"), "</script>\n");
+  for (const ArrayText& array : arrays) html += element(array);
+  html += page.substr(mark + kMark.size());
+  return html;
+}
+
+}  // namespace temper::io

@@ -1,0 +1,60 @@
+// --html of check and optimize.
+#include "workshop.hpp"
+
+namespace temper::test {
+namespace {
+
+class Html : public Workshop {
+ protected:
+  /// What the page has besides the meshes.
+  static nlohmann::json report_in(const std::string& path) {
+    const std::string html = read(path), begin = "id=\"report\">";
+    const std::size_t at = html.find(begin) + begin.size();
+    return nlohmann::json::parse(html.substr(at, html.find("</script>", at) - at));
+  }
+};
+
+TEST_F(Html, CheckShowsItsReportAndTheReasons) {
+  make_input();
+  const Outcome outcome = temper_ok({"check", "in.vtu", "--json", "--html", "page.html"});
+  const nlohmann::json report = report_in("page.html"), json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(report["verb"], "check");
+  EXPECT_EQ(report["after"]["min_h_over_l"], json["min_h_over_l"]);
+  EXPECT_EQ(report["after"]["histograms"], json["histograms"]);
+  EXPECT_FALSE(report["reasons"].empty());
+  EXPECT_TRUE(contains(report["command"], "temper check in.vtu --json --html=page.html"));
+  EXPECT_TRUE(contains(read("page.html"), "id=\"after.points\""));
+  EXPECT_FALSE(contains(read("page.html"), "id=\"before.points\""));
+}
+
+TEST_F(Html, OptimizeShowsBeforeAndAfterAndWritesTheSameBytesAgain) {
+  make_input();
+  const std::vector<std::string> command = {"optimize", "in.vtu", "-o", "out.vtu", "--html", "page.html"};
+  temper_ok(command);
+  const std::string first = read("page.html");
+  temper_ok(command);
+  EXPECT_TRUE(first == read("page.html")) << "something in it depends on time";
+  const nlohmann::json report = report_in("page.html");
+  EXPECT_EQ(report["verb"], "optimize");
+  EXPECT_GT(report["before"]["orthocenters_outside"], 0);
+  EXPECT_EQ(report["after"]["orthocenters_outside"], 0);
+  EXPECT_GT(report["history"].size(), 1u);
+  EXPECT_TRUE(report["reasons"].empty());
+  for (const char* id : {"before.points", "after.points", "after.weights"}) {
+    EXPECT_TRUE(contains(first, std::string("id=\"") + id + "\"")) << id;
+  }
+}
+
+TEST_F(Html, TheInputAndOtherOutputsAreNotReplaced) {
+  make_input();
+  EXPECT_EQ(temper({"check", "in.vtu", "--html", "in.vtu"}).exit, 2);
+  EXPECT_EQ(temper({"check", "in.vtu", "--html", "none/page.html"}).exit, 1);
+  EXPECT_EQ(temper({"optimize", "in.vtu", "-o", "out.vtu", "--html", "out.vtu"}).exit, 2);
+  const Outcome several = temper({"check", "in.vtu", "in.vtu", "--html", "page.html"});
+  EXPECT_EQ(several.exit, 2);
+  EXPECT_TRUE(contains(several.err, "--html: it is the report of one mesh, and 2 are given"));
+  EXPECT_EQ(names(), (std::vector<std::string>{"in.vtu"}));
+}
+
+}  // namespace
+}  // namespace temper::test

@@ -1,0 +1,111 @@
+// What temper has written into the page: the report, and arrays packed as src/io/html_report.cpp says.
+import type { MeshData } from 'temper-viewer';
+
+/** The numbers of temper check --json. Infinite ones are null. */
+export interface Quality {
+  [key: string]: unknown;
+  triangles: number;
+  vertices: number;
+  worst: Worst[];
+  histograms: Record<string, Histogram>;
+}
+export interface Worst {
+  triangle: number;
+  why: string;
+}
+export interface Histogram {
+  low: number;
+  high: number;
+  counts: number[];
+}
+export interface Sweep {
+  sweep: number;
+  energy: number | null;
+  bad: number;
+  flips: number;
+  objective: string;
+}
+/** Why triangles are not well-centered, as temper explain has it. */
+export interface Reason {
+  kind: string;
+  triangles: number[];
+  text: string;
+  cures: string[];
+}
+/** All that is known; a page shows what is there. */
+export interface Report {
+  verb?: string;
+  version?: string;
+  command?: string;
+  before?: Quality;
+  after?: Quality;
+  history?: Sweep[];
+  stopped?: string;
+  sweeps?: number;
+  verify?: { before: SolverReport; after: SolverReport };
+  notes?: string[];
+  warnings?: string[];
+  reasons?: Reason[];
+}
+export interface SolverReport {
+  errors: Record<string, Record<string, Record<string, number | null>>>;
+}
+
+/** A mesh with the user's numbers. */
+export interface Shown {
+  mesh: MeshData;
+  vertexNumbers?: Int32Array;
+  triangleNumbers?: Int32Array;
+}
+
+type Numbers = Float64Array | Int32Array | Uint8Array;
+
+async function unpack(element: HTMLElement): Promise<Numbers> {
+  const type = element.dataset.type, length = Number(element.dataset.length), delta = Number(element.dataset.delta);
+  const text = atob(element.textContent ?? '');
+  const packed = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; i++) packed[i] = text.charCodeAt(i);
+  element.remove(); // the text is as large as the arrays
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
+  const planes = new Uint8Array(await new Response(stream).arrayBuffer());
+  if (type === 'uint8') return planes;
+  const each = type === 'float64' ? 8 : 4;
+  const bytes = new Uint8Array(length * each);
+  for (let b = 0; b < each; b++) {
+    const plane = b * length;
+    for (let i = 0, at = b; i < length; i++, at += each) bytes[at] = planes[plane + i];
+  }
+  if (type === 'float64') return new Float64Array(bytes.buffer);
+  const numbers = new Int32Array(bytes.buffer);
+  for (let i = 0; i < length; i++) {
+    const step = (numbers[i] >>> 1) ^ -(numbers[i] & 1);
+    numbers[i] = i < delta ? step : numbers[i - delta] + step;
+  }
+  return numbers;
+}
+
+/** The arrays of one mesh; null: there is none. */
+export async function readMesh(side: string): Promise<Shown | null> {
+  const read = async <T extends Numbers>(name: string): Promise<T | undefined> => {
+    const element = document.getElementById(`${side}.${name}`);
+    return element ? ((await unpack(element)) as T) : undefined;
+  };
+  const points = await read<Float64Array>('points');
+  if (!points) return null;
+  return {
+    mesh: {
+      points,
+      weights: await read<Float64Array>('weights'),
+      triangles: (await read<Int32Array>('triangles')) ?? new Int32Array(0),
+      verdicts: await read<Uint8Array>('verdicts'),
+      regions: await read<Int32Array>('regions'),
+      constrained: await read<Uint8Array>('constrained'),
+    },
+    vertexNumbers: await read<Int32Array>('vertex_numbers'),
+    triangleNumbers: await read<Int32Array>('triangle_numbers'),
+  };
+}
+
+export function readReport(): Report {
+  return JSON.parse(document.getElementById('report')?.textContent ?? '{}') as Report;
+}

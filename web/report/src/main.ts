@@ -1,0 +1,270 @@
+// The page: reads what temper wrote into it, draws the mesh, and lets panels, list and keys act on it.
+import { badTriangles, darkTheme, findMeasure, type Layers, lightTheme, measures, nTriangles, type Side, triangleNumbers, Verdict, verdicts, Viewer } from 'temper-viewer';
+import { readMesh, readReport, type Report, type Shown } from './data.ts';
+import { byId, make, number, table } from './html.ts';
+import { again, headline, histograms, keys, remarks, solverErrors, summary, sweeps } from './panels.ts';
+import { showPicked, triangleName, vertexName } from './picked.ts';
+
+const kWorst = 100; // triangles of the list
+
+const kLayers: [keyof Layers, string, string][] = [
+  ['primal', 'Triangles', 'primal'],
+  ['dual', 'Dual', 'dual'],
+  ['weights', 'Weights', 'positiveWeight'],
+  ['orthocenters', 'Orthocenters', 'orthocenter'],
+  ['bad', 'Bad', 'bad'],
+];
+
+const dark = matchMedia('(prefers-color-scheme: dark)');
+const theme = (): typeof lightTheme => (dark.matches ? darkTheme : lightTheme);
+
+class Page {
+  private readonly viewer: Viewer;
+  private readonly layerBoxes: HTMLInputElement[] = [];
+  private readonly worst: { side: Side; triangle: number }[] = [];
+  private at = -1; // in the list of the worst
+  private split = 0;
+
+  constructor(
+    private readonly report: Report,
+    private readonly shown: { before: Shown | null; after: Shown },
+  ) {
+    const { before, after } = shown;
+    this.viewer = new Viewer(byId('view'), {
+      theme: theme(),
+      layers: { weights: false },
+      vertexName: (v, side) => vertexName(this.of(side), v),
+      onPick: (pick) => this.pick(pick ? { side: pick.side, triangle: pick.triangle } : null),
+    });
+    this.viewer.setMesh(after.mesh, before?.mesh ?? null);
+    this.addColors();
+    this.addLayers();
+    if (before) this.addSides();
+    this.addWorst();
+    byId('closer').addEventListener('click', () => this.viewer.zoomBy(1.5));
+    byId('farther').addEventListener('click', () => this.viewer.zoomBy(1 / 1.5));
+    byId('fit').addEventListener('click', () => this.viewer.fit());
+    dark.addEventListener('change', () => this.recolor());
+    addEventListener('beforeprint', () => ((byId('printed') as HTMLImageElement).src = this.viewer.image()));
+    addEventListener('keydown', (event) => this.key(event));
+    Object.assign(window, { temperViewer: this.viewer }); // for measurements
+  }
+
+  private of(side: Side): Shown {
+    return side === 'before' && this.shown.before ? this.shown.before : this.shown.after;
+  }
+
+  // --- colours and layers ---------------------------------------------------------------------------------------
+
+  private addColors(): void {
+    const select = byId('measure') as HTMLSelectElement;
+    const regions = this.shown.after.mesh.regions !== undefined;
+    select.append(make('option', { value: '' }, 'none'));
+    for (const measure of measures) {
+      if (measure.kinds && !regions) continue;
+      select.append(make('option', { value: measure.key }, measure.label));
+    }
+    select.addEventListener('change', () => this.recolor());
+    this.recolor();
+  }
+
+  private recolor(): void {
+    const key = (byId('measure') as HTMLSelectElement).value;
+    this.viewer.setTheme(theme());
+    this.viewer.colorBy(findMeasure(key) ?? null);
+    this.drawLegend();
+    for (const [layer, , color] of kLayers) {
+      const box = this.layerBoxes.find((each) => each.value === layer);
+      box?.parentElement?.style.setProperty('--swatch', theme()[color as keyof typeof lightTheme]);
+    }
+  }
+
+  private drawLegend(): void {
+    const legend = byId('legend'), scale = this.viewer.scale;
+    legend.replaceChildren();
+    if (scale && scale.kinds.length > 0) {
+      const items = scale.kinds.slice(0, 24).map((kind) => make('span', {}, make('i', { class: 'swatch', style: `background:${scale.color(kind)}` }), ` ${kind}`));
+      legend.append(make('b', {}, scale.measure.label), make('div', { class: 'kinds' }, ...items));
+    } else if (scale) {
+      const stops = Array.from({ length: 17 }, (_, i) => scale.color(scale.low + (i / 16) * (scale.high - scale.low)));
+      const ticks = [0, 0.5, 1].map((part, i) => {
+        const open = i === 0 ? '≤ ' : i === 2 ? '≥ ' : '';
+        return make('span', {}, open + number(scale.low + part * (scale.high - scale.low), 3) + scale.measure.unit);
+      });
+      legend.append(make('b', {}, scale.measure.label), make('span', { class: 'bar', style: `background:linear-gradient(90deg,${stops.join(',')})` }),
+        make('div', { class: 'ticks' }, ...ticks));
+    }
+    const anyBad = this.viewer.badTriangles('after').length + this.viewer.badTriangles('before').length > 0;
+    if (this.viewer.layers.bad && anyBad) legend.append(make('div', { class: 'bad' }, make('i', { class: 'swatch striped' }), 'not well-centered'));
+    legend.hidden = legend.childElementCount === 0;
+  }
+
+  private addLayers(): void {
+    for (const [layer, label] of kLayers) {
+      const box = make('input', { type: 'checkbox', value: layer, checked: this.viewer.layers[layer] });
+      box.addEventListener('change', () => {
+        this.viewer.setLayers({ [layer]: box.checked });
+        this.drawLegend();
+      });
+      this.layerBoxes.push(box);
+      byId('layers').append(make('label', { class: 'chip' }, box, make('span', {}, label)));
+    }
+    this.recolor();
+  }
+
+  // --- before and after -----------------------------------------------------------------------------------------
+
+  private addSides(): void {
+    const sides = byId('sides');
+    for (const [value, label] of [['before', 'Before'], ['both', 'Both'], ['after', 'After']]) {
+      const box = make('input', { type: 'radio', name: 'side', value });
+      box.addEventListener('change', () => this.showSide(value));
+      sides.append(make('label', { class: 'chip' }, box, make('span', {}, label)));
+    }
+    sides.hidden = false;
+    const divider = byId('divider');
+    const moveTo = (event: PointerEvent): void => {
+      const box = byId('view').getBoundingClientRect();
+      this.divide((event.clientX - box.left) / box.width);
+    };
+    divider.addEventListener('pointerdown', (event) => divider.setPointerCapture(event.pointerId));
+    divider.addEventListener('pointermove', (event) => {
+      if (divider.hasPointerCapture(event.pointerId)) moveTo(event);
+    });
+    divider.addEventListener('keydown', (event) => {
+      const step = { ArrowLeft: -0.02, ArrowRight: 0.02, Home: -1, End: 1 }[event.key];
+      if (step === undefined) return;
+      this.divide(this.split + step);
+      event.preventDefault();
+      event.stopPropagation();
+    });
+    this.showSide('both');
+  }
+
+  private showSide(side: string): void {
+    const box = byId('sides').querySelector<HTMLInputElement>(`[value=${side}]`);
+    if (!box) return;
+    box.checked = true;
+    byId('divider').hidden = side !== 'both';
+    if (side === 'both') this.divide(0.5);
+    else this.viewer.setSplit(side === 'before' ? 1 : 0);
+  }
+
+  private divide(part: number): void {
+    this.split = Math.max(0.02, Math.min(0.98, part));
+    const divider = byId('divider');
+    divider.style.left = `${100 * this.split}%`;
+    divider.setAttribute('aria-valuenow', String(Math.round(100 * this.split)));
+    this.viewer.setSplit(this.split);
+  }
+
+  // --- triangles ------------------------------------------------------------------------------------------------
+
+  private pick(picked: { side: Side; triangle: number } | null): void {
+    this.viewer.select(picked?.triangle ?? null, picked?.side);
+    this.at = picked ? this.worst.findIndex((w) => w.side === picked.side && w.triangle === picked.triangle) : -1;
+    byId('worst').querySelectorAll('tbody tr').forEach((row, i) => row.setAttribute('aria-selected', String(i === this.at)));
+    const close = (): void => this.pick(null);
+    showPicked(picked && { ...picked, shown: this.of(picked.side), compares: this.shown.before !== null }, this.report, close);
+  }
+
+  /** The triangles of least margin: those that are bad after, else before, and if there are none the least good ones. */
+  private addWorst(): void {
+    const { before, after } = this.shown;
+    const side: Side = before && badTriangles(after.mesh).length === 0 && badTriangles(before.mesh).length > 0 ? 'before' : 'after';
+    const shown = this.of(side), mesh = shown.mesh;
+    const ranked = rank(shown);
+    for (const { t } of ranked) this.worst.push({ side, triangle: t });
+    const rows = ranked.map(({ t, margin }) => {
+      const bits = verdicts(mesh)[t], n = triangleNumbers(mesh, t);
+      const what = bits === 0 ? '' : bits & Verdict.inverted ? 'inverted' : bits & 7 && bits & 56 ? 'h, d' : bits & 7 ? 'h' : 'd';
+      return [triangleName(shown, t), make('td', { class: bits ? 'is-bad' : '' }, number(margin, 3)), `${number(Math.max(...n.angle), 4)}°`, make('td', { class: bits ? 'is-bad' : '' }, what)];
+    });
+    const open = (i: number): void => this.zoomToWorst(i);
+    const attributes = (i: number): Record<string, string | number | ((event: Event) => void)> => ({
+      tabindex: 0,
+      onclick: () => open(i),
+      onkeydown: (event) => {
+        if ((event as KeyboardEvent).key === 'Enter') open(i);
+      },
+    });
+    const bad = badTriangles(mesh).length;
+    const title = bad > 0 ? `The worst triangles${before ? `, ${side}` : ''}` : 'The least margins';
+    byId('worst').append(
+      make('h2', {}, title),
+      make('div', { class: 'scroll' }, table(['triangle', 'margin', 'largest angle', bad > 0 ? 'fails' : ''], rows, attributes)),
+      make('p', { class: 'note' }, bad > kWorst ? `${kWorst} of ${number(bad)}. ` : '', 'The margin is the least h/ℓ or d/ℓ; a click shows the triangle.'),
+    );
+  }
+
+  private zoomToWorst(i: number): void {
+    if (this.worst.length === 0) return;
+    const next = (i + this.worst.length) % this.worst.length, { side, triangle } = this.worst[next];
+    if (this.shown.before) this.showSide(side);
+    this.viewer.zoomToTriangle(triangle, side);
+    this.pick(this.worst[next]);
+    byId('worst').querySelectorAll('tbody tr')[next]?.scrollIntoView({ block: 'nearest' });
+  }
+
+  // --- keys -----------------------------------------------------------------------------------------------------
+
+  private key(event: KeyboardEvent): void {
+    const target = event.target as HTMLElement;
+    if (event.ctrlKey || event.metaKey || event.altKey || target.matches('select, textarea')) return;
+    const colors = byId('measure') as HTMLSelectElement;
+    const actions: Record<string, () => void> = {
+      n: () => this.zoomToWorst(this.at + 1),
+      p: () => this.zoomToWorst(this.at < 0 ? -1 : this.at - 1),
+      b: () => this.showSide('before'),
+      a: () => this.showSide('after'),
+      s: () => this.showSide('both'),
+      c: () => {
+        colors.selectedIndex = (colors.selectedIndex + 1) % colors.length;
+        this.recolor();
+      },
+    };
+    this.layerBoxes.forEach((box, i) => (actions[String(i + 1)] = () => box.click()));
+    if (!this.shown.before) for (const key of ['b', 'a', 's']) delete actions[key];
+    actions[event.key]?.();
+  }
+}
+
+/** The kWorst triangles of least margin, bad ones first. */
+function rank(shown: Shown): { t: number; margin: number }[] {
+  const margin = findMeasure('margin');
+  const bits = verdicts(shown.mesh);
+  let worst: { t: number; margin: number; bad: boolean }[] = [];
+  const order = (a: (typeof worst)[0], b: (typeof worst)[0]): number => Number(b.bad) - Number(a.bad) || a.margin - b.margin || a.t - b.t;
+  const shrink = (): void => void (worst = worst.sort(order).slice(0, kWorst));
+  for (let t = 0; t < nTriangles(shown.mesh); t++) {
+    const value = margin ? margin.of(triangleNumbers(shown.mesh, t), t, shown.mesh) : 0;
+    worst.push({ t, margin: value, bad: bits[t] !== 0 });
+    if (worst.length > 50 * kWorst) shrink();
+  }
+  shrink();
+  return worst;
+}
+
+async function start(): Promise<void> {
+  const report = readReport();
+  const title = document.title;
+  document.title = `${title} – temper`;
+  const [before, after] = [await readMesh('before'), await readMesh('after')];
+  if (!after) return;
+  headline(report, title, { before: before ? badTriangles(before.mesh).length : undefined, after: badTriangles(after.mesh).length }, nTriangles(after.mesh));
+  summary(report);
+  histograms(report);
+  sweeps(report);
+  solverErrors(report);
+  again(report);
+  remarks(report);
+  keys(before !== null);
+  try {
+    new Page(report, { before, after });
+  } catch (error) {
+    byId('view').append(make('p', { class: 'trouble' }, `The mesh cannot be drawn: ${(error as Error).message}.`));
+  }
+  document.documentElement.dataset.ready = 'true';
+}
+
+void start();

@@ -1,0 +1,151 @@
+// The panels beside the mesh. Each fills its section from the report, or leaves it empty, which hides it.
+import { histogram, series } from './charts.ts';
+import type { Quality, Report } from './data.ts';
+import { byId, make, number, plural, table } from './html.ts';
+
+/** The measures of the summary: key of the report, label, and whether a number is bad. */
+const kRows: [string, string, (value: number) => boolean][] = [
+  ['vertices', 'Vertices', () => false],
+  ['triangles', 'Triangles', () => false],
+  ['edges', 'Edges', () => false],
+  ['regions', 'Regions', () => false],
+  ['inverted_triangles', 'Inverted triangles', (v) => v > 0],
+  ['orthocenters_outside', 'Orthocenters outside', (v) => v > 0],
+  ['edges_not_crossed', 'Edges not crossed by their dual', (v) => v > 0],
+  ['non_regular_edges', 'Edges not regular', (v) => v > 0],
+  ['negative_boundary_duals', 'Negative boundary duals', (v) => v > 0],
+  ['well_centered_fraction', 'Well-centered fraction', (v) => v < 1],
+  ['min_h_over_l', 'Least h/ℓ', (v) => v <= 0],
+  ['min_d_over_l', 'Least d/ℓ', (v) => v <= 0],
+  ['min_angle_deg', 'Least angle', () => false],
+  ['max_angle_deg', 'Largest angle', () => false],
+  ['max_transmissibility_over_median', 'Transmissibility, max/median', () => false],
+];
+
+const kHistograms: [string, string, number | undefined][] = [
+  ['angles', 'Angles of triangles, in degrees', undefined],
+  ['h_over_l', 'h/ℓ of triangles over their edges', 0],
+  ['d_over_l', 'd/ℓ of edges, the lesser part', 0],
+];
+
+export function headline(report: Report, title: string, bad: { before?: number; after: number }, triangles: number): void {
+  byId('title').textContent = title;
+  byId('verb').textContent = report.verb ?? '';
+  byId('version').textContent = report.version ?? '';
+  const verdict = byId('verdict');
+  verdict.className = bad.after === 0 ? 'good' : 'bad';
+  verdict.textContent =
+    bad.after === 0
+      ? `All ${plural(triangles, 'triangle is', 'triangles are')} well-centered`
+      : `${number(bad.after)} of ${plural(triangles, 'triangle is', 'triangles are')} not well-centered`;
+  if (bad.before !== undefined) verdict.append(make('small', {}, `before: ${number(bad.before)} were not`));
+}
+
+export function summary(report: Report): void {
+  const { before, after } = report;
+  if (!after) return;
+  const cell = (quality: Quality, key: string, isBad: (v: number) => boolean, old: boolean): HTMLElement => {
+    const value = quality[key];
+    const worse = value === null || isBad(Number(value));
+    const degrees = key.endsWith('_deg') ? '°' : '';
+    return make('td', { class: worse && key !== 'max_transmissibility_over_median' ? 'is-bad' : old ? 'was' : '' }, number(value) + degrees);
+  };
+  const rows = kRows
+    .filter(([key]) => key in after)
+    .map(([key, label, isBad]) => [label, ...(before ? [cell(before, key, isBad, true)] : []), cell(after, key, isBad, false)]);
+  byId('summary').append(make('h2', {}, 'Measures'), table(before ? ['', 'before', 'after'] : [], rows));
+}
+
+export function histograms(report: Report): void {
+  const { before, after } = report;
+  if (!after?.histograms) return;
+  const section = byId('histograms');
+  section.append(make('h2', {}, 'Histograms'));
+  if (before) {
+    const swatch = (color: string): HTMLElement => make('span', { class: 'swatch', style: `background:var(--${color})` });
+    section.append(make('div', { class: 'key' }, make('span', {}, swatch('before'), 'before'), make('span', {}, swatch('accent'), 'after')));
+  }
+  for (const [key, label, bad] of kHistograms) {
+    const of = after.histograms[key];
+    if (of) section.append(make('h3', {}, label), histogram(label, of, before?.histograms?.[key], bad));
+  }
+}
+
+export function sweeps(report: Report): void {
+  const history = report.history ?? [];
+  if (history.length < 2) return;
+  const section = byId('sweeps');
+  const count = report.sweeps === undefined ? '' : `: ${plural(report.sweeps, 'sweep', 'sweeps')}`;
+  section.append(make('h2', {}, `By sweep${count}`));
+  if (report.stopped) section.append(make('p', { class: 'note' }, `The run ended: ${report.stopped.replaceAll('_', ' ')}.`));
+  const numbers = history.map((_, i) => i);
+  const charts: [string, string, (number | null)[]][] = [
+    ['Energy', 'energy', history.map((s) => s.energy)],
+    ['Triangles that are not well-centered', 'bad', history.map((s) => s.bad)],
+    ['Flips', 'flips', history.map((s) => s.flips)],
+  ];
+  for (const [label, name, values] of charts) section.append(make('h3', {}, label), series(`${label} by sweep`, name, numbers, values));
+}
+
+export function solverErrors(report: Report): void {
+  const before = report.verify?.before.errors?.mean?.all, after = report.verify?.after.errors?.mean?.all;
+  if (!before || !after) return;
+  const rows: (string | HTMLElement)[][] = [];
+  for (const [solver, norms] of Object.entries(after as unknown as Record<string, Record<string, number | null>>)) {
+    for (const [norm, value] of Object.entries(norms)) {
+      const old = (before as unknown as Record<string, Record<string, number | null>>)[solver]?.[norm] ?? null;
+      const ratio = old && value !== null ? value / old : null;
+      const style = ratio === null || Math.abs(ratio - 1) < 0.005 ? '' : ratio > 1 ? 'is-bad' : 'is-good';
+      rows.push([`${solver}, ${norm === 'l2' ? 'L²' : norm}`, make('td', { class: 'was' }, number(old, 3)), number(value, 3),
+        make('td', { class: style }, ratio === null ? '–' : number(ratio, 3))]);
+    }
+  }
+  byId('errors').append(make('h2', {}, 'Relative errors of solvers, in the mean'), table(['', 'before', 'after', 'ratio'], rows));
+}
+
+export function again(report: Report): void {
+  const command = report.command;
+  if (!command) return;
+  const button = make('button', { type: 'button', onclick: () => void copy(command, button) }, 'Copy');
+  byId('again').append(make('h2', {}, 'To run it again'), make('pre', {}, command), button);
+}
+
+/** The clipboard is not there for every page that is a file: then the words are selected. */
+async function copy(text: string, button: HTMLElement): Promise<void> {
+  try {
+    await navigator.clipboard.writeText(text);
+    button.textContent = 'Copied';
+  } catch {
+    const words = button.previousElementSibling;
+    if (words) getSelection()?.selectAllChildren(words);
+    button.textContent = 'Selected: press Ctrl C';
+  }
+  setTimeout(() => (button.textContent = 'Copy'), 2000);
+}
+
+export function remarks(report: Report): void {
+  const all = [...(report.warnings ?? []), ...(report.notes ?? [])];
+  if (all.length === 0) return;
+  byId('remarks').append(make('h2', {}, 'Notes and warnings'), make('ul', {}, ...all.map((each) => make('li', {}, each))));
+}
+
+const kKeys: [string, string][] = [
+  ['← ↑ → ↓', 'move, with Shift farther'],
+  ['+ −', 'zoom in, out'],
+  ['0', 'the whole mesh'],
+  ['Enter', 'pick the triangle in the middle'],
+  ['Esc', 'pick none'],
+  ['n p', 'next, previous of the worst'],
+  ['b a s', 'before, after, both by the divider'],
+  ['1 … 5', 'layers on and off'],
+  ['c', 'next colour'],
+];
+
+export function keys(compares: boolean): void {
+  const rows = kKeys.filter(([key]) => compares || key !== 'b a s');
+  byId('keys').append(
+    make('details', {}, make('summary', {}, 'Keys'),
+      table([], rows.map(([names, words]) => [make('th', { scope: 'row' }, ...names.split(' ').flatMap((k) => (k === '…' ? [' … '] : [make('kbd', {}, k), ' ']))), make('td', { class: 'text' }, words)])),
+    ),
+  );
+}

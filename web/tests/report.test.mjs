@@ -1,0 +1,219 @@
+// The HTML report in a browser: each control does what it says, nothing is written to the console, nothing is asked of the
+// network. Pictures go to TEMPER_PICTURES, when that is set.
+//
+//   TEMPER_PROGRAM=…/temper [TEMPER_SHARED=…] node --test tests/
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdirSync, mkdtempSync, rmSync, statSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const program = process.env.TEMPER_PROGRAM;
+const pictures = process.env.TEMPER_PICTURES;
+const folder = mkdtempSync(join(tmpdir(), 'temper-report-'));
+const file = (name) => join(folder, name);
+const temper = (...words) => execFileSync(program, words, { cwd: folder, stdio: ['ignore', 'pipe', 'pipe'] });
+
+let browser;
+
+before(async () => {
+  assert.ok(program, 'TEMPER_PROGRAM: the program that writes the reports');
+  if (pictures) mkdirSync(pictures, { recursive: true });
+  browser = await chromium.launch({
+    executablePath: '/usr/bin/chromium',
+    args: ['--headless', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic',
+      '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'],
+  });
+});
+after(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true });
+});
+
+/** Opens a page; what it says to the console, and asks of the network, fails the test that closes it. */
+async function open(name, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1360, height: 860 }, ...options });
+  const page = await context.newPage();
+  const heard = [];
+  page.on('console', (message) => heard.push(message.text()));
+  page.on('pageerror', (error) => heard.push(String(error)));
+  page.on('request', (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) heard.push(`asked for ${request.url()}`);
+  });
+  const begin = Date.now();
+  await page.goto(pathToFileURL(file(name)).href);
+  await page.waitForSelector('html[data-ready]', { timeout: 120_000 });
+  const seconds = (Date.now() - begin) / 1000;
+  const close = async () => {
+    await context.close();
+    assert.deepEqual(heard, []);
+  };
+  return { page, close, seconds };
+}
+
+const shoot = async (page, name, options = {}) => {
+  if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`), ...options });
+};
+/** The pixels of the mesh, after the next frame. */
+const drawn = (page) => page.evaluate(() => window.temperViewer.image());
+/** That an action changes the picture. */
+async function changes(page, what, action) {
+  const old = await drawn(page);
+  await action();
+  assert.ok((await drawn(page)) !== old, `${what} changes nothing`); // not notEqual, which would print the pictures
+}
+
+function makeMesh() {
+  const shared = process.env.TEMPER_SHARED;
+  const path = shared && join(shared, 'meshes', 'sfepy_circle_in_square.mesh');
+  if (path && existsSync(path)) return path;
+  temper('example', 'random', '-o', 'in.vtu');
+  return 'in.vtu';
+}
+
+test('each control of a report of optimize does what it says', async () => {
+  temper('optimize', makeMesh(), '-o', 'out.vtu', '--html', 'optimize.html', '--verify');
+  const { page, close } = await open('optimize.html');
+  await shoot(page, 'optimize-light');
+  assert.match(await page.textContent('#verdict'), /well-centered/);
+  for (const section of ['summary', 'worst', 'histograms', 'sweeps', 'errors', 'again', 'keys']) {
+    assert.ok((await page.textContent(`#${section}`)).length > 3, `#${section} is empty`);
+  }
+  assert.match(await page.textContent('#again pre'), /^temper optimize /);
+  assert.equal(await page.locator('#histograms svg').count(), 3);
+  assert.equal(await page.locator('#sweeps svg path.line').count(), 3);
+
+  for (const side of ['before', 'after']) await changes(page, side, () => page.check(`[name=side][value=${side}]`, { force: true }));
+  await page.check('[name=side][value=both]', { force: true });
+  const view = await page.locator('#view').boundingBox();
+  await changes(page, 'the divider', async () => {
+    await page.mouse.move(view.x + view.width / 2, view.y + view.height / 2);
+    await page.mouse.down();
+    await page.mouse.move(view.x + view.width / 4, view.y + view.height / 2, { steps: 4 });
+    await page.mouse.up();
+  });
+  await page.focus('#divider');
+  await changes(page, 'the divider by keys', () => page.keyboard.press('ArrowRight'));
+
+  for (const layer of await page.locator('#layers input').all()) {
+    await changes(page, await layer.getAttribute('value'), () => layer.click({ force: true }));
+  }
+  for (const option of await page.locator('#measure option:not([value=""])').all()) {
+    const value = await option.getAttribute('value');
+    await page.selectOption('#measure', '');
+    await changes(page, `colour ${value}`, () => page.selectOption('#measure', value));
+    assert.ok((await page.textContent('#legend')).includes((await option.textContent()).trim()));
+  }
+  await page.selectOption('#measure', 'margin');
+  for (const layer of ['orthocenters', 'weights']) await page.uncheck(`#layers [value=${layer}]`, { force: true });
+  for (const layer of ['primal', 'dual', 'bad']) await page.check(`#layers [value=${layer}]`, { force: true });
+  await shoot(page, 'optimize-margin');
+
+  await changes(page, 'zooming in', () => page.click('#closer'));
+  await changes(page, 'zooming out', () => page.click('#farther'));
+  await changes(page, 'the wheel', () => page.mouse.move(view.x + 300, view.y + 300).then(() => page.mouse.wheel(0, -400)).then(() => page.waitForTimeout(200)));
+  await changes(page, 'dragging', async () => {
+    await page.mouse.move(view.x + 500, view.y + 300);
+    await page.mouse.down();
+    await page.mouse.move(view.x + 560, view.y + 360, { steps: 4 });
+    await page.mouse.up();
+  });
+  await changes(page, 'Fit', () => page.click('#fit'));
+  await page.mouse.click(view.x + view.width * 0.62, view.y + view.height / 2);
+  assert.match(await page.textContent('#picked h2'), /^Triangle \d+, after/);
+  await page.click('#picked button');
+  assert.equal(await page.textContent('#picked'), '');
+
+  await page.focus('#view');
+  for (const key of ['ArrowLeft', 'ArrowDown', '+', '-', '0', 'c', 'b', 'a', 's', '1', '2', '3', '4', '5', 'n', 'p']) await page.keyboard.press(key);
+  assert.match(await page.textContent('#picked h2'), /^Triangle/);
+  await page.keyboard.press('Escape');
+  assert.equal(await page.textContent('#picked'), '');
+
+  await page.click('#again button');
+  assert.match(await page.textContent('#again button'), /Copied|Selected/);
+  await page.click('#keys summary');
+  await close();
+});
+
+test('a click on one of the worst shows it, with its reason', async () => {
+  temper('example', 'sparse-horseshoe', '-o', 'shoe.vtu');
+  temper('check', 'shoe.vtu', '--html', 'check.html');
+  const { page, close } = await open('check.html', { colorScheme: 'dark' });
+  assert.match(await page.textContent('#verdict'), /not well-centered/);
+  assert.ok(await page.isHidden('#sides') && await page.isHidden('#divider'));
+  await page.click('#worst tbody tr');
+  assert.match(await page.textContent('#picked'), /h ≤ 0 at edge/);
+  assert.match(await page.textContent('#picked details'), /Why, and what would help/);
+  assert.equal(await page.locator('#picked td.is-bad').count() > 0, true);
+  await page.waitForTimeout(100);
+  await shoot(page, 'check-dark');
+  await close();
+});
+
+test('it fits a telephone, and paper', async () => {
+  const { page, close } = await open('optimize.html', { viewport: { width: 390, height: 844 }, hasTouch: true });
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'it is wider than the screen');
+  await shoot(page, 'optimize-narrow');
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  await page.emulateMedia({ media: 'print' });
+  assert.ok(await page.isVisible('#printed'));
+  await shoot(page, 'optimize-print', { fullPage: true });
+  await close();
+});
+
+/** Milliseconds from one frame of the page to the next, while the mesh is dragged by the mouse; sorted. */
+async function dragTimes(page) {
+  const view = await page.locator('#view').boundingBox();
+  await page.waitForTimeout(2500); // the first frames compile the shaders
+  await page.mouse.move(view.x + 400, view.y + 300);
+  await page.mouse.down();
+  await page.mouse.move(view.x + 405, view.y + 300);
+  await page.waitForTimeout(1500);
+  await page.evaluate(() => {
+    window.frameTimes = [];
+    let last = performance.now();
+    const tick = (now) => {
+      window.frameTimes.push(now - last);
+      last = now;
+      requestAnimationFrame(tick);
+    };
+    requestAnimationFrame(tick);
+  });
+  for (let i = 0; i < 60; i++) await page.mouse.move(view.x + 400 + 3 * i, view.y + 300 + 2 * i);
+  const times = await page.evaluate(() => window.frameTimes.slice(1).sort((a, b) => a - b));
+  await page.mouse.up();
+  return times;
+}
+
+/** Frames while the mesh is moved: their times in milliseconds, sorted. */
+const frames = (page) => page.evaluate(() => {
+  const times = [];
+  for (let i = 0; i < 20; i++) {
+    window.temperViewer.panBy(i % 2 ? 30 : -25, 10 - i);
+    times.push(window.temperViewer.drawNow());
+  }
+  return times.sort((a, b) => a - b);
+});
+
+for (const [triangles, points] of [[100_000, 50_000], [1_000_000, 500_000]]) {
+  test(`${triangles} triangles open and move`, { timeout: 600_000 }, async (t) => {
+    const name = `${triangles}.html`;
+    temper('example', 'random', '--vertices', String(points), '-o', 'large.vtu');
+    temper('check', 'large.vtu', '--html', name);
+    const { page, close, seconds } = await open(name);
+    const drag = await dragTimes(page);
+    const whole = await frames(page);
+    await page.evaluate(() => window.temperViewer.zoomToTriangle(1000));
+    const near = await frames(page);
+    const part = (times, p) => times[Math.floor(p * (times.length - 1))].toFixed(0);
+    t.diagnostic(`dragged: a frame each ${part(drag, 0.5)} ms, nine of ten within ${part(drag, 0.9)} ms`);
+    t.diagnostic(`${(statSync(file(name)).size / 1e6).toFixed(1)} MB, open in ${seconds.toFixed(1)} s, ` +
+      `a frame in ${whole[10].toFixed(0)} ms (whole mesh) and ${near[10].toFixed(0)} ms (near), medians without a graphics card`);
+    await shoot(page, name);
+    await close();
+  });
+}
