@@ -2,13 +2,19 @@
 # Tries what scripts/package.sh has made where nothing else is: the wheel in a new virtual environment, Debian packages in a
 # new root folder (debootstrap), shared libraries in a prefix of their own. Ends with a table of sizes and seconds.
 #
-#   scripts/test_packages.sh [DIR]      default: packages/
+#   scripts/test_packages.sh [--only wheel|prefix|debian] [DIR]      default: all three, packages/
 #
 # Needs root, for chroot. TEMPER_CHROOT: a folder for the root folders, default a temporary one; the bare system that
 # debootstrap makes there is used again, a copy for each run.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source_folder=$PWD
+kinds=(wheel prefix debian)
+if [[ "${1:-}" == --only ]]; then
+  kinds=("${2:-}")
+  [[ " wheel prefix debian " == *" ${2:-} "* ]] || { echo "test_packages: --only: expected wheel, prefix or debian, found '${2:-}'" >&2; exit 2; }
+  shift 2
+fi
 packages=$(realpath "${1:-packages}")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -86,6 +92,7 @@ files_of_root() {
 try_debian() {
   local base=${TEMPER_CHROOT:-$scratch}/base release debs=()
   root=$scratch/root
+  # shellcheck source=/dev/null
   release=$(. /etc/os-release && echo "$VERSION_CODENAME")
   command -v debootstrap >/dev/null || apt-get install -y -qq --no-install-recommends debootstrap >/dev/null
   [[ -d $base ]] || timed "Debian: debootstrap $release" debootstrap --variant=minbase "$release" "$base"
@@ -143,8 +150,6 @@ try_prefix() {
   row "shared libraries: files that uninstall leaves" 0
 }
 
-try_wheel
-try_prefix
-try_debian
+for kind in "${kinds[@]}"; do "try_$kind"; done
 printf '%s\n' "${rows[@]}"
-echo "all packages work"
+echo "works: ${kinds[*]}"
