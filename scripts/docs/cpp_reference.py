@@ -104,7 +104,7 @@ def fields(members):
         type_, initializer = text_of(member.find("type")), text_of(member.find("initializer")).lstrip("= ")
         shown = f"`{type_}`" + (f" = `{initializer}`" if initializer and "\n" not in initializer else "")
         words = " ".join(said(member)).replace("\n", " ")
-        rows.append(f"| `{member.find('name').text}` | {shown.replace('|', chr(92) + '|')} | {words} |")
+        rows.append(f"| `{member.find('name').text}` | {shown} | {words} |")
     return "\n".join(rows)
 
 
@@ -117,20 +117,24 @@ def compound(element, level):
     if data:
         lines.append(fields(data))
     for member in members:
-        plain = member.get("kind") != "variable" and "= delete" not in text_of(member.find("argsstring"))
-        if plain and member.get("kind") != "friend":
+        name, rest = member.find("name").text, text_of(member.find("argsstring"))
+        if member.get("kind") not in ("variable", "friend") and not name.startswith("~") and not rest.endswith("delete"):
             lines.append(entry(member, level + 1))
     return "\n\n".join(lines)
 
 
 def opening_of(header):
-    """The comment that a header begins with."""
+    """The comment that a header begins with: paragraphs, and drawings, which are indented."""
     lines = []
     for line in header.read_text(encoding="utf-8").splitlines():
         if not line.startswith("//"):
             break
-        lines.append(line.lstrip("/").strip())
-    return escaped(" ".join(lines))
+        lines.append(line.removeprefix("//").removeprefix(" "))
+    parts = []
+    for paragraph in re.split(r"\n\s*\n", "\n".join(lines)):
+        drawn = any(line.startswith("  ") for line in paragraph.splitlines())
+        parts.append(f"```text\n{paragraph}\n```" if drawn else escaped(" ".join(paragraph.split())))
+    return "\n\n".join(parts)
 
 
 def pages(include):

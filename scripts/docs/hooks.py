@@ -12,7 +12,7 @@ import re
 import shutil
 import sys
 
-from mkdocs.structure.files import File
+from mkdocs.structure.files import File, InclusionLevel
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -20,9 +20,10 @@ import cpp_reference  # noqa: E402
 
 # Pages of the repository outside of docs/, and where they are in the site.
 ELSEWHERE = {"README.md": "index.md", "CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changelog.md",
-             "gallery/README.md": "inside/gallery.md", "web/README.md": "inside/web.md"}  # fmt: skip
+             "web/npm/README.md": "npm.md"}  # fmt: skip
 LANGUAGES = {".py": "python", ".cpp": "cpp", ".hpp": "cpp", ".sh": "sh", ".json": "json", ".cff": "yaml", ".txt": "text"}
 LINK = re.compile(r"(\]\(\s*)([^()\s#]*)(#[^()\s]*)?(\s*\))")
+CODE = re.compile(r"`[^`\n]+`")
 FENCE = re.compile(r"^(```.*?^```\s*$)", re.M | re.S)
 # Names of pages of the Python reference that are not those of their modules.
 TITLES = {"_dec": "Operators", "_io": "Files", "_data": "Data of a run", "_mesh": "Meshes", "_optimize": "Optimising",
@@ -35,7 +36,7 @@ def site_place(file):
         return ELSEWHERE[file]
     if file.startswith("docs/"):
         return file.removeprefix("docs/")
-    return f"source/{file}.md"
+    return f"repository/{file}" if file.endswith(".md") else f"source/{file}.md"
 
 
 def repository_place(page):
@@ -43,6 +44,8 @@ def repository_place(page):
     for file, place in ELSEWHERE.items():
         if place == page:
             return file
+    if page.startswith("repository/"):
+        return page.removeprefix("repository/")
     return f"docs/{page}" if (ROOT / "docs" / page).exists() else None
 
 
@@ -85,6 +88,7 @@ def python_pages():
         if not module.startswith("_"):
             yield f"{module}.md", f"temper.{module}", f"# temper.{module}\n\n::: temper.{module}\n    options: {{show_root_heading: false}}\n"
             continue
+        names.sort(key=lambda name: not name[0].islower())  # functions first
         parts = [f"::: temper.{module}.{name}\n" for name in names if name != "OptimizeOptions"]
         if "OptimizeOptions" in names:
             parts.insert(0, options_table())
@@ -101,8 +105,8 @@ def options_table():
         if row["group"] != group:
             group = row["group"]
             lines += [f"\n### {group}\n", "| option | type | default | |", "|-|-|-|-|"]
-        cells = [f"`{row['name']}`", f"`{row['type']}`", f"`{row['default']!r}`", row["sentence"]]
-        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+        cells = [f"`{row['name']}`", f"`{row['type']}`", f"`{row['default']!r}`", row["sentence"].replace("|", "\\|")]
+        lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
 
 
@@ -154,20 +158,19 @@ def on_files(files, config):
     for page, text in config["generated"].items():
         files.append(File.generated(config, page, content=text))
     for file, page in ELSEWHERE.items():
-        if (ROOT / file).exists():
-            files.append(File.generated(config, page, content=(ROOT / file).read_text(encoding="utf-8")))
-    linked = set()
-    for file in list(files.documentation_pages()):
-        origin = repository_place(file.src_uri)
-        if origin:
-            text = (ROOT / origin).read_text(encoding="utf-8")
-            linked |= {target for _, target in relative_links(text, origin) if target}
-    for target in sorted(linked):
-        if site_place(target).startswith("source/"):
-            files.append(File.generated(config, site_place(target), content=source_page(target)))
-    hidden = [f for f in files if f.src_uri.startswith(("source/", "inside/"))]
-    for file in hidden:
-        file.inclusion = file.inclusion.NOT_IN_NAV
+        files.append(File.generated(config, page, content=(ROOT / file).read_text(encoding="utf-8")))
+    pages = [place for place in map(repository_place, (f.src_uri for f in files.documentation_pages())) if place]
+    for origin in pages:  # grows: what is linked may link more
+        for _, target in relative_links((ROOT / origin).read_text(encoding="utf-8"), origin):
+            place = target and site_place(target)
+            if not place or not place.startswith(("repository/", "source/")) or files.get_file_from_path(place):
+                continue
+            text = (ROOT / target).read_text(encoding="utf-8") if target.endswith(".md") else source_page(target)
+            file = File.generated(config, place, content=text)
+            file.inclusion = InclusionLevel.NOT_IN_NAV
+            files.append(file)
+            if target.endswith(".md"):
+                pages.append(target)
     return files
 
 
@@ -185,8 +188,11 @@ def on_page_markdown(markdown, page, config, files):
             return match[0]
         return match[1] + posixpath.relpath(site_place(target), here or ".") + (match[3] or "") + match[4]
 
-    pieces = FENCE.split(markdown)
-    return "".join(piece if piece.startswith("```") else LINK.sub(moved, piece) for piece in pieces)
+    def shown(piece):
+        # GitHub wants a bar in code escaped where it is in a table; here it would show.
+        return CODE.sub(lambda code: code[0].replace("\\|", "|"), LINK.sub(moved, piece))
+
+    return "".join(piece if piece.startswith("```") else shown(piece) for piece in FENCE.split(markdown))
 
 
 def on_post_build(config):
