@@ -117,7 +117,10 @@ class Page:
             self.problem = "the page does not show what its last block prints"
         else:
             start, end = self.last.prints
-            self.problem = differing(self.path.read_text(encoding="utf-8")[start:end], self.printed)
+            row = self.row()
+            in_table = table_in_readme()[3].get(row[0], [])
+            self.problem = differing(self.path.read_text(encoding="utf-8")[start:end], self.printed) or differing(
+                "\n".join(in_table), "\n".join(row))
 
     def write(self):
         if self.skipped or self.problem or self.last.prints is None:
@@ -140,15 +143,23 @@ def table_of(rows):
     return "\n".join("| " + " | ".join(row) + " |" for row in [head, ["-"] * len(head), *rows]) + "\n"
 
 
-def write_table(pages):
-    """Rows of pages that could not be run here stay what they were."""
+def table_in_readme():
+    """Where the table is in the text, and its rows by their first cells."""
     begin, end = "<!-- written by scripts/clients.sh --write -->\n", "<!-- end -->"
     text = README.read_text(encoding="utf-8")
     start, stop = text.index(begin) + len(begin), text.index(end)
-    old = [[cell.strip() for cell in line.split("|")[1:-1]] for line in text[start:stop].splitlines()]
-    kept = {row[0]: row for row in old}
-    rows = [kept.get(page.row()[0], page.row()) if page.skipped else page.row() for page in pages]
-    README.write_text(text[:start] + table_of(rows) + text[stop:], encoding="utf-8")
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in text[start:stop].splitlines()[2:]]
+    return text, start, stop, {row[0]: row for row in rows}
+
+
+def write_table(pages):
+    """Rows of pages that were not asked for, or could not be run here, stay what they were."""
+    text, start, stop, rows = table_in_readme()
+    for page in pages:
+        row = page.row()
+        if not (page.skipped and row[0] in rows):
+            rows[row[0]] = row
+    README.write_text(text[:start] + table_of(rows.values()) + text[stop:], encoding="utf-8")
 
 
 def main():
@@ -167,7 +178,7 @@ def main():
         print(f"{page.path.name}: {page.problem or page.skipped and 'skipped: ' + page.skipped or 'as the page says'}", flush=True)
     print("\n" + table_of([page.row() for page in pages]))
     failed, skipped = sum(bool(p.problem) for p in pages), sum(bool(p.skipped) for p in pages)
-    if arguments.write and not arguments.pages and not failed:
+    if arguments.write and not failed:
         write_table(pages)
     print(f"{len(pages) - failed - skipped} passed, {failed} failed, {skipped} skipped")
     return failed > 0
