@@ -10,6 +10,7 @@
 #include "temper/draw.hpp"
 #include "temper/energy.hpp"
 #include "temper/geometry.hpp"
+#include "temper/html.hpp"
 #include "temper/quality.hpp"
 #ifdef TEMPER_WITH_VERIFY
 #include "temper/verify.hpp"
@@ -295,6 +296,13 @@ void bind_draw(py::module_& m) {
         [](const PyMesh& self, const py::dict& options) { return draw_svg(*self.read(), draw_options_from(options)); });
   m.def("draw_before_after_svg", [](const PyMesh& before, const PyMesh& after, const py::dict& options) {
     return draw_before_after_svg(*before.read(), *after.read(), draw_options_from(options));
+  });
+  m.def("html_report", [](const PyMesh& self, const PyMesh* before, const std::string& title, const std::string& json) {
+    const auto mesh = self.read(), old = before == nullptr ? mesh : before->read();
+    io::HtmlReport report = {{*mesh}, std::nullopt, title, json};
+    if (before != nullptr) report.before.emplace(io::HtmlMesh{*old});
+    const py::gil_scoped_release release;
+    return io::html_report(report);
   });
   m.def("grid_svg", [](const py::sequence& documents, std::size_t columns, const std::string& title) {
     std::vector<std::string> svgs;

@@ -33,6 +33,7 @@ from ._dec import DecComplex, DecEdges, DecSummary, IncidenceMatrix, PowerCells,
 from ._draw import Svg, draw_before_after_svg, draw_svg, grid_svg
 from ._errors import TemperError, TemperWarning
 from ._explain import CrossingConflict, CrossingSide, Cure, Explanation, FanCenter, Reason, explain
+from ._html import Html, html_report
 from ._io import Format, formats, read, write, write_text
 from ._measure import (
     EnergyInfo,

@@ -14,6 +14,7 @@ from ._meshio import data_of, handle_of, in_the_plane, meshio_of
 from ._records import table
 
 _PICTURE = 3000  # triangles of a mesh that is drawn in notebooks
+PAGE = 20_000  # triangles of a mesh whose HTML report notebooks show, and keep
 
 
 def _ints(values: Any, columns: int, name: str) -> npt.NDArray[Any]:
@@ -383,7 +384,11 @@ class Mesh:
             ("least h/ℓ", f"{q['min_h_over_l']:.4g}"),
             ("angles", f"{q['min_angle_deg']:.4g}° to {q['max_angle_deg']:.4g}°"),
         ]
-        return table("temper.Mesh", rows, self._repr_svg_() or "")
+        if self.n_triangles == 0 or self.n_triangles > PAGE:
+            return table("temper.Mesh", rows)
+        from ._html import html_report
+
+        return table("temper.Mesh", rows, html_report(self, reasons=False)._repr_html_())
 
     def _repr_svg_(self) -> str | None:
         return _temper.draw_svg(self._handle, {"width": 500.0}) if self.n_triangles <= _PICTURE else None

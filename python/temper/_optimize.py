@@ -15,10 +15,10 @@ import numpy.typing as npt
 from . import _temper
 from ._data import DataReport
 from ._errors import TemperError, TemperWarning
-from ._mesh import DataRules, Mesh, MeshLike, as_mesh, data_rules, put_back
+from ._mesh import PAGE, DataRules, Mesh, MeshLike, as_mesh, data_rules, put_back
 from ._optimize_options import OptimizeOptions, changed, shows_options
 from ._progress import Line, Progress, SweepRecord
-from ._records import Record
+from ._records import Record, table
 from ._size import SizeField, SizeReport, _size_report
 from ._trace import Snapshot, TraceEvent
 
@@ -66,6 +66,17 @@ class OptimizeReport(Record):
     """``history[0]`` is the input."""
     notes: list[str]
     """What the user should know, in sentences."""
+    _meshes: tuple[Mesh, Mesh] | None = dataclasses.field(default=None, repr=False, compare=False)
+    """Before and after, of meshes that notebooks show."""
+
+    def _repr_html_(self) -> str:
+        if self._meshes is None:
+            return super()._repr_html_()
+        from ._html import html_report
+
+        before, after = self._meshes
+        page = html_report(after, before, self, title="temper.optimize", reasons=False)
+        return table("OptimizeReport", self._rows(), page._repr_html_())
 
     def _rows(self) -> list[tuple[str, str]]:
         bad = [str(record.bad) for record in (self.history[:1] + self.history[-1:])]
@@ -82,10 +93,12 @@ class OptimizeReport(Record):
         return {**super().as_dict(), "history": [record.as_dict() for record in self.history]}
 
 
-def _report(d: dict[str, Any], data: DataReport | None = None) -> OptimizeReport:
+def _report(
+    d: dict[str, Any], data: DataReport | None = None, meshes: tuple[Mesh, Mesh] | None = None
+) -> OptimizeReport:
     size = SizeChange(_size_report(d.pop("size_before")), _size_report(d.pop("size_after")))
     history = [SweepRecord(**record) for record in d.pop("history")]
-    return OptimizeReport(**d, size=size, data=data, history=history)
+    return OptimizeReport(**d, size=size, data=data, history=history, _meshes=meshes)
 
 
 def _observer(line: Line, observer: Callable[[Progress], Any] | None) -> Callable[..., bool] | None:
@@ -232,6 +245,7 @@ def optimize(
     kept, resumed = _checkpoint(checkpoint, every), _path("resume", resume)
     look = (lambda shot: snapshots(Snapshot._of(shot))) if snapshots is not None else None
     field = size_field._handle if size_field is not None else None
+    original = target.copy() if 0 < target.n_triangles <= PAGE else None
     before = target._handle.version()
     try:
         watch = _observer(line, observer)
@@ -242,7 +256,8 @@ def optimize(
             target.point_data_rules = rules
             if target is not mesh:
                 put_back(mesh, target)
-    return _report(report, DataReport._of(target, threads) if target._handle.has_data() else None)
+    data = DataReport._of(target, threads) if target._handle.has_data() else None
+    return _report(report, data, None if original is None else (original, target.copy()))
 
 
 def optimized(mesh: MeshLike, options: OptimizeOptions | None = None, **keywords: Any) -> Mesh:

@@ -1,5 +1,8 @@
 """What looks at meshes: quality, energies, operators, errors, weights, reasons."""
 
+import json
+import pathlib
+
 import numpy as np
 import pytest
 
@@ -271,6 +274,22 @@ def test_svg_is_text_that_notebooks_show(ring):
     xml.fromstring(temper.grid_svg([picture, both], 1, title="two"))
     with pytest.raises(ValueError, match="zoom"):
         temper.draw_svg(ring, zoom=(0, 1))
+
+
+def test_html_report_is_a_page_that_notebooks_show(ring, in_scratch):
+    after = ring.copy()
+    report = temper.optimize(after)
+    page = temper.html_report(after, ring, report)
+    assert page == temper.html_report(after, ring, report) and 'id="before.points"' in page
+    shown = json.loads(page.split('id="report">')[1].split("</script>")[0])
+    assert shown["before"]["orthocenters_outside"] > 0 == shown["after"]["orthocenters_outside"]
+    assert len(shown["history"]) == len(report.history) and shown["after"]["histograms"]["angles"]["high"] == 180
+    page.save("page.html")
+    assert pathlib.Path("page.html").read_text(encoding="utf-8") == page
+    for shows_itself in (page, after, report):
+        assert 'srcdoc="&lt;!DOCTYPE html&gt;' in shows_itself._repr_html_()
+    bad = json.loads(temper.html_report(ring).split('id="report">')[1].split("</script>")[0])
+    assert sum(len(reason["triangles"]) for reason in bad["reasons"]) == bad["after"]["orthocenters_outside"]
 
 
 @pytest.mark.parametrize("color", [None, "quality", "angle", "region", "array"])
