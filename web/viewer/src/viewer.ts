@@ -87,6 +87,7 @@ export class Viewer {
   private drawn: ZoomTransform = zoomIdentity; // of the picture on the canvas
   private frameTime = 0; // until the card was done with the last one
   private pause = 0;
+  private fitted = false; // all of the mesh is shown, and is to be when the size changes
 
   constructor(
     readonly host: HTMLElement,
@@ -110,6 +111,7 @@ export class Viewer {
       .filter((event: Event) => this.movesView(event))
       .on('zoom', (event: D3ZoomEvent<HTMLElement, unknown>) => {
         this.transform = event.transform;
+        this.fitted = false;
         if (event.sourceEvent && this.frameTime > kSlow) this.slide();
         else this.redraw();
       });
@@ -193,6 +195,7 @@ export class Viewer {
     const wide = (box.x1 - box.x0) * k || 1, high = (box.y1 - box.y0) * k || 1;
     const factor = Math.min((width - 2 * kMargin) / wide, (height - 2 * kMargin) / high);
     this.lookAt((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2, Math.max(1e-9, factor));
+    this.fitted = box === this.box;
   }
 
   zoomToTriangle(triangle: number, side: Side = 'after'): void {
@@ -319,7 +322,8 @@ export class Viewer {
     const k = this.transform.k;
     this.canvas.width = w;
     this.canvas.height = h;
-    this.lookAt(view.x, view.y, k);
+    if (this.fitted) this.fit();
+    else this.lookAt(view.x, view.y, k);
     this.redraw();
   }
 
