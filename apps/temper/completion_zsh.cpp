@@ -32,7 +32,10 @@ std::string option_spec(const Option& option) {
   if (names.size() == 1) return zsh_quoted(repeated + names[0] + text);
   const std::string either = repeated.empty() ? zsh_quoted("(" + joined(names) + ")") : zsh_quoted(repeated);
   std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ",") + name;
+  for (const std::string& name : names) {
+    if (!list.empty()) list += ',';
+    list += name;
+  }
   return either + "{" + list + "}" + zsh_quoted(text);
 }
 
@@ -42,7 +45,7 @@ std::string specs(const Command& command, const std::string& indent) {
     const std::string spec = !option.is_argument()          ? option_spec(option)
                              : option.values == Values::one ? zsh_quoted(value_spec(option))
                                                             : zsh_quoted("*" + value_spec(option));
-    text += " \\\n" + indent + spec;
+    text.append(" \\\n").append(indent).append(spec);
   }
   return text;
 }

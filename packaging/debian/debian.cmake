@@ -29,6 +29,14 @@ foreach(library temper temper_io temper_lp temper_tbb temper_verify)
   endif()
 endforeach()
 
+# The page of --html has libraries of others in it.
+file(READ ${PROJECT_SOURCE_DIR}/web/report/dist/NOTICE notice)
+string(STRIP "${notice}" notice)
+string(REPLACE "\n" "\n " notice " ${notice}")
+string(REGEX REPLACE "\n +(\n|$)" "\n .\n" notice "${notice}")
+string(REGEX REPLACE "\n +(\n|$)" "\n .\n" notice "${notice}")
+configure_file(${here}/copyright.in ${PROJECT_BINARY_DIR}/debian/copyright @ONLY)
+
 # debian_package(COMPONENT PACKAGE SECTION SUMMARY TEXT)
 function(debian_package component package section summary text)
   string(TOUPPER ${component} key)
@@ -37,7 +45,7 @@ function(debian_package component package section summary text)
   set(CPACK_DEBIAN_${key}_DESCRIPTION "${summary}\n${text}" PARENT_SCOPE)
 
   set(doc ${CMAKE_INSTALL_DATADIR}/doc/${package})
-  install(FILES ${here}/copyright DESTINATION ${doc} COMPONENT ${component})
+  install(FILES ${PROJECT_BINARY_DIR}/debian/copyright DESTINATION ${doc} COMPONENT ${component})
   configure_file(${here}/changelog.in ${PROJECT_BINARY_DIR}/debian/${package}/changelog @ONLY)
   execute_process(COMMAND gzip -9nf ${PROJECT_BINARY_DIR}/debian/${package}/changelog COMMAND_ERROR_IS_FATAL ANY)
   install(FILES ${PROJECT_BINARY_DIR}/debian/${package}/changelog.gz DESTINATION ${doc} RENAME changelog.Debian.gz

@@ -20,6 +20,7 @@ namespace temper::io {
 
 /// Its functions by their own names, as members. Null as long as it is not loaded.
 struct NetcdfLibrary {
+// NOLINTNEXTLINE(bugprone-macro-parentheses): the name of a member has none
 #define TEMPER_MEMBER(function) decltype(&::function) function = nullptr;
   TEMPER_NETCDF_FUNCTIONS(TEMPER_MEMBER)
 #undef TEMPER_MEMBER
