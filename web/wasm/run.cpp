@@ -15,6 +15,9 @@ TEMPER_IMPORT(progress) int tell_progress(const char* record, std::size_t size, 
 /// An event of the run, as JSON.
 TEMPER_IMPORT(trace) void tell_event(const char* event, std::size_t size);
 
+/// The mesh between two sweeps, to be looked at until the function returns.
+TEMPER_IMPORT(snapshot) void show_snapshot(const HeldMesh* mesh, int sweep);
+
 Continue tell(const Progress& progress) {
   const std::string record = to_json(progress.last).dump();
   return tell_progress(record.data(), record.size(), progress.fraction, progress.max_sweeps) != 0 ? Continue::yes
@@ -28,7 +31,7 @@ TEMPER_EXPORT(methods) void answer_methods() { answer(method_table()); }
 
 /// In place, whatever ends the run but an error. The answer is the report.
 TEMPER_EXPORT(mesh_optimize)
-int mesh_optimize(HeldMesh* held, const char* options, std::size_t size, int traced) {
+int mesh_optimize(HeldMesh* held, const char* options, std::size_t size, int traced, int shown) {
   return done([&] {
     const OptimizeOptions given = options_from(parse({options, size}));
     OptimizeHooks hooks;
@@ -39,11 +42,36 @@ int mesh_optimize(HeldMesh* held, const char* options, std::size_t size, int tra
         tell_event(text.data(), text.size());
       };
     }
+    if (shown != 0) {
+      hooks.snapshots = [](const Snapshot& s) {
+        if (s.moment != Snapshot::Moment::after_sweep) return;
+        const HeldMesh mesh(s.mesh);
+        show_snapshot(&mesh, s.sweep);
+      };
+    }
     Mesh mesh = held->mesh;
     const Expected<OptimizeReport> report = optimize(mesh, given, hooks);
     if (!report) throw BadInput{spelled(report.error())};
     held->replace(std::move(mesh), report->vertices);
     answer(to_json(*report));
+  });
+}
+
+/// Puts a mesh that was made elsewhere in place, of whose vertices these are the former numbers, −1 for inserted ones;
+/// none: they are the same. The file behind the mesh stays.
+TEMPER_EXPORT(mesh_replace)
+int mesh_replace(HeldMesh* held, const HeldMesh* other, const std::int32_t* vertices, std::size_t n) {
+  return done([&] {
+    const std::size_t expected = other->mesh.n_vertices();
+    if (n != expected && (n != 0 || expected != held->mesh.n_vertices())) {
+      fail(ErrorCode::size_mismatch,
+           "vertices: expected " + std::to_string(expected) + " numbers, found " + std::to_string(n));
+    }
+    IdVector<VertexId, VertexId> former;
+    for (std::size_t v = 0; v < n; ++v) {
+      former.push_back(vertices[v] < 0 ? VertexId() : VertexId(static_cast<std::size_t>(vertices[v])));
+    }
+    held->replace(other->mesh, former);
   });
 }
 

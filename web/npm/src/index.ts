@@ -4,7 +4,7 @@ import { answer, answerBytes, answerText, call, type Files, fromJson, listening,
 import type { OptimizeOptions } from './options.ts';
 import type {
   DecComplex, DecSummary, DrawOptions, EnergyInfo, EnergyModel, Format, IncidenceMatrix, OptimizeReport, OptionRow, Progress, Quality,
-  Restoration, SofteningLike, SweepRecord, TraceEvent, VertexDerivatives,
+  Restoration, Snapshot, SofteningLike, SweepRecord, TraceEvent, VertexDerivatives,
 } from './records.ts';
 
 export { Mesh, type MeshParts, type Numbers } from './mesh.ts';
@@ -79,18 +79,21 @@ export interface OptimizeHooks {
   observer?: (progress: Progress) => boolean | void;
   /** Sees every move, flip, removal: enough for `replay`. */
   tracer?: (event: TraceEvent) => void;
+  /** Sees the mesh after each sweep. */
+  snapshots?: (snapshot: Snapshot) => void;
 }
 
 /** Makes the mesh well-centered, in place. An exception of a listener is thrown on when the best mesh so far is in place. */
 export function optimize(mesh: Mesh, options: OptimizeOptions & OptimizeHooks = {}): OptimizeReport {
-  const { observer, tracer, ...given } = options;
+  const { observer, tracer, snapshots, ...given } = options;
   const listener = {
     progress: (record: string, fraction: number, max_sweeps: number): boolean =>
       observer === undefined || observer({ last: fromJson(record) as SweepRecord, fraction, max_sweeps }) !== false,
     trace: tracer && ((event: string): void => tracer(fromJson(event) as TraceEvent)),
+    snapshot: snapshots && ((handle: number, sweep: number): void => snapshots({ sweep, mesh: Mesh.of(call('mesh_copy', handle)) })),
   };
   return listening(listener, () => {
-    call('mesh_optimize', mesh.handle, toJson(given), tracer ? 1 : 0);
+    call('mesh_optimize', mesh.handle, toJson(given), tracer ? 1 : 0, snapshots ? 1 : 0);
     return answer<OptimizeReport>();
   });
 }

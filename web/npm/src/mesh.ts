@@ -165,6 +165,13 @@ export class Mesh {
     call('mesh_set_fixed', this.handle, list, list.length);
   }
 
+  /** Puts another mesh in place, made of this one elsewhere, in a worker say; what the file behind this one holds stays.
+   * `vertices`: former number of each vertex, −1 for inserted ones (`OptimizeReport.vertices`); empty: the same. */
+  replace(other: Mesh, vertices: Numbers = []): void {
+    const former = ints(vertices, 1, 'vertices');
+    call('mesh_replace', this.handle, other.handle, former, former.length);
+  }
+
   /** The first thing that does not hold of what must hold of a mesh, or null. */
   validate(): string | null {
     call('mesh_validate', this.handle);

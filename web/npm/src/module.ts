@@ -32,6 +32,7 @@ type Exports = { memory: WebAssembly.Memory } & Record<string, (...args: number[
 export interface Listener {
   progress?(record: string, fraction: number, maxSweeps: number): boolean;
   trace?(event: string): void;
+  snapshot?(handle: number, sweep: number): void;
 }
 
 let wasm: Exports | null = null;
@@ -75,6 +76,12 @@ export async function start(source: WebAssembly.Module | Promise<WebAssembly.Mod
       trace: (at: number, size: number): void => {
         heard(() => {
           listener.trace?.(textAt(at, size));
+          return true;
+        });
+      },
+      snapshot: (handle: number, sweep: number): void => {
+        heard(() => {
+          listener.snapshot?.(handle, sweep);
           return true;
         });
       },

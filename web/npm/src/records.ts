@@ -1,4 +1,5 @@
 // What functions give back, with the names that they have in Python and in reports.
+import type { Mesh } from './mesh.ts';
 
 export interface Histogram {
   low: number;
@@ -155,6 +156,13 @@ export interface OptimizeReport {
   history: SweepRecord[];
   /** What the user should know, in sentences. */
   notes: string[];
+}
+
+/** The mesh as it is after a sweep of a run. */
+export interface Snapshot {
+  sweep: number;
+  /** A copy. */
+  mesh: Mesh;
 }
 
 /** What a run did, event by event. Vertices are numbered as in the input, inserted ones follow. */

@@ -145,3 +145,22 @@ test('SVG is drawn, and options are those of the table', () => {
   for (const method of [temper.paper_method(), temper.odt_method(), temper.cvt_method()]) assert.deepEqual(Object.keys(method), names);
   temper.optimize(temper.generate.annulus(), { ...temper.paper_method(), max_sweeps: 1 });
 });
+
+test('a mesh that was optimised elsewhere takes the place of the one that has the file', () => {
+  const files = {};
+  const original = temper.generate.letter_a();
+  original.weights = original.weights.map((_, i) => i / 1000);
+  temper.write('a.msh', original, { files });
+  const here = temper.read('a.msh', { files });
+  const there = new temper.Mesh(here.points, here.triangles, here.weights, { regions: here.regions, constrained_edges: here.constrained_edges, fixed: here.fixed });
+  let seen = 0;
+  const report = temper.optimize(there, { repair: 'vertices', boundary: 'split', snapshots: ({ mesh }) => void (seen += mesh.validate() === null ? 1 : 0) });
+  assert(seen > 0 && report.vertices.length === there.n_vertices);
+  here.replace(there, report.vertices);
+  const direct = temper.read('a.msh', { files });
+  temper.optimize(direct, { repair: 'vertices', boundary: 'split' });
+  temper.write('here.msh', here, { files });
+  temper.write('direct.msh', direct, { files });
+  assert.deepEqual(files['here.msh'], files['direct.msh']);
+  assert.throws(() => direct.replace(original, [1, 2]), { code: 'size_mismatch' });
+});

@@ -1,0 +1,24 @@
+// What page and worker tell each other: a mesh as arrays, and a run of it.
+import type { OptimizeOptions, OptimizeReport, Progress, TraceEvent } from 'temper-mesh';
+
+/** A mesh as arrays, for its way between page and worker. */
+export interface Arrays {
+  points: Float64Array;
+  weights: Float64Array;
+  triangles: Int32Array;
+  regions: Int32Array;
+  constrained_edges: Int32Array;
+  fixed: Int32Array;
+}
+
+export interface Start {
+  mesh: Arrays;
+  options: OptimizeOptions;
+  traced: boolean;
+}
+
+export type Told =
+  | { kind: 'ready' }
+  | { kind: 'progress'; progress: Progress; mesh: Arrays | null }
+  | { kind: 'done'; mesh: Arrays; report: OptimizeReport; events: TraceEvent[] }
+  | { kind: 'failed'; message: string };
