@@ -17,6 +17,6 @@ npm ci --no-audit --no-fund --loglevel=error
 npm run build
 git diff --exit-code --stat report/dist || { echo "test_web: web/report/dist is not what npm run build makes" >&2; exit 1; }
 npm run check
-node --test tests/
+node --test tests/*.test.mjs
 (cd npm && node --test tests/)
 (cd playground && node --test tests/)

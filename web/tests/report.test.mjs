@@ -1,7 +1,7 @@
 // The HTML report in a browser: each control does what it says, nothing is written to the console, nothing is asked of the
 // network. Pictures go to TEMPER_PICTURES, when that is set.
 //
-//   TEMPER_PROGRAM=…/temper [TEMPER_SHARED=…] node --test tests/
+//   TEMPER_PROGRAM=…/temper [TEMPER_SHARED=…] node --test tests/*.test.mjs
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdirSync, mkdtempSync, rmSync, statSync } from 'node:fs';
