@@ -9,6 +9,7 @@
 #include "temper/dec.hpp"
 #include "temper/draw.hpp"
 #include "temper/geometry.hpp"
+#include "temper/html.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::wasm {
@@ -196,6 +197,17 @@ int mesh_draw_svg(const HeldMesh* held, const HeldMesh* after, const char* optio
   return done([&] {
     const DrawOptions how = draw_options_from(parse({options, size}));
     answer(after == nullptr ? draw_svg(held->mesh, how) : draw_before_after_svg(held->mesh, after->mesh, how));
+  });
+}
+
+/// The answer is the page. `before` may be null; `shown` is JSON: see docs/report.md.
+TEMPER_EXPORT(mesh_html_report)
+int mesh_html_report(const HeldMesh* held, const HeldMesh* before, const char* title, std::size_t title_size,
+                     const char* shown, std::size_t shown_size) {
+  return done([&] {
+    io::HtmlReport report{.mesh = {held->mesh}, .title = {title, title_size}, .json = {shown, shown_size}};
+    if (before != nullptr) report.before.emplace(io::HtmlMesh{before->mesh});
+    answer(io::html_report(report));
   });
 }
 

@@ -220,6 +220,40 @@ export function draw_before_after_svg(before: Mesh, after: Mesh, options: DrawOp
   return answerText();
 }
 
+export interface HtmlOptions {
+  /** A mesh to compare with. */
+  before?: Mesh;
+  /** Of the run that made the mesh: its history and notes are shown, too. */
+  report?: OptimizeReport;
+  title?: string;
+}
+
+/** The report that the program writes with --html: a page that needs no network. */
+export function html_report(mesh: Mesh, { before, report, title = 'temper.Mesh' }: HtmlOptions = {}): string {
+  const measures = (of: Mesh): object => {
+    const q = quality(of);
+    return { ...q, histograms: { angles: q.angles, h_over_l: q.h_over_l, d_over_l: q.d_over_l } };
+  };
+  // Times are left out: the same run makes the same page.
+  const run = report && {
+    sweeps: report.sweeps,
+    stopped: report.stopped,
+    notes: report.notes,
+    history: report.history.map((record) => ({ ...record, seconds: undefined })),
+  };
+  const shown = {
+    verb: report ? 'optimize' : 'check',
+    version: version(),
+    ...(before && { before: measures(before) }),
+    after: measures(mesh),
+    ...run,
+    reasons: [],
+  };
+  // Numbers that JSON has not are null to the page.
+  call('mesh_html_report', mesh.handle, before?.handle ?? 0, title, JSON.stringify(shown));
+  return answerText();
+}
+
 // --- examples ----------------------------------------------------------------------------------------------------------
 
 const make = (name: string, parameters: object = {}): Mesh => Mesh.of(call('mesh_generate', name, toJson(parameters)));

@@ -137,6 +137,15 @@ test('in Node paths are those of the disk, side files too', () => {
   assert.throws(() => temper.write(join(folder, 'none', 'ring.off'), mesh), /ENOENT|cannot be written/);
 });
 
+test('the HTML report is one file with both meshes, and no address of the network', () => {
+  const before = temper.generate.annulus(), mesh = before.copy();
+  const page = temper.html_report(mesh, { before, report: temper.optimize(mesh), title: 'a ring' });
+  assert.match(page, /^<!DOCTYPE html>[^]*a ring[^]*<\/html>\s*$/i);
+  assert(page.length > 200_000);
+  assert.equal(page, temper.html_report(mesh, { before, report: temper.optimize(before.copy()), title: 'a ring' }));
+  assert.match(temper.html_report(square()), /temper\.Mesh/);
+});
+
 test('SVG is drawn, and options are those of the table', () => {
   assert.match(temper.draw_svg(square(), { title: 'a <square>' }), /^<svg[^]*a &lt;square&gt;/);
   assert.match(temper.draw_before_after_svg(square(), square()), /^<svg/);

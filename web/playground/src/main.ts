@@ -1,5 +1,5 @@
 // The page: a mesh is opened, looked at, changed by hand or by a run in a worker, and saved.
-import { draw_svg, formats, type Progress, quality, type Quality, write } from 'temper-mesh';
+import { draw_svg, formats, html_report, type Progress, quality, type Quality, write } from 'temper-mesh';
 import { darkTheme, lightTheme, type MeshData, type Pick, Viewer } from 'temper-viewer';
 import { arraysOf } from './arrays.ts';
 import { examples } from './examples.ts';
@@ -79,6 +79,7 @@ function show(keepView: boolean): void {
 /** The same after a change by hand, once a frame. */
 function changed(): void {
   session.trace = null;
+  session.run = null;
   scheduled ||= requestAnimationFrame(() => {
     scheduled = 0;
     const { points, weights, triangles } = arraysOf(session.mesh);
@@ -287,6 +288,7 @@ element('undo').addEventListener('click', () => {
 });
 element('save').addEventListener('click', save);
 element('picture').addEventListener('click', () => download(`${stem()}.svg`, draw_svg(session.mesh, { title: session.name })));
+element('report').addEventListener('click', () => download(`${stem()}.html`, html_report(session.mesh, { ...session.run, title: session.name })));
 element('step').addEventListener('input', (event) => goTo(Number((event.target as HTMLInputElement).value)));
 element('back').addEventListener('click', () => goTo(Math.max(0, Number(element<HTMLInputElement>('step').value) - 1)));
 element('forward').addEventListener('click', () => goTo(Number(element<HTMLInputElement>('step').value) + 1));

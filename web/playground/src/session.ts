@@ -9,6 +9,8 @@ export class Session {
   private past: Mesh[] = [];
   /** The events of the last run, and the mesh before them. */
   trace: { input: Mesh; events: TraceEvent[] } | null = null;
+  /** The last run, while the mesh is its result, and the mesh before it. */
+  run: { before: Mesh; report: OptimizeReport } | null = null;
 
   constructor(
     public mesh: Mesh,
@@ -46,6 +48,7 @@ export class Session {
     if (!before) return;
     this.mesh = before;
     this.trace = null;
+    this.run = null;
   }
 
   /** The result of a run takes the mesh's place. */
@@ -53,6 +56,7 @@ export class Session {
     const input = this.mesh.copy();
     this.mesh.replace(meshOf(arrays), report?.vertices ?? []);
     this.trace = events.length > 0 ? { input, events } : null;
+    this.run = report && { before: input, report };
   }
 
   /** The mesh after so many events of the trace. */

@@ -7,7 +7,7 @@ import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'n
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { fileURLToPath } from 'node:url';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 import { launch, serve } from './browser.mjs';
 
 const program = process.env.TEMPER_PROGRAM;
@@ -279,6 +279,26 @@ test('the picture is that of the program', async () => {
   const svg = readFileSync(await download.path(), 'utf8');
   assert.match(svg, /^<svg[^]*<\/svg>\s*$/);
   assert.equal(download.suggestedFilename(), 'annulus.svg');
+});
+
+test('the report opens by itself, before and after, and asks for nothing', async () => {
+  await choose('annulus');
+  await optimise();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#report')]);
+  assert.equal(download.suggestedFilename(), 'annulus.html');
+  const path = join(folder, 'annulus.html');
+  await download.saveAs(path);
+  const context = await browser.newContext();
+  const report = await context.newPage();
+  const heard = [];
+  report.on('console', (message) => message.text().includes('GL Driver Message') || heard.push(message.text()));
+  report.on('pageerror', (error) => heard.push(String(error)));
+  report.on('request', (request) => /^(file|data|blob):/.test(request.url()) || heard.push(request.url()));
+  await report.goto(pathToFileURL(path).href);
+  await report.waitForSelector('html[data-ready]');
+  if (process.env.TEMPER_PICTURES) await report.screenshot({ path: join(process.env.TEMPER_PICTURES, 'report.png') });
+  await context.close();
+  assert.deepEqual(heard, []);
 });
 
 test('a telephone shows mesh and controls', async () => {
