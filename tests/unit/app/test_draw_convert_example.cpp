@@ -72,7 +72,8 @@ TEST_F(Convert, DashIsStandardInputAndOutput) {
   const Outcome piped =
       shell("temper convert - -o - --format gmsh41 < a.vtu | temper optimize - -o - --format vtu > c.vtu");
   EXPECT_EQ(piped.exit, 0) << piped.err;
-  EXPECT_TRUE(contains(piped.err, "/dev/stdout: all 72 triangles are well-centered"));  // what is said leaves the mesh alone
+  EXPECT_TRUE(
+      contains(piped.err, "/dev/stdout: all 72 triangles are well-centered"));  // what is said leaves the mesh alone
   temper_ok({"optimize", "b.msh", "-o", "d.vtu"});
   EXPECT_EQ(numbers_of("c.vtu"), numbers_of("d.vtu"));
   EXPECT_TRUE(contains(shell("temper check - < c.vtu").out, "/dev/stdin: "));
