@@ -15,7 +15,9 @@ Observer observer_of(Visitor& visitor, const py::object& observer) {
     bool go_on = visitor.check_signals();
     if (go_on && !observer.is_none()) {
       go_on = visitor.call([&] {
-        const py::object answer = observer(record_to_dict(progress.last), progress.fraction, progress.max_sweeps);
+        const py::object answer =
+            observer(record_to_dict(progress.last), progress.fraction, progress.max_sweeps,
+                     progress.sweeps_left ? py::object(py::float_(*progress.sweeps_left)) : py::none());
         return !(answer.is(py::bool_(false)));
       });
     }

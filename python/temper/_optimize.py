@@ -105,8 +105,8 @@ def _observer(line: Line, observer: Callable[[Progress], Any] | None) -> Callabl
     if not line.enabled and observer is None:
         return None
 
-    def tell(last: dict[str, Any], fraction: float, max_sweeps: int) -> bool:
-        progress = Progress(SweepRecord(**last), fraction, max_sweeps)
+    def tell(last: dict[str, Any], fraction: float, max_sweeps: int, sweeps_left: float | None) -> bool:
+        progress = Progress(SweepRecord(**last), fraction, max_sweeps, sweeps_left)
         line.show(progress)
         return observer is None or observer(progress) is not False
 

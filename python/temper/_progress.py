@@ -41,6 +41,8 @@ class Progress(Record):
     fraction: float
     """Of the sweep under way, in [0, 1)."""
     max_sweeps: int
+    sweeps_left: float | None = None
+    """An estimate of the sweeps after the last one, while the energy converges; None in the first sweeps of a stage."""
 
 
 def _duration(seconds: float) -> str:
@@ -58,7 +60,7 @@ def _in_notebook() -> bool:
 
 
 class Line:
-    """The line that says how far a run is, and how long it may still take at most."""
+    """The line that says how far a run is, and how long it will about take when that can be told."""
 
     def __init__(self, wanted: bool | None) -> None:
         notebook = wanted is not False and _in_notebook()
@@ -94,9 +96,9 @@ class Line:
             f"energy {last.energy:.6g}, {_duration(seconds)}"
         )
         sweeps = last.sweep + progress.fraction
-        if sweeps > 0:
-            # Convergence usually ends it sooner: the estimate is what the sweeps left would take.
-            text += f", at most {_duration(seconds / sweeps * (progress.max_sweeps - sweeps))} left"
+        if sweeps > 0 and progress.sweeps_left is not None:
+            left = max(0.0, progress.sweeps_left - progress.fraction)
+            text += f", about {_duration(seconds / sweeps * left)} left"
         return text
 
     def _put(self, text: str) -> None:

@@ -22,6 +22,7 @@ ELSEWHERE = {
     "methods": "paper_method, odt_method, cvt_method", "option_groups": "help(OptimizeOptions)", "find_option": "as option_groups", "check_option": "optimize checks",
     "check_options": "as check_option", "option_text": "repr", "option_range_text": "as option_groups",
     "missing_need": "optimize warns", "spell_options": "texts are spelled",
+    "read_number": "float", "read_by_strtod": "float",
     "dot": "NumPy", "cross": "NumPy", "length": "NumPy", "squared_length": "NumPy",
     "version": "__version__", "compiled_instruction_sets": "build_info says them",
     "netcdf_version": "as compiled_instruction_sets",

@@ -531,7 +531,7 @@ def test_progress_in_a_notebook_updates_one_display(monkeypatch, ring):
     monkeypatch.setitem(sys.modules, "IPython.display", package.display)
     monkeypatch.setattr(temper._progress, "_INTERVAL", 0)
     temper.optimize(ring, max_sweeps=5)
-    assert shown[0].startswith("sweep") and "left" in shown[-2] and shown[-1] == ""
+    assert shown[0].startswith("sweep") and "triangles bad" in shown[-2] and shown[-1] == ""
 
 
 def test_reports_read_well(ring):
