@@ -1,20 +1,25 @@
 // temper draw IN -o P.svg: one mesh, or two side by side.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <initializer_list>
+
 #include "console.hpp"
 #include "help.hpp"
 #include "input.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
 #include "projection_option.hpp"
+#include "suggest.hpp"
 #include "temper/draw.hpp"
+#include "temper/quality.hpp"
 
 namespace temper::app {
 namespace {
 
 struct DrawSettings {
   std::string projection;
-  std::string input, before, output;
+  std::string input, before, output, color;
   DrawOptions options;
   bool no_primal = false, no_dual = false, no_weights = false, no_bad = false, no_rings = false, no_regions = false;
 };
@@ -23,7 +28,7 @@ void add_options(Command& command, DrawSettings& s) {
   command.group("Files");
   add_argument(command, "IN", s.input, "the mesh to draw").require();
   add_projection(command, s.projection);
-  add_text(command, "-o,--output", "FILE", s.output, "where the SVG goes").require();
+  add_text(command, "-o,--output", "FILE", s.output, "where the picture goes: .svg, .png or .pdf").require();
   add_text(command, "--before", "IN0", s.before, "a mesh to draw to the left of IN, at the same scale");
   command.group("Picture");
   command.add_flag("--no-primal", s.no_primal, "without the triangles' edges");
@@ -32,6 +37,11 @@ void add_options(Command& command, DrawSettings& s) {
   command.add_flag("--no-bad", s.no_bad, "do not fill triangles that are not well-centered");
   command.add_flag("--no-rings", s.no_rings, "do not ring vertices that nearly coincide with a neighbour");
   command.add_flag("--no-regions", s.no_regions, "do not tint regions");
+  std::string colors;
+  for (const TriangleValue& value : triangle_values()) colors += std::string(value.name) + "|";
+  add_text(command, "--color", colors + "NAME", s.color,
+           "fill triangles by a number, dark for the least: the least of h/l, d/l and 1 - d/l; the largest angle; the "
+           "mean length of the edges; the region; or data of triangles in the files");
   command.add_flag("--numbers", s.options.vertex_numbers, "number the vertices, from 0");
   add_number(command, "--weight-scale", s.options.weight_scale, kPositive, "factor on the radius of weight circles");
   add_numbers(
@@ -45,9 +55,45 @@ void add_options(Command& command, DrawSettings& s) {
   command.group("Help");
   command.add_help({"IN -o FILE [options]",
                     "  temper draw in.vtu -o mesh.svg\n"
+                    "  temper draw in.vtu -o quality.svg --color quality --no-weights\n"
                     "  temper draw out.vtu --before in.vtu -o both.svg --title \"before and after\"\n"
                     "  temper draw in.vtu -o corner.svg --zoom 0,0,0.5,0.5 --numbers --no-weights\n",
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+}
+
+std::vector<double> as_doubles(const io::DataArray& data) {
+  return std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); }, data.values);
+}
+
+/// A measure of the library, or data of triangles.
+IdVector<TriangleId, double> values_of(const Input& input, const std::string& name) {
+  const auto known = std::ranges::find(triangle_values(), name, &TriangleValue::name);
+  IdVector<TriangleId, double> values;
+  if (known != triangle_values().end()) {
+    for (const TriangleId t : input.mesh().triangles()) values.push_back(known->of(input.mesh(), t));
+    return values;
+  }
+  const std::vector<io::DataArray>& data = input.file.cell_data;
+  const auto named = std::ranges::find(data, name, &io::DataArray::name);
+  if (named == data.end() || named->components != 1) {
+    std::vector<std::string_view> names;
+    for (const TriangleValue& m : triangle_values()) names.push_back(m.name);
+    for (const io::DataArray& d : data) {
+      if (d.components == 1) names.push_back(d.name);
+    }
+    throw Failure(Exit::bad_usage, fmt::format("{}: --color: there is no number '{}' of triangles; there are {}",
+                                               input.path, name, join(names)));
+  }
+  for (const double value : as_doubles(*named)) values.push_back(value);
+  return values;
+}
+
+/// The colors of the panels, from left to right.
+void set_colors(DrawOptions& options, const std::string& name, std::initializer_list<const Input*> panels) {
+  if (name.empty()) return;
+  const auto known = std::ranges::find(triangle_values(), name, &TriangleValue::name);
+  options.colors = TriangleColors{known != triangle_values().end() ? std::string(known->label) : name, {}};
+  for (const Input* panel : panels) options.colors->values.push_back(values_of(*panel, name));
 }
 
 void check_zoom(const DrawOptions& options) {
@@ -60,7 +106,8 @@ void check_zoom(const DrawOptions& options) {
 }  // namespace
 
 Exit run_draw(const Arguments& arguments) {
-  Command command("draw", "Draws triangles, the dual between orthocenters, and weights as circles, as SVG.");
+  Command command("draw",
+                  "Draws triangles, the dual between orthocenters, and weights as circles, as SVG, PNG or PDF.");
   DrawSettings s;
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
@@ -77,11 +124,13 @@ Exit run_draw(const Arguments& arguments) {
   const Input input = read_input(s.input, {s.projection});
   print_warnings(input.warnings());
   if (s.before.empty()) {
-    outputs.write_text(s.output, draw_svg(input.mesh(), s.options));
+    set_colors(s.options, s.color, {&input});
+    outputs.write_picture(s.output, draw_svg(input.mesh(), s.options));
   } else {
     const Input before = read_input(s.before, {same_projection(input, s.projection)});
     print_warnings(before.warnings());
-    outputs.write_text(s.output, draw_before_after_svg(before.mesh(), input.mesh(), s.options));
+    set_colors(s.options, s.color, {&before, &input});
+    outputs.write_picture(s.output, draw_before_after_svg(before.mesh(), input.mesh(), s.options));
   }
   return Exit::done;
 }

@@ -44,7 +44,7 @@ void add_files(Command& command, MeshSettings& s) {
   add_mesh_output(command, s.output, "MESH");
   command.option("--output").require();
   add_text(command, "--report", "FILE", s.report, "a JSON report: what was read and made, before and after optimising");
-  add_text(command, "--draw", "FILE", s.picture, "an SVG picture of the mesh and its dual");
+  add_text(command, "--draw", "FILE", s.picture, "a picture (.svg, .png, .pdf) of the mesh and its dual");
   command.add_flag("--quiet", s.quiet, "print warnings and errors only");
 }
 
@@ -196,7 +196,7 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
     DrawOptions drawing;
     drawing.title =
         fmt::format("{}: {} triangles, {} not well-centered", s.input, after.triangles, bad_triangles(after));
-    outputs.write_text(s.picture, draw_svg(made.mesh, drawing));
+    outputs.write_picture(s.picture, draw_svg(made.mesh, drawing));
   }
   if (!s.quiet) print(mesh_text(record) + fmt::format("\n{}: {}\n", s.output.path, verdict(after)));
   const bool early = made.report.stopped == Stopped::time_limit || made.report.stopped == Stopped::cancelled;

@@ -72,7 +72,7 @@ void add_files(Command& command, Settings& s) {
   add_text(command, "--history", "FILE", s.history, "one line of CSV a sweep");
   add_text(command, "--trace", "FILE", s.trace,
            "every move, flip and removal, one JSON object a line; see temper replay");
-  add_text(command, "--draw", "FILE", s.picture, "an SVG picture, before and after side by side");
+  add_text(command, "--draw", "FILE", s.picture, "a picture (.svg, .png, .pdf), before and after side by side");
 #ifdef TEMPER_WITH_VERIFY
   command.add_flag(
       "--verify", s.verify,
@@ -394,7 +394,7 @@ void write_all(const Command& command, const Settings& s, Input& input, Results&
       outputs.write_text(s.html, optimize_html({record, input, results.original, input.loaded.mesh}));
   }
   if (!s.history.empty()) outputs.write_text(s.history, history_csv(results.report));
-  if (!s.picture.empty()) outputs.write_text(s.picture, results.picture);
+  if (!s.picture.empty()) outputs.write_picture(s.picture, results.picture);
 }
 
 /// The row of energies that is of interest.

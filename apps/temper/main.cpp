@@ -36,7 +36,7 @@ std::span<const Verb> verbs() {
       {"verify", "measure the errors that solvers make on a mesh", run_verify},
 #endif
       {"dec", "write the operators of a mesh, for solvers", run_dec},
-      {"draw", "draw triangles, dual and weights as SVG", run_draw},
+      {"draw", "draw triangles, dual and weights as SVG, PNG or PDF", run_draw},
       {"convert", "write a mesh in another file format", run_convert},
       {"example", "make an example mesh", run_example},
       {"replay", "do again what a trace of optimize says", run_replay},

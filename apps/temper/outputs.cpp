@@ -4,13 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 
 #include "console.hpp"
 #include "exit.hpp"
+#include "picture_file.hpp"
 #include "projection_option.hpp"
 #include "suggest.hpp"
 
@@ -101,14 +101,10 @@ void Outputs::expect_mesh(const MeshOutput& output, const std::vector<std::strin
 void Outputs::expect_picture(const std::string& option, const std::string& path,
                              const std::vector<std::string>& inputs) {
   expect_text(option, path, inputs);
-  std::string suffix = fs::path(path).extension().string();
-  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (!suffix.empty() && suffix != ".svg") {
-    throw Failure(Exit::bad_usage,
-                  fmt::format("{}: {}: {} is no name of an SVG file, and temper draws no other pictures; expected one "
-                              "that ends in .svg",
-                              verb_, option, path));
-  }
+  if (is_picture_name(path)) return;
+  throw Failure(Exit::bad_usage, fmt::format("{}: {}: {} names no picture that temper draws; expected one that ends in "
+                                             ".svg, .png or .pdf",
+                                             verb_, option, path));
 }
 
 void Outputs::expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs) {
@@ -143,6 +139,10 @@ void Outputs::write_text(const std::string& path, std::string_view text) {
   const Expected<void> result = io::write_text(path, text);
   if (!result) fail(result.error());
   written_.push_back(path);
+}
+
+void Outputs::write_picture(const std::string& path, std::string_view svg) {
+  write_text(path, picture_bytes(path, svg));
 }
 
 io::TextStream Outputs::open(const std::string& path) const {

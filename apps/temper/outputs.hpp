@@ -31,12 +31,13 @@ class Outputs {
   void expect_mesh(const MeshOutput& output, const std::vector<std::string>& others = {});
   /// A text file that must not be one of these inputs. An empty path: not asked for.
   void expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
-  /// The same of a picture, which is SVG whatever it is called, so that it may not be called anything else.
+  /// The same of a picture, whose suffix tells the format.
   void expect_picture(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
 
   /// The warnings of writing.
   std::vector<std::string> write_mesh(const MeshOutput& output, const io::MeshFile& file, Executor* executor = nullptr);
   void write_text(const std::string& path, std::string_view text);
+  void write_picture(const std::string& path, std::string_view svg);
   /// Text that comes bit by bit: opened before the work, put in its place after it.
   [[nodiscard]] io::TextStream open(const std::string& path) const;
   void commit(const std::string& path, io::TextStream& stream);

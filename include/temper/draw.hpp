@@ -15,6 +15,13 @@ struct Box {
   Vec2 low, high;
 };
 
+/// Triangles filled by a number, from dark for the least to light for the greatest of all panels. Values that are not
+/// finite do not count for the scale, and have the color of the end that they are beyond; NaN has none.
+struct TriangleColors {
+  std::string label;                                 ///< under the scale
+  std::vector<IdVector<TriangleId, double>> values;  ///< one for each panel
+};
+
 struct DrawOptions {
   bool primal = true;           ///< edges of the triangulation
   bool dual = true;             ///< edges of the power diagram, between orthocenters
@@ -24,9 +31,10 @@ struct DrawOptions {
   bool near_coincident = true;  ///< ring vertices that nearly coincide with a neighbour
   bool regions = true;          ///< tint regions, draw constrained edges thicker
   bool vertex_numbers = false;
-  std::optional<Box> zoom = {};  ///< draw only what meets this box
-  double width = 900;            ///< of one panel, in CSS pixels
-  std::string title = {};        ///< under the picture
+  std::optional<TriangleColors> colors = {};  ///< instead of bad triangles and regions
+  std::optional<Box> zoom = {};               ///< draw only what meets this box
+  double width = 900;                         ///< of one panel, in CSS pixels
+  std::string title = {};                     ///< under the picture
 };
 
 /// One panel.

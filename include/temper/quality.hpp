@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "temper/energy.hpp"
@@ -60,6 +62,16 @@ struct Quality {
   std::vector<WorstTriangle> worst;  ///< worst first
   Histogram angles, h_over_l, d_over_l;
 };
+
+/// A number of each triangle, for pictures and data of cells.
+struct TriangleValue {
+  std::string_view name;   ///< "quality", "angle", …
+  std::string_view label;  ///< for legends, with its unit
+  double (*of)(const Mesh& mesh, TriangleId t);
+};
+/// quality: the least of h/ℓ, d/ℓ and 1 − d/ℓ, −∞ for an inverted triangle: positive in well-centered ones; angle: the
+/// largest [degrees]; size: the mean length of the edges; region.
+[[nodiscard]] std::span<const TriangleValue> triangle_values();
 
 /// Measures a mesh. The same report for any executor. Precondition: no erased triangles. O(n).
 [[nodiscard]] Quality quality(const Mesh& mesh, const QualityOptions& options = {});

@@ -40,7 +40,8 @@ std::string caption(const Shown& shown, bool zoomed) {
 }
 
 struct Key {
-  std::string label, mark;  // mark: SVG around (0, 0), 20 pixels wide
+  std::string label, mark;  // mark: SVG around y = 0
+  double width = 20;        // of the mark, pixels
 };
 
 std::string line_mark(const char* color, const char* more = "") {
@@ -51,13 +52,27 @@ std::string circle_mark(const char* color, const char* more = "") {
          "/>";
 }
 
+Key scale_key(const TriangleColors& colors) {
+  constexpr double kBox = 12;
+  const ColorScale scale = scale_of(colors);
+  Key key = {colors.label, "", kBox * static_cast<double>(kScaleColors.size())};
+  if (scale.low <= scale.high) key.label += ": " + short_number(scale.low) + " to " + short_number(scale.high);
+  for (std::size_t i = 0; i < kScaleColors.size(); ++i) {
+    key.mark += "<rect x=\"" + short_number(kBox * static_cast<double>(i)) + "\" y=\"-6\" width=\"" +
+                short_number(kBox) + "\" height=\"12\" fill=\"" + kScaleColors[i] + "\"/>";
+  }
+  return key;
+}
+
 // Only what some panel really shows.
 std::vector<Key> legend(std::span<const Shown> shown, const PageFrame& frame, const DrawOptions& options) {
   const auto any = [&](auto what) {
     return std::any_of(shown.begin(), shown.end(), [&](const Shown& s) { return what(s.panel); });
   };
   std::vector<Key> keys;
-  if (options.bad_triangles && any([](const Panel& p) { return p.bad > 0; })) {
+  if (options.colors) {
+    keys.push_back(scale_key(*options.colors));
+  } else if (options.bad_triangles && any([](const Panel& p) { return p.bad > 0; })) {
     const char* color = frame.shows_detail() ? Palette::bad : Palette::bad_dense;
     keys.push_back(
         {"not well-centered", std::string("<rect y=\"-6\" width=\"20\" height=\"12\" fill=\"") + color + "\"/>"});
@@ -74,12 +89,14 @@ std::vector<Key> legend(std::span<const Shown> shown, const PageFrame& frame, co
   return keys;
 }
 
-constexpr double kPerLetter = 7.5, kMark = 28, kBetween = 22;  // pixels, generous for any sans-serif
+constexpr double kPerLetter = 7.5, kAfterMark = 8, kBetween = 22;  // pixels, generous for any sans-serif
+
+double mark_width(const Key& key) { return key.mark.empty() ? 0 : key.width + kAfterMark; }
 
 double legend_width(const std::vector<Key>& keys) {
   double width = 0;
   for (const Key& key : keys) {
-    width += (key.mark.empty() ? 0 : kMark) + kPerLetter * static_cast<double>(key.label.size()) + kBetween;
+    width += mark_width(key) + kPerLetter * static_cast<double>(key.label.size()) + kBetween;
   }
   return width - kBetween;
 }
@@ -88,7 +105,7 @@ std::string legend_svg(const std::vector<Key>& keys, double left, double y) {
   std::string svg;
   for (const Key& key : keys) {
     svg += "<g transform=\"translate(" + short_number(left) + " " + short_number(y - 5) + ")\">" + key.mark + "</g>\n";
-    left += key.mark.empty() ? 0 : kMark;
+    left += mark_width(key);
     svg += text_at(left, y, "start", key.label);
     left += kPerLetter * static_cast<double>(key.label.size()) + kBetween;
   }
@@ -124,15 +141,15 @@ std::string document(std::span<const Shown> shown, const PageFrame& frame, const
 std::string draw_svg(const Mesh& mesh, const DrawOptions& options) {
   const std::array<const Mesh*, 1> meshes = {&mesh};
   const PageFrame frame = make_frame(meshes, options);
-  const std::array<Shown, 1> shown = {Shown{draw_panel(mesh, frame, options, "panel"), ""}};
+  const std::array<Shown, 1> shown = {Shown{draw_panel(mesh, frame, options, 0, "panel"), ""}};
   return document(shown, frame, options);
 }
 
 std::string draw_before_after_svg(const Mesh& before, const Mesh& after, const DrawOptions& options) {
   const std::array<const Mesh*, 2> meshes = {&before, &after};
   const PageFrame frame = make_frame(meshes, options);
-  const std::array<Shown, 2> shown = {Shown{draw_panel(before, frame, options, "before"), "before"},
-                                      Shown{draw_panel(after, frame, options, "after"), "after"}};
+  const std::array<Shown, 2> shown = {Shown{draw_panel(before, frame, options, 0, "before"), "before"},
+                                      Shown{draw_panel(after, frame, options, 1, "after"), "after"}};
   return document(shown, frame, options);
 }
 

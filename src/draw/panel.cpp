@@ -27,12 +27,16 @@ constexpr std::array<const char*, 6> kTints = {"#dceaf5", "#e6f1d9", "#efe2f0", 
 
 class PanelPainter {
  public:
-  PanelPainter(const Mesh& mesh, const PageFrame& frame, const DrawOptions& options)
-      : mesh_(mesh), frame_(frame), options_(options), detailed_(frame.shows_detail()) {}
+  PanelPainter(const Mesh& mesh, const PageFrame& frame, const DrawOptions& options, std::size_t number)
+      : mesh_(mesh), frame_(frame), options_(options), number_(number), detailed_(frame.shows_detail()) {}
 
   Panel paint() {
     panel_.triangles = mesh_.n_triangles();
-    if (options_.regions) tint_regions();
+    if (options_.colors) {
+      fill_by_value(options_.colors->values[number_]);
+    } else if (options_.regions) {
+      tint_regions();
+    }
     fill_bad_triangles();
     if (options_.primal) draw_edges();
     if (options_.dual && detailed_) draw_dual();
@@ -86,13 +90,22 @@ class PanelPainter {
     for (const auto& [region, path] : paths) fill(path, "region", kTints[i++ % kTints.size()]);
   }
 
+  void fill_by_value(const IdVector<TriangleId, double>& values) {
+    const ColorScale scale = scale_of(*options_.colors);
+    std::array<PathText, kScaleColors.size()> paths;
+    for (TriangleId t : mesh_.triangles()) {
+      if (!std::isnan(values[t])) add_triangle(paths[scale.color(values[t])], t);
+    }
+    for (std::size_t i = 0; i < paths.size(); ++i) fill(paths[i], "value", kScaleColors[i]);
+  }
+
   void fill_bad_triangles() {
     PathText path;
     for (TriangleId t : mesh_.triangles()) {
       const auto p = points(t);
       if (is_well_centered(p[0], p[1], p[2])) continue;
       ++panel_.bad;
-      if (options_.bad_triangles) add_triangle(path, t);
+      if (options_.bad_triangles && !options_.colors) add_triangle(path, t);
     }
     const bool few = static_cast<double>(panel_.bad) < kFew * static_cast<double>(panel_.triangles);
     fill(path, "bad", detailed_ ? Palette::bad : Palette::bad_dense, few && !detailed_ ? kSpot : kSeam);
@@ -199,14 +212,35 @@ class PanelPainter {
   const Mesh& mesh_;
   const PageFrame& frame_;
   const DrawOptions& options_;
+  std::size_t number_;
   bool detailed_;
   Panel panel_;
 };
 
 }  // namespace
 
-Panel draw_panel(const Mesh& mesh, const PageFrame& frame, const DrawOptions& options, const std::string& id) {
-  Panel panel = PanelPainter(mesh, frame, options).paint();
+ColorScale scale_of(const TriangleColors& colors) {
+  ColorScale scale;
+  for (const auto& values : colors.values) {
+    for (const double value : values) {
+      if (!std::isfinite(value)) continue;
+      scale.low = std::min(scale.low, value);
+      scale.high = std::max(scale.high, value);
+    }
+  }
+  return scale;
+}
+
+std::size_t ColorScale::color(double value) const {
+  if (!(value > low)) return 0;
+  if (value >= high) return kScaleColors.size() - 1;
+  const double at = (value - low) / (high - low) * static_cast<double>(kScaleColors.size());
+  return std::min(static_cast<std::size_t>(at), kScaleColors.size() - 1);
+}
+
+Panel draw_panel(const Mesh& mesh, const PageFrame& frame, const DrawOptions& options, std::size_t number,
+                 const std::string& id) {
+  Panel panel = PanelPainter(mesh, frame, options, number).paint();
   const std::string size = "width=\"" + short_number(frame.width) + "\" height=\"" + short_number(frame.height) + "\"";
   panel.svg = "<clipPath id=\"" + id + "\"><rect " + size + "/></clipPath>\n<g clip-path=\"url(#" + id +
               ")\">\n<g transform=\"scale(" + short_number(frame.unit) + ")\" stroke-linejoin=\"round\">\n" +

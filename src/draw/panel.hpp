@@ -1,7 +1,9 @@
 // One panel: the layers of a picture from the bottom up, one path for each class of thing.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 
 #include "draw/frame.hpp"
@@ -19,9 +21,19 @@ struct Panel {
   bool too_dense = false;  ///< duals and weights asked for, but left out at this scale
 };
 
-/// `id` names the clip path: unique in the document.
-[[nodiscard]] Panel draw_panel(const Mesh& mesh, const PageFrame& frame, const DrawOptions& options,
+/// `number`: of the panel, from 0. `id` names the clip path: unique in the document.
+[[nodiscard]] Panel draw_panel(const Mesh& mesh, const PageFrame& frame, const DrawOptions& options, std::size_t number,
                                const std::string& id);
+
+/// Evenly growing lightness, for colour-blind readers and grey print: ten of Matplotlib's viridis.
+inline constexpr std::array<const char*, 10> kScaleColors = {"#440154", "#482878", "#3e4989", "#31688e", "#26828e",
+                                                             "#1f9e89", "#35b779", "#6ece58", "#b5de2b", "#fde725"};
+struct ColorScale {
+  double low = std::numeric_limits<double>::infinity(), high = -low;  ///< low > high: there is no finite value
+  /// Of kScaleColors.
+  [[nodiscard]] std::size_t color(double value) const;
+};
+[[nodiscard]] ColorScale scale_of(const TriangleColors& colors);
 
 /// Colours that differ for colour-blind readers and in grey print.
 struct Palette {

@@ -23,6 +23,7 @@ ELSEWHERE = {
     "check_options": "as check_option", "option_text": "repr", "option_range_text": "as option_groups",
     "missing_need": "optimize warns", "spell_options": "texts are spelled",
     "read_number": "float", "read_by_strtod": "float",
+    "triangle_values": "NumPy, of mesh and dec",
     "dot": "NumPy", "cross": "NumPy", "length": "NumPy", "squared_length": "NumPy",
     "version": "__version__", "compiled_instruction_sets": "build_info says them",
     "netcdf_version": "as compiled_instruction_sets",

@@ -1,6 +1,8 @@
 // temper draw, convert and example.
 #include <algorithm>
+#include <utility>
 
+#include "temper/quality.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -23,8 +25,8 @@ TEST_F(Draw, WritesOnePanelOrTwo) {
 
 TEST_F(Draw, RefusesTheNameOfAPictureThatItDoesNotWrite) {
   make_input("a.vtu");
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"draw", "a.vtu", "-o", "a.png"},
-                                                {"optimize", "a.vtu", "-o", "b.vtu", "--draw", "a.PNG"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"draw", "a.vtu", "-o", "a.jpg"},
+                                                {"optimize", "a.vtu", "-o", "b.vtu", "--draw", "a.TIFF"}}) {
     const Outcome outcome = temper(words);
     EXPECT_EQ(outcome.exit, 2);
     EXPECT_TRUE(contains(outcome.err, "expected one that ends in .svg")) << outcome.err;
@@ -37,15 +39,10 @@ TEST_F(Draw, EveryOptionChangesThePicture) {
         "MeshVersionFormatted 2\nDimension 2\nVertices\n6\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.2 0\n0.5 0.2001 0\n"
         "Triangles\n6\n1 2 5 1\n2 6 5 1\n1 5 6 1\n2 3 6 2\n3 4 6 2\n4 1 6 2\nEnd\n");
   write("a.mesh.weights.csv", "point,weight\n1,0\n2,0.01\n3,0\n4,-0.01\n5,0\n6,0\n");
-  const std::vector<std::vector<std::string>> options = {{"--no-primal"},
-                                                         {"--no-dual"},
-                                                         {"--no-bad"},
-                                                         {"--no-rings"},
-                                                         {"--no-regions"},
-                                                         {"--numbers"},
-                                                         {"--zoom", "0,0,0.5,0.5"},
-                                                         {"--width", "300"},
-                                                         {"--title", "a < b"}};
+  const std::vector<std::vector<std::string>> options = {
+      {"--no-primal"},    {"--color", "angle"}, {"--no-dual"}, {"--no-bad"},
+      {"--no-rings"},     {"--no-regions"},     {"--numbers"}, {"--zoom", "0,0,0.5,0.5"},
+      {"--width", "300"}, {"--title", "a < b"}};
   temper_ok({"draw", "a.mesh", "-o", "plain.svg"});
   const std::string plain = read("plain.svg");
   for (const auto& option : options) {
@@ -55,6 +52,40 @@ TEST_F(Draw, EveryOptionChangesThePicture) {
     EXPECT_NE(read("other.svg"), plain) << option.front();
   }
   EXPECT_TRUE(contains(shell("temper draw a.mesh --title 'a < b' -o /dev/stdout").out, "a &lt; b"));
+}
+
+TEST_F(Draw, TheSuffixTellsTheFormat) {
+  make_input("a.vtu");
+  for (const auto& [name, begin] :
+       {std::pair("p.png", "\x89PNG\r\n"), std::pair("p.pdf", "%PDF-"), std::pair("p.svg", "<svg")}) {
+    temper_ok({"draw", "a.vtu", "-o", name});
+    const std::string first = read(name);
+    EXPECT_TRUE(first.starts_with(begin)) << name;
+    temper_ok({"draw", "a.vtu", "-o", name});
+    EXPECT_EQ(read(name), first) << name;
+  }
+  temper_ok({"optimize", "a.vtu", "-o", "b.vtu", "--draw", "both.png"});
+  EXPECT_TRUE(read("both.png").starts_with("\x89PNG"));
+  EXPECT_EQ(temper({"draw", "a.vtu", "-o", "p.jpg"}).exit, 2);
+
+  write("kept.png", "mine");
+  const Outcome outcome = shell("temper=$(command -v temper); PATH=/nowhere \"$temper\" draw a.vtu -o kept.png");
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_TRUE(contains(outcome.err, "kept.png: cannot be written: rsvg-convert is not there"));
+  EXPECT_EQ(read("kept.png"), "mine");
+}
+
+TEST_F(Draw, ColorsAreMeasuresOrDataOfTheFile) {
+  make_input("a.vtu");
+  for (const TriangleValue& value : triangle_values()) {
+    temper_ok({"draw", "a.vtu", "-o", "p.svg", "--color", std::string(value.name)});
+    EXPECT_TRUE(contains(read("p.svg"), "class=\"value\"")) << value.name;
+  }
+  const Outcome outcome = temper({"draw", "a.vtu", "-o", "q.svg", "--color", "colour"});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_TRUE(
+      contains(outcome.err, "a.vtu: --color: there is no number 'colour' of triangles; there are quality, angle"));
+  EXPECT_FALSE(exists("q.svg"));
 }
 
 TEST_F(Convert, GoesThereAndBack) {

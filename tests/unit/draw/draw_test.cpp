@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,6 +45,27 @@ Mesh everything() {
   const VertexId a(44), b(45);
   mesh.set_position(a, mesh.position(b) + Vec2{-0.01, 0});
   return mesh;
+}
+
+TEST(Draw, ColorsAreOnOneScaleOfAllPanelsInsteadOfBadTriangles) {
+  const Mesh mesh = everything();
+  DrawOptions options;
+  options.colors = TriangleColors{"a < b", {}};
+  for (const double shift : {0.0, 100.0}) {
+    IdVector<TriangleId, double> values;
+    for (TriangleId t : mesh.triangles()) values.push_back(shift + static_cast<double>(t.index % 50));
+    values[TriangleId(3)] = std::numeric_limits<double>::infinity();
+    values[TriangleId(4)] = std::numeric_limits<double>::quiet_NaN();
+    options.colors->values.push_back(values);
+  }
+  const std::string svg = draw_before_after_svg(mesh, mesh, options);
+  expect_well_formed(svg);
+  EXPECT_TRUE(has_class(svg, "value"));
+  EXPECT_FALSE(has_class(svg, "bad"));
+  EXPECT_FALSE(has_class(svg, "region"));
+  EXPECT_NE(svg.find("a &lt; b: 0 to 149"), std::string::npos);
+  // 0 to 49 and 100 to 149, of ten colors four in each panel; and infinity has the last one in both.
+  EXPECT_EQ(count(svg, "class=\"value\""), 9u);
 }
 
 TEST(Draw, APictureOfEverythingIsWellFormed) {

@@ -1,10 +1,13 @@
 // The report on meshes whose numbers are known: by hand, from the paper's horseshoe, from public meshes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "support/shapes.hpp"
 #include "temper/generate.hpp"
@@ -34,6 +37,24 @@ TEST(QualityFacts, AnEquilateralTriangle) {
   EXPECT_NEAR(q.max_angle_deg, 60, 1e-13);
   EXPECT_EQ(q.max_transmissibility_over_median, 1) << "no interior edge: nothing to compare";
   EXPECT_NEAR(q.energy[3][1], 4.618802153517, 5e-13);
+}
+
+double value_of(std::string_view name, const Mesh& mesh) {
+  const auto found = std::ranges::find(triangle_values(), name, &TriangleValue::name);
+  return found->of(mesh, TriangleId(0));
+}
+
+TEST(TriangleValues, AreThoseOfTheReportWhereItHasThem) {
+  const Mesh right = one_triangle({0, 0}, {2, 0}, {0, 1});
+  const Quality q = quality(right);
+  EXPECT_EQ(triangle_values().size(), 4u);
+  EXPECT_NEAR(value_of("quality", right), std::min(q.min_h_over_l, q.min_d_over_l), 1e-15);
+  EXPECT_NEAR(value_of("angle", right), q.max_angle_deg, 1e-12);
+  EXPECT_NEAR(value_of("size", right), (3 + std::sqrt(5.0)) / 3, 1e-15);
+  EXPECT_EQ(value_of("region", right), right.region(TriangleId(0)));
+  Mesh inverted = right;
+  inverted.set_position(VertexId(2), {0, -1});
+  EXPECT_EQ(value_of("quality", inverted), -kInfinity);
 }
 
 TEST(QualityFacts, TheOrthocenterOfARightTriangleIsNotInside) {

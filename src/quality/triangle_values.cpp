@@ -1,0 +1,66 @@
+// Numbers of single triangles.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "temper/geometry.hpp"
+#include "temper/quality.hpp"
+
+namespace temper {
+namespace {
+
+/// Calls f(a, b, c) for each edge ab, with the corner c opposite.
+template <class F>
+void for_edges(const Mesh& mesh, TriangleId t, F&& f) {
+  const auto [p, q, r] = mesh.corners(t);
+  const WeightedPoint a = mesh.point(p), b = mesh.point(q), c = mesh.point(r);
+  f(a, b, c);
+  f(b, c, a);
+  f(c, a, b);
+}
+
+double least_margin(const Mesh& mesh, TriangleId t) {
+  const auto [p, q, r] = mesh.corners(t);
+  double least = std::numeric_limits<double>::infinity();
+  if (orient2d(mesh.position(p), mesh.position(q), mesh.position(r)) != Sign::positive) return -least;
+  for_edges(mesh, t, [&](const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c) {
+    const double l = length(b.position() - a.position()), d = edge_split(a, b) / l;
+    least = std::min({least, signed_height(a, b, c) / l, d, 1 - d});
+  });
+  return least;
+}
+
+double largest_angle(const Mesh& mesh, TriangleId t) {
+  double largest = 0;
+  for_edges(mesh, t, [&](const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c) {
+    const Vec2 u = a.position() - c.position(), v = b.position() - c.position();
+    largest = std::max(largest, std::abs(std::atan2(u.x * v.y - u.y * v.x, u.x * v.x + u.y * v.y)));
+  });
+  return largest * 180 / std::numbers::pi;
+}
+
+double mean_edge(const Mesh& mesh, TriangleId t) {
+  double sum = 0;
+  for_edges(mesh, t, [&](const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint&) {
+    sum += length(b.position() - a.position());
+  });
+  return sum / 3;
+}
+
+double region(const Mesh& mesh, TriangleId t) { return mesh.region(t); }
+
+}  // namespace
+
+std::span<const TriangleValue> triangle_values() {
+  static constexpr auto kValues = std::to_array<TriangleValue>({
+      {"quality", "least of h/ℓ, d/ℓ, 1 − d/ℓ", least_margin},
+      {"angle", "largest angle (degrees)", largest_angle},
+      {"size", "mean length of edges", mean_edge},
+      {"region", "region", region},
+  });
+  return kValues;
+}
+
+}  // namespace temper
