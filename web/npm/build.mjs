@@ -1,7 +1,7 @@
 // Builds the package into dist/: the module, the two platforms, the types. `node build.mjs --options` also writes
 // src/options.ts anew from the table of options in the module.
 import { execFileSync } from 'node:child_process';
-import { copyFileSync, existsSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -15,6 +15,12 @@ if (!existsSync(wasm)) {
   process.exit(1);
 }
 
+// The solver stays a module of its own: only who asks for explanations loads it.
+const solverApart = {
+  name: 'solver apart',
+  setup: (on) => on.onResolve({ filter: /^highs$/ }, () => ({ path: './highs/highs.js', external: true })),
+};
+
 rmSync(join(here, 'dist'), { recursive: true, force: true });
 const shim = readFileSync(join(dirname(createRequire(import.meta.url).resolve('@bjorn3/browser_wasi_shim')), '..', 'LICENSE-MIT'), 'utf8');
 await build({
@@ -24,8 +30,15 @@ await build({
   format: 'esm',
   target: 'es2022',
   external: ['node:*'],
+  plugins: [solverApart],
   banner: { js: `/*! temper, Apache-2.0. With @bjorn3/browser_wasi_shim:\n\n${shim.trim()}\n*/` },
 });
+mkdirSync(join(here, 'dist', 'highs'));
+const highs = join(dirname(createRequire(import.meta.url).resolve('highs')), '..');
+// As .js, which every server knows.
+for (const [file, name] of [['build/highs.mjs', 'highs.js'], ['build/highs.wasm', 'highs.wasm'], ['LICENSE', 'LICENSE']]) {
+  copyFileSync(join(highs, file), join(here, 'dist', 'highs', name));
+}
 copyFileSync(wasm, join(here, 'dist', 'temper.wasm'));
 copyFileSync(join(root, 'LICENSE'), join(here, 'LICENSE'));
 

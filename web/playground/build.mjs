@@ -1,5 +1,5 @@
 // Builds the page into dist/: files for any static server. Prints what a visitor loads.
-import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, cpSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -20,17 +20,25 @@ const made = await build({
   minify: true,
   legalComments: 'eof', // that of the package, which is a bundle itself; the rest is in the notice
   metafile: true,
+  external: ['./highs/highs.js'], // loaded with the first explanation
 });
 for (const file of ['index.html', 'style.css']) copyFileSync(join(here, file), join(dist, file));
-copyFileSync(createRequire(import.meta.url).resolve('temper-mesh/temper.wasm'), join(dist, 'temper.wasm'));
+const wasm = createRequire(import.meta.url).resolve('temper-mesh/temper.wasm');
+copyFileSync(wasm, join(dist, 'temper.wasm'));
+cpSync(join(dirname(wasm), 'highs'), join(dist, 'highs'), { recursive: true }); // with its licence
 
 writeFileSync(join(dist, 'NOTICE'), await notices(Object.keys(made.metafile.inputs)));
 
-let total = 0, packed = 0;
-for (const name of readdirSync(dist).filter((file) => file !== 'NOTICE')) {
-  const bytes = readFileSync(join(dist, name)), small = gzipSync(bytes, { level: 9 }).length;
-  total += bytes.length;
-  packed += small;
-  console.log(`playground: ${name} ${Math.round(bytes.length / 1000)} kB, by gzip ${Math.round(small / 1000)} kB`);
+/** Says how large files are, one by one and in all. */
+function tell(what, folder) {
+  const sizes = readdirSync(folder, { withFileTypes: true }).filter((entry) => entry.isFile() && !/NOTICE|LICENSE/.test(entry.name)).map(({ name }) => {
+    const bytes = readFileSync(join(folder, name));
+    return { name, whole: bytes.length, packed: gzipSync(bytes, { level: 9 }).length };
+  });
+  const kB = (bytes) => `${Math.round(bytes / 1000)} kB`;
+  for (const { name, whole, packed } of sizes) console.log(`playground: ${name} ${kB(whole)}, by gzip ${kB(packed)}`);
+  const sum = (key) => kB(sizes.reduce((total, size) => total + size[key], 0));
+  console.log(`playground: ${what} ${sum('whole')} in all, by gzip ${sum('packed')}`);
 }
-console.log(`playground: ${Math.round(total / 1000)} kB in all, by gzip ${Math.round(packed / 1000)} kB`);
+tell('the page', dist);
+tell('the solver that explanations load', join(dist, 'highs'));

@@ -18,6 +18,8 @@ using Json = nlohmann::ordered_json;
 
 /// A function of the module, by its own name.
 #define TEMPER_EXPORT(name) extern "C" __attribute__((export_name(#name)))
+/// A function that JavaScript gives to the module.
+#define TEMPER_IMPORT(name) extern "C" __attribute__((import_module("temper"), import_name(#name)))
 
 /// An argument of the wrong type: TypeError in JavaScript.
 struct WrongType {

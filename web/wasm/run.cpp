@@ -8,8 +8,6 @@
 namespace temper::wasm {
 namespace {
 
-#define TEMPER_IMPORT(name) extern "C" __attribute__((import_module("temper"), import_name(#name)))
-
 /// The sweep that is done, as JSON; 0 stops the run.
 TEMPER_IMPORT(progress) int tell_progress(const char* record, std::size_t size, double fraction, int max_sweeps);
 /// An event of the run, as JSON.

@@ -3,9 +3,10 @@ import { Mesh } from './mesh.ts';
 import { answer, answerBytes, answerText, call, type Files, fromJson, listening, module, takeWritten, toJson, withFiles } from './module.ts';
 import type { OptimizeOptions } from './options.ts';
 import type {
-  DecComplex, DecSummary, DrawOptions, EnergyInfo, EnergyModel, Format, IncidenceMatrix, OptimizeReport, OptionRow, Progress, Quality,
-  Restoration, Snapshot, SofteningLike, SweepRecord, TraceEvent, VertexDerivatives,
+  DecComplex, DecSummary, DrawOptions, EnergyInfo, EnergyModel, Explanation, Format, IncidenceMatrix, OptimizeReport, OptionRow, Progress,
+  Quality, Restoration, Snapshot, SofteningLike, SweepRecord, TraceEvent, VertexDerivatives,
 } from './records.ts';
+import { loadSolver } from './solver.ts';
 
 export { Mesh, type MeshParts, type Numbers } from './mesh.ts';
 export { type Files, TemperError } from './module.ts';
@@ -150,6 +151,26 @@ export function well_centered_triangles(mesh: Mesh): Uint8Array {
   return answerBytes();
 }
 
+export interface ExplainOptions {
+  /** Cures are searched for so many reasons, the worst. Default: 20. */
+  cures?: number;
+  /** Weights are asked of the whole mesh when it has at most so many triangles, or so many bad ones. Default: 1000. */
+  whole?: number;
+  /** Hears now and then how many of the bad triangles are explained; false stops, with a TemperError. */
+  progress?: (done: number, all: number) => boolean | void;
+}
+
+/** Explains each triangle that is not well-centered, by exactly one reason, with what would cure it. A promise, other than
+ * in Python: the first call loads a solver of linear programmes, HiGHS. The mesh is taken as it is when that is there. */
+export async function explain(mesh: Mesh, { progress, ...given }: ExplainOptions = {}): Promise<Explanation> {
+  await loadSolver();
+  const explained = progress && ((done: number, all: number): boolean => progress(done, all) !== false);
+  return listening({ explained }, () => {
+    call('mesh_explain', mesh.handle, toJson(given));
+    return answer<Explanation>();
+  });
+}
+
 /** All energies. */
 export function energies(): EnergyInfo[] {
   return told('energies');
@@ -225,11 +246,13 @@ export interface HtmlOptions {
   before?: Mesh;
   /** Of the run that made the mesh: its history and notes are shown, too. */
   report?: OptimizeReport;
+  /** Of the mesh: its reasons and cures are shown with the triangles. */
+  explanation?: Explanation;
   title?: string;
 }
 
 /** The report that the program writes with --html: a page that needs no network. */
-export function html_report(mesh: Mesh, { before, report, title = 'temper.Mesh' }: HtmlOptions = {}): string {
+export function html_report(mesh: Mesh, { before, report, explanation, title = 'temper.Mesh' }: HtmlOptions = {}): string {
   const measures = (of: Mesh): object => {
     const q = quality(of);
     return { ...q, histograms: { angles: q.angles, h_over_l: q.h_over_l, d_over_l: q.d_over_l } };
@@ -247,7 +270,7 @@ export function html_report(mesh: Mesh, { before, report, title = 'temper.Mesh' 
     ...(before && { before: measures(before) }),
     after: measures(mesh),
     ...run,
-    reasons: [],
+    reasons: explanation?.reasons.map((r) => ({ kind: r.kind, triangles: r.bad, text: r.text, cures: r.cures.map((cure) => cure.text) })) ?? [],
   };
   // Numbers that JSON has not are null to the page.
   call('mesh_html_report', mesh.handle, before?.handle ?? 0, title, JSON.stringify(shown));

@@ -1,6 +1,7 @@
 // The WebAssembly module: how it is started and called. Its functions take numbers and addresses, and leave in one buffer
 // what they have to say (web/wasm/answer.hpp).
 import { Directory, File, type Inode, PreopenDirectory, WASI } from '@bjorn3/browser_wasi_shim';
+import type { Solver } from './solver.ts';
 
 /** Bad input, told to a person: `where: message`, in the words of the library. */
 export class TemperError extends Error {
@@ -30,6 +31,7 @@ type Exports = { memory: WebAssembly.Memory } & Record<string, (...args: number[
 
 /** Who hears of a run. What they throw is thrown on when the run has ended. */
 export interface Listener {
+  explained?(done: number, all: number): boolean;
   progress?(record: string, fraction: number, maxSweeps: number): boolean;
   trace?(event: string): void;
   snapshot?(handle: number, sweep: number): void;
@@ -38,6 +40,7 @@ export interface Listener {
 let wasm: Exports | null = null;
 let disk: Disk | null = null;
 let listener: Listener = {};
+let solver: Solver | null = null;
 let thrown: { error: unknown } | null = null;
 
 function fileOf(bytes: Uint8Array): File {
@@ -85,10 +88,50 @@ export async function start(source: WebAssembly.Module | Promise<WebAssembly.Mod
           return true;
         });
       },
+      explained: (done: number, all: number): number => (heard(() => listener.explained?.(done, all) ?? true) ? 1 : 0),
+      solve_lp: solveProgramme,
     },
   });
   wasi.initialize(instance as Parameters<typeof wasi.initialize>[0]);
   wasm = instance.exports as Exports;
+}
+
+/** Who solves the module's linear programmes from now on. */
+export function useSolver(by: Solver): void {
+  solver = by;
+}
+
+const kStatuses = ['optimal', 'infeasible', 'unbounded', 'failed']; // as LpStatus has them
+
+/** What the module asks for: arrays by their addresses, and where the answer goes. */
+function solveProgramme(
+  columns: number, rows: number, entries: number, cost: number, columnLower: number, columnUpper: number, rowLower: number,
+  rowUpper: number, rowStart: number, column: number, value: number, primal: number, dual: number,
+): number {
+  const { buffer } = module().memory;
+  const reals = (at: number, size: number): Float64Array => new Float64Array(buffer, at, size);
+  const whole = (at: number, size: number): Int32Array => new Int32Array(buffer, at, size);
+  const programme = {
+    cost: reals(cost, columns),
+    columnLower: reals(columnLower, columns),
+    columnUpper: reals(columnUpper, columns),
+    rowLower: reals(rowLower, rows),
+    rowUpper: reals(rowUpper, rows),
+    rowStart: whole(rowStart, rows + 1),
+    column: whole(column, entries),
+    value: reals(value, entries),
+  };
+  let status = 'failed';
+  heard(() => {
+    const solved = solver!(programme);
+    if (solved.status === 'optimal') {
+      reals(primal, columns).set(solved.primal);
+      reals(dual, rows).set(solved.dual);
+    }
+    status = solved.status;
+    return true;
+  });
+  return kStatuses.indexOf(status);
 }
 
 /** Calls a listener; false when it has thrown, now or before. */
@@ -186,12 +229,18 @@ export function listening<T>(to: Listener, run: () => T): T {
   const outer = { listener, thrown };
   listener = to;
   thrown = null;
-  try {
-    const result = run();
-    // `thrown` is set by listeners, which the compiler does not see.
+  // `thrown` is set by listeners, which the compiler does not see.
+  const throwOn = (): void => {
     const seen = thrown as { error: unknown } | null;
     if (seen) throw seen.error;
+  };
+  try {
+    const result = run();
+    throwOn();
     return result;
+  } catch (error) {
+    throwOn(); // that a run was stopped is no news to who stopped it by an error
+    throw error;
   } finally {
     listener = outer.listener;
     thrown = outer.thrown;

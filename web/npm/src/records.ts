@@ -296,3 +296,133 @@ export interface DrawOptions {
   width?: number;
   title?: string;
 }
+
+/** An inequality of the weights: "height" over edge pq of the triangle pqr, "split" from p towards q, "dual" length of pq. */
+export interface WeightConstraint {
+  kind: 'height' | 'split' | 'dual';
+  p: number;
+  q: number;
+  /** −1: none. */
+  r: number;
+  s: number;
+}
+
+/** Why no weights exist (Farkas): constraints with multipliers ≥ 0 whose sum contradicts itself. */
+export interface Certificate {
+  /** Refuted: no weights keep the conditions with more than this margin. */
+  margin: number;
+  /** None: no certificate. */
+  terms: [WeightConstraint, number][];
+  conditions: 'well_centered' | 'heights_only' | 'regular';
+}
+
+/** An edge u → v whose dual must cross it near u for the sake of one vertex, and near v for the sake of another. */
+export interface EdgeConflict {
+  /** u, v. */
+  edge: [number, number];
+  halfedge: number;
+  near_u: number;
+  near_v: number;
+  /** Parts of the edge's length. */
+  a: number;
+  b: number;
+  /** a + b: at most 1 when there is no place for the crossing. */
+  sum: number;
+  /** Part of the way from u. */
+  split_at: number;
+}
+
+/** One side of the edge in a conflict: where its triangles let the dual cross, if they are to be well-centered. */
+export interface CrossingSide {
+  triangles: number[];
+  /** Distances from the edge's first vertex, exclusive [length]. */
+  from_: number;
+  to: number;
+  /** Where the largest angle of these triangles is, */
+  widest: number;
+  /** and that angle. */
+  angle_deg: number;
+}
+
+/** An edge whose sides cannot agree: left.to ≤ right.from_ or right.to ≤ left.from_. */
+export interface CrossingConflict {
+  p: number;
+  q: number;
+  length: number;
+  left: CrossingSide;
+  right: CrossingSide;
+}
+
+/** The corner that the triangles of a fan go around. */
+export interface FanCenter {
+  vertex: number;
+  on_boundary: boolean;
+  /** Of the domain there, when on the boundary; else 360. */
+  angle_deg: number;
+  shortest: number;
+  longest: number;
+  shortest_length: number;
+  longest_length: number;
+}
+
+/** What would cure a reason. */
+export interface Cure {
+  action: 'find_weights' | 'optimize' | 'move_vertex' | 'flip_edge' | 'insert_vertex' | 'split_edge' | 'split_boundary';
+  /** A sentence. */
+  text: string;
+  /** Two vertices, or none. */
+  edge: number[];
+  /** −1: none. */
+  vertex: number;
+  triangle: number;
+  at: [number, number];
+  /** Tried: the triangles of the neighbourhood then have weights that make them well-centered, exactly checked. */
+  verified: boolean;
+  conflict_only: boolean;
+  triangles: number;
+  ends_conflict: boolean;
+  left_out: number;
+  margin: number;
+  changed: number;
+}
+
+/** Why triangles are not well-centered. */
+export interface Reason {
+  kind: 'split' | 'edge' | 'fan' | 'patch' | 'weights' | 'undecided';
+  /** What the reason says to people, with vertices counted from 0. */
+  text: string;
+  /** Triangles not well-centered for this reason, worst first. */
+  bad: number[];
+  /** edge, fan, patch: the smallest set of triangles that no weights suit; `bad` are of these. */
+  conflict: number[];
+  must_split: EdgeConflict | null;
+  /** edge, fan, patch: the proof. */
+  certificate: Certificate;
+  /** edge, fan, patch: best margin of the conflict, at most 0. weights: of the neighbourhood, above 0. */
+  margin: number;
+  each: boolean;
+  checked: number;
+  crossing: CrossingConflict | null;
+  center: FanCenter | null;
+  /** Corners that may move. */
+  free: number[];
+  /** Least h/ℓ or d/ℓ of the bad triangles as they are. */
+  least_margin: number;
+  /** Centroid of the worst of them. */
+  at: [number, number];
+  cures_searched: boolean;
+  /** Best first. */
+  cures: Cure[];
+}
+
+/** What `explain` found. */
+export interface Explanation {
+  triangles: number;
+  bad: number;
+  /** Of the whole mesh, positions and connectivity as they are. Feasible when nothing is bad. */
+  verdict: 'feasible' | 'infeasible' | 'undecided';
+  changed: number;
+  margin: number;
+  /** Certified ones first, least margin first; then by least_margin. */
+  reasons: Reason[];
+}

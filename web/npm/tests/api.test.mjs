@@ -173,3 +173,28 @@ test('a mesh that was optimised elsewhere takes the place of the one that has th
   assert.deepEqual(files['here.msh'], files['direct.msh']);
   assert.throws(() => direct.replace(original, [1, 2]), { code: 'size_mismatch' });
 });
+
+test('explanations have reasons, proofs and cures, and each bad triangle is in one', async () => {
+  const shoe = temper.generate.sparse_horseshoe();
+  const why = await temper.explain(shoe);
+  assert.deepEqual([why.verdict, why.bad, why.triangles], ['infeasible', 4, 4]);
+  assert.deepEqual(why.reasons.flatMap(({ bad }) => bad).sort(), [0, 1, 2, 3]);
+  for (const reason of why.reasons) {
+    assert.equal(reason.kind, 'edge');
+    assert.match(reason.text, /exclude each other.*proved exactly, by a certificate/);
+    assert(reason.certificate.terms.length > 0 && reason.margin < 0 && reason.crossing !== null);
+    assert(reason.cures.some((cure) => cure.verified && cure.margin > 0));
+  }
+  const ring = await temper.explain(temper.generate.annulus(), { cures: 0 });
+  assert.equal(ring.verdict, 'feasible');
+  assert(ring.margin > 0 && ring.reasons.every(({ kind }) => kind === 'weights'));
+  assert.equal((await temper.explain(temper.optimized(temper.generate.annulus()))).reasons.length, 0);
+  assert.match(temper.html_report(shoe, { explanation: why }), /^<!DOCTYPE html>/);
+});
+
+test('an explanation is stopped by its listener, whose errors are thrown on', async () => {
+  const grid = temper.generate.sheared_grid();
+  await assert.rejects(temper.explain(grid, { progress: () => false }), { name: 'TemperError' });
+  await assert.rejects(temper.explain(grid, { progress: () => assert.fail('mine') }), /mine/);
+  await assert.rejects(temper.explain(grid, { cure: 3 }), TypeError);
+});

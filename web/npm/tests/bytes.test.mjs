@@ -145,3 +145,13 @@ test('examples are those of the program but for the last bits of sines and cosin
   }
   console.log(`the same bits: ${exact.join(', ')}`);
 });
+
+test('explanations have the verdicts of the program, whose programmes another solver solves', async () => {
+  for (const name of Object.keys(examples).filter((each) => each !== 'random')) {
+    const theirs = JSON.parse(native('explain', `${name}.vtu`, '--json', '--limit', '0'));
+    const ours = await temper.explain(temper.read(at(`${name}.vtu`)), { cures: 0 });
+    assert.deepEqual([ours.verdict, ours.bad], [theirs.verdict, theirs.bad], name);
+    const bad = (why) => why.reasons.flatMap((reason) => reason.bad ?? reason.triangles).sort((a, b) => a - b);
+    assert.deepEqual(bad(ours), bad(theirs), name);
+  }
+});

@@ -38,6 +38,7 @@ test('the package is installed in an empty folder, and the examples of its READM
 
   writeFileSync(join(project, 'all.mjs'), examples.join('\n'));
   const all = run('node', ['all.mjs'], project);
+  assert.match(all, /infeasible\nTriangles 0 and 3 exclude each other.* Cures it, verified/);
   assert.match(all, /square\.off square\.vtu\nindex_out_of_range \| triangle 0 uses point index 305/);
 });
 

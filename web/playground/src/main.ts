@@ -3,16 +3,18 @@ import { draw_svg, formats, html_report, type Progress, quality, type Quality, w
 import { darkTheme, lightTheme, type MeshData, type Pick, Viewer } from 'temper-viewer';
 import { arraysOf } from './arrays.ts';
 import { examples } from './examples.ts';
+import { Explainer } from './explainer.ts';
 import type { Arrays } from './messages.ts';
 import { OptionsForm } from './options_form.ts';
 import { Runner } from './runner.ts';
 import { Session } from './session.ts';
-import { badOf, showEnergies, showQuality, showTriangle, whyOf } from './tables.ts';
+import { badOf, showEnergies, showQuality, showReason, showTriangle, whyOf } from './tables.ts';
 
 const element = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 const dark = matchMedia('(prefers-color-scheme: dark)');
 const themeNow = (): typeof lightTheme => (dark.matches ? darkTheme : lightTheme);
 
+const kStill = 300; // ms without a change until reasons are looked for
 const kWheelStep = 0.02; // of the squared length of the edges around, a step of the wheel
 
 let session = new Session(examples[0].make(), examples[0].name);
@@ -20,9 +22,11 @@ let shown: MeshData;
 let measured: Quality;
 let picked: Pick | null = null;
 let scheduled = 0;
+let stillness = 0;
 
 const options = new OptionsForm(element('first-options'), element('all-options'));
 const runner = new Runner();
+const explainer = new Explainer(() => explain());
 const viewer = new Viewer(element('viewer'), {
   theme: themeNow(),
   onPick: (pick) => {
@@ -66,6 +70,7 @@ function dataOf(arrays: Arrays): MeshData {
 
 /** The mesh of the session is drawn and measured. */
 function show(keepView: boolean): void {
+  explainer.forget();
   shown = dataOf(arraysOf(session.mesh));
   viewer.setMesh(shown, null, { keepView });
   measure();
@@ -80,6 +85,7 @@ function show(keepView: boolean): void {
 function changed(): void {
   session.trace = null;
   session.run = null;
+  explainer.forget();
   scheduled ||= requestAnimationFrame(() => {
     scheduled = 0;
     const { points, weights, triangles } = arraysOf(session.mesh);
@@ -111,6 +117,9 @@ function explain(): void {
   element('why-title').textContent = `Triangle ${picked.triangle}`;
   element('why-text').textContent = why ?? 'well-centered: its orthocenter is inside, and its edges are crossed by their duals';
   showTriangle(element('why-numbers'), shown, picked.triangle);
+  showReason(element('why-reason'), why === null ? null : explainer, picked.triangle);
+  clearTimeout(stillness);
+  if (why !== null && !runner.running) stillness = window.setTimeout(() => explainer.ask(() => arraysOf(session.mesh)), kStill);
 }
 
 function update(): void {
@@ -172,7 +181,7 @@ async function optimise(): Promise<void> {
   session.remember();
   say([]);
   element('progress').textContent = 'begins';
-  const run = runner.run({ mesh: input, options: options.values, traced }, showProgress);
+  const run = runner.run({ kind: 'optimize', mesh: input, options: options.values, traced }, showProgress);
   update();
   const { mesh, report, events, error } = await run;
   if (error) {
@@ -288,7 +297,10 @@ element('undo').addEventListener('click', () => {
 });
 element('save').addEventListener('click', save);
 element('picture').addEventListener('click', () => download(`${stem()}.svg`, draw_svg(session.mesh, { title: session.name })));
-element('report').addEventListener('click', () => download(`${stem()}.html`, html_report(session.mesh, { ...session.run, title: session.name })));
+element('report').addEventListener('click', () => {
+  const explanation = explainer.explanation ?? undefined;
+  download(`${stem()}.html`, html_report(session.mesh, { ...session.run, explanation, title: session.name }));
+});
 element('step').addEventListener('input', (event) => goTo(Number((event.target as HTMLInputElement).value)));
 element('back').addEventListener('click', () => goTo(Math.max(0, Number(element<HTMLInputElement>('step').value) - 1)));
 element('forward').addEventListener('click', () => goTo(Number(element<HTMLInputElement>('step').value) + 1));

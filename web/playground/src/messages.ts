@@ -1,5 +1,5 @@
-// What page and worker tell each other: a mesh as arrays, and a run of it.
-import type { OptimizeOptions, OptimizeReport, Progress, TraceEvent } from 'temper-mesh';
+// What page and worker tell each other: a mesh as arrays, a run of it, and why its triangles are bad.
+import type { Explanation, OptimizeOptions, OptimizeReport, Progress, TraceEvent } from 'temper-mesh';
 
 /** A mesh as arrays, for its way between page and worker. */
 export interface Arrays {
@@ -12,13 +12,22 @@ export interface Arrays {
 }
 
 export interface Start {
+  kind: 'optimize';
   mesh: Arrays;
   options: OptimizeOptions;
   traced: boolean;
+}
+
+export interface Ask {
+  kind: 'explain';
+  mesh: Arrays;
+  cures: number;
 }
 
 export type Told =
   | { kind: 'ready' }
   | { kind: 'progress'; progress: Progress; mesh: Arrays | null }
   | { kind: 'done'; mesh: Arrays; report: OptimizeReport; events: TraceEvent[] }
+  | { kind: 'explaining'; done: number; all: number }
+  | { kind: 'explained'; explanation: Explanation }
   | { kind: 'failed'; message: string };

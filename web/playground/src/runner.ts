@@ -1,5 +1,6 @@
 // The worker as the page sees it: a run that can be stopped, one after the other.
 import type { OptimizeReport, Progress, TraceEvent } from 'temper-mesh';
+import { Helper } from './helper.ts';
 import type { Arrays, Start, Told } from './messages.ts';
 
 export interface Ended {
@@ -10,40 +11,30 @@ export interface Ended {
 }
 
 export class Runner {
-  private worker: Worker | null = null;
-  private end: ((ended: Ended) => void) | null = null;
+  private helper: Helper | null = null;
+  private onEnd: ((ended: Ended) => void) | null = null;
+  private onProgress: (progress: Progress, mesh: Arrays | null) => void = () => undefined;
   private last: Arrays | null = null;
 
   get running(): boolean {
-    return this.end !== null;
+    return this.onEnd !== null;
   }
 
   /** Starts the worker before it is needed. */
-  warm(): Worker {
-    return (this.worker ??= new Worker(new URL('./worker.js', import.meta.url), { type: 'module' }));
+  warm(): Helper {
+    return (this.helper ??= new Helper((told) => this.hear(told), (message) => {
+      this.renew();
+      this.finish({ mesh: this.last, report: null, events: [], error: message });
+    }));
   }
 
   /** Ends with the result, or when it was stopped with the mesh that was last seen, if any. */
   run(start: Start, onProgress: (progress: Progress, mesh: Arrays | null) => void): Promise<Ended> {
     this.last = null;
+    this.onProgress = onProgress;
     return new Promise((resolve) => {
-      this.end = resolve;
-      const worker = this.warm();
-      worker.onmessage = ({ data }: MessageEvent<Told>): void => {
-        if (data.kind === 'progress') {
-          this.last = data.mesh ?? this.last;
-          onProgress(data.progress, data.mesh);
-        } else if (data.kind === 'done') {
-          this.finish({ mesh: data.mesh, report: data.report, events: data.events, error: null });
-        } else if (data.kind === 'failed') {
-          this.finish({ mesh: null, report: null, events: [], error: data.message });
-        }
-      };
-      worker.onerror = (event): void => {
-        this.finish({ mesh: this.last, report: null, events: [], error: event.message || 'the run ended unexpectedly' });
-        this.renew();
-      };
-      worker.postMessage(start);
+      this.onEnd = resolve;
+      void this.warm().post(start);
     });
   }
 
@@ -54,15 +45,26 @@ export class Runner {
     this.finish({ mesh: this.last, report: null, events: [], error: null });
   }
 
+  private hear(told: Told): void {
+    if (told.kind === 'progress') {
+      this.last = told.mesh ?? this.last;
+      this.onProgress(told.progress, told.mesh);
+    } else if (told.kind === 'done') {
+      this.finish({ mesh: told.mesh, report: told.report, events: told.events, error: null });
+    } else if (told.kind === 'failed') {
+      this.finish({ mesh: null, report: null, events: [], error: told.message });
+    }
+  }
+
   private finish(ended: Ended): void {
-    const end = this.end;
-    this.end = null;
+    const end = this.onEnd;
+    this.onEnd = null;
     end?.(ended);
   }
 
   private renew(): void {
-    this.worker?.terminate();
-    this.worker = null;
+    this.helper?.end();
+    this.helper = null;
     this.warm();
   }
 }

@@ -1,5 +1,5 @@
 // The numbers beside the mesh.
-import type { Mesh, Quality } from 'temper-mesh';
+import type { Explanation, Mesh, Quality } from 'temper-mesh';
 import { triangleNumbers, type MeshData } from 'temper-viewer';
 
 type Cell = string | { text: string; bad: boolean };
@@ -68,4 +68,20 @@ export function whyOf(q: Quality, mesh: Mesh, triangle: number, measure: (worst:
   const bad = badOf(q);
   if (bad === 0 || triangle >= mesh.n_triangles) return null;
   return measure(bad).worst.find((w) => w.triangle === triangle)?.why ?? null;
+}
+
+/** The reason of a triangle with its cures, or what is said while there is none. */
+export function showReason(section: HTMLElement, from: { explanation: Explanation | null; said: string } | null, triangle: number): void {
+  const line = (tag: 'p' | 'li', text: string): HTMLElement => Object.assign(document.createElement(tag), { textContent: text });
+  section.replaceChildren();
+  if (!from?.explanation) {
+    if (from?.said) section.append(line('p', from.said));
+    return;
+  }
+  const reason = from.explanation.reasons.find(({ bad }) => bad.includes(triangle));
+  if (!reason) return;
+  section.append(line('p', reason.text));
+  const cures = document.createElement('ul');
+  cures.append(...reason.cures.map(({ text }) => line('li', text)));
+  if (reason.cures.length > 0) section.append(cures);
 }
