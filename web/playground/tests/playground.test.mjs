@@ -204,7 +204,7 @@ test('a click says why a triangle is bad', async () => {
   }
   assert.match(text, /^Triangle \d+\n+orthocenter outside across edge/);
   await page.waitForSelector('#why-reason li', { timeout: 60_000 });
-  assert.match(await page.innerText('#why-reason'), /^(Triangles \d+.* exclude each other|Weights exist)[^]*(Cures it, verified|find-weights|weights)/i);
+  assert.match(await page.innerText('#why-reason'), /exclude each other|Nothing stands in the way/);
   await shot('why');
   await page.locator('#viewer').press('Escape');
   assert(!(await page.isVisible('#why')));
