@@ -1,8 +1,8 @@
-// Debian's Chromium without a screen, and a server for a folder of files.
+// The browser that pages are tested in, and a server for a folder of files.
 import { createServer } from 'node:http';
 import { readFile } from 'node:fs/promises';
 import { extname, join, normalize } from 'node:path';
-import { chromium } from 'playwright-core';
+import playwright from 'playwright-core';
 
 const kTypes = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
 
@@ -22,12 +22,19 @@ export function serve(folder) {
   });
 }
 
+/** Debian's Chromium, without a screen. TEMPER_BROWSER=firefox: Debian's Firefox, by WebDriver BiDi, on a screen, as it has no WebGL
+ * without one: TEMPER_BROWSER=firefox xvfb-run -s "-screen 0 1400x900x24" node --test … */
 export function launch() {
-  return chromium.launch({
+  if (process.env.TEMPER_BROWSER === 'firefox') {
+    return playwright._bidiFirefox.launch({
+      executablePath: process.env.FIREFOX ?? '/usr/bin/firefox-esr',
+      headless: false,
+      firefoxUserPrefs: { 'webgl.force-enabled': true },
+    });
+  }
+  return playwright.chromium.launch({
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: [
-      '--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-      '--disable-component-update', '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-    ],
+    args: ['--headless', '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic',
+      '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'],
   });
 }
