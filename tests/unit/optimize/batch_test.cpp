@@ -284,7 +284,7 @@ TEST(InstructionSets, RunsOfEveryEnergyGiveTheSameBytes) {
       for (const InstructionSet set : instruction_sets()) {
         ASSERT_TRUE(use_instruction_set(set));
         Mesh mesh = start;
-        const auto report = optimize(mesh, {.energy = energy.kind, .star = Star(star), .max_sweeps = 4});
+        const auto report = optimize(mesh, {.energy = energy.kind, .star = Star(star), .max_sweeps = 2});
         ASSERT_TRUE(report) << energy.name;
         EXPECT_GT(report->sweeps, 0);
         if (!first) first = mesh;

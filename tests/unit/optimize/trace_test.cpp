@@ -109,9 +109,9 @@ Mesh displaced(Mesh mesh) {
 std::vector<std::pair<std::string, Mesh>> meshes() {
   return {{"sparse horseshoe", sparse_horseshoe()},
           {"horseshoe", *horseshoe()},
-          {"random", *random_points({.vertices = 120})},
-          {"displaced", displaced(*random_points({.vertices = 100, .seed = 3}))},
-          {"annulus", *annulus({.around = 24, .rings = 4})}};
+          {"random", *random_points({.vertices = 70})},
+          {"displaced", displaced(*random_points({.vertices = 60, .seed = 3}))},
+          {"annulus", *annulus({.around = 16, .rings = 3})}};
 }
 
 TEST(Trace, OfEveryRunReplaysToTheSameMesh) {
