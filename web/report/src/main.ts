@@ -45,9 +45,17 @@ class Page {
     byId('farther').addEventListener('click', () => this.viewer.zoomBy(1 / 1.5));
     byId('fit').addEventListener('click', () => this.viewer.fit());
     dark.addEventListener('change', () => this.recolor());
-    addEventListener('beforeprint', () => ((byId('printed') as HTMLImageElement).src = this.viewer.image()));
+    addEventListener('beforeprint', () => this.print());
     addEventListener('keydown', (event) => this.key(event));
     Object.assign(window, { temperViewer: this.viewer }); // for measurements
+  }
+
+  /** The picture as it is for paper, with what its parts are. */
+  private print(): void {
+    const figure = byId('printed');
+    figure.querySelector('img')!.src = this.viewer.image();
+    const side = byId('sides').querySelector<HTMLInputElement>(':checked')?.value ?? '';
+    figure.querySelector('figcaption')!.textContent = { before: 'Before', both: 'Left before, right after', after: 'After' }[side] ?? '';
   }
 
   private of(side: Side): Shown {
@@ -193,7 +201,7 @@ class Page {
     byId('worst').append(
       make('h2', {}, title),
       make('div', { class: 'scroll' }, table(['triangle', 'margin', 'largest angle', bad > 0 ? 'fails' : ''], rows, attributes)),
-      make('p', { class: 'note' }, bad > kWorst ? `${kWorst} of ${number(bad)}. ` : '', 'The margin is the least h/ℓ or d/ℓ; a click shows the triangle.'),
+      make('p', { class: 'note' }, bad > kWorst ? `${kWorst} of ${number(bad)}. ` : '', 'The margin is the least h/ℓ or d/ℓ', make('span', { class: 'on-screen' }, '; a click shows the triangle'), '.'),
     );
   }
 
