@@ -26,6 +26,7 @@
 #include "temper/error.hpp"
 #include "temper/executor.hpp"
 #include "temper/mesh.hpp"
+#include "temper/space.hpp"
 
 namespace temper {
 
@@ -95,13 +96,16 @@ struct EnergyModel {
   bool wall = false;
 };
 
-/// E of one triangle alone, all its edges boundary edges.
+/// E of one triangle alone, all its edges boundary edges. On the sphere this and all other energies are those of the
+/// flat triangles of the lifted points (space.hpp), with the same signs as on the sphere.
 [[nodiscard]] double triangle_energy(const EnergyModel& model, const WeightedPoint& p, const WeightedPoint& q,
-                                     const WeightedPoint& r);
+                                     const WeightedPoint& r, const Space& space = {});
 /// Total energy; +∞ when any term is outside its domain. Summed in fixed blocks: the same for any executor. O(n).
 [[nodiscard]] double total_energy(const Mesh& mesh, const EnergyModel& model, Executor* executor = nullptr);
 
-/// The energy as a function of one vertex: value, gradient and Hessian in (x, y, w).
+/// The energy as a function of one vertex: value, gradient and Hessian in (x, y, w). On the sphere a step (x, y, w)
+/// takes P to the direction of P + x e₁ + y e₂, with unit vectors e₁ and e₂ at right angles to P, and its weight to
+/// weight + w.
 struct VertexDerivatives {
   double value = 0;                     ///< +∞ when not feasible
   bool feasible = false;                ///< inside the domain of the energy; else the rest is zero

@@ -21,6 +21,7 @@ enum class ErrorCode {
   size_mismatch,        ///< arrays of one mesh whose lengths disagree
   not_finite,           ///< NaN or infinity
   not_planar,           ///< z coordinates that are not all equal
+  not_on_sphere,        ///< a point of a sphere that is not at its radius
   duplicate_point,      ///< two vertices at exactly the same place
   unused_point,         ///< a point of no triangle
   zero_area,            ///< a triangle with collinear corners or a repeated vertex

@@ -63,6 +63,29 @@ struct RandomPoints {
 };
 [[nodiscard]] Expected<Mesh> random_points(const RandomPoints& shape = {});
 
+// --- the whole sphere
+// --------------------------------------------------------------------------------------------------
+
+/// The Delaunay triangulation of points around the sphere, given by their directions: the convex hull of the points at
+/// the radius, all weights zero. Points keep their numbers, and ties are broken by them. About O(n log n).
+/// Errors: a point without direction, two in one direction, points that leave half of the sphere empty.
+[[nodiscard]] Expected<Mesh> spherical_delaunay(std::span<const Vec3> points, double radius = 1);
+
+/// The icosahedron, each triangle cut into four `level` times: 10 · 4^level + 2 vertices.
+struct Icosahedral {
+  int level = 4;
+  double radius = 1;
+};
+[[nodiscard]] Expected<Mesh> icosahedral(const Icosahedral& shape = {});
+
+/// Uniformly random points around the sphere, Delaunay: about half of the triangles are bad.
+struct RandomSphere {
+  std::size_t vertices = 1000;
+  std::uint64_t seed = 1;
+  double radius = 1;
+};
+[[nodiscard]] Expected<Mesh> random_sphere(const RandomSphere& shape = {});
+
 /// nx × ny squares, each cut along the same diagonal, then sheared by x += shear · y.
 struct ShearedGrid {
   int nx = 20, ny = 20;

@@ -8,7 +8,9 @@
 #include <array>
 #include <cstdint>
 
+#include "temper/space.hpp"
 #include "temper/vec2.hpp"
+#include "temper/vec3.hpp"
 
 namespace temper {
 
@@ -52,6 +54,40 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 
 /// Says whether a triangle is well-centered: all h > 0, all 0 < d < ℓ, and counter-clockwise. Exact.
 [[nodiscard]] bool is_well_centered(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
+
+// --- the same on the sphere, for lifted points P (space.hpp): exact for coordinates in the range above -----------
+
+/// Positive when p, q, r turn counter-clockwise, seen from outside. Sign of det(P, Q, R), exact.
+[[nodiscard]] Sign orientation(Vec3 p, Vec3 q, Vec3 r);
+
+/// Positive when d conflicts with abc counter-clockwise: it lies above the plane of ABC, seen from the center. Exact.
+[[nodiscard]] Sign power_test(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
+
+/// power_test with ties broken by vertex index: the points are thought to be P_i (1 + ε_i), with ε_0 ≫ ε_1 ≫ … → 0+ of
+/// which none is less than the product of two. Zero only when all four points are on a great circle.
+[[nodiscard]] Sign power_test_perturbed(Vec3 a, Vec3 b, Vec3 c, Vec3 d, const std::array<std::uint32_t, 4>& index);
+
+/// Sign of (P × Q)·n, n the normal of the face PQR counter-clockwise: of the height of its orthocenter over the arc pq.
+/// Exact.
+[[nodiscard]] Sign signed_height_sign(Vec3 p, Vec3 q, Vec3 r);
+
+/// Sign of P·(P − Q): of d_pq, the arc from p, towards q, of the weighted midpoint. Exact.
+[[nodiscard]] Sign edge_split_sign(Vec3 p, Vec3 q);
+
+/// All heights > 0, all edges crossed by their duals, and counter-clockwise. Exact.
+[[nodiscard]] bool is_well_centered(Vec3 p, Vec3 q, Vec3 r);
+
+// --- in the space of a mesh -----------------------------------------------------------------------------------
+
+[[nodiscard]] Sign orientation(const Space& space, const WeightedPoint& p, const WeightedPoint& q,
+                               const WeightedPoint& r);
+[[nodiscard]] Sign power_test(const Space& space, const WeightedPoint& a, const WeightedPoint& b,
+                              const WeightedPoint& c, const WeightedPoint& d);
+[[nodiscard]] Sign power_test_perturbed(const Space& space, const WeightedPoint& a, const WeightedPoint& b,
+                                        const WeightedPoint& c, const WeightedPoint& d,
+                                        const std::array<std::uint32_t, 4>& index);
+[[nodiscard]] bool is_well_centered(const Space& space, const WeightedPoint& p, const WeightedPoint& q,
+                                    const WeightedPoint& r);
 
 // --- constructions, in doubles ---------------------------------------------------------------------
 

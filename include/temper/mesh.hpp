@@ -21,6 +21,7 @@
 
 #include "temper/error.hpp"
 #include "temper/ids.hpp"
+#include "temper/space.hpp"
 #include "temper/vec2.hpp"
 
 namespace temper {
@@ -42,14 +43,16 @@ class InputNames {
 
 /// Arrays that make a mesh. Spans are read during Mesh::build only.
 struct MeshInput {
-  std::span<const Vec2> points = {};                            ///< n points
+  std::span<const Vec2> points = {};                            ///< n points of the plane
   std::span<const double> weights = {};                         ///< n weights [length²], or empty: all zero
   std::span<const std::array<std::int32_t, 3>> triangles = {};  ///< m corner triples, 0-based, either orientation
   std::span<const std::array<std::int32_t, 2>> constrained_edges = {};  ///< edges never to flip, 0-based
   std::span<const std::int32_t> regions = {};                           ///< m region numbers, or empty: all zero
   std::span<const std::int32_t> fixed_vertices = {};                    ///< vertices never to move, 0-based
   const InputNames* names = nullptr;                                    ///< the user's numbering, for errors
-  Executor* executor = nullptr;  ///< threads for the checks; the result does not depend on them
+  Executor* executor = nullptr;              ///< threads for the checks; the result does not depend on them
+  Space space = {};                          ///< where the points are
+  std::span<const Vec3> sphere_points = {};  ///< n points of the sphere, instead of points; at its radius to 1 in 10⁶
 };
 
 /// Numbers that are mostly all zero, one an id: the array is there once one of them is not. It does not know how many
@@ -103,7 +106,8 @@ class Mesh {
   /// duplicate or unused point, no zero-area triangle, at most two triangles an edge, one fan a vertex,
   /// every interior star winding once, no crossing boundary, no component on top of another.
   /// Clockwise triangles are reversed and counted. Edges between different regions become constrained.
-  /// Weights need not be regular. O(n log n).
+  /// Weights need not be regular. On the sphere a mesh may be closed; its edges are arcs of less than half a great
+  /// circle. O(n log n).
   [[nodiscard]] static Expected<struct BuiltMesh> build(const MeshInput& input);
 
   // --- sizes: of the arrays, erased triangles and isolated vertices included ------------------------
@@ -114,13 +118,22 @@ class Mesh {
   [[nodiscard]] IdRange<TriangleId> triangles() const { return IdRange<TriangleId>(n_triangles()); }
   [[nodiscard]] IdRange<HalfedgeId> halfedges() const { return IdRange<HalfedgeId>(n_halfedges()); }
 
+  /// The space that the mesh lies in.
+  [[nodiscard]] const Space& space() const { return space_; }
+  /// For other units of length: whoever calls it gives all points in these, by set_point().
+  void set_space(const Space& space) { space_ = space; }
+
   // --- vertices ----------------------------------------------------------------------------------
-  [[nodiscard]] Vec2 position(VertexId v) const { return {record(v).x, record(v).y}; }
-  [[nodiscard]] double weight(VertexId v) const { return record(v).w; }
+  /// As the mesh has it: in the plane x, y, w, on the sphere X, Y, Z of the lifted point (space.hpp).
   [[nodiscard]] WeightedPoint point(VertexId v) const { return {record(v).x, record(v).y, record(v).w}; }
-  void set_position(VertexId v, Vec2 p) { record(v).x = p.x, record(v).y = p.y; }
-  void set_weight(VertexId v, double w) { record(v).w = w; }
   void set_point(VertexId v, WeightedPoint p) { record(v).x = p.x, record(v).y = p.y, record(v).w = p.w; }
+  [[nodiscard]] double weight(VertexId v) const { return space_.weight(point(v)); }
+  void set_weight(VertexId v, double w) { set_point(v, space_.with_weight(point(v), w)); }
+  /// Precondition of these two: the mesh lies in the plane.
+  [[nodiscard]] Vec2 position(VertexId v) const { return {record(v).x, record(v).y}; }
+  void set_position(VertexId v, Vec2 p) { record(v).x = p.x, record(v).y = p.y; }
+  /// P of a vertex. Precondition: the mesh lies on the sphere.
+  [[nodiscard]] Vec3 lifted_point(VertexId v) const { return lifted(point(v)); }
   /// A vertex that the user wants to stay where it is. (Boundary vertices stay without being marked.)
   [[nodiscard]] bool is_fixed(VertexId v) const { return (record(v).flags & kFixed) != 0; }
   void set_fixed(VertexId v, bool fixed);
@@ -250,6 +263,7 @@ class Mesh {
   VertexRecord& record(VertexId v) { return vertices_[v]; }
   [[nodiscard]] const VertexRecord& record(VertexId v) const { return vertices_[v]; }
 
+  Space space_;
   IdVector<VertexId, VertexRecord> vertices_;
   IdVector<HalfedgeId, VertexId> corners_;  // origin of each halfedge
   IdVector<HalfedgeId, HalfedgeId> twins_;  // invalid on the boundary

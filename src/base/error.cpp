@@ -22,6 +22,8 @@ std::string_view name(ErrorCode code) {
       return "not_finite";
     case ErrorCode::not_planar:
       return "not_planar";
+    case ErrorCode::not_on_sphere:
+      return "not_on_sphere";
     case ErrorCode::duplicate_point:
       return "duplicate_point";
     case ErrorCode::unused_point:

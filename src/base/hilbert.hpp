@@ -2,12 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
 
 #include "temper/vec2.hpp"
+#include "temper/vec3.hpp"
 
 namespace temper {
 
@@ -29,6 +31,23 @@ constexpr std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y) {
     }
   }
   return index;
+}
+
+/// Six curves, one on each face of a cube around the sphere; a face has an edge with the one before.
+inline constexpr int kCubeBits = 2 * kHilbertBits + 3;
+
+/// Place of a direction along the curves, below 2^kCubeBits.
+inline std::uint64_t cube_hilbert_index(Vec3 p) {
+  const double x = std::abs(p.x), y = std::abs(p.y), z = std::abs(p.z);
+  const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+  const double of_axis[] = {p.x, p.y, p.z};
+  const double up = of_axis[axis], u = of_axis[(axis + 1) % 3], v = of_axis[(axis + 2) % 3];
+  const auto cell = [&](double t) {
+    constexpr double kCells = static_cast<double>(1u << kHilbertBits) - 1;
+    return static_cast<std::uint32_t>(0.5 * (t / std::abs(up) + 1) * kCells);
+  };
+  const auto face = static_cast<std::uint64_t>(axis + (up < 0 ? 3 : 0));
+  return (face << (2 * kHilbertBits)) + hilbert_index(cell(u), cell(v));
 }
 
 /// The grid of cells over a box.

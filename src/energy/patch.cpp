@@ -19,8 +19,8 @@ struct EdgeInTriangle {
 };
 
 EdgeInTriangle edge_in_triangle(const Mesh& mesh, HalfedgeId h) {
-  const TriangleShape s =
-      triangle_shape(mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)), mesh.point(mesh.opposite(h)));
+  const TriangleShape s = triangle_shape(mesh.space(), mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)),
+                                         mesh.point(mesh.opposite(h)));
   EdgeInTriangle result{s.edges[0], s.doubled_area};
   result.edge.g = same_side(result.edge.g, s.doubled_area);
   return result;
@@ -55,7 +55,8 @@ VertexDerivatives from_sums(const std::array<double, kStarSums>& sums) {
 
 VertexDerivatives barrier_derivatives(const Patch& patch, const EdgeFormula& formula, const WeightedPoint& p) {
   std::array<double, kStarSums> sums;
-  return star_kernels().barrier_derivatives(formula, patch.arrays(), p, sums.data()) ? from_sums(sums) : outside();
+  return star_kernels(patch.space).barrier_derivatives(formula, patch.arrays(), p, sums.data()) ? from_sums(sums)
+                                                                                                : outside();
 }
 
 /// Room for some numbers of each triangle of a star: on the stack, but for the largest of stars.
@@ -85,7 +86,7 @@ class HotStar {
       edges_.g[k] = scratch_.array(k), edges_.value[k] = scratch_.array(3 + k), factor_[k] = scratch_.array(6 + k);
     }
     edges_.doubled_area = scratch_.array(9);
-    star_kernels().hot_edges(formula, patch.arrays(), p, edges_);
+    star_kernels(patch.space).hot_edges(formula, patch.arrays(), p, edges_);
     for (std::size_t i = 0; i < patch.size(); ++i) {
       if (edges_.doubled_area[i] == 0) degenerate_ = true;
       for (double* g : edges_.g) g[i] = same_side(g[i], edges_.doubled_area[i]);
@@ -126,8 +127,8 @@ class HotStar {
 
   [[nodiscard]] double outer_share(std::size_t i) const {
     if (!energy_info(model_.kind).signed_by_dual || patch_.link_boundary[i] != 0) return 0;
-    const WeightedPoint q = patch_.q(i), r = patch_.r(i);
-    const EdgeShape link{squared_length(r.position() - q.position()), q.w - r.w, patch_.outer_g[i]};
+    const auto [l2, dw] = edge_measures(patch_.space, patch_.q(i), patch_.r(i));
+    const EdgeShape link{l2, dw, patch_.outer_g[i]};
     const double orientation = edges_.doubled_area[i] < 0 ? -1 : 1;
     const HotKernel kernel = hot_kernel(formula_);
     return orientation * factor_[1][i] * (kernel.value(link) * kernel.per_area(patch_.outer_doubled_area[i]));
@@ -152,7 +153,7 @@ VertexDerivatives hot_derivatives(const Patch& patch, const EnergyModel& model, 
   const HotStar star(patch, model, formula, p);
   if (star.is_degenerate()) return outside();
   std::array<double, kStarSums> sums;
-  star_kernels().hot_derivatives(formula, patch.arrays(), star.factors(), p, sums.data());
+  star_kernels(patch.space).hot_derivatives(formula, patch.arrays(), star.factors(), p, sums.data());
   sums[0] += star.outer();
   return from_sums(sums);
 }
@@ -189,6 +190,7 @@ double hot_factor(const EnergyModel& model, double g, double g_other, bool bound
 }
 
 void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch) {
+  patch.space = mesh.space();
   patch.center = v;
   patch.link.clear();
   patch.spoke.clear();
@@ -230,7 +232,7 @@ void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch) {
 
 double patch_energy(const Patch& patch, const EnergyModel& model, const WeightedPoint& p) {
   const EdgeFormula f = edge_formula(model);
-  if (f.form != EdgeFormula::Form::hot) return star_kernels().barrier_value(f, patch.arrays(), p);
+  if (f.form != EdgeFormula::Form::hot) return star_kernels(patch.space).barrier_value(f, patch.arrays(), p);
   return hot_value(patch, model, f, p);
 }
 
@@ -245,8 +247,8 @@ double flip_energy(const Mesh& mesh, const EnergyModel& model, HalfedgeId h) {
   return with_kernel(model, [&](const auto& kernel) {
     if constexpr (std::decay_t<decltype(kernel)>::kBarrier) {
       const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h));
-      return barrier_triangle(kernel, triangle_shape(a, b, mesh.point(mesh.opposite(h)))) +
-             barrier_triangle(kernel, triangle_shape(b, a, mesh.point(mesh.opposite(t))));
+      return barrier_triangle(kernel, triangle_shape(mesh.space(), a, b, mesh.point(mesh.opposite(h)))) +
+             barrier_triangle(kernel, triangle_shape(mesh.space(), b, a, mesh.point(mesh.opposite(t))));
     } else {
       double sum = FullEdge(mesh, h).energy(model, kernel);
       for (const HalfedgeId outer : {Mesh::next(h), Mesh::prev(h), Mesh::next(t), Mesh::prev(t)}) {
@@ -257,9 +259,9 @@ double flip_energy(const Mesh& mesh, const EnergyModel& model, HalfedgeId h) {
   });
 }
 
-double triangle_energy(const EnergyModel& model, const WeightedPoint& p, const WeightedPoint& q,
-                       const WeightedPoint& r) {
-  const TriangleShape s = triangle_shape(p, q, r);
+double triangle_energy(const EnergyModel& model, const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r,
+                       const Space& space) {
+  const TriangleShape s = triangle_shape(space, p, q, r);
   if (s.doubled_area == 0) return kInfinity;
   return with_kernel(model, [&](const auto& kernel) {
     if constexpr (std::decay_t<decltype(kernel)>::kBarrier) {

@@ -19,13 +19,14 @@
 namespace temper {
 
 struct Patch {
+  Space space;
   VertexId center;
-  bool closed = true;                       ///< an interior vertex
-  std::vector<VertexId> link;               ///< of q_0 … q_{n−1}, and q_n when open
-  std::vector<HalfedgeId> spoke;            ///< center → q_i, one a triangle
-  std::vector<double> x, y, w;              ///< of q_0 … q_n, where q_n is q_0 again when closed; longer than that
-  std::vector<double> outer_g;              ///< h ℓ of link edge i in its outer triangle; empty unless gathered
-  std::vector<double> outer_doubled_area;   ///< of that triangle; as long as outer_g
+  bool closed = true;                      ///< an interior vertex
+  std::vector<VertexId> link;              ///< of q_0 … q_{n−1}, and q_n when open
+  std::vector<HalfedgeId> spoke;           ///< center → q_i, one a triangle
+  std::vector<double> x, y, w;             ///< points q_0 … q_n, where q_n is q_0 again when closed; longer than that
+  std::vector<double> outer_g;             ///< h ℓ of link edge i in its outer triangle; empty unless gathered
+  std::vector<double> outer_doubled_area;  ///< of that triangle; as long as outer_g
   std::vector<std::uint8_t> link_boundary;  ///< link edge i is a boundary edge; as long as outer_g
 
   [[nodiscard]] std::size_t size() const { return spoke.size(); }
@@ -43,7 +44,7 @@ void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch);
 /// The patch's energy with its center at p. +∞ outside the domain of a barrier.
 [[nodiscard]] double patch_energy(const Patch& patch, const EnergyModel& model, const WeightedPoint& p);
 
-/// Value, gradient and Hessian at p.
+/// Value, gradient and Hessian at p, on the sphere in its chart.
 [[nodiscard]] VertexDerivatives patch_derivatives(const Patch& patch, const EnergyModel& model, const WeightedPoint& p);
 
 /// The energy of the two triangles at an interior edge and everything that flipping it changes:

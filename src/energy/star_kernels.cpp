@@ -4,6 +4,10 @@
 
 namespace temper {
 
-const StarKernels& star_kernels() { return *TEMPER_IN_USE(kStarKernels); }
+const StarKernels& star_kernels(const Space& space) {
+  return space.is_plane() ? *TEMPER_IN_USE(kPlaneKernels) : *TEMPER_IN_USE(kSphereKernels);
+}
+
+TriangleHessiansFunction triangle_hessians() { return *TEMPER_IN_USE(kTriangleHessians); }
 
 }  // namespace temper

@@ -7,6 +7,7 @@
 
 #include "energy/lanes.hpp"
 #include "energy/triangle_hessian.hpp"
+#include "temper/space.hpp"
 
 namespace temper {
 
@@ -16,7 +17,8 @@ struct LinkArrays {
   std::size_t size = 0;  ///< triangles
 };
 
-/// Value, gradient (x, y, w) and Hessian (xx, xy, xw, yy, yw, ww) of a star, in this order.
+/// Value, gradient (x, y, w) and Hessian (xx, xy, xw, yy, yw, ww) of a star, in this order; on the sphere in the chart
+/// of its center (geometry/triangle_kernel.hpp).
 inline constexpr std::size_t kStarSums = 10;
 
 /// The results of hot_edges(), written to a multiple of kLanes: for the edges pq, qr, rp of each triangle h ℓ on their
@@ -48,22 +50,28 @@ struct StarKernels {
   /// The values of a barrier of the first n triangles, summed; +∞ when one is outside the domain.
   double (*barrier_sum)(const EdgeFormula& formula, const TriangleLanes& triangles, std::size_t n);
   WellCentered (*well_centered)(const TriangleLanes& triangles);
-  /// The Hessians of a barrier. Bit i of the result: triangle i is inside the domain; elsewhere its numbers mean
-  /// nothing.
-  unsigned (*triangle_hessians)(const EdgeFormula& formula, const TriangleLanes& triangles, TriangleHessians& result);
 };
 
-/// The kernels, compiled for the instruction set in use.
-[[nodiscard]] const StarKernels& star_kernels();
+/// The kernels of a space, compiled for the instruction set in use.
+[[nodiscard]] const StarKernels& star_kernels(const Space& space);
+
+/// The Hessians of a barrier in the plane. Bit i of the result: triangle i is inside the domain; elsewhere its numbers
+/// mean nothing.
+using TriangleHessiansFunction = unsigned (*)(const EdgeFormula& formula, const TriangleLanes& triangles,
+                                              TriangleHessians& result);
+[[nodiscard]] TriangleHessiansFunction triangle_hessians();
 
 namespace baseline {
-extern const StarKernels kStarKernels;
-}
+extern const StarKernels kPlaneKernels, kSphereKernels;
+extern const TriangleHessiansFunction kTriangleHessians;
+}  // namespace baseline
 namespace avx2 {
-extern const StarKernels kStarKernels;
-}
+extern const StarKernels kPlaneKernels, kSphereKernels;
+extern const TriangleHessiansFunction kTriangleHessians;
+}  // namespace avx2
 namespace avx512 {
-extern const StarKernels kStarKernels;
-}
+extern const StarKernels kPlaneKernels, kSphereKernels;
+extern const TriangleHessiansFunction kTriangleHessians;
+}  // namespace avx512
 
 }  // namespace temper

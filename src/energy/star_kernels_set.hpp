@@ -16,11 +16,16 @@ TEMPER_INLINE Pack::Mask first_lanes(std::size_t n) {
   return Pack::Mask::load(kFirstLanes + (n < kLanes ? kLanes - n : 0));
 }
 
-TEMPER_INLINE PackPoint load_link(const LinkArrays& link, std::size_t i) {
+template <class In>
+TEMPER_INLINE typename In::Point load_link(const LinkArrays& link, std::size_t i) {
   return {Pack::load(link.x + i), Pack::load(link.y + i), Pack::load(link.w + i)};
 }
 
-TEMPER_INLINE PackPoint everywhere(const WeightedPoint& p) { return {Pack::all(p.x), Pack::all(p.y), Pack::all(p.w)}; }
+/// p in every lane, as the center of a star.
+template <class In>
+TEMPER_INLINE typename In::Center everywhere(const WeightedPoint& p) {
+  return seen_from(typename In::Point{Pack::all(p.x), Pack::all(p.y), Pack::all(p.w)});
+}
 
 constexpr unsigned kAllLanes = (1U << kLanes) - 1;
 
@@ -30,48 +35,53 @@ TEMPER_INLINE void store(const StarSums& sums, double* out) {
   for (std::size_t k = 0; k < kStarSums; ++k) out[k] = sum(packs[k]);
 }
 
-template <class Kernel>
+template <class In, class Kernel>
 TEMPER_INLINE bool star_derivatives(const Kernel& kernel, const LinkArrays& link, const WeightedPoint& at,
                                     double* out) {
-  const PackPoint p = everywhere(at);
+  const typename In::Center p = everywhere<In>(at);
   StarSums sums;
   for (std::size_t i = 0; i < link.size; i += kLanes) {
     const Pack::Mask where = first_lanes(link.size - i);
-    const PackPoint q = load_link(link, i), r = load_link(link, i + 1);
-    const Pack::Mask inside = add_barrier(kernel, spoke_of(kernel, p, q), spoke_of(kernel, p, r), q, r, where, sums);
+    const typename In::Point q = load_link<In>(link, i), r = load_link<In>(link, i + 1);
+    const Pack::Mask inside =
+        add_barrier<In>(kernel, spoke_of<In>(kernel, p, q), spoke_of<In>(kernel, p, r), q, r, where, sums);
     if ((inside | ~where).bits() != kAllLanes) return false;
   }
+  bend(p, sums.derivatives);
   store(sums, out);
   return true;
 }
 
-template <class Kernel>
+template <class In, class Kernel>
 TEMPER_INLINE double star_value(const Kernel& kernel, const LinkArrays& link, const WeightedPoint& at) {
-  const PackPoint p = everywhere(at);
+  const typename In::Center p = everywhere<In>(at);
   Pack total = Pack::all(0);
   for (std::size_t i = 0; i < link.size; i += kLanes) {
     const Pack::Mask where = first_lanes(link.size - i);
-    const PackPoint q = load_link(link, i), r = load_link(link, i + 1);
+    const typename In::Point q = load_link<In>(link, i), r = load_link<In>(link, i + 1);
     const Pack::Mask inside =
-        add_barrier_value(kernel, spoke_of(kernel, p, q), spoke_of(kernel, p, r), q, r, where, total);
+        add_barrier_value<In>(kernel, spoke_of<In>(kernel, p, q), spoke_of<In>(kernel, p, r), q, r, where, total);
     if ((inside | ~where).bits() != kAllLanes) return kInfinity;
   }
   return sum(total);
 }
 
+template <class In>
 bool barrier_derivatives(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint& p, double* sums) {
-  return with_barrier(f, [&](const auto& kernel) { return star_derivatives(kernel, link, p, sums); });
+  return with_barrier(f, [&](const auto& kernel) { return star_derivatives<In>(kernel, link, p, sums); });
 }
 
+template <class In>
 double barrier_value(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint& p) {
-  return with_barrier(f, [&](const auto& kernel) { return star_value(kernel, link, p); });
+  return with_barrier(f, [&](const auto& kernel) { return star_value<In>(kernel, link, p); });
 }
 
+template <class In>
 void hot_edges(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint& at, const HotEdges& edges) {
   const HotKernel kernel = hot_kernel(f);
-  const PackPoint p = everywhere(at);
+  const typename In::Center p = everywhere<In>(at);
   for (std::size_t i = 0; i < link.size; i += kLanes) {
-    const PackPoint q = load_link(link, i), r = load_link(link, i + 1);
+    const typename In::Point q = load_link<In>(link, i), r = load_link<In>(link, i + 1);
     const PackShape s = triangle_shape(spoke(p, q), spoke(p, r), q, r);
     const EdgeShapeOf<Pack> shapes[3] = {s.pq, s.qr, s.rp};
     const Pack per_area = kernel.per_area(s.doubled_area);
@@ -83,36 +93,42 @@ void hot_edges(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint
   }
 }
 
+template <class In>
 void hot_derivatives(const EdgeFormula& f, const LinkArrays& link, const EdgeFactors& factors, const WeightedPoint& at,
                      double* out) {
   const HotKernel kernel = hot_kernel(f);
-  const PackPoint p = everywhere(at);
+  const typename In::Center p = everywhere<In>(at);
   StarSums sums;
   for (std::size_t i = 0; i < link.size; i += kLanes) {
-    add_hot(kernel, p, load_link(link, i), load_link(link, i + 1), Pack::load(factors.pq + i),
-            Pack::load(factors.qr + i), Pack::load(factors.rp + i), first_lanes(link.size - i), sums);
+    add_hot<In>(kernel, p, load_link<In>(link, i), load_link<In>(link, i + 1), Pack::load(factors.pq + i),
+                Pack::load(factors.qr + i), Pack::load(factors.rp + i), first_lanes(link.size - i), sums);
   }
+  bend(p, sums.derivatives);
   store(sums, out);
 }
 
+template <class In>
 double barrier_sum(const EdgeFormula& f, const TriangleLanes& triangles, std::size_t n) {
-  const PackPoint p = load(triangles.p), q = load(triangles.q), r = load(triangles.r);
+  const typename In::Point q = load<In>(triangles.q), r = load<In>(triangles.r);
+  const typename In::Center p = seen_from(load<In>(triangles.p));
   return with_barrier(f, [&](const auto& kernel) {
-    const auto a = spoke_of(kernel, p, q), b = spoke_of(kernel, p, r);
-    const TriangleValue t = triangle_value(kernel, a, b, triangle_shape(a.to, b.to, q, r));
+    const auto a = spoke_of<In>(kernel, p, q), b = spoke_of<In>(kernel, p, r);
+    const TriangleValue t = triangle_value<In>(kernel, a, b, triangle_shape(a.to, b.to, q, r));
     return sum(select(first_lanes(n), select(t.inside, t.value, Pack::all(kInfinity)), Pack::all(0)));
   });
 }
 
+template <class In>
 WellCentered well_centered(const TriangleLanes& triangles) {
-  const PackPoint p = load(triangles.p), q = load(triangles.q), r = load(triangles.r);
+  using Point = typename In::Point;
+  const Point p = load<In>(triangles.p), q = load<In>(triangles.q), r = load<In>(triangles.r);
   Pack::Mask yes = Pack::all(0) > -1.0, no = ~yes;
   const auto must_be_positive = [&](const inlined::Filtered<Pack>& x) {
     yes = yes & (x.value > x.bound);
     no = no | (x.value < -x.bound);
   };
-  must_be_positive(inlined::filtered_orient2d(p, q, r));
-  const auto edge_must_be_crossed = [&](const PackPoint& a, const PackPoint& b, const PackPoint& c) {
+  must_be_positive(inlined::filtered_orientation(p, q, r));
+  const auto edge_must_be_crossed = [&](const Point& a, const Point& b, const Point& c) {
     must_be_positive(inlined::filtered_height_numerator(a, b, c));
     must_be_positive(inlined::filtered_edge_split(a, b));
     must_be_positive(inlined::filtered_edge_split(b, a));
@@ -125,7 +141,12 @@ WellCentered well_centered(const TriangleLanes& triangles) {
 
 }  // namespace
 
-const StarKernels kStarKernels = {barrier_derivatives, barrier_value, hot_edges,        hot_derivatives,
-                                  barrier_sum,         well_centered, triangle_hessians};
+template <class In>
+constexpr StarKernels kKernelsOf = {barrier_derivatives<In>, barrier_value<In>, hot_edges<In>,
+                                    hot_derivatives<In>,     barrier_sum<In>,   well_centered<In>};
+
+const StarKernels kPlaneKernels = kKernelsOf<InPlane>;
+const StarKernels kSphereKernels = kKernelsOf<OnSphere>;
+const TriangleHessiansFunction kTriangleHessians = triangle_hessians;
 
 }  // namespace temper::TEMPER_INSTRUCTION_SET

@@ -10,9 +10,24 @@
 
 namespace temper::TEMPER_INSTRUCTION_SET {
 
-using PackPoint = PointOf<Pack>;
+/// What the kernels are compiled for: how a vertex is kept, and what it is as the center of a star.
+struct InPlane {
+  using Point = PointOf<Pack>;
+  using Center = PointOf<Pack>;
+  using Spoke = temper::Spoke<Pack>;
+  using Heights = HeightsAtCorner<Pack>;
+};
+struct OnSphere {
+  using Point = LiftedPointOf<Pack>;
+  using Center = Chart<Pack>;
+  using Spoke = LiftedSpoke<Pack>;
+  using Heights = HeightsAtLiftedCorner<Pack>;
+};
 
-TEMPER_INLINE PackPoint load(const LanePoints& p) { return {Pack::load(p.x), Pack::load(p.y), Pack::load(p.w)}; }
+template <class In>
+TEMPER_INLINE typename In::Point load(const LanePoints& p) {
+  return {Pack::load(p.x), Pack::load(p.y), Pack::load(p.w)};
+}
 
 TEMPER_INLINE Pack::Mask load(const LaneMask& m) { return Pack::Mask::load(m); }
 
@@ -26,21 +41,23 @@ struct StarSums {
 };
 
 /// An edge at p, with what its two triangles have in common.
-template <class Kernel>
+template <class In, class Kernel>
 struct SpokeOf {
-  Spoke<Pack> to;
+  typename In::Spoke to;
   typename Kernel::template Base<Pack> base;
 };
 
-template <class Kernel>
-TEMPER_INLINE SpokeOf<Kernel> spoke_of(const Kernel& kernel, const PackPoint& p, const PackPoint& q) {
-  const Spoke<Pack> to = spoke(p, q);
+template <class In, class Kernel>
+TEMPER_INLINE SpokeOf<In, Kernel> spoke_of(const Kernel& kernel, const typename In::Center& p,
+                                           const typename In::Point& q) {
+  const typename In::Spoke to = spoke(p, q);
   return {to, kernel.base(to.l2, to.dw)};
 }
 
 /// Gradient and Hessian of one triangle, edge by edge, so that little has to be kept at a time.
+template <class In>
 struct TriangleDerivatives {
-  HeightsAtCorner<Pack> g;
+  typename In::Heights g;
   CornerVector<Pack> gradient;
   CornerMatrix<Pack> hessian;
 
@@ -50,19 +67,29 @@ struct TriangleDerivatives {
     hessian = CornerMatrix<Pack>::product(g.qr, f.f_gg * g.qr);
   }
   /// The edge at p to which `to` leads.
-  TEMPER_INLINE void add(const PackTerm& f, const Spoke<Pack>& to, const CornerVector<Pack>& dg) {
-    const PlaneVector<Pack> dl = {-2 * to.x, -2 * to.y};
-    gradient = gradient + CornerVector<Pack>{f.f_l * dl.x, f.f_l * dl.y, f.f_w} + f.f_g * dg;
-    hessian.add(dl, CornerVector<Pack>{f.f_ll * dl.x, f.f_ll * dl.y, f.f_lw} + f.f_lg * dg);
-    hessian.add(dg, CornerVector<Pack>{f.f_lg * dl.x, f.f_lg * dl.y, f.f_wg} + f.f_gg * dg);
-    hessian.ww = hessian.ww + (f.f_wg * dg.w + f.f_ww);
-    hessian.add_in_plane(2 * f.f_l);
+  TEMPER_INLINE void add(const PackTerm& f, const typename In::Spoke& to, const CornerVector<Pack>& dg) {
+    const auto dl = gradient_of_l2(to);
+    gradient = gradient + by_l2_and_dw(f.f_l, dl, f.f_w) + f.f_g * dg;
+    hessian.add(dl, by_l2_and_dw(f.f_ll, dl, f.f_lw) + f.f_lg * dg);
+    hessian.add(dg, by_l2_and_dw(f.f_lg, dl, f.f_wg) + f.f_gg * dg);
+    hessian.ww = hessian.ww + along_w(f.f_lw, dl, f.f_wg * dg.w + f.f_ww);
+    add_curvature(to, f.f_l, f.f_w, hessian);
   }
-  /// The derivatives of 4 F/S² from those of F, with m = ∇S; S is linear in p:
+  /// The derivatives of 4 F/S² from those of F, with m = ∇S; in the plane S is linear in p, on the sphere ∇²S = κ n̂⊗n̂:
   ///
-  ///   4/S² (∇F − 2 F m/S)      4/S² (∇²F − 2 (∇F⊗m + m⊗∇F)/S + 6 F m⊗m/S²)
-  TEMPER_INLINE void divide_by_area2(const Pack& f, const PlaneVector<Pack>& m, const Pack& inverse_area) {
-    const Pack factor = 4.0 * (inverse_area * inverse_area);
+  ///   4/S² (∇F − 2 F m/S)      4/S² (∇²F − 2 (∇F⊗m + m⊗∇F)/S + 6 F m⊗m/S² − 2 F ∇²S/S)
+  TEMPER_INLINE void divide_by_area2(const Pack& f, const LiftedSpoke<Pack>&, const LiftedSpoke<Pack>&,
+                                     const Pack& inverse_area) {
+    const CornerVector<Pack> u = -2.0 * inverse_area * g.area;
+    hessian.add(u, gradient + (1.5 * f) * u);
+    hessian.add(gradient, u);
+    hessian.add(g.normal, (-2.0 * f * inverse_area * g.kappa) * g.normal);
+    gradient = gradient + f * u;
+    scale(4.0 * (inverse_area * inverse_area));
+  }
+  TEMPER_INLINE void divide_by_area2(const Pack& f, const Spoke<Pack>& a, const Spoke<Pack>& b,
+                                     const Pack& inverse_area) {
+    const PlaneVector<Pack> m = {a.y - b.y, b.x - a.x};
     const PlaneVector<Pack> u = {-2.0 * inverse_area * m.x, -2.0 * inverse_area * m.y};
     hessian.add(u, gradient);  // the upper half of u⊗∇F …
     const PlaneVector<Pack> slope = {gradient.x, gradient.y};
@@ -70,6 +97,9 @@ struct TriangleDerivatives {
     hessian.add(slope, {u.x, u.y, Pack::all(0)});  // … and of ∇F⊗u
     hessian.add(u, {f_u * u.x, f_u * u.y, Pack::all(0)});
     gradient = gradient + f * CornerVector<Pack>{u.x, u.y, Pack::all(0)};
+    scale(4.0 * (inverse_area * inverse_area));
+  }
+  TEMPER_INLINE void scale(const Pack& factor) {
     gradient = factor * gradient;
     for (Pack* h : {&hessian.xx, &hessian.xy, &hessian.xw, &hessian.yy, &hessian.yw, &hessian.ww}) *h = factor * *h;
   }
@@ -77,10 +107,11 @@ struct TriangleDerivatives {
 
 /// Adds a triangle where `where` is set. The terms of its edges are asked for one after the other. With `over_area2`
 /// all of it is divided by the squared area.
-template <class Mask, class OfQr, class OfPq, class OfRp>
-TEMPER_INLINE void add_triangle(const Spoke<Pack>& a, const Spoke<Pack>& b, const PackShape& shape, Mask where,
-                                OfQr&& of_qr, OfPq&& of_pq, OfRp&& of_rp, StarSums& sum, bool over_area2 = false) {
-  TriangleDerivatives d;
+template <class In, class Mask, class OfQr, class OfPq, class OfRp>
+TEMPER_INLINE void add_triangle(const typename In::Spoke& a, const typename In::Spoke& b, const PackShape& shape,
+                                Mask where, OfQr&& of_qr, OfPq&& of_pq, OfRp&& of_rp, StarSums& sum,
+                                bool over_area2 = false) {
+  TriangleDerivatives<In> d;
   d.g = heights_at_corner(a, b, shape.inverse_area);
   const PackTerm qr = of_qr();
   d.begin(qr);
@@ -91,7 +122,7 @@ TEMPER_INLINE void add_triangle(const Spoke<Pack>& a, const Spoke<Pack>& b, cons
   d.g.add_hessian(pq.f_g, qr.f_g, rp.f_g, d.hessian);
   Pack value = pq.f + qr.f + rp.f;
   if (over_area2) {
-    d.divide_by_area2(value, {a.y - b.y, b.x - a.x}, shape.inverse_area);
+    d.divide_by_area2(value, a, b, shape.inverse_area);
     value = 4.0 * (shape.inverse_area * shape.inverse_area) * value;
   }
   sum.value = sum.value + select(where, value, Pack::all(0));
@@ -102,16 +133,16 @@ TEMPER_INLINE void add_triangle(const Spoke<Pack>& a, const Spoke<Pack>& b, cons
 TEMPER_INLINE Pack::Mask is_inside(const PackTerm& t) { return (t.f > 0) & (t.f < kInfinity); }
 
 /// Adds a barrier. Returns where all is inside its domain, behind the wall if it has one.
-template <class Kernel, class Mask>
-TEMPER_INLINE Mask add_barrier(const Kernel& kernel, const SpokeOf<Kernel>& a, const SpokeOf<Kernel>& b,
-                               const PackPoint& q, const PackPoint& r, Mask where, StarSums& sum) {
+template <class In, class Kernel, class Mask>
+TEMPER_INLINE Mask add_barrier(const Kernel& kernel, const SpokeOf<In, Kernel>& a, const SpokeOf<In, Kernel>& b,
+                               const typename In::Point& q, const typename In::Point& r, Mask where, StarSums& sum) {
   const PackShape s = triangle_shape(a.to, b.to, q, r);
   Mask inside = s.doubled_area > kernel.least_area;
   const auto checked = [&inside](const PackTerm& t) {
     inside = inside & is_inside(t);
     return t;
   };
-  add_triangle(
+  add_triangle<In>(
       a.to, b.to, s, where, [&] { return checked(kernel.term(s.qr)); },
       [&] { return checked(kernel.term(a.base, s.pq.g)); }, [&] { return checked(kernel.term(b.base, s.rp.g)); }, sum);
   return inside;
@@ -124,12 +155,13 @@ TEMPER_INLINE PackTerm scaled(const PackTerm& t, Pack factor) {
 }
 
 /// Adds HOT energies, each edge with its factor.
-template <class Mask>
-TEMPER_INLINE void add_hot(const HotKernel& kernel, const PackPoint& p, const PackPoint& q, const PackPoint& r,
-                           Pack factor_pq, Pack factor_qr, Pack factor_rp, Mask where, StarSums& sum) {
-  const Spoke<Pack> a = spoke(p, q), b = spoke(p, r);
+template <class In, class Mask>
+TEMPER_INLINE void add_hot(const HotKernel& kernel, const typename In::Center& p, const typename In::Point& q,
+                           const typename In::Point& r, Pack factor_pq, Pack factor_qr, Pack factor_rp, Mask where,
+                           StarSums& sum) {
+  const typename In::Spoke a = spoke(p, q), b = spoke(p, r);
   const PackShape s = triangle_shape(a, b, q, r);
-  add_triangle(
+  add_triangle<In>(
       a, b, s, where, [&] { return scaled(kernel.term(s.qr), factor_qr); },
       [&] { return scaled(kernel.term(s.pq), factor_pq); }, [&] { return scaled(kernel.term(s.rp), factor_rp); }, sum,
       kernel.normalized);
@@ -140,9 +172,9 @@ struct TriangleValue {
   Pack::Mask inside;
 };
 
-template <class Kernel>
-TEMPER_INLINE TriangleValue triangle_value(const Kernel& kernel, const SpokeOf<Kernel>& a, const SpokeOf<Kernel>& b,
-                                           const PackShape& shape) {
+template <class In, class Kernel>
+TEMPER_INLINE TriangleValue triangle_value(const Kernel& kernel, const SpokeOf<In, Kernel>& a,
+                                           const SpokeOf<In, Kernel>& b, const PackShape& shape) {
   const auto pq = kernel.fraction(a.base, shape.pq.g), rp = kernel.fraction(b.base, shape.rp.g);
   const auto qr = kernel.fraction(kernel.base(shape.qr.l2, shape.qr.dw), shape.qr.g);
   const Pack value = pq.x / pq.y + qr.x / qr.y + rp.x / rp.y;
@@ -151,9 +183,9 @@ TEMPER_INLINE TriangleValue triangle_value(const Kernel& kernel, const SpokeOf<K
 }
 
 /// Adds the value alone. Returns where all is inside its domain.
-template <class Kernel, class Mask>
-TEMPER_INLINE Mask add_barrier_value(const Kernel& kernel, const SpokeOf<Kernel>& a, const SpokeOf<Kernel>& b,
-                                     const PackPoint& q, const PackPoint& r, Mask where, Pack& sum) {
+template <class In, class Kernel, class Mask>
+TEMPER_INLINE Mask add_barrier_value(const Kernel& kernel, const SpokeOf<In, Kernel>& a, const SpokeOf<In, Kernel>& b,
+                                     const typename In::Point& q, const typename In::Point& r, Mask where, Pack& sum) {
   const PackShape shape = triangle_shape(a.to, b.to, q, r);
   const TriangleValue triangle = triangle_value(kernel, a, b, shape);
   sum = sum + select(where, triangle.value, Pack::all(0));

@@ -68,7 +68,8 @@ struct AllDerivatives {
 
 template <class Kernel>
 TEMPER_INLINE unsigned hessians(const Kernel& kernel, const TriangleLanes& lanes, TriangleHessians& result) {
-  const PackPoint p = load(lanes.p), q = load(lanes.q), r = load(lanes.r);
+  using Point = InPlane::Point;
+  const Point p = load<InPlane>(lanes.p), q = load<InPlane>(lanes.q), r = load<InPlane>(lanes.r);
   const Spoke<Pack> a = spoke(p, q), b = spoke(p, r);
   const PackShape s = triangle_shape(a, b, q, r);
   const HeightsOfTriangle<Pack> dg = heights_of_triangle(a, b, s.inverse_area);

@@ -49,14 +49,14 @@ void for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
 
 }  // namespace
 
-std::size_t count_bad(const TriangleLanes& triangles, std::size_t n) {
-  const auto [yes, no] = star_kernels().well_centered(triangles);
+std::size_t count_bad(const Space& space, const TriangleLanes& triangles, std::size_t n) {
+  const auto [yes, no] = star_kernels(space).well_centered(triangles);
   const unsigned used = (1U << n) - 1;
   auto bad = static_cast<std::size_t>(std::popcount(no & used));
   if (((yes | no) & used) == used) return bad;
   for (std::size_t i = 0; i < n; ++i) {
     if (((yes | no) >> i & 1) != 0) continue;
-    bad += inlined::is_well_centered(triangles.p.at(i), triangles.q.at(i), triangles.r.at(i)) ? 0 : 1;
+    bad += inlined::is_well_centered(space, triangles.p.at(i), triangles.q.at(i), triangles.r.at(i)) ? 0 : 1;
   }
   return bad;
 }
@@ -64,7 +64,7 @@ std::size_t count_bad(const TriangleLanes& triangles, std::size_t n) {
 std::size_t count_bad(const Mesh& mesh, Executor* executor) {
   return static_cast<std::size_t>(sum_of_blocks(mesh.n_triangles(), executor, [&](std::size_t block) {
     std::size_t bad = 0;
-    for_batches(mesh, block, [&](const Batch& batch) { bad += count_bad(batch.lanes, batch.size); });
+    for_batches(mesh, block, [&](const Batch& batch) { bad += count_bad(mesh.space(), batch.lanes, batch.size); });
     return static_cast<double>(bad);
   }));
 }
@@ -72,13 +72,13 @@ std::size_t count_bad(const Mesh& mesh, Executor* executor) {
 EnergyAndBad energy_and_bad(const Mesh& mesh, const EnergyModel& model, Executor* executor) {
   const EdgeFormula formula = edge_formula(model);
   if (formula.form == EdgeFormula::Form::hot) return {total_energy(mesh, model, executor), count_bad(mesh, executor)};
-  const StarKernels& kernels = star_kernels();
+  const StarKernels& kernels = star_kernels(mesh.space());
   std::vector<double> bad((mesh.n_triangles() + kBlockSize - 1) / kBlockSize, 0.0);
   const double energy = sum_of_blocks(mesh.n_triangles(), executor, [&](std::size_t block) {
     double sum = 0;
     for_batches(mesh, block, [&](const Batch& batch) {
       sum += kernels.barrier_sum(formula, batch.lanes, batch.size);
-      bad[block] += static_cast<double>(count_bad(batch.lanes, batch.size));
+      bad[block] += static_cast<double>(count_bad(mesh.space(), batch.lanes, batch.size));
     });
     return sum;
   });
@@ -95,7 +95,7 @@ std::vector<double> total_energies(const Mesh& mesh, std::span<const EnergyModel
     const EdgeFormula formula = edge_formula(models[i]);
     if (formula.form != EdgeFormula::Form::hot) barriers.push_back({formula, i});
   }
-  const StarKernels& kernels = star_kernels();
+  const StarKernels& kernels = star_kernels(mesh.space());
   const std::size_t n = mesh.n_triangles();
   return sums_of_blocks(n, models.size(), executor, [&](std::size_t block, std::span<double> sums) {
     if (!barriers.empty()) {

@@ -12,7 +12,7 @@ namespace temper {
 [[nodiscard]] std::size_t count_bad(const Mesh& mesh, Executor* executor);
 
 /// The same of the first n lanes.
-[[nodiscard]] std::size_t count_bad(const TriangleLanes& triangles, std::size_t n);
+[[nodiscard]] std::size_t count_bad(const Space& space, const TriangleLanes& triangles, std::size_t n);
 
 struct EnergyAndBad {
   double energy = 0;

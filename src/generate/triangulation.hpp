@@ -33,6 +33,7 @@ struct Triangulation {
 /// Order of insertion: rounds of doubling size, drawn at random, each along the Hilbert curve. The first rounds give
 /// the walks a coarse map of the whole domain; within a round the next point is near the last.
 [[nodiscard]] std::vector<std::uint32_t> insertion_order(std::span<const Vec2> points);
+[[nodiscard]] std::vector<std::uint32_t> insertion_order(std::span<const Vec3> points);
 
 /// The error of what `stop` has ended.
 [[nodiscard]] inline InputError stopped_error() {

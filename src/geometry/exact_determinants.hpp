@@ -7,6 +7,7 @@
 
 #include "geometry/expansion.hpp"
 #include "temper/vec2.hpp"
+#include "temper/vec3.hpp"
 
 namespace temper::exact {
 
@@ -51,5 +52,44 @@ inline auto doubled_split(const WeightedPoint& p, const WeightedPoint& q) {
   const ExactVector pq = difference(q, p);
   return dot(pq, pq) + difference(p.w, q.w);
 }
+
+// --- of lifted points ----------------------------------------------------------------------------------------------
+
+struct ExactVector3 {
+  Expansion<2> x, y, z;
+};
+
+inline ExactVector3 difference(Vec3 a, Vec3 b) { return {two_diff(a.x, b.x), two_diff(a.y, b.y), two_diff(a.z, b.z)}; }
+
+inline Expansion<24> dot(const ExactVector3& a, const ExactVector3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Expansion<12> dot(Vec3 p, const ExactVector3& a) { return scale(a.x, p.x) + scale(a.y, p.y) + scale(a.z, p.z); }
+
+/// a_x b_y − a_y b_x.
+inline Expansion<4> minor(double ax, double ay, double bx, double by) {
+  const auto product = [](double a, double b) { return Expansion<2>(two_product(a, b, split(b))); };
+  return product(ax, by) - product(ay, bx);
+}
+
+/// det(P, Q, R).
+inline auto orientation_determinant(Vec3 p, Vec3 q, Vec3 r) {
+  return scale(minor(q.y, q.z, r.y, r.z), p.x) + scale(minor(q.z, q.x, r.z, r.x), p.y) +
+         scale(minor(q.x, q.y, r.x, r.y), p.z);
+}
+
+/// − det(A − D, B − D, C − D).
+inline auto power_determinant(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const ExactVector3 ad = difference(a, d), bd = difference(b, d), cd = difference(c, d);
+  const auto plane_minor = [](const ExactVector3& u, const ExactVector3& v) { return u.x * v.y - u.y * v.x; };
+  return -(ad.z * plane_minor(bd, cd) + bd.z * plane_minor(cd, ad) + cd.z * plane_minor(ad, bd));
+}
+
+/// (P × Q)·n: see geometry/predicates_inline.hpp.
+inline auto height_numerator(Vec3 p, Vec3 q, Vec3 r) {
+  const ExactVector3 a = difference(q, p), b = difference(r, p);
+  return dot(p, a) * dot(a, b) - dot(p, b) * dot(a, a);
+}
+
+/// P·(P − Q).
+inline auto split_product(Vec3 p, Vec3 q) { return dot(p, difference(p, q)); }
 
 }  // namespace temper::exact

@@ -17,7 +17,8 @@
 
 namespace temper {
 
-// Vectors and matrices in (x, y, w) of one corner. What has no part in w is a PlaneVector: no zeros are computed with.
+// Vectors and matrices in (x, y, w) of one corner, on the sphere in its chart. What has no part in w is a PlaneVector:
+// no zeros are computed with.
 
 template <class T>
 struct PlaneVector {
@@ -57,6 +58,11 @@ struct CornerMatrix {
   TEMPER_INLINE void add(const PlaneVector<T>& u, const CornerVector<T>& v) {
     xx = xx + u.x * v.x, xy = xy + u.x * v.y, xw = xw + u.x * v.w;
     yy = yy + u.y * v.y, yw = yw + u.y * v.w;
+  }
+  /// u⊗v + v⊗u + f u⊗u.
+  TEMPER_INLINE void add_both(const CornerVector<T>& u, const CornerVector<T>& v, const T& f) {
+    add(u, v + f * u);
+    add(v, u);
   }
   /// f I in the plane.
   TEMPER_INLINE void add_in_plane(const T& f) { xx = xx + f, yy = yy + f; }
@@ -120,6 +126,116 @@ TEMPER_INLINE HeightsAtCorner<T> heights_at_corner(const Spoke<T>& a, const Spok
   h.pq = {(a.y - oy) - h.k * ox, (ox - a.x) - h.k * oy, -0.5 * h.k};
   h.qr = {-h.kappa * ox, -h.kappa * oy, -0.5 * h.kappa};
   h.rp = {-cy - h.pq.x - h.qr.x, cx - h.pq.y - h.qr.y, -h.pq.w - h.qr.w};
+  return h;
+}
+
+// --- the squared length of an edge and its weight difference, as they depend on p ---------------------------------
+//
+// In the plane ∇ℓ² = (−2a, 0), ∇²ℓ² = 2 in the plane, and ∇Δw = (0, 0, 1). In a chart of the sphere ℓ² has a slope in w
+// too, and ∇²ℓ² = ∇²Δw = 2 (1, 1, σ²) on the diagonal.
+
+template <class T>
+TEMPER_INLINE PlaneVector<T> gradient_of_l2(const Spoke<T>& a) {
+  return {-2.0 * a.x, -2.0 * a.y};
+}
+template <class T>
+TEMPER_INLINE CornerVector<T> gradient_of_l2(const LiftedSpoke<T>& a) {
+  return {-2.0 * a.x, -2.0 * a.y, -2.0 * (a.sigma * a.z)};
+}
+
+/// f_l ∇ℓ² + f_w ∇Δw.
+template <class T>
+TEMPER_INLINE CornerVector<T> by_l2_and_dw(const T& f_l, const PlaneVector<T>& to_l2, const T& f_w) {
+  return {f_l * to_l2.x, f_l * to_l2.y, f_w};
+}
+template <class T>
+TEMPER_INLINE CornerVector<T> by_l2_and_dw(const T& f_l, const CornerVector<T>& to_l2, const T& f_w) {
+  return {f_l * to_l2.x, f_l * to_l2.y, f_l * to_l2.w + f_w};
+}
+
+/// What ∇Δw has of f_lw (∇Δw⊗∇ℓ² + …) in the upper half: its part in w.
+template <class T>
+TEMPER_INLINE T along_w(const T& f_lw, const PlaneVector<T>&, const T& rest) {
+  static_cast<void>(f_lw);
+  return rest;
+}
+template <class T>
+TEMPER_INLINE T along_w(const T& f_lw, const CornerVector<T>& to_l2, const T& rest) {
+  return rest + f_lw * to_l2.w;
+}
+
+/// f_l ∇²ℓ² + f_w ∇²Δw.
+template <class T>
+TEMPER_INLINE void add_curvature(const Spoke<T>&, const T& f_l, const T&, CornerMatrix<T>& sum) {
+  sum.add_in_plane(2.0 * f_l);
+}
+template <class T>
+TEMPER_INLINE void add_curvature(const LiftedSpoke<T>& a, const T& f_l, const T& f_w, CornerMatrix<T>& sum) {
+  const T f = 2.0 * (f_l + f_w);
+  sum.add_in_plane(f);
+  sum.ww = sum.ww + f * (a.sigma * a.sigma);
+}
+
+/// Makes derivatives along straight steps of P those along the steps of its chart, whose second derivatives are − up/ρ
+/// in x and y, − up/(4ρ³) in w, and e₁/(2ρ²) in x and w.
+template <class T>
+TEMPER_INLINE void bend(const PointOf<T>&, CornerDerivatives<T>&) {}
+template <class T>
+TEMPER_INLINE void bend(const Chart<T>& chart, CornerDerivatives<T>& d) {
+  const T slope = 2.0 * (chart.sigma * chart.sigma), twice_w = 2.0 * d.gradient.w;
+  d.hessian.add_in_plane(-twice_w);
+  d.hessian.ww = d.hessian.ww - chart.sigma * chart.sigma * twice_w;
+  d.hessian.xw = d.hessian.xw + slope * d.gradient.x;
+  d.hessian.yw = d.hessian.yw + slope * d.gradient.y;
+}
+
+// --- heights on the sphere -----------------------------------------------------------------------------------------
+
+/// The derivatives in P alone. With n̂ the unit normal of the triangle, c = b − a, g_pq = (P × Q)·n̂; a step dP turns n̂
+/// by − (n̂·dP/S) m, m = n̂ × c = ∇S, and with H = n̂·P, k = a·c/S and κ = |c|²/S
+///
+///   ∇g_pq = − n̂ × Q − k H n̂     ∇²g_pq = (H/S) [c⊗n̂ + k m⊗n̂ + …ᵀ] − [c·Q/S + k (1 − m·P/S)] n̂⊗n̂
+///   ∇g_qr = − κ H n̂             ∇²g_qr = (H/S) κ [m⊗n̂ + …ᵀ] − κ (1 − m·P/S) n̂⊗n̂
+///   ∇g_rp = m − ∇g_pq − ∇g_qr   ∇²g_rp = κ n̂⊗n̂ − ∇²g_pq − ∇²g_qr
+///
+/// Below all vectors are in the chart's (x, y, w): their part along up times σ.
+template <class T>
+struct HeightsAtLiftedCorner {
+  CornerVector<T> pq, qr, rp;  ///< gradients
+  CornerVector<T> area;        ///< m
+  CornerVector<T> normal, c;   ///< n̂, c
+  T k, kappa, height_over_s;   ///< H/S
+  T cq_over_s, turn;           ///< c·Q/S, 1 − m·P/S
+
+  /// The Hessian of f_pq g_pq + f_qr g_qr + f_rp g_rp.
+  TEMPER_INLINE void add_hessian(const T& f_pq, const T& f_qr, const T& f_rp, CornerMatrix<T>& sum) const {
+    const T on_c = f_pq - f_rp, round = on_c * k + (f_qr - f_rp) * kappa;
+    const CornerVector<T> v = height_over_s * (on_c * c + round * area);
+    sum.add_both(normal, v, f_rp * kappa - on_c * cq_over_s - round * turn);
+  }
+};
+
+template <class T>
+TEMPER_INLINE HeightsAtLiftedCorner<T> heights_at_corner(const LiftedSpoke<T>& a, const LiftedSpoke<T>& b,
+                                                         const T& inverse_area) {
+  HeightsAtLiftedCorner<T> h;
+  const T cx = b.x - a.x, cy = b.y - a.y, cz = b.z - a.z, qz = a.rho + a.z, sigma = a.sigma;
+  const T nx = (a.y * b.z - a.z * b.y) * inverse_area, ny = (a.z * b.x - a.x * b.z) * inverse_area;
+  const T nz = (a.x * b.y - a.y * b.x) * inverse_area;
+  const T mx = ny * cz - nz * cy, my = nz * cx - nx * cz, mz = nx * cy - ny * cx;
+  const T above = nz * a.rho;  // H
+  h.k = (a.x * cx + a.y * cy + a.z * cz) * inverse_area;
+  h.kappa = (cx * cx + cy * cy + cz * cz) * inverse_area;
+  h.height_over_s = above * inverse_area;
+  h.cq_over_s = (cx * a.x + cy * a.y + cz * qz) * inverse_area;
+  h.turn = 1 - mz * a.rho * inverse_area;
+  const T kh = h.k * above, kappa_h = h.kappa * above;
+  h.normal = {nx, ny, sigma * nz};
+  h.c = {cx, cy, sigma * cz};
+  h.area = {mx, my, sigma * mz};
+  h.pq = {nz * a.y - ny * qz - kh * nx, nx * qz - nz * a.x - kh * ny, sigma * (ny * a.x - nx * a.y - kh * nz)};
+  h.qr = -kappa_h * h.normal;
+  h.rp = {h.area.x - h.pq.x - h.qr.x, h.area.y - h.pq.y - h.qr.y, h.area.w - h.pq.w - h.qr.w};
   return h;
 }
 

@@ -27,6 +27,11 @@ namespace temper::exact {
 [[nodiscard]] Sign height_numerator_sign(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
 [[nodiscard]] Sign edge_split_sign(const WeightedPoint& p, const WeightedPoint& q);
 
+[[nodiscard]] Sign orientation(Vec3 p, Vec3 q, Vec3 r);
+[[nodiscard]] Sign power_test(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
+[[nodiscard]] Sign height_numerator_sign(Vec3 p, Vec3 q, Vec3 r);
+[[nodiscard]] Sign edge_split_sign(Vec3 p, Vec3 q);
+
 }  // namespace temper::exact
 
 namespace temper::inlined {
@@ -42,6 +47,14 @@ inline constexpr double kEdgeSplitBound = 8 * kUnitRoundoff;
 inline constexpr double kPowerTestBound = 16 * kUnitRoundoff;
 // 11: dot product 4, dot product and weights 5, their product, one sum.
 inline constexpr double kHeightBound = 16 * kUnitRoundoff;
+// On the sphere. 7: minor 4, its product with a coordinate, two sums.
+inline constexpr double kOrientationBound = 8 * kUnitRoundoff;
+// 8: minor 4, its product with a difference 2, two sums.
+inline constexpr double kLiftedPowerTestBound = 16 * kUnitRoundoff;
+// 4: difference, product, two sums.
+inline constexpr double kLiftedEdgeSplitBound = 8 * kUnitRoundoff;
+// 11: dot product 4, dot product of differences 5, their product, one sum.
+inline constexpr double kLiftedHeightBound = 16 * kUnitRoundoff;
 
 /// A value whose sign is a predicate, with a bound of its rounding: the sign is right where the value is beyond the
 /// bound. The functions that return it take points of doubles or of packs (base/pack.hpp).
@@ -49,6 +62,24 @@ template <class T>
 struct Filtered {
   T value, bound;
 };
+
+/// A vertex as the plane has it, and as the sphere does: x, y, w, or x, y, z of the lifted point.
+template <class Point>
+concept Planar = requires(const Point& p) {
+  p.w;
+};
+template <class Point>
+concept Lifted = requires(const Point& p) {
+  p.z;
+};
+
+/// The sign of a filtered value, or what `exactly` finds where it is not decided.
+template <class Exactly>
+[[nodiscard]] inline Sign sign_or(const Filtered<double>& x, Exactly&& exactly) {
+  if (x.value > x.bound) return Sign::positive;
+  if (x.value < -x.bound) return Sign::negative;
+  return exactly();
+}
 
 template <class Point>
 TEMPER_INLINE auto filtered_orient2d(const Point& a, const Point& b, const Point& c) {
@@ -58,14 +89,16 @@ TEMPER_INLINE auto filtered_orient2d(const Point& a, const Point& b, const Point
   return Filtered<T>{left - right, kOrient2dBound * (absolute(left) + absolute(right))};
 }
 
-[[nodiscard]] inline Sign orient2d(Vec2 a, Vec2 b, Vec2 c) {
-  const auto [determinant, bound] = filtered_orient2d(a, b, c);
-  if (determinant > bound) return Sign::positive;
-  if (determinant < -bound) return Sign::negative;
-  return exact::orient2d(a, b, c);
+template <Planar Point>
+TEMPER_INLINE auto filtered_orientation(const Point& a, const Point& b, const Point& c) {
+  return filtered_orient2d(a, b, c);
 }
 
-template <class Point>
+[[nodiscard]] inline Sign orient2d(Vec2 a, Vec2 b, Vec2 c) {
+  return sign_or(filtered_orient2d(a, b, c), [&] { return exact::orient2d(a, b, c); });
+}
+
+template <Planar Point>
 TEMPER_INLINE auto filtered_power_test(const Point& a, const Point& b, const Point& c, const Point& d) {
   using T = decltype(a.x - d.x);
   const T ax = a.x - d.x, ay = a.y - d.y, aw = a.w - d.w;
@@ -84,15 +117,12 @@ TEMPER_INLINE auto filtered_power_test(const Point& a, const Point& b, const Poi
 
 [[nodiscard]] inline Sign power_test(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
                                      const WeightedPoint& d) {
-  const auto [determinant, bound] = filtered_power_test(a, b, c, d);
-  if (determinant > bound) return Sign::positive;
-  if (determinant < -bound) return Sign::negative;
-  return exact::power_test(a, b, c, d);
+  return sign_or(filtered_power_test(a, b, c, d), [&] { return exact::power_test(a, b, c, d); });
 }
 
 /// Sign of 2 h ℓ S over edge pq, S twice the signed area. With the dot products D_p = (q − p)·(r − p) and so on,
 /// |q − p|² = D_p + D_q and 2 h ℓ S = D_p (D_r + w_q − w_r) + D_q (D_r + w_p − w_r).
-template <class Point>
+template <Planar Point>
 TEMPER_INLINE auto filtered_height_numerator(const Point& p, const Point& q, const Point& r) {
   using T = decltype(q.x - p.x);
   const T pqx = q.x - p.x, pqy = q.y - p.y;
@@ -111,14 +141,11 @@ TEMPER_INLINE auto filtered_height_numerator(const Point& p, const Point& q, con
 
 [[nodiscard]] inline Sign height_numerator_sign(const WeightedPoint& p, const WeightedPoint& q,
                                                 const WeightedPoint& r) {
-  const auto [numerator, bound] = filtered_height_numerator(p, q, r);
-  if (numerator > bound) return Sign::positive;
-  if (numerator < -bound) return Sign::negative;
-  return exact::height_numerator_sign(p, q, r);
+  return sign_or(filtered_height_numerator(p, q, r), [&] { return exact::height_numerator_sign(p, q, r); });
 }
 
 /// Sign of 2 d ℓ of edge pq, from p.
-template <class Point>
+template <Planar Point>
 TEMPER_INLINE auto filtered_edge_split(const Point& p, const Point& q) {
   using T = decltype(q.x - p.x);
   const T x = q.x - p.x, y = q.y - p.y, w = p.w - q.w;
@@ -127,10 +154,7 @@ TEMPER_INLINE auto filtered_edge_split(const Point& p, const Point& q) {
 }
 
 [[nodiscard]] inline Sign edge_split_sign(const WeightedPoint& p, const WeightedPoint& q) {
-  const auto [sum, bound] = filtered_edge_split(p, q);
-  if (sum > bound) return Sign::positive;
-  if (sum < -bound) return Sign::negative;
-  return exact::edge_split_sign(p, q);
+  return sign_or(filtered_edge_split(p, q), [&] { return exact::edge_split_sign(p, q); });
 }
 
 /// 0 < d_pq < ℓ.
@@ -144,6 +168,94 @@ TEMPER_INLINE auto filtered_edge_split(const Point& p, const Point& q) {
          inlined::height_numerator_sign(q, r, p) == Sign::positive &&
          inlined::height_numerator_sign(r, p, q) == Sign::positive && inlined::crosses_edge(p, q) &&
          inlined::crosses_edge(q, r) && inlined::crosses_edge(r, p);
+}
+
+// --- on the sphere: all from differences of neighbours, of which few digits cancel -------------------------------
+
+/// det(P, Q, R) = P·((Q − P) × (R − P)).
+template <Lifted Point>
+TEMPER_INLINE auto filtered_orientation(const Point& p, const Point& q, const Point& r) {
+  using T = decltype(q.x - p.x);
+  const T ax = q.x - p.x, ay = q.y - p.y, az = q.z - p.z;
+  const T bx = r.x - p.x, by = r.y - p.y, bz = r.z - p.z;
+  const T aybz = ay * bz, azby = az * by, azbx = az * bx, axbz = ax * bz, axby = ax * by, aybx = ay * bx;
+  const T determinant = p.x * (aybz - azby) + p.y * (azbx - axbz) + p.z * (axby - aybx);
+  const T permanent = absolute(p.x) * (absolute(aybz) + absolute(azby)) +
+                      absolute(p.y) * (absolute(azbx) + absolute(axbz)) +
+                      absolute(p.z) * (absolute(axby) + absolute(aybx));
+  return Filtered<T>{determinant, kOrientationBound * permanent};
+}
+
+/// − det(A − D, B − D, C − D).
+template <Lifted Point>
+TEMPER_INLINE auto filtered_power_test(const Point& a, const Point& b, const Point& c, const Point& d) {
+  using T = decltype(a.x - d.x);
+  const T ax = a.x - d.x, ay = a.y - d.y, az = a.z - d.z;
+  const T bx = b.x - d.x, by = b.y - d.y, bz = b.z - d.z;
+  const T cx = c.x - d.x, cy = c.y - d.y, cz = c.z - d.z;
+  const T bxcy = bx * cy, bycx = by * cx;
+  const T cxay = cx * ay, cyax = cy * ax;
+  const T axby = ax * by, aybx = ay * bx;
+  const T determinant = az * (bxcy - bycx) + bz * (cxay - cyax) + cz * (axby - aybx);
+  const T permanent = absolute(az) * (absolute(bxcy) + absolute(bycx)) +
+                      absolute(bz) * (absolute(cxay) + absolute(cyax)) +
+                      absolute(cz) * (absolute(axby) + absolute(aybx));
+  return Filtered<T>{-determinant, kLiftedPowerTestBound * permanent};
+}
+
+/// (P × Q)·n = (P·a) (a·b) − (P·b) |a|², with a = Q − P, b = R − P and n = a × b.
+template <Lifted Point>
+TEMPER_INLINE auto filtered_height_numerator(const Point& p, const Point& q, const Point& r) {
+  using T = decltype(q.x - p.x);
+  const T ax = q.x - p.x, ay = q.y - p.y, az = q.z - p.z;
+  const T bx = r.x - p.x, by = r.y - p.y, bz = r.z - p.z;
+  const T pax = p.x * ax, pay = p.y * ay, paz = p.z * az;
+  const T pbx = p.x * bx, pby = p.y * by, pbz = p.z * bz;
+  const T abx = ax * bx, aby = ay * by, abz = az * bz;
+  const T aa = ax * ax + ay * ay + az * az;
+  const T numerator = (pax + pay + paz) * (abx + aby + abz) - (pbx + pby + pbz) * aa;
+  const T permanent =
+      (absolute(pax) + absolute(pay) + absolute(paz)) * (absolute(abx) + absolute(aby) + absolute(abz)) +
+      (absolute(pbx) + absolute(pby) + absolute(pbz)) * aa;
+  return Filtered<T>{numerator, kLiftedHeightBound * permanent};
+}
+
+/// P·(P − Q).
+template <Lifted Point>
+TEMPER_INLINE auto filtered_edge_split(const Point& p, const Point& q) {
+  using T = decltype(q.x - p.x);
+  const T x = p.x * (p.x - q.x), y = p.y * (p.y - q.y), z = p.z * (p.z - q.z);
+  return Filtered<T>{x + y + z, kLiftedEdgeSplitBound * (absolute(x) + absolute(y) + absolute(z))};
+}
+
+// --- in the space of a mesh: what the plane does is inlined, the sphere is a call -------------------------------
+
+[[nodiscard]] inline Sign orientation(const Space& space, const WeightedPoint& p, const WeightedPoint& q,
+                                      const WeightedPoint& r) {
+  if (space.is_plane()) [[likely]]
+    return inlined::orient2d(p.position(), q.position(), r.position());
+  return temper::orientation(lifted(p), lifted(q), lifted(r));
+}
+
+[[nodiscard]] inline Sign power_test(const Space& space, const WeightedPoint& a, const WeightedPoint& b,
+                                     const WeightedPoint& c, const WeightedPoint& d) {
+  if (space.is_plane()) [[likely]]
+    return inlined::power_test(a, b, c, d);
+  return temper::power_test(lifted(a), lifted(b), lifted(c), lifted(d));
+}
+
+[[nodiscard]] inline bool crosses_edge(const Space& space, const WeightedPoint& p, const WeightedPoint& q) {
+  if (space.is_plane()) [[likely]]
+    return inlined::crosses_edge(p, q);
+  return temper::edge_split_sign(lifted(p), lifted(q)) == Sign::positive &&
+         temper::edge_split_sign(lifted(q), lifted(p)) == Sign::positive;
+}
+
+[[nodiscard]] inline bool is_well_centered(const Space& space, const WeightedPoint& p, const WeightedPoint& q,
+                                           const WeightedPoint& r) {
+  if (space.is_plane()) [[likely]]
+    return inlined::is_well_centered(p, q, r);
+  return temper::is_well_centered(lifted(p), lifted(q), lifted(r));
 }
 
 }  // namespace temper::inlined

@@ -1,13 +1,12 @@
 #include "mesh/bad_triangles.hpp"
 
-#include "geometry/predicates_inline.hpp"
+#include "mesh/predicates.hpp"
 
 namespace temper {
 
 bool is_bad(const Mesh& mesh, TriangleId t) {
   if (mesh.is_erased(t)) return false;
-  const auto [p, q, r] = mesh.corners(t);
-  return !inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r));
+  return !inlined::is_well_centered(mesh, t);
 }
 
 std::vector<TriangleId> bad_triangles(const Mesh& mesh) {

@@ -22,8 +22,8 @@ struct BoundaryClash {
 };
 
 /// Finds a clash, the leftmost or one before it; nothing where the boundary is as it should be. Exact. Preconditions:
-/// stars are whole and wind once, which leaves two boundary edges at a vertex, in different directions.
-/// O(m log m) for m boundary edges, whatever their shape.
+/// the mesh lies in the plane; stars are whole and wind once, which leaves two boundary edges at a vertex, in different
+/// directions. O(m log m) for m boundary edges, whatever their shape.
 [[nodiscard]] std::optional<BoundaryClash> find_boundary_clash(const Mesh& mesh);
 
 }  // namespace temper

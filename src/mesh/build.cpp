@@ -11,7 +11,7 @@
 #include "mesh/blocks.hpp"
 #include "mesh/embedding.hpp"
 #include "mesh/mesh_editor.hpp"
-#include "temper/geometry.hpp"
+#include "mesh/predicates.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -38,6 +38,12 @@ struct Range {
 std::string quantity(std::size_t n, const std::string& what) { return std::to_string(n) + " " + what; }
 
 std::string coordinates(Vec2 p) { return "(" + to_text(p.x) + ", " + to_text(p.y) + ")"; }
+std::string coordinates(Vec3 p) { return "(" + to_text(p.x) + ", " + to_text(p.y) + ", " + to_text(p.z) + ")"; }
+
+bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+// Points of the sphere may be off its radius by this part of it: what is left of coordinates with seven digits.
+constexpr double kOffRadius = 1e-6;
 
 }  // namespace
 
@@ -66,7 +72,7 @@ class MeshBuilder {
   }
 
   std::optional<InputError> check_sizes() {
-    const std::size_t n = in_.points.size(), m = in_.triangles.size();
+    const std::size_t n = n_points(), m = in_.triangles.size();
     if (n == 0) return InputError{ErrorCode::empty_input, {}, "the mesh has no points"};
     if (m == 0) return InputError{ErrorCode::empty_input, {}, "the mesh has no triangles"};
     if (!in_.weights.empty() && in_.weights.size() != n) {
@@ -83,25 +89,75 @@ class MeshBuilder {
   }
 
   std::optional<InputError> add_vertices() {
-    mesh_.vertices_.resize(in_.points.size());
-    const auto wrong = first_index(in_.points.size(), in_.executor, [&](std::size_t i) {
-      const Vec2 p = in_.points[i];
+    mesh_.space_ = in_.space;
+    mesh_.vertices_.resize(n_points());
+    const auto wrong = first_index(n_points(), in_.executor, [&](std::size_t i) {
       const double w = in_.weights.empty() ? 0.0 : in_.weights[i];
-      mesh_.set_point(VertexId(i), {p.x, p.y, w});
-      return !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(w);
+      if (!is_finite(place(i)) || !std::isfinite(w)) return true;
+      mesh_.set_point(VertexId(i), on_sphere() ? lifted_to(in_.sphere_points[i], w)
+                                               : WeightedPoint{in_.points[i].x, in_.points[i].y, w});
+      return false;
     });
     if (!wrong) return std::nullopt;
     const std::size_t i = *wrong;
-    if (!std::isfinite(in_.points[i].x) || !std::isfinite(in_.points[i].y)) {
-      return point_error(
-          ErrorCode::not_finite, i,
-          names_.point(i) + " has coordinates " + coordinates(in_.points[i]) + ", expected finite numbers");
+    if (!is_finite(place(i))) {
+      return point_error(ErrorCode::not_finite, i,
+                         names_.point(i) + " has coordinates " + place_text(i) + ", expected finite numbers");
     }
     return point_error(ErrorCode::not_finite, i,
                        names_.point(i) + " has weight " + to_text(in_.weights[i]) + ", expected a finite number");
   }
 
+  [[nodiscard]] bool on_sphere() const { return !in_.space.is_plane(); }
+  [[nodiscard]] std::size_t n_points() const { return on_sphere() ? in_.sphere_points.size() : in_.points.size(); }
+  [[nodiscard]] Vec3 place(std::size_t i) const {
+    return on_sphere() ? in_.sphere_points[i] : Vec3{in_.points[i].x, in_.points[i].y, 0};
+  }
+  [[nodiscard]] std::string place_text(std::size_t i) const {
+    return on_sphere() ? coordinates(in_.sphere_points[i]) : coordinates(in_.points[i]);
+  }
+
+  /// P of a point of the sphere; the point itself, bit for bit, where it has no weight and is at the radius but for
+  /// rounding.
+  [[nodiscard]] WeightedPoint lifted_to(Vec3 p, double w) const {
+    constexpr double kRounded = 0x1p-50;
+    const bool at_radius = std::abs(length(p) - in_.space.radius()) <= kRounded * in_.space.radius();
+    return w == 0 && at_radius ? as_point(p) : in_.space.with_weight(as_point(p), w);
+  }
+
+  std::optional<InputError> check_sphere() {
+    const double radius = in_.space.radius(), lightest = -radius * radius;
+    if (!Range{kSmallestExtent, kLargestCoordinate}.allows(radius)) {
+      return InputError{ErrorCode::out_of_scale,
+                        {},
+                        "the sphere has radius " + to_text(radius) + ", expected one from " + to_text(kSmallestExtent) +
+                            " to " + to_text(kLargestCoordinate)};
+    }
+    for (std::size_t i = 0; i < n_points(); ++i) {
+      const double distance = length(in_.sphere_points[i]), w = in_.weights.empty() ? 0.0 : in_.weights[i];
+      if (!(std::abs(distance - radius) <= kOffRadius * radius)) {
+        return point_error(ErrorCode::not_on_sphere, i,
+                           names_.point(i) + " is at " + place_text(i) + ", " + to_text(distance) +
+                               " from the center of the sphere; expected its radius, " + to_text(radius) +
+                               ", to one part in a million");
+      }
+      if (!(w > lightest)) {
+        return point_error(ErrorCode::out_of_scale, i,
+                           names_.point(i) + " has weight " + to_text(w) + "; expected more than " + to_text(lightest) +
+                               ", minus the square of the radius");
+      }
+    }
+    // Coordinates that are rounded zeros of a longitude or latitude would ask exact arithmetic for too many bits.
+    for (std::size_t i = 0; i < n_points(); ++i) {
+      WeightedPoint p = mesh_.point(VertexId(i));
+      for (double* x : {&p.x, &p.y, &p.w}) *x = std::abs(*x) < kSmallestCoordinate * radius ? 0 : *x;
+      mesh_.set_point(VertexId(i), p);
+    }
+    return std::nullopt;
+  }
+
   std::optional<InputError> check_scale() {
+    if (on_sphere()) return check_sphere();
     if (auto error = check_coordinates({kSmallestCoordinate, kLargestCoordinate})) return error;
     Vec2 low = in_.points[0], high = low;
     double largest = 0;
@@ -162,7 +218,7 @@ class MeshBuilder {
     for (const std::int32_t i : corners) {
       if (!is_point(i)) return false;
     }
-    const Sign sign = orient2d(at(corners[0]), at(corners[1]), at(corners[2]));
+    const Sign sign = inlined::orientation(mesh_, id(corners[0]), id(corners[1]), id(corners[2]));
     if (sign == Sign::negative) std::swap(corners[1], corners[2]);
     for (std::size_t k = 0; k < 3; ++k) mesh_.corners_[HalfedgeId(3 * t + k)] = id(corners[k]);
     return sign != Sign::zero;
@@ -173,16 +229,13 @@ class MeshBuilder {
       if (is_point(i)) continue;
       return triangle_error(ErrorCode::index_out_of_range, t,
                             names_.triangle(t) + " uses point index " + std::to_string(i) + ", but there are " +
-                                quantity(in_.points.size(), "points"));
+                                quantity(n_points(), "points"));
     }
     return triangle_error(ErrorCode::zero_area, t,
                           names_.triangle(t) + " has zero area: " + why_flat(in_.triangles[t]));
   }
 
-  [[nodiscard]] bool is_point(std::int32_t i) const {
-    return i >= 0 && static_cast<std::size_t>(i) < in_.points.size();
-  }
-  [[nodiscard]] Vec2 at(std::int32_t i) const { return in_.points[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] bool is_point(std::int32_t i) const { return i >= 0 && static_cast<std::size_t>(i) < n_points(); }
 
   std::optional<InputError> check_unused() {
     for (const HalfedgeId h : mesh_.halfedges()) MeshEditor(mesh_).set_outgoing(mesh_.origin(h), h);
@@ -207,19 +260,20 @@ class MeshBuilder {
   }
 
   std::optional<InputError> find_duplicate() const {
-    std::vector<std::uint32_t> order(in_.points.size());
+    std::vector<std::uint32_t> order(n_points());
     std::iota(order.begin(), order.end(), 0u);
     const auto before = [&](std::uint32_t a, std::uint32_t b) {
-      const Vec2 p = in_.points[a], q = in_.points[b];
+      const Vec3 p = place(a), q = place(b);
       if (p.x != q.x) return p.x < q.x;
-      return p.y != q.y ? p.y < q.y : a < b;
+      if (p.y != q.y) return p.y < q.y;
+      return p.z != q.z ? p.z < q.z : a < b;
     };
     std::sort(order.begin(), order.end(), before);
     for (std::size_t i = 1; i < order.size(); ++i) {
       const std::uint32_t a = order[i - 1], b = order[i];
-      if (in_.points[a] == in_.points[b]) {
+      if (place(a) == place(b)) {
         return point_error(ErrorCode::duplicate_point, b,
-                           names_.point(a) + " and " + names_.point(b) + " are both at " + coordinates(in_.points[b]) +
+                           names_.point(a) + " and " + names_.point(b) + " are both at " + place_text(b) +
                                "; expected distinct points");
       }
     }
@@ -333,11 +387,11 @@ class MeshBuilder {
   std::optional<InputError> constrain_edges() {
     for (const auto& [a, b] : in_.constrained_edges) {
       for (const std::int32_t i : {a, b}) {
-        if (i < 0 || static_cast<std::size_t>(i) >= in_.points.size()) {
+        if (!is_point(i)) {
           return InputError{ErrorCode::index_out_of_range,
                             {},
                             "a constrained edge uses point index " + std::to_string(i) + ", but there are " +
-                                quantity(in_.points.size(), "points")};
+                                quantity(n_points(), "points")};
         }
       }
       HalfedgeId h = mesh_.find_halfedge(id(a), id(b));
@@ -361,11 +415,11 @@ class MeshBuilder {
 
   std::optional<InputError> fix_vertices() {
     for (const std::int32_t i : in_.fixed_vertices) {
-      if (i < 0 || static_cast<std::size_t>(i) >= in_.points.size()) {
-        return InputError{ErrorCode::index_out_of_range,
-                          {},
-                          "a fixed vertex has index " + std::to_string(i) + ", but there are " +
-                              quantity(in_.points.size(), "points")};
+      if (!is_point(i)) {
+        return InputError{
+            ErrorCode::index_out_of_range,
+            {},
+            "a fixed vertex has index " + std::to_string(i) + ", but there are " + quantity(n_points(), "points")};
       }
       mesh_.set_fixed(id(i), true);
     }
@@ -378,7 +432,8 @@ class MeshBuilder {
     const auto name = [&](std::int32_t i) { return names_.point(static_cast<std::size_t>(i)); };
     if (c[0] == c[1] || c[0] == c[2]) return "it uses " + name(c[0]) + " more than once";
     if (c[1] == c[2]) return "it uses " + name(c[1]) + " more than once";
-    return "its corners " + name(c[0]) + ", " + name(c[1]) + " and " + name(c[2]) + " are collinear";
+    return "its corners " + name(c[0]) + ", " + name(c[1]) + " and " + name(c[2]) +
+           (on_sphere() ? " are on one great circle" : " are collinear");
   }
 
   const MeshInput& in_;

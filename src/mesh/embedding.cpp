@@ -7,16 +7,34 @@
 
 #include "geometry/between.hpp"
 #include "mesh/blocks.hpp"
+#include "mesh/boundary_arcs.hpp"
 #include "mesh/boundary_sweep.hpp"
-#include "temper/geometry.hpp"
+#include "mesh/predicates.hpp"
 
 namespace temper {
 namespace {
 
-bool left_of(Vec2 a, Vec2 b, Vec2 p) { return orient2d(a, b, p) == Sign::positive; }
-
 /// Says whether the direction from v to p is in the upper half-plane, the positive x-axis included.
 bool is_upper(Vec2 v, Vec2 p) { return p.y > v.y || (p.y == v.y && p.x > v.x); }
+
+/// The same on the sphere: where det(V, e, P) > 0 for an axis e that V is not on, or P is on the side of e in their
+/// plane. Exact.
+bool is_upper(Vec3 v, Vec3 p) {
+  // Turned so that e is the third axis: (x, y) of V is not 0.
+  const bool on_third = v.x == 0 && v.y == 0;
+  const Vec3 a = on_third ? Vec3{v.y, v.z, v.x} : v, b = on_third ? Vec3{p.y, p.z, p.x} : p;
+  const auto turn = [](double x1, double y1, double x2, double y2) { return orient2d({0, 0}, {x1, y1}, {x2, y2}); };
+  const Sign side = turn(b.x, b.y, a.x, a.y);  // det(A, e, B) = A_y B_x − A_x B_y
+  if (side != Sign::zero) return side == Sign::positive;
+  // B = α A + β e, β = (A_x B_z − A_z B_x)/A_x, or the same with y.
+  if (a.x != 0) return turn(a.x, a.z, b.x, b.z) == (a.x > 0 ? Sign::positive : Sign::negative);
+  return turn(a.y, a.z, b.y, b.z) == (a.y > 0 ? Sign::positive : Sign::negative);
+}
+
+bool is_upper(const Mesh& mesh, VertexId v, VertexId p) {
+  return mesh.space().is_plane() ? is_upper(mesh.position(v), mesh.position(p))
+                                 : is_upper(mesh.lifted_point(v), mesh.lifted_point(p));
+}
 
 /// Counts for each vertex how often its spokes, going round, enter the upper half-plane: once when an interior star
 /// winds once. Counted triangle by triangle, which asks for each position once and not through chains of twins.
@@ -24,12 +42,9 @@ IdVector<VertexId, std::uint32_t> entries_to_upper_half(const Mesh& mesh, Execut
   IdVector<VertexId, std::uint32_t> entries(mesh.n_vertices(), 0);
   const auto count = [&](std::size_t t, auto&& add) {
     const auto [a, b, c] = mesh.corners(TriangleId(t));
-    const Vec2 p = mesh.position(a), q = mesh.position(b), r = mesh.position(c);
-    // Of two distinct points one is upper to the other: what ends in the upper half at one end starts below the other.
-    const bool ab = is_upper(p, q), bc = is_upper(q, r), ca = is_upper(r, p);
-    if (!ab && !ca) add(entries[a]);
-    if (!bc && !ab) add(entries[b]);
-    if (!ca && !bc) add(entries[c]);
+    if (!is_upper(mesh, a, b) && is_upper(mesh, a, c)) add(entries[a]);
+    if (!is_upper(mesh, b, c) && is_upper(mesh, b, a)) add(entries[b]);
+    if (!is_upper(mesh, c, a) && is_upper(mesh, c, b)) add(entries[c]);
   };
   if (executor == nullptr) {
     for (const TriangleId t : mesh.triangles()) count(t.index, [](std::uint32_t& n) { ++n; });
@@ -43,12 +58,13 @@ IdVector<VertexId, std::uint32_t> entries_to_upper_half(const Mesh& mesh, Execut
 
 /// A boundary star overlaps itself when a later triangle contains the direction of its first edge.
 bool boundary_star_overlaps(const Mesh& mesh, VertexId v) {
-  const Vec2 center = mesh.position(v);
-  const Vec2 first = mesh.position(mesh.target(mesh.outgoing(v)));
+  const VertexId first = mesh.target(mesh.outgoing(v));
   for (const HalfedgeId h : mesh.star(v)) {
-    const Vec2 from = mesh.position(mesh.target(h));
-    const Vec2 to = mesh.position(mesh.opposite(h));
-    if (left_of(center, from, first) && orient2d(center, first, to) != Sign::negative) return true;
+    const VertexId from = mesh.target(h), to = mesh.opposite(h);
+    if (inlined::orientation(mesh, v, from, first) == Sign::positive &&
+        inlined::orientation(mesh, v, first, to) != Sign::negative) {
+      return true;
+    }
   }
   return false;
 }
@@ -63,11 +79,14 @@ std::string edges_on_each_other(const Mesh& mesh, VertexId v, const InputNames& 
     if (mesh.target(h) == v) ends.push_back(mesh.origin(h));
   }
   std::sort(ends.begin(), ends.end());
-  const Vec2 p = mesh.position(v);
+  const auto lies_on = [&](VertexId a, VertexId b) {  // b on the edge from v to a
+    return mesh.space().is_plane() ? is_between(mesh.position(v), mesh.position(a), mesh.position(b))
+                                   : is_between(mesh.lifted_point(v), mesh.lifted_point(a), mesh.lifted_point(b));
+  };
   for (std::size_t i = 0; i < ends.size(); ++i) {
     for (std::size_t j = i + 1; j < ends.size(); ++j) {
-      const Vec2 a = mesh.position(ends[i]), b = mesh.position(ends[j]);
-      if (orient2d(p, a, b) != Sign::zero || !(is_between(p, a, b) || is_between(p, b, a))) continue;
+      const VertexId a = ends[i], b = ends[j];
+      if (inlined::orientation(mesh, v, a, b) != Sign::zero || !(lies_on(a, b) || lies_on(b, a))) continue;
       return "the mesh touches itself at " + names.point(v.index) + ": its edges to " + names.point(ends[i].index) +
              " and " + names.point(ends[j].index) +
              " lie on each other (a hanging node, or an edge whose two sides are not joined)";
@@ -88,7 +107,7 @@ std::optional<Overlap> find_overlap(const Mesh& mesh, const InputNames& names, E
     if (message.empty()) message = "the triangles around " + names.point(v.index) + " overlap";
     return Overlap{Mesh::triangle(mesh.outgoing(v)), std::move(message)};
   }
-  if (const auto clash = find_boundary_clash(mesh)) {
+  if (const auto clash = mesh.space().is_plane() ? find_boundary_clash(mesh) : find_arc_clash(mesh)) {
     const TriangleId s = Mesh::triangle(clash->first), t = Mesh::triangle(clash->second);
     if (clash->kind == BoundaryClash::covered) {
       return Overlap{s, names.triangle(s.index) + " lies on top of another component of the mesh"};

@@ -1,4 +1,4 @@
-// Does a mesh cover the plane at most once? The global half of Mesh::build's checks.
+// Does a mesh cover its space at most once? The global half of Mesh::build's checks.
 #pragma once
 
 #include <optional>
@@ -18,12 +18,12 @@ struct Overlap {
 /// v. Empty when there are none. O(n), for error messages.
 [[nodiscard]] std::string edges_on_each_other(const Mesh& mesh, VertexId v, const InputNames& names);
 
-/// Finds why the mesh is not embedded in the plane; nothing when it is. Preconditions: all triangles counter-clockwise,
+/// Finds why the mesh is not embedded in its space; nothing when it is. Preconditions: all triangles counter-clockwise,
 /// manifold.
 ///
-/// A connected mesh whose stars wind once and whose boundary loops neither cross nor touch covers every
+/// In the plane a connected mesh whose stars wind once and whose boundary loops neither cross nor touch covers every
 /// point at most once: the turning numbers of its loops sum to its Euler characteristic, which leaves
-/// one outer loop. What then remains is a component inside another one's triangles.
+/// one outer loop. What then remains is a component inside another one's triangles. (On the sphere: boundary_arcs.hpp.)
 [[nodiscard]] std::optional<Overlap> find_overlap(const Mesh& mesh, const InputNames& names,
                                                   Executor* executor = nullptr);
 

@@ -6,6 +6,9 @@
 
 namespace temper {
 
+/// A radius that none can have fails.
+void visit(Archive& archive, Space& space);
+
 /// MeshArchive knows what a mesh consists of.
 class MeshArchive {
  public:

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "mesh/connectivity.hpp"
-#include "temper/geometry.hpp"
+#include "mesh/predicates.hpp"
 
 namespace temper {
 namespace {
@@ -69,7 +69,7 @@ std::optional<std::string> Mesh::validate() const {
   for (const TriangleId t : triangles()) {
     if (is_erased(t)) continue;
     const auto [a, b, c] = corners(t);
-    if (orient2d(position(a), position(b), position(c)) != Sign::positive) {
+    if (inlined::orientation(*this, a, b, c) != Sign::positive) {
       return text("triangle", t.index) + " is not counter-clockwise";
     }
   }

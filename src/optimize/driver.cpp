@@ -159,14 +159,15 @@ void Driver::settle_updates(const IdVector<VertexId, WeightedPoint>& before) {
   constexpr int kHalvings = 6;  // what is left then is hardly worth a step
   const PaperSwitches& o = settings_.options.paper;
   // With another policy flips may have been made, for which vertices are where they are.
+  const Space& space = mesh_.space();
   const bool moves_back = o.position_updates == Updates::deferred && o.hidden == HiddenPolicy::undo;
   for (int i = 0; !flipper_.restore_all() && i <= kHalvings; ++i) {
     for (const VertexId v : mesh_.vertices()) {
       if (mesh_.is_isolated(v)) continue;
       const WeightedPoint now = mesh_.point(v), old = before[v];
-      const double w = old.w + (i < kHalvings ? 0.5 : 0.0) * (now.w - old.w);
+      const double old_w = space.weight(old), w = old_w + (i < kHalvings ? 0.5 : 0.0) * (space.weight(now) - old_w);
       const WeightedPoint& place = moves_back && i == kHalvings ? old : now;
-      set_point(v, {place.x, place.y, w});
+      set_point(v, space.with_weight(place, w));
     }
   }
 }
@@ -224,10 +225,10 @@ void Driver::shift_weights_to_anchor() {
   if (!anchor.valid()) return;  // removed: any other constant would do as well
   const double shift = mesh_.weight(anchor);
   const IdVector<VertexId, WeightedPoint> before = points();
-  for (const VertexId v : mesh_.vertices()) set_weight(v, before[v].w - shift);
+  for (const VertexId v : mesh_.vertices()) set_weight(v, mesh_.space().weight(before[v]) - shift);
   if (settings_.options.flips == Flips::none || defers_flips(settings_.options) || flipper_.restore_all()) return;
   // Rounded differences hide a vertex that was all but hidden: no constant is worth that.
-  for (const VertexId v : mesh_.vertices()) set_weight(v, before[v].w);
+  for (const VertexId v : mesh_.vertices()) set_point(v, before[v]);
 }
 
 void Driver::set_point(VertexId v, const WeightedPoint& p) {
@@ -236,10 +237,7 @@ void Driver::set_point(VertexId v, const WeightedPoint& p) {
   if (!(p == from)) recorder_.placed(v, from, p, kNoEnergy, kNoEnergy);
 }
 
-void Driver::set_weight(VertexId v, double w) {
-  const WeightedPoint p = mesh_.point(v);
-  set_point(v, {p.x, p.y, w});
-}
+void Driver::set_weight(VertexId v, double w) { set_point(v, mesh_.space().with_weight(mesh_.point(v), w)); }
 
 /// Line 20 of Algorithm 1. False when no flips can: among inverted triangles, or around a hidden vertex that may not
 /// be.

@@ -137,7 +137,8 @@ bool EnergyPhase::goes_on_with_weights() {
 
 /// Newton's method for many vertices at once is for where nothing is bad and sweeps have become slow.
 bool EnergyPhase::wants_newton_pass() const {
-  return passes_pay_ && fall_ < kSlowFall && run_.report.history.back().bad == 0 && allows_newton_passes(settings_);
+  return passes_pay_ && fall_ < kSlowFall && run_.report.history.back().bad == 0 &&
+         allows_newton_passes(settings_, mesh_.space());
 }
 
 void EnergyPhase::passed(double after_pass, double after_sweep) {

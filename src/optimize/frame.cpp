@@ -15,23 +15,30 @@ double center_of(double low, double high) {
 }  // namespace
 
 Frame Frame::of(const Mesh& mesh) {
+  Frame frame;
+  frame.space = mesh.space();
+  if (!mesh.space().is_plane()) {
+    frame.scale = std::exp2(std::ilogb(mesh.space().radius()));
+    return frame;
+  }
   Vec2 low = mesh.position(VertexId(0)), high = low;
   for (const VertexId v : mesh.vertices()) {
     const Vec2 p = mesh.position(v);
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  Frame frame;
   frame.center = {center_of(low.x, high.x), center_of(low.y, high.y)};
   frame.scale = std::exp2(std::ilogb(std::max(high.x - low.x, high.y - low.y)));
   return frame;
 }
 
 void Frame::enter(Mesh& mesh) const {
+  mesh.set_space(space.in_units_of(scale));
   for (const VertexId v : mesh.vertices()) mesh.set_point(v, from_user(mesh.point(v)));
 }
 
 void Frame::leave(Mesh& mesh) const {
+  mesh.set_space(space);
   for (const VertexId v : mesh.vertices()) mesh.set_point(v, to_user(mesh.point(v)));
 }
 

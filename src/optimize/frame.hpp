@@ -2,7 +2,8 @@
 //
 // Scaling is by a power of two, so exact. An axis is centred only when every coordinate on it is within a factor
 // of two of the center c: then x − c is exact (Sterbenz), and so is the way back. Positions that move are
-// rounded to the user's grid, (x + c) − c, so that what was decided exactly here holds there.
+// rounded to the user's grid, (x + c) − c, so that what was decided exactly here holds there. The sphere stays around
+// the origin.
 #pragma once
 
 #include "temper/mesh.hpp"
@@ -10,8 +11,9 @@
 namespace temper {
 
 struct Frame {
-  Vec2 center;       ///< in the user's units
+  Vec2 center;       ///< in the user's units; of the sphere 0
   double scale = 1;  ///< user's length of one unit here; a power of two
+  Space space;       ///< of the mesh, in the user's units
 
   /// The frame of a mesh in the user's coordinates.
   [[nodiscard]] static Frame of(const Mesh& mesh);
@@ -24,17 +26,19 @@ struct Frame {
   /// of a zero is kept: −0 + 0 would be +0.
   [[nodiscard]] WeightedPoint to_user(const WeightedPoint& p) const {
     const double x = p.x * scale, y = p.y * scale;
-    return {center.x == 0 ? x : x + center.x, center.y == 0 ? y : y + center.y, p.w * scale * scale};
+    return {center.x == 0 ? x : x + center.x, center.y == 0 ? y : y + center.y, p.w * unit_of_third()};
   }
   [[nodiscard]] WeightedPoint from_user(const WeightedPoint& p) const {
     const double inverse = 1 / scale;
-    return {(p.x - center.x) * inverse, (p.y - center.y) * inverse, p.w * inverse * inverse};
+    return {(p.x - center.x) * inverse, (p.y - center.y) * inverse, p.w / unit_of_third()};
   }
+  /// The user's unit of the third number of a vertex: a weight, or Z.
+  [[nodiscard]] double unit_of_third() const { return space.is_plane() ? scale * scale : scale; }
 
   /// The center, in units of the frame.
   [[nodiscard]] Vec2 center_here() const { return (1 / scale) * center; }
 
-  /// The nearest position that the user's coordinates can hold.
+  /// The nearest position that the user's coordinates can hold, in the plane.
   [[nodiscard]] Vec2 snap(Vec2 p) const {
     const Vec2 c = center_here();
     return {(p.x + c.x) - c.x, (p.y + c.y) - c.y};

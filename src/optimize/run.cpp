@@ -25,7 +25,7 @@ std::size_t count_inverted(const Mesh& mesh) {
   std::size_t count = 0;
   for (const TriangleId t : mesh.triangles()) {
     const auto [a, b, c] = mesh.corners(t);
-    if (inlined::orient2d(mesh.position(a), mesh.position(b), mesh.position(c)) != Sign::positive) ++count;
+    if (inlined::orientation(mesh, a, b, c) != Sign::positive) ++count;
   }
   return count;
 }

@@ -53,7 +53,7 @@ double least_relative_height(const Mesh& mesh) {
   double least = 1;
   for (const TriangleId t : mesh.triangles()) {
     const auto [p, q, r] = mesh.corners(t);
-    for (const EdgeShape& e : triangle_shape(mesh.point(p), mesh.point(q), mesh.point(r)).edges) {
+    for (const EdgeShape& e : triangle_shape(mesh.space(), mesh.point(p), mesh.point(q), mesh.point(r)).edges) {
       least = std::min(least, e.g / e.l2);
     }
   }

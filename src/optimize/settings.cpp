@@ -127,6 +127,20 @@ std::optional<InputError> check_accuracy(const OptimizeOptions& o) {
   return std::nullopt;
 }
 
+/// What the sphere does without.
+std::optional<InputError> check_space(const OptimizeOptions& o, const Mesh& mesh) {
+  if (mesh.space().is_plane()) return std::nullopt;
+  const auto not_there = [](const std::string& option, const std::string& expected) {
+    return invalid("`" + option + "` is for meshes of the plane; on the sphere expected " + expected);
+  };
+  if (o.objective == Objective::accuracy) return not_there("objective=accuracy", "`objective=energy`");
+  if (o.boundary == BoundaryVertices::split) return not_there("boundary=split", "`boundary=keep` or `boundary=slide`");
+  if (o.repair == Repair::vertices) return not_there("repair=vertices", "`repair=none`");
+  if (o.size_band) return not_there("size_band", "none");
+  if (o.paper.insertion_from) return not_there("insertion_from", "none");
+  return std::nullopt;
+}
+
 std::optional<InputError> check_anchor(VertexId anchor, const Mesh& mesh) {
   if (!anchor.valid() || anchor.index < mesh.n_vertices()) return std::nullopt;
   return invalid("`anchor` is vertex " + std::to_string(anchor.index) + ", but the mesh has " +
@@ -206,6 +220,7 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   if (auto error = check_accuracy(options)) return *std::move(error);
   if (auto error = check_anchor(options.paper.anchor, mesh)) return *std::move(error);
   if (auto error = check_weights(options, mesh)) return *std::move(error);
+  if (auto error = check_space(options, mesh)) return *std::move(error);
 
   const Star star = options.objective == Objective::accuracy ? Star::one : options.star;
   Settings s;

@@ -82,8 +82,8 @@ void visit(Archive& archive, Run& run) {
 }
 
 void visit(Archive& archive, Frame& frame) {
-  auto& [center, scale] = frame;
-  archive(center, scale);
+  auto& [center, scale, space] = frame;
+  archive(center, scale, space);
 }
 
 void visit(Archive& archive, WorkingCopy& work) {

@@ -19,9 +19,14 @@ struct Quadratic {
   double c0, c1, c2;
 };
 
-/// −F(t) for the lifted points a, b, c seen from p: positive when p(t) conflicts with triangle abc counter-clockwise.
-Quadratic conflict_along(const WeightedPoint& p, const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
-                         const std::array<double, 3>& step) {
+/// −F(t), in the plane for the lifted points a, b, c seen from p: positive when p(t) conflicts with triangle abc
+/// counter-clockwise.
+Quadratic conflict_along(const Space& space, const WeightedPoint& p, const WeightedPoint& a, const WeightedPoint& b,
+                         const WeightedPoint& c, const std::array<double, 3>& step) {
+  if (!space.is_plane()) {  // how far above the plane of the face
+    const Vec3 at = lifted(a), n = cross(lifted(b) - at, lifted(c) - at);
+    return {dot(n, lifted(p) - at), dot(n, {step[0], step[1], step[2]}), 0};
+  }
   const auto lift = [&](const WeightedPoint& q) {
     const double x = q.x - p.x, y = q.y - p.y;
     return WeightedPoint{x, y, x * x + y * y - (q.w - p.w)};
@@ -70,10 +75,10 @@ double flip_threshold(const Mesh& mesh, VertexId v, const std::array<double, 3>&
       if (test(mesh, inlined::quad(mesh, e)) == Sign::positive) continue;  // not regular as it is
       const WeightedPoint across = mesh.point(mesh.opposite(mesh.twin(e)));
       if (e == h) {
-        const Quadratic f = conflict_along(p, across, q, r, step);
+        const Quadratic f = conflict_along(mesh.space(), p, across, q, r, step);
         threshold = std::min(threshold, first_crossing({-f.c0, -f.c1, -f.c2}));
       } else {
-        threshold = std::min(threshold, first_crossing(conflict_along(p, r, q, across, step)));
+        threshold = std::min(threshold, first_crossing(conflict_along(mesh.space(), p, r, q, across, step)));
       }
     }
   }

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "temper/geometry.hpp"
+#include "mesh/predicates.hpp"
 
 namespace temper {
 namespace {
@@ -32,7 +32,7 @@ std::vector<VertexId> reflex_ends(const Mesh& mesh, const std::vector<HalfedgeId
 
 VertexId reflex_end(const Mesh& mesh, HalfedgeId stuck) {
   const auto [a, b, c, d] = inlined::quad(mesh, stuck);
-  return orient2d(mesh.position(d), mesh.position(c), mesh.position(a)) == Sign::positive ? b : a;
+  return inlined::orientation(mesh, d, c, a) == Sign::positive ? b : a;
 }
 
 HiddenVertices remove_hidden(Mesh& mesh, Lawson& lawson, const RestorationObserver* observer) {

@@ -7,8 +7,7 @@
 #include <array>
 #include <cstdint>
 
-#include "geometry/predicates_inline.hpp"
-#include "temper/mesh.hpp"
+#include "mesh/predicates.hpp"
 #include "topology/flip_inline.hpp"
 
 namespace temper {
@@ -16,7 +15,7 @@ namespace temper {
 /// Positive when the edge ab of the quad must flip.
 struct PowerTest {
   [[nodiscard]] Sign operator()(const Mesh& mesh, const inlined::Quad& q) const {
-    return inlined::power_test(mesh.point(q.a), mesh.point(q.b), mesh.point(q.c), mesh.point(q.d));
+    return inlined::power_test(mesh, q.a, q.b, q.c, q.d);
   }
 };
 
@@ -28,7 +27,7 @@ struct PerturbedPowerTest {
   [[nodiscard]] Sign operator()(const Mesh& mesh, const inlined::Quad& q) const {
     const Sign sign = PowerTest()(mesh, q);
     if (sign != Sign::zero) return sign;
-    return power_test_perturbed(mesh.point(q.a), mesh.point(q.b), mesh.point(q.c), mesh.point(q.d),
+    return power_test_perturbed(mesh.space(), mesh.point(q.a), mesh.point(q.b), mesh.point(q.c), mesh.point(q.d),
                                 {rank(q.a), rank(q.b), rank(q.c), rank(q.d)});
   }
 };

@@ -1,8 +1,8 @@
 // restore_regularity: Lawson on all edges, then what the policy says of the vertices that stuck edges run into.
 #include <utility>
 
+#include "mesh/predicates.hpp"
 #include "regularity/hidden.hpp"
-#include "temper/geometry.hpp"
 
 namespace temper {
 namespace {
@@ -11,7 +11,7 @@ namespace {
   for (const TriangleId t : mesh.triangles()) {
     if (mesh.is_erased(t)) continue;
     const auto [a, b, c] = mesh.corners(t);
-    if (orient2d(mesh.position(a), mesh.position(b), mesh.position(c)) != Sign::positive) return false;
+    if (inlined::orientation(mesh, a, b, c) != Sign::positive) return false;
   }
   return true;
 }

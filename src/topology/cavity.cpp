@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "geometry/predicates_inline.hpp"
+#include "mesh/predicates.hpp"
 
 namespace temper {
 namespace {
@@ -26,11 +26,6 @@ class Scratch {
   std::vector<T> large_;
 };
 
-/// A vertex seen from the origin, and its height on the lifted surface.
-struct Lifted {
-  double x, y, z;
-};
-
 /// The best triangulation of the part of the polygon from i to j: its volume, and the apex over its closing edge.
 struct Part {
   double volume;
@@ -43,8 +38,8 @@ class BestTriangulation {
       : mesh_(mesh), polygon_(polygon), n_(polygon.size()), lifted_(n_), parts_(n_ * n_) {
     for (std::size_t i = 0; i < n_; ++i) {
       const WeightedPoint p = mesh.point(polygon[i]);
-      const double x = p.x - origin.x, y = p.y - origin.y;
-      lifted_[i] = {x, y, x * x + y * y - (p.w - origin.w)};
+      const double x = p.x - origin.x, y = p.y - origin.y, w = p.w - origin.w;
+      lifted_[i] = {x, y, mesh.space().is_plane() ? x * x + y * y - w : w};
     }
     for (std::size_t i = 0; i + 1 < n_; ++i) part(i, i + 1) = {0, i};
     for (std::size_t length = 2; length < n_; ++length) {
@@ -80,13 +75,15 @@ class BestTriangulation {
   }
 
   [[nodiscard]] bool is_counter_clockwise(std::size_t i, std::size_t m, std::size_t j) const {
-    return inlined::orient2d(mesh_.position(polygon_[i]), mesh_.position(polygon_[m]), mesh_.position(polygon_[j])) ==
-           Sign::positive;
+    return inlined::orientation(mesh_, polygon_[i], polygon_[m], polygon_[j]) == Sign::positive;
   }
 
-  /// Six times the volume between triangle imj and the plane z = 0.
+  /// Six times the volume between triangle imj and the plane z = 0. On the sphere the surface of least volume is the
+  /// farthest out: minus that of the tetrahedron of imj and the origin, which is no constant apart from that with the
+  /// center of the sphere.
   [[nodiscard]] double volume_under(std::size_t i, std::size_t m, std::size_t j) {
-    const Lifted a = lifted_[i], b = lifted_[m], c = lifted_[j];
+    const Vec3 a = lifted_[i], b = lifted_[m], c = lifted_[j];
+    if (!mesh_.space().is_plane()) return -dot(a, cross(b, c));
     const double doubled_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     return doubled_area * (a.z + b.z + c.z);
   }
@@ -94,7 +91,7 @@ class BestTriangulation {
   const Mesh& mesh_;
   std::span<const VertexId> polygon_;
   std::size_t n_;
-  Scratch<Lifted, kSmall> lifted_;
+  Scratch<Vec3, kSmall> lifted_;          // seen from the origin: in the plane with the height on the lifted surface
   Scratch<Part, kSmall * kSmall> parts_;  // of i < j alone; the rest is never looked at
 };
 

@@ -2,7 +2,7 @@
 //
 // can_flip asks exactly what makes the two new triangles counter-clockwise, and no more: the quad adbc is strictly
 // convex when its diagonal dc leaves a on its left (triangle dca) and b on its right (triangle cdb).
-#include "temper/geometry.hpp"
+#include "mesh/predicates.hpp"
 #include "topology/flip_inline.hpp"
 
 namespace temper {
@@ -11,9 +11,8 @@ FlipStatus can_flip(const Mesh& mesh, HalfedgeId h) {
   if (mesh.is_boundary(h)) return FlipStatus::boundary;
   if (mesh.is_constrained(h)) return FlipStatus::constrained;
   const auto [a, b, c, d] = inlined::quad(mesh, h);
-  const Vec2 from = mesh.position(d), to = mesh.position(c);
-  if (orient2d(from, to, mesh.position(a)) != Sign::positive) return FlipStatus::not_convex;
-  if (orient2d(to, from, mesh.position(b)) != Sign::positive) return FlipStatus::not_convex;
+  if (inlined::orientation(mesh, d, c, a) != Sign::positive) return FlipStatus::not_convex;
+  if (inlined::orientation(mesh, c, d, b) != Sign::positive) return FlipStatus::not_convex;
   return FlipStatus::possible;
 }
 

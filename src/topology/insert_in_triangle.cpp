@@ -7,18 +7,18 @@
 //         / /   \ \           cost:   O(1), amortised over the growth of the arrays
 //        a ------- b
 #include "base/assert.hpp"
-#include "temper/geometry.hpp"
+#include "mesh/predicates.hpp"
 #include "topology/flip_inline.hpp"
 
 namespace temper {
 
 VertexId insert_in_triangle(Mesh& mesh, TriangleId t, WeightedPoint point) {
   const auto [a, b, c] = mesh.corners(t);
-  TEMPER_ASSERT_SLOW(orient2d(mesh.position(a), mesh.position(b), point.position()) == Sign::positive &&
-                     orient2d(mesh.position(b), mesh.position(c), point.position()) == Sign::positive &&
-                     orient2d(mesh.position(c), mesh.position(a), point.position()) == Sign::positive);
   MeshEditor edit(mesh);
   const VertexId v = edit.add_vertex(point);
+  TEMPER_ASSERT_SLOW(inlined::orientation(mesh, a, b, v) == Sign::positive &&
+                     inlined::orientation(mesh, b, c, v) == Sign::positive &&
+                     inlined::orientation(mesh, c, a, v) == Sign::positive);
   const TriangleId bcv = edit.add_triangle({b, c, v}, mesh.region(t));
   const TriangleId cav = edit.add_triangle({c, a, v}, mesh.region(t));
   const HalfedgeId n = Mesh::halfedge(t, 1), p = Mesh::halfedge(t, 2);  // become b→v and v→a

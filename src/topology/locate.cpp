@@ -4,22 +4,24 @@
 #include <array>
 #include <cstddef>
 
-#include "geometry/predicates_inline.hpp"
+#include "mesh/predicates.hpp"
 
 namespace temper {
 namespace {
 
 /// On which side of each edge of t the point is.
-std::array<Sign, 3> sides(const Mesh& mesh, Vec2 p, TriangleId t) {
+std::array<Sign, 3> sides(const Mesh& mesh, const WeightedPoint& p, TriangleId t) {
   const auto [a, b, c] = mesh.corners(t);
-  const Vec2 pa = mesh.position(a), pb = mesh.position(b), pc = mesh.position(c);
-  return {inlined::orient2d(pa, pb, p), inlined::orient2d(pb, pc, p), inlined::orient2d(pc, pa, p)};
+  const WeightedPoint pa = mesh.point(a), pb = mesh.point(b), pc = mesh.point(c);
+  const Space& space = mesh.space();
+  return {inlined::orientation(space, pa, pb, p), inlined::orientation(space, pb, pc, p),
+          inlined::orientation(space, pc, pa, p)};
 }
 
 bool is_usable(const Mesh& mesh, TriangleId t) { return t.index < mesh.n_triangles() && !mesh.is_erased(t); }
 
 /// The triangle that the walk from `near` ends in, or an invalid one where it is stopped.
-TriangleId walk(const Mesh& mesh, Vec2 p, TriangleId near) {
+TriangleId walk(const Mesh& mesh, const WeightedPoint& p, TriangleId near) {
   TriangleId at = near;
   HalfedgeId entered;
   // A walk that meets more triangles than there are goes in circles.
@@ -38,7 +40,7 @@ TriangleId walk(const Mesh& mesh, Vec2 p, TriangleId near) {
   return {};
 }
 
-TriangleId scan(const Mesh& mesh, Vec2 p) {
+TriangleId scan(const Mesh& mesh, const WeightedPoint& p) {
   for (const TriangleId t : mesh.triangles()) {
     if (mesh.is_erased(t)) continue;
     const std::array<Sign, 3> side = sides(mesh, p, t);
@@ -49,7 +51,7 @@ TriangleId scan(const Mesh& mesh, Vec2 p) {
 
 }  // namespace
 
-Location locate(const Mesh& mesh, Vec2 p, TriangleId near) {
+Location locate(const Mesh& mesh, const WeightedPoint& p, TriangleId near) {
   TriangleId t = is_usable(mesh, near) ? walk(mesh, p, near) : TriangleId();
   if (!t.valid()) t = scan(mesh, p);
   if (!t.valid()) return {};

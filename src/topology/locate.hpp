@@ -17,7 +17,12 @@ struct Location {
   HalfedgeId edge;      ///< on_edge: that edge, from its end of smaller number where both sides have triangles
 };
 
-/// `near`: where to begin; may be invalid. About O(√n) when the way is free, else O(n).
-[[nodiscard]] Location locate(const Mesh& mesh, Vec2 p, TriangleId near);
+/// The place of a vertex, its weight whatever it is. `near`: where to begin; may be invalid. About O(√n) when the way
+/// is free, else O(n).
+[[nodiscard]] Location locate(const Mesh& mesh, const WeightedPoint& p, TriangleId near);
+/// Of a point of the plane.
+[[nodiscard]] inline Location locate(const Mesh& mesh, Vec2 p, TriangleId near) {
+  return locate(mesh, WeightedPoint{p.x, p.y, 0}, near);
+}
 
 }  // namespace temper

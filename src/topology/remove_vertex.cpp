@@ -29,7 +29,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "temper/geometry.hpp"
+#include "geometry/between.hpp"
+#include "mesh/predicates.hpp"
 #include "temper/topology.hpp"
 #include "topology/cavity.hpp"
 
@@ -48,10 +49,10 @@ struct StarShape {
 };
 
 /// Does v lie exactly on the segment ab, between its ends?
-bool is_between(Vec2 a, Vec2 v, Vec2 b) {
-  if (orient2d(a, v, b) != Sign::zero) return false;
-  return a.x != b.x ? (a.x < v.x) == (v.x < b.x) && v.x != a.x && v.x != b.x
-                    : (a.y < v.y) == (v.y < b.y) && v.y != a.y && v.y != b.y;
+bool is_inside_line(const Mesh& mesh, VertexId a, VertexId v, VertexId b) {
+  if (inlined::orientation(mesh, a, v, b) != Sign::zero) return false;
+  return mesh.space().is_plane() ? is_between(mesh.position(a), mesh.position(b), mesh.position(v))
+                                 : is_between(mesh.lifted_point(a), mesh.lifted_point(b), mesh.lifted_point(v));
 }
 
 /// Do all triangles around v have one region, except across constrained spokes?
@@ -72,7 +73,7 @@ StarShape boundary_shape(const Mesh& mesh, VertexId v) {
     if (h != first && mesh.is_constrained(h)) ++constrained_inside;
   }
   const HalfedgeId back = Mesh::prev(last);  // the boundary halfedge into v
-  if (!is_between(mesh.position(mesh.target(first)), mesh.position(v), mesh.position(mesh.origin(back)))) {
+  if (!is_inside_line(mesh, mesh.target(first), v, mesh.origin(back))) {
     return {RemovalStatus::boundary_corner, {}};
   }
   const bool constrained = mesh.is_constrained(first);
@@ -98,7 +99,7 @@ StarShape inner_shape(const Mesh& mesh, VertexId v) {
   if (constrained != 2) return refused;
   if (mesh.target(line[1]) < mesh.target(line[0])) std::swap(line[0], line[1]);
   const VertexId a = mesh.target(line[0]), b = mesh.target(line[1]);
-  if (!is_between(mesh.position(a), mesh.position(v), mesh.position(b))) return refused;
+  if (!is_inside_line(mesh, a, v, b)) return refused;
   return {RemovalStatus::possible, line[0], true, line[1], true};
 }
 
@@ -184,7 +185,7 @@ bool fills(const Mesh& mesh, std::span<const VertexId> polygon, std::span<const 
       if (is_side(polygon, a, b)) continue;
       if (count_edge(triangles, b, a) != 1 || has_edge(mesh, a, b)) return false;
     }
-    if (orient2d(mesh.position(t[0]), mesh.position(t[1]), mesh.position(t[2])) != Sign::positive) return false;
+    if (inlined::orientation(mesh, t[0], t[1], t[2]) != Sign::positive) return false;
   }
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     if (count_edge(triangles, polygon[i], polygon[(i + 1) % polygon.size()]) != 1) return false;

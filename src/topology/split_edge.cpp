@@ -10,7 +10,7 @@
 //            \|/
 //             d
 #include "base/assert.hpp"
-#include "temper/geometry.hpp"
+#include "mesh/predicates.hpp"
 #include "topology/flip_inline.hpp"
 
 namespace temper {
@@ -20,8 +20,8 @@ namespace {
 HalfedgeId cut_triangle(Mesh& mesh, HalfedgeId h, VertexId v) {
   const HalfedgeId n = Mesh::next(h);
   const VertexId b = mesh.origin(n), c = mesh.opposite(h);
-  TEMPER_ASSERT_SLOW(orient2d(mesh.position(mesh.origin(h)), mesh.position(v), mesh.position(c)) == Sign::positive &&
-                     orient2d(mesh.position(v), mesh.position(b), mesh.position(c)) == Sign::positive);
+  TEMPER_ASSERT_SLOW(inlined::orientation(mesh, mesh.origin(h), v, c) == Sign::positive &&
+                     inlined::orientation(mesh, v, b, c) == Sign::positive);
   MeshEditor edit(mesh);
   const TriangleId vbc = edit.add_triangle({v, b, c}, mesh.region(Mesh::triangle(h)));
   inlined::attach(mesh, Mesh::halfedge(vbc, 1), inlined::outer_side(mesh, n));

@@ -35,6 +35,7 @@ struct LatticeOptions {
   double scale = 1;      ///< of coordinates; weights go with its square
   Vec2 offset = {0, 0};  ///< added after scaling
   std::uint64_t seed = 1;
+  double radius = 0;  ///< not 0: on a sphere of this radius, in units of `scale`
 
   friend void PrintTo(const LatticeOptions& o, std::ostream* out) {
     *out << o.n << " x " << o.n << " scaled by " << o.scale << " at (" << o.offset.x << ", " << o.offset.y << ")";
@@ -64,7 +65,20 @@ inline Mesh lattice(const LatticeOptions& options = {}) {
       triangles.push_back({b, d, c});
     }
   }
-  auto built = Mesh::build({.points = points, .weights = weights, .triangles = triangles});
+  MeshInput input{.points = points, .weights = weights, .triangles = triangles};
+  std::vector<Vec3> projected;
+  if (options.radius > 0) {
+    const double radius = options.scale * options.radius;
+    const Vec2 middle = 0.5 * (points.front() + points.back());
+    for (const Vec2 p : points) {
+      // Not along an axis.
+      const Vec3 q{p.x - middle.x + 0.6 * radius, p.y - middle.y, 0.8 * radius + 0.3 * (p.x - middle.x)};
+      projected.push_back(radius / length(q) * q);
+    }
+    input.space = Space::sphere(radius);
+    input.sphere_points = projected;
+  }
+  auto built = Mesh::build(input);
   if (!built) {
     ADD_FAILURE() << built.error().what();
     return {};

@@ -27,7 +27,8 @@ bool helps(const Standing& before, const Standing& after) {
 
 }  // namespace
 
-bool repairs(const Settings& settings) {
+bool repairs(const Settings& settings, const Space& space) {
+  if (!space.is_plane()) return false;
   const OptimizeOptions& o = settings.options;
   if (o.repair == Repair::none || o.repair_trials == 0 || !settings.energy.barrier || o.flips == Flips::none ||
       o.unknowns == Unknowns::weights)

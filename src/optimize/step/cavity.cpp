@@ -50,9 +50,9 @@ struct EdgeOfTriangle {
   EdgeShape edge;
   double per_area;
 };
-EdgeOfTriangle edge_of_triangle(const HotKernel& kernel, const WeightedPoint& a, const WeightedPoint& b,
-                                const WeightedPoint& c) {
-  const TriangleShape s = triangle_shape(a, b, c);
+EdgeOfTriangle edge_of_triangle(const Space& space, const HotKernel& kernel, const WeightedPoint& a,
+                                const WeightedPoint& b, const WeightedPoint& c) {
+  const TriangleShape s = triangle_shape(space, a, b, c);
   EdgeShape e = s.edges[0];
   if (s.doubled_area < 0) e.g = -e.g;
   return {e, kernel.per_area(s.doubled_area)};
@@ -66,12 +66,12 @@ struct Beyond {
 
 /// The share of triangle abc in the energy of its edge ab. The triangle beyond keeps its shape when it stays, but for
 /// E_T the sign of its share may change: then it is added, as in patch_energy.
-double hot_edge(const EnergyModel& model, const HotKernel& kernel, const std::array<WeightedPoint, 3>& abc,
-                const Beyond& beyond) {
+double hot_edge(const Space& space, const EnergyModel& model, const HotKernel& kernel,
+                const std::array<WeightedPoint, 3>& abc, const Beyond& beyond) {
   const auto& [a, b, c] = abc;
-  const auto [edge, per_area] = edge_of_triangle(kernel, a, b, c);
+  const auto [edge, per_area] = edge_of_triangle(space, kernel, a, b, c);
   const auto [outer, per_outer_area] =
-      beyond.point ? edge_of_triangle(kernel, b, a, *beyond.point) : EdgeOfTriangle{{edge.l2, edge.dw, 0}, 1};
+      beyond.point ? edge_of_triangle(space, kernel, b, a, *beyond.point) : EdgeOfTriangle{{edge.l2, edge.dw, 0}, 1};
   const double factor = hot_factor(model, edge.g, outer.g, !beyond.point);
   const bool shares = energy_info(model.kind).signed_by_dual && beyond.stays && beyond.point;
   return factor * (kernel.value(edge) * per_area) + (shares ? factor * (kernel.value(outer) * per_outer_area) : 0);
@@ -84,7 +84,7 @@ double hot_edges(const Mesh& mesh, const EnergyModel& model, const HotKernel& ke
     const VertexId a = t[k], b = t[(k + 1) % 3];
     const Across side = across(mesh, plan, a, b);
     const Beyond beyond = side.apex.valid() ? Beyond{mesh.point(side.apex), side.is_link} : Beyond{};
-    sum += hot_edge(model, kernel, {mesh.point(a), mesh.point(b), mesh.point(t[(k + 2) % 3])}, beyond);
+    sum += hot_edge(mesh.space(), model, kernel, {mesh.point(a), mesh.point(b), mesh.point(t[(k + 2) % 3])}, beyond);
   }
   return sum;
 }
@@ -105,7 +105,7 @@ double replaced_edges(const Mesh& mesh, const EnergyModel& model, const HotKerne
     const HalfedgeId h = Mesh::halfedge(t, k);
     const std::array<WeightedPoint, 3> abc = {mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)),
                                               mesh.point(mesh.opposite(h))};
-    sum += hot_edge(model, kernel, abc, beyond_replaced(mesh, plan, h));
+    sum += hot_edge(mesh.space(), model, kernel, abc, beyond_replaced(mesh, plan, h));
   }
   return sum;
 }
@@ -121,8 +121,9 @@ double new_edges(const Mesh& mesh, const EnergyModel& model, const HotKernel& ke
   outside.stays = true;
   const Beyond after = open && i + 2 == n ? Beyond{} : Beyond{point(i + 2), false};
   const Beyond before = open && i == 0 ? Beyond{} : Beyond{point(i + n - 1), false};
-  return hot_edge(model, kernel, {a, b, v}, outside) + hot_edge(model, kernel, {b, v, a}, after) +
-         hot_edge(model, kernel, {v, a, b}, before);
+  return hot_edge(mesh.space(), model, kernel, {a, b, v}, outside) +
+         hot_edge(mesh.space(), model, kernel, {b, v, a}, after) +
+         hot_edge(mesh.space(), model, kernel, {v, a, b}, before);
 }
 
 }  // namespace
@@ -133,7 +134,7 @@ double cavity_energy(const Mesh& mesh, const EnergyModel& model, const RemovalPl
     double sum = 0;
     for (const Corners& t : plan.triangles) {
       if constexpr (std::decay_t<decltype(kernel)>::kBarrier) {
-        sum += triangle_energy(model, mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]));
+        sum += triangle_energy(model, mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]), mesh.space());
       } else {
         sum += hot_edges(mesh, model, kernel, plan, t);
       }
@@ -148,7 +149,7 @@ double insertion_energy(const Mesh& mesh, const EnergyModel& model, const Insert
     for (std::size_t i = 0; i < plan.rim.size(); ++i) {
       if constexpr (std::decay_t<decltype(kernel)>::kBarrier) {
         const VertexId b = plan.link[(i + 1) % plan.link.size()];
-        sum += triangle_energy(model, plan.point, mesh.point(plan.link[i]), mesh.point(b));
+        sum += triangle_energy(model, plan.point, mesh.point(plan.link[i]), mesh.point(b), mesh.space());
       } else {
         sum += new_edges(mesh, model, kernel, plan, i);
       }
@@ -163,7 +164,7 @@ double replaced_energy(const Mesh& mesh, const EnergyModel& model, const Inserti
     for (const TriangleId t : plan.cavity) {
       if constexpr (std::decay_t<decltype(kernel)>::kBarrier) {
         const auto [a, b, c] = mesh.corners(t);
-        sum += triangle_energy(model, mesh.point(a), mesh.point(b), mesh.point(c));
+        sum += triangle_energy(model, mesh.point(a), mesh.point(b), mesh.point(c), mesh.space());
       } else {
         sum += replaced_edges(mesh, model, kernel, plan, t);
       }
@@ -177,7 +178,8 @@ bool is_regular(const Mesh& mesh, const RemovalPlan& plan) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Across beyond = across(mesh, plan, t[k], t[(k + 1) % 3]);
       if (!beyond.apex.valid() || beyond.constrained) continue;
-      const Sign conflict = power_test(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]), mesh.point(beyond.apex));
+      const Sign conflict =
+          power_test(mesh.space(), mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]), mesh.point(beyond.apex));
       if (conflict == Sign::positive) return false;
     }
     return true;

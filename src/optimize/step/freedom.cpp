@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "geometry/triangle_kernel.hpp"
 #include "mesh/blocks.hpp"
 
 namespace temper {
@@ -21,7 +22,7 @@ FixedLine fixed_line(const Mesh& mesh, VertexId v) {
   int count = 0;
   std::array<Vec2, 2> ends;
   const auto add = [&](VertexId end) {
-    if (count < 2) ends[static_cast<std::size_t>(count)] = mesh.position(end) - mesh.position(v);
+    if (count < 2) ends[static_cast<std::size_t>(count)] = direction_to(mesh.space(), mesh.point(v), mesh.point(end));
     ++count;
   };
   for (const HalfedgeId h : mesh.star(v)) {

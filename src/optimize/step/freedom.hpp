@@ -1,4 +1,4 @@
-// The freedom of a vertex: the directions in (x, y, w) that it may go.
+// The freedom of a vertex: the directions in (x, y, w) that it may go; on the sphere in its chart.
 #pragma once
 
 #include <array>

@@ -23,7 +23,7 @@ std::optional<Step> steepest_descent(const Patch& patch, const EnergyModel& mode
   const double h = kDifference * reach;
   for (int i = 0; i < freedom.n; ++i) {
     const Step& axis = freedom.axis[static_cast<std::size_t>(i)];
-    const auto at = [&](double t) { return patch_energy(patch, model, along(p, axis, t)); };
+    const auto at = [&](double t) { return patch_energy(patch, model, along(patch.space, p, axis, t)); };
     const double slope = (at(h) - at(-h)) / (2 * h);
     if (!std::isfinite(slope)) return std::nullopt;
     norm2 += slope * slope;
@@ -36,14 +36,14 @@ std::optional<Step> steepest_descent(const Patch& patch, const EnergyModel& mode
 
 double line_minimum(const Patch& patch, const EnergyModel& model, const WeightedPoint& p, const Step& step,
                     double limit) {
-  return golden_section([&](double t) { return patch_energy(patch, model, along(p, step, t)); }, limit,
+  return golden_section([&](double t) { return patch_energy(patch, model, along(patch.space, p, step, t)); }, limit,
                         kGoldenTolerance);
 }
 
 double inversion_limit(const Patch& patch, const WeightedPoint& p, const Step& step) {
   double limit = 1;
   for (std::size_t i = 0; i < patch.size(); ++i) {
-    const Vec2 a = patch.q(i).position() - p.position(), b = patch.r(i).position() - p.position();
+    const Vec2 a = direction_to(patch.space, p, patch.q(i)), b = direction_to(patch.space, p, patch.r(i));
     limit = before_inversion(limit, {a.x, a.y}, {b.x, b.y}, {step[0], step[1]}, true);
   }
   return limit;
@@ -53,7 +53,7 @@ double patch_radius(const Patch& patch, const WeightedPoint& p, SearchRadius whi
   const std::size_t n = patch.link.size();
   double sum = 0, largest = 0, least = kInfinity;
   for (std::size_t i = 0; i < n; ++i) {
-    const double l2 = squared_length(patch.q(i).position() - p.position());
+    const double l2 = edge_measures(patch.space, p, patch.q(i)).l2;
     sum += l2;
     largest = std::max(largest, l2);
     least = std::min(least, l2);

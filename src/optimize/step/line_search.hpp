@@ -15,10 +15,6 @@ namespace temper {
 [[nodiscard]] std::optional<Step> steepest_descent(const Patch& patch, const EnergyModel& model, const WeightedPoint& p,
                                                    const Freedom& freedom, double reach);
 
-[[nodiscard]] inline WeightedPoint along(const WeightedPoint& p, const Step& step, double t) {
-  return {p.x + t * step[0], p.y + t * step[1], p.w + t * step[2]};
-}
-
 /// The t in [0, limit] where E(p + t step) is least, by golden section.
 [[nodiscard]] double line_minimum(const Patch& patch, const EnergyModel& model, const WeightedPoint& p,
                                   const Step& step, double limit);

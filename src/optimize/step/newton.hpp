@@ -8,7 +8,7 @@
 
 namespace temper {
 
-/// A step in (x, y, w).
+/// A step in (x, y, w); on the sphere in the chart of its vertex (geometry/triangle_kernel.hpp).
 using Step = std::array<double, 3>;
 
 struct NewtonStep {

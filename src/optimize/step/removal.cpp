@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "base/assert.hpp"
+#include "geometry/triangle_kernel.hpp"
 #include "optimize/step/cavity.hpp"
 #include "optimize/step/line_search.hpp"
+#include "temper/geometry.hpp"
 
 namespace temper {
 namespace {
@@ -20,9 +22,12 @@ double equilateral_energy(const EnergyModel& model, double doubled_area) {
 struct Ideal {
   std::size_t n = 0;
   double energy = 0;
-  void add(const EnergyModel& model, const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c) {
+  void add(const EnergyModel& model, const Space& space, const WeightedPoint& a, const WeightedPoint& b,
+           const WeightedPoint& c) {
     ++n;
-    energy += equilateral_energy(model, cross(b.position() - a.position(), c.position() - a.position()));
+    const double area = space.is_plane() ? doubled_area(a.position(), b.position(), c.position())
+                                         : triangle_shape(space, a, b, c).doubled_area;
+    energy += equilateral_energy(model, area);
   }
 };
 
@@ -47,7 +52,7 @@ WeightedPoint best_position(const Patch& patch, const EnergyModel& model, Weight
     const auto direction = steepest_descent(patch, model, p, plane, patch_radius(patch, p, switches.search_radius));
     if (!direction) break;
     const double limit = switches.inversion == Inversion::refuse ? inversion_limit(patch, p, *direction) : 1;
-    const WeightedPoint there = along(p, *direction, line_minimum(patch, model, p, *direction, limit));
+    const WeightedPoint there = along(patch.space, p, *direction, line_minimum(patch, model, p, *direction, limit));
     if (!(patch_energy(patch, model, there) < energy)) break;
     p = there;
   }
@@ -58,24 +63,27 @@ WeightedPoint best_position(const Patch& patch, const EnergyModel& model, Weight
 
 double relative_lightness(const Patch& patch, const WeightedPoint& p) {
   double sum = 0;
-  for (std::size_t i = 0; i < patch.link.size(); ++i) sum += patch.q(i).w;
+  for (std::size_t i = 0; i < patch.link.size(); ++i) sum += patch.space.weight(patch.q(i));
   const double r = patch_radius(patch, p);
-  return (sum / static_cast<double>(patch.link.size()) - p.w) / (r * r);
+  return (sum / static_cast<double>(patch.link.size()) - patch.space.weight(p)) / (r * r);
 }
 
 bool nearly_collapses(const Patch& patch, const EnergyModel& collapse_model, const WeightedPoint& p,
                       const PaperSwitches& switches) {
   TEMPER_ASSERT(patch.closed && (!needs_outer(collapse_model.kind) || patch.outer_g.size() == patch.size()));
-  const Vec2 best = best_position(patch, collapse_model, p, switches).position();
+  const WeightedPoint best = best_position(patch, collapse_model, p, switches);
   const std::size_t n = patch.link.size();
   std::size_t nearest = 0;
-  const auto distance2 = [&](std::size_t i) { return squared_length(patch.q(i).position() - best); };
+  const auto between2 = [&](const WeightedPoint& a, const WeightedPoint& b) {
+    return edge_measures(patch.space, a, b).l2;
+  };
+  const auto distance2 = [&](std::size_t i) { return between2(best, patch.q(i)); };
   for (std::size_t i = 1; i < n; ++i) {
     if (distance2(i) < distance2(nearest)) nearest = i;
   }
-  const Vec2 q = patch.q(nearest).position();
-  const Vec2 before = patch.q((nearest + n - 1) % n).position(), after = patch.q((nearest + 1) % n).position();
-  const double shorter2 = std::min(squared_length(before - q), squared_length(after - q));
+  const WeightedPoint q = patch.q(nearest);
+  const double shorter2 =
+      std::min(between2(q, patch.q((nearest + n - 1) % n)), between2(q, patch.q((nearest + 1) % n)));
   return distance2(nearest) < switches.collapse_ratio * switches.collapse_ratio * shorter2;
 }
 
@@ -89,8 +97,9 @@ PatchComparison compare_patch(const Mesh& mesh, const Patch& patch, const Energy
                               RemovalMeasure measure) {
   const WeightedPoint p = mesh.point(patch.center);
   Ideal with, without;
-  for (std::size_t i = 0; i < patch.size(); ++i) with.add(model, p, patch.q(i), patch.r(i));
-  for (const auto& [a, b, c] : plan.triangles) without.add(model, mesh.point(a), mesh.point(b), mesh.point(c));
+  for (std::size_t i = 0; i < patch.size(); ++i) with.add(model, mesh.space(), p, patch.q(i), patch.r(i));
+  for (const auto& [a, b, c] : plan.triangles)
+    without.add(model, mesh.space(), mesh.point(a), mesh.point(b), mesh.point(c));
   return {measured(patch_energy(patch, model, p), with, measure),
           measured(cavity_energy(mesh, model, plan), without, measure)};
 }
@@ -99,11 +108,12 @@ PatchComparison compare_patch(const Mesh& mesh, const EnergyModel& model, const 
                               RemovalMeasure measure) {
   Ideal with, without;
   for (std::size_t i = 0; i < plan.rim.size(); ++i) {
-    with.add(model, plan.point, mesh.point(plan.link[i]), mesh.point(plan.link[(i + 1) % plan.link.size()]));
+    with.add(model, mesh.space(), plan.point, mesh.point(plan.link[i]),
+             mesh.point(plan.link[(i + 1) % plan.link.size()]));
   }
   for (const TriangleId t : plan.cavity) {
     const auto [a, b, c] = mesh.corners(t);
-    without.add(model, mesh.point(a), mesh.point(b), mesh.point(c));
+    without.add(model, mesh.space(), mesh.point(a), mesh.point(b), mesh.point(c));
   }
   return {measured(insertion_energy(mesh, model, plan), with, measure),
           measured(replaced_energy(mesh, model, plan), without, measure)};

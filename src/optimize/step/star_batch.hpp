@@ -63,8 +63,9 @@ struct alignas(64) AccuracyLanes {
 
 /// The steps of a batch in one instruction set.
 struct BatchSteps {
-  /// A step that lowers a barrier energy.
-  StepOutcome (*barrier)(const StepParameters& parameters, StarBatch& batch);
+  /// A step that lowers a barrier energy, in the plane or on the sphere.
+  StepOutcome (*in_plane)(const StepParameters& parameters, StarBatch& batch);
+  StepOutcome (*on_sphere)(const StepParameters& parameters, StarBatch& batch);
   /// A step that lowers the energy of the accuracy objective. What steps is certainly well-centered, and so regular.
   StepOutcome (*accuracy)(const StepParameters& parameters, const AccuracyModel& model, const AccuracyLanes& lanes,
                           StarBatch& batch);

@@ -41,9 +41,9 @@ bool StarEnergy::is_valid(const WeightedPoint& p) const {
   if (is_of_accuracy()) return accuracy_.is_well_centered(p);
   const double nearest = settings_.energy.barrier ? 0 : kShortestEdge * patch_radius(patch_, origin_);
   for (std::size_t i = 0; i < patch_.size(); ++i) {
-    const Vec2 q = patch_.q(i).position();
-    if (inlined::orient2d(p.position(), q, patch_.r(i).position()) != Sign::positive) return false;
-    if (squared_length(q - p.position()) < nearest * nearest) return false;
+    const WeightedPoint q = patch_.q(i);
+    if (inlined::orientation(patch_.space, p, q, patch_.r(i)) != Sign::positive) return false;
+    if (edge_measures(patch_.space, p, q).l2 < nearest * nearest) return false;
   }
   return true;
 }

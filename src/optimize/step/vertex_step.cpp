@@ -21,6 +21,21 @@ constexpr double kTie = 1e-6;
 // A threshold that is met exactly is a tie, which rounding decides.
 constexpr double kOvershootLeast = 1e-6;
 
+/// The weights of p with which its edge to q is crossed, 0 < d < ℓ.
+struct WeightRange {
+  double low, high;
+};
+WeightRange weights_that_cross(const Space& space, const WeightedPoint& p, const WeightedPoint& q) {
+  if (space.is_plane()) {
+    const double l2 = squared_length(q.position() - p.position());
+    return {q.w - l2, q.w + l2};
+  }
+  // With p̂ the direction of p: |P| > p̂·Q, and |P| p̂·Q < |Q|².
+  const double along_q = dot(lifted(p), lifted(q)) / length(lifted(p)), r2 = space.radius() * space.radius();
+  const double highest = squared_length(lifted(q)) / along_q;
+  return {along_q * along_q - r2, highest * highest - r2};
+}
+
 }  // namespace
 
 void VertexStep::begin_sweep(int sweep, Unknowns unknowns) {
@@ -131,15 +146,14 @@ bool VertexStep::enter_domain() {
   const Patch& patch = star_.patch();
   double low = -kInfinity, high = kInfinity;
   for (std::size_t i = 0; i < patch.link.size(); ++i) {
-    const WeightedPoint q = patch.q(i);
-    const double l2 = squared_length(q.position() - origin_.position());
-    low = std::max(low, q.w - l2);
-    high = std::min(high, q.w + l2);
+    const WeightRange crossed = weights_that_cross(patch.space, origin_, patch.q(i));
+    low = std::max(low, crossed.low);
+    high = std::min(high, crossed.high);
   }
   if (!(low < high)) return false;
   constexpr double kInside = 0.1;  // of the interval, so that the barrier is not at its steepest
-  const double w = std::clamp(origin_.w, low + kInside * (high - low), high - kInside * (high - low));
-  const WeightedPoint p{origin_.x, origin_.y, w};
+  const double w = std::clamp(patch.space.weight(origin_), low + kInside * (high - low), high - kInside * (high - low));
+  const WeightedPoint p = patch.space.with_weight(origin_, w);
   if (!place(p, star_.value(p), false) || mesh_.is_isolated(vertex_)) return false;
   gather(vertex_);
   return std::isfinite(star_.value(origin_));
@@ -171,8 +185,8 @@ double VertexStep::flip_limited(const Step& step, double t) const {
 }
 
 WeightedPoint VertexStep::moved(const Step& step, double t) const {
-  const WeightedPoint p = along(origin_, step, t);
-  if (step[0] == 0 && step[1] == 0) return p;
+  const WeightedPoint p = along(mesh_.space(), origin_, step, t);
+  if (!mesh_.space().is_plane() || (step[0] == 0 && step[1] == 0)) return p;
   const Vec2 x = frame_.snap(p.position());
   return {x.x, x.y, p.w};
 }
@@ -253,7 +267,7 @@ VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
 /// The vertex at p, where its patch has that energy, with what flips that needs; or where it was, and false: when a
 /// vertex would be hidden, or flips cost more than the step gains and it must pay, or they escape from the part.
 bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
-  const bool only_weight = p.x == origin_.x && p.y == origin_.y;
+  const bool only_weight = mesh_.space().same_place(p, origin_);
   const PaperSwitches& o = settings_.options.paper;
   if ((only_weight ? o.weight_updates : o.position_updates) == Updates::deferred) {
     if (!waiting_) waiting_ = Deferred{vertex_, origin_, origin_, energy_, energy};
@@ -283,7 +297,7 @@ bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
 
 /// Says whether the band allows p; to be asked before place(), which tells the band where its vertex went.
 bool VertexStep::keeps_size(const WeightedPoint& p) {
-  const bool only_weight = p.x == origin_.x && p.y == origin_.y;
+  const bool only_weight = mesh_.space().same_place(p, origin_);
   return only_weight || !band_.on() || band_.allows(star_.patch(), p.position());
 }
 
@@ -292,24 +306,23 @@ bool VertexStep::keeps_connectivity() const {
   return settings_.options.flips == Flips::none || settings_.flip_limit == FlipLimit::before;
 }
 
-void VertexStep::nudge(VertexId v, Vec2 p) {
+void VertexStep::nudge(VertexId v, Vec2 by) {
   if (!may_go(v)) return;
   part_ = {};
   gather(v);
   energy_ = star_.value(origin_);
-  const WeightedPoint there{p.x, p.y, origin_.w};
+  const WeightedPoint there = moved({by.x, by.y, 0}, 1);
   if (star_.is_valid(there) && keeps_size(there)) place(there, star_.value(there), false);
 }
 
 void VertexStep::shake(double amount, Rng& rng) {
   for (const VertexId v : mesh_.vertices()) {
-    const Vec2 p = mesh_.position(v);
+    const WeightedPoint p = mesh_.point(v);
     double shortest2 = kInfinity;
     for (const HalfedgeId h : mesh_.star(v)) {
-      shortest2 = std::min(shortest2, squared_length(mesh_.position(mesh_.target(h)) - p));
+      shortest2 = std::min(shortest2, edge_measures(mesh_.space(), p, mesh_.point(mesh_.target(h))).l2);
     }
-    const Vec2 away = amount * std::sqrt(shortest2) * Vec2{rng.uniform(-1, 1), rng.uniform(-1, 1)};
-    nudge(v, frame_.snap(p + away));
+    nudge(v, amount * std::sqrt(shortest2) * Vec2{rng.uniform(-1, 1), rng.uniform(-1, 1)});
   }
 }
 
@@ -318,14 +331,13 @@ void VertexStep::shake(double amount, Rng& rng) {
 void VertexStep::end_sweep() {
   for (const auto& [v, old, to, before, after] : deferred_) {
     if (mesh_.is_isolated(v)) continue;
+    const Space& space = mesh_.space();
     const WeightedPoint from = mesh_.point(v);
-    WeightedPoint p = from;
-    if (to.x != old.x || to.y != old.y) p.x = to.x, p.y = to.y;
-    if (to.w != old.w) p.w = to.w;
-    const bool moves = p.x != from.x || p.y != from.y;
-    if (moves && settings_.options.paper.inversion != Inversion::allow) {
+    const double w = space.weight(space.weight(to) != space.weight(old) ? to : from);
+    WeightedPoint p = space.with_weight(space.same_place(to, old) ? from : to, w);
+    if (!space.same_place(p, from) && settings_.options.paper.inversion != Inversion::allow) {
       gather(v);
-      if (!star_.is_valid(p)) p.x = from.x, p.y = from.y;
+      if (!star_.is_valid(p)) p = space.with_weight(from, w);
     }
     if (p == from) continue;
     mesh_.set_point(v, p);

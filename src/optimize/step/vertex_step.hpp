@@ -35,8 +35,8 @@ class VertexStep {
   /// it needs a larger one, or another.
   bool improve(VertexId v, const Part& part = {});
 
-  /// Moves v to p if it is free, no triangle turns over and no vertex is hidden, whatever that costs.
-  void nudge(VertexId v, Vec2 p);
+  /// Moves v by a step if it is free, no triangle turns over and no vertex is hidden, whatever that costs.
+  void nudge(VertexId v, Vec2 by);
 
   /// Nudges every vertex, at random, by up to `amount` of its shortest edge on each axis.
   void shake(double amount, Rng& rng);

@@ -15,20 +15,20 @@ double energy_inside(const Mesh& mesh, const PartSystem& system, const EdgeFormu
   TriangleLanes lanes;
   for (std::size_t begin = 0; begin < system.n_triangles() && sum < kInfinity; begin += kLanes) {
     const std::size_t n = system.load(mesh, begin, lanes);
-    sum += star_kernels().barrier_sum(formula, lanes, n);
-    if (!(sum < kInfinity) || count_bad(lanes, n) > 0) return kInfinity;
+    sum += star_kernels(mesh.space()).barrier_sum(formula, lanes, n);
+    if (!(sum < kInfinity) || count_bad(mesh.space(), lanes, n) > 0) return kInfinity;
   }
   return sum;
 }
 
 }  // namespace
 
-bool allows_newton_passes(const Settings& settings) {
+bool allows_newton_passes(const Settings& settings, const Space& space) {
   const OptimizeOptions& o = settings.options;
   const bool only_moves =
       !changes_vertices(o) && !o.paper.anchor.valid() && !o.size_band && o.paper.visits == Visits::once;
-  return o.paper.newton_passes && makes_newton_steps(settings) && only_moves && o.paper.order == SweepOrder::hilbert &&
-         o.paper.stopping == StoppingRule::relative;
+  return space.is_plane() && o.paper.newton_passes && makes_newton_steps(settings) && only_moves &&
+         o.paper.order == SweepOrder::hilbert && o.paper.stopping == StoppingRule::relative;
 }
 
 void NewtonPass::run(Unknowns unknowns, StopToken& stop) {

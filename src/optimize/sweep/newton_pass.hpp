@@ -21,7 +21,7 @@ namespace temper {
 
 /// Says whether the options leave steps to Newton's method, as passes make them: of a barrier, with flips at once, and
 /// nothing that goes by single vertices or sweeps, as the paper's stopping rule does.
-[[nodiscard]] bool allows_newton_passes(const Settings& settings);
+[[nodiscard]] bool allows_newton_passes(const Settings& settings, const Space& space);
 
 class NewtonPass {
  public:

@@ -152,7 +152,7 @@ double PartSystem::assemble(const Mesh& mesh, const EdgeFormula& formula) {
   matrix_.clear_blocks();
   diagonal_.assign(size(), {});
   gradient_.assign(size(), {});
-  const auto kernel = star_kernels().triangle_hessians;
+  const auto kernel = triangle_hessians();
   double energy = 0;
   TriangleLanes lanes;
   TriangleHessians hessians;
@@ -160,7 +160,7 @@ double PartSystem::assemble(const Mesh& mesh, const EdgeFormula& formula) {
     const std::size_t n = load(mesh, begin, lanes);
     constexpr unsigned kAll = (1U << kLanes) - 1;
     if (kernel(formula, lanes, hessians) != kAll) return kInfinity;
-    energy += star_kernels().barrier_sum(formula, lanes, n);  // as trials are measured, to the last bit
+    energy += star_kernels(mesh.space()).barrier_sum(formula, lanes, n);  // as trials are measured, to the last bit
     for (std::size_t lane = 0; lane < n; ++lane) add_triangle(mesh.corners(triangles_[begin + lane]), hessians, lane);
   }
   normalise();

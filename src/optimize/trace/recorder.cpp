@@ -14,7 +14,7 @@ TraceEvent Recorder::event(EventKind kind, double before, double after) const {
 void Recorder::placed(VertexId v, const WeightedPoint& from, const WeightedPoint& to, double before,
                       double after) const {
   if (!on()) return;
-  const bool moves = from.x != to.x || from.y != to.y;
+  const bool moves = !work_.mesh.space().is_plane() || from.x != to.x || from.y != to.y;
   TraceEvent e = event(moves ? EventKind::move : EventKind::weight, before, after);
   e.vertex = user(v);
   e.point = work_.frame.to_user(to);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "geometry/triangle_kernel.hpp"
 #include "temper/energy.hpp"
 #include "temper/mesh.hpp"
 
@@ -34,6 +35,19 @@ inline NaiveEdge naive_edge(const NaivePoint& i, const NaivePoint& j, const Naiv
   e.h_same = area2 > 0 ? e.h_left : -e.h_left;
   e.area = area2 / 2;
   return e;
+}
+
+/// The same on the sphere, of lifted points: the flat triangle with the weights |P|², turned into the plane.
+inline NaiveEdge naive_lifted_edge(const NaivePoint& i, const NaivePoint& j, const NaivePoint& k) {
+  using Vector = std::array<Real, 3>;  // NaivePoint's three numbers
+  const auto minus = [](const NaivePoint& p, const NaivePoint& q) { return Vector{p.x - q.x, p.y - q.y, p.w - q.w}; };
+  const auto product = [](const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  const auto norm2 = [&](const NaivePoint& p) { return product({p.x, p.y, p.w}, {p.x, p.y, p.w}); };
+  const Vector a = minus(j, i), b = minus(k, i);
+  const Vector n = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  const Real side = product(n, {i.x, i.y, i.w}) < 0 ? -1 : 1;  // seen from outside
+  const Real l = std::sqrt(product(a, a)), along = product(a, b) / l;
+  return naive_edge({0, 0, norm2(i)}, {l, 0, norm2(j)}, {along, side * std::sqrt(product(n, n)) / l, norm2(k)});
 }
 
 inline Real naive_half(const EnergyModel& m, Real d, Real d_other, Real h, Real l) {
@@ -72,7 +86,8 @@ inline Real naive_total(const Mesh& mesh, const EnergyModel& m, VertexId v, cons
   const bool by_dual_sign = m.kind == EnergyKind::T || m.kind == EnergyKind::nT;
   const bool asks_for_treatment = m.kind == EnergyKind::F || m.kind == EnergyKind::nF;
   const auto side = [&](HalfedgeId h) {
-    return naive_edge(at(mesh.origin(h)), at(mesh.target(h)), at(mesh.opposite(h)));
+    return (mesh.space().is_plane() ? naive_edge : naive_lifted_edge)(at(mesh.origin(h)), at(mesh.target(h)),
+                                                                      at(mesh.opposite(h)));
   };
   const auto both_halves = [&](const NaiveEdge& e, Real height) {
     const Real both = naive_half(m, e.d_ij, e.d_ji, height, e.l) + naive_half(m, e.d_ji, e.d_ij, height, e.l);
@@ -104,6 +119,19 @@ inline Real naive_total(const Mesh& mesh, const EnergyModel& m, VertexId v, cons
 inline NaivePoint naive_point(const Mesh& mesh, VertexId v) {
   const WeightedPoint p = mesh.point(v);
   return {p.x, p.y, p.w};
+}
+
+/// The end of a step of v, on the sphere in its chart: unit vectors of doubles are such to 1e-16, which moves the end
+/// in second order alone.
+inline NaivePoint naive_step(const Mesh& mesh, VertexId v, Real x, Real y, Real w) {
+  const NaivePoint p = naive_point(mesh, v);
+  if (mesh.space().is_plane()) return {p.x + x, p.y + y, p.w + w};
+  const Chart<double> chart = seen_from(lifted_point(mesh.point(v)));
+  const NaivePoint q{p.x + x * chart.e1.x + y * chart.e2.x, p.y + x * chart.e1.y + y * chart.e2.y,
+                     p.w + x * chart.e1.z + y * chart.e2.z};
+  const Real rho2 = p.x * p.x + p.y * p.y + p.w * p.w;
+  const Real factor = std::sqrt((rho2 + w) / (q.x * q.x + q.y * q.y + q.w * q.w));
+  return {factor * q.x, factor * q.y, factor * q.w};
 }
 
 /// Every energy × star × boundary treatment or kind of softening, with γ and h° a fraction of `length`.

@@ -49,7 +49,7 @@ struct Evaluated {
 
 Evaluated evaluated(const EnergyModel& model, const TriangleLanes& lanes) {
   Evaluated e;
-  e.inside = star_kernels().triangle_hessians(edge_formula(model), lanes, e.numbers);
+  e.inside = triangle_hessians()(edge_formula(model), lanes, e.numbers);
   return e;
 }
 

@@ -130,7 +130,7 @@ TEST_P(BatchOfBarrier, MakesTheStepsThatVerticesMakeAlone) {
     StarBatch batch;
     for (std::size_t i = 0; i < kLanes - 1; ++i) put(mesh, VertexId(first + i), batch);
     leave_empty(batch, batch.lanes);
-    const StepOutcome outcome = batch_steps().barrier(parameters, batch);
+    const StepOutcome outcome = batch_steps().in_plane(parameters, batch);
     EXPECT_EQ(outcome.stepped & outcome.alone, 0U);
     EXPECT_EQ(outcome.regular & ~outcome.stepped, 0U);
     EXPECT_EQ((outcome.stepped | outcome.alone) >> batch.lanes, 0U);

@@ -1,0 +1,78 @@
+// The space that a mesh lies in: the plane, or a sphere around the origin.
+//
+// On the sphere of radius R a vertex at p, |p| = R, with weight w is the lifted point P = p √(R² + w)/R: its direction
+// is the place, and |P|² = R² + w. The regular triangulation is the boundary of the convex hull of all P, and the face
+// PQR, read in its own plane with the weights |P|², |Q|² and |R|², has its orthocenter at the foot of the perpendicular
+// from the center of the sphere: what is well-centered and what is regular there is so on the sphere (Sugihara,
+// Laguerre Voronoi diagram on the sphere, J. Geom. Graphics 6, 2002). Equal shifts of all |P|², which change nothing in
+// the plane, are here all P times a number.
+//
+//                 P         A vertex is kept as three numbers in both spaces, a WeightedPoint: x, y and w in the plane,
+//               /           and X, Y, Z of P, in this order, on the sphere. Who works on vertices in any space
+//        R   p +            hands them on as they are, and asks the space what they mean.
+//            /
+//          0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "temper/vec2.hpp"
+#include "temper/vec3.hpp"
+
+namespace temper {
+
+enum class SpaceKind : std::uint8_t { plane, sphere };
+
+/// P of a vertex on the sphere, and the vertex of P.
+[[nodiscard]] constexpr Vec3 lifted(const WeightedPoint& p) { return {p.x, p.y, p.w}; }
+[[nodiscard]] constexpr WeightedPoint as_point(Vec3 p) { return {p.x, p.y, p.z}; }
+
+class Space {
+ public:
+  /// The plane.
+  constexpr Space() = default;
+  /// The sphere around the origin. Precondition: radius > 0.
+  [[nodiscard]] static constexpr Space sphere(double radius) {
+    Space s;
+    s.radius_ = radius;
+    return s;
+  }
+
+  [[nodiscard]] constexpr SpaceKind kind() const { return is_plane() ? SpaceKind::plane : SpaceKind::sphere; }
+  [[nodiscard]] constexpr bool is_plane() const { return radius_ == 0; }
+  /// Of the sphere; 0 of the plane.
+  [[nodiscard]] constexpr double radius() const { return radius_; }
+  /// The same with another unit of length, a `unit` of the present one.
+  [[nodiscard]] constexpr Space in_units_of(double unit) const {
+    Space s;
+    s.radius_ = radius_ / unit;
+    return s;
+  }
+
+  /// The weight of a vertex [length²].
+  [[nodiscard]] double weight(const WeightedPoint& p) const {
+    return is_plane() ? p.w : squared_length(lifted(p)) - radius_ * radius_;
+  }
+  /// The vertex at the same place with another weight; on the sphere more than −R².
+  [[nodiscard]] WeightedPoint with_weight(const WeightedPoint& p, double w) const {
+    if (is_plane()) return {p.x, p.y, w};
+    const double factor = std::sqrt((radius_ * radius_ + w) / squared_length(lifted(p)));
+    return as_point(factor * lifted(p));
+  }
+
+  /// Says whether two vertices are at the same place; on the sphere but for the rounding of with_weight().
+  [[nodiscard]] bool same_place(const WeightedPoint& p, const WeightedPoint& q) const {
+    if (is_plane()) return p.x == q.x && p.y == q.y;
+    constexpr double kRounded = 0x1p-49;
+    return squared_length(cross(lifted(p), lifted(q))) <=
+           kRounded * kRounded * squared_length(lifted(p)) * squared_length(lifted(q));
+  }
+
+  friend constexpr bool operator==(const Space&, const Space&) = default;
+
+ private:
+  double radius_ = 0;
+};
+
+}  // namespace temper

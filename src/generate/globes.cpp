@@ -1,0 +1,121 @@
+// Example meshes of the whole sphere: the bisected icosahedron, and random points.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "base/rng.hpp"
+#include "generate/outline.hpp"
+#include "temper/generate.hpp"
+
+namespace temper {
+namespace {
+
+using generate::invalid;
+using Corners = std::array<std::int32_t, 3>;
+
+constexpr int kMostLevels = 13;  // 671 million vertices
+constexpr std::size_t kMostOnGlobe = 500'000'000;
+
+struct Surface {
+  std::vector<Vec3> points;  // of the unit sphere
+  std::vector<Corners> triangles;
+};
+
+Vec3 unit(Vec3 p) { return (1 / length(p)) * p; }
+
+Surface icosahedron() {
+  const double golden = (1 + std::sqrt(5.0)) / 2;
+  Surface s;
+  for (const double a : {1.0, -1.0}) {
+    for (const double b : {golden, -golden}) {
+      s.points.push_back(unit({0, a, b}));
+      s.points.push_back(unit({a, b, 0}));
+      s.points.push_back(unit({b, 0, a}));
+    }
+  }
+  // Three vertices are a face where each two are neighbours: nearer than any others.
+  const auto neighbours = [&](std::size_t i, std::size_t j) { return dot(s.points[i], s.points[j]) > 0.4; };
+  for (std::size_t i = 0; i < 12; ++i) {
+    for (std::size_t j = i + 1; j < 12; ++j) {
+      for (std::size_t k = j + 1; k < 12; ++k) {
+        if (!neighbours(i, j) || !neighbours(j, k) || !neighbours(k, i)) continue;
+        const bool left = dot(s.points[i], cross(s.points[j], s.points[k])) > 0;
+        const auto at = [](std::size_t x) { return static_cast<std::int32_t>(x); };
+        s.triangles.push_back(left ? Corners{at(i), at(j), at(k)} : Corners{at(i), at(k), at(j)});
+      }
+    }
+  }
+  return s;
+}
+
+//          c            Each edge gets the direction of its middle, once.
+//        /   \ .
+//      ca --- bc
+//     /   \ /   \ .
+//    a --- ab --- b
+Surface bisected(Surface coarse) {
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
+  const auto middle = [&](std::int32_t a, std::int32_t b) {
+    const auto [at, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(coarse.points.size()));
+    const auto point = [&](std::int32_t i) { return coarse.points[static_cast<std::size_t>(i)]; };
+    if (is_new) coarse.points.push_back(unit(point(a) + point(b)));
+    return at->second;
+  };
+  std::vector<Corners> fine;
+  for (const auto& [a, b, c] : coarse.triangles) {
+    const std::int32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    for (const Corners& t : {Corners{a, ab, ca}, Corners{ab, b, bc}, Corners{ca, bc, c}, Corners{ab, bc, ca}}) {
+      fine.push_back(t);
+    }
+  }
+  return {std::move(coarse.points), std::move(fine)};
+}
+
+/// Uniform, without functions whose last bits differ between libraries (Marsaglia, 1972).
+Vec3 random_direction(Rng& rng) {
+  for (;;) {
+    const double u = rng.uniform(-1, 1), v = rng.uniform(-1, 1), s = u * u + v * v;
+    if (s >= 1) continue;
+    const double r = 2 * std::sqrt(1 - s);
+    return {u * r, v * r, 1 - 2 * s};
+  }
+}
+
+std::optional<InputError> check_radius(double radius) {
+  if (radius > 0 && std::isfinite(radius)) return std::nullopt;
+  return invalid("the radius of a sphere must be positive and finite");
+}
+
+}  // namespace
+
+Expected<Mesh> icosahedral(const Icosahedral& shape) {
+  if (shape.level < 0 || shape.level > kMostLevels)
+    return invalid("an icosahedron is bisected from 0 to " + std::to_string(kMostLevels) + " times");
+  if (auto error = check_radius(shape.radius)) return *error;
+  Surface s = icosahedron();
+  for (int i = 0; i < shape.level; ++i) s = bisected(std::move(s));
+  for (Vec3& p : s.points) p = shape.radius * p;
+  MeshInput input;
+  input.space = Space::sphere(shape.radius);
+  input.sphere_points = s.points;
+  input.triangles = s.triangles;
+  auto built = Mesh::build(input);
+  if (!built) return built.error();
+  return std::move(built->mesh);
+}
+
+Expected<Mesh> random_sphere(const RandomSphere& shape) {
+  if (shape.vertices < 20) return invalid("random points around a sphere should be 20 or more");
+  if (shape.vertices > kMostOnGlobe) return invalid("more than 500,000,000 vertices are out of reach");
+  if (auto error = check_radius(shape.radius)) return *error;
+  Rng rng(shape.seed);
+  std::vector<Vec3> points;
+  points.reserve(shape.vertices);
+  for (std::size_t i = 0; i < shape.vertices; ++i) points.push_back(random_direction(rng));
+  return spherical_delaunay(points, shape.radius);
+}
+
+}  // namespace temper

@@ -1,0 +1,126 @@
+// Incremental Delaunay triangulation of points around the sphere: the hull of all points.
+//
+// It begins with a tetrahedron of four points of its own, around the center, so that the mesh is closed at all times
+// and every point is in a triangle, on an edge or at a vertex of it. They go at the end; what then is not a mesh of the
+// whole sphere is of points that leave half of it empty.
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "generate/triangulation.hpp"
+#include "temper/generate.hpp"
+#include "temper/topology.hpp"
+#include "topology/locate.hpp"
+
+namespace temper {
+namespace {
+
+constexpr std::size_t kHelpers = 4;
+
+std::string place(Vec3 p) { return "(" + to_text(p.x) + ", " + to_text(p.y) + ", " + to_text(p.z) + ")"; }
+
+class SphereInserter {
+ public:
+  SphereInserter(Mesh tetrahedron, std::size_t n_points) : result_{std::move(tetrahedron), {}, {}} {
+    for (std::size_t k = 0; k < kHelpers; ++k) result_.number.push_back(static_cast<std::uint32_t>(n_points + k));
+    result_.vertex.resize(n_points);
+  }
+
+  /// Inserts point i; or the vertex that is there already.
+  std::optional<VertexId> insert(std::uint32_t i, Vec3 p) {
+    const Location at = locate(result_.mesh, as_point(p), last_);
+    if (at.kind == Location::Kind::at_vertex) return vertex_at(at.triangle, p);
+    const VertexId v = at.kind == Location::Kind::on_edge ? split_edge(result_.mesh, at.edge, as_point(p))
+                                                          : insert_in_triangle(result_.mesh, at.triangle, as_point(p));
+    result_.number.push_back(i);
+    result_.vertex[i] = v;
+    lawson_.clear();
+    for (const HalfedgeId h : result_.mesh.star(v)) lawson_.push(Mesh::next(h));
+    make_regular();
+    last_ = Mesh::triangle(result_.mesh.outgoing(v));
+    return std::nullopt;
+  }
+
+  /// False when the points do not surround the center.
+  bool remove_helpers() {
+    for (std::size_t k = 0; k < kHelpers; ++k) {
+      plan_ = plan_removal(result_.mesh, VertexId(k), std::move(plan_));
+      if (plan_.status != RemovalStatus::possible) return false;
+      remove_vertex(result_.mesh, plan_);
+      lawson_.clear();
+      lawson_.push_removal(result_.mesh, plan_);
+      make_regular();
+    }
+    result_.number.erase(result_.number.begin(), result_.number.begin() + kHelpers);
+    return true;
+  }
+
+  [[nodiscard]] std::uint32_t number(VertexId v) const { return result_.number[v.index]; }
+  generate::Triangulation take() { return std::move(result_); }
+
+ private:
+  void make_regular() { lawson_.run(result_.mesh, IgnoreFlips(), Lawson::kNoCap, result_.conflict_test()); }
+
+  /// The corner of t that has the direction of p.
+  [[nodiscard]] VertexId vertex_at(TriangleId t, Vec3 p) const {
+    const auto corners = result_.mesh.corners(t);
+    VertexId nearest = corners[0];
+    const auto nearness = [&](VertexId v) {
+      const Vec3 q = result_.mesh.lifted_point(v);
+      return dot(p, q) / length(q);
+    };
+    for (const VertexId v : corners) nearest = nearness(v) > nearness(nearest) ? v : nearest;
+    return nearest;
+  }
+
+  generate::Triangulation result_;
+  Lawson lawson_;
+  RemovalPlan plan_;
+  TriangleId last_{0};
+};
+
+/// Four directions around the center that no file has.
+Expected<Mesh> helpers(double radius) {
+  std::vector<Vec3> points;
+  for (const Vec3 p :
+       {Vec3{0.5772156649, 0.5641895835, 0.5907027563}, Vec3{-0.5641895835, -0.5907027563, 0.5772156649},
+        Vec3{-0.5907027563, 0.5772156649, -0.5641895835}, Vec3{0.5641895835, -0.5772156649, -0.5907027563}}) {
+    points.push_back(radius / length(p) * p);
+  }
+  const std::vector<std::array<std::int32_t, 3>> triangles = {{0, 1, 3}, {0, 2, 1}, {0, 3, 2}, {1, 2, 3}};
+  MeshInput input;
+  input.space = Space::sphere(radius);
+  input.sphere_points = points;
+  input.triangles = triangles;
+  auto built = Mesh::build(input);
+  if (!built) return built.error();
+  return std::move(built->mesh);
+}
+
+}  // namespace
+
+Expected<Mesh> spherical_delaunay(std::span<const Vec3> points, double radius) {
+  auto tetrahedron = helpers(radius);
+  if (!tetrahedron) return tetrahedron.error();
+  SphereInserter inserter(*std::move(tetrahedron), points.size());
+  for (const std::uint32_t i : generate::insertion_order(points)) {
+    const double distance = length(points[i]);
+    if (!(distance > 0) || !std::isfinite(distance)) {
+      return InputError{
+          ErrorCode::not_on_sphere, "",
+          "point " + std::to_string(i) + " at " + place(points[i]) + " has no direction from the center of the sphere"};
+    }
+    if (const auto there = inserter.insert(i, radius / distance * points[i])) {
+      const auto [low, high] = std::minmax({inserter.number(*there), i});
+      return InputError{ErrorCode::duplicate_point, "",
+                        "points " + std::to_string(low) + " and " + std::to_string(high) +
+                            " are both in the direction " + place(points[i])};
+    }
+  }
+  if (!inserter.remove_helpers()) {
+    return InputError{ErrorCode::zero_area, "",
+                      "the points leave half of the sphere empty; expected them all around it"};
+  }
+  return generate::in_input_order(inserter.take());
+}
+
+}  // namespace temper
