@@ -78,11 +78,12 @@ class Checks {
   }
 
   void add(const std::string& path) {
-    const Input input = read_input(path, {s_.projection, {}, threads_.get()});
+    const Input input = read_input(path, {s_.projection, {}, threads_.get(), true});
     print_warnings(input.warnings());
     const Quality measured = quality(input.mesh(), options_);
     const std::vector<Outcome> outcomes = judge(requirements_, measured);
     if (!s_.html.empty()) {
+      expect_plane(input.mesh(), path, "--html");
       const std::string again = command_line("check", {path}, used_options(command_));
       outputs_.write_text(s_.html, check_html(again, input, measured));
     }

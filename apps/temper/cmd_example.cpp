@@ -20,6 +20,8 @@ struct ExampleSettings {
   SingleTriangle triangle;
   std::uint64_t vertices = RandomPoints().vertices;
   RandomPoints random;
+  Icosahedral icosahedral;
+  RandomSphere random_sphere;
   ShearedGrid grid;
   Annulus annulus;
   Airfoil airfoil;
@@ -100,6 +102,27 @@ void add_graded(Command& command, ExampleSettings& s) {
   add_count(command, "--seed", s.graded.seed, 0, "the seed of the points");
 }
 
+void add_radius(Command& command, double& radius) {
+  add_number(command, "--radius", radius, kPositive, "the radius of the sphere");
+}
+
+void add_icosahedral(Command& command, ExampleSettings& s) {
+  add_count(command, "--level", s.icosahedral.level, 0,
+            "how often triangles are cut into four: 10 · 4^level + 2 vertices");
+  add_radius(command, s.icosahedral.radius);
+}
+
+void add_random_sphere(Command& command, ExampleSettings& s) {
+  add_count(command, "--vertices", s.vertices, 20, "number of vertices");
+  add_count(command, "--seed", s.random_sphere.seed, 0, "the seed of the random points");
+  add_radius(command, s.random_sphere.radius);
+}
+
+Expected<Mesh> make_random_sphere(ExampleSettings& s) {
+  s.random_sphere.vertices = s.vertices;
+  return random_sphere(s.random_sphere);
+}
+
 Expected<Mesh> make_random(ExampleSettings& s) {
   s.random.vertices = s.vertices;
   return random_points(s.random);
@@ -133,6 +156,10 @@ constexpr Generator kGenerators[] = {
      [](ExampleSettings& s) { return wedge(s.wedge); }},
     {"graded", "random points in a square, finer towards one corner", add_graded,
      [](ExampleSettings& s) { return graded_points(s.graded); }},
+    {"icosahedral", "the bisected icosahedron, a mesh of the sphere", add_icosahedral,
+     [](ExampleSettings& s) { return icosahedral(s.icosahedral); }},
+    {"random-sphere", "random points around the sphere, Delaunay: about half of the triangles are bad",
+     add_random_sphere, make_random_sphere},
 };
 
 void add_options(Command& command, ExampleSettings& s) {

@@ -454,7 +454,10 @@ Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs, const 
   if (resumed != nullptr && !s.quiet) {
     print(fmt::format("{}: goes on with {}\n", resumed->path, words_of_run(command)));
   }
-  Input input = read_input(s.input, {s.projection, s.fix, threads.get(), read});
+  Input input = read_input(s.input, {s.projection, s.fix, threads.get(), true, read});
+  if (!s.picture.empty()) expect_plane(input.mesh(), s.input, "--draw");
+  if (!s.html.empty()) expect_plane(input.mesh(), s.input, "--html");
+  if (s.verify) expect_plane(input.mesh(), s.input, "--verify");
   Results results;
   warn(results, input.warnings());
   find_vertices(s.table, input);
@@ -462,7 +465,7 @@ Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs, const 
   warn(results, doubtful_options(command, s));
   if (!s.size_field.empty()) {
     ReadSizeField sizes = read_size_field(s.size_field, s.size_data.empty() ? "size" : s.size_data,
-                                          {same_projection(input, s.projection), {}, threads.get(), read});
+                                          {same_projection(input, s.projection), {}, threads.get(), false, read});
     warn(results, sizes.warnings);
     s.table.options.size_field = std::move(sizes.field);
   }

@@ -1,5 +1,7 @@
 #include "input.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <string_view>
@@ -43,10 +45,20 @@ Input read_input(const std::string& path, const ReadingOptions& options) {
   input.file = options.read ? options.read(path) : or_fail(io::read(path, {options.executor}));
   take_to_map(input.file, path, options.projection);
   input.loaded = or_fail(io::make_mesh(input.file, options.fixed_tags, options.executor));
+  if (!options.spheres) expect_plane(input.loaded.mesh, path, "this verb");
   input.n_vertices = input.loaded.mesh.n_vertices();
   input.points = invert(input.loaded);
   input.names = std::make_shared<VertexNames>(input.file.numbering, input.points, input.n_vertices);
   return input;
+}
+
+void expect_plane(const Mesh& mesh, const std::string& path, std::string_view what) {
+  if (mesh.space().is_plane()) return;
+  throw Failure(
+      Exit::bad_input,
+      fmt::format("{}: is a mesh of the sphere, and {} takes meshes of the plane; check, optimize and convert "
+                  "take spheres, and --projection puts longitude and latitude on a map",
+                  path, what));
 }
 
 std::string same_projection(const Input& input, const std::string& projection) {

@@ -32,11 +32,15 @@ struct ReadingOptions {
   std::string projection = {};  ///< of points in degrees: see projection_option.hpp
   std::vector<std::string> fixed_tags = {};
   Executor* executor = nullptr;
+  bool spheres = false;  ///< meshes of the sphere are taken too
   /// Where the file comes from; none: from the disk.
   std::function<io::MeshFile(const std::string& path)> read = {};
 };
 /// Reads a file and builds its mesh; Failure when anything is wrong with it.
 [[nodiscard]] Input read_input(const std::string& path, const ReadingOptions& options = {});
+
+/// Failure when the mesh is one of the sphere, which `what` is not for.
+void expect_plane(const Mesh& mesh, const std::string& path, std::string_view what);
 
 /// The projection of another file that is to be on the same map: with the center that was chosen for this one.
 [[nodiscard]] std::string same_projection(const Input& input, const std::string& projection);

@@ -23,6 +23,7 @@
 
 #include "temper/ids.hpp"
 #include "temper/vec2.hpp"
+#include "temper/vec3.hpp"
 
 namespace temper {
 
@@ -33,6 +34,8 @@ template <class Tag>
 inline constexpr bool kIsPlain<Id<Tag>> = true;
 template <>
 inline constexpr bool kIsPlain<Vec2> = true;
+template <>
+inline constexpr bool kIsPlain<Vec3> = true;
 template <>
 inline constexpr bool kIsPlain<WeightedPoint> = true;
 template <class T, std::size_t n>

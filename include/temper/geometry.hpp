@@ -111,4 +111,18 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 /// The angle at p, in radians.
 [[nodiscard]] double corner_angle(Vec2 p, Vec2 q, Vec2 r);
 
+// --- the same on the sphere: arcs in radians, signed as in the plane ---------------------------------------------
+
+/// The direction of equal power to p, q and r: the normal of their face, of length 1.
+[[nodiscard]] Vec3 orthocenter(Vec3 p, Vec3 q, Vec3 r);
+[[nodiscard]] double arc_length(Vec3 p, Vec3 q);
+/// d_pq: tan d = P·(P − Q)/|P × Q|.
+[[nodiscard]] double edge_split(Vec3 p, Vec3 q);
+/// h over pq: sin h = (P × Q)·n/(|P × Q| |n|).
+[[nodiscard]] double signed_height(Vec3 p, Vec3 q, Vec3 r);
+/// The angle at p between the arcs to q and to r.
+[[nodiscard]] double corner_angle(Vec3 p, Vec3 q, Vec3 r);
+/// The solid angle of the triangle, its spherical excess; signed.
+[[nodiscard]] double solid_angle(Vec3 p, Vec3 q, Vec3 r);
+
 }  // namespace temper

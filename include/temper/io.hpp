@@ -52,8 +52,10 @@ struct GeographicMap {
 };
 
 struct MeshFile {
-  std::vector<Vec2> points;
-  double z = 0;                                        ///< common z of all points, written back
+  std::vector<Vec2> points;                            ///< of the plane; or longitude and latitude [degrees]
+  double sphere_radius = 0;                            ///< of the sphere that the points are on; 0: on none
+  std::vector<Vec3> sphere_points;                     ///< where `points`, which are degrees then, are on that sphere
+  double z = 0;                                        ///< common z of all points of a plane, written back
   std::vector<double> weights;                         ///< empty, or one a point
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< 0-based
   std::vector<std::int32_t> regions;  ///< empty, or one a triangle (medit reference, Gmsh physical tag, …)
@@ -168,6 +170,9 @@ class VertexOfPoint {
 /// Why points in longitude and latitude are refused where a plane is needed, and the cure. `guessed`: their format does
 /// not say what they are, as fort.14 does not.
 [[nodiscard]] std::string needs_projection(bool guessed = false);
+/// The word for the sphere that longitude and latitude are of: its radius is the Earth's, 6371 km, or
+/// "sphere:radius=R".
+inline constexpr std::string_view kOntoSphere = "sphere";
 /// The word that is no projection: coordinates are those of a plane, whatever they look like.
 inline constexpr std::string_view kNoProjection = "none";
 /// Puts the points of a file in degrees on a map, in metres, as parse_projection reads it; about the middle of its
@@ -176,9 +181,9 @@ inline constexpr std::string_view kNoProjection = "none";
 /// projection.
 [[nodiscard]] Expected<void> project(MeshFile& file, std::string_view projection);
 
-/// The mesh of a file, in a plane: of one in degrees only after project(). Points of no triangle are dropped with a
-/// warning that names them; clockwise triangles are reversed and counted in a warning. Interior tagged lines become
-/// constrained edges.
+/// The mesh of a file, in a plane or on a sphere: of one in degrees only after project(). Points of no triangle are
+/// dropped with a warning that names them; clockwise triangles are reversed and counted in a warning. Interior tagged
+/// lines become constrained edges.
 struct LoadedMesh {
   Mesh mesh;
   VertexOfPoint vertex_of_point;
@@ -244,8 +249,8 @@ DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
                   const IdVector<VertexId, VertexId>& vertices = {}, const UpdateOptions& options = {});
 
 /// Frees the points, weights and triangles of a file whose mesh has been made: update() writes them again. Nothing when
-/// points were dropped, or there are data of points or triangles, which update() needs the former geometry for. What is
-/// free is given back to the system.
+/// points were dropped or are on a sphere, or there are data of points or triangles, which update() needs the former
+/// geometry for. What is free is given back to the system.
 void release_geometry(MeshFile& file, const LoadedMesh& loaded);
 
 /// An outline, as a file gives it.

@@ -22,11 +22,13 @@ struct QualityOptions {
   Executor* executor = nullptr;
 };
 
+// On the sphere lengths and angles are those of arcs.
+
 /// One of the triangles that are furthest from well-centered: those with the least h/ℓ or d/ℓ.
 struct WorstTriangle {
   TriangleId triangle;
   std::array<VertexId, 3> vertices;
-  Vec2 at;               ///< centroid
+  Vec2 at;               ///< centroid; on the sphere its longitude and latitude [degrees]
   double h_over_l = 0;   ///< least of its three
   double angle_deg = 0;  ///< largest
   std::string why;       ///< "orthocenter outside across edge 3-9: angle of 138.3° at vertex 10"

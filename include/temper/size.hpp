@@ -78,7 +78,8 @@ struct SizeReport {
   [[nodiscard]] double band() const;
 };
 /// `near`: for each vertex of the mesh a vertex of the field's mesh to look for it from; empty: the same number, when
-/// both have as many, else anywhere. Changes the time it takes, nothing else. Precondition: no erased triangles.
+/// both have as many, else anywhere. Changes the time it takes, nothing else; but on the sphere the field, which is the
+/// input's there, is taken at this vertex. Precondition: no erased triangles.
 [[nodiscard]] SizeReport measure_size(const Mesh& mesh, const SizeField& field, Executor* executor = nullptr,
                                       const IdVector<VertexId, VertexId>& near = {});
 

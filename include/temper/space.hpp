@@ -50,9 +50,12 @@ class Space {
     return s;
   }
 
-  /// The weight of a vertex [length²].
+  /// The weight of a vertex [length²]. On the sphere what is only rounding of P is 0.
   [[nodiscard]] double weight(const WeightedPoint& p) const {
-    return is_plane() ? p.w : squared_length(lifted(p)) - radius_ * radius_;
+    if (is_plane()) return p.w;
+    constexpr double kRounded = 0x1p-48;
+    const double r2 = radius_ * radius_, w = squared_length(lifted(p)) - r2;
+    return std::abs(w) < kRounded * r2 ? 0 : w;
   }
   /// The vertex at the same place with another weight; on the sphere more than −R².
   [[nodiscard]] WeightedPoint with_weight(const WeightedPoint& p, double w) const {
@@ -61,12 +64,12 @@ class Space {
     return as_point(factor * lifted(p));
   }
 
-  /// Says whether two vertices are at the same place; on the sphere but for the rounding of with_weight().
-  [[nodiscard]] bool same_place(const WeightedPoint& p, const WeightedPoint& q) const {
+  /// Says whether two vertices are at the same place; on the sphere but for the rounding of with_weight(), or of many
+  /// calls of it.
+  [[nodiscard]] bool same_place(const WeightedPoint& p, const WeightedPoint& q, double rounding = 0x1p-49) const {
     if (is_plane()) return p.x == q.x && p.y == q.y;
-    constexpr double kRounded = 0x1p-49;
     return squared_length(cross(lifted(p), lifted(q))) <=
-           kRounded * kRounded * squared_length(lifted(p)) * squared_length(lifted(q));
+           rounding * rounding * squared_length(lifted(p)) * squared_length(lifted(q));
   }
 
   friend constexpr bool operator==(const Space&, const Space&) = default;

@@ -55,4 +55,33 @@ double corner_angle(Vec2 p, Vec2 q, Vec2 r) {
   return std::atan2(std::abs(cross(a, b)), dot(a, b));
 }
 
+// --- on the sphere ----------------------------------------------------------------------------------------------
+//
+// Cross products of neighbours by their difference, P × Q = P × (Q − P), which keeps its digits where arcs are short.
+
+Vec3 orthocenter(Vec3 p, Vec3 q, Vec3 r) {
+  const Vec3 n = cross(q - p, r - p);
+  return (1 / length(n)) * n;
+}
+
+double arc_length(Vec3 p, Vec3 q) { return std::atan2(length(cross(p, q - p)), dot(p, q)); }
+
+double edge_split(Vec3 p, Vec3 q) { return std::atan2(dot(p, p - q), length(cross(p, q - p))); }
+
+double signed_height(Vec3 p, Vec3 q, Vec3 r) {
+  const Vec3 n = cross(q - p, r - p), m = cross(p, q - p);
+  return std::atan2(dot(m, n), length(cross(m, n)));
+}
+
+double corner_angle(Vec3 p, Vec3 q, Vec3 r) {
+  const Vec3 u = cross(p, q - p), v = cross(p, r - p);
+  return std::atan2(length(cross(u, v)), dot(u, v));
+}
+
+// Van Oosterom and Strackee (1983): tan(E/2) = det(P, Q, R)/(|P||Q||R| + (P·Q)|R| + (Q·R)|P| + (R·P)|Q|).
+double solid_angle(Vec3 p, Vec3 q, Vec3 r) {
+  const double a = length(p), b = length(q), c = length(r);
+  return 2 * std::atan2(dot(p, cross(q - p, r - p)), a * b * c + dot(p, q) * c + dot(q, r) * a + dot(r, p) * b);
+}
+
 }  // namespace temper

@@ -56,11 +56,13 @@ class DataUpdater {
  private:
   [[nodiscard]] VertexId former(VertexId v) const { return former_.empty() ? v : former_[v]; }
   void measure();
+  [[nodiscard]] double distance_from_before(VertexId v) const;
   [[nodiscard]] bool is_same(TriangleId t) const;
   [[nodiscard]] bool needs_places() const;
   [[nodiscard]] Expected<void> find_sources();
   void update_points();
   void update_cells();
+  void stay_on_sphere();
   void drop_all(const std::string& why);
   [[nodiscard]] std::optional<Values> at_vertices(const DataArray& a) const;
   void warn_of_dropped(std::string_view why) const;
@@ -77,7 +79,9 @@ class DataUpdater {
 DataReport DataUpdater::update() {
   if (file_.point_data.empty() && file_.cell_data.empty()) return {};
   measure();
-  if (needs_places()) {
+  if (!mesh_.space().is_plane()) {
+    stay_on_sphere();
+  } else if (needs_places()) {
     if (const Expected<void> found = find_sources(); !found) {
       drop_all(found.error().what());
       return std::move(report_);
@@ -95,12 +99,21 @@ bool DataUpdater::is_same(TriangleId t) const {
   std::array<std::int32_t, 3> now = {};
   for (std::size_t k = 0; k < 3; ++k) {
     const VertexId v = mesh_.corners(t)[k], was = former(v);
-    if (!was.valid() || file_.points[was.index] != mesh_.position(v)) return false;
+    if (!was.valid() || distance_from_before(v) > 0) return false;
     now[k] = static_cast<std::int32_t>(was.index);
   }
   std::sort(before.begin(), before.end());  // clockwise ones were reversed
   std::sort(now.begin(), now.end());
   return before == now;
+}
+
+/// Of a vertex that was there: from its place in the file.
+double DataUpdater::distance_from_before(VertexId v) const {
+  const std::size_t was = former(v).index;
+  if (mesh_.space().is_plane()) return length(mesh_.position(v) - file_.points[was]);
+  const Vec3 before = file_.sphere_points[was], now = mesh_.lifted_point(v);
+  if (mesh_.space().same_place(as_point(before), as_point(now))) return 0;
+  return mesh_.space().radius() * std::atan2(length(cross(before, now)), dot(before, now));
 }
 
 void DataUpdater::measure() {
@@ -109,9 +122,7 @@ void DataUpdater::measure() {
     const VertexId was = former(v);
     report_.points += was.valid() ? 1 : 0;
     report_.points_inserted += was.valid() ? 0 : 1;
-    if (was.valid() && file_.points[was.index] != mesh_.position(v)) {
-      distances.push_back(length(mesh_.position(v) - file_.points[was.index]));
-    }
+    if (was.valid() && distance_from_before(v) > 0) distances.push_back(distance_from_before(v));
   }
   report_.points_moved = distances.size();
   report_.distance = spread(std::move(distances));
@@ -165,7 +176,7 @@ std::optional<Values> DataUpdater::at_vertices(const DataArray& a) const {
 void DataUpdater::update_points() {
   std::vector<DataArray> left;
   for (DataArray& a : file_.point_data) {
-    const bool follows = options_.rules.of(a) == DataRule::interpolate;
+    const bool follows = options_.rules.of(a) == DataRule::interpolate && mesh_.space().is_plane();
     std::optional<Values> values = at_vertices(a);
     (!values ? report_.dropped : follows ? report_.interpolated : report_.kept).push_back(a.name);
     if (values) left.push_back({std::move(a.name), a.components, *std::move(values)});
@@ -179,6 +190,16 @@ void DataUpdater::update_cells() {
     report_.of_triangles.push_back(a.name);
     if (!sources_.empty()) a.values = at_triangles(a, sources_);
   }
+}
+
+/// Places are found in the plane alone: on the sphere data of points stay with them, and those of triangles with
+/// triangles that are the same.
+void DataUpdater::stay_on_sphere() {
+  if (report_.points_inserted > 0) return drop_all("there are new points on the sphere");
+  if (report_.triangles_changed == 0) return;
+  for (const DataArray& a : file_.cell_data) report_.dropped.push_back(a.name);
+  file_.cell_data.clear();
+  warn_of_dropped("triangles of the sphere have changed");
 }
 
 void DataUpdater::drop_all(const std::string& why) {

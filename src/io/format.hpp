@@ -28,11 +28,14 @@ enum Content : unsigned {
   kLineData = 1u << 8,
   kMarkedPointData = 1u << 9,
   kFieldData = 1u << 10,
+  kSphere = 1u << 11,  ///< points of a sphere, in three coordinates or in degrees
 };
 using Contents = unsigned;
 inline constexpr Contents kAllTags = kRegions | kLines | kMarkedPoints;
 inline constexpr Contents kAllData = kPointData | kCellData | kLineData | kMarkedPointData | kFieldData;
 inline constexpr Contents kAll = kZ | kWeights | kAllTags | kNames | kAllData;
+/// Of formats that are in space anyway.
+inline constexpr Contents kInSpace = kZ | kSphere;
 
 /// Which meshes are written in longitude and latitude.
 enum class Degrees {
@@ -81,7 +84,7 @@ void warn_of_arrays(const WriteJob& job, std::string_view kind, const std::vecto
 void warn_of_names(const WriteJob& job, const std::vector<PhysicalName>& lost);
 /// The tag of each point, 0 where there is none, for formats that hold one: further tags are named in a warning.
 [[nodiscard]] std::vector<std::int32_t> one_tag_a_point(const WriteJob& job);
-/// Says whether the plane of the mesh is z = 0.
+/// Says whether points are in the plane z = 0.
 [[nodiscard]] bool is_flat(const MeshFile& file);
 
 /// The name of a format that is recognised but not read, or empty.

@@ -6,8 +6,10 @@
 #include <unordered_map>
 
 #include "io/failure.hpp"
+#include "io/globe.hpp"
 #include "io/place_hash.hpp"
 #include "io/values.hpp"
+#include "temper/read_number.hpp"
 
 namespace temper::io {
 namespace {
@@ -99,10 +101,46 @@ std::string needs_projection(bool guessed) {
               "metres); or none, to take the coordinates for those of a plane");
 }
 
+namespace {
+
+/// The radius that "sphere" or "sphere:radius=R" says; nothing for other words.
+std::optional<Expected<double>> radius_of_sphere(std::string_view words) {
+  if (words == kOntoSphere) return Projection{}.radius;
+  constexpr std::string_view kRadius = ":radius=";
+  if (!words.starts_with(kOntoSphere)) return std::nullopt;
+  words.remove_prefix(kOntoSphere.size());
+  double radius = 0;
+  if (words.starts_with(kRadius)) {
+    words.remove_prefix(kRadius.size());
+    const auto [end, error] = read_number(words.data(), words.data() + words.size(), radius);
+    if (error == std::errc() && end == words.data() + words.size() && radius > 0 && std::isfinite(radius))
+      return radius;
+  }
+  return InputError{
+      ErrorCode::invalid_option, {}, text("the sphere has '", words, "'; expected sphere or sphere:radius=R, R > 0")};
+}
+
+}  // namespace
+
 Expected<void> project(MeshFile& file, std::string_view projection) {
+  if (file.sphere_radius > 0) {
+    file.sphere_radius = 0;
+    file.sphere_points.clear();
+    file.geographic = true;
+  }
   if (projection == kNoProjection) {
     file.geographic = false;
     return {};
+  }
+  if (const auto radius = radius_of_sphere(projection)) {
+    if (!*radius) return radius->error();
+    const InputNames from_0;
+    try {
+      put_on_sphere(file, **radius, file.numbering ? *file.numbering : from_0);
+      return {};
+    } catch (Failure& failure) {
+      return std::move(failure.error);
+    }
   }
   auto parsed = parse_projection(projection, file.points);
   if (!parsed) return parsed.error();

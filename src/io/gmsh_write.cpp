@@ -12,6 +12,7 @@
 #include <set>
 
 #include "io/format.hpp"
+#include "io/globe.hpp"
 #include "io/gmsh.hpp"
 #include "io/values.hpp"
 
@@ -201,7 +202,8 @@ void GmshWriter::nodes() {
     out_.put(n, '\n');
     for (std::size_t i = 0; i < n; ++i) {
       put(static_cast<std::int32_t>(i + 1));
-      put(file_.points[i].x), put(file_.points[i].y), put(file_.z);
+      const Vec3 p = place_of(file_, i);
+      put(p.x), put(p.y), put(p.z);
       end_line();
     }
   } else {

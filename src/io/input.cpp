@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "io/disk.hpp"
+#include "io/globe.hpp"
 
 namespace temper::io {
 
@@ -89,9 +90,29 @@ void check_ranges(const Document& d) {
   }
 }
 
+/// Points with z of their own: all on a sphere, or an error at the first that is not in the plane of the others, or not
+/// on the sphere of the most.
+void settle_on_sphere(Document& d) {
+  MeshFile& f = d.file;
+  const FileNames& names = *d.names;
+  std::vector<Vec3> places;
+  for (std::size_t i = 0; i < f.points.size(); ++i) {
+    places.push_back({f.points[i].x, f.points[i].y, d.heights[i]});
+    if (std::isfinite(d.heights[i])) continue;
+    fail(ErrorCode::not_finite, names.point_where(i),
+         text(names.point(i), " has z = ", d.heights[i], ", expected a finite number"));
+  }
+  if (const auto radius = common_radius(places)) return set_sphere(f, *radius, std::move(places));
+  std::size_t i = 0;
+  while (d.heights[i] == f.z) ++i;
+  fail(ErrorCode::not_planar, names.point_where(i),
+       text(names.point(i), " has z = ", d.heights[i], ", but ", names.point(0), " has z = ", f.z,
+            "; expected a mesh in a plane of constant z, or on a sphere around the origin"));
+}
+
 }  // namespace
 
-void check(const Document& d) {
+void check(Document& d) {
   const MeshFile& f = d.file;
   if (f.points.empty()) fail(ErrorCode::empty_input, d.names->path, "the file has no points");
   if (f.triangles.empty()) fail(ErrorCode::empty_input, d.names->path, "the file has no triangles");
@@ -104,24 +125,12 @@ void check(const Document& d) {
   }
   if (!std::isfinite(f.z))
     fail(ErrorCode::not_finite, d.names->point_where(0), text(d.names->point(0), " has z = ", f.z));
+  if (!d.heights.empty()) settle_on_sphere(d);
   for (std::size_t i = 0; i < f.weights.size(); ++i) {
     if (std::isfinite(f.weights[i])) continue;
     fail(ErrorCode::not_finite, d.names->point_where(i),
          text(d.names->point(i), " has weight ", f.weights[i], ", expected a finite number"));
   }
-}
-
-void PlaneCheck::refuse(std::size_t index, double z) const {
-  const FileNames& names = *document_.names;
-  const double z0 = document_.file.z;
-  if (!std::isfinite(z) || !std::isfinite(z0)) {
-    const std::size_t culprit = std::isfinite(z0) ? index : 0;
-    fail(ErrorCode::not_finite, names.point_where(culprit),
-         text(names.point(culprit), " has z = ", culprit == 0 ? z0 : z, ", expected a finite number"));
-  }
-  fail(ErrorCode::not_planar, names.point_where(index),
-       text(names.point(index), " has z = ", z, ", but ", names.point(0), " has z = ", z0,
-            "; expected a mesh in a plane of constant z"));
 }
 
 void refuse_element(const std::string& where, std::int64_t number, std::string_view kind) {

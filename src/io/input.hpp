@@ -31,25 +31,26 @@ void give_memory_back();
 struct Document {
   MeshFile file;
   std::shared_ptr<FileNames> names;
+  std::vector<double> heights = {};  ///< z of each point, once one is another than that of the first
 };
 [[nodiscard]] Document new_document(const std::string& path);
 
 /// Checks what every format must fulfil once its arrays are read: points and triangles exist, numbers are in range,
-/// coordinates and weights finite.
-void check(const Document& document);
+/// coordinates and weights finite, points in a plane or on a sphere around the origin.
+void check(Document& document);
 
-/// Collects z and insists that it is the same for all points.
+/// Collects z, of one point after the other.
 class PlaneCheck {
  public:
   explicit PlaneCheck(Document& document) : document_(document) {}
   /// z of the point with this index, whose number and line are already in the names.
   void add(std::size_t index, double z) {
     if (index == 0) document_.file.z = z;
-    if (!(z == document_.file.z)) refuse(index, z);
+    if (z != document_.file.z && document_.heights.empty()) document_.heights.assign(index, document_.file.z);
+    if (!document_.heights.empty()) document_.heights.push_back(z);
   }
 
  private:
-  [[noreturn]] void refuse(std::size_t index, double z) const;
   Document& document_;
 };
 

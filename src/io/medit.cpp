@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "io/format.hpp"
+#include "io/globe.hpp"
 #include "io/scanner.hpp"
 #include "io/values.hpp"
 
@@ -233,8 +234,9 @@ void write_medit(const WriteJob& job) {
   out.put("MeshVersionFormatted 2\nDimension ", flat ? 2 : 3, "\n\nVertices\n", f.points.size(), '\n');
   const auto references = one_tag_a_point(job);
   for (std::size_t i = 0; i < f.points.size(); ++i) {
-    out.put(f.points[i].x, ' ', f.points[i].y, ' ');
-    if (!flat) out.put(f.z, ' ');
+    const Vec3 p = place_of(f, i);
+    out.put(p.x, ' ', p.y, ' ');
+    if (!flat) out.put(p.z, ' ');
     out.put(references[i], '\n');
   }
   if (!f.lines.empty()) {

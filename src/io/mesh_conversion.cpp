@@ -182,9 +182,11 @@ Expected<BuiltMesh> MeshMaker::build(const std::vector<std::int32_t>& fixed) con
   input.regions = file_.regions;
   input.fixed_vertices = fixed;
   input.executor = executor_;
+  if (file_.sphere_radius > 0) input.space = Space::sphere(file_.sphere_radius);
   if (whole()) {
     const KeptNames kept(names(), {});
     input.points = file_.points;
+    input.sphere_points = file_.sphere_points;
     input.weights = file_.weights;
     input.triangles = file_.triangles;
     input.names = &kept;
@@ -192,11 +194,13 @@ Expected<BuiltMesh> MeshMaker::build(const std::vector<std::int32_t>& fixed) con
   }
   const auto& vertex = loaded_.vertex_of_point;
   std::vector<Vec2> points;
+  std::vector<Vec3> sphere_points;
   std::vector<double> weights;
   std::vector<std::int32_t> old;
   for (std::size_t p = 0; p < vertex.size(); ++p) {
     if (vertex[p] < 0) continue;
     points.push_back(file_.points[p]);
+    if (!file_.sphere_points.empty()) sphere_points.push_back(file_.sphere_points[p]);
     if (!file_.weights.empty()) weights.push_back(file_.weights[p]);
     old.push_back(static_cast<std::int32_t>(p));
   }
@@ -210,6 +214,7 @@ Expected<BuiltMesh> MeshMaker::build(const std::vector<std::int32_t>& fixed) con
   }
   const KeptNames kept(names(), std::move(old));
   input.points = points;
+  input.sphere_points = sphere_points;
   input.weights = weights;
   input.triangles = triangles;
   input.names = &kept;
@@ -270,8 +275,13 @@ bool is_corner(const Mesh& mesh, VertexId v) {
   const HalfedgeId out = mesh.outgoing(v);
   HalfedgeId last = out;
   for (const HalfedgeId h : mesh.star(v)) last = h;
-  const Vec2 from = mesh.position(v) - mesh.position(mesh.opposite(last)),
-             to = mesh.position(mesh.target(out)) - mesh.position(v);
+  const VertexId before = mesh.opposite(last), after = mesh.target(out);
+  if (!mesh.space().is_plane()) {
+    const Vec3 p = mesh.lifted_point(v), from = p - mesh.lifted_point(before), to = mesh.lifted_point(after) - p;
+    const double turn = dot(p, cross(from, to)) / length(p);
+    return dot(from, to) < 0 || std::abs(turn) > kCorner * length(from) * length(to);
+  }
+  const Vec2 from = mesh.position(v) - mesh.position(before), to = mesh.position(after) - mesh.position(v);
   return dot(from, to) < 0 || std::abs(cross(from, to)) > kCorner * length(from) * length(to);
 }
 

@@ -3,6 +3,7 @@
 // Coordinates, weights, triangles and regions are the mesh's; everything else is the file's and goes with its point,
 // its line or its triangle; data_update.cpp says how data of points and triangles follow.
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "io/data_update.hpp"
 #include "io/failure.hpp"
 #include "io/file_names.hpp"
+#include "io/globe.hpp"
 #include "io/input.hpp"
 #include "io/line_cuts.hpp"
 #include "io/place_hash.hpp"
@@ -20,13 +22,44 @@ namespace temper::io {
 namespace {
 
 /// Copies what is on the mesh to arrays of its own vertices.
-void copy_vertices(MeshFile& file, const Mesh& mesh) {
+void copy_plane(MeshFile& file, const Mesh& mesh) {
   file.points.resize(mesh.n_vertices());
-  file.weights.resize(mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) file.points[v.index] = mesh.position(v);
+}
+
+/// Points and degrees of vertices that have not moved stay as they are.
+void copy_sphere(MeshFile& file, const Mesh& mesh, const Former& former) {
+  const double radius = mesh.space().radius();
+  file.sphere_radius = radius;
+  std::vector<Vec2> degrees;
+  std::vector<Vec3> places;
   for (const VertexId v : mesh.vertices()) {
-    file.points[v.index] = mesh.position(v);
-    file.weights[v.index] = mesh.weight(v);
+    const std::size_t was = former.empty() ? v.index : former[v].valid() ? former[v].index : file.sphere_points.size();
+    const Vec3 p = mesh.lifted_point(v);
+    if (was < file.sphere_points.size() && mesh.space().same_place(as_point(file.sphere_points[was]), as_point(p))) {
+      degrees.push_back(file.points[was]);
+      places.push_back(file.sphere_points[was]);
+    } else {
+      places.push_back(radius / length(p) * p);
+      degrees.push_back(lon_lat_of(p));
+      // From −180 to 180, or from 0 to 360: as the file has it around there.
+      if (was < file.points.size()) {
+        degrees.back().x += 360 * std::round((file.points[was].x - degrees.back().x) / 360);
+      }
+    }
   }
+  file.points = std::move(degrees);
+  file.sphere_points = std::move(places);
+}
+
+void copy_vertices(MeshFile& file, const Mesh& mesh, const Former& former) {
+  if (mesh.space().is_plane()) {
+    copy_plane(file, mesh);
+  } else {
+    copy_sphere(file, mesh, former);
+  }
+  file.weights.resize(mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) file.weights[v.index] = mesh.weight(v);
 }
 
 void copy_triangles(MeshFile& file, const Mesh& mesh) {
@@ -83,6 +116,7 @@ void drop_unused_points(MeshFile& file, const VertexOfPoint& vertex_of_point) {
   std::vector<bool> used(vertex_of_point.size());
   for (std::size_t p = 0; p < used.size(); ++p) used[p] = vertex_of_point[p] >= 0;
   keep(file.points, used);
+  if (!file.sphere_points.empty()) keep(file.sphere_points, used);
   keep(file.point_data, used);
   for (auto& triangle : file.triangles) {
     for (std::int32_t& p : triangle) p = vertex_of_point[static_cast<std::size_t>(p)];
@@ -172,12 +206,12 @@ DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
   Former former;  // empty: the same numbers
   if (!vertices.empty() && n_before == vertex.n_kept()) {
     former = vertices;
-  } else if (!released && mesh.n_vertices() != n_before) {
+  } else if (!released && mesh.n_vertices() != n_before && mesh.space().is_plane()) {
     former = vertices_by_place(file.points, mesh);
   }
   DataReport report = update_data(file, mesh, former, options);
   if (!former.empty()) follow(file, n_before, mesh, former);
-  copy_vertices(file, mesh);
+  copy_vertices(file, mesh, former);
   copy_triangles(file, mesh);
   if (has_unused || !former.empty()) file.numbering = nullptr;  // its numbers are no longer those of the points
   return report;
@@ -185,7 +219,7 @@ DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
 
 void release_geometry(MeshFile& file, const LoadedMesh& loaded) {
   if (file.points.size() != loaded.mesh.n_vertices()) return;
-  if (!file.point_data.empty() || !file.cell_data.empty()) return;
+  if (!file.point_data.empty() || !file.cell_data.empty() || file.sphere_radius > 0) return;
   std::vector<Vec2>().swap(file.points);  // assigning {} would keep the capacity
   std::vector<double>().swap(file.weights);
   std::vector<std::array<std::int32_t, 3>>().swap(file.triangles);
@@ -194,7 +228,7 @@ void release_geometry(MeshFile& file, const LoadedMesh& loaded) {
 
 MeshFile from_mesh(const Mesh& mesh) {
   MeshFile file;
-  copy_vertices(file, mesh);
+  copy_vertices(file, mesh, {});
   copy_triangles(file, mesh);
   for (const HalfedgeId h : mesh.halfedges()) {
     if (!mesh.is_constrained(h) || mesh.is_boundary(h) || !mesh.is_edge_representative(h)) continue;

@@ -81,8 +81,6 @@ class MpasReader {
       const std::string value = in_.text_attribute(nullptr, name);
       return value.starts_with("YES") || value.starts_with("yes");
     };
-    if (yes("on_a_sphere"))
-      fail(ErrorCode::unsupported, path, "is an MPAS mesh on a sphere; temper reads meshes in the plane");
     if (yes("is_periodic"))
       fail(ErrorCode::unsupported, path, "is a periodic MPAS mesh; temper reads meshes that end at their boundary");
   }

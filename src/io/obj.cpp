@@ -10,6 +10,7 @@
 
 #include "io/array_names.hpp"
 #include "io/format.hpp"
+#include "io/globe.hpp"
 #include "io/scanner.hpp"
 
 namespace temper::io {
@@ -196,7 +197,10 @@ class ObjWriter {
 
   void write() {
     const MeshFile& f = file_;
-    for (const Vec2 p : f.points) out_.put("v ", p.x, ' ', p.y, ' ', f.z, '\n');
+    for (std::size_t i = 0; i < f.points.size(); ++i) {
+      const Vec3 p = place_of(f, i);
+      out_.put("v ", p.x, ' ', p.y, ' ', p.z, '\n');
+    }
     for (std::size_t i = 0; i < f.triangles.size(); ++i) {
       if (!f.regions.empty()) group(2, f.regions[i]);
       const auto& t = f.triangles[i];

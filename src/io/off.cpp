@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "io/format.hpp"
+#include "io/globe.hpp"
 #include "io/scanner.hpp"
 
 namespace temper::io {
@@ -110,7 +111,10 @@ void write_off(const WriteJob& job) {
   const MeshFile& f = job.file;
   Output& out = job.outputs.open(job.path);
   out.put("OFF\n", f.points.size(), ' ', f.triangles.size(), " 0\n");
-  for (const Vec2 p : f.points) out.put(p.x, ' ', p.y, ' ', f.z, '\n');
+  for (std::size_t i = 0; i < f.points.size(); ++i) {
+    const Vec3 p = place_of(f, i);
+    out.put(p.x, ' ', p.y, ' ', p.z, '\n');
+  }
   for (const auto& t : f.triangles) out.put("3 ", t[0], ' ', t[1], ' ', t[2], '\n');
 }
 

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "io/format.hpp"
+#include "io/globe.hpp"
 #include "io/physical_names.hpp"
 #include "io/ply.hpp"
 
@@ -132,9 +133,10 @@ void PlyWriter::write() {
   tags_ = one_tag_a_point(job_);
   header();
   for (std::size_t i = 0; i < f.points.size(); ++i) {
-    put(f.points[i].x, true);
-    put(f.points[i].y);
-    put(f.z);
+    const Vec3 p = place_of(f, i);
+    put(p.x, true);
+    put(p.y);
+    put(p.z);
     if (!f.weights.empty()) put(f.weights[i]);
     if (!f.marked_points.empty()) put(tags_[i]);
     put_row(point_data_, i);

@@ -31,6 +31,7 @@ bool sniff_adcirc(std::string_view head);
 bool sniff_mpas(std::string_view head);
 bool sniff_ugrid(std::string_view head);
 bool sniff_mfem(std::string_view head);
+bool sniff_fesom(std::string_view head);
 
 Document read_vtu(Source& source);
 Document read_gmsh(Source& source);
@@ -45,6 +46,7 @@ Document read_adcirc(Source& source);
 Document read_mpas(Source& source);
 Document read_ugrid(Source& source);
 Document read_mfem(Source& source);
+Document read_fesom(Source& source);
 
 void write_vtu(const WriteJob& job);
 void write_gmsh22(const WriteJob& job);
@@ -60,7 +62,10 @@ void write_ply(const WriteJob& job);
 void write_adcirc(const WriteJob& job);
 void write_mpas(const WriteJob& job);
 void write_ugrid(const WriteJob& job);
+void write_fesom(const WriteJob& job);
 
+bool fesom_keeps(ArraysOf of, const DataArray& array);
+std::vector<std::string> fesom_files(const std::string& path);
 bool adcirc_keeps(ArraysOf of, const DataArray& array);
 bool jigsaw_keeps(ArraysOf of, const DataArray& array);
 bool medit_keeps(ArraysOf of, const DataArray& array);
@@ -71,24 +76,26 @@ namespace {
 
 // Of two rows that recognise a file, or have its suffix, the first is taken.
 constexpr FormatRow kRows[] = {
-    {"vtu", "VTK XML unstructured grid, temper's own", ".vtu", kAll, sniff_vtu, read_vtu, write_vtu},
-    {"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", kAll & ~kFieldData, sniff_gmsh41, read_gmsh, write_gmsh41, nullptr,
+    {"vtu", "VTK XML unstructured grid, temper's own", ".vtu", kAll | kSphere, sniff_vtu, read_vtu, write_vtu},
+    {"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", (kAll & ~kFieldData) | kSphere, sniff_gmsh41, read_gmsh, write_gmsh41,
+     nullptr, nullptr, 1, "\""},
+    {"gmsh22", "Gmsh MSH 2.2", ".msh2", (kAll & ~kFieldData) | kSphere, sniff_gmsh22, read_gmsh, write_gmsh22, nullptr,
      nullptr, 1, "\""},
-    {"gmsh22", "Gmsh MSH 2.2", ".msh2", kAll & ~kFieldData, sniff_gmsh22, read_gmsh, write_gmsh22, nullptr, nullptr, 1,
-     "\""},
-    {"medit", "medit (INRIA, Mmg)", ".mesh", kZ | kAllTags, sniff_medit, read_medit, write_medit, medit_keeps},
+    {"medit", "medit (INRIA, Mmg)", ".mesh", kInSpace | kAllTags, sniff_medit, read_medit, write_medit, medit_keeps},
     {"jigsaw", "JIGSAW mesh", ".jigsaw.msh", kZ | kWeights | kAllTags, sniff_jigsaw, read_jigsaw_mesh,
      write_jigsaw_mesh, jigsaw_keeps},
-    {"ply", "PLY", ".ply", kAll & ~(kMarkedPointData | kFieldData), sniff_ply, read_ply, write_ply},
-    {"off", "OFF", ".off", kZ, sniff_off, read_off, write_off, nullptr, nullptr, 0},
+    {"ply", "PLY", ".ply", (kAll & ~(kMarkedPointData | kFieldData)) | kSphere, sniff_ply, read_ply, write_ply},
+    {"off", "OFF", ".off", kInSpace, sniff_off, read_off, write_off, nullptr, nullptr, 0},
     // Before those whose first word may be that of a title. Of tags and names it holds boundaries; its writer names the
     // others.
     {"adcirc", "ADCIRC fort.14", ".14 .grd", kLines | kMarkedPoints | kNames, sniff_adcirc, read_adcirc, write_adcirc,
      adcirc_keeps, nullptr, 1, "", Degrees::where_known},
-    {"obj", "Wavefront OBJ", ".obj", kZ | kAllTags | kNames, sniff_obj, read_obj, write_obj},
-    {"vtk", "legacy VTK 2.0 to 4.2", ".vtk", kAll, sniff_legacy_vtk, read_legacy_vtk, write_legacy_vtk},
-    {"vtk51", "legacy VTK 5.1", ".vtk51", kAll, sniff_vtk51, read_legacy_vtk, write_vtk51},
+    {"obj", "Wavefront OBJ", ".obj", kInSpace | kAllTags | kNames, sniff_obj, read_obj, write_obj},
+    {"vtk", "legacy VTK 2.0 to 4.2", ".vtk", kAll | kSphere, sniff_legacy_vtk, read_legacy_vtk, write_legacy_vtk},
+    {"vtk51", "legacy VTK 5.1", ".vtk51", kAll | kSphere, sniff_vtk51, read_legacy_vtk, write_vtk51},
     {"mfem", "MFEM mesh v1.0", ".mesh", 0, sniff_mfem, read_mfem, nullptr},
+    {"fesom", "FESOM nod2d.out and elem2d.out", ".nod2d.out .elem2d.out nod2d.out elem2d.out", kSphere, sniff_fesom,
+     read_fesom, write_fesom, fesom_keeps, fesom_files},
     {"triangle", "Triangle", ".node .ele", kAll & ~(kLineData | kMarkedPointData | kFieldData), sniff_triangle,
      read_triangle, write_triangle, nullptr, triangle_files},
     {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll, sniff_mpas, read_mpas, write_mpas, nullptr, netcdf_files, 1, "",
@@ -201,12 +208,23 @@ const FormatRow& row_to_write(const std::string& path, const std::string& format
        text("the suffix names no format that temper writes; expected one of ", writable_suffixes(), ", or a format"));
 }
 
+std::string names_with(Contents contents) {
+  std::string result;
+  for (const FormatRow& row : kRows) {
+    if (row.write != nullptr && (row.holds & contents) == contents)
+      result += text(result.empty() ? "" : ", ", row.name);
+  }
+  return result;
+}
+
 }  // namespace
 
 void check_sizes(const std::string& path, const MeshFile& f) {
   const auto insist = [&](bool good, std::string_view what) {
     if (!good) fail(ErrorCode::size_mismatch, path, text("the mesh to be written has ", what));
   };
+  insist(f.sphere_radius == 0 || f.sphere_points.size() == f.points.size(),
+         "another number of places on the sphere than of points");
   insist(f.weights.empty() || f.weights.size() == f.points.size(), "another number of weights than of points");
   insist(f.regions.empty() || f.regions.size() == f.triangles.size(), "another number of regions than of triangles");
   insist(f.line_tags.size() == f.lines.size(), "another number of line tags than of lines");
@@ -266,6 +284,11 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
     const FormatRow& row = row_to_write(path, options.format);
     check_sizes(path, file);
     check_names(path, file);
+    if (file.sphere_radius > 0 && (row.holds & kSphere) == 0) {
+      fail(ErrorCode::unsupported, path,
+           text("points are on a sphere, which ", row.description, " is not written with; expected one of ",
+                names_with(kSphere)));
+    }
     std::vector<std::string> warnings;
     OutputSet outputs;
     const bool turned = goes_back_to_degrees(row, file);
@@ -302,6 +325,6 @@ Expected<void> write_text(const std::string& path, std::string_view content) {
   }
 }
 
-bool is_flat(const MeshFile& file) { return file.z == 0 && !std::signbit(file.z); }
+bool is_flat(const MeshFile& file) { return file.sphere_radius == 0 && file.z == 0 && !std::signbit(file.z); }
 
 }  // namespace temper::io

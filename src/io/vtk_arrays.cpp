@@ -7,6 +7,7 @@
 #include <set>
 
 #include "io/cells.hpp"
+#include "io/globe.hpp"
 #include "io/physical_names.hpp"
 
 namespace temper::io {
@@ -85,8 +86,8 @@ VtkArray vtk_points(const MeshFile& f) {
   return computed_vtk_array<double>(
       "Points", Scalar::f64, 3 * f.points.size(),
       [&f](std::size_t i) {
-        const Vec2 p = f.points[i / 3];
-        return i % 3 == 0 ? p.x : i % 3 == 1 ? p.y : f.z;
+        const Vec3 p = place_of(f, i / 3);
+        return i % 3 == 0 ? p.x : i % 3 == 1 ? p.y : p.z;
       },
       3);
 }

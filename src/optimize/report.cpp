@@ -145,7 +145,7 @@ std::string Notes::name_of(VertexId v) const {
 
 /// Triangles that no optimiser can make well-centered, whatever it tries.
 void Notes::tell_edges_that_must_be_split(std::size_t bad) {
-  if (!settings_.energy.barrier || bad == 0) return;
+  if (!settings_.energy.barrier || bad == 0 || !mesh_.space().is_plane()) return;
   if (options_.paper.inversion == Inversion::allow && count_inverted(mesh_) > 0) return;  // no inside to see through
   const std::vector<EdgeConflict> edges = edges_that_must_be_split(mesh_);
   if (edges.empty()) return;
@@ -190,12 +190,31 @@ struct Result {
   Rank rank;
 };
 
+/// On the sphere each change of a weight rounds a vertex's place, and each move its weight: of what has not changed but
+/// for that, vertices get the input's again.
+void take_back_rounding(const Mesh& input, const IdVector<VertexId, VertexId>& vertices, Mesh& mesh) {
+  constexpr double kPlacesOfManySteps = 0x1p-40, kWeightsOfManySteps = 0x1p-46;
+  const Space& space = mesh.space();
+  if (space.is_plane()) return;
+  const double least = kWeightsOfManySteps * space.radius() * space.radius();
+  for (const VertexId v : mesh.vertices()) {
+    const VertexId was = vertices.empty() ? v : vertices[v];
+    if (!was.valid()) continue;
+    const bool stays = space.same_place(input.point(was), mesh.point(v), kPlacesOfManySteps);
+    const double w = mesh.weight(v), old = input.weight(was);
+    const bool keeps = std::abs(w - old) < least;
+    if (stays || keeps) mesh.set_point(v, space.with_weight(stays ? input.point(was) : mesh.point(v), keeps ? old : w));
+    if (stays && keeps) mesh.set_point(v, input.point(was));
+  }
+}
+
 /// `settings`: in the user's units.
-Result result_of(WorkingCopy work, const Settings& settings, const AccuracySizes* sizes) {
+Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, const AccuracySizes* sizes) {
   Result result;
   const VertexSizes own = sizes != nullptr ? sizes->in_user_terms(work, settings.hooks.executor) : VertexSizes();
   if (work.has_gaps || work.has_inserted()) result.vertices = work.user_vertices();
   result.mesh = std::move(work).in_user_terms();  // what knew the order takes room no longer
+  take_back_rounding(input, result.vertices, result.mesh);
   result.rank = rank(result.mesh, settings, sizes != nullptr ? &own : nullptr);
   return result;
 }
@@ -261,7 +280,7 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasure
   recorder.begin_sweep(run.next_sweep());
   const Settings in_frame = settings;
   settings.model = in_user_units(settings.model, best.work.frame);
-  Result result = result_of(std::move(best.work), settings, sizes);
+  Result result = result_of(mesh, std::move(best.work), settings, sizes);
   const Rank before = rank(mesh, of_input.counts, settings, sizes != nullptr ? &sizes->of_input() : nullptr);
   report.size.before = report.size.after = of_input.size;
   report.initial_energy = before.energy;
@@ -275,7 +294,7 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasure
   if (flips) {
     Settings silent = in_frame;
     silent.hooks.tracer = {};
-    input = result_of(made_regular(mesh, silent, report.sweeps), settings, sizes);
+    input = result_of(mesh, made_regular(mesh, silent, report.sweeps), settings, sizes);
   }
   const bool worse = input.rank < result.rank;
   if (worse) {

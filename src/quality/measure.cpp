@@ -32,6 +32,22 @@ void measure_heights(TriangleMeasure& m, const std::array<WeightedPoint, 3>& p) 
   }
 }
 
+TriangleMeasure measure_on_sphere(const std::array<Vec3, 3>& p) {
+  TriangleMeasure m;
+  m.orientation = orientation(p[0], p[1], p[2]);
+  const bool upright = m.orientation == Sign::positive;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 a = p[k], b = p[corner_after(k)], c = p[corner_across(k)];
+    const double l = arc_length(a, b);
+    m.h_sign[k] = upright ? signed_height_sign(a, b, c) : Sign::negative;
+    m.h_over_l[k] = upright ? signed_height(a, b, c) / l : -kInfinity;
+    m.crossed[k] = edge_split_sign(a, b) == Sign::positive && edge_split_sign(b, a) == Sign::positive;
+    m.d_over_l[k] = std::min(edge_split(a, b), edge_split(b, a)) / l;
+    m.angle_deg[k] = corner_angle(a, b, c) * (180 / std::numbers::pi);
+  }
+  return m;
+}
+
 }  // namespace
 
 bool TriangleMeasure::orthocenter_inside() const {
@@ -50,6 +66,7 @@ double TriangleMeasure::margin() const {
 TriangleMeasure measure_triangle(const Mesh& mesh, TriangleId t) {
   const std::array<VertexId, 3> v = mesh.corners(t);
   const std::array<WeightedPoint, 3> p = {mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])};
+  if (!mesh.space().is_plane()) return measure_on_sphere({lifted(p[0]), lifted(p[1]), lifted(p[2])});
   TriangleMeasure m;
   m.orientation = orient2d(p[0].position(), p[1].position(), p[2].position());
   measure_heights(m, p);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "quality/measure.hpp"
 #include "temper/geometry.hpp"
 #include "temper/quality.hpp"
 
@@ -22,6 +23,7 @@ void for_edges(const Mesh& mesh, TriangleId t, F&& f) {
 }
 
 double least_margin(const Mesh& mesh, TriangleId t) {
+  if (!mesh.space().is_plane()) return measure_triangle(mesh, t).margin();
   const auto [p, q, r] = mesh.corners(t);
   double least = std::numeric_limits<double>::infinity();
   if (orient2d(mesh.position(p), mesh.position(q), mesh.position(r)) != Sign::positive) return -least;
@@ -33,6 +35,10 @@ double least_margin(const Mesh& mesh, TriangleId t) {
 }
 
 double largest_angle(const Mesh& mesh, TriangleId t) {
+  if (!mesh.space().is_plane()) {
+    const auto angles = measure_triangle(mesh, t).angle_deg;
+    return *std::max_element(angles.begin(), angles.end());
+  }
   double largest = 0;
   for_edges(mesh, t, [&](const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c) {
     const Vec2 u = a.position() - c.position(), v = b.position() - c.position();
@@ -43,6 +49,12 @@ double largest_angle(const Mesh& mesh, TriangleId t) {
 
 double mean_edge(const Mesh& mesh, TriangleId t) {
   double sum = 0;
+  if (!mesh.space().is_plane()) {
+    for_edges(mesh, t, [&](const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint&) {
+      sum += mesh.space().radius() * arc_length(lifted(a), lifted(b));
+    });
+    return sum / 3;
+  }
   for_edges(mesh, t, [&](const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint&) {
     sum += length(b.position() - a.position());
   });

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <numbers>
 
 namespace temper {
 namespace {
@@ -51,10 +53,12 @@ std::string why_not_inside(const Subject& s, int k) {
 std::string why_not_crossed(const Subject& s, int k) {
   int heavy = k, light = corner_after(k);
   if (s.weight(heavy) < s.weight(light)) std::swap(heavy, light);
-  const Vec2 along = s.mesh.position(s.v[light]) - s.mesh.position(s.v[heavy]);
+  const WeightedPoint a = s.mesh.point(s.v[heavy]), b = s.mesh.point(s.v[light]);
+  const double l2 =
+      s.mesh.space().is_plane() ? squared_length(b.position() - a.position()) : squared_length(lifted(b) - lifted(a));
   return s.edge(k) + " is not crossed by its dual: the weight of vertex " + s.number(s.v[heavy]) +
          " exceeds that of vertex " + s.number(s.v[light]) + " by " + rounded(s.weight(heavy) - s.weight(light)) +
-         ", and the edge's squared length is " + rounded(squared_length(along));
+         ", and the edge's squared length is " + rounded(l2);
 }
 
 std::string least_margin(const Subject& s) {
@@ -139,12 +143,21 @@ std::string degrees(double angle) {
   return std::string(buffer, result.ptr) + "°";
 }
 
+Vec2 middle_of(const Mesh& mesh, const std::array<VertexId, 3>& v) {
+  if (mesh.space().is_plane()) {
+    return (1.0 / 3) * (mesh.position(v[0]) + mesh.position(v[1]) + mesh.position(v[2]));
+  }
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  const Vec3 p = mesh.lifted_point(v[0]) + mesh.lifted_point(v[1]) + mesh.lifted_point(v[2]);
+  return {kDegrees * std::atan2(p.y, p.x), kDegrees * std::atan2(p.z, std::hypot(p.x, p.y))};
+}
+
 WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names) {
   const Subject s{mesh, t, measure_triangle(mesh, t), mesh.corners(t), names};
   WorstTriangle worst;
   worst.triangle = t;
   worst.vertices = s.v;
-  worst.at = (1.0 / 3) * (mesh.position(s.v[0]) + mesh.position(s.v[1]) + mesh.position(s.v[2]));
+  worst.at = middle_of(mesh, s.v);
   worst.h_over_l = s.m.h_over_l[least(s.m.h_over_l)];
   worst.angle_deg = *std::max_element(s.m.angle_deg.begin(), s.m.angle_deg.end());
   worst.why = explain(s);

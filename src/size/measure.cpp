@@ -8,6 +8,7 @@
 
 #include "base/assert.hpp"
 #include "base/sum.hpp"
+#include "geometry/triangle_kernel.hpp"
 #include "mesh/blocks.hpp"
 #include "size/star_area.hpp"
 #include "temper/size.hpp"
@@ -89,8 +90,10 @@ double largest_edge_ratio(const Mesh& mesh, Executor* executor) {
     double largest = 1;
     for (std::size_t t = first; t < last; ++t) {
       const auto [a, b, c] = mesh.corners(TriangleId(t));
-      const Vec2 p = mesh.position(a), q = mesh.position(b), r = mesh.position(c);
-      const auto [low, high] = std::minmax({squared_length(q - p), squared_length(r - q), squared_length(p - r)});
+      const auto between2 = [&](VertexId u, VertexId v) {
+        return edge_measures(mesh.space(), mesh.point(u), mesh.point(v)).l2;
+      };
+      const auto [low, high] = std::minmax({between2(a, b), between2(b, c), between2(c, a)});
       largest = std::max(largest, high / low);
     }
     largest2[first / kLoopBlock] = largest;
@@ -123,6 +126,11 @@ SizeReport measure_size(const Mesh& mesh, const SizeField& field, Executor* exec
   std::vector<double> ratios = std::move(sizes);
   report.outside = static_cast<std::size_t>(blockwise_sum(ratios.size(), executor, [&](std::size_t i) {
     const VertexId v(i);
+    if (!mesh.space().is_plane()) {
+      const VertexId was = near.size() == mesh.n_vertices() ? near[v] : v;
+      ratios[i] /= was.index < field.mesh().n_vertices() ? field.at(was) : ratios[i];
+      return 0.0;
+    }
     const SizeField::Sample s = field.at(mesh.position(v), start_for(v, mesh, field.mesh(), near));
     ratios[i] /= s.size;
     return s.outside ? 1.0 : 0.0;

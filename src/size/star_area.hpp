@@ -19,9 +19,12 @@ struct StarArea {
 
 [[nodiscard]] inline StarArea star_area(const Mesh& mesh, VertexId v) {
   StarArea star;
-  const Vec2 p = mesh.position(v);
+  const WeightedPoint p = mesh.point(v);
   for (const HalfedgeId h : mesh.star(v)) {
-    star.doubled += std::abs(cross(mesh.position(mesh.target(h)) - p, mesh.position(mesh.opposite(h)) - p));
+    const WeightedPoint q = mesh.point(mesh.target(h)), r = mesh.point(mesh.opposite(h));
+    star.doubled += mesh.space().is_plane()
+                        ? std::abs(cross(q.position() - p.position(), r.position() - p.position()))
+                        : length(cross(lifted(q) - lifted(p), lifted(r) - lifted(p)));
     ++star.triangles;
   }
   return star;

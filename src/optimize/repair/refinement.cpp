@@ -49,7 +49,7 @@ std::optional<DelaunayRefinement::Place> DelaunayRefinement::next() {
     if (mesh_.is_erased(t)) continue;
     const auto [a, b, c] = mesh_.corners(t);
     const Vec2 pa = mesh_.position(a), pb = mesh_.position(b), pc = mesh_.position(c);
-    const Vec2 o = orthocenter({pa.x, pa.y, 0}, {pb.x, pb.y, 0}, {pc.x, pc.y, 0});
+    const Vec2 o = orthocenter(WeightedPoint{pa.x, pa.y, 0}, {pb.x, pb.y, 0}, {pc.x, pc.y, 0});
     if (!std::isfinite(o.x) || !std::isfinite(o.y)) continue;
     const double relative = length(o - pa) / size(o);
     if (relative <= worst || refused_.count({o.x, o.y}) > 0) continue;

@@ -165,8 +165,9 @@ TEST(Constructions, AnglesOfATriangleSumToPi) {
 }
 
 TEST(Constructions, SmallAnglesKeepTheirDigits) {
-  EXPECT_DOUBLE_EQ(corner_angle({0, 0}, {1, 0}, {1, 1e-12}), 1e-12);
-  EXPECT_DOUBLE_EQ(corner_angle({0, 0}, {1, 0}, {-1, 0}), std::numbers::pi);
+  const Vec2 p = {0, 0}, q = {1, 0};
+  EXPECT_DOUBLE_EQ(corner_angle(p, q, Vec2{1, 1e-12}), 1e-12);
+  EXPECT_DOUBLE_EQ(corner_angle(p, q, Vec2{-1, 0}), std::numbers::pi);
 }
 
 TEST(Constructions, TheEquilateralTriangleIsAsInTheTextbook) {
@@ -180,8 +181,9 @@ TEST(Constructions, TheEquilateralTriangleIsAsInTheTextbook) {
 }
 
 TEST(Constructions, ALargerWeightMovesTheSplitAwayFromIt) {
-  EXPECT_DOUBLE_EQ(edge_split({0, 0, 1}, {2, 0, 0}), 1.25);
-  EXPECT_DOUBLE_EQ(edge_split({2, 0, 0}, {0, 0, 1}), 0.75);
+  const WeightedPoint p = {0, 0, 1}, q = {2, 0, 0};
+  EXPECT_DOUBLE_EQ(edge_split(p, q), 1.25);
+  EXPECT_DOUBLE_EQ(edge_split(q, p), 0.75);
 }
 
 }  // namespace

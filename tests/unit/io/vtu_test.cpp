@@ -157,7 +157,8 @@ TEST_F(FileTest, vtu_errors_name_the_array_and_its_line) {
   EXPECT_EQ(message("1 0 0", "1 o 0"), "m.vtu:7: expected a number of array '', found 'o'");
   EXPECT_EQ(message("0 1 0", "0 1"), "m.vtu:5: array '' has 8 values, not a multiple of its 3 components");
   EXPECT_EQ(message("0 1 0", "0 1 2"),
-            "m.vtu: point 2 has z = 2, but point 0 has z = 0; expected a mesh in a plane of constant z");
+            "m.vtu: point 2 has z = 2, but point 0 has z = 0; expected a mesh in a plane of constant z, or "
+            "on a sphere around the origin");
   EXPECT_EQ(
       message(">5<", ">9<"),
       "m.vtu: element 0 is a quadrilateral; temper reads meshes of linear triangles, with lines and points as tags");

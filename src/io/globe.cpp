@@ -1,0 +1,90 @@
+#include "io/globe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "io/failure.hpp"
+
+namespace temper::io {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+// Of the radius: what is left of coordinates with seven digits.
+constexpr double kOff = 1e-6;
+
+struct Turn {
+  double cosine, sine;
+};
+
+/// Cosine and sine of degrees, exact at multiples of 90.
+Turn turn_of(double degrees) {
+  const double rest = std::remainder(degrees, 360);  // exact
+  const double quarter = std::nearbyint(rest / 90), angle = (rest - 90 * quarter) * kDegree;
+  const double c = std::cos(angle), s = std::sin(angle);
+  switch ((static_cast<int>(quarter) + 4) % 4) {
+    case 0:
+      return {c, s};
+    case 1:
+      return {-s, c};
+    case 2:
+      return {-c, -s};
+    default:
+      return {s, -c};
+  }
+}
+
+}  // namespace
+
+Vec3 direction_of(Vec2 lon_lat) {
+  const Turn lon = turn_of(lon_lat.x), lat = turn_of(lon_lat.y);
+  if (lat.cosine == 0) return {0, 0, lat.sine};
+  return {lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine};
+}
+
+Vec2 lon_lat_of(Vec3 p) {
+  const double lon = p.x == 0 && p.y == 0 ? 0 : std::atan2(p.y, p.x) / kDegree;
+  return {lon, std::atan2(p.z, std::hypot(p.x, p.y)) / kDegree};
+}
+
+void put_on_sphere(MeshFile& file, double radius, const InputNames& names) {
+  std::vector<Vec3> places;
+  places.reserve(file.points.size());
+  for (std::size_t i = 0; i < file.points.size(); ++i) {
+    const Vec2 p = file.points[i];
+    if (!(std::abs(p.y) <= 90) || !(std::abs(p.x) <= 720)) {
+      fail(ErrorCode::geographic, names.point_where(i),
+           text(names.point(i), " has longitude ", p.x, " and latitude ", p.y,
+                "; expected degrees, a latitude between -90 and 90"));
+    }
+    places.push_back(radius * direction_of(p));
+  }
+  file.sphere_points = std::move(places);
+  file.sphere_radius = radius;
+  file.geographic = false;
+}
+
+void set_sphere(MeshFile& file, double radius, std::vector<Vec3> points) {
+  file.sphere_radius = radius;
+  file.z = 0;
+  file.points.clear();
+  file.points.reserve(points.size());
+  for (const Vec3 p : points) file.points.push_back(lon_lat_of(p));
+  file.sphere_points = std::move(points);
+}
+
+std::optional<double> common_radius(const std::vector<Vec3>& points) {
+  std::vector<double> all;
+  all.reserve(points.size());
+  for (const Vec3 p : points) all.push_back(length(p));
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  const double radius = *middle;
+  const auto off = [radius](double r) { return !(std::abs(r - radius) <= kOff * radius); };
+  if (!(radius > 0) || std::any_of(all.begin(), all.end(), off)) return std::nullopt;
+  // A radius that somebody wrote down has few digits.
+  const double digit = std::pow(10, std::floor(std::log10(radius)) - 11), rounded = digit * std::round(radius / digit);
+  return std::abs(rounded - radius) < 1e-14 * radius ? rounded : radius;
+}
+
+}  // namespace temper::io

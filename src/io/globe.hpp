@@ -1,0 +1,26 @@
+// Files whose points are on a sphere.
+#pragma once
+
+#include "temper/io.hpp"
+
+namespace temper::io {
+
+/// The direction of a longitude and a latitude [degrees], exactly on the axes: of a pole there is one.
+[[nodiscard]] Vec3 direction_of(Vec2 lon_lat);
+/// Longitude, above −180 and up to 180, and latitude of a direction [degrees].
+[[nodiscard]] Vec2 lon_lat_of(Vec3 direction);
+
+/// Puts points, which are degrees, onto the sphere. Fails where a latitude is none.
+void put_on_sphere(MeshFile& file, double radius, const InputNames& names);
+/// Makes a file of points in space one of points on the sphere.
+void set_sphere(MeshFile& file, double radius, std::vector<Vec3> points);
+
+/// The radius that all points have, to one part in a million; nothing where they have none in common.
+[[nodiscard]] std::optional<double> common_radius(const std::vector<Vec3>& points);
+
+/// Where a point is, in three coordinates.
+[[nodiscard]] inline Vec3 place_of(const MeshFile& file, std::size_t point) {
+  return file.sphere_radius > 0 ? file.sphere_points[point] : Vec3{file.points[point].x, file.points[point].y, file.z};
+}
+
+}  // namespace temper::io

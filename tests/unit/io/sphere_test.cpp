@@ -1,0 +1,192 @@
+// Files whose points are on a sphere: in three coordinates, and in degrees.
+#include "temper/generate.hpp"
+#include "unit/io/support.hpp"
+
+namespace temper::io {
+namespace {
+
+class SphereFiles : public FileTest {};
+
+MeshFile globe(double radius = 6371220) {
+  const auto mesh = icosahedral({.level = 2, .radius = radius});
+  EXPECT_TRUE(mesh) << mesh.error().what();
+  return from_mesh(*mesh);
+}
+
+MeshFile read_back(const std::string& path) {
+  auto file = read(path);
+  EXPECT_TRUE(file) << file.error().what();
+  return *std::move(file);
+}
+
+TEST_F(SphereFiles, EveryFormatHasTheirPlacesOrSaysThatItCannot) {
+  MeshFile file = globe();
+  file.weights.assign(file.points.size(), 0);
+  int in_space = 0, in_degrees = 0, refused = 0;
+  for (const Format& format : formats()) {
+    if (!format.writes) continue;
+    SCOPED_TRACE(format.name);
+    const std::string to =
+        path(std::string("globe") + std::string(format.suffixes.substr(0, format.suffixes.find(' '))));
+    const auto written = write(to, file, {std::string(format.name), {}});
+    if (!written) {
+      EXPECT_NE(written.error().what().find("points are on a sphere, which "), std::string::npos)
+          << written.error().what();
+      EXPECT_TRUE(files().empty());
+      ++refused;
+      continue;
+    }
+    const MeshFile back = read_back(to);
+    EXPECT_EQ(back.triangles, file.triangles);
+    if (format.name == "fesom") {
+      ++in_degrees;
+      EXPECT_EQ(back.points, file.points);
+      EXPECT_EQ(back.sphere_radius, 6371000);
+    } else {
+      ++in_space;
+      EXPECT_EQ(back.sphere_points, file.sphere_points);
+      EXPECT_EQ(back.sphere_radius, 6371220);
+    }
+    const auto made = make_mesh(back);
+    ASSERT_TRUE(made) << made.error().what();
+    EXPECT_FALSE(made->mesh.validate());
+    EXPECT_EQ(made->mesh.space().radius(), back.sphere_radius);
+    for (const std::string& name : files()) std::filesystem::remove(path(name));
+  }
+  EXPECT_EQ(in_space, 8);
+  EXPECT_EQ(in_degrees, 1);
+  EXPECT_GT(refused, 2);
+}
+
+TEST_F(SphereFiles, WeightsComeBack) {
+  MeshFile file = globe(1);
+  for (std::size_t i = 0; i < file.points.size(); ++i) file.weights[i] = 1e-3 * static_cast<double>(i % 5);
+  ASSERT_TRUE(write(path("globe.vtu"), file));
+  const MeshFile back = read_back(path("globe.vtu"));
+  EXPECT_EQ(back.weights, file.weights);
+  const auto made = make_mesh(back);
+  ASSERT_TRUE(made);
+  for (const VertexId v : made->mesh.vertices()) EXPECT_NEAR(made->mesh.weight(v), file.weights[v.index], 1e-15);
+  // Of vertices that have not moved the coordinates are written as they came.
+  MeshFile again = back;
+  update(again, *made, made->mesh);
+  EXPECT_EQ(again.sphere_points, back.sphere_points);
+}
+
+TEST_F(SphereFiles, FesomKeepsDegreesOfWhatHasNotMoved) {
+  make("x.nod2d.out", "5\n1 299.5 10 1\n2 310 10 1\n3 -50 -20.25 1\n4 300 -20 1\n5 304 -3 0\n");
+  make("x.elem2d.out", "4\n1 5 2\n2 5 3\n3 5 4\n4 5 1\n");
+  MeshFile file = read_back(path("x.elem2d.out"));
+  EXPECT_EQ(file.format, "fesom");
+  auto made = make_mesh(file);
+  ASSERT_TRUE(made) << made.error().what();
+  Mesh mesh = made->mesh;
+  const VertexId inner(4);
+  const Vec3 p = mesh.lifted_point(inner);
+  mesh.set_point(inner, as_point({p.x, p.y, p.z + 1000}));
+  mesh.set_weight(VertexId(1), 5e8);
+  update(file, *made, mesh);
+  ASSERT_TRUE(write(path("y.nod2d.out"), file));
+  const std::string written = slurp(path("y.nod2d.out"));
+  EXPECT_EQ(written.substr(0, written.find("5 304")), "5\n1 299.5 10 1\n2 310 10 1\n3 -50 -20.25 1\n4 300 -20 1\n");
+  EXPECT_NE(written.find("\n5 304"), std::string::npos) << written;  // from 0 to 360, as it was
+  EXPECT_EQ(slurp(path("y.elem2d.out")), "4\n1 2 5\n2 3 5\n3 4 5\n4 1 5\n");
+  EXPECT_NE(slurp(path("y.nod2d.out.weights.csv")).find("5"), std::string::npos);
+}
+
+TEST_F(SphereFiles, FesomMarksTheCoastAndCarriesDepths) {
+  const auto whole = icosahedral({.level = 1});
+  ASSERT_TRUE(whole);
+  MeshFile file = from_mesh(*whole);
+  file.triangles.erase(file.triangles.begin());
+  file.point_data.push_back({"depth", 1, std::vector<double>(file.points.size(), -4000)});
+  file.field_data.push_back({"levels", 1, std::vector<double>{0, -10, -5000}});
+  ASSERT_TRUE(write(path("nod2d.out"), file));
+  EXPECT_EQ(files(), (std::vector<std::string>{"aux3d.out", "elem2d.out", "nod2d.out"}));
+  const MeshFile back = read_back(path("nod2d.out"));
+  ASSERT_EQ(back.point_data.size(), 2U);
+  const auto& flags = std::get<std::vector<std::int32_t>>(back.point_data[0].values);
+  EXPECT_EQ(std::count(flags.begin(), flags.end(), 1), 3);
+  EXPECT_EQ(back.point_data[1].name, "depth");
+  EXPECT_EQ(back.field_data[0].name, "levels");
+}
+
+TEST_F(SphereFiles, DegreesGoOntoTheSphereAndOntoMaps) {
+  MeshFile file;
+  file.points = {{0, 0}, {90, 0}, {0, 90}, {180, 0}, {-90, 0}, {0, -90}};
+  file.triangles = {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {4, 0, 2}, {1, 0, 5}, {3, 1, 5}, {4, 3, 5}, {0, 4, 5}};
+  file.geographic = true;
+  MeshFile sphere = file;
+  ASSERT_TRUE(project(sphere, "sphere:radius=2"));
+  EXPECT_EQ(sphere.sphere_points[1], (Vec3{0, 2, 0}));  // exactly, on the axes
+  EXPECT_EQ(sphere.sphere_points[2], (Vec3{0, 0, 2}));
+  EXPECT_EQ(sphere.sphere_points[3], (Vec3{-2, 0, 0}));
+  const auto made = make_mesh(sphere);
+  ASSERT_TRUE(made) << made.error().what();
+  ASSERT_TRUE(project(sphere, "none"));
+  EXPECT_EQ(sphere.sphere_radius, 0);
+  EXPECT_EQ(sphere.points, file.points);
+  for (const char* words : {"sphere:radius=0", "sphere:radius=x", "sphere:", "spheres"}) {
+    const auto projected = project(file, words);
+    ASSERT_FALSE(projected) << words;
+    EXPECT_EQ(projected.error().code, ErrorCode::invalid_option);
+  }
+}
+
+TEST_F(SphereFiles, WhatIsWrongIsNamedByFileAndLine) {
+  const std::string octahedron = "v 1 0 0\nv 0 1 0\nv 0 0 1\nv -1 0 0\nv 0 -1 0\n";
+  const std::string faces = "f 1 2 3\nf 2 4 3\nf 4 5 3\nf 5 1 3\nf 2 1 6\nf 4 2 6\nf 5 4 6\nf 1 5 6\n";
+  const auto obj = [&](const std::string& content) {
+    auto file = read(make("m.obj", content));
+    if (!file) return plain(file.error().what());
+    const auto made = make_mesh(*file);
+    return made ? std::string() : plain(made.error().what());
+  };
+  EXPECT_EQ(obj(octahedron + "v 0 0 -1\n" + faces), "");
+  EXPECT_EQ(
+      obj(octahedron + "v 0 0 -1.01\n" + faces),
+      "m.obj:3: point 3 has z = 1, but point 1 has z = 0; expected a mesh in a plane of constant z, or on a sphere "
+      "around the origin");
+  EXPECT_EQ(obj(octahedron + "v 0 0 1\n" + faces).substr(0, 48), "m.obj:6: point 3 and point 6 are both at (0, 0, ");
+  EXPECT_EQ(obj(octahedron + "v 0 0 -1\nf 1 4 3\n" + faces),
+            "m.obj:7: triangle 1 has zero area: its corners point 1, point 4 and point 3 are on one great circle");
+  EXPECT_EQ(obj(octahedron + "v 0 0 nan\n" + faces), "m.obj:6: point 6 has z = nan, expected a finite number");
+
+  const auto fesom = [&](const std::string& points, const std::string& triangles) {
+    std::filesystem::remove(path("elem2d.out"));
+    if (!triangles.empty()) make("elem2d.out", triangles);
+    auto file = read(make("nod2d.out", points));
+    if (!file) return plain(file.error().what());
+    const auto made = make_mesh(*file);
+    return made ? std::string() : plain(made.error().what());
+  };
+  EXPECT_EQ(fesom("3\n1 0 0 1\n2 10 0 1\n3 0 10 1\n", "1\n1 2 3\n"), "");
+  EXPECT_EQ(fesom("3\n1 0 0 1\n2 10 0 1\n3 0 90.5 1\n", "1\n1 2 3\n"),
+            "nod2d.out:4: point 3 has longitude 0 and latitude 90.5; expected degrees, a latitude between -90 and 90");
+  EXPECT_EQ(fesom("3\n1 0 0 1\n3 10 0 1\n3 0 10 1\n", "1\n1 2 3\n"), "nod2d.out:3: expected point 2, found point 3");
+  EXPECT_EQ(fesom("3\n1 0 0 1\n2 10 0 1\n3 0 10 1\n", "1\n1 2 4\n"),
+            "elem2d.out:2: triangle 1 uses vertex 4, but the file has 3 vertices, numbered from 1");
+  EXPECT_EQ(fesom("4\n1 0 0 1\n2 10 0 1\n3 0 90 1\n4 50 90 1\n", "2\n1 2 3\n2 4 1\n").substr(0, 59),
+            "nod2d.out:5: point 3 and point 4 are both at (0, 0, 6371000");
+  EXPECT_EQ(fesom("3\n1 0 0 1\n2 10 0 1\n3 0 10 1\n", ""),
+            "nod2d.out: is the points of a FESOM mesh; its triangles are expected in elem2d.out, which does not exist");
+  // 180 and −180, and longitudes in both conventions, are the same places.
+  EXPECT_EQ(fesom("4\n1 170 0 1\n2 180 10 1\n3 -170 0 1\n4 540 -10 1\n", "2\n1 3 2\n1 4 3\n"), "");
+}
+
+TEST_F(SphereFiles, MpasGlobesAreRead) {
+  const std::string file = TEMPER_SHARED "/meshes/sphere/mpas_QU1920km.nc";
+  if (!std::filesystem::exists(file) || netcdf_version().empty()) GTEST_SKIP() << "not there";
+  const MeshFile mpas = read_back(file);
+  EXPECT_EQ(mpas.points.size(), 162U);
+  const auto made = make_mesh(mpas);
+  ASSERT_TRUE(made) << made.error().what();
+  EXPECT_EQ(made->mesh.n_triangles(), 320U);
+  EXPECT_EQ(made->reversed_triangles, 0U);
+  const auto written = write(path("x.mpas.nc"), mpas);
+  ASSERT_FALSE(written);
+  EXPECT_NE(written.error().what().find("expected one of vtu,"), std::string::npos) << written.error().what();
+}
+
+}  // namespace
+}  // namespace temper::io
