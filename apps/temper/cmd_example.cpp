@@ -108,7 +108,7 @@ void add_radius(Command& command, double& radius) {
 
 void add_icosahedral(Command& command, ExampleSettings& s) {
   add_count(command, "--level", s.icosahedral.level, 0,
-            "how often triangles are cut into four: 10 · 4^level + 2 vertices");
+            "how often triangles are cut into four: 10 4^level + 2 vertices");
   add_radius(command, s.icosahedral.radius);
 }
 

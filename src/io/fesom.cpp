@@ -96,8 +96,9 @@ class FesomReader {
     const std::size_t n = scanner.count("triangles", 6);
     for (std::size_t i = 0; i < n; ++i) {
       document_.names->triangles.push_back(static_cast<std::int64_t>(i) + 1);
+      const std::int32_t a = scanner.vertex(1);
       document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner.line()));
-      const std::int32_t a = scanner.vertex(1), b = scanner.vertex(1);
+      const std::int32_t b = scanner.vertex(1);
       document_.file.triangles.push_back({a, b, scanner.vertex(1)});
     }
   }
@@ -177,10 +178,6 @@ bool fesom_keeps(ArraysOf of, const DataArray& array) {
 
 void write_fesom(const WriteJob& job) {
   const MeshFile& f = job.file;
-  if (f.sphere_radius == 0 && !f.geographic) {
-    fail(ErrorCode::unsupported, job.path,
-         "FESOM has points in longitude and latitude; expected a mesh of the sphere, or one that was read in degrees");
-  }
   const std::string base = fesom_base(job.path);
   Output& points = job.outputs.open(base + std::string(kPoints));
   const std::vector<std::int32_t> flags = flags_of(f);

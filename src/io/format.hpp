@@ -41,6 +41,7 @@ inline constexpr Contents kInSpace = kZ | kSphere;
 enum class Degrees {
   as_they_came,  ///< those that were read in degrees
   where_known,   ///< those in the plane, too, that have longitude and latitude as data
+  always,        ///< no others
   by_writer,     ///< the writer needs the plane for orthocenters, and sees to degrees itself
 };
 

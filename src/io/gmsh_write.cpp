@@ -81,6 +81,7 @@ class GmshWriter {
  private:
   void physical_names();
   void entities();
+  void put_place(std::size_t point);
   void nodes();
   void elements_2();
   void elements_4();
@@ -167,10 +168,11 @@ void GmshWriter::physical_names() {
 
 std::array<double, 6> GmshWriter::bounding_box() const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::array<double, 6> box = {kInfinity, kInfinity, file_.z, -kInfinity, -kInfinity, file_.z};
-  for (const Vec2 p : file_.points) {
-    box[0] = std::min(box[0], p.x), box[1] = std::min(box[1], p.y);
-    box[3] = std::max(box[3], p.x), box[4] = std::max(box[4], p.y);
+  std::array<double, 6> box = {kInfinity, kInfinity, kInfinity, -kInfinity, -kInfinity, -kInfinity};
+  for (std::size_t i = 0; i < file_.points.size(); ++i) {
+    const Vec3 p = place_of(file_, i);
+    box[0] = std::min(box[0], p.x), box[1] = std::min(box[1], p.y), box[2] = std::min(box[2], p.z);
+    box[3] = std::max(box[3], p.x), box[4] = std::max(box[4], p.y), box[5] = std::max(box[5], p.z);
   }
   return box;
 }
@@ -195,6 +197,12 @@ void GmshWriter::entities() {
   out_.put("$EndEntities\n", "");
 }
 
+void GmshWriter::put_place(std::size_t point) {
+  const Vec3 p = place_of(file_, point);
+  put(p.x), put(p.y), put(p.z);
+  end_line();
+}
+
 void GmshWriter::nodes() {
   const std::size_t n = file_.points.size();
   out_.put("$Nodes\n", "");
@@ -202,9 +210,7 @@ void GmshWriter::nodes() {
     out_.put(n, '\n');
     for (std::size_t i = 0; i < n; ++i) {
       put(static_cast<std::int32_t>(i + 1));
-      const Vec3 p = place_of(file_, i);
-      put(p.x), put(p.y), put(p.z);
-      end_line();
+      put_place(i);
     }
   } else {
     for (const std::uint64_t v : {std::uint64_t{1}, std::uint64_t{n}, std::uint64_t{1}, std::uint64_t{n}}) put(v);
@@ -214,7 +220,7 @@ void GmshWriter::nodes() {
     put(std::int32_t{2}), put(surface), put(std::int32_t{0}), put(std::uint64_t{n});
     end_line();
     for (std::size_t i = 0; i < n; ++i) put(std::uint64_t{i + 1}), end_line();
-    for (const Vec2 p : file_.points) put(p.x), put(p.y), put(file_.z), end_line();
+    for (std::size_t i = 0; i < n; ++i) put_place(i);
   }
   end_section();
   out_.put("$EndNodes\n", "");

@@ -95,7 +95,7 @@ constexpr FormatRow kRows[] = {
     {"vtk51", "legacy VTK 5.1", ".vtk51", kAll | kSphere, sniff_vtk51, read_legacy_vtk, write_vtk51},
     {"mfem", "MFEM mesh v1.0", ".mesh", 0, sniff_mfem, read_mfem, nullptr},
     {"fesom", "FESOM nod2d.out and elem2d.out", ".nod2d.out .elem2d.out nod2d.out elem2d.out", kSphere, sniff_fesom,
-     read_fesom, write_fesom, fesom_keeps, fesom_files},
+     read_fesom, write_fesom, fesom_keeps, fesom_files, 1, "", Degrees::always},
     {"triangle", "Triangle", ".node .ele", kAll & ~(kLineData | kMarkedPointData | kFieldData), sniff_triangle,
      read_triangle, write_triangle, nullptr, triangle_files},
     {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll, sniff_mpas, read_mpas, write_mpas, nullptr, netcdf_files, 1, "",
@@ -293,6 +293,12 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
     OutputSet outputs;
     const bool turned = goes_back_to_degrees(row, file);
     const MeshFile degrees = turned ? in_degrees(file) : MeshFile();
+    if (row.degrees == Degrees::always && file.sphere_radius == 0 && !turned && !file.geographic) {
+      fail(ErrorCode::unsupported, path,
+           text(row.description,
+                " has points in longitude and latitude; expected a mesh of the sphere, or one that was "
+                "read in degrees"));
+    }
     const WriteJob job = {path, turned ? degrees : file, row, options.encoding, options.executor, outputs, warnings};
     if (turned) warn_of_weights_beside_degrees(job, file);
     row.write(job);

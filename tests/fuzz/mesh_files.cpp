@@ -1,19 +1,33 @@
 // Readers and writers of meshes, a target for each row of formats(): what is read is a mesh or an error with a message;
 // what a mesh was read from can be written in every format, and read again.
 #include "target.hpp"
+#include "temper/generate.hpp"
 #include "unit/io/support.hpp"
 
 namespace temper::fuzz {
 namespace {
 
-// Triangle's meshes are two files, here one after the other.
+// Meshes of these are two files, here one after the other.
 constexpr char kBetweenFiles = '\f';
+struct Pair {
+  std::string_view format, points, triangles;
+};
+constexpr Pair kPairs[] = {{"triangle", "m.node", "m.ele"}, {"fesom", "m.nod2d.out", "m.elem2d.out"}};
+
+/// The name of the file of points, or of the file; the other one is empty where there is none.
+Pair names_of(std::string_view format) {
+  for (const Pair& pair : kPairs) {
+    if (pair.format == format) return pair;
+  }
+  return {format, "m", {}};
+}
 
 std::string place(const Scratch& scratch, std::string_view format, std::string_view bytes) {
-  if (format != "triangle") return scratch.make("m", bytes);
+  const Pair names = names_of(format);
+  if (names.triangles.empty()) return scratch.make("m", bytes);
   const std::size_t cut = std::min(bytes.find(kBetweenFiles), bytes.size());
-  static_cast<void>(scratch.make("m.ele", bytes.substr(std::min(cut + 1, bytes.size()))));
-  return scratch.make("m.node", bytes.substr(0, cut));
+  static_cast<void>(scratch.make(std::string(names.triangles), bytes.substr(std::min(cut + 1, bytes.size()))));
+  return scratch.make(std::string(names.points), bytes.substr(0, cut));
 }
 
 void insist_on_message(const InputError& error) {
@@ -33,7 +47,7 @@ const io::Format& chosen_format(std::string_view bytes) {
 }
 
 void write_and_read_again(const Scratch& scratch, const io::MeshFile& file, const io::Format& format) {
-  const std::string out = scratch.path(format.name == "triangle" ? "out.node" : "out");
+  const std::string out = scratch.path("out" + std::string(names_of(format.name).points).substr(1));
   const auto written = io::write(out, file, {std::string(format.name), {}});
   if (!written) return insist_on_message(written.error());
   const auto again = io::read(out);
@@ -63,12 +77,15 @@ std::vector<std::string> seeds(const io::Format& format) {
   }
   const Scratch scratch;
   std::vector<std::string> all;
-  const std::string out = scratch.path(format.name == "triangle" ? "m.node" : "m");
-  for (const auto& file : {io::tamed(io::sample()), io::tamed(io::rich_sample())}) {
+  const Pair names = names_of(format.name);
+  const std::string out = scratch.path(std::string(names.points));
+  io::MeshFile globe = io::from_mesh(*icosahedral({.level = 1}));
+  globe.triangles.pop_back();
+  for (const auto& file : {io::tamed(io::sample()), io::tamed(io::rich_sample()), globe}) {
     for (const auto encoding : {io::Encoding::ascii, io::Encoding::base64, io::Encoding::appended}) {
       if (!io::write(out, file, {std::string(format.name), encoding})) continue;
       std::string bytes = io::slurp(out);
-      if (format.name == "triangle") bytes += kBetweenFiles + io::slurp(scratch.path("m.ele"));
+      if (!names.triangles.empty()) bytes += kBetweenFiles + io::slurp(scratch.path(std::string(names.triangles)));
       if (std::find(all.begin(), all.end(), bytes) == all.end()) all.push_back(std::move(bytes));
     }
   }

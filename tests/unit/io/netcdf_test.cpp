@@ -405,9 +405,12 @@ TEST_F(NetcdfFormats, what_is_no_planar_mesh_of_triangles_is_named) {
                         d = nc.add_dimension("vertexDegree", 3);
               nc.say(NC_GLOBAL, "on_a_sphere", "YES");
               nc.add<double>("xCell", {n}, {0, 1, 0});
+              nc.add<double>("yCell", {n}, {0, 0, 1});
+              nc.add<double>("zCell", {n}, {0, 0, 2});
               nc.add<std::int32_t>("cellsOnVertex", {v, d}, {1, 2, 3});
             }),
-            "o.nc: is an MPAS mesh on a sphere; temper reads meshes in the plane");
+            "o.nc: point 3 has z = 2, but point 1 has z = 0; expected a mesh in a plane of constant z, or on a sphere "
+            "around the origin");
   EXPECT_EQ(refused([](Nc& nc) {
               const int n = nc.add_dimension("n", 4), f = nc.add_dimension("f", 1), d = nc.add_dimension("four", 4);
               nc.add<double>("x", {n}, {0, 1, 1, 0});

@@ -160,8 +160,7 @@ TEST_P(RemovedVertices, the_others_keep_their_data_tags_and_weights) {
 std::vector<std::string> written_formats() {
   std::vector<std::string> names;
   for (const Format& format : formats()) {
-    const bool netcdf = format.name == "mpas" || format.name == "ugrid";
-    if (format.writes && (TEMPER_NETCDF || !netcdf)) names.emplace_back(format.name);
+    if (writes_planes(format)) names.emplace_back(format.name);
   }
   return names;
 }

@@ -126,9 +126,9 @@ std::vector<Case> cases() {
     const std::string name(format.name), suffix(format.suffixes.substr(0, format.suffixes.find(' ')));
     const bool tags = (row.holds & kAllTags) == kAllTags;
     for (const auto& [encoding, value] : kEncodings) {
-      if (format.writes)
-        cases.push_back({name + encoding, name, "m" + suffix, value, (row.holds & kZ) != 0, tags,
-                         name == "mpas" || name == "ugrid"});
+      if (format.writes && row.degrees != Degrees::always)
+        cases.push_back(
+            {name + encoding, name, "m" + suffix, value, (row.holds & kZ) != 0, tags, needs_netcdf(format)});
     }
   }
   return cases;

@@ -31,6 +31,13 @@ inline void spill(const std::string& path, std::string_view bytes) {
   ASSERT_TRUE(out.good()) << path;
 }
 
+inline bool needs_netcdf(const Format& format) { return format.name == "mpas" || format.name == "ugrid"; }
+
+/// Whether temper writes meshes of the plane in it: FESOM has none but in degrees.
+inline bool writes_planes(const Format& format) {
+  return format.writes && format.name != "fesom" && (!needs_netcdf(format) || !netcdf_version().empty());
+}
+
 /// A test with a folder that is removed afterwards.
 class FileTest : public ::testing::Test {
  protected:
