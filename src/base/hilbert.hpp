@@ -46,8 +46,8 @@ inline std::uint64_t cube_hilbert_index(Vec3 p) {
     constexpr double kCells = static_cast<double>(1u << kHilbertBits) - 1;
     return static_cast<std::uint32_t>(0.5 * (t / std::abs(up) + 1) * kCells);
   };
-  const auto face = static_cast<std::uint64_t>(axis + (up < 0 ? 3 : 0));
-  return (face << (2 * kHilbertBits)) + hilbert_index(cell(u), cell(v));
+  const auto face = static_cast<unsigned>(axis) + (up < 0 ? 3u : 0u);
+  return (std::uint64_t{face} << (2 * kHilbertBits)) + hilbert_index(cell(u), cell(v));
 }
 
 /// The grid of cells over a box.

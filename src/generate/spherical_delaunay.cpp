@@ -99,17 +99,19 @@ Expected<Mesh> helpers(double radius) {
 }  // namespace
 
 Expected<Mesh> spherical_delaunay(std::span<const Vec3> points, double radius) {
-  auto tetrahedron = helpers(radius);
-  if (!tetrahedron) return tetrahedron.error();
-  SphereInserter inserter(*std::move(tetrahedron), points.size());
-  for (const std::uint32_t i : generate::insertion_order(points)) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
     const double distance = length(points[i]);
     if (!(distance > 0) || !std::isfinite(distance)) {
       return InputError{
           ErrorCode::not_on_sphere, "",
           "point " + std::to_string(i) + " at " + place(points[i]) + " has no direction from the center of the sphere"};
     }
-    if (const auto there = inserter.insert(i, radius / distance * points[i])) {
+  }
+  auto tetrahedron = helpers(radius);
+  if (!tetrahedron) return tetrahedron.error();
+  SphereInserter inserter(*std::move(tetrahedron), points.size());
+  for (const std::uint32_t i : generate::insertion_order(points)) {
+    if (const auto there = inserter.insert(i, radius / length(points[i]) * points[i])) {
       const auto [low, high] = std::minmax({inserter.number(*there), i});
       return InputError{ErrorCode::duplicate_point, "",
                         "points " + std::to_string(low) + " and " + std::to_string(high) +

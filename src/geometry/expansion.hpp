@@ -87,6 +87,7 @@ class Expansion {
     for (int i = 0; i < size_; ++i) terms_[i] = other.terms_[i];
     return *this;
   }
+  ~Expansion() = default;
 
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] double operator[](int i) const { return terms_[i]; }

@@ -67,6 +67,7 @@ void warn_of_arrays(const WriteJob& job, std::string_view kind, const std::vecto
 void warn_of_names(const WriteJob& job, const std::vector<PhysicalName>& lost) {
   if (lost.empty()) return;
   std::vector<std::string_view> names;
+  names.reserve(lost.size());
   for (const PhysicalName& n : lost) names.push_back(n.name);
   job.warn(text("physical names are", has_no_place_for(job, "them: "), list_of(names)));
 }

@@ -43,7 +43,8 @@ Keys keys_in_plane(const Mesh& mesh, Executor* executor) {
 /// The vertices, sorted along the curve; equal cells by number. A counting sort by the leading digits of the place
 /// along the curve, about as many buckets as vertices, and a sort of what is in each.
 IdVector<VertexId, VertexId> vertices_by_hilbert(const Mesh& mesh, Executor* executor) {
-  const auto [keys, bits] = mesh.space().is_plane() ? keys_in_plane(mesh, executor) : keys_on_sphere(mesh, executor);
+  const auto [of, bits] = mesh.space().is_plane() ? keys_in_plane(mesh, executor) : keys_on_sphere(mesh, executor);
+  const IdVector<VertexId, std::uint64_t>& keys = of;  // lambdas may not capture structured bindings before clang 16
   const std::size_t n = mesh.n_vertices();
   const int digits = std::min(static_cast<int>(std::bit_width(n)), bits);
   const auto bucket = [shift = bits - digits](std::uint64_t key) { return key >> shift; };
@@ -56,7 +57,7 @@ IdVector<VertexId, VertexId> vertices_by_hilbert(const Mesh& mesh, Executor* exe
     const auto first = order.begin() + (b == 0 ? 0 : start[b - 1]), last = order.begin() + start[b];
     if (last - first > 1) {
       std::sort(first, last,
-                [&keys = keys](VertexId u, VertexId v) { return keys[u] != keys[v] ? keys[u] < keys[v] : u < v; });
+                [&keys](VertexId u, VertexId v) { return keys[u] != keys[v] ? keys[u] < keys[v] : u < v; });
     }
   });
   return order;

@@ -23,6 +23,7 @@ void sort_unique(std::vector<VertexId>& vertices) {
 
 std::vector<VertexId> reflex_ends(const Mesh& mesh, const std::vector<HalfedgeId>& stuck) {
   std::vector<VertexId> ends;
+  ends.reserve(stuck.size());
   for (const HalfedgeId h : stuck) ends.push_back(reflex_end(mesh, h));
   sort_unique(ends);
   return ends;
