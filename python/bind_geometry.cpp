@@ -1,4 +1,6 @@
 // Predicates and constructions, over arrays: geometry.hpp, and the maps of projection.hpp.
+#include <tuple>
+
 #include "bind.hpp"
 #include "temper/geometry.hpp"
 #include "temper/projection.hpp"
@@ -31,6 +33,19 @@ py::array over(const std::array<Doubles, n>& arrays, const F& f) {
   return result;
 }
 
+/// f(a_i, b_i, …) for points of the plane, or for lifted points of the sphere.
+template <class Value, std::size_t n, class F>
+py::array in_space(bool sphere, const std::array<Doubles, n>& arrays, const F& f) {
+  if (sphere) {
+    return over<Value, n>(arrays, [&f](const auto& points, std::size_t i) {
+      return std::apply([&f, i](const auto&... p) { return f(lifted(p[i])...); }, points);
+    });
+  }
+  return over<Value, n>(arrays, [&f](const auto& points, std::size_t i) {
+    return std::apply([&f, i](const auto&... p) { return f(p[i]...); }, points);
+  });
+}
+
 std::int8_t as_number(Sign sign) { return static_cast<std::int8_t>(sign); }
 
 void bind_predicates(py::module_& m) {
@@ -39,47 +54,50 @@ void bind_predicates(py::module_& m) {
       return as_number(orient2d(p[0][i].position(), p[1][i].position(), p[2][i].position()));
     });
   });
-  m.def("power_test", [](const Doubles& a, const Doubles& b, const Doubles& c, const Doubles& d) {
-    return over<std::int8_t, 4>({a, b, c, d}, [](const auto& p, std::size_t i) {
-      return as_number(power_test(p[0][i], p[1][i], p[2][i], p[3][i]));
+  m.def("orientation", [](const Doubles& a, const Doubles& b, const Doubles& c, bool sphere) {
+    // Which sphere it is does not matter.
+    const Space space = sphere ? Space::sphere(1) : Space();
+    return over<std::int8_t, 3>({a, b, c}, [space](const auto& p, std::size_t i) {
+      return as_number(orientation(space, p[0][i], p[1][i], p[2][i]));
     });
   });
-  m.def("power_test_perturbed", [](const Doubles& a, const Doubles& b, const Doubles& c, const Doubles& d,
-                                   const py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>& index) {
-    const auto indices = as_span<std::array<std::uint32_t, 4>>(index);
-    if (indices.size() * 3 != static_cast<std::size_t>(a.size())) throw py::value_error("arrays of different lengths");
-    return over<std::int8_t, 4>({a, b, c, d}, [indices](const auto& p, std::size_t i) {
-      return as_number(power_test_perturbed(p[0][i], p[1][i], p[2][i], p[3][i], indices[i]));
-    });
+  m.def("power_test", [](const Doubles& a, const Doubles& b, const Doubles& c, const Doubles& d, bool sphere) {
+    return in_space<std::int8_t, 4>(sphere, {a, b, c, d}, [](const auto&... p) { return as_number(power_test(p...)); });
   });
-  m.def("signed_height_sign", [](const Doubles& a, const Doubles& b, const Doubles& c) {
-    return over<std::int8_t, 3>({a, b, c}, [](const auto& p, std::size_t i) {
-      return as_number(signed_height_sign(p[0][i], p[1][i], p[2][i]));
-    });
+  m.def("power_test_perturbed",
+        [](const Doubles& a, const Doubles& b, const Doubles& c, const Doubles& d,
+           const py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>& index, bool sphere) {
+          const auto indices = as_span<std::array<std::uint32_t, 4>>(index);
+          if (indices.size() * 3 != static_cast<std::size_t>(a.size()))
+            throw py::value_error("arrays of different lengths");
+          const Space space = sphere ? Space::sphere(1) : Space();
+          return over<std::int8_t, 4>({a, b, c, d}, [space, indices](const auto& p, std::size_t i) {
+            return as_number(power_test_perturbed(space, p[0][i], p[1][i], p[2][i], p[3][i], indices[i]));
+          });
+        });
+  m.def("signed_height_sign", [](const Doubles& a, const Doubles& b, const Doubles& c, bool sphere) {
+    return in_space<std::int8_t, 3>(sphere, {a, b, c},
+                                    [](const auto&... p) { return as_number(signed_height_sign(p...)); });
   });
-  m.def("edge_split_sign", [](const Doubles& a, const Doubles& b) {
-    return over<std::int8_t, 2>(
-        {a, b}, [](const auto& p, std::size_t i) { return as_number(edge_split_sign(p[0][i], p[1][i])); });
+  m.def("edge_split_sign", [](const Doubles& a, const Doubles& b, bool sphere) {
+    return in_space<std::int8_t, 2>(sphere, {a, b}, [](const auto&... p) { return as_number(edge_split_sign(p...)); });
   });
-  m.def("is_well_centered", [](const Doubles& a, const Doubles& b, const Doubles& c) {
-    return over<bool, 3>({a, b, c},
-                         [](const auto& p, std::size_t i) { return is_well_centered(p[0][i], p[1][i], p[2][i]); });
+  m.def("is_well_centered", [](const Doubles& a, const Doubles& b, const Doubles& c, bool sphere) {
+    return in_space<bool, 3>(sphere, {a, b, c}, [](const auto&... p) { return is_well_centered(p...); });
   });
   m.def("is_exact_coordinate", [](double x) { return is_exact_coordinate(x); });
   m.def("is_exact_weight", [](double w) { return is_exact_weight(w); });
 }
 
 void bind_constructions(py::module_& m) {
-  m.def("orthocenter", [](const Doubles& a, const Doubles& b, const Doubles& c) {
-    return over<double, 3>({a, b, c},
-                           [](const auto& p, std::size_t i) { return orthocenter(p[0][i], p[1][i], p[2][i]); });
+  m.def("orthocenter", [](const Doubles& a, const Doubles& b, const Doubles& c, bool sphere) {
+    return in_space<double, 3>(sphere, {a, b, c}, [](const auto&... p) { return orthocenter(p...); });
   });
-  m.def("edge_split", [](const Doubles& a, const Doubles& b) {
-    return over<double, 2>({a, b}, [](const auto& p, std::size_t i) { return edge_split(p[0][i], p[1][i]); });
+  m.def("edge_split", [](const Doubles& a, const Doubles& b, bool sphere) {
+    return in_space<double, 2>(sphere, {a, b}, [](const auto&... p) { return edge_split(p...); });
   });
-  m.def("signed_height", [](const Doubles& a, const Doubles& b, const Doubles& c) {
-    return over<double, 3>({a, b, c},
-                           [](const auto& p, std::size_t i) { return signed_height(p[0][i], p[1][i], p[2][i]); });
+  m.def("signed_height", [](const Doubles& a, const Doubles& b, const Doubles& c, bool sphere) {
+    return in_space<double, 3>(sphere, {a, b, c}, [](const auto&... p) { return signed_height(p...); });
   });
   m.def("scaled_heights", [](const Doubles& a, const Doubles& b, const Doubles& c) {
     return over<double, 3>({a, b, c},
@@ -90,9 +108,19 @@ void bind_constructions(py::module_& m) {
       return doubled_area(p[0][i].position(), p[1][i].position(), p[2][i].position());
     });
   });
-  m.def("corner_angle", [](const Doubles& a, const Doubles& b, const Doubles& c) {
-    return over<double, 3>({a, b, c}, [](const auto& p, std::size_t i) {
+  m.def("corner_angle", [](const Doubles& a, const Doubles& b, const Doubles& c, bool sphere) {
+    return over<double, 3>({a, b, c}, [sphere](const auto& p, std::size_t i) {
+      if (sphere) return corner_angle(lifted(p[0][i]), lifted(p[1][i]), lifted(p[2][i]));
       return corner_angle(p[0][i].position(), p[1][i].position(), p[2][i].position());
+    });
+  });
+  m.def("arc_length", [](const Doubles& a, const Doubles& b) {
+    return over<double, 2>({a, b},
+                           [](const auto& p, std::size_t i) { return arc_length(lifted(p[0][i]), lifted(p[1][i])); });
+  });
+  m.def("solid_angle", [](const Doubles& a, const Doubles& b, const Doubles& c) {
+    return over<double, 3>({a, b, c}, [](const auto& p, std::size_t i) {
+      return solid_angle(lifted(p[0][i]), lifted(p[1][i]), lifted(p[2][i]));
     });
   });
 }

@@ -54,22 +54,16 @@ py::dict quality_to_dict(const Quality& q) {
 /// The least h/ℓ or d/ℓ of each triangle, and whether it is well-centered (exact).
 py::tuple triangle_margins(const PyMesh& self) {
   const auto mesh = self.read();
+  const auto rows = triangle_values();
+  const auto row = std::find_if(rows.begin(), rows.end(), [](const TriangleValue& r) { return r.name == "quality"; });
   py::array_t<double> margins(Shape{static_cast<py::ssize_t>(mesh->n_triangles())});
   py::array_t<bool> good(Shape{static_cast<py::ssize_t>(mesh->n_triangles())});
   double* margin = margins.mutable_data();
   bool* is_good = good.mutable_data();
   for (const TriangleId t : mesh->triangles()) {
-    const auto c = mesh->corners(t);
-    const std::array<WeightedPoint, 3> p = {mesh->point(c[0]), mesh->point(c[1]), mesh->point(c[2])};
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const WeightedPoint &a = p[k], &b = p[(k + 1) % 3], &far = p[(k + 2) % 3];
-      const double l = length(b.position() - a.position());
-      const double d = edge_split(a, b) / l;
-      least = std::min({least, signed_height(a, b, far) / l, d, 1 - d});
-    }
-    *margin++ = least;
-    *is_good++ = is_well_centered(p[0], p[1], p[2]);
+    const auto [p, q, r] = mesh->corners(t);
+    *margin++ = row->of(*mesh, t);
+    *is_good++ = is_well_centered(mesh->space(), mesh->point(p), mesh->point(q), mesh->point(r));
   }
   return py::make_tuple(margins, good);
 }
@@ -130,10 +124,10 @@ void bind_energy(py::module_& m) {
     const py::gil_scoped_release release;
     return total_energy(*mesh, energy, make_threads(count).get());
   });
-  m.def("triangle_energy", [](const py::dict& model, const Doubles& corners) {
+  m.def("triangle_energy", [](const py::dict& model, const Doubles& corners, double radius) {
     const auto p = as_span<WeightedPoint>(corners);
     if (p.size() != 3) throw py::value_error("expected three weighted points");
-    return triangle_energy(model_from(model), p[0], p[1], p[2]);
+    return triangle_energy(model_from(model), p[0], p[1], p[2], radius > 0 ? Space::sphere(radius) : Space());
   });
   m.def("vertex_energy", [](const PyMesh& self, const py::dict& model, std::int64_t v) {
     const auto mesh = self.read();

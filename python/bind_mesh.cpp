@@ -31,7 +31,7 @@ std::vector<std::array<std::int32_t, n>> narrow(const Int64s& array, const char*
   return result;
 }
 
-py::tuple mesh_from_arrays(const Doubles& points, const py::array& triangles, const Doubles& weights,
+py::tuple mesh_from_arrays(double radius, const Doubles& points, const py::array& triangles, const Doubles& weights,
                            const Int64s& constrained_edges, const Int32s& regions, const Int64s& fixed,
                            const py::object& threads) {
   const bool narrow_already = py::isinstance<Int32s>(triangles);
@@ -41,7 +41,12 @@ py::tuple mesh_from_arrays(const Doubles& points, const py::array& triangles, co
   const auto edges = narrow<2>(constrained_edges, "constrained edge");
   const auto fixed_vertices = narrow<1>(fixed, "fixed vertex");
   MeshInput input;
-  input.points = as_span<Vec2>(points);
+  if (radius > 0) {
+    input.space = Space::sphere(radius);
+    input.sphere_points = as_span<Vec3>(points);
+  } else {
+    input.points = as_span<Vec2>(points);
+  }
   input.weights = as_span<double>(weights);
   input.triangles = narrow_already ? as_span<std::array<std::int32_t, 3>>(same) : std::span(std::as_const(narrowed));
   input.constrained_edges = edges;
@@ -61,14 +66,46 @@ py::tuple mesh_from_arrays(const Doubles& points, const py::array& triangles, co
 
 // --- arrays of a mesh ---------------------------------------------------------------------------------------
 
-py::array points_of(const std::shared_ptr<const Mesh>& mesh) {
+/// The first `per` numbers of each vertex, as they lie in memory.
+py::array vertex_view(const std::shared_ptr<const Mesh>& mesh, py::ssize_t per) {
   const auto n = static_cast<py::ssize_t>(mesh->n_vertices());
   constexpr py::ssize_t stride = Mesh::kVertexStride;
-  return view(py::dtype::of<double>(), {n, 2}, {stride, py::ssize_t{sizeof(double)}}, mesh->vertex_data(), keep(mesh));
+  return view(py::dtype::of<double>(), {n, per}, {stride, py::ssize_t{sizeof(double)}}, mesh->vertex_data(),
+              keep(mesh));
+}
+
+/// Nobody is to think that writing to a copy changes the mesh.
+py::array read_only(py::array array) {
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+py::array points_of(const std::shared_ptr<const Mesh>& mesh) {
+  if (mesh->space().is_plane()) return vertex_view(mesh, 2);
+  std::vector<Vec3> places;
+  places.reserve(mesh->n_vertices());
+  for (const VertexId v : mesh->vertices()) {
+    const WeightedPoint p = mesh->point(v);
+    places.push_back(lifted(mesh->weight(v) == 0 ? p : mesh->space().with_weight(p, 0)));
+  }
+  return read_only(rows_of<double>(std::span<const Vec3>(places)));
+}
+
+py::array lifted_points_of(const std::shared_ptr<const Mesh>& mesh) {
+  if (mesh->space().is_plane()) {
+    fail(ErrorCode::unsupported, "lifted_points: the mesh is one of the plane; its vertices are points and weights");
+  }
+  return vertex_view(mesh, 3);
 }
 
 py::array weights_of(const std::shared_ptr<const Mesh>& mesh) {
   const auto n = static_cast<py::ssize_t>(mesh->n_vertices());
+  if (!mesh->space().is_plane()) {
+    std::vector<double> weights;
+    weights.reserve(mesh->n_vertices());
+    for (const VertexId v : mesh->vertices()) weights.push_back(mesh->weight(v));
+    return read_only(array_of<double>(weights));
+  }
   constexpr py::ssize_t stride = Mesh::kVertexStride;
   const double* first = n == 0 ? nullptr : mesh->vertex_data() + 2;
   return view(py::dtype::of<double>(), {n}, {stride}, first, keep(mesh));
@@ -113,38 +150,58 @@ py::array edges_of(const Mesh& mesh, const Wanted& wanted) {
 
 // --- changes ------------------------------------------------------------------------------------------------
 
-/// Sets all points or weights at once; a mesh that is none then is left as it was.
-void set_vertices(PyMesh& self, const Doubles& values, bool weights) {
+/// The numbers of vertices that are assigned.
+enum class Assigned { points, weights, lifted_points };
+
+[[noreturn]] void fail_at(VertexId v, ErrorCode code, const std::string& message) {
+  fail(code, "point " + std::to_string(v.index) + ": " + message);
+}
+
+/// The vertex with these numbers of its own instead of those that it had.
+WeightedPoint assigned(const Space& space, VertexId v, const WeightedPoint& former, Assigned what, const double* in) {
+  if (what == Assigned::weights) {
+    if (space.is_plane()) return {former.x, former.y, in[0]};
+    if (!(in[0] > -space.radius() * space.radius()))
+      fail_at(v, ErrorCode::out_of_scale, "weight not above minus the square of the radius");
+    return space.vertex_at(lifted(former), in[0]);
+  }
+  if (space.is_plane()) return {in[0], in[1], former.w};
+  const Vec3 p = {in[0], in[1], in[2]};
+  if (what == Assigned::lifted_points) return as_point(p);
+  constexpr double kOffRadius = 1e-6;  // as Mesh::build
+  if (!(std::abs(length(p) - space.radius()) <= kOffRadius * space.radius()))
+    fail_at(v, ErrorCode::not_on_sphere, "not at the radius of the sphere, to one part in a million");
+  return space.vertex_at(p, space.weight(former));
+}
+
+/// Sets all vertices at once; a mesh that is none then is left as it was.
+void set_vertices(PyMesh& self, const Doubles& values, Assigned what) {
   const auto before = self.read();
-  const std::size_t per = weights ? 1 : 2;
+  const Space& space = before->space();
+  const std::size_t per = what == Assigned::weights ? 1 : space.is_plane() ? 2 : 3;
   if (static_cast<std::size_t>(values.size()) != per * before->n_vertices()) {
-    fail(ErrorCode::size_mismatch, std::string(weights ? "weights: " : "points: ") + "expected " +
+    fail(ErrorCode::size_mismatch, std::string(what == Assigned::weights ? "weights: " : "points: ") + "expected " +
                                        std::to_string(before->n_vertices()) + ", found " +
                                        std::to_string(static_cast<std::size_t>(values.size()) / per));
   }
   Mesh mesh = *before;
   const double* in = values.data();
   for (const VertexId v : mesh.vertices()) {
-    const bool usable = weights ? is_exact_weight(in[0]) : is_exact_coordinate(in[0]) && is_exact_coordinate(in[1]);
-    if (!usable) {
-      const bool finite = std::isfinite(in[0]) && std::isfinite(in[per - 1]);
-      fail(finite ? ErrorCode::out_of_scale : ErrorCode::not_finite,
-           "point " + std::to_string(v.index) + ": " + (weights ? "weight" : "coordinates") +
-               (finite ? " out of the range of exact arithmetic" : " not finite"));
-    }
-    if (weights) {
-      mesh.set_weight(v, *in++);
-    } else {
-      mesh.set_position(v, {in[0], in[1]});
-      in += 2;
-    }
+    const std::span<const double> own(in, per);
+    const std::string kind = what == Assigned::weights ? "weight" : "coordinates";
+    if (!std::all_of(own.begin(), own.end(), [](double x) { return std::isfinite(x); }))
+      fail_at(v, ErrorCode::not_finite, kind + " not finite");
+    const bool exact =
+        what == Assigned::weights ? is_exact_weight(in[0]) : std::all_of(own.begin(), own.end(), is_exact_coordinate);
+    if (!exact) fail_at(v, ErrorCode::out_of_scale, kind + " out of the range of exact arithmetic");
+    mesh.set_point(v, assigned(space, v, mesh.point(v), what, in));
+    in += per;
   }
-  if (!weights) {
-    for (const TriangleId t : mesh.triangles()) {
-      const auto c = mesh.corners(t);
-      if (orient2d(mesh.position(c[0]), mesh.position(c[1]), mesh.position(c[2])) == Sign::positive) continue;
-      fail(ErrorCode::zero_area, "triangle " + std::to_string(t.index) + " is not counter-clockwise at these points");
-    }
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [a, b, c] = mesh.corners(t);
+    if (what == Assigned::weights) break;
+    if (orientation(space, mesh.point(a), mesh.point(b), mesh.point(c)) == Sign::positive) continue;
+    fail(ErrorCode::zero_area, "triangle " + std::to_string(t.index) + " is not counter-clockwise at these points");
   }
   self.replace(std::move(mesh), {});
 }
@@ -179,6 +236,8 @@ void bind_mesh_class(py::module_& m) {
   type.def("n_triangles", [](const PyMesh& self) { return self.read_with_erased()->n_triangles(); });
   type.def("n_edges", [](const PyMesh& self) { return self.read_with_erased()->n_edges(); });
   type.def("memory_bytes", [](const PyMesh& self) { return self.read_with_erased()->memory_bytes(); });
+  type.def("radius", [](const PyMesh& self) { return self.read_with_erased()->space().radius(); });
+  type.def("lifted_points", [](const PyMesh& self) { return lifted_points_of(self.read_with_erased()); });
   type.def("points", [](const PyMesh& self) { return points_of(self.read_with_erased()); });
   type.def("weights", [](const PyMesh& self) { return weights_of(self.read_with_erased()); });
   type.def("triangles", [](const PyMesh& self) { return triangles_of(self.read_with_erased()); });
@@ -197,8 +256,10 @@ void bind_mesh_class(py::module_& m) {
     const auto mesh = self.read_with_erased();
     return edges_of(*mesh, [&](HalfedgeId h) { return mesh->is_constrained(h); });
   });
-  type.def("set_points", [](PyMesh& self, const Doubles& points) { set_vertices(self, points, false); });
-  type.def("set_weights", [](PyMesh& self, const Doubles& weights) { set_vertices(self, weights, true); });
+  type.def("set_points", [](PyMesh& self, const Doubles& points) { set_vertices(self, points, Assigned::points); });
+  type.def("set_weights", [](PyMesh& self, const Doubles& weights) { set_vertices(self, weights, Assigned::weights); });
+  type.def("set_lifted_points",
+           [](PyMesh& self, const Doubles& points) { set_vertices(self, points, Assigned::lifted_points); });
   type.def("set_fixed", set_fixed);
   type.def("set_constrained", set_constrained);
   type.def("find_halfedge", [](const PyMesh& self, std::int64_t a, std::int64_t b) {
@@ -541,6 +602,18 @@ void bind_generate(py::module_& m) {
   m.def("random_points", [](std::size_t vertices, std::uint64_t seed, const Doubles& polygon) {
     const auto corners = as_span<Vec2>(polygon);
     return made(random_points({vertices, seed, {corners.begin(), corners.end()}}));
+  });
+  m.def("spherical_delaunay", [](const Doubles& points, double radius) {
+    std::optional<Expected<Mesh>> mesh;
+    {
+      const py::gil_scoped_release release;
+      mesh = spherical_delaunay(as_span<Vec3>(points), radius);
+    }
+    return made(*std::move(mesh));
+  });
+  m.def("icosahedral", [](int level, double radius) { return made(icosahedral({level, radius})); });
+  m.def("random_sphere", [](std::size_t vertices, std::uint64_t seed, double radius) {
+    return made(random_sphere({vertices, seed, radius}));
   });
   m.def("sheared_grid", [](int nx, int ny, double shear) { return made(sheared_grid({nx, ny, shear})); });
   m.def("annulus", [](double inner, double outer, int around, int rings, double jitter, std::uint64_t seed) {

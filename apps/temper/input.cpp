@@ -53,12 +53,12 @@ Input read_input(const std::string& path, const ReadingOptions& options) {
 }
 
 void expect_plane(const Mesh& mesh, const std::string& path, std::string_view what) {
-  if (mesh.space().is_plane()) return;
-  throw Failure(
-      Exit::bad_input,
-      fmt::format("{}: is a mesh of the sphere, and {} takes meshes of the plane; check, optimize and convert "
-                  "take spheres, and --projection puts longitude and latitude on a map",
-                  path, what));
+  const auto error = temper::expect_plane(mesh, what);
+  if (!error) return;
+  throw Failure(Exit::bad_input,
+                fmt::format("{}: {}; check, optimize and convert take spheres, and --projection puts longitude and "
+                            "latitude on a map",
+                            path, error->message));
 }
 
 std::string same_projection(const Input& input, const std::string& projection) {

@@ -17,6 +17,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "temper/error.hpp"
@@ -277,6 +278,10 @@ struct BuiltMesh {
   Mesh mesh;
   std::size_t reversed_triangles = 0;  ///< clockwise in the input
 };
+
+/// The error of what takes meshes of the plane alone when the mesh is one of the sphere, else nothing. `what`:
+/// "explain()", as the user knows it.
+[[nodiscard]] std::optional<InputError> expect_plane(const Mesh& mesh, std::string_view what);
 
 /// The vertices and triangles that compact() kept: new id → old id.
 struct Compaction {

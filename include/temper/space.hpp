@@ -64,6 +64,14 @@ class Space {
     return as_point(factor * lifted(p));
   }
 
+  /// The vertex at a place of the sphere, whose distance from the center is not looked at: the place itself, bit for
+  /// bit, where that is the radius but for rounding and there is no weight. Precondition: a sphere; w > −R².
+  [[nodiscard]] WeightedPoint vertex_at(Vec3 place, double w) const {
+    constexpr double kRounded = 0x1p-50;
+    const bool at_radius = std::abs(length(place) - radius_) <= kRounded * radius_;
+    return w == 0 && at_radius ? as_point(place) : with_weight(as_point(place), w);
+  }
+
   /// Says whether two vertices are at the same place; on the sphere but for the rounding of with_weight(), or of many
   /// calls of it.
   [[nodiscard]] bool same_place(const WeightedPoint& p, const WeightedPoint& q, double rounding = 0x1p-49) const {

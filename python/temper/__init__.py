@@ -69,6 +69,7 @@ from ._regularity import (
     weight_flip_threshold,
 )
 from ._size import SizeField, SizeReport, Spread, input_size_field, local_size, measure_size, spread
+from ._space import Space
 from ._temper import __version__, has_threads, instruction_set, instruction_sets, use_instruction_set
 from ._trace import Snapshot, TraceEvent
 from ._verify import (

@@ -13,6 +13,7 @@ from ._mesh import MeshLike, _doubles, as_mesh
 from ._optimize_options import EnergyName
 from ._options import Softening, SofteningLike, _softening
 from ._records import Record, merged, table
+from ._space import Space
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -36,7 +37,7 @@ class WorstTriangle(Record):
     triangle: int
     vertices: tuple[int, int, int]
     at: tuple[float, float]
-    """Centroid."""
+    """Centroid; on a sphere its longitude and latitude [degrees]."""
     h_over_l: float
     """Least of its three."""
     angle_deg: float
@@ -46,7 +47,8 @@ class WorstTriangle(Record):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Quality(Record):
-    """What ``quality`` measures: counts decided exactly, margins and energies in doubles."""
+    """What ``quality`` measures: counts decided exactly, margins and energies in doubles. On a sphere lengths and angles
+    are those of arcs."""
 
     vertices: int
     triangles: int
@@ -195,15 +197,16 @@ def total_energy(mesh: MeshLike, model: EnergyModel = EnergyModel(), *, threads:
     return _temper.total_energy(as_mesh(mesh)._handle, model._plain(), threads)
 
 
-def triangle_energy(model: EnergyModel, corners: npt.ArrayLike) -> float:
-    """The energy of one triangle alone, all its edges boundary edges: ``corners`` is (3, 3), rows x, y, w.
+def triangle_energy(model: EnergyModel, corners: npt.ArrayLike, *, space: Space = Space()) -> float:
+    """The energy of one triangle alone, all its edges boundary edges: ``corners`` is (3, 3), rows x, y, w; on a sphere
+    lifted points. There this and all other energies are those of the flat triangles of the lifted points.
 
     >>> import temper
     >>> model = temper.EnergyModel("BH")
     >>> round(temper.triangle_energy(model, [(0, 0, 0), (1, 0, 0), (0.5, 0.75**0.5, 0)]), 12)
     4.618802153517
     """
-    return _temper.triangle_energy(model._plain(), _doubles(corners, 3, "corners"))
+    return _temper.triangle_energy(model._plain(), _doubles(corners, 3, "corners"), space.radius)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -215,7 +218,7 @@ class VertexDerivatives(Record):
     feasible: bool
     """Inside the domain of the energy; else the rest is zero."""
     gradient: tuple[float, float, float]
-    """∂E/∂x, ∂E/∂y, ∂E/∂w."""
+    """∂E/∂x, ∂E/∂y, ∂E/∂w; on a sphere x and y are along two unit vectors at right angles to P and each other."""
     hessian: tuple[float, float, float, float, float, float]
     """xx, xy, xw, yy, yw, ww."""
 

@@ -12,6 +12,7 @@ from . import _temper
 from ._errors import TemperWarning
 from ._meshio import data_of, handle_of, in_the_plane, meshio_of
 from ._records import table
+from ._space import Space
 
 _PICTURE = 3000  # triangles of a mesh that is drawn in notebooks
 PAGE = 20_000  # triangles of a mesh whose HTML report notebooks show, and keep
@@ -70,6 +71,11 @@ def _planar(points: Any) -> npt.NDArray[np.float64]:
     return plane
 
 
+def _places(points: Any, space: Space) -> npt.NDArray[np.float64]:
+    """Points of the space: two columns, or three on the sphere."""
+    return _planar(points) if space.is_plane else _doubles(points, 3, "points")
+
+
 class Data(MutableMapping[str, npt.NDArray[Any]]):
     """Named arrays of a mesh, a row for each point or triangle, as they are when asked for. Assigning an array, or
     deleting one, changes the mesh; the arrays themselves are read-only copies."""
@@ -113,35 +119,41 @@ class Mesh:
     Parameters
     ----------
     points : (n, 2) float64
-        Positions, in units of your choice; read without a copy when C-contiguous. Or (n, 3) with one z.
+        Positions, in units of your choice; read without a copy when C-contiguous. Or (n, 3) with one z. On a sphere
+        (n, 3), at its radius to one part in a million.
     triangles : (m, 3) int32 or int64
         Corners, counted from 0. Clockwise triangles are reversed; ``reversed_triangles`` counts them.
     weights : (n,) float64, optional
         Squared lengths: the power of a place p to vertex i is \\|x_i − p\\|² − w_i, so that a larger weight makes a
-        larger power cell. Default: all 0.
+        larger power cell. Default: all 0. On a sphere more than −R²: see ``Space``.
     constrained_edges : (k, 2) int, optional
         Edges that must stay, as pairs of vertices: feature lines. Edges between regions are constrained anyway.
     regions : (m,) int32, optional
         A number for each triangle. Default: all 0.
     fixed : (k,) int, optional
         Vertices that must not move. (Those of the boundary stay without being named.)
+    space : Space
+        ``Space.sphere(radius)`` for a mesh of the sphere: of all of it, or of a part with a boundary; edges are arcs of
+        less than half a great circle. Default: the plane.
     threads : int, optional
         Threads for the checks; None or 0: all of the machine.
 
     Raises
     ------
     TemperError
-        Arrays that make no planar mesh: numbers out of range or not finite, points twice or in no triangle, triangles
-        of no area or on top of another, edges with more than two triangles, vertices where the mesh touches itself.
-        The message names the element.
+        Arrays that make no mesh of the space: numbers out of range or not finite, points twice, in no triangle or not
+        on the sphere, triangles of no area or on top of another, edges with more than two triangles, vertices where the
+        mesh touches itself. The message names the element.
 
     Notes
     -----
     ``points``, ``weights``, ``triangles`` and ``twins`` are read-only views on the mesh's own memory, without copies. A
     view keeps what it shows: when the mesh changes afterwards, the mesh is given new memory and the view is that of
-    before. All other arrays are copies. To change a mesh, assign: ``mesh.weights = w``.
+    before. All other arrays are copies; on a sphere so are ``points`` and ``weights``, and ``lifted_points`` is the view.
+    To change a mesh, assign: ``mesh.weights = w``.
 
-    Halfedge 3 t + k runs from corner k to corner k + 1 of triangle t. Triangles are counter-clockwise.
+    Halfedge 3 t + k runs from corner k to corner k + 1 of triangle t. Triangles are counter-clockwise, on a sphere as
+    seen from outside.
 
     Examples
     --------
@@ -149,6 +161,10 @@ class Mesh:
     >>> mesh = temper.Mesh([(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1, 2), (0, 2, 3)])
     >>> mesh.n_vertices, mesh.n_triangles, mesh.n_edges
     (4, 2, 5)
+    >>> corners = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> octant = temper.Mesh(corners, [(0, 1, 2)], space=temper.Space.sphere(1))
+    >>> octant.points.shape, octant.space
+    ((3, 3), Space.sphere(1.0))
     """
 
     __slots__ = ("_handle", "reversed_triangles", "warnings", "__weakref__")
@@ -168,10 +184,12 @@ class Mesh:
         constrained_edges: npt.ArrayLike | None = None,
         regions: npt.ArrayLike | None = None,
         fixed: npt.ArrayLike | None = None,
+        space: Space = Space(),
         threads: int | None = None,
     ) -> None:
         self._handle, self.reversed_triangles = _temper.mesh_from_arrays(
-            _planar(points),
+            space.radius,
+            _places(points, space),
             _ints(triangles, 3, "triangles"),
             _doubles(weights, 0, "weights"),
             _ints(constrained_edges, 2, "constrained_edges"),
@@ -219,27 +237,44 @@ class Mesh:
     # --- arrays --------------------------------------------------------------------------------------------
 
     @property
-    def points(self) -> npt.NDArray[np.float64]:
-        """Positions, (n, 2) float64 [length]. A read-only view, rows 32 bytes apart.
+    def space(self) -> Space:
+        """The space that the mesh lies in."""
+        return Space(self._handle.radius())
 
-        Assigning moves all vertices at once; TemperError when a triangle would not be counter-clockwise, and then
-        nothing has changed. O(n).
+    @property
+    def points(self) -> npt.NDArray[np.float64]:
+        """Positions, (n, 2) float64 [length]. A read-only view, rows 32 bytes apart. On a sphere the places of the
+        vertices on it, (n, 3), a copy.
+
+        Assigning moves all vertices at once, with their weights; TemperError when a triangle would not be
+        counter-clockwise, or a point is off the sphere, and then nothing has changed. O(n).
         """
         return self._handle.points()
 
     @points.setter
     def points(self, points: npt.ArrayLike) -> None:
-        self._handle.set_points(_planar(points))
+        self._handle.set_points(_places(points, self.space))
 
     @property
     def weights(self) -> npt.NDArray[np.float64]:
-        """Weights, (n,) float64 [length²]. A read-only view, 32 bytes apart. Assigning sets all at once; the
-        connectivity stays (see ``restore_regularity``). O(n)."""
+        """Weights, (n,) float64 [length²]. A read-only view, 32 bytes apart; on a sphere a copy. Assigning sets all at
+        once; the connectivity stays (see ``restore_regularity``). O(n)."""
         return self._handle.weights()
 
     @weights.setter
     def weights(self, weights: npt.ArrayLike) -> None:
         self._handle.set_weights(_doubles(weights, 0, "weights"))
+
+    @property
+    def lifted_points(self) -> npt.NDArray[np.float64]:
+        """On a sphere: the lifted point P of each vertex, (n, 3) float64 [length], whose direction is its place, and
+        \\|P\\|² = R² + w. A read-only view, rows 32 bytes apart; what ``temper.geometry`` takes. Assigning sets places
+        and weights at once, as for ``points``. TemperError in the plane."""
+        return self._handle.lifted_points()
+
+    @lifted_points.setter
+    def lifted_points(self, points: npt.ArrayLike) -> None:
+        self._handle.set_lifted_points(_doubles(points, 3, "lifted_points"))
 
     @property
     def triangles(self) -> npt.NDArray[np.int32]:
@@ -331,11 +366,12 @@ class Mesh:
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> Any:
-        constrained = self.constrained_edges
-        parts = (np.array(self.points), np.array(self.triangles), np.array(self.weights), constrained, self.regions)
+        lifted = None if self.space.is_plane else np.array(self.lifted_points)
+        vertices = (self.space, np.array(self.points), np.array(self.weights), lifted, self.fixed)
+        triangles = (np.array(self.triangles), self.constrained_edges, self.regions)
         has = self._handle.has_data()
         data = (dict(self.point_data), dict(self.cell_data), self.point_data_rules) if has else ({}, {}, ())
-        return _unpickle, (*parts, self.fixed, *data)
+        return _unpickle, (vertices, triangles, data)
 
     # --- data that came with the mesh, and other libraries ----------------------------------------------------
 
@@ -370,7 +406,8 @@ class Mesh:
     # --- how it looks -------------------------------------------------------------------------------------------
 
     def __repr__(self) -> str:
-        return f"<temper.Mesh: {self.n_vertices} vertices, {self.n_triangles} triangles>"
+        where = "" if self.space.is_plane else f" on {self.space!r}"
+        return f"<temper.Mesh: {self.n_vertices} vertices, {self.n_triangles} triangles{where}>"
 
     def _repr_html_(self) -> str:
         q = _temper.quality(self._handle, (1.0, "relative"), (0.0, "relative"), 0, 1)
@@ -384,21 +421,25 @@ class Mesh:
             ("least h/ℓ", f"{q['min_h_over_l']:.4g}"),
             ("angles", f"{q['min_angle_deg']:.4g}° to {q['max_angle_deg']:.4g}°"),
         ]
-        if self.n_triangles == 0 or self.n_triangles > PAGE:
+        if self.n_triangles == 0 or self.n_triangles > PAGE or not self.space.is_plane:
             return table("temper.Mesh", rows)
         from ._html import html_report
 
         return table("temper.Mesh", rows, html_report(self, reasons=False)._repr_html_())
 
     def _repr_svg_(self) -> str | None:
-        return _temper.draw_svg(self._handle, {"width": 500.0}) if self.n_triangles <= _PICTURE else None
+        if self.n_triangles > _PICTURE or not self.space.is_plane:
+            return None
+        return _temper.draw_svg(self._handle, {"width": 500.0})
 
 
-def _unpickle(
-    points: Any, triangles: Any, weights: Any, constrained: Any, regions: Any, fixed: Any, point_data: Any, cell_data: Any,
-    rules: Any,
-) -> Mesh:  # fmt: skip
-    mesh = Mesh(points, triangles, weights, constrained_edges=constrained, regions=regions, fixed=fixed)
+def _unpickle(vertices: tuple[Any, ...], triangles: tuple[Any, ...], data: tuple[Any, ...]) -> Mesh:
+    space, points, weights, lifted, fixed = vertices
+    corners, constrained, regions = triangles
+    mesh = Mesh(points, corners, weights, constrained_edges=constrained, regions=regions, fixed=fixed, space=space)
+    if lifted is not None:
+        mesh.lifted_points = lifted  # bit for bit: places and weights are rounded
+    point_data, cell_data, rules = data
     mesh.point_data.update(point_data)
     mesh.cell_data.update(cell_data)
     if rules:

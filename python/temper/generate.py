@@ -1,7 +1,7 @@
 """Example meshes: the paper's, and the classes a mesh method should be tried on.
 
 Each is made here, from its parameters and a seed, by a constrained Delaunay triangulation on temper's own predicates.
-All weights are zero. TemperError says which parameter makes no sense.
+``icosahedral``, ``random_sphere`` and ``spherical_delaunay`` are of the sphere. All weights are zero. TemperError says which parameter makes no sense.
 """
 
 from __future__ import annotations
@@ -13,8 +13,9 @@ from . import _temper
 from ._mesh import Mesh, _doubles, _ints
 
 __all__ = [
-    "airfoil", "annulus", "constrained_delaunay", "graded_points", "horseshoe", "letter_a", "random_points",
-    "regular_polygon", "sheared_grid", "single_triangle", "sparse_horseshoe", "wedge",
+    "airfoil", "annulus", "constrained_delaunay", "graded_points", "horseshoe", "icosahedral", "letter_a",
+    "random_points", "random_sphere", "regular_polygon", "sheared_grid", "single_triangle", "sparse_horseshoe",
+    "spherical_delaunay", "wedge",
 ]  # fmt: skip
 
 
@@ -62,6 +63,35 @@ def random_points(vertices: int = 1000, seed: int = 1, polygon: npt.ArrayLike | 
     """Uniformly random points in a polygon, (k, 2), counter-clockwise (default: a non-convex L shape with a notch), so
     many vertices in all. About half of the triangles are bad."""
     return Mesh._of(_temper.random_points(vertices, seed, _doubles(polygon, 2, "polygon")))
+
+
+def spherical_delaunay(points: npt.ArrayLike, radius: float = 1.0) -> Mesh:
+    """The Delaunay triangulation of points around the sphere: the convex hull of the points at the radius.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        Directions, of any length; they keep their numbers.
+    radius : float
+        Of the sphere [length].
+
+    Raises
+    ------
+    TemperError
+        By number: a point without direction, two in one direction; points that leave half of the sphere empty.
+    """
+    return Mesh._of(_temper.spherical_delaunay(_doubles(points, 3, "points"), radius))
+
+
+def icosahedral(level: int = 4, radius: float = 1.0) -> Mesh:
+    """The icosahedron on a sphere of this radius [length], each triangle cut into four ``level`` times: 10 · 4^level + 2
+    vertices."""
+    return Mesh._of(_temper.icosahedral(level, radius))
+
+
+def random_sphere(vertices: int = 1000, seed: int = 1, radius: float = 1.0) -> Mesh:
+    """Uniformly random points around a sphere of this radius [length], Delaunay. About half of the triangles are bad."""
+    return Mesh._of(_temper.random_sphere(vertices, seed, radius))
 
 
 def sheared_grid(nx: int = 20, ny: int = 20, shear: float = 0.5) -> Mesh:

@@ -83,7 +83,8 @@ std::optional<double> common_radius(const std::vector<Vec3>& points) {
   const auto off = [radius](double r) { return !(std::abs(r - radius) <= kOff * radius); };
   if (!(radius > 0) || std::any_of(all.begin(), all.end(), off)) return std::nullopt;
   // A radius that somebody wrote down has few digits.
-  const double digit = std::pow(10, std::floor(std::log10(radius)) - 11), rounded = digit * std::round(radius / digit);
+  const double places = 11 - std::floor(std::log10(radius)), power = std::pow(10, std::abs(places));
+  const double rounded = places > 0 ? std::round(radius * power) / power : std::round(radius / power) * power;
   return std::abs(rounded - radius) < 1e-14 * radius ? rounded : radius;
 }
 

@@ -40,7 +40,7 @@ void copy_sphere(MeshFile& file, const Mesh& mesh, const Former& former) {
       degrees.push_back(file.points[was]);
       places.push_back(file.sphere_points[was]);
     } else {
-      places.push_back(radius / length(p) * p);
+      places.push_back(mesh.weight(v) == 0 ? p : radius / length(p) * p);
       degrees.push_back(lon_lat_of(p));
       // From −180 to 180, or from 0 to 360: as the file has it around there.
       if (was < file.points.size()) {

@@ -94,7 +94,7 @@ class MeshBuilder {
     const auto wrong = first_index(n_points(), in_.executor, [&](std::size_t i) {
       const double w = in_.weights.empty() ? 0.0 : in_.weights[i];
       if (!is_finite(place(i)) || !std::isfinite(w)) return true;
-      mesh_.set_point(VertexId(i), on_sphere() ? lifted_to(in_.sphere_points[i], w)
+      mesh_.set_point(VertexId(i), on_sphere() ? mesh_.space_.vertex_at(in_.sphere_points[i], w)
                                                : WeightedPoint{in_.points[i].x, in_.points[i].y, w});
       return false;
     });
@@ -115,14 +115,6 @@ class MeshBuilder {
   }
   [[nodiscard]] std::string place_text(std::size_t i) const {
     return on_sphere() ? coordinates(in_.sphere_points[i]) : coordinates(in_.points[i]);
-  }
-
-  /// P of a point of the sphere; the point itself, bit for bit, where it has no weight and is at the radius but for
-  /// rounding.
-  [[nodiscard]] WeightedPoint lifted_to(Vec3 p, double w) const {
-    constexpr double kRounded = 0x1p-50;
-    const bool at_radius = std::abs(length(p) - in_.space.radius()) <= kRounded * in_.space.radius();
-    return w == 0 && at_radius ? as_point(p) : in_.space.with_weight(as_point(p), w);
   }
 
   std::optional<InputError> check_sphere() {

@@ -77,4 +77,11 @@ void Mesh::repair_outgoing() {
   }
 }
 
+std::optional<InputError> expect_plane(const Mesh& mesh, std::string_view what) {
+  if (mesh.space().is_plane()) return std::nullopt;
+  return InputError{ErrorCode::unsupported,
+                    {},
+                    "the mesh is one of the sphere, and " + std::string(what) + " takes meshes of the plane"};
+}
+
 }  // namespace temper

@@ -73,7 +73,7 @@ def test_the_first_example_takes_public_meshes(mesh, in_scratch):
 
 
 MODULES = ["", ".geometry", "._mesh", "._optimize", "._optimize_options", "._measure", "._dec", "._verify", "._weights",
-           "._explain", "._size", "._outline"]  # fmt: skip
+           "._explain", "._size", "._space", "._outline"]  # fmt: skip
 
 
 @pytest.mark.parametrize("name", MODULES)

@@ -45,7 +45,7 @@ TEST_F(SphereFiles, EveryFormatHasTheirPlacesOrSaysThatItCannot) {
     } else {
       ++in_space;
       EXPECT_EQ(back.sphere_points, file.sphere_points);
-      EXPECT_DOUBLE_EQ(back.sphere_radius, 6371220);
+      EXPECT_EQ(back.sphere_radius, 6371220);
     }
     const auto made = make_mesh(back);
     ASSERT_TRUE(made) << made.error().what();
@@ -56,6 +56,15 @@ TEST_F(SphereFiles, EveryFormatHasTheirPlacesOrSaysThatItCannot) {
   EXPECT_EQ(in_space, 9);
   EXPECT_EQ(in_degrees, 1);
   EXPECT_GT(refused, 2);
+}
+
+TEST_F(SphereFiles, AMeshWithoutWeightsComesBackBitForBit) {
+  const auto mesh = random_sphere({.vertices = 300, .radius = 6371220});
+  ASSERT_TRUE(mesh) << mesh.error().what();
+  ASSERT_TRUE(write(path("globe.vtu"), from_mesh(*mesh)));
+  const auto made = make_mesh(read_back(path("globe.vtu")));
+  ASSERT_TRUE(made) << made.error().what();
+  EXPECT_EQ(made->mesh, *mesh);
 }
 
 TEST_F(SphereFiles, WeightsComeBack) {

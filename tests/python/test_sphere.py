@@ -1,0 +1,250 @@
+"""Meshes of the sphere, compared with NumPy."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+
+import temper
+from temper import Space, geometry
+
+EARTH = 6371220.0
+OCTAHEDRON = np.array([(1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, -1, 0), (0, 0, -1)], dtype=float)
+FACES = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2), (1, 0, 5), (3, 1, 5), (4, 3, 5), (0, 4, 5)]
+
+
+@pytest.fixture
+def globe():
+    return temper.generate.random_sphere(300, radius=EARTH)
+
+
+@pytest.fixture
+def tempered(globe):
+    temper.optimize(globe)
+    return globe
+
+
+def faces_of(mesh):
+    return np.moveaxis(mesh.lifted_points[mesh.triangles], 1, 0)
+
+
+def unit(vectors):
+    return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+
+
+def angle(a, b):
+    """Between vectors, good for small and large ones."""
+    return np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), np.sum(a * b, axis=-1))
+
+
+# --- the space and the mesh ----------------------------------------------------------------------------------
+
+
+def test_a_space_is_a_small_value():
+    plane, earth = Space(), Space.sphere(EARTH)
+    assert plane.is_plane and plane.kind == "plane" and plane.radius == 0 and repr(plane) == "Space()"
+    assert not earth.is_plane and earth.kind == "sphere" and earth.radius == EARTH
+    assert earth == Space(EARTH) == pickle.loads(pickle.dumps(earth)) != plane and len({earth, Space(EARTH), plane}) == 2
+    assert eval(repr(earth)) == earth
+    with pytest.raises(AttributeError):
+        earth.radius = 1.0
+    for radius in (0, -1, float("nan"), float("inf")):
+        with pytest.raises(temper.TemperError, match="expected a positive, finite number"):
+            Space.sphere(radius)
+
+
+def test_closed_meshes_go_in_and_out_unchanged():
+    mesh = temper.Mesh(EARTH * OCTAHEDRON, FACES, space=Space.sphere(EARTH))
+    assert mesh.space == Space.sphere(EARTH) and mesh.validate() is None
+    assert np.array_equal(mesh.points, EARTH * OCTAHEDRON) and np.array_equal(mesh.triangles, FACES)
+    assert (mesh.weights == 0).all() and len(mesh.boundary_edges) == 0 and mesh.n_edges == 12
+    assert "Space.sphere(6371220.0)" in repr(mesh)
+    assert temper.Mesh(OCTAHEDRON, np.array(FACES)[:, ::-1], space=Space.sphere(1)).reversed_triangles == 8
+
+
+def test_places_are_on_the_sphere_and_lifted_points_are_weights_too(tempered):
+    places, lifted, weights = tempered.points, tempered.lifted_points, tempered.weights
+    assert places.shape == lifted.shape == (300, 3) and np.ptp(weights) > 0
+    assert np.allclose(np.linalg.norm(places, axis=1), EARTH, rtol=1e-15)
+    assert np.allclose(np.sum(lifted**2, axis=1) - weights, EARTH**2, rtol=1e-15)
+    assert np.allclose(places, EARTH * unit(lifted), rtol=1e-15)
+    assert not any(array.flags.writeable for array in (places, lifted, weights))
+    assert not lifted.flags.owndata and lifted.strides == (32, 8)
+
+
+def test_a_view_keeps_what_it_showed(globe):
+    lifted = globe.lifted_points
+    before = lifted.copy()
+    temper.optimize(globe, max_sweeps=2)
+    assert np.array_equal(lifted, before) and not np.array_equal(globe.lifted_points, before)
+
+
+def test_copies_are_meshes_of_their_own_bit_for_bit(tempered):
+    for other in (tempered.copy(), copy.deepcopy(tempered), pickle.loads(pickle.dumps(tempered))):
+        assert other == tempered and np.array_equal(other.lifted_points, tempered.lifted_points)
+        other.weights = np.zeros(300)
+        assert other != tempered
+    again = temper.Mesh(tempered.points, tempered.triangles, tempered.weights, space=tempered.space)
+    assert np.allclose(again.lifted_points, tempered.lifted_points, rtol=0, atol=1e-8)
+
+
+def test_vertices_are_assigned_at_once_or_not_at_all(globe):
+    places = np.array(globe.points)
+    weights = 1e-3 * EARTH**2 * np.random.default_rng(1).random(300)
+    globe.weights = weights
+    assert np.allclose(globe.weights, weights, atol=1e-2) and np.allclose(globe.points, places, rtol=1e-15)
+    turn = np.array([(0, -1, 0), (1, 0, 0), (0, 0, 1)], dtype=float)
+    globe.points = places @ turn.T
+    assert np.allclose(globe.weights, weights, atol=1e-2) and np.allclose(globe.points, places @ turn.T, rtol=1e-15)
+    before = globe.copy()
+    for values, code in ((-places, "zero_area"), (1.001 * places, "not_on_sphere"), (places[:9], "size_mismatch")):
+        with pytest.raises(temper.TemperError) as caught:
+            globe.points = values
+        assert caught.value.code == code
+    with pytest.raises(temper.TemperError, match="point 0: weight not above minus the square of the radius"):
+        globe.weights = np.full(300, -(EARTH**2))
+    with pytest.raises(ValueError, match=r"points: expected shape \(n, 3\), found \(300, 2\)"):
+        globe.points = places[:, :2]
+    assert globe == before
+
+
+@pytest.mark.parametrize(
+    "points, code, says",
+    [
+        (1.5 * OCTAHEDRON, "not_on_sphere", "point 0"),
+        (np.where(np.arange(18).reshape(6, 3) == 7, np.nan, OCTAHEDRON), "not_finite", "point 2"),
+    ],
+)
+def test_bad_points_are_refused_by_name(points, code, says):
+    with pytest.raises(temper.TemperError) as caught:
+        temper.Mesh(points, FACES, space=Space.sphere(1))
+    assert caught.value.code == code and says in caught.value.message
+
+
+def test_the_plane_has_no_lifted_points_and_no_third_coordinate(ring):
+    assert ring.space == Space()
+    with pytest.raises(temper.TemperError, match="the mesh is one of the plane"):
+        ring.lifted_points
+    with pytest.raises(ValueError, match=r"expected shape \(n, 3\), found \(6, 2\)"):
+        temper.Mesh(OCTAHEDRON[:, :2], FACES, space=Space.sphere(1))
+
+
+# --- examples and files --------------------------------------------------------------------------------------
+
+
+def test_an_icosahedron_is_bisected():
+    mesh = temper.generate.icosahedral(3, radius=2)
+    assert mesh.n_vertices == 10 * 4**3 + 2 and mesh.n_triangles == 20 * 4**3 and mesh.space == Space.sphere(2)
+    assert np.allclose(np.linalg.norm(mesh.points, axis=1), 2, rtol=1e-15) and temper.is_regular(mesh, 0)
+
+
+def test_points_around_the_sphere_are_triangulated_by_their_hull():
+    directions = np.random.default_rng(2).normal(size=(200, 3))
+    mesh = temper.generate.spherical_delaunay(directions, radius=3)
+    assert np.allclose(mesh.points, 3 * unit(directions)) and mesh.n_triangles == 2 * 200 - 4
+    a, b, c = faces_of(mesh)
+    normal = np.cross(b - a, c - a)
+    heights = np.einsum("tk,vtk->vt", normal, mesh.points[:, None] - a)
+    assert (heights < 1e-12).all()  # no point is above a face
+    with pytest.raises(temper.TemperError):
+        temper.generate.spherical_delaunay(np.abs(directions))
+    with pytest.raises(ValueError, match=r"\(n, 3\)"):
+        temper.generate.spherical_delaunay(directions[:, :2])
+
+
+def test_optimised_random_points_have_no_bad_triangle_and_stay_on_the_sphere(globe):
+    assert not temper.well_centered_triangles(globe).all()
+    report = temper.optimize(globe)
+    quality = temper.quality(globe)
+    assert temper.well_centered_triangles(globe).all() and quality.well_centered_fraction == 1
+    assert report.final_energy <= report.initial_energy and quality.non_regular_edges == 0
+    assert np.allclose(np.linalg.norm(globe.points, axis=1), EARTH, rtol=1e-15) and globe.validate() is None
+
+
+def test_files_keep_all_bits_of_what_has_no_weights(globe, in_scratch):
+    temper.write("globe.vtu", globe)
+    again = temper.read("globe.vtu")
+    assert again == globe and again.space == globe.space
+    temper.optimize(again)
+    temper.write("after.vtu", again)
+    after = temper.read("after.vtu")
+    assert np.array_equal(after.triangles, again.triangles)
+    assert np.allclose(after.lifted_points, again.lifted_points, rtol=1e-15)
+
+
+def test_data_are_assigned_on_a_sphere(globe):
+    globe.cell_data["number"] = np.arange(globe.n_triangles)
+    globe.point_data["depth"] = globe.points[:, 2]
+    again = pickle.loads(pickle.dumps(globe))
+    assert np.array_equal(again.cell_data["number"], np.arange(globe.n_triangles))
+    assert np.array_equal(again.point_data["depth"], globe.points[:, 2])
+
+
+# --- geometry ------------------------------------------------------------------------------------------------
+
+
+def test_solid_angles_of_a_closed_mesh_sum_to_the_whole_sphere(tempered):
+    for mesh in (temper.generate.icosahedral(3), tempered):
+        a, b, c = faces_of(mesh)
+        solid = geometry.solid_angle(a, b, c)
+        assert (solid > 0).all() and np.sum(solid) == pytest.approx(4 * np.pi, rel=1e-13)
+        corners = [geometry.corner_angle(*t, space=mesh.space) for t in ((a, b, c), (b, c, a), (c, a, b))]
+        assert np.allclose(sum(corners) - np.pi, solid, atol=1e-12)  # Girard
+        assert np.allclose(geometry.solid_angle(a, c, b), -solid, rtol=1e-13)
+
+
+def test_arcs_splits_and_heights_are_what_vectors_say(tempered):
+    p, q, r = faces_of(tempered)
+    space = tempered.space
+    arc = geometry.arc_length(p, q)
+    assert np.allclose(arc, angle(p, q), rtol=1e-13)
+    n = np.cross(q - p, r - p)
+    o = geometry.orthocenter(p, q, r, space=space)
+    assert np.allclose(o, unit(n), atol=1e-13) and np.allclose(np.linalg.norm(o, axis=1), 1)
+    for vertex in (q, r):  # equal power: the same P · o
+        assert np.allclose(np.sum(p * o, axis=1), np.sum(vertex * o, axis=1), rtol=1e-14)
+    split = geometry.edge_split(p, q, space=space)
+    assert np.allclose(np.tan(split), np.sum(p * (p - q), axis=1) / np.linalg.norm(np.cross(p, q), axis=1), rtol=1e-12)
+    assert np.allclose(split + geometry.edge_split(q, p, space=space), arc, atol=1e-13)
+    height = geometry.signed_height(p, q, r, space=space)
+    assert np.allclose(np.sin(height), np.sum(unit(np.cross(p, q)) * o, axis=1), atol=1e-13)
+    assert np.array_equal(geometry.signed_height_sign(p, q, r, space=space), np.sign(height))
+    assert np.array_equal(geometry.edge_split_sign(p, q, space=space), np.sign(split))
+    assert (geometry.orientation(p, q, r, space=space) == np.sign(np.linalg.det(np.stack([p, q, r], axis=1)))).all()
+    assert geometry.is_well_centered(p, q, r, space=space).all()
+
+
+def test_power_tests_say_that_no_point_is_above_a_face(tempered):
+    p, q, r = faces_of(tempered)
+    lifted, space = tempered.lifted_points, tempered.space
+    across = lifted[tempered.triangles.ravel()[(lambda h: 3 * (h // 3) + (h + 2) % 3)(tempered.twins.reshape(-1, 3)[:, 0])]]
+    assert (geometry.power_test(p, q, r, across, space=space) == -1).all()
+    assert (geometry.power_test(p, q, r, 1.5 * across, space=space) == 1).all()
+    a, b, c, d = OCTAHEDRON[[0, 1, 3, 4]]  # on the equator
+    index = (0, 1, 2, 3)
+    assert geometry.power_test_perturbed(a, b, c, d, index, space=space) == 0
+    square = unit(np.array([(1, 0, 1), (0, 1, 1), (-1, 0, 1), (0, -1, 1)], dtype=float))
+    assert geometry.power_test(*square, space=space) == 0
+    assert abs(geometry.power_test_perturbed(*square, index, space=space)) == 1
+
+
+def test_the_plane_and_the_sphere_do_not_mix(globe):
+    a, b, c = OCTAHEDRON[:3]
+    assert geometry.orientation(a, b, c, space=globe.space) == 1 and geometry.orientation(b, a, c, space=globe.space) == -1
+    assert geometry.orientation((0, 0), (1, 0), (0, 1)) == 1
+    with pytest.raises(ValueError, match=r"p: expected shape \(…, 3\), found \(2,\)"):
+        geometry.orientation((0, 0), (1, 0), (0, 1), space=globe.space)
+    with pytest.raises(ValueError, match=r"\(…, 3\)"):
+        geometry.arc_length((0, 1), (1, 0))
+
+
+def test_energies_are_those_of_the_flat_triangles(globe):
+    model = temper.EnergyModel("F")
+    a, b, c = faces_of(globe)
+    one = temper.triangle_energy(model, (a[0], b[0], c[0]), space=globe.space)
+    along, n = b[0] - a[0], np.cross(b[0] - a[0], c[0] - a[0])
+    e1, e2 = unit(along), unit(np.cross(n, along))
+    flat = [(p @ e1, p @ e2, p @ p) for p in (a[0], b[0], c[0])]
+    assert one == pytest.approx(temper.triangle_energy(model, flat), rel=1e-9)
+    assert temper.vertex_energy(globe, model, 0).value <= temper.total_energy(globe, model)
