@@ -453,7 +453,11 @@ py::dict file_as_dict(const PyMesh& self) {
   }
   py::list names;
   for (const io::PhysicalName& n : file.names) names.append(py::make_tuple(n.dimension, n.tag, n.name));
-  return Record()("points", rows_of<double>(std::span<const Vec2>(file.points)))("z", file.z)("weights", file.weights)(
+  std::vector<Vec3> places = file.sphere_points;
+  if (file.sphere_radius == 0) {
+    for (const Vec2 p : file.points) places.push_back({p.x, p.y, file.z});
+  }
+  return Record()("points", rows_of<double>(std::span<const Vec3>(places)))("weights", file.weights)(
              "triangles", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 3>>(file.triangles)))(
              "regions", array_of<std::int32_t>(file.regions))(
              "lines", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(file.lines)))(
@@ -502,8 +506,12 @@ void check_range(const std::vector<std::array<std::int32_t, n>>& cells, std::siz
 
 py::tuple mesh_from_file_arrays(const py::dict& d, const py::sequence& fixed_tags) {
   io::MeshFile file;
-  file.points = copy_of<Vec2>(d["points"].cast<Doubles>());
-  file.z = d["z"].cast<double>();
+  const auto points = d["points"].cast<Doubles>();
+  if (points.shape(1) == 3) {
+    or_raise(io::set_points(file, copy_of<Vec3>(points)));
+  } else {
+    file.points = copy_of<Vec2>(points);
+  }
   file.weights = copy_of<double>(d["weights"].cast<Doubles>());
   file.triangles = narrow<3>(d["triangles"].cast<Int64s>(), "triangle");
   file.regions = copy_of<std::int32_t>(d["regions"].cast<Int32s>());

@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _temper
-from ._errors import TemperWarning
-from ._meshio import data_of, handle_of, in_the_plane, meshio_of
+from ._errors import TemperError, TemperWarning
+from ._meshio import data_of, handle_of, meshio_of
 from ._records import table
 from ._space import Space
 
@@ -65,10 +65,13 @@ def _planar(points: Any) -> npt.NDArray[np.float64]:
     array = np.asarray(points)
     if array.ndim != 2 or array.shape[1] != 3 or array.size == 0 or array.dtype.kind not in "iuf":
         return _doubles(points, 2, "points")
-    plane, z = in_the_plane(array)
-    if z != 0:
-        warnings.warn(f"points: z = {z} of all of them is dropped", TemperWarning, stacklevel=3)
-    return plane
+    z = np.asarray(array[:, 2], dtype=np.float64)
+    if (off := np.flatnonzero(~(z == z[0]))).size:
+        found = f"point {off[0]} has z = {z[off[0]]}, but point 0 has z = {z[0]}"
+        raise TemperError("not_planar", "", f"{found}; expected one z, or a sphere as the space")
+    if z[0] != 0:
+        warnings.warn(f"points: z = {z[0]} of all of them is dropped", TemperWarning, stacklevel=4)
+    return np.ascontiguousarray(array[:, :2], dtype=np.float64)
 
 
 def _places(points: Any, space: Space) -> npt.NDArray[np.float64]:
@@ -480,7 +483,8 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
     mesh : meshio.Mesh
         Its triangles become the mesh; lines inside the domain become constrained edges; vertex cells stay with their
         points; other cells, and ``point_sets`` and ``cell_sets``, are left out, with a warning. Points may have a third
-        coordinate when it is the same for all. Point data ``weight`` are the weights [length²]; integer cell data
+        coordinate when it is the same for all; points that are all at one distance from the origin instead, to one part
+        in a million, are a mesh of the sphere. Point data ``weight`` are the weights [length²]; integer cell data
         ``region``, ``gmsh:physical``, ``medit:ref`` or ``cell_tags`` (the first that is there) are the regions. All
         point and cell data are kept: ``to_meshio`` and ``write`` give them back.
     fixed_tags : sequence of str or int
@@ -489,7 +493,7 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
     Raises
     ------
     TemperError
-        As ``Mesh`` does; also without triangles, and for points of different z.
+        As ``Mesh`` does; also without triangles, and for points in space that are on no sphere.
 
     Warns
     -----
@@ -505,7 +509,7 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
 def to_meshio(mesh: MeshLike) -> Any:
     """The mesh as a ``meshio.Mesh``, which meshio writes to any of its formats.
 
-    Points are (n, 3) float64 (z as it was, or 0), with point data ``weight`` (float64, [length²]), triangles with cell
+    Points are (n, 3) float64 (z as it was, or 0; of a sphere the places), with point data ``weight`` (float64, [length²]), triangles with cell
     data ``region``, and what else came with the mesh; lines of the file, and constrained edges, are cells of type
     ``line``, marked points of type ``vertex``; their ``region`` is their tag. Needs meshio.
     """

@@ -13,20 +13,12 @@ _WEIGHTS = ("weight", "weights")
 _REGIONS = ("region", "gmsh:physical", "medit:ref", "cell_tags")
 
 
-def in_the_plane(points: Any) -> tuple[Any, float]:
-    """Points in the plane, and the z that all of them have."""
-    points = np.asarray(points, dtype=np.float64)
+def _points(values: Any) -> Any:
+    """Two or three coordinates a point. The library settles whether three are of a plane or of a sphere."""
+    points = np.asarray(values, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] not in (2, 3):
         raise TemperError("size_mismatch", "", f"points: expected shape (n, 2) or (n, 3), found {points.shape}")
-    if points.shape[1] == 2 or len(points) == 0:
-        return np.ascontiguousarray(points[:, :2]), 0.0
-    z = points[:, 2]
-    off = np.flatnonzero(~(z == z[0]))
-    if off.size:
-        where = int(off[0])
-        found = f"point {where} has z = {z[where]}, but point 0 has z = {z[0]}; expected one z"
-        raise TemperError("not_planar", "", found)
-    return np.ascontiguousarray(points[:, :2]), float(z[0])
+    return np.ascontiguousarray(points)
 
 
 _TYPES = {np.dtype(t) for t in ("f8", "f4", "i8", "i4", "u1", "i1", "i2", "u2", "u4", "u8")}
@@ -78,7 +70,7 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
     for block in mesh.cells:
         if block.type not in ("triangle", "line", "vertex"):
             dropped.append(f"{len(block.data)} cells of type {block.type} are left out")
-    points, z = in_the_plane(mesh.points)
+    points = _points(mesh.points)
     triangles, lines = _blocks(mesh, "triangle"), _blocks(mesh, "line")
     if not triangles:
         raise TemperError("empty_input", "", "expected cells of type triangle; found " +
@@ -106,7 +98,7 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
     if vertex_source == "region":
         del vertex_data["region"]
     arrays = {
-        "points": points, "z": z, "weights": weights, "triangles": corners, "regions": regions, "lines": ends,
+        "points": points, "weights": weights, "triangles": corners, "regions": regions, "lines": ends,
         "line_tags": line_tags, "point_data": point_data, "cell_data": cell_data, "line_data": line_data,
         "marked_points": vertex_cells, "point_tags": vertex_tags, "marked_point_data": vertex_data,
     }  # fmt: skip
@@ -120,7 +112,6 @@ def meshio_of(handle: Any) -> Any:
 
     file = _temper.file_as_dict(handle)
     n, m = len(file["points"]), len(file["triangles"])
-    points = np.column_stack([file["points"], np.full(n, file["z"])])
     cells = [("triangle", file["triangles"].astype(np.int64))]
     regions = file["regions"] if len(file["regions"]) else np.zeros(m, dtype=np.int32)
     blocks = [(m, file["cell_data"], regions)]
@@ -139,4 +130,4 @@ def meshio_of(handle: Any) -> Any:
             for size, data, _ in blocks
         ]
     point_data = {"weight": file["weights"] if len(file["weights"]) else np.zeros(n), **file["point_data"]}
-    return meshio.Mesh(points, cells, point_data=point_data, cell_data=cell_data)
+    return meshio.Mesh(file["points"], cells, point_data=point_data, cell_data=cell_data)

@@ -73,6 +73,43 @@ void set_sphere(MeshFile& file, double radius, std::vector<Vec3> points) {
   file.sphere_points = std::move(points);
 }
 
+void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& names) {
+  const double z = points.empty() ? 0 : points.front().z;
+  std::optional<std::size_t> off_plane;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 p = points[i];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
+      fail(ErrorCode::not_finite, names.point_where(i),
+           text(names.point(i), " has coordinates (", p.x, ", ", p.y, "), expected finite numbers"));
+    }
+    if (!std::isfinite(p.z)) {
+      fail(ErrorCode::not_finite, names.point_where(i),
+           text(names.point(i), " has z = ", p.z, ", expected a finite number"));
+    }
+    if (p.z != z && !off_plane) off_plane = i;
+  }
+  if (!off_plane) {
+    file.z = z;
+    file.points.clear();
+    for (const Vec3 p : points) file.points.push_back({p.x, p.y});
+    return;
+  }
+  if (const auto radius = common_radius(points)) return set_sphere(file, *radius, std::move(points));
+  fail(ErrorCode::not_planar, names.point_where(*off_plane),
+       text(names.point(*off_plane), " has z = ", points[*off_plane].z, ", but ", names.point(0), " has z = ", z,
+            "; expected a mesh in a plane of constant z, or on a sphere around the origin"));
+}
+
+Expected<void> set_points(MeshFile& file, std::vector<Vec3> points) {
+  try {
+    const InputNames from_0;
+    settle_points(file, std::move(points), file.numbering ? *file.numbering : from_0);
+    return {};
+  } catch (Failure& failure) {
+    return std::move(failure.error);
+  }
+}
+
 std::optional<double> common_radius(const std::vector<Vec3>& points) {
   std::vector<double> all;
   all.reserve(points.size());

@@ -15,6 +15,9 @@ void put_on_sphere(MeshFile& file, double radius, const InputNames& names);
 /// Makes a file of points in space one of points on the sphere.
 void set_sphere(MeshFile& file, double radius, std::vector<Vec3> points);
 
+/// Gives a file points with three coordinates, as set_points() does, with these names in errors.
+void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& names);
+
 /// The radius that all points have, to one part in a million; nothing where they have none in common.
 [[nodiscard]] std::optional<double> common_radius(const std::vector<Vec3>& points);
 

@@ -90,26 +90,6 @@ void check_ranges(const Document& d) {
   }
 }
 
-/// Points with z of their own: all on a sphere, or an error at the first that is not in the plane of the others, or not
-/// on the sphere of the most.
-void settle_on_sphere(Document& d) {
-  MeshFile& f = d.file;
-  const FileNames& names = *d.names;
-  std::vector<Vec3> places;
-  for (std::size_t i = 0; i < f.points.size(); ++i) {
-    places.push_back({f.points[i].x, f.points[i].y, d.heights[i]});
-    if (std::isfinite(d.heights[i])) continue;
-    fail(ErrorCode::not_finite, names.point_where(i),
-         text(names.point(i), " has z = ", d.heights[i], ", expected a finite number"));
-  }
-  if (const auto radius = common_radius(places)) return set_sphere(f, *radius, std::move(places));
-  std::size_t i = 0;
-  while (d.heights[i] == f.z) ++i;
-  fail(ErrorCode::not_planar, names.point_where(i),
-       text(names.point(i), " has z = ", d.heights[i], ", but ", names.point(0), " has z = ", f.z,
-            "; expected a mesh in a plane of constant z, or on a sphere around the origin"));
-}
-
 }  // namespace
 
 void check(Document& d) {
@@ -125,7 +105,11 @@ void check(Document& d) {
   }
   if (!std::isfinite(f.z))
     fail(ErrorCode::not_finite, d.names->point_where(0), text(d.names->point(0), " has z = ", f.z));
-  if (!d.heights.empty()) settle_on_sphere(d);
+  if (!d.heights.empty()) {
+    std::vector<Vec3> places;
+    for (std::size_t i = 0; i < f.points.size(); ++i) places.push_back({f.points[i].x, f.points[i].y, d.heights[i]});
+    settle_points(d.file, std::move(places), *d.names);
+  }
   for (std::size_t i = 0; i < f.weights.size(); ++i) {
     if (std::isfinite(f.weights[i])) continue;
     fail(ErrorCode::not_finite, d.names->point_where(i),

@@ -29,8 +29,7 @@ void copy_plane(MeshFile& file, const Mesh& mesh) {
 
 /// Points and degrees of vertices that have not moved stay as they are.
 void copy_sphere(MeshFile& file, const Mesh& mesh, const Former& former) {
-  const double radius = mesh.space().radius();
-  file.sphere_radius = radius;
+  file.sphere_radius = mesh.space().radius();
   std::vector<Vec2> degrees;
   std::vector<Vec3> places;
   for (const VertexId v : mesh.vertices()) {
@@ -40,7 +39,7 @@ void copy_sphere(MeshFile& file, const Mesh& mesh, const Former& former) {
       degrees.push_back(file.points[was]);
       places.push_back(file.sphere_points[was]);
     } else {
-      places.push_back(mesh.weight(v) == 0 ? p : radius / length(p) * p);
+      places.push_back(mesh.weight(v) == 0 ? p : lifted(mesh.space().with_weight(as_point(p), 0)));
       degrees.push_back(lon_lat_of(p));
       // From −180 to 180, or from 0 to 360: as the file has it around there.
       if (was < file.points.size()) {

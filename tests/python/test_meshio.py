@@ -139,3 +139,42 @@ def test_a_mesh_is_written_back_when_and_only_when_it_has_changed(marked):
     with pytest.raises(temper.TemperError, match="no-such-file"):
         temper.optimize(marked, observer=observe)
     assert marked.points is not points and temper.quality(marked).well_centered_fraction > before
+
+
+def globe_of_meshio(radius=6371000.0):
+    mesh = temper.generate.random_sphere(300, radius=radius)
+    points, triangles = np.array(mesh.points), mesh.triangles.astype(np.int64)
+    return mesh, meshio.Mesh(points, [("triangle", triangles)], point_data={"number": np.arange(300)})
+
+
+def test_points_at_one_distance_from_the_origin_are_a_sphere(in_scratch):
+    mesh, globe = globe_of_meshio()
+    taken = temper.from_meshio(globe)
+    assert taken == mesh and taken.space == temper.Space.sphere(6371000)
+    again = taken.to_meshio()
+    assert np.array_equal(again.points, globe.points) and np.array_equal(again.cells_dict["triangle"], mesh.triangles)
+    globe.write("globe.vtu")
+    assert temper.read("globe.vtu") == taken == temper.from_meshio(meshio.read("globe.vtu"))
+
+
+@pytest.mark.filterwarnings("ignore::temper.TemperWarning")
+def test_a_sphere_is_optimised_in_place():
+    mesh, globe = globe_of_meshio()
+    temper.optimize(mesh)
+    temper.optimize(globe)
+    assert np.array_equal(globe.points, mesh.points) and np.array_equal(globe.point_data["weight"], mesh.weights)
+    assert np.array_equal(globe.cells_dict["triangle"], mesh.triangles)
+    assert np.array_equal(globe.point_data["number"], np.arange(300))
+    assert temper.quality(globe).well_centered_fraction == 1
+
+
+def test_points_in_space_on_no_sphere_are_refused_as_in_files():
+    _, globe = globe_of_meshio()
+    globe.points[7] *= 1.00001
+    expected = "but point 0 has z = .*; expected a mesh in a plane of constant z, or on a sphere around the origin"
+    with pytest.raises(temper.TemperError, match=expected) as caught:
+        temper.from_meshio(globe)
+    assert caught.value.code == "not_planar"
+    globe.points[7, 2] = np.nan
+    with pytest.raises(temper.TemperError, match="point 7 has z = nan, expected a finite number"):
+        temper.from_meshio(globe)
