@@ -19,11 +19,12 @@ struct EdgeInTriangle {
 };
 
 EdgeInTriangle edge_in_triangle(const Mesh& mesh, HalfedgeId h) {
-  const TriangleShape s = triangle_shape(mesh.space(), mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)),
-                                         mesh.point(mesh.opposite(h)));
-  EdgeInTriangle result{s.edges[0], s.doubled_area};
-  result.edge.g = same_side(result.edge.g, s.doubled_area);
-  return result;
+  const auto first_edge = [](const TriangleShape& s) {
+    const auto [l2, dw, g] = s.edges[0];
+    return EdgeInTriangle{{l2, dw, same_side(g, s.doubled_area)}, s.doubled_area};
+  };
+  const WeightedPoint p = mesh.point(mesh.origin(h)), q = mesh.point(mesh.target(h)), r = mesh.point(mesh.opposite(h));
+  return mesh.space().is_plane() ? first_edge(triangle_shape(p, q, r)) : first_edge(triangle_shape_on_sphere(p, q, r));
 }
 
 /// h ℓ = 0 on the boundary.
@@ -81,7 +82,11 @@ class StarScratch {
 class HotStar {
  public:
   HotStar(const Patch& patch, const EnergyModel& model, const EdgeFormula& formula, const WeightedPoint& p)
-      : patch_(patch), model_(model), formula_(formula), scratch_(patch.size()) {
+      : patch_(patch),
+        model_(model),
+        formula_(formula),
+        shares_(energy_info(model.kind).signed_by_dual),
+        scratch_(patch.size()) {
     for (std::size_t k = 0; k < 3; ++k) {
       edges_.g[k] = scratch_.array(k), edges_.value[k] = scratch_.array(3 + k), factor_[k] = scratch_.array(6 + k);
     }
@@ -126,7 +131,7 @@ class HotStar {
   }
 
   [[nodiscard]] double outer_share(std::size_t i) const {
-    if (!energy_info(model_.kind).signed_by_dual || patch_.link_boundary[i] != 0) return 0;
+    if (!shares_ || patch_.link_boundary[i] != 0) return 0;
     const auto [l2, dw] = edge_measures(patch_.space, patch_.q(i), patch_.r(i));
     const EdgeShape link{l2, dw, patch_.outer_g[i]};
     const double orientation = edges_.doubled_area[i] < 0 ? -1 : 1;
@@ -137,6 +142,7 @@ class HotStar {
   const Patch& patch_;
   const EnergyModel& model_;
   const EdgeFormula& formula_;
+  const bool shares_;  // triangles across the link have a part in it
   StarScratch scratch_;
   HotEdges edges_;
   std::array<double*, 3> factor_;

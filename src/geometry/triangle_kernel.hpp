@@ -164,11 +164,23 @@ TEMPER_INLINE TriangleShapeOf<T> triangle_shape(const LiftedSpoke<T>& a, const L
 struct EdgeMeasures {
   double l2, dw;
 };
-[[nodiscard]] inline EdgeMeasures edge_measures(const Space& space, const WeightedPoint& p, const WeightedPoint& q) {
-  if (space.is_plane()) [[likely]]
-    return {squared_length(q.position() - p.position()), p.w - q.w};
+// What the sphere does is behind a call, with points by value: in the plane they stay in registers.
+[[gnu::noinline]] inline EdgeMeasures edge_measures_on_sphere(WeightedPoint p, WeightedPoint q) {
   const Vec3 c = lifted(q) - lifted(p);
   return {squared_length(c), -dot(c, lifted(p) + lifted(q))};
+}
+[[nodiscard]] TEMPER_INLINE EdgeMeasures edge_measures(const Space& space, const WeightedPoint& p,
+                                                       const WeightedPoint& q) {
+  if (space.is_plane()) [[likely]]
+    return {squared_length(q.position() - p.position()), p.w - q.w};
+  return edge_measures_on_sphere(p, q);
+}
+
+[[gnu::noinline]] inline TriangleShape triangle_shape_on_sphere(WeightedPoint p, WeightedPoint q, WeightedPoint r) {
+  const Chart<double> from = seen_from(lifted_point(p));
+  const LiftedPointOf<double> to_q = lifted_point(q), to_r = lifted_point(r);
+  const TriangleShapeOf<double> s = triangle_shape(spoke(from, to_q), spoke(from, to_r), to_q, to_r);
+  return {{s.pq, s.qr, s.rp}, s.doubled_area};
 }
 
 /// The triangle in the space of its mesh.
@@ -176,10 +188,7 @@ struct EdgeMeasures {
                                                            const WeightedPoint& q, const WeightedPoint& r) {
   if (space.is_plane()) [[likely]]
     return triangle_shape(p, q, r);
-  const Chart<double> from = seen_from(lifted_point(p));
-  const LiftedPointOf<double> to_q = lifted_point(q), to_r = lifted_point(r);
-  const TriangleShapeOf<double> s = triangle_shape(spoke(from, to_q), spoke(from, to_r), to_q, to_r);
-  return {{s.pq, s.qr, s.rp}, s.doubled_area};
+  return triangle_shape_on_sphere(p, q, r);
 }
 
 /// The vertex at the end of t times a step (x, y, w), in the space of its mesh.

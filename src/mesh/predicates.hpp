@@ -10,8 +10,15 @@ namespace temper::inlined {
   return inlined::orientation(mesh.space(), mesh.point(a), mesh.point(b), mesh.point(c));
 }
 
-[[nodiscard]] inline Sign power_test(const Mesh& mesh, VertexId a, VertexId b, VertexId c, VertexId d) {
-  return inlined::power_test(mesh.space(), mesh.point(a), mesh.point(b), mesh.point(c), mesh.point(d));
+[[gnu::noinline]] inline Sign power_test_on_sphere(const Mesh& mesh, VertexId a, VertexId b, VertexId c, VertexId d) {
+  return temper::power_test(mesh.lifted_point(a), mesh.lifted_point(b), mesh.lifted_point(c), mesh.lifted_point(d));
+}
+
+// Which space it is, is asked before points are fetched: in the plane they never leave the registers.
+TEMPER_INLINE Sign power_test(const Mesh& mesh, VertexId a, VertexId b, VertexId c, VertexId d) {
+  if (mesh.space().is_plane()) [[likely]]
+    return inlined::power_test(mesh.point(a), mesh.point(b), mesh.point(c), mesh.point(d));
+  return power_test_on_sphere(mesh, a, b, c, d);
 }
 
 [[nodiscard]] inline bool is_well_centered(const Mesh& mesh, TriangleId t) {

@@ -19,14 +19,17 @@ struct Quadratic {
   double c0, c1, c2;
 };
 
-/// −F(t), in the plane for the lifted points a, b, c seen from p: positive when p(t) conflicts with triangle abc
+/// −F(t) on the sphere: how far p(t) is above the plane of the face.
+Quadratic conflict_on_sphere(const WeightedPoint& p, const WeightedPoint& a, const WeightedPoint& b,
+                             const WeightedPoint& c, const std::array<double, 3>& step) {
+  const Vec3 from = lifted(a), n = cross(lifted(b) - from, lifted(c) - from);
+  return {dot(n, lifted(p) - from), dot(n, {step[0], step[1], step[2]}), 0};
+}
+
+/// −F(t) in the plane, for the lifted points a, b, c seen from p: positive when p(t) conflicts with triangle abc
 /// counter-clockwise.
-Quadratic conflict_along(const Space& space, const WeightedPoint& p, const WeightedPoint& a, const WeightedPoint& b,
-                         const WeightedPoint& c, const std::array<double, 3>& step) {
-  if (!space.is_plane()) {  // how far above the plane of the face
-    const Vec3 at = lifted(a), n = cross(lifted(b) - at, lifted(c) - at);
-    return {dot(n, lifted(p) - at), dot(n, {step[0], step[1], step[2]}), 0};
-  }
+Quadratic conflict_in_plane(const WeightedPoint& p, const WeightedPoint& a, const WeightedPoint& b,
+                            const WeightedPoint& c, const std::array<double, 3>& step) {
   const auto lift = [&](const WeightedPoint& q) {
     const double x = q.x - p.x, y = q.y - p.y;
     return WeightedPoint{x, y, x * x + y * y - (q.w - p.w)};
@@ -61,10 +64,8 @@ double first_crossing(Quadratic g) {
   return least;
 }
 
-}  // namespace
-
-double flip_threshold(const Mesh& mesh, VertexId v, const std::array<double, 3>& step) {
-  TEMPER_ASSERT(!mesh.is_isolated(v));
+template <auto conflict_along>
+double flip_threshold_of(const Mesh& mesh, VertexId v, const std::array<double, 3>& step) {
   const WeightedPoint p = mesh.point(v);
   const PowerTest test;
   double threshold = kNoThreshold;
@@ -75,14 +76,22 @@ double flip_threshold(const Mesh& mesh, VertexId v, const std::array<double, 3>&
       if (test(mesh, inlined::quad(mesh, e)) == Sign::positive) continue;  // not regular as it is
       const WeightedPoint across = mesh.point(mesh.opposite(mesh.twin(e)));
       if (e == h) {
-        const Quadratic f = conflict_along(mesh.space(), p, across, q, r, step);
+        const Quadratic f = conflict_along(p, across, q, r, step);
         threshold = std::min(threshold, first_crossing({-f.c0, -f.c1, -f.c2}));
       } else {
-        threshold = std::min(threshold, first_crossing(conflict_along(mesh.space(), p, r, q, across, step)));
+        threshold = std::min(threshold, first_crossing(conflict_along(p, r, q, across, step)));
       }
     }
   }
   return threshold;
+}
+
+}  // namespace
+
+double flip_threshold(const Mesh& mesh, VertexId v, const std::array<double, 3>& step) {
+  TEMPER_ASSERT(!mesh.is_isolated(v));
+  return mesh.space().is_plane() ? flip_threshold_of<conflict_in_plane>(mesh, v, step)
+                                 : flip_threshold_of<conflict_on_sphere>(mesh, v, step);
 }
 
 double weight_flip_threshold(const Mesh& mesh, VertexId v, double direction) {
