@@ -117,6 +117,9 @@ class Visitor {
 /// Tells Python's observer, which may be None, and hears of Ctrl-C.
 Observer observer_of(Visitor& visitor, const py::object& observer);
 
+/// Raises unless the mesh is one of the plane, which `what` takes alone.
+void require_plane(const Mesh& mesh, std::string_view what);
+
 VertexId vertex_id(const Mesh& mesh, std::int64_t index);
 TriangleId triangle_id(const Mesh& mesh, std::int64_t index);
 HalfedgeId halfedge_id(const Mesh& mesh, std::int64_t index);

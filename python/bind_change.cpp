@@ -57,6 +57,7 @@ void bind_regularity(py::module_& m) {
   });
   m.def("position_flip_threshold", [](const PyMesh& self, std::int64_t v, double x, double y) {
     const auto mesh = self.read();
+    require_plane(*mesh, "position_flip_threshold()");
     return position_flip_threshold(*mesh, vertex_id(*mesh, v), {x, y});
   });
 }
@@ -163,19 +164,23 @@ void bind_insertion(py::module_& m) {
           "The edges that are flipped to the new vertex, in this order, after the insertion.");
   m.def("plan_insertion", [](const PyMesh& self, double x, double y, double w, std::int64_t near) {
     const auto mesh = self.read_with_erased();
+    require_plane(*mesh, "plan_insertion()");
     return PyInsertion{plan_insertion(*mesh, finite_point(x, y, w), triangle_id(*mesh, near)), self.version()};
   });
   m.def("plan_split", [](const PyMesh& self, std::int64_t h, double t) {
     if (!(t > 0 && t < 1)) fail(ErrorCode::invalid_option, "t: expected a number between 0 and 1");
     const auto mesh = self.read_with_erased();
+    require_plane(*mesh, "plan_split()");
     return PyInsertion{plan_split(*mesh, halfedge_id(*mesh, h), t), self.version()};
   });
   m.def("plan_split_at", [](const PyMesh& self, std::int64_t h, double x, double y, double w) {
     const auto mesh = self.read_with_erased();
+    require_plane(*mesh, "plan_split()");
     return PyInsertion{plan_split(*mesh, halfedge_id(*mesh, h), finite_point(x, y, w)), self.version()};
   });
   m.def("plan_center", [](const PyMesh& self, std::int64_t t) {
     const auto mesh = self.read_with_erased();
+    require_plane(*mesh, "plan_center()");
     return PyInsertion{plan_center(*mesh, mesh->corners(triangle_id(*mesh, t))), self.version()};
   });
   m.def("insert_vertex", [](PyMesh& self, const PyInsertion& plan) {
@@ -185,6 +190,7 @@ void bind_insertion(py::module_& m) {
   });
   m.def("interpolated_weight", [](const PyMesh& self, std::int64_t t, double x, double y) {
     const auto mesh = self.read_with_erased();
+    require_plane(*mesh, "interpolated_weight()");
     return interpolated_weight(*mesh, triangle_id(*mesh, t), {x, y});
   });
   m.def("split_weight", [](double a, double b, double squared, double t) { return split_weight(a, b, squared, t); });
@@ -206,7 +212,9 @@ void bind_topology(py::module_& m) {
   bind_removal(m);
   bind_insertion(m);
   m.def("plan_boundary_grading", [](const PyMesh& self, double ratio, double widest) {
-    const GradingPlan plan = plan_boundary_grading(*self.read(), ratio, widest);
+    const auto mesh = self.read();
+    require_plane(*mesh, "plan_boundary_grading()");
+    const GradingPlan plan = plan_boundary_grading(*mesh, ratio, widest);
     py::list cuts;
     for (const EdgeCuts& c : plan.cuts) cuts.append(py::make_tuple(c.a.index, c.b.index, to_python(c.at)));
     return Record()("cuts", py::object(cuts))("vertices", plan.vertices)("ratio_before", plan.ratio_before)(
@@ -214,14 +222,16 @@ void bind_topology(py::module_& m) {
         .dict;
   });
   m.def("triangles_without_free_corner", [](const PyMesh& self) {
-    const auto triangles = triangles_without_free_corner(*self.read());
+    const auto mesh = self.read();
+    require_plane(*mesh, "triangles_without_free_corner()");
+    const auto triangles = triangles_without_free_corner(*mesh);
     return rows_of<VertexId>(std::span<const std::array<VertexId, 3>>(triangles));
   });
   m.def("grade_boundary", [](PyMesh& self, double ratio) {
     if (!(ratio >= 2)) fail(ErrorCode::invalid_option, "ratio: expected 2 or more");
-    static_cast<void>(self.read());
-    const std::size_t n = self.read()->n_vertices();
     Mesh mesh = *self.read();
+    require_plane(mesh, "grade_boundary()");
+    const std::size_t n = mesh.n_vertices();
     const Grading g = grade_boundary(mesh, ratio);
     IdVector<VertexId, VertexId> vertices(mesh.n_vertices());
     for (const VertexId v : IdRange<VertexId>(n)) vertices[v] = v;
@@ -236,6 +246,7 @@ void bind_size(py::module_& m) {
   py::class_<SizeField>(m, "SizeField")
       .def("at",
            [](const SizeField& field, const Doubles& points) {
+             require_plane(field.mesh(), "SizeField.at()");
              const auto places = as_span<Vec2>(points);
              std::vector<double> sizes;
              py::array_t<bool> outside(Shape{static_cast<py::ssize_t>(places.size())});

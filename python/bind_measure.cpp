@@ -282,6 +282,10 @@ DrawOptions draw_options_from(const py::dict& given) {
     const auto z = given["zoom"].cast<py::tuple>();
     o.zoom = Box{{z[0].cast<double>(), z[1].cast<double>()}, {z[2].cast<double>(), z[3].cast<double>()}};
   }
+  if (given.contains("view") && !given["view"].is_none()) {
+    const auto v = given["view"].cast<py::tuple>();
+    o.view = Vec2{v[0].cast<double>(), v[1].cast<double>()};
+  }
   return o;
 }
 
@@ -289,10 +293,17 @@ void bind_draw(py::module_& m) {
   m.def("draw_svg",
         [](const PyMesh& self, const py::dict& options) { return draw_svg(*self.read(), draw_options_from(options)); });
   m.def("draw_before_after_svg", [](const PyMesh& before, const PyMesh& after, const py::dict& options) {
-    return draw_before_after_svg(*before.read(), *after.read(), draw_options_from(options));
+    const auto left = before.read(), right = after.read();
+    if (left->space().kind() != right->space().kind()) {
+      fail(ErrorCode::unsupported, "one mesh is of the plane and the other of a sphere; expected two of a kind");
+    }
+    return draw_before_after_svg(*left, *right, draw_options_from(options));
   });
   m.def("html_report", [](const PyMesh& self, const PyMesh* before, const std::string& title, const std::string& json) {
-    const auto mesh = self.read(), old = before == nullptr ? mesh : before->read();
+    const auto mesh = self.read();
+    require_plane(*mesh, "html_report()");
+    const auto old = before == nullptr ? mesh : before->read();
+    require_plane(*old, "html_report()");
     io::HtmlReport report = {{*mesh}, std::nullopt, title, json};
     if (before != nullptr) report.before.emplace(io::HtmlMesh{*old});
     const py::gil_scoped_release release;

@@ -236,6 +236,8 @@ void bind_mesh_class(py::module_& m) {
   type.def("n_triangles", [](const PyMesh& self) { return self.read_with_erased()->n_triangles(); });
   type.def("n_edges", [](const PyMesh& self) { return self.read_with_erased()->n_edges(); });
   type.def("memory_bytes", [](const PyMesh& self) { return self.read_with_erased()->memory_bytes(); });
+  type.def("require_plane",
+           [](const PyMesh& self, const std::string& what) { require_plane(*self.read_with_erased(), what); });
   type.def("radius", [](const PyMesh& self) { return self.read_with_erased()->space().radius(); });
   type.def("lifted_points", [](const PyMesh& self) { return lifted_points_of(self.read_with_erased()); });
   type.def("points", [](const PyMesh& self) { return points_of(self.read_with_erased()); });

@@ -194,6 +194,10 @@ void raise_as_temper_error(const InputError& error) {
 
 }  // namespace
 
+void require_plane(const Mesh& mesh, std::string_view what) {
+  if (auto error = expect_plane(mesh, what)) throw BadInput{*std::move(error)};
+}
+
 VertexId vertex_id(const Mesh& mesh, std::int64_t index) {
   return VertexId(checked("vertex", index, mesh.n_vertices()));
 }

@@ -143,6 +143,7 @@ void bind_feasibility(py::module_& m) {
   m.def("best_margin",
         [](const PyMesh& self, const py::object& triangles, const std::string& conditions, const py::object& edges) {
           const auto mesh = self.read();
+          require_plane(*mesh, "best_margin()");
           const auto wanted = from_name<Conditions>("conditions", conditions);
           std::vector<TriangleId> ids;
           if (!triangles.is_none()) {
@@ -161,10 +162,13 @@ void bind_feasibility(py::module_& m) {
         });
   m.def("weight_margin", [](const PyMesh& self, const std::string& conditions, const py::object& edges) {
     const auto mesh = self.read();
+    require_plane(*mesh, "weight_margin()");
     return weight_margin(*mesh, from_name<Conditions>("conditions", conditions), prescribed(*mesh, edges));
   });
   m.def("check_certificate", [](const PyMesh& self, const py::dict& certificate) {
-    return std::string(name(check_certificate(*self.read(), certificate_from(certificate))));
+    const auto mesh = self.read();
+    require_plane(*mesh, "check_certificate()");
+    return std::string(name(check_certificate(*mesh, certificate_from(certificate))));
   });
 }
 
@@ -180,11 +184,13 @@ py::dict conflict_to_dict(const Mesh& mesh, const EdgeConflict& c) {
 void bind_necessity(py::module_& m) {
   m.def("edge_conflict", [](const PyMesh& self, std::int64_t h, double up_to) -> py::object {
     const auto mesh = self.read();
+    require_plane(*mesh, "edge_conflict()");
     const auto conflict = edge_conflict(*mesh, halfedge_id(*mesh, h), up_to);
     return conflict ? py::object(conflict_to_dict(*mesh, *conflict)) : py::none();
   });
   m.def("edges_that_must_be_split", [](const PyMesh& self, double up_to) {
     const auto mesh = self.read();
+    require_plane(*mesh, "edges_that_must_be_split()");
     py::list list;
     for (const EdgeConflict& c : edges_that_must_be_split(*mesh, up_to)) list.append(conflict_to_dict(*mesh, c));
     return list;

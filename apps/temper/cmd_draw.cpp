@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 
 #include "console.hpp"
@@ -31,6 +32,14 @@ void add_options(Command& command, DrawSettings& s) {
   add_text(command, "-o,--output", "FILE", s.output, "where the picture goes: .svg, .png or .pdf").require();
   add_text(command, "--before", "IN0", s.before, "a mesh to draw to the left of IN, at the same scale");
   command.group("Picture");
+  add_numbers(
+      command, "--view", "LON,LAT", 2,
+      [&s](const std::vector<double>& v) {
+        s.options.view = Vec2{v[0], v[1]};
+      },
+      "of a sphere: the longitude and latitude of the middle of the picture, in degrees, whose near half is drawn; "
+      "none: "
+      "the middle of a mesh that is a part of the sphere, else 0,0");
   command.add_flag("--no-primal", s.no_primal, "without the triangles' edges");
   command.add_flag("--no-dual", s.no_dual, "without the dual edges, between orthocenters");
   command.add_flag("--no-weights", s.no_weights, "without the weight circles (green positive, red negative)");
@@ -49,7 +58,7 @@ void add_options(Command& command, DrawSettings& s) {
       [&s](const std::vector<double>& v) {
         s.options.zoom = Box{{v[0], v[1]}, {v[2], v[3]}};
       },
-      "draw only what meets this rectangle");
+      "draw only what meets this rectangle; of a sphere in the picture, from its middle to the right and up");
   add_number(command, "--width", s.options.width, kPositive, "the width of one panel, in CSS pixels");
   add_text(command, "--title", "TEXT", s.options.title, "a title under the picture");
   command.group("Help");
@@ -103,6 +112,26 @@ void check_zoom(const DrawOptions& options) {
   throw Failure(Exit::bad_usage, "draw: --zoom: it must have x0 < x1 and y0 < y1\nSee temper draw --help");
 }
 
+void check_view(const DrawOptions& options, const Input& input) {
+  if (!options.view) return;
+  if (!(std::abs(options.view->x) <= 360) || !(std::abs(options.view->y) <= 90)) {
+    throw Failure(Exit::bad_usage,
+                  "draw: --view: expected a longitude from -360 to 360 and a latitude from -90 to 90\nSee temper draw "
+                  "--help");
+  }
+  if (!input.mesh().space().is_plane()) return;
+  throw Failure(Exit::bad_usage,
+                fmt::format("{}: --view: the mesh is one of the plane, expected one of the sphere", input.path));
+}
+
+void check_same_space(const Input& before, const Input& after) {
+  if (before.mesh().space().kind() == after.mesh().space().kind()) return;
+  const bool sphere = !before.mesh().space().is_plane();
+  throw Failure(Exit::bad_input,
+                fmt::format("{}: is a mesh of the {}, but {} is one of the {}; expected two of a kind", before.path,
+                            sphere ? "sphere" : "plane", after.path, sphere ? "plane" : "sphere"));
+}
+
 }  // namespace
 
 Exit run_draw(const Arguments& arguments) {
@@ -121,14 +150,16 @@ Exit run_draw(const Arguments& arguments) {
   Outputs outputs("draw");
   outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});
 
-  const Input input = read_input(s.input, {s.projection});
+  const Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
   print_warnings(input.warnings());
+  check_view(s.options, input);
   if (s.before.empty()) {
     set_colors(s.options, s.color, {&input});
     outputs.write_picture(s.output, draw_svg(input.mesh(), s.options));
   } else {
-    const Input before = read_input(s.before, {same_projection(input, s.projection)});
+    const Input before = read_input(s.before, {.projection = same_projection(input, s.projection), .spheres = true});
     print_warnings(before.warnings());
+    check_same_space(before, input);
     set_colors(s.options, s.color, {&before, &input});
     outputs.write_picture(s.output, draw_before_after_svg(before.mesh(), input.mesh(), s.options));
   }

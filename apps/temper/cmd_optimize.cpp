@@ -455,7 +455,6 @@ Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs, const 
     print(fmt::format("{}: goes on with {}\n", resumed->path, words_of_run(command)));
   }
   Input input = read_input(s.input, {s.projection, s.fix, threads.get(), true, read});
-  if (!s.picture.empty()) expect_plane(input.mesh(), s.input, "--draw");
   if (!s.html.empty()) expect_plane(input.mesh(), s.input, "--html");
   if (s.verify) expect_plane(input.mesh(), s.input, "--verify");
   Results results;

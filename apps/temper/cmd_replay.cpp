@@ -72,7 +72,7 @@ Exit run_replay(const Arguments& arguments) {
   Outputs outputs("replay");
   outputs.expect_mesh(s.output);
 
-  Input input = read_input(s.input, {s.projection});
+  Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
   print_warnings(input.warnings());
   const io::DataRules rules = data_rules(s.point_data, input.file);
   const Trace trace = read_trace(s.trace, input);

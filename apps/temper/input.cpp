@@ -56,9 +56,7 @@ void expect_plane(const Mesh& mesh, const std::string& path, std::string_view wh
   const auto error = temper::expect_plane(mesh, what);
   if (!error) return;
   throw Failure(Exit::bad_input,
-                fmt::format("{}: {}; check, optimize and convert take spheres, and --projection puts longitude and "
-                            "latitude on a map",
-                            path, error->message));
+                fmt::format("{}: {}; --projection puts longitude and latitude on a map", path, error->message));
 }
 
 std::string same_projection(const Input& input, const std::string& projection) {

@@ -33,13 +33,18 @@ struct DrawOptions {
   bool vertex_numbers = false;
   std::optional<TriangleColors> colors = {};  ///< instead of bad triangles and regions
   std::optional<Box> zoom = {};               ///< draw only what meets this box
-  double width = 900;                         ///< of one panel, in CSS pixels
-  std::string title = {};                     ///< under the picture
+  /// Of a sphere: longitude and latitude of the middle of the picture [degrees]. None: the middle of a mesh that is a
+  /// part of the sphere, else 0, 0. What is behind the limb is not drawn. A zoom box is in the picture: [length], from
+  /// its middle to the right and up.
+  std::optional<Vec2> view = {};
+  double width = 900;      ///< of one panel, in CSS pixels
+  std::string title = {};  ///< under the picture
 };
 
 /// One panel.
 [[nodiscard]] std::string draw_svg(const Mesh& mesh, const DrawOptions& options = {});
-/// Two panels side by side, to one scale and one zoom box.
+/// Two panels side by side, to one scale, one view and one zoom box. Precondition: both lie in the plane, or on
+/// spheres.
 [[nodiscard]] std::string draw_before_after_svg(const Mesh& before, const Mesh& after, const DrawOptions& options = {});
 
 /// Puts SVG documents side by side in rows of `columns`, under a title. Ids and the references to them are prefixed, so

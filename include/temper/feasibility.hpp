@@ -4,7 +4,8 @@
 // tℓ ≤ d ≤ (1 − t)ℓ" is a linear programme; so is "all h ≥ tℓ" alone, and "these edges have dual lengths ≥ tℓ". It
 // finds the best margin t, the least change of weights that attains a given margin, or the least violation; and when no
 // weights exist it says why, with a certificate that exact arithmetic verifies without any linear programming. Solvers
-// come through one small interface (temper/lp.hpp has Clp). Over connectivities: temper/connectivity.hpp.
+// come through one small interface (temper/lp.hpp has Clp). Over connectivities: temper/connectivity.hpp. For meshes of
+// the plane: find_weights() and best_connectivity() say so, and it is a precondition of all other functions.
 #pragma once
 
 #include <cstddef>

@@ -27,7 +27,7 @@ struct HtmlReport {
 
 /// The page, as UTF-8. The arrays of the meshes are in it whole: doubles to the last bit, compressed by zlib and in
 /// base64; with them the exact verdict on each triangle. About 40 bytes a triangle. The same bytes for the same report.
-/// Precondition: no erased triangles. O(n).
+/// Precondition: no erased triangles; the meshes lie in the plane. O(n).
 [[nodiscard]] std::string html_report(const HtmlReport& report);
 
 }  // namespace temper::io

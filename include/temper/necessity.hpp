@@ -9,7 +9,7 @@
 //
 // where the product is positive. If the least a and the least b add up to 1 or less, no s is left. The proof needs no
 // weight and no other vertex (docs/explain.md): |p|² − w_p, linear in each triangle, is a convex function along every
-// segment inside the domain.
+// segment inside the domain. Precondition: the mesh lies in the plane.
 #pragma once
 
 #include <optional>

@@ -3,7 +3,7 @@
 // Data at vertices are taken to be linear on triangles, data of triangles constant on each. That makes both functions
 // of the plane, which do not care how a mesh is numbered. A mesh that has been changed gets its data from them: each
 // vertex those at the place in the former mesh where it is now, each triangle those of the one there that its middle is
-// in.
+// in. Precondition: the meshes lie in the plane.
 #pragma once
 
 #include <algorithm>

@@ -80,10 +80,11 @@ Restoration restore_regularity(Mesh& mesh, HiddenPolicy policy = HiddenPolicy::k
 inline constexpr double kNoThreshold = std::numeric_limits<double>::infinity();
 
 /// The least t ≥ 0 past which an unconstrained edge of v's star or link that is regular now is not when v moves along
-/// `step` (x and y in units of length, w in units of length²); kNoThreshold when there is none. t is a pure number,
-/// the multiple of the step. It is 0 when such an edge is a tie (cocircular in the power sense) and any move along the
-/// step breaks it. Edges not regular as it is, constrained ones and the boundary do not count; nor does it matter
-/// whether triangles turn over on the way. In doubles: near it, only is_regular decides. O(degree).
+/// `step` (x and y in units of length, w in units of length²; on the sphere X, Y and Z); kNoThreshold when there is
+/// none. t is a pure number, the multiple of the step. It is 0 when such an edge is a tie (cocircular in the power
+/// sense) and any move along the step breaks it. Edges not regular as it is, constrained ones and the boundary do not
+/// count; nor does it matter whether triangles turn over on the way. In doubles: near it, only is_regular decides.
+/// O(degree).
 [[nodiscard]] double flip_threshold(const Mesh& mesh, VertexId v, const std::array<double, 3>& step);
 
 /// The least change of v's weight [length²], upwards when direction is positive and downwards when it is negative,
@@ -94,7 +95,7 @@ inline constexpr double kNoThreshold = std::numeric_limits<double>::infinity();
 
 /// The distance that v may go along `direction`, its weight as it is, before an edge flips: in units of the direction's
 /// length, so that p + threshold · direction is the place. kNoThreshold when the line meets none, or the direction is
-/// zero.
+/// zero. Precondition: the mesh lies in the plane.
 [[nodiscard]] double position_flip_threshold(const Mesh& mesh, VertexId v, Vec2 direction);
 
 }  // namespace temper

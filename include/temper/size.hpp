@@ -23,12 +23,13 @@ class Executor;
 /// √(4/√3 A), A the mean area of the triangles at v. Precondition: v is not isolated. O(degree).
 [[nodiscard]] double local_size(const Mesh& mesh, VertexId v);
 
-/// A length at every point of the plane: linear on each triangle of a mesh; beyond the mesh, that of its nearest point.
-/// An immutable value, cheap to copy, and safe to ask from several threads.
+/// A length at every point of the plane, or at the vertices of a mesh of the sphere: linear on each triangle of a mesh;
+/// beyond the mesh, that of its nearest point. An immutable value, cheap to copy, and safe to ask from several threads.
 class SizeField {
  public:
   /// The field of these sizes at the vertices of the mesh, which is copied. Errors name the vertex in the user's
-  /// numbering: another number of sizes than of vertices; a size that is not finite and positive.
+  /// numbering: another number of sizes than of vertices; a size that is not finite and positive. Also a mesh of the
+  /// sphere.
   [[nodiscard]] static Expected<SizeField> from_values(const Mesh& mesh, std::span<const double> sizes,
                                                        const InputNames* names = nullptr);
 
@@ -40,6 +41,7 @@ class SizeField {
   };
   /// The field at p. Exactly the given value at a vertex; a function of p alone, whatever the hint. About O(distance
   /// from the hint in triangles), O(log n) without or with a bad one.
+  /// Precondition: its mesh lies in the plane.
   [[nodiscard]] Sample at(Vec2 p, TriangleId hint = {}) const;
 
   /// The mesh it is linear on. Its vertices and triangles have the numbers they were given with.

@@ -86,7 +86,7 @@ void remove_vertex(Mesh& mesh, const RemovalPlan& plan);
 /// not be counter-clockwise, or a new edge is there already (the link condition). O(k²).
 [[nodiscard]] RemovalPlan plan_collapse(const Mesh& mesh, VertexId v, VertexId into, RemovalPlan storage = {});
 
-// --- insertion and split --------------------------------------------------------------------------
+// --- insertion and split: for meshes of the plane, a precondition of all that plans ---------------------------------
 
 /// The answer of plan_insertion and plan_split: the vertex can be inserted, or why not.
 enum class InsertionStatus {
@@ -159,7 +159,7 @@ VertexId insert_vertex(Mesh& mesh, const InsertionPlan& plan, const InsertionObs
 /// have; linear when none does.
 [[nodiscard]] double split_weight(double w_a, double w_b, double squared_length, double t);
 
-// --- boundary grading -----------------------------------------------------------------------------
+// --- boundary grading: for meshes of the plane, a precondition ------------------------------------------------------
 
 /// One edge of the boundary or of constrained lines, and where to cut it.
 struct EdgeCuts {

@@ -27,6 +27,7 @@ def draw_svg(
     regions: bool = True,
     vertex_numbers: bool = False,
     zoom: Sequence[float] | None = None,
+    view: tuple[float, float] | None = None,
     width: float = 900.0,
     title: str = "",
 ) -> Svg:
@@ -46,7 +47,10 @@ def draw_svg(
     regions : bool
         Tint regions, and draw constrained edges thicker.
     zoom : (x0, y0, x1, y1), optional
-        Draw only what meets this box.
+        Draw only what meets this box. Of a sphere it is in the picture: [length], from its middle to the right and up.
+    view : (longitude, latitude), optional
+        Of a sphere [degrees]: the middle of the picture, whose near half is drawn. None: the middle of a mesh that is a
+        part of the sphere, else 0, 0.
     width : float
         In CSS pixels.
 
@@ -72,10 +76,11 @@ def draw_before_after_svg(
     regions: bool = True,
     vertex_numbers: bool = False,
     zoom: Sequence[float] | None = None,
+    view: tuple[float, float] | None = None,
     width: float = 900.0,
     title: str = "",
 ) -> Svg:
-    """Two panels side by side, to one scale and one zoom box; options as of ``draw_svg``, ``width`` is of one panel."""
+    """Two panels side by side, to one scale, one view and one zoom box; options as of ``draw_svg``, ``width`` is of one panel."""
     options = _options(locals())
     return Svg(_temper.draw_before_after_svg(as_mesh(before)._handle, as_mesh(after)._handle, options))
 
@@ -86,6 +91,10 @@ def _options(values: dict[str, Any]) -> dict[str, Any]:
         options["zoom"] = tuple(float(v) for v in options["zoom"])
         if len(options["zoom"]) != 4:
             raise ValueError("zoom: expected x0, y0, x1, y1")
+    if options["view"] is not None:
+        options["view"] = tuple(float(v) for v in options["view"])
+        if len(options["view"]) != 2:
+            raise ValueError("view: expected longitude, latitude")
     return options
 
 

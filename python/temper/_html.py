@@ -78,6 +78,7 @@ def html_report(
     True
     """
     after = as_mesh(mesh)
+    after._handle.require_plane("html_report()")
     old = None if before is None else as_mesh(before)
     measures = _measures(after)
     shown: dict[str, Any] = {"verb": "check" if report is None else "optimize", "version": _temper.__version__}

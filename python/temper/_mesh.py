@@ -431,9 +431,7 @@ class Mesh:
         return table("temper.Mesh", rows, html_report(self, reasons=False)._repr_html_())
 
     def _repr_svg_(self) -> str | None:
-        if self.n_triangles > _PICTURE or not self.space.is_plane:
-            return None
-        return _temper.draw_svg(self._handle, {"width": 500.0})
+        return _temper.draw_svg(self._handle, {"width": 500.0}) if self.n_triangles <= _PICTURE else None
 
 
 def _unpickle(vertices: tuple[Any, ...], triangles: tuple[Any, ...], data: tuple[Any, ...]) -> Mesh:

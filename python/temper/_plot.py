@@ -88,6 +88,7 @@ def plot(
     from matplotlib.collections import LineCollection, PolyCollection
 
     mesh = as_mesh(mesh)
+    mesh._handle.require_plane("plot()")
     if ax is None:
         ax = pyplot.subplots(figsize=(7, 6), layout="constrained")[1]
     points, triangles = np.asarray(mesh.points), np.asarray(mesh.triangles)

@@ -123,7 +123,8 @@ std::string document(std::span<const Shown> shown, const PageFrame& frame, const
     const double x = kGap + static_cast<double>(i) * (frame.width + kGap);
     body += "<g transform=\"translate(" + short_number(x) + " " + short_number(kGap) + ")\">\n" + shown[i].panel.svg +
             "</g>\n";
-    body += text_at(x + frame.width / 2, y + kLine, "middle", caption(shown[i], options.zoom.has_value()));
+    body += text_at(x + frame.width / 2, y + kLine, "middle",
+                    caption(shown[i], options.zoom.has_value() || !frame.view.is_plane()));
   }
   y += kLine;
   if (!options.title.empty()) body += text_at(width / 2, y += kLine, "middle", options.title);

@@ -16,12 +16,14 @@ constexpr double kTallest = 1.25;                  // … and at most; the mesh 
 constexpr double kStepsPerEdge = 100;              // grid steps on a median edge: its ends are then right to 1 %
 constexpr double kFinest = 1e-3, kCoarsest = 0.1;  // pixels per grid step
 
-Box bounding_box(std::span<const Mesh* const> meshes) {
+/// Of what is seen; of what goes on behind the limb the whole disc.
+Box bounding_box(std::span<const Mesh* const> meshes, const View& view) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Box box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
   for (const Mesh* mesh : meshes) {
     for (VertexId v : mesh->vertices()) {
-      const Vec2 p = mesh->position(v);
+      if (!view.shows(mesh->point(v))) return {{-view.radius(), -view.radius()}, {view.radius(), view.radius()}};
+      const Vec2 p = view.at(mesh->point(v));
       box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
       box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
     }
@@ -51,12 +53,14 @@ double margin(std::span<const Mesh* const> meshes, const DrawOptions& options, d
 double larger_side(const Box& box) { return std::max(box.high.x - box.low.x, box.high.y - box.low.y); }
 
 // The median length of the edges that meet the box; 0 when none does.
-double median_edge(std::span<const Mesh* const> meshes, const Box& box) {
+double median_edge(std::span<const Mesh* const> meshes, const View& view, const Box& box) {
   std::vector<double> lengths;
   for (const Mesh* mesh : meshes) {
     for (HalfedgeId h : mesh->halfedges()) {
       if (!mesh->is_edge_representative(h)) continue;
-      const Segment edge{mesh->position(mesh->origin(h)), mesh->position(mesh->target(h))};
+      const std::vector<Vec2> line = view.line(mesh->point(mesh->origin(h)), mesh->point(mesh->target(h)));
+      if (line.empty()) continue;
+      const Segment edge{line.front(), line.back()};
       if (clip(edge, box)) lengths.push_back(length(edge.to - edge.from));
     }
   }
@@ -83,15 +87,16 @@ GridPoint PageFrame::grid(Vec2 p) const {
 std::int64_t PageFrame::steps(double pixels) const { return std::llround(pixels / unit); }
 
 PageFrame make_frame(std::span<const Mesh* const> meshes, const DrawOptions& options) {
-  Box box = options.zoom ? ordered(*options.zoom) : bounding_box(meshes);
+  PageFrame frame;
+  frame.view = make_view(meshes, options);
+  Box box = options.zoom ? ordered(*options.zoom) : bounding_box(meshes, frame.view);
   double side = larger_side(box);
   if (!(side > 0) || !std::isfinite(side)) {
-    box = grown(bounding_box(meshes), 0.5);
+    box = grown(bounding_box(meshes, frame.view), 0.5);
     side = larger_side(box);
   }
   if (!options.zoom) box = grown(box, margin(meshes, options, side));
 
-  PageFrame frame;
   frame.width = options.width >= kLeastWidth ? options.width : kLeastWidth;
   const double w = box.high.x - box.low.x, h = box.high.y - box.low.y;
   const double ratio = w > 0 ? std::clamp(h / w, kFlattest, kTallest) : kTallest;
@@ -101,7 +106,7 @@ PageFrame make_frame(std::span<const Mesh* const> meshes, const DrawOptions& opt
   const Vec2 half = {frame.width / (2 * frame.scale), frame.height / (2 * frame.scale)};
   frame.box = {center - half, center + half};
   frame.clip = grown(frame.box, kClipMargin * larger_side(frame.box));
-  frame.edge = median_edge(meshes, frame.clip) * frame.scale;
+  frame.edge = median_edge(meshes, frame.view, frame.clip) * frame.scale;
   frame.unit = grid_unit(frame.edge);
   return frame;
 }
@@ -127,8 +132,7 @@ std::optional<Segment> clip(const Segment& s, const Box& box) {
   return Segment{t0 == 0 ? s.from : s.from + t0 * along, t1 == 1 ? s.to : s.from + t1 * along};
 }
 
-std::vector<Vec2> clip(const std::array<Vec2, 3>& triangle, const Box& box) {
-  std::vector<Vec2> polygon(triangle.begin(), triangle.end());
+std::vector<Vec2> clip(std::vector<Vec2> polygon, const Box& box) {
   // Keeps what has positive room on one side after the other.
   for (int side = 0; side < 4 && !polygon.empty(); ++side) {
     const auto room = [&](Vec2 p) {

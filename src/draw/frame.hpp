@@ -5,12 +5,12 @@
 // before it is written: orthocenters of flat triangles lie anywhere.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "draw/view.hpp"
 #include "temper/draw.hpp"
 #include "temper/mesh.hpp"
 
@@ -30,7 +30,8 @@ struct PageFrame {
   static constexpr double kLeastDetail = 6;   ///< pixels of a median edge, for duals and weights
   static constexpr double kLeastEdges = 1.5;  ///< for the edges themselves: closer lines are one grey
 
-  Box box;                       ///< what the panel shows, in the user's coordinates
+  View view;                     ///< from the mesh to the plane of the picture
+  Box box;                       ///< what the panel shows, in this plane: of a mesh of the plane the user's coordinates
   Box clip;                      ///< a little more: what is written
   double scale = 1;              ///< pixels per unit of the user's
   double unit = 0.01;            ///< pixels per step of the grid
@@ -44,13 +45,13 @@ struct PageFrame {
   [[nodiscard]] std::int64_t steps(double pixels) const;
 };
 
-/// One frame for all meshes: the zoom box, or what holds all their vertices.
+/// One frame for all meshes: the zoom box, or what holds all their vertices that are seen.
 [[nodiscard]] PageFrame make_frame(std::span<const Mesh* const> meshes, const DrawOptions& options);
 
 /// The part of a segment inside the box; nothing when it misses it or is not finite.
 [[nodiscard]] std::optional<Segment> clip(const Segment& segment, const Box& box);
-/// The part of a triangle inside the box: a convex polygon, empty when it misses it.
-[[nodiscard]] std::vector<Vec2> clip(const std::array<Vec2, 3>& triangle, const Box& box);
+/// The part of a polygon inside the box, empty when it misses it.
+[[nodiscard]] std::vector<Vec2> clip(std::vector<Vec2> polygon, const Box& box);
 /// Does the disc meet the box?
 [[nodiscard]] bool meets(Vec2 center, double radius, const Box& box);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "draw/path.hpp"
 #include "draw/xml.hpp"
@@ -38,6 +39,7 @@ class PanelPainter {
       tint_regions();
     }
     fill_bad_triangles();
+    draw_limb();
     if (options_.primal) draw_edges();
     if (options_.dual && detailed_) draw_dual();
     if (options_.weights && detailed_) draw_weights();
@@ -50,20 +52,29 @@ class PanelPainter {
   [[nodiscard]] double primal_width() const {
     return detailed_ ? std::clamp(kPrimalWidth * frame_.edge, kLeastPrimal, kMostPrimal) : kDenseWidth;
   }
-  [[nodiscard]] Segment edge(HalfedgeId h) const {
-    return {mesh_.position(mesh_.origin(h)), mesh_.position(mesh_.target(h))};
+  [[nodiscard]] double edge_length(HalfedgeId h) const {
+    const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h));
+    return mesh_.space().is_plane() ? length(b.position() - a.position()) : arc_length(lifted(a), lifted(b));
   }
   [[nodiscard]] std::array<WeightedPoint, 3> points(TriangleId t) const {
     const auto v = mesh_.corners(t);
     return {mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2])};
   }
 
-  void add_segment(PathText& path, const Segment& segment) const {
-    if (const auto seen = clip(segment, frame_.clip)) path.segment(frame_.grid(seen->from), frame_.grid(seen->to));
+  void add_line(PathText& path, const WeightedPoint& p, const WeightedPoint& q) const {
+    const std::vector<Vec2> line = frame_.view.line(p, q);
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const auto seen = clip(Segment{line[i - 1], line[i]}, frame_.clip);
+      if (seen) path.segment(frame_.grid(seen->from), frame_.grid(seen->to));
+    }
+  }
+  void add_circle(PathText& path, const WeightedPoint& p, double radius) const {
+    if (frame_.view.is_plane()) return path.circle(frame_.grid(p.position()), frame_.steps(radius * frame_.scale));
+    const std::vector<WeightedPoint> around = frame_.view.circle(p, radius);
+    for (std::size_t i = 0; i < around.size(); ++i) add_line(path, around[i], around[(i + 1) % around.size()]);
   }
   void add_triangle(PathText& path, TriangleId t) const {
-    const auto p = points(t);
-    const std::vector<Vec2> polygon = clip({p[0].position(), p[1].position(), p[2].position()}, frame_.clip);
+    const std::vector<Vec2> polygon = clip(frame_.view.polygon(points(t)), frame_.clip);
     if (polygon.empty()) return;
     path.move_to(frame_.grid(polygon[0]));
     for (std::size_t i = 1; i < polygon.size(); ++i) path.line_to(frame_.grid(polygon[i]));
@@ -103,12 +114,19 @@ class PanelPainter {
     PathText path;
     for (TriangleId t : mesh_.triangles()) {
       const auto p = points(t);
-      if (is_well_centered(p[0], p[1], p[2])) continue;
+      if (is_well_centered(mesh_.space(), p[0], p[1], p[2])) continue;
       ++panel_.bad;
       if (options_.bad_triangles && !options_.colors) add_triangle(path, t);
     }
     const bool few = static_cast<double>(panel_.bad) < kFew * static_cast<double>(panel_.triangles);
     fill(path, "bad", detailed_ ? Palette::bad : Palette::bad_dense, few && !detailed_ ? kSpot : kSeam);
+  }
+
+  void draw_limb() {
+    if (frame_.view.is_plane()) return;
+    PathText path;
+    path.circle(frame_.grid({0, 0}), frame_.steps(frame_.view.radius() * frame_.scale));
+    stroke(path, "limb", Palette::frame, 1);
   }
 
   // Domain boundary and constrained edges are thicker: they are what the optimiser keeps.
@@ -118,7 +136,7 @@ class PanelPainter {
       if (!mesh_.is_edge_representative(h)) continue;
       const bool outline = mesh_.is_boundary(h) || mesh_.is_constrained(h);
       if (!outline && !frame_.shows_edges()) continue;
-      add_segment(outline && options_.regions ? kept : plain, edge(h));
+      add_line(outline && options_.regions ? kept : plain, mesh_.point(mesh_.origin(h)), mesh_.point(mesh_.target(h)));
     }
     stroke(plain, "primal", detailed_ ? Palette::primal : Palette::primal_dense, primal_width());
     stroke(kept, "constrained", Palette::primal, std::max(kConstrainedTimes * primal_width(), 0.8),
@@ -127,34 +145,48 @@ class PanelPainter {
 
   // Between the orthocenters on both sides, or from the one to the weighted midpoint of a boundary edge.
   void draw_dual() {
-    IdVector<TriangleId, Vec2> centers(mesh_.n_triangles());
-    for (TriangleId t : mesh_.triangles()) {
-      const auto p = points(t);
-      centers[t] = orthocenter(p[0], p[1], p[2]);
-    }
+    IdVector<TriangleId, WeightedPoint> centers(mesh_.n_triangles());
+    for (TriangleId t : mesh_.triangles()) centers[t] = center(t);
     PathText path;
     for (HalfedgeId h : mesh_.halfedges()) {
       if (!mesh_.is_edge_representative(h)) continue;
-      const Vec2 from = centers[Mesh::triangle(h)];
-      add_segment(path, {from, mesh_.is_boundary(h) ? weighted_midpoint(h) : centers[Mesh::triangle(mesh_.twin(h))]});
+      const WeightedPoint to = mesh_.is_boundary(h) ? weighted_midpoint(h) : centers[Mesh::triangle(mesh_.twin(h))];
+      add_line(path, centers[Mesh::triangle(h)], to);
     }
     panel_.dual = !path.empty();
     stroke(path, "dual", Palette::dual, kDualTimes * primal_width());
   }
 
-  [[nodiscard]] Vec2 weighted_midpoint(HalfedgeId h) const {
+  /// Orthocenter and weighted midpoint, as points of the space.
+  [[nodiscard]] WeightedPoint center(TriangleId t) const {
+    const auto [a, b, c] = points(t);
+    if (!mesh_.space().is_plane()) return as_point(orthocenter(lifted(a), lifted(b), lifted(c)));
+    const Vec2 o = orthocenter(a, b, c);
+    return {o.x, o.y, 0};
+  }
+  [[nodiscard]] WeightedPoint weighted_midpoint(HalfedgeId h) const {
     const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h));
+    if (!mesh_.space().is_plane()) {  // the foot of the perpendicular from the center
+      const Vec3 p = lifted(a), along = lifted(b) - p;
+      return as_point(p - (dot(p, along) / squared_length(along)) * along);
+    }
     const Vec2 along = b.position() - a.position();
-    return a.position() + (edge_split(a, b) / length(along)) * along;
+    const Vec2 m = a.position() + (edge_split(a, b) / length(along)) * along;
+    return {m.x, m.y, 0};
+  }
+  /// The place in the picture of a point that is seen and within the box, or the box within `radius` of it.
+  [[nodiscard]] std::optional<Vec2> seen(const WeightedPoint& p, double radius = 0) const {
+    const Vec2 at = frame_.view.at(p);
+    if (!frame_.view.shows(p) || !meets(at, radius, frame_.box)) return std::nullopt;
+    return at;
   }
 
   void draw_weights() {
     PathText positive, negative;
     for (VertexId v : mesh_.vertices()) {
       const double radius = std::sqrt(std::abs(mesh_.weight(v))) * options_.weight_scale;
-      if (!std::isfinite(radius) || !meets(mesh_.position(v), radius, frame_.box)) continue;
-      PathText& path = mesh_.weight(v) > 0 ? positive : negative;
-      path.circle(frame_.grid(mesh_.position(v)), frame_.steps(radius * frame_.scale));
+      if (radius == 0 || !std::isfinite(radius) || !seen(mesh_.point(v), radius)) continue;
+      add_circle(mesh_.weight(v) > 0 ? positive : negative, mesh_.point(v), radius);
     }
     panel_.positive = !positive.empty();
     panel_.negative = !negative.empty();
@@ -173,9 +205,10 @@ class PanelPainter {
     PathText path;
     for (HalfedgeId h : mesh_.halfedges()) {
       if (!mesh_.is_edge_representative(h) || !nearly_collapsed(h)) continue;
-      const Segment s = edge(h);
-      const Vec2 middle = 0.5 * (s.from + s.to);
-      if (meets(middle, 0, frame_.box)) path.circle(frame_.grid(middle), frame_.steps(kRingRadius));
+      const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h));
+      if (const auto middle = seen({0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.w + b.w)})) {
+        path.circle(frame_.grid(*middle), frame_.steps(kRingRadius));
+      }
     }
     panel_.rings = !path.empty();
     stroke(path, "near-coincident", Palette::ring, 1.5);
@@ -187,13 +220,11 @@ class PanelPainter {
     for (HalfedgeId side : {h, mesh_.twin(h)}) {
       if (!side.valid()) continue;
       for (HalfedgeId other : {Mesh::next(side), Mesh::prev(side)}) {
-        const Segment s = edge(other);
-        around += length(s.to - s.from);
+        around += edge_length(other);
         ++edges;
       }
     }
-    const Segment s = edge(h);
-    return length(s.to - s.from) * edges < kNearCoincident * around;
+    return edge_length(h) * edges < kNearCoincident * around;
   }
 
   void number_vertices() {
@@ -201,8 +232,9 @@ class PanelPainter {
     panel_.svg += "<g class=\"numbers\" font-size=\"" + short_number(size) + "\" fill=\"#000000\" stroke=\"#ffffff\"" +
                   " stroke-width=\"" + short_number(size / 4) + "\" paint-order=\"stroke\">\n";
     for (VertexId v : mesh_.vertices()) {
-      if (!meets(mesh_.position(v), 0, frame_.box)) continue;
-      const GridPoint at = frame_.grid(mesh_.position(v));
+      const auto place = seen(mesh_.point(v));
+      if (!place) continue;
+      const GridPoint at = frame_.grid(*place);
       panel_.svg += "<text x=\"" + std::to_string(at.x + std::llround(size / 4)) + "\" y=\"" +
                     std::to_string(at.y - std::llround(size / 4)) + "\">" + std::to_string(v.index) + "</text>\n";
     }

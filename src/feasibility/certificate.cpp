@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <map>
 
+#include "base/assert.hpp"
 #include "feasibility/exact_number.hpp"
 #include "temper/feasibility.hpp"
 
@@ -253,6 +254,7 @@ std::string_view name(CertificateCheck check) {
 }
 
 CertificateCheck check_certificate(const Mesh& mesh, const Certificate& certificate) {
+  TEMPER_ASSERT(mesh.space().is_plane());
   if (!has_good_multipliers(certificate)) return CertificateCheck::bad_multiplier;
   for (const auto& term : certificate.terms) {
     if (!counts(certificate.conditions, term.constraint.kind) || !is_of(mesh, term.constraint)) {

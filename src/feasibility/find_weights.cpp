@@ -345,6 +345,7 @@ std::string_view name(MarginIs is) {
 
 Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
+  if (auto error = expect_plane(mesh, "find_weights()")) return *std::move(error);
   for (const HalfedgeId h : options.edges) {
     if (h.index >= mesh.n_halfedges()) {
       return InputError{ErrorCode::index_out_of_range, "",

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/assert.hpp"
 #include "feasibility/certify.hpp"
 #include "feasibility/constraints.hpp"
 #include "feasibility/lp_builder.hpp"
@@ -98,6 +99,7 @@ std::vector<double> weight_units(const Mesh& mesh, std::span<const VertexId> ver
 }
 
 double weight_margin(const Mesh& mesh, Conditions conditions, std::span<const HalfedgeId> edges) {
+  TEMPER_ASSERT(mesh.space().is_plane());
   const Demand demand(mesh, conditions, edges);
   double margin = kUnbounded;
   for (const TriangleId t : mesh.triangles()) {
@@ -162,10 +164,12 @@ BestMargin best_of(const Mesh& mesh, std::span<const TriangleId> triangles, LpSo
 
 BestMargin best_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, Conditions conditions,
                        std::span<const HalfedgeId> edges) {
+  TEMPER_ASSERT(mesh.space().is_plane());
   return best_of(mesh, sorted(triangles), solver, Demand(mesh, conditions, edges));
 }
 
 BestMargin best_margin(const Mesh& mesh, LpSolver& solver, Conditions conditions, std::span<const HalfedgeId> edges) {
+  TEMPER_ASSERT(mesh.space().is_plane());
   const Demand demand(mesh, conditions, edges);
   BestMargin worst;
   worst.margin = kUnbounded;

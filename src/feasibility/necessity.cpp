@@ -181,6 +181,7 @@ std::optional<CrossingBound> lesser(const std::optional<CrossingBound>& x, const
 }  // namespace
 
 std::optional<EdgeConflict> edge_conflict(const Mesh& mesh, HalfedgeId h, double up_to) {
+  TEMPER_ASSERT(mesh.space().is_plane());
   const HalfedgeId edge = mesh.is_edge_representative(h) ? h : mesh.twin(h);
   const Surroundings left(mesh, edge, up_to);
   std::optional<CrossingBound> a = left.least(true), b = left.least(false);

@@ -9,6 +9,7 @@
 #include "energy/whole_mesh.hpp"
 #include "optimize/driver.hpp"
 #include "optimize/rank.hpp"
+#include "optimize/rounding.hpp"
 #include "temper/necessity.hpp"
 #include "temper/regularity.hpp"
 
@@ -189,24 +190,6 @@ struct Result {
   IdVector<VertexId, VertexId> vertices;  ///< of OptimizeReport
   Rank rank;
 };
-
-/// On the sphere each change of a weight rounds a vertex's place, and each move its weight: of what has not changed but
-/// for that, vertices get the input's again.
-void take_back_rounding(const Mesh& input, const IdVector<VertexId, VertexId>& vertices, Mesh& mesh) {
-  constexpr double kPlacesOfManySteps = 0x1p-40, kWeightsOfManySteps = 0x1p-46;
-  const Space& space = mesh.space();
-  if (space.is_plane()) return;
-  const double least = kWeightsOfManySteps * space.radius() * space.radius();
-  for (const VertexId v : mesh.vertices()) {
-    const VertexId was = vertices.empty() ? v : vertices[v];
-    if (!was.valid()) continue;
-    const bool stays = space.same_place(input.point(was), mesh.point(v), kPlacesOfManySteps);
-    const double w = mesh.weight(v), old = input.weight(was);
-    const bool keeps = std::abs(w - old) < least;
-    if (stays || keeps) mesh.set_point(v, space.with_weight(stays ? input.point(was) : mesh.point(v), keeps ? old : w));
-    if (stays && keeps) mesh.set_point(v, input.point(was));
-  }
-}
 
 /// `settings`: in the user's units.
 Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, const AccuracySizes* sizes) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/assert.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "places/box_tree.hpp"
 #include "temper/places.hpp"
@@ -86,6 +87,7 @@ const BoxTree& PlaceFinder::tree() const {
 }
 
 Place PlaceFinder::find(Vec2 p, TriangleId near) const {
+  TEMPER_ASSERT(mesh_.space().is_plane());
   if (near.valid()) {
     const TriangleId t = walk(mesh_, p, near);
     if (t.valid()) return inside(mesh_, t, p);

@@ -95,6 +95,7 @@ TriangleId same_triangle(const Mesh& before, const Mesh& after, TriangleId t, co
 IdVector<VertexId, Place> places_of_vertices(const Mesh& before, const Mesh& after,
                                              const IdVector<VertexId, VertexId>& vertices, Executor* executor) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(before) && !has_erased_triangles(after));
+  TEMPER_ASSERT(before.space().is_plane() && after.space().is_plane());
   TEMPER_ASSERT(vertices.empty() || vertices.size() == after.n_vertices());
   const PlaceFinder finder(before);
   const FormerVertices former(before, after, vertices);

@@ -95,10 +95,17 @@ double flip_threshold(const Mesh& mesh, VertexId v, const std::array<double, 3>&
 }
 
 double weight_flip_threshold(const Mesh& mesh, VertexId v, double direction) {
-  return flip_threshold(mesh, v, {0, 0, direction > 0 ? 1.0 : direction < 0 ? -1.0 : 0.0});
+  const double sign = direction > 0 ? 1.0 : direction < 0 ? -1.0 : 0.0;
+  if (mesh.space().is_plane()) return flip_threshold(mesh, v, {0, 0, sign});
+  // P (1 ± t) has the weight |P|² (1 ± t)² − R²; past the center there is none.
+  const Vec3 p = mesh.lifted_point(v);
+  const double t = flip_threshold(mesh, v, {sign * p.x, sign * p.y, sign * p.z});
+  if (t == kNoThreshold || (sign < 0 && t >= 1)) return kNoThreshold;
+  return squared_length(p) * t * (2 + sign * t);
 }
 
 double position_flip_threshold(const Mesh& mesh, VertexId v, Vec2 direction) {
+  TEMPER_ASSERT(mesh.space().is_plane());
   return flip_threshold(mesh, v, {direction.x, direction.y, 0});
 }
 

@@ -21,11 +21,13 @@ struct SizeField::Data {
   Data(const Mesh* seen, IdVector<VertexId, double> values) : mesh(seen), sizes(std::move(values)) {}
   Data(const Data&) = delete;
   Data& operator=(const Data&) = delete;
+  ~Data() = default;
 };
 
 Expected<SizeField> SizeField::from_values(const Mesh& mesh, std::span<const double> sizes, const InputNames* names) {
   const InputNames numbers_from_0;
   const InputNames& say = names != nullptr ? *names : numbers_from_0;
+  if (auto error = expect_plane(mesh, "a size field")) return *std::move(error);
   if (sizes.size() != mesh.n_vertices()) {
     return InputError{ErrorCode::size_mismatch,
                       {},
@@ -46,6 +48,7 @@ Expected<SizeField> SizeField::from_values(const Mesh& mesh, std::span<const dou
 }
 
 SizeField::Sample SizeField::at(Vec2 p, TriangleId hint) const {
+  TEMPER_ASSERT(data_->mesh->space().is_plane());
   const Place place = data_->finder.find(p, hint);
   return {interpolated(place, [this](VertexId v) { return data_->sizes[v]; }), place.triangle, place.outside};
 }

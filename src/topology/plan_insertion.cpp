@@ -15,6 +15,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/assert.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "temper/topology.hpp"
 #include "topology/locate.hpp"
@@ -126,6 +127,7 @@ void complete(const Mesh& mesh, InsertionPlan& plan) {
 }  // namespace
 
 InsertionPlan plan_insertion(const Mesh& mesh, const WeightedPoint& p, TriangleId near, InsertionPlan storage) {
+  TEMPER_ASSERT(mesh.space().is_plane());
   InsertionPlan plan = begin_plan(InsertionStatus::outside, p, std::move(storage));
   const Location location = locate(mesh, p.position(), near);
   plan.triangle = location.triangle;
@@ -156,6 +158,7 @@ InsertionPlan plan_insertion(const Mesh& mesh, const WeightedPoint& p, TriangleI
 }
 
 InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p, InsertionPlan storage) {
+  TEMPER_ASSERT(mesh.space().is_plane());
   InsertionPlan plan = begin_plan(InsertionStatus::at_vertex, p, std::move(storage));
   const VertexId a = mesh.origin(h), b = mesh.target(h);
   begin_on_edge(mesh, h, plan);
@@ -181,6 +184,7 @@ InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, double t, InsertionPlan
 }
 
 double interpolated_weight(const Mesh& mesh, TriangleId t, Vec2 p) {
+  TEMPER_ASSERT(mesh.space().is_plane());
   const auto [a, b, c] = mesh.corners(t);
   const WeightedPoint pa = mesh.point(a), pb = mesh.point(b), pc = mesh.point(c);
   const double area = doubled_area(pa.position(), pb.position(), pc.position());

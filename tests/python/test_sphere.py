@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import temper
-from temper import Space, geometry
+from temper import Space, geometry, topology
 
 EARTH = 6371220.0
 OCTAHEDRON = np.array([(1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, -1, 0), (0, 0, -1)], dtype=float)
@@ -248,3 +248,101 @@ def test_energies_are_those_of_the_flat_triangles(globe):
     flat = [(p @ e1, p @ e2, p @ p) for p in (a[0], b[0], c[0])]
     assert one == pytest.approx(temper.triangle_energy(model, flat), rel=1e-9)
     assert temper.vertex_energy(globe, model, 0).value <= temper.total_energy(globe, model)
+
+
+# --- what is for the plane alone -----------------------------------------------------------------------------
+
+
+PLANE_ALONE = {
+    "best_connectivity": temper.best_connectivity,
+    "best_margin": temper.best_margin,
+    "check_certificate": lambda mesh: temper.check_certificate(mesh, temper.Certificate(0.0, [])),
+    "edge_conflict": lambda mesh: temper.edge_conflict(mesh, 0),
+    "edges_that_must_be_split": temper.edges_that_must_be_split,
+    "explain": temper.explain,
+    "find_weights": temper.find_weights,
+    "html_report": temper.html_report,
+    "plot": temper.plot,
+    "position_flip_threshold": lambda mesh: temper.position_flip_threshold(mesh, 0, (1, 0)),
+    "weight_margin": temper.weight_margin,
+    "grade_boundary": topology.grade_boundary,
+    "interpolated_weight": lambda mesh: topology.interpolated_weight(mesh, 0, (0, 0)),
+    "plan_boundary_grading": topology.plan_boundary_grading,
+    "plan_center": lambda mesh: topology.plan_center(mesh, 0),
+    "plan_insertion": lambda mesh: topology.plan_insertion(mesh, (0, 0, 0)),
+    "plan_split": lambda mesh: topology.plan_split(mesh, 0, 0.5),
+    "triangles_without_free_corner": topology.triangles_without_free_corner,
+    "SizeField.at": lambda mesh: temper.input_size_field(mesh).at([(0, 0)]),
+}
+
+
+@pytest.mark.parametrize("name", PLANE_ALONE)
+def test_what_is_for_the_plane_says_so(name, globe):
+    before = globe.copy()
+    with pytest.raises(temper.TemperError) as caught:
+        PLANE_ALONE[name](globe)
+    assert caught.value.code == "unsupported"
+    assert caught.value.message == f"the mesh is one of the sphere, and {name}() takes meshes of the plane"
+    assert globe == before
+
+
+def test_a_size_field_of_values_is_for_the_plane(globe):
+    with pytest.raises(temper.TemperError, match="a size field takes meshes of the plane"):
+        temper.SizeField.from_values(globe, np.ones(300))
+
+
+def test_sizes_are_those_of_the_areas(globe):
+    a, b, c = faces_of(globe)
+    areas = np.zeros(300)
+    np.add.at(areas, globe.triangles, np.linalg.norm(np.cross(b - a, c - a), axis=1)[:, None] / 2)  # of flat triangles
+    mean = areas / np.bincount(globe.triangles.ravel())
+    assert np.allclose(temper.local_size(globe), np.sqrt(4 / np.sqrt(3) * mean), rtol=1e-12)
+    field = temper.input_size_field(globe)
+    assert temper.measure_size(globe, field).band == 1
+    temper.optimize(globe)
+    assert 1 < temper.measure_size(globe, field).band < 10
+
+
+def test_a_trace_is_replayed_to_the_same_bits(globe):
+    before, events = globe.copy(), []
+    temper.optimize(globe, tracer=events.append)
+    assert len(events) > 0 and temper.replay(before, events) == globe
+
+
+def test_a_weight_threshold_is_where_an_edge_flips(globe):
+    up = temper.weight_flip_threshold(globe, 7, 1.0)
+    weights = np.zeros(300)
+    for factor, non_regular in ((0.999, False), (1.001, True)):
+        weights[7] = factor * up
+        globe.weights = weights
+        assert (temper.count_non_regular_edges(globe) > 0) == non_regular
+
+
+def test_connectivity_is_edited_on_a_sphere(globe):
+    h = next(h for h in range(globe.n_halfedges) if topology.can_flip(globe, h) == "possible")
+    topology.flip(globe, h)
+    assert globe.validate() is None and not temper.is_regular(globe, h)
+    assert temper.restore_regularity(globe).regular
+    plan = topology.plan_removal(globe, 5)
+    assert plan.status == "possible"
+    topology.remove_vertex(globe, plan)
+    globe.compact()
+    assert globe.n_vertices == 299 and globe.n_triangles == 2 * 299 - 4 and globe.validate() is None
+
+
+# --- pictures ------------------------------------------------------------------------------------------------
+
+
+def test_a_sphere_is_drawn_from_where_one_looks(globe, ring):
+    front = temper.draw_svg(globe)
+    assert front.startswith("<svg") and 'class="limb"' in front and 'class="bad"' in front
+    assert temper.draw_svg(globe, view=(0, 0)) == front != temper.draw_svg(globe, view=(180, 0))
+    assert globe._repr_svg_() is not None
+    before = globe.copy()
+    temper.optimize(globe)
+    both = temper.draw_before_after_svg(before, globe, view=(30, 40))
+    assert both.count('class="limb"') == 2 and 'class="weight-positive"' in both
+    with pytest.raises(temper.TemperError, match="one mesh is of the plane and the other of a sphere"):
+        temper.draw_before_after_svg(ring, globe)
+    with pytest.raises(ValueError, match="view: expected longitude, latitude"):
+        temper.draw_svg(globe, view=(1, 2, 3))

@@ -14,6 +14,7 @@
 #include <string>
 #include <utility>
 
+#include "optimize/rounding.hpp"
 #include "temper/geometry.hpp"
 #include "temper/topology.hpp"
 #include "temper/trace.hpp"
@@ -67,7 +68,7 @@ class Replayer {
   std::optional<InputError> apply(const TraceEvent& e);
   void go_back_to(const Mesh& state) { mesh_ = state; }
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
-  [[nodiscard]] Replay finish() &&;
+  [[nodiscard]] Replay finish(const Mesh& input) &&;
 
  private:
   std::optional<InputError> check_vertex(VertexId v, const char* what) const;
@@ -253,15 +254,17 @@ std::optional<InputError> Replayer::split(const TraceEvent& e) {
   return std::nullopt;
 }
 
-Replay Replayer::finish() && {
+Replay Replayer::finish(const Mesh& input) && {
   Replay result{std::move(mesh_), {}};
   bool changed = result.mesh.n_vertices() > n_input_;
   for (const VertexId v : result.mesh.vertices()) changed = changed || result.mesh.is_isolated(v);
-  if (!changed) return result;
-  result.vertices = result.mesh.compact().vertices;
-  for (VertexId& v : result.vertices) {
-    if (v.index >= n_input_) v = VertexId();
+  if (changed) {
+    result.vertices = result.mesh.compact().vertices;
+    for (VertexId& v : result.vertices) {
+      if (v.index >= n_input_) v = VertexId();
+    }
   }
+  take_back_rounding(input, result.vertices, result.mesh);
   return result;
 }
 
@@ -289,7 +292,7 @@ Expected<Replay> replay_with_vertices(const Mesh& input, std::span<const TraceEv
                                 std::to_string(e.to_sweep) + ", which has not been"));
     }
   }
-  return std::move(replayer).finish();
+  return std::move(replayer).finish(input);
 }
 
 Expected<Mesh> replay(const Mesh& input, std::span<const TraceEvent> events) {

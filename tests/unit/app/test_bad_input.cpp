@@ -153,6 +153,27 @@ TEST_F(BadInput, OutOfMemoryIsNoCrash) {
 }
 #endif
 
+TEST_F(BadInput, SpheresAreRefusedByWhatIsForThePlane) {
+  temper_ok({"example", "icosahedral", "--level", "2", "-o", "globe.vtu"});
+  make_input();
+  struct Row {
+    std::vector<std::string> arguments;
+    const char* what;
+  };
+  for (const auto& [arguments, what] :
+       std::vector<Row>{{{"weights", "globe.vtu", "-o", "out.vtu"}, "this verb"},
+                        {{"explain", "globe.vtu"}, "this verb"},
+                        {{"check", "globe.vtu", "--html", "out.html"}, "--html"},
+                        {{"optimize", "globe.vtu", "-o", "out.vtu", "--html", "out.html"}, "--html"},
+                        {{"optimize", "in.vtu", "-o", "out.vtu", "--size-field", "globe.vtu"}, "this verb"}}) {
+    const Outcome outcome = temper(arguments);
+    EXPECT_EQ(outcome.exit, 1) << arguments[0];
+    EXPECT_EQ(outcome.err, std::string("temper: error: globe.vtu: the mesh is one of the sphere, and ") + what +
+                               " takes meshes of the plane; --projection puts longitude and latitude on a map\n");
+    EXPECT_EQ(names(), (std::vector<std::string>{"globe.vtu", "in.vtu"}));
+  }
+}
+
 // A limit on the size of files stands for a disk that fills up while the mesh is written.
 TEST_F(BadInput, FullDiskForTheMeshKeepsTheOldOne) {
   make_input();

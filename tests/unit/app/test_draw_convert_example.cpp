@@ -153,5 +153,25 @@ TEST_F(Example, ParametersThatMakeNoMeshAreNamed) {
   EXPECT_FALSE(exists("r.vtu"));
 }
 
+TEST_F(Draw, SpheresAreDrawnFromWhereOneLooks) {
+  temper_ok({"example", "random-sphere", "--vertices", "200", "-o", "in.vtu"});
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--draw", "both.svg", "--quiet"});
+  EXPECT_TRUE(contains(read("both.svg"), "class=\"limb\""));
+  temper_ok({"draw", "out.vtu", "-o", "front.svg"});
+  temper_ok({"draw", "out.vtu", "-o", "same.svg", "--view", "0,0"});
+  temper_ok({"draw", "out.vtu", "-o", "back.svg", "--view=-180,0", "--color", "quality"});
+  EXPECT_EQ(read("front.svg"), read("same.svg"));
+  EXPECT_NE(read("front.svg"), read("back.svg"));
+  temper_ok({"draw", "out.vtu", "--before", "in.vtu", "-o", "both.svg"});
+
+  temper_ok({"example", "annulus", "-o", "flat.vtu"});
+  EXPECT_TRUE(contains(temper({"draw", "out.vtu", "-o", "x.svg", "--view", "0,91"}).err, "a latitude from -90 to 90"));
+  EXPECT_TRUE(contains(temper({"draw", "flat.vtu", "-o", "x.svg", "--view", "0,0"}).err, "expected one of the sphere"));
+  const Outcome mixed = temper({"draw", "out.vtu", "--before", "flat.vtu", "-o", "x.svg"});
+  EXPECT_EQ(mixed.exit, 1);
+  EXPECT_TRUE(contains(mixed.err, "flat.vtu: is a mesh of the plane, but out.vtu is one of the sphere"));
+  EXPECT_FALSE(exists("x.svg"));
+}
+
 }  // namespace
 }  // namespace temper::test

@@ -45,11 +45,14 @@ TEST_F(Trace, ReplaysToTheSameBytes) {
       {"sheared-grid", {"--anchor", "3", "--order", "random", "--max-sweeps", "10"}},
       {"sheared-grid", {"--method", "paper", "--energy", "dT", "--max-sweeps", "6", "--inversion", "refuse"}},
       {"airfoil", {"--weights-only", "--no-flips", "--max-sweeps", "5"}},
+      {"random-sphere", {"--max-sweeps", "10"}},
+      {"random-sphere", {"--weights-only", "--max-sweeps", "5"}},
+      {"random-sphere", {"--positions-only", "--max-sweeps", "5"}},
   };
   for (const Sample& sample : samples) {
     SCOPED_TRACE(sample.example);
     std::vector<std::string> make = {"example", sample.example, "-o", "in.vtu"};
-    if (std::string(sample.example) == "random") make.insert(make.end(), {"--vertices", "200"});
+    if (std::string(sample.example).starts_with("random")) make.insert(make.end(), {"--vertices", "200"});
     temper_ok(make);
     std::vector<std::string> arguments = {"optimize", "in.vtu", "-o", "out.vtu", "--trace", "t.jsonl", "--quiet"};
     arguments.insert(arguments.end(), sample.options.begin(), sample.options.end());

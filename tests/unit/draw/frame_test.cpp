@@ -55,17 +55,17 @@ TEST(Clip, ClippedTrianglesTileWhatTheBoxHolds) {
   Noise noise(5);
   int cut = 0;
   for (int i = 0; i < 1000; ++i) {
-    std::array<Vec2, 3> t;
+    std::vector<Vec2> t(3);
     for (Vec2& p : t) p = {0.5 + noise(), 0.5 + noise()};
     if (cross(t[1] - t[0], t[2] - t[0]) < 0) std::swap(t[1], t[2]);
     const double whole = polygon_area(clip(t, kUnit));
     const double left = polygon_area(clip(t, {{0, 0}, {0.5, 1}})), right = polygon_area(clip(t, {{0.5, 0}, {1, 1}}));
     EXPECT_NEAR(whole, left + right, 1e-14);
-    EXPECT_LE(whole, polygon_area({t.begin(), t.end()}) + 1e-14);
+    EXPECT_LE(whole, polygon_area(t) + 1e-14);
     cut += left > 0 && right > 0;
   }
   EXPECT_GT(cut, 100);
-  EXPECT_TRUE(clip(std::array<Vec2, 3>{{{2, 2}, {3, 2}, {2, 3}}}, kUnit).empty());
+  EXPECT_TRUE(clip(std::vector<Vec2>{{2, 2}, {3, 2}, {2, 3}}, kUnit).empty());
 }
 
 TEST(Frames, EveryVertexIsInsideThePanel) {

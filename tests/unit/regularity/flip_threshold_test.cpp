@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "property/random_mesh.hpp"
+#include "temper/generate.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
@@ -52,6 +53,25 @@ class Probe {
 // What rounding may move a threshold by, relative to itself and to the domain's size 1: conditioning included.
 constexpr double kClose = 1e-9;
 constexpr double kFar = 0x1p20;
+
+TEST(WeightFlipThreshold, OnTheSphereEdgesAreRegularBeforeItAndOneIsNotBehindIt) {
+  const auto globe = random_sphere({.vertices = 200, .radius = 3});
+  ASSERT_TRUE(globe);
+  int finite = 0;
+  for (const VertexId v : globe->vertices()) {
+    for (const int sign : {1, -1}) {
+      const double threshold = weight_flip_threshold(*globe, v, sign);
+      if (threshold == kNoThreshold) continue;
+      ++finite;
+      Mesh mesh = *globe;
+      mesh.set_weight(v, sign * threshold * (1 - kClose));
+      EXPECT_EQ(count_non_regular_edges(mesh), 0U) << v.index;
+      mesh.set_weight(v, sign * threshold * (1 + kClose));
+      EXPECT_GT(count_non_regular_edges(mesh), 0U) << v.index;
+    }
+  }
+  EXPECT_GT(finite, 200);
+}
 
 // Each edge's condition is linear in the weight, so those weights at which all hold are an interval: bisection is sure.
 TEST(WeightFlipThreshold, IsWhereBisectionFindsTheFirstFlip) {
