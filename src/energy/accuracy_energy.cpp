@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "base/sum.hpp"
-#include "geometry/predicates_inline.hpp"
 #include "geometry/triangle_kernel.hpp"
 #include "mesh/blocks.hpp"
+#include "mesh/predicates.hpp"
 
 namespace temper {
 namespace {
@@ -23,7 +23,9 @@ double edge_energy(const Mesh& mesh, const VertexSizes& sizes, const AccuracyMod
   const VertexId a = mesh.origin(h), b = mesh.target(h);
   const HalfedgeId twin = mesh.twin(h);
   const double outer =
-      twin.valid() ? triangle_shape(mesh.point(b), mesh.point(a), mesh.point(mesh.opposite(twin))).edges[0].g : 0;
+      twin.valid()
+          ? triangle_shape(mesh.space(), mesh.point(b), mesh.point(a), mesh.point(mesh.opposite(twin))).edges[0].g
+          : 0;
   const double height = twin.valid() ? model.height : model.boundary_height;
   return edge_value<double>(model,
                             {edge_scale(sizes[a], sizes[b]), height, inner.l2, 1 / inner.l2, inner.dw, inner.g, outer});
@@ -42,7 +44,7 @@ double triangle_logarithm(const TriangleShape& shape, double floor) {
 
 TriangleShape shape_of(const Mesh& mesh, TriangleId t) {
   const auto [p, q, r] = mesh.corners(t);
-  return triangle_shape(mesh.point(p), mesh.point(q), mesh.point(r));
+  return triangle_shape(mesh.space(), mesh.point(p), mesh.point(q), mesh.point(r));
 }
 
 /// Calls visit with the energy of each edge that a halfedge of t stands for.
@@ -57,7 +59,12 @@ void for_own_edges(const Mesh& mesh, const VertexSizes& sizes, const AccuracyMod
   }
 }
 
-PointOf<double> point_of(const WeightedPoint& p) { return {p.x, p.y, p.w}; }
+template <class In>
+typename In::Point point_of(const WeightedPoint& p) {
+  return {p.x, p.y, p.w};
+}
+WeightedPoint as_vertex(const PointOf<double>& p) { return {p.x, p.y, p.w}; }
+WeightedPoint as_vertex(const LiftedPointOf<double>& p) { return {p.x, p.y, p.z}; }
 
 }  // namespace
 
@@ -78,23 +85,17 @@ double accuracy_energy(const Mesh& mesh, const VertexSizes& sizes, const Accurac
   });
 }
 
-double triangle_margin(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
-  const TriangleShape shape = triangle_shape(p, q, r);
+double triangle_margin(const Mesh& mesh, TriangleId t) {
+  const TriangleShape shape = shape_of(mesh, t);
   double least = shape.doubled_area > 0 ? kInfinity : -kInfinity;
   for (const EdgeShape& e : shape.edges) least = std::min({least, e.g / e.l2, 0.5 * (1 - std::abs(e.dw) / e.l2)});
   return least;
 }
 
-double triangle_margin(const Mesh& mesh, TriangleId t) {
-  const auto [p, q, r] = mesh.corners(t);
-  return triangle_margin(mesh.point(p), mesh.point(q), mesh.point(r));
-}
-
 bool has_margins(const Mesh& mesh, double margin, Executor* executor) {
   return !first_index(mesh.n_triangles(), executor, [&](std::size_t i) {
-    const auto [p, q, r] = mesh.corners(TriangleId(i));
-    return !(triangle_margin(mesh, TriangleId(i)) > margin) ||
-           !inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r));
+    const TriangleId t(i);
+    return !(triangle_margin(mesh, t) > margin) || !inlined::is_well_centered(mesh, t);
   });
 }
 
@@ -103,8 +104,7 @@ std::size_t AccuracyFloors::raise(const Mesh& mesh, double margin, Executor* exe
   if (first) floor_.resize(mesh.n_triangles(), 0.0);
   const auto raised = [&](TriangleId t) {
     if (first) {
-      const auto [p, q, r] = mesh.corners(t);
-      if (!inlined::is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r))) return 0.0;
+      if (!inlined::is_well_centered(mesh, t)) return 0.0;
     } else if (!has(t) || floor_[t] == margin) {
       return floor_[t];
     }
@@ -139,13 +139,15 @@ AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const A
   return {energy, pairwise_sum(barriers)};
 }
 
-AccuracyStarOf<double> AccuracyPatch::star() {
-  const auto n = static_cast<double>(triangles_.size());
-  return {*model_, spokes_.data(), triangles_.data(), triangles_.size(), n, n + (open_ ? 1 : 0), open_};
+template <class In>
+AccuracyStarOf<In> AccuracyPatch::Star<In>::view(const AccuracyModel& model, bool open) {
+  const auto n = static_cast<double>(triangles.size());
+  return {model, spokes.data(), triangles.data(), triangles.size(), n, n + (open ? 1 : 0), open};
 }
 
 bool AccuracyPatch::gather(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
                            const AccuracyModel& model, VertexId v) {
+  space_ = mesh.space();
   model_ = &model;
   open_ = mesh.is_boundary(v);
   std::size_t n = 0;
@@ -154,42 +156,60 @@ bool AccuracyPatch::gather(const Mesh& mesh, const VertexSizes& sizes, const Acc
     if (!floors.has(Mesh::triangle(h)) || (across.valid() && !floors.has(Mesh::triangle(across)))) return false;
     ++n;
   }
-  triangles_.resize(n);
-  spokes_.resize(n + 1);
-  const AccuracyStarOf<double> star = this->star();
-  const double own = sizes[v];
-  const auto at = [&](VertexId u) { return SizedPoint<double>{point_of(mesh.point(u)), sizes[u]}; };
-  std::size_t i = 0;
-  for (const HalfedgeId h : mesh.star(v)) {
-    const HalfedgeId across = mesh.twin(Mesh::next(h));
-    const SizedPoint<double> q = at(mesh.target(h)), r = at(mesh.opposite(h));
-    const PointOf<double> o = across.valid() ? point_of(mesh.point(mesh.opposite(across))) : PointOf<double>{};
-    if (i == 0) set_spoke(star, 0, own, q);
-    set_triangle(star, i, own, q, r, floors[Mesh::triangle(h)], across.valid(), o);
-    set_spoke(star, ++i, own, r);
-  }
+  const auto set = [&]<class In>(Star<In>& storage) {
+    storage.triangles.resize(n);
+    storage.spokes.resize(n + 1);
+    const AccuracyStarOf<In> star = storage.view(model, open_);
+    const double own = sizes[v];
+    const auto at = [&](VertexId u) { return SizedPoint<In>{point_of<In>(mesh.point(u)), sizes[u]}; };
+    std::size_t i = 0;
+    for (const HalfedgeId h : mesh.star(v)) {
+      const HalfedgeId across = mesh.twin(Mesh::next(h));
+      const SizedPoint<In> q = at(mesh.target(h)), r = at(mesh.opposite(h));
+      const auto o = across.valid() ? point_of<In>(mesh.point(mesh.opposite(across))) : typename In::Point{};
+      if (i == 0) set_spoke(star, 0, own, q);
+      set_triangle(star, i, own, q, r, floors[Mesh::triangle(h)], across.valid(), o);
+      set_spoke(star, ++i, own, r);
+    }
+  };
+  space_.is_plane() ? set(in_plane_) : set(on_sphere_);
   return true;
 }
 
-double AccuracyPatch::value(const WeightedPoint& p) { return value_ = accuracy_value(star(), point_of(p)); }
+double AccuracyPatch::value(const WeightedPoint& p) {
+  const auto at = [&]<class In>(Star<In>& star) {
+    return accuracy_value(star.view(*model_, open_), seen_from(point_of<In>(p)));
+  };
+  at_ = p;
+  return value_ = space_.is_plane() ? at(in_plane_) : at(on_sphere_);
+}
 
 VertexDerivatives AccuracyPatch::derivatives() {
-  const auto [g, h] = accuracy_derivatives(star());
+  const auto of = [&]<class In>(Star<In>& star) {
+    return accuracy_derivatives(star.view(*model_, open_), seen_from(point_of<In>(at_)));
+  };
+  const auto [g, h] = space_.is_plane() ? of(in_plane_) : of(on_sphere_);
   return {value_, true, {g.x, g.y, g.w}, {h.xx, h.xy, h.xw, h.yy, h.yw, h.ww}};
 }
 
 bool AccuracyPatch::is_well_centered(const WeightedPoint& p) const {
-  const auto point = [this](std::size_t i) { return WeightedPoint{spokes_[i].q.x, spokes_[i].q.y, spokes_[i].q.w}; };
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    if (!inlined::is_well_centered(p, point(i), point(i + 1))) return false;
-  }
-  return true;
+  const auto of = [&](const auto& star) {
+    for (std::size_t i = 0; i < star.triangles.size(); ++i) {
+      const WeightedPoint q = as_vertex(star.spokes[i].q), r = as_vertex(star.spokes[i + 1].q);
+      if (!inlined::is_well_centered(space_, p, q, r)) return false;
+    }
+    return true;
+  };
+  return space_.is_plane() ? of(in_plane_) : of(on_sphere_);
 }
 
 double AccuracyPatch::shortest_spoke(const WeightedPoint& p) const {
-  double least = kInfinity;
-  for (const AccuracySpoke<double>& s : spokes_) least = std::min(least, spoke(point_of(p), s.q).l2);
-  return std::sqrt(least);
+  const auto of = [&](const auto& star) {
+    double least = kInfinity;
+    for (const auto& s : star.spokes) least = std::min(least, edge_measures(space_, p, as_vertex(s.q)).l2);
+    return std::sqrt(least);
+  };
+  return space_.is_plane() ? of(in_plane_) : of(on_sphere_);
 }
 
 }  // namespace temper

@@ -38,7 +38,6 @@ using VertexSizes = IdVector<VertexId, double>;
                                      Executor* executor = nullptr);
 
 /// The least of h/ℓ, d/ℓ and 1 − d/ℓ over the edges of the triangle, in doubles.
-[[nodiscard]] double triangle_margin(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
 [[nodiscard]] double triangle_margin(const Mesh& mesh, TriangleId t);
 
 /// Says whether every triangle is well-centered, exactly, with a margin of more than `margin`.
@@ -90,12 +89,20 @@ class AccuracyPatch {
   [[nodiscard]] double shortest_spoke(const WeightedPoint& p) const;
 
  private:
-  [[nodiscard]] AccuracyStarOf<double> star();
+  template <class In>
+  struct Star {
+    std::vector<AccuracySpoke<In>> spokes;  // one more than triangles
+    std::vector<AccuracyTriangle<In>> triangles;
 
-  std::vector<AccuracySpoke<double>> spokes_;  // one more than triangles
-  std::vector<AccuracyTriangle<double>> triangles_;
+    [[nodiscard]] AccuracyStarOf<In> view(const AccuracyModel& model, bool open);
+  };
+
+  Star<InPlaneOf<double>> in_plane_;
+  Star<OnSphereOf<double>> on_sphere_;
+  Space space_;
   const AccuracyModel* model_ = nullptr;
   bool open_ = false;
+  WeightedPoint at_;  // where value() was asked for last
   double value_ = 0;
 };
 

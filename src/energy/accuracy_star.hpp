@@ -1,5 +1,5 @@
 // Energy and barrier of the accuracy objective as a function of one vertex (T = double), or of eight (T = Pack), a lane
-// each.
+// each, in the plane or on the sphere: In is InPlaneOf<T> or OnSphereOf<T>.
 //
 //              q2 ------- q1            triangle i = (center, q_i, q_{i+1}), counter-clockwise
 //             /  \  t1  /   \           spoke i    = center → q_i, in triangle i on its left, in i − 1 on its right
@@ -15,11 +15,12 @@
 
 namespace temper {
 
-template <class T>
+template <class In>
 struct AccuracySpoke {
-  PointOf<T> q;
+  using T = typename In::Scalar;
+  typename In::Point q;
   T scale, height;                    ///< of its edge: s_e⁻², q
-  Spoke<T> to;                        ///< from here on: with the center where it was asked about last
+  typename In::Spoke to;              ///< from here on: with the center where it was asked about last
   T inverse_l2;                       ///< 1/L
   T left, right;                      ///< g in the triangles on its two sides; 0 where there is none
   EdgeSlopes<T> slopes;               ///< of energy and barrier
@@ -30,8 +31,9 @@ struct AccuracySpoke {
   }
 };
 
-template <class T>
+template <class In>
 struct AccuracyTriangle {
+  using T = typename In::Scalar;
   TriangleBarrier<T> barrier;
   AccuracyEdge<T> link;  ///< g in the outer triangle on its right; that on its left changes with the center
   T split_room;          ///< (d_ij/ℓ − ε)(d_ji/ℓ − ε) of the link edge
@@ -39,14 +41,15 @@ struct AccuracyTriangle {
 };
 
 /// A star in views of the storage of all its spokes and triangles.
-template <class T>
+template <class In>
 struct AccuracyStarOf {
+  using T = typename In::Scalar;
   using Mask = decltype(T{} < T{});
   const AccuracyModel& model;
-  AccuracySpoke<T>* spokes;        ///< most + 1
-  AccuracyTriangle<T>* triangles;  ///< most
-  std::size_t most;                ///< triangles, of any lane
-  T n_triangles, n_spokes;         ///< of each lane
+  AccuracySpoke<In>* spokes;        ///< most + 1
+  AccuracyTriangle<In>* triangles;  ///< most
+  std::size_t most;                 ///< triangles, of any lane
+  T n_triangles, n_spokes;          ///< of each lane
   Mask open;
 
   [[nodiscard]] TEMPER_INLINE Mask has_triangle(std::size_t i) const {
@@ -68,16 +71,18 @@ template <class T>
 }
 
 /// A point of the mesh and its size.
-template <class T>
+template <class In>
 struct SizedPoint {
-  PointOf<T> at;
-  T size;
+  typename In::Point at;
+  typename In::Scalar size;
 };
 
 /// Sets what spoke i is given; it leads to q. The ends of an open star are on the boundary.
-template <class T>
-TEMPER_INLINE void set_spoke(const AccuracyStarOf<T>& star, std::size_t i, const T& size, const SizedPoint<T>& q) {
-  AccuracySpoke<T>& s = star.spokes[i];
+template <class In>
+TEMPER_INLINE void set_spoke(const AccuracyStarOf<In>& star, std::size_t i, const typename In::Scalar& size,
+                             const SizedPoint<In>& q) {
+  using T = typename In::Scalar;
+  AccuracySpoke<In>& s = star.spokes[i];
   const auto is_end = i == 0 ? star.open : star.open & (all<T>(static_cast<double>(i)) >= star.n_triangles);
   s.q = q.at;
   s.scale = edge_scale(size, q.size);
@@ -85,13 +90,16 @@ TEMPER_INLINE void set_spoke(const AccuracyStarOf<T>& star, std::size_t i, const
 }
 
 /// Sets what triangle i is given, with q and r. `inner`: there is o across its link edge.
-template <class T, class Mask>
-TEMPER_INLINE void set_triangle(const AccuracyStarOf<T>& star, std::size_t i, const T& size, const SizedPoint<T>& q,
-                                const SizedPoint<T>& r, const T& floor, Mask inner, const PointOf<T>& o) {
+template <class In, class Mask>
+TEMPER_INLINE void set_triangle(const AccuracyStarOf<In>& star, std::size_t i, const typename In::Scalar& size,
+                                const SizedPoint<In>& q, const SizedPoint<In>& r, const typename In::Scalar& floor,
+                                Mask inner, const typename In::Point& o) {
+  using T = typename In::Scalar;
   const AccuracyModel& model = star.model;
-  const Spoke<T> back = spoke(r.at, q.at);
-  const T outer = triangle_shape(back, spoke(r.at, o), q.at, o).pq.g, inverse_l2 = 1.0 / back.l2;
-  AccuracyTriangle<T>& t = star.triangles[i];
+  const typename In::Center from = seen_from(r.at);
+  const typename In::Spoke back = spoke(from, q.at);
+  const T outer = triangle_shape(back, spoke(from, o), q.at, o).pq.g, inverse_l2 = 1.0 / back.l2;
+  AccuracyTriangle<In>& t = star.triangles[i];
   t.barrier = {model.barrier * triangle_scale(size, q.size, r.size), floor};
   t.split_room = split_room(back.dw * inverse_l2, floor);
   t.link.scale = edge_scale(q.size, r.size);
@@ -100,17 +108,18 @@ TEMPER_INLINE void set_triangle(const AccuracyStarOf<T>& star, std::size_t i, co
   t.link.right = select(inner, outer, all<T>(0));
 }
 
-template <class T>
-TEMPER_INLINE void place_spoke(AccuracySpoke<T>& s, const PointOf<T>& p) {
+template <class In>
+TEMPER_INLINE void place_spoke(AccuracySpoke<In>& s, const typename In::Center& p) {
   s.to = spoke(p, s.q);
   s.inverse_l2 = 1.0 / s.to.l2;
 }
 
 /// Finds the heights of triangle i; returns its barrier and the energy of its link edge, or +∞.
-template <class T>
-[[nodiscard]] TEMPER_INLINE T place_triangle(const AccuracyStarOf<T>& star, std::size_t i) {
-  AccuracySpoke<T>&a = star.spokes[i], &b = star.spokes[i + 1];
-  AccuracyTriangle<T>& t = star.triangles[i];
+template <class In>
+[[nodiscard]] TEMPER_INLINE auto place_triangle(const AccuracyStarOf<In>& star, std::size_t i) {
+  using T = typename In::Scalar;
+  AccuracySpoke<In>&a = star.spokes[i], &b = star.spokes[i + 1];
+  AccuracyTriangle<In>& t = star.triangles[i];
   const auto [m, floor] = t.barrier;
   const TriangleShapeOf<T> shape = triangle_shape(a.to, b.to, a.q, b.q);
   t.inverse_area = shape.inverse_area;
@@ -125,8 +134,9 @@ template <class T>
 }
 
 /// Energy and barrier with the center at p; +∞ where a triangle turns over or has no more than its floor.
-template <class T>
-[[nodiscard]] TEMPER_INLINE T accuracy_value(const AccuracyStarOf<T>& star, const PointOf<T>& p) {
+template <class In>
+[[nodiscard]] TEMPER_INLINE auto accuracy_value(const AccuracyStarOf<In>& star, const typename In::Center& p) {
+  using T = typename In::Scalar;
   const T zero = all<T>(0);
   T sum = zero, last_right = zero;
   place_spoke(star.spokes[0], p);
@@ -147,10 +157,10 @@ template <class T>
 
 /// Finds the derivatives of all that belongs to spoke i in its own terms, with the barriers of the triangles on its
 /// sides. A factor of 0 is none, whatever the floor: one that is below.
-template <class T>
-TEMPER_INLINE void find_slopes(const AccuracyStarOf<T>& star, std::size_t i, const TriangleBarrier<T>& left,
+template <class In, class T>
+TEMPER_INLINE void find_slopes(const AccuracyStarOf<In>& star, std::size_t i, const TriangleBarrier<T>& left,
                                const TriangleBarrier<T>& right) {
-  AccuracySpoke<T>& a = star.spokes[i];
+  AccuracySpoke<In>& a = star.spokes[i];
   EdgeSlopes<T>& s = a.slopes;
   s = edge_slopes(star.model, a.edge());
   add_height_barrier(left, a.to.l2, a.inverse_l2, a.left, s, s.left);
@@ -160,11 +170,11 @@ TEMPER_INLINE void find_slopes(const AccuracyStarOf<T>& star, std::size_t i, con
 }
 
 /// Finds the gradients of the heights of triangle i; adds what their Hessians and the link edge give.
-template <class T>
-TEMPER_INLINE void add_triangle(const AccuracyStarOf<T>& star, std::size_t i, CornerDerivatives<T>& sum) {
-  AccuracySpoke<T>&a = star.spokes[i], &b = star.spokes[i + 1];
-  const AccuracyTriangle<T>& t = star.triangles[i];
-  const HeightsAtCorner<T> g = heights_at_corner(a.to, b.to, t.inverse_area);
+template <class In, class T>
+TEMPER_INLINE void add_triangle(const AccuracyStarOf<In>& star, std::size_t i, CornerDerivatives<T>& sum) {
+  AccuracySpoke<In>&a = star.spokes[i], &b = star.spokes[i + 1];
+  const AccuracyTriangle<In>& t = star.triangles[i];
+  const typename In::Heights g = heights_at_corner(a.to, b.to, t.inverse_area);
   a.to_left = g.pq, b.to_right = g.rp;
   EdgeSlopes<T> link = edge_slopes(star.model, t.link);
   add_height_barrier(t.barrier, t.link.l2, t.link.inverse_l2, t.link.left, link, link.left);
@@ -175,31 +185,31 @@ TEMPER_INLINE void add_triangle(const AccuracyStarOf<T>& star, std::size_t i, Co
   sum.add(star.has_triangle(i), link.left.g * g.qr, h);
 }
 
-/// Adds spoke i by the chain rule in L, left, right and δw: ∇L = −2 (x, y, 0), ∇²L = 2 I, ∇δw = (0, 0, 1).
-template <class T>
-TEMPER_INLINE void add_spoke(const AccuracyStarOf<T>& star, std::size_t i, CornerDerivatives<T>& sum) {
-  const AccuracySpoke<T>& a = star.spokes[i];
+/// Adds spoke i by the chain rule in L, left, right and δw.
+template <class In, class T>
+TEMPER_INLINE void add_spoke(const AccuracyStarOf<In>& star, std::size_t i, CornerDerivatives<T>& sum) {
+  const AccuracySpoke<In>& a = star.spokes[i];
   const EdgeSlopes<T>& s = a.slopes;
   const CornerVector<T>&left = a.to_left, &right = a.to_right;
-  const PlaneVector<T> to_l = {-2.0 * a.to.x, -2.0 * a.to.y};
+  const auto to_l = gradient_of_l2(a.to);
   CornerVector<T> by_l = s.left.lg * left + s.right.lg * right;
   CornerVector<T> by_left = s.left.gg * left + s.left_right * right;
   CornerVector<T> by_right = s.left_right * left + s.right.gg * right;
-  by_l = by_l + CornerVector<T>{s.l_l * to_l.x, s.l_l * to_l.y, s.l_dw};
-  by_left = by_left + CornerVector<T>{s.left.lg * to_l.x, s.left.lg * to_l.y, s.side_dw};
-  by_right = by_right + CornerVector<T>{s.right.lg * to_l.x, s.right.lg * to_l.y, s.side_dw};
+  by_l = by_l + by_l2_and_dw(s.l_l, to_l, s.l_dw);
+  by_left = by_left + by_l2_and_dw(s.left.lg, to_l, s.side_dw);
+  by_right = by_right + by_l2_and_dw(s.right.lg, to_l, s.side_dw);
   auto h = CornerMatrix<T>::product(left, by_left);
   h.add(right, by_right);
   h.add(to_l, by_l);
-  h.add_in_plane(2.0 * s.l);
-  h.ww = h.ww + (s.side_dw * (left.w + right.w) + s.dw_dw);
-  const CornerVector<T> by_l_and_dw = {s.l * to_l.x, s.l * to_l.y, s.dw};
-  sum.add(star.has_spoke(i), by_l_and_dw + (s.left.g * left + s.right.g * right), h);
+  h.ww = h.ww + along_w(s.l_dw, to_l, s.side_dw * (left.w + right.w) + s.dw_dw);
+  add_curvature(a.to, s.l, s.dw, h);
+  sum.add(star.has_spoke(i), by_l2_and_dw(s.l, to_l, s.dw) + (s.left.g * left + s.right.g * right), h);
 }
 
-/// All derivatives where accuracy_value() was asked for last, and was finite.
-template <class T>
-[[nodiscard]] TEMPER_INLINE CornerDerivatives<T> accuracy_derivatives(const AccuracyStarOf<T>& star) {
+/// All derivatives at p, where accuracy_value() was asked for last, and was finite.
+template <class In>
+[[nodiscard]] TEMPER_INLINE auto accuracy_derivatives(const AccuracyStarOf<In>& star, const typename In::Center& p) {
+  using T = typename In::Scalar;
   const T zero = all<T>(0), below = all<T>(-1);
   const CornerVector<T> none = {zero, zero, zero};
   const TriangleBarrier<T> no_barrier = {zero, below};
@@ -227,6 +237,7 @@ template <class T>
   star.spokes[0].to_right = select(star.open, none, last);
   star.spokes[star.most].to_left = none;
   for (std::size_t i = 0; i <= star.most; ++i) add_spoke(star, i, sum);
+  bend(p, sum);
   return sum;
 }
 

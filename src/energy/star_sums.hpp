@@ -10,19 +10,8 @@
 
 namespace temper::TEMPER_INSTRUCTION_SET {
 
-/// What the kernels are compiled for: how a vertex is kept, and what it is as the center of a star.
-struct InPlane {
-  using Point = PointOf<Pack>;
-  using Center = PointOf<Pack>;
-  using Spoke = temper::Spoke<Pack>;
-  using Heights = HeightsAtCorner<Pack>;
-};
-struct OnSphere {
-  using Point = LiftedPointOf<Pack>;
-  using Center = Chart<Pack>;
-  using Spoke = LiftedSpoke<Pack>;
-  using Heights = HeightsAtLiftedCorner<Pack>;
-};
+using InPlane = InPlaneOf<Pack>;
+using OnSphere = OnSphereOf<Pack>;
 
 template <class In>
 TEMPER_INLINE typename In::Point load(const LanePoints& p) {

@@ -239,6 +239,25 @@ TEMPER_INLINE HeightsAtLiftedCorner<T> heights_at_corner(const LiftedSpoke<T>& a
   return h;
 }
 
+// --- what kernels are compiled for: how a vertex is kept, and what it is as the center of a star -------------------
+
+template <class T>
+struct InPlaneOf {
+  using Scalar = T;
+  using Point = PointOf<T>;
+  using Center = PointOf<T>;
+  using Spoke = temper::Spoke<T>;
+  using Heights = HeightsAtCorner<T>;
+};
+template <class T>
+struct OnSphereOf {
+  using Scalar = T;
+  using Point = LiftedPointOf<T>;
+  using Center = Chart<T>;
+  using Spoke = LiftedSpoke<T>;
+  using Heights = HeightsAtLiftedCorner<T>;
+};
+
 // Vectors and matrices in the six differences (q − p, w_q − w_p, r − p, w_r − w_p).
 
 /// The place of the entry of row i and column j ≤ i of a symmetric matrix in its storage.

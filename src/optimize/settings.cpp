@@ -133,7 +133,6 @@ std::optional<InputError> check_space(const OptimizeOptions& o, const Mesh& mesh
   const auto not_there = [](const std::string& option, const std::string& expected) {
     return invalid("`" + option + "` is for meshes of the plane; on the sphere expected " + expected);
   };
-  if (o.objective == Objective::accuracy) return not_there("objective=accuracy", "`objective=energy`");
   if (o.boundary == BoundaryVertices::split) return not_there("boundary=split", "`boundary=keep` or `boundary=slide`");
   if (o.repair == Repair::vertices) return not_there("repair=vertices", "`repair=none`");
   if (o.size_band || o.size_field) return not_there(o.size_band ? "size_band" : "size_field", "none");

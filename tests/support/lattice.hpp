@@ -72,7 +72,8 @@ inline Mesh lattice(const LatticeOptions& options = {}) {
     const Vec2 middle = 0.5 * (points.front() + points.back());
     for (const Vec2 p : points) {
       // Not along an axis.
-      const Vec3 q{p.x - middle.x + 0.6 * radius, p.y - middle.y, 0.8 * radius + 0.3 * (p.x - middle.x)};
+      const double x = p.x - middle.x;
+      const Vec3 q{0.6 * radius + 0.8 * x, p.y - middle.y, 0.8 * radius - 0.6 * x};
       projected.push_back(radius / length(q) * q);
     }
     input.space = Space::sphere(radius);

@@ -170,11 +170,10 @@ void BatchStep::step_and_settle() {
   }
   const Vec2 center = frame_.center_here();
   const StepParameters parameters{edge_formula(settings_.model), settings_.relaxation, center.x, center.y};
-  const BatchSteps& steps = batch_steps();
+  const BatchSteps& steps = batch_steps(mesh_.space());
   const bool lowers_accuracy = settings_.accuracy_domain != nullptr;
-  const auto barrier = mesh_.space().is_plane() ? steps.in_plane : steps.on_sphere;
-  const StepOutcome outcome =
-      lowers_accuracy ? steps.accuracy(parameters, settings_.accuracy, accuracy_, batch_) : barrier(parameters, batch_);
+  const StepOutcome outcome = lowers_accuracy ? steps.accuracy(parameters, settings_.accuracy, accuracy_, batch_)
+                                              : steps.barrier(parameters, batch_);
   const std::size_t before = n_changes();
   for (std::size_t lane = 0; lane < batch_.lanes; ++lane) {
     settle(occupants_[lane], lane, outcome, n_changes() != before);

@@ -4,6 +4,8 @@
 
 namespace temper {
 
-const BatchSteps& batch_steps() { return *TEMPER_IN_USE(kBatchSteps); }
+const BatchSteps& batch_steps(const Space& space) {
+  return space.is_plane() ? *TEMPER_IN_USE(kPlaneSteps) : *TEMPER_IN_USE(kSphereSteps);
+}
 
 }  // namespace temper

@@ -17,6 +17,7 @@
 
 #include "energy/accuracy_edge.hpp"
 #include "energy/lanes.hpp"
+#include "temper/space.hpp"
 
 namespace temper {
 
@@ -61,27 +62,26 @@ struct alignas(64) AccuracyLanes {
   LaneMask inner[StarBatch::kMostTriangles];      ///< there is a triangle across link edge i
 };
 
-/// The steps of a batch in one instruction set.
+/// The steps of a batch in one space and one instruction set.
 struct BatchSteps {
-  /// A step that lowers a barrier energy, in the plane or on the sphere.
-  StepOutcome (*in_plane)(const StepParameters& parameters, StarBatch& batch);
-  StepOutcome (*on_sphere)(const StepParameters& parameters, StarBatch& batch);
+  /// A step that lowers a barrier energy.
+  StepOutcome (*barrier)(const StepParameters& parameters, StarBatch& batch);
   /// A step that lowers the energy of the accuracy objective. What steps is certainly well-centered, and so regular.
   StepOutcome (*accuracy)(const StepParameters& parameters, const AccuracyModel& model, const AccuracyLanes& lanes,
                           StarBatch& batch);
 };
 
 /// Those of the instruction set in use.
-[[nodiscard]] const BatchSteps& batch_steps();
+[[nodiscard]] const BatchSteps& batch_steps(const Space& space);
 
 namespace baseline {
-extern const BatchSteps kBatchSteps;
+extern const BatchSteps kPlaneSteps, kSphereSteps;
 }
 namespace avx2 {
-extern const BatchSteps kBatchSteps;
+extern const BatchSteps kPlaneSteps, kSphereSteps;
 }
 namespace avx512 {
-extern const BatchSteps kBatchSteps;
+extern const BatchSteps kPlaneSteps, kSphereSteps;
 }
 
 }  // namespace temper

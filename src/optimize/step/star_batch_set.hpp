@@ -62,11 +62,11 @@ requires(Kernel::kBarrier) TEMPER_INLINE Derivatives
 
 /// The derivatives of the accuracy energy, with the length of the shortest spoke as the radius.
 template <class In>
-TEMPER_INLINE Derivatives derivatives(const AccuracyStarOf<Pack>& star, const StarBatch&, const InPlane::Center& p) {
+TEMPER_INLINE Derivatives derivatives(const AccuracyStarOf<In>& star, const StarBatch&, const typename In::Center& p) {
   Derivatives d;
   d.sums.value = accuracy_value(star, p);
   d.feasible = d.sums.value < kInfinity;
-  d.sums.derivatives = accuracy_derivatives(star);
+  d.sums.derivatives = accuracy_derivatives(star, p);
   d.squared_radius = Pack::all(kInfinity);
   for (std::size_t i = 0; i <= star.most; ++i) {
     const Pack l2 = star.spokes[i].to.l2;
@@ -165,8 +165,8 @@ requires(Kernel::kBarrier) TEMPER_INLINE Trial
 
 /// The accuracy energy of all stars with their centers at p. What is certain, well_centered_at() finds out in the end.
 template <class In>
-TEMPER_INLINE Trial energy_at(const AccuracyStarOf<Pack>& star, const StarBatch&, const InPlane::Point& p) {
-  const Pack value = accuracy_value(star, p);
+TEMPER_INLINE Trial energy_at(const AccuracyStarOf<In>& star, const StarBatch&, const typename In::Point& p) {
+  const Pack value = accuracy_value(star, seen_from(p));
   return {value, value<kInfinity, value> - kInfinity};
 }
 
@@ -271,6 +271,27 @@ TEMPER_INLINE Mask well_centered_at(const StarBatch& batch, const InPlane::Point
   return ~uncertain;
 }
 
+TEMPER_INLINE Mask well_centered_at(const StarBatch& batch, const OnSphere::Point& p) {
+  using Point = OnSphere::Point;
+  const Pack triangles = Pack::load(batch.triangles);
+  const auto positive = [](const inlined::Filtered<Pack>& x) { return x.value > x.bound; };
+  const auto crossed = [&](const Point& q) {
+    return positive(inlined::filtered_edge_split(p, q)) & positive(inlined::filtered_edge_split(q, p));
+  };
+  Mask uncertain = triangles < 0;
+  Point q = load<OnSphere>(batch.link[0]);
+  for (std::size_t i = 0; i < batch.most_triangles; ++i) {
+    const Point r = load<OnSphere>(batch.link[i + 1]);
+    const Mask certain = positive(inlined::filtered_orientation(p, q, r)) & crossed(q) & crossed(r) &
+                         positive(inlined::filtered_height_numerator(p, q, r)) &
+                         positive(inlined::filtered_height_numerator(q, r, p)) &
+                         positive(inlined::filtered_height_numerator(r, p, q));
+    uncertain = uncertain | (has_triangle(triangles, i) & ~certain);
+    q = r;
+  }
+  return ~uncertain;
+}
+
 TEMPER_INLINE void store(const PointOf<Pack>& p, LanePoints& to) {
   p.x.store(to.x);
   p.y.store(to.y);
@@ -335,23 +356,24 @@ StepOutcome barrier_step(const StepParameters& parameters, StarBatch& batch) {
   });
 }
 
+template <class In>
 StepOutcome accuracy_step(const StepParameters& parameters, const AccuracyModel& model, const AccuracyLanes& lanes,
                           StarBatch& batch) {
-  AccuracySpoke<Pack> spokes[StarBatch::kMostTriangles + 1];
-  AccuracyTriangle<Pack> triangles[StarBatch::kMostTriangles];
+  AccuracySpoke<In> spokes[StarBatch::kMostTriangles + 1];
+  AccuracyTriangle<In> triangles[StarBatch::kMostTriangles];
   const Pack n = Pack::load(batch.triangles), size = Pack::load(lanes.size);
   const Mask open = load(batch.open);
-  const AccuracyStarOf<Pack> star = {
+  const AccuracyStarOf<In> star = {
       model, spokes, triangles, batch.most_triangles, n, n + select(open, Pack::all(1), Pack::all(0)), open};
-  SizedPoint<Pack> q = {load<InPlane>(batch.link[0]), Pack::load(lanes.link_size[0])};
+  SizedPoint<In> q = {load<In>(batch.link[0]), Pack::load(lanes.link_size[0])};
   set_spoke(star, 0, size, q);
   for (std::size_t i = 0; i < star.most; ++i) {
-    const SizedPoint<Pack> r = {load<InPlane>(batch.link[i + 1]), Pack::load(lanes.link_size[i + 1])};
-    set_triangle(star, i, size, q, r, Pack::load(lanes.floor[i]), load(lanes.inner[i]), load<InPlane>(batch.across[i]));
+    const SizedPoint<In> r = {load<In>(batch.link[i + 1]), Pack::load(lanes.link_size[i + 1])};
+    set_triangle(star, i, size, q, r, Pack::load(lanes.floor[i]), load(lanes.inner[i]), load<In>(batch.across[i]));
     set_spoke(star, i + 1, size, r);
     q = r;
   }
-  const auto [to, stepped, alone] = newton_search<InPlane>(star, kTrialsWithMargins, parameters, batch);
+  const auto [to, stepped, alone] = newton_search<In>(star, kTrialsWithMargins, parameters, batch);
   const Mask certain = well_centered_at(batch, to);
   const unsigned used = (1U << batch.lanes) - 1, done = (stepped & certain).bits() & used;
   return {done, done, (alone | (stepped & ~certain)).bits() & used};
@@ -359,6 +381,10 @@ StepOutcome accuracy_step(const StepParameters& parameters, const AccuracyModel&
 
 }  // namespace
 
-const BatchSteps kBatchSteps = {barrier_step<InPlane>, barrier_step<OnSphere>, accuracy_step};
+template <class In>
+constexpr BatchSteps kStepsOf = {barrier_step<In>, accuracy_step<In>};
+
+const BatchSteps kPlaneSteps = kStepsOf<InPlane>;
+const BatchSteps kSphereSteps = kStepsOf<OnSphere>;
 
 }  // namespace temper::TEMPER_INSTRUCTION_SET

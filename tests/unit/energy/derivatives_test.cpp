@@ -130,8 +130,8 @@ TEST_P(DerivativesOfAllVertices, AreThoseOfTheTotalEnergyWhereHeightsAreNegative
   int cases = 0, negative = 0;
   for (const VertexId v : mesh.vertices()) {
     for (const HalfedgeId h : mesh.star(v)) {
-      const NaiveEdge e = (mesh.space().is_plane() ? naive_edge : naive_lifted_edge)(
-          naive_point(mesh, mesh.origin(h)), naive_point(mesh, mesh.target(h)), naive_point(mesh, mesh.opposite(h)));
+      const NaiveEdge e = naive_edge(mesh.space(), naive_point(mesh, mesh.origin(h)), naive_point(mesh, mesh.target(h)),
+                                     naive_point(mesh, mesh.opposite(h)));
       negative += e.h_left < 0 ? 1 : 0;
     }
     for (const EnergyModel& model : all_models(1)) {

@@ -74,6 +74,11 @@ inline Real naive_half(const EnergyModel& m, Real d, Real d_other, Real h, Real 
   }
 }
 
+/// An edge in the space of its mesh.
+inline NaiveEdge naive_edge(const Space& space, const NaivePoint& i, const NaivePoint& j, const NaivePoint& k) {
+  return space.is_plane() ? naive_edge(i, j, k) : naive_lifted_edge(i, j, k);
+}
+
 /// Total energy, by full edges; vertex v is replaced by p.
 inline Real naive_total(const Mesh& mesh, const EnergyModel& m, VertexId v, const NaivePoint& p) {
   const auto at = [&](VertexId u) -> NaivePoint {
@@ -86,8 +91,7 @@ inline Real naive_total(const Mesh& mesh, const EnergyModel& m, VertexId v, cons
   const bool by_dual_sign = m.kind == EnergyKind::T || m.kind == EnergyKind::nT;
   const bool asks_for_treatment = m.kind == EnergyKind::F || m.kind == EnergyKind::nF;
   const auto side = [&](HalfedgeId h) {
-    return (mesh.space().is_plane() ? naive_edge : naive_lifted_edge)(at(mesh.origin(h)), at(mesh.target(h)),
-                                                                      at(mesh.opposite(h)));
+    return naive_edge(mesh.space(), at(mesh.origin(h)), at(mesh.target(h)), at(mesh.opposite(h)));
   };
   const auto both_halves = [&](const NaiveEdge& e, Real height) {
     const Real both = naive_half(m, e.d_ij, e.d_ji, height, e.l) + naive_half(m, e.d_ji, e.d_ij, height, e.l);

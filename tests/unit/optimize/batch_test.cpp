@@ -130,7 +130,7 @@ TEST_P(BatchOfBarrier, MakesTheStepsThatVerticesMakeAlone) {
     StarBatch batch;
     for (std::size_t i = 0; i < kLanes - 1; ++i) put(mesh, VertexId(first + i), batch);
     leave_empty(batch, batch.lanes);
-    const StepOutcome outcome = batch_steps().in_plane(parameters, batch);
+    const StepOutcome outcome = batch_steps(Space()).barrier(parameters, batch);
     EXPECT_EQ(outcome.stepped & outcome.alone, 0U);
     EXPECT_EQ(outcome.regular & ~outcome.stepped, 0U);
     EXPECT_EQ((outcome.stepped | outcome.alone) >> batch.lanes, 0U);
@@ -208,7 +208,7 @@ AccuracyBatch accuracy_batch(const Mesh& mesh, const AccuracyTask& task, std::si
     put_domain(mesh, VertexId(first + i), task.domain, b.stars, b.lanes);
   }
   leave_empty(b.stars, b.stars.lanes);
-  b.outcome = batch_steps().accuracy({{}, kRelaxation, 0, 0}, task.model, b.lanes, b.stars);
+  b.outcome = batch_steps(Space()).accuracy({{}, kRelaxation, 0, 0}, task.model, b.lanes, b.stars);
   return b;
 }
 
