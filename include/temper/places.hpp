@@ -1,9 +1,10 @@
 // Places: where in a mesh a point is, and so what the data of the mesh are there.
 //
 // Data at vertices are taken to be linear on triangles, data of triangles constant on each. That makes both functions
-// of the plane, which do not care how a mesh is numbered. A mesh that has been changed gets its data from them: each
-// vertex those at the place in the former mesh where it is now, each triangle those of the one there that its middle is
-// in. Precondition: the meshes lie in the plane.
+// of the plane or the sphere, which do not care how a mesh is numbered. A mesh that has been changed gets its data from
+// them: each vertex those at the place in the former mesh where it is now, each triangle those of the one there that
+// its middle is in. On the sphere triangles are the flat ones between the places of their corners, whose weights do not
+// count, and a point is in the one that its ray from the center meets.
 #pragma once
 
 #include <algorithm>
@@ -56,8 +57,11 @@ class PlaceFinder {
 
   /// The place of p, by exact tests; beyond the mesh, that of its nearest point. A function of p alone, whatever the
   /// triangle that it is looked for from. About O(distance from that one in triangles); O(log n) without or with a bad
-  /// one. Precondition: the mesh has a triangle, and none that is erased.
-  [[nodiscard]] Place find(Vec2 p, TriangleId near = {}) const;
+  /// one. Precondition: the mesh has a triangle, and none that is erased. A point of the mesh's space: its weight does
+  /// not count.
+  [[nodiscard]] Place find(const WeightedPoint& p, TriangleId near = {}) const;
+  /// Of a point of the plane.
+  [[nodiscard]] Place find(Vec2 p, TriangleId near = {}) const { return find(WeightedPoint{p.x, p.y, 0}, near); }
 
  private:
   [[nodiscard]] const BoxTree& tree() const;

@@ -62,7 +62,6 @@ class DataUpdater {
   [[nodiscard]] Expected<void> find_sources();
   void update_points();
   void update_cells();
-  void stay_on_sphere();
   void drop_all(const std::string& why);
   [[nodiscard]] std::optional<Values> at_vertices(const DataArray& a) const;
   void warn_of_dropped(std::string_view why) const;
@@ -79,9 +78,7 @@ class DataUpdater {
 DataReport DataUpdater::update() {
   if (file_.point_data.empty() && file_.cell_data.empty()) return {};
   measure();
-  if (!mesh_.space().is_plane()) {
-    stay_on_sphere();
-  } else if (needs_places()) {
+  if (needs_places()) {
     if (const Expected<void> found = find_sources(); !found) {
       drop_all(found.error().what());
       return std::move(report_);
@@ -139,7 +136,9 @@ bool DataUpdater::needs_places() const {
 
 Expected<void> DataUpdater::find_sources() {
   MeshInput input;
+  input.space = mesh_.space();
   input.points = file_.points;
+  input.sphere_points = file_.sphere_points;
   input.triangles = file_.triangles;
   input.regions = file_.regions;
   input.executor = options_.executor;
@@ -176,7 +175,7 @@ std::optional<Values> DataUpdater::at_vertices(const DataArray& a) const {
 void DataUpdater::update_points() {
   std::vector<DataArray> left;
   for (DataArray& a : file_.point_data) {
-    const bool follows = options_.rules.of(a) == DataRule::interpolate && mesh_.space().is_plane();
+    const bool follows = options_.rules.of(a) == DataRule::interpolate;
     std::optional<Values> values = at_vertices(a);
     (!values ? report_.dropped : follows ? report_.interpolated : report_.kept).push_back(a.name);
     if (values) left.push_back({std::move(a.name), a.components, *std::move(values)});
@@ -190,16 +189,6 @@ void DataUpdater::update_cells() {
     report_.of_triangles.push_back(a.name);
     if (!sources_.empty()) a.values = at_triangles(a, sources_);
   }
-}
-
-/// Places are found in the plane alone: on the sphere data of points stay with them, and those of triangles with
-/// triangles that are the same.
-void DataUpdater::stay_on_sphere() {
-  if (report_.points_inserted > 0) return drop_all("there are new points on the sphere");
-  if (report_.triangles_changed == 0) return;
-  for (const DataArray& a : file_.cell_data) report_.dropped.push_back(a.name);
-  file_.cell_data.clear();
-  warn_of_dropped("triangles of the sphere have changed");
 }
 
 void DataUpdater::drop_all(const std::string& why) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "base/assert.hpp"
 #include "base/hilbert.hpp"
 #include "geometry/predicates_inline.hpp"
+#include "places/place_of.hpp"
 
 namespace temper {
 namespace {
@@ -16,45 +18,30 @@ namespace {
 constexpr std::size_t kFan = 8;  // boxes under one: their four comparisons each are cheaper than a level more
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-Vec2 min_of(Vec2 a, Vec2 b) { return {std::min(a.x, b.x), std::min(a.y, b.y)}; }
-Vec2 max_of(Vec2 a, Vec2 b) { return {std::max(a.x, b.x), std::max(a.y, b.y)}; }
+Vec3 min_of(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+Vec3 max_of(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 
 /// The point of segment ab that is nearest to p: its parameter and squared distance.
-std::pair<double, double> nearest_on_segment(Vec2 a, Vec2 b, Vec2 p) {
-  const Vec2 ab = b - a, ap = p - a;
+std::pair<double, double> nearest_on_segment(Vec3 a, Vec3 b, Vec3 p) {
+  const Vec3 ab = b - a, ap = p - a;
   const double t = std::clamp(dot(ap, ab) / squared_length(ab), 0.0, 1.0);
   return {t, squared_length(ap - t * ab)};
 }
 
-NearestPoint nearest_in(const Mesh& mesh, TriangleId t, Vec2 p) {
-  NearestPoint best{t, kInfinite, {}, 0};
-  bool inside = true;
-  for (int k = 0; k < 3; ++k) {
-    const HalfedgeId h = Mesh::halfedge(t, k);
-    const Vec2 a = mesh.position(mesh.origin(h)), b = mesh.position(mesh.target(h));
-    inside = inside && inlined::orient2d(a, b, p) != Sign::negative;
-    const auto [along, d2] = nearest_on_segment(a, b, p);
-    if (d2 < best.distance2) best = {t, d2, h, along};
-  }
-  if (inside) return {t, 0, {}, 0};
-  // Outside by less than rounding is outside still.
-  best.distance2 = std::max(best.distance2, std::numeric_limits<double>::denorm_min());
-  return best;
-}
-
 std::vector<TriangleId> along_curve(const Mesh& mesh) {
-  Vec2 low{kInfinite, kInfinite}, high{-kInfinite, -kInfinite};
+  Vec3 low{kInfinite, kInfinite, kInfinite}, high = -1 * low;
   for (const VertexId v : mesh.vertices()) {
-    low = min_of(low, mesh.position(v));
-    high = max_of(high, mesh.position(v));
+    low = min_of(low, place_of(mesh, v));
+    high = max_of(high, place_of(mesh, v));
   }
-  const HilbertGrid curve(low, high);
+  const HilbertGrid curve({low.x, low.y}, {high.x, high.y});
   std::vector<std::pair<std::uint64_t, TriangleId>> keyed;
   keyed.reserve(mesh.n_triangles());
   for (const TriangleId t : mesh.triangles()) {
     const auto [a, b, c] = mesh.corners(t);
-    const Vec2 third = (1.0 / 3) * mesh.position(a) + (1.0 / 3) * mesh.position(b) + (1.0 / 3) * mesh.position(c);
-    keyed.push_back({curve(min_of(max_of(third, low), high)), t});
+    const Vec3 third = (1.0 / 3) * place_of(mesh, a) + (1.0 / 3) * place_of(mesh, b) + (1.0 / 3) * place_of(mesh, c);
+    const Vec3 inside = min_of(max_of(third, low), high);
+    keyed.emplace_back(mesh.space().is_plane() ? curve({inside.x, inside.y}) : cube_hilbert_index(third), t);
   }
   std::sort(keyed.begin(), keyed.end());
   std::vector<TriangleId> triangles;
@@ -65,43 +52,71 @@ std::vector<TriangleId> along_curve(const Mesh& mesh) {
 
 }  // namespace
 
+/// On the sphere also of the part of it that is above the triangle.
+BoxTree::Box BoxTree::box_of(const Mesh& mesh, TriangleId t) {
+  const auto [u, v, w] = mesh.corners(t);
+  const Vec3 a = place_of(mesh, u), b = place_of(mesh, v), c = place_of(mesh, w);
+  Box box = {min_of(min_of(a, b), c), max_of(max_of(a, b), c)};
+  if (mesh.space().is_plane()) return box;
+  const Vec3 n = cross(b - a, c - a);
+  const double above = 1 - std::abs(dot(n, a)) / length(n);
+  const Vec3 margin = {above, above, above};
+  return {box.low - margin, box.high + margin};
+}
+
+BoxTree::Box BoxTree::around(const Box& a, const Box& b) { return {min_of(a.low, b.low), max_of(a.high, b.high)}; }
+
 BoxTree::BoxTree(const Mesh& mesh) : triangles_(along_curve(mesh)) {
   const auto boxes_for = [](std::size_t n) { return (n + kFan - 1) / kFan; };
-  const Box nothing{{kInfinite, kInfinite}, {-kInfinite, -kInfinite}};
+  const Vec3 end{kInfinite, kInfinite, kInfinite};
+  const Box nothing{end, -1 * end};
   levels_.emplace_back(boxes_for(triangles_.size()), nothing);
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     Box& box = levels_[0][i / kFan];
-    for (const VertexId v : mesh.corners(triangles_[i])) {
-      box = {min_of(box.low, mesh.position(v)), max_of(box.high, mesh.position(v))};
-    }
+    box = around(box, box_of(mesh, triangles_[i]));
   }
   while (levels_.back().size() > 1) {
     std::vector<Box> above(boxes_for(levels_.back().size()), nothing);
     for (std::size_t i = 0; i < levels_.back().size(); ++i) {
-      const Box& below = levels_.back()[i];
-      Box& box = above[i / kFan];
-      box = {min_of(box.low, below.low), max_of(box.high, below.high)};
+      above[i / kFan] = around(above[i / kFan], levels_.back()[i]);
     }
     levels_.push_back(std::move(above));
   }
 }
 
-NearestPoint BoxTree::nearest(const Mesh& mesh, Vec2 p) const {
-  TEMPER_ASSERT(!triangles_.empty() && triangles_.size() == mesh.n_triangles());
-  NearestPoint best;
-  best.distance2 = kInfinite;
-  search(mesh, p, levels_.size() - 1, 0, best);
+NearestPoint BoxTree::nearest_in(const Mesh& mesh, TriangleId t, const Asked& p) {
+  NearestPoint best{t, kInfinite, {}, 0};
+  bool inside = true;
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeId h = Mesh::halfedge(t, k);
+    const VertexId a = mesh.origin(h), b = mesh.target(h);
+    inside = inside && inlined::orientation(mesh.space(), mesh.point(a), mesh.point(b), p.point) != Sign::negative;
+    const auto [along, d2] = nearest_on_segment(place_of(mesh, a), place_of(mesh, b), p.place);
+    if (d2 < best.distance2) best = {t, d2, h, along};
+  }
+  if (inside) return {t, 0, {}, 0};
+  // Outside by less than rounding is outside still.
+  best.distance2 = std::max(best.distance2, std::numeric_limits<double>::denorm_min());
   return best;
 }
 
-double BoxTree::distance2(const Box& box, Vec2 p) {
+NearestPoint BoxTree::nearest(const Mesh& mesh, const WeightedPoint& p) const {
+  TEMPER_ASSERT(!triangles_.empty() && triangles_.size() == mesh.n_triangles());
+  NearestPoint best;
+  best.distance2 = kInfinite;
+  search(mesh, {p, place_of(mesh.space(), p)}, levels_.size() - 1, 0, best);
+  return best;
+}
+
+double BoxTree::distance2(const Box& box, Vec3 p) {
   const double dx = std::max({box.low.x - p.x, 0.0, p.x - box.high.x});
   const double dy = std::max({box.low.y - p.y, 0.0, p.y - box.high.y});
-  return dx * dx + dy * dy;
+  const double dz = std::max({box.low.z - p.z, 0.0, p.z - box.high.z});
+  return dx * dx + dy * dy + dz * dz;
 }
 
 /// Nearer boxes first, so that most others need no look.
-void BoxTree::search(const Mesh& mesh, Vec2 p, std::size_t level, std::size_t box, NearestPoint& best) const {
+void BoxTree::search(const Mesh& mesh, const Asked& p, std::size_t level, std::size_t box, NearestPoint& best) const {
   const std::size_t first = kFan * box;
   if (level == 0) {
     for (std::size_t i = first; i < std::min(first + kFan, triangles_.size()); ++i) {
@@ -113,7 +128,8 @@ void BoxTree::search(const Mesh& mesh, Vec2 p, std::size_t level, std::size_t bo
   const std::vector<Box>& below = levels_[level - 1];
   std::array<std::pair<double, std::size_t>, kFan> near;
   std::size_t n = 0;
-  for (std::size_t i = first; i < std::min(first + kFan, below.size()); ++i) near[n++] = {distance2(below[i], p), i};
+  for (std::size_t i = first; i < std::min(first + kFan, below.size()); ++i)
+    near[n++] = {distance2(below[i], p.place), i};
   std::sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(n));
   for (std::size_t i = 0; i < n; ++i) {
     if (near[i].first < best.distance2) search(mesh, p, level - 1, near[i].second, best);

@@ -1,4 +1,5 @@
-// A packed tree of boxes that finds the triangle of a mesh that a point is in, or nearest to.
+// A packed tree of boxes that finds the triangle of a mesh that a point is in, or nearest to. Boxes are in space: those
+// of a mesh of the plane are flat.
 //
 // Triangles are sorted along a Hilbert curve; each box holds kFan consecutive ones of them, each box above kFan
 // consecutive boxes. The shape of the tree follows from the number of triangles, so nothing but the boxes is stored.
@@ -26,14 +27,22 @@ class BoxTree {
 
   /// The triangle nearest to p; of equally near ones always the same. Precondition: the mesh that the tree was made of,
   /// with at least one triangle.
-  [[nodiscard]] NearestPoint nearest(const Mesh& mesh, Vec2 p) const;
+  [[nodiscard]] NearestPoint nearest(const Mesh& mesh, const WeightedPoint& p) const;
 
  private:
   struct Box {
-    Vec2 low, high;
+    Vec3 low, high;
   };
-  [[nodiscard]] static double distance2(const Box& box, Vec2 p);
-  void search(const Mesh& mesh, Vec2 p, std::size_t level, std::size_t box, NearestPoint& best) const;
+  /// The point asked for, and where it is.
+  struct Asked {
+    WeightedPoint point;
+    Vec3 place;
+  };
+  [[nodiscard]] static Box box_of(const Mesh& mesh, TriangleId t);
+  [[nodiscard]] static Box around(const Box& a, const Box& b);
+  [[nodiscard]] static NearestPoint nearest_in(const Mesh& mesh, TriangleId t, const Asked& p);
+  [[nodiscard]] static double distance2(const Box& box, Vec3 p);
+  void search(const Mesh& mesh, const Asked& p, std::size_t level, std::size_t box, NearestPoint& best) const;
 
   std::vector<TriangleId> triangles_;
   std::vector<std::vector<Box>> levels_;  // boxes of triangles first, the root last

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <utility>
 
-#include "base/assert.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "places/box_tree.hpp"
+#include "places/place_of.hpp"
 #include "temper/places.hpp"
 
 namespace temper {
@@ -14,8 +14,13 @@ namespace {
 // (in meshes that are not Delaunay some do) must end.
 constexpr int kLongestWalk = 32;
 
+/// Positive for a point on the left of h.
+Sign side_of(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p) {
+  return inlined::orientation(mesh.space(), mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)), p);
+}
+
 /// Walks towards p, to the triangle that has it; invalid when the walk leaves the mesh.
-TriangleId walk(const Mesh& mesh, Vec2 p, TriangleId from) {
+TriangleId walk(const Mesh& mesh, const WeightedPoint& p, TriangleId from) {
   TriangleId t = from;
   HalfedgeId entered;
   for (int steps = 0; steps < kLongestWalk; ++steps) {
@@ -23,8 +28,7 @@ TriangleId walk(const Mesh& mesh, Vec2 p, TriangleId from) {
     for (int k = 0; k < 3 && !exit.valid(); ++k) {
       const HalfedgeId h = Mesh::halfedge(t, k);
       if (h == entered) continue;  // p is on this side of it
-      const Vec2 a = mesh.position(mesh.origin(h)), b = mesh.position(mesh.target(h));
-      if (inlined::orient2d(a, b, p) == Sign::negative) exit = h;
+      if (side_of(mesh, h, p) == Sign::negative) exit = h;
     }
     if (!exit.valid()) return t;
     entered = mesh.twin(exit);
@@ -42,28 +46,28 @@ Place on_edge(TriangleId t, VertexId a, VertexId b, double along) {
 }
 
 /// Both triangles of an edge must say the same of a point on it: its lower vertex comes first.
-Place on_edge(const Mesh& mesh, HalfedgeId h, Vec2 p) {
+Place on_edge(const Mesh& mesh, HalfedgeId h, Vec3 p) {
   VertexId a = mesh.origin(h), b = mesh.target(h);
   if (b < a) std::swap(a, b);
-  const Vec2 ab = mesh.position(b) - mesh.position(a);
-  return on_edge(Mesh::triangle(h), a, b, dot(p - mesh.position(a), ab) / squared_length(ab));
+  return on_edge(Mesh::triangle(h), a, b, part_of_edge(mesh.space(), place_of(mesh, a), place_of(mesh, b), p));
 }
 
 /// The place of p, which is in t or on its boundary.
-Place inside(const Mesh& mesh, TriangleId t, Vec2 p) {
+Place inside(const Mesh& mesh, TriangleId t, const WeightedPoint& point) {
   for (const VertexId v : mesh.corners(t)) {
-    if (p == mesh.position(v)) return Place::at(v, t);
+    if (mesh.space().same_place(mesh.point(v), point)) return Place::at(v, t);
   }
+  const Vec3 p = place_of(mesh.space(), point);
   Place place{t, 3, {}, {}, false};
   double area = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(t, static_cast<int>(k));
-    const Vec2 a = mesh.position(mesh.origin(h)), b = mesh.position(mesh.target(h));
+    const Vec3 a = place_of(mesh, mesh.origin(h)), b = place_of(mesh, mesh.target(h));
     place.corners[k] = mesh.opposite(h);
-    place.shares[k] = cross(a - p, b - p);  // the area across from that corner
+    place.shares[k] = spanned(mesh.space(), p, a - p, b - p);  // the area across from that corner
     // Far more than rounding makes of a zero: what is not this near needs no exact test.
     const bool near_edge = std::abs(place.shares[k]) <= 0x1p-40 * squared_length(b - a);
-    if (near_edge && inlined::orient2d(a, b, p) == Sign::zero) return on_edge(mesh, h, p);
+    if (near_edge && side_of(mesh, h, point) == Sign::zero) return on_edge(mesh, h, p);
     area += place.shares[k] = std::max(place.shares[k], 0.0);
   }
   if (area == 0) return Place::at(place.corners[0], t);  // of a triangle that is all rounding
@@ -86,8 +90,7 @@ const BoxTree& PlaceFinder::tree() const {
   return *there;
 }
 
-Place PlaceFinder::find(Vec2 p, TriangleId near) const {
-  TEMPER_ASSERT(mesh_.space().is_plane());
+Place PlaceFinder::find(const WeightedPoint& p, TriangleId near) const {
   if (near.valid()) {
     const TriangleId t = walk(mesh_, p, near);
     if (t.valid()) return inside(mesh_, t, p);

@@ -1,4 +1,5 @@
 // From which places of one mesh the vertices and triangles of another take their data.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -6,6 +7,7 @@
 #include "base/assert.hpp"
 #include "mesh/blocks.hpp"
 #include "mesh/erased.hpp"
+#include "places/place_of.hpp"
 #include "temper/places.hpp"
 
 namespace temper {
@@ -15,18 +17,18 @@ namespace {
 // coordinate there: three where a split is rounded (plan_split), and as much again where a slide ends.
 constexpr double kOffEdge = 8 * std::numeric_limits<double>::epsilon();
 
-double largest_coordinate(Vec2 p) { return std::max(std::abs(p.x), std::abs(p.y)); }
+double largest_coordinate(Vec3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
 /// p on the edge from a to b of triangle t, if rounding alone has put it off that.
-std::optional<Place> near_edge(const Mesh& mesh, TriangleId t, VertexId a, VertexId b, Vec2 p) {
-  const Vec2 from = mesh.position(a), to = mesh.position(b);
-  const double off = std::abs(cross(to - from, p - from)) / length(to - from);
+std::optional<Place> near_edge(const Mesh& mesh, TriangleId t, VertexId a, VertexId b, Vec3 p) {
+  const Vec3 from = place_of(mesh, a), to = place_of(mesh, b);
+  const double off = std::abs(spanned(mesh.space(), p, to - from, p - from)) / length(to - from);
   if (off > kOffEdge * std::max(largest_coordinate(from), largest_coordinate(to))) return {};
-  const double along = std::clamp(dot(p - from, to - from) / squared_length(to - from), 0.0, 1.0);
+  const double along = std::clamp(part_of_edge(mesh.space(), from, to, p), 0.0, 1.0);
   return Place{t, 2, {a, b}, {1 - along, along}, false};
 }
 
-Place without_rounding(const Mesh& mesh, const Place& place, Vec2 p) {
+Place without_rounding(const Mesh& mesh, const Place& place, Vec3 p) {
   for (std::size_t k = 0; place.n == 3 && k < 3; ++k) {
     const auto on_edge = near_edge(mesh, place.triangle, place.corners[(k + 1) % 3], place.corners[(k + 2) % 3], p);
     if (on_edge) return *on_edge;
@@ -95,17 +97,17 @@ TriangleId same_triangle(const Mesh& before, const Mesh& after, TriangleId t, co
 IdVector<VertexId, Place> places_of_vertices(const Mesh& before, const Mesh& after,
                                              const IdVector<VertexId, VertexId>& vertices, Executor* executor) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(before) && !has_erased_triangles(after));
-  TEMPER_ASSERT(before.space().is_plane() && after.space().is_plane());
+  TEMPER_ASSERT(before.space().kind() == after.space().kind());
   TEMPER_ASSERT(vertices.empty() || vertices.size() == after.n_vertices());
   const PlaceFinder finder(before);
   const FormerVertices former(before, after, vertices);
   IdVector<VertexId, Place> places(after.n_vertices());
   for_each_index(after.n_vertices(), executor, [&](std::size_t i) {
     const VertexId v(i), was = former[v];
-    const Vec2 p = after.position(v);
-    const bool stayed = was.valid() && before.position(was) == p;
+    const WeightedPoint p = after.point(v);
+    const bool stayed = was.valid() && before.space().same_place(before.point(was), p);
     places[v] = stayed ? Place::at(was, Mesh::triangle(before.outgoing(was)))
-                       : without_rounding(before, finder.find(p, former.near(v)), p);
+                       : without_rounding(before, finder.find(p, former.near(v)), place_of(before.space(), p));
   });
   return places;
 }
@@ -119,8 +121,8 @@ IdVector<TriangleId, TriangleId> sources_of_triangles(const Mesh& before, const 
     sources[t] = same_triangle(before, after, t, places);
     if (sources[t].valid()) return;
     const auto [a, b, c] = after.corners(t);
-    const Vec2 middle = (1.0 / 3) * (after.position(a) + after.position(b) + after.position(c));
-    sources[t] = of_region(before, finder.find(middle, places[a].triangle).triangle, after.region(t));
+    const Vec3 middle = (1.0 / 3) * (place_of(after, a) + place_of(after, b) + place_of(after, c));
+    sources[t] = of_region(before, finder.find(as_point(middle), places[a].triangle).triangle, after.region(t));
   });
   return sources;
 }

@@ -181,6 +181,25 @@ def test_data_are_assigned_on_a_sphere(globe):
     assert np.array_equal(again.point_data["depth"], globe.points[:, 2])
 
 
+def test_data_stay_where_they_were_measured(globe):
+    depth = lambda points: 3000 + 0.0002 * points @ (1.0, -2.0, 0.5)
+    numbers = np.arange(globe.n_triangles)
+    globe.point_data["depth"], globe.point_data["station"] = depth(globe.points), np.arange(300)
+    globe.cell_data["number"] = numbers
+    before = globe.copy()
+    report = temper.optimize(globe)
+    assert report.data.interpolated == ["depth"] and report.data.kept == ["station"] and report.data.points_moved > 200
+    off = np.abs(globe.point_data["depth"] - depth(globe.points))
+    moved = np.abs(depth(before.points) - depth(globe.points))
+    assert off.max() < moved.max() / 3 and off.mean() < moved.mean() / 5
+    assert np.array_equal(globe.point_data["station"], np.arange(300))
+    # Of the triangle that the middle of each is in.
+    a, b, c = np.moveaxis(before.points[before.triangles[globe.cell_data["number"]]], 1, 0)
+    middle = globe.points[globe.triangles].mean(axis=1)
+    for p, q in ((a, b), (b, c), (c, a)):
+        assert (geometry.orientation(p, q, middle, space=globe.space) >= 0).all()
+
+
 # --- geometry ------------------------------------------------------------------------------------------------
 
 

@@ -72,8 +72,8 @@ TEST(Place, OfAVertexIsThatVertexAndOfTheMiddleOfAnEdgeIsThatEdge) {
 TEST(Place, BeyondTheMeshIsTheNearestPointOfIt) {
   const Mesh mesh = mesh_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 1, 2}, {0, 2, 3}});
   const PlaceFinder finder(mesh);
-  EXPECT_EQ(mean_of(mesh, finder.find({0.25, -3})), (Vec2{0.25, 0}));
-  const Place corner = finder.find({5, 7});
+  EXPECT_EQ(mean_of(mesh, finder.find(Vec2{0.25, -3})), (Vec2{0.25, 0}));
+  const Place corner = finder.find(Vec2{5, 7});
   EXPECT_EQ(corner.n, 1);
   EXPECT_EQ(corner.corners[0], VertexId(2));
   EXPECT_TRUE(corner.outside);
@@ -86,7 +86,7 @@ TEST(Interpolated, KeepsToTheValuesOfTheCornersAndIsExactWhereTheyAgree) {
   std::vector<double> values;
   for (std::size_t v = 0; v < mesh.n_vertices(); ++v) values.push_back(1e3 * noise());
   for (int i = 0; i < 500; ++i) {
-    const Place place = finder.find({0.5 + 0.4 * noise(), 0.5 + 0.4 * noise()});
+    const Place place = finder.find(Vec2{0.5 + 0.4 * noise(), 0.5 + 0.4 * noise()});
     const double value = interpolated(place, [&](VertexId v) { return values[v.index]; });
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t k = 0; k < static_cast<std::size_t>(place.n); ++k) {
