@@ -131,7 +131,7 @@ TEST(SizeField, FindsTheNearestPointOfAMeshWithHoles) {
       const double t = std::clamp(dot(p - a, ab) / squared_length(ab), 0.0, 1.0);
       nearest2 = std::min(nearest2, squared_length(p - a - t * ab));
     }
-    const NearestPoint found = tree.nearest(mesh, p);
+    const NearestPoint found = tree.nearest(mesh, {p.x, p.y, 0});
     EXPECT_EQ(found.distance2 > 0, field.at(p).outside);
     if (found.distance2 == 0) continue;
     EXPECT_NEAR(found.distance2, nearest2, kRounding);
