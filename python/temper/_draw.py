@@ -80,7 +80,8 @@ def draw_before_after_svg(
     width: float = 900.0,
     title: str = "",
 ) -> Svg:
-    """Two panels side by side, to one scale, one view and one zoom box; options as of ``draw_svg``, ``width`` is of one panel."""
+    """Two panels side by side, to one scale, one view and one zoom box; options as of ``draw_svg``, ``width`` is of one
+    panel."""
     options = _options(locals())
     return Svg(_temper.draw_before_after_svg(as_mesh(before)._handle, as_mesh(after)._handle, options))
 

@@ -47,8 +47,8 @@ class WorstTriangle(Record):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Quality(Record):
-    """What ``quality`` measures: counts decided exactly, margins and energies in doubles. On a sphere lengths and angles
-    are those of arcs."""
+    """What ``quality`` measures: counts decided exactly, margins and energies in doubles. On a sphere lengths and
+    angles are those of arcs."""
 
     vertices: int
     triangles: int

@@ -152,8 +152,8 @@ class Mesh:
     -----
     ``points``, ``weights``, ``triangles`` and ``twins`` are read-only views on the mesh's own memory, without copies. A
     view keeps what it shows: when the mesh changes afterwards, the mesh is given new memory and the view is that of
-    before. All other arrays are copies; on a sphere so are ``points`` and ``weights``, and ``lifted_points`` is the view.
-    To change a mesh, assign: ``mesh.weights = w``.
+    before. All other arrays are copies; on a sphere so are ``points`` and ``weights``, and ``lifted_points`` is the
+    view. To change a mesh, assign: ``mesh.weights = w``.
 
     Halfedge 3 t + k runs from corner k to corner k + 1 of triangle t. Triangles are counter-clockwise, on a sphere as
     seen from outside.
@@ -507,8 +507,8 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
 def to_meshio(mesh: MeshLike) -> Any:
     """The mesh as a ``meshio.Mesh``, which meshio writes to any of its formats.
 
-    Points are (n, 3) float64 (z as it was, or 0; of a sphere the places), with point data ``weight`` (float64, [length²]), triangles with cell
-    data ``region``, and what else came with the mesh; lines of the file, and constrained edges, are cells of type
+    Points are (n, 3) float64 (z as it was, or 0; of a sphere the places), with point data ``weight`` (float64,
+    [length²]), triangles with cell data ``region``, and what else came with the mesh; lines of the file, and constrained edges, are cells of type
     ``line``, marked points of type ``vertex``; their ``region`` is their tag. Needs meshio.
     """
     return meshio_of(as_mesh(mesh)._handle)

@@ -14,7 +14,8 @@ class Space:
     """The plane, ``Space()``, or a sphere around the origin, ``Space.sphere(radius)``. Immutable.
 
     On the sphere of radius R a vertex at p, \\|p\\| = R, with weight w is the lifted point P = p √(R² + w)/R: its
-    direction is the place, and \\|P\\|² = R² + w. The regular triangulation is the boundary of the convex hull of all P.
+    direction is the place, and \\|P\\|² = R² + w. The regular triangulation is the boundary of the convex hull of all
+    P.
 
     >>> from temper import Space
     >>> Space.sphere(6371e3), Space().is_plane

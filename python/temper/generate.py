@@ -1,7 +1,8 @@
 """Example meshes: the paper's, and the classes a mesh method should be tried on.
 
 Each is made here, from its parameters and a seed, by a constrained Delaunay triangulation on temper's own predicates.
-``icosahedral``, ``random_sphere`` and ``spherical_delaunay`` are of the sphere. All weights are zero. TemperError says which parameter makes no sense.
+``icosahedral``, ``random_sphere`` and ``spherical_delaunay`` are of the sphere. All weights are zero. TemperError says
+which parameter makes no sense.
 """
 
 from __future__ import annotations
@@ -84,13 +85,14 @@ def spherical_delaunay(points: npt.ArrayLike, radius: float = 1.0) -> Mesh:
 
 
 def icosahedral(level: int = 4, radius: float = 1.0) -> Mesh:
-    """The icosahedron on a sphere of this radius [length], each triangle cut into four ``level`` times: 10 · 4^level + 2
-    vertices."""
+    """The icosahedron on a sphere of this radius [length], each triangle cut into four ``level`` times: 10 · 4^level
+    + 2 vertices."""
     return Mesh._of(_temper.icosahedral(level, radius))
 
 
 def random_sphere(vertices: int = 1000, seed: int = 1, radius: float = 1.0) -> Mesh:
-    """Uniformly random points around a sphere of this radius [length], Delaunay. About half of the triangles are bad."""
+    """Uniformly random points around a sphere of this radius [length], Delaunay. About half of the triangles are
+    bad."""
     return Mesh._of(_temper.random_sphere(vertices, seed, radius))
 
 

@@ -5,9 +5,9 @@ other, and results have the shape of what is left. Triangle ijk is counter-clock
 → j; d_ij = ℓ/2 + (w_i − w_j)/(2ℓ) from i towards j (docs/concepts.md). Signs are −1, 0 or 1, int8, and right for all
 doubles in the range of ``is_exact_coordinate`` and ``is_exact_weight``.
 
-With ``space=mesh.space`` on a sphere points are ``mesh.lifted_points``, (…, 3): directions whose squared lengths are R² + w
-(``temper.Space``). Triangles are counter-clockwise as seen from outside, lengths and heights are arcs in radians, signed
-as in the plane, and only the directions and the ratios of lengths count, not the radius.
+With ``space=mesh.space`` on a sphere points are ``mesh.lifted_points``, (…, 3): directions whose squared lengths are
+R² + w (``temper.Space``). Triangles are counter-clockwise as seen from outside, lengths and heights are arcs in
+radians, signed as in the plane, and only the directions and the ratios of lengths count, not the radius.
 """
 
 from __future__ import annotations
@@ -78,10 +78,16 @@ def power_test(
 
 
 def power_test_perturbed(
-    a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayLike, index: npt.ArrayLike, *, space: Space = _PLANE
+    a: npt.ArrayLike,
+    b: npt.ArrayLike,
+    c: npt.ArrayLike,
+    d: npt.ArrayLike,
+    index: npt.ArrayLike,
+    *,
+    space: Space = _PLANE,
 ) -> Any:
-    """``power_test`` with ties broken by the vertices' numbers, ``index`` (…, 4): 0 only when all four are collinear, or
-    on a great circle."""
+    """``power_test`` with ties broken by the vertices' numbers, ``index`` (…, 4): 0 only when all four are collinear,
+    or on a great circle."""
     arrays = [_vertices(p, name, space) for name, p in (("a", a), ("b", b), ("c", c), ("d", d))]
     shape = np.broadcast_shapes(*(array.shape for array in arrays))[:-1]
     numbers = np.broadcast_to(np.asarray(index), (*shape, 4)).reshape(-1, 4)

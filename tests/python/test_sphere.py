@@ -45,7 +45,8 @@ def test_a_space_is_a_small_value():
     plane, earth = Space(), Space.sphere(EARTH)
     assert plane.is_plane and plane.kind == "plane" and plane.radius == 0 and repr(plane) == "Space()"
     assert not earth.is_plane and earth.kind == "sphere" and earth.radius == EARTH
-    assert earth == Space(EARTH) == pickle.loads(pickle.dumps(earth)) != plane and len({earth, Space(EARTH), plane}) == 2
+    assert earth == Space(EARTH) == pickle.loads(pickle.dumps(earth)) != plane
+    assert len({earth, Space(EARTH), plane}) == 2
     assert eval(repr(earth)) == earth
     with pytest.raises(AttributeError):
         earth.radius = 1.0
@@ -182,10 +183,11 @@ def test_data_are_assigned_on_a_sphere(globe):
 
 
 def test_data_stay_where_they_were_measured(globe):
-    depth = lambda points: 3000 + 0.0002 * points @ (1.0, -2.0, 0.5)
-    numbers = np.arange(globe.n_triangles)
+    def depth(points):
+        return 3000 + 0.0002 * points @ (1.0, -2.0, 0.5)
+
     globe.point_data["depth"], globe.point_data["station"] = depth(globe.points), np.arange(300)
-    globe.cell_data["number"] = numbers
+    globe.cell_data["number"] = np.arange(globe.n_triangles)
     before = globe.copy()
     report = temper.optimize(globe)
     assert report.data.interpolated == ["depth"] and report.data.kept == ["station"] and report.data.points_moved > 200
@@ -237,7 +239,8 @@ def test_arcs_splits_and_heights_are_what_vectors_say(tempered):
 def test_power_tests_say_that_no_point_is_above_a_face(tempered):
     p, q, r = faces_of(tempered)
     lifted, space = tempered.lifted_points, tempered.space
-    across = lifted[tempered.triangles.ravel()[(lambda h: 3 * (h // 3) + (h + 2) % 3)(tempered.twins.reshape(-1, 3)[:, 0])]]
+    twins = tempered.twins.reshape(-1, 3)[:, 0]
+    across = lifted[tempered.triangles.ravel()[3 * (twins // 3) + (twins + 2) % 3]]
     assert (geometry.power_test(p, q, r, across, space=space) == -1).all()
     assert (geometry.power_test(p, q, r, 1.5 * across, space=space) == 1).all()
     a, b, c, d = OCTAHEDRON[[0, 1, 3, 4]]  # on the equator
@@ -250,7 +253,8 @@ def test_power_tests_say_that_no_point_is_above_a_face(tempered):
 
 def test_the_plane_and_the_sphere_do_not_mix(globe):
     a, b, c = OCTAHEDRON[:3]
-    assert geometry.orientation(a, b, c, space=globe.space) == 1 and geometry.orientation(b, a, c, space=globe.space) == -1
+    assert geometry.orientation(a, b, c, space=globe.space) == 1
+    assert geometry.orientation(b, a, c, space=globe.space) == -1
     assert geometry.orientation((0, 0), (1, 0), (0, 1)) == 1
     with pytest.raises(ValueError, match=r"p: expected shape \(…, 3\), found \(2,\)"):
         geometry.orientation((0, 0), (1, 0), (0, 1), space=globe.space)

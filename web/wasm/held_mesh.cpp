@@ -11,6 +11,11 @@ Expected<std::unique_ptr<HeldMesh>> HeldMesh::of_file(io::MeshFile file, const s
   source->file = std::move(file);
   Expected<io::LoadedMesh> loaded = io::make_mesh(source->file, fixed_tags);
   if (!loaded) return loaded.error();
+  // Points are pairs of numbers in JavaScript.
+  if (auto error = expect_plane(loaded->mesh, "temper in JavaScript")) {
+    error->where = source->file.path;
+    return *std::move(error);
+  }
   source->loaded = *std::move(loaded);
   io::release_geometry(source->file, source->loaded);  // else it would be held twice
   warnings = std::move(source->file.warnings);
