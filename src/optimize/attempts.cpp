@@ -58,7 +58,7 @@ Expected<Candidate> best_attempt(const Mesh& mesh, Settings& settings, Run& run)
       for (Attempt& attempt : tries) attempt.first_energy = first_energy_of(o);
       run.facts.input_flips = run.report.flips;
     }
-    now.sweep = driver.attempt(tries[i], i + 1 < tries.size() || repairs(settings, mesh.space()));
+    now.sweep = driver.attempt(tries[i], i + 1 < tries.size() || repairs(settings));
     if (auto error = run.checkpoints.error()) return *std::move(error);
     if (!best || !is_worse(now, *best, settings)) {
       best = std::move(now);
@@ -79,7 +79,7 @@ Candidate repaired(Candidate start, Settings& settings, Run& run) {
   bool polishes = false;
   const Resumable here(run.checkpoints, start, best, now, i, polishes);
   if (!here.resumed()) {
-    if (!repairs(settings, start.work.mesh.space()) || is_done(start) ||
+    if (!repairs(settings) || is_done(start) ||
         !std::isfinite(total_energy(start.work.mesh, settings.model))) {
       return start;
     }

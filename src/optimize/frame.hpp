@@ -43,6 +43,12 @@ struct Frame {
     const Vec2 c = center_here();
     return {(p.x + c.x) - c.x, (p.y + c.y) - c.y};
   }
+  /// The same of a vertex; the sphere has no such grid.
+  [[nodiscard]] WeightedPoint snap(const WeightedPoint& p) const {
+    if (!space.is_plane()) return p;
+    const auto [x, y] = snap(p.position());
+    return {x, y, p.w};
+  }
 };
 
 }  // namespace temper

@@ -134,7 +134,6 @@ std::optional<InputError> check_space(const OptimizeOptions& o, const Mesh& mesh
     return invalid("`" + option + "` is for meshes of the plane; on the sphere expected " + expected);
   };
   if (o.boundary == BoundaryVertices::split) return not_there("boundary=split", "`boundary=keep` or `boundary=slide`");
-  if (o.repair == Repair::vertices) return not_there("repair=vertices", "`repair=none`");
   if (o.size_band || o.size_field) return not_there(o.size_band ? "size_band" : "size_field", "none");
   if (o.paper.insertion_from) return not_there("insertion_from", "none");
   return std::nullopt;

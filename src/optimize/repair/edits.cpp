@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "geometry/in_space.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "optimize/run.hpp"
-#include "temper/geometry.hpp"
 #include "topology/locate.hpp"
 
 namespace temper {
@@ -28,16 +28,16 @@ std::vector<TriangleId> some_bad_triangles(const Neighborhood& around) {
 }
 
 void add_insertions(const Mesh& mesh, TriangleId t, std::vector<Edit>& edits) {
-  const auto [a, b, c] = mesh.corners(t);
-  const Vec2 middle = (1.0 / 3) * (mesh.position(a) + mesh.position(b) + mesh.position(c));
-  edits.push_back({.kind = Edit::insert, .triangle = t, .place = middle});
-  const Vec2 o = orthocenter(mesh.point(a), mesh.point(b), mesh.point(c));
+  const auto [i, j, k] = mesh.corners(t);
+  const WeightedPoint a = mesh.point(i), b = mesh.point(j), c = mesh.point(k);
+  edits.push_back({.kind = Edit::insert, .triangle = t, .place = middle(mesh.space(), a, b, c)});
+  const WeightedPoint o = orthocenter(mesh.space(), a, b, c);
   const Location at = locate(mesh, o, t);
   if (at.kind == Location::Kind::in_triangle) {
     edits.push_back({.kind = Edit::insert, .triangle = at.triangle, .place = o});
   }
-  for (int k = 0; k < 3; ++k) {
-    const HalfedgeId h = Mesh::halfedge(t, k);
+  for (int side = 0; side < 3; ++side) {
+    const HalfedgeId h = Mesh::halfedge(t, side);
     if (!mesh.is_boundary(h) && !mesh.is_constrained(h)) edits.push_back({.kind = Edit::split, .edge = h});
   }
 }

@@ -53,6 +53,7 @@ std::vector<TriangleId> rings_around(const Mesh& mesh, TriangleId seed, int ring
 Neighborhood neighborhood_of(const Mesh& mesh, TriangleId seed, int rings) {
   const std::vector<TriangleId> triangles = rings_around(mesh, seed, rings);
   Neighborhood around;
+  around.mesh.set_space(mesh.space());
   MeshEditor edit(around.mesh);
   around.seed = TriangleId(
       static_cast<std::size_t>(std::lower_bound(triangles.begin(), triangles.end(), seed) - triangles.begin()));
@@ -99,7 +100,7 @@ bool rim_is_regular(const Neighborhood& around, const Mesh& local) {
   for (std::size_t i = 0; i < around.rim.size(); ++i) {
     const HalfedgeId h = local.find_halfedge(around.rim[i][0], around.rim[i][1]);
     if (!h.valid() || local.is_constrained(h)) continue;
-    const Sign conflict = power_test(local.point(local.origin(h)), local.point(local.target(h)),
+    const Sign conflict = power_test(local.space(), local.point(local.origin(h)), local.point(local.target(h)),
                                      local.point(local.opposite(h)), around.beyond[i]);
     if (conflict == Sign::positive) return false;
   }

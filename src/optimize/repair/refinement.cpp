@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "temper/geometry.hpp"
+#include "geometry/in_space.hpp"
 #include "topology/locate.hpp"
 
 namespace temper {
@@ -17,8 +17,8 @@ constexpr double kClearance = 0.4;
 
 bool keeps_its_place(const Mesh& mesh, HalfedgeId h) { return mesh.is_boundary(h) || mesh.is_constrained(h); }
 
-double distance_to_segment(Vec2 x, Vec2 a, Vec2 b) {
-  const Vec2 along = b - a;
+double distance_to_segment(Vec3 x, Vec3 a, Vec3 b) {
+  const Vec3 along = b - a;
   const double t = std::clamp(dot(x - a, along) / squared_length(along), 0.0, 1.0);
   return length(x - (a + t * along));
 }
@@ -31,46 +31,50 @@ DelaunayRefinement::DelaunayRefinement(const Mesh& mesh, double gradation) : mes
   for (const HalfedgeId h : mesh.halfedges()) {
     if (mesh.is_erased(Mesh::triangle(h)) || !keeps_its_place(mesh, h) || !mesh.is_edge_representative(h)) continue;
     const VertexId a = mesh.origin(h), b = mesh.target(h);
-    segments_.push_back({mesh.position(a), mesh.position(b)});
+    segments_.push_back({place(a), place(b)});
     for (const VertexId v : {a, b}) {
-      sum[v.index] += length(mesh.position(b) - mesh.position(a));
+      sum[v.index] += length(place(b) - place(a));
       ++count[v.index];
     }
   }
   for (const VertexId v : mesh.vertices()) {
-    if (count[v.index] > 0) sources_.push_back({mesh.position(v), sum[v.index] / count[v.index]});
+    if (count[v.index] > 0) sources_.push_back({place(v), sum[v.index] / count[v.index]});
   }
 }
 
 std::optional<DelaunayRefinement::Place> DelaunayRefinement::next() {
   double worst = kLarge;
-  std::optional<Place> place;
+  std::optional<Place> found;
   for (const TriangleId t : mesh_.triangles()) {
     if (mesh_.is_erased(t)) continue;
     const auto [a, b, c] = mesh_.corners(t);
-    const Vec2 pa = mesh_.position(a), pb = mesh_.position(b), pc = mesh_.position(c);
-    const Vec2 o = orthocenter(WeightedPoint{pa.x, pa.y, 0}, {pb.x, pb.y, 0}, {pc.x, pc.y, 0});
-    if (!std::isfinite(o.x) || !std::isfinite(o.y)) continue;
-    const double relative = length(o - pa) / size(o);
-    if (relative <= worst || refused_.count({o.x, o.y}) > 0) continue;
-    const Location at = too_near_to_edges(o) ? Location() : locate(mesh_, o, t);
+    const Space& space = mesh_.space();
+    const auto bare = [&](VertexId v) { return space.with_weight(mesh_.point(v), 0); };
+    const WeightedPoint o = orthocenter(space, bare(a), bare(b), bare(c));
+    if (!std::isfinite(o.x) || !std::isfinite(o.y) || !std::isfinite(o.w)) continue;
+    const Vec3 x = place_in_space(space, o);
+    const double relative = length(x - place(a)) / size(x);
+    if (relative <= worst || refused_.count({o.x, o.y, o.w}) > 0) continue;
+    const Location at = too_near_to_edges(x) ? Location() : locate(mesh_, o, t);
     if (at.kind != Location::Kind::in_triangle) {
       refuse(o);
       continue;
     }
     worst = relative;
-    place = {at.triangle, o};
+    found = {at.triangle, o};
   }
-  return place;
+  return found;
 }
 
-double DelaunayRefinement::size(Vec2 x) const {
+Vec3 DelaunayRefinement::place(VertexId v) const { return place_in_space(mesh_.space(), mesh_.point(v)); }
+
+double DelaunayRefinement::size(Vec3 x) const {
   double least = std::numeric_limits<double>::infinity();
   for (const Source& s : sources_) least = std::min(least, s.size + gradation_ * length(x - s.at));
   return least;
 }
 
-bool DelaunayRefinement::too_near_to_edges(Vec2 x) const {
+bool DelaunayRefinement::too_near_to_edges(Vec3 x) const {
   const double wanted = size(x);
   return std::any_of(segments_.begin(), segments_.end(), [&](const Segment& s) {
     return distance_to_segment(x, s.a, s.b) < kClearance * std::min(length(s.b - s.a), wanted);

@@ -6,9 +6,9 @@
 // being the mean length of these edges at v.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <set>
-#include <utility>
 #include <vector>
 
 #include "temper/mesh.hpp"
@@ -23,28 +23,29 @@ class DelaunayRefinement {
   /// The place for the next vertex, and the triangle strictly around it; nothing when all are small enough.
   struct Place {
     TriangleId triangle;
-    Vec2 position;
+    WeightedPoint point;  ///< without a weight
   };
   std::optional<Place> next();
   /// That place cannot be had.
-  void refuse(Vec2 position) { refused_.insert({position.x, position.y}); }
+  void refuse(const WeightedPoint& p) { refused_.insert({p.x, p.y, p.w}); }
 
  private:
   struct Source {
-    Vec2 at;
+    Vec3 at;
     double size;
   };
   struct Segment {
-    Vec2 a, b;
+    Vec3 a, b;
   };
-  [[nodiscard]] double size(Vec2 x) const;
-  [[nodiscard]] bool too_near_to_edges(Vec2 x) const;
+  [[nodiscard]] Vec3 place(VertexId v) const;
+  [[nodiscard]] double size(Vec3 x) const;
+  [[nodiscard]] bool too_near_to_edges(Vec3 x) const;
 
   const Mesh& mesh_;
   double gradation_;
   std::vector<Source> sources_;
   std::vector<Segment> segments_;
-  std::set<std::pair<double, double>> refused_;
+  std::set<std::array<double, 3>> refused_;
 };
 
 }  // namespace temper

@@ -27,8 +27,7 @@ bool helps(const Standing& before, const Standing& after) {
 
 }  // namespace
 
-bool repairs(const Settings& settings, const Space& space) {
-  if (!space.is_plane()) return false;
+bool repairs(const Settings& settings) {
   const OptimizeOptions& o = settings.options;
   if (o.repair == Repair::none || o.repair_trials == 0 || !settings.energy.barrier || o.flips == Flips::none ||
       o.unknowns == Unknowns::weights)

@@ -47,6 +47,6 @@ class RepairSearch {
 };
 
 /// Says whether these options ask for repairs, and leave room for them.
-[[nodiscard]] bool repairs(const Settings& settings, const Space& space);
+[[nodiscard]] bool repairs(const Settings& settings);
 
 }  // namespace temper

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/rng.hpp"
+#include "geometry/in_space.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "geometry/triangle_kernel.hpp"
 #include "mesh/bad_triangles.hpp"
@@ -30,7 +31,7 @@ constexpr int kMostInserted = 300;
 double violation_of(const Mesh& mesh, TriangleId t) {
   const auto [p, q, r] = mesh.corners(t);
   double worst = 0;
-  for (const EdgeShape& e : triangle_shape(mesh.point(p), mesh.point(q), mesh.point(r)).edges) {
+  for (const EdgeShape& e : triangle_shape(mesh.space(), mesh.point(p), mesh.point(q), mesh.point(r)).edges) {
     worst = std::max({worst, -e.g / e.l2, 0.5 * (std::abs(e.dw) / e.l2 - 1)});
   }
   return worst;
@@ -61,7 +62,7 @@ class Trial {
  private:
   static Settings of_trial(const Settings& settings, Tracer tracer);
   bool apply(const Edit& edit);
-  bool insert(TriangleId t, Vec2 place);
+  bool insert(TriangleId t, const WeightedPoint& place);
   bool split(HalfedgeId h);
   bool remove(VertexId v);
   bool refine(double gradation);
@@ -132,19 +133,16 @@ bool Trial::apply(const Edit& edit) {
   return false;
 }
 
-/// Inserts a vertex with the weight that the plane through the corners has there: never hidden.
-bool Trial::insert(TriangleId t, Vec2 place) {
+/// Inserts a vertex with the weight that the corners have there.
+bool Trial::insert(TriangleId t, const WeightedPoint& place) {
   const Mesh& mesh = work_.mesh;
   const auto corners = mesh.corners(t);
   const auto [a, b, c] = std::array{mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2])};
-  const Vec2 p = grid_.snap(place);
-  const double sa = cross(b.position() - p, c.position() - p), sb = cross(c.position() - p, a.position() - p),
-               sc = cross(a.position() - p, b.position() - p);
+  const WeightedPoint p = grid_.snap(place);
   for (const auto& [q, r] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-    if (inlined::orient2d(q.position(), r.position(), p) != Sign::positive) return false;
+    if (inlined::orientation(mesh.space(), q, r, p) != Sign::positive) return false;
   }
-  const double w = (sa * a.w + sb * b.w + sc * c.w) / (sa + sb + sc);
-  flipper_.insert(work_, t, {p.x, p.y, w}, kNoEnergy, kNoEnergy);
+  flipper_.insert(work_, t, with_interpolated_weight(mesh.space(), p, a, b, c), kNoEnergy, kNoEnergy);
   limits_.grow();
   return true;
 }
@@ -152,12 +150,12 @@ bool Trial::insert(TriangleId t, Vec2 place) {
 bool Trial::split(HalfedgeId h) {
   const Mesh& mesh = work_.mesh;
   const auto [a, b, c, d] = inlined::quad(mesh, h);
-  const Vec2 p = grid_.snap(0.5 * (mesh.position(a) + mesh.position(b)));
+  const WeightedPoint p = grid_.snap(middle(mesh.space(), mesh.point(a), mesh.point(b)));
   for (const auto& [q, r] : {std::pair(b, c), std::pair(c, a), std::pair(a, d), std::pair(d, b)}) {
-    if (inlined::orient2d(mesh.position(q), mesh.position(r), p) != Sign::positive) return false;
+    if (inlined::orientation(mesh.space(), mesh.point(q), mesh.point(r), p) != Sign::positive) return false;
   }
   const double w = 0.5 * (mesh.weight(a) + mesh.weight(b));
-  flipper_.split(work_, h, {p.x, p.y, w}, kNoEnergy, kNoEnergy);
+  flipper_.split(work_, h, mesh.space().with_weight(p, w), kNoEnergy, kNoEnergy);
   limits_.grow();
   return true;
 }
@@ -174,8 +172,8 @@ bool Trial::refine(double gradation) {
   DelaunayRefinement refinement(work_.mesh, gradation);
   int inserted = 0;
   for (auto place = refinement.next(); place && inserted < kMostInserted; place = refinement.next()) {
-    if (!insert(place->triangle, place->position)) {
-      refinement.refuse(place->position);
+    if (!insert(place->triangle, place->point)) {
+      refinement.refuse(place->point);
       continue;
     }
     if (!flipper_.restore_all()) return false;

@@ -25,7 +25,7 @@ struct Edit {
     remesh,   ///< the same, after all free vertices have been removed
   } kind = nothing;
   TriangleId triangle = {};  ///< insert
-  Vec2 place = {};           ///< insert
+  WeightedPoint place = {};  ///< insert; without a weight
   HalfedgeId edge = {};      ///< split
   VertexId vertex = {};      ///< remove
   double gradation = 0;      ///< refine, remesh: growth of the size of triangles with the distance from the boundary

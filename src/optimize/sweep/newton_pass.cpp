@@ -71,7 +71,7 @@ void NewtonPass::place(Worker& worker, double t) {
     const auto [x, y, w] = system.step(i);
     WeightedPoint to = worker.before[i];
     if (movable != Movable::weight) {
-      const Vec2 p = frame_.snap({to.x + t * x, to.y + t * y});
+      const Vec2 p = frame_.snap(Vec2{to.x + t * x, to.y + t * y});
       to.x = p.x, to.y = p.y;
     }
     if (movable != Movable::position) to.w += t * w;

@@ -46,7 +46,7 @@ TEST(Frame, SnapsToWhatTheUsersCoordinatesCanHold) {
   const Frame frame = Frame::of(mesh);
   Noise noise(5);
   for (int i = 0; i < 1000; ++i) {
-    const Vec2 p = frame.snap({noise(), noise()});
+    const Vec2 p = frame.snap(Vec2{noise(), noise()});
     const double user = p.x * frame.scale + frame.center.x;
     EXPECT_EQ((user - frame.center.x) / frame.scale, p.x);
   }

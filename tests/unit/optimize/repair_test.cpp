@@ -198,7 +198,7 @@ TEST(Trial, LeavesFrozenVerticesAndTellsWhatItDid) {
     const Neighborhood around = neighborhood_of(mesh, t, 1);
     const auto [a, b, c] = around.mesh.corners(TriangleId(0));
     const Vec2 middle = (1.0 / 3) * (around.mesh.position(a) + around.mesh.position(b) + around.mesh.position(c));
-    const Edit edit{.kind = Edit::insert, .triangle = TriangleId(0), .place = middle};
+    const Edit edit{.kind = Edit::insert, .triangle = TriangleId(0), .place = {middle.x, middle.y}};
     const Outcome quiet = try_edit(around, edit, settings, Frame(), false);
     const Outcome told = try_edit(around, edit, settings, Frame(), true);
     EXPECT_EQ(quiet.valid, told.valid);

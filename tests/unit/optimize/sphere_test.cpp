@@ -146,6 +146,23 @@ TEST(Sphere, PositionsAloneLeaveWeightsAndWeightsAloneLeavePositions) {
   EXPECT_GT(changed, weights.n_vertices() / 2);
 }
 
+TEST(Sphere, RepairsMendWhatSweepsOfPositionsAloneDoNot) {
+  const Mesh before = globe(2000, 3);
+  Mesh swept = before, mended = before, refined = before;
+  optimized(swept, {.unknowns = Unknowns::positions, .repair = Repair::none});
+  optimized(mended, {.unknowns = Unknowns::positions});
+  const OptimizeReport report = optimized(refined, {.unknowns = Unknowns::positions, .repair = Repair::vertices});
+  EXPECT_FALSE(bad_triangles(swept).empty());
+  expect_well_centered(mended);
+  EXPECT_EQ(mended.n_vertices(), before.n_vertices());
+  expect_well_centered(refined);
+  EXPECT_GT(report.vertices_inserted + report.vertices_removed, 0U);
+  for (const VertexId v : refined.vertices()) {
+    EXPECT_EQ(refined.weight(v), 0);
+    EXPECT_NEAR(length(refined.lifted_point(v)), 1, 1e-12);
+  }
+}
+
 TEST(Sphere, ConstrainedLinesAndFixedVerticesStay) {
   Mesh before = globe(500, 4);
   std::vector<std::pair<VertexId, VertexId>> river;
@@ -327,7 +344,7 @@ TEST(Sphere, RefusesWhatIsForThePlane) {
   const Mesh before = mesh;
   for (const auto& [options, word] :
        {std::pair{OptimizeOptions{.boundary = BoundaryVertices::split}, "`boundary=split` is for meshes of the plane"},
-        std::pair{OptimizeOptions{.repair = Repair::vertices}, "`repair=vertices` is for meshes of the plane"}}) {
+        std::pair{OptimizeOptions{.paper = {.insertion_from = 1}}, "`insertion_from` is for meshes of the plane"}}) {
     const auto report = optimize(mesh, options);
     ASSERT_FALSE(report);
     EXPECT_NE(report.error().what().find(word), std::string::npos) << report.error().what();
