@@ -94,7 +94,7 @@ Exit run_dec(const Arguments& arguments) {
   check_folder(s, formats);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  const Input input = read_input(s.input, {s.projection, {}, threads.get()});
+  const Input input = read_input(s.input, {s.projection, {}, threads.get(), true});
   print_warnings(input.warnings());
   const DecComplex complex = dec(input.mesh());
   const PowerCells cells = power_cells(input.mesh(), complex);

@@ -13,6 +13,10 @@
 //          \ | /
 //            l            The sum of ★0 is the area of the domain.
 //
+// On the sphere ℓ, d, h and dual lengths are lengths of arcs and areas spherical excess, times R and R², and
+//   ★0(v) = Σ E over the half-edges at v, E the right triangle with legs d_ij and h_k: tan(E/2R²) = tan(d/2R)
+//   tan(h/2R); Σ ★0 is 4πR² where the mesh is closed. ★1 = dual arc over arc, ★2 = 1 / area, with the same signs.
+//
 // A dual length is negative where the edge is not regular, or, on the boundary, where the orthocenter is outside; it is
 // zero exactly where the four points are cocircular in the power sense. These signs are those of the exact predicates.
 #pragma once
@@ -24,6 +28,7 @@
 #include "temper/ids.hpp"
 #include "temper/mesh.hpp"
 #include "temper/vec2.hpp"
+#include "temper/vec3.hpp"
 
 namespace temper {
 
@@ -49,7 +54,7 @@ struct DecEdge {
   double left_height = 0;   ///< h of the orthocenter of `left` over this edge, > 0 on the side of `left`; 0 without it
   double right_height = 0;  ///< h of the orthocenter of `right`, > 0 on the side of `right`; 0 without it
   double dual_length = 0;   ///< left_height + right_height, with the exact sign, and accurate where they cancel
-  Vec2 midpoint;            ///< weighted midpoint: where the line of the dual edge crosses the line of the edge
+  Vec2 midpoint;  ///< in the plane: weighted midpoint, where the line of the dual edge crosses the line of the edge
 
   [[nodiscard]] bool is_boundary() const { return !left.valid() || !right.valid(); }
 };
@@ -66,8 +71,11 @@ struct DecComplex {
   /// [1]: the transmissibility of a two-point flux between orthocenters, ℓ / (h_k + h_l), on the boundary ℓ / h_k; it
   /// has the sign of ★1, and is +∞ where that is 0.
   IdVector<EdgeId, double> flux;
-  IdVector<TriangleId, Vec2> orthocenters;  ///< the dual vertices
+  IdVector<TriangleId, Vec2> orthocenters;  ///< the dual vertices of the plane
   IdVector<TriangleId, double> areas;       ///< of the triangles, > 0
+  // On the sphere instead of midpoint and orthocenters, at its radius. Empty in the plane.
+  IdVector<EdgeId, Vec3> sphere_midpoints;
+  IdVector<TriangleId, Vec3> sphere_orthocenters;
 };
 
 /// The operators of a mesh. Precondition: no erased triangles; fewer than 2³¹ half-edges. O(n).
@@ -94,6 +102,7 @@ struct PowerCells {
   std::vector<VertexId> vertices;   ///< of each polygon
   std::vector<std::size_t> starts;  ///< polygon p has corners[starts[p]] … corners[starts[p + 1] − 1]
   std::vector<Vec2> corners;
+  std::vector<Vec3> sphere_corners;   ///< on the sphere instead of corners, at its radius; sides are arcs
   std::vector<double> polygon_areas;  ///< of each polygon, > 0
   IdVector<VertexId, double> areas;   ///< of each vertex: of all its polygons. Sum: the area of the domain
 
@@ -106,6 +115,7 @@ struct PowerCells {
 ///   - In a regular triangulation of a convex domain they are the cells of the power diagram, half-plane by half-plane.
 ///   - In a well-centered mesh of any domain they are the polygons of orthocenters, whose areas are ★0.
 ///   - Where the domain is not convex, a cell does not jump over a crack, a notch or a hole.
+/// On the sphere that is so of its power diagram: the flat faces with the weights |P|² are divided, and seen from 0.
 /// Precondition: no erased triangles, and `complex` is dec(mesh). O(n) where triangles are well-centered, and about ten
 /// microseconds for each that is not.
 [[nodiscard]] PowerCells power_cells(const Mesh& mesh, const DecComplex& complex);

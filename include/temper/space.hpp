@@ -71,6 +71,17 @@ class Space {
     const bool at_radius = std::abs(length(place) - radius_) <= kRounded * radius_;
     return w == 0 && at_radius ? as_point(place) : with_weight(as_point(place), w);
   }
+  /// Where a vertex is on the sphere: bit for bit what it was made of, without a weight. Precondition: a sphere.
+  [[nodiscard]] Vec3 place(const WeightedPoint& p) const {
+    return weight(p) == 0 ? lifted(p) : lifted(with_weight(p, 0));
+  }
+
+  /// The area of the right triangle with legs d and h, with the sign of d·h: dual cells and kites are made of these. On
+  /// the sphere legs are arcs [length], and tan(E/2) = tan(d/2R) tan(h/2R), E its excess.
+  [[nodiscard]] double right_triangle_area(double d, double h) const {
+    if (is_plane()) return 0.5 * d * h;
+    return radius_ * radius_ * 2 * std::atan(std::tan(0.5 * d / radius_) * std::tan(0.5 * h / radius_));
+  }
 
   /// Says whether two vertices are at the same place; on the sphere but for the rounding of with_weight(), or of many
   /// calls of it.

@@ -45,4 +45,28 @@ double doubled_split(const WeightedPoint& p, const WeightedPoint& q) {
   return nearest_double(exact::doubled_split(p, q));
 }
 
+double orientation_determinant(Vec3 p, Vec3 q, Vec3 r) {
+  const auto fast = inlined::filtered_orientation(p, q, r);
+  if (is_accurate(fast)) return fast.value;
+  return nearest_double(exact::orientation_determinant(p, q, r));
+}
+
+double power_determinant(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const auto fast = inlined::filtered_power_test(a, b, c, d);
+  if (is_accurate(fast)) return fast.value;
+  return nearest_double(exact::power_determinant(a, b, c, d));
+}
+
+double height_numerator(Vec3 p, Vec3 q, Vec3 r) {
+  const auto fast = inlined::filtered_height_numerator(p, q, r);
+  if (is_accurate(fast)) return fast.value;
+  return nearest_double(exact::height_numerator(p, q, r));
+}
+
+double split_product(Vec3 p, Vec3 q) {
+  const auto fast = inlined::filtered_edge_split(p, q);
+  if (is_accurate(fast)) return fast.value;
+  return nearest_double(exact::split_product(p, q));
+}
+
 }  // namespace temper::accurate

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "temper/vec2.hpp"
+#include "temper/vec3.hpp"
 
 namespace temper::accurate {
 
@@ -22,5 +23,16 @@ inline constexpr double kRelativeError = 0x1p-42;
 [[nodiscard]] double height_numerator(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
 /// 2 d ℓ of edge pq, from p.
 [[nodiscard]] double doubled_split(const WeightedPoint& p, const WeightedPoint& q);
+
+// --- on the sphere, of lifted points -------------------------------------------------------------------------------
+
+/// det(P, Q, R).
+[[nodiscard]] double orientation_determinant(Vec3 p, Vec3 q, Vec3 r);
+/// − det(A − D, B − D, C − D), whose sign is power_test: > 0 where d conflicts with abc.
+[[nodiscard]] double power_determinant(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
+/// (P × Q)·n, n the normal (Q − P) × (R − P) of the face.
+[[nodiscard]] double height_numerator(Vec3 p, Vec3 q, Vec3 r);
+/// P·(P − Q).
+[[nodiscard]] double split_product(Vec3 p, Vec3 q);
 
 }  // namespace temper::accurate

@@ -1,10 +1,5 @@
-// The operators: edges in the order of their vertices, then everything that belongs to a triangle or an edge, by
-// quotients of accurate determinants.
-//
-// With S_k, S_l twice the areas of the triangles of an edge and D the power determinant of their four corners, moving
-// along the dual line from one orthocenter to the other changes the power of the fourth corner from −D / S_k to 0, at
-// the rate 2 S_l / ℓ. So (h_k + h_l) / ℓ = −D / (2 S_k S_l): accurate where the two heights cancel, and 0 for
-// cocircular points.
+// The operators: edges in the order of their vertices, then everything that belongs to a triangle or an edge, as the
+// space measures it.
 #include "temper/dec.hpp"
 
 #include <algorithm>
@@ -13,9 +8,8 @@
 #include <limits>
 
 #include "base/assert.hpp"
-#include "dec/accurate.hpp"
+#include "dec/measures.hpp"
 #include "mesh/erased.hpp"
-#include "temper/geometry.hpp"
 
 namespace temper {
 namespace {
@@ -41,26 +35,28 @@ std::vector<HalfedgeId> sorted_edges(const Mesh& mesh) {
   return sorted;
 }
 
+/// Measures are those of a space.
+template <class Measures>
 class DecBuilder {
  public:
-  explicit DecBuilder(const Mesh& mesh) : mesh_(mesh), doubled_(mesh.n_triangles()) {}
+  explicit DecBuilder(const Mesh& mesh) : mesh_(mesh), measures_(mesh) {}
   DecComplex build();
 
  private:
   void triangles();
   void add_edge(HalfedgeId h);
-  void measure(DecEdge& edge, HalfedgeId left, HalfedgeId right);
   [[nodiscard]] double height(HalfedgeId h, double length) const;
-  [[nodiscard]] double star1(HalfedgeId left, HalfedgeId right) const;
+  [[nodiscard]] double star1(HalfedgeId left, HalfedgeId right, double length) const;
   void incidence();
   void dual_areas();
 
   const Mesh& mesh_;
-  IdVector<TriangleId, double> doubled_;  // twice the area
+  const Measures measures_;
   DecComplex c_;
 };
 
-DecComplex DecBuilder::build() {
+template <class Measures>
+DecComplex DecBuilder<Measures>::build() {
   triangles();
   const std::vector<HalfedgeId> edges = sorted_edges(mesh_);
   c_.edges.reserve(edges.size());
@@ -73,21 +69,18 @@ DecComplex DecBuilder::build() {
   return std::move(c_);
 }
 
-void DecBuilder::triangles() {
-  const std::size_t n = mesh_.n_triangles();
-  c_.areas.resize(n);
-  c_.star2.resize(n);
-  c_.orthocenters.resize(n);
+template <class Measures>
+void DecBuilder<Measures>::triangles() {
+  c_.areas.reserve(mesh_.n_triangles());
+  c_.star2.reserve(mesh_.n_triangles());
   for (const TriangleId t : mesh_.triangles()) {
-    const auto [i, j, k] = mesh_.corners(t);
-    doubled_[t] = accurate::doubled_area(mesh_.position(i), mesh_.position(j), mesh_.position(k));
-    c_.areas[t] = 0.5 * doubled_[t];
-    c_.star2[t] = 2 / doubled_[t];
-    c_.orthocenters[t] = orthocenter(mesh_.point(i), mesh_.point(j), mesh_.point(k));
+    measures_.triangle(c_, t);
+    c_.star2.push_back(1 / c_.areas[t]);
   }
 }
 
-void DecBuilder::add_edge(HalfedgeId h) {
+template <class Measures>
+void DecBuilder<Measures>::add_edge(HalfedgeId h) {
   const bool upwards = mesh_.origin(h) < mesh_.target(h);
   const HalfedgeId left = upwards ? h : mesh_.twin(h), right = upwards ? mesh_.twin(h) : h;
   const EdgeId e(c_.edges.size());
@@ -96,49 +89,35 @@ void DecBuilder::add_edge(HalfedgeId h) {
   DecEdge edge;
   edge.from = upwards ? mesh_.origin(h) : mesh_.target(h);
   edge.to = upwards ? mesh_.target(h) : mesh_.origin(h);
-  measure(edge, left, right);
-  const double ratio = star1(left, right);
+  measures_.line(c_, edge);
+  if (left.valid()) edge.left = Mesh::triangle(left), edge.left_height = height(left, edge.length);
+  if (right.valid()) edge.right = Mesh::triangle(right), edge.right_height = height(right, edge.length);
+  const double ratio = star1(left, right, edge.length);
   edge.dual_length = ratio * edge.length;
   c_.edges.push_back(edge);
   c_.star1.push_back(ratio);
   c_.flux.push_back(ratio == 0 ? std::numeric_limits<double>::infinity() : 1 / ratio);
 }
 
-void DecBuilder::measure(DecEdge& edge, HalfedgeId left, HalfedgeId right) {
-  const WeightedPoint from = mesh_.point(edge.from), to = mesh_.point(edge.to);
-  const Vec2 along = to.position() - from.position();
-  const double l2 = squared_length(along);
-  const double lower = accurate::doubled_split(from, to), upper = accurate::doubled_split(to, from);
-  edge.length = std::sqrt(l2);
-  edge.split = 0.5 * lower / edge.length;
-  // From the nearer end: the midpoint is then as accurate as its distance from it.
-  edge.midpoint = std::abs(lower) <= std::abs(upper) ? from.position() + (0.5 * lower / l2) * along
-                                                     : to.position() - (0.5 * upper / l2) * along;
-  if (left.valid()) edge.left = Mesh::triangle(left), edge.left_height = height(left, edge.length);
-  if (right.valid()) edge.right = Mesh::triangle(right), edge.right_height = height(right, edge.length);
+template <class Measures>
+double DecBuilder<Measures>::height(HalfedgeId h, double length) const {
+  return measures_.height(measures_.point(mesh_.origin(h)), measures_.point(mesh_.target(h)),
+                          measures_.point(mesh_.opposite(h)), c_.areas[Mesh::triangle(h)], length);
 }
 
-double DecBuilder::height(HalfedgeId h, double length) const {
-  const double numerator = accurate::height_numerator(mesh_.point(mesh_.origin(h)), mesh_.point(mesh_.target(h)),
-                                                      mesh_.point(mesh_.opposite(h)));
-  return 0.5 * (numerator / doubled_[Mesh::triangle(h)]) / length;
-}
-
-double DecBuilder::star1(HalfedgeId left, HalfedgeId right) const {
+template <class Measures>
+double DecBuilder<Measures>::star1(HalfedgeId left, HalfedgeId right, double length) const {
   const HalfedgeId h = left.valid() ? left : right;
-  const WeightedPoint p = mesh_.point(mesh_.origin(h)), q = mesh_.point(mesh_.target(h));
-  const WeightedPoint r = mesh_.point(mesh_.opposite(h));
-  const double here = doubled_[Mesh::triangle(h)];
-  if (!left.valid() || !right.valid()) {
-    const double l2 = squared_length(q.position() - p.position());
-    return 0.5 * (accurate::height_numerator(p, q, r) / here) / l2;
-  }
-  const WeightedPoint s = mesh_.point(mesh_.opposite(right));
-  // 0 − D rather than −D: a tie is +0.
-  return 0.5 * ((0 - accurate::power_determinant(p, q, r, s)) / here) / doubled_[Mesh::triangle(right)];
+  const auto p = measures_.point(mesh_.origin(h)), q = measures_.point(mesh_.target(h));
+  const auto r = measures_.point(mesh_.opposite(h));
+  const double here = c_.areas[Mesh::triangle(h)];
+  if (!left.valid() || !right.valid()) return measures_.end_ratio(p, q, r, here, length);
+  const auto s = measures_.point(mesh_.opposite(right));
+  return measures_.dual_ratio(p, q, r, s, {here, c_.areas[Mesh::triangle(right)]}, length);
 }
 
-void DecBuilder::incidence() {
+template <class Measures>
+void DecBuilder<Measures>::incidence() {
   const std::size_t n_edges = c_.edges.size(), n_triangles = mesh_.n_triangles();
   c_.d0 = {mesh_.n_vertices(), std::vector<std::int32_t>(n_edges + 1), {}, {}};
   c_.d0.columns.reserve(2 * n_edges);
@@ -167,12 +146,13 @@ void DecBuilder::incidence() {
 }
 
 // Each edge has its two half-edges' heights, and its two ends' shares of the length.
-void DecBuilder::dual_areas() {
+template <class Measures>
+void DecBuilder<Measures>::dual_areas() {
   c_.star0.resize(mesh_.n_vertices(), 0.0);
   for (const DecEdge& edge : c_.edges) {
-    const double both = edge.left_height + edge.right_height;
-    c_.star0[edge.from] += 0.5 * edge.split * both;
-    c_.star0[edge.to] += 0.5 * (edge.length - edge.split) * both;
+    const double left = edge.left_height, right = edge.right_height;
+    c_.star0[edge.from] += right_triangle_areas(mesh_.space(), edge.split, left, right);
+    c_.star0[edge.to] += right_triangle_areas(mesh_.space(), edge.length - edge.split, left, right);
   }
 }
 
@@ -181,7 +161,7 @@ void DecBuilder::dual_areas() {
 DecComplex dec(const Mesh& mesh) {
   TEMPER_ASSERT(mesh.n_halfedges() < std::size_t{1} << 31);
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
-  return DecBuilder(mesh).build();
+  return mesh.space().is_plane() ? DecBuilder<PlaneMeasures>(mesh).build() : DecBuilder<SphereMeasures>(mesh).build();
 }
 
 }  // namespace temper

@@ -24,6 +24,11 @@ struct Fan {
   std::vector<double> angles;
 };
 
+double angle_at(const Mesh& mesh, VertexId v, VertexId a, VertexId b) {
+  return mesh.space().is_plane() ? corner_angle(mesh.position(v), mesh.position(a), mesh.position(b))
+                                 : corner_angle(mesh.lifted_point(v), mesh.lifted_point(a), mesh.lifted_point(b));
+}
+
 Fan fan_of(const Mesh& mesh, VertexId v) {
   Fan fan;
   double angle = 0;
@@ -31,7 +36,7 @@ Fan fan_of(const Mesh& mesh, VertexId v) {
   for (const HalfedgeId h : mesh.star(v)) {
     fan.ends.push_back(mesh.target(h));
     fan.angles.push_back(angle);
-    angle += corner_angle(mesh.position(v), mesh.position(mesh.target(h)), mesh.position(mesh.opposite(h)));
+    angle += angle_at(mesh, v, mesh.target(h), mesh.opposite(h));
     last = h;
   }
   fan.ends.push_back(mesh.opposite(last));
@@ -56,10 +61,10 @@ Vec2 mean_of(const std::vector<PieceCorner>& polygon) {
 
 std::vector<CellPiece> TriangleDivider::divide(TriangleId t) {
   const std::array<VertexId, 3> corners = mesh_.corners(t);
-  origin_ = mesh_.position(corners[0]);
+  chart_ = Chart::of_triangle(mesh_, t);
   whole_.clear();
   for (int k = 0; k < 3; ++k) {
-    whole_.push_back({mesh_.position(corners[static_cast<std::size_t>(k)]) - origin_, {}, Mesh::halfedge(t, k)});
+    whole_.push_back({chart_.of(mesh_, corners[static_cast<std::size_t>(k)]).position(), {}, Mesh::halfedge(t, k)});
   }
   n_candidates_ = 0;
   for (const VertexId v : corners) add(v);
@@ -83,8 +88,9 @@ void TriangleDivider::add(VertexId v) {
   if (n_candidates_ == candidates_.size()) candidates_.emplace_back();
   Candidate& added = candidates_[n_candidates_];
   added.vertex = v;
-  added.at = mesh_.position(v) - origin_;
-  added.weight = mesh_.weight(v);
+  const WeightedPoint p = chart_.of(mesh_, v);
+  added.at = p.position();
+  added.weight = p.w;
   added.piece.clear();
   const std::size_t others = n_candidates_++;
   if (others > 0 && !wins_anywhere(added, others)) return;
@@ -122,7 +128,7 @@ void TriangleDivider::expand(std::size_t i) {
   const bool reflex = fan.angles.back() > std::numbers::pi;
   double here = 0;
   if (reflex) {
-    const Vec2 first = mesh_.position(fan.ends[0]) - mesh_.position(v);
+    const Vec2 first = chart_.of(mesh_, fan.ends[0]).position() - candidates_[i].at;
     here = angle_in(fan, first, mean_of(candidates_[i].piece) - candidates_[i].at);
   }
   for (std::size_t k = 0; k < fan.ends.size(); ++k) {

@@ -8,13 +8,13 @@
 
 #include <vector>
 
-#include "temper/mesh.hpp"
+#include "dec/chart.hpp"
 
 namespace temper {
 
 /// A corner of a piece, and what lies along the side from it to the next corner: one of the two.
 struct PieceCorner {
-  Vec2 at;           ///< relative to corner 0 of the triangle
+  Vec2 at;           ///< in the plane of the triangle, from its corner 0
   VertexId against;  ///< the side is where the power distances to this vertex and to the owner are equal
   HalfedgeId along;  ///< the side is on this side of the triangle
 };
@@ -49,7 +49,7 @@ class TriangleDivider {
  private:
   struct Candidate {
     VertexId vertex;
-    Vec2 at;  // relative to corner 0 of the triangle
+    Vec2 at;  // in the plane of the triangle
     double weight = 0;
     std::vector<PieceCorner> piece;
   };
@@ -64,7 +64,7 @@ class TriangleDivider {
   std::vector<PieceCorner> whole_;  // the triangle
   std::vector<PieceCorner> scratch_;
   std::vector<double> sides_;  // of the corners of the polygon being clipped
-  Vec2 origin_;
+  Chart chart_;
 };
 
 }  // namespace temper

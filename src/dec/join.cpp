@@ -26,7 +26,8 @@ struct Arc {
 
 class PieceJoiner {
  public:
-  PieceJoiner(const Mesh& mesh, std::span<const CellPiece> pieces);
+  /// The polygons are the places of the pieces' corners.
+  PieceJoiner(const Mesh& mesh, std::span<const CellPiece> pieces, const std::vector<LocalPolygon>& polygons);
   std::vector<LocalPolygon> join();
 
  private:
@@ -47,13 +48,14 @@ class PieceJoiner {
   double size_ = 0;
 };
 
-PieceJoiner::PieceJoiner(const Mesh& mesh, std::span<const CellPiece> pieces) : mesh_(mesh) {
-  for (const CellPiece& piece : pieces) {
-    const Vec2 shift = mesh.position(mesh.corners(piece.triangle)[0]) - mesh.position(piece.owner);
-    const std::size_t first = places_.size(), n = piece.corners.size();
+PieceJoiner::PieceJoiner(const Mesh& mesh, std::span<const CellPiece> pieces, const std::vector<LocalPolygon>& polygons)
+    : mesh_(mesh) {
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const auto& corners = pieces[k].corners;
+    const std::size_t first = places_.size(), n = corners.size();
+    places_.insert(places_.end(), polygons[k].begin(), polygons[k].end());
     for (std::size_t i = 0; i < n; ++i) {
-      places_.push_back(piece.corners[i].at + shift);
-      arcs_.push_back({first + i, first + (i + 1) % n, piece.corners[i].against, piece.corners[i].along});
+      arcs_.push_back({first + i, first + (i + 1) % n, corners[i].against, corners[i].along});
     }
   }
   for (const Vec2 p : places_) size_ = std::max(size_, length(p - places_[0]));
@@ -167,19 +169,18 @@ std::vector<LocalPolygon> PieceJoiner::join() {
 
 }  // namespace
 
-std::vector<LocalPolygon> join_pieces(const Mesh& mesh, std::span<const CellPiece> pieces) {
+std::vector<LocalPolygon> join_pieces(const Mesh& mesh, const Chart& chart, std::span<const CellPiece> pieces) {
   double area = 0, joined_area = 0;
-  for (const CellPiece& piece : pieces) area += area_of(piece.corners);
-  std::vector<LocalPolygon> joined = PieceJoiner(mesh, pieces).join();
-  for (const LocalPolygon& polygon : joined) joined_area += area_of(polygon);
-  if (std::abs(joined_area - area) <= kSameArea * area) return joined;
-  joined.clear();
+  std::vector<LocalPolygon> apart;
   for (const CellPiece& piece : pieces) {
-    const Vec2 shift = mesh.position(mesh.corners(piece.triangle)[0]) - mesh.position(piece.owner);
-    LocalPolygon& polygon = joined.emplace_back();
-    for (const PieceCorner& c : piece.corners) polygon.push_back(c.at + shift);
+    const Chart plane = Chart::of_triangle(mesh, piece.triangle);
+    LocalPolygon& polygon = apart.emplace_back();
+    for (const PieceCorner& c : piece.corners) polygon.push_back(chart.moved(plane, c.at));
+    area += area_of(polygon);
   }
-  return joined;
+  std::vector<LocalPolygon> joined = PieceJoiner(mesh, pieces, apart).join();
+  for (const LocalPolygon& polygon : joined) joined_area += area_of(polygon);
+  return std::abs(joined_area - area) <= kSameArea * area ? joined : apart;
 }
 
 }  // namespace temper

@@ -8,14 +8,16 @@
 
 namespace temper {
 
-/// A simple polygon, counter-clockwise, relative to some point.
+/// A simple polygon, counter-clockwise, in some chart.
 using LocalPolygon = std::vector<Vec2>;
 [[nodiscard]] inline double area_of(const LocalPolygon& polygon) {
   return area_of(polygon, [](Vec2 corner) { return corner; });
 }
 
-/// The union of pieces of one owner, relative to it. Pieces that meet along a side of a triangle become one polygon;
-/// where that does not come out as simple polygons of the same area (a cell with a hole in it), the pieces as they are.
-[[nodiscard]] std::vector<LocalPolygon> join_pieces(const Mesh& mesh, std::span<const CellPiece> pieces);
+/// The union of pieces of one owner, in a chart that has them all. Pieces that meet along a side of a triangle become
+/// one polygon; where that does not come out as simple polygons of the same area (a cell with a hole in it), the pieces
+/// as they are.
+[[nodiscard]] std::vector<LocalPolygon> join_pieces(const Mesh& mesh, const Chart& chart,
+                                                    std::span<const CellPiece> pieces);
 
 }  // namespace temper

@@ -7,6 +7,7 @@
 // signs.
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,11 @@ constexpr double kOnePlace = 1e-14;
 // A polygon whose width is this share of its coordinates is lost when they are rounded: four units in the last place.
 constexpr double kInvisible = 0x1p-50;
 
+Sign split_sign(const Mesh& mesh, VertexId p, VertexId q) {
+  return mesh.space().is_plane() ? edge_split_sign(mesh.point(p), mesh.point(q))
+                                 : edge_split_sign(mesh.lifted_point(p), mesh.lifted_point(q));
+}
+
 class CellBuilder {
  public:
   CellBuilder(const Mesh& mesh, const DecComplex& complex) : mesh_(mesh), complex_(complex), divider_(mesh) {}
@@ -33,9 +39,12 @@ class CellBuilder {
   void find_plain();
   [[nodiscard]] bool is_plain(TriangleId t) const;
   void divide_all();
-  [[nodiscard]] LocalPolygon orthocenters_around(VertexId v) const;
-  [[nodiscard]] Vec2 midpoint(VertexId v, VertexId other) const;
-  void emit(VertexId v, LocalPolygon polygon);
+  [[nodiscard]] LocalPolygon orthocenters_around(VertexId v, const Chart& chart) const;
+  [[nodiscard]] Vec2 corner(VertexId v, HalfedgeId h, const Chart& chart) const;
+  [[nodiscard]] Vec2 midpoint(VertexId v, HalfedgeId h, const Chart& chart) const;
+  void emit_joined(VertexId v, std::span<const CellPiece> pieces);
+  void emit(VertexId v, const Chart& chart, const LocalPolygon& polygon);
+  [[nodiscard]] double area_in_space(const Chart& chart, const LocalPolygon& polygon) const;
 
   const Mesh& mesh_;
   const DecComplex& complex_;
@@ -51,10 +60,9 @@ void CellBuilder::find_plain() {
   tame_.assign(mesh_.n_vertices(), 1);
   for (std::size_t i = 0; i < complex_.edges.size(); ++i) {
     const DecEdge& e = complex_.edges[EdgeId(i)];
-    const WeightedPoint from = mesh_.point(e.from), to = mesh_.point(e.to);
     const bool negative = complex_.star1[EdgeId(i)] < 0;
-    if (negative || edge_split_sign(from, to) == Sign::negative) tame_[e.from] = 0;
-    if (negative || edge_split_sign(to, from) == Sign::negative) tame_[e.to] = 0;
+    if (negative || split_sign(mesh_, e.from, e.to) == Sign::negative) tame_[e.from] = 0;
+    if (negative || split_sign(mesh_, e.to, e.from) == Sign::negative) tame_[e.to] = 0;
   }
   plain_.assign(mesh_.n_triangles(), 0);
   special_.assign(mesh_.n_vertices(), 0);
@@ -96,33 +104,65 @@ void CellBuilder::divide_all() {
   pieces_ = std::move(found);
 }
 
-/// Relative to v.
-Vec2 CellBuilder::midpoint(VertexId v, VertexId other) const {
-  const WeightedPoint p = mesh_.point(v), q = mesh_.point(other);
+/// The weighted midpoint of the edge of h, at v.
+Vec2 CellBuilder::midpoint(VertexId v, HalfedgeId h, const Chart& chart) const {
+  if (!mesh_.space().is_plane()) return chart.of(complex_.sphere_midpoints[complex_.edge_of_halfedge[h]]);
+  const WeightedPoint p = mesh_.point(v), q = mesh_.point(mesh_.origin(h) == v ? mesh_.target(h) : mesh_.origin(h));
   const Vec2 along = q.position() - p.position();
   return (0.5 * accurate::doubled_split(p, q) / squared_length(along)) * along;
 }
 
-/// The dual cell of a plain vertex, relative to it.
-LocalPolygon CellBuilder::orthocenters_around(VertexId v) const {
-  const WeightedPoint p = mesh_.point(v);
-  const auto local = [&](VertexId u) {
-    const WeightedPoint q = mesh_.point(u);
-    return WeightedPoint{q.x - p.x, q.y - p.y, q.w};
-  };
+/// The orthocenter of the triangle of h, out of v.
+Vec2 CellBuilder::corner(VertexId v, HalfedgeId h, const Chart& chart) const {
+  if (!mesh_.space().is_plane()) return chart.of(complex_.sphere_orthocenters[Mesh::triangle(h)]);
+  return orthocenter({0, 0, mesh_.weight(v)}, chart.of(mesh_, mesh_.target(h)), chart.of(mesh_, mesh_.opposite(h)));
+}
+
+/// The dual cell of a plain vertex, in the chart around it.
+LocalPolygon CellBuilder::orthocenters_around(VertexId v, const Chart& chart) const {
   LocalPolygon polygon;
   const bool boundary = mesh_.is_boundary(v);
-  if (boundary) polygon = {{0, 0}, midpoint(v, mesh_.target(mesh_.outgoing(v)))};
+  if (boundary) polygon = {{0, 0}, midpoint(v, mesh_.outgoing(v), chart)};
   HalfedgeId last;
   for (const HalfedgeId h : mesh_.star(v)) {
-    polygon.push_back(orthocenter({0, 0, p.w}, local(mesh_.target(h)), local(mesh_.opposite(h))));
+    polygon.push_back(corner(v, h, chart));
     last = h;
   }
-  if (boundary) polygon.push_back(midpoint(v, mesh_.opposite(last)));
+  if (boundary) polygon.push_back(midpoint(v, Mesh::prev(last), chart));
   return polygon;
 }
 
-void CellBuilder::emit(VertexId v, LocalPolygon polygon) {
+/// Where a cell reaches a quarter turn away from its vertex, in a mesh of few triangles, its pieces stay apart.
+void CellBuilder::emit_joined(VertexId v, std::span<const CellPiece> pieces) {
+  const Chart chart = Chart::around(mesh_, v);
+  const bool together = std::all_of(pieces.begin(), pieces.end(), [&](const CellPiece& piece) {
+    const Chart plane = Chart::of_triangle(mesh_, piece.triangle);
+    return std::all_of(piece.corners.begin(), piece.corners.end(),
+                       [&](const PieceCorner& c) { return chart.has(plane, c.at); });
+  });
+  if (together) {
+    for (const LocalPolygon& polygon : join_pieces(mesh_, chart, pieces)) emit(v, chart, polygon);
+    return;
+  }
+  for (const CellPiece& piece : pieces) {
+    LocalPolygon polygon;
+    for (const PieceCorner& c : piece.corners) polygon.push_back(c.at);
+    emit(v, Chart::of_triangle(mesh_, piece.triangle), polygon);
+  }
+}
+
+/// Of a polygon of great circles on the sphere: triangles from its first corner, signed.
+double CellBuilder::area_in_space(const Chart& chart, const LocalPolygon& polygon) const {
+  if (mesh_.space().is_plane()) return area_of(polygon);
+  double sum = 0;
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    sum += solid_angle(chart.ray(polygon[0]), chart.ray(polygon[i - 1]), chart.ray(polygon[i]));
+  }
+  return mesh_.space().radius() * mesh_.space().radius() * sum;
+}
+
+void CellBuilder::emit(VertexId v, const Chart& chart, const LocalPolygon& polygon) {
+  const bool plane = mesh_.space().is_plane();
   double size = 0;
   for (const Vec2 c : polygon) size = std::max(size, length(c - polygon[0]));
   LocalPolygon clean;
@@ -130,11 +170,19 @@ void CellBuilder::emit(VertexId v, LocalPolygon polygon) {
     if (clean.empty() || length(c - clean.back()) > kOnePlace * size) clean.push_back(c);
   }
   while (clean.size() > 1 && length(clean.front() - clean.back()) <= kOnePlace * size) clean.pop_back();
-  const double area = area_of(clean);
-  if (!(area > kInvisible * (length(mesh_.position(v)) + size) * size)) return;
+  const double area = area_in_space(chart, clean);
+  const double far = plane ? length(mesh_.position(v)) : mesh_.space().radius();
+  if (!(area > kInvisible * (far + size) * size)) return;
   cells_.vertices.push_back(v);
-  for (const Vec2 c : clean) cells_.corners.push_back(mesh_.position(v) + c);
-  cells_.starts.push_back(cells_.corners.size());
+  for (const Vec2 c : clean) {
+    if (plane) {
+      cells_.corners.push_back(mesh_.position(v) + c);
+    } else {
+      const Vec3 ray = chart.ray(c);
+      cells_.sphere_corners.push_back(mesh_.space().radius() / length(ray) * ray);
+    }
+  }
+  cells_.starts.push_back(plane ? cells_.corners.size() : cells_.sphere_corners.size());
   cells_.polygon_areas.push_back(area);
   cells_.areas[v] += area;
 }
@@ -150,11 +198,10 @@ PowerCells CellBuilder::build() {
     std::size_t end = first;
     while (end < pieces_.size() && pieces_[end].owner == v) ++end;
     if (special_[v] == 0) {
-      emit(v, orthocenters_around(v));
+      const Chart chart = Chart::around(mesh_, v);
+      emit(v, chart, orthocenters_around(v, chart));
     } else {
-      for (LocalPolygon& polygon : join_pieces(mesh_, {pieces_.data() + first, end - first})) {
-        emit(v, std::move(polygon));
-      }
+      emit_joined(v, {pieces_.data() + first, end - first});
     }
     first = end;
   }

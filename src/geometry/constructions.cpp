@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/spherical_area.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper {
@@ -78,10 +79,6 @@ double corner_angle(Vec3 p, Vec3 q, Vec3 r) {
   return std::atan2(length(cross(u, v)), dot(u, v));
 }
 
-// Van Oosterom and Strackee (1983): tan(E/2) = det(P, Q, R)/(|P||Q||R| + (P·Q)|R| + (Q·R)|P| + (R·P)|Q|).
-double solid_angle(Vec3 p, Vec3 q, Vec3 r) {
-  const double a = length(p), b = length(q), c = length(r);
-  return 2 * std::atan2(dot(p, cross(q - p, r - p)), a * b * c + dot(p, q) * c + dot(q, r) * a + dot(r, p) * b);
-}
+double solid_angle(Vec3 p, Vec3 q, Vec3 r) { return solid_angle(dot(p, cross(q - p, r - p)), p, q, r); }
 
 }  // namespace temper

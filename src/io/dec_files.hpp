@@ -23,6 +23,22 @@ struct DecJob {
   [[nodiscard]] Output& open(std::string_view name) const;
 };
 
+/// Places as the files have them: two coordinates in the plane, three on the sphere.
+struct DecPlaces {
+  std::size_t coordinates = 2;
+  std::vector<Vec3> at;  // z is 0 in the plane
+
+  [[nodiscard]] std::size_t size() const { return at.size(); }
+  [[nodiscard]] double coordinate(std::size_t i, std::size_t k) const {
+    return k == 0 ? at[i].x : k == 1 ? at[i].y : at[i].z;
+  }
+};
+/// Of vertices on the sphere, not lifted.
+[[nodiscard]] DecPlaces vertex_places(const Mesh& mesh);
+[[nodiscard]] DecPlaces orthocenter_places(const DecComplex& complex);
+[[nodiscard]] DecPlaces midpoint_places(const DecComplex& complex);
+[[nodiscard]] DecPlaces corner_places(const PowerCells& cells);
+
 void write_dec_npz(const DecJob& job);
 void write_dec_mtx(const DecJob& job);
 void write_dec_vtu(const DecJob& job);

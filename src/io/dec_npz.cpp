@@ -21,20 +21,21 @@ std::vector<T> of_edges(const DecComplex& c, std::size_t width, F value) {
   return result;
 }
 
-std::vector<double> xy_pairs(const std::vector<Vec2>& points) {
-  std::vector<double> result;
-  result.reserve(2 * points.size());
-  for (const Vec2 p : points) result.push_back(p.x), result.push_back(p.y);
-  return result;
+/// Places as rows: x and y in the plane, x, y and z on the sphere.
+void add_places(NpzWriter& npz, std::string_view name, const DecPlaces& places) {
+  std::vector<double> values;
+  values.reserve(places.coordinates * places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t k = 0; k < places.coordinates; ++k) values.push_back(places.coordinate(i, k));
+  }
+  npz.add(name, values, {places.size(), places.coordinates});
 }
 
 void add_mesh(NpzWriter& npz, const DecJob& job) {
   const Mesh& mesh = job.mesh;
-  std::vector<Vec2> positions;
   std::vector<double> weights;
   std::vector<std::int64_t> points;
   for (const VertexId v : mesh.vertices()) {
-    positions.push_back(mesh.position(v));
     weights.push_back(mesh.weight(v));
     points.push_back(static_cast<std::int64_t>(job.options.points.empty() ? v.index : job.options.points[v.index]));
   }
@@ -43,11 +44,12 @@ void add_mesh(NpzWriter& npz, const DecJob& job) {
     for (const VertexId v : mesh.corners(t)) corners.push_back(static_cast<std::int32_t>(v.index));
     regions.push_back(mesh.region(t));
   }
-  npz.add("vertices", xy_pairs(positions), {mesh.n_vertices(), 2});
+  add_places(npz, "vertices", vertex_places(mesh));
   npz.add("weights", weights);
   npz.add("points", points);
   npz.add("triangles", corners, {mesh.n_triangles(), 3});
   npz.add("regions", regions);
+  if (!mesh.space().is_plane()) npz.add("sphere_radius", std::vector<double>{mesh.space().radius()}, {});
 }
 
 void add_edges(NpzWriter& npz, const DecComplex& c) {
@@ -70,9 +72,7 @@ void add_edges(NpzWriter& npz, const DecComplex& c) {
       "edge_heights",
       of_edges<double>(c, 2, [](const DecEdge& e, std::size_t k) { return k == 0 ? e.left_height : e.right_height; }),
       {n, 2});
-  npz.add("edge_midpoints",
-          of_edges<double>(c, 2, [](const DecEdge& e, std::size_t k) { return k == 0 ? e.midpoint.x : e.midpoint.y; }),
-          {n, 2});
+  add_places(npz, "edge_midpoints", midpoint_places(c));
   npz.add("dual_lengths", of_edges<double>(c, 1, [](const DecEdge& e, std::size_t) { return e.dual_length; }));
 }
 
@@ -96,7 +96,7 @@ void add_cells(NpzWriter& npz, const PowerCells& cells) {
   for (const VertexId v : cells.vertices) owners.push_back(static_cast<std::int32_t>(v.index));
   npz.add("cell_vertices", owners);
   npz.add("cell_starts", std::vector<std::int64_t>(cells.starts.begin(), cells.starts.end()));
-  npz.add("cell_corners", xy_pairs(cells.corners), {cells.corners.size(), 2});
+  add_places(npz, "cell_corners", corner_places(cells));
   npz.add("cell_polygon_areas", cells.polygon_areas);
   npz.add("cell_areas", cells.areas.raw());
 }
@@ -131,7 +131,7 @@ void write_dec_npz(const DecJob& job) {
   add_mesh(npz, job);
   add_edges(npz, c);
   add_matrices(npz, c);
-  npz.add("orthocenters", xy_pairs(c.orthocenters.raw()), {c.orthocenters.size(), 2});
+  add_places(npz, "orthocenters", orthocenter_places(c));
   npz.add("triangle_areas", c.areas.raw());
   add_cells(npz, job.cells);
   npz.finish();

@@ -19,16 +19,11 @@ VtkArray dual_integers(std::string name, std::size_t n, F value) {
                                           [value](std::size_t i) { return static_cast<std::int32_t>(value(i)); });
 }
 
-/// Three numbers a point.
-template <class F>
-VtkArray dual_points(std::size_t n, double z, F at) {
+/// Three numbers a point; z is the mesh's in the plane.
+VtkArray dual_points(const DecPlaces& places, double z) {
   return computed_vtk_array<double>(
-      "Points", Scalar::f64, 3 * n,
-      [at, z](std::size_t i) {
-        const Vec2 p = at(i / 3);
-        return i % 3 == 0 ? p.x : i % 3 == 1 ? p.y : z;
-      },
-      3);
+      "Points", Scalar::f64, 3 * places.size(),
+      [&places, z](std::size_t i) { return i % 3 < places.coordinates ? places.coordinate(i / 3, i % 3) : z; }, 3);
 }
 
 VtkArray one_type(std::size_t n, int type) {
@@ -39,11 +34,12 @@ VtkArray one_type(std::size_t n, int type) {
 // A cell of several polygons has the same number, area and star on each of them.
 void write_cells(const DecJob& job) {
   const PowerCells& cells = job.cells;
-  const std::size_t n = cells.n_polygons(), n_points = cells.corners.size();
+  const DecPlaces places = corner_places(cells);
+  const std::size_t n = cells.n_polygons(), n_points = places.size();
   const auto owner = [&cells](std::size_t p) { return cells.vertices[p]; };
   VtuDocument vtu(job.open("dual.vtu"), Encoding::base64, job.options.executor);
   vtu.begin_piece(n_points, n);
-  vtu.section("Points", {dual_points(n_points, job.options.z, [&cells](std::size_t i) { return cells.corners[i]; })});
+  vtu.section("Points", {dual_points(places, job.options.z)});
   vtu.section("Cells", {dual_integers("connectivity", n_points, [](std::size_t i) { return i; }),
                         dual_integers("offsets", n, [&cells](std::size_t p) { return cells.starts[p + 1]; }),
                         one_type(n, kVtkPolygon)});
@@ -61,7 +57,10 @@ void write_cells(const DecJob& job) {
 // edge to the one on the right, a boundary line from the orthocenter to the midpoint.
 void write_dual_edges(const DecJob& job) {
   const DecComplex& c = job.complex;
-  const std::size_t n_triangles = c.orthocenters.size(), n = c.edges.size(), n_points = n_triangles + n;
+  DecPlaces places = orthocenter_places(c);
+  const std::size_t n_triangles = places.size(), n = c.edges.size(), n_points = n_triangles + n;
+  const DecPlaces midpoints = midpoint_places(c);
+  places.at.insert(places.at.end(), midpoints.at.begin(), midpoints.at.end());
   const auto edge = [&c](std::size_t i) -> const DecEdge& { return c.edges[EdgeId(i)]; };
   const auto end = [edge, n_triangles](std::size_t i) -> std::size_t {
     const DecEdge& e = edge(i / 2);
@@ -71,9 +70,7 @@ void write_dual_edges(const DecJob& job) {
   };
   VtuDocument vtu(job.open("dual_edges.vtu"), Encoding::base64, job.options.executor);
   vtu.begin_piece(n_points, n);
-  vtu.section("Points", {dual_points(n_points, job.options.z, [&c, edge, n_triangles](std::size_t i) {
-                return i < n_triangles ? c.orthocenters[TriangleId(i)] : edge(i - n_triangles).midpoint;
-              })});
+  vtu.section("Points", {dual_points(places, job.options.z)});
   vtu.section("Cells", {dual_integers("connectivity", 2 * n, end),
                         dual_integers("offsets", n, [](std::size_t i) { return 2 * (i + 1); }), one_type(n, kVtkLine)});
   vtu.section("PointData",

@@ -19,11 +19,13 @@ void put_diagonal(Output& out, const std::vector<double>& diagonal, std::string_
   for (std::size_t i = 0; i < diagonal.size(); ++i) out.put(i + 1, ' ', i + 1, ' ', diagonal[i], '\n');
 }
 
-void put_points(Output& out, const std::vector<Vec2>& points, std::string_view comment) {
+void put_columns(Output& out, std::size_t rows, std::size_t columns, std::string_view comment,
+                 const std::function<double(std::size_t row, std::size_t column)>& at) {
   out.put("%%MatrixMarket matrix array real general\n% ", comment, '\n');
-  out.put(points.size(), " 2\n");
-  for (const Vec2 p : points) out.put(p.x, '\n');
-  for (const Vec2 p : points) out.put(p.y, '\n');
+  out.put(rows, ' ', columns, '\n');
+  for (std::size_t column = 0; column < columns; ++column) {
+    for (std::size_t row = 0; row < rows; ++row) out.put(at(row, column), '\n');
+  }
 }
 
 }  // namespace temper::io

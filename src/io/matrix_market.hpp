@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace temper::io {
 void put_matrix(Output& out, const IncidenceMatrix& matrix, std::string_view comment);
 /// The same, of a diagonal. Zeros are entries, too.
 void put_diagonal(Output& out, const std::vector<double>& diagonal, std::string_view comment);
-/// `array real general`, points as rows x, y. (The format wants column after column.)
-void put_points(Output& out, const std::vector<Vec2>& points, std::string_view comment);
+/// `array real general`, which the format wants column after column.
+void put_columns(Output& out, std::size_t rows, std::size_t columns, std::string_view comment,
+                 const std::function<double(std::size_t row, std::size_t column)>& at);
 
 }  // namespace temper::io

@@ -24,22 +24,31 @@ namespace {
 /// Copies what is on the mesh to arrays of its own vertices.
 void copy_plane(MeshFile& file, const Mesh& mesh) {
   file.points.resize(mesh.n_vertices());
-  for (const VertexId v : mesh.vertices()) file.points[v.index] = mesh.position(v);
+  file.weights.resize(mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) {
+    file.points[v.index] = mesh.position(v);
+    file.weights[v.index] = mesh.weight(v);
+  }
 }
 
-/// Points and degrees of vertices that have not moved stay as they are.
+/// Points and degrees of vertices that have not moved stay as they are, and weights that give the same vertex.
 void copy_sphere(MeshFile& file, const Mesh& mesh, const Former& former) {
   file.sphere_radius = mesh.space().radius();
   std::vector<Vec2> degrees;
   std::vector<Vec3> places;
+  std::vector<double> weights;
   for (const VertexId v : mesh.vertices()) {
     const std::size_t was = former.empty() ? v.index : former[v].valid() ? former[v].index : file.sphere_points.size();
     const Vec3 p = mesh.lifted_point(v);
+    weights.push_back(mesh.weight(v));
     if (was < file.sphere_points.size() && mesh.space().same_place(as_point(file.sphere_points[was]), as_point(p))) {
       degrees.push_back(file.points[was]);
       places.push_back(file.sphere_points[was]);
+      if (was < file.weights.size() && mesh.space().vertex_at(places.back(), file.weights[was]) == as_point(p)) {
+        weights.back() = file.weights[was];
+      }
     } else {
-      places.push_back(mesh.weight(v) == 0 ? p : lifted(mesh.space().with_weight(as_point(p), 0)));
+      places.push_back(mesh.space().place(as_point(p)));
       degrees.push_back(lon_lat_of(p));
       // From −180 to 180, or from 0 to 360: as the file has it around there.
       if (was < file.points.size()) {
@@ -49,6 +58,7 @@ void copy_sphere(MeshFile& file, const Mesh& mesh, const Former& former) {
   }
   file.points = std::move(degrees);
   file.sphere_points = std::move(places);
+  file.weights = std::move(weights);
 }
 
 void copy_vertices(MeshFile& file, const Mesh& mesh, const Former& former) {
@@ -57,8 +67,6 @@ void copy_vertices(MeshFile& file, const Mesh& mesh, const Former& former) {
   } else {
     copy_sphere(file, mesh, former);
   }
-  file.weights.resize(mesh.n_vertices());
-  for (const VertexId v : mesh.vertices()) file.weights[v.index] = mesh.weight(v);
 }
 
 void copy_triangles(MeshFile& file, const Mesh& mesh) {

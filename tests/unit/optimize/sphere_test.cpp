@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mesh/bad_triangles.hpp"
+#include "support/spheres.hpp"
 #include "support/std_threads.hpp"
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"
@@ -16,39 +17,8 @@
 namespace temper {
 namespace {
 
-Mesh globe(std::size_t vertices, std::uint64_t seed = 1, double radius = 1) {
-  auto mesh = random_sphere({.vertices = vertices, .seed = seed, .radius = radius});
-  EXPECT_TRUE(mesh) << mesh.error().what();
-  return *std::move(mesh);
-}
-
-/// The triangles of a globe south of a latitude: with a coast.
-Mesh ocean(const Mesh& globe, double northernmost) {
-  std::vector<Vec3> points;
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<std::int32_t> number(globe.n_vertices(), -1);
-  for (const TriangleId t : globe.triangles()) {
-    const auto corners = globe.corners(t);
-    const auto is_north = [&](VertexId v) { return globe.lifted_point(v).z > northernmost; };
-    if (std::any_of(corners.begin(), corners.end(), is_north)) continue;
-    triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::int32_t& n = number[corners[k].index];
-      if (n < 0) {
-        n = static_cast<std::int32_t>(points.size());
-        points.push_back(globe.lifted_point(corners[k]));
-      }
-      triangles.back()[k] = n;
-    }
-  }
-  MeshInput input;
-  input.space = globe.space();
-  input.sphere_points = points;
-  input.triangles = triangles;
-  auto built = Mesh::build(input);
-  EXPECT_TRUE(built) << built.error().what();
-  return std::move(built->mesh);
-}
+using test::globe;
+using test::ocean;
 
 OptimizeReport optimized(Mesh& mesh, const OptimizeOptions& options = {}, const OptimizeHooks& hooks = {}) {
   auto report = optimize(mesh, options, hooks);
