@@ -47,6 +47,11 @@ Vec2 lon_lat_of(Vec3 p) {
   return {lon, std::atan2(p.z, std::hypot(p.x, p.y)) / kDegree};
 }
 
+Vec3 east_of(Vec3 p) {
+  const double across = std::hypot(p.x, p.y);
+  return across == 0 ? Vec3{0, 1, 0} : Vec3{-p.y / across, p.x / across, 0};
+}
+
 void put_on_sphere(MeshFile& file, double radius, const InputNames& names) {
   std::vector<Vec3> places;
   places.reserve(file.points.size());

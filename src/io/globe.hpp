@@ -10,6 +10,9 @@ namespace temper::io {
 /// Longitude, above −180 and up to 180, and latitude of a direction [degrees].
 [[nodiscard]] Vec2 lon_lat_of(Vec3 direction);
 
+/// The unit vector to the east, on the axis that of longitude 0.
+[[nodiscard]] Vec3 east_of(Vec3 direction);
+
 /// Puts points, which are degrees, onto the sphere. Fails where a latitude is none.
 void put_on_sphere(MeshFile& file, double radius, const InputNames& names);
 /// Makes a file of points in space one of points on the sphere.

@@ -1,16 +1,22 @@
 // JIGSAW's meshes (Engwirda): MSHID=3;EUCLIDEAN-MESH, sections NAME=n of n lines with their numbers between semicolons.
 //
-//   NDIMS=2          3 when the plane of the mesh is not z = 0
+//   NDIMS=2          3 when the plane of the mesh is not z = 0, and on a sphere
 //   POINT=n          x;y;tag               tag 0: none
 //   POWER=n;1        w                     weights, with the sign that temper has
 //   VALUE=n;k        k numbers a point     kept as data `value`, SLOPE as data `slope`
 //   EDGE2=n          a;b;tag               TRIA3=n          a;b;c;tag
 //
+// ELLIPSOID-MESH is read, too: RADII=r;r;r of a sphere, and points as longitude and latitude in radians (NDIMS=2), or
+// in space. JIGSAW's POWER is of chords, and so temper's weight there.
+//
 // Points count from 0. Geometries of the same format (edges without triangles) are outlines: outline_jigsaw.cpp.
 #include <algorithm>
 #include <cctype>
+#include <numbers>
+#include <optional>
 
 #include "io/format.hpp"
+#include "io/globe.hpp"
 #include "io/scanner.hpp"
 #include "io/values.hpp"
 
@@ -43,7 +49,9 @@ class JigsawMeshReader {
   void section(const std::string& name);
   void kind();
   void dimension();
+  void radii();
   void points();
+  void settle_ellipsoid();
   void point_values(const std::string& name);
   void edges();
   void triangles();
@@ -52,6 +60,8 @@ class JigsawMeshReader {
   Document document_;
   Scanner scanner_;
   int dimension_ = 2;
+  bool ellipsoid_ = false;
+  std::optional<double> radius_;
 };
 
 /// Semicolons and the equals signs of titles are blanks here, so that the scanner finds its words.
@@ -77,6 +87,7 @@ Document JigsawMeshReader::read() {
     fail(ErrorCode::size_mismatch, scanner_.path(),
          text("POWER has ", f.weights.size(), " rows, but there are ", f.points.size(), " points"));
   }
+  settle_ellipsoid();
   document_.names->triangles = RunLength(0, f.triangles.size());
   document_.names->lines = RunLength(0, f.lines.size());
   return std::move(document_);
@@ -85,7 +96,7 @@ Document JigsawMeshReader::read() {
 void JigsawMeshReader::section(const std::string& name) {
   if (name == "MSHID") return kind();
   if (name == "NDIMS") return dimension();
-  if (name == "RADII") return scanner_.next_line();
+  if (name == "RADII") return radii();
   if (name == "POINT") return points();
   if (name == "EDGE2") return edges();
   if (name == "TRIA3") return triangles();
@@ -100,8 +111,31 @@ void JigsawMeshReader::kind() {
   // Version 1 had no kinds: all were meshes in the plane or in space.
   if (!scanner_.more_on_line()) return;
   const std::string found = upper_case(scanner_.word("the kind of file"));
-  if (found == "EUCLIDEAN-MESH") return;
-  scanner_.fail_here(ErrorCode::unsupported, text("is of kind ", in_quotes(found), "; temper reads EUCLIDEAN-MESH"));
+  ellipsoid_ = found == "ELLIPSOID-MESH";
+  if (ellipsoid_ || found == "EUCLIDEAN-MESH") return;
+  scanner_.fail_here(ErrorCode::unsupported,
+                     text("is of kind ", in_quotes(found), "; temper reads EUCLIDEAN-MESH and ELLIPSOID-MESH"));
+}
+
+/// One number, or three that are the same.
+void JigsawMeshReader::radii() {
+  while (scanner_.more_on_line()) {
+    const double r = scanner_.real("a radius");
+    if (!(r > 0) || (radius_ && r != *radius_)) {
+      scanner_.fail_here(ErrorCode::unsupported, text("has the radius ", r, radius_ ? text(" beside ", *radius_) : "",
+                                                      "; expected a sphere: radii above 0, all the same"));
+    }
+    radius_ = r;
+  }
+}
+
+/// Radians become degrees, which go onto the sphere.
+void JigsawMeshReader::settle_ellipsoid() {
+  MeshFile& f = document_.file;
+  if (!ellipsoid_ || dimension_ != 2) return;
+  if (!radius_) fail(ErrorCode::syntax, scanner_.path(), "is an ELLIPSOID-MESH without RADII");
+  for (Vec2& p : f.points) p = (180 / std::numbers::pi) * p;
+  put_on_sphere(f, *radius_, *document_.names);
 }
 
 void JigsawMeshReader::dimension() {
@@ -218,8 +252,9 @@ void write_jigsaw_mesh(const WriteJob& job) {
   out.put("MSHID=3;EUCLIDEAN-MESH\nNDIMS=", flat ? 2 : 3, "\nPOINT=", f.points.size(), '\n');
   const auto tags = one_tag_a_point(job);
   for (std::size_t i = 0; i < f.points.size(); ++i) {
-    out.put(f.points[i].x, ';', f.points[i].y, ';');
-    if (!flat) out.put(f.z, ';');
+    const Vec3 p = place_of(f, i);
+    out.put(p.x, ';', p.y, ';');
+    if (!flat) out.put(p.z, ';');
     out.put(tags[i], '\n');
   }
   if (!f.weights.empty()) write_jigsaw_values(out, "POWER", 1, f.weights);

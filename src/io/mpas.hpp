@@ -1,4 +1,5 @@
-// The planar MPAS mesh of a triangulation: cells are the power cells of its vertices, MPAS's vertices the orthocenters.
+// The MPAS mesh of a triangulation, planar or spherical: cells are the power cells of its vertices, MPAS's vertices the
+// orthocenters.
 #pragma once
 
 #include <array>

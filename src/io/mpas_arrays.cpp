@@ -6,10 +6,12 @@
 //
 // On the boundary of the domain an edge has two cells and one vertex, verticesOnEdge(2) = 0, and its cells, cut off by
 // the boundary, have one vertex less than edges. dvEdge ends at the boundary there, and areaCell is what is inside: as
-// if the boundary were a wall.
+// if the boundary were a wall. On a sphere left and counter-clockwise are as seen from outside, lengths those of arcs,
+// areas excess, and angleEdge is the angle from east to the normal of the edge, where it crosses.
 #include <algorithm>
 #include <cmath>
 
+#include "io/globe.hpp"
 #include "io/mpas.hpp"
 
 namespace temper::io {
@@ -35,7 +37,8 @@ class MpasBuilder {
   void cells();
   void weights();
   void weights_of(std::size_t edge, std::size_t cell, double sign);
-  /// d h / 2 on the side of the half-edge's triangle, at its origin: half of a kite, signed.
+  [[nodiscard]] double angle(std::size_t edge, VertexId from, VertexId to) const;
+  /// The right triangle of d and h on the side of the half-edge's triangle: half of a kite, signed.
   [[nodiscard]] double half_kite(HalfedgeId h, VertexId at) const;
   [[nodiscard]] std::size_t edge_of(HalfedgeId h) const { return complex_.edge_of_halfedge[h].index; }
 
@@ -59,15 +62,25 @@ void MpasBuilder::edges() {
     a_.vertices_on_edge.push_back(turned || !e.left.valid() ? 0 : from_one(e.left.index));
     a_.dc_edge.push_back(e.length);
     a_.dv_edge.push_back(e.dual_length);
-    const Vec2 along = mesh_.position(second) - mesh_.position(first);
-    a_.angle_edge.push_back(std::atan2(along.y, along.x));
+    a_.angle_edge.push_back(angle(i, first, second));
   }
+}
+
+double MpasBuilder::angle(std::size_t edge, VertexId from, VertexId to) const {
+  if (mesh_.space().is_plane()) {
+    const Vec2 along = mesh_.position(to) - mesh_.position(from);
+    return std::atan2(along.y, along.x);
+  }
+  const Vec3 at = complex_.sphere_midpoints[EdgeId(edge)];
+  const Vec3 p = mesh_.lifted_point(from), normal = cross(cross(p, mesh_.lifted_point(to) - p), at);
+  const Vec3 east = east_of(at), north = cross(at, east);
+  return std::atan2(dot(normal, north) / length(at), dot(normal, east));
 }
 
 double MpasBuilder::half_kite(HalfedgeId h, VertexId at) const {
   const DecEdge& e = complex_.edges[complex_.edge_of_halfedge[h]];
   const double d = e.from == at ? e.split : e.length - e.split;
-  return d * (e.left == Mesh::triangle(h) ? e.left_height : e.right_height) / 2;
+  return mesh_.space().right_triangle_area(d, e.left == Mesh::triangle(h) ? e.left_height : e.right_height);
 }
 
 // The edge that ends at a corner comes before the corner, so corners keep their order.

@@ -1,4 +1,5 @@
-// MPAS meshes in the plane (MPAS Mesh Specification 1.0): cells are points, MPAS's vertices are triangles.
+// MPAS meshes of the plane and of the sphere (MPAS Mesh Specification 1.0): cells are points, MPAS's vertices are
+// triangles.
 //
 // Read are xCell, yCell, zCell and cellsOnVertex; vertices of fewer than three cells, on a boundary, are no triangles.
 // The variable weight, of cells, is temper's own; so is cullCell, 1 for cells at the boundary, which MPAS-Tools' culler
@@ -11,6 +12,7 @@
 
 #include "io/array_names.hpp"
 #include "io/geographic.hpp"
+#include "io/globe.hpp"
 #include "io/mpas.hpp"
 #include "io/netcdf_extras.hpp"
 #include "io/scanner.hpp"
@@ -75,14 +77,15 @@ class MpasReader {
     if (!good) fail(ErrorCode::size_mismatch, document_.names->path, text("variable ", variable, " has a wrong size"));
   }
 
+  bool says_yes(const char* name) const {
+    const std::string value = in_.text_attribute(nullptr, name);
+    return value.starts_with("YES") || value.starts_with("yes");
+  }
+
   void refuse_other_kinds() const {
-    const std::string& path = document_.names->path;
-    const auto yes = [&](const char* name) {
-      const std::string value = in_.text_attribute(nullptr, name);
-      return value.starts_with("YES") || value.starts_with("yes");
-    };
-    if (yes("is_periodic"))
-      fail(ErrorCode::unsupported, path, "is a periodic MPAS mesh; temper reads meshes that end at their boundary");
+    if (!says_yes("is_periodic")) return;
+    fail(ErrorCode::unsupported, document_.names->path,
+         "is a periodic MPAS mesh; temper reads meshes that end at their boundary");
   }
 
   std::vector<double> coordinates(const char* name) const {
@@ -96,11 +99,23 @@ class MpasReader {
     const auto z = in_.find("zCell") != nullptr ? coordinates("zCell") : std::vector<double>(x.size());
     expect(x.size() == z.size(), "zCell");
     document_.names->points = RunLength(1, x.size());
+    if (says_yes("on_a_sphere")) return points_on_sphere(x, y, z);
     PlaneCheck plane(document_);
     for (std::size_t i = 0; i < x.size(); ++i) {
       document_.file.points.push_back({x[i], y[i]});
       plane.add(i, z[i]);
     }
+  }
+
+  /// The radius is that of the file, where points have it.
+  void points_on_sphere(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& z) {
+    constexpr double kSame = 1e-6;  // what Mesh::build takes
+    std::vector<Vec3> places;
+    for (std::size_t i = 0; i < x.size(); ++i) places.push_back({x[i], y[i], z[i]});
+    const auto said = in_.number_attribute(nullptr, "sphere_radius");
+    settle_points(document_.file, std::move(places), *document_.names);
+    double& radius = document_.file.sphere_radius;
+    if (said && std::abs(*said - radius) <= kSame * radius) radius = *said;
   }
 
   void triangles() {
@@ -178,23 +193,56 @@ void write_mpas_angles(NetcdfWriter& out, const char* what, int dimension, std::
   out.variable(text("lon", what), {dimension}, std::move(lon));
 }
 
+/// Cells, edges or vertices: where they are, and on the globe, if that is known.
+struct MpasPlaces {
+  std::vector<Vec3> at;
+  std::vector<Vec2> lon_lat;
+};
+
+MpasPlaces on_sphere(std::vector<Vec3> at) {
+  MpasPlaces places = {std::move(at), {}};
+  for (const Vec3 p : places.at) places.lon_lat.push_back(lon_lat_of(p));
+  return places;
+}
+
+MpasPlaces in_plane(const NetcdfMesh& m, const std::vector<Vec2>& points) {
+  MpasPlaces places;
+  for (const Vec2 p : points) places.at.push_back({p.x, p.y, m.file.z});
+  const bool of_points = &points == &m.file.points;
+  if (auto known = lon_lat_of_points(m.file))
+    places.lon_lat = of_points ? *std::move(known) : lon_lat_of_places(m.file, m.mesh, points);
+  return places;
+}
+
+MpasPlaces mpas_cells(const NetcdfMesh& m) {
+  return m.file.sphere_radius > 0 ? on_sphere(m.file.sphere_points) : in_plane(m, m.file.points);
+}
+MpasPlaces mpas_edges(const NetcdfMesh& m) {
+  if (m.file.sphere_radius > 0) return on_sphere(m.complex.sphere_midpoints.raw());
+  std::vector<Vec2> midpoints;
+  for (const DecEdge& edge : m.complex.edges) midpoints.push_back(edge.midpoint);
+  return in_plane(m, midpoints);
+}
+MpasPlaces mpas_vertices(const NetcdfMesh& m) {
+  return m.file.sphere_radius > 0 ? on_sphere(m.complex.sphere_orthocenters.raw())
+                                  : in_plane(m, m.complex.orthocenters.raw());
+}
+
 /// x, y and z of cells, edges or vertices, latitudes and longitudes, and their numbers.
-void write_mpas_places(NetcdfWriter& out, const char* what, int dimension, const NetcdfMesh& m,
-                       const std::vector<Vec2>& places) {
-  const std::size_t n = places.size();
-  std::vector<double> x(n), y(n);
+void write_mpas_places(NetcdfWriter& out, const char* what, int dimension, const MpasPlaces& places) {
+  const std::size_t n = places.at.size();
+  std::vector<double> x(n), y(n), z(n);
   std::vector<std::int32_t> numbers(n);
   for (std::size_t i = 0; i < n; ++i) {
-    x[i] = places[i].x;
-    y[i] = places[i].y;
+    x[i] = places.at[i].x;
+    y[i] = places.at[i].y;
+    z[i] = places.at[i].z;
     numbers[i] = static_cast<std::int32_t>(i) + 1;
   }
-  std::vector<Vec2> lon_lat = lon_lat_of_points(m.file).value_or(std::vector<Vec2>());
-  if (!lon_lat.empty() && &places != &m.file.points) lon_lat = lon_lat_of_places(m.file, m.mesh, places);
-  write_mpas_angles(out, what, dimension, n, lon_lat);
+  write_mpas_angles(out, what, dimension, n, places.lon_lat);
   out.variable(text("x", what), {dimension}, std::move(x));
   out.variable(text("y", what), {dimension}, std::move(y));
-  out.variable(text("z", what), {dimension}, std::vector<double>(n, m.file.z));
+  out.variable(text("z", what), {dimension}, std::move(z));
   out.variable(text("indexTo", what, "ID"), {dimension}, std::move(numbers));
 }
 
@@ -231,6 +279,30 @@ void refuse_too_wide(const WriteJob& job, const Mesh& mesh, std::size_t n_edges)
             " edges: too many to be written"));
 }
 
+/// The types of CDF-5 also have no limit to a variable's bytes; 64-bit offsets have this one.
+bool needs_cdf5(const NetcdfMesh& m, std::size_t max_edges) {
+  constexpr std::size_t kMostBytes = (std::size_t{1} << 32) - 4;
+  return needs_large_types(m.file) || m.complex.edges.size() > kMostBytes / (2 * max_edges * sizeof(double));
+}
+
+/// With weights the edges do not cross midway between the cells.
+void warn_of_offsets(const WriteJob& job, const NetcdfMesh& m) {
+  constexpr double kVisible = 0.01;
+  std::size_t visible = 0;
+  double most = 0;
+  for (const DecEdge& edge : m.complex.edges) {
+    const double offset = std::abs(edge.split / edge.length - 0.5);
+    most = std::max(most, offset);
+    visible += offset > kVisible ? 1 : 0;
+  }
+  if (visible == 0) return;
+  job.warn(text("with weights, ", visible, " of ", m.complex.edges.size(),
+                " edges are crossed more than 1 % of dcEdge away from the middle of their cells, up to ",
+                std::round(1000 * most) / 10,
+                " %: models that take xEdge for the middle, as MPAS does, want a mesh without weights (temper optimize "
+                "--positions-only)"));
+}
+
 }  // namespace
 
 void write_mpas(const WriteJob& job) {
@@ -242,22 +314,22 @@ void write_mpas(const WriteJob& job) {
   for (std::size_t e = 0; e < a.dv_edge.size(); ++e) n_bad += a.vertices_on_edge[2 * e + 1] > 0 && a.dv_edge[e] <= 0;
   if (n_bad > 0)
     job.warn(text(n_bad, " edges inside have a dvEdge that is not positive; MPAS expects a well-centered mesh"));
-  NetcdfWriter out(job.path, needs_large_types(m.file));
+  const double radius = m.file.sphere_radius;
+  if (radius > 0) warn_of_offsets(job, m);
+  NetcdfWriter out(job.path, needs_cdf5(m, a.max_edges));
   const int cells = out.dimension("nCells", m.mesh.n_vertices()), edges = out.dimension("nEdges", c.edges.size()),
             vertices = out.dimension("nVertices", m.mesh.n_triangles()),
             around = out.dimension("maxEdges", a.max_edges), around2 = out.dimension("maxEdges2", 2 * a.max_edges),
             two = out.dimension("TWO", 2), degree = out.dimension("vertexDegree", 3);
   out.attribute(NetcdfWriter::kFile, "Conventions", "MPAS");
   out.attribute(NetcdfWriter::kFile, "mesh_spec", "1.0");
-  out.attribute(NetcdfWriter::kFile, "on_a_sphere", "NO");
-  out.attribute(NetcdfWriter::kFile, "sphere_radius", 0.0);
+  out.attribute(NetcdfWriter::kFile, "on_a_sphere", radius > 0 ? "YES" : "NO");
+  out.attribute(NetcdfWriter::kFile, "sphere_radius", radius);
   out.attribute(NetcdfWriter::kFile, "is_periodic", "NO");
   out.attribute(NetcdfWriter::kFile, "source", "temper");
-  std::vector<Vec2> midpoints;
-  for (std::size_t i = 0; i < c.edges.size(); ++i) midpoints.push_back(c.edges[EdgeId(i)].midpoint);
-  write_mpas_places(out, "Cell", cells, m, m.file.points);
-  write_mpas_places(out, "Edge", edges, m, midpoints);
-  write_mpas_places(out, "Vertex", vertices, m, c.orthocenters.raw());
+  write_mpas_places(out, "Cell", cells, mpas_cells(m));
+  write_mpas_places(out, "Edge", edges, mpas_edges(m));
+  write_mpas_places(out, "Vertex", vertices, mpas_vertices(m));
   out.variable("cellsOnEdge", {edges, two}, std::move(a.cells_on_edge));
   out.variable("verticesOnEdge", {edges, two}, std::move(a.vertices_on_edge));
   out.variable("nEdgesOnCell", {cells}, std::move(a.n_edges_on_cell));

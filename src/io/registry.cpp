@@ -82,7 +82,7 @@ constexpr FormatRow kRows[] = {
     {"gmsh22", "Gmsh MSH 2.2", ".msh2", (kAll & ~kFieldData) | kSphere, sniff_gmsh22, read_gmsh, write_gmsh22, nullptr,
      nullptr, 1, "\""},
     {"medit", "medit (INRIA, Mmg)", ".mesh", kInSpace | kAllTags, sniff_medit, read_medit, write_medit, medit_keeps},
-    {"jigsaw", "JIGSAW mesh", ".jigsaw.msh", kZ | kWeights | kAllTags, sniff_jigsaw, read_jigsaw_mesh,
+    {"jigsaw", "JIGSAW mesh", ".jigsaw.msh", kInSpace | kWeights | kAllTags, sniff_jigsaw, read_jigsaw_mesh,
      write_jigsaw_mesh, jigsaw_keeps},
     {"ply", "PLY", ".ply", (kAll & ~(kMarkedPointData | kFieldData)) | kSphere, sniff_ply, read_ply, write_ply},
     {"off", "OFF", ".off", kInSpace, sniff_off, read_off, write_off, nullptr, nullptr, 0},
@@ -98,10 +98,10 @@ constexpr FormatRow kRows[] = {
      read_fesom, write_fesom, fesom_keeps, fesom_files, 1, "", Degrees::always},
     {"triangle", "Triangle", ".node .ele", kAll & ~(kLineData | kMarkedPointData | kFieldData), sniff_triangle,
      read_triangle, write_triangle, nullptr, triangle_files},
-    {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll, sniff_mpas, read_mpas, write_mpas, nullptr, netcdf_files, 1, "",
-     Degrees::by_writer},
-    {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll, sniff_ugrid, read_ugrid, write_ugrid, nullptr, netcdf_files, 1,
-     "", Degrees::by_writer},
+    {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll | kSphere, sniff_mpas, read_mpas, write_mpas, nullptr, netcdf_files,
+     1, "", Degrees::by_writer},
+    {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll | kSphere, sniff_ugrid, read_ugrid, write_ugrid, nullptr,
+     netcdf_files, 1, "", Degrees::by_writer},
 };
 
 template <std::size_t... I>

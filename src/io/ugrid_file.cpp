@@ -12,6 +12,7 @@
 
 #include "io/array_names.hpp"
 #include "io/geographic.hpp"
+#include "io/globe.hpp"
 #include "io/netcdf_extras.hpp"
 #include "io/scanner.hpp"
 
@@ -178,11 +179,16 @@ class UgridWriter {
     connectivity();
     if (!m_.file.weights.empty()) {
       const int id = out_.variable("mesh_node_weight", {nodes_}, m_.file.weights);
-      const std::string map =
-          m_.file.map ? text(" on the map ", projection_text(m_.file.map->projection)) : std::string();
+      const std::string map = m_.file.map ? text(" on the map ", projection_text(m_.file.map->projection))
+                              : m_.file.sphere_radius > 0 ? text(" on the sphere of radius ", m_.file.sphere_radius)
+                                                          : std::string();
       out_.attribute(id, "long_name", text("weight of the power diagram, a squared length", map));
       out_.attribute(id, "units", "m2");
       on(id, "node");
+    }
+    if (m_.file.sphere_radius > 0 && m_.file.sphere_radius != Projection{}.radius) {
+      job_.warn(text("points are longitude and latitude, without the radius: give --projection sphere:radius=",
+                     m_.file.sphere_radius, " where the file is read again"));
     }
     write_netcdf_extras(out_, job_, m_.file, {nodes_, faces_, "mesh"});
     out_.finish(job_.outputs.open(job_.path));
@@ -209,15 +215,11 @@ class UgridWriter {
     out_.attribute(id, "edge_dimension", "mesh_edges");
   }
 
-  template <class Point>
-  void places(const std::string& what, int dimension, std::size_t n, const char* long_name, Point point) {
-    std::vector<Vec2> all(n);
-    for (std::size_t i = 0; i < n; ++i) all[i] = point(i);
-    const bool degrees = m_.file.map != nullptr;
-    if (degrees) all = what == "node" ? *lon_lat_of_points(m_.file) : lon_lat_of_places(m_.file, m_.mesh, all);
+  void places(const std::string& what, int dimension, const std::vector<Vec2>& all, const char* long_name) {
+    const bool degrees = m_.file.map != nullptr || m_.file.sphere_radius > 0;
     for (const bool is_x : {true, false}) {
-      std::vector<double> values(n);
-      for (std::size_t i = 0; i < n; ++i) values[i] = is_x ? all[i].x : all[i].y;
+      std::vector<double> values(all.size());
+      for (std::size_t i = 0; i < all.size(); ++i) values[i] = is_x ? all[i].x : all[i].y;
       const int id = out_.variable(text("mesh_", what, is_x ? "_x" : "_y"), {dimension}, std::move(values));
       out_.attribute(id, "long_name", long_name);
       if (degrees) {
@@ -229,14 +231,27 @@ class UgridWriter {
     }
   }
 
+  /// Points of the plane as the file has them: on a map as longitude and latitude.
+  [[nodiscard]] std::vector<Vec2> unmapped(const std::vector<Vec2>& points) const {
+    return m_.file.map != nullptr ? lon_lat_of_places(m_.file, m_.mesh, points) : points;
+  }
+  [[nodiscard]] static std::vector<Vec2> degrees_of(const std::vector<Vec3>& points) {
+    std::vector<Vec2> all;
+    all.reserve(points.size());
+    for (const Vec3 p : points) all.push_back(lon_lat_of(p));
+    return all;
+  }
+
   void coordinates() {
     const DecComplex& c = m_.complex;
-    places("node", nodes_, m_.mesh.n_vertices(), "vertices",
-           [&](std::size_t i) { return m_.mesh.position(VertexId(i)); });
-    places("face", faces_, m_.mesh.n_triangles(), "orthocenters",
-           [&](std::size_t i) { return c.orthocenters[TriangleId(i)]; });
-    places("edge", edges_, c.edges.size(), "weighted midpoints",
-           [&](std::size_t i) { return c.edges[EdgeId(i)].midpoint; });
+    std::vector<Vec2> midpoints;
+    midpoints.reserve(c.edges.size());
+    for (const DecEdge& edge : c.edges) midpoints.push_back(edge.midpoint);
+    const bool sphere = m_.file.sphere_radius > 0;
+    places("node", nodes_, m_.file.map != nullptr ? *lon_lat_of_points(m_.file) : m_.file.points, "vertices");
+    places("face", faces_, sphere ? degrees_of(c.sphere_orthocenters.raw()) : unmapped(c.orthocenters.raw()),
+           "orthocenters");
+    places("edge", edges_, sphere ? degrees_of(c.sphere_midpoints.raw()) : unmapped(midpoints), "weighted midpoints");
   }
 
   void connectivity() {

@@ -9,7 +9,10 @@
 #include <numbers>
 #include <utility>
 
+#include "support/lattice.hpp"
+#include "support/spheres.hpp"
 #include "temper/generate.hpp"
+#include "temper/geometry.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper::io {
@@ -118,8 +121,34 @@ MeshFile bent_lattice() {
   return f;
 }
 
+/// A globe with random weights, and one without the north: with a coast.
+std::vector<MeshFile> globes() {
+  std::vector<MeshFile> files;
+  for (const double northernmost : {2.0, 0.5}) {
+    Mesh mesh = test::ocean(*icosahedral({.level = 2, .radius = 2}), 2 * northernmost);
+    test::Noise noise(3);
+    for (const VertexId v : mesh.vertices()) mesh.set_weight(v, 0.02 * noise());
+    files.push_back(from_mesh(mesh));
+  }
+  return files;
+}
+
 class NetcdfFormats : public FileTest {
  protected:
+  /// Writes a planar mesh and spherical ones in turn, and looks at each.
+  template <class Look>
+  void for_mpas_files(const Look& look) const {
+    write_ok("m.mpas.nc", bent_lattice());
+    look(bent_lattice(), Nc::open(path("m.mpas.nc")));
+    for (const MeshFile& f : globes()) {
+      const auto warnings = write(path("g.mpas.nc"), f);
+      ASSERT_TRUE(warnings) << warnings.error().what();
+      ASSERT_EQ(warnings->size(), 1u);
+      EXPECT_NE((*warnings)[0].find(": with weights, "), std::string::npos) << (*warnings)[0];
+      look(f, Nc::open(path("g.mpas.nc")));
+    }
+  }
+
   void write_ok(const std::string& name, const MeshFile& f) const {
     const auto warnings = write(path(name), f);
     ASSERT_TRUE(warnings) << warnings.error().what();
@@ -128,29 +157,28 @@ class NetcdfFormats : public FileTest {
 };
 
 TEST_F(NetcdfFormats, mpas_cells_and_triangles_are_the_sums_of_their_kites) {
-  const MeshFile f = bent_lattice();
-  write_ok("m.mpas.nc", f);
-  const Nc nc = Nc::open(path("m.mpas.nc"));
-  EXPECT_EQ(nc.text(nullptr, "on_a_sphere"), "NO");
-  const auto kites = nc.get<double>("kiteAreasOnVertex"), cell_areas = nc.get<double>("areaCell"),
-             triangle_areas = nc.get<double>("areaTriangle");
-  const auto cells = nc.get<std::int32_t>("cellsOnVertex");
-  std::vector<double> of_cells(cell_areas.size());
-  double area = 0;
-  for (std::size_t t = 0; t < triangle_areas.size(); ++t) {
-    EXPECT_NEAR(kites[3 * t] + kites[3 * t + 1] + kites[3 * t + 2], triangle_areas[t], 1e-14);
-    area += triangle_areas[t];
-    for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
-      EXPECT_EQ(cells[k] - 1, f.triangles[t][k % 3]) << "corners keep their order";
-      of_cells[static_cast<std::size_t>(cells[k] - 1)] += kites[k];
+  for_mpas_files([](const MeshFile& f, const Nc& nc) {
+    EXPECT_EQ(nc.text(nullptr, "on_a_sphere"), f.sphere_radius > 0 ? "YES" : "NO");
+    const auto kites = nc.get<double>("kiteAreasOnVertex"), cell_areas = nc.get<double>("areaCell"),
+               triangle_areas = nc.get<double>("areaTriangle");
+    const auto cells = nc.get<std::int32_t>("cellsOnVertex");
+    std::vector<double> of_cells(cell_areas.size());
+    double area = 0;
+    for (std::size_t t = 0; t < triangle_areas.size(); ++t) {
+      EXPECT_NEAR(kites[3 * t] + kites[3 * t + 1] + kites[3 * t + 2], triangle_areas[t], 1e-14);
+      area += triangle_areas[t];
+      for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
+        EXPECT_EQ(cells[k] - 1, f.triangles[t][k % 3]) << "corners keep their order";
+        of_cells[static_cast<std::size_t>(cells[k] - 1)] += kites[k];
+      }
     }
-  }
-  double sum = 0;
-  for (std::size_t c = 0; c < cell_areas.size(); ++c) {
-    EXPECT_NEAR(of_cells[c], cell_areas[c], 1e-14);
-    sum += cell_areas[c];
-  }
-  EXPECT_NEAR(sum, area, 1e-12);
+    double sum = 0;
+    for (std::size_t c = 0; c < cell_areas.size(); ++c) {
+      EXPECT_NEAR(of_cells[c], cell_areas[c], 1e-14 * (1 + cell_areas[c]));
+      sum += cell_areas[c];
+    }
+    EXPECT_NEAR(sum, area, 1e-12);
+  });
 }
 
 TEST_F(NetcdfFormats, mpas_edges_cross_where_the_file_says_and_turn_the_right_way) {
@@ -191,75 +219,161 @@ TEST_F(NetcdfFormats, mpas_edges_cross_where_the_file_says_and_turn_the_right_wa
 }
 
 TEST_F(NetcdfFormats, mpas_lists_around_cells_fit_each_other) {
-  write_ok("m.mpas.nc", bent_lattice());
-  const Nc nc = Nc::open(path("m.mpas.nc"));
-  const auto n = nc.get<std::int32_t>("nEdgesOnCell"), edges = nc.get<std::int32_t>("edgesOnCell"),
-             others = nc.get<std::int32_t>("cellsOnCell"), vertices = nc.get<std::int32_t>("verticesOnCell"),
-             cells_of_edge = nc.get<std::int32_t>("cellsOnEdge"),
-             vertices_of_edge = nc.get<std::int32_t>("verticesOnEdge"), cull = nc.get<std::int32_t>("cullCell");
-  const std::size_t width = nc.dimension("maxEdges");
-  const auto has = [](const std::vector<std::int32_t>& pairs, std::int32_t edge, std::int32_t what) {
-    const auto at = 2 * static_cast<std::size_t>(edge - 1);
-    return pairs[at] == what || pairs[at + 1] == what;
-  };
-  for (std::size_t c = 0; c < n.size(); ++c) {
-    const auto degree = static_cast<std::size_t>(n[c]);
-    for (std::size_t i = 0; i < width; ++i) {
-      const std::size_t at = c * width + i;
-      if (i >= degree) {
-        EXPECT_EQ(edges[at], 0);
-        EXPECT_EQ(vertices[at], 0);
-        continue;
+  for_mpas_files([](const MeshFile&, const Nc& nc) {
+    const auto n = nc.get<std::int32_t>("nEdgesOnCell"), edges = nc.get<std::int32_t>("edgesOnCell"),
+               others = nc.get<std::int32_t>("cellsOnCell"), vertices = nc.get<std::int32_t>("verticesOnCell"),
+               cells_of_edge = nc.get<std::int32_t>("cellsOnEdge"),
+               vertices_of_edge = nc.get<std::int32_t>("verticesOnEdge"), cull = nc.get<std::int32_t>("cullCell");
+    const std::size_t width = nc.dimension("maxEdges");
+    const auto has = [](const std::vector<std::int32_t>& pairs, std::int32_t edge, std::int32_t what) {
+      const auto at = 2 * static_cast<std::size_t>(edge - 1);
+      return pairs[at] == what || pairs[at + 1] == what;
+    };
+    for (std::size_t c = 0; c < n.size(); ++c) {
+      const auto degree = static_cast<std::size_t>(n[c]);
+      for (std::size_t i = 0; i < width; ++i) {
+        const std::size_t at = c * width + i;
+        if (i >= degree) {
+          EXPECT_EQ(edges[at], 0);
+          EXPECT_EQ(vertices[at], 0);
+          continue;
+        }
+        EXPECT_TRUE(has(cells_of_edge, edges[at], static_cast<std::int32_t>(c) + 1));
+        EXPECT_TRUE(has(cells_of_edge, edges[at], others[at]));
+        const bool gap = cull[c] == 1 && i + 1 == degree;
+        EXPECT_EQ(vertices[at] == 0, gap);
+        if (gap) continue;
+        EXPECT_TRUE(has(vertices_of_edge, edges[at], vertices[at]));
+        EXPECT_TRUE(has(vertices_of_edge, edges[c * width + (i + 1) % degree], vertices[at]));
       }
-      EXPECT_TRUE(has(cells_of_edge, edges[at], static_cast<std::int32_t>(c) + 1));
-      EXPECT_TRUE(has(cells_of_edge, edges[at], others[at]));
-      const bool gap = cull[c] == 1 && i + 1 == degree;
-      EXPECT_EQ(vertices[at] == 0, gap);
-      if (gap) continue;
-      EXPECT_TRUE(has(vertices_of_edge, edges[at], vertices[at]));
-      EXPECT_TRUE(has(vertices_of_edge, edges[c * width + (i + 1) % degree], vertices[at]));
     }
-  }
+  });
 }
 
 // The two laws that make TRiSK's tangential velocities: they do no work (antisymmetry), and their divergence on a
 // triangle is that of the cells around it, weighted by kites. (Thuburn et al. 2009.)
 TEST_F(NetcdfFormats, mpas_weights_are_antisymmetric_and_carry_divergence_to_triangles) {
-  write_ok("m.mpas.nc", bent_lattice());
-  const Nc nc = Nc::open(path("m.mpas.nc"));
-  const auto n_on_edge = nc.get<std::int32_t>("nEdgesOnEdge"), edges_on_edge = nc.get<std::int32_t>("edgesOnEdge"),
-             cells = nc.get<std::int32_t>("cellsOnEdge"), vertices = nc.get<std::int32_t>("verticesOnEdge"),
-             edges_on_vertex = nc.get<std::int32_t>("edgesOnVertex"),
-             cells_on_vertex = nc.get<std::int32_t>("cellsOnVertex");
-  const auto w = nc.get<double>("weightsOnEdge"), dc = nc.get<double>("dcEdge"), dv = nc.get<double>("dvEdge"),
-             kites = nc.get<double>("kiteAreasOnVertex"), areas = nc.get<double>("areaCell");
-  const std::size_t width = nc.dimension("maxEdges2"), n = dc.size();
+  for_mpas_files([](const MeshFile&, const Nc& nc) {
+    const auto n_on_edge = nc.get<std::int32_t>("nEdgesOnEdge"), edges_on_edge = nc.get<std::int32_t>("edgesOnEdge"),
+               cells = nc.get<std::int32_t>("cellsOnEdge"), vertices = nc.get<std::int32_t>("verticesOnEdge"),
+               edges_on_vertex = nc.get<std::int32_t>("edgesOnVertex"),
+               cells_on_vertex = nc.get<std::int32_t>("cellsOnVertex");
+    const auto w = nc.get<double>("weightsOnEdge"), dc = nc.get<double>("dcEdge"), dv = nc.get<double>("dvEdge"),
+               kites = nc.get<double>("kiteAreasOnVertex"), areas = nc.get<double>("areaCell");
+    const std::size_t width = nc.dimension("maxEdges2"), n = dc.size();
 
-  std::map<std::pair<std::size_t, std::size_t>, double> work;
-  std::vector<double> normal(n), tangential(n), divergence(areas.size());
-  for (std::size_t e = 0; e < n; ++e) normal[e] = std::sin(1.0 + 17.0 * static_cast<double>(e));
-  for (std::size_t e = 0; e < n; ++e) {
-    divergence[static_cast<std::size_t>(cells[2 * e] - 1)] += normal[e] * dv[e];
-    divergence[static_cast<std::size_t>(cells[2 * e + 1] - 1)] -= normal[e] * dv[e];
-    for (std::size_t k = 0; k < static_cast<std::size_t>(n_on_edge[e]); ++k) {
-      const auto other = static_cast<std::size_t>(edges_on_edge[e * width + k] - 1);
-      tangential[e] += w[e * width + k] * normal[other];
-      work[{e, other}] += w[e * width + k] * dc[e] / dv[other];
+    std::map<std::pair<std::size_t, std::size_t>, double> work;
+    std::vector<double> normal(n), tangential(n), divergence(areas.size());
+    for (std::size_t e = 0; e < n; ++e) normal[e] = std::sin(1.0 + 17.0 * static_cast<double>(e));
+    for (std::size_t e = 0; e < n; ++e) {
+      divergence[static_cast<std::size_t>(cells[2 * e] - 1)] += normal[e] * dv[e];
+      divergence[static_cast<std::size_t>(cells[2 * e + 1] - 1)] -= normal[e] * dv[e];
+      for (std::size_t k = 0; k < static_cast<std::size_t>(n_on_edge[e]); ++k) {
+        const auto other = static_cast<std::size_t>(edges_on_edge[e * width + k] - 1);
+        tangential[e] += w[e * width + k] * normal[other];
+        work[{e, other}] += w[e * width + k] * dc[e] / dv[other];
+      }
+    }
+    ASSERT_GT(work.size(), 4 * n);
+    for (const auto& [pair, value] : work) EXPECT_NEAR(value, -work.at({pair.second, pair.first}), 1e-12);
+    for (std::size_t t = 0; 3 * t < kites.size(); ++t) {
+      double out = 0, expected = 0;
+      for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
+        const auto e = static_cast<std::size_t>(edges_on_vertex[k] - 1),
+                   c = static_cast<std::size_t>(cells_on_vertex[k] - 1);
+        const bool first = vertices[2 * e] == static_cast<std::int32_t>(t) + 1;
+        out += (first ? 1 : -1) * tangential[e] * dc[e];
+        expected += kites[k] / areas[c] * divergence[c];
+      }
+      EXPECT_NEAR(out, expected, 1e-12) << "triangle " << t;
+    }
+  });
+}
+
+TEST_F(NetcdfFormats, mpas_edges_of_the_sphere_cross_at_right_angles_and_know_the_east) {
+  for (const MeshFile& f : globes()) {
+    ASSERT_TRUE(write(path("m.mpas.nc"), f));
+    const Nc nc = Nc::open(path("m.mpas.nc"));
+    const auto places = [&](const std::string& what) {
+      const auto x = nc.get<double>(("x" + what).c_str()), y = nc.get<double>(("y" + what).c_str()),
+                 z = nc.get<double>(("z" + what).c_str()), lat = nc.get<double>(("lat" + what).c_str()),
+                 lon = nc.get<double>(("lon" + what).c_str());
+      std::vector<Vec3> all;
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        all.push_back({x[i], y[i], z[i]});
+        EXPECT_NEAR(x[i], 2 * std::cos(lat[i]) * std::cos(lon[i]), 1e-14);
+        EXPECT_NEAR(y[i], 2 * std::cos(lat[i]) * std::sin(lon[i]), 1e-14);
+        EXPECT_NEAR(z[i], 2 * std::sin(lat[i]), 1e-14);
+        EXPECT_TRUE(lon[i] >= 0 && lon[i] < 2 * std::numbers::pi);
+      }
+      return all;
+    };
+    const auto cell = places("Cell"), edge = places("Edge"), vertex = places("Vertex");
+    const auto cells = nc.get<std::int32_t>("cellsOnEdge"), vertices = nc.get<std::int32_t>("verticesOnEdge");
+    const auto dc = nc.get<double>("dcEdge"), dv = nc.get<double>("dvEdge"), angle = nc.get<double>("angleEdge");
+    for (std::size_t e = 0; e < edge.size(); ++e) {
+      const auto of = [e](const std::vector<Vec3>& all, const std::vector<std::int32_t>& numbers, std::size_t k) {
+        return all[static_cast<std::size_t>(numbers[2 * e + k] - 1)];
+      };
+      const Vec3 up = 0.5 * edge[e], first = of(cell, cells, 0), second = of(cell, cells, 1);
+      const Vec3 start = of(vertex, vertices, 0), end = vertices[2 * e + 1] > 0 ? of(vertex, vertices, 1) : edge[e];
+      EXPECT_NEAR(2 * arc_length(first, second), dc[e], 1e-14);
+      EXPECT_NEAR(2 * arc_length(start, end), dv[e], 1e-14);
+      const Vec3 normal = cross(cross(first, second), up), tangent = cross(cross(start, end), up);
+      EXPECT_NEAR(dot(cross(first, second), up), 0, 1e-14) << "on the arc of the cells";
+      EXPECT_NEAR(dot(cross(start, end), up), 0, 1e-14) << "on the arc of the vertices";
+      EXPECT_NEAR(dot(normal, tangent), 0, 1e-14);
+      EXPECT_GT(dot(cross(normal, tangent), up), 0) << "k x n = t";
+      const double across = std::hypot(up.x, up.y);
+      const Vec3 east = {-up.y / across, up.x / across, 0}, north = cross(up, east);
+      const Vec3 turned = std::cos(angle[e]) * east + std::sin(angle[e]) * north;
+      EXPECT_NEAR(length((1 / length(normal)) * normal - turned), 0, 1e-13);
     }
   }
-  ASSERT_GT(work.size(), 4 * n);
-  for (const auto& [pair, value] : work) EXPECT_NEAR(value, -work.at({pair.second, pair.first}), 1e-12);
-  for (std::size_t t = 0; 3 * t < kites.size(); ++t) {
-    double out = 0, expected = 0;
-    for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
-      const auto e = static_cast<std::size_t>(edges_on_vertex[k] - 1),
-                 c = static_cast<std::size_t>(cells_on_vertex[k] - 1);
-      const bool first = vertices[2 * e] == static_cast<std::int32_t>(t) + 1;
-      out += (first ? 1 : -1) * tangential[e] * dc[e];
-      expected += kites[k] / areas[c] * divergence[c];
-    }
-    EXPECT_NEAR(out, expected, 1e-12) << "triangle " << t;
+}
+
+TEST_F(NetcdfFormats, mpas_of_the_sphere_is_read_back_bit_for_bit) {
+  for (const MeshFile& f : globes()) {
+    ASSERT_TRUE(write(path("m.mpas.nc"), f));
+    const auto back = read(path("m.mpas.nc"));
+    ASSERT_TRUE(back) << back.error().what();
+    EXPECT_EQ(back->sphere_radius, 2);
+    EXPECT_EQ(back->sphere_points, f.sphere_points);
+    EXPECT_TRUE(same_bits(back->weights, f.weights));
+    EXPECT_EQ(back->triangles, f.triangles);
+    ASSERT_TRUE(write(path("again.mpas.nc"), *back));
+    EXPECT_EQ(slurp(path("again.mpas.nc")), slurp(path("m.mpas.nc")));
   }
+}
+
+TEST_F(NetcdfFormats, mpas_without_weights_is_crossed_in_the_middle_and_warns_of_nothing) {
+  write_ok("m.mpas.nc", from_mesh(*icosahedral({.level = 2})));
+  const Nc nc = Nc::open(path("m.mpas.nc"));
+  for (const double weight : nc.get<double>("weight")) EXPECT_EQ(weight, 0);
+}
+
+// What others have computed of a public mesh, with arc cosines: to half of the digits.
+TEST_F(NetcdfFormats, mpas_of_others_is_written_with_the_numbers_that_it_came_with) {
+  const std::string public_mesh = std::string(TEMPER_SHARED) + "/meshes/sphere/mpas_QU1920km.nc";
+  if (!std::filesystem::exists(public_mesh)) GTEST_SKIP() << "no " << public_mesh;
+  const auto f = read(public_mesh);
+  ASSERT_TRUE(f) << f.error().what();
+  write_ok("m.mpas.nc", *f);
+  const Nc theirs = Nc::open(public_mesh), ours = Nc::open(path("m.mpas.nc"));
+  const auto expect_same = [&](const char* name, double tolerance) {
+    const auto a = theirs.get<double>(name), b = ours.get<double>(name);
+    ASSERT_EQ(a.size(), b.size()) << name;
+    double size = 0, most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      size = std::max(size, std::abs(a[i]));
+      most = std::max(most, std::abs(a[i] - b[i]));
+    }
+    EXPECT_LE(most, tolerance * size) << name;
+  };
+  for (const char* name : {"xCell", "yCell", "zCell"}) expect_same(name, 0);
+  for (const char* name : {"latCell", "lonCell"}) expect_same(name, 1e-15);
+  for (const char* name : {"xVertex", "yVertex", "zVertex", "latVertex"}) expect_same(name, 1e-13);
+  for (const char* name : {"areaCell", "areaTriangle"}) expect_same(name, 1e-7);
 }
 
 TEST_F(NetcdfFormats, mpas_of_others_gives_triangles_weights_and_data) {

@@ -60,7 +60,7 @@ TEST_F(OtherFormats, jigsaw_writes_power_under_the_values_of_its_points) {
 TEST_F(OtherFormats, jigsaw_that_is_no_mesh_of_triangles_is_named) {
   const std::string head = "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\n", points = "POINT=3\n0;0;0\n1;0;0\n0;1;0\n";
   EXPECT_EQ(refused("m.msh", "MSHID=3;EUCLIDEAN-GRID\nNDIMS=2\n"),
-            "m.msh:1: is of kind 'EUCLIDEAN-GRID'; temper reads EUCLIDEAN-MESH");
+            "m.msh:1: is of kind 'EUCLIDEAN-GRID'; temper reads EUCLIDEAN-MESH and ELLIPSOID-MESH");
   EXPECT_EQ(refused("m.msh", head + points + "EDGE2=1\n0;1;0\n"), "m.msh: the file has no triangles");
   EXPECT_EQ(refused("m.msh", head + points + "QUAD4=1\n0;1;2;0;0\n"),
             "m.msh:8: element 0 is a quadrilateral; temper reads meshes of linear triangles, with lines and points as "
