@@ -456,7 +456,6 @@ Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs, const 
   }
   Input input = read_input(s.input, {s.projection, s.fix, threads.get(), true, read});
   if (!s.html.empty()) expect_plane(input.mesh(), s.input, "--html");
-  if (s.verify) expect_plane(input.mesh(), s.input, "--verify");
   Results results;
   warn(results, input.warnings());
   find_vertices(s.table, input);

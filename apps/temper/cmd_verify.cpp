@@ -30,6 +30,9 @@ constexpr double kSameBox = 1e-6;
 std::string field_names() {
   std::string text;
   for (const VerifyField& field : verify_fields()) text += (text.empty() ? "" : ", ") + std::string(field.name);
+  text += "; on the sphere";
+  for (const VerifyField& field : verify_fields(SpaceKind::sphere))
+    text += (text.ends_with("sphere") ? " " : ", ") + std::string(field.name);
   return text;
 }
 
@@ -62,9 +65,12 @@ void add_options(Command& command, VerifySettings& s) {
 
 /// Fields that are asked for by mistake are told of before a large mesh is read.
 void check_fields(const VerifyOptions& options) {
-  const Mesh none;
+  Mesh none;
   const auto report = verify(none, options);
-  if (!report && report.error().code == ErrorCode::invalid_option) {
+  none.set_space(Space::sphere(1));
+  const auto on_sphere = verify(none, options);
+  const auto unknown = [](const auto& tried) { return !tried && tried.error().code == ErrorCode::invalid_option; };
+  if (unknown(report) && unknown(on_sphere)) {
     throw Failure(Exit::bad_usage, "--fields: " + report.error().message + "\nSee temper verify --help");
   }
 }
@@ -76,7 +82,7 @@ bool same_box(const VerifyFrame& a, const VerifyFrame& b) {
 
 VerifyReference measure_reference(const VerifySettings& s, const std::string& projection, const VerifyOptions& options,
                                   const VerifyFrame& frame) {
-  const Input reference = read_input(s.against, {projection, {}, options.executor});
+  const Input reference = read_input(s.against, {projection, {}, options.executor, true});
   print_warnings(reference.warnings());
   if (!same_box(frame, verify_frame(reference.mesh()))) {
     print_warnings(std::vector<std::string>{fmt::format(
@@ -109,7 +115,7 @@ Exit run_verify(const Arguments& arguments) {
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   options.executor = threads.get();
-  const Input input = read_input(s.input, {s.projection, {}, threads.get()});
+  const Input input = read_input(s.input, {s.projection, {}, threads.get(), true});
   print_warnings(input.warnings());
   options.frame = verify_frame(input.mesh());
   options.refine = s.refine;

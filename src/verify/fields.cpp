@@ -12,57 +12,58 @@ namespace verify_detail {
 namespace {
 
 /// amplitude · sin(k · p + phase). Cosines are a quarter turn ahead.
-FieldValue wave(Vec2 p, double amplitude, Vec2 k, double phase) {
+FieldValue wave(Place at, double amplitude, Vec2 k, double phase) {
+  const Vec2 p = {at.x, at.y};
   const double angle = dot(k, p) + phase;
   const double s = amplitude * std::sin(angle), c = amplitude * std::cos(angle);
-  return {s, c * k, -squared_length(k) * s, -c / k.x};
+  return {s, {c * k.x, c * k.y}, -squared_length(k) * s, {-c / k.x}};
 }
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 
 FieldValue sum(const FieldValue& a, const FieldValue& b) {
-  return {a.u + b.u, a.gradient + b.gradient, a.laplacian + b.laplacian, a.antiderivative + b.antiderivative};
+  return {a.u + b.u, a.gradient + b.gradient, a.laplacian + b.laplacian, a.potential + b.potential};
 }
 
-FieldValue product(Vec2 p) {  // sin a cos b = (sin(a + b) + sin(a − b)) / 2
+FieldValue product(Place p) {  // sin a cos b = (sin(a + b) + sin(a − b)) / 2
   return sum(wave(p, 0.5, {2.1, 1.7}, 0.1), wave(p, 0.5, {2.1, -1.7}, 0.5));
 }
-FieldValue oblique(Vec2 p) { return wave(p, 1, {1.3, 2.2}, 0.5); }
-FieldValue counter(Vec2 p) { return wave(p, 1, {2.4, -1.1}, kQuarter - 0.4); }
-FieldValue quadratic(Vec2 p) {
-  const auto [x, y] = p;
+FieldValue oblique(Place p) { return wave(p, 1, {1.3, 2.2}, 0.5); }
+FieldValue counter(Place p) { return wave(p, 1, {2.4, -1.1}, kQuarter - 0.4); }
+FieldValue quadratic(Place p) {
+  const double x = p.x, y = p.y;
   return {0.6 * x * x - 0.8 * x * y + 0.5 * y * y + 0.3 * x,
           {1.2 * x - 0.8 * y + 0.3, -0.8 * x + y},
           2.2,
-          x * (0.2 * x * x - 0.4 * x * y + 0.5 * y * y + 0.15 * x)};
+          {x * (0.2 * x * x - 0.4 * x * y + 0.5 * y * y + 0.15 * x)}};
 }
 
-FieldValue crossed(Vec2 p) {  // sin a sin b = (cos(a − b) − cos(a + b)) / 2
+FieldValue crossed(Place p) {  // sin a sin b = (cos(a − b) − cos(a + b)) / 2
   return sum(wave(p, 0.5, {1.2, -2.6}, kQuarter - 1.4), wave(p, -0.5, {1.2, 2.6}, kQuarter - 0.2));
 }
-FieldValue two_waves(Vec2 p) { return sum(wave(p, 1, {0.7, -2.9}, kQuarter + 0.1), wave(p, 0.5, {2.7, 0.9}, 0)); }
-FieldValue harmonic(Vec2 p) {
+FieldValue two_waves(Place p) { return sum(wave(p, 1, {0.7, -2.9}, kQuarter + 0.1), wave(p, 0.5, {2.7, 0.9}, 0)); }
+FieldValue harmonic(Place p) {
   const double e = std::exp(p.x), c = e * std::cos(p.y), s = e * std::sin(p.y);
-  return {c, {c, -s}, 0, c};
+  return {c, {c, -s}, 0, {c}};
 }
-FieldValue cubic(Vec2 p) {
-  const auto [x, y] = p;
+FieldValue cubic(Place p) {
+  const double x = p.x, y = p.y;
   return {x * x * x - 1.5 * x * y * y + x * x * y + 0.5 * y * y,
           {3 * x * x - 1.5 * y * y + 2 * x * y, -3 * x * y + x * x + y},
           3 * x + 2 * y + 1,
-          x * (0.25 * x * x * x - 0.75 * x * y * y + x * x * y / 3 + 0.5 * y * y)};
+          {x * (0.25 * x * x * x - 0.75 * x * y * y + x * x * y / 3 + 0.5 * y * y)}};
 }
-FieldValue bump(Vec2 p) {
+FieldValue bump(Place p) {
   const double x = p.x + 0.1, y = p.y - 0.2;
   const double across = std::exp(-2 * y * y), u = std::exp(-2 * x * x) * across;
   const double root = std::sqrt(2.0);
   return {u,
           {-4 * x * u, -4 * y * u},
           (16 * (x * x + y * y) - 8) * u,
-          across * std::erf(root * x) / (root * std::numbers::inv_sqrtpi * 2)};
+          {across * std::erf(root * x) / (root * std::numbers::inv_sqrtpi * 2)}};
 }
 
-FieldValue linear(Vec2 p) {
-  return {0.7 * p.x - 0.4 * p.y + 0.2, {0.7, -0.4}, 0, p.x * (0.35 * p.x - 0.4 * p.y + 0.2)};
+FieldValue linear(Place p) {
+  return {0.7 * p.x - 0.4 * p.y + 0.2, {0.7, -0.4}, 0, {p.x * (0.35 * p.x - 0.4 * p.y + 0.2)}};
 }
 
 constexpr std::array<Field, 10> kFields = {{
@@ -78,23 +79,103 @@ constexpr std::array<Field, 10> kFields = {{
     {{"linear", FieldGroup::exact, "0.7 x - 0.4 y + 0.2"}, linear},
 }};
 
+// --- on the sphere -----------------------------------------------------------------------------------------------
+
+/// A homogeneous harmonic polynomial of some degree, and its gradient.
+struct Polynomial {
+  int degree;
+  double value;
+  Vec3 gradient;
+};
+
+/// Coordinates of a turned frame: by the quaternion 1 + 2i + 3j + 4k, so that no axis of a mesh is one of theirs.
+constexpr std::array<Vec3, 3> kAxes = {
+    {{-2.0 / 3, 2.0 / 15, 11.0 / 15}, {2.0 / 3, -1.0 / 3, 2.0 / 3}, {1.0 / 3, 14.0 / 15, 2.0 / 15}}};
+
+/// On the unit sphere the gradient of P is the part of ∇P that is tangent, ∇P − l P p, and ΔP = −l(l + 1) P: so the
+/// divergence of −∇P/(l(l + 1)) is P.
+template <class... Polynomials>
+FieldValue harmonics(Place p, const Polynomials&... terms) {
+  FieldValue sum;
+  const auto add = [&](const Polynomial& t) {
+    const Vec3 turned = t.gradient.x * kAxes[0] + t.gradient.y * kAxes[1] + t.gradient.z * kAxes[2];
+    const Vec3 gradient = turned - (t.degree * t.value) * p;
+    const double eigenvalue = t.degree * (t.degree + 1);
+    sum.u += t.value;
+    sum.gradient = sum.gradient + gradient;
+    sum.laplacian -= eigenvalue * t.value;
+    sum.potential = sum.potential + (-1 / eigenvalue) * gradient;
+  };
+  (add(terms), ...);
+  return sum;
+}
+
+Vec3 turned(Place p) { return {dot(kAxes[0], p), dot(kAxes[1], p), dot(kAxes[2], p)}; }
+
+Polynomial degree_1(Vec3 q) { return {1, q.x + 0.5 * q.z, {1, 0, 0.5}}; }
+Polynomial zonal_2(Vec3 q) { return {2, q.z * q.z - 0.5 * (q.x * q.x + q.y * q.y), {-q.x, -q.y, 2 * q.z}}; }
+Polynomial tesseral_2(Vec3 q) { return {2, 2 * q.x * q.z, {2 * q.z, 0, 2 * q.x}}; }
+Polynomial zonal_3(Vec3 q) {
+  const auto [x, y, z] = q;
+  return {3, z * (z * z - 1.5 * (x * x + y * y)), {-3 * x * z, -3 * y * z, 3 * z * z - 1.5 * (x * x + y * y)}};
+}
+Polynomial sectoral_3(Vec3 q) {
+  const auto [x, y, z] = q;
+  return {3, x * (x * x - 3 * y * y), {3 * (x * x - y * y), -6 * x * y, 0}};
+}
+Polynomial tesseral_3(Vec3 q) { return {3, 3 * q.x * q.y * q.z, {3 * q.y * q.z, 3 * q.x * q.z, 3 * q.x * q.y}}; }
+Polynomial tesseral_4(Vec3 q) {
+  const auto [x, y, z] = q;
+  return {4,
+          x * y * (6 * z * z - x * x - y * y),
+          {y * (6 * z * z - 3 * x * x - y * y), x * (6 * z * z - x * x - 3 * y * y), 12 * x * y * z}};
+}
+Polynomial sectoral_4(Vec3 q) {
+  const auto [x, y, z] = q;
+  return {4, 4 * x * y * (x * x - y * y), {4 * y * (3 * x * x - y * y), 4 * x * (x * x - 3 * y * y), 0}};
+}
+
+FieldValue axial(Place p) { return harmonics(p, zonal_2(turned(p))); }
+FieldValue saddle(Place p) { return harmonics(p, sectoral_3(turned(p))); }
+FieldValue quilt(Place p) { return harmonics(p, tesseral_4(turned(p))); }
+FieldValue tilted(Place p) {
+  const Vec3 q = turned(p);
+  return harmonics(p, degree_1(q), tesseral_2(q));
+}
+FieldValue belts(Place p) { return harmonics(p, zonal_3(turned(p))); }
+FieldValue octants(Place p) { return harmonics(p, tesseral_3(turned(p))); }
+FieldValue petals(Place p) { return harmonics(p, sectoral_4(turned(p))); }
+FieldValue mixed(Place p) {
+  const Vec3 q = turned(p);
+  return harmonics(p, degree_1(q), zonal_2(q), tesseral_3(q), sectoral_4(q));
+}
+
+constexpr std::array<Field, 8> kSphereFields = {{
+    {{"axial", FieldGroup::chosen, "z^2 - (x^2 + y^2)/2"}, axial, SpaceKind::sphere},
+    {{"saddle", FieldGroup::chosen, "x^3 - 3 x y^2"}, saddle, SpaceKind::sphere},
+    {{"quilt", FieldGroup::chosen, "x y (6 z^2 - x^2 - y^2)"}, quilt, SpaceKind::sphere},
+    {{"tilted", FieldGroup::chosen, "x + z/2 + 2 x z"}, tilted, SpaceKind::sphere},
+    {{"belts", FieldGroup::held_back, "z^3 - 3/2 z (x^2 + y^2)"}, belts, SpaceKind::sphere},
+    {{"octants", FieldGroup::held_back, "3 x y z"}, octants, SpaceKind::sphere},
+    {{"petals", FieldGroup::held_back, "4 x y (x^2 - y^2)"}, petals, SpaceKind::sphere},
+    {{"mixed", FieldGroup::held_back, "x + z/2 + axial + octants + petals"}, mixed, SpaceKind::sphere},
+}};
+
 bool asks_for(std::string_view word, const VerifyField& field) {
   if (word == "all") return field.group != FieldGroup::exact;
   return word == field.name || word == name(field.group);
 }
 
-std::string known_fields() {
-  std::string text = "all, chosen, held-back, exact";
-  for (const Field& f : kFields) text += ", " + std::string(f.field.name);
+std::string known_fields(SpaceKind space) {
+  std::string text =
+      space == SpaceKind::plane ? "all, chosen, held-back, exact" : "on the sphere all, chosen, held-back";
+  for (const Field& f : all_fields(space)) text += ", " + std::string(f.field.name);
   return text;
 }
 
-}  // namespace
+constexpr int kPieces = 8;  // of each side, so that the rule's error is that of rounding
 
-std::span<const Field> all_fields() { return kFields; }
-
-FieldSize size_of(const Field& field) {
-  constexpr int kPieces = 8;  // of each side, so that the rule's error is that of rounding
+FieldSize size_in_plane(const Field& field) {
   FieldSize sum;
   const auto nodes = gauss_nodes(kPieces);
   for (const GaussNode& i : nodes) {
@@ -107,22 +188,50 @@ FieldSize size_of(const Field& field) {
   return {std::sqrt(sum.value), std::sqrt(sum.gradient)};
 }
 
-Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names) {
+/// Gauss in z, by which area is measured, and equal steps in longitude: exact, for they are polynomials.
+FieldSize size_on_sphere(const Field& field) {
+  constexpr int kSteps = 32;
+  FieldSize sum;
+  for (const GaussNode& i : gauss_nodes(kPieces)) {
+    const double z = 2 * i.at - 1, across = std::sqrt(1 - z * z);
+    for (int step = 0; step < kSteps; ++step) {
+      const double longitude = 2 * std::numbers::pi * step / kSteps;
+      const FieldValue value = field.at({across * std::cos(longitude), across * std::sin(longitude), z});
+      sum.value += i.weight / kSteps * value.u * value.u;
+      sum.gradient += i.weight / kSteps * squared_length(value.gradient);
+    }
+  }
+  return {std::sqrt(sum.value), std::sqrt(sum.gradient)};
+}
+
+}  // namespace
+
+std::span<const Field> all_fields(SpaceKind space) {
+  if (space == SpaceKind::plane) return kFields;
+  return kSphereFields;
+}
+
+FieldSize size_of(const Field& field) {
+  return field.space == SpaceKind::plane ? size_in_plane(field) : size_on_sphere(field);
+}
+
+Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names, SpaceKind space) {
   const std::vector<std::string> asked = names.empty() ? std::vector<std::string>{"all"} : names;
-  std::array<bool, kFields.size()> wanted = {};
+  const std::span<const Field> all = all_fields(space);
+  std::vector<bool> wanted(all.size(), false);
   for (const std::string& word : asked) {
     bool known = false;
-    for (std::size_t i = 0; i < kFields.size(); ++i) {
-      if (!asks_for(word, kFields[i].field)) continue;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (!asks_for(word, all[i].field)) continue;
       wanted[i] = known = true;
     }
     if (!known) {
-      return InputError{ErrorCode::invalid_option, "", "no field '" + word + "'; there are " + known_fields()};
+      return InputError{ErrorCode::invalid_option, "", "no field '" + word + "'; there are " + known_fields(space)};
     }
   }
   std::vector<Field> fields;
-  for (std::size_t i = 0; i < kFields.size(); ++i) {
-    if (wanted[i]) fields.push_back(kFields[i]);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (wanted[i]) fields.push_back(all[i]);
   }
   return fields;
 }
@@ -141,13 +250,22 @@ std::string_view name(FieldGroup group) {
   return "";
 }
 
-std::span<const VerifyField> verify_fields() {
-  static constexpr auto kPublic = [] {
-    std::array<VerifyField, verify_detail::kFields.size()> fields = {};
-    for (std::size_t i = 0; i < fields.size(); ++i) fields[i] = verify_detail::kFields[i].field;
-    return fields;
-  }();
-  return kPublic;
+namespace {
+
+template <std::size_t n>
+constexpr std::array<VerifyField, n> public_part(const std::array<verify_detail::Field, n>& all) {
+  std::array<VerifyField, n> fields = {};
+  for (std::size_t i = 0; i < n; ++i) fields[i] = all[i].field;
+  return fields;
+}
+
+}  // namespace
+
+std::span<const VerifyField> verify_fields(SpaceKind space) {
+  static constexpr auto kPlane = public_part(verify_detail::kFields);
+  static constexpr auto kSphere = public_part(verify_detail::kSphereFields);
+  if (space == SpaceKind::plane) return kPlane;
+  return kSphere;
 }
 
 }  // namespace temper

@@ -57,12 +57,17 @@ void FluxScheme::merge() {
 
 void FluxScheme::number() {
   std::vector<bool> given(groups_.size(), false);
-  given_at_.resize(groups_.size());
-  for (const DecEdge& edge : setting_.dec.edges) {
+  given_at_.resize(groups_.size(), Place(0, 0));
+  for (std::size_t e = 0; e < setting_.dec.edges.size(); ++e) {
+    const DecEdge& edge = setting_.dec.edges[EdgeId(e)];
     if (!edge.is_boundary() || !coincident(edge)) continue;
     const std::size_t g = group(inner_triangle(edge));
     given[g] = true;
-    given_at_[g] = setting_.in_frame(edge.midpoint);
+    given_at_[g] = setting_.midpoint(EdgeId(e));
+  }
+  if (setting_.is_closed) {
+    given[0] = true;
+    given_at_[0] = setting_.orthocenter(TriangleId(0));
   }
   unknowns_.assign(groups_.size(), kNone);
   for (std::size_t t = 0; t < groups_.size(); ++t) {
@@ -107,7 +112,7 @@ void FluxScheme::add_field(const Field& field, const IdVector<EdgeId, EdgeMeans>
     if (coincident(edge)) continue;
     const double coefficient = setting_.dec.flux[EdgeId(e)];
     if (edge.is_boundary()) {
-      add(inner_triangle(edge), coefficient * field.at(setting_.in_frame(edge.midpoint)).u);
+      add(inner_triangle(edge), coefficient * field.at(setting_.midpoint(EdgeId(e))).u);
       continue;
     }
     if (unknowns_[group(edge.right)] == kNone) add(edge.left, coefficient * given(edge.right));
@@ -137,6 +142,7 @@ SchemeErrors FluxScheme::solve(bool condition) {
       const double value = i != kNone ? solution.solutions[f][i] : fields_[f].at(given_at_[group(t)]).u;
       errors.push_back(value - fields_[f].at(setting_.orthocenter(t)).u);
     }
+    if (setting_.is_closed) forget_constant(weights, errors);
     const ErrorNorms norms = norms_of(weights, errors);
     const double size = size_of(fields_[f]).value;
     result.fields.push_back({norms.l2 / std::sqrt(setting_.area) / size, norms.max / size});

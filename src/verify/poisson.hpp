@@ -1,4 +1,5 @@
-// The two model problems, −Δu = f with u given on the boundary.
+// The two model problems, −Δu = f with u given on the boundary. On a closed mesh of the sphere there is none: u is
+// known but for a constant, so one unknown is given, and the mean of the error is taken from it.
 #pragma once
 
 #include <vector>
@@ -16,6 +17,9 @@ struct SchemeErrors {
 
 /// Vertex-centered: d0ᵀ ★1 d0 u = ★0 f at inner vertices, f at the vertex; u given at those of the boundary.
 [[nodiscard]] SchemeErrors poisson_errors(const Setting& setting, const std::vector<Field>& fields, bool condition);
+
+/// Takes the weighted mean from errors of a mesh without boundary, in place.
+void forget_constant(const std::vector<double>& weights, std::vector<double>& errors);
 
 /// The two-point flux: its matrix once, then a right side a field.
 class FluxScheme {
@@ -35,7 +39,7 @@ class FluxScheme {
   const Setting& setting_;
   std::vector<std::size_t> groups_;    // triangle → the group of coinciding orthocenters that it is in
   std::vector<std::size_t> unknowns_;  // group → its unknown, or kGiven
-  std::vector<Vec2> given_at_;         // group → the boundary point that gives its value
+  std::vector<Place> given_at_;        // group → the boundary point that gives its value
   LinearSystem linear_;
   std::vector<Field> fields_;
   VerifySystem system_;

@@ -10,6 +10,7 @@ namespace {
 
 struct Arrays {
   std::vector<Vec2> points;
+  std::vector<Vec3> sphere_points;  // instead
   std::vector<double> weights;
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::array<std::int32_t, 2>> constrained;
@@ -19,12 +20,22 @@ struct Arrays {
 std::int32_t number(std::size_t i) { return static_cast<std::int32_t>(i); }
 
 void add_points(const Mesh& mesh, const DecComplex& dec, Arrays& arrays) {
+  const Space& space = mesh.space();
+  const auto place = [&](VertexId v) { return space.place(mesh.point(v)); };
   for (const VertexId v : mesh.vertices()) {
-    arrays.points.push_back(mesh.position(v));
+    if (space.is_plane()) {
+      arrays.points.push_back(mesh.position(v));
+    } else {
+      arrays.sphere_points.push_back(place(v));
+    }
     arrays.weights.push_back(0.5 * mesh.weight(v));
   }
   for (const DecEdge& edge : dec.edges) {
-    arrays.points.push_back(0.5 * mesh.position(edge.from) + 0.5 * mesh.position(edge.to));
+    if (space.is_plane()) {
+      arrays.points.push_back(0.5 * mesh.position(edge.from) + 0.5 * mesh.position(edge.to));
+    } else {
+      arrays.sphere_points.push_back(space.place(as_point(place(edge.from) + place(edge.to))));
+    }
     arrays.weights.push_back(0.25 * mesh.weight(edge.from) + 0.25 * mesh.weight(edge.to));
   }
 }
@@ -59,7 +70,9 @@ Expected<Mesh> refined(const Mesh& mesh) {
   add_triangles(mesh, complex, arrays);
   add_constrained(mesh, complex, arrays);
   MeshInput input;
+  input.space = mesh.space();
   input.points = arrays.points;
+  input.sphere_points = arrays.sphere_points;
   input.weights = arrays.weights;
   input.triangles = arrays.triangles;
   input.constrained_edges = arrays.constrained;

@@ -4,24 +4,25 @@
 #include <cmath>
 
 #include "base/sum.hpp"
+#include "geometry/spherical_area.hpp"
 
 namespace temper::verify_detail {
 namespace {
 
-/// ∫ u over each signed dual cell, by ∮ U n_x around it: along its dual edges, and along the domain's boundary.
+/// ∫ u over each signed dual cell, by ∮ V · n around it: along its dual edges, and along the domain's boundary.
 std::vector<double> dual_cell_integrals(const Setting& s, const IdVector<EdgeId, EdgeMeans>& means) {
   std::vector<double> integrals(s.mesh.n_vertices(), 0.0);
   for (std::size_t i = 0; i < means.size(); ++i) {
     const DecEdge& edge = s.dec.edges[EdgeId(i)];
     const EdgeMeans& mean = means[EdgeId(i)];
     const Vec2 t = direction(s, edge);
-    const double across = s.length_in_frame(edge.dual_length) * mean.dual_antiderivative * t.x;
+    const double across = dot(s.length_in_frame(edge.dual_length) * mean.dual_potential, t);
     integrals[edge.from.index] += across;
     integrals[edge.to.index] -= across;
     if (!edge.is_boundary()) continue;
-    const double outward_x = inner_side(edge) * t.y;
-    integrals[edge.from.index] += s.length_in_frame(edge.split) * mean.from_antiderivative * outward_x;
-    integrals[edge.to.index] += s.length_in_frame(edge.length - edge.split) * mean.to_antiderivative * outward_x;
+    const Vec2 outward = inner_side(edge) * turned_right(t);
+    integrals[edge.from.index] += dot(s.length_in_frame(edge.split) * mean.from_potential, outward);
+    integrals[edge.to.index] += dot(s.length_in_frame(edge.length - edge.split) * mean.to_potential, outward);
   }
   return integrals;
 }
@@ -31,7 +32,8 @@ std::vector<double> triangle_integrals(const Setting& s, const IdVector<EdgeId, 
   std::vector<double> integrals(s.mesh.n_triangles(), 0.0);
   for (std::size_t i = 0; i < means.size(); ++i) {
     const DecEdge& edge = s.dec.edges[EdgeId(i)];
-    const double out_of_left = s.length_in_frame(edge.length) * means[EdgeId(i)].antiderivative * direction(s, edge).y;
+    const double out_of_left =
+        dot(s.length_in_frame(edge.length) * means[EdgeId(i)].potential, turned_right(direction(s, edge)));
     if (edge.left.valid()) integrals[edge.left.index] += out_of_left;
     if (edge.right.valid()) integrals[edge.right.index] -= out_of_left;
   }
@@ -41,9 +43,12 @@ std::vector<double> triangle_integrals(const Setting& s, const IdVector<EdgeId, 
 std::vector<double> unsigned_cells(const Setting& s) {
   std::vector<double> areas(s.mesh.n_vertices(), 0.0);
   for (const DecEdge& edge : s.dec.edges) {
-    const double heights = std::abs(edge.left_height) + std::abs(edge.right_height);
-    areas[edge.from.index] += s.area_in_frame(0.5 * std::abs(edge.split) * heights);
-    areas[edge.to.index] += s.area_in_frame(0.5 * std::abs(edge.length - edge.split) * heights);
+    const double left = std::abs(edge.left_height), right = std::abs(edge.right_height);
+    const auto part = [&](double d) {
+      return s.area_in_frame(right_triangle_areas(s.mesh.space(), std::abs(d), left, right));
+    };
+    areas[edge.from.index] += part(edge.split);
+    areas[edge.to.index] += part(edge.length - edge.split);
   }
   return areas;
 }

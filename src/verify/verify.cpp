@@ -35,12 +35,18 @@ double domain_area(const DecComplex& dec, const VerifyFrame& frame) {
   return sum / frame.half_size / frame.half_size;
 }
 
+bool is_closed(const DecComplex& dec) {
+  return std::none_of(dec.edges.begin(), dec.edges.end(), [](const DecEdge& edge) { return edge.is_boundary(); });
+}
+
 /// A mesh with its operators, and the setting that refers to both: not to be moved.
 struct Subject {
   Subject(const Mesh& m, const VerifyFrame& frame, Executor* executor)
-      : mesh(m), operators(dec(mesh)), setting{mesh, operators, frame, domain_area(operators, frame), executor} {}
+      : mesh(m), operators(dec(mesh)), setting{mesh,     operators,           frame, domain_area(operators, frame),
+                                               executor, is_closed(operators)} {}
   Subject(const Subject&) = delete;
   Subject& operator=(const Subject&) = delete;
+  ~Subject() = default;
 
   const Mesh& mesh;
   const DecComplex operators;
@@ -132,6 +138,7 @@ Measured measure(const Setting& setting, const std::vector<Field>& fields, bool 
 }  // namespace verify_detail
 
 VerifyFrame verify_frame(const Mesh& mesh) {
+  if (!mesh.space().is_plane()) return {{0, 0}, mesh.space().radius()};
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Vec2 low = {kFar, kFar}, high = {-kFar, -kFar};
   for (const VertexId v : mesh.vertices()) {
@@ -146,7 +153,7 @@ VerifyFrame verify_frame(const Mesh& mesh) {
 
 Expected<VerifyReport> verify(const Mesh& mesh, const VerifyOptions& options) {
   using namespace verify_detail;
-  const auto fields = select_fields(options.fields);
+  const auto fields = select_fields(options.fields, mesh.space().kind());
   if (!fields) return fields.error();
   if (const auto checked = check(mesh, options); !checked) return checked.error();
 

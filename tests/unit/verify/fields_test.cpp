@@ -30,12 +30,40 @@ TEST(VerifyFields, DerivativesAndAntiderivativeAgreeWithDifferences) {
       const auto u = [&](Vec2 q) { return field.at(q).u; };
       const auto ux = [&](Vec2 q) { return field.at(q).gradient.x; };
       const auto uy = [&](Vec2 q) { return field.at(q).gradient.y; };
-      const auto whole = [&](Vec2 q) { return field.at(q).antiderivative; };
+      const auto whole = [&](Vec2 q) { return field.at(q).potential.x; };
       const FieldValue value = field.at(p);
       EXPECT_NEAR(derivative(u, p, dx), value.gradient.x, 1e-8) << field.field.name;
       EXPECT_NEAR(derivative(u, p, dy), value.gradient.y, 1e-8) << field.field.name;
       EXPECT_NEAR(derivative(ux, p, dx) + derivative(uy, p, dy), value.laplacian, 1e-7) << field.field.name;
       EXPECT_NEAR(derivative(whole, p, dx), value.u, 1e-8) << field.field.name;
+    }
+  }
+}
+
+TEST(VerifyFields, OfTheSphereAreEigenfunctionsSummed) {
+  constexpr double kStep = 1e-3;
+  test::Noise noise(7);
+  for (const Field& field : all_fields(SpaceKind::sphere)) {
+    for (int round = 0; round < 20; ++round) {
+      const Vec3 p = Vec3{noise(), noise(), noise()}, up = (1 / length(p)) * p;
+      const Vec3 a = cross(up, {0.3, -0.5, 0.8}), x = (1 / length(a)) * a, y = cross(up, x);
+      // Along the great circle to a unit tangent vector.
+      const auto at = [&](Vec3 t, double angle) { return field.at(std::cos(angle) * up + std::sin(angle) * t); };
+      const auto derivative = [&](Vec3 t, const auto& of) {
+        return (8 * (of(t, kStep) - of(t, -kStep)) - (of(t, 2 * kStep) - of(t, -2 * kStep))) / (12 * kStep);
+      };
+      const auto u = [&](Vec3 t, double angle) { return at(t, angle).u; };
+      // The component along the circle, whose derivatives sum to the divergence.
+      const auto along = [](Vec3 t, Vec3 from, double angle) { return std::cos(angle) * t - std::sin(angle) * from; };
+      const auto gradient = [&](Vec3 t, double angle) { return dot(along(t, up, angle), at(t, angle).gradient); };
+      const auto potential = [&](Vec3 t, double angle) { return dot(along(t, up, angle), at(t, angle).potential); };
+      const FieldValue value = field.at(up);
+      EXPECT_NEAR(dot(value.gradient, up), 0, 1e-13);
+      EXPECT_NEAR(dot(value.potential, up), 0, 1e-13);
+      EXPECT_NEAR(derivative(x, u), dot(value.gradient, x), 1e-8) << field.field.name;
+      EXPECT_NEAR(derivative(y, u), dot(value.gradient, y), 1e-8) << field.field.name;
+      EXPECT_NEAR(derivative(x, gradient) + derivative(y, gradient), value.laplacian, 1e-7) << field.field.name;
+      EXPECT_NEAR(derivative(x, potential) + derivative(y, potential), value.u, 1e-8) << field.field.name;
     }
   }
 }

@@ -114,7 +114,8 @@ struct Naive {
     constexpr int kSteps = 400;
     Vec2 sum;
     for (int i = 0; i < kSteps; ++i) {
-      sum = sum + (1.0 / kSteps) * field.at(in_frame(at(a, b, (i + 0.5) / kSteps))).gradient;
+      const Vec3 gradient = field.at(in_frame(at(a, b, (i + 0.5) / kSteps))).gradient;
+      sum = sum + (1.0 / kSteps) * Vec2{gradient.x, gradient.y};
     }
     return sum;
   }
