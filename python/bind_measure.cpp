@@ -154,7 +154,16 @@ py::array whole(const py::object& owner, const std::vector<T>& values) {
   return view(dtype_of<T>(), {static_cast<py::ssize_t>(values.size())}, {sizeof(T)}, values.data(), owner);
 }
 
-py::dict edges_to_dict(const py::object& owner, const IdVector<EdgeId, DecEdge>& edges) {
+/// Places as rows: of two columns in the plane, of three on the sphere, where those of the plane are not.
+py::array places(const py::object& owner, const std::vector<Vec2>& plane, const std::vector<Vec3>& sphere) {
+  const auto doubles = py::dtype::of<double>();
+  if (sphere.empty()) return view(doubles, {static_cast<py::ssize_t>(plane.size()), 2}, {16, 8}, plane.data(), owner);
+  return view(doubles, {static_cast<py::ssize_t>(sphere.size()), 3}, {24, 8}, sphere.data(), owner);
+}
+
+py::dict edges_to_dict(const py::object& owner, const DecComplex& complex) {
+  const IdVector<EdgeId, DecEdge>& edges = complex.edges;
+  const auto& on_sphere = complex.sphere_midpoints;
   const DecEdge none;
   const DecEdge& e = edges.empty() ? none : edges[EdgeId(0)];
   using std::int32_t;
@@ -165,7 +174,8 @@ py::dict edges_to_dict(const py::object& owner, const IdVector<EdgeId, DecEdge>&
              "left_height", py::object(column<double>(owner, edges, &e.left_height)))(
              "right_height", py::object(column<double>(owner, edges, &e.right_height)))(
              "dual_length", py::object(column<double>(owner, edges, &e.dual_length)))(
-             "midpoint", py::object(column<double>(owner, edges, &e.midpoint, 2)))
+             "midpoint", py::object(on_sphere.empty() ? column<double>(owner, edges, &e.midpoint, 2)
+                                                      : places(owner, {}, on_sphere.raw())))
       .dict;
 }
 
@@ -189,16 +199,15 @@ PyDec make_dec(const PyMesh& self) {
 py::dict dec_to_dict(const PyDec& d) {
   const py::object owner = keep(d.complex);
   const DecComplex& c = *d.complex;
-  return Record()("edges", py::object(edges_to_dict(owner, c.edges)))(
+  return Record()("edges", py::object(edges_to_dict(owner, c)))(
              "edge_of_halfedge",
              py::object(view(py::dtype::of<std::int32_t>(), {static_cast<py::ssize_t>(c.edge_of_halfedge.size())}, {4},
                              c.edge_of_halfedge.raw().data(), owner)))(
              "d0", py::object(incidence_to_dict(owner, c.d0)))("d1", py::object(incidence_to_dict(owner, c.d1)))(
              "star0", py::object(whole(owner, c.star0.raw())))("star1", py::object(whole(owner, c.star1.raw())))(
              "star2", py::object(whole(owner, c.star2.raw())))("flux", py::object(whole(owner, c.flux.raw())))(
-             "orthocenters",
-             py::object(view(py::dtype::of<double>(), {static_cast<py::ssize_t>(c.orthocenters.size()), 2}, {16, 8},
-                             c.orthocenters.raw().data(), owner)))("areas", py::object(whole(owner, c.areas.raw())))
+             "orthocenters", py::object(places(owner, c.orthocenters.raw(), c.sphere_orthocenters.raw())))(
+             "areas", py::object(whole(owner, c.areas.raw())))
       .dict;
 }
 
@@ -223,8 +232,7 @@ py::dict cells_to_dict(const PyDec& d) {
   const py::object owner = keep(cells);
   const PowerCells& c = *cells;
   return Record()("vertices", py::object(whole(owner, c.vertices)))("starts", c.starts)(
-             "corners", py::object(view(py::dtype::of<double>(), {static_cast<py::ssize_t>(c.corners.size()), 2},
-                                        {16, 8}, c.corners.data(), owner)))(
+             "corners", py::object(places(owner, c.corners, c.sphere_corners)))(
              "polygon_areas", py::object(whole(owner, c.polygon_areas)))("areas",
                                                                          py::object(whole(owner, c.areas.raw())))
       .dict;
@@ -348,8 +356,10 @@ std::vector<FieldErrors> fields_from(const py::sequence& names, const Doubles& v
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto wanted = names[i].cast<std::string>();
     FieldErrors& row = fields.emplace_back();
-    for (const VerifyField& field : verify_fields()) {
-      if (field.name == wanted) row.field = field;
+    for (const SpaceKind space : {SpaceKind::plane, SpaceKind::sphere}) {
+      for (const VerifyField& field : verify_fields(space)) {
+        if (field.name == wanted) row.field = field;
+      }
     }
     for (std::size_t k = 0; k < rows[i].size(); ++k) verify_measures()[k].at(row.errors) = rows[i][k];
   }
@@ -417,9 +427,9 @@ std::optional<FieldGroup> group_from(const py::object& group) {
 
 void bind_verify(py::module_& m) {
   m.def("verify", verify_mesh);
-  m.def("verify_fields", [] {
+  m.def("verify_fields", [](bool sphere) {
     py::list list;
-    for (const VerifyField& f : verify_fields()) {
+    for (const VerifyField& f : verify_fields(sphere ? SpaceKind::sphere : SpaceKind::plane)) {
       list.append(Record()("name", f.name)("group", name(f.group))("formula", f.formula).dict);
     }
     return list;

@@ -62,7 +62,7 @@ class DecEdges(Record):
     dual_length: npt.NDArray[np.float64]
     """left_height + right_height, with the exact sign, and accurate where they cancel [length]."""
     midpoint: npt.NDArray[np.float64]
-    """(e, 2): where the line of the dual edge crosses the line of the edge."""
+    """(e, 2): where the line of the dual edge crosses the line of the edge. On a sphere (e, 3), at its radius."""
 
     def __len__(self) -> int:
         return len(self.length)
@@ -115,7 +115,7 @@ class PowerCells(Record):
     starts: npt.NDArray[np.uint64]
     """Polygon i has ``corners[starts[i]:starts[i + 1]]``; (p + 1,)."""
     corners: npt.NDArray[np.float64]
-    """(c, 2)."""
+    """(c, 2); on a sphere (c, 3), at its radius."""
     polygon_areas: npt.NDArray[np.float64]
     """Of each polygon, > 0 [length²]."""
     areas: npt.NDArray[np.float64]
@@ -130,6 +130,8 @@ class PowerCells(Record):
 class DecComplex(Record):
     """Operators and dual of a mesh; vertices and triangles have the numbers of the mesh. All arrays are read-only views
     on one value, without copies.
+
+    On a sphere lengths are those of arcs, and areas spherical excess.
 
     Signs (docs/concepts.md): a dual length is negative where the edge is not regular, or, on the boundary, where the
     orthocenter is outside; zero exactly where the four points are cocircular in the power sense.
@@ -151,7 +153,7 @@ class DecComplex(Record):
     """(e,) ℓ/(h_k + h_l), on the boundary ℓ/h_k: the transmissibility of a two-point flux between orthocenters; inf
     where ★1 is 0 [1]."""
     orthocenters: npt.NDArray[np.float64]
-    """(m, 2) the dual vertices [length]."""
+    """(m, 2) the dual vertices [length]. On a sphere (m, 3), at its radius."""
     areas: npt.NDArray[np.float64]
     """(m,) of the triangles, > 0 [length²]."""
     _handle: Any = dataclasses.field(repr=False, compare=False)

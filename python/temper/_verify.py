@@ -141,13 +141,13 @@ class VerifyReport(Record):
 _KEYS = [f"{name}.{norm}" for name in ("star0", "star1", "star2", "poisson", "flux") for norm in ("l2", "max")]
 
 
-def verify_fields() -> list[VerifyField]:
-    """The manufactured solutions."""
-    return [VerifyField(**row) for row in _temper.verify_fields()]
+def verify_fields(*, sphere: bool = False) -> list[VerifyField]:
+    """The manufactured solutions of the plane, or those of the sphere."""
+    return [VerifyField(**row) for row in _temper.verify_fields(sphere)]
 
 
 def verify_frame(mesh: MeshLike) -> VerifyFrame:
-    """Around the bounding box of the vertices: its longer side goes from −1 to 1."""
+    """Around the bounding box of the vertices: its longer side goes from −1 to 1. On a sphere its radius."""
     return VerifyFrame(**_temper.verify_frame(as_mesh(mesh)._handle))
 
 
@@ -157,7 +157,7 @@ def verify_measures() -> list[tuple[str, str]]:
 
 
 def _fields(d: dict[str, Any]) -> list[FieldErrors]:
-    known = {field.name: field for field in verify_fields()}
+    known = {field.name: field for sphere in (False, True) for field in verify_fields(sphere=sphere)}
     return [FieldErrors(known[name], VerifyErrors._of(row)) for name, row in zip(d["names"], d["values"])]
 
 

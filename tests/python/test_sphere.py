@@ -369,3 +369,37 @@ def test_a_sphere_is_drawn_from_where_one_looks(globe, ring):
         temper.draw_before_after_svg(ring, globe)
     with pytest.raises(ValueError, match="view: expected longitude, latitude"):
         temper.draw_svg(globe, view=(1, 2, 3))
+
+
+# --- operators and errors --------------------------------------------------------------------------------------
+
+
+def test_operators_are_those_of_arcs(tempered):
+    complex = temper.dec(tempered)
+    whole = 4 * np.pi * EARTH**2
+    for areas in (complex.star0, complex.areas):
+        assert areas.sum() == pytest.approx(whole, rel=1e-12) and (areas > 0).all()
+    assert (complex.star1 > 0).all()
+    a, b, c = faces_of(tempered)
+    assert np.allclose(complex.orthocenters, EARTH * unit(np.cross(b - a, c - a)), rtol=0, atol=1e-5)
+    p, q = np.moveaxis(tempered.lifted_points[complex.edges.vertices], 1, 0)
+    assert np.allclose(complex.edges.length, EARTH * angle(p, q), rtol=1e-12)
+    middle = complex.edges.midpoint
+    assert np.allclose(np.linalg.norm(middle, axis=1), EARTH, rtol=1e-14)
+    assert np.allclose(complex.edges.split, EARTH * angle(p, middle), rtol=1e-9)
+    left, right = np.moveaxis(complex.orthocenters[complex.edges.triangles], 1, 0)
+    assert np.allclose(complex.edges.dual_length, EARTH * angle(left, right), rtol=1e-6)
+    cells = complex.power_cells()
+    assert cells.corners.shape[1] == 3 and np.allclose(cells.areas, complex.star0, rtol=1e-11)
+
+
+def test_errors_of_solvers_on_a_closed_mesh(globe):
+    before = temper.verify(globe)
+    temper.optimize(globe)
+    after = temper.verify(globe, fields=["all"])
+    assert [row.field for row in after.fields] == temper.verify_fields(sphere=True)
+    assert after.frame.half_size == EARTH and after.poisson.definite and after.flux.definite
+    ratios = temper.geometric_mean(temper.error_ratios(after, before))
+    assert ratios.star[1].l2 < 0.65 and ratios.poisson.l2 < 0.9 and ratios.flux.l2 < 0.6
+    with pytest.raises(temper.TemperError, match="no field 'bump'"):
+        temper.verify(globe, fields=["bump"])
