@@ -68,6 +68,25 @@ py::tuple triangle_margins(const PyMesh& self) {
   return py::make_tuple(margins, good);
 }
 
+py::dict triangle_quality_to_dict(const PyMesh& self) {
+  const auto mesh = self.read();
+  const Shape n{static_cast<py::ssize_t>(mesh->n_triangles())};
+  py::array_t<bool> well_centered(n);
+  py::array_t<double> h_over_l(n), d_over_l(n), angle_deg(n);
+  bool* good = well_centered.mutable_data();
+  double *h = h_over_l.mutable_data(), *d = d_over_l.mutable_data(), *angle = angle_deg.mutable_data();
+  for (const TriangleId t : mesh->triangles()) {
+    const TriangleQuality q = triangle_quality(*mesh, t);
+    *good++ = q.well_centered;
+    *h++ = q.min_h_over_l;
+    *d++ = q.min_d_over_l;
+    *angle++ = q.min_angle_deg;
+  }
+  return Record()("well_centered", well_centered)("min_h_over_l", h_over_l)("min_d_over_l", d_over_l)("min_angle_deg",
+                                                                                                      angle_deg)
+      .dict;
+}
+
 EnergyModel model_from(const py::dict& d) {
   EnergyModel model;
   model.kind = or_raise(find_energy(d["energy"].cast<std::string>())).kind;
@@ -115,6 +134,7 @@ void bind_energy(py::module_& m) {
     return quality_to_dict(result);
   });
   m.def("triangle_margins", triangle_margins);
+  m.def("triangle_quality", triangle_quality_to_dict);
   m.def("energies", energies_list);
   m.def("find_energy", [](const std::string& wanted) { return std::string(or_raise(find_energy(wanted)).name); });
   m.def("total_energy", [](const PyMesh& self, const py::dict& model, const py::object& threads) {

@@ -546,11 +546,12 @@ py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, con
 }
 
 py::object write_file(const std::string& path, const PyMesh& self, const std::string& format,
-                      const std::string& encoding, const py::object& threads) {
+                      const std::string& encoding, bool triangle_quality, const py::object& threads) {
   const auto executor = make_threads(threads_from(threads));
   io::WriteOptions options;
   options.format = format;
   if (!encoding.empty()) options.encoding = from_name<io::Encoding>("encoding", encoding);
+  options.triangle_quality = triangle_quality;
   options.executor = executor.get();
   std::vector<std::string> warnings;
   {

@@ -38,7 +38,7 @@ LAYERS = {
     "generate": _BELOW + ["topology", "energy", "regularity"],
     "mesher": _BELOW + ["topology", "energy", "regularity", "feasibility", "optimize", "generate", "projection"],
     # A library of its own: sees the core's public headers, and no other folder of src/.
-    "io": _BELOW + ["projection", "places", "size", "dec"],
+    "io": _BELOW + ["projection", "places", "size", "quality", "dec"],
     "lp": _BELOW + ["feasibility"],
     "tbb": ["base"],
     "verify": _BELOW + ["energy", "regularity", "quality", "dec"],

@@ -480,9 +480,10 @@ Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs, const 
 }
 
 /// Of this verb's own options those that a first run does without; of the library's the table says it.
-constexpr const char* kRare[] = {"--projection", "--format",     "--encoding",       "--point-data", "--history",
-                                 "--trace",      "--threads",    "--method",         "--checkpoint", "--every",
-                                 "--resume",     "--size-field", "--size-field-data"};
+constexpr const char* kRare[] = {
+    "--projection", "--format",     "--encoding",        "--point-data",         "--history",
+    "--trace",      "--threads",    "--method",          "--checkpoint",         "--every",
+    "--resume",     "--size-field", "--size-field-data", "--no-triangle-quality"};
 
 Command command_with(Settings& settings) {
   Command command(

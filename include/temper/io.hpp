@@ -90,6 +90,9 @@ struct WriteOptions {
   /// appended, raw bytes after the XML: the fastest to write and to read, and about half as large again.
   std::optional<Encoding> encoding;
   Executor* executor = nullptr;  ///< threads that compress; the bytes written do not depend on them
+  /// VTU has four arrays of cell data more, named as in TriangleQuality, for ParaView to colour: bytes and floats.
+  /// read() leaves them out, as they are made anew.
+  bool triangle_quality = true;
 };
 
 /// A format temper knows. Adding one is one source file and one row.

@@ -10,6 +10,7 @@
 
 #include "temper/energy.hpp"
 #include "temper/mesh.hpp"
+#include "temper/space.hpp"
 
 namespace temper {
 
@@ -65,7 +66,18 @@ struct Quality {
   Histogram angles, h_over_l, d_over_l;
 };
 
-/// A number of each triangle, for pictures and data of cells.
+/// What Quality says of a mesh, of one triangle: for data of cells.
+struct TriangleQuality {
+  bool well_centered = false;  ///< all h > 0 and 0 < d < ℓ, exact
+  double min_h_over_l = 0;     ///< of its edges; −∞ for an inverted triangle
+  double min_d_over_l = 0;     ///< of its edges, the lesser of d/ℓ and 1 − d/ℓ
+  double min_angle_deg = 0;
+};
+[[nodiscard]] TriangleQuality triangle_quality(const Mesh& mesh, TriangleId t);
+/// The same of corners in a space, before there is a mesh.
+[[nodiscard]] TriangleQuality triangle_quality(const Space& space, const std::array<WeightedPoint, 3>& corners);
+
+/// A number of each triangle, for pictures.
 struct TriangleValue {
   std::string_view name;   ///< "quality", "angle", …
   std::string_view label;  ///< for legends, with its unit

@@ -40,6 +40,7 @@ from ._measure import (
     EnergyModel,
     Histogram,
     Quality,
+    TriangleQuality,
     VertexDerivatives,
     WorstTriangle,
     check,
@@ -49,6 +50,7 @@ from ._measure import (
     total_energy,
     triangle_energy,
     triangle_margins,
+    triangle_quality,
     vertex_energy,
     well_centered_triangles,
 )

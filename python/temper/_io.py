@@ -82,6 +82,7 @@ def write(
     *,
     format: str | None = None,
     encoding: Literal["ascii", "base64", "appended"] | None = None,
+    triangle_quality: bool = True,
     threads: int | None = None,
 ) -> list[str]:
     """Writes a mesh, with all else that was in the file it came from.
@@ -95,6 +96,8 @@ def write(
         A name of ``formats()``; by default the suffix of the path tells it.
     encoding : {"ascii", "base64", "appended"}, optional
         Of formats that have several. VTU: ``base64``, compressed, is its default; ``appended`` is the fastest.
+    triangle_quality : bool
+        VTU has the arrays of ``triangle_quality()`` as cell data, for ParaView to colour; ``read`` leaves them out.
     threads : int, optional
         Threads that compress; the bytes written do not depend on them.
 
@@ -108,7 +111,10 @@ def write(
     TemperError
         ``not_writable``, or ``invalid_option`` for a format that is not known.
     """
-    messages: list[str] = _temper.write(os.fspath(path), as_mesh(mesh)._handle, format or "", encoding or "", threads)
+    handle = as_mesh(mesh)._handle
+    messages: list[str] = _temper.write(
+        os.fspath(path), handle, format or "", encoding or "", triangle_quality, threads
+    )
     for message in messages:
         warnings.warn(message, TemperWarning, stacklevel=2)
     return messages

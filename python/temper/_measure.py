@@ -125,6 +125,33 @@ check = quality
 """The same as ``quality``, by the name of the program's verb."""
 
 
+@dataclasses.dataclass(frozen=True, eq=False)
+class TriangleQuality(Record):
+    """What ``Quality`` says of a mesh, of each triangle: arrays (m,), which VTU files have as cell data."""
+
+    well_centered: npt.NDArray[np.bool_]
+    """All h > 0 and 0 < d < ℓ, exact."""
+    min_h_over_l: npt.NDArray[np.float64]
+    """−inf for an inverted triangle."""
+    min_d_over_l: npt.NDArray[np.float64]
+    """Of each edge the lesser of d/ℓ and 1 − d/ℓ."""
+    min_angle_deg: npt.NDArray[np.float64]
+
+
+def triangle_quality(mesh: MeshLike) -> TriangleQuality:
+    """Measures each triangle: arrays of what ``quality`` has the least of.
+
+    Examples
+    --------
+    >>> import temper
+    >>> mesh = temper.generate.horseshoe()
+    >>> each = temper.triangle_quality(mesh)
+    >>> bool(each.min_angle_deg.min() == temper.quality(mesh).min_angle_deg)
+    True
+    """
+    return TriangleQuality(**_temper.triangle_quality(as_mesh(mesh)._handle))
+
+
 def triangle_margins(mesh: MeshLike) -> npt.NDArray[np.float64]:
     """Of each triangle the least of its h/ℓ, d/ℓ and 1 − d/ℓ, in doubles, (m,) float64: above 0 where well-centered."""
     return _temper.triangle_margins(as_mesh(mesh)._handle)[0]

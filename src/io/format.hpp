@@ -66,9 +66,11 @@ inline constexpr std::size_t kSniffBytes = 4096;
 /// One file to be written.
 struct WriteJob {
   const std::string& path;
-  const MeshFile& file;
+  const MeshFile& file;      ///< as it is written: in degrees where it was read in degrees
+  const MeshFile& measured;  ///< the same where lengths are those of the mesh
   const FormatRow& row;
   std::optional<Encoding> encoding;
+  bool triangle_quality;
   Executor* executor;
   OutputSet& outputs;
   std::vector<std::string>& warnings;

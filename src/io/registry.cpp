@@ -299,7 +299,15 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
                 " has points in longitude and latitude; expected a mesh of the sphere, or one that was "
                 "read in degrees"));
     }
-    const WriteJob job = {path, turned ? degrees : file, row, options.encoding, options.executor, outputs, warnings};
+    const WriteJob job = {path,
+                          turned ? degrees : file,
+                          file,
+                          row,
+                          options.encoding,
+                          options.triangle_quality,
+                          options.executor,
+                          outputs,
+                          warnings};
     if (turned) warn_of_weights_beside_degrees(job, file);
     row.write(job);
     warn_of_losses(job);

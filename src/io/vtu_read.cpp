@@ -4,6 +4,7 @@
 // once and freed as soon as its numbers are where they belong. All number types, ASCII, base64 and appended data
 // (raw or base64), with zlib or without, either byte order.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <limits>
@@ -12,6 +13,7 @@
 #include "io/cells.hpp"
 #include "io/format.hpp"
 #include "io/scanner.hpp"
+#include "io/triangle_quality.hpp"
 #include "io/vtu_codec.hpp"
 
 namespace temper::io {
@@ -28,6 +30,19 @@ std::string_view trimmed(std::string_view s) {
   const std::size_t first = s.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return {};
   return s.substr(first, s.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+/// Takes out the arrays that write_vtu makes of the mesh itself. They come together: one of their names alone is the
+/// user's.
+void forget_triangle_quality(pugi::xml_node cell_data) {
+  std::array<pugi::xml_node, kTriangleQuality.size()> found;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const auto& [name, scalar] = kTriangleQuality[k];
+    found[k] = cell_data.find_child_by_attribute("DataArray", "Name", std::string(name).c_str());
+    const int components = found[k].attribute("NumberOfComponents").as_int(1);
+    if (!found[k] || found[k].attribute("type").value() != info(scalar).vtu || components > 1) return;
+  }
+  for (const pugi::xml_node& array : found) cell_data.remove_child(array);
 }
 
 class VtuReader {
@@ -354,6 +369,7 @@ void VtuReader::read_cells(const pugi::xml_node& piece) {
       start = end;
     }
   }
+  forget_triangle_quality(piece.child("CellData"));
   sorter.distribute(arrays(piece.child("CellData"), n_cells_, "cell data"));
 }
 

@@ -1,4 +1,5 @@
 // Writes VTU.
+#include "io/triangle_quality.hpp"
 #include "io/vtk_arrays.hpp"
 #include "io/vtu_document.hpp"
 
@@ -12,7 +13,11 @@ void write_vtu(const WriteJob& job) {
   vtu.section("Points", {vtk_points(file)});
   vtu.section("Cells", {vtk_connectivity(file), vtk_cell_ends(file), vtk_cell_types(file)});
   vtu.section("PointData", vtk_point_data(job));
-  vtu.section("CellData", vtk_cell_data(job));
+  std::vector<VtkArray> cell_data = vtk_cell_data(job);
+  if (job.triangle_quality) {
+    for (VtkArray& array : vtk_triangle_quality(job)) cell_data.push_back(std::move(array));
+  }
+  vtu.section("CellData", cell_data);
   vtu.finish();
 }
 

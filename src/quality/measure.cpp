@@ -63,10 +63,8 @@ double TriangleMeasure::margin() const {
                   *std::min_element(d_over_l.begin(), d_over_l.end()));
 }
 
-TriangleMeasure measure_triangle(const Mesh& mesh, TriangleId t) {
-  const std::array<VertexId, 3> v = mesh.corners(t);
-  const std::array<WeightedPoint, 3> p = {mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])};
-  if (!mesh.space().is_plane()) return measure_on_sphere({lifted(p[0]), lifted(p[1]), lifted(p[2])});
+TriangleMeasure measure_triangle(const Space& space, const std::array<WeightedPoint, 3>& p) {
+  if (!space.is_plane()) return measure_on_sphere({lifted(p[0]), lifted(p[1]), lifted(p[2])});
   TriangleMeasure m;
   m.orientation = orient2d(p[0].position(), p[1].position(), p[2].position());
   measure_heights(m, p);
@@ -77,6 +75,11 @@ TriangleMeasure measure_triangle(const Mesh& mesh, TriangleId t) {
     m.angle_deg[k] = std::abs(corner_angle(a.position(), b.position(), c.position())) * (180 / std::numbers::pi);
   }
   return m;
+}
+
+TriangleMeasure measure_triangle(const Mesh& mesh, TriangleId t) {
+  const auto [a, b, c] = mesh.corners(t);
+  return measure_triangle(mesh.space(), {mesh.point(a), mesh.point(b), mesh.point(c)});
 }
 
 }  // namespace temper

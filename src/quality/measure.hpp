@@ -25,6 +25,7 @@ struct TriangleMeasure {
   [[nodiscard]] double margin() const;
 };
 
+[[nodiscard]] TriangleMeasure measure_triangle(const Space& space, const std::array<WeightedPoint, 3>& corners);
 [[nodiscard]] TriangleMeasure measure_triangle(const Mesh& mesh, TriangleId t);
 
 /// The corner across from edge k, and the one after corner k.

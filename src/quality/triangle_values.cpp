@@ -61,9 +61,24 @@ double mean_edge(const Mesh& mesh, TriangleId t) {
   return sum / 3;
 }
 
+template <class T>
+T least(const std::array<T, 3>& of) {
+  return *std::min_element(of.begin(), of.end());
+}
+
+TriangleQuality summary(const TriangleMeasure& m) {
+  return {m.well_centered(), least(m.h_over_l), least(m.d_over_l), least(m.angle_deg)};
+}
+
 double region(const Mesh& mesh, TriangleId t) { return mesh.region(t); }
 
 }  // namespace
+
+TriangleQuality triangle_quality(const Mesh& mesh, TriangleId t) { return summary(measure_triangle(mesh, t)); }
+
+TriangleQuality triangle_quality(const Space& space, const std::array<WeightedPoint, 3>& corners) {
+  return summary(measure_triangle(space, corners));
+}
 
 std::span<const TriangleValue> triangle_values() {
   static constexpr auto kValues = std::to_array<TriangleValue>({

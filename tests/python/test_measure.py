@@ -36,6 +36,15 @@ def test_counts_agree_with_the_predicates(mesh):
     assert q.angles.counts.sum() == 3 * q.triangles and len(q.angles.edges) == len(q.angles.counts) + 1
 
 
+@pytest.mark.parametrize("mesh", [temper.generate.annulus(), temper.generate.random_sphere(vertices=100)])
+def test_the_least_of_all_triangles_is_that_of_the_mesh(mesh):
+    each, whole = temper.triangle_quality(mesh), temper.quality(mesh)
+    assert each.well_centered.mean() == whole.well_centered_fraction
+    assert each.min_h_over_l.min() == whole.min_h_over_l
+    assert each.min_d_over_l.min() == whole.min_d_over_l
+    assert each.min_angle_deg.min() == whole.min_angle_deg
+
+
 def test_energies_of_the_paper():
     q = temper.quality(temper.generate.horseshoe())
     assert q.energy["F"][1] == pytest.approx(2.836890825582, rel=1e-12)

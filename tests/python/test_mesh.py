@@ -1,7 +1,9 @@
 """Meshes from arrays and back, views, files."""
 
 import copy
+import dataclasses
 import pickle
+import re
 import threading
 
 import numpy as np
@@ -195,6 +197,18 @@ def test_files_keep_all_bits(ring, in_scratch):
     assert temper.write("ring.vtu", ring) == []
     again = temper.read("ring.vtu")
     assert again == ring and again.warnings == []
+
+
+def test_the_quality_of_triangles_is_cell_data_for_others_and_none_of_the_mesh(ring, in_scratch):
+    each = temper.triangle_quality(ring)
+    temper.write("with.vtu", ring, encoding="ascii")
+    text = (in_scratch / "with.vtu").read_text(encoding="utf-8")
+    for name, values in dataclasses.asdict(each).items():
+        written = re.search(rf'Name="{name}" format="ascii">(.*?)</DataArray>', text, re.S)[1].split()
+        assert (np.array(written, dtype=np.float32)[: len(values)] == values.astype(np.float32)).all(), name
+    assert not temper.read("with.vtu").cell_data
+    temper.write("without.vtu", ring, encoding="ascii", triangle_quality=False)
+    assert "min_angle_deg" not in (in_scratch / "without.vtu").read_text(encoding="utf-8")
 
 
 def test_formats_without_weights_warn_and_use_a_side_file(ring, in_scratch):

@@ -209,7 +209,7 @@ TEST_F(FileTest, vtu_is_the_same_for_any_number_of_threads) {
       for (const std::size_t threads : {1u, 2u, 3u, 8u}) {
         test::StdThreads executor(threads);
         ASSERT_TRUE(write(path("threads.vtu"), file, {"", encoding, &executor}));
-        EXPECT_EQ(executor.runs() > 0, encoding == Encoding::base64);
+        EXPECT_GT(executor.runs(), 0u);
         EXPECT_TRUE(slurp(path("threads.vtu")) == alone) << threads;
         const auto back = read(path("threads.vtu"), {&executor});
         ASSERT_TRUE(back) << back.error().what();

@@ -1,0 +1,28 @@
+// How well-centered each triangle is, as cell data of VTU: made anew by every writing, and not a part of what was read.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "io/vtk_arrays.hpp"
+
+namespace temper::io {
+
+/// One of the arrays: named as in Quality, of floats, which are enough for colours and half of what doubles take.
+struct TriangleQualityArray {
+  std::string_view name;
+  Scalar scalar;
+};
+inline constexpr std::array<TriangleQualityArray, 4> kTriangleQuality = {{
+    {"well_centered", Scalar::u8},
+    {"min_h_over_l", Scalar::f32},
+    {"min_d_over_l", Scalar::f32},
+    {"min_angle_deg", Scalar::f32},
+}};
+
+/// The arrays of a mesh; zeros for lines and marked points. None where there are no triangles, lengths are unknown,
+/// points being degrees, or data of the file have one of the names, which a warning says.
+[[nodiscard]] std::vector<VtkArray> vtk_triangle_quality(const WriteJob& job);
+
+}  // namespace temper::io
