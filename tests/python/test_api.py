@@ -2,6 +2,7 @@
 
 import ast
 import dataclasses
+import importlib.util
 import inspect
 import os
 import pathlib
@@ -56,6 +57,7 @@ STRUCTS = {
     "Progress": (temper.Progress, set()),
     "Quality": (temper.Quality, set()),
     "WorstTriangle": (temper.WorstTriangle, set()),
+    "TriangleQuality": (temper.TriangleQuality, set()),
     "DecComplex": (temper.DecComplex, {"sphere_orthocenters", "sphere_midpoints"}),
     "DecSummary": (temper.DecSummary, set()),
     "PowerCells": (temper.PowerCells, {"sphere_corners"}),
@@ -264,3 +266,11 @@ def test_build_info_is_what_the_program_says():
     # What is being built while a file changes may name another commit.
     assert printed.pop("commit") and info.pop("commit")
     assert printed == info
+
+
+def test_the_page_of_names_is_what_the_tables_say():
+    spec = importlib.util.spec_from_file_location("update_names", ROOT / "scripts" / "docs" / "update_names.py")
+    names = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(names)
+    program = pathlib.Path(os.environ["TEMPER_PROGRAM_DIR"]) / "temper"
+    assert (ROOT / "docs" / "names.md").read_text(encoding="utf-8") == names.page(program)

@@ -1,0 +1,217 @@
+#!/usr/bin/env python3
+"""Writes docs/names.md, the names of the program, Python and C++ side by side: update_names.py PROGRAM, the module on PYTHONPATH.
+
+Names come from where they are declared: the help of the program, the module's tables and signatures, the headers. By hand are only
+the rows below, where the three differ. A test compares the page.
+"""
+
+import inspect
+import itertools
+import pathlib
+import re
+import subprocess
+import sys
+
+import temper
+from temper._optimize_options import TABLE
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+HEADERS = ROOT / "include" / "temper"
+
+# What a verb is in Python (also the functions whose keywords are its options) and in C++.
+VERBS = {
+    "mesh": (["read_outline", "mesh_outline"], ["io::read_outline", "mesh_outline"]),
+    "optimize": (["optimize"], ["optimize"]),
+    "weights": (["find_weights", "best_margin", "best_connectivity", "check_certificate"], ["find_weights", "best_margin", "best_connectivity", "check_certificate"]),
+    "explain": (["explain"], ["explain"]),
+    "check": (["quality", "check"], ["quality"]),
+    "verify": (["verify"], ["verify"]),
+    "dec": (["dec", "write_dec"], ["dec", "io::write_dec"]),
+    "draw": (["draw_svg", "draw_before_after_svg"], ["draw_svg", "draw_before_after_svg"]),
+    "convert": (["read", "write"], ["io::read", "io::write"]),
+    "example": (["generate"], ["horseshoe", "random_points", "…"]),
+    "replay": (["replay"], ["replay"]),
+    "reproduce": ([], []),
+}  # fmt: skip
+
+# Options of optimize that are another option's value, or two for one.
+SPELLED = {
+    "--gamma-rel": "gamma", "--h0-rel": "h0", "--positions-only": "unknowns", "--weights-only": "unknowns", "--no-newton-passes": "newton_passes",
+    "--no-flips": "flips",
+}  # fmt: skip
+
+# Options that are no field of OptimizeOptions and no keyword of that name, of all verbs or of one: Python, C++.
+OTHERS = {
+    "--check-certificate": ("`check_certificate`", ""),
+    "--certificate": ("`WeightReport.certificate`", ""),
+    "--connectivity": ("`best_connectivity`", ""),
+    "--encoding": ("`write(encoding=…)`", "`io::WriteOptions::encoding`"),
+    "dec --format": ("`write_dec(formats=…)`", "`io::DecWriteOptions::formats`"),
+    "--fix": ("`read(fixed_tags=…)`", "`io::make_mesh(file, fixed_tags)`"),
+    "--format": ("`write(format=…)`", "`io::WriteOptions::format`"),
+    "--gamma-rel": ("`quality(gamma=Softening(…, 'relative'))`", "`Softening`"),
+    "--h0-rel": ("`quality(h0=Softening(…, 'relative'))`", "`Softening`"),
+    "--html": ("`html_report`", "`io::html_report`"),
+    "--method": ("`paper_method`, `odt_method`, `cvt_method`", "`methods`"),
+    "--no-bad": ("`draw_svg(bad_triangles=False)`", ""),
+    "--no-rings": ("`draw_svg(near_coincident=False)`", ""),
+    "--numbers": ("`draw_svg(vertex_numbers=True)`", ""),
+    "--region-size": ("`mesh_outline(region_sizes=…)`", ""),
+    "--no-triangle-quality": ("`write(triangle_quality=False)`", "`io::WriteOptions::triangle_quality`"),
+    "--point-data": ("`optimize(point_data=…)`", "`io::UpdateOptions::rules`"),
+    "--projection": ("`read(projection=…)`", "`io::project`"),
+    "--size-field": ("`optimize(size_field=…)`", "`OptimizeOptions::size_field`"),
+    "--threads": ("`threads=…`", "`Executor`, `TbbExecutor`"),
+    "--trace": ("`optimize(tracer=…)`", "`OptimizeHooks::tracer`"),
+    "--checkpoint": ("`optimize(checkpoint=…, every=…)`", "`OptimizeHooks::checkpoints`"),
+    "--resume": ("`optimize(resume=…)`", "`OptimizeHooks::resume`"),
+}  # fmt: skip
+
+
+def printed(program, *arguments):
+    return subprocess.run([program, *arguments], check=True, capture_output=True, text=True).stdout
+
+
+def options_of(program, verb):
+    return re.findall(r"^  (?:-\w,)?(--[\w-]+)", printed(program, verb, "--help-all"), re.M)
+
+
+def members_of(struct):
+    """Names that a struct of optimize.hpp declares."""
+    text = re.sub(r"//[^\n]*", "", (HEADERS / "optimize.hpp").read_text(encoding="utf-8"))
+    body = re.search(rf"^struct {struct} \{{\n(.*?)^\}};", text, re.M | re.S)[1]
+    return set(re.findall(r"(\w+)(?: =[^;]*)?;", body))
+
+
+def options_table(program):
+    """Options of optimize(): one name in three spellings."""
+    given = options_of(program, "optimize")
+    lines = []
+    for group, rows in itertools.groupby(TABLE, lambda row: row["group"]):
+        lines += ["", f"**{group}**", "", "| program | Python | C++: `OptimizeOptions` |", "|-|-|-|"]
+        for row in rows:
+            name = row["name"]
+            spellings = ["--" + name.replace("_", "-")] + [flag for flag, of in SPELLED.items() if of == name]
+            shown = ", ".join(f"`{flag}`" for flag in spellings if flag in given)
+            assert shown, f"no option of the program for {name}"
+            lines.append(f"| {shown} | `{name}` | `{member_for(name)}` |")
+    return lines
+
+
+def member_for(name):
+    """The member of OptimizeOptions: accuracy_sweeps is that of AccuracyOptions."""
+    if name.startswith("accuracy_") and name.removeprefix("accuracy_") in members_of("AccuracyOptions"):
+        return "accuracy." + name.removeprefix("accuracy_")
+    for struct, place in [("OptimizeOptions", ""), ("PaperSwitches", "paper."), ("AccuracyOptions", "accuracy.")]:
+        if name in members_of(struct):
+            return place + name
+    raise KeyError(f"no member of OptimizeOptions is called {name}")
+
+
+def other_options(program):
+    """Options of all other kinds: with their keyword where a function of the verb has it."""
+    rows = {}
+    for verb, (functions, _) in VERBS.items():
+        keywords = {}
+        for function in functions:
+            if callable(getattr(temper, function)):
+                keywords = {name: function for name in inspect.signature(getattr(temper, function)).parameters} | keywords
+        of_table = {"--" + row["name"].replace("_", "-") for row in TABLE} | set(SPELLED) if verb == "optimize" else set()
+        for flag in options_of(program, verb) if verb not in ("example", "reproduce") else []:
+            if flag in of_table or flag in ("--help", "--help-all"):
+                continue
+            plain = flag.removeprefix("--").replace("-", "_")
+            python, cpp = OTHERS.get(f"{verb} {flag}") or OTHERS.get(flag, ("", ""))
+            if not python and plain in keywords:
+                python = f"`{keywords[plain]}({plain}=…)`"
+            elif not python and plain.removeprefix("no_") in keywords:
+                name = plain.removeprefix("no_")
+                python = f"`{keywords[name]}({name}=False)`"
+            rows.setdefault((flag, python, cpp), []).append(verb)
+    known = ["| program | verbs | Python | C++, where a name is another |", "|-|-|-|-|"]
+    alone = []
+    for (flag, python, cpp), verbs in sorted(rows.items()):
+        if python:
+            known.append(f"| `{flag}` | {', '.join(verbs)} | {python} | {cpp} |")
+        else:
+            alone.append(f"`{flag}` ({', '.join(verbs)})")
+    return [*known, "", "Of the program alone, which prints, asks for or arranges what code does by other means: " + ", ".join(alone) + "."]
+
+
+def verbs_table(program):
+    listed = re.search(r"^Verbs:\n(.*?)\n\n", printed(program, "--help"), re.M | re.S)[1]
+    verbs = re.findall(r"^  (\w+) ", listed, re.M)
+    missing = set(verbs) ^ set(VERBS)
+    assert not missing, f"VERBS and the program differ in {sorted(missing)}"
+    lines = ["| program | Python | C++ |", "|-|-|-|"]
+    for verb in verbs:
+        python, cpp = VERBS[verb]
+        for name in python:
+            assert hasattr(temper, name), f"temper.{name}"
+        cells = [", ".join(f"`{name}`" if name != "…" else name for name in names) or "–" for names in (python, cpp)]
+        lines.append(f"| `temper {verb}` | {cells[0]} | {cells[1]} |")
+    return lines
+
+
+def measures_table(program):
+    """Keys of --require and of JSON are the fields of Quality, in both languages; some have a short name."""
+    keys = re.search(r"Keys: (.*?) energy\.", re.sub(r"\s+", " ", printed(program, "check", "--help")))[1]
+    fields = set(inspect.signature(temper.Quality).parameters)
+    each = set(inspect.signature(temper.TriangleQuality).parameters)
+    lines = ["| `--require`, JSON, `Quality` | short, for `--require` | of each triangle: VTU, `TriangleQuality` |", "|-|-|-|"]
+    for key, _, short in re.findall(r"(\w+)( \((\w+)\))?,", keys):
+        assert key in fields, key
+        cell = key if key in each else "well_centered" if key == "well_centered_fraction" else ""
+        lines.append(f"| `{key}` | {f'`{short}`' if short else '–'} | {f'`{cell}`' if cell else '–'} |")
+    return lines
+
+
+def energies_table():
+    lines = ["| `--energy`, `energy=`, row of `energies()` | C++: `EnergyKind` | formula |", "|-|-|-|"]
+    kinds = re.search(r"enum class EnergyKind \{(.*?)\};", re.sub(r"//[^\n]*", "", (HEADERS / "energy.hpp").read_text(encoding="utf-8")), re.S)[1]
+    for energy, kind in zip(temper.energies(), re.findall(r"\w+", kinds), strict=True):
+        formula = energy.formula.replace("|", "\\|")
+        lines.append(f"| `{energy.name}` | `{kind}` | {formula} |")
+    return lines
+
+
+def page(program):
+    """The text of docs/names.md."""
+    return "\n".join([
+        "# Names",
+        "",
+        "<!-- written by scripts/docs/update_names.py, from the tables of the program, the module and the library -->",
+        "",
+        "A concept has one name. The program spells it `--as-this`, Python, JavaScript and JSON `as_this`; what is not listed here is",
+        "called the same in Python and C++, and a test sees to it. Names of JavaScript are those of Python.",
+        "",
+        "## Verbs and functions",
+        "",
+        *verbs_table(program),
+        "",
+        "## Options of `optimize`",
+        "",
+        "In Python each is a keyword of `optimize` and a field of `OptimizeOptions`; in `paper.` and `accuracy.` are members of the structs there.",
+        *options_table(program),
+        "",
+        "## Other options",
+        "",
+        *other_options(program),
+        "",
+        "## Measures",
+        "",
+        *measures_table(program),
+        "",
+        "## Energies",
+        "",
+        "With a star, 0, 1 or 2: `energy.BP.2` for `--require`, `Quality.energy['BP'][2]` in Python.",
+        "",
+        *energies_table(),
+        "",
+    ])  # fmt: skip
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    (ROOT / "docs" / "names.md").write_text(page(sys.argv[1]), encoding="utf-8")
