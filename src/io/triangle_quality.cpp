@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "io/scanner.hpp"
 #include "temper/geometry.hpp"
 #include "temper/quality.hpp"
 
