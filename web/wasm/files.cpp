@@ -49,7 +49,8 @@ HeldMesh* mesh_read(const char* path, std::size_t path_size, const char* options
   });
 }
 
-/// Options: format, encoding. The answer is {"warnings", "files"}: what was written, the path and what goes beside it.
+/// Options: format, encoding, triangle_quality. The answer is {"warnings", "files"}: what was written, the path and
+/// what goes beside it.
 TEMPER_EXPORT(mesh_write)
 int mesh_write(const HeldMesh* held, const char* path, std::size_t path_size, const char* options,
                std::size_t options_size) {
@@ -61,6 +62,7 @@ int mesh_write(const HeldMesh* held, const char* path, std::size_t path_size, co
     take(given, "format", how.format);
     take(given, "encoding", encoding);
     how.encoding = encoding_from(encoding);
+    take(given, "triangle_quality", how.triangle_quality);
     const std::vector<std::string> files = or_fail(io::files_to_write(to, how.format));
     const io::MeshFile file = held->file();
     std::vector<std::string> warnings = file.warnings;

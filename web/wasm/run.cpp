@@ -8,8 +8,8 @@
 namespace temper::wasm {
 namespace {
 
-/// The sweep that is done, as JSON; 0 stops the run.
-TEMPER_IMPORT(progress) int tell_progress(const char* record, std::size_t size, double fraction, int max_sweeps);
+/// How far the run is, as JSON; 0 stops it.
+TEMPER_IMPORT(progress) int tell_progress(const char* progress, std::size_t size);
 /// An event of the run, as JSON.
 TEMPER_IMPORT(trace) void tell_event(const char* event, std::size_t size);
 
@@ -17,9 +17,11 @@ TEMPER_IMPORT(trace) void tell_event(const char* event, std::size_t size);
 TEMPER_IMPORT(snapshot) void show_snapshot(const HeldMesh* mesh, int sweep);
 
 Continue tell(const Progress& progress) {
-  const std::string record = to_json(progress.last).dump();
-  return tell_progress(record.data(), record.size(), progress.fraction, progress.max_sweeps) != 0 ? Continue::yes
-                                                                                                  : Continue::no;
+  const auto& [last, fraction, max_sweeps, sweeps_left] = progress;
+  Json json = {{"last", to_json(last)}, {"fraction", fraction}, {"max_sweeps", max_sweeps}, {"sweeps_left", nullptr}};
+  if (sweeps_left) json["sweeps_left"] = *sweeps_left;
+  const std::string text = json.dump();
+  return tell_progress(text.data(), text.size()) != 0 ? Continue::yes : Continue::no;
 }
 
 }  // namespace

@@ -4,7 +4,7 @@ import { answer, answerBytes, answerText, call, type Files, fromJson, listening,
 import type { OptimizeOptions } from './options.ts';
 import type {
   DecComplex, DecSummary, DrawOptions, EnergyInfo, EnergyModel, Explanation, Format, IncidenceMatrix, OptimizeReport, OptionRow, Progress,
-  Quality, Restoration, Snapshot, SofteningLike, SweepRecord, TraceEvent, VertexDerivatives,
+  Quality, Restoration, Snapshot, SofteningLike, TraceEvent, VertexDerivatives,
 } from './records.ts';
 import { loadSolver } from './solver.ts';
 
@@ -59,14 +59,16 @@ export interface WriteOptions {
   format?: string;
   /** Of formats that have several. VTU: base64, compressed, is its default. */
   encoding?: 'ascii' | 'base64' | 'appended';
+  /** VTU has cell data for ParaView to colour: well_centered, min_h_over_l, min_d_over_l, min_angle_deg. By default true. */
+  triangle_quality?: boolean;
 }
 
 /** Writes a mesh, with all else that was in the file it came from. Returns warnings: weights gone to a file beside it, data
  * that the format cannot hold. */
 export function write(path: string, mesh: Mesh, options: WriteOptions = {}): string[] {
-  const { files, format = '', encoding = '' } = options;
+  const { files, format = '', encoding = '', triangle_quality = true } = options;
   return withFiles(path, files, (name) => {
-    call('mesh_write', mesh.handle, name, toJson({ format, encoding }));
+    call('mesh_write', mesh.handle, name, toJson({ format, encoding, triangle_quality }));
     const result = answer<{ warnings: string[]; files: string[] }>();
     takeWritten(result.files, files);
     return result.warnings;
@@ -88,8 +90,7 @@ export interface OptimizeHooks {
 export function optimize(mesh: Mesh, options: OptimizeOptions & OptimizeHooks = {}): OptimizeReport {
   const { observer, tracer, snapshots, ...given } = options;
   const listener = {
-    progress: (record: string, fraction: number, max_sweeps: number): boolean =>
-      observer === undefined || observer({ last: fromJson(record) as SweepRecord, fraction, max_sweeps }) !== false,
+    progress: (progress: string): boolean => observer === undefined || observer(fromJson(progress) as Progress) !== false,
     trace: tracer && ((event: string): void => tracer(fromJson(event) as TraceEvent)),
     snapshot: snapshots && ((handle: number, sweep: number): void => snapshots({ sweep, mesh: Mesh.of(call('mesh_copy', handle)) })),
   };

@@ -32,7 +32,7 @@ type Exports = { memory: WebAssembly.Memory } & Record<string, (...args: number[
 /** Who hears of a run. What they throw is thrown on when the run has ended. */
 export interface Listener {
   explained?(done: number, all: number): boolean;
-  progress?(record: string, fraction: number, maxSweeps: number): boolean;
+  progress?(progress: string): boolean;
   trace?(event: string): void;
   snapshot?(handle: number, sweep: number): void;
 }
@@ -74,8 +74,7 @@ export async function start(source: WebAssembly.Module | Promise<WebAssembly.Mod
   const instance = await WebAssembly.instantiate(await source, {
     wasi_snapshot_preview1: wasi.wasiImport,
     temper: {
-      progress: (at: number, size: number, fraction: number, maxSweeps: number): number =>
-        heard(() => listener.progress?.(textAt(at, size), fraction, maxSweeps) ?? true) ? 1 : 0,
+      progress: (at: number, size: number): number => heard(() => listener.progress?.(textAt(at, size)) ?? true) ? 1 : 0,
       trace: (at: number, size: number): void => {
         heard(() => {
           listener.trace?.(textAt(at, size));

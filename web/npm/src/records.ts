@@ -117,6 +117,8 @@ export interface Progress {
   /** Of the sweep under way, in [0, 1). */
   fraction: number;
   max_sweeps: number;
+  /** An estimate of the sweeps after the last one; null in the first sweeps of a stage. Repairs may follow. */
+  sweeps_left: number | null;
 }
 
 export interface Spread {

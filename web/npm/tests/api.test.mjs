@@ -70,8 +70,16 @@ test('positions that turn a triangle over are refused, and nothing has changed',
 test('an observer hears of sweeps and stops the run; what it throws is thrown when the mesh is in place', () => {
   const mesh = temper.generate.random_points({ vertices: 400 });
   const sweeps = [];
-  const report = temper.optimize(mesh, { observer: ({ last }) => void sweeps.push(last.sweep) });
+  const left = [];
+  const report = temper.optimize(mesh, {
+    observer: ({ last, sweeps_left }) => {
+      sweeps.push(last.sweep);
+      left.push(sweeps_left);
+    },
+  });
   assert.equal(report.stopped, 'converged');
+  assert.equal(left[0], null);                             // nothing to go by yet
+  assert(left.some((n) => n !== null && n >= 0 && n < 1000));
   assert(sweeps.length >= report.sweeps);
   const stopped = temper.optimize(temper.generate.random_points({ vertices: 400 }), { observer: ({ last }) => last.sweep < 2 });
   assert.equal(stopped.stopped, 'cancelled');

@@ -152,9 +152,10 @@ function begin(next: Session): void {
 
 // --- runs -----------------------------------------------------------------------------------------------------------------
 
-function tellProgress({ last, fraction, max_sweeps }: Progress): void {
+function tellProgress({ last, fraction, max_sweeps, sweeps_left }: Progress): void {
   const now = fraction > 0 ? `, ${Math.round(100 * fraction)} % of the next` : '';
-  element('progress').textContent = `${last.bad} bad after ${last.sweep} of at most ${max_sweeps} sweeps${now}`;
+  const left = sweeps_left === null ? '' : `, about ${Math.ceil(sweeps_left)} left`;
+  element('progress').textContent = `${last.bad} bad after ${last.sweep} of at most ${max_sweeps} sweeps${now}${left}`;
 }
 
 let latest: { progress: Progress; mesh: Arrays | null } | null = null;
