@@ -246,14 +246,23 @@ void bind_size(py::module_& m) {
   py::class_<SizeField>(m, "SizeField")
       .def("at",
            [](const SizeField& field, const Doubles& points) {
-             require_plane(field.mesh(), "SizeField.at()");
-             const auto places = as_span<Vec2>(points);
+             const bool plane = field.mesh().space().is_plane();
+             std::vector<WeightedPoint> places;
+             if (plane) {
+               for (const Vec2 p : as_span<Vec2>(points)) places.push_back({p.x, p.y, 0});
+             } else {
+               const auto all = as_span<WeightedPoint>(points);
+               places.assign(all.begin(), all.end());
+             }
              std::vector<double> sizes;
              py::array_t<bool> outside(Shape{static_cast<py::ssize_t>(places.size())});
              bool* out = outside.mutable_data();
              TriangleId hint;
-             for (const Vec2 p : places) {
-               if (!std::isfinite(p.x) || !std::isfinite(p.y)) fail(ErrorCode::not_finite, "points are not finite");
+             for (const WeightedPoint& p : places) {
+               if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.w))
+                 fail(ErrorCode::not_finite, "points are not finite");
+               if (!plane && length(lifted(p)) == 0)
+                 fail(ErrorCode::not_on_sphere, "the center of the sphere is in no direction");
                const SizeField::Sample sample = field.at(p, hint);
                hint = sample.triangle;
                sizes.push_back(sample.size);
@@ -261,6 +270,7 @@ void bind_size(py::module_& m) {
              }
              return py::make_tuple(to_python(sizes), outside);
            })
+      .def("radius", [](const SizeField& field) { return field.mesh().space().radius(); })
       .def("mesh", [](const SizeField& field) { return PyMesh(field.mesh()); })
       .def("values", [](const SizeField& field) {
         std::vector<double> sizes;
@@ -283,6 +293,9 @@ void bind_size(py::module_& m) {
   });
   m.def("measure_size", [](const PyMesh& self, const SizeField& field) {
     const auto mesh = self.read();
+    if (mesh->space().kind() != field.mesh().space().kind()) {
+      fail(ErrorCode::unsupported, "one of mesh and field is of the plane and the other of a sphere");
+    }
     return size_report_to_dict(measure_size(*mesh, field));
   });
 }

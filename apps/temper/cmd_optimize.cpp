@@ -463,7 +463,7 @@ Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs, const 
   warn(results, doubtful_options(command, s));
   if (!s.size_field.empty()) {
     ReadSizeField sizes = read_size_field(s.size_field, s.size_data.empty() ? "size" : s.size_data,
-                                          {same_projection(input, s.projection), {}, threads.get(), false, read});
+                                          {same_projection(input, s.projection), {}, threads.get(), true, read});
     warn(results, sizes.warnings);
     s.table.options.size_field = std::move(sizes.field);
   }

@@ -23,13 +23,12 @@ class Executor;
 /// √(4/√3 A), A the mean area of the triangles at v. Precondition: v is not isolated. O(degree).
 [[nodiscard]] double local_size(const Mesh& mesh, VertexId v);
 
-/// A length at every point of the plane, or at the vertices of a mesh of the sphere: linear on each triangle of a mesh;
-/// beyond the mesh, that of its nearest point. An immutable value, cheap to copy, and safe to ask from several threads.
+/// A length at every point of the plane or of the sphere: linear on each triangle of a mesh (temper/places.hpp); beyond
+/// the mesh, that of its nearest point. An immutable value, cheap to copy, and safe to ask from several threads.
 class SizeField {
  public:
   /// The field of these sizes at the vertices of the mesh, which is copied. Errors name the vertex in the user's
-  /// numbering: another number of sizes than of vertices; a size that is not finite and positive. Also a mesh of the
-  /// sphere.
+  /// numbering: another number of sizes than of vertices; a size that is not finite and positive.
   [[nodiscard]] static Expected<SizeField> from_values(const Mesh& mesh, std::span<const double> sizes,
                                                        const InputNames* names = nullptr);
 
@@ -39,10 +38,12 @@ class SizeField {
     TriangleId triangle;   ///< of the field's mesh, in or next to which the point is: the hint for a point nearby
     bool outside = false;  ///< beyond the mesh: extended
   };
-  /// The field at p. Exactly the given value at a vertex; a function of p alone, whatever the hint. About O(distance
-  /// from the hint in triangles), O(log n) without or with a bad one.
-  /// Precondition: its mesh lies in the plane.
-  [[nodiscard]] Sample at(Vec2 p, TriangleId hint = {}) const;
+  /// The field at a point p of its mesh's space, whose weight does not count. Exactly the given value at a vertex; a
+  /// function of p alone, whatever the hint. About O(distance from the hint in triangles), O(log n) without or with a
+  /// bad one.
+  [[nodiscard]] Sample at(const WeightedPoint& p, TriangleId hint = {}) const;
+  /// At a point of the plane.
+  [[nodiscard]] Sample at(Vec2 p, TriangleId hint = {}) const { return at(WeightedPoint{p.x, p.y, 0}, hint); }
 
   /// The mesh it is linear on. Its vertices and triangles have the numbers they were given with.
   [[nodiscard]] const Mesh& mesh() const;
@@ -80,8 +81,8 @@ struct SizeReport {
   [[nodiscard]] double band() const;
 };
 /// `near`: for each vertex of the mesh a vertex of the field's mesh to look for it from; empty: the same number, when
-/// both have as many, else anywhere. Changes the time it takes, nothing else; but on the sphere the field, which is the
-/// input's there, is taken at this vertex. Precondition: no erased triangles.
+/// both have as many, else anywhere. Changes the time it takes, nothing else. Precondition: no erased triangles; the
+/// mesh and that of the field lie in the plane, or on spheres.
 [[nodiscard]] SizeReport measure_size(const Mesh& mesh, const SizeField& field, Executor* executor = nullptr,
                                       const IdVector<VertexId, VertexId>& near = {});
 

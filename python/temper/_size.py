@@ -46,7 +46,8 @@ def _size_report(d: dict[str, Any]) -> SizeReport:
 
 
 class SizeField:
-    """A length at every point of the plane: linear on each triangle of a mesh; beyond it, that of its nearest point.
+    """A length at every point of the plane, or of a sphere: linear on each triangle of a mesh; beyond it, that of its
+    nearest point.
 
     >>> import numpy, temper
     >>> mesh = temper.generate.annulus()
@@ -67,12 +68,16 @@ class SizeField:
         return cls(_temper.size_field_from_values(as_mesh(mesh)._handle, _doubles(sizes, 0, "sizes")))
 
     def at(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """The field at points, (k, 2): (k,) float64 [length]. Exactly the given value at a vertex."""
-        return self._handle.at(_doubles(points, 2, "points"))[0]
+        """The field at points, (k, 2), on a sphere (k, 3) of any length: (k,) float64 [length]. Exactly the given value
+        at a vertex."""
+        return self._handle.at(self._points(points))[0]
 
     def outside(self, points: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-        """Whether points, (k, 2), are beyond the mesh, where the field is extended."""
-        return self._handle.at(_doubles(points, 2, "points"))[1]
+        """Whether points, as for ``at``, are beyond the mesh, where the field is extended."""
+        return self._handle.at(self._points(points))[1]
+
+    def _points(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        return _doubles(points, 2 if self._handle.radius() == 0 else 3, "points")
 
     @property
     def mesh(self) -> Mesh:

@@ -129,12 +129,17 @@ std::optional<InputError> check_accuracy(const OptimizeOptions& o) {
 
 /// What the sphere does without.
 std::optional<InputError> check_space(const OptimizeOptions& o, const Mesh& mesh) {
+  const auto name = [](const Mesh& m) { return std::string(m.space().is_plane() ? "the plane" : "the sphere"); };
+  if (o.size_field && name(o.size_field->mesh()) != name(mesh)) {
+    return invalid("`size_field` is on a mesh of " + name(o.size_field->mesh()) + ", but the mesh is one of " +
+                   name(mesh));
+  }
   if (mesh.space().is_plane()) return std::nullopt;
   const auto not_there = [](const std::string& option, const std::string& expected) {
     return invalid("`" + option + "` is for meshes of the plane; on the sphere expected " + expected);
   };
   if (o.boundary == BoundaryVertices::split) return not_there("boundary=split", "`boundary=keep` or `boundary=slide`");
-  if (o.size_band || o.size_field) return not_there(o.size_band ? "size_band" : "size_field", "none");
+  if (o.size_band) return not_there("size_band", "none");
   if (o.paper.insertion_from) return not_there("insertion_from", "none");
   return std::nullopt;
 }

@@ -118,6 +118,7 @@ double SizeReport::band() const { return std::max(over_field.max, 1 / over_field
 
 SizeReport measure_size(const Mesh& mesh, const SizeField& field, Executor* executor,
                         const IdVector<VertexId, VertexId>& near) {
+  TEMPER_ASSERT(mesh.space().kind() == field.mesh().space().kind());
   SizeReport report;
   std::vector<double> sizes(mesh.n_vertices());
   for_each_index(sizes.size(), executor, [&](std::size_t i) { sizes[i] = local_size(mesh, VertexId(i)); });
@@ -126,12 +127,7 @@ SizeReport measure_size(const Mesh& mesh, const SizeField& field, Executor* exec
   std::vector<double> ratios = std::move(sizes);
   report.outside = static_cast<std::size_t>(blockwise_sum(ratios.size(), executor, [&](std::size_t i) {
     const VertexId v(i);
-    if (!mesh.space().is_plane()) {
-      const VertexId was = near.size() == mesh.n_vertices() ? near[v] : v;
-      ratios[i] /= was.index < field.mesh().n_vertices() ? field.at(was) : ratios[i];
-      return 0.0;
-    }
-    const SizeField::Sample s = field.at(mesh.position(v), start_for(v, mesh, field.mesh(), near));
+    const SizeField::Sample s = field.at(mesh.point(v), start_for(v, mesh, field.mesh(), near));
     ratios[i] /= s.size;
     return s.outside ? 1.0 : 0.0;
   }));

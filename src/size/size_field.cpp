@@ -27,7 +27,6 @@ struct SizeField::Data {
 Expected<SizeField> SizeField::from_values(const Mesh& mesh, std::span<const double> sizes, const InputNames* names) {
   const InputNames numbers_from_0;
   const InputNames& say = names != nullptr ? *names : numbers_from_0;
-  if (auto error = expect_plane(mesh, "a size field")) return *std::move(error);
   if (sizes.size() != mesh.n_vertices()) {
     return InputError{ErrorCode::size_mismatch,
                       {},
@@ -47,8 +46,7 @@ Expected<SizeField> SizeField::from_values(const Mesh& mesh, std::span<const dou
   return SizeField(std::make_shared<const Data>(mesh, std::move(values)));
 }
 
-SizeField::Sample SizeField::at(Vec2 p, TriangleId hint) const {
-  TEMPER_ASSERT(data_->mesh->space().is_plane());
+SizeField::Sample SizeField::at(const WeightedPoint& p, TriangleId hint) const {
   const Place place = data_->finder.find(p, hint);
   return {interpolated(place, [this](VertexId v) { return data_->sizes[v]; }), place.triangle, place.outside};
 }

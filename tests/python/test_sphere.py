@@ -295,7 +295,6 @@ PLANE_ALONE = {
     "plan_insertion": lambda mesh: topology.plan_insertion(mesh, (0, 0, 0)),
     "plan_split": lambda mesh: topology.plan_split(mesh, 0, 0.5),
     "triangles_without_free_corner": topology.triangles_without_free_corner,
-    "SizeField.at": lambda mesh: temper.input_size_field(mesh).at([(0, 0)]),
 }
 
 
@@ -309,9 +308,23 @@ def test_what_is_for_the_plane_says_so(name, globe):
     assert globe == before
 
 
-def test_a_size_field_of_values_is_for_the_plane(globe):
-    with pytest.raises(temper.TemperError, match="a size field takes meshes of the plane"):
-        temper.SizeField.from_values(globe, np.ones(300))
+def test_a_size_field_is_linear_between_the_points(globe, ring):
+    sizes = 1e5 + np.arange(300.0)
+    field = temper.SizeField.from_values(globe, sizes)
+    assert np.array_equal(field.at(globe.points), sizes) and np.array_equal(field.at(2 * globe.lifted_points), sizes)
+    middles = globe.points[globe.triangles].mean(axis=1)
+    assert np.allclose(field.at(middles), sizes[globe.triangles].mean(axis=1)) and not field.outside(middles).any()
+    with pytest.raises(ValueError, match=r"expected shape \(n, 3\), found \(1, 2\)"):
+        field.at([(0, 0)])
+    with pytest.raises(temper.TemperError, match="no direction"):
+        field.at([(0, 0, 0)])
+    with pytest.raises(temper.TemperError, match="one of mesh and field is of the plane"):
+        temper.measure_size(ring, field)
+    with pytest.raises(temper.TemperError, match="is on a mesh of the sphere, but the mesh is one of the plane"):
+        temper.optimize(ring, size_field=field)
+    temper.optimize(globe, size_field=field)
+    with pytest.raises(temper.TemperError, match="size_band"):
+        temper.optimize(globe, size_field=field, size_band=2.0)
 
 
 def test_sizes_are_those_of_the_areas(globe):

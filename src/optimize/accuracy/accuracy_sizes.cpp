@@ -47,7 +47,7 @@ VertexSizes sizes_of_field(const Mesh& mesh, const SizeField& field, Executor* e
   for_blocks(mesh.n_vertices(), executor, [&](std::size_t first, std::size_t last) {
     TriangleId hint;
     for (std::size_t i = first; i < last; ++i) {
-      const SizeField::Sample sample = field.at(mesh.position(VertexId(i)), hint);
+      const SizeField::Sample sample = field.at(mesh.point(VertexId(i)), hint);
       sizes[VertexId(i)] = sample.size;
       hint = sample.triangle;
     }

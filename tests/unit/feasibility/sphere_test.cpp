@@ -11,7 +11,6 @@
 #include "temper/feasibility.hpp"
 #include "temper/generate.hpp"
 #include "temper/lp.hpp"
-#include "temper/size.hpp"
 
 namespace temper {
 namespace {
@@ -29,8 +28,6 @@ TEST(PlaneAlone, IsSaidOfASphere) {
       {"find_weights()", [&] { return error_of(find_weights(mesh, *clp_solver())); }},
       {"best_connectivity()", [&] { return error_of(best_connectivity(mesh, *clp_solver())); }},
       {"explain()", [&] { return error_of(explain(mesh, *clp_solver())); }},
-      {"a size field",
-       [&] { return error_of(SizeField::from_values(mesh, std::vector<double>(mesh.n_vertices(), 1.0))); }},
   };
   for (const Row& row : rows) {
     const InputError error = row.call();

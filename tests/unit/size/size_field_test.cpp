@@ -35,6 +35,24 @@ Vec2 at_weights(const Mesh& mesh, TriangleId t, double u, double v) {
 /// A square ring: a domain with a hole.
 Mesh ring() { return *annulus(); }
 
+TEST(SizeField, OfASphereIsExactAtItsVerticesAndWhatSizesAreComparedWith) {
+  const Mesh mesh = *random_sphere({.vertices = 200, .radius = 10});
+  std::vector<double> sizes;
+  for (const VertexId v : mesh.vertices()) sizes.push_back(1 + static_cast<double>(v.index));
+  const SizeField field = *SizeField::from_values(mesh, sizes);
+  for (const VertexId v : mesh.vertices()) {
+    EXPECT_EQ(field.at(mesh.space().with_weight(mesh.point(v), 3)).size, sizes[v.index]) << "weights do not count";
+  }
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [a, b, c] = mesh.corners(t);
+    const Vec3 middle = mesh.lifted_point(a) + mesh.lifted_point(b) + mesh.lifted_point(c);
+    const SizeField::Sample sample = field.at(as_point(middle), t);
+    EXPECT_EQ(sample.triangle, t);
+    EXPECT_NEAR(sample.size, (sizes[a.index] + sizes[b.index] + sizes[c.index]) / 3, 1e-9);
+  }
+  EXPECT_EQ(measure_size(mesh, input_size_field(mesh)).band(), 1);
+}
+
 TEST(SizeField, IsExactAtTheVerticesFromAnyHint) {
   const Mesh mesh = *random_points({200, 3, {}});
   Noise noise(1);
@@ -109,10 +127,10 @@ TEST(SizeField, ExtendsByTheNearestValue) {
   const std::vector<double> sizes = {1, 2, 4, 3};
   const SizeField field = *SizeField::from_values(mesh, sizes);
   for (const TriangleId hint : {TriangleId(), TriangleId(0), TriangleId(1)}) {
-    EXPECT_EQ(field.at({-1, -2}, hint).size, 1);     // beyond a corner
-    EXPECT_EQ(field.at({0.5, -3}, hint).size, 1.5);  // beyond the middle of an edge
-    EXPECT_EQ(field.at({5, 0.25}, hint).size, 2.5);
-    EXPECT_TRUE(field.at({5, 0.25}, hint).outside);
+    EXPECT_EQ(field.at(Vec2{-1, -2}, hint).size, 1);     // beyond a corner
+    EXPECT_EQ(field.at(Vec2{0.5, -3}, hint).size, 1.5);  // beyond the middle of an edge
+    EXPECT_EQ(field.at(Vec2{5, 0.25}, hint).size, 2.5);
+    EXPECT_TRUE(field.at(Vec2{5, 0.25}, hint).outside);
   }
 }
 
