@@ -1,6 +1,7 @@
 """Meshes of the sphere, compared with NumPy."""
 
 import copy
+import dataclasses
 import pickle
 
 import numpy as np
@@ -343,6 +344,20 @@ def test_a_trace_is_replayed_to_the_same_bits(globe):
     before, events = globe.copy(), []
     temper.optimize(globe, tracer=events.append)
     assert len(events) > 0 and temper.replay(before, events) == globe
+
+
+def test_insertions_are_replayed_wherever_they_are(globe):
+    found = []
+    temper.optimize(globe.copy(), tracer=found.append, max_sweeps=1)
+    a, b, c = faces_of(globe)
+    for t in (np.argmax(a[:, 2]), np.argmin(a[:, 2])):  # north and south
+        corners = tuple(int(v) for v in globe.triangles[t])
+        middle = tuple(((a + b + c) / 3)[t])
+        new = dataclasses.replace(found[0], kind="insertion", vertex=300, link=np.array(corners), point=middle)
+        after = temper.replay(globe, [new])
+        assert after.n_vertices == 301 and after.validate() is None
+        with pytest.raises(temper.TemperError, match="not inside the triangle"):
+            temper.replay(globe, [dataclasses.replace(new, point=tuple(-x for x in middle))])
 
 
 def test_a_weight_threshold_is_where_an_edge_flips(globe):

@@ -188,17 +188,18 @@ std::optional<InputError> Replayer::remove(const TraceEvent& e) {
 }
 
 /// Does p see a, b, c counter-clockwise: is each of abp, bcp, cap a triangle?
-bool is_inside(const Mesh& mesh, const std::array<VertexId, 3>& corners, Vec2 p) {
+bool is_inside(const Mesh& mesh, const std::array<VertexId, 3>& corners, const WeightedPoint& p) {
   for (std::size_t k = 0; k < 3; ++k) {
-    if (orient2d(mesh.position(corners[k]), mesh.position(corners[(k + 1) % 3]), p) != Sign::positive) return false;
+    const WeightedPoint a = mesh.point(corners[k]), b = mesh.point(corners[(k + 1) % 3]);
+    if (orientation(mesh.space(), a, b, p) != Sign::positive) return false;
   }
   return true;
 }
 
 /// Can the triangle of h, a → b with c across, be cut from c to p on ab?
-bool can_cut(const Mesh& mesh, HalfedgeId h, Vec2 p) {
-  const Vec2 a = mesh.position(mesh.origin(h)), b = mesh.position(mesh.target(h)), c = mesh.position(mesh.opposite(h));
-  return orient2d(a, p, c) == Sign::positive && orient2d(p, b, c) == Sign::positive;
+bool can_cut(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p) {
+  const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h)), c = mesh.point(mesh.opposite(h));
+  return orientation(mesh.space(), a, p, c) == Sign::positive && orientation(mesh.space(), p, b, c) == Sign::positive;
 }
 
 /// A new vertex has the next number, and a place that is a place.
@@ -227,7 +228,7 @@ std::optional<InputError> Replayer::insert(const TraceEvent& e) {
     return misfit(insertion_of_vertex + " in the triangle of " + point(a) + ", " + point(b) + " and " + point(c) +
                   ", which is not in the mesh");
   }
-  if (!is_inside(mesh_, {a, b, c}, e.point.position())) {
+  if (!is_inside(mesh_, {a, b, c}, e.point)) {
     return misfit(insertion_of_vertex + ", which is not inside the triangle of " + point(a) + ", " + point(b) +
                   " and " + point(c));
   }
@@ -247,7 +248,7 @@ std::optional<InputError> Replayer::split(const TraceEvent& e) {
   if (!h.valid()) return misfit(split_of_edge + ", which is not in the mesh");
   const VertexId right = mesh_.is_boundary(h) ? VertexId() : mesh_.opposite(mesh_.twin(h));
   if (mesh_.opposite(h) != c || right != d) return misfit(split_of_edge + " between other vertices than are beside it");
-  if (!can_cut(mesh_, h, e.point.position()) || (d.valid() && !can_cut(mesh_, mesh_.twin(h), e.point.position()))) {
+  if (!can_cut(mesh_, h, e.point) || (d.valid() && !can_cut(mesh_, mesh_.twin(h), e.point))) {
     return misfit(split_of_edge + " at a place that is not on it");
   }
   split_edge(mesh_, h, e.point);
