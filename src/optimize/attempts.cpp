@@ -79,8 +79,7 @@ Candidate repaired(Candidate start, Settings& settings, Run& run) {
   bool polishes = false;
   const Resumable here(run.checkpoints, start, best, now, i, polishes);
   if (!here.resumed()) {
-    if (!repairs(settings) || is_done(start) ||
-        !std::isfinite(total_energy(start.work.mesh, settings.model))) {
+    if (!repairs(settings) || is_done(start) || !std::isfinite(total_energy(start.work.mesh, settings.model))) {
       return start;
     }
     best = start;

@@ -22,9 +22,8 @@ struct StarArea {
   const WeightedPoint p = mesh.point(v);
   for (const HalfedgeId h : mesh.star(v)) {
     const WeightedPoint q = mesh.point(mesh.target(h)), r = mesh.point(mesh.opposite(h));
-    star.doubled += mesh.space().is_plane()
-                        ? std::abs(cross(q.position() - p.position(), r.position() - p.position()))
-                        : length(cross(lifted(q) - lifted(p), lifted(r) - lifted(p)));
+    star.doubled += mesh.space().is_plane() ? std::abs(cross(q.position() - p.position(), r.position() - p.position()))
+                                            : length(cross(lifted(q) - lifted(p), lifted(r) - lifted(p)));
     ++star.triangles;
   }
   return star;
