@@ -102,6 +102,8 @@ struct Format {
   std::string_view suffixes;  ///< ".vtu", ".msh", …, separated by spaces; first is the one written
   bool writes;
   bool holds_weights;  ///< else weights go to PATH.weights.csv, with a warning
+  bool holds_planes;   ///< meshes of the plane; else only such as were read in degrees
+  bool holds_spheres;  ///< meshes of the sphere
 };
 [[nodiscard]] std::span<const Format> formats();
 /// "4.9.0": of libnetcdf, which is loaded when a file needs it, or now; empty when there is none.

@@ -25,6 +25,9 @@ class Format(Record):
     writes: bool
     holds_weights: bool
     """Else weights go to ``PATH.weights.csv``, with a warning."""
+    holds_planes: bool
+    """Meshes of the plane; else only such as were read in degrees."""
+    holds_spheres: bool
 
 
 def formats() -> list[Format]:

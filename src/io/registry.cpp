@@ -107,7 +107,8 @@ constexpr FormatRow kRows[] = {
 template <std::size_t... I>
 constexpr std::array<Format, sizeof...(I)> columns(std::index_sequence<I...>) {
   return {Format{kRows[I].name, kRows[I].description, kRows[I].suffixes, kRows[I].write != nullptr,
-                 (kRows[I].holds & kWeights) != 0}...};
+                 (kRows[I].holds & kWeights) != 0, kRows[I].degrees != Degrees::always,
+                 (kRows[I].holds & kSphere) != 0}...};
 }
 // Not constexpr: with its sanitizers GCC does not know that a function has an address.
 const auto kFormats = columns(std::make_index_sequence<std::size(kRows)>());

@@ -26,7 +26,9 @@ TEMPER_EXPORT(formats) void answer_formats() {
                     {"description", f.description},
                     {"suffixes", f.suffixes},
                     {"writes", f.writes},
-                    {"holds_weights", f.holds_weights}});
+                    {"holds_weights", f.holds_weights},
+                    {"holds_planes", f.holds_planes},
+                    {"holds_spheres", f.holds_spheres}});
   }
   answer(rows);
 }

@@ -126,7 +126,7 @@ std::vector<Case> cases() {
     const std::string name(format.name), suffix(format.suffixes.substr(0, format.suffixes.find(' ')));
     const bool tags = (row.holds & kAllTags) == kAllTags;
     for (const auto& [encoding, value] : kEncodings) {
-      if (format.writes && row.degrees != Degrees::always)
+      if (format.writes && format.holds_planes)
         cases.push_back(
             {name + encoding, name, "m" + suffix, value, (row.holds & kZ) != 0, tags, needs_netcdf(format)});
     }

@@ -29,6 +29,7 @@ TEST_F(SphereFiles, EveryFormatHasTheirPlacesOrSaysThatItCannot) {
     const std::string to =
         path(std::string("globe") + std::string(format.suffixes.substr(0, format.suffixes.find(' '))));
     const auto written = write(to, file, {std::string(format.name), {}});
+    EXPECT_EQ(static_cast<bool>(written), format.holds_spheres);
     if (!written) {
       EXPECT_NE(written.error().what().find("points are on a sphere, which "), std::string::npos)
           << written.error().what();

@@ -33,9 +33,9 @@ inline void spill(const std::string& path, std::string_view bytes) {
 
 inline bool needs_netcdf(const Format& format) { return format.name == "mpas" || format.name == "ugrid"; }
 
-/// Whether temper writes meshes of the plane in it: FESOM has none but in degrees.
+/// Whether temper writes meshes of the plane in it, here.
 inline bool writes_planes(const Format& format) {
-  return format.writes && format.name != "fesom" && (!needs_netcdf(format) || !netcdf_version().empty());
+  return format.writes && format.holds_planes && (!needs_netcdf(format) || !netcdf_version().empty());
 }
 
 /// A test with a folder that is removed afterwards.

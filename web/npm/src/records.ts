@@ -193,6 +193,9 @@ export interface Format {
   writes: boolean;
   /** Else weights go to a file PATH.weights.csv. */
   holds_weights: boolean;
+  /** Meshes of the plane; else only such as were read in degrees. */
+  holds_planes: boolean;
+  holds_spheres: boolean;
 }
 
 export interface Restoration {

@@ -267,9 +267,9 @@ function save(): void {
 // --- the page -------------------------------------------------------------------------------------------------------------
 
 for (const { name, title } of examples) element<HTMLSelectElement>('example').add(new Option(title, name));
-for (const { name, description, writes } of formats()) {
+for (const { name, description, writes, holds_planes } of formats()) {
   // The module has no NetCDF.
-  if (writes && !description.includes('NetCDF')) element<HTMLSelectElement>('format').add(new Option(description, name));
+  if (writes && holds_planes && !description.includes('NetCDF')) element<HTMLSelectElement>('format').add(new Option(description, name));
 }
 for (const [layer, title] of [['primal', 'primal'], ['dual', 'dual'], ['weights', 'weights'], ['orthocenters', 'orthocenters'], ['bad', 'bad triangles']] as const) {
   const label = document.createElement('label');
