@@ -123,7 +123,13 @@ std::optional<Expected<double>> radius_of_sphere(std::string_view words) {
 }  // namespace
 
 Expected<void> project(MeshFile& file, std::string_view projection) {
+  const auto radius = radius_of_sphere(projection);
+  if (radius && !*radius) return radius->error();
   if (file.sphere_radius > 0) {
+    if (radius) {
+      resize_sphere(file, **radius);
+      return {};
+    }
     file.sphere_radius = 0;
     file.sphere_points.clear();
     file.geographic = true;
@@ -132,8 +138,7 @@ Expected<void> project(MeshFile& file, std::string_view projection) {
     file.geographic = false;
     return {};
   }
-  if (const auto radius = radius_of_sphere(projection)) {
-    if (!*radius) return radius->error();
+  if (radius) {
     const InputNames from_0;
     try {
       put_on_sphere(file, **radius, file.numbering ? *file.numbering : from_0);

@@ -69,6 +69,13 @@ void put_on_sphere(MeshFile& file, double radius, const InputNames& names) {
   file.geographic = false;
 }
 
+void resize_sphere(MeshFile& file, double radius) {
+  const double scale = radius / file.sphere_radius;
+  for (Vec3& p : file.sphere_points) p = scale * p;
+  for (double& w : file.weights) w *= scale * scale;
+  file.sphere_radius = radius;
+}
+
 void set_sphere(MeshFile& file, double radius, std::vector<Vec3> points) {
   file.sphere_radius = radius;
   file.z = 0;

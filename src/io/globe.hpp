@@ -15,6 +15,8 @@ namespace temper::io {
 
 /// Puts points, which are degrees, onto the sphere. Fails where a latitude is none.
 void put_on_sphere(MeshFile& file, double radius, const InputNames& names);
+/// Makes the sphere one of another radius, with weights that leave the power diagram as it is.
+void resize_sphere(MeshFile& file, double radius);
 /// Makes a file of points in space one of points on the sphere.
 void set_sphere(MeshFile& file, double radius, std::vector<Vec3> points);
 

@@ -11,7 +11,9 @@
 #include "io/array_names.hpp"
 #include "io/format.hpp"
 #include "io/geographic.hpp"
+#include "io/globe.hpp"
 #include "io/scanner.hpp"
+#include "temper/projection.hpp"
 
 namespace temper::io {
 
@@ -293,7 +295,11 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
     std::vector<std::string> warnings;
     OutputSet outputs;
     const bool turned = goes_back_to_degrees(row, file);
-    const MeshFile degrees = turned ? in_degrees(file) : MeshFile();
+    // Who has degrees alone has the earth's radius.
+    const double earth = Projection{}.radius;
+    const bool resized = row.degrees == Degrees::always && file.sphere_radius > 0 && file.sphere_radius != earth;
+    MeshFile changed = turned ? in_degrees(file) : resized ? file : MeshFile();
+    if (resized) resize_sphere(changed, earth);
     if (row.degrees == Degrees::always && file.sphere_radius == 0 && !turned && !file.geographic) {
       fail(ErrorCode::unsupported, path,
            text(row.description,
@@ -301,7 +307,7 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
                 "read in degrees"));
     }
     const WriteJob job = {path,
-                          turned ? degrees : file,
+                          turned || resized ? changed : file,
                           file,
                           row,
                           options.encoding,
@@ -310,6 +316,10 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
                           outputs,
                           warnings};
     if (turned) warn_of_weights_beside_degrees(job, file);
+    if (resized) {
+      job.warn(text("the radius is ", earth, " in ", row.description, ", not ", file.sphere_radius,
+                    "; weights are scaled along"));
+    }
     row.write(job);
     warn_of_losses(job);
     if ((row.holds & kWeights) == 0) write_side_file(job);

@@ -138,11 +138,12 @@ bool Trial::insert(TriangleId t, const WeightedPoint& place) {
   const Mesh& mesh = work_.mesh;
   const auto corners = mesh.corners(t);
   const auto [a, b, c] = std::array{mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2])};
-  const WeightedPoint p = grid_.snap(place);
+  // With its weight first: on the sphere that moves it by rounding.
+  const WeightedPoint p = with_interpolated_weight(mesh.space(), grid_.snap(place), a, b, c);
   for (const auto& [q, r] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
     if (inlined::orientation(mesh.space(), q, r, p) != Sign::positive) return false;
   }
-  flipper_.insert(work_, t, with_interpolated_weight(mesh.space(), p, a, b, c), kNoEnergy, kNoEnergy);
+  flipper_.insert(work_, t, p, kNoEnergy, kNoEnergy);
   limits_.grow();
   return true;
 }
@@ -150,12 +151,12 @@ bool Trial::insert(TriangleId t, const WeightedPoint& place) {
 bool Trial::split(HalfedgeId h) {
   const Mesh& mesh = work_.mesh;
   const auto [a, b, c, d] = inlined::quad(mesh, h);
-  const WeightedPoint p = grid_.snap(middle(mesh.space(), mesh.point(a), mesh.point(b)));
+  const WeightedPoint half = grid_.snap(middle(mesh.space(), mesh.point(a), mesh.point(b)));
+  const WeightedPoint p = mesh.space().with_weight(half, 0.5 * (mesh.weight(a) + mesh.weight(b)));
   for (const auto& [q, r] : {std::pair(b, c), std::pair(c, a), std::pair(a, d), std::pair(d, b)}) {
     if (inlined::orientation(mesh.space(), mesh.point(q), mesh.point(r), p) != Sign::positive) return false;
   }
-  const double w = 0.5 * (mesh.weight(a) + mesh.weight(b));
-  flipper_.split(work_, h, mesh.space().with_weight(p, w), kNoEnergy, kNoEnergy);
+  flipper_.split(work_, h, p, kNoEnergy, kNoEnergy);
   limits_.grow();
   return true;
 }

@@ -75,6 +75,27 @@ TEST_F(SphereFiles, AMeshWithoutWeightsComesBackBitForBit) {
   EXPECT_EQ(made->mesh, *mesh);
 }
 
+TEST_F(SphereFiles, AnotherRadiusScalesWeightsAlong) {
+  MeshFile file = globe(1);
+  const double from = file.sphere_radius;
+  for (std::size_t i = 0; i < file.points.size(); ++i) file.weights[i] = 1e-3 * static_cast<double>(i % 5);
+  MeshFile larger = file;
+  ASSERT_TRUE(project(larger, "sphere:radius=4"));
+  EXPECT_EQ(larger.sphere_radius, 4);
+  for (std::size_t i = 0; i < file.points.size(); ++i) {
+    EXPECT_DOUBLE_EQ(larger.weights[i], file.weights[i] * (4 / from) * (4 / from));
+  }
+  const auto warnings = write(path("globe.nod2d.out"), file);
+  ASSERT_TRUE(warnings) << warnings.error().what();
+  EXPECT_NE(warnings->front().find("the radius is 6371000 in FESOM nod2d.out and elem2d.out, not 1;"),
+            std::string::npos)
+      << warnings->front();
+  const MeshFile back = read_back(path("globe.nod2d.out"));
+  for (std::size_t i = 0; i < file.points.size(); ++i) {
+    EXPECT_NEAR(back.weights[i], file.weights[i] * (6371000 / from) * (6371000 / from), 1e-15);
+  }
+}
+
 TEST_F(SphereFiles, WeightsComeBack) {
   MeshFile file = globe(1);
   for (std::size_t i = 0; i < file.points.size(); ++i) file.weights[i] = 1e-3 * static_cast<double>(i % 5);

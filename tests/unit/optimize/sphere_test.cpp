@@ -133,6 +133,25 @@ TEST(Sphere, RepairsMendWhatSweepsOfPositionsAloneDoNot) {
   }
 }
 
+// What is inserted beside an interface is what was tested there, to the last bit.
+TEST(Sphere, RepairsInsertBesideInterfaces) {
+  Mesh mesh = globe(800, 1);
+  const auto is_north = [&](TriangleId t) {
+    const auto [a, b, c] = mesh.corners(t);
+    return mesh.lifted_point(a).z + mesh.lifted_point(b).z + mesh.lifted_point(c).z > 0;
+  };
+  for (const TriangleId t : mesh.triangles()) mesh.set_region(t, is_north(t) ? 1 : 2);
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(mesh.twin(h)))) mesh.set_constrained(h, true);
+  }
+  const std::size_t before = bad_triangles(mesh).size();
+  const OptimizeReport report =
+      optimized(mesh, {.unknowns = Unknowns::positions, .repair = Repair::vertices, .repair_trials = 800});
+  EXPECT_FALSE(mesh.validate());
+  EXPECT_LT(bad_triangles(mesh).size(), before / 5);
+  EXPECT_GT(report.vertices_inserted, 0U);
+}
+
 TEST(Sphere, ConstrainedLinesAndFixedVerticesStay) {
   Mesh before = globe(500, 4);
   std::vector<std::pair<VertexId, VertexId>> river;
