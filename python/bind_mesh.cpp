@@ -627,6 +627,10 @@ void bind_generate(py::module_& m) {
   m.def("random_sphere", [](std::size_t vertices, std::uint64_t seed, double radius) {
     return made(random_sphere({vertices, seed, radius}));
   });
+  m.def("graded_sphere",
+        [](std::size_t vertices, double ratio, double lon, double lat, std::uint64_t seed, double radius) {
+          return made(graded_sphere({vertices, ratio, {lon, lat}, seed, radius}));
+        });
   m.def("sheared_grid", [](int nx, int ny, double shear) { return made(sheared_grid({nx, ny, shear})); });
   m.def("annulus", [](double inner, double outer, int around, int rings, double jitter, std::uint64_t seed) {
     return made(annulus({inner, outer, around, rings, jitter, seed}));

@@ -35,7 +35,7 @@ LAYERS = {
     "explain": _BELOW + ["topology", "energy", "regularity", "feasibility", "quality"],
     "dec": _BELOW + ["topology", "energy", "regularity"],
     "draw": _BELOW + ["topology", "energy", "regularity", "quality"],
-    "generate": _BELOW + ["topology", "energy", "regularity"],
+    "generate": _BELOW + ["topology", "energy", "regularity", "projection"],
     "mesher": _BELOW + ["topology", "energy", "regularity", "feasibility", "optimize", "generate", "projection"],
     # A library of its own: sees the core's public headers, and no other folder of src/.
     "io": _BELOW + ["projection", "places", "size", "quality", "dec"],

@@ -22,6 +22,8 @@ struct ExampleSettings {
   RandomPoints random;
   Icosahedral icosahedral;
   RandomSphere random_sphere;
+  GradedSphere graded_sphere;
+  std::uint64_t graded_vertices = GradedSphere().vertices;
   ShearedGrid grid;
   Annulus annulus;
   Airfoil airfoil;
@@ -118,9 +120,32 @@ void add_random_sphere(Command& command, ExampleSettings& s) {
   add_radius(command, s.random_sphere.radius);
 }
 
+void add_graded_sphere(Command& command, ExampleSettings& s) {
+  add_count(command, "--vertices", s.graded_vertices, 20, "number of vertices");
+  add_number(command, "--ratio", s.graded_sphere.ratio, {1, 1000, false}, "largest size over the least");
+  add_numbers(
+      command, "--at", "LON,LAT", 2,
+      [&s](const std::vector<double>& v) {
+        s.graded_sphere.at = {v[0], v[1]};
+      },
+      "where the least is, in degrees")
+      .default_text = "0,0";
+  add_count(command, "--seed", s.graded_sphere.seed, 0, "the seed of the random points");
+  add_radius(command, s.graded_sphere.radius);
+}
+
+Expected<Mesh> make_graded_sphere(ExampleSettings& s) {
+  s.graded_sphere.vertices = s.graded_vertices;
+  return graded_sphere(s.graded_sphere);
+}
+
 Expected<Mesh> make_random_sphere(ExampleSettings& s) {
   s.random_sphere.vertices = s.vertices;
   return random_sphere(s.random_sphere);
+}
+
+double size_of_graded_sphere(const ExampleSettings& s, const Mesh& mesh, VertexId v) {
+  return graded_sphere_size(s.graded_sphere, mesh.lifted_point(v));
 }
 
 Expected<Mesh> make_random(ExampleSettings& s) {
@@ -133,6 +158,7 @@ struct Generator {
   const char* description;
   void (*add_options)(Command&, ExampleSettings&);
   Expected<Mesh> (*make)(ExampleSettings&);
+  double (*size)(const ExampleSettings&, const Mesh&, VertexId) = nullptr;  ///< what its points follow, if anything
 };
 
 constexpr Generator kGenerators[] = {
@@ -160,6 +186,8 @@ constexpr Generator kGenerators[] = {
      [](ExampleSettings& s) { return icosahedral(s.icosahedral); }},
     {"random-sphere", "random points around the sphere, Delaunay: about half of the triangles are bad",
      add_random_sphere, make_random_sphere},
+    {"graded-sphere", "random points around the sphere, finer towards one place, with their sizes", add_graded_sphere,
+     make_graded_sphere, size_of_graded_sphere},
 };
 
 void add_options(Command& command, ExampleSettings& s) {
@@ -199,6 +227,16 @@ void check_name(const Arguments& arguments) {
     bad_usage(none_of(arguments.front(), names));
 }
 
+/// The mesh, with sizes as point data that `--size` and `--size-field` read.
+io::MeshFile file_of(const Mesh& mesh, const Generator& generator, const ExampleSettings& s) {
+  io::MeshFile file = io::from_mesh(mesh);
+  if (generator.size == nullptr) return file;
+  std::vector<double> sizes;
+  for (const VertexId v : mesh.vertices()) sizes.push_back(generator.size(s, mesh, v));
+  file.point_data.push_back({"size", 1, std::move(sizes)});
+  return file;
+}
+
 }  // namespace
 
 Exit run_example(const Arguments& arguments) {
@@ -220,7 +258,7 @@ Exit run_example(const Arguments& arguments) {
 
   const Expected<Mesh> mesh = generator.make(s);
   if (!mesh) bad_usage(std::string(generator.name) + ": " + mesh.error().what());  // options are its only input
-  print_warnings(outputs.write_mesh(s.output, io::from_mesh(*mesh)));
+  print_warnings(outputs.write_mesh(s.output, file_of(*mesh, generator, s)));
   return Exit::done;
 }
 

@@ -86,6 +86,20 @@ struct RandomSphere {
 };
 [[nodiscard]] Expected<Mesh> random_sphere(const RandomSphere& shape = {});
 
+/// Random points around the sphere, Delaunay, whose sizes grow from a place to the opposite one by a ratio. About half
+/// of the triangles are bad.
+struct GradedSphere {
+  std::size_t vertices = 10000;
+  double ratio = 30;  ///< of the largest size to the least, ≥ 1
+  Vec2 at = {};       ///< of the least: longitude and latitude [degrees]
+  std::uint64_t seed = 1;
+  double radius = 1;
+};
+[[nodiscard]] Expected<Mesh> graded_sphere(const GradedSphere& shape = {});
+/// The size that its points follow, in a direction from the center: that of equilateral triangles, as many. Its
+/// logarithm is linear in the distance along the axis through the place.
+[[nodiscard]] double graded_sphere_size(const GradedSphere& shape, Vec3 direction);
+
 /// nx × ny squares, each cut along the same diagonal, then sheared by x += shear · y.
 struct ShearedGrid {
   int nx = 20, ny = 20;

@@ -17,6 +17,7 @@
 #include "temper/mesh.hpp"
 #include "temper/outline.hpp"
 #include "temper/vec2.hpp"
+#include "temper/vec3.hpp"
 
 namespace temper {
 
@@ -25,6 +26,11 @@ enum class ProjectionKind {
   mercator,             ///< true along the center's parallel; best for belts along it
   transverse_mercator,  ///< true along the center's meridian; best for strips along it, the zones of UTM
 };
+
+/// The direction of a longitude and a latitude [degrees], exactly on the axes: of a pole there is one.
+[[nodiscard]] Vec3 direction_of(Vec2 lon_lat);
+/// Longitude, above −180 and up to 180, and latitude of a direction [degrees].
+[[nodiscard]] Vec2 lon_lat_of(Vec3 direction);
 
 /// Longitudes and latitudes are in degrees, x and y in metres from the center.
 struct Projection {

@@ -1,8 +1,8 @@
 """Example meshes: the paper's, and the classes a mesh method should be tried on.
 
 Each is made here, from its parameters and a seed, by a constrained Delaunay triangulation on temper's own predicates.
-``icosahedral``, ``random_sphere`` and ``spherical_delaunay`` are of the sphere. All weights are zero. TemperError says
-which parameter makes no sense.
+``graded_sphere``, ``icosahedral``, ``random_sphere`` and ``spherical_delaunay`` are of the sphere. All weights are zero.
+TemperError says which parameter makes no sense.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from . import _temper
 from ._mesh import Mesh, _doubles, _ints
 
 __all__ = [
-    "airfoil", "annulus", "constrained_delaunay", "graded_points", "horseshoe", "icosahedral", "letter_a",
-    "random_points", "random_sphere", "regular_polygon", "sheared_grid", "single_triangle", "sparse_horseshoe",
+    "airfoil", "annulus", "constrained_delaunay", "graded_points", "graded_sphere", "horseshoe", "icosahedral",
+    "letter_a", "random_points", "random_sphere", "regular_polygon", "sheared_grid", "single_triangle", "sparse_horseshoe",
     "spherical_delaunay", "wedge",
 ]  # fmt: skip
 
@@ -94,6 +94,18 @@ def random_sphere(vertices: int = 1000, seed: int = 1, radius: float = 1.0) -> M
     """Uniformly random points around a sphere of this radius [length], Delaunay. About half of the triangles are
     bad."""
     return Mesh._of(_temper.random_sphere(vertices, seed, radius))
+
+
+def graded_sphere(
+    vertices: int = 10000,
+    ratio: float = 30.0,
+    at: tuple[float, float] = (0.0, 0.0),
+    seed: int = 1,
+    radius: float = 1.0,
+) -> Mesh:
+    """Random points around a sphere of this radius [length], Delaunay, whose sizes grow by ``ratio``, 1 to 1000, from a
+    place at longitude and latitude ``at`` [degrees] to the opposite one. About half of the triangles are bad."""
+    return Mesh._of(_temper.graded_sphere(vertices, ratio, at[0], at[1], seed, radius))
 
 
 def sheared_grid(nx: int = 20, ny: int = 20, shear: float = 0.5) -> Mesh:

@@ -1,14 +1,16 @@
-// Example meshes of the whole sphere: the bisected icosahedron, and random points.
+// Example meshes of the whole sphere: the bisected icosahedron, and random points, as many everywhere or graded.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "base/rng.hpp"
 #include "generate/outline.hpp"
 #include "temper/generate.hpp"
+#include "temper/projection.hpp"
 
 namespace temper {
 namespace {
@@ -74,6 +76,9 @@ Surface bisected(Surface coarse) {
   return {std::move(coarse.points), std::move(fine)};
 }
 
+/// How far a unit vector is from a place, as a part of the way along the axis to the opposite one.
+double part_of_axis(Vec3 p, Vec3 place) { return (1 - dot(p, place)) / 2; }
+
 /// Uniform, without functions whose last bits differ between libraries (Marsaglia, 1972).
 Vec3 random_direction(Rng& rng) {
   for (;;) {
@@ -82,6 +87,12 @@ Vec3 random_direction(Rng& rng) {
     const double r = 2 * std::sqrt(1 - s);
     return {u * r, v * r, 1 - 2 * s};
   }
+}
+
+std::optional<InputError> check_count(std::size_t vertices) {
+  if (vertices < 20) return invalid("random points around a sphere should be 20 or more");
+  if (vertices > kMostOnGlobe) return invalid("more than 500,000,000 vertices are out of reach");
+  return std::nullopt;
 }
 
 std::optional<InputError> check_radius(double radius) {
@@ -108,14 +119,42 @@ Expected<Mesh> icosahedral(const Icosahedral& shape) {
 }
 
 Expected<Mesh> random_sphere(const RandomSphere& shape) {
-  if (shape.vertices < 20) return invalid("random points around a sphere should be 20 or more");
-  if (shape.vertices > kMostOnGlobe) return invalid("more than 500,000,000 vertices are out of reach");
+  if (auto error = check_count(shape.vertices)) return *error;
   if (auto error = check_radius(shape.radius)) return *error;
   Rng rng(shape.seed);
   std::vector<Vec3> points;
   points.reserve(shape.vertices);
   for (std::size_t i = 0; i < shape.vertices; ++i) points.push_back(random_direction(rng));
   return spherical_delaunay(points, shape.radius);
+}
+
+Expected<Mesh> graded_sphere(const GradedSphere& shape) {
+  constexpr double kLargestRatio = 1000;  // a point in 10⁶ directions tried is then kept at the coarse end
+  if (auto error = check_count(shape.vertices)) return *error;
+  if (auto error = check_radius(shape.radius)) return *error;
+  if (!(shape.ratio >= 1 && shape.ratio <= kLargestRatio))
+    return invalid("the sizes of a graded sphere should have a ratio of 1 to 1000");
+  if (!(std::abs(shape.at.x) <= 360 && std::abs(shape.at.y) <= 90))
+    return invalid("expected a longitude and a latitude in degrees, found " + std::to_string(shape.at.x) + "," +
+                   std::to_string(shape.at.y));
+  Rng rng(shape.seed);
+  const Vec3 place = direction_of(shape.at);
+  std::vector<Vec3> points;
+  points.reserve(shape.vertices);
+  while (points.size() < shape.vertices) {
+    const Vec3 p = random_direction(rng);
+    if (rng.uniform() < std::pow(shape.ratio, -2 * part_of_axis(p, place))) points.push_back(p);
+  }
+  return spherical_delaunay(points, shape.radius);
+}
+
+double graded_sphere_size(const GradedSphere& shape, Vec3 direction) {
+  // n vertices have 2n triangles of √3/4 s²: the integral of 1/s² over the sphere is √3/2 n, and gives the least s.
+  const double rate = 2 * std::log(shape.ratio);
+  const double mean = rate > 0 ? -std::expm1(-rate) / rate : 1;  // of (least/s)² over the sphere
+  const double least = shape.radius * std::sqrt(8 * std::numbers::pi * std::numbers::inv_sqrt3 * mean /
+                                                static_cast<double>(shape.vertices));
+  return least * std::pow(shape.ratio, part_of_axis(unit(direction), direction_of(shape.at)));
 }
 
 }  // namespace temper

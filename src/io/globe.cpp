@@ -2,50 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "io/failure.hpp"
 
 namespace temper::io {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 // Of the radius: what is left of coordinates with seven digits.
 constexpr double kOff = 1e-6;
 
-struct Turn {
-  double cosine, sine;
-};
-
-/// Cosine and sine of degrees, exact at multiples of 90.
-Turn turn_of(double degrees) {
-  const double rest = std::remainder(degrees, 360);  // exact
-  const double quarter = std::nearbyint(rest / 90), angle = (rest - 90 * quarter) * kDegree;
-  const double c = std::cos(angle), s = std::sin(angle);
-  switch ((static_cast<int>(quarter) + 4) % 4) {
-    case 0:
-      return {c, s};
-    case 1:
-      return {-s, c};
-    case 2:
-      return {-c, -s};
-    default:
-      return {s, -c};
-  }
-}
-
 }  // namespace
-
-Vec3 direction_of(Vec2 lon_lat) {
-  const Turn lon = turn_of(lon_lat.x), lat = turn_of(lon_lat.y);
-  if (lat.cosine == 0) return {0, 0, lat.sine};
-  return {lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine};
-}
-
-Vec2 lon_lat_of(Vec3 p) {
-  const double lon = p.x == 0 && p.y == 0 ? 0 : std::atan2(p.y, p.x) / kDegree;
-  return {lon, std::atan2(p.z, std::hypot(p.x, p.y)) / kDegree};
-}
 
 Vec3 east_of(Vec3 p) {
   const double across = std::hypot(p.x, p.y);

@@ -2,13 +2,9 @@
 #pragma once
 
 #include "temper/io.hpp"
+#include "temper/projection.hpp"
 
 namespace temper::io {
-
-/// The direction of a longitude and a latitude [degrees], exactly on the axes: of a pole there is one.
-[[nodiscard]] Vec3 direction_of(Vec2 lon_lat);
-/// Longitude, above −180 and up to 180, and latitude of a direction [degrees].
-[[nodiscard]] Vec2 lon_lat_of(Vec3 direction);
 
 /// The unit vector to the east, on the axis that of longitude 0.
 [[nodiscard]] Vec3 east_of(Vec3 direction);

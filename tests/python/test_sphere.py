@@ -431,3 +431,13 @@ def test_errors_of_solvers_on_a_closed_mesh(globe):
     assert ratios.star[1].l2 < 0.65 and ratios.poisson.l2 < 0.9 and ratios.flux.l2 < 0.6
     with pytest.raises(temper.TemperError, match="no field 'bump'"):
         temper.verify(globe, fields=["bump"])
+
+
+def test_graded_globes_are_fine_where_one_says():
+    mesh = temper.generate.graded_sphere(5000, ratio=10, at=(90, 0), radius=EARTH)
+    assert mesh.space == temper.Space.sphere(EARTH)
+    assert mesh == temper.generate.graded_sphere(5000, ratio=10, at=(90, 0), radius=EARTH)
+    towards = mesh.lifted_points[:, 1] / EARTH
+    assert np.count_nonzero(towards > 0.8) > 10 * np.count_nonzero(towards < -0.8)
+    with pytest.raises(temper.TemperError, match="ratio"):
+        temper.generate.graded_sphere(ratio=0.5)

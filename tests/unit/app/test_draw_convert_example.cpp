@@ -129,7 +129,7 @@ TEST_F(Example, ListNamesEveryExampleAndEachCanBeMade) {
   const std::string list = temper_ok({"example", "--list"}).out;
   int made = 0;
   for (const char* name : {"sparse-horseshoe", "horseshoe", "triangle", "random", "sheared-grid", "annulus", "airfoil",
-                           "polygon", "letter-a", "wedge", "graded", "icosahedral", "random-sphere"}) {
+                           "polygon", "letter-a", "wedge", "graded", "icosahedral", "random-sphere", "graded-sphere"}) {
     EXPECT_TRUE(contains(list, name));
     temper_ok({"example", name, "-o", "a.vtu"});
     EXPECT_EQ(temper({"check", "a.vtu", "--require", "inverted=0"}).exit, 0) << name;
