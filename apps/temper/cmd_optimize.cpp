@@ -55,7 +55,7 @@ struct Settings {
   io::DataRules rules;  ///< of point_data
 
   [[nodiscard]] const OptimizeOptions& options() const { return table.options; }
-  [[nodiscard]] bool for_accuracy() const { return options().objective == Objective::accuracy; }
+  [[nodiscard]] bool for_accuracy() const { return objective_of(options()) == Objective::accuracy; }
 };
 
 void add_files(Command& command, Settings& s) {
@@ -399,7 +399,7 @@ void write_all(const Command& command, const Settings& s, Input& input, Results&
 
 /// The row of energies that is of interest.
 int star_shown(const OptimizeOptions& options) {
-  return options.objective == Objective::accuracy ? 1 : static_cast<int>(options.star);
+  return objective_of(options) == Objective::accuracy ? 1 : static_cast<int>(options.star);
 }
 
 void print_result(const Settings& s, const Results& results, const Outputs& outputs) {

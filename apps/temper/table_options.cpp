@@ -32,11 +32,11 @@ std::string dashed(std::string_view text) { return with('-', '_', text); }
 
 bool is_on(const OptionRow& row) { return row.get(OptimizeOptions()) == OptionValue(true); }
 
-/// A flag turns its option into what it is not anyway.
-std::string flag_name(const OptionRow& row) { return (is_on(row) ? "--no-" : "--") + dashed(row.name); }
-
+/// A flag turns its option into what it is not anyway. The _ at the end is there for languages where `for` is a
+/// keyword.
 std::string name_of(const OptionRow& row) {
-  return row.kind == OptionKind::flag ? flag_name(row) : "--" + dashed(row.name);
+  const std::string_view name = row.name.ends_with('_') ? row.name.substr(0, row.name.size() - 1) : row.name;
+  return (row.kind == OptionKind::flag && is_on(row) ? "--no-" : "--") + dashed(name);
 }
 
 std::string relative_name(const OptionRow& row) { return name_of(row) + "-rel"; }
@@ -195,7 +195,6 @@ InputError spell_options(InputError error) {
 
 std::string spell_options(std::string_view text) {
   return temper::spell_options(text, [](const OptionRow& row, std::string_view value) {
-    if (row.kind == OptionKind::flag) return flag_name(row);
     return name_of(row) + (value.empty() ? "" : " " + dashed(value));
   });
 }

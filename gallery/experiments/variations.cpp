@@ -206,6 +206,7 @@ Claim light_vertices_should_go(Effort effort) {
 
 Claim insertions_help() {
   OptimizeOptions o;
+  o.objective = Objective::energy;
   o.repair = Repair::none;
   const End plain = ending(o);
   o.paper.insertion_from = 0;

@@ -274,6 +274,7 @@ Claim valence_and_weight(Effort effort) {
   for (const EnergyKind kind : {EnergyKind::BP, EnergyKind::T}) {
     auto mesh = random_points({.vertices = effort == Effort::full ? 400U : 120U});
     OptimizeOptions options = kind == EnergyKind::T ? paper_method() : OptimizeOptions();
+    options.objective = Objective::energy;
     options.energy = kind;
     options.paper.removal = Removal::none;
     options.paper.collapse_from = {};

@@ -124,6 +124,14 @@ enum class StoppingRule {
   paper,     ///< mean energy per triangle fell by less than tolerance, or rose
 };
 
+/// For whose errors a mesh is meant: what Objective::accuracy weighs its terms by (scheme_weights()).
+enum class Scheme {
+  all,     ///< for each something, and margins about as large as those of E_BP
+  vertex,  ///< unknowns at the vertices, as in discrete exterior calculus
+  cell,    ///< unknowns at the orthocenters, as in two-point flux finite volumes
+  stars,   ///< the diagonal Hodge stars
+};
+
 /// Of Objective::accuracy. With L the squared length of an edge, G that times its dual length over its length, H the
 /// difference where G is the sum of the heights times the length on its two sides, δw the difference of the weights of
 /// its ends and s the local size there, what is lowered is
@@ -134,14 +142,23 @@ enum class StoppingRule {
 /// c times as much of the offset between their middles, which is what a diagonal ★ errs by at first order. The star
 /// picks α and β. docs/accuracy.md derives it. [length²]
 struct AccuracyOptions {
-  double offset_weight = 10;           ///< c ≥ 0: 1 is HOT itself
-  double boundary_offset_weight = 18;  ///< of H² of edges on the boundary, which no mesh avoids: a smaller one is
-                                       ///< better for vertex-centered solvers, a larger one for cell-centered ones. ≥ 0
-  double margin = 0.02;  ///< ε: all h/ℓ, d/ℓ and 1 − d/ℓ stay above it. 0 < ε < 1/4 (equilateral: h/ℓ = 0.289)
+  std::optional<double> offset_weight = {};  ///< c ≥ 0: 1 is HOT itself. Absent: by the scheme
+  /// Of H² of edges on the boundary, which no mesh avoids: a smaller one is better for vertex-centered solvers, a
+  /// larger one for cell-centered ones. ≥ 0. Absent: by the scheme.
+  std::optional<double> boundary_offset_weight = {};
+  /// ε: all h/ℓ, d/ℓ and 1 − d/ℓ stay above it. 0 < ε < 1/4 (equilateral: h/ℓ = 0.289). Absent: by the scheme.
+  std::optional<double> margin = {};
   double barrier = 0.003;   ///< μ > 0 of the logarithms that keep them there, in units of s² a triangle
   int sweeps = 30;          ///< at most, after those that make every triangle well-centered; ≥ 0
   double tolerance = 1e-5;  ///< a sweep that changes E and barrier by less than this part of E is the last. ≥ 0
 };
+
+/// What AccuracyOptions are for a scheme where they are absent.
+struct SchemeWeights {
+  double offset_weight, boundary_offset_weight, margin;
+};
+/// By measurement, docs/accuracy.md.
+[[nodiscard]] SchemeWeights scheme_weights(Scheme scheme);
 
 /// The switches of Algorithm 1: where the paper offers a choice, or does otherwise than the production form. The
 /// defaults are the latter's, paper_method() has the paper's.
@@ -205,14 +222,17 @@ struct PaperSwitches {
   int switch_at = 20;  ///< the first sweep that lowers `energy`; an earlier one when the first energy has converged
   double tolerance = 1e-5;
   StoppingRule stopping = StoppingRule::relative;
+
+  friend bool operator==(const PaperSwitches&, const PaperSwitches&) = default;
 };
 
 struct OptimizeOptions {
   /// accuracy: the run lowers `energy`, which has to be a barrier, until all margins are above accuracy.margin, or it
   /// ends; then E of AccuracyOptions, with the connectivity as it is. A mesh that has all margins at first goes on to
   /// the second phase at once, unless its boundary is to be split. `solver`, `order`, `newton_passes`, `tolerance` and
-  /// `stopping` are of the first phase.
-  Objective objective = Objective::energy;
+  /// `stopping` are of the first phase. energy: `energy` is lowered to the end. Absent: objective_of().
+  std::optional<Objective> objective = {};
+  Scheme for_ = Scheme::all;  ///< of Objective::accuracy
   AccuracyOptions accuracy = {};
   EnergyKind energy = EnergyKind::BP;
   Star star = Star::one;  ///< whose error is to be small; sweeps before Objective::accuracy are for ★1
@@ -234,6 +254,10 @@ struct OptimizeOptions {
   double time_limit = 0;      ///< of all of it, seconds; 0: none
   PaperSwitches paper = {};
 };
+
+/// What a run lowers whose objective is absent: accuracy, but where energy or switches are others than the default
+/// ones, but for `order` and `seed`, that energy alone.
+[[nodiscard]] Objective objective_of(const OptimizeOptions& options);
 
 /// The options of the paper's Algorithm 1 with all its parts: golden section, flips after the inner iterations have
 /// converged, unlimited steps, inversions allowed, hidden vertices kept, collapses and the patch test from the first

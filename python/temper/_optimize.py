@@ -228,8 +228,8 @@ def optimize(
     >>> temper.quality(mesh).well_centered_fraction < 1
     True
     >>> report = temper.optimize(mesh)
-    >>> report.stopped, temper.quality(mesh).well_centered_fraction
-    ('converged', 1.0)
+    >>> report.history[-1].objective, temper.quality(mesh).well_centered_fraction
+    ('accuracy', 1.0)
     """
     for name, call in (("observer", observer), ("tracer", tracer), ("snapshots", snapshots)):
         if call is not None and not callable(call):

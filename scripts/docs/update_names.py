@@ -91,7 +91,7 @@ def options_table(program):
         lines += ["", f"**{group}**", "", "| program | Python | C++: `OptimizeOptions` |", "|-|-|-|"]
         for row in rows:
             name = row["name"]
-            spellings = ["--" + name.replace("_", "-")] + [flag for flag, of in SPELLED.items() if of == name]
+            spellings = ["--" + name.removesuffix("_").replace("_", "-")] + [flag for flag, of in SPELLED.items() if of == name]
             shown = ", ".join(f"`{flag}`" for flag in spellings if flag in given)
             assert shown, f"no option of the program for {name}"
             lines.append(f"| {shown} | `{name}` | `{member_for(name)}` |")

@@ -100,8 +100,8 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
 }
 
 bool EnergyPhase::has_margins() const {
-  const OptimizeOptions& o = settings_.options;
-  return run_.report.history.back().bad == 0 && temper::has_margins(mesh_, o.accuracy.margin, settings_.hooks.executor);
+  return run_.report.history.back().bad == 0 &&
+         temper::has_margins(mesh_, settings_.accuracy.margin, settings_.hooks.executor);
 }
 
 /// The paper's rule takes a rise for convergence. The relative one waits whether the energy falls again.

@@ -12,10 +12,13 @@ constexpr std::size_t kGains = 4;  // from whose first and last the factor is ta
 struct Limits {
   double tolerance = 0;  ///< relative
   int sweeps = 0;        ///< of the run, at most
+  int after = 0;         ///< sweeps of the stage that follows
 };
 
 Limits limits_of(std::span<const SweepRecord> history, const OptimizeOptions& o) {
-  if (history.back().objective == Objective::energy) return {o.paper.tolerance, o.max_sweeps};
+  if (history.back().objective == Objective::energy) {
+    return {o.paper.tolerance, o.max_sweeps, objective_of(o) == Objective::energy ? 0 : o.accuracy.sweeps};
+  }
   const auto first = std::ranges::find(history, Objective::accuracy, &SweepRecord::objective);
   return {o.accuracy.tolerance, std::min(o.max_sweeps, first->sweep + o.accuracy.sweeps)};
 }
@@ -39,7 +42,7 @@ std::optional<double> estimate_sweeps_left(std::span<const SweepRecord> history,
   const Limits limits = limits_of(history, options);
   const double target = limits.tolerance * std::abs(last.back().energy);
   const double sweeps = target > 0 ? std::log(gains[kGains - 1] / target) / shrinking : limits.sweeps;
-  return std::clamp(sweeps, 0.0, static_cast<double>(std::max(0, limits.sweeps - last.back().sweep)));
+  return std::clamp(std::max(0.0, sweeps) + limits.after, 0.0, static_cast<double>(std::max(0, limits.sweeps - last.back().sweep)));
 }
 
 }  // namespace temper

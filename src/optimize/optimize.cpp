@@ -16,9 +16,9 @@ namespace {
 enum class Stage { attempts, repairs, accuracy };
 
 /// Says whether the second phase may begin at once with the input.
-bool is_ready_for_accuracy(const Mesh& mesh, const OptimizeOptions& o, Executor* executor) {
-  return o.objective == Objective::accuracy && o.boundary != BoundaryVertices::split &&
-         has_margins(mesh, o.accuracy.margin, executor);
+bool is_ready_for_accuracy(const Mesh& mesh, const Settings& s) {
+  return s.options.objective == Objective::accuracy && s.options.boundary != BoundaryVertices::split &&
+         has_margins(mesh, s.accuracy.margin, s.hooks.executor);
 }
 
 /// The size field of a run with a band; the input's own is seen where it is, since the run works on copies.
@@ -45,7 +45,7 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
   if (run.checkpoints.failed()) return *run.checkpoints.error();
   const InputMeasures of_input = measure_input(mesh, *settings);
   if (stage == Stage::attempts) {
-    auto found = is_ready_for_accuracy(mesh, options, hooks.executor)
+    auto found = is_ready_for_accuracy(mesh, *settings)
                      ? Candidate{WorkingCopy(mesh, options.paper.order, hooks.executor)}
                      : best_attempt(mesh, *settings, run);
     if (!found) return found.error();
@@ -57,7 +57,7 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
     stage = Stage::accuracy;
   }
   std::optional<AccuracySizes> sizes;
-  if (options.objective == Objective::accuracy) {
+  if (settings->options.objective == Objective::accuracy) {
     sizes.emplace(mesh, options.size_field, hooks.executor);
     AccuracyPhase phase(best.work, *settings, run, *sizes);
     const bool goes_on = !run.stopped_by_caller() && run.report.stopped != Stopped::hidden;

@@ -166,7 +166,7 @@ void Notes::tell_accuracy() {
     add(count_of(bad, "triangle is", "triangles are") +
         " not well-centered: vertices there were not moved for accuracy");
   }
-  if (thin > 0) {
+  if (thin > 0 && options_.accuracy.margin) {
     add(count_of(thin, "triangle is", "triangles are") + " well-centered by no more than " +
         to_text(settings_.accuracy.margin) + " of an edge");
   }

@@ -73,7 +73,7 @@ std::optional<InputError> check_inversions(const OptimizeOptions& o) {
 /// Other options that contradict each other.
 std::optional<InputError> check_combinations(const OptimizeOptions& o) {
   const PaperSwitches& p = o.paper;
-  if (o.star == Star::all && o.objective == Objective::energy) {
+  if (o.star == Star::all && objective_of(o) == Objective::energy) {
     return invalid("`star=all` is for `objective=accuracy`; of an energy expected 0, 1 or 2");
   }
   if (o.flips == Flips::none && p.insertion_from) {
@@ -84,7 +84,7 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
   if (p.insertion_from && o.size_band) {
     return invalid("`size_band` does not hold what `insertion_from` inserts; expected one of the two");
   }
-  if (p.first_energy && o.objective == Objective::accuracy) {
+  if (p.first_energy && objective_of(o) == Objective::accuracy) {
     return invalid("`first_energy` is for `objective=energy`");
   }
   if (o.flips == Flips::none && o.boundary == BoundaryVertices::split) {
@@ -115,7 +115,7 @@ std::optional<InputError> check_weights(const OptimizeOptions& o, const Mesh& me
 
 /// What the accuracy objective cannot do with.
 std::optional<InputError> check_accuracy(const OptimizeOptions& o) {
-  if (o.objective != Objective::accuracy) return std::nullopt;
+  if (objective_of(o) != Objective::accuracy) return std::nullopt;
   const EnergyInfo& energy = energy_info(o.energy);
   if (!energy.barrier) {
     return invalid("`objective=accuracy` begins with an energy that makes triangles well-centered, which " +
@@ -150,19 +150,34 @@ std::optional<InputError> check_anchor(VertexId anchor, const Mesh& mesh) {
                  std::to_string(mesh.n_vertices()) + " vertices");
 }
 
-AccuracyModel accuracy_model(const AccuracyOptions& a, Star star) {
+AccuracyModel accuracy_model(const AccuracyOptions& a, Scheme scheme, Star star) {
   struct Factors {
     double alpha, beta;
   };
   constexpr Factors kFactors[] = {{1.0 / 4, 1.0 / 12}, {1.0 / 3, 1.0 / 3}, {1.0 / 12, 1.0 / 4}, {2.0 / 3, 2.0 / 3}};
   const auto [alpha, beta] = kFactors[static_cast<std::size_t>(star)];
-  AccuracyModel model = AccuracyModel::of(alpha, beta, a.offset_weight, a.boundary_offset_weight);
-  model.margin = a.margin;
+  const SchemeWeights preset = scheme_weights(scheme);
+  AccuracyModel model = AccuracyModel::of(alpha, beta, a.offset_weight.value_or(preset.offset_weight),
+                                          a.boundary_offset_weight.value_or(preset.boundary_offset_weight));
+  model.margin = a.margin.value_or(preset.margin);
   model.barrier = a.barrier;
   return model;
 }
 
 }  // namespace
+
+SchemeWeights scheme_weights(Scheme scheme) {
+  constexpr SchemeWeights kWeights[] = {{10, 5, 0.1}, {10, 0.5, 0.02}, {10, 30, 0.02}, {20, 18, 0.02}};
+  return kWeights[static_cast<std::size_t>(scheme)];
+}
+
+Objective objective_of(const OptimizeOptions& o) {
+  if (o.objective) return *o.objective;
+  PaperSwitches plain;
+  plain.order = o.paper.order;
+  plain.seed = o.paper.seed;
+  return o.energy == EnergyKind::BP && o.paper == plain ? Objective::accuracy : Objective::energy;
+}
 
 OptimizeOptions paper_method() {
   OptimizeOptions o;
@@ -225,14 +240,16 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   if (auto error = check_weights(options, mesh)) return *std::move(error);
   if (auto error = check_space(options, mesh)) return *std::move(error);
 
-  const Star star = options.objective == Objective::accuracy ? Star::one : options.star;
+  const Objective objective = objective_of(options);
+  const Star star = objective == Objective::accuracy ? Star::one : options.star;
   Settings s;
   s.collapse_model.kind = options.paper.collapse_energy;
   s.collapse_model.star = star;
   s.collapse_model.boundary_treatment = options.paper.boundary_treatment;
   s.options = options;
+  s.options.objective = objective;
   s.hooks = hooks;
-  s.accuracy = accuracy_model(options.accuracy, options.star);
+  s.accuracy = accuracy_model(options.accuracy, options.for_, options.star);
   s.relaxation = options.paper.relaxation.value_or(kRelaxation);
   s.model.star = star;
   s.model.boundary_treatment = options.paper.boundary_treatment;

@@ -59,17 +59,26 @@ std::vector<Options> option_sets() {
   OptimizeOptions paper = paper_method();
   paper.energy = EnergyKind::dT;
   paper.max_sweeps = 20;
+  constexpr auto kEnergy = Objective::energy;
   return {{"default", {}},
-          {"accuracy", {.objective = Objective::accuracy, .max_sweeps = 60}},
+          {"energy", {.objective = kEnergy}},
+          {"accuracy",
+           {.objective = Objective::accuracy,
+            .accuracy = {.offset_weight = 10, .boundary_offset_weight = 18, .margin = 0.02},
+            .max_sweeps = 60}},
           {"paper", paper},
           {"golden", {.max_sweeps = 8, .paper = {.solver = Solver::golden}}},
           {"alternating", {.max_sweeps = 30, .paper = {.solver = Solver::alternating}}},
           {"HOT", {.energy = EnergyKind::T, .max_sweeps = 30}},
-          {"positions", {.unknowns = Unknowns::positions, .max_sweeps = 30}},
-          {"weights", {.unknowns = Unknowns::weights, .max_sweeps = 30}},
+          {"positions", {.objective = kEnergy, .unknowns = Unknowns::positions, .max_sweeps = 30}},
+          {"weights", {.objective = kEnergy, .unknowns = Unknowns::weights, .max_sweeps = 30}},
           {"split_and_repair",
-           {.boundary = BoundaryVertices::split, .repair = Repair::vertices, .repair_trials = 200, .max_sweeps = 60}},
-          {"size_band", {.size_band = 1.5, .max_sweeps = 30}}};
+           {.objective = kEnergy,
+            .boundary = BoundaryVertices::split,
+            .repair = Repair::vertices,
+            .repair_trials = 200,
+            .max_sweeps = 60}},
+          {"size_band", {.objective = kEnergy, .size_band = 1.5, .max_sweeps = 30}}};
 }
 
 /// FNV-1a, 64 bits.

@@ -32,6 +32,8 @@ constexpr std::array<Name, 3> kNames<BoundaryTreatment> = {"as_is", "absolute", 
 template <>
 constexpr std::array<Name, 2> kNames<Objective> = {"energy", "accuracy"};
 template <>
+constexpr std::array<Name, 4> kNames<Scheme> = {"all", "vertex", "cell", "stars"};
+template <>
 constexpr std::array<Name, 3> kNames<Solver> = {"newton", "golden", "alternating"};
 template <>
 constexpr std::array<Name, 3> kNames<Unknowns> = {"positions_and_weights", "positions", "weights"};
@@ -159,7 +161,8 @@ constexpr OptionRange inside(double low, double high) { return {low, high, true}
 constexpr double kMostMargin = 0.25;       // of h/ℓ an equilateral triangle has 0.289, and no other one as much
 constexpr double kLeastBoundaryRatio = 2;  // a cut in the middle leaves edges of half the length
 
-constexpr OptionNeed kForAccuracy = {"objective", "accuracy"};
+bool lowers_accuracy(const Options& o) { return objective_of(o) == Objective::accuracy; }
+constexpr OptionNeed kForAccuracy = {"objective", "accuracy", lowers_accuracy};
 constexpr OptionNeed kBarrier = {"energy", "BH|BHs|BP"};
 constexpr OptionNeed kDeferredFlips = {"flips", "deferred"};
 constexpr OptionNeed kCollapses = {"collapse_from", ""};
@@ -207,18 +210,23 @@ constexpr OptionRow kAccuracyRows[] = {
         "objective",
         "energy: the one of `energy`, to the end; accuracy: only until every triangle is well-centered with a margin, "
         "then how far the middles of edges and duals are apart, which a solver's error is proportional to",
-        {.common = true}),
-    row<kAccuracy, &Accuracy::margin>("margin", "of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle",
-                                      {.range = inside(0, kMostMargin), .needs = {kForAccuracy}}),
+        {.common = true, .absent = "accuracy; energy where it is not BP, or has switches of its own"}),
+    row<&Options::for_>(
+        "for_",
+        "of accuracy: what the mesh is for. vertex: unknowns at vertices (discrete exterior calculus); cell: "
+        "at orthocenters (two-point flux); stars: the diagonal Hodge stars; all: something for each, and "
+        "larger margins",
+        {.common = true, .needs = {kForAccuracy}}),
+    row<kAccuracy, &Accuracy::margin>(
+        "margin", "of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle",
+        {.range = inside(0, kMostMargin), .absent = "0.1, but 0.02 `for_` one scheme", .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::offset_weight>(
         "offset_weight",
         "of accuracy: how many times as much as in HOT the offset of the middles counts; 1: HOT over size squared",
-        {.range = at_least(0), .needs = {kForAccuracy}}),
+        {.range = at_least(0), .absent = "10, but 20 for stars", .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::boundary_offset_weight>(
-        "boundary_offset_weight",
-        "of accuracy: the same of the height of boundary edges; 0.5 where unknowns are at vertices and the input is "
-        "symmetric",
-        {.range = at_least(0), .needs = {kForAccuracy}}),
+        "boundary_offset_weight", "of accuracy: the same of the height of boundary edges",
+        {.range = at_least(0), .absent = "5; for vertex 0.5, cell 30, stars 18", .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::barrier>("barrier", "of accuracy: factor of the logarithms that keep the margin",
                                        {.range = more_than(0), .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::sweeps>("accuracy_sweeps", "of accuracy: at most this many, after those for the energy",

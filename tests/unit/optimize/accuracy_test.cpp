@@ -25,6 +25,8 @@ namespace {
 OptimizeOptions for_accuracy() {
   OptimizeOptions o;
   o.objective = Objective::accuracy;
+  o.for_ = Scheme::stars;
+  o.accuracy.margin = 0.02;
   return o;
 }
 
@@ -60,7 +62,7 @@ TEST(Accuracy, NeverRaisesTheEnergyOfAMeshWithAllMarginsAndKeepsItsEdges) {
     o.star = star;
     Mesh mesh = ready_mesh();
     const Mesh before = mesh;
-    ASSERT_TRUE(has_margins(mesh, o.accuracy.margin));
+    ASSERT_TRUE(has_margins(mesh, *o.accuracy.margin));
     const OptimizeReport report = improved(mesh, o);
     EXPECT_LT(report.final_energy, 0.99 * report.initial_energy);
     EXPECT_EQ(sweeps_for(report, Objective::energy), 0u);
@@ -72,7 +74,7 @@ TEST(Accuracy, NeverRaisesTheEnergyOfAMeshWithAllMarginsAndKeepsItsEdges) {
     EXPECT_NEAR(least / report.final_energy, 1, 1e-12);
     EXPECT_EQ(report.flips, 0u);
     for (const HalfedgeId h : mesh.halfedges()) EXPECT_EQ(mesh.origin(h), before.origin(h));
-    expect_inside(mesh, o.accuracy.margin);
+    expect_inside(mesh, *o.accuracy.margin);
   }
 }
 
@@ -83,18 +85,18 @@ TEST(Accuracy, KeepsMarginsAfterEverySweepAndTheBoundaryBitForBit) {
   OptimizeOptions o = for_accuracy();
   OptimizeHooks hooks;
   hooks.snapshots = [&](const Snapshot& shot) {
-    if (!has_margins(shot.mesh, o.accuracy.margin)) {
+    if (!has_margins(shot.mesh, *o.accuracy.margin)) {
       EXPECT_EQ(looks, 0) << "lost after sweep " << shot.sweep;
       return;
     }
-    expect_inside(shot.mesh, o.accuracy.margin);
+    expect_inside(shot.mesh, *o.accuracy.margin);
     ++looks;
   };
   const OptimizeReport report = improved(mesh, o, hooks);
   EXPECT_GT(sweeps_for(report, Objective::energy), 0u);
   EXPECT_GT(looks, 10);
   EXPECT_GE(static_cast<std::size_t>(looks), sweeps_for(report, Objective::accuracy));
-  expect_inside(mesh, o.accuracy.margin);
+  expect_inside(mesh, *o.accuracy.margin);
   std::size_t compared = 0;
   for (const VertexId v : mesh.vertices()) {
     if (!before.is_boundary(v)) continue;
@@ -189,7 +191,7 @@ TEST(Accuracy, SlidesBoundaryVerticesAlongTheirLinesOnly) {
   o.boundary = BoundaryVertices::slide;
   const OptimizeReport report = improved(mesh, o);
   EXPECT_LT(report.final_energy, report.initial_energy);
-  expect_inside(mesh, o.accuracy.margin);
+  expect_inside(mesh, *o.accuracy.margin);
   int slid = 0;
   for (const VertexId v : mesh.vertices()) {
     if (!mesh.is_boundary(v)) continue;
@@ -292,7 +294,7 @@ TEST(Accuracy, CountsSweepsOfBothPhasesAndStopsWhereItIsTold) {
   EXPECT_EQ(cut.stopped, Stopped::max_sweeps);
   EXPECT_EQ(cut.sweeps, first + 3);
   EXPECT_EQ(sweeps_for(cut, Objective::accuracy), 3u);
-  expect_inside(mesh, o.accuracy.margin);
+  expect_inside(mesh, *o.accuracy.margin);
 
   mesh = input;
   o = for_accuracy();
@@ -308,7 +310,7 @@ TEST(Accuracy, CountsSweepsOfBothPhasesAndStopsWhereItIsTold) {
                }});
   EXPECT_EQ(cancelled.stopped, Stopped::cancelled);
   EXPECT_LE(sweeps_for(cancelled, Objective::accuracy), 2u);
-  expect_inside(mesh, o.accuracy.margin);
+  expect_inside(mesh, *o.accuracy.margin);
 }
 
 /// One corner triangle has all its vertices on the boundary and is obtuse: without flips and weights nothing mends it.
@@ -387,13 +389,13 @@ TEST(Accuracy, OptionsOutOfRangeAreRefusedByName) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(with([](OptimizeOptions&) {}), "no error");
   EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.offset_weight = -1; }),
-            "`offset_weight` is -1; expected at least 0");
+            "`offset_weight` is -1; expected at least 0, or none");
   EXPECT_EQ(with([&](OptimizeOptions& o) { o.accuracy.boundary_offset_weight = nan; }),
-            "`boundary_offset_weight` is nan; expected at least 0");
+            "`boundary_offset_weight` is nan; expected at least 0, or none");
   EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.margin = 0; }),
-            "`margin` is 0; expected more than 0 and less than 0.25");
+            "`margin` is 0; expected more than 0 and less than 0.25, or none");
   EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.margin = 0.25; }),
-            "`margin` is 0.25; expected more than 0 and less than 0.25");
+            "`margin` is 0.25; expected more than 0 and less than 0.25, or none");
   EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.barrier = 0; }), "`barrier` is 0; expected more than 0");
   EXPECT_EQ(with([](OptimizeOptions& o) { o.accuracy.sweeps = -1; }), "`accuracy_sweeps` is -1; expected at least 0");
   EXPECT_EQ(with([&](OptimizeOptions& o) { o.accuracy.tolerance = nan; }),

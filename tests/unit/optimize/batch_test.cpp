@@ -284,7 +284,8 @@ TEST(InstructionSets, RunsOfEveryEnergyGiveTheSameBytes) {
       for (const InstructionSet set : instruction_sets()) {
         ASSERT_TRUE(use_instruction_set(set));
         Mesh mesh = start;
-        const auto report = optimize(mesh, {.energy = energy.kind, .star = Star(star), .max_sweeps = 2});
+        const auto report = optimize(
+            mesh, {.objective = Objective::energy, .energy = energy.kind, .star = Star(star), .max_sweeps = 2});
         ASSERT_TRUE(report) << energy.name;
         EXPECT_GT(report->sweeps, 0);
         if (!first) first = mesh;
@@ -318,6 +319,7 @@ TEST(InstructionSets, RunsForAccuracyGiveTheSameBytes) {
   ASSERT_TRUE(optimize(start));
   OptimizeOptions options;
   options.objective = Objective::accuracy;
+  options.for_ = Scheme::stars;
   options.accuracy.sweeps = 5;
   std::optional<Mesh> first;
   for (const InstructionSet set : instruction_sets()) {

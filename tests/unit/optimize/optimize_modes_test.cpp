@@ -117,7 +117,7 @@ TEST(Modes, InfiniteEnergyIsLeftOrSaid) {
   EXPECT_EQ(quality(mesh).well_centered_fraction, 1);
   EXPECT_TRUE(std::isfinite(report->final_energy));
 
-  const auto stuck = optimize(frozen, {.unknowns = Unknowns::positions});
+  const auto stuck = optimize(frozen, {.objective = Objective::energy, .unknowns = Unknowns::positions});
   ASSERT_TRUE(stuck);
   EXPECT_LT(stuck->sweeps, 20);
   ASSERT_FALSE(stuck->notes.empty());

@@ -23,7 +23,8 @@ std::string error_of(const OptimizeOptions& options) {
 }
 
 TEST(OptimizeOptions, OutOfRangeAreRefusedByName) {
-  EXPECT_EQ(error_of({.star = Star::all}), "`star=all` is for `objective=accuracy`; of an energy expected 0, 1 or 2");
+  EXPECT_EQ(error_of({.objective = Objective::energy, .star = Star::all}),
+            "`star=all` is for `objective=accuracy`; of an energy expected 0, 1 or 2");
   EXPECT_EQ(error_of({.paper = {.gamma = Softening{0}}}), "`gamma` is 0; expected more than 0, or none");
   EXPECT_EQ(error_of({.paper = {.gamma = Softening{NAN}}}), "`gamma` is nan; expected more than 0, or none");
   EXPECT_EQ(error_of({.paper = {.overshoot = 0}}), "`overshoot` is 0; expected more than 0");

@@ -153,7 +153,8 @@ TEST(Repair, SaysWhenAnEdgeMustBeSplitBeforeAnythingHelps) {
   for (int i = 0; i < 7; ++i) segments.push_back({i, (i + 1) % 7});
   const Mesh input = *constrained_delaunay({.points = points, .segments = segments});
   Mesh kept = input, split = input;
-  const auto report = optimize(kept, {.repair = Repair::vertices, .repair_trials = 500});
+  const auto report =
+      optimize(kept, {.objective = Objective::energy, .repair = Repair::vertices, .repair_trials = 500});
   ASSERT_TRUE(report);
   EXPECT_GT(bad_triangles(kept), 0u);
   ASSERT_FALSE(report->notes.empty());

@@ -23,6 +23,7 @@ struct Optimized {
 
 Optimized optimized(const Mesh& input, OptimizeOptions options) {
   options.repair = Repair::none;
+  options.objective = Objective::energy;
   options.max_sweeps = std::min(options.max_sweeps, 100);  // laws hold after every sweep; more only takes longer
   Optimized result{input, {}};
   auto report = optimize(result.mesh, options);
