@@ -36,7 +36,7 @@ LAYERS = {
     "dec": _BELOW + ["topology", "energy", "regularity"],
     "draw": _BELOW + ["topology", "energy", "regularity", "quality"],
     "generate": _BELOW + ["topology", "energy", "regularity", "projection"],
-    "mesher": _BELOW + ["topology", "energy", "regularity", "feasibility", "optimize", "generate", "projection"],
+    "mesher": _BELOW + ["size", "topology", "energy", "regularity", "feasibility", "optimize", "generate", "projection"],
     # A library of its own: sees the core's public headers, and no other folder of src/.
     "io": _BELOW + ["projection", "places", "size", "quality", "dec"],
     "lp": _BELOW + ["feasibility"],

@@ -32,12 +32,18 @@ std::string spell(const Projection& projection) {
 }
 
 std::string mesh_text(const MeshRecord& r) {
-  const Outline& o = r.input.outline;
-  std::string text = fmt::format("{}: {}, {} ({})\n", r.input.path, plural(o.points.size(), "point", "points"),
-                                 plural(o.segments.size(), "segment", "segments"), r.input.format);
+  std::string text;
+  for (const NamedOutline& input : r.inputs) {
+    const Outline& o = input.file.outline;
+    text += fmt::format("{}: {}, {} ({})\n", input.file.path, plural(o.points.size(), "point", "points"),
+                        plural(o.segments.size(), "segment", "segments"), input.file.format);
+  }
   if (r.map.projection) {
     text += fmt::format("projection {}, lengths on the map are {:.5f} to {:.5f} of those on the globe\n",
                         spell(*r.map.projection), r.map.least_scale, r.map.largest_scale);
+  }
+  if (r.map.radius > 0) {
+    text += fmt::format("sphere of radius {}, {:.4g} % of it meshed\n", r.map.radius, 100 * r.map.covered);
   }
   text += fmt::format("{}, {}, {} of the outline; {} of the Delaunay triangles were not well-centered\n",
                       plural(r.quality.vertices, "vertex", "vertices"),
@@ -58,10 +64,13 @@ std::string mesh_json(const MeshRecord& r) {
   Json json;
   json["command"] = r.command;
   json["version"] = version();
-  const Outline& o = r.input.outline;
-  json["outline"] = {{"format", r.input.format},    {"points", o.points.size()},   {"segments", o.segments.size()},
-                     {"holes", o.holes.size()},     {"regions", o.regions.size()}, {"parts", o.parts.size()},
-                     {"warnings", r.input.warnings}};
+  for (const NamedOutline& input : r.inputs) {
+    const Outline& o = input.file.outline;
+    json[input.name] = {{"format", input.file.format},    {"points", o.points.size()},
+                        {"segments", o.segments.size()},  {"holes", o.holes.size()},
+                        {"regions", o.regions.size()},    {"parts", o.parts.size()},
+                        {"warnings", input.file.warnings}};
+  }
   json["projection"] = nullptr;
   if (r.map.projection) {
     json["projection"] = {{"name", name(r.map.projection->kind)},
@@ -70,6 +79,7 @@ std::string mesh_json(const MeshRecord& r) {
                           {"least_scale", r.map.least_scale},
                           {"largest_scale", r.map.largest_scale}};
   }
+  if (r.map.radius > 0) json["sphere"] = {{"radius", r.map.radius}, {"covered", r.map.covered}};
   json["attempts"] = r.made.attempts;
   json["outline_edges"] = r.made.lines.size();
   json["delaunay_bad"] = r.made.delaunay_bad;

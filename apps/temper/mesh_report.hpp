@@ -13,17 +13,25 @@
 
 namespace temper::app {
 
-/// The map from longitude and latitude to the plane, when there is one.
+/// Where points in longitude and latitude are: on a map, on the sphere, or there are none.
 struct MapUsed {
   std::optional<Projection> projection = {};
-  std::vector<Vec2> lon_lat = {};             ///< of the outline's points, as they were given
+  double radius = 0;                          ///< of the sphere
+  double covered = 0;                         ///< the part of the sphere that is meshed
+  std::vector<Vec2> lon_lat = {};             ///< of the outlines' points, as they were given
   double least_scale = 1, largest_scale = 1;  ///< length on the map over length on the globe, over all vertices
+};
+
+/// "outline", "coast" or "lines", and what was read.
+struct NamedOutline {
+  const char* name;
+  io::OutlineFile file;
 };
 
 struct MeshRecord {
   std::string command;
   std::vector<UsedOption> options;
-  const io::OutlineFile& input;
+  const std::vector<NamedOutline>& inputs;
   const MapUsed& map;
   const OutlineMesh& made;
   const Quality& quality;

@@ -3,7 +3,8 @@
 //
 // The boundary is what an optimisation cannot change, so it is divided for it: edges follow the size, change it slowly,
 // and are short enough where two pieces of the outline face each other that a row of free vertices fits between. Where
-// triangles stay bad all the same, the outline is divided finer around them, and all is done again.
+// triangles stay bad all the same, the outline is divided finer around them, and all is done again. On the sphere the
+// same is done with arcs of great circles; without an outline, points are placed all around it.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +17,7 @@
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
 #include "temper/outline.hpp"
+#include "temper/size.hpp"
 
 namespace temper {
 
@@ -32,8 +34,9 @@ struct RegionSize {
 };
 
 struct MesherOptions {
-  double size = 0;     ///< edge length wanted, > 0; of the units of the points
+  double size = 0;     ///< edge length wanted, > 0; of the units of the points. With a field it may be 0: no bound
   double grade = 0.3;  ///< how fast the size may grow with the distance from what is smaller, > 0
+  std::optional<SizeField> field = {};        ///< edge length wanted at each place, where it is less than `size`
   std::vector<RegionSize> region_sizes = {};  ///< of these regions, when less than `size`
   Enclosed enclosed = Enclosed::by_points;
   std::optional<OptimizeOptions> optimize = OptimizeOptions();  ///< absent: the Delaunay mesh as it is
@@ -67,5 +70,21 @@ struct OutlineMesh {
 /// patience ends before there is a mesh (later the best mesh so far is returned). About O(n log n) an attempt.
 [[nodiscard]] Expected<OutlineMesh> mesh_outline(const Outline& outline, const MesherOptions& options,
                                                  const OptimizeHooks& hooks = {});
+
+/// A sphere, or the part of it that is to be meshed. Points of the outlines are longitude and latitude [degrees], 180
+/// and -180 being the same; their segments are the shorter arcs of great circles. Of the two sides that a closed line
+/// leaves it encloses the smaller, whatever its direction; the segments of one part are one line.
+struct SphereOutline {
+  double radius = 6371000;
+  Outline basins = {};  ///< closed: what they enclose is meshed; without any, the whole sphere
+  Outline coasts = {};  ///< closed: what they enclose is left out
+  Outline lines = {};   ///< of any shape: they become constrained edges
+};
+
+/// Meshes a sphere by the same steps. `vertex_of_point` has the points of basins, coasts and lines, one after the
+/// other. Errors besides: what is no longitude and latitude, coasts that are not closed, that divide the sphere into
+/// halves, or leave nothing of it; a size field of another space.
+[[nodiscard]] Expected<OutlineMesh> mesh_sphere(const SphereOutline& outline, const MesherOptions& options,
+                                                const OptimizeHooks& hooks = {});
 
 }  // namespace temper

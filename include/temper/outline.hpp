@@ -29,11 +29,13 @@ struct OutlineRegion {
   std::optional<double> size = {};  ///< edge length wanted there, when less than elsewhere
 };
 
-/// An area given by its boundary: inside is what a ray leaves across an odd number of these segments.
+/// An area given by its boundary: inside is what a ray leaves across an odd number of these segments. (On the sphere,
+/// which has no outside: the smaller of what they leave.)
 struct OutlinePart {
   std::int32_t region = 0;
   std::vector<std::int32_t> segments;
   std::optional<double> size = {};  ///< edge length wanted inside, when less than elsewhere
+  bool cut = false;                 ///< what it encloses is left out: of parts on the sphere
 };
 
 /// The user's numbers of the elements of an outline, so that errors speak them. (Inline, as InputNames.)

@@ -1,4 +1,4 @@
-// Segments into a Delaunay triangulation.
+// Segments into a Delaunay triangulation, of the plane or of the sphere.
 //
 // A segment is followed from vertex to vertex: a vertex that lies on it splits it. Between two such vertices u and w
 // it is an edge already, or it crosses a strip of triangles; these are replaced by triangulations of what is left
@@ -17,7 +17,7 @@
 
 #include "generate/triangulation.hpp"
 #include "mesh/mesh_editor.hpp"
-#include "temper/geometry.hpp"
+#include "mesh/predicates.hpp"
 
 namespace temper::generate {
 namespace {
@@ -65,11 +65,14 @@ class SegmentInserter {
   static std::uint64_t key(VertexId a, VertexId b) {
     return (std::uint64_t{std::min(a, b).index} << 32) | std::max(a, b).index;
   }
-  [[nodiscard]] Sign side(VertexId u, VertexId w, VertexId v) const {
-    return orient2d(mesh_.position(u), mesh_.position(w), mesh_.position(v));
-  }
-  /// v is on the line of uw: is it on w's side of u?
+  [[nodiscard]] Sign side(VertexId u, VertexId w, VertexId v) const { return inlined::orientation(mesh_, u, w, v); }
+  /// v is on the line of uw: is it on w's side of u? (On the sphere less than half the way around; the normals of both
+  /// great circles are the same, or opposite.)
   [[nodiscard]] bool is_ahead(VertexId u, VertexId w, VertexId v) const {
+    if (!mesh_.space().is_plane()) {
+      const Vec3 from = mesh_.lifted_point(u);
+      return dot(temper::cross(from, mesh_.lifted_point(w)), temper::cross(from, mesh_.lifted_point(v))) > 0;
+    }
     const Vec2 a = mesh_.position(u), b = mesh_.position(w), p = mesh_.position(v);
     return (a.x < b.x) == (a.x < p.x) && (a.x > b.x) == (a.x > p.x) && (a.y < b.y) == (a.y < p.y) &&
            (a.y > b.y) == (a.y > p.y);

@@ -1,8 +1,8 @@
 // Incremental Delaunay triangulation of points around the sphere: the hull of all points.
 //
 // It begins with a tetrahedron of four points of its own, around the center, so that the mesh is closed at all times
-// and every point is in a triangle, on an edge or at a vertex of it. They go at the end; what then is not a mesh of the
-// whole sphere is of points that leave half of it empty.
+// and every point is in a triangle, on an edge or at a vertex of it. They go at the end, but for those without which
+// half of the sphere would be empty.
 #include <algorithm>
 
 #include "base/text.hpp"
@@ -40,18 +40,26 @@ class SphereInserter {
     return std::nullopt;
   }
 
-  /// False when the points do not surround the center.
-  bool remove_helpers() {
+  /// Those that are left have the numbers after those of the points.
+  void remove_helpers() {
     for (std::size_t k = 0; k < kHelpers; ++k) {
       plan_ = plan_removal(result_.mesh, VertexId(k), std::move(plan_));
-      if (plan_.status != RemovalStatus::possible) return false;
+      if (plan_.status != RemovalStatus::possible) continue;
       remove_vertex(result_.mesh, plan_);
       lawson_.clear();
       lawson_.push_removal(result_.mesh, plan_);
       make_regular();
     }
-    result_.number.erase(result_.number.begin(), result_.number.begin() + kHelpers);
-    return true;
+    const Compaction kept = result_.mesh.compact();
+    const std::vector<std::uint32_t> numbers = std::move(result_.number);
+    const std::size_t n = result_.vertex.size();
+    auto next = static_cast<std::uint32_t>(n);
+    result_.number.clear();
+    for (const VertexId v : result_.mesh.vertices()) {
+      const std::uint32_t number = numbers[kept.vertices[v].index];
+      result_.number.push_back(number < n ? number : next++);
+      if (number < n) result_.vertex[number] = v;
+    }
   }
 
   [[nodiscard]] std::uint32_t number(VertexId v) const { return result_.number[v.index]; }
@@ -98,7 +106,27 @@ Expected<Mesh> helpers(double radius) {
 
 }  // namespace
 
+Expected<generate::Triangulation> generate::triangulate_sphere(std::span<const Vec3> points, double radius,
+                                                               const std::function<bool()>& stop) {
+  auto tetrahedron = helpers(radius);
+  if (!tetrahedron) return tetrahedron.error();
+  SphereInserter inserter(*std::move(tetrahedron), points.size());
+  for (const std::uint32_t i : insertion_order(points)) {
+    if (stop && stop()) return stopped_error();
+    if (const auto there = inserter.insert(i, points[i])) {
+      const auto [low, high] = std::minmax({inserter.number(*there), i});
+      return InputError{ErrorCode::duplicate_point, "",
+                        "points " + std::to_string(low) + " and " + std::to_string(high) +
+                            " are both in the direction " + place(points[i])};
+    }
+  }
+  inserter.remove_helpers();
+  return inserter.take();
+}
+
 Expected<Mesh> spherical_delaunay(std::span<const Vec3> points, double radius) {
+  std::vector<Vec3> places;
+  places.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double distance = length(points[i]);
     if (!(distance > 0) || !std::isfinite(distance)) {
@@ -106,23 +134,15 @@ Expected<Mesh> spherical_delaunay(std::span<const Vec3> points, double radius) {
           ErrorCode::not_on_sphere, "",
           "point " + std::to_string(i) + " at " + place(points[i]) + " has no direction from the center of the sphere"};
     }
+    places.push_back(radius / distance * points[i]);
   }
-  auto tetrahedron = helpers(radius);
-  if (!tetrahedron) return tetrahedron.error();
-  SphereInserter inserter(*std::move(tetrahedron), points.size());
-  for (const std::uint32_t i : generate::insertion_order(points)) {
-    if (const auto there = inserter.insert(i, radius / length(points[i]) * points[i])) {
-      const auto [low, high] = std::minmax({inserter.number(*there), i});
-      return InputError{ErrorCode::duplicate_point, "",
-                        "points " + std::to_string(low) + " and " + std::to_string(high) +
-                            " are both in the direction " + place(points[i])};
-    }
-  }
-  if (!inserter.remove_helpers()) {
+  auto triangulation = generate::triangulate_sphere(places, radius);
+  if (!triangulation) return triangulation.error();
+  if (triangulation->number.size() > points.size()) {
     return InputError{ErrorCode::zero_area, "",
                       "the points leave half of the sphere empty; expected them all around it"};
   }
-  return generate::in_input_order(inserter.take());
+  return generate::in_input_order(*std::move(triangulation));
 }
 
 }  // namespace temper

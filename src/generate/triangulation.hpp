@@ -44,6 +44,11 @@ struct Triangulation {
 [[nodiscard]] Expected<Triangulation> triangulate_points(std::span<const Vec2> points,
                                                          const std::function<bool()>& stop = {});
 
+/// The Delaunay triangulation of points of the sphere of this radius. Where they leave half of it empty, up to four
+/// vertices of no point are added, whose numbers come after those of the points.
+[[nodiscard]] Expected<Triangulation> triangulate_sphere(std::span<const Vec3> points, double radius,
+                                                         const std::function<bool()>& stop = {});
+
 /// Makes the segments edges, or chains of edges where points lie on them, and constrains those.
 [[nodiscard]] std::optional<InputError> insert_segments(Triangulation& triangulation,
                                                         std::span<const std::array<std::int32_t, 2>> segments,

@@ -1,13 +1,21 @@
-// Components of triangles between edges, by flooding; then one of three rules says which of them are inside.
+// Components of triangles between edges, by flooding; then one of four rules says which of them are inside.
 #include "mesher/areas.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
+#include "generate/triangulation.hpp"
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"
+#include "temper/projection.hpp"
 #include "topology/locate.hpp"
 
 namespace temper::mesher {
@@ -21,13 +29,33 @@ struct Hull {
   IdVector<HalfedgeId, std::uint32_t> piece;
 };
 
-Expected<Hull> triangulate_hull(std::vector<Vec2> points, const std::vector<Piece>& pieces, Deadline& deadline) {
+Expected<Mesh> delaunay_of_plane(const std::vector<Vec3>& places, std::span<const std::array<std::int32_t, 2>> segments,
+                                 const std::function<bool()>& stop) {
+  std::vector<Vec2> points;
+  points.reserve(places.size());
+  for (const Vec3 p : places) points.push_back({p.x, p.y});
+  return constrained_delaunay({points, segments, false, stop});
+}
+
+Expected<Mesh> delaunay_of_sphere(const Space& sphere, const std::vector<Vec3>& places,
+                                  std::span<const std::array<std::int32_t, 2>> segments,
+                                  const std::function<bool()>& stop) {
+  auto triangulation = generate::triangulate_sphere(places, sphere.radius(), stop);
+  if (!triangulation) return triangulation.error();
+  if (auto error = generate::insert_segments(*triangulation, segments, stop)) return *error;
+  return generate::in_input_order(*std::move(triangulation));
+}
+
+Expected<Hull> triangulate_hull(const Ground& ground, const std::vector<Vec3>& points, const std::vector<Piece>& pieces,
+                                Deadline& deadline) {
   std::vector<std::array<std::int32_t, 2>> segments;
   segments.reserve(pieces.size());
   for (const Piece& p : pieces) {
     segments.push_back({static_cast<std::int32_t>(p.ends[0]), static_cast<std::int32_t>(p.ends[1])});
   }
-  Expected<Mesh> mesh = constrained_delaunay({points, segments, false, [&] { return deadline.asked_to_stop(); }});
+  const auto stop = [&] { return deadline.asked_to_stop(); };
+  Expected<Mesh> mesh = ground.is_plane() ? delaunay_of_plane(points, segments, stop)
+                                          : delaunay_of_sphere(ground.space(), points, segments, stop);
   if (!mesh) return mesh.error();
   Hull hull{*std::move(mesh), {}};
   hull.piece.resize(hull.mesh.n_halfedges(), kNone);
@@ -48,9 +76,16 @@ void each_halfedge(TriangleId t, const F& f) {
 
 class AreaFinder {
  public:
-  AreaFinder(const Outline& outline, const std::vector<OutlineEdge>& edges, const MesherOptions& options,
-             Deadline& deadline)
-      : outline_(outline), names_(names_of(outline)), edges_(edges), options_(options), deadline_(deadline) {}
+  AreaFinder(const Ground& ground, const Outline& outline, const std::vector<Vec3>& places,
+             const std::vector<OutlineEdge>& edges, const MesherOptions& options, double largest, Deadline& deadline)
+      : ground_(ground),
+        outline_(outline),
+        places_(places),
+        names_(names_of(outline)),
+        edges_(edges),
+        options_(options),
+        largest_(largest),
+        deadline_(deadline) {}
 
   Expected<Areas> run() {
     std::vector<Piece> pieces;
@@ -59,12 +94,11 @@ class AreaFinder {
       pieces.push_back(
           {{static_cast<std::uint32_t>(ends[0]), static_cast<std::uint32_t>(ends[1])}, static_cast<std::uint32_t>(i)});
     }
-    Expected<Hull> hull = triangulate_hull(outline_.points, pieces, deadline_);
+    Expected<Hull> hull = triangulate_hull(ground_, places_, pieces, deadline_);
     if (!hull) return hull.error();
     hull_ = *std::move(hull);
     find_components();
-    const auto error = outline_.parts.empty() ? (takes_turns() ? take_turns() : take_all()) : take_parts();
-    if (error) return *error;
+    if (const Error error = take_by_rule()) return *error;
     if (std::find(inside_.begin(), inside_.end(), std::uint8_t{1}) == inside_.end()) return nothing_enclosed();
     if (const auto region_error = take_regions()) return *region_error;
     return collect();
@@ -72,6 +106,12 @@ class AreaFinder {
 
  private:
   using Error = std::optional<InputError>;
+
+  Error take_by_rule() {
+    if (!ground_.is_plane()) return take_smaller_sides();
+    if (!outline_.parts.empty()) return take_parts();
+    return takes_turns() ? take_turns() : take_all();
+  }
 
   [[nodiscard]] bool takes_turns() const {
     if (options_.enclosed != Enclosed::by_points) return options_.enclosed == Enclosed::alternate;
@@ -101,7 +141,8 @@ class AreaFinder {
     }
     inside_.assign(n_components_, 0);
     region_.assign(n_components_, 0);
-    size_.assign(n_components_, options_.size);
+    size_.assign(n_components_, largest_);
+    extent_.assign(n_components_, 0);
     neighbours_.resize(n_components_);
     for (const HalfedgeId h : mesh.halfedges()) {
       if (mesh.is_boundary(h)) {
@@ -150,47 +191,129 @@ class AreaFinder {
     return {};
   }
 
-  /// Each component's parts: those of the component beside it, but for the edge's.
-  Error take_parts() {
-    std::vector<std::vector<std::int32_t>> parts(n_components_);
+  using Parts = std::vector<std::vector<std::int32_t>>;
+
+  /// Each component's parts: those of the component beside it, but for the edge's. `from`: the first components, whose
+  /// parts are none but those of the edge before them.
+  [[nodiscard]] Parts parts_from(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& first) const {
+    Parts parts(n_components_);
     std::vector<std::uint8_t> known(n_components_, 0);
     std::vector<std::uint32_t> queue;
     const auto enter = [&](std::uint32_t c, const std::vector<std::int32_t>& from, std::uint32_t piece) {
       if (known[c] != 0) return;
       known[c] = 1;
-      if (piece == kNone) {
-        parts[c] = from;
-      } else {
-        const auto& crossed = edges_[piece].parts;
-        std::set_symmetric_difference(from.begin(), from.end(), crossed.begin(), crossed.end(),
-                                      std::back_inserter(parts[c]));
-      }
+      parts[c] = piece == kNone ? from : odd_ones(from, edges_[piece].parts);
       queue.push_back(c);
     };
-    for (const auto& [c, piece] : from_outside_) enter(c, {}, piece);
+    for (const auto& [c, piece] : first) enter(c, {}, piece);
     for (std::size_t i = 0; i < queue.size(); ++i) {
       const std::uint32_t c = queue[i];
       for (const auto& [next, piece] : neighbours_[c]) enter(next, parts[c], piece);
     }
+    return parts;
+  }
+
+  /// What is in one of two sorted lists.
+  [[nodiscard]] static std::vector<std::int32_t> odd_ones(const std::vector<std::int32_t>& one,
+                                                          const std::vector<std::int32_t>& other) {
+    std::vector<std::int32_t> result;
+    std::set_symmetric_difference(one.begin(), one.end(), other.begin(), other.end(), std::back_inserter(result));
+    return result;
+  }
+
+  Error take_parts() {
+    const Parts parts = parts_from(from_outside_);
     for (std::size_t c = 0; c < n_components_; ++c) {
-      if (parts[c].empty()) continue;
-      const OutlinePart& part = outline_.parts[static_cast<std::size_t>(parts[c][0])];
-      inside_[c] = 1;
-      region_[c] = part.region;
-      size_[c] = std::min(size_[c], part.size.value_or(size_[c]));
-      if (parts[c].size() > 1) {
-        const auto name = [&](std::size_t k) { return names_.part(static_cast<std::size_t>(parts[c][k])); };
-        return InputError{ErrorCode::overlap, "", name(0) + " and " + name(1) + " overlap" + near(c)};
+      if (!parts[c].empty()) {
+        if (Error error = take(c, parts[c])) return error;
       }
     }
     return {};
   }
 
-  /// " near (x, y)": a corner of the component.
+  /// A component is in one part and has what that says.
+  Error take(std::size_t c, const std::vector<std::int32_t>& parts) {
+    const OutlinePart& part = outline_.parts[static_cast<std::size_t>(parts[0])];
+    inside_[c] = 1;
+    region_[c] = part.region;
+    size_[c] = std::min(size_[c], part.size.value_or(size_[c]));
+    return parts.size() > 1 ? Error(overlap(c, parts)) : Error();
+  }
+
+  [[nodiscard]] InputError overlap(std::size_t c, const std::vector<std::int32_t>& parts) const {
+    const auto name = [&](std::size_t k) { return names_.part(static_cast<std::size_t>(parts[k])); };
+    return {ErrorCode::overlap, part_where(parts[1]), name(0) + " and " + name(1) + " overlap" + near(c)};
+  }
+
+  /// Where the first segment of a part is.
+  [[nodiscard]] std::string part_where(std::int32_t part) const {
+    const auto& segments = outline_.parts[static_cast<std::size_t>(part)].segments;
+    return segments.empty() ? std::string() : names_.segment_where(static_cast<std::size_t>(segments[0]));
+  }
+
+  /// The sphere has no outside: of the two sides that the segments of a part leave the smaller is in it. Inside is what
+  /// is in a part that is meshed, if there are any, and in none that is cut out.
+  Error take_smaller_sides() {
+    if (!outline_.holes.empty())
+      return InputError{ErrorCode::unsupported, names_.hole_where(0),
+                        names_.hole(0) + " is for the plane; on the sphere nested loops take turns"};
+    Parts parts = parts_from({{0, kNone}});
+    extent_ = component_areas();
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(outline_.parts.size()); ++i) {
+      if (Error error = turn_to_smaller_side(i, parts)) return error;
+    }
+    const auto is_cut = [&](std::int32_t i) { return outline_.parts[static_cast<std::size_t>(i)].cut; };
+    const bool all = std::all_of(outline_.parts.begin(), outline_.parts.end(), [](const auto& p) { return p.cut; });
+    for (std::size_t c = 0; c < n_components_; ++c) {
+      const auto first_cut = std::stable_partition(parts[c].begin(), parts[c].end(), std::not_fn(is_cut));
+      const std::vector<std::int32_t> kept(parts[c].begin(), first_cut), cut(first_cut, parts[c].end());
+      if (cut.size() > 1) return overlap(c, cut);
+      if (!cut.empty()) continue;
+      if (all) {
+        inside_[c] = 1;
+      } else if (!kept.empty()) {
+        if (Error error = take(c, kept)) return error;
+      }
+    }
+    return {};
+  }
+
+  /// Of each component, as a part of the sphere.
+  [[nodiscard]] std::vector<double> component_areas() const {
+    std::vector<double> area(n_components_, 0);
+    for (const TriangleId t : hull_.mesh.triangles()) {
+      const auto [a, b, c] = hull_.mesh.corners(t);
+      const Mesh& mesh = hull_.mesh;
+      area[component_[t]] +=
+          solid_angle(mesh.lifted_point(a), mesh.lifted_point(b), mesh.lifted_point(c)) / (4 * std::numbers::pi);
+    }
+    return area;
+  }
+
+  Error turn_to_smaller_side(std::int32_t part, Parts& parts) const {
+    constexpr double kHalf = 1e-6;  // of the sphere: a loop that is nearer to half of it says nothing
+    double enclosed = 0;
+    for (std::size_t c = 0; c < n_components_; ++c) {
+      if (std::binary_search(parts[c].begin(), parts[c].end(), part)) enclosed += extent_[c];
+    }
+    const auto error = [&](ErrorCode code, const std::string& what) {
+      return InputError{code, part_where(part), names_.part(static_cast<std::size_t>(part)) + " " + what};
+    };
+    if (enclosed == 0) return error(ErrorCode::zero_area, "encloses nothing of the sphere");
+    if (std::abs(enclosed - 0.5) < kHalf)
+      return error(ErrorCode::out_of_scale,
+                   "divides the sphere into halves; expected a smaller side, which is what it encloses");
+    if (enclosed < 0.5) return {};
+    for (auto& of_component : parts) of_component = odd_ones(of_component, {part});
+    return {};
+  }
+
+  /// " near (x, y)": a corner of the component, on the sphere in degrees.
   [[nodiscard]] std::string near(std::size_t c) const {
     for (const TriangleId t : hull_.mesh.triangles()) {
       if (component_[t] != c) continue;
-      const Vec2 p = hull_.mesh.position(hull_.mesh.corners(t)[0]);
+      const Vec3 at = ground_.place(hull_.mesh.point(hull_.mesh.corners(t)[0]));
+      const Vec2 p = ground_.is_plane() ? Vec2{at.x, at.y} : lon_lat_of(at);
       return " near (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
     }
     return {};
@@ -223,13 +346,15 @@ class AreaFinder {
   /// The component of a place, or none outside the hull. A place on an edge belongs to one of its sides. Looked for
   /// from the last one.
   [[nodiscard]] std::uint32_t locate(Vec2 p) {
-    const Location at = temper::locate(hull_.mesh, p, located_);
+    const WeightedPoint vertex = ground_.is_plane() ? WeightedPoint{p.x, p.y, 0} : as_point(direction_of(p));
+    const Location at = temper::locate(hull_.mesh, vertex, located_);
     if (at.kind == Location::Kind::outside) return kNone;
     located_ = at.triangle;
     return component_[at.triangle];
   }
 
   [[nodiscard]] InputError nothing_enclosed() const {
+    if (!ground_.is_plane()) return {ErrorCode::empty_input, "", "nothing of the sphere is left to mesh"};
     std::vector<std::uint32_t> degree(outline_.points.size(), 0);
     for (const OutlineEdge& e : edges_) {
       for (const std::int32_t end : e.ends) ++degree[static_cast<std::size_t>(end)];
@@ -249,7 +374,7 @@ class AreaFinder {
     for (std::size_t c = 0; c < n_components_; ++c) {
       if (inside_[c] == 0) continue;
       number[c] = static_cast<std::int32_t>(result.areas.size());
-      result.areas.push_back({region_[c], size_[c]});
+      result.areas.push_back({region_[c], size_[c], extent_[c]});
     }
     for (const OutlineEdge& e : edges_) {
       const VertexId a(static_cast<std::size_t>(e.ends[0])), b(static_cast<std::size_t>(e.ends[1]));
@@ -262,10 +387,13 @@ class AreaFinder {
     return result;
   }
 
+  const Ground& ground_;
   const Outline& outline_;
+  const std::vector<Vec3>& places_;
   const OutlineNames& names_;
   const std::vector<OutlineEdge>& edges_;
   const MesherOptions& options_;
+  double largest_;
   Deadline& deadline_;
   Hull hull_;
   TriangleId located_ = TriangleId(0);
@@ -275,25 +403,27 @@ class AreaFinder {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> from_outside_;             // the same, from beyond the hull
   std::vector<std::uint8_t> inside_;
   std::vector<std::int32_t> region_;
-  std::vector<double> size_;
+  std::vector<double> size_, extent_;
 };
 
 }  // namespace
 
-Expected<Areas> find_areas(const Outline& outline, const std::vector<OutlineEdge>& edges, const MesherOptions& options,
+Expected<Areas> find_areas(const Ground& ground, const Outline& outline, const std::vector<Vec3>& places,
+                           const std::vector<OutlineEdge>& edges, const MesherOptions& options, double largest,
                            Deadline& deadline) {
-  return AreaFinder(outline, edges, options, deadline).run();
+  return AreaFinder(ground, outline, places, edges, options, largest, deadline).run();
 }
 
-Expected<Triangulated> triangulate(const DividedOutline& divided, const std::vector<Vec2>& further, const Areas& areas,
-                                   Deadline& deadline) {
-  std::vector<Vec2> points = divided.points;
+Expected<Triangulated> triangulate(const Ground& ground, const DividedOutline& divided,
+                                   const std::vector<Vec3>& further, const Areas& areas, Deadline& deadline) {
+  std::vector<Vec3> points = divided.points;
   points.insert(points.end(), further.begin(), further.end());
-  Expected<Hull> hull = triangulate_hull(std::move(points), divided.pieces, deadline);
+  Expected<Hull> hull = triangulate_hull(ground, points, divided.pieces, deadline);
   if (!hull) return hull.error();
   Triangulated result{std::move(hull->mesh), {}, std::move(hull->piece)};
   const Mesh& mesh = result.mesh;
-  result.area.resize(mesh.n_triangles(), kOutside);
+  const bool whole_sphere = divided.pieces.empty();
+  result.area.resize(mesh.n_triangles(), whole_sphere ? 0 : kOutside);
   IdVector<TriangleId, std::uint8_t> known(mesh.n_triangles(), 0);
   std::vector<TriangleId> stack;
   for (const HalfedgeId h : mesh.halfedges()) {

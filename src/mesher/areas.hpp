@@ -18,7 +18,8 @@ inline constexpr std::int32_t kOutside = -1;
 /// An area: a part of the inside that is connected without crossing an edge.
 struct Area {
   std::int32_t region = 0;
-  double size = 0;  ///< edge length wanted
+  double size = 0;    ///< edge length wanted
+  double extent = 0;  ///< of the sphere, the part that it is; of the plane nothing
 };
 
 struct Areas {
@@ -26,11 +27,15 @@ struct Areas {
   std::vector<std::array<std::int32_t, 2>> sides;  ///< of each edge: the area on its left and right, or kOutside
 };
 
-/// Errors: nothing enclosed, hole and region points on an edge or outside, parts that overlap.
-[[nodiscard]] Expected<Areas> find_areas(const Outline& outline, const std::vector<OutlineEdge>& edges,
-                                         const MesherOptions& options, Deadline& deadline);
+/// What the outline encloses, or on the sphere what its parts say; a whole sphere without any. `largest`: size of areas
+/// that have none of their own. Errors: nothing enclosed, hole and region points on an edge or outside, parts that
+/// overlap; on the sphere parts that enclose half of it, holes.
+[[nodiscard]] Expected<Areas> find_areas(const Ground& ground, const Outline& outline, const std::vector<Vec3>& places,
+                                         const std::vector<OutlineEdge>& edges, const MesherOptions& options,
+                                         double largest, Deadline& deadline);
 
-/// The triangulation of points and pieces over their convex hull, and what belongs to each triangle and halfedge.
+/// The triangulation of points and pieces over their convex hull, and what belongs to each triangle and halfedge. On
+/// the sphere it has further vertices where the points leave half of it empty, after all others.
 struct Triangulated {
   static constexpr std::uint32_t kNoPiece = 0xffffffffu;
   Mesh mesh;
@@ -38,7 +43,8 @@ struct Triangulated {
   IdVector<HalfedgeId, std::uint32_t> piece;  ///< or kNoPiece
 };
 /// Further points come after those of the divided outline. ErrorCode::stopped when it is time to stop.
-[[nodiscard]] Expected<Triangulated> triangulate(const DividedOutline& divided, const std::vector<Vec2>& further,
-                                                 const Areas& areas, Deadline& deadline);
+[[nodiscard]] Expected<Triangulated> triangulate(const Ground& ground, const DividedOutline& divided,
+                                                 const std::vector<Vec3>& further, const Areas& areas,
+                                                 Deadline& deadline);
 
 }  // namespace temper::mesher

@@ -18,7 +18,8 @@ std::string coordinates(Vec2 p) { return "(" + std::to_string(p.x) + ", " + std:
 
 class Arranger {
  public:
-  explicit Arranger(const Outline& outline) : o_(outline), names_(names_of(outline)) {}
+  Arranger(const Ground& ground, const Outline& outline, const std::vector<Vec3>& places)
+      : ground_(ground), o_(outline), places_(places), names_(names_of(outline)) {}
 
   Expected<std::vector<OutlineEdge>> run() {
     for (const auto check : {&Arranger::check_points, &Arranger::check_segments, &Arranger::check_places,
@@ -29,7 +30,7 @@ class Arranger {
   }
 
  private:
-  [[nodiscard]] Vec2 point(std::int32_t i) const { return o_.points[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] Vec3 point(std::int32_t i) const { return places_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] InputError at_point(ErrorCode code, std::size_t i, const std::string& what) const {
     return {code, names_.point_where(i), names_.point(i) + " " + what};
   }
@@ -38,7 +39,7 @@ class Arranger {
   }
 
   Error check_points() {
-    if (o_.points.empty() || o_.segments.empty()) {
+    if (ground_.is_plane() && (o_.points.empty() || o_.segments.empty())) {
       return InputError{ErrorCode::empty_input, "",
                         "the outline has no " + std::string(o_.points.empty() ? "points" : "segments")};
     }
@@ -76,7 +77,7 @@ class Arranger {
   Error check_places() {
     std::vector<std::uint32_t> order(o_.points.size());
     std::iota(order.begin(), order.end(), 0u);
-    const auto key = [&](std::uint32_t i) { return std::pair(o_.points[i].x, o_.points[i].y); };
+    const auto key = [&](std::uint32_t i) { return std::array{places_[i].x, places_[i].y, places_[i].z}; };
     std::sort(order.begin(), order.end(),
               [&](std::uint32_t i, std::uint32_t j) { return key(i) < key(j) || (key(i) == key(j) && i < j); });
     Error first;
@@ -105,8 +106,8 @@ class Arranger {
     return {};
   }
 
-  [[nodiscard]] bool strictly_inside(Vec2 p, Vec2 a, Vec2 b) const {
-    return orient2d(a, b, p) == Sign::zero && !(p == a) && !(p == b) && box_of(a, b).meets({p, p});
+  [[nodiscard]] bool strictly_inside(Vec3 p, Vec3 a, Vec3 b) const {
+    return ground_.orientation(a, b, p) == Sign::zero && ground_.is_between(p, a, b);
   }
 
   void note_meeting(std::size_t segment, std::int32_t p) {
@@ -119,11 +120,12 @@ class Arranger {
   Error cross(std::size_t i, std::size_t j) {
     const auto [a, b] = o_.segments[i].ends;
     const auto [c, d] = o_.segments[j].ends;
-    const auto split = [&](std::int32_t p, std::int32_t q, std::int32_t r, std::int32_t s) {
-      const Sign one = orient2d(point(p), point(q), point(r)), other = orient2d(point(p), point(q), point(s));
-      return one != Sign::zero && one == -other;
+    const auto side = [&](std::int32_t p, std::int32_t q, std::int32_t r) {
+      return ground_.orientation(point(p), point(q), point(r));
     };
-    if (split(a, b, c, d) && split(c, d, a, b)) {
+    // Two great circles meet twice: c and a are on opposite sides of each other's segment where the segments do.
+    const Sign of_c = side(a, b, c), of_a = side(c, d, a);
+    if (of_c != Sign::zero && side(a, b, d) == -of_c && of_a == -of_c && side(c, d, b) == of_c) {
       const auto name = [&](std::int32_t p) { return names_.point(static_cast<std::size_t>(p)); };
       return at_segment(ErrorCode::overlap, j,
                         "(" + name(c) + " to " + name(d) + ") crosses " + names_.segment(i) + " (" + name(a) + " to " +
@@ -137,7 +139,7 @@ class Arranger {
     std::vector<Box> boxes;
     std::vector<std::uint8_t> used(o_.points.size(), 0);
     for (const OutlineSegment& s : o_.segments) {
-      boxes.push_back(box_of(point(s.ends[0]), point(s.ends[1])));
+      boxes.push_back(ground_.box(point(s.ends[0]), point(s.ends[1])));
       for (const std::int32_t end : s.ends) used[static_cast<std::size_t>(end)] = 1;
     }
     const BoxTree tree(boxes);
@@ -151,7 +153,7 @@ class Arranger {
     }
     for (std::size_t p = 0; p < o_.points.size() && !error; ++p) {
       if (used[p] != 0) continue;
-      tree.visit({o_.points[p], o_.points[p]}, [&](std::size_t i) {
+      tree.visit({places_[p], places_[p]}, [&](std::size_t i) {
         note_meeting(i, static_cast<std::int32_t>(p));
         return true;
       });
@@ -228,7 +230,9 @@ class Arranger {
     values.resize(kept);
   }
 
+  const Ground& ground_;
   const Outline& o_;
+  const std::vector<Vec3>& places_;
   const OutlineNames& names_;
   std::vector<std::vector<std::int32_t>> on_segment_;
 };
@@ -240,6 +244,9 @@ const OutlineNames& names_of(const Outline& outline) {
   return outline.names ? *outline.names : kFromZero;
 }
 
-Expected<std::vector<OutlineEdge>> arrange(const Outline& outline) { return Arranger(outline).run(); }
+Expected<std::vector<OutlineEdge>> arrange(const Ground& ground, const Outline& outline,
+                                           const std::vector<Vec3>& places) {
+  return Arranger(ground, outline, places).run();
+}
 
 }  // namespace temper::mesher

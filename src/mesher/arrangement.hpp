@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "mesher/ground.hpp"
 #include "temper/error.hpp"
 #include "temper/outline.hpp"
 
@@ -20,7 +21,9 @@ struct OutlineEdge {
 
 /// The edges, in the order of the segments. Errors: everything that makes segments no planar graph. Whether points lie
 /// on segments and segments cross is decided exactly. O(n log n) where segments do not lie across each other's boxes.
-[[nodiscard]] Expected<std::vector<OutlineEdge>> arrange(const Outline& outline);
+/// `places`: of the points. A whole sphere needs no segments.
+[[nodiscard]] Expected<std::vector<OutlineEdge>> arrange(const Ground& ground, const Outline& outline,
+                                                         const std::vector<Vec3>& places);
 
 /// The names of the outline, or those that count from 0.
 [[nodiscard]] const OutlineNames& names_of(const Outline& outline);

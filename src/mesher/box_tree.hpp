@@ -1,6 +1,6 @@
 // A static tree of bounding boxes: which of many segments are near a place.
 //
-// Boxes are halved by count along the longer side of their union, down to a few a leaf; the tree is an implicit
+// Boxes are halved by count along the longest side of their union, down to a few a leaf; the tree is an implicit
 // array, so it costs one sort and no pointers.
 #pragma once
 
@@ -10,28 +10,35 @@
 #include <span>
 #include <vector>
 
-#include "temper/vec2.hpp"
+#include "temper/vec3.hpp"
 
 namespace temper::mesher {
 
 struct Box {
-  Vec2 low, high;
+  Vec3 low, high;
 
   [[nodiscard]] bool meets(const Box& other) const {
-    return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y;
+    return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y &&
+           low.z <= other.high.z && other.low.z <= high.z;
   }
   [[nodiscard]] Box grown(double margin) const {
-    return {{low.x - margin, low.y - margin}, {high.x + margin, high.y + margin}};
+    const Vec3 all = {margin, margin, margin};
+    return {low - all, high + all};
+  }
+  /// The coordinate along which it is longest.
+  [[nodiscard]] double Vec3::*longest() const {
+    const Vec3 sides = high - low;
+    if (sides.x >= sides.y && sides.x >= sides.z) return &Vec3::x;
+    return sides.y >= sides.z ? &Vec3::y : &Vec3::z;
   }
 };
 
-[[nodiscard]] inline Box box_of(Vec2 a, Vec2 b) {
-  return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
-}
 [[nodiscard]] inline Box united(const Box& a, const Box& b) {
-  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
-          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
 }
+/// Around two points.
+[[nodiscard]] inline Box box_of(Vec3 a, Vec3 b) { return united({a, a}, {b, b}); }
 
 class BoxTree {
  public:
@@ -62,11 +69,11 @@ class BoxTree {
     for (std::size_t i = begin + 1; i < end; ++i) all = united(all, boxes_[order_[i]]);
     nodes_.push_back({all, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), 0});
     if (end - begin <= kLeaf) return index;
-    const bool wide = all.high.x - all.low.x >= all.high.y - all.low.y;
+    double Vec3::*const side = all.longest();
     const std::size_t middle = begin + (end - begin) / 2;
     const auto key = [&](std::uint32_t i) {
       const Box& b = boxes_[i];
-      return wide ? b.low.x + b.high.x : b.low.y + b.high.y;
+      return b.low.*side + b.high.*side;
     };
     std::nth_element(order_.begin() + static_cast<std::ptrdiff_t>(begin),
                      order_.begin() + static_cast<std::ptrdiff_t>(middle),

@@ -23,7 +23,7 @@ struct Piece {
 
 /// The outline after the division: its points and those of the division, and the pieces between them.
 struct DividedOutline {
-  std::vector<Vec2> points;  ///< those of the outline first, with their numbers
+  std::vector<Vec3> points;  ///< those of the outline first, with their numbers
   std::vector<Piece> pieces;
 };
 
@@ -32,15 +32,17 @@ struct DividedOutline {
 using CornerRadii = std::vector<double>;
 
 /// Divides every edge so that its pieces follow the size. What is left when it is time to stop is divided less.
-[[nodiscard]] DividedOutline divide(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges,
-                                    const GradedSize& size, const CornerRadii& corners, Deadline& deadline);
+[[nodiscard]] DividedOutline divide(const Ground& ground, const std::vector<Vec3>& points,
+                                    const std::vector<OutlineEdge>& edges, const GradedSize& size,
+                                    const CornerRadii& corners, Deadline& deadline);
 
 /// About how many pieces that makes.
-[[nodiscard]] double count_pieces(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges, double size);
+[[nodiscard]] double count_pieces(const Ground& ground, const std::vector<Vec3>& points,
+                                  const std::vector<OutlineEdge>& edges, double size);
 
 /// Corners of the outline sharper than kSharpCosine, and how far they reach: to a half of their shortest edge (a third
 /// when that has a sharp corner at its other end too), and never near anything that does not belong to the corner.
-[[nodiscard]] CornerRadii corner_radii(const std::vector<Vec2>& points, const std::vector<OutlineEdge>& edges,
-                                       double largest);
+[[nodiscard]] CornerRadii corner_radii(const Ground& ground, const std::vector<Vec3>& points,
+                                       const std::vector<OutlineEdge>& edges, double largest);
 
 }  // namespace temper::mesher

@@ -11,30 +11,33 @@ constexpr std::size_t kLeaf = 8;  // sources tested one by one
 
 }  // namespace
 
-GradedSize::GradedSize(std::span<const SizeSource> sources, double cap, double grade) : cap_(cap), grade_(grade) {
+GradedSize::GradedSize(const Ground& ground, std::span<const SizeSource> sources, const WantedSize& wanted,
+                       double grade)
+    : ground_(ground), wanted_(wanted), grade_(grade) {
   for (const SizeSource& source : sources) {
-    if (source.size < cap) sources_.push_back(source);
+    if (source.size < wanted.most) sources_.push_back(source);
   }
   if (!sources_.empty()) build(0, sources_.size());
 }
 
 std::uint32_t GradedSize::build(std::size_t begin, std::size_t end) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
-  Node node{sources_[begin].at, sources_[begin].at, sources_[begin].size, static_cast<std::uint32_t>(begin),
+  Node node{box_of(sources_[begin].at, sources_[begin].at), sources_[begin].size, static_cast<std::uint32_t>(begin),
             static_cast<std::uint32_t>(end)};
   for (std::size_t i = begin + 1; i < end; ++i) {
     const SizeSource& s = sources_[i];
-    node.low = {std::min(node.low.x, s.at.x), std::min(node.low.y, s.at.y)};
-    node.high = {std::max(node.high.x, s.at.x), std::max(node.high.y, s.at.y)};
+    node.box = united(node.box, {s.at, s.at});
     node.least = std::min(node.least, s.size);
   }
   nodes_.push_back(node);
   if (end - begin <= kLeaf) return index;
-  const bool wide = node.high.x - node.low.x >= node.high.y - node.low.y;
   const std::size_t middle = begin + (end - begin) / 2;
-  const auto before = [wide](const SizeSource& a, const SizeSource& b) {
-    if (wide ? a.at.x != b.at.x : a.at.y != b.at.y) return wide ? a.at.x < b.at.x : a.at.y < b.at.y;
-    if (wide ? a.at.y != b.at.y : a.at.x != b.at.x) return wide ? a.at.y < b.at.y : a.at.x < b.at.x;
+  double Vec3::*const side = node.box.longest();
+  const auto before = [side](const SizeSource& a, const SizeSource& b) {
+    if (a.at.*side != b.at.*side) return a.at.*side < b.at.*side;
+    for (double Vec3::*const other : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+      if (a.at.*other != b.at.*other) return a.at.*other < b.at.*other;
+    }
     return a.size < b.size;
   };
   const auto at = [&](std::size_t i) { return sources_.begin() + static_cast<std::ptrdiff_t>(i); };
@@ -45,13 +48,13 @@ std::uint32_t GradedSize::build(std::size_t begin, std::size_t end) {
   return index;
 }
 
-double GradedSize::bound(const Node& node, Vec2 x) const {
-  const double dx = std::max({node.low.x - x.x, 0.0, x.x - node.high.x});
-  const double dy = std::max({node.low.y - x.y, 0.0, x.y - node.high.y});
-  return node.least + grade_ * std::sqrt(dx * dx + dy * dy);
+double GradedSize::bound(const Node& node, Vec3 x) const {
+  const auto [low, high] = node.box;
+  const auto beyond = [&](double Vec3::*side) { return std::max({low.*side - x.*side, 0.0, x.*side - high.*side}); };
+  return node.least + grade_ * length(Vec3{beyond(&Vec3::x), beyond(&Vec3::y), beyond(&Vec3::z)});
 }
 
-void GradedSize::lower(std::uint32_t at, Vec2 x, double& best) const {
+void GradedSize::lower(std::uint32_t at, Vec3 x, double& best) const {
   const Node& node = nodes_[at];
   if (node.right == 0) {
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
@@ -65,8 +68,8 @@ void GradedSize::lower(std::uint32_t at, Vec2 x, double& best) const {
   if (std::max(left, right) < best) lower(left_first ? node.right : at + 1, x, best);
 }
 
-double GradedSize::operator()(Vec2 x) const {
-  double best = cap_;
+double GradedSize::operator()(Vec3 x) const {
+  double best = wanted_.at(x, ground_);
   if (!nodes_.empty() && bound(nodes_[0], x) < best) lower(0, x, best);
   return best;
 }

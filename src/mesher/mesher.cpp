@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
+#include "base/text.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "mesher/areas.hpp"
 #include "mesher/narrow.hpp"
 #include "mesher/placement.hpp"
+#include "mesher/sphere_outline.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper {
@@ -20,9 +23,17 @@ using namespace mesher;
 
 InputError invalid(const std::string& message) { return {ErrorCode::invalid_option, "", message}; }
 
-std::optional<InputError> check(const MesherOptions& options) {
+std::string text_of(const Space& space) {
+  return space.is_plane() ? "the plane" : "a sphere of radius " + to_text(space.radius());
+}
+
+std::optional<InputError> check(const MesherOptions& options, const Space& space) {
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
-  if (!positive(options.size)) {
+  if (options.field && !(options.field->mesh().space() == space)) {
+    return invalid("the size field is of " + text_of(options.field->mesh().space()) + ", what is to be meshed of " +
+                   text_of(space));
+  }
+  if (!positive(options.size) && !(options.field && options.size == 0)) {
     return invalid("expected a size above 0, found " + std::to_string(options.size));
   }
   if (!positive(options.grade)) {
@@ -57,15 +68,23 @@ class MeshNames final : public InputNames {
 
 class Mesher {
  public:
-  Mesher(const Outline& outline, const MesherOptions& options, const OptimizeHooks& hooks)
-      : outline_(outline), options_(options), hooks_(hooks), deadline_(options.time_limit, hooks_.observer) {}
+  /// `places`: of the points of the outline.
+  Mesher(const Space& space, const Outline& outline, std::vector<Vec3> places, const MesherOptions& options,
+         const OptimizeHooks& hooks)
+      : ground_(space),
+        outline_(outline),
+        places_(std::move(places)),
+        options_(options),
+        hooks_(hooks),
+        deadline_(options.time_limit, hooks_.observer) {}
 
   Expected<OutlineMesh> run() {
-    if (auto error = check(options_)) return *error;
-    Expected<std::vector<OutlineEdge>> edges = arrange(outline_);
+    if (auto error = check(options_, ground_.space())) return *error;
+    wanted_ = wanted();
+    Expected<std::vector<OutlineEdge>> edges = arrange(ground_, outline_, places_);
     if (!edges) return edges.error();
     edges_ = *std::move(edges);
-    Expected<Areas> areas = find_areas(outline_, edges_, options_, deadline_);
+    Expected<Areas> areas = find_areas(ground_, outline_, places_, edges_, options_, wanted_.most, deadline_);
     if (!areas) return areas.error();
     areas_ = *std::move(areas);
     if (auto error = check_count()) return *error;
@@ -74,61 +93,122 @@ class Mesher {
   }
 
  private:
-  [[nodiscard]] Vec2 point(std::int32_t i) const { return outline_.points[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] Vec3 point(std::int32_t i) const { return places_[static_cast<std::size_t>(i)]; }
+
+  [[nodiscard]] WantedSize wanted() const {
+    if (!options_.field) return {options_.size, nullptr};
+    double most = 0;
+    for (const VertexId v : options_.field->mesh().vertices()) most = std::max(most, options_.field->at(v));
+    return {options_.size > 0 ? std::min(options_.size, most) : most, &*options_.field};
+  }
 
   /// Refuses what would take all memory, by the area inside.
   [[nodiscard]] std::optional<InputError> check_count() const {
-    double triangles = 2 * count_pieces(outline_.points, edges_, options_.size);
-    double doubled = 0;
-    const Vec2 origin = outline_.points[0];
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      const double term = cross(point(edges_[i].ends[0]) - origin, point(edges_[i].ends[1]) - origin);
-      const auto [left, right] = areas_.sides[i];
-      const auto count = [](double size) { return 1 / (std::sqrt(3.0) / 2 * size * size); };
-      if (left != kOutside) doubled += term * count(areas_.areas[static_cast<std::size_t>(left)].size);
-      if (right != kOutside) doubled -= term * count(areas_.areas[static_cast<std::size_t>(right)].size);
-    }
-    triangles += doubled;
+    const double triangles = 2 * count_pieces(ground_, places_, edges_, wanted_.most) + count_inside();
     if (triangles <= static_cast<double>(options_.most_triangles)) return {};
-    return invalid("a size of " + std::to_string(options_.size) + " would make about " +
-                   std::to_string(static_cast<long long>(std::min(triangles, 9e18))) + " triangles; at most " +
-                   std::to_string(options_.most_triangles) + " are made");
+    return invalid((options_.field ? std::string("the size field") : "a size of " + std::to_string(options_.size)) +
+                   " would make about " + std::to_string(static_cast<long long>(std::min(triangles, 9e18))) +
+                   " triangles; at most " + std::to_string(options_.most_triangles) + " are made");
   }
 
-  /// Short edges, and areas of smaller size.
+  /// Triangles of a size in an area.
+  [[nodiscard]] static double count(double area, double size) { return area / (std::sqrt(3.0) / 4 * size * size); }
+
+  /// Of the sizes of areas; where there is a field no more than that has everywhere, nor its least size inside.
+  [[nodiscard]] double count_inside() const {
+    if (!options_.field) return count_in_areas(wanted_.most);
+    double triangles = 0, least = wanted_.most;
+    const Mesh& mesh = options_.field->mesh();
+    for (const TriangleId t : mesh.triangles()) {
+      const auto [a, b, c] = mesh.corners(t);
+      const Vec3 p = ground_.place(mesh.point(a)), q = ground_.place(mesh.point(b)), r = ground_.place(mesh.point(c));
+      const double size = (options_.field->at(a) + options_.field->at(b) + options_.field->at(c)) / 3;
+      triangles += count(0.5 * length(cross(q - p, r - p)), std::min(size, wanted_.most));
+      least = std::min(least, size);
+    }
+    return std::min(triangles, count_in_areas(least));
+  }
+
+  [[nodiscard]] double count_in_areas(double most) const {
+    double triangles = 0;
+    const auto add = [&](std::int32_t area, double extent) {
+      if (area == kOutside) return;
+      triangles += count(extent, std::min(most, areas_.areas[static_cast<std::size_t>(area)].size));
+    };
+    if (!ground_.is_plane()) {
+      const double radius = ground_.space().radius(), whole = 4 * std::numbers::pi * radius * radius;
+      for (std::size_t i = 0; i < areas_.areas.size(); ++i) {
+        add(static_cast<std::int32_t>(i), areas_.areas[i].extent * whole);
+      }
+      return triangles;
+    }
+    const Vec3 origin = places_[0];
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const double area = 0.5 * cross(point(edges_[i].ends[0]) - origin, point(edges_[i].ends[1]) - origin).z;
+      add(areas_.sides[i][0], area);
+      add(areas_.sides[i][1], -area);
+    }
+    return triangles;
+  }
+
+  /// Short edges, areas of smaller size, and where the size field grows faster than the grade.
   void start_sources() {
     for (std::size_t i = 0; i < edges_.size(); ++i) {
-      const Vec2 a = point(edges_[i].ends[0]), b = point(edges_[i].ends[1]);
-      const double whole = length(b - a);
-      for (const Vec2 end : {a, b}) sources_.push_back({end, whole});
+      const Vec3 a = point(edges_[i].ends[0]), b = point(edges_[i].ends[1]);
+      const double whole = ground_.distance(a, b);
+      for (const Vec3 end : {a, b}) sources_.push_back({end, whole});
       for (const std::int32_t area : areas_.sides[i]) {
-        const double size = area == kOutside ? options_.size : areas_.areas[static_cast<std::size_t>(area)].size;
-        if (size >= options_.size) continue;
+        const double size = area == kOutside ? wanted_.most : areas_.areas[static_cast<std::size_t>(area)].size;
+        if (size >= wanted_.most) continue;
         const auto n = static_cast<std::size_t>(std::ceil(whole / size));
         for (std::size_t k = 0; k <= n; ++k) {
-          sources_.push_back({a + (static_cast<double>(k) / static_cast<double>(n)) * (b - a), size});
+          sources_.push_back({ground_.between(a, b, static_cast<double>(k) / static_cast<double>(n)), size});
         }
       }
     }
-    corners_ = corner_radii(outline_.points, edges_, options_.size);
+    if (options_.field) grade_field(*options_.field);
+    corners_ = corner_radii(ground_, places_, edges_, wanted_.most);
   }
 
-  [[nodiscard]] GradedSize size() const { return {sources_, options_.size, options_.grade}; }
+  void grade_field(const SizeField& field) {
+    const Mesh& mesh = field.mesh();
+    for (const VertexId v : mesh.vertices()) {
+      const Vec3 p = ground_.place(mesh.point(v));
+      const double here = field.at(v);
+      const auto is_steep = [&](VertexId u) {
+        return field.at(u) > here + options_.grade * length(ground_.place(mesh.point(u)) - p);
+      };
+      bool steep = false;
+      for (const HalfedgeId h : mesh.star(v)) steep = steep || is_steep(mesh.target(h)) || is_steep(mesh.opposite(h));
+      if (steep) sources_.push_back({p, here});
+    }
+  }
+
+  /// Where the front begins on a sphere without an outline: at the least size.
+  [[nodiscard]] Vec3 start() const {
+    if (!options_.field) return {ground_.space().radius(), 0, 0};
+    const auto all = options_.field->mesh().vertices();
+    const VertexId least = *std::min_element(
+        all.begin(), all.end(), [&](VertexId a, VertexId b) { return options_.field->at(a) < options_.field->at(b); });
+    return ground_.place(options_.field->mesh().point(least));
+  }
+
+  [[nodiscard]] GradedSize size() const { return {ground_, sources_, wanted_, options_.grade}; }
 
   /// Divides the outline, finer where that shows pieces that face each other, until nothing changes.
   Expected<DividedOutline> resolve() {
     constexpr int kRounds = 20;  // each finds what the last one's longer pieces hid; three or four do nearly always
-    DividedOutline divided = divide(outline_.points, edges_, size(), corners_, deadline_);
+    DividedOutline divided = divide(ground_, places_, edges_, size(), corners_, deadline_);
     if (deadline_.stopped()) return stopped("divided");
     if (divided.pieces.size() > options_.most_triangles) return too_many();
     for (int round = 0; round < kRounds; ++round) {
-      const Expected<Triangulated> triangulated = triangulate(divided, {}, areas_, deadline_);
+      const Expected<Triangulated> triangulated = triangulate(ground_, divided, {}, areas_, deadline_);
       if (deadline_.stopped()) return stopped("divided");
       if (!triangulated) return too_fine(triangulated.error());
       const std::vector<SizeSource> narrow = narrow_places(divided, *triangulated, size(), deadline_);
       if (narrow.empty()) break;
       sources_.insert(sources_.end(), narrow.begin(), narrow.end());
-      divided = divide(outline_.points, edges_, size(), corners_, deadline_);
+      divided = divide(ground_, places_, edges_, size(), corners_, deadline_);
       if (deadline_.stopped()) return stopped("divided");
       if (divided.pieces.size() > options_.most_triangles) return too_many();
     }
@@ -146,6 +226,10 @@ class Mesher {
         ErrorCode::out_of_scale, "",
         "the outline has places too narrow for the precision of its coordinates (dividing it, " + error.message + ")"};
   }
+  [[nodiscard]] InputError too_coarse() const {
+    return invalid("edges of " + to_text(wanted_.most) + " are too long for a sphere of radius " +
+                   to_text(ground_.space().radius()));
+  }
   [[nodiscard]] InputError too_many() const {
     return invalid("short edges and narrow places of the outline, with this grade, would make more than " +
                    std::to_string(options_.most_triangles) + " triangles");
@@ -153,22 +237,25 @@ class Mesher {
 
   Expected<OutlineMesh> make(const DividedOutline& divided) {
     const std::size_t most_points = options_.most_triangles / 2;  // two triangles a vertex
-    const std::vector<Vec2> placed = place_points(divided, areas_, size(), most_points, deadline_);
+    const std::vector<Vec3> placed = place_points(ground_, divided, areas_, size(), start(), most_points, deadline_);
     if (placed.size() >= most_points) return too_many();
-    const Expected<Triangulated> triangulated = triangulate(divided, placed, areas_, deadline_);
+    const Expected<Triangulated> triangulated = triangulate(ground_, divided, placed, areas_, deadline_);
     if (deadline_.stopped()) return stopped("filled with points");
     if (!triangulated) return too_fine(triangulated.error());
     return build(divided, placed, *triangulated);
   }
 
-  Expected<OutlineMesh> build(const DividedOutline& divided, const std::vector<Vec2>& placed, const Triangulated& all) {
+  Expected<OutlineMesh> build(const DividedOutline& divided, const std::vector<Vec3>& placed, const Triangulated& all) {
     const std::size_t n = divided.points.size() + placed.size();
     std::vector<std::int32_t> vertex(n, -1);
     for (const TriangleId t : all.mesh.triangles()) {
       if (all.area[t] == kOutside) continue;
-      for (const VertexId v : all.mesh.corners(t)) vertex[v.index] = 0;
+      for (const VertexId v : all.mesh.corners(t)) {
+        if (v.index >= n) return too_coarse();
+        vertex[v.index] = 0;
+      }
     }
-    std::vector<Vec2> points;
+    std::vector<Vec3> points;
     std::vector<std::uint32_t> outline_points;
     for (std::size_t i = 0; i < n; ++i) {
       if (vertex[i] < 0) continue;
@@ -196,7 +283,15 @@ class Mesher {
     }
     const MeshNames names(names_of(outline_), outline_points);
     MeshInput input;
-    input.points = points;
+    input.space = ground_.space();
+    std::vector<Vec2> flat;
+    if (ground_.is_plane()) {
+      flat.reserve(points.size());
+      for (const Vec3 p : points) flat.push_back({p.x, p.y});
+      input.points = flat;
+    } else {
+      input.sphere_points = points;
+    }
     input.triangles = triangles;
     input.regions = regions;
     input.constrained_edges = constrained;
@@ -272,7 +367,10 @@ class Mesher {
     constexpr double kSmaller = 0.7;
     const GradedSize now = size();
     for (const TriangleId t : bad_triangles(mesh)) {
-      for (const VertexId v : mesh.corners(t)) sources_.push_back({mesh.position(v), kSmaller * now(mesh.position(v))});
+      for (const VertexId v : mesh.corners(t)) {
+        const Vec3 p = ground_.place(mesh.point(v));
+        sources_.push_back({p, kSmaller * now(p)});
+      }
     }
   }
 
@@ -303,10 +401,13 @@ class Mesher {
     return best;
   }
 
+  Ground ground_;
   const Outline& outline_;
+  std::vector<Vec3> places_;
   const MesherOptions& options_;
   const OptimizeHooks& hooks_;
   Deadline deadline_;
+  WantedSize wanted_;
   std::vector<OutlineEdge> edges_;
   Areas areas_;
   CornerRadii corners_;
@@ -316,7 +417,27 @@ class Mesher {
 }  // namespace
 
 Expected<OutlineMesh> mesh_outline(const Outline& outline, const MesherOptions& options, const OptimizeHooks& hooks) {
-  return Mesher(outline, options, hooks).run();
+  std::vector<Vec3> places;
+  places.reserve(outline.points.size());
+  for (const Vec2 p : outline.points) places.push_back({p.x, p.y, 0});
+  return Mesher(Space(), outline, std::move(places), options, hooks).run();
+}
+
+Expected<OutlineMesh> mesh_sphere(const SphereOutline& outline, const MesherOptions& options,
+                                  const OptimizeHooks& hooks) {
+  if (!(outline.radius > 0 && is_exact_coordinate(outline.radius)))
+    return invalid("the radius of a sphere must be positive and finite");
+  Expected<JoinedOutline> joined = join(outline);
+  if (!joined) return joined.error();
+  Mesher mesher(Space::sphere(outline.radius), joined->outline, std::move(joined->places), options, hooks);
+  Expected<OutlineMesh> made = mesher.run();
+  if (!made) return made;
+  std::vector<VertexId> vertex_of_point;
+  vertex_of_point.reserve(joined->numbers.size());
+  for (const std::int32_t p : joined->numbers)
+    vertex_of_point.push_back(made->vertex_of_point[static_cast<std::size_t>(p)]);
+  made->vertex_of_point = std::move(vertex_of_point);
+  return made;
 }
 
 }  // namespace temper

@@ -39,10 +39,12 @@ class Narrow {
   }
 
  private:
-  [[nodiscard]] Vec2 at(VertexId v) const { return divided_.points[v.index]; }
+  /// Not one of the outline, but of the triangulation that surrounds a sphere.
+  [[nodiscard]] bool helps(VertexId v) const { return v.index >= divided_.points.size(); }
+  [[nodiscard]] Vec3 at(VertexId v) const { return divided_.points[v.index]; }
   [[nodiscard]] bool isolated(VertexId v) const { return around_[v.index].empty(); }
 
-  void add(Vec2 p, double size) {
+  void add(Vec3 p, double size) {
     if (size < kLess * size_(p)) sources_.push_back({p, size});
   }
 
@@ -51,7 +53,7 @@ class Narrow {
     for (const std::uint32_t c : around_[a.index]) {
       for (const std::uint32_t d : around_[b.index]) {
         if (c != d) continue;
-        const Vec2 to_a = at(a) - divided_.points[c], to_b = at(b) - divided_.points[c];
+        const Vec3 to_a = at(a) - divided_.points[c], to_b = at(b) - divided_.points[c];
         if (dot(to_a, to_b) <= kSharpCosine * length(to_a) * length(to_b)) return true;
       }
     }
@@ -61,7 +63,7 @@ class Narrow {
   /// An edge from vertex to vertex through the inside.
   void along(HalfedgeId h) {
     const VertexId a = mesh_.origin(h), b = mesh_.target(h);
-    if (neighbours(a, b)) return;
+    if (helps(a) || helps(b) || neighbours(a, b)) return;
     const double gap = length(at(b) - at(a));
     const double size = isolated(a) || isolated(b) ? gap : kOfGap * gap;
     add(at(a), size);
@@ -71,13 +73,13 @@ class Narrow {
   /// A triangle on a piece: from the piece to what is across.
   void across(HalfedgeId h) {
     const VertexId a = mesh_.origin(h), b = mesh_.target(h), c = mesh_.opposite(h);
-    if (triangulated_.piece[Mesh::next(h)] != Triangulated::kNoPiece ||
+    if (helps(c) || triangulated_.piece[Mesh::next(h)] != Triangulated::kNoPiece ||
         triangulated_.piece[Mesh::prev(h)] != Triangulated::kNoPiece || neighbours(a, c) || neighbours(b, c))
       return;
-    const Vec2 ab = at(b) - at(a);
+    const Vec3 ab = at(b) - at(a);
     const double part = dot(at(c) - at(a), ab) / squared_length(ab);
     if (part <= 0 || part >= 1) return;  // the gap is that to a or b
-    const Vec2 foot = at(a) + part * ab;
+    const Vec3 foot = at(a) + part * ab;
     const double gap = length(at(c) - foot);
     const double size = isolated(c) ? gap : kOfGap * gap;
     add(foot, size);

@@ -8,13 +8,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "temper/vec2.hpp"
+#include "temper/vec3.hpp"
 
 namespace temper::mesher {
 
 class PointGrid {
  public:
-  void add(Vec2 p, double size) {
+  /// `flat`: all points have z = 0.
+  explicit PointGrid(bool flat) : flat_(flat) {}
+
+  void add(Vec3 p, double size) {
     if (2 * (points_.size() + 1) > slots_.size()) grow();
     const int level = std::ilogb(size);
     lowest_ = points_.empty() ? level : std::min(lowest_, level);
@@ -25,14 +28,17 @@ class PointGrid {
 
   /// Looks at points whose size is between a quarter and four times the radius, and at all that are larger or smaller
   /// in neighbouring levels of these.
-  [[nodiscard]] bool any_within(Vec2 p, double radius) const {
+  [[nodiscard]] bool any_within(Vec3 p, double radius) const {
     const int level = std::ilogb(radius);
+    const Vec3 reach = {radius, radius, flat_ ? 0 : radius};
     for (int l = std::max(lowest_, level - 1); l <= std::min(highest_, level + 2); ++l) {
-      const Cell low = cell({p.x - radius, p.y - radius}, l), high = cell({p.x + radius, p.y + radius}, l);
+      const Cell low = cell(p - reach, l), high = cell(p + reach, l);
       for (std::int64_t x = low.x; x <= high.x; ++x) {
         for (std::int64_t y = low.y; y <= high.y; ++y) {
-          for (std::uint32_t i = first({x, y, l}); i != kNone; i = points_[i].next) {
-            if (squared_length(points_[i].at - p) < radius * radius) return true;
+          for (std::int64_t z = low.z; z <= high.z; ++z) {
+            for (std::uint32_t i = first({x, y, z, l}); i != kNone; i = points_[i].next) {
+              if (squared_length(points_[i].at - p) < radius * radius) return true;
+            }
           }
         }
       }
@@ -43,23 +49,24 @@ class PointGrid {
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
   struct Entry {
-    Vec2 at;
+    Vec3 at;
     int level;
     std::uint32_t next;
   };
   struct Cell {
-    std::int64_t x, y;
+    std::int64_t x, y, z;
     int level;
     friend bool operator==(const Cell&, const Cell&) = default;
   };
 
-  [[nodiscard]] static Cell cell(Vec2 p, int level) {
-    return {static_cast<std::int64_t>(std::floor(std::ldexp(p.x, -level))),
-            static_cast<std::int64_t>(std::floor(std::ldexp(p.y, -level))), level};
+  [[nodiscard]] static Cell cell(Vec3 p, int level) {
+    const auto along = [level](double x) { return static_cast<std::int64_t>(std::floor(std::ldexp(x, -level))); };
+    return {along(p.x), along(p.y), along(p.z), level};
   }
   [[nodiscard]] std::size_t slot(const Cell& c) const {
     std::uint64_t hash = static_cast<std::uint64_t>(c.x) * 0x9e3779b97f4a7c15u;
     hash = (hash ^ (hash >> 29) ^ static_cast<std::uint64_t>(c.y)) * 0xbf58476d1ce4e5b9u;
+    hash = (hash ^ (hash >> 31) ^ static_cast<std::uint64_t>(c.z)) * 0xd6e8feb86659fd93u;
     hash = (hash ^ (hash >> 32) ^ static_cast<std::uint64_t>(std::int64_t{c.level})) * 0x94d049bb133111ebu;
     return static_cast<std::size_t>(hash ^ (hash >> 31)) & (slots_.size() - 1);
   }
@@ -85,6 +92,7 @@ class PointGrid {
   std::vector<Entry> points_;
   std::vector<std::uint32_t> slots_;  // of open addressing, a power of two of them
   int lowest_ = 0, highest_ = 0;
+  bool flat_;
 };
 
 }  // namespace temper::mesher

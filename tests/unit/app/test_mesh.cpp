@@ -96,5 +96,139 @@ TEST_F(MeshVerb, BadOutlinesAreNamedByFileLineAndNumber) {
   EXPECT_FALSE(exists("out.vtu"));
 }
 
+class MeshSphere : public Workshop {
+ protected:
+  /// Two islands, one of them across the end of the map, and a river.
+  static void make_world() {
+    write("land.json",
+          R"({"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {}, "geometry":
+ {"type": "Polygon", "coordinates": [[[0, 0], [40, 5], [35, 40], [5, 30], [0, 0]]]}},
+{"type": "Feature", "properties": {}, "geometry":
+ {"type": "LineString", "coordinates": [[170, -10], [-170, -12], [-175, -35], [170, -10]]}}]})");
+    write("rivers.json", R"({"type": "LineString", "coordinates": [[170, 30], [178, 33], [-174, 30], [-165, 40]]})");
+  }
+  static Outcome mesh(std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"mesh", "--sphere", "-o", "out.vtu", "--size", "600000"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return temper(arguments);
+  }
+};
+
+TEST_F(MeshSphere, OneCommandMakesAWellCenteredOceanWithCoastsAndRivers) {
+  make_world();
+  const Outcome outcome = mesh({"--coast", "land.json", "--lines", "rivers.json", "--report", "r.json"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "triangles are well-centered"));
+  EXPECT_TRUE(contains(outcome.out, "% of it meshed"));
+  temper_ok({"check", "out.vtu", "--require", "outside=0,not_crossed=0,nonregular=0,inverted=0"});
+  const auto report = read_json("r.json");
+  EXPECT_EQ(report["bad"], 0);
+  EXPECT_EQ(report["coast"]["parts"], 1);
+  EXPECT_EQ(report["lines"]["segments"], 3);
+  EXPECT_LT(report["sphere"]["covered"].get<double>(), 0.98);
+  const auto file = io::read("out.vtu");
+  ASSERT_TRUE(file);
+  EXPECT_EQ(file->sphere_radius, 6371000);
+  std::vector<std::int32_t> tags = file->line_tags;
+  std::sort(tags.begin(), tags.end());
+  tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
+  EXPECT_EQ(tags, (std::vector<std::int32_t>{1, 2}));  // coasts, rivers
+}
+
+TEST_F(MeshSphere, SizesComeFromAFile) {
+  temper_ok({"example", "graded-sphere", "--vertices", "2000", "--ratio", "5", "--radius", "10", "-o", "field.vtu"});
+  temper_ok({"mesh", "--sphere", "--size", "field.vtu", "-o", "out.vtu", "--report", "r.json"});
+  EXPECT_EQ(read_json("r.json")["sphere"]["radius"], 10);
+  EXPECT_EQ(read_json("r.json")["bad"], 0);
+  const Outcome radius = temper({"mesh", "--sphere", "--size", "field.vtu", "-o", "x.vtu", "--radius", "9"});
+  EXPECT_EQ(radius.exit, 1);
+  EXPECT_TRUE(contains(radius.err, "field.vtu: the sizes are on a sphere of radius 10; expected one of 9"));
+  const Outcome data = temper({"mesh", "--sphere", "--size", "field.vtu", "-o", "x.vtu", "--size-field-data", "h"});
+  EXPECT_EQ(data.exit, 1);
+  EXPECT_TRUE(contains(data.err, "no point data \"h\""));
+  write("square.poly", "4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
+  const Outcome plane = temper({"mesh", "square.poly", "--size", "field.vtu", "-o", "x.vtu"});
+  EXPECT_EQ(plane.exit, 1);
+  EXPECT_TRUE(contains(plane.err, "field.vtu: the sizes are on a sphere"));
+  EXPECT_FALSE(exists("x.vtu"));
+}
+
+TEST_F(MeshSphere, AnOutlineIsABasin) {
+  write("basin.json", R"({"type": "Polygon", "coordinates": [[[0, 40], [30, 38], [28, 60], [2, 62], [0, 40]]]})");
+  temper_ok({"mesh", "basin.json", "--sphere", "--size", "200000", "-o", "out.vtu", "--report", "r.json"});
+  EXPECT_EQ(read_json("r.json")["bad"], 0);
+  EXPECT_NEAR(read_json("r.json")["sphere"]["covered"].get<double>(), 0.01, 0.005);
+}
+
+TEST_F(MeshSphere, BadFilesAreNamedWithTheirFeatureAndNothingIsWritten) {
+  make_world();
+  struct Case {
+    const char* coast;
+    std::vector<std::string> expected;
+  };
+  const std::vector<Case> cases = {
+      {R"({"type": "Polygon", "coordinates": [[[0, 0], [40, 5], [35, 95], [0, 0]]]})",
+       {"bad.json:1: point 2 (segment 1 of ring 0 of the geometry)", "latitude 95"}},
+      {R"({"type": "Polygon", "coordinates": [[[0, 0], [20, 20], [20, 0], [0, 20], [0, 0]]]})",
+       {"bad.json:1: segment 2 of ring 0", "crosses segment 0 of ring 0"}},
+      {R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry":
+{"type": "LineString", "coordinates": [[0, 0], [20, 20], [20, 0]]}}]})",
+       {"bad.json:2: segment 0 of feature 0 ends at (0, 0)", "closed"}},
+      {R"({"type": "Polygon", "coordinates": [[[-120, 0], [-100, 0], [200, 20], [-120, 0]]]})",
+       {"bad.json:1: segment 1", "from longitude -100 to 200", "one convention"}},
+      {R"({"type": "Polygon", "coordinates": [[[0, 0], [90, 0], [180, 0], [-90, 0], [0, 0]]]})",
+       {"bad.json:1: the geometry divides the sphere into halves"}},
+      {R"({"type": "Polygon", "coordinates": [[[165, -25], [-160, -25], [-178, 0], [165, -25]]]})", {}},
+  };
+  for (const Case& bad : cases) {
+    SCOPED_TRACE(bad.coast);
+    write("bad.json", bad.coast);
+    const Outcome outcome = mesh({"--coast", "bad.json"});
+    EXPECT_EQ(outcome.exit, bad.expected.empty() ? 0 : 1) << outcome.err;
+    for (const std::string& part : bad.expected) EXPECT_TRUE(contains(outcome.err, part)) << outcome.err;
+    if (!bad.expected.empty()) {
+      EXPECT_FALSE(exists("out.vtu"));
+    }
+  }
+  // A coast and a line of two files, both named.
+  const Outcome crossing =
+      temper({"mesh", "--sphere", "-o", "x.vtu", "--size", "600000", "--coast", "land.json", "--lines", "bad.json"});
+  EXPECT_EQ(crossing.exit, 1);
+  EXPECT_TRUE(contains(crossing.err, "bad.json:1: segment")) << crossing.err;
+  EXPECT_TRUE(contains(crossing.err, "feature 1")) << crossing.err;
+  EXPECT_FALSE(exists("x.vtu"));
+}
+
+TEST_F(MeshSphere, BadUsageAndSizesAreRefused) {
+  make_world();
+  temper_ok({"example", "random-sphere", "--vertices", "50", "-o", "plain.vtu"});
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"mesh", "--size", "1", "-o", "x.vtu"},
+           {"mesh", "land.json", "--coast", "land.json", "--size", "1", "-o", "x.vtu"},
+           {"mesh", "land.json", "--radius", "1", "--size", "1", "-o", "x.vtu"},
+           {"mesh", "--sphere", "--size", "-5", "-o", "x.vtu"},
+           {"mesh", "--sphere", "--size", "0", "-o", "x.vtu"},
+           {"mesh", "--sphere", "-o", "x.vtu"},
+           {"mesh", "--sphere", "--size", "1e6", "--projection", "mercator", "-o", "x.vtu"},
+           {"mesh", "--sphere", "--size", "1e6", "--enclosed", "all", "-o", "x.vtu"}}) {
+    EXPECT_EQ(temper(arguments).exit, 2) << arguments[1];
+  }
+  const Outcome many = temper({"mesh", "--sphere", "--size", "10", "-o", "x.vtu"});
+  EXPECT_EQ(many.exit, 2);
+  EXPECT_TRUE(contains(many.err, "would make about")) << many.err;
+  EXPECT_EQ(temper({"mesh", "--sphere", "--size", "plain.vtu", "-o", "x.vtu"}).exit, 1);
+  EXPECT_EQ(temper({"mesh", "--sphere", "--size", "none.vtu", "-o", "x.vtu"}).exit, 1);
+  write("negative.vtk",
+        "# vtk DataFile Version 3.0\nsizes\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+        "1 1 1\n1 -1 -1\n-1 1 -1\n-1 -1 1\nCELLS 4 16\n3 0 1 2\n3 0 2 3\n3 0 3 1\n3 1 3 2\n"
+        "CELL_TYPES 4\n5\n5\n5\n5\nPOINT_DATA 4\nSCALARS size double 1\nLOOKUP_TABLE default\n1\n1\n-1\n1\n");
+  const Outcome negative = temper({"mesh", "--sphere", "--size", "negative.vtk", "-o", "x.vtu"});
+  EXPECT_EQ(negative.exit, 1);
+  EXPECT_TRUE(contains(negative.err, "negative.vtk:8: point 2 has size -1; expected a finite, positive length"))
+      << negative.err;
+  EXPECT_FALSE(exists("x.vtu"));
+}
+
 }  // namespace
 }  // namespace temper::test

@@ -133,6 +133,26 @@ TEST(Mesher, RegionsHaveTheirNumbersAndSizesAndAConstrainedBorder) {
   EXPECT_GT(mesh_of(outline, finer).mesh.n_triangles(), made.mesh.n_triangles() + 100);
 }
 
+TEST(Mesher, SizesMayComeFromAField) {
+  // From 0.02 on the left to 0.1 on the right; the field ends before the outline, and goes on as it is there.
+  const std::vector<Vec2> points = {{0, -1}, {0.9, -1}, {0.9, 2}, {0, 2}};
+  const std::vector<std::array<std::int32_t, 3>> triangles = {{0, 1, 2}, {0, 2, 3}};
+  MeshInput input;
+  input.points = points;
+  input.triangles = triangles;
+  MesherOptions options;
+  options.field = *SizeField::from_values(Mesh::build(input)->mesh, std::vector<double>{0.02, 0.1, 0.1, 0.02});
+  const OutlineMesh made = mesh_of(square(), options);
+  EXPECT_EQ(made.bad, 0u);
+  expect_kept(square(), made);
+  const SizeReport report = measure_size(made.mesh, *options.field);
+  EXPECT_NEAR(report.over_field.median, 1, 0.1);
+  EXPECT_GT(report.over_field.p05, 0.75);
+  EXPECT_LT(report.over_field.p95, 1.35);
+  options.size = 0.03;
+  EXPECT_GT(mesh_of(square(), options).mesh.n_triangles(), made.mesh.n_triangles());
+}
+
 TEST(Mesher, PartsSayWhatIsInside) {
   // Two squares that share a border, and a hole in the second.
   Outline o;

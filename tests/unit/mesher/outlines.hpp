@@ -137,7 +137,7 @@ inline std::size_t count_bad(const Mesh& mesh) {
   std::size_t bad = 0;
   for (const TriangleId t : mesh.triangles()) {
     const auto [a, b, c] = mesh.corners(t);
-    if (!is_well_centered(mesh.point(a), mesh.point(b), mesh.point(c))) ++bad;
+    if (!is_well_centered(mesh.space(), mesh.point(a), mesh.point(b), mesh.point(c))) ++bad;
   }
   return bad;
 }

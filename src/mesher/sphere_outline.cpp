@@ -1,0 +1,285 @@
+#include "mesher/sphere_outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/text.hpp"
+#include "mesher/arrangement.hpp"
+#include "temper/projection.hpp"
+
+namespace temper::mesher {
+namespace {
+
+// Of the radius: more than the rounding of degrees in another convention, less than any edge.
+constexpr double kSamePlace = 1e-13;
+// Of the radius: how far from opposite two ends are that have one shortest way between them.
+constexpr double kOpposite = 1e-9;
+
+/// An element of the outline, and where it comes from.
+struct Origin {
+  std::size_t outline = 0, element = 0;
+};
+
+/// Errors in the names of the outline that an element comes from.
+class JoinedNames final : public OutlineNames {
+ public:
+  std::vector<std::shared_ptr<const OutlineNames>> outlines;
+  std::vector<Origin> points, segments, holes, regions, parts;
+
+  [[nodiscard]] std::string point(std::size_t i) const override { return say(points, i, &OutlineNames::point); }
+  [[nodiscard]] std::string segment(std::size_t i) const override { return say(segments, i, &OutlineNames::segment); }
+  [[nodiscard]] std::string hole(std::size_t i) const override { return say(holes, i, &OutlineNames::hole); }
+  [[nodiscard]] std::string region(std::size_t i) const override { return say(regions, i, &OutlineNames::region); }
+  [[nodiscard]] std::string part(std::size_t i) const override {
+    return parts[i].element == kLoops ? "what closed lines enclose" : say(parts, i, &OutlineNames::part);
+  }
+  [[nodiscard]] std::string point_where(std::size_t i) const override {
+    return say(points, i, &OutlineNames::point_where);
+  }
+  [[nodiscard]] std::string segment_where(std::size_t i) const override {
+    return say(segments, i, &OutlineNames::segment_where);
+  }
+  [[nodiscard]] std::string hole_where(std::size_t i) const override {
+    return say(holes, i, &OutlineNames::hole_where);
+  }
+  [[nodiscard]] std::string region_where(std::size_t i) const override {
+    return say(regions, i, &OutlineNames::region_where);
+  }
+
+  static constexpr std::size_t kLoops = static_cast<std::size_t>(-1);  // the part of segments of no part
+
+ private:
+  std::string say(const std::vector<Origin>& origins, std::size_t i,
+                  std::string (OutlineNames::*name)(std::size_t) const) const {
+    return (*outlines[origins[i].outline].*name)(origins[i].element);
+  }
+};
+
+class Joiner {
+ public:
+  explicit Joiner(const SphereOutline& given)
+      : radius_(given.radius), sources_{&given.basins, &given.coasts, &given.lines} {}
+
+  Expected<JoinedOutline> run() {
+    static const auto kFromZero = std::make_shared<const OutlineNames>();
+    for (const Outline* outline : sources_) {
+      names_->outlines.push_back(outline->names ? outline->names : kFromZero);
+    }
+    for (std::size_t k = 0; k < sources_.size(); ++k) {
+      if (auto error = check(k)) return *std::move(error);
+    }
+    join_points();
+    for (std::size_t k = 0; k < sources_.size(); ++k) {
+      if (auto error = add(k)) return *std::move(error);
+    }
+    result_.outline.names = names_;
+    return std::move(result_);
+  }
+
+ private:
+  using Error = std::optional<InputError>;
+  static constexpr std::size_t kCoasts = 1, kLines = 2;
+
+  [[nodiscard]] const OutlineNames& names(std::size_t k) const { return *names_->outlines[k]; }
+  [[nodiscard]] InputError at_segment(std::size_t k, std::size_t i, ErrorCode code, const std::string& what) const {
+    return {code, names(k).segment_where(i), names(k).segment(i) + " " + what};
+  }
+
+  /// Numbers that are degrees; segments between points that there are.
+  Error check(std::size_t k) const {
+    const Outline& o = *sources_[k];
+    for (std::size_t i = 0; i < o.points.size(); ++i) {
+      if (is_place(o.points[i])) continue;
+      return InputError{ErrorCode::geographic, names(k).point_where(i),
+                        names(k).point(i) + user_of(o, k, i) + " has longitude " + to_text(o.points[i].x) +
+                            " and latitude " + to_text(o.points[i].y) +
+                            "; expected degrees, a latitude between -90 and 90"};
+    }
+    const auto n = static_cast<std::int64_t>(o.points.size());
+    for (std::size_t i = 0; i < o.segments.size(); ++i) {
+      for (const std::int32_t end : o.segments[i].ends) {
+        if (end >= 0 && end < n) continue;
+        return at_segment(k, i, ErrorCode::index_out_of_range,
+                          "uses " + names(k).point(static_cast<std::size_t>(std::int64_t{end})) +
+                              ", but the outline has " + std::to_string(n) + " points");
+      }
+    }
+    return check_conventions(k);
+  }
+
+  [[nodiscard]] static bool is_place(Vec2 lon_lat) {
+    return std::abs(lon_lat.y) <= 90 && std::abs(lon_lat.x) <= 720;  // false for NaN
+  }
+  /// " (segment 3 of feature 1)": where in the file a point without a name of its own is.
+  [[nodiscard]] std::string user_of(const Outline& o, std::size_t k, std::size_t point) const {
+    const auto p = static_cast<std::int32_t>(point);
+    const auto user = std::find_if(o.segments.begin(), o.segments.end(),
+                                   [p](const OutlineSegment& s) { return s.ends[0] == p || s.ends[1] == p; });
+    if (user == o.segments.end()) return {};
+    return " (" + names(k).segment(static_cast<std::size_t>(user - o.segments.begin())) + ")";
+  }
+
+  /// With longitudes below 0 and above 180, a jump may be the way across the end of one convention, or an edge that
+  /// was taken from the other.
+  Error check_conventions(std::size_t k) const {
+    const Outline& o = *sources_[k];
+    const auto any = [&](auto test) { return std::any_of(o.points.begin(), o.points.end(), test); };
+    if (!any([](Vec2 p) { return p.x < 0; }) || !any([](Vec2 p) { return p.x > 180; })) return {};
+    for (std::size_t i = 0; i < o.segments.size(); ++i) {
+      const double from = point(o, o.segments[i].ends[0]).x, to = point(o, o.segments[i].ends[1]).x;
+      if (std::abs(to - from) <= 180) continue;
+      return at_segment(k, i, ErrorCode::geographic,
+                        "goes from longitude " + to_text(from) + " to " + to_text(to) +
+                            ", in a file with longitudes below 0 and above 180; expected one convention, or steps of "
+                            "at most 180 degrees");
+    }
+    return {};
+  }
+  [[nodiscard]] static Vec2 point(const Outline& o, std::int32_t i) { return o.points[static_cast<std::size_t>(i)]; }
+
+  /// One point for each place, the first that was given.
+  void join_points() {
+    std::vector<Vec3> directions;
+    std::vector<Origin> origins;
+    for (std::size_t k = 0; k < sources_.size(); ++k) {
+      first_point_.push_back(directions.size());
+      for (std::size_t i = 0; i < sources_[k]->points.size(); ++i) {
+        directions.push_back(direction_of(sources_[k]->points[i]));
+        origins.push_back({k, i});
+      }
+    }
+    const std::vector<std::uint32_t> first = first_of_each_place(directions);
+    result_.numbers.resize(directions.size());
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      if (first[i] == i) {
+        result_.numbers[i] = static_cast<std::int32_t>(result_.places.size());
+        result_.places.push_back(radius_ * directions[i]);
+        result_.outline.points.push_back(sources_[origins[i].outline]->points[origins[i].element]);
+        names_->points.push_back(origins[i]);
+      } else {
+        result_.numbers[i] = result_.numbers[first[i]];
+      }
+    }
+  }
+
+  static std::vector<std::uint32_t> first_of_each_place(const std::vector<Vec3>& directions) {
+    std::vector<std::uint32_t> order(directions.size()), first(directions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::iota(first.begin(), first.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+      return directions[i].x != directions[j].x ? directions[i].x < directions[j].x : i < j;
+    });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const Vec3 p = directions[order[i]];
+      for (std::size_t j = i + 1; j < order.size() && directions[order[j]].x - p.x <= kSamePlace; ++j) {
+        if (squared_length(directions[order[j]] - p) > kSamePlace * kSamePlace) continue;
+        const std::uint32_t least = std::min(first[order[i]], first[order[j]]);
+        first[order[i]] = first[order[j]] = least;
+      }
+    }
+    for (std::uint32_t& f : first) f = first[f];
+    return first;
+  }
+
+  Error add(std::size_t k) {
+    const Outline& o = *sources_[k];
+    std::vector<std::int32_t> now(o.segments.size(), -1);  // segments between two names of one place go
+    for (std::size_t i = 0; i < o.segments.size(); ++i) {
+      OutlineSegment segment = o.segments[i];
+      for (std::int32_t& end : segment.ends) end = result_.numbers[first_point_[k] + static_cast<std::size_t>(end)];
+      if (segment.ends[0] == segment.ends[1]) continue;
+      const Vec3 a = place(segment.ends[0]), b = place(segment.ends[1]);
+      if (length(a + b) < kOpposite * radius_)
+        return at_segment(k, i, ErrorCode::geographic,
+                          "joins opposite places of the sphere; expected one shortest way between its ends");
+      now[i] = static_cast<std::int32_t>(result_.outline.segments.size());
+      result_.outline.segments.push_back(segment);
+      names_->segments.push_back({k, i});
+    }
+    for (std::size_t i = 0; i < o.holes.size(); ++i) {
+      result_.outline.holes.push_back(o.holes[i]);
+      names_->holes.push_back({k, i});
+    }
+    for (std::size_t i = 0; i < o.regions.size(); ++i) {
+      result_.outline.regions.push_back(o.regions[i]);
+      names_->regions.push_back({k, i});
+    }
+    return k == kLines ? Error() : add_parts(k, now);
+  }
+  [[nodiscard]] Vec3 place(std::int32_t i) const { return result_.places[static_cast<std::size_t>(i)]; }
+
+  /// The parts of an outline, and what its other segments enclose.
+  Error add_parts(std::size_t k, const std::vector<std::int32_t>& now) {
+    const Outline& o = *sources_[k];
+    std::vector<std::uint8_t> loose(o.segments.size(), 1);
+    for (std::size_t i = 0; i < o.parts.size(); ++i) {
+      for (const std::int32_t s : o.parts[i].segments) {
+        if (s >= 0 && static_cast<std::size_t>(s) < loose.size()) loose[static_cast<std::size_t>(s)] = 0;
+      }
+      if (auto error = add_part(k, o.parts[i], now, i)) return error;
+    }
+    OutlinePart loops;
+    for (std::size_t s = 0; s < loose.size(); ++s) {
+      if (loose[s] != 0) loops.segments.push_back(static_cast<std::int32_t>(s));
+    }
+    if (loops.segments.empty()) return {};
+    return add_part(k, loops, now, JoinedNames::kLoops);
+  }
+
+  Error add_part(std::size_t k, OutlinePart part, const std::vector<std::int32_t>& now, std::size_t element) {
+    if (auto error = check_closed(k, part.segments)) return error;
+    std::vector<std::int32_t> segments;
+    for (const std::int32_t s : part.segments) {
+      const std::int32_t there = now[static_cast<std::size_t>(s)];
+      if (there >= 0) segments.push_back(there);
+    }
+    part.segments = std::move(segments);
+    part.cut = k == kCoasts;
+    result_.outline.parts.push_back(std::move(part));
+    names_->parts.push_back({k, element});
+    return {};
+  }
+
+  Error check_closed(std::size_t k, const std::vector<std::int32_t>& segments) const {
+    const Outline& o = *sources_[k];
+    std::vector<std::uint32_t> degree(result_.places.size(), 0);
+    const auto number = [&](std::int32_t end) {
+      return static_cast<std::size_t>(result_.numbers[first_point_[k] + static_cast<std::size_t>(end)]);
+    };
+    for (const std::int32_t s : segments) {
+      if (s < 0 || static_cast<std::size_t>(s) >= o.segments.size())
+        return InputError{ErrorCode::index_out_of_range, "",
+                          "a part uses " + names(k).segment(static_cast<std::size_t>(std::int64_t{s})) +
+                              ", but the outline has " + std::to_string(o.segments.size()) + " segments"};
+      for (const std::int32_t end : o.segments[static_cast<std::size_t>(s)].ends) ++degree[number(end)];
+    }
+    for (const std::int32_t s : segments) {
+      const auto i = static_cast<std::size_t>(s);
+      for (const std::int32_t end : o.segments[i].ends) {
+        if (degree[number(end)] % 2 == 0) continue;
+        const Vec2 p = point(o, end);
+        return at_segment(k, i, ErrorCode::empty_input,
+                          "ends at (" + to_text(p.x) + ", " + to_text(p.y) +
+                              "), where the coast does not go on; expected it to be closed");
+      }
+    }
+    return {};
+  }
+
+  double radius_;
+  std::vector<const Outline*> sources_;
+  std::shared_ptr<JoinedNames> names_ = std::make_shared<JoinedNames>();
+  JoinedOutline result_;
+  std::vector<std::size_t> first_point_;  // of each outline, among all points given
+};
+
+}  // namespace
+
+Expected<JoinedOutline> join(const SphereOutline& given) { return Joiner(given).run(); }
+
+}  // namespace temper::mesher
