@@ -361,11 +361,10 @@ py::dict outline_to_dict(const Outline& outline) {
       .dict;
 }
 
-py::tuple mesh_an_outline(const py::dict& dict, const py::dict& d, const py::object& optimize_options,
-                          const py::object& threads, const py::object& observer) {
-  const Outline outline = outline_from(dict);
+MesherOptions mesher_options_from(const py::dict& d, const py::object& optimize_options) {
   MesherOptions options;
   options.size = d["size"].cast<double>();
+  if (!d["field"].is_none()) options.field = d["field"].cast<SizeField>();
   options.grade = d["grade"].cast<double>();
   for (const auto& item : d["region_sizes"]) {
     const auto pair = item.cast<py::tuple>();
@@ -375,21 +374,15 @@ py::tuple mesh_an_outline(const py::dict& dict, const py::dict& d, const py::obj
   options.attempts = d["attempts"].cast<int>();
   options.most_triangles = d["most_triangles"].cast<std::size_t>();
   options.time_limit = d["time_limit"].cast<double>();
-  const auto executor = make_threads(threads_from(threads));
   if (optimize_options.is_none()) {
     options.optimize.reset();
   } else {
     options.optimize = options_from(optimize_options.cast<py::dict>());
   }
-  Visitor visitor;
-  const Observer watching = observer_of(visitor, observer);
-  std::optional<Expected<OutlineMesh>> made;
-  {
-    const py::gil_scoped_release release;
-    made = mesh_outline(outline, options, {.executor = executor.get(), .observer = watching});
-  }
-  visitor.raise();
-  OutlineMesh result = or_raise(*std::move(made));
+  return options;
+}
+
+py::tuple outline_mesh_to_python(OutlineMesh result) {
   std::vector<std::array<VertexId, 2>> lines;
   std::vector<std::int32_t> tags;
   for (const MeshLine& line : result.lines) lines.push_back({line.a, line.b}), tags.push_back(line.tag);
@@ -399,6 +392,36 @@ py::tuple mesh_an_outline(const py::dict& dict, const py::dict& d, const py::obj
                             "bad", result.bad)("delaunay_bad", result.delaunay_bad)("attempts", result.attempts)(
                             "report", py::object(report_to_dict(result.report)))("notes", result.notes)
                             .dict);
+}
+
+/// `mesh`: makes the mesh, while Python goes on.
+template <class Mesher>
+py::tuple mesh_by(const Mesher& mesh, const py::object& threads, const py::object& observer) {
+  const auto executor = make_threads(threads_from(threads));
+  Visitor visitor;
+  const Observer watching = observer_of(visitor, observer);
+  std::optional<Expected<OutlineMesh>> made;
+  {
+    const py::gil_scoped_release release;
+    made = mesh(OptimizeHooks{.executor = executor.get(), .observer = watching});
+  }
+  visitor.raise();
+  return outline_mesh_to_python(or_raise(*std::move(made)));
+}
+
+py::tuple mesh_an_outline(const py::dict& dict, const py::dict& d, const py::object& optimize_options,
+                          const py::object& threads, const py::object& observer) {
+  const Outline outline = outline_from(dict);
+  const MesherOptions options = mesher_options_from(d, optimize_options);
+  return mesh_by([&](const OptimizeHooks& hooks) { return mesh_outline(outline, options, hooks); }, threads, observer);
+}
+
+py::tuple mesh_a_sphere(const py::dict& dict, const py::dict& d, const py::object& optimize_options,
+                        const py::object& threads, const py::object& observer) {
+  const auto outline = [&dict](const char* name) { return outline_from(dict[name].cast<py::dict>()); };
+  const SphereOutline sphere = {dict["radius"].cast<double>(), outline("basins"), outline("coasts"), outline("lines")};
+  const MesherOptions options = mesher_options_from(d, optimize_options);
+  return mesh_by([&](const OptimizeHooks& hooks) { return mesh_sphere(sphere, options, hooks); }, threads, observer);
 }
 
 void bind_mesher(py::module_& m) {
@@ -414,6 +437,7 @@ void bind_mesher(py::module_& m) {
         or_raise(project(outline_from(outline), {from_name<ProjectionKind>("projection", kind), {lon, lat}, radius})));
   });
   m.def("mesh_outline", mesh_an_outline);
+  m.def("mesh_sphere", mesh_a_sphere);
 }
 
 }  // namespace

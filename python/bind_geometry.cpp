@@ -154,6 +154,16 @@ void bind_projections(py::module_& m) {
     for (const Vec2 p : as_span<Vec2>(places)) result.push_back(scale_factor(projection, p));
     return to_python(result);
   });
+  m.def("direction_of", [](const Doubles& places) {
+    std::vector<Vec3> result;
+    for (const Vec2 p : as_span<Vec2>(places)) result.push_back(direction_of(p));
+    return rows_of<double>(std::span<const Vec3>(result));
+  });
+  m.def("lon_lat_of", [](const Doubles& directions) {
+    std::vector<Vec2> result;
+    for (const Vec3 p : as_span<Vec3>(directions)) result.push_back(lon_lat_of(p));
+    return rows_of<double>(std::span<const Vec2>(result));
+  });
   m.def("mean_place", [](const Doubles& places) { return to_python(mean_place(as_span<Vec2>(places))); });
 }
 

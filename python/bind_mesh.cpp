@@ -631,6 +631,13 @@ void bind_generate(py::module_& m) {
         [](std::size_t vertices, double ratio, double lon, double lat, std::uint64_t seed, double radius) {
           return made(graded_sphere({vertices, ratio, {lon, lat}, seed, radius}));
         });
+  m.def("graded_sphere_size",
+        [](std::size_t vertices, double ratio, double lon, double lat, double radius, const Doubles& directions) {
+          const GradedSphere shape = {.vertices = vertices, .ratio = ratio, .at = {lon, lat}, .radius = radius};
+          std::vector<double> sizes;
+          for (const Vec3 p : as_span<Vec3>(directions)) sizes.push_back(graded_sphere_size(shape, p));
+          return to_python(sizes);
+        });
   m.def("sheared_grid", [](int nx, int ny, double shear) { return made(sheared_grid({nx, ny, shear})); });
   m.def("annulus", [](double inner, double outer, int around, int rings, double jitter, std::uint64_t seed) {
     return made(annulus({inner, outer, around, rings, jitter, seed}));

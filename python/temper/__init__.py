@@ -58,7 +58,7 @@ from ._mesh import Mesh, as_mesh, from_meshio, to_meshio
 from ._optimize import OptimizeReport, SizeChange, optimize, optimized, replay, replay_with_vertices
 from ._optimize_options import OptimizeOptions, cvt_method, odt_method, paper_method
 from ._options import Softening
-from ._outline import Outline, OutlineFile, OutlineMesh, mesh_outline, read_outline
+from ._outline import Outline, OutlineFile, OutlineMesh, mesh_outline, mesh_sphere, read_outline
 from ._plot import plot, plot_history
 from ._progress import Progress, SweepRecord
 from ._regularity import (

@@ -17,6 +17,7 @@ from ._optimize import OptimizeReport, _observer, _report
 from ._optimize_options import OptimizeOptions
 from ._progress import Line, Progress
 from ._records import Record, merged
+from ._size import SizeField
 
 
 @dataclasses.dataclass
@@ -86,7 +87,7 @@ def read_outline(path: str | os.PathLike[str]) -> OutlineFile:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class OutlineMesh(Record):
-    """What ``mesh_outline`` made."""
+    """What ``mesh_outline`` or ``mesh_sphere`` made."""
 
     mesh: Mesh
     lines: npt.NDArray[np.int32]
@@ -108,7 +109,7 @@ class OutlineMesh(Record):
 
 def mesh_outline(
     outline: Outline,
-    size: float,
+    size: float | SizeField,
     *,
     grade: float = 0.3,
     region_sizes: Mapping[int, float] | None = None,
@@ -126,7 +127,7 @@ def mesh_outline(
     Parameters
     ----------
     outline : Outline
-    size : float
+    size : float or SizeField
         Edge length wanted, > 0 [length].
     grade : float
         How fast the size may grow with the distance from what is smaller, > 0.
@@ -160,8 +161,91 @@ def mesh_outline(
     >>> temper.mesh_outline(square, 0.2).bad
     0
     """
-    options = {
-        "size": float(size),
+    options = _mesher_options(size, grade, region_sizes, attempts, most_triangles, time_limit, enclosed)
+    return _meshed(_temper.mesh_outline, outline._plain(), options, optimize, threads, observer, progress)
+
+
+def mesh_sphere(
+    size: float | SizeField,
+    *,
+    basins: Outline | None = None,
+    coasts: Outline | None = None,
+    lines: Outline | None = None,
+    radius: float | None = None,
+    grade: float = 0.3,
+    region_sizes: Mapping[int, float] | None = None,
+    optimize: OptimizeOptions | bool = True,
+    attempts: int = 8,
+    most_triangles: int = 200_000_000,
+    time_limit: float = 0.0,
+    threads: int | None = None,
+    observer: Callable[[Progress], Any] | None = None,
+    progress: bool | None = None,
+) -> OutlineMesh:
+    """Meshes a sphere, or what coasts leave of it, and optimises that until every triangle is well-centered.
+
+    Points of outlines are longitude and latitude [degrees], their segments the shorter arcs of great circles. Of the two
+    sides that a closed line leaves it encloses the smaller, whatever its direction.
+
+    Parameters
+    ----------
+    size : float or SizeField
+        Edge length wanted, > 0 [length].
+    basins : Outline, optional
+        Closed: what they enclose is meshed; without any, the whole sphere.
+    coasts : Outline, optional
+        Closed: what they enclose is left out.
+    lines : Outline, optional
+        Rivers and others: they become constrained edges.
+    radius : float, optional
+        Of the sphere [length]; None: that of the size field, or 6371000.
+    grade, region_sizes, optimize, attempts, most_triangles, time_limit, threads, observer, progress
+        As of ``mesh_outline``.
+
+    Returns
+    -------
+    OutlineMesh
+        Its ``vertex_of_point`` has the points of basins, coasts and lines, one after the other.
+
+    Raises
+    ------
+    TemperError
+        As of ``mesh_outline``; coasts that are not closed, divide the sphere into halves, or leave nothing of it.
+    KeyboardInterrupt
+
+    Examples
+    --------
+    >>> import temper
+    >>> island = temper.Outline([(0, 0), (40, 5), (35, 40), (5, 30)], [(0, 1), (1, 2), (2, 3), (3, 0)])
+    >>> temper.mesh_sphere(1e6, coasts=island).bad
+    0
+    """
+    if radius is None:
+        radius = size.mesh.space.radius if isinstance(size, SizeField) else 6371000.0
+    nothing = Outline([], [])
+    sphere = {
+        "radius": float(radius),
+        "basins": (basins or nothing)._plain(),
+        "coasts": (coasts or nothing)._plain(),
+        "lines": (lines or nothing)._plain(),
+    }
+    options = _mesher_options(size, grade, region_sizes, attempts, most_triangles, time_limit)
+    return _meshed(_temper.mesh_sphere, sphere, options, optimize, threads, observer, progress)
+
+
+def _mesher_options(
+    size: float | SizeField,
+    grade: float,
+    region_sizes: Mapping[int, float] | None,
+    attempts: int,
+    most_triangles: int,
+    time_limit: float,
+    enclosed: str = "by_points",
+) -> dict[str, Any]:
+    field = size._handle if isinstance(size, SizeField) else None
+    return {
+        "size": 0.0 if isinstance(size, SizeField) else float(size),
+        "field": field,
         "grade": float(grade),
         "region_sizes": [(int(r), float(s)) for r, s in (region_sizes or {}).items()],
         "enclosed": enclosed,
@@ -169,13 +253,24 @@ def mesh_outline(
         "most_triangles": most_triangles,
         "time_limit": float(time_limit),
     }
+
+
+def _meshed(
+    mesher: Callable[..., Any],
+    outline: dict[str, Any],
+    options: dict[str, Any],
+    optimize: OptimizeOptions | bool,
+    threads: int | None,
+    observer: Callable[[Progress], Any] | None,
+    progress: bool | None,
+) -> OutlineMesh:
     if isinstance(optimize, bool):
         plain = OptimizeOptions()._plain() if optimize else None
     else:
         plain = optimize._plain()
     line = Line(progress)
     try:
-        handle, rest = _temper.mesh_outline(outline._plain(), options, plain, threads, _observer(line, observer))
+        handle, rest = mesher(outline, options, plain, threads, _observer(line, observer))
     finally:
         line.clear()
     return OutlineMesh(**merged(rest, mesh=Mesh._of(handle), report=_report(rest["report"])))

@@ -14,8 +14,8 @@ from . import _temper
 from ._mesh import Mesh, _doubles, _ints
 
 __all__ = [
-    "airfoil", "annulus", "constrained_delaunay", "graded_points", "graded_sphere", "horseshoe", "icosahedral",
-    "letter_a", "random_points", "random_sphere", "regular_polygon", "sheared_grid", "single_triangle", "sparse_horseshoe",
+    "airfoil", "annulus", "constrained_delaunay", "graded_points", "graded_sphere", "graded_sphere_size",
+    "horseshoe", "icosahedral", "letter_a", "random_points", "random_sphere", "regular_polygon", "sheared_grid", "single_triangle", "sparse_horseshoe",
     "spherical_delaunay", "wedge",
 ]  # fmt: skip
 
@@ -106,6 +106,18 @@ def graded_sphere(
     """Random points around a sphere of this radius [length], Delaunay, whose sizes grow by ``ratio``, 1 to 1000, from a
     place at longitude and latitude ``at`` [degrees] to the opposite one. About half of the triangles are bad."""
     return Mesh._of(_temper.graded_sphere(vertices, ratio, at[0], at[1], seed, radius))
+
+
+def graded_sphere_size(
+    directions: npt.ArrayLike,
+    vertices: int = 10000,
+    ratio: float = 30.0,
+    at: tuple[float, float] = (0.0, 0.0),
+    radius: float = 1.0,
+) -> npt.NDArray[np.float64]:
+    """The sizes that the points of ``graded_sphere`` follow [length], (k,), in (k, 3) directions of any length: those
+    of equilateral triangles, as many."""
+    return _temper.graded_sphere_size(vertices, ratio, at[0], at[1], radius, _doubles(directions, 3, "directions"))
 
 
 def sheared_grid(nx: int = 20, ny: int = 20, shear: float = 0.5) -> Mesh:

@@ -18,7 +18,10 @@ from ._mesh import _doubles
 from ._outline import Outline
 from ._records import Record
 
-__all__ = ["Projection", "forward", "inverse", "mean_place", "parse_projection", "project", "scale_factor"]
+__all__ = [
+    "Projection", "direction_of", "forward", "inverse", "lon_lat_of", "mean_place", "parse_projection", "project",
+    "scale_factor",
+]  # fmt: skip
 
 
 @dataclasses.dataclass(frozen=True)
@@ -55,6 +58,16 @@ def inverse(projection: Projection, places: npt.ArrayLike) -> npt.NDArray[np.flo
 def scale_factor(projection: Projection, lon_lat: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Length on the map over length on the sphere, (k,): the same in all directions."""
     return _temper.scale_factor(*projection._plain(), _doubles(lon_lat, 2, "lon_lat"))
+
+
+def direction_of(lon_lat: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Unit vectors, (k, 3), of (k, 2) longitudes and latitudes [degrees]; exact on the axes."""
+    return _temper.direction_of(_doubles(lon_lat, 2, "lon_lat"))
+
+
+def lon_lat_of(directions: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Longitudes, above −180 and up to 180, and latitudes [degrees], (k, 2), of (k, 3) vectors of any length."""
+    return _temper.lon_lat_of(_doubles(directions, 3, "directions"))
 
 
 def mean_place(lon_lat: npt.ArrayLike) -> tuple[float, float]:

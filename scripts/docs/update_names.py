@@ -20,7 +20,7 @@ HEADERS = ROOT / "include" / "temper"
 
 # What a verb is in Python (also the functions whose keywords are its options) and in C++.
 VERBS = {
-    "mesh": (["read_outline", "mesh_outline"], ["io::read_outline", "mesh_outline"]),
+    "mesh": (["read_outline", "mesh_outline", "mesh_sphere"], ["io::read_outline", "mesh_outline", "mesh_sphere"]),
     "optimize": (["optimize"], ["optimize"]),
     "weights": (["find_weights", "best_margin", "best_connectivity", "check_certificate"], ["find_weights", "best_margin", "best_connectivity", "check_certificate"]),
     "explain": (["explain"], ["explain"]),
@@ -57,6 +57,9 @@ OTHERS = {
     "--no-rings": ("`draw_svg(near_coincident=False)`", ""),
     "--numbers": ("`draw_svg(vertex_numbers=True)`", ""),
     "--region-size": ("`mesh_outline(region_sizes=…)`", ""),
+    "--sphere": ("`mesh_sphere`", "`mesh_sphere`"),
+    "--coast": ("`mesh_sphere(coasts=…)`", "`SphereOutline::coasts`"),
+    "--lines": ("`mesh_sphere(lines=…)`", "`SphereOutline::lines`"),
     "--no-triangle-quality": ("`write(triangle_quality=False)`", "`io::WriteOptions::triangle_quality`"),
     "--point-data": ("`optimize(point_data=…)`", "`io::UpdateOptions::rules`"),
     "--projection": ("`read(projection=…)`", "`io::project`"),

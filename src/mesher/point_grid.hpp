@@ -59,8 +59,10 @@ class PointGrid {
     friend bool operator==(const Cell&, const Cell&) = default;
   };
 
-  [[nodiscard]] static Cell cell(Vec3 p, int level) {
-    const auto along = [level](double x) { return static_cast<std::int64_t>(std::floor(std::ldexp(x, -level))); };
+  [[nodiscard]] Cell cell(Vec3 p, int level) const {
+    // In space a query would look at 729 cells of the least level, nearly all of them off the sphere.
+    const int wide = flat_ ? level : level + 2;
+    const auto along = [wide](double x) { return static_cast<std::int64_t>(std::floor(std::ldexp(x, -wide))); };
     return {along(p.x), along(p.y), along(p.z), level};
   }
   [[nodiscard]] std::size_t slot(const Cell& c) const {

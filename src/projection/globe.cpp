@@ -40,7 +40,7 @@ Vec3 direction_of(Vec2 lon_lat) {
 
 Vec2 lon_lat_of(Vec3 p) {
   const double lon = p.x == 0 && p.y == 0 ? 0 : std::atan2(p.y, p.x) / kGlobeDegree;
-  return {lon, std::atan2(p.z, std::hypot(p.x, p.y)) / kGlobeDegree};
+  return {lon == -180 ? 180 : lon, std::atan2(p.z, std::hypot(p.x, p.y)) / kGlobeDegree};
 }
 
 }  // namespace temper

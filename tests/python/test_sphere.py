@@ -441,3 +441,32 @@ def test_graded_globes_are_fine_where_one_says():
     assert np.count_nonzero(towards > 0.8) > 10 * np.count_nonzero(towards < -0.8)
     with pytest.raises(temper.TemperError, match="ratio"):
         temper.generate.graded_sphere(ratio=0.5)
+
+
+def test_an_ocean_is_meshed_well_centered():
+    island = temper.Outline([(170, -10), (-170, -12), (-175, -35)], [(0, 1), (1, 2), (2, 0)], segment_tags=[4, 4, 4])
+    river = temper.Outline([(0, 10), (10, 12), (15, 20)], [(0, 1), (1, 2)])
+    made = temper.mesh_sphere(8e5, coasts=island, lines=river, radius=EARTH)
+    assert made.bad == 0 and set(made.line_tags) == {0, 4} and made.mesh.space == temper.Space.sphere(EARTH)
+    places = temper.projection.lon_lat_of(made.mesh.lifted_points[made.vertex_of_point])
+    assert np.allclose(places, [(170, -10), (-170, -12), (-175, -35), (0, 10), (10, 12), (15, 20)], rtol=0, atol=1e-9)
+    assert temper.dec(made.mesh).areas.sum() < 4 * np.pi * EARTH**2
+    with pytest.raises(temper.TemperError, match="closed"):
+        temper.mesh_sphere(8e5, coasts=river)
+
+
+def test_sizes_of_a_mesh_are_those_of_its_field():
+    rough = temper.generate.graded_sphere(3000, ratio=5, at=(20, 40))
+    wanted = temper.generate.graded_sphere_size(rough.lifted_points, 3000, ratio=5, at=(20, 40))
+    assert 4 < wanted.max() / wanted.min() <= 5
+    field = temper.SizeField.from_values(rough, wanted)
+    made = temper.mesh_sphere(field)
+    assert made.bad == 0 and made.mesh.space.radius == 1
+    assert temper.measure_size(made.mesh, field).over_field.median == pytest.approx(1, abs=0.1)
+
+
+def test_degrees_are_directions_and_back():
+    places = np.array([(0.0, 0.0), (90.0, 0.0), (-120.5, 33.25), (180.0, -45.0)])
+    directions = temper.projection.direction_of(places)
+    assert np.array_equal(directions[:2], [(1, 0, 0), (0, 1, 0)])
+    assert np.allclose(temper.projection.lon_lat_of(3 * directions), places, rtol=0, atol=1e-12)
