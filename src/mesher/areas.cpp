@@ -259,9 +259,7 @@ class AreaFinder {
                         names_.hole(0) + " is for the plane; on the sphere nested loops take turns"};
     Parts parts = parts_from({{0, kNone}});
     extent_ = component_areas();
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(outline_.parts.size()); ++i) {
-      if (Error error = turn_to_smaller_side(i, parts)) return error;
-    }
+    if (Error error = turn_to_smaller_sides(parts)) return error;
     const auto is_cut = [&](std::int32_t i) { return outline_.parts[static_cast<std::size_t>(i)].cut; };
     const bool all = std::all_of(outline_.parts.begin(), outline_.parts.end(), [](const auto& p) { return p.cut; });
     for (std::size_t c = 0; c < n_components_; ++c) {
@@ -290,21 +288,25 @@ class AreaFinder {
     return area;
   }
 
-  Error turn_to_smaller_side(std::int32_t part, Parts& parts) const {
+  Error turn_to_smaller_sides(Parts& parts) const {
     constexpr double kHalf = 1e-6;  // of the sphere: a loop that is nearer to half of it says nothing
-    double enclosed = 0;
+    std::vector<double> enclosed(outline_.parts.size(), 0);
     for (std::size_t c = 0; c < n_components_; ++c) {
-      if (std::binary_search(parts[c].begin(), parts[c].end(), part)) enclosed += extent_[c];
+      for (const std::int32_t part : parts[c]) enclosed[static_cast<std::size_t>(part)] += extent_[c];
     }
-    const auto error = [&](ErrorCode code, const std::string& what) {
-      return InputError{code, part_where(part), names_.part(static_cast<std::size_t>(part)) + " " + what};
-    };
-    if (enclosed == 0) return error(ErrorCode::zero_area, "encloses nothing of the sphere");
-    if (std::abs(enclosed - 0.5) < kHalf)
-      return error(ErrorCode::out_of_scale,
-                   "divides the sphere into halves; expected a smaller side, which is what it encloses");
-    if (enclosed < 0.5) return {};
-    for (auto& of_component : parts) of_component = odd_ones(of_component, {part});
+    std::vector<std::int32_t> turned;
+    for (std::size_t i = 0; i < enclosed.size(); ++i) {
+      const auto part = static_cast<std::int32_t>(i);
+      const auto error = [&](ErrorCode code, const std::string& what) {
+        return InputError{code, part_where(part), names_.part(i) + " " + what};
+      };
+      if (enclosed[i] == 0) return error(ErrorCode::zero_area, "encloses nothing of the sphere");
+      if (std::abs(enclosed[i] - 0.5) < kHalf)
+        return error(ErrorCode::out_of_scale,
+                     "divides the sphere into halves; expected a smaller side, which is what it encloses");
+      if (enclosed[i] > 0.5) turned.push_back(part);
+    }
+    for (auto& of_component : parts) of_component = odd_ones(of_component, turned);
     return {};
   }
 

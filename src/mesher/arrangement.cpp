@@ -127,9 +127,11 @@ class Arranger {
     const Sign of_c = side(a, b, c), of_a = side(c, d, a);
     if (of_c != Sign::zero && side(a, b, d) == -of_c && of_a == -of_c && side(c, d, b) == of_c) {
       const auto name = [&](std::int32_t p) { return names_.point(static_cast<std::size_t>(p)); };
+      const std::string where = names_.segment_where(i);
       return at_segment(ErrorCode::overlap, j,
                         "(" + name(c) + " to " + name(d) + ") crosses " + names_.segment(i) + " (" + name(a) + " to " +
-                            name(b) + "); expected segments to meet at points only");
+                            name(b) + (where.empty() ? "" : ", " + where) +
+                            "); expected segments to meet at points only");
     }
     note_meeting(i, c), note_meeting(i, d), note_meeting(j, a), note_meeting(j, b);
     return {};

@@ -245,28 +245,31 @@ class Joiner {
     return {};
   }
 
-  Error check_closed(std::size_t k, const std::vector<std::int32_t>& segments) const {
+  Error check_closed(std::size_t k, const std::vector<std::int32_t>& segments) {
     const Outline& o = *sources_[k];
-    std::vector<std::uint32_t> degree(result_.places.size(), 0);
     const auto number = [&](std::int32_t end) {
       return static_cast<std::size_t>(result_.numbers[first_point_[k] + static_cast<std::size_t>(end)]);
     };
+    degree_.resize(result_.places.size(), 0);
     for (const std::int32_t s : segments) {
       if (s < 0 || static_cast<std::size_t>(s) >= o.segments.size())
         return InputError{ErrorCode::index_out_of_range, "",
                           "a part uses " + names(k).segment(static_cast<std::size_t>(std::int64_t{s})) +
                               ", but the outline has " + std::to_string(o.segments.size()) + " segments"};
-      for (const std::int32_t end : o.segments[static_cast<std::size_t>(s)].ends) ++degree[number(end)];
+      for (const std::int32_t end : o.segments[static_cast<std::size_t>(s)].ends) ++degree_[number(end)];
     }
     for (const std::int32_t s : segments) {
       const auto i = static_cast<std::size_t>(s);
       for (const std::int32_t end : o.segments[i].ends) {
-        if (degree[number(end)] % 2 == 0) continue;
+        if (degree_[number(end)] % 2 == 0) continue;
         const Vec2 p = point(o, end);
         return at_segment(k, i, ErrorCode::empty_input,
                           "ends at (" + to_text(p.x) + ", " + to_text(p.y) +
                               "), where the coast does not go on; expected it to be closed");
       }
+    }
+    for (const std::int32_t s : segments) {
+      for (const std::int32_t end : o.segments[static_cast<std::size_t>(s)].ends) degree_[number(end)] = 0;
     }
     return {};
   }
@@ -276,6 +279,7 @@ class Joiner {
   std::shared_ptr<JoinedNames> names_ = std::make_shared<JoinedNames>();
   JoinedOutline result_;
   std::vector<std::size_t> first_point_;  // of each outline, among all points given
+  std::vector<std::uint32_t> degree_;     // of places, in the part that is looked at; else 0
 };
 
 }  // namespace

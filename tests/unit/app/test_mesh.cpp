@@ -196,7 +196,7 @@ TEST_F(MeshSphere, BadFilesAreNamedWithTheirFeatureAndNothingIsWritten) {
       temper({"mesh", "--sphere", "-o", "x.vtu", "--size", "600000", "--coast", "land.json", "--lines", "bad.json"});
   EXPECT_EQ(crossing.exit, 1);
   EXPECT_TRUE(contains(crossing.err, "bad.json:1: segment")) << crossing.err;
-  EXPECT_TRUE(contains(crossing.err, "feature 1")) << crossing.err;
+  EXPECT_TRUE(contains(crossing.err, "segment 0 of feature 1 (point 4 to point 5, land.json:5)")) << crossing.err;
   EXPECT_FALSE(exists("x.vtu"));
 }
 

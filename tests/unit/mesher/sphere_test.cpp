@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "base/rng.hpp"
 #include "outlines.hpp"
 #include "support/std_threads.hpp"
 #include "temper/generate.hpp"
@@ -302,6 +304,45 @@ TEST(SphereMesher, WithoutOptimisationTheMeshIsDelaunay) {
   EXPECT_EQ(made.report.sweeps, 0);
   EXPECT_EQ(made.bad, made.delaunay_bad);
   EXPECT_EQ(count_non_regular_edges(made.mesh, false), 0u);
+}
+
+TEST(SphereMesher, RegionsOfBasinsHaveTheirNumbersAndSizes) {
+  SphereOutline o;
+  add_line(o.basins, {{0, 0}, {20, 0}, {20, 20}, {0, 20}}, true);
+  add_line(o.basins, {{20, 0}, {40, 0}, {40, 20}, {20, 20}}, true);
+  o.basins.parts = {{4, {0, 1, 2, 3}, {}}, {5, {4, 5, 6, 7}, 1e5}};
+  const OutlineMesh made = mesh_of(o, sized(4e5));
+  EXPECT_EQ(made.bad, 0u);
+  expect_lines(made);
+  std::array<std::size_t, 2> triangles = {};
+  for (const TriangleId t : made.mesh.triangles()) {
+    ASSERT_TRUE(made.mesh.region(t) == 4 || made.mesh.region(t) == 5);
+    ++triangles[made.mesh.region(t) == 4 ? 0 : 1];
+  }
+  EXPECT_GT(triangles[1], 3 * triangles[0]);
+  EXPECT_NEAR(area_of(made.mesh), area_of({{0, 0}, {20, 0}, {40, 0}, {40, 20}, {20, 20}, {0, 20}}, {20, 10}), 1e-9);
+}
+
+TEST(SphereMesher, RandomIslandsAreNoTrouble) {
+  Rng rng(5);
+  std::size_t meshed = 0;
+  for (int ocean = 0; ocean < 12; ++ocean) {
+    SphereOutline o;
+    for (int k = 0; k < 3; ++k) {
+      const double lon = rng.uniform(-180, 180), z = rng.uniform(-1, 1), radius = std::exp(rng.uniform(0, 3.4));
+      const int corners = 3 + static_cast<int>(rng.uniform(0, 40));
+      add_line(o.coasts, blob({lon, std::asin(z) * 180 / kPi}, radius, corners, rng.uniform(0, 0.5)), true);
+    }
+    const Expected<OutlineMesh> made = mesh_sphere(o, sized(8e5));
+    if (!made) {
+      EXPECT_EQ(made.error().code, ErrorCode::overlap) << made.error().what();  // islands that cross
+      continue;
+    }
+    ++meshed;
+    EXPECT_EQ(made->bad, 0u) << ocean;
+    EXPECT_FALSE(made->mesh.validate());
+  }
+  EXPECT_GT(meshed, 6u);
 }
 
 // --- what is refused -----------------------------------------------------------------------------------------------
