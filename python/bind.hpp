@@ -127,6 +127,7 @@ HalfedgeId halfedge_id(const Mesh& mesh, std::int64_t index);
 void bind_mesh(py::module_& m);
 void bind_geometry(py::module_& m);
 void bind_change(py::module_& m);
+void bind_columns(py::module_& m);
 void bind_optimize(py::module_& m);
 void bind_measure(py::module_& m);
 void bind_weights(py::module_& m);

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "bind.hpp"
+#include "bind_dec.hpp"
 #include "temper/dec.hpp"
-#include "temper/dec_io.hpp"
 #include "temper/draw.hpp"
 #include "temper/energy.hpp"
 #include "temper/geometry.hpp"
@@ -15,8 +15,6 @@
 #ifdef TEMPER_WITH_VERIFY
 #include "temper/verify.hpp"
 #endif
-
-TEMPER_PYTHON_NAMES(temper::io::DecFormat, "npz", "mtx", "vtu");
 
 namespace temper::python {
 namespace {

@@ -255,5 +255,6 @@ PYBIND11_MODULE(_temper, m) {
   bind_change(m);
   bind_optimize(m);
   bind_measure(m);
+  bind_columns(m);
   bind_weights(m);
 }

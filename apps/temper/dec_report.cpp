@@ -33,6 +33,26 @@ CellCounts count(const PowerCells& cells) {
   return counts;
 }
 
+struct ColumnCounts {
+  std::size_t active = 0, pinched_out = 0, inactive = 0;
+  std::size_t beside = 0, below = 0;  ///< connections
+  std::vector<double> volumes;        ///< of layers
+};
+
+ColumnCounts count(const Columns& columns) {
+  ColumnCounts counts;
+  counts.volumes.resize(columns.n_layers, 0.0);
+  for (std::size_t cell = 0; cell < columns.n_cells(); ++cell) {
+    const CellState state = columns.states[cell];
+    ++(state == CellState::active     ? counts.active
+       : state == CellState::inactive ? counts.inactive
+                                      : counts.pinched_out);
+    counts.volumes[columns.layer(cell)] += columns.volumes[cell];
+  }
+  for (const ColumnConnection& c : columns.connections) ++(c.is_vertical ? counts.below : counts.beside);
+  return counts;
+}
+
 double over_median(double largest, double median) { return largest > median && median > 0 ? largest / median : 1; }
 
 std::string line(const std::string& label, const std::string& value) {
@@ -41,6 +61,29 @@ std::string line(const std::string& label, const std::string& value) {
 }
 std::string line(const std::string& label, std::size_t value) { return line(label, fmt::format("{}", value)); }
 std::string line(const std::string& label, double value) { return line(label, fmt::format("{:.9g}", value)); }
+
+std::string columns_text(const Columns& columns) {
+  const ColumnCounts c = count(columns);
+  std::string text = line("cells in layers", columns.n_cells()) + line("  active", c.active) +
+                     line("  pinched out", c.pinched_out) + line("  inactive", c.inactive);
+  text += line("connections, horizontal", c.beside) + line("connections, vertical", c.below);
+  for (std::size_t i = 0; i < c.volumes.size(); ++i)
+    text += line(fmt::format("volume of layer {}", i + 1), c.volumes[i]);
+  return text;
+}
+
+Json columns_json(const Columns& columns) {
+  const ColumnCounts c = count(columns);
+  Json json;
+  json["layers"] = columns.n_layers;
+  json["active"] = c.active;
+  json["pinched_out"] = c.pinched_out;
+  json["inactive"] = c.inactive;
+  json["horizontal_connections"] = c.beside;
+  json["vertical_connections"] = c.below;
+  json["volumes"] = c.volumes;
+  return json;
+}
 
 }  // namespace
 
@@ -61,6 +104,7 @@ std::string dec_text(const DecRecord& record) {
           line("  over the median", over_median(s.max_flux, s.median_flux));
   text += line("polygons of power cells", record.cells.n_polygons()) + line("  cells of several", cells.divided) +
           line("  cells outside of the domain", cells.empty);
+  if (record.columns != nullptr) text += columns_text(*record.columns);
   for (const std::string& file : record.files) text += "wrote " + file + "\n";
   return text;
 }
@@ -92,6 +136,7 @@ std::string dec_json(const DecRecord& record) {
   json["cell_polygons"] = record.cells.n_polygons();
   json["divided_cells"] = cells.divided;
   json["empty_cells"] = cells.empty;
+  if (record.columns != nullptr) json["columns"] = columns_json(*record.columns);
   json["files"] = record.files;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "temper/columns.hpp"
 #include "temper/dec.hpp"
 
 namespace temper::app {
@@ -12,6 +13,7 @@ struct DecRecord {
   std::string path;  ///< of the mesh
   const DecSummary& summary;
   const PowerCells& cells;
+  const Columns* columns;  ///< null: without layers
   std::vector<std::string> files;
 };
 

@@ -96,6 +96,13 @@ struct DecSummary {
 };
 [[nodiscard]] DecSummary summarize(const Mesh& mesh, const DecComplex& complex);
 
+/// What two power cells have in common, within the domain: a piece of the line across which their vertices have the
+/// same power. It is perpendicular to the line between them, and crosses that at the weighted midpoint.
+struct PowerFace {
+  VertexId first, second;  ///< first < second
+  double width = 0;        ///< > 0 [length]; on the sphere that of an arc
+};
+
 /// Power cells within the domain, as simple polygons, counter-clockwise. Ascending by vertex; a cell has one polygon,
 /// or several that do not overlap, or none when it lies outside of the domain.
 struct PowerCells {
@@ -105,6 +112,8 @@ struct PowerCells {
   std::vector<Vec3> sphere_corners;   ///< on the sphere instead of corners, at its radius; sides are arcs
   std::vector<double> polygon_areas;  ///< of each polygon, > 0
   IdVector<VertexId, double> areas;   ///< of each vertex: of all its polygons. Sum: the area of the domain
+  /// Each pair of cells once, ascending. In a well-centered mesh they are the edges, as wide as their duals.
+  std::vector<PowerFace> faces;
 
   [[nodiscard]] std::size_t n_polygons() const { return vertices.size(); }
 };

@@ -28,6 +28,7 @@ except ImportError as error:
 
 from . import generate, geometry, projection, topology
 from ._build_info import build_info
+from ._columns import Columns, columns
 from ._data import DataReport
 from ._dec import DecComplex, DecEdges, DecSummary, IncidenceMatrix, PowerCells, dec, power_cells, summarize, write_dec
 from ._draw import Svg, draw_before_after_svg, draw_svg, grid_svg

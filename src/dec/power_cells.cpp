@@ -30,6 +30,12 @@ Sign split_sign(const Mesh& mesh, VertexId p, VertexId q) {
                                  : edge_split_sign(mesh.lifted_point(p), mesh.lifted_point(q));
 }
 
+/// From vertex to vertex, on the sphere along an arc.
+double length_between(const Mesh& mesh, VertexId p, VertexId q) {
+  if (mesh.space().is_plane()) return length(mesh.position(q) - mesh.position(p));
+  return mesh.space().radius() * arc_length(mesh.lifted_point(p), mesh.lifted_point(q));
+}
+
 class CellBuilder {
  public:
   CellBuilder(const Mesh& mesh, const DecComplex& complex) : mesh_(mesh), complex_(complex), divider_(mesh) {}
@@ -44,6 +50,9 @@ class CellBuilder {
   [[nodiscard]] Vec2 midpoint(VertexId v, HalfedgeId h, const Chart& chart) const;
   void emit_joined(VertexId v, std::span<const CellPiece> pieces);
   void emit(VertexId v, const Chart& chart, const LocalPolygon& polygon);
+  void add_faces(const CellPiece& piece);
+  void add_plain_faces();
+  void join_faces();
   [[nodiscard]] double area_in_space(const Chart& chart, const LocalPolygon& polygon) const;
 
   const Mesh& mesh_;
@@ -87,6 +96,7 @@ void CellBuilder::divide_all() {
   for (const TriangleId t : mesh_.triangles()) {
     if (plain_[t] != 0) continue;
     for (CellPiece& piece : divider_.divide(t)) {
+      add_faces(piece);
       special_[piece.owner] = 1;
       found.push_back(std::move(piece));
     }
@@ -187,9 +197,51 @@ void CellBuilder::emit(VertexId v, const Chart& chart, const LocalPolygon& polyg
   cells_.areas[v] += area;
 }
 
+/// The sides of a piece that other cells lie beyond. Of two pieces each has the side: the lower vertex brings it.
+void CellBuilder::add_faces(const CellPiece& piece) {
+  const bool plane = mesh_.space().is_plane();
+  const Chart chart = plane ? Chart() : Chart::of_triangle(mesh_, piece.triangle);
+  for (std::size_t i = 0; i < piece.corners.size(); ++i) {
+    const PieceCorner& from = piece.corners[i];
+    const PieceCorner& to = piece.corners[(i + 1) % piece.corners.size()];
+    if (!from.against.valid() || from.against < piece.owner) continue;
+    const double width =
+        plane ? length(to.at - from.at) : mesh_.space().radius() * arc_length(chart.ray(from.at), chart.ray(to.at));
+    cells_.faces.push_back({piece.owner, from.against, width});
+  }
+}
+
+/// In a plain triangle the cells of its corners meet on the heights of the orthocenter.
+void CellBuilder::add_plain_faces() {
+  for (const DecEdge& edge : complex_.edges) {
+    double width = 0;
+    if (edge.left.valid() && plain_[edge.left] != 0) width += edge.left_height;
+    if (edge.right.valid() && plain_[edge.right] != 0) width += edge.right_height;
+    cells_.faces.push_back({edge.from, edge.to, width});
+  }
+}
+
+/// Makes one face of what triangles have of it. Cells that only touch have none.
+void CellBuilder::join_faces() {
+  std::vector<PowerFace>& faces = cells_.faces;
+  const auto before = [](const PowerFace& a, const PowerFace& b) {
+    return a.first != b.first ? a.first < b.first : a.second < b.second;
+  };
+  if (!std::is_sorted(faces.begin(), faces.end(), before)) std::stable_sort(faces.begin(), faces.end(), before);
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < faces.size();) {
+    PowerFace face = faces[i++];
+    while (i < faces.size() && !before(face, faces[i])) face.width += faces[i++].width;
+    if (face.width > kOnePlace * length_between(mesh_, face.first, face.second)) faces[n++] = face;
+  }
+  faces.resize(n);
+}
+
 PowerCells CellBuilder::build() {
   find_plain();
   divide_all();
+  add_plain_faces();
+  join_faces();
   cells_.areas.assign(mesh_.n_vertices(), 0.0);
   cells_.starts.push_back(0);
   std::size_t first = 0;

@@ -11,7 +11,7 @@ namespace temper::io {
 
 // Numbers of the cell types, vtkCellType.h.
 inline constexpr int kVtkVertex = 1, kVtkPolyVertex = 2, kVtkLine = 3, kVtkPolyLine = 4, kVtkTriangle = 5,
-                     kVtkPolygon = 7;
+                     kVtkPolygon = 7, kVtkPolyhedron = 42;
 /// "quadrilateral", … : for messages.
 [[nodiscard]] std::string_view vtk_cell_name(int type);
 

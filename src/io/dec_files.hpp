@@ -42,5 +42,10 @@ struct DecPlaces {
 void write_dec_npz(const DecJob& job);
 void write_dec_mtx(const DecJob& job);
 void write_dec_vtu(const DecJob& job);
+// Preconditions of these: the job has columns.
+void write_columns_vtu(const DecJob& job);
+void write_columns_disv(const DecJob& job);
+void write_columns_disu(const DecJob& job);
+void write_columns_tough(const DecJob& job);
 
 }  // namespace temper::io

@@ -2,33 +2,18 @@
 #include <cstdint>
 
 #include "io/cells.hpp"
+#include "io/dec_arrays.hpp"
 #include "io/dec_files.hpp"
 #include "io/vtu_document.hpp"
 
 namespace temper::io {
 namespace {
 
-/// An array of doubles, or of 32-bit integers.
-template <class F>
-VtkArray dual_reals(std::string name, std::size_t n, F value) {
-  return computed_vtk_array<double>(std::move(name), Scalar::f64, n, std::move(value));
-}
-template <class F>
-VtkArray dual_integers(std::string name, std::size_t n, F value) {
-  return computed_vtk_array<std::int32_t>(std::move(name), Scalar::i32, n,
-                                          [value](std::size_t i) { return static_cast<std::int32_t>(value(i)); });
-}
-
 /// Three numbers a point; z is the mesh's in the plane.
 VtkArray dual_points(const DecPlaces& places, double z) {
   return computed_vtk_array<double>(
       "Points", Scalar::f64, 3 * places.size(),
       [&places, z](std::size_t i) { return i % 3 < places.coordinates ? places.coordinate(i / 3, i % 3) : z; }, 3);
-}
-
-VtkArray one_type(std::size_t n, int type) {
-  return computed_vtk_array<std::uint8_t>("types", Scalar::u8, n,
-                                          [type](std::size_t) { return static_cast<std::uint8_t>(type); });
 }
 
 // A cell of several polygons has the same number, area and star on each of them.

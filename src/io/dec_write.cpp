@@ -37,6 +37,10 @@ class Folder {
 
 std::vector<std::string> write_dec_or_throw(const std::string& name, const Mesh& mesh, const DecComplex& complex,
                                             const PowerCells& cells, const DecWriteOptions& options) {
+  for (const DecFormat format : options.formats) {
+    if (needs_columns(format) && options.columns == nullptr)
+      fail(ErrorCode::invalid_option, "", "formats disv, disu and tough are of columns, and need layers");
+  }
   Folder folder(name);
   std::vector<std::string> written;
   OutputSet outputs;  // after the folder: its temporary files go first
@@ -47,6 +51,10 @@ std::vector<std::string> write_dec_or_throw(const std::string& name, const Mesh&
   if (wants(DecFormat::npz)) write_dec_npz(job);
   if (wants(DecFormat::mtx)) write_dec_mtx(job);
   if (wants(DecFormat::vtu)) write_dec_vtu(job);
+  if (wants(DecFormat::vtu) && options.columns != nullptr) write_columns_vtu(job);
+  if (wants(DecFormat::disv)) write_columns_disv(job);
+  if (wants(DecFormat::disu)) write_columns_disu(job);
+  if (wants(DecFormat::tough)) write_columns_tough(job);
   outputs.commit();
   folder.keep();
   return written;
@@ -54,19 +62,30 @@ std::vector<std::string> write_dec_or_throw(const std::string& name, const Mesh&
 
 }  // namespace
 
-std::span<const std::string_view> dec_file_names(DecFormat format) {
+bool needs_columns(DecFormat format) {
+  return format == DecFormat::disv || format == DecFormat::disu || format == DecFormat::tough;
+}
+
+std::span<const std::string_view> dec_file_names(DecFormat format, bool has_columns) {
   static constexpr std::string_view kNpz[] = {"operators.npz", "d0.npz",    "d1.npz",
                                               "star0.npz",     "star1.npz", "star2.npz"};
   static constexpr std::string_view kMtx[] = {"d0.mtx",    "d1.mtx",   "star0.mtx",        "star1.mtx",
                                               "star2.mtx", "flux.mtx", "orthocenters.mtx", "edge_midpoints.mtx"};
-  static constexpr std::string_view kVtu[] = {"dual.vtu", "dual_edges.vtu"};
+  static constexpr std::string_view kVtu[] = {"dual.vtu", "dual_edges.vtu", "columns.vtu"};
+  static constexpr std::string_view kDisv[] = {"mesh.disv"}, kDisu[] = {"mesh.disu"}, kTough[] = {"MESH"};
   switch (format) {
     case DecFormat::npz:
       return kNpz;
     case DecFormat::mtx:
       return kMtx;
+    case DecFormat::disv:
+      return kDisv;
+    case DecFormat::disu:
+      return kDisu;
+    case DecFormat::tough:
+      return kTough;
     default:
-      return kVtu;
+      return std::span(kVtu).first(has_columns ? 3 : 2);
   }
 }
 

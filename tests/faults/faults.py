@@ -171,8 +171,8 @@ def measured(runner, case):
 
 def cases_of(runner, verb):
     """The examples of a verb, in the folder that those before leave behind."""
-    files = {"lake.poly": LAKE.encode()}
-    # in.vtu is what examples read that none of them makes.
+    # These, and in.vtu, are what examples read that none of them makes.
+    files = {"lake.poly": LAKE.encode(), "layers.csv": b"vertex,top,bottom 1,bottom 2\n*,2,1,0\n"}
     files = runner.run(["example", "random", "--vertices", runner.vertices, "--seed", "7", "-o", "in.vtu"], files).files
     found = []
     for command in examples(runner.help(verb)):

@@ -1,4 +1,4 @@
-// Traces, certificates and checkpoints, as the program reads them: what is read is checked and done again.
+// Traces, certificates, checkpoints and layers, as the program reads them: what is read is checked and done again.
 #include <vector>
 
 #include "apps/temper/certificate_json.hpp"
@@ -6,6 +6,7 @@
 #include "apps/temper/trace_jsonl.hpp"
 #include "target.hpp"
 #include "temper/checkpoint.hpp"
+#include "temper/dec_io.hpp"
 #include "temper/envelope.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
@@ -73,6 +74,18 @@ void read_checkpoint(std::string_view bytes) {
   }
 }
 
+void read_layers(std::string_view bytes) {
+  static const Scratch scratch;
+  const Mesh& mesh = input().mesh();
+  static const DecComplex complex = dec(mesh);
+  static const PowerCells cells = power_cells(mesh, complex);
+  const auto layers = io::read_layers(scratch.make("l.csv", bytes), input().file, input().loaded);
+  if (!layers) return insist(!layers.error().message.empty(), "an error has a message");
+  const auto made = columns(mesh, complex, cells, *layers);
+  if (!made) return insist(!made.error().message.empty(), "an error has a message");
+  for (const double volume : made->volumes) insist(volume >= 0, "volumes are numbers");
+}
+
 std::vector<std::string> certificates() {
   Certificate certificate;
   const Mesh& mesh = input().mesh();
@@ -131,7 +144,12 @@ std::vector<std::string> checkpoints() {
 std::vector<Target> program_file_targets() {
   return {{"certificate", read_certificate, certificates},
           {"trace", read_trace, traces},
-          {"checkpoint", read_checkpoint, checkpoints}};
+          {"checkpoint", read_checkpoint, checkpoints},
+          {"layers", read_layers, [] {
+             return std::vector<std::string>{
+                 "vertex,top,bottom 1,bottom 2,active 1,active 2\n*,3,2,1,1,1\n# c\n4,,2.5,nan,,0\n",
+                 "vertex,top,bottom\n*,1e3,0\n"};
+           }}};
 }
 
 }  // namespace temper::fuzz

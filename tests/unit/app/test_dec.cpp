@@ -35,6 +35,35 @@ TEST_F(Dec, AWellCenteredMeshGivesNoWarning) {
             "1 1 -1\n1 2 1\n2 1 -1\n2 3 1\n3 2 -1\n3 3 1\n4 2 -1\n4 4 1\n5 3 -1\n5 4 1\n");
 }
 
+TEST_F(Dec, LayersMakeColumns) {
+  write("a.mesh",
+        "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n1 0 0\n0.5 0.9 0\n1.5 0.8 0\n"
+        "Triangles\n2\n1 2 3 0\n2 4 3 0\nEnd\n");
+  write("l.csv", "vertex,top,bottom 1,bottom 2\n*,3,2,2\n4,3,2,1.5\n");
+  const auto outcome =
+      temper_ok({"dec", "a.mesh", "-o", "out", "--layers", "l.csv", "--format", "disv,tough", "--json"});
+  EXPECT_EQ(outcome.err, "");
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json.at("files"), nlohmann::json({"out/mesh.disv", "out/MESH"}));
+  const auto& columns = json.at("columns");
+  EXPECT_EQ(columns.at("active"), 5);
+  EXPECT_EQ(columns.at("pinched_out"), 3);
+  EXPECT_EQ(columns.at("horizontal_connections"), 5);
+  EXPECT_EQ(columns.at("vertical_connections"), 1);
+  EXPECT_NEAR(columns.at("volumes")[0].get<double>(), json.at("area").get<double>(), 1e-12);
+  EXPECT_TRUE(contains(temper_ok({"dec", "a.mesh", "-o", "out", "--layers", "l.csv", "--pinch-out", "0.5"}).out,
+                       "  pinched out                                    4"));
+  EXPECT_TRUE(
+      contains(temper_ok({"dec", "a.mesh", "-o", "out", "--pinch-out", "0.5"}).err, "no effect without --layers"));
+  write("bad.csv", "vertex,top,bottom 1\n*,3,2\n7,3,2\n");
+  const auto bad = temper({"dec", "a.mesh", "-o", "new", "--layers", "bad.csv"});
+  EXPECT_EQ(bad.exit, 1);
+  EXPECT_TRUE(contains(bad.err, "bad.csv:3: a.mesh has no vertex 7 in a triangle")) << bad.err;
+  EXPECT_FALSE(std::filesystem::exists("new"));
+  shell("mkdir here && cp l.csv here/MESH");
+  EXPECT_EQ(temper({"dec", "a.mesh", "-o", "here", "--layers", "here/MESH", "--format", "tough"}).exit, 2);
+}
+
 TEST_F(Dec, BadInputWritesNothing) {
   make_input();
   write("file", "");
@@ -51,8 +80,13 @@ TEST_F(Dec, BadInputWritesNothing) {
   expect_failure({"dec", "in.vtu", "-o", "file"}, 1, "file: is no folder; expected the name of one, or of none");
   expect_failure({"dec", "in.vtu", "-o", "no/such"}, 1, "no/such: cannot be made: No such file or directory");
   expect_failure({"dec", "in.vtu"}, 2, "--output");
-  expect_failure({"dec", "in.vtu", "-o", "out", "--format", "npz,vtk"}, 2, "'vtk' is none of npz, mtx, vtu");
-  expect_failure({"dec", "in.vtu", "-o", "out", "--format", "npz,"}, 2, "'' is none of npz, mtx, vtu");
+  expect_failure({"dec", "in.vtu", "-o", "out", "--format", "npz,vtk"}, 2,
+                 "'vtk' is none of npz, mtx, vtu, disv, disu, tough");
+  expect_failure({"dec", "in.vtu", "-o", "out", "--format", "npz,"}, 2,
+                 "'' is none of npz, mtx, vtu, disv, disu, tough");
+  expect_failure({"dec", "in.vtu", "-o", "out", "--format", "disv"}, 2, "disv, disu and tough need --layers");
+  expect_failure({"dec", "in.vtu", "-o", "out", "--layers", "no.csv"}, 1, "no.csv: ");
+  expect_failure({"dec", "in.vtu", "-o", "out", "--layers", "file"}, 1, "file: the file is empty");
   shell("cp in.vtu dual.vtu");
   EXPECT_EQ(temper({"dec", "dual.vtu", "-o", "."}).exit, 2) << "it would be replaced";
   EXPECT_EQ(read("dual.vtu"), read("in.vtu"));

@@ -171,6 +171,7 @@ TEST_F(Usage, TheTableOfMistakesInTheDocsIsTrue) {
 
 TEST_F(Usage, EveryExampleInTheHelpRuns) {
   make_input();
+  write("layers.csv", "vertex,top,bottom\n*,1,0\n");
   std::vector<std::string> texts = {temper_ok({"--help"}).out};
   for (const std::string& verb : kVerbs) {
     texts.push_back(temper_ok({verb, "--help"}).out);

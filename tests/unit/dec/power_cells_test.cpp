@@ -158,6 +158,55 @@ TEST(PowerCells, OfCocircularPointsOnALatticeAreHalfPlaneClippingToo) {
   }
 }
 
+double perimeter(const Corners& corners) {
+  double sum = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) sum += length(corners[(i + 1) % corners.size()] - corners[i]);
+  return sum;
+}
+
+TEST(PowerCells, ShareFacesThatTogetherWithTheBoundaryAreAllTheirSides) {
+  Rng rng(14);
+  std::size_t compared = 0, beyond_edges = 0, closed = 0;
+  for (int round = 0; round < 40; ++round) {
+    Mesh mesh = test::random_mesh(rng, 5 + round);
+    for (const VertexId v : mesh.vertices()) mesh.set_weight(v, round % 3 * 0.5 / (5 + round) * rng.uniform(-1, 1));
+    if (!restore_regularity(mesh).regular()) continue;
+    ++compared;
+    const PowerCells cells = power_cells(mesh, dec(mesh));
+    double sides = 0, faces = 0, boundary = 8;
+    for (std::size_t p = 0; p < cells.n_polygons(); ++p) sides += perimeter(polygon(cells, p));
+    IdVector<VertexId, Vec2> outward(mesh.n_vertices());
+    IdVector<VertexId, double> areas(mesh.n_vertices(), 0.0);
+    for (std::size_t i = 0; i < cells.faces.size(); ++i) {
+      const auto& [a, b, width] = cells.faces[i];
+      EXPECT_TRUE(a < b && width > 0);
+      EXPECT_TRUE(i == 0 || std::pair(cells.faces[i - 1].first, cells.faces[i - 1].second) < std::pair(a, b));
+      faces += width;
+      const Vec2 along = mesh.position(b) - mesh.position(a);
+      const double d = edge_split(mesh.point(a), mesh.point(b)), l = length(along);
+      outward[a] = outward[a] + (width / l) * along;
+      outward[b] = outward[b] - (width / l) * along;
+      areas[a] += 0.5 * width * d;
+      areas[b] += 0.5 * width * (l - d);
+      beyond_edges += mesh.find_halfedge(a, b).valid() || mesh.find_halfedge(b, a).valid() ? 0 : 1;
+    }
+    EXPECT_NEAR(sides, 2 * faces + boundary, 1e-11);
+    for (std::size_t p = 0; p < cells.n_polygons(); ++p) {
+      const VertexId v = cells.vertices[p];
+      const Corners corners = polygon(cells, p);
+      if (std::any_of(corners.begin(), corners.end(),
+                      [](Vec2 c) { return std::max(std::abs(c.x), std::abs(c.y)) > 1 - 1e-9; }))
+        continue;
+      ++closed;
+      EXPECT_LT(length(outward[v]), 1e-11) << v.index;
+      EXPECT_NEAR(areas[v], cells.areas[v], 1e-11) << v.index;
+    }
+  }
+  EXPECT_GT(compared, 20u);
+  EXPECT_GT(closed, 50u);
+  EXPECT_EQ(beyond_edges, 0u) << "in a regular triangulation neighbours share an edge";
+}
+
 // --- any domain -----------------------------------------------------------------------------------------------
 
 /// Equilateral triangles around a hole, and cut by a notch: well-centered, with reflex corners.
@@ -197,6 +246,13 @@ TEST(PowerCells, OfAWellCenteredMeshAreItsDualCells) {
   expect_partition(mesh, cells);
   EXPECT_EQ(cells.n_polygons(), mesh.n_vertices());
   for (const VertexId v : mesh.vertices()) EXPECT_NEAR(cells.areas[v], c.star0[v], kAbsolute);
+  auto face = cells.faces.begin();
+  for (const DecEdge& edge : c.edges) {
+    ASSERT_NE(face, cells.faces.end());
+    EXPECT_TRUE(face->first == edge.from && face->second == edge.to);
+    EXPECT_NEAR(face->width, edge.dual_length, kAbsolute);
+    ++face;
+  }
 }
 
 /// Spokes of different lengths around a tip, from one side of a crack to the other.

@@ -1,0 +1,128 @@
+// Layers as files: what is read, what is refused, and what MODFLOW and TOUGH find in theirs.
+// (tests/python/test_columns.py reads whole files by readers of its own.)
+#include "support.hpp"
+#include "temper/dec_io.hpp"
+
+namespace temper::io {
+namespace {
+
+constexpr std::string_view kMesh =
+    "MeshVersionFormatted 2\nDimension 2\nVertices\n5\n0 0 0\n9 9 0\n1 0 0\n0.5 0.9 0\n1.5 0.8 0\n"
+    "Triangles\n2\n1 3 4 0\n3 5 4 0\nEnd\n";  // point 2 is in no triangle
+
+class LayerFiles : public FileTest {
+ protected:
+  void SetUp() override {
+    FileTest::SetUp();
+    file_ = *read(make("a.mesh", kMesh));
+    loaded_.emplace(*make_mesh(file_));
+  }
+  [[nodiscard]] Expected<Layers> layers(std::string_view text) const {
+    return read_layers(make("l.csv", text), file_, *loaded_);
+  }
+  void expect_error(std::string_view text, const std::string& message) const {
+    const auto read = layers(text);
+    EXPECT_EQ(read ? "nothing" : plain(read.error().what()), message) << text;
+  }
+  [[nodiscard]] Expected<std::vector<std::string>> write(const Layers& layers,
+                                                         const std::vector<DecFormat>& formats) const {
+    const Mesh& mesh = loaded_->mesh;
+    const DecComplex complex = dec(mesh);
+    const PowerCells cells = power_cells(mesh, complex);
+    const auto made = columns(mesh, complex, cells, layers);
+    if (!made) return made.error();
+    return write_dec(path("out"), mesh, complex, cells, {.formats = formats, .columns = &*made});
+  }
+  MeshFile file_;
+  std::optional<LoadedMesh> loaded_;
+};
+
+TEST_F(LayerFiles, rows_go_to_the_vertices_that_their_numbers_name) {
+  const auto read =
+      layers("# a comment\nvertex, top, bottom 1, bottom 2\r\n\n4, 3, 2, 1\n1,10,9,8\n5,0.5e1,4,nan\n3,7,6,5\n");
+  ASSERT_TRUE(read) << read.error().what();
+  EXPECT_EQ(read->n_layers, 2u);
+  EXPECT_TRUE(read->active.empty());
+  ASSERT_EQ(read->surfaces.size(), 12u);
+  EXPECT_TRUE(std::isnan(read->surfaces[11]));
+  EXPECT_EQ(std::vector<double>(read->surfaces.begin(), read->surfaces.end() - 1),
+            (std::vector<double>{10, 9, 8, 7, 6, 5, 3, 2, 1, 5, 4}));
+}
+
+TEST_F(LayerFiles, the_row_of_all_gives_what_others_leave_out) {
+  const auto read = layers("vertex,top,bottom,active\n*,2,1,1\n3,,0.5,0\n");
+  ASSERT_TRUE(read) << read.error().what();
+  EXPECT_EQ(read->surfaces, (std::vector<double>{2, 1, 2, 0.5, 2, 1, 2, 1}));
+  EXPECT_EQ(read->active, (std::vector<std::uint8_t>{1, 0, 1, 1}));
+  EXPECT_EQ(layers("vertex,top,bottom\n*,2,1")->surfaces.size(), 8u) << "constants alone";
+}
+
+TEST_F(LayerFiles, errors_name_line_column_and_vertex) {
+  expect_error("", "l.csv: the file is empty");
+  expect_error("# nothing\n", "l.csv: expected a title line 'vertex,top,bottom 1', found none");
+  expect_error("point,top,bottom\n", "l.csv:1: column 1: expected the title 'vertex', found 'point'");
+  expect_error("vertex,top\n", "l.csv:1: column 3: expected the title 'bottom 1', found the end of the line");
+  expect_error("vertex,top,bottom,depth\n",
+               "l.csv:1: column 4: expected the title 'bottom' or 'active', found 'depth'");
+  expect_error(
+      "vertex,top,bottom 1,bottom 2,active 1\n",
+      "l.csv:1: column 6: expected the title 'active' for each of 2 layers, and no other, found the end of the line");
+  expect_error("vertex,top,bottom\n1,3\n", "l.csv:2: vertex 1: expected 3 columns, found 2");
+  expect_error("vertex,top,bottom\n*,2,1\n\n3,abc,1\n",
+               "l.csv:4: column 2 ('top'), vertex 3: expected a height, found 'abc'");
+  expect_error("vertex,top,bottom\n3,2,\n",
+               "l.csv:2: column 3 ('bottom'), vertex 3: is empty, and there is no row * with what holds then");
+  expect_error("vertex,top,bottom\n3,2,inf\n",
+               "l.csv:2: column 3 ('bottom'), vertex 3: expected a height or nan, found 'inf'");
+  expect_error("vertex,top,bottom,active\n3,2,1,yes\n",
+               "l.csv:2: column 4 ('active'), vertex 3: expected 0 or 1, found 'yes'");
+  expect_error("vertex,top,bottom 1,bottom 2\n3,2,1,1.5\n",
+               "l.csv:2: vertex 3: bottom 2 is 1.5, higher than bottom 1, which is 1");
+  expect_error("vertex,top,bottom\n2,2,1\n", "l.csv:2: a.mesh has no vertex 2 in a triangle");
+  expect_error("vertex,top,bottom\nv3,2,1\n",
+               "l.csv:2: column 1 ('vertex'): expected the number of a vertex, or *, found 'v3'");
+  expect_error("vertex,top,bottom\n3,2,1\n3,2,1\n", "l.csv:3: vertex 3 has its row in line 2 already");
+  expect_error("vertex,top,bottom\n3,2,1\n*,2,1\n", "l.csv:3: the row * has to come once, before all others");
+  expect_error("vertex,top,bottom\n3,2,1\n",
+               "l.csv: has no row for vertices 1, 4, 5 of a.mesh, and no row * with what holds for them");
+}
+
+TEST_F(LayerFiles, formats_of_columns_want_columns_and_write_nothing_without) {
+  const Mesh& mesh = loaded_->mesh;
+  const DecComplex complex = dec(mesh);
+  const auto written =
+      write_dec(path("out"), mesh, complex, power_cells(mesh, complex), {.formats = {DecFormat::disv}});
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().what(), "formats disv, disu and tough are of columns, and need layers");
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+}
+
+TEST_F(LayerFiles, every_format_makes_the_files_it_names) {
+  for (const DecFormat format : {DecFormat::vtu, DecFormat::disv, DecFormat::disu, DecFormat::tough}) {
+    const auto written = write(*layers("vertex,top,bottom\n*,2,1\n"), {format});
+    ASSERT_TRUE(written) << written.error().what();
+    const auto names = dec_file_names(format, true);
+    ASSERT_EQ(written->size(), names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ((*written)[i], path("out") + "/" + std::string(names[i]));
+  }
+}
+
+TEST_F(LayerFiles, tough_has_fixed_columns_and_all_digits_that_they_hold) {
+  ASSERT_TRUE(write(*layers("vertex,top,bottom 1,bottom 2\n*,1e6,0,-0.25\n3,1e6,1e6,-0.25\n"), {DecFormat::tough}));
+  std::istringstream lines(slurp(path("out/MESH")));
+  std::vector<std::string> all;
+  for (std::string line; std::getline(lines, line);) all.push_back(line);
+  ASSERT_EQ(all.size(), 1u + 7 + 1 + 1 + 2 + 5 + 3 + 1);
+  EXPECT_EQ(all[0], "ELEME");
+  EXPECT_EQ(all[1].substr(0, 20), "AAA10              1");
+  for (std::size_t i = 1; i <= 7; ++i) EXPECT_EQ(all[i].size(), 80u) << all[i];
+  EXPECT_EQ(all[1].substr(50), "0.000000000.00000000500000.000");
+  EXPECT_EQ(all[8], "");
+  EXPECT_EQ(all[9], "CONNE");
+  EXPECT_EQ(all[10].substr(0, 30), "AAA10AAA12                   1");
+  for (std::size_t i = 10; i + 1 < all.size(); ++i) EXPECT_EQ(all[i].size(), 70u) << all[i];
+  EXPECT_EQ(all.back(), "");
+}
+
+}  // namespace
+}  // namespace temper::io
