@@ -14,6 +14,7 @@
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"
 #include "temper/progress.hpp"
+#include "temper/tensor.hpp"
 
 namespace temper::python {
 
@@ -116,6 +117,9 @@ class Visitor {
 
 /// Tells Python's observer, which may be None, and hears of Ctrl-C.
 Observer observer_of(Visitor& visitor, const py::object& observer);
+
+/// Of the three numbers of a diffusion tensor.
+Metric metric_from(const py::handle& tensor);
 
 /// Raises unless the mesh is one of the plane, which `what` takes alone.
 void require_plane(const Mesh& mesh, std::string_view what);

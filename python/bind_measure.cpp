@@ -205,13 +205,27 @@ py::dict incidence_to_dict(const py::object& owner, const IncidenceMatrix& matri
 
 struct PyDec {
   std::shared_ptr<const Mesh> mesh;
+  std::shared_ptr<const Mesh> measured;  // in the metric of a tensor; else the same
+  Metric metric;
   Complex complex;
+
+  [[nodiscard]] bool has_tensor() const { return measured != mesh; }
+  [[nodiscard]] PowerCells cells() const {
+    PowerCells made = power_cells(*measured, *complex);
+    return has_tensor() ? mapped_back(std::move(made), metric) : made;
+  }
 };
 
-PyDec make_dec(const PyMesh& self) {
+PyDec make_dec(const PyMesh& self, const py::object& tensor) {
   const auto mesh = self.read();
+  if (tensor.is_none()) {
+    const py::gil_scoped_release release;
+    return {mesh, mesh, {}, std::make_shared<const DecComplex>(dec(*mesh))};
+  }
+  const Metric metric = metric_from(tensor);
   const py::gil_scoped_release release;
-  return {mesh, std::make_shared<const DecComplex>(dec(*mesh))};
+  auto measured = std::make_shared<const Mesh>(or_raise(mapped(*mesh, metric)));
+  return {mesh, measured, metric, std::make_shared<const DecComplex>(mapped_back(dec(*measured), metric))};
 }
 
 py::dict dec_to_dict(const PyDec& d) {
@@ -244,7 +258,7 @@ py::dict cells_to_dict(const PyDec& d) {
   PowerCells made;
   {
     const py::gil_scoped_release release;
-    made = power_cells(*d.mesh, *d.complex);
+    made = d.cells();
   }
   auto cells = std::make_shared<const PowerCells>(std::move(made));
   const py::object owner = keep(cells);
@@ -267,7 +281,7 @@ py::object write_dec_files(const PyDec& d, const std::string& folder, const py::
     const py::gil_scoped_release release;
     const auto executor = make_threads(count);
     options.executor = executor.get();
-    auto written = io::write_dec(folder, *d.mesh, *d.complex, power_cells(*d.mesh, *d.complex), options);
+    auto written = io::write_dec(folder, *d.mesh, *d.complex, d.cells(), options);
     if (!written) throw BadInput{written.error()};
     paths = *std::move(written);
   }
@@ -277,8 +291,14 @@ py::object write_dec_files(const PyDec& d, const std::string& folder, const py::
 void bind_dec(py::module_& m) {
   py::class_<PyDec>(m, "DecComplex")
       .def("mesh", [](const PyDec& d) { return std::make_unique<PyMesh>(Mesh(*d.mesh)); })
+      .def("tensor",
+           [](const PyDec& d) -> py::object {
+             if (!d.has_tensor()) return py::none();
+             const Tensor& k = d.metric.tensor();
+             return py::make_tuple(k.xx, k.xy, k.yy);
+           })
       .def("arrays", dec_to_dict)
-      .def("summarize", [](const PyDec& d) { return summary_to_dict(summarize(*d.mesh, *d.complex)); })
+      .def("summarize", [](const PyDec& d) { return summary_to_dict(summarize(*d.measured, *d.complex)); })
       .def("power_cells", cells_to_dict)
       .def("write", write_dec_files);
   m.def("dec", make_dec);

@@ -652,7 +652,37 @@ void bind_generate(py::module_& m) {
 
 }  // namespace
 
+/// It has no file behind it: what is written of one is where its points were.
+std::unique_ptr<PyMesh> map_mesh(const PyMesh& self, const py::object& tensor) {
+  const Metric metric = metric_from(tensor);
+  const auto mesh = self.read();
+  const py::gil_scoped_release release;
+  return std::make_unique<PyMesh>(or_raise(mapped(*mesh, metric)));
+}
+
+std::unique_ptr<PyMesh> map_mesh_back(const PyMesh& changed, const PyMesh& original, const py::object& tensor,
+                                      const Int64s& numbers) {
+  const Metric metric = metric_from(tensor);
+  const auto mesh = changed.read(), before = original.read();
+  const auto given = as_span<std::int64_t>(numbers);
+  if (given.empty() && mesh->n_vertices() != before->n_vertices()) {
+    fail(ErrorCode::size_mismatch, "vertices: the mesh has " + std::to_string(mesh->n_vertices()) + ", the original " +
+                                       std::to_string(before->n_vertices()) + "; say which is which");
+  }
+  if (!given.empty() && given.size() != mesh->n_vertices()) {
+    fail(ErrorCode::size_mismatch, "vertices: expected " + std::to_string(mesh->n_vertices()) + " numbers, found " +
+                                       std::to_string(given.size()));
+  }
+  IdVector<VertexId, VertexId> vertices;
+  for (const std::int64_t number : given) vertices.push_back(number < 0 ? VertexId() : vertex_id(*before, number));
+  auto result = std::make_unique<PyMesh>(original.copy());
+  result->replace(or_raise(mapped_back(*mesh, *before, metric, vertices)), vertices);
+  return result;
+}
+
 void bind_mesh(py::module_& m) {
+  m.def("mapped", map_mesh);
+  m.def("mapped_back", map_mesh_back);
   bind_mesh_class(m);
   bind_files(m);
   bind_generate(m);

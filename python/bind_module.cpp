@@ -20,6 +20,13 @@ py::array view(const py::dtype& type, Shape shape, Shape strides, const void* da
   return array;
 }
 
+Metric metric_from(const py::handle& tensor) {
+  const auto k = tensor.cast<py::sequence>();
+  if (k.size() != 3)
+    throw py::value_error("tensor: expected kxx, kxy, kyy, found " + std::to_string(k.size()) + " numbers");
+  return or_raise(Metric::of({k[0].cast<double>(), k[1].cast<double>(), k[2].cast<double>()}));
+}
+
 std::size_t choose(std::string_view option, std::string_view text, std::span<const std::string_view> names) {
   const auto found = std::find(names.begin(), names.end(), text);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "console.hpp"
@@ -16,6 +17,7 @@
 #include "report_text.hpp"
 #include "requirement.hpp"
 #include "temper/quality.hpp"
+#include "tensor_option.hpp"
 #include "threads.hpp"
 
 namespace temper::app {
@@ -29,6 +31,7 @@ struct CheckSettings {
   SofteningOptions gamma, h0;
   std::uint64_t worst = 5, threads = 0;
   bool json = false;
+  std::optional<Metric> metric;
 };
 
 void add_options(Command& command, CheckSettings& s) {
@@ -44,6 +47,7 @@ void add_options(Command& command, CheckSettings& s) {
   add_count(command, "--worst", s.worst, 0, "list this many of the worst triangles");
   add_gamma(command, s.gamma, " (default: 1)");
   add_h0(command, s.h0, " (default: 0)");
+  add_tensor(command, s.metric, "all measures are");
   add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
   command.group("Requirements");
   add_requirements(command, s.require);
@@ -74,13 +78,18 @@ class Checks {
                                                  "See temper check --help",
                                                  s_.inputs.size()));
     }
+    expect_without(command, s_.metric, "--html");
     outputs_.expect_text("--html", s_.html, s_.inputs);
   }
 
   void add(const std::string& path) {
-    const Input input = read_input(path, {s_.projection, {}, threads_.get(), true});
+    Input input = read_input(path, {s_.projection, {}, threads_.get(), true});
     print_warnings(input.warnings());
-    const Quality measured = quality(input.mesh(), options_);
+    take_to_metric(input, s_.metric);
+    Quality measured = quality(input.mesh(), options_);
+    for (WorstTriangle& worst : measured.worst) {
+      if (s_.metric) worst.at = s_.metric->from_metric(worst.at);
+    }
     const std::vector<Outcome> outcomes = judge(requirements_, measured);
     if (!s_.html.empty()) {
       expect_plane(input.mesh(), path, "--html");

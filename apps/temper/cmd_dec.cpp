@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "console.hpp"
 #include "dec_report.hpp"
@@ -15,6 +16,7 @@
 #include "projection_option.hpp"
 #include "suggest.hpp"
 #include "temper/dec_io.hpp"
+#include "tensor_option.hpp"
 #include "threads.hpp"
 
 namespace temper::app {
@@ -31,6 +33,7 @@ struct DecSettings {
   std::string input, output, formats = "npz,mtx,vtu";
   std::string layers;
   double pinch_out = 0;
+  std::optional<Metric> metric;
   std::uint64_t threads = 0;
   bool json = false;
 };
@@ -44,6 +47,8 @@ void add_options(Command& command, DecSettings& s) {
            "the kinds of files to write, separated by commas: npz (NumPy and SciPy), mtx (Matrix Market), vtu (the "
            "dual, for ParaView); with --layers also disv and disu (MODFLOW 6), tough (TOUGH2 and TOUGH3)")
       .defaults_to([&s] { return s.formats; });
+  command.group("Diffusion tensor");
+  add_tensor(command, s.metric, "stars, fluxes, orthocenters and power cells are those");
   command.group("Layers");
   add_text(command, "--layers", "FILE", s.layers,
            "heights of the surfaces between layers, for columns of cells below the power cells: CSV, a title line "
@@ -131,20 +136,26 @@ Exit run_dec(const Arguments& arguments) {
   if (!command.parse(arguments)) return Exit::done;
   const std::vector<io::DecFormat> formats = parse_formats(s.formats);
   check_layers(command, s, formats);
+  expect_without(command, s.metric, "--layers");
   check_folder(s, formats);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  const Input input = read_input(s.input, {s.projection, {}, threads.get(), true});
+  Input input = read_input(s.input, {s.projection, {}, threads.get(), true});
   print_warnings(input.warnings());
-  const DecComplex complex = dec(input.mesh());
-  const PowerCells cells = power_cells(input.mesh(), complex);
+  const std::optional<Mesh> plain = take_to_metric(input, s.metric);
+  DecComplex complex = dec(input.mesh());
+  PowerCells cells = power_cells(input.mesh(), complex);
+  if (s.metric) {
+    complex = mapped_back(std::move(complex), *s.metric);
+    cells = mapped_back(std::move(cells), *s.metric);
+  }
   const DecSummary summary = summarize(input.mesh(), complex);
   const std::optional<Columns> under_layers = make_columns(s, input, complex, cells);
   const Columns* const columns = under_layers ? &*under_layers : nullptr;
   DecRecord record = {s.input, summary, cells, columns, {}};
   print_warnings(dec_warnings(record));
   record.files =
-      or_fail(io::write_dec(s.output, input.mesh(), complex, cells,
+      or_fail(io::write_dec(s.output, plain ? *plain : input.mesh(), complex, cells,
                             {formats, input.points, input.file.z, columns, input.names.get(), threads.get()}));
   print(s.json ? dec_json(record) : dec_text(record));
   return Exit::done;

@@ -27,6 +27,7 @@
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 #include "temper/regularity.hpp"
+#include "tensor_option.hpp"
 #include "threads.hpp"
 #include "time_limit.hpp"
 #include "trace_jsonl.hpp"
@@ -51,6 +52,7 @@ struct Settings {
   double every = 600;  ///< seconds between checkpoints
   std::vector<Requirement> requirements;
   std::string size_field, size_data;
+  std::optional<Metric> metric;  ///< of the diffusion tensor
   std::vector<std::string> point_data;
   io::DataRules rules;  ///< of point_data
 
@@ -88,6 +90,7 @@ void add_constraints(Command& command, Settings& s) {
   command.group("Constraints and sizes");
   add_texts(command, "--fix", "TAG ...", Values::words, s.fix,
             "vertices with this tag or physical name stay where they are; several may follow");
+  add_tensor(command, s.metric, "meshes are made well-centered");
   add_text(command, "--size-field", "FILE", s.size_field,
            "a mesh file whose point data say how long edges are meant to be where; without it the input's own sizes");
   add_text(command, "--size-field-data", "NAME", s.size_data, "of the point data in that file (default: size)");
@@ -205,6 +208,7 @@ struct Results {
   Mesh original;  ///< when a picture, a page or --verify needs it
   OptimizeReport report;
   std::vector<Outcome> outcomes;  ///< of --require
+  bool lacks_flips = false;       ///< edges are not regular that should be
   io::DataReport data;
   std::string picture;                   ///< SVG, when asked for
   std::string errors_text, errors_json;  ///< of solvers, when asked for
@@ -425,6 +429,17 @@ bool lacks_flips(const Settings& s, const Quality& after, const Mesh& mesh, Exec
          count_non_regular_edges(mesh, false, executor) > 0;
 }
 
+/// From the plane of the metric to that of the file, where `plain` is the mesh as it was.
+void take_back(const Settings& s, const Mesh& plain, Input& input, const OptimizeReport& report) {
+  auto back = mapped_back(input.loaded.mesh, plain, *s.metric, report.vertices);
+  if (!back) {
+    InputError error = back.error();
+    error.where = s.input;
+    throw as_failure(error);
+  }
+  input.loaded.mesh = *std::move(back);
+}
+
 /// The checkpoints that are asked for.
 std::optional<io::CheckpointFile> checkpoint_of(const Command& command, const Settings& s, TraceFile* trace) {
   if (s.checkpoint.empty()) return std::nullopt;
@@ -469,21 +484,22 @@ Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs, const 
   }
   // The mesh has its geometry now, and memory is dear on the largest ones.
   io::release_geometry(input.file, input.loaded);
+  const std::optional<Mesh> plain = take_to_metric(input, s.metric);
   improve(s, input, results, files);
+  results.lacks_flips = lacks_flips(s, results.after, input.loaded.mesh, threads.get());
+  if (plain) take_back(s, *plain, input, results.report);
   write_all(command, s, input, results, outputs, files);
   if (!s.quiet) print_result(s, results, outputs);
   flush_output();  // before the verdict on standard error
   if (const Exit verdict = report_unmet(results.outcomes, s.output.path); verdict != Exit::done) return verdict;
-  return stopped_early(results.report) || lacks_flips(s, results.after, input.loaded.mesh, threads.get())
-             ? Exit::stopped_early
-             : Exit::done;
+  return stopped_early(results.report) || results.lacks_flips ? Exit::stopped_early : Exit::done;
 }
 
 /// Of this verb's own options those that a first run does without; of the library's the table says it.
 constexpr const char* kRare[] = {
-    "--projection", "--format",     "--encoding",        "--point-data",         "--history",
-    "--trace",      "--threads",    "--method",          "--checkpoint",         "--every",
-    "--resume",     "--size-field", "--size-field-data", "--no-triangle-quality"};
+    "--projection", "--format",     "--encoding",        "--point-data",          "--history",
+    "--trace",      "--threads",    "--method",          "--checkpoint",          "--every",
+    "--resume",     "--size-field", "--size-field-data", "--no-triangle-quality", "--tensor"};
 
 Command command_with(Settings& settings) {
   Command command(
@@ -520,6 +536,8 @@ Exit run_command(Command& command, Settings& settings, const Resumed* resumed) {
   take_input(command, settings);
   expect_no_contradictions(command);
   command.spell_defaults();  // --method may have changed them
+  for (const char* option : {"--size-field", "--html", "--trace"}) expect_without(command, settings.metric, option);
+  if (settings.metric) settings.output.options.triangle_quality = false;  // which is of the plane
   settings.requirements = parse_requirements("optimize", settings.require);
 
   Outputs outputs("optimize");

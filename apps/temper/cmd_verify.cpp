@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "console.hpp"
 #include "help.hpp"
@@ -10,6 +11,7 @@
 #include "options.hpp"
 #include "outputs.hpp"
 #include "projection_option.hpp"
+#include "tensor_option.hpp"
 #include "threads.hpp"
 #include "verify_report.hpp"
 
@@ -22,6 +24,7 @@ struct VerifySettings {
   int refine = 0;
   std::uint64_t threads = 0;
   bool condition = false, json = false;
+  std::optional<Metric> metric;
 };
 
 // Relative to the size of the domain: what a text format may round coordinates by.
@@ -51,6 +54,7 @@ void add_options(Command& command, VerifySettings& s) {
       .defaults_to([&s] { return s.fields; });
   add_count(command, "--refine", s.refine, 0,
             "cut every triangle into four, this many times, and print orders of convergence");
+  add_tensor(command, s.metric, "solutions and errors are");
   command.add_flag("--condition", s.condition, "also estimate the condition of both matrices");
   add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
   command.group("Help");
@@ -82,8 +86,9 @@ bool same_box(const VerifyFrame& a, const VerifyFrame& b) {
 
 VerifyReference measure_reference(const VerifySettings& s, const std::string& projection, const VerifyOptions& options,
                                   const VerifyFrame& frame) {
-  const Input reference = read_input(s.against, {projection, {}, options.executor, true});
+  Input reference = read_input(s.against, {projection, {}, options.executor, true});
   print_warnings(reference.warnings());
+  take_to_metric(reference, s.metric);
   if (!same_box(frame, verify_frame(reference.mesh()))) {
     print_warnings(std::vector<std::string>{fmt::format(
         "{} and {} do not have the same bounding box: both are measured in that of {}", s.input, s.against, s.input)});
@@ -115,8 +120,9 @@ Exit run_verify(const Arguments& arguments) {
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
   options.executor = threads.get();
-  const Input input = read_input(s.input, {s.projection, {}, threads.get(), true});
+  Input input = read_input(s.input, {s.projection, {}, threads.get(), true});
   print_warnings(input.warnings());
+  take_to_metric(input, s.metric);
   options.frame = verify_frame(input.mesh());
   options.refine = s.refine;
   options.condition = s.condition;

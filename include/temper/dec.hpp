@@ -27,6 +27,7 @@
 
 #include "temper/ids.hpp"
 #include "temper/mesh.hpp"
+#include "temper/tensor.hpp"
 #include "temper/vec2.hpp"
 #include "temper/vec3.hpp"
 
@@ -128,5 +129,15 @@ struct PowerCells {
 /// Precondition: no erased triangles, and `complex` is dec(mesh). O(n) where triangles are well-centered, and about ten
 /// microseconds for each that is not.
 [[nodiscard]] PowerCells power_cells(const Mesh& mesh, const DecComplex& complex);
+
+// --- with a diffusion tensor (temper/tensor.hpp): operators of a mapped mesh, in the plane that it comes from
+// ----------
+
+/// The operators for −div(K ∇u) of a mesh whose image, mapped by the metric of K, has these: ★1 and flux are times
+/// √(det K), orthocenters and midpoints are mapped back, areas are the same in both. Lengths, splits and heights stay
+/// those of the metric.
+[[nodiscard]] DecComplex mapped_back(DecComplex complex, const Metric& metric);
+/// The cells of a mapped mesh: their corners are mapped back. Faces keep their widths, of the metric.
+[[nodiscard]] PowerCells mapped_back(PowerCells cells, const Metric& metric);
 
 }  // namespace temper

@@ -74,6 +74,7 @@ from ._regularity import (
 from ._size import SizeField, SizeReport, Spread, input_size_field, local_size, measure_size, spread
 from ._space import Space
 from ._temper import __version__, has_threads, instruction_set, instruction_sets, use_instruction_set
+from ._tensor import mapped, mapped_back
 from ._trace import Snapshot, TraceEvent
 from ._verify import (
     ErrorNorms,

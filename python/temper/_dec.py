@@ -159,7 +159,7 @@ class DecComplex(Record):
     _handle: Any = dataclasses.field(repr=False, compare=False)
 
     def __reduce__(self) -> Any:
-        return dec, (Mesh._of(self._handle.mesh()),)
+        return _dec_of, (Mesh._of(self._handle.mesh()), self._handle.tensor())
 
     def star(self, s: Literal[0, 1, 2]) -> Any:
         """★s as a diagonal ``scipy.sparse`` matrix. Needs SciPy."""
@@ -193,12 +193,19 @@ class DecComplex(Record):
         return self._handle.write(os.fspath(folder), list(formats), threads)
 
 
-def dec(mesh: MeshLike) -> DecComplex:
+def _dec_of(mesh: Mesh, tensor: tuple[float, float, float] | None) -> DecComplex:
+    return dec(mesh, tensor=tensor)
+
+
+def dec(mesh: MeshLike, *, tensor: Sequence[float] | None = None) -> DecComplex:
     """The operators of a mesh, as exact as doubles are.
 
     Parameters
     ----------
     mesh : Mesh or meshio.Mesh
+    tensor : sequence of float, optional
+        kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u): duals are those of its metric, ★1 and flux are times
+        √(det K), and lengths are of the metric (docs/tensor.md).
 
     Returns
     -------
@@ -219,7 +226,7 @@ def dec(mesh: MeshLike) -> DecComplex:
     >>> complex.d0.shape
     (1240, 441)
     """
-    handle = _temper.dec(as_mesh(mesh)._handle)
+    handle = _temper.dec(as_mesh(mesh)._handle, None if tensor is None else tuple(tensor))
     arrays = handle.arrays()
     edges = DecEdges(**arrays.pop("edges"))
     d0, d1 = IncidenceMatrix(**arrays.pop("d0")), IncidenceMatrix(**arrays.pop("d1"))

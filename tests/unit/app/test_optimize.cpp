@@ -24,6 +24,36 @@ TEST_F(Optimize, MakesEveryTriangleWellCentered) {
   EXPECT_EQ(names(), (std::vector<std::string>{"in.vtu", "out.vtu"}));
 }
 
+TEST_F(Optimize, InTheMetricOfATensorAndNowhereElse) {
+  const std::vector<std::string> tensor = {"--tensor", "1,0,25"};
+  const auto with = [&](std::vector<std::string> words) {
+    words.insert(words.end(), tensor.begin(), tensor.end());
+    return words;
+  };
+  temper_ok(with({"optimize", "in.vtu", "-o", "out.vtu", "--require", "outside=0"}));
+  temper_ok(with({"check", "out.vtu", "--require", "outside=0,not_crossed=0,nonregular=0"}));
+  EXPECT_EQ(temper({"check", "out.vtu", "--require", "outside=0"}).exit, 3) << "in the plane";
+  EXPECT_FALSE(contains(read("out.vtu"), "min_h_over_l")) << "numbers of the plane";
+  temper_ok(with({"optimize", "in.vtu", "-o", "again.vtu", "--quiet", "--checkpoint", "run.ckpt", "--every", "0"}));
+  EXPECT_EQ(read("again.vtu"), read("out.vtu"));
+  shell("rm again.vtu");
+  temper_ok({"optimize", "--resume", "run.ckpt"});
+  EXPECT_EQ(read("again.vtu"), read("out.vtu"));
+  const auto fluxes = nlohmann::json::parse(temper_ok(with({"dec", "out.vtu", "-o", "dec", "--json"})).out);
+  EXPECT_GT(fluxes.at("min_star1").get<double>(), 0);
+  EXPECT_EQ(temper(with({"optimize", "in.vtu", "-o", "b.vtu", "--trace", "t.jsonl"})).exit, 2);
+  EXPECT_EQ(temper(with({"check", "in.vtu", "--html", "t.html"})).exit, 2);
+  const Outcome wrong = temper({"optimize", "in.vtu", "-o", "b.vtu", "--tensor", "1,2,1"});
+  EXPECT_EQ(wrong.exit, 2);
+  EXPECT_TRUE(contains(wrong.err, "expected a positive definite tensor kxx,kxy,kyy"));
+  temper_ok({"example", "random-sphere", "--vertices", "60", "-o", "globe.vtu"});
+  const Outcome globe = temper(with({"optimize", "globe.vtu", "-o", "b.vtu"}));
+  EXPECT_EQ(globe.exit, 1);
+  EXPECT_TRUE(contains(globe.err,
+                       "globe.vtu: the mesh is one of the sphere, and a diffusion tensor takes meshes of the plane"));
+  EXPECT_FALSE(std::filesystem::exists("b.vtu"));
+}
+
 TEST_F(Optimize, InAPipeNoControlCharacters) {
   const Outcome outcome = temper_ok({"optimize", "in.vtu", "-o", "out.vtu"});
   for (const std::string* text : {&outcome.out, &outcome.err}) {

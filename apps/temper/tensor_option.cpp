@@ -1,0 +1,39 @@
+#include "tensor_option.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+#include "options.hpp"
+
+namespace temper::app {
+
+void add_tensor(Command& command, std::optional<Metric>& metric, const std::string& what) {
+  const auto use = [&metric](const std::vector<double>& k) {
+    const auto made = Metric::of({k[0], k[1], k[2]});
+    if (!made) throw BadValue(made.error().message);
+    metric = *made;
+  };
+  add_numbers(command, "--tensor", "KXX,KXY,KYY", 3, use,
+              "a constant diffusion tensor K, for -div(K grad u): " + what + " in its metric; see docs/tensor.md");
+}
+
+void expect_without(const Command& command, const std::optional<Metric>& metric, const std::string& option) {
+  if (!metric || !command.was_given(option)) return;
+  throw Failure(Exit::bad_usage,
+                fmt::format("{0}: --tensor does not go with {1}\nSee temper {0} --help", command.name(), option));
+}
+
+std::optional<Mesh> take_to_metric(Input& input, const std::optional<Metric>& metric) {
+  if (!metric) return {};
+  auto there = mapped(input.mesh(), *metric);
+  if (!there) {
+    InputError error = there.error();
+    error.where = input.path;
+    throw as_failure(error);
+  }
+  return std::exchange(input.loaded.mesh, *std::move(there));
+}
+
+}  // namespace temper::app

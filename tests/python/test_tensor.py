@@ -1,0 +1,163 @@
+"""Diffusion tensors: meshes in the metric, and two-point fluxes that converge there and nowhere else.
+
+    test_tensor.py    prints the table of docs/tensor.md, of the public meshes
+"""
+
+import numpy as np
+import pytest
+from conftest import PUBLIC_MESHES
+
+import temper
+
+K = (1.0, 0.0, 100.0)
+ONE = (1.0, 0.0, 1.0)
+MESHES = ["skfem_square.msh", "mfem_square-disc.mesh", "sfepy_its2D.mesh"]
+
+
+def matrix(tensor):
+    return np.array([[tensor[0], tensor[1]], [tensor[1], tensor[2]]])
+
+
+def optimized(mesh, tensor):
+    """Well-centered in the metric of the tensor; boundary edges that are long there are cut."""
+    there = temper.mapped(mesh, tensor)
+    report = temper.optimize(there, boundary="split")
+    return temper.mapped_back(there, mesh, tensor, report.vertices)
+
+
+def refined(mesh):
+    """Every triangle cut in four."""
+    points, triangles = np.asarray(mesh.points), np.asarray(mesh.triangles)
+    sides = np.sort(np.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)]), axis=1)
+    edges, number = np.unique(sides, axis=0, return_inverse=True)
+    a, b, c = number.reshape(3, -1) + len(points)
+    i, j, k = triangles.T
+    children = [np.column_stack(t) for t in [(i, a, c), (a, j, b), (c, b, k), (a, b, c)]]
+    return temper.Mesh(np.vstack([points, points[edges].mean(axis=1)]), np.vstack(children))
+
+
+def wave(points, size):
+    """A solution, and its gradient."""
+    k, phase = np.array([1.3, 2.2]) / size, 0.5
+    angle = points @ k + phase
+    return np.sin(angle), np.cos(angle)[..., None] * k
+
+
+def flux_error(mesh, tensor, dual):
+    """The relative L2 error of −div(K ∇u) = f by two-point fluxes between orthocenters: of the metric of `dual`, which are
+    K-orthogonal when that is K; else with the conductivity along the normal, as is usual."""
+    from scipy import sparse
+    from scipy.sparse.linalg import spsolve
+
+    points = np.asarray(mesh.points)
+    size = np.ptp(points, axis=0).max() / 2
+    complex = temper.dec(mesh, tensor=dual)
+    ends, sides = complex.edges.vertices, complex.edges.triangles
+    along = points[ends[:, 1]] - points[ends[:, 0]]
+    normal = np.column_stack([along[:, 1], -along[:, 0]])  # to the right, times the length
+    flux = np.clip(complex.flux, -1e9, 1e9)  # orthocenters that coincide have one value
+    if tuple(dual) != tuple(tensor):
+        flux = flux * ((normal @ matrix(tensor)) * normal).sum(axis=1) / (normal**2).sum(axis=1)
+    flow = np.zeros(len(ends))  # of K ∇u to the right, by Gauss
+    for at, weight in zip(*np.polynomial.legendre.leggauss(5)):
+        _, gradient = wave(points[ends[:, 0]] + (1 + at) / 2 * along, size)
+        flow += weight / 2 * ((gradient @ matrix(tensor)) * normal).sum(axis=1)
+    left, right = sides[:, 0], sides[:, 1]
+    n = len(complex.areas)
+    given = wave(complex.edges.midpoint, size)[0]
+    rhs, diagonal, rows, columns, values = np.zeros(n), np.zeros(n), [], [], []
+    for here, there, sign in [(left, right, -1), (right, left, 1)]:
+        has = here >= 0
+        np.add.at(rhs, here[has], sign * flow[has])
+        np.add.at(diagonal, here[has], flux[has])
+        outer = has & (there < 0)
+        np.add.at(rhs, here[outer], (flux * given)[outer])
+        inner = has & (there >= 0)
+        rows.append(here[inner]), columns.append(there[inner]), values.append(-flux[inner])
+    entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
+    system = sparse.csc_matrix(entries, (n, n)) + sparse.diags(diagonal, format="csc")
+    exact = wave(np.asarray(complex.orthocenters), size)[0]
+    error = spsolve(system, rhs) - exact
+    return np.sqrt((complex.areas * error**2).sum() / (complex.areas * exact**2).sum())
+
+
+def errors_of(mesh, tensor, dual, levels=3):
+    """Of a mesh, and of its refinements, each optimised in the metric of `dual`."""
+    errors = []
+    for level in range(levels):
+        mesh = optimized(refined(mesh) if level else mesh, dual)
+        errors.append(flux_error(mesh, tensor, dual))
+    return np.array(errors)
+
+
+def order(errors):
+    """The mean over the levels."""
+    return np.log2(errors[0] / errors[-1]) / (len(errors) - 1)
+
+
+def test_there_and_back_keeps_what_stayed_bit_for_bit():
+    mesh = temper.generate.random_points(200)
+    tensor = (3.0, 1.1, 0.7)
+    there = temper.mapped(mesh, tensor)
+    assert np.array_equal(temper.mapped_back(there, mesh, tensor).points, mesh.points)
+    better = optimized(mesh, tensor)
+    boundary = np.unique(mesh.boundary_edges)
+    assert np.array_equal(np.asarray(better.points)[boundary], np.asarray(mesh.points)[boundary])
+    assert not np.array_equal(better.points, mesh.points)
+    assert temper.quality(temper.mapped(better, tensor)).well_centered_fraction == 1
+    q = np.asarray(there.points) @ np.asarray(there.points).T
+    x = np.asarray(mesh.points)
+    assert np.allclose(q, np.sqrt(np.linalg.det(matrix(tensor))) * x @ np.linalg.inv(matrix(tensor)) @ x.T)
+
+
+def test_operators_of_a_tensor_are_k_orthogonal_and_have_its_energy():
+    tensor = (3.0, 1.1, 0.7)
+    mesh = optimized(temper.generate.random_points(200), tensor)
+    c = temper.dec(mesh, tensor=tensor)
+    points, edges = np.asarray(mesh.points), c.edges
+    inner = ~edges.is_boundary
+    along = (points[edges.vertices[:, 1]] - points[edges.vertices[:, 0]])[inner]
+    dual = (c.orthocenters[edges.triangles[:, 0]] - c.orthocenters[edges.triangles[:, 1]])[inner]
+    assert np.abs((along @ np.linalg.inv(matrix(tensor)) * dual).sum(axis=1)).max() < 1e-12
+    assert np.isclose(c.star0.sum(), temper.dec(mesh).areas.sum()) and np.allclose(c.areas, temper.dec(mesh).areas)
+    assert np.isclose(c.power_cells().areas.sum(), c.areas.sum())
+    slope = np.array([0.3, -0.8])
+    u = points @ slope
+    residual = c.laplacian() @ u
+    free = np.setdiff1d(np.arange(len(points)), mesh.boundary_edges)
+    assert np.abs(residual[free]).max() < 1e-11, "linear functions are in the kernel"
+    plain = mesh.copy()
+    plain.weights = np.zeros(len(points))
+    energy = u @ (temper.dec(plain, tensor=tensor).laplacian() @ u)
+    assert np.isclose(energy, c.areas.sum() * slope @ matrix(tensor) @ slope), "u·Lu = ∫ ∇u·K∇u"
+    with pytest.raises(temper.TemperError, match="sphere"):
+        temper.dec(temper.generate.random_sphere(vertices=50), tensor=tensor)
+    for wrong in [(1, 2, 1), (-1, 0, 1), (1, 0, np.nan), (1, 0, 1e9)]:
+        with pytest.raises(temper.TemperError, match="tensor: expected"):
+            temper.mapped(mesh, wrong)
+
+
+@pytest.mark.parametrize("name", ["", *MESHES])
+def test_fluxes_converge_with_orthocenters_of_the_metric_and_not_with_those_of_the_plane(name):
+    pytest.importorskip("scipy")
+    if name and not (PUBLIC_MESHES / name).exists():
+        pytest.skip("public meshes are not here")
+    mesh = temper.read(PUBLIC_MESHES / name) if name else temper.generate.random_points(150)
+    of_one, of_k, of_plane = errors_of(mesh, ONE, ONE), errors_of(mesh, K, K), errors_of(mesh, K, ONE)
+    assert order(of_one) > 1.7 and order(of_k) > 1.7, (of_one, of_k)
+    assert order(of_plane) < 0.2 and of_plane[-1] > 10 * of_k[-1], (of_plane, of_k)
+
+
+def main():
+    print("| mesh | K = 1 | order | K, orthocenters of its metric | order | K, of the plane | order |")
+    print("|-|-|-|-|-|-|-|")
+    for name in MESHES:
+        cells = [name.split(".")[0]]
+        for tensor, dual in [(ONE, ONE), (K, K), (K, ONE)]:
+            errors = errors_of(temper.read(PUBLIC_MESHES / name), tensor, dual, levels=4)
+            cells += [", ".join(f"{e:.2g}" for e in errors), f"{order(errors):.2f}"]
+        print("| " + " | ".join(cells) + " |")
+
+
+if __name__ == "__main__":
+    main()
