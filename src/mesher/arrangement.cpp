@@ -242,8 +242,8 @@ class Arranger {
 }  // namespace
 
 const OutlineNames& names_of(const Outline& outline) {
-  static const OutlineNames kFromZero;
-  return outline.names ? *outline.names : kFromZero;
+  static const OutlineNames from_zero;
+  return outline.names ? *outline.names : from_zero;
 }
 
 Expected<std::vector<OutlineEdge>> arrange(const Ground& ground, const Outline& outline,

@@ -49,8 +49,9 @@ std::uint32_t GradedSize::build(std::size_t begin, std::size_t end) {
 }
 
 double GradedSize::bound(const Node& node, Vec3 x) const {
-  const auto [low, high] = node.box;
-  const auto beyond = [&](double Vec3::*side) { return std::max({low.*side - x.*side, 0.0, x.*side - high.*side}); };
+  const auto beyond = [&](double Vec3::*side) {
+    return std::max({node.box.low.*side - x.*side, 0.0, x.*side - node.box.high.*side});
+  };
   return node.least + grade_ * length(Vec3{beyond(&Vec3::x), beyond(&Vec3::y), beyond(&Vec3::z)});
 }
 

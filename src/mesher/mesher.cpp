@@ -245,24 +245,39 @@ class Mesher {
     return build(divided, placed, *triangulated);
   }
 
-  Expected<OutlineMesh> build(const DividedOutline& divided, const std::vector<Vec3>& placed, const Triangulated& all) {
+  /// The points inside, which are the vertices of the mesh.
+  struct Inside {
+    std::vector<Vec3> places;
+    std::vector<std::int32_t> vertex;           ///< of each point of the triangulation, or -1
+    std::vector<std::uint32_t> outline_points;  ///< of the vertices that are one, which come first
+  };
+
+  /// Nothing where a vertex that surrounds the sphere is still needed.
+  [[nodiscard]] std::optional<Inside> find_inside(const DividedOutline& divided, const std::vector<Vec3>& placed,
+                                                  const Triangulated& all) const {
     const std::size_t n = divided.points.size() + placed.size();
-    std::vector<std::int32_t> vertex(n, -1);
+    Inside inside;
+    inside.vertex.assign(n, -1);
     for (const TriangleId t : all.mesh.triangles()) {
       if (all.area[t] == kOutside) continue;
       for (const VertexId v : all.mesh.corners(t)) {
-        if (v.index >= n) return too_coarse();
-        vertex[v.index] = 0;
+        if (v.index >= n) return {};
+        inside.vertex[v.index] = 0;
       }
     }
-    std::vector<Vec3> points;
-    std::vector<std::uint32_t> outline_points;
     for (std::size_t i = 0; i < n; ++i) {
-      if (vertex[i] < 0) continue;
-      vertex[i] = static_cast<std::int32_t>(points.size());
-      points.push_back(i < divided.points.size() ? divided.points[i] : placed[i - divided.points.size()]);
-      if (i < outline_.points.size()) outline_points.push_back(static_cast<std::uint32_t>(i));
+      if (inside.vertex[i] < 0) continue;
+      inside.vertex[i] = static_cast<std::int32_t>(inside.places.size());
+      inside.places.push_back(i < divided.points.size() ? divided.points[i] : placed[i - divided.points.size()]);
+      if (i < outline_.points.size()) inside.outline_points.push_back(static_cast<std::uint32_t>(i));
     }
+    return inside;
+  }
+
+  Expected<OutlineMesh> build(const DividedOutline& divided, const std::vector<Vec3>& placed, const Triangulated& all) {
+    const std::optional<Inside> inside = find_inside(divided, placed, all);
+    if (!inside) return too_coarse();
+    const std::vector<std::int32_t>& vertex = inside->vertex;
     std::vector<std::array<std::int32_t, 3>> triangles;
     std::vector<std::int32_t> regions;
     for (const TriangleId t : all.mesh.triangles()) {
@@ -281,16 +296,15 @@ class Mesher {
       result.lines.push_back(
           {VertexId(static_cast<std::size_t>(a)), VertexId(static_cast<std::size_t>(b)), edges_[piece.edge].tag});
     }
-    const MeshNames names(names_of(outline_), outline_points);
+    const MeshNames names(names_of(outline_), inside->outline_points);
     MeshInput input;
     input.space = ground_.space();
     std::vector<Vec2> flat;
     if (ground_.is_plane()) {
-      flat.reserve(points.size());
-      for (const Vec3 p : points) flat.push_back({p.x, p.y});
+      for (const Vec3 p : inside->places) flat.push_back({p.x, p.y});
       input.points = flat;
     } else {
-      input.sphere_points = points;
+      input.sphere_points = inside->places;
     }
     input.triangles = triangles;
     input.regions = regions;
@@ -299,16 +313,20 @@ class Mesher {
     Expected<BuiltMesh> built = Mesh::build(input);
     if (!built) return built.error();
     result.mesh = std::move(built->mesh);
-    result.vertex_of_point.resize(outline_.points.size());
-    for (const std::uint32_t p : outline_points) {
-      result.vertex_of_point[p] = VertexId(static_cast<std::size_t>(vertex[p]));
-    }
-    if (const std::size_t outside = outline_.points.size() - outline_points.size(); outside > 0) {
-      result.notes.push_back("points of the outline outside, or of segments outside, are not in the mesh: " +
-                             std::to_string(outside));
-    }
+    number_points(*inside, result);
     fix_points(result);
     return result;
+  }
+
+  void number_points(const Inside& inside, OutlineMesh& made) const {
+    made.vertex_of_point.resize(outline_.points.size());
+    for (const std::uint32_t p : inside.outline_points) {
+      made.vertex_of_point[p] = VertexId(static_cast<std::size_t>(inside.vertex[p]));
+    }
+    if (const std::size_t outside = outline_.points.size() - inside.outline_points.size(); outside > 0) {
+      made.notes.push_back("points of the outline outside, or of segments outside, are not in the mesh: " +
+                           std::to_string(outside));
+    }
   }
 
   /// Points of no segment are the user's all the same.

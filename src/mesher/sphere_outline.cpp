@@ -66,9 +66,9 @@ class Joiner {
       : radius_(given.radius), sources_{&given.basins, &given.coasts, &given.lines} {}
 
   Expected<JoinedOutline> run() {
-    static const auto kFromZero = std::make_shared<const OutlineNames>();
+    const auto from_zero = std::make_shared<const OutlineNames>();
     for (const Outline* outline : sources_) {
-      names_->outlines.push_back(outline->names ? outline->names : kFromZero);
+      names_->outlines.push_back(outline->names ? outline->names : from_zero);
     }
     for (std::size_t k = 0; k < sources_.size(); ++k) {
       if (auto error = check(k)) return *std::move(error);
