@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -269,6 +270,56 @@ TEST(PublicOutlines, AllAreWellCenteredAtEverySizeInOneGo) {
     }
   }
   EXPECT_EQ(tested, 12u);
+}
+
+/// The boundary of a file in degrees: one segment for each edge of one triangle.
+Outline coast_of(const io::MeshFile& file, const Mesh& mesh) {
+  Outline coast;
+  std::vector<std::int32_t> number(mesh.n_vertices(), -1);
+  const auto point = [&](VertexId v) {
+    if (number[v.index] < 0) {
+      number[v.index] = static_cast<std::int32_t>(coast.points.size());
+      coast.points.push_back(file.points[v.index]);
+    }
+    return number[v.index];
+  };
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.is_boundary(h)) coast.segments.push_back({{point(mesh.origin(h)), point(mesh.target(h))}, 0});
+  }
+  return coast;
+}
+
+double part_of_sphere(const Mesh& mesh) {
+  double sum = 0;
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [a, b, c] = mesh.corners(t);
+    sum += solid_angle(mesh.lifted_point(a), mesh.lifted_point(b), mesh.lifted_point(c));
+  }
+  return sum / (4 * std::numbers::pi);
+}
+
+TEST(PublicOutlines, TheCoastsOfAGlobalOceanAreMeshedWellCenteredAndKept) {
+  const std::string path = TEMPER_SHARED "/meshes/sphere/fesom_pi.nod2d.out";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no public meshes here";
+  const auto file = io::read(path);
+  ASSERT_TRUE(file.has_value()) << file.error().what();
+  const auto ocean = io::make_mesh(*file);
+  ASSERT_TRUE(ocean.has_value()) << ocean.error().what();
+  SphereOutline sphere;
+  sphere.coasts = coast_of(*file, ocean->mesh);
+  EXPECT_GT(sphere.coasts.points.size(), 400u);
+  for (const double size : {1e6, 3e5}) {
+    MesherOptions options;
+    options.size = size;
+    const auto made = mesh_sphere(sphere, options);
+    ASSERT_TRUE(made.has_value()) << made.error().what();
+    EXPECT_EQ(made->bad, 0u);
+    EXPECT_EQ(count_bad(made->mesh), 0u);
+    EXPECT_NEAR(part_of_sphere(made->mesh), part_of_sphere(ocean->mesh), 1e-9);
+    for (std::size_t i = 0; i < sphere.coasts.points.size(); ++i) {
+      EXPECT_TRUE(made->mesh.is_boundary(made->vertex_of_point[i]));
+    }
+  }
 }
 
 }  // namespace
