@@ -27,10 +27,10 @@ void expect_without(const Command& command, const std::optional<Metric>& metric,
 
 std::optional<Mesh> take_to_metric(Input& input, const std::optional<Metric>& metric) {
   if (!metric) return {};
-  auto there = mapped(input.mesh(), *metric);
+  auto there = mapped(input.mesh(), *metric, *input.names);
   if (!there) {
     InputError error = there.error();
-    error.where = input.path;
+    if (error.where.empty()) error.where = input.path;
     throw as_failure(error);
   }
   return std::exchange(input.loaded.mesh, *std::move(there));

@@ -45,8 +45,8 @@ class Metric {
 };
 
 /// The mesh in the plane of the metric: the same numbers, flags and weights. Errors: a mesh of the sphere; a triangle
-/// that turns over by rounding. O(n).
-[[nodiscard]] Expected<Mesh> mapped(const Mesh& mesh, const Metric& metric);
+/// that turns over by rounding, in the user's numbers. O(n).
+[[nodiscard]] Expected<Mesh> mapped(const Mesh& mesh, const Metric& metric, const InputNames& names = {});
 
 /// A mesh that was mapped, and then changed, in the plane of the one that it comes from. Vertices that are where
 /// `original` has them, as those of the boundary and fixed ones, get their places from there, bit for bit. `vertices`:

@@ -24,7 +24,7 @@ std::string element_name(std::size_t cell) {
   return name + to_text(10 + cell % kNumbers);
 }
 
-std::string right_aligned(std::string value, std::size_t columns) {
+std::string right_aligned(const std::string& value, std::size_t columns) {
   return value.size() < columns ? std::string(columns - value.size(), ' ') + value : value;
 }
 
@@ -33,9 +33,11 @@ std::string right_aligned(std::string value, std::size_t columns) {
 std::string in_ten_columns(double value) {
   constexpr std::size_t kColumns = 10;
   constexpr int kMostDigits = 9;
+  constexpr double kAsGoodAsAny = 1e-7;  // relative: with an exponent there are seven digits or less
   std::string best;
   double least = HUGE_VAL;
   for (const std::chars_format form : {std::chars_format::fixed, std::chars_format::scientific}) {
+    if (least <= kAsGoodAsAny * std::abs(value)) break;
     for (int digits = kMostDigits; digits >= 0; --digits) {
       std::array<char, 400> buffer;
       const auto [end, failed] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, form, digits);

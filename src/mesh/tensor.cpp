@@ -15,15 +15,15 @@ namespace {
 constexpr double kFarthestApart = 1e8;
 
 /// The first triangle that is not counter-clockwise any more.
-Expected<void> expect_upright(const Mesh& mesh) {
+Expected<void> expect_upright(const Mesh& mesh, const InputNames& names) {
   for (const TriangleId t : mesh.triangles()) {
     if (mesh.is_erased(t)) continue;
     const auto [i, j, k] = mesh.corners(t);
     if (orient2d(mesh.position(i), mesh.position(j), mesh.position(k)) == Sign::positive) continue;
-    return InputError{ErrorCode::zero_area, "",
-                      "triangle " + std::to_string(t.index) +
-                          " is so flat that it turns over when its corners are rounded, "
-                          "in the metric of the tensor or back"};
+    return InputError{ErrorCode::zero_area, names.triangle_where(t.index),
+                      names.triangle(t.index) +
+                          " is so flat that it turns over when its corners are rounded, in the metric of the tensor or "
+                          "back"};
   }
   return {};
 }
@@ -52,11 +52,11 @@ Expected<Metric> Metric::of(const Tensor& k) {
   return metric;
 }
 
-Expected<Mesh> mapped(const Mesh& mesh, const Metric& metric) {
+Expected<Mesh> mapped(const Mesh& mesh, const Metric& metric, const InputNames& names) {
   if (auto error = expect_plane(mesh, "a diffusion tensor")) return *std::move(error);
   Mesh result = mesh;
   for (const VertexId v : mesh.vertices()) result.set_position(v, metric.to_metric(mesh.position(v)));
-  if (const auto upright = expect_upright(result); !upright) return upright.error();
+  if (const auto upright = expect_upright(result, names); !upright) return upright.error();
   return result;
 }
 
@@ -70,7 +70,7 @@ Expected<Mesh> mapped_back(const Mesh& changed, const Mesh& original, const Metr
     const bool stayed = known && metric.to_metric(original.position(old)) == changed.position(v);
     result.set_position(v, stayed ? original.position(old) : metric.from_metric(changed.position(v)));
   }
-  if (const auto upright = expect_upright(result); !upright) return upright.error();
+  if (const auto upright = expect_upright(result, InputNames()); !upright) return upright.error();
   return result;
 }
 
