@@ -143,7 +143,6 @@ void bind_feasibility(py::module_& m) {
   m.def("best_margin",
         [](const PyMesh& self, const py::object& triangles, const std::string& conditions, const py::object& edges) {
           const auto mesh = self.read();
-          require_plane(*mesh, "best_margin()");
           const auto wanted = from_name<Conditions>("conditions", conditions);
           std::vector<TriangleId> ids;
           if (!triangles.is_none()) {
@@ -162,12 +161,24 @@ void bind_feasibility(py::module_& m) {
         });
   m.def("weight_margin", [](const PyMesh& self, const std::string& conditions, const py::object& edges) {
     const auto mesh = self.read();
-    require_plane(*mesh, "weight_margin()");
     return weight_margin(*mesh, from_name<Conditions>("conditions", conditions), prescribed(*mesh, edges));
+  });
+  m.def("weight_change", [](const PyMesh& self, const Doubles& before, const Doubles& after) {
+    const auto mesh = self.read();
+    const auto weights = [&](const Doubles& values) {
+      const auto n = static_cast<std::size_t>(values.size());
+      if (n != mesh->n_vertices()) {
+        fail(ErrorCode::size_mismatch,
+             "weights: expected " + std::to_string(mesh->n_vertices()) + ", found " + std::to_string(n));
+      }
+      IdVector<VertexId, double> own(n, 0.0);
+      std::copy_n(values.data(), n, own.begin());
+      return own;
+    };
+    return weight_change(*mesh, weights(before), weights(after));
   });
   m.def("check_certificate", [](const PyMesh& self, const py::dict& certificate) {
     const auto mesh = self.read();
-    require_plane(*mesh, "check_certificate()");
     return std::string(name(check_certificate(*mesh, certificate_from(certificate))));
   });
 }

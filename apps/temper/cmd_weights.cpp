@@ -178,8 +178,11 @@ WeightGoal goal_of(Mode mode) {
   return WeightGoal::minimal;
 }
 
+/// On the sphere setting a weight rounds the place: only what changes is set.
 Mesh with_weights(Mesh mesh, const IdVector<VertexId, double>& weights) {
-  for (const VertexId v : mesh.vertices()) mesh.set_weight(v, weights[v]);
+  for (const VertexId v : mesh.vertices()) {
+    if (mesh.weight(v) != weights[v]) mesh.set_weight(v, weights[v]);
+  }
   return mesh;
 }
 
@@ -192,7 +195,7 @@ std::optional<ConnectivityReport> searched(const WeightsSettings& s, const Input
 bool all_well_centered(const Mesh& mesh) {
   for (const TriangleId t : mesh.triangles()) {
     const auto [p, q, r] = mesh.corners(t);
-    if (!is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r))) return false;
+    if (!is_well_centered(mesh.space(), mesh.point(p), mesh.point(q), mesh.point(r))) return false;
   }
   return true;
 }
@@ -209,15 +212,13 @@ void lower_energy(const WeightsSettings& s, const Input& input, const Mesh& mesh
   for (const VertexId v : moving.vertices()) weights[v] = moving.weight(v);
   const Mesh lowered = with_weights(mesh, weights);
   if (!all_well_centered(lowered)) return;
+  IdVector<VertexId, double> before(mesh.n_vertices(), 0.0);
   report.moved = 0;
-  report.change = 0;
-  const auto change = [&](VertexId v) { return weights[v] - (s.options.from_input ? mesh.weight(v) : 0.0); };
-  for (const VertexId v : lowered.vertices()) report.moved += change(v) != 0 ? 1 : 0;
-  for (const HalfedgeId h : lowered.halfedges()) {
-    if (!lowered.is_edge_representative(h)) continue;
-    const VertexId i = lowered.origin(h), j = lowered.target(h);
-    report.change += 0.5 * std::abs(change(i) - change(j)) / length(lowered.position(i) - lowered.position(j));
+  for (const VertexId v : mesh.vertices()) {
+    if (s.options.from_input) before[v] = mesh.weight(v);
+    report.moved += weights[v] != before[v] ? 1 : 0;
   }
+  report.change = weight_change(mesh, before, weights);
   report.attained = weight_margin(lowered);
   report.weights = std::move(weights);
 }
@@ -267,7 +268,7 @@ Exit run_weights(const Arguments& arguments) {
   if (!s.output.path.empty()) outputs.expect_mesh(s.output);
   outputs.expect_text("--certificate", s.certificate, {s.input});
 
-  Input input = read_input(s.input, {s.projection});
+  Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
   print_warnings(input.warnings());
   if (!s.check.empty()) return check(s, input);
   if (s.options.conditions == Conditions::regular) s.options.edges = prescribed_edges(s.edges, input);

@@ -139,7 +139,7 @@ std::string constraint_text(const WeightConstraint& c, const Input& input, const
                        input.vertex_number(c.s));
   }
   const double angle =
-      corner_angle(mesh.position(c.r), mesh.position(c.p), mesh.position(c.q)) * 180 / std::numbers::pi;
+      corner_angle(mesh.space(), mesh.point(c.r), mesh.point(c.p), mesh.point(c.q)) * 180 / std::numbers::pi;
   return fmt::format("h over edge {}-{} in triangle {} (angle of {:.1f} degrees at vertex {})", p, q,
                      input.triangle_number(triangle_of(mesh, c)), angle, input.vertex_number(c.r));
 }

@@ -4,8 +4,11 @@
 // tℓ ≤ d ≤ (1 − t)ℓ" is a linear programme; so is "all h ≥ tℓ" alone, and "these edges have dual lengths ≥ tℓ". It
 // finds the best margin t, the least change of weights that attains a given margin, or the least violation; and when no
 // weights exist it says why, with a certificate that exact arithmetic verifies without any linear programming. Solvers
-// come through one small interface (temper/lp.hpp has Clp). Over connectivities: temper/connectivity.hpp. For meshes of
-// the plane: find_weights() and best_connectivity() say so, and it is a precondition of all other functions.
+// come through one small interface (temper/lp.hpp has Clp). Over connectivities: temper/connectivity.hpp.
+//
+// On the sphere all this is linear in σ = R/|P|, up to a factor of all σ (docs/sphere.md). Its h/ℓ and d/ℓ are ratios
+// of functions linear in σ that have the signs of h and d, do not change with that factor, and differ from the arcs' by
+// a part of (ℓ/R)².
 #pragma once
 
 #include <cstddef>
@@ -102,6 +105,8 @@ inline constexpr double kWeightReach = 0x1p20;
 /// … and of margins no greater than this one: with w = |x|² − z all dual lengths are linear in z, so that who attains
 /// one margin attains any.
 inline constexpr double kRefutedDual = 0x1p-10;
+/// On the sphere they do not: there margins above this one are refuted, what check_certificate has bits for.
+inline constexpr double kLeastRefutedDual = 0x1p-20;
 
 /// A proof that no weights exist (Farkas). Each constraint c is a polynomial N_c > margin · M_c, linear in the weights:
 ///
@@ -112,6 +117,15 @@ inline constexpr double kRefutedDual = 0x1p-10;
 /// with D_p = (q − p)·(r − p) and so on, and S twice the area of pqr; for a dual p is the origin, λ_v = |v|² − w_v +
 /// w_p, and T twice the area of qps. A sum of the constraints with multipliers ≥ 0 in which the weights cancel and the
 /// rest is ≤ 0 contradicts itself.
+///
+/// On the sphere N and M are linear in σ, and N > margin · M (σ_p + σ_q)/2, with p, q, r the places and M a double:
+///
+///   height  N = (p×q)·(q×r) σ_p + (p×q)·(r×p) σ_q + |p×q|² σ_r,      M = |p×q|² det(p, q, r)/R³
+///   split   N = |p|² σ_q − p·q σ_p,                                  M = |p − q|²
+///   dual    N = det(p, q, r) σ_s + det(q, p, s) σ_r + …,             M = det(p, q, r) det(q, p, s)/R³
+///
+/// N of a dual is the determinant of the four (p, σ_p). A sum in which no σ has a coefficient above 0 contradicts
+/// itself.
 struct Certificate {
   struct Term {
     WeightConstraint constraint;
@@ -138,13 +152,15 @@ enum class CertificateCheck {
 /// not cancel quite: what is left of each is bounded by how much weights can differ. Along an edge pq of a triangle pqr
 /// that is |w_p − w_q| < ℓ² when the conditions have splits; the greater of ℓ² and ||r − p|² − |r − q|²| when they have
 /// heights alone (the orthocenter is in the triangle, and both distances are squares minus weights); kWeightReach ℓ²,
-/// without a reason, when they are dual lengths. About O(n) for n terms, with a large factor.
+/// without a reason, when they are dual lengths. On the sphere the bounds are of σ_q/σ_p: p·q/|p|² and |q|²/p·q when
+/// the conditions have splits, and q·r/p·r when they have heights alone; of dual lengths |σ_q/σ_p − 1| < the lesser of
+/// 1 and kWeightReach (|q|²/p·q − 1). About O(n) for n terms, with a large factor.
 [[nodiscard]] CertificateCheck check_certificate(const Mesh& mesh, const Certificate& certificate);
 
 // --- margins ------------------------------------------------------------------------------------------
 
-/// `regular`: any margin can be attained when one can, and this is what programmes stop at. Its best margin is this or
-/// 0.
+/// `regular`: in the plane any margin can be attained when one can, and this is what programmes stop at. Its best
+/// margin is this or 0; on the sphere one that is attained, above zero when any is.
 inline constexpr double kMostMargin = 0.5;
 
 /// The least h/ℓ, d/ℓ, 1 − d/ℓ or dual length/ℓ that the conditions have, of the mesh's own weights, in doubles;
@@ -224,15 +240,20 @@ struct WeightReport {
   double asked = 0;                    ///< margin that the weights were made for
   double attained = 0;                 ///< margin that they have: weight_margin
   std::size_t moved = 0;               ///< weights that differ from where change is measured from
-  double change = 0;                   ///< Σ over edges |Δw_i − Δw_j| / (2ℓ) [length]
+  double change = 0;                   ///< weight_change [length]
   std::size_t programmes = 0;          ///< regions, each with a linear programme of its own
   std::size_t largest = 0;             ///< triangles of the largest one
   IdVector<VertexId, double> weights;  ///< one a vertex of the mesh
   std::vector<Violation> violations;   ///< elastic: worst first
-  /// Refutes margin 0 (of `regular`: kRefutedDual, or what was asked for when that is less) when infeasible, or the
+  /// Refutes margin 0 (of `regular`: kRefutedDual, or what was asked for when that is less; kLeastRefutedDual on the
+  /// sphere) when infeasible, or the
   /// margin asked for when only that cannot be had. May have no terms.
   Certificate certificate;
 };
+
+/// Σ over edges |Δw_i − Δw_j| / (2ℓ), of chords on the sphere: how far weighted midpoints are moved, in all.
+[[nodiscard]] double weight_change(const Mesh& mesh, const IdVector<VertexId, double>& from,
+                                   const IdVector<VertexId, double>& to);
 
 /// Finds weights for a mesh whose positions and connectivity stay. What solvers say is never believed: verdicts rest on
 /// exact predicates and on check_certificate. Error: a margin out of range. Precondition: no erased triangles.

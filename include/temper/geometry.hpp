@@ -86,6 +86,8 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 [[nodiscard]] Sign power_test_perturbed(const Space& space, const WeightedPoint& a, const WeightedPoint& b,
                                         const WeightedPoint& c, const WeightedPoint& d,
                                         const std::array<std::uint32_t, 4>& index);
+[[nodiscard]] Sign signed_height_sign(const Space& space, const WeightedPoint& p, const WeightedPoint& q,
+                                      const WeightedPoint& r);
 [[nodiscard]] bool is_well_centered(const Space& space, const WeightedPoint& p, const WeightedPoint& q,
                                     const WeightedPoint& r);
 
@@ -124,5 +126,9 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 [[nodiscard]] double corner_angle(Vec3 p, Vec3 q, Vec3 r);
 /// The solid angle of the triangle, its spherical excess; signed.
 [[nodiscard]] double solid_angle(Vec3 p, Vec3 q, Vec3 r);
+
+/// The angle at p in the space of a mesh, in radians.
+[[nodiscard]] double corner_angle(const Space& space, const WeightedPoint& p, const WeightedPoint& q,
+                                  const WeightedPoint& r);
 
 }  // namespace temper

@@ -110,6 +110,7 @@ from ._weights import (
     edge_conflict,
     edges_that_must_be_split,
     find_weights,
+    weight_change,
     weight_margin,
 )
 

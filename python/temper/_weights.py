@@ -212,6 +212,11 @@ def weight_margin(
     return _temper.weight_margin(as_mesh(mesh)._handle, conditions, _edges(edges))
 
 
+def weight_change(mesh: MeshLike, before: npt.ArrayLike, after: npt.ArrayLike) -> float:
+    """Σ over edges |Δw_i − Δw_j| / (2ℓ), of chords on the sphere: how far weighted midpoints are moved, in all."""
+    return _temper.weight_change(as_mesh(mesh)._handle, before, after)
+
+
 def check_certificate(
     mesh: MeshLike, certificate: Certificate
 ) -> str:

@@ -18,6 +18,7 @@ struct Bound {
   BestMargin best;  ///< without certificate
   std::vector<WeightConstraint> constraints;
   std::vector<double> dual;
+  double attained = 0;  ///< sphere: the margin that the weights have, `best.margin` but for the last digits
 };
 /// `triangles` is sorted.
 [[nodiscard]] Bound bound_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver,

@@ -7,6 +7,10 @@
 //
 // Lengths are counted in the region's mean edge length. The sum of absolute differences is what makes few weights move:
 // all of a region but the neighbourhood of what is bad keeps its weights.
+//
+// On the sphere w is the potential, Δw that of σ = σ₀ (1 − Δw/(2R²)), relative to the start's, so that a factor of all
+// σ is the same Δw of all. Splits are rows of their own. Without rim the Δw sum to zero: σ that tend to zero together
+// would keep all conditions and change by nothing.
 // Elastic programmes have a column more for each height and dual length, and two for each edge that has splits, which
 // pay for what is lacking.
 #include "feasibility/change.hpp"
@@ -56,19 +60,27 @@ class ProgrammeBuilder {
     for (const HalfedgeId h : edges) total += length_of(h);
     const double mean = total / static_cast<double>(edges.size());
     for (const HalfedgeId h : edges) add_edge(h, mean);
+    if (!region_.has_rim && !mesh_.space().is_plane()) add_sum();
     for (const TriangleId t : region_.triangles) {
       for (int k = 0; k < 3 && demand_.has_heights(); ++k) add_row(height_constraint(mesh_, Mesh::halfedge(t, k)));
     }
     for (const HalfedgeId h : edges) {
+      if (demand_.has_splits() && !splits_are_differences()) {
+        add_row(split_constraint(mesh_.origin(h), mesh_.target(h)));
+        add_row(split_constraint(mesh_.target(h), mesh_.origin(h)));
+      }
       if (demand_.has_dual(mesh_, h)) add_row(dual_constraint(mesh_, h));
     }
     return std::move(p_);
   }
 
  private:
-  [[nodiscard]] double length_of(HalfedgeId h) const {
-    return length(mesh_.position(mesh_.target(h)) - mesh_.position(mesh_.origin(h)));
-  }
+  /// There are splits, and they are bounds of the columns of edges.
+  [[nodiscard]] bool splits_are_differences() const { return demand_.has_splits() && mesh_.space().is_plane(); }
+  [[nodiscard]] double length_of(HalfedgeId h) const { return std::sqrt(squared_length_of(mesh_, h)); }
+  [[nodiscard]] double start(VertexId v) const { return potential_of(mesh_.space(), start_[v]); }
+  /// Adds factor · the change of v's potential to the row.
+  bool add_potential(VertexId v, double factor) { return add_weight(v, factor * scale_at(mesh_.space(), start_[v])); }
   /// Adds factor · Δw_v to the row, unless v is on the rim, where Δw is zero.
   bool add_weight(VertexId v, double factor) {
     const std::size_t i = index_of(region_.free, v);
@@ -89,9 +101,9 @@ class ProgrammeBuilder {
     const bool i_free = add_weight(i, 1 / (l * l)), j_free = add_weight(j, -1 / (l * l));
     if (!i_free && !j_free) return;
     // margin ≤ d/ℓ ≤ 1 − margin, as bounds of (Δw_i − Δw_j)/ℓ².
-    const double before = (start_[i] - start_[j]) / (l * l);
+    const double before = (start(i) - start(j)) / (l * l);
     const double low = -(1 - 2 * margin_) - before, high = (1 - 2 * margin_) - before;
-    const bool bounded = demand_.has_splits() && !elastic_;
+    const bool bounded = splits_are_differences() && !elastic_;
     const auto least = [&](double x) { return bounded ? std::max(x, 0.0) : 0; };
     const auto most = [&](double x) { return bounded ? std::max(x, 0.0) : kUnbounded; };
     const int up = p_.lp.add_column(0, least(low), most(high));
@@ -101,7 +113,7 @@ class ProgrammeBuilder {
     p_.lp.add_entry(up, -1);
     p_.lp.add_entry(down, 1);
     p_.lp.end_row(0, 0);
-    if (!elastic_ || !demand_.has_splits()) return;
+    if (!elastic_ || !splits_are_differences()) return;
     const int below = add_violation(0.5), above = add_violation(0.5);  // d/ℓ is half of w/ℓ²
     p_.lp.add_entry(up, 1);
     p_.lp.add_entry(down, -1);
@@ -110,13 +122,20 @@ class ProgrammeBuilder {
     p_.lp.end_row(low, high);
   }
 
+  void add_sum() {
+    const double unit = *std::max_element(p_.units.begin(), p_.units.end());
+    for (const VertexId v : region_.free) add_weight(v, 1 / unit);
+    p_.lp.end_row(0, 0);
+  }
+
   void add_row(const WeightConstraint& constraint) {
-    const LinearForm form = linear_form(mesh_, constraint);
+    const LinearForm form = linear_form(mesh_, constraint), kept = beyond_margin(form, margin_);
     bool any_free = false;
-    for (int k = 0; k < form.size; ++k) any_free = add_weight(form.vertices[k], form.coefficients[k]) || any_free;
+    for (int k = 0; k < kept.size; ++k) any_free = add_potential(kept.vertices[k], kept.coefficients[k]) || any_free;
     if (!any_free) return;
     if (elastic_) p_.lp.add_entry(add_violation(1), 1);
-    p_.lp.end_row(margin_ - value_of(form, [&](VertexId v) { return start_[v]; }), kUnbounded);
+    const auto potential = [&](VertexId v) { return start(v); };
+    p_.lp.end_row(margin_ * scale_of(form, potential) - numerator_of(form, potential), kUnbounded);
   }
 
   const Mesh& mesh_;
@@ -128,7 +147,7 @@ class ProgrammeBuilder {
   Programme p_;
 };
 
-/// Without rim a constant on all weights is free: the change that most vertices share.
+/// Without rim a constant on all weights, or a factor of all σ, is free: the change that most vertices share.
 double common_change(std::vector<double> changes, double tolerance) {
   std::sort(changes.begin(), changes.end());
   std::size_t most = 0;
@@ -142,20 +161,23 @@ double common_change(std::vector<double> changes, double tolerance) {
   return common;
 }
 
-RegionChange read_change(const Region& region, const std::vector<double>& units, const LpSolution& solution) {
+RegionChange read_change(const RegionProblem& problem, const Region& region, const std::vector<double>& units,
+                         const LpSolution& solution) {
   RegionChange result;
   result.status = solution.status;
   if (solution.status != LpStatus::optimal) return result;
   for (std::size_t i = 0; i < region.free.size(); ++i) {
     result.change.push_back(units[i] * (solution.primal[2 * i] - solution.primal[2 * i + 1]));
   }
+  const Space& space = problem.mesh.space();
   if (!region.has_rim) {
     const double least_unit = *std::min_element(units.begin(), units.end());
     const double common = common_change(result.change, kNoChange * least_unit);
-    for (double& change : result.change) change -= common;
+    for (double& change : result.change) change = (change - common) / (1 - slope_of_scale(space) * common);
   }
   for (std::size_t i = 0; i < region.free.size(); ++i) {
     if (std::abs(result.change[i]) <= kNoChange * units[i]) result.change[i] = 0;
+    result.change[i] *= scale_at(space, problem.start[region.free[i]]);
   }
   return result;
 }
@@ -165,14 +187,14 @@ RegionChange read_change(const Region& region, const std::vector<double>& units,
 RegionChange least_change(const RegionProblem& problem, const Region& region, LpSolver& solver) {
   Programme p = ProgrammeBuilder(problem, region, false).build();
   for (const auto& [column, cost] : p.change_costs) p.lp.set_cost(column, cost);
-  return read_change(region, p.units, solver.solve(p.lp.problem()));
+  return read_change(problem, region, p.units, solver.solve(p.lp.problem()));
 }
 
 RegionChange least_violation(const RegionProblem& problem, const Region& region, LpSolver& solver) {
   Programme p = ProgrammeBuilder(problem, region, true).build();
   for (const auto& [column, cost] : p.violation_costs) p.lp.set_cost(column, cost);
   const LpSolution least = solver.solve(p.lp.problem());
-  if (least.status != LpStatus::optimal) return read_change(region, p.units, least);
+  if (least.status != LpStatus::optimal) return read_change(problem, region, p.units, least);
   for (const auto& [column, cost] : p.violation_costs) {
     p.lp.set_cost(column, 0);
     p.lp.add_entry(column, cost);
@@ -180,7 +202,7 @@ RegionChange least_violation(const RegionProblem& problem, const Region& region,
   p.lp.end_row(-kUnbounded, least.objective * (1 + kSameViolation) + kSameViolation);
   for (const auto& [column, cost] : p.change_costs) p.lp.set_cost(column, cost);
   const LpSolution least_moved = solver.solve(p.lp.problem());
-  return read_change(region, p.units, least_moved.status == LpStatus::optimal ? least_moved : least);
+  return read_change(problem, region, p.units, least_moved.status == LpStatus::optimal ? least_moved : least);
 }
 
 }  // namespace temper

@@ -11,7 +11,8 @@ namespace temper {
 
 struct RegionChange {
   LpStatus status = LpStatus::failed;
-  std::vector<double> change;  ///< Δw of each free vertex; exactly 0 where nothing has to change
+  std::vector<double>
+      change;  ///< of the potential (potential.hpp) of each free vertex; exactly 0 where nothing has to change
 };
 
 /// What is asked of the weights of a region.

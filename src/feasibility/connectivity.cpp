@@ -100,7 +100,7 @@ class ConnectivitySearch {
     for (const VertexId v : trial.vertices()) trial.set_weight(v, best_.weights[v]);
     const std::size_t flips = restore_regularity(trial, HiddenPolicy::undo).flips;
     if (flips == 0) return false;
-    for (const VertexId v : trial.vertices()) trial.set_weight(v, report_.mesh.weight(v));
+    for (const VertexId v : trial.vertices()) trial.set_point(v, report_.mesh.point(v));
     auto optimum = optimum_of(trial);
     if (!optimum || !is_greater(optimum->margin)) return false;
     take(std::move(trial), *std::move(optimum), ConnectivityStep::Kind::regular, flips);
@@ -172,7 +172,6 @@ std::string_view name(SearchEnd end) {
 
 Expected<ConnectivityReport> best_connectivity(const Mesh& mesh, LpSolver& solver, const ConnectivityOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
-  if (auto error = expect_plane(mesh, "best_connectivity()")) return *std::move(error);
   if (options.conditions == Conditions::regular) {
     return InputError{ErrorCode::invalid_option, "",
                       "conditions: expected well_centered or heights_only, found regular: every regular triangulation "

@@ -12,7 +12,35 @@ LinearForm dual_form(const Mesh& mesh, const WeightConstraint& c) {
   const LinearForm left = linear_form(mesh, {WeightConstraint::Kind::height, c.p, c.q, c.r});
   const LinearForm right = linear_form(mesh, {WeightConstraint::Kind::height, c.q, c.p, c.s});
   const auto& [a, b] = std::tie(left.coefficients, right.coefficients);
-  return {4, {c.p, c.q, c.r, c.s}, {a[0] + b[1], a[1] + b[0], a[2], b[2]}, left.constant + right.constant};
+  return {4, {c.p, c.q, c.r, c.s}, {a[0] + b[1], a[1] + b[0], a[2], b[2]}, left.constant + right.constant, left.slope};
+}
+
+LinearForm plane_form(const Mesh& mesh, const WeightConstraint& constraint) {
+  const auto [kind, p, q, r, s] = constraint;
+  const Vec2 pq = mesh.position(q) - mesh.position(p);
+  const double l2 = squared_length(pq);
+  if (kind == WeightConstraint::Kind::split) return {2, {p, q}, {0.5 / l2, -0.5 / l2}, 0.5};
+  const Vec2 pr = mesh.position(r) - mesh.position(p);
+  const Vec2 qr = mesh.position(r) - mesh.position(q);
+  const double scale = 0.5 / cross(pq, pr);
+  return {3, {p, q, r, {}}, {-scale * dot(pq, qr) / l2, scale * dot(pq, pr) / l2, -scale, 0}, scale * dot(pr, qr)};
+}
+
+/// With a = q − p, b = r − p and n = a × b, so that little cancels: (p×q)·n = (p·a)(a·b) − (p·b)|a|² is the sum of the
+/// three, (p×q)·(r×p) = −(p×a)·(p×b).
+LinearForm sphere_form(const Mesh& mesh, const WeightConstraint& constraint) {
+  const auto [kind, vp, vq, vr, vs] = constraint;
+  const double slope = slope_of_scale(mesh.space()), radius = mesh.space().radius();
+  const Vec3 p = place_of(mesh, vp), a = place_of(mesh, vq) - p;
+  if (kind == WeightConstraint::Kind::split) {
+    const double at_q = -0.5 / squared_length(a);  // slope · R²/ℓ²
+    return {2, {vp, vq}, {-0.5 * slope - at_q, at_q}, 0.5, slope};
+  }
+  const Vec3 b = place_of(mesh, vr) - p, pa = cross(p, a), pb = cross(p, b);
+  const double scale = radius * radius * radius / dot(p, cross(a, b)), pa2 = squared_length(pa);
+  const double constant = scale * (dot(p, a) * dot(a, b) - dot(p, b) * squared_length(a)) / pa2;
+  const double at_q = slope * scale * dot(pa, pb) / pa2, at_r = -slope * scale;
+  return {3, {vp, vq, vr, {}}, {-slope * constant - at_q - at_r, at_q, at_r, 0}, constant, slope};
 }
 
 constexpr std::array<ConditionsInfo, 3> kConditions = {{
@@ -37,14 +65,18 @@ std::string_view name(WeightConstraint::Kind kind) {
 
 LinearForm linear_form(const Mesh& mesh, const WeightConstraint& constraint) {
   if (constraint.kind == WeightConstraint::Kind::dual) return dual_form(mesh, constraint);
-  const auto [kind, p, q, r, s] = constraint;
-  const Vec2 pq = mesh.position(q) - mesh.position(p);
-  const double l2 = squared_length(pq);
-  if (kind == WeightConstraint::Kind::split) return {2, {p, q}, {0.5 / l2, -0.5 / l2}, 0.5};
-  const Vec2 pr = mesh.position(r) - mesh.position(p);
-  const Vec2 qr = mesh.position(r) - mesh.position(q);
-  const double scale = 0.5 / cross(pq, pr);
-  return {3, {p, q, r, {}}, {-scale * dot(pq, qr) / l2, scale * dot(pq, pr) / l2, -scale, 0}, scale * dot(pr, qr)};
+  return mesh.space().is_plane() ? plane_form(mesh, constraint) : sphere_form(mesh, constraint);
+}
+
+LinearForm beyond_margin(LinearForm form, double margin) {
+  form.constant -= margin;
+  for (int k = 0; k < 2; ++k) form.coefficients[k] += 0.5 * margin * form.slope;
+  return form;
+}
+
+double squared_distance(const Mesh& mesh, VertexId p, VertexId q) {
+  if (mesh.space().is_plane()) return squared_length(mesh.position(q) - mesh.position(p));
+  return squared_length(place_of(mesh, q) - place_of(mesh, p));
 }
 
 WeightConstraint height_constraint(const Mesh& mesh, HalfedgeId h) {
@@ -59,7 +91,8 @@ WeightConstraint dual_constraint(const Mesh& mesh, HalfedgeId h) {
   return {WeightConstraint::Kind::dual, mesh.origin(h), mesh.target(h), mesh.opposite(h), mesh.opposite(mesh.twin(h))};
 }
 
-Demand::Demand(const Mesh& mesh, Conditions conditions, std::span<const HalfedgeId> edges) : conditions_(conditions) {
+Demand::Demand(const Mesh& mesh, Conditions conditions, std::span<const HalfedgeId> edges)
+    : conditions_(conditions), in_plane_(mesh.space().is_plane()) {
   if (edges.empty()) return;
   prescribed_ = IdVector<HalfedgeId, std::uint8_t>(mesh.n_halfedges(), 0);
   for (const HalfedgeId h : edges) {

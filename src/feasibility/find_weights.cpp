@@ -29,7 +29,6 @@ namespace {
 constexpr int kMoreRings = 2;   // a ring more each time would solve each programme twice as often
 constexpr int kHalvings = 30;   // of the margin asked for: down to the rounding of the programmes
 constexpr double kKept = 1e-9;  // a margin is kept when no more than this is lacking: the solvers' tolerance
-constexpr double kLeastRefutedDual = 0x1p-20;  // what check_certificate has bits for
 constexpr double kDegrees = 57.29577951308232;
 
 /// A region that is done with: its change of weights, or the proof that there is none.
@@ -72,7 +71,8 @@ class WeightFinder {
 
  private:
   [[nodiscard]] double value(const WeightConstraint& constraint, const IdVector<VertexId, double>& weights) const {
-    return value_of(linear_form(mesh_, constraint), [&](VertexId v) { return weights[v]; });
+    return value_of(linear_form(mesh_, constraint),
+                    [&](VertexId v) { return potential_of(mesh_.space(), weights[v]); });
   }
   [[nodiscard]] double margin_of(TriangleId t, const IdVector<VertexId, double>& weights) const {
     return demand_.margin_of(mesh_, t, [&](VertexId v) { return weights[v]; });
@@ -91,7 +91,7 @@ class WeightFinder {
   }
   /// The margin that is refuted when no weights keep the conditions.
   [[nodiscard]] double refuted_margin() const {
-    return demand_.has_duals() ? std::clamp(options_.margin, kLeastRefutedDual, kRefutedDual) : 0;
+    return demand_.refuted_margin(std::clamp(options_.margin, kLeastRefutedDual, kRefutedDual));
   }
 
   /// The best margins of components that are one programme.
@@ -179,7 +179,8 @@ class WeightFinder {
     RegionChange change = least_change(problem(asked), region, solver_);
     if (change.status == LpStatus::optimal) return Outcome{std::move(region), std::move(change), {}};
     Bound bound = bound_of(region.triangles);
-    const bool proof = bound.best.status == LpStatus::optimal && bound.best.margin < asked;
+    const bool below = demand_.has_duals() ? is_hopeless(bound.best.margin) : bound.best.margin < asked;
+    const bool proof = bound.best.status == LpStatus::optimal && below;
     if (!proof && region.has_rim) return std::nullopt;
     return Outcome{std::move(region), std::nullopt, std::move(bound)};
   }
@@ -222,7 +223,8 @@ class WeightFinder {
       if (!outcome.change) continue;
       for (std::size_t i = 0; i < outcome.region.free.size(); ++i) {
         const double change = outcome.change->change[i];
-        if (change != 0) weights[outcome.region.free[i]] += change;
+        double& w = weights[outcome.region.free[i]];
+        if (change != 0) w = weight_of_potential(mesh_.space(), potential_of(mesh_.space(), w) + change);
       }
     }
     return weights;
@@ -249,11 +251,7 @@ class WeightFinder {
     for (const TriangleId t : mesh_.triangles()) r.attained = std::min(r.attained, margin_of(t, r.weights));
     const auto change = [&](VertexId v) { return r.weights[v] - start_[v]; };
     for (const VertexId v : mesh_.vertices()) r.moved += change(v) != 0 ? 1 : 0;
-    for (const HalfedgeId h : mesh_.halfedges()) {
-      if (!mesh_.is_edge_representative(h)) continue;
-      const VertexId i = mesh_.origin(h), j = mesh_.target(h);
-      r.change += 0.5 * std::abs(change(i) - change(j)) / length(mesh_.position(i) - mesh_.position(j));
-    }
+    r.change = weight_change(mesh_, start_, r.weights);
   }
 
   void judge_margin(WeightReport& r, bool found) const {
@@ -303,7 +301,7 @@ class WeightFinder {
       if (got >= r.asked - kKept) continue;
       double angle = 0;
       if (c.kind == WeightConstraint::Kind::height) {
-        angle = kDegrees * corner_angle(mesh_.position(c.r), mesh_.position(c.p), mesh_.position(c.q));
+        angle = kDegrees * corner_angle(mesh_.space(), mesh_.point(c.r), mesh_.point(c.p), mesh_.point(c.q));
       }
       r.violations.push_back({c, got, r.asked - got, angle});
     }
@@ -343,9 +341,19 @@ std::string_view name(MarginIs is) {
   return kNames[static_cast<std::size_t>(is)];
 }
 
+double weight_change(const Mesh& mesh, const IdVector<VertexId, double>& from, const IdVector<VertexId, double>& to) {
+  const auto change = [&](VertexId v) { return to[v] - from[v]; };
+  double total = 0;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_edge_representative(h)) continue;
+    const VertexId i = mesh.origin(h), j = mesh.target(h);
+    total += 0.5 * std::abs(change(i) - change(j)) / std::sqrt(squared_length_of(mesh, h));
+  }
+  return total;
+}
+
 Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
-  if (auto error = expect_plane(mesh, "find_weights()")) return *std::move(error);
   for (const HalfedgeId h : options.edges) {
     if (h.index >= mesh.n_halfedges()) {
       return InputError{ErrorCode::index_out_of_range, "",

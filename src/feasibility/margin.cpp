@@ -5,6 +5,11 @@
 // certificate: multipliers y ≥ 0 that sum to one, in whose combination of the constraints the weights cancel, and whose
 // constant is t* (so no ray of an infeasible programme is needed). A weight is counted in units of the mean ℓ² around
 // its vertex: coefficients are then of the order of one on meshes of any size, and on graded ones.
+//
+// On the sphere a margin is a ratio of linear functions, N/m > t (constraints.hpp). With t as far as it is attained,
+// maximise s with every N − t m ≥ s; what the solution attains is the next t, until s is zero (Dinkelbach's method,
+// which converges faster than linearly). N > 0 alone is decided by the first programme, from t = 0: for dual lengths,
+// which σ less a linear function of the places leave as they are, so that m can be made small, there is no second.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +32,14 @@ struct MarginProgramme {
   LpProblem problem;
 };
 
-MarginProgramme margin_programme(const Mesh& mesh, std::span<const TriangleId> triangles, const Demand& demand) {
+constexpr int kRounds = 12;          // two or three are enough; where σ differ much, a few more
+constexpr double kAttained = 1e-10;  // of s: a tenth of the solver's tolerance
+// σ stays above it, so that m is positive: 16 times as far from the center as another vertex none should be.
+constexpr double kLeastScale = 0x1p-4;
+
+/// With margins counted from `from`.
+MarginProgramme margin_programme(const Mesh& mesh, std::span<const TriangleId> triangles, const Demand& demand,
+                                 double from) {
   MarginProgramme p;
   p.vertices = vertices_of(mesh, triangles);
   p.units = weight_units(mesh, p.vertices, edges_of(mesh, triangles));
@@ -38,11 +50,12 @@ MarginProgramme margin_programme(const Mesh& mesh, std::span<const TriangleId> t
   const auto anchor = std::min_element(p.units.begin(), p.units.end()) - p.units.begin();
   for (std::size_t i = 0; i < p.vertices.size(); ++i) {
     const double most = i == static_cast<std::size_t>(anchor) ? 0 : kUnbounded;
-    lp.add_column(0, -most, most);
+    const double least_scale = (1 - kLeastScale) / (slope_of_scale(mesh.space()) * p.units[i]);  // ∞ in the plane
+    lp.add_column(0, -most, std::min(most, least_scale));
   }
-  const int t = lp.add_column(-1, -kUnbounded, kMostMargin);
+  const int t = lp.add_column(-1, -kUnbounded, kMostMargin - from);
   for (const WeightConstraint& constraint : p.constraints) {
-    const LinearForm form = linear_form(mesh, constraint);
+    const LinearForm form = beyond_margin(linear_form(mesh, constraint), from);
     for (int k = 0; k < form.size; ++k) {
       const std::size_t column = index_of(p.vertices, form.vertices[k]);
       lp.add_entry(static_cast<int>(column), form.coefficients[k] * p.units[column]);
@@ -54,8 +67,24 @@ MarginProgramme margin_programme(const Mesh& mesh, std::span<const TriangleId> t
   return p;
 }
 
-/// N of a constraint over its value in the programme, h/ℓ, d/ℓ or dual length/ℓ.
+double scale_on_sphere(const Mesh& mesh, const WeightConstraint& c) {
+  const Vec3 p = place_of(mesh, c.p), a = place_of(mesh, c.q) - p;
+  const double cube = mesh.space().radius() * squared_length(p);
+  const auto volume = [&](VertexId v) { return std::abs(dot(p, cross(a, place_of(mesh, v) - p))); };
+  switch (c.kind) {
+    case WeightConstraint::Kind::height:
+      return squared_length(cross(p, a)) * volume(c.r) / cube;
+    case WeightConstraint::Kind::split:
+      return squared_length(a);
+    case WeightConstraint::Kind::dual:
+      return volume(c.r) * volume(c.s) / cube;
+  }
+  return 0;
+}
+
+/// N of a constraint (feasibility.hpp) over its value in the programme, h/ℓ, d/ℓ or dual length/ℓ.
 double scale_of_polynomial(const Mesh& mesh, const WeightConstraint& c) {
+  if (!mesh.space().is_plane()) return scale_on_sphere(mesh, c);
   const Vec2 p = mesh.position(c.p), q = mesh.position(c.q);
   switch (c.kind) {
     case WeightConstraint::Kind::height:
@@ -90,7 +119,7 @@ std::vector<double> weight_units(const Mesh& mesh, std::span<const VertexId> ver
     for (const VertexId v : {mesh.origin(h), mesh.target(h)}) {
       const std::size_t i = index_of(vertices, v);
       if (i == vertices.size() || vertices[i] != v) continue;
-      sums[i] += squared_length(mesh.position(mesh.target(h)) - mesh.position(mesh.origin(h)));
+      sums[i] += squared_length_of(mesh, h);
       counts[i] += 1;
     }
   }
@@ -99,7 +128,6 @@ std::vector<double> weight_units(const Mesh& mesh, std::span<const VertexId> ver
 }
 
 double weight_margin(const Mesh& mesh, Conditions conditions, std::span<const HalfedgeId> edges) {
-  TEMPER_ASSERT(mesh.space().is_plane());
   const Demand demand(mesh, conditions, edges);
   double margin = kUnbounded;
   for (const TriangleId t : mesh.triangles()) {
@@ -129,18 +157,54 @@ Certificate certify(const Mesh& mesh, const Bound& bound, Conditions conditions,
   return nothing;
 }
 
-Bound bound_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, const Demand& demand) {
+namespace {
+
+/// The programme with margins counted from `from`, solved.
+Bound bound_from(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, const Demand& demand,
+                 double from) {
   Bound bound;
-  MarginProgramme programme = margin_programme(mesh, triangles, demand);
+  MarginProgramme programme = margin_programme(mesh, triangles, demand, from);
   LpSolution solution = solver.solve(programme.problem);
   bound.constraints = std::move(programme.constraints);
   bound.best.status = solution.status;
   bound.best.vertices = std::move(programme.vertices);
   if (solution.status != LpStatus::optimal) return bound;
-  bound.best.margin = solution.primal.back();
+  bound.best.margin = from + solution.primal.back();
   bound.dual = std::move(solution.dual);
+  std::vector<double> potentials;
   for (std::size_t i = 0; i < bound.best.vertices.size(); ++i) {
-    bound.best.weights.push_back(programme.units[i] * solution.primal[i]);
+    potentials.push_back(programme.units[i] * solution.primal[i]);
+    bound.best.weights.push_back(weight_of_potential(mesh.space(), potentials.back()));
+  }
+  if (mesh.space().is_plane()) return bound;
+  bound.attained = kUnbounded;
+  for (const WeightConstraint& c : bound.constraints) {
+    const double value =
+        value_of(linear_form(mesh, c), [&](VertexId v) { return potentials[index_of(bound.best.vertices, v)]; });
+    bound.attained = std::min(bound.attained, value);
+  }
+  return bound;
+}
+
+bool is_attained(const Mesh& mesh, const Bound& bound) {
+  return mesh.space().is_plane() || bound.best.status != LpStatus::optimal ||
+         std::abs(bound.best.margin - bound.attained) <= kAttained;
+}
+
+}  // namespace
+
+Bound bound_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, const Demand& demand) {
+  Bound bound = bound_from(mesh, triangles, solver, demand, 0);
+  if (!mesh.space().is_plane() && demand.has_duals()) {
+    bound.best.margin = std::min({bound.best.margin, bound.attained, kMostMargin});
+    return bound;
+  }
+  for (int round = 0; round < kRounds && !is_attained(mesh, bound); ++round) {
+    Bound next = bound_from(mesh, triangles, solver, demand, bound.attained);
+    if (next.best.status != LpStatus::optimal) break;
+    const bool better = next.attained > bound.attained;
+    bound = std::move(next);
+    if (!better) break;
   }
   double largest = 0;
   for (const double y : bound.dual) largest = std::max(largest, y);
@@ -155,7 +219,7 @@ namespace {
 BestMargin best_of(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, const Demand& demand) {
   Bound bound = bound_margin(mesh, triangles, solver, demand);
   if (bound.best.status == LpStatus::optimal && bound.best.margin < kNoMargin) {
-    bound.best.certificate = certify(mesh, bound, demand.conditions(), demand.has_duals() ? kRefutedDual : 0);
+    bound.best.certificate = certify(mesh, bound, demand.conditions(), demand.refuted_margin(kRefutedDual));
   }
   return std::move(bound.best);
 }
@@ -164,12 +228,10 @@ BestMargin best_of(const Mesh& mesh, std::span<const TriangleId> triangles, LpSo
 
 BestMargin best_margin(const Mesh& mesh, std::span<const TriangleId> triangles, LpSolver& solver, Conditions conditions,
                        std::span<const HalfedgeId> edges) {
-  TEMPER_ASSERT(mesh.space().is_plane());
   return best_of(mesh, sorted(triangles), solver, Demand(mesh, conditions, edges));
 }
 
 BestMargin best_margin(const Mesh& mesh, LpSolver& solver, Conditions conditions, std::span<const HalfedgeId> edges) {
-  TEMPER_ASSERT(mesh.space().is_plane());
   const Demand demand(mesh, conditions, edges);
   BestMargin worst;
   worst.margin = kUnbounded;

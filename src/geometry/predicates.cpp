@@ -134,6 +134,9 @@ Sign power_test_perturbed(const Space& space, const WeightedPoint& a, const Weig
   return power_test_perturbed(lifted(a), lifted(b), lifted(c), lifted(d), index);
 }
 
+Sign signed_height_sign(const Space& space, const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
+  return space.is_plane() ? signed_height_sign(p, q, r) : signed_height_sign(lifted(p), lifted(q), lifted(r));
+}
 bool is_well_centered(const Space& space, const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
   return inlined::is_well_centered(space, p, q, r);
 }

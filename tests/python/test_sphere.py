@@ -274,21 +274,32 @@ def test_energies_are_those_of_the_flat_triangles(globe):
     assert temper.vertex_energy(globe, model, 0).value <= temper.total_energy(globe, model)
 
 
+def test_weights_alone_make_a_globe_well_centered_or_a_certificate_says_none_can():
+    even = temper.generate.icosahedral(3)
+    points = even.points + 0.012 * np.random.default_rng(1).normal(size=(642, 3))
+    mesh = temper.Mesh(points / np.linalg.norm(points, axis=1, keepdims=True), even.triangles, space=even.space)
+    assert not temper.well_centered_triangles(mesh).all()
+    report = temper.find_weights(mesh)
+    assert report.verdict == "feasible" and report.solved and report.moved > 0
+    assert np.isclose(temper.weight_change(mesh, np.zeros(642), report.weights), report.change)
+    mesh.weights = report.weights
+    assert temper.well_centered_triangles(mesh).all()
+    assert np.isclose(temper.weight_margin(mesh), report.attained)
+    bare = temper.generate.random_sphere(100)
+    best = temper.best_margin(bare)
+    assert best.margin < 0 and temper.check_certificate(bare, best.certificate) == "proves"
+
+
 # --- what is for the plane alone -----------------------------------------------------------------------------
 
 
 PLANE_ALONE = {
-    "best_connectivity": temper.best_connectivity,
-    "best_margin": temper.best_margin,
-    "check_certificate": lambda mesh: temper.check_certificate(mesh, temper.Certificate(0.0, [])),
     "edge_conflict": lambda mesh: temper.edge_conflict(mesh, 0),
     "edges_that_must_be_split": temper.edges_that_must_be_split,
     "explain": temper.explain,
-    "find_weights": temper.find_weights,
     "html_report": temper.html_report,
     "plot": temper.plot,
     "position_flip_threshold": lambda mesh: temper.position_flip_threshold(mesh, 0, (1, 0)),
-    "weight_margin": temper.weight_margin,
     "grade_boundary": topology.grade_boundary,
     "interpolated_weight": lambda mesh: topology.interpolated_weight(mesh, 0, (0, 0)),
     "plan_boundary_grading": topology.plan_boundary_grading,

@@ -61,6 +61,29 @@ INSTANTIATE_TEST_SUITE_P(All, PublicMeshWeights, testing::ValuesIn(kMeshes), [](
 });
 
 /// Well-centered by their weights: no edge may be said to need a split, whichever edges and vertices are kept.
+TEST(PublicGlobes, HaveWeightsThatMakeThemWellCenteredAsTheyAre) {
+  struct Row {
+    const char* file;
+    double margin;
+    std::size_t bad, moved;
+  };
+  for (const Row& row : {Row{"fesom_pi.nod2d.out", 0.01, 104, 173}, Row{"mpas_QU1920km.nc", 0.2, 0, 12}}) {
+    const std::string path = std::string(TEMPER_SHARED "/meshes/sphere") + "/" + row.file;
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+    const auto file = io::read(path);
+    ASSERT_TRUE(file) << file.error().what();
+    const auto loaded = io::make_mesh(*file);
+    ASSERT_TRUE(loaded) << loaded.error().what();
+    const Mesh& mesh = loaded->mesh;
+    EXPECT_EQ(bad_triangles(mesh), row.bad);
+    const WeightReport report = weights_of(mesh, {.margin = row.margin});
+    ASSERT_TRUE(report.solved) << row.file;
+    EXPECT_NEAR(report.attained, row.margin, 1e-8);
+    EXPECT_EQ(report.moved, row.moved);
+    EXPECT_EQ(bad_triangles(with_weights(mesh, report.weights)), 0u);
+  }
+}
+
 TEST_P(PublicMeshWeights, NeedNoSplit) {
   const std::string path = std::string(TEMPER_SHARED "/meshes") + "/" + GetParam().file;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";

@@ -16,8 +16,11 @@
 
 namespace temper::test {
 
+/// What a user does with a report: weights that change are set, others stay.
 inline Mesh with_weights(Mesh mesh, const IdVector<VertexId, double>& weights) {
-  for (const VertexId v : mesh.vertices()) mesh.set_weight(v, weights[v]);
+  for (const VertexId v : mesh.vertices()) {
+    if (mesh.weight(v) != weights[v]) mesh.set_weight(v, weights[v]);
+  }
   return mesh;
 }
 
@@ -33,7 +36,7 @@ inline std::size_t bad_triangles(const Mesh& mesh) {
   std::size_t bad = 0;
   for (const TriangleId t : mesh.triangles()) {
     const auto [p, q, r] = mesh.corners(t);
-    bad += is_well_centered(mesh.point(p), mesh.point(q), mesh.point(r)) ? 0 : 1;
+    bad += is_well_centered(mesh.space(), mesh.point(p), mesh.point(q), mesh.point(r)) ? 0 : 1;
   }
   return bad;
 }
