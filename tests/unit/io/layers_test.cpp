@@ -107,6 +107,28 @@ TEST_F(LayerFiles, every_format_makes_the_files_it_names) {
   }
 }
 
+TEST_F(LayerFiles, a_vertex_without_a_cell_has_none_and_disv_no_place_for_it) {
+  const std::vector<Vec2> points = {{0, 0}, {1, 0}, {0.5, 0.8}};
+  const std::vector<std::array<std::int32_t, 3>> triangles = {{0, 1, 2}};
+  const std::vector<double> weights = {0, 1.2, 0.5};  // the cell of vertex 0 is outside of the triangle
+  const Mesh mesh = Mesh::build({.points = points, .weights = weights, .triangles = triangles})->mesh;
+  const DecComplex complex = dec(mesh);
+  const PowerCells cells = power_cells(mesh, complex);
+  ASSERT_EQ(cells.areas[VertexId(0)], 0);
+  const auto made = columns(mesh, complex, cells, {1, {1, 0, 1, 0, 1, 0}, {}});
+  ASSERT_TRUE(made) << made.error().what();
+  EXPECT_EQ(made->states[0], CellState::inactive);
+  const auto disv = write_dec(path("out"), mesh, complex, cells, {.formats = {DecFormat::disv}, .columns = &*made});
+  ASSERT_FALSE(disv);
+  EXPECT_EQ(disv.error().what(),
+            "the power cell of point 0 in the domain is not one polygon, as DISV wants; DISU does not");
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+  ASSERT_TRUE(write_dec(path("out"), mesh, complex, cells, {.formats = {DecFormat::disu}, .columns = &*made}));
+  const std::string disu = slurp(path("out/mesh.disu"));
+  EXPECT_NE(disu.find("  IDOMAIN\n    INTERNAL FACTOR 1\n      0 1 1\n"), std::string::npos) << disu;
+  EXPECT_EQ(disu.find("VERTICES"), std::string::npos);
+}
+
 TEST_F(LayerFiles, tough_has_fixed_columns_and_all_digits_that_they_hold) {
   ASSERT_TRUE(write(*layers("vertex,top,bottom 1,bottom 2\n*,1e6,0,-0.25\n3,1e6,1e6,-0.25\n"), {DecFormat::tough}));
   std::istringstream lines(slurp(path("out/MESH")));
