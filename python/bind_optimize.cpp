@@ -3,6 +3,7 @@
 #include "optimize_options.hpp"
 #include "temper/checkpoint.hpp"
 #include "temper/trace.hpp"
+#include "temper/verify.hpp"
 
 TEMPER_PYTHON_NAMES(temper::Snapshot::Moment, "start", "after_sweep", "before_flips", "after_flips");
 TEMPER_PYTHON_NAMES(temper::EventKind, "move", "weight", "flip", "collapse", "removal", "insertion", "split", "hidden",
@@ -145,7 +146,16 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
     const auto executor = make_threads(count);
     hooks.executor = executor.get();
     mesh = *before;
-    report = optimize(mesh, options, hooks);
+#ifdef TEMPER_WITH_VERIFY
+    if (wants_error_model(options, mesh)) {
+      auto model = solver_error_model(mesh, {.scheme = options.for_});
+      if (!model)
+        report = model.error();
+      else
+        options.error.model = *std::move(model);
+    }
+#endif
+    if (!report) report = optimize(mesh, options, hooks);
     if (checkpoints && !checkpoints->refused() && report->has_value() && stopped_early(**report)) checkpoints->write();
   }
   if (checkpoints && checkpoints->refused()) visitor.raise();

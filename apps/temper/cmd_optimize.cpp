@@ -78,7 +78,7 @@ void add_files(Command& command, Settings& s) {
 #ifdef TEMPER_WITH_VERIFY
   command.add_flag(
       "--verify", s.verify,
-      "measure the errors of solvers, too, before and after: see temper verify. With --objective accuracy the input "
+      "measure the errors of solvers, too, before and after: see temper verify. But for --objective energy the input "
       "is returned when it is well-centered and its errors are the smaller ones");
 #endif
   add_requirements(command, s.require).sentence =
@@ -275,6 +275,13 @@ OptimizeReport run_library(const Settings& s, const Input& input, Mesh& mesh, co
   if (files.resumed != nullptr) hooks.resume = files.resumed->checkpoint.state;
   OptimizeOptions options = s.options();
   options.time_limit = s.since.left(options.time_limit);
+#ifdef TEMPER_WITH_VERIFY
+  if (wants_error_model(options, mesh)) {
+    auto model = solver_error_model(mesh, {.scheme = options.for_});
+    if (!model) throw as_failure(spell_options(model.error()));
+    options.error.model = *std::move(model);
+  }
+#endif
   Expected<OptimizeReport> report = optimize(mesh, options, hooks);
   if (!report) {
     InputError error = spell_options(report.error());
@@ -522,7 +529,7 @@ Command command_with(Settings& settings) {
        "  temper optimize in.vtu -o out.vtu --weights-only --no-flips\n"
        "  temper optimize in.vtu -o out.vtu --energy F --star 1 --solver golden --max-sweeps 20\n"
        "  temper optimize in.vtu -o out.vtu --gamma-rel 0.1 --time-limit 60\n"
-       "  temper optimize in.vtu -o out.vtu --objective accuracy --verify\n"
+       "  temper optimize in.vtu -o out.vtu --for vertex --verify\n"
        "  temper optimize in.vtu -o out.vtu --removal patch --trace trace.jsonl\n"
        "  temper optimize in.vtu -o out.vtu --method paper --energy dT --removal none\n"
        "  temper optimize in.vtu -o out.vtu --checkpoint run.ckpt --time-limit 3600\n"

@@ -118,8 +118,6 @@ Json to_json(const UsedOption& option) {
   return option.values.front();
 }
 
-const char* objective_name(Objective objective) { return objective == Objective::accuracy ? "accuracy" : "energy"; }
-
 Json to_json(const SweepRecord& record) {
   return {{"sweep", record.sweep},
           {"energy", number_or_null(record.energy)},
@@ -127,7 +125,7 @@ Json to_json(const SweepRecord& record) {
           {"flips", record.flips},
           {"softening", number_or_null(record.softening)},
           {"seconds", record.seconds},
-          {"objective", objective_name(record.objective)}};
+          {"objective", name(record.objective)}};
 }
 
 std::string dump(const Json& json) {
@@ -189,7 +187,7 @@ std::string history_csv(const OptimizeReport& report) {
   std::string csv = "sweep,energy,bad,flips,softening,seconds,objective\n";
   for (const SweepRecord& record : report.history) {
     csv += fmt::format("{},{},{},{},{},{},{}\n", record.sweep, record.energy, record.bad, record.flips,
-                       record.softening, record.seconds, objective_name(record.objective));
+                       record.softening, record.seconds, name(record.objective));
   }
   return csv;
 }

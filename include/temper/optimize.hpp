@@ -7,12 +7,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "temper/energy.hpp"
+#include "temper/error_model.hpp"
 #include "temper/mesh.hpp"
 #include "temper/progress.hpp"
 #include "temper/regularity.hpp"
@@ -124,14 +126,6 @@ enum class StoppingRule {
   paper,     ///< mean energy per triangle fell by less than tolerance, or rose
 };
 
-/// For whose errors a mesh is meant: what Objective::accuracy weighs its terms by (scheme_weights()).
-enum class Scheme {
-  all,     ///< for each something, and margins about as large as those of E_BP
-  vertex,  ///< unknowns at the vertices, as in discrete exterior calculus
-  cell,    ///< unknowns at the orthocenters, as in two-point flux finite volumes
-  stars,   ///< the diagonal Hodge stars
-};
-
 /// Of Objective::accuracy. With L the squared length of an edge, G that times its dual length over its length, H the
 /// difference where G is the sum of the heights times the length on its two sides, δw the difference of the weights of
 /// its ends and s the local size there, what is lowered is
@@ -159,6 +153,17 @@ struct SchemeWeights {
 };
 /// By measurement, docs/accuracy.md.
 [[nodiscard]] SchemeWeights scheme_weights(Scheme scheme);
+
+/// Of Objective::error, which lowers  ln mean(errors over those at its start) + κ ln(E + barrier)  over all vertices at
+/// once, E and its barrier those of AccuracyOptions.
+struct ErrorOptions {
+  /// What measures errors; with Objective::error there has to be one. With another objective it is the judge of what
+  /// the phases have made: the mesh of least error is kept, the input too if it is well-centered.
+  std::shared_ptr<const ErrorModel> model = {};
+  double offset_share = 1;  ///< κ ≥ 0: what keeps other errors from rising
+  int steps = 200;          ///< at most; ≥ 0
+  double tolerance = 0.01;  ///< ten steps that gain less than this of the sum of logarithms are the last. ≥ 0
+};
 
 /// The switches of Algorithm 1: where the paper offers a choice, or does otherwise than the production form. The
 /// defaults are the latter's, paper_method() has the paper's.
@@ -228,12 +233,14 @@ struct PaperSwitches {
 
 struct OptimizeOptions {
   /// accuracy: the run lowers `energy`, which has to be a barrier, until all margins are above accuracy.margin, or it
-  /// ends; then E of AccuracyOptions, with the connectivity as it is. A mesh that has all margins at first goes on to
-  /// the second phase at once, unless its boundary is to be split. `solver`, `order`, `newton_passes`, `tolerance` and
-  /// `stopping` are of the first phase. energy: `energy` is lowered to the end. Absent: objective_of().
+  /// ends; then E of AccuracyOptions, with the connectivity as it is; error: after that the errors of error.model. A
+  /// mesh that has all margins at first goes on to the second phase at once, unless its boundary is to be split.
+  /// `solver`, `order`, `newton_passes`, `tolerance` and `stopping` are of the first phase. energy: `energy` is lowered
+  /// to the end. Absent: objective_of().
   std::optional<Objective> objective = {};
-  Scheme for_ = Scheme::all;  ///< of Objective::accuracy
+  Scheme for_ = Scheme::all;  ///< of Objective::accuracy and error
   AccuracyOptions accuracy = {};
+  ErrorOptions error = {};
   EnergyKind energy = EnergyKind::BP;
   Star star = Star::one;  ///< whose error is to be small; sweeps before Objective::accuracy are for ★1
   Unknowns unknowns = Unknowns::positions_and_weights;
@@ -255,9 +262,14 @@ struct OptimizeOptions {
   PaperSwitches paper = {};
 };
 
-/// What a run lowers whose objective is absent: accuracy, but where energy or switches are others than the default
-/// ones, but for `order` and `seed`, that energy alone.
+/// What a run lowers whose objective is absent: accuracy, or the error where there is a model of it; but where energy
+/// or switches are others than the default ones, but for `order` and `seed`, that energy alone.
 [[nodiscard]] Objective objective_of(const OptimizeOptions& options);
+
+/// Says whether these options can use a model of errors: Objective::error needs one; a mesh of the plane for one
+/// scheme, of no more than kMostJudged vertices, is made by it, or judged where accuracy is asked for.
+inline constexpr std::size_t kMostJudged = 20'000;
+[[nodiscard]] bool wants_error_model(const OptimizeOptions& options, const Mesh& mesh);
 
 /// The options of the paper's Algorithm 1 with all its parts: golden section, flips after the inner iterations have
 /// converged, unlimited steps, inversions allowed, hidden vertices kept, collapses and the patch test from the first
@@ -308,7 +320,7 @@ enum class Stopped {
   time_limit,
   cancelled,
   tangled,          ///< triangles are inverted (Inversion::allow): no flips can make the mesh regular
-  accuracy_sweeps,  ///< all sweeps of AccuracyOptions are made, and E still falls a little: a normal end
+  accuracy_sweeps,  ///< all sweeps of AccuracyOptions, or steps of ErrorOptions, are made: a normal end
   hidden,           ///< deferred flips hid a vertex that may not be: the mesh is the last or best one that was regular
 };
 [[nodiscard]] std::string_view name(Stopped stopped);
@@ -331,7 +343,8 @@ struct OptimizeReport {
   std::vector<VertexId> hidden;
   double seconds = 0;         ///< the optimisation alone
   double initial_energy = 0;  ///< of the input, at the final γ; with Objective::accuracy that of AccuracyOptions,
-                              ///< its edges taken absolute, with the same sizes before and after
+                              ///< its edges taken absolute, with the same sizes before and after; where there is an
+                              ///< error model the root mean square error
   double final_energy = 0;
   SizeChange size;
   std::vector<SweepRecord> history;  ///< history[0] is the input

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <string_view>
 
 namespace temper {
 
@@ -11,7 +12,11 @@ namespace temper {
 enum class Objective {
   energy,    ///< one of the registry's
   accuracy,  ///< after it has made every triangle well-centered: what the errors of a solver are proportional to
+  error,     ///< after that: the errors of a solver themselves
 };
+
+/// "energy", "accuracy", "error".
+[[nodiscard]] std::string_view name(Objective objective);
 
 /// One sweep over all vertices, as recorded in the history of a run.
 struct SweepRecord {

@@ -12,6 +12,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,6 +21,7 @@
 #include <vector>
 
 #include "temper/error.hpp"
+#include "temper/error_model.hpp"
 #include "temper/mesh.hpp"
 #include "temper/vec2.hpp"
 
@@ -125,6 +128,19 @@ struct VerifyReport {
 ///     const Expected<VerifyReport> report = verify(mesh, {.fields = {"held-back"}});
 ///     if (report) use(geometric_mean(report->fields).poisson.l2);
 [[nodiscard]] Expected<VerifyReport> verify(const Mesh& mesh, const VerifyOptions& options = {});
+
+/// What a model of errors measures.
+struct SolverErrorOptions {
+  Scheme scheme = Scheme::all;  ///< vertex: Poisson problems; cell: two-point flux; all: both
+  std::size_t fields = 64;      ///< waves in all directions, whose squared errors are averaged
+  std::uint64_t seed = 1;       ///< of their lengths and phases
+};
+/// The mean squared L2 errors of the schemes of this file over plane waves of 1 to 4 radians in half the bounding box,
+/// each over the fourth power of its wave number, as such errors grow: for OptimizeOptions::error_model. Derivatives by
+/// the discrete adjoint: one more solve each with the same factors. Errors: no field, Scheme::stars, a mesh of the
+/// sphere. O(n^1.5 + fields n log n).
+[[nodiscard]] Expected<std::shared_ptr<const ErrorModel>> solver_error_model(const Mesh& mesh,
+                                                                             const SolverErrorOptions& options = {});
 
 /// One number of VerifyErrors: what tables, JSON and comparisons are made of.
 struct VerifyMeasure {

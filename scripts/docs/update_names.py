@@ -105,11 +105,11 @@ def options_table(program):
 
 def member_for(name):
     """The member of OptimizeOptions: accuracy_sweeps is that of AccuracyOptions."""
-    if name.startswith("accuracy_") and name.removeprefix("accuracy_") in members_of("AccuracyOptions"):
-        return "accuracy." + name.removeprefix("accuracy_")
-    for struct, place in [("OptimizeOptions", ""), ("PaperSwitches", "paper."), ("AccuracyOptions", "accuracy.")]:
-        if name in members_of(struct):
-            return place + name
+    groups = [("OptimizeOptions", ""), ("PaperSwitches", "paper."), ("AccuracyOptions", "accuracy."), ("ErrorOptions", "error.")]
+    for struct, place in groups:
+        short = name.removeprefix(place.replace(".", "_")) if place else name
+        if name in members_of(struct) or short in members_of(struct):
+            return place + (name if name in members_of(struct) else short)
     raise KeyError(f"no member of OptimizeOptions is called {name}")
 
 

@@ -85,7 +85,8 @@ Driver::Verdict Driver::sweep(Phase& phase) {
   if (passed && !(newton_pass(phase) && run_.sweeps_left())) return Verdict::stopped;
   const double halfway = run_.report.history.back().energy;
   recorder_.begin_sweep(run_.report.sweeps + 1);
-  const bool whole = improve_all_vertices(phase.iteration());
+  const std::optional<bool> moved = phase.move_all(recorder_);
+  const bool whole = moved ? *moved : improve_all_vertices(phase.iteration());
   const bool removed = flipper_.has_removed();
   if (removed) compact();
   const bool inserted = whole && insert_vertices(phase.iteration());

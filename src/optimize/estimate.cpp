@@ -19,6 +19,10 @@ Limits limits_of(std::span<const SweepRecord> history, const OptimizeOptions& o)
   if (history.back().objective == Objective::energy) {
     return {o.paper.tolerance, o.max_sweeps, objective_of(o) == Objective::energy ? 0 : o.accuracy.sweeps};
   }
+  if (history.back().objective == Objective::error) {
+    const auto first = std::ranges::find(history, Objective::error, &SweepRecord::objective);
+    return {o.error.tolerance, std::min(o.max_sweeps, first->sweep + o.error.steps)};
+  }
   const auto first = std::ranges::find(history, Objective::accuracy, &SweepRecord::objective);
   return {o.accuracy.tolerance, std::min(o.max_sweeps, first->sweep + o.accuracy.sweeps)};
 }
@@ -42,7 +46,8 @@ std::optional<double> estimate_sweeps_left(std::span<const SweepRecord> history,
   const Limits limits = limits_of(history, options);
   const double target = limits.tolerance * std::abs(last.back().energy);
   const double sweeps = target > 0 ? std::log(gains[kGains - 1] / target) / shrinking : limits.sweeps;
-  return std::clamp(std::max(0.0, sweeps) + limits.after, 0.0, static_cast<double>(std::max(0, limits.sweeps - last.back().sweep)));
+  return std::clamp(std::max(0.0, sweeps) + limits.after, 0.0,
+                    static_cast<double>(std::max(0, limits.sweeps - last.back().sweep)));
 }
 
 }  // namespace temper

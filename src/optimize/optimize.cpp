@@ -7,17 +7,19 @@
 #include "optimize/accuracy/accuracy_phase.hpp"
 #include "optimize/attempts.hpp"
 #include "optimize/driver.hpp"
+#include "optimize/error/error_phase.hpp"
+#include "optimize/rank.hpp"
 #include "optimize/report.hpp"
 
 namespace temper {
 namespace {
 
-/// The stage of a run: attempts from the input, repairs of the best of them, the second objective.
-enum class Stage { attempts, repairs, accuracy };
+/// The stage of a run: attempts from the input, repairs of the best of them, the second objective, the third.
+enum class Stage { attempts, repairs, accuracy, error };
 
 /// Says whether the second phase may begin at once with the input.
 bool is_ready_for_accuracy(const Mesh& mesh, const Settings& s) {
-  return s.options.objective == Objective::accuracy && s.options.boundary != BoundaryVertices::split &&
+  return s.options.objective != Objective::energy && s.options.boundary != BoundaryVertices::split &&
          has_margins(mesh, s.accuracy.margin, s.hooks.executor);
 }
 
@@ -25,6 +27,27 @@ bool is_ready_for_accuracy(const Mesh& mesh, const Settings& s) {
 std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& options, Executor* executor) {
   if (!options.size_band) return std::nullopt;
   return options.size_field ? options.size_field : input_size_field_of(mesh, executor);
+}
+
+/// One phase more. Where there is a model of errors it says whether that was for the better; if not, it is taken back.
+template <class Improving>
+void improve(Candidate& best, const Settings& settings, Run& run, const AccuracySizes& sizes) {
+  if (run.stopped_by_caller() || run.report.stopped == Stopped::hidden) return;
+  const bool judges = settings.options.error.model != nullptr;
+  std::optional<Candidate> before;
+  if (judges && !run.checkpoints.resumes()) before = best;
+  const Resumable here(run.checkpoints, before);
+  Improving phase(best.work, settings, run, sizes);
+  Driver driver(best.work, phase.settings(), run);
+  best.sweep = driver.run(phase, best.sweep);
+  if (!before) return;
+  const auto rank_of = [&](const Candidate& c) {
+    const VertexSizes own = sizes.of(c.work, settings.hooks.executor);
+    return rank(c.work.mesh, settings, &own);
+  };
+  if (!(rank_of(*before) < rank_of(best))) return;
+  best = *std::move(before);
+  driver.recorder().returned_to(best.sweep);
 }
 
 }  // namespace
@@ -57,11 +80,13 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
     stage = Stage::accuracy;
   }
   std::optional<AccuracySizes> sizes;
-  if (settings->options.objective == Objective::accuracy) {
+  if (settings->options.objective != Objective::energy) {
     sizes.emplace(mesh, options.size_field, hooks.executor);
-    AccuracyPhase phase(best.work, *settings, run, *sizes);
-    const bool goes_on = !run.stopped_by_caller() && run.report.stopped != Stopped::hidden;
-    if (goes_on) best.sweep = Driver(best.work, phase.settings(), run).run(phase, best.sweep);
+    if (stage == Stage::accuracy) {
+      improve<AccuracyPhase>(best, *settings, run, *sizes);
+      stage = Stage::error;
+    }
+    if (settings->options.objective == Objective::error) improve<ErrorPhase>(best, *settings, run, *sizes);
   }
   if (auto error = run.checkpoints.error()) return *std::move(error);
   give_back(mesh, std::move(best), *std::move(settings), of_input, sizes ? &*sizes : nullptr, run);

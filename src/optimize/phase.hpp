@@ -1,12 +1,16 @@
 // A phase of a run: what its sweeps lower, and when they have lowered it enough. The driver makes the sweeps.
 #pragma once
 
+#include <optional>
+
 #include "optimize/run.hpp"
 #include "optimize/schedule.hpp"
 #include "optimize/settings.hpp"
 #include "optimize/working_copy.hpp"
 
 namespace temper {
+
+class Recorder;
 
 class Phase {
  public:
@@ -31,6 +35,9 @@ class Phase {
   virtual void compare_from_here() = 0;
   /// Says whether there is more to lower once all has settled: weights, after positions.
   virtual bool goes_on_with_weights() { return false; }
+  /// Moves all vertices at once, where the phase does that in place of a sweep; none if it does not. False when it was
+  /// cut short.
+  virtual std::optional<bool> move_all(const Recorder& /*recorder*/) { return std::nullopt; }
   /// Says whether a step of all vertices at once should go before the next sweep.
   [[nodiscard]] virtual bool wants_newton_pass() const { return false; }
   /// Learns what the last pass and the sweep after it left of the energy.

@@ -1,5 +1,8 @@
 #include "optimize/rank.hpp"
 
+#include <cmath>
+#include <vector>
+
 #include "energy/whole_mesh.hpp"
 #include "optimize/run.hpp"
 #include "temper/regularity.hpp"
@@ -13,6 +16,13 @@ std::size_t count_inverted_if_allowed(const Mesh& mesh, const OptimizeOptions& o
 }
 
 }  // namespace
+
+double root_mean_square(const std::vector<double>& squared_errors) {
+  if (squared_errors.empty()) return kInfinity;
+  double sum = 0;
+  for (const double error : squared_errors) sum += std::log(error);
+  return std::exp(0.5 * sum / static_cast<double>(squared_errors.size()));
+}
 
 Counts count(const Mesh& mesh, const Settings& settings) {
   return {count_inverted_if_allowed(mesh, settings.options),
@@ -35,7 +45,9 @@ Rank rank(const Mesh& mesh, const Counts& counts, const Settings& settings, cons
   if (settings.energy.barrier) r.bad = counts.bad;
   if (sizes != nullptr) {
     r.lacks_margins = !has_margins(mesh, settings.accuracy.margin, settings.hooks.executor);
-    r.energy = accuracy_energy(mesh, *sizes, settings.accuracy, settings.hooks.executor);
+    const ErrorModel* model = settings.options.error.model.get();
+    r.energy = model != nullptr ? root_mean_square(model->errors(mesh, settings.hooks.executor))
+                                : accuracy_energy(mesh, *sizes, settings.accuracy, settings.hooks.executor);
   } else {
     r.energy = total_energy(mesh, settings.model, settings.hooks.executor);
   }

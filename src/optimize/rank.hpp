@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <cstddef>
+#include <vector>
 
 #include "energy/accuracy_energy.hpp"
 #include "optimize/settings.hpp"
@@ -31,5 +32,8 @@ struct Counts {
 [[nodiscard]] Rank rank(const Mesh& mesh, const Settings& settings, const VertexSizes* sizes = nullptr);
 /// The same of a mesh where all has been counted.
 [[nodiscard]] Rank rank(const Mesh& mesh, const Counts& counts, const Settings& settings, const VertexSizes* sizes);
+
+/// The root of the geometric mean of the schemes' squared errors; +∞ where there are none.
+[[nodiscard]] double root_mean_square(const std::vector<double>& squared_errors);
 
 }  // namespace temper

@@ -170,8 +170,15 @@ void Notes::tell_accuracy() {
     add(count_of(thin, "triangle is", "triangles are") + " well-centered by no more than " +
         to_text(settings_.accuracy.margin) + " of an edge");
   }
-  add("energy of the accuracy objective, edges taken absolute: " + to_text(report_.initial_energy) + " before, " +
-      to_text(report_.final_energy) + " after");
+  if (options_.error.model == nullptr) {
+    add("energy of the accuracy objective, edges taken absolute: " + to_text(report_.initial_energy) + " before, " +
+        to_text(report_.final_energy) + " after");
+  } else if (std::isfinite(report_.initial_energy)) {
+    add("errors of what the mesh is for, over smooth fields: now " +
+        to_text(std::round(1000 * report_.final_energy / report_.initial_energy) / 1000) + " times those of the input");
+  } else {
+    add("what the mesh is for could not be solved on the input: its matrix was not positive definite");
+  }
 }
 
 /// Vertices that Lawson's algorithm leaves without a power cell; none where it has no meaning, among inverted
@@ -229,6 +236,11 @@ bool lacks_flips(const Counts& input, const Settings& settings, const RunFacts& 
 }
 
 }  // namespace
+
+std::string_view name(Objective objective) {
+  constexpr std::string_view kNames[] = {"energy", "accuracy", "error"};
+  return kNames[static_cast<std::size_t>(objective)];
+}
 
 std::string_view name(Stopped stopped) {
   switch (stopped) {

@@ -84,7 +84,7 @@ std::optional<InputError> check_combinations(const OptimizeOptions& o) {
   if (p.insertion_from && o.size_band) {
     return invalid("`size_band` does not hold what `insertion_from` inserts; expected one of the two");
   }
-  if (p.first_energy && objective_of(o) == Objective::accuracy) {
+  if (p.first_energy && objective_of(o) != Objective::energy) {
     return invalid("`first_energy` is for `objective=energy`");
   }
   if (o.flips == Flips::none && o.boundary == BoundaryVertices::split) {
@@ -115,7 +115,10 @@ std::optional<InputError> check_weights(const OptimizeOptions& o, const Mesh& me
 
 /// What the accuracy objective cannot do with.
 std::optional<InputError> check_accuracy(const OptimizeOptions& o) {
-  if (objective_of(o) != Objective::accuracy) return std::nullopt;
+  if (objective_of(o) == Objective::energy) return std::nullopt;
+  if (objective_of(o) == Objective::error && o.error.model == nullptr) {
+    return invalid("`objective=error` needs a model of the errors, which is not there; expected `objective=accuracy`");
+  }
   const EnergyInfo& energy = energy_info(o.energy);
   if (!energy.barrier) {
     return invalid("`objective=accuracy` begins with an energy that makes triangles well-centered, which " +
@@ -176,7 +179,15 @@ Objective objective_of(const OptimizeOptions& o) {
   PaperSwitches plain;
   plain.order = o.paper.order;
   plain.seed = o.paper.seed;
-  return o.energy == EnergyKind::BP && o.paper == plain ? Objective::accuracy : Objective::energy;
+  if (o.energy != EnergyKind::BP || !(o.paper == plain)) return Objective::energy;
+  return o.error.model != nullptr ? Objective::error : Objective::accuracy;
+}
+
+bool wants_error_model(const OptimizeOptions& o, const Mesh& mesh) {
+  const Objective objective = objective_of(o);
+  const bool of_one = o.for_ == Scheme::vertex || o.for_ == Scheme::cell;
+  const bool judges = of_one && mesh.space().is_plane() && mesh.n_vertices() <= kMostJudged;
+  return objective == Objective::error || (objective == Objective::accuracy && judges);
 }
 
 OptimizeOptions paper_method() {
@@ -241,7 +252,7 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   if (auto error = check_space(options, mesh)) return *std::move(error);
 
   const Objective objective = objective_of(options);
-  const Star star = objective == Objective::accuracy ? Star::one : options.star;
+  const Star star = objective != Objective::energy ? Star::one : options.star;
   Settings s;
   s.collapse_model.kind = options.paper.collapse_energy;
   s.collapse_model.star = star;

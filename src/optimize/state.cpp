@@ -6,6 +6,7 @@
 #include "mesh/mesh_archive.hpp"
 #include "optimize/accuracy/accuracy_phase.hpp"
 #include "optimize/driver.hpp"
+#include "optimize/error/error_phase.hpp"
 #include "optimize/repair/repair_search.hpp"
 #include "optimize/report.hpp"
 
@@ -165,6 +166,15 @@ void AccuracyPhase::visit(Archive& archive) {
   auto& [sizes, floors] = domain;
   archive(sizes, floors, iteration, bad, before, now);
   archive.require(sizes.size() == mesh.n_vertices() && floors.size() == mesh.n_triangles());
+}
+
+void ErrorPhase::visit(Archive& archive) {
+  auto& [mesh, frame, domain, settings, run, freedom, iteration, bad, start, now, descent, stuck, history] = *this;
+  auto& [sizes, floors] = domain;
+  auto& [lowered, error, gradient] = now;
+  archive(sizes, floors, iteration, bad, start, lowered, error, gradient, descent, stuck, history);
+  archive.require(sizes.size() == mesh.n_vertices() && floors.size() == mesh.n_triangles());
+  archive.require(gradient.empty() || gradient.size() == 3 * mesh.n_vertices());
 }
 
 void RepairSearch::visit(Archive& archive) {

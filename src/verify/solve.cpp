@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 namespace temper::verify_detail {
 namespace {
@@ -166,6 +167,35 @@ bool factor_and_solve(const LinearSystem& system, bool with_condition, LinearSol
 }
 
 }  // namespace
+
+struct Cholesky::Factors {
+  Eigen::SimplicialLDLT<Matrix> ldlt;
+};
+
+std::optional<Cholesky> Cholesky::of(std::size_t unknowns, const std::vector<MatrixEntry>& lower) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(lower.size());
+  for (const auto& [row, column, value] : lower) {
+    if (!std::isfinite(value)) return std::nullopt;
+    entries.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
+  }
+  const auto n = static_cast<Index>(unknowns);
+  Matrix matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  auto factors = std::make_shared<Factors>();
+  factors->ldlt.compute(matrix);
+  const bool definite = factors->ldlt.info() == Eigen::Success && (factors->ldlt.vectorD().array() > 0).all();
+  if (!definite) return std::nullopt;
+  Cholesky cholesky;
+  cholesky.factors_ = std::move(factors);
+  return cholesky;
+}
+
+void Cholesky::solve(std::vector<double>& right) const {
+  if (right.empty()) return;
+  const Vector x = factors_->ldlt.solve(to_vector(right));
+  std::copy(x.begin(), x.end(), right.begin());
+}
 
 LinearSolution solve(const LinearSystem& system, bool with_condition) {
   LinearSolution result;

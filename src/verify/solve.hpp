@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -29,5 +30,18 @@ struct LinearSolution {
 /// LDLᵀ where the matrix is positive definite, LU with pivoting where it is not. A matrix is called singular when
 /// neither gives solutions whose residual is that of rounding.
 [[nodiscard]] LinearSolution solve(const LinearSystem& system, bool with_condition);
+
+/// A positive definite matrix, factored for many right sides.
+class Cholesky {
+ public:
+  /// None where a pivot is not positive, or an entry not finite.
+  [[nodiscard]] static std::optional<Cholesky> of(std::size_t unknowns, const std::vector<MatrixEntry>& lower);
+  /// Solves for the right side, in its place.
+  void solve(std::vector<double>& right) const;
+
+ private:
+  struct Factors;
+  std::shared_ptr<const Factors> factors_;
+};
 
 }  // namespace temper::verify_detail

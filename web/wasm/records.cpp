@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::string_view kScales[] = {"absolute", "relative"};               // LengthScale
 constexpr std::string_view kTreatments[] = {"as_is", "absolute", "mirrored"};  // BoundaryTreatment
-constexpr std::string_view kObjectives[] = {"energy", "accuracy"};             // Objective
 
 /// The value of an enum by its name.
 template <class Enum, std::size_t n>
@@ -254,7 +253,7 @@ Json to_json(const SweepRecord& r) {
           {"flips", r.flips},
           {"softening", number(r.softening)},
           {"seconds", r.seconds},
-          {"objective", kObjectives[static_cast<std::size_t>(r.objective)]}};
+          {"objective", name(r.objective)}};
 }
 
 Json to_json(const OptimizeReport& r) {

@@ -30,7 +30,7 @@ constexpr std::array<Name, 4> kNames<Star> = {"0", "1", "2", "all"};
 template <>
 constexpr std::array<Name, 3> kNames<BoundaryTreatment> = {"as_is", "absolute", "mirrored"};
 template <>
-constexpr std::array<Name, 2> kNames<Objective> = {"energy", "accuracy"};
+constexpr std::array<Name, 3> kNames<Objective> = {"energy", "accuracy", "error"};
 template <>
 constexpr std::array<Name, 4> kNames<Scheme> = {"all", "vertex", "cell", "stars"};
 template <>
@@ -150,8 +150,10 @@ constexpr OptionRow row(Name name, Name sentence, OptionRow more = {}) {
 // --- the rows ----------------------------------------------------------------------------------------------
 
 using Accuracy = AccuracyOptions;
+using Error = ErrorOptions;
 using Paper = PaperSwitches;
 constexpr auto kAccuracy = &Options::accuracy;
+constexpr auto kError = &Options::error;
 constexpr auto kPaper = &Options::paper;
 
 constexpr OptionRange at_least(double low) { return {.low = low}; }
@@ -161,8 +163,9 @@ constexpr OptionRange inside(double low, double high) { return {low, high, true}
 constexpr double kMostMargin = 0.25;       // of h/ℓ an equilateral triangle has 0.289, and no other one as much
 constexpr double kLeastBoundaryRatio = 2;  // a cut in the middle leaves edges of half the length
 
-bool lowers_accuracy(const Options& o) { return objective_of(o) == Objective::accuracy; }
+bool lowers_accuracy(const Options& o) { return objective_of(o) != Objective::energy; }
 constexpr OptionNeed kForAccuracy = {"objective", "accuracy", lowers_accuracy};
+constexpr OptionNeed kForError = {"objective", "error"};
 constexpr OptionNeed kBarrier = {"energy", "BH|BHs|BP"};
 constexpr OptionNeed kDeferredFlips = {"flips", "deferred"};
 constexpr OptionNeed kCollapses = {"collapse_from", ""};
@@ -209,7 +212,9 @@ constexpr OptionRow kAccuracyRows[] = {
     row<&Options::objective>(
         "objective",
         "energy: the one of `energy`, to the end; accuracy: only until every triangle is well-centered with a margin, "
-        "then how far the middles of edges and duals are apart, which a solver's error is proportional to",
+        "then how far the middles of edges and duals are apart, which a solver's error is proportional to; error: "
+        "after that the errors "
+        "of the schemes of `for_` themselves, by adjoint solutions, which takes much longer",
         {.common = true, .absent = "accuracy; energy where it is not BP, or has switches of its own"}),
     row<&Options::for_>(
         "for_",
@@ -234,6 +239,13 @@ constexpr OptionRow kAccuracyRows[] = {
     row<kAccuracy, &Accuracy::tolerance>("accuracy_tolerance",
                                          "of accuracy: stop when a sweep gains less than this part",
                                          {.range = at_least(0), .needs = {kForAccuracy}}),
+    row<kError, &Error::offset_share>(
+        "offset_share", "of error: how much the offset of the middles counts beside it, which other errors go with",
+        {.range = at_least(0), .needs = {kForError}}),
+    row<kError, &Error::steps>("error_steps", "of error: at most this many, of all vertices at once, after the others",
+                               {.needs = {kForError}}),
+    row<kError, &Error::tolerance>("error_tolerance", "of error: stop when ten steps gain less than this part",
+                                   {.range = at_least(0), .needs = {kForError}}),
 };
 
 constexpr OptionRow kMoveRows[] = {

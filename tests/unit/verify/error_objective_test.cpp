@@ -1,0 +1,172 @@
+// Objective::error with the model of temper::verify: errors fall, what must stay stays, and a run is the same however
+// it is made.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "optimize/error/descent.hpp"
+#include "support/error_model.hpp"
+#include "support/std_threads.hpp"
+#include "temper/error_model.hpp"
+#include "temper/generate.hpp"
+#include "temper/optimize.hpp"
+#include "temper/quality.hpp"
+#include "temper/verify.hpp"
+
+namespace temper::test {
+namespace {
+
+constexpr double kMargin = 0.02;
+
+OptimizeOptions options_for(const Mesh& mesh, Scheme scheme) {
+  OptimizeOptions o;
+  o.for_ = scheme;
+  if (scheme == Scheme::all) o.objective = Objective::error;
+  o.error.steps = 40;
+  return with_error_model(mesh, o);
+}
+
+struct Improved {
+  Mesh mesh;
+  OptimizeReport report;
+};
+
+Improved improved(const Mesh& input, const OptimizeOptions& options, const OptimizeHooks& hooks = {}) {
+  Improved result{input, {}};
+  auto report = optimize(result.mesh, options, hooks);
+  EXPECT_TRUE(report) << report.error().what();
+  if (report) result.report = *std::move(report);
+  return result;
+}
+
+TEST(ErrorObjective, LowersTheErrorsOfItsSchemeBelowThoseOfTheAccuracyObjective) {
+  const Mesh input = *random_points({.vertices = 150, .seed = 8});
+  for (const Scheme scheme : {Scheme::vertex, Scheme::cell, Scheme::all}) {
+    const OptimizeOptions options = options_for(input, scheme);
+    const Improved error = improved(input, options);
+    const Improved accuracy = improved(input, {.objective = Objective::accuracy, .for_ = scheme});
+    const auto after = options.error.model->errors(error.mesh), before = options.error.model->errors(accuracy.mesh);
+    ASSERT_EQ(after.size(), before.size());
+    double product = 1;
+    for (std::size_t i = 0; i < after.size(); ++i) product *= after[i] / before[i];
+    EXPECT_LT(product, 1);
+    const Quality q = quality(error.mesh);
+    EXPECT_EQ(q.well_centered_fraction, 1);
+    EXPECT_EQ(q.non_regular_edges, 0u);
+    EXPECT_GT(q.min_h_over_l, 0.9 * kMargin);
+    EXPECT_EQ(error.mesh.validate(), std::nullopt);
+    EXPECT_EQ(error.report.history.back().objective, Objective::error);
+    for (const VertexId v : input.vertices()) {
+      if (!input.is_boundary(v)) continue;
+      EXPECT_EQ(error.mesh.position(v), input.position(v));
+    }
+  }
+}
+
+// On rings errors cancel from neighbour to neighbour, which all that moves single vertices ends (docs/accuracy.md).
+TEST(ErrorObjective, IsNeverWorseThanAWellCenteredInput) {
+  const Mesh ring = *annulus({.jitter = 0});
+  ASSERT_EQ(quality(ring).well_centered_fraction, 1);
+  for (const Objective objective : {Objective::accuracy, Objective::error}) {
+    for (const Scheme scheme : {Scheme::vertex, Scheme::cell}) {
+      OptimizeOptions options = options_for(ring, scheme);
+      options.objective = objective;
+      const Improved result = improved(ring, options);
+      EXPECT_LE(options.error.model->errors(result.mesh)[0], options.error.model->errors(ring)[0]);
+      EXPECT_LE(result.report.final_energy, result.report.initial_energy);
+    }
+  }
+}
+
+TEST(ErrorObjective, IsTheSameForAnyThreadsReplayedAndResumed) {
+  const Mesh input = *random_points({.vertices = 120, .seed = 2});
+  const OptimizeOptions options = options_for(input, Scheme::vertex);
+  std::vector<TraceEvent> events;
+  std::vector<std::string> states;
+  OptimizeHooks hooks;
+  hooks.tracer = [&](const TraceEvent& event) { events.push_back(event); };
+  hooks.checkpoints = [&](const auto& state) { states.push_back(state()); };
+  const Improved whole = improved(input, options, hooks);
+  const auto again = replay(input, events);
+  ASSERT_TRUE(again) << again.error().what();
+  EXPECT_EQ(*again, whole.mesh);
+  for (const std::size_t threads : {2, 5}) {
+    StdThreads executor(threads);
+    EXPECT_EQ(improved(input, options, {.executor = &executor}).mesh, whole.mesh);
+  }
+  ASSERT_GT(states.size(), 20u);
+  for (std::size_t i = 0; i < states.size(); i += 9) {
+    const Improved rest = improved(input, options, {.resume = states[i]});
+    EXPECT_EQ(rest.mesh, whole.mesh) << i;
+    EXPECT_EQ(rest.report.sweeps, whole.report.sweeps);
+    EXPECT_EQ(rest.report.final_energy, whole.report.final_energy);
+  }
+}
+
+TEST(ErrorObjective, StopsWhenItIsAsked) {
+  const Mesh input = *random_points({.vertices = 120, .seed = 2});
+  const Improved cut = improved(input, options_for(input, Scheme::cell), {.observer = [](const Progress& progress) {
+                                  return progress.last.objective == Objective::error ? Continue::no : Continue::yes;
+                                }});
+  EXPECT_EQ(cut.report.stopped, Stopped::cancelled);
+  EXPECT_EQ(quality(cut.mesh).well_centered_fraction, 1);
+  EXPECT_EQ(cut.mesh.validate(), std::nullopt);
+}
+
+TEST(ErrorObjective, NeedsAModelAndAnEnergyThatCentersTriangles) {
+  Mesh mesh = *random_points({.vertices = 20, .seed = 2});
+  const Mesh before = mesh;
+  const auto missing = optimize(mesh, {.objective = Objective::error});
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find("`objective=error` needs a model of the errors"), std::string::npos);
+  EXPECT_FALSE(wants_error_model({}, mesh));
+  EXPECT_FALSE(wants_error_model({.for_ = Scheme::stars}, mesh));
+  EXPECT_FALSE(wants_error_model({.for_ = Scheme::cell, .energy = EnergyKind::T}, mesh));
+  EXPECT_TRUE(wants_error_model({.for_ = Scheme::cell}, mesh));
+  OptimizeOptions hot = options_for(mesh, Scheme::vertex);
+  hot.objective = Objective::error;
+  hot.energy = EnergyKind::T;
+  EXPECT_FALSE(optimize(mesh, hot));
+  EXPECT_EQ(mesh, before);
+}
+
+// --- L-BFGS ----------------------------------------------------------------------------------------------------------
+
+/// ½ xᵀ A x with A = diag(1, 2, …, n): the gradient.
+std::vector<double> gradient_at(const std::vector<double>& x) {
+  std::vector<double> g = x;
+  for (std::size_t i = 0; i < g.size(); ++i) g[i] *= static_cast<double>(i + 1);
+  return g;
+}
+
+TEST(Descent, WithExactSearchesEndsAQuadraticFunctionInAsManyStepsAsUnknowns) {
+  std::vector<double> x = {1, -2, 0.5, 3, -1};
+  Descent descent;
+  for (std::size_t step = 0; step < x.size(); ++step) {
+    const std::vector<double> g = gradient_at(x);
+    std::vector<double> d = descent.direction(g);
+    EXPECT_LT(dot(d, g), 0);
+    const double t = -dot(d, g) / dot(d, gradient_at(d));
+    for (std::size_t i = 0; i < x.size(); ++i) d[i] *= t, x[i] += d[i];
+    std::vector<double> change = gradient_at(x);
+    for (std::size_t i = 0; i < x.size(); ++i) change[i] -= g[i];
+    descent.learn(d, change);
+  }
+  EXPECT_LT(largest(x), 1e-10);
+}
+
+TEST(Descent, LearnsNothingFromStepsWithoutCurvature) {
+  Descent descent;
+  descent.learn({1, 0}, {-1, 0});
+  EXPECT_TRUE(descent.knows_nothing());
+  descent.learn({1, 0}, {2, 0});
+  EXPECT_FALSE(descent.knows_nothing());
+  EXPECT_EQ(descent.direction({2, 0}), (std::vector<double>{-1, 0}));
+  descent.forget();
+  EXPECT_TRUE(descent.knows_nothing());
+}
+
+}  // namespace
+}  // namespace temper::test
