@@ -187,9 +187,10 @@ class Mesher {
   /// Where the front begins on a sphere without an outline: at the least size.
   [[nodiscard]] Vec3 start() const {
     if (!options_.field) return {ground_.space().radius(), 0, 0};
-    const auto all = options_.field->mesh().vertices();
-    const VertexId least = *std::min_element(
-        all.begin(), all.end(), [&](VertexId a, VertexId b) { return options_.field->at(a) < options_.field->at(b); });
+    VertexId least(0);
+    for (const VertexId v : options_.field->mesh().vertices()) {
+      if (options_.field->at(v) < options_.field->at(least)) least = v;
+    }
     return ground_.place(options_.field->mesh().point(least));
   }
 

@@ -17,20 +17,28 @@ export interface OptimizeOptions {
   first_energy?: "F" | "T" | "dT" | "BH" | "BHs" | "BP" | "nF" | "nT" | "ndT" | "ODT" | null;
   /** of first_energy: the first sweep that lowers energy, from 0; an earlier one when the first energy has converged; at least 0. Default: 20. */
   switch_at?: number;
-  /** energy: the one of energy, to the end; accuracy: only until every triangle is well-centered with a margin, then how far the middles of edges and duals are apart, which a solver's error is proportional to. Default: "energy". */
-  objective?: "energy" | "accuracy";
-  /** of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle; more than 0 and less than 0.25. Default: 0.02. */
-  margin?: number;
-  /** of accuracy: how many times as much as in HOT the offset of the middles counts; 1: HOT over size squared; at least 0. Default: 10. */
-  offset_weight?: number;
-  /** of accuracy: the same of the height of boundary edges; 0.5 where unknowns are at vertices and the input is symmetric; at least 0. Default: 18. */
-  boundary_offset_weight?: number;
+  /** energy: the one of energy, to the end; accuracy: only until every triangle is well-centered with a margin, then how far the middles of edges and duals are apart, which a solver's error is proportional to; error: after that the errors of the schemes of for_ themselves, by adjoint solutions, which takes much longer; null: accuracy; energy where it is not BP, or has switches of its own. Default: null. */
+  objective?: "energy" | "accuracy" | "error" | null;
+  /** of accuracy: what the mesh is for. vertex: unknowns at vertices (discrete exterior calculus); cell: at orthocenters (two-point flux); stars: the diagonal Hodge stars; all: something for each, and larger margins. Default: "all". */
+  for_?: "all" | "vertex" | "cell" | "stars";
+  /** of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle; more than 0 and less than 0.25; null: 0.1, but 0.02 `for_` one scheme. Default: null. */
+  margin?: number | null;
+  /** of accuracy: how many times as much as in HOT the offset of the middles counts; 1: HOT over size squared; at least 0; null: 10, but 20 for stars. Default: null. */
+  offset_weight?: number | null;
+  /** of accuracy: the same of the height of boundary edges; at least 0; null: 5; for vertex 0.5, cell 30, stars 18. Default: null. */
+  boundary_offset_weight?: number | null;
   /** of accuracy: factor of the logarithms that keep the margin; more than 0. Default: 0.003. */
   barrier?: number;
   /** of accuracy: at most this many, after those for the energy; at least 0. Default: 30. */
   accuracy_sweeps?: number;
   /** of accuracy: stop when a sweep gains less than this part; at least 0. Default: 0.00001. */
   accuracy_tolerance?: number;
+  /** of error: how much the offset of the middles counts beside it, which other errors go with; at least 0. Default: 1. */
+  offset_share?: number;
+  /** of error: at most this many, of all vertices at once, after the others; at least 0. Default: 200. */
+  error_steps?: number;
+  /** of error: stop when ten steps gain less than this part; at least 0. Default: 0.01. */
+  error_tolerance?: number;
   /** Newton steps in position and weight together; the paper's golden section; Newton in position, then weight. Default: "newton". */
   solver?: "newton" | "golden" | "alternating";
   /** what steps may change; the others stay as they are. Default: "positions_and_weights". */

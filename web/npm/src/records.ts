@@ -107,7 +107,7 @@ export interface SweepRecord {
   flips: number;
   softening: number;
   seconds: number;
-  objective: 'energy' | 'accuracy';
+  objective: 'energy' | 'accuracy' | 'error';
 }
 
 /** How far a run is. */

@@ -33,7 +33,7 @@ test('the package is installed in an empty folder, and the examples of its READM
   const ran = performance.now();
   const said = run('node', ['first.mjs'], project);
   console.log(`the first example in ${seconds(performance.now() - ran)}`);
-  assert.match(said, /^\d+ triangles are bad\nconverged after \d+ sweeps in \S+ s\ntrue\ntrue\n$/);
+  assert.match(said, /^\d+ triangles are bad\n\w+ after \d+ sweeps in \S+ s\ntrue\ntrue\n$/);
   assert(statSync(join(project, 'ring.vtu')).size > 1000);
 
   writeFileSync(join(project, 'all.mjs'), examples.join('\n'));
