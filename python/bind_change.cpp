@@ -1,4 +1,6 @@
 // Bindings of what changes meshes, but for optimize (bind_optimize.cpp): regularity, topology, size, the mesher.
+#include <limits>
+
 #include "bind.hpp"
 #include "optimize_options.hpp"
 #include "temper/geometry.hpp"
@@ -282,10 +284,21 @@ void bind_size(py::module_& m) {
   });
   m.def("input_size_field", [](const PyMesh& self) { return input_size_field(*self.read()); });
   m.def("local_size", [](const PyMesh& self) {
+    const auto sizes = local_sizes(*self.read());
+    return to_python(std::vector<double>(sizes.begin(), sizes.end()));
+  });
+  m.def("relative_lengths", [](const PyMesh& self) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     const auto mesh = self.read();
-    std::vector<double> sizes;
-    for (const VertexId v : mesh->vertices()) sizes.push_back(mesh->is_isolated(v) ? 0 : local_size(*mesh, v));
-    return to_python(sizes);
+    const auto sizes = local_sizes(*mesh);
+    std::vector<std::array<double, 2>> lengths;
+    for (const HalfedgeId h : mesh->halfedges()) {
+      if (!mesh->is_edge_representative(h)) continue;
+      const auto [edge, dual] =
+          mesh->is_boundary(h) ? RelativeLengths{kNone, kNone} : relative_lengths(*mesh, sizes, h);
+      lengths.push_back({edge, dual});
+    }
+    return rows_of<double>(std::span<const std::array<double, 2>>(lengths));
   });
   m.def("spread", [](const Doubles& values) {
     const auto all = as_span<double>(values);

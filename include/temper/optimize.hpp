@@ -142,8 +142,14 @@ struct AccuracyOptions {
   std::optional<double> boundary_offset_weight = {};
   /// ε: all h/ℓ, d/ℓ and 1 − d/ℓ stay above it. 0 < ε < 1/4 (equilateral: h/ℓ = 0.289). Absent: by the scheme.
   std::optional<double> margin = {};
-  double barrier = 0.003;   ///< μ > 0 of the logarithms that keep them there, in units of s² a triangle
-  int sweeps = 30;          ///< at most, after those that make every triangle well-centered; ≥ 0
+  /// Interior edges stay longer than so many times the local size, the mean of those at their ends, and where they are
+  /// shorter become longer, as far as the connectivity and what is fixed allow; Repair::vertices removes and inserts
+  /// vertices for them. In [0, 0.95]; equilateral triangles have 1. 0: no limit.
+  double min_edge = 0;
+  double min_dual = 0;     ///< the same of their dual edges; in [0, 0.55], of 1/√3
+  double barrier = 0.003;  ///< μ > 0 of the logarithms that keep them there, in units of s² a triangle
+  /// At most, after those that make every triangle well-centered; three times as many where lengths are asked for. ≥ 0
+  int sweeps = 30;
   double tolerance = 1e-5;  ///< a sweep that changes E and barrier by less than this part of E is the last. ≥ 0
 };
 

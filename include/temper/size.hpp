@@ -22,6 +22,8 @@ class Executor;
 
 /// √(4/√3 A), A the mean area of the triangles at v. Precondition: v is not isolated. O(degree).
 [[nodiscard]] double local_size(const Mesh& mesh, VertexId v);
+/// That of each vertex, 0 where it is isolated. O(n).
+[[nodiscard]] IdVector<VertexId, double> local_sizes(const Mesh& mesh, Executor* executor = nullptr);
 
 /// A length at every point of the plane or of the sphere: linear on each triangle of a mesh (temper/places.hpp); beyond
 /// the mesh, that of its nearest point. An immutable value, cheap to copy, and safe to ask from several threads.
@@ -63,6 +65,15 @@ class SizeField {
 [[nodiscard]] SizeField input_size_field(const Mesh& mesh);
 /// The same, looking at the mesh instead of copying it: valid as long as the mesh is there and is not changed.
 [[nodiscard]] SizeField input_size_field_of(const Mesh& mesh, Executor* executor = nullptr);
+
+/// The length of an interior edge and that of its dual, over the mean of the local sizes at its ends: equilateral
+/// triangles have 1 and 1/√3. The least of them bound the time steps of explicit schemes.
+struct RelativeLengths {
+  double edge = 0;
+  double dual = 0;  ///< negative where the dual edge is
+};
+/// Precondition: h is not on the boundary, and `sizes` are local_sizes() of the mesh.
+[[nodiscard]] RelativeLengths relative_lengths(const Mesh& mesh, const IdVector<VertexId, double>& sizes, HalfedgeId h);
 
 /// The spread of many numbers: percentiles by nearest rank. All 0 when there are none.
 struct Spread {

@@ -71,7 +71,7 @@ from ._regularity import (
     restore_regularity,
     weight_flip_threshold,
 )
-from ._size import SizeField, SizeReport, Spread, input_size_field, local_size, measure_size, spread
+from ._size import SizeField, SizeReport, Spread, input_size_field, local_size, measure_size, relative_lengths, spread
 from ._space import Space
 from ._temper import __version__, has_threads, instruction_set, instruction_sets, use_instruction_set
 from ._tensor import mapped, mapped_back

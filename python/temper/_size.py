@@ -101,6 +101,13 @@ def local_size(mesh: MeshLike) -> npt.NDArray[np.float64]:
     return _temper.local_size(as_mesh(mesh)._handle)
 
 
+def relative_lengths(mesh: MeshLike) -> npt.NDArray[np.float64]:
+    """The length of each interior edge and that of its dual, over the mean of the local sizes at its ends: equilateral
+    triangles have 1 and 1/√3; the dual is negative where the dual edge is. (n_edges, 2) float64, in the order of
+    Mesh.edges, NaN on the boundary."""
+    return _temper.relative_lengths(as_mesh(mesh)._handle)
+
+
 def spread(values: npt.ArrayLike) -> Spread:
     """Least, 5th, 50th and 95th percentile, and greatest of numbers."""
     return Spread(**_temper.spread(_doubles(values, 0, "values")))

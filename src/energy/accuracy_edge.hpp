@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "base/pack.hpp"
+#include "energy/edge_kernels.hpp"
 
 namespace temper {
 
@@ -17,9 +18,19 @@ struct AccuracyModel {
   double boundary_height = 0;                          ///< q of an edge on the boundary
   double margin = 0;                                   ///< ε
   double barrier = 0;                                  ///< μ
+  double min_edge = 0, min_dual = 0;                   ///< of edge and dual edge, over the local size
+
+  /// Says whether there is a barrier of edges too.
+  [[nodiscard]] bool keeps_lengths() const { return min_edge > 0 || min_dual > 0; }
 
   /// α and β of the star, c, c_b.
   [[nodiscard]] static AccuracyModel of(double alpha, double beta, double offset, double boundary_offset);
+};
+
+/// The barrier of an edge: its factor m, and what the squares of its length and of its dual's stay above.
+template <class T>
+struct LengthBarrier {
+  T factor, l2, dual2;
 };
 
 /// An edge: all that its energy depends on.
@@ -107,6 +118,23 @@ TEMPER_INLINE void add_split_barrier(const TriangleBarrier<T>& of, const T& l2, 
   s.dw_dw = s.dw_dw + (0.25 * m_q + 2 * (m_qq * dw4 * dw4));
 }
 
+/// Adds − ½ m ln[(L − L₀)(G² − D₀ L)/L]: of an edge that is longer than √L₀, and its dual than √D₀.
+template <class T>
+TEMPER_INLINE void add_length_barrier(const LengthBarrier<T>& of, const AccuracyEdge<T>& e, EdgeSlopes<T>& s) {
+  const T g = e.left + e.right;
+  const T by_room = 1.0 / (e.l2 - of.l2), by_dual = 1.0 / (g * g - of.dual2 * e.l2), half = 0.5 * of.factor;
+  const T l_over = of.dual2 * by_dual, g_over = of.factor * g * by_dual;
+  s.l = s.l + half * (e.inverse_l2 + l_over - by_room);
+  s.l_l = s.l_l + half * (by_room * by_room + l_over * l_over - e.inverse_l2 * e.inverse_l2);
+  const T by_gg = 2 * (g_over * g * by_dual) - of.factor * by_dual, by_lg = -g_over * l_over;
+  for (typename EdgeSlopes<T>::Side* side : {&s.left, &s.right}) {
+    side->g = side->g - g_over;
+    side->gg = side->gg + by_gg;
+    side->lg = side->lg + by_lg;
+  }
+  s.left_right = s.left_right + by_gg;
+}
+
 /// (d_ij/ℓ − ε)(d_ji/ℓ − ε), y = δw/ℓ²; both are positive where this is, for an ε below ½ and |y| < 1.
 template <class T>
 [[nodiscard]] TEMPER_INLINE T split_room(const T& y, const T& floor) {
@@ -124,6 +152,15 @@ template <class T>
   T series = all<T>(1.0 / 21);
   for (const double term : kTerms) series = series * z2 + term;
   return std::numbers::ln2 * exponent(x) + 2 * (z + z * z2 * series);
+}
+
+/// The barrier of add_length_barrier(); +∞ out of it. Precondition: G > 0.
+template <class T>
+[[nodiscard]] TEMPER_INLINE T length_barrier(const LengthBarrier<T>& of, const AccuracyEdge<T>& e) {
+  const T g = e.left + e.right, zero = all<T>(0);
+  const T length = e.l2 - of.l2, dual = g * g - of.dual2 * e.l2;
+  const T value = -0.5 * of.factor * portable_log(length * dual * e.inverse_l2);
+  return select((length > zero) & (dual > zero), value, all<T>(kInfinity));
 }
 
 }  // namespace temper

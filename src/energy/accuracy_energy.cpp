@@ -17,18 +17,23 @@ constexpr double kKept = 0.9;
 // Below this part of ℓ a height is mostly rounding, and so would be its logarithm.
 constexpr double kLeastMargin = 1e-9;
 
-/// The energy of the edge that the halfedge stands for, which is `inner` in its triangle.
-double edge_energy(const Mesh& mesh, const VertexSizes& sizes, const AccuracyModel& model, HalfedgeId h,
-                   const EdgeShape& inner) {
+/// The edge that the halfedge stands for, which is `inner` in its triangle; without scale and q.
+AccuracyEdge<double> edge_of(const Mesh& mesh, HalfedgeId h, const EdgeShape& inner) {
   const VertexId a = mesh.origin(h), b = mesh.target(h);
   const HalfedgeId twin = mesh.twin(h);
   const double outer =
       twin.valid()
           ? triangle_shape(mesh.space(), mesh.point(b), mesh.point(a), mesh.point(mesh.opposite(twin))).edges[0].g
           : 0;
-  const double height = twin.valid() ? model.height : model.boundary_height;
-  return edge_value<double>(model,
-                            {edge_scale(sizes[a], sizes[b]), height, inner.l2, 1 / inner.l2, inner.dw, inner.g, outer});
+  return {0, 0, inner.l2, 1 / inner.l2, inner.dw, inner.g, outer};
+}
+
+double edge_energy(const Mesh& mesh, const VertexSizes& sizes, const AccuracyModel& model, HalfedgeId h,
+                   const EdgeShape& inner) {
+  AccuracyEdge<double> edge = edge_of(mesh, h, inner);
+  edge.scale = edge_scale(sizes[mesh.origin(h)], sizes[mesh.target(h)]);
+  edge.height = mesh.twin(h).valid() ? model.height : model.boundary_height;
+  return edge_value(model, edge);
 }
 
 /// Its sign and factor μ s_t² apart: the sum of logarithms is one of a product.
@@ -57,6 +62,19 @@ void for_own_edges(const Mesh& mesh, const VertexSizes& sizes, const AccuracyMod
       visit(edge_energy(mesh, sizes, model, h, shape.edges[static_cast<std::size_t>(k)]));
     }
   }
+}
+
+/// Of the edges that a halfedge of t stands for, between triangles that have a floor.
+double own_length_barriers(const Mesh& mesh, const AccuracyFloors& floors, TriangleId t, const TriangleShape& shape) {
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeId h = Mesh::halfedge(t, k), twin = mesh.twin(h);
+    if (!twin.valid() || !mesh.is_edge_representative(h)) continue;
+    if (!floors.has(t) || !floors.has(Mesh::triangle(twin))) continue;
+    const EdgeShape& inner = shape.edges[static_cast<std::size_t>(k)];
+    sum += length_barrier(floors.lengths(mesh, h), edge_of(mesh, h, inner));
+  }
+  return sum;
 }
 
 template <class In>
@@ -123,17 +141,18 @@ AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const A
                              const AccuracyModel& model, Executor* executor) {
   std::vector<double> barriers((mesh.n_triangles() + kBlockSize - 1) / kBlockSize, 0.0);
   const double energy = sum_of_blocks(mesh.n_triangles(), executor, [&](std::size_t block) {
-    double sum = 0, barrier = 0;
+    double sum = 0, barrier = 0, of_lengths = 0;
     const std::size_t end = std::min(mesh.n_triangles(), (block + 1) * kBlockSize);
     for (std::size_t i = block * kBlockSize; i < end; ++i) {
       const TriangleId t(i);
       const TriangleShape shape = shape_of(mesh, t);
       for_own_edges(mesh, sizes, model, t, shape, [&](double of_edge) { sum += of_edge; });
+      if (model.keeps_lengths()) of_lengths += own_length_barriers(mesh, floors, t, shape);
       if (!floors.has(t)) continue;
       const auto [p, q, r] = mesh.corners(t);
       barrier -= triangle_scale(sizes[p], sizes[q], sizes[r]) * triangle_logarithm(shape, floors[t]);
     }
-    barriers[block] = model.barrier * barrier;
+    barriers[block] = model.barrier * barrier + of_lengths;
     return sum;
   });
   return {energy, pairwise_sum(barriers)};
@@ -162,9 +181,15 @@ bool AccuracyPatch::gather(const Mesh& mesh, const VertexSizes& sizes, const Acc
     const AccuracyStarOf<In> star = storage.view(model, open_);
     const double own = sizes[v];
     const auto at = [&](VertexId u) { return SizedPoint<In>{point_of<In>(mesh.point(u)), sizes[u]}; };
+    const auto lengths = [&](HalfedgeId h) {
+      return model.keeps_lengths() && !mesh.is_boundary(h) ? floors.lengths(mesh, h) : LengthBarrier<double>{};
+    };
     std::size_t i = 0;
     for (const HalfedgeId h : mesh.star(v)) {
       const HalfedgeId across = mesh.twin(Mesh::next(h));
+      star.spokes[i].lengths = lengths(h);
+      star.spokes[i + 1].lengths = lengths(Mesh::prev(h));
+      star.triangles[i].link_lengths = lengths(Mesh::next(h));
       const SizedPoint<In> q = at(mesh.target(h)), r = at(mesh.opposite(h));
       const auto o = across.valid() ? point_of<In>(mesh.point(mesh.opposite(across))) : typename In::Point{};
       if (i == 0) set_spoke(star, 0, own, q);

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "energy/accuracy_star.hpp"
+#include "energy/length_floors.hpp"
 #include "temper/energy.hpp"
 #include "temper/executor.hpp"
 #include "temper/mesh.hpp"
@@ -54,10 +55,12 @@ class AccuracyFloors {
   [[nodiscard]] double operator[](TriangleId t) const { return floor_[t]; }
   [[nodiscard]] std::size_t size() const { return floor_.size(); }
 
+  LengthFloors lengths;  ///< where the model keeps them
+
   /// For an archive.
   template <class Archive>
   void visit(Archive& archive) {
-    archive(floor_);
+    archive(floor_, lengths);
   }
 
  private:

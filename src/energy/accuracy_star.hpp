@@ -20,6 +20,7 @@ struct AccuracySpoke {
   using T = typename In::Scalar;
   typename In::Point q;
   T scale, height;                    ///< of its edge: s_e⁻², q
+  LengthBarrier<T> lengths;           ///< where the model keeps them
   typename In::Spoke to;              ///< from here on: with the center where it was asked about last
   T inverse_l2;                       ///< 1/L
   T left, right;                      ///< g in the triangles on its two sides; 0 where there is none
@@ -36,8 +37,9 @@ struct AccuracyTriangle {
   using T = typename In::Scalar;
   TriangleBarrier<T> barrier;
   AccuracyEdge<T> link;  ///< g in the outer triangle on its right; that on its left changes with the center
-  T split_room;          ///< (d_ij/ℓ − ε)(d_ji/ℓ − ε) of the link edge
-  T inverse_area;        ///< with the center where it was asked about last
+  LengthBarrier<T> link_lengths;
+  T split_room;    ///< (d_ij/ℓ − ε)(d_ji/ℓ − ε) of the link edge
+  T inverse_area;  ///< with the center where it was asked about last
 };
 
 /// A star in views of the storage of all its spokes and triangles.
@@ -130,7 +132,9 @@ template <class In>
   const T zero = all<T>(0);
   const auto inside = (shape.doubled_area > zero) & (ha > zero) & (hb > zero) & (hc > zero) & (da > zero) & (db > zero);
   const T logarithm = portable_log(heights * heights * (da * db * t.split_room));
-  return select(inside, edge_value(star.model, t.link) - 0.5 * m * logarithm, all<T>(kInfinity));
+  T value = edge_value(star.model, t.link) - 0.5 * m * logarithm;
+  if (star.model.keeps_lengths()) value = value + length_barrier(t.link_lengths, t.link);
+  return select(inside, value, all<T>(kInfinity));
 }
 
 /// Energy and barrier with the center at p; +∞ where a triangle turns over or has no more than its floor.
@@ -150,7 +154,10 @@ template <class In>
   star.spokes[0].right = select(star.open, zero, last_right);
   star.spokes[star.most].left = zero;
   for (std::size_t i = 0; i <= star.most; ++i) {
-    sum = sum + select(star.has_spoke(i), edge_value(star.model, star.spokes[i].edge()), zero);
+    const AccuracySpoke<In>& s = star.spokes[i];
+    T value = edge_value(star.model, s.edge());
+    if (star.model.keeps_lengths()) value = value + length_barrier(s.lengths, s.edge());
+    sum = sum + select(star.has_spoke(i), value, zero);
   }
   return select(sum < all<T>(kInfinity), sum, all<T>(kInfinity));
 }
@@ -167,6 +174,7 @@ TEMPER_INLINE void find_slopes(const AccuracyStarOf<In>& star, std::size_t i, co
   add_height_barrier(right, a.to.l2, a.inverse_l2, a.right, s, s.right);
   add_split_barrier(left, a.to.l2, a.inverse_l2, a.to.dw, s);
   add_split_barrier(right, a.to.l2, a.inverse_l2, a.to.dw, s);
+  if (star.model.keeps_lengths()) add_length_barrier(a.lengths, a.edge(), s);
 }
 
 /// Finds the gradients of the heights of triangle i; adds what their Hessians and the link edge give.
@@ -178,6 +186,7 @@ TEMPER_INLINE void add_triangle(const AccuracyStarOf<In>& star, std::size_t i, C
   a.to_left = g.pq, b.to_right = g.rp;
   EdgeSlopes<T> link = edge_slopes(star.model, t.link);
   add_height_barrier(t.barrier, t.link.l2, t.link.inverse_l2, t.link.left, link, link.left);
+  if (star.model.keeps_lengths()) add_length_barrier(t.link_lengths, t.link, link);
   // Of a closed star, the last triangle has spoke 0 on its right.
   const T right = select(star.has_spoke(i + 1), b.slopes.right.g, star.spokes[0].slopes.right.g);
   auto h = CornerMatrix<T>::product(g.qr, link.left.gg * g.qr);

@@ -8,6 +8,7 @@
 
 #include "energy/whole_mesh.hpp"
 #include "optimize/driver.hpp"
+#include "optimize/lengths.hpp"
 #include "optimize/rank.hpp"
 #include "optimize/refusal.hpp"
 #include "optimize/repair/repair_search.hpp"
@@ -23,6 +24,12 @@ bool is_worse(const Candidate& a, const Candidate& b, const Settings& settings) 
 }
 
 bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.hooks.executor) > 0; }
+
+/// Says whether c has what a repair could cure: bad triangles, or edges that vertices make too short.
+bool needs_repair(const Candidate& c, const Settings& s) {
+  return has_bad(c, s) ||
+         (s.options.repair == Repair::vertices && missing_lengths(c.work.mesh, s.accuracy, s.hooks.executor) > 0);
+}
 
 /// The input made regular, and its boundary cut, as every attempt begins.
 std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Settings& settings) {
@@ -72,7 +79,7 @@ Expected<Candidate> best_attempt(const Mesh& mesh, Settings& settings, Run& run)
 
 Candidate repaired(Candidate start, Settings& settings, Run& run) {
   const auto is_done = [&](const Candidate& c) {
-    return !run.goes_on() || run.repair_trials_left <= 0 || !has_bad(c, settings);
+    return !run.goes_on() || run.repair_trials_left <= 0 || !needs_repair(c, settings);
   };
   Candidate best, now;
   std::uint64_t i = 0;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "energy/whole_mesh.hpp"
+#include "optimize/lengths.hpp"
 #include "optimize/phase.hpp"
 #include "optimize/sweep/newton_pass.hpp"
 
@@ -101,7 +102,8 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
 
 bool EnergyPhase::has_margins() const {
   return run_.report.history.back().bad == 0 &&
-         temper::has_margins(mesh_, settings_.accuracy.margin, settings_.hooks.executor);
+         temper::has_margins(mesh_, settings_.accuracy.margin, settings_.hooks.executor) &&
+         missing_lengths(mesh_, settings_.accuracy, settings_.hooks.executor) == 0;
 }
 
 /// The paper's rule takes a rise for convergence. The relative one waits whether the energy falls again.

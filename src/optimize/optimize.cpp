@@ -8,6 +8,7 @@
 #include "optimize/attempts.hpp"
 #include "optimize/driver.hpp"
 #include "optimize/error/error_phase.hpp"
+#include "optimize/lengths.hpp"
 #include "optimize/rank.hpp"
 #include "optimize/report.hpp"
 
@@ -20,7 +21,8 @@ enum class Stage { attempts, repairs, accuracy, error };
 /// Says whether the second phase may begin at once with the input.
 bool is_ready_for_accuracy(const Mesh& mesh, const Settings& s) {
   return s.options.objective != Objective::energy && s.options.boundary != BoundaryVertices::split &&
-         has_margins(mesh, s.accuracy.margin, s.hooks.executor);
+         has_margins(mesh, s.accuracy.margin, s.hooks.executor) &&
+         missing_lengths(mesh, s.accuracy, s.hooks.executor) == 0;
 }
 
 /// The size field of a run with a band; the input's own is seen where it is, since the run works on copies.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "energy/whole_mesh.hpp"
+#include "optimize/lengths.hpp"
 #include "optimize/run.hpp"
 #include "temper/regularity.hpp"
 
@@ -43,6 +44,7 @@ Rank rank(const Mesh& mesh, const Counts& counts, const Settings& settings, cons
   r.inverted = counts.inverted;
   if (settings.options.paper.hidden != HiddenPolicy::keep) r.non_regular = counts.non_regular;
   if (settings.energy.barrier) r.bad = counts.bad;
+  r.missing_lengths = missing_lengths(mesh, settings.accuracy, settings.hooks.executor);
   if (sizes != nullptr) {
     r.lacks_margins = !has_margins(mesh, settings.accuracy.margin, settings.hooks.executor);
     const ErrorModel* model = settings.options.error.model.get();

@@ -11,11 +11,12 @@
 namespace temper {
 
 /// Validity comes first, then regularity, but for hidden vertices that the user keeps; for a barrier, which is there to
-/// make triangles well-centered, their number; for the accuracy objective its margins, which its second phase keeps;
-/// then the energy.
+/// make triangles well-centered, their number; for the accuracy objective its margins, which its second phase keeps,
+/// and lengths where they are asked for; then the energy.
 struct Rank {
   std::size_t inverted = 0, non_regular = 0, bad = 0;
   bool lacks_margins = false;
+  double missing_lengths = 0;  ///< of those asked for (lengths.hpp)
   double energy = 0;
   friend auto operator<=>(const Rank&, const Rank&) = default;
 };

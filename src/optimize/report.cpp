@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "energy/whole_mesh.hpp"
 #include "optimize/driver.hpp"
+#include "optimize/lengths.hpp"
 #include "optimize/rank.hpp"
 #include "optimize/rounding.hpp"
 #include "temper/necessity.hpp"
@@ -169,6 +170,12 @@ void Notes::tell_accuracy() {
   if (thin > 0 && options_.accuracy.margin) {
     add(count_of(thin, "triangle is", "triangles are") + " well-centered by no more than " +
         to_text(settings_.accuracy.margin) + " of an edge");
+  }
+  const std::size_t lacking = triangles_lacking_length(mesh_, settings_.accuracy).size();
+  if (lacking > 0) {
+    add("at " + count_of(lacking, "triangle", "triangles") +
+        " edges or duals are shorter than `min_edge` and `min_dual` ask for" +
+        (options_.repair == Repair::vertices ? "" : ": `repair=vertices` may find other connectivities"));
   }
   if (options_.error.model == nullptr) {
     add("energy of the accuracy objective, edges taken absolute: " + to_text(report_.initial_energy) + " before, " +

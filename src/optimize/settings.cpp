@@ -164,6 +164,7 @@ AccuracyModel accuracy_model(const AccuracyOptions& a, Scheme scheme, Star star)
                                           a.boundary_offset_weight.value_or(preset.boundary_offset_weight));
   model.margin = a.margin.value_or(preset.margin);
   model.barrier = a.barrier;
+  model.min_edge = a.min_edge, model.min_dual = a.min_dual;
   return model;
 }
 

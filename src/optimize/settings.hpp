@@ -15,6 +15,9 @@ namespace temper {
 struct AccuracyDomain {
   VertexSizes sizes;
   AccuracyFloors floors;
+
+  /// Raises the floors to what the mesh has now. True when that changes the barrier.
+  bool raise_floors(const Mesh& mesh, const AccuracyModel& model, Executor* executor);
 };
 
 struct Settings {

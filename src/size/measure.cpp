@@ -10,6 +10,7 @@
 #include "base/sum.hpp"
 #include "geometry/triangle_kernel.hpp"
 #include "mesh/blocks.hpp"
+#include "mesh/edge_lengths.hpp"
 #include "size/star_area.hpp"
 #include "temper/size.hpp"
 
@@ -106,6 +107,21 @@ double largest_edge_ratio(const Mesh& mesh, Executor* executor) {
 double local_size(const Mesh& mesh, VertexId v) {
   TEMPER_ASSERT(!mesh.is_isolated(v));
   return star_area(mesh, v).size();
+}
+
+IdVector<VertexId, double> local_sizes(const Mesh& mesh, Executor* executor) {
+  IdVector<VertexId, double> sizes(mesh.n_vertices());
+  for_each_index(mesh.n_vertices(), executor, [&](std::size_t i) {
+    const VertexId v(i);
+    sizes[v] = mesh.is_isolated(v) ? 0 : local_size(mesh, v);
+  });
+  return sizes;
+}
+
+RelativeLengths relative_lengths(const Mesh& mesh, const IdVector<VertexId, double>& sizes, HalfedgeId h) {
+  const auto [edge, dual] = edge_lengths(mesh, h);
+  const double size = 0.5 * (sizes[mesh.origin(h)] + sizes[mesh.target(h)]);
+  return {edge / size, dual / size};
 }
 
 Spread spread(std::vector<double> values) {

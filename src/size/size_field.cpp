@@ -4,8 +4,6 @@
 
 #include "base/assert.hpp"
 #include "base/text.hpp"
-#include "mesh/blocks.hpp"
-#include "mesh/erased.hpp"
 #include "temper/places.hpp"
 #include "temper/size.hpp"
 
@@ -53,18 +51,6 @@ SizeField::Sample SizeField::at(const WeightedPoint& p, TriangleId hint) const {
 
 const Mesh& SizeField::mesh() const { return *data_->mesh; }
 double SizeField::at(VertexId v) const { return data_->sizes[v]; }
-
-namespace {
-
-IdVector<VertexId, double> local_sizes(const Mesh& mesh, Executor* executor) {
-  TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
-  IdVector<VertexId, double> sizes(mesh.n_vertices());
-  for_each_index(mesh.n_vertices(), executor,
-                 [&](std::size_t i) { sizes[VertexId(i)] = local_size(mesh, VertexId(i)); });
-  return sizes;
-}
-
-}  // namespace
 
 SizeField input_size_field(const Mesh& mesh) {
   return SizeField(std::make_shared<const SizeField::Data>(mesh, local_sizes(mesh, nullptr)));

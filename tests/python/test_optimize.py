@@ -317,6 +317,21 @@ def test_the_accuracy_objective_lowers_the_error_of_the_star_and_keeps_its_margi
         temper.optimize(accurate, objective="accuracy", margin=0.5)
 
 
+def test_edges_and_duals_become_as_long_as_is_asked_for(ring):
+    def least(mesh):
+        lengths = temper.relative_lengths(mesh)
+        assert lengths.shape == (mesh.n_edges, 2) and np.isnan(lengths[:, 0]).sum() == len(mesh.boundary_edges)
+        return np.nanmin(lengths, axis=0)
+
+    a = 0.5 * np.sqrt(3)
+    hexagon = temper.Mesh([[1, 0], [0.5, a], [-0.5, a], [-1, 0], [-0.5, -a], [0.5, -a], [0, 0]], [[6, k, (k + 1) % 6] for k in range(6)])
+    assert least(hexagon) == pytest.approx([1, 1 / np.sqrt(3)], rel=1e-12)
+    mesh = temper.optimized(ring, min_edge=0.6, min_dual=0.25)
+    assert (least(mesh) >= [0.6, 0.25]).all()
+    with pytest.raises(temper.TemperError, match="min_dual"):
+        temper.optimize(mesh, min_dual=0.6)
+
+
 def test_sizes_are_reported_and_can_be_held(ring):
     field = temper.input_size_field(ring)
     assert temper.measure_size(ring, field).band == pytest.approx(1)

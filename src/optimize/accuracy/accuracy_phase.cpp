@@ -9,6 +9,9 @@
 namespace temper {
 namespace {
 
+// Edges that have to become longer take so many times as many sweeps.
+constexpr int kSweepsForLengths = 3;
+
 /// The settings of the second phase: Newton steps along the curve with all edges kept, whatever the first one did.
 Settings of_accuracy(Settings s, const AccuracyDomain& domain) {
   const OptimizeOptions first = std::exchange(s.options, {});
@@ -36,13 +39,20 @@ AccuracyPhase::AccuracyPhase(const WorkingCopy& work, const Settings& settings, 
       energy_unit_(energy_unit(settings_, work.frame)),
       bad_(count_bad(mesh_, settings.hooks.executor)) {}
 
+bool AccuracyDomain::raise_floors(const Mesh& mesh, const AccuracyModel& model, Executor* executor) {
+  std::size_t raised = floors.raise(mesh, model.margin, executor);
+  if (model.keeps_lengths()) raised += floors.lengths.raise(mesh, local_sizes(mesh, executor), model, executor);
+  return raised > 0;
+}
+
 void AccuracyPhase::begin() {
-  domain_.floors.raise(mesh_, settings_.accuracy.margin, settings_.hooks.executor);
+  domain_.raise_floors(mesh_, settings_.accuracy, settings_.hooks.executor);
   now_ = sum();
 }
 
 bool AccuracyPhase::may_sweep() const {
-  const bool sweeps_left = iteration_ < settings_.options.accuracy.sweeps;
+  const int most = settings_.options.accuracy.sweeps * (settings_.accuracy.keeps_lengths() ? kSweepsForLengths : 1);
+  const bool sweeps_left = iteration_ < most;
   if (!sweeps_left) run_.report.stopped = Stopped::accuracy_sweeps;
   return sweeps_left && run_.sweeps_left();
 }
@@ -59,9 +69,10 @@ SweepRecord AccuracyPhase::measure() {
 Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool changed) {
   TEMPER_ASSERT(!changed && run_.report.history.back().flips == 0);  // the connectivity is what it was
   TEMPER_ASSERT_SLOW(count_bad(mesh_, nullptr) == bad_);
-  if (domain_.floors.raise(mesh_, settings_.accuracy.margin, settings_.hooks.executor) > 0) {
+  const bool raised = domain_.raise_floors(mesh_, settings_.accuracy, settings_.hooks.executor);
+  if (raised || settings_.accuracy.keeps_lengths()) {
     now_ = sum();  // of another barrier
-    return Verdict::improving;
+    if (raised) return Verdict::improving;
   }
   const double change = (before_.energy + before_.barrier) - (now_.energy + now_.barrier);
   if (std::abs(change) > settings_.options.accuracy.tolerance * std::abs(now_.energy)) return Verdict::improving;

@@ -24,7 +24,7 @@ class AccuracyPhase final : public Phase {
   SweepRecord measure() override;
   Verdict judge(bool changed) override;
   void compare_from_here() override {}
-  [[nodiscard]] Keeps keeps() const override { return Keeps::best; }
+  [[nodiscard]] Keeps keeps() const override { return settings_.accuracy.keeps_lengths() ? Keeps::last : Keeps::best; }
   int& iteration() override { return iteration_; }
   void visit(Archive& archive) override;
 

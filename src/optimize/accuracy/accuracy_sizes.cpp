@@ -36,12 +36,6 @@ VertexSizes smoothed(const Mesh& mesh, VertexSizes sizes, Executor* executor) {
   return sizes;
 }
 
-VertexSizes local_sizes(const Mesh& mesh, Executor* executor) {
-  VertexSizes sizes(mesh.n_vertices());
-  for_each_index(sizes.size(), executor, [&](std::size_t i) { sizes[VertexId(i)] = local_size(mesh, VertexId(i)); });
-  return sizes;
-}
-
 VertexSizes sizes_of_field(const Mesh& mesh, const SizeField& field, Executor* executor) {
   VertexSizes sizes(mesh.n_vertices());
   for_blocks(mesh.n_vertices(), executor, [&](std::size_t first, std::size_t last) {

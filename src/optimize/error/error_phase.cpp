@@ -55,7 +55,7 @@ ErrorPhase::ErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, co
 }
 
 void ErrorPhase::begin() {
-  domain_.floors.raise(mesh_, settings_.accuracy.margin, settings_.hooks.executor);
+  domain_.raise_floors(mesh_, settings_.accuracy, settings_.hooks.executor);
   start_ = settings_.options.error.model->errors(mesh_, settings_.hooks.executor);
   now_ = value();
   history_ = {now_.lowered};
@@ -116,7 +116,7 @@ SweepRecord ErrorPhase::measure() {
 }
 
 Phase::Verdict ErrorPhase::judge(bool /*changed*/) {
-  if (domain_.floors.raise(mesh_, settings_.accuracy.margin, settings_.hooks.executor) > 0) {
+  if (domain_.raise_floors(mesh_, settings_.accuracy, settings_.hooks.executor)) {
     now_ = value();  // of another barrier
     descent_.forget();
   }

@@ -159,9 +159,11 @@ constexpr auto kPaper = &Options::paper;
 constexpr OptionRange at_least(double low) { return {.low = low}; }
 constexpr OptionRange more_than(double low) { return {.low = low, .open = true}; }
 constexpr OptionRange inside(double low, double high) { return {low, high, true}; }
+constexpr OptionRange from_to(double low, double high) { return {low, high}; }
 
-constexpr double kMostMargin = 0.25;       // of h/ℓ an equilateral triangle has 0.289, and no other one as much
-constexpr double kLeastBoundaryRatio = 2;  // a cut in the middle leaves edges of half the length
+constexpr double kMostMargin = 0.25;  // of h/ℓ an equilateral triangle has 0.289, and no other one as much
+constexpr double kMostEdge = 0.95, kMostDual = 0.55;  // of local sizes equilateral triangles have 1 and 0.577
+constexpr double kLeastBoundaryRatio = 2;             // a cut in the middle leaves edges of half the length
 
 bool lowers_accuracy(const Options& o) { return objective_of(o) != Objective::energy; }
 constexpr OptionNeed kForAccuracy = {"objective", "accuracy", lowers_accuracy};
@@ -225,6 +227,12 @@ constexpr OptionRow kAccuracyRows[] = {
     row<kAccuracy, &Accuracy::margin>(
         "margin", "of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle",
         {.range = inside(0, kMostMargin), .absent = "0.1, but 0.02 `for_` one scheme", .needs = {kForAccuracy}}),
+    row<kAccuracy, &Accuracy::min_edge>("min_edge",
+                                        "of accuracy: least length of interior edges, over the local size; 0: none",
+                                        {.range = from_to(0, kMostEdge), .needs = {kForAccuracy}}),
+    row<kAccuracy, &Accuracy::min_dual>("min_dual",
+                                        "of accuracy: the same of their dual edges, whose lengths bound time steps",
+                                        {.range = from_to(0, kMostDual), .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::offset_weight>(
         "offset_weight",
         "of accuracy: how many times as much as in HOT the offset of the middles counts; 1: HOT over size squared",

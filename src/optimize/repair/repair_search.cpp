@@ -4,6 +4,7 @@
 
 #include "base/assert.hpp"
 #include "mesh/bad_triangles.hpp"
+#include "optimize/lengths.hpp"
 #include "optimize/repair/edits.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/splice.hpp"
@@ -40,8 +41,9 @@ bool repairs(const Settings& settings) {
 }
 
 bool RepairSearch::improve_one_place() {
-  const std::vector<TriangleId> bad = bad_triangles(work_.mesh);
   const bool vertices = settings_.options.repair == Repair::vertices;
+  std::vector<TriangleId> bad = bad_triangles(work_.mesh);
+  if (bad.empty() && vertices) bad = triangles_lacking_length(work_.mesh, settings_.accuracy);
   // Each of many bad places gets its chance.
   const int most_failures = std::max(vertices ? kMostFailures : kMostFailuresOfMoves, static_cast<int>(bad.size()));
   while (!bad.empty() && failures_ < most_failures && run_.repair_trials_left > 0) {
@@ -61,7 +63,7 @@ bool RepairSearch::improve_one_place() {
 
 /// The edit after which the neighbourhood stands best, if that helps; of the least tier that has one.
 std::optional<Edit> RepairSearch::choose(const Neighborhood& around) {
-  const Standing before = standing(around.mesh);
+  const Standing before = standing(around.mesh, settings_.accuracy);
   std::optional<Edit> best;
   Standing least = before;
   std::vector<Tried> tried;
@@ -74,7 +76,7 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around) {
       if (!helps(least, outcome.standing)) continue;
       best = edit;
       least = outcome.standing;
-      if (least.bad == 0) break;
+      if (least == Standing{}) break;
     }
     if (best) break;
   }

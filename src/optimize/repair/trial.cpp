@@ -8,6 +8,7 @@
 #include "geometry/predicates_inline.hpp"
 #include "geometry/triangle_kernel.hpp"
 #include "mesh/bad_triangles.hpp"
+#include "optimize/lengths.hpp"
 #include "optimize/repair/refinement.hpp"
 #include "optimize/run.hpp"
 #include "optimize/schedule.hpp"
@@ -103,7 +104,7 @@ Outcome Trial::run(const Edit& edit) && {
   if (!apply(edit) || !flipper_.restore_all()) return {};
   sweep();
   Outcome outcome;
-  outcome.standing = standing(work_.mesh);
+  outcome.standing = standing(work_.mesh, settings_.accuracy);
   outcome.valid = count_non_regular_edges(work_.mesh, false) == 0 && rim_is_regular(around_, work_.mesh);
   outcome.events = std::move(events_);
   return outcome;
@@ -201,7 +202,7 @@ void Trial::sweep() {
       if (!work_.mesh.is_isolated(v)) step_.improve(v);
     }
     gamma = std::max(kLeastGamma, kFactor * gamma);
-    if (gamma < kSharp && !any_bad()) return;
+    if (gamma < kSharp && !settings_.accuracy.keeps_lengths() && !any_bad()) return;
   }
 }
 
@@ -222,8 +223,9 @@ bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, V
   return !mesh.is_fixed(v);
 }
 
-Standing standing(const Mesh& mesh) {
+Standing standing(const Mesh& mesh, const AccuracyModel& model) {
   Standing s;
+  s.violation = missing_lengths(mesh, model);
   for (const TriangleId t : mesh.triangles()) {
     if (!is_bad(mesh, t)) continue;
     ++s.bad;

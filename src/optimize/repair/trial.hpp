@@ -33,13 +33,13 @@ struct Edit {
 };
 
 /// The standing of a mesh, how far it is from well-centered: first the number of triangles that are not, then by how
-/// much.
+/// much, and by what edges lack of their lengths (optimize/lengths.hpp).
 struct Standing {
   std::size_t bad = 0;
-  double violation = 0;  ///< Σ over bad triangles of the worst of −h/ℓ, −d/ℓ and d/ℓ − 1
+  double violation = 0;  ///< Σ over bad triangles of the worst of −h/ℓ, −d/ℓ and d/ℓ − 1, and over edges
   friend auto operator<=>(const Standing&, const Standing&) = default;
 };
-[[nodiscard]] Standing standing(const Mesh& mesh);
+[[nodiscard]] Standing standing(const Mesh& mesh, const AccuracyModel& model = {});
 
 /// Says whether v is on no boundary, interface or rim and not fixed; plan_removal says whether it can go.
 [[nodiscard]] bool may_be_removed(const Mesh& mesh, const std::vector<std::uint8_t>& frozen, VertexId v);

@@ -152,9 +152,21 @@ void BatchStep::gather_domain(const Occupant& occupant, std::size_t lane) {
     }
     accuracy_.floor[i][lane] = floors[t];
     accuracy_.inner[i][lane] = across.valid() ? -1 : 0;
+    if (settings_.accuracy.keeps_lengths()) gather_lengths(h, i, lane);
     accuracy_.link_size[i++][lane] = sizes[mesh_.target(h)];
   }
   accuracy_.link_size[i][lane] = sizes[occupant.link[i]];
+}
+
+/// What the edges of triangle i of a star, whose spoke is h, stay longer than.
+void BatchStep::gather_lengths(HalfedgeId h, std::size_t i, std::size_t lane) {
+  const LengthFloors& lengths = settings_.accuracy_domain->floors.lengths;
+  const auto of = [&](HalfedgeId edge) {
+    return mesh_.is_boundary(edge) ? LengthBarrier<double>{} : lengths(mesh_, edge);
+  };
+  accuracy_.spoke[i].set(lane, of(h));
+  accuracy_.spoke[i + 1].set(lane, of(Mesh::prev(h)));
+  accuracy_.link[i].set(lane, of(Mesh::next(h)));
 }
 
 void BatchStep::run() {

@@ -47,6 +47,7 @@ class BatchStep {
   void gather(VertexId v, Mobility mobility);
   [[nodiscard]] bool gather_star(Occupant& occupant, std::size_t lane);
   void gather_domain(const Occupant& occupant, std::size_t lane);
+  void gather_lengths(HalfedgeId h, std::size_t i, std::size_t lane);
   void run();
   void step_and_settle();
   void settle(const Occupant& occupant, std::size_t lane, const StepOutcome& outcome, bool flips);

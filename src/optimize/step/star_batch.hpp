@@ -60,6 +60,16 @@ struct alignas(64) AccuracyLanes {
   Lane link_size[StarBatch::kMostTriangles + 1];  ///< s at q_i
   Lane floor[StarBatch::kMostTriangles];          ///< ε of triangle i
   LaneMask inner[StarBatch::kMostTriangles];      ///< there is a triangle across link edge i
+
+  struct alignas(64) Lengths {
+    Lane factor, l2, dual2;
+    void set(std::size_t lane, const LengthBarrier<double>& of) {
+      factor[lane] = of.factor, l2[lane] = of.l2, dual2[lane] = of.dual2;
+    }
+  };
+  // Where the model keeps them.
+  Lengths spoke[StarBatch::kMostTriangles + 1];
+  Lengths link[StarBatch::kMostTriangles];
 };
 
 /// The steps of a batch in one space and one instruction set.

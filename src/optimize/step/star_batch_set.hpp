@@ -356,6 +356,10 @@ StepOutcome barrier_step(const StepParameters& parameters, StarBatch& batch) {
   });
 }
 
+TEMPER_INLINE LengthBarrier<Pack> load_lengths(const AccuracyLanes::Lengths& of) {
+  return {Pack::load(of.factor), Pack::load(of.l2), Pack::load(of.dual2)};
+}
+
 template <class In>
 StepOutcome accuracy_step(const StepParameters& parameters, const AccuracyModel& model, const AccuracyLanes& lanes,
                           StarBatch& batch) {
@@ -372,6 +376,10 @@ StepOutcome accuracy_step(const StepParameters& parameters, const AccuracyModel&
     set_triangle(star, i, size, q, r, Pack::load(lanes.floor[i]), load(lanes.inner[i]), load<In>(batch.across[i]));
     set_spoke(star, i + 1, size, r);
     q = r;
+  }
+  if (model.keeps_lengths()) {
+    for (std::size_t i = 0; i < star.most; ++i) triangles[i].link_lengths = load_lengths(lanes.link[i]);
+    for (std::size_t i = 0; i <= star.most; ++i) spokes[i].lengths = load_lengths(lanes.spoke[i]);
   }
   const auto [to, stepped, alone] = newton_search<In>(star, kTrialsWithMargins, parameters, batch);
   const Mask certain = well_centered_at(batch, to);

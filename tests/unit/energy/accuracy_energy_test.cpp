@@ -41,6 +41,7 @@ VertexSizes uneven_sizes(const Mesh& mesh, double scale = 1) {
 struct Twin {
   const StarOf& star;
   Real offset, boundary_offset, barrier;
+  const AccuracyFloors* lengths = nullptr;  ///< where those of edges count too
 };
 
 /// Moment and offset of an edge as they are defined, from d and h; its barrier from each triangle by itself.
@@ -51,7 +52,7 @@ Real twin_total(const Mesh& mesh, const VertexSizes& sizes, const Twin& twin, Ve
   const auto side = [&](HalfedgeId h) {
     return naive_edge(mesh.space(), at(mesh.origin(h)), at(mesh.target(h)), at(mesh.opposite(h)));
   };
-  const auto [name, alpha, beta] = twin.star;
+  const auto& [name, alpha, beta] = twin.star;
   Real sum = 0;
   for (const HalfedgeId h : mesh.halfedges()) {
     const NaiveEdge e = side(h);
@@ -65,6 +66,10 @@ Real twin_total(const Mesh& mesh, const VertexSizes& sizes, const Twin& twin, Ve
       const Real weighed =
           twin.offset * alpha * delta * delta + (boundary ? twin.boundary_offset : twin.offset) * beta * eta * eta;
       sum += e.l * dual * (moment + 3 * weighed) / (s * s);
+      if (twin.lengths != nullptr && !boundary) {
+        const auto [factor, l2, dual2] = twin.lengths->lengths(mesh, h);
+        sum -= Real(factor) * (std::log(e.l * e.l - Real(l2)) + std::log(dual * dual - Real(dual2))) / 2;
+      }
     }
     const Real s = (Real(sizes[i]) + Real(sizes[j]) + Real(sizes[mesh.opposite(h)])) / 3;
     sum -= twin.barrier * s * s *
@@ -249,6 +254,87 @@ TEST(AccuracyPatch, HasDerivativesToWhichDifferencesOfTheTwinConvergeWithOrderTw
     }
   }
   EXPECT_EQ(cases, 5 * 4 * 7);
+}
+
+/// The model with lengths that some edges have, and others do not.
+AccuracyModel with_lengths(AccuracyModel model) {
+  model.min_edge = 0.9, model.min_dual = 0.5;
+  return model;
+}
+
+/// The floors of all, with those of edges.
+AccuracyFloors floors_with_lengths(const Mesh& mesh, const VertexSizes& sizes, const AccuracyModel& model) {
+  AccuracyFloors floors;
+  floors.raise(mesh, kMargin);
+  floors.lengths.raise(mesh, sizes, model);
+  return floors;
+}
+
+TEST(AccuracyPatch, HasTheBarrierOfLengthsOfTheTwin) {
+  struct Place {
+    double scale, radius;
+  };
+  AccuracyPatch star;
+  for (const auto& [scale, radius] : {Place{1, 0}, Place{0x1p-30, 0}, Place{1, 20}}) {
+    Mesh mesh = small_lattice(scale, {3 * scale, -scale}, radius);
+    const VertexSizes sizes = uneven_sizes(mesh, scale);
+    const AccuracyModel model = with_lengths(model_of(kStarsOf[1], 10, 18));
+    const AccuracyFloors floors = floors_with_lengths(mesh, sizes, model);
+    const Twin twin{kStarsOf[1], 10, 18, Real(kBarrier), &floors};
+    const AccuracyTotal total = accuracy_total(mesh, sizes, floors, model);
+    EXPECT_NEAR((total.energy + total.barrier) / static_cast<double>(twin_total(mesh, sizes, twin, {}, {})), 1, 1e-12);
+    for (const std::size_t v : {12, 6, 2, 10, 0, 4, 24}) {
+      const VertexId center(v);
+      const WeightedPoint p = mesh.point(center);
+      ASSERT_TRUE(star.gather(mesh, sizes, floors, model, center));
+      ASSERT_TRUE(std::isfinite(star.value(p)));
+      const VertexDerivatives exact = star.derivatives();
+      const auto errors = [&](Real step) { return errors_at(mesh, sizes, twin, center, exact, step, scale); };
+      const AccuracyErrors coarse = errors(1e-3L), fine = errors(5e-4L);
+      EXPECT_NEAR(static_cast<double>(coarse.gradient / fine.gradient), 4, 0.2) << v;
+      EXPECT_NEAR(static_cast<double>(coarse.hessian / fine.hessian), 4, 0.2) << v;
+      EXPECT_LT(fine.gradient, 1e-3L) << v;
+      EXPECT_LT(fine.hessian, 1e-3L) << v;
+      const WeightedPoint there = along(mesh.space(), p, {0.01 * scale, -0.008 * scale, 0.005 * scale * scale}, 1);
+      const double change = star.value(there) - star.value(p);
+      mesh.set_point(center, there);
+      const AccuracyTotal after = accuracy_total(mesh, sizes, floors, model);
+      EXPECT_NEAR((after.energy + after.barrier) - (total.energy + total.barrier), change, 1e-12 * total.energy) << v;
+      mesh.set_point(center, p);
+    }
+  }
+}
+
+TEST(LengthFloors, AreWhatIsAskedForWhereItIsThereElseALittleLessAndNeverFall) {
+  const Mesh mesh = lattice({.jitter = 0.3, .weight = 0.1, .seed = 5});
+  const VertexSizes sizes(mesh.n_vertices(), 1.0);
+  const AccuracyModel model = with_lengths(model_of(kStarsOf[1], 10, 18));
+  LengthFloors floors;
+  EXPECT_GT(floors.raise(mesh, sizes, model), 0U);
+  double asked_for = 0;
+  int there = 0, shorter = 0;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.is_boundary(h) || !mesh.is_edge_representative(h)) continue;
+    const auto [factor, l2, dual2] = floors(mesh, h);
+    EXPECT_EQ(floors(mesh, mesh.twin(h)).l2, l2);
+    const double edge = length(mesh.position(mesh.target(h)) - mesh.position(mesh.origin(h)));
+    asked_for = std::max(asked_for, std::sqrt(l2));
+    EXPECT_LT(l2, edge * edge);
+    ++(edge > 0.96 ? there : shorter);
+    if (edge <= 0.95) {
+      EXPECT_NEAR(std::sqrt(l2), 0.9 * edge, 1e-15);
+      EXPECT_GT(factor, kBarrier);
+    }
+  }
+  EXPECT_GE(asked_for, model.min_edge);
+  EXPECT_GT(there, 0);
+  EXPECT_GT(shorter, 0);
+  const LengthFloors before = floors;
+  floors.raise(lattice({.jitter = 0, .weight = 0, .scale = 0.5}), sizes, model);
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.is_boundary(h)) continue;
+    EXPECT_GE(floors(mesh, h).l2, before(mesh, h).l2);
+  }
 }
 
 TEST(AccuracyPatch, IsInfiniteOutsideOfItsMargins) {

@@ -18,6 +18,7 @@
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 #include "temper/regularity.hpp"
+#include "temper/size.hpp"
 
 namespace temper::test {
 namespace {
@@ -75,6 +76,38 @@ TEST(Accuracy, NeverRaisesTheEnergyOfAMeshWithAllMarginsAndKeepsItsEdges) {
     EXPECT_EQ(report.flips, 0u);
     for (const HalfedgeId h : mesh.halfedges()) EXPECT_EQ(mesh.origin(h), before.origin(h));
     expect_inside(mesh, *o.accuracy.margin);
+  }
+}
+
+/// The least lengths of interior edges and of their duals, over the local sizes.
+RelativeLengths least_lengths(const Mesh& mesh) {
+  const auto sizes = local_sizes(mesh);
+  RelativeLengths least{kInfinity, kInfinity};
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.is_boundary(h)) continue;
+    const auto [edge, dual] = relative_lengths(mesh, sizes, h);
+    least.edge = std::min(least.edge, edge);
+    least.dual = std::min(least.dual, dual);
+  }
+  return least;
+}
+
+TEST(Accuracy, MakesEdgesAndDualsAsLongAsIsAskedFor) {
+  constexpr double kEdge = 0.65, kDual = 0.25;
+  for (const Mesh& input : {*random_points({.vertices = 300, .seed = 2}), *annulus(), *airfoil()}) {
+    for (const Scheme scheme : {Scheme::all, Scheme::vertex}) {
+      OptimizeOptions o;
+      o.for_ = scheme;
+      Mesh without = input, with = input;
+      improved(without, o);
+      o.accuracy.min_edge = kEdge, o.accuracy.min_dual = kDual;
+      improved(with, o);
+      const auto [edge, dual] = least_lengths(with);
+      EXPECT_GE(edge, kEdge);
+      EXPECT_GE(dual, kDual);
+      EXPECT_LT(std::min(least_lengths(without).edge / kEdge, least_lengths(without).dual / kDual), 1);
+      expect_inside(with, scheme == Scheme::all ? 0.05 : 0.02);
+    }
   }
 }
 

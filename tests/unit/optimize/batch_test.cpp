@@ -170,8 +170,8 @@ INSTANTIATE_TEST_SUITE_P(All, BatchOfBarrier,
                                           testing::Values(0, 1, 2)));
 
 /// What the accuracy objective asks of the star that has been put into the last lane.
-void put_domain(const Mesh& mesh, VertexId v, const AccuracyDomain& domain, const StarBatch& batch,
-                AccuracyLanes& lanes) {
+void put_domain(const Mesh& mesh, VertexId v, const AccuracyTask& task, const StarBatch& batch, AccuracyLanes& lanes) {
+  const AccuracyDomain& domain = task.domain;
   const std::size_t lane = batch.lanes - 1;
   Patch patch;
   gather_patch(mesh, v, false, patch);
@@ -182,15 +182,23 @@ void put_domain(const Mesh& mesh, VertexId v, const AccuracyDomain& domain, cons
   for (std::size_t i = 0; i < patch.size(); ++i) {
     lanes.floor[i][lane] = domain.floors[Mesh::triangle(patch.spoke[i])];
     lanes.inner[i][lane] = mesh.twin(Mesh::next(patch.spoke[i])).valid() ? -1 : 0;
+    const auto length = [&](HalfedgeId h) {
+      return !task.model.keeps_lengths() || mesh.is_boundary(h) ? LengthBarrier<double>{}
+                                                                : domain.floors.lengths(mesh, h);
+    };
+    lanes.spoke[i].set(lane, length(patch.spoke[i]));
+    lanes.spoke[i + 1].set(lane, length(Mesh::prev(patch.spoke[i])));
+    lanes.link[i].set(lane, length(Mesh::next(patch.spoke[i])));
   }
 }
 
-AccuracyTask task_of(const Mesh& mesh) {
+AccuracyTask task_of(const Mesh& mesh, double min_edge = 0, double min_dual = 0) {
   AccuracyTask task{AccuracyModel::of(2.0 / 3, 2.0 / 3, 10, 18), {VertexSizes(mesh.n_vertices()), {}}};
   task.model.margin = 0.02, task.model.barrier = 0.003;
+  task.model.min_edge = min_edge, task.model.min_dual = min_dual;
   Noise noise(7);
   for (double& s : task.domain.sizes) s = 1 + 0.2 * noise();
-  task.domain.floors.raise(mesh, task.model.margin);
+  task.domain.raise_floors(mesh, task.model, nullptr);
   return task;
 }
 
@@ -205,16 +213,18 @@ AccuracyBatch accuracy_batch(const Mesh& mesh, const AccuracyTask& task, std::si
   AccuracyBatch b;
   for (std::size_t i = 0; i < kLanes - 1; ++i) {
     put(mesh, VertexId(first + i), b.stars);
-    put_domain(mesh, VertexId(first + i), task.domain, b.stars, b.lanes);
+    put_domain(mesh, VertexId(first + i), task, b.stars, b.lanes);
   }
   leave_empty(b.stars, b.stars.lanes);
   b.outcome = batch_steps(Space()).accuracy({{}, kRelaxation, 0, 0}, task.model, b.lanes, b.stars);
   return b;
 }
 
-TEST(BatchOfAccuracy, MakesTheStepsThatVerticesMakeAlone) {
+class BatchOfAccuracy : public testing::TestWithParam<bool> {};
+
+TEST_P(BatchOfAccuracy, MakesTheStepsThatVerticesMakeAlone) {
   const Mesh mesh = lattice({.n = 16, .jitter = 0.1, .weight = 0.06, .seed = 3});
-  const AccuracyTask task = task_of(mesh);
+  const AccuracyTask task = GetParam() ? task_of(mesh, 0.9, 0.5) : task_of(mesh);
   std::size_t stepped = 0, on_boundary = 0;
   for (std::size_t first = 0; first + kLanes <= mesh.n_vertices(); first += kLanes) {
     const auto [stars, lanes, outcome] = accuracy_batch(mesh, task, first);
@@ -246,7 +256,9 @@ TEST(BatchOfAccuracy, MakesTheStepsThatVerticesMakeAlone) {
   EXPECT_GT(on_boundary, 10U);
 }
 
-TEST(BatchOfAccuracy, MakesTheSameStepsInEveryInstructionSet) {
+INSTANTIATE_TEST_SUITE_P(WithoutAndWithLengths, BatchOfAccuracy, testing::Bool());
+
+TEST(BatchesOfAccuracy, MakeTheSameStepsInEveryInstructionSet) {
   const KeepInstructionSet keep;
   const Mesh mesh = lattice({.n = 16, .jitter = 0.15, .weight = 0.1, .seed = 4});
   const AccuracyTask task = task_of(mesh);

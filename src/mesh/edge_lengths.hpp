@@ -1,0 +1,27 @@
+// The lengths of an interior edge and of its dual.
+#pragma once
+
+#include <cmath>
+
+#include "geometry/triangle_kernel.hpp"
+#include "temper/mesh.hpp"
+
+namespace temper {
+
+struct EdgeLengths {
+  double edge = 0;
+  double dual = 0;  ///< negative where the orthocenters of the triangles on its sides have changed places
+};
+
+/// In doubles: a dual that is hardly one may have either sign. Precondition: h is not on the boundary.
+[[nodiscard]] inline EdgeLengths edge_lengths(const Mesh& mesh, HalfedgeId h) {
+  const auto side = [&](HalfedgeId s) {
+    const VertexId a = mesh.origin(s), b = mesh.target(s), c = mesh.opposite(s);
+    return triangle_shape(mesh.space(), mesh.point(a), mesh.point(b), mesh.point(c)).edges[0];
+  };
+  const EdgeShape left = side(h), right = side(mesh.twin(h));
+  const double length = std::sqrt(left.l2);
+  return {length, (left.g + right.g) / length};
+}
+
+}  // namespace temper
