@@ -9,7 +9,11 @@
 //
 // where the product is positive. If the least a and the least b add up to 1 or less, no s is left. The proof needs no
 // weight and no other vertex (docs/explain.md): |p|² − w_p, linear in each triangle, is a convex function along every
-// segment inside the domain. Precondition: the mesh lies in the plane.
+// segment inside the domain.
+//
+// On the sphere the foot is the direction of (1 − s) u + s v, and a(X) = |u × X|² / ((u × X)·((u − v) × X)), for X less
+// than a quarter of a great circle from u: as an arc, tan um < tan uX / cos U, where U is the angle at u between v
+// and X.
 #pragma once
 
 #include <optional>
@@ -25,7 +29,7 @@ struct EdgeConflict {
   HalfedgeId edge;        ///< from u to v: the boundary halfedge, or the smaller of two twins
   VertexId near_u;        ///< which wants the crossing less than a ℓ from u,
   VertexId near_v;        ///< and which wants it less than b ℓ from v
-  double a = 0, b = 0;    ///< parts of the edge's length ℓ
+  double a = 0, b = 0;    ///< parts of the edge's length ℓ, on the sphere of the arc
   double sum = 0;         ///< a + b: at most 1 when there is no place for the crossing
   double split_at = 0.5;  ///< part of the way from u: the middle of what is left out, but no closer to an end than 0.2
 };
@@ -34,7 +38,8 @@ struct EdgeConflict {
 /// of is_exact_coordinate. Asked are the vertices that stay, on the boundary, on constrained lines or fixed, for which
 /// the triangle u v X lies in the domain (exact); constrained lines in between do not matter. So, with up_to = 1: no
 /// well-centered mesh has this edge and these two vertices. Larger values find edges that leave little room. Looks at
-/// the triangles that meet the disc around the edge.
+/// the triangles that meet the disc around the edge. On the sphere up_to is of chords between lifted points, which is
+/// the same for 1, and exact are coordinates that are 0 or of 2^-82 … 2^120.
 [[nodiscard]] std::optional<EdgeConflict> edge_conflict(const Mesh& mesh, HalfedgeId h, double up_to = 1);
 
 /// The edges of the boundary and of constrained lines with such a conflict, least sum first. None does not mean that

@@ -50,4 +50,29 @@ inline Mesh ocean(const Mesh& globe, double northernmost) {
   return std::move(built->mesh);
 }
 
+/// A mesh of the plane without weights, seen from the center on the sphere that it touches at the pole.
+inline Mesh on_cap(const Mesh& plane, double radius) {
+  std::vector<Vec3> places;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::array<std::int32_t, 2>> constrained;
+  const auto number = [](VertexId v) { return static_cast<std::int32_t>(v.index); };
+  for (const VertexId v : plane.vertices()) {
+    const Vec3 p = {plane.position(v).x, plane.position(v).y, radius};
+    places.push_back(radius / length(p) * p);
+  }
+  for (const TriangleId t : plane.triangles()) {
+    const auto [a, b, c] = plane.corners(t);
+    triangles.push_back({number(a), number(b), number(c)});
+  }
+  for (const HalfedgeId h : plane.halfedges()) {
+    if (plane.is_constrained(h) && plane.is_edge_representative(h)) {
+      constrained.push_back({number(plane.origin(h)), number(plane.target(h))});
+    }
+  }
+  MeshInput input;
+  input.space = Space::sphere(radius);
+  input.sphere_points = places, input.triangles = triangles, input.constrained_edges = constrained;
+  return Mesh::build(input)->mesh;
+}
+
 }  // namespace temper::test

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "support/spheres.hpp"
 #include "temper/optimize.hpp"
 #include "unit/feasibility/support.hpp"
 
@@ -206,6 +207,128 @@ TEST(Necessity, OneEdgeHasTheConflictThatTheListHas) {
     }
     EXPECT_FALSE(edge_conflict(mesh, c.edge, c.sum * (1 - 1e-9)).has_value());
   }
+}
+
+// --- on the sphere ---------------------------------------------------------------------------------------------
+
+std::size_t bad_on_sphere(const Mesh& mesh) {
+  std::size_t bad = 0;
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [p, q, r] = mesh.corners(t);
+    bad += !is_well_centered(mesh.lifted_point(p), mesh.lifted_point(q), mesh.lifted_point(r));
+  }
+  return bad;
+}
+
+TEST(Necessity, NoWellCenteredMeshOfTheSphereHasAnEdgeThatMustBeSplit) {
+  std::size_t edges = 0, meshes = 0, conflicts_before = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    // From 20 points on, edges of up to 80 degrees: nothing here is nearly flat.
+    Mesh mesh = globe(20 + 10 * seed, seed, 1000);
+    if (seed % 2 == 0) mesh = ocean(mesh, 300);
+    conflicts_before += edges_that_must_be_split(all_constrained(mesh)).size();
+    ASSERT_TRUE(optimize(mesh));
+    if (bad_on_sphere(mesh) > 0) continue;
+    ++meshes;
+    edges += mesh.n_edges();
+    EXPECT_TRUE(edges_that_must_be_split(all_constrained(mesh)).empty()) << seed;
+  }
+  EXPECT_GE(meshes, 12u);
+  EXPECT_GT(edges, 3000u);
+  EXPECT_GT(conflicts_before, 0u);
+}
+
+/// The sum of the least a and the least b: of arcs, and of chords, which up_to is about.
+struct Sums {
+  double arcs = 0, chords = 0;
+};
+/// From the definition: a right angle at X, tan um = tan uX / cos U; the arcs that are left, over that of the edge.
+Sums least_sums(const Mesh& mesh, HalfedgeId h) {
+  const Vec3 u = mesh.lifted_point(mesh.origin(h)), v = mesh.lifted_point(mesh.target(h));
+  const auto left = [](Vec3 p, Vec3 q, Vec3 r) { return orientation(p, q, r) == Sign::positive; };
+  const auto cross_properly = [&](Vec3 p, Vec3 q, Vec3 r, Vec3 s) {
+    return left(p, q, r) != left(p, q, s) && left(r, s, p) != left(r, s, q);
+  };
+  const auto bound = [](Vec3 near, Vec3 far, Vec3 x) {
+    const double c = std::cos(corner_angle(near, far, x)), way = arc_length(near, x);
+    return c > 0 && way < std::numbers::pi / 2 ? std::atan(std::tan(way) / c) : kUnbounded;
+  };
+  double a = kUnbounded, b = kUnbounded;
+  for (const VertexId y : mesh.vertices()) {
+    const Vec3 x = mesh.lifted_point(y);
+    if (!mesh.is_boundary(y) || !left(u, v, x)) continue;
+    bool visible = true;
+    for (const HalfedgeId g : mesh.halfedges()) {
+      if (!mesh.is_boundary(g)) continue;
+      const Vec3 p = mesh.lifted_point(mesh.origin(g)), q = mesh.lifted_point(mesh.target(g));
+      const bool near = dot(p, u) > 0 && dot(q, u) > 0;  // arcs cross where their great circles do, or opposite to it
+      const bool touches_x = mesh.origin(g) == y || mesh.target(g) == y;
+      for (const Vec3 end : {u, v}) {
+        if (near && !touches_x && p != end && q != end && cross_properly(end, x, p, q)) visible = false;
+      }
+      if (left(u, v, p) && left(v, x, p) && left(x, u, p)) visible = false;
+    }
+    if (!visible) continue;
+    a = std::min(a, bound(u, v, x)), b = std::min(b, bound(v, u, x));
+  }
+  if (a == kUnbounded || b == kUnbounded) return {kUnbounded, kUnbounded};
+  const double whole = arc_length(u, v);
+  const auto chord = [&](double arc) { return std::sin(arc) / (std::sin(arc) + std::sin(whole - arc)); };
+  return {(a + b) / whole, chord(a) + chord(b)};
+}
+
+TEST(Necessity, OnTheSphereTheWalkFindsWhatTheDefinitionSays) {
+  constexpr double kUpTo = 2;
+  std::size_t found = 0, edges = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Rng rng(seed);
+    std::vector<Vec2> outline;  // a star with deep notches, of up to 45 degrees around the pole
+    for (int i = 0; i < 40; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + rng.uniform(-0.3, 0.3)) / 40, r = rng.uniform(0.3, 1);
+      outline.push_back({r * std::cos(angle), r * std::sin(angle)});
+    }
+    const Mesh mesh = on_cap(mesh_of_outline(outline), 1);
+    for (const HalfedgeId h : mesh.halfedges()) {
+      if (!mesh.is_boundary(h)) continue;
+      ++edges;
+      const Sums sums = least_sums(mesh, h);
+      const auto conflict = edge_conflict(mesh, h, kUpTo);
+      ASSERT_EQ(conflict.has_value(), sums.chords <= kUpTo) << sums.chords;
+      if (!conflict) continue;
+      ++found;
+      EXPECT_NEAR(conflict->sum, sums.arcs, 1e-12);
+    }
+  }
+  EXPECT_GT(found, 20u);
+  EXPECT_LT(found, edges);
+}
+
+TEST(Necessity, OnSmallCapsItIsAsInThePlaneToSecondOrder) {
+  const Mesh plane = rectangle(5);
+  const EdgeConflict flat = edges_that_must_be_split(plane).at(0);
+  std::vector<double> off;
+  for (const double radius : {100.0, 200.0, 400.0}) {
+    const auto conflicts = edges_that_must_be_split(on_cap(plane, radius));
+    ASSERT_EQ(conflicts.size(), 1u);
+    EXPECT_EQ(conflicts[0].near_u, flat.near_u);
+    EXPECT_EQ(conflicts[0].near_v, flat.near_v);
+    EXPECT_EQ(conflicts[0].edge, flat.edge);
+    off.push_back(std::abs(conflicts[0].sum - flat.sum));
+  }
+  EXPECT_NEAR(off[0] / off[1], 4, 0.1);
+  EXPECT_NEAR(off[1] / off[2], 4, 0.1);
+}
+
+TEST(Necessity, WeightsOfTheSphereDoNotMatter) {
+  const Mesh bare = on_cap(rectangle(5), 10);
+  Mesh weighted = bare;
+  Rng rng(3);
+  for (const VertexId v : weighted.vertices()) weighted.set_weight(v, rng.uniform(-5, 5));
+  const auto before = edges_that_must_be_split(bare), after = edges_that_must_be_split(weighted);
+  ASSERT_EQ(before.size(), 1u);
+  ASSERT_EQ(after.size(), 1u);
+  EXPECT_EQ(after[0].edge, before[0].edge);
+  EXPECT_NEAR(after[0].sum, before[0].sum, 1e-12);
 }
 
 }  // namespace
