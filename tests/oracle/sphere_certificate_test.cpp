@@ -36,7 +36,7 @@ RationalVector place(const Mesh& mesh, VertexId v) {
 }
 
 /// N − margin · M (σ_p + σ_q)/2 where σ of `doubled` is 2 and all others are 1.
-Rational value(const Mesh& mesh, const WeightConstraint& c, const Rational& margin, VertexId doubled) {
+Rational value_on_sphere(const Mesh& mesh, const WeightConstraint& c, const Rational& margin, VertexId doubled) {
   const auto sigma = [&](VertexId v) -> Rational { return v == doubled ? 2 : 1; };
   const auto lifted = [&](VertexId v) -> RationalVector {
     const RationalVector p = place(mesh, v);
@@ -77,7 +77,7 @@ Rational most_ratio(const Mesh& mesh, HalfedgeId h, Conditions conditions) {
 }
 
 /// Greatest σ_v/σ_root by these bounds (Bellman and Ford: the meshes are small); 0: not reached.
-std::vector<Rational> reach(const Mesh& mesh, VertexId root, Conditions conditions) {
+std::vector<Rational> reach_on_sphere(const Mesh& mesh, VertexId root, Conditions conditions) {
   std::vector<Rational> most(mesh.n_vertices(), Rational(0));
   most[root.index] = 1;
   for (bool changed = true; changed;) {
@@ -101,14 +101,14 @@ std::vector<Rational> reach(const Mesh& mesh, VertexId root, Conditions conditio
 bool is_contradiction(const Mesh& mesh, const Certificate& certificate) {
   std::map<VertexId, Rational> residual;
   for (const auto& [c, multiplier] : certificate.terms) {
-    const Rational at_one = value(mesh, c, Rational(certificate.margin), VertexId());
+    const Rational at_one = value_on_sphere(mesh, c, Rational(certificate.margin), VertexId());
     for (const VertexId v : {c.p, c.q, c.r, c.s}) {
       if (!v.valid()) continue;
-      residual[v] += Rational(multiplier) * (value(mesh, c, Rational(certificate.margin), v) - at_one);
+      residual[v] += Rational(multiplier) * (value_on_sphere(mesh, c, Rational(certificate.margin), v) - at_one);
     }
   }
   return std::any_of(residual.begin(), residual.end(), [&](const auto& root) {
-    const std::vector<Rational> most = reach(mesh, root.first, certificate.conditions);
+    const std::vector<Rational> most = reach_on_sphere(mesh, root.first, certificate.conditions);
     Rational bound = 0;
     for (const auto& [v, r] : residual) {
       if (r > 0 && most[v.index] == 0) return false;

@@ -9,7 +9,7 @@
 namespace temper {
 namespace {
 
-VertexId random_vertex(const Mesh& mesh, Rng& rng) {
+VertexId any_vertex(const Mesh& mesh, Rng& rng) {
   return VertexId(std::size_t{rng.below(static_cast<std::uint32_t>(mesh.n_vertices()))});
 }
 
@@ -75,7 +75,7 @@ void one_operation(Mesh& mesh, Rng& rng, Counts& counts) {
       return;
     }
     default: {
-      const VertexId v = random_vertex(mesh, rng);
+      const VertexId v = any_vertex(mesh, rng);
       const RemovalPlan plan = plan_removal(mesh, v);
       if (plan.status != RemovalStatus::possible) return;
       const bool boundary = mesh.is_boundary(v), interface = mesh.is_constrained(plan.first);
@@ -123,7 +123,7 @@ TEST(TopologyProperty, ARemovalFromARegularMeshLeavesARegularMesh) {
     if (!restore_regularity(mesh).regular()) continue;
     RemovalPlan plan;
     for (int i = 0; i < 30; ++i) {
-      plan = plan_removal(mesh, random_vertex(mesh, rng), std::move(plan));
+      plan = plan_removal(mesh, any_vertex(mesh, rng), std::move(plan));
       if (plan.status != RemovalStatus::possible) continue;
       remove_vertex(mesh, plan);
       lawson.clear();
@@ -148,7 +148,7 @@ TEST(TopologyProperty, ARemovalAmongTiesNeedsLawsonOnTheNewEdgesAlone) {
     for (const VertexId v : mesh.vertices()) mesh.set_point(v, {mesh.position(v).x / 3, mesh.position(v).y / 3, 0});
     if (mesh.validate() || !restore_regularity(mesh).regular()) continue;
     for (int i = 0; i < 30; ++i) {
-      const RemovalPlan plan = plan_removal(mesh, random_vertex(mesh, rng));
+      const RemovalPlan plan = plan_removal(mesh, any_vertex(mesh, rng));
       if (plan.status != RemovalStatus::possible) continue;
       remove_vertex(mesh, plan);
       lawson.clear();

@@ -7,7 +7,7 @@
 namespace temper::test {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // Two triangles with unequal angles; medit counts from 1, and the first point is of no triangle.
 constexpr const char* kKite =
@@ -16,16 +16,16 @@ constexpr const char* kKite =
 
 class Check : public Workshop {
  protected:
-  static Json check(const std::vector<std::string>& arguments) {
+  static OrderedJson check(const std::vector<std::string>& arguments) {
     std::vector<std::string> all = {"check", "--json"};
     all.insert(all.end(), arguments.begin(), arguments.end());
-    return Json::parse(temper_ok(all).out);
+    return OrderedJson::parse(temper_ok(all).out);
   }
 };
 
 TEST_F(Check, JsonHasExactlyTheKeysOfTheReport) {
   make_input();
-  const Json report = check({"in.vtu"});
+  const OrderedJson report = check({"in.vtu"});
   std::vector<std::string> keys;
   for (const auto& item : report.items()) keys.push_back(item.key());
   EXPECT_EQ(keys, (std::vector<std::string>{"schema",
@@ -66,7 +66,7 @@ TEST_F(Check, JsonHasExactlyTheKeysOfTheReport) {
 
 TEST_F(Check, CountsAreWholeNumbersAndInfinityIsNull) {
   make_input();
-  const Json report = check({"in.vtu"});
+  const OrderedJson report = check({"in.vtu"});
   EXPECT_EQ(report["vertices"], 49);
   EXPECT_EQ(report["triangles"], 72);
   EXPECT_TRUE(report["orthocenters_outside"].is_number_integer());
@@ -98,9 +98,9 @@ TEST_F(Check, WorstIsAsLongAsAsked) {
 
 TEST_F(Check, JsonCountsFromZeroAndPeopleSeeTheirOwnNumbers) {
   write("kite.mesh", kKite);
-  const Json worst = check({"kite.mesh", "--worst", "1"})["worst"][0];
+  const OrderedJson worst = check({"kite.mesh", "--worst", "1"})["worst"][0];
   EXPECT_EQ(worst["triangle"], 0);
-  EXPECT_EQ(worst["vertices"], (Json{1, 2, 3}));
+  EXPECT_EQ(worst["vertices"], (OrderedJson{1, 2, 3}));
   EXPECT_TRUE(contains(worst["why"].get<std::string>(), "vertex 2"));
 
   const std::string table = temper_ok({"check", "kite.mesh", "--worst", "1"}).out;
@@ -112,12 +112,12 @@ TEST_F(Check, WarningsGoToStandardErrorAndJsonStaysJson) {
   write("kite.mesh", kKite);
   const Outcome outcome = temper_ok({"check", "--json", "kite.mesh"});
   EXPECT_TRUE(contains(outcome.err, "temper: warning: "));
-  EXPECT_TRUE(Json::accept(outcome.out));
+  EXPECT_TRUE(OrderedJson::accept(outcome.out));
 }
 
 TEST_F(Check, GammaIsOneUnlessGiven) {
   make_input();
-  const Json plain = check({"in.vtu"});
+  const OrderedJson plain = check({"in.vtu"});
   EXPECT_EQ(plain, check({"in.vtu", "--gamma", "1"}));
   EXPECT_NE(plain["energy"]["BP"], check({"in.vtu", "--gamma", "0.5"})["energy"]["BP"]);
   EXPECT_NE(plain["energy"]["BP"], check({"in.vtu", "--gamma-rel", "1"})["energy"]["BP"]);
@@ -160,7 +160,7 @@ TEST_F(Check, EveryRequirementThatFailsIsNamedWithWantedAndFound) {
 
 TEST_F(Check, EveryKeyOfTheReportCanBeRequired) {
   make_input();
-  const Json report = check({"in.vtu"});
+  const OrderedJson report = check({"in.vtu"});
   int keys = 0;
   for (const auto& item : report.items()) {
     if (!item.value().is_number() || item.key() == "schema") continue;
@@ -178,14 +178,14 @@ TEST_F(Check, OutcomesOfRequirementsAreInTheReport) {
   make_input();
   const Outcome outcome = temper({"check", "in.vtu", "--json", "--require", "inverted=0,min_h>=0.5"});
   EXPECT_EQ(outcome.exit, 3);
-  const Json report = Json::parse(outcome.out);
+  const OrderedJson report = OrderedJson::parse(outcome.out);
   ASSERT_EQ(report["requirements"].size(), 2u);
-  EXPECT_EQ(report["requirements"][0], (Json{{"text", "inverted=0"},
-                                             {"key", "inverted_triangles"},
-                                             {"wants", "="},
-                                             {"value", 0.0},
-                                             {"found", 0.0},
-                                             {"met", true}}));
+  EXPECT_EQ(report["requirements"][0], (OrderedJson{{"text", "inverted=0"},
+                                                    {"key", "inverted_triangles"},
+                                                    {"wants", "="},
+                                                    {"value", 0.0},
+                                                    {"found", 0.0},
+                                                    {"met", true}}));
   EXPECT_EQ(report["requirements"][1]["wants"], ">=");
   EXPECT_EQ(report["requirements"][1]["found"], report["min_h_over_l"]);
   EXPECT_EQ(report["requirements"][1]["met"], false);
@@ -194,7 +194,7 @@ TEST_F(Check, OutcomesOfRequirementsAreInTheReport) {
 TEST_F(Check, SeveralMeshesAreAListAndNoneKeepsAnotherFromBeingLookedAt) {
   make_input("a.vtu");
   temper_ok({"example", "horseshoe", "-o", "b.vtu"});
-  const Json both = Json::parse(temper_ok({"check", "a.vtu", "b.vtu", "--json"}).out);
+  const OrderedJson both = OrderedJson::parse(temper_ok({"check", "a.vtu", "b.vtu", "--json"}).out);
   ASSERT_EQ(both.size(), 2u);
   EXPECT_EQ(both[0], check({"a.vtu"}));
   EXPECT_EQ(both[1], check({"b.vtu"}));

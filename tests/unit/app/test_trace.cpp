@@ -31,13 +31,13 @@ class Trace : public Workshop {
   }
 };
 
-struct Sample {
+struct Replayed {
   const char* example;
   std::vector<std::string> options;
 };
 
 TEST_F(Trace, ReplaysToTheSameBytes) {
-  const std::vector<Sample> samples = {
+  const std::vector<Replayed> samples = {
       {"horseshoe", {}},
       {"horseshoe", {"--removal", "patch", "--removal-from", "0", "--removal-margin", "0", "--max-sweeps", "20"}},
       {"random", {"--energy", "T", "--collapse-from", "1", "--collapse-ratio", "0.4", "--max-sweeps", "20"}},
@@ -49,7 +49,7 @@ TEST_F(Trace, ReplaysToTheSameBytes) {
       {"random-sphere", {"--weights-only", "--max-sweeps", "5"}},
       {"random-sphere", {"--positions-only", "--max-sweeps", "5"}},
   };
-  for (const Sample& sample : samples) {
+  for (const Replayed& sample : samples) {
     SCOPED_TRACE(sample.example);
     std::vector<std::string> make = {"example", sample.example, "-o", "in.vtu"};
     if (std::string(sample.example).starts_with("random")) make.insert(make.end(), {"--vertices", "200"});

@@ -19,17 +19,17 @@
 namespace temper {
 namespace {
 
-constexpr double kRelative = 1e-12;
+constexpr double kOnSphere = 1e-12;
 
 /// Random weights of the size of edges: triangles that are not well-centered, edges that are not regular.
-Mesh rough(std::uint64_t seed = 1, double radius = 1) {
+Mesh rough_sphere(std::uint64_t seed = 1, double radius = 1) {
   Mesh mesh = test::globe(300, seed, radius);
   test::Noise noise(seed);
   for (const VertexId v : mesh.vertices()) mesh.set_weight(v, 0.02 * radius * radius * noise());
   return mesh;
 }
 
-Mesh coasts() { return test::ocean(rough(), 0.4); }
+Mesh coasts() { return test::ocean(rough_sphere(), 0.4); }
 
 template <class Range>
 double sum(const Range& values) {
@@ -57,11 +57,11 @@ TEST(DecSphere, TheRoughGlobeHasEverySign) {
 TEST(DecSphere, CellsAndTrianglesOfAClosedMeshCoverTheSphere) {
   for (const double radius : {1.0, 6371220.0}) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-      const Mesh mesh = rough(seed, radius);
+      const Mesh mesh = rough_sphere(seed, radius);
       const DecComplex c = dec(mesh);
       const double whole = 4 * std::numbers::pi * radius * radius;
-      EXPECT_NEAR(sum(c.star0), whole, kRelative * whole);
-      EXPECT_NEAR(sum(c.areas), whole, kRelative * whole);
+      EXPECT_NEAR(sum(c.star0), whole, kOnSphere * whole);
+      EXPECT_NEAR(sum(c.areas), whole, kOnSphere * whole);
     }
   }
 }
@@ -70,11 +70,11 @@ TEST(DecSphere, CellsCoverADomainWithCoastsWhateverTheWeights) {
   const Mesh mesh = coasts();
   const DecComplex c = dec(mesh);
   EXPECT_GT(summarize(mesh, c).boundary_edges, 10u);
-  EXPECT_NEAR(sum(c.star0), sum(c.areas), kRelative * sum(c.areas));
+  EXPECT_NEAR(sum(c.star0), sum(c.areas), kOnSphere * sum(c.areas));
 }
 
 TEST(DecSphere, TheBoundaryOfABoundaryIsNothing) {
-  const Mesh mesh = rough();
+  const Mesh mesh = rough_sphere();
   const DecComplex c = dec(mesh);
   ASSERT_EQ(c.d0.n_rows(), mesh.n_edges());
   ASSERT_EQ(c.d1.n_rows(), mesh.n_triangles());
@@ -92,7 +92,7 @@ TEST(DecSphere, TheBoundaryOfABoundaryIsNothing) {
 
 TEST(DecSphere, DualVerticesHaveEqualPowerAndDualArcsAreWhatLiesBetweenThem) {
   const double radius = 3;
-  const Mesh mesh = rough(1, radius);
+  const Mesh mesh = rough_sphere(1, radius);
   const DecComplex c = dec(mesh);
   ASSERT_EQ(c.sphere_orthocenters.size(), mesh.n_triangles());
   ASSERT_EQ(c.sphere_midpoints.size(), c.edges.size());
@@ -100,7 +100,7 @@ TEST(DecSphere, DualVerticesHaveEqualPowerAndDualArcsAreWhatLiesBetweenThem) {
   for (const TriangleId t : mesh.triangles()) {
     const auto [i, j, k] = mesh.corners(t);
     const Vec3 o = c.sphere_orthocenters[t];
-    EXPECT_NEAR(length(o), radius, kRelative * radius);
+    EXPECT_NEAR(length(o), radius, kOnSphere * radius);
     EXPECT_NEAR(dot(o, mesh.lifted_point(i)), dot(o, mesh.lifted_point(j)), 1e-10);
     EXPECT_NEAR(dot(o, mesh.lifted_point(i)), dot(o, mesh.lifted_point(k)), 1e-10);
   }
@@ -109,23 +109,23 @@ TEST(DecSphere, DualVerticesHaveEqualPowerAndDualArcsAreWhatLiesBetweenThem) {
     const DecEdge& e = c.edges[id];
     const Vec3 p = mesh.lifted_point(e.from), q = mesh.lifted_point(e.to), m = c.sphere_midpoints[id];
     const Vec3 pole = (1 / length(cross(p, q))) * cross(p, q);  // on the left
-    EXPECT_NEAR(length(m), radius, kRelative);
-    EXPECT_NEAR(dot(m, p), dot(m, q), kRelative * radius * radius);
-    EXPECT_NEAR(dot(m, pole), 0, kRelative);
-    EXPECT_NEAR(radius * arc_length(p, q), e.length, kRelative);
+    EXPECT_NEAR(length(m), radius, kOnSphere);
+    EXPECT_NEAR(dot(m, p), dot(m, q), kOnSphere * radius * radius);
+    EXPECT_NEAR(dot(m, pole), 0, kOnSphere);
+    EXPECT_NEAR(radius * arc_length(p, q), e.length, kOnSphere);
     EXPECT_NEAR(std::abs(e.split), radius * arc_length(p, m), 1e-7);
     EXPECT_NEAR(radius * std::asin(dot(c.sphere_orthocenters[e.left], pole) / radius), e.left_height, 1e-9);
     EXPECT_NEAR(radius * std::asin(dot(c.sphere_orthocenters[e.right], pole) / radius), -e.right_height, 1e-9);
     EXPECT_NEAR(e.left_height + e.right_height, e.dual_length, 1e-10);
     EXPECT_NEAR(c.star1[id] * e.length, e.dual_length, 1e-10);
-    EXPECT_NEAR(c.flux[id] * c.star1[id], 1, kRelative);
+    EXPECT_NEAR(c.flux[id] * c.star1[id], 1, kOnSphere);
   }
 }
 
 TEST(DecSphere, SignsAreThoseOfTheExactPredicates) {
   std::size_t zeros = 0, negative = 0;
   const auto icosahedron = icosahedral({.level = 3});
-  for (const Mesh& mesh : {*icosahedron, rough(1), rough(2), coasts()}) {
+  for (const Mesh& mesh : {*icosahedron, rough_sphere(1), rough_sphere(2), coasts()}) {
     const DecComplex c = dec(mesh);
     for (const HalfedgeId h : mesh.halfedges()) {
       const double star1 = c.star1[c.edge_of_halfedge[h]];
@@ -171,7 +171,7 @@ std::vector<double> minus_laplacian(const Mesh& mesh, const DecComplex& c, const
 }
 
 TEST(DecSphere, ConstantsAreHarmonic) {
-  const Mesh mesh = rough();
+  const Mesh mesh = rough_sphere();
   for (const double value : minus_laplacian(mesh, dec(mesh), [](Vec3) { return 7.0; })) EXPECT_EQ(value, 0);
 }
 
@@ -297,7 +297,7 @@ TEST(DecSphere, ASmallPatchHasTheOperatorsOfThePlaneToSecondOrder) {
 
 // --- power cells ----------------------------------------------------------------------------------------------------
 
-std::vector<Vec3> polygon(const PowerCells& cells, std::size_t p) {
+std::vector<Vec3> sphere_polygon(const PowerCells& cells, std::size_t p) {
   return {cells.sphere_corners.begin() + static_cast<std::ptrdiff_t>(cells.starts[p]),
           cells.sphere_corners.begin() + static_cast<std::ptrdiff_t>(cells.starts[p + 1])};
 }
@@ -325,7 +325,7 @@ void expect_partition(const Mesh& mesh, const PowerCells& cells, bool of_power_d
     const Vec3 x = a * mesh.lifted_point(i) + b * mesh.lifted_point(j) + (1 - a - b) * mesh.lifted_point(k);
     std::vector<VertexId> owners;
     for (std::size_t p = 0; p < cells.n_polygons(); ++p) {
-      if (dot(x, cells.sphere_corners[cells.starts[p]]) > 0 && inside(polygon(cells, p), x))
+      if (dot(x, cells.sphere_corners[cells.starts[p]]) > 0 && inside(sphere_polygon(cells, p), x))
         owners.push_back(cells.vertices[p]);
     }
     ASSERT_EQ(owners.size(), 1u);
@@ -336,7 +336,7 @@ void expect_partition(const Mesh& mesh, const PowerCells& cells, bool of_power_d
 }
 
 TEST(DecSphere, PowerCellsCoverTheDomainOnceWhateverTheWeights) {
-  Mesh regular = rough();
+  Mesh regular = rough_sphere();
   expect_partition(regular, power_cells(regular, dec(regular)), false);
   restore_regularity(regular);
   ASSERT_GT(summarize(regular, dec(regular)).not_well_centered, 0u);
@@ -355,7 +355,7 @@ TEST(DecSphere, PowerCellsOfAWellCenteredMeshAreItsDualCells) {
   const DecComplex c = dec(*mesh);
   const PowerCells cells = power_cells(*mesh, c);
   EXPECT_EQ(cells.n_polygons(), mesh->n_vertices());
-  expect_close(cells.areas, c.star0, 1, kRelative);
+  expect_close(cells.areas, c.star0, 1, kOnSphere);
 }
 
 }  // namespace

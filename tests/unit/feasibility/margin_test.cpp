@@ -5,11 +5,11 @@ namespace temper::test {
 namespace {
 
 // An optimum of a well-scaled programme with a hundred rows: the solver's tolerance is 1e-9.
-constexpr double kSolved = 1e-9;
+constexpr double kSolvedMargin = 1e-9;
 
 TEST(BestMargin, OfTheEquilateralTriangleIsThatOfZeroWeights) {
   const BestMargin best = margin_of(one_triangle({0, 0}, {1, 0}, {0.5, std::sqrt(0.75)}));
-  EXPECT_NEAR(best.margin, std::sqrt(0.75) / 3, kSolved);
+  EXPECT_NEAR(best.margin, std::sqrt(0.75) / 3, kSolvedMargin);
   EXPECT_TRUE(best.certificate.terms.empty());
 }
 
@@ -30,14 +30,14 @@ TEST(BestMargin, OfOneTriangleIsPositiveWhateverItsAngles) {
 }
 
 TEST(BestMargin, OfTheSparseHorseshoeIsMinusEightOver135) {
-  EXPECT_NEAR(margin_of(sparse_horseshoe()).margin, -8.0 / 135, kSolved);
-  EXPECT_NEAR(margin_of(sparse_horseshoe(), Conditions::heights_only).margin, 0.05, kSolved);
+  EXPECT_NEAR(margin_of(sparse_horseshoe()).margin, -8.0 / 135, kSolvedMargin);
+  EXPECT_NEAR(margin_of(sparse_horseshoe(), Conditions::heights_only).margin, 0.05, kSolvedMargin);
 }
 
 TEST(BestMargin, OfTheDenseHorseshoeIsWhatAnIndependentProgrammeFound) {
   const Mesh mesh = *horseshoe();
-  EXPECT_NEAR(margin_of(mesh).margin, -0.3199381998, kSolved);
-  EXPECT_NEAR(margin_of(mesh, Conditions::heights_only).margin, -0.1046174535, kSolved);
+  EXPECT_NEAR(margin_of(mesh).margin, -0.3199381998, kSolvedMargin);
+  EXPECT_NEAR(margin_of(mesh, Conditions::heights_only).margin, -0.1046174535, kSolvedMargin);
 }
 
 TEST(BestMargin, IsAttainedByItsWeightsAndByNoneBetter) {
@@ -52,7 +52,7 @@ TEST(BestMargin, IsAttainedByItsWeightsAndByNoneBetter) {
     for (int i = 0; i < 50; ++i) {
       Mesh other = mesh;
       for (const VertexId v : other.vertices()) other.set_weight(v, other.weight(v) + std::pow(0.7, i) * noise());
-      EXPECT_LE(weight_margin(other), best.margin + kSolved);
+      EXPECT_LE(weight_margin(other), best.margin + kSolvedMargin);
     }
   }
 }
@@ -61,9 +61,9 @@ TEST(BestMargin, DoesNotDependOnSizePlaceOrWeights) {
   const Mesh mesh = *horseshoe();
   const double expected = margin_of(mesh).margin;
   for (const double factor : {1e-6, 1e-3, 1e3, 1e6}) {
-    EXPECT_NEAR(margin_of(scaled(mesh, factor)).margin, expected, kSolved) << factor;
+    EXPECT_NEAR(margin_of(scaled(mesh, factor)).margin, expected, kSolvedMargin) << factor;
   }
-  EXPECT_NEAR(margin_of(scaled(mesh, 1, {100, -1000})).margin, expected, kSolved);
+  EXPECT_NEAR(margin_of(scaled(mesh, 1, {100, -1000})).margin, expected, kSolvedMargin);
   Mesh weighted = mesh;
   for (const VertexId v : weighted.vertices()) weighted.set_weight(v, 17.0 * v.index);
   EXPECT_EQ(margin_of(weighted).margin, expected);
@@ -93,11 +93,11 @@ TEST(BestMargin, OfPartOfAMeshIsNoSmaller) {
     part.push_back(t);
     if (part.size() % 12 != 0) continue;
     const double margin = best_margin(mesh, part, *solver).margin;
-    EXPECT_GE(margin, whole - kSolved);
-    EXPECT_LE(margin, last + kSolved);
+    EXPECT_GE(margin, whole - kSolvedMargin);
+    EXPECT_LE(margin, last + kSolvedMargin);
     last = margin;
   }
-  EXPECT_NEAR(last, whole, kSolved);
+  EXPECT_NEAR(last, whole, kSolvedMargin);
 }
 
 TEST(WeightMargin, IsTheLeastHeightAndSplitOfTheMesh) {

@@ -87,7 +87,7 @@ Mesh on_cap(const Mesh& plane, double radius) {
   return mesh;
 }
 
-bool keeps(const Mesh& mesh, Conditions conditions) {
+bool keeps_on_sphere(const Mesh& mesh, Conditions conditions) {
   const Demand demand(mesh, conditions, {});
   return std::all_of(mesh.triangles().begin(), mesh.triangles().end(),
                      [&](TriangleId t) { return demand.is_kept(mesh, t, [&](VertexId v) { return mesh.weight(v); }); });
@@ -185,7 +185,7 @@ TEST(SphereMargin, IsAttainedByItsWeightsAndRefutedAbove) {
       Mesh attained = mesh;
       for (std::size_t i = 0; i < best.vertices.size(); ++i) attained.set_weight(best.vertices[i], best.weights[i]);
       EXPECT_NEAR(weight_margin(attained, row.conditions), best.margin, 1e-6) << row.name;
-      EXPECT_EQ(keeps(attained, row.conditions), best.margin > 1e-7) << row.name << " " << best.margin;
+      EXPECT_EQ(keeps_on_sphere(attained, row.conditions), best.margin > 1e-7) << row.name << " " << best.margin;
     }
   }
 }
@@ -229,7 +229,7 @@ TEST(SphereWeights, AreRightUnderEveryConditionForTheWholeAndByNeighbourhoods) {
           const Mesh result = with_weights(mesh, report.weights);
           EXPECT_NEAR(weight_margin(result, row.conditions), report.attained, 1e-9);
           if (goal == WeightGoal::elastic) continue;
-          EXPECT_TRUE(keeps(result, row.conditions)) << row.name;
+          EXPECT_TRUE(keeps_on_sphere(result, row.conditions)) << row.name;
           EXPECT_GE(report.attained, report.asked - 1e-8) << row.name;
         }
       }

@@ -6,12 +6,12 @@
 namespace temper::gallery {
 namespace {
 
-Page nothing(Effort) { return {}; }
+Page none_selected(Effort) { return {}; }
 
 /// Figures 3 to 10 and 12; 11 is missing.
-const std::vector<Figure> kAll = {{3, "", "", nothing}, {4, "", "", nothing},  {5, "", "", nothing},
-                                  {6, "", "", nothing}, {7, "", "", nothing},  {8, "", "", nothing},
-                                  {9, "", "", nothing}, {10, "", "", nothing}, {12, "", "", nothing}};
+const std::vector<Figure> kAll = {{3, "", "", none_selected}, {4, "", "", none_selected},  {5, "", "", none_selected},
+                                  {6, "", "", none_selected}, {7, "", "", none_selected},  {8, "", "", none_selected},
+                                  {9, "", "", none_selected}, {10, "", "", none_selected}, {12, "", "", none_selected}};
 
 std::vector<int> chosen(const std::vector<std::string>& words) {
   const Expected<std::vector<Figure>> figures = select(kAll, words);

@@ -62,7 +62,7 @@ std::vector<Named> all_examples() {
   };
 }
 
-int euler(const Mesh& mesh) {
+int euler_of(const Mesh& mesh) {
   return static_cast<int>(mesh.n_vertices()) - static_cast<int>(mesh.n_edges()) + static_cast<int>(mesh.n_triangles());
 }
 
@@ -178,7 +178,7 @@ TEST(RandomPointsExample, HasAsManyVerticesAsAskedAndFillsThePolygon) {
     ASSERT_TRUE(mesh) << mesh.error().what();
     EXPECT_EQ(mesh->n_vertices(), n);
     EXPECT_NEAR(area(*mesh), 12 - 0.375, 1e-12);
-    EXPECT_EQ(euler(*mesh), 1);
+    EXPECT_EQ(euler_of(*mesh), 1);
     EXPECT_EQ(count_non_regular_edges(*mesh), 0u);
   }
 }
@@ -213,7 +213,7 @@ TEST(AnnulusExample, HasAHole) {
   const auto mesh = annulus();
   ASSERT_TRUE(mesh);
   EXPECT_EQ(mesh->n_vertices(), 48u * 6u);
-  EXPECT_EQ(euler(*mesh), 0);
+  EXPECT_EQ(euler_of(*mesh), 0);
   EXPECT_EQ(boundary_edges(*mesh), 96u);
   const double polygons = 24 * std::sin(2 * std::numbers::pi / 48) * (1 - 0.16);
   EXPECT_NEAR(area(*mesh), polygons, 1e-13);
@@ -222,7 +222,7 @@ TEST(AnnulusExample, HasAHole) {
 TEST(AirfoilExample, IsGradedAroundAHoleWithASharpEnd) {
   const auto mesh = airfoil();
   ASSERT_TRUE(mesh);
-  EXPECT_EQ(euler(*mesh), 0);
+  EXPECT_EQ(euler_of(*mesh), 0);
   EXPECT_EQ(mesh->position(VertexId(0)), (Vec2{2, 0}));
   double least = 100, greatest = 0, around_trailing_edge = 0;
   for (const HalfedgeId h : mesh->halfedges()) {

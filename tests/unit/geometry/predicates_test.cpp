@@ -20,7 +20,7 @@ using testing::integer;
 using testing::Quad;
 using testing::Random;
 
-constexpr int kRounds = 400;
+constexpr int kPoints = 400;
 
 int to_int(Sign s) { return static_cast<int>(s); }
 Sign sign_of(double x) { return x > 0 ? Sign::positive : x < 0 ? Sign::negative : Sign::zero; }
@@ -88,7 +88,7 @@ void on_every_family(int rounds, Check check) {
 }
 
 TEST(DegenerateFamilies, OrientationIsCyclicAndAntisymmetric) {
-  on_every_family(kRounds, [&](const Quad& q) {
+  on_every_family(kPoints, [&](const Quad& q) {
     const Sign s = orientation(q, 0, 1, 2);
     EXPECT_EQ(orientation(q, 1, 2, 0), s);
     EXPECT_EQ(orientation(q, 2, 0, 1), s);
@@ -100,7 +100,7 @@ TEST(DegenerateFamilies, OrientationIsCyclicAndAntisymmetric) {
 TEST(DegenerateFamilies, PowerTestIsAlternatingInItsFourPoints) {
   const auto permutations = all_permutations();
   ASSERT_EQ(permutations.size(), 24u);
-  on_every_family(kRounds / 4, [&](const Quad& q) {
+  on_every_family(kPoints / 4, [&](const Quad& q) {
     const Sign s = power_test(q[0], q[1], q[2], q[3]);
     for (const auto& [to, parity] : permutations) {
       EXPECT_EQ(power_test(q[to[0]], q[to[1]], q[to[2]], q[to[3]]), parity * s);
@@ -109,7 +109,7 @@ TEST(DegenerateFamilies, PowerTestIsAlternatingInItsFourPoints) {
 }
 
 TEST(DegenerateFamilies, PerturbedPowerTestIsAlternatingAndZeroOnlyOnALine) {
-  on_every_family(kRounds / 4, [&](const Quad& q) {
+  on_every_family(kPoints / 4, [&](const Quad& q) {
     const std::array<std::uint32_t, 4> index = {7, 3, 11, 5};
     const Sign s = power_test_perturbed(q[0], q[1], q[2], q[3], index);
     const Sign unperturbed = power_test(q[0], q[1], q[2], q[3]);
@@ -128,13 +128,13 @@ TEST(DegenerateFamilies, PerturbedPowerTestIsAlternatingAndZeroOnlyOnALine) {
 }
 
 TEST(DegenerateFamilies, HeightOfTheReversedEdgeIsOpposite) {
-  on_every_family(kRounds, [&](const Quad& q) {
+  on_every_family(kPoints, [&](const Quad& q) {
     EXPECT_EQ(signed_height_sign(q[1], q[0], q[2]), -signed_height_sign(q[0], q[1], q[2]));
   });
 }
 
 TEST(DegenerateFamilies, AtLeastOneEndOfAnEdgeIsOnItsOwnSide) {
-  on_every_family(kRounds, [&](const Quad& q) {
+  on_every_family(kPoints, [&](const Quad& q) {
     if (q[0].position() == q[1].position()) {
       EXPECT_EQ(edge_split_sign(q[0], q[1]), -edge_split_sign(q[1], q[0]));  // d ℓ = ±(w_p − w_q)/2
     } else {
@@ -144,7 +144,7 @@ TEST(DegenerateFamilies, AtLeastOneEndOfAnEdgeIsOnItsOwnSide) {
 }
 
 TEST(DegenerateFamilies, WellCenteredMeansCounterClockwiseAllHeightsPositiveAndAllEdgesCrossed) {
-  on_every_family(kRounds, [&](const Quad& q) {
+  on_every_family(kPoints, [&](const Quad& q) {
     bool expected = orientation(q, 0, 1, 2) == Sign::positive;
     for (int i = 0; i < 3; ++i) {
       const WeightedPoint &p = q[i], &next = q[(i + 1) % 3], &apex = q[(i + 2) % 3];
@@ -157,7 +157,7 @@ TEST(DegenerateFamilies, WellCenteredMeansCounterClockwiseAllHeightsPositiveAndA
 }
 
 TEST(DegenerateFamilies, TheFilterAgreesWithTheExactStage) {
-  on_every_family(kRounds, [&](const Quad& q) {
+  on_every_family(kPoints, [&](const Quad& q) {
     const auto& [a, b, c, d] = q;
     EXPECT_EQ(inlined::orient2d(a.position(), b.position(), c.position()),
               exact::orient2d(a.position(), b.position(), c.position()));
@@ -170,7 +170,7 @@ TEST(DegenerateFamilies, TheFilterAgreesWithTheExactStage) {
 TEST(DegenerateFamilies, ScalingByAPowerOfTwoChangesNoSign) {
   // Within the range of exact coordinates even from the tiny and the huge family.
   for (const double s : {0x1p-3, 0x1p3}) {
-    on_every_family(kRounds / 2, [&](const Quad& q) {
+    on_every_family(kPoints / 2, [&](const Quad& q) {
       Quad scaled = q;
       for (auto& p : scaled) p = {s * p.x, s * p.y, s * s * p.w};
       EXPECT_EQ(all_signs(scaled), all_signs(q));
@@ -179,7 +179,7 @@ TEST(DegenerateFamilies, ScalingByAPowerOfTwoChangesNoSign) {
 }
 
 TEST(DegenerateFamilies, EveryInputIsInTheExactRange) {
-  on_every_family(kRounds, [&](const Quad& q) {
+  on_every_family(kPoints, [&](const Quad& q) {
     for (const auto& p : q) {
       EXPECT_TRUE(is_exact_coordinate(p.x) && is_exact_coordinate(p.y) && is_exact_weight(p.w));
     }
@@ -189,7 +189,7 @@ TEST(DegenerateFamilies, EveryInputIsInTheExactRange) {
 TEST(Predicates, TranslationByARepresentableOffsetChangesNoSign) {
   Random random(11);
   for (const double offset : {1.0, 1e6, 1e9, 1e15}) {  // lattice points stay lattice points
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kPoints; ++round) {
       const Quad q = small_lattice(random);
       Quad moved = q;
       for (auto& p : moved) p = {p.x + offset, p.y - 2 * offset, p.w};
@@ -201,7 +201,7 @@ TEST(Predicates, TranslationByARepresentableOffsetChangesNoSign) {
 TEST(Predicates, AddingAConstantToAllWeightsChangesNoSign) {
   Random random(12);
   for (const double constant : {1.0, -1e6, 1e15}) {
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kPoints; ++round) {
       const Quad q = small_lattice(random);
       Quad shifted = q;
       for (auto& p : shifted) p.w += constant;
@@ -212,7 +212,7 @@ TEST(Predicates, AddingAConstantToAllWeightsChangesNoSign) {
 
 TEST(Predicates, AddingALinearFunctionToAllWeightsKeepsThePowerTest) {
   Random random(13);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kPoints; ++round) {
     const Quad q = small_lattice(random);
     Quad sheared = q;
     const int a = integer(random, 1 << 20), b = integer(random, 1 << 20);
@@ -224,7 +224,7 @@ TEST(Predicates, AddingALinearFunctionToAllWeightsKeepsThePowerTest) {
 TEST(Predicates, HeightsAndSplitsFollowAnOrthocenterPlacedAnywhere) {
   Random random(14);
   std::array<int, 3> seen = {};
-  for (int round = 0; round < 50 * kRounds; ++round) {
+  for (int round = 0; round < 50 * kPoints; ++round) {
     const Vec2 o = half_lattice(random);
     const auto [p, q, r, s] = around(random, o);
     if (orient2d(p.position(), q.position(), r.position()) == Sign::zero) continue;
@@ -238,7 +238,7 @@ TEST(Predicates, HeightsAndSplitsFollowAnOrthocenterPlacedAnywhere) {
 
 TEST(Predicates, PowerTestFollowsTheWeightOfTheFourthPoint) {
   Random random(15);
-  for (int round = 0; round < 10 * kRounds; ++round) {
+  for (int round = 0; round < 10 * kPoints; ++round) {
     Quad q = around(random, half_lattice(random));
     const Sign orientation_abc = orientation(q, 0, 1, 2);
     EXPECT_EQ(power_test(q[0], q[1], q[2], q[3]), Sign::zero);
@@ -253,7 +253,7 @@ TEST(Predicates, PowerTestFollowsTheWeightOfTheFourthPoint) {
 TEST(Predicates, WithoutWeightsWellCenteredMeansAcute) {
   Random random(16);
   int acute = 0;
-  for (int round = 0; round < 10 * kRounds; ++round) {
+  for (int round = 0; round < 10 * kPoints; ++round) {
     Quad q = small_lattice(random);
     for (auto& p : q) p.w = 0;
     bool expected = orientation(q, 0, 1, 2) == Sign::positive;
@@ -270,7 +270,7 @@ TEST(Predicates, WithoutWeightsWellCenteredMeansAcute) {
 TEST(Predicates, PerturbedPowerTestIsThatOfWeightsWithShrinkingPowers) {
   Random random(17);
   int ties = 0;
-  for (int round = 0; round < 10 * kRounds; ++round) {
+  for (int round = 0; round < 10 * kPoints; ++round) {
     Quad q = small_lattice(random);
     for (auto& p : q) p.w = 0;
     ties += power_test(q[0], q[1], q[2], q[3]) == Sign::zero;
@@ -288,7 +288,7 @@ TEST(Predicates, PerturbedPowerTestIsThatOfWeightsWithShrinkingPowers) {
 TEST(Predicates, AnEdgeIsNotRegularWhenItsDualLengthIsNegative) {
   Random random(18);
   int conflicts = 0;
-  for (int round = 0; round < 10 * kRounds; ++round) {
+  for (int round = 0; round < 10 * kPoints; ++round) {
     const auto [p, q, r, s] = testing::nearly_power_cocircular(random, 0);
     WeightedPoint across = s;
     across.w += 0.1 * testing::real(random);

@@ -171,11 +171,11 @@ INSTANTIATE_TEST_SUITE_P(Formats, RemovedVertices, ::testing::ValuesIn(written_f
 // --- inserted vertices ----------------------------------------------------------------------------------------
 
 /// Splits the bottom and the interface, inserts a vertex, removes two; what OptimizeReport::vertices would say.
-struct Changed {
+struct InsertedAndRemoved {
   IdVector<VertexId, VertexId> vertices;
   Vec2 on_bottom, on_line, inside;
 };
-Changed insert_and_remove(Mesh& mesh) {
+InsertedAndRemoved insert_and_remove(Mesh& mesh) {
   constexpr std::size_t kRow = kSquares + 1, kHalf = kSquares / 2;
   const std::size_t n = mesh.n_vertices();
   const auto split = [&](std::size_t a, std::size_t b, double t) {
@@ -185,7 +185,7 @@ Changed insert_and_remove(Mesh& mesh) {
     EXPECT_TRUE(plan.status == InsertionStatus::possible || plan.status == InsertionStatus::not_regular);
     return mesh.position(insert_vertex(mesh, plan));
   };
-  Changed changed;
+  InsertedAndRemoved changed;
   changed.on_bottom = split(1, 2, 0.5);
   split(n, 2, 0.5);  // the right half once more
   changed.on_line = split(2 * kRow + kHalf, 3 * kRow + kHalf, 0.25);
@@ -223,7 +223,7 @@ TEST_P(InsertedVertices, get_data_and_cut_lines_keep_their_tag_on_all_pieces) {
   const MeshFile before = *file;
   auto loaded = make_mesh(*file);
   ASSERT_TRUE(loaded) << loaded.error().what();
-  const Changed changed = insert_and_remove(loaded->mesh);
+  const InsertedAndRemoved changed = insert_and_remove(loaded->mesh);
   update(*file, *loaded, loaded->mesh, changed.vertices);
   ASSERT_TRUE(write(path("out." + name), *file, options));
   const auto again = read(path("out." + name));
@@ -276,7 +276,7 @@ TEST_F(FileTest, integers_of_inserted_points_are_what_is_common_around_or_droppe
   f.point_data = {{"side", 1, side}, {"number", 1, number}, {"medit:required", 1, required}};
   auto loaded = make_mesh(f);
   ASSERT_TRUE(loaded);
-  const Changed changed = insert_and_remove(loaded->mesh);
+  const InsertedAndRemoved changed = insert_and_remove(loaded->mesh);
   update(f, *loaded, loaded->mesh, changed.vertices);
   ASSERT_EQ(f.point_data.size(), 2u);
   EXPECT_EQ(std::get<std::vector<std::int32_t>>(f.point_data[0].values), std::vector<std::int32_t>(n + 2, 7));
@@ -296,7 +296,7 @@ TEST_F(FileTest, markers_of_boundary_points_go_to_points_between_them_where_form
     f.point_tags[1] = 6;
     auto loaded = make_mesh(f);
     ASSERT_TRUE(loaded);
-    const Changed changed = insert_and_remove(loaded->mesh);
+    const InsertedAndRemoved changed = insert_and_remove(loaded->mesh);
     update(f, *loaded, loaded->mesh, changed.vertices);
     const std::string_view name = format;
     const std::size_t more = name == "gmsh41" ? 0 : 2;

@@ -11,12 +11,12 @@
 namespace temper {
 namespace {
 
-using Corners = std::array<std::int32_t, 3>;
+using Numbers = std::array<std::int32_t, 3>;
 
 /// A MeshInput of the sphere that owns its arrays.
 struct SphereArrays {
   std::vector<Vec3> points;
-  std::vector<Corners> triangles;
+  std::vector<Numbers> triangles;
   double radius = 1;
   std::vector<double> weights = {};
 
@@ -178,7 +178,7 @@ TEST(SphereMesh, WithABoundaryMayBeMoreThanHalfOfTheSphere) {
   for (const double northernmost : {0.999, 0.9, 0.1, -0.5}) {
     SphereArrays part;
     std::vector<std::int32_t> number(whole.points.size(), -1);
-    for (Corners corners : whole.triangles) {
+    for (Numbers corners : whole.triangles) {
       const auto is_north = [&](std::int32_t i) { return whole.points[static_cast<std::size_t>(i)].z > northernmost; };
       if (std::any_of(corners.begin(), corners.end(), is_north)) continue;
       for (std::int32_t& i : corners) {

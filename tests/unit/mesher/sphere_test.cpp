@@ -23,13 +23,13 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kEarth = 6371000;
 
-OutlineMesh mesh_of(const SphereOutline& outline, const MesherOptions& options, const OptimizeHooks& hooks = {}) {
+OutlineMesh globe_of(const SphereOutline& outline, const MesherOptions& options, const OptimizeHooks& hooks = {}) {
   Expected<OutlineMesh> made = mesh_sphere(outline, options, hooks);
   EXPECT_TRUE(made.has_value()) << made.error().what();
   return made ? *std::move(made) : OutlineMesh();
 }
 
-MesherOptions sized(double size) {
+MesherOptions globe_sized(double size) {
   MesherOptions options;
   options.size = size;
   return options;
@@ -113,7 +113,7 @@ SphereOutline islands_and_rivers() {
 TEST(SphereMesher, AWholeSphereIsWellCenteredAtAnySize) {
   for (const double size : {0.6, 0.3, 0.1, 0.05}) {
     SCOPED_TRACE(size);
-    const OutlineMesh made = mesh_of({.radius = 1}, sized(size));
+    const OutlineMesh made = globe_of({.radius = 1}, globe_sized(size));
     expect_good(made, size);
     EXPECT_EQ(euler(made.mesh), 2);
     EXPECT_NEAR(area_of(made.mesh), 1, 1e-12);
@@ -127,7 +127,7 @@ TEST(SphereMesher, CoastsAreCutOutAndLinesStay) {
   const SphereOutline o = islands_and_rivers();
   for (const double size : {1e6, 4e5}) {
     SCOPED_TRACE(size);
-    const OutlineMesh made = mesh_of(o, sized(size));
+    const OutlineMesh made = globe_of(o, globe_sized(size));
     expect_good(made, size);
     expect_lines(made);
     expect_places(made, o.coasts, 0);
@@ -143,7 +143,7 @@ TEST(SphereMesher, CoastsAreCutOutAndLinesStay) {
 TEST(SphereMesher, BoundariesAreDividedWhereSizesAskForIt) {
   SphereOutline o;
   o.coasts = loop({{0, 0}, {60, 0}, {60, 40}, {0, 40}});
-  const OutlineMesh made = mesh_of(o, sized(3e5));
+  const OutlineMesh made = globe_of(o, globe_sized(3e5));
   expect_good(made, 3e5);
   for (const MeshLine& line : made.lines) {
     const double edge = kEarth * arc_length(made.mesh.lifted_point(line.a), made.mesh.lifted_point(line.b));
@@ -159,7 +159,7 @@ TEST(SphereMesher, SizesGrowAsTheFieldDoes) {
   for (const VertexId v : globe.vertices()) sizes.push_back(graded_sphere_size(shape, globe.lifted_point(v)));
   MesherOptions options;
   options.field = *SizeField::from_values(globe, sizes);
-  const OutlineMesh made = mesh_of({}, options);
+  const OutlineMesh made = globe_of({}, options);
   expect_good(made, graded_sphere_size(shape, -1.0 * direction_of(shape.at)));
   const SizeReport report = measure_size(made.mesh, *options.field);
   EXPECT_NEAR(report.over_field.median, 1, 0.1);
@@ -178,7 +178,7 @@ TEST(SphereMesher, ASteepFieldIsGraded) {
   for (const VertexId v : globe.vertices()) sizes.push_back(globe.lifted_point(v).z > 0.98 ? 0.02 : 0.4);
   MesherOptions options;
   options.field = *SizeField::from_values(globe, sizes);
-  const OutlineMesh made = mesh_of({.radius = 1}, options);
+  const OutlineMesh made = globe_of({.radius = 1}, options);
   expect_good(made, 0.4);
   const SizeReport report = measure_size(made.mesh, input_size_field(made.mesh));
   EXPECT_LT(report.gradation.p95, 1.5);
@@ -186,29 +186,29 @@ TEST(SphereMesher, ASteepFieldIsGraded) {
 
 TEST(SphereMesher, TheNumberBoundsTheField) {
   const Mesh globe = *icosahedral({.level = 2, .radius = 1});
-  MesherOptions options = sized(0.2);
+  MesherOptions options = globe_sized(0.2);
   options.field = *SizeField::from_values(globe, std::vector<double>(globe.n_vertices(), 0.5));
-  expect_good(mesh_of({.radius = 1}, options), 0.2);
+  expect_good(globe_of({.radius = 1}, options), 0.2);
 }
 
 TEST(SphereMesher, TheSameBytesForAnyNumberOfThreads) {
   const SphereOutline o = islands_and_rivers();
-  const Mesh alone = mesh_of(o, sized(5e5)).mesh;
+  const Mesh alone = globe_of(o, globe_sized(5e5)).mesh;
   for (const int threads : {2, 3}) {
     StdThreads executor(threads);
-    EXPECT_EQ(mesh_of(o, sized(5e5), {.executor = &executor}).mesh, alone) << threads;
+    EXPECT_EQ(globe_of(o, globe_sized(5e5), {.executor = &executor}).mesh, alone) << threads;
   }
 }
 
 TEST(SphereMesher, ASphereTwiceAsLargeGivesTheSameMeshTwiceAsLarge) {
   SphereOutline o = islands_and_rivers();
   o.radius = 1;
-  MesherOptions options = sized(0.1);
+  MesherOptions options = globe_sized(0.1);
   options.optimize.reset();
-  const Mesh one = mesh_of(o, options).mesh;
+  const Mesh one = globe_of(o, options).mesh;
   o.radius = 1024;
   options.size *= 1024;
-  const Mesh other = mesh_of(o, options).mesh;
+  const Mesh other = globe_of(o, options).mesh;
   ASSERT_EQ(one.n_vertices(), other.n_vertices());
   for (const VertexId v : one.vertices()) EXPECT_EQ(1024.0 * one.lifted_point(v), other.lifted_point(v));
 }
@@ -217,8 +217,8 @@ TEST(SphereMesher, LongitudesMayBeInEitherConvention) {
   SphereOutline o, turned;
   add_line(o.coasts, {{-170, 10}, {-160, 30}, {170, 35}, {165, 12}}, true);
   add_line(turned.coasts, {{190, 10}, {200, 30}, {170, 35}, {165, 12}}, true);
-  const OutlineMesh made = mesh_of(o, sized(5e5));
-  EXPECT_EQ(made.mesh, mesh_of(turned, sized(5e5)).mesh);
+  const OutlineMesh made = globe_of(o, globe_sized(5e5));
+  EXPECT_EQ(made.mesh, globe_of(turned, globe_sized(5e5)).mesh);
   EXPECT_NEAR(area_of(made.mesh), 1 - area_of(o.coasts.points, {180, 20}), 1e-9);
 }
 
@@ -229,8 +229,8 @@ TEST(SphereMesher, TheSidesOfALoopAreTakenByTheirSizeNotItsDirection) {
   std::reverse(places.begin(), places.end());
   add_line(backwards.coasts, places, true);
   const double water = 1 - area_of(places, {20, 80});
-  EXPECT_NEAR(area_of(mesh_of(o, sized(6e5)).mesh), water, 1e-9);
-  EXPECT_NEAR(area_of(mesh_of(backwards, sized(6e5)).mesh), water, 1e-9);
+  EXPECT_NEAR(area_of(globe_of(o, globe_sized(6e5)).mesh), water, 1e-9);
+  EXPECT_NEAR(area_of(globe_of(backwards, globe_sized(6e5)).mesh), water, 1e-9);
 }
 
 TEST(SphereMesher, PolygonsCutAtTheEndOfTheMapAreWhole) {
@@ -247,7 +247,7 @@ TEST(SphereMesher, PolygonsCutAtTheEndOfTheMapAreWhole) {
     for (std::int32_t s = from; s < to; ++s) part.segments.push_back(s);
     o.coasts.parts.push_back(part);
   }
-  const OutlineMesh made = mesh_of(o, sized(8e5));
+  const OutlineMesh made = globe_of(o, globe_sized(8e5));
   expect_good(made, 8e5);
   EXPECT_EQ(euler(made.mesh), 2 - 2);
   for (const MeshLine& line : made.lines) EXPECT_TRUE(made.mesh.is_boundary(line.a));
@@ -262,7 +262,7 @@ TEST(SphereMesher, BasinsAreWhatIsMeshedAndIslandsInThemAreNot) {
   SphereOutline o;
   add_line(o.basins, blob({10, 40}, 30, 50, 0), true);
   add_line(o.coasts, blob({15, 45}, 8, 20, 0), true);
-  const OutlineMesh made = mesh_of(o, sized(4e5));
+  const OutlineMesh made = globe_of(o, globe_sized(4e5));
   expect_good(made, 4e5);
   expect_places(made, o.basins, 0);
   expect_places(made, o.coasts, o.basins.points.size());
@@ -271,7 +271,7 @@ TEST(SphereMesher, BasinsAreWhatIsMeshedAndIslandsInThemAreNot) {
   // A basin far smaller than a helper's triangle, without anything else on the sphere.
   SphereOutline pond;
   pond.basins = loop({{7, 50}, {7.1, 50}, {7.1, 50.1}, {7, 50.1}});
-  const OutlineMesh small = mesh_of(pond, sized(1000));
+  const OutlineMesh small = globe_of(pond, globe_sized(1000));
   expect_good(small, 1000);
   EXPECT_NEAR(area_of(small.mesh) / area_of(pond.basins.points, {7.05, 50.05}), 1, 1e-8);
 }
@@ -281,7 +281,7 @@ TEST(SphereMesher, LakesInLandAndIslandsInThemTakeTurns) {
   add_line(o.coasts, blob({0, 0}, 40, 60, 0), true);
   add_line(o.coasts, blob({0, 0}, 20, 40, 0), true);
   add_line(o.coasts, blob({0, 0}, 8, 20, 0), true);
-  const OutlineMesh made = mesh_of(o, sized(6e5));
+  const OutlineMesh made = globe_of(o, globe_sized(6e5));
   expect_good(made, 6e5);
   const double outer = area_of(blob({0, 0}, 40, 60, 0), {0, 0}), lake = area_of(blob({0, 0}, 20, 40, 0), {0, 0}),
                island = area_of(blob({0, 0}, 8, 20, 0), {0, 0});
@@ -291,16 +291,16 @@ TEST(SphereMesher, LakesInLandAndIslandsInThemTakeTurns) {
 TEST(SphereMesher, PointsOfNoSegmentBecomeFixedVertices) {
   SphereOutline o;
   o.lines.points = {{10, 20}, {180, -5}, {0, 90}};
-  const OutlineMesh made = mesh_of(o, sized(1e6));
+  const OutlineMesh made = globe_of(o, globe_sized(1e6));
   expect_good(made, 1e6);
   expect_places(made, o.lines, 0);
   for (const VertexId v : made.vertex_of_point) EXPECT_TRUE(made.mesh.is_fixed(v));
 }
 
 TEST(SphereMesher, WithoutOptimisationTheMeshIsDelaunay) {
-  MesherOptions options = sized(5e5);
+  MesherOptions options = globe_sized(5e5);
   options.optimize.reset();
-  const OutlineMesh made = mesh_of(islands_and_rivers(), options);
+  const OutlineMesh made = globe_of(islands_and_rivers(), options);
   EXPECT_EQ(made.report.sweeps, 0);
   EXPECT_EQ(made.bad, made.delaunay_bad);
   EXPECT_EQ(count_non_regular_edges(made.mesh, false), 0u);
@@ -311,7 +311,7 @@ TEST(SphereMesher, RegionsOfBasinsHaveTheirNumbersAndSizes) {
   add_line(o.basins, {{0, 0}, {20, 0}, {20, 20}, {0, 20}}, true);
   add_line(o.basins, {{20, 0}, {40, 0}, {40, 20}, {20, 20}}, true);
   o.basins.parts = {{4, {0, 1, 2, 3}, {}}, {5, {4, 5, 6, 7}, 1e5}};
-  const OutlineMesh made = mesh_of(o, sized(4e5));
+  const OutlineMesh made = globe_of(o, globe_sized(4e5));
   EXPECT_EQ(made.bad, 0u);
   expect_lines(made);
   std::array<std::size_t, 2> triangles = {};
@@ -333,7 +333,7 @@ TEST(SphereMesher, RandomIslandsAreNoTrouble) {
       const int corners = 3 + static_cast<int>(rng.uniform(0, 40));
       add_line(o.coasts, blob({lon, std::asin(z) * 180 / kPi}, radius, corners, rng.uniform(0, 0.5)), true);
     }
-    const Expected<OutlineMesh> made = mesh_sphere(o, sized(8e5));
+    const Expected<OutlineMesh> made = mesh_sphere(o, globe_sized(8e5));
     if (!made) {
       EXPECT_EQ(made.error().code, ErrorCode::overlap) << made.error().what();  // islands that cross
       continue;
@@ -347,7 +347,8 @@ TEST(SphereMesher, RandomIslandsAreNoTrouble) {
 
 // --- what is refused -----------------------------------------------------------------------------------------------
 
-void expect_error(const SphereOutline& outline, const MesherOptions& options, ErrorCode code, const std::string& part) {
+void expect_globe_error(const SphereOutline& outline, const MesherOptions& options, ErrorCode code,
+                        const std::string& part) {
   const Expected<OutlineMesh> made = mesh_sphere(outline, options);
   ASSERT_FALSE(made.has_value()) << "expected: " << part;
   EXPECT_EQ(made.error().code, code) << made.error().what();
@@ -361,49 +362,51 @@ SphereOutline coast(const std::vector<Vec2>& places) {
 }
 
 TEST(SphereMesherErrors, PlacesAreLongitudeAndLatitude) {
-  expect_error(coast({{0, 0}, {10, 0}, {10, 91}}), sized(1e6), ErrorCode::geographic,
-               "point 2 (segment 1) has longitude 10 and latitude 91");
-  expect_error(coast({{0, 0}, {10, 0}, {std::nan(""), 9}}), sized(1e6), ErrorCode::geographic, "point 2");
-  expect_error(coast({{0, 0}, {180, 0}, {90, 30}}), sized(1e6), ErrorCode::geographic, "opposite places");
-  expect_error(coast({{-120, 0}, {-100, 0}, {200, 20}}), sized(1e6), ErrorCode::geographic,
-               "segment 1 goes from longitude -100 to 200");
+  expect_globe_error(coast({{0, 0}, {10, 0}, {10, 91}}), globe_sized(1e6), ErrorCode::geographic,
+                     "point 2 (segment 1) has longitude 10 and latitude 91");
+  expect_globe_error(coast({{0, 0}, {10, 0}, {std::nan(""), 9}}), globe_sized(1e6), ErrorCode::geographic, "point 2");
+  expect_globe_error(coast({{0, 0}, {180, 0}, {90, 30}}), globe_sized(1e6), ErrorCode::geographic, "opposite places");
+  expect_globe_error(coast({{-120, 0}, {-100, 0}, {200, 20}}), globe_sized(1e6), ErrorCode::geographic,
+                     "segment 1 goes from longitude -100 to 200");
 }
 
 TEST(SphereMesherErrors, CoastsAreClosedAndDoNotCross) {
   SphereOutline open;
   add_line(open.coasts, {{0, 0}, {20, 0}, {20, 20}}, false);
-  expect_error(open, sized(1e6), ErrorCode::empty_input, "segment 0 ends at (0, 0), where the coast does not go on");
-  expect_error(coast({{0, 0}, {20, 20}, {20, 0}, {0, 20}}), sized(1e6), ErrorCode::overlap,
-               "segment 2 (point 2 to point 3) crosses segment 0 (point 0 to point 1)");
+  expect_globe_error(open, globe_sized(1e6), ErrorCode::empty_input,
+                     "segment 0 ends at (0, 0), where the coast does not go on");
+  expect_globe_error(coast({{0, 0}, {20, 20}, {20, 0}, {0, 20}}), globe_sized(1e6), ErrorCode::overlap,
+                     "segment 2 (point 2 to point 3) crosses segment 0 (point 0 to point 1)");
   SphereOutline two = coast(blob({0, 0}, 20, 20));
   add_line(two.lines, {{0, 1}, {50, 3}}, false);
-  expect_error(two, sized(1e6), ErrorCode::overlap, "crosses");
+  expect_globe_error(two, globe_sized(1e6), ErrorCode::overlap, "crosses");
 }
 
 TEST(SphereMesherErrors, HalvesAndNothingAreNoSides) {
-  expect_error(coast({{0, 0}, {90, 0}, {180, 0}, {-90, 0}}), sized(1e6), ErrorCode::out_of_scale, "into halves");
-  expect_error(coast({{-180, -90}, {180, -90}, {180, -60}, {-180, -60}}), sized(1e6), ErrorCode::zero_area,
-               "encloses nothing");
+  expect_globe_error(coast({{0, 0}, {90, 0}, {180, 0}, {-90, 0}}), globe_sized(1e6), ErrorCode::out_of_scale,
+                     "into halves");
+  expect_globe_error(coast({{-180, -90}, {180, -90}, {180, -60}, {-180, -60}}), globe_sized(1e6), ErrorCode::zero_area,
+                     "encloses nothing");
   SphereOutline nothing;
   add_line(nothing.basins, blob({0, 0}, 10, 20), true);
   add_line(nothing.coasts, blob({0, 0}, 20, 30), true);
-  expect_error(nothing, sized(1e6), ErrorCode::empty_input, "nothing of the sphere is left");
+  expect_globe_error(nothing, globe_sized(1e6), ErrorCode::empty_input, "nothing of the sphere is left");
 }
 
 TEST(SphereMesherErrors, SizesFitTheSphere) {
-  expect_error({}, sized(0), ErrorCode::invalid_option, "expected a size above 0");
-  expect_error({.radius = 0}, sized(1), ErrorCode::invalid_option, "radius");
-  expect_error({}, sized(10), ErrorCode::invalid_option, "triangles; at most");
-  expect_error({}, sized(1e8), ErrorCode::invalid_option, "too long for a sphere");
+  expect_globe_error({}, globe_sized(0), ErrorCode::invalid_option, "expected a size above 0");
+  expect_globe_error({.radius = 0}, globe_sized(1), ErrorCode::invalid_option, "radius");
+  expect_globe_error({}, globe_sized(10), ErrorCode::invalid_option, "triangles; at most");
+  expect_globe_error({}, globe_sized(1e8), ErrorCode::invalid_option, "too long for a sphere");
   MesherOptions options;
   const Mesh globe = *icosahedral({.level = 1, .radius = 1});
   options.field = *SizeField::from_values(globe, std::vector<double>(globe.n_vertices(), 0.5));
-  expect_error({}, options, ErrorCode::invalid_option, "the size field is of a sphere of radius 1");
+  expect_globe_error({}, options, ErrorCode::invalid_option, "the size field is of a sphere of radius 1");
   options.field = *SizeField::from_values(globe, std::vector<double>(globe.n_vertices(), 1e-6));
-  expect_error({.radius = 1}, options, ErrorCode::invalid_option, "the size field would make about");
+  expect_globe_error({.radius = 1}, options, ErrorCode::invalid_option, "the size field would make about");
   const Mesh flat = sparse_horseshoe();
   options.field = *SizeField::from_values(flat, std::vector<double>(flat.n_vertices(), 0.5));
-  expect_error({.radius = 1}, options, ErrorCode::invalid_option, "the size field is of the plane");
+  expect_globe_error({.radius = 1}, options, ErrorCode::invalid_option, "the size field is of the plane");
 }
 
 }  // namespace

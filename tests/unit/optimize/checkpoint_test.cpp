@@ -118,7 +118,7 @@ struct ResumedCase {
 Mesh random_mesh() { return *random_points({.vertices = 120, .seed = 5}); }
 Mesh large_random_mesh() { return *random_points({.vertices = 1200, .seed = 3}); }
 Mesh regions() { return mesh_with_regions(150, 3); }
-Mesh ready_mesh() { return lattice({.n = 8, .jitter = 0.1, .weight = 0.06, .seed = 4}); }
+Mesh with_margins() { return lattice({.n = 8, .jitter = 0.1, .weight = 0.06, .seed = 4}); }
 /// Two attempts, then repairs.
 Mesh hard_mesh() { return *horseshoe(); }
 Mesh without_inside() { return *regular_polygon({.corners = 20}); }
@@ -195,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(
         ResumedCase{"ties_among_others", sheared, {}}, ResumedCase{"repair_by_moves", hard_mesh, {.repair_trials = 40}},
         ResumedCase{"repair_by_vertices", without_inside, {.repair = Repair::vertices}},
         ResumedCase{"repair_in_vain", hard_mesh, {.repair = Repair::vertices, .repair_trials = 60}},
-        ResumedCase{"accuracy", ready_mesh, {.objective = Objective::accuracy}},
+        ResumedCase{"accuracy", with_margins, {.objective = Objective::accuracy}},
         ResumedCase{"accuracy_after_attempts",
                     regions,
                     {.objective = Objective::accuracy, .boundary = BoundaryVertices::split}}),

@@ -18,7 +18,7 @@
 namespace temper::test {
 namespace {
 
-Mesh random_mesh(std::uint64_t seed = 1) {
+Mesh three_hundred_points(std::uint64_t seed = 1) {
   auto mesh = random_points({.vertices = 300, .seed = seed});
   EXPECT_TRUE(mesh);
   return *std::move(mesh);
@@ -157,7 +157,7 @@ TEST(Collapses, LeaveInterfacesAlone) {
 TEST(PatchTest, SumGutsWhereMeanAndExcessSpare) {
   std::vector<std::size_t> left;
   for (const RemovalMeasure measure : {RemovalMeasure::sum, RemovalMeasure::mean, RemovalMeasure::excess}) {
-    Mesh mesh = random_mesh();
+    Mesh mesh = three_hundred_points();
     const auto report = optimize(mesh, {.max_sweeps = 40,
                                         .paper = {.gamma = Softening{1, LengthScale::relative},
                                                   .removal = Removal::patch,
@@ -175,7 +175,7 @@ TEST(PatchTest, SumGutsWhereMeanAndExcessSpare) {
 TEST(PatchTest, AWiderMarginRemovesFewer) {
   std::vector<std::size_t> removed;
   for (const double margin : {0.0, 0.1, 0.3}) {
-    Mesh mesh = random_mesh();
+    Mesh mesh = three_hundred_points();
     const auto report = optimize(
         mesh, {.max_sweeps = 30, .paper = {.removal = Removal::patch, .removal_margin = margin, .removal_from = 5}});
     ASSERT_TRUE(report);
@@ -273,7 +273,7 @@ std::vector<Mesh> meshes_to_hide_in() {
     points.insert(points.end(), {{1.0 * i, 0.0}, {1.0 * i, 1.0}});
     if (i < 8) triangles.insert(triangles.end(), {{2 * i, 2 * i + 2, 2 * i + 3}, {2 * i, 2 * i + 3, 2 * i + 1}});
   }
-  return {Mesh::build({.points = points, .triangles = triangles})->mesh, dense(), random_mesh()};
+  return {Mesh::build({.points = points, .triangles = triangles})->mesh, dense(), three_hundred_points()};
 }
 
 // HOT energies are lowered, whatever that does to triangles and, where hidden vertices stay, to edges.
@@ -538,7 +538,7 @@ TEST(Orders, EachIsItsOwnAndSeeded) {
     hooks.tracer = [&](const TraceEvent& e) {
       if (e.sweep == 1 && e.kind == EventKind::move) moved.push_back(e.vertex.index);
     };
-    Mesh mesh = random_mesh();
+    Mesh mesh = three_hundred_points();
     EXPECT_TRUE(optimize(mesh, o, hooks));
     EXPECT_GT(moved.size(), 100u);
     return moved;
@@ -552,7 +552,7 @@ TEST(Orders, EachIsItsOwnAndSeeded) {
 }
 
 TEST(Options, SwitchesThatContradictEachOtherAreRefused) {
-  Mesh mesh = random_mesh();
+  Mesh mesh = three_hundred_points();
   const Mesh input = mesh;
   for (const OptimizeOptions& o : std::vector<OptimizeOptions>{
            {.paper = {.weight_updates = Updates::deferred}},
@@ -584,7 +584,7 @@ TEST(Options, SwitchesThatContradictEachOtherAreRefused) {
 }
 
 TEST(Traces, ChangeNothingOfTheRun) {
-  Mesh plain = random_mesh(), traced = plain;
+  Mesh plain = three_hundred_points(), traced = plain;
   std::size_t events = 0, snapshots = 0;
   OptimizeOptions o{.max_sweeps = 12, .paper = {.removal = Removal::patch, .removal_from = 2}};
   ASSERT_TRUE(optimize(plain, o));

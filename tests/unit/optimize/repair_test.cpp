@@ -31,7 +31,7 @@ std::set<Edge> boundary(const Mesh& mesh) {
   return edges;
 }
 
-std::size_t bad_triangles(const Mesh& mesh) { return standing(mesh).bad; }
+std::size_t n_bad(const Mesh& mesh) { return standing(mesh).bad; }
 
 struct HardMesh {
   const char* name;
@@ -57,7 +57,7 @@ TEST(Repair, HardMeshesEndWellCenteredWithTheirBoundaryBitForBit) {
       const auto report =
           optimize(mesh, {.repair = Repair::vertices, .paper = {.seed = static_cast<std::uint64_t>(seed)}});
       ASSERT_TRUE(report);
-      EXPECT_EQ(bad_triangles(mesh), 0u);
+      EXPECT_EQ(n_bad(mesh), 0u);
       EXPECT_EQ(count_non_regular_edges(mesh), 0u);
       EXPECT_EQ(mesh.validate(), std::nullopt);
       EXPECT_EQ(boundary(mesh), boundary(input));
@@ -72,8 +72,8 @@ TEST(Repair, WithoutInsertionAndRemovalEveryVertexStays) {
   ASSERT_TRUE(optimize(swept, {.repair = Repair::none}));
   const auto report = optimize(repaired);
   ASSERT_TRUE(report);
-  EXPECT_GT(bad_triangles(swept), 0u);
-  EXPECT_EQ(bad_triangles(repaired), 0u);
+  EXPECT_GT(n_bad(swept), 0u);
+  EXPECT_EQ(n_bad(repaired), 0u);
   EXPECT_EQ(repaired.n_vertices(), input.n_vertices());
   EXPECT_TRUE(report->vertices.empty());
 }
@@ -121,7 +121,7 @@ TEST(Repair, KeepsInterfacesRegionsAndFixedVertices) {
   Mesh mesh = input;
   const auto report = optimize(mesh, {.repair = Repair::vertices});
   ASSERT_TRUE(report);
-  EXPECT_EQ(bad_triangles(mesh), 0u);
+  EXPECT_EQ(n_bad(mesh), 0u);
   EXPECT_GT(report->vertices_inserted, 0u);
   for (int i = 0; i < 47; ++i) EXPECT_EQ(mesh.position(VertexId(i)).x, points[static_cast<std::size_t>(i)].x);
   for (const auto& [a, b] : segments) {
@@ -143,7 +143,7 @@ TEST(Repair, NoTrialsMeansNoRepair) {
   const auto report = optimize(no_trials, {.repair = Repair::vertices, .repair_trials = 0, .max_sweeps = 60});
   ASSERT_TRUE(report);
   EXPECT_EQ(report->vertices_removed + report->vertices_inserted, 0u);
-  EXPECT_GT(bad_triangles(no_trials), 0u);
+  EXPECT_GT(n_bad(no_trials), 0u);
   EXPECT_FALSE(optimize(none, {.repair_trials = -1}));
 }
 
@@ -156,13 +156,13 @@ TEST(Repair, SaysWhenAnEdgeMustBeSplitBeforeAnythingHelps) {
   const auto report =
       optimize(kept, {.objective = Objective::energy, .repair = Repair::vertices, .repair_trials = 500});
   ASSERT_TRUE(report);
-  EXPECT_GT(bad_triangles(kept), 0u);
+  EXPECT_GT(n_bad(kept), 0u);
   ASSERT_FALSE(report->notes.empty());
   EXPECT_NE(report->notes.back().find("1 edge of the boundary or of lines has to be split"), std::string::npos);
   EXPECT_NE(report->notes.back().find("from point 0 to point 1"), std::string::npos);
   const auto after_split = optimize(split, {.boundary = BoundaryVertices::split});
   ASSERT_TRUE(after_split);
-  EXPECT_EQ(bad_triangles(split), 0u);
+  EXPECT_EQ(n_bad(split), 0u);
 }
 
 // --- the parts ------------------------------------------------------------------------------------------

@@ -15,13 +15,13 @@ namespace {
 
 constexpr double kRadius = 6371;
 
-Vec3 unit(Vec3 p) { return (1 / length(p)) * p; }
+Vec3 on_unit_sphere(Vec3 p) { return (1 / length(p)) * p; }
 
 /// The mean of its corners, which is on the flat triangle.
-Vec3 mean_of(const Mesh& mesh, const Place& place) {
+Vec3 flat_mean_of(const Mesh& mesh, const Place& place) {
   Vec3 sum;
   for (std::size_t k = 0; k < static_cast<std::size_t>(place.n); ++k) {
-    sum = sum + place.shares[k] * unit(mesh.lifted_point(place.corners[k]));
+    sum = sum + place.shares[k] * on_unit_sphere(mesh.lifted_point(place.corners[k]));
   }
   return sum;
 }
@@ -64,12 +64,12 @@ TEST(PlaceOnSphere, IsWhereTheRayMeetsTheTriangle) {
     const PlaceFinder finder(mesh);
     Noise noise(3);
     for (int i = 0; i < 500; ++i) {
-      const Vec3 p = unit({noise(), noise(), noise()});
+      const Vec3 p = on_unit_sphere({noise(), noise(), noise()});
       const TriangleId near(static_cast<std::size_t>(i) % mesh.n_triangles());
       const Place place = finder.find(as_point(p), i % 2 == 0 ? near : TriangleId());
       ASSERT_FALSE(place.outside);
       EXPECT_TRUE(has(mesh, place.triangle, p));
-      EXPECT_LT(length(unit(mean_of(mesh, place)) - p), 1e-14);
+      EXPECT_LT(length(on_unit_sphere(flat_mean_of(mesh, place)) - p), 1e-14);
       EXPECT_EQ(finder.find(as_point(2.5 * p)).triangle, place.triangle) << "weights do not count";
     }
   }
@@ -85,7 +85,7 @@ TEST(PlaceOnSphere, OfAVertexIsThatVertexAndOfTheMiddleOfAnEdgeIsNearThatEdge) {
   }
   for (const HalfedgeId h : mesh.halfedges()) {
     const Vec3 middle = 0.5 * (mesh.lifted_point(mesh.origin(h)) + mesh.lifted_point(mesh.target(h)));
-    EXPECT_LT(length(mean_of(mesh, finder.find(as_point(middle))) - (1 / kRadius) * middle), 1e-14);
+    EXPECT_LT(length(flat_mean_of(mesh, finder.find(as_point(middle))) - (1 / kRadius) * middle), 1e-14);
   }
 }
 
@@ -95,7 +95,7 @@ TEST(PlaceOnSphere, BeyondTheCoastIsTheNearestPointOfIt) {
   int outside = 0;
   Noise noise(5);
   for (int i = 0; i < 300; ++i) {
-    const Vec3 p = unit({noise(), noise(), std::abs(noise())});
+    const Vec3 p = on_unit_sphere({noise(), noise(), std::abs(noise())});
     const Place place = finder.find(as_point(p));
     bool inside = false;
     for (const TriangleId t : ocean.triangles()) inside = inside || has(ocean, t, p);
@@ -103,7 +103,7 @@ TEST(PlaceOnSphere, BeyondTheCoastIsTheNearestPointOfIt) {
     if (inside) continue;
     ++outside;
     for (const VertexId v : ocean.vertices()) {
-      EXPECT_LE(length(mean_of(ocean, place) - p), length(unit(ocean.lifted_point(v)) - p) + 1e-14);
+      EXPECT_LE(length(flat_mean_of(ocean, place) - p), length(on_unit_sphere(ocean.lifted_point(v)) - p) + 1e-14);
     }
   }
   EXPECT_GT(outside, 100);
@@ -120,8 +120,9 @@ TEST(PlacesOfVertices, OnTheSphereGiveSmoothDataWhereverAnOptimisationPutsVertic
     const auto sources = sources_of_triangles(before, after, places);
     std::size_t moved = 0;
     for (const VertexId v : after.vertices()) {
-      const Vec3 p = unit(after.lifted_point(v));
-      const double value = interpolated(places[v], [&](VertexId u) { return field(unit(before.lifted_point(u))); });
+      const Vec3 p = on_unit_sphere(after.lifted_point(v));
+      const double value =
+          interpolated(places[v], [&](VertexId u) { return field(on_unit_sphere(before.lifted_point(u))); });
       EXPECT_NEAR(value, field(p), 10);  // triangles of 0.1 are 1 % of the radius below the sphere at most
       EXPECT_EQ(interpolated(places[v], [](VertexId) { return 0.1; }), 0.1);
       const bool stayed = before.space().same_place(before.point(v), after.point(v));
@@ -133,7 +134,8 @@ TEST(PlacesOfVertices, OnTheSphereGiveSmoothDataWhereverAnOptimisationPutsVertic
     EXPECT_GT(moved, after.n_vertices() / 2);
     for (const TriangleId t : after.triangles()) {
       const auto [a, b, c] = after.corners(t);
-      const Vec3 middle = unit(after.lifted_point(a)) + unit(after.lifted_point(b)) + unit(after.lifted_point(c));
+      const Vec3 middle = on_unit_sphere(after.lifted_point(a)) + on_unit_sphere(after.lifted_point(b)) +
+                          on_unit_sphere(after.lifted_point(c));
       if (whole) {
         EXPECT_TRUE(has(before, sources[t], middle));
       }

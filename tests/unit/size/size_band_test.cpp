@@ -14,7 +14,7 @@ namespace temper::test {
 namespace {
 
 // Sizes are compared in the units of the run, and once more in the user's: a few roundings apart.
-constexpr double kRounding = 1e-12;
+constexpr double kBandRounding = 1e-12;
 
 struct Optimized {
   Mesh mesh;
@@ -48,7 +48,7 @@ TEST(SizeBand, IsKeptOnRandomAndGradedMeshes) {
       const Optimized result = optimized(mesh, in_band(band));
       EXPECT_GT(result.report.sweeps, 0);
       EXPECT_GT(result.report.size.after.band(), 1);
-      EXPECT_LE(result.report.size.after.band(), band + kRounding);
+      EXPECT_LE(result.report.size.after.band(), band + kBandRounding);
       EXPECT_NE(result.mesh, mesh);
       EXPECT_GE(quality(result.mesh).well_centered_fraction, quality(mesh).well_centered_fraction);
     }
@@ -63,7 +63,7 @@ TEST(SizeBand, IsKeptByEverySolver) {
     options.max_sweeps = 20;
     const Optimized result = optimized(mesh, options);
     EXPECT_GT(result.report.size.after.band(), 1);
-    EXPECT_LE(result.report.size.after.band(), 1.3 + kRounding);
+    EXPECT_LE(result.report.size.after.band(), 1.3 + kBandRounding);
   }
 }
 
@@ -97,7 +97,7 @@ TEST(SizeBand, OfAFieldThatTheMeshDoesNotFollowIsNotLeftFurther) {
   EXPECT_GT(size.before.band(), 1.5);
   ASSERT_EQ(result.report.notes.size(), 1U);
   EXPECT_EQ(result.report.notes[0].find("the input is outside of its size band"), 0U);
-  EXPECT_LE(size.after.band(), size.before.band() * (1 + kRounding));
+  EXPECT_LE(size.after.band(), size.before.band() * (1 + kBandRounding));
   EXPECT_EQ(measure_size(result.mesh, *options.size_field).over_field.max, size.after.over_field.max);
 }
 
