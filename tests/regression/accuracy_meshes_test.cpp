@@ -10,6 +10,7 @@
 #include <string>
 
 #include "support/error_model.hpp"
+#include "support/sanitizers.hpp"
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
@@ -22,6 +23,9 @@ constexpr const char* kMeshesForAccuracy[] = {
     "mfem_square-disc.mesh",       "pydec_ResonantCavity.vtu",  "sfepy_circle_in_square.mesh",
     "sfepy_circles_in_square.vtk", "sfepy_its2D.mesh",          "sfepy_osteonT1_11.mesh",
     "skfem_annulus.msh",           "skfem_cylinder_stokes.msh", "skfem_square.msh"};
+
+// Sanitizers look at memory, for which small meshes do.
+constexpr std::size_t kMostVertices = TEMPER_SANITIZED ? 400 : 2000;
 
 struct Errors {
   double star1 = 0, poisson = 0, poisson_max = 0, flux = 0;
@@ -123,12 +127,14 @@ TEST(AccuracyOfPublicMeshes, KeepsThePromisesOfEachSchemeOnFieldsThatWereHeldBac
       SCOPED_TRACE(name);
       const std::string path = std::string(TEMPER_SHARED "/meshes") + "/" + name;
       if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
-      const Errors errors = improved_errors(public_mesh(path), promise);
+      const Mesh mesh = public_mesh(path);
+      if (mesh.n_vertices() > kMostVertices) continue;
+      const Errors errors = improved_errors(mesh, promise);
       expect_at_most(errors, promise.worst);
       means.add(errors);
     }
-    ASSERT_EQ(means.meshes, 9);
-    expect_at_most(means.mean(), promise.mean);
+    ASSERT_EQ(means.meshes, TEMPER_SANITIZED ? 7 : 9);
+    if (means.meshes == 9) expect_at_most(means.mean(), promise.mean);
   }
 }
 

@@ -214,6 +214,7 @@ TEST(Checkpoints, OfARunOnThreadsAreResumedOnAnyNumberOfThem) {
   ASSERT_GT(states.size(), 12u);
   ASSERT_LT(states.size(), static_cast<std::size_t>(report->sweeps)) << "no Newton passes";
   for (const std::size_t before_end : {2, 5}) {
+    if (TEMPER_SANITIZED && before_end == 5) continue;
     for (Executor* executor : {static_cast<Executor*>(nullptr), static_cast<Executor*>(&three)}) {
       OptimizeHooks again;
       again.executor = executor;
