@@ -16,6 +16,8 @@
 #include "temper/verify.hpp"
 #endif
 
+TEMPER_PYTHON_NAMES(temper::Better, "equal", "larger", "less");
+
 namespace temper::python {
 namespace {
 
@@ -37,16 +39,24 @@ py::dict quality_to_dict(const Quality& q) {
                      .dict);
   }
   Record r;
-  r("vertices", q.vertices)("triangles", q.triangles)("edges", q.edges)("boundary_edges", q.boundary_edges)(
-      "regions", q.regions)("inverted_triangles", q.inverted_triangles)("non_regular_edges", q.non_regular_edges);
-  r("negative_boundary_duals", q.negative_boundary_duals)("orthocenters_outside", q.orthocenters_outside)(
-      "edges_not_crossed", q.edges_not_crossed)("well_centered_fraction", q.well_centered_fraction);
-  r("min_h_over_l", q.min_h_over_l)("min_d_over_l", q.min_d_over_l)("min_angle_deg", q.min_angle_deg)(
-      "max_angle_deg", q.max_angle_deg)("max_transmissibility_over_median", q.max_transmissibility_over_median);
+  for (const QualityMeasure& m : quality_measures()) {
+    const std::string key(m.key);
+    m.count ? r(key.c_str(), static_cast<std::size_t>(m.of(q))) : r(key.c_str(), m.of(q));
+  }
   r("energy", py::object(energy))("worst", py::object(worst));
   r("angles", py::object(histogram_to_dict(q.angles)))("h_over_l", py::object(histogram_to_dict(q.h_over_l)))(
       "d_over_l", py::object(histogram_to_dict(q.d_over_l)));
   return r.dict;
+}
+
+py::list quality_measures_list() {
+  py::list list;
+  for (const QualityMeasure& m : quality_measures()) {
+    list.append(Record()("key", m.key)("alias", m.alias)("label", m.label)("community", m.community)(
+                    "definition", m.definition)("better", name_of(m.better))("count", m.count)("wanted", m.wanted)
+                    .dict);
+  }
+  return list;
 }
 
 /// The least h/ℓ or d/ℓ of each triangle, and whether it is well-centered (exact).
@@ -131,6 +141,7 @@ void bind_energy(py::module_& m) {
     }
     return quality_to_dict(result);
   });
+  m.def("quality_measures", quality_measures_list);
   m.def("triangle_margins", triangle_margins);
   m.def("triangle_quality", triangle_quality_to_dict);
   m.def("energies", energies_list);

@@ -31,7 +31,7 @@ LAYERS = {
     "feasibility": _BELOW + ["topology", "energy", "regularity"],
     "optimize": _BELOW + ["size", "topology", "energy", "regularity", "feasibility"],
     # What looks at meshes: never at how they were optimised.
-    "quality": _BELOW + ["topology", "energy", "regularity", "feasibility"],
+    "quality": _BELOW + ["size", "topology", "energy", "regularity", "feasibility"],
     "explain": _BELOW + ["topology", "energy", "regularity", "feasibility", "quality"],
     "dec": _BELOW + ["topology", "energy", "regularity"],
     "draw": _BELOW + ["topology", "energy", "regularity", "quality"],

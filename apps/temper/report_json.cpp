@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "input.hpp"
-#include "measures.hpp"
 #include "temper/version.hpp"
 
 namespace temper::app {
@@ -36,7 +35,7 @@ Json worst_triangle(const WorstTriangle& worst, Points points) {
 
 Json to_json(const Quality& quality, Points points) {
   Json json;
-  for (const Measure& measure : measures()) {
+  for (const QualityMeasure& measure : quality_measures()) {
     const double value = measure.of(quality);
     json[std::string(measure.key)] = measure.count ? Json(static_cast<std::uint64_t>(value)) : number_or_null(value);
   }

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "console.hpp"
-#include "measures.hpp"
 
 namespace temper::app {
 namespace {
@@ -18,7 +17,7 @@ constexpr std::size_t kRangeColumns = 12;
 constexpr std::size_t kBarColumns = 10;
 constexpr std::size_t kPanelGap = 3;
 
-std::string measure_text(const Measure& measure, const Quality& quality) {
+std::string measure_text(const QualityMeasure& measure, const Quality& quality) {
   const double value = measure.of(quality);
   return measure.count ? fmt::format("{}", static_cast<std::size_t>(value)) : fmt::format("{:.6g}", value);
 }
@@ -171,7 +170,7 @@ std::string verdict(const Quality& quality) {
 
 std::string quality_text(const Quality& quality, const Input& input, const TextStyle& style) {
   std::string text = fmt::format("{}: {}\n\n", input.path, verdict(quality));
-  for (const Measure& measure : measures()) {
+  for (const QualityMeasure& measure : quality_measures()) {
     text += pad_right(measure.label, kLabelColumns) + pad_left(measure_text(measure, quality), kNumberColumns) + "\n";
   }
   text += "\n" + energy_table(quality, style);
@@ -184,7 +183,7 @@ std::string comparison_text(const Quality& before, const Quality& after, int sta
     return pad_right(label, kLabelColumns) + pad_left(from, kNumberColumns) + pad_left(to, kNumberColumns) + "\n";
   };
   std::string text = row("", "before", "after");
-  for (const Measure& measure : measures()) {
+  for (const QualityMeasure& measure : quality_measures()) {
     text += row(std::string(measure.label), measure_text(measure, before), measure_text(measure, after));
   }
   const auto number = [&style](double value) {

@@ -5,14 +5,15 @@
 #include <cmath>
 
 #include "console.hpp"
+#include "energy_keys.hpp"
 #include "options.hpp"
 #include "suggest.hpp"
 
 namespace temper::app {
 namespace {
 
-const Measure* find_measure(std::string_view key) {
-  for (const Measure& measure : measures()) {
+const QualityMeasure* find_measure(std::string_view key) {
+  for (const QualityMeasure& measure : quality_measures()) {
     if (key == measure.key || (!measure.alias.empty() && key == measure.alias)) return &measure;
   }
   return nullptr;
@@ -29,7 +30,7 @@ bool is_energy_key(std::string_view key) {
 
 [[noreturn]] void refuse_key(std::string_view key) {
   std::vector<std::string_view> names;
-  for (const Measure& measure : measures()) {
+  for (const QualityMeasure& measure : quality_measures()) {
     if (!measure.alias.empty()) names.push_back(measure.alias);
     names.push_back(measure.key);
   }
@@ -38,16 +39,26 @@ bool is_energy_key(std::string_view key) {
                      guess.empty() ? "" : fmt::format(", did you mean '{}'?", guess), join(names)));
 }
 
+/// A key alone asks for what is usually wanted.
+Requirement usual_requirement(std::string_view key) {
+  const QualityMeasure* measure = find_measure(key);
+  if (measure == nullptr) refuse(fmt::format("'{}' is not key=value", key));
+  if (!measure->wanted) {
+    refuse(fmt::format("'{0}' has no usual value: write {0}{1}VALUE", key, sign(measure->better)));
+  }
+  return {std::string(key), std::string(measure->key), measure->better, *measure->wanted};
+}
+
 Requirement parse_requirement(std::string_view text) {
   const std::size_t at = text.find_first_of("<>=");
-  if (at == std::string_view::npos) refuse(fmt::format("'{}' is not key=value", text));
+  if (at == std::string_view::npos) return usual_requirement(text);
   const std::string_view key = text.substr(0, at);
   const bool two = text.substr(at).size() > 1 && text[at + 1] == '=';
   if (!two && text[at] != '=') refuse(fmt::format("'{}': write <= or >=, the ends always belong", text));
 
   Requirement requirement;
   requirement.text = text;
-  const Measure* measure = find_measure(key);
+  const QualityMeasure* measure = find_measure(key);
   if (measure == nullptr && !is_energy_key(key)) refuse_key(key);
   requirement.key = measure != nullptr ? measure->key : key;
   if (two) {
@@ -63,7 +74,7 @@ Requirement parse_requirement(std::string_view text) {
 }
 
 double value_of(const std::string& key, const Quality& quality) {
-  if (const Measure* measure = find_measure(key)) return measure->of(quality);
+  if (const QualityMeasure* measure = find_measure(key)) return measure->of(quality);
   for (const EnergyKey& energy : energy_keys()) {
     if (energy.key == key) return quality.energy[energy.row][energy.star];
   }
@@ -85,7 +96,7 @@ bool holds(Better better, double found, double wanted) {
 /// The keys and short names, for --help.
 std::string requirement_keys() {
   std::string text;
-  for (const Measure& measure : measures()) {
+  for (const QualityMeasure& measure : quality_measures()) {
     if (!text.empty()) text += ", ";
     text += measure.key;
     if (!measure.alias.empty()) text += fmt::format(" ({})", measure.alias);
@@ -100,7 +111,7 @@ Option& add_requirements(Command& command, std::vector<std::string>& lists) {
       command, "--require", "LIST", Values::repeated, lists,
       "key=value,key>=value,key<=value,...: exit with 3 when one does not hold. key=value asks of a count that "
       "it is the value, of a minimum or a fraction that it is no less, of a maximum or an energy that it is no "
-      "more. Keys: " +
+      "more. A key alone asks for what is usual, see docs/thresholds.md. Keys: " +
           requirement_keys());
 }
 

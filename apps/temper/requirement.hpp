@@ -1,11 +1,11 @@
 // --require outside=0,min_h=0.05, of check and optimize: the grammar, and the judgement.
 //
 //   list         requirement , requirement , …
-//   requirement  key = value | key <= value | key >= value | key == value
+//   requirement  key | key = value | key <= value | key >= value | key == value
 //   key          a number of the JSON report, its short name, or energy.NAME.STAR
 //
 // A plain = asks what one wants of that number: counts equal, minima and fractions at least, maxima and
-// energies at most.
+// energies at most. A key alone asks for the usual value of its row.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "command.hpp"
-#include "measures.hpp"
+#include "temper/quality.hpp"
 
 namespace temper::app {
 

@@ -3,6 +3,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -46,7 +49,27 @@ struct Histogram {
 /// The total energies of a mesh: [EnergyKind, the row of energies()][star], +∞ outside the domain of the energy.
 using EnergyTable = std::array<std::array<double, 3>, kEnergyKinds>;
 
-struct Quality {
+/// What codes that run on meshes refuse or are slowed by: quality_measures() has the definition of each, and whose it
+/// is. A least over nothing is +∞, a largest 0. Interior edges have a triangle on both sides, closed cells are those of
+/// vertices inside.
+struct SolverMeasures {
+  double min_edge_over_size = std::numeric_limits<double>::infinity();  ///< relative_lengths() of interior edges
+  double min_dual_over_size = std::numeric_limits<double>::infinity();
+  double min_dual_over_cell_median = std::numeric_limits<double>::infinity();  ///< of closed cells
+  double max_orthogonality = 0;                                                ///< of interior edges, |cosine|
+  double max_smoothness = 0;                                                   ///< of interior edges, ≥ 1
+  double min_flow_link = std::numeric_limits<double>::infinity();              ///< of interior edges
+  std::size_t small_flow_links = 0;                                            ///< less than 0.1
+  double min_cell_quality = std::numeric_limits<double>::infinity();           ///< of closed cells
+  double min_grid_spacing = std::numeric_limits<double>::infinity();           ///< [length]
+  double max_grid_spacing = 0;                                                 ///< [length]
+  double min_triangle_quality = std::numeric_limits<double>::infinity();
+  double min_triangle_angle_quality = std::numeric_limits<double>::infinity();
+  std::size_t obtuse_triangles = 0;          ///< exact
+  double max_centroid_offset_over_size = 0;  ///< of closed cells
+};
+
+struct Quality : SolverMeasures {
   std::size_t vertices = 0, triangles = 0, edges = 0, boundary_edges = 0, regions = 0;
   std::size_t inverted_triangles = 0;       ///< exact
   std::size_t non_regular_edges = 0;        ///< interior edges with negative dual, exact
@@ -61,6 +84,7 @@ struct Quality {
   /// over the distance between the orthocenters). +∞ when a dual edge has length zero, exactly; 1 without interior
   /// edges.
   double max_transmissibility_over_median = 0;
+  double transmissibility_ratio = 0;  ///< the largest over the least of them; 1 and +∞ as above
   EnergyTable energy = {};
   std::vector<WorstTriangle> worst;  ///< worst first
   Histogram angles, h_over_l, d_over_l;
@@ -76,6 +100,27 @@ struct TriangleQuality {
 [[nodiscard]] TriangleQuality triangle_quality(const Mesh& mesh, TriangleId t);
 /// The same of corners in a space, before there is a mesh.
 [[nodiscard]] TriangleQuality triangle_quality(const Space& space, const std::array<WeightedPoint, 3>& corners);
+
+/// What one wants of a number.
+enum class Better : std::uint8_t {
+  equal,   ///< counts: the number
+  larger,  ///< minima and fractions: at least
+  less,    ///< maxima and energies: at most
+};
+
+/// A number of Quality, the energies aside: requirements, reports and tables are made from these rows.
+struct QualityMeasure {
+  std::string_view key;         ///< of reports; a member of Quality has the same name
+  std::string_view alias;       ///< a short name, or the one that its community uses; or empty
+  std::string_view label;       ///< in tables
+  std::string_view community;   ///< whose codes look at it; empty for those of primal-dual meshes as such
+  std::string_view definition;  ///< of one line, with its source
+  Better better;
+  bool count;                    ///< a whole number
+  std::optional<double> wanted;  ///< what is asked for where nobody says more
+  double (*of)(const Quality&);
+};
+[[nodiscard]] std::span<const QualityMeasure> quality_measures();
 
 /// A number of each triangle, for pictures.
 struct TriangleValue {

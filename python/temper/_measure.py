@@ -75,6 +75,34 @@ class Quality(Record):
     max_transmissibility_over_median: float
     """Of ℓ/\\|h_k + h_l\\| of interior edges. inf when a dual edge has length zero, exactly; 1 without interior
     edges."""
+    transmissibility_ratio: float
+    """The largest over the least of them."""
+    min_edge_over_size: float
+    """Of interior edges, over the mean of the local sizes at their ends."""
+    min_dual_over_size: float
+    min_dual_over_cell_median: float
+    """Of each closed cell the least signed dual over the median of their lengths."""
+    max_orthogonality: float
+    """D-Flow FM: \\|cosine\\| between an edge and the line of the circumcenters kept inside."""
+    max_smoothness: float
+    """D-Flow FM: ratio of areas on the sides of an edge."""
+    min_flow_link: float
+    """D-Flow FM: distance of these circumcenters over the mean root of their areas."""
+    small_flow_links: int
+    """D-Flow FM: where that is below 0.1."""
+    min_cell_quality: float
+    """MPAS-Tools' cellQuality."""
+    min_grid_spacing: float
+    """MPAS-Tools' gridSpacing."""
+    max_grid_spacing: float
+    min_triangle_quality: float
+    """MPAS-Tools' triangleQuality."""
+    min_triangle_angle_quality: float
+    """MPAS-Tools' triangleAngleQuality."""
+    obtuse_triangles: int
+    """MPAS-Tools' obtuseTriangle."""
+    max_centroid_offset_over_size: float
+    """Distance of a vertex from the centroid of its closed cell."""
     energy: dict[str, tuple[float, float, float]]
     """Of each energy the totals for ★0, ★1, ★2; inf outside its domain."""
     worst: list[WorstTriangle]
@@ -119,6 +147,34 @@ def quality(
     d = _temper.quality(as_mesh(mesh)._handle, _softening("gamma", gamma), _softening("h0", h0), worst, threads)
     histograms = {name: Histogram(**d[name]) for name in ("angles", "h_over_l", "d_over_l")}
     return Quality(**merged(d, worst=[WorstTriangle(**w) for w in d["worst"]], **histograms))
+
+
+@dataclasses.dataclass(frozen=True)
+class QualityMeasure(Record):
+    """A row of ``quality_measures``: a number of ``Quality``."""
+
+    key: str
+    """Its name in ``Quality``, in reports and for ``--require``."""
+    alias: str
+    """A short name for ``--require``, or the one that its community uses; or empty."""
+    label: str
+    community: str
+    """Whose codes look at it; empty for those of primal-dual meshes as such."""
+    definition: str
+    better: Literal["equal", "larger", "less"]
+    count: bool
+    wanted: float | None
+    """What is asked for where nobody says more."""
+
+
+def quality_measures() -> list[QualityMeasure]:
+    """All numbers of ``Quality``, the energies aside.
+
+    >>> import temper
+    >>> {row.key: row.wanted for row in temper.quality_measures() if row.community == "D-Flow FM"}
+    {'max_orthogonality': 0.01, 'max_smoothness': None, 'min_flow_link': 0.1, 'small_flow_links': 0.0}
+    """
+    return [QualityMeasure(**row) for row in _temper.quality_measures()]
 
 
 check = quality

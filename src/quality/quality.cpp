@@ -3,12 +3,14 @@
 #include "temper/quality.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "base/assert.hpp"
 #include "base/median.hpp"
 #include "energy/total_energies.hpp"
 #include "mesh/erased.hpp"
+#include "quality/solver_measures.hpp"
 #include "quality/tally.hpp"
 #include "temper/executor.hpp"
 
@@ -47,6 +49,13 @@ EnergyTable all_energies(const Mesh& mesh, const QualityOptions& options) {
   return table;
 }
 
+/// Of numbers > 0, of which some may be +∞.
+double largest_over_least(const std::vector<double>& values) {
+  if (values.empty()) return 1;
+  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+  return *largest < std::numeric_limits<double>::infinity() ? *largest / *least : *largest;
+}
+
 std::size_t count_regions(const Mesh& mesh) {
   std::set<std::int32_t> regions;
   for (TriangleId t : mesh.triangles()) regions.insert(mesh.region(t));
@@ -59,6 +68,7 @@ Quality quality(const Mesh& mesh, const QualityOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   const Tally sums = tally(mesh, options);
   Quality q;
+  static_cast<SolverMeasures&>(q) = solver_measures(mesh, options.executor);
   q.vertices = mesh.n_vertices();
   q.triangles = mesh.n_triangles();
   q.edges = sums.edges;
@@ -80,6 +90,7 @@ Quality quality(const Mesh& mesh, const QualityOptions& options) {
   q.min_angle_deg = sums.min_angle_deg;
   q.max_angle_deg = sums.max_angle_deg;
   q.max_transmissibility_over_median = largest_over_median(sums.transmissibilities);
+  q.transmissibility_ratio = largest_over_least(sums.transmissibilities);
   q.energy = all_energies(mesh, options);
   for (const Ranked& ranked : sums.worst.sorted()) q.worst.push_back(describe(mesh, ranked.triangle));
   return q;

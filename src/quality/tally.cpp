@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "quality/edge_measure.hpp"
 #include "temper/geometry.hpp"
 #include "temper/regularity.hpp"
 
@@ -15,12 +16,7 @@ double transmissibility(const Mesh& mesh, HalfedgeId h) {
   const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h));
   const WeightedPoint c = mesh.point(mesh.opposite(h)), d = mesh.point(mesh.opposite(mesh.twin(h)));
   if (power_test(mesh.space(), a, b, c, d) == Sign::zero) return std::numeric_limits<double>::infinity();
-  if (!mesh.space().is_plane()) {
-    const Vec3 p = lifted(a), q = lifted(b);
-    return arc_length(p, q) / std::abs(signed_height(p, q, lifted(c)) + signed_height(q, p, lifted(d)));
-  }
-  const double dual = std::abs(signed_height(a, b, c) + signed_height(b, a, d));
-  return length(b.position() - a.position()) / dual;
+  return edge_length(mesh, h) / std::abs(dual_length(mesh, h));
 }
 
 void merge_counts(Histogram& into, const Histogram& from) {

@@ -1,5 +1,6 @@
 """What looks at meshes: quality, energies, operators, errors, weights, reasons."""
 
+import dataclasses
 import json
 import pathlib
 
@@ -320,3 +321,13 @@ def test_plots_refuse_what_they_cannot_color(ring):
         temper.plot(ring, color=[1, 2])
     temper.plot_history(temper.optimize(ring))
     pyplot.close("all")
+
+
+def test_every_row_of_quality_measures_is_a_number_of_quality_in_its_order():
+    rows = temper.quality_measures()
+    names = [f.name for f in dataclasses.fields(temper.Quality)]
+    assert names[: len(rows)] == [row.key for row in rows]
+    measured = temper.quality(temper.generate.horseshoe())
+    for row in rows:
+        assert isinstance(getattr(measured, row.key), int if row.count else float), row.key
+        assert row.better in ("equal", "larger", "less") and row.definition

@@ -211,22 +211,10 @@ InputError spelled(InputError error) {
 }
 
 Json to_json(const Quality& q) {
-  Json json = {{"vertices", q.vertices},
-               {"triangles", q.triangles},
-               {"edges", q.edges},
-               {"boundary_edges", q.boundary_edges},
-               {"regions", q.regions},
-               {"inverted_triangles", q.inverted_triangles},
-               {"non_regular_edges", q.non_regular_edges},
-               {"negative_boundary_duals", q.negative_boundary_duals},
-               {"orthocenters_outside", q.orthocenters_outside},
-               {"edges_not_crossed", q.edges_not_crossed},
-               {"well_centered_fraction", number(q.well_centered_fraction)},
-               {"min_h_over_l", number(q.min_h_over_l)},
-               {"min_d_over_l", number(q.min_d_over_l)},
-               {"min_angle_deg", number(q.min_angle_deg)},
-               {"max_angle_deg", number(q.max_angle_deg)},
-               {"max_transmissibility_over_median", number(q.max_transmissibility_over_median)}};
+  Json json;
+  for (const QualityMeasure& m : quality_measures()) {
+    json[std::string(m.key)] = m.count ? Json(static_cast<std::size_t>(m.of(q))) : number(m.of(q));
+  }
   for (std::size_t row = 0; row < energies().size(); ++row) {
     Json& stars = json["energy"][std::string(energies()[row].name)] = Json::array();
     for (const double value : q.energy[row]) stars.push_back(number(value));

@@ -42,6 +42,26 @@ export interface Quality {
   min_angle_deg: number;
   max_angle_deg: number;
   max_transmissibility_over_median: number;
+  /** The largest over the least of them. */
+  transmissibility_ratio: number;
+  /** Of interior edges, over local size. */
+  min_edge_over_size: number;
+  min_dual_over_size: number;
+  /** Of closed cells. */
+  min_dual_over_cell_median: number;
+  /** D-Flow FM; so are the next three. */
+  max_orthogonality: number;
+  max_smoothness: number;
+  min_flow_link: number;
+  small_flow_links: number;
+  /** MPAS-Tools; so are the rest. */
+  min_cell_quality: number;
+  min_grid_spacing: number;
+  max_grid_spacing: number;
+  min_triangle_quality: number;
+  min_triangle_angle_quality: number;
+  obtuse_triangles: number;
+  max_centroid_offset_over_size: number;
   /** Of each energy the totals for ★0, ★1, ★2; Infinity outside its domain. */
   energy: Record<EnergyName, [number, number, number]>;
   /** Worst first. */

@@ -1,0 +1,196 @@
+#include "quality/solver_measures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "base/median.hpp"
+#include "mesh/blocks.hpp"
+#include "quality/edge_measure.hpp"
+#include "quality/flow_cells.hpp"
+#include "temper/geometry.hpp"
+#include "temper/size.hpp"
+
+namespace temper {
+namespace {
+
+constexpr double kSmallFlowLink = 0.1;  // D-Flow FM's default of removeSmallLinksTrsh
+
+void merge(SolverMeasures& into, const SolverMeasures& from) {
+  const auto least = [&](double SolverMeasures::*m) { into.*m = std::min(into.*m, from.*m); };
+  const auto largest = [&](double SolverMeasures::*m) { into.*m = std::max(into.*m, from.*m); };
+  least(&SolverMeasures::min_edge_over_size);
+  least(&SolverMeasures::min_dual_over_size);
+  least(&SolverMeasures::min_dual_over_cell_median);
+  largest(&SolverMeasures::max_orthogonality);
+  largest(&SolverMeasures::max_smoothness);
+  least(&SolverMeasures::min_flow_link);
+  into.small_flow_links += from.small_flow_links;
+  least(&SolverMeasures::min_cell_quality);
+  least(&SolverMeasures::min_grid_spacing);
+  largest(&SolverMeasures::max_grid_spacing);
+  least(&SolverMeasures::min_triangle_quality);
+  least(&SolverMeasures::min_triangle_angle_quality);
+  into.obtuse_triangles += from.obtuse_triangles;
+  largest(&SolverMeasures::max_centroid_offset_over_size);
+}
+
+// --- D-Flow FM -----------------------------------------------------------------------------------------------
+
+FlowCell flow_cell_of(const Mesh& mesh, TriangleId t) {
+  const auto [a, b, c] = mesh.corners(t);
+  return flow_cell(place_of(mesh, a), place_of(mesh, b), place_of(mesh, c));
+}
+
+void add_flow_link(SolverMeasures& m, const Mesh& mesh, HalfedgeId h) {
+  // Of a shorter one rounding makes the direction. It is a small flow link anyway.
+  constexpr double kHasDirection = 0x1p-40;  // of the edge
+  const FlowCell left = flow_cell_of(mesh, Mesh::triangle(h)), right = flow_cell_of(mesh, Mesh::triangle(mesh.twin(h)));
+  const Vec3 edge = place_of(mesh, mesh.target(h)) - place_of(mesh, mesh.origin(h)), link = right.center - left.center;
+  const double edge_length = length(edge), link_length = length(link);
+  if (link_length > kHasDirection * edge_length) {
+    m.max_orthogonality =
+        std::max(m.max_orthogonality, std::min(1.0, std::abs(dot(edge, link)) / (edge_length * link_length)));
+  }
+  const auto [smaller, larger] = std::minmax(left.area, right.area);
+  m.max_smoothness =
+      std::max(m.max_smoothness, smaller > 0 ? larger / smaller : std::numeric_limits<double>::infinity());
+  const double relative = link_length / (0.5 * (std::sqrt(left.area) + std::sqrt(right.area)));
+  m.min_flow_link = std::min(m.min_flow_link, relative);
+  m.small_flow_links += relative < kSmallFlowLink;
+}
+
+// --- MPAS-Tools: their cells are vertices here, and their vertices triangles -----------------------------------------
+
+/// The angle across from a.
+double angle_across(double a, double b, double c) {
+  return std::acos(std::clamp((b * b + c * c - a * a) / (2 * b * c), -1.0, 1.0));
+}
+
+bool is_obtuse(const Mesh& mesh, TriangleId t) {
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeId h = Mesh::halfedge(t, k);
+    const Vec3 a = place_of(mesh, mesh.origin(h)), b = place_of(mesh, mesh.target(h)),
+               c = place_of(mesh, mesh.opposite(h));
+    const auto flat = [](Vec3 p) { return WeightedPoint{p.x, p.y, 0}; };
+    // Without weights the center is across from an obtuse angle.
+    const Sign side =
+        mesh.space().is_plane() ? signed_height_sign(flat(a), flat(b), flat(c)) : signed_height_sign(a, b, c);
+    if (side == Sign::negative) return true;
+  }
+  return false;
+}
+
+void add_triangle(SolverMeasures& m, const Mesh& mesh, TriangleId t) {
+  const double a = edge_length(mesh, Mesh::halfedge(t, 0)), b = edge_length(mesh, Mesh::halfedge(t, 1)),
+               c = edge_length(mesh, Mesh::halfedge(t, 2));
+  m.min_triangle_quality = std::min(m.min_triangle_quality, std::min({a, b, c}) / std::max({a, b, c}));
+  const auto [least, largest] = std::minmax({angle_across(a, b, c), angle_across(b, c, a), angle_across(c, a, b)});
+  m.min_triangle_angle_quality = std::min(m.min_triangle_angle_quality, least / largest);
+  m.obtuse_triangles += is_obtuse(mesh, t);
+}
+
+void add_grid_spacing(SolverMeasures& m, const Mesh& mesh, VertexId v) {
+  double sum = 0;
+  int edges = 0;
+  for (const HalfedgeId h : mesh.star(v)) {
+    sum += edge_length(mesh, h), ++edges;
+    const HalfedgeId incoming = Mesh::prev(h);
+    if (mesh.is_boundary(incoming)) sum += edge_length(mesh, incoming), ++edges;
+  }
+  m.min_grid_spacing = std::min(m.min_grid_spacing, sum / edges);
+  m.max_grid_spacing = std::max(m.max_grid_spacing, sum / edges);
+}
+
+Vec3 cell_corner(const Mesh& mesh, TriangleId t) {
+  const auto [a, b, c] = mesh.corners(t);
+  const WeightedPoint p = mesh.point(a), q = mesh.point(b), r = mesh.point(c);
+  if (!mesh.space().is_plane()) return mesh.space().radius() * orthocenter(lifted(p), lifted(q), lifted(r));
+  const Vec2 o = orthocenter(p, q, r);
+  return {o.x, o.y, 0};
+}
+
+/// How far the centroid of the power cell of v is from v, in the plane that touches the sphere at v, and from there
+/// back to the sphere; +∞ for a cell that is not counter-clockwise.
+double centroid_offset(const Mesh& mesh, VertexId v) {
+  const Vec3 at = place_of(mesh, v);
+  const double radius = mesh.space().radius();
+  const Vec3 up = mesh.space().is_plane() ? Vec3{0, 0, 1} : (1 / length(at)) * at;
+  Vec3 moment = {0, 0, 0};
+  double doubled = 0;
+  for (const HalfedgeId h : mesh.star(v)) {
+    const Vec3 from = cell_corner(mesh, Mesh::triangle(h)) - at,
+               to = cell_corner(mesh, Mesh::triangle(mesh.rotate(h))) - at;
+    const double area = dot(up, cross(from, to));
+    moment = moment + (area / 3) * (from + to);
+    doubled += area;
+  }
+  if (!(doubled > 0)) return std::numeric_limits<double>::infinity();
+  const Vec3 offset = (1 / doubled) * moment;
+  const double height = dot(up, offset), across = length(offset - height * up);
+  return mesh.space().is_plane() ? across : radius * std::atan2(across, radius + height);
+}
+
+/// Precondition: v is not on the boundary.
+void add_closed_cell(SolverMeasures& m, const Mesh& mesh, VertexId v, double size) {
+  std::vector<double> duals;
+  double least = std::numeric_limits<double>::infinity();
+  for (const HalfedgeId h : mesh.star(v)) {
+    const double dual = dual_length(mesh, h);
+    least = std::min(least, dual);
+    duals.push_back(std::abs(dual));
+  }
+  const auto [shortest, longest] = std::minmax_element(duals.begin(), duals.end());
+  m.min_cell_quality = std::min(m.min_cell_quality, *longest > 0 ? *shortest / *longest : 0);
+  const double median = median_of(std::move(duals));
+  m.min_dual_over_cell_median = std::min(m.min_dual_over_cell_median, median > 0 ? least / median : 0);
+  m.max_centroid_offset_over_size = std::max(m.max_centroid_offset_over_size, centroid_offset(mesh, v) / size);
+}
+
+// --- all -----------------------------------------------------------------------------------------------------
+
+void add_interior_edge(SolverMeasures& m, const Mesh& mesh, const IdVector<VertexId, double>& sizes, HalfedgeId h) {
+  const auto [edge, dual] = relative_lengths(mesh, sizes, h);
+  m.min_edge_over_size = std::min(m.min_edge_over_size, edge);
+  m.min_dual_over_size = std::min(m.min_dual_over_size, dual);
+  add_flow_link(m, mesh, h);
+}
+
+/// add(measures, i) for each i, in blocks that are merged in their order.
+template <class Add>
+SolverMeasures over(std::size_t n, Executor* executor, Add&& add) {
+  std::vector<SolverMeasures> blocks((n + kLoopBlock - 1) / kLoopBlock);
+  for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
+    SolverMeasures& m = blocks[first / kLoopBlock];
+    for (std::size_t i = first; i < last; ++i) add(m, i);
+  });
+  SolverMeasures all;
+  for (const SolverMeasures& m : blocks) merge(all, m);
+  return all;
+}
+
+}  // namespace
+
+SolverMeasures solver_measures(const Mesh& mesh, Executor* executor) {
+  const IdVector<VertexId, double> sizes = local_sizes(mesh, executor);
+  SolverMeasures all = over(mesh.n_triangles(), executor, [&](SolverMeasures& m, std::size_t i) {
+    const TriangleId t(i);
+    add_triangle(m, mesh, t);
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(t, k);
+      if (!mesh.is_boundary(h) && mesh.is_edge_representative(h)) add_interior_edge(m, mesh, sizes, h);
+    }
+  });
+  merge(all, over(mesh.n_vertices(), executor, [&](SolverMeasures& m, std::size_t i) {
+          const VertexId v(i);
+          if (mesh.is_isolated(v)) return;
+          add_grid_spacing(m, mesh, v);
+          if (!mesh.is_boundary(v)) add_closed_cell(m, mesh, v, sizes[v]);
+        }));
+  return all;
+}
+
+}  // namespace temper
