@@ -2,23 +2,21 @@
 #pragma once
 
 #include "temper/geometry.hpp"
-#include "temper/mesh.hpp"
+#include "temper/space.hpp"
 
 namespace temper {
 
-[[nodiscard]] inline double edge_length(const Mesh& mesh, HalfedgeId h) {
-  const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h));
-  if (mesh.space().is_plane()) return length(b.position() - a.position());
-  return mesh.space().radius() * arc_length(lifted(a), lifted(b));
+[[nodiscard]] inline double edge_length(const Space& space, const WeightedPoint& a, const WeightedPoint& b) {
+  if (space.is_plane()) return length(b.position() - a.position());
+  return space.radius() * arc_length(lifted(a), lifted(b));
 }
 
-/// Signed. Precondition: h is not on the boundary.
-[[nodiscard]] inline double dual_length(const Mesh& mesh, HalfedgeId h) {
-  const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h));
-  const WeightedPoint c = mesh.point(mesh.opposite(h)), d = mesh.point(mesh.opposite(mesh.twin(h)));
-  if (mesh.space().is_plane()) return signed_height(a, b, c) + signed_height(b, a, d);
+/// Of the edge ab with c on its left and d on its right. Signed.
+[[nodiscard]] inline double dual_length(const Space& space, const WeightedPoint& a, const WeightedPoint& b,
+                                        const WeightedPoint& c, const WeightedPoint& d) {
+  if (space.is_plane()) return signed_height(a, b, c) + signed_height(b, a, d);
   const Vec3 p = lifted(a), q = lifted(b);
-  return mesh.space().radius() * (signed_height(p, q, lifted(c)) + signed_height(q, p, lifted(d)));
+  return space.radius() * (signed_height(p, q, lifted(c)) + signed_height(q, p, lifted(d)));
 }
 
 }  // namespace temper

@@ -85,61 +85,77 @@ bool is_obtuse(const Mesh& mesh, TriangleId t) {
 }
 
 void add_triangle(SolverMeasures& m, const Mesh& mesh, TriangleId t) {
-  const double a = edge_length(mesh, Mesh::halfedge(t, 0)), b = edge_length(mesh, Mesh::halfedge(t, 1)),
-               c = edge_length(mesh, Mesh::halfedge(t, 2));
+  const auto [i, j, k] = mesh.corners(t);
+  const WeightedPoint p = mesh.point(i), q = mesh.point(j), r = mesh.point(k);
+  const double a = edge_length(mesh.space(), q, r), b = edge_length(mesh.space(), r, p),
+               c = edge_length(mesh.space(), p, q);
   m.min_triangle_quality = std::min(m.min_triangle_quality, std::min({a, b, c}) / std::max({a, b, c}));
   const auto [least, largest] = std::minmax({angle_across(a, b, c), angle_across(b, c, a), angle_across(c, a, b)});
   m.min_triangle_angle_quality = std::min(m.min_triangle_angle_quality, least / largest);
   m.obtuse_triangles += is_obtuse(mesh, t);
 }
 
-void add_grid_spacing(SolverMeasures& m, const Mesh& mesh, VertexId v) {
-  double sum = 0;
-  int edges = 0;
+/// A vertex with its neighbours, counter-clockwise; one more than triangles on the boundary.
+struct Ring {
+  WeightedPoint center;
+  std::vector<WeightedPoint> around;
+
+  [[nodiscard]] const WeightedPoint& after(std::size_t k) const { return around[k + 1 < around.size() ? k + 1 : 0]; }
+  [[nodiscard]] const WeightedPoint& before(std::size_t k) const { return around[(k > 0 ? k : around.size()) - 1]; }
+};
+
+/// Into the list that `ring` has already.
+void gather(Ring& ring, const Mesh& mesh, VertexId v) {
+  ring.center = mesh.point(v);
+  ring.around.clear();
   for (const HalfedgeId h : mesh.star(v)) {
-    sum += edge_length(mesh, h), ++edges;
-    const HalfedgeId incoming = Mesh::prev(h);
-    if (mesh.is_boundary(incoming)) sum += edge_length(mesh, incoming), ++edges;
+    ring.around.push_back(mesh.point(mesh.target(h)));
+    if (mesh.is_boundary(Mesh::prev(h))) ring.around.push_back(mesh.point(mesh.opposite(h)));
   }
-  m.min_grid_spacing = std::min(m.min_grid_spacing, sum / edges);
-  m.max_grid_spacing = std::max(m.max_grid_spacing, sum / edges);
 }
 
-Vec3 cell_corner(const Mesh& mesh, TriangleId t) {
-  const auto [a, b, c] = mesh.corners(t);
-  const WeightedPoint p = mesh.point(a), q = mesh.point(b), r = mesh.point(c);
-  if (!mesh.space().is_plane()) return mesh.space().radius() * orthocenter(lifted(p), lifted(q), lifted(r));
+void add_grid_spacing(SolverMeasures& m, const Space& space, const Ring& ring) {
+  double sum = 0;
+  for (const WeightedPoint& p : ring.around) sum += edge_length(space, ring.center, p);
+  const double mean = sum / static_cast<double>(ring.around.size());
+  m.min_grid_spacing = std::min(m.min_grid_spacing, mean);
+  m.max_grid_spacing = std::max(m.max_grid_spacing, mean);
+}
+
+Vec3 cell_corner(const Space& space, const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
+  if (!space.is_plane()) return space.radius() * orthocenter(lifted(p), lifted(q), lifted(r));
   const Vec2 o = orthocenter(p, q, r);
   return {o.x, o.y, 0};
 }
 
-/// How far the centroid of the power cell of v is from v, in the plane that touches the sphere at v, and from there
-/// back to the sphere; +∞ for a cell that is not counter-clockwise.
-double centroid_offset(const Mesh& mesh, VertexId v) {
-  const Vec3 at = place_of(mesh, v);
-  const double radius = mesh.space().radius();
-  const Vec3 up = mesh.space().is_plane() ? Vec3{0, 0, 1} : (1 / length(at)) * at;
+/// How far the centroid of the power cell is from the vertex, in the plane that touches the sphere there, and from
+/// there back to the sphere; +∞ for a cell that is not counter-clockwise.
+double centroid_offset(const Space& space, const Ring& ring) {
+  const Vec3 at = space.is_plane() ? Vec3{ring.center.x, ring.center.y, 0} : space.place(ring.center);
+  const Vec3 up = space.is_plane() ? Vec3{0, 0, 1} : (1 / length(at)) * at;
   Vec3 moment = {0, 0, 0};
   double doubled = 0;
-  for (const HalfedgeId h : mesh.star(v)) {
-    const Vec3 from = cell_corner(mesh, Mesh::triangle(h)) - at,
-               to = cell_corner(mesh, Mesh::triangle(mesh.rotate(h))) - at;
+  Vec3 from = cell_corner(space, ring.center, ring.before(0), ring.around[0]) - at;
+  for (std::size_t k = 0; k < ring.around.size(); ++k) {
+    const Vec3 to = cell_corner(space, ring.center, ring.around[k], ring.after(k)) - at;
     const double area = dot(up, cross(from, to));
     moment = moment + (area / 3) * (from + to);
     doubled += area;
+    from = to;
   }
   if (!(doubled > 0)) return std::numeric_limits<double>::infinity();
   const Vec3 offset = (1 / doubled) * moment;
   const double height = dot(up, offset), across = length(offset - height * up);
-  return mesh.space().is_plane() ? across : radius * std::atan2(across, radius + height);
+  return space.is_plane() ? across : space.radius() * std::atan2(across, space.radius() + height);
 }
 
-/// Precondition: v is not on the boundary.
-void add_closed_cell(SolverMeasures& m, const Mesh& mesh, VertexId v, double size) {
+/// Precondition: the ring is closed, the vertex not on the boundary.
+void add_closed_cell(SolverMeasures& m, const Space& space, const Ring& ring, double size) {
   std::vector<double> duals;
+  duals.reserve(ring.around.size());
   double least = std::numeric_limits<double>::infinity();
-  for (const HalfedgeId h : mesh.star(v)) {
-    const double dual = dual_length(mesh, h);
+  for (std::size_t k = 0; k < ring.around.size(); ++k) {
+    const double dual = dual_length(space, ring.center, ring.around[k], ring.after(k), ring.before(k));
     least = std::min(least, dual);
     duals.push_back(std::abs(dual));
   }
@@ -147,7 +163,7 @@ void add_closed_cell(SolverMeasures& m, const Mesh& mesh, VertexId v, double siz
   m.min_cell_quality = std::min(m.min_cell_quality, *longest > 0 ? *shortest / *longest : 0);
   const double median = median_of(std::move(duals));
   m.min_dual_over_cell_median = std::min(m.min_dual_over_cell_median, median > 0 ? least / median : 0);
-  m.max_centroid_offset_over_size = std::max(m.max_centroid_offset_over_size, centroid_offset(mesh, v) / size);
+  m.max_centroid_offset_over_size = std::max(m.max_centroid_offset_over_size, centroid_offset(space, ring) / size);
 }
 
 // --- all -----------------------------------------------------------------------------------------------------
@@ -159,14 +175,34 @@ void add_interior_edge(SolverMeasures& m, const Mesh& mesh, const IdVector<Verte
   add_flow_link(m, mesh, h);
 }
 
-/// add(measures, i) for each i, in blocks that are merged in their order.
+void add_triangles(SolverMeasures& m, const Mesh& mesh, const IdVector<VertexId, double>& sizes, std::size_t first,
+                   std::size_t last) {
+  for (std::size_t i = first; i < last; ++i) {
+    add_triangle(m, mesh, TriangleId(i));
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(TriangleId(i), k);
+      if (!mesh.is_boundary(h) && mesh.is_edge_representative(h)) add_interior_edge(m, mesh, sizes, h);
+    }
+  }
+}
+
+void add_cells(SolverMeasures& m, const Mesh& mesh, const IdVector<VertexId, double>& sizes, std::size_t first,
+               std::size_t last) {
+  Ring ring;
+  for (std::size_t i = first; i < last; ++i) {
+    const VertexId v(i);
+    if (mesh.is_isolated(v)) continue;
+    gather(ring, mesh, v);
+    add_grid_spacing(m, mesh.space(), ring);
+    if (!mesh.is_boundary(v)) add_closed_cell(m, mesh.space(), ring, sizes[v]);
+  }
+}
+
+/// add(measures, first, last) of blocks that are merged in their order.
 template <class Add>
 SolverMeasures over(std::size_t n, Executor* executor, Add&& add) {
   std::vector<SolverMeasures> blocks((n + kLoopBlock - 1) / kLoopBlock);
-  for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
-    SolverMeasures& m = blocks[first / kLoopBlock];
-    for (std::size_t i = first; i < last; ++i) add(m, i);
-  });
+  for_blocks(n, executor, [&](std::size_t first, std::size_t last) { add(blocks[first / kLoopBlock], first, last); });
   SolverMeasures all;
   for (const SolverMeasures& m : blocks) merge(all, m);
   return all;
@@ -176,19 +212,11 @@ SolverMeasures over(std::size_t n, Executor* executor, Add&& add) {
 
 SolverMeasures solver_measures(const Mesh& mesh, Executor* executor) {
   const IdVector<VertexId, double> sizes = local_sizes(mesh, executor);
-  SolverMeasures all = over(mesh.n_triangles(), executor, [&](SolverMeasures& m, std::size_t i) {
-    const TriangleId t(i);
-    add_triangle(m, mesh, t);
-    for (int k = 0; k < 3; ++k) {
-      const HalfedgeId h = Mesh::halfedge(t, k);
-      if (!mesh.is_boundary(h) && mesh.is_edge_representative(h)) add_interior_edge(m, mesh, sizes, h);
-    }
+  SolverMeasures all = over(mesh.n_triangles(), executor, [&](SolverMeasures& m, std::size_t first, std::size_t last) {
+    add_triangles(m, mesh, sizes, first, last);
   });
-  merge(all, over(mesh.n_vertices(), executor, [&](SolverMeasures& m, std::size_t i) {
-          const VertexId v(i);
-          if (mesh.is_isolated(v)) return;
-          add_grid_spacing(m, mesh, v);
-          if (!mesh.is_boundary(v)) add_closed_cell(m, mesh, v, sizes[v]);
+  merge(all, over(mesh.n_vertices(), executor, [&](SolverMeasures& m, std::size_t first, std::size_t last) {
+          add_cells(m, mesh, sizes, first, last);
         }));
   return all;
 }

@@ -16,7 +16,7 @@ double transmissibility(const Mesh& mesh, HalfedgeId h) {
   const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h));
   const WeightedPoint c = mesh.point(mesh.opposite(h)), d = mesh.point(mesh.opposite(mesh.twin(h)));
   if (power_test(mesh.space(), a, b, c, d) == Sign::zero) return std::numeric_limits<double>::infinity();
-  return edge_length(mesh, h) / std::abs(dual_length(mesh, h));
+  return edge_length(mesh.space(), a, b) / std::abs(dual_length(mesh.space(), a, b, c, d));
 }
 
 void merge_counts(Histogram& into, const Histogram& from) {

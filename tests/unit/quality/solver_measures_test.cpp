@@ -216,9 +216,9 @@ TEST(SolverMeasures, AreThoseOfANaiveTwinOnRandomMeshes) {
     SCOPED_TRACE(seed);
     const Mesh mesh = lattice({.n = 7, .jitter = 0.3, .weight = seed % 2 == 0 ? 0.0 : 0.1, .seed = seed});
     const Naive naive{mesh};
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    double edge = kInfinity, dual = kInfinity, link = kInfinity, ortho = 0, smooth = 1, cell = kInfinity,
-           median = kInfinity, offset = 0;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double edge = infinity, dual = infinity, link = infinity, ortho = 0, smooth = 1, cell = infinity,
+           median = infinity, offset = 0;
     std::size_t small = 0, obtuse = 0;
     for (const HalfedgeId h : mesh.halfedges()) {
       if (mesh.is_boundary(h) || mesh.twin(h) < h) continue;
@@ -247,7 +247,7 @@ TEST(SolverMeasures, AreThoseOfANaiveTwinOnRandomMeshes) {
     for (const VertexId v : mesh.vertices()) {
       if (mesh.is_boundary(v)) continue;
       std::vector<double> lengths;
-      double least = kInfinity, area = 0;
+      double least = infinity, area = 0;
       Vec2 moment{0, 0};
       for (const HalfedgeId h : mesh.star(v)) {
         lengths.push_back(std::abs(naive.dual(h)));
@@ -261,7 +261,7 @@ TEST(SolverMeasures, AreThoseOfANaiveTwinOnRandomMeshes) {
       const std::size_t n = lengths.size();
       cell = std::min(cell, lengths.front() / lengths.back());
       median = std::min(median, least / ((lengths[(n - 1) / 2] + lengths[n / 2]) / 2));
-      offset = std::max(offset, area > 0 ? length((1 / area) * moment - naive.at(v)) / naive.size(v) : kInfinity);
+      offset = std::max(offset, area > 0 ? length((1 / area) * moment - naive.at(v)) / naive.size(v) : infinity);
     }
     const Quality q = quality(mesh);
     const auto expect = [&](const char* key, double expected) {
