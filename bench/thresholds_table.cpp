@@ -1,7 +1,9 @@
 // The tables of docs/thresholds.md, as Markdown: what solvers' codes look at, by quality_measures().
 //
 //     bench_thresholds_table --definitions     one row a measure
-//     bench_thresholds_table FILE...           one row a mesh and run: input, default, margins kept, one repaired
+//     bench_thresholds_table FILE...           one row a mesh and run, then how many meshes of each run are refused by
+//     what
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <span>
@@ -50,12 +52,15 @@ void print_definitions() {
   }
 }
 
+bool is_met(const QualityMeasure& m, double value) {
+  return !m.wanted || (m.better == Better::equal    ? value == *m.wanted
+                       : m.better == Better::larger ? value >= *m.wanted
+                                                    : value <= *m.wanted);
+}
+
 /// Bold where the mesh has not what is wanted.
 void print_value(const QualityMeasure& m, double value) {
-  const bool met = !m.wanted || (m.better == Better::equal    ? value == *m.wanted
-                                 : m.better == Better::larger ? value >= *m.wanted
-                                                              : value <= *m.wanted);
-  const char* mark = met ? "" : "**";
+  const char* mark = is_met(m, value) ? "" : "**";
   if (m.count) {
     std::printf(" %s%.0f%s |", mark, value, mark);
   } else if (std::isinf(value)) {
@@ -70,21 +75,43 @@ bool is_shown(const QualityMeasure& m) {
   return m.key == "well_centered_fraction" || (!m.community.empty() && m.key.find("grid_spacing") == m.key.npos);
 }
 
-int print_meshes(std::span<const std::string_view> paths) {
-  std::printf("| mesh | run | s |");
-  std::size_t columns = 3;
+/// The head of a table with a column for each measure that passes.
+template <class Passes>
+void print_head(const char* first, std::size_t columns, Passes&& passes) {
+  std::printf("%s", first);
   for (const QualityMeasure& m : quality_measures()) {
-    if (is_shown(m)) std::printf(" %s |", std::string(m.label).c_str()), ++columns;
+    if (passes(m)) std::printf(" %s |", std::string(m.label).c_str()), ++columns;
   }
   std::printf("\n|");
   for (std::size_t i = 0; i < columns; ++i) std::printf("-|");
   std::printf("\n");
+}
+
+/// For each run the measures of each mesh.
+void print_refused(const std::vector<std::vector<Quality>>& found) {
+  const auto is_judged = [](const QualityMeasure& m) { return is_shown(m) && m.wanted; };
+  std::printf("\n");
+  print_head("| meshes refused by |", 1, is_judged);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    std::printf("| %s |", runs()[i].name);
+    for (const QualityMeasure& m : quality_measures()) {
+      if (!is_judged(m)) continue;
+      std::printf(" %td |", std::ranges::count_if(found[i], [&](const Quality& q) { return !is_met(m, m.of(q)); }));
+    }
+    std::printf("\n");
+  }
+}
+
+int print_meshes(std::span<const std::string_view> paths) {
+  print_head("| mesh | run | s |", 3, is_shown);
+  std::vector<std::vector<Quality>> found(runs().size());
   for (const std::string_view path : paths) {
     const auto file = io::read(std::string(path));
     if (!file) return std::fprintf(stderr, "%s\n", file.error().what().c_str()), 1;
     const auto loaded = io::make_mesh(*file);
     if (!loaded) return std::fprintf(stderr, "%s\n", loaded.error().what().c_str()), 1;
-    for (const Run& run : runs()) {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const Run run = runs()[i];
       Mesh mesh = loaded->mesh;
       double seconds = 0;
       if (run.optimized) {
@@ -92,7 +119,7 @@ int print_meshes(std::span<const std::string_view> paths) {
         if (!report) return std::fprintf(stderr, "%s\n", report.error().what().c_str()), 1;
         seconds = report->seconds;
       }
-      const Quality q = quality(mesh);
+      const Quality& q = found[i].emplace_back(quality(mesh));
       const std::string name(path.substr(path.rfind('/') + 1));
       std::printf("| %s | %s | %.2f |", name.c_str(), run.name, seconds);
       for (const QualityMeasure& m : quality_measures()) {
@@ -102,6 +129,7 @@ int print_meshes(std::span<const std::string_view> paths) {
       std::fflush(stdout);
     }
   }
+  print_refused(found);
   return 0;
 }
 
