@@ -59,6 +59,7 @@ STRUCTS = {
     "DataReport": (temper.DataReport, set()),
     "Progress": (temper.Progress, set()),
     "Quality": (temper.Quality, set()),
+    "QualityMeasure": (temper.QualityMeasure, set()),
     "WorstTriangle": (temper.WorstTriangle, set()),
     "TriangleQuality": (temper.TriangleQuality, set()),
     "DecComplex": (temper.DecComplex, {"sphere_orthocenters", "sphere_midpoints"}),
@@ -98,12 +99,13 @@ def fields_of(struct):
     """Names of the members of a struct, in whichever header it is."""
     for header in HEADERS.glob("*.hpp"):
         text = re.sub(r"//[^\n]*", "", header.read_text(encoding="utf-8"))
-        match = re.search(rf"^struct {struct} \{{\n(.*?)^\}};", text, re.M | re.S)
+        match = re.search(rf"^struct {struct}(?: : (\w+))? \{{\n(.*?)^\}};", text, re.M | re.S)
         if match is None:
             continue
-        body = re.sub(r"^  (?:enum class|struct) .*?^  \};", "", match[1], flags=re.M | re.S)
+        body = re.sub(r"^  (?:enum class|struct) .*?^  \};", "", match[2], flags=re.M | re.S)
+        body = re.sub(r" = [\w:<>]+\(\);", ";", body)
         body = "\n".join(line for line in body.splitlines() if "(" not in line.split("=")[0] or "std::function" in line)
-        found = set()
+        found = fields_of(match[1]) if match[1] else set()
         for statement in re.findall(r"^  (?!friend|\[\[|static|return|enum|  )([A-Za-z][^;{}()]*(?:\{[^;]*\})?[^;]*);", body, re.M):
             for piece in re.split(r",(?![^<{]*[>}])", statement):
                 name = re.search(r"(\w+)\s*(?:=.*)?$", piece.strip(), re.S)
