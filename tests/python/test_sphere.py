@@ -6,6 +6,7 @@ import pickle
 
 import numpy as np
 import pytest
+from conftest import PUBLIC_MESHES
 
 import temper
 from temper import Space, geometry, topology
@@ -481,3 +482,21 @@ def test_degrees_are_directions_and_back():
     directions = temper.projection.direction_of(places)
     assert np.array_equal(directions[:2], [(1, 0, 0), (0, 1, 0)])
     assert np.allclose(temper.projection.lon_lat_of(3 * directions), places, rtol=0, atol=1e-12)
+
+
+def test_mpas_qualities_are_those_that_mpas_tools_wrote_into_its_own_file():
+    path = PUBLIC_MESHES / "sphere" / "mpas_QU1920km.nc"
+    if not path.exists():
+        pytest.skip("no public meshes")
+    try:
+        q = temper.quality(temper.read(path))
+    except temper.TemperError as error:
+        if "netcdf" not in str(error).lower():
+            raise
+        pytest.skip("no libnetcdf")
+    # The least and largest of the variables in the file, which agree with its own places to seven digits.
+    assert q.min_cell_quality == pytest.approx(0.6555184529580425, rel=1e-6)
+    assert (q.min_grid_spacing, q.max_grid_spacing) == pytest.approx((0.2728388455878057, 0.30509546456976583), rel=1e-6)
+    assert q.min_triangle_quality == pytest.approx(0.8576699202028616, rel=1e-6)
+    assert q.min_triangle_angle_quality == pytest.approx(0.7619162935236375, rel=1e-6)
+    assert q.obtuse_triangles == 0 and q.max_centroid_offset_over_size < 1e-3
