@@ -195,13 +195,11 @@ py::dict conflict_to_dict(const Mesh& mesh, const EdgeConflict& c) {
 void bind_necessity(py::module_& m) {
   m.def("edge_conflict", [](const PyMesh& self, std::int64_t h, double up_to) -> py::object {
     const auto mesh = self.read();
-    require_plane(*mesh, "edge_conflict()");
     const auto conflict = edge_conflict(*mesh, halfedge_id(*mesh, h), up_to);
     return conflict ? py::object(conflict_to_dict(*mesh, *conflict)) : py::none();
   });
   m.def("edges_that_must_be_split", [](const PyMesh& self, double up_to) {
     const auto mesh = self.read();
-    require_plane(*mesh, "edges_that_must_be_split()");
     py::list list;
     for (const EdgeConflict& c : edges_that_must_be_split(*mesh, up_to)) list.append(conflict_to_dict(*mesh, c));
     return list;

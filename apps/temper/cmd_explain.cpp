@@ -71,7 +71,7 @@ Exit run_explain(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
 
-  const Input input = read_input(s.input, {s.projection});
+  const Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
   print_warnings(input.warnings());
   const auto solver = clp_solver();
   Counter counter;

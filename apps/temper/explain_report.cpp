@@ -8,6 +8,7 @@
 
 #include "certificate_json.hpp"
 #include "console.hpp"
+#include "temper/geometry.hpp"
 #include "vertex_names.hpp"
 
 namespace temper::app {
@@ -95,6 +96,7 @@ std::string command(const Mesh& mesh, const Cure& cure) {
     const HalfedgeId h = mesh.find_halfedge(cure.edge[0], cure.edge[1]);
     return h.valid() && mesh.is_constrained(h);
   };
+  const std::string split_of_lines = mesh.space().is_plane() ? "temper optimize --boundary split" : "";
   switch (cure.action) {
     case Action::find_weights:
       if (cure.changed == 0) return "";
@@ -106,9 +108,9 @@ std::string command(const Mesh& mesh, const Cure& cure) {
     case Action::insert_vertex:
       return "temper optimize --repair vertices";
     case Action::split_edge:
-      return on_line() ? "temper optimize --boundary split" : "temper optimize --repair vertices";
+      return on_line() ? split_of_lines : "temper optimize --repair vertices";
     case Action::split_boundary:
-      return "temper optimize --boundary split";
+      return split_of_lines;
   }
   return "";
 }
@@ -210,7 +212,10 @@ class JsonWriter {
   }
   [[nodiscard]] Json must_split(const EdgeConflict& c) const {
     const VertexId u = input_.mesh().origin(c.edge), v = input_.mesh().target(c.edge);
-    const double l = length(input_.mesh().position(v) - input_.mesh().position(u));
+    const Space& space = input_.mesh().space();
+    const WeightedPoint p = input_.mesh().point(u), q = input_.mesh().point(v);
+    const double l =
+        space.is_plane() ? length(q.position() - p.position()) : space.radius() * arc_length(lifted(p), lifted(q));
     return {{"edge", {point(u), point(v)}},
             {"length", l},
             {"near", {point(c.near_u), point(c.near_v)}},

@@ -76,7 +76,7 @@ struct Cure {
   std::vector<VertexId> edge;  ///< two, or none
   VertexId vertex;
   TriangleId triangle;
-  Vec2 at;
+  Vec2 at;  ///< on the sphere longitude and latitude [degrees]
   /// Tried: the `triangles` of the neighbourhood then have weights that make them well-centered, exactly checked.
   bool verified = false;
   /// Only the triangles of the conflict, and those that the change touches, were asked to be well-centered: no change
@@ -104,7 +104,7 @@ struct Reason {
   std::optional<FanCenter> center;           ///< edge, fan, patch, when a vertex is common to all
   std::vector<VertexId> free;                ///< corners of the conflict (weights: of the bad) that may move
   double least_margin = 0;                   ///< least h/ℓ or d/ℓ of the bad triangles as they are
-  Vec2 at;                                   ///< centroid of the worst of them
+  Vec2 at;                                   ///< centroid of the worst of them; on the sphere as for cures
   bool cures_searched = false;               ///< else `cures` has only what needs no search
   std::vector<Cure> cures;                   ///< best first
 };
@@ -129,8 +129,8 @@ struct Explanation {
 
 /// Explains each triangle that is not well-centered, by exactly one reason. Verdicts rest on exact predicates and on
 /// check_certificate; which of several smallest conflicts is named may depend on the solver. Precondition: no erased
-/// triangles, all counter-clockwise. Error: a mesh of the sphere; stopped by progress. About a millisecond a bad
-/// triangle, and some ten more a reason whose cures are searched.
+/// triangles, all counter-clockwise. Error: stopped by progress. About a millisecond a bad triangle, and some ten more
+/// a reason whose cures are searched.
 ///
 ///     const auto why = explain(mesh, *clp_solver());
 ///     for (const Reason& reason : why->reasons) puts(reason_text(mesh, reason).c_str());

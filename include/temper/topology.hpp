@@ -86,7 +86,7 @@ void remove_vertex(Mesh& mesh, const RemovalPlan& plan);
 /// not be counter-clockwise, or a new edge is there already (the link condition). O(k²).
 [[nodiscard]] RemovalPlan plan_collapse(const Mesh& mesh, VertexId v, VertexId into, RemovalPlan storage = {});
 
-// --- insertion and split: for meshes of the plane, a precondition of all that plans ---------------------------------
+// --- insertion and split ------------------------------------------------------------------------------------------
 
 /// The answer of plan_insertion and plan_split: the vertex can be inserted, or why not.
 enum class InsertionStatus {
@@ -129,10 +129,11 @@ struct InsertionPlan {
 [[nodiscard]] InsertionPlan plan_insertion(const Mesh& mesh, const WeightedPoint& p, TriangleId near,
                                            InsertionPlan storage = {});
 
-/// Plans to split the edge of h, of the boundary, constrained or neither, at a + t (b − a), 0 < t < 1, with the weight
-/// split_weight(…); flags and regions are kept. The point is rounded: on an axis-parallel edge it lies exactly on it,
-/// as do midpoints of few bits, and the domain is kept exactly; elsewhere the edge is bent by up to three units in the
-/// last place of its ends' coordinates. The flips of either side keep to it.
+/// Plans to split the edge of h, of the boundary, constrained or neither, a part t of the way from a to b, 0 < t < 1,
+/// with the weight split_weight(…), or on the sphere one that leaves both pieces their d in the same way; flags and
+/// regions are kept. The point is rounded: on an axis-parallel edge of the plane it lies exactly on it, as do midpoints
+/// of few bits, and the domain is kept exactly; elsewhere the edge is bent by up to three units in the last place of
+/// its ends' coordinates. The flips of either side keep to it.
 [[nodiscard]] InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, double t, InsertionPlan storage = {});
 /// The same at a point of the caller's, on the edge or near it.
 [[nodiscard]] InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p,
@@ -151,7 +152,7 @@ struct InsertionObserver {
 VertexId insert_vertex(Mesh& mesh, const InsertionPlan& plan, const InsertionObserver* observer = nullptr);
 
 /// The weight at p of the linear function through the corners of t [length²]. A vertex of this weight strictly inside
-/// the triangle is never hidden: |x|² lies below its linear interpolation.
+/// the triangle is never hidden: |x|² lies below its linear interpolation. Precondition: the mesh lies in the plane.
 [[nodiscard]] double interpolated_weight(const Mesh& mesh, TriangleId t, Vec2 p);
 
 /// The weight for a point that divides an edge of length ℓ (squared_length = ℓ²) into tℓ and (1 − t)ℓ: linear between

@@ -66,6 +66,7 @@ class Cure(Record):
     vertex: int
     triangle: int
     at: tuple[float, float]
+    """Where; on the sphere longitude and latitude, in degrees."""
     verified: bool
     """Tried: the triangles of the neighbourhood then have weights that make them well-centered, exactly checked."""
     conflict_only: bool
@@ -101,7 +102,7 @@ class Reason(Record):
     least_margin: float
     """Least h/ℓ or d/ℓ of the bad triangles as they are."""
     at: tuple[float, float]
-    """Centroid of the worst of them."""
+    """Centroid of the worst of them; on the sphere its longitude and latitude, in degrees."""
     cures_searched: bool
     cures: list[Cure]
     """Best first."""

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "feasibility/constraints.hpp"
+#include "geometry/ground.hpp"
 #include "quality/measure.hpp"
+#include "quality/worst.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper {
@@ -14,11 +16,6 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr std::size_t kFew = 60;  // a programme for each is well below a second
-
-Vec2 centroid(const Mesh& mesh, TriangleId t) {
-  const auto [p, q, r] = mesh.corners(t);
-  return (1.0 / 3) * (mesh.position(p) + mesh.position(q) + mesh.position(r));
-}
 
 /// Those that are tried first to do without: good ones before bad ones, whatever their numbers.
 void sort_for_dropping(const Mesh& mesh, TriangleId kept, std::vector<TriangleId>& triangles) {
@@ -29,7 +26,7 @@ void sort_for_dropping(const Mesh& mesh, TriangleId kept, std::vector<TriangleId
   };
   std::vector<Key> keys;
   keys.reserve(triangles.size());
-  for (const TriangleId t : triangles) keys.push_back({measure_triangle(mesh, t).margin(), centroid(mesh, t), t});
+  for (const TriangleId t : triangles) keys.push_back({measure_triangle(mesh, t).margin(), middle_of(mesh, t), t});
   std::sort(keys.begin(), keys.end(), [kept](const Key& a, const Key& b) {
     if ((a.triangle == kept) != (b.triangle == kept)) return b.triangle == kept;
     if (a.margin != b.margin) return a.margin > b.margin;
@@ -100,7 +97,7 @@ double angle_around(const Mesh& mesh, VertexId v) {
   if (!mesh.is_boundary(v)) return 360;
   double angle = 0;
   for (const HalfedgeId h : mesh.star(v)) {
-    angle += corner_angle(mesh.position(v), mesh.position(mesh.target(h)), mesh.position(mesh.opposite(h)));
+    angle += corner_angle(mesh.space(), mesh.point(v), mesh.point(mesh.target(h)), mesh.point(mesh.opposite(h)));
   }
   return angle * kDegrees;
 }
@@ -125,6 +122,7 @@ std::optional<Conflict> find_conflict(const Mesh& mesh, std::span<const Triangle
 }
 
 std::optional<FanCenter> fan_center(const Mesh& mesh, std::span<const TriangleId> triangles) {
+  const Ground ground(mesh.space());
   std::optional<FanCenter> center;
   double widest = -1;
   for (const VertexId v : mesh.corners(triangles.front())) {
@@ -140,9 +138,9 @@ std::optional<FanCenter> fan_center(const Mesh& mesh, std::span<const TriangleId
       const auto corners = mesh.corners(t);
       const std::size_t k = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), v) - corners.begin());
       const VertexId next = corners[(k + 1) % 3], last = corners[(k + 2) % 3];
-      angle = std::max(angle, corner_angle(mesh.position(v), mesh.position(next), mesh.position(last)));
+      angle = std::max(angle, corner_angle(mesh.space(), mesh.point(v), mesh.point(next), mesh.point(last)));
       for (const VertexId u : {next, last}) {
-        const double l = length(mesh.position(u) - mesh.position(v));
+        const double l = ground.distance(ground.place(mesh.point(v)), ground.place(mesh.point(u)));
         if (l < here.shortest_length) here.shortest_length = l, here.shortest = u;
         if (l > here.longest_length) here.longest_length = l, here.longest = u;
       }

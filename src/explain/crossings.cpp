@@ -14,49 +14,70 @@ namespace {
 // Relative to the edge's length: less disagreement than this is rounding, and no sentence is made of it.
 constexpr double kDisagreement = 1e-9;
 
-/// A half plane n · x > offset.
-struct HalfPlane {
-  Vec2 normal;
-  double offset = 0;
-  [[nodiscard]] double height(Vec2 x) const { return dot(normal, x) - offset; }
+/// A half plane or a hemisphere: n · x > 0, for x = (x, y, 1) in the plane and directions x on the sphere.
+struct HalfSpace {
+  Vec3 normal;
+  [[nodiscard]] double height(Vec3 x) const { return dot(normal, x); }
 };
 
-/// d from p towards q more than `least`.
-HalfPlane beyond(Vec2 p, Vec2 q, double least) {
-  const Vec2 along = (1 / length(q - p)) * (q - p);
-  return {along, dot(along, p) + least};
-}
+using Polygon = std::vector<Vec3>;
 
-using Polygon = std::vector<Vec2>;
-
-/// Sutherland and Hodgman, one half plane.
-Polygon clip(const Polygon& polygon, const HalfPlane& plane) {
+/// Sutherland and Hodgman, one half space.
+Polygon clip(const Polygon& polygon, const HalfSpace& space) {
   Polygon result;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    const double at_a = plane.height(a), at_b = plane.height(b);
+    const Vec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    const double at_a = space.height(a), at_b = space.height(b);
     if (at_a >= 0) result.push_back(a);
     if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0)) result.push_back(a + (at_a / (at_a - at_b)) * (b - a));
   }
   return result;
 }
 
-Interval feet(const Polygon& polygon, Vec2 p, Vec2 q) {
-  const HalfPlane from_p = beyond(p, q, 0);
-  Interval interval = {kUnbounded, -kUnbounded};
-  for (const Vec2 o : polygon) {
-    interval.from = std::min(interval.from, from_p.height(o));
-    interval.to = std::max(interval.to, from_p.height(o));
+/// The segment from p to q, and where feet on it are.
+class Segment {
+ public:
+  Segment(const Space& space, Vec3 p, Vec3 q) : space_(space), p_(p) {
+    const Vec3 way = space.is_plane() ? q - p : (q - p) - dot(q - p, p) * p;
+    along_ = (1 / length(way)) * way;
   }
-  return interval;
-}
+  /// d from p more than `least`.
+  [[nodiscard]] HalfSpace beyond(double least) const {
+    if (space_.is_plane()) return {{along_.x, along_.y, -(dot(along_, p_) + least)}};
+    const double angle = least / space_.radius();
+    return {std::cos(angle) * along_ - std::sin(angle) * p_};
+  }
+  /// d of the foot of the perpendicular from o.
+  [[nodiscard]] double foot(Vec3 o) const {
+    if (space_.is_plane()) return beyond(0).height(o);
+    return space_.radius() * std::atan2(dot(o, along_), dot(o, p_));
+  }
+  /// d grows along any way from one corner of a polygon to another, or falls.
+  [[nodiscard]] Interval feet(const Polygon& polygon) const {
+    Interval interval = {kUnbounded, -kUnbounded};
+    for (const Vec3 o : polygon) {
+      interval.from = std::min(interval.from, foot(o));
+      interval.to = std::max(interval.to, foot(o));
+    }
+    return interval;
+  }
 
-/// Passes intervals through a tree of triangles. Positions are taken from a corner of the first triangle on, so that
-/// far from the origin no digits are lost.
+ private:
+  const Space& space_;
+  Vec3 p_, along_;  // on the sphere of length 1
+};
+
+/// Passes intervals through a tree of triangles. Positions in the plane are taken from a corner of the first triangle
+/// on, so that far from the origin no digits are lost.
 class Tree {
  public:
   Tree(const Mesh& mesh, std::span<const TriangleId> triangles)
       : mesh_(mesh), triangles_(triangles), origin_(mesh.position(mesh.corners(triangles.front())[0])) {}
+
+  [[nodiscard]] double length_of(HalfedgeId h) const {
+    const Vec3 p = at(mesh_.origin(h)), q = at(mesh_.target(h));
+    return space().is_plane() ? length(q - p) : space().radius() * arc_length(p, q);
+  }
 
   [[nodiscard]] bool has(TriangleId t) const { return std::binary_search(triangles_.begin(), triangles_.end(), t); }
 
@@ -92,22 +113,29 @@ class Tree {
   [[nodiscard]] CrossingSide side(HalfedgeId h) const {
     CrossingSide result;
     Polygon inside = region_of(h, result);
-    const Interval interval = feet(inside, at(mesh_.origin(h)), at(mesh_.target(h)));
+    const Interval interval = from_origin(h).feet(inside);
     // Clipping leaves the last digits beyond the ends.
-    const double l = length(at(mesh_.target(h)) - at(mesh_.origin(h)));
-    result.from = std::max(interval.from, 0.0), result.to = std::min(interval.to, l);
+    result.from = std::max(interval.from, 0.0), result.to = std::min(interval.to, length_of(h));
     return result;
   }
 
  private:
-  [[nodiscard]] Vec2 at(VertexId v) const { return mesh_.position(v) - origin_; }
+  [[nodiscard]] const Space& space() const { return mesh_.space(); }
+  [[nodiscard]] Vec3 at(VertexId v) const {
+    if (!space().is_plane()) return (1 / length(mesh_.lifted_point(v))) * mesh_.lifted_point(v);
+    const Vec2 p = mesh_.position(v) - origin_;
+    return {p.x, p.y, 1};
+  }
+  [[nodiscard]] Segment from_origin(HalfedgeId h) const { return {space(), at(mesh_.origin(h)), at(mesh_.target(h))}; }
+  [[nodiscard]] Segment from_target(HalfedgeId h) const { return {space(), at(mesh_.target(h)), at(mesh_.origin(h))}; }
   [[nodiscard]] bool is_shared(HalfedgeId h) const {
     return mesh_.twin(h).valid() && has(Mesh::triangle(mesh_.twin(h)));
   }
 
   void note_angle(HalfedgeId h, CrossingSide& side) const {
     const VertexId p = mesh_.origin(h), q = mesh_.target(h), r = mesh_.opposite(h);
-    const double angle = corner_angle(at(p), at(q), at(r)) * (180 / std::numbers::pi);
+    const double angle =
+        corner_angle(space(), mesh_.point(p), mesh_.point(q), mesh_.point(r)) * (180 / std::numbers::pi);
     if (angle <= side.angle_deg) return;
     side.angle_deg = angle;
     side.widest = p;
@@ -120,15 +148,15 @@ class Tree {
     for (const HalfedgeId e : {h, Mesh::next(h), Mesh::prev(h)}) region.push_back(at(mesh_.origin(e)));
     for (const HalfedgeId e : {h, Mesh::next(h), Mesh::prev(h)}) {
       note_angle(e, side);
-      const Vec2 p = at(mesh_.origin(e)), q = at(mesh_.target(e));
-      region = clip(clip(region, beyond(p, q, 0)), beyond(q, p, 0));
+      region = clip(clip(region, from_origin(e).beyond(0)), from_target(e).beyond(0));
     }
     for (const HalfedgeId e : {Mesh::next(h), Mesh::prev(h)}) {
       if (!is_shared(e)) continue;
       const HalfedgeId across = mesh_.twin(e);  // q → p of e = p → q
-      const Vec2 p = at(mesh_.origin(across)), q = at(mesh_.target(across));
-      const Interval interval = feet(region_of(across, side), p, q);
-      region = clip(clip(region, beyond(p, q, interval.from)), beyond(q, p, length(q - p) - interval.to));
+      const Segment segment = from_origin(across);
+      const Interval interval = segment.feet(region_of(across, side));
+      region = clip(clip(region, segment.beyond(interval.from)),
+                    from_target(across).beyond(length_of(across) - interval.to));
     }
     return region;
   }
@@ -160,7 +188,7 @@ std::optional<CrossingConflict> crossing_conflict(const Mesh& mesh, std::span<co
   for (const HalfedgeId h : tree.shared()) {
     CrossingConflict conflict;
     conflict.p = mesh.origin(h), conflict.q = mesh.target(h);
-    conflict.length = length(mesh.position(conflict.q) - mesh.position(conflict.p));
+    conflict.length = tree.length_of(h);
     conflict.left = tree.side(h);
     conflict.right = tree.side(mesh.twin(h));  // along q → p
     std::swap(conflict.right.from, conflict.right.to);

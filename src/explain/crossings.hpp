@@ -5,7 +5,8 @@
 // lie inside, and its foot on each edge between the ends: an open convex polygon with at most six corners. The foot
 // divides the edge for the triangles on both sides alike, so triangles joined by shared edges, without a closed ring,
 // admit weights just when feet can be chosen that agree: a constraint network that is a tree, which passing intervals
-// decides.
+// decides. On the sphere it is the same with great circles: the polygon is a cone, cut by planes through the center,
+// and feet are arcs.
 //
 //             r                 obtuse at r: o lies between the perpendiculars at r to rp and rq, which meet pq
 //           /:  :\              in Y and X; the foot on pq is anywhere between X and Y, no further out

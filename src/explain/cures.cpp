@@ -14,7 +14,8 @@
 
 #include "feasibility/certify.hpp"
 #include "feasibility/constraints.hpp"
-#include "mesh/neighbours.hpp"
+#include "geometry/ground.hpp"
+#include "quality/worst.hpp"
 #include "temper/geometry.hpp"
 #include "temper/regularity.hpp"
 #include "temper/topology.hpp"
@@ -53,12 +54,18 @@ std::optional<Patch> patch_of(const Mesh& mesh, const Conflict& conflict, std::s
   patch.slots = triangles_around(mesh, conflict.triangles);
   patch.original = vertices_of(mesh, patch.slots);
   std::map<VertexId, std::int32_t> number;
+  const Ground ground(mesh.space());
   std::vector<Vec2> points;
+  std::vector<Vec3> places;
   std::vector<std::int32_t> fixed, regions;
   for (const VertexId v : patch.original) {
-    number[v] = static_cast<std::int32_t>(points.size());
+    number[v] = static_cast<std::int32_t>(number.size());
     if (mesh.is_fixed(v)) fixed.push_back(number[v]);
-    points.push_back(mesh.position(v));
+    if (ground.is_plane()) {
+      points.push_back(mesh.position(v));
+    } else {
+      places.push_back(ground.place(mesh.point(v)));
+    }
   }
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::array<std::int32_t, 2>> constrained;
@@ -72,6 +79,7 @@ std::optional<Patch> patch_of(const Mesh& mesh, const Conflict& conflict, std::s
     }
   }
   MeshInput input;
+  input.space = mesh.space(), input.sphere_points = places;
   input.points = points, input.triangles = triangles, input.constrained_edges = constrained;
   input.regions = regions, input.fixed_vertices = fixed;
   auto built = Mesh::build(input);
@@ -101,7 +109,7 @@ Trial judge(const Mesh& mesh, const std::vector<Triple>& excused, LpSolver& solv
   std::vector<TriangleId> asked;
   for (const TriangleId t : mesh.triangles()) {
     const auto [p, q, r] = mesh.corners(t);
-    if (orient2d(mesh.position(p), mesh.position(q), mesh.position(r)) != Sign::positive) return {};
+    if (orientation(mesh.space(), mesh.point(p), mesh.point(q), mesh.point(r)) != Sign::positive) return {};
     if (std::find(excused.begin(), excused.end(), sorted_corners(mesh, t)) == excused.end()) asked.push_back(t);
   }
   const Bound bound = bound_margin(mesh, asked, solver, Demand(mesh, Conditions::well_centered, {}));
@@ -109,20 +117,40 @@ Trial judge(const Mesh& mesh, const std::vector<Triple>& excused, LpSolver& solv
   return {bound.best.margin, asked.size(), bound.best.margin > kCured && suits(mesh, asked, bound.best)};
 }
 
-std::vector<Vec2> compass(std::optional<Vec2> along) {
+/// Directions at a place; both `along` a line.
+std::vector<Vec3> compass(const Ground& ground, Vec3 at, std::optional<Vec3> along) {
   if (along) return {*along, -1.0 * *along};
-  std::vector<Vec2> directions;
+  const Vec3 ahead = ground.some_direction(at), left = ground.to_the_left(ahead, at);
+  std::vector<Vec3> directions;
   directions.reserve(8);
   for (int i = 0; i < 8; ++i) {
-    directions.push_back({std::cos(i * std::numbers::pi / 4), std::sin(i * std::numbers::pi / 4)});
+    directions.push_back(std::cos(i * std::numbers::pi / 4) * ahead + std::sin(i * std::numbers::pi / 4) * left);
   }
   return directions;
+}
+
+Vec3 place_at(const Mesh& mesh, VertexId v) { return Ground(mesh.space()).place(mesh.point(v)); }
+
+double distance_to_nearest(const Mesh& mesh, VertexId v) {
+  double least = kUnbounded;
+  for (const HalfedgeId h : mesh.star(v)) {
+    for (const VertexId u : {mesh.target(h), mesh.opposite(h)}) {
+      least = std::min(least, squared_length(place_at(mesh, u) - place_at(mesh, v)));
+    }
+  }
+  return std::sqrt(least);
+}
+
+Vec3 centroid(const Mesh& mesh, TriangleId t) {
+  const auto [a, b, c] = mesh.corners(t);
+  return Ground(mesh.space()).below((1.0 / 3) * (place_at(mesh, a) + place_at(mesh, b) + place_at(mesh, c)));
 }
 
 TriangleId largest(const Mesh& mesh, std::span<const TriangleId> triangles) {
   const auto area = [&](TriangleId t) {
     const auto [p, q, r] = mesh.corners(t);
-    return doubled_area(mesh.position(p), mesh.position(q), mesh.position(r));
+    return mesh.space().is_plane() ? doubled_area(mesh.position(p), mesh.position(q), mesh.position(r))
+                                   : solid_angle(mesh.lifted_point(p), mesh.lifted_point(q), mesh.lifted_point(r));
   };
   return *std::max_element(triangles.begin(), triangles.end(),
                            [&](TriangleId a, TriangleId b) { return area(a) < area(b); });
@@ -130,7 +158,7 @@ TriangleId largest(const Mesh& mesh, std::span<const TriangleId> triangles) {
 
 class CureFinder {
  public:
-  CureFinder(Patch patch, LpSolver& solver) : patch_(std::move(patch)), solver_(solver) {}
+  CureFinder(Patch patch, LpSolver& solver) : patch_(std::move(patch)), ground_(patch_.mesh.space()), solver_(solver) {}
 
   /// First with the whole neighbourhood; where that has more conflicts than this one, with what the change touches.
   std::vector<Cure> run() {
@@ -184,20 +212,20 @@ class CureFinder {
 
   /// A place for vertex v, and how good the mesh is that make(place) gives: nothing where v cannot stand.
   struct Place {
-    Vec2 at;
+    Vec3 at;
     Trial trial;
   };
   template <class Make>
-  Place search(const Make& make, VertexId v, Vec2 start, double step, std::optional<Vec2> along) {
-    const auto tried = [&](Vec2 at) {
+  Place search(const Make& make, VertexId v, Vec3 start, double step, std::optional<Vec3> along) {
+    const auto tried = [&](Vec3 at) {
       const std::optional<Mesh> mesh = make(at);
       return Place{at, mesh ? judge(*mesh, v) : Trial()};
     };
     Place best = tried(start);
     for (int round = 0; round < kCompassRounds && best.trial.margin < kComfortable; ++round, step /= 2) {
-      const Vec2 from = best.at;
-      for (const Vec2 direction : compass(along)) {
-        const Place place = tried(from + step * direction);
+      const Vec3 from = best.at;
+      for (const Vec3 direction : compass(ground_, from, along)) {
+        const Place place = tried(ground_.below(from + step * direction));
         if (place.trial.margin > best.trial.margin) best = place;
       }
     }
@@ -207,17 +235,17 @@ class CureFinder {
   void move_vertices() {
     for (const VertexId v : free_vertices(patch_.mesh, patch_.conflict)) {
       if (has_comfortable(Action::move_vertex)) return;
-      const auto moved = [&](Vec2 at) {
+      const auto moved = [&](Vec3 at) {
         Mesh mesh = patch_.mesh;
-        mesh.set_position(v, at);
+        mesh.set_point(v, ground_.vertex(at));
         return std::optional<Mesh>(std::move(mesh));
       };
-      const double step = kFirstStep * std::sqrt(squared_shortest_edge(patch_.mesh, v));
-      const Place best = search(moved, v, patch_.mesh.position(v), step, std::nullopt);
+      const double step = kFirstStep * distance_to_nearest(patch_.mesh, v);
+      const Place best = search(moved, v, place_at(patch_.mesh, v), step, std::nullopt);
       Cure cure;
       cure.action = Action::move_vertex;
       cure.vertex = patch_.in_mesh(v);
-      cure.at = best.at;
+      cure.at = shown_place(ground_.space(), best.at);
       offer(cure, best.trial);
     }
   }
@@ -237,15 +265,15 @@ class CureFinder {
 
   /// insert(place) is the mesh with the new vertex, which is the last: with the edges as they then are, and Delaunay.
   template <class Insert>
-  void offer_inserted(Cure cure, const Insert& insert, Vec2 start, double step, std::optional<Vec2> along) {
+  void offer_inserted(Cure cure, const Insert& insert, Vec3 start, double step, std::optional<Vec3> along) {
     const VertexId v(patch_.mesh.n_vertices());
-    const auto delaunay = [&](Vec2 at) {
+    const auto delaunay = [&](Vec3 at) {
       std::optional<Mesh> mesh = insert(at);
       if (mesh) restore_regularity(*mesh, HiddenPolicy::undo);
       return mesh;
     };
     for (const Place& best : {search(insert, v, start, step, along), search(delaunay, v, start, step, along)}) {
-      cure.at = best.at;
+      cure.at = shown_place(ground_.space(), best.at);
       offer(cure, best.trial);
     }
   }
@@ -254,17 +282,17 @@ class CureFinder {
     for (const TriangleId t : patch_.conflict) {
       if (has_comfortable(Action::insert_vertex)) return;
       const auto [a, b, c] = patch_.mesh.corners(t);
-      const Vec2 p = patch_.mesh.position(a), q = patch_.mesh.position(b), r = patch_.mesh.position(c);
-      const auto inserted = [&](Vec2 at) {
+      const Vec3 p = place_at(patch_.mesh, a), q = place_at(patch_.mesh, b), r = place_at(patch_.mesh, c);
+      const auto is_left = [&](Vec3 x, Vec3 y, Vec3 z) { return ground_.orientation(x, y, z) == Sign::positive; };
+      const auto inserted = [&](Vec3 at) {
         std::optional<Mesh> mesh;
-        if (orient2d(p, q, at) == Sign::positive && orient2d(q, r, at) == Sign::positive &&
-            orient2d(r, p, at) == Sign::positive) {
+        if (is_left(p, q, at) && is_left(q, r, at) && is_left(r, p, at)) {
           mesh = patch_.mesh;
-          insert_in_triangle(*mesh, t, {at.x, at.y, 0});
+          insert_in_triangle(*mesh, t, ground_.vertex(at));
         }
         return mesh;
       };
-      const Vec2 start = (1.0 / 3) * (p + q + r);
+      const Vec3 start = centroid(patch_.mesh, t);
       const double step = kFreshStep * std::min({length(p - start), length(q - start), length(r - start)});
       Cure cure;
       cure.action = Action::insert_vertex;
@@ -274,24 +302,30 @@ class CureFinder {
   }
 
   /// The places where the edge of h may be split: its middle, and below the corner across on either side.
-  [[nodiscard]] std::vector<Vec2> places_on(HalfedgeId h) const {
+  [[nodiscard]] std::vector<Vec3> places_on(HalfedgeId h) const {
     const Mesh& mesh = patch_.mesh;
-    const Vec2 p = mesh.position(mesh.origin(h)), q = mesh.position(mesh.target(h));
-    std::vector<Vec2> places = {p + 0.5 * (q - p)};
+    const Vec3 p = place_at(mesh, mesh.origin(h)), q = place_at(mesh, mesh.target(h));
+    std::vector<Vec3> places = {ground_.between(p, q, 0.5)};
     for (const HalfedgeId side : {h, mesh.twin(h)}) {
       if (!side.valid()) continue;
-      const double s = dot(mesh.position(mesh.opposite(side)) - p, q - p) / squared_length(q - p);
-      if (s > 0.1 && s < 0.9) places.push_back(p + s * (q - p));
+      const double s = part_below(p, q, place_at(mesh, mesh.opposite(side)));
+      if (s > 0.1 && s < 0.9) places.push_back(ground_.between(p, q, s));
     }
     return places;
   }
-  [[nodiscard]] bool can_split(HalfedgeId h, Vec2 at) const {
+  /// The part of pq from p to the foot of the perpendicular from x.
+  [[nodiscard]] double part_below(Vec3 p, Vec3 q, Vec3 x) const {
+    if (ground_.is_plane()) return dot(x - p, q - p) / squared_length(q - p);
+    return std::atan2(dot(x, ground_.direction(p, q)), dot(x, p) / length(p)) / arc_length(p, q);
+  }
+  [[nodiscard]] bool can_split(HalfedgeId h, Vec3 at) const {
     const Mesh& mesh = patch_.mesh;
+    const auto is_left = [&](Vec3 x, Vec3 y, Vec3 z) { return ground_.orientation(x, y, z) == Sign::positive; };
     for (const HalfedgeId side : {h, mesh.twin(h)}) {
       if (!side.valid()) continue;
-      const Vec2 p = mesh.position(mesh.origin(side)), q = mesh.position(mesh.target(side));
-      const Vec2 across = mesh.position(mesh.opposite(side));
-      if (orient2d(p, at, across) != Sign::positive || orient2d(at, q, across) != Sign::positive) return false;
+      const Vec3 p = place_at(mesh, mesh.origin(side)), q = place_at(mesh, mesh.target(side));
+      const Vec3 across = place_at(mesh, mesh.opposite(side));
+      if (!is_left(p, at, across) || !is_left(at, q, across)) return false;
     }
     return true;
   }
@@ -300,27 +334,28 @@ class CureFinder {
     for (const HalfedgeId h : edges_of(patch_.mesh, patch_.conflict)) {
       const bool boundary = patch_.mesh.is_boundary(h);
       const Action action = boundary ? Action::split_boundary : Action::split_edge;
-      const Vec2 p = patch_.mesh.position(patch_.mesh.origin(h)), q = patch_.mesh.position(patch_.mesh.target(h));
-      for (const Vec2 at : places_on(h)) {
+      const Vec3 p = place_at(patch_.mesh, patch_.mesh.origin(h)), q = place_at(patch_.mesh, patch_.mesh.target(h));
+      for (const Vec3 at : places_on(h)) {
         if (has_comfortable(action)) break;
-        const auto split = [&](Vec2 place) {
+        const auto split = [&](Vec3 place) {
           std::optional<Mesh> mesh;
           if (can_split(h, place)) {
             mesh = patch_.mesh;
-            split_edge(*mesh, h, {place.x, place.y, 0});
+            split_edge(*mesh, h, ground_.vertex(place));
           }
           return mesh;
         };
         Cure cure;
         cure.action = action;
         cure.edge = edge_of(h);
-        const Vec2 along = (1 / length(q - p)) * (q - p);
-        offer_inserted(cure, split, at, kFreshStep * std::min(length(at - p), length(q - at)), along);
+        offer_inserted(cure, split, at, kFreshStep * std::min(length(at - p), length(q - at)),
+                       ground_.direction(at, q));
       }
     }
   }
 
   Patch patch_;
+  Ground ground_;
   LpSolver& solver_;
   bool conflict_only_ = false;
   std::map<Action, Cure> best_;  // in the order of the enumeration: what changes least comes first
@@ -331,12 +366,11 @@ class CureFinder {
 bool suits(const Mesh& mesh, std::span<const TriangleId> triangles, const BestMargin& best) {
   const auto at = [&](VertexId v) {
     const auto found = std::lower_bound(best.vertices.begin(), best.vertices.end(), v);
-    const Vec2 p = mesh.position(v);
-    return WeightedPoint{p.x, p.y, best.weights[static_cast<std::size_t>(found - best.vertices.begin())]};
+    return point_with_weight(mesh, v, best.weights[static_cast<std::size_t>(found - best.vertices.begin())]);
   };
   return std::all_of(triangles.begin(), triangles.end(), [&](TriangleId t) {
     const auto [p, q, r] = mesh.corners(t);
-    return is_well_centered(at(p), at(q), at(r));
+    return is_well_centered(mesh.space(), at(p), at(q), at(r));
   });
 }
 
@@ -347,14 +381,13 @@ std::vector<Cure> suggested_cures(const Mesh& mesh, const Conflict& conflict) {
     Cure cure;
     cure.action = Cure::Action::insert_vertex;
     cure.triangle = largest(mesh, conflict.triangles);
-    const auto [a, b, c] = mesh.corners(cure.triangle);
-    cure.at = (1.0 / 3) * (mesh.position(a) + mesh.position(b) + mesh.position(c));
+    cure.at = shown_place(mesh.space(), centroid(mesh, cure.triangle));
     cures.push_back(cure);
   }
   HalfedgeId longest;
   double most = 0;
   for (const HalfedgeId h : edges_of(mesh, conflict.triangles)) {
-    const double l = length(mesh.position(mesh.target(h)) - mesh.position(mesh.origin(h)));
+    const double l = length(place_at(mesh, mesh.target(h)) - place_at(mesh, mesh.origin(h)));
     if (!mesh.is_boundary(h) || l <= most) continue;
     most = l, longest = h;
   }
@@ -362,7 +395,8 @@ std::vector<Cure> suggested_cures(const Mesh& mesh, const Conflict& conflict) {
     Cure cure;
     cure.action = Cure::Action::split_boundary;
     cure.edge = {mesh.origin(longest), mesh.target(longest)};
-    cure.at = 0.5 * (mesh.position(cure.edge[0]) + mesh.position(cure.edge[1]));
+    const Vec3 middle = Ground(mesh.space()).between(place_at(mesh, cure.edge[0]), place_at(mesh, cure.edge[1]), 0.5);
+    cure.at = shown_place(mesh.space(), middle);
     cures.push_back(cure);
   }
   return cures;

@@ -21,10 +21,11 @@
 #include "explain/crossings.hpp"
 #include "explain/cures.hpp"
 #include "feasibility/region.hpp"
+#include "geometry/ground.hpp"
 #include "mesh/bad_triangles.hpp"
 #include "mesh/erased.hpp"
 #include "quality/measure.hpp"
-#include "temper/geometry.hpp"
+#include "quality/worst.hpp"
 #include "temper/topology.hpp"
 #include "topology/rings.hpp"
 
@@ -50,9 +51,7 @@ struct BadTriangle {
 std::vector<BadTriangle> worst_first(const Mesh& mesh) {
   std::vector<BadTriangle> bad;
   for (const TriangleId t : bad_triangles(mesh)) {
-    const auto [p, q, r] = mesh.corners(t);
-    const Vec2 at = (1.0 / 3) * (mesh.position(p) + mesh.position(q) + mesh.position(r));
-    bad.push_back({measure_triangle(mesh, t).margin(), at, t});
+    bad.push_back({measure_triangle(mesh, t).margin(), middle_of(mesh, t), t});
   }
   std::sort(bad.begin(), bad.end());
   return bad;
@@ -103,9 +102,7 @@ class Explainer {
   void measure_bad(Reason& reason) const {
     std::vector<BadTriangle> bad;
     for (const TriangleId t : reason.bad) {
-      const auto [p, q, r] = mesh_.corners(t);
-      const Vec2 at = (1.0 / 3) * (mesh_.position(p) + mesh_.position(q) + mesh_.position(r));
-      bad.push_back({measure_triangle(mesh_, t).margin(), at, t});
+      bad.push_back({measure_triangle(mesh_, t).margin(), middle_of(mesh_, t), t});
     }
     std::sort(bad.begin(), bad.end());
     for (std::size_t i = 0; i < bad.size(); ++i) reason.bad[i] = bad[i].triangle;
@@ -138,8 +135,9 @@ class Explainer {
   }
 
   [[nodiscard]] Vec2 split_point(const EdgeConflict& c) const {
-    const Vec2 u = mesh_.position(mesh_.origin(c.edge)), v = mesh_.position(mesh_.target(c.edge));
-    return u + c.split_at * (v - u);
+    const Ground ground(mesh_.space());
+    const Vec3 u = ground.place(mesh_.point(mesh_.origin(c.edge))), v = ground.place(mesh_.point(mesh_.target(c.edge)));
+    return shown_place(mesh_.space(), ground.between(u, v, c.split_at));
   }
 
   void add_split(Reason& reason, bool checked) const {
@@ -160,7 +158,7 @@ class Explainer {
           return !edge_conflict(split, h.valid() ? h : split.find_halfedge(q, p));
         };
         cure.ends_conflict = is_free(u, middle) && is_free(middle, v);
-        cure.at = split.position(middle);
+        cure.at = shown_place(split.space(), Ground(split.space()).place(split.point(middle)));
       }
     }
     reason.cures.push_back(cure);
@@ -377,7 +375,6 @@ std::string_view name(Cure::Action action) {
 
 Expected<Explanation> explain(const Mesh& mesh, LpSolver& solver, const ExplainOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
-  if (auto error = expect_plane(mesh, "explain()")) return *std::move(error);
   return Explainer(mesh, solver, options).run();
 }
 

@@ -3,9 +3,9 @@
 #include <array>
 
 #include "feasibility/constraints.hpp"
+#include "geometry/ground.hpp"
 #include "quality/worst.hpp"
 #include "temper/explain.hpp"
-#include "temper/geometry.hpp"
 
 namespace temper {
 namespace {
@@ -84,7 +84,8 @@ class Speaker {
   [[nodiscard]] std::string must_split(const Reason& r) const {
     const EdgeConflict& c = *r.must_split;
     const VertexId u = mesh_.origin(c.edge), v = mesh_.target(c.edge);
-    const double l = length(mesh_.position(v) - mesh_.position(u));
+    const Ground ground(mesh_.space());
+    const double l = ground.distance(ground.place(mesh_.point(u)), ground.place(mesh_.point(v)));
     std::string text = edge(u, v);
     text.front() = text.front() == 'b' ? 'B' : 'E';
     text += " must be split, whatever is done inside. It is " + rounded(l) +

@@ -141,7 +141,7 @@ class Arranger {
     std::vector<Box> boxes;
     std::vector<std::uint8_t> used(o_.points.size(), 0);
     for (const OutlineSegment& s : o_.segments) {
-      boxes.push_back(ground_.box(point(s.ends[0]), point(s.ends[1])));
+      boxes.push_back(box_around(ground_, point(s.ends[0]), point(s.ends[1])));
       for (const std::int32_t end : s.ends) used[static_cast<std::size_t>(end)] = 1;
     }
     const BoxTree tree(boxes);

@@ -98,7 +98,7 @@ CornerRadii corner_radii(const Ground& ground, const std::vector<Vec3>& points, 
   boxes.reserve(edges.size());
   for (const OutlineEdge& e : edges) {
     boxes.push_back(
-        ground.box(points[static_cast<std::size_t>(e.ends[0])], points[static_cast<std::size_t>(e.ends[1])]));
+        box_around(ground, points[static_cast<std::size_t>(e.ends[0])], points[static_cast<std::size_t>(e.ends[1])]));
   }
   const BoxTree tree(boxes);
   CornerRadii radii(points.size(), 0);

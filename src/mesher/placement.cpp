@@ -33,7 +33,7 @@ class Placement {
     std::vector<Box> boxes;
     boxes.reserve(divided.pieces.size());
     for (const Piece& p : divided.pieces)
-      boxes.push_back(ground.box(divided.points[p.ends[0]], divided.points[p.ends[1]]));
+      boxes.push_back(box_around(ground, divided.points[p.ends[0]], divided.points[p.ends[1]]));
     tree_ = BoxTree(boxes);
     for (const Vec3 p : divided.points) grid_.add(p, size(p));
   }
@@ -102,7 +102,7 @@ class Placement {
 
   /// No piece is within the distance of p, or between p and where it comes from.
   [[nodiscard]] bool is_clear(Vec3 p, Vec3 from, double distance, std::size_t own_piece) const {
-    const Box box = united(Box{p, p}.grown(distance), ground_.box(p, from));
+    const Box box = united(Box{p, p}.grown(distance), box_around(ground_, p, from));
     return tree_.visit(box, [&](std::size_t i) {
       const Vec3 a = divided_.points[divided_.pieces[i].ends[0]], b = divided_.points[divided_.pieces[i].ends[1]];
       if (ground_.squared_distance(p, a, b) < distance * distance) return false;

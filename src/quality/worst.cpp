@@ -143,13 +143,16 @@ std::string degrees(double angle) {
   return std::string(buffer, result.ptr) + "°";
 }
 
-Vec2 middle_of(const Mesh& mesh, const std::array<VertexId, 3>& v) {
-  if (mesh.space().is_plane()) {
-    return (1.0 / 3) * (mesh.position(v[0]) + mesh.position(v[1]) + mesh.position(v[2]));
-  }
+Vec2 shown_place(const Space& space, Vec3 p) {
+  if (space.is_plane()) return {p.x, p.y};
   constexpr double kDegrees = 180 / std::numbers::pi;
-  const Vec3 p = mesh.lifted_point(v[0]) + mesh.lifted_point(v[1]) + mesh.lifted_point(v[2]);
   return {kDegrees * std::atan2(p.y, p.x), kDegrees * std::atan2(p.z, std::hypot(p.x, p.y))};
+}
+
+Vec2 middle_of(const Mesh& mesh, TriangleId t) {
+  const auto [a, b, c] = mesh.corners(t);
+  if (mesh.space().is_plane()) return (1.0 / 3) * (mesh.position(a) + mesh.position(b) + mesh.position(c));
+  return shown_place(mesh.space(), mesh.lifted_point(a) + mesh.lifted_point(b) + mesh.lifted_point(c));
 }
 
 WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names) {
@@ -157,7 +160,7 @@ WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names) 
   WorstTriangle worst;
   worst.triangle = t;
   worst.vertices = s.v;
-  worst.at = middle_of(mesh, s.v);
+  worst.at = middle_of(mesh, t);
   worst.h_over_l = s.m.h_over_l[least(s.m.h_over_l)];
   worst.angle_deg = *std::max_element(s.m.angle_deg.begin(), s.m.angle_deg.end());
   worst.why = explain(s);

@@ -13,24 +13,27 @@
 // flipped, an end of it has lost its power cell to v, or was hidden before.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/assert.hpp"
+#include "geometry/ground.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "temper/topology.hpp"
 #include "topology/locate.hpp"
+#include "topology/split_point.hpp"
 
 namespace temper {
 namespace {
 
 /// Does the new vertex conflict with the triangle of h?
 bool conflicts(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p) {
-  return inlined::power_test(mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)), mesh.point(mesh.opposite(h)), p) ==
-         Sign::positive;
+  return inlined::power_test(mesh.space(), mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)),
+                             mesh.point(mesh.opposite(h)), p) == Sign::positive;
 }
 
 bool is_counter_clockwise(const Mesh& mesh, const WeightedPoint& p, VertexId a, VertexId b) {
-  return inlined::orient2d(p.position(), mesh.position(a), mesh.position(b)) == Sign::positive;
+  return inlined::orientation(mesh.space(), p, mesh.point(a), mesh.point(b)) == Sign::positive;
 }
 
 InsertionPlan begin_plan(InsertionStatus status, const WeightedPoint& p, InsertionPlan storage) {
@@ -105,7 +108,8 @@ bool spokes_are_regular(const Mesh& mesh, const InsertionPlan& plan) {
     if (open && (i == 0 || i + 1 == n)) continue;
     const VertexId before = plan.link[(i + n - 1) % n], at = plan.link[i], after = plan.link[(i + 1) % n];
     if (has_line && (at == mesh.origin(plan.edge) || at == mesh.target(plan.edge))) continue;
-    if (inlined::power_test(plan.point, mesh.point(before), mesh.point(at), mesh.point(after)) == Sign::positive) {
+    const WeightedPoint& v = plan.point;
+    if (inlined::power_test(mesh.space(), v, mesh.point(before), mesh.point(at), mesh.point(after)) == Sign::positive) {
       return false;
     }
   }
@@ -124,12 +128,20 @@ void complete(const Mesh& mesh, InsertionPlan& plan) {
   plan.status = all && spokes_are_regular(mesh, plan) ? InsertionStatus::possible : InsertionStatus::not_regular;
 }
 
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// `linear` when it is between low and high, or nothing is; else the nearest in the middle half.
+double in_middle_half(double linear, double low, double high) {
+  if (low >= high || (low < linear && linear < high)) return linear;
+  const double quarter = 0.25 * (high - low);
+  return std::clamp(linear, low + quarter, high - quarter);
+}
+
 }  // namespace
 
 InsertionPlan plan_insertion(const Mesh& mesh, const WeightedPoint& p, TriangleId near, InsertionPlan storage) {
-  TEMPER_ASSERT(mesh.space().is_plane());
   InsertionPlan plan = begin_plan(InsertionStatus::outside, p, std::move(storage));
-  const Location location = locate(mesh, p.position(), near);
+  const Location location = locate(mesh, p, near);
   plan.triangle = location.triangle;
   switch (location.kind) {
     case Location::Kind::outside:
@@ -158,11 +170,10 @@ InsertionPlan plan_insertion(const Mesh& mesh, const WeightedPoint& p, TriangleI
 }
 
 InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p, InsertionPlan storage) {
-  TEMPER_ASSERT(mesh.space().is_plane());
   InsertionPlan plan = begin_plan(InsertionStatus::at_vertex, p, std::move(storage));
   const VertexId a = mesh.origin(h), b = mesh.target(h);
   begin_on_edge(mesh, h, plan);
-  if (p.position() == mesh.position(a) || p.position() == mesh.position(b)) return plan;
+  if (mesh.space().same_place(p, mesh.point(a)) || mesh.space().same_place(p, mesh.point(b))) return plan;
   const auto is_ccw = [&](HalfedgeId side) {
     return is_counter_clockwise(mesh, p, mesh.origin(side), mesh.target(side));
   };
@@ -178,9 +189,7 @@ InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, double t, InsertionPlan
   // From the end of smaller number: the same bits whichever side is asked.
   WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h));
   if (mesh.target(h) < mesh.origin(h)) std::swap(a, b), t = 1 - t;
-  const Vec2 step = b.position() - a.position();
-  const Vec2 p = a.position() + t * step;
-  return plan_split(mesh, h, {p.x, p.y, split_weight(a.w, b.w, squared_length(step), t)}, std::move(storage));
+  return plan_split(mesh, h, split_point(mesh.space(), a, b, t), std::move(storage));
 }
 
 double interpolated_weight(const Mesh& mesh, TriangleId t, Vec2 p) {
@@ -194,13 +203,28 @@ double interpolated_weight(const Mesh& mesh, TriangleId t, Vec2 p) {
 }
 
 double split_weight(double w_a, double w_b, double squared_length, double t) {
-  const double linear = w_a + t * (w_b - w_a);
   // The piece of length tℓ has both d inside when |w − w_a| < t²ℓ², and the other likewise.
   const double reach_a = t * t * squared_length, reach_b = (1 - t) * (1 - t) * squared_length;
-  const double low = std::max(w_a - reach_a, w_b - reach_b), high = std::min(w_a + reach_a, w_b + reach_b);
-  if (low >= high || (low < linear && linear < high)) return linear;
-  const double quarter = 0.25 * (high - low);
-  return std::clamp(linear, low + quarter, high - quarter);
+  return in_middle_half(w_a + t * (w_b - w_a), std::max(w_a - reach_a, w_b - reach_b),
+                        std::min(w_a + reach_a, w_b + reach_b));
+}
+
+WeightedPoint split_point(const Space& space, const WeightedPoint& a, const WeightedPoint& b, double t) {
+  if (space.is_plane()) {
+    const Vec2 step = b.position() - a.position(), p = a.position() + t * step;
+    return {p.x, p.y, split_weight(a.w, b.w, squared_length(step), t)};
+  }
+  const Ground ground(space);
+  const Vec3 from = ground.place(a), to = ground.place(b), p = ground.between(from, to, t);
+  // The piece ap has both d inside when σ is between σ_a cos(ap) and σ_a / cos(ap), σ = R/|P|, and the other likewise.
+  const double r = space.radius(), r2 = r * r;
+  const double sigma_a = r / length(lifted(a)), sigma_b = r / length(lifted(b));
+  const double cos_a = std::cos(arc_length(from, p)), cos_b = std::cos(arc_length(p, to));
+  const auto highest = [](double sigma, double cosine) { return cosine > 0 ? sigma / cosine : kNoLimit; };
+  const double w = space.weight(a) + t * (space.weight(b) - space.weight(a)), linear = r / std::sqrt(r2 + w);
+  const double sigma = in_middle_half(linear, std::max(sigma_a * cos_a, sigma_b * cos_b),
+                                      std::min(highest(sigma_a, cos_a), highest(sigma_b, cos_b)));
+  return space.vertex_at(p, sigma == linear ? w : r2 * (1 / (sigma * sigma) - 1));
 }
 
 }  // namespace temper

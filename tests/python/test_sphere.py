@@ -291,13 +291,24 @@ def test_weights_alone_make_a_globe_well_centered_or_a_certificate_says_none_can
     assert best.margin < 0 and temper.check_certificate(bare, best.certificate) == "proves"
 
 
+def test_explain_gives_reasons_with_places_in_degrees():
+    globe = temper.generate.random_sphere(60)
+    why = temper.explain(globe, cures=2)
+    assert why.verdict == "infeasible"
+    bad = np.concatenate([reason.bad for reason in why.reasons])
+    assert sorted(bad) == list(np.flatnonzero(~temper.well_centered_triangles(globe)))
+    worst = why.reasons[0]
+    x, y, z = globe.lifted_points[globe.triangles[worst.bad[0]]].sum(axis=0)
+    assert np.allclose(worst.at, (np.degrees(np.arctan2(y, x)), np.degrees(np.arctan2(z, np.hypot(x, y)))))
+    assert temper.check_certificate(globe, worst.certificate) == "proves"
+    assert worst.cures and temper.edges_that_must_be_split(globe) == []
+    assert temper.edge_conflict(globe, 0) is None
+
+
 # --- what is for the plane alone -----------------------------------------------------------------------------
 
 
 PLANE_ALONE = {
-    "edge_conflict": lambda mesh: temper.edge_conflict(mesh, 0),
-    "edges_that_must_be_split": temper.edges_that_must_be_split,
-    "explain": temper.explain,
     "html_report": temper.html_report,
     "plot": temper.plot,
     "position_flip_threshold": lambda mesh: temper.position_flip_threshold(mesh, 0, (1, 0)),

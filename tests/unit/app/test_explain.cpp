@@ -1,4 +1,5 @@
 // temper explain: what people read, the JSON, and that the page in docs/ shows what the program says.
+#include <cmath>
 #include <regex>
 
 #include "temper/io.hpp"
@@ -65,6 +66,17 @@ TEST_F(Explain, ThePageShowsWhatTheProgramSays) {
     EXPECT_EQ(outcome.out, (*at)[2].str());
   }
   EXPECT_GE(blocks, 2u);
+}
+
+TEST_F(Explain, OfAGlobeHasPlacesInDegreesAndCertificates) {
+  temper_ok({"example", "random-sphere", "--vertices", "60", "-o", "globe.vtu"});
+  EXPECT_TRUE(contains(temper_ok({"explain", "globe.vtu", "--limit", "1"}).out, "Conflicts, worst first"));
+  const auto json = nlohmann::json::parse(temper_ok({"explain", "globe.vtu", "--json", "--limit", "1"}).out);
+  const auto& worst = json["reasons"][0];
+  EXPECT_LE(std::abs(worst["at"][1].get<double>()), 90);
+  EXPECT_TRUE(worst["cures"][0]["verified"]);
+  write("why.json", worst["certificate"].dump());
+  EXPECT_TRUE(contains(temper_ok({"weights", "globe.vtu", "--check-certificate", "why.json"}).out, "proves it"));
 }
 
 TEST_F(Explain, BadUsageIsRefused) {

@@ -4,7 +4,9 @@
 #include <numeric>
 #include <set>
 
+#include "explain/crossings.hpp"
 #include "explain/cures.hpp"
+#include "support/spheres.hpp"
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"
 #include "temper/lp.hpp"
@@ -313,6 +315,152 @@ TEST(Explain, VerifiedMovesCureTheNeighbourhood) {
     }
   }
   EXPECT_GT(tried, 0u);
+}
+
+// --- on the sphere ---------------------------------------------------------------------------------------------
+
+/// On a cap so small that it is flat but for 1 in 10⁸.
+Mesh nearly_flat(const Mesh& plane) { return on_cap(plane, 1e4); }
+
+TEST(Explain, OnSmallCapsItSaysWhatItSaysInThePlane) {
+  std::set<ReasonKind> seen;
+  std::vector<Mesh> all = {sparse_horseshoe(), lattice({.n = 4, .jitter = 0.42, .weight = 0, .seed = 2})};
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) all.push_back(random_fan(seed, 4));
+  for (const Mesh& mesh : all) {
+    const Explanation flat = why(mesh, {.cures = 0}), e = why(nearly_flat(mesh), {.cures = 0});
+    EXPECT_EQ(e.bad, flat.bad);
+    EXPECT_EQ(e.verdict, flat.verdict);
+    ASSERT_EQ(e.reasons.size(), flat.reasons.size());
+    const auto sorted = [](const Explanation& explanation) {
+      std::vector<const Reason*> reasons;
+      for (const Reason& r : explanation.reasons) reasons.push_back(&r);
+      std::sort(reasons.begin(), reasons.end(), [](const Reason* x, const Reason* y) { return x->bad < y->bad; });
+      return reasons;
+    };
+    const auto here = sorted(e), there = sorted(flat);
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      const Reason &r = *here[i], &f = *there[i];
+      seen.insert(r.kind);
+      EXPECT_EQ(r.kind, f.kind);
+      EXPECT_EQ(r.bad, f.bad);
+      EXPECT_EQ(r.conflict, f.conflict);
+      EXPECT_EQ(r.free, f.free);
+      EXPECT_NEAR(r.margin, f.margin, 1e-5);
+      ASSERT_EQ(r.crossing.has_value(), f.crossing.has_value());
+      if (r.crossing) {
+        EXPECT_EQ(r.crossing->p, f.crossing->p);
+        EXPECT_NEAR(r.crossing->length, f.crossing->length, 1e-6);
+        EXPECT_NEAR(r.crossing->left.from, f.crossing->left.from, 1e-5);
+        EXPECT_NEAR(r.crossing->right.to, f.crossing->right.to, 1e-5);
+        EXPECT_NEAR(r.crossing->left.angle_deg, f.crossing->left.angle_deg, 1e-5);
+      }
+    }
+  }
+  for (const ReasonKind kind : {ReasonKind::edge, ReasonKind::fan}) EXPECT_EQ(seen.count(kind), 1u) << name(kind);
+}
+
+TEST(Explain, ArcsThatMustBeSplitAreNamedAndSplittingThemIsEnough) {
+  for (const double radius : {1e4, 5.0}) {
+    const Mesh mesh = on_cap(rectangle(5), radius);
+    const Explanation e = why(mesh);
+    ASSERT_FALSE(e.reasons.empty());
+    const Reason& reason = e.reasons.front();
+    ASSERT_EQ(reason.kind, ReasonKind::split);
+    EXPECT_EQ(reason.must_split->near_u, VertexId(5));
+    EXPECT_EQ(reason.must_split->near_v, VertexId(3));
+    EXPECT_TRUE(reason.cures.front().ends_conflict);
+    const std::string text = reason_text(mesh, reason);
+    EXPECT_TRUE(contains(text, "Boundary edge 0-1 must be split, whatever is done inside. It is ")) << text;
+  }
+}
+
+TEST(Explain, OfGlobesEveryBadTriangleHasOneReasonAndConflictsAreProved) {
+  std::size_t crossings = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    // From 30 points on, edges of up to 60 degrees.
+    const Mesh mesh = seed % 2 == 0 ? ocean(globe(40 * seed, seed, 1000), 300) : globe(30 * seed, seed, 1000);
+    const Explanation e = why(mesh, {.cures = 0});
+    std::vector<int> explained(mesh.n_triangles(), 0);
+    for (const Reason& reason : e.reasons) {
+      for (const TriangleId t : reason.bad) ++explained[t.index];
+      if (!is_conflict(reason)) continue;
+      EXPECT_EQ(check_certificate(mesh, reason.certificate), CertificateCheck::proves);
+      if (!reason.crossing) continue;
+      ++crossings;
+      const CrossingConflict& c = *reason.crossing;
+      EXPECT_TRUE(c.left.to <= c.right.from || c.right.to <= c.left.from);
+      EXPECT_EQ(c.left.triangles.size() + c.right.triangles.size(), reason.conflict.size());
+    }
+    for (const TriangleId t : mesh.triangles()) {
+      const auto [p, q, r] = mesh.corners(t);
+      EXPECT_EQ(explained[t.index],
+                is_well_centered(mesh.space(), mesh.point(p), mesh.point(q), mesh.point(r)) ? 0 : 1);
+    }
+  }
+  EXPECT_GT(crossings, 5u);
+}
+
+/// Two triangles have weights just when their sides of the edge agree: the crossings are held against the programme.
+TEST(Explain, OnTheSphereTwoTrianglesExcludeEachOtherJustWhereTheirCrossingsDoNotMeet) {
+  const auto solver = clp_solver();
+  std::size_t with = 0, without = 0;
+  for (std::uint64_t seed = 1; seed <= 80; ++seed) {
+    const Mesh mesh = on_cap(random_fan(seed, 5), 3);
+    for (const HalfedgeId h : mesh.halfedges()) {
+      if (!mesh.is_edge_representative(h) || mesh.is_boundary(h)) continue;
+      std::vector<TriangleId> two = {Mesh::triangle(h), Mesh::triangle(mesh.twin(h))};
+      std::sort(two.begin(), two.end());
+      const double margin = best_margin(mesh, two, *solver).margin;
+      if (std::abs(margin) < 1e-6) continue;
+      const bool disagree = crossing_conflict(mesh, two).has_value();
+      EXPECT_EQ(disagree, margin < 0) << h.index << " " << margin;
+      ++(disagree ? without : with);
+    }
+  }
+  EXPECT_GT(with, 50u);
+  EXPECT_GT(without, 10u);
+}
+
+WeightedPoint vertex_at(const Mesh& mesh, Vec2 lon_lat) {
+  const Vec2 a = kRadians * lon_lat;
+  const Vec3 p = {std::cos(a.y) * std::cos(a.x), std::cos(a.y) * std::sin(a.x), std::sin(a.y)};
+  return as_point(mesh.space().radius() * p);
+}
+
+TEST(Explain, VerifiedCuresOfTheSphereDoCureWhereTheMeshIsTheNeighbourhood) {
+  const auto solver = clp_solver();
+  std::set<Cure::Action> tried;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    // Fans of edges of about a third of the radius.
+    const Mesh mesh = on_cap(random_fan(seed, 4 + static_cast<int>(seed % 2), seed % 2 == 0), 3);
+    const Explanation e = why(mesh);
+    if (std::count_if(e.reasons.begin(), e.reasons.end(), is_conflict) != 1) continue;
+    for (const Cure& cure : e.reasons[0].cures) {
+      if (!cure.verified || cure.conflict_only) continue;
+      Mesh after = mesh;
+      const auto halfedge = [&] {
+        const HalfedgeId h = mesh.find_halfedge(cure.edge[0], cure.edge[1]);
+        return h.valid() ? h : mesh.find_halfedge(cure.edge[1], cure.edge[0]);
+      };
+      using Action = Cure::Action;
+      if (cure.action == Action::move_vertex) after.set_point(cure.vertex, vertex_at(mesh, cure.at));
+      if (cure.action == Action::flip_edge) flip(after, halfedge());
+      if (cure.action == Action::insert_vertex) insert_in_triangle(after, cure.triangle, vertex_at(mesh, cure.at));
+      if (cure.action == Action::split_edge || cure.action == Action::split_boundary) {
+        split_edge(after, halfedge(), vertex_at(mesh, cure.at));
+      }
+      EXPECT_FALSE(after.validate()) << *after.validate();
+      double margin = best_margin(after, *solver).margin;
+      if (after.n_vertices() > mesh.n_vertices()) {
+        restore_regularity(after);
+        margin = std::max(margin, best_margin(after, *solver).margin);
+      }
+      EXPECT_NEAR(margin, cure.margin, 1e-7) << name(cure.action) << " " << seed;
+      EXPECT_GT(cure.margin, 0);
+      tried.insert(cure.action);
+    }
+  }
+  EXPECT_GE(tried.size(), 3u);
 }
 
 using Canonical = std::set<std::pair<std::vector<std::size_t>, std::vector<std::size_t>>>;
