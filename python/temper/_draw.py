@@ -96,6 +96,12 @@ def _options(values: dict[str, Any]) -> dict[str, Any]:
         options["view"] = tuple(float(v) for v in options["view"])
         if len(options["view"]) != 2:
             raise ValueError("view: expected longitude, latitude")
+        longitude, latitude = options["view"]
+        if not (abs(longitude) <= 360 and abs(latitude) <= 90):
+            raise ValueError(
+                "view: expected a longitude from -360 to 360 and a latitude from -90 to 90, "
+                f"found {longitude:g}, {latitude:g}"
+            )
     return options
 
 

@@ -420,6 +420,9 @@ def test_a_sphere_is_drawn_from_where_one_looks(globe, ring):
         temper.draw_before_after_svg(ring, globe)
     with pytest.raises(ValueError, match="view: expected longitude, latitude"):
         temper.draw_svg(globe, view=(1, 2, 3))
+    for view in [(0, 95), (0, -90.5), (361, 0), (0, np.nan)]:
+        with pytest.raises(ValueError, match="latitude from -90 to 90, found"):
+            temper.draw_svg(globe, view=view)
 
 
 # --- operators and errors --------------------------------------------------------------------------------------
