@@ -228,7 +228,8 @@ struct PaperSwitches {
   double insertion_ratio = 4;  ///< an energy above so many times the mean is large; > 1
 
   /// What the first sweeps lower, before `energy`: "E_∂T, then switching to E_BP" (§7). Absent: `energy` from the first
-  /// sweep on. The γ and h° of both are the same options.
+  /// sweep on; but E_ODT for ten sweeps where the accuracy objective is for one scheme, the mesh in the plane and
+  /// without weights, and steps are Newton's with flips at once. The γ and h° of both are the same options.
   std::optional<EnergyKind> first_energy = {};
   int switch_at = 20;  ///< the first sweep that lowers `energy`; an earlier one when the first energy has converged
   double tolerance = 1e-5;

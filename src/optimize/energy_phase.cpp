@@ -72,7 +72,7 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
     take_last_energy();
     return Verdict::restarted;
   }
-  if (settings_.options.objective != Objective::energy && has_margins()) {
+  if (settings_.options.objective != Objective::energy && !before_switch_ && has_margins()) {
     run_.report.stopped = Stopped::converged;  // the next phase needs no more of this energy
     return Verdict::settled;
   }

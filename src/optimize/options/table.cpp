@@ -202,7 +202,8 @@ constexpr OptionRow kEnergyRows[] = {
         {.needs = {{{"energy", "F|nF"}}}}),
     row<kPaper, &Paper::first_energy>("first_energy",
                                       "what the first sweeps lower instead, before they switch to `energy`",
-                                      {.absent = "`energy` from the first sweep on"}),
+                                      {.absent = "`energy` from the first sweep on; ODT for ten sweeps `for_` one "
+                                                 "scheme on a mesh of the plane without weights"}),
     row<kPaper, &Paper::switch_at>(
         "switch_at",
         "of `first_energy`: the first sweep that lowers `energy`, from 0; an earlier one when "

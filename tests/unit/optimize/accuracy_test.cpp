@@ -111,6 +111,28 @@ TEST(Accuracy, MakesEdgesAndDualsAsLongAsIsAskedFor) {
   }
 }
 
+TEST(Accuracy, OfOneSchemeBeginsWithSweepsOfOdtWhereThereAreNoWeights) {
+  const Mesh input = *random_points({.vertices = 300, .seed = 2});
+  const auto made_by = [](Mesh mesh, OptimizeOptions o) {
+    o.objective = Objective::accuracy;
+    improved(mesh, o);
+    return mesh;
+  };
+  OptimizeOptions said, stars, at_once, all;
+  for (OptimizeOptions* o : {&said, &stars, &at_once}) o->for_ = Scheme::stars;
+  said.paper.first_energy = EnergyKind::ODT, said.paper.switch_at = 10;
+  at_once.paper.first_energy = EnergyKind::ODT, at_once.paper.switch_at = 0;
+  EXPECT_EQ(made_by(input, stars), made_by(input, said));
+  EXPECT_NE(made_by(input, stars), made_by(input, at_once));
+  EXPECT_NE(made_by(input, all), made_by(input, at_once));
+  Mesh weighted = input;
+  weighted.set_weight(VertexId(7), 1e-6);
+  at_once.paper.first_energy.reset();
+  EXPECT_EQ(made_by(weighted, stars), made_by(weighted, at_once));
+  const Mesh ready = ready_mesh();  // has its margins: nothing goes before
+  EXPECT_EQ(made_by(ready, stars), made_by(ready, at_once));
+}
+
 TEST(Accuracy, KeepsMarginsAfterEverySweepAndTheBoundaryBitForBit) {
   Mesh mesh = *random_points({.vertices = 300, .seed = 2});
   const Mesh before = mesh;
