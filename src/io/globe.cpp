@@ -11,6 +11,30 @@ namespace {
 // Of the radius: what is left of coordinates with seven digits.
 constexpr double kOff = 1e-6;
 
+bool is_off(double distance, double radius) { return !(std::abs(distance - radius) <= kOff * radius); }
+
+/// 0 where there are no points.
+double median_distance(const std::vector<Vec3>& points) {
+  if (points.empty()) return 0;
+  std::vector<double> all;
+  all.reserve(points.size());
+  for (const Vec3 p : points) all.push_back(length(p));
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  return *middle;
+}
+
+/// The first point that is not on a sphere which more than half of them share; nothing where they share none.
+std::optional<std::size_t> off_shared_sphere(const std::vector<Vec3>& points, double radius) {
+  std::optional<std::size_t> first;
+  std::size_t n_off = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!is_off(length(points[i]), radius)) continue;
+    if (n_off++ == 0) first = i;
+  }
+  return 2 * n_off < points.size() ? first : std::nullopt;
+}
+
 }  // namespace
 
 Vec3 east_of(Vec3 p) {
@@ -73,6 +97,12 @@ void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& n
     return;
   }
   if (const auto radius = common_radius(points)) return set_sphere(file, *radius, std::move(points));
+  const double radius = median_distance(points);
+  if (const auto off = off_shared_sphere(points, radius)) {
+    fail(ErrorCode::not_planar, names.point_where(*off),
+         text(names.point(*off), " is ", length(points[*off]), " from the origin, but most points are ", radius,
+              "; expected all on one sphere around the origin, or in a plane of constant z"));
+  }
   fail(ErrorCode::not_planar, names.point_where(*off_plane),
        text(names.point(*off_plane), " has z = ", points[*off_plane].z, ", but ", names.point(0), " has z = ", z,
             "; expected a mesh in a plane of constant z, or on a sphere around the origin"));
@@ -89,14 +119,9 @@ Expected<void> set_points(MeshFile& file, std::vector<Vec3> points) {
 }
 
 std::optional<double> common_radius(const std::vector<Vec3>& points) {
-  std::vector<double> all;
-  all.reserve(points.size());
-  for (const Vec3 p : points) all.push_back(length(p));
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  const double radius = *middle;
-  const auto off = [radius](double r) { return !(std::abs(r - radius) <= kOff * radius); };
-  if (!(radius > 0) || std::any_of(all.begin(), all.end(), off)) return std::nullopt;
+  const double radius = median_distance(points);
+  const auto off = [radius](Vec3 p) { return is_off(length(p), radius); };
+  if (!(radius > 0) || std::any_of(points.begin(), points.end(), off)) return std::nullopt;
   // A radius that somebody wrote down has few digits.
   const double places = 11 - std::floor(std::log10(radius)), power = std::pow(10, std::abs(places));
   const double rounded = places > 0 ? std::round(radius * power) / power : std::round(radius / power) * power;

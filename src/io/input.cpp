@@ -90,6 +90,17 @@ void check_ranges(const Document& d) {
   }
 }
 
+/// Points on one parallel of a sphere are in a plane, too: nothing in the file settles which is meant.
+void warn_of_parallel(Document& d) {
+  std::vector<Vec3> places;
+  for (const Vec2 p : d.file.points) places.push_back({p.x, p.y, d.file.z});
+  const auto radius = common_radius(places);
+  if (!radius) return;
+  d.file.warnings.push_back(text(d.names->path, ": all points have z = ", d.file.z, " and are ", *radius,
+                                 " from the origin: taken for a mesh in a plane, though they are also on one parallel "
+                                 "of a sphere"));
+}
+
 }  // namespace
 
 void check(Document& d) {
@@ -109,6 +120,8 @@ void check(Document& d) {
     std::vector<Vec3> places;
     for (std::size_t i = 0; i < f.points.size(); ++i) places.push_back({f.points[i].x, f.points[i].y, d.heights[i]});
     settle_points(d.file, std::move(places), *d.names);
+  } else if (f.z != 0 && f.sphere_radius == 0) {
+    warn_of_parallel(d);
   }
   for (std::size_t i = 0; i < f.weights.size(); ++i) {
     if (std::isfinite(f.weights[i])) continue;

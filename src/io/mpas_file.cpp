@@ -100,22 +100,48 @@ class MpasReader {
     expect(x.size() == z.size(), "zCell");
     document_.names->points = RunLength(1, x.size());
     if (says_yes("on_a_sphere")) return points_on_sphere(x, y, z);
+    const bool flat = in_.text_attribute(nullptr, "on_a_sphere").starts_with("NO");
     PlaneCheck plane(document_);
     for (std::size_t i = 0; i < x.size(); ++i) {
+      if (flat && z[i] != z[0] && std::isfinite(z[i])) {
+        fail(ErrorCode::not_planar, document_.names->point_where(i),
+             text("attribute on_a_sphere is NO, but ", document_.names->point(i), " has z = ", z[i], " and ",
+                  document_.names->point(0), " has z = ", z[0], "; expected a plane of constant z"));
+      }
       document_.file.points.push_back({x[i], y[i]});
       plane.add(i, z[i]);
     }
   }
 
-  /// The radius is that of the file, where points have it.
+  /// The radius is that of the file, which its points must have.
   void points_on_sphere(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& z) {
-    constexpr double kSame = 1e-6;  // what Mesh::build takes
     std::vector<Vec3> places;
     for (std::size_t i = 0; i < x.size(); ++i) places.push_back({x[i], y[i], z[i]});
     const auto said = in_.number_attribute(nullptr, "sphere_radius");
-    settle_points(document_.file, std::move(places), *document_.names);
-    double& radius = document_.file.sphere_radius;
-    if (said && std::abs(*said - radius) <= kSame * radius) radius = *said;
+    if (said) expect_radius(places, *said);
+    settle_points(document_.file, places, *document_.names);
+    if (document_.file.sphere_radius == 0) {
+      // On one parallel all have one z, as in a plane.
+      const auto common = common_radius(places);
+      if (!common) {
+        fail(ErrorCode::not_planar, document_.names->path,
+             text("attribute on_a_sphere is YES, but all points have z = ", document_.file.z,
+                  " and not one distance from the origin; expected points on a sphere around the origin"));
+      }
+      set_sphere(document_.file, *common, std::move(places));
+    }
+    if (said) document_.file.sphere_radius = *said;
+  }
+
+  void expect_radius(const std::vector<Vec3>& places, double radius) const {
+    constexpr double kSame = 1e-6;  // what Mesh::build takes
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double distance = length(places[i]);
+      if (!std::isfinite(distance) || std::abs(distance - radius) <= kSame * radius) continue;
+      fail(ErrorCode::not_planar, document_.names->point_where(i),
+           text("attribute sphere_radius is ", radius, ", but ", document_.names->point(i), " is ", distance,
+                " from the origin; expected xCell, yCell and zCell on a sphere of that radius"));
+    }
   }
 
   void triangles() {
@@ -288,6 +314,7 @@ bool needs_cdf5(const NetcdfMesh& m, std::size_t max_edges) {
 /// With weights the edges do not cross midway between the cells.
 void warn_of_offsets(const WriteJob& job, const NetcdfMesh& m) {
   constexpr double kVisible = 0.01;
+  if (std::ranges::all_of(m.file.weights, [](double w) { return w == 0; })) return;
   std::size_t visible = 0;
   double most = 0;
   for (const DecEdge& edge : m.complex.edges) {
@@ -315,7 +342,7 @@ void write_mpas(const WriteJob& job) {
   if (n_bad > 0)
     job.warn(text(n_bad, " edges inside have a dvEdge that is not positive; MPAS expects a well-centered mesh"));
   const double radius = m.file.sphere_radius;
-  if (radius > 0) warn_of_offsets(job, m);
+  warn_of_offsets(job, m);
   NetcdfWriter out(job.path, needs_cdf5(m, a.max_edges));
   const int cells = out.dimension("nCells", m.mesh.n_vertices()), edges = out.dimension("nEdges", c.edges.size()),
             vertices = out.dimension("nVertices", m.mesh.n_triangles()),

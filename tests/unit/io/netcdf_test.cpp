@@ -95,6 +95,11 @@ class Nc {
     EXPECT_EQ(nc_put_att_text(id, variable, name, value.size(), value.data()), NC_NOERR);
   }
 
+  void say(int variable, const char* name, double value) {
+    nc_redef(id);
+    EXPECT_EQ(nc_put_att_double(id, variable, name, NC_DOUBLE, 1, &value), NC_NOERR);
+  }
+
   int id = -1;
 
  private:
@@ -138,14 +143,14 @@ class NetcdfFormats : public FileTest {
   /// Writes a planar mesh and spherical ones in turn, and looks at each.
   template <class Look>
   void for_mpas_files(const Look& look) const {
-    write_ok("m.mpas.nc", bent_lattice());
-    look(bent_lattice(), Nc::open(path("m.mpas.nc")));
-    for (const MeshFile& f : globes()) {
-      const auto warnings = write(path("g.mpas.nc"), f);
+    std::vector<MeshFile> files = globes();
+    files.push_back(bent_lattice());
+    for (const MeshFile& f : files) {
+      const auto warnings = write(path("m.mpas.nc"), f);
       ASSERT_TRUE(warnings) << warnings.error().what();
       ASSERT_EQ(warnings->size(), 1u);
       EXPECT_NE((*warnings)[0].find(": with weights, "), std::string::npos) << (*warnings)[0];
-      look(f, Nc::open(path("g.mpas.nc")));
+      look(f, Nc::open(path("m.mpas.nc")));
     }
   }
 
@@ -182,7 +187,7 @@ TEST_F(NetcdfFormats, mpas_cells_and_triangles_are_the_sums_of_their_kites) {
 }
 
 TEST_F(NetcdfFormats, mpas_edges_cross_where_the_file_says_and_turn_the_right_way) {
-  write_ok("m.mpas.nc", bent_lattice());
+  ASSERT_TRUE(write(path("m.mpas.nc"), bent_lattice()));
   const Nc nc = Nc::open(path("m.mpas.nc"));
   const auto cells = nc.get<std::int32_t>("cellsOnEdge"), vertices = nc.get<std::int32_t>("verticesOnEdge");
   const auto xc = nc.get<double>("xCell"), yc = nc.get<double>("yCell"), xv = nc.get<double>("xVertex"),
@@ -350,6 +355,9 @@ TEST_F(NetcdfFormats, mpas_without_weights_is_crossed_in_the_middle_and_warns_of
   write_ok("m.mpas.nc", from_mesh(*icosahedral({.level = 2})));
   const Nc nc = Nc::open(path("m.mpas.nc"));
   for (const double weight : nc.get<double>("weight")) EXPECT_EQ(weight, 0);
+  MeshFile plane = bent_lattice();
+  plane.weights.clear();
+  write_ok("p.mpas.nc", plane);
 }
 
 // What others have computed of a public mesh, with arc cosines: to half of the digits.
@@ -525,6 +533,30 @@ TEST_F(NetcdfFormats, what_is_no_planar_mesh_of_triangles_is_named) {
             }),
             "o.nc: point 3 has z = 2, but point 1 has z = 0; expected a mesh in a plane of constant z, or on a sphere "
             "around the origin");
+  // What MPAS says of its coordinates must be so.
+  const auto contradiction = [&](const char* on_a_sphere, double radius, double last_z) {
+    return refused([&](Nc& nc) {
+      const int n = nc.add_dimension("nCells", 3), v = nc.add_dimension("nVertices", 1),
+                d = nc.add_dimension("vertexDegree", 3);
+      nc.say(NC_GLOBAL, "on_a_sphere", on_a_sphere);
+      nc.say(NC_GLOBAL, "sphere_radius", radius);
+      nc.add<double>("xCell", {n}, {1, 0, 0});
+      nc.add<double>("yCell", {n}, {0, 1, 0});
+      nc.add<double>("zCell", {n}, {0, 0, last_z});
+      nc.add<std::int32_t>("cellsOnVertex", {v, d}, {1, 2, 3});
+    });
+  };
+  EXPECT_EQ(
+      contradiction("YES", 2, 1),
+      "o.nc: attribute sphere_radius is 2, but point 1 is 1 from the origin; expected xCell, yCell and zCell on a "
+      "sphere of that radius");
+  EXPECT_EQ(
+      contradiction("YES", 1, 3),
+      "o.nc: attribute sphere_radius is 1, but point 3 is 3 from the origin; expected xCell, yCell and zCell on a "
+      "sphere of that radius");
+  EXPECT_EQ(contradiction("NO", 0, 1),
+            "o.nc: attribute on_a_sphere is NO, but point 3 has z = 1 and point 1 has z = 0; expected a plane of "
+            "constant z");
   EXPECT_EQ(refused([](Nc& nc) {
               const int n = nc.add_dimension("n", 4), f = nc.add_dimension("f", 1), d = nc.add_dimension("four", 4);
               nc.add<double>("x", {n}, {0, 1, 1, 0});

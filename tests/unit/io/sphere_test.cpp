@@ -183,8 +183,8 @@ TEST_F(SphereFiles, WhatIsWrongIsNamedByFileAndLine) {
   EXPECT_EQ(obj(octahedron + "v 0 0 -1\n" + faces), "");
   EXPECT_EQ(
       obj(octahedron + "v 0 0 -1.01\n" + faces),
-      "m.obj:3: point 3 has z = 1, but point 1 has z = 0; expected a mesh in a plane of constant z, or on a sphere "
-      "around the origin");
+      "m.obj:6: point 6 is 1.01 from the origin, but most points are 1; expected all on one sphere around the origin, "
+      "or in a plane of constant z");
   EXPECT_EQ(obj(octahedron + "v 0 0 1\n" + faces).substr(0, 48), "m.obj:6: point 3 and point 6 are both at (0, 0, ");
   EXPECT_EQ(obj(octahedron + "v 0 0 -1\nf 1 4 3\n" + faces),
             "m.obj:7: triangle 1 has zero area: its corners point 1, point 4 and point 3 are on one great circle");
@@ -210,6 +210,21 @@ TEST_F(SphereFiles, WhatIsWrongIsNamedByFileAndLine) {
             "nod2d.out: is the points of a FESOM mesh; its triangles are expected in elem2d.out, which does not exist");
   // 180 and −180, and longitudes in both conventions, are the same places.
   EXPECT_EQ(fesom("4\n1 170 0 1\n2 180 10 1\n3 -170 0 1\n4 540 -10 1\n", "2\n1 3 2\n1 4 3\n"), "");
+}
+
+TEST_F(SphereFiles, OneParallelIsTakenForAPlaneWithAWarning) {
+  const auto warnings = [&](const char* z) {
+    const std::string at = std::string(" ") + z + "\n";
+    const auto file = read(make("p.obj", "v 3 0" + at + "v 0 3" + at + "v -3 0" + at + "f 1 2 3\n"));
+    EXPECT_TRUE(file);
+    EXPECT_EQ(file->sphere_radius, 0);
+    return file->warnings;
+  };
+  ASSERT_EQ(warnings("4").size(), 1U);
+  EXPECT_EQ(plain(warnings("4")[0]),
+            "p.obj: all points have z = 4 and are 5 from the origin: taken for a mesh in a "
+            "plane, though they are also on one parallel of a sphere");
+  EXPECT_TRUE(warnings("0").empty());  // the equator bounds no triangle of a sphere
 }
 
 TEST_F(SphereFiles, JigsawEllipsoidsAreSpheresOrRefused) {
