@@ -28,7 +28,7 @@
 namespace temper::test {
 namespace {
 
-constexpr std::size_t kVertices = 20000;  // several blocks of every loop, several parts of a sweep
+constexpr std::size_t kManyVertices = 20000;  // several blocks of every loop, several parts of a sweep
 
 template <class T>
 std::string bytes_of(std::span<const T> values) {
@@ -54,7 +54,7 @@ std::string bytes_of(const Mesh& mesh) {
 
 /// The mesh that rows look at, another one of the same domain, and one that is well-centered.
 struct Meshes {
-  Mesh mesh = mesh_with_regions(kVertices, 3);
+  Mesh mesh = mesh_with_regions(kManyVertices, 3);
   Mesh moved = shrunk(mesh);
   Mesh well_centered = lattice({.n = 140, .jitter = 0.02, .weight = 0.02});
   io::MeshFile file = io::from_mesh(mesh);

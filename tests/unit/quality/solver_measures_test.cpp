@@ -217,8 +217,8 @@ TEST(SolverMeasures, AreThoseOfANaiveTwinOnRandomMeshes) {
     const Mesh mesh = lattice({.n = 7, .jitter = 0.3, .weight = seed % 2 == 0 ? 0.0 : 0.1, .seed = seed});
     const Naive naive{mesh};
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    double edge = infinity, dual = infinity, link = infinity, ortho = 0, smooth = 1, cell = infinity,
-           median = infinity, offset = 0;
+    double edge = infinity, dual = infinity, link = infinity, ortho = 0, smooth = 1, cell = infinity, median = infinity,
+           offset = 0;
     std::size_t small = 0, obtuse = 0;
     for (const HalfedgeId h : mesh.halfedges()) {
       if (mesh.is_boundary(h) || mesh.twin(h) < h) continue;
