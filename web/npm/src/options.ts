@@ -13,7 +13,7 @@ export interface OptimizeOptions {
   h0?: SofteningLike | null;
   /** of energy F: the h of boundary edges as it is, |h|, or as if the mesh were mirrored there. Default: "as_is". */
   boundary_treatment?: "as_is" | "absolute" | "mirrored";
-  /** what the first sweeps lower instead, before they switch to energy; null: `energy` from the first sweep on. Default: null. */
+  /** what the first sweeps lower instead, before they switch to energy; null: `energy` from the first sweep on; ODT for ten sweeps `for_` one scheme on a mesh of the plane without weights. Default: null. */
   first_energy?: "F" | "T" | "dT" | "BH" | "BHs" | "BP" | "nF" | "nT" | "ndT" | "ODT" | null;
   /** of first_energy: the first sweep that lowers energy, from 0; an earlier one when the first energy has converged; at least 0. Default: 20. */
   switch_at?: number;
@@ -23,6 +23,10 @@ export interface OptimizeOptions {
   for_?: "all" | "vertex" | "cell" | "stars";
   /** of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle; more than 0 and less than 0.25; null: 0.1, but 0.02 `for_` one scheme. Default: null. */
   margin?: number | null;
+  /** of accuracy: least length of interior edges, over the local size; 0: none; at least 0 and at most 0.95. Default: 0. */
+  min_edge?: number;
+  /** of accuracy: the same of their dual edges, whose lengths bound time steps; at least 0 and at most 0.55. Default: 0. */
+  min_dual?: number;
   /** of accuracy: how many times as much as in HOT the offset of the middles counts; 1: HOT over size squared; at least 0; null: 10, but 20 for stars. Default: null. */
   offset_weight?: number | null;
   /** of accuracy: the same of the height of boundary edges; at least 0; null: 5; for vertex 0.5, cell 30, stars 18. Default: null. */
