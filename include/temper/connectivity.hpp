@@ -53,8 +53,8 @@ struct ConnectivityReport {
 /// margin, the one flip that raises it most. Only flips that take away a term of the proof that the margin is no
 /// greater are tried: with all its terms left, the same proof holds after the flip. Edges of the boundary and
 /// constrained ones stay. The margin grows with each step by more than rounding, so the search ends. A step costs a
-/// programme of the whole mesh for each flip that a programme of its neighbourhood does not rule out. Error: conditions
-/// regular, which every regular triangulation keeps. Precondition: no erased triangles.
+/// programme of the whole mesh for each flip that a programme of its neighbourhood does not rule out. Errors:
+/// conditions regular, which every regular triangulation keeps; a periodic plane. Precondition: no erased triangles.
 [[nodiscard]] Expected<ConnectivityReport> best_connectivity(const Mesh& mesh, LpSolver& solver,
                                                              const ConnectivityOptions& options = {});
 

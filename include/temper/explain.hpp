@@ -129,8 +129,8 @@ struct Explanation {
 
 /// Explains each triangle that is not well-centered, by exactly one reason. Verdicts rest on exact predicates and on
 /// check_certificate; which of several smallest conflicts is named may depend on the solver. Precondition: no erased
-/// triangles, all counter-clockwise. Error: stopped by progress. About a millisecond a bad triangle, and some ten more
-/// a reason whose cures are searched.
+/// triangles, all counter-clockwise. Errors: stopped by progress, a periodic plane. About a millisecond a bad triangle,
+/// and some ten more a reason whose cures are searched.
 ///
 ///     const auto why = explain(mesh, *clp_solver());
 ///     for (const Reason& reason : why->reasons) puts(reason_text(mesh, reason).c_str());

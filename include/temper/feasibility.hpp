@@ -256,7 +256,8 @@ struct WeightReport {
                                    const IdVector<VertexId, double>& to);
 
 /// Finds weights for a mesh whose positions and connectivity stay. What solvers say is never believed: verdicts rest on
-/// exact predicates and on check_certificate. Error: a margin out of range. Precondition: no erased triangles.
+/// exact predicates and on check_certificate. Errors: a margin out of range, a periodic plane. Precondition: no erased
+/// triangles.
 [[nodiscard]] Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver,
                                                   const WeightOptions& options = {});
 

@@ -100,6 +100,30 @@ struct GradedSphere {
 /// logarithm is linear in the distance along the axis through the place.
 [[nodiscard]] double graded_sphere_size(const GradedSphere& shape, Vec3 direction);
 
+// --- periodic planes ----------------------------------------------------------------------------------------------
+
+/// The Delaunay triangulation of points in the plane that repeats itself along both axes, all weights zero. Points keep
+/// their numbers. About O(n log n).
+/// Errors: a point that is not finite, two at one place, too few for triangles that fit into half a period.
+[[nodiscard]] Expected<Mesh> periodic_delaunay(std::span<const Vec2> points, Vec2 period);
+
+/// Uniformly random points in a periodic plane, Delaunay: about half of the triangles are bad.
+struct RandomPeriodic {
+  std::size_t vertices = 1000;
+  std::uint64_t seed = 1;
+  Vec2 period = {1, 1};
+};
+[[nodiscard]] Expected<Mesh> random_periodic(const RandomPeriodic& shape = {});
+
+/// Rows of hexagons as power cells, around vertices at one distance from their neighbours: as MPAS-Tools' planar_hex
+/// makes them. A channel has no period along y.
+struct PeriodicHexagons {
+  int nx = 16, ny = 16;
+  double distance = 1;
+  bool channel = false;
+};
+[[nodiscard]] Expected<Mesh> periodic_hexagons(const PeriodicHexagons& shape = {});
+
 /// nx × ny squares, each cut along the same diagonal, then sheared by x += shear · y.
 struct ShearedGrid {
   int nx = 20, ny = 20;

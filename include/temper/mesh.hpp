@@ -52,7 +52,7 @@ struct MeshInput {
   std::span<const std::int32_t> fixed_vertices = {};                    ///< vertices never to move, 0-based
   const InputNames* names = nullptr;                                    ///< the user's numbering, for errors
   Executor* executor = nullptr;              ///< threads for the checks; the result does not depend on them
-  Space space = {};                          ///< where the points are
+  Space space = {};                          ///< where the points are; of the periodic plane any image of each
   std::span<const Vec3> sphere_points = {};  ///< n points of the sphere, instead of points; at its radius to 1 in 10⁶
 };
 
@@ -108,7 +108,8 @@ class Mesh {
   /// every interior star winding once, no crossing boundary, no component on top of another.
   /// Clockwise triangles are reversed and counted. Edges between different regions become constrained.
   /// Weights need not be regular. On the sphere a mesh may be closed; its edges are arcs of less than half a great
-  /// circle. O(n log n).
+  /// circle. So it may in the periodic plane, where its triangles fit into half a period along each axis, and it is of
+  /// one piece. O(n log n).
   [[nodiscard]] static Expected<struct BuiltMesh> build(const MeshInput& input);
 
   // --- sizes: of the arrays, erased triangles and isolated vertices included ------------------------
@@ -130,6 +131,20 @@ class Mesh {
   void set_point(VertexId v, WeightedPoint p) { record(v).x = p.x, record(v).y = p.y, record(v).w = p.w; }
   [[nodiscard]] double weight(VertexId v) const { return space_.weight(point(v)); }
   void set_weight(VertexId v, double w) { set_point(v, space_.with_weight(point(v), w)); }
+  /// The image of v that is nearest to a point; in spaces without images its point. Who puts points of the same mesh
+  /// into one formula fetches all but the first of them so.
+  [[nodiscard]] WeightedPoint point(VertexId v, const WeightedPoint& near) const {
+    return space_.is_periodic() ? space_.image(point(v), near) : point(v);
+  }
+  /// Those of corners that are near each other, as seen from the first.
+  [[nodiscard]] std::array<WeightedPoint, 3> points(VertexId a, VertexId b, VertexId c) const {
+    const WeightedPoint p = point(a);
+    return {p, point(b, p), point(c, p)};
+  }
+  [[nodiscard]] std::array<WeightedPoint, 3> points(TriangleId t) const {
+    const auto [a, b, c] = corners(t);
+    return points(a, b, c);
+  }
   /// Precondition of these two: the mesh lies in the plane.
   [[nodiscard]] Vec2 position(VertexId v) const { return {record(v).x, record(v).y}; }
   void set_position(VertexId v, Vec2 p) { record(v).x = p.x, record(v).y = p.y; }
@@ -279,9 +294,11 @@ struct BuiltMesh {
   std::size_t reversed_triangles = 0;  ///< clockwise in the input
 };
 
-/// The error of what takes meshes of the plane alone when the mesh is one of the sphere, else nothing. `what`:
-/// "explain()", as the user knows it.
+/// The error of what takes meshes of the plane alone when the mesh is one of the sphere or of a periodic plane, else
+/// nothing. `what`: "explain()", as the user knows it.
 [[nodiscard]] std::optional<InputError> expect_plane(const Mesh& mesh, std::string_view what);
+/// The error of what takes meshes of the plane and of the sphere when the plane is periodic, else nothing.
+[[nodiscard]] std::optional<InputError> expect_no_period(const Mesh& mesh, std::string_view what);
 
 /// The vertices and triangles that compact() kept: new id → old id.
 struct Compaction {

@@ -43,8 +43,8 @@ struct EdgeConflict {
 [[nodiscard]] std::optional<EdgeConflict> edge_conflict(const Mesh& mesh, HalfedgeId h, double up_to = 1);
 
 /// The edges of the boundary and of constrained lines with such a conflict, least sum first. None does not mean that
-/// there is a well-centered mesh. Precondition: no erased triangles, all counter-clockwise. O(n) and the triangles near
-/// the edges.
+/// there is a well-centered mesh. Precondition: no erased triangles, all counter-clockwise; no periods. O(n) and the
+/// triangles near the edges.
 ///
 ///     for (const EdgeConflict& c : edges_that_must_be_split(mesh)) split(c.edge, c.split_at);
 [[nodiscard]] std::vector<EdgeConflict> edges_that_must_be_split(const Mesh& mesh, double up_to = 1);

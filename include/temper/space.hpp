@@ -1,4 +1,11 @@
-// The space that a mesh lies in: the plane, or a sphere around the origin.
+// The space that a mesh lies in: the plane, a plane that repeats itself, or a sphere around the origin.
+//
+// In the periodic plane, of period a along x, b along y, or both, a vertex at (x, y) is at (x + m a, y + n b), too, for
+// all whole m and n: these are its images. A mesh has one of them, in the domain 0 ≤ x < a, 0 ≤ y < b. An edge is the
+// shortest way between images of its ends, less than half a period along each axis; so nothing needs to be kept for it,
+// and who fetches the points of a triangle or a star asks for those images that are nearest to one of them, and then
+// is in the plane. Periods, and coordinates along them, are multiples of 2⁻⁴⁷ of the power of two at the period, so
+// that images and the differences of points are exact.
 //
 // On the sphere of radius R a vertex at p, |p| = R, with weight w is the lifted point P = p √(R² + w)/R: its direction
 // is the place, and |P|² = R² + w. The regular triangulation is the boundary of the convex hull of all P, and the face
@@ -7,7 +14,7 @@
 // Laguerre Voronoi diagram on the sphere, J. Geom. Graphics 6, 2002). Equal shifts of all |P|², which change nothing in
 // the plane, are here all P times a number.
 //
-//                 P         A vertex is kept as three numbers in both spaces, a WeightedPoint: x, y and w in the plane,
+//                 P         A vertex is kept as three numbers in all spaces, a WeightedPoint: x, y and w in the plane,
 //               /           and X, Y, Z of P, in this order, on the sphere. Who works on vertices in any space
 //        R   p +            hands them on as they are, and asks the space what they mean.
 //            /
@@ -22,7 +29,7 @@
 
 namespace temper {
 
-enum class SpaceKind : std::uint8_t { plane, sphere };
+enum class SpaceKind : std::uint8_t { plane, sphere, periodic_plane };
 
 /// P of a vertex on the sphere, and the vertex of P.
 [[nodiscard]] constexpr Vec3 lifted(const WeightedPoint& p) { return {p.x, p.y, p.w}; }
@@ -35,19 +42,56 @@ class Space {
   /// The sphere around the origin. Precondition: radius > 0.
   [[nodiscard]] static constexpr Space sphere(double radius) {
     Space s;
+    s.kind_ = SpaceKind::sphere;
     s.radius_ = radius;
     return s;
   }
+  /// The plane with these periods along x and y, rounded to the grid of their images; 0: none along that axis.
+  /// Precondition: they are finite, none is negative, one is positive.
+  [[nodiscard]] static Space periodic(Vec2 period) {
+    Space s;
+    s.kind_ = SpaceKind::periodic_plane;
+    const Vec2 c = {rounding_of(period.x), rounding_of(period.y)};
+    s.period_ = {(period.x + c.x) - c.x, (period.y + c.y) - c.y};
+    return s;
+  }
 
-  [[nodiscard]] constexpr SpaceKind kind() const { return is_plane() ? SpaceKind::plane : SpaceKind::sphere; }
-  [[nodiscard]] constexpr bool is_plane() const { return radius_ == 0; }
+  [[nodiscard]] constexpr SpaceKind kind() const { return kind_; }
+  /// The plane, periodic or not: vertices are x, y and w, and images near one point are points of one plane.
+  [[nodiscard]] constexpr bool is_plane() const { return kind_ != SpaceKind::sphere; }
+  [[nodiscard]] constexpr bool is_periodic() const { return kind_ == SpaceKind::periodic_plane; }
   /// Of the sphere; 0 of the plane.
   [[nodiscard]] constexpr double radius() const { return radius_; }
-  /// The same with another unit of length, a `unit` of the present one.
+  /// Of the periodic plane, along x and y; 0 where there is none.
+  [[nodiscard]] constexpr Vec2 period() const { return period_; }
+  /// The same with another unit of length, a `unit` of the present one; of the periodic plane a power of two.
   [[nodiscard]] constexpr Space in_units_of(double unit) const {
-    Space s;
-    s.radius_ = radius_ / unit;
+    Space s = *this;
+    s.radius_ /= unit;
+    s.period_ = {period_.x / unit, period_.y / unit};
     return s;
+  }
+
+  /// The image of p that is nearest to a point; in other spaces p.
+  [[nodiscard]] WeightedPoint image(const WeightedPoint& p, const WeightedPoint& near) const {
+    if (!is_periodic()) return p;
+    return {nearest(p.x, near.x, period_.x), nearest(p.y, near.y, period_.y), p.w};
+  }
+  /// The image of p in the domain, on the grid; in other spaces p.
+  [[nodiscard]] WeightedPoint in_domain(const WeightedPoint& p) const {
+    if (!is_periodic()) return p;
+    return {wrapped(p.x, period_.x), wrapped(p.y, period_.y), p.w};
+  }
+  /// Says whether points are less than half a period apart along each axis, as the ends of an edge must be.
+  [[nodiscard]] bool are_near(const WeightedPoint& p, const WeightedPoint& q) const {
+    if (!is_periodic()) return true;
+    return (period_.x == 0 || 2 * std::abs(q.x - p.x) < period_.x) &&
+           (period_.y == 0 || 2 * std::abs(q.y - p.y) < period_.y);
+  }
+  /// What added to and taken from coordinates along an axis of that period rounds them to the grid: exact up to 16
+  /// periods away. 0 without a period.
+  [[nodiscard]] static double rounding_of(double period) {
+    return period == 0 ? 0 : std::ldexp(1.5, std::ilogb(period) + 5);
   }
 
   /// The weight of a vertex [length²]. On the sphere what is only rounding of P is 0.
@@ -94,7 +138,20 @@ class Space {
   friend constexpr bool operator==(const Space&, const Space&) = default;
 
  private:
+  [[nodiscard]] static double nearest(double x, double to, double period) {
+    if (period == 0 || !(2 * std::abs(x - to) > period)) return x;
+    return x - period * std::nearbyint((x - to) / period);
+  }
+  [[nodiscard]] static double wrapped(double x, double period) {
+    if (period == 0) return x;
+    const double within = std::fmod(x, period), c = rounding_of(period);
+    const double rounded = ((within < 0 ? within + period : within) + c) - c;
+    return rounded < period ? rounded : rounded - period;
+  }
+
+  SpaceKind kind_ = SpaceKind::plane;
   double radius_ = 0;
+  Vec2 period_;
 };
 
 }  // namespace temper

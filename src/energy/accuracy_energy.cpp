@@ -19,12 +19,12 @@ constexpr double kLeastMargin = 1e-9;
 
 /// The edge that the halfedge stands for, which is `inner` in its triangle; without scale and q.
 AccuracyEdge<double> edge_of(const Mesh& mesh, HalfedgeId h, const EdgeShape& inner) {
-  const VertexId a = mesh.origin(h), b = mesh.target(h);
   const HalfedgeId twin = mesh.twin(h);
-  const double outer =
-      twin.valid()
-          ? triangle_shape(mesh.space(), mesh.point(b), mesh.point(a), mesh.point(mesh.opposite(twin))).edges[0].g
-          : 0;
+  double outer = 0;
+  if (twin.valid()) {
+    const auto [b, a, d] = mesh.points(mesh.target(h), mesh.origin(h), mesh.opposite(twin));
+    outer = triangle_shape(mesh.space(), b, a, d).edges[0].g;
+  }
   return {0, 0, inner.l2, 1 / inner.l2, inner.dw, inner.g, outer};
 }
 
@@ -48,8 +48,8 @@ double triangle_logarithm(const TriangleShape& shape, double floor) {
 }
 
 TriangleShape shape_of(const Mesh& mesh, TriangleId t) {
-  const auto [p, q, r] = mesh.corners(t);
-  return triangle_shape(mesh.space(), mesh.point(p), mesh.point(q), mesh.point(r));
+  const auto [p, q, r] = mesh.points(t);
+  return triangle_shape(mesh.space(), p, q, r);
 }
 
 /// Calls visit with the energy of each edge that a halfedge of t stands for.
@@ -180,7 +180,8 @@ bool AccuracyPatch::gather(const Mesh& mesh, const VertexSizes& sizes, const Acc
     storage.spokes.resize(n + 1);
     const AccuracyStarOf<In> star = storage.view(model, open_);
     const double own = sizes[v];
-    const auto at = [&](VertexId u) { return SizedPoint<In>{point_of<In>(mesh.point(u)), sizes[u]}; };
+    const WeightedPoint center = mesh.point(v);
+    const auto at = [&](VertexId u) { return SizedPoint<In>{point_of<In>(mesh.point(u, center)), sizes[u]}; };
     const auto lengths = [&](HalfedgeId h) {
       return model.keeps_lengths() && !mesh.is_boundary(h) ? floors.lengths(mesh, h) : LengthBarrier<double>{};
     };
@@ -191,7 +192,7 @@ bool AccuracyPatch::gather(const Mesh& mesh, const VertexSizes& sizes, const Acc
       star.spokes[i + 1].lengths = lengths(Mesh::prev(h));
       star.triangles[i].link_lengths = lengths(Mesh::next(h));
       const SizedPoint<In> q = at(mesh.target(h)), r = at(mesh.opposite(h));
-      const auto o = across.valid() ? point_of<In>(mesh.point(mesh.opposite(across))) : typename In::Point{};
+      const auto o = across.valid() ? point_of<In>(mesh.point(mesh.opposite(across), center)) : typename In::Point{};
       if (i == 0) set_spoke(star, 0, own, q);
       set_triangle(star, i, own, q, r, floors[Mesh::triangle(h)], across.valid(), o);
       set_spoke(star, ++i, own, r);

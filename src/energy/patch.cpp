@@ -23,7 +23,7 @@ EdgeInTriangle edge_in_triangle(const Mesh& mesh, HalfedgeId h) {
     const auto [l2, dw, g] = s.edges[0];
     return EdgeInTriangle{{l2, dw, same_side(g, s.doubled_area)}, s.doubled_area};
   };
-  const WeightedPoint p = mesh.point(mesh.origin(h)), q = mesh.point(mesh.target(h)), r = mesh.point(mesh.opposite(h));
+  const auto [p, q, r] = mesh.points(mesh.origin(h), mesh.target(h), mesh.opposite(h));
   return mesh.space().is_plane() ? first_edge(triangle_shape(p, q, r)) : first_edge(triangle_shape_on_sphere(p, q, r));
 }
 
@@ -198,6 +198,7 @@ double hot_factor(const EnergyModel& model, double g, double g_other, bool bound
 void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch) {
   patch.space = mesh.space();
   patch.center = v;
+  const WeightedPoint center = mesh.point(v);
   patch.link.clear();
   patch.spoke.clear();
   patch.outer_g.clear();
@@ -208,7 +209,7 @@ void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch) {
     if (i + 2 + kLanes > patch.x.size()) {  // q_0 again, and what is read beyond
       for (std::vector<double>* c : {&patch.x, &patch.y, &patch.w}) c->resize(2 * (i + 2 + kLanes));
     }
-    const WeightedPoint p = mesh.point(q);
+    const WeightedPoint p = mesh.point(q, center);
     patch.x[i] = p.x, patch.y[i] = p.y, patch.w[i] = p.w;
     patch.link.push_back(q);
   };
@@ -252,9 +253,9 @@ double flip_energy(const Mesh& mesh, const EnergyModel& model, HalfedgeId h) {
   const HalfedgeId t = mesh.twin(h);
   return with_kernel(model, [&](const auto& kernel) {
     if constexpr (std::decay_t<decltype(kernel)>::kBarrier) {
-      const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h));
-      return barrier_triangle(kernel, triangle_shape(mesh.space(), a, b, mesh.point(mesh.opposite(h)))) +
-             barrier_triangle(kernel, triangle_shape(mesh.space(), b, a, mesh.point(mesh.opposite(t))));
+      const auto [a, b, c] = mesh.points(mesh.origin(h), mesh.target(h), mesh.opposite(h));
+      return barrier_triangle(kernel, triangle_shape(mesh.space(), a, b, c)) +
+             barrier_triangle(kernel, triangle_shape(mesh.space(), b, a, mesh.point(mesh.opposite(t), a)));
     } else {
       double sum = FullEdge(mesh, h).energy(model, kernel);
       for (const HalfedgeId outer : {Mesh::next(h), Mesh::prev(h), Mesh::next(t), Mesh::prev(t)}) {

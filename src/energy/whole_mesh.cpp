@@ -36,12 +36,12 @@ void for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
   for (std::size_t i = block * kBlockSize; i < end; ++i) {
     const TriangleId t(i);
     if (mesh.is_erased(t)) continue;
-    const auto [p, q, r] = mesh.corners(t);
+    const auto [p, q, r] = mesh.points(t);
     TriangleLanes& lanes = batches[filled / kLanes].lanes;
     const std::size_t lane = filled % kLanes;
-    lanes.p.set(lane, mesh.point(p));
-    lanes.q.set(lane, mesh.point(q));
-    lanes.r.set(lane, mesh.point(r));
+    lanes.p.set(lane, p);
+    lanes.q.set(lane, q);
+    lanes.r.set(lane, r);
     if (++filled == batches.size() * kLanes) visit_all();
   }
   visit_all();

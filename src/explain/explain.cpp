@@ -375,6 +375,7 @@ std::string_view name(Cure::Action action) {
 
 Expected<Explanation> explain(const Mesh& mesh, LpSolver& solver, const ExplainOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
+  if (auto error = expect_no_period(mesh, "explain()")) return *std::move(error);
   return Explainer(mesh, solver, options).run();
 }
 

@@ -172,6 +172,7 @@ std::string_view name(SearchEnd end) {
 
 Expected<ConnectivityReport> best_connectivity(const Mesh& mesh, LpSolver& solver, const ConnectivityOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
+  if (auto error = expect_no_period(mesh, "best_connectivity()")) return *std::move(error);
   if (options.conditions == Conditions::regular) {
     return InputError{ErrorCode::invalid_option, "",
                       "conditions: expected well_centered or heights_only, found regular: every regular triangulation "

@@ -354,6 +354,7 @@ double weight_change(const Mesh& mesh, const IdVector<VertexId, double>& from, c
 
 Expected<WeightReport> find_weights(const Mesh& mesh, LpSolver& solver, const WeightOptions& options) {
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
+  if (auto error = expect_no_period(mesh, "find_weights()")) return *std::move(error);
   for (const HalfedgeId h : options.edges) {
     if (h.index >= mesh.n_halfedges()) {
       return InputError{ErrorCode::index_out_of_range, "",

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/between.hpp"
+#include "mesh/pieces.hpp"
 #include "mesh/predicates.hpp"
 
 namespace temper {
@@ -66,36 +67,6 @@ std::optional<BoundaryClash> find_meeting(const Mesh& mesh) {
   return std::nullopt;
 }
 
-/// The number of each triangle's component, and a halfedge of each.
-struct Components {
-  IdVector<TriangleId, std::uint32_t> of;
-  std::vector<HalfedgeId> first;
-};
-
-Components components_of(const Mesh& mesh) {
-  constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  Components found{IdVector<TriangleId, std::uint32_t>(mesh.n_triangles(), kNone), {}};
-  std::vector<TriangleId> waiting;
-  for (const TriangleId start : mesh.triangles()) {
-    if (found.of[start] != kNone) continue;
-    const auto number = static_cast<std::uint32_t>(found.first.size());
-    found.first.push_back(Mesh::halfedge(start, 0));
-    found.of[start] = number;
-    waiting.push_back(start);
-    while (!waiting.empty()) {
-      const TriangleId t = waiting.back();
-      waiting.pop_back();
-      for (int k = 0; k < 3; ++k) {
-        const HalfedgeId other = mesh.twin(Mesh::halfedge(t, k));
-        if (!other.valid() || found.of[Mesh::triangle(other)] != kNone) continue;
-        found.of[Mesh::triangle(other)] = number;
-        waiting.push_back(Mesh::triangle(other));
-      }
-    }
-  }
-  return found;
-}
-
 bool is_inside(const Mesh& mesh, TriangleId t, VertexId v) {
   const auto [a, b, c] = mesh.corners(t);
   const auto on_left = [&](VertexId p, VertexId q) { return inlined::orientation(mesh, p, q, v) != Sign::negative; };
@@ -104,7 +75,7 @@ bool is_inside(const Mesh& mesh, TriangleId t, VertexId v) {
 
 /// A component on the triangles of another one: all of it, since boundaries do not meet.
 std::optional<BoundaryClash> find_covered(const Mesh& mesh) {
-  const Components components = components_of(mesh);
+  const MeshPieces components = pieces_of(mesh);
   if (components.first.size() < 2) return std::nullopt;
   for (const TriangleId t : mesh.triangles()) {
     for (std::uint32_t i = 0; i < components.first.size(); ++i) {

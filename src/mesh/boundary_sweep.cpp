@@ -48,6 +48,17 @@ struct IsBelow {
   }
 };
 
+/// Edges begin in the domain and are shorter than half a period: of two that meet somewhere, an image of each is among
+/// those shifted by none or one.
+std::vector<Vec2> shifts_of_images(const Space& space) {
+  const auto [x, y] = space.period();
+  std::vector<Vec2> shifts = {{0, 0}};
+  if (x > 0) shifts.push_back({x, 0});
+  if (y > 0) shifts.push_back({0, y});
+  if (x > 0 && y > 0) shifts.push_back({x, y});
+  return shifts;
+}
+
 class BoundarySweep {
  public:
   explicit BoundarySweep(const Mesh& mesh);
@@ -75,6 +86,7 @@ class BoundarySweep {
   [[nodiscard]] VertexId vertex(const Event& event) const;
 
   const Mesh& mesh_;
+  const bool looks_below_;  // the line begins outside the mesh, which it does not among images
   std::vector<SweptEdge> edges_;
   std::vector<Event> events_;
   std::vector<Line::const_iterator> places_;  // by edge, of those on the line
@@ -82,15 +94,18 @@ class BoundarySweep {
   std::optional<BoundaryClash> clash_;
 };
 
-BoundarySweep::BoundarySweep(const Mesh& mesh) : mesh_(mesh) {
+BoundarySweep::BoundarySweep(const Mesh& mesh) : mesh_(mesh), looks_below_(!mesh.space().is_periodic()) {
   for (const HalfedgeId h : mesh.halfedges()) {
     if (!mesh.is_boundary(h)) continue;
-    const Vec2 a = mesh.position(mesh.origin(h)), b = mesh.position(mesh.target(h));
+    const WeightedPoint p = mesh.point(mesh.origin(h));
+    const Vec2 a = p.position(), b = mesh.point(mesh.target(h), p).position();
     const bool rightwards = is_before(a, b);
-    const auto edge = static_cast<std::uint32_t>(edges_.size());
-    edges_.push_back({rightwards ? a : b, rightwards ? b : a, h, rightwards});
-    events_.push_back({edges_.back().left, edge, true});
-    events_.push_back({edges_.back().right, edge, false});
+    for (const Vec2 shift : shifts_of_images(mesh.space())) {
+      const auto edge = static_cast<std::uint32_t>(edges_.size());
+      edges_.push_back({shift + (rightwards ? a : b), shift + (rightwards ? b : a), h, rightwards});
+      events_.push_back({edges_.back().left, edge, true});
+      events_.push_back({edges_.back().right, edge, false});
+    }
   }
   places_.resize(edges_.size());
   std::sort(events_.begin(), events_.end(), comes_before);
@@ -104,7 +119,8 @@ std::optional<BoundaryClash> BoundarySweep::find_clash() {
       return BoundaryClash{BoundaryClash::meeting, edges_[events_[i - 1].edge].halfedge, edges_[event.edge].halfedge};
     }
     if (event.begins ? begin(event.edge) : end(event.edge)) return clash_;
-    if (with_last && event.begins && events_[i - 1].begins && covers_twice(events_[i - 1], event)) return clash_;
+    const bool begin_together = with_last && event.begins && events_[i - 1].begins;
+    if (looks_below_ && begin_together && covers_twice(events_[i - 1], event)) return clash_;
   }
   return std::nullopt;
 }

@@ -108,6 +108,18 @@ class MeshBuilder {
                        names_.point(i) + " has weight " + to_text(in_.weights[i]) + ", expected a finite number");
   }
 
+  std::optional<InputError> check_periods() const {
+    const Vec2 period = in_.space.period();
+    for (const double length : {period.x, period.y}) {
+      if (length == 0 || Range{kSmallestExtent, kLargestCoordinate}.allows(length)) continue;
+      return InputError{ErrorCode::out_of_scale,
+                        {},
+                        "the plane has period " + to_text(length) + ", expected one from " + to_text(kSmallestExtent) +
+                            " to " + to_text(kLargestCoordinate)};
+    }
+    return std::nullopt;
+  }
+
   [[nodiscard]] bool on_sphere() const { return !in_.space.is_plane(); }
   [[nodiscard]] std::size_t n_points() const { return on_sphere() ? in_.sphere_points.size() : in_.points.size(); }
   [[nodiscard]] Vec3 place(std::size_t i) const {
@@ -150,6 +162,7 @@ class MeshBuilder {
 
   std::optional<InputError> check_scale() {
     if (on_sphere()) return check_sphere();
+    if (auto error = check_periods()) return error;
     if (auto error = check_coordinates({kSmallestCoordinate, kLargestCoordinate})) return error;
     Vec2 low = in_.points[0], high = low;
     double largest = 0;
@@ -168,7 +181,11 @@ class MeshBuilder {
     }
     const double large = std::max(1.0, largest);
     if (auto error = check_coordinates({kSmallestCoordinate * large, kLargestCoordinate})) return error;
-    return check_weights({kSmallestWeight * large * large, kLargestWeight * std::min(1.0, extent * extent)});
+    if (auto error = check_weights({kSmallestWeight * large * large, kLargestWeight * std::min(1.0, extent * extent)}))
+      return error;
+    if (!in_.space.is_periodic()) return std::nullopt;
+    for (const VertexId v : mesh_.vertices()) mesh_.set_point(v, in_.space.in_domain(mesh_.point(v)));
+    return std::nullopt;
   }
 
   std::optional<InputError> check_coordinates(Range range) const {
@@ -223,6 +240,9 @@ class MeshBuilder {
                             names_.triangle(t) + " uses point index " + std::to_string(i) + ", but there are " +
                                 quantity(n_points(), "points"));
     }
+    if (const std::string wide = why_wide(in_.triangles[t]); !wide.empty()) {
+      return triangle_error(ErrorCode::overlap, t, names_.triangle(t) + wide);
+    }
     return triangle_error(ErrorCode::zero_area, t,
                           names_.triangle(t) + " has zero area: " + why_flat(in_.triangles[t]));
   }
@@ -254,8 +274,9 @@ class MeshBuilder {
   std::optional<InputError> find_duplicate() const {
     std::vector<std::uint32_t> order(n_points());
     std::iota(order.begin(), order.end(), 0u);
+    const auto at = [&](std::uint32_t i) { return lifted(in_.space.in_domain(as_point(place(i)))); };
     const auto before = [&](std::uint32_t a, std::uint32_t b) {
-      const Vec3 p = place(a), q = place(b);
+      const Vec3 p = at(a), q = at(b);
       if (p.x != q.x) return p.x < q.x;
       if (p.y != q.y) return p.y < q.y;
       return p.z != q.z ? p.z < q.z : a < b;
@@ -263,7 +284,7 @@ class MeshBuilder {
     std::sort(order.begin(), order.end(), before);
     for (std::size_t i = 1; i < order.size(); ++i) {
       const std::uint32_t a = order[i - 1], b = order[i];
-      if (place(a) == place(b)) {
+      if (at(a) == at(b)) {
         return point_error(ErrorCode::duplicate_point, b,
                            names_.point(a) + " and " + names_.point(b) + " are both at " + place_text(b) +
                                "; expected distinct points");
@@ -419,6 +440,15 @@ class MeshBuilder {
   }
 
   static VertexId id(std::int32_t i) { return VertexId(static_cast<std::size_t>(i)); }
+
+  /// What is too wide about a triangle of the periodic plane, or nothing.
+  std::string why_wide(const std::array<std::int32_t, 3>& c) const {
+    const auto [p, q, r] = mesh_.points(id(c[0]), id(c[1]), id(c[2]));
+    if (in_.space.are_near(p, q) && in_.space.are_near(q, r) && in_.space.are_near(r, p)) return {};
+    const auto name = [&](std::int32_t i) { return names_.point(static_cast<std::size_t>(i)); };
+    return " does not fit into half a period: expected the shortest ways between its corners " + name(c[0]) + ", " +
+           name(c[1]) + " and " + name(c[2]) + " to be its edges; more points around the period make that so";
+  }
 
   std::string why_flat(const std::array<std::int32_t, 3>& c) const {
     const auto name = [&](std::int32_t i) { return names_.point(static_cast<std::size_t>(i)); };

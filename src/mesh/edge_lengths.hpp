@@ -16,8 +16,8 @@ struct EdgeLengths {
 /// In doubles: a dual that is hardly one may have either sign. Precondition: h is not on the boundary.
 [[nodiscard]] inline EdgeLengths edge_lengths(const Mesh& mesh, HalfedgeId h) {
   const auto side = [&](HalfedgeId s) {
-    const VertexId a = mesh.origin(s), b = mesh.target(s), c = mesh.opposite(s);
-    return triangle_shape(mesh.space(), mesh.point(a), mesh.point(b), mesh.point(c)).edges[0];
+    const auto [a, b, c] = mesh.points(mesh.origin(s), mesh.target(s), mesh.opposite(s));
+    return triangle_shape(mesh.space(), a, b, c).edges[0];
   };
   const EdgeShape left = side(h), right = side(mesh.twin(h));
   const double length = std::sqrt(left.l2);

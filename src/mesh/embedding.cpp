@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/text.hpp"
 #include "geometry/between.hpp"
 #include "mesh/blocks.hpp"
 #include "mesh/boundary_arcs.hpp"
 #include "mesh/boundary_sweep.hpp"
+#include "mesh/pieces.hpp"
 #include "mesh/predicates.hpp"
 
 namespace temper {
@@ -32,8 +34,9 @@ bool is_upper(Vec3 v, Vec3 p) {
 }
 
 bool is_upper(const Mesh& mesh, VertexId v, VertexId p) {
-  return mesh.space().is_plane() ? is_upper(mesh.position(v), mesh.position(p))
-                                 : is_upper(mesh.lifted_point(v), mesh.lifted_point(p));
+  if (!mesh.space().is_plane()) return is_upper(mesh.lifted_point(v), mesh.lifted_point(p));
+  const WeightedPoint from = mesh.point(v);
+  return is_upper(from.position(), mesh.point(p, from).position());
 }
 
 /// Counts for each vertex how often its spokes, going round, enter the upper half-plane: once when an interior star
@@ -69,6 +72,31 @@ bool boundary_star_overlaps(const Mesh& mesh, VertexId v) {
   return false;
 }
 
+/// More than one piece, or more area than the domain has. Of one piece whose boundary loops are simple and apart the
+/// parts covered d times satisfy 1 − g = Σ n_t over t = 1, 2, … with n_t the pieces of what is covered t times or more,
+/// less one where that goes around along both axes (Euler characteristics, as in boundary_arcs.hpp). So nothing is
+/// covered twice along one period. Along two it may where the mesh goes around both ways and on over itself: then, but
+/// for holes that are larger than what is covered twice, its area is more than the domain's.
+std::optional<Overlap> find_more_than_the_domain(const Mesh& mesh) {
+  const std::vector<HalfedgeId> pieces = pieces_of(mesh).first;
+  if (pieces.size() > 1) {
+    return Overlap{Mesh::triangle(pieces[1]),
+                   "the mesh is of " + std::to_string(pieces.size()) + " pieces; expected one in a periodic plane"};
+  }
+  const Vec2 period = mesh.space().period();
+  if (period.x == 0 || period.y == 0) return std::nullopt;
+  constexpr double kRounded = 1e-6;
+  const double domain = period.x * period.y;
+  double area = 0;
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [p, q, r] = mesh.points(t);
+    area += 0.5 * cross(q.position() - p.position(), r.position() - p.position());
+  }
+  if (area <= (1 + kRounded) * domain) return std::nullopt;
+  return Overlap{TriangleId(0), "the triangles have the area " + to_text(area) + ", the domain of the periods only " +
+                                    to_text(domain) + ": the mesh covers it more than once"};
+}
+
 }  // namespace
 
 std::string edges_on_each_other(const Mesh& mesh, VertexId v, const InputNames& names) {
@@ -80,8 +108,9 @@ std::string edges_on_each_other(const Mesh& mesh, VertexId v, const InputNames& 
   }
   std::sort(ends.begin(), ends.end());
   const auto lies_on = [&](VertexId a, VertexId b) {  // b on the edge from v to a
-    return mesh.space().is_plane() ? is_between(mesh.position(v), mesh.position(a), mesh.position(b))
-                                   : is_between(mesh.lifted_point(v), mesh.lifted_point(a), mesh.lifted_point(b));
+    if (!mesh.space().is_plane()) return is_between(mesh.lifted_point(v), mesh.lifted_point(a), mesh.lifted_point(b));
+    const auto [p, q, r] = mesh.points(v, a, b);
+    return is_between(p.position(), q.position(), r.position());
   };
   for (std::size_t i = 0; i < ends.size(); ++i) {
     for (std::size_t j = i + 1; j < ends.size(); ++j) {
@@ -106,6 +135,9 @@ std::optional<Overlap> find_overlap(const Mesh& mesh, const InputNames& names, E
     std::string message = mesh.is_boundary(v) ? edges_on_each_other(mesh, v, names) : std::string();
     if (message.empty()) message = "the triangles around " + names.point(v.index) + " overlap";
     return Overlap{Mesh::triangle(mesh.outgoing(v)), std::move(message)};
+  }
+  if (mesh.space().is_periodic()) {
+    if (auto overlap = find_more_than_the_domain(mesh)) return overlap;
   }
   if (const auto clash = mesh.space().is_plane() ? find_boundary_clash(mesh) : find_arc_clash(mesh)) {
     const TriangleId s = Mesh::triangle(clash->first), t = Mesh::triangle(clash->second);

@@ -8,9 +8,16 @@ namespace temper {
 
 void visit(Archive& archive, Space& space) {
   double radius = space.radius();
-  archive(radius);
-  archive.require(std::isfinite(radius) && radius >= 0);
-  space = radius > 0 && !archive.failed() ? Space::sphere(radius) : Space();
+  Vec2 period = space.period();
+  archive(radius, period.x, period.y);
+  const auto is_length = [](double x) { return std::isfinite(x) && x >= 0; };
+  archive.require(is_length(radius) && is_length(period.x) && is_length(period.y));
+  const bool periodic = period.x > 0 || period.y > 0;
+  archive.require(radius == 0 || !periodic);
+  space = Space();
+  if (archive.failed()) return;
+  if (radius > 0) space = Space::sphere(radius);
+  if (periodic) space = Space::periodic(period);
 }
 
 void MeshArchive::visit(Archive& archive, Mesh& mesh) {

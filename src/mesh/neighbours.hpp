@@ -10,10 +10,11 @@ namespace temper {
 
 /// The squared length of the shortest edge at v; +∞ at a vertex of no triangle.
 [[nodiscard]] inline double squared_shortest_edge(const Mesh& mesh, VertexId v) {
+  const WeightedPoint p = mesh.point(v);
   double least = std::numeric_limits<double>::infinity();
   for (const HalfedgeId h : mesh.star(v)) {
     for (const VertexId u : {mesh.target(h), mesh.opposite(h)}) {
-      least = std::min(least, squared_length(mesh.position(u) - mesh.position(v)));
+      least = std::min(least, squared_length(mesh.point(u, p).position() - p.position()));
     }
   }
   return least;

@@ -27,8 +27,13 @@ Frame Frame::of(const Mesh& mesh) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  frame.center = {center_of(low.x, high.x), center_of(low.y, high.y)};
+  const Vec2 period = mesh.space().period();
+  frame.center = {period.x > 0 ? 0 : center_of(low.x, high.x), period.y > 0 ? 0 : center_of(low.y, high.y)};
   frame.scale = std::exp2(std::ilogb(std::max(high.x - low.x, high.y - low.y)));
+  const auto rounding = [&](double center, double length) {
+    return length > 0 ? Space::rounding_of(length / frame.scale) : center / frame.scale;
+  };
+  frame.rounding = {rounding(frame.center.x, period.x), rounding(frame.center.y, period.y)};
   return frame;
 }
 

@@ -3,7 +3,8 @@
 // Scaling is by a power of two, so exact. An axis is centred only when every coordinate on it is within a factor
 // of two of the center c: then x − c is exact (Sterbenz), and so is the way back. Positions that move are
 // rounded to the user's grid, (x + c) − c, so that what was decided exactly here holds there. The sphere stays around
-// the origin.
+// the origin. So does a periodic plane along its periods, where positions are rounded to the grid of images
+// (space.hpp); vertices that leave the domain go on as they are, and are back in it in the user's units.
 #pragma once
 
 #include "temper/mesh.hpp"
@@ -12,6 +13,7 @@ namespace temper {
 
 struct Frame {
   Vec2 center;       ///< in the user's units; of the sphere 0
+  Vec2 rounding;     ///< what is added to a moved position and taken away again, in units of the frame
   double scale = 1;  ///< user's length of one unit here; a power of two
   Space space;       ///< of the mesh, in the user's units
 
@@ -22,11 +24,11 @@ struct Frame {
   void enter(Mesh& mesh) const;
   void leave(Mesh& mesh) const;
 
-  /// A point of the frame in the user's units, and back. Exact where the frame keeps to the user's grid, and the sign
-  /// of a zero is kept: −0 + 0 would be +0.
+  /// A point of the frame in the user's units, in the domain of periods, and back. Exact where the frame keeps to the
+  /// user's grid, and the sign of a zero is kept: −0 + 0 would be +0.
   [[nodiscard]] WeightedPoint to_user(const WeightedPoint& p) const {
     const double x = p.x * scale, y = p.y * scale;
-    return {center.x == 0 ? x : x + center.x, center.y == 0 ? y : y + center.y, p.w * unit_of_third()};
+    return space.in_domain({center.x == 0 ? x : x + center.x, center.y == 0 ? y : y + center.y, p.w * unit_of_third()});
   }
   [[nodiscard]] WeightedPoint from_user(const WeightedPoint& p) const {
     const double inverse = 1 / scale;
@@ -35,14 +37,8 @@ struct Frame {
   /// The user's unit of the third number of a vertex: a weight, or Z.
   [[nodiscard]] double unit_of_third() const { return space.is_plane() ? scale * scale : scale; }
 
-  /// The center, in units of the frame.
-  [[nodiscard]] Vec2 center_here() const { return (1 / scale) * center; }
-
   /// The nearest position that the user's coordinates can hold, in the plane.
-  [[nodiscard]] Vec2 snap(Vec2 p) const {
-    const Vec2 c = center_here();
-    return {(p.x + c.x) - c.x, (p.y + c.y) - c.y};
-  }
+  [[nodiscard]] Vec2 snap(Vec2 p) const { return {(p.x + rounding.x) - rounding.x, (p.y + rounding.y) - rounding.y}; }
   /// The same of a vertex; the sphere has no such grid.
   [[nodiscard]] WeightedPoint snap(const WeightedPoint& p) const {
     if (!space.is_plane()) return p;

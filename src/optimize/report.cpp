@@ -147,7 +147,7 @@ std::string Notes::name_of(VertexId v) const {
 
 /// Triangles that no optimiser can make well-centered, whatever it tries.
 void Notes::tell_edges_that_must_be_split(std::size_t bad) {
-  if (!settings_.energy.barrier || bad == 0 || !mesh_.space().is_plane()) return;
+  if (!settings_.energy.barrier || bad == 0 || mesh_.space().kind() != SpaceKind::plane) return;
   if (options_.paper.inversion == Inversion::allow && count_inverted(mesh_) > 0) return;  // no inside to see through
   const std::vector<EdgeConflict> edges = edges_that_must_be_split(mesh_);
   if (edges.empty()) return;

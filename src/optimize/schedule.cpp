@@ -52,8 +52,8 @@ constexpr double kSettledShift = 0.01;
 double least_relative_height(const Mesh& mesh) {
   double least = 1;
   for (const TriangleId t : mesh.triangles()) {
-    const auto [p, q, r] = mesh.corners(t);
-    for (const EdgeShape& e : triangle_shape(mesh.space(), mesh.point(p), mesh.point(q), mesh.point(r)).edges) {
+    const auto [p, q, r] = mesh.points(t);
+    for (const EdgeShape& e : triangle_shape(mesh.space(), p, q, r).edges) {
       least = std::min(least, e.g / e.l2);
     }
   }

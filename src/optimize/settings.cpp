@@ -104,7 +104,7 @@ constexpr int kSweepsOfOdt = 10;
 
 bool begins_with_odt(const OptimizeOptions& o, const Mesh& mesh) {
   return objective_of(o) != Objective::energy && o.for_ != Scheme::all && !o.paper.first_energy &&
-         mesh.space().is_plane() && o.unknowns != Unknowns::weights && o.flips == Flips::immediate &&
+         mesh.space().kind() == SpaceKind::plane && o.unknowns != Unknowns::weights && o.flips == Flips::immediate &&
          o.paper.solver == Solver::newton && !defers_updates(o) && has_equal_weights(mesh);
 }
 
@@ -143,20 +143,27 @@ std::optional<InputError> check_accuracy(const OptimizeOptions& o) {
   return std::nullopt;
 }
 
-/// What the sphere does without.
+/// What the sphere and periodic planes do without.
 std::optional<InputError> check_space(const OptimizeOptions& o, const Mesh& mesh) {
-  const auto name = [](const Mesh& m) { return std::string(m.space().is_plane() ? "the plane" : "the sphere"); };
+  const auto name = [](const Mesh& m) {
+    constexpr const char* kNames[] = {"the plane", "the sphere", "a periodic plane"};
+    return std::string(kNames[static_cast<std::size_t>(m.space().kind())]);
+  };
   if (o.size_field && name(o.size_field->mesh()) != name(mesh)) {
     return invalid("`size_field` is on a mesh of " + name(o.size_field->mesh()) + ", but the mesh is one of " +
                    name(mesh));
   }
-  if (mesh.space().is_plane()) return std::nullopt;
-  const auto not_there = [](const std::string& option, const std::string& expected) {
-    return invalid("`" + option + "` is for meshes of the plane; on the sphere expected " + expected);
+  if (mesh.space().kind() == SpaceKind::plane) return std::nullopt;
+  const auto not_there = [&](const std::string& option, const std::string& expected) {
+    return invalid("`" + option + "` is for meshes of the plane; " +
+                   (mesh.space().is_plane() ? "where it is periodic expected " : "on the sphere expected ") + expected);
   };
   if (o.boundary == BoundaryVertices::split) return not_there("boundary=split", "`boundary=keep` or `boundary=slide`");
   if (o.size_band) return not_there("size_band", "none");
   if (o.paper.insertion_from) return not_there("insertion_from", "none");
+  if (!mesh.space().is_periodic()) return std::nullopt;
+  if (o.paper.inversion == Inversion::allow) return not_there("inversion=allow", "`inversion=refuse`");
+  if (objective_of(o) == Objective::error) return not_there("objective=error", "`objective=accuracy`");
   return std::nullopt;
 }
 
@@ -200,7 +207,7 @@ Objective objective_of(const OptimizeOptions& o) {
 bool wants_error_model(const OptimizeOptions& o, const Mesh& mesh) {
   const Objective objective = objective_of(o);
   const bool of_one = o.for_ == Scheme::vertex || o.for_ == Scheme::cell;
-  const bool judges = of_one && mesh.space().is_plane() && mesh.n_vertices() <= kMostJudged;
+  const bool judges = of_one && mesh.space().kind() == SpaceKind::plane && mesh.n_vertices() <= kMostJudged;
   return objective == Objective::error || (objective == Objective::accuracy && judges);
 }
 

@@ -83,8 +83,8 @@ void visit(Archive& archive, Run& run) {
 }
 
 void visit(Archive& archive, Frame& frame) {
-  auto& [center, scale, space] = frame;
-  archive(center, scale, space);
+  auto& [center, rounding, scale, space] = frame;
+  archive(center, rounding, scale, space);
 }
 
 void visit(Archive& archive, WorkingCopy& work) {

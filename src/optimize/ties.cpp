@@ -18,9 +18,8 @@ constexpr double kTiedDual = 1e-6;
 
 /// The scaled height of the orthocenter over the edge of h, in the triangle of h.
 EdgeShape shape_of(const Mesh& mesh, HalfedgeId h) {
-  return triangle_shape(mesh.space(), mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)),
-                        mesh.point(mesh.opposite(h)))
-      .edges[0];
+  const auto [a, b, c] = mesh.points(mesh.origin(h), mesh.target(h), mesh.opposite(h));
+  return triangle_shape(mesh.space(), a, b, c).edges[0];
 }
 
 bool is_tie(const Mesh& mesh, HalfedgeId h) {

@@ -38,8 +38,8 @@ std::vector<TriangleId> along_curve(const Mesh& mesh) {
   std::vector<std::pair<std::uint64_t, TriangleId>> keyed;
   keyed.reserve(mesh.n_triangles());
   for (const TriangleId t : mesh.triangles()) {
-    const auto [a, b, c] = mesh.corners(t);
-    const Vec3 third = (1.0 / 3) * place_of(mesh, a) + (1.0 / 3) * place_of(mesh, b) + (1.0 / 3) * place_of(mesh, c);
+    const auto [a, b, c] = places_of(mesh, t);
+    const Vec3 third = (1.0 / 3) * a + (1.0 / 3) * b + (1.0 / 3) * c;
     const Vec3 inside = min_of(max_of(third, low), high);
     keyed.emplace_back(mesh.space().is_plane() ? curve({inside.x, inside.y}) : cube_hilbert_index(third), t);
   }
@@ -54,8 +54,7 @@ std::vector<TriangleId> along_curve(const Mesh& mesh) {
 
 /// On the sphere also of the part of it that is above the triangle.
 BoxTree::Box BoxTree::box_of(const Mesh& mesh, TriangleId t) {
-  const auto [u, v, w] = mesh.corners(t);
-  const Vec3 a = place_of(mesh, u), b = place_of(mesh, v), c = place_of(mesh, w);
+  const auto [a, b, c] = places_of(mesh, t);
   Box box = {min_of(min_of(a, b), c), max_of(max_of(a, b), c)};
   if (mesh.space().is_plane()) return box;
   const Vec3 n = cross(b - a, c - a);
@@ -87,12 +86,12 @@ BoxTree::BoxTree(const Mesh& mesh) : triangles_(along_curve(mesh)) {
 NearestPoint BoxTree::nearest_in(const Mesh& mesh, TriangleId t, const Asked& p) {
   NearestPoint best{t, kInfinite, {}, 0};
   bool inside = true;
-  for (int k = 0; k < 3; ++k) {
-    const HalfedgeId h = Mesh::halfedge(t, k);
-    const VertexId a = mesh.origin(h), b = mesh.target(h);
-    inside = inside && inlined::orientation(mesh.space(), mesh.point(a), mesh.point(b), p.point) != Sign::negative;
-    const auto [along, d2] = nearest_on_segment(place_of(mesh, a), place_of(mesh, b), p.place);
-    if (d2 < best.distance2) best = {t, d2, h, along};
+  const std::array<WeightedPoint, 3> corners = mesh.points(t);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const WeightedPoint &a = corners[k], &b = corners[k == 2 ? 0 : k + 1];
+    inside = inside && inlined::orientation(mesh.space(), a, b, p.point) != Sign::negative;
+    const auto [along, d2] = nearest_on_segment(place_of(mesh.space(), a), place_of(mesh.space(), b), p.place);
+    if (d2 < best.distance2) best = {t, d2, Mesh::halfedge(t, static_cast<int>(k)), along};
   }
   if (inside) return {t, 0, {}, 0};
   // Outside by less than rounding is outside still.
@@ -104,7 +103,19 @@ NearestPoint BoxTree::nearest(const Mesh& mesh, const WeightedPoint& p) const {
   TEMPER_ASSERT(!triangles_.empty() && triangles_.size() == mesh.n_triangles());
   NearestPoint best;
   best.distance2 = kInfinite;
-  search(mesh, {p, place_of(mesh.space(), p)}, levels_.size() - 1, 0, best);
+  const auto look_for = [&](const WeightedPoint& q) {
+    search(mesh, {q, place_of(mesh.space(), q)}, levels_.size() - 1, 0, best);
+  };
+  if (!mesh.space().is_periodic()) {
+    look_for(p);
+    return best;
+  }
+  // Boxes are of triangles as seen from their first corner, which is in the domain: less than half a period around it.
+  const WeightedPoint q = mesh.space().in_domain(p);
+  const auto [x, y] = mesh.space().period();
+  for (int i = x > 0 ? -1 : 0; i <= (x > 0 ? 1 : 0); ++i) {
+    for (int j = y > 0 ? -1 : 0; j <= (y > 0 ? 1 : 0); ++j) look_for({q.x + i * x, q.y + j * y, q.w});
+  }
   return best;
 }
 

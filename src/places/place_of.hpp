@@ -12,6 +12,15 @@ namespace temper {
   return (1 / length(lifted(p))) * lifted(p);
 }
 [[nodiscard]] inline Vec3 place_of(const Mesh& mesh, VertexId v) { return place_of(mesh.space(), mesh.point(v)); }
+/// Of images of a periodic plane the one nearest to a point.
+[[nodiscard]] inline Vec3 place_of(const Mesh& mesh, VertexId v, const WeightedPoint& near) {
+  return place_of(mesh.space(), mesh.point(v, near));
+}
+[[nodiscard]] inline std::array<Vec3, 3> places_of(const Mesh& mesh, TriangleId t) {
+  const auto [a, b, c] = mesh.points(t);
+  const Space& space = mesh.space();
+  return {place_of(space, a), place_of(space, b), place_of(space, c)};
+}
 
 /// What the triangle of p and two others spans, which are `to_a` and `to_b` away from it or from each other: twice its
 /// area, or on the sphere the determinant of the three. Positive when counter-clockwise.

@@ -20,15 +20,15 @@ constexpr double kOffEdge = 8 * std::numeric_limits<double>::epsilon();
 double largest_coordinate(Vec3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
 /// p on the edge from a to b of triangle t, if rounding alone has put it off that.
-std::optional<Place> near_edge(const Mesh& mesh, TriangleId t, VertexId a, VertexId b, Vec3 p) {
-  const Vec3 from = place_of(mesh, a), to = place_of(mesh, b);
+std::optional<Place> near_edge(const Mesh& mesh, TriangleId t, VertexId a, VertexId b, const WeightedPoint& point) {
+  const Vec3 from = place_of(mesh, a, point), to = place_of(mesh, b, point), p = place_of(mesh.space(), point);
   const double off = std::abs(spanned(mesh.space(), p, to - from, p - from)) / length(to - from);
   if (off > kOffEdge * std::max(largest_coordinate(from), largest_coordinate(to))) return {};
   const double along = std::clamp(part_of_edge(mesh.space(), from, to, p), 0.0, 1.0);
   return Place{t, 2, {a, b}, {1 - along, along}, false};
 }
 
-Place without_rounding(const Mesh& mesh, const Place& place, Vec3 p) {
+Place without_rounding(const Mesh& mesh, const Place& place, const WeightedPoint& p) {
   for (std::size_t k = 0; place.n == 3 && k < 3; ++k) {
     const auto on_edge = near_edge(mesh, place.triangle, place.corners[(k + 1) % 3], place.corners[(k + 2) % 3], p);
     if (on_edge) return *on_edge;
@@ -107,7 +107,7 @@ IdVector<VertexId, Place> places_of_vertices(const Mesh& before, const Mesh& aft
     const WeightedPoint p = after.point(v);
     const bool stayed = was.valid() && before.space().same_place(before.point(was), p);
     places[v] = stayed ? Place::at(was, Mesh::triangle(before.outgoing(was)))
-                       : without_rounding(before, finder.find(p, former.near(v)), place_of(before.space(), p));
+                       : without_rounding(before, finder.find(p, former.near(v)), p);
   });
   return places;
 }
@@ -120,9 +120,10 @@ IdVector<TriangleId, TriangleId> sources_of_triangles(const Mesh& before, const 
     const TriangleId t(i);
     sources[t] = same_triangle(before, after, t, places);
     if (sources[t].valid()) return;
-    const auto [a, b, c] = after.corners(t);
-    const Vec3 middle = (1.0 / 3) * (place_of(after, a) + place_of(after, b) + place_of(after, c));
-    sources[t] = of_region(before, finder.find(as_point(middle), places[a].triangle).triangle, after.region(t));
+    const auto [a, b, c] = places_of(after, t);
+    const Vec3 middle = (1.0 / 3) * (a + b + c);
+    const TriangleId near = places[after.corners(t)[0]].triangle;
+    sources[t] = of_region(before, finder.find(as_point(middle), near).triangle, after.region(t));
   });
   return sources;
 }

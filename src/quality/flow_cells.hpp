@@ -16,11 +16,10 @@
 
 namespace temper {
 
-/// Where a vertex is, without its weight.
-[[nodiscard]] inline Vec3 place_of(const Mesh& mesh, VertexId v) {
-  if (!mesh.space().is_plane()) return mesh.space().place(mesh.point(v));
-  const Vec2 p = mesh.position(v);
-  return {p.x, p.y, 0};
+/// Where a vertex is, without its weight; of images the one near a point.
+[[nodiscard]] inline Vec3 place_of(const Mesh& mesh, VertexId v, const WeightedPoint& near) {
+  const WeightedPoint p = mesh.point(v, near);
+  return mesh.space().is_plane() ? Vec3{p.x, p.y, 0} : mesh.space().place(p);
 }
 
 struct FlowCell {

@@ -78,8 +78,7 @@ TriangleMeasure measure_triangle(const Space& space, const std::array<WeightedPo
 }
 
 TriangleMeasure measure_triangle(const Mesh& mesh, TriangleId t) {
-  const auto [a, b, c] = mesh.corners(t);
-  return measure_triangle(mesh.space(), {mesh.point(a), mesh.point(b), mesh.point(c)});
+  return measure_triangle(mesh.space(), mesh.points(t));
 }
 
 }  // namespace temper

@@ -40,16 +40,19 @@ void merge(SolverMeasures& into, const SolverMeasures& from) {
 
 // --- D-Flow FM -----------------------------------------------------------------------------------------------
 
-FlowCell flow_cell_of(const Mesh& mesh, TriangleId t) {
+FlowCell flow_cell_of(const Mesh& mesh, TriangleId t, const WeightedPoint& near) {
   const auto [a, b, c] = mesh.corners(t);
-  return flow_cell(place_of(mesh, a), place_of(mesh, b), place_of(mesh, c));
+  return flow_cell(place_of(mesh, a, near), place_of(mesh, b, near), place_of(mesh, c, near));
 }
 
 void add_flow_link(SolverMeasures& m, const Mesh& mesh, HalfedgeId h) {
   // Of a shorter one rounding makes the direction. It is a small flow link anyway.
   constexpr double kHasDirection = 0x1p-40;  // of the edge
-  const FlowCell left = flow_cell_of(mesh, Mesh::triangle(h)), right = flow_cell_of(mesh, Mesh::triangle(mesh.twin(h)));
-  const Vec3 edge = place_of(mesh, mesh.target(h)) - place_of(mesh, mesh.origin(h)), link = right.center - left.center;
+  const WeightedPoint from = mesh.point(mesh.origin(h));
+  const FlowCell left = flow_cell_of(mesh, Mesh::triangle(h), from),
+                 right = flow_cell_of(mesh, Mesh::triangle(mesh.twin(h)), from);
+  const Vec3 edge = place_of(mesh, mesh.target(h), from) - place_of(mesh, mesh.origin(h), from),
+             link = right.center - left.center;
   const double edge_length = length(edge), link_length = length(link);
   if (link_length > kHasDirection * edge_length) {
     m.max_orthogonality =
@@ -73,8 +76,9 @@ double angle_across(double a, double b, double c) {
 bool is_obtuse(const Mesh& mesh, TriangleId t) {
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(t, k);
-    const Vec3 a = place_of(mesh, mesh.origin(h)), b = place_of(mesh, mesh.target(h)),
-               c = place_of(mesh, mesh.opposite(h));
+    const WeightedPoint from = mesh.point(mesh.origin(h));
+    const Vec3 a = place_of(mesh, mesh.origin(h), from), b = place_of(mesh, mesh.target(h), from),
+               c = place_of(mesh, mesh.opposite(h), from);
     const auto flat = [](Vec3 p) { return WeightedPoint{p.x, p.y, 0}; };
     // Without weights the center is across from an obtuse angle.
     const Sign side =
@@ -85,8 +89,7 @@ bool is_obtuse(const Mesh& mesh, TriangleId t) {
 }
 
 void add_triangle(SolverMeasures& m, const Mesh& mesh, TriangleId t) {
-  const auto [i, j, k] = mesh.corners(t);
-  const WeightedPoint p = mesh.point(i), q = mesh.point(j), r = mesh.point(k);
+  const auto [p, q, r] = mesh.points(t);
   const double a = edge_length(mesh.space(), q, r), b = edge_length(mesh.space(), r, p),
                c = edge_length(mesh.space(), p, q);
   m.min_triangle_quality = std::min(m.min_triangle_quality, std::min({a, b, c}) / std::max({a, b, c}));
@@ -109,8 +112,8 @@ void gather(Ring& ring, const Mesh& mesh, VertexId v) {
   ring.center = mesh.point(v);
   ring.around.clear();
   for (const HalfedgeId h : mesh.star(v)) {
-    ring.around.push_back(mesh.point(mesh.target(h)));
-    if (mesh.is_boundary(Mesh::prev(h))) ring.around.push_back(mesh.point(mesh.opposite(h)));
+    ring.around.push_back(mesh.point(mesh.target(h), ring.center));
+    if (mesh.is_boundary(Mesh::prev(h))) ring.around.push_back(mesh.point(mesh.opposite(h), ring.center));
   }
 }
 

@@ -13,8 +13,8 @@ namespace {
 // Cell-centred transmissibility: the length of the face over the distance between the orthocenters on its two
 // sides. Doubles cannot tell a dual of length zero from one of 1e-17, the exact test can.
 double transmissibility(const Mesh& mesh, HalfedgeId h) {
-  const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h));
-  const WeightedPoint c = mesh.point(mesh.opposite(h)), d = mesh.point(mesh.opposite(mesh.twin(h)));
+  const auto [a, b, c] = mesh.points(mesh.origin(h), mesh.target(h), mesh.opposite(h));
+  const WeightedPoint d = mesh.point(mesh.opposite(mesh.twin(h)), a);
   if (power_test(mesh.space(), a, b, c, d) == Sign::zero) return std::numeric_limits<double>::infinity();
   return edge_length(mesh.space(), a, b) / std::abs(dual_length(mesh.space(), a, b, c, d));
 }

@@ -15,8 +15,7 @@ namespace {
 /// Calls f(a, b, c) for each edge ab, with the corner c opposite.
 template <class F>
 void for_edges(const Mesh& mesh, TriangleId t, F&& f) {
-  const auto [p, q, r] = mesh.corners(t);
-  const WeightedPoint a = mesh.point(p), b = mesh.point(q), c = mesh.point(r);
+  const auto [a, b, c] = mesh.points(t);
   f(a, b, c);
   f(b, c, a);
   f(c, a, b);
@@ -24,9 +23,9 @@ void for_edges(const Mesh& mesh, TriangleId t, F&& f) {
 
 double least_margin(const Mesh& mesh, TriangleId t) {
   if (!mesh.space().is_plane()) return measure_triangle(mesh, t).margin();
-  const auto [p, q, r] = mesh.corners(t);
+  const auto [p, q, r] = mesh.points(t);
   double least = std::numeric_limits<double>::infinity();
-  if (orient2d(mesh.position(p), mesh.position(q), mesh.position(r)) != Sign::positive) return -least;
+  if (orient2d(p.position(), q.position(), r.position()) != Sign::positive) return -least;
   for_edges(mesh, t, [&](const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c) {
     const double l = length(b.position() - a.position()), d = edge_split(a, b) / l;
     least = std::min({least, signed_height(a, b, c) / l, d, 1 - d});

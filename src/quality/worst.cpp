@@ -53,7 +53,7 @@ std::string why_not_inside(const Subject& s, int k) {
 std::string why_not_crossed(const Subject& s, int k) {
   int heavy = k, light = corner_after(k);
   if (s.weight(heavy) < s.weight(light)) std::swap(heavy, light);
-  const WeightedPoint a = s.mesh.point(s.v[heavy]), b = s.mesh.point(s.v[light]);
+  const WeightedPoint a = s.mesh.point(s.v[heavy]), b = s.mesh.point(s.v[light], a);
   const double l2 =
       s.mesh.space().is_plane() ? squared_length(b.position() - a.position()) : squared_length(lifted(b) - lifted(a));
   return s.edge(k) + " is not crossed by its dual: the weight of vertex " + s.number(s.v[heavy]) +
@@ -150,9 +150,9 @@ Vec2 shown_place(const Space& space, Vec3 p) {
 }
 
 Vec2 middle_of(const Mesh& mesh, TriangleId t) {
-  const auto [a, b, c] = mesh.corners(t);
-  if (mesh.space().is_plane()) return (1.0 / 3) * (mesh.position(a) + mesh.position(b) + mesh.position(c));
-  return shown_place(mesh.space(), mesh.lifted_point(a) + mesh.lifted_point(b) + mesh.lifted_point(c));
+  const auto [a, b, c] = mesh.points(t);
+  if (mesh.space().is_plane()) return (1.0 / 3) * (a.position() + b.position() + c.position());
+  return shown_place(mesh.space(), lifted(a) + lifted(b) + lifted(c));
 }
 
 WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names) {

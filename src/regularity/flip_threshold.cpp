@@ -70,11 +70,11 @@ double flip_threshold_of(const Mesh& mesh, VertexId v, const std::array<double, 
   const PowerTest test;
   double threshold = kNoThreshold;
   for (const HalfedgeId h : mesh.star(v)) {
-    const WeightedPoint q = mesh.point(mesh.target(h)), r = mesh.point(mesh.opposite(h));
+    const WeightedPoint q = mesh.point(mesh.target(h), p), r = mesh.point(mesh.opposite(h), p);
     for (const HalfedgeId e : {h, Mesh::next(h)}) {
       if (mesh.is_boundary(e) || mesh.is_constrained(e)) continue;
       if (test(mesh, inlined::quad(mesh, e)) == Sign::positive) continue;  // not regular as it is
-      const WeightedPoint across = mesh.point(mesh.opposite(mesh.twin(e)));
+      const WeightedPoint across = mesh.point(mesh.opposite(mesh.twin(e)), q);
       if (e == h) {
         const Quadratic f = conflict_along(p, across, q, r, step);
         threshold = std::min(threshold, first_crossing({-f.c0, -f.c1, -f.c2}));

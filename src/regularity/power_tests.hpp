@@ -27,7 +27,8 @@ struct PerturbedPowerTest {
   [[nodiscard]] Sign operator()(const Mesh& mesh, const inlined::Quad& q) const {
     const Sign sign = PowerTest()(mesh, q);
     if (sign != Sign::zero) return sign;
-    return power_test_perturbed(mesh.space(), mesh.point(q.a), mesh.point(q.b), mesh.point(q.c), mesh.point(q.d),
+    const auto [a, b, c] = mesh.points(q.a, q.b, q.c);
+    return power_test_perturbed(mesh.space(), a, b, c, mesh.point(q.d, a),
                                 {rank(q.a), rank(q.b), rank(q.c), rank(q.d)});
   }
 };

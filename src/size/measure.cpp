@@ -90,9 +90,9 @@ double largest_edge_ratio(const Mesh& mesh, Executor* executor) {
   for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
     double largest = 1;
     for (std::size_t t = first; t < last; ++t) {
-      const auto [a, b, c] = mesh.corners(TriangleId(t));
-      const auto between2 = [&](VertexId u, VertexId v) {
-        return edge_measures(mesh.space(), mesh.point(u), mesh.point(v)).l2;
+      const auto [a, b, c] = mesh.points(TriangleId(t));
+      const auto between2 = [&](const WeightedPoint& p, const WeightedPoint& q) {
+        return edge_measures(mesh.space(), p, q).l2;
       };
       const auto [low, high] = std::minmax({between2(a, b), between2(b, c), between2(c, a)});
       largest = std::max(largest, high / low);

@@ -21,7 +21,7 @@ struct StarArea {
   StarArea star;
   const WeightedPoint p = mesh.point(v);
   for (const HalfedgeId h : mesh.star(v)) {
-    const WeightedPoint q = mesh.point(mesh.target(h)), r = mesh.point(mesh.opposite(h));
+    const WeightedPoint q = mesh.point(mesh.target(h), p), r = mesh.point(mesh.opposite(h), p);
     star.doubled += mesh.space().is_plane() ? std::abs(cross(q.position() - p.position(), r.position() - p.position()))
                                             : length(cross(lifted(q) - lifted(p), lifted(r) - lifted(p)));
     ++star.triangles;

@@ -37,7 +37,7 @@ class BestTriangulation {
   BestTriangulation(const Mesh& mesh, std::span<const VertexId> polygon, const WeightedPoint& origin)
       : mesh_(mesh), polygon_(polygon), n_(polygon.size()), lifted_(n_), parts_(n_ * n_) {
     for (std::size_t i = 0; i < n_; ++i) {
-      const WeightedPoint p = mesh.point(polygon[i]);
+      const WeightedPoint p = mesh.point(polygon[i], origin);
       const double x = p.x - origin.x, y = p.y - origin.y, w = p.w - origin.w;
       lifted_[i] = {x, y, mesh.space().is_plane() ? x * x + y * y - w : w};
     }

@@ -11,11 +11,11 @@ namespace {
 
 /// On which side of each edge of t the point is.
 std::array<Sign, 3> sides(const Mesh& mesh, const WeightedPoint& p, TriangleId t) {
-  const auto [a, b, c] = mesh.corners(t);
-  const WeightedPoint pa = mesh.point(a), pb = mesh.point(b), pc = mesh.point(c);
+  const auto [a, b, c] = mesh.points(t);
   const Space& space = mesh.space();
-  return {inlined::orientation(space, pa, pb, p), inlined::orientation(space, pb, pc, p),
-          inlined::orientation(space, pc, pa, p)};
+  const WeightedPoint here = space.image(p, a);
+  return {inlined::orientation(space, a, b, here), inlined::orientation(space, b, c, here),
+          inlined::orientation(space, c, a, here)};
 }
 
 bool is_usable(const Mesh& mesh, TriangleId t) { return t.index < mesh.n_triangles() && !mesh.is_erased(t); }

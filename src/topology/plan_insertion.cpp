@@ -28,12 +28,13 @@ namespace {
 
 /// Does the new vertex conflict with the triangle of h?
 bool conflicts(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p) {
-  return inlined::power_test(mesh.space(), mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)),
-                             mesh.point(mesh.opposite(h)), p) == Sign::positive;
+  const auto [a, b, c] = mesh.points(mesh.origin(h), mesh.target(h), mesh.opposite(h));
+  return inlined::power_test(mesh.space(), a, b, c, mesh.space().image(p, a)) == Sign::positive;
 }
 
 bool is_counter_clockwise(const Mesh& mesh, const WeightedPoint& p, VertexId a, VertexId b) {
-  return inlined::orientation(mesh.space(), p, mesh.point(a), mesh.point(b)) == Sign::positive;
+  const WeightedPoint q = mesh.point(a, p), r = mesh.point(b, p);
+  return mesh.space().are_near(q, r) && inlined::orientation(mesh.space(), p, q, r) == Sign::positive;
 }
 
 InsertionPlan begin_plan(InsertionStatus status, const WeightedPoint& p, InsertionPlan storage) {
@@ -109,7 +110,8 @@ bool spokes_are_regular(const Mesh& mesh, const InsertionPlan& plan) {
     const VertexId before = plan.link[(i + n - 1) % n], at = plan.link[i], after = plan.link[(i + 1) % n];
     if (has_line && (at == mesh.origin(plan.edge) || at == mesh.target(plan.edge))) continue;
     const WeightedPoint& v = plan.point;
-    if (inlined::power_test(mesh.space(), v, mesh.point(before), mesh.point(at), mesh.point(after)) == Sign::positive) {
+    if (inlined::power_test(mesh.space(), v, mesh.point(before, v), mesh.point(at, v), mesh.point(after, v)) ==
+        Sign::positive) {
       return false;
     }
   }
@@ -173,7 +175,7 @@ InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p,
   InsertionPlan plan = begin_plan(InsertionStatus::at_vertex, p, std::move(storage));
   const VertexId a = mesh.origin(h), b = mesh.target(h);
   begin_on_edge(mesh, h, plan);
-  if (mesh.space().same_place(p, mesh.point(a)) || mesh.space().same_place(p, mesh.point(b))) return plan;
+  if (mesh.space().same_place(p, mesh.point(a, p)) || mesh.space().same_place(p, mesh.point(b, p))) return plan;
   const auto is_ccw = [&](HalfedgeId side) {
     return is_counter_clockwise(mesh, p, mesh.origin(side), mesh.target(side));
   };
@@ -187,15 +189,16 @@ InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p,
 
 InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, double t, InsertionPlan storage) {
   // From the end of smaller number: the same bits whichever side is asked.
-  WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h));
-  if (mesh.target(h) < mesh.origin(h)) std::swap(a, b), t = 1 - t;
+  VertexId from = mesh.origin(h), to = mesh.target(h);
+  if (to < from) std::swap(from, to), t = 1 - t;
+  const WeightedPoint a = mesh.point(from), b = mesh.point(to, a);
   return plan_split(mesh, h, split_point(mesh.space(), a, b, t), std::move(storage));
 }
 
 double interpolated_weight(const Mesh& mesh, TriangleId t, Vec2 p) {
   TEMPER_ASSERT(mesh.space().is_plane());
-  const auto [a, b, c] = mesh.corners(t);
-  const WeightedPoint pa = mesh.point(a), pb = mesh.point(b), pc = mesh.point(c);
+  const auto [pa, pb, pc] = mesh.points(t);
+  p = mesh.space().image({p.x, p.y, 0}, pa).position();
   const double area = doubled_area(pa.position(), pb.position(), pc.position());
   const double at_b = doubled_area(pa.position(), p, pc.position()) / area;
   const double at_c = doubled_area(pa.position(), pb.position(), p) / area;

@@ -311,7 +311,7 @@ class SolverErrorModel final : public ErrorModel {
 
 Expected<std::shared_ptr<const ErrorModel>> solver_error_model(const Mesh& mesh, const SolverErrorOptions& options) {
   const auto refused = [](const std::string& message) { return InputError{ErrorCode::invalid_option, "", message}; };
-  if (!mesh.space().is_plane())
+  if (mesh.space().kind() != SpaceKind::plane)
     return refused("`objective=error` is for meshes of the plane; expected `objective=accuracy`");
   if (options.scheme == Scheme::stars) {
     return refused(

@@ -153,6 +153,7 @@ VerifyFrame verify_frame(const Mesh& mesh) {
 
 Expected<VerifyReport> verify(const Mesh& mesh, const VerifyOptions& options) {
   using namespace verify_detail;
+  if (auto error = expect_no_period(mesh, "verify()")) return *std::move(error);
   const auto fields = select_fields(options.fields, mesh.space().kind());
   if (!fields) return fields.error();
   if (const auto checked = check(mesh, options); !checked) return checked.error();

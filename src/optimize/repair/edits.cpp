@@ -28,8 +28,7 @@ std::vector<TriangleId> some_bad_triangles(const Neighborhood& around) {
 }
 
 void add_insertions(const Mesh& mesh, TriangleId t, std::vector<Edit>& edits) {
-  const auto [i, j, k] = mesh.corners(t);
-  const WeightedPoint a = mesh.point(i), b = mesh.point(j), c = mesh.point(k);
+  const auto [a, b, c] = mesh.points(t);
   edits.push_back({.kind = Edit::insert, .triangle = t, .place = middle(mesh.space(), a, b, c)});
   const WeightedPoint o = orthocenter(mesh.space(), a, b, c);
   const Location at = locate(mesh, o, t);
@@ -75,6 +74,7 @@ std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool vertic
   const std::vector<TriangleId> bad = some_bad_triangles(around);
   add_removals(around, bad, one);
   for (const TriangleId t : bad) add_insertions(around.mesh, t, one);
+  if (around.mesh.space().is_periodic()) return {moves, one};  // refinement measures across the neighbourhood
   for (const double gradation : kGradations) {
     many.push_back({.kind = Edit::refine, .gradation = gradation});
     anew.push_back({.kind = Edit::remesh, .gradation = gradation});

@@ -100,8 +100,8 @@ bool rim_is_regular(const Neighborhood& around, const Mesh& local) {
   for (std::size_t i = 0; i < around.rim.size(); ++i) {
     const HalfedgeId h = local.find_halfedge(around.rim[i][0], around.rim[i][1]);
     if (!h.valid() || local.is_constrained(h)) continue;
-    const Sign conflict = power_test(local.space(), local.point(local.origin(h)), local.point(local.target(h)),
-                                     local.point(local.opposite(h)), around.beyond[i]);
+    const auto [a, b, c] = local.points(local.origin(h), local.target(h), local.opposite(h));
+    const Sign conflict = power_test(local.space(), a, b, c, local.space().image(around.beyond[i], a));
     if (conflict == Sign::positive) return false;
   }
   return true;

@@ -30,9 +30,9 @@ constexpr int kMostInserted = 300;
 
 /// −h/ℓ, −d/ℓ or d/ℓ − 1, whichever is the worst; zero or less inside.
 double violation_of(const Mesh& mesh, TriangleId t) {
-  const auto [p, q, r] = mesh.corners(t);
+  const auto [p, q, r] = mesh.points(t);
   double worst = 0;
-  for (const EdgeShape& e : triangle_shape(mesh.space(), mesh.point(p), mesh.point(q), mesh.point(r)).edges) {
+  for (const EdgeShape& e : triangle_shape(mesh.space(), p, q, r).edges) {
     worst = std::max({worst, -e.g / e.l2, 0.5 * (std::abs(e.dw) / e.l2 - 1)});
   }
   return worst;
@@ -137,10 +137,9 @@ bool Trial::apply(const Edit& edit) {
 /// Inserts a vertex with the weight that the corners have there.
 bool Trial::insert(TriangleId t, const WeightedPoint& place) {
   const Mesh& mesh = work_.mesh;
-  const auto corners = mesh.corners(t);
-  const auto [a, b, c] = std::array{mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2])};
+  const auto [a, b, c] = mesh.points(t);
   // With its weight first: on the sphere that moves it by rounding.
-  const WeightedPoint p = with_interpolated_weight(mesh.space(), grid_.snap(place), a, b, c);
+  const WeightedPoint p = with_interpolated_weight(mesh.space(), grid_.snap(mesh.space().image(place, a)), a, b, c);
   for (const auto& [q, r] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
     if (inlined::orientation(mesh.space(), q, r, p) != Sign::positive) return false;
   }
@@ -152,10 +151,10 @@ bool Trial::insert(TriangleId t, const WeightedPoint& place) {
 bool Trial::split(HalfedgeId h) {
   const Mesh& mesh = work_.mesh;
   const auto [a, b, c, d] = inlined::quad(mesh, h);
-  const WeightedPoint half = grid_.snap(middle(mesh.space(), mesh.point(a), mesh.point(b)));
+  const WeightedPoint half = grid_.snap(middle(mesh.space(), mesh.point(a), mesh.point(b, mesh.point(a))));
   const WeightedPoint p = mesh.space().with_weight(half, 0.5 * (mesh.weight(a) + mesh.weight(b)));
   for (const auto& [q, r] : {std::pair(b, c), std::pair(c, a), std::pair(a, d), std::pair(d, b)}) {
-    if (inlined::orientation(mesh.space(), mesh.point(q), mesh.point(r), p) != Sign::positive) return false;
+    if (inlined::orientation(mesh.space(), mesh.point(q, p), mesh.point(r, p), p) != Sign::positive) return false;
   }
   flipper_.split(work_, h, p, kNoEnergy, kNoEnergy);
   limits_.grow();

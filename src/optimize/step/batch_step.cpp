@@ -101,6 +101,7 @@ void BatchStep::gather(VertexId v, Mobility mobility) {
 bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
   constexpr std::size_t kMost = StarBatch::kMostTriangles;
   const Part part = part_;
+  const WeightedPoint center = mesh_.point(occupant.v);
   const HalfedgeId first = mesh_.outgoing(occupant.v);
   HalfedgeId h = first;
   VertexId q = mesh_.target(h);
@@ -117,8 +118,8 @@ bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
     mark(q) = mark(o) = Mark::looked_at;
     if (i < kMost) {
       occupant.link[i] = q;
-      batch_.link[i].set(lane, mesh_.point(q));
-      batch_.across[i].set(lane, mesh_.point(o));
+      batch_.link[i].set(lane, mesh_.point(q, center));
+      batch_.across[i].set(lane, mesh_.point(o, center));
       batch_.link_flips[i][lane] = across.valid() && !mesh_.is_constrained(link) ? -1 : 0;
       batch_.spoke_flips[i][lane] = mesh_.is_constrained(h) ? 0 : -1;
     }
@@ -131,7 +132,7 @@ bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
   batch_.open[lane] = open ? -1 : 0;
   if (i <= kMost) {
     occupant.link[i] = q;
-    batch_.link[i].set(lane, mesh_.point(q));
+    batch_.link[i].set(lane, mesh_.point(q, center));
   }
   if (open) mark(q) = Mark::looked_at;
   occupant.n_link = i + (open ? 1 : 0);
@@ -180,8 +181,8 @@ void BatchStep::step_and_settle() {
     batch_.triangles[lane] = 0;
     batch_.open[lane] = batch_.moves[lane] = batch_.weighs[lane] = 0;
   }
-  const Vec2 center = frame_.center_here();
-  const StepParameters parameters{edge_formula(settings_.model), settings_.relaxation, center.x, center.y};
+  const Vec2 rounding = frame_.rounding;
+  const StepParameters parameters{edge_formula(settings_.model), settings_.relaxation, rounding.x, rounding.y};
   const BatchSteps& steps = batch_steps(mesh_.space());
   const bool lowers_accuracy = settings_.accuracy_domain != nullptr;
   const StepOutcome outcome = lowers_accuracy ? steps.accuracy(parameters, settings_.accuracy, accuracy_, batch_)
@@ -201,6 +202,7 @@ void BatchStep::settle(const Occupant& occupant, std::size_t lane, const StepOut
     return improve_alone(v);
   if (!has(outcome.stepped)) return;
   const WeightedPoint from = batch_.p.at(lane), to = batch_.to.at(lane);
+  if (mesh_.space().is_periodic() && !reaches_its_link(occupant, to)) return improve_alone(v);
   const double energy = batch_.before[lane], lower = batch_.after[lane];
   mesh_.set_point(v, to);
   if (!flips && has(outcome.regular)) {
@@ -222,6 +224,13 @@ void BatchStep::settle(const Occupant& occupant, std::size_t lane, const StepOut
 
 void BatchStep::improve_alone(VertexId v) {
   if (!alone_.improve(v, part_)) left_->push_back(v);
+}
+
+/// Says whether edges to the link from there are shorter than half a period.
+bool BatchStep::reaches_its_link(const Occupant& occupant, const WeightedPoint& to) const {
+  const WeightedPoint from = mesh_.point(occupant.v);
+  return std::all_of(occupant.link.begin(), occupant.link.begin() + static_cast<std::ptrdiff_t>(occupant.n_link),
+                     [&](VertexId q) { return mesh_.space().are_near(mesh_.point(q, from), to); });
 }
 
 /// Says whether no flip has changed the star since it was gathered.

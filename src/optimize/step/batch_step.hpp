@@ -52,6 +52,7 @@ class BatchStep {
   void step_and_settle();
   void settle(const Occupant& occupant, std::size_t lane, const StepOutcome& outcome, bool flips);
   void improve_alone(VertexId v);
+  [[nodiscard]] bool reaches_its_link(const Occupant& occupant, const WeightedPoint& to) const;
   [[nodiscard]] bool has_its_link(const Occupant& occupant, bool open) const;
   [[nodiscard]] std::size_t n_changes() const;
 

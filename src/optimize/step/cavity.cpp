@@ -83,18 +83,19 @@ double hot_edges(const Mesh& mesh, const EnergyModel& model, const HotKernel& ke
   for (std::size_t k = 0; k < 3; ++k) {
     const VertexId a = t[k], b = t[(k + 1) % 3];
     const Across side = across(mesh, plan, a, b);
-    const Beyond beyond = side.apex.valid() ? Beyond{mesh.point(side.apex), side.is_link} : Beyond{};
-    sum += hot_edge(mesh.space(), model, kernel, {mesh.point(a), mesh.point(b), mesh.point(t[(k + 2) % 3])}, beyond);
+    const std::array<WeightedPoint, 3> abc = mesh.points(a, b, t[(k + 2) % 3]);
+    const Beyond beyond = side.apex.valid() ? Beyond{mesh.point(side.apex, abc[0]), side.is_link} : Beyond{};
+    sum += hot_edge(mesh.space(), model, kernel, abc, beyond);
   }
   return sum;
 }
 
 /// The triangle across h, a side of a triangle that an insertion replaces.
-Beyond beyond_replaced(const Mesh& mesh, const InsertionPlan& plan, HalfedgeId h) {
+Beyond beyond_replaced(const Mesh& mesh, const InsertionPlan& plan, HalfedgeId h, const WeightedPoint& near) {
   const HalfedgeId g = mesh.twin(h);
   if (!g.valid()) return {};
   const bool stays = std::find(plan.cavity.begin(), plan.cavity.end(), Mesh::triangle(g)) == plan.cavity.end();
-  return {mesh.point(mesh.opposite(g)), stays};
+  return {mesh.point(mesh.opposite(g), near), stays};
 }
 
 /// The edges of a triangle that an insertion replaces.
@@ -103,9 +104,8 @@ double replaced_edges(const Mesh& mesh, const EnergyModel& model, const HotKerne
   double sum = 0;
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(t, k);
-    const std::array<WeightedPoint, 3> abc = {mesh.point(mesh.origin(h)), mesh.point(mesh.target(h)),
-                                              mesh.point(mesh.opposite(h))};
-    sum += hot_edge(mesh.space(), model, kernel, abc, beyond_replaced(mesh, plan, h));
+    const std::array<WeightedPoint, 3> abc = mesh.points(mesh.origin(h), mesh.target(h), mesh.opposite(h));
+    sum += hot_edge(mesh.space(), model, kernel, abc, beyond_replaced(mesh, plan, h, abc[0]));
   }
   return sum;
 }
@@ -115,9 +115,9 @@ double new_edges(const Mesh& mesh, const EnergyModel& model, const HotKernel& ke
                  std::size_t i) {
   const std::size_t n = plan.link.size();
   const bool open = n > plan.rim.size();
-  const auto point = [&](std::size_t j) { return mesh.point(plan.link[j % n]); };
+  const auto point = [&](std::size_t j) { return mesh.point(plan.link[j % n], plan.point); };
   const WeightedPoint v = plan.point, a = point(i), b = point(i + 1);
-  Beyond outside = beyond_replaced(mesh, plan, plan.rim[i]);
+  Beyond outside = beyond_replaced(mesh, plan, plan.rim[i], a);
   outside.stays = true;
   const Beyond after = open && i + 2 == n ? Beyond{} : Beyond{point(i + 2), false};
   const Beyond before = open && i == 0 ? Beyond{} : Beyond{point(i + n - 1), false};
@@ -134,7 +134,8 @@ double cavity_energy(const Mesh& mesh, const EnergyModel& model, const RemovalPl
     double sum = 0;
     for (const Corners& t : plan.triangles) {
       if constexpr (std::decay_t<decltype(kernel)>::kBarrier) {
-        sum += triangle_energy(model, mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]), mesh.space());
+        const auto [a, b, c] = mesh.points(t[0], t[1], t[2]);
+        sum += triangle_energy(model, a, b, c, mesh.space());
       } else {
         sum += hot_edges(mesh, model, kernel, plan, t);
       }
@@ -149,7 +150,8 @@ double insertion_energy(const Mesh& mesh, const EnergyModel& model, const Insert
     for (std::size_t i = 0; i < plan.rim.size(); ++i) {
       if constexpr (std::decay_t<decltype(kernel)>::kBarrier) {
         const VertexId b = plan.link[(i + 1) % plan.link.size()];
-        sum += triangle_energy(model, plan.point, mesh.point(plan.link[i]), mesh.point(b), mesh.space());
+        sum += triangle_energy(model, plan.point, mesh.point(plan.link[i], plan.point), mesh.point(b, plan.point),
+                               mesh.space());
       } else {
         sum += new_edges(mesh, model, kernel, plan, i);
       }
@@ -163,8 +165,8 @@ double replaced_energy(const Mesh& mesh, const EnergyModel& model, const Inserti
     double sum = 0;
     for (const TriangleId t : plan.cavity) {
       if constexpr (std::decay_t<decltype(kernel)>::kBarrier) {
-        const auto [a, b, c] = mesh.corners(t);
-        sum += triangle_energy(model, mesh.point(a), mesh.point(b), mesh.point(c), mesh.space());
+        const auto [a, b, c] = mesh.points(t);
+        sum += triangle_energy(model, a, b, c, mesh.space());
       } else {
         sum += replaced_edges(mesh, model, kernel, plan, t);
       }
@@ -178,8 +180,8 @@ bool is_regular(const Mesh& mesh, const RemovalPlan& plan) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Across beyond = across(mesh, plan, t[k], t[(k + 1) % 3]);
       if (!beyond.apex.valid() || beyond.constrained) continue;
-      const Sign conflict =
-          power_test(mesh.space(), mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]), mesh.point(beyond.apex));
+      const auto [a, b, c] = mesh.points(t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
+      const Sign conflict = power_test(mesh.space(), a, b, c, mesh.point(beyond.apex, a));
       if (conflict == Sign::positive) return false;
     }
     return true;

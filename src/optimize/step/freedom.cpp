@@ -21,8 +21,9 @@ struct FixedLine {
 FixedLine fixed_line(const Mesh& mesh, VertexId v) {
   int count = 0;
   std::array<Vec2, 2> ends;
+  const WeightedPoint p = mesh.point(v);
   const auto add = [&](VertexId end) {
-    if (count < 2) ends[static_cast<std::size_t>(count)] = direction_to(mesh.space(), mesh.point(v), mesh.point(end));
+    if (count < 2) ends[static_cast<std::size_t>(count)] = direction_to(mesh.space(), p, mesh.point(end, p));
     ++count;
   };
   for (const HalfedgeId h : mesh.star(v)) {

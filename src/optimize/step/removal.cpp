@@ -98,8 +98,10 @@ PatchComparison compare_patch(const Mesh& mesh, const Patch& patch, const Energy
   const WeightedPoint p = mesh.point(patch.center);
   Ideal with, without;
   for (std::size_t i = 0; i < patch.size(); ++i) with.add(model, mesh.space(), p, patch.q(i), patch.r(i));
-  for (const auto& [a, b, c] : plan.triangles)
-    without.add(model, mesh.space(), mesh.point(a), mesh.point(b), mesh.point(c));
+  for (const auto& [i, j, k] : plan.triangles) {
+    const auto [a, b, c] = mesh.points(i, j, k);
+    without.add(model, mesh.space(), a, b, c);
+  }
   return {measured(patch_energy(patch, model, p), with, measure),
           measured(cavity_energy(mesh, model, plan), without, measure)};
 }
@@ -108,12 +110,12 @@ PatchComparison compare_patch(const Mesh& mesh, const EnergyModel& model, const 
                               RemovalMeasure measure) {
   Ideal with, without;
   for (std::size_t i = 0; i < plan.rim.size(); ++i) {
-    with.add(model, mesh.space(), plan.point, mesh.point(plan.link[i]),
-             mesh.point(plan.link[(i + 1) % plan.link.size()]));
+    with.add(model, mesh.space(), plan.point, mesh.point(plan.link[i], plan.point),
+             mesh.point(plan.link[(i + 1) % plan.link.size()], plan.point));
   }
   for (const TriangleId t : plan.cavity) {
-    const auto [a, b, c] = mesh.corners(t);
-    without.add(model, mesh.space(), mesh.point(a), mesh.point(b), mesh.point(c));
+    const auto [a, b, c] = mesh.points(t);
+    without.add(model, mesh.space(), a, b, c);
   }
   return {measured(insertion_energy(mesh, model, plan), with, measure),
           measured(replaced_energy(mesh, model, plan), without, measure)};

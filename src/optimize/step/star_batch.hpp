@@ -44,7 +44,7 @@ struct alignas(64) StarBatch {
 struct StepParameters {
   EdgeFormula formula;  ///< of a barrier energy
   double relaxation = 1;
-  double center_x = 0, center_y = 0;  ///< positions are rounded to multiples as (x + c) − c has them (Frame::snap)
+  double rounding_x = 0, rounding_y = 0;  ///< Frame::rounding
 };
 
 /// Bit i: lane i.

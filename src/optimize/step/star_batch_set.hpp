@@ -123,7 +123,7 @@ TEMPER_INLINE Pack inversion_limit(const StarBatch& batch, const typename In::Ce
 /// The place of t times a step. Positions of the plane are rounded to the user's grid, those that are no unknowns stay.
 TEMPER_INLINE PointOf<Pack> moved(const PointOf<Pack>& p, const PackStep& step, const Pack& t, Mask moves,
                                   const StepParameters& parameters) {
-  const Pack cx = Pack::all(parameters.center_x), cy = Pack::all(parameters.center_y);
+  const Pack cx = Pack::all(parameters.rounding_x), cy = Pack::all(parameters.rounding_y);
   return {select(moves, (p.x + t * step.x + cx) - cx, p.x), select(moves, (p.y + t * step.y + cy) - cy, p.y),
           p.w + t * step.w};
 }

@@ -38,6 +38,9 @@ double StarEnergy::radius(const WeightedPoint& p) const {
 int StarEnergy::trials() const { return is_of_accuracy() ? kTrialsWithMargins : kTrials; }
 
 bool StarEnergy::is_valid(const WeightedPoint& p) const {
+  for (std::size_t i = 0; patch_.space.is_periodic() && i < patch_.link.size(); ++i) {
+    if (!patch_.space.are_near(p, patch_.q(i))) return false;
+  }
   if (is_of_accuracy()) return accuracy_.is_well_centered(p);
   const double nearest = settings_.energy.barrier ? 0 : kShortestEdge * patch_radius(patch_, origin_);
   for (std::size_t i = 0; i < patch_.size(); ++i) {

@@ -320,7 +320,7 @@ void VertexStep::shake(double amount, Rng& rng) {
     const WeightedPoint p = mesh_.point(v);
     double shortest2 = kInfinity;
     for (const HalfedgeId h : mesh_.star(v)) {
-      shortest2 = std::min(shortest2, edge_measures(mesh_.space(), p, mesh_.point(mesh_.target(h))).l2);
+      shortest2 = std::min(shortest2, edge_measures(mesh_.space(), p, mesh_.point(mesh_.target(h), p)).l2);
     }
     nudge(v, amount * std::sqrt(shortest2) * Vec2{rng.uniform(-1, 1), rng.uniform(-1, 1)});
   }

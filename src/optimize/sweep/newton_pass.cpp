@@ -27,7 +27,7 @@ bool allows_newton_passes(const Settings& settings, const Space& space) {
   const OptimizeOptions& o = settings.options;
   const bool only_moves =
       !changes_vertices(o) && !o.paper.anchor.valid() && !o.size_band && o.paper.visits == Visits::once;
-  return space.is_plane() && o.paper.newton_passes && makes_newton_steps(settings) && only_moves &&
+  return space.kind() == SpaceKind::plane && o.paper.newton_passes && makes_newton_steps(settings) && only_moves &&
          o.paper.order == SweepOrder::hilbert && o.paper.stopping == StoppingRule::relative;
 }
 

@@ -140,10 +140,10 @@ std::size_t PartSystem::entry(std::size_t begin, std::size_t column) const {
 std::size_t PartSystem::load(const Mesh& mesh, std::size_t begin, TriangleLanes& lanes) const {
   const std::size_t n = std::min(kLanes, triangles_.size() - begin);
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const auto [p, q, r] = mesh.corners(triangles_[begin + std::min(lane, n - 1)]);
-    lanes.p.set(lane, mesh.point(p));
-    lanes.q.set(lane, mesh.point(q));
-    lanes.r.set(lane, mesh.point(r));
+    const auto [p, q, r] = mesh.points(triangles_[begin + std::min(lane, n - 1)]);
+    lanes.p.set(lane, p);
+    lanes.q.set(lane, q);
+    lanes.r.set(lane, r);
   }
   return n;
 }

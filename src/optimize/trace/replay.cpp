@@ -190,7 +190,7 @@ std::optional<InputError> Replayer::remove(const TraceEvent& e) {
 /// Does p see a, b, c counter-clockwise: is each of abp, bcp, cap a triangle?
 bool is_inside(const Mesh& mesh, const std::array<VertexId, 3>& corners, const WeightedPoint& p) {
   for (std::size_t k = 0; k < 3; ++k) {
-    const WeightedPoint a = mesh.point(corners[k]), b = mesh.point(corners[(k + 1) % 3]);
+    const WeightedPoint a = mesh.point(corners[k], p), b = mesh.point(corners[(k + 1) % 3], p);
     if (orientation(mesh.space(), a, b, p) != Sign::positive) return false;
   }
   return true;
@@ -198,7 +198,8 @@ bool is_inside(const Mesh& mesh, const std::array<VertexId, 3>& corners, const W
 
 /// Can the triangle of h, a → b with c across, be cut from c to p on ab?
 bool can_cut(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p) {
-  const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h)), c = mesh.point(mesh.opposite(h));
+  const WeightedPoint a = mesh.point(mesh.origin(h), p), b = mesh.point(mesh.target(h), p),
+                      c = mesh.point(mesh.opposite(h), p);
   return orientation(mesh.space(), a, p, c) == Sign::positive && orientation(mesh.space(), p, b, c) == Sign::positive;
 }
 
