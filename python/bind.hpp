@@ -123,6 +123,8 @@ Metric metric_from(const py::handle& tensor);
 
 /// Raises unless the mesh is one of the plane, which `what` takes alone.
 void require_plane(const Mesh& mesh, std::string_view what);
+/// Raises for meshes of periodic planes.
+void require_no_period(const Mesh& mesh, std::string_view what);
 
 VertexId vertex_id(const Mesh& mesh, std::int64_t index);
 TriangleId triangle_id(const Mesh& mesh, std::int64_t index);

@@ -165,7 +165,7 @@ WeightedPoint assigned(const Space& space, VertexId v, const WeightedPoint& form
       fail_at(v, ErrorCode::out_of_scale, "weight not above minus the square of the radius");
     return space.vertex_at(lifted(former), in[0]);
   }
-  if (space.is_plane()) return {in[0], in[1], former.w};
+  if (space.is_plane()) return space.in_domain({in[0], in[1], former.w});
   const Vec3 p = {in[0], in[1], in[2]};
   if (what == Assigned::lifted_points) return as_point(p);
   constexpr double kOffRadius = 1e-6;  // as Mesh::build

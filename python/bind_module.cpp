@@ -205,6 +205,10 @@ void require_plane(const Mesh& mesh, std::string_view what) {
   if (auto error = expect_plane(mesh, what)) throw BadInput{*std::move(error)};
 }
 
+void require_no_period(const Mesh& mesh, std::string_view what) {
+  if (auto error = expect_no_period(mesh, what)) throw BadInput{*std::move(error)};
+}
+
 VertexId vertex_id(const Mesh& mesh, std::int64_t index) {
   return VertexId(checked("vertex", index, mesh.n_vertices()));
 }

@@ -143,6 +143,7 @@ void bind_feasibility(py::module_& m) {
   m.def("best_margin",
         [](const PyMesh& self, const py::object& triangles, const std::string& conditions, const py::object& edges) {
           const auto mesh = self.read();
+          require_no_period(*mesh, "best_margin()");
           const auto wanted = from_name<Conditions>("conditions", conditions);
           std::vector<TriangleId> ids;
           if (!triangles.is_none()) {
@@ -161,10 +162,12 @@ void bind_feasibility(py::module_& m) {
         });
   m.def("weight_margin", [](const PyMesh& self, const std::string& conditions, const py::object& edges) {
     const auto mesh = self.read();
+    require_no_period(*mesh, "weight_margin()");
     return weight_margin(*mesh, from_name<Conditions>("conditions", conditions), prescribed(*mesh, edges));
   });
   m.def("weight_change", [](const PyMesh& self, const Doubles& before, const Doubles& after) {
     const auto mesh = self.read();
+    require_no_period(*mesh, "weight_change()");
     const auto weights = [&](const Doubles& values) {
       const auto n = static_cast<std::size_t>(values.size());
       if (n != mesh->n_vertices()) {
@@ -179,6 +182,7 @@ void bind_feasibility(py::module_& m) {
   });
   m.def("check_certificate", [](const PyMesh& self, const py::dict& certificate) {
     const auto mesh = self.read();
+    require_no_period(*mesh, "check_certificate()");
     return std::string(name(check_certificate(*mesh, certificate_from(certificate))));
   });
 }
@@ -195,11 +199,13 @@ py::dict conflict_to_dict(const Mesh& mesh, const EdgeConflict& c) {
 void bind_necessity(py::module_& m) {
   m.def("edge_conflict", [](const PyMesh& self, std::int64_t h, double up_to) -> py::object {
     const auto mesh = self.read();
+    require_no_period(*mesh, "edge_conflict()");
     const auto conflict = edge_conflict(*mesh, halfedge_id(*mesh, h), up_to);
     return conflict ? py::object(conflict_to_dict(*mesh, *conflict)) : py::none();
   });
   m.def("edges_that_must_be_split", [](const PyMesh& self, double up_to) {
     const auto mesh = self.read();
+    require_no_period(*mesh, "edges_that_must_be_split()");
     py::list list;
     for (const EdgeConflict& c : edges_that_must_be_split(*mesh, up_to)) list.append(conflict_to_dict(*mesh, c));
     return list;

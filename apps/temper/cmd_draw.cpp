@@ -126,10 +126,12 @@ void check_view(const DrawOptions& options, const Input& input) {
 
 void check_same_space(const Input& before, const Input& after) {
   if (before.mesh().space().kind() == after.mesh().space().kind()) return;
-  const bool sphere = !before.mesh().space().is_plane();
-  throw Failure(Exit::bad_input,
-                fmt::format("{}: is a mesh of the {}, but {} is one of the {}; expected two of a kind", before.path,
-                            sphere ? "sphere" : "plane", after.path, sphere ? "plane" : "sphere"));
+  const auto name = [](const Input& input) {
+    constexpr const char* kNames[] = {"the plane", "the sphere", "a periodic plane"};
+    return kNames[static_cast<std::size_t>(input.mesh().space().kind())];
+  };
+  throw Failure(Exit::bad_input, fmt::format("{}: is a mesh of {}, but {} is one of {}; expected two of a kind",
+                                             before.path, name(before), after.path, name(after)));
 }
 
 }  // namespace

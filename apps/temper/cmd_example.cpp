@@ -30,6 +30,8 @@ struct ExampleSettings {
   RegularPolygon polygon;
   Wedge wedge;
   GradedPoints graded;
+  RandomPeriodic random_periodic;
+  PeriodicHexagons periodic_hexagons;
 };
 
 using Range = std::array<double, 2>;
@@ -144,6 +146,31 @@ Expected<Mesh> make_random_sphere(ExampleSettings& s) {
   return random_sphere(s.random_sphere);
 }
 
+void add_random_periodic(Command& command, ExampleSettings& s) {
+  add_count(command, "--vertices", s.vertices, 16, "number of vertices");
+  add_count(command, "--seed", s.random_periodic.seed, 0, "the seed of the random points");
+  add_numbers(
+      command, "--period", "X,Y", 2,
+      [&s](const std::vector<double>& v) {
+        s.random_periodic.period = {v[0], v[1]};
+      },
+      "the periods along x and y")
+      .default_text = "1,1";
+}
+
+void add_periodic_hexagons(Command& command, ExampleSettings& s) {
+  add_count(command, "--nx", s.periodic_hexagons.nx, 3, "hexagons in a row");
+  add_count(command, "--ny", s.periodic_hexagons.ny, 2, "rows, an even number where the plane is periodic along y");
+  add_number(command, "--distance", s.periodic_hexagons.distance, kPositive, "the distance of neighbours");
+  command.add_flag("--channel", s.periodic_hexagons.channel,
+                   "no period along y: the first and the last row are shores");
+}
+
+Expected<Mesh> make_random_periodic(ExampleSettings& s) {
+  s.random_periodic.vertices = s.vertices;
+  return random_periodic(s.random_periodic);
+}
+
 double size_of_graded_sphere(const ExampleSettings& s, const Mesh& mesh, VertexId v) {
   return graded_sphere_size(s.graded_sphere, mesh.lifted_point(v));
 }
@@ -188,6 +215,10 @@ constexpr Generator kGenerators[] = {
      add_random_sphere, make_random_sphere},
     {"graded-sphere", "random points around the sphere, finer towards one place, with their sizes", add_graded_sphere,
      make_graded_sphere, size_of_graded_sphere},
+    {"random-periodic", "random points in a periodic plane, Delaunay: about half of the triangles are bad",
+     add_random_periodic, make_random_periodic},
+    {"periodic-hexagons", "rows of hexagons in a periodic plane or a channel", add_periodic_hexagons,
+     [](ExampleSettings& s) { return periodic_hexagons(s.periodic_hexagons); }},
 };
 
 void add_options(Command& command, ExampleSettings& s) {

@@ -56,7 +56,8 @@ void expect_plane(const Mesh& mesh, const std::string& path, std::string_view wh
   const auto error = temper::expect_plane(mesh, what);
   if (!error) return;
   throw Failure(Exit::bad_input,
-                fmt::format("{}: {}; --projection puts longitude and latitude on a map", path, error->message));
+                fmt::format("{}: {}{}", path, error->message,
+                            mesh.space().is_plane() ? "" : "; --projection puts longitude and latitude on a map"));
 }
 
 std::string same_projection(const Input& input, const std::string& projection) {

@@ -72,7 +72,7 @@ struct DecComplex {
   /// [1]: the transmissibility of a two-point flux between orthocenters, ℓ / (h_k + h_l), on the boundary ℓ / h_k; it
   /// has the sign of ★1, and is +∞ where that is 0.
   IdVector<EdgeId, double> flux;
-  IdVector<TriangleId, Vec2> orthocenters;  ///< the dual vertices of the plane
+  IdVector<TriangleId, Vec2> orthocenters;  ///< the dual vertices of the plane; of images that of `points(t)`
   IdVector<TriangleId, double> areas;       ///< of the triangles, > 0
   // On the sphere instead of midpoint and orthocenters, at its radius. Empty in the plane.
   IdVector<EdgeId, Vec3> sphere_midpoints;
@@ -126,6 +126,8 @@ struct PowerCells {
 ///   - In a well-centered mesh of any domain they are the polygons of orthocenters, whose areas are ★0.
 ///   - Where the domain is not convex, a cell does not jump over a crack, a notch or a hole.
 /// On the sphere that is so of its power diagram: the flat faces with the weights |P|² are divided, and seen from 0.
+/// In a periodic plane corners are where they are seen from the vertex, beyond the domain's edge where the cell is; a
+/// cell must be narrower than half a period.
 /// Precondition: no erased triangles, and `complex` is dec(mesh). O(n) where triangles are well-centered, and about ten
 /// microseconds for each that is not.
 [[nodiscard]] PowerCells power_cells(const Mesh& mesh, const DecComplex& complex);

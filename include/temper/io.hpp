@@ -55,6 +55,7 @@ struct MeshFile {
   std::vector<Vec2> points;                            ///< of the plane; or longitude and latitude [degrees]
   double sphere_radius = 0;                            ///< of the sphere that the points are on; 0: on none
   std::vector<Vec3> sphere_points;                     ///< where `points`, which are degrees then, are on that sphere
+  Vec2 period;                                         ///< of a periodic plane, along x and y; 0: none
   double z = 0;                                        ///< common z of all points of a plane, written back
   std::vector<double> weights;                         ///< empty, or one a point
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< 0-based

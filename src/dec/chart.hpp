@@ -1,4 +1,5 @@
-// A part of the mesh, seen as a plane near the origin. In the plane that is itself, moved; on the sphere it is another
+// A part of the mesh, seen as a plane near the origin. In the plane that is itself, moved, with the images nearest to
+// there; on the sphere it is another
 // plane, beside it, and places go there and back on rays from the center, so that great circles are straight lines.
 #pragma once
 
@@ -38,7 +39,7 @@ class Chart {
   /// distance to e with the weight |e|² + 2 O·(P − O), but for what all vertices share.
   [[nodiscard]] WeightedPoint of(const Mesh& mesh, VertexId v) const {
     if (mesh.space().is_plane()) {
-      const Vec2 at = mesh.position(v) - origin_;
+      const Vec2 at = mesh.point(v, origin_).position() - origin_.position();
       return {at.x, at.y, mesh.weight(v)};
     }
     const Vec3 from_origin = mesh.lifted_point(v) - lifted_origin_;
@@ -55,19 +56,20 @@ class Chart {
   [[nodiscard]] Vec3 ray(Vec2 at) const { return lifted_origin_ + at.x * e1_ + at.y * e2_; }
   /// A place of another plane in this one, around a vertex.
   [[nodiscard]] Vec2 moved(const Chart& from, Vec2 at) const {
-    return is_plane_ ? at + (from.origin_ - origin_) : of(from.ray(at));
+    if (!space_.is_plane()) return of(from.ray(at));
+    return at + (space_.image(from.origin_, origin_).position() - origin_.position());
   }
   /// Says whether a place of another plane is in this one: with room, since places go to infinity at a quarter turn.
   [[nodiscard]] bool has(const Chart& from, Vec2 at) const {
     constexpr double kLeastCosine = 0.02;
-    if (is_plane_) return true;
+    if (space_.is_plane()) return true;
     const Vec3 x = from.ray(at);
     return dot(lifted_origin_, x) > kLeastCosine * length(lifted_origin_) * length(x);
   }
 
  private:
-  Chart(const Mesh& mesh, VertexId v) : is_plane_(mesh.space().is_plane()) {
-    if (is_plane_) origin_ = mesh.position(v);
+  Chart(const Mesh& mesh, VertexId v) : space_(mesh.space()) {
+    if (space_.is_plane()) origin_ = mesh.point(v);
   }
   void turn(Vec3 along, Vec3 normal) {
     e1_ = (1 / length(along)) * along;
@@ -75,8 +77,8 @@ class Chart {
     e2_ = (1 / length(e2)) * e2;
   }
 
-  bool is_plane_ = true;
-  Vec2 origin_;
+  Space space_;
+  WeightedPoint origin_;
   Vec3 lifted_origin_, e1_, e2_;
 };
 

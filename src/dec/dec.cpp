@@ -101,18 +101,19 @@ void DecBuilder<Measures>::add_edge(HalfedgeId h) {
 
 template <class Measures>
 double DecBuilder<Measures>::height(HalfedgeId h, double length) const {
-  return measures_.height(measures_.point(mesh_.origin(h)), measures_.point(mesh_.target(h)),
-                          measures_.point(mesh_.opposite(h)), c_.areas[Mesh::triangle(h)], length);
+  const auto p = measures_.point(mesh_.origin(h));
+  return measures_.height(p, measures_.point(mesh_.target(h), p), measures_.point(mesh_.opposite(h), p),
+                          c_.areas[Mesh::triangle(h)], length);
 }
 
 template <class Measures>
 double DecBuilder<Measures>::star1(HalfedgeId left, HalfedgeId right, double length) const {
   const HalfedgeId h = left.valid() ? left : right;
-  const auto p = measures_.point(mesh_.origin(h)), q = measures_.point(mesh_.target(h));
-  const auto r = measures_.point(mesh_.opposite(h));
+  const auto p = measures_.point(mesh_.origin(h)), q = measures_.point(mesh_.target(h), p);
+  const auto r = measures_.point(mesh_.opposite(h), p);
   const double here = c_.areas[Mesh::triangle(h)];
   if (!left.valid() || !right.valid()) return measures_.end_ratio(p, q, r, here, length);
-  const auto s = measures_.point(mesh_.opposite(right));
+  const auto s = measures_.point(mesh_.opposite(right), p);
   return measures_.dual_ratio(p, q, r, s, {here, c_.areas[Mesh::triangle(right)]}, length);
 }
 

@@ -25,8 +25,9 @@ struct Fan {
 };
 
 double angle_at(const Mesh& mesh, VertexId v, VertexId a, VertexId b) {
-  return mesh.space().is_plane() ? corner_angle(mesh.position(v), mesh.position(a), mesh.position(b))
-                                 : corner_angle(mesh.lifted_point(v), mesh.lifted_point(a), mesh.lifted_point(b));
+  const auto [p, q, r] = mesh.points(v, a, b);
+  return mesh.space().is_plane() ? corner_angle(p.position(), q.position(), r.position())
+                                 : corner_angle(lifted(p), lifted(q), lifted(r));
 }
 
 Fan fan_of(const Mesh& mesh, VertexId v) {

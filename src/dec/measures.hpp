@@ -20,14 +20,15 @@ class PlaneMeasures {
   using Point = WeightedPoint;
   explicit PlaneMeasures(const Mesh& mesh) : mesh_(mesh) {}
   [[nodiscard]] Point point(VertexId v) const { return mesh_.point(v); }
+  [[nodiscard]] Point point(VertexId v, const Point& near) const { return mesh_.point(v, near); }
 
   void triangle(DecComplex& c, TriangleId t) const {
-    const auto [i, j, k] = mesh_.corners(t);
-    c.areas.push_back(0.5 * accurate::doubled_area(mesh_.position(i), mesh_.position(j), mesh_.position(k)));
-    c.orthocenters.push_back(orthocenter(point(i), point(j), point(k)));
+    const auto [p, q, r] = mesh_.points(t);
+    c.areas.push_back(0.5 * accurate::doubled_area(p.position(), q.position(), r.position()));
+    c.orthocenters.push_back(orthocenter(p, q, r));
   }
   void line(DecComplex& /*c*/, DecEdge& edge) const {
-    const WeightedPoint from = point(edge.from), to = point(edge.to);
+    const WeightedPoint from = point(edge.from), to = point(edge.to, from);
     const Vec2 along = to.position() - from.position();
     const double l2 = squared_length(along);
     const double lower = accurate::doubled_split(from, to), upper = accurate::doubled_split(to, from);
@@ -64,6 +65,7 @@ class SphereMeasures {
   using Point = Vec3;
   explicit SphereMeasures(const Mesh& mesh) : mesh_(mesh), radius_(mesh.space().radius()) {}
   [[nodiscard]] Point point(VertexId v) const { return mesh_.lifted_point(v); }
+  [[nodiscard]] Point point(VertexId v, const Point& /*near*/) const { return point(v); }
 
   void triangle(DecComplex& c, TriangleId t) const {
     const auto [i, j, k] = mesh_.corners(t);

@@ -26,13 +26,14 @@ constexpr double kOnePlace = 1e-14;
 constexpr double kInvisible = 0x1p-50;
 
 Sign split_sign(const Mesh& mesh, VertexId p, VertexId q) {
-  return mesh.space().is_plane() ? edge_split_sign(mesh.point(p), mesh.point(q))
-                                 : edge_split_sign(mesh.lifted_point(p), mesh.lifted_point(q));
+  const WeightedPoint from = mesh.point(p), to = mesh.point(q, from);
+  return mesh.space().is_plane() ? edge_split_sign(from, to) : edge_split_sign(lifted(from), lifted(to));
 }
 
 /// From vertex to vertex, on the sphere along an arc.
 double length_between(const Mesh& mesh, VertexId p, VertexId q) {
-  if (mesh.space().is_plane()) return length(mesh.position(q) - mesh.position(p));
+  const WeightedPoint from = mesh.point(p);
+  if (mesh.space().is_plane()) return length(mesh.point(q, from).position() - from.position());
   return mesh.space().radius() * arc_length(mesh.lifted_point(p), mesh.lifted_point(q));
 }
 
@@ -117,7 +118,7 @@ void CellBuilder::divide_all() {
 /// The weighted midpoint of the edge of h, at v.
 Vec2 CellBuilder::midpoint(VertexId v, HalfedgeId h, const Chart& chart) const {
   if (!mesh_.space().is_plane()) return chart.of(complex_.sphere_midpoints[complex_.edge_of_halfedge[h]]);
-  const WeightedPoint p = mesh_.point(v), q = mesh_.point(mesh_.origin(h) == v ? mesh_.target(h) : mesh_.origin(h));
+  const WeightedPoint p = mesh_.point(v), q = mesh_.point(mesh_.origin(h) == v ? mesh_.target(h) : mesh_.origin(h), p);
   const Vec2 along = q.position() - p.position();
   return (0.5 * accurate::doubled_split(p, q) / squared_length(along)) * along;
 }

@@ -57,8 +57,8 @@ DecSummary summarize(const Mesh& mesh, const DecComplex& complex) {
   for (const double a : complex.areas) s.area += a;
   for (const double a : complex.star0) s.star0_sum += a;
   for (const TriangleId t : mesh.triangles()) {
-    const auto [i, j, k] = mesh.corners(t);
-    s.not_well_centered += is_well_centered(mesh.space(), mesh.point(i), mesh.point(j), mesh.point(k)) ? 0 : 1;
+    const auto [p, q, r] = mesh.points(t);
+    s.not_well_centered += is_well_centered(mesh.space(), p, q, r) ? 0 : 1;
   }
   return s;
 }

@@ -16,7 +16,7 @@ constexpr double kTallest = 1.25;                  // … and at most; the mesh 
 constexpr double kStepsPerEdge = 100;              // grid steps on a median edge: its ends are then right to 1 %
 constexpr double kFinest = 1e-3, kCoarsest = 0.1;  // pixels per grid step
 
-/// Of what is seen; of what goes on behind the limb the whole disc.
+/// Of what is seen; of what goes on behind the limb the whole disc, along a period the domain.
 Box bounding_box(std::span<const Mesh* const> meshes, const View& view) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Box box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
@@ -28,6 +28,9 @@ Box bounding_box(std::span<const Mesh* const> meshes, const View& view) {
       box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
     }
   }
+  const Vec2 period = meshes.empty() ? Vec2{} : meshes.front()->space().period();
+  if (period.x > 0) box.low.x = 0, box.high.x = period.x;
+  if (period.y > 0) box.low.y = 0, box.high.y = period.y;
   return box.low.x <= box.high.x ? box : Box{{0, 0}, {1, 1}};
 }
 
@@ -58,7 +61,8 @@ double median_edge(std::span<const Mesh* const> meshes, const View& view, const 
   for (const Mesh* mesh : meshes) {
     for (HalfedgeId h : mesh->halfedges()) {
       if (!mesh->is_edge_representative(h)) continue;
-      const std::vector<Vec2> line = view.line(mesh->point(mesh->origin(h)), mesh->point(mesh->target(h)));
+      const WeightedPoint from = mesh->point(mesh->origin(h));
+      const std::vector<Vec2> line = view.line(from, mesh->point(mesh->target(h), from));
       if (line.empty()) continue;
       const Segment edge{line.front(), line.back()};
       if (clip(edge, box)) lengths.push_back(length(edge.to - edge.from));

@@ -17,6 +17,7 @@ constexpr double kPrimalWidth = 0.03, kLeastPrimal = 0.45, kMostPrimal = 1.2;
 constexpr double kDenseWidth = 0.2;  // where edges are close: bad triangles show through
 constexpr double kConstrainedTimes = 2.5;
 constexpr double kDualTimes = 0.9;
+constexpr double kPeriodWidth = 2;        // pixels
 constexpr double kNearCoincident = 0.05;  // of the mean of the other edges around: nothing to see between the two ends
 constexpr double kSeam = 0.3;             // pixels: hides the hairlines between filled neighbours
 constexpr double kSpot = 3;               // pixels added around bad triangles too small and too few to be seen
@@ -26,10 +27,28 @@ constexpr double kFontPerEdge = 0.22, kLeastFont = 3, kMostFont = 12;
 
 constexpr std::array<const char*, 6> kTints = {"#dceaf5", "#e6f1d9", "#efe2f0", "#f6efd6", "#dff0ee", "#ececec"};
 
+/// How far the images that a picture of the domain and its margin shows are from those of the mesh.
+std::vector<Vec2> shifts_of(const Space& space) {
+  const auto [x, y] = space.period();
+  std::vector<Vec2> shifts = {{0, 0}};
+  for (const double dx : {0.0, -x, x}) {
+    for (const double dy : {0.0, -y, y}) {
+      const Vec2 shift = {dx, dy};
+      if (std::find(shifts.begin(), shifts.end(), shift) == shifts.end()) shifts.push_back(shift);
+    }
+  }
+  return shifts;
+}
+
 class PanelPainter {
  public:
   PanelPainter(const Mesh& mesh, const PageFrame& frame, const DrawOptions& options, std::size_t number)
-      : mesh_(mesh), frame_(frame), options_(options), number_(number), detailed_(frame.shows_detail()) {}
+      : mesh_(mesh),
+        frame_(frame),
+        options_(options),
+        number_(number),
+        detailed_(frame.shows_detail()),
+        shifts_(shifts_of(mesh.space())) {}
 
   Panel paint() {
     panel_.triangles = mesh_.n_triangles();
@@ -43,6 +62,7 @@ class PanelPainter {
     if (options_.primal) draw_edges();
     if (options_.dual && detailed_) draw_dual();
     if (options_.weights && detailed_) draw_weights();
+    draw_periods();
     if (options_.near_coincident) ring_near_coincident();
     if (options_.vertex_numbers) number_vertices();
     return std::move(panel_);
@@ -53,32 +73,40 @@ class PanelPainter {
     return detailed_ ? std::clamp(kPrimalWidth * frame_.edge, kLeastPrimal, kMostPrimal) : kDenseWidth;
   }
   [[nodiscard]] double edge_length(HalfedgeId h) const {
-    const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h));
+    const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h), a);
     return mesh_.space().is_plane() ? length(b.position() - a.position()) : arc_length(lifted(a), lifted(b));
-  }
-  [[nodiscard]] std::array<WeightedPoint, 3> points(TriangleId t) const {
-    const auto v = mesh_.corners(t);
-    return {mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2])};
   }
 
   void add_line(PathText& path, const WeightedPoint& p, const WeightedPoint& q) const {
     const std::vector<Vec2> line = frame_.view.line(p, q);
-    for (std::size_t i = 1; i < line.size(); ++i) {
-      const auto seen = clip(Segment{line[i - 1], line[i]}, frame_.clip);
-      if (seen) path.segment(frame_.grid(seen->from), frame_.grid(seen->to));
+    for (const Vec2 shift : shifts_) {
+      for (std::size_t i = 1; i < line.size(); ++i) {
+        const auto seen = clip(Segment{shift + line[i - 1], shift + line[i]}, frame_.clip);
+        if (seen) path.segment(frame_.grid(seen->from), frame_.grid(seen->to));
+      }
     }
   }
+  /// Images where they meet the box.
   void add_circle(PathText& path, const WeightedPoint& p, double radius) const {
-    if (frame_.view.is_plane()) return path.circle(frame_.grid(p.position()), frame_.steps(radius * frame_.scale));
+    for (const Vec2 shift : shifts_) {
+      if (!frame_.view.is_plane() || !meets(shift + p.position(), radius, frame_.box)) continue;
+      path.circle(frame_.grid(shift + p.position()), frame_.steps(radius * frame_.scale));
+    }
+    if (frame_.view.is_plane() || !seen(p, radius)) return;
     const std::vector<WeightedPoint> around = frame_.view.circle(p, radius);
     for (std::size_t i = 0; i < around.size(); ++i) add_line(path, around[i], around[(i + 1) % around.size()]);
   }
   void add_triangle(PathText& path, TriangleId t) const {
-    const std::vector<Vec2> polygon = clip(frame_.view.polygon(points(t)), frame_.clip);
-    if (polygon.empty()) return;
-    path.move_to(frame_.grid(polygon[0]));
-    for (std::size_t i = 1; i < polygon.size(); ++i) path.line_to(frame_.grid(polygon[i]));
-    path.close();
+    const std::vector<Vec2> whole = frame_.view.polygon(mesh_.points(t));
+    for (const Vec2 shift : shifts_) {
+      std::vector<Vec2> polygon = whole;
+      for (Vec2& p : polygon) p = shift + p;
+      polygon = clip(std::move(polygon), frame_.clip);
+      if (polygon.empty()) continue;
+      path.move_to(frame_.grid(polygon[0]));
+      for (std::size_t i = 1; i < polygon.size(); ++i) path.line_to(frame_.grid(polygon[i]));
+      path.close();
+    }
   }
 
   void stroke(const PathText& path, const char* name, const char* color, double width, const char* more = "") {
@@ -113,13 +141,29 @@ class PanelPainter {
   void fill_bad_triangles() {
     PathText path;
     for (TriangleId t : mesh_.triangles()) {
-      const auto p = points(t);
+      const auto p = mesh_.points(t);
       if (is_well_centered(mesh_.space(), p[0], p[1], p[2])) continue;
       ++panel_.bad;
       if (options_.bad_triangles && !options_.colors) add_triangle(path, t);
     }
     const bool few = static_cast<double>(panel_.bad) < kFew * static_cast<double>(panel_.triangles);
     fill(path, "bad", detailed_ ? Palette::bad : Palette::bad_dense, few && !detailed_ ? kSpot : kSeam);
+  }
+
+  /// Where a period begins again.
+  void draw_periods() {
+    if (!mesh_.space().is_periodic()) return;
+    PathText path;
+    const auto [x, y] = mesh_.space().period();
+    const Box& box = frame_.clip;
+    const auto line = [&](Vec2 a, Vec2 b) { path.segment(frame_.grid(a), frame_.grid(b)); };
+    for (const double at : {0.0, x}) {
+      if (x > 0) line({at, y > 0 ? 0 : box.low.y}, {at, y > 0 ? y : box.high.y});
+    }
+    for (const double at : {0.0, y}) {
+      if (y > 0) line({x > 0 ? 0 : box.low.x, at}, {x > 0 ? x : box.high.x, at});
+    }
+    stroke(path, "period", Palette::primal_dense, kPeriodWidth, dashes(kPeriodWidth).c_str());
   }
 
   void draw_limb() {
@@ -136,7 +180,8 @@ class PanelPainter {
       if (!mesh_.is_edge_representative(h)) continue;
       const bool outline = mesh_.is_boundary(h) || mesh_.is_constrained(h);
       if (!outline && !frame_.shows_edges()) continue;
-      add_line(outline && options_.regions ? kept : plain, mesh_.point(mesh_.origin(h)), mesh_.point(mesh_.target(h)));
+      const WeightedPoint from = mesh_.point(mesh_.origin(h));
+      add_line(outline && options_.regions ? kept : plain, from, mesh_.point(mesh_.target(h), from));
     }
     stroke(plain, "primal", detailed_ ? Palette::primal : Palette::primal_dense, primal_width());
     stroke(kept, "constrained", Palette::primal, std::max(kConstrainedTimes * primal_width(), 0.8),
@@ -150,8 +195,10 @@ class PanelPainter {
     PathText path;
     for (HalfedgeId h : mesh_.halfedges()) {
       if (!mesh_.is_edge_representative(h)) continue;
-      const WeightedPoint to = mesh_.is_boundary(h) ? weighted_midpoint(h) : centers[Mesh::triangle(mesh_.twin(h))];
-      add_line(path, centers[Mesh::triangle(h)], to);
+      const TriangleId here = Mesh::triangle(h), there = Mesh::triangle(mesh_.twin(h));
+      const WeightedPoint near = mesh_.point(mesh_.origin(h));
+      add_line(path, beside(near, here, centers[here]),
+               mesh_.is_boundary(h) ? weighted_midpoint(h) : beside(near, there, centers[there]));
     }
     panel_.dual = !path.empty();
     stroke(path, "dual", Palette::dual, kDualTimes * primal_width());
@@ -159,13 +206,19 @@ class PanelPainter {
 
   /// Orthocenter and weighted midpoint, as points of the space.
   [[nodiscard]] WeightedPoint center(TriangleId t) const {
-    const auto [a, b, c] = points(t);
+    const auto [a, b, c] = mesh_.points(t);
     if (!mesh_.space().is_plane()) return as_point(orthocenter(lifted(a), lifted(b), lifted(c)));
     const Vec2 o = orthocenter(a, b, c);
     return {o.x, o.y, 0};
   }
+  /// The center of a triangle, of whose images the one is meant that has a corner near a point.
+  [[nodiscard]] WeightedPoint beside(const WeightedPoint& near, TriangleId t, const WeightedPoint& center) const {
+    if (!mesh_.space().is_periodic()) return center;
+    const WeightedPoint corner = mesh_.point(mesh_.corners(t)[0]), image = mesh_.space().image(corner, near);
+    return {center.x + (image.x - corner.x), center.y + (image.y - corner.y), center.w};
+  }
   [[nodiscard]] WeightedPoint weighted_midpoint(HalfedgeId h) const {
-    const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h));
+    const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h), a);
     if (!mesh_.space().is_plane()) {  // the foot of the perpendicular from the center
       const Vec3 p = lifted(a), along = lifted(b) - p;
       return as_point(p - (dot(p, along) / squared_length(along)) * along);
@@ -185,7 +238,7 @@ class PanelPainter {
     PathText positive, negative;
     for (VertexId v : mesh_.vertices()) {
       const double radius = std::sqrt(std::abs(mesh_.weight(v))) * options_.weight_scale;
-      if (radius == 0 || !std::isfinite(radius) || !seen(mesh_.point(v), radius)) continue;
+      if (radius == 0 || !std::isfinite(radius)) continue;
       add_circle(mesh_.weight(v) > 0 ? positive : negative, mesh_.point(v), radius);
     }
     panel_.positive = !positive.empty();
@@ -205,7 +258,7 @@ class PanelPainter {
     PathText path;
     for (HalfedgeId h : mesh_.halfedges()) {
       if (!mesh_.is_edge_representative(h) || !nearly_collapsed(h)) continue;
-      const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h));
+      const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h), a);
       if (const auto middle = seen({0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.w + b.w)})) {
         path.circle(frame_.grid(*middle), frame_.steps(kRingRadius));
       }
@@ -246,6 +299,7 @@ class PanelPainter {
   const DrawOptions& options_;
   std::size_t number_;
   bool detailed_;
+  std::vector<Vec2> shifts_;
   Panel panel_;
 };
 

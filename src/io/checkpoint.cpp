@@ -53,11 +53,11 @@ void visit_names(Archive& archive, MeshFile& file) {
 }
 
 void visit(Archive& archive, MeshFile& file) {
-  auto& [points, sphere_radius, sphere_points, z, weights, triangles, regions, lines, line_tags, marked_points,
+  auto& [points, sphere_radius, sphere_points, period, z, weights, triangles, regions, lines, line_tags, marked_points,
          point_tags, names, point_data, cell_data, line_data, marked_point_data, field_data, geographic,
          geographic_is_guessed, map, path, format, warnings, numbering] =
       file;  // map: put there by project(), after reading
-  archive(points, sphere_radius, sphere_points, z, weights, triangles, regions, lines, line_tags, marked_points,
+  archive(points, sphere_radius, sphere_points, period, z, weights, triangles, regions, lines, line_tags, marked_points,
           point_tags, names, point_data, cell_data, line_data, marked_point_data, field_data, geographic,
           geographic_is_guessed, path, format, warnings);
   visit_names(archive, file);

@@ -107,7 +107,11 @@ bool DataUpdater::is_same(TriangleId t) const {
 /// Of a vertex that was there: from its place in the file.
 double DataUpdater::distance_from_before(VertexId v) const {
   const std::size_t was = former(v).index;
-  if (mesh_.space().is_plane()) return length(mesh_.position(v) - file_.points[was]);
+  if (mesh_.space().is_plane()) {
+    const WeightedPoint now = mesh_.point(v), before = {file_.points[was].x, file_.points[was].y, 0};
+    if (mesh_.space().is_periodic() && mesh_.space().in_domain(before).position() == now.position()) return 0;
+    return length(mesh_.space().image(now, before).position() - before.position());
+  }
   const Vec3 before = file_.sphere_points[was], now = mesh_.lifted_point(v);
   if (mesh_.space().same_place(as_point(before), as_point(now))) return 0;
   return mesh_.space().radius() * std::atan2(length(cross(before, now)), dot(before, now));

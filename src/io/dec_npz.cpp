@@ -50,6 +50,8 @@ void add_mesh(NpzWriter& npz, const DecJob& job) {
   npz.add("triangles", corners, {mesh.n_triangles(), 3});
   npz.add("regions", regions);
   if (!mesh.space().is_plane()) npz.add("sphere_radius", std::vector<double>{mesh.space().radius()}, {});
+  const Vec2 period = mesh.space().period();
+  if (mesh.space().is_periodic()) npz.add("plane_period", std::vector<double>{period.x, period.y});
 }
 
 void add_edges(NpzWriter& npz, const DecComplex& c) {

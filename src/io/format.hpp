@@ -29,6 +29,7 @@ enum Content : unsigned {
   kMarkedPointData = 1u << 9,
   kFieldData = 1u << 10,
   kSphere = 1u << 11,  ///< points of a sphere, in three coordinates or in degrees
+  kPeriod = 1u << 12,  ///< periods of a plane
 };
 using Contents = unsigned;
 inline constexpr Contents kAllTags = kRegions | kLines | kMarkedPoints;
@@ -60,6 +61,9 @@ struct FormatRow {
   Degrees degrees = Degrees::as_they_came;
 };
 inline constexpr std::size_t kSniffBytes = 4096;
+[[nodiscard]] inline bool is_periodic(const MeshFile& file) { return !(file.period == Vec2{}); }
+/// The space that the points of a file are in.
+[[nodiscard]] Space space_of(const MeshFile& file);
 /// The row of that name, or null.
 [[nodiscard]] const FormatRow* find_row(std::string_view name);
 

@@ -85,9 +85,15 @@ class Chains {
 
   [[nodiscard]] double length_of(const Chain& chain) const {
     double sum = 0;
-    VertexId last = chain.a;
-    for (const VertexId v : chain.inside) sum += length(mesh_.position(v) - mesh_.position(std::exchange(last, v)));
-    return sum + length(mesh_.position(chain.b) - mesh_.position(last));
+    WeightedPoint last = mesh_.point(chain.a);
+    const auto add = [&](VertexId v) {
+      const WeightedPoint next = mesh_.point(v, last);
+      sum += length(next.position() - last.position());
+      last = next;
+    };
+    for (const VertexId v : chain.inside) add(v);
+    add(chain.b);
+    return sum;
   }
 
   const Mesh& mesh_;

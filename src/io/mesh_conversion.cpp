@@ -8,6 +8,7 @@
 
 #include "io/failure.hpp"
 #include "io/file_names.hpp"
+#include "io/format.hpp"
 #include "io/values.hpp"
 #include "temper/io.hpp"
 
@@ -182,7 +183,7 @@ Expected<BuiltMesh> MeshMaker::build(const std::vector<std::int32_t>& fixed) con
   input.regions = file_.regions;
   input.fixed_vertices = fixed;
   input.executor = executor_;
-  if (file_.sphere_radius > 0) input.space = Space::sphere(file_.sphere_radius);
+  input.space = space_of(file_);
   if (whole()) {
     const KeptNames kept(names(), {});
     input.points = file_.points;
@@ -281,7 +282,8 @@ bool is_corner(const Mesh& mesh, VertexId v) {
     const double turn = dot(p, cross(from, to)) / length(p);
     return dot(from, to) < 0 || std::abs(turn) > kCorner * length(from) * length(to);
   }
-  const Vec2 from = mesh.position(v) - mesh.position(before), to = mesh.position(after) - mesh.position(v);
+  const auto [p, a, b] = mesh.points(v, before, after);
+  const Vec2 from = p.position() - a.position(), to = b.position() - p.position();
   return dot(from, to) < 0 || std::abs(cross(from, to)) > kCorner * length(from) * length(to);
 }
 

@@ -11,6 +11,7 @@
 #include "io/data_update.hpp"
 #include "io/failure.hpp"
 #include "io/file_names.hpp"
+#include "io/format.hpp"
 #include "io/globe.hpp"
 #include "io/input.hpp"
 #include "io/line_cuts.hpp"
@@ -20,6 +21,25 @@
 
 namespace temper::io {
 namespace {
+
+/// Points of vertices that have not moved are the images that the file has; all others are in the domain.
+void copy_periodic(MeshFile& file, const Mesh& mesh, const Former& former) {
+  const Space& space = mesh.space();
+  if (!(space_of(file) == space)) file.period = space.period();  // rounded, they are the file's
+  std::vector<Vec2> points;
+  points.reserve(mesh.n_vertices());
+  file.weights.resize(mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) {
+    const std::size_t was = former.empty() ? v.index : former[v].valid() ? former[v].index : file.points.size();
+    points.push_back(mesh.position(v));
+    if (was < file.points.size()) {
+      const Vec2 before = file.points[was];
+      if (space.in_domain({before.x, before.y, 0}).position() == points.back()) points.back() = before;
+    }
+    file.weights[v.index] = mesh.weight(v);
+  }
+  file.points = std::move(points);
+}
 
 /// Copies what is on the mesh to arrays of its own vertices.
 void copy_plane(MeshFile& file, const Mesh& mesh) {
@@ -62,7 +82,9 @@ void copy_sphere(MeshFile& file, const Mesh& mesh, const Former& former) {
 }
 
 void copy_vertices(MeshFile& file, const Mesh& mesh, const Former& former) {
-  if (mesh.space().is_plane()) {
+  if (mesh.space().is_periodic()) {
+    copy_periodic(file, mesh, former);
+  } else if (mesh.space().is_plane()) {
     copy_plane(file, mesh);
   } else {
     copy_sphere(file, mesh, former);
@@ -134,7 +156,9 @@ void drop_unused_points(MeshFile& file, const VertexOfPoint& vertex_of_point) {
 /// The point that each vertex is at the place of.
 Former vertices_by_place(const std::vector<Vec2>& points, const Mesh& mesh) {
   std::unordered_map<Vec2, VertexId, PlaceHash> places;
-  for (std::size_t p = 0; p < points.size(); ++p) places.emplace(points[p], VertexId(p));
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    places.emplace(mesh.space().in_domain({points[p].x, points[p].y, 0}).position(), VertexId(p));
+  }
   Former former(mesh.n_vertices());
   for (const VertexId v : mesh.vertices()) {
     const auto found = places.find(mesh.position(v));
@@ -226,7 +250,7 @@ DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
 
 void release_geometry(MeshFile& file, const LoadedMesh& loaded) {
   if (file.points.size() != loaded.mesh.n_vertices()) return;
-  if (!file.point_data.empty() || !file.cell_data.empty() || file.sphere_radius > 0) return;
+  if (!file.point_data.empty() || !file.cell_data.empty() || file.sphere_radius > 0 || is_periodic(file)) return;
   std::vector<Vec2>().swap(file.points);  // assigning {} would keep the capacity
   std::vector<double>().swap(file.weights);
   std::vector<std::array<std::int32_t, 3>>().swap(file.triangles);

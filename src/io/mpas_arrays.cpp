@@ -68,7 +68,8 @@ void MpasBuilder::edges() {
 
 double MpasBuilder::angle(std::size_t edge, VertexId from, VertexId to) const {
   if (mesh_.space().is_plane()) {
-    const Vec2 along = mesh_.position(to) - mesh_.position(from);
+    const WeightedPoint p = mesh_.point(from), q = mesh_.point(to, p);
+    const Vec2 along = q.position() - p.position();
     return std::atan2(along.y, along.x);
   }
   const Vec3 at = complex_.sphere_midpoints[EdgeId(edge)];

@@ -1,9 +1,9 @@
-// MPAS meshes of the plane and of the sphere (MPAS Mesh Specification 1.0): cells are points, MPAS's vertices are
-// triangles.
+// MPAS meshes of the plane, which may be periodic, and of the sphere (MPAS Mesh Specification 1.0): cells are points,
+// MPAS's vertices are triangles.
 //
-// Read are xCell, yCell, zCell and cellsOnVertex; vertices of fewer than three cells, on a boundary, are no triangles.
-// The variable weight, of cells, is temper's own; so is cullCell, 1 for cells at the boundary, which MPAS-Tools' culler
-// removes.
+// Read are xCell, yCell, zCell and cellsOnVertex, and x_period and y_period where is_periodic is YES; vertices of fewer
+// than three cells, on a boundary, are no triangles. The variable weight, of cells, is temper's own; so is cullCell, 1
+// for cells at the boundary, which MPAS-Tools' culler removes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -59,8 +59,8 @@ class MpasReader {
 
   Document read() {
     document_.file.format = "mpas";
-    refuse_other_kinds();
     points();
+    periods();
     triangles();
     if (const NetcdfVariable* w = in_.find(kMpasWeight);
         w != nullptr && w->sizes.size() == 1 && w->scalar && !is_netcdf_extra(in_, *w)) {
@@ -82,10 +82,21 @@ class MpasReader {
     return value.starts_with("YES") || value.starts_with("yes");
   }
 
-  void refuse_other_kinds() const {
+  /// Along an axis without a period its attribute is 0.
+  void periods() {
     if (!says_yes("is_periodic")) return;
+    const auto period = [&](const char* name) {
+      const auto length = in_.number_attribute(nullptr, name);
+      if (length && *length >= 0 && std::isfinite(*length)) return *length;
+      fail(ErrorCode::out_of_scale, document_.names->path,
+           text("attribute is_periodic is YES, and ", name, " is ", length ? text(*length) : "not there",
+                "; expected the length of the period, or 0"));
+    };
+    document_.file.period = {period("x_period"), period("y_period")};
+    if (document_.file.sphere_radius == 0 && is_periodic(document_.file)) return;
     fail(ErrorCode::unsupported, document_.names->path,
-         "is a periodic MPAS mesh; temper reads meshes that end at their boundary");
+         document_.file.sphere_radius > 0 ? "attributes on_a_sphere and is_periodic are YES; expected one of them"
+                                          : "attribute is_periodic is YES, but x_period and y_period are 0");
   }
 
   std::vector<double> coordinates(const char* name) const {
@@ -240,6 +251,12 @@ MpasPlaces in_plane(const NetcdfMesh& m, const std::vector<Vec2>& points) {
   return places;
 }
 
+/// Where they are in the domain of a periodic plane; in the plane itself where they are.
+std::vector<Vec2> in_domain(const NetcdfMesh& m, std::vector<Vec2> points) {
+  for (Vec2& p : points) p = m.mesh.space().in_domain({p.x, p.y, 0}).position();
+  return points;
+}
+
 MpasPlaces mpas_cells(const NetcdfMesh& m) {
   return m.file.sphere_radius > 0 ? on_sphere(m.file.sphere_points) : in_plane(m, m.file.points);
 }
@@ -247,11 +264,11 @@ MpasPlaces mpas_edges(const NetcdfMesh& m) {
   if (m.file.sphere_radius > 0) return on_sphere(m.complex.sphere_midpoints.raw());
   std::vector<Vec2> midpoints;
   for (const DecEdge& edge : m.complex.edges) midpoints.push_back(edge.midpoint);
-  return in_plane(m, midpoints);
+  return in_plane(m, in_domain(m, std::move(midpoints)));
 }
 MpasPlaces mpas_vertices(const NetcdfMesh& m) {
   return m.file.sphere_radius > 0 ? on_sphere(m.complex.sphere_orthocenters.raw())
-                                  : in_plane(m, m.complex.orthocenters.raw());
+                                  : in_plane(m, in_domain(m, m.complex.orthocenters.raw()));
 }
 
 /// x, y and z of cells, edges or vertices, latitudes and longitudes, and their numbers.
@@ -352,7 +369,11 @@ void write_mpas(const WriteJob& job) {
   out.attribute(NetcdfWriter::kFile, "mesh_spec", "1.0");
   out.attribute(NetcdfWriter::kFile, "on_a_sphere", radius > 0 ? "YES" : "NO");
   out.attribute(NetcdfWriter::kFile, "sphere_radius", radius);
-  out.attribute(NetcdfWriter::kFile, "is_periodic", "NO");
+  out.attribute(NetcdfWriter::kFile, "is_periodic", is_periodic(m.file) ? "YES" : "NO");
+  if (is_periodic(m.file)) {
+    out.attribute(NetcdfWriter::kFile, "x_period", m.file.period.x);
+    out.attribute(NetcdfWriter::kFile, "y_period", m.file.period.y);
+  }
   out.attribute(NetcdfWriter::kFile, "source", "temper");
   write_mpas_places(out, "Cell", cells, mpas_cells(m));
   write_mpas_places(out, "Edge", edges, mpas_edges(m));

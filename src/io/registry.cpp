@@ -78,7 +78,8 @@ namespace {
 
 // Of two rows that recognise a file, or have its suffix, the first is taken.
 constexpr FormatRow kRows[] = {
-    {"vtu", "VTK XML unstructured grid, temper's own", ".vtu", kAll | kSphere, sniff_vtu, read_vtu, write_vtu},
+    {"vtu", "VTK XML unstructured grid, temper's own", ".vtu", kAll | kSphere | kPeriod, sniff_vtu, read_vtu,
+     write_vtu},
     {"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", (kAll & ~kFieldData) | kSphere, sniff_gmsh41, read_gmsh, write_gmsh41,
      nullptr, nullptr, 1, "\""},
     {"gmsh22", "Gmsh MSH 2.2", ".msh2", (kAll & ~kFieldData) | kSphere, sniff_gmsh22, read_gmsh, write_gmsh22, nullptr,
@@ -100,8 +101,8 @@ constexpr FormatRow kRows[] = {
      read_fesom, write_fesom, fesom_keeps, fesom_files, 1, "", Degrees::always},
     {"triangle", "Triangle", ".node .ele", kAll & ~(kLineData | kMarkedPointData | kFieldData), sniff_triangle,
      read_triangle, write_triangle, nullptr, triangle_files},
-    {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll | kSphere, sniff_mpas, read_mpas, write_mpas, nullptr, netcdf_files,
-     1, "", Degrees::by_writer},
+    {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll | kSphere | kPeriod, sniff_mpas, read_mpas, write_mpas, nullptr,
+     netcdf_files, 1, "", Degrees::by_writer},
     {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll | kSphere, sniff_ugrid, read_ugrid, write_ugrid, nullptr,
      netcdf_files, 1, "", Degrees::by_writer},
 };
@@ -226,6 +227,7 @@ void check_sizes(const std::string& path, const MeshFile& f) {
   const auto insist = [&](bool good, std::string_view what) {
     if (!good) fail(ErrorCode::size_mismatch, path, text("the mesh to be written has ", what));
   };
+  insist(!is_periodic(f) || f.sphere_radius == 0, "periods and the radius of a sphere");
   insist(f.sphere_radius == 0 || f.sphere_points.size() == f.points.size(),
          "another number of places on the sphere than of points");
   insist(f.weights.empty() || f.weights.size() == f.points.size(), "another number of weights than of points");
@@ -292,6 +294,11 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
            text("points are on a sphere, which ", row.description, " is not written with; expected one of ",
                 names_with(kSphere)));
     }
+    if (is_periodic(file) && (row.holds & kPeriod) == 0) {
+      fail(ErrorCode::unsupported, path,
+           text("the plane is periodic, which ", row.description, " has no place for; expected one of ",
+                names_with(kPeriod)));
+    }
     std::vector<std::string> warnings;
     OutputSet outputs;
     const bool turned = goes_back_to_degrees(row, file);
@@ -348,6 +355,11 @@ Expected<void> write_text(const std::string& path, std::string_view content) {
   } catch (Failure& failure) {
     return std::move(failure.error);
   }
+}
+
+Space space_of(const MeshFile& file) {
+  if (is_periodic(file)) return Space::periodic(file.period);
+  return file.sphere_radius > 0 ? Space::sphere(file.sphere_radius) : Space();
 }
 
 bool is_flat(const MeshFile& file) { return file.sphere_radius == 0 && file.z == 0 && !std::signbit(file.z); }

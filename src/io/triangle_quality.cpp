@@ -27,12 +27,12 @@ float as_float(double value) {
 /// Measures the triangles of a file, which may be clockwise there.
 class Measurer {
  public:
-  explicit Measurer(const MeshFile& file)
-      : file_(file), space_(file.sphere_radius > 0 ? Space::sphere(file.sphere_radius) : Space()) {}
+  explicit Measurer(const MeshFile& file) : file_(file), space_(space_of(file)) {}
 
   [[nodiscard]] TriangleQuality measure(std::size_t triangle) const {
     std::array<WeightedPoint, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = vertex(static_cast<std::size_t>(file_.triangles[triangle][k]));
+    for (WeightedPoint& p : corners) p = space_.image(p, corners[0]);
     if (orientation(corners) == Sign::negative) std::swap(corners[1], corners[2]);
     return triangle_quality(space_, corners);
   }

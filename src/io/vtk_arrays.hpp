@@ -35,6 +35,9 @@ template <class T, class F>
           }};
 }
 
+/// Field data of VTU: the periods of a plane along x and y.
+inline constexpr std::string_view kPlanePeriod = "plane_period";
+
 inline constexpr std::size_t kVtkBlockBytes = std::size_t{1} << 18;  ///< of an array, made at a time
 /// The values as text, a tuple a line.
 void put_ascii(Output& out, const VtkArray& array);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <pugixml.hpp>
@@ -14,6 +15,7 @@
 #include "io/format.hpp"
 #include "io/scanner.hpp"
 #include "io/triangle_quality.hpp"
+#include "io/vtk_arrays.hpp"
 #include "io/vtu_codec.hpp"
 
 namespace temper::io {
@@ -61,6 +63,7 @@ class VtuReader {
   void read_cells(const pugi::xml_node& piece);
   void read_point_data(const pugi::xml_node& piece);
   void read_field_data(const pugi::xml_node& grid);
+  void read_period(DataArray&& field);
 
   DataArray array(const pugi::xml_node& node);
   std::vector<DataArray> arrays(const pugi::xml_node& parent, std::size_t tuples, std::string_view kind);
@@ -101,6 +104,10 @@ Document VtuReader::read() {
   read_cells(piece);
   read_point_data(piece);
   take_physical_names(document_);
+  if (is_periodic(document_.file) && document_.file.sphere_radius > 0) {
+    fail(ErrorCode::unsupported, source_.path,
+         text("has field data ", in_quotes(kPlanePeriod), " and points on a sphere; expected points of a plane"));
+  }
   return std::move(document_);
 }
 
@@ -384,8 +391,24 @@ void VtuReader::read_field_data(const pugi::xml_node& grid) {
           text(source_.path, ": field data ", in_quotes(node.attribute("Name").value()), " is text and is dropped"));
       continue;
     }
-    document_.file.field_data.push_back(array(node));
+    DataArray field = array(node);
+    if (field.name == kPlanePeriod) {
+      read_period(std::move(field));
+    } else {
+      document_.file.field_data.push_back(std::move(field));
+    }
   }
+}
+
+void VtuReader::read_period(DataArray&& field) {
+  const std::vector<double> lengths = to_doubles(std::move(field.values));
+  const auto is_length = [](double x) { return x >= 0 && std::isfinite(x); };
+  if (lengths.size() != 2 || !std::all_of(lengths.begin(), lengths.end(), is_length)) {
+    fail(ErrorCode::out_of_scale, source_.path,
+         text("field data ", in_quotes(kPlanePeriod),
+              " is not two lengths; expected the periods along x and y, 0 where there is none"));
+  }
+  document_.file.period = {lengths[0], lengths[1]};
 }
 
 }  // namespace

@@ -129,7 +129,8 @@ TEST_F(Example, ListNamesEveryExampleAndEachCanBeMade) {
   const std::string list = temper_ok({"example", "--list"}).out;
   int made = 0;
   for (const char* name : {"sparse-horseshoe", "horseshoe", "triangle", "random", "sheared-grid", "annulus", "airfoil",
-                           "polygon", "letter-a", "wedge", "graded", "icosahedral", "random-sphere", "graded-sphere"}) {
+                           "polygon", "letter-a", "wedge", "graded", "icosahedral", "random-sphere", "graded-sphere",
+                           "random-periodic", "periodic-hexagons"}) {
     EXPECT_TRUE(contains(list, name));
     temper_ok({"example", name, "-o", "a.vtu"});
     EXPECT_EQ(temper({"check", "a.vtu", "--require", "inverted=0"}).exit, 0) << name;
@@ -145,6 +146,31 @@ TEST_F(Example, ParametersArriveAndOptionsMayComeFirst) {
   EXPECT_EQ(temper({"check", "h.vtu", "--require", "vertices=63,triangles=96"}).exit, 0);
   temper_ok({"example", "random", "--vertices", "200", "--polygon", "0,0,2,0,2,1,0,1", "-o", "r.vtu"});
   EXPECT_EQ(temper({"check", "r.vtu", "--require", "vertices=200,regions=1"}).exit, 0);
+}
+
+TEST_F(Example, PeriodicPlanesGoThroughTheVerbsThatTakeThem) {
+  temper_ok({"example", "random-periodic", "--vertices", "200", "--period", "2,1", "-o", "in.vtu"});
+  temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--draw", "both.svg", "--quiet"});
+  EXPECT_EQ(temper({"check", "out.vtu", "--require", "well_centered_fraction=1,boundary_edges=0"}).exit, 0);
+  EXPECT_TRUE(contains(read("both.svg"), "class=\"period\""));
+  temper_ok({"optimize", "in.vtu", "-o", "traced.vtu", "--trace", "t.jsonl", "--quiet"});
+  temper_ok({"replay", "in.vtu", "t.jsonl", "-o", "again.vtu"});
+  EXPECT_EQ(read("again.vtu"), read("traced.vtu"));
+  temper_ok({"dec", "out.vtu", "-o", "dec"});
+  temper_ok({"convert", "out.vtu", "-o", "out.mpas.nc"});
+  EXPECT_EQ(temper({"check", "out.mpas.nc", "--require", "well_centered_fraction=1,boundary_edges=0"}).exit, 0);
+  const Outcome off = temper({"convert", "out.vtu", "-o", "out.off"});
+  EXPECT_EQ(off.exit, 1);
+  EXPECT_TRUE(contains(off.err, "the plane is periodic, which OFF has no place for; expected one of vtu, mpas"));
+  EXPECT_FALSE(exists("out.off"));
+  using Words = std::vector<std::string>;
+  for (const Words& words : {Words{"explain", "in.vtu"}, Words{"weights", "in.vtu", "-o", "w.vtu"},
+                             Words{"optimize", "in.vtu", "-o", "w.vtu", "--html", "w.html"}}) {
+    const Outcome refused = temper(words);
+    EXPECT_EQ(refused.exit, 1);
+    EXPECT_TRUE(contains(refused.err, "the mesh is one of a periodic plane, and ")) << refused.err;
+    EXPECT_FALSE(exists("w.vtu"));
+  }
 }
 
 TEST_F(Example, ParametersThatMakeNoMeshAreNamed) {

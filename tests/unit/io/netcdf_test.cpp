@@ -138,13 +138,31 @@ std::vector<MeshFile> globes() {
   return files;
 }
 
+/// Meshes of planes with two periods and with one, with random weights.
+std::vector<MeshFile> periodic_files() {
+  std::vector<MeshFile> files;
+  for (const bool channel : {false, true}) {
+    Mesh mesh = *periodic_hexagons({.nx = 6, .ny = 4, .distance = 0.5, .channel = channel});
+    test::Noise noise(4);
+    for (const VertexId v : mesh.vertices()) {
+      const WeightedPoint p = mesh.point(v);
+      const double dx = 0.05 * noise(), dy = 0.05 * noise();
+      mesh.set_point(v, mesh.space().in_domain({p.x + dx, p.y + dy, 0.02 * noise()}));
+    }
+    EXPECT_FALSE(mesh.validate());
+    files.push_back(from_mesh(mesh));
+  }
+  return files;
+}
+
 class NetcdfFormats : public FileTest {
  protected:
-  /// Writes a planar mesh and spherical ones in turn, and looks at each.
+  /// Writes planar, periodic and spherical meshes in turn, and looks at each.
   template <class Look>
   void for_mpas_files(const Look& look) const {
     std::vector<MeshFile> files = globes();
     files.push_back(bent_lattice());
+    for (MeshFile& f : periodic_files()) files.push_back(std::move(f));
     for (const MeshFile& f : files) {
       const auto warnings = write(path("m.mpas.nc"), f);
       ASSERT_TRUE(warnings) << warnings.error().what();
@@ -335,6 +353,127 @@ TEST_F(NetcdfFormats, mpas_edges_of_the_sphere_cross_at_right_angles_and_know_th
       EXPECT_NEAR(length((1 / length(normal)) * normal - turned), 0, 1e-13);
     }
   }
+}
+
+TEST_F(NetcdfFormats, mpas_edges_of_periodic_planes_cross_at_right_angles_and_as_images) {
+  for (const MeshFile& f : periodic_files()) {
+    ASSERT_TRUE(write(path("m.mpas.nc"), f));
+    const Nc nc = Nc::open(path("m.mpas.nc"));
+    EXPECT_EQ(nc.text(nullptr, "is_periodic"), "YES");
+    EXPECT_EQ(nc.text(nullptr, "on_a_sphere"), "NO");
+    const auto places = [&](const std::string& what) {
+      const auto x = nc.get<double>(("x" + what).c_str()), y = nc.get<double>(("y" + what).c_str());
+      std::vector<Vec2> all;
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        all.push_back({x[i], y[i]});
+        EXPECT_TRUE(x[i] >= 0 && x[i] < f.period.x);
+        EXPECT_TRUE(f.period.y == 0 || (y[i] >= 0 && y[i] < f.period.y));
+      }
+      return all;
+    };
+    const auto to = [&](Vec2 from, Vec2 there) {  // the shortest way
+      Vec2 way = there - from;
+      way.x -= f.period.x * std::round(way.x / f.period.x);
+      if (f.period.y > 0) way.y -= f.period.y * std::round(way.y / f.period.y);
+      return way;
+    };
+    const auto cell = places("Cell"), edge = places("Edge"), vertex = places("Vertex");
+    const auto cells = nc.get<std::int32_t>("cellsOnEdge"), vertices = nc.get<std::int32_t>("verticesOnEdge");
+    const auto dc = nc.get<double>("dcEdge"), dv = nc.get<double>("dvEdge"), angle = nc.get<double>("angleEdge");
+    for (std::size_t e = 0; e < edge.size(); ++e) {
+      const auto of = [e](const std::vector<Vec2>& all, const std::vector<std::int32_t>& numbers, std::size_t k) {
+        return all[static_cast<std::size_t>(numbers[2 * e + k] - 1)];
+      };
+      const Vec2 start = of(vertex, vertices, 0), along = to(of(cell, cells, 0), of(cell, cells, 1));
+      const Vec2 across = to(start, vertices[2 * e + 1] > 0 ? of(vertex, vertices, 1) : edge[e]);
+      EXPECT_NEAR(length(along), dc[e], 1e-14);
+      EXPECT_NEAR(length(across), dv[e], 1e-13);
+      EXPECT_NEAR(dot(along, across), 0, 1e-13);
+      EXPECT_GT(cross(along, across), 0);
+      EXPECT_NEAR(cross(along, to(of(cell, cells, 0), edge[e])), 0, 1e-13) << "on the line of the cells";
+      EXPECT_NEAR(dot(along, to(start, edge[e])), 0, 1e-13) << "on the line of the vertices";
+      EXPECT_NEAR(std::cos(angle[e]) * dc[e], along.x, 1e-13);
+      EXPECT_NEAR(std::sin(angle[e]) * dc[e], along.y, 1e-13);
+    }
+  }
+}
+
+TEST_F(NetcdfFormats, mpas_of_periodic_planes_is_read_back_bit_for_bit) {
+  for (MeshFile f : periodic_files()) {
+    // Others have periods of all bits, and points on the far side of the domain.
+    f.period.x = std::nextafter(f.period.x, 10);
+    f.points[3].x = f.points[3].x - f.period.x;
+    ASSERT_TRUE(write(path("m.mpas.nc"), f));
+    const auto back = read(path("m.mpas.nc"));
+    ASSERT_TRUE(back) << back.error().what();
+    EXPECT_EQ(back->period, f.period);
+    EXPECT_TRUE(same_bits(back->weights, f.weights));
+    EXPECT_EQ(back->triangles, f.triangles);
+    ASSERT_TRUE(write(path("again.mpas.nc"), *back));
+    EXPECT_EQ(slurp(path("again.mpas.nc")), slurp(path("m.mpas.nc")));
+    const auto made = make_mesh(*back);
+    ASSERT_TRUE(made) << made.error().what();
+    EXPECT_EQ(made->mesh.space(), Space::periodic(f.period));
+  }
+}
+
+// The numbers that MPAS-Tools' planar_hex gives such meshes.
+TEST_F(NetcdfFormats, mpas_of_hexagons_is_that_of_planar_hex) {
+  constexpr double kDistance = 1000;
+  const auto mesh = periodic_hexagons({.nx = 10, .ny = 8, .distance = kDistance});
+  write_ok("m.mpas.nc", from_mesh(*mesh));
+  const Nc nc = Nc::open(path("m.mpas.nc"));
+  const auto expect_all = [&](const char* name, double value) {
+    for (const double x : nc.get<double>(name)) EXPECT_NEAR(x / value, 1, 1e-12) << name;
+  };
+  const double root3 = std::sqrt(3.0), square = kDistance * kDistance;
+  expect_all("dcEdge", kDistance);
+  expect_all("dvEdge", kDistance / root3);
+  expect_all("areaCell", root3 / 2 * square);
+  expect_all("areaTriangle", root3 / 4 * square);
+  expect_all("kiteAreasOnVertex", root3 / 12 * square);
+  EXPECT_EQ(nc.dimension("nEdges"), 240U);
+  EXPECT_EQ(nc.dimension("maxEdges"), 6U);
+  for (const std::int32_t n : nc.get<std::int32_t>("nEdgesOnEdge")) EXPECT_EQ(n, 10);
+  for (const double w : nc.get<double>("weightsOnEdge")) {  // a third, a sixth or none of 1/√3, either sign
+    const double sixths = 6 * root3 * std::abs(w);
+    EXPECT_NEAR(sixths, std::round(sixths), 1e-12);
+    EXPECT_LE(sixths, 2 + 1e-12);
+  }
+}
+
+TEST_F(NetcdfFormats, what_a_file_says_of_periods_must_be_so_and_other_formats_have_no_place_for_them) {
+  const MeshFile f = periodic_files().front();
+  for (const char* name : {"m.vtk", "m.ugrid.nc", "m.off", "m.obj"}) {
+    const auto refused = write(path(name), f);
+    ASSERT_FALSE(refused) << name;
+    EXPECT_NE(refused.error().message.find("the plane is periodic"), std::string::npos) << refused.error().message;
+    EXPECT_FALSE(std::filesystem::exists(path(name)));
+  }
+  const auto message = [&](std::optional<double> x, std::optional<double> y, const char* sphere = "NO") {
+    {
+      Nc nc = Nc::create(path("o.nc"));
+      const int cells = nc.add_dimension("nCells", 3), vertices = nc.add_dimension("nVertices", 1),
+                degree = nc.add_dimension("vertexDegree", 3);
+      nc.say(NC_GLOBAL, "on_a_sphere", sphere);
+      nc.say(NC_GLOBAL, "is_periodic", "YES");
+      if (x) nc.say(NC_GLOBAL, "x_period", *x);
+      if (y) nc.say(NC_GLOBAL, "y_period", *y);
+      nc.add<double>("xCell", {cells}, {1, 0, 0});
+      nc.add<double>("yCell", {cells}, {0, 1, 0});
+      nc.add<double>("zCell", {cells}, {0, 0, *sphere == 'Y' ? 1.0 : 0.0});
+      nc.add<std::int32_t>("cellsOnVertex", {vertices, degree}, {1, 2, 3});
+    }
+    const auto read_back = read(path("o.nc"));
+    return read_back ? std::string() : read_back.error().message;
+  };
+  EXPECT_EQ(message(5, 6), "");
+  EXPECT_EQ(message(5, {}),
+            "attribute is_periodic is YES, and y_period is not there; expected the length of the period, or 0");
+  EXPECT_EQ(message(-5, 6),
+            "attribute is_periodic is YES, and x_period is -5; expected the length of the period, or 0");
+  EXPECT_EQ(message(0, 0), "attribute is_periodic is YES, but x_period and y_period are 0");
+  EXPECT_EQ(message(5, 6, "YES"), "attributes on_a_sphere and is_periodic are YES; expected one of them");
 }
 
 TEST_F(NetcdfFormats, mpas_of_the_sphere_is_read_back_bit_for_bit) {

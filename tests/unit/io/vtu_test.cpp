@@ -295,5 +295,32 @@ TEST_F(FileTest, vtu_that_cannot_be_written_leaves_what_was_there) {
   }
 }
 
+using VtuPeriod = FileTest;
+
+TEST_F(VtuPeriod, period_and_points_come_back_bit_for_bit) {
+  MeshFile f = from_mesh(*random_periodic({.vertices = 400, .period = {0.7, 3.1}}));
+  f.points[5].x -= f.period.x;
+  for (const Encoding encoding : {Encoding::ascii, Encoding::base64, Encoding::appended}) {
+    const auto warnings = write(path("a.vtu"), f, {.format = "vtu", .encoding = encoding});
+    ASSERT_TRUE(warnings) << warnings.error().what();
+    EXPECT_TRUE(warnings->empty());
+    const auto back = read(path("a.vtu"));
+    ASSERT_TRUE(back) << back.error().what();
+    EXPECT_EQ(back->period, f.period);
+    EXPECT_EQ(back->points, f.points);
+    EXPECT_TRUE(back->field_data.empty());
+  }
+  std::string text = slurp(path("a.vtu"));
+  EXPECT_NE(text.find("plane_period"), std::string::npos);
+  ASSERT_TRUE(write(path("b.vtu"), f, {.format = "vtu", .encoding = Encoding::ascii}));
+  text = slurp(path("b.vtu"));
+  text.replace(text.find("0.", text.find("plane_period")), 2, "-1");
+  make("b.vtu", text);
+  const auto bad = read(path("b.vtu"));
+  ASSERT_FALSE(bad);
+  EXPECT_NE(bad.error().message.find("field data 'plane_period' is not two lengths"), std::string::npos)
+      << bad.error().message;
+}
+
 }  // namespace
 }  // namespace temper::io
