@@ -36,6 +36,9 @@ std::string field_names() {
   text += "; on the sphere";
   for (const VerifyField& field : verify_fields(SpaceKind::sphere))
     text += (text.ends_with("sphere") ? " " : ", ") + std::string(field.name);
+  text += "; in a periodic plane";
+  for (const VerifyField& field : verify_fields(SpaceKind::periodic_plane))
+    text += (text.ends_with("plane") ? " " : ", ") + std::string(field.name);
   return text;
 }
 
@@ -71,10 +74,12 @@ void add_options(Command& command, VerifySettings& s) {
 void check_fields(const VerifyOptions& options) {
   Mesh none;
   const auto report = verify(none, options);
-  none.set_space(Space::sphere(1));
-  const auto on_sphere = verify(none, options);
-  const auto unknown = [](const auto& tried) { return !tried && tried.error().code == ErrorCode::invalid_option; };
-  if (unknown(report) && unknown(on_sphere)) {
+  const auto unknown = [&](const Space& space) {
+    none.set_space(space);
+    const auto tried = verify(none, options);
+    return !tried && tried.error().code == ErrorCode::invalid_option;
+  };
+  if (unknown(Space()) && unknown(Space::sphere(1)) && unknown(Space::periodic({1, 1}))) {
     throw Failure(Exit::bad_usage, "--fields: " + report.error().message + "\nSee temper verify --help");
   }
 }

@@ -6,8 +6,8 @@
 //   flux     −Δu = f by finite volumes, unknowns at the orthocenters:  Σ T (u_k − u_l) = ∫ f,  T = ℓ / (h_k + h_l)
 //
 // All errors are relative and have no unit: the fields are scaled with the domain's bounding box. On the sphere they
-// are spherical harmonics about turned axes, edges and dual edges are arcs, and on a closed mesh, where both problems
-// leave a constant free, the mean of the error is 0.
+// are spherical harmonics about turned axes, edges and dual edges are arcs; in a periodic plane they are Fourier modes.
+// On a closed mesh, where both problems leave a constant free, the mean of the error is 0.
 #pragma once
 
 #include <array>
@@ -41,7 +41,9 @@ enum class FieldGroup {
 struct VerifyField {
   std::string_view name;
   FieldGroup group;
-  std::string_view formula;  ///< in x and y of the frame; on the sphere in x, y and z of a turned unit vector
+  /// In x and y of the frame; on the sphere in x, y and z of a turned unit vector; in a periodic plane in what grows by
+  /// 2π along the periods.
+  std::string_view formula;
 };
 [[nodiscard]] std::span<const VerifyField> verify_fields(SpaceKind space = SpaceKind::plane);
 
@@ -51,7 +53,8 @@ struct VerifyFrame {
   double half_size = 1;  ///< > 0 [length]
   friend bool operator==(const VerifyFrame&, const VerifyFrame&) = default;
 };
-/// Around the bounding box of the vertices: its longer side goes from −1 to 1. On the sphere its radius.
+/// Around the bounding box of the vertices: its longer side goes from −1 to 1. On the sphere its radius; along a period
+/// the domain.
 [[nodiscard]] VerifyFrame verify_frame(const Mesh& mesh);
 
 struct VerifyOptions {

@@ -24,8 +24,8 @@ PathMean mean_along_segment(const Field& field, Vec2 a, Vec2 b) {
 }
 
 EdgeMeans means_in_plane(const Setting& s, const Field& field, const DecEdge& edge) {
-  const Vec2 from = s.in_frame(s.mesh.position(edge.from)), to = s.in_frame(s.mesh.position(edge.to)),
-             middle = s.in_frame(edge.midpoint);
+  const WeightedPoint p = s.mesh.point(edge.from), q = s.mesh.point(edge.to, p);
+  const Vec2 from = s.in_frame(p.position()), to = s.in_frame(q.position()), middle = s.in_frame(edge.midpoint);
   // The dual edge is straight: it runs along the normal from one orthocenter to the other, also where it runs back.
   const Vec2 normal = turned_left(direction(s, edge));
   const Vec2 right = middle - s.length_in_frame(edge.right_height) * normal;

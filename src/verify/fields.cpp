@@ -161,14 +161,61 @@ constexpr std::array<Field, 8> kSphereFields = {{
     {{"mixed", FieldGroup::held_back, "x + z/2 + axial + octants + petals"}, mixed, SpaceKind::sphere},
 }};
 
+// --- in a periodic plane -----------------------------------------------------------------------------------------
+
+constexpr std::array<FourierMode, 1> kZonal = {{{1, 1, 0, 0.2}}};
+constexpr std::array<FourierMode, 1> kMeridional = {{{1, 0, 1, kQuarter - 0.3}}};
+constexpr std::array<FourierMode, 1> kDiagonal = {{{1, 1, 1, 0.4}}};
+constexpr std::array<FourierMode, 2> kRidges = {{{1, 1, 0, 0}, {0.5, 1, -1, 0.6}}};
+constexpr std::array<FourierMode, 1> kShort = {{{1, 2, 1, 0.9}}};
+constexpr std::array<FourierMode, 1> kSteep = {{{1, 1, -2, kQuarter + 0.2}}};
+// sin a sin b = (cos(a − b) − cos(a + b)) / 2
+constexpr std::array<FourierMode, 2> kEddies = {{{0.5, 1, -1, kQuarter + 0.8}, {-0.5, 1, 1, kQuarter - 0.2}}};
+constexpr std::array<FourierMode, 3> kSpectrum = {{{1, 1, 0, 0.7}, {0.5, 0, 1, kQuarter + 0.1}, {0.25, 2, -1, 0}}};
+
+constexpr Field fourier(std::string_view name, FieldGroup group, std::string_view formula,
+                        std::span<const FourierMode> modes) {
+  return {{name, group, formula}, nullptr, SpaceKind::periodic_plane, modes};
+}
+constexpr std::array<Field, 8> kPeriodicFields = {{
+    fourier("zonal", FieldGroup::chosen, "sin(x + 0.2)", kZonal),
+    fourier("meridional", FieldGroup::chosen, "cos(y - 0.3)", kMeridional),
+    fourier("diagonal", FieldGroup::chosen, "sin(x + y + 0.4)", kDiagonal),
+    fourier("ridges", FieldGroup::chosen, "sin(x) + 0.5 sin(x - y + 0.6)", kRidges),
+    fourier("short", FieldGroup::held_back, "sin(2 x + y + 0.9)", kShort),
+    fourier("steep", FieldGroup::held_back, "cos(x - 2 y + 0.2)", kSteep),
+    fourier("eddies", FieldGroup::held_back, "sin(x + 0.3) sin(y - 0.5)", kEddies),
+    fourier("spectrum", FieldGroup::held_back, "sin(x + 0.7) + 0.5 cos(y + 0.1) + 0.25 sin(2 x - y)", kSpectrum),
+}};
+
+/// Of a mode the divergence of −cos(k · p + phase) k/|k|² is the mode.
+FieldValue value_of(const FourierMode& mode, Vec2 wave, Place p) {
+  const Vec2 k = {mode.m * wave.x, mode.n * wave.y};
+  const double angle = k.x * p.x + k.y * p.y + mode.phase, squared = squared_length(k);
+  const double s = mode.amplitude * std::sin(angle), c = mode.amplitude * std::cos(angle);
+  return {s, {c * k.x, c * k.y, 0}, -squared * s, {-c * k.x / squared, -c * k.y / squared, 0}};
+}
+
+/// Different modes are orthogonal over two periods.
+FieldSize size_of_modes(const Field& field) {
+  FieldSize sum;
+  for (const FourierMode& mode : field.modes) {
+    const Vec2 k = {mode.m * field.wave.x, mode.n * field.wave.y};
+    sum.value += 0.5 * mode.amplitude * mode.amplitude;
+    sum.gradient += 0.5 * mode.amplitude * mode.amplitude * squared_length(k);
+  }
+  return {std::sqrt(sum.value), std::sqrt(sum.gradient)};
+}
+
 bool asks_for(std::string_view word, const VerifyField& field) {
   if (word == "all") return field.group != FieldGroup::exact;
   return word == field.name || word == name(field.group);
 }
 
 std::string known_fields(SpaceKind space) {
-  std::string text =
-      space == SpaceKind::plane ? "all, chosen, held-back, exact" : "on the sphere all, chosen, held-back";
+  constexpr const char* kGroups[] = {"all, chosen, held-back, exact", "on the sphere all, chosen, held-back",
+                                     "in a periodic plane all, chosen, held-back"};
+  std::string text = kGroups[static_cast<std::size_t>(space)];
   for (const Field& f : all_fields(space)) text += ", " + std::string(f.field.name);
   return text;
 }
@@ -206,13 +253,29 @@ FieldSize size_on_sphere(const Field& field) {
 
 }  // namespace
 
+FieldValue Field::at(Place p) const {
+  if (space != SpaceKind::periodic_plane) return in_frame(p);
+  FieldValue all;
+  for (const FourierMode& mode : modes) all = sum(all, value_of(mode, wave, p));
+  return all;
+}
+
 std::span<const Field> all_fields(SpaceKind space) {
   if (space == SpaceKind::plane) return kFields;
-  return kSphereFields;
+  if (space == SpaceKind::sphere) return kSphereFields;
+  return kPeriodicFields;
 }
 
 FieldSize size_of(const Field& field) {
-  return field.space == SpaceKind::plane ? size_in_plane(field) : size_on_sphere(field);
+  if (field.space == SpaceKind::plane) return size_in_plane(field);
+  return field.space == SpaceKind::sphere ? size_on_sphere(field) : size_of_modes(field);
+}
+
+Vec2 first_waves(const Space& space, const VerifyFrame& frame) {
+  const auto wave = [&](double period) {
+    return period > 0 ? 2 * std::numbers::pi * frame.half_size / period : std::numbers::pi;
+  };
+  return {wave(space.period().x), wave(space.period().y)};
 }
 
 Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names, SpaceKind space) {
@@ -264,8 +327,10 @@ constexpr std::array<VerifyField, n> public_part(const std::array<verify_detail:
 std::span<const VerifyField> verify_fields(SpaceKind space) {
   static constexpr auto kPlane = public_part(verify_detail::kFields);
   static constexpr auto kSphere = public_part(verify_detail::kSphereFields);
+  static constexpr auto kPeriodic = public_part(verify_detail::kPeriodicFields);
   if (space == SpaceKind::plane) return kPlane;
-  return kSphere;
+  if (space == SpaceKind::sphere) return kSphere;
+  return kPeriodic;
 }
 
 }  // namespace temper

@@ -1,8 +1,9 @@
 // The manufactured solutions: in the plane functions of the frame's coordinates, of order 1 in [−1, 1]²; on the sphere
-// sums of spherical harmonics, of directions.
+// sums of spherical harmonics, of directions; in a periodic plane sums of Fourier modes.
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string_view>
 
 #include "temper/space.hpp"
@@ -25,19 +26,34 @@ struct FieldValue {
   Vec3 potential;  ///< with divergence u: ∫ u over a region is the flow of it out of the region
 };
 
+/// amplitude · sin(m X + n Y + phase), with X and Y growing by 2π along the periods.
+struct FourierMode {
+  double amplitude;
+  int m, n;
+  double phase;
+};
+
 struct Field {
   VerifyField field;
-  FieldValue (*at)(Place p);
+  FieldValue (*in_frame)(Place p);
   SpaceKind space = SpaceKind::plane;
+  std::span<const FourierMode> modes = {};  ///< of a periodic plane, instead of in_frame
+  Vec2 wave = {};                           ///< the wave numbers of the mode m = n = 1, in the frame
+
+  [[nodiscard]] FieldValue at(Place p) const;
 };
 [[nodiscard]] std::span<const Field> all_fields(SpaceKind space = SpaceKind::plane);
 
-/// Root mean squares over [−1, 1]², or over the sphere, which errors are relative to: they do not depend on any mesh.
+/// Root mean squares over [−1, 1]², or over the sphere or the domain of two periods, which errors are relative to: they
+/// do not depend on any mesh.
 struct FieldSize {
   double value = 0;
   double gradient = 0;
 };
 [[nodiscard]] FieldSize size_of(const Field& field);
+
+/// The wave numbers of the first Fourier modes; along an axis without a period those of a wave of about its length.
+[[nodiscard]] Vec2 first_waves(const Space& space, const VerifyFrame& frame);
 
 /// The fields that VerifyOptions::fields asks for, in the order of all_fields(), each once.
 [[nodiscard]] Expected<std::vector<Field>> select_fields(const std::vector<std::string>& names,

@@ -32,7 +32,8 @@ void add_points(const Mesh& mesh, const DecComplex& dec, Arrays& arrays) {
   }
   for (const DecEdge& edge : dec.edges) {
     if (space.is_plane()) {
-      arrays.points.push_back(0.5 * mesh.position(edge.from) + 0.5 * mesh.position(edge.to));
+      const WeightedPoint p = mesh.point(edge.from), q = mesh.point(edge.to, p);
+      arrays.points.push_back(0.5 * p.position() + 0.5 * q.position());
     } else {
       arrays.sphere_points.push_back(space.place(as_point(place(edge.from) + place(edge.to))));
     }

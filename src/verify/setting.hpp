@@ -15,7 +15,7 @@ struct Setting {
   VerifyFrame frame;
   double area = 0;  ///< of the domain, in the frame
   Executor* executor = nullptr;
-  bool is_closed = false;  ///< the whole sphere: nothing is given on a boundary
+  bool is_closed = false;  ///< without boundary: nothing is given on a boundary
 
   [[nodiscard]] bool is_plane() const { return mesh.space().is_plane(); }
   [[nodiscard]] Vec2 in_frame(Vec2 p) const { return (1 / frame.half_size) * (p - frame.center); }
@@ -45,7 +45,8 @@ inline double inner_side(const DecEdge& edge) { return edge.left.valid() ? 1 : -
 /// the edge and to the left of it.
 inline Vec2 direction(const Setting& setting, const DecEdge& edge) {
   if (!setting.is_plane()) return {1, 0};
-  return (1 / edge.length) * (setting.mesh.position(edge.to) - setting.mesh.position(edge.from));
+  const WeightedPoint from = setting.mesh.point(edge.from), to = setting.mesh.point(edge.to, from);
+  return (1 / edge.length) * (to.position() - from.position());
 }
 /// The same a quarter turn to the left.
 inline Vec2 turned_left(Vec2 t) { return {-t.y, t.x}; }

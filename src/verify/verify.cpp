@@ -148,17 +148,20 @@ VerifyFrame verify_frame(const Mesh& mesh) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
   if (low.x > high.x) return {};  // no vertex of a triangle
+  const Vec2 period = mesh.space().period();
+  if (period.x > 0) low.x = 0, high.x = period.x;
+  if (period.y > 0) low.y = 0, high.y = period.y;
   return {0.5 * low + 0.5 * high, 0.5 * std::max(high.x - low.x, high.y - low.y)};
 }
 
 Expected<VerifyReport> verify(const Mesh& mesh, const VerifyOptions& options) {
   using namespace verify_detail;
-  if (auto error = expect_no_period(mesh, "verify()")) return *std::move(error);
-  const auto fields = select_fields(options.fields, mesh.space().kind());
+  auto fields = select_fields(options.fields, mesh.space().kind());
   if (!fields) return fields.error();
   if (const auto checked = check(mesh, options); !checked) return checked.error();
 
   const Subject subject(mesh, options.frame.value_or(verify_frame(mesh)), options.executor);
+  for (Field& field : *fields) field.wave = first_waves(mesh.space(), subject.setting.frame);
   VerifyReport report = report_of(subject, measure(subject.setting, *fields, options.condition), options.local);
   if (options.refine == 0) return report;
   report.levels.push_back(level_of(subject, report.fields));
