@@ -405,7 +405,7 @@ std::vector<FieldErrors> fields_from(const py::sequence& names, const Doubles& v
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto wanted = names[i].cast<std::string>();
     FieldErrors& row = fields.emplace_back();
-    for (const SpaceKind space : {SpaceKind::plane, SpaceKind::sphere}) {
+    for (const SpaceKind space : {SpaceKind::plane, SpaceKind::sphere, SpaceKind::periodic_plane}) {
       for (const VerifyField& field : verify_fields(space)) {
         if (field.name == wanted) row.field = field;
       }
@@ -476,9 +476,10 @@ std::optional<FieldGroup> group_from(const py::object& group) {
 
 void bind_verify(py::module_& m) {
   m.def("verify", verify_mesh);
-  m.def("verify_fields", [](bool sphere) {
+  m.def("verify_fields", [](bool sphere, bool periodic) {
     py::list list;
-    for (const VerifyField& f : verify_fields(sphere ? SpaceKind::sphere : SpaceKind::plane)) {
+    const SpaceKind in_plane = periodic ? SpaceKind::periodic_plane : SpaceKind::plane;
+    for (const VerifyField& f : verify_fields(sphere ? SpaceKind::sphere : in_plane)) {
       list.append(Record()("name", f.name)("group", name(f.group))("formula", f.formula).dict);
     }
     return list;

@@ -31,9 +31,9 @@ std::vector<std::array<std::int32_t, n>> narrow(const Int64s& array, const char*
   return result;
 }
 
-py::tuple mesh_from_arrays(double radius, const Doubles& points, const py::array& triangles, const Doubles& weights,
-                           const Int64s& constrained_edges, const Int32s& regions, const Int64s& fixed,
-                           const py::object& threads) {
+py::tuple mesh_from_arrays(double radius, std::pair<double, double> period, const Doubles& points,
+                           const py::array& triangles, const Doubles& weights, const Int64s& constrained_edges,
+                           const Int32s& regions, const Int64s& fixed, const py::object& threads) {
   const bool narrow_already = py::isinstance<Int32s>(triangles);
   const Int32s same = narrow_already ? Int32s(triangles) : Int32s(Shape{0, 3});
   std::vector<std::array<std::int32_t, 3>> narrowed;
@@ -46,6 +46,7 @@ py::tuple mesh_from_arrays(double radius, const Doubles& points, const py::array
     input.sphere_points = as_span<Vec3>(points);
   } else {
     input.points = as_span<Vec2>(points);
+    if (period.first > 0 || period.second > 0) input.space = Space::periodic({period.first, period.second});
   }
   input.weights = as_span<double>(weights);
   input.triangles = narrow_already ? as_span<std::array<std::int32_t, 3>>(same) : std::span(std::as_const(narrowed));
@@ -198,9 +199,10 @@ void set_vertices(PyMesh& self, const Doubles& values, Assigned what) {
     in += per;
   }
   for (const TriangleId t : mesh.triangles()) {
-    const auto [a, b, c] = mesh.corners(t);
     if (what == Assigned::weights) break;
-    if (orientation(space, mesh.point(a), mesh.point(b), mesh.point(c)) == Sign::positive) continue;
+    const auto [p, q, r] = mesh.points(t);
+    const bool fits = space.are_near(p, q) && space.are_near(q, r) && space.are_near(r, p);
+    if (fits && orientation(space, p, q, r) == Sign::positive) continue;
     fail(ErrorCode::zero_area, "triangle " + std::to_string(t.index) + " is not counter-clockwise at these points");
   }
   self.replace(std::move(mesh), {});
@@ -238,6 +240,12 @@ void bind_mesh_class(py::module_& m) {
   type.def("memory_bytes", [](const PyMesh& self) { return self.read_with_erased()->memory_bytes(); });
   type.def("require_plane",
            [](const PyMesh& self, const std::string& what) { require_plane(*self.read_with_erased(), what); });
+  type.def("require_no_period",
+           [](const PyMesh& self, const std::string& what) { require_no_period(*self.read_with_erased(), what); });
+  type.def("period", [](const PyMesh& self) {
+    const Vec2 period = self.read_with_erased()->space().period();
+    return py::make_tuple(period.x, period.y);
+  });
   type.def("radius", [](const PyMesh& self) { return self.read_with_erased()->space().radius(); });
   type.def("lifted_points", [](const PyMesh& self) { return lifted_points_of(self.read_with_erased()); });
   type.def("points", [](const PyMesh& self) { return points_of(self.read_with_erased()); });
@@ -624,6 +632,20 @@ void bind_generate(py::module_& m) {
     return made(*std::move(mesh));
   });
   m.def("icosahedral", [](int level, double radius) { return made(icosahedral({level, radius})); });
+  m.def("periodic_delaunay", [](const Doubles& points, double x, double y) {
+    std::optional<Expected<Mesh>> mesh;
+    {
+      const py::gil_scoped_release release;
+      mesh = periodic_delaunay(as_span<Vec2>(points), {x, y});
+    }
+    return made(*std::move(mesh));
+  });
+  m.def("random_periodic", [](std::size_t vertices, std::uint64_t seed, double x, double y) {
+    return made(random_periodic({vertices, seed, {x, y}}));
+  });
+  m.def("periodic_hexagons", [](int nx, int ny, double distance, bool channel) {
+    return made(periodic_hexagons({nx, ny, distance, channel}));
+  });
   m.def("random_sphere", [](std::size_t vertices, std::uint64_t seed, double radius) {
     return made(random_sphere({vertices, seed, radius}));
   });

@@ -137,7 +137,7 @@ class Mesh:
         Vertices that must not move. (Those of the boundary stay without being named.)
     space : Space
         ``Space.sphere(radius)`` for a mesh of the sphere: of all of it, or of a part with a boundary; edges are arcs of
-        less than half a great circle. Default: the plane.
+        less than half a great circle. ``Space.periodic(x, y)``: points are any images. Default: the plane.
     threads : int, optional
         Threads for the checks; None or 0: all of the machine.
 
@@ -192,6 +192,7 @@ class Mesh:
     ) -> None:
         self._handle, self.reversed_triangles = _temper.mesh_from_arrays(
             space.radius,
+            space.period,
             _places(points, space),
             _ints(triangles, 3, "triangles"),
             _doubles(weights, 0, "weights"),
@@ -242,7 +243,7 @@ class Mesh:
     @property
     def space(self) -> Space:
         """The space that the mesh lies in."""
-        return Space(self._handle.radius())
+        return Space(self._handle.radius(), self._handle.period())
 
     @property
     def points(self) -> npt.NDArray[np.float64]:
@@ -409,7 +410,7 @@ class Mesh:
     # --- how it looks -------------------------------------------------------------------------------------------
 
     def __repr__(self) -> str:
-        where = "" if self.space.is_plane else f" on {self.space!r}"
+        where = "" if self.space == Space() else f" on {self.space!r}"
         return f"<temper.Mesh: {self.n_vertices} vertices, {self.n_triangles} triangles{where}>"
 
     def _repr_html_(self) -> str:
@@ -424,7 +425,7 @@ class Mesh:
             ("least h/ℓ", f"{q['min_h_over_l']:.4g}"),
             ("angles", f"{q['min_angle_deg']:.4g}° to {q['max_angle_deg']:.4g}°"),
         ]
-        if self.n_triangles == 0 or self.n_triangles > PAGE or not self.space.is_plane:
+        if self.n_triangles == 0 or self.n_triangles > PAGE or self.space != Space():
             return table("temper.Mesh", rows)
         from ._html import html_report
 

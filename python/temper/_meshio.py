@@ -110,6 +110,7 @@ def meshio_of(handle: Any) -> Any:
     """The mesh as a ``meshio.Mesh``: see ``to_meshio``."""
     import meshio
 
+    handle.require_no_period("to_meshio()")
     file = _temper.file_as_dict(handle)
     n, m = len(file["points"]), len(file["triangles"])
     cells = [("triangle", file["triangles"].astype(np.int64))]

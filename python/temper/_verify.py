@@ -141,9 +141,9 @@ class VerifyReport(Record):
 _KEYS = [f"{name}.{norm}" for name in ("star0", "star1", "star2", "poisson", "flux") for norm in ("l2", "max")]
 
 
-def verify_fields(*, sphere: bool = False) -> list[VerifyField]:
-    """The manufactured solutions of the plane, or those of the sphere."""
-    return [VerifyField(**row) for row in _temper.verify_fields(sphere)]
+def verify_fields(*, sphere: bool = False, periodic: bool = False) -> list[VerifyField]:
+    """The manufactured solutions of the plane, or those of the sphere or of a periodic plane."""
+    return [VerifyField(**row) for row in _temper.verify_fields(sphere, periodic)]
 
 
 def verify_frame(mesh: MeshLike) -> VerifyFrame:
@@ -157,7 +157,8 @@ def verify_measures() -> list[tuple[str, str]]:
 
 
 def _fields(d: dict[str, Any]) -> list[FieldErrors]:
-    known = {field.name: field for sphere in (False, True) for field in verify_fields(sphere=sphere)}
+    fields = verify_fields() + verify_fields(sphere=True) + verify_fields(periodic=True)
+    known = {field.name: field for field in fields}
     return [FieldErrors(known[name], VerifyErrors._of(row)) for name, row in zip(d["names"], d["values"])]
 
 

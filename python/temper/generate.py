@@ -1,7 +1,8 @@
 """Example meshes: the paper's, and the classes a mesh method should be tried on.
 
 Each is made here, from its parameters and a seed, by a constrained Delaunay triangulation on temper's own predicates.
-``graded_sphere``, ``icosahedral``, ``random_sphere`` and ``spherical_delaunay`` are of the sphere. All weights are zero.
+``graded_sphere``, ``icosahedral``, ``random_sphere`` and ``spherical_delaunay`` are of the sphere, those with ``periodic``
+in their name of periodic planes. All weights are zero.
 TemperError says which parameter makes no sense.
 """
 
@@ -15,7 +16,8 @@ from ._mesh import Mesh, _doubles, _ints
 
 __all__ = [
     "airfoil", "annulus", "constrained_delaunay", "graded_points", "graded_sphere", "graded_sphere_size",
-    "horseshoe", "icosahedral", "letter_a", "random_points", "random_sphere", "regular_polygon", "sheared_grid", "single_triangle", "sparse_horseshoe",
+    "horseshoe", "icosahedral", "letter_a", "periodic_delaunay", "periodic_hexagons", "random_periodic",
+    "random_points", "random_sphere", "regular_polygon", "sheared_grid", "single_triangle", "sparse_horseshoe",
     "spherical_delaunay", "wedge",
 ]  # fmt: skip
 
@@ -88,6 +90,23 @@ def icosahedral(level: int = 4, radius: float = 1.0) -> Mesh:
     """The icosahedron on a sphere of this radius [length], each triangle cut into four ``level`` times: 10 · 4^level
     + 2 vertices."""
     return Mesh._of(_temper.icosahedral(level, radius))
+
+
+def periodic_delaunay(points: npt.ArrayLike, period: tuple[float, float] = (1.0, 1.0)) -> Mesh:
+    """The Delaunay triangulation of points, (n, 2), in the plane that repeats itself along both axes; any images, which
+    keep their numbers. TemperError where there are too few for triangles that fit into half a period."""
+    return Mesh._of(_temper.periodic_delaunay(_doubles(points, 2, "points"), period[0], period[1]))
+
+
+def random_periodic(vertices: int = 1000, seed: int = 1, period: tuple[float, float] = (1.0, 1.0)) -> Mesh:
+    """Uniformly random points in a periodic plane, Delaunay. About half of the triangles are bad."""
+    return Mesh._of(_temper.random_periodic(vertices, seed, period[0], period[1]))
+
+
+def periodic_hexagons(nx: int = 16, ny: int = 16, distance: float = 1.0, channel: bool = False) -> Mesh:
+    """``ny`` rows of ``nx`` hexagons as power cells, around vertices at one distance from their neighbours [length], in
+    a periodic plane; a channel has no period along y."""
+    return Mesh._of(_temper.periodic_hexagons(nx, ny, distance, channel))
 
 
 def random_sphere(vertices: int = 1000, seed: int = 1, radius: float = 1.0) -> Mesh:

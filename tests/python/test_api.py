@@ -26,7 +26,7 @@ ELSEWHERE = {
     "missing_need": "optimize warns", "spell_options": "texts are spelled",
     "read_number": "float", "read_by_strtod": "float",
     "triangle_values": "NumPy, of mesh and dec",
-    "lifted": "Mesh.lifted_points", "as_point": "arrays have three columns", "expect_plane": "functions do it",
+    "lifted": "Mesh.lifted_points", "as_point": "arrays have three columns", "expect_no_period", "expect_plane": "functions do it",
     "local_sizes": "local_size",
     "dot": "NumPy", "cross": "NumPy", "length": "NumPy", "squared_length": "NumPy",
     "version": "__version__", "compiled_instruction_sets": "build_info says them",
