@@ -22,8 +22,10 @@ InputError hidden_vertices_error(const Mesh& input, const InputNames* names) {
     list += named.point(hidden[i].index) + " (weight " + to_text(input.weight(hidden[i])) + ")";
   }
   if (hidden.size() > kNamed) list += " and " + std::to_string(hidden.size() - kNamed) + " more";
+  // A flip that would make an edge of half a period leaves its quad as it does at a hidden vertex.
+  const char* const or_too_few = input.space().is_periodic() ? ", and edges shorter than half a period" : "";
   return {ErrorCode::hidden_vertex, hidden.empty() ? std::string() : named.point_where(hidden[0].index),
-          "weights hide " + list + "; expected weights that leave every vertex a power cell"};
+          "weights hide " + list + "; expected weights that leave every vertex a power cell" + or_too_few};
 }
 
 std::optional<InputError> outside_domain_error(const Mesh& mesh, const Settings& settings) {

@@ -5,6 +5,7 @@
 #include "mesh/connectivity.hpp"
 #include "mesh/mesh_archive.hpp"
 #include "support/regions.hpp"
+#include "temper/generate.hpp"
 
 namespace temper {
 namespace {
@@ -25,7 +26,8 @@ Mesh mesh_of(std::string_view bytes) {
 }
 
 TEST(MeshArchives, GiveBackTheMeshBitForBit) {
-  for (const Mesh& mesh : {test::mesh_with_regions(60, 2), *annulus(), Mesh()}) {
+  for (const Mesh& mesh : {test::mesh_with_regions(60, 2), *annulus(), *icosahedral({.level = 1}),
+                           *random_periodic({.vertices = 60}), Mesh()}) {
     const Mesh read = mesh_of(bytes_of(mesh));
     EXPECT_TRUE(read == mesh);
     for (const VertexId v : mesh.vertices()) EXPECT_EQ(read.outgoing(v), mesh.outgoing(v));

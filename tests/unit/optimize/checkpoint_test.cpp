@@ -117,6 +117,7 @@ struct ResumedCase {
 
 Mesh random_mesh() { return *random_points({.vertices = 120, .seed = 5}); }
 Mesh large_random_mesh() { return *random_points({.vertices = 1200, .seed = 3}); }
+Mesh random_torus() { return *random_periodic({.vertices = 120, .seed = 5}); }
 Mesh regions() { return mesh_with_regions(150, 3); }
 Mesh with_margins() { return lattice({.n = 8, .jitter = 0.1, .weight = 0.06, .seed = 4}); }
 /// Two attempts, then repairs.
@@ -165,6 +166,7 @@ INSTANTIATE_TEST_SUITE_P(
     Options, ResumedRun,
     testing::Values(
         ResumedCase{"default", random_mesh, {}}, ResumedCase{"batches", large_random_mesh, {.max_sweeps = 25}},
+        ResumedCase{"periodic", random_torus, {}},
         ResumedCase{"hot", random_mesh, {.energy = EnergyKind::T, .max_sweeps = 15}},
         ResumedCase{"rising_energy", regions, {.energy = EnergyKind::dT, .max_sweeps = 12}},
         ResumedCase{"shifted_barrier", random_mesh, {.energy = EnergyKind::BHs}},

@@ -45,8 +45,8 @@ Mesh shifted(const Mesh& mesh, Vec2 shift) {
 }
 
 TEST(PeriodicOptimize, RandomPointsBecomeWellCentered) {
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
-    Mesh mesh = torus(seed < 5 ? 120 : 1500, seed, {1, seed % 2 == 0 ? 1.0 : 0.6});
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    Mesh mesh = torus(seed < 5 ? 120 : 1000, seed, {1, seed % 2 == 0 ? 1.0 : 0.6});
     ASSERT_GT(bad_triangles(mesh).size(), mesh.n_triangles() / 4);
     optimized_periodic(mesh, {.objective = Objective::energy});
     expect_all_well_centered(mesh);
@@ -157,7 +157,7 @@ TEST(PeriodicOptimize, SweepsRemoveAndRepairsInsertVertices) {
   EXPECT_EQ(mesh.n_vertices() + mesh.n_triangles(), mesh.n_edges());
   EXPECT_EQ(count_non_regular_edges(mesh), 0U);
 
-  Mesh swept = torus(800, 3), mended = swept;
+  Mesh swept = torus(400, 3), mended = swept;
   optimized_periodic(swept, {.unknowns = Unknowns::positions, .repair = Repair::none});
   optimized_periodic(mended, {.unknowns = Unknowns::positions, .repair = Repair::vertices});
   EXPECT_FALSE(bad_triangles(swept).empty());
@@ -184,12 +184,20 @@ TEST(PeriodicOptimize, WhatIsNotThereSaysSo) {
             "`boundary=split` is for meshes of the plane; where it is periodic expected `boundary=keep` or "
             "`boundary=slide`");
   EXPECT_NE(message({.size_band = 1.3}).find("`size_band` is for meshes of the plane"), std::string::npos);
+  Mesh hides = torus(60, 1);
+  hides.set_weight(VertexId(7), -1);
+  const auto refused = optimize(hides, {}, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(
+      refused.error().message,
+      "weights hide point 7 (weight -1); expected weights that leave every vertex a power cell, and edges shorter "
+      "than half a period");
   EXPECT_NE(message(paper_method()).find("`inversion=allow` is for meshes of the plane"), std::string::npos);
 }
 
 TEST(PeriodicOptimize, SameBytesForAnyThreadsAndInstructionSet) {
   const Mesh before = torus(2500, 9);
-  const OptimizeOptions both{.objective = Objective::accuracy};
+  const OptimizeOptions both{.objective = Objective::accuracy, .max_sweeps = 20};
   Mesh first = before;
   optimized_periodic(first, both);
   for (const std::size_t threads : {1U, 2U, 3U, 8U}) {
