@@ -275,7 +275,9 @@ Result mesh_plane(const MeshSettings& s, Executor* executor) {
   } else {
     const auto& map = result.map.projection;
     options.field = read_sizes(s, map ? projection_text(*map) : std::string(io::kNoProjection), executor);
-    if (!options.field->mesh().space().is_plane()) wrong_space(s, "a sphere", "a plane, or --sphere");
+    const Space space = options.field->mesh().space();
+    if (!space.is_plane()) wrong_space(s, "a sphere", "a plane, or --sphere");
+    if (space.is_periodic()) wrong_space(s, "a periodic plane", "a plane without periods");
   }
   result.made = run_library(s, std::move(options), executor,
                             [&](const auto& o, const auto& hooks) { return mesh_outline(input.outline, o, hooks); });

@@ -24,6 +24,7 @@ using namespace mesher;
 InputError invalid(const std::string& message) { return {ErrorCode::invalid_option, "", message}; }
 
 std::string text_of(const Space& space) {
+  if (space.is_periodic()) return "a periodic plane";
   return space.is_plane() ? "the plane" : "a sphere of radius " + to_text(space.radius());
 }
 

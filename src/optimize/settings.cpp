@@ -153,6 +153,9 @@ std::optional<InputError> check_space(const OptimizeOptions& o, const Mesh& mesh
     return invalid("`size_field` is on a mesh of " + name(o.size_field->mesh()) + ", but the mesh is one of " +
                    name(mesh));
   }
+  if (o.size_field && mesh.space().is_periodic() && !(o.size_field->mesh().space() == mesh.space())) {
+    return invalid("`size_field` is on a mesh with other periods; expected those of the mesh");
+  }
   if (mesh.space().kind() == SpaceKind::plane) return std::nullopt;
   const auto not_there = [&](const std::string& option, const std::string& expected) {
     return invalid("`" + option + "` is for meshes of the plane; " +

@@ -184,6 +184,10 @@ TEST(PeriodicOptimize, WhatIsNotThereSaysSo) {
             "`boundary=split` is for meshes of the plane; where it is periodic expected `boundary=keep` or "
             "`boundary=slide`");
   EXPECT_NE(message({.size_band = 1.3}).find("`size_band` is for meshes of the plane"), std::string::npos);
+  EXPECT_EQ(message({.size_field = input_size_field(torus(60, 2, {1, 1.25}))}),
+            "`size_field` is on a mesh with other periods; expected those of the mesh");
+  EXPECT_EQ(message({.size_field = input_size_field(torus(60, 2))}), "");
+  EXPECT_NE(message({.size_field = input_size_field(*annulus())}).find("is on a mesh of the plane"), std::string::npos);
   Mesh hides = torus(60, 1);
   hides.set_weight(VertexId(7), -1);
   const auto refused = optimize(hides, {}, {});
