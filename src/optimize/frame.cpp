@@ -30,10 +30,10 @@ Frame Frame::of(const Mesh& mesh) {
   const Vec2 period = mesh.space().period();
   frame.center = {period.x > 0 ? 0 : center_of(low.x, high.x), period.y > 0 ? 0 : center_of(low.y, high.y)};
   frame.scale = std::exp2(std::ilogb(std::max(high.x - low.x, high.y - low.y)));
-  const auto rounding = [&](double center, double length) {
-    return length > 0 ? Space::rounding_of(length / frame.scale) : center / frame.scale;
+  const auto rounding_of_axis = [&](double middle, double period_there) {
+    return period_there > 0 ? Space::rounding_of(period_there / frame.scale) : middle / frame.scale;
   };
-  frame.rounding = {rounding(frame.center.x, period.x), rounding(frame.center.y, period.y)};
+  frame.rounding = {rounding_of_axis(frame.center.x, period.x), rounding_of_axis(frame.center.y, period.y)};
   return frame;
 }
 
