@@ -47,7 +47,7 @@ expect "bash: files" $'folder\nin.vtu' "$(offers temper optimize '')"
 expect "bash: files of an option" "in.vtu" "$(offers temper optimize -o in)"
 expect "bash: words before files" "all" "$(offers temper weights in.vtu --edges al)"
 expect "bash: folders" "folder" "$(offers temper dec in.vtu -o '')"
-expect "bash: examples" $'random\nrandom-sphere' "$(offers temper example rand)"
+expect "bash: examples" $'random\nrandom-periodic\nrandom-sphere' "$(offers temper example rand)"
 expect "bash: options of an example" $'--polygon\n--seed\n--vertices' \
   "$(offers temper example random -- | grep -vxF -f <(options_of example))"
 
