@@ -21,9 +21,10 @@ struct BoundaryClash {
   HalfedgeId first, second;
 };
 
-/// Finds a clash, in a periodic plane only of edges that meet, the leftmost or one before it; nothing where the boundary is as it should be. Exact. Preconditions:
-/// the mesh lies in the plane; stars are whole and wind once, which leaves two boundary edges at a vertex, in different
-/// directions. O(m log m) for m boundary edges, whatever their shape.
+/// Finds a clash, in a periodic plane only of edges that meet, the leftmost or one before it; nothing where the
+/// boundary is as it should be. Exact. Preconditions: the mesh lies in the plane; stars are whole and wind once, which
+/// leaves two boundary edges at a vertex, in different directions. O(m log m) for m boundary edges, whatever their
+/// shape.
 [[nodiscard]] std::optional<BoundaryClash> find_boundary_clash(const Mesh& mesh);
 
 }  // namespace temper
