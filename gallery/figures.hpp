@@ -1,54 +1,56 @@
-// The figures' makers: make_figNN is defined in figNN/figure.cpp.
+// The figures' makers: figNN::make is defined in figNN/figure.cpp.
 #pragma once
 
 #include "gallery.hpp"
 
 namespace temper::gallery {
 
+// clang-format off
 // Distances of a triangle and its dual.
-Page make_fig01(Effort effort);
-Page make_fig02(Effort effort);
+namespace fig01 { Page make(Effort effort); }
+namespace fig02 { Page make(Effort effort); }
 
 // Energy landscapes and the single triangle.
-Page make_fig03(Effort effort);
-Page make_fig04(Effort effort);
-Page make_fig05(Effort effort);
-Page make_fig06(Effort effort);
-Page make_fig07(Effort effort);
-Page make_fig08(Effort effort);
-Page make_fig09(Effort effort);
-Page make_fig10(Effort effort);
+namespace fig03 { Page make(Effort effort); }
+namespace fig04 { Page make(Effort effort); }
+namespace fig05 { Page make(Effort effort); }
+namespace fig06 { Page make(Effort effort); }
+namespace fig07 { Page make(Effort effort); }
+namespace fig08 { Page make(Effort effort); }
+namespace fig09 { Page make(Effort effort); }
+namespace fig10 { Page make(Effort effort); }
 
 // The sparse horseshoe.
-Page make_fig11(Effort effort);
-Page make_fig12(Effort effort);
-Page make_fig13(Effort effort);
-Page make_fig14(Effort effort);
-Page make_fig15(Effort effort);
+namespace fig11 { Page make(Effort effort); }
+namespace fig12 { Page make(Effort effort); }
+namespace fig13 { Page make(Effort effort); }
+namespace fig14 { Page make(Effort effort); }
+namespace fig15 { Page make(Effort effort); }
 
 // The dense horseshoe without collapses.
-Page make_fig16(Effort effort);
-Page make_fig17(Effort effort);
-Page make_fig18(Effort effort);
+namespace fig16 { Page make(Effort effort); }
+namespace fig17 { Page make(Effort effort); }
+namespace fig18 { Page make(Effort effort); }
 
 // Its collapses and outer iterations, positions only.
-Page make_fig19(Effort effort);
-Page make_fig20(Effort effort);
-Page make_fig21(Effort effort);
-Page make_fig22(Effort effort);
+namespace fig19 { Page make(Effort effort); }
+namespace fig20 { Page make(Effort effort); }
+namespace fig21 { Page make(Effort effort); }
+namespace fig22 { Page make(Effort effort); }
 
 // Weights over the mesh that oscillates.
-Page make_fig23(Effort effort);
-Page make_fig24(Effort effort);
-Page make_fig25(Effort effort);
+namespace fig23 { Page make(Effort effort); }
+namespace fig24 { Page make(Effort effort); }
+namespace fig25 { Page make(Effort effort); }
 
 // High heat, removal, and the summary.
-Page make_fig26(Effort effort);
-Page make_fig27(Effort effort);
-Page make_fig28(Effort effort);
-Page make_fig29(Effort effort);
-Page make_fig30(Effort effort);
-Page make_fig31(Effort effort);
-Page make_fig32(Effort effort);
+namespace fig26 { Page make(Effort effort); }
+namespace fig27 { Page make(Effort effort); }
+namespace fig28 { Page make(Effort effort); }
+namespace fig29 { Page make(Effort effort); }
+namespace fig30 { Page make(Effort effort); }
+namespace fig31 { Page make(Effort effort); }
+namespace fig32 { Page make(Effort effort); }
+// clang-format on
 
 }  // namespace temper::gallery

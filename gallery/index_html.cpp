@@ -21,7 +21,7 @@ std::string verdict_mark(bool holds) {
 }
 
 /// "figure 12", "figures 26-29" or "§2.4": where in the paper a claim stands.
-std::string place(const Claim& claim) {
+std::string place_in_words(const Claim& claim) {
   if (claim.figure.find_first_not_of("0123456789-") != std::string::npos) return "§" + claim.figure;
   return (claim.figure.find('-') == std::string::npos ? "figure " : "figures ") + claim.figure;
 }
@@ -73,7 +73,8 @@ std::string claim_html(const Claim& claim, const Figure& figure) {
   std::string html = claim.holds ? "<tr><td>" : "<tr class=\"failed\"><td>";
   html += verdict_mark(claim.holds) + "</td><td>" + prose(claim.claim);
   if (claim.author == Author::temper) html += " <span class=\"where\">(ours)</span>";
-  if (claim.figure != std::to_string(figure.number)) html += " <span class=\"where\">(" + place(claim) + ")</span>";
+  if (claim.figure != std::to_string(figure.number))
+    html += " <span class=\"where\">(" + place_in_words(claim) + ")</span>";
   html += "<span class=\"why\">" + prose(claim.why) + "</span></td>";
   html += "<td data-label=\"Paper\">" + prose(claim.paper) + "</td>";
   html += "<td data-label=\"temper\">" + prose(claim.temper) + "</td></tr>\n";
@@ -121,7 +122,7 @@ std::string failing_html(std::span<const Result> results) {
     for (const Claim& claim : result.page.claims) {
       if (claim.holds) continue;
       items += "<li>" + prose(claim.claim) + " <a class=\"where\" href=\"#" + anchor(result.figure) + "\">" +
-               escaped(place(claim)) + "</a></li>\n";
+               escaped(place_in_words(claim)) + "</a></li>\n";
     }
   }
   if (items.empty()) return "";

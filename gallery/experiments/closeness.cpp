@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "experiments/infinity.hpp"
+
 namespace temper::gallery {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr const char* kRed = "#d62728";
 constexpr const char* kYellow = "#e8b500";
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/infinity.hpp"
 #include "experiments/minimise.hpp"
 #include "experiments/random.hpp"
 #include "plot/plot.hpp"
@@ -13,7 +14,6 @@
 namespace temper::gallery {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFactor = 1.0 / 3;  // α = β of ★1
 constexpr double kMargin = 1e-3;     // random points keep this far from walls, of ℓ: beyond, e has few digits
 

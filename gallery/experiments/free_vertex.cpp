@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "experiments/infinity.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper::gallery {
@@ -30,7 +31,6 @@ Curvature curvature(const EnergyModel& model, Vec2 p) {
 }
 
 HalfCircle half_circle(const EnergyModel& model, double radius) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   HalfCircle result{kInfinity, -kInfinity};
   for (int degrees = 1; degrees < 180; ++degrees) {
     const double t = degrees * std::numbers::pi / 180;

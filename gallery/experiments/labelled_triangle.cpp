@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/colors.hpp"
 #include "experiments/text.hpp"
 #include "experiments/triangle_drawing.hpp"
 #include "temper/geometry.hpp"
@@ -10,9 +11,8 @@
 namespace temper::gallery {
 namespace {
 
-constexpr const char *kInk = "#222222", *kDual = "#005fa3", *kAlong = "#8a4b00", *kPositive = "#00845f",
-                     *kNegative = "#c8320a", *kFill = "#dcecf9";
-constexpr double kMargin = 40, kFont = 15;
+constexpr const char *kAlong = "#8a4b00", *kFill = "#dcecf9";
+constexpr double kRoom = 40, kNameFont = 15;
 constexpr double kBeside = 15;  // of a name from the line that it names
 constexpr const char* kNames[3] = {"i", "j", "k"};
 
@@ -25,9 +25,9 @@ class Drawing {
       low_ = {std::min(low_.x, v.x - r), std::min(low_.y, v.y - r)};
       high_ = {std::max(high_.x, v.x + r), std::max(high_.y, v.y + r)};
     }
-    scale_ = (drawing.width - 2 * kMargin) / (high_.x - low_.x);
+    scale_ = (drawing.width - 2 * kRoom) / (high_.x - low_.x);
     width_ = drawing.width;
-    height_ = scale_ * (high_.y - low_.y) + 2 * kMargin;
+    height_ = scale_ * (high_.y - low_.y) + 2 * kRoom;
     middle_ = (1.0 / 3) * (p_[0].position() + p_[1].position() + p_[2].position());
   }
 
@@ -49,13 +49,13 @@ class Drawing {
   [[nodiscard]] std::string svg() const {
     const std::string size = pixels(width_) + "\" height=\"" + pixels(height_);
     return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size + "\" viewBox=\"0 0 " + pixels(width_) + " " +
-           pixels(height_) + "\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"" + pixels(kFont) +
+           pixels(height_) + "\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"" + pixels(kNameFont) +
            "\">\n<rect width=\"" + size + "\" fill=\"#ffffff\"/>\n" + body_ + "</svg>\n";
   }
 
  private:
   [[nodiscard]] Vec2 on_page(Vec2 v) const {
-    return {kMargin + scale_ * (v.x - low_.x), kMargin + scale_ * (high_.y - v.y)};
+    return {kRoom + scale_ * (v.x - low_.x), kRoom + scale_ * (high_.y - v.y)};
   }
   [[nodiscard]] std::string at(Vec2 v) const {
     const Vec2 q = on_page(v);
@@ -76,8 +76,8 @@ class Drawing {
   /// Centered at v, moved `pixels_off` pixels along `direction` (of any length).
   void text(Vec2 v, Vec2 direction, double pixels_off, const std::string& name, const char* color) {
     const Vec2 q = on_page(v + (pixels_off / (scale_ * length(direction))) * direction);
-    body_ += "<text x=\"" + pixels(q.x) + "\" y=\"" + pixels(q.y + kFont / 3) + "\" text-anchor=\"middle\" fill=\"" +
-             color + "\">" + subscripted(name) + "</text>\n";
+    body_ += "<text x=\"" + pixels(q.x) + "\" y=\"" + pixels(q.y + kNameFont / 3) +
+             "\" text-anchor=\"middle\" fill=\"" + color + "\">" + subscripted(name) + "</text>\n";
   }
 
   void triangle() {

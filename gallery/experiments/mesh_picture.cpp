@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/colors.hpp"
 #include "experiments/domain.hpp"
 #include "experiments/text.hpp"
 #include "prose.hpp"
@@ -15,10 +16,8 @@ constexpr double kLine = 20;  // height of a line of text, pixels
 constexpr double kRadius = 4.5;
 constexpr double kFar = 20;  // orthocenters of flat triangles lie anywhere: drawn up to so many box widths away
 constexpr const char* kPrimal = "#333333";
-constexpr const char* kDual = "#3d8fd1";
+constexpr const char* kLightDual = "#3d8fd1";
 constexpr const char* kInverted = "#f0a3a3";
-constexpr const char* kPositive = "#00845f";
-constexpr const char* kNegative = "#c8320a";
 
 class Painter {
  public:
@@ -98,7 +97,7 @@ class Painter {
           mesh_.is_boundary(h) ? weighted_midpoint(h) : orthocenter_of(mesh_, Mesh::triangle(mesh_.twin(h)));
       if (std::isfinite(from.x + from.y + to.x + to.y)) path += "M" + at(from) + "L" + at(to);
     }
-    stroke(path, kDual, 0.8);
+    stroke(path, kLightDual, 0.8);
   }
 
   void draw_weights() {

@@ -13,7 +13,7 @@
 namespace temper::gallery {
 namespace {
 
-constexpr int kRandomOrders = 12;
+constexpr int kPatchOrders = 12;
 // Vertices go in the first sweeps; the rest of a run only brings energies to rest.
 constexpr int kSurveySweeps = 60;
 constexpr std::size_t kColumns = 3;
@@ -27,7 +27,7 @@ Removals removed_with(const VertexOrder& order, Unknowns unknowns, RemovalRule r
 
 std::vector<RuleComparison> compare(Effort effort) {
   std::vector<RuleComparison> all;
-  for (const VertexOrder& order : vertex_orders(effort == Effort::full ? kRandomOrders : 0)) {
+  for (const VertexOrder& order : vertex_orders(effort == Effort::full ? kPatchOrders : 0)) {
     all.push_back({order.name, removed_with(order, Unknowns::positions, RemovalRule::patch),
                    removed_with(order, Unknowns::positions_and_weights, RemovalRule::patch),
                    removed_with(order, Unknowns::positions, RemovalRule::short_edge),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/colors.hpp"
 #include "experiments/text.hpp"
 #include "prose.hpp"
 #include "temper/geometry.hpp"
@@ -12,7 +13,6 @@ namespace {
 
 constexpr double kFont = 14, kSmallFont = 12;
 constexpr double kGap = 8;  // between cells and around the table, pixels
-constexpr const char *kInk = "#222222", *kDual = "#005fa3", *kPositive = "#00845f", *kNegative = "#c8320a";
 
 // Generous: markup and the bytes of a Greek letter count too.
 double width_of(const std::string& text) {
@@ -26,9 +26,9 @@ std::string text_at(double x, double y, const std::string& text, double size = k
 }
 
 // One cell: pixels from the triangle's own coordinates.
-class Cell {
+class TriangleCell {
  public:
-  Cell(const TriangleTable& table, double left, double top)
+  TriangleCell(const TriangleTable& table, double left, double top)
       : scale_(table.cell_width / (table.high.x - table.low.x)),
         left_(left - scale_ * table.low.x),
         top_(top + scale_ * table.high.y) {}
@@ -109,7 +109,7 @@ std::string triangle_table_svg(const TriangleTable& table) {
     for (std::size_t k = 0; k < row.cells.size(); ++k) {
       const double x = left + static_cast<double>(k) * (table.cell_width + kGap);
       body += "<g transform=\"translate(" + pixels(x) + " " + pixels(top) + ")\">\n<g clip-path=\"url(#cell)\">\n";
-      if (row.cells[k]) body += Cell(table, 0, 0).draw(*row.cells[k]);
+      if (row.cells[k]) body += TriangleCell(table, 0, 0).draw(*row.cells[k]);
       body += "</g>\n";
       if (!row.cells[k]) body += text_at(table.cell_width / 2, cell_height / 2 + 4, "no solution", kSmallFont);
       if (k < row.captions.size())

@@ -10,7 +10,7 @@
 namespace temper::gallery {
 namespace {
 
-constexpr int kSweeps = 40;
+constexpr int kPolicySweeps = 40;
 constexpr double kNoChange = 1e-9;  // of a weight: rounding, and the shift to the anchor's zero
 
 /// Changes of each vertex's weight, against its last one.
@@ -148,7 +148,7 @@ PolicyRun run_policy(const WeightPolicy& policy, const Mesh& start, const Vertex
 std::vector<PolicyRun> run_policies(const VertexOrder& order, const WeightReading& reading) {
   std::vector<PolicyRun> all;
   for (const WeightPolicy& policy : weight_policies()) {
-    all.push_back(run_policy(policy, oscillating_mesh(), order, kSweeps, reading));
+    all.push_back(run_policy(policy, oscillating_mesh(), order, kPolicySweeps, reading));
   }
   return all;
 }

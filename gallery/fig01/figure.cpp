@@ -13,7 +13,7 @@
 #include "figures.hpp"
 #include "temper/geometry.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig01 {
 namespace {
 
 constexpr double kWeight = 0.3;      // of random triangles, whose edges are of length 1
@@ -239,7 +239,7 @@ Claim energy_bounds_error(const std::vector<Mesh>& meshes, std::size_t densities
 
 }  // namespace
 
-Page make_fig01(Effort effort) {
+Page make(Effort effort) {
   const std::vector<Mesh> meshes = weighted_meshes(effort);
   const std::size_t tries = effort == Effort::full ? 20000 : 2000;
   const LabelledTriangle drawing = {.corners = {WeightedPoint{0, 0, 0.5}, {4, 0, -0.25}, {1.5, 3.1, 0.15}}};
@@ -253,4 +253,4 @@ Page make_fig01(Effort effort) {
        energy_bounds_error(meshes, effort == Effort::full ? 100 : 10)}};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig01

@@ -9,7 +9,7 @@
 #include "figures.hpp"
 #include "temper/geometry.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig02 {
 namespace {
 
 constexpr double kWeight = 1;
@@ -128,7 +128,7 @@ Picture drawings() {
 
 }  // namespace
 
-Page make_fig02(Effort effort) {
+Page make(Effort effort) {
   const std::size_t tries = effort == Effort::full ? 20000 : 2000;
   return {{drawings()},
           {},
@@ -136,4 +136,4 @@ Page make_fig02(Effort effort) {
            orthocenter_anywhere(tries)}};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig02

@@ -10,7 +10,7 @@
 #include "experiments/text.hpp"
 #include "figures.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig03 {
 namespace {
 
 double energy(int star, Vec2 p) { return free_vertex_energy(paper_model(EnergyKind::F, star), p); }
@@ -242,7 +242,7 @@ Picture contours(int star, const std::optional<Saddle>& saddle, std::size_t per_
 
 }  // namespace
 
-Page make_fig03(Effort effort) {
+Page make(Effort effort) {
   const bool full = effort == Effort::full;
   const std::array<std::optional<Saddle>, 3> saddles = {axis_minimum(0), axis_minimum(1), axis_minimum(2)};
   Page page;
@@ -262,4 +262,4 @@ Page make_fig03(Effort effort) {
   return page;
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig03

@@ -13,7 +13,7 @@
 #include "figures.hpp"
 #include "plot/plot.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig04 {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -235,7 +235,7 @@ Claim constraint_does_not_help() {
 
 }  // namespace
 
-Page make_fig04(Effort effort) {
+Page make(Effort effort) {
   const int samples = effort == Effort::full ? 260 : 80;
   Page page;
   page.pictures = {drawings(), curves(0, samples), curves(1, samples), curves(2, samples)};
@@ -257,4 +257,4 @@ Page make_fig04(Effort effort) {
   return page;
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig04

@@ -14,7 +14,7 @@
 #include "temper/energy.hpp"
 #include "temper/geometry.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig05 {
 namespace {
 
 constexpr double kAlpha = 1.0 / 3, kBeta = 1.0 / 3;  // of ★1
@@ -151,7 +151,7 @@ Claim sub_triangles_tile(std::size_t tries) {
 
 }  // namespace
 
-Page make_fig05(Effort effort) {
+Page make(Effort effort) {
   const std::size_t tries = effort == Effort::full ? 20000 : 2000;
   const LabelledTriangle drawing = {.corners = {WeightedPoint{0, 0, 0.35}, {4, 0, 0}, {1.8, 3.4, -0.2}},
                                     .sub_triangle = true};
@@ -162,4 +162,4 @@ Page make_fig05(Effort effort) {
            sub_triangles_tile(tries)}};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig05

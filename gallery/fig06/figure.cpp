@@ -12,7 +12,7 @@
 #include "figures.hpp"
 #include "temper/geometry.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig06 {
 namespace {
 
 constexpr double kHalfDigits = 1e-6;  // where a minimum is known to: about the root of a double's 1e-16, with a margin
@@ -329,7 +329,7 @@ Claim triangle_in_positions(std::size_t count) {
 
 }  // namespace
 
-Page make_fig06(Effort effort) {
+Page make(Effort effort) {
   const bool full = effort == Effort::full;
   const std::size_t segments = full ? 400000 : 20000, starts = full ? 200 : 20;
   const ConvexityTest hard = sample_convexity(kHard, 0, 3, segments);
@@ -365,4 +365,4 @@ Page make_fig06(Effort effort) {
   return page;
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig06

@@ -8,7 +8,7 @@
 #include "experiments/text.hpp"
 #include "figures.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig07 {
 namespace {
 
 constexpr double kHalfDigits = 1e-6;  // where a minimum is known to
@@ -103,7 +103,7 @@ Claim finite_everywhere() {
 
 }  // namespace
 
-Page make_fig07(Effort effort) {
+Page make(Effort effort) {
   const bool full = effort == Effort::full;
   Page page;
   for (const double gamma : {1.0, 0.3}) {
@@ -129,4 +129,4 @@ Page make_fig07(Effort effort) {
   return page;
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig07

@@ -11,7 +11,7 @@
 #include "experiments/text.hpp"
 #include "figures.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig08 {
 namespace {
 
 constexpr double kHalfDigits = 1e-5;        // where a minimum of three energies' sum is known to, of a side of 2
@@ -223,7 +223,7 @@ Claim domains() {
 
 }  // namespace
 
-Page make_fig08(Effort effort) {
+Page make(Effort effort) {
   const bool full = effort == Effort::full;
   Page page;
   for (const Contours& contours : kContours) page.pictures.push_back(contour_picture(contours, full));
@@ -245,4 +245,4 @@ Page make_fig08(Effort effort) {
   return page;
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig08

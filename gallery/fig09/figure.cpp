@@ -13,7 +13,7 @@
 #include "temper/geometry.hpp"
 #include "temper/optimize.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig09 {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -303,7 +303,7 @@ Claim valence_and_weight(Effort effort) {
 
 }  // namespace
 
-Page make_fig09(Effort effort) {
+Page make(Effort effort) {
   const int steps = effort == Effort::full ? 10000 : 1000;
   Page page;
   page.pictures = {drawings()};
@@ -312,4 +312,4 @@ Page make_fig09(Effort effort) {
   return page;
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig09

@@ -11,7 +11,7 @@
 #include "figures.hpp"
 #include "plot/plot.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig10 {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -212,7 +212,7 @@ Table table() {
 
 }  // namespace
 
-Page make_fig10(Effort effort) {
+Page make(Effort effort) {
   const Study s = study(effort == Effort::full ? 200 : 60);
   Page page;
   page.pictures = pictures(s);
@@ -221,4 +221,4 @@ Page make_fig10(Effort effort) {
   return page;
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig10

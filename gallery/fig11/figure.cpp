@@ -15,7 +15,7 @@
 #include "temper/geometry.hpp"
 #include "temper/quality.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig11 {
 namespace {
 
 Claim one_free_vertex(const Mesh& mesh) {
@@ -105,7 +105,7 @@ Claim dense_input(const Mesh& mesh) {
 
 }  // namespace
 
-Page make_fig11(Effort) {
+Page make(Effort) {
   const Mesh sparse = sparse_horseshoe();
   const Mesh& dense = dense_horseshoe();
   const std::array<std::string, 2> panels = {
@@ -121,4 +121,4 @@ Page make_fig11(Effort) {
   return page;
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig11

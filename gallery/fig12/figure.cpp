@@ -17,7 +17,7 @@
 #include "temper/geometry.hpp"
 #include "temper/quality.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig12 {
 namespace {
 
 constexpr Vec2 kP1 = {0, 2};
@@ -251,7 +251,7 @@ Claim extrapolation_decides() {
 
 }  // namespace
 
-Page make_fig12(Effort) {
+Page make(Effort) {
   const FiveRuns five = position_runs();
   Page page;
   page.pictures.push_back(
@@ -268,4 +268,4 @@ Page make_fig12(Effort) {
   return page;
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig12

@@ -17,7 +17,7 @@
 #include "plot/plot.hpp"
 #include "temper/energy.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig13 {
 namespace {
 
 constexpr int kWeightsFrom = 2;
@@ -201,7 +201,7 @@ Claim coincident_orthocenters(const SparseRun& as_numbered, const CoincidentCent
 
 }  // namespace
 
-Page make_fig13(Effort) {
+Page make(Effort) {
   const auto runs = five_runs();
   const CoincidentCenters centers = coincident_centers();
   Page page;
@@ -216,4 +216,4 @@ Page make_fig13(Effort) {
   return page;
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig13

@@ -11,7 +11,7 @@
 #include "figures.hpp"
 #include "plot/plot.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig14 {
 namespace {
 
 /// Counts of how runs end over the vertex orders, by energy.
@@ -135,7 +135,7 @@ Claim t_like_dt() {
 
 }  // namespace
 
-Page make_fig14(Effort effort) {
+Page make(Effort effort) {
   const std::size_t stride = effort == Effort::full ? 1 : kReducedStride;
   const Counts counts = count_all(stride);
   Page page;
@@ -149,4 +149,4 @@ Page make_fig14(Effort effort) {
   return page;
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig14

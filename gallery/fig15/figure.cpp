@@ -11,7 +11,7 @@
 #include "plot/plot.hpp"
 #include "temper/draw.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig15 {
 namespace {
 
 bool is_hot(std::string_view energy) { return std::ranges::find(kHotEnergies, energy) != kHotEnergies.end(); }
@@ -103,7 +103,7 @@ Claim immediate_weights_bp(const std::array<SequenceCount, 5>& immediate) {
 
 }  // namespace
 
-Page make_fig15(Effort effort) {
+Page make(Effort effort) {
   const std::size_t stride = effort == Effort::full ? 1 : kReducedStride;
   const auto immediate = count_all(0, stride), deferred = count_all(2, stride);
   Page page;
@@ -117,4 +117,4 @@ Page make_fig15(Effort effort) {
   return page;
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig15

@@ -14,7 +14,7 @@
 #include "plot/plot.hpp"
 #include "temper/quality.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig16 {
 namespace {
 
 /// One run for each energy, vertices as numbered.
@@ -199,7 +199,7 @@ Claim gamma_as_shift(int random) {
 
 }  // namespace
 
-Page make_fig16(Effort effort) {
+Page make(Effort effort) {
   const FiveRuns five = five_runs();
   constexpr std::array<std::string_view, 2> kShown = {"dT", "BP"};
   constexpr std::array<std::string_view, 3> kOthers = {"F", "T", "BHs"};
@@ -217,4 +217,4 @@ Page make_fig16(Effort effort) {
   return page;
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig16

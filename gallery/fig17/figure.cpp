@@ -12,7 +12,7 @@
 #include "plot/plot.hpp"
 #include "temper/quality.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig17 {
 namespace {
 
 constexpr int kSweeps = 60;  // at most: good runs have converged, or nearly
@@ -260,7 +260,7 @@ Table remedies(const std::vector<std::pair<const char*, Counts>>& rows) {
 
 }  // namespace
 
-Page make_fig17(Effort effort) {
+Page make(Effort effort) {
   const bool full = effort == Effort::full;
   const Sample sample = {vertex_orders(full ? 20 : 0), full ? kSweeps : kReducedSweeps};
   const Counts none = count_both(kNone, sample), delayed = count_both(kDelay, sample);
@@ -283,4 +283,4 @@ Page make_fig17(Effort effort) {
   return page;
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig17

@@ -15,7 +15,7 @@
 #include "plot/plot.hpp"
 #include "temper/quality.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig18 {
 namespace {
 
 constexpr std::array<std::string_view, 3> kEnergies = {"T", "BP", "BHs"};
@@ -240,7 +240,7 @@ Claim fewer_iterations(const std::array<Pair, 3>& pairs, int random) {
 
 }  // namespace
 
-Page make_fig18(Effort effort) {
+Page make(Effort effort) {
   const bool full = effort == Effort::full;
   const double tolerance = full ? paper_method().paper.tolerance : kReducedTolerance;
   const std::array<Pair, 3> pairs = make_runs(tolerance);
@@ -255,4 +255,4 @@ Page make_fig18(Effort effort) {
   return page;
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig18

@@ -16,7 +16,7 @@
 #include "figures.hpp"
 #include "plot/plot.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig19 {
 namespace {
 
 constexpr int kMostSweeps = 120;  // of runs that compare energies; collapses come early
@@ -259,11 +259,11 @@ Claim collapses_easily(Effort effort) {
 
 }  // namespace
 
-Page make_fig19(Effort effort) {
+Page make(Effort effort) {
   const Stability s = stability(effort);
   return {{panels()},
           {table()},
           {kept_vertices_are_stable(), stable_in_any_order(s), collapses_meet_the_rule(s), collapses_easily(effort)}};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig19

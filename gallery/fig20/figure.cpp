@@ -15,7 +15,7 @@
 #include "plot/plot.hpp"
 #include "temper/geometry.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig20 {
 namespace {
 
 constexpr int kRows[] = {0, 1, 2, 5, 6};           // outer iterations, as in the paper
@@ -254,7 +254,7 @@ Claim flips_remove_obtuse() {
 
 }  // namespace
 
-Page make_fig20(Effort effort) {
+Page make(Effort effort) {
   const std::vector<OrderedRun>& all = oscillations_by_order(effort);
   const Extrapolations under_t = extrapolations(EnergyKind::T, effort),
                        under_dt = extrapolations(EnergyKind::dT, effort);
@@ -265,4 +265,4 @@ Page make_fig20(Effort effort) {
            flips_remove_obtuse()}};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig20

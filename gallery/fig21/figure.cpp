@@ -15,7 +15,7 @@
 #include "temper/geometry.hpp"
 #include "temper/regularity.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig21 {
 namespace {
 
 using Triangles = std::set<std::array<VertexId, 3>>;
@@ -333,11 +333,11 @@ Claim places_of_the_states(Effort effort) {
 
 }  // namespace
 
-Page make_fig21(Effort effort) {
+Page make(Effort effort) {
   return {{curves()},
           {energies()},
           {one_search_leaves_regularity(), energies_go_down_and_up(), flip_is_a_minimum(), mostly_extrapolated(),
            first_search_ends_at_its_limit(), places_of_the_states(effort)}};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig21

@@ -15,7 +15,7 @@
 #include "plot/plot.hpp"
 #include "temper/regularity.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig22 {
 namespace {
 
 constexpr double kPaperEnergy = 3.29, kNearPaper = 0.01;  // relative: which vertices have collapsed before is open
@@ -383,7 +383,7 @@ Claim annealing_is_best(const std::vector<Comparison>& all) {
 
 }  // namespace
 
-Page make_fig22(Effort effort) {
+Page make(Effort effort) {
   const std::vector<Comparison> all = compare(effort);
   return {{mesh_and_energy()},
           {thresholds(all)},
@@ -391,4 +391,4 @@ Page make_fig22(Effort effort) {
            large_overshoot_is_worse(all), annealing_is_best(all)}};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig22

@@ -11,7 +11,7 @@
 #include "figures.hpp"
 #include "plot/plot.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig23 {
 namespace {
 
 constexpr double kWeightScale = 0.25;
@@ -322,7 +322,7 @@ Claim deferring_hides(const Readings& readings) {
 
 }  // namespace
 
-Page make_fig23(Effort effort) {
+Page make(Effort effort) {
   const Readings readings{with_orders(effort), with_orders(effort, kFarSearches), with_orders(effort, kNormalized)};
   const Orders& orders = readings.shown;
   return {{panels()},
@@ -332,4 +332,4 @@ Page make_fig23(Effort effort) {
            deferring_hides(readings)}};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig23

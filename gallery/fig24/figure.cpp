@@ -13,7 +13,7 @@
 #include "temper/draw.hpp"
 #include "temper/geometry.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig24 {
 namespace {
 
 constexpr std::size_t kAtOnce = 0, kAllDeferred = 2;  // columns
@@ -218,11 +218,11 @@ Claim few_vertices_flip_twice() {
 
 }  // namespace
 
-Page make_fig24(Effort) {
+Page make(Effort) {
   return {{panels()},
           {table()},
           {deferred_weights_oscillate(), deferred_weights_are_slowest(), after_converges_quickest(),
            after_is_minutely_better(), after_looks_like_before(), edges_flip_back(), few_vertices_flip_twice()}};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig24

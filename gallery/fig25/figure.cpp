@@ -10,7 +10,7 @@
 #include "figures.hpp"
 #include "plot/plot.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig25 {
 namespace {
 
 constexpr double kShownReach = 4;  // over r²
@@ -200,7 +200,7 @@ Claim is_good(const std::vector<Tally>& all, const Policy& policy, const std::st
 
 }  // namespace
 
-Page make_fig25(Effort effort) {
+Page make(Effort effort) {
   const std::vector<Tally> all = tallies(effort);
   return {{panels()},
           {table(all)},
@@ -209,4 +209,4 @@ Page make_fig25(Effort effort) {
            is_good(all, kTheory, "Under E_T the mesh is good even without limits.")}};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig25

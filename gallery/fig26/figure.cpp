@@ -14,7 +14,7 @@
 #include "plot/plot.hpp"
 #include "temper/quality.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig26 {
 namespace {
 
 constexpr int kEarlySweeps = 100;                                          // well into the second outer iteration
@@ -204,7 +204,7 @@ Claim none_then_fifth(const std::vector<std::size_t>& counts, Effort effort) {
 
 }  // namespace
 
-Page make_fig26(Effort effort) {
+Page make(Effort effort) {
   std::vector<std::size_t> counts = collapses_by_outer(high_heat_bp());
   counts.resize(std::max<std::size_t>(counts.size(), 3));
   return {{panels()},
@@ -213,4 +213,4 @@ Page make_fig26(Effort effort) {
            none_then_fifth(counts, effort)}};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig26

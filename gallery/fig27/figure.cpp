@@ -9,7 +9,7 @@
 #include "plot/plot.hpp"
 #include "temper/quality.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig27 {
 namespace {
 
 std::string panel(const Moment& m, const Moment& other) {
@@ -102,7 +102,7 @@ Claim outer_iterations_help() {
 
 }  // namespace
 
-Page make_fig27(Effort) {
+Page make(Effort) {
   return {
       {panels(),
        {"fig27_energy", line_plot_svg(energy_plot()),
@@ -112,4 +112,4 @@ Page make_fig27(Effort) {
       {stops_when_regular(), outer_iterations_help()}};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig27

@@ -13,7 +13,7 @@
 #include "plot/plot.hpp"
 #include "temper/geometry.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig28 {
 namespace {
 
 constexpr Box kLeftFoot = {{-2.1, -0.06}, {-0.75, 1.35}};
@@ -119,6 +119,6 @@ Claim flips_mend_the_foot() {
 
 }  // namespace
 
-Page make_fig28(Effort) { return {{panels()}, {table()}, {feet_improve(), flips_mend_the_foot()}}; }
+Page make(Effort) { return {{panels()}, {table()}, {feet_improve(), flips_mend_the_foot()}}; }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig28

@@ -13,7 +13,7 @@
 #include "plot/plot.hpp"
 #include "temper/quality.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig29 {
 namespace {
 
 struct Final {
@@ -195,7 +195,7 @@ Claim replays() {
 
 }  // namespace
 
-Page make_fig29(Effort effort) {
+Page make(Effort effort) {
   std::vector<std::string> panels;
   for (const Final& f : finals()) panels.push_back(panel(f));
   const Survey s = survey(effort);
@@ -207,4 +207,4 @@ Page make_fig29(Effort effort) {
            rule_misses_them(missed_in_final_meshes(), s.missed), patch_test_catches_them(s.missed), replays()}};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig29

@@ -19,7 +19,7 @@
 #include "temper/quality.hpp"
 #include "temper/topology.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig30 {
 namespace {
 
 /// Vertices removed so far, by iteration.
@@ -296,7 +296,7 @@ Claim small_and_three_valent() {
 
 }  // namespace
 
-Page make_fig30(Effort effort) {
+Page make(Effort effort) {
   const Recording& run = patch_test_run(Unknowns::positions);
   const Overlap o = overlap(effort);
   return {{{"fig30", removal_panels(run, 0),
@@ -309,4 +309,4 @@ Page make_fig30(Effort effort) {
            any_metric_with_patch_test(summary_matrix(effort, Inversion::refuse)), small_and_three_valent()}};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig30

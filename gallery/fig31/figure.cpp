@@ -17,7 +17,7 @@
 #include "temper/regularity.hpp"
 #include "temper/topology.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig31 {
 namespace {
 
 Claim later_with_weights(Effort effort) {
@@ -192,7 +192,7 @@ Claim mean_is_no_cure() {
 
 }  // namespace
 
-Page make_fig31(Effort effort) {
+Page make(Effort effort) {
   const Recording& run = patch_test_run(Unknowns::positions_and_weights);
   const std::vector<LargeRun> large = large_runs(effort);
   std::vector<Claim> claims = {coarse_but_good(Unknowns::positions_and_weights, "31"), later_with_weights(effort),
@@ -206,4 +206,4 @@ Page make_fig31(Effort effort) {
           std::move(claims)};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig31

@@ -22,7 +22,7 @@
 #include "reading.hpp"
 #include "temper/quality.hpp"
 
-namespace temper::gallery {
+namespace temper::gallery::fig32 {
 namespace {
 
 constexpr std::array<std::string_view, 3> kRuleNames = {"no removal", "short edges", "patch test"};
@@ -400,7 +400,7 @@ Claim later_weights_are_better(Effort effort) {
 
 }  // namespace
 
-Page make_fig32(Effort effort) {
+Page make(Effort effort) {
   const Matrix& matrix = summary_matrix(effort, Inversion::refuse);
   const Matrix& inverting = summary_matrix(effort, Inversion::allow);
   return {
@@ -418,4 +418,4 @@ Page make_fig32(Effort effort) {
        barriers_work_by_themselves(inverting), later_weights_are_better(effort), barriers_against_baselines()}};
 }
 
-}  // namespace temper::gallery
+}  // namespace temper::gallery::fig32

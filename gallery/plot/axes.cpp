@@ -167,6 +167,8 @@ std::string Axes::svg() const {
 
 GridPoint plot_grid(Vec2 pixel) { return {std::llround(pixel.x / Axes::kUnit), std::llround(pixel.y / Axes::kUnit)}; }
 
+std::string plot_steps(double pixels) { return short_number(pixels / Axes::kUnit); }
+
 std::string clipped_group(const Box& box, const std::string& id, const std::string& content) {
   return "<clipPath id=\"" + id + "\"><rect x=\"" + short_number(box.low.x) + "\" y=\"" + short_number(box.low.y) +
          "\" width=\"" + short_number(box.high.x - box.low.x) + "\" height=\"" + short_number(box.high.y - box.low.y) +

@@ -39,6 +39,8 @@ struct Axes {
 
 /// Pixels on the grid of paths.
 [[nodiscard]] GridPoint plot_grid(Vec2 pixel);
+/// A length in pixels as a number of its steps.
+[[nodiscard]] std::string plot_steps(double pixels);
 /// A group in which paths on that grid are drawn, cut off at the edges of the box. `id` is unique in the document.
 [[nodiscard]] std::string clipped_group(const Box& box, const std::string& id, const std::string& content);
 

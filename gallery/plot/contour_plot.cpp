@@ -60,8 +60,6 @@ Polyline simplified(const Polyline& points) {
   return result;
 }
 
-std::string steps(double pixels) { return short_number(pixels / Axes::kUnit); }
-
 class ContourPainter {
  public:
   explicit ContourPainter(const ContourPlot& plot)
@@ -151,7 +149,8 @@ class ContourPainter {
       }
       if (path.empty()) continue;
       svg += "<path class=\"contour\" fill=\"none\" stroke=\"" + std::string(on_dark(k) ? "#ffffff" : "#333333") +
-             "\" stroke-width=\"" + steps(levels_[k] == 0 ? kZeroLine : kLine) + "\" d=\"" + path.text() + "\"/>\n";
+             "\" stroke-width=\"" + plot_steps(levels_[k] == 0 ? kZeroLine : kLine) + "\" d=\"" + path.text() +
+             "\"/>\n";
     }
     return svg;
   }
@@ -218,9 +217,9 @@ class ContourPainter {
         if (const auto seen = clip(s, axes_.area)) path.segment(plot_grid(seen->from), plot_grid(seen->to));
       }
       if (path.empty()) continue;
-      svg += "<path class=\"overlay\" fill=\"none\" stroke=\"#000000\" stroke-width=\"" + steps(kOverlayLine) + "\"" +
-             (overlay.dashed ? " stroke-dasharray=\"" + steps(5) + " " + steps(3) + "\"" : "") + " d=\"" + path.text() +
-             "\"/>\n";
+      svg += "<path class=\"overlay\" fill=\"none\" stroke=\"#000000\" stroke-width=\"" + plot_steps(kOverlayLine) +
+             "\"" + (overlay.dashed ? " stroke-dasharray=\"" + plot_steps(5) + " " + plot_steps(3) + "\"" : "") +
+             " d=\"" + path.text() + "\"/>\n";
     }
     return svg;
   }

@@ -60,7 +60,7 @@ void add_polygon(PathText& path, Vec2 at, std::span<const Vec2> corners) {
 }
 
 void add_marker(PathText& path, Marker marker, Vec2 at) {
-  constexpr std::array<Vec2, 4> kSquare = {Vec2{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}};
+  constexpr std::array<Vec2, 4> kSquareMark = {Vec2{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}};
   constexpr std::array<Vec2, 3> kTriangle = {Vec2{0, -1.2}, {1.1, 0.8}, {-1.1, 0.8}};
   constexpr std::array<Vec2, 4> kDiamond = {Vec2{0, -1.3}, {1.3, 0}, {0, 1.3}, {-1.3, 0}};
   switch (marker) {
@@ -68,7 +68,7 @@ void add_marker(PathText& path, Marker marker, Vec2 at) {
     case Marker::ring:
       return path.circle(plot_grid(at), std::llround(kMarker / Axes::kUnit));
     case Marker::square:
-      return add_polygon(path, at, kSquare);
+      return add_polygon(path, at, kSquareMark);
     case Marker::triangle:
       return add_polygon(path, at, kTriangle);
     case Marker::diamond:
@@ -79,19 +79,17 @@ void add_marker(PathText& path, Marker marker, Vec2 at) {
   }
 }
 
-std::string steps(double pixels) { return short_number(pixels / Axes::kUnit); }
-
 std::string dash_attribute(const Dash& dash) {
   if (dash.n == 0) return "";
   std::string text = " stroke-dasharray=\"";
-  for (std::size_t i = 0; i < dash.n; ++i) text += (i == 0 ? "" : " ") + steps(dash.pixels[i]);
+  for (std::size_t i = 0; i < dash.n; ++i) text += (i == 0 ? "" : " ") + plot_steps(dash.pixels[i]);
   return text + "\"";
 }
 
 std::string curve_svg(const PathText& path, const Look& look, const char* name) {
   if (path.empty()) return "";
   return std::string("<path class=\"") + name + "\" fill=\"none\" stroke=\"" + xml_text(look.color) +
-         "\" stroke-width=\"" + steps(kCurveWidth) + "\"" + dash_attribute(look.dash) + " d=\"" + path.text() +
+         "\" stroke-width=\"" + plot_steps(kCurveWidth) + "\"" + dash_attribute(look.dash) + " d=\"" + path.text() +
          "\"/>\n";
 }
 
@@ -100,7 +98,7 @@ std::string markers_svg(const PathText& path, const Look& look) {
   const bool open = look.marker == Marker::ring || look.marker == Marker::cross;
   const std::string color = xml_text(look.color);
   return "<path class=\"markers\" fill=\"" + std::string(open ? "#ffffff" : color) + "\" stroke=\"" + color +
-         "\" stroke-width=\"" + steps(open ? kCurveWidth : kReferenceWidth) + "\" d=\"" + path.text() + "\"/>\n";
+         "\" stroke-width=\"" + plot_steps(open ? kCurveWidth : kReferenceWidth) + "\" d=\"" + path.text() + "\"/>\n";
 }
 
 bool drawn(const LinePlot& plot, Vec2 p) {
@@ -232,7 +230,7 @@ class LinePainter {
       path.segment(plot_grid({axes_.area.low.x, y}), plot_grid({axes_.area.high.x, y}));
     }
     if (path.empty()) return "";
-    return "<path class=\"reference\" fill=\"none\" stroke=\"#8a8a8a\" stroke-width=\"" + steps(kReferenceWidth) +
+    return "<path class=\"reference\" fill=\"none\" stroke=\"#8a8a8a\" stroke-width=\"" + plot_steps(kReferenceWidth) +
            "\"" + dash_attribute({{3, 3}, 2}) + " d=\"" + path.text() + "\"/>\n";
   }
 

@@ -9,8 +9,8 @@
 namespace temper {
 namespace {
 
-constexpr int kLargest = 5, kSmallest = -4;  // exponents from which on an axis takes out a power of ten
-constexpr double kRounding = 1e-9;           // of a step: a tick at the very end of the range is in it
+constexpr int kLargestPower = 5, kSmallestPower = -4;  // exponents from which on an axis takes out a power of ten
+constexpr double kRounding = 1e-9;                     // of a step: a tick at the very end of the range is in it
 
 // 10^k, to the nearest double.
 double power_of_ten(int k) { return k >= 0 ? std::pow(10.0, k) : 1 / std::pow(10.0, -k); }
@@ -38,7 +38,7 @@ Ticks linear_ticks(const PlotRange& range, double most) {
   const double size = std::max(std::abs(range.low), std::abs(range.high));
   Ticks result;
   const int magnitude = static_cast<int>(std::floor(std::log10(size) + kRounding));
-  if (magnitude >= kLargest || magnitude < kSmallest) result.exponent = magnitude;
+  if (magnitude >= kLargestPower || magnitude < kSmallestPower) result.exponent = magnitude;
   const int step_exponent = static_cast<int>(std::floor(std::log10(step) + kRounding));
   const int decimals = std::clamp(result.exponent - step_exponent, 0, 15);
   const double first = std::ceil(range.low / step - kRounding), last = std::floor(range.high / step + kRounding);

@@ -112,7 +112,7 @@ void insist_on_result(const Mesh& before, const Mesh& mesh, const OptimizeReport
   insist(count_non_regular_edges(mesh, false) == 0, "every free edge is regular");
 }
 
-void run(std::string_view bytes) {
+void run_optimize(std::string_view bytes) {
   Choices choices(bytes);
   const Mesh before = make_mesh(choices);
   insist(!before.validate(), "the mesh to begin with is valid");
@@ -146,6 +146,6 @@ std::vector<std::string> some_bytes() {
 
 }  // namespace
 
-std::vector<Target> optimize_targets() { return {{"optimize", run, some_bytes}}; }
+std::vector<Target> optimize_targets() { return {{"optimize", run_optimize, some_bytes}}; }
 
 }  // namespace temper::fuzz
