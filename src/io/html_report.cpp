@@ -17,6 +17,7 @@
 #include "io/vtu_codec.hpp"
 #include "temper/geometry.hpp"
 #include "temper/html.hpp"
+#include "temper/quality.hpp"
 
 namespace temper::io {
 namespace {
@@ -178,6 +179,29 @@ std::string escaped(std::string_view plain, std::string_view less, std::string_v
   return result;
 }
 
+std::string_view name_of(Better better) {
+  switch (better) {
+    case Better::larger:
+      return "larger";
+    case Better::less:
+      return "less";
+    case Better::equal:
+      break;
+  }
+  return "equal";
+}
+
+/// The rows of quality_measures() as JSON: the page knows no measure by itself. No word of the table needs escapes.
+std::string measures_json() {
+  std::string json;
+  for (const QualityMeasure& m : quality_measures()) {
+    json += text(json.empty() ? "[" : ",", "\n{\"key\":\"", m.key, "\",\"label\":\"", m.label, "\",\"community\":\"",
+                 m.community, "\",\"definition\":\"", m.definition, "\",\"better\":\"", name_of(m.better),
+                 "\",\"wanted\":", m.wanted ? text(*m.wanted) : "null", "}");
+  }
+  return json + "]";
+}
+
 }  // namespace
 
 std::string html_report(const HtmlReport& report) {
@@ -191,6 +215,8 @@ std::string html_report(const HtmlReport& report) {
   html += text("<title>", escaped(report.title, "&lt;", "&amp;"), "</title>");
   html += page.substr(title + kTitle.size(), mark - title - kTitle.size());
   html += text("<script type=\"application/json\" id=\"report\">", escaped(report.json, "\\u003c", "&"), "</script>\n");
+  html += text("<script type=\"application/json\" id=\"measures\">", escaped(measures_json(), "\\u003c", "&"),
+               "</script>\n");
   for (const ArrayText& array : arrays) html += element(array);
   html += page.substr(mark + kMark.size());
   return html;

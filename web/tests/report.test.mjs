@@ -92,6 +92,10 @@ test('each control of a report of optimize does what it says', async () => {
     assert.ok((await page.textContent(`#${section}`)).length > 3, `#${section} is empty`);
   }
   assert.match(await page.textContent('#again pre'), /^temper optimize /);
+  const measures = await page.evaluate(() => JSON.parse(document.querySelector('#measures').textContent));
+  assert.equal(await page.locator('#summary tbody tr').count(), measures.length);
+  for (const community of await page.locator('#summary details').all()) await community.locator('summary').click();
+  assert.equal(await page.locator('#summary tbody tr:visible').count(), measures.length);
   assert.equal(await page.locator('#histograms svg').count(), 3);
   assert.equal(await page.locator('#sweeps svg path.line').count(), 3);
 

@@ -10,6 +10,7 @@
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"
 #include "temper/html.hpp"
+#include "temper/quality.hpp"
 
 namespace temper::io {
 namespace {
@@ -124,6 +125,18 @@ TEST(HtmlReport, TextsEndNoElement) {
   const std::string html = html_report({{mesh}, {}, "</title><script>", R"({"notes": ["</script>"]})"});
   EXPECT_EQ(between(html, "<title>", "</title>"), "&lt;/title>&lt;script>");
   EXPECT_EQ(between(html, "id=\"report\">", "</script>"), R"({"notes": ["\u003c/script>"]})");
+}
+
+TEST(HtmlReport, NamesEachMeasure) {
+  const Mesh mesh = weighted_mesh();
+  const std::string html = html_report({{mesh}, {}, "ring"});
+  const std::string table = between(html, "id=\"measures\">", "</script>");
+  for (const QualityMeasure& measure : quality_measures()) {
+    EXPECT_NE(table.find("{\"key\":\"" + std::string(measure.key) + "\""), std::string::npos) << measure.key;
+    for (const std::string_view word : {measure.key, measure.label, measure.community, measure.definition}) {
+      EXPECT_EQ(word.find_first_of("\"\\\n"), std::string_view::npos) << word << ": JSON escapes these";
+    }
+  }
 }
 
 TEST(HtmlReport, AsksForNothingOnTheNetwork) {

@@ -9,6 +9,16 @@ export interface Quality {
   worst: Worst[];
   histograms: Record<string, Histogram>;
 }
+/** A row of the library's table of measures: what a number of Quality is. */
+export interface Measure {
+  key: string;
+  label: string;
+  /** Whose codes look at it; empty for those of primal-dual meshes as such. */
+  community: string;
+  definition: string;
+  better: 'equal' | 'larger' | 'less';
+  wanted: number | null;
+}
 export interface Worst {
   triangle: number;
   why: string;
@@ -106,6 +116,6 @@ export async function readMesh(side: string): Promise<Shown | null> {
   };
 }
 
-export function readReport(): Report {
-  return JSON.parse(document.getElementById('report')?.textContent ?? '{}') as Report;
-}
+const readJson = (id: string, missing: string): unknown => JSON.parse(document.getElementById(id)?.textContent ?? missing);
+export const readReport = (): Report => readJson('report', '{}') as Report;
+export const readMeasures = (): Measure[] => readJson('measures', '[]') as Measure[];

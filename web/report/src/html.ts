@@ -34,6 +34,7 @@ export function number(value: unknown, digits = 4): string {
   return text.replace(/e\+?/, '·10^').replace('-', '−').replace('^-', '^−');
 }
 
+export const capital = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 export const plural = (n: number, one: string, many: string): string => `${number(n)} ${n === 1 ? one : many}`;
 
 /** Rows of cells as a table; the first cell of each is its name. */

@@ -1,6 +1,6 @@
 // The page: reads what temper wrote into it, draws the mesh, and lets panels, list and keys act on it.
 import { badTriangles, darkTheme, findMeasure, type Layers, lightTheme, measures, nTriangles, type Side, triangleNumbers, Verdict, verdicts, Viewer } from 'temper-viewer';
-import { readMesh, readReport, type Report, type Shown } from './data.ts';
+import { readMeasures, readMesh, readReport, type Report, type Shown } from './data.ts';
 import { byId, make, number, table } from './html.ts';
 import { again, headline, histograms, keys, remarks, solverErrors, summary, sweeps } from './panels.ts';
 import { showPicked, triangleName, vertexName } from './picked.ts';
@@ -260,7 +260,7 @@ async function start(): Promise<void> {
   const [before, after] = [await readMesh('before'), await readMesh('after')];
   if (!after) return;
   headline(report, title, { before: before ? badTriangles(before.mesh).length : undefined, after: badTriangles(after.mesh).length }, nTriangles(after.mesh));
-  summary(report);
+  summary(report, readMeasures());
   histograms(report);
   sweeps(report);
   solverErrors(report);

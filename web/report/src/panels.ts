@@ -1,26 +1,7 @@
 // The panels beside the mesh. Each fills its section from the report, or leaves it empty, which hides it.
 import { histogram, series } from './charts.ts';
-import type { Quality, Report } from './data.ts';
-import { byId, make, number, plural, table } from './html.ts';
-
-/** The measures of the summary: key of the report, label, and whether a number is bad. */
-const kRows: [string, string, (value: number) => boolean][] = [
-  ['vertices', 'Vertices', () => false],
-  ['triangles', 'Triangles', () => false],
-  ['edges', 'Edges', () => false],
-  ['regions', 'Regions', () => false],
-  ['inverted_triangles', 'Inverted triangles', (v) => v > 0],
-  ['orthocenters_outside', 'Orthocenters outside', (v) => v > 0],
-  ['edges_not_crossed', 'Edges not crossed by their dual', (v) => v > 0],
-  ['non_regular_edges', 'Edges not regular', (v) => v > 0],
-  ['negative_boundary_duals', 'Negative boundary duals', (v) => v > 0],
-  ['well_centered_fraction', 'Well-centered fraction', (v) => v < 1],
-  ['min_h_over_l', 'Least h/ℓ', (v) => v <= 0],
-  ['min_d_over_l', 'Least d/ℓ', (v) => v <= 0],
-  ['min_angle_deg', 'Least angle', () => false],
-  ['max_angle_deg', 'Largest angle', () => false],
-  ['max_transmissibility_over_median', 'Transmissibility, max/median', () => false],
-];
+import type { Measure, Quality, Report } from './data.ts';
+import { byId, capital, make, number, plural, table } from './html.ts';
 
 const kHistograms: [string, string, number | undefined][] = [
   ['angles', 'Angles of triangles, in degrees', undefined],
@@ -41,19 +22,38 @@ export function headline(report: Report, title: string, bad: { before?: number; 
   if (bad.before !== undefined) verdict.append(make('small', {}, `before: ${number(bad.before)} were not`));
 }
 
-export function summary(report: Report): void {
+/** Whether a number is not what is asked for where nobody says more. */
+function misses(measure: Measure, value: unknown): boolean {
+  const { better, wanted } = measure;
+  if (wanted === null || value === null) return false;
+  const found = Number(value);
+  return better === 'larger' ? found < wanted : better === 'less' ? found > wanted : found !== wanted;
+}
+
+/** Infinite: of what is to be large nothing was there to be measured. */
+const measured = (measure: Measure, value: unknown): string => (value === null && measure.better === 'larger' ? '–' : number(value));
+
+/** The measures of meshes as such, and, folded up, those of each community that runs codes on them. */
+export function summary(report: Report, measures: Measure[]): void {
   const { before, after } = report;
   if (!after) return;
-  const cell = (quality: Quality, key: string, isBad: (v: number) => boolean, old: boolean): HTMLElement => {
-    const value = quality[key];
-    const worse = value === null || isBad(Number(value));
-    const degrees = key.endsWith('_deg') ? '°' : '';
-    return make('td', { class: worse && key !== 'max_transmissibility_over_median' ? 'is-bad' : old ? 'was' : '' }, number(value) + degrees);
+  const cell = (quality: Quality, measure: Measure, old: boolean): HTMLElement => {
+    const value = quality[measure.key];
+    return make('td', { class: misses(measure, value) ? 'is-bad' : old ? 'was' : '' }, measured(measure, value));
   };
-  const rows = kRows
-    .filter(([key]) => key in after)
-    .map(([key, label, isBad]) => [label, ...(before ? [cell(before, key, isBad, true)] : []), cell(after, key, isBad, false)]);
-  byId('summary').append(make('h2', {}, 'Measures'), table(before ? ['', 'before', 'after'] : [], rows));
+  const row = (measure: Measure): (HTMLElement | string)[] => [
+    make('th', { scope: 'row', title: measure.definition }, capital(measure.label)),
+    ...(before ? [cell(before, measure, true)] : []),
+    cell(after, measure, false),
+  ];
+  const head = before ? ['', 'before', 'after'] : [];
+  byId('summary').append(make('h2', {}, 'Measures'));
+  for (const community of new Set(measures.map((m) => m.community))) {
+    const rows = measures.filter((m) => m.community === community && m.key in after);
+    if (rows.length === 0) continue;
+    const shown = table(head, rows.map(row));
+    byId('summary').append(community === '' ? shown : make('details', {}, make('summary', {}, capital(community)), shown));
+  }
 }
 
 export function histograms(report: Report): void {
