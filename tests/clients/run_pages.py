@@ -5,8 +5,8 @@
     run_pages.py --write          puts what was printed into the pages, and the table into docs/howto/README.md
 
 Every block of a page runs from top to bottom in an empty folder and a process of its own; the last one asserts what the
-page promises, prints its numbers, and leaves them as `results`: "before", "optimized", "accuracy". scripts/clients.sh
-installs the clients and calls this.
+page promises, prints its numbers, and leaves them as `results`, by the keys of COLUMNS. scripts/clients.sh installs the clients and calls
+this.
 """
 
 import argparse
@@ -26,7 +26,7 @@ from pages import blocks_of, lacking  # noqa: E402
 
 HOWTO = ROOT / "docs" / "howto"
 README = HOWTO / "README.md"
-COLUMNS = ("before", "optimized", "accuracy")
+COLUMNS = ("before", "energy", "default", "accuracy", "for")
 # The last digits of iterative solvers depend on BLAS and the machine.
 TOLERANCE = 0.02
 # What is below this is rounding, which is another number on each machine.
@@ -134,12 +134,12 @@ class Page:
         versions = ", ".join(filter(None, map(version, self.last.needs)))
         first = f"[{title}]({self.path.name})"
         if self.skipped:
-            return [first, "", f"not run: {self.skipped}", "", "", ""]
+            return [first, "", f"not run: {self.skipped}", *([""] * len(COLUMNS))]
         return [first, versions, self.last.measures, *(shown(self.results.get(column)) for column in COLUMNS)]
 
 
 def table_of(rows):
-    head = ["page", "client", "measured", "before", "`optimize`", "accuracy"]
+    head = ["page", "client", "measured", "before", "energy", "`optimize`", "accuracy", "`--for`"]
     return "\n".join("| " + " | ".join(row) + " |" for row in [head, ["-"] * len(head), *rows]) + "\n"
 
 

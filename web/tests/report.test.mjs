@@ -175,6 +175,7 @@ test('it fits a telephone, and paper', async () => {
   await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
   await page.emulateMedia({ media: 'print' });
   assert.ok(await page.isVisible('#printed'));
+  assert.equal(await page.locator('#summary details:not([open])').count(), 0);
   assert.equal(await page.textContent('#printed figcaption'), 'Left before, right after');
   await shoot(page, 'optimize-print', { fullPage: true });
   await close();

@@ -335,6 +335,7 @@ test('100,000 triangles are opened and moved', async () => {
 });
 
 test('a telephone shows mesh and controls', async () => {
+  await choose('annulus');
   await page.setViewportSize({ width: 390, height: 800 });
   await shot('telephone');
   assert(await page.isVisible('#optimize'));

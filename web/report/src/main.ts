@@ -50,8 +50,9 @@ class Page {
     Object.assign(window, { temperViewer: this.viewer }); // for measurements
   }
 
-  /** The picture as it is for paper, with what its parts are. */
+  /** The picture as it is for paper, with what its parts are; and nothing is folded up there. */
   private print(): void {
+    for (const group of document.querySelectorAll<HTMLDetailsElement>('#summary details')) group.open = true;
     const figure = byId('printed');
     figure.querySelector('img')!.src = this.viewer.image();
     const side = byId('sides').querySelector<HTMLInputElement>(':checked')?.value ?? '';
