@@ -12,6 +12,7 @@
 #include "optimize/driver.hpp"
 #include "optimize/step/star_batch.hpp"
 #include "support/lattice.hpp"
+#include "support/sanitizers.hpp"
 #include "temper/generate.hpp"
 #include "temper/instruction_set.hpp"
 #include "temper/optimize.hpp"
@@ -290,7 +291,7 @@ TEST(InstructionSets, RunsOfEveryEnergyGiveTheSameBytes) {
   const KeepInstructionSet keep;
   for (const EnergyInfo& energy : energies()) {
     for (int star = 0; star <= 2; ++star) {
-      Mesh start = swept_mesh(30, 2);
+      Mesh start = swept_mesh(TEMPER_SANITIZED ? 16 : 30, 2);
       for (const VertexId v : start.vertices()) start.set_weight(v, energy.positions_alone ? 0 : start.weight(v));
       std::optional<Mesh> first;
       for (const InstructionSet set : instruction_sets()) {
