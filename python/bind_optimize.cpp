@@ -111,6 +111,7 @@ struct RunArguments {
   Callbacks callbacks;
   py::object checkpoint;  ///< see Checkpoints
   py::object resume;      ///< path of a checkpoint
+  py::object tensor;      ///< kxx, kxy, kyy
 };
 
 /// An error of the run, which says in which file the state is that it was to go on from.
@@ -124,6 +125,8 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
   OptimizeOptions options = options_from(given);
   options.size_field = size_field_from(arguments.size_field);
   const auto count = threads_from(arguments.threads);
+  const std::optional<Metric> metric =
+      arguments.tensor.is_none() ? std::nullopt : std::optional(metric_from(arguments.tensor));
   const auto before = self.read();
   io::Checkpoint resumed;
   if (!arguments.resume.is_none()) resumed = or_raise(io::read_checkpoint(arguments.resume.cast<std::string>()));
@@ -138,14 +141,13 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
     checkpoints.emplace(arguments.checkpoint.cast<py::tuple>(), visitor);
     hooks.checkpoints = [&](const auto& state) { checkpoints->keep(state); };
   }
-  Mesh mesh;
+  Mesh mesh = metric ? or_raise(mapped(*before, *metric)) : *before;
   std::optional<Expected<OptimizeReport>> report;
   {
     const PyMesh::Run run(self);
     const py::gil_scoped_release release;
     const auto executor = make_threads(count);
     hooks.executor = executor.get();
-    mesh = *before;
 #ifdef TEMPER_WITH_VERIFY
     if (wants_error_model(options, mesh)) {
       auto model = solver_error_model(mesh, {.scheme = options.for_});
@@ -159,7 +161,10 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
     if (checkpoints && !checkpoints->refused() && report->has_value() && stopped_early(**report)) checkpoints->write();
   }
   if (checkpoints && checkpoints->refused()) visitor.raise();
-  if (report->has_value()) self.replace(std::move(mesh), (*report)->vertices);
+  if (report->has_value()) {
+    const auto& vertices = (*report)->vertices;
+    self.replace(metric ? or_raise(mapped_back(mesh, *before, *metric, vertices)) : std::move(mesh), vertices);
+  }
   visitor.raise();
   if (!*report) throw BadInput{error_of_run(report->error(), arguments.resume)};
   return report_to_dict(**report);
@@ -191,8 +196,9 @@ TraceEvent event_from(const py::dict& d) {
 void bind_optimize(py::module_& m) {
   m.def("optimize", [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
                        const py::object& observer, const py::object& tracer, const py::object& snapshots,
-                       const py::object& checkpoint, const py::object& resume) {
-    return optimize_mesh(self, options, {size_field, threads, {observer, tracer, snapshots}, checkpoint, resume});
+                       const py::object& checkpoint, const py::object& resume, const py::object& tensor) {
+    return optimize_mesh(self, options,
+                         {size_field, threads, {observer, tracer, snapshots}, checkpoint, resume, tensor});
   });
   m.def("methods", [] {
     py::dict all;

@@ -7,7 +7,7 @@ import math
 import numbers
 import os
 import warnings
-from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -142,6 +142,7 @@ def optimize(
     options: OptimizeOptions | None = None,
     *,
     size_field: SizeField | None = None,
+    tensor: Sequence[float] | None = None,
     point_data: DataRules | None = None,
     threads: int | None = None,
     observer: Callable[[Progress], Any] | None = None,
@@ -173,6 +174,9 @@ def optimize(
         ``help(temper.OptimizeOptions)`` says what each is for.
     size_field : SizeField, optional
         That sizes are compared with. None: the input's own.
+    tensor : sequence of float, optional
+        kxx, kxy, kyy of a constant diffusion tensor K, for −div(K ∇u): triangles become well-centered in its metric, and
+        so is all that is reported, and what snapshots show (docs/tensor.md). Not with ``size_field`` and ``tracer``.
     point_data : str or sequence of str, optional
         What floating point data of points do where vertices move: ``Mesh.point_data_rules``, which this sets.
     threads : int, optional
@@ -236,6 +240,10 @@ def optimize(
             raise TypeError(f"{name}: expected a callable or None, found {call!r}")
     if size_field is not None and not isinstance(size_field, SizeField):
         raise TypeError(f"size_field: expected a SizeField or None, found {type(size_field).__name__}")
+    if tensor is not None:
+        for name, given in (("size_field", size_field), ("tracer", tracer)):
+            if given is not None:
+                raise ValueError(f"{name}: is of the mesh's plane, and does not go with tensor")
     target = as_mesh(mesh)
     rules = target.point_data_rules if point_data is None else data_rules(point_data)
     _temper.check_data_rules(target._handle, rules)
@@ -245,11 +253,13 @@ def optimize(
     kept, resumed = _checkpoint(checkpoint, every), _path("resume", resume)
     look = (lambda shot: snapshots(Snapshot._of(shot))) if snapshots is not None else None
     field = size_field._handle if size_field is not None else None
-    original = target.copy() if 0 < target.n_triangles <= PAGE else None
+    original = target.copy() if tensor is None and 0 < target.n_triangles <= PAGE else None
     before = target._handle.version()
     try:
         watch = _observer(line, observer)
-        report = _temper.optimize(target._handle, plain, field, threads, watch, trace, look, kept, resumed)
+        report = _temper.optimize(
+            target._handle, plain, field, threads, watch, trace, look, kept, resumed, None if tensor is None else tuple(tensor)
+        )
     finally:
         line.clear()
         if target._handle.version() != before:

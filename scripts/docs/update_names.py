@@ -65,7 +65,7 @@ OTHERS = {
     "--point-data": ("`optimize(point_data=…)`", "`io::UpdateOptions::rules`"),
     "--projection": ("`read(projection=…)`", "`io::project`"),
     "--size-field": ("`optimize(size_field=…)`", "`OptimizeOptions::size_field`"),
-    "--tensor": ("`mapped`, `mapped_back`, `dec(tensor=…)`", "`Metric`, `mapped`, `mapped_back`"),
+    "--tensor": ("`optimize(tensor=…)`, `dec(tensor=…)`, `mapped`, `mapped_back`", "`Metric`, `mapped`, `mapped_back`"),
     "--threads": ("`threads=…`", "`Executor`, `TbbExecutor`"),
     "--trace": ("`optimize(tracer=…)`", "`OptimizeHooks::tracer`"),
     "--checkpoint": ("`optimize(checkpoint=…, every=…)`", "`OptimizeHooks::checkpoints`"),

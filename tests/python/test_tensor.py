@@ -20,9 +20,7 @@ def matrix(tensor):
 
 def optimized(mesh, tensor):
     """Well-centered in the metric of the tensor; boundary edges that are long there are cut."""
-    there = temper.mapped(mesh, tensor)
-    report = temper.optimize(there, boundary="split")
-    return temper.mapped_back(there, mesh, tensor, report.vertices)
+    return temper.optimized(mesh, tensor=tensor, boundary="split")
 
 
 def refined(mesh):
@@ -108,6 +106,26 @@ def test_there_and_back_keeps_what_stayed_bit_for_bit():
     q = np.asarray(there.points) @ np.asarray(there.points).T
     x = np.asarray(mesh.points)
     assert np.allclose(q, np.sqrt(np.linalg.det(matrix(tensor))) * x @ np.linalg.inv(matrix(tensor)) @ x.T)
+
+
+def test_a_run_in_the_metric_is_the_run_of_the_mapped_mesh():
+    mesh = temper.generate.random_points(150)
+    there = temper.mapped(mesh, K)
+    report = temper.optimize(there, boundary="split")
+    better = mesh.copy()
+    same = temper.optimize(better, tensor=K, boundary="split")
+    assert better == temper.mapped_back(there, mesh, K, report.vertices)
+    assert [record.energy for record in same.history] == [record.energy for record in report.history]
+    size = temper.SizeField.from_values(mesh, np.ones(mesh.n_vertices))
+    before = better.copy()
+    for wrong in [{"tracer": print}, {"size_field": size}]:
+        with pytest.raises(ValueError, match=f"{next(iter(wrong))}: is of the mesh's plane"):
+            temper.optimize(better, tensor=K, **wrong)
+    with pytest.raises(temper.TemperError, match="tensor: expected"):
+        temper.optimize(better, tensor=(1, 2, 1))
+    with pytest.raises(temper.TemperError, match="sphere"):
+        temper.optimize(temper.generate.random_sphere(vertices=50), tensor=K)
+    assert better == before
 
 
 def test_operators_of_a_tensor_are_k_orthogonal_and_have_its_energy():
