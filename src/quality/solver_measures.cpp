@@ -11,8 +11,8 @@
 #include "mesh/blocks.hpp"
 #include "quality/edge_measure.hpp"
 #include "quality/flow_cells.hpp"
+#include "size/local_sizes.hpp"
 #include "temper/geometry.hpp"
-#include "temper/size.hpp"
 
 namespace temper {
 namespace {
@@ -189,16 +189,11 @@ void add_triangles(SolverMeasures& m, const Mesh& mesh, const IdVector<VertexId,
   }
 }
 
-void add_cells(SolverMeasures& m, const Mesh& mesh, const IdVector<VertexId, double>& sizes, std::size_t first,
-               std::size_t last) {
-  Ring ring;
-  for (std::size_t i = first; i < last; ++i) {
-    const VertexId v(i);
-    if (mesh.is_isolated(v)) continue;
-    gather(ring, mesh, v);
-    add_grid_spacing(m, mesh.space(), ring);
-    if (!mesh.is_boundary(v)) add_closed_cell(m, mesh.space(), ring, sizes[v]);
-  }
+void add_cell(SolverMeasures& m, Ring& ring, const Mesh& mesh, const IdVector<VertexId, double>& sizes, VertexId v) {
+  if (mesh.is_isolated(v)) return;
+  gather(ring, mesh, v);
+  add_grid_spacing(m, mesh.space(), ring);
+  if (!mesh.is_boundary(v)) add_closed_cell(m, mesh.space(), ring, sizes[v]);
 }
 
 /// add(measures, first, last) of blocks that are merged in their order.
@@ -214,12 +209,14 @@ SolverMeasures over(std::size_t n, Executor* executor, Add&& add) {
 }  // namespace
 
 SolverMeasures solver_measures(const Mesh& mesh, Executor* executor) {
-  const IdVector<VertexId, double> sizes = local_sizes(mesh, executor);
+  const Walk walk(mesh, executor);
+  const IdVector<VertexId, double> sizes = local_sizes(mesh, walk, executor);
   SolverMeasures all = over(mesh.n_triangles(), executor, [&](SolverMeasures& m, std::size_t first, std::size_t last) {
     add_triangles(m, mesh, sizes, first, last);
   });
   merge(all, over(mesh.n_vertices(), executor, [&](SolverMeasures& m, std::size_t first, std::size_t last) {
-          add_cells(m, mesh, sizes, first, last);
+          Ring ring;
+          for (std::size_t i = first; i < last; ++i) add_cell(m, ring, mesh, sizes, walk[i]);
         }));
   return all;
 }

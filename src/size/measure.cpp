@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "geometry/triangle_kernel.hpp"
 #include "mesh/blocks.hpp"
 #include "mesh/edge_lengths.hpp"
+#include "size/local_sizes.hpp"
 #include "size/star_area.hpp"
 #include "temper/size.hpp"
 
@@ -31,32 +33,52 @@ double percentile(std::vector<double>& values, double part) {
 
 constexpr std::array<double, 5> kParts = {0, 0.05, 0.5, 0.95, 1};  // of a Spread
 
-/// The spread of positive floats that each(take) hands to take, without keeping them: such floats are in the order of
-/// their bits, so the first pass counts the upper halves, and the second one the lower halves where a percentile lies.
-template <class Each>
-Spread spread_of_floats(Each&& each) {
-  constexpr std::size_t kHalf = std::size_t{1} << 16;
-  std::vector<std::uint32_t> upper(kHalf, 0);
-  std::size_t n = 0;
-  each([&](float x) {
-    ++upper[std::bit_cast<std::uint32_t>(x) >> 16];
-    ++n;
+using BinCounts = std::vector<std::uint32_t>;
+
+/// The sum of what count(first, last, counts) counts in each of a few slices of 0 … n − 1, which run at once.
+template <class Count>
+BinCounts counted(std::size_t n, std::size_t n_counts, Executor* executor, Count&& count) {
+  constexpr std::size_t kSlices = 8;  // each has counts of its own
+  std::array<BinCounts, kSlices> slices;
+  or_serial(executor).run(kSlices, [&](std::size_t i) {
+    slices[i].assign(n_counts, 0);
+    count(n * i / kSlices, n * (i + 1) / kSlices, slices[i]);
   });
+  for (std::size_t i = 1; i < kSlices; ++i) {
+    for (std::size_t k = 0; k < n_counts; ++k) slices[0][k] += slices[i][k];
+  }
+  return std::move(slices[0]);
+}
+
+/// The spread of positive floats that each(first, last, take) hands to take, without keeping them: such floats are in
+/// the order of their bits, so the first pass counts the upper halves, and the second one the lower halves where a
+/// percentile lies.
+template <class Each>
+Spread spread_of_floats(std::size_t n_items, Executor* executor, Each&& each) {
+  constexpr std::size_t kHalf = std::size_t{1} << 16;
+  const BinCounts upper =
+      counted(n_items, kHalf, executor, [&](std::size_t first, std::size_t last, BinCounts& counts) {
+        each(first, last, [&](float x) { ++counts[std::bit_cast<std::uint32_t>(x) >> 16]; });
+      });
+  const std::size_t n = std::accumulate(upper.begin(), upper.end(), std::size_t{0});
   if (n == 0) return {};
   std::array<std::size_t, kParts.size()> ranks{}, halves{};
   for (std::size_t i = 0; i < kParts.size(); ++i) {
     ranks[i] = rank_of(kParts[i], n);
     while (ranks[i] >= upper[halves[i]]) ranks[i] -= upper[halves[i]++];
   }
-  std::vector<std::vector<std::uint32_t>> lower(kParts.size(), std::vector<std::uint32_t>(kHalf, 0));
-  each([&](float x) {
-    const auto bits = std::bit_cast<std::uint32_t>(x);
-    for (std::size_t i = 0; i < kParts.size(); ++i) lower[i][bits & (kHalf - 1)] += bits >> 16 == halves[i] ? 1 : 0;
-  });
+  const auto count_lower = [&](std::size_t first, std::size_t last, BinCounts& counts) {
+    each(first, last, [&](float x) {
+      const auto bits = std::bit_cast<std::uint32_t>(x);
+      for (std::size_t i = 0; i < kParts.size(); ++i)
+        counts[i * kHalf + (bits & (kHalf - 1))] += bits >> 16 == halves[i] ? 1 : 0;
+    });
+  };
+  const BinCounts lower = counted(n_items, kParts.size() * kHalf, executor, count_lower);
   std::array<double, kParts.size()> values{};
   for (std::size_t i = 0; i < kParts.size(); ++i) {
     std::size_t half = 0;
-    while (ranks[i] >= lower[i][half]) ranks[i] -= lower[i][half++];
+    while (ranks[i] >= lower[i * kHalf + half]) ranks[i] -= lower[i * kHalf + half++];
     values[i] = double{std::bit_cast<float>(static_cast<std::uint32_t>(halves[i] << 16 | half))};
   }
   return {values[0], values[1], values[2], values[3], values[4]};
@@ -74,9 +96,10 @@ TriangleId start_for(VertexId v, const Mesh& mesh, const Mesh& of_field, const I
 }
 
 /// The gradation at every edge, from the sizes at the vertices.
-Spread gradation(const Mesh& mesh, const std::vector<double>& sizes) {
-  return spread_of_floats([&](auto&& take) {
-    for (const HalfedgeId h : mesh.halfedges()) {
+Spread gradation(const Mesh& mesh, const std::vector<double>& sizes, Executor* executor) {
+  return spread_of_floats(mesh.n_halfedges(), executor, [&](std::size_t first, std::size_t last, auto&& take) {
+    for (std::size_t i = first; i < last; ++i) {
+      const HalfedgeId h(i);
       if (!mesh.is_edge_representative(h)) continue;
       const auto [low, high] = std::minmax(sizes[mesh.origin(h).index], sizes[mesh.target(h).index]);
       take(static_cast<float>(high / low));
@@ -110,9 +133,13 @@ double local_size(const Mesh& mesh, VertexId v) {
 }
 
 IdVector<VertexId, double> local_sizes(const Mesh& mesh, Executor* executor) {
+  return local_sizes(mesh, Walk(mesh, executor), executor);
+}
+
+IdVector<VertexId, double> local_sizes(const Mesh& mesh, const Walk& walk, Executor* executor) {
   IdVector<VertexId, double> sizes(mesh.n_vertices());
   for_each_index(mesh.n_vertices(), executor, [&](std::size_t i) {
-    const VertexId v(i);
+    const VertexId v = walk[i];
     sizes[v] = mesh.is_isolated(v) ? 0 : local_size(mesh, v);
   });
   return sizes;
@@ -136,15 +163,16 @@ SizeReport measure_size(const Mesh& mesh, const SizeField& field, Executor* exec
                         const IdVector<VertexId, VertexId>& near) {
   TEMPER_ASSERT(mesh.space().kind() == field.mesh().space().kind());
   SizeReport report;
+  const Walk walk(mesh, executor);
   std::vector<double> sizes(mesh.n_vertices());
-  for_each_index(sizes.size(), executor, [&](std::size_t i) { sizes[i] = local_size(mesh, VertexId(i)); });
-  report.gradation = gradation(mesh, sizes);
+  for_each_index(sizes.size(), executor, [&](std::size_t i) { sizes[walk[i].index] = local_size(mesh, walk[i]); });
+  report.gradation = gradation(mesh, sizes, executor);
   // In place: with another array a run would never need more memory than here.
   std::vector<double> ratios = std::move(sizes);
   report.outside = static_cast<std::size_t>(blockwise_sum(ratios.size(), executor, [&](std::size_t i) {
-    const VertexId v(i);
+    const VertexId v = walk[i];
     const SizeField::Sample s = field.at(mesh.point(v), start_for(v, mesh, field.mesh(), near));
-    ratios[i] /= s.size;
+    ratios[v.index] /= s.size;
     return s.outside ? 1.0 : 0.0;
   }));
   report.over_field = spread(std::move(ratios));

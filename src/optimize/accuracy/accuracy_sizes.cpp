@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "mesh/blocks.hpp"
+#include "size/local_sizes.hpp"
 
 namespace temper {
 namespace {
@@ -26,34 +27,39 @@ double averaged(const Mesh& mesh, const VertexSizes& sizes, VertexId v) {
   return sum / count;
 }
 
-VertexSizes smoothed(const Mesh& mesh, VertexSizes sizes, Executor* executor) {
+VertexSizes smoothed(const Mesh& mesh, const Walk& walk, VertexSizes sizes, Executor* executor) {
   const std::size_t n = mesh.n_vertices();
   VertexSizes next(n);
   for (int k = 0; k < kSmoothings; ++k) {
-    for_each_index(n, executor, [&](std::size_t i) { next[VertexId(i)] = averaged(mesh, sizes, VertexId(i)); });
+    for_each_index(n, executor, [&](std::size_t i) { next[walk[i]] = averaged(mesh, sizes, walk[i]); });
     std::swap(sizes, next);
   }
   return sizes;
 }
 
-VertexSizes sizes_of_field(const Mesh& mesh, const SizeField& field, Executor* executor) {
+VertexSizes sizes_of_field(const Mesh& mesh, const Walk& walk, const SizeField& field, Executor* executor) {
   VertexSizes sizes(mesh.n_vertices());
   for_blocks(mesh.n_vertices(), executor, [&](std::size_t first, std::size_t last) {
     TriangleId hint;
     for (std::size_t i = first; i < last; ++i) {
-      const SizeField::Sample sample = field.at(mesh.point(VertexId(i)), hint);
-      sizes[VertexId(i)] = sample.size;
+      const SizeField::Sample sample = field.at(mesh.point(walk[i]), hint);
+      sizes[walk[i]] = sample.size;
       hint = sample.triangle;
     }
   });
   return sizes;
 }
 
+VertexSizes wanted_sizes(const Mesh& input, const std::optional<SizeField>& field, Executor* executor) {
+  const Walk walk(input, executor);
+  return smoothed(input, walk,
+                  field ? sizes_of_field(input, walk, *field, executor) : local_sizes(input, walk, executor), executor);
+}
+
 }  // namespace
 
 AccuracySizes::AccuracySizes(const Mesh& input, const std::optional<SizeField>& field, Executor* executor)
-    : input_(
-          smoothed(input, field ? sizes_of_field(input, *field, executor) : local_sizes(input, executor), executor)) {}
+    : input_(wanted_sizes(input, field, executor)) {}
 
 VertexSizes AccuracySizes::of(const WorkingCopy& work, Executor* executor) const {
   VertexSizes sizes(work.mesh.n_vertices());

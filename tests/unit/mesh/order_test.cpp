@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "mesh/curve.hpp"
 #include "support/std_threads.hpp"
+#include "temper/generate.hpp"
 #include "unit/mesh/random_soup.hpp"
 
 namespace temper {
@@ -169,6 +171,17 @@ TEST(HilbertOrder, BringsNeighboursTogether) {
     near += std::abs(2 * vertex - triangle) < 512 ? 1 : 0;
   }
   EXPECT_GT(static_cast<double>(near) / static_cast<double>(mesh.n_halfedges()), 0.7);
+}
+
+TEST(Walk, SeesEachVertexOnceAndTakesTheCurveWhereStarsAreScattered) {
+  Mesh mesh = *random_points({.vertices = 100000, .seed = 3});  // more than a cache holds
+  const Walk scattered(mesh);
+  EXPECT_FALSE(scattered.is_by_number());
+  IdVector<VertexId, VertexId> seen(mesh.n_vertices());
+  for (std::size_t i = 0; i < mesh.n_vertices(); ++i) seen[VertexId(i)] = scattered[i];
+  expect_permutation(seen, mesh.n_vertices());
+  hilbert_order(mesh);
+  EXPECT_TRUE(Walk(mesh).is_by_number());
 }
 
 }  // namespace

@@ -1,6 +1,10 @@
 // The sizes of a mesh compared with a size field: facts by hand, and invariance.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/executor.hpp"
@@ -113,6 +117,34 @@ TEST(MeasureSize, DoesNotDependOnTheOrderOfThreads) {
   EXPECT_EQ(a.over_field.median, b.over_field.median);
   EXPECT_EQ(a.over_field.p95, b.over_field.p95);
   EXPECT_EQ(a.outside, b.outside);
+}
+
+TEST(LocalSizes, OfScatteredVerticesAreThoseOfEachByItself) {
+  const Mesh mesh = *random_points({100000, 3, {}});  // so many that they are visited along a curve
+  Backwards backwards;
+  const IdVector<VertexId, double> sizes = local_sizes(mesh), with_threads = local_sizes(mesh, &backwards);
+  std::vector<double> each;
+  for (const VertexId v : mesh.vertices()) {
+    each.push_back(local_size(mesh, v));
+    ASSERT_EQ(sizes[v], each.back());
+  }
+  EXPECT_EQ(with_threads.raw(), each);
+}
+
+// Gradation is found by counting, in slices that may run at once.
+TEST(MeasureSize, FindsTheGradationThatSortingFinds) {
+  const Mesh mesh = *random_points({100000, 3, {}});
+  std::vector<double> ratios;
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_edge_representative(h)) continue;
+    const auto [low, high] = std::minmax({local_size(mesh, mesh.origin(h)), local_size(mesh, mesh.target(h))});
+    ratios.push_back(static_cast<double>(static_cast<float>(high / low)));
+  }
+  const Spread expected = spread(std::move(ratios));
+  Backwards backwards;
+  const Spread found = measure_size(mesh, input_size_field(mesh), &backwards).gradation;
+  for (double Spread::*part : {&Spread::min, &Spread::p05, &Spread::median, &Spread::p95, &Spread::max})
+    EXPECT_EQ(found.*part, expected.*part);
 }
 
 }  // namespace
