@@ -13,4 +13,8 @@ OnDisk look_at(const std::string& path) {
   return {OnDisk::Kind::file, static_cast<std::uint64_t>(found.st_size)};
 }
 
+bool is_stream(const std::string& path) {
+  return path.starts_with("/dev/std") || path.starts_with("/dev/fd/") || look_at(path).kind == OnDisk::Kind::other;
+}
+
 }  // namespace temper::io

@@ -19,4 +19,7 @@ struct OnDisk {
 
 [[nodiscard]] inline bool exists(const std::string& path) { return look_at(path).exists(); }
 
+/// Nothing can be put beside it: a pipe, a device, and standard output, even where it goes to a file.
+[[nodiscard]] bool is_stream(const std::string& path);
+
 }  // namespace temper::io

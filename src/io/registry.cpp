@@ -287,6 +287,10 @@ void warn_of_weights_beside_degrees(const WriteJob& job, const MeshFile& on_map)
 Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file, const WriteOptions& options) {
   return guarded<std::vector<std::string>>(path, [&] {
     const FormatRow& row = row_to_write(path, options.format);
+    if (row.files != nullptr && row.files(path).size() > 1 && is_stream(path)) {
+      fail(ErrorCode::not_writable, path,
+           text(row.description, " is several files; expected the name of a file, found a stream"));
+    }
     check_sizes(path, file);
     check_names(path, file);
     if (file.sphere_radius > 0 && (row.holds & kSphere) == 0) {
@@ -339,7 +343,7 @@ Expected<std::vector<std::string>> files_to_write(const std::string& path, const
   try {
     const FormatRow& row = row_to_write(path, format);
     std::vector<std::string> files = row.files == nullptr ? std::vector<std::string>{path} : row.files(path);
-    if ((row.holds & kWeights) == 0) files.push_back(side_file_path(path));
+    if ((row.holds & kWeights) == 0 && !is_stream(path)) files.push_back(side_file_path(path));
     return files;
   } catch (Failure& failure) {
     return std::move(failure.error);

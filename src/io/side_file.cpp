@@ -16,7 +16,7 @@ std::string side_file_path(const std::string& path) { return path + ".weights.cs
 void read_side_file(Document& document) {
   MeshFile& f = document.file;
   const std::string path = side_file_path(document.names->path);
-  if (!f.weights.empty() || !exists(path)) return;
+  if (!f.weights.empty() || is_stream(document.names->path) || !exists(path)) return;
   Source source = load(path);
   // A comma is a blank here, so that the scanner finds its words.
   for (char& c : source.bytes) {
@@ -59,6 +59,11 @@ void write_side_file(const WriteJob& job) {
   const std::string path = side_file_path(job.path);
   bool weighted = false;
   for (const double w : f.weights) weighted = weighted || w != 0 || std::signbit(w);
+  if (is_stream(job.path)) {
+    if (weighted)
+      job.warn("the format has no place for weights, and no file can be beside a stream: they are left out");
+    return;
+  }
   // An old side file would give its weights to this mesh: it has to be replaced.
   if (!weighted && !exists(path)) return;
   Output& out = job.outputs.open(path);

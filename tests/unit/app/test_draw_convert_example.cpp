@@ -1,5 +1,6 @@
 // temper draw, convert and example.
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "temper/quality.hpp"
@@ -108,6 +109,20 @@ TEST_F(Convert, DashIsStandardInputAndOutput) {
   temper_ok({"optimize", "b.msh", "-o", "d.vtu"});
   EXPECT_EQ(numbers_of("c.vtu"), numbers_of("d.vtu"));
   EXPECT_TRUE(contains(shell("temper check - < c.vtu").out, "/dev/stdin: "));
+}
+
+TEST_F(Convert, NothingIsPutBesideAStream) {
+  make_input("a.vtu");
+  temper_ok({"optimize", "a.vtu", "-o", "weighted.vtu"});
+  for (const char* where : {" > b.obj", " | cat > b.obj"}) {
+    const Outcome piped = shell(std::string("temper convert weighted.vtu -o - --format obj") + where);
+    EXPECT_EQ(piped.exit, 0) << piped.err;
+    EXPECT_TRUE(contains(piped.err, "no file can be beside a stream")) << piped.err;
+    const Outcome several = shell(std::string("temper convert weighted.vtu -o - --format triangle") + where);
+    EXPECT_TRUE(contains(several.err, "Triangle is several files; expected the name of a file, found a stream"))
+        << several.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists("/dev/stdout.weights.csv"));
 }
 
 TEST_F(Convert, FormatAndEncodingAreAsAsked) {
