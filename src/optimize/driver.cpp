@@ -71,7 +71,7 @@ void Driver::begin(Phase& phase, int sweep) {
   recorder_.set_energy_unit(energy_unit(settings_, work_.frame));
   if (run_.report.history.empty()) record(phase.measure());
   best_energy_ = phase.total();
-  if (phase.keeps() == Phase::Keeps::best) keep(best_energy_, sweep);
+  if (phase.keeps() == Phase::Keeps::best_points) keep(phase, best_energy_, sweep);
   keep_regular(sweep);
   run_.report.stopped = Stopped::max_sweeps;
   run_.begin_sweeps();
@@ -102,6 +102,7 @@ Driver::Verdict Driver::sweep(Phase& phase) {
   const Verdict verdict = phase.judge(removed || inserted);
   if (verdict == Verdict::restarted) {
     best_.reset();
+    best_points_ = {};
     best_energy_ = phase.total();
     recorder_.set_energy_unit(energy_unit(settings_, work_.frame));
     return Verdict::improving;
@@ -343,18 +344,29 @@ void Driver::keep_if_best(const Phase& phase) {
   const double energy = run_.report.history.back().energy;
   if (phase.keeps() == Phase::Keeps::last || !(energy < best_energy_)) return;
   if (settings_.options.paper.inversion == Inversion::allow && count_inverted(mesh_) > 0) return;
-  keep(energy, recorder_.sweep());
+  keep(phase, energy, recorder_.sweep());
 }
 
-void Driver::keep(double energy, int sweep) {
-  best_ = work_;
+void Driver::keep(const Phase& phase, double energy, int sweep) {
+  if (phase.keeps() == Phase::Keeps::best_points) {
+    best_points_.resize(mesh_.n_vertices());  // in place: the largest meshes have no room for another one
+    for (const VertexId v : mesh_.vertices()) best_points_[v] = mesh_.point(v);
+  } else {
+    best_ = work_;
+  }
   best_energy_ = energy;
   best_sweep_ = sweep;
 }
 
 int Driver::return_best(const Phase& phase, int last_sweep) {
-  if (!best_ || !(best_energy_ < run_.report.history.back().energy)) return last_sweep;
-  work_ = *std::exchange(best_, std::nullopt);
+  const bool has_best = best_.has_value() || !best_points_.empty();
+  if (!has_best || !(best_energy_ < run_.report.history.back().energy)) return last_sweep;
+  if (best_) {
+    work_ = *std::exchange(best_, std::nullopt);
+  } else {
+    for (const VertexId v : mesh_.vertices()) mesh_.set_point(v, best_points_[v]);
+    best_points_ = {};
+  }
   recorder_.returned_to(best_sweep_);
   if (phase.keeps() == Phase::Keeps::best_sweep) run_.facts.energy_rose = true;
   return best_sweep_;

@@ -56,7 +56,7 @@ class Driver {
   void set_weight(VertexId v, double w);
   bool restore_regularity();
   void keep_if_best(const Phase& phase);
-  void keep(double energy, int sweep);
+  void keep(const Phase& phase, double energy, int sweep);
   void keep_regular(int sweep);
   int return_best(const Phase& phase, int last_sweep);
   int return_regular(int last_sweep);
@@ -71,9 +71,10 @@ class Driver {
   Recorder recorder_;
   Flipper flipper_;
   Sweeper sweeper_;
-  std::vector<VertexId> sequence_;   // in which a sweep visits the vertices; empty: as they are numbered
-  int inner_ = 0, outer_ = 0;        // iterations since the last flips, and rounds of them
-  std::optional<WorkingCopy> best_;  // where the phase keeps one
+  std::vector<VertexId> sequence_;                 // in which a sweep visits the vertices; empty: as they are numbered
+  int inner_ = 0, outer_ = 0;                      // iterations since the last flips, and rounds of them
+  std::optional<WorkingCopy> best_;                // where the phase keeps one
+  IdVector<VertexId, WeightedPoint> best_points_;  // where the phase keeps points alone
   double best_energy_ = 0;
   int best_sweep_ = 0;
   std::optional<WorkingCopy> regular_;  // where flips are deferred, and may fail: after the last that did not

@@ -17,7 +17,9 @@ class Phase {
   /// restarted: what is lowered from here on is another energy; no mesh so far compares.
   enum class Verdict { improving, restarted, infinite, settled, stopped };
   /// The mesh that a phase ends with: that of its last sweep, of its best one, or of its best one and the start.
-  enum class Keeps { last, best_sweep, best };
+  /// The mesh that the driver returns: the last one; that of the best sweep; that of the best sweep or the one before
+  /// the first, of a phase that moves vertices alone, so that their points are all that is kept.
+  enum class Keeps { last, best_sweep, best_points };
 
   virtual ~Phase() = default;
 

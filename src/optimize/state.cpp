@@ -103,11 +103,13 @@ void visit(Archive& archive, Candidate& candidate) {
 // --- of the driver --------------------------------------------------------------------------------------------------
 
 void Driver::visit(Archive& archive) {
-  auto& [work, mesh, settings, run, recorder, flipper, sweeper, sequence, inner, outer, best, best_energy, best_sweep,
-         regular, regular_sweep] = *this;  // work and settings are those of the callers
-  archive(recorder, flipper, sweeper, sequence, inner, outer, best, best_energy, best_sweep, regular, regular_sweep);
+  auto& [work, mesh, settings, run, recorder, flipper, sweeper, sequence, inner, outer, best, best_points, best_energy,
+         best_sweep, regular, regular_sweep] = *this;  // work and settings are those of the callers
+  archive(recorder, flipper, sweeper, sequence, inner, outer, best, best_points, best_energy, best_sweep, regular,
+          regular_sweep);
   const auto is_there = [n = mesh_.n_vertices()](VertexId v) { return v.index < n; };
   archive.require(std::all_of(sequence.begin(), sequence.end(), is_there));
+  archive.require(best_points.empty() || best_points.size() == mesh_.n_vertices());
 }
 
 void Recorder::visit(Archive& archive) {

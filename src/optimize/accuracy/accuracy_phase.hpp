@@ -24,7 +24,9 @@ class AccuracyPhase final : public Phase {
   SweepRecord measure() override;
   Verdict judge(bool changed) override;
   void compare_from_here() override {}
-  [[nodiscard]] Keeps keeps() const override { return settings_.accuracy.keeps_lengths() ? Keeps::last : Keeps::best; }
+  [[nodiscard]] Keeps keeps() const override {
+    return settings_.accuracy.keeps_lengths() ? Keeps::last : Keeps::best_points;
+  }
   int& iteration() override { return iteration_; }
   void visit(Archive& archive) override;
 

@@ -33,7 +33,7 @@ class ErrorPhase final : public Phase {
   SweepRecord measure() override;
   Verdict judge(bool changed) override;
   void compare_from_here() override {}
-  [[nodiscard]] Keeps keeps() const override { return Keeps::best; }
+  [[nodiscard]] Keeps keeps() const override { return Keeps::best_points; }
   int& iteration() override { return iteration_; }
   void visit(Archive& archive) override;
 
