@@ -126,7 +126,7 @@ py::list option_table() {
       for (const std::string_view choice : row.choices) choices.append(choice_to_python(choice));
       table.append(Record()("name", row.name)("group", group.title)("sentence", spelled(row.sentence))(
                        "type", type_of(row))("choices", py::object(choices))("range", option_range_text(row))(
-                       "absent", row.absent)("default", value_to_python(row.get({})))
+                       "absent", spelled(row.absent))("default", value_to_python(row.get({})))
                        .dict);
     }
   }

@@ -78,7 +78,7 @@ std::string value_name(const OptionRow& row) {
 
 std::string sentence_of(const OptionRow& row) {
   std::string sentence = spell_options(row.sentence);
-  if (row.optional) sentence += fmt::format("; none: {}", row.absent);
+  if (row.optional) sentence += fmt::format("; none: {}", spell_options(row.absent));
   return sentence;
 }
 

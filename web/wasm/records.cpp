@@ -308,7 +308,7 @@ Json option_table() {
                        {"choices", choices},
                        {"optional", row.optional},
                        {"range", option_range_text(row)},
-                       {"absent", row.absent},
+                       {"absent", spelled(row.absent)},
                        {"default", to_json(row.get({}))}});
     }
   }

@@ -218,7 +218,9 @@ constexpr OptionRow kAccuracyRows[] = {
         "then how far the middles of edges and duals are apart, which a solver's error is proportional to; error: "
         "after that the errors "
         "of the schemes of `for_` themselves, by adjoint solutions, which takes much longer",
-        {.common = true, .absent = "accuracy; energy where it is not BP, or has switches of its own"}),
+        {.common = true,
+         .absent = "accuracy, but error `for_` vertex or cell on a plane of no more than 20000 vertices; energy where "
+                   "`energy` is not BP, or has switches of its own"}),
     row<&Options::for_>(
         "for_",
         "of accuracy: what the mesh is for. vertex: unknowns at vertices (discrete exterior calculus); cell: "
