@@ -97,13 +97,12 @@ void LegacyVtkWriter::counted_cells() {
 }
 
 void LegacyVtkWriter::cells_with_offsets() {
-  const VtkArray ends = vtk_cell_ends(file_), points = vtk_connectivity(file_);
+  const VtkArray points = vtk_connectivity(file_);
   // The first offset is that of the first cell; as in VTK there is one more than cells.
   const VtkArray offsets =
-      computed_vtk_array<std::int64_t>("OFFSETS", Scalar::i64, ends.n_values + 1, [&ends](std::size_t i) {
-        std::int32_t end = 0;
-        if (i > 0) ends.fill(i - 1, 1, reinterpret_cast<char*>(&end));
-        return std::int64_t{end};
+      computed_vtk_array<std::int64_t>("OFFSETS", Scalar::i64, n_vtk_cells(file_) + 1, [this](std::size_t i) {
+        const std::size_t end = i == 0 ? 0 : vtk_cell_end(i - 1, file_.triangles.size(), file_.lines.size());
+        return static_cast<std::int64_t>(end);
       });
   const VtkArray connectivity =
       computed_vtk_array<std::int64_t>("CONNECTIVITY", Scalar::i64, points.n_values, [&points](std::size_t i) {

@@ -322,12 +322,6 @@ void refuse_too_wide(const WriteJob& job, const Mesh& mesh, std::size_t n_edges)
             " edges: too many to be written"));
 }
 
-/// The types of CDF-5 also have no limit to a variable's bytes; 64-bit offsets have this one.
-bool needs_cdf5(const NetcdfMesh& m, std::size_t max_edges) {
-  constexpr std::size_t kMostBytes = (std::size_t{1} << 32) - 4;
-  return needs_large_types(m.file) || m.complex.edges.size() > kMostBytes / (2 * max_edges * sizeof(double));
-}
-
 /// With weights the edges do not cross midway between the cells.
 void warn_of_offsets(const WriteJob& job, const NetcdfMesh& m) {
   constexpr double kVisible = 0.01;
@@ -360,7 +354,8 @@ void write_mpas(const WriteJob& job) {
     job.warn(text(n_bad, " edges inside have a dvEdge that is not positive; MPAS expects a well-centered mesh"));
   const double radius = m.file.sphere_radius;
   warn_of_offsets(job, m);
-  NetcdfWriter out(job.path, needs_cdf5(m, a.max_edges));
+  const std::size_t most_values = 2 * a.max_edges * c.edges.size();  // of weightsOnEdge
+  NetcdfWriter out(job.path, needs_cdf5(m.file, most_values));
   const int cells = out.dimension("nCells", m.mesh.n_vertices()), edges = out.dimension("nEdges", c.edges.size()),
             vertices = out.dimension("nVertices", m.mesh.n_triangles()),
             around = out.dimension("maxEdges", a.max_edges), around2 = out.dimension("maxEdges2", 2 * a.max_edges),

@@ -243,13 +243,15 @@ void NetcdfWriter::finish(Output& out) {
   out.put(std::string_view(static_cast<const char*>(memory.memory), memory.size));
 }
 
-bool needs_large_types(const MeshFile& f) {
+bool needs_cdf5(const MeshFile& f, std::size_t most_values) {
+  constexpr std::size_t kMostBytes = (std::size_t{1} << 32) - 4;
+  if (most_values > kMostBytes / sizeof(double)) return true;
   for (const auto* arrays : {&f.point_data, &f.cell_data, &f.line_data, &f.marked_point_data, &f.field_data}) {
     for (const DataArray& a : *arrays) {
       const Scalar s = scalar_of(a.values);
       const bool classic =
           s == Scalar::f64 || s == Scalar::f32 || s == Scalar::i32 || s == Scalar::i16 || s == Scalar::i8;
-      if (!classic) return true;
+      if (!classic || size(a.values) > kMostBytes / info(s).bytes) return true;
     }
   }
   return false;

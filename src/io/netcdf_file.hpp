@@ -117,7 +117,8 @@ class NetcdfWriter {
   std::vector<std::pair<int, Values>> waiting_;
 };
 
-/// Says whether the types of CDF-5 are needed.
-[[nodiscard]] bool needs_large_types(const MeshFile& file);
+/// Says whether a file with these data has to be CDF-5: for their types, or as a variable, of which the largest one
+/// besides them has so many values of eight bytes or fewer, is longer than those of 64-bit offsets may be.
+[[nodiscard]] bool needs_cdf5(const MeshFile& file, std::size_t most_values);
 
 }  // namespace temper::io

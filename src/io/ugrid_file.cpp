@@ -167,7 +167,9 @@ class UgridReader {
 class UgridWriter {
  public:
   explicit UgridWriter(const WriteJob& job)
-      : job_(job), m_(mesh_for_netcdf(job, "UGRID")), out_(job.path, needs_large_types(m_.file)) {}
+      : job_(job),
+        m_(mesh_for_netcdf(job, "UGRID")),
+        out_(job.path, needs_cdf5(m_.file, std::max(2 * m_.complex.edges.size(), 3 * m_.mesh.n_triangles()))) {}
 
   void write() {
     nodes_ = out_.dimension("mesh_nodes", m_.mesh.n_vertices());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "io/failure.hpp"
 
@@ -29,13 +30,26 @@ std::optional<Scalar> scalar_named(std::string_view name, std::string_view Scala
   return std::nullopt;
 }
 
-template <class T>
-bool is_int32(T value) {
+template <class Integer, class T>
+bool is_a(T value) {
   if constexpr (std::is_floating_point_v<T>) {
-    return value >= T(-2147483648.0) && value < T(2147483648.0) && std::floor(value) == value;
+    constexpr T kLeast = static_cast<T>(std::numeric_limits<Integer>::min());  // a power of two, and so exact
+    return value >= kLeast && value < -kLeast && std::floor(value) == value;
   } else {
-    return std::in_range<std::int32_t>(value);
+    return std::in_range<Integer>(value);
   }
+}
+
+template <class Integer>
+std::optional<std::vector<Integer>> to_integers(const Values& values) {
+  return std::visit(
+      [](const auto& v) -> std::optional<std::vector<Integer>> {
+        if (!std::all_of(v.begin(), v.end(), [](auto x) { return is_a<Integer>(x); })) return std::nullopt;
+        std::vector<Integer> result(v.size());
+        std::transform(v.begin(), v.end(), result.begin(), [](auto x) { return static_cast<Integer>(x); });
+        return result;
+      },
+      values);
 }
 
 }  // namespace
@@ -63,15 +77,11 @@ std::vector<double> to_doubles(Values&& values) {
       values);
 }
 
-std::optional<std::vector<std::int32_t>> to_int32(const Values& values) {
-  return std::visit(
-      [](const auto& v) -> std::optional<std::vector<std::int32_t>> {
-        if (!std::all_of(v.begin(), v.end(), [](auto x) { return is_int32(x); })) return std::nullopt;
-        std::vector<std::int32_t> result(v.size());
-        std::transform(v.begin(), v.end(), result.begin(), [](auto x) { return static_cast<std::int32_t>(x); });
-        return result;
-      },
-      values);
+std::optional<std::vector<std::int32_t>> to_int32(const Values& values) { return to_integers<std::int32_t>(values); }
+
+std::optional<std::vector<std::int64_t>> to_int64(Values&& values) {
+  if (auto* same = std::get_if<std::vector<std::int64_t>>(&values)) return std::move(*same);
+  return to_integers<std::int64_t>(values);
 }
 
 Values gather(const Values& values, int components, const RunLength& indices) {

@@ -69,6 +69,8 @@ using ElementOf = typename std::remove_cvref_t<Vector>::value_type;
 [[nodiscard]] std::vector<double> to_doubles(Values&& values);
 /// The values as 32-bit integers, or nothing when one of them is none.
 [[nodiscard]] std::optional<std::vector<std::int32_t>> to_int32(const Values& values);
+/// The values as 64-bit integers, moved when they are such already; or nothing when one of them is none.
+[[nodiscard]] std::optional<std::vector<std::int64_t>> to_int64(Values&& values);
 /// The tuples at the indices (runs of a longer array).
 [[nodiscard]] Values gather(const Values& values, int components, const RunLength& indices);
 /// Appends `more`, which must be of the same type.

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 #include <set>
+#include <utility>
 
 #include "io/cells.hpp"
 #include "io/globe.hpp"
@@ -102,12 +103,15 @@ VtkArray vtk_connectivity(const MeshFile& f) {
                                           });
 }
 
-VtkArray vtk_cell_ends(const MeshFile& f) {
-  const std::size_t t = f.triangles.size(), l = f.lines.size();
-  return computed_vtk_array<std::int32_t>("offsets", Scalar::i32, n_vtk_cells(f), [t, l](std::size_t i) {
-    const std::size_t end = i < t ? 3 * (i + 1) : i < t + l ? 3 * t + 2 * (i + 1 - t) : 3 * t + 2 * l + (i + 1 - t - l);
-    return static_cast<std::int32_t>(end);
-  });
+VtkArray vtk_cell_ends(std::size_t triangles, std::size_t lines, std::size_t points) {
+  const std::size_t n = triangles + lines + points;
+  const auto ends = [&]<class T>(T /*zero*/, Scalar scalar) {
+    return computed_vtk_array<T>("offsets", scalar, n, [triangles, lines](std::size_t i) {
+      return static_cast<T>(vtk_cell_end(i, triangles, lines));
+    });
+  };
+  const bool fits = n == 0 || std::in_range<std::int32_t>(vtk_cell_end(n - 1, triangles, lines));
+  return fits ? ends(std::int32_t{}, Scalar::i32) : ends(std::int64_t{}, Scalar::i64);
 }
 
 VtkArray vtk_cell_types(const MeshFile& f) {

@@ -71,7 +71,11 @@ class VtuReader {
   Values ascii(const pugi::xml_node& node, Scalar scalar);
   Values inline_binary(const pugi::xml_node& node, Scalar scalar, const Packing& packing);
   Values appended(const pugi::xml_node& node, Scalar scalar, const Packing& packing);
+  DataArray array_of(const pugi::xml_node& cells, const char* name);
   std::vector<std::int32_t> integers(const pugi::xml_node& cells, const char* name);
+  template <class Integer>
+  void sort_cells(CellSorter& sorter, const pugi::xml_node& cells, const std::vector<std::int32_t>& connectivity,
+                  const std::vector<Integer>& ends);
 
   [[nodiscard]] std::size_t line_of(const pugi::xml_node& node) const;
   [[nodiscard]] std::string where(const pugi::xml_node& node) const { return text(source_.path, ":", line_of(node)); }
@@ -340,16 +344,44 @@ void VtuReader::read_points(const pugi::xml_node& piece) {
       points.values);
 }
 
-std::vector<std::int32_t> VtuReader::integers(const pugi::xml_node& cells, const char* name) {
+DataArray VtuReader::array_of(const pugi::xml_node& cells, const char* name) {
   const pugi::xml_node node = cells.find_child_by_attribute("DataArray", "Name", name);
   if (!node) fail(ErrorCode::truncated, source_.path, text("the array ", in_quotes(name), " of the cells is missing"));
-  DataArray found = array(node);
+  return array(node);
+}
+
+std::vector<std::int32_t> VtuReader::integers(const pugi::xml_node& cells, const char* name) {
+  DataArray found = array_of(cells, name);
   if (auto* same = std::get_if<std::vector<std::int32_t>>(&found.values)) return std::move(*same);
   auto converted = to_int32(found.values);
-  if (!converted)
-    fail(ErrorCode::index_out_of_range, where(node),
+  if (!converted) {
+    fail(ErrorCode::index_out_of_range, where(cells.find_child_by_attribute("DataArray", "Name", name)),
          text("the array ", in_quotes(name), " has a value beyond 32 bits"));
+  }
   return std::move(*converted);
+}
+
+/// Three points a triangle are more than 32 bits count, long before there are as many triangles.
+template <class Integer>
+void VtuReader::sort_cells(CellSorter& sorter, const pugi::xml_node& cells,
+                           const std::vector<std::int32_t>& connectivity, const std::vector<Integer>& ends) {
+  const auto types = integers(cells, "types");
+  if (ends.size() != n_cells_ || types.size() != n_cells_) {
+    fail(ErrorCode::size_mismatch, where(cells),
+         text("has ", ends.size(), " offsets and ", types.size(), " types, expected ", n_cells_, " of each"));
+  }
+  sorter.reserve(n_cells_);
+  Integer start = 0;
+  for (std::size_t i = 0; i < n_cells_; ++i) {
+    const Integer end = ends[i];
+    if (end < start || static_cast<std::size_t>(end) > connectivity.size()) {
+      fail(ErrorCode::index_out_of_range, source_.path,
+           text("element ", i, " ends at ", end, " of ", connectivity.size(), " connectivity values, and starts at ",
+                start));
+    }
+    sorter.add(types[i], connectivity.data() + start, static_cast<std::size_t>(end - start), source_.path);
+    start = end;
+  }
 }
 
 void VtuReader::read_cells(const pugi::xml_node& piece) {
@@ -357,23 +389,14 @@ void VtuReader::read_cells(const pugi::xml_node& piece) {
   CellSorter sorter(document_, source_.allowance);
   {
     const auto connectivity = integers(cells, "connectivity");
-    const auto offsets = integers(cells, "offsets");
-    const auto types = integers(cells, "types");
-    if (offsets.size() != n_cells_ || types.size() != n_cells_) {
-      fail(ErrorCode::size_mismatch, where(cells),
-           text("has ", offsets.size(), " offsets and ", types.size(), " types, expected ", n_cells_, " of each"));
-    }
-    sorter.reserve(n_cells_);
-    std::int32_t start = 0;
-    for (std::size_t i = 0; i < n_cells_; ++i) {
-      const std::int32_t end = offsets[i];
-      if (end < start || static_cast<std::size_t>(end) > connectivity.size()) {
-        fail(ErrorCode::index_out_of_range, source_.path,
-             text("element ", i, " ends at ", end, " of ", connectivity.size(), " connectivity values, and starts at ",
-                  start));
-      }
-      sorter.add(types[i], connectivity.data() + start, static_cast<std::size_t>(end - start), source_.path);
-      start = end;
+    DataArray offsets = array_of(cells, "offsets");
+    if (const auto* ends = std::get_if<std::vector<std::int32_t>>(&offsets.values)) {
+      sort_cells(sorter, cells, connectivity, *ends);
+    } else if (const auto long_ends = to_int64(std::move(offsets.values))) {
+      sort_cells(sorter, cells, connectivity, *long_ends);
+    } else {
+      fail(ErrorCode::index_out_of_range, where(cells.find_child_by_attribute("DataArray", "Name", "offsets")),
+           "the array 'offsets' has a value that is no integer of 64 bits");
     }
   }
   forget_triangle_quality(piece.child("CellData"));

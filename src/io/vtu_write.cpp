@@ -11,7 +11,8 @@ void write_vtu(const WriteJob& job) {
   vtu.fields(vtk_field_data(file));
   vtu.begin_piece(file.points.size(), n_vtk_cells(file));
   vtu.section("Points", {vtk_points(file)});
-  vtu.section("Cells", {vtk_connectivity(file), vtk_cell_ends(file), vtk_cell_types(file)});
+  const VtkArray ends = vtk_cell_ends(file.triangles.size(), file.lines.size(), file.marked_points.size());
+  vtu.section("Cells", {vtk_connectivity(file), ends, vtk_cell_types(file)});
   vtu.section("PointData", vtk_point_data(job));
   std::vector<VtkArray> cell_data = vtk_cell_data(job);
   if (job.triangle_quality) {

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "io/netcdf_file.hpp"
 #include "support/lattice.hpp"
 #include "support/spheres.hpp"
 #include "temper/generate.hpp"
@@ -718,6 +719,18 @@ TEST_F(NetcdfFormats, a_mesh_without_orthocenters_is_refused_and_nothing_is_writ
     EXPECT_NE(result.error().what().find("holds orthocenters and so needs a valid mesh"), std::string::npos);
   }
   EXPECT_TRUE(files().empty());
+}
+
+TEST(Netcdf, HasNoLimitToAVariableWhereSixtyFourBitOffsetsHaveOne) {
+  constexpr std::size_t kMost = (std::size_t{1} << 29) - 1;  // doubles, in 2³² − 4 bytes
+  MeshFile file;
+  EXPECT_FALSE(needs_cdf5(file, kMost));
+  EXPECT_TRUE(needs_cdf5(file, kMost + 1));
+  EXPECT_TRUE(needs_cdf5(file, std::size_t{20} << 31));  // edges on edges of a mesh of 2³¹ half-edges
+  file.point_data.push_back({"depth", 1, std::vector<double>(3)});
+  EXPECT_FALSE(needs_cdf5(file, 3));
+  file.point_data.push_back({"number", 1, std::vector<std::int64_t>(3)});
+  EXPECT_TRUE(needs_cdf5(file, 3));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Legacy VTK in the forms that are about: versions 2 to 5.1, binary, polydata, attributes of all kinds.
+#include "io/vtk_arrays.hpp"
 #include "support.hpp"
 
 namespace temper::io {
@@ -107,6 +108,19 @@ TEST_F(FileTest, other_data_sets_are_named) {
   ASSERT_FALSE(f);
   EXPECT_EQ(plain(f.error().what()),
             "m.vtk:4: is a data set of kind 'structured_points'; temper reads UNSTRUCTURED_GRID and POLYDATA");
+}
+
+// What nobody has the memory to write: 2³¹ points of cells are those of 716 million triangles.
+TEST(VtkCellEnds, AreOfSixtyFourBitsWhereThirtyTwoEnd) {
+  constexpr std::size_t kLast = 715'827'882;  // of which the last one ends at 2³¹ − 2
+  EXPECT_EQ(vtk_cell_ends(kLast, 0, 0).scalar, Scalar::i32);
+  EXPECT_EQ(vtk_cell_ends(kLast, 0, 1).scalar, Scalar::i32);  // at 2³¹ − 1
+  const VtkArray ends = vtk_cell_ends(kLast, 1, 1);
+  ASSERT_EQ(ends.scalar, Scalar::i64);
+  EXPECT_EQ(ends.bytes(), 8 * (kLast + 2));
+  std::array<std::int64_t, 3> last = {};
+  ends.fill(kLast - 1, 3, reinterpret_cast<char*>(last.data()));
+  EXPECT_EQ(last, (std::array<std::int64_t, 3>{2'147'483'646, 2'147'483'648, 2'147'483'649}));
 }
 
 }  // namespace

@@ -152,6 +152,11 @@ TEST_F(FileTest, vtu_errors_name_the_array_and_its_line) {
     return plain(f ? "was read" : f.error().what());
   };
   EXPECT_EQ(message("0 1 0", "0 1 0"), "was read");
+  EXPECT_EQ(message("Int32\" Name=\"offsets\" format=\"ascii\">3", "Int64\" Name=\"offsets\" format=\"ascii\">3"),
+            "was read");
+  EXPECT_EQ(
+      message("Int32\" Name=\"offsets\" format=\"ascii\">3", "Int64\" Name=\"offsets\" format=\"ascii\">4294967299"),
+      "m.vtu: element 0 ends at 4294967299 of 3 connectivity values, and starts at 0");
   EXPECT_EQ(message("0 1 2<", "0 1 3<"),
             "m.vtu: triangle 0 uses vertex 3, but the file has 3 vertices, numbered from 0");
   EXPECT_EQ(message("1 0 0", "1 o 0"), "m.vtu:7: expected a number of array '', found 'o'");
