@@ -125,7 +125,7 @@ void Flipper::visit(Archive& archive) {
 
 void Sweeper::visit(Archive& archive) {
   auto& [limits, context, flipper, improvers, parts, passes, iteration, unknowns, in_order] = *this;
-  archive(limits, passes, iteration);
+  archive(limits, parts, passes, iteration);
 }
 
 void visit(Archive& archive, VertexLimits& limits) {

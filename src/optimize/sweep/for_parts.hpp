@@ -11,48 +11,55 @@
 #include <vector>
 
 #include "optimize/sweep/partition.hpp"
+#include "optimize/sweep/shifted_cuts.hpp"
 #include "optimize/sweep/stop_token.hpp"
 #include "optimize/sweep/worker_pool.hpp"
 #include "temper/executor.hpp"
 
 namespace temper {
 
-/// work(worker, i, part) for each part i of the cut.
+/// work(worker, i) for each of n parts.
 template <class Worker, class Work>
-void for_parts(const Cut& cut, Executor& executor, WorkerPool<Worker>& workers, StopToken& stop, Work&& work) {
-  workers.make_room(cut.size());
+void for_parts(std::size_t n, Executor& executor, WorkerPool<Worker>& workers, StopToken& stop, Work&& work) {
+  workers.make_room(n);
   static_cast<void>(stop.goes_on());  // asks, should no part run on this thread
-  executor.run(cut.size(), [&](std::size_t i) {
+  executor.run(n, [&](std::size_t i) {
     const auto worker = workers.take();
-    work(*worker, i, cut[i]);
+    work(*worker, i);
   });
 }
 
 /// A sweep over all vertices, by workers with a function improve(vertices, part, left): it improves those that it can,
 /// in order, and appends the others to `left`.
 ///
-/// First each part does what it can. What is left comes next, with parts that are shifted by half of their size, then
-/// with parts four times as large and again, since some neighbours in the plane are far apart on the curve. The last
-/// part is the whole mesh: it takes what is left, about 1 % of a million vertices.
+/// First each part of the numbers does what it can. What is left comes next, with the parts of three shifted cuts,
+/// inside of which nearly all of it is. What is left then, mostly nothing, comes one after another.
 template <class Worker>
 class PartSweep {
  public:
   PartSweep(std::size_t part_size, WorkerPool<Worker>& workers) : part_size_(part_size), workers_(workers) {}
 
-  void in_parts(std::size_t n_vertices, Executor& executor, StopToken& stop) {
-    std::size_t count = parts_of(n_vertices, part_size_);
-    run({n_vertices, count, false}, executor, stop, [&](Worker& worker, const Part& part, VertexList& left) {
-      improve_numbers(worker, part, n_vertices, left, stop);
+  void in_parts(const Mesh& mesh, Executor& executor, StopToken& stop) {
+    const std::size_t n = mesh.n_vertices(), count = std::max<std::size_t>(1, (n + part_size_ - 1) / part_size_);
+    if (count > 1 && !cuts_.are_of(mesh)) cuts_.cut(mesh, count, executor);
+    const Cut cut{n, count, false};
+    run(count, executor, stop, [&](Worker& worker, std::size_t i, VertexList& left) {
+      improve_numbers(worker, count == 1 ? Part() : cut[i], n, left, stop);
     });
-    for (; count > 1; count = parts_of(count, kGrowth)) {
+    for (std::size_t k = 0; count > 1 && k < ShiftedCuts::kCuts; ++k) {
       stop.ask_soon();
-      run({n_vertices, count, true}, executor, stop, [&](Worker& worker, const Part& part, VertexList& left) {
-        const auto begin = std::lower_bound(waiting_.begin(), waiting_.end(), part.first);
-        improve(worker, {begin, std::lower_bound(begin, waiting_.end(), part.last)}, part, left, stop);
+      hand_out(k);
+      run(cuts_.n_parts(), executor, stop, [&](Worker& worker, std::size_t i, VertexList& left) {
+        improve(worker, {waiting_.data() + begin_[i], begin_[i + 1] - begin_[i]}, cuts_.part(k, i), left, stop);
       });
     }
+    std::sort(waiting_.begin(), waiting_.end());
     in_order(waiting_, stop);
   }
+
+  /// Vertices have other numbers than before.
+  void renumber() { cuts_.clear(); }
+  void visit(Archive& archive) { archive(cuts_); }
 
   /// These vertices one after another, without parts.
   void in_order(std::span<const VertexId> vertices, StopToken& stop) {
@@ -64,22 +71,28 @@ class PartSweep {
  private:
   using VertexList = std::vector<VertexId>;
   static constexpr std::size_t kStretch = 8192;  // vertices between looks at whether to stop
-  static constexpr std::size_t kGrowth = 4;      // of parts from phase to phase, once shifted
 
-  static std::size_t parts_of(std::size_t n, std::size_t most) {
-    return std::max<std::size_t>(1, n / most + (n % most != 0 ? 1 : 0));
-  }
-
-  /// One phase. What is left after it waits for the next.
+  /// One phase of n parts. What is left after it waits for the next.
   template <class Work>
-  void run(const Cut& cut, Executor& executor, StopToken& stop, Work&& work) {
-    if (left_.size() < cut.size()) left_.resize(cut.size());
-    for_parts(cut, executor, workers_, stop, [&](Worker& worker, std::size_t i, const Part& part) {
+  void run(std::size_t n, Executor& executor, StopToken& stop, Work&& work) {
+    if (left_.size() < n) left_.resize(n);
+    for_parts(n, executor, workers_, stop, [&](Worker& worker, std::size_t i) {
       left_[i].clear();
-      work(worker, cut.size() == 1 ? Part() : part, left_[i]);
+      work(worker, i, left_[i]);
     });
     waiting_.clear();
-    for (std::size_t i = 0; i < cut.size(); ++i) waiting_.insert(waiting_.end(), left_[i].begin(), left_[i].end());
+    for (std::size_t i = 0; i < n; ++i) waiting_.insert(waiting_.end(), left_[i].begin(), left_[i].end());
+  }
+
+  /// Those that wait, by their parts of cut k (counting sort).
+  void hand_out(std::size_t k) {
+    begin_.assign(cuts_.n_parts() + 1, 0);
+    for (const VertexId v : waiting_) ++begin_[cuts_.part_of(k, v) + 1];
+    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+    handed_out_.resize(waiting_.size());
+    std::vector<std::size_t> next = begin_;
+    for (const VertexId v : waiting_) handed_out_[next[cuts_.part_of(k, v)]++] = v;
+    waiting_.swap(handed_out_);
   }
 
   static void improve_numbers(Worker& worker, const Part& part, std::size_t n, VertexList& left, StopToken& stop) {
@@ -105,7 +118,10 @@ class PartSweep {
   std::size_t part_size_;
   WorkerPool<Worker>& workers_;
   std::vector<std::vector<VertexId>> left_;  // by each part of the phase under way: storage is kept
-  std::vector<VertexId> waiting_;            // for the phase under way, in order
+  std::vector<VertexId> waiting_;            // for the phase under way
+  std::vector<VertexId> handed_out_;         // as they are put in the order of their parts
+  std::vector<std::size_t> begin_;           // of each part among those that wait
+  ShiftedCuts cuts_;                         // as the mesh was at the first sweep, or the first with these vertices
 };
 
 }  // namespace temper

@@ -1,5 +1,5 @@
 // Parts of a mesh that sweeps improve at the same time: ranges of vertex numbers, which along a Hilbert curve are
-// compact pieces of the plane.
+// compact pieces of the plane, and pieces of other cuts (shifted_cuts.hpp).
 //
 // A vertex is confined to a part when all that its step looks at is in there: its star, its link, and the corners
 // across the link. Why confined steps of different parts may run at once is shown in sweeper.hpp.
@@ -7,17 +7,24 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include "temper/mesh.hpp"
 
 namespace temper {
 
-/// The vertices first … last − 1; by default all of any mesh.
+using PartNumber = std::uint16_t;
+
+/// The vertices first … last − 1, by default all of any mesh; or those v with part_of[v] = number.
 struct Part {
   VertexId first = VertexId(0), last = {};
+  const PartNumber* part_of = nullptr;
+  PartNumber number = 0;
 
-  [[nodiscard]] bool contains(VertexId v) const { return v.index - first.index < last.index - first.index; }
-  [[nodiscard]] bool is_whole() const { return first.index == 0 && !last.valid(); }
+  [[nodiscard]] bool contains(VertexId v) const {
+    return part_of != nullptr ? part_of[v.index] == number : v.index - first.index < last.index - first.index;
+  }
+  [[nodiscard]] bool is_whole() const { return part_of == nullptr && first.index == 0 && !last.valid(); }
   friend bool operator==(const Part&, const Part&) = default;
 };
 

@@ -31,7 +31,7 @@ bool Sweeper::visit_all(int iteration, Unknowns unknowns, std::span<const Vertex
   improvers_.for_each([&](Improver& improver) { improver.step().begin_sweep(iteration, unknowns); });
   StopToken stop(run, context_.mesh.n_vertices());
   if (sequence.empty()) {
-    parts_.in_parts(context_.mesh.n_vertices(), executor(), stop);
+    parts_.in_parts(context_.mesh, executor(), stop);
   } else {
     parts_.in_order(sequence, stop);
   }

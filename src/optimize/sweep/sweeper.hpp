@@ -3,8 +3,8 @@
 //
 // The vertices of a working copy are numbered along a Hilbert curve. They are cut into parts, ranges of about 16,000
 // numbers, however many threads there are, and each part improves the vertices that are confined to it (partition.hpp),
-// in order; it lists those that are not, or whose flips would not be. What becomes of these, for_parts.hpp says. A mesh
-// of one part is swept as a whole.
+// in order; it lists those that are not, or whose flips would not be. These wait for the parts of other cuts
+// (shifted_cuts.hpp, for_parts.hpp). A mesh of one part is swept as a whole.
 //
 // Why parts may run at once. Call a triangle inner to a part when all its corners are in there. While parts run:
 //
@@ -63,7 +63,10 @@ class Sweeper {
   void shake(double amount, Rng& rng);
 
   /// The mesh has been compacted, or has got new vertices.
-  void renumber(const Compaction& kept) { limits_.renumber(kept); }
+  void renumber(const Compaction& kept) {
+    limits_.renumber(kept);
+    parts_.renumber();
+  }
   void grow() { limits_.grow(); }
 
   void visit(Archive& archive);

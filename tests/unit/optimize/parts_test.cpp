@@ -5,6 +5,7 @@
 
 #include "mesh/mesh_editor.hpp"
 #include "optimize/driver.hpp"
+#include "optimize/sweep/shifted_cuts.hpp"
 #include "support/regions.hpp"
 #include "support/std_threads.hpp"
 #include "temper/generate.hpp"
@@ -152,6 +153,75 @@ TEST(Parts, AskTheObserverInTheCallersThreadAndStopWhenToldTo) {
   EXPECT_EQ(count_non_regular_edges(result.mesh, false), 0u);
 }
 
+// --- cuts into parts -----------------------------------------------------------------------------
+
+struct CutCase {
+  const char* name;
+  Mesh (*make)();
+};
+
+class Cuts : public testing::TestWithParam<CutCase> {};
+
+TEST_P(Cuts, LeaveNoneOrFewVerticesOutsideOfAllParts) {
+  constexpr std::size_t kParts = 6;
+  const Mesh mesh = hilbert_ordered(GetParam().make()).mesh;
+  const std::size_t n = mesh.n_vertices();
+  const Cut numbers{n, kParts, false};
+  StdThreads crew(3);
+  ShiftedCuts cuts;
+  cuts.cut(mesh, kParts, crew);
+  ASSERT_EQ(cuts.n_parts(), kParts);
+  EXPECT_TRUE(cuts.are_of(mesh));
+  std::array<std::vector<std::size_t>, ShiftedCuts::kCuts> sizes;
+  sizes.fill(std::vector<std::size_t>(kParts, 0));
+  std::size_t in_order = 0, nowhere = 0;
+  for (const VertexId v : mesh.vertices()) {
+    bool confined = is_confined(mesh, v, numbers[v.index * kParts / n]);
+    in_order += confined ? 0 : 1;
+    for (std::size_t k = 0; k < ShiftedCuts::kCuts; ++k) {
+      const std::size_t i = cuts.part_of(k, v);
+      ASSERT_LT(i, kParts);
+      ++sizes[k][i];
+      EXPECT_TRUE(cuts.part(k, i).contains(v));
+      EXPECT_FALSE(cuts.part(k, (i + 1) % kParts).contains(v));
+      confined = confined || is_confined(mesh, v, cuts.part(k, i));
+    }
+    nowhere += confined ? 0 : 1;
+  }
+  EXPECT_GT(in_order, n / 20);
+  EXPECT_LE(nowhere, n / 200);
+  for (const auto& of_cut : sizes) {
+    EXPECT_LT(*std::max_element(of_cut.begin(), of_cut.end()), 2 * n / kParts);
+    EXPECT_GT(*std::min_element(of_cut.begin(), of_cut.end()), n / kParts / 2);
+  }
+
+  ShiftedCuts alone;
+  SerialExecutor one;
+  alone.cut(mesh, kParts, one);
+  std::string bytes, same;
+  Archive to_bytes(bytes), to_same(same);
+  cuts.visit(to_bytes), alone.visit(to_same);
+  EXPECT_EQ(bytes, same) << "threads";
+  ShiftedCuts read;
+  Archive from{std::string_view(bytes)};
+  read.visit(from);
+  EXPECT_TRUE(from.at_end() && read.are_of(mesh));
+  cuts.clear();
+  EXPECT_FALSE(cuts.are_of(mesh));
+}
+
+Mesh points_in_plane() { return *random_points({.vertices = 24000, .seed = 4}); }
+Mesh points_of_many_sizes() { return *graded_points({.finest = 0.002, .growth = 0.03, .seed = 4}); }
+Mesh points_on_sphere() { return *random_sphere({.vertices = 24000, .seed = 4}); }
+Mesh points_around_both_ways() { return *random_periodic({.vertices = 24000, .seed = 4, .period = {2, 1}}); }
+Mesh channel() { return *periodic_hexagons({.nx = 160, .ny = 150, .channel = true}); }
+
+INSTANTIATE_TEST_SUITE_P(Spaces, Cuts,
+                         testing::Values(CutCase{"plane", points_in_plane}, CutCase{"graded", points_of_many_sizes},
+                                         CutCase{"sphere", points_on_sphere},
+                                         CutCase{"periodic", points_around_both_ways}, CutCase{"channel", channel}),
+                         [](const auto& one) { return std::string(one.param.name); });
+
 // --- what one part touches -----------------------------------------------------------------------
 
 bool is_inner(const Mesh& mesh, TriangleId t, const Part& part) {
@@ -170,7 +240,9 @@ std::size_t improve_part(WorkingCopy& work, const Settings& settings, const Part
   VertexLimits limits(work.mesh, settings, work.frame);
   Improver improver({work.mesh, settings, work.frame, limits, recorder});
   std::vector<VertexId> vertices, left;
-  for (std::size_t i = part.first.index; i < part.last.index; ++i) vertices.push_back(VertexId(i));
+  for (const VertexId v : work.mesh.vertices()) {
+    if (part.contains(v)) vertices.push_back(v);
+  }
   for (int sweep = 0; sweep < 3; ++sweep) {
     improver.step().begin_sweep(sweep, settings.options.unknowns);
     improver.improve(vertices, part, left);
@@ -183,10 +255,14 @@ struct OnePart {
   OnePart(const Mesh& input, const OptimizeOptions& options)
       : work(input, SweepOrder::hilbert), settings(*make_settings(options, work.mesh, work.frame)) {
     settings.model.gamma = {0.3, LengthScale::relative};
+    SerialExecutor executor;
+    cuts.cut(work.mesh, 3, executor);
   }
+  /// Of the numbers, or of a shifted cut.
+  [[nodiscard]] Part part(bool shifted) const { return shifted ? cuts.part(1, 1) : Part{VertexId(300), VertexId(700)}; }
   WorkingCopy work;
   Settings settings;
-  Part part{VertexId(300), VertexId(700)};
+  ShiftedCuts cuts;
 };
 
 std::vector<OptimizeOptions> ways_to_step() {
@@ -194,6 +270,14 @@ std::vector<OptimizeOptions> ways_to_step() {
           {.paper = {.solver = Solver::alternating}},
           {.energy = EnergyKind::T},
           {.energy = EnergyKind::F, .paper = {.solver = Solver::golden, .flip_limit = FlipLimit::unlimited}}};
+}
+
+std::vector<std::pair<OptimizeOptions, bool>> ways_to_step_in_parts() {
+  std::vector<std::pair<OptimizeOptions, bool>> ways;
+  for (const OptimizeOptions& options : ways_to_step()) {
+    for (const bool shifted : {false, true}) ways.emplace_back(options, shifted);
+  }
+  return ways;
 }
 
 void expect_same_outside(const Mesh& before, const Mesh& after, const Part& part) {
@@ -215,14 +299,14 @@ void expect_same_outside(const Mesh& before, const Mesh& after, const Part& part
 }
 
 TEST(OnePart, ChangesNothingOutside) {
-  for (const OptimizeOptions& options : ways_to_step()) {
+  for (const auto& [options, shifted] : ways_to_step_in_parts()) {
     OnePart one(mesh_with_regions(1000, 11), options);
     const Mesh before = one.work.mesh;
-    const std::size_t left = improve_part(one.work, one.settings, one.part);
+    const std::size_t left = improve_part(one.work, one.settings, one.part(shifted));
     EXPECT_GT(left, 0u);
     EXPECT_LT(left, 3u * 300u);
     EXPECT_EQ(one.work.mesh.validate(), std::nullopt);
-    expect_same_outside(before, one.work.mesh, one.part);
+    expect_same_outside(before, one.work.mesh, one.part(shifted));
   }
 }
 
@@ -253,25 +337,26 @@ TEST(OnePart, UndoesAStepWhoseFlipsWouldLeaveIt) {
 
 TEST(OnePart, DoesNotSeeWhatOtherPartsMayChange) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  for (const OptimizeOptions& options : ways_to_step()) {
+  for (const auto& [options, shifted] : ways_to_step_in_parts()) {
     OnePart seen(mesh_with_regions(1000, 12), options), blind = seen;
+    const Part part = seen.part(shifted);
     Mesh& mesh = blind.work.mesh;
     for (const HalfedgeId h : mesh.halfedges()) {
-      const bool an_end = seen.part.contains(seen.work.mesh.origin(h)) || seen.part.contains(seen.work.mesh.target(h));
+      const bool an_end = part.contains(seen.work.mesh.origin(h)) || part.contains(seen.work.mesh.target(h));
       if (!an_end) MeshEditor(mesh).link(h, HalfedgeId());
     }
     for (const TriangleId t : seen.work.mesh.triangles()) {
-      if (has_corner_in(seen.work.mesh, t, seen.part)) continue;
+      if (has_corner_in(seen.work.mesh, t, part)) continue;
       for (int k = 0; k < 3; ++k) MeshEditor(mesh).set_corner(Mesh::halfedge(t, k), VertexId());
     }
     for (const VertexId v : mesh.vertices()) {
-      if (seen.part.contains(v)) continue;
+      if (part.contains(v)) continue;
       mesh.set_point(v, {kNan, kNan, kNan});
       MeshEditor(mesh).set_outgoing(v, HalfedgeId());
     }
-    EXPECT_EQ(improve_part(blind.work, blind.settings, seen.part), improve_part(seen.work, seen.settings, seen.part));
+    EXPECT_EQ(improve_part(blind.work, blind.settings, part), improve_part(seen.work, seen.settings, part));
     for (const VertexId v : mesh.vertices()) {
-      if (!seen.part.contains(v)) continue;
+      if (!part.contains(v)) continue;
       EXPECT_EQ(mesh.point(v), seen.work.mesh.point(v));
       EXPECT_EQ(mesh.outgoing(v), seen.work.mesh.outgoing(v));
     }
