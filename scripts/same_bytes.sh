@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs on ten meshes with ten sets of options end with the bytes of tests/golden/bytes.txt, whatever compiles the
+# Runs on ten meshes with twelve sets of options end with the bytes of tests/golden/bytes.txt, whatever compiles the
 # library and whatever it runs on. One line a compiler; fails when a hash differs.
 #
 #   scripts/same_bytes.sh             all that this machine has
