@@ -8,13 +8,15 @@
 
 namespace temper {
 
-/// The squared length of the shortest edge at v; +∞ at a vertex of no triangle.
+/// The squared length of the shortest edge at v, on the sphere between lifted points; +∞ at a vertex of no triangle.
 [[nodiscard]] inline double squared_shortest_edge(const Mesh& mesh, VertexId v) {
   const WeightedPoint p = mesh.point(v);
   double least = std::numeric_limits<double>::infinity();
   for (const HalfedgeId h : mesh.star(v)) {
     for (const VertexId u : {mesh.target(h), mesh.opposite(h)}) {
-      least = std::min(least, squared_length(mesh.point(u, p).position() - p.position()));
+      const WeightedPoint q = mesh.point(u, p);
+      least = std::min(least, mesh.space().is_plane() ? squared_length(q.position() - p.position())
+                                                      : squared_length(lifted(q) - lifted(p)));
     }
   }
   return least;
