@@ -47,10 +47,15 @@ void put_on_sphere(MeshFile& file, double radius, const InputNames& names) {
   places.reserve(file.points.size());
   for (std::size_t i = 0; i < file.points.size(); ++i) {
     const Vec2 p = file.points[i];
-    if (!(std::abs(p.y) <= 90) || !(std::abs(p.x) <= 720)) {
+    if (!(std::abs(p.y) <= 90)) {
       fail(ErrorCode::geographic, names.point_where(i),
            text(names.point(i), " has longitude ", p.x, " and latitude ", p.y,
                 "; expected degrees, a latitude between -90 and 90"));
+    }
+    if (!(std::abs(p.x) <= 720)) {
+      fail(ErrorCode::geographic, names.point_where(i),
+           text(names.point(i), " has longitude ", p.x, " and latitude ", p.y,
+                "; expected degrees, a longitude between -720 and 720"));
     }
     places.push_back(radius * direction_of(p));
   }

@@ -9,7 +9,7 @@ namespace temper::io {
 /// The unit vector to the east, on the axis that of longitude 0.
 [[nodiscard]] Vec3 east_of(Vec3 direction);
 
-/// Puts points, which are degrees, onto the sphere. Fails where a latitude is none.
+/// Puts points, which are degrees, onto the sphere. Fails where a latitude or a longitude is none.
 void put_on_sphere(MeshFile& file, double radius, const InputNames& names);
 /// Makes the sphere one of another radius, with weights that leave the power diagram as it is.
 void resize_sphere(MeshFile& file, double radius);

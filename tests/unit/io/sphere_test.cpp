@@ -208,6 +208,9 @@ TEST_F(SphereFiles, WhatIsWrongIsNamedByFileAndLine) {
             "nod2d.out:5: point 3 and point 4 are both at (0, 0, 6371000");
   EXPECT_EQ(fesom("3\n1 0 0 1\n2 10 0 1\n3 0 10 1\n", ""),
             "nod2d.out: is the points of a FESOM mesh; its triangles are expected in elem2d.out, which does not exist");
+  EXPECT_EQ(
+      fesom("3\n1 0 0 1\n2 1000 0 1\n3 0 10 1\n", "1\n1 2 3\n"),
+      "nod2d.out:3: point 2 has longitude 1000 and latitude 0; expected degrees, a longitude between -720 and 720");
   // 180 and −180, and longitudes in both conventions, are the same places.
   EXPECT_EQ(fesom("4\n1 170 0 1\n2 180 10 1\n3 -170 0 1\n4 540 -10 1\n", "2\n1 3 2\n1 4 3\n"), "");
 }
