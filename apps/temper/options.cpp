@@ -227,10 +227,12 @@ std::string command_line(const std::string& verb, const std::vector<std::string>
 }
 
 void add_projection(Command& command, std::string& target) {
-  add_text(command, "--projection", "KIND[:lon,lat]|none", target,
-           "the map for points in longitude and latitude: stereographic, mercator or transverse-mercator about this "
-           "center (default: the middle of the points), to metres; a mesh that is written has degrees again; none: "
-           "coordinates are those of a plane, whatever they look like");
+  add_text(
+      command, "--projection", "KIND[:lon,lat]|sphere[:radius=R]|none", target,
+      "the map for points in longitude and latitude, a globe's too: stereographic, mercator or transverse-mercator "
+      "about this center (default: the middle of the points), to metres; a mesh that is written has degrees again; "
+      "sphere: a mesh of the sphere of this radius (default: 6371000), without a map; none: coordinates are those "
+      "of a plane, whatever they look like");
 }
 
 }  // namespace temper::app
