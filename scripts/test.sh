@@ -117,10 +117,10 @@ consumer_find_package() {
 }
 
 # The core alone asks for nothing; with what ThreadSanitizer looks at, in the same project, it is built.
-consumer_subdirectory() {
+consumer_subdirectory() (
   cmake -G Ninja -S tests/consumer/subdirectory -B "$scratch/subdirectory" && cd tests/consumer/subdirectory &&
     configure_and_build subdirectory --target core threads
-}
+)
 
 if ! stage "bootstrap" scripts/bootstrap.sh build test; then
   echo "0 passed, 1 failed"
