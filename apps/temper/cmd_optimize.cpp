@@ -16,6 +16,7 @@
 #include "outputs.hpp"
 #include "progress_line.hpp"
 #include "projection_option.hpp"
+#include "ranks.hpp"
 #include "report_json.hpp"
 #include "report_text.hpp"
 #include "requirement.hpp"
@@ -48,6 +49,7 @@ struct Settings {
   TableOptions table;  ///< first those of the method
   std::uint64_t threads = 0;
   bool quiet = false, verify = false;
+  bool traced = false;  ///< whoever writes the trace
   std::string checkpoint, resume;
   double every = 600;  ///< seconds between checkpoints
   std::vector<Requirement> requirements;
@@ -268,6 +270,7 @@ OptimizeReport run_library(const Settings& s, const Input& input, Mesh& mesh, co
   };
   OptimizeHooks hooks;
   hooks.executor = files.threads;
+  hooks.ranks = joined_ranks();
   hooks.names = input.names.get();
   hooks.observer = observer;
   hooks.tracer = std::move(tracer);
@@ -328,8 +331,9 @@ void verify_result(const Settings& s, SolverErrors& errors, Mesh& mesh, const Me
 #endif
 
 /// The tracer of the trace, if there is one. The beginning of a resumed one is written before.
-Tracer tracer_of(const RunFiles& files, const Input& input) {
+Tracer tracer_of(const Settings& s, const RunFiles& files, const Input& input) {
   TraceFile* const trace = files.trace;
+  if (trace == nullptr && s.traced) return [](const TraceEvent&) {};  // the first rank writes it
   if (trace == nullptr) return {};
   const bool begun = files.resumed != nullptr && !files.resumed->checkpoint.trace.empty();
   trace->write(begun ? files.resumed->checkpoint.trace : trace_header(input));
@@ -356,7 +360,7 @@ void improve(const Settings& s, Input& input, Results& results, const RunFiles& 
     print(fmt::format("{}: {} vertices, {} triangles\n", s.input, results.before.vertices, results.before.triangles));
     flush_output();
   }
-  const Tracer tracer = tracer_of(files, input);
+  const Tracer tracer = tracer_of(s, files, input);
 #ifdef TEMPER_WITH_VERIFY
   std::optional<SolverErrors> errors;
   if (s.verify) errors.emplace(mesh, files.threads);
@@ -492,7 +496,9 @@ Exit optimize_mesh(const Command& command, Settings& s, Outputs& outputs, const 
   // The mesh has its geometry now, and memory is dear on the largest ones.
   io::release_geometry(input.file, input.loaded);
   const std::optional<Mesh> plain = take_to_metric(input, s.metric);
+  agree_to_go_on();
   improve(s, input, results, files);
+  if (!is_first_rank()) return Exit::done;
   results.lacks_flips = lacks_flips(s, results.after, input.loaded.mesh, threads.get());
   if (plain) take_back(s, *plain, input, results.report);
   write_all(command, s, input, results, outputs, files);
@@ -538,6 +544,16 @@ Command command_with(Settings& settings) {
   return command;
 }
 
+/// What the first rank does for all.
+void leave_outputs_to_first_rank(Settings& s) {
+  for (std::string* output : {&s.output.path, &s.report, &s.html, &s.history, &s.picture, &s.trace, &s.checkpoint}) {
+    output->clear();
+  }
+  s.requirements.clear();
+  s.verify = false;
+  s.quiet = true;
+}
+
 /// A command that has been parsed. `resumed`: the run that it goes on with, or null.
 Exit run_command(Command& command, Settings& settings, const Resumed* resumed) {
   take_input(command, settings);
@@ -547,9 +563,12 @@ Exit run_command(Command& command, Settings& settings, const Resumed* resumed) {
   if (settings.metric) settings.output.options.triangle_quality = false;  // which is of the plane
   settings.requirements = parse_requirements("optimize", settings.require);
 
+  settings.traced = !settings.trace.empty();
+  if (!is_first_rank()) leave_outputs_to_first_rank(settings);
+
   Outputs outputs("optimize");
   const std::vector<std::string> inputs = {settings.input, settings.size_field};
-  outputs.expect_mesh(settings.output, {settings.size_field});
+  if (is_first_rank()) outputs.expect_mesh(settings.output, {settings.size_field});
   outputs.expect_text("--report", settings.report, inputs);
   outputs.expect_text("--html", settings.html, inputs);
   outputs.expect_text("--history", settings.history, inputs);
@@ -574,6 +593,7 @@ Exit resume(const Command& now, const std::string& path) {
 }  // namespace
 
 Exit run_optimize(const Arguments& arguments) {
+  join_ranks();
   Settings settings;
   Command command = command_with(settings);
   if (!command.parse(arguments)) return Exit::done;

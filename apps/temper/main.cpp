@@ -12,11 +12,13 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <optional>
 
 #include "console.hpp"
 #include "help.hpp"
 #include "help_formats.hpp"
 #include "interrupt.hpp"
+#include "ranks.hpp"
 #include "suggest.hpp"
 #include "temper/build_info.hpp"
 #include "temper/io.hpp"
@@ -61,6 +63,7 @@ std::string version_text() {
   for (const BuildFact& fact : build_info()) {
     if (fact.name != "version") text += fmt::format("  {:<14}{}\n", fact.name, fact.value);
   }
+  if (const std::string mpi = mpi_library(); !mpi.empty()) text += fmt::format("  {:<14}{}\n", "MPI", mpi);
   return text;
 }
 
@@ -128,14 +131,19 @@ int run_program(int argc, char** argv) {
   try {
     const Exit exit = run(Arguments(argv + std::min(argc, 1), argv + argc));
     flush_output();
+    leave_ranks();
     return static_cast<int>(exit);
   } catch (const Failure& failure) {
-    print_error(failure.what());
-    return static_cast<int>(failure.exit);
+    const std::optional<Failure> shown = agreed(failure);
+    if (shown) print_error(shown->what());
+    leave_ranks();
+    return static_cast<int>(shown.value_or(failure).exit);
   } catch (const std::bad_alloc&) {
+    end_ranks("out of memory", Exit::internal);
     print_error("out of memory");
     return static_cast<int>(Exit::internal);
   } catch (const std::exception& error) {
+    end_ranks(error.what(), Exit::internal);
     return internal_error(error.what());
   } catch (...) {
     return internal_error("unknown exception");

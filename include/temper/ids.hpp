@@ -31,7 +31,7 @@ using VertexId = Id<struct VertexTag>;
 using HalfedgeId = Id<struct HalfedgeTag>;
 using TriangleId = Id<struct TriangleTag>;
 
-/// The ids 0 … n − 1, for range-based loops.
+/// The ids 0 … n − 1, or those from a first one to before a last, for range-based loops.
 template <class IdType>
 class IdRange {
  public:
@@ -56,13 +56,14 @@ class IdRange {
     std::size_t index_;
   };
 
-  constexpr explicit IdRange(std::size_t size) : size_(size) {}
-  [[nodiscard]] constexpr Iterator begin() const { return Iterator(0); }
-  [[nodiscard]] constexpr Iterator end() const { return Iterator(size_); }
-  [[nodiscard]] constexpr std::size_t size() const { return size_; }
+  constexpr explicit IdRange(std::size_t size) : last_(size) {}
+  constexpr IdRange(IdType first, IdType last) : first_(first.index), last_(last.index) {}
+  [[nodiscard]] constexpr Iterator begin() const { return Iterator(first_); }
+  [[nodiscard]] constexpr Iterator end() const { return Iterator(last_); }
+  [[nodiscard]] constexpr std::size_t size() const { return last_ - first_; }
 
  private:
-  std::size_t size_;
+  std::size_t first_ = 0, last_;
 };
 
 /// std::vector that only its own id type indexes.

@@ -17,6 +17,7 @@
 #include "temper/error_model.hpp"
 #include "temper/mesh.hpp"
 #include "temper/progress.hpp"
+#include "temper/ranks.hpp"
 #include "temper/regularity.hpp"
 #include "temper/size.hpp"
 #include "temper/trace.hpp"
@@ -308,7 +309,10 @@ using StateListener = std::function<void(const std::function<std::string()>& sta
 
 /// What a run works with, and who listens: the result does not depend on any of it, unless the observer stops the run.
 struct OptimizeHooks {
-  Executor* executor = nullptr;                         ///< threads for sweeps and sums
+  Executor* executor = nullptr;  ///< threads for sweeps and sums
+  /// Processes that make this run together, all with the same mesh, options and state to resume: each gets the result.
+  /// The observer and the time limit are those of rank 0. Null: this one alone.
+  Ranks* ranks = nullptr;
   const InputNames* names = nullptr;                    ///< the user's numbering, for errors and notes
   Observer observer = {};                               ///< hears of the progress, and may stop the run
   Tracer tracer = {};                                   ///< sees every event of the run

@@ -52,6 +52,8 @@ std::string_view name(ErrorCode code) {
       return "trace_mismatch";
     case ErrorCode::checkpoint_mismatch:
       return "checkpoint_mismatch";
+    case ErrorCode::rank_mismatch:
+      return "rank_mismatch";
     case ErrorCode::not_writable:
       return "not_writable";
   }

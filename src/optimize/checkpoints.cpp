@@ -11,8 +11,9 @@ namespace {
 
 constexpr std::string_view kKind = "temper run state";
 
-/// A hash of all that a result depends on.
-std::uint64_t owner_of(const OptimizeOptions& options, const Mesh& mesh) {
+}  // namespace
+
+std::uint64_t identity_of(const OptimizeOptions& options, const Mesh& mesh) {
   std::string all;
   Archive archive(all);
   Mesh copy = mesh;
@@ -33,13 +34,11 @@ std::uint64_t owner_of(const OptimizeOptions& options, const Mesh& mesh) {
   return checksum(all);
 }
 
-}  // namespace
-
 Expected<Checkpoints> Checkpoints::of(const OptimizeHooks& hooks, const OptimizeOptions& options, const Mesh& mesh) {
   Checkpoints all;
   if (!hooks.checkpoints && hooks.resume.empty()) return all;
   all.listener_ = hooks.checkpoints;
-  all.owner_ = owner_of(options, mesh);
+  all.owner_ = identity_of(options, mesh);
   if (hooks.resume.empty()) return all;
   const Expected<std::string_view> bytes = from_envelope(kKind, hooks.resume);
   if (!bytes) return bytes.error();

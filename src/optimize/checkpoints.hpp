@@ -56,6 +56,9 @@ class Checkpoints {
   std::vector<const Visit*> under_way_;  // of the functions, outermost first
 };
 
+/// A hash of all that the result of a run depends on.
+[[nodiscard]] std::uint64_t identity_of(const OptimizeOptions& options, const Mesh& mesh);
+
 /// The part that a function has in the state of a run, as long as it runs.
 class Resumable {
  public:

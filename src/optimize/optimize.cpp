@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "optimize/accuracy/accuracy_phase.hpp"
+#include "optimize/agreement.hpp"
 #include "optimize/attempts.hpp"
 #include "optimize/driver.hpp"
 #include "optimize/error/error_phase.hpp"
@@ -55,7 +56,8 @@ void improve(Candidate& best, const Settings& settings, Run& run, const Accuracy
 }  // namespace
 
 Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks) {
-  Run run(options, hooks.observer);
+  if (auto error = expect_agreement(hooks, options, mesh)) return *std::move(error);
+  Run run(options, hooks.observer, hooks.ranks);
   auto settings = make_settings(options, mesh, Frame::of(mesh), hooks);
   if (!settings) return settings.error();
   settings->size_field = field_of_band(mesh, options, hooks.executor);

@@ -6,6 +6,29 @@
 namespace temper {
 
 bool Run::asked_to_stop(double fraction_of_sweep) {
+  if (ranks_ == nullptr) return ask(fraction_of_sweep);
+  if (ranks_->rank() == 0) ask(fraction_of_sweep);
+  if (!apart_) hear();
+  return stopped_by_caller();
+}
+
+void Run::meet() {
+  apart_ = false;
+  if (ranks_ != nullptr) hear();
+}
+
+/// What rank 0 was told, if it was told to stop.
+void Run::hear() {
+  std::string told;
+  Archive archive(told);
+  archive(report.stopped);
+  const std::string first = ranks_->all_gather(told).front();
+  Stopped stopped = report.stopped;
+  Archive(std::string_view(first))(stopped);
+  if (stopped == Stopped::cancelled || stopped == Stopped::time_limit) report.stopped = stopped;
+}
+
+bool Run::ask(double fraction_of_sweep) {
   if (options_.time_limit > 0 && seconds_here() + ending_seconds_ > options_.time_limit) {
     report.stopped = Stopped::time_limit;
     return true;

@@ -25,8 +25,13 @@ struct RunFacts {
 
 class Run {
  public:
-  Run(const OptimizeOptions& options, const Observer& observer)
-      : repair_trials_left(options.repair_trials), options_(options), observer_(observer), start_(Clock::now()) {}
+  /// `ranks`: that make the run together, or null.
+  Run(const OptimizeOptions& options, const Observer& observer, Ranks* ranks = nullptr)
+      : repair_trials_left(options.repair_trials),
+        options_(options),
+        observer_(observer),
+        ranks_(ranks),
+        start_(Clock::now()) {}
 
   /// Since the start, and in the runs that this one goes on with.
   [[nodiscard]] double seconds() const { return earlier_seconds_ + seconds_here(); }
@@ -43,8 +48,13 @@ class Run {
   void begin_sweeps() {
     if (ending_seconds_ == 0) ending_seconds_ = seconds_here();
   }
-  /// Asks the clock and the caller; sets report.stopped when the answer is yes.
+  /// Asks the clock and the caller, who are those of rank 0; sets report.stopped when the answer is yes. Ranks ask at
+  /// the same places and hear the same, but while they are apart: rank 0 alone knows then.
   bool asked_to_stop(double fraction_of_sweep);
+  /// From here on ranks do different things.
+  void part_ways() { apart_ = ranks_ != nullptr; }
+  /// From here on they do the same again, and know what rank 0 was told meanwhile.
+  void meet();
 
   void count(const Flipper::Changes& changes) {
     report.flips += changes.flips;
@@ -61,10 +71,15 @@ class Run {
   friend void visit(Archive& archive, Run& run);
   using Clock = std::chrono::steady_clock;
 
+  bool ask(double fraction_of_sweep);
+  void hear();
+
   [[nodiscard]] double seconds_here() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   const OptimizeOptions& options_;
   const Observer& observer_;
+  Ranks* ranks_;
+  bool apart_ = false;
   Clock::time_point start_;
   double earlier_seconds_ = 0;
   double ending_seconds_ = 0;  // after the last sweep, about

@@ -74,8 +74,8 @@ void visit(Archive& archive, Attempt& attempt) {
 }
 
 void visit(Archive& archive, Run& run) {
-  auto& [report, facts, repair_trials_left, checkpoints, options, observer, start, earlier_seconds, ending_seconds] =
-      run;
+  auto& [report, facts, repair_trials_left, checkpoints, options, observer, ranks, apart, start, earlier_seconds,
+         ending_seconds] = run;
   double seconds = run.seconds();
   archive(report, facts, repair_trials_left, seconds);
   archive.require(!report.history.empty());
@@ -118,7 +118,7 @@ void Recorder::visit(Archive& archive) {
 }
 
 void Flipper::visit(Archive& archive) {
-  auto& [mesh, settings, recorder, lawson, records, plan, changes] = *this;
+  auto& [mesh, settings, recorder, lawson, records, plan, changes, log] = *this;
   auto& [flips, removed, inserted] = changes;
   archive(flips, removed, inserted);
 }

@@ -106,6 +106,7 @@ Flipper::Settled Flipper::settle(const Step& step) {
     return result.escaped ? Settled::escaped : Settled::undone;
   }
   changes_.flips += result.flips;
+  if (log_ != nullptr) log_->insert(log_->end(), lawson_.journal().begin(), lawson_.journal().end());
   recorder_.placed(step.v, step.origin, there, step.before, step.after);
   recorder_.flipped(records_);
   if (hides) treat_hidden();
@@ -197,6 +198,11 @@ void Flipper::flip(HalfedgeId h, double before, double after) {
   inlined::flip(mesh_, h);
   recorder_.flipped({&record, 1});
   ++changes_.flips;
+}
+
+void Flipper::repeat(std::span<const HalfedgeId> flips) {
+  for (const HalfedgeId h : flips) inlined::flip(mesh_, h);
+  changes_.flips += flips.size();
 }
 
 VertexId Flipper::insert(WorkingCopy& work, TriangleId t, const WeightedPoint& p, double before, double after) {

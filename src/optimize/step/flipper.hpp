@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "optimize/settings.hpp"
@@ -61,6 +62,10 @@ class Flipper {
     changes_.inserted += more.inserted;
   }
   [[nodiscard]] const Changes& changes() const { return changes_; }
+  /// Appends to the log, from here on, the halfedges that steps flip, in order; null: no longer.
+  void log_flips(std::vector<HalfedgeId>* log) { log_ = log; }
+  /// Does again what another flipper logged, on a mesh as that one was.
+  void repeat(std::span<const HalfedgeId> flips);
   [[nodiscard]] bool has_removed() const { return changes_.removed > 0; }
 
   void visit(Archive& archive);
@@ -79,6 +84,7 @@ class Flipper {
   std::vector<FlipRecord> records_;  // of the run under way, when traced
   RemovalPlan plan_;
   Changes changes_;
+  std::vector<HalfedgeId>* log_ = nullptr;
 };
 
 }  // namespace temper

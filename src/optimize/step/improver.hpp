@@ -30,6 +30,17 @@ class Improver {
     }
   }
 
+  /// Appends what is flipped to a log, or to none.
+  void log_flips(std::vector<HalfedgeId>* log) { flipper_.log_flips(log); }
+  /// Does again what another one has logged.
+  void repeat(std::span<const HalfedgeId> flips) { flipper_.repeat(flips); }
+  /// Tells of all that a sweep changes of vertices: what the mesh has of them, and what batches go by.
+  template <class Vertices>
+  void tell(Archive& archive, const Vertices& vertices) {
+    for (const VertexId v : vertices) archive(context_.limits.degree[v]);
+    tell_points(archive, context_.mesh, vertices);
+  }
+
   [[nodiscard]] VertexStep& step() { return step_; }
   [[nodiscard]] Flipper& flipper() { return flipper_; }
 

@@ -1,36 +1,74 @@
-// Work on the parts of a mesh, at once or one after another: the same bytes either way.
+// Work on the parts of a mesh, at once or one after another, by one process or several: the same bytes each way.
 //
-// This is the only place that knows of executors, of the workers that threads need, of when to stop, of parts that are
-// shifted and of vertices that wait for another part. Another engine than threads would take its place.
+// This is the only place that knows of executors, of ranks, of the workers that threads need, of when to stop, of parts
+// that are shifted and of vertices that wait for another part.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "base/assert.hpp"
 #include "optimize/sweep/partition.hpp"
 #include "optimize/sweep/shifted_cuts.hpp"
 #include "optimize/sweep/stop_token.hpp"
 #include "optimize/sweep/worker_pool.hpp"
+#include "temper/archive.hpp"
 #include "temper/executor.hpp"
+#include "temper/ranks.hpp"
 
 namespace temper {
 
-/// work(worker, i) for each of n parts.
-template <class Worker, class Work>
-void for_parts(std::size_t n, Executor& executor, WorkerPool<Worker>& workers, StopToken& stop, Work&& work) {
+/// Who does the parts: threads of this process, and those of other ranks where there are some.
+struct Engine {
+  Executor& executor;
+  Ranks* ranks = nullptr;
+};
+
+[[nodiscard]] inline Engine engine_of(const OptimizeHooks& hooks) { return {or_serial(hooks.executor), hooks.ranks}; }
+
+/// A run of parts, those that one rank does.
+struct Share {
+  std::size_t first, last;
+  Share(std::size_t n_parts, std::size_t rank, std::size_t n_ranks)
+      : first(n_parts * rank / n_ranks), last(n_parts * (rank + 1) / n_ranks) {}
+};
+
+/// work(worker, i) for each of n parts. Where ranks share them, tell(archive, i) writes what part i has become to the
+/// archive, or reads it there and does it here: all ranks then have what each would have made alone.
+template <class Worker, class Work, class Tell>
+void for_parts(std::size_t n, Engine engine, WorkerPool<Worker>& workers, StopToken& stop, Work&& work, Tell&& tell) {
   workers.make_room(n);
+  const std::size_t rank = engine.ranks != nullptr ? engine.ranks->rank() : 0;
+  const std::size_t n_ranks = engine.ranks != nullptr ? engine.ranks->size() : 1;
+  const Share own(n, rank, n_ranks);
+  if (engine.ranks != nullptr) stop.part_ways(n_ranks);
   static_cast<void>(stop.goes_on());  // asks, should no part run on this thread
-  executor.run(n, [&](std::size_t i) {
+  engine.executor.run(own.last - own.first, [&](std::size_t i) {
     const auto worker = workers.take();
-    work(*worker, i);
+    work(*worker, own.first + i);
   });
+  if (engine.ranks == nullptr) return;
+  std::string done;
+  Archive ours(done);
+  for (std::size_t i = own.first; i < own.last; ++i) tell(ours, i);
+  const std::vector<std::string> all = engine.ranks->all_gather(done);
+  for (std::size_t r = 0; r < n_ranks; ++r) {
+    if (r == rank) continue;
+    Archive theirs{std::string_view(all[r])};
+    const Share share(n, r, n_ranks);
+    for (std::size_t i = share.first; i < share.last; ++i) tell(theirs, i);
+    TEMPER_ASSERT(theirs.at_end());
+  }
+  stop.meet();
 }
 
-/// A sweep over all vertices, by workers with a function improve(vertices, part, left): it improves those that it can,
-/// in order, and appends the others to `left`.
+/// A sweep over all vertices, by workers with functions improve(vertices, part, left): it improves those that it can,
+/// in order, and appends the others to `left`; log_flips(log), which says where flips are appended to; repeat(flips),
+/// which does them again; and tell(archive, vertices), of what else a sweep changes.
 ///
 /// First each part of the numbers does what it can. What is left comes next, with the parts of three shifted cuts,
 /// inside of which nearly all of it is. What is left then, mostly nothing, comes one after another.
@@ -39,19 +77,24 @@ class PartSweep {
  public:
   PartSweep(std::size_t part_size, WorkerPool<Worker>& workers) : part_size_(part_size), workers_(workers) {}
 
-  void in_parts(const Mesh& mesh, Executor& executor, StopToken& stop) {
+  void in_parts(const Mesh& mesh, Engine engine, StopToken& stop) {
     const std::size_t n = mesh.n_vertices(), count = std::max<std::size_t>(1, (n + part_size_ - 1) / part_size_);
-    if (count > 1 && !cuts_.are_of(mesh)) cuts_.cut(mesh, count, executor);
+    if (count > 1 && !cuts_.are_of(mesh)) cuts_.cut(mesh, count, engine.executor);
     const Cut cut{n, count, false};
-    run(count, executor, stop, [&](Worker& worker, std::size_t i, VertexList& left) {
+    const auto in_numbers = [&](Worker& worker, std::size_t i, VertexList& left) {
       improve_numbers(worker, count == 1 ? Part() : cut[i], n, left, stop);
-    });
+    };
+    run(count, engine, stop, in_numbers, [&](std::size_t i) { return IdRange<VertexId>(cut[i].first, cut[i].last); });
     for (std::size_t k = 0; count > 1 && k < ShiftedCuts::kCuts; ++k) {
       stop.ask_soon();
       hand_out(k);
-      run(cuts_.n_parts(), executor, stop, [&](Worker& worker, std::size_t i, VertexList& left) {
-        improve(worker, {waiting_.data() + begin_[i], begin_[i + 1] - begin_[i]}, cuts_.part(k, i), left, stop);
-      });
+      const auto of_part = [&](std::size_t i) {
+        return std::span<const VertexId>(waiting_).subspan(begin_[i], begin_[i + 1] - begin_[i]);
+      };
+      const auto in_cut = [&](Worker& worker, std::size_t i, VertexList& left) {
+        improve(worker, of_part(i), cuts_.part(k, i), left, stop);
+      };
+      run(cuts_.n_parts(), engine, stop, in_cut, of_part);
     }
     std::sort(waiting_.begin(), waiting_.end());
     in_order(waiting_, stop);
@@ -65,23 +108,39 @@ class PartSweep {
   void in_order(std::span<const VertexId> vertices, StopToken& stop) {
     workers_.make_room(1);
     VertexList none;
-    improve(*workers_.take(), vertices, {}, none, stop);
+    const auto worker = workers_.take();
+    worker->log_flips(nullptr);
+    improve(*worker, vertices, {}, none, stop);
   }
 
  private:
   using VertexList = std::vector<VertexId>;
   static constexpr std::size_t kStretch = 8192;  // vertices between looks at whether to stop
 
-  /// One phase of n parts. What is left after it waits for the next.
-  template <class Work>
-  void run(std::size_t n, Executor& executor, StopToken& stop, Work&& work) {
-    if (left_.size() < n) left_.resize(n);
-    for_parts(n, executor, workers_, stop, [&](Worker& worker, std::size_t i) {
-      left_[i].clear();
-      work(worker, i, left_[i]);
+  /// What a part has done besides moving vertices.
+  struct Done {
+    VertexList left;
+    std::vector<HalfedgeId> flips;  // where ranks are told of them
+  };
+
+  /// One phase of n parts, of these vertices. What is left after it waits for the next.
+  template <class Work, class VerticesOf>
+  void run(std::size_t n, Engine engine, StopToken& stop, Work&& work, VerticesOf&& vertices) {
+    if (done_.size() < n) done_.resize(n);
+    const auto part = [&](Worker& worker, std::size_t i) {
+      done_[i].left.clear();
+      done_[i].flips.clear();
+      worker.log_flips(engine.ranks != nullptr ? &done_[i].flips : nullptr);
+      work(worker, i, done_[i].left);
+    };
+    for_parts(n, engine, workers_, stop, part, [&](Archive& archive, std::size_t i) {
+      archive(done_[i].left, done_[i].flips);
+      const auto worker = workers_.take();
+      if (archive.reads()) worker->repeat(done_[i].flips);
+      worker->tell(archive, vertices(i));
     });
     waiting_.clear();
-    for (std::size_t i = 0; i < n; ++i) waiting_.insert(waiting_.end(), left_[i].begin(), left_[i].end());
+    for (std::size_t i = 0; i < n; ++i) waiting_.insert(waiting_.end(), done_[i].left.begin(), done_[i].left.end());
   }
 
   /// Those that wait, by their parts of cut k (counting sort).
@@ -117,11 +176,11 @@ class PartSweep {
 
   std::size_t part_size_;
   WorkerPool<Worker>& workers_;
-  std::vector<std::vector<VertexId>> left_;  // by each part of the phase under way: storage is kept
-  std::vector<VertexId> waiting_;            // for the phase under way
-  std::vector<VertexId> handed_out_;         // as they are put in the order of their parts
-  std::vector<std::size_t> begin_;           // of each part among those that wait
-  ShiftedCuts cuts_;                         // as the mesh was at the first sweep, or the first with these vertices
+  std::vector<Done> done_;            // by each part of the phase under way: storage is kept
+  std::vector<VertexId> waiting_;     // for the phase under way
+  std::vector<VertexId> handed_out_;  // as they are put in the order of their parts
+  std::vector<std::size_t> begin_;    // of each part among those that wait
+  ShiftedCuts cuts_;                  // as the mesh was at the first sweep, or the first with these vertices
 };
 
 }  // namespace temper

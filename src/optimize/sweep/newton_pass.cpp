@@ -35,12 +35,16 @@ void NewtonPass::run(Unknowns unknowns, StopToken& stop) {
   TEMPER_ASSERT_SLOW(count_bad(mesh_, nullptr) == 0);
   const std::size_t count = std::max<std::size_t>(1, (mesh_.n_vertices() + part_size_ / 2) / part_size_);
   const Cut cut{mesh_.n_vertices(), count, count > 1 && passes_++ % 2 == 1};
-  Executor& executor = recorder_.on() ? in_order_ : or_serial(settings_.hooks.executor);
-  for_parts(cut.size(), executor, workers_, stop, [&](Worker& worker, std::size_t i) {
+  const Engine engine = recorder_.on() ? Engine{in_order_} : engine_of(settings_.hooks);
+  const auto pass = [&](Worker& worker, std::size_t i) {
     const Part part = cut[i];
     if (!stop.goes_on()) return;
     improve(part, unknowns, worker);
     stop.passed(part.last.index - part.first.index, 0);
+  };
+  for_parts(cut.size(), engine, workers_, stop, pass, [&](Archive& archive, std::size_t i) {
+    const Part part = cut[i];
+    tell_points(archive, mesh_, IdRange<VertexId>(part.first, part.last));
   });
 }
 

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "temper/archive.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -42,6 +43,16 @@ struct Cut {
     return VertexId(std::min(n_vertices, half_parts * n_vertices / (2 * count)));
   }
 };
+
+/// Writes the points of vertices to the archive, or reads them there, as another rank moved them.
+template <class Vertices>
+void tell_points(Archive& archive, Mesh& mesh, const Vertices& vertices) {
+  for (const VertexId v : vertices) {
+    WeightedPoint p = mesh.point(v);
+    archive(p);
+    if (archive.reads()) mesh.set_point(v, p);
+  }
+}
 
 /// Says whether v, which is in the part and not isolated, is confined to it. O(degree). Reads no coordinates.
 [[nodiscard]] inline bool is_confined(const Mesh& mesh, VertexId v, const Part& part) {

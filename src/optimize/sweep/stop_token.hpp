@@ -22,6 +22,17 @@ class StopToken {
     TEMPER_ASSERT(this_thread() == caller_);
     since_asked_ = kVerticesBetweenCalls;
   }
+  /// Around what each rank does for itself: the first one asks, the others hear of the answer at the end.
+  void part_ways(std::size_t n_ranks) {
+    run_.part_ways();
+    n_ranks_ = n_ranks;
+  }
+  void meet() {
+    n_ranks_ = 1;
+    run_.meet();
+    if (run_.stopped_by_caller()) stop_.store(true, std::memory_order_relaxed);
+    ask_soon();  // on all ranks, however much each has done
+  }
   /// To be asked before each stretch of vertices: says whether to go on.
   [[nodiscard]] bool goes_on() {
     if (stop_.load(std::memory_order_relaxed)) return false;
@@ -33,7 +44,7 @@ class StopToken {
   }
   /// To be told after each stretch, some of whose vertices must wait for another phase.
   void passed(std::size_t vertices, std::size_t left) {
-    done_.fetch_add(vertices - left, std::memory_order_relaxed);
+    done_.fetch_add(n_ranks_ * (vertices - left), std::memory_order_relaxed);  // the others do about as much
     if (this_thread() == caller_) since_asked_ += vertices;
   }
   [[nodiscard]] bool stopped() const { return stop_.load(std::memory_order_relaxed); }
@@ -50,6 +61,7 @@ class StopToken {
   Run& run_;
   const void* caller_;
   double n_;
+  std::size_t n_ranks_ = 1;                          // that are at work on other vertices
   std::size_t since_asked_ = kVerticesBetweenCalls;  // the caller's own
   std::atomic<bool> stop_ = false;
   std::atomic<std::size_t> done_ = 0;

@@ -31,7 +31,7 @@ bool Sweeper::visit_all(int iteration, Unknowns unknowns, std::span<const Vertex
   improvers_.for_each([&](Improver& improver) { improver.step().begin_sweep(iteration, unknowns); });
   StopToken stop(run, context_.mesh.n_vertices());
   if (sequence.empty()) {
-    parts_.in_parts(context_.mesh, executor(), stop);
+    parts_.in_parts(context_.mesh, engine(), stop);
   } else {
     parts_.in_order(sequence, stop);
   }
@@ -52,12 +52,13 @@ void Sweeper::shake(double amount, Rng& rng) {
   add_changes();
 }
 
-/// The executor of the options, where steps do no more than sweeper.hpp says of them; else a serial one.
-Executor& Sweeper::executor() {
+/// That of the caller, where steps do no more than sweeper.hpp says of them; else one part after another, on each rank.
+Engine Sweeper::engine() {
   const OptimizeOptions& o = context_.settings.options;
   const bool told_in_order = context_.recorder.on() || defers_updates(o);
   const bool removes = o.paper.hidden == HiddenPolicy::remove || changes_vertices(o);
-  return told_in_order || removes || limits_.band.on() ? in_order_ : or_serial(context_.settings.hooks.executor);
+  if (told_in_order || removes || limits_.band.on()) return {in_order_};
+  return engine_of(context_.settings.hooks);
 }
 
 void Sweeper::add_changes() {

@@ -74,7 +74,7 @@ class Sweeper {
  private:
   /// One visit of each vertex, of these unknowns.
   bool visit_all(int iteration, Unknowns unknowns, std::span<const VertexId> sequence, Run& run);
-  [[nodiscard]] Executor& executor();
+  [[nodiscard]] Engine engine();
   void add_changes();
 
   VertexLimits limits_;

@@ -8,6 +8,7 @@
 #include "optimize/sweep/shifted_cuts.hpp"
 #include "support/regions.hpp"
 #include "support/std_threads.hpp"
+#include "support/thread_ranks.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"
@@ -36,7 +37,7 @@ SweptMesh swept(const Mesh& input, const OptimizeOptions& options, std::size_t p
   WorkingCopy work(input, options.paper.order);
   Settings settings = *make_settings(options, work.mesh, work.frame, hooks);
   if (options.size_band) settings.size_field = input_size_field_of(input);
-  Run run(options, hooks.observer);
+  Run run(options, hooks.observer, hooks.ranks);
   Driver driver(work, settings, run, part_size);
   EXPECT_TRUE(options.flips == Flips::none || driver.make_regular());
   driver.grade_boundary();
@@ -63,7 +64,7 @@ struct PartsCase {
 
 class SweepsInParts : public testing::TestWithParam<PartsCase> {};
 
-TEST_P(SweepsInParts, GiveTheSameBytesOnAnyNumberOfThreadsAndTraced) {
+TEST_P(SweepsInParts, GiveTheSameBytesOnAnyNumberOfThreadsAndRanksAndTraced) {
   const Mesh input = mesh_with_regions(kPartsVertices, 3);
   OptimizeOptions options = GetParam().options;
   options.max_sweeps = 4;
@@ -77,6 +78,12 @@ TEST_P(SweepsInParts, GiveTheSameBytesOnAnyNumberOfThreadsAndTraced) {
     OptimizeHooks hooks;
     hooks.executor = &crew;
     expect_same(swept(input, options, kSmallPart, hooks), alone);
+  }
+  for (const std::size_t ranks : {1, 2, 3, 5, 8}) {
+    on_ranks(ranks, [&](Ranks& all) {
+      StdThreads crew(2);
+      expect_same(swept(input, options, kSmallPart, {.executor = &crew, .ranks = &all}), alone);
+    });
   }
   LastBlockFirst backwards;
   OptimizeHooks hooks;
@@ -151,6 +158,81 @@ TEST(Parts, AskTheObserverInTheCallersThreadAndStopWhenToldTo) {
   EXPECT_EQ(result.report.stopped, Stopped::cancelled);
   EXPECT_EQ(result.mesh.validate(), std::nullopt);
   EXPECT_EQ(count_non_regular_edges(result.mesh, false), 0u);
+}
+
+// --- ranks ---------------------------------------------------------------------------------------
+
+struct RankCase {
+  const char* name;
+  Mesh (*make)();
+  OptimizeOptions options;
+};
+
+class Together : public testing::TestWithParam<RankCase> {};
+
+TEST_P(Together, RanksEndWithTheBytesOfOneAlone) {
+  const Mesh input = GetParam().make();
+  Mesh alone = input;
+  ASSERT_TRUE(optimize(alone, GetParam().options));
+  for (const std::size_t ranks : {2, 3}) {
+    on_ranks(ranks, [&](Ranks& all) {
+      Mesh mesh = input;
+      const auto report = optimize(mesh, GetParam().options, {.ranks = &all});
+      ASSERT_TRUE(report) << report.error().what();
+      EXPECT_TRUE(mesh == alone) << "rank " << all.rank() << " of " << all.size();
+    });
+  }
+}
+
+Mesh plane_of_two_parts() { return *random_points({.vertices = 17000, .seed = 4}); }
+Mesh sphere_of_two_parts() { return *random_sphere({.vertices = 17000, .seed = 4}); }
+Mesh periodic_of_two_parts() { return *random_periodic({.vertices = 17000, .seed = 4, .period = {2, 1}}); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Spaces, Together,
+    testing::Values(
+        RankCase{"plane", plane_of_two_parts, {.max_sweeps = 3}},
+        RankCase{"sphere", sphere_of_two_parts, {.max_sweeps = 3}},
+        RankCase{"periodic", periodic_of_two_parts, {.max_sweeps = 3}},
+        RankCase{"accuracy", plane_of_two_parts, {.objective = Objective::accuracy, .max_sweeps = 3}},
+        RankCase{"repair", plane_of_two_parts, {.repair = Repair::vertices, .repair_trials = 40, .max_sweeps = 6}}),
+    [](const auto& one) { return std::string(one.param.name); });
+
+TEST(Together, RanksStopWhenTheFirstIsToldTo) {
+  const Mesh input = *random_points({.vertices = 2500, .seed = 9});
+  std::array<Mesh, 3> ends;
+  on_ranks(ends.size(), [&](Ranks& all) {
+    StdThreads crew(2);
+    int calls = 0;
+    const Observer observer = [&](const Progress&) {
+      EXPECT_EQ(all.rank(), 0u);
+      return ++calls == 10 ? Continue::no : Continue::yes;
+    };
+    const SweptMesh result = swept(input, {}, kSmallPart, {.executor = &crew, .ranks = &all, .observer = observer});
+    EXPECT_EQ(calls, all.rank() == 0 ? 10 : 0);
+    EXPECT_EQ(result.report.stopped, Stopped::cancelled);
+    EXPECT_EQ(result.mesh.validate(), std::nullopt);
+    ends[all.rank()] = result.mesh;
+  });
+  EXPECT_TRUE(ends[1] == ends[0] && ends[2] == ends[0]);
+}
+
+TEST(Together, RanksThatAreGivenDifferentThingsAllSaySo) {
+  const Mesh input = mesh_with_regions(kPartsVertices, 3);
+  const auto differing = [&](Mesh mesh, const OptimizeOptions& options, Ranks& all) {
+    const Mesh before = mesh;
+    const auto report = optimize(mesh, options, {.ranks = &all});
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().code, ErrorCode::rank_mismatch);
+    EXPECT_NE(report.error().what().find("rank 2 "), std::string::npos) << report.error().what();
+    EXPECT_TRUE(mesh == before);
+  };
+  on_ranks(3, [&](Ranks& all) { differing(input, {.max_sweeps = all.rank() == 2 ? 3 : 4}, all); });
+  on_ranks(3, [&](Ranks& all) {
+    Mesh other = input;
+    if (all.rank() == 2) other.set_weight(VertexId(5), 1e-9);
+    differing(other, {}, all);
+  });
 }
 
 // --- cuts into parts -----------------------------------------------------------------------------

@@ -1,0 +1,51 @@
+// Ranks that are threads of one process: what is told among processes, without any.
+#pragma once
+
+#include <barrier>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "temper/ranks.hpp"
+
+namespace temper::test {
+
+/// Calls run(ranks) for each of n ranks, at once, and waits for all.
+inline void on_ranks(std::size_t n, const std::function<void(Ranks&)>& run) {
+  struct Board {
+    explicit Board(std::size_t size) : told(size), all(static_cast<std::ptrdiff_t>(size)) {}
+    std::vector<std::string> told;
+    std::barrier<> all;
+  };
+  class OneRank final : public Ranks {
+   public:
+    OneRank(Board& board, std::size_t rank) : board_(board), rank_(rank) {}
+    [[nodiscard]] std::size_t size() const override { return board_.told.size(); }
+    [[nodiscard]] std::size_t rank() const override { return rank_; }
+    [[nodiscard]] std::vector<std::string> all_gather(std::string_view mine) override {
+      board_.told[rank_] = mine;
+      board_.all.arrive_and_wait();
+      std::vector<std::string> heard = board_.told;
+      board_.all.arrive_and_wait();  // nobody tells the next before all have heard this
+      return heard;
+    }
+
+   private:
+    Board& board_;
+    std::size_t rank_;
+  };
+  Board board(n);
+  std::vector<std::thread> threads;
+  for (std::size_t rank = 0; rank < n; ++rank) {
+    threads.emplace_back([&, rank] {
+      OneRank one(board, rank);
+      run(one);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+}
+
+}  // namespace temper::test
