@@ -34,8 +34,7 @@ void end_on(int signal) { handle(signal, end_program, static_cast<int>(SA_RESETH
 
 extern "C" void note_signal(int) {
   signal_seen = 1;
-  end_on(SIGINT);
-  end_on(SIGTERM);
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) end_on(signal);
 }
 
 }  // namespace
@@ -45,7 +44,7 @@ void end_on_signals() {
 }
 
 void catch_interrupts() {
-  for (const int signal : {SIGINT, SIGTERM}) handle(signal, note_signal, SA_RESTART);  // no write is cut short
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) handle(signal, note_signal, SA_RESTART);  // no write is cut short
 }
 
 bool interrupted() { return signal_seen != 0; }

@@ -7,7 +7,8 @@ namespace temper::app {
 /// From here on a signal ends the program: what is being written is removed, a line says so, and whoever waits for the
 /// program sees the signal. (A signal that is ignored, as by nohup, stays so.)
 void end_on_signals();
-/// From here on the first SIGINT or SIGTERM is only noted; the second one ends the program.
+/// From here on the first SIGINT, SIGTERM or SIGUSR1, which mpirun hands on and job schedulers send when time is nearly
+/// up, is only noted; the second one ends the program.
 void catch_interrupts();
 /// One has been noted.
 [[nodiscard]] bool interrupted();

@@ -137,7 +137,7 @@ int run_program(int argc, char** argv) {
     const std::optional<Failure> shown = agreed(failure);
     if (shown) print_error(shown->what());
     leave_ranks();
-    return static_cast<int>(shown.value_or(failure).exit);
+    return static_cast<int>(shown ? shown->exit : Exit::done);  // or the exit status is another rank's
   } catch (const std::bad_alloc&) {
     end_ranks("out of memory", Exit::internal);
     print_error("out of memory");
