@@ -16,6 +16,7 @@
 #include "support/lattice.hpp"
 #include "support/regions.hpp"
 #include "support/std_threads.hpp"
+#include "support/thread_ranks.hpp"
 #include "temper/energy.hpp"
 #include "temper/generate.hpp"
 #include "temper/io.hpp"
@@ -72,10 +73,11 @@ const Meshes& meshes() {
   return all;
 }
 
-std::string optimized(Mesh mesh, OptimizeOptions options, Executor* executor) {
+std::string optimized(Mesh mesh, OptimizeOptions options, Executor* executor, Ranks* ranks = nullptr) {
   options.max_sweeps = 1;
   OptimizeHooks hooks;
   hooks.executor = executor;
+  hooks.ranks = ranks;
   const auto report = optimize(mesh, options, hooks);
   EXPECT_TRUE(report) << report.error().what();
   return bytes_of(mesh);
@@ -159,6 +161,14 @@ TEST_P(OnThreads, CallersAtOnceLookAtOneMesh) {
   other.join();
   EXPECT_TRUE(first == alone);
   EXPECT_TRUE(second == alone);
+}
+
+TEST(OnRanks, WithThreadsTheBytesAreThoseOfOneProcess) {
+  const std::string alone = optimized(meshes().mesh, {}, nullptr);
+  on_ranks(3, [&](Ranks& ranks) {
+    StdThreads threads(2);
+    EXPECT_TRUE(optimized(meshes().mesh, {}, &threads, &ranks) == alone);
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Rows, OnThreads, testing::ValuesIn(kRows),
