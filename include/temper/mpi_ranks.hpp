@@ -6,8 +6,6 @@
 
 #include <cstddef>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "temper/ranks.hpp"
 
@@ -26,7 +24,7 @@ class MpiRanks final : public Ranks {
   [[nodiscard]] std::size_t size() const override { return size_; }
   [[nodiscard]] std::size_t rank() const override { return rank_; }
   /// When another rank is lost MPI ends this one.
-  [[nodiscard]] std::vector<std::string> all_gather(std::string_view mine) override;
+  void broadcast(std::string& bytes, std::size_t from) override;
   /// Ends all ranks, wherever they are, with this exit status.
   [[noreturn]] void abort(int status);
 

@@ -7,9 +7,12 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "temper/executor.hpp"
 
 namespace temper {
 
@@ -20,8 +23,35 @@ class Ranks {
   [[nodiscard]] virtual std::size_t size() const = 0;
   /// The number of this one, from 0.
   [[nodiscard]] virtual std::size_t rank() const = 0;
-  /// What each rank gives, by rank, to all of them. Collective: it returns when every rank has called it.
-  [[nodiscard]] virtual std::vector<std::string> all_gather(std::string_view mine) = 0;
+  /// Gives all of them the bytes that rank `from` has. Collective: all call it, at the same places.
+  virtual void broadcast(std::string& bytes, std::size_t from) = 0;
+
+  /// What each rank gives, by rank, to all of them. Collective.
+  [[nodiscard]] std::vector<std::string> all_gather(std::string_view mine) {
+    std::vector<std::string> all(size());
+    all[rank()] = mine;
+    for (std::size_t r = 0; r < all.size(); ++r) broadcast(all[r], r);
+    return all;
+  }
+};
+
+/// A run of n parts, those that one rank does.
+struct Share {
+  std::size_t first, last;
+  Share(std::size_t n, std::size_t rank, std::size_t n_ranks)
+      : first(n * rank / n_ranks), last(n * (rank + 1) / n_ranks) {}
+};
+
+/// The threads of an executor, with ranks that share out sums.
+class RankedExecutor final : public Executor {
+ public:
+  RankedExecutor(Executor& threads, Ranks& ranks) : threads_(threads), ranks_(ranks) {}
+  [[nodiscard]] Ranks* ranks() override { return &ranks_; }
+  void run(std::size_t n, const std::function<void(std::size_t)>& block) override { threads_.run(n, block); }
+
+ private:
+  Executor& threads_;
+  Ranks& ranks_;
 };
 
 }  // namespace temper

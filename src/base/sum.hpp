@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "base/assert.hpp"
 #include "temper/executor.hpp"
+#include "temper/ranks.hpp"
 
 namespace temper {
 
@@ -29,12 +33,35 @@ double sum_of_blocks(std::size_t n, Executor* executor, Block&& block) {
   return pairwise_sum(sums);
 }
 
-/// Several such sums in one walk: block(b, sums) adds to what begins as zeros.
+/// Gives all ranks the sums of all blocks, where each rank has those of its share.
+inline void share_sums(std::vector<double>& of_blocks, std::size_t blocks, std::size_t n_sums, Ranks& ranks) {
+  const auto bytes_of = [&](std::size_t rank) {
+    const Share share(blocks, rank, ranks.size());
+    return std::as_writable_bytes(
+        std::span(of_blocks).subspan(share.first * n_sums, (share.last - share.first) * n_sums));
+  };
+  const std::span<std::byte> own = bytes_of(ranks.rank());
+  const auto all = ranks.all_gather({reinterpret_cast<const char*>(own.data()), own.size()});
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const std::span<std::byte> place = bytes_of(r);
+    TEMPER_ASSERT(all[r].size() == place.size());
+    if (!place.empty()) std::memcpy(place.data(), all[r].data(), place.size());
+  }
+}
+
+/// Several such sums in one walk: block(b, sums) adds to what begins as zeros, and changes nothing else, since the
+/// ranks of an executor share out the blocks.
 template <class Block>
 std::vector<double> sums_of_blocks(std::size_t n, std::size_t n_sums, Executor* executor, Block&& block) {
   const std::size_t blocks = (n + kBlockSize - 1) / kBlockSize;
   std::vector<double> of_blocks(blocks * n_sums, 0.0);
-  or_serial(executor).run(blocks, [&](std::size_t b) { block(b, std::span(of_blocks).subspan(b * n_sums, n_sums)); });
+  Ranks* const ranks = executor != nullptr ? executor->ranks() : nullptr;
+  const Share own = ranks != nullptr ? Share(blocks, ranks->rank(), ranks->size()) : Share(blocks, 0, 1);
+  or_serial(executor).run(own.last - own.first, [&](std::size_t i) {
+    const std::size_t b = own.first + i;
+    block(b, std::span(of_blocks).subspan(b * n_sums, n_sums));
+  });
+  if (ranks != nullptr) share_sums(of_blocks, blocks, n_sums, *ranks);
   std::vector<double> totals(n_sums), one(blocks);
   for (std::size_t k = 0; k < n_sums; ++k) {
     for (std::size_t b = 0; b < blocks; ++b) one[b] = of_blocks[b * n_sums + k];

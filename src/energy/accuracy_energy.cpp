@@ -139,8 +139,7 @@ std::size_t AccuracyFloors::raise(const Mesh& mesh, double margin, Executor* exe
 
 AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
                              const AccuracyModel& model, Executor* executor) {
-  std::vector<double> barriers((mesh.n_triangles() + kBlockSize - 1) / kBlockSize, 0.0);
-  const double energy = sum_of_blocks(mesh.n_triangles(), executor, [&](std::size_t block) {
+  const auto sums = sums_of_blocks(mesh.n_triangles(), 2, executor, [&](std::size_t block, std::span<double> of_block) {
     double sum = 0, barrier = 0, of_lengths = 0;
     const std::size_t end = std::min(mesh.n_triangles(), (block + 1) * kBlockSize);
     for (std::size_t i = block * kBlockSize; i < end; ++i) {
@@ -152,10 +151,9 @@ AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const A
       const auto [p, q, r] = mesh.corners(t);
       barrier -= triangle_scale(sizes[p], sizes[q], sizes[r]) * triangle_logarithm(shape, floors[t]);
     }
-    barriers[block] = model.barrier * barrier + of_lengths;
-    return sum;
+    of_block[0] = sum, of_block[1] = model.barrier * barrier + of_lengths;
   });
-  return {energy, pairwise_sum(barriers)};
+  return {sums[0], sums[1]};
 }
 
 template <class In>

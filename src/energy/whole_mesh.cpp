@@ -73,16 +73,13 @@ EnergyAndBad energy_and_bad(const Mesh& mesh, const EnergyModel& model, Executor
   const EdgeFormula formula = edge_formula(model);
   if (formula.form == EdgeFormula::Form::hot) return {total_energy(mesh, model, executor), count_bad(mesh, executor)};
   const StarKernels& kernels = star_kernels(mesh.space());
-  std::vector<double> bad((mesh.n_triangles() + kBlockSize - 1) / kBlockSize, 0.0);
-  const double energy = sum_of_blocks(mesh.n_triangles(), executor, [&](std::size_t block) {
-    double sum = 0;
+  const auto sums = sums_of_blocks(mesh.n_triangles(), 2, executor, [&](std::size_t block, std::span<double> of_block) {
     for_batches(mesh, block, [&](const Batch& batch) {
-      sum += kernels.barrier_sum(formula, batch.lanes, batch.size);
-      bad[block] += static_cast<double>(count_bad(mesh.space(), batch.lanes, batch.size));
+      of_block[0] += kernels.barrier_sum(formula, batch.lanes, batch.size);
+      of_block[1] += static_cast<double>(count_bad(mesh.space(), batch.lanes, batch.size));
     });
-    return sum;
   });
-  return {energy, static_cast<std::size_t>(pairwise_sum(bad))};
+  return {sums[0], static_cast<std::size_t>(sums[1])};
 }
 
 std::vector<double> total_energies(const Mesh& mesh, std::span<const EnergyModel> models, Executor* executor) {

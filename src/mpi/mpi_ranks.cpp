@@ -34,24 +34,15 @@ MpiRanks::~MpiRanks() {
   if (began_) MPI_Finalize();
 }
 
-std::vector<std::string> MpiRanks::all_gather(std::string_view mine) {
-  const std::uint64_t own_bytes = mine.size();
-  std::vector<std::uint64_t> bytes(size_);
-  MPI_Allgather(&own_bytes, 1, MPI_UINT64_T, bytes.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
-  // Each in turn, straight into its place: no rank needs room for all of it a second time.
-  std::vector<std::string> all(size_);
-  for (std::size_t r = 0; r < size_; ++r) {
-    if (r == rank_) {
-      all[r] = mine;
-    } else {
-      all[r].resize(bytes[r]);
-    }
-    for (std::size_t begin = 0; begin < bytes[r]; begin += kMostBytes) {
-      const std::size_t count = std::min<std::size_t>(kMostBytes, bytes[r] - begin);
-      MPI_Bcast(all[r].data() + begin, static_cast<int>(count), MPI_BYTE, static_cast<int>(r), MPI_COMM_WORLD);
-    }
+void MpiRanks::broadcast(std::string& bytes, std::size_t from) {
+  const int root = static_cast<int>(from);
+  std::uint64_t size = bytes.size();
+  MPI_Bcast(&size, 1, MPI_UINT64_T, root, MPI_COMM_WORLD);
+  bytes.resize(size);
+  for (std::size_t begin = 0; begin < size; begin += kMostBytes) {
+    const std::size_t count = std::min<std::size_t>(kMostBytes, size - begin);
+    MPI_Bcast(bytes.data() + begin, static_cast<int>(count), MPI_BYTE, root, MPI_COMM_WORLD);
   }
-  return all;
 }
 
 void MpiRanks::abort(int status) {

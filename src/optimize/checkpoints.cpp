@@ -1,5 +1,6 @@
 #include "optimize/checkpoints.hpp"
 
+#include <bit>
 #include <utility>
 
 #include "mesh/mesh_archive.hpp"
@@ -11,27 +12,43 @@ namespace {
 
 constexpr std::string_view kKind = "temper run state";
 
+template <class T>
+std::uint64_t checksum_of(const T* values, std::size_t n) {
+  return checksum({reinterpret_cast<const char*>(values), n * sizeof(T)});
+}
+
+/// A hash of a mesh, of its arrays where they lie: the largest ones have no room for a copy.
+std::uint64_t identity_of(const Mesh& mesh) {
+  std::string of_space;
+  Archive archive(of_space);
+  Space space = mesh.space();
+  archive(space);
+  std::uint64_t all = checksum(of_space);
+  all = mixed(all, checksum_of(mesh.vertex_data(), mesh.n_vertices() * Mesh::kVertexStride / sizeof(double)));
+  all = mixed(all, checksum_of(mesh.corner_data().data(), mesh.n_halfedges()));
+  all = mixed(all, checksum_of(mesh.twin_data().data(), mesh.n_halfedges()));
+  for (const TriangleId t : mesh.triangles()) all = mixed(all, static_cast<std::uint64_t>(mesh.region(t)));
+  for (const HalfedgeId h : mesh.halfedges()) all = mixed(all, mesh.is_constrained(h) ? 1 : 0);
+  return all;
+}
+
 }  // namespace
 
 std::uint64_t identity_of(const OptimizeOptions& options, const Mesh& mesh) {
-  std::string all;
-  Archive archive(all);
-  Mesh copy = mesh;
-  archive(copy);
+  std::uint64_t all = identity_of(mesh);
+  std::string given;
   for (const OptionGroup& group : option_groups()) {
     for (const OptionRow& row : group.rows) {
-      if (row.name != "time_limit") all.append(row.name).append(option_text(row.get(options))).append("\n");
+      if (row.name != "time_limit") given.append(row.name).append(option_text(row.get(options))).append("\n");
     }
   }
-  if (options.size_field) {
-    copy = options.size_field->mesh();
-    archive(copy);
-    for (const VertexId v : copy.vertices()) {
-      double size = options.size_field->at(v);
-      archive(size);
-    }
+  all = mixed(all, checksum(given));
+  if (!options.size_field) return all;
+  all = mixed(all, identity_of(options.size_field->mesh()));
+  for (const VertexId v : options.size_field->mesh().vertices()) {
+    all = mixed(all, std::bit_cast<std::uint64_t>(options.size_field->at(v)));
   }
-  return checksum(all);
+  return all;
 }
 
 Expected<Checkpoints> Checkpoints::of(const OptimizeHooks& hooks, const OptimizeOptions& options, const Mesh& mesh) {

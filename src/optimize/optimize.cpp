@@ -61,6 +61,10 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
   auto settings = make_settings(options, mesh, Frame::of(mesh), hooks);
   if (!settings) return settings.error();
   settings->size_field = field_of_band(mesh, options, hooks.executor);
+  std::optional<RankedExecutor> together;
+  if (hooks.ranks != nullptr) {
+    settings->hooks.executor = &together.emplace(or_serial(hooks.executor), *hooks.ranks);
+  }
 
   auto checkpoints = Checkpoints::of(hooks, options, mesh);
   if (!checkpoints) return checkpoints.error();

@@ -22,9 +22,9 @@ void Run::hear() {
   std::string told;
   Archive archive(told);
   archive(report.stopped);
-  const std::string first = ranks_->all_gather(told).front();
+  ranks_->broadcast(told, 0);
   Stopped stopped = report.stopped;
-  Archive(std::string_view(first))(stopped);
+  Archive(std::string_view(told))(stopped);
   if (stopped == Stopped::cancelled || stopped == Stopped::time_limit) report.stopped = stopped;
 }
 

@@ -16,21 +16,21 @@ namespace temper::test {
 /// Calls run(ranks) for each of n ranks, at once, and waits for all.
 inline void on_ranks(std::size_t n, const std::function<void(Ranks&)>& run) {
   struct Board {
-    explicit Board(std::size_t size) : told(size), all(static_cast<std::ptrdiff_t>(size)) {}
-    std::vector<std::string> told;
+    explicit Board(std::size_t n_ranks) : size(n_ranks), all(static_cast<std::ptrdiff_t>(n_ranks)) {}
+    std::size_t size;
+    std::string told;
     std::barrier<> all;
   };
   class OneRank final : public Ranks {
    public:
     OneRank(Board& board, std::size_t rank) : board_(board), rank_(rank) {}
-    [[nodiscard]] std::size_t size() const override { return board_.told.size(); }
+    [[nodiscard]] std::size_t size() const override { return board_.size; }
     [[nodiscard]] std::size_t rank() const override { return rank_; }
-    [[nodiscard]] std::vector<std::string> all_gather(std::string_view mine) override {
-      board_.told[rank_] = mine;
+    void broadcast(std::string& bytes, std::size_t from) override {
+      if (rank_ == from) board_.told = bytes;
       board_.all.arrive_and_wait();
-      std::vector<std::string> heard = board_.told;
+      bytes = board_.told;
       board_.all.arrive_and_wait();  // nobody tells the next before all have heard this
-      return heard;
     }
 
    private:

@@ -30,13 +30,6 @@ struct Engine {
 
 [[nodiscard]] inline Engine engine_of(const OptimizeHooks& hooks) { return {or_serial(hooks.executor), hooks.ranks}; }
 
-/// A run of parts, those that one rank does.
-struct Share {
-  std::size_t first, last;
-  Share(std::size_t n_parts, std::size_t rank, std::size_t n_ranks)
-      : first(n_parts * rank / n_ranks), last(n_parts * (rank + 1) / n_ranks) {}
-};
-
 /// work(worker, i) for each of n parts. Where ranks share them, tell(archive, i) writes what part i has become to the
 /// archive, or reads it there and does it here: all ranks then have what each would have made alone.
 template <class Worker, class Work, class Tell>
@@ -52,14 +45,14 @@ void for_parts(std::size_t n, Engine engine, WorkerPool<Worker>& workers, StopTo
     work(*worker, own.first + i);
   });
   if (engine.ranks == nullptr) return;
-  std::string done;
-  Archive ours(done);
-  for (std::size_t i = own.first; i < own.last; ++i) tell(ours, i);
-  const std::vector<std::string> all = engine.ranks->all_gather(done);
   for (std::size_t r = 0; r < n_ranks; ++r) {
-    if (r == rank) continue;
-    Archive theirs{std::string_view(all[r])};
     const Share share(n, r, n_ranks);
+    std::string told;
+    Archive ours(told);
+    for (std::size_t i = share.first; r == rank && i < share.last; ++i) tell(ours, i);
+    engine.ranks->broadcast(told, r);
+    if (r == rank) continue;
+    Archive theirs{std::string_view(told)};
     for (std::size_t i = share.first; i < share.last; ++i) tell(theirs, i);
     TEMPER_ASSERT(theirs.at_end());
   }
