@@ -1,14 +1,18 @@
-// What ranks tell each other in `temper optimize`: messages and bytes of a run, by kind, and how much of its work is
-// shared out. Exact, whatever the machine and however many ranks there are: parts say what they say, whoever does them.
+// What two ranks tell each other in `temper optimize`: messages and bytes a sweep, by kind. Exact, whatever the
+// machine; of more ranks each tells less, all together the same: parts say what they say, whoever does them.
 //
-//   bench_rank_messages [plane|sphere|periodic] [VERTICES …]
+//   bench_rank_messages messages plane|sphere|periodic VERTICES
+//   bench_rank_messages work plane|sphere|periodic VERTICES RANKS …
 //
-// Two ranks, as threads of this process, each with a mesh of its own. A table of Markdown; see docs/scaling.md.
+// The second prints how long the busiest rank is at work, by its processor's clock. Ranks are threads of this process,
+// each with a mesh of its own, and need no processor each. Tables of Markdown; see docs/ranks.md.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "support/thread_ranks.hpp"
@@ -41,41 +45,77 @@ Mesh example(std::string_view space, std::size_t n) {
   return *random_points({.vertices = n, .seed = 1});
 }
 
-void measure(std::string_view space, std::size_t n) {
-  const Mesh input = example(space, n);
-  test::on_ranks(2, [&](Ranks& ranks) {
+/// Of the calling thread.
+double processor_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// What one rank of a run has done.
+struct Done {
+  int sweeps = 0;
+  double seconds = 0;              // of its processor
+  std::vector<std::size_t> calls;  // bytes of each broadcast
+};
+
+std::vector<Done> run_on(std::size_t n_ranks, const Mesh& input) {
+  std::vector<Done> done(n_ranks);
+  test::on_ranks(n_ranks, [&](Ranks& ranks) {
     CountingRanks counting(ranks);
     Mesh mesh = input;
+    const double start = processor_seconds();
     const auto report = optimize(mesh, {}, {.ranks = &counting});
-    if (!report || ranks.rank() != 0) return;
-    std::size_t most = 0, all = 0, asked = 0, small = 0;
-    for (const std::size_t bytes : counting.calls) {
-      all += bytes;
-      most = std::max(most, bytes);
-      if (bytes <= 64) ++asked;
-      if (bytes > 64 && bytes < n) ++small;
-    }
-    const auto sweeps = static_cast<double>(report->sweeps), vertices = static_cast<double>(n);
-    std::printf("| %.*s | %zu | %d | %zu | %zu | %zu | %.1f | %.1f |\n", static_cast<int>(space.size()), space.data(),
-                n, report->sweeps, counting.calls.size(), asked, small, static_cast<double>(most) / vertices,
-                static_cast<double>(all) / sweeps / vertices);
+    done[ranks.rank()] = {report ? report->sweeps : 0, processor_seconds() - start, std::move(counting.calls)};
   });
+  return done;
+}
+
+void print_messages(const std::string& space, std::size_t n) {
+  const Done done = run_on(2, example(space, n)).front();
+  // By size: stops and sums are small, what the numbers' parts tell is most of all.
+  std::size_t small = 0, of_cuts = 0, bytes_of_cuts = 0, of_numbers = 0, bytes_of_numbers = 0;
+  for (const std::size_t bytes : done.calls) {
+    if (bytes < n / 64) {
+      ++small;
+    } else if (bytes < 4 * n) {
+      ++of_cuts, bytes_of_cuts += bytes;
+    } else {
+      ++of_numbers, bytes_of_numbers += bytes;
+    }
+  }
+  const double sweeps = done.sweeps, vertices = static_cast<double>(n);
+  std::printf("| %s | %zu | %d | %.1f | %.2f | %.1f | %.2f | %.1f |\n", space.c_str(), n, done.sweeps,
+              static_cast<double>(of_numbers) / sweeps, static_cast<double>(bytes_of_numbers) / sweeps / vertices,
+              static_cast<double>(of_cuts) / sweeps, static_cast<double>(bytes_of_cuts) / sweeps / vertices,
+              static_cast<double>(small) / sweeps);
+}
+
+/// What the busiest rank does, which the others wait for.
+void print_work(const std::string& space, std::size_t n, std::size_t n_ranks) {
+  double most = 0;
+  for (const Done& done : run_on(n_ranks, example(space, n))) most = std::max(most, done.seconds);
+  std::printf("| %s | %zu | %zu | %.1f |\n", space.c_str(), n, n_ranks, most);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<std::string> words(argv + 1, argv + argc);
-  std::printf(
-      "| space | vertices | sweeps | calls | that ask | of shifted cuts | largest, bytes a vertex | a sweep, bytes a "
-      "vertex |\n");
-  std::printf("|-|-:|-:|-:|-:|-:|-:|-:|\n");
-  std::string space = "plane";
-  for (const std::string& word : words) {
-    if (word[0] < '0' || word[0] > '9') {
-      space = word;
-    } else {
-      measure(space, static_cast<std::size_t>(std::atoll(word.c_str())));
-    }
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() < 3 || (words[0] != "messages" && words[0] != "work")) {
+    std::fprintf(stderr, "bench_rank_messages messages SPACE VERTICES | work SPACE VERTICES RANKS …\n");
+    return 2;
   }
+  const auto n = static_cast<std::size_t>(std::atoll(words[2].c_str()));
+  if (words[0] == "messages") {
+    std::printf("| space | vertices | sweeps | of numbers and passes | bytes a vertex | of shifted cuts | ");
+    std::printf("bytes a vertex | small ones |\n|-|-:|-:|-:|-:|-:|-:|-:|\n");
+    print_messages(words[1], n);
+    return 0;
+  }
+  std::printf("| space | vertices | ranks | processor seconds of the busiest |\n|-|-:|-:|-:|\n");
+  for (std::size_t i = 3; i < words.size(); ++i) {
+    print_work(words[1], n, static_cast<std::size_t>(std::atoll(words[i].c_str())));
+  }
+  return 0;
 }
