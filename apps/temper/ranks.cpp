@@ -103,7 +103,7 @@ bool is_first_rank() { return joined_ranks() == nullptr || joined_ranks()->rank(
 
 void agree_to_go_on() {
   if (joined_ranks() == nullptr) return;
-  if (const auto failure = first_failure({}, Exit::done)) throw *failure;
+  if (const auto failure = first_failure({}, Exit::done)) throw Failure(*failure);
 }
 
 std::optional<Failure> agreed(const Failure& failure) {
