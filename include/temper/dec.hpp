@@ -40,7 +40,7 @@ using EdgeId = Id<struct EdgeTag>;
 /// ascending order, and the signs beside them.
 struct IncidenceMatrix {
   std::size_t n_columns = 0;
-  std::vector<std::int32_t> starts;   ///< rows + 1
+  std::vector<std::int64_t> starts;   ///< rows + 1
   std::vector<std::int32_t> columns;  ///< one a non-zero
   std::vector<std::int8_t> signs;     ///< one a non-zero
 
@@ -79,7 +79,7 @@ struct DecComplex {
   IdVector<TriangleId, Vec3> sphere_orthocenters;
 };
 
-/// The operators of a mesh. Precondition: no erased triangles; fewer than 2³¹ half-edges. O(n).
+/// The operators of a mesh. Precondition: no erased triangles; fewer than 2³¹ edges. O(n).
 [[nodiscard]] DecComplex dec(const Mesh& mesh);
 
 /// A summary of the operators, to be read before a solver uses them.

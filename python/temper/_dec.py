@@ -20,7 +20,7 @@ class IncidenceMatrix(Record):
     the ``signs`` beside them."""
 
     n_columns: int
-    starts: npt.NDArray[np.int32]
+    starts: npt.NDArray[np.int64]
     columns: npt.NDArray[np.int32]
     signs: npt.NDArray[np.int8]
 

@@ -120,7 +120,8 @@ double DecBuilder<Measures>::star1(HalfedgeId left, HalfedgeId right, double len
 template <class Measures>
 void DecBuilder<Measures>::incidence() {
   const std::size_t n_edges = c_.edges.size(), n_triangles = mesh_.n_triangles();
-  c_.d0 = {mesh_.n_vertices(), std::vector<std::int32_t>(n_edges + 1), {}, {}};
+  TEMPER_ASSERT(n_edges < std::size_t{1} << 31);
+  c_.d0 = {mesh_.n_vertices(), std::vector<std::int64_t>(n_edges + 1), {}, {}};
   c_.d0.columns.reserve(2 * n_edges);
   c_.d0.signs.reserve(2 * n_edges);
   for (std::size_t e = 0; e < n_edges; ++e) {
@@ -129,9 +130,9 @@ void DecBuilder<Measures>::incidence() {
     c_.d0.columns.push_back(static_cast<std::int32_t>(edge.to.index));
     c_.d0.signs.push_back(-1);
     c_.d0.signs.push_back(1);
-    c_.d0.starts[e + 1] = static_cast<std::int32_t>(2 * (e + 1));
+    c_.d0.starts[e + 1] = static_cast<std::int64_t>(2 * (e + 1));
   }
-  c_.d1 = {n_edges, std::vector<std::int32_t>(n_triangles + 1), {}, {}};
+  c_.d1 = {n_edges, std::vector<std::int64_t>(n_triangles + 1), {}, {}};
   c_.d1.columns.reserve(3 * n_triangles);
   c_.d1.signs.reserve(3 * n_triangles);
   for (const TriangleId t : mesh_.triangles()) {
@@ -142,7 +143,7 @@ void DecBuilder<Measures>::incidence() {
       c_.d1.columns.push_back(static_cast<std::int32_t>(c_.edge_of_halfedge[h].index));
       c_.d1.signs.push_back(mesh_.origin(h) < mesh_.target(h) ? 1 : -1);
     }
-    c_.d1.starts[t.index + 1] = static_cast<std::int32_t>(3 * (t.index + 1));
+    c_.d1.starts[t.index + 1] = 3 * (std::int64_t{t.index} + 1);
   }
 }
 
@@ -160,7 +161,6 @@ void DecBuilder<Measures>::dual_areas() {
 }  // namespace
 
 DecComplex dec(const Mesh& mesh) {
-  TEMPER_ASSERT(mesh.n_halfedges() < std::size_t{1} << 31);
   TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
   return mesh.space().is_plane() ? DecBuilder<PlaneMeasures>(mesh).build() : DecBuilder<SphereMeasures>(mesh).build();
 }

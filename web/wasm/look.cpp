@@ -89,6 +89,11 @@ void answer_all(const std::vector<T>& values) {
   answer_array(std::span<const T>(values));
 }
 
+/// As 32 bits, of which there are enough in the memory of a module.
+void answer_starts(const std::vector<std::int64_t>& starts) {
+  answer_all(std::vector<std::int32_t>(starts.begin(), starts.end()));
+}
+
 using AnswerArray = void (*)(const DecComplex&);
 using Ids = std::array<std::uint32_t, 2>;
 
@@ -102,10 +107,10 @@ const std::map<std::string_view, AnswerArray>& dec_arrays() {
       {"areas", [](const DecComplex& c) { answer_all(c.areas.raw()); }},
       {"orthocenters", [](const DecComplex& c) { answer_all(c.orthocenters.raw()); }},
       {"edge_of_halfedge", [](const DecComplex& c) { answer_all(c.edge_of_halfedge.raw()); }},
-      {"d0.starts", [](const DecComplex& c) { answer_all(c.d0.starts); }},
+      {"d0.starts", [](const DecComplex& c) { answer_starts(c.d0.starts); }},
       {"d0.columns", [](const DecComplex& c) { answer_all(c.d0.columns); }},
       {"d0.signs", [](const DecComplex& c) { answer_all(c.d0.signs); }},
-      {"d1.starts", [](const DecComplex& c) { answer_all(c.d1.starts); }},
+      {"d1.starts", [](const DecComplex& c) { answer_starts(c.d1.starts); }},
       {"d1.columns", [](const DecComplex& c) { answer_all(c.d1.columns); }},
       {"d1.signs", [](const DecComplex& c) { answer_all(c.d1.signs); }},
       {"edges.vertices",

@@ -80,9 +80,9 @@ TEST(DecSphere, TheBoundaryOfABoundaryIsNothing) {
   ASSERT_EQ(c.d1.n_rows(), mesh.n_triangles());
   for (std::size_t t = 0; t < c.d1.n_rows(); ++t) {
     std::map<std::int32_t, int> row;  // of d1 d0
-    for (std::int32_t i = c.d1.starts[t]; i < c.d1.starts[t + 1]; ++i) {
+    for (std::int64_t i = c.d1.starts[t]; i < c.d1.starts[t + 1]; ++i) {
       const std::int32_t e = c.d1.columns[i];
-      for (std::int32_t j = c.d0.starts[e]; j < c.d0.starts[e + 1]; ++j)
+      for (std::int64_t j = c.d0.starts[e]; j < c.d0.starts[e + 1]; ++j)
         row[c.d0.columns[j]] += c.d1.signs[i] * c.d0.signs[j];
     }
     EXPECT_EQ(row.size(), 3u);
