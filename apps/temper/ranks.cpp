@@ -43,7 +43,8 @@ void be_silent() {
 std::optional<Failure> first_failure(const std::string& mine, Exit exit) {
   have_agreed = true;
   const std::string told = mine.empty() ? std::string() : fmt::format("{}{}", static_cast<int>(exit), mine);
-  const std::vector<std::string> all = joined_ranks()->all_gather(told);
+  Ranks* const joined = joined_ranks();
+  const std::vector<std::string> all = joined != nullptr ? joined->all_gather(told) : std::vector{told};
   const auto failed = std::find_if(all.begin(), all.end(), [](const std::string& each) { return !each.empty(); });
   if (failed == all.end()) return std::nullopt;
   const std::size_t count = static_cast<std::size_t>(std::count(all.begin(), all.end(), *failed));

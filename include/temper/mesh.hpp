@@ -316,14 +316,14 @@ struct MeshOrder {
 /// neighbours in memory. Returns the order, for restore_order. O(n).
 MeshOrder hilbert_order(Mesh& mesh);
 /// Undoes hilbert_order: every vertex has its former number again, and every triangle its former slot.
-void restore_order(Mesh& mesh, const MeshOrder& order);
+void restore_order(Mesh& mesh, const MeshOrder& order, Executor* executor = nullptr);
 
 /// A copy of a mesh along a Hilbert curve, and its order.
 struct OrderedMesh {
   Mesh mesh;
   MeshOrder order;
 };
-/// The same mesh as hilbert_order makes of a copy, faster: it is copied in order.
+/// The same mesh as hilbert_order makes of a copy.
 [[nodiscard]] OrderedMesh hilbert_ordered(const Mesh& mesh, Executor* executor = nullptr);
 
 }  // namespace temper

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/assert.hpp"
@@ -49,10 +50,10 @@ inline void share_sums(std::vector<double>& of_blocks, std::size_t blocks, std::
   }
 }
 
-/// Several such sums in one walk: block(b, sums) adds to what begins as zeros, and changes nothing else, since the
-/// ranks of an executor share out the blocks.
+/// Several such sums in one walk, for each block: block(b, sums) adds to what begins as zeros, and changes nothing
+/// else, since the ranks of an executor share out the blocks. Result: n_sums numbers a block.
 template <class Block>
-std::vector<double> sums_of_blocks(std::size_t n, std::size_t n_sums, Executor* executor, Block&& block) {
+std::vector<double> sums_by_block(std::size_t n, std::size_t n_sums, Executor* executor, Block&& block) {
   const std::size_t blocks = (n + kBlockSize - 1) / kBlockSize;
   std::vector<double> of_blocks(blocks * n_sums, 0.0);
   Ranks* const ranks = executor != nullptr ? executor->ranks() : nullptr;
@@ -62,12 +63,25 @@ std::vector<double> sums_of_blocks(std::size_t n, std::size_t n_sums, Executor* 
     block(b, std::span(of_blocks).subspan(b * n_sums, n_sums));
   });
   if (ranks != nullptr) share_sums(of_blocks, blocks, n_sums, *ranks);
+  return of_blocks;
+}
+
+/// The sums of all blocks together. Precondition: n_sums > 0.
+inline std::vector<double> totals_of(const std::vector<double>& of_blocks, std::size_t n_sums) {
+  const std::size_t blocks = of_blocks.size() / n_sums;
   std::vector<double> totals(n_sums), one(blocks);
   for (std::size_t k = 0; k < n_sums; ++k) {
     for (std::size_t b = 0; b < blocks; ++b) one[b] = of_blocks[b * n_sums + k];
     totals[k] = pairwise_sum(one);
   }
   return totals;
+}
+
+/// Both of these.
+template <class Block>
+std::vector<double> sums_of_blocks(std::size_t n, std::size_t n_sums, Executor* executor, Block&& block) {
+  if (n_sums == 0) return {};
+  return totals_of(sums_by_block(n, n_sums, executor, std::forward<Block>(block)), n_sums);
 }
 
 /// Σ term(i), i = 0 … n − 1; on the executor's threads when there is one.

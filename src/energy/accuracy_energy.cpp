@@ -137,23 +137,46 @@ std::size_t AccuracyFloors::raise(const Mesh& mesh, double margin, Executor* exe
   }));
 }
 
+namespace {
+
+/// The barriers of a block of triangles; visit(t, shape) is told of each.
+template <class Visit>
+double barriers_of_block(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
+                         const AccuracyModel& model, std::size_t block, Visit&& visit) {
+  double barrier = 0, of_lengths = 0;
+  const std::size_t end = std::min(mesh.n_triangles(), (block + 1) * kBlockSize);
+  for (std::size_t i = block * kBlockSize; i < end; ++i) {
+    const TriangleId t(i);
+    const TriangleShape shape = shape_of(mesh, t);
+    visit(t, shape);
+    if (model.keeps_lengths()) of_lengths += own_length_barriers(mesh, floors, t, shape);
+    if (!floors.has(t)) continue;
+    const auto [p, q, r] = mesh.corners(t);
+    barrier -= triangle_scale(sizes[p], sizes[q], sizes[r]) * triangle_logarithm(shape, floors[t]);
+  }
+  return model.barrier * barrier + of_lengths;
+}
+
+}  // namespace
+
 AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
                              const AccuracyModel& model, Executor* executor) {
   const auto sums = sums_of_blocks(mesh.n_triangles(), 2, executor, [&](std::size_t block, std::span<double> of_block) {
-    double sum = 0, barrier = 0, of_lengths = 0;
-    const std::size_t end = std::min(mesh.n_triangles(), (block + 1) * kBlockSize);
-    for (std::size_t i = block * kBlockSize; i < end; ++i) {
-      const TriangleId t(i);
-      const TriangleShape shape = shape_of(mesh, t);
+    double sum = 0;
+    of_block[1] = barriers_of_block(mesh, sizes, floors, model, block, [&](TriangleId t, const TriangleShape& shape) {
       for_own_edges(mesh, sizes, model, t, shape, [&](double of_edge) { sum += of_edge; });
-      if (model.keeps_lengths()) of_lengths += own_length_barriers(mesh, floors, t, shape);
-      if (!floors.has(t)) continue;
-      const auto [p, q, r] = mesh.corners(t);
-      barrier -= triangle_scale(sizes[p], sizes[q], sizes[r]) * triangle_logarithm(shape, floors[t]);
-    }
-    of_block[0] = sum, of_block[1] = model.barrier * barrier + of_lengths;
+    });
+    of_block[0] = sum;
   });
   return {sums[0], sums[1]};
+}
+
+double accuracy_barrier(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
+                        const AccuracyModel& model, Executor* executor) {
+  const auto sums = sums_of_blocks(mesh.n_triangles(), 1, executor, [&](std::size_t block, std::span<double> of_block) {
+    of_block[0] = barriers_of_block(mesh, sizes, floors, model, block, [](TriangleId, const TriangleShape&) {});
+  });
+  return sums[0];
 }
 
 template <class In>

@@ -73,6 +73,9 @@ struct AccuracyTotal {
 };
 [[nodiscard]] AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
                                            const AccuracyModel& model, Executor* executor = nullptr);
+/// Its barrier alone.
+[[nodiscard]] double accuracy_barrier(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
+                                      const AccuracyModel& model, Executor* executor);
 
 /// Energy and barrier as a function of one vertex. Storage is kept from vertex to vertex.
 class AccuracyPatch {

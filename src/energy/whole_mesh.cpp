@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <set>
 
 #include "base/sum.hpp"
 #include "energy/patch.hpp"
@@ -70,15 +71,33 @@ std::size_t count_bad(const Mesh& mesh, Executor* executor) {
 }
 
 EnergyAndBad energy_and_bad(const Mesh& mesh, const EnergyModel& model, Executor* executor) {
+  return RunningEnergyAndBad().measure(mesh, model, std::nullopt, executor);
+}
+
+EnergyAndBad RunningEnergyAndBad::measure(const Mesh& mesh, const EnergyModel& model,
+                                          const std::optional<std::vector<TriangleId>>& changed, Executor* executor) {
   const EdgeFormula formula = edge_formula(model);
   if (formula.form == EdgeFormula::Form::hot) return {total_energy(mesh, model, executor), count_bad(mesh, executor)};
   const StarKernels& kernels = star_kernels(mesh.space());
-  const auto sums = sums_of_blocks(mesh.n_triangles(), 2, executor, [&](std::size_t block, std::span<double> of_block) {
+  const auto add_block = [&](std::size_t block, std::span<double> of_block) {
     for_batches(mesh, block, [&](const Batch& batch) {
       of_block[0] += kernels.barrier_sum(formula, batch.lanes, batch.size);
       of_block[1] += static_cast<double>(count_bad(mesh.space(), batch.lanes, batch.size));
     });
-  });
+  };
+  if (!changed || of_blocks_.empty()) {
+    of_blocks_ = sums_by_block(mesh.n_triangles(), 2, executor, add_block);
+  } else {
+    of_blocks_.resize(2 * ((mesh.n_triangles() + kBlockSize - 1) / kBlockSize));
+    std::set<std::size_t> blocks;
+    for (const TriangleId t : *changed) blocks.insert(t.index / kBlockSize);
+    for (const std::size_t block : blocks) {
+      const std::span<double> of_block = std::span(of_blocks_).subspan(2 * block, 2);
+      std::fill(of_block.begin(), of_block.end(), 0.0);
+      add_block(block, of_block);
+    }
+  }
+  const std::vector<double> sums = totals_of(of_blocks_, 2);
   return {sums[0], static_cast<std::size_t>(sums[1])};
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <vector>
 
 #include "energy/star_kernels.hpp"
 #include "temper/energy.hpp"
@@ -20,5 +22,16 @@ struct EnergyAndBad {
 };
 /// total_energy() and count_bad(), for the price of little more than one.
 [[nodiscard]] EnergyAndBad energy_and_bad(const Mesh& mesh, const EnergyModel& model, Executor* executor);
+
+/// The same numbers, to the bit, of a mesh that changes in few triangles at a time, by one model.
+class RunningEnergyAndBad {
+ public:
+  /// `changed`: all triangles that are not what they were when it was measured last; none given: any may be.
+  [[nodiscard]] EnergyAndBad measure(const Mesh& mesh, const EnergyModel& model,
+                                     const std::optional<std::vector<TriangleId>>& changed, Executor* executor);
+
+ private:
+  std::vector<double> of_blocks_;
+};
 
 }  // namespace temper

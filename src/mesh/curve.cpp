@@ -2,9 +2,9 @@
 #include "mesh/curve.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "base/hilbert.hpp"
@@ -39,7 +39,11 @@ Keys keys_in_plane(const Mesh& mesh, Executor* executor) {
   return keys;
 }
 
-/// Says whether stars are scattered over memory: in a sample of the triangles, how often corners are too far apart.
+constexpr std::size_t kLot = std::size_t{1} << 20;  // vertices that are dealt out by one thread
+
+}  // namespace
+
+// In a sample of the triangles, how often corners are too far apart.
 bool is_scattered(const Mesh& mesh) {
   constexpr std::size_t kNear = std::size_t{1}
                                 << 15;  // vertices whose records and triangles a second-level cache holds
@@ -57,33 +61,50 @@ bool is_scattered(const Mesh& mesh) {
   return 4 * far > seen;
 }
 
-}  // namespace
-
-// A counting sort by the leading digits of the place along the curve, about as many buckets as vertices, and a sort of
-// what is in each.
+// Keys with their leading digits in common, as they come, then a sort of each such lot: both on all threads.
 IdVector<VertexId, VertexId> vertices_by_hilbert(const Mesh& mesh, Executor* executor) {
+  constexpr int kDigits = 12;
   const auto [of, bits] = mesh.space().is_plane() ? keys_in_plane(mesh, executor) : keys_on_sphere(mesh, executor);
   const IdVector<VertexId, std::uint64_t>& keys = of;  // lambdas may not capture structured bindings before clang 16
-  const std::size_t n = mesh.n_vertices();
-  const int digits = std::min(static_cast<int>(std::bit_width(n)), bits);
-  const auto bucket = [shift = bits - digits](std::uint64_t key) { return key >> shift; };
-  std::vector<std::uint32_t> start((std::size_t{1} << digits) + 1, 0);
-  for (const std::uint64_t key : keys) ++start[bucket(key) + 1];
-  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+  const std::size_t n = mesh.n_vertices(), lots = std::size_t{1} << kDigits, blocks = (n + kLot - 1) / kLot;
+  const auto lot_of = [&keys, shift = bits - kDigits](std::size_t i) { return keys[VertexId(i)] >> shift; };
+  const auto for_lots_of = [&](auto&& visit) {  // each index of a block with its lot
+    or_serial(executor).run(blocks, [&](std::size_t b) {
+      for (std::size_t i = b * kLot; i < std::min(n, (b + 1) * kLot); ++i) visit(b, lot_of(i), i);
+    });
+  };
+  std::vector<std::uint32_t> place(blocks * lots, 0);  // of the next one of this block in this lot
+  for_lots_of([&](std::size_t b, std::size_t lot, std::size_t) { ++place[b * lots + lot]; });
+  std::vector<std::uint32_t> first(lots + 1, 0);
+  std::uint32_t next = 0;
+  for (std::size_t lot = 0; lot < lots; ++lot) {
+    first[lot] = next;
+    for (std::size_t b = 0; b < blocks; ++b) next += std::exchange(place[b * lots + lot], next);
+  }
+  first[lots] = next;
+  struct Keyed {
+    std::uint64_t key;
+    VertexId v;
+    bool operator<(const Keyed& other) const { return key != other.key ? key < other.key : v < other.v; }
+  };
+  std::vector<Keyed> sorted(n);
+  for_lots_of([&](std::size_t b, std::size_t lot, std::size_t i) {
+    sorted[place[b * lots + lot]++] = {keys[VertexId(i)], VertexId(i)};
+  });
   IdVector<VertexId, VertexId> order(n);
-  for (const VertexId v : mesh.vertices()) order[VertexId(start[bucket(keys[v])]++)] = v;
-  for_each_index(start.size() - 1, executor, [&](std::size_t b) {  // each start has moved to the end of its bucket
-    const auto first = order.begin() + (b == 0 ? 0 : start[b - 1]), last = order.begin() + start[b];
-    if (last - first > 1) {
-      std::sort(first, last,
-                [&keys](VertexId u, VertexId v) { return keys[u] != keys[v] ? keys[u] < keys[v] : u < v; });
-    }
+  or_serial(executor).run(lots, [&](std::size_t lot) {
+    std::sort(sorted.begin() + first[lot], sorted.begin() + first[lot + 1]);
+    for (std::size_t i = first[lot]; i < first[lot + 1]; ++i) order[VertexId(i)] = sorted[i].v;
   });
   return order;
 }
 
 Walk::Walk(const Mesh& mesh, Executor* executor) {
   if (is_scattered(mesh)) order_ = vertices_by_hilbert(mesh, executor);
+}
+
+NearbyCopy::NearbyCopy(const Mesh& mesh, Executor* executor) : mesh_(&mesh) {
+  if (is_scattered(mesh)) mesh_ = &copy_.emplace(hilbert_ordered(mesh, executor)).mesh;
 }
 
 }  // namespace temper

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "temper/mesh.hpp"
 
@@ -11,6 +12,9 @@ class Executor;
 
 /// The vertices, sorted along the curve; equal cells by number. O(n).
 [[nodiscard]] IdVector<VertexId, VertexId> vertices_by_hilbert(const Mesh& mesh, Executor* executor);
+
+/// Says whether a mesh is large, and numbered so that stars are scattered over memory.
+[[nodiscard]] bool is_scattered(const Mesh& mesh);
 
 /// An order in which to look at each vertex once, with its star. Where the numbers of neighbours are far apart, as
 /// those of random points, it is that of the curve: what one star has brought into the cache serves the next ones, and
@@ -25,6 +29,25 @@ class Walk {
 
  private:
   IdVector<VertexId, VertexId> order_;  // empty: by number
+};
+
+/// A mesh to be looked at many times: itself, or where it is scattered a copy along the curve, which soon pays.
+class NearbyCopy {
+ public:
+  explicit NearbyCopy(const Mesh& mesh, Executor* executor);
+  NearbyCopy(const NearbyCopy&) = delete;
+  NearbyCopy& operator=(const NearbyCopy&) = delete;
+
+  [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
+  /// The ids in the original of what has these ids here.
+  [[nodiscard]] VertexId original(VertexId v) const { return copy_ ? copy_->order.vertices[v] : v; }
+  [[nodiscard]] TriangleId original(TriangleId t) const { return copy_ ? copy_->order.triangles[t] : t; }
+  /// Says whether it is the original.
+  [[nodiscard]] bool is_original() const { return !copy_.has_value(); }
+
+ private:
+  const Mesh* mesh_;
+  std::optional<OrderedMesh> copy_;
 };
 
 }  // namespace temper

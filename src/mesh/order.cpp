@@ -12,20 +12,35 @@
 namespace temper {
 namespace {
 
-/// Triangles by their least corner in the new numbering; equal ones by number (counting sort).
-IdVector<TriangleId, TriangleId> triangles_by_vertex(const Mesh& mesh, const IdVector<VertexId, VertexId>& new_vertex,
+/// Triangles by their least corner in the new numbering; equal ones by number. Each is found in the star of that
+/// corner, from vertex to vertex along the curve: neighbours of neighbours are in the cache.
+IdVector<TriangleId, TriangleId> triangles_by_vertex(const Mesh& mesh, const IdVector<VertexId, VertexId>& order,
+                                                     const IdVector<VertexId, VertexId>& new_vertex,
                                                      Executor* executor) {
-  IdVector<TriangleId, std::uint32_t> least(mesh.n_triangles());
-  for_each_index(mesh.n_triangles(), executor, [&](std::size_t i) {
-    const auto [a, b, c] = mesh.corners(TriangleId(i));
-    least[TriangleId(i)] = std::min({new_vertex[a], new_vertex[b], new_vertex[c]}).index;
+  const std::size_t n = mesh.n_vertices();
+  const auto for_triangles_of = [&](std::size_t i, auto&& visit) {
+    const VertexId first(i);
+    for (const HalfedgeId h : mesh.star(order[first])) {
+      if (first < new_vertex[mesh.target(h)] && first < new_vertex[mesh.opposite(h)]) visit(Mesh::triangle(h));
+    }
+  };
+  std::vector<std::vector<TriangleId>> of_blocks((n + kLoopBlock - 1) / kLoopBlock);
+  for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
+    std::vector<TriangleId>& found = of_blocks[first / kLoopBlock];
+    found.reserve(2 * (last - first));
+    for (std::size_t i = first; i < last; ++i) {
+      const auto before = static_cast<std::ptrdiff_t>(found.size());
+      for_triangles_of(i, [&](TriangleId t) { found.push_back(t); });
+      std::sort(found.begin() + before, found.end());
+    }
   });
-  std::vector<std::uint32_t> start(mesh.n_vertices() + 1, 0);
-  for (const std::uint32_t v : least) ++start[v + 1];
-  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
-  IdVector<TriangleId, TriangleId> order(mesh.n_triangles());
-  for (const TriangleId t : mesh.triangles()) order[TriangleId(start[least[t]]++)] = t;
-  return order;
+  IdVector<TriangleId, TriangleId> triangles;
+  triangles.reserve(mesh.n_triangles());
+  for (std::vector<TriangleId>& found : of_blocks) {
+    for (const TriangleId t : found) triangles.push_back(t);
+    found = {};
+  }
+  return triangles;
 }
 
 template <class IdType>
@@ -33,23 +48,6 @@ IdVector<IdType, IdType> inverse(const IdVector<IdType, IdType>& order) {
   IdVector<IdType, IdType> result(order.size());
   for (const IdType i : IdRange<IdType>(order.size())) result[order[i]] = i;
   return result;
-}
-
-/// Moves what is at order[i] to place i for all i, along the cycles of the order: in place but for one bit an item.
-template <class IdType, class Read, class Write>
-void gather(const IdVector<IdType, IdType>& order, Read&& read, Write&& write) {
-  std::vector<bool> done(order.size(), false);
-  for (const IdType first : IdRange<IdType>(order.size())) {
-    if (done[first.index]) continue;
-    const auto held = read(first);
-    IdType to = first;
-    for (IdType from = order[to]; from != first; to = from, from = order[to]) {
-      write(to, read(from));
-      done[to.index] = true;
-    }
-    write(to, held);
-    done[to.index] = true;
-  }
 }
 
 /// A halfedge by the new number of its triangle; none stays none.
@@ -66,7 +64,7 @@ Found find_order(const Mesh& mesh, Executor* executor) {
   Found found;
   found.order.vertices = vertices_by_hilbert(mesh, executor);
   found.new_vertex = inverse(found.order.vertices);
-  found.order.triangles = triangles_by_vertex(mesh, found.new_vertex, executor);
+  found.order.triangles = triangles_by_vertex(mesh, found.order.vertices, found.new_vertex, executor);
   return found;
 }
 
@@ -75,48 +73,9 @@ Found find_order(const Mesh& mesh, Executor* executor) {
 /// Sees the arrays of meshes.
 class MeshPermuter {
  public:
-  static void move_vertices(Mesh& mesh, const IdVector<VertexId, VertexId>& order) {
-    gather(
-        order, [&](VertexId v) { return mesh.vertices_[v]; },
-        [&](VertexId v, const Mesh::VertexRecord& record) { mesh.vertices_[v] = record; });
-  }
-  static void move_triangles(Mesh& mesh, const IdVector<TriangleId, TriangleId>& order,
-                             const IdVector<VertexId, VertexId>& new_vertex,
-                             const IdVector<TriangleId, TriangleId>& new_triangle);
   static Mesh copy(const Mesh& mesh, Found& found, Executor* executor);
-  /// Renews outgoing(): the halfedge that stands for a vertex depends on the numbering.
-  static void finish(Mesh& mesh) { mesh.repair_outgoing(); }
+  static void restore(Mesh& mesh, const MeshOrder& order, Executor* executor);
 };
-
-void MeshPermuter::move_triangles(Mesh& mesh, const IdVector<TriangleId, TriangleId>& order,
-                                  const IdVector<VertexId, VertexId>& new_vertex,
-                                  const IdVector<TriangleId, TriangleId>& new_triangle) {
-  struct Triangle {
-    std::array<VertexId, 3> corners;
-    std::array<HalfedgeId, 3> twins;
-    std::array<std::uint8_t, 3> constrained;
-    std::int32_t region;
-  };
-  const std::size_t n = mesh.n_halfedges();
-  gather(
-      order,
-      [&](TriangleId t) {
-        const HalfedgeId a = Mesh::halfedge(t, 0), b = Mesh::halfedge(t, 1), c = Mesh::halfedge(t, 2);
-        return Triangle{mesh.corners(t),
-                        {mesh.twin(a), mesh.twin(b), mesh.twin(c)},
-                        {mesh.constrained_[a], mesh.constrained_[b], mesh.constrained_[c]},
-                        mesh.region(t)};
-      },
-      [&](TriangleId t, const Triangle& triangle) {
-        for (std::size_t k = 0; k < 3; ++k) {
-          const HalfedgeId h = Mesh::halfedge(t, static_cast<int>(k));
-          mesh.corners_[h] = new_vertex[triangle.corners[k]];
-          mesh.constrained_.set(h, triangle.constrained[k], n);
-          mesh.twins_[h] = renumbered(triangle.twins[k], new_triangle);
-        }
-        mesh.set_region(t, triangle.region);
-      });
-}
 
 /// One array after the other, and each renumbering gone before the next one is made: what is there at once counts on
 /// the largest meshes.
@@ -150,16 +109,50 @@ Mesh MeshPermuter::copy(const Mesh& mesh, Found& found, Executor* executor) {
   if (!mesh.regions_.all_zero()) {
     for (const TriangleId t : result.triangles()) result.set_region(t, mesh.region(order.triangles[t]));
   }
-  finish(result);
+  result.repair_outgoing();
   return result;
 }
 
-MeshOrder hilbert_order(Mesh& mesh) {
-  Found found = find_order(mesh, nullptr);
-  MeshPermuter::move_vertices(mesh, found.order.vertices);
-  MeshPermuter::move_triangles(mesh, found.order.triangles, found.new_vertex, inverse(found.order.triangles));
-  MeshPermuter::finish(mesh);
-  return std::move(found.order);
+/// The halfedge that stands for a vertex depends on the numbering (Mesh::repair_outgoing): on the boundary the boundary
+/// one, else that of the greatest number. As in copy(), one array after the other.
+void MeshPermuter::restore(Mesh& mesh, const MeshOrder& order, Executor* executor) {
+  const std::size_t n = mesh.n_triangles();
+  const auto former = [&](HalfedgeId h) { return renumbered(h, order.triangles); };
+  const auto former_outgoing = [&](VertexId v) {
+    HalfedgeId last = former(mesh.outgoing(v));
+    if (!last.valid() || mesh.is_boundary(v)) return last;
+    for (const HalfedgeId h : mesh.star(v)) last = std::max(last, former(h));
+    return last;
+  };
+  IdVector<VertexId, Mesh::VertexRecord> vertices(mesh.n_vertices());
+  for_each_index(vertices.size(), executor, [&](std::size_t i) {
+    Mesh::VertexRecord& record = vertices[order.vertices[VertexId(i)]];
+    record = mesh.vertices_[VertexId(i)];
+    record.outgoing = former_outgoing(VertexId(i)).index;
+  });
+  mesh.vertices_ = std::move(vertices);
+  IdVector<HalfedgeId, VertexId> corners(mesh.n_halfedges());
+  for_each_index(n, executor, [&](std::size_t t) {
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(TriangleId(t), k);
+      corners[former(h)] = order.vertices[mesh.corners_[h]];
+    }
+  });
+  mesh.corners_ = std::move(corners);
+  IdVector<HalfedgeId, HalfedgeId> twins(mesh.n_halfedges());
+  for_each_index(n, executor, [&](std::size_t t) {
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(TriangleId(t), k);
+      twins[former(h)] = former(mesh.twins_[h]);
+    }
+  });
+  mesh.twins_ = std::move(twins);
+  if (const auto constrained = std::exchange(mesh.constrained_, {}); !constrained.all_zero()) {
+    for (const HalfedgeId h : mesh.halfedges()) mesh.constrained_.set(former(h), constrained[h], mesh.n_halfedges());
+  }
+  if (const auto regions = std::exchange(mesh.regions_, {}); !regions.all_zero()) {
+    for (const TriangleId t : mesh.triangles()) mesh.set_region(order.triangles[t], regions[t]);
+  }
 }
 
 OrderedMesh hilbert_ordered(const Mesh& mesh, Executor* executor) {
@@ -168,10 +161,14 @@ OrderedMesh hilbert_ordered(const Mesh& mesh, Executor* executor) {
   return {std::move(ordered), std::move(found.order)};
 }
 
-void restore_order(Mesh& mesh, const MeshOrder& order) {
-  MeshPermuter::move_vertices(mesh, inverse(order.vertices));
-  MeshPermuter::move_triangles(mesh, inverse(order.triangles), order.vertices, order.triangles);
-  MeshPermuter::finish(mesh);
+MeshOrder hilbert_order(Mesh& mesh) {
+  OrderedMesh ordered = hilbert_ordered(mesh);
+  mesh = std::move(ordered.mesh);
+  return std::move(ordered.order);
+}
+
+void restore_order(Mesh& mesh, const MeshOrder& order, Executor* executor) {
+  MeshPermuter::restore(mesh, order, executor);
 }
 
 }  // namespace temper

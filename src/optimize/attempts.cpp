@@ -25,6 +25,15 @@ bool is_worse(const Candidate& a, const Candidate& b, const Settings& settings) 
 
 bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.hooks.executor) > 0; }
 
+/// Says whether so few triangles of c are bad that each is a place of its own, far from all others. Another attempt
+/// would leave as many elsewhere, where a repair of each is a matter of moments; and a search need not give up what it
+/// has cured to begin again with the others.
+bool are_apart(const Candidate& c, const Settings& s) {
+  constexpr double kMost = 1e-5;
+  const auto bad = static_cast<double>(count_bad(c.work.mesh, s.hooks.executor));
+  return bad > 0 && bad < kMost * static_cast<double>(c.work.mesh.n_triangles());
+}
+
 /// Says whether c has what a repair could cure: bad triangles, or edges that vertices make too short.
 bool needs_repair(const Candidate& c, const Settings& s) {
   return has_bad(c, s) ||
@@ -72,39 +81,41 @@ Expected<Candidate> best_attempt(const Mesh& mesh, Settings& settings, Run& run)
     } else {
       driver.recorder().returned_to(best->sweep);
     }
-    if (!has_bad(*best, settings) || !run.goes_on()) break;
+    if (!has_bad(*best, settings) || !run.goes_on() || (repairs(settings) && are_apart(*best, settings))) break;
   }
   return *std::move(best);
 }
 
-Candidate repaired(Candidate start, Settings& settings, Run& run) {
+Candidate repaired(Candidate best, Settings& settings, Run& run) {
   const auto is_done = [&](const Candidate& c) {
     return !run.goes_on() || run.repair_trials_left <= 0 || !needs_repair(c, settings);
   };
-  Candidate best, now;
+  std::optional<Candidate> start;  // of all searches, once it is not the best one
+  Candidate now;
   std::uint64_t i = 0;
   bool polishes = false;
-  const Resumable here(run.checkpoints, start, best, now, i, polishes);
-  if (!here.resumed()) {
-    if (!repairs(settings) || is_done(start) || !std::isfinite(total_energy(start.work.mesh, settings.model))) {
-      return start;
-    }
-    best = start;
+  const Resumable here(run.checkpoints, best, start, now, i, polishes);
+  if (!here.resumed() &&
+      (!repairs(settings) || is_done(best) || !std::isfinite(total_energy(best.work.mesh, settings.model)))) {
+    return best;
   }
   for (; !polishes && i < kSearches; ++i) {
     const bool begins = !run.checkpoints.resumes();
     if (begins && is_done(best)) break;
-    if (begins) now = start;
+    if (begins) now = start ? *start : best;
     Driver driver(now.work, settings, run);  // NOLINT(bugprone-use-after-move): what begins has been made anew
-    if (begins && best.sweep != start.sweep) driver.recorder().returned_to(start.sweep);
+    if (begins && start) driver.recorder().returned_to(start->sweep);
     const bool changed = driver.repair(settings.options.paper.seed + i);
     now.sweep = run.report.sweeps;
     if (changed && !is_worse(now, best, settings)) {
+      if (!start) start = std::move(best);
       best = std::move(now);
+      if (are_apart(best, settings)) start.reset();
     } else {
       driver.recorder().returned_to(best.sweep);
     }
   }
+  start.reset();
   now = {};
   polishes = true;
   if (run.checkpoints.resumes() || run.goes_on()) best.sweep = Driver(best.work, settings, run).polish(best.sweep);

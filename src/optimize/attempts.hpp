@@ -8,7 +8,8 @@ namespace temper {
 /// Attempts from the input until one leaves nothing bad; the best of them.
 [[nodiscard]] Expected<Candidate> best_attempt(const Mesh& mesh, Settings& settings, Run& run);
 
-/// Repairs, from the same beginning until a search leaves nothing bad; the best result is kept, and swept once more.
-[[nodiscard]] Candidate repaired(Candidate start, Settings& settings, Run& run);
+/// Repairs, until a search leaves nothing bad: from the same beginning, or where bad triangles are far apart from what
+/// the search before has left. The best result is kept, and swept once more.
+[[nodiscard]] Candidate repaired(Candidate best, Settings& settings, Run& run);
 
 }  // namespace temper

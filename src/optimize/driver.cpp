@@ -313,13 +313,14 @@ bool Driver::repair(std::uint64_t seed) {
   EnergyPhase phase(work_, settings_, run_, kPolish, false);  // what repairs are told by
   RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed);
   bool changed = false;
+  RunningEnergyAndBad totals;
   const Resumable here(run_.checkpoints, search, changed, *this);
   while (run_.sweeps_left() && search.improve_one_place()) {
     grow();
     if (flipper_.has_removed()) compact();
     changed = true;
     ++run_.report.sweeps;
-    record(phase.measure());
+    record(phase.record_of(totals.measure(mesh_, settings_.model, search.changed(), settings_.hooks.executor)));
     show(Snapshot::Moment::after_sweep, phase);
     recorder_.begin_sweep(run_.report.sweeps + 1);
   }

@@ -58,11 +58,14 @@ double EnergyPhase::total() const {
 }
 
 SweepRecord EnergyPhase::measure() {
-  const auto [energy, bad] = energy_and_bad(mesh_, settings_.model, settings_.hooks.executor);
+  return record_of(energy_and_bad(mesh_, settings_.model, settings_.hooks.executor));
+}
+
+SweepRecord EnergyPhase::record_of(const EnergyAndBad& measured) const {
   SweepRecord r;
-  r.energy = energy_unit_ * energy;
+  r.energy = energy_unit_ * measured.energy;
   r.softening = settings_.energy.softened_by_h0 ? settings_.model.h0.value : settings_.model.gamma.value;
-  r.bad = bad;
+  r.bad = measured.bad;
   return r;
 }
 

@@ -32,6 +32,13 @@ std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& 
   return options.size_field ? options.size_field : input_size_field_of(mesh, executor);
 }
 
+/// The measures of the input, and for objectives other than an energy its sizes.
+InputMeasures measured(const Mesh& mesh, const Settings& s, std::optional<AccuracySizes>& sizes) {
+  const NearbyCopy near(mesh, s.hooks.executor);
+  if (s.options.objective != Objective::energy) sizes.emplace(near, s.options.size_field, s.hooks.executor);
+  return measure_input(mesh, near, s, sizes ? &*sizes : nullptr);
+}
+
 /// One phase more. Where there is a model of errors it says whether that was for the better; if not, it is taken back.
 template <class Improving>
 void improve(Candidate& best, const Settings& settings, Run& run, const AccuracySizes& sizes) {
@@ -74,7 +81,8 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
   Candidate best;
   const Resumable here(run.checkpoints, run, *settings, stage, best);
   if (run.checkpoints.failed()) return *run.checkpoints.error();
-  const InputMeasures of_input = measure_input(mesh, *settings);
+  std::optional<AccuracySizes> sizes;
+  const InputMeasures of_input = measured(mesh, *settings, sizes);
   if (stage == Stage::attempts) {
     auto found = is_ready_for_accuracy(mesh, *settings)
                      ? Candidate{WorkingCopy(mesh, options.paper.order, hooks.executor)}
@@ -87,9 +95,7 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
     best = repaired(std::move(best), *settings, run);
     stage = Stage::accuracy;
   }
-  std::optional<AccuracySizes> sizes;
-  if (settings->options.objective != Objective::energy) {
-    sizes.emplace(mesh, options.size_field, hooks.executor);
+  if (sizes) {
     if (stage == Stage::accuracy) {
       improve<AccuracyPhase>(best, *settings, run, *sizes);
       stage = Stage::error;

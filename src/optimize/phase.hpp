@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "energy/whole_mesh.hpp"
 #include "optimize/run.hpp"
 #include "optimize/schedule.hpp"
 #include "optimize/settings.hpp"
@@ -68,6 +69,8 @@ class EnergyPhase final : public Phase {
   [[nodiscard]] Keeps keeps() const override { return settings_.energy.barrier ? Keeps::last : Keeps::best_sweep; }
   int& iteration() override { return iteration_; }
   void visit(Archive& archive) override;
+  /// What has been measured of the mesh as it is, for the history of the run.
+  [[nodiscard]] SweepRecord record_of(const EnergyAndBad& measured) const;
   /// From the attempt's first energy to that of the options, if it has not been reached.
   void take_last_energy();
 

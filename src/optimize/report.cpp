@@ -5,8 +5,10 @@
 #include <string>
 #include <utility>
 
+#include "base/sum.hpp"
 #include "base/text.hpp"
 #include "energy/whole_mesh.hpp"
+#include "mesh/curve.hpp"
 #include "optimize/driver.hpp"
 #include "optimize/lengths.hpp"
 #include "optimize/rank.hpp"
@@ -46,12 +48,13 @@ class Notes {
   void tell_sizes();
   void tell_energy();
   void tell_edges_that_must_be_split(std::size_t bad);
-  void tell_accuracy();
+  void tell_accuracy(std::size_t bad);
 
  private:
   void add(std::string note) { report_.notes.push_back(std::move(note)); }
   void tell_input_flips(std::size_t flips);
   void tell_cuts(const BoundaryCuts& cuts);
+  [[nodiscard]] std::size_t count_thin() const;
   [[nodiscard]] std::string name_of(VertexId v) const;
 
   const Mesh& mesh_;
@@ -158,17 +161,20 @@ void Notes::tell_edges_that_must_be_split(std::size_t bad) {
       (options_.boundary == BoundaryVertices::split ? "" : ", and `boundary=split` splits them"));
 }
 
-void Notes::tell_accuracy() {
-  const std::size_t bad = count_bad(mesh_, settings_.hooks.executor);
-  std::size_t thin = 0;
-  for (const TriangleId t : mesh_.triangles()) thin += triangle_margin(mesh_, t) > settings_.accuracy.margin ? 0 : 1;
-  thin -= std::min(thin, bad);
+/// Triangles without the margin, the bad ones included.
+std::size_t Notes::count_thin() const {
+  return static_cast<std::size_t>(blockwise_sum(mesh_.n_triangles(), settings_.hooks.executor, [&](std::size_t i) {
+    return triangle_margin(mesh_, TriangleId(i)) > settings_.accuracy.margin ? 0.0 : 1.0;
+  }));
+}
+
+void Notes::tell_accuracy(std::size_t bad) {
   if (bad > 0) {
     add(count_of(bad, "triangle is", "triangles are") +
         " not well-centered: vertices there were not moved for accuracy");
   }
-  if (thin > 0 && options_.accuracy.margin) {
-    add(count_of(thin, "triangle is", "triangles are") + " well-centered by no more than " +
+  if (const std::size_t thin = options_.accuracy.margin ? count_thin() : 0; thin > bad) {
+    add(count_of(thin - bad, "triangle is", "triangles are") + " well-centered by no more than " +
         to_text(settings_.accuracy.margin) + " of an edge");
   }
   const std::size_t lacking = triangles_lacking_length(mesh_, settings_.accuracy).size();
@@ -203,16 +209,32 @@ struct Result {
   Mesh mesh;
   IdVector<VertexId, VertexId> vertices;  ///< of OptimizeReport
   Rank rank;
+  SizeReport size;
 };
 
-/// `settings`: in the user's units.
+/// `settings`: in the user's units. What the user's numbers would scatter over memory is measured before it has them.
 Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, const AccuracySizes* sizes) {
+  Executor* const executor = settings.hooks.executor;
   Result result;
-  const VertexSizes own = sizes != nullptr ? sizes->in_user_terms(work, settings.hooks.executor) : VertexSizes();
+  const auto measure = [&](const Mesh& mesh, const IdVector<VertexId, VertexId>& numbers, const VertexSizes& own) {
+    result.rank = rank(mesh, settings, sizes != nullptr ? &own : nullptr);
+    result.size = measure_size(mesh, field_of(input, settings), executor, numbers);
+  };
+  VertexSizes own;
   if (work.has_gaps || work.has_inserted()) result.vertices = work.user_vertices();
-  result.mesh = std::move(work).in_user_terms();  // what knew the order takes room no longer
-  take_back_rounding(input, result.vertices, result.mesh);
-  result.rank = rank(result.mesh, settings, sizes != nullptr ? &own : nullptr);
+  if (is_scattered(input)) {
+    if (sizes != nullptr) own = sizes->in_user_units(work, executor);
+    work.leave_frame();
+    const IdVector<VertexId, VertexId> numbers = work.input_numbers();
+    take_back_rounding(input, numbers, work.mesh);
+    measure(work.mesh, numbers, own);
+    result.mesh = std::move(work).in_user_order(executor);
+  } else {
+    if (sizes != nullptr) own = sizes->in_user_terms(work, executor);
+    result.mesh = std::move(work).in_user_terms(executor);  // what knew the order takes room no longer
+    take_back_rounding(input, result.vertices, result.mesh);
+    measure(result.mesh, result.vertices, own);
+  }
   return result;
 }
 
@@ -271,8 +293,22 @@ std::string_view name(Stopped stopped) {
   return "unknown";
 }
 
-InputMeasures measure_input(const Mesh& mesh, const Settings& settings) {
-  return {count(mesh, settings), measure_size(mesh, field_of(mesh, settings), settings.hooks.executor)};
+InputMeasures measure_input(const Mesh& mesh, const NearbyCopy& near, const Settings& settings,
+                            const AccuracySizes* sizes) {
+  InputMeasures measures;
+  measures.counts = count(near.mesh(), settings);
+  const bool own_field = !settings.size_field && !settings.options.size_field;
+  IdVector<VertexId, VertexId> numbers;
+  if (!near.is_original()) {
+    for (const VertexId v : near.mesh().vertices()) numbers.push_back(near.original(v));
+  }
+  measures.size = own_field ? measure_size(near.mesh(), field_of(near.mesh(), settings), settings.hooks.executor)
+                            : measure_size(near.mesh(), field_of(mesh, settings), settings.hooks.executor, numbers);
+  if (sizes == nullptr) return measures;
+  VertexSizes there;
+  for (const VertexId v : numbers) there.push_back(sizes->of_input()[v]);
+  measures.rank = rank(near.mesh(), measures.counts, settings, near.is_original() ? &sizes->of_input() : &there);
+  return measures;
 }
 
 void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasures& of_input, const AccuracySizes* sizes,
@@ -283,7 +319,7 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasure
   const Settings in_frame = settings;
   settings.model = in_user_units(settings.model, best.work.frame);
   Result result = result_of(mesh, std::move(best.work), settings, sizes);
-  const Rank before = rank(mesh, of_input.counts, settings, sizes != nullptr ? &sizes->of_input() : nullptr);
+  const Rank before = of_input.rank ? *of_input.rank : rank(mesh, of_input.counts, settings, nullptr);
   report.size.before = report.size.after = of_input.size;
   report.initial_energy = before.energy;
   const std::optional<double> bad_before =
@@ -308,7 +344,7 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasure
   report.final_energy = result.rank.energy;
   count_changes(mesh, report);
   if (!worse || flips) {
-    report.size.after = measure_size(result.mesh, field_of(mesh, settings), settings.hooks.executor, report.vertices);
+    report.size.after = result.size;
     mesh = std::move(result.mesh);
   }
   report.hidden = hidden_vertices_of(mesh, settings);
@@ -324,7 +360,8 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasure
   notes.tell_sizes();
   notes.tell_energy();
   notes.tell_edges_that_must_be_split(result.rank.bad);
-  if (sizes != nullptr) notes.tell_accuracy();
+  if (sizes != nullptr)
+    notes.tell_accuracy(settings.energy.barrier ? result.rank.bad : count_bad(mesh, settings.hooks.executor));
   report.seconds = run.seconds();
 }
 

@@ -1,6 +1,8 @@
 // The end of a run: the better of result and input goes back to the user, and the report says what came of it.
 #pragma once
 
+#include <optional>
+
 #include "optimize/accuracy/accuracy_sizes.hpp"
 #include "optimize/rank.hpp"
 #include "optimize/run.hpp"
@@ -20,8 +22,11 @@ void visit(Archive& archive, Candidate& candidate);
 struct InputMeasures {
   Counts counts;
   SizeReport size;
+  std::optional<Rank> rank;  ///< where the energies of a run do not enter into it
 };
-[[nodiscard]] InputMeasures measure_input(const Mesh& mesh, const Settings& settings);
+/// `near`: of the mesh. `sizes`: of the accuracy objective, else null.
+[[nodiscard]] InputMeasures measure_input(const Mesh& mesh, const NearbyCopy& near, const Settings& settings,
+                                          const AccuracySizes* sizes);
 
 /// Puts the candidate into `mesh`, unless that is the better one, and completes the report of the run. `sizes`: of the
 /// accuracy objective, else null.

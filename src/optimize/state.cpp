@@ -180,7 +180,7 @@ void ErrorPhase::visit(Archive& archive) {
 }
 
 void RepairSearch::visit(Archive& archive) {
-  auto& [work, settings, run, flipper, recorder, rng, failures] = *this;
+  auto& [work, settings, run, flipper, recorder, rng, failures, bad, changed] = *this;
   archive(rng, failures);
 }
 

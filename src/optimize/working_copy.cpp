@@ -80,29 +80,44 @@ Compaction WorkingCopy::compact() {
   return kept;
 }
 
-Mesh WorkingCopy::in_user_terms() const& {
+Mesh WorkingCopy::in_user_terms(Executor* executor) const& {
   WorkingCopy copy = *this;
-  return std::move(copy).in_user_terms();
+  return std::move(copy).in_user_terms(executor);
 }
 
-Mesh WorkingCopy::in_user_terms() && {
+Mesh WorkingCopy::in_user_terms(Executor* executor) && {
+  leave_frame();
+  return std::move(*this).in_user_order(executor);
+}
+
+void WorkingCopy::leave_frame() {
   frame.leave(mesh);
+  frame = {};
+  frame.space = mesh.space();
+}
+
+Mesh WorkingCopy::in_user_order(Executor* executor) && {
   if (has_gaps) {
-    restore_order(mesh, {ranks(order.vertices), ranks(order.triangles)});
+    restore_order(mesh, {ranks(order.vertices), ranks(order.triangles)}, executor);
   } else {
-    restore_order(mesh, order);
+    restore_order(mesh, order, executor);
   }
   order = {};
   return std::move(mesh);
 }
 
-IdVector<VertexId, VertexId> WorkingCopy::user_vertices() const {
-  IdVector<VertexId, VertexId> result = order.vertices;
-  std::sort(result.begin(), result.end());
-  for (VertexId& v : result) {
+IdVector<VertexId, VertexId> WorkingCopy::input_numbers() const {
+  IdVector<VertexId, VertexId> numbers = order.vertices;
+  for (VertexId& v : numbers) {
     if (v.index >= n_input_vertices) v = VertexId();
   }
-  return result;
+  return numbers;
+}
+
+IdVector<VertexId, VertexId> WorkingCopy::user_vertices() const {
+  IdVector<VertexId, VertexId> numbers = input_numbers();
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
 }
 
 }  // namespace temper

@@ -35,9 +35,14 @@ struct WorkingCopy {
   Compaction compact();
   /// Out of the frame, and in the user's order, then in the order of insertion; what was removed leaves no gap. The
   /// copy stays as it is, or is used up.
-  [[nodiscard]] Mesh in_user_terms() const&;
-  [[nodiscard]] Mesh in_user_terms() &&;
-  /// The number in the input of each vertex of in_user_terms(); invalid for inserted ones.
+  [[nodiscard]] Mesh in_user_terms(Executor* executor = nullptr) const&;
+  [[nodiscard]] Mesh in_user_terms(Executor* executor = nullptr) &&;
+  /// The two steps of that.
+  void leave_frame();
+  [[nodiscard]] Mesh in_user_order(Executor* executor) &&;
+  /// The number in the input of each vertex; invalid for inserted ones.
+  [[nodiscard]] IdVector<VertexId, VertexId> input_numbers() const;
+  /// The same of each vertex of in_user_terms().
   [[nodiscard]] IdVector<VertexId, VertexId> user_vertices() const;
 
  private:

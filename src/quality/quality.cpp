@@ -9,6 +9,7 @@
 #include "base/assert.hpp"
 #include "base/median.hpp"
 #include "energy/total_energies.hpp"
+#include "mesh/curve.hpp"
 #include "mesh/erased.hpp"
 #include "quality/solver_measures.hpp"
 #include "quality/tally.hpp"
@@ -19,12 +20,13 @@ namespace {
 
 constexpr std::size_t kBlock = 8192;  // triangles: some milliseconds of work, some hundred blocks for a million
 
-Tally tally(const Mesh& mesh, const QualityOptions& options) {
+Tally tally(const NearbyCopy& near, const QualityOptions& options) {
+  const Mesh& mesh = near.mesh();
   const std::size_t n = mesh.n_triangles();
   std::vector<Tally> blocks((n + kBlock - 1) / kBlock, Tally(options.worst));
   or_serial(options.executor).run(blocks.size(), [&](std::size_t i) {
     const std::size_t end = std::min(n, (i + 1) * kBlock);
-    for (std::size_t t = i * kBlock; t < end; ++t) blocks[i].add(mesh, TriangleId(t));
+    for (std::size_t t = i * kBlock; t < end; ++t) blocks[i].add(mesh, TriangleId(t), near.original(TriangleId(t)));
   });
   Tally all(options.worst);
   all.transmissibilities.reserve(mesh.n_halfedges() / 2);
@@ -64,9 +66,11 @@ std::size_t count_regions(const Mesh& mesh) {
 
 }  // namespace
 
-Quality quality(const Mesh& mesh, const QualityOptions& options) {
-  TEMPER_ASSERT_SLOW(!has_erased_triangles(mesh));
-  const Tally sums = tally(mesh, options);
+Quality quality(const Mesh& original, const QualityOptions& options) {
+  TEMPER_ASSERT_SLOW(!has_erased_triangles(original));
+  const NearbyCopy near(original, options.executor);
+  const Mesh& mesh = near.mesh();
+  const Tally sums = tally(near, options);
   Quality q;
   static_cast<SolverMeasures&>(q) = solver_measures(mesh, options.executor);
   q.vertices = mesh.n_vertices();
@@ -92,7 +96,7 @@ Quality quality(const Mesh& mesh, const QualityOptions& options) {
   q.max_transmissibility_over_median = largest_over_median(sums.transmissibilities);
   q.transmissibility_ratio = largest_over_least(sums.transmissibilities);
   q.energy = all_energies(mesh, options);
-  for (const Ranked& ranked : sums.worst.sorted()) q.worst.push_back(describe(mesh, ranked.triangle));
+  for (const Ranked& ranked : sums.worst.sorted()) q.worst.push_back(describe(original, ranked.triangle));
   return q;
 }
 

@@ -36,12 +36,12 @@ void count_in(Histogram& histogram, double value) {
   ++histogram.counts[static_cast<std::size_t>(std::clamp(bin, 0.0, last))];
 }
 
-void Tally::add(const Mesh& mesh, TriangleId t) {
+void Tally::add(const Mesh& mesh, TriangleId t, TriangleId original) {
   const TriangleMeasure m = measure_triangle(mesh, t);
   inverted_triangles += m.orientation == Sign::negative;
   orthocenters_outside += !m.orthocenter_inside();
   well_centered += m.well_centered();
-  worst.offer({m.margin(), t});
+  worst.offer({m.margin(), original});
   for (int k = 0; k < 3; ++k) {
     min_h_over_l = std::min(min_h_over_l, m.h_over_l[k]);
     min_angle_deg = std::min(min_angle_deg, m.angle_deg[k]);

@@ -36,7 +36,8 @@ struct Tally {
   Histogram h_over_l = empty_height_histogram();
   Histogram d_over_l = empty_split_histogram();
 
-  void add(const Mesh& mesh, TriangleId t);
+  /// `original`: the number by which the triangle is told of.
+  void add(const Mesh& mesh, TriangleId t, TriangleId original);
   void merge(const Tally& other);
 
  private:

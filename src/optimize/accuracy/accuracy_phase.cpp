@@ -71,7 +71,8 @@ Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool changed) {
   TEMPER_ASSERT_SLOW(count_bad(mesh_, nullptr) == bad_);
   const bool raised = domain_.raise_floors(mesh_, settings_.accuracy, settings_.hooks.executor);
   if (raised || settings_.accuracy.keeps_lengths()) {
-    now_ = sum();  // of another barrier
+    // The edges' part is what it was.
+    now_.barrier = accuracy_barrier(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, settings_.hooks.executor);
     if (raised) return Verdict::improving;
   }
   const double change = (before_.energy + before_.barrier) - (now_.energy + now_.barrier);

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "mesh/blocks.hpp"
-#include "size/local_sizes.hpp"
 
 namespace temper {
 namespace {
@@ -27,39 +26,42 @@ double averaged(const Mesh& mesh, const VertexSizes& sizes, VertexId v) {
   return sum / count;
 }
 
-VertexSizes smoothed(const Mesh& mesh, const Walk& walk, VertexSizes sizes, Executor* executor) {
+VertexSizes smoothed(const Mesh& mesh, VertexSizes sizes, Executor* executor) {
   const std::size_t n = mesh.n_vertices();
   VertexSizes next(n);
   for (int k = 0; k < kSmoothings; ++k) {
-    for_each_index(n, executor, [&](std::size_t i) { next[walk[i]] = averaged(mesh, sizes, walk[i]); });
+    for_each_index(n, executor, [&](std::size_t i) { next[VertexId(i)] = averaged(mesh, sizes, VertexId(i)); });
     std::swap(sizes, next);
   }
   return sizes;
 }
 
-VertexSizes sizes_of_field(const Mesh& mesh, const Walk& walk, const SizeField& field, Executor* executor) {
+VertexSizes sizes_of_field(const Mesh& mesh, const SizeField& field, Executor* executor) {
   VertexSizes sizes(mesh.n_vertices());
   for_blocks(mesh.n_vertices(), executor, [&](std::size_t first, std::size_t last) {
     TriangleId hint;
     for (std::size_t i = first; i < last; ++i) {
-      const SizeField::Sample sample = field.at(mesh.point(walk[i]), hint);
-      sizes[walk[i]] = sample.size;
+      const SizeField::Sample sample = field.at(mesh.point(VertexId(i)), hint);
+      sizes[VertexId(i)] = sample.size;
       hint = sample.triangle;
     }
   });
   return sizes;
 }
 
-VertexSizes wanted_sizes(const Mesh& input, const std::optional<SizeField>& field, Executor* executor) {
-  const Walk walk(input, executor);
-  return smoothed(input, walk,
-                  field ? sizes_of_field(input, walk, *field, executor) : local_sizes(input, walk, executor), executor);
-}
-
 }  // namespace
 
-AccuracySizes::AccuracySizes(const Mesh& input, const std::optional<SizeField>& field, Executor* executor)
-    : input_(wanted_sizes(input, field, executor)) {}
+AccuracySizes::AccuracySizes(const NearbyCopy& input, const std::optional<SizeField>& field, Executor* executor) {
+  const Mesh& mesh = input.mesh();
+  VertexSizes sizes =
+      smoothed(mesh, field ? sizes_of_field(mesh, *field, executor) : local_sizes(mesh, executor), executor);
+  if (input.is_original()) {
+    input_ = std::move(sizes);
+    return;
+  }
+  input_.resize(sizes.size());
+  for (const VertexId v : mesh.vertices()) input_[input.original(v)] = sizes[v];
+}
 
 VertexSizes AccuracySizes::of(const WorkingCopy& work, Executor* executor) const {
   VertexSizes sizes(work.mesh.n_vertices());
@@ -71,10 +73,16 @@ VertexSizes AccuracySizes::of(const WorkingCopy& work, Executor* executor) const
   return sizes;
 }
 
+VertexSizes AccuracySizes::in_user_units(const WorkingCopy& work, Executor* executor) const {
+  VertexSizes sizes = of(work, executor);
+  for (double& size : sizes) size *= work.frame.scale;
+  return sizes;
+}
+
 VertexSizes AccuracySizes::in_user_terms(const WorkingCopy& work, Executor* executor) const {
-  const VertexSizes here = of(work, executor);
+  const VertexSizes here = in_user_units(work, executor);
   std::vector<double> by_number(work.n_vertices_named, 0.0);  // 0: removed
-  for (const VertexId v : work.mesh.vertices()) by_number[work.order.vertices[v].index] = here[v] * work.frame.scale;
+  for (const VertexId v : work.mesh.vertices()) by_number[work.order.vertices[v].index] = here[v];
   VertexSizes sizes;
   sizes.reserve(here.size());
   for (const double size : by_number) {

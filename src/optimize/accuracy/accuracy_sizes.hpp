@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "energy/accuracy_energy.hpp"
+#include "mesh/curve.hpp"
 #include "optimize/working_copy.hpp"
 #include "temper/executor.hpp"
 #include "temper/size.hpp"
@@ -20,17 +21,19 @@ namespace temper {
 class AccuracySizes {
  public:
   /// The sizes of a mesh in the user's terms.
-  AccuracySizes(const Mesh& input, const std::optional<SizeField>& field, Executor* executor);
+  AccuracySizes(const NearbyCopy& input, const std::optional<SizeField>& field, Executor* executor);
 
   /// The sizes of the input, in the user's units.
   [[nodiscard]] const VertexSizes& of_input() const { return input_; }
   /// The sizes of a working copy of it, in the units of its frame.
   [[nodiscard]] VertexSizes of(const WorkingCopy& work, Executor* executor) const;
+  /// The same in the user's units.
+  [[nodiscard]] VertexSizes in_user_units(const WorkingCopy& work, Executor* executor) const;
   /// The sizes of work.in_user_terms(), in the user's units.
   [[nodiscard]] VertexSizes in_user_terms(const WorkingCopy& work, Executor* executor) const;
 
  private:
-  VertexSizes input_;
+  VertexSizes input_;  // by the user's numbers
 };
 
 }  // namespace temper

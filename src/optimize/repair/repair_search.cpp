@@ -26,6 +26,17 @@ bool helps(const Standing& before, const Standing& after) {
   return after.bad < before.bad || (after.bad == before.bad && after.violation < (1 - kHelps) * before.violation);
 }
 
+/// The triangles with one of these corners or more, in ascending order.
+std::vector<TriangleId> triangles_at(const Mesh& mesh, const std::vector<VertexId>& corners) {
+  std::vector<TriangleId> all;
+  for (const VertexId v : corners) {
+    for (const HalfedgeId h : mesh.star(v)) all.push_back(Mesh::triangle(h));
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
 }  // namespace
 
 bool repairs(const Settings& settings) {
@@ -42,8 +53,10 @@ bool repairs(const Settings& settings) {
 
 bool RepairSearch::improve_one_place() {
   const bool vertices = settings_.options.repair == Repair::vertices;
-  std::vector<TriangleId> bad = bad_triangles(work_.mesh);
-  if (bad.empty() && vertices) bad = triangles_lacking_length(work_.mesh, settings_.accuracy);
+  find_bad();
+  const std::vector<TriangleId> lacking =
+      bad_.empty() && vertices ? triangles_lacking_length(work_.mesh, settings_.accuracy) : std::vector<TriangleId>();
+  const std::vector<TriangleId>& bad = bad_.empty() ? lacking : bad_;
   // Each of many bad places gets its chance.
   const int most_failures = std::max(vertices ? kMostFailures : kMostFailuresOfMoves, static_cast<int>(bad.size()));
   while (!bad.empty() && failures_ < most_failures && run_.repair_trials_left > 0) {
@@ -55,10 +68,26 @@ bool RepairSearch::improve_one_place() {
     if (!edit) continue;
     const Outcome outcome = try_edit(around, *edit, settings_, work_.frame, true);
     TEMPER_ASSERT(outcome.valid);  // as it was without a listener
-    splice(work_, flipper_, recorder_, around, outcome.events);
+    const std::vector<VertexId> there = splice(work_, flipper_, recorder_, around, outcome.events);
+    changed_.reset();
+    if (!flipper_.has_removed()) changed_ = triangles_at(work_.mesh, there);
     return true;
   }
   return false;
+}
+
+/// Looks only where the last edit was, when it left the numbers as they were.
+void RepairSearch::find_bad() {
+  if (!changed_) {
+    bad_ = bad_triangles(work_.mesh);
+    return;
+  }
+  std::erase_if(bad_, [&](TriangleId t) { return std::binary_search(changed_->begin(), changed_->end(), t); });
+  for (const TriangleId t : *changed_) {
+    if (is_bad(work_.mesh, t)) bad_.push_back(t);
+  }
+  std::sort(bad_.begin(), bad_.end());
+  TEMPER_ASSERT_SLOW(bad_ == bad_triangles(work_.mesh));
 }
 
 /// The edit after which the neighbourhood stands best, if that helps; of the least tier that has one.

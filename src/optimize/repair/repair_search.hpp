@@ -26,6 +26,8 @@ class RepairSearch {
   /// Changes the mesh in one place: never to more bad triangles. False when none is left, none can be cured, or it was
   /// asked to stop. Removed vertices stay isolated until the caller compacts, which it must before the next call.
   bool improve_one_place();
+  /// The triangles of that place as it is now; none given: they and others have new numbers.
+  [[nodiscard]] const std::optional<std::vector<TriangleId>>& changed() const { return changed_; }
 
   void visit(Archive& archive);
 
@@ -36,6 +38,7 @@ class RepairSearch {
   };
   std::optional<Edit> choose(const Neighborhood& around);
   std::optional<Edit> sideways(std::vector<Tried> tried, Standing before);
+  void find_bad();
 
   WorkingCopy& work_;
   const Settings& settings_;
@@ -43,7 +46,9 @@ class RepairSearch {
   Flipper& flipper_;
   const Recorder& recorder_;
   Rng rng_;
-  int failures_ = 0;  // places without an edit that helps, since the last one with
+  int failures_ = 0;             // places without an edit that helps, since the last one with
+  std::vector<TriangleId> bad_;  // when `changed_` was still to come
+  std::optional<std::vector<TriangleId>> changed_;
 };
 
 /// Says whether these options ask for repairs, and leave room for them.

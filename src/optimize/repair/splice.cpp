@@ -1,6 +1,7 @@
 #include "optimize/repair/splice.hpp"
 
 #include <array>
+#include <utility>
 
 #include "base/assert.hpp"
 
@@ -13,6 +14,7 @@ class Splice {
       : work_(work), mesh_(work.mesh), flipper_(flipper), recorder_(recorder), vertices_(around.vertices) {}
 
   void apply(const TraceEvent& e);
+  [[nodiscard]] std::vector<VertexId> vertices() && { return std::move(vertices_); }
 
  private:
   [[nodiscard]] VertexId whole(VertexId local) const { return vertices_[local.index]; }
@@ -82,13 +84,14 @@ void Splice::remove(const TraceEvent& e) {
 
 }  // namespace
 
-void splice(WorkingCopy& work, Flipper& flipper, const Recorder& recorder, const Neighborhood& around,
-            std::span<const TraceEvent> events) {
+std::vector<VertexId> splice(WorkingCopy& work, Flipper& flipper, const Recorder& recorder, const Neighborhood& around,
+                             std::span<const TraceEvent> events) {
   TEMPER_ASSERT_SLOW(std::all_of(around.mesh.vertices().begin(), around.mesh.vertices().end(), [&](VertexId v) {
     return around.mesh.point(v) == work.mesh.point(around.vertices[v.index]);
   }));
   Splice whole(work, flipper, recorder, around);
   for (const TraceEvent& e : events) whole.apply(e);
+  return std::move(whole).vertices();
 }
 
 }  // namespace temper

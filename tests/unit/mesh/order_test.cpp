@@ -96,6 +96,20 @@ TEST(HilbertOrder, OfACopyIsThatOfTheMeshForAnyNumberOfThreads) {
   }
 }
 
+TEST(HilbertOrder, IsUndoneForAnyNumberOfThreads) {
+  Rng rng(25);
+  Mesh mesh = built(shuffled(test::squares(150), rng));
+  mesh.set_constrained(HalfedgeId(7), true), mesh.set_region(TriangleId(3), 5);
+  const OrderedMesh ordered = hilbert_ordered(mesh);
+  for (const std::size_t threads : {1u, 2u, 3u, 8u}) {
+    test::StdThreads executor(threads);
+    Mesh back = ordered.mesh;
+    restore_order(back, ordered.order, &executor);
+    EXPECT_EQ(back, mesh);
+    EXPECT_EQ(back.memory_bytes(), mesh.memory_bytes());
+  }
+}
+
 TEST(HilbertOrder, KeepsFlipsMadeBetween) {
   Rng rng(22);
   Mesh mesh = test::random_triangulation(rng, 30), flipped = mesh;
@@ -182,6 +196,23 @@ TEST(Walk, SeesEachVertexOnceAndTakesTheCurveWhereStarsAreScattered) {
   expect_permutation(seen, mesh.n_vertices());
   hilbert_order(mesh);
   EXPECT_TRUE(Walk(mesh).is_by_number());
+}
+
+TEST(NearbyCopy, IsTheMeshItselfUnlessThatIsScattered) {
+  const Mesh scattered = *random_points({.vertices = 100000, .seed = 3});
+  const NearbyCopy copy(scattered, nullptr);
+  ASSERT_FALSE(copy.is_original());
+  for (const VertexId v : copy.mesh().vertices()) {
+    ASSERT_EQ(copy.mesh().point(v), scattered.point(copy.original(v)));
+  }
+  for (const TriangleId t : copy.mesh().triangles()) {
+    const auto here = copy.mesh().corners(t), there = scattered.corners(copy.original(t));
+    for (std::size_t k = 0; k < 3; ++k) ASSERT_EQ(copy.original(here[k]), there[k]);
+  }
+  const NearbyCopy again(copy.mesh(), nullptr);
+  EXPECT_TRUE(again.is_original());
+  EXPECT_EQ(&again.mesh(), &copy.mesh());
+  EXPECT_EQ(again.original(VertexId(5)), VertexId(5));
 }
 
 }  // namespace

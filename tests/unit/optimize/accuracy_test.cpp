@@ -278,7 +278,7 @@ Mesh second_phase(const Mesh& input, const OptimizeOptions& options, std::size_t
   const Settings settings = *make_settings(options, work.mesh, work.frame, hooks);
   const Observer nobody;
   Run run(options, nobody);
-  const AccuracySizes sizes(input, options.size_field, hooks.executor);
+  const AccuracySizes sizes(NearbyCopy(input, hooks.executor), options.size_field, hooks.executor);
   AccuracyPhase phase(work, settings, run, sizes);
   Driver(work, phase.settings(), run, part_size).run(phase, 0);
   EXPECT_GT(run.report.sweeps, 0);
@@ -402,7 +402,8 @@ TEST(Accuracy, WorksAroundWhatCannotBeWellCentered) {
 
 TEST(Accuracy, SizesAreSmoothedAndGoWithTheirVertices) {
   const Mesh mesh = *graded_points({.finest = 1.0 / 16});
-  const AccuracySizes sizes(mesh, {}, nullptr);
+  const NearbyCopy near(mesh, nullptr);
+  const AccuracySizes sizes(near, {}, nullptr);
   ASSERT_EQ(sizes.of_input().size(), mesh.n_vertices());
   double rough = 0, smooth = 0;
   for (const HalfedgeId h : mesh.halfedges()) {
@@ -418,10 +419,10 @@ TEST(Accuracy, SizesAreSmoothedAndGoWithTheirVertices) {
     EXPECT_EQ(here[v] * work.frame.scale, sizes.of_input()[work.order.vertices[v]]);
     EXPECT_EQ(back[v], sizes.of_input()[v]);
   }
-  const AccuracySizes own(mesh, input_size_field(mesh), nullptr);
+  const AccuracySizes own(near, input_size_field(mesh), nullptr);
   for (const VertexId v : mesh.vertices()) EXPECT_EQ(own.of_input()[v], sizes.of_input()[v]) << "the same field";
   const std::vector<double> twos(mesh.n_vertices(), 2.0);
-  const AccuracySizes even(mesh, *SizeField::from_values(mesh, twos), nullptr);
+  const AccuracySizes even(near, *SizeField::from_values(mesh, twos), nullptr);
   for (const VertexId v : mesh.vertices()) EXPECT_NEAR(even.of_input()[v], 2, 1e-14);
 }
 

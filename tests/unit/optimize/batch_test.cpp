@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/rng.hpp"
 #include "energy/accuracy_energy.hpp"
 #include "energy/patch.hpp"
 #include "energy/star_kernels.hpp"
@@ -360,6 +361,34 @@ TEST(InstructionSets, BadTrianglesAreCountedAsExactPredicatesDo) {
       EXPECT_EQ(energy_and_bad(mesh, model, nullptr).bad, expected);
       EXPECT_EQ(energy_and_bad(mesh, model, nullptr).energy, total_energy(mesh, model));
     }
+  }
+}
+
+/// As repairs change a mesh: a few triangles at a time, and now and then the number of triangles.
+TEST(RunningEnergyAndBad, IsThatOfTheWholeMeshToTheBit) {
+  Rng rng(31);
+  Mesh mesh = swept_mesh(2);
+  for (const EnergyKind kind : {EnergyKind::BP, EnergyKind::BHs}) {
+    const EnergyModel model = barrier_model(kind, Star::one);
+    RunningEnergyAndBad running;
+    const auto expect_whole = [&](const std::optional<std::vector<TriangleId>>& changed) {
+      const EnergyAndBad now = running.measure(mesh, model, changed, nullptr),
+                         whole = energy_and_bad(mesh, model, nullptr);
+      EXPECT_EQ(now.energy, whole.energy);
+      EXPECT_EQ(now.bad, whole.bad);
+    };
+    expect_whole(std::vector<TriangleId>{});  // nothing was measured before
+    for (int i = 0; i < 50; ++i) {
+      const VertexId v(rng.below(static_cast<std::uint32_t>(mesh.n_vertices())));
+      std::vector<TriangleId> changed;
+      for (const HalfedgeId h : mesh.star(v)) changed.push_back(Mesh::triangle(h));
+      WeightedPoint p = mesh.point(v);
+      p.x += 1e-3 * (rng.uniform() - 0.5), p.w += 1e-6 * (rng.uniform() - 0.5);
+      mesh.set_point(v, p);
+      expect_whole(changed);
+    }
+    mesh.set_point(VertexId(3), {mesh.point(VertexId(3)).x, mesh.point(VertexId(3)).y, 1e-7});
+    expect_whole(std::nullopt);
   }
 }
 

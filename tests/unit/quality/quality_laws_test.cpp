@@ -12,6 +12,7 @@
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/executor.hpp"
+#include "temper/generate.hpp"
 #include "temper/geometry.hpp"
 #include "temper/quality.hpp"
 
@@ -201,6 +202,19 @@ TEST(QualityLaws, OtherNumbersForVerticesAndTrianglesChangeNothing) {
       EXPECT_NEAR(before.worst[i].at.x, after.worst[i].at.x, 1e-12);
       EXPECT_NEAR(before.worst[i].at.y, after.worst[i].at.y, 1e-12);
     }
+  }
+}
+
+// Large enough to be looked at along a curve: the worst triangles have the numbers of the mesh that was given.
+TEST(QualityLaws, ScatteredNumbersChangeNothingEither) {
+  const Mesh scattered = *random_points({.vertices = 60000, .seed = 4});
+  const OrderedMesh ordered = hilbert_ordered(scattered);
+  const Quality of_scattered = quality(scattered), of_ordered = quality(ordered.mesh);
+  expect_same_shape(of_scattered, of_ordered);
+  expect_same_energies(of_scattered, of_ordered);
+  ASSERT_EQ(of_scattered.worst.size(), of_ordered.worst.size());
+  for (std::size_t i = 0; i < of_ordered.worst.size(); ++i) {
+    EXPECT_EQ(of_scattered.worst[i].triangle, ordered.order.triangles[of_ordered.worst[i].triangle]);
   }
 }
 
