@@ -147,11 +147,10 @@ fi
 if ((!quick)) && stage "build (sanitizers, clang++)" configure_and_build asan; then
   stage "every test program is there" every_test_program_is_there build/asan
   suite "tests (sanitizers)" build/asan
-  stage "fuzzing, without libFuzzer, ½ s a target" env -C build/asan tests/fuzz/fuzz_smoke 0.5
 fi
 # What runs on threads, and nothing else, in a project that holds temper in a subdirectory.
 if ((!quick)) && stage "consumer: subdirectory (ThreadSanitizer)" consumer_subdirectory; then
-  suite "threads (ThreadSanitizer)" build/subdirectory -R '^(subdirectory_core|threads)$'
+  suite "threads (ThreadSanitizer)" build/subdirectory -R '^(subdirectory_core|threads_[01])$'
 fi
 
 printf '\n%d s in all' "$SECONDS"

@@ -2,6 +2,7 @@
 #include "mesh/curve.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -63,11 +64,13 @@ bool is_scattered(const Mesh& mesh) {
 
 // Keys with their leading digits in common, as they come, then a sort of each such lot: both on all threads.
 IdVector<VertexId, VertexId> vertices_by_hilbert(const Mesh& mesh, Executor* executor) {
-  constexpr int kDigits = 12;
+  constexpr int kFew = 8, kMostDigits = 12;  // of which lots have about 2⁸ keys, or more
   const auto [of, bits] = mesh.space().is_plane() ? keys_in_plane(mesh, executor) : keys_on_sphere(mesh, executor);
   const IdVector<VertexId, std::uint64_t>& keys = of;  // lambdas may not capture structured bindings before clang 16
-  const std::size_t n = mesh.n_vertices(), lots = std::size_t{1} << kDigits, blocks = (n + kLot - 1) / kLot;
-  const auto lot_of = [&keys, shift = bits - kDigits](std::size_t i) { return keys[VertexId(i)] >> shift; };
+  const std::size_t n = mesh.n_vertices(), blocks = (n + kLot - 1) / kLot;
+  const int digits = std::clamp(static_cast<int>(std::bit_width(n)) - kFew, 0, kMostDigits);
+  const std::size_t lots = std::size_t{1} << digits;
+  const auto lot_of = [&keys, shift = bits - digits](std::size_t i) { return keys[VertexId(i)] >> shift; };
   const auto for_lots_of = [&](auto&& visit) {  // each index of a block with its lot
     or_serial(executor).run(blocks, [&](std::size_t b) {
       for (std::size_t i = b * kLot; i < std::min(n, (b + 1) * kLot); ++i) visit(b, lot_of(i), i);

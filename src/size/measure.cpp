@@ -52,10 +52,15 @@ BinCounts counted(std::size_t n, std::size_t n_counts, Executor* executor, Count
 
 /// The spread of positive floats that each(first, last, take) hands to take, without keeping them: such floats are in
 /// the order of their bits, so the first pass counts the upper halves, and the second one the lower halves where a
-/// percentile lies.
+/// percentile lies. Few are kept: counts take longer.
 template <class Each>
 Spread spread_of_floats(std::size_t n_items, Executor* executor, Each&& each) {
   constexpr std::size_t kHalf = std::size_t{1} << 16;
+  if (n_items <= 4 * kHalf) {
+    std::vector<double> values;
+    each(0, n_items, [&](float x) { values.push_back(double{x}); });
+    return spread(std::move(values));
+  }
   const BinCounts upper =
       counted(n_items, kHalf, executor, [&](std::size_t first, std::size_t last, BinCounts& counts) {
         each(first, last, [&](float x) { ++counts[std::bit_cast<std::uint32_t>(x) >> 16]; });
