@@ -37,6 +37,7 @@ class NearbyCopy {
   explicit NearbyCopy(const Mesh& mesh, Executor* executor);
   NearbyCopy(const NearbyCopy&) = delete;
   NearbyCopy& operator=(const NearbyCopy&) = delete;
+  ~NearbyCopy() = default;
 
   [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
   /// The ids in the original of what has these ids here.
