@@ -3,16 +3,15 @@
 #include "temper/quality.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
 #include "base/assert.hpp"
-#include "base/median.hpp"
 #include "energy/total_energies.hpp"
 #include "mesh/curve.hpp"
 #include "mesh/erased.hpp"
 #include "quality/solver_measures.hpp"
 #include "quality/tally.hpp"
+#include "quality/transmissibility.hpp"
 #include "temper/executor.hpp"
 
 namespace temper {
@@ -29,11 +28,7 @@ Tally tally(const NearbyCopy& near, const QualityOptions& options) {
     for (std::size_t t = i * kBlock; t < end; ++t) blocks[i].add(mesh, TriangleId(t), near.original(TriangleId(t)));
   });
   Tally all(options.worst);
-  all.transmissibilities.reserve(mesh.n_halfedges() / 2);
-  for (Tally& block : blocks) {
-    all.merge(block);
-    block = Tally(0);  // its list of transmissibilities is in `all` now
-  }
+  for (const Tally& block : blocks) all.merge(block);
   return all;
 }
 
@@ -49,13 +44,6 @@ EnergyTable all_energies(const Mesh& mesh, const QualityOptions& options) {
   const std::vector<double> totals = total_energies(mesh, models, options.executor);
   for (std::size_t i = 0; i < totals.size(); ++i) table[i / 3][i % 3] = totals[i];
   return table;
-}
-
-/// Of numbers > 0, of which some may be +∞.
-double largest_over_least(const std::vector<double>& values) {
-  if (values.empty()) return 1;
-  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
-  return *largest < std::numeric_limits<double>::infinity() ? *largest / *least : *largest;
 }
 
 std::size_t count_regions(const Mesh& mesh) {
@@ -93,8 +81,9 @@ Quality quality(const Mesh& original, const QualityOptions& options) {
   q.min_d_over_l = sums.min_d_over_l;
   q.min_angle_deg = sums.min_angle_deg;
   q.max_angle_deg = sums.max_angle_deg;
-  q.max_transmissibility_over_median = largest_over_median(sums.transmissibilities);
-  q.transmissibility_ratio = largest_over_least(sums.transmissibilities);
+  const Transmissibilities transmissibilities = compare_transmissibilities(mesh, options.executor);
+  q.max_transmissibility_over_median = transmissibilities.max_over_median;
+  q.transmissibility_ratio = transmissibilities.max_over_min;
   q.energy = all_energies(mesh, options);
   for (const Ranked& ranked : sums.worst.sorted()) q.worst.push_back(describe(original, ranked.triangle));
   return q;

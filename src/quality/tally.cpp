@@ -3,21 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "quality/edge_measure.hpp"
-#include "temper/geometry.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
 namespace {
-
-// Cell-centred transmissibility: the length of the face over the distance between the orthocenters on its two
-// sides. Doubles cannot tell a dual of length zero from one of 1e-17, the exact test can.
-double transmissibility(const Mesh& mesh, HalfedgeId h) {
-  const auto [a, b, c] = mesh.points(mesh.origin(h), mesh.target(h), mesh.opposite(h));
-  const WeightedPoint d = mesh.point(mesh.opposite(mesh.twin(h)), a);
-  if (power_test(mesh.space(), a, b, c, d) == Sign::zero) return std::numeric_limits<double>::infinity();
-  return edge_length(mesh.space(), a, b) / std::abs(dual_length(mesh.space(), a, b, c, d));
-}
 
 void merge_counts(Histogram& into, const Histogram& from) {
   for (std::size_t i = 0; i < into.counts.size(); ++i) into.counts[i] += from.counts[i];
@@ -64,7 +53,6 @@ void Tally::add_edge(const Mesh& mesh, HalfedgeId h, const TriangleMeasure& m, i
     return;
   }
   non_regular_edges += !is_regular(mesh, h);
-  transmissibilities.push_back(transmissibility(mesh, h));
 }
 
 void Tally::merge(const Tally& other) {
@@ -80,7 +68,6 @@ void Tally::merge(const Tally& other) {
   min_d_over_l = std::min(min_d_over_l, other.min_d_over_l);
   min_angle_deg = std::min(min_angle_deg, other.min_angle_deg);
   max_angle_deg = std::max(max_angle_deg, other.max_angle_deg);
-  transmissibilities.insert(transmissibilities.end(), other.transmissibilities.begin(), other.transmissibilities.end());
   worst.merge(other.worst);
   merge_counts(angles, other.angles);
   merge_counts(h_over_l, other.h_over_l);

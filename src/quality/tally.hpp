@@ -1,6 +1,6 @@
 // The sums of the report over a run of triangles: one Tally a block, merged in the order of the blocks.
 //
-// Everything here is a count, an extreme or a list, so the merged result is the same whatever the blocks.
+// Everything here is a count, an extreme or a short list, so the merged result is the same whatever the blocks.
 // Each edge is counted by the halfedge that stands for it, in the block of that halfedge's triangle.
 #pragma once
 
@@ -30,7 +30,6 @@ struct Tally {
   double min_d_over_l = std::numeric_limits<double>::infinity();
   double min_angle_deg = std::numeric_limits<double>::infinity();
   double max_angle_deg = 0;
-  std::vector<double> transmissibilities;  ///< ℓ / |dual| of interior edges
   WorstList worst;
   Histogram angles = empty_angle_histogram();
   Histogram h_over_l = empty_height_histogram();
