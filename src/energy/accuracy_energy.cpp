@@ -118,23 +118,51 @@ bool has_margins(const Mesh& mesh, double margin, Executor* executor) {
 }
 
 std::size_t AccuracyFloors::raise(const Mesh& mesh, double margin, Executor* executor) {
-  const bool first = floor_.empty();
-  if (first) floor_.resize(mesh.n_triangles(), 0.0);
-  const auto raised = [&](TriangleId t) {
-    if (first) {
-      if (!inlined::is_well_centered(mesh, t)) return 0.0;
-    } else if (!has(t) || floor_[t] == margin) {
-      return floor_[t];
+  static_assert(kBlockSize % kBlock == 0);  // so threads share none
+  const bool first = size_ == 0;
+  size_ = mesh.n_triangles();
+  margin_ = margin;
+  blocks_.resize((size_ + kBlock - 1) / kBlock);
+  return static_cast<std::size_t>(sum_of_blocks(size_, executor, [&](std::size_t of_sum) {
+    constexpr std::size_t kEach = kBlockSize / kBlock;
+    std::size_t raised = 0;
+    for (std::size_t b = of_sum * kEach; b < std::min(blocks_.size(), (of_sum + 1) * kEach); ++b) {
+      if (first || !blocks_[b].empty()) raised += raise_block(mesh, b, first);
     }
-    const double now = triangle_margin(mesh, t);
-    if (first && now < kLeastMargin) return 0.0;
-    return now > margin ? margin : std::max(floor_[t], kKept * now);
-  };
-  return static_cast<std::size_t>(blockwise_sum(mesh.n_triangles(), executor, [&](std::size_t i) {
-    const TriangleId t(i);
-    const double before = std::exchange(floor_[t], raised(t));
-    return floor_[t] > before ? 1.0 : 0.0;
+    return static_cast<double>(raised);
   }));
+}
+
+std::size_t AccuracyFloors::raise_block(const Mesh& mesh, std::size_t block, bool first) {
+  const auto raised = [&](TriangleId t, double before) {
+    const bool may_have_one = first ? inlined::is_well_centered(mesh, t) : before > 0;
+    if (!may_have_one || before == margin_) return before;
+    const double now = triangle_margin(mesh, t);
+    if (first && now < kLeastMargin) return before;
+    return now > margin_ ? margin_ : std::max(before, kKept * now);
+  };
+  std::vector<double>& floors = blocks_[block];
+  if (first) floors.assign(std::min(kBlock, size_ - block * kBlock), 0.0);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < floors.size(); ++i) {
+    const double before = std::exchange(floors[i], raised(TriangleId(block * kBlock + i), floors[i]));
+    count += floors[i] > before ? 1 : 0;
+  }
+  if (std::all_of(floors.begin(), floors.end(), [&](double floor) { return floor == margin_; })) floors = {};
+  return count;
+}
+
+void AccuracyFloors::visit(Archive& archive) {
+  std::vector<double> all(size_);
+  for (std::size_t i = 0; i < size_; ++i) all[i] = (*this)[TriangleId(i)];
+  archive(all, lengths);
+  if (!archive.reads()) return;
+  size_ = all.size();
+  blocks_.clear();
+  for (std::size_t begin = 0; begin < size_; begin += kBlock) {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(begin);
+    blocks_.emplace_back(first, first + static_cast<std::ptrdiff_t>(std::min(kBlock, size_ - begin)));
+  }
 }
 
 namespace {

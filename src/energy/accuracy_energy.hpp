@@ -22,10 +22,12 @@
 // where a triangle is out of its margin ε: see AccuracyFloors.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "energy/accuracy_star.hpp"
 #include "energy/length_floors.hpp"
+#include "temper/archive.hpp"
 #include "temper/energy.hpp"
 #include "temper/executor.hpp"
 #include "temper/mesh.hpp"
@@ -45,26 +47,32 @@ using VertexSizes = IdVector<VertexId, double>;
 [[nodiscard]] bool has_margins(const Mesh& mesh, double margin, Executor* executor = nullptr);
 
 /// The ε of each triangle: that of the model where the triangle has more, else a little less than it has; none where it
-/// is not well-centered, or so hardly that its heights are made of rounding.
+/// is not well-centered, or so hardly that its heights are made of rounding. Nearly all have that of the model: blocks
+/// of which all do take no room.
 class AccuracyFloors {
  public:
   /// Raises the floor of each triangle that has got more room since, never lowers one. Returns how many it raised.
   std::size_t raise(const Mesh& mesh, double margin, Executor* executor = nullptr);
   /// Says whether t has one. A triangle without is no part of the barrier, and must stay as it is.
-  [[nodiscard]] bool has(TriangleId t) const { return floor_[t] > 0; }
-  [[nodiscard]] double operator[](TriangleId t) const { return floor_[t]; }
-  [[nodiscard]] std::size_t size() const { return floor_.size(); }
+  [[nodiscard]] bool has(TriangleId t) const { return (*this)[t] > 0; }
+  [[nodiscard]] double operator[](TriangleId t) const {
+    const auto& block = blocks_[t.index / kBlock];
+    return block.empty() ? margin_ : block[t.index % kBlock];
+  }
+  [[nodiscard]] std::size_t size() const { return size_; }
 
   LengthFloors lengths;  ///< where the model keeps them
 
-  /// For an archive.
-  template <class Archive>
-  void visit(Archive& archive) {
-    archive(floor_, lengths);
-  }
+  void visit(Archive& archive);
 
  private:
-  IdVector<TriangleId, double> floor_;
+  static constexpr std::size_t kBlock = 128;  // few have less: each takes as much room as its block
+
+  std::size_t raise_block(const Mesh& mesh, std::size_t block, bool first);
+
+  std::size_t size_ = 0;
+  double margin_ = 0;
+  std::vector<std::vector<double>> blocks_;  // empty: all of its triangles have the margin
 };
 
 /// Energy and barrier of the whole mesh, the barrier over triangles that have a floor.
