@@ -272,6 +272,7 @@ OptimizeReport run_library(const Settings& s, const Input& input, Mesh& mesh, co
   hooks.executor = files.threads;
   hooks.ranks = joined_ranks();
   hooks.names = input.names.get();
+  hooks.exclusive = true;
   hooks.observer = observer;
   hooks.tracer = std::move(tracer);
   if (files.checkpoint != nullptr) hooks.checkpoints = [&](const auto& state) { keep(*files.checkpoint, state); };

@@ -322,6 +322,9 @@ struct OptimizeHooks {
   /// and ends with the same bytes; who listens hears what comes after it. Times are those of all runs together, but for
   /// the time limit. Errors: no state, a damaged one, one of another version, mesh, or set of options.
   std::string_view resume = {};
+  /// Nobody looks at the mesh before optimize() has returned, observers neither: what it can be without meanwhile is
+  /// released, 24 bytes a vertex.
+  bool exclusive = false;
 };
 
 enum class Stopped {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "mesh/embedding.hpp"
 #include "mesh/mesh_editor.hpp"
 #include "mesh/predicates.hpp"
+#include "mesh/twins.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -293,55 +293,35 @@ class MeshBuilder {
     return std::nullopt;
   }
 
-  /// Halfedges sorted by their lesser vertex (counting sort), then matched within each small bucket.
+  /// Halfedges by their lesser vertex, matched within each small bucket.
   std::optional<InputError> link_twins() {
-    const auto lesser = [&](HalfedgeId h) { return std::min(mesh_.origin(h), mesh_.target(h)); };
-    std::vector<std::uint32_t> end(mesh_.n_vertices() + 1, 0);
-    for (const HalfedgeId h : mesh_.halfedges()) ++end[lesser(h).index + 1];
-    for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
-    std::vector<HalfedgeId> sorted(mesh_.n_halfedges());
-    for (const HalfedgeId h : mesh_.halfedges()) sorted[end[lesser(h).index]++] = h;  // from starts to ends
-    const auto bucket = [&](std::size_t v) {
-      const std::size_t first = v == 0 ? 0 : end[v - 1];
-      return std::span(sorted).subspan(first, end[v] - first);
-    };
+    const EdgeBuckets buckets(mesh_, mesh_.vertices());
     const auto wrong = first_index_by(mesh_.n_vertices(), in_.executor, [&] {
-      return [&, edges = std::vector<Edge>()](std::size_t v) mutable { return !match(bucket(v), edges); };
+      return [&, sides = Sides()](std::size_t v) mutable {
+        buckets.collect(VertexId(v), sides);
+        return !match(sides);
+      };
     });
     if (!wrong) return std::nullopt;
-    std::vector<Edge> edges;
-    collect(bucket(*wrong), edges);
-    return wrong_edge(edges);
+    Sides sides;
+    buckets.collect(VertexId(*wrong), sides);
+    return wrong_edge(sides);
   }
 
-  /// A halfedge by its greater vertex.
-  struct Edge {
-    VertexId greater;
-    HalfedgeId halfedge;
-    friend bool operator<(Edge a, Edge b) {
-      return a.greater != b.greater ? a.greater < b.greater : a.halfedge < b.halfedge;
-    }
-  };
-
-  void collect(std::span<const HalfedgeId> bucket, std::vector<Edge>& edges) const {
-    edges.clear();
-    for (const HalfedgeId h : bucket) edges.push_back({std::max(mesh_.origin(h), mesh_.target(h)), h});
-    std::sort(edges.begin(), edges.end());
-  }
+  using Sides = std::vector<EdgeBuckets::Side>;
 
   /// Links the edges of a lesser vertex. False when one has more than two sides, or two equal ones.
-  bool match(std::span<const HalfedgeId> bucket, std::vector<Edge>& edges) {
-    collect(bucket, edges);
-    if (wrong_edge(edges)) return false;
-    for (std::size_t i = 0; i < edges.size();) {
-      const bool pair = i + 1 < edges.size() && edges[i].greater == edges[i + 1].greater;
-      MeshEditor(mesh_).link(edges[i].halfedge, pair ? edges[i + 1].halfedge : HalfedgeId());
+  bool match(const Sides& sides) {
+    if (wrong_edge(sides)) return false;
+    for (std::size_t i = 0; i < sides.size();) {
+      const bool pair = i + 1 < sides.size() && sides[i].greater == sides[i + 1].greater;
+      MeshEditor(mesh_).link(sides[i].halfedge, pair ? sides[i + 1].halfedge : HalfedgeId());
       i += pair ? 2 : 1;
     }
     return true;
   }
 
-  std::optional<InputError> wrong_edge(const std::vector<Edge>& edges) const {
+  std::optional<InputError> wrong_edge(const Sides& edges) const {
     for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
       while (j < edges.size() && edges[j].greater == edges[i].greater) ++j;
       const HalfedgeId g = edges[i].halfedge, h = edges[j - 1].halfedge;

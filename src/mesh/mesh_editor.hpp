@@ -21,6 +21,10 @@ class MeshEditor {
     mesh_.twins_[a] = b;
     if (b.valid()) mesh_.twins_[b] = a;
   }
+  /// Every halfedge is a boundary one.
+  void unlink_all() { mesh_.twins_.assign(mesh_.n_halfedges(), HalfedgeId()); }
+  /// Until find_twins() (twins.hpp) nobody may ask for one.
+  void release_twins() { mesh_.twins_ = {}; }
   void set_outgoing(VertexId v, HalfedgeId h) { mesh_.record(v).outgoing = h.index; }
   /// Marks a triangle for compact(). Its neighbours get a boundary there; the outgoing() of its corners is the caller's
   /// to mend.

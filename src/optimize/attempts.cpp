@@ -51,7 +51,7 @@ std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Setti
 
 }  // namespace
 
-Expected<Candidate> best_attempt(const Mesh& mesh, Settings& settings, Run& run) {
+Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run) {
   const OptimizeOptions& o = settings.options;
   std::optional<Candidate> best;
   Candidate now;
@@ -61,11 +61,11 @@ Expected<Candidate> best_attempt(const Mesh& mesh, Settings& settings, Run& run)
   if (run.checkpoints.failed() || i >= tries.size()) return *run.checkpoints.error();
   for (; i < tries.size(); ++i) {
     const bool begins = !run.checkpoints.resumes();
-    if (begins) now = {WorkingCopy(mesh, o.paper.order, settings.hooks.executor)};
+    if (begins) now = {WorkingCopy(input.whole(), o.paper.order, settings.hooks.executor)};
     Driver driver(now.work, settings, run);  // NOLINT(bugprone-use-after-move): what begins has been made anew
     if (begins && i > 0) driver.recorder().returned_to(-1);
     if (begins) {
-      if (auto error = prepare(driver, mesh, settings)) return *std::move(error);
+      if (auto error = prepare(driver, input.whole(), settings)) return *std::move(error);
     }
     if (begins && i == 0) {
       if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
@@ -74,6 +74,7 @@ Expected<Candidate> best_attempt(const Mesh& mesh, Settings& settings, Run& run)
       for (Attempt& attempt : tries) attempt.first_energy = first_energy_of(o);
       run.facts.input_flips = run.report.flips;
     }
+    input.fold();
     now.sweep = driver.attempt(tries[i], i + 1 < tries.size() || repairs(settings));
     if (auto error = run.checkpoints.error()) return *std::move(error);
     if (!best || !is_worse(now, *best, settings)) {

@@ -1,12 +1,13 @@
 // What a run tries, each time from the same beginning, until no triangle is bad.
 #pragma once
 
+#include "optimize/input_mesh.hpp"
 #include "optimize/report.hpp"
 
 namespace temper {
 
 /// Attempts from the input until one leaves nothing bad; the best of them.
-[[nodiscard]] Expected<Candidate> best_attempt(const Mesh& mesh, Settings& settings, Run& run);
+[[nodiscard]] Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run);
 
 /// Repairs, until a search leaves nothing bad: from the same beginning, or where bad triangles are far apart from what
 /// the search before has left. The best result is kept, and swept once more.

@@ -9,6 +9,7 @@
 #include "optimize/attempts.hpp"
 #include "optimize/driver.hpp"
 #include "optimize/error/error_phase.hpp"
+#include "optimize/input_mesh.hpp"
 #include "optimize/lengths.hpp"
 #include "optimize/rank.hpp"
 #include "optimize/report.hpp"
@@ -35,21 +36,26 @@ std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& 
 /// The measures of the input, and for objectives other than an energy its sizes.
 InputMeasures measured(const Mesh& mesh, const Settings& s, std::optional<AccuracySizes>& sizes) {
   const NearbyCopy near(mesh, s.hooks.executor);
-  if (s.options.objective != Objective::energy) sizes.emplace(near, s.options.size_field, s.hooks.executor);
-  return measure_input(mesh, near, s, sizes ? &*sizes : nullptr);
+  InputMeasures measures = measure_input(mesh, near, s);
+  if (s.options.objective != Objective::energy) {
+    sizes.emplace(near, s.options.size_field, s.hooks.executor);
+    measures.rank = rank_input(near, measures.counts, s, *sizes);
+  }
+  return measures;
 }
 
 /// One phase more. Where there is a model of errors it says whether that was for the better; if not, it is taken back.
 template <class Improving>
-void improve(Candidate& best, const Settings& settings, Run& run, const AccuracySizes& sizes) {
+void improve(Candidate& best, const Settings& settings, Run& run, AccuracySizes& sizes) {
   if (run.stopped_by_caller() || run.report.stopped == Stopped::hidden) return;
   const bool judges = settings.options.error.model != nullptr;
   std::optional<Candidate> before;
   if (judges && !run.checkpoints.resumes()) before = best;
   const Resumable here(run.checkpoints, before);
-  Improving phase(best.work, settings, run, sizes);
+  Improving phase(best.work, settings, run, sizes.lend(best.work, settings.hooks.executor));
   Driver driver(best.work, phase.settings(), run);
   best.sweep = driver.run(phase, best.sweep);
+  sizes.take_back(phase.take_sizes(), best.work, settings.hooks.executor);
   if (!before) return;
   const auto rank_of = [&](const Candidate& c) {
     const VertexSizes own = sizes.of(c.work, settings.hooks.executor);
@@ -83,14 +89,16 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
   if (run.checkpoints.failed()) return *run.checkpoints.error();
   std::optional<AccuracySizes> sizes;
   const InputMeasures of_input = measured(mesh, *settings, sizes);
+  InputMesh input(mesh, hooks.exclusive && !options.size_band, hooks.executor);  // the band's field may look at it
   if (stage == Stage::attempts) {
     auto found = is_ready_for_accuracy(mesh, *settings)
                      ? Candidate{WorkingCopy(mesh, options.paper.order, hooks.executor)}
-                     : best_attempt(mesh, *settings, run);
+                     : best_attempt(input, *settings, run);
     if (!found) return found.error();
     best = *std::move(found);
     stage = Stage::repairs;
   }
+  input.fold();
   if (stage == Stage::repairs) {
     best = repaired(std::move(best), *settings, run);
     stage = Stage::accuracy;
@@ -103,7 +111,7 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
     if (settings->options.objective == Objective::error) improve<ErrorPhase>(best, *settings, run, *sizes);
   }
   if (auto error = run.checkpoints.error()) return *std::move(error);
-  give_back(mesh, std::move(best), *std::move(settings), of_input, sizes ? &*sizes : nullptr, run);
+  give_back(input.whole(), std::move(best), *std::move(settings), of_input, std::move(sizes), run);
   return std::move(run.report);
 }
 

@@ -212,28 +212,30 @@ struct Result {
   SizeReport size;
 };
 
-/// `settings`: in the user's units. What the user's numbers would scatter over memory is measured before it has them.
-Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, const AccuracySizes* sizes) {
+/// `settings`: in the user's units. What the user's numbers would scatter over memory is measured before it has them;
+/// what is no longer needed is gone before the next is measured.
+Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, std::optional<AccuracySizes> sizes) {
   Executor* const executor = settings.hooks.executor;
   Result result;
-  const auto measure = [&](const Mesh& mesh, const IdVector<VertexId, VertexId>& numbers, const VertexSizes& own) {
-    result.rank = rank(mesh, settings, sizes != nullptr ? &own : nullptr);
+  const bool for_accuracy = sizes.has_value(), scattered = is_scattered(input);
+  VertexSizes own;
+  if (for_accuracy) own = scattered ? sizes->in_user_units(work, executor) : sizes->in_user_terms(work, executor);
+  sizes.reset();
+  const auto measure = [&](const Mesh& mesh, const IdVector<VertexId, VertexId>& numbers) {
+    result.rank = rank(mesh, settings, for_accuracy ? &own : nullptr);
+    own = {};
     result.size = measure_size(mesh, field_of(input, settings), executor, numbers);
   };
-  VertexSizes own;
   if (work.has_gaps || work.has_inserted()) result.vertices = work.user_vertices();
-  if (is_scattered(input)) {
-    if (sizes != nullptr) own = sizes->in_user_units(work, executor);
+  if (scattered) {
     work.leave_frame();
-    const IdVector<VertexId, VertexId> numbers = work.input_numbers();
-    take_back_rounding(input, numbers, work.mesh);
-    measure(work.mesh, numbers, own);
+    take_back_rounding(input, work.order.vertices, work.mesh);
+    measure(work.mesh, work.order.vertices);
     result.mesh = std::move(work).in_user_order(executor);
   } else {
-    if (sizes != nullptr) own = sizes->in_user_terms(work, executor);
     result.mesh = std::move(work).in_user_terms(executor);  // what knew the order takes room no longer
     take_back_rounding(input, result.vertices, result.mesh);
-    measure(result.mesh, result.vertices, own);
+    measure(result.mesh, result.vertices);
   }
   return result;
 }
@@ -293,32 +295,38 @@ std::string_view name(Stopped stopped) {
   return "unknown";
 }
 
-InputMeasures measure_input(const Mesh& mesh, const NearbyCopy& near, const Settings& settings,
-                            const AccuracySizes* sizes) {
+InputMeasures measure_input(const Mesh& mesh, const NearbyCopy& near, const Settings& settings) {
   InputMeasures measures;
   measures.counts = count(near.mesh(), settings);
-  const bool own_field = !settings.size_field && !settings.options.size_field;
+  Executor* const executor = settings.hooks.executor;
+  if (!settings.size_field && !settings.options.size_field) {
+    measures.size = measure_size(near.mesh(), field_of(near.mesh(), settings), executor);
+    return measures;
+  }
   IdVector<VertexId, VertexId> numbers;
   if (!near.is_original()) {
     for (const VertexId v : near.mesh().vertices()) numbers.push_back(near.original(v));
   }
-  measures.size = own_field ? measure_size(near.mesh(), field_of(near.mesh(), settings), settings.hooks.executor)
-                            : measure_size(near.mesh(), field_of(mesh, settings), settings.hooks.executor, numbers);
-  if (sizes == nullptr) return measures;
-  VertexSizes there;
-  for (const VertexId v : numbers) there.push_back(sizes->of_input()[v]);
-  measures.rank = rank(near.mesh(), measures.counts, settings, near.is_original() ? &sizes->of_input() : &there);
+  measures.size = measure_size(near.mesh(), field_of(mesh, settings), executor, numbers);
   return measures;
 }
 
-void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasures& of_input, const AccuracySizes* sizes,
-               Run& run) {
+Rank rank_input(const NearbyCopy& near, const Counts& counts, const Settings& settings, const AccuracySizes& sizes) {
+  if (near.is_original()) return rank(near.mesh(), counts, settings, &sizes.of_input());
+  VertexSizes there(near.mesh().n_vertices());
+  for (const VertexId v : near.mesh().vertices()) there[v] = sizes.of_input()[near.original(v)];
+  return rank(near.mesh(), counts, settings, &there);
+}
+
+void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasures& of_input,
+               std::optional<AccuracySizes> sizes, Run& run) {
   OptimizeReport& report = run.report;
   Recorder recorder(settings.hooks.tracer, best.work, 1);
   recorder.begin_sweep(run.next_sweep());
   const Settings in_frame = settings;
   settings.model = in_user_units(settings.model, best.work.frame);
-  Result result = result_of(mesh, std::move(best.work), settings, sizes);
+  const bool for_accuracy = sizes.has_value();
+  Result result = result_of(mesh, std::move(best.work), settings, std::move(sizes));
   const Rank before = of_input.rank ? *of_input.rank : rank(mesh, of_input.counts, settings, nullptr);
   report.size.before = report.size.after = of_input.size;
   report.initial_energy = before.energy;
@@ -332,7 +340,10 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasure
   if (flips) {
     Settings silent = in_frame;
     silent.hooks.tracer = {};
-    input = result_of(mesh, made_regular(mesh, silent, report.sweeps), settings, sizes);
+    sizes.reset();
+    if (for_accuracy)
+      sizes.emplace(NearbyCopy(mesh, settings.hooks.executor), settings.options.size_field, settings.hooks.executor);
+    input = result_of(mesh, made_regular(mesh, silent, report.sweeps), settings, std::move(sizes));
   }
   const bool worse = input.rank < result.rank;
   if (worse) {
@@ -360,7 +371,7 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasure
   notes.tell_sizes();
   notes.tell_energy();
   notes.tell_edges_that_must_be_split(result.rank.bad);
-  if (sizes != nullptr)
+  if (for_accuracy)
     notes.tell_accuracy(settings.energy.barrier ? result.rank.bad : count_bad(mesh, settings.hooks.executor));
   report.seconds = run.seconds();
 }

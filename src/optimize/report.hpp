@@ -24,13 +24,15 @@ struct InputMeasures {
   SizeReport size;
   std::optional<Rank> rank;  ///< where the energies of a run do not enter into it
 };
-/// `near`: of the mesh. `sizes`: of the accuracy objective, else null.
-[[nodiscard]] InputMeasures measure_input(const Mesh& mesh, const NearbyCopy& near, const Settings& settings,
-                                          const AccuracySizes* sizes);
+/// All but the rank. `near`: of the mesh.
+[[nodiscard]] InputMeasures measure_input(const Mesh& mesh, const NearbyCopy& near, const Settings& settings);
+/// The rank by the accuracy objective.
+[[nodiscard]] Rank rank_input(const NearbyCopy& near, const Counts& counts, const Settings& settings,
+                              const AccuracySizes& sizes);
 
 /// Puts the candidate into `mesh`, unless that is the better one, and completes the report of the run. `sizes`: of the
-/// accuracy objective, else null.
-void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasures& of_input, const AccuracySizes* sizes,
-               Run& run);
+/// accuracy objective, else none.
+void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasures& of_input,
+               std::optional<AccuracySizes> sizes, Run& run);
 
 }  // namespace temper

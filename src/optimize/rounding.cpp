@@ -11,7 +11,7 @@ void take_back_rounding(const Mesh& input, const IdVector<VertexId, VertexId>& v
   const double least = kWeightsOfManySteps * space.radius() * space.radius();
   for (const VertexId v : mesh.vertices()) {
     const VertexId was = vertices.empty() ? v : vertices[v];
-    if (!was.valid()) continue;
+    if (was.index >= input.n_vertices()) continue;
     const bool stays = space.same_place(input.point(was), mesh.point(v), kPlacesOfManySteps);
     const double w = mesh.weight(v), old = input.weight(was);
     const bool keeps = std::abs(w - old) < least;

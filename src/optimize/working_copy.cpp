@@ -106,16 +106,11 @@ Mesh WorkingCopy::in_user_order(Executor* executor) && {
   return std::move(mesh);
 }
 
-IdVector<VertexId, VertexId> WorkingCopy::input_numbers() const {
+IdVector<VertexId, VertexId> WorkingCopy::user_vertices() const {
   IdVector<VertexId, VertexId> numbers = order.vertices;
   for (VertexId& v : numbers) {
     if (v.index >= n_input_vertices) v = VertexId();
   }
-  return numbers;
-}
-
-IdVector<VertexId, VertexId> WorkingCopy::user_vertices() const {
-  IdVector<VertexId, VertexId> numbers = input_numbers();
   std::sort(numbers.begin(), numbers.end());
   return numbers;
 }

@@ -40,9 +40,7 @@ struct WorkingCopy {
   /// The two steps of that.
   void leave_frame();
   [[nodiscard]] Mesh in_user_order(Executor* executor) &&;
-  /// The number in the input of each vertex; invalid for inserted ones.
-  [[nodiscard]] IdVector<VertexId, VertexId> input_numbers() const;
-  /// The same of each vertex of in_user_terms().
+  /// The number in the input of each vertex of in_user_terms(); invalid for inserted ones.
   [[nodiscard]] IdVector<VertexId, VertexId> user_vertices() const;
 
  private:

@@ -31,9 +31,9 @@ Settings of_accuracy(Settings s, const AccuracyDomain& domain) {
 
 }  // namespace
 
-AccuracyPhase::AccuracyPhase(const WorkingCopy& work, const Settings& settings, Run& run, const AccuracySizes& sizes)
+AccuracyPhase::AccuracyPhase(const WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)
     : mesh_(work.mesh),
-      domain_{sizes.of(work, settings.hooks.executor), {}},
+      domain_{std::move(sizes), {}},
       settings_(of_accuracy(settings, domain_)),
       run_(run),
       energy_unit_(energy_unit(settings_, work.frame)),

@@ -2,6 +2,8 @@
 // triangles are well-centered, as far as the first phase could make them so. The connectivity stays.
 #pragma once
 
+#include <utility>
+
 #include "optimize/accuracy/accuracy_sizes.hpp"
 #include "optimize/phase.hpp"
 
@@ -10,13 +12,15 @@ namespace temper {
 class AccuracyPhase final : public Phase {
  public:
   /// `settings`: those of the first phase, of which this one keeps its own.
-  AccuracyPhase(const WorkingCopy& work, const Settings& settings, Run& run, const AccuracySizes& sizes);
+  AccuracyPhase(const WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes);
   AccuracyPhase(const AccuracyPhase&) = delete;
   AccuracyPhase& operator=(const AccuracyPhase&) = delete;
   ~AccuracyPhase() override = default;
 
   /// The settings for the driver's steps.
   [[nodiscard]] Settings& settings() { return settings_; }
+  /// What it was given, once it has ended.
+  [[nodiscard]] VertexSizes take_sizes() { return std::move(domain_.sizes); }
 
   void begin() override;
   [[nodiscard]] bool may_sweep() const override;

@@ -73,6 +73,20 @@ VertexSizes AccuracySizes::of(const WorkingCopy& work, Executor* executor) const
   return sizes;
 }
 
+VertexSizes AccuracySizes::lend(const WorkingCopy& work, Executor* executor) {
+  VertexSizes lent = of(work, executor);
+  if (!work.has_gaps && !work.has_inserted()) input_ = {};
+  return lent;
+}
+
+void AccuracySizes::take_back(VertexSizes lent, const WorkingCopy& work, Executor* executor) {
+  if (!input_.empty()) return;
+  input_.resize(lent.size());
+  for_each_index(lent.size(), executor, [&](std::size_t i) {
+    input_[work.order.vertices[VertexId(i)]] = lent[VertexId(i)] * work.frame.scale;
+  });
+}
+
 VertexSizes AccuracySizes::in_user_units(const WorkingCopy& work, Executor* executor) const {
   VertexSizes sizes = of(work, executor);
   for (double& size : sizes) size *= work.frame.scale;

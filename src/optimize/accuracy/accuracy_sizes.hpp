@@ -27,13 +27,18 @@ class AccuracySizes {
   [[nodiscard]] const VertexSizes& of_input() const { return input_; }
   /// The sizes of a working copy of it, in the units of its frame.
   [[nodiscard]] VertexSizes of(const WorkingCopy& work, Executor* executor) const;
+  /// The same, for a while: where the copy has all vertices of the input and no others, they are gone from here until
+  /// they are given back. Both would count on the largest meshes.
+  [[nodiscard]] VertexSizes lend(const WorkingCopy& work, Executor* executor);
+  /// `lent`: what lend() gave for this copy, whose vertices are still the same.
+  void take_back(VertexSizes lent, const WorkingCopy& work, Executor* executor);
   /// The same in the user's units.
   [[nodiscard]] VertexSizes in_user_units(const WorkingCopy& work, Executor* executor) const;
   /// The sizes of work.in_user_terms(), in the user's units.
   [[nodiscard]] VertexSizes in_user_terms(const WorkingCopy& work, Executor* executor) const;
 
  private:
-  VertexSizes input_;  // by the user's numbers
+  VertexSizes input_;  // by the user's numbers; none while they are lent
 };
 
 }  // namespace temper

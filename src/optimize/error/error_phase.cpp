@@ -42,10 +42,10 @@ Settings of_errors(Settings s, const AccuracyDomain& domain) {
 
 }  // namespace
 
-ErrorPhase::ErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, const AccuracySizes& sizes)
+ErrorPhase::ErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)
     : mesh_(work.mesh),
       frame_(work.frame),
-      domain_{sizes.of(work, settings.hooks.executor), {}},
+      domain_{std::move(sizes), {}},
       settings_(of_errors(settings, domain_)),
       run_(run),
       bad_(count_bad(mesh_, settings.hooks.executor)) {

@@ -8,6 +8,8 @@
 // stays.
 #pragma once
 
+#include <utility>
+
 #include "optimize/accuracy/accuracy_sizes.hpp"
 #include "optimize/error/descent.hpp"
 #include "optimize/phase.hpp"
@@ -18,13 +20,15 @@ namespace temper {
 
 class ErrorPhase final : public Phase {
  public:
-  ErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, const AccuracySizes& sizes);
+  ErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes);
   ErrorPhase(const ErrorPhase&) = delete;
   ErrorPhase& operator=(const ErrorPhase&) = delete;
   ~ErrorPhase() override = default;
 
   /// The settings for the driver.
   [[nodiscard]] Settings& settings() { return settings_; }
+  /// What it was given, once it has ended.
+  [[nodiscard]] VertexSizes take_sizes() { return std::move(domain_.sizes); }
 
   void begin() override;
   [[nodiscard]] bool may_sweep() const override;

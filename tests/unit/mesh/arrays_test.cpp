@@ -4,6 +4,8 @@
 #include <set>
 
 #include "mesh/mesh_editor.hpp"
+#include "mesh/twins.hpp"
+#include "support/std_threads.hpp"
 #include "unit/mesh/random_soup.hpp"
 
 namespace temper {
@@ -66,6 +68,19 @@ TEST(Traversal, TheTwinOfATwinIsTheHalfedgeAndJoinsTheSameVertices) {
     EXPECT_GT(boundary, 0u);
     EXPECT_EQ(mesh.n_edges(), representatives);
     EXPECT_EQ(2 * mesh.n_edges(), mesh.n_halfedges() + boundary);
+  }
+}
+
+TEST(Traversal, TwinsFollowFromTheCornersForAnyNumberOfThreads) {
+  test::StdThreads threads(3);
+  for (const Mesh& mesh : samples()) {
+    for (Executor* const executor : {static_cast<Executor*>(nullptr), static_cast<Executor*>(&threads)}) {
+      Mesh without = mesh;
+      MeshEditor(without).release_twins();
+      EXPECT_NE(without, mesh);
+      find_twins(without, executor);
+      EXPECT_EQ(without, mesh);
+    }
   }
 }
 

@@ -278,8 +278,8 @@ Mesh second_phase(const Mesh& input, const OptimizeOptions& options, std::size_t
   const Settings settings = *make_settings(options, work.mesh, work.frame, hooks);
   const Observer nobody;
   Run run(options, nobody);
-  const AccuracySizes sizes(NearbyCopy(input, hooks.executor), options.size_field, hooks.executor);
-  AccuracyPhase phase(work, settings, run, sizes);
+  AccuracySizes sizes(NearbyCopy(input, hooks.executor), options.size_field, hooks.executor);
+  AccuracyPhase phase(work, settings, run, sizes.lend(work, hooks.executor));
   Driver(work, phase.settings(), run, part_size).run(phase, 0);
   EXPECT_GT(run.report.sweeps, 0);
   return std::move(work).in_user_terms();
@@ -434,6 +434,46 @@ std::string refusal_of(OptimizeOptions options) {
   if (report) return "no error";
   EXPECT_EQ(mesh, before);
   return report.error().what();
+}
+
+TEST(Accuracy, SizesThatWereLentAreWhatTheyWere) {
+  const auto mesh = random_points({.vertices = 500, .seed = 3});
+  ASSERT_TRUE(mesh);
+  AccuracySizes sizes(NearbyCopy(*mesh, nullptr), {}, nullptr);
+  const VertexSizes before = sizes.of_input();
+  const WorkingCopy work(*mesh, SweepOrder::hilbert);
+  const VertexSizes own = sizes.of(work, nullptr);
+  VertexSizes lent = sizes.lend(work, nullptr);
+  EXPECT_EQ(lent, own);
+  EXPECT_TRUE(sizes.of_input().empty());
+  sizes.take_back(std::move(lent), work, nullptr);
+  EXPECT_EQ(sizes.of_input(), before);
+}
+
+TEST(Accuracy, FloorsThatAllTrianglesHaveTakeNoRoomAndAreTheSame) {
+  const Mesh mesh = ready_mesh();
+  constexpr double kMargin = 0.01;
+  ASSERT_TRUE(has_margins(mesh, kMargin));
+  double least = 1;
+  for (const TriangleId t : mesh.triangles()) least = std::min(least, triangle_margin(mesh, t));
+  for (const double margin : {kMargin, 2 * least}) {  // all of them, and not all
+    AccuracyFloors floors;
+    EXPECT_EQ(floors.raise(mesh, margin), mesh.n_triangles());
+    std::string bytes;
+    Archive out(bytes);
+    out(floors);
+    AccuracyFloors read;
+    Archive in{std::string_view(bytes)};
+    in(read);
+    for (const TriangleId t : mesh.triangles()) {
+      const double has = triangle_margin(mesh, t);
+      EXPECT_EQ(floors[t], has > margin ? margin : 0.9 * has);
+      EXPECT_EQ(read[t], floors[t]);
+    }
+    EXPECT_EQ(floors.raise(mesh, margin), 0u);
+    EXPECT_EQ(read.raise(mesh, margin), 0u);
+    for (const TriangleId t : mesh.triangles()) EXPECT_EQ(read[t], floors[t]);
+  }
 }
 
 TEST(Accuracy, OptionsOutOfRangeAreRefusedByName) {

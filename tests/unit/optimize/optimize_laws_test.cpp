@@ -123,6 +123,30 @@ TEST(Optimize, GivesTheSameBytesTwiceAndForAnyExecutor) {
   EXPECT_EQ(first, third);
 }
 
+TEST(Optimize, OfAMeshThatNobodyLooksAtIsTheSame) {
+  const auto made = random_points({.vertices = 400, .seed = 4});
+  ASSERT_TRUE(made);
+  const OptimizeOptions cases[] = {
+      {},
+      {.objective = Objective::accuracy},
+      {.max_sweeps = 1},                                         // left bad: repaired
+      {.energy = EnergyKind::F, .unknowns = Unknowns::weights},  // may be no better: the input is given back
+      {.repair = Repair::none, .paper = {.tolerance = 1e-2}},    // more than one attempt
+      {.boundary = BoundaryVertices::split, .size_band = 1.5},   // the field of the band looks at it
+  };
+  for (const OptimizeOptions& options : cases) {
+    Mesh seen = *made, unseen = *made;
+    const auto expected = optimize(seen, options), report = optimize(unseen, options, {.exclusive = true});
+    ASSERT_EQ(expected.has_value(), report.has_value());
+    EXPECT_EQ(unseen, seen);
+    EXPECT_EQ(unseen.validate(), std::nullopt);
+  }
+  Mesh refused = *made;
+  const OptimizeHooks resumed = {.resume = "no state", .exclusive = true};
+  EXPECT_FALSE(optimize(refused, {}, resumed));
+  EXPECT_EQ(refused, *made);
+}
+
 TEST(Optimize, CommutesWithScalingByPowersOfTwo) {
   const LatticeOptions unit{.n = 8, .jitter = 0.3, .weight = 0};
   LatticeOptions scaled = unit;
