@@ -71,7 +71,7 @@ PackedStars::~PackedStars() = default;
 
 double PackedStars::by_triangles() const {
   const EdgeFormula formula = sharpest_barrier();
-  const auto derivatives = star_kernels().barrier_derivatives;
+  const auto derivatives = star_kernels(Space()).barrier_derivatives;
   std::array<double, kStarSums> sums{};
   double total = 0;
   for (const Star& s : data_->stars) {

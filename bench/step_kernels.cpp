@@ -148,7 +148,7 @@ void step_2_to_6_at_once(benchmark::State& state) {
   const WithInstructionSet set(state);
   std::vector<StarBatch> batches = some_batches();
   const StepParameters p = parameters();
-  const auto step = batch_steps().barrier;
+  const auto step = batch_steps(good_mesh().space()).barrier;
   std::size_t i = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(step(p, batches[i]));
@@ -164,7 +164,7 @@ void time_star(benchmark::State& state, Kernel&& kernel) {
   const WithInstructionSet set(state);
   const Mesh& mesh = good_mesh();
   const std::vector<Patch> all = patches(mesh, false);
-  const StarKernels& kernels = star_kernels();
+  const StarKernels& kernels = star_kernels(mesh.space());
   std::size_t i = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(kernel(kernels, all[i].arrays(), mesh.point(all[i].center)));

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "step_parts.hpp"
-// That header ends with the definition of kBatchSteps, which the library has already.
-#define kBatchSteps kBatchStepsOfParts
+// That header ends with the definitions of these two, which the library has already.
+#define kPlaneSteps kPlaneStepsOfParts
+#define kSphereSteps kSphereStepsOfParts
 #include "optimize/step/star_batch_set.hpp"
-#undef kBatchSteps
+#undef kPlaneSteps
+#undef kSphereSteps
 
 namespace temper::TEMPER_INSTRUCTION_SET {
 
@@ -28,8 +30,8 @@ TEMPER_INLINE PackStep load_step(const PartsState& state) {
   return step;
 }
 
-TEMPER_INLINE PackPoint place(const StarBatch& batch, const PartsState& state) {
-  const PackPoint p = load(batch.p);
+TEMPER_INLINE InPlane::Point place(const StarBatch& batch, const PartsState& state) {
+  const InPlane::Point p = load<InPlane>(batch.p);
   const PackStep step = load_step(state);
   const Pack t = Pack::load(state.limit);
   return {p.x + t * step.x, p.y + t * step.y, p.w + t * step.w};
@@ -37,7 +39,7 @@ TEMPER_INLINE PackPoint place(const StarBatch& batch, const PartsState& state) {
 
 void part_derivatives(const StepParameters& parameters, const StarBatch& batch, PartsState& state) {
   with_barrier(parameters.formula, [&](const auto& kernel) {
-    const Derivatives d = derivatives(kernel, batch, load(batch.p));
+    const Derivatives d = derivatives<InPlane>(kernel, batch, load<InPlane>(batch.p));
     store_sums(d.sums, state.sums);
     d.squared_radius.store(state.squared_radius);
   });
@@ -58,12 +60,13 @@ void part_newton(const StarBatch& batch, PartsState& state) {
 }
 
 void part_inversion_limit(const StarBatch& batch, PartsState& state) {
-  inversion_limit(batch, load(batch.p), load_step(state)).store(state.limit);
+  inversion_limit<InPlane>(batch, load<InPlane>(batch.p), load_step(state)).store(state.limit);
 }
 
 void part_trial(const StepParameters& parameters, const StarBatch& batch, PartsState& state) {
-  with_barrier(parameters.formula,
-               [&](const auto& kernel) { energy_at(kernel, batch, place(batch, state)).value.store(state.trial); });
+  with_barrier(parameters.formula, [&](const auto& kernel) {
+    energy_at<InPlane>(kernel, batch, place(batch, state)).value.store(state.trial);
+  });
 }
 
 void part_regular(const StarBatch& batch, PartsState& state) {
@@ -72,15 +75,15 @@ void part_regular(const StarBatch& batch, PartsState& state) {
 
 void star_sums(const EdgeFormula& formula, const bench::StarLanes& stars, Lane (&out)[kStarSums]) {
   with_barrier(formula, [&](const auto& kernel) {
-    const PackPoint p = load(stars.p);
+    const InPlane::Point p = load<InPlane>(stars.p);
     const Pack triangles = Pack::load(stars.triangles);
     StarSums sums;
-    PackPoint q = load(stars.link[0]);
-    auto a = spoke_of(kernel, p, q);
+    InPlane::Point q = load<InPlane>(stars.link[0]);
+    auto a = spoke_of<InPlane>(kernel, p, q);
     for (std::size_t i = 0; i < stars.most_triangles; ++i) {
-      const PackPoint r = load(stars.link[i + 1]);
-      const auto b = spoke_of(kernel, p, r);
-      add_barrier(kernel, a, b, q, r, has_triangle(triangles, i), sums);
+      const InPlane::Point r = load<InPlane>(stars.link[i + 1]);
+      const auto b = spoke_of<InPlane>(kernel, p, r);
+      add_barrier<InPlane>(kernel, a, b, q, r, has_triangle(triangles, i), sums);
       q = r;
       a = b;
     }
