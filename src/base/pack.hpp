@@ -61,13 +61,26 @@ TEMPER_INLINE T all(double x) {
 
 namespace TEMPER_INSTRUCTION_SET {
 
-/// A register of the hardware: some doubles, and the mask of a comparison, all bits of a lane set or none.
+/// A register of the hardware: some doubles, and the mask of a comparison.
 struct Register {
   static constexpr std::size_t kSize = TEMPER_REGISTER_BYTES / sizeof(double);
   using Doubles [[gnu::vector_size(TEMPER_REGISTER_BYTES)]] = double;
   using Bits [[gnu::vector_size(TEMPER_REGISTER_BYTES)]] = std::int64_t;
   using Words [[gnu::vector_size(TEMPER_REGISTER_BYTES)]] = std::uint64_t;
 
+#if TEMPER_REGISTER_BYTES == 64
+  // A bit a lane: the processor has registers of their own for these.
+  struct Mask {
+    __mmask8 m;
+    TEMPER_INLINE static Mask load(const std::int64_t* p) { return {_mm512_movepi64_mask(_mm512_loadu_si512(p))}; }
+    friend TEMPER_INLINE Mask operator&(Mask a, Mask b) { return {static_cast<__mmask8>(a.m & b.m)}; }
+    friend TEMPER_INLINE Mask operator|(Mask a, Mask b) { return {static_cast<__mmask8>(a.m | b.m)}; }
+    friend TEMPER_INLINE Mask operator~(Mask a) { return {static_cast<__mmask8>(~a.m)}; }
+    /// Bit i: lane i.
+    [[nodiscard]] TEMPER_INLINE unsigned bits() const { return m; }
+  };
+#else
+  // All bits of a lane set, or none.
   struct Mask {
     Bits m;
     TEMPER_INLINE static Mask load(const std::int64_t* p) {
@@ -80,9 +93,7 @@ struct Register {
     friend TEMPER_INLINE Mask operator~(Mask a) { return {~a.m}; }
     /// Bit i: lane i.
     [[nodiscard]] TEMPER_INLINE unsigned bits() const {
-#if TEMPER_REGISTER_BYTES == 64
-      return _mm512_movepi64_mask((__m512i)m);
-#elif TEMPER_REGISTER_BYTES == 32
+#if TEMPER_REGISTER_BYTES == 32
       return static_cast<unsigned>(_mm256_movemask_pd((__m256d)m));
 #elif defined(__SSE2__)
       return static_cast<unsigned>(_mm_movemask_pd((__m128d)m));
@@ -91,6 +102,7 @@ struct Register {
 #endif
     }
   };
+#endif
 
   Doubles v;
 
@@ -112,13 +124,28 @@ struct Register {
   friend TEMPER_INLINE Register operator*(double a, Register b) { return {a * b.v}; }
   friend TEMPER_INLINE Register operator/(double a, Register b) { return {a / b.v}; }
   friend TEMPER_INLINE Register operator+(Register a, double b) { return {a.v + b}; }
+#if TEMPER_REGISTER_BYTES == 64
+  friend TEMPER_INLINE Mask operator<(Register a, Register b) {
+    return {_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_LT_OQ)};
+  }
+  friend TEMPER_INLINE Mask operator>(Register a, Register b) {
+    return {_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_GT_OQ)};
+  }
+  friend TEMPER_INLINE Mask operator>=(Register a, Register b) {
+    return {_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_GE_OQ)};
+  }
+  friend TEMPER_INLINE Register select(Mask m, Register a, Register b) {
+    return {(Doubles)_mm512_mask_blend_pd(m.m, (__m512d)b.v, (__m512d)a.v)};
+  }
+#else
   friend TEMPER_INLINE Mask operator<(Register a, Register b) { return {a.v < b.v}; }
   friend TEMPER_INLINE Mask operator>(Register a, Register b) { return {a.v > b.v}; }
   friend TEMPER_INLINE Mask operator>=(Register a, Register b) { return {a.v >= b.v}; }
+  friend TEMPER_INLINE Register select(Mask m, Register a, Register b) { return {m.m ? a.v : b.v}; }
+#endif
   friend TEMPER_INLINE Mask operator<(Register a, double b) { return a < all(b); }
   friend TEMPER_INLINE Mask operator>(Register a, double b) { return a > all(b); }
   friend TEMPER_INLINE Mask operator>=(Register a, double b) { return a >= all(b); }
-  friend TEMPER_INLINE Register select(Mask m, Register a, Register b) { return {m.m ? a.v : b.v}; }
   friend TEMPER_INLINE Register square_root(Register a) {
 #if TEMPER_REGISTER_BYTES == 64
     return {(Doubles)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.v)};  // GCC 12 warns about the one without mask
