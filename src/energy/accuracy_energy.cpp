@@ -17,64 +17,9 @@ constexpr double kKept = 0.9;
 // Below this part of ℓ a height is mostly rounding, and so would be its logarithm.
 constexpr double kLeastMargin = 1e-9;
 
-/// The edge that the halfedge stands for, which is `inner` in its triangle; without scale and q.
-AccuracyEdge<double> edge_of(const Mesh& mesh, HalfedgeId h, const EdgeShape& inner) {
-  const HalfedgeId twin = mesh.twin(h);
-  double outer = 0;
-  if (twin.valid()) {
-    const auto [b, a, d] = mesh.points(mesh.target(h), mesh.origin(h), mesh.opposite(twin));
-    outer = triangle_shape(mesh.space(), b, a, d).edges[0].g;
-  }
-  return {0, 0, inner.l2, 1 / inner.l2, inner.dw, inner.g, outer};
-}
-
-double edge_energy(const Mesh& mesh, const VertexSizes& sizes, const AccuracyModel& model, HalfedgeId h,
-                   const EdgeShape& inner) {
-  AccuracyEdge<double> edge = edge_of(mesh, h, inner);
-  edge.scale = edge_scale(sizes[mesh.origin(h)], sizes[mesh.target(h)]);
-  edge.height = mesh.twin(h).valid() ? model.height : model.boundary_height;
-  return edge_value(model, edge);
-}
-
-/// Its sign and factor μ s_t² apart: the sum of logarithms is one of a product.
-double triangle_logarithm(const TriangleShape& shape, double floor) {
-  double heights = 1, splits = 1;
-  for (const EdgeShape& e : shape.edges) {
-    const double inverse_l2 = 1 / e.l2;
-    heights *= e.g * inverse_l2 - floor;
-    splits *= split_room(e.dw * inverse_l2, floor);
-  }
-  return 0.5 * portable_log(heights * heights * splits);
-}
-
 TriangleShape shape_of(const Mesh& mesh, TriangleId t) {
   const auto [p, q, r] = mesh.points(t);
   return triangle_shape(mesh.space(), p, q, r);
-}
-
-/// Calls visit with the energy of each edge that a halfedge of t stands for.
-template <class Visit>
-void for_own_edges(const Mesh& mesh, const VertexSizes& sizes, const AccuracyModel& model, TriangleId t,
-                   const TriangleShape& shape, Visit&& visit) {
-  for (int k = 0; k < 3; ++k) {
-    const HalfedgeId h = Mesh::halfedge(t, k);
-    if (mesh.is_edge_representative(h)) {
-      visit(edge_energy(mesh, sizes, model, h, shape.edges[static_cast<std::size_t>(k)]));
-    }
-  }
-}
-
-/// Of the edges that a halfedge of t stands for, between triangles that have a floor.
-double own_length_barriers(const Mesh& mesh, const AccuracyFloors& floors, TriangleId t, const TriangleShape& shape) {
-  double sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const HalfedgeId h = Mesh::halfedge(t, k), twin = mesh.twin(h);
-    if (!twin.valid() || !mesh.is_edge_representative(h)) continue;
-    if (!floors.has(t) || !floors.has(Mesh::triangle(twin))) continue;
-    const EdgeShape& inner = shape.edges[static_cast<std::size_t>(k)];
-    sum += length_barrier(floors.lengths(mesh, h), edge_of(mesh, h, inner));
-  }
-  return sum;
 }
 
 template <class In>
@@ -92,15 +37,6 @@ AccuracyModel AccuracyModel::of(double alpha, double beta, double offset, double
   model.split = 0.75 * offset * alpha;
   model.height = 0.75 * offset * beta, model.boundary_height = 0.75 * boundary_offset * beta;
   return model;
-}
-
-double accuracy_energy(const Mesh& mesh, const VertexSizes& sizes, const AccuracyModel& model, Executor* executor) {
-  return blockwise_sum(mesh.n_triangles(), executor, [&](std::size_t i) {
-    const TriangleId t(i);
-    double sum = 0;
-    for_own_edges(mesh, sizes, model, t, shape_of(mesh, t), [&](double energy) { sum += std::abs(energy); });
-    return sum;
-  });
 }
 
 double triangle_margin(const Mesh& mesh, TriangleId t) {
@@ -163,48 +99,6 @@ void AccuracyFloors::visit(Archive& archive) {
     const auto first = all.begin() + static_cast<std::ptrdiff_t>(begin);
     blocks_.emplace_back(first, first + static_cast<std::ptrdiff_t>(std::min(kBlock, size_ - begin)));
   }
-}
-
-namespace {
-
-/// The barriers of a block of triangles; visit(t, shape) is told of each.
-template <class Visit>
-double barriers_of_block(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                         const AccuracyModel& model, std::size_t block, Visit&& visit) {
-  double barrier = 0, of_lengths = 0;
-  const std::size_t end = std::min(mesh.n_triangles(), (block + 1) * kBlockSize);
-  for (std::size_t i = block * kBlockSize; i < end; ++i) {
-    const TriangleId t(i);
-    const TriangleShape shape = shape_of(mesh, t);
-    visit(t, shape);
-    if (model.keeps_lengths()) of_lengths += own_length_barriers(mesh, floors, t, shape);
-    if (!floors.has(t)) continue;
-    const auto [p, q, r] = mesh.corners(t);
-    barrier -= triangle_scale(sizes[p], sizes[q], sizes[r]) * triangle_logarithm(shape, floors[t]);
-  }
-  return model.barrier * barrier + of_lengths;
-}
-
-}  // namespace
-
-AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                             const AccuracyModel& model, Executor* executor) {
-  const auto sums = sums_of_blocks(mesh.n_triangles(), 2, executor, [&](std::size_t block, std::span<double> of_block) {
-    double sum = 0;
-    of_block[1] = barriers_of_block(mesh, sizes, floors, model, block, [&](TriangleId t, const TriangleShape& shape) {
-      for_own_edges(mesh, sizes, model, t, shape, [&](double of_edge) { sum += of_edge; });
-    });
-    of_block[0] = sum;
-  });
-  return {sums[0], sums[1]};
-}
-
-double accuracy_barrier(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                        const AccuracyModel& model, Executor* executor) {
-  const auto sums = sums_of_blocks(mesh.n_triangles(), 1, executor, [&](std::size_t block, std::span<double> of_block) {
-    of_block[0] = barriers_of_block(mesh, sizes, floors, model, block, [](TriangleId, const TriangleShape&) {});
-  });
-  return sums[0];
 }
 
 template <class In>

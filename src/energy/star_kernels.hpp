@@ -5,6 +5,7 @@
 
 #include <cstddef>
 
+#include "energy/accuracy_lanes.hpp"
 #include "energy/lanes.hpp"
 #include "energy/triangle_hessian.hpp"
 #include "temper/space.hpp"
@@ -50,6 +51,10 @@ struct StarKernels {
   /// The values of a barrier of the first n triangles, summed; +∞ when one is outside the domain.
   double (*barrier_sum)(const EdgeFormula& formula, const TriangleLanes& triangles, std::size_t n);
   WellCentered (*well_centered)(const TriangleLanes& triangles);
+  /// Of the accuracy objective: what triangles are, the logarithms of their barriers, and the energies of edges.
+  void (*triangle_shapes)(const TriangleLanes& triangles, ShapeLanes& shapes);
+  void (*accuracy_logarithms)(const ShapeLanes& shapes, const Lane& floors, Lane& result);
+  void (*accuracy_edges)(const AccuracyModel& model, const EdgeLanes& edges, Lane& result);
 };
 
 /// The kernels of a space, compiled for the instruction set in use.

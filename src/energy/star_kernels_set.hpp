@@ -1,6 +1,7 @@
 // Included by one source for each instruction set, compiled for that set.
 #pragma once
 
+#include "energy/accuracy_kernels_set.hpp"
 #include "energy/star_kernels.hpp"
 #include "energy/star_sums.hpp"
 #include "energy/triangle_hessian_set.hpp"
@@ -142,8 +143,9 @@ WellCentered well_centered(const TriangleLanes& triangles) {
 }  // namespace
 
 template <class In>
-constexpr StarKernels kKernelsOf = {barrier_derivatives<In>, barrier_value<In>, hot_edges<In>,
-                                    hot_derivatives<In>,     barrier_sum<In>,   well_centered<In>};
+constexpr StarKernels kKernelsOf = {barrier_derivatives<In>, barrier_value<In>,   hot_edges<In>,
+                                    hot_derivatives<In>,     barrier_sum<In>,     well_centered<In>,
+                                    triangle_shapes<In>,     accuracy_logarithms, accuracy_edges<In>};
 
 const StarKernels kPlaneKernels = kKernelsOf<InPlane>;
 const StarKernels kSphereKernels = kKernelsOf<OnSphere>;

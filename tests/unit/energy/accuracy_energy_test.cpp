@@ -9,6 +9,7 @@
 #include <string>
 
 #include "support/lattice.hpp"
+#include "temper/instruction_set.hpp"
 #include "unit/energy/naive.hpp"
 
 namespace temper::test {
@@ -128,6 +129,28 @@ TEST(AccuracyEnergy, IsTheNaiveTwinsInTotalAndByParts) {
       EXPECT_NEAR(accuracy_energy(mesh, sizes, model_of(star, 10, 18)) / total.energy, 1, 1e-14) << star.name;
     }
   }
+}
+
+TEST(AccuracyEnergy, OfWholeMeshesIsTheSameBitsInEveryInstructionSet) {
+  const InstructionSet used = instruction_set();
+  for (const double radius : kRadii) {
+    SCOPED_TRACE(radius);
+    const Mesh mesh = small_lattice(1, {}, radius);
+    const VertexSizes sizes = uneven_sizes(mesh);
+    AccuracyFloors floors;
+    floors.raise(mesh, kMargin);
+    const AccuracyModel model = model_of(kStarsOf[1], 10, 18);
+    ASSERT_TRUE(use_instruction_set(instruction_sets().front()));
+    const AccuracyTotal first = accuracy_total(mesh, sizes, floors, model);
+    for (const InstructionSet set : instruction_sets()) {
+      ASSERT_TRUE(use_instruction_set(set));
+      const AccuracyTotal other = accuracy_total(mesh, sizes, floors, model);
+      EXPECT_EQ(other.energy, first.energy) << name(set);
+      EXPECT_EQ(other.barrier, first.barrier) << name(set);
+      EXPECT_EQ(accuracy_barrier(mesh, sizes, floors, model, nullptr), first.barrier) << name(set);
+    }
+  }
+  use_instruction_set(used);
 }
 
 TEST(AccuracyEnergy, ScalesWithTheSquareAndKnowsNeitherPlaceNorTurnNorACommonWeight) {

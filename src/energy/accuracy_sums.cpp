@@ -1,0 +1,192 @@
+// Energy and barrier of the accuracy objective on whole meshes: triangles and edges eight at a time, their terms added
+// up in the order of their numbers.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "base/sum.hpp"
+#include "energy/accuracy_energy.hpp"
+#include "energy/star_kernels.hpp"
+#include "geometry/triangle_kernel.hpp"
+
+namespace temper {
+namespace {
+
+/// Some triangles that follow each other, as many as the nearest cache has room for with all their edges. All lanes
+/// are filled before the first are computed with: reading eight numbers at once waits long for one that has only just
+/// been written.
+class Triangles {
+ public:
+  static constexpr std::size_t kMost = 4 * kLanes;
+
+  Triangles(const Mesh& mesh, std::size_t first, std::size_t end) : mesh_(mesh), first_(first), size_(end - first) {
+    for (std::size_t i = 0; i < size_; ++i) {
+      const auto [p, q, r] = mesh.points((*this)[i]);
+      TriangleLanes& lanes = lanes_[i / kLanes];
+      lanes.p.set(i % kLanes, p);
+      lanes.q.set(i % kLanes, q);
+      lanes.r.set(i % kLanes, r);
+    }
+    const StarKernels& kernels = star_kernels(mesh.space());
+    for (std::size_t k = 0; k * kLanes < size_; ++k) kernels.triangle_shapes(lanes_[k], shapes_[k]);
+  }
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] TriangleId operator[](std::size_t i) const { return TriangleId(first_ + i); }
+  /// The edge k of triangle i.
+  [[nodiscard]] EdgeShape edge(std::size_t i, int k) const {
+    return shapes_[i / kLanes].edges[static_cast<std::size_t>(k)].at(i % kLanes);
+  }
+
+  /// Calls visit(i, logarithm) for each triangle that has a floor: that of its barrier, without sign and factor μ s_t².
+  template <class Visit>
+  void for_logarithms(const AccuracyFloors& floors, Visit&& visit) const {
+    const StarKernels& kernels = star_kernels(mesh_.space());
+    alignas(64) std::array<Lane, kMost / kLanes> floor = {}, logarithm;
+    for (std::size_t i = 0; i < size_; ++i) floor[i / kLanes][i % kLanes] = floors[(*this)[i]];
+    for (std::size_t k = 0; k * kLanes < size_; ++k) kernels.accuracy_logarithms(shapes_[k], floor[k], logarithm[k]);
+    for (std::size_t i = 0; i < size_; ++i) {
+      if (floors.has((*this)[i])) visit(i, logarithm[i / kLanes][i % kLanes]);
+    }
+  }
+
+  /// Calls visit(i, energy) for each edge that a halfedge of triangle i stands for.
+  template <class Visit>
+  void for_edges(const VertexSizes& sizes, const AccuracyModel& model, Visit&& visit) const {
+    std::array<EdgeLanes, 3 * kMost / kLanes> edges;
+    std::array<std::size_t, 3 * kMost> triangle;
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < size_; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        const HalfedgeId h = Mesh::halfedge((*this)[i], k);
+        if (!mesh_.is_edge_representative(h)) continue;
+        set(edges[n / kLanes], n % kLanes, h, edge(i, k), sizes, model);
+        triangle[n++] = i;
+      }
+    }
+    const StarKernels& kernels = star_kernels(mesh_.space());
+    alignas(64) std::array<Lane, 3 * kMost / kLanes> energy;
+    for (std::size_t k = 0; k * kLanes < n; ++k) kernels.accuracy_edges(model, edges[k], energy[k]);
+    for (std::size_t i = 0; i < n; ++i) visit(triangle[i], energy[i / kLanes][i % kLanes]);
+  }
+
+ private:
+  void set(EdgeLanes& edges, std::size_t lane, HalfedgeId h, const EdgeShape& inner, const VertexSizes& sizes,
+           const AccuracyModel& model) const {
+    const VertexId a = mesh_.origin(h), b = mesh_.target(h);
+    const HalfedgeId twin = mesh_.twin(h);
+    const bool is_inner = twin.valid();
+    const auto points = mesh_.points(b, a, is_inner ? mesh_.opposite(twin) : b);
+    edges.l2[lane] = inner.l2, edges.dw[lane] = inner.dw, edges.left[lane] = inner.g;
+    edges.size_a[lane] = sizes[a], edges.size_b[lane] = sizes[b];
+    edges.height[lane] = is_inner ? model.height : model.boundary_height;
+    edges.inner[lane] = is_inner ? -1 : 0;
+    edges.b.set(lane, points[0]);
+    edges.a.set(lane, points[1]);
+    edges.d.set(lane, points[2]);
+  }
+
+  const Mesh& mesh_;
+  std::size_t first_, size_;
+  std::array<TriangleLanes, kMost / kLanes> lanes_;
+  std::array<ShapeLanes, kMost / kLanes> shapes_;
+};
+
+/// Calls visit with all triangles of a block, some at a time.
+template <class Visit>
+void for_triangles(const Mesh& mesh, std::size_t block, Visit&& visit) {
+  const std::size_t end = std::min(mesh.n_triangles(), (block + 1) * kBlockSize);
+  for (std::size_t i = block * kBlockSize; i < end; i += Triangles::kMost) {
+    visit(Triangles(mesh, i, std::min(end, i + Triangles::kMost)));
+  }
+}
+
+/// The edge of h, which is `inner` in its triangle; without scale and q.
+AccuracyEdge<double> edge_of(const Mesh& mesh, HalfedgeId h, const EdgeShape& inner) {
+  const HalfedgeId twin = mesh.twin(h);
+  double outer = 0;
+  if (twin.valid()) {
+    const auto [b, a, d] = mesh.points(mesh.target(h), mesh.origin(h), mesh.opposite(twin));
+    outer = triangle_shape(mesh.space(), b, a, d).edges[0].g;
+  }
+  return {0, 0, inner.l2, 1 / inner.l2, inner.dw, inner.g, outer};
+}
+
+/// The barriers of the edges that a halfedge of triangle i stands for, between triangles that have a floor.
+double own_length_barriers(const Mesh& mesh, const AccuracyFloors& floors, const Triangles& triangles, std::size_t i) {
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeId h = Mesh::halfedge(triangles[i], k), twin = mesh.twin(h);
+    if (!twin.valid() || !mesh.is_edge_representative(h)) continue;
+    if (!floors.has(triangles[i]) || !floors.has(Mesh::triangle(twin))) continue;
+    sum += length_barrier(floors.lengths(mesh, h), edge_of(mesh, h, triangles.edge(i, k)));
+  }
+  return sum;
+}
+
+/// Sums the barriers of blocks of triangles.
+class BarrierSum {
+ public:
+  BarrierSum(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors, const AccuracyModel& model)
+      : mesh_(mesh), sizes_(sizes), floors_(floors), model_(model) {}
+
+  void add(const Triangles& triangles) {
+    for (std::size_t i = 0; model_.keeps_lengths() && i < triangles.size(); ++i) {
+      of_lengths_ += own_length_barriers(mesh_, floors_, triangles, i);
+    }
+    triangles.for_logarithms(floors_, [&](std::size_t i, double logarithm) {
+      const auto [p, q, r] = mesh_.corners(triangles[i]);
+      sum_ -= triangle_scale(sizes_[p], sizes_[q], sizes_[r]) * logarithm;
+    });
+  }
+  [[nodiscard]] double total() const { return model_.barrier * sum_ + of_lengths_; }
+
+ private:
+  const Mesh& mesh_;
+  const VertexSizes& sizes_;
+  const AccuracyFloors& floors_;
+  const AccuracyModel& model_;
+  double sum_ = 0, of_lengths_ = 0;
+};
+
+}  // namespace
+
+double accuracy_energy(const Mesh& mesh, const VertexSizes& sizes, const AccuracyModel& model, Executor* executor) {
+  return sum_of_blocks(mesh.n_triangles(), executor, [&](std::size_t block) {
+    double sum = 0;
+    for_triangles(mesh, block, [&](const Triangles& triangles) {
+      std::array<double, Triangles::kMost> of_triangle = {};
+      triangles.for_edges(sizes, model, [&](std::size_t i, double energy) { of_triangle[i] += std::abs(energy); });
+      for (std::size_t i = 0; i < triangles.size(); ++i) sum += of_triangle[i];
+    });
+    return sum;
+  });
+}
+
+AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
+                             const AccuracyModel& model, Executor* executor) {
+  const auto sums = sums_of_blocks(mesh.n_triangles(), 2, executor, [&](std::size_t block, std::span<double> of_block) {
+    double energy = 0;
+    BarrierSum barrier(mesh, sizes, floors, model);
+    for_triangles(mesh, block, [&](const Triangles& triangles) {
+      triangles.for_edges(sizes, model, [&](std::size_t, double of_edge) { energy += of_edge; });
+      barrier.add(triangles);
+    });
+    of_block[0] = energy;
+    of_block[1] = barrier.total();
+  });
+  return {sums[0], sums[1]};
+}
+
+double accuracy_barrier(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
+                        const AccuracyModel& model, Executor* executor) {
+  const auto sums = sums_of_blocks(mesh.n_triangles(), 1, executor, [&](std::size_t block, std::span<double> of_block) {
+    BarrierSum barrier(mesh, sizes, floors, model);
+    for_triangles(mesh, block, [&](const Triangles& triangles) { barrier.add(triangles); });
+    of_block[0] = barrier.total();
+  });
+  return sums[0];
+}
+
+}  // namespace temper
