@@ -118,6 +118,7 @@ bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
     mark(q) = mark(o) = Mark::looked_at;
     if (i < kMost) {
       occupant.link[i] = q;
+      occupant.spokes[i] = h;
       batch_.link[i].set(lane, mesh_.point(q, center));
       batch_.across[i].set(lane, mesh_.point(o, center));
       batch_.link_flips[i][lane] = across.valid() && !mesh_.is_constrained(link) ? -1 : 0;
@@ -144,9 +145,9 @@ void BatchStep::gather_domain(const Occupant& occupant, std::size_t lane) {
   if (occupant.alone) return;
   const auto& [sizes, floors] = *settings_.accuracy_domain;
   accuracy_.size[lane] = sizes[occupant.v];
-  std::size_t i = 0;
-  for (const HalfedgeId h : mesh_.star(occupant.v)) {
-    const HalfedgeId across = mesh_.twin(Mesh::next(h));
+  const std::size_t triangles = batch_.open[lane] != 0 ? occupant.n_link - 1 : occupant.n_link;
+  for (std::size_t i = 0; i < triangles; ++i) {
+    const HalfedgeId h = occupant.spokes[i], across = mesh_.twin(Mesh::next(h));
     const TriangleId t = Mesh::triangle(h);
     if (!floors.has(t) || (across.valid() && !floors.has(Mesh::triangle(across)))) {
       batch_.moves[lane] = batch_.weighs[lane] = 0;
@@ -154,9 +155,9 @@ void BatchStep::gather_domain(const Occupant& occupant, std::size_t lane) {
     accuracy_.floor[i][lane] = floors[t];
     accuracy_.inner[i][lane] = across.valid() ? -1 : 0;
     if (settings_.accuracy.keeps_lengths()) gather_lengths(h, i, lane);
-    accuracy_.link_size[i++][lane] = sizes[mesh_.target(h)];
+    accuracy_.link_size[i][lane] = sizes[occupant.link[i]];
   }
-  accuracy_.link_size[i][lane] = sizes[occupant.link[i]];
+  accuracy_.link_size[triangles][lane] = sizes[occupant.link[triangles]];
 }
 
 /// What the edges of triangle i of a star, whose spoke is h, stay longer than.

@@ -37,7 +37,9 @@ class BatchStep {
   struct Occupant {
     VertexId v;
     std::size_t n_link = 0;
-    std::array<VertexId, StarBatch::kMostTriangles + 1> link;  // as gathered; the first of it, when alone
+    // As gathered; the first of them, when alone.
+    std::array<VertexId, StarBatch::kMostTriangles + 1> link;
+    std::array<HalfedgeId, StarBatch::kMostTriangles> spokes;
     bool alone = false;  // not for vectors: many neighbours, or on a line that it slides along
   };
 
