@@ -1,6 +1,7 @@
 // Bindings of optimize and replay: options, who listens, checkpoints, the mesh in place whatever ended the run.
 #include "bind.hpp"
 #include "optimize_options.hpp"
+#include "ranks.hpp"
 #include "temper/checkpoint.hpp"
 #include "temper/trace.hpp"
 #include "temper/verify.hpp"
@@ -112,6 +113,7 @@ struct RunArguments {
   py::object checkpoint;  ///< see Checkpoints
   py::object resume;      ///< path of a checkpoint
   py::object tensor;      ///< kxx, kxy, kyy
+  py::object ranks;       ///< a communicator of mpi4py
 };
 
 /// An error of the run, which says in which file the state is that it was to go on from.
@@ -135,6 +137,9 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
   OptimizeHooks hooks;
   hooks.observer = observer;
   hooks.resume = resumed.state;
+  hooks.exclusive = true;  // the copy that becomes the mesh
+  std::optional<PythonRanks> ranks;
+  if (!arguments.ranks.is_none()) hooks.ranks = &ranks.emplace(arguments.ranks);
   set_callbacks(hooks, visitor, arguments.callbacks);
   std::optional<Checkpoints> checkpoints;
   if (!arguments.checkpoint.is_none()) {
@@ -194,12 +199,13 @@ TraceEvent event_from(const py::dict& d) {
 }  // namespace
 
 void bind_optimize(py::module_& m) {
-  m.def("optimize", [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
-                       const py::object& observer, const py::object& tracer, const py::object& snapshots,
-                       const py::object& checkpoint, const py::object& resume, const py::object& tensor) {
-    return optimize_mesh(self, options,
-                         {size_field, threads, {observer, tracer, snapshots}, checkpoint, resume, tensor});
-  });
+  m.def("optimize",
+        [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
+           const py::object& observer, const py::object& tracer, const py::object& snapshots,
+           const py::object& checkpoint, const py::object& resume, const py::object& tensor, const py::object& ranks) {
+          return optimize_mesh(self, options,
+                               {size_field, threads, {observer, tracer, snapshots}, checkpoint, resume, tensor, ranks});
+        });
   m.def("methods", [] {
     py::dict all;
     for (const Method& method : methods()) all[py::str(std::string(method.name))] = options_to_dict(method.options());

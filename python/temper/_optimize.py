@@ -122,6 +122,15 @@ def _path(name: str, path: str | os.PathLike[str] | None) -> str | None:
     return None if path is None else os.fspath(path)
 
 
+def _is_helper(ranks: Any) -> bool:
+    """Whether this process helps rank 0 with its run."""
+    if ranks is None:
+        return False
+    if not all(callable(getattr(ranks, name, None)) for name in ("Get_size", "Get_rank", "bcast", "Bcast", "Abort")):
+        raise TypeError(f"ranks: expected a communicator of mpi4py or None, found {ranks!r}")
+    return ranks.Get_rank() != 0
+
+
 def _checkpoint(path: str | os.PathLike[str] | None, every: float) -> tuple[str, float, Callable[[str], None]] | None:
     """As the compiled half takes it: the file, seconds between, who is told that it could not be written."""
     if not isinstance(every, numbers.Real) or isinstance(every, bool):
@@ -152,6 +161,7 @@ def optimize(
     checkpoint: str | os.PathLike[str] | None = None,
     every: float = _EVERY,
     resume: str | os.PathLike[str] | None = None,
+    ranks: Any = None,
     **changes: Unpack[OptionChanges],
 ) -> OptimizeReport:
     """Improves a mesh in place: moves vertices, weighs them and flips edges until every triangle is well-centered.
@@ -200,6 +210,10 @@ def optimize(
         A checkpoint to go on from: the run ends with the bits that it would have ended with. The mesh is what it was
         when that run began (``optimized`` leaves it so), and options and size field are the same, but for
         ``time_limit``, which is of each run alone. Observers, tracers and snapshots see what is left of the run.
+    ranks : mpi4py.MPI.Comm, optional
+        Processes that make this run together (docs/ranks.md): all of them call with the same mesh and options, and get
+        the result, whose bits do not depend on how many they are. Each has the whole mesh. Progress, observer, time
+        limit and checkpoints are those of rank 0.
 
     Returns
     -------
@@ -212,7 +226,8 @@ def optimize(
     TemperError
         An option out of range, options that contradict each other, weights that hide a vertex, a mesh outside the
         barrier of BH or BHs, a checkpoint that cannot be written, or is of another mesh, options or version
-        (``checkpoint_mismatch``). The mesh is then as it was.
+        (``checkpoint_mismatch``); on all ranks, when one was given another mesh or other options (``rank_mismatch``).
+        The mesh is then as it was.
     KeyboardInterrupt
         After Ctrl-C: the run has stopped, and the mesh is the best valid one so far.
 
@@ -244,6 +259,8 @@ def optimize(
         for name, given in (("size_field", size_field), ("tracer", tracer)):
             if given is not None:
                 raise ValueError(f"{name}: is of the mesh's plane, and does not go with tensor")
+    if _is_helper(ranks):
+        progress, observer, checkpoint = False, None, None
     target = as_mesh(mesh)
     rules = target.point_data_rules if point_data is None else data_rules(point_data)
     _temper.check_data_rules(target._handle, rules)
@@ -258,7 +275,7 @@ def optimize(
     try:
         watch = _observer(line, observer)
         report = _temper.optimize(
-            target._handle, plain, field, threads, watch, trace, look, kept, resumed, None if tensor is None else tuple(tensor)
+            target._handle, plain, field, threads, watch, trace, look, kept, resumed, None if tensor is None else tuple(tensor), ranks
         )
     finally:
         line.clear()

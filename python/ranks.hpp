@@ -1,0 +1,52 @@
+// Ranks by a communicator of Python's, as mpi4py has them: this module itself knows of no MPI.
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include "bind.hpp"
+#include "temper/ranks.hpp"
+
+namespace temper::python {
+
+class PythonRanks final : public Ranks {
+ public:
+  /// `communicator` has what mpi4py's Comm has: Get_size, Get_rank, bcast, Bcast and Abort.
+  explicit PythonRanks(const py::object& communicator)
+      : communicator_(communicator),
+        size_(communicator.attr("Get_size")().cast<std::size_t>()),
+        rank_(communicator.attr("Get_rank")().cast<std::size_t>()) {}
+
+  [[nodiscard]] std::size_t size() const override { return size_; }
+  [[nodiscard]] std::size_t rank() const override { return rank_; }
+
+  /// What fails here leaves the other ranks waiting, and cannot be raised through the library: it ends them all.
+  void broadcast(std::string& bytes, std::size_t from) override {
+    const py::gil_scoped_acquire gil;
+    try {
+      share(bytes, from);
+    } catch (py::error_already_set& error) {
+      error.restore();
+      PyErr_Print();
+      communicator_.attr("Abort")(1);
+      std::abort();
+    }
+  }
+
+ private:
+  static constexpr std::size_t kMostBytes = std::size_t{1} << 30;  // of one call: MPI counts in int
+
+  void share(std::string& bytes, std::size_t from) const {
+    bytes.resize(communicator_.attr("bcast")(bytes.size(), py::arg("root") = from).cast<std::size_t>());
+    for (std::size_t begin = 0; begin < bytes.size(); begin += kMostBytes) {
+      const auto count = static_cast<py::ssize_t>(std::min(kMostBytes, bytes.size() - begin));
+      communicator_.attr("Bcast")(py::memoryview::from_memory(bytes.data() + begin, count), py::arg("root") = from);
+    }
+  }
+
+  const py::object& communicator_;
+  std::size_t size_, rank_;
+};
+
+}  // namespace temper::python
