@@ -23,6 +23,16 @@ bool is_worse(const Candidate& a, const Candidate& b, const Settings& settings) 
   return rank(b.work.mesh, settings) < rank(a.work.mesh, settings);
 }
 
+/// Says whether a repair has made c of `before`: it is no worse, and vertices that came or went have cured something.
+/// With fewer of them the energy is lower in any case.
+bool has_gained(const Candidate& c, const Candidate& before, const Settings& settings) {
+  const Rank now = rank(c.work.mesh, settings), then = rank(before.work.mesh, settings);
+  if (then < now) return false;
+  const bool same_vertices = c.work.n_vertices_named == before.work.n_vertices_named &&
+                             c.work.mesh.n_vertices() == before.work.mesh.n_vertices();
+  return same_vertices || now.bad < then.bad || now.missing_lengths < then.missing_lengths;
+}
+
 bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.hooks.executor) > 0; }
 
 /// Says whether so few triangles of c are bad that each is a place of its own, far from all others. Another attempt
@@ -40,12 +50,28 @@ bool needs_repair(const Candidate& c, const Settings& s) {
          (s.options.repair == Repair::vertices && missing_lengths(c.work.mesh, s.accuracy, s.hooks.executor) > 0);
 }
 
-/// The input made regular, and its boundary cut, as every attempt begins.
-std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Settings& settings) {
+/// What to try, for the working copy as it is. Where all attempts with a cut boundary leave triangles bad, they are
+/// made again without: what lines leave no room for, cuts may make worse.
+std::vector<Attempt> attempts_for(const Mesh& mesh, const Settings& settings) {
+  const OptimizeOptions& o = settings.options;
+  const auto all = attempts(settings.energy, o, mesh, settings.hooks.executor);
+  std::vector<Attempt> tries(all.begin(), all.end());
+  if (o.boundary == BoundaryVertices::split) {
+    for (Attempt uncut : all) {
+      uncut.cuts_boundary = false;
+      tries.push_back(uncut);
+    }
+  }
+  for (Attempt& attempt : tries) attempt.first_energy = first_energy_of(o);
+  return tries;
+}
+
+/// The input made regular, and its boundary cut, as an attempt begins.
+std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Settings& settings, const Attempt& attempt) {
   if (settings.options.flips != Flips::none && !driver.make_regular()) {
     return hidden_vertices_error(input, settings.hooks.names);
   }
-  driver.grade_boundary();
+  if (attempt.cuts_boundary) driver.grade_boundary();
   return std::nullopt;
 }
 
@@ -65,13 +91,11 @@ Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run)
     Driver driver(now.work, settings, run);  // NOLINT(bugprone-use-after-move): what begins has been made anew
     if (begins && i > 0) driver.recorder().returned_to(-1);
     if (begins) {
-      if (auto error = prepare(driver, input.whole(), settings)) return *std::move(error);
+      if (auto error = prepare(driver, input.whole(), settings, tries[i])) return *std::move(error);
     }
     if (begins && i == 0) {
       if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
-      const auto all = attempts(settings.energy, o, now.work.mesh, settings.hooks.executor);
-      tries.assign(all.begin(), all.end());
-      for (Attempt& attempt : tries) attempt.first_energy = first_energy_of(o);
+      tries = attempts_for(now.work.mesh, settings);
       run.facts.input_flips = run.report.flips;
     }
     input.fold();
@@ -79,6 +103,7 @@ Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run)
     if (auto error = run.checkpoints.error()) return *std::move(error);
     if (!best || !is_worse(now, *best, settings)) {
       best = std::move(now);
+      run.facts.stays_uncut = !tries[i].cuts_boundary;
     } else {
       driver.recorder().returned_to(best->sweep);
     }
@@ -108,7 +133,7 @@ Candidate repaired(Candidate best, Settings& settings, Run& run) {
     if (begins && start) driver.recorder().returned_to(start->sweep);
     const bool changed = driver.repair(settings.options.paper.seed + i);
     now.sweep = run.report.sweeps;
-    if (changed && !is_worse(now, best, settings)) {
+    if (changed && has_gained(now, best, settings)) {
       if (!start) start = std::move(best);
       best = std::move(now);
       if (are_apart(best, settings)) start.reset();

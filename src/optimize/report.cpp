@@ -1,5 +1,6 @@
 #include "optimize/report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -9,10 +10,12 @@
 #include "base/text.hpp"
 #include "energy/whole_mesh.hpp"
 #include "mesh/curve.hpp"
+#include "mesh/predicates.hpp"
 #include "optimize/driver.hpp"
 #include "optimize/lengths.hpp"
 #include "optimize/rank.hpp"
 #include "optimize/rounding.hpp"
+#include "optimize/step/freedom.hpp"
 #include "temper/necessity.hpp"
 #include "temper/regularity.hpp"
 
@@ -48,6 +51,7 @@ class Notes {
   void tell_sizes();
   void tell_energy();
   void tell_edges_that_must_be_split(std::size_t bad);
+  void tell_corners_that_stay(std::size_t bad);
   void tell_accuracy(std::size_t bad);
 
  private:
@@ -64,7 +68,11 @@ class Notes {
 };
 
 void Notes::tell(const RunFacts& facts) {
-  if (facts.boundary_cuts) tell_cuts(*facts.boundary_cuts);
+  if (facts.stays_uncut) {
+    add("the boundary and lines were not split: more triangles would be left that are not well-centered");
+  } else if (facts.boundary_cuts) {
+    tell_cuts(*facts.boundary_cuts);
+  }
   tell_input_flips(facts.input_flips);
   if (facts.weights_shrunk) add("weights left edges uncrossed that a barrier needs crossed: all were made smaller");
   if (facts.energy_rose) add("the energy rose in the last sweeps; the mesh with the least one is returned");
@@ -159,6 +167,34 @@ void Notes::tell_edges_that_must_be_split(std::size_t bad) {
       " to be split, or a vertex near it moved, before any mesh can be well-centered here, first the one from " +
       name_of(mesh_.origin(worst)) + " to " + name_of(mesh_.target(worst)) + ": explain tells more" +
       (options_.boundary == BoundaryVertices::split ? "" : ", and `boundary=split` splits them"));
+}
+
+/// Bad triangles that nothing can reshape, where another option would let a corner move.
+void Notes::tell_corners_that_stay(std::size_t bad) {
+  const bool moves = options_.unknowns != Unknowns::weights && settings_.energy.barrier;
+  if (bad == 0 || !moves || mesh_.space().kind() != SpaceKind::plane) return;
+  OptimizeOptions sliding = options_;
+  sliding.boundary = BoundaryVertices::slide;
+  sliding.interfaces = InterfaceVertices::sliding;
+  std::size_t stuck = 0;
+  bool along_boundary = false, along_lines = false;
+  for (const TriangleId t : mesh_.triangles()) {
+    if (inlined::is_well_centered(mesh_, t)) continue;
+    const auto corners = mesh_.corners(t);
+    const auto is = [&](Mobility m, const OptimizeOptions& o) {
+      return [this, m, &o](VertexId v) { return mobility(mesh_, v, o) == m; };
+    };
+    if (!std::all_of(corners.begin(), corners.end(), is(Mobility::fixed, options_))) continue;
+    const auto slides = is(Mobility::sliding, sliding);
+    if (std::none_of(corners.begin(), corners.end(), slides)) continue;
+    ++stuck;
+    for (const VertexId v : corners) (mesh_.is_boundary(v) ? along_boundary : along_lines) |= slides(v);
+  }
+  if (stuck == 0) return;
+  add("all corners of " + count_of(stuck, "triangle", "triangles") + " that " + (stuck == 1 ? "is" : "are") +
+      " not well-centered have to stay: " + (along_boundary ? "`boundary=slide`" : "") +
+      (along_boundary && along_lines ? " and " : "") + (along_lines ? "`interfaces=sliding`" : "") +
+      " would let some of them move along straight lines");
 }
 
 /// Triangles without the margin, the bad ones included.
@@ -370,6 +406,7 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasure
   notes.tell_what_is_not_regular();
   notes.tell_sizes();
   notes.tell_energy();
+  notes.tell_corners_that_stay(result.rank.bad);
   notes.tell_edges_that_must_be_split(result.rank.bad);
   if (for_accuracy)
     notes.tell_accuracy(settings.energy.barrier ? result.rank.bad : count_bad(mesh, settings.hooks.executor));

@@ -31,6 +31,7 @@ struct Attempt {
   double fewer = 1;         ///< it is given up when bad triangles do not become fewer than this part of them for long
   double tie_weight = 0;    ///< added before it to the heavier ends of ties, relative to their shortest edge squared
   std::optional<EnergyKind> first_energy = {};  ///< of its first sweeps
+  bool cuts_boundary = true;                    ///< before it, where the options ask for it
 };
 
 void visit(Archive& archive, Attempt& attempt);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -51,11 +52,60 @@ struct Line {
   double split_at = 0.5;
 };
 
+// Lines that meet at less than this angle cut each other into ever smaller pieces, unless their pieces begin at equal
+// distances from where they meet (J. Ruppert, "A Delaunay refinement algorithm for quality 2-dimensional mesh
+// generation", 1995).
+constexpr double kSharpCosine = 0.5;  // of 60 degrees
+// No split leaves an end less than this part of its edge.
+constexpr double kLeastPart = 0.2;
+
+/// The vertices where two lines meet at a sharp angle.
+class SharpCorners {
+ public:
+  SharpCorners(const Mesh& mesh, const std::vector<Line>& lines);
+
+  /// Where to split the line instead of at split_at: a power of two, in the frame's unit, from a sharp end.
+  [[nodiscard]] double split_at(const Mesh& mesh, const Line& line) const;
+
+ private:
+  [[nodiscard]] bool is_sharp(VertexId v) const { return v.index < is_sharp_.size() && is_sharp_[v]; }
+
+  IdVector<VertexId, std::uint8_t> is_sharp_;  // of the vertices there were
+};
+
 Line line_of(const Mesh& mesh, HalfedgeId h) {
   if (const auto c = edge_conflict(mesh, h, kLittleRoom)) {
     return {mesh.origin(c->edge), mesh.target(c->edge), c->sum, c->split_at};
   }
   return {mesh.origin(h), mesh.target(h)};
+}
+
+SharpCorners::SharpCorners(const Mesh& mesh, const std::vector<Line>& lines) : is_sharp_(mesh.n_vertices(), 0) {
+  std::vector<std::pair<VertexId, VertexId>> ends;  // and the other one
+  for (const Line& line : lines) {
+    ends.emplace_back(line.u, line.v);
+    ends.emplace_back(line.v, line.u);
+  }
+  std::sort(ends.begin(), ends.end());
+  const auto to = [&](std::size_t i) { return mesh.position(ends[i].second) - mesh.position(ends[i].first); };
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    for (std::size_t j = i + 1; j < ends.size() && ends[j].first == ends[i].first; ++j) {
+      const Vec2 p = to(i), q = to(j);
+      if (dot(p, q) > kSharpCosine * length(p) * length(q)) is_sharp_[ends[i].first] = 1;
+    }
+  }
+}
+
+double SharpCorners::split_at(const Mesh& mesh, const Line& line) const {
+  const bool from_u = is_sharp(line.u), from_v = is_sharp(line.v);
+  if (from_u == from_v) return from_u ? 0.5 : line.split_at;
+  const double l = length(mesh.position(line.v) - mesh.position(line.u));
+  int exponent = 0;
+  const double mantissa = std::frexp((from_u ? line.split_at : 1 - line.split_at) * l, &exponent);
+  double distance = std::ldexp(1.0, mantissa * mantissa < 0.5 ? exponent - 1 : exponent);
+  if (distance > (1 - kLeastPart) * l) distance *= 0.5;
+  if (distance < kLeastPart * l) distance *= 2;
+  return from_u ? distance / l : 1 - distance / l;
 }
 
 /// Says whether a new vertex at p can matter to the edge: the discs from its ends have diameters of kLittleRoom edges.
@@ -85,12 +135,14 @@ void BoundaryCutter::resolve_conflicts() {
     if (mesh_.is_erased(Mesh::triangle(h)) || !mesh_.is_edge_representative(h)) continue;
     if (mesh_.is_boundary(h) || mesh_.is_constrained(h)) lines.push_back(line_of(mesh_, h));
   }
+  const SharpCorners corners(mesh_, lines);
   const auto less = [](const Line& x, const Line& y) { return x.sum < y.sum; };
   for (std::size_t left = kMostSplits * lines.size(); left > 0; --left) {
     Line& worst = *std::min_element(lines.begin(), lines.end(), less);
     if (!std::isfinite(worst.sum)) return;
     const Vec2 from = mesh_.position(worst.u), to = mesh_.position(worst.v);
-    const VertexId fresh = split(worst.u, worst.v, work_.frame.snap(from + worst.split_at * (to - from)));
+    const VertexId fresh =
+        split(worst.u, worst.v, work_.frame.snap(from + corners.split_at(mesh_, worst) * (to - from)));
     if (!fresh.valid()) {
       worst.sum = kNoConflict;
       continue;

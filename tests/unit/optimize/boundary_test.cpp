@@ -6,11 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/rng.hpp"
+#include "energy/whole_mesh.hpp"
 #include "optimize/trace/recorder.hpp"
 #include "support/area.hpp"
 #include "temper/generate.hpp"
@@ -353,6 +355,70 @@ TEST(Boundary, SplittingKeepsTheVerticesThatWereThereAndTheShape) {
     EXPECT_LT(plan_boundary_grading(mesh, 2).ratio_before, 4 * (1 + 1e-9));
     EXPECT_NE(report.notes.front().find("vertices inserted on the boundary"), std::string::npos);
   }
+}
+
+double shortest_edge(const Mesh& mesh) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const HalfedgeId h : mesh.halfedges()) {
+    least = std::min(least, length(mesh.position(mesh.target(h)) - mesh.position(mesh.origin(h))));
+  }
+  return least;
+}
+
+/// A corner of few degrees, whose sides are divided each in its own way.
+Mesh sharp_corner(double angle_deg) {
+  const double angle = angle_deg * std::numbers::pi / 180;
+  std::vector<Vec2> points = {{0, 0}};
+  for (const double r : {0.9, 2.1, 3.0, 4.2}) points.push_back({r, 0});
+  for (const double r : {4.4, 3.3, 2.4, 1.3}) points.push_back({r * std::cos(angle), r * std::sin(angle)});
+  std::vector<std::array<std::int32_t, 2>> sides;
+  for (std::int32_t i = 0; i < 9; ++i) sides.push_back({i, (i + 1) % 9});
+  return *constrained_delaunay({.points = points, .segments = sides});
+}
+
+TEST(Boundary, SplittingASharpCornerEndsLongBeforeRounding) {
+  for (const double angle : {1.1, 3.0, 10.0, 40.0}) {
+    const Mesh input = sharp_corner(angle);
+    Mesh mesh;
+    const OptimizeReport report = run(input, mesh, {.boundary = BoundaryVertices::split, .repair = Repair::none});
+    EXPECT_LT(report.vertices_inserted, 200u) << angle;
+    EXPECT_GT(shortest_edge(mesh), 1e-2 * shortest_edge(input)) << angle;
+  }
+}
+
+TEST(Boundary, SplittingNeverLeavesMoreTrianglesBadThanLeavingItAsItIs) {
+  std::vector<Mesh> inputs = {*wedge({.angle_deg = 1}), *horseshoe(), letter_a()};
+  for (const double angle : {1.1, 3.0, 10.0, 20.0, 40.0}) inputs.push_back(sharp_corner(angle));
+  for (const Mesh& input : inputs) {
+    Mesh kept = input, split = input;
+    const OptimizeOptions keep = {.objective = Objective::energy, .repair = Repair::none};
+    OptimizeOptions cut = keep;
+    cut.boundary = BoundaryVertices::split;
+    ASSERT_TRUE(optimize(kept, keep));
+    const auto report = optimize(split, cut);
+    ASSERT_TRUE(report);
+    EXPECT_LE(count_bad(split, nullptr), count_bad(kept, nullptr));
+    if (report->notes.empty() || report->notes.front().find("were not split") == std::string::npos) continue;
+    EXPECT_EQ(split.n_vertices(), input.n_vertices());
+  }
+}
+
+TEST(Boundary, WhereAllCornersStayTheReportNamesWhatLetsThemMove) {
+  const std::vector<Vec2> points = {{0, 0}, {0.1, 0}, {2.9, 0}, {3, 0}, {3, 1}, {2.9, 1}, {0.1, 1}, {0, 1}};
+  std::vector<std::array<std::int32_t, 2>> sides;
+  for (std::int32_t i = 0; i < 8; ++i) sides.push_back({i, (i + 1) % 8});
+  const Mesh input = *constrained_delaunay({.points = points, .segments = sides});
+  const auto names_sliding = [](const OptimizeReport& report) {
+    return std::any_of(report.notes.begin(), report.notes.end(), [](const std::string& note) {
+      return note.find("have to stay: `boundary=slide` would let some of them move") != std::string::npos;
+    });
+  };
+  Mesh mesh;
+  const OptimizeReport kept = run(input, mesh, {.unknowns = Unknowns::positions});
+  ASSERT_GT(count_bad(mesh, nullptr), 0u);
+  EXPECT_TRUE(names_sliding(kept));
+  const OptimizeReport slid = run(input, mesh, {.unknowns = Unknowns::positions, .boundary = BoundaryVertices::slide});
+  EXPECT_FALSE(names_sliding(slid));
 }
 
 TEST(Boundary, SplittingLeavesTheDenseHorseshoeWideMargins) {
