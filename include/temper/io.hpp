@@ -198,6 +198,9 @@ struct LoadedMesh {
   Mesh mesh;
   VertexOfPoint vertex_of_point;
   std::size_t reversed_triangles = 0;
+  /// Where all inner edges are lines of one tag, two or more: for each line of the file whose points are both in the
+  /// mesh whether it is one of these. They constrain nothing. Else empty.
+  std::vector<bool> edge_lines = {};
   std::vector<std::string> warnings;
 };
 /// `fixed_tags`: tags or physical names whose points must not move. Fixed, too, are points of straight pieces of the
@@ -251,7 +254,8 @@ struct DataReport {
 /// common; an array that has nothing in common somewhere is dropped. Cell data are those of the file's triangle that
 /// the middle of a triangle is in; nothing is averaged. Where a point is gone that two lines of one tag met at, one
 /// line is left; other lines and marked points go with their points. A line whose edge was split is two, with its tag
-/// and data on both. What is lost is named in file.warnings.
+/// and data on both. Lines that list all inner edges (LoadedMesh::edge_lines) list those of the mesh afterwards. What
+/// is lost is named in file.warnings.
 ///
 /// May be called again for a later state of the mesh, as long as no vertices are removed or inserted; data are then
 /// interpolated on what the last call has left. O(n log n) when there are data that move, else O(n).

@@ -1,11 +1,12 @@
 // From the arrays of a file to a mesh.
 //
-// Points of no triangle are left out of the mesh, tagged lines inside the domain become constrained edges, points of
-// fixed tags and those that medit calls required are fixed.
+// Points of no triangle are left out of the mesh, tagged lines inside the domain become constrained edges unless they
+// list all edges of the mesh, points of fixed tags and those that medit calls required are fixed.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
+#include "io/edge_lines.hpp"
 #include "io/failure.hpp"
 #include "io/file_names.hpp"
 #include "io/format.hpp"
@@ -105,6 +106,7 @@ class MeshMaker {
   Expected<BuiltMesh> build(const std::vector<std::int32_t>& fixed_points) const;
   void find_edges();
   void constrain_lines();
+  void find_lines_of_all_edges();
   void fix_ends_of_tags();
 
   const MeshFile& file_;
@@ -129,6 +131,7 @@ Expected<LoadedMesh> MeshMaker::make(std::span<const std::string> fixed_tags) {
     warn(text(reversed, reversed == 1 ? " clockwise triangle is reversed" : " clockwise triangles are reversed"));
   find_edges();
   constrain_lines();
+  find_lines_of_all_edges();
   fix_ends_of_tags();
   return std::move(loaded_);
 }
@@ -247,9 +250,20 @@ void MeshMaker::find_edges() {
 }
 
 void MeshMaker::constrain_lines() {
+void MeshMaker::find_lines_of_all_edges() {
+  loaded_.edge_lines = find_edge_lines(file_, loaded_.vertex_of_point, loaded_.mesh, edges_);
+  if (loaded_.edge_lines.empty()) return;
+  const std::size_t n = n_inner_edges(loaded_.mesh);
+  std::size_t first = 0;
+  while (!edges_[first].valid() || loaded_.mesh.is_boundary(edges_[first])) ++first;
+  warn(text(n, " of ", n, " inner edges are lines of tag ", file_.line_tags[first],
+            ": they are taken for the edges of the mesh, not for features, and constrain nothing"));
+}
+
   std::vector<std::string> lost;
   std::size_t n_lost = 0;
   for (std::size_t i = 0; i < file_.lines.size(); ++i) {
+  const bool list_all_edges = !loaded_.edge_lines.empty();
     const auto [a, b] = file_.lines[i];
     const HalfedgeId h = edges_[i];
     if (!h.valid()) {
@@ -257,7 +271,7 @@ void MeshMaker::constrain_lines() {
         lost.push_back(
             text(names().point(static_cast<std::size_t>(a)), " to ", names().point(static_cast<std::size_t>(b))));
       }
-    } else if (!loaded_.mesh.is_boundary(h)) {
+    } else if (!list_all_edges && !loaded_.mesh.is_boundary(h)) {
       loaded_.mesh.set_constrained(h, true);
     }
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/data_update.hpp"
+#include "io/edge_lines.hpp"
 #include "io/failure.hpp"
 #include "io/file_names.hpp"
 #include "io/format.hpp"
@@ -225,6 +226,30 @@ void follow(MeshFile& file, std::size_t n, const Mesh& mesh, const Former& forme
   cut_lines(file, mesh, former);
 }
 
+bool same_numbers(const Former& former, std::size_t n) {
+  if (former.empty()) return true;
+  for (std::size_t v = 0; v < former.size(); ++v) {
+    if (former[VertexId(v)] != VertexId(v)) return false;
+  }
+  return former.size() == n;
+}
+
+/// Lines and marked points of n points become those of the mesh.
+void update_lines(MeshFile& file, std::size_t n, const LoadedMesh& loaded, const Mesh& mesh, const Former& former) {
+  const std::vector<bool>& edge_lines = loaded.edge_lines;
+  // Of a file that was changed meanwhile nothing is known.
+  const bool lists_edges = !edge_lines.empty() && edge_lines.size() == file.lines.size();
+  if (lists_edges && same_numbers(former, n)) {
+    replace_edge_lines(file, edge_lines, mesh);
+  } else if (lists_edges) {
+    const EdgeLines lines(file, edge_lines);
+    follow(file, n, mesh, former);
+    lines.put_back(file, mesh);
+  } else if (!former.empty()) {
+    follow(file, n, mesh, former);
+  }
+}
+
 }  // namespace
 
 DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
@@ -241,7 +266,7 @@ DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
     former = vertices_by_place(file.points, mesh);
   }
   DataReport report = update_data(file, mesh, former, options);
-  if (!former.empty()) follow(file, n_before, mesh, former);
+  update_lines(file, n_before, loaded, mesh, former);
   copy_vertices(file, mesh, former);
   copy_triangles(file, mesh);
   if (has_unused || !former.empty()) file.numbering = nullptr;  // its numbers are no longer those of the points

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "workshop.hpp"
 
@@ -22,6 +23,28 @@ TEST_F(Optimize, MakesEveryTriangleWellCentered) {
     EXPECT_TRUE(contains(outcome.out, part));
   }
   EXPECT_EQ(names(), (std::vector<std::string>{"in.vtu", "out.vtu"}));
+}
+
+TEST_F(Optimize, LinesThatAreAllEdgesOfTheMeshHoldNothing) {
+  io::MeshFile file = *io::read("in.vtu");
+  const std::size_t n_lines = file.lines.size();
+  for (const auto& [a, b, c] : file.triangles) {
+    for (const std::array<std::int32_t, 2>& side : {std::array{a, b}, {b, c}, {c, a}}) {
+      if (side[0] < side[1]) file.lines.push_back(side);
+    }
+  }
+  file.line_tags.resize(file.lines.size(), 0);
+  ASSERT_GT(file.lines.size(), n_lines);
+  ASSERT_TRUE(io::write("lines.msh", file));
+  const std::string warning = "inner edges are lines of tag 0: they are taken for the edges of the mesh";
+  for (const std::string boundary : {"keep", "split"}) {
+    const Outcome outcome = temper_ok({"optimize", "lines.msh", "-o", "out.msh", "--boundary", boundary, "--trace",
+                                       "t.jsonl", "--require", "outside=0"});
+    EXPECT_TRUE(contains(outcome.err, warning));
+    EXPECT_TRUE(contains(temper_ok({"check", "out.msh"}).err, warning)) << "they are listed again";
+    temper_ok({"replay", "lines.msh", "t.jsonl", "-o", "again.msh"});
+    EXPECT_EQ(read("again.msh"), read("out.msh"));
+  }
 }
 
 TEST_F(Optimize, InTheMetricOfATensorAndNowhereElse) {

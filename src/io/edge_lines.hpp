@@ -1,0 +1,37 @@
+// Lines that list the edges of a mesh, and no features of it.
+//
+// Some programs (Fluidity, whose meshes come from Triangle's edges) write each edge of a mesh as a line of tag 0. If
+// these were constraints, nothing could flip. So where all inner edges are lines of one tag, these say no more than
+// the triangles do: they constrain nothing, and the file that is written has such a line for each inner edge again.
+#pragma once
+
+#include <vector>
+
+#include "temper/io.hpp"
+
+namespace temper::io {
+
+[[nodiscard]] std::size_t n_inner_edges(const Mesh& mesh);
+
+/// The lines on inner edges, as LoadedMesh::edge_lines, if they list all inner edges, of one tag; else empty. `edges`
+/// has the edge of each line, invalid where there is none. O(n).
+[[nodiscard]] std::vector<bool> find_edge_lines(const MeshFile& file, const VertexOfPoint& vertex_of_point,
+                                                const Mesh& mesh, const std::vector<HalfedgeId>& edges);
+
+/// Puts edges that flips have made into the place of those that are gone. The vertices are those of the lines, and
+/// edge_lines stays right. O(n log n).
+void replace_edge_lines(MeshFile& file, const std::vector<bool>& edge_lines, const Mesh& mesh);
+
+/// For meshes whose vertices are others: the lines are taken out before the rest of the file follows, and put behind
+/// all other lines afterwards, one for each inner edge.
+class EdgeLines {
+ public:
+  EdgeLines(MeshFile& file, const std::vector<bool>& edge_lines);
+  void put_back(MeshFile& file, const Mesh& mesh) const;
+
+ private:
+  std::int32_t tag_ = 0;
+  std::vector<Values> rows_;  // of each array of line data
+};
+
+}  // namespace temper::io
