@@ -12,6 +12,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "io/format.hpp"
 #include "io/gmsh.hpp"
@@ -101,6 +102,7 @@ class GmshReader {
   void section(const std::string& name);
   void mesh_format();
   void physical_names();
+  void settle_names();
   void entities();
   void nodes_2();
   void nodes_4();
@@ -146,6 +148,7 @@ class GmshReader {
   std::optional<NumberLookup> lookup_;
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> physical_of_entity_;
   std::size_t further_tags_ = 0;
+  std::vector<PhysicalName> names_without_dimension_;
   Elements<3> triangles_;
   Elements<2> lines_;
   Elements<1> points_;
@@ -217,14 +220,40 @@ std::string GmshReader::quoted_string() {
   return std::string(line);
 }
 
+// Since version 2.1 `dimension tag "name"`, in 2.0 `tag "name"`.
 void GmshReader::physical_names() {
-  const std::size_t n = scanner_.count("physical names", 6);
+  const std::size_t n = scanner_.count("physical names", 4);
   for (std::size_t i = 0; i < n; ++i) {
     PhysicalName name;
     name.dimension = scanner_.integer("the dimension of a physical name");
+    if (!version4_ && scanner_.more_on_line() && scanner_.peek().starts_with('"')) {
+      name.tag = std::exchange(name.dimension, 0);
+      name.name = quoted_string();
+      names_without_dimension_.push_back(std::move(name));
+      continue;
+    }
     name.tag = scanner_.integer("the tag of a physical name");
     name.name = quoted_string();
     document_.file.names.push_back(std::move(name));
+  }
+}
+
+/// A name without a dimension is of all dimensions whose elements carry its tag.
+void GmshReader::settle_names() {
+  MeshFile& f = document_.file;
+  const std::array<std::set<std::int32_t>, 3> tags = {std::set(f.point_tags.begin(), f.point_tags.end()),
+                                                      std::set(f.line_tags.begin(), f.line_tags.end()),
+                                                      std::set(f.regions.begin(), f.regions.end())};
+  for (const PhysicalName& name : names_without_dimension_) {
+    bool used = false;
+    for (const std::int32_t dimension : {0, 1, 2}) {
+      if (!tags[static_cast<std::size_t>(dimension)].contains(name.tag)) continue;
+      f.names.push_back({dimension, name.tag, name.name});
+      used = true;
+    }
+    if (used) continue;
+    f.warnings.push_back(text(scanner_.path(), ": the physical name ", in_quotes(name.name), " of tag ", name.tag,
+                              " is dropped: it has no dimension, and no element has the tag"));
   }
 }
 
@@ -543,6 +572,7 @@ void GmshReader::finish() {
   for (const auto& [node] : points_.nodes) f.marked_points.push_back(node);
   std::vector<std::array<std::int32_t, 1>> unused;
   hand_over(points_, unused, f.point_tags, f.marked_point_data);
+  settle_names();
 
   FileNames& names = *document_.names;
   names.triangles = std::move(triangles_.numbers);

@@ -20,6 +20,24 @@ TEST_F(FileTest, sparse_node_numbers_and_elements_out_of_order_are_read) {
   EXPECT_EQ(plain(f->numbering->triangle_where(1)), "m.msh:13");
 }
 
+TEST_F(FileTest, names_of_version_20_are_of_all_dimensions_whose_elements_carry_the_tag) {
+  const std::string content =
+      "$MeshFormat\n2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n5 \"steel and more\"\n8 \"wall\"\n100 \"nothing\"\n"
+      "$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n4\n"
+      "1 15 3 8 1 0 1\n2 1 3 8 1 0 1 2\n3 2 3 5 1 0 1 2 3\n4 2 3 5 1 0 1 3 4\n$EndElements\n";
+  const auto f = read(make("m.msh", content));
+  ASSERT_TRUE(f) << f.error().what();
+  std::vector<std::string> names;
+  for (const PhysicalName& n : f->names) {
+    names.push_back(std::to_string(n.dimension) + " " + std::to_string(n.tag) + " " + n.name);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"2 5 steel and more", "0 8 wall", "1 8 wall"}));
+  ASSERT_EQ(f->warnings.size(), 1u);
+  EXPECT_EQ(
+      plain(f->warnings[0]),
+      "m.msh: the physical name 'nothing' of tag 100 is dropped: it has no dimension, and no element has the tag");
+}
+
 TEST_F(FileTest, a_node_number_that_is_none_is_named) {
   const auto f = read(make("m.msh", kNodes2 + "$Elements\n1\n9 2 2 5 1 10 30 8\n$EndElements\n"));
   ASSERT_FALSE(f);
