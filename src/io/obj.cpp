@@ -49,6 +49,7 @@ class ObjReader {
   std::int32_t last_number_ = 0;
   std::map<std::string, std::int32_t> tag_of_name_;  // of the names that are kept
   std::set<std::pair<int, std::int32_t>> named_;     // dimension and tag of each
+  bool in_region_ = false;                           // the current group is temper's own `g region_…`, maybe of tag 0
   bool has_regions_ = false;
   std::vector<std::string> ignored_;
 };
@@ -134,7 +135,7 @@ void ObjReader::face() {
   f.triangles.push_back(corners);
   f.regions.push_back(tags_[2]);
   document_.names->triangle_lines.push_back(text_line);
-  has_regions_ = has_regions_ || tags_[2] != 0;
+  has_regions_ = has_regions_ || in_region_ || tags_[2] != 0;
   keep_name(2);
 }
 
@@ -159,6 +160,7 @@ void ObjReader::group() {
   const std::string_view first = all.substr(0, blank);
   group_name_.clear();
   tags_ = {0, 0, 0};
+  in_region_ = false;
   if (first.empty() || first == "default") return;
   for (std::size_t dimension = 0; dimension < 3; ++dimension) {
     if (!first.starts_with(kGroupPrefix[dimension])) continue;
@@ -170,6 +172,7 @@ void ObjReader::group() {
       continue;
     }
     if (blank != std::string_view::npos) group_name_ = all.substr(blank + 1);
+    in_region_ = dimension == 2;
     return;
   }
   group_name_ = all;

@@ -73,6 +73,17 @@ TEST_F(OtherFormats, jigsaw_that_is_no_mesh_of_triangles_is_named) {
 
 // --- OFF -------------------------------------------------------------------------------------------------------
 
+// --- OBJ -------------------------------------------------------------------------------------------------------
+
+TEST_F(OtherFormats, obj_with_a_region_of_tag_0_is_written_as_it_was) {
+  const std::string content = "v 0 0 0\nv 1 0 0\nv 0 1 0\ng region_0\nf 1 2 3\n";
+  const MeshFile f = read_ok("m.obj", content);
+  EXPECT_EQ(f.regions, Tags{0});
+  ASSERT_TRUE(write(path("n.obj"), f));
+  EXPECT_EQ(slurp(path("n.obj")), content);
+  EXPECT_TRUE(read_ok("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ng line_2\nf 1 2 3\n").regions.empty());
+}
+
 TEST_F(OtherFormats, off_with_colours_and_comments_is_read_and_says_what_it_drops) {
   const MeshFile f = read_ok("m.off",
                              "COFF # colours\n4 2 0\n# points\n0 0 2 255 0 0 255\n1 0 2 0 0 0 255\n1 1 2 0 0 0 255\n"
