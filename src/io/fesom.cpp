@@ -55,11 +55,11 @@ class FesomReader {
     const bool is_points = kind_of_fesom(std::string_view(source_.bytes).substr(0, kSniffBytes)) == FesomFile::points;
     const std::string base = without_suffix(source_.path, is_points ? kPoints : kTriangles);
     const std::string other_path = base + std::string(is_points ? kTriangles : kPoints);
-    if (base == source_.path || !exists(other_path)) {
+    if (base == source_.path) refuse_other_name(is_points);
+    if (!exists(other_path)) {
       fail(ErrorCode::not_found, source_.path,
            text("is the ", is_points ? "points" : "triangles", " of a FESOM mesh; its ",
-                is_points ? "triangles are" : "points are", " expected in ", base == source_.path ? "" : other_path,
-                base == source_.path ? text(kPoints, " and ", kTriangles) : "", ", which does not exist"));
+                is_points ? "triangles are" : "points are", " expected in ", other_path, ", which does not exist"));
     }
     Source other = load(other_path);
     document_.names->path = is_points ? source_.path : other_path;
@@ -71,6 +71,15 @@ class FesomReader {
   }
 
  private:
+  /// Nothing in such a file is FESOM's alone: METIS has its triangles in the same way.
+  [[noreturn]] void refuse_other_name(bool is_points) const {
+    fail(ErrorCode::unsupported, source_.path,
+         is_points ? text("has points without triangles, as FESOM has them; expected a name that ends with ", kPoints,
+                          ", and the triangles in ", kTriangles, " beside it")
+                   : text("has triangles without points, as METIS and FESOM have them; temper reads those of FESOM: "
+                          "expected a name that ends with ",
+                          kTriangles, ", and the points in ", kPoints, " beside it"));
+  }
   void points(Source& source) {
     Scanner scanner(source.path, source.bytes);
     MeshFile& f = document_.file;

@@ -94,8 +94,8 @@ void warn_of_names(const WriteJob& job, const std::vector<PhysicalName>& lost);
 /// Says whether points are in the plane z = 0.
 [[nodiscard]] bool is_flat(const MeshFile& file);
 
-/// The name of a format that is recognised but not read, or empty.
-[[nodiscard]] std::string_view recognise_unsupported(std::string_view head);
+/// "a Fluent mesh, which temper does not read; meshio converts it", of a format that is recognised; else empty.
+[[nodiscard]] std::string recognise_unsupported(std::string_view head);
 
 // --- weights of formats without a place for them ---------------------------------------------------
 /// PATH.weights.csv

@@ -106,7 +106,12 @@ void warn_of_parallel(Document& d) {
 void check(Document& d) {
   const MeshFile& f = d.file;
   if (f.points.empty()) fail(ErrorCode::empty_input, d.names->path, "the file has no points");
-  if (f.triangles.empty()) fail(ErrorCode::empty_input, d.names->path, "the file has no triangles");
+  if (f.triangles.empty()) {
+    // Other programs call JIGSAW's outlines meshes, too.
+    const bool outline = f.format == "jigsaw" && !f.lines.empty();
+    fail(ErrorCode::empty_input, d.names->path,
+         text("the file has no triangles", outline ? ": it is an outline, for `temper mesh` to mesh" : ""));
+  }
   check_ranges(d);
   for (std::size_t i = 0; i < f.points.size(); ++i) {
     const Vec2 p = f.points[i];

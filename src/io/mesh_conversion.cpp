@@ -10,6 +10,7 @@
 #include "io/failure.hpp"
 #include "io/file_names.hpp"
 #include "io/format.hpp"
+#include "io/known_causes.hpp"
 #include "io/values.hpp"
 #include "temper/io.hpp"
 
@@ -105,8 +106,8 @@ class MeshMaker {
   [[nodiscard]] std::vector<std::int32_t> fixed_points(std::span<const std::string> tags) const;
   Expected<BuiltMesh> build(const std::vector<std::int32_t>& fixed_points) const;
   void find_edges();
-  void constrain_lines();
   void find_lines_of_all_edges();
+  void constrain_lines();
   void fix_ends_of_tags();
 
   const MeshFile& file_;
@@ -120,7 +121,7 @@ Expected<LoadedMesh> MeshMaker::make(std::span<const std::string> fixed_tags) {
   number_vertices();
   auto built = build(fixed_points(fixed_tags));
   if (!built) {
-    InputError error = built.error();
+    InputError error = with_known_cause(built.error(), file_, names());
     if (error.where.empty()) error.where = file_.path;
     return error;
   }
@@ -130,8 +131,8 @@ Expected<LoadedMesh> MeshMaker::make(std::span<const std::string> fixed_tags) {
   if (reversed > 0)
     warn(text(reversed, reversed == 1 ? " clockwise triangle is reversed" : " clockwise triangles are reversed"));
   find_edges();
-  constrain_lines();
   find_lines_of_all_edges();
+  constrain_lines();
   fix_ends_of_tags();
   return std::move(loaded_);
 }
@@ -249,7 +250,6 @@ void MeshMaker::find_edges() {
   }
 }
 
-void MeshMaker::constrain_lines() {
 void MeshMaker::find_lines_of_all_edges() {
   loaded_.edge_lines = find_edge_lines(file_, loaded_.vertex_of_point, loaded_.mesh, edges_);
   if (loaded_.edge_lines.empty()) return;
@@ -260,10 +260,11 @@ void MeshMaker::find_lines_of_all_edges() {
             ": they are taken for the edges of the mesh, not for features, and constrain nothing"));
 }
 
+void MeshMaker::constrain_lines() {
   std::vector<std::string> lost;
   std::size_t n_lost = 0;
-  for (std::size_t i = 0; i < file_.lines.size(); ++i) {
   const bool list_all_edges = !loaded_.edge_lines.empty();
+  for (std::size_t i = 0; i < file_.lines.size(); ++i) {
     const auto [a, b] = file_.lines[i];
     const HalfedgeId h = edges_[i];
     if (!h.valid()) {

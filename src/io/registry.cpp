@@ -121,9 +121,8 @@ const FormatRow& recognise(const Source& source) {
   for (const FormatRow& row : kRows) {
     if (row.sniff(head)) return row;
   }
-  if (const std::string_view known = recognise_unsupported(head); !known.empty()) {
-    fail(ErrorCode::unsupported, source.path, text("is ", known, ", which temper does not read"));
-  }
+  if (const std::string known = recognise_unsupported(head); !known.empty())
+    fail(ErrorCode::unsupported, source.path, text("is ", known));
   std::string names;
   for (const Format& format : kFormats) names += text(names.empty() ? "" : ", ", format.description);
   fail(ErrorCode::syntax, source.path, text("is none of the formats that temper reads: ", names));

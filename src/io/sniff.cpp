@@ -1,4 +1,5 @@
-// Formats that temper recognises and does not read, so that the error can name them.
+// Formats that temper recognises and does not read, so that the error can name them, and what converts them.
+#include <algorithm>
 #include <cctype>
 
 #include "io/format.hpp"
@@ -39,46 +40,71 @@ bool is_freefem(std::string_view head) {
   return words(second) == 3;
 }
 
+/// The first line that is no comment.
+std::string_view skip_comments(std::string_view s, char comment) {
+  for (s = skip_blanks(s); s.starts_with(comment); s = skip_blanks(s)) {
+    s.remove_prefix(std::min(s.find('\n'), s.size()));
+  }
+  return s;
+}
+
 struct Known {
   std::string_view name;
   bool (*is)(std::string_view head);
+  std::string_view advice = {};
 };
+
+// The Python package of that name reads these formats and writes those of temper.
+constexpr std::string_view kMeshio = "; meshio converts it";
 
 constexpr Known kKnown[] = {
     {"a Fluent mesh",
      [](std::string_view h) {
        const std::string_view s = skip_blanks(h);
        return s.starts_with("(0 ") || s.starts_with("(1 ") || s.starts_with("(2 ") || s.starts_with("(10 ");
-     }},
+     },
+     kMeshio},
     {"a Gmsh mesh of version 1", [](std::string_view h) { return skip_blanks(h).starts_with("$NOD"); }},
     {"a Gmsh mesh of another version than 2 and 4.1",
      [](std::string_view h) { return skip_blanks(h).starts_with("$MeshFormat"); }},
     {"a medit file in binary",
      [](std::string_view h) {
        return h.starts_with(std::string_view("\1\0\0\0", 4)) || h.starts_with(std::string_view("\0\0\0\1", 4));
-     }},
+     },
+     kMeshio},
     {"an MFEM mesh of another version than v1.0", [](std::string_view h) { return h.starts_with("MFEM "); }},
     {"a VTK XML file of another type than UnstructuredGrid",
      [](std::string_view h) { return h.find("<VTKFile") != std::string_view::npos; }},
-    {"an XDMF file", [](std::string_view h) { return h.find("<Xdmf") != std::string_view::npos; }},
-    {"a DOLFIN XML mesh", [](std::string_view h) { return h.find("<dolfin") != std::string_view::npos; }},
-    {"an STL file", [](std::string_view h) { return h.starts_with("solid"); }},
+    {"an XDMF file", [](std::string_view h) { return h.find("<Xdmf") != std::string_view::npos; }, kMeshio},
+    {"a DOLFIN XML mesh", [](std::string_view h) { return h.find("<dolfin") != std::string_view::npos; }, kMeshio},
+    {"an STL file", [](std::string_view h) { return h.starts_with("solid"); }, kMeshio},
     {"an Abaqus input file",
      [](std::string_view h) {
        return starts_with_any_case(skip_blanks(h), "*HEADING") || starts_with_any_case(skip_blanks(h), "*NODE") ||
               h.starts_with("**");
-     }},
+     },
+     kMeshio},
+    {"an SU2 mesh", [](std::string_view h) { return skip_comments(h, '%').starts_with("NDIME="); }, kMeshio},
+    {"a Nastran bulk data file", [](std::string_view h) { return h.find("BEGIN BULK") != std::string_view::npos; },
+     kMeshio},
+    {"a Tecplot file",
+     [](std::string_view h) {
+       const std::string_view s = skip_comments(h, '#');
+       return (starts_with_any_case(s, "TITLE") || starts_with_any_case(s, "VARIABLES")) &&
+              s.substr(0, s.find('\n')).find('=') != std::string_view::npos;
+     },
+     kMeshio},
     {"a 2DM mesh", [](std::string_view h) { return h.starts_with("MESH2D"); }},
-    {"a Netgen mesh", [](std::string_view h) { return h.starts_with("mesh3d") || h.starts_with("areamesh"); }},
+    {"a Netgen mesh", [](std::string_view h) { return h.starts_with("mesh3d") || h.starts_with("areamesh"); }, kMeshio},
     {"a compressed file", [](std::string_view h) { return h.starts_with("\x1f\x8b") || h.starts_with("PK\3\4"); }},
     {"a FreeFem mesh", is_freefem},
 };
 
 }  // namespace
 
-std::string_view recognise_unsupported(std::string_view head) {
+std::string recognise_unsupported(std::string_view head) {
   for (const Known& known : kKnown) {
-    if (known.is(head)) return known.name;
+    if (known.is(head)) return text(known.name, ", which temper does not read", known.advice);
   }
   return {};
 }

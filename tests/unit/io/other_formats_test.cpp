@@ -61,7 +61,9 @@ TEST_F(OtherFormats, jigsaw_that_is_no_mesh_of_triangles_is_named) {
   const std::string head = "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\n", points = "POINT=3\n0;0;0\n1;0;0\n0;1;0\n";
   EXPECT_EQ(refused("m.msh", "MSHID=3;EUCLIDEAN-GRID\nNDIMS=2\n"),
             "m.msh:1: is of kind 'EUCLIDEAN-GRID'; temper reads EUCLIDEAN-MESH and ELLIPSOID-MESH");
-  EXPECT_EQ(refused("m.msh", head + points + "EDGE2=1\n0;1;0\n"), "m.msh: the file has no triangles");
+  EXPECT_EQ(refused("m.msh", head + points + "EDGE2=1\n0;1;0\n"),
+            "m.msh: the file has no triangles: it is an outline, for `temper mesh` to mesh");
+  EXPECT_EQ(refused("m.msh", head + points), "m.msh: the file has no triangles");
   EXPECT_EQ(refused("m.msh", head + points + "QUAD4=1\n0;1;2;0;0\n"),
             "m.msh:8: element 0 is a quadrilateral; temper reads meshes of linear triangles, with lines and points as "
             "tags");
@@ -70,8 +72,6 @@ TEST_F(OtherFormats, jigsaw_that_is_no_mesh_of_triangles_is_named) {
   EXPECT_EQ(refused("m.msh", head + points + "TRIA3=1\n0;1;9;0\n"),
             "m.msh:8: triangle 0 uses vertex 9, but the file has 3 vertices, numbered from 0");
 }
-
-// --- OFF -------------------------------------------------------------------------------------------------------
 
 // --- OBJ -------------------------------------------------------------------------------------------------------
 
@@ -83,6 +83,8 @@ TEST_F(OtherFormats, obj_with_a_region_of_tag_0_is_written_as_it_was) {
   EXPECT_EQ(slurp(path("n.obj")), content);
   EXPECT_TRUE(read_ok("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ng line_2\nf 1 2 3\n").regions.empty());
 }
+
+// --- OFF -------------------------------------------------------------------------------------------------------
 
 TEST_F(OtherFormats, off_with_colours_and_comments_is_read_and_says_what_it_drops) {
   const MeshFile f = read_ok("m.off",
@@ -243,6 +245,22 @@ TEST_F(OtherFormats, fort14_closes_islands_and_keeps_pairs_of_levees) {
   // With the domain on the left the edge goes from 6 to 4.
   EXPECT_NE(out.find("\n2 24 = number of nodes and type of land boundary 2\n6 3 4 5 6\n4 2 1 2 3\n"), std::string::npos)
       << out;
+}
+
+TEST_F(OtherFormats, fort14_with_vertical_element_walls_is_converted_bit_for_bit) {
+  const std::string content =
+      "wall\n2 6\n1 1 0 9\n2 0 0 9\n3 1 1 9\n4 2 1 9\n5 1 0 9\n6 1 1 9\n1 3 1 3 2\n2 3 5 4 6\n"
+      "0\n0\n1\n4\n2 64\n3 6 1 1 1\n1 5 1 1 1\n";
+  const MeshFile f = read_ok("fort.14", content);
+  ASSERT_TRUE(write(path("m.vtu"), f));
+  const auto g = read(path("m.vtu"));
+  ASSERT_TRUE(g) << g.error().what();
+  ASSERT_TRUE(write(path("a.14"), f));
+  ASSERT_TRUE(write(path("b.14"), *g));
+  EXPECT_EQ(slurp(path("a.14")), slurp(path("b.14")));
+  const auto made = make_mesh(*g);
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().what().find("vertical element wall (land boundary 1, type 64)"), std::string::npos);
 }
 
 TEST_F(OtherFormats, fort14_of_lines_without_a_kind_says_what_it_makes_of_them) {

@@ -215,6 +215,44 @@ TEST_F(SphereFiles, WhatIsWrongIsNamedByFileAndLine) {
   EXPECT_EQ(fesom("4\n1 170 0 1\n2 180 10 1\n3 -170 0 1\n4 540 -10 1\n", "2\n1 3 2\n1 4 3\n"), "");
 }
 
+TEST_F(SphereFiles, FesomThatIsCyclicInLongitudeSaysSo) {
+  // A channel of 5 × 1 squares, whose last column of points is the first one again.
+  std::string points = "10\n", triangles = "10\n";
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j < 2; ++j)
+      points += std::to_string(2 * i + j + 1) + " " + std::to_string(i) + " " + std::to_string(j) + " 1\n";
+    const std::string a = std::to_string(2 * i + 1), b = std::to_string((2 * i + 2) % 10 + 1),
+                      c = std::to_string((2 * i + 3) % 10 + 1), d = std::to_string(2 * i + 2);
+    triangles += a + " " + b + " " + c + "\n" + a + " " + c + " " + d + "\n";
+  }
+  make("elem2d.out", triangles);
+  const auto file = read(make("nod2d.out", points));
+  ASSERT_TRUE(file) << file.error().what();
+  const auto made = make_mesh(*file);
+  ASSERT_FALSE(made);
+  const std::string message = plain(made.error().what());
+  EXPECT_TRUE(message.starts_with("elem2d.out:")) << message;
+  EXPECT_TRUE(
+      message.ends_with("; 2 triangles join the ends of the mesh in longitude, 4 degrees apart: it is cyclic, "
+                        "and on the sphere these ends do not meet. temper has such a mesh as a periodic "
+                        "plane, of MPAS or VTU files"))
+      << message;
+}
+
+TEST_F(SphereFiles, PointsOrTrianglesAloneSayHowFesomNamesThem) {
+  const auto refused = [&](const std::string& name, const std::string& content) {
+    const auto file = read(make(name, content));
+    EXPECT_FALSE(file);
+    return file ? std::string() : plain(file.error().what());
+  };
+  EXPECT_EQ(refused("p.txt", "3\n1 0 0 1\n2 10 0 1\n3 0 10 1\n"),
+            "p.txt: has points without triangles, as FESOM has them; expected a name that ends with nod2d.out, and the "
+            "triangles in elem2d.out beside it");
+  EXPECT_EQ(refused("a.elem2d.out", "1\n1 2 3\n"),
+            "a.elem2d.out: is the triangles of a FESOM mesh; its points are expected in a.nod2d.out, which does not "
+            "exist");
+}
+
 TEST_F(SphereFiles, OneParallelIsTakenForAPlaneWithAWarning) {
   const auto warnings = [&](const char* z) {
     const std::string at = std::string(" ") + z + "\n";
