@@ -17,7 +17,7 @@ enum class Exit : int {
   bad_input = 1,      ///< an input that cannot be used, or an output that cannot be written
   bad_usage = 2,      ///< options that make no sense
   requirement = 3,    ///< check --require, reproduce --require-claims: not met
-  stopped_early = 4,  ///< a signal or --time-limit; the best mesh so far is written. Or edges lack flips
+  stopped_early = 4,  ///< a signal or --time-limit; the best mesh so far is written. Or edges that may flip lack flips
   internal = 5,       ///< a defect of temper
   infeasible = 6,     ///< weights: none do what was asked
 };

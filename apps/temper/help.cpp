@@ -84,7 +84,7 @@ std::string_view meaning(Exit exit) {
     case Exit::requirement:
       return "what --require or --require-claims asks for is not met";
     case Exit::stopped_early:
-      return "stopped early by a signal or --time-limit; the best mesh so far is written";
+      return "stopped by a signal or --time-limit, best mesh written; or edges that may flip are not regular";
     case Exit::internal:
       return "out of memory, or an internal error: please report that";
     case Exit::infeasible:
