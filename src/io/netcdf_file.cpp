@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdlib>
 
+#include "io/foreign_library.hpp"
 #include "io/trial.hpp"
 
 namespace temper::io {
@@ -35,12 +36,7 @@ std::size_t NetcdfVariable::n_values() const {
   return n;
 }
 
-std::mutex& netcdf_table() {
-  static std::mutex table;
-  return table;
-}
-
-NetcdfId::NetcdfId(const NetcdfLibrary& library) : turn_(netcdf_table()), library_(library) {}
+NetcdfId::NetcdfId(const NetcdfLibrary& library) : turn_(foreign_tables()), library_(library) {}
 
 // A file that has not been finished is not kept.
 NetcdfId::~NetcdfId() {
@@ -173,8 +169,9 @@ bool is_hdf5(std::string_view head) { return is_netcdf(head) && !head.starts_wit
 Document read_netcdf(Source& source, const std::function<Document(const NetcdfReader&)>& work) {
   if (is_hdf5(source.bytes)) {
     static_cast<void>(netcdf_library(source.path));  // not in the child, whose budget is that of the file
-    std::unique_lock turn(netcdf_table());           // no other thread is within the library when the child comes to be
-    try_in_child(trial_budget(source.bytes.size()), source.path, "libnetcdf", [&] {
+    std::unique_lock turn(foreign_tables());         // no other thread is within the library when the child comes to be
+    const Trial trial = {source.path, "libnetcdf", "should be written as a classic one (nccopy -k cdf5)"};
+    try_in_child(trial_budget(source.bytes.size()), trial, [&] {
       turn.unlock();
       static_cast<void>(work(NetcdfReader(source)));
     });

@@ -4,11 +4,10 @@
 #include <dlfcn.h>
 
 #include <array>
-#include <cstdlib>
-#include <filesystem>
 #include <mutex>
 #include <optional>
 
+#include "io/foreign_library.hpp"
 #include "io/format.hpp"
 #include "temper/io.hpp"
 
@@ -16,26 +15,18 @@ namespace temper::io {
 
 namespace {
 
-/// Whoever has several, or one where the loader does not look, names it by this variable of the environment.
-constexpr const char* kVariable = "TEMPER_NETCDF";
-
-/// Since 4.6.2, the first that reads and writes files in memory, the newest first. All of them have the same interface.
+/// Since 4.6.2, the first that reads and writes files in memory. All of them have the same interface.
 #ifdef __APPLE__
-constexpr std::array kNames = {"libnetcdf.22.dylib", "libnetcdf.19.dylib", "libnetcdf.dylib"};
+constexpr std::array kNetcdfFiles = {"libnetcdf.22.dylib", "libnetcdf.19.dylib", "libnetcdf.dylib"};
 #else
-constexpr std::array kNames = {"libnetcdf.so.22", "libnetcdf.so.19", "libnetcdf.so.18", "libnetcdf.so.15",
-                               "libnetcdf.so"};
+constexpr std::array kNetcdfFiles = {"libnetcdf.so.22", "libnetcdf.so.19", "libnetcdf.so.18", "libnetcdf.so.15",
+                                     "libnetcdf.so"};
 #endif
+constexpr std::array kNetcdfPackages = {"netcdf4.libs", "netCDF4.libs"};
+constexpr ForeignLibrary kNetcdf = {"TEMPER_NETCDF", kNetcdfFiles, kNetcdfPackages, "libnetcdf-"};
 
-const char* chosen_library() {
-  const char* const chosen = std::getenv(kVariable);
-  return chosen != nullptr && *chosen != '\0' ? chosen : nullptr;
-}
-
-/// All functions of the library of that name, or nothing. What is loaded stays to the end of the process.
-std::optional<NetcdfLibrary> load(const char* name) {
-  void* const handle = dlopen(name, RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) return std::nullopt;
+/// All functions of the library, or nothing.
+std::optional<NetcdfLibrary> netcdf_of(void* handle) {
   NetcdfLibrary library;
 #define TEMPER_FIND(function)                                                                \
   library.function = reinterpret_cast<decltype(library.function)>(dlsym(handle, #function)); \
@@ -45,36 +36,16 @@ std::optional<NetcdfLibrary> load(const char* name) {
   return library;
 }
 
-/// Python's package netCDF4 brings the library along, as netcdf4.libs/libnetcdf-HASH.so.22 among all packages. Where
-/// this code is one of them, or the program in one, that is found: two or three folders above.
-std::optional<NetcdfLibrary> load_from_python_package() {
-  namespace fs = std::filesystem;
-  Dl_info self = {};
-  if (dladdr(&kNames, &self) == 0) return std::nullopt;
-  std::error_code ignored;
-  fs::path folder = fs::canonical(self.dli_fname, ignored).parent_path();
-  for (int level = 0; level < 3 && folder.has_relative_path(); ++level, folder = folder.parent_path()) {
-    for (const char* libraries : {"netcdf4.libs", "netCDF4.libs"}) {
-      for (const fs::directory_entry& entry : fs::directory_iterator(folder / libraries, ignored)) {
-        if (!entry.path().filename().string().starts_with("libnetcdf-")) continue;
-        if (auto library = load(entry.path().c_str())) return library;
-      }
-    }
-  }
-  return std::nullopt;
-}
-
 /// A library that was not there may be there at the next call: a Python that runs for days.
-const NetcdfLibrary* find_library() {
+const NetcdfLibrary* find_netcdf() {
   static std::mutex turn;
   static std::optional<NetcdfLibrary> found;
   const std::lock_guard lock(turn);
-  if (found) return &*found;
-  if (const char* const chosen = chosen_library()) {
-    found = load(chosen);
-  } else {
-    for (std::size_t i = 0; i < kNames.size() && !found; ++i) found = load(kNames[i]);
-    if (!found) found = load_from_python_package();
+  if (!found) {
+    find_library(kNetcdf, [](void* handle) {
+      found = netcdf_of(handle);
+      return found.has_value();
+    });
   }
   return found ? &*found : nullptr;
 }
@@ -82,15 +53,15 @@ const NetcdfLibrary* find_library() {
 }  // namespace
 
 const NetcdfLibrary& netcdf_library(const std::string& path) {
-  if (const NetcdfLibrary* const library = find_library()) return *library;
-  const char* const chosen = chosen_library();
+  if (const NetcdfLibrary* const library = find_netcdf()) return *library;
+  const char* const chosen = chosen_file(kNetcdf);
   fail(ErrorCode::unsupported, path,
        chosen != nullptr
-           ? text("NetCDF files need libnetcdf 4.6.2 or later; ", kVariable, " names ", chosen,
+           ? text("NetCDF files need libnetcdf 4.6.2 or later; ", kNetcdf.variable, " names ", chosen,
                   ", which cannot be loaded as that")
            : text("NetCDF files need libnetcdf 4.6.2 or later, and there is none: install it (apt: libnetcdf19; "
                   "conda: libnetcdf; pip: netCDF4), or name its file in ",
-                  kVariable));
+                  kNetcdf.variable));
 }
 
 std::vector<std::string> netcdf_files(const std::string& path) {
@@ -99,7 +70,7 @@ std::vector<std::string> netcdf_files(const std::string& path) {
 }
 
 std::string netcdf_version() {
-  const NetcdfLibrary* const library = find_library();
+  const NetcdfLibrary* const library = find_netcdf();
   if (library == nullptr) return {};
   const std::string version = library->nc_inq_libvers();  // "4.9.0 of Aug  3 2022 01:14:42 $"
   return version.substr(0, version.find(' '));

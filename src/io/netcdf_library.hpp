@@ -1,5 +1,4 @@
-// libnetcdf, loaded when the first NetCDF file comes. It brings fifty other libraries along, which whoever has no such
-// files need neither install nor wait for each time that the program starts.
+// libnetcdf, loaded when the first NetCDF file comes: it brings fifty other libraries along.
 #pragma once
 
 #include <netcdf.h>

@@ -114,8 +114,8 @@ TrialBudget trial_budget(std::uint64_t file_bytes) {
   return {static_cast<unsigned>(3 + megabytes), 512 * kMegabyte + 256 * file_bytes};
 }
 
-void try_in_child(const TrialBudget& budget, const std::string& where, const std::string& library,
-                  const std::function<void()>& work) {
+void try_in_child(const TrialBudget& budget, const Trial& trial, const std::function<void()>& work) {
+  const auto& [where, library, remedy] = trial;
   int ends[2];
   const pid_t child = pipe(ends) == 0 ? fork() : -1;
   if (child < 0) {
@@ -136,8 +136,7 @@ void try_in_child(const TrialBudget& budget, const std::string& where, const std
     fail(ErrorCode::unsupported, where, text(library, " needs too much memory for it"));
   const bool slow = !said || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL));
   fail(ErrorCode::syntax, where,
-       slow ? text(library, " does not get to its end within ", budget.seconds,
-                   " s: the file is damaged, or should be written as a classic one (nccopy -k cdf5)")
+       slow ? text(library, " does not get to its end within ", budget.seconds, " s: the file is damaged, or ", remedy)
             : text(library, " dies of it: the file is damaged"));
 }
 

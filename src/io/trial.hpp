@@ -18,9 +18,15 @@ struct TrialBudget {
 /// For a file of that size: what reading and unpacking it takes, many times over.
 [[nodiscard]] TrialBudget trial_budget(std::uint64_t file_bytes);
 
+/// What is said of a trial that ends badly.
+struct Trial {
+  std::string where;    ///< the file
+  std::string library;  ///< that reads it
+  std::string remedy;   ///< what should be done with a file that is not damaged, and takes too long
+};
+
 /// Runs work in a child process. Failure, when work fails there, dies, or takes more than the budget: the same work is
-/// then not to be done here. `where`, `library`: for the message.
-void try_in_child(const TrialBudget& budget, const std::string& where, const std::string& library,
-                  const std::function<void()>& work);
+/// then not to be done here.
+void try_in_child(const TrialBudget& budget, const Trial& trial, const std::function<void()>& work);
 
 }  // namespace temper::io
