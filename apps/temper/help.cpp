@@ -24,9 +24,22 @@ std::string option_head(const Option& option) {
   return option.value_name.empty() ? text : text + " " + option.value_name;
 }
 
+/// The line of a head; alternatives (a|b|c) beyond the width go on below the first one.
+std::string head_lines(const std::string& head) {
+  std::string rest = "  " + head, lines;
+  const std::size_t column = rest.rfind(' ') + 1;
+  while (rest.size() > kWidth) {
+    const std::size_t bar = rest.rfind('|', kWidth - 1);
+    if (bar == std::string::npos) break;
+    lines += rest.substr(0, bar + 1) + "\n";
+    rest = std::string(column, ' ') + rest.substr(bar + 1);
+  }
+  return lines + rest;
+}
+
 /// A head, and what it means in the columns to its right.
 std::string beside(const std::string& head, const std::string& description) {
-  std::string text = "  " + head;
+  std::string text = head_lines(head);
   const bool own_line = head.size() > kNameColumns;
   bool first = true;
   for (const std::string& line : wrap(description, kWidth - kNameColumns - 4)) {
