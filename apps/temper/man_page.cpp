@@ -123,6 +123,7 @@ std::string man_page_of_program() {
       item(bold("TEMPER_NETCDF"),
            "the file of libnetcdf, where several are installed or the loader does not find it: files of MPAS and UGRID "
            "are read and written by that library");
+  text += item(bold("TEMPER_HDF5"), "the file of libhdf5, likewise: VTKHDF files are read and written by that library");
   text += page_end(program_help()) + section("SEE ALSO");
   for (const Verb& verb : verbs()) {
     text += fmt::format(".BR {} (1){}\n", roff(page_of(std::string(verb.name))), &verb == &verbs().back() ? "" : ",");

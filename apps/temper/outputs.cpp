@@ -63,10 +63,11 @@ void add_mesh_output(Command& command, MeshOutput& target, const std::string& va
   add_choice(
       command, "--encoding", kEncodings, [&target](io::Encoding value) { target.options.encoding = value; },
       "the encoding, of formats that have several (default: the compact one; fastest: appended)");
-  command.add({.names = "--no-triangle-quality",
-               .value_name = "",
-               .sentence = "VTU without the cell data well_centered, min_h_over_l, min_d_over_l and min_angle_deg",
-               .take = [&target](const std::string&) { target.options.triangle_quality = false; }});
+  command.add(
+      {.names = "--no-triangle-quality",
+       .value_name = "",
+       .sentence = "VTU and VTKHDF without the cell data well_centered, min_h_over_l, min_d_over_l and min_angle_deg",
+       .take = [&target](const std::string&) { target.options.triangle_quality = false; }});
 }
 
 bool same_file(const std::string& a, const std::string& b) {

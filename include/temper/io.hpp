@@ -91,7 +91,8 @@ struct WriteOptions {
   /// appended, raw bytes after the XML: the fastest to write and to read, and about half as large again.
   std::optional<Encoding> encoding;
   Executor* executor = nullptr;  ///< threads that compress; the bytes written do not depend on them
-  /// VTU has four arrays of cell data more, named as in TriangleQuality, for ParaView to colour: bytes and floats.
+  /// VTU and VTKHDF have four arrays of cell data more, named as in TriangleQuality, for ParaView to colour: bytes and
+  /// floats.
   /// read() leaves them out, as they are made anew.
   bool triangle_quality = true;
 };
@@ -109,6 +110,8 @@ struct Format {
 [[nodiscard]] std::span<const Format> formats();
 /// "4.9.0": of libnetcdf, which is loaded when a file needs it, or now; empty when there is none.
 [[nodiscard]] std::string netcdf_version();
+/// "1.10.8": of libhdf5, likewise.
+[[nodiscard]] std::string hdf5_version();
 
 /// Reads any known format; a side file PATH.weights.csv, when there, gives the weights.
 [[nodiscard]] Expected<MeshFile> read(const std::string& path, const ReadOptions& options = {});

@@ -16,6 +16,7 @@ class Temper(CMakePackage):
 
     variant("shared", default=True, description="Shared libraries")
     variant("netcdf", default=False, description="Meshes of MPAS and UGRID")
+    variant("hdf5", default=False, description="Meshes in VTKHDF")
     variant("tbb", default=True, description="Threads by oneTBB")
     variant("verify", default=True, description="Errors of solvers on a mesh, by Eigen")
     variant("python", default=False, description="The Python module")
@@ -32,6 +33,7 @@ class Temper(CMakePackage):
     depends_on("eigen@3.3:", when="+verify", type="build")
     depends_on("tbb", when="+tbb")
     depends_on("netcdf-c@4.6.2:", when="+netcdf")
+    depends_on("hdf5@1.10:~mpi", when="+hdf5")
     depends_on("py-pybind11@2.12:", when="+python", type="build")
     depends_on("py-numpy@1.22:", when="+python", type=("build", "run"))
 
@@ -51,6 +53,8 @@ class Temper(CMakePackage):
         return args
 
     def setup_run_environment(self, env):
-        # libnetcdf is loaded when a file needs it, by its name, and Spack has it in a prefix of its own.
+        # These are loaded when a file needs them, by their names, and Spack has each in a prefix of its own.
         if self.spec.satisfies("+netcdf"):
             env.set("TEMPER_NETCDF", self.spec["netcdf-c"].libs[0])
+        if self.spec.satisfies("+hdf5"):
+            env.set("TEMPER_HDF5", self.spec["hdf5"].libs[0])

@@ -22,6 +22,7 @@ vcpkg_cmake_configure(
         ${FEATURE_OPTIONS}
         -DTEMPER_BUILD_APP=OFF
         -DCMAKE_DISABLE_FIND_PACKAGE_NetCDF=ON
+        -DCMAKE_DISABLE_FIND_PACKAGE_HDF5Headers=ON
 )
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(CONFIG_PATH lib/cmake/temper)

@@ -8,9 +8,9 @@ from . import _temper
 def build_info() -> dict[str, str]:
     """What ``temper --version`` prints, by the same names: ``"version"``, ``"commit"`` (``"unknown"`` where it was not
     built in a clone), ``"compiler"``, ``"processor"``, ``"instructions"``, ``"threads"``, and the versions of
-    ``"oneTBB"``, ``"NetCDF"``, ``"zlib"``, ``"pugixml"``, ``"Clp"`` and ``"Eigen"``.
+    ``"oneTBB"``, ``"NetCDF"``, ``"HDF5"``, ``"zlib"``, ``"pugixml"``, ``"Clp"`` and ``"Eigen"``.
 
-    libnetcdf is looked for, and loaded, when this is asked.
+    libnetcdf and libhdf5 are looked for, and loaded, when this is asked.
 
     >>> import temper
     >>> temper.build_info()["version"] == temper.__version__

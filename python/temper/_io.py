@@ -100,7 +100,8 @@ def write(
     encoding : {"ascii", "base64", "appended"}, optional
         Of formats that have several. VTU: ``base64``, compressed, is its default; ``appended`` is the fastest.
     triangle_quality : bool
-        VTU has the arrays of ``triangle_quality()`` as cell data, for ParaView to colour; ``read`` leaves them out.
+        VTU and VTKHDF have the arrays of ``triangle_quality()`` as cell data, for ParaView to colour; ``read`` leaves
+        them out.
     threads : int, optional
         Threads that compress; the bytes written do not depend on them.
 

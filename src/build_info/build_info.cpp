@@ -70,6 +70,15 @@ std::string netcdf_text() {
 #endif
 }
 
+std::string hdf5_text() {
+#ifdef TEMPER_WITH_HDF5
+  const std::string version = io::hdf5_version();
+  return version.empty() ? "not found, so VTKHDF is neither read nor written" : version;
+#else
+  return "none, so VTKHDF is neither read nor written";
+#endif
+}
+
 }  // namespace
 
 std::vector<BuildFact> build_info() {
@@ -82,6 +91,7 @@ std::vector<BuildFact> build_info() {
       {"threads", threads_text()},
       {"oneTBB", tbb_version()},
       {"NetCDF", netcdf_text()},
+      {"HDF5", hdf5_text()},
       {"zlib", zlibVersion()},
       {"pugixml", pugixml_version()},
       {"Clp", Clp_Version()},

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "io/array_names.hpp"
 #include "io/physical_names.hpp"
 #include "io/scanner.hpp"
 #include "io/values.hpp"
+#include "io/vtk_arrays.hpp"
 
 namespace temper::io {
 
@@ -63,7 +65,7 @@ void CellSorter::add(int type, const std::int32_t* p, std::size_t n, const std::
         point_cells_.push_back(cell);
       }
       return;
-    case 0:
+    case kVtkEmptyCell:
       return;
     default:
       refuse_element(where, cell, vtk_cell_name(type));
@@ -123,6 +125,19 @@ void take_physical_names(Document& document) {
   const std::string all(bytes->begin(), bytes->end());
   Scanner scanner(path, all);
   read_physical_names(scanner, document.file.names);
+}
+
+void take_period(Document& document) {
+  auto taken = take(document.file.field_data, kPlanePeriod);
+  if (!taken) return;
+  const std::vector<double> lengths = to_doubles(std::move(taken->values));
+  const auto is_length = [](double x) { return x >= 0 && std::isfinite(x); };
+  if (lengths.size() != 2 || !std::all_of(lengths.begin(), lengths.end(), is_length)) {
+    fail(ErrorCode::out_of_scale, document.names->path,
+         text("field data ", in_quotes(kPlanePeriod),
+              " is not two lengths; expected the periods along x and y, 0 where there is none"));
+  }
+  document.file.period = {lengths[0], lengths[1]};
 }
 
 void take_point_data(Document& document, std::vector<DataArray>&& arrays) {

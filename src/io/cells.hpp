@@ -10,8 +10,8 @@
 namespace temper::io {
 
 // Numbers of the cell types, vtkCellType.h.
-inline constexpr int kVtkVertex = 1, kVtkPolyVertex = 2, kVtkLine = 3, kVtkPolyLine = 4, kVtkTriangle = 5,
-                     kVtkPolygon = 7, kVtkPolyhedron = 42;
+inline constexpr int kVtkEmptyCell = 0, kVtkVertex = 1, kVtkPolyVertex = 2, kVtkLine = 3, kVtkPolyLine = 4,
+                     kVtkTriangle = 5, kVtkPolygon = 7, kVtkPolyhedron = 42;
 /// "quadrilateral", … : for messages.
 [[nodiscard]] std::string_view vtk_cell_name(int type);
 
@@ -40,6 +40,9 @@ class CellSorter {
 
 /// Physical names of the VTK family: lines "dimension tag name" in the bytes of the field array `physical_names`.
 void take_physical_names(Document& document);
+
+/// Periods of the VTK family, in the field array `plane_period`.
+void take_period(Document& document);
 
 /// Point data of the VTK family: the first `weight` becomes the weights.
 void take_point_data(Document& document, std::vector<DataArray>&& arrays);

@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "io/disk.hpp"
+#include "io/format.hpp"
 #include "io/globe.hpp"
 
 namespace temper::io {
@@ -125,6 +126,8 @@ void check(Document& d) {
     std::vector<Vec3> places;
     for (std::size_t i = 0; i < f.points.size(); ++i) places.push_back({f.points[i].x, f.points[i].y, d.heights[i]});
     settle_points(d.file, std::move(places), *d.names);
+    if (is_periodic(d.file) && d.file.sphere_radius > 0)
+      fail(ErrorCode::unsupported, d.names->path, "has periods and points on a sphere; expected points of a plane");
   } else if (f.z != 0 && f.sphere_radius == 0) {
     warn_of_parallel(d);
   }

@@ -9,6 +9,7 @@
 #include <new>
 
 #include "io/array_names.hpp"
+#include "io/disk.hpp"
 #include "io/format.hpp"
 #include "io/geographic.hpp"
 #include "io/globe.hpp"
@@ -30,6 +31,7 @@ bool sniff_jigsaw(std::string_view head);
 bool sniff_off(std::string_view head);
 bool sniff_ply(std::string_view head);
 bool sniff_adcirc(std::string_view head);
+bool sniff_vtkhdf(std::string_view head);
 bool sniff_mpas(std::string_view head);
 bool sniff_ugrid(std::string_view head);
 bool sniff_mfem(std::string_view head);
@@ -45,6 +47,7 @@ Document read_jigsaw_mesh(Source& source);
 Document read_off(Source& source);
 Document read_ply(Source& source);
 Document read_adcirc(Source& source);
+Document read_vtkhdf(Source& source);
 Document read_mpas(Source& source);
 Document read_ugrid(Source& source);
 Document read_mfem(Source& source);
@@ -62,6 +65,7 @@ void write_jigsaw_mesh(const WriteJob& job);
 void write_off(const WriteJob& job);
 void write_ply(const WriteJob& job);
 void write_adcirc(const WriteJob& job);
+void write_vtkhdf(const WriteJob& job);
 void write_mpas(const WriteJob& job);
 void write_ugrid(const WriteJob& job);
 void write_fesom(const WriteJob& job);
@@ -72,6 +76,7 @@ bool adcirc_keeps(ArraysOf of, const DataArray& array);
 bool jigsaw_keeps(ArraysOf of, const DataArray& array);
 bool medit_keeps(ArraysOf of, const DataArray& array);
 std::vector<std::string> triangle_files(const std::string& path);
+std::vector<std::string> vtkhdf_files(const std::string& path);
 std::vector<std::string> netcdf_files(const std::string& path);
 
 namespace {
@@ -101,6 +106,9 @@ constexpr FormatRow kRows[] = {
      read_fesom, write_fesom, fesom_keeps, fesom_files, 1, "", Degrees::always},
     {"triangle", "Triangle", ".node .ele", kAll & ~(kLineData | kMarkedPointData | kFieldData), sniff_triangle,
      read_triangle, write_triangle, nullptr, triangle_files},
+    // Before those of NetCDF, which may be HDF5: it hands files of other contents on to them.
+    {"vtkhdf", "VTKHDF unstructured grid (HDF5)", ".vtkhdf .hdf .hdf5", kAll | kSphere | kPeriod, sniff_vtkhdf,
+     read_vtkhdf, write_vtkhdf, nullptr, vtkhdf_files},
     {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll | kSphere | kPeriod, sniff_mpas, read_mpas, write_mpas, nullptr,
      netcdf_files, 1, "", Degrees::by_writer},
     {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll | kSphere, sniff_ugrid, read_ugrid, write_ugrid, nullptr,

@@ -83,6 +83,13 @@ std::string_view name_taken(const MeshFile& file) {
 
 }  // namespace
 
+bool has_triangle_quality(const std::function<std::optional<TypeOfArray>(std::string_view)>& type_of) {
+  return std::all_of(kTriangleQuality.begin(), kTriangleQuality.end(), [&](const TriangleQualityArray& row) {
+    const auto type = type_of(row.name);
+    return type && type->scalar == row.scalar && type->components == 1;
+  });
+}
+
 std::vector<VtkArray> vtk_triangle_quality(const WriteJob& job) {
   const MeshFile& file = job.measured;
   if (file.geographic && !file.map) return {};

@@ -1,7 +1,10 @@
-// How well-centered each triangle is, as cell data of VTU: made anew by every writing, and not a part of what was read.
+// How well-centered each triangle is, as cell data of VTU and VTKHDF: made anew by every writing, and not a part of
+// what was read.
 #pragma once
 
 #include <array>
+#include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +23,15 @@ inline constexpr std::array<TriangleQualityArray, 4> kTriangleQuality = {{
     {"min_d_over_l", Scalar::f32},
     {"min_angle_deg", Scalar::f32},
 }};
+
+struct TypeOfArray {
+  Scalar scalar;
+  int components;
+};
+/// Says whether the arrays are among cell data of these types, nothing being that of an array that is not there. They
+/// come together: one of their names alone is the user's.
+[[nodiscard]] bool has_triangle_quality(
+    const std::function<std::optional<TypeOfArray>(std::string_view name)>& type_of);
 
 /// The arrays of a mesh; zeros for lines and marked points. None where there are no triangles, lengths are unknown,
 /// points being degrees, or data of the file have one of the names, which a warning says.

@@ -4,9 +4,7 @@
 // once and freed as soon as its numbers are where they belong. All number types, ASCII, base64 and appended data
 // (raw or base64), with zlib or without, either byte order.
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <pugixml.hpp>
@@ -34,17 +32,19 @@ std::string_view trimmed(std::string_view s) {
   return s.substr(first, s.find_last_not_of(" \t\r\n") - first + 1);
 }
 
-/// Takes out the arrays that write_vtu makes of the mesh itself. They come together: one of their names alone is the
-/// user's.
+/// Takes out the arrays that write_vtu makes of the mesh itself.
 void forget_triangle_quality(pugi::xml_node cell_data) {
-  std::array<pugi::xml_node, kTriangleQuality.size()> found;
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    const auto& [name, scalar] = kTriangleQuality[k];
-    found[k] = cell_data.find_child_by_attribute("DataArray", "Name", std::string(name).c_str());
-    const int components = found[k].attribute("NumberOfComponents").as_int(1);
-    if (!found[k] || found[k].attribute("type").value() != info(scalar).vtu || components > 1) return;
-  }
-  for (const pugi::xml_node& array : found) cell_data.remove_child(array);
+  const auto array_of = [&](std::string_view name) {
+    return cell_data.find_child_by_attribute("DataArray", "Name", std::string(name).c_str());
+  };
+  const auto type_of = [&](std::string_view name) -> std::optional<TypeOfArray> {
+    const pugi::xml_node array = array_of(name);
+    const auto scalar = scalar_of_vtu(array.attribute("type").value());
+    if (!scalar) return std::nullopt;
+    return TypeOfArray{*scalar, array.attribute("NumberOfComponents").as_int(1) > 1 ? 2 : 1};
+  };
+  if (!has_triangle_quality(type_of)) return;
+  for (const TriangleQualityArray& row : kTriangleQuality) cell_data.remove_child(array_of(row.name));
 }
 
 class VtuReader {
@@ -63,7 +63,6 @@ class VtuReader {
   void read_cells(const pugi::xml_node& piece);
   void read_point_data(const pugi::xml_node& piece);
   void read_field_data(const pugi::xml_node& grid);
-  void read_period(DataArray&& field);
 
   DataArray array(const pugi::xml_node& node);
   std::vector<DataArray> arrays(const pugi::xml_node& parent, std::size_t tuples, std::string_view kind);
@@ -108,10 +107,7 @@ Document VtuReader::read() {
   read_cells(piece);
   read_point_data(piece);
   take_physical_names(document_);
-  if (is_periodic(document_.file) && document_.file.sphere_radius > 0) {
-    fail(ErrorCode::unsupported, source_.path,
-         text("has field data ", in_quotes(kPlanePeriod), " and points on a sphere; expected points of a plane"));
-  }
+  take_period(document_);
   return std::move(document_);
 }
 
@@ -414,24 +410,8 @@ void VtuReader::read_field_data(const pugi::xml_node& grid) {
           text(source_.path, ": field data ", in_quotes(node.attribute("Name").value()), " is text and is dropped"));
       continue;
     }
-    DataArray field = array(node);
-    if (field.name == kPlanePeriod) {
-      read_period(std::move(field));
-    } else {
-      document_.file.field_data.push_back(std::move(field));
-    }
+    document_.file.field_data.push_back(array(node));
   }
-}
-
-void VtuReader::read_period(DataArray&& field) {
-  const std::vector<double> lengths = to_doubles(std::move(field.values));
-  const auto is_length = [](double x) { return x >= 0 && std::isfinite(x); };
-  if (lengths.size() != 2 || !std::all_of(lengths.begin(), lengths.end(), is_length)) {
-    fail(ErrorCode::out_of_scale, source_.path,
-         text("field data ", in_quotes(kPlanePeriod),
-              " is not two lengths; expected the periods along x and y, 0 where there is none"));
-  }
-  document_.file.period = {lengths[0], lengths[1]};
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ ELSEWHERE = {
     "local_sizes": "local_size",
     "dot": "NumPy", "cross": "NumPy", "length": "NumPy", "squared_length": "NumPy",
     "version": "__version__", "compiled_instruction_sets": "build_info says them",
-    "netcdf_version": "as compiled_instruction_sets",
+    "netcdf_version": "as compiled_instruction_sets", "hdf5_version": "as compiled_instruction_sets",
     "clp_solver": "find_weights, best_margin and explain use it",
     "reason_text": "Reason.text", "cure_text": "Cure.text",
     "make_mesh": "read and from_meshio make the mesh", "update": "write does it", "set_points": "from_meshio does it", "release_geometry": "read does it",

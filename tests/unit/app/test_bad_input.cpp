@@ -199,5 +199,21 @@ TEST_F(BadInput, WithoutLibnetcdfFilesOfNetcdfAreRefusedBeforeTheWork) {
   EXPECT_EQ(names(), (std::vector<std::string>{"in.nc", "in.vtu"}));
 }
 
+TEST_F(BadInput, WithoutLibhdf5FilesOfVtkhdfAreRefusedBeforeTheWork) {
+  make_input();
+  const std::string without = "TEMPER_HDF5=/nowhere/libhdf5.so temper ";
+  EXPECT_EQ(shell(without + "check in.vtu").exit, 0);
+  for (const char* command : {"optimize in.vtu -o out.vtkhdf", "convert in.vtu -o out.hdf"}) {
+    const Outcome outcome = shell(without + command);
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_TRUE(contains(outcome.err, ": VTKHDF files need libhdf5 1.10 or later")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "/nowhere/libhdf5.so")) << outcome.err;
+  }
+  write("in.hdf", "\x89HDF\r\n\x1a\nVTKHDF");
+  EXPECT_TRUE(contains(shell(without + "check in.hdf").err, "in.hdf: VTKHDF files need libhdf5"));
+  EXPECT_TRUE(contains(shell(without + "--version").out, "\n  HDF5          not found"));
+  EXPECT_EQ(names(), (std::vector<std::string>{"in.hdf", "in.vtu"}));
+}
+
 }  // namespace
 }  // namespace temper::test

@@ -176,7 +176,8 @@ TEST_F(Example, PeriodicPlanesGoThroughTheVerbsThatTakeThem) {
   EXPECT_EQ(temper({"check", "out.mpas.nc", "--require", "well_centered_fraction=1,boundary_edges=0"}).exit, 0);
   const Outcome off = temper({"convert", "out.vtu", "-o", "out.off"});
   EXPECT_EQ(off.exit, 1);
-  EXPECT_TRUE(contains(off.err, "the plane is periodic, which OFF has no place for; expected one of vtu, mpas"));
+  EXPECT_TRUE(
+      contains(off.err, "the plane is periodic, which OFF has no place for; expected one of vtu, vtkhdf, mpas"));
   EXPECT_FALSE(exists("out.off"));
   using Words = std::vector<std::string>;
   for (const Words& words : {Words{"explain", "in.vtu"}, Words{"weights", "in.vtu", "-o", "w.vtu"},

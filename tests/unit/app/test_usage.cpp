@@ -17,8 +17,8 @@ TEST_F(Usage, VersionSaysWhatTheProgramIsMadeOf) {
   const Outcome outcome = temper_ok({"--version"});
   EXPECT_TRUE(outcome.out.starts_with("temper " TEMPER_VERSION "\n\n")) << outcome.out;
   EXPECT_EQ(outcome.err, "");
-  for (const char* row : {"commit", "compiler", "processor", "instructions", "threads", "oneTBB", "NetCDF", "zlib",
-                          "pugixml", "Clp", "Eigen"}) {
+  for (const char* row : {"commit", "compiler", "processor", "instructions", "threads", "oneTBB", "NetCDF", "HDF5",
+                          "zlib", "pugixml", "Clp", "Eigen"}) {
     EXPECT_TRUE(contains(outcome.out, "\n  " + std::string(row) + " ")) << row << " in\n" << outcome.out;
   }
   for (std::istringstream lines(outcome.out); !lines.eof();) {

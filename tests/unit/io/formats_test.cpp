@@ -22,7 +22,7 @@ TEST(Formats, have_distinct_names_and_a_suffix) {
     EXPECT_FALSE(f.description.empty());
   }
   for (const char* name : {"vtu", "gmsh22", "gmsh41", "medit", "triangle", "obj", "vtk", "vtk51", "mfem", "jigsaw",
-                           "ply", "off", "adcirc", "mpas", "ugrid", "fesom"}) {
+                           "ply", "off", "adcirc", "vtkhdf", "mpas", "ugrid", "fesom"}) {
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
   }
 }

@@ -10,6 +10,7 @@ struct Case {
   Encoding encoding;
   bool holds_z, holds_tags;  // regions, lines and marked points
   bool netcdf;               // needs that library, and a mesh that has orthocenters
+  bool hdf5;                 // needs that library
 };
 
 class RoundTrip : public FileTest, public ::testing::WithParamInterface<Case> {
@@ -17,6 +18,7 @@ class RoundTrip : public FileTest, public ::testing::WithParamInterface<Case> {
   void SetUp() override {
     FileTest::SetUp();
     if (GetParam().netcdf && !TEMPER_NETCDF) GTEST_SKIP() << "built without NetCDF";
+    if (GetParam().hdf5 && !TEMPER_HDF5) GTEST_SKIP() << "built without HDF5";
   }
   static MeshFile fit(MeshFile f) { return GetParam().netcdf ? tamed(std::move(f)) : f; }
   WriteOptions options() const { return {GetParam().format, GetParam().encoding}; }
@@ -127,8 +129,8 @@ std::vector<Case> cases() {
     const bool tags = (row.holds & kAllTags) == kAllTags;
     for (const auto& [encoding, value] : kEncodings) {
       if (format.writes && format.holds_planes)
-        cases.push_back(
-            {name + encoding, name, "m" + suffix, value, (row.holds & kZ) != 0, tags, needs_netcdf(format)});
+        cases.push_back({name + encoding, name, "m" + suffix, value, (row.holds & kZ) != 0, tags, needs_netcdf(format),
+                         needs_hdf5(format)});
     }
   }
   return cases;

@@ -33,9 +33,12 @@ inline void spill(const std::string& path, std::string_view bytes) {
 
 inline bool needs_netcdf(const Format& format) { return format.name == "mpas" || format.name == "ugrid"; }
 
+inline bool needs_hdf5(const Format& format) { return format.name == "vtkhdf"; }
+
 /// Whether temper writes meshes of the plane in it, here.
 inline bool writes_planes(const Format& format) {
-  return format.writes && format.holds_planes && (!needs_netcdf(format) || !netcdf_version().empty());
+  return format.writes && format.holds_planes && (!needs_netcdf(format) || !netcdf_version().empty()) &&
+         (!needs_hdf5(format) || !hdf5_version().empty());
 }
 
 /// A test with a folder that is removed afterwards.

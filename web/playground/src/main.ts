@@ -268,8 +268,8 @@ function save(): void {
 
 for (const { name, title } of examples) element<HTMLSelectElement>('example').add(new Option(title, name));
 for (const { name, description, writes, holds_planes } of formats()) {
-  // The module has no NetCDF.
-  if (writes && holds_planes && !description.includes('NetCDF')) element<HTMLSelectElement>('format').add(new Option(description, name));
+  // The module has neither NetCDF nor HDF5.
+  if (writes && holds_planes && !/NetCDF|HDF5/.test(description)) element<HTMLSelectElement>('format').add(new Option(description, name));
 }
 for (const [layer, title] of [['primal', 'primal'], ['dual', 'dual'], ['weights', 'weights'], ['orthocenters', 'orthocenters'], ['bad', 'bad triangles']] as const) {
   const label = document.createElement('label');

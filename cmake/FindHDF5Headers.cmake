@@ -1,0 +1,26 @@
+# The headers of the HDF5 library for C, of its build without MPI, 1.10 or later: HDF5::headers. (CMake's own FindHDF5 asks
+# for the library, and runs compilers to find it.)
+find_package(PkgConfig QUIET)
+if(PKG_CONFIG_FOUND)
+  pkg_search_module(PC_HDF5 QUIET hdf5-serial hdf5)
+endif()
+
+find_path(HDF5Headers_INCLUDE_DIR hdf5.h HINTS ${PC_HDF5_INCLUDE_DIRS} ${PC_HDF5_INCLUDEDIR} PATH_SUFFIXES hdf5/serial)
+mark_as_advanced(HDF5Headers_INCLUDE_DIR)
+if(HDF5Headers_INCLUDE_DIR)
+  file(GLOB configured ${HDF5Headers_INCLUDE_DIR}/H5pubconf*.h)
+  foreach(header IN LISTS configured)
+    file(STRINGS ${header} line REGEX "^#define H5_VERSION ")
+    if(line MATCHES "\"([0-9.]+)")
+      set(HDF5Headers_VERSION ${CMAKE_MATCH_1})
+    endif()
+  endforeach()
+endif()
+
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(HDF5Headers REQUIRED_VARS HDF5Headers_INCLUDE_DIR VERSION_VAR HDF5Headers_VERSION)
+
+if(HDF5Headers_FOUND AND NOT TARGET HDF5::headers)
+  add_library(HDF5::headers INTERFACE IMPORTED)
+  set_target_properties(HDF5::headers PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${HDF5Headers_INCLUDE_DIR}")
+endif()

@@ -1,0 +1,85 @@
+// See hdf5_library.hpp.
+#include "io/hdf5_library.hpp"
+
+#include <dlfcn.h>
+
+#include <array>
+#include <mutex>
+#include <optional>
+
+#include "io/foreign_library.hpp"
+#include "io/format.hpp"
+#include "temper/io.hpp"
+
+namespace temper::io {
+
+namespace {
+
+/// Of 2.0, 1.14, 1.12 and 1.10. Debian's have a name of their own, beside those of libraries with MPI.
+#ifdef __APPLE__
+constexpr std::array kHdf5Files = {"libhdf5.320.dylib", "libhdf5.310.dylib", "libhdf5.200.dylib", "libhdf5.103.dylib",
+                                   "libhdf5.dylib"};
+#else
+constexpr std::array kHdf5Files = {"libhdf5_serial.so.320", "libhdf5.so.320",        "libhdf5_serial.so.310",
+                                   "libhdf5.so.310",        "libhdf5.so.200",        "libhdf5_serial.so.103",
+                                   "libhdf5.so.103",        "libhdf5_serial.so.100", "libhdf5.so"};
+#endif
+constexpr std::array kHdf5Packages = {"h5py.libs", "netcdf4.libs", "netCDF4.libs"};
+constexpr ForeignLibrary kHdf5 = {"TEMPER_HDF5", kHdf5Files, kHdf5Packages, "libhdf5-"};
+
+/// All functions of the library, or nothing: also of one before 1.10, whose numbers have 32 bits.
+std::optional<Hdf5Library> hdf5_of(void* handle) {
+  Hdf5Library library;
+#define TEMPER_FIND(function)                                                                \
+  library.function = reinterpret_cast<decltype(library.function)>(dlsym(handle, #function)); \
+  if (library.function == nullptr) return std::nullopt;
+  TEMPER_HDF5_FUNCTIONS(TEMPER_FIND)
+#undef TEMPER_FIND
+  unsigned major = 0, minor = 0, patch = 0;
+  if (library.H5get_libversion(&major, &minor, &patch) < 0 || (major == 1 && minor < 10)) return std::nullopt;
+  if (library.H5open() < 0) return std::nullopt;
+#define TEMPER_FIND(number)                                                \
+  {                                                                        \
+    const auto* value = static_cast<const hid_t*>(dlsym(handle, #number)); \
+    if (value == nullptr) return std::nullopt;                             \
+    library.number = *value;                                               \
+  }
+  TEMPER_HDF5_NUMBERS(TEMPER_FIND)
+#undef TEMPER_FIND
+  return library;
+}
+
+const Hdf5Library* find_hdf5() {
+  static std::mutex turn;
+  static std::optional<Hdf5Library> found;
+  const std::scoped_lock lock(turn, foreign_tables());
+  if (!found) {
+    find_library(kHdf5, [](void* handle) {
+      found = hdf5_of(handle);
+      return found.has_value();
+    });
+  }
+  return found ? &*found : nullptr;
+}
+
+}  // namespace
+
+const Hdf5Library& hdf5_library(const std::string& path) {
+  if (const Hdf5Library* const library = find_hdf5()) return *library;
+  const char* const chosen = chosen_file(kHdf5);
+  fail(ErrorCode::unsupported, path,
+       chosen != nullptr ? text("VTKHDF files need libhdf5 1.10 or later; ", kHdf5.variable, " names ", chosen,
+                                ", which cannot be loaded as that")
+                         : text("VTKHDF files need libhdf5 1.10 or later, and there is none: install it (apt: "
+                                "libhdf5-103-1; conda: hdf5; pip: h5py or netCDF4), or name its file in ",
+                                kHdf5.variable));
+}
+
+std::string hdf5_version() {
+  const Hdf5Library* const library = find_hdf5();
+  unsigned major = 0, minor = 0, patch = 0;
+  if (library == nullptr || library->H5get_libversion(&major, &minor, &patch) < 0) return {};
+  return text(major, ".", minor, ".", patch);
+}
+
+}  // namespace temper::io
