@@ -48,6 +48,7 @@ class BoundaryCutter {
 /// An edge of the boundary or of a line, by its ends, which flips elsewhere do not change.
 struct Line {
   VertexId u, v;
+  int splits = 0;  ///< that it is a piece of, one in another
   double sum = kNoConflict;
   double split_at = 0.5;
 };
@@ -56,6 +57,8 @@ struct Line {
 // distances from where they meet (J. Ruppert, "A Delaunay refinement algorithm for quality 2-dimensional mesh
 // generation", 1995).
 constexpr double kSharpCosine = 0.5;  // of 60 degrees
+// After so many splits, one in another: corners where fewer do are left with wider margins by the best places.
+constexpr int kSplitsToShells = 2;
 // No split leaves an end less than this part of its edge.
 constexpr double kLeastPart = 0.2;
 
@@ -73,11 +76,11 @@ class SharpCorners {
   IdVector<VertexId, std::uint8_t> is_sharp_;  // of the vertices there were
 };
 
-Line line_of(const Mesh& mesh, HalfedgeId h) {
+Line line_of(const Mesh& mesh, HalfedgeId h, int splits) {
   if (const auto c = edge_conflict(mesh, h, kLittleRoom)) {
-    return {mesh.origin(c->edge), mesh.target(c->edge), c->sum, c->split_at};
+    return {mesh.origin(c->edge), mesh.target(c->edge), splits, c->sum, c->split_at};
   }
-  return {mesh.origin(h), mesh.target(h)};
+  return {mesh.origin(h), mesh.target(h), splits};
 }
 
 SharpCorners::SharpCorners(const Mesh& mesh, const std::vector<Line>& lines) : is_sharp_(mesh.n_vertices(), 0) {
@@ -98,6 +101,7 @@ SharpCorners::SharpCorners(const Mesh& mesh, const std::vector<Line>& lines) : i
 
 double SharpCorners::split_at(const Mesh& mesh, const Line& line) const {
   const bool from_u = is_sharp(line.u), from_v = is_sharp(line.v);
+  if (line.splits < kSplitsToShells) return line.split_at;
   if (from_u == from_v) return from_u ? 0.5 : line.split_at;
   const double l = length(mesh.position(line.v) - mesh.position(line.u));
   int exponent = 0;
@@ -133,7 +137,7 @@ void BoundaryCutter::resolve_conflicts() {
   std::vector<Line> lines;
   for (const HalfedgeId h : mesh_.halfedges()) {
     if (mesh_.is_erased(Mesh::triangle(h)) || !mesh_.is_edge_representative(h)) continue;
-    if (mesh_.is_boundary(h) || mesh_.is_constrained(h)) lines.push_back(line_of(mesh_, h));
+    if (mesh_.is_boundary(h) || mesh_.is_constrained(h)) lines.push_back(line_of(mesh_, h, 0));
   }
   const SharpCorners corners(mesh_, lines);
   const auto less = [](const Line& x, const Line& y) { return x.sum < y.sum; };
@@ -149,9 +153,10 @@ void BoundaryCutter::resolve_conflicts() {
     }
     ++conflicts_;
     const VertexId end = std::exchange(worst.v, fresh);
-    lines.push_back({fresh, end});
+    const int splits = ++worst.splits;
+    lines.push_back({fresh, end, splits});
     for (Line& line : lines) {
-      if (is_near(mesh_, line, mesh_.position(fresh))) line = line_of(mesh_, find_edge(line.u, line.v));
+      if (is_near(mesh_, line, mesh_.position(fresh))) line = line_of(mesh_, find_edge(line.u, line.v), line.splits);
     }
   }
 }

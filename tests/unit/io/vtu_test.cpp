@@ -5,6 +5,7 @@
 #include "io/vtu_codec.hpp"
 #include "support.hpp"
 #include "support/std_threads.hpp"
+#include "temper/generate.hpp"
 
 namespace temper::io {
 namespace {
