@@ -56,6 +56,7 @@ bool has_margins(const Mesh& mesh, double margin, Executor* executor) {
 std::size_t AccuracyFloors::raise(const Mesh& mesh, double margin, Executor* executor) {
   static_assert(kBlockSize % kBlock == 0);  // so threads share none
   const bool first = size_ == 0;
+  TEMPER_ASSERT(first || margin == margin_);
   size_ = mesh.n_triangles();
   margin_ = margin;
   blocks_.resize((size_ + kBlock - 1) / kBlock);
@@ -84,14 +85,22 @@ std::size_t AccuracyFloors::raise_block(const Mesh& mesh, std::size_t block, boo
     const double before = std::exchange(floors[i], raised(TriangleId(block * kBlock + i), floors[i]));
     count += floors[i] > before ? 1 : 0;
   }
-  if (std::all_of(floors.begin(), floors.end(), [&](double floor) { return floor == margin_; })) floors = {};
+  if (std::all_of(floors.begin(), floors.end(), [&](double floor) { return floor == margin_; })) {
+    floors = std::vector<double>();  // {} would keep its room
+  }
   return count;
+}
+
+std::size_t AccuracyFloors::memory_bytes() const {
+  std::size_t bytes = blocks_.size() * sizeof(blocks_[0]);
+  for (const std::vector<double>& block : blocks_) bytes += block.capacity() * sizeof(double);
+  return bytes;
 }
 
 void AccuracyFloors::visit(Archive& archive) {
   std::vector<double> all(size_);
   for (std::size_t i = 0; i < size_; ++i) all[i] = (*this)[TriangleId(i)];
-  archive(all, lengths);
+  archive(all, margin_, lengths);
   if (!archive.reads()) return;
   size_ = all.size();
   blocks_.clear();

@@ -51,7 +51,8 @@ using VertexSizes = IdVector<VertexId, double>;
 /// of which all do take no room.
 class AccuracyFloors {
  public:
-  /// Raises the floor of each triangle that has got more room since, never lowers one. Returns how many it raised.
+  /// Raises the floor of each triangle that has got more room since, never lowers one. Returns how many it raised. The
+  /// margin is the same each time.
   std::size_t raise(const Mesh& mesh, double margin, Executor* executor = nullptr);
   /// Says whether t has one. A triangle without is no part of the barrier, and must stay as it is.
   [[nodiscard]] bool has(TriangleId t) const { return (*this)[t] > 0; }
@@ -60,6 +61,8 @@ class AccuracyFloors {
     return block.empty() ? margin_ : block[t.index % kBlock];
   }
   [[nodiscard]] std::size_t size() const { return size_; }
+  /// Bytes of the arrays, those of lengths left out.
+  [[nodiscard]] std::size_t memory_bytes() const;
 
   LengthFloors lengths;  ///< where the model keeps them
 

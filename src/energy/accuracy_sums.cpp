@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
+#include <span>
 
 #include "base/sum.hpp"
 #include "energy/accuracy_energy.hpp"

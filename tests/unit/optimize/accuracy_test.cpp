@@ -470,8 +470,11 @@ TEST(Accuracy, FloorsThatAllTrianglesHaveTakeNoRoomAndAreTheSame) {
       EXPECT_EQ(floors[t], has > margin ? margin : 0.9 * has);
       EXPECT_EQ(read[t], floors[t]);
     }
+    const std::size_t of_each = mesh.n_triangles() * sizeof(double);
+    EXPECT_EQ(floors.memory_bytes() < of_each, margin == kMargin);
     EXPECT_EQ(floors.raise(mesh, margin), 0u);
     EXPECT_EQ(read.raise(mesh, margin), 0u);
+    EXPECT_EQ(read.memory_bytes() < of_each, margin == kMargin);
     for (const TriangleId t : mesh.triangles()) EXPECT_EQ(read[t], floors[t]);
   }
 }
