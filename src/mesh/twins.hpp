@@ -1,8 +1,8 @@
 // Which halfedges are twins follows from the corners: found when a mesh is built, and again where a mesh was without.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "temper/mesh.hpp"
@@ -36,7 +36,8 @@ class EdgeBuckets {
   std::vector<HalfedgeId> sorted_;
 };
 
-/// Twins of a mesh that has none stored, and whose edges have two sides at most. O(n), with little room besides them.
+/// Twins of a mesh that has none stored, and whose edges have two sides at most. O(n), with 7 bytes a
+/// vertex besides them for each thread that works, at most 28.
 void find_twins(Mesh& mesh, Executor* executor);
 
 }  // namespace temper

@@ -23,6 +23,13 @@ bool is_worse(const Candidate& a, const Candidate& b, const Settings& settings) 
   return rank(b.work.mesh, settings) < rank(a.work.mesh, settings);
 }
 
+/// Says whether what an attempt has made is kept instead of what there was. The user asks for cuts: without them fewer
+/// triangles have to be bad.
+bool replaces(const Candidate& now, const Candidate& best, const Attempt& attempt, const Settings& settings) {
+  if (attempt.cuts_boundary) return !is_worse(now, best, settings);
+  return rank(now.work.mesh, settings).bad < rank(best.work.mesh, settings).bad;
+}
+
 /// Says whether a repair has made c of `before`: it is no worse, and vertices that came or went have cured something.
 /// With fewer of them the energy is lower in any case.
 bool has_gained(const Candidate& c, const Candidate& before, const Settings& settings) {
@@ -101,7 +108,7 @@ Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run)
     input.fold();
     now.sweep = driver.attempt(tries[i], i + 1 < tries.size() || repairs(settings));
     if (auto error = run.checkpoints.error()) return *std::move(error);
-    if (!best || !is_worse(now, *best, settings)) {
+    if (!best || replaces(now, *best, tries[i], settings)) {
       best = std::move(now);
       run.facts.stays_uncut = !tries[i].cuts_boundary;
     } else {
