@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <optional>
 
 #include "io/file_names.hpp"
 #include "io/format.hpp"
@@ -104,7 +105,7 @@ void replace_edge_lines(MeshFile& file, const std::vector<bool>& edge_lines, con
   std::vector<EdgeEnds> gone, made;
   std::set_difference(listed.begin(), listed.end(), edges.begin(), edges.end(), std::back_inserter(gone));
   std::set_difference(edges.begin(), edges.end(), listed.begin(), listed.end(), std::back_inserter(made));
-  if (gone.empty()) return;
+  if (gone.empty() || gone.size() != made.size()) return;  // those of another mesh are not replaced
   for (std::size_t i = 0; i < edge_lines.size(); ++i) {
     if (!edge_lines[i]) continue;
     const EdgeEnds ends = edge_ends(file.lines[i][0], file.lines[i][1]);

@@ -93,6 +93,7 @@ std::optional<Hdf5Id> Hdf5Reader::group(const Hdf5Id& in, const std::string& nam
 std::optional<Hdf5Dataset> Hdf5Reader::find(const Hdf5Id& in, const std::string& name) const {
   Hdf5Dataset result = {name, object(in, name), {}, {}};
   if (result.id < 0 || library_.H5Iget_type(result.id) != H5I_DATASET) return std::nullopt;
+  expect_numbers_within(result);  // first: to learn its size libhdf5 may open others
   const std::string doing = text("look at the dataset ", in_quotes(name));
   result.sizes = sizes({check(library_.H5Dget_space(result.id), doing), library_.H5Sclose});
   result.scalar = scalar({check(library_.H5Dget_type(result.id), doing), library_.H5Tclose});
@@ -174,7 +175,6 @@ std::size_t Hdf5Reader::allowed_values(const Hdf5Dataset& d) const {
     n *= size;
   }
   allowance_.take(n, 1, where);
-  expect_numbers_within(d);
   return static_cast<std::size_t>(n);
 }
 

@@ -75,7 +75,7 @@ std::string cyclic_in_longitude(const MeshFile& file) {
   if (n == 0 || kFewest * n > file.triangles.size()) return {};
   return text("; ", n, n == 1 ? " triangle joins" : " triangles join", " the ends of the mesh in longitude, ", width,
               " degrees apart: it is cyclic, and on the sphere these ends do not meet. temper has such a mesh as a "
-              "periodic plane, of MPAS or VTU files");
+              "periodic plane, of MPAS, VTU or VTKHDF files");
 }
 
 }  // namespace

@@ -10,6 +10,9 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <span>
+#include <type_traits>
+#include <utility>
 
 #include "io/cells.hpp"
 #include "io/format.hpp"
@@ -194,7 +197,8 @@ void VtkhdfReader::read_cells() {
     start.cells += piece_cells_[piece];
     start.ids += piece_ids_[piece];
   }
-  connectivity_ = {}, types_ = {}, offsets_ = {};
+  const auto release = [](auto& numbers) { std::remove_reference_t<decltype(numbers)>().swap(numbers); };
+  release(connectivity_), release(types_), release(offsets_);
   sorter.distribute(std::move(data));
 }
 

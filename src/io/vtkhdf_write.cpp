@@ -1,4 +1,5 @@
 // Writes VTKHDF 1.0, which every VTK since 9.1 reads, of one piece. See vtkhdf_read.cpp.
+#include <cstring>
 #include <memory>
 
 #include "io/array_names.hpp"

@@ -1,6 +1,7 @@
 #include "quality/transmissibility.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>

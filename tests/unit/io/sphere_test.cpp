@@ -235,7 +235,7 @@ TEST_F(SphereFiles, FesomThatIsCyclicInLongitudeSaysSo) {
   EXPECT_TRUE(
       message.ends_with("; 2 triangles join the ends of the mesh in longitude, 4 degrees apart: it is cyclic, "
                         "and on the sphere these ends do not meet. temper has such a mesh as a periodic "
-                        "plane, of MPAS or VTU files"))
+                        "plane, of MPAS, VTU or VTKHDF files"))
       << message;
 }
 
