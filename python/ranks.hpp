@@ -29,13 +29,22 @@ class PythonRanks final : public Ranks {
     } catch (py::error_already_set& error) {
       error.restore();
       PyErr_Print();
-      communicator_.attr("Abort")(1);
-      std::abort();
+      end_all();
+    } catch (...) {
+      end_all();
     }
   }
 
  private:
   static constexpr std::size_t kMostBytes = std::size_t{1} << 30;  // of one call: MPI counts in int
+
+  [[noreturn]] void end_all() const {
+    try {
+      communicator_.attr("Abort")(1);
+    } catch (...) {  // this process ends, and MPI the others
+    }
+    std::abort();
+  }
 
   void share(std::string& bytes, std::size_t from) const {
     bytes.resize(communicator_.attr("bcast")(bytes.size(), py::arg("root") = from).cast<std::size_t>());
