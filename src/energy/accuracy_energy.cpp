@@ -92,7 +92,7 @@ std::size_t AccuracyFloors::raise_block(const Mesh& mesh, std::size_t block, boo
 }
 
 std::size_t AccuracyFloors::memory_bytes() const {
-  std::size_t bytes = blocks_.size() * sizeof(blocks_[0]);
+  std::size_t bytes = blocks_.size() * sizeof(std::vector<double>);
   for (const std::vector<double>& block : blocks_) bytes += block.capacity() * sizeof(double);
   return bytes;
 }
