@@ -169,10 +169,10 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasure
   if (flips) {
     Settings silent = in_frame;
     silent.hooks.tracer = {};
-    sizes.reset();
+    std::optional<AccuracySizes> again;
     if (for_accuracy)
-      sizes.emplace(NearbyCopy(mesh, settings.hooks.executor), settings.options.size_field, settings.hooks.executor);
-    input = result_of(mesh, made_regular(mesh, silent, report.sweeps), settings, std::move(sizes));
+      again.emplace(NearbyCopy(mesh, settings.hooks.executor), settings.options.size_field, settings.hooks.executor);
+    input = result_of(mesh, made_regular(mesh, silent, report.sweeps), settings, std::move(again));
   }
   const bool worse = input.rank < result.rank;
   if (worse) {
