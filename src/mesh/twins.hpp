@@ -36,8 +36,8 @@ class EdgeBuckets {
   std::vector<HalfedgeId> sorted_;
 };
 
-/// Twins of a mesh that has none stored, and whose edges have two sides at most. O(n), with 7 bytes a
-/// vertex besides them for each thread that works, at most 28.
+/// Twins of a mesh that has none stored, and whose edges have two sides at most. O(n), with 7 bytes a vertex besides
+/// them for each thread that works, at most 28.
 void find_twins(Mesh& mesh, Executor* executor);
 
 }  // namespace temper

@@ -15,16 +15,10 @@ import numpy
 import scipy.io
 import scipy.sparse
 
+from checks import check, checks_made
+
 TEMPER = sys.argv[1]
 DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs" / "operators.md"
-CHECKS = 0
-
-
-def check(good, what):
-    global CHECKS
-    CHECKS += 1
-    if not good:
-        sys.exit(f"FAILED: {what}")
 
 
 def run(*arguments):
@@ -112,7 +106,7 @@ def main():
             check_laws(example, arrays)
             check_vtu(example, arrays)
         check_docs()
-    print(f"{CHECKS} checks passed")
+    print(f"{checks_made()} checks passed")
 
 
 main()

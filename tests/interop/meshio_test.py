@@ -11,15 +11,9 @@ import tempfile
 import meshio
 import numpy
 
+from checks import check, checks_made
+
 TOOL = sys.argv[1]
-CHECKS = 0
-
-
-def check(good, what):
-    global CHECKS
-    CHECKS += 1
-    if not good:
-        sys.exit(f"FAILED: {what}")
 
 
 def sample():
@@ -235,8 +229,8 @@ def main():
     convert("triangles", "out.off", "off", "ascii")
     same(plain_mesh(), meshio.read("out.off"), "our off")
 
-    check(CHECKS > 300, f"only {CHECKS} checks")
-    print(f"{CHECKS} checks passed with meshio {meshio.__version__}")
+    check(checks_made() > 300, f"only {checks_made()} checks")
+    print(f"{checks_made()} checks passed with meshio {meshio.__version__}")
 
 
 main()

@@ -12,6 +12,8 @@ import time
 import h5py
 import numpy
 
+from checks import check, checks_made
+
 try:
     import vtk
     from vtk.util.numpy_support import vtk_to_numpy
@@ -19,14 +21,6 @@ except ImportError:
     vtk = None
 
 PROGRAM = sys.argv[1]
-CHECKS = 0
-
-
-def check(good, what):
-    global CHECKS
-    CHECKS += 1
-    if not good:
-        sys.exit(f"FAILED: {what}")
 
 
 def run(*words):
@@ -255,4 +249,4 @@ with tempfile.TemporaryDirectory() as temporary:
     what_is_refused(temporary)
     if vtk is not None:
         what_vtk_says(temporary)
-print(f"{CHECKS} checks" + ("" if vtk else ", without VTK"))
+print(f"{checks_made()} checks" + ("" if vtk else ", without VTK"))

@@ -100,8 +100,8 @@ SharpCorners::SharpCorners(const Mesh& mesh, const std::vector<Line>& lines) : i
 }
 
 double SharpCorners::split_at(const Mesh& mesh, const Line& line) const {
-  const bool from_u = is_sharp(line.u), from_v = is_sharp(line.v);
   if (line.splits < kSplitsToShells) return line.split_at;
+  const bool from_u = is_sharp(line.u), from_v = is_sharp(line.v);
   if (from_u == from_v) return from_u ? 0.5 : line.split_at;
   const double l = length(mesh.position(line.v) - mesh.position(line.u));
   int exponent = 0;

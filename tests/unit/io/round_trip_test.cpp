@@ -148,11 +148,7 @@ TEST_F(FileTest, vtu_keeps_all_data_with_their_types) {
     const auto g = read(path("a.vtu"));
     ASSERT_TRUE(g) << g.error().what();
     expect_same_mesh(f, *g);
-    expect_same_data(f.point_data, g->point_data, "point data");
-    expect_same_data(f.cell_data, g->cell_data, "cell data");
-    expect_same_data(f.line_data, g->line_data, "line data");
-    expect_same_data(f.marked_point_data, g->marked_point_data, "data of marked points");
-    expect_same_data(f.field_data, g->field_data, "field data");
+    expect_same_data(f, *g);
     ASSERT_EQ(g->names.size(), f.names.size());
     for (std::size_t i = 0; i < f.names.size(); ++i) {
       EXPECT_EQ(g->names[i].dimension, f.names[i].dimension);

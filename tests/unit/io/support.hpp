@@ -147,6 +147,15 @@ inline void expect_same_data(const std::vector<DataArray>& a, const std::vector<
   }
 }
 
+/// All that files have besides, bit for bit.
+inline void expect_same_data(const MeshFile& a, const MeshFile& b) {
+  expect_same_data(a.point_data, b.point_data, "point data");
+  expect_same_data(a.cell_data, b.cell_data, "cell data");
+  expect_same_data(a.line_data, b.line_data, "line data");
+  expect_same_data(a.marked_point_data, b.marked_point_data, "data of marked points");
+  expect_same_data(a.field_data, b.field_data, "field data");
+}
+
 /// Geometry, weights, regions and tags, bit for bit.
 inline void expect_same_mesh(const MeshFile& a, const MeshFile& b) {
   ASSERT_EQ(a.points.size(), b.points.size());

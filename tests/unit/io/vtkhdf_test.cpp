@@ -97,11 +97,7 @@ TEST_F(Vtkhdf, KeepsAllDataWithTheirTypes) {
   EXPECT_EQ(g->format, "vtkhdf");
   EXPECT_TRUE(g->warnings.empty());
   expect_same_mesh(f, *g);
-  expect_same_data(f.point_data, g->point_data, "point data");
-  expect_same_data(f.cell_data, g->cell_data, "cell data");
-  expect_same_data(f.line_data, g->line_data, "line data");
-  expect_same_data(f.marked_point_data, g->marked_point_data, "data of marked points");
-  expect_same_data(f.field_data, g->field_data, "field data");
+  expect_same_data(f, *g);
   ASSERT_EQ(g->names.size(), f.names.size());
   for (std::size_t i = 0; i < f.names.size(); ++i) EXPECT_EQ(g->names[i].name, f.names[i].name);
 }
