@@ -43,13 +43,17 @@ bool has_gained(const Candidate& c, const Candidate& before, const Settings& set
 bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.hooks.executor) > 0; }
 
 /// Says whether so few triangles of c are bad that each is a place of its own, far from all others. Another attempt
-/// would leave as many elsewhere, where a repair of each is a matter of moments; and a search need not give up what it
-/// has cured to begin again with the others.
+/// would leave as many elsewhere, where a repair of each is a matter of moments; a search need not give up what it has
+/// cured to begin again with the others; and it needs no copy to return to, which the largest meshes have no room for:
+/// it leaves no more bad than there were, and trials have swept each place by itself.
 bool are_apart(const Candidate& c, const Settings& s) {
   constexpr double kMost = 1e-5;
   const auto bad = static_cast<double>(count_bad(c.work.mesh, s.hooks.executor));
   return bad > 0 && bad < kMost * static_cast<double>(c.work.mesh.n_triangles());
 }
+
+/// Vertices that came or went are taken back where they cured nothing.
+bool keeps_vertices(const Settings& s) { return s.options.repair != Repair::vertices; }
 
 /// Says whether c has what a repair could cure: bad triangles, or edges that vertices make too short.
 bool needs_repair(const Candidate& c, const Settings& s) {
@@ -123,23 +127,25 @@ Candidate repaired(Candidate best, Settings& settings, Run& run) {
   const auto is_done = [&](const Candidate& c) {
     return !run.goes_on() || run.repair_trials_left <= 0 || !needs_repair(c, settings);
   };
-  std::optional<Candidate> start;  // of all searches, once it is not the best one
-  Candidate now;
+  std::optional<Candidate> start;  // of all searches on copies, once it is not the best one
+  Candidate copy;
   std::uint64_t i = 0;
-  bool polishes = false;
-  const Resumable here(run.checkpoints, best, start, now, i, polishes);
-  if (!here.resumed() &&
-      (!repairs(settings) || is_done(best) || !std::isfinite(total_energy(best.work.mesh, settings.model)))) {
-    return best;
+  bool in_place = false, polishes = false;
+  const Resumable here(run.checkpoints, best, start, copy, i, in_place, polishes);
+  if (!here.resumed()) {
+    if (!repairs(settings) || is_done(best) || !std::isfinite(total_energy(best.work.mesh, settings.model))) return best;
+    in_place = keeps_vertices(settings) && are_apart(best, settings);
   }
   for (; !polishes && i < kSearches; ++i) {
     const bool begins = !run.checkpoints.resumes();
     if (begins && is_done(best)) break;
-    if (begins) now = start ? *start : best;
-    Driver driver(now.work, settings, run);  // NOLINT(bugprone-use-after-move): what begins has been made anew
+    if (begins && !in_place) copy = start ? *start : best;
+    Candidate& now = in_place ? best : copy;  // NOLINT(bugprone-use-after-move): what begins has been made anew
+    Driver driver(now.work, settings, run);
     if (begins && start) driver.recorder().returned_to(start->sweep);
     const bool changed = driver.repair(settings.options.paper.seed + i);
     now.sweep = run.report.sweeps;
+    if (in_place) continue;
     if (changed && has_gained(now, best, settings)) {
       if (!start) start = std::move(best);
       best = std::move(now);
@@ -148,8 +154,9 @@ Candidate repaired(Candidate best, Settings& settings, Run& run) {
       driver.recorder().returned_to(best.sweep);
     }
   }
+  if (in_place) return best;
   start.reset();
-  now = {};
+  copy = {};
   polishes = true;
   if (run.checkpoints.resumes() || run.goes_on()) best.sweep = Driver(best.work, settings, run).polish(best.sweep);
   return best;

@@ -6,10 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "optimize/attempts.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/splice.hpp"
 #include "optimize/repair/trial.hpp"
 #include "support/area.hpp"
+#include "support/lattice.hpp"
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"
 #include "temper/optimize.hpp"
@@ -76,6 +78,33 @@ TEST(Repair, WithoutInsertionAndRemovalEveryVertexStays) {
   EXPECT_EQ(n_bad(repaired), 0u);
   EXPECT_EQ(repaired.n_vertices(), input.n_vertices());
   EXPECT_TRUE(report->vertices.empty());
+}
+
+TEST(Repair, OfOnePlaceInALargeMeshChangesNothingElsewhere) {
+  constexpr int kSide = 240;  // 114,242 triangles
+  Mesh input = test::lattice({.n = kSide, .jitter = 0.02, .weight = 0});
+  const VertexId moved(kSide * kSide / 2 + kSide / 2);
+  const WeightedPoint from = input.point(moved);
+  input.set_point(moved, {from.x, from.y + 0.4, 0});  // sees the edge above at more than a right angle
+  ASSERT_EQ(n_bad(input), 1u);
+
+  const OptimizeOptions options;
+  const Observer nobody;
+  temper::Run run(options, nobody);
+  auto settings = make_settings(options, input, Frame::of(input), {});
+  ASSERT_TRUE(settings);
+  const Candidate mended = repaired({WorkingCopy(input, options.paper.order)}, *settings, run);
+  EXPECT_GT(run.report.sweeps, 0);
+  const Mesh mesh = mended.work.in_user_terms();
+  EXPECT_EQ(n_bad(mesh), 0u);
+  EXPECT_EQ(count_non_regular_edges(mesh), 0u);
+  EXPECT_EQ(mesh.validate(), std::nullopt);
+  for (const VertexId v : mesh.vertices()) {
+    const Vec2 p = input.position(v);
+    if (std::hypot(p.x - from.x, p.y - from.y) > 6) {
+      ASSERT_EQ(mesh.point(v), input.point(v)) << v.index;
+    }
+  }
 }
 
 TEST(Repair, IsTracedLikeAllElse) {
