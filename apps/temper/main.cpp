@@ -146,6 +146,7 @@ int run_program(int argc, char** argv) {
     end_ranks(error.what(), Exit::internal);
     return internal_error(error.what());
   } catch (...) {
+    end_ranks("unknown exception", Exit::internal);
     return internal_error("unknown exception");
   }
 }

@@ -1,24 +1,14 @@
 #include "resume.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <string_view>
-
-#include "suggest.hpp"
 
 namespace temper::app {
 namespace {
 
 constexpr std::string_view kResume = "--resume";
-/// Of which no result depends.
-constexpr std::string_view kAnew[] = {"--output",     "--format",     "--encoding", "--require", "--report",
-                                      "--history",    "--trace",      "--draw",     "--quiet",   "--threads",
-                                      "--time-limit", "--checkpoint", "--every"};
-
-bool may_be_anew(const Option& option) {
-  return std::find(std::begin(kAnew), std::end(kAnew), long_name(option.names)) != std::end(kAnew);
-}
 
 void add_words(const Option& option, Arguments& words) {
   for (const std::string& value : option.given) {
@@ -32,8 +22,12 @@ void add_words(const Option& option, Arguments& words) {
 }
 
 [[noreturn]] void refuse(const Command& command, const std::string& what) {
+  std::vector<std::string> names;
+  for (const Option& option : command.options()) {
+    if (option.may_be_anew) names.push_back(long_name(option.names));
+  }
   throw Failure(Exit::bad_usage, fmt::format("{}: {}; beside {} expected no more than {}\nSee temper {} --help",
-                                             command.name(), what, kResume, join(kAnew), command.name()));
+                                             command.name(), what, kResume, fmt::join(names, ", "), command.name()));
 }
 
 }  // namespace
@@ -54,7 +48,7 @@ Arguments resumed_words(const Command& now, const Command& then) {
     if (given.is_help() || name == kResume) continue;
     if (given.given.empty()) {
       add_words(before, words);
-    } else if (!may_be_anew(given)) {
+    } else if (!given.may_be_anew) {
       refuse(now, fmt::format("{} is that of the run that is resumed, and cannot be given anew", name));
     } else if (name == "--trace" && before.given.empty()) {
       refuse(now, "--trace: the run was not traced from its beginning");

@@ -26,12 +26,15 @@ namespace temper {
 
 /// An edge u → v whose dual must cross it near u for the sake of one vertex, and near v for the sake of another.
 struct EdgeConflict {
+  /// A piece of a split edge is this part of it at least: shorter ones would only ask for the next split.
+  static constexpr double kLeastPiece = 0.2;
+
   HalfedgeId edge;        ///< from u to v: the boundary halfedge, or the smaller of two twins
   VertexId near_u;        ///< which wants the crossing less than a ℓ from u,
   VertexId near_v;        ///< and which wants it less than b ℓ from v
   double a = 0, b = 0;    ///< parts of the edge's length ℓ, on the sphere of the arc
   double sum = 0;         ///< a + b: at most 1 when there is no place for the crossing
-  double split_at = 0.5;  ///< part of the way from u: the middle of what is left out, but no closer to an end than 0.2
+  double split_at = 0.5;  ///< part of the way from u: the middle of what is left out; each piece at least kLeastPiece
 };
 
 /// The conflict of one edge, of the boundary, constrained or neither, when a + b ≤ up_to: decided exactly in the range

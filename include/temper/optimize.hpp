@@ -25,6 +25,7 @@
 namespace temper {
 
 class Executor;
+class LpSolver;
 
 /// How one vertex is improved.
 enum class Solver {
@@ -325,6 +326,8 @@ struct OptimizeHooks {
   /// Nobody looks at the mesh before optimize() has returned, observers neither: what it can be without meanwhile is
   /// released, 24 bytes a vertex.
   bool exclusive = false;
+  /// For repairs: solves for the weights of a place that sweeps leave bad. Null: nobody does.
+  LpSolver* lp = nullptr;
 };
 
 enum class Stopped {

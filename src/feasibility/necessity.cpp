@@ -27,8 +27,6 @@ namespace {
 
 using exact::Number;
 
-// A piece of a split edge is a fifth of it at least: shorter ones would only ask for the next split.
-constexpr double kLeastPiece = 0.2;
 // Relative to the largest distance that enters: far more than the dozen roundings of a distance. The walk may go a bit
 // too far, never too short.
 constexpr double kWalkSlack = 1e-12;
@@ -317,7 +315,8 @@ std::optional<EdgeConflict> conflict_of(const Mesh& mesh, HalfedgeId edge, doubl
   if (!a || !b || !is_at_most(*a, *b, up_to)) return std::nullopt;
   EdgeConflict conflict = {edge, a->vertex, b->vertex, part_of_length(*a), part_of_length(*b)};
   conflict.sum = conflict.a + conflict.b;
-  conflict.split_at = std::clamp((conflict.a + (1 - conflict.b)) / 2, kLeastPiece, 1 - kLeastPiece);
+  conflict.split_at =
+      std::clamp((conflict.a + (1 - conflict.b)) / 2, EdgeConflict::kLeastPiece, 1 - EdgeConflict::kLeastPiece);
   return conflict;
 }
 

@@ -31,7 +31,7 @@ bool sniff_vtkhdf(std::string_view head) { return is_hdf5_file(head); }
 namespace {
 
 constexpr std::string_view kGhosts = "vtkGhostType";  // of cells: bits
-constexpr std::uint8_t kDuplicateCell = 1;
+constexpr int kDuplicateCell = 1;
 constexpr std::int64_t kMostOfPiece = std::numeric_limits<std::int32_t>::max();
 
 class VtkhdfReader {
@@ -53,6 +53,7 @@ class VtkhdfReader {
   [[nodiscard]] Hdf5Dataset dataset(const char* name, std::size_t rows, std::size_t columns) const;
   void read_points();
   void read_cells();
+  void find_duplicates(const DataArray& ghosts, std::size_t n);
   void sort_piece(CellSorter& sorter, const Start& start);
   void number_in_mesh(std::int32_t* ids, std::size_t n, std::size_t cell, const Start& start) const;
   void read_point_data();
@@ -71,7 +72,7 @@ class VtkhdfReader {
   JoinedPoints joined_;  // of several pieces
   std::vector<std::int32_t> connectivity_, types_;
   std::vector<std::int64_t> offsets_;
-  std::vector<std::uint8_t> ghosts_;  // empty: none
+  std::vector<bool> is_duplicate_;  // by cell; empty: none is
 };
 
 Document VtkhdfReader::read() {
@@ -182,10 +183,7 @@ void VtkhdfReader::read_cells() {
   types_ = in_.integers(dataset("Types", n, 1));
   std::vector<DataArray> data = arrays("CellData", n, "cell data");
   if (several()) {
-    if (auto ghosts = take(data, kGhosts)) {
-      if (auto* bits = std::get_if<std::vector<std::uint8_t>>(&ghosts->values); bits != nullptr && bits->size() == n)
-        ghosts_ = std::move(*bits);
-    }
+    if (const auto ghosts = take(data, kGhosts)) find_duplicates(*ghosts, n);
   }
   CellSorter sorter(document_, source_.allowance);
   sorter.reserve(n);
@@ -202,6 +200,26 @@ void VtkhdfReader::read_cells() {
   sorter.distribute(std::move(data));
 }
 
+/// Ghost cells are told by bits, whatever integers hold these.
+void VtkhdfReader::find_duplicates(const DataArray& ghosts, std::size_t n) {
+  const bool known = std::visit(
+      [&](const auto& bits) {
+        using Bits = typename std::decay_t<decltype(bits)>::value_type;
+        if constexpr (std::is_integral_v<Bits>) {
+          if (bits.size() != n) return false;
+          is_duplicate_.resize(n);
+          for (std::size_t i = 0; i < n; ++i) is_duplicate_[i] = (bits[i] & kDuplicateCell) != 0;
+          return true;
+        } else {
+          return false;
+        }
+      },
+      ghosts.values);
+  if (known) return;
+  document_.file.warnings.push_back(
+      text(path_, ": cell data ", kGhosts, " is no integer for each cell: all cells are taken"));
+}
+
 void VtkhdfReader::sort_piece(CellSorter& sorter, const Start& start) {
   const std::size_t n_ids = piece_ids_[start.piece];
   const std::int64_t* offsets = offsets_.data() + start.cells + start.piece;
@@ -214,7 +232,7 @@ void VtkhdfReader::sort_piece(CellSorter& sorter, const Start& start) {
     }
     std::int32_t* ids = connectivity_.data() + start.ids + first;
     const auto n = static_cast<std::size_t>(end - first);
-    if (!ghosts_.empty() && (ghosts_[cell] & kDuplicateCell) != 0) {
+    if (!is_duplicate_.empty() && is_duplicate_[cell]) {
       sorter.add(kVtkEmptyCell, ids, 0, path_);
       continue;
     }

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "mesher/box_tree.hpp"
+#include "geometry/bounding_boxes.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper::mesher {
@@ -138,13 +138,13 @@ class Arranger {
   }
 
   Error find_meetings() {
-    std::vector<Box> boxes;
+    std::vector<BoundingBox> boxes;
     std::vector<std::uint8_t> used(o_.points.size(), 0);
     for (const OutlineSegment& s : o_.segments) {
       boxes.push_back(box_around(ground_, point(s.ends[0]), point(s.ends[1])));
       for (const std::int32_t end : s.ends) used[static_cast<std::size_t>(end)] = 1;
     }
-    const BoxTree tree(boxes);
+    const BoundingBoxTree tree(boxes);
     on_segment_.resize(o_.segments.size());
     Error error;
     for (std::size_t i = 0; i < boxes.size() && !error; ++i) {

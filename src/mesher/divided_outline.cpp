@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "mesher/box_tree.hpp"
+#include "geometry/bounding_boxes.hpp"
 
 namespace temper::mesher {
 namespace {
@@ -73,10 +73,10 @@ bool is_sharp(const Ground& ground, const std::vector<Vec3>& points, std::size_t
 
 /// The nearest edge that does not end at the point, or `within`.
 double clearance(const Ground& ground, const std::vector<Vec3>& points, const std::vector<OutlineEdge>& edges,
-                 const BoxTree& tree, std::size_t apex, double within) {
+                 const BoundingBoxTree& tree, std::size_t apex, double within) {
   double least = within * within;
   const Vec3 p = points[apex];
-  tree.visit(Box{p, p}.grown(within), [&](std::size_t i) {
+  tree.visit(BoundingBox{p, p}.grown(within), [&](std::size_t i) {
     const auto [a, b] = edges[i].ends;
     if (static_cast<std::size_t>(a) != apex && static_cast<std::size_t>(b) != apex) {
       least = std::min(
@@ -94,13 +94,13 @@ CornerRadii corner_radii(const Ground& ground, const std::vector<Vec3>& points, 
   const auto around = neighbours(ground, points, edges);
   std::vector<std::uint8_t> sharp(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) sharp[i] = is_sharp(ground, points, i, around[i]) ? 1 : 0;
-  std::vector<Box> boxes;
+  std::vector<BoundingBox> boxes;
   boxes.reserve(edges.size());
   for (const OutlineEdge& e : edges) {
     boxes.push_back(
         box_around(ground, points[static_cast<std::size_t>(e.ends[0])], points[static_cast<std::size_t>(e.ends[1])]));
   }
-  const BoxTree tree(boxes);
+  const BoundingBoxTree tree(boxes);
   CornerRadii radii(points.size(), 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (sharp[i] == 0) continue;

@@ -37,7 +37,7 @@ class GradedSize {
 
  private:
   struct Node {
-    Box box;           // of the sources below
+    BoundingBox box;   // of the sources below
     double least = 0;  // size among them
     std::uint32_t begin = 0, end = 0;
     std::uint32_t right = 0;  // the left child follows its parent; 0 for a leaf

@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/bounding_boxes.hpp"
 #include "geometry/ground.hpp"
-#include "mesher/box_tree.hpp"
 
 namespace temper::mesher {
 
 /// A box around the segment from a to b.
-[[nodiscard]] inline Box box_around(const Ground& ground, Vec3 a, Vec3 b) {
-  const Box ends = box_of(a, b);
+[[nodiscard]] inline BoundingBox box_around(const Ground& ground, Vec3 a, Vec3 b) {
+  const BoundingBox ends = box_of(a, b);
   if (ground.is_plane()) return ends;
   // The arc is above its chord by no more than the radius less the distance of the chord; rounding doubles that.
   const double radius = ground.space().radius(), middle = 0.5 * length(a + b);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesher/box_tree.hpp"
+#include "geometry/bounding_boxes.hpp"
 #include "mesher/point_grid.hpp"
 
 namespace temper::mesher {
@@ -30,11 +30,11 @@ class Placement {
   Placement(const Ground& ground, const DividedOutline& divided, const Areas& areas, const GradedSize& size,
             Deadline& deadline)
       : ground_(ground), divided_(divided), areas_(areas), size_(size), deadline_(deadline), grid_(ground.is_plane()) {
-    std::vector<Box> boxes;
+    std::vector<BoundingBox> boxes;
     boxes.reserve(divided.pieces.size());
     for (const Piece& p : divided.pieces)
       boxes.push_back(box_around(ground, divided.points[p.ends[0]], divided.points[p.ends[1]]));
-    tree_ = BoxTree(boxes);
+    tree_ = BoundingBoxTree(boxes);
     for (const Vec3 p : divided.points) grid_.add(p, size(p));
   }
 
@@ -102,7 +102,7 @@ class Placement {
 
   /// No piece is within the distance of p, or between p and where it comes from.
   [[nodiscard]] bool is_clear(Vec3 p, Vec3 from, double distance, std::size_t own_piece) const {
-    const Box box = united(Box{p, p}.grown(distance), box_around(ground_, p, from));
+    const BoundingBox box = united(BoundingBox{p, p}.grown(distance), box_around(ground_, p, from));
     return tree_.visit(box, [&](std::size_t i) {
       const Vec3 a = divided_.points[divided_.pieces[i].ends[0]], b = divided_.points[divided_.pieces[i].ends[1]];
       if (ground_.squared_distance(p, a, b) < distance * distance) return false;
@@ -116,7 +116,7 @@ class Placement {
   const Areas& areas_;
   const GradedSize& size_;
   Deadline& deadline_;
-  BoxTree tree_;
+  BoundingBoxTree tree_;
   PointGrid grid_;
   std::vector<Front> front_;
 };

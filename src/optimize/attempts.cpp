@@ -1,6 +1,7 @@
 // See attempts.hpp.
 #include "optimize/attempts.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -16,6 +17,8 @@
 namespace temper {
 namespace {
 
+// Weights alone are seldom enough: they have to get on fast.
+constexpr double kFewerByWeights = 0.75;
 // A search that ends with triangles bad may have gone astray early on.
 constexpr std::uint64_t kSearches = 4;
 
@@ -23,10 +26,10 @@ bool is_worse(const Candidate& a, const Candidate& b, const Settings& settings) 
   return rank(b.work.mesh, settings) < rank(a.work.mesh, settings);
 }
 
-/// Says whether what an attempt has made is kept instead of what there was. The user asks for cuts: without them fewer
-/// triangles have to be bad.
+/// Says whether what an attempt has made is kept instead of what there was. The user asks for cuts, and for places that
+/// are good ones: without them fewer triangles have to be bad.
 bool replaces(const Candidate& now, const Candidate& best, const Attempt& attempt, const Settings& settings) {
-  if (attempt.cuts_boundary) return !is_worse(now, best, settings);
+  if (attempt.cuts_boundary && !attempt.weighs_alone) return !is_worse(now, best, settings);
   return rank(now.work.mesh, settings).bad < rank(best.work.mesh, settings).bad;
 }
 
@@ -62,7 +65,8 @@ bool needs_repair(const Candidate& c, const Settings& s) {
 }
 
 /// What to try, for the working copy as it is. Where all attempts with a cut boundary leave triangles bad, they are
-/// made again without: what lines leave no room for, cuts may make worse.
+/// made again without: what lines leave no room for, cuts may make worse. And last with weights alone: where triangles
+/// are thin as they have to be, in layers, moves that lower the energy elsewhere may leave them no weights.
 std::vector<Attempt> attempts_for(const Mesh& mesh, const Settings& settings) {
   const OptimizeOptions& o = settings.options;
   const auto all = attempts(settings.energy, o, mesh, settings.hooks.executor);
@@ -74,6 +78,16 @@ std::vector<Attempt> attempts_for(const Mesh& mesh, const Settings& settings) {
     }
   }
   for (Attempt& attempt : tries) attempt.first_energy = first_energy_of(o);
+  if (all.size() == 1 || o.unknowns != Unknowns::positions_and_weights) return tries;
+  OptimizeOptions weights = o;
+  weights.unknowns = Unknowns::weights;
+  for (Attempt attempt : attempts(settings.energy, weights, mesh, settings.hooks.executor)) {
+    if (!attempt.until_good) continue;
+    attempt.fewer = std::min(attempt.fewer, kFewerByWeights);
+    attempt.cuts_boundary = o.boundary != BoundaryVertices::split;
+    attempt.weighs_alone = true;
+    tries.push_back(attempt);
+  }
   return tries;
 }
 
@@ -90,6 +104,8 @@ std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Setti
 
 Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run) {
   const OptimizeOptions& o = settings.options;
+  const Unknowns unknowns = o.unknowns;
+  const bool repairs_follow = repairs(settings);
   std::optional<Candidate> best;
   Candidate now;
   std::vector<Attempt> tries(1);
@@ -97,6 +113,7 @@ Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run)
   const Resumable here(run.checkpoints, best, now, tries, i);
   if (run.checkpoints.failed() || i >= tries.size()) return *run.checkpoints.error();
   for (; i < tries.size(); ++i) {
+    settings.options.unknowns = tries[i].weighs_alone ? Unknowns::weights : unknowns;
     const bool begins = !run.checkpoints.resumes();
     if (begins) now = {WorkingCopy(input.whole(), o.paper.order, settings.hooks.executor)};
     Driver driver(now.work, settings, run);  // NOLINT(bugprone-use-after-move): what begins has been made anew
@@ -110,7 +127,7 @@ Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run)
       run.facts.input_flips = run.report.flips;
     }
     input.fold();
-    now.sweep = driver.attempt(tries[i], i + 1 < tries.size() || repairs(settings));
+    now.sweep = driver.attempt(tries[i], i + 1 < tries.size() || repairs_follow);
     if (auto error = run.checkpoints.error()) return *std::move(error);
     if (!best || replaces(now, *best, tries[i], settings)) {
       best = std::move(now);
@@ -118,8 +135,9 @@ Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run)
     } else {
       driver.recorder().returned_to(best->sweep);
     }
-    if (!has_bad(*best, settings) || !run.goes_on() || (repairs(settings) && are_apart(*best, settings))) break;
+    if (!has_bad(*best, settings) || !run.goes_on() || (repairs_follow && are_apart(*best, settings))) break;
   }
+  settings.options.unknowns = unknowns;
   return *std::move(best);
 }
 
@@ -133,7 +151,8 @@ Candidate repaired(Candidate best, Settings& settings, Run& run) {
   bool in_place = false, polishes = false;
   const Resumable here(run.checkpoints, best, start, copy, i, in_place, polishes);
   if (!here.resumed()) {
-    if (!repairs(settings) || is_done(best) || !std::isfinite(total_energy(best.work.mesh, settings.model))) return best;
+    if (!repairs(settings) || is_done(best) || !std::isfinite(total_energy(best.work.mesh, settings.model)))
+      return best;
     in_place = keeps_vertices(settings) && are_apart(best, settings);
   }
   for (; !polishes && i < kSearches; ++i) {

@@ -52,8 +52,9 @@ void Notes::tell_cuts(const BoundaryCuts& cuts) {
         " inserted in triangles whose corners all were on the boundary or on lines");
   }
   if (cuts.refused > 0) {
-    add(std::to_string(cuts.refused) +
-        " cuts of the boundary were not made: coordinates are too coarse there, or weights would hide a vertex");
+    add(count_of(cuts.refused, "edge", "edges") +
+        " of the boundary or of lines could not be cut: coordinates are too coarse there, or weights would hide a "
+        "vertex");
   }
 }
 

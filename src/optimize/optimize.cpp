@@ -55,6 +55,7 @@ void improve(Candidate& best, const Settings& settings, Run& run, AccuracySizes&
   Improving phase(best.work, settings, run, sizes.lend(best.work, settings.hooks.executor));
   Driver driver(best.work, phase.settings(), run);
   best.sweep = driver.run(phase, best.sweep);
+  if (run.checkpoints.resumes()) return;  // the state that is resumed does not fit
   sizes.take_back(phase.take_sizes(), best.work, settings.hooks.executor);
   if (!before) return;
   const auto rank_of = [&](const Candidate& c) {

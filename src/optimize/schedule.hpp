@@ -32,6 +32,7 @@ struct Attempt {
   double tie_weight = 0;    ///< added before it to the heavier ends of ties, relative to their shortest edge squared
   std::optional<EnergyKind> first_energy = {};  ///< of its first sweeps
   bool cuts_boundary = true;                    ///< before it, where the options ask for it
+  bool weighs_alone = false;                    ///< positions stay
 };
 
 void visit(Archive& archive, Attempt& attempt);

@@ -69,9 +69,9 @@ void visit(Archive& archive, Settings& settings) {
 
 void visit(Archive& archive, Attempt& attempt) {
   auto& [start, factor, relaxation, level_sweeps, level_fall, until_good, jitter, fewer, tie_weight, first_energy,
-         cuts_boundary] = attempt;
+         cuts_boundary, weighs_alone] = attempt;
   archive(start, factor, relaxation, level_sweeps, level_fall, until_good, jitter, fewer, tie_weight, first_energy,
-          cuts_boundary);
+          cuts_boundary, weighs_alone);
 }
 
 void visit(Archive& archive, Run& run) {
@@ -181,8 +181,8 @@ void ErrorPhase::visit(Archive& archive) {
 }
 
 void RepairSearch::visit(Archive& archive) {
-  auto& [work, settings, run, flipper, recorder, rng, failures, bad, changed] = *this;
-  archive(rng, failures);
+  auto& [work, settings, run, flipper, recorder, rng, failures, weighed, bad, changed] = *this;
+  archive(rng, failures, weighed);
 }
 
 }  // namespace temper

@@ -67,19 +67,20 @@ void add_removals(const Neighborhood& around, const std::vector<TriangleId>& bad
 
 }  // namespace
 
-std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool vertices, Rng& rng) {
-  std::vector<Edit> moves = {{.kind = Edit::nothing}}, one, many, anew;
+std::vector<std::vector<Edit>> edits_for(const Neighborhood& around, bool weighs, bool vertices, Rng& rng) {
+  std::vector<Edit> moves = {{.kind = Edit::nothing}}, weights, one, many, anew;
   for (int i = 0; i < kKicks; ++i) moves.push_back({.kind = Edit::kick, .seed = rng.next()});
-  if (!vertices) return {moves};
+  if (weighs) weights.push_back({.kind = Edit::weigh});
+  if (!vertices) return {moves, weights};
   const std::vector<TriangleId> bad = some_bad_triangles(around);
   add_removals(around, bad, one);
   for (const TriangleId t : bad) add_insertions(around.mesh, t, one);
-  if (around.mesh.space().is_periodic()) return {moves, one};  // refinement measures across the neighbourhood
+  if (around.mesh.space().is_periodic()) return {moves, weights, one};  // refinement measures across the neighbourhood
   for (const double gradation : kGradations) {
     many.push_back({.kind = Edit::refine, .gradation = gradation});
     anew.push_back({.kind = Edit::remesh, .gradation = gradation});
   }
-  return {moves, one, many, anew};
+  return {moves, weights, one, many, anew};
 }
 
 }  // namespace temper

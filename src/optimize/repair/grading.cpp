@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <utility>
 #include <vector>
 
+#include "geometry/bounding_boxes.hpp"
 #include "temper/necessity.hpp"
 
 namespace temper {
@@ -32,7 +34,7 @@ class BoundaryCutter {
   [[nodiscard]] std::size_t vertices() const { return vertices_; }
   [[nodiscard]] std::size_t conflicts() const { return conflicts_; }
   [[nodiscard]] std::size_t inside() const { return inside_; }
-  [[nodiscard]] std::size_t refused() const { return refused_; }
+  [[nodiscard]] std::size_t refused() const { return refused_.size(); }
 
  private:
   [[nodiscard]] HalfedgeId find_edge(VertexId a, VertexId b) const;
@@ -42,13 +44,15 @@ class BoundaryCutter {
   Mesh& mesh_;
   Flipper& flipper_;
   InsertionPlan plan_;
-  std::size_t vertices_ = 0, conflicts_ = 0, inside_ = 0, refused_ = 0;
+  std::size_t vertices_ = 0, conflicts_ = 0, inside_ = 0;
+  std::set<std::pair<VertexId, VertexId>> refused_;  // edges as they are, that had to be split and could not
 };
 
 /// An edge of the boundary or of a line, by its ends, which flips elsewhere do not change.
 struct Line {
   VertexId u, v;
-  int splits = 0;  ///< that it is a piece of, one in another
+  std::size_t whole = 0;  ///< the number of the one that it is a piece of, before all splits
+  int splits = 0;         ///< that it is a piece of, one in another
   double sum = kNoConflict;
   double split_at = 0.5;
 };
@@ -59,8 +63,6 @@ struct Line {
 constexpr double kSharpCosine = 0.5;  // of 60 degrees
 // After so many splits, one in another: corners where fewer do are left with wider margins by the best places.
 constexpr int kSplitsToShells = 2;
-// No split leaves an end less than this part of its edge.
-constexpr double kLeastPart = 0.2;
 
 /// The vertices where two lines meet at a sharp angle.
 class SharpCorners {
@@ -76,11 +78,12 @@ class SharpCorners {
   IdVector<VertexId, std::uint8_t> is_sharp_;  // of the vertices there were
 };
 
-Line line_of(const Mesh& mesh, HalfedgeId h, int splits) {
+/// The line along h, which is that piece.
+Line line_of(const Mesh& mesh, HalfedgeId h, std::size_t whole, int splits = 0) {
   if (const auto c = edge_conflict(mesh, h, kLittleRoom)) {
-    return {mesh.origin(c->edge), mesh.target(c->edge), splits, c->sum, c->split_at};
+    return {mesh.origin(c->edge), mesh.target(c->edge), whole, splits, c->sum, c->split_at};
   }
-  return {mesh.origin(h), mesh.target(h), splits};
+  return {mesh.origin(h), mesh.target(h), whole, splits};
 }
 
 SharpCorners::SharpCorners(const Mesh& mesh, const std::vector<Line>& lines) : is_sharp_(mesh.n_vertices(), 0) {
@@ -107,8 +110,8 @@ double SharpCorners::split_at(const Mesh& mesh, const Line& line) const {
   int exponent = 0;
   const double mantissa = std::frexp((from_u ? line.split_at : 1 - line.split_at) * l, &exponent);
   double distance = std::ldexp(1.0, mantissa * mantissa < 0.5 ? exponent - 1 : exponent);
-  if (distance > (1 - kLeastPart) * l) distance *= 0.5;
-  if (distance < kLeastPart * l) distance *= 2;
+  if (distance > (1 - EdgeConflict::kLeastPiece) * l) distance *= 0.5;
+  if (distance < EdgeConflict::kLeastPiece * l) distance *= 2;
   return from_u ? distance / l : 1 - distance / l;
 }
 
@@ -116,6 +119,78 @@ double SharpCorners::split_at(const Mesh& mesh, const Line& line) const {
 bool is_near(const Mesh& mesh, const Line& line, Vec2 p) {
   const Vec2 u = mesh.position(line.u), v = mesh.position(line.v);
   return length(p - 0.5 * (u + v)) <= kLittleRoom * length(v - u);
+}
+
+/// The lines, worst first, and which of them are near a place.
+class Lines {
+ public:
+  explicit Lines(const Mesh& mesh);
+
+  [[nodiscard]] const std::vector<Line>& all() const { return lines_; }
+  /// That of the least sum, of several the first; none: no line has a conflict.
+  [[nodiscard]] const Line* worst() const { return by_sum_.empty() ? nullptr : &lines_[by_sum_.begin()->second]; }
+  /// No split does away with the worst one's conflict.
+  void give_up_worst() { by_sum_.erase(by_sum_.begin()); }
+  /// The worst one is split there. Conflicts are those before: renew_near() follows.
+  void split_worst(VertexId fresh);
+  /// The lines near p become what renewed(line) says.
+  template <class Renewed>
+  void renew_near(const Mesh& mesh, Vec2 p, const Renewed& renewed);
+
+ private:
+  void change(std::size_t i, const Line& line);
+
+  std::vector<Line> lines_;
+  std::set<std::pair<double, std::size_t>> by_sum_;  // and number, of those with a conflict
+  std::vector<std::vector<std::size_t>> pieces_;     // by number of the line before all splits
+  BoundingBoxTree near_;                             // of these; a place near a piece is near them
+};
+
+Lines::Lines(const Mesh& mesh) {
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.is_erased(Mesh::triangle(h)) || !mesh.is_edge_representative(h)) continue;
+    if (mesh.is_boundary(h) || mesh.is_constrained(h)) lines_.push_back(line_of(mesh, h, lines_.size()));
+  }
+  std::vector<BoundingBox> boxes;
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const Line& line = lines_[i];
+    if (std::isfinite(line.sum)) by_sum_.insert({line.sum, i});
+    pieces_.push_back({i});
+    // What is within r l of the middle of a piece of length l ≤ L is within L/2 + (r − 1/2) l ≤ r L of the whole's,
+    // but for the rounding of places.
+    const Vec2 u = mesh.position(line.u), v = mesh.position(line.v), middle = 0.5 * (u + v);
+    const Vec3 center = {middle.x, middle.y, 0};
+    boxes.push_back(box_of(center, center).grown(1.1 * kLittleRoom * length(v - u)));
+  }
+  near_ = BoundingBoxTree(boxes);
+}
+
+void Lines::change(std::size_t i, const Line& line) {
+  by_sum_.erase({lines_[i].sum, i});
+  lines_[i] = line;
+  if (std::isfinite(line.sum)) by_sum_.insert({line.sum, i});
+}
+
+void Lines::split_worst(VertexId fresh) {
+  const std::size_t i = by_sum_.begin()->second;
+  Line first = lines_[i], second = first;
+  first.v = second.u = fresh;
+  first.splits = ++second.splits;
+  first.sum = second.sum = kNoConflict;
+  change(i, first);
+  pieces_[first.whole].push_back(lines_.size());
+  lines_.push_back(second);
+}
+
+template <class Renewed>
+void Lines::renew_near(const Mesh& mesh, Vec2 p, const Renewed& renewed) {
+  const Vec3 place = {p.x, p.y, 0};
+  near_.visit(box_of(place, place), [&](std::size_t whole) {
+    for (const std::size_t i : pieces_[whole]) {
+      if (is_near(mesh, lines_[i], p)) change(i, renewed(lines_[i]));
+    }
+    return true;
+  });
 }
 
 HalfedgeId BoundaryCutter::find_edge(VertexId a, VertexId b) const {
@@ -134,30 +209,23 @@ void BoundaryCutter::cut(const EdgeCuts& edge) {
 }
 
 void BoundaryCutter::resolve_conflicts() {
-  std::vector<Line> lines;
-  for (const HalfedgeId h : mesh_.halfedges()) {
-    if (mesh_.is_erased(Mesh::triangle(h)) || !mesh_.is_edge_representative(h)) continue;
-    if (mesh_.is_boundary(h) || mesh_.is_constrained(h)) lines.push_back(line_of(mesh_, h, 0));
-  }
-  const SharpCorners corners(mesh_, lines);
-  const auto less = [](const Line& x, const Line& y) { return x.sum < y.sum; };
-  for (std::size_t left = kMostSplits * lines.size(); left > 0; --left) {
-    Line& worst = *std::min_element(lines.begin(), lines.end(), less);
-    if (!std::isfinite(worst.sum)) return;
-    const Vec2 from = mesh_.position(worst.u), to = mesh_.position(worst.v);
+  Lines lines(mesh_);
+  const SharpCorners corners(mesh_, lines.all());
+  for (std::size_t left = kMostSplits * lines.all().size(); left > 0; --left) {
+    const Line* const worst = lines.worst();
+    if (worst == nullptr) return;
+    const Vec2 from = mesh_.position(worst->u), to = mesh_.position(worst->v);
     const VertexId fresh =
-        split(worst.u, worst.v, work_.frame.snap(from + corners.split_at(mesh_, worst) * (to - from)));
+        split(worst->u, worst->v, work_.frame.snap(from + corners.split_at(mesh_, *worst) * (to - from)));
     if (!fresh.valid()) {
-      worst.sum = kNoConflict;
+      lines.give_up_worst();
       continue;
     }
     ++conflicts_;
-    const VertexId end = std::exchange(worst.v, fresh);
-    const int splits = ++worst.splits;
-    lines.push_back({fresh, end, splits});
-    for (Line& line : lines) {
-      if (is_near(mesh_, line, mesh_.position(fresh))) line = line_of(mesh_, find_edge(line.u, line.v), line.splits);
-    }
+    lines.split_worst(fresh);
+    lines.renew_near(mesh_, mesh_.position(fresh), [&](const Line& line) {
+      return line_of(mesh_, find_edge(line.u, line.v), line.whole, line.splits);
+    });
   }
 }
 
@@ -167,10 +235,12 @@ VertexId BoundaryCutter::split(VertexId a, VertexId b, Vec2 at) {
   const double l2 = squared_length(along), t = dot(at - from, along) / l2;
   const double w = split_weight(mesh_.weight(a), mesh_.weight(b), l2, t);
   plan_ = plan_split(mesh_, find_edge(a, b), WeightedPoint{at.x, at.y, w}, std::move(plan_));
+  const std::pair<VertexId, VertexId> ends = std::minmax(a, b);
   if (plan_.status != InsertionStatus::possible) {
-    ++refused_;
+    refused_.insert(ends);
     return {};
   }
+  refused_.erase(ends);
   ++vertices_;
   return flipper_.commit(work_, plan_, kNoEnergy, kNoEnergy);
 }
@@ -197,9 +267,9 @@ BoundaryCuts cut_boundary(WorkingCopy& work, Flipper& flipper, double ratio) {
   cutter.resolve_conflicts();
   for (int pass = 0; pass < kGradingPasses; ++pass) {
     const GradingPlan plan = plan_boundary_grading(work.mesh, ratio, kWidestBoundaryAngle);
-    result.ratio_after = plan.ratio_after;
     for (const EdgeCuts& edge : plan.cuts) cutter.cut(edge);
   }
+  result.ratio_after = plan_boundary_grading(work.mesh, ratio).ratio_before;
   for (const auto& corners : triangles_without_free_corner(work.mesh)) cutter.free(corners);
   result.vertices = cutter.vertices();
   result.conflicts = cutter.conflicts();

@@ -17,9 +17,10 @@ struct BoundaryCuts {
   std::size_t vertices = 0;   ///< inserted on edges
   std::size_t conflicts = 0;  ///< of these, on edges that left their dual no room or little
   std::size_t inside = 0;     ///< inserted in triangles whose corners all are on the boundary or on lines
-  std::size_t refused = 0;    ///< cuts after which a triangle would be turned over, by rounding, or a vertex hidden
-  double ratio_before = 1;    ///< of the lengths of two such edges that meet at a vertex
-  double ratio_after = 1;     ///< the same with all cuts
+  std::size_t refused =
+      0;  ///< edges that are not cut: a triangle would be turned over, by rounding, or a vertex hidden
+  double ratio_before = 1;  ///< of the lengths of two such edges that meet at a vertex
+  double ratio_after = 1;   ///< the same after all cuts
 };
 /// The mesh's unconstrained edges are regular, and so they are left.
 BoundaryCuts cut_boundary(WorkingCopy& work, Flipper& flipper, double ratio);

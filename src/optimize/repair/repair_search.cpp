@@ -63,7 +63,7 @@ bool RepairSearch::improve_one_place() {
     if (!run_.checkpoints.here()) return false;
     const TriangleId seed = bad[rng_.below(static_cast<std::uint32_t>(bad.size()))];
     const Neighborhood around = neighborhood_of(work_.mesh, seed, kRings + (failures_ >= kFailuresBeforeWider ? 1 : 0));
-    const auto edit = choose(around);
+    const auto edit = choose(around, seed);
     if (run_.stopped_by_caller()) return false;
     if (!edit) continue;
     const Outcome outcome = try_edit(around, *edit, settings_, work_.frame, true);
@@ -71,6 +71,7 @@ bool RepairSearch::improve_one_place() {
     const std::vector<VertexId> there = splice(work_, flipper_, recorder_, around, outcome.events);
     changed_.reset();
     if (!flipper_.has_removed()) changed_ = triangles_at(work_.mesh, there);
+    std::erase_if(weighed_, [&](TriangleId t) { return !changed_ || is_changed(t); });
     return true;
   }
   return false;
@@ -82,7 +83,7 @@ void RepairSearch::find_bad() {
     bad_ = bad_triangles(work_.mesh);
     return;
   }
-  std::erase_if(bad_, [&](TriangleId t) { return std::binary_search(changed_->begin(), changed_->end(), t); });
+  std::erase_if(bad_, [&](TriangleId t) { return is_changed(t); });
   for (const TriangleId t : *changed_) {
     if (is_bad(work_.mesh, t)) bad_.push_back(t);
   }
@@ -90,15 +91,22 @@ void RepairSearch::find_bad() {
   TEMPER_ASSERT_SLOW(bad_ == bad_triangles(work_.mesh));
 }
 
+/// Says whether a linear programme may be asked for weights, which is of places that do not go round.
+bool RepairSearch::weighs(TriangleId seed) const {
+  return settings_.hooks.lp != nullptr && settings_.options.unknowns != Unknowns::positions &&
+         !work_.mesh.space().is_periodic() && std::find(weighed_.begin(), weighed_.end(), seed) == weighed_.end();
+}
+
 /// The edit after which the neighbourhood stands best, if that helps; of the least tier that has one.
-std::optional<Edit> RepairSearch::choose(const Neighborhood& around) {
+std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId seed) {
   const Standing before = standing(around.mesh, settings_.accuracy);
   std::optional<Edit> best;
   Standing least = before;
   std::vector<Tried> tried;
-  for (const auto& tier : edits_for(around, settings_.options.repair == Repair::vertices, rng_)) {
+  for (const auto& tier : edits_for(around, weighs(seed), settings_.options.repair == Repair::vertices, rng_)) {
     for (const Edit& edit : tier) {
       if (run_.repair_trials_left-- <= 0 || run_.asked_to_stop(0)) return best;
+      if (edit.kind == Edit::weigh) weighed_.push_back(seed);
       const Outcome outcome = try_edit(around, edit, settings_, work_.frame, false);
       if (!outcome.valid) continue;
       tried.push_back({edit, outcome.standing});

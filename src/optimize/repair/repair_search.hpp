@@ -6,6 +6,7 @@
 // helps, now and then one that does no harm is done, so that the next try begins elsewhere.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -36,9 +37,13 @@ class RepairSearch {
     Edit edit;
     Standing standing;
   };
-  std::optional<Edit> choose(const Neighborhood& around);
+  [[nodiscard]] bool weighs(TriangleId seed) const;
+  std::optional<Edit> choose(const Neighborhood& around, TriangleId seed);
   std::optional<Edit> sideways(std::vector<Tried> tried, Standing before);
   void find_bad();
+  [[nodiscard]] bool is_changed(TriangleId t) const {
+    return std::binary_search(changed_->begin(), changed_->end(), t);
+  }
 
   WorkingCopy& work_;
   const Settings& settings_;
@@ -46,8 +51,9 @@ class RepairSearch {
   Flipper& flipper_;
   const Recorder& recorder_;
   Rng rng_;
-  int failures_ = 0;             // places without an edit that helps, since the last one with
-  std::vector<TriangleId> bad_;  // when `changed_` was still to come
+  int failures_ = 0;                 // places without an edit that helps, since the last one with
+  std::vector<TriangleId> weighed_;  // in vain, as their places are: a linear programme takes long
+  std::vector<TriangleId> bad_;      // when `changed_` was still to come
   std::optional<std::vector<TriangleId>> changed_;
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "base/rng.hpp"
+#include "feasibility/change.hpp"
+#include "feasibility/potential.hpp"
 #include "geometry/in_space.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "geometry/triangle_kernel.hpp"
@@ -25,6 +27,10 @@ constexpr double kStart = 0.5, kFactor = 0.7, kLeastGamma = 0.003;
 constexpr double kSharp = 0.1;
 // The length of a kick, relative to the shortest edge: farther, and most kicks would turn a triangle over.
 constexpr double kKick = 0.4;
+// Half of what `temper weights` asks for: more, and few triangles that have it would be paid for by one that turns bad.
+constexpr double kWeighedMargin = 0.005;
+// Programmes of one more take four times as long, and cure hardly more.
+constexpr int kWeighedRings = 2;
 // More than a neighbourhood that lacks vertices ever needs.
 constexpr int kMostInserted = 300;
 
@@ -63,6 +69,7 @@ class Trial {
  private:
   static Settings of_trial(const Settings& settings, Tracer tracer);
   bool apply(const Edit& edit);
+  void weigh();
   bool insert(TriangleId t, const WeightedPoint& place);
   bool split(HalfedgeId h);
   bool remove(VertexId v);
@@ -97,12 +104,13 @@ Settings Trial::of_trial(const Settings& settings, Tracer tracer) {
   set_energy(s, s.options.energy);
   s.hooks = {};
   s.hooks.tracer = std::move(tracer);
+  s.hooks.lp = settings.hooks.lp;
   return s;
 }
 
 Outcome Trial::run(const Edit& edit) && {
   if (!apply(edit) || !flipper_.restore_all()) return {};
-  sweep();
+  if (edit.kind != Edit::weigh) sweep();  // whose first γ would take the weights back
   Outcome outcome;
   outcome.standing = standing(work_.mesh, settings_.accuracy);
   outcome.valid = count_non_regular_edges(work_.mesh, false) == 0 && rim_is_regular(around_, work_.mesh);
@@ -119,6 +127,9 @@ bool Trial::apply(const Edit& edit) {
       step_.shake(kKick, rng);
       return true;
     }
+    case Edit::weigh:
+      weigh();
+      return true;
     case Edit::insert:
       return insert(edit.triangle, edit.place);
     case Edit::split:
@@ -132,6 +143,33 @@ bool Trial::apply(const Edit& edit) {
       return refine(edit.gradation);
   }
   return false;
+}
+
+/// Of the vertices around the bad triangle. Those of the rim, which have triangles outside, keep their weights.
+void Trial::weigh() {
+  const Mesh& mesh = work_.mesh;
+  VertexMask free(mesh.n_vertices(), 0);
+  const auto corners = mesh.corners(around_.seed);
+  for (const VertexId v : corners) free[v] = 1;
+  grow(mesh, free, {corners.begin(), corners.end()}, kWeighedRings);
+  IdVector<VertexId, double> weights(mesh.n_vertices(), 0.0);
+  for (const VertexId v : mesh.vertices()) {
+    if (around_.frozen[v.index] != 0) free[v] = 0;
+    weights[v] = mesh.weight(v);
+  }
+  const Demand demand(mesh, Conditions::well_centered, {});
+  for (const Region& region : regions_of(mesh, free)) {
+    const RegionChange found = least_violation({mesh, demand, weights, kWeighedMargin}, region, *settings_.hooks.lp);
+    if (found.status != LpStatus::optimal) continue;
+    for (std::size_t i = 0; i < region.free.size(); ++i) {
+      if (found.change[i] == 0) continue;
+      const VertexId v = region.free[i];
+      const WeightedPoint from = mesh.point(v);
+      const double potential = potential_of(mesh.space(), weights[v]) + found.change[i];
+      work_.mesh.set_point(v, mesh.space().with_weight(from, weight_of_potential(mesh.space(), potential)));
+      recorder_.placed(v, from, mesh.point(v), kNoEnergy, kNoEnergy);
+    }
+  }
 }
 
 /// Inserts a vertex with the weight that the corners have there.

@@ -18,6 +18,7 @@ struct Edit {
   enum Kind {
     nothing,  ///< only sweep again
     kick,     ///< all free vertices, at random, by part of their shortest edge
+    weigh,    ///< by the linear programme of the weights that lack least of a margin; positions stay
     insert,   ///< a vertex in a triangle
     split,    ///< an inner edge in its middle
     remove,   ///< a vertex

@@ -200,9 +200,11 @@ TEST_F(Checkpoint, TakesNoOptionAnewThatTheResultDependsOn) {
   refused({"--max-sweeps", "3", "--quiet"}, "--max-sweeps is that of the run");
   refused({"--trace", "t.jsonl"}, "--trace: the run was not traced from its beginning");
   refused({"--report", "in.vtu"}, "is the input mesh");
-  temper_ok(
-      {"optimize", "--resume", "run.ckpt", "-o", "other.msh", "--report", "r.json", "--quiet", "--draw", "p.svg"});
-  EXPECT_TRUE(exists("other.msh"));
+  temper_ok({"optimize", "--resume", "run.ckpt", "-o", "other.vtu", "--encoding", "ascii", "--no-triangle-quality",
+             "--report", "r.json", "--html", "r.html", "--history", "h.csv", "--draw", "p.svg", "--require", "outside=0",
+             "--quiet"});
+  for (const char* output : {"other.vtu", "r.html", "h.csv", "p.svg"}) EXPECT_TRUE(exists(output)) << output;
+  temper_ok({"optimize", "--resume", "run.ckpt", "-o", "other", "--format", "gmsh41"});
   EXPECT_EQ(read_json("r.json")["options"]["resume"], nullptr);
   const Outcome idle = temper({"optimize", "in.vtu", "-o", "out.vtu", "--every", "3"});
   EXPECT_TRUE(contains(idle.err, "--every has no effect without --checkpoint"));

@@ -193,13 +193,23 @@ TEST_F(Vtkhdf, GhostsOfOtherPiecesAreLeftOut) {
   file = file.with(longs("Connectivity", {0, 1, 2, 0, 2, 3, 0, 1, 2})).with(longs("Offsets", {0, 3, 6, 0, 3}));
   file = file.with(array_of<std::uint8_t>("Types", Scalar::u8, {5, 5, 5}));
   file.point_data = {};
-  file.cell_data = {longs("number", {10, 20, 20}), array_of<std::uint8_t>("vtkGhostType", Scalar::u8, {0, 1, 0})};
-  const auto f = read(make_pieces(file));
-  ASSERT_TRUE(f) << f.error().what();
-  EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {2, 3, 0}}));
-  ASSERT_EQ(f->cell_data.size(), 1u);
-  EXPECT_EQ(std::get<std::vector<std::int64_t>>(f->cell_data[0].values), (std::vector<std::int64_t>{10, 20}));
-  EXPECT_TRUE(make_mesh(*f));
+  for (const VtkArray& ghosts :
+       {array_of<std::uint8_t>("vtkGhostType", Scalar::u8, {0, 1, 0}), longs("vtkGhostType", {0, 1, 0})}) {
+    file.cell_data = {longs("number", {10, 20, 20}), ghosts};
+    const auto f = read(make_pieces(file));
+    ASSERT_TRUE(f) << f.error().what();
+    EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {2, 3, 0}}));
+    ASSERT_EQ(f->cell_data.size(), 1u);
+    EXPECT_EQ(std::get<std::vector<std::int64_t>>(f->cell_data[0].values), (std::vector<std::int64_t>{10, 20}));
+    EXPECT_TRUE(make_mesh(*f));
+  }
+  file.cell_data = {doubles("vtkGhostType", {0, 1, 0})};
+  const auto all = read(make_pieces(file));
+  ASSERT_TRUE(all) << all.error().what();
+  EXPECT_EQ(all->triangles.size(), 3u);
+  ASSERT_FALSE(all->warnings.empty());
+  EXPECT_EQ(plain(all->warnings.back()),
+            "m.hdf: cell data vtkGhostType is no integer for each cell: all cells are taken");
 }
 
 TEST_F(Vtkhdf, APieceMayBeEmpty) {

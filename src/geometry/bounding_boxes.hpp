@@ -1,4 +1,4 @@
-// A static tree of bounding boxes: which of many segments are near a place.
+// A static tree of bounding boxes: which of many segments, or other things, are near a place.
 //
 // Boxes are halved by count along the longest side of their union, down to a few a leaf; the tree is an implicit
 // array, so it costs one sort and no pointers.
@@ -12,16 +12,16 @@
 
 #include "temper/vec3.hpp"
 
-namespace temper::mesher {
+namespace temper {
 
-struct Box {
+struct BoundingBox {
   Vec3 low, high;
 
-  [[nodiscard]] bool meets(const Box& other) const {
+  [[nodiscard]] bool meets(const BoundingBox& other) const {
     return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y &&
            low.z <= other.high.z && other.low.z <= high.z;
   }
-  [[nodiscard]] Box grown(double margin) const {
+  [[nodiscard]] BoundingBox grown(double margin) const {
     const Vec3 all = {margin, margin, margin};
     return {low - all, high + all};
   }
@@ -33,24 +33,25 @@ struct Box {
   }
 };
 
-[[nodiscard]] inline Box united(const Box& a, const Box& b) {
+[[nodiscard]] inline BoundingBox united(const BoundingBox& a, const BoundingBox& b) {
   return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y), std::min(a.low.z, b.low.z)},
           {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
 }
 /// Around two points.
-[[nodiscard]] inline Box box_of(Vec3 a, Vec3 b) { return united({a, a}, {b, b}); }
+[[nodiscard]] inline BoundingBox box_of(Vec3 a, Vec3 b) { return united({a, a}, {b, b}); }
 
-class BoxTree {
+class BoundingBoxTree {
  public:
-  BoxTree() = default;
-  explicit BoxTree(std::span<const Box> boxes) : boxes_(boxes.begin(), boxes.end()), order_(boxes.size()) {
+  BoundingBoxTree() = default;
+  explicit BoundingBoxTree(std::span<const BoundingBox> boxes)
+      : boxes_(boxes.begin(), boxes.end()), order_(boxes.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
     if (!boxes_.empty()) build(0, order_.size());
   }
 
   /// Calls f(i) for every box i that meets `box`, until f returns false. Returns whether it never did.
   template <class F>
-  bool visit(const Box& box, const F& f) const {
+  bool visit(const BoundingBox& box, const F& f) const {
     return nodes_.empty() || visit(0, box, f);
   }
 
@@ -58,21 +59,21 @@ class BoxTree {
   static constexpr std::size_t kLeaf = 4;  // boxes tested one by one: about what one step down the tree costs
 
   struct Node {
-    Box box;
+    BoundingBox box;
     std::uint32_t begin, end;
     std::uint32_t right;  // the left child follows its parent; 0 for a leaf
   };
 
   std::uint32_t build(std::size_t begin, std::size_t end) {
     const auto index = static_cast<std::uint32_t>(nodes_.size());
-    Box all = boxes_[order_[begin]];
+    BoundingBox all = boxes_[order_[begin]];
     for (std::size_t i = begin + 1; i < end; ++i) all = united(all, boxes_[order_[i]]);
     nodes_.push_back({all, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), 0});
     if (end - begin <= kLeaf) return index;
     double Vec3::*const side = all.longest();
     const std::size_t middle = begin + (end - begin) / 2;
     const auto key = [&](std::uint32_t i) {
-      const Box& b = boxes_[i];
+      const BoundingBox& b = boxes_[i];
       return b.low.*side + b.high.*side;
     };
     std::nth_element(order_.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -86,7 +87,7 @@ class BoxTree {
   }
 
   template <class F>
-  bool visit(std::uint32_t at, const Box& box, const F& f) const {
+  bool visit(std::uint32_t at, const BoundingBox& box, const F& f) const {
     const Node& node = nodes_[at];
     if (!node.box.meets(box)) return true;
     if (node.right != 0) return visit(at + 1, box, f) && visit(node.right, box, f);
@@ -96,9 +97,9 @@ class BoxTree {
     return true;
   }
 
-  std::vector<Box> boxes_;
+  std::vector<BoundingBox> boxes_;
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
 };
 
-}  // namespace temper::mesher
+}  // namespace temper
