@@ -17,6 +17,9 @@
 namespace temper {
 namespace {
 
+// Each where the one before has made triangles good; more find little.
+constexpr std::size_t kRoundsWhereBad = 4;
+constexpr std::size_t kFarMore = 2;
 // Weights alone are seldom enough: they have to get on fast.
 constexpr double kFewerByWeights = 0.75;
 // A search that ends with triangles bad may have gone astray early on.
@@ -29,7 +32,7 @@ bool is_worse(const Candidate& a, const Candidate& b, const Settings& settings) 
 /// Says whether what an attempt has made is kept instead of what there was. The user asks for cuts, and for places that
 /// are good ones: without them fewer triangles have to be bad.
 bool replaces(const Candidate& now, const Candidate& best, const Attempt& attempt, const Settings& settings) {
-  if (attempt.cuts_boundary && !attempt.weighs_alone) return !is_worse(now, best, settings);
+  if (attempt.cuts == Cuts::graded && !attempt.weighs_alone) return !is_worse(now, best, settings);
   return rank(now.work.mesh, settings).bad < rank(best.work.mesh, settings).bad;
 }
 
@@ -65,17 +68,23 @@ bool needs_repair(const Candidate& c, const Settings& s) {
 }
 
 /// What to try, for the working copy as it is. Where all attempts with a cut boundary leave triangles bad, they are
-/// made again without: what lines leave no room for, cuts may make worse. And last with weights alone: where triangles
-/// are thin as they have to be, in layers, moves that lower the energy elsewhere may leave them no weights.
+/// made again without: what lines leave no room for, cuts may make worse. After either there are cuts where triangles
+/// are still bad, and sweeps from there. And last with weights alone: where triangles are thin as they have to be, in
+/// layers, moves that lower the energy elsewhere may leave them no weights.
 std::vector<Attempt> attempts_for(const Mesh& mesh, const Settings& settings) {
   const OptimizeOptions& o = settings.options;
   const auto all = attempts(settings.energy, o, mesh, settings.hooks.executor);
   std::vector<Attempt> tries(all.begin(), all.end());
-  if (o.boundary == BoundaryVertices::split) {
+  const bool splits = o.boundary == BoundaryVertices::split;
+  Attempt where_bad = kNearlyGood;
+  where_bad.cuts = Cuts::where_bad;
+  if (splits) {
+    tries.insert(tries.end(), kRoundsWhereBad, where_bad);
     for (Attempt uncut : all) {
-      uncut.cuts_boundary = false;
+      uncut.cuts = Cuts::none;
       tries.push_back(uncut);
     }
+    tries.insert(tries.end(), kRoundsWhereBad, where_bad);
   }
   for (Attempt& attempt : tries) attempt.first_energy = first_energy_of(o);
   if (all.size() == 1 || o.unknowns != Unknowns::positions_and_weights) return tries;
@@ -84,20 +93,57 @@ std::vector<Attempt> attempts_for(const Mesh& mesh, const Settings& settings) {
   for (Attempt attempt : attempts(settings.energy, weights, mesh, settings.hooks.executor)) {
     if (!attempt.until_good) continue;
     attempt.fewer = std::min(attempt.fewer, kFewerByWeights);
-    attempt.cuts_boundary = o.boundary != BoundaryVertices::split;
+    if (splits) attempt.cuts = Cuts::none;
     attempt.weighs_alone = true;
     tries.push_back(attempt);
   }
   return tries;
 }
 
-/// The input made regular, and its boundary cut, as an attempt begins.
+/// The attempts of a run, and what came of those that were made.
+struct Tries {
+  std::vector<Attempt> all = std::vector<Attempt>(1);
+  std::size_t i = 0;     ///< the one under way
+  std::size_t left = 0;  ///< bad triangles of the last one
+  bool renewed = false;  ///< the best mesh, since cuts where it is bad were of no use
+
+  [[nodiscard]] const Attempt& now() const { return all[i]; }
+  [[nodiscard]] bool is_last() const { return i + 1 == all.size(); }
+  /// Says whether the attempt may be of use. The second one from the same beginning is more thorough, and takes many
+  /// sweeps: where the first left far more bad than there are in the best mesh it does not make up for that.
+  [[nodiscard]] bool may_gain(const Candidate& best, const Settings& settings) const {
+    if (now().cuts == Cuts::where_bad) return renewed;
+    const Attempt& last = all[i - 1];
+    if (last.cuts != now().cuts || last.weighs_alone != now().weighs_alone) return true;
+    return left <= kFarMore * count_bad(best.work.mesh, settings.hooks.executor);
+  }
+};
+void visit(Archive& archive, Tries& tries) {
+  auto& [all, i, left, renewed] = tries;
+  archive(all, i, left, renewed);
+  archive.require(i < all.size());
+}
+
+/// The input made regular, and its boundary cut, as an attempt begins; or the best mesh, cut where it is bad.
 std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Settings& settings, const Attempt& attempt) {
+  if (attempt.cuts == Cuts::where_bad) {
+    driver.cut_where_bad();
+    return std::nullopt;
+  }
   if (settings.options.flips != Flips::none && !driver.make_regular()) {
     return hidden_vertices_error(input, settings.hooks.names);
   }
-  if (attempt.cuts_boundary) driver.grade_boundary();
+  if (attempt.cuts == Cuts::graded) driver.grade_boundary();
   return std::nullopt;
+}
+
+/// The cuts of the best mesh, which that attempt has made.
+void tell_cuts(const Attempt& attempt, RunFacts& facts) {
+  if (attempt.cuts == Cuts::where_bad) {
+    const bool on_uncut = facts.stays_uncut || !facts.boundary_cuts;
+    facts.boundary_cuts = on_uncut ? facts.cuts_where_bad : *facts.boundary_cuts + facts.cuts_where_bad;
+  }
+  facts.stays_uncut = attempt.cuts == Cuts::none;
 }
 
 }  // namespace
@@ -108,32 +154,36 @@ Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run)
   const bool repairs_follow = repairs(settings);
   std::optional<Candidate> best;
   Candidate now;
-  std::vector<Attempt> tries(1);
-  std::size_t i = 0;
-  const Resumable here(run.checkpoints, best, now, tries, i);
-  if (run.checkpoints.failed() || i >= tries.size()) return *run.checkpoints.error();
-  for (; i < tries.size(); ++i) {
-    settings.options.unknowns = tries[i].weighs_alone ? Unknowns::weights : unknowns;
+  Tries tries;
+  const Resumable here(run.checkpoints, best, now, tries);
+  if (run.checkpoints.failed()) return *run.checkpoints.error();
+  for (; tries.i < tries.all.size(); ++tries.i) {
     const bool begins = !run.checkpoints.resumes();
-    if (begins) now = {WorkingCopy(input.whole(), o.paper.order, settings.hooks.executor)};
+    if (begins && best && !tries.may_gain(*best, settings)) continue;
+    settings.options.unknowns = tries.now().weighs_alone ? Unknowns::weights : unknowns;
+    const bool goes_on = tries.now().cuts == Cuts::where_bad;
+    if (begins) now = goes_on ? *best : Candidate{WorkingCopy(input.whole(), o.paper.order, settings.hooks.executor)};
     Driver driver(now.work, settings, run);  // NOLINT(bugprone-use-after-move): what begins has been made anew
-    if (begins && i > 0) driver.recorder().returned_to(-1);
+    if (begins && best) driver.recorder().returned_to(goes_on ? best->sweep : -1);
     if (begins) {
-      if (auto error = prepare(driver, input.whole(), settings, tries[i])) return *std::move(error);
+      if (auto error = prepare(driver, input.whole(), settings, tries.now())) return *std::move(error);
     }
-    if (begins && i == 0) {
+    if (begins && !best) {
       if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
-      tries = attempts_for(now.work.mesh, settings);
+      tries.all = attempts_for(now.work.mesh, settings);
       run.facts.input_flips = run.report.flips;
     }
     input.fold();
-    now.sweep = driver.attempt(tries[i], i + 1 < tries.size() || repairs_follow);
+    now.sweep = driver.attempt(tries.now(), !tries.is_last() || repairs_follow);
     if (auto error = run.checkpoints.error()) return *std::move(error);
-    if (!best || replaces(now, *best, tries[i], settings)) {
+    tries.left = count_bad(now.work.mesh, settings.hooks.executor);
+    if (!best || replaces(now, *best, tries.now(), settings)) {
       best = std::move(now);
-      run.facts.stays_uncut = !tries[i].cuts_boundary;
+      tries.renewed = true;
+      tell_cuts(tries.now(), run.facts);
     } else {
       driver.recorder().returned_to(best->sweep);
+      if (goes_on) tries.renewed = false;
     }
     if (!has_bad(*best, settings) || !run.goes_on() || (repairs_follow && are_apart(*best, settings))) break;
   }

@@ -273,6 +273,11 @@ void Driver::grade_boundary() {
   run_.facts.boundary_cuts = cuts;  // of each attempt the same
 }
 
+void Driver::cut_where_bad() {
+  run_.facts.cuts_where_bad = temper::cut_where_bad(work_, flipper_);
+  grow();
+}
+
 void Driver::jitter(double amount) {
   const OptimizeOptions& o = settings_.options;
   if (amount == 0 || o.unknowns == Unknowns::weights || o.flips == Flips::none) return;

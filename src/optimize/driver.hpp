@@ -18,6 +18,8 @@ class Driver {
   bool make_regular();
   /// Cuts edges of the boundary and of lines, when the options ask for it.
   void grade_boundary();
+  /// The same at bad triangles alone.
+  void cut_where_bad();
   /// One attempt on the input. Returns the sweep whose mesh the working copy is then. `may_give_up`: as EnergyPhase.
   int attempt(const Attempt& attempt, bool may_give_up);
   /// Sweeps of one phase. `sweep`: whose mesh the working copy is. Returns as above.

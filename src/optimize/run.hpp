@@ -19,6 +19,7 @@ namespace temper {
 struct RunFacts {
   std::size_t input_flips = 0;                ///< that made the input regular
   std::optional<BoundaryCuts> boundary_cuts;  ///< when they were asked for
+  BoundaryCuts cuts_where_bad;                ///< before the last attempt that made some there
   bool stays_uncut = false;                   ///< since cuts leave more triangles bad
   bool weights_shrunk = false;                ///< all of them, since they left edges uncrossed
   bool energy_rose = false;                   ///< in the last sweeps, which were taken back

@@ -65,6 +65,7 @@ double least_shift(const Mesh& mesh) { return std::max(kFloor, -kBeyondWorst * l
 }  // namespace
 
 const Attempt kPolish = kHard.front();
+const Attempt kNearlyGood = kNear;
 
 std::span<const Attempt> attempts(const EnergyInfo& energy, const OptimizeOptions& options, const Mesh& mesh,
                                   Executor* executor) {

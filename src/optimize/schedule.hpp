@@ -20,6 +20,13 @@
 namespace temper {
 
 /// One way from the input to a well-centered mesh.
+/// Where the boundary and lines are cut before an attempt, if the options ask for cuts.
+enum class Cuts : std::uint8_t {
+  graded,     ///< where long edges meet short ones, and where a dual has no place to cross
+  none,       ///< nowhere
+  where_bad,  ///< where the best mesh so far has bad triangles; the attempt goes on with that mesh
+};
+
 struct Attempt {
   double start = 0;         ///< first γ/ℓ
   double factor = 1;        ///< from level to level
@@ -31,8 +38,8 @@ struct Attempt {
   double fewer = 1;         ///< it is given up when bad triangles do not become fewer than this part of them for long
   double tie_weight = 0;    ///< added before it to the heavier ends of ties, relative to their shortest edge squared
   std::optional<EnergyKind> first_energy = {};  ///< of its first sweeps
-  bool cuts_boundary = true;                    ///< before it, where the options ask for it
-  bool weighs_alone = false;                    ///< positions stay
+  Cuts cuts = Cuts::graded;
+  bool weighs_alone = false;  ///< positions stay
 };
 
 void visit(Archive& archive, Attempt& attempt);
@@ -42,6 +49,9 @@ inline constexpr double kRelaxation = 1.7;
 
 /// The attempt for a mesh that is well-centered already, or as good as can be: the sharpest γ at once.
 extern const Attempt kPolish;
+
+/// The attempt for a mesh that is good but for a few places.
+extern const Attempt kNearlyGood;
 
 /// The attempts for this mesh and these options, in order; at least one. A user's γ, or an energy without one, leaves
 /// a single attempt, and so does a mesh that is well-centered already.

@@ -56,8 +56,8 @@ void visit(Archive& archive, BoundaryCuts& cuts) {
 }
 
 void visit(Archive& archive, RunFacts& facts) {
-  auto& [input_flips, boundary_cuts, stays_uncut, weights_shrunk, energy_rose] = facts;
-  archive(input_flips, boundary_cuts, stays_uncut, weights_shrunk, energy_rose);
+  auto& [input_flips, boundary_cuts, cuts_where_bad, stays_uncut, weights_shrunk, energy_rose] = facts;
+  archive(input_flips, boundary_cuts, cuts_where_bad, stays_uncut, weights_shrunk, energy_rose);
 }
 
 void visit(Archive& archive, Settings& settings) {
@@ -68,10 +68,10 @@ void visit(Archive& archive, Settings& settings) {
 }
 
 void visit(Archive& archive, Attempt& attempt) {
-  auto& [start, factor, relaxation, level_sweeps, level_fall, until_good, jitter, fewer, tie_weight, first_energy,
-         cuts_boundary, weighs_alone] = attempt;
+  auto& [start, factor, relaxation, level_sweeps, level_fall, until_good, jitter, fewer, tie_weight, first_energy, cuts,
+         weighs_alone] = attempt;
   archive(start, factor, relaxation, level_sweeps, level_fall, until_good, jitter, fewer, tie_weight, first_energy,
-          cuts_boundary, weighs_alone);
+          cuts, weighs_alone);
 }
 
 void visit(Archive& archive, Run& run) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/bounding_boxes.hpp"
+#include "mesh/bad_triangles.hpp"
 #include "temper/necessity.hpp"
 
 namespace temper {
@@ -19,8 +20,14 @@ namespace {
 // Above 1.46 the dense horseshoe, which needs none of these splits, loses margin by them.
 constexpr double kLittleRoom = 1.3;
 constexpr double kNoConflict = std::numeric_limits<double>::infinity();
+// Of edges that meet, without cuts for the sake of it.
+constexpr double kLargestRatio = std::numeric_limits<double>::infinity();
 // Splits for each edge that there is: corners of few degrees could ask for more and more.
 constexpr std::size_t kMostSplits = 20;
+
+using VertexMarks = IdVector<VertexId, std::uint8_t>;
+
+bool is_line(const Mesh& mesh, HalfedgeId h) { return mesh.is_boundary(h) || mesh.is_constrained(h); }
 
 class BoundaryCutter {
  public:
@@ -28,7 +35,11 @@ class BoundaryCutter {
 
   void cut(const EdgeCuts& edge);
   /// Splits edges that leave their dual no room, or little (necessity.hpp), worst first, until none does.
-  void resolve_conflicts();
+  /// `near`: of the edges with an end that is marked; null: of all.
+  void resolve_conflicts(const VertexMarks* near = nullptr);
+  /// Splits the edge in its middle.
+  void halve(VertexId a, VertexId b) { split(a, b, work_.frame.snap(0.5 * (mesh_.position(a) + mesh_.position(b)))); }
+  [[nodiscard]] bool has_edge(VertexId a, VertexId b) const { return find_edge(a, b).valid(); }
   /// A vertex at the orthocenter of a triangle that has none free.
   void free(const std::array<VertexId, 3>& corners);
   [[nodiscard]] std::size_t vertices() const { return vertices_; }
@@ -124,7 +135,8 @@ bool is_near(const Mesh& mesh, const Line& line, Vec2 p) {
 /// The lines, worst first, and which of them are near a place.
 class Lines {
  public:
-  explicit Lines(const Mesh& mesh);
+  /// `near`: those with an end that is marked; null: all.
+  Lines(const Mesh& mesh, const VertexMarks* near);
 
   [[nodiscard]] const std::vector<Line>& all() const { return lines_; }
   /// That of the least sum, of several the first; none: no line has a conflict.
@@ -146,10 +158,11 @@ class Lines {
   BoundingBoxTree near_;                             // of these; a place near a piece is near them
 };
 
-Lines::Lines(const Mesh& mesh) {
+Lines::Lines(const Mesh& mesh, const VertexMarks* near) {
   for (const HalfedgeId h : mesh.halfedges()) {
     if (mesh.is_erased(Mesh::triangle(h)) || !mesh.is_edge_representative(h)) continue;
-    if (mesh.is_boundary(h) || mesh.is_constrained(h)) lines_.push_back(line_of(mesh, h, lines_.size()));
+    if (near != nullptr && (*near)[mesh.origin(h)] == 0 && (*near)[mesh.target(h)] == 0) continue;
+    if (is_line(mesh, h)) lines_.push_back(line_of(mesh, h, lines_.size()));
   }
   std::vector<BoundingBox> boxes;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -208,8 +221,8 @@ void BoundaryCutter::cut(const EdgeCuts& edge) {
   }
 }
 
-void BoundaryCutter::resolve_conflicts() {
-  Lines lines(mesh_);
+void BoundaryCutter::resolve_conflicts(const VertexMarks* near) {
+  Lines lines(mesh_, near);
   const SharpCorners corners(mesh_, lines.all());
   for (std::size_t left = kMostSplits * lines.all().size(); left > 0; --left) {
     const Line* const worst = lines.worst();
@@ -257,7 +270,58 @@ void BoundaryCutter::free(const std::array<VertexId, 3>& corners) {
   ++inside_;
 }
 
+/// An edge by its ends.
+struct Ends {
+  VertexId a, b;
+};
+
+/// The edges of the boundary and of lines that have a corner of t as an end, longest first.
+std::vector<Ends> lines_at(const Mesh& mesh, TriangleId t) {
+  std::vector<std::pair<double, HalfedgeId>> found;
+  for (const VertexId v : mesh.corners(t)) {
+    for (const HalfedgeId out : mesh.star(v)) {
+      for (const HalfedgeId h : {out, Mesh::prev(out)}) {
+        if (is_line(mesh, h))
+          found.emplace_back(-squared_length(mesh.position(mesh.target(h)) - mesh.position(mesh.origin(h))), h);
+      }
+    }
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<Ends> lines;
+  for (const auto& [minus_length2, h] : found) lines.push_back({mesh.origin(h), mesh.target(h)});
+  return lines;
+}
+
 }  // namespace
+
+BoundaryCuts operator+(const BoundaryCuts& a, const BoundaryCuts& b) {
+  return {a.vertices + b.vertices, a.conflicts + b.conflicts,
+          a.inside + b.inside,     a.refused + b.refused,
+          a.ratio_before,          b.ratio_after};
+}
+
+BoundaryCuts cut_where_bad(WorkingCopy& work, Flipper& flipper) {
+  const Mesh& mesh = work.mesh;
+  BoundaryCutter cutter(work, flipper);
+  const double ratio = plan_boundary_grading(mesh, kLargestRatio).ratio_before;
+  VertexMarks near(mesh.n_vertices(), 0);
+  std::vector<std::vector<Ends>> places;  // the lines at each bad triangle, longest first
+  for (const TriangleId t : bad_triangles(mesh)) {
+    places.push_back(lines_at(mesh, t));
+    for (const VertexId v : mesh.corners(t)) near[v] = 1;
+  }
+  cutter.resolve_conflicts(&near);
+  for (const std::vector<Ends>& lines : places) {
+    const bool whole = std::all_of(lines.begin(), lines.end(), [&](Ends e) { return cutter.has_edge(e.a, e.b); });
+    if (whole && !lines.empty()) cutter.halve(lines.front().a, lines.front().b);
+  }
+  return {cutter.vertices(),
+          cutter.conflicts(),
+          0,
+          cutter.refused(),
+          ratio,
+          plan_boundary_grading(mesh, kLargestRatio).ratio_before};
+}
 
 BoundaryCuts cut_boundary(WorkingCopy& work, Flipper& flipper, double ratio) {
   BoundaryCutter cutter(work, flipper);

@@ -22,7 +22,11 @@ struct BoundaryCuts {
   double ratio_before = 1;  ///< of the lengths of two such edges that meet at a vertex
   double ratio_after = 1;   ///< the same after all cuts
 };
+/// Both together, those of b after those of a.
+[[nodiscard]] BoundaryCuts operator+(const BoundaryCuts& a, const BoundaryCuts& b);
+
 /// The mesh's unconstrained edges are regular, and so they are left.
+BoundaryCuts cut_where_bad(WorkingCopy& work, Flipper& flipper);
 BoundaryCuts cut_boundary(WorkingCopy& work, Flipper& flipper, double ratio);
 
 }  // namespace temper

@@ -8,6 +8,7 @@
 #include "optimize/repair/edits.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/splice.hpp"
+#include "temper/necessity.hpp"
 
 namespace temper {
 namespace {
@@ -21,6 +22,8 @@ constexpr int kMostFailures = 60, kMostFailuresOfMoves = 10;
 // An edit that helps lowers the violation by this part, or the number of bad triangles.
 constexpr double kHelps = 0.01;
 constexpr std::uint32_t kSidewaysChoice = 4;
+// What a linear programme takes, in trials of sweeps.
+constexpr int kTrialsOfAProgramme = 20;
 
 bool helps(const Standing& before, const Standing& after) {
   return after.bad < before.bad || (after.bad == before.bad && after.violation < (1 - kHelps) * before.violation);
@@ -91,10 +94,18 @@ void RepairSearch::find_bad() {
   TEMPER_ASSERT_SLOW(bad_ == bad_triangles(work_.mesh));
 }
 
-/// Says whether a linear programme may be asked for weights, which is of places that do not go round.
+/// Says whether a linear programme is asked for weights, which is of places that do not go round: not twice for the
+/// same ones, and not where no mesh with an edge of the triangle has any.
 bool RepairSearch::weighs(TriangleId seed) const {
-  return settings_.hooks.lp != nullptr && settings_.options.unknowns != Unknowns::positions &&
-         !work_.mesh.space().is_periodic() && std::find(weighed_.begin(), weighed_.end(), seed) == weighed_.end();
+  const Mesh& mesh = work_.mesh;
+  if (settings_.hooks.lp == nullptr || settings_.options.unknowns == Unknowns::positions ||
+      mesh.space().is_periodic() || std::find(weighed_.begin(), weighed_.end(), seed) != weighed_.end())
+    return false;
+  for (int k = 0; k < 3; ++k) {
+    const HalfedgeId h = Mesh::halfedge(seed, k);
+    if ((mesh.is_boundary(h) || mesh.is_constrained(h)) && edge_conflict(mesh, h)) return false;
+  }
+  return true;
 }
 
 /// The edit after which the neighbourhood stands best, if that helps; of the least tier that has one.
@@ -106,7 +117,10 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
   for (const auto& tier : edits_for(around, weighs(seed), settings_.options.repair == Repair::vertices, rng_)) {
     for (const Edit& edit : tier) {
       if (run_.repair_trials_left-- <= 0 || run_.asked_to_stop(0)) return best;
-      if (edit.kind == Edit::weigh) weighed_.push_back(seed);
+      if (edit.kind == Edit::weigh) {
+        weighed_.push_back(seed);
+        run_.repair_trials_left -= kTrialsOfAProgramme;
+      }
       const Outcome outcome = try_edit(around, edit, settings_, work_.frame, false);
       if (!outcome.valid) continue;
       tried.push_back({edit, outcome.standing});
