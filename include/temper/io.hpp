@@ -249,7 +249,8 @@ struct DataReport {
 
 /// Puts coordinates, weights, triangles and regions of the mesh back into the file it came from, whose dropped points
 /// go with their data. `vertices` is OptimizeReport::vertices: the number in `loaded` of each vertex of the mesh,
-/// invalid for one that was inserted. Empty: none was removed or inserted; else vertices are known by their place.
+/// invalid for one that was inserted. Empty: none was removed or inserted; or, where their number is another one than
+/// before, vertices are known by their place, on the sphere, too. (After release_geometry() no place is known.)
 ///
 /// Floating point data of points are interpolated on the triangles of the file, at the place where a vertex is now,
 /// unless the rules say that they stay with their point; bit for bit the same where a vertex is still at its place, or

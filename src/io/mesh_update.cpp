@@ -154,8 +154,8 @@ void drop_unused_points(MeshFile& file, const VertexOfPoint& vertex_of_point) {
   renumber(file, [&](std::int32_t p) { return vertex_of_point[static_cast<std::size_t>(p)]; });
 }
 
-/// The point that each vertex is at the place of.
-Former vertices_by_place(const std::vector<Vec2>& points, const Mesh& mesh) {
+/// The point whose place in the plane each vertex has, bit for bit.
+Former vertices_by_place_in_plane(const std::vector<Vec2>& points, const Mesh& mesh) {
   std::unordered_map<Vec2, VertexId, PlaceHash> places;
   for (std::size_t p = 0; p < points.size(); ++p) {
     places.emplace(mesh.space().in_domain({points[p].x, points[p].y, 0}).position(), VertexId(p));
@@ -165,6 +165,50 @@ Former vertices_by_place(const std::vector<Vec2>& points, const Mesh& mesh) {
     const auto found = places.find(mesh.position(v));
     if (found != places.end()) former[v] = found->second;
   }
+  return former;
+}
+
+/// Points of a sphere by their place. Weights round places, so they are looked for in cells far larger than that.
+class PlacesOnSphere {
+ public:
+  PlacesOnSphere(const std::vector<Vec3>& points, const Space& space) : points_(points), space_(space) {
+    for (std::size_t p = 0; p < points.size(); ++p) cells_.emplace(cell(direction(points[p])), VertexId(p));
+  }
+  /// The point at the place of p, which is in its cell or just across the sides of that; invalid: there is none.
+  [[nodiscard]] VertexId find(const Vec3& p) const {
+    const Vec3 middle = direction(p);
+    for (const double x : {-kRounded, kRounded}) {
+      for (const double y : {-kRounded, kRounded}) {
+        for (const double z : {-kRounded, kRounded}) {
+          const auto [first, last] = cells_.equal_range(cell(middle + Vec3{x, y, z}));
+          for (auto it = first; it != last; ++it) {
+            if (space_.same_place(as_point(points_[it->second.index]), as_point(p))) return it->second;
+          }
+        }
+      }
+    }
+    return {};
+  }
+
+ private:
+  static constexpr double kRounded = 0x1p-46;       // more than same_place() allows, and than direction() rounds
+  static constexpr double kCellsOfRadius = 0x1p36;  // on the Earth a cell is a tenth of a millimetre wide
+  static Vec3 direction(const Vec3& p) { return (1 / length(p)) * p; }
+  static Vec3 cell(const Vec3& p) {
+    return {std::floor(kCellsOfRadius * p.x), std::floor(kCellsOfRadius * p.y), std::floor(kCellsOfRadius * p.z)};
+  }
+
+  const std::vector<Vec3>& points_;
+  const Space& space_;
+  std::unordered_multimap<Vec3, VertexId, PlaceHash> cells_;
+};
+
+/// The point that each vertex is at the place of.
+Former vertices_by_place(const MeshFile& file, const Mesh& mesh) {
+  if (mesh.space().is_plane()) return vertices_by_place_in_plane(file.points, mesh);
+  const PlacesOnSphere places(file.sphere_points, mesh.space());
+  Former former(mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) former[v] = places.find(mesh.lifted_point(v));
   return former;
 }
 
@@ -262,8 +306,8 @@ DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
   Former former;  // empty: the same numbers
   if (!vertices.empty() && n_before == vertex.n_kept()) {
     former = vertices;
-  } else if (!released && mesh.n_vertices() != n_before && mesh.space().is_plane()) {
-    former = vertices_by_place(file.points, mesh);
+  } else if (!released && mesh.n_vertices() != n_before) {
+    former = vertices_by_place(file, mesh);
   }
   DataReport report = update_data(file, mesh, former, options);
   update_lines(file, n_before, loaded, mesh, former);

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "temper/vec2.hpp"
+#include "temper/vec3.hpp"
 
 namespace temper::io {
 
@@ -15,6 +16,9 @@ struct PlaceHash {
     std::memcpy(&x, &p.x, sizeof x);
     std::memcpy(&y, &p.y, sizeof y);
     return static_cast<std::size_t>((x * 0x9E3779B97F4A7C15u) ^ (y + (x >> 29)) * 0xBF58476D1CE4E5B9u);
+  }
+  std::size_t operator()(const Vec3& p) const {
+    return (*this)(Vec2{p.x, p.y}) ^ (*this)(Vec2{p.z, 0}) * 0x94D049BB133111EBu;
   }
 };
 

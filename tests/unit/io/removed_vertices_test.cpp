@@ -321,6 +321,98 @@ TEST_F(FileTest, points_of_straight_boundaries_where_tags_end_or_change_are_fixe
   EXPECT_EQ(fixed, (std::vector<std::size_t>{3, 4, 5}));
 }
 
+// --- vertices of which nobody says what they were ----------------------------------------------------------------
+
+/// A sphere with a line of one tag around it, marked points, weights, and data of all kinds.
+MeshFile rich_globe() {
+  MeshFile f = from_mesh(*icosahedral({.level = 3, .radius = 6371220}));
+  std::vector<double> height;
+  std::vector<std::int32_t> basin, number;
+  for (std::size_t p = 0; p < f.points.size(); ++p) {
+    f.weights[p] = 1e8 * static_cast<double>(p % 7);
+    height.push_back(f.sphere_points[p].z);
+    basin.push_back(4);
+  }
+  for (std::size_t t = 0; t < f.triangles.size(); ++t) number.push_back(static_cast<std::int32_t>(t));
+  f.point_data = {{"height", 1, height}, {"basin", 1, basin}};
+  f.cell_data = {{"number", 1, number}};
+  f.lines.clear(), f.line_tags.clear();
+  std::vector<double> wall;
+  for (std::size_t t = 0; t < 40; ++t) {
+    f.lines.push_back({f.triangles[t][0], f.triangles[t][1]});
+    f.line_tags.push_back(static_cast<std::int32_t>(t % 3));
+    wall.push_back(static_cast<double>(t));
+  }
+  f.line_data = {{"wall", 1, wall}};
+  f.marked_points = {f.triangles[7][0], static_cast<std::int32_t>(f.points.size() - 1)};
+  f.point_tags = {11, 12};
+  return f;
+}
+
+/// Takes n vertices out that can be, from the last one on, and puts m in; what OptimizeReport::vertices would say.
+IdVector<VertexId, VertexId> remove_and_insert(Mesh& mesh, std::size_t n, std::size_t m) {
+  const std::size_t before = mesh.n_vertices();
+  for (std::size_t k = 0; k < m; ++k) {
+    const TriangleId t(40 * k + 3);
+    const auto [a, b, c] = mesh.corners(t);
+    const Vec3 middle = mesh.lifted_point(a) + mesh.lifted_point(b) + mesh.lifted_point(c);
+    insert_in_triangle(mesh, t, mesh.space().vertex_at(middle, 0));
+  }
+  for (std::size_t v = before; v-- > 0 && n > 0;) {
+    const RemovalPlan plan = plan_removal(mesh, VertexId(v));
+    if (plan.status == RemovalStatus::possible) remove_vertex(mesh, plan), --n;
+  }
+  EXPECT_EQ(n, 0u);
+  IdVector<VertexId, VertexId> vertices = mesh.compact().vertices;
+  for (VertexId& old : vertices) {
+    if (old.index >= before) old = VertexId();
+  }
+  return vertices;
+}
+
+TEST(VerticesOfTheSphere, that_are_not_told_are_known_by_their_place) {
+  for (const auto& [removed, inserted] : {std::pair(5, 0), {0, 4}, {3, 6}, {9, 2}}) {
+    MeshFile told = rich_globe(), not_told = told;
+    const MeshFile before = told;
+    auto loaded = make_mesh(told);
+    ASSERT_TRUE(loaded) << loaded.error().what();
+    Mesh mesh = loaded->mesh;
+    const auto vertices =
+        remove_and_insert(mesh, static_cast<std::size_t>(removed), static_cast<std::size_t>(inserted));
+    // Other weights round places.
+    for (const VertexId v : mesh.vertices())
+      mesh.set_weight(v, mesh.weight(v) + 1e7 * static_cast<double>(v.index % 3));
+    const DataReport report = update(told, *loaded, mesh, vertices), by_place = update(not_told, *loaded, mesh);
+    expect_same_mesh(told, not_told);
+    expect_same_data(told, not_told);
+    EXPECT_EQ(told.sphere_points, not_told.sphere_points);
+    EXPECT_EQ(told.warnings, not_told.warnings);
+    EXPECT_EQ(by_place.points_inserted, static_cast<std::size_t>(inserted));
+    EXPECT_EQ(by_place.points, before.points.size() - static_cast<std::size_t>(removed));
+    EXPECT_EQ(by_place.points_moved, 0u);
+    EXPECT_EQ(report.triangles_changed, by_place.triangles_changed);
+
+    ASSERT_EQ(not_told.point_data.size(), 2u);
+    const auto& heights = std::get<std::vector<double>>(not_told.point_data[0].values);
+    ASSERT_EQ(heights.size(), not_told.points.size());
+    for (std::size_t p = 0; p < heights.size(); ++p) EXPECT_NEAR(heights[p], not_told.sphere_points[p].z, 1e5);
+    std::map<std::array<double, 6>, std::int32_t> lines;
+    const auto ends = [](const MeshFile& f, std::size_t i) {
+      const Vec3 a = f.sphere_points[static_cast<std::size_t>(f.lines[i][0])],
+                 b = f.sphere_points[static_cast<std::size_t>(f.lines[i][1])];
+      return std::array{a.x, a.y, a.z, b.x, b.y, b.z};
+    };
+    for (std::size_t i = 0; i < before.lines.size(); ++i) lines[ends(before, i)] = before.line_tags[i];
+    ASSERT_GT(not_told.lines.size(), 0u);
+    for (std::size_t i = 0; i < not_told.lines.size(); ++i) {
+      const auto found = lines.find(ends(not_told, i));
+      ASSERT_NE(found, lines.end()) << "a line with other ends";
+      EXPECT_EQ(found->second, not_told.line_tags[i]);
+    }
+    EXPECT_TRUE(make_mesh(not_told));
+  }
+}
+
 TEST_F(FileTest, a_marked_point_that_was_removed_is_counted) {
   MeshFile f = grid();
   auto loaded = make_mesh(f);
