@@ -113,7 +113,9 @@ struct Format {
 /// "1.10.8": of libhdf5, likewise.
 [[nodiscard]] std::string hdf5_version();
 
-/// Reads any known format; a side file PATH.weights.csv, when there, gives the weights.
+/// Reads any known format; a side file PATH.weights.csv, when there, gives the weights. From several threads at once,
+/// too. But libnetcdf and libhdf5 may be those of others in the process (h5py), of whom temper does not know: while it
+/// reads or writes NetCDF or VTKHDF, no other thread may call them.
 [[nodiscard]] Expected<MeshFile> read(const std::string& path, const ReadOptions& options = {});
 /// Writes to a temporary file beside path and renames it: on any error what was at path is untouched.
 /// Returns warnings (weights gone to a side file, data that the format cannot hold).

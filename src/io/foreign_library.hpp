@@ -25,7 +25,8 @@ struct ForeignLibrary {
 void find_library(const ForeignLibrary& library, const std::function<bool(void* handle)>& take);
 
 /// Held while a file of libnetcdf or libhdf5 is open: both keep tables that only one thread may touch at a time, and
-/// the one calls the other.
+/// the one calls the other. It keeps temper's threads apart; who else calls the same library in this process (h5py)
+/// does not know of it.
 [[nodiscard]] std::mutex& foreign_tables();
 
 }  // namespace temper::io

@@ -52,6 +52,24 @@ class Hdf5Id {
   Close close_ = nullptr;
 };
 
+/// While it lives the library prints no errors; afterwards it does with them what it did before, which may be what
+/// another user of it has set. Whoever makes one holds foreign_tables().
+class QuietHdf5 {
+ public:
+  explicit QuietHdf5(const Hdf5Library& library) : library_(library) {
+    library_.H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+    library_.H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~QuietHdf5() { library_.H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+  QuietHdf5(const QuietHdf5&) = delete;
+  QuietHdf5& operator=(const QuietHdf5&) = delete;
+
+ private:
+  const Hdf5Library& library_;
+  H5E_auto2_t print_ = nullptr;
+  void* data_ = nullptr;
+};
+
 struct Hdf5Dataset {
   std::string name;
   Hdf5Id id;
@@ -105,7 +123,8 @@ class Hdf5Reader {
   Allowance& allowance_;
   const Hdf5Library& library_;
   std::unique_lock<std::mutex> turn_;
-  Hdf5Id links_;  // properties of access: links do not lead to other files
+  QuietHdf5 quiet_;  // outlives what is open
+  Hdf5Id links_;     // properties of access: links do not lead to other files
   Hdf5Id file_;
 };
 
@@ -149,7 +168,8 @@ class Hdf5Writer {
   std::string path_;
   const Hdf5Library& library_;
   std::unique_lock<std::mutex> turn_;
-  Image image_;  // outlives the file
+  QuietHdf5 quiet_;  // outlives what is open
+  Image image_;      // outlives the file
   Hdf5Id ordered_, utf8_, without_numbers_;
   Hdf5Id file_;
   std::vector<Waiting> waiting_;

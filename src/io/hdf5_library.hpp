@@ -15,13 +15,13 @@ static_assert(sizeof(hid_t) == 8, "the headers of HDF5 are those of 1.10 or late
 #define TEMPER_HDF5_FUNCTIONS(use)                                                                                    \
   use(H5Aclose) use(H5Acreate2) use(H5Aexists) use(H5Aget_space) use(H5Aget_type) use(H5Aopen) use(H5Aread)           \
       use(H5Awrite) use(H5Dclose) use(H5Dcreate2) use(H5Dget_create_plist) use(H5Dget_offset) use(H5Dget_space)       \
-          use(H5Dget_type) use(H5Dread) use(H5Eset_auto2) use(H5Fclose) use(H5Fcreate) use(H5Fget_filesize)           \
-              use(H5Fopen) use(H5Gclose) use(H5Gcreate2) use(H5Gget_create_plist) use(H5Gget_info) use(H5Iget_type)   \
-                  use(H5Lexists) use(H5Lget_name_by_idx) use(H5Oclose) use(H5Oopen) use(H5Pclose) use(H5Pcreate)      \
-                      use(H5Pget_external_count) use(H5Pget_layout) use(H5Pget_link_creation_order)                   \
-                          use(H5Pset_alloc_time) use(H5Pset_char_encoding) use(H5Pset_elink_cb)                       \
-                              use(H5Pset_fclose_degree) use(H5Pset_fapl_core) use(H5Pset_file_image)                  \
-                                  use(H5Pset_file_image_callbacks) use(H5Pset_fill_time)                              \
+          use(H5Dget_type) use(H5Dread) use(H5Eget_auto2) use(H5Eset_auto2) use(H5Fclose) use(H5Fcreate)              \
+              use(H5Fget_filesize) use(H5Fopen) use(H5Gclose) use(H5Gcreate2) use(H5Gget_create_plist)                \
+                  use(H5Gget_info) use(H5Iget_type) use(H5Lexists) use(H5Lget_name_by_idx) use(H5Oclose) use(H5Oopen) \
+                      use(H5Pclose) use(H5Pcreate) use(H5Pget_external_count) use(H5Pget_layout)                      \
+                          use(H5Pget_link_creation_order) use(H5Pset_alloc_time) use(H5Pset_char_encoding)            \
+                              use(H5Pset_elink_cb) use(H5Pset_fclose_degree) use(H5Pset_fapl_core)                    \
+                                  use(H5Pset_file_image) use(H5Pset_file_image_callbacks) use(H5Pset_fill_time)       \
                                       use(H5Pset_link_creation_order) use(H5Pset_meta_block_size)                     \
                                           use(H5Pset_obj_track_times) use(H5Pset_small_data_block_size) use(H5Sclose) \
                                               use(H5Screate) use(H5Screate_simple) use(H5Sget_simple_extent_dims)     \

@@ -53,8 +53,8 @@ Hdf5Reader::Hdf5Reader(Source& source, const Hdf5Library& library)
       bytes_(source.bytes),
       allowance_(source.allowance),
       library_(library),
-      turn_(foreign_tables()) {
-  library_.H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it would print
+      turn_(foreign_tables()),
+      quiet_(library_) {
   links_ = {check(library_.H5Pcreate(library_.H5P_CLS_LINK_ACCESS_ID_g), "begin"), library_.H5Pclose};
   check(library_.H5Pset_elink_cb(links_, refuse_other_file, nullptr), "begin");
   const Hdf5Id access = {check(library_.H5Pcreate(library_.H5P_CLS_FILE_ACCESS_ID_g), "begin"), library_.H5Pclose};

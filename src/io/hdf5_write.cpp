@@ -41,8 +41,7 @@ H5FD_file_image_callbacks_t Hdf5Writer::callbacks(Image* image) {
 }
 
 Hdf5Writer::Hdf5Writer(std::string path, std::size_t objects)
-    : path_(std::move(path)), library_(hdf5_library(path_)), turn_(foreign_tables()) {
-  library_.H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it would print
+    : path_(std::move(path)), library_(hdf5_library(path_)), turn_(foreign_tables()), quiet_(library_) {
   const auto properties = [&](hid_t kind) {
     return Hdf5Id(check(library_.H5Pcreate(kind), "begin"), library_.H5Pclose);
   };

@@ -162,6 +162,25 @@ TEST_F(Vtkhdf, TriangleQualityIsNoDataOfTheUser) {
   EXPECT_EQ(slurp(path("a.vtkhdf")).find("min_angle_deg"), std::string::npos);
 }
 
+herr_t own_handler(hid_t, void*) { return 0; }
+
+// libhdf5 may be that of others in the process, who have it do something else with errors.
+TEST_F(Vtkhdf, WhatTheLibraryDoesWithErrorsIsAsItWasBefore) {
+  const Hdf5Library& library = hdf5_library(path("a.vtkhdf"));
+  int data = 0;
+  H5E_auto2_t before = nullptr, after = nullptr;
+  void *data_before = nullptr, *data_after = nullptr;
+  library.H5Eget_auto2(H5E_DEFAULT, &before, &data_before);
+  library.H5Eset_auto2(H5E_DEFAULT, own_handler, &data);
+  EXPECT_TRUE(write(path("a.vtkhdf"), sample()));
+  EXPECT_TRUE(read(path("a.vtkhdf")));
+  EXPECT_FALSE(read(make("b.vtkhdf", slurp(path("a.vtkhdf")).substr(0, 1000))));
+  library.H5Eget_auto2(H5E_DEFAULT, &after, &data_after);
+  library.H5Eset_auto2(H5E_DEFAULT, before, data_before);
+  EXPECT_TRUE(after == own_handler);
+  EXPECT_EQ(data_after, &data);
+}
+
 // --- files of others ---------------------------------------------------------------------------------
 
 TEST_F(Vtkhdf, PiecesBecomeOneMesh) {
