@@ -43,12 +43,8 @@ NetcdfId::~NetcdfId() {
   if (id_ >= 0) library_.nc_abort(id_);
 }
 
-NetcdfReader::NetcdfReader(Source& source)
-    : path_(source.path),
-      bytes_(source.bytes.size()),
-      allowance_(source.allowance),
-      library_(netcdf_library(path_)),
-      id_(library_) {
+NetcdfReader::NetcdfReader(Source& source, const NetcdfLibrary& library)
+    : path_(source.path), bytes_(source.bytes.size()), allowance_(source.allowance), library_(library), id_(library_) {
   check_netcdf_header(source);
   check(library_.nc_open_mem(path_.c_str(), NC_NOWRITE, source.bytes.size(), source.bytes.data(), id_.to_open()),
         "read the file");
@@ -167,16 +163,17 @@ std::optional<double> NetcdfReader::number_attribute(const NetcdfVariable* v, co
 bool is_hdf5(std::string_view head) { return is_netcdf(head) && !head.starts_with("CDF"); }
 
 Document read_netcdf(Source& source, const std::function<Document(const NetcdfReader&)>& work) {
+  // Not in the child, whose budget is that of the file, and which must not ask for what another thread may hold.
+  const NetcdfLibrary& library = netcdf_library(source.path);
   if (is_hdf5(source.bytes)) {
-    static_cast<void>(netcdf_library(source.path));  // not in the child, whose budget is that of the file
-    std::unique_lock turn(foreign_tables());         // no other thread is within the library when the child comes to be
+    std::unique_lock turn(foreign_tables());  // no other thread is within the library when the child comes to be
     const Trial trial = {source.path, "libnetcdf", "should be written as a classic one (nccopy -k cdf5)"};
     try_in_child(trial_budget(source.bytes.size()), trial, [&] {
       turn.unlock();
-      static_cast<void>(work(NetcdfReader(source)));
+      static_cast<void>(work(NetcdfReader(source, library)));
     });
   }
-  return work(NetcdfReader(source));
+  return work(NetcdfReader(source, library));
 }
 
 // --- writing ---------------------------------------------------------------------------------------------

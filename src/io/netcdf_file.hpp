@@ -58,7 +58,7 @@ class NetcdfId {
 class NetcdfReader {
  public:
   /// The bytes must outlive the reader.
-  explicit NetcdfReader(Source& source);
+  NetcdfReader(Source& source, const NetcdfLibrary& library);
   NetcdfReader(const NetcdfReader&) = delete;
   NetcdfReader& operator=(const NetcdfReader&) = delete;
   ~NetcdfReader() = default;
