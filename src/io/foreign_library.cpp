@@ -26,9 +26,11 @@ void find_in_python_packages(const ForeignLibrary& library, const std::function<
   fs::path folder = fs::canonical(self.dli_fname, ignored).parent_path();
   for (int level = 0; level < 3 && folder.has_relative_path(); ++level, folder = folder.parent_path()) {
     for (const char* package : library.packages) {
-      for (const fs::directory_entry& entry : fs::directory_iterator(folder / package, ignored)) {
-        if (!entry.path().filename().string().starts_with(library.file_in_package)) continue;
-        if (load_foreign(entry.path().c_str(), take)) return;
+      // Not range-for, whose ++ throws.
+      for (fs::directory_iterator entry(folder / package, ignored), end; entry != end; entry.increment(ignored)) {
+        const fs::path& file = entry->path();
+        if (!file.filename().string().starts_with(library.file_in_package)) continue;
+        if (load_foreign(file.c_str(), take)) return;
       }
     }
   }
