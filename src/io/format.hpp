@@ -46,19 +46,24 @@ enum class Degrees {
   by_writer,     ///< the writer needs the plane for orthocenters, and sees to degrees itself
 };
 
+/// What is to be said of few formats.
+struct FormatDetails {
+  /// Says of an array whose content is not in `holds` whether it has a place nevertheless. Null: none has.
+  bool (*keeps)(ArraysOf of, const DataArray& array) = nullptr;
+  /// That are written, or why none can be; null: path alone.
+  std::vector<std::string> (*files)(const std::string& path) = nullptr;
+  std::int64_t first_point = 1;     ///< the number of the first point in a file
+  std::string_view name_ends = {};  ///< characters that would end a name: written as %22
+  Degrees degrees = Degrees::as_they_came;
+};
+
 struct FormatRow {
   std::string_view name, description, suffixes;  ///< as in Format
   Contents holds;                                ///< what a file has beyond it is named in a warning
   bool (*sniff)(std::string_view head);          ///< from the first kSniffBytes of the file
   Document (*read)(Source& source);
-  void (*write)(const WriteJob& job);  ///< null: read only
-  /// Says of an array whose content is not in `holds` whether it has a place nevertheless. Null: none has.
-  bool (*keeps)(ArraysOf of, const DataArray& array) = nullptr;
-  std::vector<std::string> (*files)(const std::string& path) =
-      nullptr;                      ///< that are written, or why none can be; null: path alone
-  std::int64_t first_point = 1;     ///< the number of the first point in a file
-  std::string_view name_ends = {};  ///< characters that would end a name: written as %22
-  Degrees degrees = Degrees::as_they_came;
+  void (*write)(const WriteJob& job) = nullptr;  ///< null: read only
+  FormatDetails details = {};
 };
 inline constexpr std::size_t kSniffBytes = 4096;
 [[nodiscard]] inline bool is_periodic(const MeshFile& file) { return !(file.period == Vec2{}); }

@@ -25,10 +25,11 @@ std::string has_no_place_for(const WriteJob& job, std::string_view what) {
 }  // namespace
 
 std::string WriteJob::written(std::string_view name) const {
-  if (row.name_ends.empty() || name.find_first_of(row.name_ends) == std::string_view::npos) return std::string(name);
+  if (row.details.name_ends.empty() || name.find_first_of(row.details.name_ends) == std::string_view::npos)
+    return std::string(name);
   std::string result;
   for (const char c : name) {
-    if (row.name_ends.find(c) == std::string_view::npos) {
+    if (row.details.name_ends.find(c) == std::string_view::npos) {
       result += c;
     } else {
       append_percent(result, c);
@@ -53,7 +54,7 @@ void warn_of_losses(const WriteJob& job) {
     if (!lost(content)) continue;
     std::vector<std::string_view> names;
     for (const DataArray& a : f.*of) {
-      if (row.keeps == nullptr || !row.keeps(of, a)) names.push_back(a.name);
+      if (row.details.keeps == nullptr || !row.details.keeps(of, a)) names.push_back(a.name);
     }
     warn_of_arrays(job, name, names);
   }

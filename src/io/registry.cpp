@@ -83,42 +83,53 @@ namespace {
 
 // Of two rows that recognise a file, or have its suffix, the first is taken.
 constexpr FormatRow kRows[] = {
-    {"vtu", "VTK XML unstructured grid, temper's own", ".vtu", kAll | kSphere | kPeriod, sniff_vtu, read_vtu,
-     write_vtu},
-    {"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", (kAll & ~kFieldData) | kSphere, sniff_gmsh41, read_gmsh, write_gmsh41,
-     nullptr, nullptr, 1, "\""},
-    {"gmsh22", "Gmsh MSH 2.2", ".msh2", (kAll & ~kFieldData) | kSphere, sniff_gmsh22, read_gmsh, write_gmsh22, nullptr,
-     nullptr, 1, "\""},
-    {"medit", "medit (INRIA, Mmg)", ".mesh", kInSpace | kAllTags, sniff_medit, read_medit, write_medit, medit_keeps},
-    {"jigsaw", "JIGSAW mesh", ".jigsaw.msh", kInSpace | kWeights | kAllTags, sniff_jigsaw, read_jigsaw_mesh,
-     write_jigsaw_mesh, jigsaw_keeps},
-    {"ply", "PLY", ".ply", (kAll & ~(kMarkedPointData | kFieldData)) | kSphere, sniff_ply, read_ply, write_ply},
-    {"off", "OFF", ".off", kInSpace, sniff_off, read_off, write_off, nullptr, nullptr, 0},
+    // clang-format off
+    // name, description, suffixes, what a file holds,
+    // functions that recognise, read and write it, details
+    {"vtu", "VTK XML unstructured grid, temper's own", ".vtu", kAll | kSphere | kPeriod,
+     sniff_vtu, read_vtu, write_vtu},
+    {"gmsh41", "Gmsh MSH 4.1", ".msh .msh4", (kAll & ~kFieldData) | kSphere,
+     sniff_gmsh41, read_gmsh, write_gmsh41, {.name_ends = "\""}},
+    {"gmsh22", "Gmsh MSH 2.2", ".msh2", (kAll & ~kFieldData) | kSphere,
+     sniff_gmsh22, read_gmsh, write_gmsh22, {.name_ends = "\""}},
+    {"medit", "medit (INRIA, Mmg)", ".mesh", kInSpace | kAllTags,
+     sniff_medit, read_medit, write_medit, {.keeps = medit_keeps}},
+    {"jigsaw", "JIGSAW mesh", ".jigsaw.msh", kInSpace | kWeights | kAllTags,
+     sniff_jigsaw, read_jigsaw_mesh, write_jigsaw_mesh, {.keeps = jigsaw_keeps}},
+    {"ply", "PLY", ".ply", (kAll & ~(kMarkedPointData | kFieldData)) | kSphere,
+     sniff_ply, read_ply, write_ply},
+    {"off", "OFF", ".off", kInSpace,
+     sniff_off, read_off, write_off, {.first_point = 0}},
     // Before those whose first word may be that of a title. Of tags and names it holds boundaries; its writer names the
     // others.
-    {"adcirc", "ADCIRC fort.14", ".14 .grd", kLines | kMarkedPoints | kNames, sniff_adcirc, read_adcirc, write_adcirc,
-     adcirc_keeps, nullptr, 1, "", Degrees::where_known},
-    {"obj", "Wavefront OBJ", ".obj", kInSpace | kAllTags | kNames, sniff_obj, read_obj, write_obj},
-    {"vtk", "legacy VTK 2.0 to 4.2", ".vtk", kAll | kSphere, sniff_legacy_vtk, read_legacy_vtk, write_legacy_vtk},
-    {"vtk51", "legacy VTK 5.1", ".vtk51", kAll | kSphere, sniff_vtk51, read_legacy_vtk, write_vtk51},
-    {"mfem", "MFEM mesh v1.0", ".mesh", 0, sniff_mfem, read_mfem, nullptr},
-    {"fesom", "FESOM nod2d.out and elem2d.out", ".nod2d.out .elem2d.out nod2d.out elem2d.out", kSphere, sniff_fesom,
-     read_fesom, write_fesom, fesom_keeps, fesom_files, 1, "", Degrees::always},
-    {"triangle", "Triangle", ".node .ele", kAll & ~(kLineData | kMarkedPointData | kFieldData), sniff_triangle,
-     read_triangle, write_triangle, nullptr, triangle_files},
+    {"adcirc", "ADCIRC fort.14", ".14 .grd", kLines | kMarkedPoints | kNames,
+     sniff_adcirc, read_adcirc, write_adcirc, {.keeps = adcirc_keeps, .degrees = Degrees::where_known}},
+    {"obj", "Wavefront OBJ", ".obj", kInSpace | kAllTags | kNames,
+     sniff_obj, read_obj, write_obj},
+    {"vtk", "legacy VTK 2.0 to 4.2", ".vtk", kAll | kSphere,
+     sniff_legacy_vtk, read_legacy_vtk, write_legacy_vtk},
+    {"vtk51", "legacy VTK 5.1", ".vtk51", kAll | kSphere,
+     sniff_vtk51, read_legacy_vtk, write_vtk51},
+    {"mfem", "MFEM mesh v1.0", ".mesh", 0,
+     sniff_mfem, read_mfem},
+    {"fesom", "FESOM nod2d.out and elem2d.out", ".nod2d.out .elem2d.out nod2d.out elem2d.out", kSphere,
+     sniff_fesom, read_fesom, write_fesom, {.keeps = fesom_keeps, .files = fesom_files, .degrees = Degrees::always}},
+    {"triangle", "Triangle", ".node .ele", kAll & ~(kLineData | kMarkedPointData | kFieldData),
+     sniff_triangle, read_triangle, write_triangle, {.files = triangle_files}},
     // Before those of NetCDF, which may be HDF5: it hands files of other contents on to them.
-    {"vtkhdf", "VTKHDF unstructured grid (HDF5)", ".vtkhdf .hdf .hdf5", kAll | kSphere | kPeriod, sniff_vtkhdf,
-     read_vtkhdf, write_vtkhdf, nullptr, vtkhdf_files},
-    {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll | kSphere | kPeriod, sniff_mpas, read_mpas, write_mpas, nullptr,
-     netcdf_files, 1, "", Degrees::by_writer},
-    {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll | kSphere, sniff_ugrid, read_ugrid, write_ugrid, nullptr,
-     netcdf_files, 1, "", Degrees::by_writer},
+    {"vtkhdf", "VTKHDF unstructured grid (HDF5)", ".vtkhdf .hdf .hdf5", kAll | kSphere | kPeriod,
+     sniff_vtkhdf, read_vtkhdf, write_vtkhdf, {.files = vtkhdf_files}},
+    {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll | kSphere | kPeriod,
+     sniff_mpas, read_mpas, write_mpas, {.files = netcdf_files, .degrees = Degrees::by_writer}},
+    {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll | kSphere,
+     sniff_ugrid, read_ugrid, write_ugrid, {.files = netcdf_files, .degrees = Degrees::by_writer}},
+    // clang-format on
 };
 
 template <std::size_t... I>
 constexpr std::array<Format, sizeof...(I)> columns(std::index_sequence<I...>) {
   return {Format{kRows[I].name, kRows[I].description, kRows[I].suffixes, kRows[I].write != nullptr,
-                 (kRows[I].holds & kWeights) != 0, kRows[I].degrees != Degrees::always,
+                 (kRows[I].holds & kWeights) != 0, kRows[I].details.degrees != Degrees::always,
                  (kRows[I].holds & kSphere) != 0}...};
 }
 // Not constexpr: with its sanitizers GCC does not know that a function has an address.
@@ -275,8 +286,8 @@ Expected<MeshFile> read(const std::string& path, const ReadOptions& options) {
 namespace {
 
 bool goes_back_to_degrees(const FormatRow& row, const MeshFile& file) {
-  if (row.degrees == Degrees::by_writer) return false;
-  return file.map || (row.degrees == Degrees::where_known && lon_lat_of_points(file));
+  if (row.details.degrees == Degrees::by_writer) return false;
+  return file.map || (row.details.degrees == Degrees::where_known && lon_lat_of_points(file));
 }
 
 /// Weights are lengths, squared: of the map, whatever the points beside them are.
@@ -294,7 +305,7 @@ void warn_of_weights_beside_degrees(const WriteJob& job, const MeshFile& on_map)
 Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file, const WriteOptions& options) {
   return guarded<std::vector<std::string>>(path, [&] {
     const FormatRow& row = row_to_write(path, options.format);
-    if (row.files != nullptr && row.files(path).size() > 1 && is_stream(path)) {
+    if (row.details.files != nullptr && row.details.files(path).size() > 1 && is_stream(path)) {
       fail(ErrorCode::not_writable, path,
            text(row.description, " is several files; expected the name of a file, found a stream"));
     }
@@ -315,10 +326,11 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
     const bool turned = goes_back_to_degrees(row, file);
     // Who has degrees alone has the earth's radius.
     const double earth = Projection{}.radius;
-    const bool resized = row.degrees == Degrees::always && file.sphere_radius > 0 && file.sphere_radius != earth;
+    const bool resized =
+        row.details.degrees == Degrees::always && file.sphere_radius > 0 && file.sphere_radius != earth;
     MeshFile changed = turned ? in_degrees(file) : resized ? file : MeshFile();
     if (resized) resize_sphere(changed, earth);
-    if (row.degrees == Degrees::always && file.sphere_radius == 0 && !turned && !file.geographic) {
+    if (row.details.degrees == Degrees::always && file.sphere_radius == 0 && !turned && !file.geographic) {
       fail(ErrorCode::unsupported, path,
            text(row.description,
                 " has points in longitude and latitude; expected a mesh of the sphere, or one that was "
@@ -349,7 +361,8 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
 Expected<std::vector<std::string>> files_to_write(const std::string& path, const std::string& format) {
   try {
     const FormatRow& row = row_to_write(path, format);
-    std::vector<std::string> files = row.files == nullptr ? std::vector<std::string>{path} : row.files(path);
+    std::vector<std::string> files =
+        row.details.files == nullptr ? std::vector<std::string>{path} : row.details.files(path);
     if ((row.holds & kWeights) == 0 && !is_stream(path)) files.push_back(side_file_path(path));
     return files;
   } catch (Failure& failure) {

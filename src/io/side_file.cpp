@@ -69,7 +69,8 @@ void write_side_file(const WriteJob& job) {
   Output& out = job.outputs.open(path);
   out.put("point,weight\n", "");
   for (std::size_t i = 0; i < f.points.size(); ++i) {
-    out.put(job.row.first_point + static_cast<std::int64_t>(i), ',', f.weights.empty() ? 0.0 : f.weights[i], '\n');
+    out.put(job.row.details.first_point + static_cast<std::int64_t>(i), ',', f.weights.empty() ? 0.0 : f.weights[i],
+            '\n');
   }
   job.warn(text("the format has no place for weights; they are in ", path));
 }
