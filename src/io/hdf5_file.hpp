@@ -23,9 +23,6 @@
 
 namespace temper::io {
 
-/// The magic number; files with a block of the user's before it are not known.
-[[nodiscard]] inline bool is_hdf5_file(std::string_view head) { return head.starts_with("\x89HDF\r\n\x1a\n"); }
-
 /// An object of the library's, which is closed in the end.
 class Hdf5Id {
  public:

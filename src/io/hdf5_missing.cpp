@@ -1,12 +1,11 @@
 // In place of VTKHDF where the headers of HDF5 were not there when temper was built.
 #include "io/format.hpp"
+#include "io/hdf5_magic.hpp"
 #include "io/vtkhdf.hpp"
 
 namespace temper::io {
 
-bool sniff_vtkhdf(std::string_view head) {
-  return head.starts_with("\x89HDF") && head.find(kVtkhdfGroup) != std::string_view::npos;
-}
+bool sniff_vtkhdf(std::string_view head) { return is_hdf5(head) && head.find(kVtkhdfGroup) != std::string_view::npos; }
 Document read_vtkhdf(Source& source) {
   fail(ErrorCode::unsupported, source.path, "is a VTKHDF file, and this temper was built without HDF5");
 }

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "io/foreign_library.hpp"
+#include "io/hdf5_magic.hpp"
 #include "io/trial.hpp"
 
 namespace temper::io {
@@ -26,8 +27,7 @@ std::optional<Scalar> scalar_of_netcdf(nc_type type) {
 
 bool is_netcdf(std::string_view head) {
   using namespace std::string_view_literals;
-  return head.starts_with("CDF\1"sv) || head.starts_with("CDF\2"sv) || head.starts_with("CDF\5"sv) ||
-         head.starts_with("\x89HDF\r\n\x1a\n"sv);
+  return head.starts_with("CDF\1"sv) || head.starts_with("CDF\2"sv) || head.starts_with("CDF\5"sv) || is_hdf5(head);
 }
 
 std::size_t NetcdfVariable::n_values() const {
@@ -159,8 +159,6 @@ std::optional<double> NetcdfReader::number_attribute(const NetcdfVariable* v, co
   if (library_.nc_get_att_double(id_, id, name, &value) != NC_NOERR) return std::nullopt;
   return value;
 }
-
-bool is_hdf5(std::string_view head) { return is_netcdf(head) && !head.starts_with("CDF"); }
 
 Document read_netcdf(Source& source, const std::function<Document(const NetcdfReader&)>& work) {
   // Not in the child, whose budget is that of the file, and which must not ask for what another thread may hold.

@@ -1,5 +1,7 @@
 // In place of NetCDF's formats where its headers were not there when temper was built.
 #include "io/format.hpp"
+#include "io/hdf5_magic.hpp"
+#include "io/ugrid.hpp"
 
 namespace temper::io {
 
@@ -10,7 +12,7 @@ constexpr std::string_view kMissing = "is a NetCDF file, and this temper was bui
 }  // namespace
 
 bool sniff_mpas(std::string_view) { return false; }
-bool sniff_ugrid(std::string_view head) { return head.starts_with("CDF") || head.starts_with("\x89HDF"); }
+bool sniff_ugrid(std::string_view head) { return head.starts_with("CDF") || is_hdf5(head); }
 Document read_mpas(Source& source) { fail(ErrorCode::unsupported, source.path, std::string(kMissing)); }
 Document read_ugrid(Source& source) { fail(ErrorCode::unsupported, source.path, std::string(kMissing)); }
 std::vector<std::string> netcdf_files(const std::string& path) {

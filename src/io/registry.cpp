@@ -14,6 +14,7 @@
 #include "io/geographic.hpp"
 #include "io/globe.hpp"
 #include "io/scanner.hpp"
+#include "io/ugrid.hpp"
 #include "temper/projection.hpp"
 
 namespace temper::io {
@@ -49,7 +50,6 @@ Document read_ply(Source& source);
 Document read_adcirc(Source& source);
 Document read_vtkhdf(Source& source);
 Document read_mpas(Source& source);
-Document read_ugrid(Source& source);
 Document read_mfem(Source& source);
 Document read_fesom(Source& source);
 

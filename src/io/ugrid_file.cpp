@@ -15,6 +15,7 @@
 #include "io/globe.hpp"
 #include "io/netcdf_extras.hpp"
 #include "io/scanner.hpp"
+#include "io/ugrid.hpp"
 
 namespace temper::io {
 

@@ -17,16 +17,16 @@
 #include "io/cells.hpp"
 #include "io/format.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/hdf5_magic.hpp"
 #include "io/scanner.hpp"
 #include "io/triangle_quality.hpp"
+#include "io/ugrid.hpp"
 #include "io/vtkhdf.hpp"
 #include "io/vtkhdf_pieces.hpp"
 
 namespace temper::io {
 
-Document read_ugrid(Source& source);
-
-bool sniff_vtkhdf(std::string_view head) { return is_hdf5_file(head); }
+bool sniff_vtkhdf(std::string_view head) { return is_hdf5(head); }
 
 namespace {
 
