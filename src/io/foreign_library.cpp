@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "io/failure.hpp"
+
 namespace temper::io {
 
 namespace {
@@ -36,12 +38,13 @@ void find_in_python_packages(const ForeignLibrary& library, const std::function<
   }
 }
 
-}  // namespace
-
+/// What the variable names, or null.
 const char* chosen_file(const ForeignLibrary& library) {
   const char* const chosen = std::getenv(library.variable);
   return chosen != nullptr && *chosen != '\0' ? chosen : nullptr;
 }
+
+}  // namespace
 
 void find_library(const ForeignLibrary& library, const std::function<bool(void*)>& take) {
   if (const char* const chosen = chosen_file(library)) {
@@ -57,6 +60,15 @@ void find_library(const ForeignLibrary& library, const std::function<bool(void*)
 std::mutex& foreign_tables() {
   static std::mutex tables;
   return tables;
+}
+
+void fail_without(const ForeignLibrary& library, const std::string& path) {
+  const char* const chosen = chosen_file(library);
+  fail(ErrorCode::unsupported, path,
+       chosen != nullptr
+           ? text(library.need, "; ", library.variable, " names ", chosen, ", which cannot be loaded as that")
+           : text(library.need, ", and there is none: install it (", library.install, "), or name its file in ",
+                  library.variable));
 }
 
 }  // namespace temper::io

@@ -4,8 +4,10 @@
 
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace temper::io {
 
@@ -15,10 +17,9 @@ struct ForeignLibrary {
   std::span<const char* const> files;     ///< as the loader knows them, the newest first
   std::span<const char* const> packages;  ///< folders of the libraries of Python packages that bring it along
   std::string_view file_in_package;       ///< how its name begins there
+  std::string_view need;                  ///< "VTKHDF files need libhdf5 1.10 or later"
+  std::string_view install;               ///< "apt: libhdf5-103-1; conda: …": the packages that have it
 };
-
-/// What the variable names, or null.
-[[nodiscard]] const char* chosen_file(const ForeignLibrary& library);
 
 /// Calls take with the handle (of dlopen) of each file that can be loaded, until it says that it is the library. What
 /// is loaded stays to the end of the process.
@@ -28,5 +29,23 @@ void find_library(const ForeignLibrary& library, const std::function<bool(void* 
 /// the one calls the other. It keeps temper's threads apart; who else calls the same library in this process (h5py)
 /// does not know of it.
 [[nodiscard]] std::mutex& foreign_tables();
+
+/// The functions of the library, which functions_of(handle) takes from it, or null. One that was not there may be there
+/// at the next call: a Python that runs for days. Takes foreign_tables().
+template <class Functions>
+const Functions* find_functions(const ForeignLibrary& library, std::optional<Functions> (*functions_of)(void* handle)) {
+  static std::optional<Functions> found;
+  const std::lock_guard turn(foreign_tables());
+  if (!found) {
+    find_library(library, [&](void* handle) {
+      found = functions_of(handle);
+      return found.has_value();
+    });
+  }
+  return found ? &*found : nullptr;
+}
+
+/// A failure about the file `path`, for which there is no such library.
+[[noreturn]] void fail_without(const ForeignLibrary& library, const std::string& path);
 
 }  // namespace temper::io

@@ -4,11 +4,10 @@
 #include <dlfcn.h>
 
 #include <array>
-#include <mutex>
 #include <optional>
 
+#include "io/failure.hpp"
 #include "io/foreign_library.hpp"
-#include "io/format.hpp"
 #include "temper/io.hpp"
 
 namespace temper::io {
@@ -25,7 +24,12 @@ constexpr std::array kHdf5Files = {"libhdf5_serial.so.320", "libhdf5.so.320",   
                                    "libhdf5.so.103",        "libhdf5_serial.so.100", "libhdf5.so"};
 #endif
 constexpr std::array kHdf5Packages = {"h5py.libs", "netcdf4.libs", "netCDF4.libs"};
-constexpr ForeignLibrary kHdf5 = {"TEMPER_HDF5", kHdf5Files, kHdf5Packages, "libhdf5-"};
+constexpr ForeignLibrary kHdf5 = {.variable = "TEMPER_HDF5",
+                                  .files = kHdf5Files,
+                                  .packages = kHdf5Packages,
+                                  .file_in_package = "libhdf5-",
+                                  .need = "VTKHDF files need libhdf5 1.10 or later",
+                                  .install = "apt: libhdf5-103-1; conda: hdf5; pip: h5py or netCDF4"};
 
 /// All functions of the library, or nothing: also of one before 1.10, whose numbers have 32 bits.
 std::optional<Hdf5Library> hdf5_of(void* handle) {
@@ -49,30 +53,13 @@ std::optional<Hdf5Library> hdf5_of(void* handle) {
   return library;
 }
 
-const Hdf5Library* find_hdf5() {
-  static std::mutex turn;
-  static std::optional<Hdf5Library> found;
-  const std::scoped_lock lock(turn, foreign_tables());
-  if (!found) {
-    find_library(kHdf5, [](void* handle) {
-      found = hdf5_of(handle);
-      return found.has_value();
-    });
-  }
-  return found ? &*found : nullptr;
-}
+const Hdf5Library* find_hdf5() { return find_functions(kHdf5, hdf5_of); }
 
 }  // namespace
 
 const Hdf5Library& hdf5_library(const std::string& path) {
   if (const Hdf5Library* const library = find_hdf5()) return *library;
-  const char* const chosen = chosen_file(kHdf5);
-  fail(ErrorCode::unsupported, path,
-       chosen != nullptr ? text("VTKHDF files need libhdf5 1.10 or later; ", kHdf5.variable, " names ", chosen,
-                                ", which cannot be loaded as that")
-                         : text("VTKHDF files need libhdf5 1.10 or later, and there is none: install it (apt: "
-                                "libhdf5-103-1; conda: hdf5; pip: h5py or netCDF4), or name its file in ",
-                                kHdf5.variable));
+  fail_without(kHdf5, path);
 }
 
 std::string hdf5_version() {

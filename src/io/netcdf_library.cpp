@@ -4,11 +4,9 @@
 #include <dlfcn.h>
 
 #include <array>
-#include <mutex>
 #include <optional>
 
 #include "io/foreign_library.hpp"
-#include "io/format.hpp"
 #include "temper/io.hpp"
 
 namespace temper::io {
@@ -23,7 +21,12 @@ constexpr std::array kNetcdfFiles = {"libnetcdf.so.22", "libnetcdf.so.19", "libn
                                      "libnetcdf.so"};
 #endif
 constexpr std::array kNetcdfPackages = {"netcdf4.libs", "netCDF4.libs"};
-constexpr ForeignLibrary kNetcdf = {"TEMPER_NETCDF", kNetcdfFiles, kNetcdfPackages, "libnetcdf-"};
+constexpr ForeignLibrary kNetcdf = {.variable = "TEMPER_NETCDF",
+                                    .files = kNetcdfFiles,
+                                    .packages = kNetcdfPackages,
+                                    .file_in_package = "libnetcdf-",
+                                    .need = "NetCDF files need libnetcdf 4.6.2 or later",
+                                    .install = "apt: libnetcdf19; conda: libnetcdf; pip: netCDF4"};
 
 /// All functions of the library, or nothing.
 std::optional<NetcdfLibrary> netcdf_of(void* handle) {
@@ -36,32 +39,13 @@ std::optional<NetcdfLibrary> netcdf_of(void* handle) {
   return library;
 }
 
-/// A library that was not there may be there at the next call: a Python that runs for days.
-const NetcdfLibrary* find_netcdf() {
-  static std::mutex turn;
-  static std::optional<NetcdfLibrary> found;
-  const std::lock_guard lock(turn);
-  if (!found) {
-    find_library(kNetcdf, [](void* handle) {
-      found = netcdf_of(handle);
-      return found.has_value();
-    });
-  }
-  return found ? &*found : nullptr;
-}
+const NetcdfLibrary* find_netcdf() { return find_functions(kNetcdf, netcdf_of); }
 
 }  // namespace
 
 const NetcdfLibrary& netcdf_library(const std::string& path) {
   if (const NetcdfLibrary* const library = find_netcdf()) return *library;
-  const char* const chosen = chosen_file(kNetcdf);
-  fail(ErrorCode::unsupported, path,
-       chosen != nullptr
-           ? text("NetCDF files need libnetcdf 4.6.2 or later; ", kNetcdf.variable, " names ", chosen,
-                  ", which cannot be loaded as that")
-           : text("NetCDF files need libnetcdf 4.6.2 or later, and there is none: install it (apt: libnetcdf19; "
-                  "conda: libnetcdf; pip: netCDF4), or name its file in ",
-                  kNetcdf.variable));
+  fail_without(kNetcdf, path);
 }
 
 std::vector<std::string> netcdf_files(const std::string& path) {
