@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <optional>
+#include <utility>
 
 #include "io/file_names.hpp"
 #include "io/format.hpp"
@@ -64,35 +64,34 @@ void drop_what_differs(MeshFile& file, const std::vector<bool>& edge_lines) {
     file.warnings.push_back(text("edges are others than before: data of lines on them are dropped: ", names));
 }
 
-}  // namespace
-
-std::size_t n_inner_edges(const Mesh& mesh) {
+std::size_t count_inner_edges(const Mesh& mesh) {
   std::size_t n = 0;
   for (const HalfedgeId h : mesh.halfedges()) n += !mesh.is_boundary(h) && mesh.is_edge_representative(h) ? 1 : 0;
   return n;
 }
 
-std::vector<bool> find_edge_lines(const MeshFile& file, const VertexOfPoint& vertex_of_point, const Mesh& mesh,
-                                  const std::vector<HalfedgeId>& edges) {
+}  // namespace
+
+std::optional<EdgeLines> find_edge_lines(const MeshFile& file, const VertexOfPoint& vertex_of_point, const Mesh& mesh,
+                                         const std::vector<HalfedgeId>& edges) {
   if (edges.empty()) return {};
-  const std::size_t n_inner = n_inner_edges(mesh);
-  if (n_inner < kFewestEdges || edges.size() < n_inner) return {};
-  std::vector<bool> result;
+  EdgeLines found;
+  found.n_inner_edges = count_inner_edges(mesh);
+  if (found.n_inner_edges < kFewestEdges || edges.size() < found.n_inner_edges) return {};
   std::vector<HalfedgeId> listed;
-  std::optional<std::int32_t> tag;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const auto [a, b] = file.lines[i];
     if (vertex_of_point[static_cast<std::size_t>(a)] < 0 || vertex_of_point[static_cast<std::size_t>(b)] < 0) continue;
     const bool inner = edges[i].valid() && !mesh.is_boundary(edges[i]);
-    result.push_back(inner);
+    found.lines.push_back(inner);
     if (!inner) continue;
-    if (tag && *tag != file.line_tags[i]) return {};
-    tag = file.line_tags[i];
+    if (listed.empty()) found.tag = file.line_tags[i];
+    if (found.tag != file.line_tags[i]) return {};
     listed.push_back(edges[i]);
   }
   std::sort(listed.begin(), listed.end());
   listed.erase(std::unique(listed.begin(), listed.end()), listed.end());
-  return listed.size() == n_inner ? result : std::vector<bool>();
+  return listed.size() == found.n_inner_edges ? std::optional(std::move(found)) : std::nullopt;
 }
 
 void replace_edge_lines(MeshFile& file, const std::vector<bool>& edge_lines, const Mesh& mesh) {
@@ -117,7 +116,7 @@ void replace_edge_lines(MeshFile& file, const std::vector<bool>& edge_lines, con
   drop_what_differs(file, edge_lines);
 }
 
-EdgeLines::EdgeLines(MeshFile& file, const std::vector<bool>& edge_lines) {
+EdgeLinesTakenOut::EdgeLinesTakenOut(MeshFile& file, const std::vector<bool>& edge_lines) {
   drop_what_differs(file, edge_lines);
   const std::size_t first = first_of(edge_lines);
   tag_ = file.line_tags[first];
@@ -137,7 +136,7 @@ EdgeLines::EdgeLines(MeshFile& file, const std::vector<bool>& edge_lines) {
   }
 }
 
-void EdgeLines::put_back(MeshFile& file, const Mesh& mesh) const {
+void EdgeLinesTakenOut::put_back(MeshFile& file, const Mesh& mesh) const {
   const std::vector<EdgeEnds> edges = inner_edges(mesh);
   file.lines.insert(file.lines.end(), edges.begin(), edges.end());
   file.line_tags.insert(file.line_tags.end(), edges.size(), tag_);

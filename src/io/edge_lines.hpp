@@ -5,18 +5,24 @@
 // the triangles do: they constrain nothing, and the file that is written has such a line for each inner edge again.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "temper/io.hpp"
 
 namespace temper::io {
 
-[[nodiscard]] std::size_t n_inner_edges(const Mesh& mesh);
-
-/// The lines on inner edges, as LoadedMesh::edge_lines, if they list all inner edges, of one tag; else empty. `edges`
-/// has the edge of each line, invalid where there is none. O(n).
-[[nodiscard]] std::vector<bool> find_edge_lines(const MeshFile& file, const VertexOfPoint& vertex_of_point,
-                                                const Mesh& mesh, const std::vector<HalfedgeId>& edges);
+/// Lines on all inner edges of a mesh, of one tag.
+struct EdgeLines {
+  std::vector<bool> lines;  ///< as LoadedMesh::edge_lines
+  std::int32_t tag = 0;
+  std::size_t n_inner_edges = 0;  ///< of the mesh
+};
+/// The edge lines of a file; nothing where not all inner edges are lines of one tag, or there is but one. `edges` has
+/// the edge of each line, invalid where there is none. O(n).
+[[nodiscard]] std::optional<EdgeLines> find_edge_lines(const MeshFile& file, const VertexOfPoint& vertex_of_point,
+                                                       const Mesh& mesh, const std::vector<HalfedgeId>& edges);
 
 /// Puts edges that flips have made into the place of those that are gone. The vertices are those of the lines, and
 /// edge_lines stays right. O(n log n).
@@ -24,9 +30,9 @@ void replace_edge_lines(MeshFile& file, const std::vector<bool>& edge_lines, con
 
 /// For meshes whose vertices are others: the lines are taken out before the rest of the file follows, and put behind
 /// all other lines afterwards, one for each inner edge.
-class EdgeLines {
+class EdgeLinesTakenOut {
  public:
-  EdgeLines(MeshFile& file, const std::vector<bool>& edge_lines);
+  EdgeLinesTakenOut(MeshFile& file, const std::vector<bool>& edge_lines);
   void put_back(MeshFile& file, const Mesh& mesh) const;
 
  private:

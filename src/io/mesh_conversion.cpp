@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "io/edge_lines.hpp"
 #include "io/failure.hpp"
@@ -106,7 +108,7 @@ class MeshMaker {
   [[nodiscard]] std::vector<std::int32_t> fixed_points(std::span<const std::string> tags) const;
   Expected<BuiltMesh> build(const std::vector<std::int32_t>& fixed_points) const;
   void find_edges();
-  void find_lines_of_all_edges();
+  void take_edge_lines();
   void constrain_lines();
   void fix_ends_of_tags();
 
@@ -131,7 +133,7 @@ Expected<LoadedMesh> MeshMaker::make(std::span<const std::string> fixed_tags) {
   if (reversed > 0)
     warn(text(reversed, reversed == 1 ? " clockwise triangle is reversed" : " clockwise triangles are reversed"));
   find_edges();
-  find_lines_of_all_edges();
+  take_edge_lines();
   constrain_lines();
   fix_ends_of_tags();
   return std::move(loaded_);
@@ -250,20 +252,18 @@ void MeshMaker::find_edges() {
   }
 }
 
-void MeshMaker::find_lines_of_all_edges() {
-  loaded_.edge_lines = find_edge_lines(file_, loaded_.vertex_of_point, loaded_.mesh, edges_);
-  if (loaded_.edge_lines.empty()) return;
-  const std::size_t n = n_inner_edges(loaded_.mesh);
-  std::size_t first = 0;
-  while (!edges_[first].valid() || loaded_.mesh.is_boundary(edges_[first])) ++first;
-  warn(text(n, " of ", n, " inner edges are lines of tag ", file_.line_tags[first],
+void MeshMaker::take_edge_lines() {
+  std::optional<EdgeLines> found = find_edge_lines(file_, loaded_.vertex_of_point, loaded_.mesh, edges_);
+  if (!found) return;
+  loaded_.edge_lines = std::move(found->lines);
+  warn(text("all ", found->n_inner_edges, " inner edges are lines of tag ", found->tag,
             ": they are taken for the edges of the mesh, not for features, and constrain nothing"));
 }
 
 void MeshMaker::constrain_lines() {
   std::vector<std::string> lost;
   std::size_t n_lost = 0;
-  const bool list_all_edges = !loaded_.edge_lines.empty();
+  const bool are_features = loaded_.edge_lines.empty();
   for (std::size_t i = 0; i < file_.lines.size(); ++i) {
     const auto [a, b] = file_.lines[i];
     const HalfedgeId h = edges_[i];
@@ -272,7 +272,7 @@ void MeshMaker::constrain_lines() {
         lost.push_back(
             text(names().point(static_cast<std::size_t>(a)), " to ", names().point(static_cast<std::size_t>(b))));
       }
-    } else if (!list_all_edges && !loaded_.mesh.is_boundary(h)) {
+    } else if (are_features && !loaded_.mesh.is_boundary(h)) {
       loaded_.mesh.set_constrained(h, true);
     }
   }

@@ -282,11 +282,11 @@ bool same_numbers(const Former& former, std::size_t n) {
 void update_lines(MeshFile& file, std::size_t n, const LoadedMesh& loaded, const Mesh& mesh, const Former& former) {
   const std::vector<bool>& edge_lines = loaded.edge_lines;
   // Of a file that was changed meanwhile nothing is known.
-  const bool lists_edges = !edge_lines.empty() && edge_lines.size() == file.lines.size();
-  if (lists_edges && same_numbers(former, n)) {
+  const bool has_edge_lines = !edge_lines.empty() && edge_lines.size() == file.lines.size();
+  if (has_edge_lines && same_numbers(former, n)) {
     replace_edge_lines(file, edge_lines, mesh);
-  } else if (lists_edges) {
-    const EdgeLines lines(file, edge_lines);
+  } else if (has_edge_lines) {
+    const EdgeLinesTakenOut lines(file, edge_lines);
     follow(file, n, mesh, former);
     lines.put_back(file, mesh);
   } else if (!former.empty()) {

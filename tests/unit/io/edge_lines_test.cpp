@@ -79,7 +79,7 @@ TEST(EdgeLines, lines_on_all_inner_edges_constrain_nothing_which_a_warning_says)
   EXPECT_EQ(n_constrained(made->mesh), 0u);
   ASSERT_EQ(made->warnings.size(), 1u);
   EXPECT_EQ(made->warnings[0],
-            "40 of 40 inner edges are lines of tag 0: they are taken for the edges of the mesh, not for features, and "
+            "all 40 inner edges are lines of tag 0: they are taken for the edges of the mesh, not for features, and "
             "constrain nothing");
 }
 
