@@ -1,17 +1,18 @@
 // The child process in which a foreign library tries a file: what happens to it never happens to the parent.
 #include "io/trial.hpp"
 
+#include <atomic>
+#include <csignal>
+#include <functional>
+#include <thread>
+
+#include "io/failure.hpp"
 #include "support.hpp"
 #include "support/sanitizers.hpp"
 
 #if TEMPER_NETCDF
 #include <netcdf.h>
-
-#include <atomic>
-#include <csignal>
-#include <thread>
-
-#include "io/failure.hpp"
+#endif
 
 namespace temper::io {
 namespace {
@@ -86,6 +87,7 @@ TEST(Trial, ThreadsOfTheParentThatAllocateDoNotDisturbIt) {
   busy.join();
 }
 
+#if TEMPER_NETCDF
 /// The least MPAS file, in NetCDF-4.
 void make_netcdf4(const std::string& path) {
   int id = -1, cells = -1, vertices = -1, degree = -1, x = -1, y = -1, corners = -1;
@@ -134,7 +136,7 @@ TEST_F(Netcdf4, on_which_libhdf5_never_returns_is_refused) {
   ASSERT_FALSE(f);
   EXPECT_EQ(f.error().code, ErrorCode::syntax);
 }
+#endif
 
 }  // namespace
 }  // namespace temper::io
-#endif
