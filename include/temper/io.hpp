@@ -117,8 +117,9 @@ struct Format {
 /// too. But libnetcdf and libhdf5 may be those of others in the process (h5py), of whom temper does not know: while it
 /// reads or writes NetCDF or VTKHDF, no other thread may call them.
 [[nodiscard]] Expected<MeshFile> read(const std::string& path, const ReadOptions& options = {});
-/// Writes to a temporary file beside path and renames it: on any error what was at path is untouched.
-/// Returns warnings (weights gone to a side file, data that the format cannot hold).
+/// Writes to a temporary file beside path and renames it: on any error what was at path is untouched. Of several files
+/// none is renamed before all are whole; then they are, one after the other: where one cannot be, those before it are
+/// new, and the error names them. Returns warnings (weights gone to a side file, data that the format cannot hold).
 [[nodiscard]] Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file,
                                                        const WriteOptions& options = {});
 

@@ -67,7 +67,8 @@ class Output {
   std::size_t used_ = 0;
 };
 
-/// The files of one write: renamed together at the end.
+/// The files of one write: renamed when all are whole, one after the other, so that an error or a kill just then leaves
+/// new ones beside old ones.
 class OutputSet {
  public:
   Output& open(const std::string& path);
