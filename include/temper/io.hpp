@@ -123,6 +123,9 @@ struct Format {
 [[nodiscard]] Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file,
                                                        const WriteOptions& options = {});
 
+/// The files that read() takes there: path, and those beside it that its format or its weights are in (m.ele of
+/// m.node). Path alone where there is none yet, or a pipe, which is left as it is.
+[[nodiscard]] std::vector<std::string> files_to_read(const std::string& path);
 /// The files that write() replaces or makes there, that of the weights included; or why it would write none.
 [[nodiscard]] Expected<std::vector<std::string>> files_to_write(const std::string& path,
                                                                 const std::string& format = {});

@@ -177,7 +177,7 @@ Document read_fesom(Source& source) { return FesomReader(source).read(); }
 
 std::vector<std::string> fesom_files(const std::string& path) {
   const std::string base = fesom_base(path);
-  return {base + std::string(kPoints), base + std::string(kTriangles)};
+  return {base + std::string(kPoints), base + std::string(kTriangles), base + std::string(kDepths)};
 }
 
 bool fesom_keeps(ArraysOf of, const DataArray& array) {

@@ -51,7 +51,9 @@ struct FormatDetails {
   /// Says of an array whose content is not in `holds` whether it has a place nevertheless. Null: none has.
   bool (*keeps)(ArraysOf of, const DataArray& array) = nullptr;
   /// That are written, or why none can be; null: path alone.
-  std::vector<std::string> (*files)(const std::string& path) = nullptr;
+  std::vector<std::string> (*files_to_write)(const std::string& path) = nullptr;
+  /// That are read where they are there, that of the points first; null: path alone.
+  std::vector<std::string> (*files_to_read)(const std::string& path) = nullptr;
   std::int64_t first_point = 1;     ///< the number of the first point in a file
   std::string_view name_ends = {};  ///< characters that would end a name: written as %22
   Degrees degrees = Degrees::as_they_came;

@@ -55,6 +55,13 @@ Source load(const std::string& path) {
   return source;
 }
 
+std::string first_bytes(const std::string& path, std::size_t n) {
+  const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
+  std::string bytes(file ? n : 0, '\0');
+  if (file) bytes.resize(std::fread(bytes.data(), 1, n, file.get()));
+  return bytes;
+}
+
 void give_memory_back() {
 #ifdef __GLIBC__
   malloc_trim(0);

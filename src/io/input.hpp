@@ -20,6 +20,8 @@ struct Source {
 
 /// Reads a file, or says why not: missing, a directory, empty.
 [[nodiscard]] Source load(const std::string& path);
+/// At most n bytes that a file begins with; none where it cannot be read.
+[[nodiscard]] std::string first_bytes(const std::string& path, std::size_t n);
 /// PATH without its last suffix, when that is `suffix`; else PATH.
 [[nodiscard]] std::string without_suffix(const std::string& path, std::string_view suffix);
 

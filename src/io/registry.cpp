@@ -76,6 +76,7 @@ bool adcirc_keeps(ArraysOf of, const DataArray& array);
 bool jigsaw_keeps(ArraysOf of, const DataArray& array);
 bool medit_keeps(ArraysOf of, const DataArray& array);
 std::vector<std::string> triangle_files(const std::string& path);
+std::vector<std::string> triangle_files_to_read(const std::string& path);
 std::vector<std::string> vtkhdf_files(const std::string& path);
 std::vector<std::string> netcdf_files(const std::string& path);
 
@@ -113,16 +114,18 @@ constexpr FormatRow kRows[] = {
     {"mfem", "MFEM mesh v1.0", ".mesh", 0,
      sniff_mfem, read_mfem},
     {"fesom", "FESOM nod2d.out and elem2d.out", ".nod2d.out .elem2d.out nod2d.out elem2d.out", kSphere,
-     sniff_fesom, read_fesom, write_fesom, {.keeps = fesom_keeps, .files = fesom_files, .degrees = Degrees::always}},
+     sniff_fesom, read_fesom, write_fesom,
+     {.keeps = fesom_keeps, .files_to_write = fesom_files, .files_to_read = fesom_files, .degrees = Degrees::always}},
     {"triangle", "Triangle", ".node .ele", kAll & ~(kLineData | kMarkedPointData | kFieldData),
-     sniff_triangle, read_triangle, write_triangle, {.files = triangle_files}},
+     sniff_triangle, read_triangle, write_triangle,
+     {.files_to_write = triangle_files, .files_to_read = triangle_files_to_read}},
     // Before those of NetCDF, which may be HDF5: it hands files of other contents on to them.
     {"vtkhdf", "VTKHDF unstructured grid (HDF5)", ".vtkhdf .hdf .hdf5", kAll | kSphere | kPeriod,
-     sniff_vtkhdf, read_vtkhdf, write_vtkhdf, {.files = vtkhdf_files}},
+     sniff_vtkhdf, read_vtkhdf, write_vtkhdf, {.files_to_write = vtkhdf_files}},
     {"mpas", "MPAS mesh (NetCDF)", ".mpas.nc", kAll | kSphere | kPeriod,
-     sniff_mpas, read_mpas, write_mpas, {.files = netcdf_files, .degrees = Degrees::by_writer}},
+     sniff_mpas, read_mpas, write_mpas, {.files_to_write = netcdf_files, .degrees = Degrees::by_writer}},
     {"ugrid", "UGRID (NetCDF)", ".ugrid.nc .nc", kAll | kSphere,
-     sniff_ugrid, read_ugrid, write_ugrid, {.files = netcdf_files, .degrees = Degrees::by_writer}},
+     sniff_ugrid, read_ugrid, write_ugrid, {.files_to_write = netcdf_files, .degrees = Degrees::by_writer}},
     // clang-format on
 };
 
@@ -135,11 +138,16 @@ constexpr std::array<Format, sizeof...(I)> columns(std::index_sequence<I...>) {
 // Not constexpr: with its sanitizers GCC does not know that a function has an address.
 const auto kFormats = columns(std::make_index_sequence<std::size(kRows)>());
 
+/// The row whose file begins so, or null.
+const FormatRow* row_of(std::string_view head) {
+  const auto* row =
+      std::find_if(std::begin(kRows), std::end(kRows), [&](const FormatRow& each) { return each.sniff(head); });
+  return row == std::end(kRows) ? nullptr : row;
+}
+
 const FormatRow& recognise(const Source& source) {
   const std::string_view head = std::string_view(source.bytes).substr(0, kSniffBytes);
-  for (const FormatRow& row : kRows) {
-    if (row.sniff(head)) return row;
-  }
+  if (const FormatRow* const row = row_of(head)) return *row;
   if (const std::string known = recognise_unsupported(head); !known.empty())
     fail(ErrorCode::unsupported, source.path, text("is ", known));
   std::string names;
@@ -305,7 +313,7 @@ void warn_of_weights_beside_degrees(const WriteJob& job, const MeshFile& on_map)
 Expected<std::vector<std::string>> write(const std::string& path, const MeshFile& file, const WriteOptions& options) {
   return guarded<std::vector<std::string>>(path, [&] {
     const FormatRow& row = row_to_write(path, options.format);
-    if (row.details.files != nullptr && row.details.files(path).size() > 1 && is_stream(path)) {
+    if (row.details.files_to_write != nullptr && row.details.files_to_write(path).size() > 1 && is_stream(path)) {
       fail(ErrorCode::not_writable, path,
            text(row.description, " is several files; expected the name of a file, found a stream"));
     }
@@ -358,11 +366,22 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
   });
 }
 
+std::vector<std::string> files_to_read(const std::string& path) {
+  if (is_stream(path) || !exists(path)) return {path};
+  const FormatRow* const row = row_of(first_bytes(path, kSniffBytes));
+  std::vector<std::string> files;
+  if (row != nullptr && row->details.files_to_read != nullptr) files = row->details.files_to_read(path);
+  if (std::find(files.begin(), files.end(), path) == files.end()) files.insert(files.begin(), path);
+  files.push_back(side_file_path(files.front()));
+  std::erase_if(files, [](const std::string& file) { return !exists(file); });
+  return files;
+}
+
 Expected<std::vector<std::string>> files_to_write(const std::string& path, const std::string& format) {
   try {
     const FormatRow& row = row_to_write(path, format);
     std::vector<std::string> files =
-        row.details.files == nullptr ? std::vector<std::string>{path} : row.details.files(path);
+        row.details.files_to_write == nullptr ? std::vector<std::string>{path} : row.details.files_to_write(path);
     if ((row.holds & kWeights) == 0 && !is_stream(path)) files.push_back(side_file_path(path));
     return files;
   } catch (Failure& failure) {

@@ -367,6 +367,11 @@ std::vector<std::string> triangle_files(const std::string& path) {
   return {base + ".node", base + ".ele", base + ".poly"};
 }
 
+std::vector<std::string> triangle_files_to_read(const std::string& path) {
+  const std::string base = base_path(path);
+  return {base + ".node", base + ".ele", base + (exists(base + ".poly") ? ".poly" : ".edge")};
+}
+
 void write_triangle(const WriteJob& job) {
   const std::string base = base_path(job.path);
   write_node(job, base);

@@ -1,5 +1,6 @@
 // The content decides the format, and formats that temper does not read are named.
 #include "support.hpp"
+#include "temper/generate.hpp"
 
 namespace temper::io {
 namespace {
@@ -118,6 +119,59 @@ TEST_F(FileTest, formats_without_a_place_for_weights_put_them_beside_with_a_warn
     EXPECT_EQ(said, 1);
     EXPECT_TRUE(slurp(path(std::string(name) + ".weights.csv")).starts_with("point,weight\n1,0\n2,-0\n"));
   }
+}
+
+class FilesOfAMesh : public FileTest {
+ protected:
+  /// Writes the file to a folder of its own; the paths of what is there then.
+  std::vector<std::string> write_alone(const MeshFile& file, const Format& format, const std::string& name) const {
+    std::filesystem::remove_all(path("alone"));
+    std::filesystem::create_directory(path("alone"));
+    const auto written = write(path("alone/" + name), file, {std::string(format.name), {}});
+    EXPECT_TRUE(written) << written.error().what();
+    std::vector<std::string> all;
+    for (const auto& entry : std::filesystem::directory_iterator(path("alone"))) all.push_back(entry.path().string());
+    return sorted(all);
+  }
+  static std::vector<std::string> sorted(std::vector<std::string> all) {
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+};
+
+TEST_F(FilesOfAMesh, that_are_written_are_those_that_are_read_and_were_said_before) {
+  MeshFile globe = from_mesh(*icosahedral({.level = 1}));
+  globe.weights.assign(globe.points.size(), 1e6);
+  globe.point_data = {{"depth", 1, std::vector<double>(globe.points.size(), -4000)}};
+  globe.field_data = {{"levels", 1, std::vector<double>{0, -10, -5000}}};
+  std::size_t most = 0;
+  for (const Format& format : formats()) {
+    const bool plane = writes_planes(format);
+    if (!plane && format.name != "fesom") continue;
+    SCOPED_TRACE(format.name);
+    const std::string name = "m" + std::string(format.suffixes.substr(0, format.suffixes.find(' ')));
+    const std::vector<std::string> there = write_alone(plane ? tamed(sample()) : globe, format, name);
+    EXPECT_EQ(sorted(files_to_read(path("alone/" + name))), there);
+    const auto said = files_to_write(path("alone/" + name), std::string(format.name));
+    ASSERT_TRUE(said);
+    for (const std::string& file : there) EXPECT_NE(std::find(said->begin(), said->end(), file), said->end()) << file;
+    most = std::max(most, there.size());
+  }
+  EXPECT_EQ(most, 4u) << "FESOM has three, and weights beside them";
+}
+
+TEST_F(FilesOfAMesh, are_found_from_either_of_them_and_without_one_there_is_the_path_alone) {
+  const auto all = [&](const std::string& name) { return sorted(files_to_read(path(name))); };
+  ASSERT_TRUE(write(path("m.node"), sample()));
+  EXPECT_EQ(all("m.ele"), all("m.node"));
+  EXPECT_EQ(all("m.node"), (std::vector{path("m.ele"), path("m.node"), path("m.poly")}));
+  make("m.edge", "0 1\n");
+  EXPECT_EQ(all("m.node").size(), 3u) << "segments of .poly are taken first";
+  make("m.vtu.weights.csv", "point,weight\n");
+  EXPECT_EQ(all("m.vtu"), std::vector{path("m.vtu")});
+  make("m.txt", "no mesh");
+  EXPECT_EQ(all("m.txt"), std::vector{path("m.txt")});
+  EXPECT_EQ(files_to_read("/dev/stdin"), std::vector<std::string>{"/dev/stdin"});
 }
 
 TEST_F(FileTest, an_old_side_file_does_not_give_its_weights_to_a_new_mesh) {
