@@ -154,7 +154,7 @@ if ((!quick)) && stage "consumer: subdirectory (ThreadSanitizer)" consumer_subdi
 fi
 
 printf '\n%d s in all' "$SECONDS"
-if ((skipped > 0)); then printf '; %d skipped (they need meshes that are not in the repository)' "$skipped"; fi
+if ((skipped > 0)); then printf '; %d skipped (they need meshes that are not in the repository, or VTK)' "$skipped"; fi
 printf '\n'
 if ((${#failures[@]} > 0)); then printf 'failed: %s\n' "${failures[@]}"; fi
 echo "$passed passed, $failed failed"
