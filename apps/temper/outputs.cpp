@@ -41,6 +41,24 @@ void check_writable(const std::string& path) {
   }
 }
 
+/// The input that reading takes the file for, or null.
+const std::string* input_with(const std::string& file, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    if (input.empty()) continue;
+    if (same_file(file, input)) return &input;
+    for (const std::string& part : io::files_to_read(input)) {
+      if (same_file(file, part)) return &input;
+    }
+  }
+  return nullptr;
+}
+
+/// `what`: of the input, which the file is, or a part of.
+std::string what_it_is(const std::string& file, const std::string& input, std::string_view what) {
+  return same_file(file, input) ? fmt::format("{} is {}", file, what)
+                                : fmt::format("{} is read with {}, {}", file, input, what);
+}
+
 }  // namespace
 
 void add_mesh_output(Command& command, MeshOutput& target, const std::string& value_name, const std::string& sentence) {
@@ -76,30 +94,33 @@ bool same_file(const std::string& a, const std::string& b) {
   return fs::weakly_canonical(fs::absolute(a, error), error) == fs::weakly_canonical(fs::absolute(b, error), error);
 }
 
-void Outputs::expect(const std::string& option, const std::string& path) {
-  for (const std::string& other : expected_) {
-    if (same_file(path, other)) {
-      throw Failure(Exit::bad_usage, fmt::format("{}: {}: {} is another output already", verb_, option, path));
+void Outputs::refuse(const std::string& option, const std::string& message) const {
+  throw Failure(Exit::bad_usage, fmt::format("{}: {}: {}", verb_, option, message));
+}
+
+void Outputs::expect(const std::string& option, const std::string& path, const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    for (const auto& [other_option, other_path, other] : expected_) {
+      if (!same_file(file, other)) continue;
+      refuse(option, fmt::format("{} is another output already: {} {}", file, other_option, other_path));
     }
   }
-  expected_.push_back(path);
+  for (const std::string& file : files) expected_.push_back({option, path, file});
   check_writable(path);
 }
 
 void Outputs::expect_mesh(const MeshOutput& output, const std::vector<std::string>& others) {
-  constexpr std::string_view option = "--output";
+  const std::string option = "--output";
   const auto& [path, options] = output;
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) not_writable(path, "it is a directory");
   const Expected<std::vector<std::string>> files = io::files_to_write(path, options.format);
-  if (!files) throw Failure(Exit::bad_usage, fmt::format("{}: {}: {}", verb_, option, files.error().what()));
+  if (!files) refuse(option, files.error().what());
   for (const std::string& file : *files) {
-    for (const std::string& other : others) {
-      if (other.empty() || !same_file(file, other)) continue;
-      throw Failure(Exit::bad_usage, fmt::format("{}: {}: {} is an input, and would be replaced", verb_, option, file));
-    }
+    if (const std::string* const input = input_with(file, others))
+      refuse(option, what_it_is(file, *input, "an input") + ", and would be replaced");
   }
-  expect(std::string(option), path);
+  expect(option, path, *files);
   if (path == kStandardOutput) print_to_standard_error();
 }
 
@@ -107,20 +128,16 @@ void Outputs::expect_picture(const std::string& option, const std::string& path,
                              const std::vector<std::string>& inputs) {
   expect_text(option, path, inputs);
   if (is_picture_name(path)) return;
-  throw Failure(Exit::bad_usage, fmt::format("{}: {}: {} names no picture that temper draws; expected one that ends in "
-                                             ".svg, .png or .pdf",
-                                             verb_, option, path));
+  refuse(option, path + " names no picture that temper draws; expected one that ends in .svg, .png or .pdf");
 }
 
 void Outputs::expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs) {
   if (path.empty()) return;
-  for (const std::string& input : inputs) {
-    if (!input.empty() && same_file(path, input)) {
-      const char* which = &input == &inputs.front() && verb_ != "mesh" ? "the input mesh" : "an input";
-      throw Failure(Exit::bad_usage, fmt::format("{}: {}: {} is {}", verb_, option, path, which));
-    }
+  if (const std::string* const input = input_with(path, inputs)) {
+    const bool is_mesh = input == &inputs.front() && verb_ != "mesh";
+    refuse(option, what_it_is(path, *input, is_mesh ? "the input mesh" : "an input"));
   }
-  expect(option, path);
+  expect(option, path, {path});
 }
 
 void Outputs::fail(const InputError& error) const {

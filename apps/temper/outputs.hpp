@@ -26,10 +26,11 @@ class Outputs {
   explicit Outputs(std::string verb) : verb_(std::move(verb)) {}
 
   /// A mesh file. The format must be one that temper writes. Neither it nor what a format writes beside it (.node, .ele
-  /// and .poly of Triangle) may be one of `others`, inputs that are to stay. What is printed after this goes to
-  /// standard error where the mesh itself goes to standard output.
+  /// and .poly of Triangle) may be another output, or one of the files of `others`, inputs that are to stay. What is
+  /// printed after this goes to standard error where the mesh itself goes to standard output.
   void expect_mesh(const MeshOutput& output, const std::vector<std::string>& others = {});
-  /// A text file that must not be one of these inputs. An empty path: not asked for.
+  /// A text file that must not be another output, or one of the files that these inputs are read from. An empty path:
+  /// not asked for.
   void expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
   /// The same of a picture, whose suffix tells the format.
   void expect_picture(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
@@ -46,11 +47,16 @@ class Outputs {
   [[nodiscard]] const std::vector<std::string>& written() const { return written_; }
 
  private:
-  void expect(const std::string& option, const std::string& path);
+  /// A file that will be written, of `option path`.
+  struct Expectation {
+    std::string option, path, file;
+  };
+  void expect(const std::string& option, const std::string& path, const std::vector<std::string>& files);
+  [[noreturn]] void refuse(const std::string& option, const std::string& message) const;
   [[noreturn]] void fail(const InputError& error) const;
 
   std::string verb_;
-  std::vector<std::string> expected_;
+  std::vector<Expectation> expected_;
   std::vector<std::string> written_;
 };
 

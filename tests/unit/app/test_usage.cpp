@@ -1,5 +1,6 @@
 // Help, versions, and every way to use the program wrongly.
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 #include "temper/optimize_table.hpp"
@@ -167,6 +168,44 @@ TEST_F(Usage, TheTableOfMistakesInTheDocsIsTrue) {
     ++rows;
   }
   EXPECT_GT(rows, 25);
+}
+
+// A mesh may be in several files, each of which an output could destroy.
+TEST_F(Usage, NoOutputIsAFileOfAnotherOutputOrOfAnInput) {
+  make_input();
+  temper_ok({"convert", "in.vtu", "-o", "in.node"});
+  temper_ok({"convert", "in.vtu", "-o", "in.obj"});
+  write("in.obj.weights.csv", "point,weight\n");
+  std::map<std::string, std::string> before;
+  for (const std::string& name : names()) before[name] = read(name);
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& message) {
+    const Outcome outcome = temper(arguments);
+    EXPECT_EQ(outcome.exit, 2) << message;
+    EXPECT_TRUE(contains(outcome.err, message));
+    std::map<std::string, std::string> after;
+    for (const std::string& name : names()) after[name] = read(name);
+    EXPECT_EQ(after, before) << message;
+  };
+  refused({"optimize", "in.vtu", "-o", "out.node", "--report", "out.ele"},
+          "--report: out.ele is another output already: --output out.node");
+  refused({"optimize", "in.vtu", "-o", "out.obj", "--draw", "p.svg", "--history", "out.obj.weights.csv"},
+          "--history: out.obj.weights.csv is another output already: --output out.obj");
+  refused({"optimize", "in.vtu", "-o", "out.vtu", "--report", "r", "--history", "./r"},
+          "--history: ./r is another output already: --report r");
+  refused({"optimize", "in.node", "-o", "out.vtu", "--history", "in.ele"},
+          "--history: in.ele is read with in.node, the input mesh");
+  refused({"optimize", "in.ele", "-o", "out.vtu", "--trace", "in.node"},
+          "--trace: in.node is read with in.ele, the input mesh");
+  refused({"optimize", "in.obj", "-o", "out.vtu", "--report", "in.obj.weights.csv"},
+          "--report: in.obj.weights.csv is read with in.obj, the input mesh");
+  refused({"optimize", "in.vtu", "-o", "out.vtu", "--size-field", "in.node", "--report", "in.ele"},
+          "--report: in.ele is read with in.node, an input");
+  refused({"optimize", "in.vtu", "-o", "in.obj", "--size-field", "in.obj"},
+          "--output: in.obj is an input, and would be replaced");
+  refused({"optimize", "in.vtu", "-o", "in.ele", "--format", "vtu", "--size-field", "in.node"},
+          "--output: in.ele is read with in.node, an input, and would be replaced");
+  refused({"check", "in.node", "--html", "in.ele"}, "--html: in.ele is read with in.node, the input mesh");
+  temper_ok({"convert", "in.node", "-o", "in.ele"});  // in its own place
 }
 
 TEST_F(Usage, EveryExampleInTheHelpRuns) {
