@@ -102,10 +102,6 @@ class Checkpoints {
   bool begun_ = false, refused_ = false;
 };
 
-bool stopped_early(const OptimizeReport& report) {
-  return report.stopped == Stopped::time_limit || report.stopped == Stopped::cancelled;
-}
-
 /// What a run of Python's works with, besides mesh and options. Each may be None.
 struct RunArguments {
   py::object size_field, threads;
@@ -163,7 +159,8 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
     }
 #endif
     if (!report) report = optimize(mesh, options, hooks);
-    if (checkpoints && !checkpoints->refused() && report->has_value() && stopped_early(**report)) checkpoints->write();
+    if (checkpoints && !checkpoints->refused() && report->has_value() && stopped_early((*report)->stopped))
+      checkpoints->write();
   }
   if (checkpoints && checkpoints->refused()) visitor.raise();
   if (report->has_value()) {

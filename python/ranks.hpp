@@ -1,7 +1,6 @@
 // Ranks by a communicator of Python's, as mpi4py has them: this module itself knows of no MPI.
 #pragma once
 
-#include <algorithm>
 #include <cstdlib>
 #include <string>
 
@@ -36,8 +35,6 @@ class PythonRanks final : public Ranks {
   }
 
  private:
-  static constexpr std::size_t kMostBytes = std::size_t{1} << 30;  // of one call: MPI counts in int
-
   [[noreturn]] void end_all() const {
     try {
       communicator_.attr("Abort")(1);
@@ -48,10 +45,10 @@ class PythonRanks final : public Ranks {
 
   void share(std::string& bytes, std::size_t from) const {
     bytes.resize(communicator_.attr("bcast")(bytes.size(), py::arg("root") = from).cast<std::size_t>());
-    for (std::size_t begin = 0; begin < bytes.size(); begin += kMostBytes) {
-      const auto count = static_cast<py::ssize_t>(std::min(kMostBytes, bytes.size() - begin));
-      communicator_.attr("Bcast")(py::memoryview::from_memory(bytes.data() + begin, count), py::arg("root") = from);
-    }
+    in_pieces(bytes, [&](char* data, std::size_t count) {
+      communicator_.attr("Bcast")(py::memoryview::from_memory(data, static_cast<py::ssize_t>(count)),
+                                  py::arg("root") = from);
+    });
   }
 
   const py::object& communicator_;

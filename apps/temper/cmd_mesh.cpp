@@ -337,8 +337,7 @@ Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
     outputs.write_picture(s.picture, draw_svg(made.mesh, drawing));
   }
   if (!s.quiet) print(mesh_text(record) + fmt::format("\n{}: {}\n", s.output.path, verdict(after)));
-  const bool early = made.report.stopped == Stopped::time_limit || made.report.stopped == Stopped::cancelled;
-  return early ? Exit::stopped_early : Exit::done;
+  return stopped_early(made.report.stopped) ? Exit::stopped_early : Exit::done;
 }
 
 }  // namespace

@@ -75,10 +75,6 @@ void warn(RunResults& results, std::span<const std::string> warnings) {
   results.warnings.insert(results.warnings.end(), warnings.begin(), warnings.end());
 }
 
-bool stopped_early(const OptimizeReport& report) {
-  return report.stopped == Stopped::time_limit || report.stopped == Stopped::cancelled;
-}
-
 /// The mesh first: it is what the time went into.
 void write_all(const Command& command, const OptimizeSettings& s, Input& input, RunResults& results, Outputs& outputs,
                const RunFiles& files) {
@@ -87,7 +83,7 @@ void write_all(const Command& command, const OptimizeSettings& s, Input& input, 
       io::update(input.file, input.loaded, input.loaded.mesh, results.report.vertices, {s.rules, files.threads});
   warn(results, std::span(input.file.warnings).subspan(known));
   warn(results, outputs.write_mesh(s.output, input.file, files.threads));
-  if (files.checkpoint != nullptr && stopped_early(results.report)) outputs.write(*files.checkpoint);
+  if (files.checkpoint != nullptr && stopped_early(results.report.stopped)) outputs.write(*files.checkpoint);
   if (files.trace != nullptr) outputs.commit(s.trace, files.trace->stream);
   if (!s.report.empty() || !s.html.empty()) {
     const std::vector<UsedOption> options = used_options(command);
@@ -119,7 +115,7 @@ void print_result(const OptimizeSettings& s, const RunResults& results, const Ou
   std::string written;
   for (const std::string& path : outputs.written()) written += (written.empty() ? "wrote " : ", ") + path;
   print(written + "\n");
-  if (!s.checkpoint.empty() && stopped_early(results.report)) {
+  if (!s.checkpoint.empty() && stopped_early(results.report.stopped)) {
     print(fmt::format("to go on: temper optimize --resume {}\n", shell_quote(s.checkpoint)));
   }
 }
@@ -196,7 +192,7 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   if (!s.quiet) print_result(s, results, outputs);
   flush_output();  // before the verdict on standard error
   if (const Exit verdict = report_unmet(results.outcomes, s.output.path); verdict != Exit::done) return verdict;
-  return stopped_early(results.report) || results.lacks_flips ? Exit::stopped_early : Exit::done;
+  return stopped_early(results.report.stopped) || results.lacks_flips ? Exit::stopped_early : Exit::done;
 }
 
 /// What the first rank does for all.

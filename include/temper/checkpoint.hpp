@@ -4,7 +4,7 @@
 //     OptimizeHooks hooks;
 //     hooks.checkpoints = [&](const auto& state) { checkpoint.keep(state); };
 //     auto report = optimize(mesh, options, hooks);
-//     if (report && report->stopped == Stopped::time_limit) checkpoint.write();
+//     if (report && stopped_early(report->stopped)) checkpoint.write();
 //     …
 //     auto before = io::read_checkpoint("run.ckpt");
 //     hooks.resume = before->state;

@@ -342,6 +342,11 @@ enum class Stopped {
   hidden,           ///< deferred flips hid a vertex that may not be: the mesh is the last or best one that was regular
 };
 [[nodiscard]] std::string_view name(Stopped stopped);
+/// Whether the caller ended the run, by its time limit or by its observer: a run with more time would have gone on, and
+/// one that resumes its last checkpoint does.
+[[nodiscard]] constexpr bool stopped_early(Stopped stopped) {
+  return stopped == Stopped::time_limit || stopped == Stopped::cancelled;
+}
 
 /// What a run did to the sizes: both compared with the size field.
 struct SizeChange {

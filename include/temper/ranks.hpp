@@ -6,6 +6,7 @@
 // of a run alone.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -32,6 +33,17 @@ class Ranks {
     all[rank()] = mine;
     for (std::size_t r = 0; r < all.size(); ++r) broadcast(all[r], r);
     return all;
+  }
+
+ protected:
+  /// Calls f(data, count) for one piece of the bytes after the other, each of so many as one message of MPI, which
+  /// counts in int, can have.
+  template <class F>
+  static void in_pieces(std::string& bytes, const F& f) {
+    constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+    for (std::size_t begin = 0; begin < bytes.size(); begin += kMostBytes) {
+      f(bytes.data() + begin, std::min(kMostBytes, bytes.size() - begin));
+    }
   }
 };
 

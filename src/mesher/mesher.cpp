@@ -395,8 +395,7 @@ class Mesher {
   }
 
   [[nodiscard]] bool stopped_early(const OutlineMesh& made) const {
-    return deadline_.stopped() || made.report.stopped == Stopped::cancelled ||
-           made.report.stopped == Stopped::time_limit;
+    return deadline_.stopped() || temper::stopped_early(made.report.stopped);
   }
 
   Expected<OutlineMesh> best_of_attempts() {

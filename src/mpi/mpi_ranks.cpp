@@ -9,11 +9,6 @@
 #include <cstdlib>
 
 namespace temper {
-namespace {
-
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;  // of one call: MPI counts in int
-
-}  // namespace
 
 MpiRanks::MpiRanks() {
   int begun = 0;
@@ -39,10 +34,9 @@ void MpiRanks::broadcast(std::string& bytes, std::size_t from) {
   std::uint64_t size = bytes.size();
   MPI_Bcast(&size, 1, MPI_UINT64_T, root, MPI_COMM_WORLD);
   bytes.resize(size);
-  for (std::size_t begin = 0; begin < size; begin += kMostBytes) {
-    const std::size_t count = std::min<std::size_t>(kMostBytes, size - begin);
-    MPI_Bcast(bytes.data() + begin, static_cast<int>(count), MPI_BYTE, root, MPI_COMM_WORLD);
-  }
+  in_pieces(bytes, [root](char* data, std::size_t count) {
+    MPI_Bcast(data, static_cast<int>(count), MPI_BYTE, root, MPI_COMM_WORLD);
+  });
 }
 
 void MpiRanks::abort(int status) {

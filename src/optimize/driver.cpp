@@ -57,7 +57,7 @@ int Driver::run(Phase& phase, int first) {
       verdict = sweep(phase);
     } while (verdict == Verdict::improving &&
              !(defers_flips(settings_.options) && ++inner_ == settings_.options.paper.inner));
-    if (run_.stopped_by_caller()) asked = run_.report.stopped;
+    if (run_.stopped_early()) asked = run_.report.stopped;
     verdict = flip_if_deferred(phase, verdict);
   } while (verdict == Verdict::improving);
   const int last = run_.report.sweeps > sweeps ? recorder_.sweep() : first;

@@ -47,7 +47,7 @@ InputMeasures measured(const Mesh& mesh, const Settings& s, std::optional<Accura
 /// One phase more. Where there is a model of errors it says whether that was for the better; if not, it is taken back.
 template <class Improving>
 void improve(Candidate& best, const Settings& settings, Run& run, AccuracySizes& sizes) {
-  if (run.stopped_by_caller() || run.report.stopped == Stopped::hidden) return;
+  if (run.stopped_early() || run.report.stopped == Stopped::hidden) return;
   const bool judges = settings.options.error.model != nullptr;
   std::optional<Candidate> before;
   if (judges && !run.checkpoints.resumes()) before = best;

@@ -9,7 +9,7 @@ bool Run::asked_to_stop(double fraction_of_sweep) {
   if (ranks_ == nullptr) return ask(fraction_of_sweep);
   if (ranks_->rank() == 0) ask(fraction_of_sweep);
   if (!apart_) hear();
-  return stopped_by_caller();
+  return stopped_early();
 }
 
 void Run::meet() {
@@ -25,7 +25,7 @@ void Run::hear() {
   ranks_->broadcast(told, 0);
   Stopped stopped = report.stopped;
   Archive(std::string_view(told))(stopped);
-  if (stopped == Stopped::cancelled || stopped == Stopped::time_limit) report.stopped = stopped;
+  if (temper::stopped_early(stopped)) report.stopped = stopped;
 }
 
 bool Run::ask(double fraction_of_sweep) {

@@ -40,11 +40,9 @@ class Run {
   [[nodiscard]] bool sweeps_left() const { return report.sweeps < options_.max_sweeps; }
   /// The number of the next sweep; 0 before the first, while the input is made regular.
   [[nodiscard]] int next_sweep() const { return report.sweeps == 0 ? 0 : report.sweeps + 1; }
-  [[nodiscard]] bool stopped_by_caller() const {
-    return report.stopped == Stopped::cancelled || report.stopped == Stopped::time_limit;
-  }
+  [[nodiscard]] bool stopped_early() const { return temper::stopped_early(report.stopped); }
   /// Says whether there is time for more.
-  [[nodiscard]] bool goes_on() const { return !stopped_by_caller() && sweeps_left(); }
+  [[nodiscard]] bool goes_on() const { return !stopped_early() && sweeps_left(); }
   /// From here on there are sweeps. What has been done so far, copies and measures of the whole mesh, is done again
   /// when they end, and takes about as long: the time limit is of all of it.
   void begin_sweeps() {

@@ -23,7 +23,7 @@ ELSEWHERE = {
     "objective_of": "help(OptimizeOptions)", "solver_error_model": "optimize does it", "wants_error_model": "as solver_error_model", "scheme_weights": "as objective_of",
     "methods": "paper_method, odt_method, cvt_method", "option_groups": "help(OptimizeOptions)", "find_option": "as option_groups", "check_option": "optimize checks",
     "check_options": "as check_option", "option_text": "repr", "option_range_text": "as option_groups",
-    "missing_need": "optimize warns", "spell_options": "texts are spelled",
+    "missing_need": "optimize warns", "spell_options": "texts are spelled", "stopped_early": "OptimizeReport.stopped",
     "read_number": "float", "read_by_strtod": "float",
     "triangle_values": "NumPy, of mesh and dec",
     "lifted": "Mesh.lifted_points", "as_point": "arrays have three columns", "expect_plane": "functions do it",

@@ -104,7 +104,7 @@ std::optional<bool> ErrorPhase::move_all(const Recorder& recorder) {
       }
     }
   }
-  return !run_.stopped_by_caller() && !run_.asked_to_stop(0);
+  return !run_.stopped_early() && !run_.asked_to_stop(0);
 }
 
 SweepRecord ErrorPhase::measure() {

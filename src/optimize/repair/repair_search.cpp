@@ -67,7 +67,7 @@ bool RepairSearch::improve_one_place() {
     const TriangleId seed = bad[rng_.below(static_cast<std::uint32_t>(bad.size()))];
     const Neighborhood around = neighborhood_of(work_.mesh, seed, kRings + (failures_ >= kFailuresBeforeWider ? 1 : 0));
     const auto edit = choose(around, seed);
-    if (run_.stopped_by_caller()) return false;
+    if (run_.stopped_early()) return false;
     if (!edit) continue;
     const Outcome outcome = try_edit(around, *edit, settings_, work_.frame, true);
     TEMPER_ASSERT(outcome.valid);  // as it was without a listener

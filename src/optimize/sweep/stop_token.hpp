@@ -30,7 +30,7 @@ class StopToken {
   void meet() {
     n_ranks_ = 1;
     run_.meet();
-    if (run_.stopped_by_caller()) stop_.store(true, std::memory_order_relaxed);
+    if (run_.stopped_early()) stop_.store(true, std::memory_order_relaxed);
     ask_soon();  // on all ranks, however much each has done
   }
   /// To be asked before each stretch of vertices: says whether to go on.
