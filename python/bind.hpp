@@ -55,7 +55,8 @@ class PyMesh {
   /// How data of its points follow the vertices.
   [[nodiscard]] const io::DataRules& data_rules() const { return data_rules_; }
   void set_data_rules(io::DataRules rules) { data_rules_ = std::move(rules); }
-  /// Grows with each change: what was planned for one state does not fit another.
+  /// The number of this state, which no other mesh has but copies of it: what was planned for one state does not fit
+  /// another.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 
   /// While it lives nothing else may change the mesh.
@@ -74,12 +75,13 @@ class PyMesh {
   void compose(const IdVector<VertexId, VertexId>& vertices);
   [[nodiscard]] std::size_t n_vertices_of_source() const;
   void refuse_while_running() const;
+  [[nodiscard]] static std::uint64_t new_version();
 
   std::shared_ptr<Mesh> mesh_;
   std::shared_ptr<const Source> source_;
   IdVector<VertexId, VertexId> origin_;
   io::DataRules data_rules_;
-  std::uint64_t version_ = 0;
+  std::uint64_t version_ = new_version();
   bool erased_ = false, running_ = false;
 };
 

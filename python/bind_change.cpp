@@ -76,7 +76,8 @@ using PyInsertion = PlanOf<InsertionPlan>;
 
 template <class Plan>
 void check_plan(const PyMesh& mesh, const PlanOf<Plan>& plan, bool committable) {
-  if (plan.version != mesh.version()) fail(ErrorCode::invalid_option, "the plan is for another state of the mesh");
+  if (plan.version != mesh.version())
+    fail(ErrorCode::invalid_option, "the plan is for another mesh, or another state of this one");
   if (!committable) {
     fail(ErrorCode::invalid_option, "the plan cannot be committed: " + std::string(name_of(plan.plan.status)));
   }

@@ -1,6 +1,7 @@
 // The compiled half of the Python module: temper._temper. Its functions take and give plain values; signatures,
 // defaults and documentation are those of the Python package around it.
 #include <algorithm>
+#include <atomic>
 
 #include "bind.hpp"
 #include "temper/build_info.hpp"
@@ -51,7 +52,7 @@ std::shared_ptr<const Mesh> PyMesh::read() const {
 Mesh& PyMesh::change() {
   refuse_while_running();
   if (mesh_.use_count() > 1) mesh_ = std::make_shared<Mesh>(*mesh_);
-  ++version_;
+  version_ = new_version();
   return *mesh_;
 }
 
@@ -59,22 +60,26 @@ void PyMesh::replace(Mesh mesh, const IdVector<VertexId, VertexId>& vertices) {
   refuse_while_running();
   mesh_ = std::make_shared<Mesh>(std::move(mesh));
   compose(vertices);
-  ++version_;
+  version_ = new_version();
   erased_ = false;
 }
 
 void PyMesh::assign(const PyMesh& other) {
   refuse_while_running();
-  const std::uint64_t version = version_ + 1;
   *this = other.copy();
-  version_ = version;
+  version_ = new_version();
 }
 
 void PyMesh::set_source(std::shared_ptr<const Source> source) {
   refuse_while_running();
   source_ = std::move(source);
   origin_ = {};
-  ++version_;
+  version_ = new_version();
+}
+
+std::uint64_t PyMesh::new_version() {
+  static std::atomic<std::uint64_t> last = 0;  // meshes are made without the GIL, too
+  return ++last;
 }
 
 PyMesh PyMesh::copy() const {

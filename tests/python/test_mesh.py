@@ -299,6 +299,27 @@ def test_a_plan_is_for_one_state_of_the_mesh(ring):
         topology.remove_vertex(ring, on_boundary)
 
 
+def test_a_plan_is_of_one_mesh_and_of_copies_of_its_state():
+    large, small = temper.generate.random_points(400, seed=1), temper.generate.random_points(40, seed=1)
+    removal = topology.plan_removal(large, 399)
+    insertions = (topology.plan_center(large, triangle) for triangle in reversed(range(large.n_triangles)))
+    insertion = next(plan for plan in insertions if plan.status == "possible")
+    assert removal.status == "possible" and min(insertion.cavity) >= small.n_triangles
+    same, before = large.copy(), small.copy()
+    for other in (small, temper.generate.random_points(400, seed=1)):  # an equal one is another one
+        with pytest.raises(temper.TemperError, match="for another mesh"):
+            topology.remove_vertex(other, removal)
+        with pytest.raises(temper.TemperError, match="for another mesh"):
+            topology.insert_vertex(other, insertion)
+    assert small == before and small.validate() is None
+    for mesh in (large, same):
+        topology.remove_vertex(mesh, removal)
+        mesh.compact()
+    assert large == same and same.validate() is None
+    with pytest.raises(temper.TemperError, match="another state"):
+        topology.remove_vertex(same, removal)
+
+
 @pytest.mark.parametrize("index", [-1, 10**6, 2**40])
 def test_numbers_out_of_range_are_refused(ring, index):
     for call in (lambda: topology.can_flip(ring, index), lambda: ring.star(index), lambda: topology.plan_removal(ring, index),
