@@ -397,7 +397,8 @@ struct UpdatedFile {
   io::DataReport data;
 };
 
-/// The one that the mesh came from, updated, or a new one.
+/// The one that the mesh came from, updated, or a new one. Without the GIL it takes a copy of the mesh that was made
+/// with it, which shares the memory: others may change the mesh meanwhile.
 UpdatedFile updated_file_of(const PyMesh& self, Executor* executor) {
   const auto mesh = self.read();
   if (!self.source()) return {io::from_mesh(*mesh), {}};
@@ -410,6 +411,7 @@ io::MeshFile file_of(const PyMesh& self, Executor* executor = nullptr) { return 
 
 /// Sets an array of point data or cell data, or with None takes it away: the mesh is as if it came from such a file.
 void set_data(PyMesh& self, bool of_points, const std::string& name, const py::object& values) {
+  const std::uint64_t version = self.version();
   io::MeshFile file = file_of(self);
   std::vector<io::DataArray>& arrays = of_points ? file.point_data : file.cell_data;
   auto array = std::find_if(arrays.begin(), arrays.end(), [&](const io::DataArray& a) { return a.name == name; });
@@ -423,6 +425,9 @@ void set_data(PyMesh& self, bool of_points, const std::string& name, const py::o
   }
   const auto source = source_of(std::move(file), {}, {}, nullptr);
   source->loaded.mesh = Mesh();
+  if (self.version() != version) {
+    fail(ErrorCode::unsupported, "data '" + name + "' are as they were: another thread changed the mesh meanwhile");
+  }
   self.set_source(source);
 }
 
@@ -443,10 +448,11 @@ std::vector<std::string> data_words(const PyMesh& self) {
 
 py::dict data_report(const PyMesh& self, const py::object& threads) {
   const auto executor = make_threads(threads_from(threads));
+  const PyMesh same = self.copy();
   io::DataReport r;
   {
     const py::gil_scoped_release release;
-    r = updated_file_of(self, executor.get()).data;
+    r = updated_file_of(same, executor.get()).data;
   }
   return Record()("points", r.points)("points_moved", r.points_moved)("distance", r.distance)(
              "points_inserted", r.points_inserted)("interpolated", r.interpolated)("kept", r.kept)(
@@ -456,10 +462,11 @@ py::dict data_report(const PyMesh& self, const py::object& threads) {
 }
 
 py::dict file_as_dict(const PyMesh& self) {
+  const PyMesh same = self.copy();
   io::MeshFile file;
   {
     const py::gil_scoped_release release;
-    file = file_of(self);
+    file = file_of(same);
   }
   py::list names;
   for (const io::PhysicalName& n : file.names) names.append(py::make_tuple(n.dimension, n.tag, n.name));
@@ -561,10 +568,11 @@ py::object write_file(const std::string& path, const PyMesh& self, const std::st
   if (!encoding.empty()) options.encoding = from_name<io::Encoding>("encoding", encoding);
   options.triangle_quality = triangle_quality;
   options.executor = executor.get();
+  const PyMesh same = self.copy();
   std::vector<std::string> warnings;
   {
     const py::gil_scoped_release release;
-    const io::MeshFile file = file_of(self, executor.get());
+    const io::MeshFile file = file_of(same, executor.get());
     auto written = io::write(path, file, options);
     if (!written) throw BadInput{written.error()};
     warnings = file.warnings;

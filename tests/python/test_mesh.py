@@ -2,6 +2,7 @@
 
 import copy
 import dataclasses
+import itertools
 import pickle
 import re
 import threading
@@ -370,6 +371,46 @@ def test_projections_are_inverse_and_conformal():
     there = projection.forward(p, places)
     assert np.allclose(projection.inverse(p, there), places)
     assert (projection.scale_factor(p, places) >= 1).all()
+
+
+class Changing:
+    """While it is open another thread changes the weights, all to one value, over and over."""
+
+    def __init__(self, mesh):
+        self.mesh, self.stop = mesh, threading.Event()
+        self.thread = threading.Thread(target=self.change)
+
+    def change(self):
+        for k in itertools.count(1):
+            if self.stop.is_set():
+                return
+            self.mesh.weights = np.full(self.mesh.n_vertices, k * 1e-9)
+
+    def __enter__(self):
+        self.thread.start()
+
+    def __exit__(self, *error):
+        self.stop.set()
+        self.thread.join()
+
+
+def test_what_is_written_while_a_thread_changes_the_mesh_is_one_state(tmp_path):
+    temper.write(tmp_path / "in.vtu", temper.generate.random_points(2000))
+    mesh = temper.read(tmp_path / "in.vtu")
+    with Changing(mesh):
+        for k in range(10):
+            temper.write(tmp_path / f"{k}.vtu", mesh)
+    written = [np.unique(temper.read(tmp_path / f"{k}.vtu").weights) for k in range(10)]
+    assert all(len(weights) == 1 for weights in written) and written == sorted(written)
+
+
+def test_data_of_a_mesh_that_a_thread_changes_meanwhile_are_refused():
+    mesh = temper.generate.random_points(5000)
+    with Changing(mesh), pytest.raises(temper.TemperError, match="data 'u' are as they were: another thread"):
+        for _ in range(1000):  # the first, unless nobody lets the thread run
+            mesh.point_data["u"] = np.zeros(mesh.n_vertices)
+    mesh.point_data["u"] = np.ones(mesh.n_vertices)
+    assert (mesh.point_data["u"] == 1).all()
 
 
 def test_threads_of_python_may_read_while_a_mesh_is_optimized(ring):
