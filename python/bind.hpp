@@ -133,6 +133,8 @@ TriangleId triangle_id(const Mesh& mesh, std::int64_t index);
 HalfedgeId halfedge_id(const Mesh& mesh, std::int64_t index);
 
 void bind_mesh(py::module_& m);
+void bind_files(py::module_& m);
+void bind_generate(py::module_& m);
 void bind_geometry(py::module_& m);
 void bind_change(py::module_& m);
 void bind_columns(py::module_& m);

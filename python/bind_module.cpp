@@ -267,6 +267,8 @@ PYBIND11_MODULE(_temper, m) {
 #endif
   bind_instruction_sets(m);
   bind_mesh(m);
+  bind_files(m);
+  bind_generate(m);
   bind_geometry(m);
   bind_change(m);
   bind_optimize(m);

@@ -63,6 +63,24 @@ std::span<const T> as_span(const Array& array) {
   return {reinterpret_cast<const T*>(array.data()), size / per};
 }
 
+/// Vertex numbers of 64 bits as the 32 bits of the library. Those that do not fit are of no vertex; the others are
+/// checked by whoever knows how many there are.
+template <std::size_t n>
+std::vector<std::array<std::int32_t, n>> narrow(const Int64s& array, const char* kind) {
+  const auto wide = as_span<std::array<std::int64_t, n>>(array);
+  std::vector<std::array<std::int32_t, n>> result(wide.size());
+  for (std::size_t i = 0; i < wide.size(); ++i) {
+    for (std::size_t k = 0; k < n; ++k) {
+      if (wide[i][k] < INT32_MIN || wide[i][k] > INT32_MAX) {
+        fail(ErrorCode::index_out_of_range, std::string(kind) + " " + std::to_string(i) + " uses vertex " +
+                                                std::to_string(wide[i][k]) + ", which no mesh has");
+      }
+      result[i][k] = static_cast<std::int32_t>(wide[i][k]);
+    }
+  }
+  return result;
+}
+
 using Shape = std::vector<py::ssize_t>;
 /// A read-only array on memory that `owner` keeps.
 py::array view(const py::dtype& type, Shape shape, Shape strides, const void* data, const py::object& owner);

@@ -1,0 +1,319 @@
+// Files of meshes, and what came with a mesh from one: data, lines, tags, names. See io.hpp.
+#include <algorithm>
+#include <type_traits>
+#include <variant>
+
+#include "bind.hpp"
+
+namespace temper::python {
+namespace {
+
+py::object to_python_array(const io::DataArray& data) {
+  return std::visit(
+      [&data](const auto& values) -> py::object {
+        using T = typename std::decay_t<decltype(values)>::value_type;
+        const auto n = static_cast<py::ssize_t>(values.size());
+        if (data.components == 1) return py::array(py::dtype::of<T>(), Shape{n}, values.data());
+        return py::array(py::dtype::of<T>(), Shape{n / data.components, py::ssize_t{data.components}}, values.data());
+      },
+      data.values);
+}
+
+py::dict to_python_dict(const std::vector<io::DataArray>& arrays) {
+  py::dict dict;
+  for (const io::DataArray& array : arrays) dict[py::str(array.name)] = to_python_array(array);
+  return dict;
+}
+
+template <class T>
+bool take_values(io::DataArray& data, const py::array& array) {
+  if (!array.dtype().is(py::dtype::of<T>()) && !array.dtype().equal(py::dtype::of<T>())) return false;
+  const auto same = py::array_t<T, py::array::c_style | py::array::forcecast>(array);
+  data.values = std::vector<T>(same.data(), same.data() + same.size());
+  return true;
+}
+
+/// One- or two-dimensional arrays of the types that files have; the Python package has turned others into these.
+io::DataArray from_python_array(const std::string& name, const py::array& array) {
+  io::DataArray data{name, array.ndim() > 1 ? static_cast<int>(array.shape(1)) : 1, {}};
+  const bool taken = take_values<double>(data, array) || take_values<float>(data, array) ||
+                     take_values<std::int64_t>(data, array) || take_values<std::int32_t>(data, array) ||
+                     take_values<std::uint8_t>(data, array) || take_values<std::int8_t>(data, array) ||
+                     take_values<std::int16_t>(data, array) || take_values<std::uint16_t>(data, array) ||
+                     take_values<std::uint32_t>(data, array) || take_values<std::uint64_t>(data, array);
+  if (!taken) throw py::type_error("data '" + name + "': " + std::string(py::str(array.dtype())) + " is not supported");
+  return data;
+}
+
+/// The same of so many rows.
+io::DataArray from_python_array(const std::string& name, const py::array& array, std::size_t size, const char* kind) {
+  if (static_cast<std::size_t>(array.shape(0)) != size) {
+    fail(ErrorCode::size_mismatch, std::string(kind) + " '" + name + "': expected " + std::to_string(size) +
+                                       " values, found " + std::to_string(array.shape(0)));
+  }
+  return from_python_array(name, array);
+}
+
+std::vector<io::DataArray> from_python_dict(const py::dict& dict, std::size_t size, const char* kind) {
+  std::vector<io::DataArray> arrays;
+  for (const auto& [name, value] : dict)
+    arrays.push_back(from_python_array(name.cast<std::string>(), value.cast<py::array>(), size, kind));
+  return arrays;
+}
+
+template <class T, class Array>
+std::vector<T> copy_of(const Array& array) {
+  const auto values = as_span<T>(array);
+  return {values.begin(), values.end()};
+}
+
+/// A file, on the map of the projection when one is named, and the mesh in it.
+std::shared_ptr<Source> source_of(io::MeshFile file, const std::string& projection,
+                                  const std::vector<std::string>& fixed_tags, Executor* executor) {
+  auto source = std::make_shared<Source>();
+  source->file = std::move(file);
+  const py::gil_scoped_release release;
+  if (!projection.empty()) or_raise(io::project(source->file, projection));
+  auto loaded = io::make_mesh(source->file, fixed_tags, executor);
+  if (!loaded) throw BadInput{loaded.error()};
+  source->loaded = *std::move(loaded);
+  io::release_geometry(source->file, source->loaded);  // else it would be held twice
+  return source;
+}
+
+/// The mesh of a file, with the rest of the file behind it, and the warnings.
+py::tuple load(io::MeshFile file, const std::string& projection, const std::vector<std::string>& fixed_tags,
+               Executor* executor) {
+  const auto source = source_of(std::move(file), projection, fixed_tags, executor);
+  std::vector<std::string> warnings = source->file.warnings;
+  source->file.warnings.clear();
+  warnings.insert(warnings.end(), source->loaded.warnings.begin(), source->loaded.warnings.end());
+  Mesh mesh = std::move(source->loaded.mesh);
+  source->loaded.mesh = Mesh();
+  return py::make_tuple(std::make_unique<PyMesh>(std::move(mesh), source), to_python(warnings));
+}
+
+std::vector<std::string> strings_from(const py::sequence& sequence) {
+  std::vector<std::string> strings;
+  for (const auto& item : sequence) strings.push_back(item.cast<std::string>());
+  return strings;
+}
+
+/// The file of a mesh, and what became of its data.
+struct UpdatedFile {
+  io::MeshFile file;
+  io::DataReport data;
+};
+
+/// The one that the mesh came from, updated, or a new one. Without the GIL it takes a copy of the mesh that was made
+/// with it, which shares the memory: others may change the mesh meanwhile.
+UpdatedFile updated_file_of(const PyMesh& self, Executor* executor) {
+  const auto mesh = self.read();
+  if (!self.source()) return {io::from_mesh(*mesh), {}};
+  UpdatedFile result{self.source()->file, {}};
+  result.data = io::update(result.file, self.source()->loaded, *mesh, self.origin(), {self.data_rules(), executor});
+  return result;
+}
+
+io::MeshFile file_of(const PyMesh& self, Executor* executor = nullptr) { return updated_file_of(self, executor).file; }
+
+/// Sets an array of point data or cell data, or with None takes it away: the mesh is as if it came from such a file.
+void set_data(PyMesh& self, bool of_points, const std::string& name, const py::object& values) {
+  const std::uint64_t version = self.version();
+  io::MeshFile file = file_of(self);
+  std::vector<io::DataArray>& arrays = of_points ? file.point_data : file.cell_data;
+  auto array = std::find_if(arrays.begin(), arrays.end(), [&](const io::DataArray& a) { return a.name == name; });
+  if (values.is_none()) {
+    if (array == arrays.end()) throw py::key_error(name);
+    arrays.erase(array);
+  } else {
+    if (array == arrays.end()) array = arrays.insert(array, io::DataArray());
+    *array = from_python_array(name, values.cast<py::array>(), of_points ? file.points.size() : file.triangles.size(),
+                               of_points ? "point data" : "cell data");
+  }
+  const auto source = source_of(std::move(file), {}, {}, nullptr);
+  source->loaded.mesh = Mesh();
+  if (self.version() != version) {
+    fail(ErrorCode::unsupported, "data '" + name + "' are as they were: another thread changed the mesh meanwhile");
+  }
+  self.set_source(source);
+}
+
+io::DataRules data_rules_from(const PyMesh& self, const py::sequence& words) {
+  const auto rules = io::parse_data_rules(strings_from(words));
+  if (!rules) throw BadInput{rules.error()};
+  or_raise(io::check_data_rules(*rules, self.source() ? self.source()->file : io::MeshFile()));
+  return *rules;
+}
+
+/// The words of the rules that a mesh has.
+std::vector<std::string> data_words(const PyMesh& self) {
+  const auto spell = [](io::DataRule rule) { return std::string(rule == io::DataRule::keep ? "keep" : "interpolate"); };
+  std::vector<std::string> words = {spell(self.data_rules().rule)};
+  for (const auto& [name, rule] : self.data_rules().exceptions) words.push_back(spell(rule) + "=" + name);
+  return words;
+}
+
+py::dict data_report(const PyMesh& self, const py::object& threads) {
+  const auto executor = make_threads(threads_from(threads));
+  const PyMesh same = self.copy();
+  io::DataReport r;
+  {
+    const py::gil_scoped_release release;
+    r = updated_file_of(same, executor.get()).data;
+  }
+  return Record()("points", r.points)("points_moved", r.points_moved)("distance", r.distance)(
+             "points_inserted", r.points_inserted)("interpolated", r.interpolated)("kept", r.kept)(
+             "dropped", r.dropped)("triangles", r.triangles)("triangles_changed", r.triangles_changed)("of_triangles",
+                                                                                                       r.of_triangles)
+      .dict;
+}
+
+py::dict file_as_dict(const PyMesh& self) {
+  const PyMesh same = self.copy();
+  io::MeshFile file;
+  {
+    const py::gil_scoped_release release;
+    file = file_of(same);
+  }
+  py::list names;
+  for (const io::PhysicalName& n : file.names) names.append(py::make_tuple(n.dimension, n.tag, n.name));
+  std::vector<Vec3> places = file.sphere_points;
+  if (file.sphere_radius == 0) {
+    for (const Vec2 p : file.points) places.push_back({p.x, p.y, file.z});
+  }
+  return Record()("points", rows_of<double>(std::span<const Vec3>(places)))("weights", file.weights)(
+             "triangles", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 3>>(file.triangles)))(
+             "regions", array_of<std::int32_t>(file.regions))(
+             "lines", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(file.lines)))(
+             "line_tags", array_of<std::int32_t>(file.line_tags))("marked_points",
+                                                                  array_of<std::int32_t>(file.marked_points))(
+             "point_tags", array_of<std::int32_t>(file.point_tags))("names", py::object(names))(
+             "point_data", py::object(to_python_dict(file.point_data)))(
+             "cell_data", py::object(to_python_dict(file.cell_data)))("line_data",
+                                                                      py::object(to_python_dict(file.line_data)))(
+             "marked_point_data", py::object(to_python_dict(file.marked_point_data)))(
+             "field_data", py::object(to_python_dict(file.field_data)))("path", file.path)("format", file.format)(
+             "warnings", file.warnings)
+      .dict;
+}
+
+/// Vertex of each point that the mesh was made of, -1 where it is gone; None for a mesh that no file is behind.
+py::object vertices_of_points(const PyMesh& self) {
+  if (!self.source()) return py::none();
+  const auto origin = self.origin();
+  const io::VertexOfPoint& loaded = self.source()->loaded.vertex_of_point;
+  std::vector<std::int32_t> now(loaded.n_kept(), -1);
+  for (std::size_t v = 0; v < now.size() && origin.empty(); ++v) now[v] = static_cast<std::int32_t>(v);
+  for (std::size_t i = 0; i < origin.size(); ++i) {
+    const VertexId before = origin[VertexId(i)];
+    if (before.valid()) now[before.index] = static_cast<std::int32_t>(i);
+  }
+  std::vector<std::int32_t> vertices;
+  for (std::size_t p = 0; p < loaded.size(); ++p) {
+    const std::int32_t v = loaded[p];
+    vertices.push_back(v < 0 ? -1 : now[static_cast<std::size_t>(v)]);
+  }
+  return array_of<std::int32_t>(vertices);
+}
+
+template <std::size_t n>
+void check_range(const std::vector<std::array<std::int32_t, n>>& cells, std::size_t n_points, const char* kind) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (const std::int32_t p : cells[i]) {
+      if (p >= 0 && static_cast<std::size_t>(p) < n_points) continue;
+      fail(ErrorCode::index_out_of_range, std::string(kind) + " " + std::to_string(i) + " uses point " +
+                                              std::to_string(p) + ", but there are " + std::to_string(n_points) +
+                                              " points");
+    }
+  }
+}
+
+py::tuple mesh_from_file_arrays(const py::dict& d, const py::sequence& fixed_tags) {
+  io::MeshFile file;
+  const auto points = d["points"].cast<Doubles>();
+  if (points.shape(1) == 3) {
+    or_raise(io::set_points(file, copy_of<Vec3>(points)));
+  } else {
+    file.points = copy_of<Vec2>(points);
+  }
+  file.weights = copy_of<double>(d["weights"].cast<Doubles>());
+  file.triangles = narrow<3>(d["triangles"].cast<Int64s>(), "triangle");
+  file.regions = copy_of<std::int32_t>(d["regions"].cast<Int32s>());
+  file.lines = narrow<2>(d["lines"].cast<Int64s>(), "line");
+  file.line_tags = copy_of<std::int32_t>(d["line_tags"].cast<Int32s>());
+  file.point_data = from_python_dict(d["point_data"].cast<py::dict>(), file.points.size(), "point data");
+  file.cell_data = from_python_dict(d["cell_data"].cast<py::dict>(), file.triangles.size(), "cell data");
+  file.line_data = from_python_dict(d["line_data"].cast<py::dict>(), file.lines.size(), "line data");
+  const auto vertex_cells = narrow<1>(d["marked_points"].cast<Int64s>(), "vertex cell");
+  check_range<1>(vertex_cells, file.points.size(), "vertex cell");
+  for (const auto& [point] : vertex_cells) file.marked_points.push_back(point);
+  file.point_tags = copy_of<std::int32_t>(d["point_tags"].cast<Int32s>());
+  file.marked_point_data =
+      from_python_dict(d["marked_point_data"].cast<py::dict>(), file.marked_points.size(), "data of vertex cells");
+  check_range<3>(file.triangles, file.points.size(), "triangle");
+  check_range<2>(file.lines, file.points.size(), "line");
+  return load(std::move(file), {}, strings_from(fixed_tags), nullptr);
+}
+
+py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, const std::string& projection,
+                    const py::object& threads) {
+  const auto tags = strings_from(fixed_tags);
+  const auto executor = make_threads(threads_from(threads));
+  std::optional<Expected<io::MeshFile>> file;
+  {
+    const py::gil_scoped_release release;
+    file = io::read(path, {executor.get()});
+  }
+  return load(or_raise(*std::move(file)), projection, tags, executor.get());
+}
+
+py::object write_file(const std::string& path, const PyMesh& self, const std::string& format,
+                      const std::string& encoding, bool triangle_quality, const py::object& threads) {
+  const auto executor = make_threads(threads_from(threads));
+  io::WriteOptions options;
+  options.format = format;
+  if (!encoding.empty()) options.encoding = from_name<io::Encoding>("encoding", encoding);
+  options.triangle_quality = triangle_quality;
+  options.executor = executor.get();
+  const PyMesh same = self.copy();
+  std::vector<std::string> warnings;
+  {
+    const py::gil_scoped_release release;
+    const io::MeshFile file = file_of(same, executor.get());
+    auto written = io::write(path, file, options);
+    if (!written) throw BadInput{written.error()};
+    warnings = file.warnings;
+    warnings.insert(warnings.end(), written->begin(), written->end());
+  }
+  return to_python(warnings);
+}
+
+}  // namespace
+
+void bind_files(py::module_& m) {
+  m.def("read", read_file);
+  m.def("write", write_file);
+  m.def("mesh_from_file_arrays", mesh_from_file_arrays);
+  m.def("file_as_dict", file_as_dict);
+  m.def("data_rules", [](const PyMesh& self) { return to_python(data_words(self)); });
+  m.def("check_data_rules", [](const PyMesh& self, const py::sequence& words) { data_rules_from(self, words); });
+  m.def("set_data_rules",
+        [](PyMesh& self, const py::sequence& words) { self.set_data_rules(data_rules_from(self, words)); });
+  m.def("data_report", data_report);
+  m.def("set_data", set_data);
+  m.def("vertices_of_points", vertices_of_points);
+  m.def("write_text", [](const std::string& path, const std::string& text) { or_raise(io::write_text(path, text)); });
+  m.def("formats", [] {
+    py::list list;
+    for (const io::Format& f : io::formats()) {
+      list.append(
+          Record()("name", f.name)("description", f.description)("suffixes", f.suffixes)("writes", f.writes)(
+              "holds_weights", f.holds_weights)("holds_planes", f.holds_planes)("holds_spheres", f.holds_spheres)
+              .dict);
+    }
+    return list;
+  });
+}
+
+}  // namespace temper::python
