@@ -1,11 +1,9 @@
-// The file is an envelope (temper/envelope.hpp) around an archive (temper/archive.hpp). Each visit() names all members
-// of its class, so that a new one does not compile before it is looked at here.
+// The file is an envelope (temper/envelope.hpp) around an archive (temper/archive.hpp).
 #include "temper/checkpoint.hpp"
 
 #include <utility>
 
 #include "io/failure.hpp"
-#include "io/file_names.hpp"
 #include "io/format.hpp"
 #include "io/input.hpp"
 #include "io/output.hpp"
@@ -21,47 +19,6 @@ constexpr std::string_view kKind = "temper checkpoint";
 }  // namespace
 
 namespace io {
-
-void visit(Archive& archive, DataArray& array) {
-  auto& [name, components, values] = array;
-  archive(name, components, values);
-}
-
-void visit(Archive& archive, PhysicalName& physical) {
-  auto& [dimension, tag, name] = physical;
-  archive(dimension, tag, name);
-}
-
-void RunLength::visit(Archive& archive) {
-  auto& [runs, size] = *this;
-  static_assert(sizeof(Run) == sizeof(std::size_t) + sizeof(std::int64_t));  // no gaps
-  archive.plain(runs);
-  archive(size);
-}
-
-void visit(Archive& archive, FileNames& names) {
-  archive(names.path, names.triangle_path, names.points, names.triangles, names.lines, names.point_lines,
-          names.triangle_lines, names.line_lines);
-}
-
-/// The names are those of a file that was read.
-void visit_names(Archive& archive, MeshFile& file) {
-  const auto* known = dynamic_cast<const FileNames*>(file.numbering.get());
-  auto names = std::make_shared<FileNames>(known != nullptr ? *known : FileNames(file.path));
-  archive(*names);
-  if (archive.reads()) file.numbering = std::move(names);
-}
-
-void visit(Archive& archive, MeshFile& file) {
-  auto& [points, sphere_radius, sphere_points, period, z, weights, triangles, regions, lines, line_tags, marked_points,
-         point_tags, names, point_data, cell_data, line_data, marked_point_data, field_data, geographic,
-         geographic_is_guessed, map, path, format, warnings, numbering] =
-      file;  // map: put there by project(), after reading
-  archive(points, sphere_radius, sphere_points, period, z, weights, triangles, regions, lines, line_tags, marked_points,
-          point_tags, names, point_data, cell_data, line_data, marked_point_data, field_data, geographic,
-          geographic_is_guessed, path, format, warnings);
-  visit_names(archive, file);
-}
 
 void visit(Archive& archive, Checkpoint& checkpoint) {
   auto& [command, inputs, trace, events, state] = checkpoint;

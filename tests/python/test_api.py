@@ -38,7 +38,7 @@ ELSEWHERE = {
     "parse_data_rules": "Mesh.point_data_rules", "check_data_rules": "as parse_data_rules",
     "places_of_vertices": "Mesh.point_data", "sources_of_triangles": "Mesh.cell_data", "interpolated": "Mesh.point_data",
     "printable": "messages are", "needs_projection": "TemperError says it", "projection_text": "Projection's fields",
-    "from_mesh": "write does it", "files_to_write": "write does it", "files_to_read": "read does it",
+    "from_mesh": "write does it", "files_to_write": "write does it", "files_to_read": "read does it", "visit": "pickle",
     "discard_unfinished": "a signal ends Python by an exception", "read_checkpoint": "optimize(resume=…)",
     "in_envelope": "files of the program", "from_envelope": "as in_envelope", "checksum": "as in_envelope",
     "mixed": "as in_envelope",
