@@ -42,8 +42,8 @@ class PyMesh {
   void replace(Mesh mesh, const IdVector<VertexId, VertexId>& vertices);
   /// Becomes the other, with its file.
   void assign(const PyMesh& other);
-  /// Has this file behind it, whose points in triangles are the vertices.
-  void set_source(std::shared_ptr<const Source> source);
+  /// Has this file behind it. `origin`: see origin(); empty: its points in triangles are the vertices.
+  void set_source(std::shared_ptr<const Source> source, IdVector<VertexId, VertexId> origin = {});
   [[nodiscard]] PyMesh copy() const;
   void set_erased() { erased_ = true; }
   /// Drops what is erased; the former numbers of vertices.

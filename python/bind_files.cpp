@@ -4,6 +4,8 @@
 #include <variant>
 
 #include "bind.hpp"
+#include "temper/archive.hpp"
+#include "temper/envelope.hpp"
 
 namespace temper::python {
 namespace {
@@ -289,6 +291,47 @@ py::object write_file(const std::string& path, const PyMesh& self, const std::st
   return to_python(warnings);
 }
 
+// --- pickles ------------------------------------------------------------------------------------------------------
+
+constexpr std::string_view kPickle = "pickled mesh";
+
+/// What is in a pickle of the file behind a mesh.
+void visit_pickle(Archive& archive, Source& source, IdVector<VertexId, VertexId>& origin) {
+  archive(source.file, source.loaded, origin);
+  archive.seal();
+}
+
+/// The file behind a mesh, and which of its points the vertices are, for another process of this build; None for a mesh
+/// that no file is behind.
+py::object source_to_bytes(const PyMesh& self) {
+  if (!self.source()) return py::none();
+  const PyMesh same = self.copy();
+  std::string envelope;
+  {
+    const py::gil_scoped_release release;
+    Source source = *same.source();  // an archive asks for what it may change
+    IdVector<VertexId, VertexId> origin = same.origin();
+    std::string bytes;
+    Archive archive(bytes);
+    visit_pickle(archive, source, origin);
+    envelope = in_envelope(kPickle, bytes);
+  }
+  return py::bytes(envelope);
+}
+
+void set_source_from_bytes(PyMesh& self, const py::bytes& bytes) {
+  auto read = from_envelope(kPickle, std::string_view(bytes));
+  if (!read) throw BadInput{{read.error().code, "pickle", read.error().message}};
+  Archive archive(*read);
+  auto source = std::make_shared<Source>();
+  IdVector<VertexId, VertexId> origin;
+  visit_pickle(archive, *source, origin);
+  if (!archive.at_end() || (!origin.empty() && origin.size() != self.read()->n_vertices())) {
+    fail(ErrorCode::unsupported, "the mesh was pickled by another build of temper: only the one that did can read it");
+  }
+  self.set_source(std::move(source), std::move(origin));
+}
+
 }  // namespace
 
 void bind_files(py::module_& m) {
@@ -303,6 +346,8 @@ void bind_files(py::module_& m) {
   m.def("data_report", data_report);
   m.def("set_data", set_data);
   m.def("vertices_of_points", vertices_of_points);
+  m.def("source_to_bytes", source_to_bytes);
+  m.def("set_source_from_bytes", set_source_from_bytes);
   m.def("write_text", [](const std::string& path, const std::string& text) { or_raise(io::write_text(path, text)); });
   m.def("formats", [] {
     py::list list;

@@ -70,10 +70,10 @@ void PyMesh::assign(const PyMesh& other) {
   version_ = new_version();
 }
 
-void PyMesh::set_source(std::shared_ptr<const Source> source) {
+void PyMesh::set_source(std::shared_ptr<const Source> source, IdVector<VertexId, VertexId> origin) {
   refuse_while_running();
   source_ = std::move(source);
-  origin_ = {};
+  origin_ = std::move(origin);
   version_ = new_version();
 }
 

@@ -370,12 +370,14 @@ class Mesh:
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> Any:
+        """All that ``copy`` keeps. Where a file is behind the mesh, the same build of temper alone can read it: to keep
+        a mesh, write it."""
         lifted = None if self.space.is_plane else np.array(self.lifted_points)
         vertices = (self.space, np.array(self.points), np.array(self.weights), lifted, self.fixed)
         triangles = (np.array(self.triangles), self.constrained_edges, self.regions)
-        has = self._handle.has_data()
-        data = (dict(self.point_data), dict(self.cell_data), self.point_data_rules) if has else ({}, {}, ())
-        return _unpickle, (vertices, triangles, data)
+        source = (_temper.source_to_bytes(self._handle), self.point_data_rules)
+        state = {"reversed_triangles": self.reversed_triangles, "warnings": self.warnings}
+        return _unpickle, (vertices, triangles, source), (None, state)
 
     # --- data that came with the mesh, and other libraries ----------------------------------------------------
 
@@ -435,17 +437,16 @@ class Mesh:
         return _temper.draw_svg(self._handle, {"width": 500.0}) if self.n_triangles <= _PICTURE else None
 
 
-def _unpickle(vertices: tuple[Any, ...], triangles: tuple[Any, ...], data: tuple[Any, ...]) -> Mesh:
+def _unpickle(vertices: tuple[Any, ...], triangles: tuple[Any, ...], source: tuple[Any, ...]) -> Mesh:
     space, points, weights, lifted, fixed = vertices
     corners, constrained, regions = triangles
     mesh = Mesh(points, corners, weights, constrained_edges=constrained, regions=regions, fixed=fixed, space=space)
     if lifted is not None:
         mesh.lifted_points = lifted  # bit for bit: places and weights are rounded
-    point_data, cell_data, rules = data
-    mesh.point_data.update(point_data)
-    mesh.cell_data.update(cell_data)
-    if rules:
-        mesh.point_data_rules = rules
+    file, rules = source
+    if file is not None:
+        _temper.set_source_from_bytes(mesh._handle, file)
+    mesh.point_data_rules = rules
     return mesh
 
 
