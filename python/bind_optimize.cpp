@@ -2,6 +2,7 @@
 #include "bind.hpp"
 #include "optimize_options.hpp"
 #include "ranks.hpp"
+#include "temper/archive.hpp"
 #include "temper/checkpoint.hpp"
 #include "temper/trace.hpp"
 #include "temper/verify.hpp"
@@ -80,7 +81,8 @@ class Checkpoints {
   void keep(const std::function<std::string()>& state) { heed(file_.keep(state)); }
   /// The last state, of a run that was stopped.
   void write() { heed(file_.write()); }
-  [[nodiscard]] bool refused() const { return refused_; }
+  /// Why the first could not be written.
+  [[nodiscard]] const std::optional<InputError>& refusal() const { return refusal_; }
 
  private:
   void heed(const Expected<void>& written) {
@@ -88,9 +90,9 @@ class Checkpoints {
       begun_ = true;
       return;
     }
-    refused_ = !begun_;
+    if (!begun_) refusal_ = written.error();
     static_cast<void>(visitor_.call([&] {
-      if (refused_) throw BadInput{written.error()};
+      if (refusal_) throw BadInput{*refusal_};
       warn_(written.error().what());
       return true;
     }));
@@ -99,8 +101,22 @@ class Checkpoints {
   io::CheckpointFile file_;
   py::object warn_;
   Visitor& visitor_;
-  bool begun_ = false, refused_ = false;
+  bool begun_ = false;
+  std::optional<InputError> refusal_;
 };
+
+/// What rank 0, whose the checkpoints are, says of its first to all ranks. Collective.
+std::optional<InputError> agreed(const std::optional<InputError>& refusal, Ranks& ranks) {
+  InputError error = refusal.value_or(InputError());
+  bool is_refused = refusal.has_value();
+  std::string told;
+  Archive archive(told);
+  archive(is_refused, error.code, error.where, error.message);
+  ranks.broadcast(told, 0);
+  Archive(std::string_view(told))(is_refused, error.code, error.where, error.message);
+  if (!is_refused) return std::nullopt;
+  return error;
+}
 
 /// What a run of Python's works with, besides mesh and options. Each may be None.
 struct RunArguments {
@@ -144,6 +160,7 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
   }
   Mesh mesh = metric ? or_raise(mapped(*before, *metric)) : *before;
   std::optional<Expected<OptimizeReport>> report;
+  std::optional<InputError> refusal;
   {
     const PyMesh::Run run(self);
     const py::gil_scoped_release release;
@@ -159,10 +176,15 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
     }
 #endif
     if (!report) report = optimize(mesh, options, hooks);
-    if (checkpoints && !checkpoints->refused() && report->has_value() && stopped_early((*report)->stopped))
+    if (checkpoints && !checkpoints->refusal() && report->has_value() && stopped_early((*report)->stopped))
       checkpoints->write();
+    if (checkpoints) refusal = checkpoints->refusal();
+    if (ranks && report->has_value()) refusal = agreed(refusal, *ranks);
   }
-  if (checkpoints && checkpoints->refused()) visitor.raise();
+  if (refusal) {  // which stopped the run of all ranks at its beginning
+    visitor.raise();
+    throw BadInput{*refusal};
+  }
   if (report->has_value()) {
     const auto& vertices = (*report)->vertices;
     self.replace(metric ? or_raise(mapped_back(mesh, *before, *metric, vertices)) : std::move(mesh), vertices);

@@ -226,8 +226,8 @@ def optimize(
     TemperError
         An option out of range, options that contradict each other, weights that hide a vertex, a mesh outside the
         barrier of BH or BHs, a checkpoint that cannot be written, or is of another mesh, options or version
-        (``checkpoint_mismatch``); on all ranks, when one was given another mesh or other options (``rank_mismatch``).
-        The mesh is then as it was.
+        (``checkpoint_mismatch``); on all ranks, when one was given another mesh or other options (``rank_mismatch``),
+        or rank 0 cannot write its checkpoint. The mesh is then as it was.
     KeyboardInterrupt
         After Ctrl-C: the run has stopped, and the mesh is the best valid one so far.
 
