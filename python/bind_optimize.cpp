@@ -150,6 +150,8 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
   hooks.observer = observer;
   hooks.resume = resumed.state;
   hooks.exclusive = true;  // the copy that becomes the mesh
+  const std::unique_ptr<LpSolver> lp = clp_solver();
+  hooks.lp = lp.get();
   std::optional<PythonRanks> ranks;
   if (!arguments.ranks.is_none()) hooks.ranks = &ranks.emplace(arguments.ranks);
   set_callbacks(hooks, visitor, arguments.callbacks);

@@ -19,20 +19,23 @@ namespace {
 
 // Each where the one before has made triangles good; more find little.
 constexpr std::size_t kRoundsWhereBad = 4;
+// Times as many bad triangles, which a more thorough attempt does not make up for.
 constexpr std::size_t kFarMore = 2;
 // Weights alone are seldom enough: they have to get on fast.
 constexpr double kFewerByWeights = 0.75;
 // A search that ends with triangles bad may have gone astray early on.
 constexpr std::uint64_t kSearches = 4;
+// The one more, where linear programmes can be asked: from what the first has left.
+constexpr std::uint64_t kProgrammes = 1;
 
 bool is_worse(const Candidate& a, const Candidate& b, const Settings& settings) {
   return rank(b.work.mesh, settings) < rank(a.work.mesh, settings);
 }
 
-/// Says whether what an attempt has made is kept instead of what there was. The user asks for cuts, and for places that
-/// are good ones: without them fewer triangles have to be bad.
+/// Says whether what an attempt has made is kept instead of what there was. The user asks for cuts: without them fewer
+/// triangles have to be bad.
 bool replaces(const Candidate& now, const Candidate& best, const Attempt& attempt, const Settings& settings) {
-  if (attempt.cuts == Cuts::graded && !attempt.weighs_alone) return !is_worse(now, best, settings);
+  if (attempt.cuts == Cuts::graded) return !is_worse(now, best, settings);
   return rank(now.work.mesh, settings).bad < rank(best.work.mesh, settings).bad;
 }
 
@@ -69,8 +72,7 @@ bool needs_repair(const Candidate& c, const Settings& s) {
 
 /// What to try, for the working copy as it is. Where all attempts with a cut boundary leave triangles bad, they are
 /// made again without: what lines leave no room for, cuts may make worse. After either there are cuts where triangles
-/// are still bad, and sweeps from there. And last with weights alone: where triangles are thin as they have to be, in
-/// layers, moves that lower the energy elsewhere may leave them no weights.
+/// are still bad, and sweeps from there.
 std::vector<Attempt> attempts_for(const Mesh& mesh, const Settings& settings) {
   const OptimizeOptions& o = settings.options;
   const auto all = attempts(settings.energy, o, mesh, settings.hooks.executor);
@@ -87,14 +89,15 @@ std::vector<Attempt> attempts_for(const Mesh& mesh, const Settings& settings) {
     tries.insert(tries.end(), kRoundsWhereBad, where_bad);
   }
   for (Attempt& attempt : tries) attempt.first_energy = first_energy_of(o);
-  if (all.size() == 1 || o.unknowns != Unknowns::positions_and_weights) return tries;
-  OptimizeOptions weights = o;
-  weights.unknowns = Unknowns::weights;
-  for (Attempt attempt : attempts(settings.energy, weights, mesh, settings.hooks.executor)) {
+  return tries;
+}
+
+/// The quick ones of those for weights alone; none where nothing is softened.
+std::vector<Attempt> attempts_by_weights(const Mesh& mesh, const Settings& settings) {
+  std::vector<Attempt> tries;
+  for (Attempt attempt : attempts(settings.energy, settings.options, mesh, settings.hooks.executor)) {
     if (!attempt.until_good) continue;
     attempt.fewer = std::min(attempt.fewer, kFewerByWeights);
-    if (splits) attempt.cuts = Cuts::none;
-    attempt.weighs_alone = true;
     tries.push_back(attempt);
   }
   return tries;
@@ -114,7 +117,7 @@ struct Tries {
   [[nodiscard]] bool may_gain(const Candidate& best, const Settings& settings) const {
     if (now().cuts == Cuts::where_bad) return renewed;
     const Attempt& last = all[i - 1];
-    if (last.cuts != now().cuts || last.weighs_alone != now().weighs_alone) return true;
+    if (last.cuts != now().cuts) return true;
     return left <= kFarMore * count_bad(best.work.mesh, settings.hooks.executor);
   }
 };
@@ -150,8 +153,6 @@ void tell_cuts(const Attempt& attempt, RunFacts& facts) {
 
 Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run) {
   const OptimizeOptions& o = settings.options;
-  const Unknowns unknowns = o.unknowns;
-  const bool repairs_follow = repairs(settings);
   std::optional<Candidate> best;
   Candidate now;
   Tries tries;
@@ -160,7 +161,6 @@ Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run)
   for (; tries.i < tries.all.size(); ++tries.i) {
     const bool begins = !run.checkpoints.resumes();
     if (begins && best && !tries.may_gain(*best, settings)) continue;
-    settings.options.unknowns = tries.now().weighs_alone ? Unknowns::weights : unknowns;
     const bool goes_on = tries.now().cuts == Cuts::where_bad;
     if (begins) now = goes_on ? *best : Candidate{WorkingCopy(input.whole(), o.paper.order, settings.hooks.executor)};
     Driver driver(now.work, settings, run);  // NOLINT(bugprone-use-after-move): what begins has been made anew
@@ -174,7 +174,7 @@ Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run)
       run.facts.input_flips = run.report.flips;
     }
     input.fold();
-    now.sweep = driver.attempt(tries.now(), !tries.is_last() || repairs_follow);
+    now.sweep = driver.attempt(tries.now(), !tries.is_last() || repairs(settings));
     if (auto error = run.checkpoints.error()) return *std::move(error);
     tries.left = count_bad(now.work.mesh, settings.hooks.executor);
     if (!best || replaces(now, *best, tries.now(), settings)) {
@@ -185,16 +185,48 @@ Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run)
       driver.recorder().returned_to(best->sweep);
       if (goes_on) tries.renewed = false;
     }
-    if (!has_bad(*best, settings) || !run.goes_on() || (repairs_follow && are_apart(*best, settings))) break;
+    if (!has_bad(*best, settings) || !run.goes_on() || (repairs(settings) && are_apart(*best, settings))) break;
   }
-  settings.options.unknowns = unknowns;
   return *std::move(best);
+}
+
+Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, Run& run) {
+  Settings own = settings;
+  own.options.unknowns = Unknowns::weights;
+  std::vector<Attempt> tries(1);
+  std::size_t i = 0;
+  Candidate now;
+  const Resumable here(run.checkpoints, best, own, tries, i, now);
+  const bool may = settings.options.unknowns == Unknowns::positions_and_weights && repairs(settings);
+  if (!here.resumed() && !(may && run.goes_on() && has_bad(best, settings) && !are_apart(best, settings))) return best;
+  for (; i < tries.size(); ++i) {
+    const bool begins = !run.checkpoints.resumes();
+    if (begins) now = {WorkingCopy(input.whole(), own.options.paper.order, own.hooks.executor)};
+    Driver driver(now.work, own, run);  // NOLINT(bugprone-use-after-move): what begins has been made anew
+    if (begins) {
+      driver.recorder().returned_to(-1);
+      driver.make_regular();  // it could be at the first attempt
+    }
+    if (begins && i == 0) tries = attempts_by_weights(now.work.mesh, own);
+    input.fold();
+    if (tries.empty()) break;
+    now.sweep = driver.attempt(tries[i], true);
+    if (run.checkpoints.resumes()) return best;
+    if (rank(now.work.mesh, own).bad < rank(best.work.mesh, own).bad) {
+      best = std::move(now);
+    } else {
+      driver.recorder().returned_to(best.sweep);
+    }
+    if (!has_bad(best, settings) || !run.goes_on()) break;
+  }
+  return best;
 }
 
 Candidate repaired(Candidate best, Settings& settings, Run& run) {
   const auto is_done = [&](const Candidate& c) {
     return !run.goes_on() || run.repair_trials_left <= 0 || !needs_repair(c, settings);
   };
+  const std::uint64_t searches = settings.hooks.lp != nullptr ? kSearches + 1 : kSearches;
   std::optional<Candidate> start;  // of all searches on copies, once it is not the best one
   Candidate copy;
   std::uint64_t i = 0;
@@ -205,14 +237,15 @@ Candidate repaired(Candidate best, Settings& settings, Run& run) {
       return best;
     in_place = keeps_vertices(settings) && are_apart(best, settings);
   }
-  for (; !polishes && i < kSearches; ++i) {
-    const bool begins = !run.checkpoints.resumes();
+  for (; !polishes && i < searches; ++i) {
+    const bool begins = !run.checkpoints.resumes(), asks_programmes = i == kProgrammes && settings.hooks.lp != nullptr;
     if (begins && is_done(best)) break;
+    if (asks_programmes) start.reset();  // they cost more than what is cured
     if (begins && !in_place) copy = start ? *start : best;
     Candidate& now = in_place ? best : copy;  // NOLINT(bugprone-use-after-move): what begins has been made anew
     Driver driver(now.work, settings, run);
     if (begins && start) driver.recorder().returned_to(start->sweep);
-    const bool changed = driver.repair(settings.options.paper.seed + i);
+    const bool changed = driver.repair(settings.options.paper.seed + i, asks_programmes);
     now.sweep = run.report.sweeps;
     if (in_place) continue;
     if (changed && has_gained(now, best, settings)) {

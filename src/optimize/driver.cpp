@@ -314,9 +314,9 @@ bool Driver::weigh_ties(double amount) {
   return run_.report.history.back().bad == 0;
 }
 
-bool Driver::repair(std::uint64_t seed) {
+bool Driver::repair(std::uint64_t seed, bool asks_programmes) {
   EnergyPhase phase(work_, settings_, run_, kPolish, false);  // what repairs are told by
-  RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed);
+  RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed, asks_programmes);
   bool changed = false;
   RunningEnergyAndBad totals;
   const Resumable here(run_.checkpoints, search, changed, *this);

@@ -17,8 +17,9 @@
 namespace temper {
 namespace {
 
-/// The stage of a run: attempts from the input, repairs of the best of them, the second objective, the third.
-enum class Stage { attempts, repairs, accuracy, error };
+/// The stage of a run: attempts from the input, such with weights alone, repairs of the best of them, the second
+/// objective, the third.
+enum class Stage { attempts, weights, repairs, accuracy, error };
 
 /// Says whether the second phase may begin at once with the input.
 bool is_ready_for_accuracy(const Mesh& mesh, const Settings& s) {
@@ -97,9 +98,13 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
                      : best_attempt(input, *settings, run);
     if (!found) return found.error();
     best = *std::move(found);
-    stage = Stage::repairs;
+    stage = Stage::weights;
   }
   input.fold();
+  if (stage == Stage::weights) {
+    best = weighed(std::move(best), input, *settings, run);
+    stage = Stage::repairs;
+  }
   if (stage == Stage::repairs) {
     best = repaired(std::move(best), *settings, run);
     stage = Stage::accuracy;

@@ -39,7 +39,6 @@ struct Attempt {
   double tie_weight = 0;    ///< added before it to the heavier ends of ties, relative to their shortest edge squared
   std::optional<EnergyKind> first_energy = {};  ///< of its first sweeps
   Cuts cuts = Cuts::graded;
-  bool weighs_alone = false;  ///< positions stay
 };
 
 void visit(Archive& archive, Attempt& attempt);

@@ -68,10 +68,10 @@ void visit(Archive& archive, Settings& settings) {
 }
 
 void visit(Archive& archive, Attempt& attempt) {
-  auto& [start, factor, relaxation, level_sweeps, level_fall, until_good, jitter, fewer, tie_weight, first_energy, cuts,
-         weighs_alone] = attempt;
+  auto& [start, factor, relaxation, level_sweeps, level_fall, until_good, jitter, fewer, tie_weight, first_energy,
+         cuts] = attempt;
   archive(start, factor, relaxation, level_sweeps, level_fall, until_good, jitter, fewer, tie_weight, first_energy,
-          cuts, weighs_alone);
+          cuts);
 }
 
 void visit(Archive& archive, Run& run) {
@@ -181,7 +181,7 @@ void ErrorPhase::visit(Archive& archive) {
 }
 
 void RepairSearch::visit(Archive& archive) {
-  auto& [work, settings, run, flipper, recorder, rng, failures, weighed, bad, changed] = *this;
+  auto& [work, settings, run, flipper, recorder, rng, asks_programmes, failures, weighed, bad, changed] = *this;
   archive(rng, failures, weighed);
 }
 

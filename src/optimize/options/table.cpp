@@ -304,11 +304,12 @@ constexpr OptionRow kConnectivityRows[] = {
         {.range = {0, 1}, .needs = {{{"flips", "immediate|deferred"}, {"flip_limit", "after", limits_after_flips}}}}),
     row<&Options::repair>(
         "repair",
-        "where sweeps leave triangles bad: nothing; sweep again and kick vertices there; remove and insert vertices "
-        "there, too, and keep what cures most",
+        "where sweeps leave triangles bad: nothing; sweep again and kick vertices there, and find weights by a linear "
+        "programme; remove and insert vertices there, too, and keep what cures most",
         {.common = true,
          .needs = {{kBarrier, {"unknowns", "positions_and_weights|positions"}, {"flips", "immediate|deferred"}}}}),
-    row<&Options::repair_trials>("repair_trials", "at most so many edits are tried, 1 to 3 ms each",
+    row<&Options::repair_trials>("repair_trials",
+                                 "at most so many edits are tried, 1 to 3 ms each; a linear programme counts as 20",
                                  {.needs = {{{"repair", "moves|vertices"}}}}),
     row<&Options::boundary>(
         "boundary",

@@ -98,8 +98,9 @@ void RepairSearch::find_bad() {
 /// same ones, and not where no mesh with an edge of the triangle has any.
 bool RepairSearch::weighs(TriangleId seed) const {
   const Mesh& mesh = work_.mesh;
-  if (settings_.hooks.lp == nullptr || settings_.options.unknowns == Unknowns::positions ||
-      mesh.space().is_periodic() || std::find(weighed_.begin(), weighed_.end(), seed) != weighed_.end())
+  if (!asks_programmes_ || run_.repair_trials_left < kTrialsOfAProgramme ||
+      settings_.options.unknowns == Unknowns::positions || mesh.space().is_periodic() ||
+      std::find(weighed_.begin(), weighed_.end(), seed) != weighed_.end())
     return false;
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(seed, k);

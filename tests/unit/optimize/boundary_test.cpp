@@ -13,12 +13,17 @@
 
 #include "base/rng.hpp"
 #include "energy/whole_mesh.hpp"
+#include "mesh/bad_triangles.hpp"
+#include "optimize/repair/grading.hpp"
+#include "optimize/settings.hpp"
+#include "optimize/step/flipper.hpp"
 #include "optimize/trace/recorder.hpp"
 #include "support/area.hpp"
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
+#include "temper/regularity.hpp"
 
 namespace temper {
 namespace {
@@ -384,6 +389,50 @@ TEST(Boundary, SplittingASharpCornerEndsLongBeforeRounding) {
     EXPECT_LT(report.vertices_inserted, 200u) << angle;
     EXPECT_GT(shortest_edge(mesh), 1e-2 * shortest_edge(input)) << angle;
   }
+}
+
+/// The strip y < 1 of a box whose upper side is divided evenly, and whose lower one at places that do not fit it.
+Mesh uneven_strip() {
+  std::vector<Vec2> points = {{0, 0}};
+  for (const double x : {1.3, 1.9, 4.1, 4.9, 7.2}) points.push_back({x, 0});
+  for (int i = 8; i >= 0; --i) points.push_back({static_cast<double>(i), 1});
+  std::vector<std::array<std::int32_t, 2>> sides;
+  const auto n = static_cast<std::int32_t>(points.size());
+  for (std::int32_t i = 0; i < n; ++i) sides.push_back({i, (i + 1) % n});
+  return *constrained_delaunay({.points = points, .segments = sides});
+}
+
+TEST(Boundary, CutsWhereTrianglesAreBadAreAtTheirCornersAlone) {
+  const Mesh input = uneven_strip();
+  const OptimizeOptions options = {.boundary = BoundaryVertices::split};
+  WorkingCopy work(input, options.paper.order);
+  auto settings = make_settings(options, input, Frame::of(input), {});
+  ASSERT_TRUE(settings);
+  const Recorder recorder({}, work, 1);
+  Flipper flipper(work.mesh, *settings, recorder);
+  ASSERT_TRUE(flipper.restore_all());
+  IdVector<VertexId, bool> is_near(work.mesh.n_vertices(), false);
+  for (const TriangleId t : bad_triangles(work.mesh)) {
+    for (const VertexId v : work.mesh.corners(t)) is_near[v] = true;
+  }
+  std::vector<std::pair<VertexId, VertexId>> edges;
+  for (const HalfedgeId h : work.mesh.halfedges()) {
+    if (work.mesh.is_boundary(h)) edges.emplace_back(work.mesh.origin(h), work.mesh.target(h));
+  }
+  const std::size_t n = work.mesh.n_vertices();
+  const BoundaryCuts cuts = cut_where_bad(work, flipper);
+  EXPECT_GT(cuts.vertices, 0u);
+  EXPECT_EQ(work.mesh.n_vertices(), n + cuts.vertices);
+  EXPECT_EQ(count_non_regular_edges(work.mesh, false), 0u);
+  EXPECT_EQ(work.mesh.validate(), std::nullopt);
+  EXPECT_EQ(boundary_edges(work.mesh).size(), edges.size() + cuts.vertices);
+  std::size_t whole = 0;
+  for (const auto& [a, b] : edges) {
+    const bool is_cut = !work.mesh.find_halfedge(a, b).valid();
+    EXPECT_TRUE(!is_cut || is_near[a] || is_near[b]);
+    whole += is_cut ? 0 : 1;
+  }
+  EXPECT_GT(whole, 0u);
 }
 
 TEST(Boundary, SplittingNeverLeavesMoreTrianglesBadThanLeavingItAsItIs) {

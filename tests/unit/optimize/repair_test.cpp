@@ -12,6 +12,7 @@
 #include "optimize/repair/trial.hpp"
 #include "support/area.hpp"
 #include "support/lattice.hpp"
+#include "support/layers.hpp"
 #include "temper/generate.hpp"
 #include "temper/geometry.hpp"
 #include "temper/optimize.hpp"
@@ -78,6 +79,20 @@ TEST(Repair, WithoutInsertionAndRemovalEveryVertexStays) {
   EXPECT_EQ(n_bad(repaired), 0u);
   EXPECT_EQ(repaired.n_vertices(), input.n_vertices());
   EXPECT_TRUE(report->vertices.empty());
+}
+
+TEST(Attempts, WithWeightsAloneCureLayersThatMovesDoNot) {
+  const Mesh input = test::layers();
+  EXPECT_EQ(n_bad(input), input.n_triangles());  // right angles
+  Mesh moved = input, weighed = input;
+  const OptimizeOptions options = {.objective = Objective::energy};
+  OptimizeOptions positions = options;
+  positions.unknowns = Unknowns::positions;
+  ASSERT_TRUE(optimize(moved, positions));
+  ASSERT_TRUE(optimize(weighed, options));
+  EXPECT_GT(n_bad(moved), 0u);
+  EXPECT_EQ(n_bad(weighed), 0u);
+  for (const VertexId v : input.vertices()) ASSERT_EQ(weighed.position(v), input.position(v)) << v.index;
 }
 
 TEST(Repair, OfOnePlaceInALargeMeshChangesNothingElsewhere) {

@@ -1,0 +1,67 @@
+// Repairs that ask a linear programme for weights: what sweeps leave bad, and weights can cure.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "optimize/repair/trial.hpp"
+#include "support/layers.hpp"
+#include "temper/generate.hpp"
+#include "temper/lp.hpp"
+#include "temper/optimize.hpp"
+#include "temper/regularity.hpp"
+
+namespace temper {
+namespace {
+
+TEST(RepairByProgramme, CuresWhatSweepsLeave) {
+  const auto solver = clp_solver();
+  for (const Horseshoe& shape : {Horseshoe{.a = 6, .b = 7}, Horseshoe{.a = 6, .b = 9}}) {
+    const Mesh input = *horseshoe(shape);
+    Mesh swept = input, weighed = input;
+    ASSERT_TRUE(optimize(swept));
+    ASSERT_TRUE(optimize(weighed, {}, {.lp = solver.get()}));
+    EXPECT_GT(standing(swept).bad, 0u);
+    EXPECT_EQ(standing(weighed).bad, 0u);
+    EXPECT_EQ(count_non_regular_edges(weighed), 0u);
+    EXPECT_EQ(weighed.validate(), std::nullopt);
+  }
+}
+
+TEST(RepairByProgramme, IsTracedLikeAllElse) {
+  const auto solver = clp_solver();
+  const Mesh input = *horseshoe({.a = 6, .b = 7});
+  std::vector<TraceEvent> events;
+  Mesh mesh = input;
+  OptimizeHooks hooks;
+  hooks.lp = solver.get();
+  hooks.tracer = [&](const TraceEvent& e) { events.push_back(e); };
+  ASSERT_TRUE(optimize(mesh, {}, hooks));
+  const auto again = replay(input, events);
+  ASSERT_TRUE(again) << again.error().what();
+  EXPECT_EQ(*again, mesh);
+}
+
+TEST(RepairByProgramme, OfAPlaceChangesWeightsNearItAndNoneOfTheRim) {
+  const auto solver = clp_solver();
+  const Mesh mesh = test::layers({.columns = 10, .rows = 20, .growth = 1.7});
+  const OptimizeOptions options;
+  auto settings = make_settings(options, mesh, Frame::of(mesh), {});
+  ASSERT_TRUE(settings);
+  settings->hooks.lp = solver.get();
+  std::size_t cured = 0;
+  for (std::size_t t = 0; t < mesh.n_triangles(); t += 37) {
+    const Neighborhood around = neighborhood_of(mesh, TriangleId(t), 3);
+    const Outcome outcome = try_edit(around, {.kind = Edit::weigh}, *settings, Frame::of(mesh), true);
+    if (!outcome.valid) continue;
+    cured += outcome.standing < standing(around.mesh) ? 1 : 0;
+    for (const TraceEvent& e : outcome.events) {
+      if (e.kind != EventKind::weight) continue;
+      EXPECT_EQ(around.frozen[e.vertex.index], 0);
+      EXPECT_EQ(e.point.position(), around.mesh.position(e.vertex));
+    }
+  }
+  EXPECT_GT(cured, 0u);
+}
+
+}  // namespace
+}  // namespace temper
