@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -118,6 +119,7 @@ class GmshReader {
   void finish_nodes();
   void add_element(std::int32_t type, std::int64_t number, std::int32_t physical, std::int32_t entity);
   [[nodiscard]] std::int32_t node_index(std::string_view kind, std::int64_t element);
+  void keep_one_of_each_triangle();
   void finish_elements();
   std::string quoted_string();
   std::string where() const { return binary_ ? scanner_.path() : scanner_.where(); }
@@ -147,12 +149,14 @@ class GmshReader {
   bool binary_ = false, swap_ = false, version4_ = false, has_nodes_ = false, has_elements_ = false;
   std::optional<NumberLookup> lookup_;
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> physical_of_entity_;
-  std::size_t further_tags_ = 0;
+  std::size_t with_further_tags_ = 0;  // entities in 4.1, triangles in 2
   std::vector<PhysicalName> names_without_dimension_;
   Elements<3> triangles_;
   Elements<2> lines_;
   Elements<1> points_;
   std::optional<NumberLookup> triangle_lookup_, line_lookup_, point_lookup_;
+  RunLength repeated_;  // the numbers of triangles that are there already
+  std::optional<NumberLookup> repeated_lookup_;
   std::set<std::string> node_data_, element_data_;  // names
 };
 
@@ -269,11 +273,9 @@ void GmshReader::entities() {
       const std::size_t n_physical = get_count("physical tags", 2, 4);
       for (std::size_t k = 0; k < n_physical; ++k) {
         const auto physical = get<std::int32_t>("a physical tag");
-        if (k == 0)
-          physical_of_entity_[{dimension, tag}] = physical;
-        else
-          ++further_tags_;
+        if (k == 0) physical_of_entity_[{dimension, tag}] = physical;
       }
+      if (n_physical > 1) ++with_further_tags_;
       if (dimension == 0) continue;
       const std::size_t n_bounding = get_count("bounding entities", 2, 4);
       for (std::size_t k = 0; k < n_bounding; ++k) get<std::int32_t>("a bounding entity");
@@ -419,13 +421,48 @@ void GmshReader::elements_4() {
   }
 }
 
+// In version 2 an element of several physical groups is there once for each.
+void GmshReader::keep_one_of_each_triangle() {
+  const std::vector<std::int32_t>& physical = triangles_.physical;
+  if (std::adjacent_find(physical.begin(), physical.end(), std::not_equal_to<>()) == physical.end()) return;
+  std::vector<std::pair<std::array<std::int32_t, 3>, std::size_t>> all;
+  all.reserve(physical.size());
+  for (std::array<std::int32_t, 3> corners : triangles_.nodes) {
+    std::sort(corners.begin(), corners.end());
+    all.emplace_back(corners, all.size());
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<bool> repeated(all.size());
+  for (std::size_t first = 0, i = 1; i < all.size(); ++i) {
+    const std::size_t a = all[first].second, b = all[i].second;
+    const bool same = all[i].first == all[first].first && physical[a] != physical[b] &&
+                      triangles_.geometrical[a] == triangles_.geometrical[b];
+    repeated[b] = same;
+    if (!same) first = i;
+    if (same && i == first + 1) ++with_further_tags_;
+  }
+  if (with_further_tags_ == 0) return;
+  Elements<3> kept;
+  for (std::size_t i = 0; i < repeated.size(); ++i) {
+    const auto row = static_cast<std::int64_t>(i);
+    if (repeated[i])
+      repeated_.push_back(triangles_.numbers[row]);
+    else
+      kept.add(triangles_.nodes[i], physical[i], triangles_.geometrical[i], triangles_.numbers[row],
+               triangles_.text_lines[row]);
+  }
+  triangles_ = std::move(kept);
+}
+
 void GmshReader::finish_elements() {
   if (has_elements_) fail(ErrorCode::syntax, where(), "has two sections $Elements");
   has_elements_ = true;
   triangles_.sort_by_number();
   lines_.sort_by_number();
   points_.sort_by_number();
+  if (!version4_) keep_one_of_each_triangle();
   triangle_lookup_.emplace(triangles_.numbers);
+  repeated_lookup_.emplace(repeated_);
   line_lookup_.emplace(lines_.numbers);
   point_lookup_.emplace(points_.numbers);
 }
@@ -526,6 +563,10 @@ void GmshReader::element_values(const std::string& name, std::size_t components,
         break;
       }
     }
+    if (target == nullptr && repeated_lookup_->find(number)) {
+      for (std::size_t k = 0; k < components; ++k) get<double>("a value of element data");
+      continue;
+    }
     if (target == nullptr) {
       fail(ErrorCode::index_out_of_range, where(),
            text("element data ", in_quotes(name), " are given for element ", number, ", which is none"));
@@ -581,9 +622,13 @@ void GmshReader::finish() {
     names.triangle_lines = std::move(triangles_.text_lines);
     names.line_lines = std::move(lines_.text_lines);
   }
-  if (further_tags_ > 0) {
-    f.warnings.push_back(text(scanner_.path(), ": ", further_tags_,
-                              " entities have several physical tags: only the first of each is kept"));
+  if (with_further_tags_ > 0) {
+    const bool one = with_further_tags_ == 1;
+    const std::string_view what = version4_ ? one ? " entity has" : " entities have"
+                                  : one     ? " triangle has"
+                                            : " triangles have";
+    f.warnings.push_back(text(scanner_.path(), ": ", with_further_tags_, what,
+                              " several physical tags: only the first ", one ? "" : "of each ", "is kept"));
   }
 }
 

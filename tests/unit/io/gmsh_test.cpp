@@ -38,6 +38,29 @@ TEST_F(FileTest, names_of_version_20_are_of_all_dimensions_whose_elements_carry_
       "m.msh: the physical name 'nothing' of tag 100 is dropped: it has no dimension, and no element has the tag");
 }
 
+TEST_F(FileTest, a_triangle_of_several_groups_of_version_2_is_one_of_the_first) {
+  const std::string elements =
+      "$Elements\n5\n1 2 2 5 1 10 20 30\n2 2 2 6 1 10 20 30\n3 2 2 7 1 10 20 30\n4 2 2 5 1 10 30 7\n"
+      "5 2 2 7 1 7 30 10\n$EndElements\n$ElementData\n1\n\"e\"\n1\n0\n3\n0\n1\n3\n1 1.5\n2 2.5\n4 3.5\n"
+      "$EndElementData\n";
+  const auto f = read(make("m.msh", kNodes2 + elements));
+  ASSERT_TRUE(f) << f.error().what();
+  EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(f->regions, (std::vector<std::int32_t>{5, 5}));
+  EXPECT_EQ(f->numbering->triangle(1), "triangle 4");
+  EXPECT_EQ(std::get<std::vector<double>>(f->cell_data.at(0).values), (std::vector<double>{1.5, 3.5}));
+  ASSERT_EQ(f->warnings.size(), 1u);
+  EXPECT_EQ(plain(f->warnings[0]), "m.msh: 2 triangles have several physical tags: only the first of each is kept");
+}
+
+TEST_F(FileTest, a_triangle_that_is_there_twice_with_one_tag_is_refused) {
+  const auto f = read(make("m.msh", kNodes2 + "$Elements\n3\n1 2 2 5 1 10 20 30\n2 2 2 5 1 10 20 30\n"
+                                              "3 2 2 6 1 10 30 7\n$EndElements\n"));
+  ASSERT_TRUE(f) << f.error().what();
+  EXPECT_EQ(f->triangles.size(), 3u);
+  EXPECT_FALSE(make_mesh(*f));
+}
+
 TEST_F(FileTest, a_node_number_that_is_none_is_named) {
   const auto f = read(make("m.msh", kNodes2 + "$Elements\n1\n9 2 2 5 1 10 30 8\n$EndElements\n"));
   ASSERT_FALSE(f);
@@ -97,7 +120,7 @@ TEST_F(FileTest, parametric_nodes_comments_and_dropped_sections_of_version_41_ar
   EXPECT_EQ(f->point_tags, std::vector<std::int32_t>{77});
   ASSERT_EQ(f->warnings.size(), 2u);
   EXPECT_EQ(plain(f->warnings[0]), "m.msh:33: section $Periodic is dropped");
-  EXPECT_EQ(plain(f->warnings[1]), "m.msh: 1 entities have several physical tags: only the first of each is kept");
+  EXPECT_EQ(plain(f->warnings[1]), "m.msh: 1 entity has several physical tags: only the first is kept");
 }
 
 TEST_F(FileTest, big_endian_binary_is_read) {
