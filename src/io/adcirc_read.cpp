@@ -8,6 +8,7 @@
 //     5 25          node partner height coefficient coefficient, height, coefficient and diameter of a pipe
 //
 // (ADCIRC users' manual, fort.14.) ADCIRC itself closes islands (types 1, 11, 21) whose last node is not their first.
+// SCHISM reads no types (hgrid.gr3), so its files may have none.
 #include <algorithm>
 #include <cctype>
 
@@ -74,6 +75,7 @@ class AdcircReader {
   Scanner scanner_;
   Document document_;
   std::int32_t last_tag_ = 0;
+  std::size_t untyped_ = 0;
   std::vector<double> levees_;
   std::vector<std::int8_t> sides_;
 };
@@ -92,6 +94,11 @@ Document AdcircReader::read() {
   elements(n_elements, lookup);
   boundaries(true, lookup);
   boundaries(false, lookup);
+  if (untyped_ > 0) {
+    f.warnings.push_back(text(scanner_.path(), ": ", untyped_,
+                              untyped_ == 1 ? " land boundary has" : " land boundaries have",
+                              " no type, which SCHISM reads none of: read as type 0"));
+  }
   if (!sides_.empty()) {
     f.marked_point_data.push_back({std::string(kAdcircSide), 1, std::move(sides_)});
     f.marked_point_data.push_back({std::string(kAdcircLevee), kAdcircLeveeNumbers, std::move(levees_)});
@@ -163,9 +170,9 @@ void AdcircReader::boundary(bool open, std::size_t number, const NumberLookup& l
   MeshFile& f = document_.file;
   const std::size_t n = scanner_.count("nodes of a boundary", 2);
   AdcircBoundary kind{open, 0};
-  // The type of an open boundary may be left out.
   const bool typed = scanner_.more_on_line() && scanner_.peek().find_first_not_of("0123456789") == std::string::npos;
-  if (typed || !open) kind.type = scanner_.integer("the type of a boundary");
+  if (typed) kind.type = scanner_.integer("the type of a boundary");
+  if (!typed && !open) ++untyped_;
   scanner_.next_line();
   const std::string name = adcirc_boundary_name(kind, number);
   const AdcircRow row = adcirc_row(kind);

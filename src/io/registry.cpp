@@ -103,7 +103,7 @@ constexpr FormatRow kRows[] = {
      sniff_off, read_off, write_off, {.first_point = 0}},
     // Before those whose first word may be that of a title. Of tags and names it holds boundaries; its writer names the
     // others.
-    {"adcirc", "ADCIRC fort.14", ".14 .grd", kLines | kMarkedPoints | kNames,
+    {"adcirc", "ADCIRC fort.14", ".14 .grd .gr3", kLines | kMarkedPoints | kNames,
      sniff_adcirc, read_adcirc, write_adcirc, {.keeps = adcirc_keeps, .degrees = Degrees::where_known}},
     {"obj", "Wavefront OBJ", ".obj", kInSpace | kAllTags | kNames,
      sniff_obj, read_obj, write_obj},

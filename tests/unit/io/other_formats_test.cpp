@@ -247,6 +247,26 @@ TEST_F(OtherFormats, fort14_closes_islands_and_keeps_pairs_of_levees) {
       << out;
 }
 
+TEST_F(OtherFormats, fort14_of_schism_has_no_types_of_land_boundaries) {
+  const std::string head = "square\n2 4\n1 0 0 9\n2 1 0 9\n3 1 1 9\n4 0 1 9\n1 3 1 2 3\n2 3 1 3 4\n0\n0\n2\n5\n";
+  const std::string warning = "hgrid.gr3: 2 land boundaries have no type, which SCHISM reads none of: read as type 0";
+  for (const std::string after : {"", " = Number of nodes", " !"}) {
+    const MeshFile f = read_ok("hgrid.gr3", head + "3" + after + "\n1\n2\n3\n2" + after + "\n4\n1\n");
+    EXPECT_EQ(f.lines, (Lines{{0, 1}, {1, 2}, {3, 0}}));
+    ASSERT_EQ(f.names.size(), 2u);
+    EXPECT_EQ(f.names[0].name, "land boundary 1, type 0");
+    ASSERT_EQ(f.warnings.size(), 1u);
+    EXPECT_EQ(plain(f.warnings[0]), warning);
+  }
+}
+
+TEST_F(OtherFormats, fort14_is_what_the_suffix_gr3_means) {
+  const MeshFile f = read_ok("fort.14", kFort14);
+  ASSERT_TRUE(write(path("m.gr3"), f));
+  ASSERT_TRUE(write(path("m.14"), f));
+  EXPECT_EQ(slurp(path("m.gr3")), slurp(path("m.14")));
+}
+
 TEST_F(OtherFormats, fort14_with_vertical_element_walls_is_converted_bit_for_bit) {
   const std::string content =
       "wall\n2 6\n1 1 0 9\n2 0 0 9\n3 1 1 9\n4 2 1 9\n5 1 0 9\n6 1 1 9\n1 3 1 3 2\n2 3 5 4 6\n"
