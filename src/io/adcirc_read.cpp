@@ -8,7 +8,7 @@
 //     5 25          node partner height coefficient coefficient, height, coefficient and diameter of a pipe
 //
 // (ADCIRC users' manual, fort.14.) ADCIRC itself closes islands (types 1, 11, 21) whose last node is not their first.
-// SCHISM reads no types (hgrid.gr3), so its files may have none.
+// SCHISM reads no types (hgrid.gr3), so its files may have none, and 1 for what is no island.
 #include <algorithm>
 #include <cctype>
 
@@ -71,11 +71,13 @@ class AdcircReader {
   void boundaries(bool open, const NumberLookup& lookup);
   void boundary(bool open, std::size_t number, const NumberLookup& lookup);
   std::int32_t node(const NumberLookup& lookup, const std::string& element);
+  void open_what_no_edge_closes();
 
   Scanner scanner_;
   Document document_;
   std::int32_t last_tag_ = 0;
   std::size_t untyped_ = 0;
+  std::vector<std::size_t> closing_lines_;  // of islands whose last node is not their first
   std::vector<double> levees_;
   std::vector<std::int8_t> sides_;
 };
@@ -94,6 +96,7 @@ Document AdcircReader::read() {
   elements(n_elements, lookup);
   boundaries(true, lookup);
   boundaries(false, lookup);
+  open_what_no_edge_closes();
   if (untyped_ > 0) {
     f.warnings.push_back(text(scanner_.path(), ": ", untyped_,
                               untyped_ == 1 ? " land boundary has" : " land boundaries have",
@@ -204,9 +207,43 @@ void AdcircReader::boundary(bool open, std::size_t number, const NumberLookup& l
     scanner_.next_line();
   }
   const bool island = !open && (kind.type == 1 || kind.type == 11 || kind.type == 21);
-  if (island && n > 2) connect(first);
+  if (island && n > 2 && last != first) {
+    closing_lines_.push_back(f.lines.size());
+    connect(first);
+  }
   if (n < 2) document_.file.warnings.push_back(text(scanner_.where(), ": ", name, " has no edge and is dropped"));
   f.names.push_back({1, tag, name});
+}
+
+/// Takes out the lines that close islands and are no edges of the mesh.
+void AdcircReader::open_what_no_edge_closes() {
+  MeshFile& f = document_.file;
+  using Ends = std::pair<std::int32_t, std::int32_t>;
+  std::vector<std::pair<Ends, std::size_t>> wanted;  // and the line
+  for (const std::size_t line : closing_lines_)
+    wanted.emplace_back(std::minmax({f.lines[line][0], f.lines[line][1]}), line);
+  if (wanted.empty()) return;
+  std::sort(wanted.begin(), wanted.end());
+  std::vector<bool> gone(f.lines.size());
+  for (const std::size_t line : closing_lines_) gone[line] = true;
+  for (const auto& t : f.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Ends ends = std::minmax({t[k], t[(k + 1) % 3]});
+      auto line = std::lower_bound(wanted.begin(), wanted.end(), std::pair(ends, std::size_t{0}));
+      for (; line != wanted.end() && line->first == ends; ++line) gone[line->second] = false;
+    }
+  }
+  RunLength text_lines;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    if (gone[i]) continue;
+    f.lines[n] = f.lines[i];
+    f.line_tags[n++] = f.line_tags[i];
+    text_lines.push_back(document_.names->line_lines[static_cast<std::int64_t>(i)]);
+  }
+  f.lines.resize(n);
+  f.line_tags.resize(n);
+  document_.names->line_lines = std::move(text_lines);
 }
 
 }  // namespace

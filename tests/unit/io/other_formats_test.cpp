@@ -267,6 +267,16 @@ TEST_F(OtherFormats, fort14_is_what_the_suffix_gr3_means) {
   EXPECT_EQ(slurp(path("m.gr3")), slurp(path("m.14")));
 }
 
+TEST_F(OtherFormats, fort14_islands_are_not_closed_by_what_is_no_edge) {
+  const std::string square = "two\n2 4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n1 3 1 2 3\n2 3 1 3 4\n0\n0\n2\n7\n";
+  const MeshFile f = read_ok("fort.14", square + "3 1\n4\n1\n2\n4 21\n1\n2\n3\n4\n");
+  EXPECT_EQ(f.lines, (Lines{{3, 0}, {0, 1}, {0, 1}, {1, 2}, {2, 3}, {3, 0}})) << "from 2 to 4 there is no edge";
+  EXPECT_EQ(f.line_tags, (Tags{1, 1, 2, 2, 2, 2}));
+  const auto made = make_mesh(f);
+  ASSERT_TRUE(made);
+  EXPECT_TRUE(made->warnings.empty());
+}
+
 TEST_F(OtherFormats, fort14_with_vertical_element_walls_is_converted_bit_for_bit) {
   const std::string content =
       "wall\n2 6\n1 1 0 9\n2 0 0 9\n3 1 1 9\n4 2 1 9\n5 1 0 9\n6 1 1 9\n1 3 1 3 2\n2 3 5 4 6\n"
