@@ -201,8 +201,10 @@ inline constexpr std::string_view kNoProjection = "none";
 /// projection.
 [[nodiscard]] Expected<void> project(MeshFile& file, std::string_view projection);
 
-/// Gives a file points with three coordinates: in a plane of constant z, or on a sphere around the origin where all are
-/// at one distance from it, to one part in a million. An error names the first point that is in neither.
+/// Gives a file points with three coordinates: in a plane of constant z, to one part in a million of the extent, with a
+/// warning where it is not exact; or on a sphere around the origin where all are at one distance from it, to one part
+/// in a million. Points of none of the triangles that the file has may be anywhere. An error names a point that is in
+/// neither.
 [[nodiscard]] Expected<void> set_points(MeshFile& file, std::vector<Vec3> points);
 
 /// The mesh of a file, in a plane or on a sphere: of one in degrees only after project(). Points of no triangle are

@@ -268,6 +268,62 @@ TEST_F(SphereFiles, OneParallelIsTakenForAPlaneWithAWarning) {
   EXPECT_TRUE(warnings("0").empty());  // the equator bounds no triangle of a sphere
 }
 
+TEST_F(SphereFiles, PointsOfNoTriangleAreOfNoPlaneAndNoSphere) {
+  const std::string faces = "f 2 3 4\nf 3 5 4\nf 5 6 4\nf 6 2 4\nf 3 2 7\nf 5 3 7\nf 6 5 7\nf 2 6 7\n";
+  const auto globe = read(make("g.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\n" + faces));
+  ASSERT_TRUE(globe) << globe.error().what();
+  EXPECT_EQ(globe->sphere_radius, 1);
+  const auto made = make_mesh(*globe);
+  ASSERT_TRUE(made) << made.error().what();
+  EXPECT_EQ(made->mesh.n_vertices(), 6U);
+
+  const auto plane = read(make("p.obj", "v 9 9 5\nv 0 0 2\nv 1 0 2\nv 0 1 2\nv 7 7 -1\nf 2 3 4\n"));
+  ASSERT_TRUE(plane) << plane.error().what();
+  EXPECT_EQ(plane->z, 2);
+  ASSERT_EQ(plane->warnings.size(), 1U);
+  EXPECT_EQ(plain(plane->warnings[0]),
+            "p.obj:1: point 1 is of no triangle and has z = 5, and so have 1 more: put into the plane of z = 2");
+}
+
+TEST_F(SphereFiles, PlanesOfSevenDigitsArePlanesWithAWarning) {
+  const auto at = [&](const std::string& z) {
+    return read(make("p.obj", "v 0 0 -50\nv 200 0 -50\nv 0 100 " + z + "\nf 1 2 3\n"));
+  };
+  const auto plane = at("-50.0000114");
+  ASSERT_TRUE(plane) << plane.error().what();
+  EXPECT_EQ(plane->sphere_radius, 0);
+  EXPECT_EQ(plane->z, -50);
+  ASSERT_EQ(plane->warnings.size(), 1U);
+  EXPECT_EQ(
+      plain(plane->warnings[0]),
+      "p.obj:3: point 3 has z = -50.0000114, but point 1 has z = -50: within 1e-06 of the extent, so all are taken "
+      "for a plane of this z");
+  EXPECT_FALSE(at("-50.001"));
+}
+
+TEST_F(SphereFiles, SmallPiecesOfSpheresAreNoPlanes) {
+  // A metre on the Earth, about a pole: flat to a ten millionth of it, and on the sphere to the last digits.
+  MeshFile f;
+  for (const double lon : {0.0, 120.0, 240.0}) f.points.push_back({lon, 90 - 1e-5});
+  f.triangles = {{0, 1, 2}};
+  ASSERT_TRUE(project(f, "sphere"));
+  f.sphere_points[0] = f.sphere_radius * direction_of(Vec2{0, 90});
+  ASSERT_TRUE(write(path("m.obj"), f));
+  const auto again = read(path("m.obj"));
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->sphere_radius, f.sphere_radius);
+}
+
+TEST_F(SphereFiles, OfWhatIsNearlyASphereTheWorstPointIsNamed) {
+  const auto f = read(make("m.obj",
+                           "v 1 0 0\nv 0 1 0\nv 0 0 1.00001\nv -1.00002 0 0\nv 0 -1.00001 0\nf 1 2 3\nf 2 4 3\n"
+                           "f 4 5 3\nf 5 1 3\n"));
+  ASSERT_FALSE(f);
+  EXPECT_EQ(plain(f.error().what()),
+            "m.obj:1: point 1 is 1 from the origin, but the median of all is 1.00001: off by 1e-05 of it, and 1e-06 is "
+            "allowed; expected all on one sphere around the origin, or in a plane of constant z");
+}
+
 TEST_F(SphereFiles, JigsawEllipsoidsAreSpheresOrRefused) {
   const auto ellipsoid = [&](const std::string& radii, const std::string& dimension, const std::string& points) {
     return read(make("e.jigsaw.msh", "MSHID=3;ELLIPSOID-MESH\n" + radii + dimension + "POINT=3\n" + points +
