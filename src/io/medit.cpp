@@ -1,4 +1,5 @@
-// medit .mesh, ASCII (INRIA's format, also of Mmg and sfepy): a keyword, a count, then that many lines.
+// medit .mesh, ASCII (INRIA's format, also of Mmg and sfepy, and of BAMG as version 0): a keyword, a count, then that
+// many lines.
 //
 //   Vertices  x y [z] reference        Edges  a b reference        Triangles  a b c reference
 //
@@ -70,8 +71,8 @@ class MeditReader {
 Document MeditReader::read() {
   scanner_.word("MeshVersionFormatted");
   const std::int32_t version = scanner_.integer("the version of the format");
-  if (version < 1 || version > 4) {
-    scanner_.fail_here(ErrorCode::unsupported, text("is medit version ", version, "; temper reads 1 to 4"));
+  if (version < 0 || version > 4) {
+    scanner_.fail_here(ErrorCode::unsupported, text("is medit version ", version, "; temper reads 0 to 4"));
   }
   bool ended = false;
   while (!ended && !scanner_.at_end()) {
@@ -168,6 +169,11 @@ void MeditReader::refuse_or_skip(std::string_view keyword) {
   }
   document_.file.warnings.push_back(text(scanner_.where(), ": section ", in_quotes(keyword), " is dropped"));
   for (std::string_view next = scanner_.peek(); !next.empty(); next = scanner_.peek()) {
+    if (next.starts_with('"')) {
+      static_cast<void>(scanner_.bytes(1, "a quoted text"));
+      if (!scanner_.until("\"")) scanner_.fail_truncated("the end of a quoted text");
+      continue;
+    }
     const bool number = next.find_first_of("0123456789") != std::string_view::npos;
     if (!number) return;
     scanner_.word("a number");

@@ -73,6 +73,21 @@ TEST_F(OtherFormats, jigsaw_that_is_no_mesh_of_triangles_is_named) {
             "m.msh:8: triangle 0 uses vertex 9, but the file has 3 vertices, numbered from 0");
 }
 
+// --- medit -----------------------------------------------------------------------------------------------------
+
+TEST_F(OtherFormats, medit_of_bamg_has_texts_in_quotes_which_are_dropped) {
+  const std::string head = "MeshVersionFormatted 0\n\nDimension\n2\n\nIdentifier\n\"G=a 1.msh; # 3 of 4\nVertices\"\n";
+  const MeshFile f = read_ok("m.msh", head +
+                                          "Geometry\n\"a.msh\"\nVertices\n3\n0 0 1\n1 0 1\n0 1 1\nTriangles\n1\n"
+                                          "1 2 3 4\nSubDomainFromMesh\n1\n3 1 1 0\nEnd\n");
+  EXPECT_EQ(f.triangles, (Triangles{{0, 1, 2}}));
+  EXPECT_EQ(f.regions, (Tags{4}));
+  ASSERT_EQ(f.warnings.size(), 3u);
+  EXPECT_EQ(plain(f.warnings[1]), "m.msh:9: section 'Geometry' is dropped");
+  EXPECT_EQ(refused("m.msh", "MeshVersionFormatted 0\nDimension 2\nGeometry \"a.msh\nVertices\n"),
+            "m.msh:3: the file ends where the end of a quoted text was expected");
+}
+
 // --- OBJ -------------------------------------------------------------------------------------------------------
 
 TEST_F(OtherFormats, obj_with_a_region_of_tag_0_is_written_as_it_was) {
