@@ -1,6 +1,6 @@
 // PLY (Stanford), ASCII and binary of both byte orders: elements with properties, as the header declares them.
 //
-//   vertex   x y [z], weight, tag; all other numbers are point data
+//   vertex   x y [z] (or X Y Z), weight, tag; all other numbers are point data
 //   face     vertex_indices (or vertex_index); region and all other numbers are cell data
 //   edge     vertex1 vertex2; region is the tag of the line, all other numbers are line data
 //
@@ -317,8 +317,12 @@ void PlyReader::vertices(PlyElement& e) {
   FileNames& names = *document_.names;
   names.points = RunLength(0, e.n);
   names.point_lines = e.text_lines;
-  auto x = take(e, "x"), y = take(e, "y"), z = take(e, "z");
-  if (!x || !y) fail(ErrorCode::syntax, scanner_.path(), text("vertices have no property ", x ? 'y' : 'x'));
+  const auto coordinate = [&](std::string_view name, std::string_view upper) {
+    auto values = take(e, name);
+    return values ? values : take(e, upper);
+  };
+  auto x = coordinate("x", "X"), y = coordinate("y", "Y"), z = coordinate("z", "Z");
+  if (!x || !y) fail(ErrorCode::syntax, scanner_.path(), text("vertices have no property ", x ? "y" : "x"));
   if (e.n == 0) return;
   const auto xs = to_doubles(std::move(*x)), ys = to_doubles(std::move(*y));
   const auto zs = z ? to_doubles(std::move(*z)) : std::vector<double>();

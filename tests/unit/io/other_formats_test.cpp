@@ -174,6 +174,16 @@ TEST_F(OtherFormats, ply_faces_of_two_corners_and_one_are_lines_and_marked_point
   EXPECT_EQ(f.point_tags, (Tags{7}));
 }
 
+TEST_F(OtherFormats, ply_may_have_coordinates_in_upper_case) {
+  const MeshFile f = read_ok("m.ply",
+                             "ply\nformat ascii 1.0\nelement vertex 3\nproperty double X\nproperty double Y\nproperty "
+                             "double Z\nelement face 1\n"
+                             "property list uchar uint vertex_indices\nend_header\n0 0 7\n1 0 7\n0 1 7\n3 0 1 2\n");
+  EXPECT_EQ(f.points, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}));
+  EXPECT_EQ(f.z, 7);
+  EXPECT_TRUE(f.point_data.empty());
+}
+
 TEST_F(OtherFormats, ply_keeps_arrays_of_several_components_and_names) {
   const MeshFile f = rich_sample();
   for (const Encoding encoding : {Encoding::ascii, Encoding::appended}) {
@@ -198,6 +208,8 @@ TEST_F(OtherFormats, bad_ply_is_named) {
   EXPECT_EQ(refused("m.ply", "ply\nformat ascii 2.0\n"),
             "m.ply:2: is PLY in format 'ascii' '2.0'; temper reads ascii, binary_little_endian and binary_big_endian "
             "1.0");
+  EXPECT_EQ(refused("m.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty int y\nend_header\n0\n"),
+            "m.ply: vertices have no property x");
   EXPECT_EQ(refused("m.ply", head + "element face 1\nend_header\n0 0\n1 0\n0 1\n"),
             "m.ply: elements 'face' have no properties");
   EXPECT_EQ(refused("m.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000000\nproperty int x\nend_header\n0\n"),
