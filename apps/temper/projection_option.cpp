@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <string_view>
+#include <utility>
 
 namespace temper::app {
 
@@ -12,14 +13,23 @@ std::string spell_projection(std::string message) {
   return at == std::string::npos ? message : message.replace(at, kOption.size(), "--projection");
 }
 
-void expect_projection(const std::string& path, bool geographic, const std::string& projection, bool guessed) {
-  if (!geographic || !projection.empty()) return;
-  throw Failure(Exit::bad_usage, fmt::format("{}: {}", path, spell_projection(io::needs_projection(guessed))));
+namespace {
+
+[[noreturn]] void refuse_degrees(const std::string& path, std::string message) {
+  throw Failure(Exit::bad_usage, fmt::format("{}: {}", path, spell_projection(std::move(message))));
+}
+
+}  // namespace
+
+void expect_projection_of_outline(const std::string& path, bool geographic, const std::string& projection) {
+  if (geographic && projection.empty()) refuse_degrees(path, io::needs_projection(false, "--sphere"));
 }
 
 void take_to_map(io::MeshFile& file, const std::string& path, const std::string& projection) {
-  expect_projection(path, file.geographic, projection, file.geographic_is_guessed);
-  if (projection.empty()) return;
+  if (projection.empty()) {
+    if (file.geographic) refuse_degrees(path, io::needs_projection(file.geographic_is_guessed));
+    return;
+  }
   or_fail(io::project(file, projection));
 }
 

@@ -187,12 +187,12 @@ class VertexOfPoint {
   std::vector<std::int32_t> vertices_;  // empty: all points are kept
 };
 
-/// Why points in longitude and latitude are refused where a plane is needed, and the cure. `guessed`: their format does
-/// not say what they are, as fort.14 does not.
-[[nodiscard]] std::string needs_projection(bool guessed = false);
 /// The word for the sphere that longitude and latitude are of: its radius is the Earth's, 6371 km, or
 /// "sphere:radius=R".
 inline constexpr std::string_view kOntoSphere = "sphere";
+/// Why points in longitude and latitude are refused where a plane is needed, and the cure. `guessed`: their format does
+/// not say what they are, as fort.14 does not. `onto_sphere`: what the user writes to have them on the sphere.
+[[nodiscard]] std::string needs_projection(bool guessed = false, std::string_view onto_sphere = kOntoSphere);
 /// The word that is no projection: coordinates are those of a plane, whatever they look like.
 inline constexpr std::string_view kNoProjection = "none";
 /// Puts the points of a file in degrees on a map, in metres, as parse_projection reads it; about the middle of its
