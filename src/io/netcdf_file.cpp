@@ -46,6 +46,9 @@ NetcdfId::~NetcdfId() {
 NetcdfReader::NetcdfReader(Source& source, const NetcdfLibrary& library)
     : path_(source.path), bytes_(source.bytes.size()), allowance_(source.allowance), library_(library), id_(library_) {
   check_netcdf_header(source);
+  // In memory libnetcdf 4.9 refuses a classic file whose header goes on where its last chunk would end after the file.
+  constexpr std::size_t kChunk = 1 << 16;  // at least a page
+  if (!is_hdf5(source.bytes)) source.bytes.resize(source.bytes.size() + kChunk);
   check(library_.nc_open_mem(path_.c_str(), NC_NOWRITE, source.bytes.size(), source.bytes.data(), id_.to_open()),
         "read the file");
   int n = 0;

@@ -583,6 +583,27 @@ TEST_F(NetcdfFormats, ugrid_of_others_counts_from_one_fills_up_and_may_lie_on_it
   }
 }
 
+TEST_F(NetcdfFormats, headers_of_any_length_are_read) {
+  for (std::size_t length = 500; length < 9000; length += 250) {
+    {
+      Nc nc = Nc::create(path("o.nc"));
+      const int nodes = nc.add_dimension("nNode", 3), faces = nc.add_dimension("nFace", 1),
+                three = nc.add_dimension("nMax", 3);
+      nc.add<double>("x", {nodes}, {0, 1, 0});
+      nc.add<double>("y", {nodes}, {0, 0, 1});
+      nc.add<std::int32_t>("fn", {faces, three}, {0, 1, 2});
+      const int mesh = nc.add<std::int32_t>("Mesh2", {}, {0}, {{"topology_dimension", 2}});
+      nc.say(mesh, "cf_role", "mesh_topology");
+      nc.say(mesh, "node_coordinates", "x y");
+      nc.say(mesh, "face_node_connectivity", "fn");
+      nc.say(mesh, "history", std::string(length, 'h').c_str());
+    }
+    const auto f = read(path("o.nc"));
+    ASSERT_TRUE(f) << length << ": " << f.error().what();
+    EXPECT_EQ(f->points, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}));
+  }
+}
+
 TEST_F(NetcdfFormats, ugrid_says_where_orthocenters_and_edges_are) {
   const MeshFile f = bent_lattice();
   write_ok("m.nc", f);
