@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 
 #include "io/foreign_library.hpp"
@@ -125,7 +126,14 @@ std::vector<std::int64_t> NetcdfReader::integers(const NetcdfVariable& v) const 
               fail(ErrorCode::index_out_of_range, path_, text("variable ", v.name, " has the value ", value));
             result.push_back(static_cast<std::int64_t>(value));
           } else {
-            fail(ErrorCode::syntax, path_, text("variable ", v.name, " holds no integers"));
+            constexpr double kMost = 1e15;  // beyond, doubles skip integers
+            const double number = value;
+            const bool whole = std::abs(number) < kMost && number == std::trunc(number);
+            if (!whole && !std::isnan(number)) {
+              fail(ErrorCode::syntax, path_,
+                   text("variable ", v.name, " has the value ", value, "; expected whole numbers"));
+            }
+            result.push_back(whole ? static_cast<std::int64_t>(number) : kNoInteger);
           }
         }
         return result;

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -57,6 +58,7 @@ class NetcdfId {
 
 class NetcdfReader {
  public:
+  static constexpr std::int64_t kNoInteger = std::numeric_limits<std::int64_t>::min();
   /// The bytes must outlive the reader.
   NetcdfReader(Source& source, const NetcdfLibrary& library);
   NetcdfReader(const NetcdfReader&) = delete;
@@ -69,6 +71,7 @@ class NetcdfReader {
   [[nodiscard]] const NetcdfVariable& variable(std::string_view name) const;
   [[nodiscard]] std::string dimension_name(int dimension) const;
   [[nodiscard]] Values values(const NetcdfVariable& variable) const;
+  /// Of floating types, too, where all values are whole; kNoInteger for those that are not a number.
   [[nodiscard]] std::vector<std::int64_t> integers(const NetcdfVariable& variable) const;
   /// Text of an attribute of a variable, or of the file when it is null; empty when there is none.
   [[nodiscard]] std::string text_attribute(const NetcdfVariable* variable, const char* name) const;

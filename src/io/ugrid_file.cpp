@@ -1,6 +1,7 @@
 // UGRID 1.0 in NetCDF (CF conventions for unstructured grids): a topology variable names the others by its attributes.
 //
-//   node_coordinates  face_node_connectivity     read; numbers from start_index, 0 unless it says 1; _FillValue: none
+//   node_coordinates  face_node_connectivity     read; numbers from start_index, 0 unless it says 1; _FillValue
+//                                                or NaN: none
 //   edge_node_connectivity  edge_face_connectivity  face_edge_connectivity  face_coordinates  edge_coordinates
 //                                                written: faces are at their orthocenters, edges at weighted midpoints
 //
@@ -114,7 +115,7 @@ class UgridReader {
       std::size_t count = 0;
       for (std::size_t k = 0; k < most; ++k) {
         const std::int64_t number = all[turned ? k * n + face : face * most + k];
-        if (fill && static_cast<double>(number) == *fill) continue;
+        if (number == NetcdfReader::kNoInteger || (fill && static_cast<double>(number) == *fill)) continue;
         if (!std::in_range<std::int32_t>(number)) {
           fail(ErrorCode::index_out_of_range, path(),
                text("triangle ", static_cast<std::int64_t>(face) + start, " uses vertex ", number,

@@ -583,6 +583,32 @@ TEST_F(NetcdfFormats, ugrid_of_others_counts_from_one_fills_up_and_may_lie_on_it
   }
 }
 
+TEST_F(NetcdfFormats, ugrid_may_have_its_tables_in_doubles_filled_up_with_nan) {
+  const auto with = [&](double last, double fill) {
+    {
+      Nc nc = Nc::create(path("o.nc"));
+      const int nodes = nc.add_dimension("nNode", 4), faces = nc.add_dimension("nFace", 2),
+                most = nc.add_dimension("nMax", 4);
+      nc.add<double>("x", {nodes}, {0, 1, 1, 0});
+      nc.add<double>("y", {nodes}, {0, 0, 1, 1});
+      const int table = nc.add<double>("fn", {faces, most}, {1, 2, 3, fill, 1, 3, last, fill}, {{"start_index", 1}});
+      nc.say(table, "_FillValue", -999.0);
+      const int mesh = nc.add<std::int32_t>("Mesh2", {}, {0}, {{"topology_dimension", 2}});
+      nc.say(mesh, "cf_role", "mesh_topology");
+      nc.say(mesh, "node_coordinates", "x y");
+      nc.say(mesh, "face_node_connectivity", "fn");
+    }
+    return read(path("o.nc"));
+  };
+  for (const double fill : {-999.0, std::nan("")}) {
+    const auto f = with(4, fill);
+    ASSERT_TRUE(f) << f.error().what();
+    EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  }
+  EXPECT_EQ(plain(with(3.5, -999).error().what()), "o.nc: variable fn has the value 3.5; expected whole numbers");
+  EXPECT_EQ(plain(with(HUGE_VAL, -999).error().what()), "o.nc: variable fn has the value inf; expected whole numbers");
+}
+
 TEST_F(NetcdfFormats, headers_of_any_length_are_read) {
   for (std::size_t length = 500; length < 9000; length += 250) {
     {
