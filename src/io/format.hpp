@@ -101,8 +101,9 @@ void warn_of_names(const WriteJob& job, const std::vector<PhysicalName>& lost);
 /// Says whether points are in the plane z = 0.
 [[nodiscard]] bool is_flat(const MeshFile& file);
 
-/// "a Fluent mesh, which temper does not read; meshio converts it", of a format that is recognised; else empty.
-[[nodiscard]] std::string recognise_unsupported(std::string_view head);
+/// "a Fluent mesh, which temper does not read; meshio converts it", of a file in a format that is recognised; else
+/// empty.
+[[nodiscard]] std::string recognise_unsupported(std::string_view bytes);
 
 // --- weights of formats without a place for them ---------------------------------------------------
 /// PATH.weights.csv

@@ -148,7 +148,7 @@ const FormatRow* row_of(std::string_view head) {
 const FormatRow& recognise(const Source& source) {
   const std::string_view head = std::string_view(source.bytes).substr(0, kSniffBytes);
   if (const FormatRow* const row = row_of(head)) return *row;
-  if (const std::string known = recognise_unsupported(head); !known.empty())
+  if (const std::string known = recognise_unsupported(source.bytes); !known.empty())
     fail(ErrorCode::unsupported, source.path, text("is ", known));
   std::string names;
   for (const Format& format : kFormats) names += text(names.empty() ? "" : ", ", format.description);

@@ -1,6 +1,7 @@
 // Formats that temper recognises and does not read, so that the error can name them, and what converts them.
 #include <algorithm>
 #include <cctype>
+#include <vector>
 
 #include "io/format.hpp"
 
@@ -22,22 +23,45 @@ bool starts_with_any_case(std::string_view s, std::string_view upper) {
 }
 
 bool is_freefem(std::string_view head) {
-  // Three counts, then lines "x y label".
+  // Three counts, then lines "x y label". Columns of x, y and z are none.
   const auto words = [](std::string_view line) {
-    int n = 0;
+    std::vector<std::string_view> all;
     for (line = skip_blanks(line); !line.empty(); line = skip_blanks(line)) {
-      const std::size_t end = line.find_first_of(" \t\r\n");
-      if (line.substr(0, end).find_first_not_of("0123456789+-.eE") != std::string_view::npos) return 0;
-      line.remove_prefix(end == std::string_view::npos ? line.size() : end);
-      ++n;
+      const std::size_t end = std::min(line.find_first_of(" \t\r\n"), line.size());
+      all.push_back(line.substr(0, end));
+      line.remove_prefix(end);
     }
-    return n;
+    return all;
+  };
+  const auto only = [](std::string_view characters) {
+    return [characters](std::string_view word) { return word.find_first_not_of(characters) == std::string_view::npos; };
   };
   head = skip_blanks(head);
   const std::size_t end = head.find('\n');
-  if (end == std::string_view::npos || words(head.substr(0, end)) != 3) return false;
-  const std::string_view second = head.substr(end + 1, head.find('\n', end + 1) - end - 1);
-  return words(second) == 3;
+  if (end == std::string_view::npos) return false;
+  const auto counts = words(head.substr(0, end));
+  const auto point = words(head.substr(end + 1, head.find('\n', end + 1) - end - 1));
+  return counts.size() == 3 && std::all_of(counts.begin(), counts.end(), only("0123456789")) && point.size() == 3 &&
+         std::all_of(point.begin(), point.end(), only("0123456789+-.eE")) && only("0123456789+-")(point[2]);
+}
+
+/// 80 bytes of any kind, the number of triangles, and 50 bytes for each: no more and no less.
+bool is_binary_stl(std::string_view bytes) {
+  constexpr std::size_t kTitle = 80, kHeader = 84, kTriangle = 50;
+  if (bytes.size() < kHeader) return false;
+  std::size_t n = 0;
+  for (std::size_t i = kHeader; i > kTitle; --i) n = n << 8 | static_cast<unsigned char>(bytes[i - 1]);
+  return n > 0 && (bytes.size() - kHeader) % kTriangle == 0 && (bytes.size() - kHeader) / kTriangle == n;
+}
+
+/// Records of Fortran: a title of 80 bytes, then two integers.
+bool is_selafin(std::string_view head) {
+  using namespace std::string_view_literals;
+  constexpr std::size_t kEnd = 84;  // of the title, before its length once more
+  return (head.starts_with("\0\0\0\x50"sv) &&
+          head.substr(std::min(kEnd, head.size())).starts_with("\0\0\0\x50\0\0\0\x8"sv)) ||
+         (head.starts_with("\x50\0\0\0"sv) &&
+          head.substr(std::min(kEnd, head.size())).starts_with("\x50\0\0\0\x8\0\0\0"sv));
 }
 
 /// The first line that is no comment.
@@ -97,15 +121,18 @@ constexpr Known kKnown[] = {
     {"a 2DM mesh", [](std::string_view h) { return h.starts_with("MESH2D"); }},
     {"a Netgen mesh", [](std::string_view h) { return h.starts_with("mesh3d") || h.starts_with("areamesh"); }, kMeshio},
     {"a compressed file", [](std::string_view h) { return h.starts_with("\x1f\x8b") || h.starts_with("PK\3\4"); }},
+    {"a Selafin file of TELEMAC", is_selafin},
     {"a FreeFem mesh", is_freefem},
 };
 
 }  // namespace
 
-std::string recognise_unsupported(std::string_view head) {
+std::string recognise_unsupported(std::string_view bytes) {
+  const std::string_view head = bytes.substr(0, kSniffBytes);
   for (const Known& known : kKnown) {
     if (known.is(head)) return text(known.name, ", which temper does not read", known.advice);
   }
+  if (is_binary_stl(bytes)) return text("an STL file in binary, which temper does not read", kMeshio);
   return {};
 }
 

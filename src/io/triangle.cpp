@@ -57,6 +57,9 @@ TriangleFile kind_of(std::string_view head) {
   const std::size_t columns = only_header ? 0 : lines[1].size();
   if (first[1] == "2" && first.size() != 3 && (only_header || columns >= 3)) return TriangleFile::node;
   if (first[1] == "2" && first.size() == 3 && columns >= 4) return TriangleFile::node;
+  // Of TetGen, for the reader to refuse.
+  if (first[1] == "3" && first.size() == 4 && columns >= 4) return TriangleFile::node;
+  if ((first[1] == "4" || first[1] == "10") && first.size() <= 3 && columns >= 5) return TriangleFile::ele;
   if ((first[1] == "3" || first[1] == "6") && first.size() <= 3 && (only_header || columns >= 4))
     return TriangleFile::ele;
   return TriangleFile::none;
@@ -136,6 +139,7 @@ class TriangleReader {
   Document read();
 
  private:
+  void refuse_tetrahedra(bool is_node) const;
   void nodes(Source& source);
   void elements(Source& source);
   void segments(const std::string& path, bool edges);
@@ -148,6 +152,7 @@ class TriangleReader {
 Document TriangleReader::read() {
   const TriangleFile kind = kind_of(std::string_view(source_.bytes).substr(0, kSniffBytes));
   const bool is_node = kind == TriangleFile::node;
+  refuse_tetrahedra(is_node);
   const std::string base = without_suffix(source_.path, is_node ? ".node" : ".ele");
   const std::string other_path = base + (is_node ? ".ele" : ".node");
   if (!exists(other_path)) {
@@ -165,6 +170,16 @@ Document TriangleReader::read() {
   else if (exists(base + ".edge"))
     segments(base + ".edge", true);
   return std::move(document_);
+}
+
+// Before the other file of the pair is asked for.
+void TriangleReader::refuse_tetrahedra(bool is_node) const {
+  Scanner header(source_.path, source_.bytes, '#');
+  static_cast<void>(header.count("rows", 1));
+  const std::int32_t number = header.integer(is_node ? "the dimension" : "the number of corners");
+  if (is_node ? number != 3 : number != 4 && number != 10) return;
+  header.fail_here(ErrorCode::unsupported, is_node ? "has points of dimension 3, as TetGen's; expected 2"
+                                                   : "has tetrahedra, as TetGen's; expected triangles");
 }
 
 void TriangleReader::nodes(Source& source) {

@@ -14,6 +14,7 @@
 #include "io/array_names.hpp"
 #include "io/geographic.hpp"
 #include "io/globe.hpp"
+#include "io/hdf5_magic.hpp"
 #include "io/netcdf_extras.hpp"
 #include "io/scanner.hpp"
 #include "io/ugrid.hpp"
@@ -295,13 +296,19 @@ class UgridWriter {
 };
 
 /// NetCDF of any kind whose first bytes do not tell: the variables do.
-Document read_ugrid_from(const NetcdfReader& in, const std::string& path) {
+Document read_ugrid_from(const NetcdfReader& in, const Source& source) {
+  const std::string& path = source.path;
   if (in.find("cellsOnVertex") != nullptr && in.find("xCell") != nullptr) return read_mpas_from(in, path);
   for (const NetcdfVariable& v : in.variables()) {
     if (in.text_attribute(&v, "cf_role") != "mesh_topology") continue;
     if (in.number_attribute(&v, "topology_dimension").value_or(2) != 2) continue;
     return UgridReader(in, v, path).read();
   }
+  if (in.find("connect1") != nullptr)
+    fail(ErrorCode::unsupported, path, "is an Exodus mesh, which temper does not read; meshio converts it");
+  // By the name of a group, which libnetcdf does not show among variables.
+  if (is_hdf5(source.bytes) && source.bytes.find("ENS_MAA") != std::string::npos)
+    fail(ErrorCode::unsupported, path, "is a MED mesh, which temper does not read; meshio converts it");
   fail(ErrorCode::unsupported, path,
        "is NetCDF without a mesh that temper reads: neither MPAS nor a two-dimensional topology of UGRID");
 }
@@ -309,7 +316,7 @@ Document read_ugrid_from(const NetcdfReader& in, const std::string& path) {
 }  // namespace
 
 Document read_ugrid(Source& source) {
-  return read_netcdf(source, [&](const NetcdfReader& in) { return read_ugrid_from(in, source.path); });
+  return read_netcdf(source, [&](const NetcdfReader& in) { return read_ugrid_from(in, source); });
 }
 
 void write_ugrid(const WriteJob& job) { UgridWriter(job).write(); }

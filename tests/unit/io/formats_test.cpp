@@ -81,6 +81,38 @@ TEST_F(FileTest, formats_that_are_recognised_but_not_read_are_named) {
   }
 }
 
+TEST_F(FileTest, binary_formats_that_are_not_read_are_named_by_their_sizes) {
+  const std::string title(80, 't');
+  const auto named = [&](const std::string& content, const std::string& name) {
+    const auto f = read(make("mesh.bin", content));
+    return !f && plain(f.error().what()).starts_with("mesh.bin: is " + name);
+  };
+  const std::string none = "none of the formats", stl = title + std::string("\2\0\0\0", 4) + std::string(100, '\1');
+  EXPECT_TRUE(named(stl, "an STL file in binary, which temper does not read; meshio converts it"));
+  EXPECT_TRUE(named(stl + "\1", none));
+  const std::string length("\0\0\0\x50", 4), eight("\0\0\0\x8", 4);
+  EXPECT_TRUE(named(length + title + length + eight, "a Selafin file of TELEMAC, which temper does not read"));
+  EXPECT_TRUE(named(length + title + eight + eight, none));
+}
+
+TEST_F(FileTest, columns_of_numbers_are_no_mesh_of_freefem) {
+  for (const char* columns : {"1.5 2.5 3.5\n4.5 5.5 6.5\n", "1 2 3\n4.5 5.5 6.5\n", "-1 2 3\n4 5 6\n"}) {
+    const auto f = read(make("m.xyz", columns));
+    ASSERT_FALSE(f);
+    EXPECT_EQ(plain(f.error().what()).find("m.xyz: is none of the formats"), 0u) << f.error().what();
+  }
+}
+
+TEST_F(FileTest, meshes_of_tetgen_are_named) {
+  const auto refused = [&](const char* name, const char* content) {
+    const auto f = read(make(name, content));
+    return f ? std::string() : plain(f.error().what());
+  };
+  EXPECT_EQ(refused("m.1.node", "# made by hand\n4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"),
+            "m.1.node:2: has points of dimension 3, as TetGen's; expected 2");
+  EXPECT_EQ(refused("m.1.ele", "1 4 0\n1 1 2 3 4\n"), "m.1.ele:1: has tetrahedra, as TetGen's; expected triangles");
+}
+
 TEST_F(FileTest, an_output_without_a_known_suffix_says_which_there_are) {
   const auto result = write(path("mesh.xyz"), sample());
   ASSERT_FALSE(result);

@@ -757,6 +757,27 @@ TEST_F(NetcdfFormats, what_is_no_planar_mesh_of_triangles_is_named) {
             "o.nc: face 0 has 4 corners; temper reads triangles");
 }
 
+TEST_F(NetcdfFormats, exodus_is_named) {
+  {
+    Nc nc = Nc::create(path("o.exo"));
+    const int elements = nc.add_dimension("num_el_in_blk1", 1), three = nc.add_dimension("num_nod_per_el1", 3);
+    nc.add<std::int32_t>("connect1", {elements, three}, {1, 2, 3});
+  }
+  const auto f = read(path("o.exo"));
+  ASSERT_FALSE(f);
+  EXPECT_EQ(plain(f.error().what()), "o.exo: is an Exodus mesh, which temper does not read; meshio converts it");
+}
+
+TEST_F(NetcdfFormats, med_is_named) {
+  int id = -1, group = -1;
+  ASSERT_EQ(nc_create(path("o.med").c_str(), NC_NETCDF4, &id), NC_NOERR);
+  EXPECT_EQ(nc_def_grp(id, "ENS_MAA", &group), NC_NOERR);
+  EXPECT_EQ(nc_close(id), NC_NOERR);
+  const auto f = read(path("o.med"));
+  ASSERT_FALSE(f);
+  EXPECT_EQ(plain(f.error().what()), "o.med: is a MED mesh, which temper does not read; meshio converts it");
+}
+
 TEST_F(NetcdfFormats, a_mesh_without_orthocenters_is_refused_and_nothing_is_written) {
   MeshFile f = bent_lattice();
   f.points[1] = f.points[0];
