@@ -101,6 +101,49 @@ Declarations declarations(std::string_view bytes) {
   return result;
 }
 
+/// The numbers of one point or triangle, which are on one line, as many as the header says.
+class TriangleRow {
+ public:
+  TriangleRow(Scanner& scanner, std::string_view kind, std::size_t columns)
+      : scanner_(scanner), kind_(kind), columns_(columns), number_(scanner.integer(kind)) {}
+
+  [[nodiscard]] std::int32_t number() const { return number_; }
+  template <class T>
+  T next(std::string_view expected) {
+    expect_more();
+    return scanner_.number<T>(expected);
+  }
+  std::int32_t next_vertex(std::int32_t first) {
+    expect_more();
+    return scanner_.vertex(first);
+  }
+  void end() {
+    if (!scanner_.more_on_line()) return;
+    const std::string where = scanner_.where();
+    for (; scanner_.more_on_line(); ++found_) static_cast<void>(scanner_.word("a number"));
+    refuse(where);
+  }
+
+ private:
+  void expect_more() {
+    if (!scanner_.more_on_line()) {
+      const std::string where = scanner_.where();
+      if (!scanner_.at_end()) refuse(where);  // else the file is cut off
+    }
+    ++found_;
+  }
+  [[noreturn]] void refuse(const std::string& where) const {
+    fail(ErrorCode::size_mismatch, where,
+         text("the row of ", kind_.substr(kind_.rfind(' ') + 1), " ", number_, " has ", found_,
+              " numbers, but the header says ", columns_));
+  }
+
+  Scanner& scanner_;
+  std::string_view kind_;  // "the number of a point"
+  std::size_t columns_, found_ = 1;
+  std::int32_t number_;
+};
+
 /// Columns of a table that become data arrays.
 class AttributeColumns {
  public:
@@ -116,11 +159,11 @@ class AttributeColumns {
       ++undeclared_;
     }
   }
-  void read_row(Scanner& scanner) {
+  void read(TriangleRow& row) {
     for (DataArray& a : arrays_) {
       std::visit(
           [&](auto& v) {
-            for (int k = 0; k < a.components; ++k) v.push_back(scanner.number<ElementOf<decltype(v)>>("an attribute"));
+            for (int k = 0; k < a.components; ++k) v.push_back(row.next<ElementOf<decltype(v)>>("an attribute"));
           },
           a.values);
     }
@@ -197,7 +240,8 @@ void TriangleReader::nodes(Source& source) {
   f.z = declared.z;
   f.names = std::move(declared.names);
   for (std::size_t i = 0; i < n; ++i) {
-    const auto number = scanner.integer("the number of a point");
+    TriangleRow row(scanner, "the number of a point", 3 + n_attributes + (markers ? 1 : 0));
+    const std::int32_t number = row.number();
     if (i == 0) first_ = number;
     if (number != first_ + static_cast<std::int64_t>(i)) {
       scanner.fail_here(ErrorCode::syntax,
@@ -205,10 +249,11 @@ void TriangleReader::nodes(Source& source) {
     }
     document_.names->points.push_back(number);
     document_.names->point_lines.push_back(static_cast<std::int64_t>(scanner.line()));
-    const double x = scanner.real("the x coordinate of a point");
-    f.points.push_back({x, scanner.real("the y coordinate of a point")});
-    columns.read_row(scanner);
-    const std::int32_t marker = markers ? scanner.integer("the marker of a point") : 0;
+    const auto x = row.next<double>("the x coordinate of a point");
+    f.points.push_back({x, row.next<double>("the y coordinate of a point")});
+    columns.read(row);
+    const auto marker = markers ? row.next<std::int32_t>("the marker of a point") : 0;
+    row.end();
     if (marker == 0) continue;
     f.marked_points.push_back(static_cast<std::int32_t>(i));
     f.point_tags.push_back(marker);
@@ -238,11 +283,13 @@ void TriangleReader::elements(Source& source) {
   AttributeColumns columns(std::move(declared.arrays), n_attributes, scanner);
   f.triangles.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
-    document_.names->triangles.push_back(scanner.integer("the number of a triangle"));
+    TriangleRow row(scanner, "the number of a triangle", 4 + n_attributes);
+    document_.names->triangles.push_back(row.number());
     document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner.line()));
-    const std::int32_t a = scanner.vertex(first_), b = scanner.vertex(first_);
-    f.triangles.push_back({a, b, scanner.vertex(first_)});
-    columns.read_row(scanner);
+    const std::int32_t a = row.next_vertex(first_), b = row.next_vertex(first_);
+    f.triangles.push_back({a, b, row.next_vertex(first_)});
+    columns.read(row);
+    row.end();
   }
   const bool last_is_region = columns.undeclared() > 0;
   f.cell_data = columns.take();

@@ -69,6 +69,25 @@ TEST_F(TriangleFiles, may_count_from_one) {
   EXPECT_EQ(f->numbering->point(0), "point 1");
 }
 
+TEST_F(TriangleFiles, whose_rows_do_not_fit_the_header_are_refused_at_the_first_of_them) {
+  const auto refused = [&](const char* name, const char* content) {
+    SetUp();
+    make(name, content);
+    const auto f = read(path("m.node"));
+    return f ? std::string() : plain(f.error().what());
+  };
+  EXPECT_EQ(refused("m.ele", "2 3 3\n   0       0     1     2    4.0\n   1       0     2     3    5\n"),
+            "m.ele:2: the row of triangle 0 has 5 numbers, but the header says 7");
+  EXPECT_EQ(refused("m.ele", "2 3 0\n0 0 1 2\n1 0 2 3 5 # and more\n"),
+            "m.ele:3: the row of triangle 1 has 5 numbers, but the header says 4");
+  EXPECT_EQ(refused("m.node", "4 2 1 1\n0 0 0 1 1\n1 1 0 1\n2 1 1 1 1\n3 0 1 1 1\n"),
+            "m.node:3: the row of point 1 has 4 numbers, but the header says 5");
+  EXPECT_EQ(refused("m.node", "4 2 0 0\n0 0 0\n1 1\n0\n2 1 1\n3 0 1\n"),
+            "m.node:3: the row of point 1 has 2 numbers, but the header says 3");
+  EXPECT_EQ(refused("m.ele", "2 3 0\n   0       0     1     2\n1 0 2"),
+            "m.ele:3: the file ends where a vertex number was expected");
+}
+
 TEST_F(TriangleFiles, give_their_segments_and_marked_edges_as_lines) {
   make("m.edge", "5 1\n0 0 1 7\n1 1 2 0\n2 2 3 8\n3 3 0 0\n4 0 2 0\n");
   const auto f = read(path("m.node"));
