@@ -261,17 +261,18 @@ void MeshMaker::take_edge_lines() {
 }
 
 void MeshMaker::constrain_lines() {
-  std::vector<std::string> lost;
-  std::size_t n_lost = 0;
+  std::vector<std::string> lost, dropped;
+  std::size_t n_lost = 0, n_dropped = 0;
+  const auto& vertex = loaded_.vertex_of_point;
   const bool are_features = loaded_.edge_lines.empty();
   for (std::size_t i = 0; i < file_.lines.size(); ++i) {
     const auto [a, b] = file_.lines[i];
     const HalfedgeId h = edges_[i];
     if (!h.valid()) {
-      if (n_lost++ < kNamed) {
-        lost.push_back(
-            text(names().point(static_cast<std::size_t>(a)), " to ", names().point(static_cast<std::size_t>(b))));
-      }
+      const auto from = static_cast<std::size_t>(a), to = static_cast<std::size_t>(b);
+      const bool goes = vertex[from] < 0 || vertex[to] < 0;
+      if ((goes ? n_dropped : n_lost)++ < kNamed)
+        (goes ? dropped : lost).push_back(text(names().point(from), " to ", names().point(to)));
     } else if (are_features && !loaded_.mesh.is_boundary(h)) {
       loaded_.mesh.set_constrained(h, true);
     }
@@ -281,6 +282,11 @@ void MeshMaker::constrain_lines() {
                 n_lost == 1 ? "line is no edge of the mesh and constrains nothing"
                             : "lines are no edges of the mesh and constrain nothing",
                 lost));
+  if (n_dropped > 0)
+    warn(listed(n_dropped,
+                n_dropped == 1 ? "line to a point of no triangle is dropped with it"
+                               : "lines to points of no triangle are dropped with them",
+                dropped));
 }
 
 // A turn of the boundary by more than this (radians) is a corner, which stays anyway; the optimiser's own measure of

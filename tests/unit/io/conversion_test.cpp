@@ -79,7 +79,7 @@ TEST_F(FileTest, unused_points_are_dropped_and_named_in_the_numbers_of_the_file)
   ASSERT_EQ(made->warnings.size(), 2u);
   EXPECT_EQ(plain(made->warnings[0]), "m.mesh: 2 points of no triangle are dropped: point 2, point 5");
   EXPECT_EQ(plain(made->warnings[1]),
-            "m.mesh: 1 line is no edge of the mesh and constrains nothing: point 2 to point 3");
+            "m.mesh: 1 line to a point of no triangle is dropped with it: point 2 to point 3");
   const std::vector<std::int32_t> vertex_of_point = {0, -1, 1, 2, -1, 3};
   ASSERT_EQ(made->vertex_of_point.size(), vertex_of_point.size());
   EXPECT_EQ(made->vertex_of_point.n_kept(), 4u);

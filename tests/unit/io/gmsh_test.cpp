@@ -61,6 +61,18 @@ TEST_F(FileTest, a_triangle_that_is_there_twice_with_one_tag_is_refused) {
   EXPECT_FALSE(make_mesh(*f));
 }
 
+TEST_F(FileTest, lines_to_points_of_no_triangle_are_dropped_with_a_warning) {
+  const auto f = read(
+      make("m.msh", kNodes2 + "$Elements\n3\n1 2 2 5 1 10 20 30\n2 1 2 8 1 30 7\n3 1 2 8 1 10 20\n$EndElements\n"));
+  ASSERT_TRUE(f) << f.error().what();
+  const auto made = make_mesh(*f);
+  ASSERT_TRUE(made) << made.error().what();
+  ASSERT_EQ(made->warnings.size(), 2u);
+  EXPECT_EQ(plain(made->warnings[0]), "m.msh: 1 point of no triangle is dropped: point 7");
+  EXPECT_EQ(plain(made->warnings[1]),
+            "m.msh: 1 line to a point of no triangle is dropped with it: point 30 to point 7");
+}
+
 TEST_F(FileTest, a_node_number_that_is_none_is_named) {
   const auto f = read(make("m.msh", kNodes2 + "$Elements\n1\n9 2 2 5 1 10 30 8\n$EndElements\n"));
   ASSERT_FALSE(f);
