@@ -25,9 +25,11 @@ namespace temper::io {
 namespace {
 
 std::string_view mesh_format_version(std::string_view head) {
+  Scanner comments("", head, '#');
+  comments.skip_space();
+  head = comments.tail();
   const std::size_t at = head.find("$MeshFormat");
-  if (at == std::string_view::npos || head.find_first_not_of(" \t\r\n") == std::string_view::npos) return {};
-  if (head[head.find_first_not_of(" \t\r\n")] != '$') return {};
+  if (at == std::string_view::npos || !head.starts_with('$')) return {};
   std::string_view rest = head.substr(at + std::string_view("$MeshFormat").size());
   const std::size_t first = rest.find_first_not_of(" \t\r\n");
   return first == std::string_view::npos ? std::string_view{} : rest.substr(first, 8);
@@ -162,6 +164,10 @@ class GmshReader {
 
 Document GmshReader::read() {
   while (!scanner_.at_end()) {
+    if (scanner_.peek().starts_with('#')) {
+      scanner_.next_line();
+      continue;
+    }
     const std::string name(scanner_.word("a section"));
     if (!name.starts_with('$'))
       scanner_.fail_here(ErrorCode::syntax, text("expected a section ($…), found ", in_quotes(name)));

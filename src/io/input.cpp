@@ -147,7 +147,7 @@ void check(Document& d) {
 
 void refuse_element(const std::string& where, std::int64_t number, std::string_view kind) {
   fail(ErrorCode::unsupported, where,
-       text("element ", number, " is a ", kind,
+       text("element ", number, kind.starts_with('e') ? " is an " : " is a ", kind,
             "; temper reads meshes of linear triangles, with lines and points as tags"));
 }
 

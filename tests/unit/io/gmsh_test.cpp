@@ -61,6 +61,22 @@ TEST_F(FileTest, a_triangle_that_is_there_twice_with_one_tag_is_refused) {
   EXPECT_FALSE(make_mesh(*f));
 }
 
+TEST_F(FileTest, comments_before_and_between_sections_are_skipped) {
+  const auto f = read(make("m.msh", "####\n# Mesh file of a test, not $MeshFormat\n####\n\n" + kNodes2 +
+                                        "# $Elements\n$Elements\n1\n9 2 2 5 1 10 30 7\n$EndElements\n"));
+  ASSERT_TRUE(f) << f.error().what();
+  EXPECT_EQ(f->format, "gmsh22");
+  EXPECT_EQ(plain(f->numbering->triangle_where(0)), "m.msh:18");
+}
+
+TEST_F(FileTest, an_element_of_an_unknown_type_is_an_element) {
+  const auto f = read(make("m.msh", kNodes2 + "$Elements\n1\n9 93 2 5 1 10 30 7\n$EndElements\n"));
+  ASSERT_FALSE(f);
+  EXPECT_EQ(plain(f.error().what()),
+            "m.msh:13: element 9 is an element of a type that temper does not know; temper reads meshes of linear "
+            "triangles, with lines and points as tags");
+}
+
 TEST_F(FileTest, lines_to_points_of_no_triangle_are_dropped_with_a_warning) {
   const auto f = read(
       make("m.msh", kNodes2 + "$Elements\n3\n1 2 2 5 1 10 20 30\n2 1 2 8 1 30 7\n3 1 2 8 1 10 20\n$EndElements\n"));
