@@ -93,7 +93,9 @@ def write(
     Parameters
     ----------
     path : path
-        Written under a temporary name beside it first: on any error what was there is untouched.
+        Written under a temporary name beside it first: on any error what was there is untouched. Of several files none
+        is renamed before all are whole; then they are, one after the other: where one cannot be, those before it are
+        new, and the error names them.
     mesh : Mesh or meshio.Mesh
     format : str, optional
         A name of ``formats()``; by default the suffix of the path tells it.
@@ -125,5 +127,5 @@ def write(
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:
-    """Writes a text to a file, under a temporary name first: on any error what was there is untouched."""
+    """Writes a text to one file, under a temporary name first: on any error what was there is untouched."""
     _temper.write_text(os.fspath(path), text)
