@@ -4,6 +4,7 @@
 #include "ranks.hpp"
 #include "temper/archive.hpp"
 #include "temper/checkpoint.hpp"
+#include "temper/lp.hpp"
 #include "temper/trace.hpp"
 #include "temper/verify.hpp"
 

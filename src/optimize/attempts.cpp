@@ -197,7 +197,8 @@ Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, Ru
   std::size_t i = 0;
   Candidate now;
   const Resumable here(run.checkpoints, best, own, tries, i, now);
-  const bool may = settings.options.unknowns == Unknowns::positions_and_weights && repairs(settings);
+  const bool may = settings.options.unknowns == Unknowns::positions_and_weights && repairs(settings) &&
+                   run.report.sweeps <= settings.options.max_sweeps / 2;  // repairs need those that are left
   if (!here.resumed() && !(may && run.goes_on() && has_bad(best, settings) && !are_apart(best, settings))) return best;
   for (; i < tries.size(); ++i) {
     const bool begins = !run.checkpoints.resumes();
@@ -209,7 +210,10 @@ Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, Ru
     }
     if (begins && i == 0) tries = attempts_by_weights(now.work.mesh, own);
     input.fold();
-    if (tries.empty()) break;
+    if (tries.empty()) {
+      driver.recorder().returned_to(best.sweep);
+      break;
+    }
     now.sweep = driver.attempt(tries[i], true);
     if (run.checkpoints.resumes()) return best;
     if (rank(now.work.mesh, own).bad < rank(best.work.mesh, own).bad) {

@@ -292,8 +292,14 @@ int Driver::attempt(const Attempt& attempt, bool may_give_up) {
   if (!here.resumed()) good = weigh_ties(attempt.tie_weight);
   if (good) return polish(run_.report.sweeps);
   if (!here.resumed()) jitter(attempt.jitter);
+  int first = run_.next_sweep();
+  const bool may_return_there = attempt.first_energy.has_value() || defers_flips(settings_.options);
+  if (!here.resumed() && first > 0 && may_return_there) {  // a trace says by sweeps where a run returns to
+    ++run_.report.sweeps;
+    record(EnergyPhase(work_, settings_, run_, kPolish, false).measure());
+  }
   EnergyPhase phase(work_, settings_, run_, attempt, may_give_up);
-  const int last = run(phase, run_.next_sweep());
+  const int last = run(phase, first);
   phase.take_last_energy();
   return last;
 }
