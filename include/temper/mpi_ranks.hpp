@@ -11,8 +11,8 @@
 
 namespace temper {
 
-/// The processes of MPI_COMM_WORLD. One at most at a time, whose functions one thread calls; and one in a process, unless
-/// the caller begins and ends MPI: it begins once.
+/// The processes of MPI_COMM_WORLD. One at most at a time, whose functions one thread calls; and one in a process,
+/// unless the caller begins and ends MPI: it begins once.
 class MpiRanks final : public Ranks {
  public:
   /// Begins MPI, unless the caller has.

@@ -267,8 +267,8 @@ struct OptimizeOptions {
   Repair repair = Repair::moves;
   int repair_trials = 20000;  ///< most edits that are tried, each on a copy of a neighbourhood; 1 to 3 ms each; a
                               ///< linear programme (OptimizeHooks::lp) counts as 20
-  int max_sweeps = 1000;  ///< each repair counts as a sweep of its own
-  double time_limit = 0;  ///< of all of it, seconds; 0: none
+  int max_sweeps = 1000;      ///< each repair counts as a sweep of its own
+  double time_limit = 0;      ///< of all of it, seconds; 0: none
   PaperSwitches paper = {};
 };
 

@@ -201,8 +201,8 @@ TEST_F(Checkpoint, TakesNoOptionAnewThatTheResultDependsOn) {
   refused({"--trace", "t.jsonl"}, "--trace: the run was not traced from its beginning");
   refused({"--report", "in.vtu"}, "is the input mesh");
   temper_ok({"optimize", "--resume", "run.ckpt", "-o", "other.vtu", "--encoding", "ascii", "--no-triangle-quality",
-             "--report", "r.json", "--html", "r.html", "--history", "h.csv", "--draw", "p.svg", "--require", "outside=0",
-             "--quiet"});
+             "--report", "r.json", "--html", "r.html", "--history", "h.csv", "--draw", "p.svg", "--require",
+             "outside=0", "--quiet"});
   for (const char* output : {"other.vtu", "r.html", "h.csv", "p.svg"}) EXPECT_TRUE(exists(output)) << output;
   temper_ok({"optimize", "--resume", "run.ckpt", "-o", "other", "--format", "gmsh41"});
   EXPECT_EQ(read_json("r.json")["options"]["resume"], nullptr);
