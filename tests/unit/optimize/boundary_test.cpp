@@ -408,7 +408,8 @@ TEST(Boundary, CutsWhereTrianglesAreBadAreAtTheirCornersAlone) {
   WorkingCopy work(input, options.paper.order);
   auto settings = make_settings(options, input, Frame::of(input), {});
   ASSERT_TRUE(settings);
-  const Recorder recorder({}, work, 1);
+  const Tracer nobody;
+  const Recorder recorder(nobody, work, 1);
   Flipper flipper(work.mesh, *settings, recorder);
   ASSERT_TRUE(flipper.restore_all());
   IdVector<VertexId, bool> is_near(work.mesh.n_vertices(), false);
