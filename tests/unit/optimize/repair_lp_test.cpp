@@ -15,16 +15,14 @@ namespace {
 
 TEST(RepairByProgramme, CuresWhatSweepsLeave) {
   const auto solver = clp_solver();
-  for (const Horseshoe& shape : {Horseshoe{.a = 6, .b = 7}, Horseshoe{.a = 6, .b = 9}}) {
-    const Mesh input = *horseshoe(shape);
-    Mesh swept = input, weighed = input;
-    ASSERT_TRUE(optimize(swept));
-    ASSERT_TRUE(optimize(weighed, {}, {.lp = solver.get()}));
-    EXPECT_GT(standing(swept).bad, 0u);
-    EXPECT_EQ(standing(weighed).bad, 0u);
-    EXPECT_EQ(count_non_regular_edges(weighed), 0u);
-    EXPECT_EQ(weighed.validate(), std::nullopt);
-  }
+  const Mesh input = *horseshoe({.a = 6, .b = 7});
+  Mesh swept = input, weighed = input;
+  ASSERT_TRUE(optimize(swept));
+  ASSERT_TRUE(optimize(weighed, {}, {.lp = solver.get()}));
+  EXPECT_GT(standing(swept).bad, 0u);
+  EXPECT_EQ(standing(weighed).bad, 0u);
+  EXPECT_EQ(count_non_regular_edges(weighed), 0u);
+  EXPECT_EQ(weighed.validate(), std::nullopt);
 }
 
 TEST(RepairByProgramme, IsTracedLikeAllElse) {

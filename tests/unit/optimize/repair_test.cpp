@@ -88,6 +88,7 @@ TEST(Attempts, WithWeightsAloneCureLayersThatMovesDoNot) {
   const OptimizeOptions options = {.objective = Objective::energy};
   OptimizeOptions positions = options;
   positions.unknowns = Unknowns::positions;
+  positions.repair = Repair::none;
   ASSERT_TRUE(optimize(moved, positions));
   ASSERT_TRUE(optimize(weighed, options));
   EXPECT_GT(n_bad(moved), 0u);
