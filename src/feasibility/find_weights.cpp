@@ -224,7 +224,7 @@ class WeightFinder {
       for (std::size_t i = 0; i < outcome.region.free.size(); ++i) {
         const double change = outcome.change->change[i];
         double& w = weights[outcome.region.free[i]];
-        if (change != 0) w = weight_of_potential(mesh_.space(), potential_of(mesh_.space(), w) + change);
+        if (change != 0) w = changed_weight(mesh_.space(), w, change);
       }
     }
     return weights;

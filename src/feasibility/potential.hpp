@@ -32,6 +32,11 @@ namespace temper {
   return potential * (1 - 0.5 * taken) / (scale * scale);
 }
 
+/// The weight whose potential is more than that of w by so much.
+[[nodiscard]] inline double changed_weight(const Space& space, double w, double change) {
+  return weight_of_potential(space, potential_of(space, w) + change);
+}
+
 /// σ of a vertex with a weight; one in the plane.
 [[nodiscard]] inline double scale_at(const Space& space, double w) {
   return 1 - slope_of_scale(space) * potential_of(space, w);

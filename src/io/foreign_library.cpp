@@ -57,6 +57,8 @@ void find_library(const ForeignLibrary& library, const std::function<bool(void*)
   find_in_python_packages(library, take);
 }
 
+void* symbol_of(void* handle, const char* name) { return dlsym(handle, name); }
+
 std::mutex& foreign_tables() {
   static std::mutex tables;
   return tables;

@@ -45,6 +45,13 @@ const Functions* find_functions(const ForeignLibrary& library, std::optional<Fun
   return found ? &*found : nullptr;
 }
 
+/// What the library has under that name, or null.
+[[nodiscard]] void* symbol_of(void* handle, const char* name);
+/// Of a list of functions: takes that one into `library`, or returns nothing.
+#define TEMPER_FIND_FUNCTION(function)                                                           \
+  library.function = reinterpret_cast<decltype(library.function)>(symbol_of(handle, #function)); \
+  if (library.function == nullptr) return std::nullopt;
+
 /// A failure about the file `path`, for which there is no such library.
 [[noreturn]] void fail_without(const ForeignLibrary& library, const std::string& path);
 

@@ -101,6 +101,9 @@ void warn_of_names(const WriteJob& job, const std::vector<PhysicalName>& lost);
 /// Says whether points are in the plane z = 0.
 [[nodiscard]] bool is_flat(const MeshFile& file);
 
+/// Which of the first n points are corners of triangles.
+[[nodiscard]] std::vector<bool> points_of_triangles(const MeshFile& file, std::size_t n);
+
 /// "a Fluent mesh, which temper does not read; meshio converts it", of a file in a format that is recognised; else
 /// empty.
 [[nodiscard]] std::string recognise_unsupported(std::string_view bytes);

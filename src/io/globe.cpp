@@ -41,17 +41,6 @@ void expect_finite(const std::vector<Vec3>& points, const InputNames& names) {
   }
 }
 
-/// Which of n points are corners of triangles; all where there is no triangle.
-std::vector<bool> points_of_triangles(const MeshFile& file, std::size_t n) {
-  std::vector<bool> used(n, file.triangles.empty());
-  for (const auto& triangle : file.triangles) {
-    for (const std::int32_t p : triangle) {
-      if (p >= 0 && static_cast<std::size_t>(p) < n) used[static_cast<std::size_t>(p)] = true;
-    }
-  }
-  return used;
-}
-
 std::vector<Vec3> kept(const std::vector<Vec3>& points, const std::vector<bool>& used) {
   std::vector<Vec3> result;
   result.reserve(points.size());
@@ -212,7 +201,8 @@ void set_sphere(MeshFile& file, double radius, std::vector<Vec3> points) {
 
 void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& names) {
   expect_finite(points, names);
-  const std::vector<bool> used = points_of_triangles(file, points.size());
+  const std::vector<bool> used =
+      file.triangles.empty() ? std::vector<bool>(points.size(), true) : points_of_triangles(file, points.size());
   const bool whole = std::find(used.begin(), used.end(), false) == used.end();
   const std::vector<Vec3> some = whole ? std::vector<Vec3>() : kept(points, used);
   const std::vector<Vec3>& all = whole ? points : some;

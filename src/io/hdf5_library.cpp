@@ -1,8 +1,6 @@
 // See hdf5_library.hpp.
 #include "io/hdf5_library.hpp"
 
-#include <dlfcn.h>
-
 #include <array>
 #include <optional>
 
@@ -34,22 +32,18 @@ constexpr ForeignLibrary kHdf5 = {.variable = "TEMPER_HDF5",
 /// All functions of the library, or nothing: also of one before 1.10, whose numbers have 32 bits.
 std::optional<Hdf5Library> hdf5_of(void* handle) {
   Hdf5Library library;
-#define TEMPER_FIND(function)                                                                \
-  library.function = reinterpret_cast<decltype(library.function)>(dlsym(handle, #function)); \
-  if (library.function == nullptr) return std::nullopt;
-  TEMPER_HDF5_FUNCTIONS(TEMPER_FIND)
-#undef TEMPER_FIND
+  TEMPER_HDF5_FUNCTIONS(TEMPER_FIND_FUNCTION)
   unsigned major = 0, minor = 0, patch = 0;
   if (library.H5get_libversion(&major, &minor, &patch) < 0 || (major == 1 && minor < 10)) return std::nullopt;
   if (library.H5open() < 0) return std::nullopt;
-#define TEMPER_FIND(number)                                                \
-  {                                                                        \
-    const auto* value = static_cast<const hid_t*>(dlsym(handle, #number)); \
-    if (value == nullptr) return std::nullopt;                             \
-    library.number = *value;                                               \
+#define TEMPER_FIND_NUMBER(number)                                             \
+  {                                                                            \
+    const auto* value = static_cast<const hid_t*>(symbol_of(handle, #number)); \
+    if (value == nullptr) return std::nullopt;                                 \
+    library.number = *value;                                                   \
   }
-  TEMPER_HDF5_NUMBERS(TEMPER_FIND)
-#undef TEMPER_FIND
+  TEMPER_HDF5_NUMBERS(TEMPER_FIND_NUMBER)
+#undef TEMPER_FIND_NUMBER
   return library;
 }
 

@@ -140,12 +140,7 @@ Expected<LoadedMesh> MeshMaker::make(std::span<const std::string> fixed_tags) {
 }
 
 void MeshMaker::number_vertices() {
-  std::vector<bool> used(file_.points.size(), false);
-  for (const auto& triangle : file_.triangles) {
-    for (const std::int32_t p : triangle) {
-      if (p >= 0 && static_cast<std::size_t>(p) < used.size()) used[static_cast<std::size_t>(p)] = true;
-    }
-  }
+  const std::vector<bool> used = points_of_triangles(file_, file_.points.size());
   loaded_.vertex_of_point = VertexOfPoint(used);
   if (whole()) return;
   std::vector<std::string> dropped;

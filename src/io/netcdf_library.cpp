@@ -1,8 +1,6 @@
 // See netcdf_library.hpp.
 #include "io/netcdf_library.hpp"
 
-#include <dlfcn.h>
-
 #include <array>
 #include <optional>
 
@@ -31,11 +29,7 @@ constexpr ForeignLibrary kNetcdf = {.variable = "TEMPER_NETCDF",
 /// All functions of the library, or nothing.
 std::optional<NetcdfLibrary> netcdf_of(void* handle) {
   NetcdfLibrary library;
-#define TEMPER_FIND(function)                                                                \
-  library.function = reinterpret_cast<decltype(library.function)>(dlsym(handle, #function)); \
-  if (library.function == nullptr) return std::nullopt;
-  TEMPER_NETCDF_FUNCTIONS(TEMPER_FIND)
-#undef TEMPER_FIND
+  TEMPER_NETCDF_FUNCTIONS(TEMPER_FIND_FUNCTION)
   return library;
 }
 

@@ -407,4 +407,14 @@ Space space_of(const MeshFile& file) {
 
 bool is_flat(const MeshFile& file) { return file.sphere_radius == 0 && file.z == 0 && !std::signbit(file.z); }
 
+std::vector<bool> points_of_triangles(const MeshFile& file, std::size_t n) {
+  std::vector<bool> used(n, false);
+  for (const auto& triangle : file.triangles) {
+    for (const std::int32_t p : triangle) {
+      if (p >= 0 && static_cast<std::size_t>(p) < n) used[static_cast<std::size_t>(p)] = true;
+    }
+  }
+  return used;
+}
+
 }  // namespace temper::io

@@ -107,7 +107,7 @@ std::vector<Attempt> attempts_by_weights(const Mesh& mesh, const Settings& setti
 struct Tries {
   std::vector<Attempt> all = std::vector<Attempt>(1);
   std::size_t i = 0;     ///< the one under way
-  std::size_t left = 0;  ///< bad triangles of the last one
+  std::size_t left = 0;  ///< bad triangles of the last one that was not kept
   bool renewed = false;  ///< the best mesh, since cuts where it is bad were of no use
 
   [[nodiscard]] const Attempt& now() const { return all[i]; }
@@ -176,13 +176,14 @@ Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run)
     input.fold();
     now.sweep = driver.attempt(tries.now(), !tries.is_last() || repairs(settings));
     if (auto error = run.checkpoints.error()) return *std::move(error);
-    tries.left = count_bad(now.work.mesh, settings.hooks.executor);
     if (!best || replaces(now, *best, tries.now(), settings)) {
       best = std::move(now);
+      tries.left = 0;
       tries.renewed = true;
       tell_cuts(tries.now(), run.facts);
     } else {
       driver.recorder().returned_to(best->sweep);
+      tries.left = count_bad(now.work.mesh, settings.hooks.executor);
       if (goes_on) tries.renewed = false;
     }
     if (!has_bad(*best, settings) || !run.goes_on() || (repairs(settings) && are_apart(*best, settings))) break;

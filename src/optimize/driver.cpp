@@ -294,10 +294,8 @@ int Driver::attempt(const Attempt& attempt, bool may_give_up) {
   if (!here.resumed()) jitter(attempt.jitter);
   int first = run_.next_sweep();
   const bool may_return_there = attempt.first_energy.has_value() || defers_flips(settings_.options);
-  if (!here.resumed() && first > 0 && may_return_there) {  // a trace says by sweeps where a run returns to
-    ++run_.report.sweeps;
-    record(EnergyPhase(work_, settings_, run_, kPolish, false).measure());
-  }
+  // A trace says by sweeps where a run returns to.
+  if (!here.resumed() && first > 0 && may_return_there) end_sweep_of_its_own();
   EnergyPhase phase(work_, settings_, run_, attempt, may_give_up);
   const int last = run(phase, first);
   phase.take_last_energy();
@@ -315,9 +313,13 @@ bool Driver::weigh_ties(double amount) {
   if (!make_regular()) {  // a vertex would be hidden
     for (const auto& [v, w] : before) set_weight(v, w);
   }
+  end_sweep_of_its_own();
+  return run_.report.history.back().bad == 0;
+}
+
+void Driver::end_sweep_of_its_own() {
   ++run_.report.sweeps;
   record(EnergyPhase(work_, settings_, run_, kPolish, false).measure());
-  return run_.report.history.back().bad == 0;
 }
 
 bool Driver::repair(std::uint64_t seed, bool asks_programmes) {

@@ -19,7 +19,6 @@
 
 namespace temper {
 
-/// One way from the input to a well-centered mesh.
 /// Where the boundary and lines are cut before an attempt, if the options ask for cuts.
 enum class Cuts : std::uint8_t {
   graded,     ///< where long edges meet short ones, and where a dual has no place to cross
@@ -27,6 +26,7 @@ enum class Cuts : std::uint8_t {
   where_bad,  ///< where the best mesh so far has bad triangles; the attempt goes on with that mesh
 };
 
+/// One way from the input to a well-centered mesh.
 struct Attempt {
   double start = 0;         ///< first γ/ℓ
   double factor = 1;        ///< from level to level
@@ -38,7 +38,7 @@ struct Attempt {
   double fewer = 1;         ///< it is given up when bad triangles do not become fewer than this part of them for long
   double tie_weight = 0;    ///< added before it to the heavier ends of ties, relative to their shortest edge squared
   std::optional<EnergyKind> first_energy = {};  ///< of its first sweeps
-  Cuts cuts = Cuts::graded;
+  Cuts cuts = Cuts::graded;                     ///< before it
 };
 
 void visit(Archive& archive, Attempt& attempt);

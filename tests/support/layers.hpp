@@ -1,14 +1,10 @@
 // Layers that grow by a factor: right triangles as thin as they have to be, all of which weights alone can cure.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cstdint>
-#include <utility>
+#include <cstddef>
 #include <vector>
 
-#include "temper/mesh.hpp"
+#include "temper/generate.hpp"
 
 namespace temper::test {
 
@@ -20,30 +16,16 @@ struct LayerOptions {
 
 /// Rectangles, each cut along the same diagonal.
 inline Mesh layers(const LayerOptions& options = {}) {
+  Mesh mesh = *sheared_grid({.nx = options.columns, .ny = options.rows, .shear = 0});
   std::vector<double> ys = {0};
   for (double step = 1; static_cast<int>(ys.size()) <= options.rows; step *= options.growth) {
     ys.push_back(ys.back() + step);
   }
-  std::vector<Vec2> points;
-  for (const double y : ys) {
-    for (int i = 0; i <= options.columns; ++i) {
-      points.push_back({static_cast<double>(i) / options.columns, options.height * y / ys.back()});
-    }
+  for (const VertexId v : mesh.vertices()) {
+    const Vec2 p = mesh.position(v);
+    mesh.set_position(v, {p.x / options.columns, options.height * ys[static_cast<std::size_t>(p.y)] / ys.back()});
   }
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  for (int j = 0; j < options.rows; ++j) {
-    for (int i = 0; i < options.columns; ++i) {
-      const int a = j * (options.columns + 1) + i, b = a + 1, c = a + options.columns + 1, d = c + 1;
-      triangles.push_back({a, b, d});
-      triangles.push_back({a, d, c});
-    }
-  }
-  auto built = Mesh::build({.points = points, .triangles = triangles});
-  if (!built) {
-    ADD_FAILURE() << built.error().what();
-    return {};
-  }
-  return std::move(built->mesh);
+  return mesh;
 }
 
 }  // namespace temper::test

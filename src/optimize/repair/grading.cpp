@@ -10,6 +10,7 @@
 
 #include "geometry/bounding_boxes.hpp"
 #include "mesh/bad_triangles.hpp"
+#include "optimize/repair/neighborhood.hpp"
 #include "temper/necessity.hpp"
 
 namespace temper {
@@ -20,18 +21,18 @@ namespace {
 // Above 1.46 the dense horseshoe, which needs none of these splits, loses margin by them.
 constexpr double kLittleRoom = 1.3;
 constexpr double kNoConflict = std::numeric_limits<double>::infinity();
-// Of edges that meet, without cuts for the sake of it.
-constexpr double kLargestRatio = std::numeric_limits<double>::infinity();
 // Splits for each edge that there is: corners of few degrees could ask for more and more.
 constexpr std::size_t kMostSplits = 20;
 
 using VertexMarks = IdVector<VertexId, std::uint8_t>;
 
-bool is_line(const Mesh& mesh, HalfedgeId h) { return mesh.is_boundary(h) || mesh.is_constrained(h); }
+/// The largest ratio of the lengths of two edges of the boundary or of lines that meet.
+double length_ratio(const Mesh& mesh) { return plan_boundary_grading(mesh).ratio_before; }
 
 class BoundaryCutter {
  public:
-  BoundaryCutter(WorkingCopy& work, Flipper& flipper) : work_(work), mesh_(work.mesh), flipper_(flipper) {}
+  BoundaryCutter(WorkingCopy& work, Flipper& flipper)
+      : work_(work), mesh_(work.mesh), flipper_(flipper), ratio_before_(length_ratio(work.mesh)) {}
 
   void cut(const EdgeCuts& edge);
   /// Splits edges that leave their dual no room, or little (necessity.hpp), worst first, until none does.
@@ -42,10 +43,10 @@ class BoundaryCutter {
   [[nodiscard]] bool has_edge(VertexId a, VertexId b) const { return find_edge(a, b).valid(); }
   /// A vertex at the orthocenter of a triangle that has none free.
   void free(const std::array<VertexId, 3>& corners);
-  [[nodiscard]] std::size_t vertices() const { return vertices_; }
-  [[nodiscard]] std::size_t conflicts() const { return conflicts_; }
-  [[nodiscard]] std::size_t inside() const { return inside_; }
-  [[nodiscard]] std::size_t refused() const { return refused_.size(); }
+  /// What was done.
+  [[nodiscard]] BoundaryCuts cuts() const {
+    return {vertices_, conflicts_, inside_, refused_.size(), ratio_before_, length_ratio(mesh_)};
+  }
 
  private:
   [[nodiscard]] HalfedgeId find_edge(VertexId a, VertexId b) const;
@@ -54,6 +55,7 @@ class BoundaryCutter {
   WorkingCopy& work_;
   Mesh& mesh_;
   Flipper& flipper_;
+  const double ratio_before_;
   InsertionPlan plan_;
   std::size_t vertices_ = 0, conflicts_ = 0, inside_ = 0;
   std::set<std::pair<VertexId, VertexId>> refused_;  // edges as they are, that had to be split and could not
@@ -162,7 +164,7 @@ Lines::Lines(const Mesh& mesh, const VertexMarks* near) {
   for (const HalfedgeId h : mesh.halfedges()) {
     if (mesh.is_erased(Mesh::triangle(h)) || !mesh.is_edge_representative(h)) continue;
     if (near != nullptr && (*near)[mesh.origin(h)] == 0 && (*near)[mesh.target(h)] == 0) continue;
-    if (is_line(mesh, h)) lines_.push_back(line_of(mesh, h, lines_.size()));
+    if (keeps_its_place(mesh, h)) lines_.push_back(line_of(mesh, h, lines_.size()));
   }
   std::vector<BoundingBox> boxes;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -281,7 +283,7 @@ std::vector<Ends> lines_at(const Mesh& mesh, TriangleId t) {
   for (const VertexId v : mesh.corners(t)) {
     for (const HalfedgeId out : mesh.star(v)) {
       for (const HalfedgeId h : {out, Mesh::prev(out)}) {
-        if (is_line(mesh, h))
+        if (keeps_its_place(mesh, h))
           found.emplace_back(-squared_length(mesh.position(mesh.target(h)) - mesh.position(mesh.origin(h))), h);
       }
     }
@@ -303,7 +305,6 @@ BoundaryCuts operator+(const BoundaryCuts& a, const BoundaryCuts& b) {
 BoundaryCuts cut_where_bad(WorkingCopy& work, Flipper& flipper) {
   const Mesh& mesh = work.mesh;
   BoundaryCutter cutter(work, flipper);
-  const double ratio = plan_boundary_grading(mesh, kLargestRatio).ratio_before;
   VertexMarks near(mesh.n_vertices(), 0);
   std::vector<std::vector<Ends>> places;  // the lines at each bad triangle, longest first
   for (const TriangleId t : bad_triangles(mesh)) {
@@ -315,31 +316,19 @@ BoundaryCuts cut_where_bad(WorkingCopy& work, Flipper& flipper) {
     const bool whole = std::all_of(lines.begin(), lines.end(), [&](Ends e) { return cutter.has_edge(e.a, e.b); });
     if (whole && !lines.empty()) cutter.halve(lines.front().a, lines.front().b);
   }
-  return {cutter.vertices(),
-          cutter.conflicts(),
-          0,
-          cutter.refused(),
-          ratio,
-          plan_boundary_grading(mesh, kLargestRatio).ratio_before};
+  return cutter.cuts();
 }
 
 BoundaryCuts cut_boundary(WorkingCopy& work, Flipper& flipper, double ratio) {
   BoundaryCutter cutter(work, flipper);
-  BoundaryCuts result;
-  result.ratio_before = plan_boundary_grading(work.mesh, ratio).ratio_before;
   // First: after other cuts more splits are needed, and at sharp corners far more.
   cutter.resolve_conflicts();
   for (int pass = 0; pass < kGradingPasses; ++pass) {
     const GradingPlan plan = plan_boundary_grading(work.mesh, ratio, kWidestBoundaryAngle);
     for (const EdgeCuts& edge : plan.cuts) cutter.cut(edge);
   }
-  result.ratio_after = plan_boundary_grading(work.mesh, ratio).ratio_before;
   for (const auto& corners : triangles_without_free_corner(work.mesh)) cutter.free(corners);
-  result.vertices = cutter.vertices();
-  result.conflicts = cutter.conflicts();
-  result.inside = cutter.inside();
-  result.refused = cutter.refused();
-  return result;
+  return cutter.cuts();
 }
 
 }  // namespace temper

@@ -17,16 +17,17 @@ struct BoundaryCuts {
   std::size_t vertices = 0;   ///< inserted on edges
   std::size_t conflicts = 0;  ///< of these, on edges that left their dual no room or little
   std::size_t inside = 0;     ///< inserted in triangles whose corners all are on the boundary or on lines
-  std::size_t refused =
-      0;  ///< edges that are not cut: a triangle would be turned over, by rounding, or a vertex hidden
-  double ratio_before = 1;  ///< of the lengths of two such edges that meet at a vertex
-  double ratio_after = 1;   ///< the same after all cuts
+  std::size_t refused = 0;    ///< edges not cut: a triangle would be turned over, by rounding, or a vertex hidden
+  double ratio_before = 1;    ///< of the lengths of two such edges that meet at a vertex
+  double ratio_after = 1;     ///< the same after all cuts
 };
 /// Both together, those of b after those of a.
 [[nodiscard]] BoundaryCuts operator+(const BoundaryCuts& a, const BoundaryCuts& b);
 
 /// The mesh's unconstrained edges are regular, and so they are left.
-BoundaryCuts cut_where_bad(WorkingCopy& work, Flipper& flipper);
 BoundaryCuts cut_boundary(WorkingCopy& work, Flipper& flipper, double ratio);
+/// The same at the corners of bad triangles alone: of lines that leave a dual no room or little; else, at each triangle
+/// without such, the longest one is halved.
+BoundaryCuts cut_where_bad(WorkingCopy& work, Flipper& flipper);
 
 }  // namespace temper

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/in_space.hpp"
+#include "optimize/repair/neighborhood.hpp"
 #include "topology/locate.hpp"
 
 namespace temper {
@@ -14,8 +15,6 @@ namespace {
 constexpr double kLarge = 0.75;
 // Nearer to an edge than this part of its length, or of the size, a vertex makes flat triangles.
 constexpr double kClearance = 0.4;
-
-bool keeps_its_place(const Mesh& mesh, HalfedgeId h) { return mesh.is_boundary(h) || mesh.is_constrained(h); }
 
 double distance_to_segment(Vec3 x, Vec3 a, Vec3 b) {
   const Vec3 along = b - a;

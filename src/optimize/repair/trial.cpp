@@ -165,8 +165,8 @@ void Trial::weigh() {
       if (found.change[i] == 0) continue;
       const VertexId v = region.free[i];
       const WeightedPoint from = mesh.point(v);
-      const double potential = potential_of(mesh.space(), weights[v]) + found.change[i];
-      work_.mesh.set_point(v, mesh.space().with_weight(from, weight_of_potential(mesh.space(), potential)));
+      work_.mesh.set_point(v,
+                           mesh.space().with_weight(from, changed_weight(mesh.space(), weights[v], found.change[i])));
       recorder_.placed(v, from, mesh.point(v), kNoEnergy, kNoEnergy);
     }
   }
