@@ -158,7 +158,7 @@ std::string words_of_run(const Command& command) {
 }
 
 Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs, const Resumed* resumed) {
-  const std::unique_ptr<Executor> threads = make_threads(s.threads);
+  const std::unique_ptr<Executor> threads = make_threads(threads_of_rank(s.threads));
   std::optional<TraceFile> trace;
   if (!s.trace.empty()) trace.emplace(TraceFile{outputs.open(s.trace), {}});
   std::optional<io::CheckpointFile> checkpoint = checkpoint_of(command, s, trace ? &*trace : nullptr);
@@ -210,6 +210,7 @@ Exit run_command(Command& command, OptimizeSettings& settings, const Resumed* re
   take_input(command, settings);
   expect_no_contradictions(command);
   command.spell_defaults();  // --method may have changed them
+  command.option("--ranks").given.clear();  // of this start alone, not of the run
   for (const char* option : {"--size-field", "--html", "--trace"}) expect_without(command, settings.metric, option);
   if (settings.metric) settings.output.options.triangle_quality = false;  // which is of the plane
   settings.requirements = parse_requirements("optimize", settings.require);
@@ -248,6 +249,7 @@ Exit run_optimize(const Arguments& arguments) {
   OptimizeSettings settings;
   Command command = optimize_command(settings);
   if (!command.parse(arguments)) return Exit::done;
+  if (settings.rank_unit == RankUnit::machine && !join_machine(arguments)) return Exit::done;
   return settings.resume.empty() ? run_command(command, settings, nullptr) : resume(command, settings.resume);
 }
 

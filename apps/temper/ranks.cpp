@@ -8,7 +8,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <utility>
 #include <vector>
+
+#include "console.hpp"
+#include "interrupt.hpp"
+#include "processors.hpp"
+#include "temper/version.hpp"
+#include "threads.hpp"
 
 #ifdef TEMPER_WITH_MPI
 #include "temper/mpi_ranks.hpp"
@@ -29,7 +36,13 @@ bool have_agreed = false;
 
 #ifdef TEMPER_WITH_MPI
 
-std::unique_ptr<MpiRanks> ranks;
+struct Processes {
+  MpiRanks all;
+  std::optional<MpiRanks> ranks = {};  // of these, when the others have left the run to them
+  std::size_t in_rank = 1;             // processes that are this rank
+  std::string processors = {};         // of all these
+};
+std::unique_ptr<Processes> processes;
 int standard_error = -1;  // of a rank that is silent
 
 void be_silent() {
@@ -61,27 +74,72 @@ std::string mpi_library() { return MpiRanks::library(); }
 
 void join_ranks() {
   if (launched() == 0) return;
-  ranks = std::make_unique<MpiRanks>();
+  processes = std::make_unique<Processes>();
   const auto n = static_cast<std::size_t>(launched());
-  if (ranks->size() < n) {
+  if (processes->all.size() < n) {
     throw Failure(Exit::bad_usage, fmt::format("optimize: started as {} processes, of which {} knows {}: mpirun is of "
                                                "another MPI",
-                                               n, mpi_library(), ranks->size()));
+                                               n, mpi_library(), processes->all.size()));
   }
-  if (ranks->rank() > 0) be_silent();
+  if (processes->all.rank() > 0) be_silent();
 }
 
-Ranks* joined_ranks() { return ranks.get(); }
+bool join_machine(const Arguments& words) {
+  if (!processes || !has_threads()) return true;
+  agree_to_go_on();  // all have come here
+  MpiRanks machine = processes->all.of_machine();
+  std::string given(version());
+  for (const std::string& word : words) given += '\0' + word;
+  have_agreed = false;
+  if (machine.all_gather(given).front() != given) {
+    throw Failure(Exit::bad_input,
+                  "optimize: was started with other words or another build of temper than the first process of its "
+                  "machine, with which it makes one rank: see --ranks");
+  }
+  agree_to_go_on();
+  std::string joint;
+  for (const std::string& each : machine.all_gather(own_processors())) joint = both(std::move(joint), each);
+  const bool is_first = machine.rank() == 0;
+  std::string merged = is_first && (machine.size() == 1 || run_on(joint)) ? "yes" : "";
+  machine.broadcast(merged, 0);
+  if (!merged.empty()) {
+    processes->in_rank = machine.size();
+    processes->processors = joint;
+  } else if (is_first) {
+    print_warnings(
+        std::vector<std::string>{"the processes of this machine may not run on each other's processors: each is a "
+                                 "rank, and has the whole mesh"});
+  }
+  const bool is_rank = is_first || merged.empty();
+  processes->ranks.emplace(processes->all.of_group(is_rank ? 0 : 1));
+  have_agreed = false;  // ranks read and fail on their own
+  if (!is_rank) catch_interrupts();
+  return is_rank;
+}
+
+std::size_t threads_of_rank(std::size_t threads) {
+  if (!processes || processes->in_rank == 1) return threads;
+  return threads == 0 ? count_processors(processes->processors) : threads * processes->in_rank;
+}
+
+Ranks* joined_ranks() {
+  if (!processes) return nullptr;
+  MpiRanks& ranks = processes->ranks ? *processes->ranks : processes->all;
+  return ranks.size() > 1 ? &ranks : nullptr;
+}
 
 void end_ranks(const std::string& message, Exit exit) {
-  if (!ranks || ranks->size() == 1) return;
-  const std::string line = fmt::format("temper: error: rank {}: {}\n", ranks->rank(), message);
+  if (!processes || processes->all.size() == 1) return;
+  const std::string line = fmt::format("temper: error: rank {}: {}\n", processes->all.rank(), message);
   const int to = standard_error >= 0 ? standard_error : STDERR_FILENO;
   static_cast<void>(!write(to, line.data(), line.size()));  // nobody may be there to read it
-  ranks->abort(static_cast<int>(exit));
+  processes->all.abort(static_cast<int>(exit));
 }
 
-void leave_ranks() { ranks.reset(); }
+void leave_ranks() {
+  if (processes) processes->all.wait_for_all();
+  processes.reset();
+}
 
 #else
 
@@ -94,6 +152,8 @@ void join_ranks() {
                 "it with -DTEMPER_BUILD_MPI=ON");
 }
 
+bool join_machine(const Arguments&) { return true; }
+std::size_t threads_of_rank(std::size_t threads) { return threads; }
 Ranks* joined_ranks() { return nullptr; }
 void end_ranks(const std::string&, Exit) {}
 void leave_ranks() {}

@@ -1,10 +1,16 @@
 // The ranks of a run of `temper optimize`: the processes that mpirun has started with the same command, or this one
 // alone. The first rank writes and prints; the others are silent.
+//
+// A rank has the whole mesh. So by default the processes of one machine are one rank: the first of them makes its part
+// of the run with the threads and processors of all, and the others sleep.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 
+#include "command.hpp"
 #include "exit.hpp"
 #include "temper/ranks.hpp"
 
@@ -12,9 +18,18 @@ namespace temper::app {
 
 /// Joins the ranks, if there are any. Failure: mpirun has started several, and this program knows nothing of MPI.
 void join_ranks();
+/// What is one rank.
+enum class RankUnit : std::uint8_t { machine, process };
+/// Makes one rank of the processes of each machine, which all have been given these words; to be called before anything
+/// large is read. False: another process is that rank, this one has nothing more to do. Where processes may not run on
+/// each other's processors each stays a rank; a warning says so.
+[[nodiscard]] bool join_machine(const Arguments& words);
+/// Of so many threads for each process (0: as it may have), those of this rank.
+[[nodiscard]] std::size_t threads_of_rank(std::size_t threads);
+
 /// The library of MPI that the program has; empty: none.
 [[nodiscard]] std::string mpi_library();
-/// Null: this process is alone.
+/// Null: this one is alone.
 [[nodiscard]] Ranks* joined_ranks();
 [[nodiscard]] bool is_first_rank();
 

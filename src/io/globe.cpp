@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "io/failure.hpp"
+#include "io/format.hpp"
 
 namespace temper::io {
 namespace {

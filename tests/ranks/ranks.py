@@ -21,6 +21,7 @@ import sys
 import tempfile
 import time
 
+APART, MERGED = ["--ranks", "process"], ["--ranks", "machine"]  # each process a rank; one rank for all of this machine
 OLD = b"what was there before\n"
 SPACES = {"plane": "random", "sphere": "random-sphere", "periodic": "random-periodic"}  # the examples of each
 PARTS = 16384  # vertices of a part of a sweep
@@ -50,10 +51,11 @@ class Runner:
         return subprocess.run([self.program, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=LONGEST)
 
     def command(self, *groups):
-        """groups: (ranks, arguments) each."""
+        """groups: (processes, arguments) each. Each process is a rank unless the arguments say otherwise."""
         words = [self.mpirun]
-        for i, (ranks, arguments) in enumerate(groups):
-            words += ([":"] if i > 0 else []) + ["-n", str(ranks), self.program, *arguments]
+        for i, (processes, arguments) in enumerate(groups):
+            words += ([":"] if i > 0 else []) + ["-n", str(processes), self.program, *arguments]
+            words += [] if "--ranks" in arguments else APART
         return words
 
     def start(self, *groups):
@@ -91,11 +93,14 @@ def same_bytes(runner, whole):
             continue
         if whole:
             print(hashlib.sha256(expected).hexdigest())
-        for threads, ranks in itertools.product((1, 2, 3, 8), (1, 2, 3, 5, 8)) if whole else [(1, 2), (2, 3)]:
+        ways = [(threads, ranks, APART) for threads, ranks in itertools.product((1, 2, 3, 8), (1, 2, 3, 5, 8))] if whole else [
+            (1, 2, APART), (2, 3, APART)]
+        for threads, ranks, unit in [*ways, (1, 3, MERGED)]:
             (runner.folder / "ranks.vtu").unlink(missing_ok=True)
-            code, text = runner.ranks((ranks, ["optimize", f"{space}.vtu", "-o", "ranks.vtu", *options, "--threads", str(threads)]))
+            code, text = runner.ranks(
+                (ranks, ["optimize", f"{space}.vtu", "-o", "ranks.vtu", *options, *unit, "--threads", str(threads)]))
             runner.expect(code == alone.returncode and runner.bytes("ranks.vtu") == expected,
-                          f"{space} {method}: {threads} threads × {ranks} ranks{'' if code in (0, 4) else ': ' + text}")
+                          f"{space} {method}: {threads} threads × {ranks} {unit[1]} ranks{'' if code in (0, 4) else ': ' + text}")
 
 
 def small(runner):
@@ -104,6 +109,30 @@ def small(runner):
     for ranks in (1, 3):
         runner.ranks((ranks, ["optimize", "small.vtu", "-o", "ranks.vtu", "--quiet", "--threads", "1"]))
         runner.expect(runner.bytes("ranks.vtu") == runner.bytes("alone.vtu"), f"one part, {ranks} ranks")
+
+
+def merge(runner):
+    """The processes of a machine are one rank: the bytes, warnings and endings of one process."""
+    good = ["optimize", "small.vtu", "-o", "out.vtu", *MERGED]
+    code, text = runner.ranks((3, good))
+    runner.expect(code == 0 and runner.bytes("out.vtu") == runner.bytes("alone.vtu") and text.count("wrote out.vtu") == 1,
+                  f"merged, as many threads as there are: exit {code}")
+    cases = {
+        "other words": (good + ["--max-sweeps", "7"], 1, "rank 2: optimize: was started with other words"),
+        "an unknown option": (good + ["--sweep", "7"], 2, "rank 2: optimize: unknown option --sweep"),
+    }
+    for name, (arguments, expected, message) in cases.items():
+        (runner.folder / "out.vtu").write_bytes(OLD)
+        code, text = runner.ranks((2, good), (1, arguments))
+        runner.expect(code == expected and message in text and runner.bytes("out.vtu") == OLD,
+                      f"{name} of one process: exit {code}" + ("" if message in text else f": {text}"))
+    code, text = runner.ranks((3, ["optimize", "none.vtu", "-o", "out.vtu", *MERGED]))
+    runner.expect(code == 1 and text.count("none.vtu: cannot be read") == 1 and runner.bytes("out.vtu") == OLD,
+                  f"no input for merged processes: exit {code}")
+    stopped, _ = runner.ranks((2, [*good, "--checkpoint", "small.ckpt", "--time-limit", "1e-6", "--quiet"]))
+    code, text = runner.ranks((2, ["optimize", "--resume", "small.ckpt", "--time-limit", "0", *MERGED]))
+    runner.expect((stopped, code) == (4, 0) and runner.bytes("out.vtu") == runner.bytes("alone.vtu") and "--ranks" not in text,
+                  f"merged, stopped and resumed: exit {stopped} and {code}")
 
 
 def refuse(runner):
@@ -151,16 +180,19 @@ def stop(runner, kills, rng):
     """Killed, a run leaves its output as it was and a checkpoint to go on from; asked to stop, it writes its best mesh."""
     runner.one("example", "random", "--vertices", str(PARTS + 2000 if kills == 1 else 6 * PARTS), "-o", "large.vtu")
     words = ["optimize", "large.vtu", "--threads", "1", "--quiet"]
-    started = time.monotonic()
-    runner.ranks((3, [*words, "-o", "whole.vtu"]))
-    seconds = time.monotonic() - started
+    seconds = {}
+    for unit in (APART, MERGED):
+        started = time.monotonic()
+        runner.ranks((3, [*words, "-o", "whole.vtu", *unit]))
+        seconds[unit[1]] = time.monotonic() - started
     expected = runner.bytes("whole.vtu")
     for i in range(kills):
+        unit = MERGED if i % 4 == 3 else APART
         (runner.folder / "killed.vtu").write_bytes(OLD)
         (runner.folder / "run.ckpt").unlink(missing_ok=True)
-        process = runner.start((3, [*words, "-o", "killed.vtu", "--checkpoint", "run.ckpt", "--every", "0"]))
+        process = runner.start((3, [*words, "-o", "killed.vtu", "--checkpoint", "run.ckpt", "--every", "0", *unit]))
         # The checkpoints make it last longer.
-        time.sleep(rng.uniform(0.1, 1) * seconds)
+        time.sleep(rng.uniform(0.1, 1) * seconds[unit[1]])
         victims = processes_of(runner, "killed.vtu")
         if victims:
             os.kill(rng.choice(victims), signal.SIGKILL)
@@ -169,32 +201,38 @@ def stop(runner, kills, rng):
             runner.expect(runner.bytes("killed.vtu") == expected, f"kill {i}: too late")
             continue
         whole = runner.bytes("killed.vtu") in (OLD, expected)
+        if unit == MERGED and not whole:  # one that slept was killed, and mpirun asked the one that worked to stop
+            whole = runner.one("check", "killed.vtu").returncode == 0
         runner.expect(whole and "signal 9" in text, f"kill {i} of {len(victims)}: exit {process.returncode}")
         if runner.bytes("run.ckpt") is not None:
             runner.ranks((2, ["optimize", "--resume", "run.ckpt", "-o", "killed.vtu", "--quiet", "--threads", "1"]))
             runner.expect(runner.bytes("killed.vtu") == expected, f"kill {i}: goes on to the same bytes")
-    (runner.folder / "stopped.vtu").write_bytes(OLD)
-    process = runner.start((3, [*words, "-o", "stopped.vtu"]))
-    time.sleep(0.6 * seconds)
-    process.send_signal(signal.SIGUSR1)
-    text, _ = process.communicate(timeout=LONGEST)
-    checked = runner.one("check", "stopped.vtu")
-    runner.expect(process.returncode == 4 and checked.returncode == 0, f"SIGUSR1: exit {process.returncode}: {text[-300:]}")
+    for unit in (APART, MERGED):
+        for share in (0.6, 0.4, 0.3):  # other work on this machine makes runs longer or shorter
+            (runner.folder / "stopped.vtu").write_bytes(OLD)
+            process = runner.start((3, [*words, "-o", "stopped.vtu", *unit]))
+            time.sleep(share * seconds[unit[1]])
+            process.send_signal(signal.SIGUSR1)
+            text, _ = process.communicate(timeout=LONGEST)
+            if process.returncode != 0:
+                break
+        checked = runner.one("check", "stopped.vtu")
+        runner.expect(process.returncode == 4 and checked.returncode == 0,
+                      f"SIGUSR1, {unit[1]}: exit {process.returncode}: {text[-300:]}")
 
 
 def memory(runner):
-    """Prints the peak of each rank, bytes a vertex."""
+    """Prints the peak of each process, bytes a vertex."""
     n = 1000000
     runner.one("example", "random", "--vertices", str(n), "-o", "million.vtu", "--encoding", "appended")
-    for ranks in (1, 2, 4):
-        (runner.folder / "time").mkdir(exist_ok=True)
-        words = ["-v", "-o", "time/%d.log" % ranks, "-a", runner.program, "optimize", "million.vtu", "-o", "out.vtu", "--encoding",
-                 "appended", "--max-sweeps", "10", "--threads", "1", "--quiet"]
+    for unit, ranks in itertools.product((APART, MERGED), (1, 2, 4, 8)):
+        log = runner.folder / f"{ranks}-{unit[1]}.log"
+        words = ["-v", "-o", log, "-a", runner.program, "optimize", "million.vtu", "-o", "out.vtu", "--encoding",
+                 "appended", "--max-sweeps", "10", "--threads", "1", "--quiet", *unit]
         subprocess.run([runner.mpirun, "-n", str(ranks), "/usr/bin/time", *words], cwd=runner.folder, env=runner.environment,
                        capture_output=True)
-        peaks = [1024 * int(line.split(":")[1]) // n for line in (runner.folder / ("time/%d.log" % ranks)).read_text().split("\n")
-                 if "Maximum resident" in line]
-        print(f"{ranks} ranks: {peaks} bytes a vertex")
+        peaks = [1024 * int(line.split(":")[1]) / n for line in log.read_text().split("\n") if "Maximum resident" in line]
+        print(f"{ranks} processes, {unit[1]} ranks: {[round(peak) for peak in peaks]}, {sum(peaks):.0f} bytes a vertex")
 
 
 def main():
@@ -207,6 +245,7 @@ def main():
         runner = Runner(os.path.abspath(given.program), given.mpirun, pathlib.Path(scratch))
         same_bytes(runner, given.all)
         small(runner)
+        merge(runner)
         refuse(runner)
         stop(runner, 20 if given.all else 1, random.Random(1))
         if given.all:

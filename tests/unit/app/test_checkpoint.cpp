@@ -83,18 +83,19 @@ class Checkpoint : public Workshop {
 
 TEST_F(Checkpoint, ARunInPiecesEndsWithTheBytesOfTheWholeRun) {
   // Long enough to be stopped several times.
-  const std::string plain = TEMPER_SANITIZED ? "random --vertices 500" : "random --vertices 2000";
-  const std::string trials = TEMPER_SANITIZED ? "30" : "100";
+  const std::string plain = TEMPER_SANITIZED ? "random --vertices 300" : "random --vertices 2000";
+  const std::string trials = TEMPER_SANITIZED ? "5" : "100";
+  const std::string few = TEMPER_SANITIZED ? "random --vertices 250" : "random --vertices 500";
   const Sample samples[] = {
       {"plain", plain, {"--trace", "t.jsonl", "--draw", "p.svg", "--history", "h.csv"}},
       {"paper", "random --vertices 200", {"--method", "paper", "--energy", "dT", "--trace", "t.jsonl"}},
-      {"deferred", "random --vertices 500", {"--energy", "T", "--flips", "deferred", "--inner", "3"}},
-      {"accuracy", "random --vertices 300", {"--objective", "accuracy", "--boundary", "split"}},
+      {"deferred", few, {"--energy", "T", "--flips", "deferred", "--inner", "3"}},
+      {"accuracy", few, {"--objective", "accuracy", "--boundary", "split"}},
       {"repairs", "horseshoe", {"--repair", "vertices", "--repair-trials", trials, "--trace", "t.jsonl"}},
-      {"removal", "random --vertices 500", {"--removal", "patch", "--removal-from", "2", "--hidden", "remove"}},
+      {"removal", few, {"--removal", "patch", "--removal-from", "2", "--hidden", "remove"}},
       {"weights", "airfoil", {"--weights-only", "--no-flips", "--anchor", "3"}},
       {"sizes",
-       "random --vertices 500",
+       few,
        {"--size-band", "2", "--size-field", "field.vtu", "--order", "random", "--max-sweeps", "60", "--repair",
         "none"}}};
   int all_stopped = 0;
