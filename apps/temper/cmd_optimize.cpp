@@ -209,7 +209,7 @@ void leave_outputs_to_first_rank(OptimizeSettings& s) {
 Exit run_command(Command& command, OptimizeSettings& settings, const Resumed* resumed) {
   take_input(command, settings);
   expect_no_contradictions(command);
-  command.spell_defaults();  // --method may have changed them
+  command.spell_defaults();                 // --method may have changed them
   command.option("--ranks").given.clear();  // of this start alone, not of the run
   for (const char* option : {"--size-field", "--html", "--trace"}) expect_without(command, settings.metric, option);
   if (settings.metric) settings.output.options.triangle_quality = false;  // which is of the plane
@@ -248,8 +248,9 @@ Exit run_optimize(const Arguments& arguments) {
   join_ranks();
   OptimizeSettings settings;
   Command command = optimize_command(settings);
-  if (!command.parse(arguments)) return Exit::done;
-  if (settings.rank_unit == RankUnit::machine && !join_machine(arguments)) return Exit::done;
+  std::optional<RankUnit> unit;
+  if (command.parse(arguments)) unit = settings.rank_unit;
+  if (!become_ranks(unit, arguments)) return Exit::done;
   return settings.resume.empty() ? run_command(command, settings, nullptr) : resume(command, settings.resume);
 }
 

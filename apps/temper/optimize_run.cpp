@@ -146,14 +146,17 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
   const bool measured = !s.quiet || shown || !s.requirements.empty();  // else nobody would see it
   if (measured) results.before = quality(mesh, measuring);
   catch_interrupts();
-  if (!s.quiet) {
+  alone([&] {
+    if (s.quiet) return;
     print(fmt::format("{}: {} vertices, {} triangles\n", s.input, results.before.vertices, results.before.triangles));
     flush_output();
-  }
+  });
   const Tracer tracer = tracer_of(s, files, input);
 #ifdef TEMPER_WITH_VERIFY
   std::optional<SolverErrors> errors;
-  if (s.verify) errors.emplace(mesh, files.threads);
+  alone([&] {
+    if (s.verify) errors.emplace(mesh, files.threads);
+  });
   results.report = run_library(s, input, mesh, files, tracer);
   if (errors) verify_result(s, *errors, mesh, original, results, tracer);
 #else

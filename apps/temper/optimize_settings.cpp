@@ -50,7 +50,10 @@ void add_constraints(Command& command, OptimizeSettings& s) {
 
 void add_run(Command& command, OptimizeSettings& s) {
   command.group("The run");
-  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  add_count(
+      command, "--threads", s.threads, 0,
+      "threads, of each of mpirun's processes; 0: as many as the machine has, or as these may run on; the result is "
+      "the same");
   static constexpr Choice<RankUnit> kRankUnits[] = {{"machine", RankUnit::machine}, {"process", RankUnit::process}};
   add_choice(
       command, "--ranks", kRankUnits, s.rank_unit,
@@ -61,7 +64,7 @@ void add_run(Command& command, OptimizeSettings& s) {
   add_number(command, "--every", s.every, kNotNegative, "seconds between checkpoints; 0: as many as there can be");
   add_text(command, "--resume", "FILE", s.resume,
            "go on with the run of a checkpoint, to what it would have ended with; IN and options are those of the run, "
-           "but for outputs, --threads, --time-limit (of each run alone), --checkpoint and --every");
+           "but for outputs, --threads, --ranks, --time-limit (of each run alone), --checkpoint and --every");
   std::vector<std::string_view> names;
   std::string help = "what all options start from";
   for (const Method& method : methods()) {

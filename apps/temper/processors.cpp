@@ -29,8 +29,12 @@ std::string own_processors() {
 bool run_on(const std::string& processors) {
   Mask mask = {};
   std::memcpy(mask, processors.data(), std::min(sizeof mask, processors.size()));
-  return sched_setaffinity(0, sizeof mask, reinterpret_cast<const cpu_set_t*>(mask)) == 0 &&
-         own_processors() == processors;
+  const std::string before = own_processors();
+  if (sched_setaffinity(0, sizeof mask, reinterpret_cast<const cpu_set_t*>(mask)) != 0) return false;
+  if (own_processors() == processors) return true;
+  std::memcpy(mask, before.data(), std::min(sizeof mask, before.size()));  // the system has left out some
+  sched_setaffinity(0, sizeof mask, reinterpret_cast<const cpu_set_t*>(mask));
+  return false;
 }
 
 #else

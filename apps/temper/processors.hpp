@@ -8,7 +8,8 @@ namespace temper::app {
 
 /// One bit each, from the lowest of the first byte. Empty where the system does not say.
 [[nodiscard]] std::string own_processors();
-/// Lets this process, and threads that it will start, run on these. False when the system lets it run on some only.
+/// Lets this process, and threads that it will start, run on these. False, and all is as before, when the system does
+/// not let it run on all.
 [[nodiscard]] bool run_on(const std::string& processors);
 
 /// Those of either.

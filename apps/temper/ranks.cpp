@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -14,7 +15,7 @@
 #include "console.hpp"
 #include "interrupt.hpp"
 #include "processors.hpp"
-#include "temper/version.hpp"
+#include "temper/io.hpp"
 #include "threads.hpp"
 
 #ifdef TEMPER_WITH_MPI
@@ -33,14 +34,16 @@ int launched() {
 }
 
 bool have_agreed = false;
+const char* unit_name = "process";  // of what has a number: processes, until they are ranks
 
 #ifdef TEMPER_WITH_MPI
 
 struct Processes {
   MpiRanks all;
-  std::optional<MpiRanks> ranks = {};  // of these, when the others have left the run to them
-  std::size_t in_rank = 1;             // processes that are this rank
-  std::string processors = {};         // of all these
+  std::optional<MpiRanks> machine = {};  // those of this one's
+  std::optional<MpiRanks> ranks = {};    // of all, when the others have left the run to them
+  std::size_t in_rank = 1;               // processes that are this rank
+  std::string processors = {};           // of all these
 };
 std::unique_ptr<Processes> processes;
 int standard_error = -1;  // of a rank that is silent
@@ -63,8 +66,47 @@ std::optional<Failure> first_failure(const std::string& mine, Exit exit) {
   const std::size_t count = static_cast<std::size_t>(std::count(all.begin(), all.end(), *failed));
   const std::string message = failed->substr(1);
   return Failure(static_cast<Exit>(failed->front() - '0'),
-                 count == all.size() ? message : fmt::format("rank {}: {}", failed - all.begin(), message));
+                 count == all.size() ? message : fmt::format("{} {}: {}", unit_name, failed - all.begin(), message));
 }
+
+#ifdef TEMPER_WITH_MPI
+
+/// Makes one rank of the processes of this machine, if all may run on each other's processors. Says whether this
+/// process is a rank.
+bool join_machine(const Arguments& words) {
+  MpiRanks& all = processes->all;
+  MpiRanks& machine = processes->machine.emplace(all.of_machine());
+  std::string given = std::filesystem::current_path().string();
+  for (const std::string& word : words) given += '\0' + word;
+  have_agreed = false;
+  if (machine.all_gather(given).front() != given) {
+    throw Failure(
+        Exit::bad_input,
+        "optimize: was started with other words, or in another folder, than the first process of its machine, "
+        "with which it makes one rank: see --ranks");
+  }
+  agree_to_go_on();
+  std::string joint;
+  for (const std::string& each : machine.all_gather(own_processors())) joint = both(std::move(joint), each);
+  const bool is_first = machine.rank() == 0;
+  std::string merged = is_first && (machine.size() == 1 || run_on(joint)) ? "yes" : "";
+  machine.broadcast(merged, 0);
+  if (!merged.empty()) {
+    processes->in_rank = machine.size();
+    processes->processors = joint;
+  }
+  const std::vector<std::string> apart = all.all_gather(is_first && merged.empty() ? "apart" : "");
+  if (const auto n = std::count(apart.begin(), apart.end(), "apart"); n > 0) {
+    print_warnings(std::vector{fmt::format(
+        "the processes of {} may not run on each other's processors: each of them is a rank, and has the whole mesh",
+        n == 1 ? "one machine" : fmt::format("{} machines", n))});
+  }
+  const bool is_rank = is_first || merged.empty();
+  processes->ranks.emplace(all.of_group(is_rank ? 0 : 1));
+  return is_rank;
+}
+
+#endif
 
 }  // namespace
 
@@ -84,42 +126,28 @@ void join_ranks() {
   if (processes->all.rank() > 0) be_silent();
 }
 
-bool join_machine(const Arguments& words) {
-  if (!processes || !has_threads()) return true;
-  agree_to_go_on();  // all have come here
-  MpiRanks machine = processes->all.of_machine();
-  std::string given(version());
-  for (const std::string& word : words) given += '\0' + word;
-  have_agreed = false;
-  if (machine.all_gather(given).front() != given) {
-    throw Failure(Exit::bad_input,
-                  "optimize: was started with other words or another build of temper than the first process of its "
-                  "machine, with which it makes one rank: see --ranks");
+bool become_ranks(std::optional<RankUnit> unit, const Arguments& words) {
+  if (!processes) return unit.has_value();
+  MpiRanks& all = processes->all;
+  agree_to_go_on();  // all have been told what to do
+  if (unit && !has_threads()) unit = RankUnit::process;
+  const std::string plan = unit ? std::to_string(static_cast<int>(*unit)) : "nothing";
+  const std::vector<std::string> plans = all.all_gather(plan);
+  if (std::count(plans.begin(), plans.end(), plan) != static_cast<std::ptrdiff_t>(plans.size())) {
+    throw Failure(Exit::bad_input, "optimize: --ranks, or --help, is not the same for all processes");
   }
-  agree_to_go_on();
-  std::string joint;
-  for (const std::string& each : machine.all_gather(own_processors())) joint = both(std::move(joint), each);
-  const bool is_first = machine.rank() == 0;
-  std::string merged = is_first && (machine.size() == 1 || run_on(joint)) ? "yes" : "";
-  machine.broadcast(merged, 0);
-  if (!merged.empty()) {
-    processes->in_rank = machine.size();
-    processes->processors = joint;
-  } else if (is_first) {
-    print_warnings(
-        std::vector<std::string>{"the processes of this machine may not run on each other's processors: each is a "
-                                 "rank, and has the whole mesh"});
-  }
-  const bool is_rank = is_first || merged.empty();
-  processes->ranks.emplace(processes->all.of_group(is_rank ? 0 : 1));
+  if (!unit) return false;
+  const bool is_rank = *unit == RankUnit::process || join_machine(words);
   have_agreed = false;  // ranks read and fail on their own
+  unit_name = "rank";
   if (!is_rank) catch_interrupts();
   return is_rank;
 }
 
 std::size_t threads_of_rank(std::size_t threads) {
   if (!processes || processes->in_rank == 1) return threads;
-  return threads == 0 ? count_processors(processes->processors) : threads * processes->in_rank;
+  if (threads == 0) return count_processors(processes->processors);
+  return std::max(threads, threads * processes->in_rank);  // a product that wraps around is no more than was asked for
 }
 
 Ranks* joined_ranks() {
@@ -130,7 +158,9 @@ Ranks* joined_ranks() {
 
 void end_ranks(const std::string& message, Exit exit) {
   if (!processes || processes->all.size() == 1) return;
-  const std::string line = fmt::format("temper: error: rank {}: {}\n", processes->all.rank(), message);
+  io::discard_unfinished();
+  const std::size_t number = (processes->ranks ? *processes->ranks : processes->all).rank();
+  const std::string line = fmt::format("temper: error: {} {}: {}\n", unit_name, number, message);
   const int to = standard_error >= 0 ? standard_error : STDERR_FILENO;
   static_cast<void>(!write(to, line.data(), line.size()));  // nobody may be there to read it
   processes->all.abort(static_cast<int>(exit));
@@ -152,13 +182,22 @@ void join_ranks() {
                 "it with -DTEMPER_BUILD_MPI=ON");
 }
 
-bool join_machine(const Arguments&) { return true; }
+bool become_ranks(std::optional<RankUnit> unit, const Arguments&) { return unit.has_value(); }
 std::size_t threads_of_rank(std::size_t threads) { return threads; }
 Ranks* joined_ranks() { return nullptr; }
 void end_ranks(const std::string&, Exit) {}
 void leave_ranks() {}
 
 #endif
+
+void alone(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Failure& failure) {
+    if (joined_ranks() != nullptr) end_ranks(failure.what(), failure.exit);
+    throw;
+  }
+}
 
 bool is_first_rank() { return joined_ranks() == nullptr || joined_ranks()->rank() == 0; }
 

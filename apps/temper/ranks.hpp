@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -20,10 +21,11 @@ namespace temper::app {
 void join_ranks();
 /// What is one rank.
 enum class RankUnit : std::uint8_t { machine, process };
-/// Makes one rank of the processes of each machine, which all have been given these words; to be called before anything
-/// large is read. False: another process is that rank, this one has nothing more to do. Where processes may not run on
-/// each other's processors each stays a rank; a warning says so.
-[[nodiscard]] bool join_machine(const Arguments& words);
+/// Makes ranks of the processes, which have been given these words, before anything large is read. False: this one has
+/// nothing more to do, since another process of its machine is the rank, or since there is nothing to do (`unit`: none)
+/// for any of them. Where processes of a machine may not run on each other's processors each stays a rank, and a
+/// warning says so; where the program has no threads, too.
+[[nodiscard]] bool become_ranks(std::optional<RankUnit> unit, const Arguments& words);
 /// Of so many threads for each process (0: as it may have), those of this rank.
 [[nodiscard]] std::size_t threads_of_rank(std::size_t threads);
 
@@ -38,6 +40,8 @@ enum class RankUnit : std::uint8_t { machine, process };
 void agree_to_go_on();
 /// What there is to say of a Failure of this rank: that of the first rank that has one. Nothing where another says it.
 [[nodiscard]] std::optional<Failure> agreed(const Failure& failure);
+/// Does what no other rank does: they wait meanwhile, so a Failure ends them.
+void alone(const std::function<void()>& work);
 /// Ends all ranks, which may be waiting for this one: returns where there are no others.
 void end_ranks(const std::string& message, Exit exit);
 /// When all ranks are done.

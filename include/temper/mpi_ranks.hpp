@@ -26,7 +26,7 @@ class MpiRanks final : public Ranks {
 
   /// Those of these that run on this one's machine: that could share memory. In the same order. Collective.
   [[nodiscard]] MpiRanks of_machine() const;
-  /// Those of these that give the same number. In the same order. Collective.
+  /// Those of these that give the same number, which is not negative. In the same order. Collective.
   [[nodiscard]] MpiRanks of_group(int number) const;
 
   [[nodiscard]] std::size_t size() const override { return size_; }

@@ -21,7 +21,9 @@ struct MpiRanks::Communicator {
   Communicator(const Communicator&) = delete;
   Communicator& operator=(const Communicator&) = delete;
   ~Communicator() {
-    if (mpi != MPI_COMM_WORLD) MPI_Comm_free(&mpi);
+    int over = 0;
+    MPI_Finalized(&over);  // by the caller
+    if (mpi != MPI_COMM_WORLD && over == 0) MPI_Comm_free(&mpi);
     if (begins_mpi) MPI_Finalize();
   }
 };

@@ -219,6 +219,7 @@ Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, Ru
     if (run.checkpoints.resumes()) return best;
     if (rank(now.work.mesh, own).bad < rank(best.work.mesh, own).bad) {
       best = std::move(now);
+      run.facts.stays_uncut = settings.options.boundary == BoundaryVertices::split;
     } else {
       driver.recorder().returned_to(best.sweep);
     }

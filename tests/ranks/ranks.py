@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """`mpirun -n N temper optimize`: the bytes of one process, and what happens when a rank fails.
 
-    ranks.py PROGRAM MPIRUN            a sample: some seconds
-    ranks.py PROGRAM MPIRUN --all      threads 1, 2, 3, 8 × ranks 1, 2, 3, 5, 8 × spaces × methods, twenty kills, and how
-                                       much memory a rank takes: half an hour
+    ranks.py PROGRAM MPIRUN MACHINES         a sample: some seconds
+    ranks.py PROGRAM MPIRUN MACHINES --all   threads 1, 2, 3, 8 × ranks 1, 2, 3, 5, 8 × spaces × methods, twenty kills, and how
+                                             much memory a rank takes: half an hour
 
+MACHINES is the library of imitated_machines.cpp.
 Ranks share the processors of this machine, however few there are: nothing here is about speed. Prints a row for each
 comparison and each fault, with --all also the hash of each result.
 """
@@ -38,7 +39,8 @@ class Runner:
     def __init__(self, program, mpirun, folder):
         self.program, self.mpirun, self.folder = program, mpirun, folder
         self.environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                                OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_btl_base_warn_component_unused="0")
+                                OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_btl_base_warn_component_unused="0",
+                                OMPI_MCA_odls_base_sigkill_timeout="0")  # twice as many seconds pass after each failure
         self.problems, self.rows = [], 0
 
     def expect(self, holds, what):
@@ -118,14 +120,23 @@ def merge(runner):
     runner.expect(code == 0 and runner.bytes("out.vtu") == runner.bytes("alone.vtu") and text.count("wrote out.vtu") == 1,
                   f"merged, as many threads as there are: exit {code}")
     cases = {
-        "other words": (good + ["--max-sweeps", "7"], 1, "rank 2: optimize: was started with other words"),
-        "an unknown option": (good + ["--sweep", "7"], 2, "rank 2: optimize: unknown option --sweep"),
+        "other words": (good + ["--max-sweeps", "7"], 1, "process 2: optimize: was started with other words"),
+        "an unknown option": (good + ["--sweep", "7"], 2, "process 2: optimize: unknown option --sweep"),
+        "another --ranks": ([*good[:4], *APART], 1, "--ranks, or --help, is not the same"),
+        "--help": (["optimize", "--help", *MERGED], 1, "--ranks, or --help, is not the same"),
     }
     for name, (arguments, expected, message) in cases.items():
         (runner.folder / "out.vtu").write_bytes(OLD)
         code, text = runner.ranks((2, good), (1, arguments))
         runner.expect(code == expected and message in text and runner.bytes("out.vtu") == OLD,
                       f"{name} of one process: exit {code}" + ("" if message in text else f": {text}"))
+    for unit in (APART, MERGED):
+        words = ["sh", "-c", f"exec '{runner.program}' \"$@\" > /dev/full", "sh", *good[:4], *unit]
+        done = subprocess.run([runner.mpirun, "-n", "2", *words], cwd=runner.folder, env=runner.environment, capture_output=True,
+                              text=True, timeout=LONGEST)
+        runner.expect(done.returncode != 0 and "No space left" in done.stderr, f"no room for what is printed, {unit[1]}: {done.returncode}")
+    code, text = runner.ranks((2, ["optimize", "--help"]))
+    runner.expect(code == 0 and text.count("Usage") == 1, f"--help of all: exit {code}")
     code, text = runner.ranks((3, ["optimize", "none.vtu", "-o", "out.vtu", *MERGED]))
     runner.expect(code == 1 and text.count("none.vtu: cannot be read") == 1 and runner.bytes("out.vtu") == OLD,
                   f"no input for merged processes: exit {code}")
@@ -133,6 +144,32 @@ def merge(runner):
     code, text = runner.ranks((2, ["optimize", "--resume", "small.ckpt", "--time-limit", "0", *MERGED]))
     runner.expect((stopped, code) == (4, 0) and runner.bytes("out.vtu") == runner.bytes("alone.vtu") and "--ranks" not in text,
                   f"merged, stopped and resumed: exit {stopped} and {code}")
+
+
+def machines(runner, library):
+    """Four processes on two machines, as it seems to them: two ranks, which have their input from two disks."""
+    def run(path, **variables):
+        there = f"test $OMPI_COMM_WORLD_RANK -ge 2 && in={path} || in=plane.vtu"  # on the second machine
+        script = f"{there}; exec env LD_PRELOAD={library} '{runner.program}' optimize $in -o ranks.vtu --max-sweeps 2 --threads 1"
+        script = script if path == "plane.vtu" else script + " --quiet"
+        done = subprocess.run([runner.mpirun, "-n", "4", "sh", "-c", script], cwd=runner.folder, capture_output=True, text=True,
+                              timeout=LONGEST, env=dict(runner.environment, MACHINE_SIZE="2", **variables))
+        return done.returncode, done.stdout + done.stderr
+
+    alone = runner.one("optimize", "plane.vtu", "-o", "alone2.vtu", "--max-sweeps", "2")
+    for bound in ("-2", "0", "1"):
+        (runner.folder / "ranks.vtu").unlink(missing_ok=True)
+        code, text = run("plane.vtu", MACHINE_BOUND=bound)
+        warned = "the processes of one machine may not run on each other's processors" in text
+        runner.expect(code == alone.returncode and runner.bytes("ranks.vtu") == runner.bytes("alone2.vtu") and warned == (bound != "-2")
+                      and text.count("wrote ranks.vtu") == 1, f"two machines, bound: {bound}: exit {code}{'' if code == 0 else text}")
+    (runner.folder / "ranks.vtu").write_bytes(OLD)
+    code, text = run("none.vtu")
+    runner.expect(code == 1 and "rank 1: none.vtu: cannot be read" in text and runner.bytes("ranks.vtu") == OLD,
+                  f"no file on the second machine: exit {code}")
+    code, text = run("sphere.vtu")
+    runner.expect(code == 1 and "rank 1 has another mesh" in text and runner.bytes("ranks.vtu") == OLD,
+                  f"another file on the second machine: exit {code}")
 
 
 def refuse(runner):
@@ -145,7 +182,7 @@ def refuse(runner):
         "another mesh": (["optimize", "other.vtu", *good[2:]], "rank 2 has another mesh, other options"),
         "no file": (["optimize", "none.vtu", *good[2:]], "rank 2: none.vtu: cannot be read"),
         "a damaged file": (["optimize", "bad.vtu", *good[2:]], "rank 2: bad.vtu"),
-        "an unknown option": (good + ["--sweep", "7"], "rank 2: optimize: unknown option --sweep"),
+        "an unknown option": (good + ["--sweep", "7"], "process 2: optimize: unknown option --sweep"),
     }
     for name, (arguments, message) in cases.items():
         (runner.folder / "out.vtu").write_bytes(OLD)
@@ -178,6 +215,7 @@ def processes_of(runner, name):
 
 def stop(runner, kills, rng):
     """Killed, a run leaves its output as it was and a checkpoint to go on from; asked to stop, it writes its best mesh."""
+    del runner.environment["OMPI_MCA_odls_base_sigkill_timeout"]  # as users have it
     runner.one("example", "random", "--vertices", str(PARTS + 2000 if kills == 1 else 6 * PARTS), "-o", "large.vtu")
     words = ["optimize", "large.vtu", "--threads", "1", "--quiet"]
     seconds = {}
@@ -239,6 +277,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
     parser.add_argument("mpirun")
+    parser.add_argument("machines")
     parser.add_argument("--all", action="store_true")
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
@@ -246,6 +285,7 @@ def main():
         same_bytes(runner, given.all)
         small(runner)
         merge(runner)
+        machines(runner, os.path.abspath(given.machines))
         refuse(runner)
         stop(runner, 20 if given.all else 1, random.Random(1))
         if given.all:

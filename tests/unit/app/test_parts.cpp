@@ -74,6 +74,7 @@ TEST(Processors, AreGivenUpAndTakenAgain) {
   std::string too_many = all;
   too_many.back() = '\x80';
   EXPECT_FALSE(run_on(too_many)) << "there is no such processor";
+  EXPECT_EQ(own_processors(), one);
   EXPECT_TRUE(run_on(all));
   EXPECT_EQ(own_processors(), all);
 }
