@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "temper/optimize_table.hpp"
+#include "support/sanitizers.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
