@@ -3,8 +3,8 @@
 #include <map>
 #include <sstream>
 
-#include "temper/optimize_table.hpp"
 #include "support/sanitizers.hpp"
+#include "temper/optimize_table.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
