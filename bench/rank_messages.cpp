@@ -164,8 +164,7 @@ std::vector<std::vector<VertexId>> visits(const Mesh& mesh, std::size_t n_ranks,
     std::vector<std::size_t> doer(cuts.n_parts());
     for (std::size_t r = 0; r < n_ranks; ++r) {
       const Share share(doer.size(), r, n_ranks);
-      std::fill(doer.begin() + static_cast<std::ptrdiff_t>(share.first),
-                doer.begin() + static_cast<std::ptrdiff_t>(share.last), r);
+      for (std::size_t i = share.first; i < share.last; ++i) doer[i] = r;
     }
     if (near) {
       std::vector<std::vector<std::size_t>> numbers(doer.size(), std::vector<std::size_t>(n_ranks));

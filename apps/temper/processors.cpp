@@ -16,6 +16,14 @@ namespace {
 // Of all processors that Linux can be built for; what it has set of them comes first.
 constexpr std::size_t kMost = 8192;
 using Mask = unsigned long[kMost / (8 * sizeof(unsigned long))];  // NOLINT(google-runtime-int): as the system has it
+
+/// To those of these that the system lets this process run on.
+bool bind_to(const std::string& processors) {
+  Mask mask = {};
+  std::memcpy(mask, processors.data(), std::min(sizeof mask, processors.size()));
+  return sched_setaffinity(0, sizeof mask, reinterpret_cast<const cpu_set_t*>(mask)) == 0;
+}
+
 }  // namespace
 
 std::string own_processors() {
@@ -27,13 +35,9 @@ std::string own_processors() {
 }
 
 bool run_on(const std::string& processors) {
-  Mask mask = {};
-  std::memcpy(mask, processors.data(), std::min(sizeof mask, processors.size()));
   const std::string before = own_processors();
-  if (sched_setaffinity(0, sizeof mask, reinterpret_cast<const cpu_set_t*>(mask)) != 0) return false;
-  if (own_processors() == processors) return true;
-  std::memcpy(mask, before.data(), std::min(sizeof mask, before.size()));  // the system has left out some
-  sched_setaffinity(0, sizeof mask, reinterpret_cast<const cpu_set_t*>(mask));
+  if (bind_to(processors) && own_processors() == processors) return true;
+  static_cast<void>(bind_to(before));  // the system may have left out some
   return false;
 }
 

@@ -44,6 +44,8 @@ struct Processes {
   std::optional<MpiRanks> ranks = {};    // of all, when the others have left the run to them
   std::size_t in_rank = 1;               // processes that are this rank
   std::string processors = {};           // of all these
+
+  [[nodiscard]] MpiRanks& at_work() { return ranks ? *ranks : all; }
 };
 std::unique_ptr<Processes> processes;
 int standard_error = -1;  // of a rank that is silent
@@ -128,12 +130,11 @@ void join_ranks() {
 
 bool become_ranks(std::optional<RankUnit> unit, const Arguments& words) {
   if (!processes) return unit.has_value();
-  MpiRanks& all = processes->all;
   agree_to_go_on();  // all have been told what to do
   if (unit && !has_threads()) unit = RankUnit::process;
   const std::string plan = unit ? std::to_string(static_cast<int>(*unit)) : "nothing";
-  const std::vector<std::string> plans = all.all_gather(plan);
-  if (std::count(plans.begin(), plans.end(), plan) != static_cast<std::ptrdiff_t>(plans.size())) {
+  const std::vector<std::string> plans = processes->all.all_gather(plan);
+  if (std::any_of(plans.begin(), plans.end(), [&](const std::string& each) { return each != plan; })) {
     throw Failure(Exit::bad_input, "optimize: --ranks, or --help, is not the same for all processes");
   }
   if (!unit) return false;
@@ -152,15 +153,14 @@ std::size_t threads_of_rank(std::size_t threads) {
 
 Ranks* joined_ranks() {
   if (!processes) return nullptr;
-  MpiRanks& ranks = processes->ranks ? *processes->ranks : processes->all;
+  MpiRanks& ranks = processes->at_work();
   return ranks.size() > 1 ? &ranks : nullptr;
 }
 
 void end_ranks(const std::string& message, Exit exit) {
   if (!processes || processes->all.size() == 1) return;
   io::discard_unfinished();
-  const std::size_t number = (processes->ranks ? *processes->ranks : processes->all).rank();
-  const std::string line = fmt::format("temper: error: {} {}: {}\n", unit_name, number, message);
+  const std::string line = fmt::format("temper: error: {} {}: {}\n", unit_name, processes->at_work().rank(), message);
   const int to = standard_error >= 0 ? standard_error : STDERR_FILENO;
   static_cast<void>(!write(to, line.data(), line.size()));  // nobody may be there to read it
   processes->all.abort(static_cast<int>(exit));

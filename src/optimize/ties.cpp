@@ -23,7 +23,7 @@ EdgeShape shape_of(const Mesh& mesh, HalfedgeId h) {
 }
 
 bool is_tie(const Mesh& mesh, HalfedgeId h) {
-  if (mesh.is_boundary(h) || mesh.is_constrained(h)) return false;
+  if (mesh.keeps_its_place(h)) return false;
   const EdgeShape near = shape_of(mesh, h), far = shape_of(mesh, mesh.twin(h));
   return std::abs(near.g + far.g) < kTiedDual * near.l2;
 }

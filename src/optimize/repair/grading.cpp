@@ -10,7 +10,6 @@
 
 #include "geometry/bounding_boxes.hpp"
 #include "mesh/bad_triangles.hpp"
-#include "optimize/repair/neighborhood.hpp"
 #include "temper/necessity.hpp"
 
 namespace temper {
@@ -27,7 +26,10 @@ constexpr std::size_t kMostSplits = 20;
 using VertexMarks = IdVector<VertexId, std::uint8_t>;
 
 /// The largest ratio of the lengths of two edges of the boundary or of lines that meet.
-double length_ratio(const Mesh& mesh) { return plan_boundary_grading(mesh).ratio_before; }
+double length_ratio(const Mesh& mesh) {
+  constexpr double kNoCuts = std::numeric_limits<double>::infinity();
+  return plan_boundary_grading(mesh, kNoCuts).ratio_before;
+}
 
 class BoundaryCutter {
  public:
@@ -164,7 +166,7 @@ Lines::Lines(const Mesh& mesh, const VertexMarks* near) {
   for (const HalfedgeId h : mesh.halfedges()) {
     if (mesh.is_erased(Mesh::triangle(h)) || !mesh.is_edge_representative(h)) continue;
     if (near != nullptr && (*near)[mesh.origin(h)] == 0 && (*near)[mesh.target(h)] == 0) continue;
-    if (keeps_its_place(mesh, h)) lines_.push_back(line_of(mesh, h, lines_.size()));
+    if (mesh.keeps_its_place(h)) lines_.push_back(line_of(mesh, h, lines_.size()));
   }
   std::vector<BoundingBox> boxes;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -283,13 +285,14 @@ std::vector<Ends> lines_at(const Mesh& mesh, TriangleId t) {
   for (const VertexId v : mesh.corners(t)) {
     for (const HalfedgeId out : mesh.star(v)) {
       for (const HalfedgeId h : {out, Mesh::prev(out)}) {
-        if (keeps_its_place(mesh, h))
+        if (mesh.keeps_its_place(h))
           found.emplace_back(-squared_length(mesh.position(mesh.target(h)) - mesh.position(mesh.origin(h))), h);
       }
     }
   }
   std::sort(found.begin(), found.end());
   std::vector<Ends> lines;
+  lines.reserve(found.size());
   for (const auto& [minus_length2, h] : found) lines.push_back({mesh.origin(h), mesh.target(h)});
   return lines;
 }

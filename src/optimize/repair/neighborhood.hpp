@@ -13,11 +13,6 @@
 
 namespace temper {
 
-/// Says whether the edge of h is of the boundary or of a constrained line.
-[[nodiscard]] inline bool keeps_its_place(const Mesh& mesh, HalfedgeId h) {
-  return mesh.is_boundary(h) || mesh.is_constrained(h);
-}
-
 struct Neighborhood {
   Mesh mesh;
   TriangleId seed;                           ///< that it was taken around, by local number

@@ -104,7 +104,7 @@ bool RepairSearch::weighs(TriangleId seed) const {
     return false;
   for (int k = 0; k < 3; ++k) {
     const HalfedgeId h = Mesh::halfedge(seed, k);
-    if (keeps_its_place(mesh, h) && edge_conflict(mesh, h)) return false;
+    if (mesh.keeps_its_place(h) && edge_conflict(mesh, h)) return false;
   }
   return true;
 }
