@@ -37,7 +37,6 @@ OptimizeOptions sweeps_only(Solver solver) {
   OptimizeOptions options;
   options.paper.solver = solver;
   options.paper.tolerance = 0;
-  options.paper.newton_passes = false;
   return options;
 }
 

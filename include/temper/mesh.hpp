@@ -89,7 +89,6 @@ class ZeroUntilSet {
   }
 
  private:
-  friend class MeshArchive;
   [[nodiscard]] bool is_zero() const {
     for (const T value : values_) {
       if (value != T()) return false;
@@ -236,7 +235,6 @@ class Mesh {
   friend bool operator==(const Mesh&, const Mesh&) = default;
 
  private:
-  friend class MeshArchive;
   friend class MeshBuilder;
   friend class MeshEditor;
   friend class MeshPermuter;

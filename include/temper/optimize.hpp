@@ -188,10 +188,6 @@ struct PaperSwitches {
   Solver solver = Solver::newton;
   /// Over-relaxation of Newton steps, in (0, 2). Absent: 1.7, but 1.97 while γ shrinks from 1. Given: constant.
   std::optional<double> relaxation = {};
-  /// Once γ has settled, every triangle is well-centered and sweeps gain less than 1 %, every other sweep makes a step
-  /// of all vertices at once, as long as that gains more. Only for barriers with Solver::newton, where flips, order,
-  /// flip limit and stopping rule are the default ones, and without anchor, collapses, removals and size band.
-  bool newton_passes = true;
   SweepOrder order = SweepOrder::hilbert;
   std::uint64_t seed = 1;  ///< of SweepOrder::random, of the jitter that frees symmetric grids, and of repairs
   int weights_from = 0;    ///< i_w: first sweep that changes weights
@@ -244,7 +240,7 @@ struct OptimizeOptions {
   /// accuracy: the run lowers `energy`, which has to be a barrier, until all margins are above accuracy.margin, or it
   /// ends; then E of AccuracyOptions, with the connectivity as it is; error: after that the errors of error.model. A
   /// mesh that has all margins at first goes on to the second phase at once, unless its boundary is to be split.
-  /// `solver`, `order`, `newton_passes`, `tolerance` and `stopping` are of the first phase. energy: `energy` is lowered
+  /// `solver`, `order`, `tolerance` and `stopping` are of the first phase. energy: `energy` is lowered
   /// to the end. Absent: objective_of().
   std::optional<Objective> objective = {};
   Scheme for_ = Scheme::all;  ///< of Objective::accuracy and error
@@ -261,8 +257,8 @@ struct OptimizeOptions {
   std::optional<SizeField> size_field = {};  ///< that sizes are compared with; absent: the input's own
   /// B ≥ 1: no step or flip takes the local size of a vertex out of [s/B, B s], s the size field there, or further out
   /// than it is. Removals, insertions, deferred flips, and those that make the input regular are not asked; a repair
-  /// asks, but sees only the triangles of its neighbourhood. With a band sweeps go vertex by vertex, on one thread, and
-  /// without Newton passes. Absent: no limit.
+  /// asks, but sees only the triangles of its neighbourhood. With a band sweeps go vertex by vertex, on one
+  /// thread. Absent: no limit.
   std::optional<double> size_band = {};
   Repair repair = Repair::moves;
   int repair_trials = 20000;  ///< most edits that are tried, each on a copy of a neighbourhood; 1 to 3 ms each; a
@@ -304,26 +300,25 @@ struct Snapshot {
   const IdVector<VertexId, VertexId>& vertices;  ///< number in the input of each vertex; invalid: inserted
 };
 
-/// Hears of each place of a run where it can be stopped and resumed: before a sweep, and before a repair of a place.
-/// state() makes the bytes for OptimizeHooks::resume. They take about as long to make as a copy of the mesh, some 100
-/// bytes a vertex, and several times that while attempts or repairs compare meshes.
-using StateListener = std::function<void(const std::function<std::string()>& state)>;
+/// The mesh that is worth keeping, should the run end now.
+struct BestSoFar {
+  const Mesh& mesh;                              ///< in the user's units
+  const IdVector<VertexId, VertexId>& vertices;  ///< as OptimizeReport::vertices
+};
+/// `best` passes the best valid mesh so far to its argument, and nothing if there is none yet. It copies the mesh.
+using BestListener = std::function<void(const std::function<void(const std::function<void(const BestSoFar&)>&)>& best)>;
 
 /// What a run works with, and who listens: the result does not depend on any of it, unless the observer stops the run.
 struct OptimizeHooks {
   Executor* executor = nullptr;  ///< threads for sweeps and sums
-  /// Processes that make this run together, all with the same mesh, options and state to resume: each gets the result.
+  /// Processes that make this run together, all with the same mesh and options: each gets the result.
   /// The observer and the time limit are those of rank 0. Null: this one alone.
   Ranks* ranks = nullptr;
   const InputNames* names = nullptr;                    ///< the user's numbering, for errors and notes
   Observer observer = {};                               ///< hears of the progress, and may stop the run
   Tracer tracer = {};                                   ///< sees every event of the run
   std::function<void(const Snapshot&)> snapshots = {};  ///< sees the mesh between sweeps; a copy each time
-  StateListener checkpoints = {};                       ///< may take the state of the run
-  /// A state that a run with the same mesh and options gave to `checkpoints`; empty: none. The run goes on from there
-  /// and ends with the same bytes; who listens hears what comes after it. Times are those of all runs together, but for
-  /// the time limit. Errors: no state, a damaged one, one of another version, mesh, or set of options.
-  std::string_view resume = {};
+  BestListener best_so_far = {};  ///< may save the best mesh so far: called between sweeps and between repairs
   /// Nobody looks at the mesh before optimize() has returned, observers neither: what it can be without meanwhile is
   /// released, 24 bytes a vertex.
   bool exclusive = false;
@@ -342,8 +337,7 @@ enum class Stopped {
   hidden,           ///< deferred flips hid a vertex that may not be: the mesh is the last or best one that was regular
 };
 [[nodiscard]] std::string_view name(Stopped stopped);
-/// Whether the caller ended the run, by its time limit or by its observer: a run with more time would have gone on, and
-/// one that resumes its last checkpoint does.
+/// Whether the caller ended the run, by its time limit or by its observer: a run with more time would have gone on.
 [[nodiscard]] constexpr bool stopped_early(Stopped stopped) {
   return stopped == Stopped::time_limit || stopped == Stopped::cancelled;
 }
@@ -380,7 +374,7 @@ struct OptimizeReport {
 /// triangles; edges that are not regular, unless hidden vertices are kept; for barriers, triangles that are not
 /// well-centered; for accuracy, whether margins are kept; the energy. So a HOT energy may leave more triangles not
 /// well-centered, which a note says. Errors, which leave the mesh as it was: a value out of range; weights that hide a
-/// vertex; a mesh outside the barrier of E_BH or E_BHs; a state that cannot be resumed. O(sweeps · n).
+/// vertex; a mesh outside the barrier of E_BH or E_BHs. O(sweeps · n).
 [[nodiscard]] Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options = {},
                                                 const OptimizeHooks& hooks = {});
 

@@ -36,7 +36,7 @@ VERBS = {
 
 # Options of optimize that are another option's value, or two for one.
 SPELLED = {
-    "--gamma-rel": "gamma", "--h0-rel": "h0", "--positions-only": "unknowns", "--weights-only": "unknowns", "--no-newton-passes": "newton_passes",
+    "--gamma-rel": "gamma", "--h0-rel": "h0", "--positions-only": "unknowns", "--weights-only": "unknowns",
     "--no-flips": "flips",
 }  # fmt: skip
 

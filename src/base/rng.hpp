@@ -28,12 +28,6 @@ class Rng {
   /// Uniform in 0 … n − 1, n > 0; the bias of n / 2³² is far below what a seed matters.
   constexpr std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(((next() >> 32) * n) >> 32); }
 
-  /// For an archive (temper/archive.hpp): where the stream is.
-  template <class Archive>
-  void visit(Archive& archive) {
-    archive(state_);
-  }
-
  private:
   std::uint64_t state_;
 };

@@ -97,19 +97,6 @@ std::size_t AccuracyFloors::memory_bytes() const {
   return bytes;
 }
 
-void AccuracyFloors::visit(Archive& archive) {
-  std::vector<double> all(size_);
-  for (std::size_t i = 0; i < size_; ++i) all[i] = (*this)[TriangleId(i)];
-  archive(all, margin_, lengths);
-  if (!archive.reads()) return;
-  size_ = all.size();
-  blocks_.clear();
-  for (std::size_t begin = 0; begin < size_; begin += kBlock) {
-    const auto first = all.begin() + static_cast<std::ptrdiff_t>(begin);
-    blocks_.emplace_back(first, first + static_cast<std::ptrdiff_t>(std::min(kBlock, size_ - begin)));
-  }
-}
-
 template <class In>
 AccuracyStarOf<In> AccuracyPatch::Star<In>::view(const AccuracyModel& model, bool open) {
   const auto n = static_cast<double>(triangles.size());

@@ -66,8 +66,6 @@ class AccuracyFloors {
 
   LengthFloors lengths;  ///< where the model keeps them
 
-  void visit(Archive& archive);
-
  private:
   static constexpr std::size_t kBlock = 128;  // few have less: each takes as much room as its block
 

@@ -28,12 +28,6 @@ class LengthFloors {
     return floors_[mesh.is_edge_representative(h) ? h : mesh.twin(h)];
   }
 
-  /// For an archive.
-  template <class Archive>
-  void visit(Archive& archive) {
-    archive.plain(floors_);
-  }
-
  private:
   IdVector<HalfedgeId, LengthBarrier<double>> floors_;  // at the representative
 };

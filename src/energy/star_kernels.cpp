@@ -8,6 +8,4 @@ const StarKernels& star_kernels(const Space& space) {
   return space.is_plane() ? *TEMPER_IN_USE(kPlaneKernels) : *TEMPER_IN_USE(kSphereKernels);
 }
 
-TriangleHessiansFunction triangle_hessians() { return *TEMPER_IN_USE(kTriangleHessians); }
-
 }  // namespace temper

@@ -7,7 +7,6 @@
 
 #include "energy/accuracy_lanes.hpp"
 #include "energy/lanes.hpp"
-#include "energy/triangle_hessian.hpp"
 #include "temper/space.hpp"
 
 namespace temper {
@@ -60,23 +59,14 @@ struct StarKernels {
 /// The kernels of a space, compiled for the instruction set in use.
 [[nodiscard]] const StarKernels& star_kernels(const Space& space);
 
-/// The Hessians of a barrier in the plane. Bit i of the result: triangle i is inside the domain; elsewhere its numbers
-/// mean nothing.
-using TriangleHessiansFunction = unsigned (*)(const EdgeFormula& formula, const TriangleLanes& triangles,
-                                              TriangleHessians& result);
-[[nodiscard]] TriangleHessiansFunction triangle_hessians();
-
 namespace baseline {
 extern const StarKernels kPlaneKernels, kSphereKernels;
-extern const TriangleHessiansFunction kTriangleHessians;
 }  // namespace baseline
 namespace avx2 {
 extern const StarKernels kPlaneKernels, kSphereKernels;
-extern const TriangleHessiansFunction kTriangleHessians;
 }  // namespace avx2
 namespace avx512 {
 extern const StarKernels kPlaneKernels, kSphereKernels;
-extern const TriangleHessiansFunction kTriangleHessians;
 }  // namespace avx512
 
 }  // namespace temper

@@ -4,7 +4,7 @@
 #include "energy/accuracy_kernels_set.hpp"
 #include "energy/star_kernels.hpp"
 #include "energy/star_sums.hpp"
-#include "energy/triangle_hessian_set.hpp"
+#include "energy/star_sums.hpp"
 #include "geometry/predicates_inline.hpp"
 
 namespace temper::TEMPER_INSTRUCTION_SET {
@@ -149,6 +149,5 @@ constexpr StarKernels kKernelsOf = {barrier_derivatives<In>, barrier_value<In>, 
 
 const StarKernels kPlaneKernels = kKernelsOf<InPlane>;
 const StarKernels kSphereKernels = kKernelsOf<OnSphere>;
-const TriangleHessiansFunction kTriangleHessians = triangle_hessians;
 
 }  // namespace temper::TEMPER_INSTRUCTION_SET

@@ -121,11 +121,6 @@ struct Tries {
     return left <= kFarMore * count_bad(best.work.mesh, settings.hooks.executor);
   }
 };
-void visit(Archive& archive, Tries& tries) {
-  auto& [all, i, left, renewed] = tries;
-  archive(all, i, left, renewed);
-  archive.require(i < all.size());
-}
 
 /// The input made regular, and its boundary cut, as an attempt begins; or the best mesh, cut where it is bad.
 std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Settings& settings, const Attempt& attempt) {
@@ -154,28 +149,21 @@ void tell_cuts(const Attempt& attempt, RunFacts& facts) {
 Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run) {
   const OptimizeOptions& o = settings.options;
   std::optional<Candidate> best;
-  Candidate now;
   Tries tries;
-  const Resumable here(run.checkpoints, best, now, tries);
-  if (run.checkpoints.failed()) return *run.checkpoints.error();
   for (; tries.i < tries.all.size(); ++tries.i) {
-    const bool begins = !run.checkpoints.resumes();
-    if (begins && best && !tries.may_gain(*best, settings)) continue;
+    if (best && !tries.may_gain(*best, settings)) continue;
     const bool goes_on = tries.now().cuts == Cuts::where_bad;
-    if (begins) now = goes_on ? *best : Candidate{WorkingCopy(input.whole(), o.paper.order, settings.hooks.executor)};
-    Driver driver(now.work, settings, run);  // NOLINT(bugprone-use-after-move): what begins has been made anew
-    if (begins && best) driver.recorder().returned_to(goes_on ? best->sweep : -1);
-    if (begins) {
-      if (auto error = prepare(driver, input.whole(), settings, tries.now())) return *std::move(error);
-    }
-    if (begins && !best) {
+    Candidate now = goes_on ? *best : Candidate{WorkingCopy(input.whole(), o.paper.order, settings.hooks.executor)};
+    Driver driver(now.work, settings, run);
+    if (best) driver.recorder().returned_to(goes_on ? best->sweep : -1);
+    if (auto error = prepare(driver, input.whole(), settings, tries.now())) return *std::move(error);
+    if (!best) {
       if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
       tries.all = attempts_for(now.work.mesh, settings);
       run.facts.input_flips = run.report.flips;
     }
     input.fold();
     now.sweep = driver.attempt(tries.now(), !tries.is_last() || repairs(settings));
-    if (auto error = run.checkpoints.error()) return *std::move(error);
     if (!best || replaces(now, *best, tries.now(), settings)) {
       best = std::move(now);
       tries.left = 0;
@@ -195,28 +183,21 @@ Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, Ru
   Settings own = settings;
   own.options.unknowns = Unknowns::weights;
   std::vector<Attempt> tries(1);
-  std::size_t i = 0;
-  Candidate now;
-  const Resumable here(run.checkpoints, best, own, tries, i, now);
   const bool may = settings.options.unknowns == Unknowns::positions_and_weights && repairs(settings) &&
                    run.report.sweeps <= settings.options.max_sweeps / 2;  // repairs need those that are left
-  if (!here.resumed() && !(may && run.goes_on() && has_bad(best, settings) && !are_apart(best, settings))) return best;
-  for (; i < tries.size(); ++i) {
-    const bool begins = !run.checkpoints.resumes();
-    if (begins) now = {WorkingCopy(input.whole(), own.options.paper.order, own.hooks.executor)};
-    Driver driver(now.work, own, run);  // NOLINT(bugprone-use-after-move): what begins has been made anew
-    if (begins) {
-      driver.recorder().returned_to(-1);
-      driver.make_regular();  // it could be at the first attempt
-    }
-    if (begins && i == 0) tries = attempts_by_weights(now.work.mesh, own);
+  if (!may || !run.goes_on() || !has_bad(best, settings) || are_apart(best, settings)) return best;
+  for (std::size_t i = 0; i < tries.size(); ++i) {
+    Candidate now{WorkingCopy(input.whole(), own.options.paper.order, own.hooks.executor)};
+    Driver driver(now.work, own, run);
+    driver.recorder().returned_to(-1);
+    driver.make_regular();  // it could be at the first attempt
+    if (i == 0) tries = attempts_by_weights(now.work.mesh, own);
     input.fold();
     if (tries.empty()) {
       driver.recorder().returned_to(best.sweep);
       break;
     }
     now.sweep = driver.attempt(tries[i], true);
-    if (run.checkpoints.resumes()) return best;
     if (rank(now.work.mesh, own).bad < rank(best.work.mesh, own).bad) {
       best = std::move(now);
       run.facts.stays_uncut = settings.options.boundary == BoundaryVertices::split;
@@ -234,23 +215,16 @@ Candidate repaired(Candidate best, Settings& settings, Run& run) {
   };
   const std::uint64_t searches = settings.hooks.lp != nullptr ? kSearches + 1 : kSearches;
   std::optional<Candidate> start;  // of all searches on copies, once it is not the best one
-  Candidate copy;
-  std::uint64_t i = 0;
-  bool in_place = false, polishes = false;
-  const Resumable here(run.checkpoints, best, start, copy, i, in_place, polishes);
-  if (!here.resumed()) {
-    if (!repairs(settings) || is_done(best) || !std::isfinite(total_energy(best.work.mesh, settings.model)))
-      return best;
-    in_place = keeps_vertices(settings) && are_apart(best, settings);
-  }
-  for (; !polishes && i < searches; ++i) {
-    const bool begins = !run.checkpoints.resumes(), asks_programmes = i == kProgrammes && settings.hooks.lp != nullptr;
-    if (begins && is_done(best)) break;
+  if (!repairs(settings) || is_done(best) || !std::isfinite(total_energy(best.work.mesh, settings.model))) return best;
+  const bool in_place = keeps_vertices(settings) && are_apart(best, settings);
+  for (std::uint64_t i = 0; i < searches && !is_done(best); ++i) {
+    const bool asks_programmes = i == kProgrammes && settings.hooks.lp != nullptr;
     if (asks_programmes) start.reset();  // they cost more than what is cured
-    if (begins && !in_place) copy = start ? *start : best;
-    Candidate& now = in_place ? best : copy;  // NOLINT(bugprone-use-after-move): what begins has been made anew
+    Candidate copy;
+    if (!in_place) copy = start ? *start : best;
+    Candidate& now = in_place ? best : copy;
     Driver driver(now.work, settings, run);
-    if (begins && start) driver.recorder().returned_to(start->sweep);
+    if (start) driver.recorder().returned_to(start->sweep);
     const bool changed = driver.repair(settings.options.paper.seed + i, asks_programmes);
     now.sweep = run.report.sweeps;
     if (in_place) continue;
@@ -264,9 +238,7 @@ Candidate repaired(Candidate best, Settings& settings, Run& run) {
   }
   if (in_place) return best;
   start.reset();
-  copy = {};
-  polishes = true;
-  if (run.checkpoints.resumes() || run.goes_on()) best.sweep = Driver(best.work, settings, run).polish(best.sweep);
+  if (run.goes_on()) best.sweep = Driver(best.work, settings, run).polish(best.sweep);
   return best;
 }
 

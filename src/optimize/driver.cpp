@@ -46,14 +46,12 @@ Driver::Driver(WorkingCopy& work, Settings& settings, Run& run, std::size_t part
 
 /// Algorithm 1.
 int Driver::run(Phase& phase, int first) {
-  int sweeps = run_.report.sweeps;
-  const Resumable here(run_.checkpoints, first, sweeps, phase, *this);
-  if (!here.resumed()) begin(phase, first);
+  const int sweeps = run_.report.sweeps;
+  begin(phase, first);
   Verdict verdict = Verdict::improving;
   std::optional<Stopped> asked;  // by the caller, whatever the flips after it find
   do {                           // outer iterations
     do {                         // inner iterations
-      if (!run_.checkpoints.here()) return first;
       verdict = sweep(phase);
     } while (verdict == Verdict::improving &&
              !(defers_flips(settings_.options) && ++inner_ == settings_.options.paper.inner));
@@ -81,9 +79,6 @@ void Driver::begin(Phase& phase, int sweep) {
 /// Lines 9 to 18 of Algorithm 1, and the phase's verdict on them.
 Driver::Verdict Driver::sweep(Phase& phase) {
   if (!phase.may_sweep()) return Verdict::stopped;
-  const bool passed = phase.wants_newton_pass();
-  if (passed && !(newton_pass(phase) && run_.sweeps_left())) return Verdict::stopped;
-  const double halfway = run_.report.history.back().energy;
   recorder_.begin_sweep(run_.report.sweeps + 1);
   const std::optional<bool> moved = phase.move_all(recorder_);
   const bool whole = moved ? *moved : improve_all_vertices(phase.iteration());
@@ -95,7 +90,6 @@ Driver::Verdict Driver::sweep(Phase& phase) {
   ++phase.iteration();
   ++run_.report.sweeps;
   record(phase.measure());
-  if (passed) phase.passed(halfway, run_.report.history.back().energy);
   if (!defers_flips(settings_.options)) keep_if_best(phase);
   show(Snapshot::Moment::after_sweep, phase);
   if (!whole) return Verdict::stopped;  // by the caller or the clock
@@ -132,17 +126,6 @@ Driver::Verdict Driver::flip_if_deferred(Phase& phase, Verdict of_sweeps) {
   if (of_sweeps == Verdict::settled && !needed && !phase.goes_on_with_weights()) return Verdict::stopped;
   run_.report.stopped = outer_ == settings_.options.paper.outer ? Stopped::max_outer : Stopped::max_sweeps;
   return outer_ == settings_.options.paper.outer ? Verdict::stopped : Verdict::improving;
-}
-
-/// A sweep of its own, that makes one step of the stopping rule with the sweep after it. False when it was cut short.
-bool Driver::newton_pass(Phase& phase) {
-  recorder_.begin_sweep(run_.report.sweeps + 1);
-  const bool whole = sweeper_.newton_pass(phase.iteration(), run_);
-  ++phase.iteration();
-  ++run_.report.sweeps;
-  record(phase.measure());
-  show(Snapshot::Moment::after_sweep, phase);
-  return whole;
 }
 
 /// One Gauss-Seidel sweep, lines 9 to 16. False when it was cut short.
@@ -287,15 +270,12 @@ void Driver::jitter(double amount) {
 }
 
 int Driver::attempt(const Attempt& attempt, bool may_give_up) {
-  bool good = false;  // with the weights of ties alone
-  const Resumable here(run_.checkpoints, good);
-  if (!here.resumed()) good = weigh_ties(attempt.tie_weight);
-  if (good) return polish(run_.report.sweeps);
-  if (!here.resumed()) jitter(attempt.jitter);
-  int first = run_.next_sweep();
+  if (weigh_ties(attempt.tie_weight)) return polish(run_.report.sweeps);
+  jitter(attempt.jitter);
+  const int first = run_.next_sweep();
   const bool may_return_there = attempt.first_energy.has_value() || defers_flips(settings_.options);
   // A trace says by sweeps where a run returns to.
-  if (!here.resumed() && first > 0 && may_return_there) end_sweep_of_its_own();
+  if (first > 0 && may_return_there) end_sweep_of_its_own();
   EnergyPhase phase(work_, settings_, run_, attempt, may_give_up);
   const int last = run(phase, first);
   phase.take_last_energy();
@@ -327,7 +307,6 @@ bool Driver::repair(std::uint64_t seed, bool asks_programmes) {
   RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed, asks_programmes);
   bool changed = false;
   RunningEnergyAndBad totals;
-  const Resumable here(run_.checkpoints, search, changed, *this);
   while (run_.sweeps_left() && search.improve_one_place()) {
     grow();
     if (flipper_.has_removed()) compact();
@@ -341,9 +320,8 @@ bool Driver::repair(std::uint64_t seed, bool asks_programmes) {
 }
 
 int Driver::polish(int sweep) {
-  WorkingCopy before = work_;
-  std::size_t bad = count_bad(mesh_, settings_.hooks.executor);
-  const Resumable here(run_.checkpoints, before, bad, sweep);
+  const WorkingCopy before = work_;
+  const std::size_t bad = count_bad(mesh_, settings_.hooks.executor);
   EnergyPhase phase(work_, settings_, run_, kPolish, false);
   const int last = run(phase, sweep);
   if (count_bad(mesh_, settings_.hooks.executor) <= bad) return last;

@@ -32,8 +32,6 @@ class Driver {
 
   [[nodiscard]] const Recorder& recorder() const { return recorder_; }
 
-  void visit(Archive& archive);
-
  private:
   using Verdict = Phase::Verdict;
 
@@ -50,7 +48,6 @@ class Driver {
   bool improve_all_vertices(int iteration);
   void settle_updates(const IdVector<VertexId, WeightedPoint>& before);
   bool insert_vertices(int iteration);
-  bool newton_pass(Phase& phase);
   void compact();
   void grow();
   bool halve_weights();

@@ -4,7 +4,6 @@
 #include "energy/whole_mesh.hpp"
 #include "optimize/lengths.hpp"
 #include "optimize/phase.hpp"
-#include "optimize/sweep/newton_pass.hpp"
 
 namespace temper {
 namespace {
@@ -14,8 +13,6 @@ namespace {
 constexpr int kPatience = 25;
 // Sweeps in which vertices may bring a barrier's infinite energy down one by one, before all weights shrink.
 constexpr int kInfinitePatience = 5;
-// A sweep that still lowers the energy by this part of itself finds its way among flips and minima: passes wait.
-constexpr double kSlowFall = 0.01;
 
 }  // namespace
 
@@ -44,7 +41,7 @@ void EnergyPhase::take_energy(EnergyKind kind) {
   least_bad_ = mesh_.n_triangles();
   sweeps_since_fewer_bad_ = sweeps_since_lower_ = infinite_sweeps_ = 0;
   before_ = total();
-  least_energy_ = fall_ = kInfinity;
+  least_energy_ = kInfinity;
 }
 
 void EnergyPhase::take_last_energy() {
@@ -96,7 +93,6 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
   }
   if (softener_.settled() && may_give_up_ && !before_switch_ && stagnates()) return Verdict::stopped;
   const double fall = (before_ - after) / std::abs(after);
-  if (softener_.settled()) fall_ = fall;
   const bool sharper = softener_.advance(mesh_, fall, run_.report.history.back().bad, settings_.model);
   settings_.relaxation = settings_.options.paper.relaxation.value_or(softener_.relaxation());
   before_ = !sharper ? after : softener_.compares_energies() ? total() : kInfinity;
@@ -135,19 +131,7 @@ bool EnergyPhase::goes_on_with_weights() {
   const OptimizeOptions& o = settings_.options;
   if (o.unknowns != Unknowns::positions_and_weights || iteration_ >= o.paper.weights_from) return false;
   iteration_ = o.paper.weights_from;
-  fall_ = kInfinity;  // of another problem
-  passes_pay_ = true;
   return true;
-}
-
-/// Newton's method for many vertices at once is for where nothing is bad and sweeps have become slow.
-bool EnergyPhase::wants_newton_pass() const {
-  return passes_pay_ && fall_ < kSlowFall && run_.report.history.back().bad == 0 &&
-         allows_newton_passes(settings_, mesh_.space());
-}
-
-void EnergyPhase::passed(double after_pass, double after_sweep) {
-  passes_pay_ = before_ - after_pass > after_pass - after_sweep;
 }
 
 }  // namespace temper

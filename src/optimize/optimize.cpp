@@ -17,10 +17,6 @@
 namespace temper {
 namespace {
 
-/// The stage of a run: attempts from the input, such with weights alone, repairs of the best of them, the second
-/// objective, the third.
-enum class Stage { attempts, weights, repairs, accuracy, error };
-
 /// Says whether the second phase may begin at once with the input.
 bool is_ready_for_accuracy(const Mesh& mesh, const Settings& s) {
   return s.options.objective != Objective::energy && s.options.boundary != BoundaryVertices::split &&
@@ -51,12 +47,10 @@ void improve(Candidate& best, const Settings& settings, Run& run, AccuracySizes&
   if (run.stopped_early() || run.report.stopped == Stopped::hidden) return;
   const bool judges = settings.options.error.model != nullptr;
   std::optional<Candidate> before;
-  if (judges && !run.checkpoints.resumes()) before = best;
-  const Resumable here(run.checkpoints, before);
+  if (judges) before = best;
   Improving phase(best.work, settings, run, sizes.lend(best.work, settings.hooks.executor));
   Driver driver(best.work, phase.settings(), run);
   best.sweep = driver.run(phase, best.sweep);
-  if (run.checkpoints.resumes()) return;  // the state that is resumed does not fit
   sizes.take_back(phase.take_sizes(), best.work, settings.hooks.executor);
   if (!before) return;
   const auto rank_of = [&](const Candidate& c) {
@@ -81,42 +75,19 @@ Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, co
     settings->hooks.executor = &together.emplace(or_serial(hooks.executor), *hooks.ranks);
   }
 
-  auto checkpoints = Checkpoints::of(hooks, options, mesh);
-  if (!checkpoints) return checkpoints.error();
-  run.checkpoints = *std::move(checkpoints);
-
-  auto stage = Stage::attempts;
-  Candidate best;
-  const Resumable here(run.checkpoints, run, *settings, stage, best);
-  if (run.checkpoints.failed()) return *run.checkpoints.error();
   std::optional<AccuracySizes> sizes;
   const InputMeasures of_input = measured(mesh, *settings, sizes);
   InputMesh input(mesh, hooks.exclusive && !options.size_band, hooks.executor);  // the band's field may look at it
-  if (stage == Stage::attempts) {
-    auto found = is_ready_for_accuracy(mesh, *settings)
-                     ? Candidate{WorkingCopy(mesh, options.paper.order, hooks.executor)}
-                     : best_attempt(input, *settings, run);
-    if (!found) return found.error();
-    best = *std::move(found);
-    stage = Stage::weights;
-  }
+  auto found = is_ready_for_accuracy(mesh, *settings)
+                   ? Candidate{WorkingCopy(mesh, options.paper.order, hooks.executor)}
+                   : best_attempt(input, *settings, run);
+  if (!found) return found.error();
+  Candidate best = *std::move(found);
   input.fold();
-  if (stage == Stage::weights) {
-    best = weighed(std::move(best), input, *settings, run);
-    stage = Stage::repairs;
-  }
-  if (stage == Stage::repairs) {
-    best = repaired(std::move(best), *settings, run);
-    stage = Stage::accuracy;
-  }
-  if (sizes) {
-    if (stage == Stage::accuracy) {
-      improve<AccuracyPhase>(best, *settings, run, *sizes);
-      stage = Stage::error;
-    }
-    if (settings->options.objective == Objective::error) improve<ErrorPhase>(best, *settings, run, *sizes);
-  }
-  if (auto error = run.checkpoints.error()) return *std::move(error);
+  best = weighed(std::move(best), input, *settings, run);
+  best = repaired(std::move(best), *settings, run);
+  if (sizes) improve<AccuracyPhase>(best, *settings, run, *sizes);
+  if (settings->options.objective == Objective::error) improve<ErrorPhase>(best, *settings, run, *sizes);
   give_back(input.whole(), std::move(best), *std::move(settings), of_input, std::move(sizes), run);
   return std::move(run.report);
 }

@@ -41,14 +41,9 @@ class Phase {
   /// Moves all vertices at once, where the phase does that in place of a sweep; none if it does not. False when it was
   /// cut short.
   virtual std::optional<bool> move_all(const Recorder& /*recorder*/) { return std::nullopt; }
-  /// Says whether a step of all vertices at once should go before the next sweep.
-  [[nodiscard]] virtual bool wants_newton_pass() const { return false; }
-  /// Learns what the last pass and the sweep after it left of the energy.
-  virtual void passed(double /*after_pass*/, double /*after_sweep*/) {}
   [[nodiscard]] virtual Keeps keeps() const = 0;
   /// The paper's i: sweeps of this phase.
   virtual int& iteration() = 0;
-  virtual void visit(Archive& archive) = 0;
 };
 
 /// Lowers an energy of the registry: one attempt, or a polish.
@@ -64,11 +59,8 @@ class EnergyPhase final : public Phase {
   Verdict judge(bool changed) override;
   void compare_from_here() override { before_ = run_.report.history.back().energy; }
   bool goes_on_with_weights() override;
-  [[nodiscard]] bool wants_newton_pass() const override;
-  void passed(double after_pass, double after_sweep) override;
   [[nodiscard]] Keeps keeps() const override { return settings_.energy.barrier ? Keeps::last : Keeps::best_sweep; }
   int& iteration() override { return iteration_; }
-  void visit(Archive& archive) override;
   /// What has been measured of the mesh as it is, for the history of the run.
   [[nodiscard]] SweepRecord record_of(const EnergyAndBad& measured) const;
   /// From the attempt's first energy to that of the options, if it has not been reached.
@@ -96,8 +88,6 @@ class EnergyPhase final : public Phase {
   double least_energy_ = 0;  // at the last γ, and for how many sweeps
   int sweeps_since_lower_ = 0;
   int infinite_sweeps_ = 0;
-  double fall_ = 0;         // of the energy in the last step at the last γ, relative
-  bool passes_pay_ = true;  // more than sweeps do
 };
 
 }  // namespace temper

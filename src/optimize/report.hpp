@@ -15,7 +15,6 @@ struct Candidate {
   WorkingCopy work;
   int sweep = 0;
 };
-void visit(Archive& archive, Candidate& candidate);
 
 /// What the report compares with, as far as it depends on the input alone. It is measured before the sweeps: whoever
 /// stops them need not wait for it, and Run::begin_sweeps() learns how long the like takes at the end.

@@ -29,7 +29,7 @@ void Run::hear() {
 }
 
 bool Run::ask(double fraction_of_sweep) {
-  if (options_.time_limit > 0 && seconds_here() + ending_seconds_ > options_.time_limit) {
+  if (options_.time_limit > 0 && seconds() + ending_seconds_ > options_.time_limit) {
     report.stopped = Stopped::time_limit;
     return true;
   }

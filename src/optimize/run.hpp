@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <optional>
 
-#include "optimize/checkpoints.hpp"
 #include "optimize/repair/grading.hpp"
 #include "optimize/step/flipper.hpp"
 #include "temper/optimize.hpp"
@@ -35,8 +34,7 @@ class Run {
         ranks_(ranks),
         start_(Clock::now()) {}
 
-  /// Since the start, and in the runs that this one goes on with.
-  [[nodiscard]] double seconds() const { return earlier_seconds_ + seconds_here(); }
+  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   [[nodiscard]] bool sweeps_left() const { return report.sweeps < options_.max_sweeps; }
   /// The number of the next sweep; 0 before the first, while the input is made regular.
   [[nodiscard]] int next_sweep() const { return report.sweeps == 0 ? 0 : report.sweeps + 1; }
@@ -46,7 +44,7 @@ class Run {
   /// From here on there are sweeps. What has been done so far, copies and measures of the whole mesh, is done again
   /// when they end, and takes about as long: the time limit is of all of it.
   void begin_sweeps() {
-    if (ending_seconds_ == 0) ending_seconds_ = seconds_here();
+    if (ending_seconds_ == 0) ending_seconds_ = seconds();
   }
   /// Asks the clock and the caller, who are those of rank 0; sets report.stopped when the answer is yes. Ranks ask at
   /// the same places and hear the same, but while they are apart: rank 0 alone knows then.
@@ -65,23 +63,18 @@ class Run {
   OptimizeReport report;
   RunFacts facts;
   int repair_trials_left;
-  Checkpoints checkpoints;
 
  private:
-  friend void visit(Archive& archive, Run& run);
   using Clock = std::chrono::steady_clock;
 
   bool ask(double fraction_of_sweep);
   void hear();
-
-  [[nodiscard]] double seconds_here() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   const OptimizeOptions& options_;
   const Observer& observer_;
   Ranks* ranks_;
   bool apart_ = false;
   Clock::time_point start_;
-  double earlier_seconds_ = 0;
   double ending_seconds_ = 0;  // after the last sweep, about
 };
 

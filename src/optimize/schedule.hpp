@@ -12,7 +12,6 @@
 #include <optional>
 #include <span>
 
-#include "temper/archive.hpp"
 #include "temper/energy.hpp"
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
@@ -40,8 +39,6 @@ struct Attempt {
   std::optional<EnergyKind> first_energy = {};  ///< of its first sweeps
   Cuts cuts = Cuts::graded;                     ///< before it
 };
-
-void visit(Archive& archive, Attempt& attempt);
 
 /// Over-relaxation at the last γ.
 inline constexpr double kRelaxation = 1.7;
@@ -77,8 +74,6 @@ class Softener {
   [[nodiscard]] bool settled() const { return settled_; }
   /// Says whether the energy before the next sweep will be asked for.
   [[nodiscard]] bool compares_energies() const { return settled_ || (gamma_shrinks_ && attempt_.level_sweeps > 1); }
-
-  void visit(Archive& archive);
 
  private:
   Attempt attempt_;

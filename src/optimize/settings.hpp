@@ -6,7 +6,6 @@
 
 #include "energy/accuracy_energy.hpp"
 #include "optimize/frame.hpp"
-#include "temper/archive.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {
@@ -33,8 +32,6 @@ struct Settings {
   OptimizeHooks hooks;
   std::optional<SizeField> size_field;  ///< that a size band is around, in the user's units; absent without one
 };
-
-void visit(Archive& archive, Settings& settings);
 
 /// Makes sweeps lower that energy.
 void set_energy(Settings& settings, EnergyKind kind);

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "optimize/frame.hpp"
-#include "temper/archive.hpp"
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
 
@@ -46,6 +45,5 @@ struct WorkingCopy {
  private:
   WorkingCopy(const Mesh& part, const Frame& its_frame);
 };
-void visit(Archive& archive, WorkingCopy& work);
 
 }  // namespace temper

@@ -203,7 +203,6 @@ def test_options_that_make_no_sense_leave_the_mesh_alone(ring, options, says):
         ("gamma", "x"),
         ("h0", temper.Softening("x")),
         ("solver", 3.0),
-        ("newton_passes", 1),
         ("observer", 3),
         ("tracer", "print"),
         ("snapshots", []),

@@ -32,8 +32,6 @@ class AccuracyPhase final : public Phase {
     return settings_.accuracy.keeps_lengths() ? Keeps::last : Keeps::best_points;
   }
   int& iteration() override { return iteration_; }
-  void visit(Archive& archive) override;
-
  private:
   [[nodiscard]] AccuracyTotal sum() const;
 

@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "temper/archive.hpp"
-
 namespace temper {
 
 class Descent {
@@ -20,14 +18,10 @@ class Descent {
   void forget() { pairs_.clear(); }
   [[nodiscard]] bool knows_nothing() const { return pairs_.empty(); }
 
-  void visit(Archive& archive) { archive(pairs_); }
-
  private:
   struct Pair {
     Vector step, change;
     double inverse = 0;  // 1 / (step · change)
-
-    void visit(Archive& archive) { archive(step, change, inverse); }
   };
   std::vector<Pair> pairs_;  // oldest first
 };

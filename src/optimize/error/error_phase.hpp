@@ -39,8 +39,6 @@ class ErrorPhase final : public Phase {
   void compare_from_here() override {}
   [[nodiscard]] Keeps keeps() const override { return Keeps::best_points; }
   int& iteration() override { return iteration_; }
-  void visit(Archive& archive) override;
-
  private:
   using Vector = Descent::Vector;
   struct Value {

@@ -270,10 +270,6 @@ constexpr OptionRow kMoveRows[] = {
                                     {.range = inside(0, 2),
                                      .absent = "1.7, but 1.97 while gamma shrinks from 1",
                                      .needs = {{{"solver", "newton|alternating"}}}}),
-    row<kPaper, &Paper::newton_passes>(
-        "newton_passes",
-        "steps of all vertices at once, which barriers make in every other sweep once every triangle is well-centered "
-        "and sweeps gain little"),
     row<kPaper, &Paper::search_radius>("search_radius",
                                        "how far golden section searches for a position: the root mean square distance "
                                        "to the neighbours, or that of the farthest or the nearest",

@@ -63,7 +63,6 @@ bool RepairSearch::improve_one_place() {
   // Each of many bad places gets its chance.
   const int most_failures = std::max(vertices ? kMostFailures : kMostFailuresOfMoves, static_cast<int>(bad.size()));
   while (!bad.empty() && failures_ < most_failures && run_.repair_trials_left > 0) {
-    if (!run_.checkpoints.here()) return false;
     const TriangleId seed = bad[rng_.below(static_cast<std::uint32_t>(bad.size()))];
     const Neighborhood around = neighborhood_of(work_.mesh, seed, kRings + (failures_ >= kFailuresBeforeWider ? 1 : 0));
     const auto edit = choose(around, seed);

@@ -36,8 +36,6 @@ class RepairSearch {
   /// The triangles of that place as it is now; none given: they and others have new numbers.
   [[nodiscard]] const std::optional<std::vector<TriangleId>>& changed() const { return changed_; }
 
-  void visit(Archive& archive);
-
  private:
   struct Tried {
     Edit edit;

@@ -68,8 +68,6 @@ class Flipper {
   void repeat(std::span<const HalfedgeId> flips);
   [[nodiscard]] bool has_removed() const { return changes_.removed > 0; }
 
-  void visit(Archive& archive);
-
  private:
   LawsonRun run(std::optional<double>& change, std::size_t max_flips, SizeBand* band = nullptr, const Part& part = {});
   void push_irregular();

@@ -41,8 +41,6 @@ class SizeBand {
   void renumber(const Compaction& kept);
   void grow();
 
-  void visit(Archive& archive);
-
  private:
   void sample(VertexId v);
   void touch(VertexId v);

@@ -24,7 +24,6 @@ struct VertexLimits {
   void grow();
 
  private:
-  friend void visit(Archive& archive, VertexLimits& limits);
 
   const Mesh& mesh_;
   const Settings& settings_;

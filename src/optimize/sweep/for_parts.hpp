@@ -95,7 +95,6 @@ class PartSweep {
 
   /// Vertices have other numbers than before.
   void renumber() { cuts_.clear(); }
-  void visit(Archive& archive) { archive(cuts_); }
 
   /// These vertices one after another, without parts.
   void in_order(std::span<const VertexId> vertices, StopToken& stop) {

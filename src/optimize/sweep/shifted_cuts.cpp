@@ -101,13 +101,4 @@ void ShiftedCuts::cut(const Mesh& mesh, std::size_t count, Executor& executor) {
   }
 }
 
-void ShiftedCuts::visit(Archive& archive) {
-  archive(n_parts_);
-  for (std::vector<PartNumber>& parts : part_of_) {
-    archive(parts);
-    archive.require(parts.size() == part_of_[0].size());
-    archive.require(std::all_of(parts.begin(), parts.end(), [&](PartNumber i) { return i < n_parts_; }));
-  }
-}
-
 }  // namespace temper

@@ -39,8 +39,6 @@ class ShiftedCuts {
   }
   [[nodiscard]] std::size_t part_of(std::size_t k, VertexId v) const { return part_of_[k][v.index]; }
 
-  void visit(Archive& archive);
-
  private:
   std::size_t n_parts_ = 0;
   std::array<std::vector<PartNumber>, kCuts> part_of_;  // by each vertex

@@ -12,8 +12,7 @@ Sweeper::Sweeper(Mesh& mesh, const Settings& settings, const Frame& frame, Flipp
         improver->step().begin_sweep(iteration_, unknowns_);
         return improver;
       }),
-      parts_(part_size, improvers_),
-      passes_(context_, part_size) {}
+      parts_(part_size, improvers_) {}
 
 bool Sweeper::sweep(int iteration, std::span<const VertexId> sequence, Run& run) {
   const OptimizeOptions& o = context_.settings.options;
@@ -37,12 +36,6 @@ bool Sweeper::visit_all(int iteration, Unknowns unknowns, std::span<const Vertex
   }
   improvers_.for_each([](Improver& improver) { improver.step().end_sweep(); });
   add_changes();
-  return !stop.stopped();
-}
-
-bool Sweeper::newton_pass(int iteration, Run& run) {
-  StopToken stop(run, context_.mesh.n_vertices());
-  passes_.run(unknowns_of_sweep(context_.settings, iteration), stop);
   return !stop.stopped();
 }
 

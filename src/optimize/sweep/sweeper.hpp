@@ -34,7 +34,6 @@
 
 #include "optimize/step/improver.hpp"
 #include "optimize/sweep/for_parts.hpp"
-#include "optimize/sweep/newton_pass.hpp"
 
 namespace temper {
 
@@ -55,10 +54,6 @@ class Sweeper {
   /// parts along the numbers. False when the caller or the clock has cut it short.
   bool sweep(int iteration, std::span<const VertexId> sequence, Run& run);
 
-  /// A step of all vertices of each part at once, where allows_newton_passes() and no triangle is bad: see
-  /// newton_pass.hpp. False when the caller or the clock has cut it short.
-  bool newton_pass(int iteration, Run& run);
-
   /// Moves free vertices by up to `amount` of their shortest edge.
   void shake(double amount, Rng& rng);
 
@@ -68,8 +63,6 @@ class Sweeper {
     parts_.renumber();
   }
   void grow() { limits_.grow(); }
-
-  void visit(Archive& archive);
 
  private:
   /// One visit of each vertex, of these unknowns.
@@ -82,7 +75,6 @@ class Sweeper {
   Flipper& flipper_;
   WorkerPool<Improver> improvers_;
   PartSweep<Improver> parts_;
-  NewtonPass passes_;
   int iteration_ = 0;
   Unknowns unknowns_ = Unknowns::positions_and_weights;
   SerialExecutor in_order_;

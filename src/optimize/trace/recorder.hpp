@@ -45,8 +45,6 @@ class Recorder {
   /// Everything since the end of that sweep has been taken back; −1: since the input.
   void returned_to(int sweep) const;
 
-  void visit(Archive& archive);
-
  private:
   [[nodiscard]] TraceEvent event(EventKind kind, double before, double after) const;
   [[nodiscard]] VertexId user(VertexId v) const { return work_.order.vertices[v]; }

@@ -69,7 +69,7 @@ TEST(SizeBand, IsKeptByEverySolver) {
 
 TEST(SizeBand, ThatNeverBindsChangesNoByteOfSweepsVertexByVertex) {
   const Mesh mesh = *random_points({300, 3, {}});
-  const Optimized without = optimized(mesh, {.paper = {.newton_passes = false}});  // a band goes without them
+  const Optimized without = optimized(mesh, {});
   ASSERT_NE(without.mesh, mesh);
   for (const double band : {1e6, std::numeric_limits<double>::max()}) {
     const Optimized with = optimized(mesh, in_band(band));
