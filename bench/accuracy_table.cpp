@@ -15,6 +15,7 @@
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
+#include "temper/solvers.hpp"
 #include "temper/verify.hpp"
 
 namespace temper::bench {
@@ -47,13 +48,7 @@ void print(const std::string& name, const Row& row) {
 
 std::optional<Row> measured(const Mesh& input, const OptimizeOptions& options) {
   Mesh mesh = input;
-  OptimizeOptions with_model = options;
-  if (wants_error_model(options, input)) {
-    auto model = solver_error_model(input, {.scheme = options.for_});
-    if (!model) return std::nullopt;
-    with_model.error.model = *std::move(model);
-  }
-  const auto report = optimize(mesh, with_model);
+  const auto report = optimize(mesh, options, {.solvers = solvers()});
   VerifyOptions verifying;
   verifying.frame = verify_frame(input);
   verifying.fields = {"held-back"};

@@ -43,9 +43,10 @@ LAYERS = {
     "tbb": ["base"],
     "mpi": ["base"],
     "verify": _BELOW + ["energy", "regularity", "quality", "dec"],
+    "solvers": _BELOW + ["size", "energy", "regularity", "feasibility", "optimize", "lp", "verify"],
     "build_info": ["base", "io"],
 }
-CORE = set(LAYERS) - {"io", "lp", "tbb", "mpi", "verify", "build_info"}
+CORE = set(LAYERS) - {"io", "lp", "tbb", "mpi", "verify", "solvers", "build_info"}
 
 # Public headers whose name is not that of their layer.
 HEADER_LAYER = {name: "base" for name in ["ids", "vec2", "vec3", "space", "error", "progress", "executor", "ranks", "instruction_set", "outline", "archive", "envelope", "read_number", "version"]} | {"trace": "optimize", "optimize_table": "optimize", "necessity": "feasibility", "connectivity": "feasibility", "tbb_executor": "tbb", "mpi_ranks": "mpi", "columns": "dec", "tensor": "mesh", "error_model": "mesh", "dec_io": "io", "checkpoint": "io", "html": "io"}

@@ -6,7 +6,9 @@
 // the command line, Python and the documentation take it. Who listens to a run is apart from them, in OptimizeHooks.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +22,7 @@
 #include "temper/ranks.hpp"
 #include "temper/regularity.hpp"
 #include "temper/size.hpp"
+#include "temper/tensor.hpp"
 #include "temper/trace.hpp"
 
 namespace temper {
@@ -165,9 +168,6 @@ struct SchemeWeights {
 /// Of Objective::error, which lowers  ln mean(errors over those at its start) + κ ln(E + barrier)  over all vertices at
 /// once, E and its barrier those of AccuracyOptions.
 struct ErrorOptions {
-  /// What measures errors; with Objective::error there has to be one. With another objective it is the judge of what
-  /// the phases have made: the mesh of least error is kept, the input too if it is well-centered.
-  std::shared_ptr<const ErrorModel> model = {};
   double offset_share = 1;  ///< κ ≥ 0: what keeps other errors from rising
   int steps = 200;          ///< at most; ≥ 0
   double tolerance = 0.01;  ///< ten steps that gain less than this of the sum of logarithms are the last. ≥ 0
@@ -236,6 +236,14 @@ struct PaperSwitches {
   friend bool operator==(const PaperSwitches&, const PaperSwitches&) = default;
 };
 
+/// What other libraries bring: temper::solvers() has what this build has (temper/solvers.hpp).
+struct Solvers {
+  /// For repairs: solves for the weights of a place that sweeps leave bad. Empty: repairs do without.
+  std::function<std::unique_ptr<LpSolver>()> lp = {};
+  /// The model of the errors of a scheme on a mesh. Empty: accuracy is lowered instead of the error, and a note says so.
+  std::function<Expected<std::shared_ptr<const ErrorModel>>(const Mesh& mesh, Scheme scheme)> error_model = {};
+};
+
 struct OptimizeOptions {
   /// accuracy: the run lowers `energy`, which has to be a barrier, until all margins are above accuracy.margin, or it
   /// ends; then E of AccuracyOptions, with the connectivity as it is; error: after that the errors of error.model. A
@@ -263,17 +271,21 @@ struct OptimizeOptions {
   Repair repair = Repair::moves;
   int repair_trials = 20000;  ///< most edits that are tried, each on a copy of a neighbourhood; 1 to 3 ms each; a
                               ///< linear programme (OptimizeHooks::lp) counts as 20
+  /// A constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/tensor.hpp). The report
+  /// is of that plane. Absent: K = 1.
+  std::optional<Tensor> tensor = {};
   int max_sweeps = 1000;      ///< each repair counts as a sweep of its own
   double time_limit = 0;      ///< of all of it, seconds; 0: none
   PaperSwitches paper = {};
 };
 
-/// What a run lowers whose objective is absent: accuracy, or the error where there is a model of it; but where energy
-/// or switches are others than the default ones, but for `order` and `seed`, that energy alone.
+/// What a run lowers: the objective of the options. If that is absent, accuracy; or `energy` alone if `energy` or
+/// switches other than `order` and `seed` are not the default ones.
 [[nodiscard]] Objective objective_of(const OptimizeOptions& options);
 
-/// Says whether these options can use a model of errors: Objective::error needs one; a mesh of the plane for one
-/// scheme, of no more than kMostJudged vertices, is made by it, or judged where accuracy is asked for.
+/// Says whether a run asks for a model of errors: Objective::error lowers them. On a mesh of the plane for one scheme,
+/// of at most kMostJudged vertices, an absent objective is the error, and with accuracy the model is the judge: the
+/// mesh of least error is kept, the input too if it is well-centered.
 inline constexpr std::size_t kMostJudged = 20'000;
 [[nodiscard]] bool wants_error_model(const OptimizeOptions& options, const Mesh& mesh);
 
@@ -322,8 +334,9 @@ struct OptimizeHooks {
   /// Nobody looks at the mesh before optimize() has returned, observers neither: what it can be without meanwhile is
   /// released, 24 bytes a vertex.
   bool exclusive = false;
-  /// For repairs: solves for the weights of a place that sweeps leave bad. Null: nobody does.
-  LpSolver* lp = nullptr;
+  Solvers solvers = {};
+  /// The moment from which the time limit counts, as of a program that has read files before. Absent: the call.
+  std::optional<std::chrono::steady_clock::time_point> started = {};
 };
 
 enum class Stopped {
@@ -358,7 +371,8 @@ struct OptimizeReport {
   IdVector<VertexId, VertexId> vertices;
   /// Vertices that HiddenPolicy::keep left without a power cell; none while triangles are inverted.
   std::vector<VertexId> hidden;
-  double seconds = 0;         ///< the optimisation alone
+  Objective objective = Objective::accuracy;  ///< that the run lowered
+  double seconds = 0;                         ///< the optimisation alone
   double initial_energy = 0;  ///< of the input, at the final γ; with Objective::accuracy that of AccuracyOptions,
                               ///< its edges taken absolute, with the same sizes before and after; where there is an
                               ///< error model the root mean square error

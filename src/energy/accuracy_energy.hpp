@@ -76,6 +76,12 @@ class AccuracyFloors {
   std::vector<std::vector<double>> blocks_;  // empty: all of its triangles have the margin
 };
 
+/// The domain of the accuracy energy on one mesh: sizes at its vertices, floors of its triangles.
+struct AccuracyDomain {
+  VertexSizes sizes;
+  AccuracyFloors floors;
+};
+
 /// Energy and barrier of the whole mesh, the barrier over triangles that have a floor.
 struct AccuracyTotal {
   double energy = 0, barrier = 0;

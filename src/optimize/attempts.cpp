@@ -10,7 +10,7 @@
 #include "energy/whole_mesh.hpp"
 #include "optimize/driver.hpp"
 #include "optimize/lengths.hpp"
-#include "optimize/rank.hpp"
+#include "optimize/judge.hpp"
 #include "optimize/refusal.hpp"
 #include "optimize/repair/repair_search.hpp"
 
@@ -28,25 +28,32 @@ constexpr std::uint64_t kSearches = 4;
 // The one more, where linear programmes can be asked: from what the first has left.
 constexpr std::uint64_t kProgrammes = 1;
 
-bool is_worse(const Candidate& a, const Candidate& b, const Settings& settings) {
-  return rank(b.work.mesh, settings) < rank(a.work.mesh, settings);
+/// One mesh of two: the one that the judge keeps.
+class Choice {
+ public:
+  Choice(const Settings& settings, const EnergyModel& model) : settings_(settings), model_(model) {}
+
+  [[nodiscard]] bool replaces(const Candidate& now, const Candidate& best, Requirement required) const {
+    return temper::replaces(score_of(now), score_of(best), required);
+  }
+
+ private:
+  [[nodiscard]] MeshScore score_of(const Candidate& c) const { return score(c.work.mesh, settings_, model_); }
+
+  const Settings& settings_;
+  const EnergyModel& model_;
+};
+
+/// What an attempt needs to be kept. The user asks for cuts: without them fewer triangles have to be bad.
+Requirement requirement_of(const Attempt& attempt) {
+  return attempt.cuts == Cuts::graded ? Requirement::not_worse : Requirement::fewer_bad;
 }
 
-/// Says whether what an attempt has made is kept instead of what there was. The user asks for cuts: without them fewer
-/// triangles have to be bad.
-bool replaces(const Candidate& now, const Candidate& best, const Attempt& attempt, const Settings& settings) {
-  if (attempt.cuts == Cuts::graded) return !is_worse(now, best, settings);
-  return rank(now.work.mesh, settings).bad < rank(best.work.mesh, settings).bad;
-}
-
-/// Says whether a repair has made c of `before`: it is no worse, and vertices that came or went have cured something.
-/// With fewer of them the energy is lower in any case.
-bool has_gained(const Candidate& c, const Candidate& before, const Settings& settings) {
-  const Rank now = rank(c.work.mesh, settings), then = rank(before.work.mesh, settings);
-  if (then < now) return false;
-  const bool same_vertices = c.work.n_vertices_named == before.work.n_vertices_named &&
-                             c.work.mesh.n_vertices() == before.work.mesh.n_vertices();
-  return same_vertices || now.bad < then.bad || now.missing_lengths < then.missing_lengths;
+/// What a repair needs to be kept: vertices that came or went have to cure something.
+Requirement requirement_of_repair(const Candidate& now, const Candidate& before) {
+  const bool same_vertices = now.work.n_vertices_named == before.work.n_vertices_named &&
+                             now.work.mesh.n_vertices() == before.work.mesh.n_vertices();
+  return same_vertices ? Requirement::not_worse : Requirement::cures;
 }
 
 bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.hooks.executor) > 0; }
@@ -74,10 +81,9 @@ bool needs_repair(const Candidate& c, const Settings& s) {
 /// made again without: what lines leave no room for, cuts may make worse. After either there are cuts where triangles
 /// are still bad, and sweeps from there.
 std::vector<Attempt> attempts_for(const Mesh& mesh, const Settings& settings) {
-  const OptimizeOptions& o = settings.options;
-  const auto all = attempts(settings.energy, o, mesh, settings.hooks.executor);
+  const auto all = attempts(settings, mesh);
   std::vector<Attempt> tries(all.begin(), all.end());
-  const bool splits = o.boundary == BoundaryVertices::split;
+  const bool splits = settings.options.boundary == BoundaryVertices::split;
   Attempt where_bad = kNearlyGood;
   where_bad.cuts = Cuts::where_bad;
   if (splits) {
@@ -88,14 +94,14 @@ std::vector<Attempt> attempts_for(const Mesh& mesh, const Settings& settings) {
     }
     tries.insert(tries.end(), kRoundsWhereBad, where_bad);
   }
-  for (Attempt& attempt : tries) attempt.first_energy = first_energy_of(o);
+  for (Attempt& attempt : tries) attempt.first_energy = settings.policy.first_energy;
   return tries;
 }
 
 /// The quick ones of those for weights alone; none where nothing is softened.
 std::vector<Attempt> attempts_by_weights(const Mesh& mesh, const Settings& settings) {
   std::vector<Attempt> tries;
-  for (Attempt attempt : attempts(settings.energy, settings.options, mesh, settings.hooks.executor)) {
+  for (Attempt attempt : attempts(settings, mesh)) {
     if (!attempt.until_good) continue;
     attempt.fewer = std::min(attempt.fewer, kFewerByWeights);
     tries.push_back(attempt);
@@ -128,7 +134,7 @@ std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Setti
     driver.cut_where_bad();
     return std::nullopt;
   }
-  if (settings.options.flips != Flips::none && !driver.make_regular()) {
+  if (!settings.policy.keeps_connectivity && !driver.make_regular()) {
     return hidden_vertices_error(input, settings.hooks.names);
   }
   if (attempt.cuts == Cuts::graded) driver.grade_boundary();
@@ -146,15 +152,16 @@ void tell_cuts(const Attempt& attempt, RunFacts& facts) {
 
 }  // namespace
 
-Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run) {
-  const OptimizeOptions& o = settings.options;
+Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, SweepState& state, Run& run) {
+  const Choice choice(settings, state.model);
   std::optional<Candidate> best;
   Tries tries;
   for (; tries.i < tries.all.size(); ++tries.i) {
     if (best && !tries.may_gain(*best, settings)) continue;
+    const BestBefore kept(run.best_before, best ? &best->work : nullptr);
     const bool goes_on = tries.now().cuts == Cuts::where_bad;
-    Candidate now = goes_on ? *best : Candidate{WorkingCopy(input.whole(), o.paper.order, settings.hooks.executor)};
-    Driver driver(now.work, settings, run);
+    Candidate now = goes_on ? *best : Candidate{WorkingCopy(input.whole(), settings.policy.order, settings.hooks.executor)};
+    Driver driver(now.work, settings, state, run);
     if (best) driver.recorder().returned_to(goes_on ? best->sweep : -1);
     if (auto error = prepare(driver, input.whole(), settings, tries.now())) return *std::move(error);
     if (!best) {
@@ -164,7 +171,7 @@ Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run)
     }
     input.fold();
     now.sweep = driver.attempt(tries.now(), !tries.is_last() || repairs(settings));
-    if (!best || replaces(now, *best, tries.now(), settings)) {
+    if (!best || choice.replaces(now, *best, requirement_of(tries.now()))) {
       best = std::move(now);
       tries.left = 0;
       tries.renewed = true;
@@ -179,16 +186,18 @@ Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run)
   return *std::move(best);
 }
 
-Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, Run& run) {
+Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, SweepState state, Run& run) {
+  const Choice choice(settings, state.model);
   Settings own = settings;
   own.options.unknowns = Unknowns::weights;
   std::vector<Attempt> tries(1);
   const bool may = settings.options.unknowns == Unknowns::positions_and_weights && repairs(settings) &&
                    run.report.sweeps <= settings.options.max_sweeps / 2;  // repairs need those that are left
   if (!may || !run.goes_on() || !has_bad(best, settings) || are_apart(best, settings)) return best;
+  const BestBefore kept(run.best_before, &best.work);
   for (std::size_t i = 0; i < tries.size(); ++i) {
-    Candidate now{WorkingCopy(input.whole(), own.options.paper.order, own.hooks.executor)};
-    Driver driver(now.work, own, run);
+    Candidate now{WorkingCopy(input.whole(), own.policy.order, own.hooks.executor)};
+    Driver driver(now.work, own, state, run);
     driver.recorder().returned_to(-1);
     driver.make_regular();  // it could be at the first attempt
     if (i == 0) tries = attempts_by_weights(now.work.mesh, own);
@@ -198,7 +207,7 @@ Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, Ru
       break;
     }
     now.sweep = driver.attempt(tries[i], true);
-    if (rank(now.work.mesh, own).bad < rank(best.work.mesh, own).bad) {
+    if (choice.replaces(now, best, Requirement::fewer_bad)) {
       best = std::move(now);
       run.facts.stays_uncut = settings.options.boundary == BoundaryVertices::split;
     } else {
@@ -209,26 +218,28 @@ Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, Ru
   return best;
 }
 
-Candidate repaired(Candidate best, Settings& settings, Run& run) {
+Candidate repaired(Candidate best, const Settings& settings, SweepState& state, Run& run) {
+  const Choice choice(settings, state.model);
   const auto is_done = [&](const Candidate& c) {
     return !run.goes_on() || run.repair_trials_left <= 0 || !needs_repair(c, settings);
   };
-  const std::uint64_t searches = settings.hooks.lp != nullptr ? kSearches + 1 : kSearches;
+  const std::uint64_t searches = settings.lp != nullptr ? kSearches + 1 : kSearches;
   std::optional<Candidate> start;  // of all searches on copies, once it is not the best one
-  if (!repairs(settings) || is_done(best) || !std::isfinite(total_energy(best.work.mesh, settings.model))) return best;
+  if (!repairs(settings) || is_done(best) || !std::isfinite(total_energy(best.work.mesh, state.model))) return best;
   const bool in_place = keeps_vertices(settings) && are_apart(best, settings);
   for (std::uint64_t i = 0; i < searches && !is_done(best); ++i) {
-    const bool asks_programmes = i == kProgrammes && settings.hooks.lp != nullptr;
+    const BestBefore kept(run.best_before, in_place ? nullptr : &best.work);
+    const bool asks_programmes = i == kProgrammes && settings.lp != nullptr;
     if (asks_programmes) start.reset();  // they cost more than what is cured
     Candidate copy;
     if (!in_place) copy = start ? *start : best;
     Candidate& now = in_place ? best : copy;
-    Driver driver(now.work, settings, run);
+    Driver driver(now.work, settings, state, run);
     if (start) driver.recorder().returned_to(start->sweep);
-    const bool changed = driver.repair(settings.options.paper.seed + i, asks_programmes);
+    const bool changed = driver.repair(settings.policy.seed + i, asks_programmes);
     now.sweep = run.report.sweeps;
     if (in_place) continue;
-    if (changed && has_gained(now, best, settings)) {
+    if (changed && choice.replaces(now, best, requirement_of_repair(now, best))) {
       if (!start) start = std::move(best);
       best = std::move(now);
       if (are_apart(best, settings)) start.reset();
@@ -238,7 +249,7 @@ Candidate repaired(Candidate best, Settings& settings, Run& run) {
   }
   if (in_place) return best;
   start.reset();
-  if (run.goes_on()) best.sweep = Driver(best.work, settings, run).polish(best.sweep);
+  if (run.goes_on()) best.sweep = Driver(best.work, settings, state, run).polish(best.sweep);
   return best;
 }
 

@@ -13,31 +13,23 @@
 #include "temper/regularity.hpp"
 
 namespace temper {
-namespace {
-
-/// Says whether every sweep leaves all edges regular that may be flipped.
-[[maybe_unused]] bool keeps_regular(const OptimizeOptions& o) {
-  return o.flips != Flips::none && !defers_flips(o) && o.paper.hidden != HiddenPolicy::keep;
-}
-
-}  // namespace
-
-Driver::Driver(WorkingCopy& work, Settings& settings, Run& run, std::size_t part_size)
+Driver::Driver(WorkingCopy& work, const Settings& settings, SweepState& state, Run& run, std::size_t part_size)
     : work_(work),
       mesh_(work.mesh),
       settings_(settings),
+      state_(state),
       run_(run),
-      recorder_(settings.hooks.tracer, work, energy_unit(settings, work.frame)),
-      flipper_(mesh_, settings, recorder_),
-      sweeper_(mesh_, settings, work.frame, flipper_, recorder_, part_size) {
+      recorder_(settings.hooks.tracer, work, state.energy_unit(work.frame)),
+      flipper_(mesh_, settings, state, recorder_),
+      sweeper_(work, settings, state, flipper_, recorder_, part_size) {
   recorder_.begin_sweep(run.next_sweep());
-  const SweepOrder order = settings.options.paper.order;
+  const SweepOrder order = settings.policy.order;
   if (order == SweepOrder::hilbert) return;
   for (const VertexId v : mesh_.vertices()) sequence_.push_back(v);
   if (order == SweepOrder::reverse) {
     std::reverse(sequence_.begin(), sequence_.end());
   } else if (order == SweepOrder::random) {
-    Rng rng(settings.options.paper.seed);
+    Rng rng(settings.policy.seed);
     for (std::size_t i = sequence_.size(); i > 1; --i) {
       std::swap(sequence_[i - 1], sequence_[rng.below(static_cast<std::uint32_t>(i))]);
     }
@@ -54,7 +46,7 @@ int Driver::run(Phase& phase, int first) {
     do {                         // inner iterations
       verdict = sweep(phase);
     } while (verdict == Verdict::improving &&
-             !(defers_flips(settings_.options) && ++inner_ == settings_.options.paper.inner));
+             !(settings_.policy.defers_flips && ++inner_ == settings_.policy.inner));
     if (run_.stopped_early()) asked = run_.report.stopped;
     verdict = flip_if_deferred(phase, verdict);
   } while (verdict == Verdict::improving);
@@ -66,7 +58,7 @@ int Driver::run(Phase& phase, int first) {
 
 void Driver::begin(Phase& phase, int sweep) {
   phase.begin();
-  recorder_.set_energy_unit(energy_unit(settings_, work_.frame));
+  recorder_.set_energy_unit(state_.energy_unit(work_.frame));
   if (run_.report.history.empty()) record(phase.measure());
   best_energy_ = phase.total();
   if (phase.keeps() == Phase::Keeps::best_points) keep(phase, best_energy_, sweep);
@@ -86,19 +78,20 @@ Driver::Verdict Driver::sweep(Phase& phase) {
   if (removed) compact();
   const bool inserted = whole && insert_vertices(phase.iteration());
   shift_weights_to_anchor();
-  TEMPER_ASSERT_SLOW(!keeps_regular(settings_.options) || count_non_regular_edges(mesh_, false) == 0);
+  TEMPER_ASSERT_SLOW(!settings_.policy.keeps_regular() || count_non_regular_edges(mesh_, false) == 0);
   ++phase.iteration();
   ++run_.report.sweeps;
   record(phase.measure());
-  if (!defers_flips(settings_.options)) keep_if_best(phase);
+  if (!settings_.policy.defers_flips) keep_if_best(phase);
   show(Snapshot::Moment::after_sweep, phase);
+  run_.offer(work_, settings_, state_);
   if (!whole) return Verdict::stopped;  // by the caller or the clock
   const Verdict verdict = phase.judge(removed || inserted);
   if (verdict == Verdict::restarted) {
     best_.reset();
     best_points_ = {};
     best_energy_ = phase.total();
-    recorder_.set_energy_unit(energy_unit(settings_, work_.frame));
+    recorder_.set_energy_unit(state_.energy_unit(work_.frame));
     return Verdict::improving;
   }
   if (verdict != Verdict::infinite) return verdict;
@@ -110,7 +103,7 @@ Driver::Verdict Driver::sweep(Phase& phase) {
 
 /// Lines 20 and 21: whether there is another outer iteration.
 Driver::Verdict Driver::flip_if_deferred(Phase& phase, Verdict of_sweeps) {
-  if (!defers_flips(settings_.options)) return Verdict::stopped;
+  if (!settings_.policy.defers_flips) return Verdict::stopped;
   show(Snapshot::Moment::before_flips, phase);
   const std::size_t flips = run_.report.flips;
   if (!restore_regularity()) return Verdict::stopped;
@@ -124,14 +117,13 @@ Driver::Verdict Driver::flip_if_deferred(Phase& phase, Verdict of_sweeps) {
   const bool needed = run_.report.flips > flips;
   if (of_sweeps == Verdict::stopped) return Verdict::stopped;
   if (of_sweeps == Verdict::settled && !needed && !phase.goes_on_with_weights()) return Verdict::stopped;
-  run_.report.stopped = outer_ == settings_.options.paper.outer ? Stopped::max_outer : Stopped::max_sweeps;
-  return outer_ == settings_.options.paper.outer ? Verdict::stopped : Verdict::improving;
+  run_.report.stopped = outer_ == settings_.policy.outer ? Stopped::max_outer : Stopped::max_sweeps;
+  return outer_ == settings_.policy.outer ? Verdict::stopped : Verdict::improving;
 }
 
 /// One Gauss-Seidel sweep, lines 9 to 16. False when it was cut short.
 bool Driver::improve_all_vertices(int iteration) {
-  const OptimizeOptions& o = settings_.options;
-  if (!defers_updates(o) || defers_flips(o)) return sweeper_.sweep(iteration, sequence_, run_);
+  if (!settings_.policy.defers_updates() || settings_.policy.defers_flips) return sweeper_.sweep(iteration, sequence_, run_);
   const IdVector<VertexId, WeightedPoint> before = points();
   const bool whole = sweeper_.sweep(iteration, sequence_, run_);
   settle_updates(before);
@@ -142,10 +134,9 @@ bool Driver::improve_all_vertices(int iteration) {
 /// last none, nor any move.
 void Driver::settle_updates(const IdVector<VertexId, WeightedPoint>& before) {
   constexpr int kHalvings = 6;  // what is left then is hardly worth a step
-  const PaperSwitches& o = settings_.options.paper;
   // With another policy flips may have been made, for which vertices are where they are.
   const Space& space = mesh_.space();
-  const bool moves_back = o.position_updates == Updates::deferred && o.hidden == HiddenPolicy::undo;
+  const bool moves_back = settings_.policy.defers_positions && settings_.policy.undoes_hidden;
   for (int i = 0; !flipper_.restore_all() && i <= kHalvings; ++i) {
     for (const VertexId v : mesh_.vertices()) {
       if (mesh_.is_isolated(v)) continue;
@@ -165,10 +156,10 @@ IdVector<VertexId, WeightedPoint> Driver::points() const {
 
 /// True when there are new ones. Among inverted triangles no point has its place.
 bool Driver::insert_vertices(int iteration) {
-  const PaperSwitches& o = settings_.options.paper;
-  if (!o.insertion_from || iteration < *o.insertion_from) return false;
-  if (o.inversion == Inversion::allow && count_inverted(mesh_) > 0) return false;
-  if (!insert_where_energy_is_large(work_, flipper_, settings_)) return false;
+  const Policy& policy = settings_.policy;
+  if (!policy.insertion_from || iteration < *policy.insertion_from) return false;
+  if (policy.allows_inversion && count_inverted(mesh_) > 0) return false;
+  if (!insert_where_energy_is_large(work_, flipper_, settings_, state_.model)) return false;
   grow();
   return true;
 }
@@ -195,8 +186,7 @@ void Driver::grow() {
 /// Weights that leave edges uncrossed and that single vertices cannot mend: half of all of them, until zero weights at
 /// last, where every barrier on d is satisfied. False when weights or connectivity may not change.
 bool Driver::halve_weights() {
-  const OptimizeOptions& o = settings_.options;
-  if (o.unknowns == Unknowns::positions || o.flips == Flips::none) return false;
+  if (settings_.options.unknowns == Unknowns::positions || settings_.policy.keeps_connectivity) return false;
   run_.facts.weights_shrunk = true;
   recorder_.begin_sweep(run_.report.sweeps + 1);
   for (const VertexId v : mesh_.vertices()) set_weight(v, 0.5 * mesh_.weight(v));
@@ -205,13 +195,13 @@ bool Driver::halve_weights() {
 
 /// Line 17 of Algorithm 1. Equal shifts of all weights change no energy and, but for their rounding, no edge.
 void Driver::shift_weights_to_anchor() {
-  if (!settings_.options.paper.anchor.valid()) return;
-  const VertexId anchor = work_.from_user(settings_.options.paper.anchor);
+  if (!settings_.policy.anchor.valid()) return;
+  const VertexId anchor = work_.from_user(settings_.policy.anchor);
   if (!anchor.valid()) return;  // removed: any other constant would do as well
   const double shift = mesh_.weight(anchor);
   const IdVector<VertexId, WeightedPoint> before = points();
   for (const VertexId v : mesh_.vertices()) set_weight(v, mesh_.space().weight(before[v]) - shift);
-  if (settings_.options.flips == Flips::none || defers_flips(settings_.options) || flipper_.restore_all()) return;
+  if (settings_.policy.keeps_connectivity || settings_.policy.defers_flips || flipper_.restore_all()) return;
   // Rounded differences hide a vertex that was all but hidden: no constant is worth that.
   for (const VertexId v : mesh_.vertices()) set_point(v, before[v]);
 }
@@ -227,7 +217,7 @@ void Driver::set_weight(VertexId v, double w) { set_point(v, mesh_.space().with_
 /// Line 20 of Algorithm 1. False when no flips can: among inverted triangles, or around a hidden vertex that may not
 /// be.
 bool Driver::restore_regularity() {
-  if (settings_.options.paper.inversion == Inversion::allow && count_inverted(mesh_) > 0) {
+  if (settings_.policy.allows_inversion && count_inverted(mesh_) > 0) {
     run_.report.stopped = Stopped::tangled;
     return false;
   }
@@ -247,12 +237,11 @@ bool Driver::make_regular() {
 }
 
 void Driver::grade_boundary() {
-  const OptimizeOptions& o = settings_.options;
-  if (o.boundary != BoundaryVertices::split) return;
-  TEMPER_ASSERT_SLOW(o.paper.hidden == HiddenPolicy::keep || count_non_regular_edges(mesh_, false) == 0);
-  const BoundaryCuts cuts = cut_boundary(work_, flipper_, o.boundary_ratio);
+  if (settings_.options.boundary != BoundaryVertices::split) return;
+  TEMPER_ASSERT_SLOW(settings_.policy.keeps_hidden || count_non_regular_edges(mesh_, false) == 0);
+  const BoundaryCuts cuts = cut_boundary(work_, flipper_, settings_.options.boundary_ratio);
   grow();
-  TEMPER_ASSERT_SLOW(o.paper.hidden == HiddenPolicy::keep || count_non_regular_edges(mesh_, false) == 0);
+  TEMPER_ASSERT_SLOW(settings_.policy.keeps_hidden || count_non_regular_edges(mesh_, false) == 0);
   run_.facts.boundary_cuts = cuts;  // of each attempt the same
 }
 
@@ -262,10 +251,9 @@ void Driver::cut_where_bad() {
 }
 
 void Driver::jitter(double amount) {
-  const OptimizeOptions& o = settings_.options;
-  if (amount == 0 || o.unknowns == Unknowns::weights || o.flips == Flips::none) return;
+  if (amount == 0 || settings_.options.unknowns == Unknowns::weights || settings_.policy.keeps_connectivity) return;
   recorder_.begin_sweep(run_.report.sweeps + 1);
-  Rng rng(o.paper.seed);
+  Rng rng(settings_.policy.seed);
   sweeper_.shake(amount, rng);
 }
 
@@ -273,10 +261,10 @@ int Driver::attempt(const Attempt& attempt, bool may_give_up) {
   if (weigh_ties(attempt.tie_weight)) return polish(run_.report.sweeps);
   jitter(attempt.jitter);
   const int first = run_.next_sweep();
-  const bool may_return_there = attempt.first_energy.has_value() || defers_flips(settings_.options);
+  const bool may_return_there = attempt.first_energy.has_value() || settings_.policy.defers_flips;
   // A trace says by sweeps where a run returns to.
   if (first > 0 && may_return_there) end_sweep_of_its_own();
-  EnergyPhase phase(work_, settings_, run_, attempt, may_give_up);
+  EnergyPhase phase(work_, settings_, state_, run_, attempt, may_give_up);
   const int last = run(phase, first);
   phase.take_last_energy();
   return last;
@@ -299,11 +287,11 @@ bool Driver::weigh_ties(double amount) {
 
 void Driver::end_sweep_of_its_own() {
   ++run_.report.sweeps;
-  record(EnergyPhase(work_, settings_, run_, kPolish, false).measure());
+  record(EnergyPhase(work_, settings_, state_, run_, kPolish, false).measure());
 }
 
 bool Driver::repair(std::uint64_t seed, bool asks_programmes) {
-  EnergyPhase phase(work_, settings_, run_, kPolish, false);  // what repairs are told by
+  EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);  // what repairs are told by
   RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed, asks_programmes);
   bool changed = false;
   RunningEnergyAndBad totals;
@@ -312,8 +300,9 @@ bool Driver::repair(std::uint64_t seed, bool asks_programmes) {
     if (flipper_.has_removed()) compact();
     changed = true;
     ++run_.report.sweeps;
-    record(phase.record_of(totals.measure(mesh_, settings_.model, search.changed(), settings_.hooks.executor)));
+    record(phase.record_of(totals.measure(mesh_, state_.model, search.changed(), settings_.hooks.executor)));
     show(Snapshot::Moment::after_sweep, phase);
+    run_.offer(work_, settings_, state_);
     recorder_.begin_sweep(run_.report.sweeps + 1);
   }
   return changed;
@@ -322,7 +311,7 @@ bool Driver::repair(std::uint64_t seed, bool asks_programmes) {
 int Driver::polish(int sweep) {
   const WorkingCopy before = work_;
   const std::size_t bad = count_bad(mesh_, settings_.hooks.executor);
-  EnergyPhase phase(work_, settings_, run_, kPolish, false);
+  EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);
   const int last = run(phase, sweep);
   if (count_bad(mesh_, settings_.hooks.executor) <= bad) return last;
   work_ = before;
@@ -335,7 +324,7 @@ int Driver::polish(int sweep) {
 void Driver::keep_if_best(const Phase& phase) {
   const double energy = run_.report.history.back().energy;
   if (phase.keeps() == Phase::Keeps::last || !(energy < best_energy_)) return;
-  if (settings_.options.paper.inversion == Inversion::allow && count_inverted(mesh_) > 0) return;
+  if (settings_.policy.allows_inversion && count_inverted(mesh_) > 0) return;
   keep(phase, energy, recorder_.sweep());
 }
 
@@ -366,8 +355,7 @@ int Driver::return_best(const Phase& phase, int last_sweep) {
 
 /// Deferred flips may find a vertex hidden, which leaves edges that no flip makes regular.
 void Driver::keep_regular(int sweep) {
-  const OptimizeOptions& o = settings_.options;
-  if (!defers_flips(o) || o.paper.hidden == HiddenPolicy::keep) return;
+  if (!settings_.policy.defers_flips || settings_.policy.keeps_hidden) return;
   regular_ = work_;
   regular_sweep_ = sweep;
 }

@@ -12,7 +12,8 @@ namespace temper {
 
 class Driver {
  public:
-  Driver(WorkingCopy& work, Settings& settings, Run& run, std::size_t part_size = kPartSize);
+  /// `state`: of the sweeps that it makes.
+  Driver(WorkingCopy& work, const Settings& settings, SweepState& state, Run& run, std::size_t part_size = kPartSize);
 
   /// Lawson on the whole input, before any phase. False when its weights hide a vertex that may not be.
   bool make_regular();
@@ -67,7 +68,8 @@ class Driver {
 
   WorkingCopy& work_;
   Mesh& mesh_;
-  Settings& settings_;
+  const Settings& settings_;
+  SweepState& state_;
   Run& run_;
   Recorder recorder_;
   Flipper flipper_;

@@ -16,15 +16,16 @@ constexpr int kInfinitePatience = 5;
 
 }  // namespace
 
-EnergyPhase::EnergyPhase(const WorkingCopy& work, Settings& settings, Run& run, const Attempt& attempt,
-                         bool may_give_up)
+EnergyPhase::EnergyPhase(const WorkingCopy& work, const Settings& settings, SweepState& state, Run& run,
+                         const Attempt& attempt, bool may_give_up)
     : mesh_(work.mesh),
       settings_(settings),
+      state_(state),
       run_(run),
       frame_(work.frame),
       attempt_(attempt),
-      energy_unit_(energy_unit(settings, work.frame)),
-      softener_(attempt, settings.energy, settings.options),
+      energy_unit_(state.energy_unit(work.frame)),
+      softener_(attempt, state.energy, settings.policy),
       may_give_up_(may_give_up) {}
 
 void EnergyPhase::begin() {
@@ -33,11 +34,11 @@ void EnergyPhase::begin() {
 }
 
 void EnergyPhase::take_energy(EnergyKind kind) {
-  set_energy(settings_, kind);
-  energy_unit_ = energy_unit(settings_, frame_);
-  softener_ = Softener(attempt_, settings_.energy, settings_.options);
-  softener_.start(mesh_, settings_.model);
-  settings_.relaxation = settings_.options.paper.relaxation.value_or(softener_.relaxation());
+  state_.set_energy(kind, settings_.policy);
+  energy_unit_ = state_.energy_unit(frame_);
+  softener_ = Softener(attempt_, state_.energy, settings_.policy);
+  softener_.start(mesh_, state_.model);
+  state_.relaxation = settings_.policy.relaxation.value_or(softener_.relaxation());
   least_bad_ = mesh_.n_triangles();
   sweeps_since_fewer_bad_ = sweeps_since_lower_ = infinite_sweeps_ = 0;
   before_ = total();
@@ -51,28 +52,28 @@ void EnergyPhase::take_last_energy() {
 }
 
 double EnergyPhase::total() const {
-  return energy_unit_ * total_energy(mesh_, settings_.model, settings_.hooks.executor);
+  return energy_unit_ * total_energy(mesh_, state_.model, settings_.hooks.executor);
 }
 
 SweepRecord EnergyPhase::measure() {
-  return record_of(energy_and_bad(mesh_, settings_.model, settings_.hooks.executor));
+  return record_of(energy_and_bad(mesh_, state_.model, settings_.hooks.executor));
 }
 
 SweepRecord EnergyPhase::record_of(const EnergyAndBad& measured) const {
   SweepRecord r;
   r.energy = energy_unit_ * measured.energy;
-  r.softening = settings_.energy.softened_by_h0 ? settings_.model.h0.value : settings_.model.gamma.value;
+  r.softening = state_.energy.softened_by_h0 ? state_.model.h0.value : state_.model.gamma.value;
   r.bad = measured.bad;
   return r;
 }
 
 /// Line 19 of Algorithm 1, and what a softened barrier or an infinite energy ask for besides.
 Phase::Verdict EnergyPhase::judge(bool changed) {
-  if (before_switch_ && iteration_ >= settings_.options.paper.switch_at) {
+  if (before_switch_ && iteration_ >= settings_.policy.switch_at) {
     take_last_energy();
     return Verdict::restarted;
   }
-  if (settings_.options.objective != Objective::energy && !before_switch_ && has_margins()) {
+  if (settings_.objective != Objective::energy && !before_switch_ && has_margins()) {
     run_.report.stopped = Stopped::converged;  // the next phase needs no more of this energy
     return Verdict::settled;
   }
@@ -87,14 +88,14 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
       take_last_energy();
       return Verdict::restarted;
     }
-    if (!defers_flips(settings_.options) && goes_on_with_weights()) return Verdict::improving;
+    if (!settings_.policy.defers_flips && goes_on_with_weights()) return Verdict::improving;
     run_.report.stopped = Stopped::converged;
     return Verdict::settled;
   }
   if (softener_.settled() && may_give_up_ && !before_switch_ && stagnates()) return Verdict::stopped;
   const double fall = (before_ - after) / std::abs(after);
-  const bool sharper = softener_.advance(mesh_, fall, run_.report.history.back().bad, settings_.model);
-  settings_.relaxation = settings_.options.paper.relaxation.value_or(softener_.relaxation());
+  const bool sharper = softener_.advance(mesh_, fall, run_.report.history.back().bad, state_.model);
+  state_.relaxation = settings_.policy.relaxation.value_or(softener_.relaxation());
   before_ = !sharper ? after : softener_.compares_energies() ? total() : kInfinity;
   return Verdict::improving;
 }
@@ -107,8 +108,8 @@ bool EnergyPhase::has_margins() const {
 
 /// The paper's rule takes a rise for convergence. The relative one waits whether the energy falls again.
 bool EnergyPhase::converged(double before, double after) {
-  const double tolerance = settings_.options.paper.tolerance;
-  if (settings_.options.paper.stopping == StoppingRule::paper) {
+  const double tolerance = settings_.policy.tolerance;
+  if (settings_.policy.stopping == StoppingRule::paper) {
     return before - after < tolerance * static_cast<double>(mesh_.n_triangles());
   }
   const double change = tolerance * std::abs(after);
@@ -128,9 +129,9 @@ bool EnergyPhase::stagnates() {
 
 /// Positions have converged before i_w: the weights' turn has come.
 bool EnergyPhase::goes_on_with_weights() {
-  const OptimizeOptions& o = settings_.options;
-  if (o.unknowns != Unknowns::positions_and_weights || iteration_ >= o.paper.weights_from) return false;
-  iteration_ = o.paper.weights_from;
+  const int from = settings_.policy.weights_from;
+  if (settings_.options.unknowns != Unknowns::positions_and_weights || iteration_ >= from) return false;
+  iteration_ = from;
   return true;
 }
 

@@ -19,12 +19,12 @@ struct Large {
 
 class Insertion {
  public:
-  Insertion(WorkingCopy& work, Flipper& flipper, const Settings& settings)
-      : work_(work), mesh_(work.mesh), flipper_(flipper), settings_(settings) {}
+  Insertion(WorkingCopy& work, Flipper& flipper, const Policy& policy, const EnergyModel& model)
+      : work_(work), mesh_(work.mesh), flipper_(flipper), policy_(policy), model_(model) {}
 
   bool run() {
     bool inserted = false;
-    const double limit = settings_.options.paper.insertion_ratio * mean_energy();
+    const double limit = policy_.insertion_ratio * mean_energy();
     for (const auto& [t, energy] : larger_than(limit)) {
       if (own_energy(t) > limit && insert_at_orthocenter(t)) inserted = true;  // what came before may have changed it
     }
@@ -34,7 +34,7 @@ class Insertion {
  private:
   [[nodiscard]] double own_energy(TriangleId t) const {
     const auto [a, b, c] = mesh_.corners(t);
-    return triangle_energy(settings_.model, mesh_.point(a), mesh_.point(b), mesh_.point(c));
+    return triangle_energy(model_, mesh_.point(a), mesh_.point(b), mesh_.point(c));
   }
   [[nodiscard]] double mean_energy() const;
   [[nodiscard]] std::vector<Large> larger_than(double limit) const;
@@ -43,7 +43,8 @@ class Insertion {
   WorkingCopy& work_;
   Mesh& mesh_;
   Flipper& flipper_;
-  const Settings& settings_;
+  const Policy& policy_;
+  const EnergyModel& model_;
   InsertionPlan plan_;
 };
 
@@ -76,17 +77,17 @@ bool Insertion::insert_at_orthocenter(TriangleId t) {
   const double w = interpolated_weight(mesh_, at.triangle, o);
   plan_ = plan_insertion(mesh_, {o.x, o.y, w}, at.triangle, std::move(plan_));
   if (plan_.status != InsertionStatus::possible) return false;
-  const PaperSwitches& switches = settings_.options.paper;
-  const PatchComparison e = compare_patch(mesh_, settings_.model, plan_, switches.removal_measure);
-  if (!e.better_with(switches.removal_margin)) return false;
+  const PatchComparison e = compare_patch(mesh_, model_, plan_, policy_.removal_measure);
+  if (!e.better_with(policy_.removal_margin)) return false;
   flipper_.commit(work_, plan_, e.without, e.with);
   return true;
 }
 
 }  // namespace
 
-bool insert_where_energy_is_large(WorkingCopy& work, Flipper& flipper, const Settings& settings) {
-  return Insertion(work, flipper, settings).run();
+bool insert_where_energy_is_large(WorkingCopy& work, Flipper& flipper, const Settings& settings,
+                                  const EnergyModel& model) {
+  return Insertion(work, flipper, settings.policy, model).run();
 }
 
 }  // namespace temper

@@ -11,6 +11,7 @@ namespace temper {
 /// a vertex at the orthocenter, with the weight that the mesh has there, where insertion and flips make what is
 /// replaced better by removal_measure and removal_margin. True when there are new vertices; edges are as regular as
 /// before.
-[[nodiscard]] bool insert_where_energy_is_large(WorkingCopy& work, Flipper& flipper, const Settings& settings);
+[[nodiscard]] bool insert_where_energy_is_large(WorkingCopy& work, Flipper& flipper, const Settings& settings,
+                                                const EnergyModel& model);
 
 }  // namespace temper

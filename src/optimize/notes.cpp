@@ -71,13 +71,13 @@ void Notes::tell_if_more_are_bad(double bad_before) {
   const double bad = bad_part(mesh_, count_bad(mesh_, settings_.hooks.executor));
   if (bad > bad_before) {
     add(percent(bad) + " of the triangles are not well-centered, " + percent(bad_before) + " of the input's: energy " +
-        std::string(settings_.energy.name) + " does not ask for that, energy BP does");
+        std::string(settings_.energy().name) + " does not ask for that, energy BP does");
   }
 }
 
 /// Hidden vertices that are kept keep edges from being regular.
 void Notes::tell_what_is_not_regular() {
-  if (options_.paper.hidden != HiddenPolicy::keep) return;
+  if (!settings_.policy.keeps_hidden) return;
   const std::size_t edges = count_non_regular_edges(mesh_, false, settings_.hooks.executor);
   if (edges > 0)
     add(count_of(edges, "edge is", "edges are") + " not regular, since `hidden=keep` keeps hidden vertices");
@@ -114,8 +114,8 @@ std::string Notes::name_of(VertexId v) const {
 
 /// Triangles that no optimiser can make well-centered, whatever it tries.
 void Notes::tell_edges_that_must_be_split(std::size_t bad) {
-  if (!settings_.energy.barrier || bad == 0 || mesh_.space().kind() != SpaceKind::plane) return;
-  if (options_.paper.inversion == Inversion::allow && count_inverted(mesh_) > 0) return;  // no inside to see through
+  if (!settings_.energy().barrier || bad == 0 || mesh_.space().kind() != SpaceKind::plane) return;
+  if (settings_.policy.allows_inversion && count_inverted(mesh_) > 0) return;  // no inside to see through
   const std::vector<EdgeConflict> edges = edges_that_must_be_split(mesh_);
   if (edges.empty()) return;
   const HalfedgeId worst = edges.front().edge;
@@ -127,7 +127,7 @@ void Notes::tell_edges_that_must_be_split(std::size_t bad) {
 
 /// Bad triangles that nothing can reshape, where another option would let a corner move.
 void Notes::tell_corners_that_stay(std::size_t bad) {
-  const bool moves = options_.unknowns != Unknowns::weights && settings_.energy.barrier;
+  const bool moves = options_.unknowns != Unknowns::weights && settings_.energy().barrier;
   if (bad == 0 || !moves || mesh_.space().kind() != SpaceKind::plane) return;
   OptimizeOptions sliding = options_;
   sliding.boundary = BoundaryVertices::slide;
@@ -160,6 +160,12 @@ std::size_t Notes::count_thin() const {
   }));
 }
 
+/// The error model needs a library of sparse matrices.
+void Notes::tell_objective() {
+  add("the objective was accuracy, not the error of the solver: this run had no model of that error; builds with Eigen "
+      "have one, temper::solvers() in C++");
+}
+
 void Notes::tell_accuracy(std::size_t bad) {
   if (bad > 0) {
     add(count_of(bad, "triangle is", "triangles are") +
@@ -175,7 +181,7 @@ void Notes::tell_accuracy(std::size_t bad) {
         " edges or duals are shorter than `min_edge` and `min_dual` ask for" +
         (options_.repair == Repair::vertices ? "" : ": `repair=vertices` may find other connectivities"));
   }
-  if (options_.error.model == nullptr) {
+  if (settings_.errors == nullptr) {
     add("energy of the accuracy objective, edges taken absolute: " + to_text(report_.initial_energy) + " before, " +
         to_text(report_.final_energy) + " after");
   } else if (std::isfinite(report_.initial_energy)) {

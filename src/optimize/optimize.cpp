@@ -11,7 +11,7 @@
 #include "optimize/error/error_phase.hpp"
 #include "optimize/input_mesh.hpp"
 #include "optimize/lengths.hpp"
-#include "optimize/rank.hpp"
+#include "optimize/judge.hpp"
 #include "optimize/report.hpp"
 
 namespace temper {
@@ -19,7 +19,7 @@ namespace {
 
 /// Says whether the second phase may begin at once with the input.
 bool is_ready_for_accuracy(const Mesh& mesh, const Settings& s) {
-  return s.options.objective != Objective::energy && s.options.boundary != BoundaryVertices::split &&
+  return s.objective != Objective::energy && s.options.boundary != BoundaryVertices::split &&
          has_margins(mesh, s.accuracy.margin, s.hooks.executor) &&
          missing_lengths(mesh, s.accuracy, s.hooks.executor) == 0;
 }
@@ -34,62 +34,106 @@ std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& 
 InputMeasures measured(const Mesh& mesh, const Settings& s, std::optional<AccuracySizes>& sizes) {
   const NearbyCopy near(mesh, s.hooks.executor);
   InputMeasures measures = measure_input(mesh, near, s);
-  if (s.options.objective != Objective::energy) {
+  if (s.objective != Objective::energy) {
     sizes.emplace(near, s.options.size_field, s.hooks.executor);
-    measures.rank = rank_input(near, measures.counts, s, *sizes);
+    measures.score = score_input(near, measures.counts, s, *sizes);
   }
   return measures;
 }
 
-/// One phase more. Where there is a model of errors it says whether that was for the better; if not, it is taken back.
+/// One phase more. A model of errors says whether that was for the better; if not, it is taken back.
 template <class Improving>
 void improve(Candidate& best, const Settings& settings, Run& run, AccuracySizes& sizes) {
   if (run.stopped_early() || run.report.stopped == Stopped::hidden) return;
-  const bool judges = settings.options.error.model != nullptr;
   std::optional<Candidate> before;
-  if (judges) before = best;
-  Improving phase(best.work, settings, run, sizes.lend(best.work, settings.hooks.executor));
-  Driver driver(best.work, phase.settings(), run);
+  if (settings.errors != nullptr) before = best;
+  Improving phase(best.work, settings, run, sizes.lend(best.work, settings.executor()));
+  Driver driver(best.work, phase.settings(), phase.state(), run);
   best.sweep = driver.run(phase, best.sweep);
-  sizes.take_back(phase.take_sizes(), best.work, settings.hooks.executor);
+  sizes.take_back(phase.take_sizes(), best.work, settings.executor());
   if (!before) return;
-  const auto rank_of = [&](const Candidate& c) {
-    const VertexSizes own = sizes.of(c.work, settings.hooks.executor);
-    return rank(c.work.mesh, settings, &own);
+  const auto score_of = [&](const Candidate& c) {
+    const VertexSizes own = sizes.of(c.work, settings.executor());
+    return score(c.work.mesh, settings, settings.model, &own);
   };
-  if (!(rank_of(*before) < rank_of(best))) return;
+  if (replaces(score_of(best), score_of(*before), Requirement::not_worse)) return;
   best = *std::move(before);
   driver.recorder().returned_to(best.sweep);
+}
+
+/// The run in the plane of the mesh.
+Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks) {
+  if (auto error = expect_agreement(hooks, options, mesh)) return *std::move(error);
+  Run run(options, hooks, mesh);
+  auto made = make_settings(options, mesh, Frame::of(mesh), hooks);
+  if (!made) return made.error();
+  made->size_field = field_of_band(mesh, options, hooks.executor);
+  std::optional<RankedExecutor> together;
+  if (hooks.ranks != nullptr) {
+    made->hooks.executor = &together.emplace(or_serial(hooks.executor), *hooks.ranks);
+  }
+  const Settings settings = *std::move(made);
+  SweepState state(settings);
+
+  std::optional<AccuracySizes> sizes;
+  const InputMeasures of_input = measured(mesh, settings, sizes);
+  InputMesh input(mesh, hooks.exclusive && !options.size_band, hooks.executor);  // the band's field may look at it
+  auto found = is_ready_for_accuracy(mesh, settings)
+                   ? Candidate{WorkingCopy(mesh, settings.policy.order, hooks.executor)}
+                   : best_attempt(input, settings, state, run);
+  if (!found) return found.error();
+  Candidate best = *std::move(found);
+  input.fold();
+  best = weighed(std::move(best), input, settings, state, run);
+  best = repaired(std::move(best), settings, state, run);
+  if (sizes) improve<AccuracyPhase>(best, settings, run, *sizes);
+  if (settings.objective == Objective::error) improve<ErrorPhase>(best, settings, run, *sizes);
+  give_back(input.whole(), std::move(best), settings, state, of_input, std::move(sizes), run);
+  return std::move(run.report);
+}
+
+/// What only a mesh in its own plane can have.
+std::optional<InputError> check_metric(const OptimizeOptions& options, const OptimizeHooks& hooks) {
+  const auto refused = [](const char* what) {
+    return InputError{ErrorCode::invalid_option, {}, std::string("a tensor cannot go with ") + what};
+  };
+  if (options.size_field) return refused("`size_field`: sizes are lengths of the plane of the mesh");
+  if (hooks.tracer) return refused("a trace: its events would be in the plane of the metric");
+  if (hooks.snapshots) return refused("snapshots, which would be in the plane of the metric");
+  return std::nullopt;
+}
+
+/// The run in the plane of the tensor's metric, and back.
+Expected<OptimizeReport> optimize_in_metric(Mesh& mesh, const OptimizeOptions& options, OptimizeHooks hooks) {
+  if (auto error = check_metric(options, hooks)) return *std::move(error);
+  const Expected<Metric> metric = Metric::of(*options.tensor);
+  if (!metric) return metric.error();
+  const InputNames names = hooks.names != nullptr ? *hooks.names : InputNames();
+  Expected<Mesh> there = mapped(mesh, *metric, names);
+  if (!there) return there.error();
+  if (hooks.best_so_far) {
+    hooks.best_so_far = [&, listener = hooks.best_so_far](const auto& best) {
+      listener([&](const auto& use) {
+        best([&](const BestSoFar& found) {
+          if (auto back = mapped_back(found.mesh, mesh, *metric, found.vertices)) use({*back, found.vertices});
+        });
+      });
+    };
+  }
+  OptimizeOptions there_options = options;
+  there_options.tensor.reset();
+  Expected<OptimizeReport> report = optimize_here(*there, there_options, hooks);
+  if (!report) return report;
+  Expected<Mesh> back = mapped_back(*there, mesh, *metric, report->vertices);
+  if (!back) return back.error();
+  mesh = *std::move(back);
+  return report;
 }
 
 }  // namespace
 
 Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks) {
-  if (auto error = expect_agreement(hooks, options, mesh)) return *std::move(error);
-  Run run(options, hooks.observer, hooks.ranks);
-  auto settings = make_settings(options, mesh, Frame::of(mesh), hooks);
-  if (!settings) return settings.error();
-  settings->size_field = field_of_band(mesh, options, hooks.executor);
-  std::optional<RankedExecutor> together;
-  if (hooks.ranks != nullptr) {
-    settings->hooks.executor = &together.emplace(or_serial(hooks.executor), *hooks.ranks);
-  }
-
-  std::optional<AccuracySizes> sizes;
-  const InputMeasures of_input = measured(mesh, *settings, sizes);
-  InputMesh input(mesh, hooks.exclusive && !options.size_band, hooks.executor);  // the band's field may look at it
-  auto found = is_ready_for_accuracy(mesh, *settings)
-                   ? Candidate{WorkingCopy(mesh, options.paper.order, hooks.executor)}
-                   : best_attempt(input, *settings, run);
-  if (!found) return found.error();
-  Candidate best = *std::move(found);
-  input.fold();
-  best = weighed(std::move(best), input, *settings, run);
-  best = repaired(std::move(best), *settings, run);
-  if (sizes) improve<AccuracyPhase>(best, *settings, run, *sizes);
-  if (settings->options.objective == Objective::error) improve<ErrorPhase>(best, *settings, run, *sizes);
-  give_back(input.whole(), std::move(best), *std::move(settings), of_input, std::move(sizes), run);
-  return std::move(run.report);
+  return options.tensor ? optimize_in_metric(mesh, options, hooks) : optimize_here(mesh, options, hooks);
 }
 
 }  // namespace temper

@@ -50,7 +50,8 @@ class Phase {
 class EnergyPhase final : public Phase {
  public:
   /// `may_give_up`: the phase ends too when triangles stay bad for many sweeps.
-  EnergyPhase(const WorkingCopy& work, Settings& settings, Run& run, const Attempt& attempt, bool may_give_up);
+  EnergyPhase(const WorkingCopy& work, const Settings& settings, SweepState& state, Run& run, const Attempt& attempt,
+              bool may_give_up);
 
   void begin() override;
   [[nodiscard]] bool may_sweep() const override { return run_.sweeps_left(); }
@@ -59,7 +60,7 @@ class EnergyPhase final : public Phase {
   Verdict judge(bool changed) override;
   void compare_from_here() override { before_ = run_.report.history.back().energy; }
   bool goes_on_with_weights() override;
-  [[nodiscard]] Keeps keeps() const override { return settings_.energy.barrier ? Keeps::last : Keeps::best_sweep; }
+  [[nodiscard]] Keeps keeps() const override { return state_.energy.barrier ? Keeps::last : Keeps::best_sweep; }
   int& iteration() override { return iteration_; }
   /// What has been measured of the mesh as it is, for the history of the run.
   [[nodiscard]] SweepRecord record_of(const EnergyAndBad& measured) const;
@@ -73,7 +74,8 @@ class EnergyPhase final : public Phase {
   bool stagnates();
 
   const Mesh& mesh_;
-  Settings& settings_;
+  const Settings& settings_;
+  SweepState& state_;
   Run& run_;
   const Frame& frame_;
   Attempt attempt_;

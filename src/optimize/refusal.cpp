@@ -29,10 +29,10 @@ InputError hidden_vertices_error(const Mesh& input, const InputNames* names) {
 }
 
 std::optional<InputError> outside_domain_error(const Mesh& mesh, const Settings& settings) {
-  const EnergyInfo& energy = energy_info(first_energy_of(settings.options).value_or(settings.energy.kind));
+  const EnergyInfo& energy = energy_info(settings.policy.first_energy.value_or(settings.model.kind));
   EnergyModel model = settings.model;
   model.kind = energy.kind;
-  const bool gets_in = energy.softened_by_gamma || (energy.softened_by_h0 && !settings.options.paper.h0);
+  const bool gets_in = energy.softened_by_gamma || (energy.softened_by_h0 && !settings.policy.h0);
   if (!energy.barrier || gets_in || std::isfinite(total_energy(mesh, model))) return std::nullopt;
   return InputError{
       ErrorCode::invalid_option,

@@ -9,7 +9,7 @@
 #include "mesh/curve.hpp"
 #include "optimize/driver.hpp"
 #include "optimize/notes.hpp"
-#include "optimize/rank.hpp"
+#include "optimize/judge.hpp"
 #include "optimize/rounding.hpp"
 #include "temper/regularity.hpp"
 
@@ -26,7 +26,7 @@ SizeField field_of(const Mesh& input, const Settings& settings) {
 /// Vertices that Lawson's algorithm leaves without a power cell; none where it has no meaning, among inverted
 /// triangles.
 std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, const Settings& settings) {
-  const bool keeps = settings.options.paper.hidden == HiddenPolicy::keep;
+  const bool keeps = settings.policy.keeps_hidden;
   if (!keeps || count_non_regular_edges(mesh, false, settings.hooks.executor) == 0 || count_inverted(mesh) > 0)
     return {};
   Mesh copy = mesh;
@@ -37,13 +37,14 @@ std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, const Settings& setti
 struct Result {
   Mesh mesh;
   IdVector<VertexId, VertexId> vertices;  ///< of OptimizeReport
-  Rank rank;
+  MeshScore score;
   SizeReport size;
 };
 
-/// `settings`: in the user's units. What the user's numbers would scatter over memory is measured before it has them;
+/// `model`: in the user's units. What the user's numbers would scatter over memory is measured before it has them;
 /// what is no longer needed is gone before the next is measured.
-Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, std::optional<AccuracySizes> sizes) {
+Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, const EnergyModel& model,
+                 std::optional<AccuracySizes> sizes) {
   Executor* const executor = settings.hooks.executor;
   Result result;
   const bool for_accuracy = sizes.has_value(), scattered = is_scattered(input);
@@ -51,7 +52,7 @@ Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, 
   if (for_accuracy) own = scattered ? sizes->in_user_units(work, executor) : sizes->in_user_terms(work, executor);
   sizes.reset();
   const auto measure = [&](const Mesh& mesh, const IdVector<VertexId, VertexId>& numbers) {
-    result.rank = rank(mesh, settings, for_accuracy ? &own : nullptr);
+    result.score = score(mesh, settings, model, for_accuracy ? &own : nullptr);
     own = {};
     result.size = measure_size(mesh, field_of(input, settings), executor, numbers);
   };
@@ -70,12 +71,12 @@ Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, 
 }
 
 /// The input with its edges flipped as every attempt begins, for a run that found nothing better in so many sweeps.
-WorkingCopy made_regular(const Mesh& mesh, Settings settings, int sweeps) {
-  WorkingCopy work(mesh, settings.options.paper.order, settings.hooks.executor);
-  const Observer nobody;
-  Run unheard(settings.options, nobody);
+WorkingCopy made_regular(const Mesh& mesh, const Settings& settings, SweepState state, int sweeps) {
+  WorkingCopy work(mesh, settings.policy.order, settings.hooks.executor);
+  const OptimizeHooks nobody;
+  Run unheard(settings.options, nobody, mesh);
   unheard.report.sweeps = sweeps;
-  Driver(work, settings, unheard).make_regular();
+  Driver(work, settings, state, unheard).make_regular();
   return work;
 }
 
@@ -90,8 +91,8 @@ void count_changes(const Mesh& input, OptimizeReport& report) {
 /// Says whether flips alone make an input that is returned better: what hidden vertices keep from being regular stays
 /// so.
 bool lacks_flips(const Counts& input, const Settings& settings, const RunFacts& facts) {
-  const OptimizeOptions& o = settings.options;
-  if (o.flips == Flips::none || (o.paper.hidden == HiddenPolicy::keep && facts.input_flips == 0)) return false;
+  const Policy& policy = settings.policy;
+  if (policy.keeps_connectivity || (policy.keeps_hidden && facts.input_flips == 0)) return false;
   return input.non_regular > 0;
 }
 
@@ -140,48 +141,50 @@ InputMeasures measure_input(const Mesh& mesh, const NearbyCopy& near, const Sett
   return measures;
 }
 
-Rank rank_input(const NearbyCopy& near, const Counts& counts, const Settings& settings, const AccuracySizes& sizes) {
-  if (near.is_original()) return rank(near.mesh(), counts, settings, &sizes.of_input());
+MeshScore score_input(const NearbyCopy& near, const Counts& counts, const Settings& settings,
+                      const AccuracySizes& sizes) {
+  if (near.is_original()) return score(near.mesh(), counts, settings, settings.model, &sizes.of_input());
   VertexSizes there(near.mesh().n_vertices());
   for (const VertexId v : near.mesh().vertices()) there[v] = sizes.of_input()[near.original(v)];
-  return rank(near.mesh(), counts, settings, &there);
+  return score(near.mesh(), counts, settings, settings.model, &there);
 }
 
-void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasures& of_input,
-               std::optional<AccuracySizes> sizes, Run& run) {
+void give_back(Mesh& mesh, Candidate best, const Settings& settings, const SweepState& state,
+               const InputMeasures& of_input, std::optional<AccuracySizes> sizes, Run& run) {
   OptimizeReport& report = run.report;
+  report.objective = settings.objective;
   Recorder recorder(settings.hooks.tracer, best.work, 1);
   recorder.begin_sweep(run.next_sweep());
-  const Settings in_frame = settings;
-  settings.model = in_user_units(settings.model, best.work.frame);
+  const EnergyModel model = in_user_units(state.model, best.work.frame);
   const bool for_accuracy = sizes.has_value();
-  Result result = result_of(mesh, std::move(best.work), settings, std::move(sizes));
-  const Rank before = of_input.rank ? *of_input.rank : rank(mesh, of_input.counts, settings, nullptr);
+  Result result = result_of(mesh, std::move(best.work), settings, model, std::move(sizes));
+  const MeshScore before =
+      of_input.score ? *of_input.score : score(mesh, of_input.counts, settings, model, nullptr);
   report.size.before = report.size.after = of_input.size;
   report.initial_energy = before.energy;
   const std::optional<double> bad_before =
-      settings.energy.barrier ? std::nullopt : std::optional(bad_part(mesh, of_input.counts.bad));
+      settings.energy().barrier ? std::nullopt : std::optional(bad_part(mesh, of_input.counts.bad));
   // Flips that make the input regular come before all else that may be better or worse.
-  const bool may_be_better = before < result.rank || result.rank.bad > 0 || result.rank.non_regular > 0;
+  const bool may_be_better = before < result.score || result.score.bad > 0 || result.score.non_regular > 0;
   const bool flips = may_be_better && lacks_flips(of_input.counts, settings, run.facts);
   Result input;
-  input.rank = before;
+  input.score = before;
   if (flips) {
-    Settings silent = in_frame;
+    Settings silent = settings;
     silent.hooks.tracer = {};
     std::optional<AccuracySizes> again;
     if (for_accuracy)
       again.emplace(NearbyCopy(mesh, settings.hooks.executor), settings.options.size_field, settings.hooks.executor);
-    input = result_of(mesh, made_regular(mesh, silent, report.sweeps), settings, std::move(again));
+    input = result_of(mesh, made_regular(mesh, silent, state, report.sweeps), settings, model, std::move(again));
   }
-  const bool worse = input.rank < result.rank;
+  const bool worse = !replaces(result.score, input.score, Requirement::not_worse);
   if (worse) {
     recorder.returned_to(-1);
-    if (flips && recorder.on()) static_cast<void>(made_regular(mesh, in_frame, report.sweeps));
+    if (flips && recorder.on()) static_cast<void>(made_regular(mesh, settings, state, report.sweeps));
     result = std::move(input);
   }
   report.vertices = std::move(result.vertices);
-  report.final_energy = result.rank.energy;
+  report.final_energy = result.score.energy;
   count_changes(mesh, report);
   if (!worse || flips) {
     report.size.after = result.size;
@@ -199,10 +202,11 @@ void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasure
   notes.tell_what_is_not_regular();
   notes.tell_sizes();
   notes.tell_energy();
-  notes.tell_corners_that_stay(result.rank.bad);
-  notes.tell_edges_that_must_be_split(result.rank.bad);
+  notes.tell_corners_that_stay(result.score.bad);
+  notes.tell_edges_that_must_be_split(result.score.bad);
+  if (settings.lacks_error_model) notes.tell_objective();
   if (for_accuracy)
-    notes.tell_accuracy(settings.energy.barrier ? result.rank.bad : count_bad(mesh, settings.hooks.executor));
+    notes.tell_accuracy(settings.energy().barrier ? result.score.bad : count_bad(mesh, settings.hooks.executor));
   report.seconds = run.seconds();
 }
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "optimize/accuracy/accuracy_sizes.hpp"
-#include "optimize/rank.hpp"
+#include "optimize/judge.hpp"
 #include "optimize/run.hpp"
 #include "optimize/settings.hpp"
 
@@ -21,17 +21,17 @@ struct Candidate {
 struct InputMeasures {
   Counts counts;
   SizeReport size;
-  std::optional<Rank> rank;  ///< where the energies of a run do not enter into it
+  std::optional<MeshScore> score;  ///< where the energies of a run do not enter into it
 };
-/// All but the rank. `near`: of the mesh.
+/// All but the score. `near`: of the mesh.
 [[nodiscard]] InputMeasures measure_input(const Mesh& mesh, const NearbyCopy& near, const Settings& settings);
-/// The rank by the accuracy objective.
-[[nodiscard]] Rank rank_input(const NearbyCopy& near, const Counts& counts, const Settings& settings,
+/// The score by the accuracy objective.
+[[nodiscard]] MeshScore score_input(const NearbyCopy& near, const Counts& counts, const Settings& settings,
                               const AccuracySizes& sizes);
 
 /// Puts the candidate into `mesh`, unless that is the better one, and completes the report of the run. `sizes`: of the
 /// accuracy objective, else none.
-void give_back(Mesh& mesh, Candidate best, Settings settings, const InputMeasures& of_input,
-               std::optional<AccuracySizes> sizes, Run& run);
+void give_back(Mesh& mesh, Candidate best, const Settings& settings, const SweepState& state,
+               const InputMeasures& of_input, std::optional<AccuracySizes> sizes, Run& run);
 
 }  // namespace temper

@@ -2,19 +2,42 @@
 
 #include "geometry/predicates_inline.hpp"
 #include "optimize/estimate.hpp"
+#include "optimize/judge.hpp"
+#include "optimize/rounding.hpp"
+#include "temper/archive.hpp"
 
 namespace temper {
 
+bool time_is_up(double elapsed, double ending, double limit) { return limit > 0 && elapsed + ending > limit; }
+
+void Run::offer(const WorkingCopy& now, const Settings& settings, const SweepState& state) const {
+  if (!hooks_.best_so_far) return;
+  hooks_.best_so_far([&](const std::function<void(const BestSoFar&)>& use) {
+    const auto score_of = [&](const WorkingCopy& work) { return score(work.mesh, settings, state.model); };
+    const WorkingCopy* best = &now;
+    if (best_before != nullptr && !replaces(score_of(now), score_of(*best_before), Requirement::not_worse)) {
+      best = best_before;
+    }
+    const MeshScore found = score_of(*best);
+    if (found.inverted > 0 || (found.non_regular > 0 && !settings.policy.keeps_connectivity)) return;
+    Mesh mesh = best->in_user_terms(settings.executor());
+    IdVector<VertexId, VertexId> vertices;
+    if (best->has_gaps || best->has_inserted()) vertices = best->user_vertices();
+    take_back_rounding(input_, vertices, mesh);
+    use({mesh, vertices});
+  });
+}
+
 bool Run::asked_to_stop(double fraction_of_sweep) {
-  if (ranks_ == nullptr) return ask(fraction_of_sweep);
-  if (ranks_->rank() == 0) ask(fraction_of_sweep);
+  if (hooks_.ranks == nullptr) return ask(fraction_of_sweep);
+  if (hooks_.ranks->rank() == 0) ask(fraction_of_sweep);
   if (!apart_) hear();
   return stopped_early();
 }
 
 void Run::meet() {
   apart_ = false;
-  if (ranks_ != nullptr) hear();
+  if (hooks_.ranks != nullptr) hear();
 }
 
 /// What rank 0 was told, if it was told to stop.
@@ -22,14 +45,14 @@ void Run::hear() {
   std::string told;
   Archive archive(told);
   archive(report.stopped);
-  ranks_->broadcast(told, 0);
+  hooks_.ranks->broadcast(told, 0);
   Stopped stopped = report.stopped;
   Archive(std::string_view(told))(stopped);
   if (temper::stopped_early(stopped)) report.stopped = stopped;
 }
 
 bool Run::ask(double fraction_of_sweep) {
-  if (options_.time_limit > 0 && seconds() + ending_seconds_ > options_.time_limit) {
+  if (time_is_up(seconds_between(limit_from_, Clock::now()), ending_seconds_, options_.time_limit)) {
     report.stopped = Stopped::time_limit;
     return true;
   }
@@ -37,7 +60,7 @@ bool Run::ask(double fraction_of_sweep) {
     return {report.history.back(), fraction_of_sweep, options_.max_sweeps,
             estimate_sweeps_left(report.history, options_)};
   };
-  if (observer_ && observer_(progress()) == Continue::no) {
+  if (hooks_.observer && hooks_.observer(progress()) == Continue::no) {
     report.stopped = Stopped::cancelled;
     return true;
   }

@@ -14,6 +14,10 @@ namespace temper {
 /// Triangles that are not counter-clockwise, exact.
 [[nodiscard]] std::size_t count_inverted(const Mesh& mesh);
 
+/// Says whether a run has to end: `elapsed` seconds are over, and giving the result back takes `ending` more. A limit of
+/// 0 is none.
+[[nodiscard]] bool time_is_up(double elapsed, double ending, double limit);
+
 /// Facts that the report tells in sentences.
 struct RunFacts {
   std::size_t input_flips = 0;                ///< that made the input regular
@@ -24,17 +28,30 @@ struct RunFacts {
   bool energy_rose = false;                   ///< in the last sweeps, which were taken back
 };
 
+/// While it lives, this mesh is the best one so far, and a stage tries another.
+class BestBefore {
+ public:
+  BestBefore(const WorkingCopy*& place, const WorkingCopy* best) : place_(place) { place_ = best; }
+  ~BestBefore() { place_ = nullptr; }
+  BestBefore(const BestBefore&) = delete;
+  BestBefore& operator=(const BestBefore&) = delete;
+
+ private:
+  const WorkingCopy*& place_;
+};
+
 class Run {
  public:
-  /// `ranks`: that make the run together, or null.
-  Run(const OptimizeOptions& options, const Observer& observer, Ranks* ranks = nullptr)
+  /// `input`: as the caller gave it, for the places of vertices that stay.
+  Run(const OptimizeOptions& options, const OptimizeHooks& hooks, const Mesh& input)
       : repair_trials_left(options.repair_trials),
         options_(options),
-        observer_(observer),
-        ranks_(ranks),
-        start_(Clock::now()) {}
+        hooks_(hooks),
+        input_(input),
+        start_(Clock::now()),
+        limit_from_(hooks.started.value_or(start_)) {}
 
-  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  [[nodiscard]] double seconds() const { return seconds_between(start_, Clock::now()); }
   [[nodiscard]] bool sweeps_left() const { return report.sweeps < options_.max_sweeps; }
   /// The number of the next sweep; 0 before the first, while the input is made regular.
   [[nodiscard]] int next_sweep() const { return report.sweeps == 0 ? 0 : report.sweeps + 1; }
@@ -46,11 +63,13 @@ class Run {
   void begin_sweeps() {
     if (ending_seconds_ == 0) ending_seconds_ = seconds();
   }
+  /// A mesh of the run may be saved: says so to the listener, if there is one.
+  void offer(const WorkingCopy& now, const Settings& settings, const SweepState& state) const;
   /// Asks the clock and the caller, who are those of rank 0; sets report.stopped when the answer is yes. Ranks ask at
   /// the same places and hear the same, but while they are apart: rank 0 alone knows then.
   bool asked_to_stop(double fraction_of_sweep);
   /// From here on ranks do different things.
-  void part_ways() { apart_ = ranks_ != nullptr; }
+  void part_ways() { apart_ = hooks_.ranks != nullptr; }
   /// From here on they do the same again, and know what rank 0 was told meanwhile.
   void meet();
 
@@ -63,18 +82,22 @@ class Run {
   OptimizeReport report;
   RunFacts facts;
   int repair_trials_left;
+  const WorkingCopy* best_before = nullptr;  ///< of the stages before, while a stage tries another mesh
 
  private:
   using Clock = std::chrono::steady_clock;
+  static double seconds_between(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+  }
 
   bool ask(double fraction_of_sweep);
   void hear();
 
   const OptimizeOptions& options_;
-  const Observer& observer_;
-  Ranks* ranks_;
+  const OptimizeHooks& hooks_;
+  const Mesh& input_;
   bool apart_ = false;
-  Clock::time_point start_;
+  Clock::time_point start_, limit_from_;
   double ending_seconds_ = 0;  // after the last sweep, about
 };
 

@@ -67,14 +67,13 @@ double least_shift(const Mesh& mesh) { return std::max(kFloor, -kBeyondWorst * l
 const Attempt kPolish = kHard.front();
 const Attempt kNearlyGood = kNear;
 
-std::span<const Attempt> attempts(const EnergyInfo& energy, const OptimizeOptions& options, const Mesh& mesh,
-                                  Executor* executor) {
-  const bool softens = energy.softened_by_gamma && !options.paper.gamma && least_relative_height(mesh) <= 0;
-  if (!softens) return kHard;
+std::span<const Attempt> attempts(const Settings& settings, const Mesh& mesh) {
+  const bool softens = settings.energy().softened_by_gamma && !settings.policy.gamma;
+  if (!softens || least_relative_height(mesh) > 0) return kHard;
   const std::size_t n = mesh.n_triangles();
-  const auto bad = static_cast<double>(count_bad(mesh, executor));
+  const auto bad = static_cast<double>(count_bad(mesh, settings.executor()));
   const bool many = n >= kLeastMany && bad >= kMany * static_cast<double>(n);
-  if (has_tied_quads(mesh, options)) return many ? kManyBadAndTied : kFewBadAndTied;
+  if (has_tied_quads(mesh, settings.options)) return many ? kManyBadAndTied : kFewBadAndTied;
   return many ? kManyBad : kFewBad;
 }
 

@@ -12,9 +12,7 @@
 #include <optional>
 #include <span>
 
-#include "temper/energy.hpp"
-#include "temper/mesh.hpp"
-#include "temper/optimize.hpp"
+#include "optimize/settings.hpp"
 
 namespace temper {
 
@@ -40,9 +38,6 @@ struct Attempt {
   Cuts cuts = Cuts::graded;                     ///< before it
 };
 
-/// Over-relaxation at the last γ.
-inline constexpr double kRelaxation = 1.7;
-
 /// The attempt for a mesh that is well-centered already, or as good as can be: the sharpest γ at once.
 extern const Attempt kPolish;
 
@@ -51,17 +46,16 @@ extern const Attempt kNearlyGood;
 
 /// The attempts for this mesh and these options, in order; at least one. A user's γ, or an energy without one, leaves
 /// a single attempt, and so does a mesh that is well-centered already.
-[[nodiscard]] std::span<const Attempt> attempts(const EnergyInfo& energy, const OptimizeOptions& options,
-                                                const Mesh& mesh, Executor* executor = nullptr);
+[[nodiscard]] std::span<const Attempt> attempts(const Settings& settings, const Mesh& mesh);
 
 /// γ and h° of the sweeps of one attempt.
 class Softener {
  public:
   Softener() = default;
-  Softener(const Attempt& attempt, const EnergyInfo& energy, const OptimizeOptions& options)
+  Softener(const Attempt& attempt, const EnergyInfo& energy, const Policy& policy)
       : attempt_(attempt),
-        gamma_shrinks_(energy.softened_by_gamma && !options.paper.gamma),
-        h0_shrinks_(energy.softened_by_h0 && !options.paper.h0) {}
+        gamma_shrinks_(energy.softened_by_gamma && !policy.gamma),
+        h0_shrinks_(energy.softened_by_h0 && !policy.h0) {}
 
   /// The first sweep's.
   void start(const Mesh& mesh, EnergyModel& model);

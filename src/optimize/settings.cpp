@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "optimize/schedule.hpp"
 #include "temper/optimize_table.hpp"
 
 namespace temper {
@@ -33,7 +32,8 @@ std::optional<InputError> check_updates(const OptimizeOptions& o) {
     return invalid(
         "deferred weight updates need positions and weights in turn; expected `solver=alternating` or `solver=golden`");
   }
-  if (defers_updates(o) && o.flips == Flips::none) {
+  const bool defers = all_deferred || p.weight_updates == Updates::deferred;
+  if (defers && o.flips == Flips::none) {
     return invalid(std::string(all_deferred ? "`position_updates=deferred`" : "`weight_updates=deferred`") +
                    " keeps edges regular by flips alone; expected `flips=immediate` or `flips=deferred`");
   }
@@ -48,7 +48,7 @@ std::optional<InputError> check_updates(const OptimizeOptions& o) {
 /// Rules against inverted triangles, and what they contradict.
 std::optional<InputError> check_inversions(const OptimizeOptions& o) {
   const PaperSwitches& p = o.paper;
-  if (p.inversion == Inversion::allow && !defers_flips(o)) {
+  if (p.inversion == Inversion::allow && o.flips != Flips::deferred) {
     return invalid(
         "`inversion=allow` needs `flips=deferred`, since edges cannot be flipped among inverted triangles; or "
         "`inversion=refuse`");
@@ -102,16 +102,19 @@ bool has_equal_weights(const Mesh& mesh) {
 /// sweep inside the well-centered set does. The best of 5, 10 and 50 sweeps by errors and by how little sizes change.
 constexpr int kSweepsOfOdt = 10;
 
-bool begins_with_odt(const OptimizeOptions& o, const Mesh& mesh) {
-  return objective_of(o) != Objective::energy && o.for_ != Scheme::all && !o.paper.first_energy &&
-         mesh.space().kind() == SpaceKind::plane && o.unknowns != Unknowns::weights && o.flips == Flips::immediate &&
-         o.paper.solver == Solver::newton && !defers_updates(o) && has_equal_weights(mesh);
+bool begins_with_odt(const Settings& s, const Mesh& mesh) {
+  const OptimizeOptions& o = s.options;
+  const bool newton = s.policy.solver == Solver::newton && s.policy.flips_at_once && !s.policy.defers_updates();
+  return s.objective != Objective::energy && o.for_ != Scheme::all && !o.paper.first_energy &&
+         mesh.space().kind() == SpaceKind::plane && o.unknowns != Unknowns::weights && newton &&
+         has_equal_weights(mesh);
 }
 
 /// What an energy that knows no weights cannot do with.
 std::optional<InputError> check_weights(const OptimizeOptions& o, const Mesh& mesh) {
-  const bool first = o.paper.first_energy && energy_info(*o.paper.first_energy).positions_alone;
-  const EnergyInfo& energy = energy_info(first ? *o.paper.first_energy : o.energy);
+  const auto first_energy = o.paper.first_energy;
+  const bool first = first_energy && energy_info(*first_energy).positions_alone;
+  const EnergyInfo& energy = energy_info(first ? *first_energy : o.energy);
   if (!energy.positions_alone) return std::nullopt;
   const std::string name = (first ? "`first_energy=" : "`energy=") + std::string(energy.name) + "`";
   if (o.unknowns == Unknowns::weights) {
@@ -129,9 +132,6 @@ std::optional<InputError> check_weights(const OptimizeOptions& o, const Mesh& me
 /// What the accuracy objective cannot do with.
 std::optional<InputError> check_accuracy(const OptimizeOptions& o) {
   if (objective_of(o) == Objective::energy) return std::nullopt;
-  if (objective_of(o) == Objective::error && o.error.model == nullptr) {
-    return invalid("`objective=error` needs a model of the errors, which is not there; expected `objective=accuracy`");
-  }
   const EnergyInfo& energy = energy_info(o.energy);
   if (!energy.barrier) {
     return invalid("`objective=accuracy` begins with an energy that makes triangles well-centered, which " +
@@ -204,7 +204,7 @@ Objective objective_of(const OptimizeOptions& o) {
   plain.order = o.paper.order;
   plain.seed = o.paper.seed;
   if (o.energy != EnergyKind::BP || !(o.paper == plain)) return Objective::energy;
-  return o.error.model != nullptr ? Objective::error : Objective::accuracy;
+  return Objective::accuracy;
 }
 
 bool wants_error_model(const OptimizeOptions& o, const Mesh& mesh) {
@@ -215,24 +215,26 @@ bool wants_error_model(const OptimizeOptions& o, const Mesh& mesh) {
 }
 
 OptimizeOptions paper_method() {
+  PaperSwitches p;
+  p.gamma = Softening{1, LengthScale::absolute};
+  p.solver = Solver::golden;
+  p.inner = 0;
+  p.flip_limit = FlipLimit::unlimited;
+  p.inversion = Inversion::allow;
+  p.hidden = HiddenPolicy::keep;
+  p.order = SweepOrder::input;
+  p.anchor = VertexId(0);
+  p.collapse_from = 0;
+  p.removal = Removal::patch;
+  p.removal_measure = RemovalMeasure::sum;
+  p.removal_margin = 0;
+  p.removal_from = 0;
+  p.stopping = StoppingRule::paper;
+  p.tolerance = 1e-6;
   OptimizeOptions o;
-  o.paper.gamma = Softening{1, LengthScale::absolute};
-  o.paper.solver = Solver::golden;
   o.flips = Flips::deferred;
-  o.paper.inner = 0;
-  o.paper.flip_limit = FlipLimit::unlimited;
-  o.paper.inversion = Inversion::allow;
-  o.paper.hidden = HiddenPolicy::keep;
-  o.paper.order = SweepOrder::input;
-  o.paper.anchor = VertexId(0);
-  o.paper.collapse_from = 0;
-  o.paper.removal = Removal::patch;
-  o.paper.removal_measure = RemovalMeasure::sum;
-  o.paper.removal_margin = 0;
-  o.paper.removal_from = 0;
   o.repair = Repair::none;
-  o.paper.stopping = StoppingRule::paper;
-  o.paper.tolerance = 1e-6;
+  o.paper = p;
   return o;
 }
 
@@ -251,10 +253,26 @@ OptimizeOptions cvt_method() {
   return o;
 }
 
-void set_energy(Settings& settings, EnergyKind kind) {
-  settings.energy = energy_info(kind);
-  settings.model.kind = kind;
-  settings.flip_limit = flip_limit_of(settings.options, settings.energy);
+SweepState::SweepState(const Settings& s)
+    : model(s.model), relaxation(s.policy.relaxation.value_or(kRelaxation)) {
+  set_energy(model.kind, s.policy);
+}
+
+void SweepState::set_energy(EnergyKind kind, const Policy& policy) {
+  energy = energy_info(kind);
+  model.kind = kind;
+  flip_limit = policy.flip_limit_for(energy);
+}
+
+double SweepState::energy_unit(const Frame& frame) const {
+  constexpr double kAccuracyExponent = 2;
+  return std::pow(frame.scale, accuracy_domain != nullptr ? kAccuracyExponent : energy.length_exponent);
+}
+
+Unknowns unknowns_of_sweep(const Settings& s, const EnergyInfo& energy, int sweep) {
+  if (energy.positions_alone) return Unknowns::positions;
+  const bool waits = s.options.unknowns == Unknowns::positions_and_weights && sweep < s.policy.weights_from;
+  return waits ? Unknowns::positions : s.options.unknowns;
 }
 
 EnergyModel in_user_units(EnergyModel model, const Frame& frame) {
@@ -263,6 +281,25 @@ EnergyModel in_user_units(EnergyModel model, const Frame& frame) {
   }
   return model;
 }
+
+namespace {
+
+/// The settings with the model that they ask for, if the build has one.
+Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
+  const OptimizeOptions& o = s.options;
+  const bool wants = wants_error_model(o, mesh);
+  if (wants && s.hooks.solvers.error_model) {
+    auto model = s.hooks.solvers.error_model(mesh, o.for_);
+    if (!model) return model.error();
+    s.errors = *std::move(model);
+  }
+  if (s.objective == Objective::accuracy && !o.objective && wants) s.objective = Objective::error;
+  s.lacks_error_model = wants && s.errors == nullptr;
+  if (s.lacks_error_model) s.objective = Objective::accuracy;
+  return s;
+}
+
+}  // namespace
 
 Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh, const Frame& frame,
                                  const OptimizeHooks& hooks) {
@@ -275,28 +312,27 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   if (auto error = check_weights(options, mesh)) return *std::move(error);
   if (auto error = check_space(options, mesh)) return *std::move(error);
 
-  const Objective objective = objective_of(options);
-  const Star star = objective != Objective::energy ? Star::one : options.star;
   Settings s;
-  s.collapse_model.kind = options.paper.collapse_energy;
-  s.collapse_model.star = star;
-  s.collapse_model.boundary_treatment = options.paper.boundary_treatment;
   s.options = options;
-  s.options.objective = objective;
-  if (begins_with_odt(options, mesh)) {
-    s.options.paper.first_energy = EnergyKind::ODT;
-    s.options.paper.switch_at = kSweepsOfOdt;
-  }
   s.hooks = hooks;
+  s.objective = objective_of(options);
+  s.policy = Policy(options);
+  if (begins_with_odt(s, mesh)) {
+    s.policy.first_energy = EnergyKind::ODT;
+    s.policy.switch_at = kSweepsOfOdt;
+  }
+  const PaperSwitches& p = options.paper;
+  s.model.kind = options.energy;
+  s.model.star = s.objective != Objective::energy ? Star::one : options.star;
+  s.model.boundary_treatment = p.boundary_treatment;
+  s.collapse_model = s.model;
+  s.collapse_model.kind = p.collapse_energy;
+  s.model.wall = !s.policy.allows_inversion;
+  if (p.gamma) s.model.gamma = in_frame(*p.gamma, frame);
+  if (p.h0) s.model.h0 = in_frame(*p.h0, frame);
   s.accuracy = accuracy_model(options.accuracy, options.for_, options.star);
-  s.relaxation = options.paper.relaxation.value_or(kRelaxation);
-  s.model.star = star;
-  s.model.boundary_treatment = options.paper.boundary_treatment;
-  s.model.wall = options.paper.inversion != Inversion::allow;
-  if (options.paper.gamma) s.model.gamma = in_frame(*options.paper.gamma, frame);
-  if (options.paper.h0) s.model.h0 = in_frame(*options.paper.h0, frame);
-  set_energy(s, options.energy);
-  return s;
+  if (hooks.solvers.lp) s.lp = hooks.solvers.lp();
+  return with_error_model(std::move(s), mesh);
 }
 
 }  // namespace temper

@@ -1,85 +1,56 @@
-// Options, checked and completed: what the driver and the vertex step read.
+// Options, checked and completed. Settings are constant once they are made; what changes from sweep to sweep is the
+// SweepState.
 #pragma once
 
-#include <cmath>
+#include <memory>
 #include <optional>
 
 #include "energy/accuracy_energy.hpp"
 #include "optimize/frame.hpp"
+#include "optimize/policy.hpp"
+#include "temper/feasibility.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {
 
-/// The domain of the accuracy energy of a working copy: sizes at its vertices, floors of its triangles.
-struct AccuracyDomain {
-  VertexSizes sizes;
-  AccuracyFloors floors;
-
-  /// Raises the floors to what the mesh has now. True when that changes the barrier.
-  bool raise_floors(const Mesh& mesh, const AccuracyModel& model, Executor* executor);
-};
+/// Over-relaxation once γ has settled.
+inline constexpr double kRelaxation = 1.7;
 
 struct Settings {
-  EnergyInfo energy;           ///< of the sweep under way
-  EnergyModel model;           ///< the same, in the frame's units
-  EnergyModel collapse_model;  ///< E_c
-  AccuracyModel accuracy;      ///< of the second phase of Objective::accuracy; without unit
-  /// Set while that energy is what sweeps lower; else it is that of `model`.
-  const AccuracyDomain* accuracy_domain = nullptr;
-  double relaxation = 1;  ///< of the sweep under way
-  FlipLimit flip_limit = FlipLimit::unlimited;
   OptimizeOptions options;
   OptimizeHooks hooks;
-  std::optional<SizeField> size_field;  ///< that a size band is around, in the user's units; absent without one
+  Objective objective = Objective::accuracy;   ///< that this run lowers
+  Policy policy;                               ///< the paper's switches
+  EnergyModel model;                           ///< of options.energy, in the frame's units, as sweeps begin
+  EnergyModel collapse_model;                  ///< E_c
+  AccuracyModel accuracy;                      ///< of the accuracy objective; without unit
+  std::shared_ptr<const ErrorModel> errors{};  ///< errors of the solver: lowered, or the judge of meshes; or null
+  bool lacks_error_model = false;              ///< the build has none, and the run would have used it
+  std::shared_ptr<LpSolver> lp{};              ///< for repairs, or null
+  std::optional<SizeField> size_field{};       ///< of the size band, in the user's units; absent without a band
+
+  [[nodiscard]] const EnergyInfo& energy() const { return energy_info(model.kind); }
+  [[nodiscard]] Executor* executor() const { return hooks.executor; }
 };
 
-/// Makes sweeps lower that energy.
-void set_energy(Settings& settings, EnergyKind kind);
+/// What the sweep under way lowers, and how far its steps go.
+struct SweepState {
+  EnergyInfo energy;                               ///< that of `model`
+  EnergyModel model;                               ///< in the frame's units, with γ and h° of the sweep
+  double relaxation = 1;                           ///< over-relaxation of Newton steps
+  FlipLimit flip_limit = FlipLimit::unlimited;
+  const AccuracyDomain* accuracy_domain = nullptr;  ///< if sweeps lower the accuracy objective: where it is finite
 
-/// Flips wait for the end of the inner iterations, so that edges may meanwhile not be regular.
-[[nodiscard]] inline bool defers_flips(const OptimizeOptions& o) { return o.flips == Flips::deferred; }
-
-/// A barrier prices every flip, so it needs no limit; HOT is continuous at a flip and may be led past one, a little.
-[[nodiscard]] inline FlipLimit flip_limit_of(const OptimizeOptions& o, const EnergyInfo& energy) {
-  if (o.flips == Flips::none) return FlipLimit::before;
-  return o.paper.flip_limit.value_or(energy.barrier ? FlipLimit::unlimited : FlipLimit::after);
-}
+  /// Of the first sweep for options.energy.
+  explicit SweepState(const Settings& settings);
+  /// Lowers that energy from now on.
+  void set_energy(EnergyKind kind, const Policy& policy);
+  /// The user's energy of one unit in the frame.
+  [[nodiscard]] double energy_unit(const Frame& frame) const;
+};
 
 /// The unknowns that a sweep moves, counted from 0: weights from i_w on.
-[[nodiscard]] inline Unknowns unknowns_of_sweep(const Settings& s, int sweep) {
-  const OptimizeOptions& o = s.options;
-  if (s.energy.positions_alone) return Unknowns::positions;
-  return o.unknowns == Unknowns::positions_and_weights && sweep < o.paper.weights_from ? Unknowns::positions
-                                                                                       : o.unknowns;
-}
-
-/// Says whether steps are Newton's, of a barrier, as far as they pay, with flips at once.
-[[nodiscard]] inline bool makes_newton_steps(const Settings& s) {
-  return s.energy.barrier && s.options.paper.solver == Solver::newton && s.options.flips == Flips::immediate &&
-         s.flip_limit == FlipLimit::unlimited && s.options.paper.inversion == Inversion::refuse &&
-         s.options.paper.position_updates == Updates::immediate;
-}
-
-/// Says whether something waits for the end of the sweep.
-[[nodiscard]] inline bool defers_updates(const OptimizeOptions& o) {
-  return o.paper.weight_updates == Updates::deferred || o.paper.position_updates == Updates::deferred;
-}
-
-/// The energy of the first sweeps, where it is another one.
-[[nodiscard]] inline std::optional<EnergyKind> first_energy_of(const OptimizeOptions& o) {
-  return o.paper.switch_at > 0 ? o.paper.first_energy : std::nullopt;
-}
-
-/// Says whether sweeps remove or insert vertices.
-[[nodiscard]] inline bool changes_vertices(const OptimizeOptions& o) {
-  return o.paper.collapse_from || o.paper.removal != Removal::none || o.paper.insertion_from;
-}
-
-/// The user's energy of one unit in the frame, of what sweeps lower.
-[[nodiscard]] inline double energy_unit(const Settings& s, const Frame& frame) {
-  constexpr double kAccuracyExponent = 2;
-  return std::pow(frame.scale, s.accuracy_domain != nullptr ? kAccuracyExponent : s.energy.length_exponent);
-}
+[[nodiscard]] Unknowns unknowns_of_sweep(const Settings& settings, const EnergyInfo& energy, int sweep);
 
 /// The model with absolute γ and h° in the user's units of length.
 [[nodiscard]] EnergyModel in_user_units(EnergyModel model, const Frame& frame);

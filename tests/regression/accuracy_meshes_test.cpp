@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <string>
 
-#include "support/error_model.hpp"
 #include "support/sanitizers.hpp"
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
+#include "temper/solvers.hpp"
 #include "temper/verify.hpp"
 
 namespace temper::test {
@@ -86,8 +86,7 @@ Errors improved_errors(const Mesh& input, const Promise& promise) {
   OptimizeOptions options;
   options.objective = promise.objective;
   options.for_ = promise.scheme;
-  options = with_error_model(input, options);
-  const auto report = optimize(mesh, options);
+  const auto report = optimize(mesh, options, {.solvers = solvers()});
   EXPECT_TRUE(report) << report.error().what();
   EXPECT_TRUE(optimize(barrier, {.objective = Objective::energy}));
 
@@ -100,7 +99,7 @@ Errors improved_errors(const Mesh& input, const Promise& promise) {
   EXPECT_EQ(mesh.validate(), std::nullopt);
   EXPECT_LE(report->size.after.band(), promise.band);
   // A price in errors may have to be paid for good triangles, but not in the offsets that bound them.
-  if (options.error.model == nullptr) {
+  if (!wants_error_model(options, input)) {
     EXPECT_LT(report->final_energy, report->initial_energy);
   }
   for (const VertexId v : input.vertices()) {

@@ -12,20 +12,18 @@ namespace {
 // Edges that have to become longer take so many times as many sweeps.
 constexpr int kSweepsForLengths = 3;
 
-/// The settings of the second phase: Newton steps along the curve with all edges kept, whatever the first one did.
-Settings of_accuracy(Settings s, const AccuracyDomain& domain) {
+/// The settings of the second phase: Newton steps along the curve with all edges kept, whatever the first phase did.
+Settings of_accuracy(Settings s) {
   const OptimizeOptions first = std::exchange(s.options, {});
-  s.options.objective = first.objective;
   s.options.accuracy = first.accuracy;
   s.options.unknowns = first.unknowns;
   s.options.interfaces = first.interfaces;
   s.options.boundary = first.boundary;
-  s.options.paper.anchor = first.paper.anchor;
   s.options.size_band = first.size_band;
   s.options.flips = Flips::none;
-  s.relaxation = first.paper.relaxation.value_or(kRelaxation);
-  s.flip_limit = FlipLimit::unlimited;
-  s.accuracy_domain = &domain;
+  const Policy of_first = std::exchange(s.policy, Policy(s.options));
+  s.policy.anchor = of_first.anchor;
+  s.policy.relaxation = of_first.relaxation;
   return s;
 }
 
@@ -34,19 +32,17 @@ Settings of_accuracy(Settings s, const AccuracyDomain& domain) {
 AccuracyPhase::AccuracyPhase(const WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)
     : mesh_(work.mesh),
       domain_{std::move(sizes), {}},
-      settings_(of_accuracy(settings, domain_)),
+      settings_(of_accuracy(settings)),
+      state_(settings_),
       run_(run),
-      energy_unit_(energy_unit(settings_, work.frame)),
-      bad_(count_bad(mesh_, settings.hooks.executor)) {}
-
-bool AccuracyDomain::raise_floors(const Mesh& mesh, const AccuracyModel& model, Executor* executor) {
-  std::size_t raised = floors.raise(mesh, model.margin, executor);
-  if (model.keeps_lengths()) raised += floors.lengths.raise(mesh, local_sizes(mesh, executor), model, executor);
-  return raised > 0;
+      bad_(count_bad(mesh_, settings.hooks.executor)) {
+  state_.flip_limit = FlipLimit::unlimited;
+  state_.accuracy_domain = &domain_;
+  energy_unit_ = state_.energy_unit(work.frame);
 }
 
 void AccuracyPhase::begin() {
-  domain_.raise_floors(mesh_, settings_.accuracy, settings_.hooks.executor);
+  raise_floors(domain_, mesh_, settings_.accuracy, settings_.hooks.executor);
   now_ = sum();
 }
 
@@ -69,7 +65,7 @@ SweepRecord AccuracyPhase::measure() {
 Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool changed) {
   TEMPER_ASSERT(!changed && run_.report.history.back().flips == 0);  // the connectivity is what it was
   TEMPER_ASSERT_SLOW(count_bad(mesh_, nullptr) == bad_);
-  const bool raised = domain_.raise_floors(mesh_, settings_.accuracy, settings_.hooks.executor);
+  const bool raised = raise_floors(domain_, mesh_, settings_.accuracy, settings_.hooks.executor);
   if (raised || settings_.accuracy.keeps_lengths()) {
     // The edges' part is what it was.
     now_.barrier = accuracy_barrier(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, settings_.hooks.executor);

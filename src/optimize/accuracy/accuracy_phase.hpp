@@ -17,8 +17,9 @@ class AccuracyPhase final : public Phase {
   AccuracyPhase& operator=(const AccuracyPhase&) = delete;
   ~AccuracyPhase() override = default;
 
-  /// The settings for the driver's steps.
-  [[nodiscard]] Settings& settings() { return settings_; }
+  /// For the driver's steps.
+  [[nodiscard]] const Settings& settings() const { return settings_; }
+  [[nodiscard]] SweepState& state() { return state_; }
   /// What it was given, once it has ended.
   [[nodiscard]] VertexSizes take_sizes() { return std::move(domain_.sizes); }
 
@@ -37,9 +38,10 @@ class AccuracyPhase final : public Phase {
 
   const Mesh& mesh_;
   AccuracyDomain domain_;
-  Settings settings_;
+  const Settings settings_;
+  SweepState state_;
   Run& run_;
-  double energy_unit_;
+  double energy_unit_ = 1;
   int iteration_ = 0;
   std::size_t bad_;             // all through the phase
   AccuracyTotal before_, now_;  // the last sweep

@@ -105,4 +105,11 @@ VertexSizes AccuracySizes::in_user_terms(const WorkingCopy& work, Executor* exec
   return sizes;
 }
 
+bool raise_floors(AccuracyDomain& domain, const Mesh& mesh, const AccuracyModel& model, Executor* executor) {
+  AccuracyFloors& floors = domain.floors;
+  std::size_t raised = floors.raise(mesh, model.margin, executor);
+  if (model.keeps_lengths()) raised += floors.lengths.raise(mesh, local_sizes(mesh, executor), model, executor);
+  return raised > 0;
+}
+
 }  // namespace temper

@@ -41,4 +41,7 @@ class AccuracySizes {
   VertexSizes input_;  // by the user's numbers; none while they are lent
 };
 
+/// Raises the floors of a domain to what the mesh has now. True when that changes the barrier.
+bool raise_floors(AccuracyDomain& domain, const Mesh& mesh, const AccuracyModel& model, Executor* executor);
+
 }  // namespace temper

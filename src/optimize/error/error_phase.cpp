@@ -6,7 +6,7 @@
 
 #include "base/sum.hpp"
 #include "energy/whole_mesh.hpp"
-#include "optimize/rank.hpp"
+#include "optimize/judge.hpp"
 #include "optimize/trace/recorder.hpp"
 #include "temper/error_model.hpp"
 
@@ -31,12 +31,12 @@ double mean_ratio(const std::vector<double>& errors, const std::vector<double>& 
 }
 
 /// Nothing is flipped, and nothing slides.
-Settings of_errors(Settings s, const AccuracyDomain& domain) {
+Settings of_errors(Settings s) {
   s.options.flips = Flips::none;
   s.options.boundary = BoundaryVertices::keep;
   s.options.interfaces = InterfaceVertices::fixed;
   s.options.paper.insertion_from.reset();
-  s.accuracy_domain = &domain;
+  s.policy = Policy(s.options);
   return s;
 }
 
@@ -46,17 +46,19 @@ ErrorPhase::ErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, Ve
     : mesh_(work.mesh),
       frame_(work.frame),
       domain_{std::move(sizes), {}},
-      settings_(of_errors(settings, domain_)),
+      settings_(of_errors(settings)),
+      state_(settings_),
       run_(run),
       bad_(count_bad(mesh_, settings.hooks.executor)) {
+  state_.accuracy_domain = &domain_;
   const auto mobility = mobilities(mesh_, settings_.options, settings_.hooks.executor);
   freedom_.resize(mesh_.n_vertices());
   for (const VertexId v : mesh_.vertices()) freedom_[v] = freedom(mesh_, v, mobility[v], settings_.options.unknowns);
 }
 
 void ErrorPhase::begin() {
-  domain_.raise_floors(mesh_, settings_.accuracy, settings_.hooks.executor);
-  start_ = settings_.options.error.model->errors(mesh_, settings_.hooks.executor);
+  raise_floors(domain_, mesh_, settings_.accuracy, settings_.hooks.executor);
+  start_ = settings_.errors->errors(mesh_, settings_.hooks.executor);
   now_ = value();
   history_ = {now_.lowered};
 }
@@ -116,7 +118,7 @@ SweepRecord ErrorPhase::measure() {
 }
 
 Phase::Verdict ErrorPhase::judge(bool /*changed*/) {
-  if (domain_.raise_floors(mesh_, settings_.accuracy, settings_.hooks.executor)) {
+  if (raise_floors(domain_, mesh_, settings_.accuracy, settings_.hooks.executor)) {
     now_ = value();  // of another barrier
     descent_.forget();
   }
@@ -134,7 +136,7 @@ ErrorPhase::Value ErrorPhase::value() const {
   result.lowered = result.error = kInfinity;
   const auto [energy, barrier] = accuracy_total(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, executor);
   std::vector<ErrorModel::Gradient> gradients;
-  const std::vector<double> errors = settings_.options.error.model->errors(mesh_, gradients, executor);
+  const std::vector<double> errors = settings_.errors->errors(mesh_, gradients, executor);
   const double sum = energy + barrier, share = settings_.options.error.offset_share;
   if (!std::isfinite(sum) || !(sum > 0) || errors.empty() || start_.size() != errors.size()) return result;
   result.error = root_mean_square(errors);

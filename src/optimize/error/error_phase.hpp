@@ -25,8 +25,9 @@ class ErrorPhase final : public Phase {
   ErrorPhase& operator=(const ErrorPhase&) = delete;
   ~ErrorPhase() override = default;
 
-  /// The settings for the driver.
-  [[nodiscard]] Settings& settings() { return settings_; }
+  /// For the driver.
+  [[nodiscard]] const Settings& settings() const { return settings_; }
+  [[nodiscard]] SweepState& state() { return state_; }
   /// What it was given, once it has ended.
   [[nodiscard]] VertexSizes take_sizes() { return std::move(domain_.sizes); }
 
@@ -57,7 +58,8 @@ class ErrorPhase final : public Phase {
   Mesh& mesh_;
   const Frame& frame_;
   AccuracyDomain domain_;
-  Settings settings_;
+  const Settings settings_;
+  SweepState state_;
   Run& run_;
   IdVector<VertexId, Freedom> freedom_;
   int iteration_ = 0;

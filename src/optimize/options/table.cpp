@@ -175,7 +175,7 @@ constexpr OptionNeed kRemovals = {"removal", "patch|weight"};
 constexpr OptionNeed kGolden = {"solver", "golden"};
 constexpr OptionNeed kInsertions = {"insertion_from", ""};
 
-bool limits_after_flips(const Options& o) { return flip_limit_of(o, energy_info(o.energy)) == FlipLimit::after; }
+bool limits_after_flips(const Options& o) { return Policy(o).flip_limit_for(energy_info(o.energy)) == FlipLimit::after; }
 bool compares_patches(const Options& o) { return o.paper.removal == Removal::patch || o.paper.insertion_from; }
 bool makes_golden_searches(const Options& o) { return o.paper.solver == Solver::golden || o.paper.collapse_from; }
 

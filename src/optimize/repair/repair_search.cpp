@@ -44,14 +44,14 @@ std::vector<TriangleId> triangles_at(const Mesh& mesh, const std::vector<VertexI
 
 bool repairs(const Settings& settings) {
   const OptimizeOptions& o = settings.options;
-  if (o.repair == Repair::none || o.repair_trials == 0 || !settings.energy.barrier || o.flips == Flips::none ||
+  if (o.repair == Repair::none || o.repair_trials == 0 || !settings.energy().barrier || settings.policy.keeps_connectivity ||
       o.unknowns == Unknowns::weights)
     return false;
-  if (o.paper.inversion == Inversion::allow || o.paper.hidden == HiddenPolicy::keep)
-    return false;  // trials need regular meshes
+  const Policy& policy = settings.policy;
+  if (policy.allows_inversion || policy.keeps_hidden) return false;  // trials need regular meshes
   // A constant γ is a study of that γ; only who asks for vertices to change wants its mesh mended by another.
   return o.repair == Repair::vertices ||
-         (!o.paper.gamma && !o.paper.h0 && o.paper.solver == Solver::newton && o.paper.weights_from == 0);
+         (!policy.gamma && !policy.h0 && policy.solver == Solver::newton && policy.weights_from == 0);
 }
 
 bool RepairSearch::improve_one_place() {

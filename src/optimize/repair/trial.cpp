@@ -52,10 +52,11 @@ class Trial {
             of_trial(settings, with_events ? Tracer([this](const TraceEvent& e) { events_.push_back(e); }) : Tracer())),
         grid_(grid),
         work_(WorkingCopy::part(around.mesh)),
+        state_(settings_),
         recorder_(settings_.hooks.tracer, work_, 1),
-        flipper_(work_.mesh, settings_, recorder_),
+        flipper_(work_.mesh, settings_, state_, recorder_),
         limits_(work_.mesh, settings_, grid),
-        step_({work_.mesh, settings_, grid, limits_, recorder_}, flipper_) {
+        step_({work_.mesh, settings_, state_, grid, limits_, recorder_}, flipper_) {
     for (const VertexId v : around.mesh.vertices()) {
       if (around.frozen[v.index] != 0) limits_.freeze(v);
     }
@@ -80,9 +81,10 @@ class Trial {
 
   const Neighborhood& around_;
   std::vector<TraceEvent> events_;
-  Settings settings_;
+  const Settings settings_;
   const Frame& grid_;
   WorkingCopy work_;
+  SweepState state_;
   Recorder recorder_;
   Flipper flipper_;
   VertexLimits limits_;
@@ -98,13 +100,12 @@ Settings Trial::of_trial(const Settings& settings, Tracer tracer) {
   o.boundary = settings.options.boundary;
   o.size_band = settings.options.size_band;
   Settings s = settings;
-  s.relaxation = kRelaxation;
   s.options = std::move(o);
+  s.policy = Policy(s.options);
   s.model.wall = true;
-  set_energy(s, s.options.energy);
+  s.model.kind = s.options.energy;
   s.hooks = {};
   s.hooks.tracer = std::move(tracer);
-  s.hooks.lp = settings.hooks.lp;
   return s;
 }
 
@@ -159,7 +160,7 @@ void Trial::weigh() {
   }
   const Demand demand(mesh, Conditions::well_centered, {});
   for (const Region& region : regions_of(mesh, free)) {
-    const RegionChange found = least_violation({mesh, demand, weights, kWeighedMargin}, region, *settings_.hooks.lp);
+    const RegionChange found = least_violation({mesh, demand, weights, kWeighedMargin}, region, *settings_.lp);
     if (found.status != LpStatus::optimal) continue;
     for (std::size_t i = 0; i < region.free.size(); ++i) {
       if (found.change[i] == 0) continue;
@@ -233,7 +234,7 @@ void Trial::remove_free_vertices() {
 void Trial::sweep() {
   double gamma = kStart;
   for (int i = 0; i < kSweeps; ++i) {
-    settings_.model.gamma = {gamma, LengthScale::relative};
+    state_.model.gamma = {gamma, LengthScale::relative};
     step_.begin_sweep(i, settings_.options.unknowns);
     for (const VertexId v : work_.mesh.vertices()) {
       if (!work_.mesh.is_isolated(v)) step_.improve(v);

@@ -92,7 +92,7 @@ void BatchStep::gather(VertexId v, Mobility mobility) {
   batch_.triangles[lane] = occupant.alone ? 0 : static_cast<double>(triangles);
   batch_.moves[lane] = !occupant.alone && mobility == Mobility::free && unknowns_ != Unknowns::weights ? -1 : 0;
   batch_.weighs[lane] = !occupant.alone && unknowns_ != Unknowns::positions ? -1 : 0;
-  if (settings_.accuracy_domain != nullptr) gather_domain(occupant, lane);
+  if (state_.accuracy_domain != nullptr) gather_domain(occupant, lane);
   if (!occupant.alone) batch_.most_triangles = std::max(batch_.most_triangles, triangles);
   ++batch_.lanes;
 }
@@ -143,7 +143,7 @@ bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
 /// Sizes and floors around an occupant. What touches a triangle without a floor stays.
 void BatchStep::gather_domain(const Occupant& occupant, std::size_t lane) {
   if (occupant.alone) return;
-  const auto& [sizes, floors] = *settings_.accuracy_domain;
+  const auto& [sizes, floors] = *state_.accuracy_domain;
   accuracy_.size[lane] = sizes[occupant.v];
   const std::size_t triangles = batch_.open[lane] != 0 ? occupant.n_link - 1 : occupant.n_link;
   for (std::size_t i = 0; i < triangles; ++i) {
@@ -162,7 +162,7 @@ void BatchStep::gather_domain(const Occupant& occupant, std::size_t lane) {
 
 /// What the edges of triangle i of a star, whose spoke is h, stay longer than.
 void BatchStep::gather_lengths(HalfedgeId h, std::size_t i, std::size_t lane) {
-  const LengthFloors& lengths = settings_.accuracy_domain->floors.lengths;
+  const LengthFloors& lengths = state_.accuracy_domain->floors.lengths;
   const auto of = [&](HalfedgeId edge) {
     return mesh_.is_boundary(edge) ? LengthBarrier<double>{} : lengths(mesh_, edge);
   };
@@ -183,9 +183,9 @@ void BatchStep::step_and_settle() {
     batch_.open[lane] = batch_.moves[lane] = batch_.weighs[lane] = 0;
   }
   const Vec2 rounding = frame_.rounding;
-  const StepParameters parameters{edge_formula(settings_.model), settings_.relaxation, rounding.x, rounding.y};
+  const StepParameters parameters{edge_formula(state_.model), state_.relaxation, rounding.x, rounding.y};
   const BatchSteps& steps = batch_steps(mesh_.space());
-  const bool lowers_accuracy = settings_.accuracy_domain != nullptr;
+  const bool lowers_accuracy = state_.accuracy_domain != nullptr;
   const StepOutcome outcome = lowers_accuracy ? steps.accuracy(parameters, settings_.accuracy, accuracy_, batch_)
                                               : steps.barrier(parameters, batch_);
   const std::size_t before = n_changes();

@@ -22,6 +22,7 @@ class BatchStep {
   BatchStep(const StepContext& context, Flipper& flipper, VertexStep& alone)
       : mesh_(context.mesh),
         settings_(context.settings),
+        state_(context.state),
         frame_(context.frame),
         limits_(context.limits),
         flipper_(flipper),
@@ -60,6 +61,7 @@ class BatchStep {
 
   Mesh& mesh_;
   const Settings& settings_;
+  const SweepState& state_;
   const Frame& frame_;
   VertexLimits& limits_;
   Flipper& flipper_;

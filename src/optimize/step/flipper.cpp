@@ -62,13 +62,13 @@ LawsonRun run_lawson(Lawson& lawson, Mesh& mesh, Hook&& hook, std::size_t max_fl
 /// Lawson on what is queued. `change`, when there is one, grows by what the flips change of the energy.
 LawsonRun Flipper::run(std::optional<double>& change, std::size_t max_flips, SizeBand* band, const Part& part) {
   if (recorder_.on()) {
-    FlipLog log{settings_.model, records_, change.value_or(0)};
+    FlipLog log{state_.model, records_, change.value_or(0)};
     const LawsonRun result = run_lawson(lawson_, mesh_, log, max_flips, band, part);
     if (change) change = log.change;
     return result;
   }
   if (!change) return run_lawson(lawson_, mesh_, IgnoreFlips(), max_flips, band, part);
-  FlipPrice price{settings_.model, *change};
+  FlipPrice price{state_.model, *change};
   const LawsonRun result = run_lawson(lawson_, mesh_, price, max_flips, band, part);
   change = price.change;
   return result;
@@ -115,8 +115,8 @@ Flipper::Settled Flipper::settle(const Step& step) {
 
 /// Says whether the policy lets the vertices at stuck edges be hidden.
 bool Flipper::accept_hidden() {
-  if (settings_.options.paper.hidden != HiddenPolicy::remove)
-    return settings_.options.paper.hidden == HiddenPolicy::keep;
+  if (!settings_.policy.removes_hidden)
+    return settings_.policy.keeps_hidden;
   for (const VertexId v : hidden_at_stuck_edges()) {
     plan_ = plan_removal(mesh_, v, std::move(plan_));
     if (plan_.status != RemovalStatus::possible) return false;
@@ -135,7 +135,7 @@ std::vector<VertexId> Flipper::hidden_at_stuck_edges() {
 /// Does what the policy asks for, once vertices are hidden and the flips that led there are done.
 void Flipper::treat_hidden() {
   std::vector<VertexId> stay = hidden_at_stuck_edges();
-  if (settings_.options.paper.hidden == HiddenPolicy::remove) {
+  if (settings_.policy.removes_hidden) {
     RestorationObserver observer;
     observer.flipped = [&](VertexId a, VertexId b, VertexId c, VertexId d) {
       const FlipRecord record{a, b, c, d, kNoEnergy, kNoEnergy};
@@ -176,14 +176,14 @@ bool Flipper::restore_all() {
   std::optional<double> no_price;
   const LawsonRun result = run(no_price, Lawson::kNoCap);
   const bool hides = !lawson_.stuck(mesh_).empty();
-  if (hides && settings_.options.paper.hidden == HiddenPolicy::undo) {
+  if (hides && settings_.policy.undoes_hidden) {
     lawson_.rollback(mesh_);
     return false;
   }
   changes_.flips += result.flips;
   recorder_.flipped(records_);
   if (hides) treat_hidden();
-  return settings_.options.paper.hidden == HiddenPolicy::keep || lawson_.stuck(mesh_).empty();
+  return settings_.policy.keeps_hidden || lawson_.stuck(mesh_).empty();
 }
 
 void Flipper::remove(EventKind kind, const RemovalPlan& plan, double before, double after) {

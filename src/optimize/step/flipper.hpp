@@ -18,8 +18,8 @@ class SizeBand;
 
 class Flipper {
  public:
-  Flipper(Mesh& mesh, const Settings& settings, const Recorder& recorder)
-      : mesh_(mesh), settings_(settings), recorder_(recorder) {}
+  Flipper(Mesh& mesh, const Settings& settings, const SweepState& state, const Recorder& recorder)
+      : mesh_(mesh), settings_(settings), state_(state), recorder_(recorder) {}
 
   /// A step of v from `origin`, already made.
   struct Step {
@@ -77,6 +77,7 @@ class Flipper {
 
   Mesh& mesh_;
   const Settings& settings_;
+  const SweepState& state_;
   const Recorder& recorder_;
   Lawson lawson_;
   std::vector<FlipRecord> records_;  // of the run under way, when traced

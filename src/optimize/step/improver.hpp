@@ -12,7 +12,7 @@ class Improver {
  public:
   explicit Improver(const StepContext& context)
       : context_(context),
-        flipper_(context.mesh, context.settings, context.recorder),
+        flipper_(context.mesh, context.settings, context.state, context.recorder),
         step_(context, flipper_),
         batches_(context, flipper_, step_) {}
   Improver(const Improver&) = delete;

@@ -11,6 +11,7 @@ namespace temper {
 struct StepContext {
   Mesh& mesh;
   const Settings& settings;
+  const SweepState& state;
   const Frame& frame;
   VertexLimits& limits;
   const Recorder& recorder;

@@ -39,12 +39,12 @@ WeightRange weights_that_cross(const Space& space, const WeightedPoint& p, const
 }  // namespace
 
 void VertexStep::begin_sweep(int sweep, Unknowns unknowns) {
-  const OptimizeOptions& o = settings_.options;
+  const Policy& policy = settings_.policy;
   unknowns_ = unknowns;
-  collapses_ = o.paper.collapse_from && sweep >= *o.paper.collapse_from;
-  removes_ = o.paper.removal != Removal::none && sweep >= o.paper.removal_from;
-  const double excess = (o.paper.overshoot - 1) * std::pow(o.paper.overshoot_factor, sweep);
-  overshoot_ = 1 + (o.paper.overshoot >= 1 ? std::max(kOvershootLeast, excess) : std::min(-kOvershootLeast, excess));
+  collapses_ = policy.collapse_from && sweep >= *policy.collapse_from;
+  removes_ = policy.removal != Removal::none && sweep >= policy.removal_from;
+  const double excess = (policy.overshoot - 1) * std::pow(policy.overshoot_factor, sweep);
+  overshoot_ = 1 + (policy.overshoot >= 1 ? std::max(kOvershootLeast, excess) : std::min(-kOvershootLeast, excess));
 }
 
 /// Lines 10 to 16 of Algorithm 1.
@@ -61,7 +61,12 @@ bool VertexStep::improve(VertexId v, const Part& part) {
 
 bool VertexStep::suits_batches() const {
   const bool only_steps = !collapses_ && !removes_ && !band_.on();
-  return only_steps && (star_.keeps_edges_regular() || makes_newton_steps(settings_));
+  return only_steps && (star_->keeps_edges_regular() || makes_newton_steps());
+}
+
+/// Newton steps of a barrier, as far as they pay.
+bool VertexStep::makes_newton_steps() const {
+  return state_.energy.barrier && settings_.policy.makes_newton_steps && state_.flip_limit == FlipLimit::unlimited;
 }
 
 /// Algorithm 2: where E_c would put v onto a neighbour, the mesh is better without v.
@@ -69,11 +74,10 @@ bool VertexStep::collapse(VertexId v) {
   if (!may_go(v)) return false;
   const EnergyModel& model = settings_.collapse_model;
   gather_patch(mesh_, v, needs_outer(model.kind), collapsing_);
-  const OptimizeOptions& o = settings_.options;
-  if (!nearly_collapses(collapsing_, model, mesh_.point(v), o.paper)) return false;
+  if (!nearly_collapses(collapsing_, model, mesh_.point(v), settings_.policy)) return false;
   plan_ = plan_removal(mesh_, v, std::move(plan_));
   if (plan_.status != RemovalStatus::possible) return false;
-  if (!defers_flips(settings_.options) && !is_regular(mesh_, plan_)) return false;
+  if (!settings_.policy.defers_flips && !is_regular(mesh_, plan_)) return false;
   flipper_.remove(EventKind::collapse, plan_, patch_energy(collapsing_, model, mesh_.point(v)),
                   cavity_energy(mesh_, model, plan_));
   return true;
@@ -83,14 +87,14 @@ bool VertexStep::collapse(VertexId v) {
 void VertexStep::remove_if_better(VertexId v) {
   if (!may_go(v) || mesh_.is_isolated(v)) return;
   gather(v);
-  const PaperSwitches& o = settings_.options.paper;
+  const Policy& o = settings_.policy;
   const bool by_weight = o.removal == Removal::weight;
-  if (by_weight && !(relative_lightness(star_.patch(), origin_) > o.removal_weight)) return;
+  if (by_weight && !(relative_lightness(star_->patch(), origin_) > o.removal_weight)) return;
   plan_ = plan_removal(mesh_, v, std::move(plan_));
   if (plan_.status != RemovalStatus::possible) return;
-  const PatchComparison e = compare_patch(mesh_, star_.patch(), settings_.model, plan_, o.removal_measure);
+  const PatchComparison e = compare_patch(mesh_, star_->patch(), state_.model, plan_, o.removal_measure);
   if (!by_weight && !e.better_without(o.removal_margin)) return;
-  if (!defers_flips(settings_.options) && !is_regular(mesh_, plan_)) return;
+  if (!settings_.policy.defers_flips && !is_regular(mesh_, plan_)) return;
   flipper_.remove(EventKind::removal, plan_, e.with, e.without);
 }
 
@@ -108,7 +112,7 @@ void VertexStep::make_steps(const Freedom& all) {
   const VertexId v = vertex_;
   const Freedom positions = position_part(all);
   const bool has_weight = all.n > positions.n;
-  switch (settings_.options.paper.solver) {
+  switch (settings_.policy.solver) {
     case Solver::newton:
       if (all.n > 0) newton_search(all);
       break;
@@ -135,15 +139,15 @@ void VertexStep::make_steps(const Freedom& all) {
 bool VertexStep::gather(VertexId v) {
   vertex_ = v;
   origin_ = mesh_.point(v);
-  return star_.gather(v);
+  return star_->gather(v);
 }
 
 /// A barrier is +∞ where some |Δw| ≥ ℓ² (weights of the input, or an unpriced flip). Puts the weight to the nearest
 /// value that satisfies the spokes, if there is one; what is left of the patch is up to the neighbours. True when
 /// the patch is finite then.
 bool VertexStep::enter_domain() {
-  if (unknowns_ == Unknowns::positions || star_.keeps_edges_regular()) return false;
-  const Patch& patch = star_.patch();
+  if (unknowns_ == Unknowns::positions || star_->keeps_edges_regular()) return false;
+  const Patch& patch = star_->patch();
   double low = -kInfinity, high = kInfinity;
   for (std::size_t i = 0; i < patch.link.size(); ++i) {
     const WeightRange crossed = weights_that_cross(patch.space, origin_, patch.q(i));
@@ -154,20 +158,20 @@ bool VertexStep::enter_domain() {
   constexpr double kInside = 0.1;  // of the interval, so that the barrier is not at its steepest
   const double w = std::clamp(patch.space.weight(origin_), low + kInside * (high - low), high - kInside * (high - low));
   const WeightedPoint p = patch.space.with_weight(origin_, w);
-  if (!place(p, star_.value(p), false) || mesh_.is_isolated(vertex_)) return false;
+  if (!place(p, star_->value(p), false) || mesh_.is_isolated(vertex_)) return false;
   gather(vertex_);
-  return std::isfinite(star_.value(origin_));
+  return std::isfinite(star_->value(origin_));
 }
 
 /// The part of the step that a search may go.
 double VertexStep::farthest(const Step& step) const {
-  return settings_.options.paper.inversion == Inversion::refuse ? inversion_limit(star_.patch(), origin_, step) : 1;
+  return settings_.policy.refuses_inversion ? inversion_limit(star_->patch(), origin_, step) : 1;
 }
 
 /// t, cut to what the flip limit allows along step.
 double VertexStep::flip_limited(const Step& step, double t) const {
   double factor = kInfinity;
-  switch (settings_.flip_limit) {
+  switch (state_.flip_limit) {
     case FlipLimit::unlimited:
       return t;
     case FlipLimit::before:
@@ -202,16 +206,16 @@ double VertexStep::short_of_flip(const Step& step, double t) const {
 /// One Newton step: over-relaxed, then plain, then halved until the energy falls. Where the size band holds the
 /// position, the weight alone.
 void VertexStep::newton_search(const Freedom& freedom) {
-  VertexDerivatives d = star_.derivatives(origin_);
+  VertexDerivatives d = star_->derivatives(origin_);
   energy_ = d.value;
   if (!d.feasible) {
     if (!enter_domain()) return;
-    d = star_.derivatives(origin_);
+    d = star_->derivatives(origin_);
   }
   energy_ = d.value;
-  NewtonStep newton = newton_step(d, freedom, star_.radius(origin_));
+  NewtonStep newton = newton_step(d, freedom, star_->radius(origin_));
   if (!(newton.predicted > kNoGain * std::abs(energy_))) return;
-  const double relaxation = settings_.relaxation;
+  const double relaxation = state_.relaxation;
   for (double& s : newton.step) s *= relaxation;
   bool leaves_band = false;
   const auto attempt = [&](double& t, double shorter, bool) {
@@ -223,26 +227,26 @@ void VertexStep::newton_search(const Freedom& freedom) {
     leaves_band = goes_on && (leaves_band || outcome == Outcome::out_of_band);
     return goes_on;
   };
-  damped_search(relaxation, star_.trials(), flip_limited(newton.step, farthest(newton.step)), true, attempt);
+  damped_search(relaxation, star_->trials(), flip_limited(newton.step, farthest(newton.step)), true, attempt);
   if (leaves_band && freedom.n > position_part(freedom).n) newton_search(weight_only());
 }
 
 /// The paper's Algorithm 5: a finite-difference gradient, then golden section downhill within the patch radius.
 void VertexStep::golden_search(const Freedom& freedom) {
-  energy_ = star_.value(origin_);
+  energy_ = star_->value(origin_);
   if (!std::isfinite(energy_)) {
     if (!enter_domain()) return;
-    energy_ = star_.value(origin_);
+    energy_ = star_->value(origin_);
   }
-  const Patch& patch = star_.patch();
-  const PaperSwitches& o = settings_.options.paper;
+  const Patch& patch = star_->patch();
+  const Policy& o = settings_.policy;
   const double r = patch_radius(patch, origin_, o.search_radius);
   const double reach = freedom.moves() ? r : o.weight_reach * (r * r);
-  const auto direction = steepest_descent(patch, settings_.model, origin_, freedom, reach);
+  const auto direction = steepest_descent(patch, state_.model, origin_, freedom, reach);
   if (!direction) return;
   const double limit = flip_limited(*direction, farthest(*direction));
   if (!(limit > 0)) return;
-  double t = line_minimum(patch, settings_.model, origin_, *direction, limit);
+  double t = line_minimum(patch, state_.model, origin_, *direction, limit);
   Outcome outcome = try_step(*direction, t);
   for (int trial = 1; outcome == Outcome::out_of_band && trial < kTrials; ++trial) {
     t *= 0.5;
@@ -256,11 +260,11 @@ void VertexStep::golden_search(const Freedom& freedom) {
 
 VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
   const WeightedPoint p = moved(step, t);
-  const double energy = star_.value(p);
+  const double energy = star_->value(p);
   if (!(energy < energy_)) return Outcome::not_lower;
-  if (settings_.options.paper.inversion != Inversion::allow && !star_.is_valid(p)) return Outcome::inverted;
+  if (!settings_.policy.allows_inversion && !star_->is_valid(p)) return Outcome::inverted;
   if (!keeps_size(p)) return Outcome::out_of_band;
-  if (place(p, energy, settings_.energy.barrier)) return Outcome::accepted;
+  if (place(p, energy, state_.energy.barrier)) return Outcome::accepted;
   return escapes_ ? Outcome::escaped : Outcome::blocked_by_flip;
 }
 
@@ -268,14 +272,13 @@ VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
 /// vertex would be hidden, or flips cost more than the step gains and it must pay, or they escape from the part.
 bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
   const bool only_weight = mesh_.space().same_place(p, origin_);
-  const PaperSwitches& o = settings_.options.paper;
-  if ((only_weight ? o.weight_updates : o.position_updates) == Updates::deferred) {
+  if (only_weight ? settings_.policy.defers_weights : settings_.policy.defers_positions) {
     if (!waiting_) waiting_ = Deferred{vertex_, origin_, origin_, energy_, energy};
     waiting_->after = energy;
     mesh_.set_point(vertex_, p);
     return true;
   }
-  const bool may_break_edges = keeps_connectivity() && !star_.keeps_edges_regular();
+  const bool may_break_edges = keeps_connectivity() && !star_->keeps_edges_regular();
   if (may_break_edges) note_regular_edges();
   mesh_.set_point(vertex_, p);
   if (flips_at_once()) {
@@ -298,21 +301,21 @@ bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
 /// Says whether the band allows p; to be asked before place(), which tells the band where its vertex went.
 bool VertexStep::keeps_size(const WeightedPoint& p) {
   const bool only_weight = mesh_.space().same_place(p, origin_);
-  return only_weight || !band_.on() || band_.allows(star_.patch(), p.position());
+  return only_weight || !band_.on() || band_.allows(star_->patch(), p.position());
 }
 
 /// Thresholds are computed in doubles; that no edge flips is decided exactly.
 bool VertexStep::keeps_connectivity() const {
-  return settings_.options.flips == Flips::none || settings_.flip_limit == FlipLimit::before;
+  return settings_.policy.keeps_connectivity || state_.flip_limit == FlipLimit::before;
 }
 
 void VertexStep::nudge(VertexId v, Vec2 by) {
   if (!may_go(v)) return;
   part_ = {};
   gather(v);
-  energy_ = star_.value(origin_);
+  energy_ = star_->value(origin_);
   const WeightedPoint there = moved({by.x, by.y, 0}, 1);
-  if (star_.is_valid(there) && keeps_size(there)) place(there, star_.value(there), false);
+  if (star_->is_valid(there) && keeps_size(there)) place(there, star_->value(there), false);
 }
 
 void VertexStep::shake(double amount, Rng& rng) {
@@ -335,9 +338,9 @@ void VertexStep::end_sweep() {
     const WeightedPoint from = mesh_.point(v);
     const double w = space.weight(space.weight(to) != space.weight(old) ? to : from);
     WeightedPoint p = space.with_weight(space.same_place(to, old) ? from : to, w);
-    if (!space.same_place(p, from) && settings_.options.paper.inversion != Inversion::allow) {
+    if (!space.same_place(p, from) && !settings_.policy.allows_inversion) {
       gather(v);
-      if (!star_.is_valid(p)) p = space.with_weight(from, w);
+      if (!star_->is_valid(p)) p = space.with_weight(from, w);
     }
     if (p == from) continue;
     mesh_.set_point(v, p);
@@ -346,7 +349,7 @@ void VertexStep::end_sweep() {
   deferred_.clear();
 }
 
-bool VertexStep::flips_at_once() const { return !keeps_connectivity() && settings_.options.flips == Flips::immediate; }
+bool VertexStep::flips_at_once() const { return !keeps_connectivity() && settings_.policy.flips_at_once; }
 
 /// Notes which edges are regular: with connectivity kept these must stay so, and one that is not regular may wait.
 void VertexStep::note_regular_edges() {

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "base/rng.hpp"
 #include "optimize/step/flipper.hpp"
 #include "optimize/step/newton.hpp"
-#include "optimize/step/star_energy.hpp"
+#include "optimize/step/star_objective.hpp"
 #include "optimize/step/step_context.hpp"
 #include "optimize/sweep/partition.hpp"
 
@@ -20,12 +21,13 @@ class VertexStep {
   VertexStep(const StepContext& context, Flipper& flipper)
       : mesh_(context.mesh),
         settings_(context.settings),
+        state_(context.state),
         frame_(context.frame),
         mobility_(context.limits.mobility),
         band_(context.limits.band),
         flipper_(flipper),
         recorder_(context.recorder),
-        star_(context.mesh, context.settings) {}
+        star_(make_star_objective(context.mesh, context.settings, context.state)) {}
 
   /// Prepares for a sweep, or one visit of two: whether i ≥ i_c, and the overshoot of FlipLimit::after.
   void begin_sweep(int sweep, Unknowns unknowns);
@@ -47,6 +49,7 @@ class VertexStep {
   [[nodiscard]] Unknowns unknowns() const { return unknowns_; }
   /// Says whether batches make the same steps.
   [[nodiscard]] bool suits_batches() const;
+  [[nodiscard]] bool makes_newton_steps() const;
 
  private:
   enum class Outcome { accepted, not_lower, inverted, out_of_band, blocked_by_flip, escaped };
@@ -76,6 +79,7 @@ class VertexStep {
 
   Mesh& mesh_;
   const Settings& settings_;
+  const SweepState& state_;
   const Frame& frame_;
   const IdVector<VertexId, Mobility>& mobility_;
   SizeBand& band_;
@@ -90,7 +94,7 @@ class VertexStep {
   bool escapes_ = false;  // from it: what its step has to flip
   WeightedPoint origin_;  // where the vertex is
   double energy_ = 0;     // of the patch there
-  StarEnergy star_;
+  std::unique_ptr<StarObjective> star_;
   Patch collapsing_;  // with what E_c needs
   RemovalPlan plan_;
   std::vector<std::uint8_t> was_regular_;  // of the edges of star and link, in the order of the star

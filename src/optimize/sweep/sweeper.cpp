@@ -2,10 +2,10 @@
 
 namespace temper {
 
-Sweeper::Sweeper(Mesh& mesh, const Settings& settings, const Frame& frame, Flipper& flipper, const Recorder& recorder,
-                 std::size_t part_size)
-    : limits_(mesh, settings, frame),
-      context_{mesh, settings, frame, limits_, recorder},
+Sweeper::Sweeper(WorkingCopy& work, const Settings& settings, const SweepState& state, Flipper& flipper,
+                 const Recorder& recorder, std::size_t part_size)
+    : limits_(work.mesh, settings, work.frame),
+      context_{work.mesh, settings, state, work.frame, limits_, recorder},
       flipper_(flipper),
       improvers_([this] {
         auto improver = std::make_unique<Improver>(context_);
@@ -15,9 +15,8 @@ Sweeper::Sweeper(Mesh& mesh, const Settings& settings, const Frame& frame, Flipp
       parts_(part_size, improvers_) {}
 
 bool Sweeper::sweep(int iteration, std::span<const VertexId> sequence, Run& run) {
-  const OptimizeOptions& o = context_.settings.options;
-  const Unknowns all = unknowns_of_sweep(context_.settings, iteration);
-  if (o.paper.visits == Visits::once || all != Unknowns::positions_and_weights) {
+  const Unknowns all = unknowns_of_sweep(context_.settings, context_.state.energy, iteration);
+  if (context_.settings.policy.visits == Visits::once || all != Unknowns::positions_and_weights) {
     return visit_all(iteration, all, sequence, run);
   }
   return visit_all(iteration, Unknowns::positions, sequence, run) &&
@@ -47,9 +46,9 @@ void Sweeper::shake(double amount, Rng& rng) {
 
 /// That of the caller, where steps do no more than sweeper.hpp says of them; else one part after another, on each rank.
 Engine Sweeper::engine() {
-  const OptimizeOptions& o = context_.settings.options;
-  const bool told_in_order = context_.recorder.on() || defers_updates(o);
-  const bool removes = o.paper.hidden == HiddenPolicy::remove || changes_vertices(o);
+  const Policy& policy = context_.settings.policy;
+  const bool told_in_order = context_.recorder.on() || policy.defers_updates();
+  const bool removes = policy.removes_hidden || policy.changes_vertices;
   if (told_in_order || removes || limits_.band.on()) return {in_order_};
   return engine_of(context_.settings.hooks);
 }

@@ -43,8 +43,8 @@ inline constexpr std::size_t kPartSize = 16384;
 class Sweeper {
  public:
   /// `flipper`: counts what all parts do.
-  Sweeper(Mesh& mesh, const Settings& settings, const Frame& frame, Flipper& flipper, const Recorder& recorder,
-          std::size_t part_size);
+  Sweeper(WorkingCopy& work, const Settings& settings, const SweepState& state, Flipper& flipper,
+          const Recorder& recorder, std::size_t part_size);
 
   Sweeper(const Sweeper&) = delete;
   Sweeper& operator=(const Sweeper&) = delete;

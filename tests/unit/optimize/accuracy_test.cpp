@@ -276,11 +276,10 @@ Mesh second_phase(const Mesh& input, const OptimizeOptions& options, std::size_t
                   const OptimizeHooks& hooks = {}) {
   WorkingCopy work(input, options.paper.order);
   const Settings settings = *make_settings(options, work.mesh, work.frame, hooks);
-  const Observer nobody;
-  Run run(options, nobody);
+  Run run(options, hooks, input);
   AccuracySizes sizes(NearbyCopy(input, hooks.executor), options.size_field, hooks.executor);
   AccuracyPhase phase(work, settings, run, sizes.lend(work, hooks.executor));
-  Driver(work, phase.settings(), run, part_size).run(phase, 0);
+  Driver(work, phase.settings(), phase.state(), run, part_size).run(phase, 0);
   EXPECT_GT(run.report.sweeps, 0);
   return std::move(work).in_user_terms();
 }

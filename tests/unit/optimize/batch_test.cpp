@@ -57,29 +57,34 @@ struct AccuracyTask {
 
 /// A vertex alone in a mesh's working copy, stepping as VertexStep does.
 struct Alone {
-  Alone(const Mesh& mesh, const AccuracyTask& task) : Alone(mesh, EnergyModel{.kind = EnergyKind::BP}) {
-    settings.accuracy = task.model;
-    settings.accuracy_domain = &task.domain;
-    settings.options.flips = Flips::none;
-  }
-  Alone(const Mesh& mesh, const EnergyModel& model)
+  Alone(const Mesh& mesh, const AccuracyTask& task) : Alone(mesh, EnergyModel{.kind = EnergyKind::BP}, &task) {}
+  Alone(const Mesh& mesh, const EnergyModel& model, const AccuracyTask* task = nullptr)
       : work(WorkingCopy::part(mesh)),
-        settings(settings_of(work, model)),
+        settings(settings_of(work, model, task)),
+        state(settings),
         recorder(settings.hooks.tracer, work, 1),
-        flipper(work.mesh, settings, recorder),
+        flipper(work.mesh, settings, state, recorder),
         limits(work.mesh, settings, work.frame),
-        step({work.mesh, settings, work.frame, limits, recorder}, flipper) {}
+        step({work.mesh, settings, with_domain(state, task), work.frame, limits, recorder}, flipper) {}
 
-  static Settings settings_of(const WorkingCopy& work, const EnergyModel& model) {
+  static Settings settings_of(const WorkingCopy& work, const EnergyModel& model, const AccuracyTask* task) {
     OptimizeOptions options;
     options.energy = model.kind;
+    if (task != nullptr) options.flips = Flips::none;
     Settings settings = *make_settings(options, work.mesh, work.frame);
     settings.model = model;
+    if (task != nullptr) settings.accuracy = task->model;
     return settings;
+  }
+  static const SweepState& with_domain(SweepState& state, const AccuracyTask* task) {
+    state.flip_limit = FlipLimit::unlimited;
+    if (task != nullptr) state.accuracy_domain = &task->domain;
+    return state;
   }
 
   WorkingCopy work;
   Settings settings;
+  SweepState state;
   Recorder recorder;
   Flipper flipper;
   VertexLimits limits;

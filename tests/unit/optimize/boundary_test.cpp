@@ -410,7 +410,8 @@ TEST(Boundary, CutsWhereTrianglesAreBadAreAtTheirCornersAlone) {
   ASSERT_TRUE(settings);
   const Tracer nobody;
   const Recorder recorder(nobody, work, 1);
-  Flipper flipper(work.mesh, *settings, recorder);
+  const SweepState state(*settings);
+  Flipper flipper(work.mesh, *settings, state, recorder);
   ASSERT_TRUE(flipper.restore_all());
   IdVector<VertexId, bool> is_near(work.mesh.n_vertices(), false);
   for (const TriangleId t : bad_triangles(work.mesh)) {

@@ -43,11 +43,12 @@ SweptMesh swept(const Mesh& input, const OptimizeOptions& options, std::size_t p
   WorkingCopy work(input, options.paper.order);
   Settings settings = *make_settings(options, work.mesh, work.frame, hooks);
   if (options.size_band) settings.size_field = input_size_field_of(input);
-  Run run(options, hooks.observer, hooks.ranks);
-  Driver driver(work, settings, run, part_size);
+  SweepState state(settings);
+  Run run(options, hooks, input);
+  Driver driver(work, settings, state, run, part_size);
   EXPECT_TRUE(options.flips == Flips::none || driver.make_regular());
   driver.grade_boundary();
-  driver.attempt(attempts(settings.energy, options, work.mesh).front(), false);
+  driver.attempt(attempts(settings, work.mesh).front(), false);
   return {std::move(work).in_user_terms(), run.report};
 }
 
@@ -324,9 +325,10 @@ bool has_corner_in(const Mesh& mesh, TriangleId t, const Part& part) {
 
 /// Improves the part's vertices, three times over. Returns how many were left.
 std::size_t improve_part(WorkingCopy& work, const Settings& settings, const Part& part) {
+  const SweepState state(settings);
   const Recorder recorder(settings.hooks.tracer, work, 1);
   VertexLimits limits(work.mesh, settings, work.frame);
-  Improver improver({work.mesh, settings, work.frame, limits, recorder});
+  Improver improver({work.mesh, settings, state, work.frame, limits, recorder});
   std::vector<VertexId> vertices, left;
   for (const VertexId v : work.mesh.vertices()) {
     if (part.contains(v)) vertices.push_back(v);

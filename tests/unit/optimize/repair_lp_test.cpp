@@ -6,19 +6,18 @@
 #include "optimize/repair/trial.hpp"
 #include "support/layers.hpp"
 #include "temper/generate.hpp"
-#include "temper/lp.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"
+#include "temper/solvers.hpp"
 
 namespace temper {
 namespace {
 
 TEST(RepairByProgramme, CuresWhatSweepsLeave) {
-  const auto solver = clp_solver();
   const Mesh input = *horseshoe({.a = 6, .b = 7});
   Mesh swept = input, weighed = input;
   ASSERT_TRUE(optimize(swept));
-  ASSERT_TRUE(optimize(weighed, {}, {.lp = solver.get()}));
+  ASSERT_TRUE(optimize(weighed, {}, {.solvers = solvers()}));
   EXPECT_GT(standing(swept).bad, 0u);
   EXPECT_EQ(standing(weighed).bad, 0u);
   EXPECT_EQ(count_non_regular_edges(weighed), 0u);
@@ -26,12 +25,11 @@ TEST(RepairByProgramme, CuresWhatSweepsLeave) {
 }
 
 TEST(RepairByProgramme, IsTracedLikeAllElse) {
-  const auto solver = clp_solver();
   const Mesh input = *horseshoe({.a = 6, .b = 7});
   std::vector<TraceEvent> events;
   Mesh mesh = input;
   OptimizeHooks hooks;
-  hooks.lp = solver.get();
+  hooks.solvers = solvers();
   hooks.tracer = [&](const TraceEvent& e) { events.push_back(e); };
   ASSERT_TRUE(optimize(mesh, {}, hooks));
   const auto again = replay(input, events);
@@ -40,12 +38,10 @@ TEST(RepairByProgramme, IsTracedLikeAllElse) {
 }
 
 TEST(RepairByProgramme, OfAPlaceChangesWeightsNearItAndNoneOfTheRim) {
-  const auto solver = clp_solver();
   const Mesh mesh = test::layers({.columns = 10, .rows = 20, .growth = 1.7});
   const OptimizeOptions options;
-  auto settings = make_settings(options, mesh, Frame::of(mesh), {});
+  auto settings = make_settings(options, mesh, Frame::of(mesh), {.solvers = solvers()});
   ASSERT_TRUE(settings);
-  settings->hooks.lp = solver.get();
   std::size_t cured = 0;
   for (std::size_t t = 0; t < mesh.n_triangles(); t += 37) {
     const Neighborhood around = neighborhood_of(mesh, TriangleId(t), 3);

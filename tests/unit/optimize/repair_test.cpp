@@ -105,11 +105,12 @@ TEST(Repair, OfOnePlaceInALargeMeshChangesNothingElsewhere) {
   ASSERT_EQ(n_bad(input), 1u);
 
   const OptimizeOptions options;
-  const Observer nobody;
-  temper::Run run(options, nobody);
+  const OptimizeHooks nobody;
+  temper::Run run(options, nobody, input);
   auto settings = make_settings(options, input, Frame::of(input), {});
   ASSERT_TRUE(settings);
-  const Candidate mended = repaired({WorkingCopy(input, options.paper.order)}, *settings, run);
+  SweepState state(*settings);
+  const Candidate mended = repaired({WorkingCopy(input, options.paper.order)}, *settings, state, run);
   EXPECT_GT(run.report.sweeps, 0);
   const Mesh mesh = mended.work.in_user_terms();
   EXPECT_EQ(n_bad(mesh), 0u);

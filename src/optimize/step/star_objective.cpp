@@ -1,0 +1,93 @@
+#include "optimize/step/star_objective.hpp"
+
+#include "geometry/predicates_inline.hpp"
+#include "optimize/step/line_search.hpp"
+#include "optimize/step/search.hpp"
+
+namespace temper {
+namespace {
+
+// HOT has no barrier: nothing may come nearer to a neighbor than this part of the patch radius.
+constexpr double kShortestEdge = 1e-7;
+
+/// An energy of the registry. Valid: all triangles of the star are counter-clockwise; an energy without a barrier also
+/// keeps its edges a little apart.
+class EnergyStar final : public StarObjective {
+ public:
+  EnergyStar(const Mesh& mesh, const SweepState& state) : StarObjective(mesh), state_(state) {}
+
+  bool gather(VertexId v) override {
+    origin_ = mesh_.point(v);
+    gather_patch(mesh_, v, needs_outer(state_.model.kind), patch_);
+    return true;
+  }
+  double value(const WeightedPoint& p) override { return patch_energy(patch_, state_.model, p); }
+  VertexDerivatives derivatives(const WeightedPoint& p) override { return patch_derivatives(patch_, state_.model, p); }
+  [[nodiscard]] double radius(const WeightedPoint& p) const override { return patch_radius(patch_, p); }
+  [[nodiscard]] int trials() const override { return kTrials; }
+  [[nodiscard]] bool keeps_edges_regular() const override { return false; }
+
+ private:
+  [[nodiscard]] bool has_valid_triangles(const WeightedPoint& p) const override {
+    const double nearest = state_.energy.barrier ? 0 : kShortestEdge * patch_radius(patch_, origin_);
+    for (std::size_t i = 0; i < patch_.size(); ++i) {
+      const WeightedPoint q = patch_.q(i);
+      if (inlined::orientation(patch_.space, p, q, patch_.r(i)) != Sign::positive) return false;
+      if (edge_measures(patch_.space, p, q).l2 < nearest * nearest) return false;
+    }
+    return true;
+  }
+
+  const SweepState& state_;
+  WeightedPoint origin_;
+};
+
+/// The accuracy objective. A vertex stays if a triangle around it has no floor. Valid: all triangles are
+/// well-centered. The dual of an edge between two triangles is h_k + h_l long, and the edge is regular if that is not
+/// negative. The triangles of the star and across its link are well-centered before a step, and those of the star,
+/// which alone change, after it: so no edge stops being regular.
+class AccuracyStar final : public StarObjective {
+ public:
+  AccuracyStar(const Mesh& mesh, const AccuracyModel& model, const AccuracyDomain& domain)
+      : StarObjective(mesh), model_(model), domain_(domain) {}
+
+  bool gather(VertexId v) override {
+    gather_patch(mesh_, v, false, patch_);
+    return accuracy_.gather(mesh_, domain_.sizes, domain_.floors, model_, v);
+  }
+  double value(const WeightedPoint& p) override { return accuracy_.value(p); }
+  VertexDerivatives derivatives(const WeightedPoint& p) override {
+    VertexDerivatives outside;
+    outside.value = accuracy_.value(p);
+    return outside.value < kInfinity ? accuracy_.derivatives() : outside;
+  }
+  [[nodiscard]] double radius(const WeightedPoint& p) const override { return accuracy_.shortest_spoke(p); }
+  [[nodiscard]] int trials() const override { return kTrialsWithMargins; }
+  [[nodiscard]] bool keeps_edges_regular() const override { return true; }
+
+ private:
+  [[nodiscard]] bool has_valid_triangles(const WeightedPoint& p) const override {
+    return accuracy_.is_well_centered(p);
+  }
+
+  const AccuracyModel& model_;
+  const AccuracyDomain& domain_;
+  AccuracyPatch accuracy_;
+};
+
+}  // namespace
+
+bool StarObjective::is_valid(const WeightedPoint& p) const {
+  for (std::size_t i = 0; patch_.space.is_periodic() && i < patch_.link.size(); ++i) {
+    if (!patch_.space.are_near(p, patch_.q(i))) return false;
+  }
+  return has_valid_triangles(p);
+}
+
+std::unique_ptr<StarObjective> make_star_objective(const Mesh& mesh, const Settings& settings,
+                                                   const SweepState& state) {
+  if (state.accuracy_domain == nullptr) return std::make_unique<EnergyStar>(mesh, state);
+  return std::make_unique<AccuracyStar>(mesh, settings.accuracy, *state.accuracy_domain);
+}
+
+}  // namespace temper

@@ -1,0 +1,43 @@
+// What a step lowers, as a function of one vertex: an energy of the registry, or the accuracy objective.
+#pragma once
+
+#include <memory>
+
+#include "energy/patch.hpp"
+#include "optimize/settings.hpp"
+
+namespace temper {
+
+/// Storage is kept from one vertex to the next.
+class StarObjective {
+ public:
+  virtual ~StarObjective() = default;
+
+  /// Takes the star of v as it is now. False when v must stay.
+  virtual bool gather(VertexId v) = 0;
+  [[nodiscard]] virtual double value(const WeightedPoint& p) = 0;
+  [[nodiscard]] virtual VertexDerivatives derivatives(const WeightedPoint& p) = 0;
+  /// The unit of steps.
+  [[nodiscard]] virtual double radius(const WeightedPoint& p) const = 0;
+  /// The number of trials of a search: near a barrier more of them pay.
+  [[nodiscard]] virtual int trials() const = 0;
+  /// Says, exactly, whether v may be at p.
+  [[nodiscard]] bool is_valid(const WeightedPoint& p) const;
+  /// Says whether no edge can stop being regular.
+  [[nodiscard]] virtual bool keeps_edges_regular() const = 0;
+
+  [[nodiscard]] const Patch& patch() const { return patch_; }
+
+ protected:
+  explicit StarObjective(const Mesh& mesh) : mesh_(mesh) {}
+  [[nodiscard]] virtual bool has_valid_triangles(const WeightedPoint& p) const = 0;
+
+  const Mesh& mesh_;
+  Patch patch_;
+};
+
+/// The objective of the sweep under way.
+[[nodiscard]] std::unique_ptr<StarObjective> make_star_objective(const Mesh& mesh, const Settings& settings,
+                                                                 const SweepState& state);
+
+}  // namespace temper

@@ -1,0 +1,23 @@
+#include "temper/solvers.hpp"
+
+#ifdef TEMPER_WITH_LP
+#include "temper/lp.hpp"
+#endif
+#ifdef TEMPER_WITH_VERIFY
+#include "temper/verify.hpp"
+#endif
+
+namespace temper {
+
+Solvers solvers() {
+  Solvers all;
+#ifdef TEMPER_WITH_LP
+  all.lp = [] { return clp_solver(); };
+#endif
+#ifdef TEMPER_WITH_VERIFY
+  all.error_model = [](const Mesh& mesh, Scheme scheme) { return solver_error_model(mesh, {.scheme = scheme}); };
+#endif
+  return all;
+}
+
+}  // namespace temper
