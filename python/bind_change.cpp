@@ -220,8 +220,8 @@ void bind_topology(py::module_& m) {
     const GradingPlan plan = plan_boundary_grading(*mesh, ratio, widest);
     py::list cuts;
     for (const EdgeCuts& c : plan.cuts) cuts.append(py::make_tuple(c.a.index, c.b.index, to_python(c.at)));
-    return Record()("cuts", py::object(cuts))("vertices", plan.vertices)("ratio_before", plan.ratio_before)(
-               "ratio_after", plan.ratio_after)
+    return Record()("cuts", cuts)("vertices", plan.vertices)("ratio_before", plan.ratio_before)("ratio_after",
+                                                                                                plan.ratio_after)
         .dict;
   });
   m.def("triangles_without_free_corner", [](const PyMesh& self) {
@@ -301,10 +301,6 @@ void bind_size(py::module_& m) {
     }
     return rows_of<double>(std::span<const std::array<double, 2>>(lengths));
   });
-  m.def("spread", [](const Doubles& values) {
-    const auto all = as_span<double>(values);
-    return to_python(spread({all.begin(), all.end()}));
-  });
   m.def("measure_size", [](const PyMesh& self, const SizeField& field) {
     const auto mesh = self.read();
     if (mesh->space().kind() != field.mesh().space().kind()) {
@@ -370,8 +366,8 @@ py::dict outline_to_dict(const Outline& outline) {
   return Record()("points", rows_of<double>(std::span<const Vec2>(outline.points)))(
              "segments", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(ends)))(
              "segment_tags", array_of<std::int32_t>(tags))(
-             "holes", rows_of<double>(std::span<const Vec2>(outline.holes)))("regions", py::object(regions))(
-             "parts", py::object(parts))("names", outline.names ? py::cast(PyNames{outline.names}) : py::none())
+             "holes", rows_of<double>(std::span<const Vec2>(outline.holes)))("regions", regions)("parts", parts)(
+             "names", outline.names ? py::cast(PyNames{outline.names}) : py::none())
       .dict;
 }
 
@@ -404,7 +400,7 @@ py::tuple outline_mesh_to_python(OutlineMesh result) {
                         Record()("lines", rows_of<VertexId>(std::span<const std::array<VertexId, 2>>(lines)))(
                             "line_tags", array_of<std::int32_t>(tags))("vertex_of_point", result.vertex_of_point)(
                             "bad", result.bad)("delaunay_bad", result.delaunay_bad)("attempts", result.attempts)(
-                            "report", py::object(report_to_dict(result.report)))("notes", result.notes)
+                            "report", report_to_dict(result.report))("notes", result.notes)
                             .dict);
 }
 

@@ -49,11 +49,6 @@ py::array in_space(bool sphere, const std::array<Doubles, n>& arrays, const F& f
 std::int8_t as_number(Sign sign) { return static_cast<std::int8_t>(sign); }
 
 void bind_predicates(py::module_& m) {
-  m.def("orient2d", [](const Doubles& a, const Doubles& b, const Doubles& c) {
-    return over<std::int8_t, 3>({a, b, c}, [](const auto& p, std::size_t i) {
-      return as_number(orient2d(p[0][i].position(), p[1][i].position(), p[2][i].position()));
-    });
-  });
   m.def("orientation", [](const Doubles& a, const Doubles& b, const Doubles& c, bool sphere) {
     // Which sphere it is does not matter.
     const Space space = sphere ? Space::sphere(1) : Space();

@@ -1,12 +1,7 @@
-// Bindings of all that only looks at meshes: quality, energy, dec, draw, verify.
-#include <algorithm>
-#include <cmath>
-#include <limits>
+// Bindings of all that only looks at meshes: quality, energy, draw, verify.
 #include <utility>
 
 #include "bind.hpp"
-#include "bind_dec.hpp"
-#include "temper/dec.hpp"
 #include "temper/draw.hpp"
 #include "temper/energy.hpp"
 #include "temper/geometry.hpp"
@@ -43,9 +38,9 @@ py::dict quality_to_dict(const Quality& q) {
     const std::string key(m.key);
     m.count ? r(key.c_str(), static_cast<std::size_t>(m.of(q))) : r(key.c_str(), m.of(q));
   }
-  r("energy", py::object(energy))("worst", py::object(worst));
-  r("angles", py::object(histogram_to_dict(q.angles)))("h_over_l", py::object(histogram_to_dict(q.h_over_l)))(
-      "d_over_l", py::object(histogram_to_dict(q.d_over_l)));
+  r("energy", energy)("worst", worst);
+  r("angles", histogram_to_dict(q.angles))("h_over_l", histogram_to_dict(q.h_over_l))("d_over_l",
+                                                                                      histogram_to_dict(q.d_over_l));
   return r.dict;
 }
 
@@ -57,23 +52,6 @@ py::list quality_measures_list() {
                     .dict);
   }
   return list;
-}
-
-/// The least h/ℓ or d/ℓ of each triangle, and whether it is well-centered (exact).
-py::tuple triangle_margins(const PyMesh& self) {
-  const auto mesh = self.read();
-  const auto rows = triangle_values();
-  const auto row = std::find_if(rows.begin(), rows.end(), [](const TriangleValue& r) { return r.name == "quality"; });
-  py::array_t<double> margins(Shape{static_cast<py::ssize_t>(mesh->n_triangles())});
-  py::array_t<bool> good(Shape{static_cast<py::ssize_t>(mesh->n_triangles())});
-  double* margin = margins.mutable_data();
-  bool* is_good = good.mutable_data();
-  for (const TriangleId t : mesh->triangles()) {
-    const auto [p, q, r] = mesh->corners(t);
-    *margin++ = row->of(*mesh, t);
-    *is_good++ = is_well_centered(mesh->space(), mesh->point(p), mesh->point(q), mesh->point(r));
-  }
-  return py::make_tuple(margins, good);
 }
 
 py::dict triangle_quality_to_dict(const PyMesh& self) {
@@ -142,10 +120,8 @@ void bind_energy(py::module_& m) {
     return quality_to_dict(result);
   });
   m.def("quality_measures", quality_measures_list);
-  m.def("triangle_margins", triangle_margins);
   m.def("triangle_quality", triangle_quality_to_dict);
   m.def("energies", energies_list);
-  m.def("find_energy", [](const std::string& wanted) { return std::string(or_raise(find_energy(wanted)).name); });
   m.def("total_energy", [](const PyMesh& self, const py::dict& model, const py::object& threads) {
     const EnergyModel energy = model_from(model);
     const auto mesh = self.read();
@@ -163,156 +139,6 @@ void bind_energy(py::module_& m) {
     const VertexDerivatives d = vertex_energy(*mesh, model_from(model), vertex_id(*mesh, v));
     return Record()("value", d.value)("feasible", d.feasible)("gradient", d.gradient)("hessian", d.hessian).dict;
   });
-}
-
-// --- dec: views on one value, which the arrays keep ---------------------------------------------------------------
-
-using Complex = std::shared_ptr<const DecComplex>;
-
-/// One member of every element of a vector of structs.
-template <class Value, class IdType, class Struct>
-py::array column(const py::object& owner, const IdVector<IdType, Struct>& rows, const void* first, int width = 1) {
-  const auto n = static_cast<py::ssize_t>(rows.size());
-  const py::ssize_t stride = sizeof(Struct), item = py::dtype::of<Value>().itemsize();
-  if (width == 1) return view(py::dtype::of<Value>(), {n}, {stride}, first, owner);
-  return view(py::dtype::of<Value>(), {n, py::ssize_t{width}}, {stride, item}, first, owner);
-}
-
-template <class T>
-py::array whole(const py::object& owner, const std::vector<T>& values) {
-  return view(dtype_of<T>(), {static_cast<py::ssize_t>(values.size())}, {sizeof(T)}, values.data(), owner);
-}
-
-/// Places as rows: of two columns in the plane, of three on the sphere, where those of the plane are not.
-py::array places(const py::object& owner, const std::vector<Vec2>& plane, const std::vector<Vec3>& sphere) {
-  const auto doubles = py::dtype::of<double>();
-  if (sphere.empty()) return view(doubles, {static_cast<py::ssize_t>(plane.size()), 2}, {16, 8}, plane.data(), owner);
-  return view(doubles, {static_cast<py::ssize_t>(sphere.size()), 3}, {24, 8}, sphere.data(), owner);
-}
-
-py::dict edges_to_dict(const py::object& owner, const DecComplex& complex) {
-  const IdVector<EdgeId, DecEdge>& edges = complex.edges;
-  const auto& on_sphere = complex.sphere_midpoints;
-  const DecEdge none;
-  const DecEdge& e = edges.empty() ? none : edges[EdgeId(0)];
-  using std::int32_t;
-  return Record()("vertices", py::object(column<int32_t>(owner, edges, &e.from, 2)))(
-             "triangles", py::object(column<int32_t>(owner, edges, &e.left, 2)))(
-             "length", py::object(column<double>(owner, edges, &e.length)))(
-             "split", py::object(column<double>(owner, edges, &e.split)))(
-             "left_height", py::object(column<double>(owner, edges, &e.left_height)))(
-             "right_height", py::object(column<double>(owner, edges, &e.right_height)))(
-             "dual_length", py::object(column<double>(owner, edges, &e.dual_length)))(
-             "midpoint", py::object(on_sphere.empty() ? column<double>(owner, edges, &e.midpoint, 2)
-                                                      : places(owner, {}, on_sphere.raw())))
-      .dict;
-}
-
-py::dict incidence_to_dict(const py::object& owner, const IncidenceMatrix& matrix) {
-  return Record()("n_columns", matrix.n_columns)("starts", py::object(whole(owner, matrix.starts)))(
-             "columns", py::object(whole(owner, matrix.columns)))("signs", py::object(whole(owner, matrix.signs)))
-      .dict;
-}
-
-struct PyDec {
-  std::shared_ptr<const Mesh> mesh;
-  std::shared_ptr<const Mesh> measured;  // in the metric of a tensor; else the same
-  Metric metric;
-  Complex complex;
-
-  [[nodiscard]] bool has_tensor() const { return measured != mesh; }
-  [[nodiscard]] PowerCells cells() const {
-    PowerCells made = power_cells(*measured, *complex);
-    return has_tensor() ? mapped_back(std::move(made), metric) : made;
-  }
-};
-
-PyDec make_dec(const PyMesh& self, const py::object& tensor) {
-  const auto mesh = self.read();
-  if (tensor.is_none()) {
-    const py::gil_scoped_release release;
-    return {mesh, mesh, {}, std::make_shared<const DecComplex>(dec(*mesh))};
-  }
-  const Metric metric = metric_from(tensor);
-  const py::gil_scoped_release release;
-  auto measured = std::make_shared<const Mesh>(or_raise(mapped(*mesh, metric)));
-  return {mesh, measured, metric, std::make_shared<const DecComplex>(mapped_back(dec(*measured), metric))};
-}
-
-py::dict dec_to_dict(const PyDec& d) {
-  const py::object owner = keep(d.complex);
-  const DecComplex& c = *d.complex;
-  return Record()("edges", py::object(edges_to_dict(owner, c)))(
-             "edge_of_halfedge",
-             py::object(view(py::dtype::of<std::int32_t>(), {static_cast<py::ssize_t>(c.edge_of_halfedge.size())}, {4},
-                             c.edge_of_halfedge.raw().data(), owner)))(
-             "d0", py::object(incidence_to_dict(owner, c.d0)))("d1", py::object(incidence_to_dict(owner, c.d1)))(
-             "star0", py::object(whole(owner, c.star0.raw())))("star1", py::object(whole(owner, c.star1.raw())))(
-             "star2", py::object(whole(owner, c.star2.raw())))("flux", py::object(whole(owner, c.flux.raw())))(
-             "orthocenters", py::object(places(owner, c.orthocenters.raw(), c.sphere_orthocenters.raw())))(
-             "areas", py::object(whole(owner, c.areas.raw())))
-      .dict;
-}
-
-py::dict summary_to_dict(const DecSummary& s) {
-  return Record()("vertices", s.vertices)("edges", s.edges)("triangles", s.triangles)(
-             "boundary_edges", s.boundary_edges)("negative_star0", s.negative_star0)(
-             "negative_star1", s.negative_star1)("zero_star1", s.zero_star1)(
-             "negative_boundary_star1", s.negative_boundary_star1)("not_well_centered", s.not_well_centered)(
-             "area", s.area)("star0_sum", s.star0_sum)("min_star0", s.min_star0)("min_star1", s.min_star1)(
-             "median_star1", s.median_star1)("max_star1", s.max_star1)("median_flux", s.median_flux)("max_flux",
-                                                                                                     s.max_flux)
-      .dict;
-}
-
-py::dict cells_to_dict(const PyDec& d) {
-  PowerCells made;
-  {
-    const py::gil_scoped_release release;
-    made = d.cells();
-  }
-  auto cells = std::make_shared<const PowerCells>(std::move(made));
-  const py::object owner = keep(cells);
-  const PowerCells& c = *cells;
-  return Record()("vertices", py::object(whole(owner, c.vertices)))("starts", c.starts)(
-             "corners", py::object(places(owner, c.corners, c.sphere_corners)))(
-             "polygon_areas", py::object(whole(owner, c.polygon_areas)))("areas",
-                                                                         py::object(whole(owner, c.areas.raw())))
-      .dict;
-}
-
-py::object write_dec_files(const PyDec& d, const std::string& folder, const py::sequence& formats,
-                           const py::object& threads) {
-  io::DecWriteOptions options;
-  options.formats.clear();
-  for (const auto& f : formats) options.formats.push_back(from_name<io::DecFormat>("formats", f.cast<std::string>()));
-  const auto count = threads_from(threads);
-  std::vector<std::string> paths;
-  {
-    const py::gil_scoped_release release;
-    const auto executor = make_threads(count);
-    options.executor = executor.get();
-    auto written = io::write_dec(folder, *d.mesh, *d.complex, d.cells(), options);
-    if (!written) throw BadInput{written.error()};
-    paths = *std::move(written);
-  }
-  return to_python(paths);
-}
-
-void bind_dec(py::module_& m) {
-  py::class_<PyDec>(m, "DecComplex")
-      .def("mesh", [](const PyDec& d) { return std::make_unique<PyMesh>(Mesh(*d.mesh)); })
-      .def("tensor",
-           [](const PyDec& d) -> py::object {
-             if (!d.has_tensor()) return py::none();
-             const Tensor& k = d.metric.tensor();
-             return py::make_tuple(k.xx, k.xy, k.yy);
-           })
-      .def("arrays", dec_to_dict)
-      .def("summarize", [](const PyDec& d) { return summary_to_dict(summarize(*d.measured, *d.complex)); })
-      .def("power_cells", cells_to_dict)
-      .def("write", write_dec_files);
-  m.def("dec", make_dec);
 }
 
 // --- pictures ---------------------------------------------------------------------------------------------------
@@ -387,9 +213,7 @@ py::dict fields_to_dict(const std::vector<FieldErrors>& fields) {
     auto& row = values.emplace_back();
     for (std::size_t i = 0; i < row.size(); ++i) row[i] = verify_measures()[i].of(f.errors);
   }
-  return Record()("names", py::object(names))("values",
-                                              rows_of<double>(std::span<const std::array<double, 10>>(values)))
-      .dict;
+  return Record()("names", names)("values", rows_of<double>(std::span<const std::array<double, 10>>(values))).dict;
 }
 
 py::object errors_to_array(const VerifyErrors& errors) {
@@ -434,16 +258,15 @@ py::dict verify_to_dict(const VerifyReport& r) {
   for (const VerifyLevel& level : r.levels) {
     levels.append(Record()("vertices", level.vertices)("triangles", level.triangles)(
                       "non_regular_edges", level.non_regular_edges)("not_well_centered", level.not_well_centered)(
-                      "fields", py::object(fields_to_dict(level.fields)))
+                      "fields", fields_to_dict(level.fields))
                       .dict);
   }
   for (const auto& values : r.local) local.append(to_python(values));
   return Record()("vertices", r.vertices)("edges", r.edges)("triangles", r.triangles)(
              "non_regular_edges", r.non_regular_edges)("negative_boundary_duals", r.negative_boundary_duals)(
              "negative_star0", r.negative_star0)("not_well_centered", r.not_well_centered)(
-             "frame", py::object(frame_to_dict(r.frame)))("poisson", py::object(system_to_dict(r.poisson)))(
-             "flux", py::object(system_to_dict(r.flux)))("fields", py::object(fields_to_dict(r.fields)))(
-             "levels", py::object(levels))("orders", py::object(fields_to_dict(r.orders)))("local", py::object(local))
+             "frame", frame_to_dict(r.frame))("poisson", system_to_dict(r.poisson))("flux", system_to_dict(r.flux))(
+             "fields", fields_to_dict(r.fields))("levels", levels)("orders", fields_to_dict(r.orders))("local", local)
       .dict;
 }
 
@@ -519,7 +342,6 @@ void bind_verify(py::module_&) {}
 
 void bind_measure(py::module_& m) {
   bind_energy(m);
-  bind_dec(m);
   bind_draw(m);
   bind_verify(m);
 }

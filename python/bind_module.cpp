@@ -6,9 +6,9 @@
 #include "bind.hpp"
 #include "temper/build_info.hpp"
 #include "temper/instruction_set.hpp"
+#include "temper/version.hpp"
 #ifdef TEMPER_WITH_TBB
 #include "temper/tbb_executor.hpp"
-#include "temper/version.hpp"
 #endif
 
 namespace temper::python {
@@ -176,27 +176,33 @@ std::size_t checked(const char* kind, std::int64_t index, std::size_t size) {
                                           std::to_string(static_cast<std::int64_t>(size) - 1));
 }
 
-void bind_instruction_sets(py::module_& m) {
-  m.def("instruction_sets", [] {
+void bind_build_info(py::module_& m) {
+  const auto build = [] {
+    py::dict info;
+    for (const BuildFact& fact : build_info()) info[to_python(fact.name)] = to_python(fact.value);
+    return info;
+  };
+  m.def(
+      "build_info", build,
+      "What `temper --version` prints, by the same names: \"version\", \"commit\" (\"unknown\" where it was not built\n"
+      "in a clone), \"compiler\", \"processor\", \"instructions\", \"threads\", and the versions of libraries.\n\n"
+      "libnetcdf and libhdf5 are looked for, and loaded, when this is asked.");
+  const auto sets = [] {
     py::list list;
     for (const InstructionSet set : instruction_sets()) list.append(to_python(name(set)));
     return list;
-  });
-  m.def("instruction_set", [] { return std::string(name(instruction_set())); });
-  m.def("use_instruction_set", [](const std::string& wanted) {
+  };
+  m.def("instruction_sets", sets, "The instruction sets that this processor has code for, the fastest last.");
+  m.def(
+      "instruction_set", [] { return std::string(name(instruction_set())); }, "The instruction set in use.");
+  const auto use = [](const std::string& wanted) {
     for (const InstructionSet set : instruction_sets()) {
       if (name(set) == wanted) return use_instruction_set(set);
     }
     return false;
-  });
-}
-
-void bind_build_info(py::module_& m) {
-  m.def("build_info", [] {
-    py::dict info;
-    for (const BuildFact& fact : build_info()) info[to_python(fact.name)] = to_python(fact.value);
-    return info;
-  });
+  };
+  m.def("use_instruction_set", use,
+        "Uses another instruction set, by its name; False where there is none of that name.");
 }
 
 void raise_as_temper_error(const InputError& error) {
@@ -260,12 +266,6 @@ PYBIND11_MODULE(_temper, m) {
   m.attr("__version__") = to_python(temper::version());
   bind_build_info(m);
   m.attr("knows_numpy_2") = kKnowsNumPy2;
-#ifdef TEMPER_WITH_TBB
-  m.attr("has_threads") = true;
-#else
-  m.attr("has_threads") = false;
-#endif
-  bind_instruction_sets(m);
   bind_mesh(m);
   bind_files(m);
   bind_generate(m);
@@ -273,6 +273,6 @@ PYBIND11_MODULE(_temper, m) {
   bind_change(m);
   bind_optimize(m);
   bind_measure(m);
-  bind_columns(m);
+  bind_dec(m);
   bind_weights(m);
 }

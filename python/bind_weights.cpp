@@ -24,8 +24,7 @@ py::dict certificate_to_dict(const Certificate& certificate) {
   for (const auto& term : certificate.terms) {
     terms.append(py::make_tuple(constraint_to_tuple(term.constraint), term.multiplier));
   }
-  return Record()("margin", certificate.margin)("terms", py::object(terms))("conditions", name(certificate.conditions))
-      .dict;
+  return Record()("margin", certificate.margin)("terms", terms)("conditions", name(certificate.conditions)).dict;
 }
 
 VertexId vertex_or_none(const py::handle& index) {
@@ -68,23 +67,22 @@ std::vector<HalfedgeId> prescribed(const Mesh& mesh, const py::object& edges) {
 py::dict best_to_dict(const BestMargin& best) {
   py::list tight;
   for (const WeightConstraint& c : best.tight) tight.append(constraint_to_tuple(c));
-  return Record()("status", name_of(best.status))("margin", best.margin)("tight", py::object(tight))(
-             "certificate", py::object(certificate_to_dict(best.certificate)))("vertices", best.vertices)("weights",
-                                                                                                          best.weights)
+  return Record()("status", name_of(best.status))("margin", best.margin)("tight", tight)(
+             "certificate", certificate_to_dict(best.certificate))("vertices", best.vertices)("weights", best.weights)
       .dict;
 }
 
 py::dict weight_report_to_dict(const WeightReport& r) {
   py::list violations;
   for (const Violation& v : r.violations) {
-    violations.append(Record()("constraint", py::object(constraint_to_tuple(v.constraint)))("value", v.value)(
+    violations.append(Record()("constraint", constraint_to_tuple(v.constraint))("value", v.value)(
                           "shortfall", v.shortfall)("angle_deg", v.angle_deg)
                           .dict);
   }
   return Record()("verdict", name(r.verdict))("margin", r.margin)("margin_is", name(r.margin_is))("solved", r.solved)(
              "asked", r.asked)("attained", r.attained)("moved", r.moved)("change", r.change)(
-             "programmes", r.programmes)("largest", r.largest)("weights", r.weights)(
-             "violations", py::object(violations))("certificate", py::object(certificate_to_dict(r.certificate)))
+             "programmes", r.programmes)("largest", r.largest)("weights", r.weights)("violations", violations)(
+             "certificate", certificate_to_dict(r.certificate))
       .dict;
 }
 
@@ -123,8 +121,7 @@ py::dict search_connectivity(const PyMesh& self, const std::string& conditions, 
   PyMesh flipped = self.copy();
   flipped.replace(std::move(report.mesh), {});
   return Record()("mesh", py::cast(std::move(flipped)))("end", name(report.end))("before", report.before)(
-             "margin", report.margin)("steps", py::object(steps))("programmes", report.programmes)("weights",
-                                                                                                   report.weights)
+             "margin", report.margin)("steps", steps)("programmes", report.programmes)("weights", report.weights)
       .dict;
 }
 
@@ -190,9 +187,8 @@ void bind_feasibility(py::module_& m) {
 // --- necessity ----------------------------------------------------------------------------------------------------
 
 py::dict conflict_to_dict(const Mesh& mesh, const EdgeConflict& c) {
-  return Record()("edge", py::object(py::make_tuple(mesh.origin(c.edge).index, mesh.target(c.edge).index)))(
-             "halfedge", c.edge)("near_u", c.near_u)("near_v", c.near_v)("a", c.a)("b", c.b)("sum", c.sum)("split_at",
-                                                                                                           c.split_at)
+  return Record()("edge", py::make_tuple(mesh.origin(c.edge).index, mesh.target(c.edge).index))("halfedge", c.edge)(
+             "near_u", c.near_u)("near_v", c.near_v)("a", c.a)("b", c.b)("sum", c.sum)("split_at", c.split_at)
       .dict;
 }
 
@@ -248,10 +244,10 @@ py::dict reason_to_dict(const Mesh& mesh, const Reason& r) {
   for (const Cure& cure : r.cures) cures.append(cure_to_dict(mesh, cure));
   const py::object split = r.must_split ? py::object(conflict_to_dict(mesh, *r.must_split)) : py::none();
   return Record()("kind", name(r.kind))("text", reason_text(mesh, r))("bad", r.bad)("conflict", r.conflict)(
-             "must_split", split)("certificate", py::object(certificate_to_dict(r.certificate)))("margin", r.margin)(
+             "must_split", split)("certificate", certificate_to_dict(r.certificate))("margin", r.margin)(
              "each", r.each)("checked", r.checked)("crossing", crossing_to_dict(r.crossing))(
              "center", center_to_dict(r.center))("free", r.free)("least_margin", r.least_margin)("at", r.at)(
-             "cures_searched", r.cures_searched)("cures", py::object(cures))
+             "cures_searched", r.cures_searched)("cures", cures)
       .dict;
 }
 
@@ -278,7 +274,7 @@ py::dict explain_mesh(const PyMesh& self, std::size_t cures, std::size_t whole, 
   py::list reasons;
   for (const Reason& reason : why.reasons) reasons.append(reason_to_dict(*mesh, reason));
   return Record()("triangles", why.triangles)("bad", why.bad)("verdict", name(why.verdict))("changed", why.changed)(
-             "margin", why.margin)("reasons", py::object(reasons))
+             "margin", why.margin)("reasons", reasons)
       .dict;
 }
 

@@ -13,8 +13,14 @@ from typing import Any, Callable, Literal, TypedDict, TypeVar
 
 from typing_extensions import Unpack
 
-from ._options import SofteningLike
 from ._records import Record
+
+@dataclasses.dataclass(frozen=True)
+class Softening:
+    value: float
+    scale: Literal["absolute", "relative"] = ...
+
+SofteningLike = Softening | float
 
 TABLE: list[dict[str, Any]]
 OPTION_NAMES: tuple[str, ...]
@@ -30,6 +36,7 @@ class OptimizeOptions(Record):
 
 TAIL = '''    def _plain(self) -> dict[str, Any]: ...
 
+def _softening(name: str, value: SofteningLike) -> tuple[float, str]: ...
 def changed(options: OptimizeOptions | None, changes: OptionChanges) -> OptimizeOptions: ...
 def paper_method(**changes: Unpack[OptionChanges]) -> OptimizeOptions: ...
 def odt_method(**changes: Unpack[OptionChanges]) -> OptimizeOptions: ...
@@ -49,7 +56,7 @@ def main(folder):
     changes = "".join(f"    {name}: {kind}\n" for name, kind in fields)
     options = "".join(f"    {name}: {kind} = ...\n" for name, kind in fields)
     text = HEAD.format(energy=dict(fields)["energy"]) + changes + OPTIONS + options + TAIL
-    (folder / "_optimize_options.pyi").write_text(text, encoding="utf-8")
+    (folder / "_options.pyi").write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

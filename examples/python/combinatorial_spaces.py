@@ -12,7 +12,9 @@ import numpy as np
 
 import temper
 
-mesh = temper.read(sys.argv[1]) if len(sys.argv) > 1 else temper.optimized(temper.generate.annulus())
+mesh = temper.read(sys.argv[1]) if len(sys.argv) > 1 else temper.generate.annulus()
+if len(sys.argv) == 1:
+    temper.optimize(mesh)
 folder = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else "dual")
 folder.mkdir(exist_ok=True)
 operators = temper.dec(mesh)
@@ -21,7 +23,7 @@ operators = temper.dec(mesh)
 def save(name, header, *columns):
     rows = zip(*(np.asarray(c).tolist() for c in columns))
     lines = [header, *(",".join(map(repr, row)) for row in rows)]  # the shortest text that reads back to the same bits
-    temper.write_text(folder / name, "\n".join(lines) + "\n")
+    (folder / name).write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 save("points.csv", "x,y", *np.asarray(mesh.points).T)

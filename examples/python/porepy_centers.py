@@ -16,7 +16,8 @@ from scipy.sparse.linalg import spsolve
 
 import temper
 
-mesh = temper.optimized(temper.generate.annulus())
+mesh = temper.generate.annulus()
+temper.optimize(mesh)
 operators = temper.dec(mesh)
 edges = operators.edges
 

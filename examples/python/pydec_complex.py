@@ -15,7 +15,8 @@ from scipy.sparse.linalg import eigsh
 
 import temper
 
-mesh = temper.optimized(temper.generate.annulus())
+mesh = temper.generate.annulus()
+temper.optimize(mesh)
 operators = temper.dec(mesh)
 
 

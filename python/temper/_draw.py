@@ -1,22 +1,46 @@
-"""Pictures of primal-dual meshes, as SVG text."""
+"""How meshes and runs look: pictures as SVG, reports as HTML, and what notebooks show of both."""
 
 from __future__ import annotations
 
+import html
+import json
+import os
 from typing import Any, Sequence
 
 from . import _temper
-from ._mesh import MeshLike, as_mesh
+from ._explain import explain
+from ._measure import quality
+from ._mesh import Mesh, MeshLike, as_mesh
+from ._optimize import PAGE, OptimizeReport
+from ._records import Record, table
+from ._space import Space
+
+_EXPLAINED = 500  # bad triangles: a second or so, as in the program
 
 
-class Svg(str):
+class _Text(str):
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the text to a file: on any error what was there is untouched."""
+        _temper.write_text(os.fspath(path), self)
+
+
+class Svg(_Text):
     """SVG text that notebooks show as a picture."""
 
     def _repr_svg_(self) -> str:
         return str(self)
 
 
+class Html(_Text):
+    """A page that notebooks show in a frame."""
+
+    def _repr_html_(self) -> str:
+        return f'<iframe title="temper" style="width:100%;height:640px;border:1px solid #8886" srcdoc="{html.escape(self)}"></iframe>'
+
+
 def draw_svg(
     mesh: MeshLike,
+    before: MeshLike | None = None,
     *,
     primal: bool = True,
     dual: bool = True,
@@ -36,6 +60,8 @@ def draw_svg(
     Parameters
     ----------
     mesh : Mesh or meshio.Mesh
+    before : Mesh or meshio.Mesh, optional
+        Drawn to the left of it, to one scale, in one view and one zoom box.
     primal, dual : bool
         Edges of the triangulation; edges of the power diagram, between orthocenters.
     weights : bool
@@ -52,42 +78,22 @@ def draw_svg(
         Of a sphere [degrees]: the middle of the picture, whose near half is drawn. None: the middle of a mesh that is a
         part of the sphere, else 0, 0.
     width : float
-        In CSS pixels.
+        Of each mesh, in CSS pixels.
 
     Returns
     -------
     Svg
-        A str; as the last value of a notebook's cell it is a picture.
+        A str; as the last value of a notebook's cell it is a picture. ``save`` writes it.
     """
     options = _options(locals())
-    return Svg(_temper.draw_svg(as_mesh(mesh)._handle, options))
-
-
-def draw_before_after_svg(
-    before: MeshLike,
-    after: MeshLike,
-    *,
-    primal: bool = True,
-    dual: bool = True,
-    weights: bool = True,
-    weight_scale: float = 1.0,
-    bad_triangles: bool = True,
-    near_coincident: bool = True,
-    regions: bool = True,
-    vertex_numbers: bool = False,
-    zoom: Sequence[float] | None = None,
-    view: tuple[float, float] | None = None,
-    width: float = 900.0,
-    title: str = "",
-) -> Svg:
-    """Two panels side by side, to one scale, one view and one zoom box; options as of ``draw_svg``, ``width`` is of one
-    panel."""
-    options = _options(locals())
-    return Svg(_temper.draw_before_after_svg(as_mesh(before)._handle, as_mesh(after)._handle, options))
+    after = as_mesh(mesh)._handle
+    if before is None:
+        return Svg(_temper.draw_svg(after, options))
+    return Svg(_temper.draw_before_after_svg(as_mesh(before)._handle, after, options))
 
 
 def _options(values: dict[str, Any]) -> dict[str, Any]:
-    options = {k: v for k, v in values.items() if k not in ("mesh", "before", "after")}
+    options = {k: v for k, v in values.items() if k not in ("mesh", "before")}
     if options["zoom"] is not None:
         options["zoom"] = tuple(float(v) for v in options["zoom"])
         if len(options["zoom"]) != 4:
@@ -108,3 +114,105 @@ def _options(values: dict[str, Any]) -> dict[str, Any]:
 def grid_svg(svgs: Sequence[str], columns: int, *, title: str = "") -> Svg:
     """Puts SVG documents side by side in rows of ``columns``, under a title; each keeps its size."""
     return Svg(_temper.grid_svg([str(svg) for svg in svgs], columns, title))
+
+
+# --- the HTML report: one file in which a browser shows a mesh, before and after, with its numbers ---------------
+
+
+def _measures(mesh: Mesh) -> dict[str, Any]:
+    q = quality(mesh)
+    histograms = {name: getattr(q, name).as_dict() for name in ("angles", "h_over_l", "d_over_l")}
+    return {**q.as_dict(), "histograms": histograms}
+
+
+def _reasons(mesh: Mesh, measures: dict[str, Any]) -> list[dict[str, Any]]:
+    bad = max(measures["orthocenters_outside"], measures["edges_not_crossed"])
+    if bad == 0 or bad > _EXPLAINED or measures["inverted_triangles"]:
+        return []
+    return [
+        {"kind": r.kind, "triangles": r.bad.tolist(), "text": r.text, "cures": [cure.text for cure in r.cures]}
+        for r in explain(mesh).reasons
+    ]
+
+
+def html_report(
+    mesh: MeshLike,
+    before: MeshLike | None = None,
+    report: OptimizeReport | None = None,
+    *,
+    title: str = "temper.Mesh",
+    reasons: bool = True,
+) -> Html:
+    """The report that the program writes with ``--html``: a page that needs no network (docs/report.md).
+
+    Parameters
+    ----------
+    mesh : Mesh or meshio.Mesh
+    before : Mesh or meshio.Mesh, optional
+        To compare it with.
+    report : OptimizeReport, optional
+        Of the run that made the mesh: its history and notes are shown, too.
+    reasons : bool
+        Why triangles are not well-centered, by ``explain``, where they are not more than some hundreds.
+
+    Returns
+    -------
+    Html
+        A str; as the last value of a notebook's cell it is the page. ``save`` writes it.
+
+    >>> import temper
+    >>> ring = temper.generate.annulus()
+    >>> better = ring.copy()
+    >>> report = temper.optimize(better)
+    >>> page = temper.html_report(better, ring, report)
+    >>> page.startswith("<!DOCTYPE html>")
+    True
+    """
+    after = as_mesh(mesh)
+    after._handle.require_plane("html_report()")
+    old = None if before is None else as_mesh(before)
+    measures = _measures(after)
+    shown: dict[str, Any] = {"verb": "check" if report is None else "optimize", "version": _temper.__version__}
+    if old is not None:
+        shown["before"] = _measures(old)
+    shown["after"] = measures
+    if report is not None:
+        run = report.as_dict()
+        shown.update({key: run[key] for key in ("sweeps", "stopped", "notes", "history")})
+        for record in shown["history"]:
+            del record["seconds"]  # the same run makes the same page
+    shown["reasons"] = _reasons(after, measures) if reasons else []
+    page = _temper.html_report(after._handle, None if old is None else old._handle, title, json.dumps(shown))
+    return Html(page)
+
+
+# --- in notebooks: set here, above the modules of the two classes, so that none of them imports this one ------------
+
+
+def _mesh_html(mesh: Mesh) -> str:
+    q = quality(mesh, worst=0, threads=1)
+    rows = [
+        ("vertices", f"{q.vertices}"),
+        ("triangles", f"{q.triangles}"),
+        ("edges", f"{q.edges}, {q.boundary_edges} on the boundary"),
+        ("regions", f"{q.regions}"),
+        ("well-centered", f"{100 * q.well_centered_fraction:.4g} %"),
+        ("edges not regular", f"{q.non_regular_edges}"),
+        ("least h/ℓ", f"{q.min_h_over_l:.4g}"),
+        ("angles", f"{q.min_angle_deg:.4g}° to {q.max_angle_deg:.4g}°"),
+    ]
+    if mesh.n_triangles == 0 or mesh.n_triangles > PAGE or mesh.space != Space():
+        return table("temper.Mesh", rows)
+    return table("temper.Mesh", rows, html_report(mesh, reasons=False)._repr_html_())
+
+
+def _report_html(report: OptimizeReport) -> str:
+    if report._meshes is None:
+        return Record._repr_html_(report)
+    before, after = report._meshes
+    page = html_report(after, before, report, title="temper.optimize", reasons=False)
+    return table("OptimizeReport", report._rows(), page._repr_html_())
+
+
+Mesh._repr_html_ = _mesh_html  # type: ignore[attr-defined]
+OptimizeReport._repr_html_ = _report_html  # type: ignore[method-assign]

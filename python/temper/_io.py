@@ -124,8 +124,3 @@ def write(
     for message in messages:
         warnings.warn(message, TemperWarning, stacklevel=2)
     return messages
-
-
-def write_text(path: str | os.PathLike[str], text: str) -> None:
-    """Writes a text to one file, under a temporary name first: on any error what was there is untouched."""
-    _temper.write_text(os.fspath(path), text)

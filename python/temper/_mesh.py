@@ -11,11 +11,9 @@ import numpy.typing as npt
 from . import _temper
 from ._errors import TemperError, TemperWarning
 from ._meshio import data_of, handle_of, meshio_of
-from ._records import table
 from ._space import Space
 
 _PICTURE = 3000  # triangles of a mesh that is drawn in notebooks
-PAGE = 20_000  # triangles of a mesh whose HTML report notebooks show, and keep
 
 
 def _ints(values: Any, columns: int, name: str) -> npt.NDArray[Any]:
@@ -406,7 +404,12 @@ class Mesh:
         _temper.set_data_rules(self._handle, data_rules(words))
 
     def to_meshio(self) -> Any:
-        """The mesh as a ``meshio.Mesh``; see ``temper.to_meshio``."""
+        """The mesh as a ``meshio.Mesh``, which meshio writes to any of its formats. Needs meshio.
+
+        Points are (n, 3) float64 (z as it was, or 0; of a sphere the places), with point data ``weight`` (float64,
+        [length²]). Triangles have cell data ``region``. Lines of the file and constrained edges are cells of type
+        ``line``, marked points of type ``vertex``; their ``region`` is their tag. What else came with the mesh follows.
+        """
         return meshio_of(self._handle)
 
     # --- how it looks -------------------------------------------------------------------------------------------
@@ -414,24 +417,6 @@ class Mesh:
     def __repr__(self) -> str:
         where = "" if self.space == Space() else f" on {self.space!r}"
         return f"<temper.Mesh: {self.n_vertices} vertices, {self.n_triangles} triangles{where}>"
-
-    def _repr_html_(self) -> str:
-        q = _temper.quality(self._handle, (1.0, "relative"), (0.0, "relative"), 0, 1)
-        rows = [
-            ("vertices", f"{q['vertices']}"),
-            ("triangles", f"{q['triangles']}"),
-            ("edges", f"{q['edges']}, {q['boundary_edges']} on the boundary"),
-            ("regions", f"{q['regions']}"),
-            ("well-centered", f"{100 * q['well_centered_fraction']:.4g} %"),
-            ("edges not regular", f"{q['non_regular_edges']}"),
-            ("least h/ℓ", f"{q['min_h_over_l']:.4g}"),
-            ("angles", f"{q['min_angle_deg']:.4g}° to {q['max_angle_deg']:.4g}°"),
-        ]
-        if self.n_triangles == 0 or self.n_triangles > PAGE or self.space != Space():
-            return table("temper.Mesh", rows)
-        from ._html import html_report
-
-        return table("temper.Mesh", rows, html_report(self, reasons=False)._repr_html_())
 
     def _repr_svg_(self) -> str | None:
         return _temper.draw_svg(self._handle, {"width": 500.0}) if self.n_triangles <= _PICTURE else None
@@ -504,16 +489,6 @@ def from_meshio(mesh: Any, *, fixed_tags: tuple[str | int, ...] = ()) -> Mesh:
     lost = [f"{kind} {', '.join(map(repr, names))} are left out" for kind, names in sets.items() if names]
     handle, messages = handle_of(mesh, fixed_tags)
     return _warn(Mesh._of(handle), lost + messages, 2)
-
-
-def to_meshio(mesh: MeshLike) -> Any:
-    """The mesh as a ``meshio.Mesh``, which meshio writes to any of its formats.
-
-    Points are (n, 3) float64 (z as it was, or 0; of a sphere the places), with point data ``weight`` (float64,
-    [length²]), triangles with cell data ``region``, and what else came with the mesh; lines of the file, and constrained edges, are cells of type
-    ``line``, marked points of type ``vertex``; their ``region`` is their tag. Needs meshio.
-    """
-    return meshio_of(as_mesh(mesh)._handle)
 
 
 def put_back(mesh: Any, changed: Mesh) -> None:

@@ -107,7 +107,7 @@ def handle_of(mesh: Any, fixed_tags: tuple[str | int, ...] = ()) -> tuple[Any, l
 
 
 def meshio_of(handle: Any) -> Any:
-    """The mesh as a ``meshio.Mesh``: see ``to_meshio``."""
+    """The mesh as a ``meshio.Mesh``: see ``Mesh.to_meshio``."""
     import meshio
 
     handle.require_no_period("to_meshio()")

@@ -13,19 +13,99 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _temper
-from ._data import DataReport
 from ._errors import TemperError, TemperWarning
-from ._mesh import PAGE, DataRules, Mesh, MeshLike, as_mesh, data_rules, put_back
-from ._optimize_options import OptimizeOptions, changed, shows_options
+from ._mesh import DataRules, Mesh, MeshLike, as_mesh, data_rules, put_back
+from ._options import OptimizeOptions, changed, shows_options
 from ._progress import Line, Progress, SweepRecord
-from ._records import Record, table
-from ._size import SizeField, SizeReport, _size_report
-from ._trace import Snapshot, TraceEvent
+from ._records import Record
+from .size import SizeField, SizeReport, Spread, _size_report
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._optimize_options import OptionChanges
+    from ._options import OptionChanges
+
+
+PAGE = 20_000  # triangles of a mesh whose HTML report notebooks show, and keep
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class TraceEvent:
+    """Vertices are numbered as in the input, also after removals; new ones get the numbers after those of the input.
+    Coordinates and weights are in the user's units."""
+
+    kind: Literal["move", "weight", "flip", "collapse", "removal", "insertion", "split", "hidden", "undo"]
+    sweep: int
+    """0: making the input regular, and cutting its boundary."""
+    vertex: int
+    """−1 for flip, and for undo of whole sweeps; insertion, split: the new one."""
+    before: float
+    """Energy of the vertex's patch, or of all edges that a flip changes, before the event; NaN where none belongs."""
+    after: float
+    point: tuple[float, float, float]
+    """move, weight, insertion, split: x, y, w of the vertex now; on a sphere its lifted point."""
+    quad: tuple[int, int, int, int]
+    """flip: edge a→b, with c on its left and d on its right, becomes d→c; split: a→b was cut (d −1 on the boundary)."""
+    link: npt.NDArray[np.int32]
+    """collapse, removal: neighbours, counter-clockwise; insertion: corners of the triangle."""
+    triangles: list[tuple[int, int, int]]
+    """collapse, removal: that fill the cavity, in slot order."""
+    to_sweep: int
+    """undo without a vertex: the sweep at whose end the mesh was so; −1: the input as given."""
+
+    def _plain(self) -> dict[str, Any]:
+        return {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Snapshot:
+    """The mesh as it is at one moment of a run."""
+
+    moment: Literal["start", "after_sweep", "before_flips", "after_flips"]
+    sweep: int
+    """Sweeps done."""
+    outer: int
+    """Rounds of deferred flips done."""
+    energy: float
+    """Of the mesh, at the γ of the sweep."""
+    mesh: Mesh
+    """A copy; may hold inverted triangles when those are allowed."""
+    vertices: npt.NDArray[np.int32]
+    """Number in the input of each vertex; −1: inserted."""
+
+    @classmethod
+    def _of(cls, d: dict[str, Any]) -> Snapshot:
+        handle: _temper.Mesh = d.pop("mesh")
+        return cls(**d, mesh=Mesh._of(handle))
+
+
+@dataclasses.dataclass(frozen=True)
+class DataReport(Record):
+    """Data of the points and triangles that came with a mesh, where it is another now. All 0 without such data."""
+
+    points: int
+    """Of those that the mesh came with, that are left."""
+    points_moved: int
+    """Of those, elsewhere than they were."""
+    distance: Spread
+    """By which the moved ones are [length]."""
+    points_inserted: int
+    interpolated: list[str]
+    """Point data that are of the place: linear on the triangles that the mesh came with."""
+    kept: list[str]
+    """Point data that went with their points."""
+    dropped: list[str]
+    """Integer point data that differ around an inserted point."""
+    triangles: int
+    triangles_changed: int
+    """Of those, with other corners or at other places than the mesh came with at this number."""
+    of_triangles: list[str]
+    """Data of triangles: those of the triangle that the mesh came with where the middle of each is now."""
+
+    @classmethod
+    def _of(cls, mesh: Mesh, threads: int | None) -> DataReport:
+        report: dict[str, Any] = _temper.data_report(mesh._handle, threads)
+        return cls(**{**report, "distance": Spread(**report["distance"])})
 
 
 @dataclasses.dataclass(frozen=True)
@@ -68,15 +148,6 @@ class OptimizeReport(Record):
     """What the user should know, in sentences."""
     _meshes: tuple[Mesh, Mesh] | None = dataclasses.field(default=None, repr=False, compare=False)
     """Before and after, of meshes that notebooks show."""
-
-    def _repr_html_(self) -> str:
-        if self._meshes is None:
-            return super()._repr_html_()
-        from ._html import html_report
-
-        before, after = self._meshes
-        page = html_report(after, before, self, title="temper.optimize", reasons=False)
-        return table("OptimizeReport", self._rows(), page._repr_html_())
 
     def _rows(self) -> list[tuple[str, str]]:
         bad = [str(record.bad) for record in (self.history[:1] + self.history[-1:])]
@@ -176,7 +247,7 @@ def optimize(
     Parameters
     ----------
     mesh : Mesh or meshio.Mesh
-        Changed in place. (``optimized`` leaves it alone and gives another one.)
+        Changed in place. To keep the mesh as it is, optimize ``mesh.copy()``.
     options : OptimizeOptions, optional
         All options in one value, such as ``paper_method()``.
     **changes
@@ -208,7 +279,7 @@ def optimize(
         Seconds between checkpoints; 0: as many as there can be.
     resume : path, optional
         A checkpoint to go on from: the run ends with the bits that it would have ended with. The mesh is what it was
-        when that run began (``optimized`` leaves it so), and options and size field are the same, but for
+        when that run began, and options and size field are the same, but for
         ``time_limit``, which is of each run alone. Observers, tracers and snapshots see what is left of the run.
     ranks : mpi4py.MPI.Comm, optional
         Processes that make this run together (docs/ranks.md): all of them call with the same mesh and options, and get
@@ -287,27 +358,18 @@ def optimize(
     return _report(report, data, None if original is None else (original, target.copy()))
 
 
-def optimized(mesh: MeshLike, options: OptimizeOptions | None = None, **keywords: Any) -> Mesh:
-    """Another mesh, improved; the given one stays as it is. Options and keywords are those of ``optimize``.
+@dataclasses.dataclass(frozen=True, eq=False)
+class Replay(Record):
+    """What ``replay`` made."""
 
-    >>> import temper
-    >>> ring = temper.generate.annulus()
-    >>> temper.quality(temper.optimized(ring)).well_centered_fraction
-    1.0
-    """
-    result = as_mesh(mesh).copy()
-    optimize(result, options, **keywords)
-    return result
+    mesh: Mesh
+    """What ``optimize`` gave: the same bits, the same slots."""
+    vertices: npt.NDArray[np.int32]
+    """Number in the input of each vertex, −1 for inserted ones; empty when none was removed or inserted."""
 
 
-def replay(input: MeshLike, events: Iterable[TraceEvent]) -> Mesh:
-    """Applies the events of a run (``optimize(tracer=…)``) to its input. What ``optimize`` gave comes out: the same
-    bits, the same slots. TemperError ``trace_mismatch`` names the event, counted from 0, that does not fit."""
-    return replay_with_vertices(input, events)[0]
-
-
-def replay_with_vertices(input: MeshLike, events: Iterable[TraceEvent]) -> tuple[Mesh, npt.NDArray[np.int32]]:
-    """The same, and the number in the input of each vertex: −1 for inserted ones; empty when none was removed or
-    inserted."""
+def replay(input: MeshLike, events: Iterable[TraceEvent]) -> Replay:
+    """Applies the events of a run (``optimize(tracer=…)``) to its input, of which it makes another mesh. TemperError
+    ``trace_mismatch`` names the event, counted from 0, that does not fit."""
     handle, vertices = _temper.replay(as_mesh(input)._handle, (event._plain() for event in events))
-    return Mesh._of(handle), vertices
+    return Replay(Mesh._of(handle), vertices)

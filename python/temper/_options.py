@@ -1,11 +1,21 @@
-"""Types of options that several calls take."""
+"""The options of an optimisation, from the library's table: names, types, defaults and what they are for.
+
+What type checkers see is beside this file where the module was built: write_stubs.py makes it from the same table.
+"""
 
 from __future__ import annotations
 
 import dataclasses
+import inspect
+import itertools
 import numbers
-from typing import Literal, Union
+import textwrap
+import warnings
+from typing import Any, Callable, Literal, TypeVar, Union
 
+from . import _temper
+from ._errors import TemperWarning
+from ._records import Record
 
 @dataclasses.dataclass(frozen=True)
 class Softening:
@@ -27,3 +37,121 @@ def _softening(name: str, value: SofteningLike) -> tuple[float, str]:
     if not isinstance(length, numbers.Real) or not isinstance(scale, str):
         raise TypeError(f"{name}: expected a number or a Softening, found {value!r}")
     return float(length), scale
+
+
+TABLE: list[dict[str, Any]] = _temper.option_table()
+OPTION_NAMES = tuple(row["name"] for row in TABLE)
+EnergyName = Literal[tuple(next(row["choices"] for row in TABLE if row["name"] == "energy"))]
+_SOFTENINGS = [row["name"] for row in TABLE if row["type"].startswith("SofteningLike")]
+
+
+def _from_plain(name: str, value: Any) -> Any:
+    return Softening(*value) if name in _SOFTENINGS and value is not None else value
+
+
+def _description(row: dict[str, Any]) -> str:
+    """A row as numpydoc has it."""
+    text = row["sentence"][0].upper() + row["sentence"][1:]
+    if not row["choices"] and row["range"]:
+        text += f"; {row['range']}"
+    if row["absent"]:
+        text += f". None: {row['absent']}"
+    text += f". Default: {_from_plain(row['name'], row['default'])!r}."
+    return f"{row['name']} : {row['type']}\n" + textwrap.indent(textwrap.fill(text, 110), "    ")
+
+
+def _documentation() -> str:
+    parts = [
+        "All options of ``optimize``, which takes each as a keyword, too.\n\n"
+        "``dataclasses.replace(options, star=0)`` makes others of them.\n\nParameters\n----------"
+    ]
+    for title, rows in itertools.groupby(TABLE, lambda row: row["group"]):
+        parts += [f"\n{title}\n", "\n".join(map(_description, rows))]
+    return "\n".join(parts)
+
+
+def _plain(self: Any) -> dict[str, Any]:
+    """As the compiled half takes them."""
+    values = {name: getattr(self, name) for name in OPTION_NAMES}
+    for name in _SOFTENINGS:
+        if values[name] is not None:
+            values[name] = _softening(name, values[name])
+    return values
+
+
+OptimizeOptions = dataclasses.make_dataclass(
+    "OptimizeOptions",
+    [(row["name"], row["type"], dataclasses.field(default=_from_plain(row["name"], row["default"]))) for row in TABLE],
+    bases=(Record,),
+    namespace={"__doc__": _documentation(), "__module__": __name__, "_plain": _plain},
+    frozen=True,
+)
+
+
+def changed(options: Any, changes: dict[str, Any]) -> Any:
+    """The options, by default the usual ones, with some of them replaced. Warns of those without effect."""
+    if options is not None and not isinstance(options, OptimizeOptions):
+        raise TypeError(f"options: expected OptimizeOptions, found {type(options).__name__}")
+    for name in changes:
+        if name not in OPTION_NAMES:
+            raise TypeError(f"optimize() got an unexpected keyword argument {name!r}")
+    result = dataclasses.replace(options or OptimizeOptions(), **changes)
+    for sentence in _temper.idle_options(result._plain(), list(changes)):
+        warnings.warn(sentence, TemperWarning, stacklevel=3)
+    return result
+
+
+def paper_method(**changes: Any) -> Any:
+    """The options of the paper's Algorithm 1 with all its parts: golden section, flips after the inner iterations have
+    converged, unlimited steps, inversions allowed, hidden vertices kept, collapses and the patch test from the first
+    sweep, vertex 0 as anchor, γ = 1, vertices in their order, convergence by mean energy. ``changes`` replace some.
+
+    >>> import temper
+    >>> temper.paper_method(max_sweeps=20).solver
+    'golden'
+    """
+    return _method("paper", changes)
+
+
+def odt_method(**changes: Any) -> Any:
+    """The options of optimal Delaunay triangulations (Chen and Xu 2004), for comparison: the energy ``"ODT"``, whose
+    unknowns are positions alone. Weights have to be equal. ``changes`` replace some.
+
+    >>> import temper
+    >>> temper.odt_method().energy
+    'ODT'
+    """
+    return _method("odt", changes)
+
+
+def cvt_method(**changes: Any) -> Any:
+    """The options of centroidal Voronoi tessellations (Du, Faber and Gunzburger 1999), for comparison: the energy
+    ``"F"`` for ★0, the moment of the Voronoi cells about their vertices, which Lloyd's iterations lower. Unknowns are
+    positions alone. ``changes`` replace some.
+
+    >>> import temper
+    >>> temper.cvt_method().star
+    0
+    """
+    return _method("cvt", changes)
+
+
+def _method(method: str, changes: dict[str, Any]) -> Any:
+    plain = _temper.methods()[method]
+    options = OptimizeOptions(**{name: _from_plain(name, value) for name, value in plain.items()})
+    return dataclasses.replace(options, **changes)
+
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def shows_options(function: F) -> F:
+    """Lets ``help`` and editors see each option in the place of ``**changes``."""
+    signature = inspect.signature(function)
+    own = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
+    options = [
+        inspect.Parameter(f.name, inspect.Parameter.KEYWORD_ONLY, default=f.default, annotation=f.type)
+        for f in dataclasses.fields(OptimizeOptions)
+    ]
+    function.__signature__ = signature.replace(parameters=own + options)  # type: ignore[attr-defined]
+    return function

@@ -14,10 +14,10 @@ from . import _temper
 from ._errors import TemperWarning
 from ._mesh import Mesh, _doubles, _ints
 from ._optimize import OptimizeReport, _observer, _report
-from ._optimize_options import OptimizeOptions
+from ._options import OptimizeOptions
 from ._progress import Line, Progress
 from ._records import Record, merged
-from ._size import SizeField
+from .size import SizeField
 
 
 @dataclasses.dataclass

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from ._dec import dec
 from ._mesh import Mesh, MeshLike, as_mesh
-from ._measure import triangle_margins, well_centered_triangles
+from ._measure import triangle_quality
 
 _BAD = "#d55e00"
 _DUAL = "#0072b2"
@@ -25,6 +25,12 @@ def _dual_segments(mesh: Mesh) -> npt.NDArray[np.float64]:
     return ends
 
 
+def _least(mesh: Mesh) -> npt.NDArray[np.float64]:
+    """The least h/ℓ or d/ℓ of each triangle."""
+    q = triangle_quality(mesh)
+    return np.minimum(q.min_h_over_l, q.min_d_over_l)
+
+
 def _angles(mesh: Mesh) -> npt.NDArray[np.float64]:
     """The largest angle of each triangle [degrees]."""
     p = np.asarray(mesh.points)[mesh.triangles]
@@ -34,7 +40,7 @@ def _angles(mesh: Mesh) -> npt.NDArray[np.float64]:
 
 
 _COLORS: dict[str, Any] = {
-    "quality": (triangle_margins, "least of h/ℓ, d/ℓ", "viridis"),
+    "quality": (_least, "least of h/ℓ, d/ℓ", "viridis"),
     "angle": (_angles, "largest angle [°]", "magma_r"),
     "region": (lambda mesh: mesh.regions, "region", "tab10"),
 }
@@ -94,7 +100,7 @@ def plot(
     points, triangles = np.asarray(mesh.points), np.asarray(mesh.triangles)
     corners = points[triangles]
     width = linewidth if linewidth is not None else float(np.clip(60 / np.sqrt(max(len(triangles), 1)) / 4, 0.15, 0.9))
-    bad = ~well_centered_triangles(mesh)
+    bad = ~triangle_quality(mesh).well_centered
     if color is not None:
         _fill(ax, mesh, corners, color, colorbar, cmap)
         if bad_triangles and bad.any():

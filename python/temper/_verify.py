@@ -206,7 +206,9 @@ def verify(
     >>> before = temper.generate.annulus()
     >>> frame = temper.verify_frame(before)
     >>> a = temper.verify(before, fields=["held-back"], frame=frame)
-    >>> b = temper.verify(temper.optimized(before), fields=["held-back"], frame=frame)
+    >>> after = before.copy()
+    >>> report = temper.optimize(after)
+    >>> b = temper.verify(after, fields=["held-back"], frame=frame)
     >>> ratio = temper.geometric_mean(temper.error_ratios(b, a)).flux.l2
     """
     if isinstance(fields, str):

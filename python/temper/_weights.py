@@ -217,9 +217,7 @@ def weight_change(mesh: MeshLike, before: npt.ArrayLike, after: npt.ArrayLike) -
     return _temper.weight_change(as_mesh(mesh)._handle, before, after)
 
 
-def check_certificate(
-    mesh: MeshLike, certificate: Certificate
-) -> str:
+def check_certificate(mesh: MeshLike, certificate: Certificate) -> str:
     """Verifies a certificate in exact arithmetic, from the positions alone: ``"proves"`` when no weights exist, else
     what is wrong with it."""
     return _temper.check_certificate(as_mesh(mesh)._handle, certificate._plain())

@@ -22,7 +22,7 @@ from ._space import Space
 
 __all__ = [
     "arc_length", "corner_angle", "doubled_area", "edge_split", "edge_split_sign", "is_exact_coordinate",
-    "is_exact_weight", "is_well_centered", "orient2d", "orientation", "orthocenter", "power_test",
+    "is_exact_weight", "is_well_centered", "orientation", "orthocenter", "power_test",
     "power_test_perturbed", "scaled_heights", "signed_height", "signed_height_sign", "solid_angle",
 ]  # fmt: skip
 
@@ -55,18 +55,13 @@ def _in(space: Space, function: Callable[..., Any], **points: npt.ArrayLike) -> 
 
 
 def orientation(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike, *, space: Space = _PLANE) -> Any:
-    """1 where p, q, r turn counter-clockwise; on a sphere as seen from outside, by the sign of det(P, Q, R). Exact."""
-    return _in(space, _temper.orientation, p=p, q=q, r=r)
-
-
-def orient2d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> Any:
-    """1 where a, b, c turn counter-clockwise. Exact.
+    """1 where p, q, r turn counter-clockwise; on a sphere as seen from outside, by the sign of det(P, Q, R). Exact.
 
     >>> from temper import geometry
-    >>> int(geometry.orient2d((0, 0), (1, 0), (0, 1)))
+    >>> int(geometry.orientation((0, 0), (1, 0), (0, 1)))
     1
     """
-    return _over(_temper.orient2d, _PLANE, a=a, b=b, c=c)
+    return _in(space, _temper.orientation, p=p, q=q, r=r)
 
 
 def power_test(

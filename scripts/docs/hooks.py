@@ -26,8 +26,8 @@ LINK = re.compile(r"(\]\(\s*)([^()\s#]*)(#[^()\s]*)?(\s*\))")
 CODE = re.compile(r"`[^`\n]+`")
 FENCE = re.compile(r"^(```.*?^```\s*$)", re.M | re.S)
 # Names of pages of the Python reference that are not those of their modules.
-TITLES = {"_dec": "Operators", "_io": "Files", "_data": "Data of a run", "_mesh": "Meshes", "_optimize": "Optimising",
-          "_optimize_options": "Options of optimize", "_options": "Values of options", "_measure": "Measures"}  # fmt: skip
+TITLES = {"_dec": "Operators", "_draw": "Pictures and reports", "_io": "Files", "_mesh": "Meshes", "_optimize": "Optimising",
+          "_options": "Options of optimize", "_measure": "Measures"}  # fmt: skip
 
 
 def site_place(file):
@@ -72,13 +72,14 @@ def source_page(file):
 
 
 def python_pages():
-    """A page for each module of the package, with the names that temper/__init__.py takes from it."""
-    tree = ast.parse((ROOT / "python/temper/__init__.py").read_text(encoding="utf-8"))
+    """A page for each module of the package, with the names that temper/__init__.py and temper/types.py take from it."""
     modules = {}
-    for node in tree.body:
-        if isinstance(node, ast.ImportFrom) and node.level == 1:
-            for alias in node.names:
-                modules.setdefault(node.module or alias.name, []).append(alias.name)
+    for source in ("__init__", "types"):
+        for node in ast.parse((ROOT / f"python/temper/{source}.py").read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.ImportFrom) and node.level == 1:
+                for alias in node.names:
+                    modules.setdefault(node.module or alias.name, []).append(alias.name)
+    del modules["types"]  # what is in it is on the pages of the functions
     for module, names in modules.items():
         file = ROOT / f"python/temper/{module}.py"
         if not file.exists():  # the compiled half

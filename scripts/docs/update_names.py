@@ -13,7 +13,7 @@ import subprocess
 import sys
 
 import temper
-from temper._optimize_options import TABLE
+from temper._options import TABLE
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HEADERS = ROOT / "include" / "temper"
@@ -24,10 +24,10 @@ VERBS = {
     "optimize": (["optimize"], ["optimize"]),
     "weights": (["find_weights", "best_margin", "best_connectivity", "check_certificate"], ["find_weights", "best_margin", "best_connectivity", "check_certificate"]),
     "explain": (["explain"], ["explain"]),
-    "check": (["quality", "check"], ["quality"]),
+    "check": (["quality"], ["quality"]),
     "verify": (["verify"], ["verify"]),
-    "dec": (["dec", "write_dec", "columns"], ["dec", "columns", "io::write_dec"]),
-    "draw": (["draw_svg", "draw_before_after_svg"], ["draw_svg", "draw_before_after_svg"]),
+    "dec": (["dec", "columns"], ["dec", "columns", "io::write_dec"]),
+    "draw": (["draw_svg"], ["draw_svg", "draw_before_after_svg"]),
     "convert": (["read", "write"], ["io::read", "io::write"]),
     "example": (["generate"], ["horseshoe", "random_points", "…"]),
     "replay": (["replay"], ["replay"]),
@@ -46,7 +46,7 @@ OTHERS = {
     "--certificate": ("`WeightReport.certificate`", ""),
     "--connectivity": ("`best_connectivity`", ""),
     "--encoding": ("`write(encoding=…)`", "`io::WriteOptions::encoding`"),
-    "dec --format": ("`write_dec(formats=…)`", "`io::DecWriteOptions::formats`"),
+    "dec --format": ("`dec(…).write(formats=…)`", "`io::DecWriteOptions::formats`"),
     "--layers": ("`columns(surfaces=…, active=…)`", "`io::read_layers`, `Layers`"),
     "--fix": ("`read(fixed_tags=…)`", "`io::make_mesh(file, fixed_tags)`"),
     "--format": ("`write(format=…)`", "`io::WriteOptions::format`"),
@@ -162,8 +162,8 @@ def verbs_table(program):
 def measures_table(program):
     """Keys of --require and of JSON are the fields of Quality, in both languages; some have a short name."""
     keys = re.search(r"Keys: (.*?) energy\.", re.sub(r"\s+", " ", printed(program, "check", "--help")))[1]
-    fields = set(inspect.signature(temper.Quality).parameters)
-    each = set(inspect.signature(temper.TriangleQuality).parameters)
+    fields = set(inspect.signature(temper.types.Quality).parameters)
+    each = set(inspect.signature(temper.types.TriangleQuality).parameters)
     lines = ["| `--require`, JSON, `Quality` | short, for `--require` | of each triangle: VTU, `TriangleQuality` |", "|-|-|-|"]
     for key, _, short in re.findall(r"(\w+)( \((\w+)\))?,", keys):
         assert key in fields, key
@@ -173,9 +173,9 @@ def measures_table(program):
 
 
 def energies_table():
-    lines = ["| `--energy`, `energy=`, row of `energies()` | C++: `EnergyKind` | formula |", "|-|-|-|"]
+    lines = ["| `--energy`, `energy=`, row of `energy.energies()` | C++: `EnergyKind` | formula |", "|-|-|-|"]
     kinds = re.search(r"enum class EnergyKind \{(.*?)\};", re.sub(r"//[^\n]*", "", (HEADERS / "energy.hpp").read_text(encoding="utf-8")), re.S)[1]
-    for energy, kind in zip(temper.energies(), re.findall(r"\w+", kinds), strict=True):
+    for energy, kind in zip(temper.energy.energies(), re.findall(r"\w+", kinds), strict=True):
         formula = energy.formula.replace("|", "\\|")
         lines.append(f"| `{energy.name}` | `{kind}` | {formula} |")
     return lines

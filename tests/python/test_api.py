@@ -2,12 +2,15 @@
 
 import ast
 import dataclasses
+import graphlib
 import importlib.util
 import inspect
 import os
 import pathlib
 import re
+import shutil
 import subprocess
+import sys
 
 import pytest
 from conftest import ROOT
@@ -15,17 +18,17 @@ from conftest import ROOT
 import temper
 
 HEADERS = ROOT / "include" / "temper"
-MODULES = [temper, temper.generate, temper.geometry, temper.projection, temper.topology]
+MODULES = [temper, temper.energy, temper.generate, temper.geometry, temper.projection, temper.size, temper.topology, temper.types]
 
 # What Python has otherwise, or not at all, and why.
 ELSEWHERE = {
-    "name": "enums are their names", "energy_info": "energies() lists the rows",
+    "name": "enums are their names", "energy_info": "energies() lists the rows", "find_energy": "as energy_info",
     "objective_of": "help(OptimizeOptions)", "solver_error_model": "optimize does it", "wants_error_model": "as solver_error_model", "scheme_weights": "as objective_of",
     "methods": "paper_method, odt_method, cvt_method", "option_groups": "help(OptimizeOptions)", "find_option": "as option_groups", "check_option": "optimize checks",
     "check_options": "as check_option", "option_text": "repr", "option_range_text": "as option_groups",
     "missing_need": "optimize warns", "spell_options": "texts are spelled", "stopped_early": "OptimizeReport.stopped",
     "read_number": "float", "read_by_strtod": "float",
-    "triangle_values": "NumPy, of mesh and dec",
+    "triangle_values": "NumPy, of mesh and dec", "spread": "NumPy", "orient2d": "geometry.orientation",
     "lifted": "Mesh.lifted_points", "as_point": "arrays have three columns", "expect_plane": "functions do it",
     "expect_no_period": "functions do it",
     "local_sizes": "local_size",
@@ -42,8 +45,10 @@ ELSEWHERE = {
     "discard_unfinished": "a signal ends Python by an exception", "read_checkpoint": "optimize(resume=…)",
     "in_envelope": "files of the program", "from_envelope": "as in_envelope", "checksum": "as in_envelope",
     "mixed": "as in_envelope",
+    "summarize": "DecComplex.summarize", "power_cells": "DecComplex.power_cells", "write_dec": "DecComplex.write, Columns.write",
     "dec_file_names": "write_dec returns the paths", "needs_columns": "as dec_file_names", "read_layers": "numpy.genfromtxt",
-    "fault_of_surfaces": "columns says it",
+    "fault_of_surfaces": "columns says it", "draw_before_after_svg": "draw_svg(before=…)", "write_text": "Svg.save and Html.save",
+    "replay_with_vertices": "replay",
     "hilbert_order": "Python keeps the user's numbers", "restore_order": "as hilbert_order",
     "hilbert_ordered": "as hilbert_order", "or_serial": "threads=1",
     "unflip": "flip three times more", "split_edge": "plan_split and insert_vertex, which check",
@@ -55,35 +60,35 @@ ELSEWHERE = {
 STRUCTS = {
     "OptimizeOptions": (temper.OptimizeOptions, {"size_field", "paper", "accuracy", "error"}),
     "PaperSwitches": (temper.OptimizeOptions, set()),
-    "OptimizeReport": (temper.OptimizeReport, set()),
-    "SweepRecord": (temper.SweepRecord, set()),
-    "DataReport": (temper.DataReport, set()),
-    "Progress": (temper.Progress, set()),
-    "Quality": (temper.Quality, set()),
-    "QualityMeasure": (temper.QualityMeasure, set()),
-    "WorstTriangle": (temper.WorstTriangle, set()),
-    "TriangleQuality": (temper.TriangleQuality, set()),
-    "DecComplex": (temper.DecComplex, {"sphere_orthocenters", "sphere_midpoints"}),
-    "DecSummary": (temper.DecSummary, set()),
-    "PowerCells": (temper.PowerCells, {"sphere_corners", "faces"}),
-    "Columns": (temper.Columns, {"connections"}),
-    "IncidenceMatrix": (temper.IncidenceMatrix, set()),
-    "WeightReport": (temper.WeightReport, set()),
-    "BestMargin": (temper.BestMargin, set()),
-    "ConditionsInfo": (temper.ConditionsInfo, {"conditions"}),
-    "ConnectivityReport": (temper.ConnectivityReport, set()),
-    "ConnectivityStep": (temper.ConnectivityStep, set()),
-    "Reason": (temper.Reason, set()),
-    "Cure": (temper.Cure, set()),
-    "Explanation": (temper.Explanation, set()),
-    "VerifyReport": (temper.VerifyReport, set()),
-    "VerifySystem": (temper.VerifySystem, set()),
-    "Restoration": (temper.Restoration, set()),
-    "SizeReport": (temper.SizeReport, set()),
-    "TraceEvent": (temper.TraceEvent, set()),
-    "EnergyInfo": (temper.EnergyInfo, {"kind"}),
-    "OutlineMesh": (temper.OutlineMesh, set()),
-    "EdgeConflict": (temper.EdgeConflict, set()),
+    "OptimizeReport": (temper.types.OptimizeReport, set()),
+    "SweepRecord": (temper.types.SweepRecord, set()),
+    "DataReport": (temper.types.DataReport, set()),
+    "Progress": (temper.types.Progress, set()),
+    "Quality": (temper.types.Quality, set()),
+    "QualityMeasure": (temper.types.QualityMeasure, set()),
+    "WorstTriangle": (temper.types.WorstTriangle, set()),
+    "TriangleQuality": (temper.types.TriangleQuality, set()),
+    "DecComplex": (temper.types.DecComplex, {"sphere_orthocenters", "sphere_midpoints"}),
+    "DecSummary": (temper.types.DecSummary, set()),
+    "PowerCells": (temper.types.PowerCells, {"sphere_corners", "faces"}),
+    "Columns": (temper.types.Columns, {"connections"}),
+    "IncidenceMatrix": (temper.types.IncidenceMatrix, set()),
+    "WeightReport": (temper.types.WeightReport, set()),
+    "BestMargin": (temper.types.BestMargin, set()),
+    "ConditionsInfo": (temper.types.ConditionsInfo, {"conditions"}),
+    "ConnectivityReport": (temper.types.ConnectivityReport, set()),
+    "ConnectivityStep": (temper.types.ConnectivityStep, set()),
+    "Reason": (temper.types.Reason, set()),
+    "Cure": (temper.types.Cure, set()),
+    "Explanation": (temper.types.Explanation, set()),
+    "VerifyReport": (temper.types.VerifyReport, set()),
+    "VerifySystem": (temper.types.VerifySystem, set()),
+    "Restoration": (temper.topology.Restoration, set()),
+    "SizeReport": (temper.size.SizeReport, set()),
+    "TraceEvent": (temper.types.TraceEvent, set()),
+    "EnergyInfo": (temper.energy.EnergyInfo, {"kind"}),
+    "OutlineMesh": (temper.types.OutlineMesh, set()),
+    "EdgeConflict": (temper.types.EdgeConflict, set()),
 }
 
 
@@ -124,6 +129,47 @@ def test_every_function_of_the_headers_is_here():
             if name not in ELSEWHERE and not any(hasattr(module, name) for module in MODULES):
                 missing.append(f"{header.name}: {name}")
     assert not missing and seen > 100, (missing, seen)
+
+
+def test_the_top_has_few_names_and_each_is_in_one_place():
+    assert {name for name in dir(temper) if not name.startswith("_")} | {"__version__"} == set(temper.__all__)
+    assert len(temper.__all__) <= 70
+    for name, value in public_objects():
+        assert not any(getattr(module, other, None) is value for module in MODULES for other in module.__all__
+                       if f"{module.__name__}.{other}" != name), name  # fmt: skip
+
+
+def imports_of(package):
+    """Of each module of a package those of the package that it imports, in functions, too."""
+    graph = {}
+    for file in package.glob("*.py"):
+        found = graph[file.stem] = set()
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.level == 1:
+                found.update([node.module] if node.module else [alias.name for alias in node.names])
+            elif isinstance(node, ast.ImportFrom) and node.module.split(".")[0] == package.name:
+                found.add(node.module.removeprefix(package.name).strip(".") or "__init__")
+            elif isinstance(node, ast.Import) and any(alias.name.split(".")[0] == package.name for alias in node.names):
+                found.add("__init__")
+    return graph
+
+
+def circle_of(graph):
+    """Modules that import each other in a circle; none where there is no circle."""
+    try:
+        graphlib.TopologicalSorter(graph).prepare()
+    except graphlib.CycleError as error:
+        return set(error.args[1])
+    return set()
+
+
+def test_no_modules_import_each_other_in_a_circle(tmp_path):
+    graph = imports_of(ROOT / "python" / "temper")
+    assert len(graph) > 20 and "_mesh" in graph["_draw"] and circle_of(graph) == set()
+    planted = shutil.copytree(ROOT / "python" / "temper", tmp_path / "temper")
+    with open(planted / "_mesh.py", "a", encoding="utf-8") as file:
+        file.write("\n\ndef planted():\n    from ._draw import html_report\n")
+    assert {"_mesh", "_draw"} <= circle_of(imports_of(planted))
 
 
 def test_what_is_elsewhere_is_still_in_the_headers():
@@ -208,7 +254,7 @@ def test_stubs_name_what_the_compiled_module_has():
 def test_the_names_of_energies_are_those_of_the_library():
     from typing import get_args
 
-    assert get_args(temper._optimize_options.EnergyName) == tuple(row.name for row in temper.energies())
+    assert get_args(temper._options.EnergyName) == tuple(row.name for row in temper.energy.energies())
 
 
 def test_a_wrong_type_is_told_what_is_expected(ring):
@@ -219,19 +265,12 @@ def test_a_wrong_type_is_told_what_is_expected(ring):
 
 
 def test_a_package_that_is_not_built_says_so(tmp_path):
-    import shutil
-    import subprocess
-    import sys
-
     shutil.copytree(ROOT / "python" / "temper", tmp_path / "temper")
     run = subprocess.run([sys.executable, "-c", "import temper"], cwd=tmp_path, capture_output=True, text=True, env={"PYTHONPATH": ""})
     assert run.returncode == 1 and f"_temper is not in {tmp_path / 'temper'}: build it" in run.stderr
 
 
 def test_a_numpy_that_arrays_would_be_wrong_with_is_refused(tmp_path):
-    import subprocess
-    import sys
-
     if temper._temper.knows_numpy_2:
         pytest.skip("this module knows NumPy 2")
     (tmp_path / "run.py").write_text("import numpy\nnumpy.__version__ = '2.0.0'\nimport temper\n", encoding="utf-8")

@@ -261,7 +261,7 @@ def test_bad_input_is_told():
     with pytest.raises(temper.TemperError, match="sphere"):
         temper.columns(temper.generate.random_sphere(vertices=50), [1.0, 0.0])
     with pytest.raises(temper.TemperError, match="need layers"):
-        temper.write_dec("nowhere", mesh, formats=["disv"])
+        temper.dec(mesh).write("nowhere", formats=["disv"])
 
 
 def test_the_program_writes_what_python_writes(in_scratch):

@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 import pytest
-from conftest import PUBLIC_MESHES, ROOT
+from conftest import PUBLIC_MESHES, ROOT, optimized
 from pages import blocks_of, lacking
 
 import temper
@@ -53,7 +53,7 @@ def test_what_the_example_for_julia_writes_is_the_dual(in_scratch):
     import numpy as np
 
     run([sys.executable, ROOT / "examples" / "python" / "combinatorial_spaces.py"])
-    mesh = temper.optimized(temper.generate.annulus())
+    mesh = optimized(temper.generate.annulus())
     operators = temper.dec(mesh)
     tables = {name: np.loadtxt(f"dual/{name}.csv", delimiter=",", skiprows=1) for name in ("points", "edges", "triangles")}
     assert np.array_equal(tables["points"], mesh.points)
@@ -72,8 +72,8 @@ def test_the_first_example_takes_public_meshes(mesh, in_scratch):
     assert (in_scratch / "out.png").stat().st_size > 10000
 
 
-MODULES = ["", ".geometry", "._mesh", "._optimize", "._optimize_options", "._measure", "._dec", "._verify", "._weights",
-           "._explain", "._size", "._space", "._outline"]  # fmt: skip
+MODULES = ["", ".geometry", "._mesh", "._optimize", "._options", "._measure", "._draw", ".energy", "._dec", "._verify", "._weights",
+           "._explain", ".size", "._space", "._outline", "._tensor"]  # fmt: skip
 
 
 @pytest.mark.parametrize("name", MODULES)

@@ -332,14 +332,14 @@ def test_numbers_out_of_range_are_refused(ring, index):
 
 def test_restoring_regularity_is_idempotent(ring):
     ring.weights = np.random.default_rng(3).uniform(0, 2e-3, ring.n_vertices)
-    first = temper.restore_regularity(ring)
-    assert first.flips > 0 and first.regular and temper.count_non_regular_edges(ring) == 0
-    assert temper.restore_regularity(ring).flips == 0
+    first = topology.restore_regularity(ring)
+    assert first.flips > 0 and first.regular and topology.count_non_regular_edges(ring) == 0
+    assert topology.restore_regularity(ring).flips == 0
 
 
 def test_signs_follow_the_conventions():
     p, q, r = (0, 0), (1, 0), (0.5, 1)
-    assert geometry.orient2d(p, q, r) == 1 and geometry.orient2d(p, r, q) == -1
+    assert geometry.orientation(p, q, r) == 1 and geometry.orientation(p, r, q) == -1
     assert geometry.signed_height(p, q, r) > 0 and geometry.signed_height(p, q, (0.5, 0.1)) < 0
     heavy = (0, 0, 0.5)
     assert geometry.edge_split(heavy, q) == 0.75 and geometry.edge_split(q, heavy) == 0.25
@@ -350,16 +350,16 @@ def test_signs_follow_the_conventions():
 
 def test_geometry_broadcasts():
     many = np.random.default_rng(1).uniform(size=(4, 5, 2))
-    signs = geometry.orient2d((0, 0), (1, 0), many)
+    signs = geometry.orientation((0, 0), (1, 0), many)
     assert signs.shape == (4, 5) and (signs == 1).all()
     assert geometry.scaled_heights((0, 0), (1, 0), many).shape == (4, 5, 3)
     assert geometry.orthocenter((0, 0), (1, 0), many).shape == (4, 5, 2)
     assert np.allclose(geometry.scaled_heights((0, 0), (1, 0), many).sum(-1), geometry.doubled_area((0, 0), (1, 0), many))
 
 
-def test_exactness_of_orient2d_where_doubles_fail():
+def test_exactness_of_orientation_where_doubles_fail():
     x = 0.5 + np.arange(64) * 2.0**-53
-    signs = geometry.orient2d((12, 12), (24, 24), np.column_stack([x, np.full(64, 0.5)]))
+    signs = geometry.orientation((12, 12), (24, 24), np.column_stack([x, np.full(64, 0.5)]))
     assert np.array_equal(signs, -np.sign(x - 0.5))
 
 

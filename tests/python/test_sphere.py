@@ -139,7 +139,7 @@ def test_the_plane_has_no_lifted_points_and_no_third_coordinate(ring):
 def test_an_icosahedron_is_bisected():
     mesh = temper.generate.icosahedral(3, radius=2)
     assert mesh.n_vertices == 10 * 4**3 + 2 and mesh.n_triangles == 20 * 4**3 and mesh.space == Space.sphere(2)
-    assert np.allclose(np.linalg.norm(mesh.points, axis=1), 2, rtol=1e-15) and temper.is_regular(mesh, 0)
+    assert np.allclose(np.linalg.norm(mesh.points, axis=1), 2, rtol=1e-15) and topology.is_regular(mesh, 0)
 
 
 def test_points_around_the_sphere_are_triangulated_by_their_hull():
@@ -157,10 +157,10 @@ def test_points_around_the_sphere_are_triangulated_by_their_hull():
 
 
 def test_optimised_random_points_have_no_bad_triangle_and_stay_on_the_sphere(globe):
-    assert not temper.well_centered_triangles(globe).all()
+    assert not temper.triangle_quality(globe).well_centered.all()
     report = temper.optimize(globe)
     quality = temper.quality(globe)
-    assert temper.well_centered_triangles(globe).all() and quality.well_centered_fraction == 1
+    assert temper.triangle_quality(globe).well_centered.all() and quality.well_centered_fraction == 1
     assert report.final_energy <= report.initial_energy and quality.non_regular_edges == 0
     assert np.allclose(np.linalg.norm(globe.points, axis=1), EARTH, rtol=1e-15) and globe.validate() is None
 
@@ -265,26 +265,26 @@ def test_the_plane_and_the_sphere_do_not_mix(globe):
 
 
 def test_energies_are_those_of_the_flat_triangles(globe):
-    model = temper.EnergyModel("F")
+    model = temper.energy.EnergyModel("F")
     a, b, c = faces_of(globe)
-    one = temper.triangle_energy(model, (a[0], b[0], c[0]), space=globe.space)
+    one = temper.energy.triangle_energy(model, (a[0], b[0], c[0]), space=globe.space)
     along, n = b[0] - a[0], np.cross(b[0] - a[0], c[0] - a[0])
     e1, e2 = unit(along), unit(np.cross(n, along))
     flat = [(p @ e1, p @ e2, p @ p) for p in (a[0], b[0], c[0])]
-    assert one == pytest.approx(temper.triangle_energy(model, flat), rel=1e-9)
-    assert temper.vertex_energy(globe, model, 0).value <= temper.total_energy(globe, model)
+    assert one == pytest.approx(temper.energy.triangle_energy(model, flat), rel=1e-9)
+    assert temper.energy.vertex_energy(globe, model, 0).value <= temper.energy.total_energy(globe, model)
 
 
 def test_weights_alone_make_a_globe_well_centered_or_a_certificate_says_none_can():
     even = temper.generate.icosahedral(3)
     points = even.points + 0.012 * np.random.default_rng(1).normal(size=(642, 3))
     mesh = temper.Mesh(points / np.linalg.norm(points, axis=1, keepdims=True), even.triangles, space=even.space)
-    assert not temper.well_centered_triangles(mesh).all()
+    assert not temper.triangle_quality(mesh).well_centered.all()
     report = temper.find_weights(mesh)
     assert report.verdict == "feasible" and report.solved and report.moved > 0
     assert np.isclose(temper.weight_change(mesh, np.zeros(642), report.weights), report.change)
     mesh.weights = report.weights
-    assert temper.well_centered_triangles(mesh).all()
+    assert temper.triangle_quality(mesh).well_centered.all()
     assert np.isclose(temper.weight_margin(mesh), report.attained)
     bare = temper.generate.random_sphere(100)
     best = temper.best_margin(bare)
@@ -296,7 +296,7 @@ def test_explain_gives_reasons_with_places_in_degrees():
     why = temper.explain(globe, cures=2)
     assert why.verdict == "infeasible"
     bad = np.concatenate([reason.bad for reason in why.reasons])
-    assert sorted(bad) == list(np.flatnonzero(~temper.well_centered_triangles(globe)))
+    assert sorted(bad) == list(np.flatnonzero(~temper.triangle_quality(globe).well_centered))
     worst = why.reasons[0]
     x, y, z = globe.lifted_points[globe.triangles[worst.bad[0]]].sum(axis=0)
     assert np.allclose(worst.at, (np.degrees(np.arctan2(y, x)), np.degrees(np.arctan2(z, np.hypot(x, y)))))
@@ -311,7 +311,7 @@ def test_explain_gives_reasons_with_places_in_degrees():
 PLANE_ALONE = {
     "html_report": temper.html_report,
     "plot": temper.plot,
-    "position_flip_threshold": lambda mesh: temper.position_flip_threshold(mesh, 0, (1, 0)),
+    "position_flip_threshold": lambda mesh: topology.position_flip_threshold(mesh, 0, (1, 0)),
     "grade_boundary": topology.grade_boundary,
     "interpolated_weight": lambda mesh: topology.interpolated_weight(mesh, 0, (0, 0)),
     "plan_boundary_grading": topology.plan_boundary_grading,
@@ -343,7 +343,7 @@ def test_a_size_field_is_linear_between_the_points(globe, ring):
     with pytest.raises(temper.TemperError, match="no direction"):
         field.at([(0, 0, 0)])
     with pytest.raises(temper.TemperError, match="one of mesh and field is of the plane"):
-        temper.measure_size(ring, field)
+        temper.size.measure_size(ring, field)
     with pytest.raises(temper.TemperError, match="is on a mesh of the sphere, but the mesh is one of the plane"):
         temper.optimize(ring, size_field=field)
     temper.optimize(globe, size_field=field)
@@ -356,17 +356,17 @@ def test_sizes_are_those_of_the_areas(globe):
     areas = np.zeros(300)
     np.add.at(areas, globe.triangles, np.linalg.norm(np.cross(b - a, c - a), axis=1)[:, None] / 2)  # of flat triangles
     mean = areas / np.bincount(globe.triangles.ravel())
-    assert np.allclose(temper.local_size(globe), np.sqrt(4 / np.sqrt(3) * mean), rtol=1e-12)
-    field = temper.input_size_field(globe)
-    assert temper.measure_size(globe, field).band == 1
+    assert np.allclose(temper.size.local_size(globe), np.sqrt(4 / np.sqrt(3) * mean), rtol=1e-12)
+    field = temper.size.input_size_field(globe)
+    assert temper.size.measure_size(globe, field).band == 1
     temper.optimize(globe)
-    assert 1 < temper.measure_size(globe, field).band < 10
+    assert 1 < temper.size.measure_size(globe, field).band < 10
 
 
 def test_a_trace_is_replayed_to_the_same_bits(globe):
     before, events = globe.copy(), []
     temper.optimize(globe, tracer=events.append)
-    assert len(events) > 0 and temper.replay(before, events) == globe
+    assert len(events) > 0 and temper.replay(before, events).mesh == globe
 
 
 def test_insertions_are_replayed_wherever_they_are(globe):
@@ -377,26 +377,26 @@ def test_insertions_are_replayed_wherever_they_are(globe):
         corners = tuple(int(v) for v in globe.triangles[t])
         middle = tuple(((a + b + c) / 3)[t])
         new = dataclasses.replace(found[0], kind="insertion", vertex=300, link=np.array(corners), point=middle)
-        after = temper.replay(globe, [new])
+        after = temper.replay(globe, [new]).mesh
         assert after.n_vertices == 301 and after.validate() is None
         with pytest.raises(temper.TemperError, match="not inside the triangle"):
             temper.replay(globe, [dataclasses.replace(new, point=tuple(-x for x in middle))])
 
 
 def test_a_weight_threshold_is_where_an_edge_flips(globe):
-    up = temper.weight_flip_threshold(globe, 7, 1.0)
+    up = topology.weight_flip_threshold(globe, 7, 1.0)
     weights = np.zeros(300)
     for factor, non_regular in ((0.999, False), (1.001, True)):
         weights[7] = factor * up
         globe.weights = weights
-        assert (temper.count_non_regular_edges(globe) > 0) == non_regular
+        assert (topology.count_non_regular_edges(globe) > 0) == non_regular
 
 
 def test_connectivity_is_edited_on_a_sphere(globe):
     h = next(h for h in range(globe.n_halfedges) if topology.can_flip(globe, h) == "possible")
     topology.flip(globe, h)
-    assert globe.validate() is None and not temper.is_regular(globe, h)
-    assert temper.restore_regularity(globe).regular
+    assert globe.validate() is None and not topology.is_regular(globe, h)
+    assert topology.restore_regularity(globe).regular
     plan = topology.plan_removal(globe, 5)
     assert plan.status == "possible"
     topology.remove_vertex(globe, plan)
@@ -414,10 +414,10 @@ def test_a_sphere_is_drawn_from_where_one_looks(globe, ring):
     assert globe._repr_svg_() is not None
     before = globe.copy()
     temper.optimize(globe)
-    both = temper.draw_before_after_svg(before, globe, view=(30, 40))
+    both = temper.draw_svg(globe, before, view=(30, 40))
     assert both.count('class="limb"') == 2 and 'class="weight-positive"' in both
     with pytest.raises(temper.TemperError, match="one mesh is of the plane and the other of a sphere"):
-        temper.draw_before_after_svg(ring, globe)
+        temper.draw_svg(globe, ring)
     with pytest.raises(ValueError, match="view: expected longitude, latitude"):
         temper.draw_svg(globe, view=(1, 2, 3))
     for view in [(0, 95), (0, -90.5), (361, 0), (0, np.nan)]:
@@ -488,7 +488,7 @@ def test_sizes_of_a_mesh_are_those_of_its_field():
     field = temper.SizeField.from_values(rough, wanted)
     made = temper.mesh_sphere(field)
     assert made.bad == 0 and made.mesh.space.radius == 1
-    assert temper.measure_size(made.mesh, field).over_field.median == pytest.approx(1, abs=0.1)
+    assert temper.size.measure_size(made.mesh, field).over_field.median == pytest.approx(1, abs=0.1)
 
 
 def test_degrees_are_directions_and_back():

@@ -20,7 +20,9 @@ def matrix(tensor):
 
 def optimized(mesh, tensor):
     """Well-centered in the metric of the tensor; boundary edges that are long there are cut."""
-    return temper.optimized(mesh, tensor=tensor, boundary="split")
+    better = mesh.copy()
+    temper.optimize(better, tensor=tensor, boundary="split")
+    return better
 
 
 def refined(mesh):

@@ -86,7 +86,7 @@ export interface OptimizeHooks {
   snapshots?: (snapshot: Snapshot) => void;
 }
 
-/** Makes the mesh well-centered, in place. An exception of a listener is thrown on when the best mesh so far is in place. */
+/** Makes the mesh well-centered, in place: give it `mesh.copy()` to keep the mesh. An exception of a listener is thrown on when the best mesh so far is in place. */
 export function optimize(mesh: Mesh, options: OptimizeOptions & OptimizeHooks = {}): OptimizeReport {
   const { observer, tracer, snapshots, ...given } = options;
   const listener = {
@@ -98,13 +98,6 @@ export function optimize(mesh: Mesh, options: OptimizeOptions & OptimizeHooks = 
     call('mesh_optimize', mesh.handle, toJson(given), tracer ? 1 : 0, snapshots ? 1 : 0);
     return answer<OptimizeReport>();
   });
-}
-
-/** Another mesh, optimised. */
-export function optimized(mesh: Mesh, options: OptimizeOptions & OptimizeHooks = {}): Mesh {
-  const other = mesh.copy();
-  optimize(other, options);
-  return other;
 }
 
 /** The input after these events of a run: with all of them what came out, bit for bit. */
@@ -138,8 +131,6 @@ export function quality(mesh: Mesh, options: { gamma?: SofteningLike; h0?: Softe
   call('mesh_quality', mesh.handle, toJson(options));
   return answer();
 }
-/** The same as `quality`, by the name of the program's verb. */
-export const check = quality;
 
 /** Of each triangle the least of its h/ℓ, d/ℓ and 1 − d/ℓ: above 0 where well-centered. */
 export function triangle_margins(mesh: Mesh): Float64Array {

@@ -12,6 +12,8 @@ from . import _temper
 from ._mesh import Mesh, MeshLike, _doubles, as_mesh
 from ._records import Record
 
+__all__ = ["SizeReport", "Spread", "input_size_field", "local_size", "measure_size", "relative_lengths"]
+
 
 @dataclasses.dataclass(frozen=True)
 class Spread(Record):
@@ -106,11 +108,6 @@ def relative_lengths(mesh: MeshLike) -> npt.NDArray[np.float64]:
     triangles have 1 and 1/√3; the dual is negative where the dual edge is. (n_edges, 2) float64, in the order of
     Mesh.edges, NaN on the boundary."""
     return _temper.relative_lengths(as_mesh(mesh)._handle)
-
-
-def spread(values: npt.ArrayLike) -> Spread:
-    """Least, 5th, 50th and 95th percentile, and greatest of numbers."""
-    return Spread(**_temper.spread(_doubles(values, 0, "values")))
 
 
 def measure_size(mesh: MeshLike, field: SizeField) -> SizeReport:

@@ -1,0 +1,245 @@
+// Bindings of the operators, and of columns: cells under layers.
+#include <utility>
+
+#include "bind.hpp"
+#include "temper/columns.hpp"
+#include "temper/dec.hpp"
+#include "temper/dec_io.hpp"
+
+TEMPER_PYTHON_NAMES(temper::io::DecFormat, "npz", "mtx", "vtu", "disv", "disu", "tough");
+
+namespace temper::python {
+namespace {
+
+// --- dec: views on one value, which the arrays keep ---------------------------------------------------------------
+
+using Complex = std::shared_ptr<const DecComplex>;
+
+/// One member of every element of a vector of structs.
+template <class Value, class IdType, class Struct>
+py::array column(const py::object& owner, const IdVector<IdType, Struct>& rows, const void* first, int width = 1) {
+  const auto n = static_cast<py::ssize_t>(rows.size());
+  const py::ssize_t stride = sizeof(Struct), item = py::dtype::of<Value>().itemsize();
+  if (width == 1) return view(py::dtype::of<Value>(), {n}, {stride}, first, owner);
+  return view(py::dtype::of<Value>(), {n, py::ssize_t{width}}, {stride, item}, first, owner);
+}
+
+template <class T>
+py::array whole(const py::object& owner, const std::vector<T>& values) {
+  return view(dtype_of<T>(), {static_cast<py::ssize_t>(values.size())}, {sizeof(T)}, values.data(), owner);
+}
+
+/// Places as rows: of two columns in the plane, of three on the sphere, where those of the plane are not.
+py::array places(const py::object& owner, const std::vector<Vec2>& plane, const std::vector<Vec3>& sphere) {
+  const auto doubles = py::dtype::of<double>();
+  if (sphere.empty()) return view(doubles, {static_cast<py::ssize_t>(plane.size()), 2}, {16, 8}, plane.data(), owner);
+  return view(doubles, {static_cast<py::ssize_t>(sphere.size()), 3}, {24, 8}, sphere.data(), owner);
+}
+
+py::dict edges_to_dict(const py::object& owner, const DecComplex& complex) {
+  const IdVector<EdgeId, DecEdge>& edges = complex.edges;
+  const auto& on_sphere = complex.sphere_midpoints;
+  const DecEdge none;
+  const DecEdge& e = edges.empty() ? none : edges[EdgeId(0)];
+  using std::int32_t;
+  return Record()("vertices", column<int32_t>(owner, edges, &e.from, 2))(
+             "triangles", column<int32_t>(owner, edges, &e.left, 2))("length", column<double>(owner, edges, &e.length))(
+             "split", column<double>(owner, edges, &e.split))("left_height",
+                                                              column<double>(owner, edges, &e.left_height))(
+             "right_height", column<double>(owner, edges, &e.right_height))(
+             "dual_length", column<double>(owner, edges, &e.dual_length))(
+             "midpoint",
+             on_sphere.empty() ? column<double>(owner, edges, &e.midpoint, 2) : places(owner, {}, on_sphere.raw()))
+      .dict;
+}
+
+py::dict incidence_to_dict(const py::object& owner, const IncidenceMatrix& matrix) {
+  return Record()("n_columns", matrix.n_columns)("starts", whole(owner, matrix.starts))(
+             "columns", whole(owner, matrix.columns))("signs", whole(owner, matrix.signs))
+      .dict;
+}
+
+struct PyDec {
+  std::shared_ptr<const Mesh> mesh;
+  std::shared_ptr<const Mesh> measured;  // in the metric of a tensor; else the same
+  Metric metric;
+  Complex complex;
+
+  [[nodiscard]] bool has_tensor() const { return measured != mesh; }
+  [[nodiscard]] PowerCells cells() const {
+    PowerCells made = power_cells(*measured, *complex);
+    return has_tensor() ? mapped_back(std::move(made), metric) : made;
+  }
+};
+
+PyDec make_dec(const PyMesh& self, const py::object& tensor) {
+  const auto mesh = self.read();
+  if (tensor.is_none()) {
+    const py::gil_scoped_release release;
+    return {mesh, mesh, {}, std::make_shared<const DecComplex>(dec(*mesh))};
+  }
+  const Metric metric = metric_from(tensor);
+  const py::gil_scoped_release release;
+  auto measured = std::make_shared<const Mesh>(or_raise(mapped(*mesh, metric)));
+  return {mesh, measured, metric, std::make_shared<const DecComplex>(mapped_back(dec(*measured), metric))};
+}
+
+py::dict dec_to_dict(const PyDec& d) {
+  const py::object owner = keep(d.complex);
+  const DecComplex& c = *d.complex;
+  return Record()("edges", edges_to_dict(owner, c))(
+             "edge_of_halfedge",
+             view(py::dtype::of<std::int32_t>(), {static_cast<py::ssize_t>(c.edge_of_halfedge.size())}, {4},
+                  c.edge_of_halfedge.raw().data(), owner))("d0", incidence_to_dict(owner, c.d0))(
+             "d1", incidence_to_dict(owner, c.d1))("star0", whole(owner, c.star0.raw()))(
+             "star1", whole(owner, c.star1.raw()))("star2", whole(owner, c.star2.raw()))(
+             "flux", whole(owner, c.flux.raw()))("orthocenters",
+                                                 places(owner, c.orthocenters.raw(), c.sphere_orthocenters.raw()))(
+             "areas", whole(owner, c.areas.raw()))
+      .dict;
+}
+
+py::dict summary_to_dict(const DecSummary& s) {
+  return Record()("vertices", s.vertices)("edges", s.edges)("triangles", s.triangles)(
+             "boundary_edges", s.boundary_edges)("negative_star0", s.negative_star0)(
+             "negative_star1", s.negative_star1)("zero_star1", s.zero_star1)(
+             "negative_boundary_star1", s.negative_boundary_star1)("not_well_centered", s.not_well_centered)(
+             "area", s.area)("star0_sum", s.star0_sum)("min_star0", s.min_star0)("min_star1", s.min_star1)(
+             "median_star1", s.median_star1)("max_star1", s.max_star1)("median_flux", s.median_flux)("max_flux",
+                                                                                                     s.max_flux)
+      .dict;
+}
+
+py::dict cells_to_dict(const PyDec& d) {
+  PowerCells made;
+  {
+    const py::gil_scoped_release release;
+    made = d.cells();
+  }
+  auto cells = std::make_shared<const PowerCells>(std::move(made));
+  const py::object owner = keep(cells);
+  const PowerCells& c = *cells;
+  return Record()("vertices", whole(owner, c.vertices))("starts", c.starts)(
+             "corners", places(owner, c.corners, c.sphere_corners))("polygon_areas", whole(owner, c.polygon_areas))(
+             "areas", whole(owner, c.areas.raw()))
+      .dict;
+}
+
+/// `cells`: gives them, while Python goes on.
+template <class Cells>
+std::vector<std::string> write_files(const std::string& folder, const Mesh& mesh, const DecComplex& complex,
+                                     const Cells& cells, const Columns* columns, const py::sequence& formats,
+                                     const py::object& threads) {
+  io::DecWriteOptions options;
+  options.formats.clear();
+  for (const auto& f : formats) options.formats.push_back(from_name<io::DecFormat>("formats", f.cast<std::string>()));
+  options.columns = columns;
+  const auto count = threads_from(threads);
+  const py::gil_scoped_release release;
+  const auto executor = make_threads(count);
+  options.executor = executor.get();
+  return or_raise(io::write_dec(folder, mesh, complex, cells(), options));
+}
+
+void bind_operators(py::module_& m) {
+  py::class_<PyDec>(m, "DecComplex")
+      .def("mesh", [](const PyDec& d) { return std::make_unique<PyMesh>(Mesh(*d.mesh)); })
+      .def("tensor",
+           [](const PyDec& d) -> py::object {
+             if (!d.has_tensor()) return py::none();
+             const Tensor& k = d.metric.tensor();
+             return py::make_tuple(k.xx, k.xy, k.yy);
+           })
+      .def("arrays", dec_to_dict)
+      .def("summarize", [](const PyDec& d) { return summary_to_dict(summarize(*d.measured, *d.complex)); })
+      .def("power_cells", cells_to_dict)
+      .def("write",
+           [](const PyDec& d, const std::string& folder, const py::sequence& formats, const py::object& threads) {
+             const auto cells = [&d] { return d.cells(); };
+             return to_python(write_files(folder, *d.mesh, *d.complex, cells, nullptr, formats, threads));
+           });
+  m.def("dec", make_dec);
+}
+
+// --- columns ----------------------------------------------------------------------------------------------------
+
+struct PyColumns {
+  std::shared_ptr<const Mesh> mesh;
+  DecComplex complex;
+  PowerCells cells;
+  Columns columns;
+};
+
+/// The Python package has seen to shapes.
+std::shared_ptr<const PyColumns> make_columns(const PyMesh& self, std::size_t n_layers, const Doubles& surfaces,
+                                              const Int32s& active, double pinch_out) {
+  Layers layers;
+  layers.n_layers = n_layers;
+  const auto heights = as_span<double>(surfaces);
+  layers.surfaces.assign(heights.begin(), heights.end());
+  for (const std::int32_t flag : as_span<std::int32_t>(active)) layers.active.push_back(flag != 0 ? 1 : 0);
+  const auto mesh = self.read();
+  require_plane(*mesh, "columns()");
+  const py::gil_scoped_release release;
+  DecComplex complex = dec(*mesh);
+  PowerCells cells = power_cells(*mesh, complex);
+  Columns made = or_raise(columns(*mesh, complex, cells, layers, {pinch_out, nullptr}));
+  return std::make_shared<const PyColumns>(PyColumns{mesh, std::move(complex), std::move(cells), std::move(made)});
+}
+
+/// (layers, vertices).
+template <class T, class Value>
+py::array of_cells(const py::object& owner, const Columns& c, const std::vector<Value>& values) {
+  static_assert(sizeof(T) == sizeof(Value));
+  const auto n = static_cast<py::ssize_t>(c.n_vertices), size = static_cast<py::ssize_t>(sizeof(T));
+  return view(py::dtype::of<T>(), {static_cast<py::ssize_t>(c.n_layers), n}, {n * size, size}, values.data(), owner);
+}
+
+/// One member of each connection, or two that follow each other.
+template <class T>
+py::array of_connections(const py::object& owner, const Columns& c, T ColumnConnection::*first, py::ssize_t width = 1) {
+  const ColumnConnection none;
+  const ColumnConnection* const front = c.connections.empty() ? &none : c.connections.data();
+  const T* const start = &(front->*first);
+  const auto n = static_cast<py::ssize_t>(c.connections.size());
+  const py::ssize_t stride = sizeof(ColumnConnection), size = sizeof(T);
+  if (width == 1) return view(py::dtype::of<T>(), {n}, {stride}, start, owner);
+  return view(py::dtype::of<T>(), {n, width}, {stride, size}, start, owner);
+}
+
+py::dict columns_to_dict(const std::shared_ptr<const PyColumns>& made) {
+  const py::object owner = keep(made);
+  const Columns& c = made->columns;
+  return Record()("n_vertices", c.n_vertices)("n_layers", c.n_layers)(
+             "states", of_cells<std::int8_t>(owner, c, c.states))("tops", of_cells<double>(owner, c, c.tops))(
+             "bottoms", of_cells<double>(owner, c, c.bottoms))("volumes", of_cells<double>(owner, c, c.volumes))(
+             "areas", c.areas)("cells", of_connections(owner, c, &ColumnConnection::first, 2))(
+             "is_vertical", of_connections(owner, c, &ColumnConnection::is_vertical))(
+             "distances", of_connections(owner, c, &ColumnConnection::first_distance, 2))(
+             "widths", of_connections(owner, c, &ColumnConnection::width))(
+             "face_areas", of_connections(owner, c, &ColumnConnection::area))
+      .dict;
+}
+
+void bind_columns(py::module_& m) {
+  py::class_<PyColumns, std::shared_ptr<PyColumns>>(m, "Columns")
+      .def("arrays", [](const std::shared_ptr<PyColumns>& c) { return columns_to_dict(c); })
+      .def("write",
+           [](const PyColumns& c, const std::string& folder, const py::sequence& formats, const py::object& threads) {
+             const auto cells = [&c]() -> const PowerCells& { return c.cells; };
+             return to_python(write_files(folder, *c.mesh, c.complex, cells, &c.columns, formats, threads));
+           });
+  m.def("columns",
+        [](const PyMesh& self, std::size_t n_layers, const Doubles& surfaces, const Int32s& active, double pinch_out) {
+          return std::const_pointer_cast<PyColumns>(make_columns(self, n_layers, surfaces, active, pinch_out));
+        });
+}
+
+}  // namespace
+
+void bind_dec(py::module_& m) {
+  bind_operators(m);
+  bind_columns(m);
+}
+
+}  // namespace temper::python

@@ -1,0 +1,105 @@
+"""The energies that a mesh method may lower: their table, and their values and derivatives on a mesh.
+
+>>> from temper import energy, generate
+>>> energy.total_energy(generate.annulus(), energy.EnergyModel("F")) > 0
+True
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any, Literal
+
+import numpy.typing as npt
+
+from . import _temper
+from ._mesh import MeshLike, _doubles, as_mesh
+from ._options import EnergyName, Softening, SofteningLike, _softening
+from ._records import Record
+from ._space import Space
+
+__all__ = ["EnergyInfo", "EnergyModel", "VertexDerivatives", "energies", "total_energy", "triangle_energy", "vertex_energy"]
+
+
+@dataclasses.dataclass(frozen=True)
+class EnergyInfo(Record):
+    """One row of the registry of energies."""
+
+    name: EnergyName
+    formula: str
+    boundary_treatment: Literal["as_is", "absolute", "mirrored"]
+    """The treatment of boundary duals that its definition asks for."""
+    barrier: bool
+    """Infinite outside 0 < d < ℓ."""
+    softened_by_gamma: bool
+    softened_by_h0: bool
+    length_exponent: int
+    """E(s · mesh) = s^this · E(mesh) with relative softening."""
+    signed_by_dual: bool
+    """The sign of an edge is that of its dual length."""
+    normalized: bool
+    """Each triangle over its squared area."""
+    positions_alone: bool
+    """For meshes without weights, which stay so."""
+
+
+def energies() -> list[EnergyInfo]:
+    """All energies, for ★s with α = (1/4, 1/3, 1/12), β = (1/12, 1/3, 1/4), per half-edge (eqs. 2 to 7 of the
+    paper)."""
+    return [EnergyInfo(**row) for row in _temper.energies()]
+
+
+@dataclasses.dataclass(frozen=True)
+class EnergyModel(Record):
+    """An energy with everything it depends on."""
+
+    energy: EnergyName = "BP"
+    star: Literal[0, 1, 2] = 1
+    boundary_treatment: Literal["as_is", "absolute", "mirrored"] = "as_is"
+    """Of F and nF; the others define their own."""
+    gamma: SofteningLike = Softening(1.0, "absolute")
+    """γ of E_BP; the paper's examples use 1, absolute."""
+    h0: SofteningLike = Softening(0.0, "absolute")
+    """−h° of E_BHs, ≥ 0."""
+    wall: bool = False
+    """A barrier is infinite on inverted triangles too; the paper's E_BP and E_BHs are not."""
+
+    def _plain(self) -> dict[str, Any]:
+        values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
+        return {**values, "gamma": _softening("gamma", self.gamma), "h0": _softening("h0", self.h0)}
+
+
+def total_energy(mesh: MeshLike, model: EnergyModel = EnergyModel(), *, threads: int | None = None) -> float:
+    """The energy of a mesh; inf when any term is outside its domain. The same bits for any number of threads."""
+    return _temper.total_energy(as_mesh(mesh)._handle, model._plain(), threads)
+
+
+def triangle_energy(model: EnergyModel, corners: npt.ArrayLike, *, space: Space = Space()) -> float:
+    """The energy of one triangle alone, all its edges boundary edges: ``corners`` is (3, 3), rows x, y, w; on a sphere
+    lifted points. There this and all other energies are those of the flat triangles of the lifted points.
+
+    >>> from temper import energy
+    >>> model = energy.EnergyModel("BH")
+    >>> round(energy.triangle_energy(model, [(0, 0, 0), (1, 0, 0), (0.5, 0.75**0.5, 0)]), 12)
+    4.618802153517
+    """
+    return _temper.triangle_energy(model._plain(), _doubles(corners, 3, "corners"), space.radius)
+
+
+@dataclasses.dataclass(frozen=True)
+class VertexDerivatives(Record):
+    """The energy as a function of one vertex."""
+
+    value: float
+    """inf when not feasible."""
+    feasible: bool
+    """Inside the domain of the energy; else the rest is zero."""
+    gradient: tuple[float, float, float]
+    """∂E/∂x, ∂E/∂y, ∂E/∂w; on a sphere x and y are along two unit vectors at right angles to P and each other."""
+    hessian: tuple[float, float, float, float, float, float]
+    """xx, xy, xw, yy, yw, ww."""
+
+
+def vertex_energy(mesh: MeshLike, model: EnergyModel, vertex: int) -> VertexDerivatives:
+    """The part of the total energy that depends on a vertex, with its derivatives."""
+    return VertexDerivatives(**_temper.vertex_energy(as_mesh(mesh)._handle, model._plain(), vertex))

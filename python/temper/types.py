@@ -1,0 +1,27 @@
+"""What functions of ``temper`` return and hand to callbacks. Reports show themselves as text, and as tables in notebooks.
+
+Submodules have such classes of their own: those that ``temper.topology`` returns are there.
+"""
+
+from ._dec import Columns, DecComplex, DecEdges, DecSummary, IncidenceMatrix, PowerCells
+from ._draw import Html, Svg
+from ._explain import CrossingConflict, CrossingSide, Cure, Explanation, FanCenter, Reason
+from ._io import Format
+from ._measure import Histogram, Quality, QualityMeasure, TriangleQuality, WorstTriangle
+from ._optimize import DataReport, OptimizeReport, Replay, SizeChange, Snapshot, TraceEvent
+from ._outline import OutlineFile, OutlineMesh
+from ._progress import Progress, SweepRecord
+from ._verify import ErrorNorms, FieldErrors, VerifyErrors, VerifyField, VerifyFrame, VerifyLevel, VerifyReport, VerifySystem
+from ._weights import (
+    BestMargin,
+    Certificate,
+    ConditionsInfo,
+    ConnectivityReport,
+    ConnectivityStep,
+    EdgeConflict,
+    Violation,
+    WeightConstraint,
+    WeightReport,
+)
+
+__all__ = sorted(name for name in dir() if not name.startswith("_"))
