@@ -1,11 +1,11 @@
 // Files of meshes, and what came with a mesh from one: data, lines, tags, names. See io.hpp.
 #include <algorithm>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "bind.hpp"
-#include "temper/archive.hpp"
-#include "temper/envelope.hpp"
 
 namespace temper::python {
 namespace {
@@ -171,6 +171,23 @@ py::dict data_report(const PyMesh& self, const py::object& threads) {
       .dict;
 }
 
+/// All of a file that Python has as it is: without its points, which are of a plane or a sphere.
+Record arrays_of(const io::MeshFile& file) {
+  py::list names;
+  for (const io::PhysicalName& n : file.names) names.append(py::make_tuple(n.dimension, n.tag, n.name));
+  return Record()("weights", file.weights)(
+      "triangles", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 3>>(file.triangles)))(
+      "regions", array_of<std::int32_t>(file.regions))(
+      "lines", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(file.lines)))(
+      "line_tags", array_of<std::int32_t>(file.line_tags))("marked_points", array_of<std::int32_t>(file.marked_points))(
+      "point_tags", array_of<std::int32_t>(file.point_tags))("names", py::object(names))(
+      "point_data", py::object(to_python_dict(file.point_data)))(
+      "cell_data", py::object(to_python_dict(file.cell_data)))("line_data", py::object(to_python_dict(file.line_data)))(
+      "marked_point_data", py::object(to_python_dict(file.marked_point_data)))(
+      "field_data", py::object(to_python_dict(file.field_data)))("path", file.path)("format", file.format)(
+      "warnings", file.warnings);
+}
+
 py::dict file_as_dict(const PyMesh& self) {
   const PyMesh same = self.copy();
   io::MeshFile file;
@@ -178,26 +195,11 @@ py::dict file_as_dict(const PyMesh& self) {
     const py::gil_scoped_release release;
     file = file_of(same);
   }
-  py::list names;
-  for (const io::PhysicalName& n : file.names) names.append(py::make_tuple(n.dimension, n.tag, n.name));
   std::vector<Vec3> places = file.sphere_points;
   if (file.sphere_radius == 0) {
     for (const Vec2 p : file.points) places.push_back({p.x, p.y, file.z});
   }
-  return Record()("points", rows_of<double>(std::span<const Vec3>(places)))("weights", file.weights)(
-             "triangles", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 3>>(file.triangles)))(
-             "regions", array_of<std::int32_t>(file.regions))(
-             "lines", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 2>>(file.lines)))(
-             "line_tags", array_of<std::int32_t>(file.line_tags))("marked_points",
-                                                                  array_of<std::int32_t>(file.marked_points))(
-             "point_tags", array_of<std::int32_t>(file.point_tags))("names", py::object(names))(
-             "point_data", py::object(to_python_dict(file.point_data)))(
-             "cell_data", py::object(to_python_dict(file.cell_data)))("line_data",
-                                                                      py::object(to_python_dict(file.line_data)))(
-             "marked_point_data", py::object(to_python_dict(file.marked_point_data)))(
-             "field_data", py::object(to_python_dict(file.field_data)))("path", file.path)("format", file.format)(
-             "warnings", file.warnings)
-      .dict;
+  return arrays_of(file)("points", rows_of<double>(std::span<const Vec3>(places))).dict;
 }
 
 /// Vertex of each point that the mesh was made of, -1 where it is gone; None for a mesh that no file is behind.
@@ -231,30 +233,36 @@ void check_range(const std::vector<std::array<std::int32_t, n>>& cells, std::siz
   }
 }
 
-py::tuple mesh_from_file_arrays(const py::dict& d, const py::sequence& fixed_tags) {
+/// A file of these arrays, without the points, of which there are so many.
+io::MeshFile file_of_arrays(const py::dict& d, std::size_t n_points) {
   io::MeshFile file;
-  const auto points = d["points"].cast<Doubles>();
-  if (points.shape(1) == 3) {
-    or_raise(io::set_points(file, copy_of<Vec3>(points)));
-  } else {
-    file.points = copy_of<Vec2>(points);
-  }
   file.weights = copy_of<double>(d["weights"].cast<Doubles>());
   file.triangles = narrow<3>(d["triangles"].cast<Int64s>(), "triangle");
   file.regions = copy_of<std::int32_t>(d["regions"].cast<Int32s>());
   file.lines = narrow<2>(d["lines"].cast<Int64s>(), "line");
   file.line_tags = copy_of<std::int32_t>(d["line_tags"].cast<Int32s>());
-  file.point_data = from_python_dict(d["point_data"].cast<py::dict>(), file.points.size(), "point data");
+  file.point_data = from_python_dict(d["point_data"].cast<py::dict>(), n_points, "point data");
   file.cell_data = from_python_dict(d["cell_data"].cast<py::dict>(), file.triangles.size(), "cell data");
   file.line_data = from_python_dict(d["line_data"].cast<py::dict>(), file.lines.size(), "line data");
   const auto vertex_cells = narrow<1>(d["marked_points"].cast<Int64s>(), "vertex cell");
-  check_range<1>(vertex_cells, file.points.size(), "vertex cell");
+  check_range<1>(vertex_cells, n_points, "vertex cell");
   for (const auto& [point] : vertex_cells) file.marked_points.push_back(point);
   file.point_tags = copy_of<std::int32_t>(d["point_tags"].cast<Int32s>());
   file.marked_point_data =
       from_python_dict(d["marked_point_data"].cast<py::dict>(), file.marked_points.size(), "data of vertex cells");
-  check_range<3>(file.triangles, file.points.size(), "triangle");
-  check_range<2>(file.lines, file.points.size(), "line");
+  check_range<3>(file.triangles, n_points, "triangle");
+  check_range<2>(file.lines, n_points, "line");
+  return file;
+}
+
+py::tuple mesh_from_file_arrays(const py::dict& d, const py::sequence& fixed_tags) {
+  const auto points = d["points"].cast<Doubles>();
+  io::MeshFile file = file_of_arrays(d, static_cast<std::size_t>(points.shape(0)));
+  if (points.shape(1) == 3) {
+    or_raise(io::set_points(file, copy_of<Vec3>(points)));
+  } else {
+    file.points = copy_of<Vec2>(points);
+  }
   return load(std::move(file), {}, strings_from(fixed_tags), nullptr);
 }
 
@@ -293,41 +301,80 @@ py::object write_file(const std::string& path, const PyMesh& self, const std::st
 
 // --- pickles ------------------------------------------------------------------------------------------------------
 
-constexpr std::string_view kPickle = "pickled mesh";
-
-/// What is in a pickle of the file behind a mesh.
-void visit_pickle(Archive& archive, Source& source, IdVector<VertexId, VertexId>& origin) {
-  archive(source.file, source.loaded, origin);
-  archive.seal();
+py::object map_to_python(const io::MeshFile& file) {
+  if (!file.map) return py::none();
+  const auto& [projection, lon_lat, places] = *file.map;
+  return py::make_tuple(name_of(projection.kind), projection.center.x, projection.center.y, projection.radius,
+                        rows_of<double>(std::span(lon_lat)), rows_of<double>(std::span(places)));
 }
 
-/// The file behind a mesh, and which of its points the vertices are, for another process of this build; None for a mesh
-/// that no file is behind.
-py::object source_to_bytes(const PyMesh& self) {
+/// The file behind a mesh as it was read, and which of its points the vertices are; None where no file is behind it.
+py::object source_as_dict(const PyMesh& self) {
   if (!self.source()) return py::none();
-  const PyMesh same = self.copy();
-  std::string envelope;
-  {
-    const py::gil_scoped_release release;
-    Source source = *same.source();  // an archive asks for what it may change
-    IdVector<VertexId, VertexId> origin = same.origin();
-    std::string bytes;
-    Archive archive(bytes);
-    visit_pickle(archive, source, origin);
-    envelope = in_envelope(kPickle, bytes);
-  }
-  return py::bytes(envelope);
+  const auto& [file, loaded] = *self.source();
+  std::vector<std::uint8_t> kept(loaded.vertex_of_point.size());
+  for (std::size_t p = 0; p < kept.size(); ++p) kept[p] = loaded.vertex_of_point[p] >= 0 ? 1 : 0;
+  const std::vector<std::uint8_t> edge_lines(loaded.edge_lines.begin(), loaded.edge_lines.end());
+  return arrays_of(file)("points", rows_of<double>(std::span(file.points)))("sphere_radius", file.sphere_radius)(
+             "sphere_points", rows_of<double>(std::span(file.sphere_points)))("period", file.period)("z", file.z)(
+             "geographic", file.geographic)("map", map_to_python(file))("kept", array_of<std::uint8_t>(kept))(
+             "edge_lines", array_of<std::uint8_t>(edge_lines))("origin", self.origin())
+      .dict;
 }
 
-void set_source_from_bytes(PyMesh& self, const py::bytes& bytes) {
-  auto read = from_envelope(kPickle, std::string_view(bytes));
-  if (!read) throw BadInput{{read.error().code, "pickle", read.error().message}};
-  Archive archive(*read);
+std::shared_ptr<const io::GeographicMap> map_from(const py::object& map) {
+  if (map.is_none()) return nullptr;
+  const auto [kind, x, y, radius, lon_lat, places] =
+      map.cast<std::tuple<std::string, double, double, double, Doubles, Doubles>>();
+  return std::make_shared<const io::GeographicMap>(io::GeographicMap{
+      {from_name<ProjectionKind>("projection", kind), {x, y}, radius}, copy_of<Vec2>(lon_lat), copy_of<Vec2>(places)});
+}
+
+std::vector<bool> bits_from(const py::handle& array) {
+  const auto values = copy_of<std::uint8_t>(array.cast<py::array_t<std::uint8_t, py::array::c_style>>());
+  return {values.begin(), values.end()};
+}
+
+io::MeshFile file_of_source(const py::dict& d, std::size_t n_points) {
+  io::MeshFile file = file_of_arrays(d, n_points);
+  file.points = copy_of<Vec2>(d["points"].cast<Doubles>());
+  file.sphere_radius = d["sphere_radius"].cast<double>();
+  file.sphere_points = copy_of<Vec3>(d["sphere_points"].cast<Doubles>());
+  std::tie(file.period.x, file.period.y) = d["period"].cast<std::pair<double, double>>();
+  file.z = d["z"].cast<double>();
+  for (const auto& item : d["names"]) {
+    auto [dimension, tag, text] = item.cast<std::tuple<int, std::int32_t, std::string>>();
+    file.names.push_back({dimension, tag, std::move(text)});
+  }
+  for (const auto& [name, array] : d["field_data"].cast<py::dict>()) {
+    file.field_data.push_back(from_python_array(name.cast<std::string>(), array.cast<py::array>()));
+  }
+  file.geographic = d["geographic"].cast<bool>();
+  file.map = map_from(d["map"]);
+  file.path = d["path"].cast<std::string>();
+  file.format = d["format"].cast<std::string>();
+  file.warnings = strings_from(d["warnings"]);
+  return file;
+}
+
+void set_source_from_dict(PyMesh& self, const py::dict& d) {
   auto source = std::make_shared<Source>();
+  auto& [file, loaded] = *source;
+  const std::vector<bool> kept = bits_from(d["kept"]);
+  file = file_of_source(d, kept.size());
+  loaded.vertex_of_point = std::find(kept.begin(), kept.end(), false) == kept.end() ? io::VertexOfPoint(kept.size())
+                                                                                    : io::VertexOfPoint(kept);
+  loaded.edge_lines = bits_from(d["edge_lines"]);
   IdVector<VertexId, VertexId> origin;
-  visit_pickle(archive, *source, origin);
-  if (!archive.at_end() || (!origin.empty() && origin.size() != self.read()->n_vertices())) {
-    fail(ErrorCode::unsupported, "the mesh was pickled by another build of temper: only the one that did can read it");
+  for (const VertexId v : copy_of<VertexId>(d["origin"].cast<Int32s>())) origin.push_back(v);
+  const std::size_t n = loaded.vertex_of_point.n_kept(), n_vertices = self.read()->n_vertices();
+  const auto is_new_or_known = [n](VertexId v) { return !v.valid() || v.index < n; };
+  const auto has_size = [](std::size_t size, std::size_t expected) { return size == 0 || size == expected; };
+  if (!has_size(file.points.size(), kept.size()) || !has_size(file.sphere_points.size(), kept.size()) ||
+      !has_size(file.weights.size(), kept.size()) || !has_size(origin.size(), n_vertices) ||
+      file.line_tags.size() != file.lines.size() || file.point_tags.size() != file.marked_points.size() ||
+      (origin.empty() && n != n_vertices) || !std::all_of(origin.begin(), origin.end(), is_new_or_known)) {
+    fail(ErrorCode::size_mismatch, "the pickle of a mesh has arrays that do not belong together");
   }
   self.set_source(std::move(source), std::move(origin));
 }
@@ -346,8 +393,8 @@ void bind_files(py::module_& m) {
   m.def("data_report", data_report);
   m.def("set_data", set_data);
   m.def("vertices_of_points", vertices_of_points);
-  m.def("source_to_bytes", source_to_bytes);
-  m.def("set_source_from_bytes", set_source_from_bytes);
+  m.def("source_as_dict", source_as_dict);
+  m.def("set_source_from_dict", set_source_from_dict);
   m.def("write_text", [](const std::string& path, const std::string& text) { or_raise(io::write_text(path, text)); });
   m.def("formats", [] {
     py::list list;

@@ -368,12 +368,11 @@ class Mesh:
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> Any:
-        """All that ``copy`` keeps. Where a file is behind the mesh, the same build of temper alone can read it: to keep
-        a mesh, write it."""
+        """All that ``copy`` keeps, for another process. To keep a mesh, write it."""
         lifted = None if self.space.is_plane else np.array(self.lifted_points)
         vertices = (self.space, np.array(self.points), np.array(self.weights), lifted, self.fixed)
         triangles = (np.array(self.triangles), self.constrained_edges, self.regions)
-        source = (_temper.source_to_bytes(self._handle), self.point_data_rules)
+        source = (_temper.source_as_dict(self._handle), self.point_data_rules)
         state = {"reversed_triangles": self.reversed_triangles, "warnings": self.warnings}
         return _unpickle, (vertices, triangles, source), (None, state)
 
@@ -430,7 +429,7 @@ def _unpickle(vertices: tuple[Any, ...], triangles: tuple[Any, ...], source: tup
         mesh.lifted_points = lifted  # bit for bit: places and weights are rounded
     file, rules = source
     if file is not None:
-        _temper.set_source_from_bytes(mesh._handle, file)
+        _temper.set_source_from_dict(mesh._handle, file)
     mesh.point_data_rules = rules
     return mesh
 
