@@ -1,9 +1,7 @@
-// Bindings of optimize and replay: options, who listens, checkpoints, the mesh in place whatever ended the run.
+// Bindings of optimize and replay: options, who listens, the mesh in place whatever ended the run.
 #include "bind.hpp"
 #include "optimize_options.hpp"
 #include "ranks.hpp"
-#include "temper/archive.hpp"
-#include "temper/checkpoint.hpp"
 #include "temper/lp.hpp"
 #include "temper/trace.hpp"
 #include "temper/verify.hpp"
@@ -72,68 +70,13 @@ std::optional<SizeField> size_field_from(const py::object& field) {
   return field.cast<SizeField>();
 }
 
-/// The checkpoints of a run. It ends when the first cannot be written; that a later one was not is a warning.
-class Checkpoints {
- public:
-  /// `given`: path, seconds between, and who is told of warnings.
-  Checkpoints(const py::tuple& given, Visitor& visitor)
-      : file_(given[0].cast<std::string>(), given[1].cast<double>()), warn_(given[2]), visitor_(visitor) {}
-
-  void keep(const std::function<std::string()>& state) { heed(file_.keep(state)); }
-  /// The last state, of a run that was stopped.
-  void write() { heed(file_.write()); }
-  /// Why the first could not be written.
-  [[nodiscard]] const std::optional<InputError>& refusal() const { return refusal_; }
-
- private:
-  void heed(const Expected<void>& written) {
-    if (written) {
-      begun_ = true;
-      return;
-    }
-    if (!begun_) refusal_ = written.error();
-    static_cast<void>(visitor_.call([&] {
-      if (refusal_) throw BadInput{*refusal_};
-      warn_(written.error().what());
-      return true;
-    }));
-  }
-
-  io::CheckpointFile file_;
-  py::object warn_;
-  Visitor& visitor_;
-  bool begun_ = false;
-  std::optional<InputError> refusal_;
-};
-
-/// What rank 0, whose the checkpoints are, says of its first to all ranks. Collective.
-std::optional<InputError> agreed(const std::optional<InputError>& refusal, Ranks& ranks) {
-  InputError error = refusal.value_or(InputError());
-  bool is_refused = refusal.has_value();
-  std::string told;
-  Archive archive(told);
-  archive(is_refused, error.code, error.where, error.message);
-  ranks.broadcast(told, 0);
-  Archive(std::string_view(told))(is_refused, error.code, error.where, error.message);
-  if (!is_refused) return std::nullopt;
-  return error;
-}
-
 /// What a run of Python's works with, besides mesh and options. Each may be None.
 struct RunArguments {
   py::object size_field, threads;
   Callbacks callbacks;
-  py::object checkpoint;  ///< see Checkpoints
-  py::object resume;      ///< path of a checkpoint
-  py::object tensor;      ///< kxx, kxy, kyy
-  py::object ranks;       ///< a communicator of mpi4py
+  py::object tensor;  ///< kxx, kxy, kyy
+  py::object ranks;   ///< a communicator of mpi4py
 };
-
-/// An error of the run, which says in which file the state is that it was to go on from.
-InputError error_of_run(InputError error, const py::object& resume) {
-  if (!resume.is_none() && error.where.empty()) error.where = resume.cast<std::string>();
-  return error;
-}
 
 /// The mesh takes its new state whatever ended the run; what Python raised on the way is raised after that.
 py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& arguments) {
@@ -143,27 +86,18 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
   const std::optional<Metric> metric =
       arguments.tensor.is_none() ? std::nullopt : std::optional(metric_from(arguments.tensor));
   const auto before = self.read();
-  io::Checkpoint resumed;
-  if (!arguments.resume.is_none()) resumed = or_raise(io::read_checkpoint(arguments.resume.cast<std::string>()));
   Visitor visitor;
   const Observer observer = observer_of(visitor, arguments.callbacks.observer);
   OptimizeHooks hooks;
   hooks.observer = observer;
-  hooks.resume = resumed.state;
   hooks.exclusive = true;  // the copy that becomes the mesh
   const std::unique_ptr<LpSolver> lp = clp_solver();
   hooks.lp = lp.get();
   std::optional<PythonRanks> ranks;
   if (!arguments.ranks.is_none()) hooks.ranks = &ranks.emplace(arguments.ranks);
   set_callbacks(hooks, visitor, arguments.callbacks);
-  std::optional<Checkpoints> checkpoints;
-  if (!arguments.checkpoint.is_none()) {
-    checkpoints.emplace(arguments.checkpoint.cast<py::tuple>(), visitor);
-    hooks.checkpoints = [&](const auto& state) { checkpoints->keep(state); };
-  }
   Mesh mesh = metric ? or_raise(mapped(*before, *metric)) : *before;
   std::optional<Expected<OptimizeReport>> report;
-  std::optional<InputError> refusal;
   {
     const PyMesh::Run run(self);
     const py::gil_scoped_release release;
@@ -179,21 +113,13 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
     }
 #endif
     if (!report) report = optimize(mesh, options, hooks);
-    if (checkpoints && !checkpoints->refusal() && report->has_value() && stopped_early((*report)->stopped))
-      checkpoints->write();
-    if (checkpoints) refusal = checkpoints->refusal();
-    if (ranks && report->has_value()) refusal = agreed(refusal, *ranks);
-  }
-  if (refusal) {  // which stopped the run of all ranks at its beginning
-    visitor.raise();
-    throw BadInput{*refusal};
   }
   if (report->has_value()) {
     const auto& vertices = (*report)->vertices;
     self.replace(metric ? or_raise(mapped_back(mesh, *before, *metric, vertices)) : std::move(mesh), vertices);
   }
   visitor.raise();
-  if (!*report) throw BadInput{error_of_run(report->error(), arguments.resume)};
+  if (!*report) throw BadInput{report->error()};
   return report_to_dict(**report);
 }
 
@@ -221,13 +147,11 @@ TraceEvent event_from(const py::dict& d) {
 }  // namespace
 
 void bind_optimize(py::module_& m) {
-  m.def("optimize",
-        [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
-           const py::object& observer, const py::object& tracer, const py::object& snapshots,
-           const py::object& checkpoint, const py::object& resume, const py::object& tensor, const py::object& ranks) {
-          return optimize_mesh(self, options,
-                               {size_field, threads, {observer, tracer, snapshots}, checkpoint, resume, tensor, ranks});
-        });
+  m.def("optimize", [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
+                       const py::object& observer, const py::object& tracer, const py::object& snapshots,
+                       const py::object& tensor, const py::object& ranks) {
+    return optimize_mesh(self, options, {size_field, threads, {observer, tracer, snapshots}, tensor, ranks});
+  });
   m.def("methods", [] {
     py::dict all;
     for (const Method& method : methods()) all[py::str(std::string(method.name))] = options_to_dict(method.options());

@@ -3,10 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
-import numbers
-import os
-import warnings
 from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal, Sequence
 
 import numpy as np
@@ -14,7 +10,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._errors import TemperError, TemperWarning
-from ._mesh import DataRules, Mesh, MeshLike, as_mesh, data_rules, put_back
+from ._mesh import PAGE, DataRules, Mesh, MeshLike, as_mesh, data_rules, put_back
 from ._options import OptimizeOptions, changed, shows_options
 from ._progress import Line, Progress, SweepRecord
 from ._records import Record
@@ -184,15 +180,6 @@ def _observer(line: Line, observer: Callable[[Progress], Any] | None) -> Callabl
     return tell
 
 
-_EVERY = 600.0  # seconds between checkpoints
-
-
-def _path(name: str, path: str | os.PathLike[str] | None) -> str | None:
-    if path is not None and not isinstance(path, (str, os.PathLike)):
-        raise TypeError(f"{name}: expected a path or None, found {path!r}")
-    return None if path is None else os.fspath(path)
-
-
 def _is_helper(ranks: Any) -> bool:
     """Whether this process helps rank 0 with its run."""
     if ranks is None:
@@ -200,20 +187,6 @@ def _is_helper(ranks: Any) -> bool:
     if not all(callable(getattr(ranks, name, None)) for name in ("Get_size", "Get_rank", "bcast", "Bcast", "Abort")):
         raise TypeError(f"ranks: expected a communicator of mpi4py or None, found {ranks!r}")
     return ranks.Get_rank() != 0
-
-
-def _checkpoint(path: str | os.PathLike[str] | None, every: float) -> tuple[str, float, Callable[[str], None]] | None:
-    """As the compiled half takes it: the file, seconds between, who is told that it could not be written."""
-    if not isinstance(every, numbers.Real) or isinstance(every, bool):
-        raise TypeError(f"every: expected a number, found {every!r}")
-    if not 0 <= every < math.inf:
-        raise TemperError("invalid_option", "", f"every is {every}; expected a number of seconds, 0 or more")
-    file = _path("checkpoint", path)
-    if file is None:
-        if every != _EVERY:
-            warnings.warn("every has no effect without checkpoint", TemperWarning, stacklevel=3)
-        return None
-    return file, float(every), lambda message: warnings.warn(message, TemperWarning, stacklevel=3)
 
 
 @shows_options
@@ -229,9 +202,6 @@ def optimize(
     progress: bool | None = None,
     tracer: Callable[[TraceEvent], Any] | None = None,
     snapshots: Callable[[Snapshot], Any] | None = None,
-    checkpoint: str | os.PathLike[str] | None = None,
-    every: float = _EVERY,
-    resume: str | os.PathLike[str] | None = None,
     ranks: Any = None,
     **changes: Unpack[OptionChanges],
 ) -> OptimizeReport:
@@ -271,20 +241,10 @@ def optimize(
         Called with each ``TraceEvent``; ``replay`` makes the mesh again from them.
     snapshots : callable, optional
         Called with a ``Snapshot`` between sweeps; a copy of the mesh each time.
-    checkpoint : path, optional
-        A file for the state of the run: written at its beginning, now and then, and when it is stopped early, by
-        ``time_limit``, ``observer`` or Ctrl-C. When it cannot be written at first that is an error, later a
-        ``TemperWarning``.
-    every : float, optional
-        Seconds between checkpoints; 0: as many as there can be.
-    resume : path, optional
-        A checkpoint to go on from: the run ends with the bits that it would have ended with. The mesh is what it was
-        when that run began, and options and size field are the same, but for
-        ``time_limit``, which is of each run alone. Observers, tracers and snapshots see what is left of the run.
     ranks : mpi4py.MPI.Comm, optional
         Processes that make this run together (docs/ranks.md): all of them call with the same mesh and options, and get
-        the result, whose bits do not depend on how many they are. Each has the whole mesh. Progress, observer, time
-        limit and checkpoints are those of rank 0.
+        the result, whose bits do not depend on how many they are. Each has the whole mesh. Progress, observer and
+        time limit are those of rank 0.
 
     Returns
     -------
@@ -296,9 +256,8 @@ def optimize(
         An option of the wrong type. The mesh is then as it was.
     TemperError
         An option out of range, options that contradict each other, weights that hide a vertex, a mesh outside the
-        barrier of BH or BHs, a checkpoint that cannot be written, or is of another mesh, options or version
-        (``checkpoint_mismatch``); on all ranks, when one was given another mesh or other options (``rank_mismatch``),
-        or rank 0 cannot write its checkpoint. The mesh is then as it was.
+        barrier of BH or BHs; on all ranks, when one was given another mesh or other options (``rank_mismatch``). The
+        mesh is then as it was.
     KeyboardInterrupt
         After Ctrl-C: the run has stopped, and the mesh is the best valid one so far.
 
@@ -331,14 +290,13 @@ def optimize(
             if given is not None:
                 raise ValueError(f"{name}: is of the mesh's plane, and does not go with tensor")
     if _is_helper(ranks):
-        progress, observer, checkpoint = False, None, None
+        progress, observer = False, None
     target = as_mesh(mesh)
     rules = target.point_data_rules if point_data is None else data_rules(point_data)
     _temper.check_data_rules(target._handle, rules)
     plain = changed(options, changes)._plain()
     line = Line(progress)
     trace = (lambda event: tracer(TraceEvent(**event))) if tracer is not None else None
-    kept, resumed = _checkpoint(checkpoint, every), _path("resume", resume)
     look = (lambda shot: snapshots(Snapshot._of(shot))) if snapshots is not None else None
     field = size_field._handle if size_field is not None else None
     original = target.copy() if tensor is None and 0 < target.n_triangles <= PAGE else None
@@ -346,7 +304,7 @@ def optimize(
     try:
         watch = _observer(line, observer)
         report = _temper.optimize(
-            target._handle, plain, field, threads, watch, trace, look, kept, resumed, None if tensor is None else tuple(tensor), ranks
+            target._handle, plain, field, threads, watch, trace, look, None if tensor is None else tuple(tensor), ranks
         )
     finally:
         line.clear()

@@ -4,8 +4,6 @@ import os
 import shutil
 import subprocess
 import sys
-import threading
-import types
 
 import numpy as np
 import pytest
@@ -28,8 +26,7 @@ if kind == "differ":
 else:
     mesh = temper.generate.random_points(20_000, seed=4)  # of two parts
     seen = []
-    report = temper.optimize(mesh, max_sweeps=6, ranks=ranks, threads=1, progress=False, observer=seen.append,
-                             checkpoint="run.ckpt", every=0)
+    report = temper.optimize(mesh, max_sweeps=6, ranks=ranks, threads=1, progress=False, observer=seen.append)
     np.savez(f"rank{ranks.rank}.npz", points=mesh.points, weights=mesh.weights, triangles=mesh.triangles,
              sweeps=report.sweeps, seen=len(seen))
 """
@@ -65,55 +62,10 @@ def test_ranks_get_the_bits_of_one_process(together, tmp_path):
                 assert found[name].tobytes() == getattr(alone, name).tobytes()
             assert found["sweeps"] == report.sweeps
             assert (found["seen"] > 0) == (rank == 0), "the observer is that of rank 0"
-    assert (tmp_path / "run.ckpt").exists()
 
 
 def test_all_ranks_hear_that_one_has_another_mesh(together):
     assert sorted(together(3, "differ").split()) == sorted(["0", "1", "2", *3 * ["rank_mismatch"]])
-
-
-class Together:
-    """Ranks that are threads: each has a communicator, and what one broadcasts the others find here."""
-
-    def __init__(self, n):
-        self.all_here, self.said = threading.Barrier(n, timeout=60), None
-
-    def communicator(self, rank):
-        def bcast(value, root):
-            if rank == root:
-                self.said = value
-            self.all_here.wait()
-            said = self.said
-            self.all_here.wait()
-            return said
-
-        def fill(buffer, root):
-            buffer[:] = bcast(bytes(buffer), root)
-
-        return types.SimpleNamespace(Get_size=lambda: self.all_here.parties, Get_rank=lambda: rank, bcast=bcast, Bcast=fill,
-                                     Abort=self.all_here.abort)
-
-
-@pytest.mark.parametrize("tensor", [None, (2, 0, 1)])
-def test_a_checkpoint_that_cannot_be_written_leaves_the_meshes_of_all_ranks(tmp_path, tensor):
-    together, before = Together(3), temper.generate.random_points(2000, seed=4)
-    meshes, errors = [before.copy() for _ in range(3)], {}
-
-    def run(rank):
-        try:
-            temper.optimize(meshes[rank], ranks=together.communicator(rank), threads=1, progress=False, tensor=tensor,
-                            checkpoint=tmp_path / "missing" / "run.ckpt")
-        except temper.TemperError as error:
-            errors[rank] = error
-
-    threads = [threading.Thread(target=run, args=(rank,)) for rank in range(3)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert sorted(errors) == [0, 1, 2] and all(error.code == "not_writable" for error in errors.values())
-    assert len({str(error) for error in errors.values()}) == 1 and "run.ckpt" in str(errors[0])
-    assert all(mesh == before for mesh in meshes)
 
 
 def test_what_is_no_communicator_is_refused():
