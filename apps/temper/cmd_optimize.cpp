@@ -16,7 +16,6 @@
 #include "ranks.hpp"
 #include "report_json.hpp"
 #include "report_text.hpp"
-#include "resume.hpp"
 #include "size_report.hpp"
 #include "temper/regularity.hpp"
 #include "threads.hpp"
@@ -83,7 +82,6 @@ void write_all(const Command& command, const OptimizeSettings& s, Input& input, 
       io::update(input.file, input.loaded, input.loaded.mesh, results.report.vertices, {s.rules, files.threads});
   warn(results, std::span(input.file.warnings).subspan(known));
   warn(results, outputs.write_mesh(s.output, input.file, files.threads));
-  if (files.checkpoint != nullptr && stopped_early(results.report.stopped)) outputs.write(*files.checkpoint);
   if (files.trace != nullptr) outputs.commit(s.trace, files.trace->stream);
   if (!s.report.empty() || !s.html.empty()) {
     const std::vector<UsedOption> options = used_options(command);
@@ -115,9 +113,6 @@ void print_result(const OptimizeSettings& s, const RunResults& results, const Ou
   std::string written;
   for (const std::string& path : outputs.written()) written += (written.empty() ? "wrote " : ", ") + path;
   print(written + "\n");
-  if (!s.checkpoint.empty() && stopped_early(results.report.stopped)) {
-    print(fmt::format("to go on: temper optimize --resume {}\n", shell_quote(s.checkpoint)));
-  }
 }
 
 /// Says whether edges are not regular that should be: `after` counts those that may not be flipped, too.
@@ -127,47 +122,12 @@ bool lacks_flips(const OptimizeSettings& s, const Quality& after, const Mesh& me
          count_non_regular_edges(mesh, false, executor) > 0;
 }
 
-/// From the plane of the metric to that of the file, where `plain` is the mesh as it was.
-void take_back(const OptimizeSettings& s, const Mesh& plain, Input& input, const OptimizeReport& report) {
-  auto back = mapped_back(input.loaded.mesh, plain, *s.metric, report.vertices);
-  if (!back) {
-    InputError error = back.error();
-    error.where = s.input;
-    throw as_failure(error);
-  }
-  input.loaded.mesh = *std::move(back);
-}
-
-/// The checkpoints that are asked for.
-std::optional<io::CheckpointFile> checkpoint_of(const Command& command, const OptimizeSettings& s, TraceFile* trace) {
-  if (s.checkpoint.empty()) return std::nullopt;
-  io::CheckpointFile file(s.checkpoint, s.every);
-  file.set_command(given_words(command));
-  if (trace != nullptr) {
-    or_fail(trace->stream.so_far());
-    file.set_trace([trace] { return trace->place; }, [trace] { return trace->stream.so_far(); });
-  }
-  return file;
-}
-
-/// As a person would give it: without what is not given.
-std::string words_of_run(const Command& command) {
-  std::string text = "temper optimize";
-  for (const std::string& word : given_words(command)) text += " " + shell_quote(word);
-  return text;
-}
-
-Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs, const Resumed* resumed) {
+Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs) {
   const std::unique_ptr<Executor> threads = make_threads(threads_of_rank(s.threads));
   std::optional<TraceFile> trace;
   if (!s.trace.empty()) trace.emplace(TraceFile{outputs.open(s.trace), {}});
-  std::optional<io::CheckpointFile> checkpoint = checkpoint_of(command, s, trace ? &*trace : nullptr);
-  const RunFiles files = {threads.get(), resumed, trace ? &*trace : nullptr, checkpoint ? &*checkpoint : nullptr};
-  const auto read = [&files](const std::string& path) { return read_file(files, path); };
-  if (resumed != nullptr && !s.quiet) {
-    print(fmt::format("{}: goes on with {}\n", resumed->path, words_of_run(command)));
-  }
-  Input input = read_input(s.input, {s.projection, s.fix, threads.get(), true, read});
+  RunFiles files = {threads.get(), trace ? &*trace : nullptr};
+  Input input = read_input(s.input, {s.projection, s.fix, threads.get(), true});
   if (!s.html.empty()) expect_plane(input.mesh(), s.input, "--html");
   RunResults results;
   warn(results, input.warnings());
@@ -176,18 +136,19 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   warn(results, doubtful_options(command, s));
   if (!s.size_field.empty()) {
     ReadSizeField sizes = read_size_field(s.size_field, s.size_data.empty() ? "size" : s.size_data,
-                                          {same_projection(input, s.projection), {}, threads.get(), true, read});
+                                          {same_projection(input, s.projection), {}, threads.get(), true});
     warn(results, sizes.warnings);
     s.table.options.size_field = std::move(sizes.field);
   }
   // The mesh has its geometry now, and memory is dear on the largest ones.
   io::release_geometry(input.file, input.loaded);
   const std::optional<Mesh> plain = take_to_metric(input, s.metric);
+  if (plain) files.plain = &*plain;
   agree_to_go_on();
   improve(s, input, results, files);
   if (!is_first_rank()) return Exit::done;
   results.lacks_flips = lacks_flips(s, results.after, input.loaded.mesh, threads.get());
-  if (plain) take_back(s, *plain, input, results.report);
+  if (plain) input.loaded.mesh = or_fail(taken_back(s, input.loaded.mesh, *plain, results.report.vertices));
   write_all(command, s, input, results, outputs, files);
   if (!s.quiet) print_result(s, results, outputs);
   flush_output();  // before the verdict on standard error
@@ -197,16 +158,17 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
 
 /// What the first rank does for all.
 void leave_outputs_to_first_rank(OptimizeSettings& s) {
-  for (std::string* output : {&s.output.path, &s.report, &s.html, &s.history, &s.picture, &s.trace, &s.checkpoint}) {
+  for (std::string* output : {&s.output.path, &s.report, &s.html, &s.history, &s.picture, &s.trace}) {
     output->clear();
   }
   s.requirements.clear();
+  s.save_every.reset();
   s.verify = false;
   s.quiet = true;
 }
 
-/// A command that has been parsed. `resumed`: the run that it goes on with, or null.
-Exit run_command(Command& command, OptimizeSettings& settings, const Resumed* resumed) {
+/// A command that has been parsed.
+Exit run_command(Command& command, OptimizeSettings& settings) {
   take_input(command, settings);
   expect_no_contradictions(command);
   command.spell_defaults();                 // --method may have changed them
@@ -226,20 +188,7 @@ Exit run_command(Command& command, OptimizeSettings& settings, const Resumed* re
   outputs.expect_text("--history", settings.history, inputs);
   outputs.expect_text("--trace", settings.trace, inputs);
   outputs.expect_picture("--draw", settings.picture, inputs);
-  outputs.expect_text("--checkpoint", settings.checkpoint, inputs);
-  return optimize_mesh(command, settings, outputs, resumed);
-}
-
-/// The command of the checkpoint, with what is given now.
-Exit resume(const Command& now, const std::string& path) {
-  const Resumed resumed = {path, or_fail(io::read_checkpoint(path))};
-  if (resumed.checkpoint.command.empty()) {
-    throw Failure(Exit::bad_input, path + ": is a checkpoint of a run that no command started");
-  }
-  OptimizeSettings then_settings, settings;
-  Command then = optimize_command(then_settings), command = optimize_command(settings);
-  if (!then.parse(resumed.checkpoint.command) || !command.parse(resumed_words(now, then))) return Exit::done;
-  return run_command(command, settings, &resumed);
+  return optimize_mesh(command, settings, outputs);
 }
 
 }  // namespace
@@ -251,7 +200,7 @@ Exit run_optimize(const Arguments& arguments) {
   std::optional<RankUnit> unit;
   if (command.parse(arguments)) unit = settings.rank_unit;
   if (!become_ranks(unit, arguments)) return Exit::done;
-  return settings.resume.empty() ? run_command(command, settings, nullptr) : resume(command, settings.resume);
+  return run_command(command, settings);
 }
 
 }  // namespace temper::app

@@ -49,7 +49,6 @@ struct Option {
   Values values = Values::one;
   bool required = false;
   bool rare = false;          ///< left out by --help, not by --help-all
-  bool may_be_anew = false;   ///< beside --resume: no result depends on it
   bool at_once = false;       ///< taken while the command line is read, before all others
   std::string excludes = {};  ///< the option that may not be given, too
   std::string default_text = {};

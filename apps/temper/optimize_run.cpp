@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <functional>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -23,9 +22,34 @@
 namespace temper::app {
 namespace {
 
-/// A run whose checkpoints cannot be written goes on.
-void keep(io::CheckpointFile& file, const std::function<std::string()>& state) {
-  if (const Expected<void> kept = file.keep(state); !kept) print_warnings(std::vector{kept.error().what()});
+/// Writes the best mesh so far as the result will be written.
+Expected<void> save(const OptimizeSettings& s, const Input& input, const RunFiles& files, const BestSoFar& best) {
+  std::optional<Mesh> back;
+  if (files.plain != nullptr) {
+    Expected<Mesh> mesh = taken_back(s, best.mesh, *files.plain, best.vertices);
+    if (!mesh) return mesh.error();
+    back = *std::move(mesh);
+  }
+  io::MeshFile file = input.file;
+  io::update(file, input.loaded, back ? *back : best.mesh, best.vertices, {s.rules, files.threads});
+  io::WriteOptions options = s.output.options;
+  options.executor = files.threads;
+  const Expected<std::vector<std::string>> written = io::write(s.output.path, file, options);
+  if (!written) return written.error();
+  return {};
+}
+
+/// For --save-every. A run whose mesh cannot be written goes on, and says so once.
+auto saver(const OptimizeSettings& s, const Input& input, const RunFiles& files) {
+  using Clock = std::chrono::steady_clock;
+  return [&, last = Clock::now(), warned = false](const auto& best) mutable {
+    if (std::chrono::duration<double>(Clock::now() - last).count() < *s.save_every) return;
+    best([&](const BestSoFar& mesh) {
+      const Expected<void> saved = save(s, input, files, mesh);
+      if (!saved && !std::exchange(warned, true)) print_warnings(std::vector{saved.error().what()});
+    });
+    last = Clock::now();
+  };
 }
 
 OptimizeReport run_library(const OptimizeSettings& s, const Input& input, Mesh& mesh, const RunFiles& files,
@@ -44,8 +68,7 @@ OptimizeReport run_library(const OptimizeSettings& s, const Input& input, Mesh& 
   hooks.lp = lp.get();
   hooks.observer = observer;
   hooks.tracer = std::move(tracer);
-  if (files.checkpoint != nullptr) hooks.checkpoints = [&](const auto& state) { keep(*files.checkpoint, state); };
-  if (files.resumed != nullptr) hooks.resume = files.resumed->checkpoint.state;
+  if (s.save_every) hooks.best_so_far = saver(s, input, files);
   OptimizeOptions options = s.options();
   options.time_limit = s.since.left(options.time_limit);
 #ifdef TEMPER_WITH_VERIFY
@@ -56,11 +79,7 @@ OptimizeReport run_library(const OptimizeSettings& s, const Input& input, Mesh& 
   }
 #endif
   Expected<OptimizeReport> report = optimize(mesh, options, hooks);
-  if (!report) {
-    InputError error = spell_options(report.error());
-    if (files.resumed != nullptr && error.where.empty()) error.where = files.resumed->path;
-    throw as_failure(error);
-  }
+  if (!report) throw as_failure(spell_options(report.error()));
   for (std::string& note : report->notes) note = spell_options(note);
   return *std::move(report);
 }
@@ -100,17 +119,15 @@ void verify_result(const OptimizeSettings& s, SolverErrors& errors, Mesh& mesh, 
 }
 #endif
 
-/// The tracer of the trace, if there is one. The beginning of a resumed one is written before.
+/// The tracer of the trace, if there is one.
 Tracer tracer_of(const OptimizeSettings& s, const RunFiles& files, const Input& input) {
   TraceFile* const trace = files.trace;
   if (trace == nullptr && s.traced) return [](const TraceEvent&) {};  // the first rank writes it
   if (trace == nullptr) return {};
-  const bool begun = files.resumed != nullptr && !files.resumed->checkpoint.trace.empty();
-  trace->write(begun ? files.resumed->checkpoint.trace : trace_header(input));
-  if (begun) trace->place.events = files.resumed->checkpoint.events;
+  trace->stream.write(trace_header(input));
   return [trace, &input](const TraceEvent& event) {
-    trace->write(trace_line(event, input));
-    ++trace->place.events;
+    trace->stream.write(trace_line(event, input));
+    ++trace->events;
   };
 }
 
@@ -121,18 +138,13 @@ std::string picture_title(const Input& input, const Quality& before, const Quali
 
 }  // namespace
 
-io::MeshFile read_file(const RunFiles& files, const std::string& path) {
-  io::MeshFile file;
-  if (files.resumed != nullptr) {
-    const std::vector<io::MeshFile>& inputs = files.resumed->checkpoint.inputs;
-    const auto found = std::find_if(inputs.begin(), inputs.end(), [&](const auto& each) { return each.path == path; });
-    if (found == inputs.end()) throw Failure(Exit::bad_input, files.resumed->path + ": does not have " + path);
-    file = *found;
-  } else {
-    file = or_fail(io::read(path, {files.threads}));
-  }
-  if (files.checkpoint != nullptr) files.checkpoint->add_input(file);
-  return file;
+Expected<Mesh> taken_back(const OptimizeSettings& s, const Mesh& mesh, const Mesh& plain,
+                          const IdVector<VertexId, VertexId>& vertices) {
+  Expected<Mesh> back = mapped_back(mesh, plain, *s.metric, vertices);
+  if (back) return back;
+  InputError error = back.error();
+  error.where = s.input;
+  return error;
 }
 
 void improve(const OptimizeSettings& s, Input& input, RunResults& results, const RunFiles& files) {
@@ -162,7 +174,7 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
 #else
   results.report = run_library(s, input, mesh, files, tracer);
 #endif
-  if (files.trace != nullptr) files.trace->write(trace_end(files.trace->place.events, mesh, input));
+  if (files.trace != nullptr) files.trace->stream.write(trace_end(files.trace->events, mesh, input));
   if (measured) results.after = quality(mesh, measuring);
   results.outcomes = judge(s.requirements, results.after);
   if (!s.picture.empty()) {

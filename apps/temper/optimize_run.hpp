@@ -8,7 +8,6 @@
 #include "input.hpp"
 #include "optimize_settings.hpp"
 #include "requirement.hpp"
-#include "temper/checkpoint.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 
@@ -27,33 +26,22 @@ struct RunResults {
   std::vector<std::string> warnings;
 };
 
-/// The checkpoint that a run goes on from.
-struct Resumed {
-  std::string path;
-  io::Checkpoint checkpoint;
-};
-
 /// A trace that is being written.
 struct TraceFile {
   io::TextStream stream;
-  io::CheckpointFile::TracePlace place;  ///< how far it is
-
-  void write(std::string_view text) {
-    stream.write(text);
-    place.bytes += text.size();
-  }
+  std::size_t events = 0;
 };
 
 /// All that a run works with, besides its settings. Null: there is none.
 struct RunFiles {
   Executor* threads = nullptr;
-  const Resumed* resumed = nullptr;
   TraceFile* trace = nullptr;
-  io::CheckpointFile* checkpoint = nullptr;
+  const Mesh* plain = nullptr;  ///< the input in the plane of its file, when the run is in that of a metric
 };
 
-/// A file that the run reads: that of the checkpoint, when it is resumed; and it goes into its own.
-[[nodiscard]] io::MeshFile read_file(const RunFiles& files, const std::string& path);
+/// A mesh of the run, in the plane of the file.
+[[nodiscard]] Expected<Mesh> taken_back(const OptimizeSettings& s, const Mesh& mesh, const Mesh& plain,
+                                        const IdVector<VertexId, VertexId>& vertices);
 
 /// Improves the mesh of the input in place: a second copy is made only when something needs one.
 void improve(const OptimizeSettings& s, Input& input, RunResults& results, const RunFiles& files);

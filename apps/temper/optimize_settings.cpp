@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "data_report.hpp"
 #include "help.hpp"
@@ -59,12 +60,8 @@ void add_run(Command& command, OptimizeSettings& s) {
       command, "--ranks", kRankUnits, s.rank_unit,
       "what mpirun's processes are: those of a machine are threads of one rank, which has the mesh; or each is a "
       "rank, and has it");
-  add_text(command, "--checkpoint", "FILE", s.checkpoint,
-           "the state of the run, for --resume: at its beginning, now and then, and when it is stopped early");
-  add_number(command, "--every", s.every, kNotNegative, "seconds between checkpoints; 0: as many as there can be");
-  add_text(command, "--resume", "FILE", s.resume,
-           "go on with the run of a checkpoint, to what it would have ended with; IN and options are those of the run, "
-           "but for outputs, --threads, --ranks, --time-limit (of each run alone), --checkpoint and --every");
+  add_number(command, "--save-every", s.save_every, kNotNegative,
+             "write the best mesh so far to OUT during the run, each so many seconds; 0: as often as there is one");
   std::vector<std::string_view> names;
   std::string help = "what all options start from";
   for (const Method& method : methods()) {
@@ -82,17 +79,27 @@ void add_run(Command& command, OptimizeSettings& s) {
 }
 
 /// Of this verb's own options those that a first run does without; of the library's the table says it.
-constexpr const char* kRare[] = {
-    "--projection", "--format",  "--encoding",   "--point-data",      "--history",
-    "--trace",      "--threads", "--ranks",      "--method",          "--checkpoint",
-    "--every",      "--resume",  "--size-field", "--size-field-data", "--no-triangle-quality",
-    "--tensor"};
+constexpr const char* kRare[] = {"--projection",
+                                 "--format",
+                                 "--encoding",
+                                 "--point-data",
+                                 "--history",
+                                 "--trace",
+                                 "--threads",
+                                 "--ranks",
+                                 "--method",
+                                 "--save-every",
+                                 "--size-field",
+                                 "--size-field-data",
+                                 "--no-triangle-quality",
+                                 "--tensor"};
 
-/// Of which no result depends: they may be given anew beside --resume.
-constexpr const char* kAnew[] = {"--output", "--format",  "--encoding",   "--no-triangle-quality",
-                                 "--report", "--html",    "--history",    "--trace",
-                                 "--draw",   "--require", "--quiet",      "--threads",
-                                 "--ranks",  "--every",   "--checkpoint", "--time-limit"};
+/// Says whether a write puts a new file there: not to standard output, a pipe or a device.
+bool is_replaced(const std::string& path) {
+  std::error_code ignored;
+  return path != kStandardOutput &&
+         (!std::filesystem::exists(path, ignored) || std::filesystem::is_regular_file(path, ignored));
+}
 
 }  // namespace
 
@@ -107,7 +114,6 @@ Command optimize_command(OptimizeSettings& settings) {
   add_constraints(command, settings);
   for (const OptionGroup& group : option_groups()) add_group(command, group, settings.table);
   for (const char* name : kRare) command.option(name).rare = true;
-  for (const char* name : kAnew) command.option(name).may_be_anew = true;
   command.group("Help");
   command.add_help(
       {"IN -o OUT [options]",
@@ -121,8 +127,7 @@ Command optimize_command(OptimizeSettings& settings) {
        "  temper optimize in.vtu -o out.vtu --for vertex --verify\n"
        "  temper optimize in.vtu -o out.vtu --removal patch --trace trace.jsonl\n"
        "  temper optimize in.vtu -o out.vtu --method paper --energy dT --removal none\n"
-       "  temper optimize in.vtu -o out.vtu --checkpoint run.ckpt --time-limit 3600\n"
-       "  temper optimize --resume run.ckpt\n",
+       "  temper optimize in.vtu -o out.vtu --save-every 600\n",
        {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early, Exit::internal}});
   return command;
 }
@@ -130,6 +135,10 @@ Command optimize_command(OptimizeSettings& settings) {
 void take_input(Command& command, OptimizeSettings& s) {
   if (s.output.path.empty())
     throw Failure(Exit::bad_usage, "optimize: --output is required\nSee temper optimize --help");
+  if (s.save_every && !is_replaced(s.output.path))
+    throw Failure(Exit::bad_usage, fmt::format("optimize: --save-every: {} is no file that can be replaced; give -o "
+                                               "a file",
+                                               s.output.path));
   if (!s.input.empty()) return;
   if (s.fix.size() < 2)
     throw Failure(Exit::bad_usage, "optimize: IN is missing: the mesh to improve\nSee temper optimize --help");
@@ -146,9 +155,6 @@ std::vector<std::string> doubtful_options(const Command& command, const Optimize
   }
   if (s.size_field.empty() && command.was_given("--size-field-data")) {
     warnings.emplace_back("--size-field-data has no effect without --size-field");
-  }
-  if (s.checkpoint.empty() && command.was_given("--every")) {
-    warnings.emplace_back("--every has no effect without --checkpoint");
   }
   if (!(s.report.empty() && s.html.empty()) && same_file(s.input, s.output.path)) {
     warnings.emplace_back("--output replaces the input: the command in the report would start from the improved mesh");

@@ -29,9 +29,8 @@ struct OptimizeSettings {
   std::uint64_t threads = 0;
   RankUnit rank_unit = RankUnit::machine;
   bool quiet = false, verify = false;
-  bool traced = false;  ///< whoever writes the trace
-  std::string checkpoint, resume;
-  double every = 600;  ///< seconds between checkpoints
+  bool traced = false;               ///< whoever writes the trace
+  std::optional<double> save_every;  ///< seconds between two times that the best mesh so far is written
   std::vector<Requirement> requirements;
   std::string size_field, size_data;
   std::optional<Metric> metric;  ///< of the diffusion tensor

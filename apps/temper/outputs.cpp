@@ -179,10 +179,4 @@ void Outputs::commit(const std::string& path, io::TextStream& stream) {
   written_.push_back(path);
 }
 
-void Outputs::write(io::CheckpointFile& checkpoint) {
-  const Expected<void> result = checkpoint.write();
-  if (!result) fail(result.error());
-  written_.push_back(checkpoint.path());
-}
-
 }  // namespace temper::app

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "options.hpp"
-#include "temper/checkpoint.hpp"
 #include "temper/io.hpp"
 
 namespace temper::app {
@@ -42,7 +41,6 @@ class Outputs {
   /// Text that comes bit by bit: opened before the work, put in its place after it.
   [[nodiscard]] io::TextStream open(const std::string& path) const;
   void commit(const std::string& path, io::TextStream& stream);
-  void write(io::CheckpointFile& checkpoint);
 
   [[nodiscard]] const std::vector<std::string>& written() const { return written_; }
 

@@ -68,9 +68,7 @@ OTHERS = {
     "--tensor": ("`optimize(tensor=…)`, `dec(tensor=…)`, `mapped`, `mapped_back`", "`Metric`, `mapped`, `mapped_back`"),
     "--threads": ("`threads=…`", "`Executor`, `TbbExecutor`"),
     "--trace": ("`optimize(tracer=…)`", "`OptimizeHooks::tracer`"),
-    "--checkpoint": ("`optimize(checkpoint=…, every=…)`", "`OptimizeHooks::checkpoints`"),
     "--ranks": ("`optimize(ranks=…)`", "`OptimizeHooks::ranks`, `MpiRanks`"),
-    "--resume": ("`optimize(resume=…)`", "`OptimizeHooks::resume`"),
 }  # fmt: skip
 
 

@@ -57,14 +57,6 @@ class Case:
     seconds: float = 0  # of a processor
     counts: dict = dataclasses.field(default_factory=dict)  # calls by kind
 
-    def lost_checkpoint(self, outcome):
-        """Says whether a checkpoint could not be written: a run goes on then, and warns."""
-        return any(f"warning: {name}: cannot be " in outcome.error for name in self.outputs if is_checkpoint(name))
-
-    def old(self, name):
-        """What is there before the run: a checkpoint that it goes on from has to be one."""
-        return self.inputs[name] if is_checkpoint(name) and name in self.inputs else OLD
-
     def __str__(self):
         return "temper " + shlex.join(self.arguments)
 
@@ -75,17 +67,6 @@ class Outcome:
     error: str
     files: dict
     seconds: float  # of a processor, after the signal or in all
-
-
-def is_checkpoint(name):
-    return name.endswith(".ckpt")
-
-
-def is_whole_checkpoint(content):
-    """As its first line and the size after it say (temper/envelope.hpp); only the program knows the checksum."""
-    line, _, rest = content.partition(b"\n")
-    return (line.startswith(b"temper checkpoint, version ") and len(rest) >= 16
-            and int.from_bytes(rest[:8], sys.byteorder) == len(rest) - 16)
 
 
 def seconds_of_children():
@@ -201,8 +182,6 @@ class Judge:
             return True
         if name not in case.volatile:
             return False
-        if is_checkpoint(name):
-            return is_whole_checkpoint(content)
         try:
             return name.endswith(".json") and json.loads(content) is not None
         except ValueError:
@@ -212,7 +191,7 @@ class Judge:
         """Each output old or new, and nothing else."""
         for name, content in outcome.files.items():
             if name in case.outputs:
-                known = content == case.old(name) or self.whole(case, name, content)
+                known = content == OLD or self.whole(case, name, content)
                 self.expect(known, case, fault, f"{name} is neither old nor whole")
             elif name in case.inputs:
                 self.expect(content == case.inputs[name], case, fault, f"{name}, an input, has changed")
@@ -229,15 +208,13 @@ class Judge:
 
     def all_new(self, case, fault, outcome):
         for name in case.outputs:
-            if is_checkpoint(name) and case.lost_checkpoint(outcome):
-                continue  # the one before
             content = outcome.files.get(name)
             new = content is not None and self.whole(case, name, content)
             self.expect(new, case, fault, f"{name} is not the new file, exit code {outcome.exit}")
 
 
 def with_old_outputs(case):
-    return {**case.inputs, **{name: case.old(name) for name in case.outputs}}
+    return {**case.inputs, **{name: OLD for name in case.outputs}}
 
 
 def numbers(n, wanted, rng):
@@ -268,12 +245,11 @@ def fail_writes(runner, case, judge, wanted, rng):
                 judge.injected[kind] += 1
                 judge.files(case, fault, outcome)
                 # A lock that is let go after its file is in place has nothing left to lose.
-                lost = case.lost_checkpoint(outcome)
-                fails = {"short": (case.exit,), "close": (case.exit, 1)}.get(kind, (case.exit,) if lost else (1,))
+                fails = {"short": (case.exit,), "close": (case.exit, 1)}.get(kind, (1,))
                 judge.failure(case, fault, outcome, fails)
                 if outcome.exit == case.exit:
                     judge.all_new(case, fault, outcome)
-                if outcome.exit != case.exit or lost:
+                if outcome.exit != case.exit:
                     judge.expect(os.strerror(code) in outcome.error, case, fault, "the error is not named")
 
 

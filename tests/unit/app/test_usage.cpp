@@ -69,11 +69,10 @@ TEST_F(Usage, HelpFitsInAHundredColumnsOfAscii) {
 
 TEST_F(Usage, HelpMentionsEveryOption) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> options = {
-      {"optimize", {"--output",     "--report",          "--history",        "--trace",
-                    "--draw",       "--quiet",           "--threads",        "--method",
-                    "--fix",        "--checkpoint",      "--every",          "--resume",
-                    "--size-field", "--size-field-data", "--positions-only", "--weights-only",
-                    "--no-flips",   "--gamma-rel",       "--h0-rel",         "--help"}},
+      {"optimize",
+       {"--output", "--report", "--history", "--trace", "--draw", "--quiet", "--threads", "--method", "--fix",
+        "--save-every", "--size-field", "--size-field-data", "--positions-only", "--weights-only", "--no-flips",
+        "--gamma-rel", "--h0-rel", "--help"}},
       {"replay", {"--output", "--sweeps", "--quiet", "--help"}},
       {"check",
        {"--json", "--html", "--gamma ", "--gamma-rel", "--h0 ", "--h0-rel", "--require", "--worst", "--threads",
