@@ -42,13 +42,13 @@ temper_install(temper core "Primal-dual triangle meshes that solvers can trust: 
 # Headers of the other libraries come with them; build_info.hpp is of the program.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/temper DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.hpp"
-        PATTERN "build_info.hpp" EXCLUDE PATTERN "io.hpp" EXCLUDE PATTERN "checkpoint.hpp" EXCLUDE PATTERN "dec_io.hpp" EXCLUDE PATTERN "html.hpp" EXCLUDE
+        PATTERN "build_info.hpp" EXCLUDE PATTERN "io.hpp" EXCLUDE PATTERN "dec_io.hpp" EXCLUDE PATTERN "html.hpp" EXCLUDE
         PATTERN "lp.hpp" EXCLUDE PATTERN "tbb_executor.hpp" EXCLUDE PATTERN "mpi_ranks.hpp" EXCLUDE PATTERN "verify.hpp" EXCLUDE)
 
 # Static libraries: whoever links the installed ones needs their libraries too, which temperConfig.cmake finds.
 if(TARGET temper_io)
   target_link_libraries(temper_io PRIVATE $<INSTALL_INTERFACE:pugixml::pugixml>)
-  temper_install(temper_io io "temper's mesh files" HEADERS io dec_io checkpoint html REQUIRES pugixml zlib LIBS ${CMAKE_DL_LIBS})
+  temper_install(temper_io io "temper's mesh files" HEADERS io dec_io html REQUIRES pugixml zlib LIBS ${CMAKE_DL_LIBS})
 endif()
 if(TARGET temper_lp)
   target_link_libraries(temper_lp PRIVATE $<INSTALL_INTERFACE:Clp::Clp>)

@@ -23,10 +23,6 @@
 #include "temper/projection.hpp"
 #include "temper/size.hpp"
 
-namespace temper {
-class Archive;
-}
-
 namespace temper::io {
 
 /// Numbers of one kind. Files are written with the type they were read with.
@@ -154,8 +150,6 @@ class TextStream {
 
   /// Once writing has failed the rest is ignored: commit() says why.
   void write(std::string_view text);
-  /// All that was written. An error where it cannot be read again: of a pipe.
-  [[nodiscard]] Expected<std::string> so_far();
   /// The last call. What was written takes its place, or there is an error and what was there before is unchanged.
   [[nodiscard]] Expected<void> commit();
 
@@ -180,7 +174,6 @@ class VertexOfPoint {
   [[nodiscard]] std::int32_t operator[](std::size_t point) const {
     return vertices_.empty() ? static_cast<std::int32_t>(point) : vertices_[point];
   }
-  void visit(Archive& archive);
 
  private:
   std::size_t n_ = 0, n_kept_ = 0;
@@ -283,11 +276,6 @@ DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
 /// points were dropped or are on a sphere, or there are data of points or triangles, which update() needs the former
 /// geometry for. What is free is given back to the system.
 void release_geometry(MeshFile& file, const LoadedMesh& loaded);
-
-/// A file, and what was loaded of it but for the mesh, as bytes and back: see temper/archive.hpp. For systems with 64
-/// bits.
-void visit(Archive& archive, MeshFile& file);
-void visit(Archive& archive, LoadedMesh& loaded);
 
 /// An outline, as a file gives it.
 struct OutlineFile {

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _temper
 from ._errors import TemperError, TemperWarning
-from ._mesh import PAGE, DataRules, Mesh, MeshLike, as_mesh, data_rules, put_back
+from ._mesh import DataRules, Mesh, MeshLike, as_mesh, data_rules, put_back
 from ._options import OptimizeOptions, changed, shows_options
 from ._progress import Line, Progress, SweepRecord
 from ._records import Record

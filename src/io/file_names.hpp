@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "temper/archive.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper::io {
@@ -27,8 +26,6 @@ class RunLength {
   [[nodiscard]] std::int64_t operator[](std::int64_t index) const;
   /// Says whether the numbers are first, first + 1, …
   [[nodiscard]] bool counts_from(std::int64_t first) const;
-
-  void visit(Archive& archive);
 
  private:
   friend class NumberLookup;

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "io/disk.hpp"
-#include "io/input.hpp"
 
 namespace temper::io {
 
@@ -61,13 +60,6 @@ void Output::put(std::string_view bytes) {
     used_ += n;
     bytes.remove_prefix(n);
   }
-}
-
-std::string Output::so_far() {
-  if (!temporary_.exists())
-    fail(ErrorCode::not_writable, path_, "is no file that can be read again while it is written");
-  flush();
-  return look_at(temporary_.path()).bytes == 0 ? std::string() : load(temporary_.path()).bytes;
 }
 
 void Output::flush() {

@@ -44,8 +44,6 @@ class Output {
     put(second);
     (put(more), ...);
   }
-  /// The bytes so far. Failure where what is written cannot be read, as of a pipe.
-  [[nodiscard]] std::string so_far();
   /// The bytes of a number, as they are in memory.
   template <class T>
   void put_raw(const T& value) {

@@ -1,13 +1,11 @@
-// Traces, certificates, checkpoints and layers, as the program reads them: what is read is checked and done again.
+// Traces, certificates and layers, as the program reads them: what is read is checked and done again.
 #include <vector>
 
 #include "apps/temper/certificate_json.hpp"
 #include "apps/temper/exit.hpp"
 #include "apps/temper/trace_jsonl.hpp"
 #include "target.hpp"
-#include "temper/checkpoint.hpp"
 #include "temper/dec_io.hpp"
-#include "temper/envelope.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 
@@ -58,22 +56,6 @@ void read_trace(std::string_view bytes) {
   });
 }
 
-constexpr std::string_view kCheckpoint = "temper checkpoint";
-
-/// As they are, and in an envelope, whose checksum would stop nearly all of them. The state of a run is not gone on
-/// with: it is no format, and means something to the build that wrote it.
-void read_checkpoint(std::string_view bytes) {
-  static const Scratch scratch;
-  for (const std::string& file : {std::string(bytes), in_envelope(kCheckpoint, bytes)}) {
-    const auto read = io::read_checkpoint(scratch.make("c.ckpt", file));
-    if (!read) {
-      insist(!read.error().message.empty(), "an error has a message");
-      continue;
-    }
-    for (const io::MeshFile& mesh : read->inputs) static_cast<void>(io::make_mesh(mesh));
-  }
-}
-
 void read_layers(std::string_view bytes) {
   static const Scratch scratch;
   const Mesh& mesh = input().mesh();
@@ -122,29 +104,11 @@ std::vector<std::string> traces() {
   return all;
 }
 
-/// A file, and what is in its envelope.
-std::vector<std::string> checkpoints() {
-  const Scratch scratch;
-  const std::string path = scratch.path("run.ckpt");
-  io::CheckpointFile file(path, 0);
-  file.set_command({"optimize", "m.vtu"});
-  file.add_input(io::from_mesh(input().mesh()));
-  OptimizeHooks hooks;
-  hooks.checkpoints = [&](const auto& state) { insist(file.keep(state).has_value(), "a checkpoint is written"); };
-  Mesh mesh = input().mesh();
-  insist(optimize(mesh, {.max_sweeps = 2}, hooks).has_value(), "a run ends");
-  const std::string all = content_of(path);
-  const auto inside = from_envelope(kCheckpoint, all);
-  insist(inside.has_value(), "what was written is read");
-  return {all, std::string(*inside)};
-}
-
 }  // namespace
 
 std::vector<Target> program_file_targets() {
   return {{"certificate", read_certificate, certificates},
           {"trace", read_trace, traces},
-          {"checkpoint", read_checkpoint, checkpoints},
           {"layers", read_layers, [] {
              return std::vector<std::string>{
                  "vertex,top,bottom 1,bottom 2,active 1,active 2\n*,3,2,1,1,1\n# c\n4,,2.5,nan,,0\n",

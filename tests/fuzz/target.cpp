@@ -12,6 +12,15 @@ namespace temper::fuzz {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+std::string content_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
 std::vector<Target> targets() {
   std::vector<Target> all;
   for (auto some : {mesh_file_targets, outline_targets, program_file_targets, optimize_targets}) {
@@ -38,11 +47,6 @@ std::vector<std::string> seeds_and_finds(const Target& target) {
     all.push_back(content_of(entry.path()));
   }
   return all;
-}
-
-std::string content_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 void insist(bool holds, std::string_view what) {

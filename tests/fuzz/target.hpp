@@ -19,7 +19,7 @@ struct Target {
 [[nodiscard]] std::vector<Target> mesh_file_targets();
 /// Outlines of each format, and JSON.
 [[nodiscard]] std::vector<Target> outline_targets();
-/// Traces, certificates and checkpoints of the program.
+/// Traces, certificates and layers of the program.
 [[nodiscard]] std::vector<Target> program_file_targets();
 /// Meshes and options made of the bytes, through optimize().
 [[nodiscard]] std::vector<Target> optimize_targets();
@@ -31,9 +31,6 @@ struct Target {
 
 /// Its seeds, and what it once did not survive: the files finds/NAME-….
 [[nodiscard]] std::vector<std::string> seeds_and_finds(const Target& target);
-
-/// The bytes of a file.
-[[nodiscard]] std::string content_of(const std::string& path);
 
 /// Ends the process, with a word on why, unless it holds.
 void insist(bool holds, std::string_view what);

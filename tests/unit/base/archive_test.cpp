@@ -1,10 +1,9 @@
-// Archives and envelopes: what is written is read, and what was not written so is refused, whatever it is.
+// Archives: what is written is read, and what was not written so is refused, whatever it is.
 #include "temper/archive.hpp"
 
 #include <gtest/gtest.h>
 
 #include "base/rng.hpp"
-#include "temper/envelope.hpp"
 
 namespace temper {
 namespace {
@@ -87,26 +86,6 @@ TEST(Archives, FindOutThatAClassHasAnotherMemberThanWhenItWasWritten) {
   EXPECT_FALSE(reads.failed());
   reads.seal();
   EXPECT_TRUE(reads.failed());
-}
-
-TEST(Envelopes, AreRefusedWhenOneBitIsAnother) {
-  const std::string kind = "temper letter", text = "what was written", envelope = in_envelope(kind, text);
-  ASSERT_TRUE(from_envelope(kind, envelope));
-  EXPECT_EQ(*from_envelope(kind, envelope), text);
-  for (std::size_t i = 0; i < 8 * envelope.size(); ++i) {
-    std::string changed = envelope;
-    changed[i / 8] = static_cast<char>(changed[i / 8] ^ (1 << (i % 8)));
-    EXPECT_FALSE(from_envelope(kind, changed)) << "bit " << i;
-  }
-  for (std::size_t n = 0; n < envelope.size(); ++n) {
-    const auto cut = from_envelope(kind, std::string_view(envelope).substr(0, n));
-    ASSERT_FALSE(cut) << n;
-    EXPECT_EQ(cut.error().code, ErrorCode::truncated) << n;
-  }
-  EXPECT_EQ(from_envelope(kind, envelope + "x").error().code, ErrorCode::syntax);
-  EXPECT_EQ(from_envelope("temper song", envelope).error().code, ErrorCode::syntax);
-  EXPECT_EQ(from_envelope(kind, "temper letter, version 0.0.1\n").error().code, ErrorCode::unsupported);
-  EXPECT_EQ(*from_envelope(kind, in_envelope(kind, {})), "");
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST_F(FileTest, unused_points_are_dropped_and_named_in_the_numbers_of_the_file)
   EXPECT_EQ(made->vertex_of_point.n_kept(), 4u);
   for (std::size_t p = 0; p < vertex_of_point.size(); ++p) EXPECT_EQ(made->vertex_of_point[p], vertex_of_point[p]) << p;
 
-  for (int twice = 0; twice < 2; ++twice) {  // as for checkpoints of one run
+  for (int twice = 0; twice < 2; ++twice) {  // as for --save-every
     update(*f, *made, made->mesh);
     EXPECT_EQ(f->points, (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
     EXPECT_EQ(f->weights, (std::vector<double>{0, 1, 2, 3}));

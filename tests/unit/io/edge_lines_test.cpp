@@ -124,7 +124,7 @@ TEST(EdgeLines, edges_that_flips_make_take_the_places_of_those_that_are_gone) {
   auto made = make_mesh(before);
   ASSERT_TRUE(made);
   MeshFile after = before;
-  for (int k = 0; k < 2; ++k) {  // as for checkpoints of one run
+  for (int k = 0; k < 2; ++k) {  // as for --save-every
     ASSERT_GT(flip_some(made->mesh), 0u);
     update(after, *made, made->mesh);
     EXPECT_EQ(lines_of_tag(after, kEdgeTag), edges_of(made->mesh, false));
