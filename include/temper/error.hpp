@@ -35,7 +35,6 @@ enum class ErrorCode {
   hidden_vertex,        ///< weights that leave a vertex without power cell
   stopped,              ///< by the caller or a time limit, before there was a result
   trace_mismatch,       ///< an event of a trace that does not fit the mesh
-  checkpoint_mismatch,  ///< a checkpoint of a run with another mesh or other options
   rank_mismatch,        ///< ranks of one run that have different meshes or options
   not_writable,         ///< an output that cannot be written; nothing was changed
 };

@@ -50,8 +50,6 @@ std::string_view name(ErrorCode code) {
       return "stopped";
     case ErrorCode::trace_mismatch:
       return "trace_mismatch";
-    case ErrorCode::checkpoint_mismatch:
-      return "checkpoint_mismatch";
     case ErrorCode::rank_mismatch:
       return "rank_mismatch";
     case ErrorCode::not_writable:
