@@ -2,9 +2,8 @@
 #include "bind.hpp"
 #include "optimize_options.hpp"
 #include "ranks.hpp"
-#include "temper/lp.hpp"
+#include "temper/solvers.hpp"
 #include "temper/trace.hpp"
-#include "temper/verify.hpp"
 
 TEMPER_PYTHON_NAMES(temper::Snapshot::Moment, "start", "after_sweep", "before_flips", "after_flips");
 TEMPER_PYTHON_NAMES(temper::EventKind, "move", "weight", "flip", "collapse", "removal", "insertion", "split", "hidden",
@@ -83,41 +82,26 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
   OptimizeOptions options = options_from(given);
   options.size_field = size_field_from(arguments.size_field);
   const auto count = threads_from(arguments.threads);
-  const std::optional<Metric> metric =
-      arguments.tensor.is_none() ? std::nullopt : std::optional(metric_from(arguments.tensor));
-  const auto before = self.read();
+  if (!arguments.tensor.is_none()) options.tensor = metric_from(arguments.tensor).tensor();
+  Mesh mesh = *self.read();
   Visitor visitor;
   const Observer observer = observer_of(visitor, arguments.callbacks.observer);
   OptimizeHooks hooks;
   hooks.observer = observer;
   hooks.exclusive = true;  // the copy that becomes the mesh
-  const std::unique_ptr<LpSolver> lp = clp_solver();
-  hooks.lp = lp.get();
+  hooks.solvers = solvers();
   std::optional<PythonRanks> ranks;
   if (!arguments.ranks.is_none()) hooks.ranks = &ranks.emplace(arguments.ranks);
   set_callbacks(hooks, visitor, arguments.callbacks);
-  Mesh mesh = metric ? or_raise(mapped(*before, *metric)) : *before;
   std::optional<Expected<OptimizeReport>> report;
   {
     const PyMesh::Run run(self);
     const py::gil_scoped_release release;
     const auto executor = make_threads(count);
     hooks.executor = executor.get();
-#ifdef TEMPER_WITH_VERIFY
-    if (wants_error_model(options, mesh)) {
-      auto model = solver_error_model(mesh, {.scheme = options.for_});
-      if (!model)
-        report = model.error();
-      else
-        options.error.model = *std::move(model);
-    }
-#endif
-    if (!report) report = optimize(mesh, options, hooks);
+    report = optimize(mesh, options, hooks);
   }
-  if (report->has_value()) {
-    const auto& vertices = (*report)->vertices;
-    self.replace(metric ? or_raise(mapped_back(mesh, *before, *metric, vertices)) : std::move(mesh), vertices);
-  }
+  if (report->has_value()) self.replace(std::move(mesh), (*report)->vertices);
   visitor.raise();
   if (!*report) throw BadInput{report->error()};
   return report_to_dict(**report);

@@ -115,18 +115,11 @@ void print_result(const OptimizeSettings& s, const RunResults& results, const Ou
   print(written + "\n");
 }
 
-/// Says whether edges are not regular that should be: `after` counts those that may not be flipped, too.
-bool lacks_flips(const OptimizeSettings& s, const Quality& after, const Mesh& mesh, Executor* executor) {
-  const OptimizeOptions& o = s.options();
-  return after.non_regular_edges > 0 && o.flips != Flips::none && o.paper.hidden != HiddenPolicy::keep &&
-         count_non_regular_edges(mesh, false, executor) > 0;
-}
-
 Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs) {
   const std::unique_ptr<Executor> threads = make_threads(threads_of_rank(s.threads));
   std::optional<TraceFile> trace;
   if (!s.trace.empty()) trace.emplace(TraceFile{outputs.open(s.trace), {}});
-  RunFiles files = {threads.get(), trace ? &*trace : nullptr};
+  const RunFiles files = {threads.get(), trace ? &*trace : nullptr};
   Input input = read_input(s.input, {s.projection, s.fix, threads.get(), true});
   if (!s.html.empty()) expect_plane(input.mesh(), s.input, "--html");
   RunResults results;
@@ -142,13 +135,9 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   }
   // The mesh has its geometry now, and memory is dear on the largest ones.
   io::release_geometry(input.file, input.loaded);
-  const std::optional<Mesh> plain = take_to_metric(input, s.metric);
-  if (plain) files.plain = &*plain;
   agree_to_go_on();
   improve(s, input, results, files);
   if (!is_first_rank()) return Exit::done;
-  results.lacks_flips = lacks_flips(s, results.after, input.loaded.mesh, threads.get());
-  if (plain) input.loaded.mesh = or_fail(taken_back(s, input.loaded.mesh, *plain, results.report.vertices));
   write_all(command, s, input, results, outputs, files);
   if (!s.quiet) print_result(s, results, outputs);
   flush_output();  // before the verdict on standard error

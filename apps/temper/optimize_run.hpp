@@ -16,7 +16,7 @@ namespace temper::app {
 /// What a run made, apart from the mesh.
 struct RunResults {
   Quality before, after;
-  Mesh original;  ///< when a picture, a page or --verify needs it
+  Mesh original;  ///< when a picture or a page needs it
   OptimizeReport report;
   std::vector<Outcome> outcomes;  ///< of --require
   bool lacks_flips = false;       ///< edges are not regular that should be
@@ -36,12 +36,7 @@ struct TraceFile {
 struct RunFiles {
   Executor* threads = nullptr;
   TraceFile* trace = nullptr;
-  const Mesh* plain = nullptr;  ///< the input in the plane of its file, when the run is in that of a metric
 };
-
-/// A mesh of the run, in the plane of the file.
-[[nodiscard]] Expected<Mesh> taken_back(const OptimizeSettings& s, const Mesh& mesh, const Mesh& plain,
-                                        const IdVector<VertexId, VertexId>& vertices);
 
 /// Improves the mesh of the input in place: a second copy is made only when something needs one.
 void improve(const OptimizeSettings& s, Input& input, RunResults& results, const RunFiles& files);

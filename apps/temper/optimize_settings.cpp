@@ -31,8 +31,7 @@ void add_files(Command& command, OptimizeSettings& s) {
 #ifdef TEMPER_WITH_VERIFY
   command.add_flag(
       "--verify", s.verify,
-      "measure the errors of solvers, too, before and after: see temper verify. But for --objective energy the input "
-      "is returned when it is well-centered and its errors are the smaller ones");
+      "measure the errors of solvers, too, before and after: see temper verify");
 #endif
   add_requirements(command, s.require).sentence =
       "outside=0,min_h=0.05,...: exit with 3 when the result is not so, with everything written; see temper check";

@@ -1,6 +1,7 @@
 // The options of temper optimize: what is given, and what it says to do.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,12 +15,11 @@
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "tensor_option.hpp"
-#include "time_limit.hpp"
 
 namespace temper::app {
 
 struct OptimizeSettings {
-  TimeLimit since;
+  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
   std::string projection;
   std::string input, report, html, history, picture, trace;
   MeshOutput output;

@@ -14,12 +14,6 @@ class SolverErrors {
   SolverErrors(const Mesh& input, Executor* executor);
 
   void measure_result(const Mesh& result);
-  /// The input has nothing to mend, being regular and well-centered, and the errors of ★1, Poisson and flux are larger
-  /// in the mean than they were: superconvergence of a symmetric mesh, mostly.
-  [[nodiscard]] bool input_was_better() const;
-  /// ★1, Poisson and flux in the mean over all fields: what the result has over what the input has.
-  [[nodiscard]] double mean_ratio() const;
-
   [[nodiscard]] std::string text(const TextStyle& style) const;
   [[nodiscard]] std::string json() const;
 

@@ -25,15 +25,17 @@ void expect_without(const Command& command, const std::optional<Metric>& metric,
                 fmt::format("{0}: --tensor does not go with {1}\nSee temper {0} --help", command.name(), option));
 }
 
+Mesh in_metric(const Mesh& mesh, const Metric& metric, const Input& input) {
+  auto there = mapped(mesh, metric, *input.names);
+  if (there) return *std::move(there);
+  InputError error = there.error();
+  if (error.where.empty()) error.where = input.path;
+  throw as_failure(error);
+}
+
 std::optional<Mesh> take_to_metric(Input& input, const std::optional<Metric>& metric) {
   if (!metric) return {};
-  auto there = mapped(input.mesh(), *metric, *input.names);
-  if (!there) {
-    InputError error = there.error();
-    if (error.where.empty()) error.where = input.path;
-    throw as_failure(error);
-  }
-  return std::exchange(input.loaded.mesh, *std::move(there));
+  return std::exchange(input.loaded.mesh, in_metric(input.mesh(), *metric, input));
 }
 
 }  // namespace temper::app

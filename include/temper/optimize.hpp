@@ -271,8 +271,8 @@ struct OptimizeOptions {
   Repair repair = Repair::moves;
   int repair_trials = 20000;  ///< most edits that are tried, each on a copy of a neighbourhood; 1 to 3 ms each; a
                               ///< linear programme (OptimizeHooks::lp) counts as 20
-  /// A constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/tensor.hpp). The report
-  /// is of that plane. Absent: K = 1.
+  /// A constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/tensor.hpp). The report and
+  /// snapshots are of that plane. Absent: K = 1.
   std::optional<Tensor> tensor = {};
   int max_sweeps = 1000;      ///< each repair counts as a sweep of its own
   double time_limit = 0;      ///< of all of it, seconds; 0: none
@@ -335,7 +335,8 @@ struct OptimizeHooks {
   /// released, 24 bytes a vertex.
   bool exclusive = false;
   Solvers solvers = {};
-  /// The moment from which the time limit counts, as of a program that has read files before. Absent: the call.
+  /// The moment from which the time limit counts: a program may have read files before, and writing them may take as
+  /// long. Absent: the call.
   std::optional<std::chrono::steady_clock::time_point> started = {};
 };
 

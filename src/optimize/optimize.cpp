@@ -99,7 +99,6 @@ std::optional<InputError> check_metric(const OptimizeOptions& options, const Opt
   };
   if (options.size_field) return refused("`size_field`: sizes are lengths of the plane of the mesh");
   if (hooks.tracer) return refused("a trace: its events would be in the plane of the metric");
-  if (hooks.snapshots) return refused("snapshots, which would be in the plane of the metric");
   return std::nullopt;
 }
 

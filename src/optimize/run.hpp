@@ -61,7 +61,7 @@ class Run {
   /// From here on there are sweeps. What has been done so far, copies and measures of the whole mesh, is done again
   /// when they end, and takes about as long: the time limit is of all of it.
   void begin_sweeps() {
-    if (ending_seconds_ == 0) ending_seconds_ = seconds();
+    if (ending_seconds_ == 0) ending_seconds_ = seconds_between(limit_from_, Clock::now());
   }
   /// A mesh of the run may be saved: says so to the listener, if there is one.
   void offer(const WorkingCopy& now, const Settings& settings, const SweepState& state) const;
