@@ -1,7 +1,7 @@
 // Bindings of optimize and replay: options, who listens, checkpoints, the mesh in place whatever ended the run.
 #include "bind.hpp"
+#include "communicator.hpp"
 #include "optimize_options.hpp"
-#include "ranks.hpp"
 #include "temper/archive.hpp"
 #include "temper/checkpoint.hpp"
 #include "temper/lp.hpp"
@@ -107,13 +107,13 @@ class Checkpoints {
 };
 
 /// What rank 0, whose the checkpoints are, says of its first to all ranks. Collective.
-std::optional<InputError> agreed(const std::optional<InputError>& refusal, Ranks& ranks) {
+std::optional<InputError> agreed(const std::optional<InputError>& refusal, Communicator& communicator) {
   InputError error = refusal.value_or(InputError());
   bool is_refused = refusal.has_value();
   std::string told;
   Archive archive(told);
   archive(is_refused, error.code, error.where, error.message);
-  ranks.broadcast(told, 0);
+  communicator.broadcast(told, 0);
   Archive(std::string_view(told))(is_refused, error.code, error.where, error.message);
   if (!is_refused) return std::nullopt;
   return error;
@@ -123,10 +123,10 @@ std::optional<InputError> agreed(const std::optional<InputError>& refusal, Ranks
 struct RunArguments {
   py::object size_field, threads;
   Callbacks callbacks;
-  py::object checkpoint;  ///< see Checkpoints
-  py::object resume;      ///< path of a checkpoint
-  py::object tensor;      ///< kxx, kxy, kyy
-  py::object ranks;       ///< a communicator of mpi4py
+  py::object checkpoint;    ///< see Checkpoints
+  py::object resume;        ///< path of a checkpoint
+  py::object tensor;        ///< kxx, kxy, kyy
+  py::object communicator;  ///< a communicator of mpi4py
 };
 
 /// An error of the run, which says in which file the state is that it was to go on from.
@@ -153,8 +153,8 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
   hooks.exclusive = true;  // the copy that becomes the mesh
   const std::unique_ptr<LpSolver> lp = clp_solver();
   hooks.lp = lp.get();
-  std::optional<PythonRanks> ranks;
-  if (!arguments.ranks.is_none()) hooks.ranks = &ranks.emplace(arguments.ranks);
+  std::optional<PythonCommunicator> communicator;
+  if (!arguments.communicator.is_none()) hooks.communicator = &communicator.emplace(arguments.communicator);
   set_callbacks(hooks, visitor, arguments.callbacks);
   std::optional<Checkpoints> checkpoints;
   if (!arguments.checkpoint.is_none()) {
@@ -182,7 +182,7 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
     if (checkpoints && !checkpoints->refusal() && report->has_value() && stopped_early((*report)->stopped))
       checkpoints->write();
     if (checkpoints) refusal = checkpoints->refusal();
-    if (ranks && report->has_value()) refusal = agreed(refusal, *ranks);
+    if (communicator && report->has_value()) refusal = agreed(refusal, *communicator);
   }
   if (refusal) {  // which stopped the run of all ranks at its beginning
     visitor.raise();
@@ -221,13 +221,13 @@ TraceEvent event_from(const py::dict& d) {
 }  // namespace
 
 void bind_optimize(py::module_& m) {
-  m.def("optimize",
-        [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
-           const py::object& observer, const py::object& tracer, const py::object& snapshots,
-           const py::object& checkpoint, const py::object& resume, const py::object& tensor, const py::object& ranks) {
-          return optimize_mesh(self, options,
-                               {size_field, threads, {observer, tracer, snapshots}, checkpoint, resume, tensor, ranks});
-        });
+  m.def("optimize", [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
+                       const py::object& observer, const py::object& tracer, const py::object& snapshots,
+                       const py::object& checkpoint, const py::object& resume, const py::object& tensor,
+                       const py::object& communicator) {
+    return optimize_mesh(
+        self, options, {size_field, threads, {observer, tracer, snapshots}, checkpoint, resume, tensor, communicator});
+  });
   m.def("methods", [] {
     py::dict all;
     for (const Method& method : methods()) all[py::str(std::string(method.name))] = options_to_dict(method.options());

@@ -158,7 +158,7 @@ std::string words_of_run(const Command& command) {
 }
 
 Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs, const Resumed* resumed) {
-  const std::unique_ptr<Executor> threads = make_threads(threads_of_rank(s.threads));
+  const std::unique_ptr<Executor> threads = make_threads(s.threads);
   std::optional<TraceFile> trace;
   if (!s.trace.empty()) trace.emplace(TraceFile{outputs.open(s.trace), {}});
   std::optional<io::CheckpointFile> checkpoint = checkpoint_of(command, s, trace ? &*trace : nullptr);
@@ -184,6 +184,7 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   io::release_geometry(input.file, input.loaded);
   const std::optional<Mesh> plain = take_to_metric(input, s.metric);
   agree_to_go_on();
+  warn(results, warnings_of_ranks());
   improve(s, input, results, files);
   if (!is_first_rank()) return Exit::done;
   results.lacks_flips = lacks_flips(s, results.after, input.loaded.mesh, threads.get());
@@ -209,8 +210,7 @@ void leave_outputs_to_first_rank(OptimizeSettings& s) {
 Exit run_command(Command& command, OptimizeSettings& settings, const Resumed* resumed) {
   take_input(command, settings);
   expect_no_contradictions(command);
-  command.spell_defaults();                 // --method may have changed them
-  command.option("--ranks").given.clear();  // of this start alone, not of the run
+  command.spell_defaults();  // --method may have changed them
   for (const char* option : {"--size-field", "--html", "--trace"}) expect_without(command, settings.metric, option);
   if (settings.metric) settings.output.options.triangle_quality = false;  // which is of the plane
   settings.requirements = parse_requirements("optimize", settings.require);
@@ -248,9 +248,7 @@ Exit run_optimize(const Arguments& arguments) {
   join_ranks();
   OptimizeSettings settings;
   Command command = optimize_command(settings);
-  std::optional<RankUnit> unit;
-  if (command.parse(arguments)) unit = settings.rank_unit;
-  if (!become_ranks(unit, arguments)) return Exit::done;
+  if (!command.parse(arguments)) return Exit::done;
   return settings.resume.empty() ? run_command(command, settings, nullptr) : resume(command, settings.resume);
 }
 

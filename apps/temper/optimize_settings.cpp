@@ -52,19 +52,13 @@ void add_run(Command& command, OptimizeSettings& s) {
   command.group("The run");
   add_count(
       command, "--threads", s.threads, 0,
-      "threads, of each of mpirun's processes; 0: as many as the machine has, or as these may run on; the result is "
-      "the same");
-  static constexpr Choice<RankUnit> kRankUnits[] = {{"machine", RankUnit::machine}, {"process", RankUnit::process}};
-  add_choice(
-      command, "--ranks", kRankUnits, s.rank_unit,
-      "what mpirun's processes are: those of a machine are threads of one rank, which has the mesh; or each is a "
-      "rank, and has it");
+      "threads of each process; 0: as many as the machine has, or as the process may run on; the result is the same");
   add_text(command, "--checkpoint", "FILE", s.checkpoint,
            "the state of the run, for --resume: at its beginning, now and then, and when it is stopped early");
   add_number(command, "--every", s.every, kNotNegative, "seconds between checkpoints; 0: as many as there can be");
   add_text(command, "--resume", "FILE", s.resume,
            "go on with the run of a checkpoint, to what it would have ended with; IN and options are those of the run, "
-           "but for outputs, --threads, --ranks, --time-limit (of each run alone), --checkpoint and --every");
+           "but for outputs, --threads, --time-limit (of each run alone), --checkpoint and --every");
   std::vector<std::string_view> names;
   std::string help = "what all options start from";
   for (const Method& method : methods()) {
@@ -83,16 +77,15 @@ void add_run(Command& command, OptimizeSettings& s) {
 
 /// Of this verb's own options those that a first run does without; of the library's the table says it.
 constexpr const char* kRare[] = {
-    "--projection", "--format",  "--encoding",   "--point-data",      "--history",
-    "--trace",      "--threads", "--ranks",      "--method",          "--checkpoint",
-    "--every",      "--resume",  "--size-field", "--size-field-data", "--no-triangle-quality",
-    "--tensor"};
+    "--projection", "--format",     "--encoding",        "--point-data",          "--history",
+    "--trace",      "--threads",    "--method",          "--checkpoint",          "--every",
+    "--resume",     "--size-field", "--size-field-data", "--no-triangle-quality", "--tensor"};
 
 /// Of which no result depends: they may be given anew beside --resume.
-constexpr const char* kAnew[] = {"--output", "--format",  "--encoding",   "--no-triangle-quality",
-                                 "--report", "--html",    "--history",    "--trace",
-                                 "--draw",   "--require", "--quiet",      "--threads",
-                                 "--ranks",  "--every",   "--checkpoint", "--time-limit"};
+constexpr const char* kAnew[] = {"--output", "--format",     "--encoding",  "--no-triangle-quality",
+                                 "--report", "--html",       "--history",   "--trace",
+                                 "--draw",   "--require",    "--quiet",     "--threads",
+                                 "--every",  "--checkpoint", "--time-limit"};
 
 }  // namespace
 

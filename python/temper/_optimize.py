@@ -122,13 +122,13 @@ def _path(name: str, path: str | os.PathLike[str] | None) -> str | None:
     return None if path is None else os.fspath(path)
 
 
-def _is_helper(ranks: Any) -> bool:
+def _is_helper(communicator: Any) -> bool:
     """Whether this process helps rank 0 with its run."""
-    if ranks is None:
+    if communicator is None:
         return False
-    if not all(callable(getattr(ranks, name, None)) for name in ("Get_size", "Get_rank", "bcast", "Bcast", "Abort")):
-        raise TypeError(f"ranks: expected a communicator of mpi4py or None, found {ranks!r}")
-    return ranks.Get_rank() != 0
+    if not all(callable(getattr(communicator, name, None)) for name in ("Get_size", "Get_rank", "bcast", "Bcast", "Abort")):
+        raise TypeError(f"communicator: expected a communicator of mpi4py or None, found {communicator!r}")
+    return communicator.Get_rank() != 0
 
 
 def _checkpoint(path: str | os.PathLike[str] | None, every: float) -> tuple[str, float, Callable[[str], None]] | None:
@@ -161,7 +161,7 @@ def optimize(
     checkpoint: str | os.PathLike[str] | None = None,
     every: float = _EVERY,
     resume: str | os.PathLike[str] | None = None,
-    ranks: Any = None,
+    communicator: Any = None,
     **changes: Unpack[OptionChanges],
 ) -> OptimizeReport:
     """Improves a mesh in place: moves vertices, weighs them and flips edges until every triangle is well-centered.
@@ -210,9 +210,9 @@ def optimize(
         A checkpoint to go on from: the run ends with the bits that it would have ended with. The mesh is what it was
         when that run began (``optimized`` leaves it so), and options and size field are the same, but for
         ``time_limit``, which is of each run alone. Observers, tracers and snapshots see what is left of the run.
-    ranks : mpi4py.MPI.Comm, optional
-        Processes that make this run together (docs/ranks.md): all of them call with the same mesh and options, and get
-        the result, whose bits do not depend on how many they are. Each has the whole mesh. Progress, observer, time
+    communicator : mpi4py.MPI.Comm, optional
+        Of the processes that make this run together, one on each machine (docs/ranks.md). All of them call with the
+        same mesh and options, and get the result. Its bits do not depend on their number. Progress, observer, time
         limit and checkpoints are those of rank 0.
 
     Returns
@@ -259,7 +259,7 @@ def optimize(
         for name, given in (("size_field", size_field), ("tracer", tracer)):
             if given is not None:
                 raise ValueError(f"{name}: is of the mesh's plane, and does not go with tensor")
-    if _is_helper(ranks):
+    if _is_helper(communicator):
         progress, observer, checkpoint = False, None, None
     target = as_mesh(mesh)
     rules = target.point_data_rules if point_data is None else data_rules(point_data)
@@ -275,7 +275,7 @@ def optimize(
     try:
         watch = _observer(line, observer)
         report = _temper.optimize(
-            target._handle, plain, field, threads, watch, trace, look, kept, resumed, None if tensor is None else tuple(tensor), ranks
+            target._handle, plain, field, threads, watch, trace, look, kept, resumed, None if tensor is None else tuple(tensor), communicator
         )
     finally:
         line.clear()

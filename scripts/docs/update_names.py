@@ -69,7 +69,6 @@ OTHERS = {
     "--threads": ("`threads=…`", "`Executor`, `TbbExecutor`"),
     "--trace": ("`optimize(tracer=…)`", "`OptimizeHooks::tracer`"),
     "--checkpoint": ("`optimize(checkpoint=…, every=…)`", "`OptimizeHooks::checkpoints`"),
-    "--ranks": ("`optimize(ranks=…)`", "`OptimizeHooks::ranks`, `MpiRanks`"),
     "--resume": ("`optimize(resume=…)`", "`OptimizeHooks::resume`"),
 }  # fmt: skip
 

@@ -25,6 +25,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/engine.hpp"
 #include "energy/accuracy_star.hpp"
 #include "energy/length_floors.hpp"
 #include "temper/archive.hpp"
@@ -83,10 +84,10 @@ struct AccuracyTotal {
   double energy = 0, barrier = 0;
 };
 [[nodiscard]] AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                                           const AccuracyModel& model, Executor* executor = nullptr);
+                                           const AccuracyModel& model, const Engine& engine = nullptr);
 /// Its barrier alone.
 [[nodiscard]] double accuracy_barrier(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                                      const AccuracyModel& model, Executor* executor);
+                                      const AccuracyModel& model, const Engine& engine);
 
 /// Energy and barrier as a function of one vertex. Storage is kept from vertex to vertex.
 class AccuracyPatch {

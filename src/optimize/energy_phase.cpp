@@ -58,7 +58,7 @@ double EnergyPhase::total() const {
 }
 
 SweepRecord EnergyPhase::measure() {
-  return record_of(energy_and_bad(mesh_, settings_.model, settings_.hooks.executor));
+  return record_of(energy_and_bad(mesh_, settings_.model, engine_of(settings_.hooks)));
 }
 
 SweepRecord EnergyPhase::record_of(const EnergyAndBad& measured) const {

@@ -72,14 +72,10 @@ void improve(Candidate& best, const Settings& settings, Run& run, AccuracySizes&
 
 Expected<OptimizeReport> optimize(Mesh& mesh, const OptimizeOptions& options, const OptimizeHooks& hooks) {
   if (auto error = expect_agreement(hooks, options, mesh)) return *std::move(error);
-  Run run(options, hooks.observer, hooks.ranks);
+  Run run(options, hooks.observer, hooks.communicator);
   auto settings = make_settings(options, mesh, Frame::of(mesh), hooks);
   if (!settings) return settings.error();
   settings->size_field = field_of_band(mesh, options, hooks.executor);
-  std::optional<RankedExecutor> together;
-  if (hooks.ranks != nullptr) {
-    settings->hooks.executor = &together.emplace(or_serial(hooks.executor), *hooks.ranks);
-  }
 
   auto checkpoints = Checkpoints::of(hooks, options, mesh);
   if (!checkpoints) return checkpoints.error();

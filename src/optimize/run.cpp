@@ -1,30 +1,30 @@
 #include "optimize/run.hpp"
 
+#include "base/bytes.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "optimize/estimate.hpp"
 
 namespace temper {
 
 bool Run::asked_to_stop(double fraction_of_sweep) {
-  if (ranks_ == nullptr) return ask(fraction_of_sweep);
-  if (ranks_->rank() == 0) ask(fraction_of_sweep);
-  if (!apart_) hear();
+  if (communicator_ == nullptr) return ask(fraction_of_sweep);
+  if (communicator_->rank() == 0) ask(fraction_of_sweep);
+  if (!local_) sync_stop();
   return stopped_early();
 }
 
-void Run::meet() {
-  apart_ = false;
-  if (ranks_ != nullptr) hear();
+void Run::end_local() {
+  local_ = false;
+  if (communicator_ != nullptr) sync_stop();
 }
 
-/// What rank 0 was told, if it was told to stop.
-void Run::hear() {
-  std::string told;
-  Archive archive(told);
-  archive(report.stopped);
-  ranks_->broadcast(told, 0);
+/// All ranks stop if rank 0 was told to.
+void Run::sync_stop() {
+  std::string message;
+  ByteWriter(message).write(report.stopped);
+  communicator_->broadcast(message, 0);
   Stopped stopped = report.stopped;
-  Archive(std::string_view(told))(stopped);
+  ByteReader(message).read(stopped);
   if (temper::stopped_early(stopped)) report.stopped = stopped;
 }
 

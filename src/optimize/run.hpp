@@ -5,12 +5,16 @@
 #include <cstddef>
 #include <optional>
 
+#include "base/engine.hpp"
 #include "optimize/checkpoints.hpp"
 #include "optimize/repair/grading.hpp"
 #include "optimize/step/flipper.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {
+
+/// The threads and ranks of a run.
+[[nodiscard]] inline Engine engine_of(const OptimizeHooks& hooks) { return {hooks.executor, hooks.communicator}; }
 
 /// Triangles that are not counter-clockwise, exact.
 [[nodiscard]] std::size_t count_inverted(const Mesh& mesh);
@@ -27,12 +31,12 @@ struct RunFacts {
 
 class Run {
  public:
-  /// `ranks`: that make the run together, or null.
-  Run(const OptimizeOptions& options, const Observer& observer, Ranks* ranks = nullptr)
+  /// `communicator`: of the ranks that make the run together, or null.
+  Run(const OptimizeOptions& options, const Observer& observer, Communicator* communicator = nullptr)
       : repair_trials_left(options.repair_trials),
         options_(options),
         observer_(observer),
-        ranks_(ranks),
+        communicator_(communicator),
         start_(Clock::now()) {}
 
   /// Since the start, and in the runs that this one goes on with.
@@ -49,12 +53,12 @@ class Run {
     if (ending_seconds_ == 0) ending_seconds_ = seconds_here();
   }
   /// Asks the clock and the caller, who are those of rank 0; sets report.stopped when the answer is yes. Ranks ask at
-  /// the same places and hear the same, but while they are apart: rank 0 alone knows then.
+  /// the same places and get the same answer. While they work locally, rank 0 alone gets one.
   bool asked_to_stop(double fraction_of_sweep);
   /// From here on ranks do different things.
-  void part_ways() { apart_ = ranks_ != nullptr; }
-  /// From here on they do the same again, and know what rank 0 was told meanwhile.
-  void meet();
+  void begin_local() { local_ = communicator_ != nullptr; }
+  /// From here on they do the same again, and all have the answer that rank 0 got meanwhile.
+  void end_local();
 
   void count(const Flipper::Changes& changes) {
     report.flips += changes.flips;
@@ -72,14 +76,14 @@ class Run {
   using Clock = std::chrono::steady_clock;
 
   bool ask(double fraction_of_sweep);
-  void hear();
+  void sync_stop();
 
   [[nodiscard]] double seconds_here() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   const OptimizeOptions& options_;
   const Observer& observer_;
-  Ranks* ranks_;
-  bool apart_ = false;
+  Communicator* communicator_;
+  bool local_ = false;
   Clock::time_point start_;
   double earlier_seconds_ = 0;
   double ending_seconds_ = 0;  // after the last sweep, about

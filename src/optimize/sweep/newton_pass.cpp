@@ -35,17 +35,18 @@ void NewtonPass::run(Unknowns unknowns, StopToken& stop) {
   TEMPER_ASSERT_SLOW(count_bad(mesh_, nullptr) == 0);
   const std::size_t count = std::max<std::size_t>(1, (mesh_.n_vertices() + part_size_ / 2) / part_size_);
   const Cut cut{mesh_.n_vertices(), count, count > 1 && passes_++ % 2 == 1};
-  const Engine engine = recorder_.on() ? Engine{in_order_} : engine_of(settings_.hooks);
+  const Engine engine = recorder_.on() ? Engine(&in_order_) : engine_of(settings_.hooks);
   const auto pass = [&](Worker& worker, std::size_t i) {
     const Part part = cut[i];
     if (!stop.goes_on()) return;
     improve(part, unknowns, worker);
     stop.passed(part.last.index - part.first.index, 0);
   };
-  for_parts(cut.size(), engine, workers_, stop, pass, [&](Archive& archive, std::size_t i) {
-    const Part part = cut[i];
-    tell_points(archive, mesh_, IdRange<VertexId>(part.first, part.last));
-  });
+  const auto vertices = [&](std::size_t i) { return IdRange<VertexId>(cut[i].first, cut[i].last); };
+  for_parts(
+      cut.size(), engine, workers_, stop, pass,
+      [&](ByteWriter& writer, std::size_t i) { write_points(writer, mesh_, vertices(i)); },
+      [&](ByteReader& reader, std::size_t i) { read_points(reader, mesh_, vertices(i)); });
 }
 
 void NewtonPass::improve(const Part& part, Unknowns unknowns, Worker& worker) {

@@ -57,7 +57,7 @@ Engine Sweeper::engine() {
   const OptimizeOptions& o = context_.settings.options;
   const bool told_in_order = context_.recorder.on() || defers_updates(o);
   const bool removes = o.paper.hidden == HiddenPolicy::remove || changes_vertices(o);
-  if (told_in_order || removes || limits_.band.on()) return {in_order_};
+  if (told_in_order || removes || limits_.band.on()) return &in_order_;
   return engine_of(context_.settings.hooks);
 }
 
