@@ -43,7 +43,7 @@ temper_install(temper core "Primal-dual triangle meshes that solvers can trust: 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/temper DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.hpp"
         PATTERN "build_info.hpp" EXCLUDE PATTERN "io.hpp" EXCLUDE PATTERN "dec_io.hpp" EXCLUDE PATTERN "html.hpp" EXCLUDE
-        PATTERN "lp.hpp" EXCLUDE PATTERN "tbb_executor.hpp" EXCLUDE PATTERN "mpi_ranks.hpp" EXCLUDE PATTERN "verify.hpp" EXCLUDE)
+        PATTERN "lp.hpp" EXCLUDE PATTERN "tbb_executor.hpp" EXCLUDE PATTERN "mpi_communicator.hpp" EXCLUDE PATTERN "verify.hpp" EXCLUDE)
 
 # Static libraries: whoever links the installed ones needs their libraries too, which temperConfig.cmake finds.
 if(TARGET temper_io)
@@ -61,7 +61,7 @@ if(TARGET temper_tbb)
 endif()
 if(TARGET temper_mpi)
   target_link_libraries(temper_mpi PRIVATE $<INSTALL_INTERFACE:MPI::MPI_CXX>)
-  temper_install(temper_mpi mpi "temper's ranks, by MPI" HEADERS mpi_ranks)
+  temper_install(temper_mpi mpi "temper's communicator, by MPI" HEADERS mpi_communicator)
 endif()
 if(TARGET temper_verify)
   temper_install(temper_verify verify "Errors of solvers on temper's meshes" HEADERS verify)

@@ -1,7 +1,7 @@
 // Bindings of optimize and replay: options, who listens, the mesh in place whatever ended the run.
 #include "bind.hpp"
+#include "communicator.hpp"
 #include "optimize_options.hpp"
-#include "ranks.hpp"
 #include "temper/solvers.hpp"
 #include "temper/trace.hpp"
 
@@ -74,7 +74,7 @@ struct RunArguments {
   py::object size_field, threads;
   Callbacks callbacks;
   py::object tensor;  ///< kxx, kxy, kyy
-  py::object ranks;   ///< a communicator of mpi4py
+  py::object communicator;  ///< a communicator of mpi4py
 };
 
 /// The mesh takes its new state whatever ended the run; what Python raised on the way is raised after that.
@@ -90,8 +90,8 @@ py::dict optimize_mesh(PyMesh& self, const py::dict& given, const RunArguments& 
   hooks.observer = observer;
   hooks.exclusive = true;  // the copy that becomes the mesh
   hooks.solvers = solvers();
-  std::optional<PythonRanks> ranks;
-  if (!arguments.ranks.is_none()) hooks.ranks = &ranks.emplace(arguments.ranks);
+  std::optional<PythonCommunicator> communicator;
+  if (!arguments.communicator.is_none()) hooks.communicator = &communicator.emplace(arguments.communicator);
   set_callbacks(hooks, visitor, arguments.callbacks);
   std::optional<Expected<OptimizeReport>> report;
   {
@@ -133,8 +133,8 @@ TraceEvent event_from(const py::dict& d) {
 void bind_optimize(py::module_& m) {
   m.def("optimize", [](PyMesh& self, const py::dict& options, const py::object& size_field, const py::object& threads,
                        const py::object& observer, const py::object& tracer, const py::object& snapshots,
-                       const py::object& tensor, const py::object& ranks) {
-    return optimize_mesh(self, options, {size_field, threads, {observer, tracer, snapshots}, tensor, ranks});
+                       const py::object& tensor, const py::object& communicator) {
+    return optimize_mesh(self, options, {size_field, threads, {observer, tracer, snapshots}, tensor, communicator});
   });
   m.def("methods", [] {
     py::dict all;

@@ -116,7 +116,7 @@ void print_result(const OptimizeSettings& s, const RunResults& results, const Ou
 }
 
 Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs) {
-  const std::unique_ptr<Executor> threads = make_threads(threads_of_rank(s.threads));
+  const std::unique_ptr<Executor> threads = make_threads(s.threads);
   std::optional<TraceFile> trace;
   if (!s.trace.empty()) trace.emplace(TraceFile{outputs.open(s.trace), {}});
   const RunFiles files = {threads.get(), trace ? &*trace : nullptr};
@@ -136,6 +136,7 @@ Exit optimize_mesh(const Command& command, OptimizeSettings& s, Outputs& outputs
   // The mesh has its geometry now, and memory is dear on the largest ones.
   io::release_geometry(input.file, input.loaded);
   agree_to_go_on();
+  warn(results, warnings_of_ranks());
   improve(s, input, results, files);
   if (!is_first_rank()) return Exit::done;
   write_all(command, s, input, results, outputs, files);
@@ -160,8 +161,7 @@ void leave_outputs_to_first_rank(OptimizeSettings& s) {
 Exit run_command(Command& command, OptimizeSettings& settings) {
   take_input(command, settings);
   expect_no_contradictions(command);
-  command.spell_defaults();                 // --method may have changed them
-  command.option("--ranks").given.clear();  // of this start alone, not of the run
+  command.spell_defaults();  // --method may have changed them
   for (const char* option : {"--size-field", "--html", "--trace"}) expect_without(command, settings.metric, option);
   if (settings.metric) settings.output.options.triangle_quality = false;  // which is of the plane
   settings.requirements = parse_requirements("optimize", settings.require);
@@ -186,9 +186,7 @@ Exit run_optimize(const Arguments& arguments) {
   join_ranks();
   OptimizeSettings settings;
   Command command = optimize_command(settings);
-  std::optional<RankUnit> unit;
-  if (command.parse(arguments)) unit = settings.rank_unit;
-  if (!become_ranks(unit, arguments)) return Exit::done;
+  if (!command.parse(arguments)) return Exit::done;
   return run_command(command, settings);
 }
 

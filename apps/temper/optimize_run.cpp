@@ -55,7 +55,7 @@ OptimizeReport run_library(const OptimizeSettings& s, const Input& input, Mesh& 
   };
   OptimizeHooks hooks;
   hooks.executor = files.threads;
-  hooks.ranks = joined_ranks();
+  hooks.communicator = communicator();
   hooks.names = input.names.get();
   hooks.exclusive = true;
   hooks.solvers = solvers();
@@ -121,7 +121,7 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
   const bool measured = !s.quiet || shown || !s.requirements.empty();  // else nobody would see it
   if (measured) results.before = quality(*seen, measuring);
   catch_interrupts();
-  alone([&] {
+  on_first_rank([&] {
     if (s.quiet) return;
     print(fmt::format("{}: {} vertices, {} triangles\n", s.input, results.before.vertices, results.before.triangles));
     flush_output();
@@ -129,7 +129,7 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
   const Tracer tracer = tracer_of(s, files, input);
 #ifdef TEMPER_WITH_VERIFY
   std::optional<SolverErrors> errors;
-  alone([&] {
+  on_first_rank([&] {
     if (s.verify) errors.emplace(*seen, files.threads);
   });
   results.report = run_library(s, input, mesh, files, tracer);

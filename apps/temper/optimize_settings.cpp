@@ -52,13 +52,7 @@ void add_run(Command& command, OptimizeSettings& s) {
   command.group("The run");
   add_count(
       command, "--threads", s.threads, 0,
-      "threads, of each of mpirun's processes; 0: as many as the machine has, or as these may run on; the result is "
-      "the same");
-  static constexpr Choice<RankUnit> kRankUnits[] = {{"machine", RankUnit::machine}, {"process", RankUnit::process}};
-  add_choice(
-      command, "--ranks", kRankUnits, s.rank_unit,
-      "what mpirun's processes are: those of a machine are threads of one rank, which has the mesh; or each is a "
-      "rank, and has it");
+      "threads of each process; 0: as many as the machine has, or as the process may run on; the result is the same");
   add_number(command, "--save-every", s.save_every, kNotNegative,
              "write the best mesh so far to OUT during the run, each so many seconds; 0: as often as there is one");
   std::vector<std::string_view> names;
@@ -85,7 +79,6 @@ constexpr const char* kRare[] = {"--projection",
                                  "--history",
                                  "--trace",
                                  "--threads",
-                                 "--ranks",
                                  "--method",
                                  "--save-every",
                                  "--size-field",

@@ -9,7 +9,6 @@
 
 #include "command.hpp"
 #include "outputs.hpp"
-#include "ranks.hpp"
 #include "requirement.hpp"
 #include "table_options.hpp"
 #include "temper/io.hpp"
@@ -27,7 +26,6 @@ struct OptimizeSettings {
   const Method* method = methods().data();
   TableOptions table;  ///< first those of the method
   std::uint64_t threads = 0;
-  RankUnit rank_unit = RankUnit::machine;
   bool quiet = false, verify = false;
   bool traced = false;               ///< whoever writes the trace
   std::optional<double> save_every;  ///< seconds between two times that the best mesh so far is written

@@ -15,12 +15,9 @@ std::unique_ptr<Executor> make_threads(std::size_t threads) {
   return executor;
 }
 
-bool has_threads() { return true; }
-
 #else
 
 std::unique_ptr<Executor> make_threads(std::size_t) { return nullptr; }
-bool has_threads() { return false; }
 
 #endif
 

@@ -10,7 +10,5 @@ namespace temper::app {
 
 /// As many threads as asked for (0: as the machine has). Null when that is one: then everything runs in the caller.
 [[nodiscard]] std::unique_ptr<Executor> make_threads(std::size_t threads);
-/// Says whether the program has any.
-[[nodiscard]] bool has_threads();
 
 }  // namespace temper::app

@@ -9,13 +9,9 @@
 
 namespace temper {
 
-class Ranks;
-
 class Executor {
  public:
   virtual ~Executor() = default;
-  /// Processes that share out sums, all of which make them at the same places; null: each makes its own.
-  [[nodiscard]] virtual Ranks* ranks() { return nullptr; }
   /// Runs block(0) … block(n − 1), each once, in any order and on any thread; returns when all are done.
   virtual void run(std::size_t n, const std::function<void(std::size_t)>& block) = 0;
 };

@@ -15,11 +15,11 @@
 #include <string_view>
 #include <vector>
 
+#include "temper/communicator.hpp"
 #include "temper/energy.hpp"
 #include "temper/error_model.hpp"
 #include "temper/mesh.hpp"
 #include "temper/progress.hpp"
-#include "temper/ranks.hpp"
 #include "temper/regularity.hpp"
 #include "temper/size.hpp"
 #include "temper/tensor.hpp"
@@ -323,9 +323,9 @@ using BestListener = std::function<void(const std::function<void(const std::func
 /// What a run works with, and who listens: the result does not depend on any of it, unless the observer stops the run.
 struct OptimizeHooks {
   Executor* executor = nullptr;  ///< threads for sweeps and sums
-  /// Processes that make this run together, all with the same mesh and options: each gets the result.
-  /// The observer and the time limit are those of rank 0. Null: this one alone.
-  Ranks* ranks = nullptr;
+  /// Of the ranks that make this run together. All have the same mesh and options, and each gets the result.
+  /// The observer and the time limit are those of rank 0. Null: this process is alone.
+  Communicator* communicator = nullptr;
   const InputNames* names = nullptr;                    ///< the user's numbering, for errors and notes
   Observer observer = {};                               ///< hears of the progress, and may stop the run
   Tracer tracer = {};                                   ///< sees every event of the run

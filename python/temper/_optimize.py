@@ -180,13 +180,13 @@ def _observer(line: Line, observer: Callable[[Progress], Any] | None) -> Callabl
     return tell
 
 
-def _is_helper(ranks: Any) -> bool:
+def _is_helper(communicator: Any) -> bool:
     """Whether this process helps rank 0 with its run."""
-    if ranks is None:
+    if communicator is None:
         return False
-    if not all(callable(getattr(ranks, name, None)) for name in ("Get_size", "Get_rank", "bcast", "Bcast", "Abort")):
-        raise TypeError(f"ranks: expected a communicator of mpi4py or None, found {ranks!r}")
-    return ranks.Get_rank() != 0
+    if not all(callable(getattr(communicator, name, None)) for name in ("Get_size", "Get_rank", "bcast", "Bcast", "Abort")):
+        raise TypeError(f"communicator: expected a communicator of mpi4py or None, found {communicator!r}")
+    return communicator.Get_rank() != 0
 
 
 @shows_options
@@ -202,7 +202,7 @@ def optimize(
     progress: bool | None = None,
     tracer: Callable[[TraceEvent], Any] | None = None,
     snapshots: Callable[[Snapshot], Any] | None = None,
-    ranks: Any = None,
+    communicator: Any = None,
     **changes: Unpack[OptionChanges],
 ) -> OptimizeReport:
     """Improves a mesh in place: moves vertices, weighs them and flips edges until every triangle is well-centered.
@@ -241,10 +241,10 @@ def optimize(
         Called with each ``TraceEvent``; ``replay`` makes the mesh again from them.
     snapshots : callable, optional
         Called with a ``Snapshot`` between sweeps; a copy of the mesh each time.
-    ranks : mpi4py.MPI.Comm, optional
-        Processes that make this run together (docs/ranks.md): all of them call with the same mesh and options, and get
-        the result, whose bits do not depend on how many they are. Each has the whole mesh. Progress, observer and
-        time limit are those of rank 0.
+    communicator : mpi4py.MPI.Comm, optional
+        Of the processes that make this run together, one on each machine (docs/ranks.md). All of them call with the
+        same mesh and options, and get the result. Its bits do not depend on their number. Progress, observer and time
+        limit are those of rank 0.
 
     Returns
     -------
@@ -289,7 +289,7 @@ def optimize(
         for name, given in (("size_field", size_field), ("tracer", tracer)):
             if given is not None:
                 raise ValueError(f"{name}: is of the mesh's plane, and does not go with tensor")
-    if _is_helper(ranks):
+    if _is_helper(communicator):
         progress, observer = False, None
     target = as_mesh(mesh)
     rules = target.point_data_rules if point_data is None else data_rules(point_data)
@@ -304,7 +304,7 @@ def optimize(
     try:
         watch = _observer(line, observer)
         report = _temper.optimize(
-            target._handle, plain, field, threads, watch, trace, look, None if tensor is None else tuple(tensor), ranks
+            target._handle, plain, field, threads, watch, trace, look, None if tensor is None else tuple(tensor), communicator
         )
     finally:
         line.clear()

@@ -68,7 +68,6 @@ OTHERS = {
     "--tensor": ("`optimize(tensor=…)`, `dec(tensor=…)`, `mapped`, `mapped_back`", "`Metric`, `mapped`, `mapped_back`"),
     "--threads": ("`threads=…`", "`Executor`, `TbbExecutor`"),
     "--trace": ("`optimize(tracer=…)`", "`OptimizeHooks::tracer`"),
-    "--ranks": ("`optimize(ranks=…)`", "`OptimizeHooks::ranks`, `MpiRanks`"),
 }  # fmt: skip
 
 

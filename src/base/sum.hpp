@@ -1,17 +1,13 @@
-// Sums that do not depend on the number of threads: fixed blocks, each summed in order, then pairwise.
+// Sums that do not depend on the number of threads and ranks: fixed blocks, each summed in order, then pairwise.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "base/assert.hpp"
-#include "temper/executor.hpp"
-#include "temper/ranks.hpp"
+#include "base/engine.hpp"
 
 namespace temper {
 
@@ -34,35 +30,21 @@ double sum_of_blocks(std::size_t n, Executor* executor, Block&& block) {
   return pairwise_sum(sums);
 }
 
-/// Gives all ranks the sums of all blocks, where each rank has those of its share.
-inline void share_sums(std::vector<double>& of_blocks, std::size_t blocks, std::size_t n_sums, Ranks& ranks) {
-  const auto bytes_of = [&](std::size_t rank) {
-    const Share share(blocks, rank, ranks.size());
-    return std::as_writable_bytes(
-        std::span(of_blocks).subspan(share.first * n_sums, (share.last - share.first) * n_sums));
-  };
-  const std::span<std::byte> own = bytes_of(ranks.rank());
-  const auto all = ranks.all_gather({reinterpret_cast<const char*>(own.data()), own.size()});
-  for (std::size_t r = 0; r < all.size(); ++r) {
-    const std::span<std::byte> place = bytes_of(r);
-    TEMPER_ASSERT(all[r].size() == place.size());
-    if (!place.empty()) std::memcpy(place.data(), all[r].data(), place.size());
-  }
-}
-
 /// Several such sums in one walk, for each block: block(b, sums) adds to what begins as zeros, and changes nothing
-/// else, since the ranks of an executor share out the blocks. Result: n_sums numbers a block.
+/// else, since each rank does some of the blocks. Result: n_sums numbers a block.
 template <class Block>
-std::vector<double> sums_by_block(std::size_t n, std::size_t n_sums, Executor* executor, Block&& block) {
+std::vector<double> sums_by_block(std::size_t n, std::size_t n_sums, const Engine& engine, Block&& block) {
   const std::size_t blocks = (n + kBlockSize - 1) / kBlockSize;
   std::vector<double> of_blocks(blocks * n_sums, 0.0);
-  Ranks* const ranks = executor != nullptr ? executor->ranks() : nullptr;
-  const Share own = ranks != nullptr ? Share(blocks, ranks->rank(), ranks->size()) : Share(blocks, 0, 1);
-  or_serial(executor).run(own.last - own.first, [&](std::size_t i) {
-    const std::size_t b = own.first + i;
-    block(b, std::span(of_blocks).subspan(b * n_sums, n_sums));
-  });
-  if (ranks != nullptr) share_sums(of_blocks, blocks, n_sums, *ranks);
+  const auto sums_of = [&](std::size_t b) { return std::span(of_blocks).subspan(b * n_sums, n_sums); };
+  const auto write = [&](ByteWriter& writer, std::size_t b) {
+    for (const double sum : sums_of(b)) writer.write(sum);
+  };
+  const auto read = [&](ByteReader& reader, std::size_t b) {
+    for (double& sum : sums_of(b)) reader.read(sum);
+  };
+  engine.run(blocks, [&](std::size_t b) { block(b, sums_of(b)); });
+  engine.exchange(blocks, write, read);
   return of_blocks;
 }
 
@@ -79,9 +61,9 @@ inline std::vector<double> totals_of(const std::vector<double>& of_blocks, std::
 
 /// Both of these.
 template <class Block>
-std::vector<double> sums_of_blocks(std::size_t n, std::size_t n_sums, Executor* executor, Block&& block) {
+std::vector<double> sums_of_blocks(std::size_t n, std::size_t n_sums, const Engine& engine, Block&& block) {
   if (n_sums == 0) return {};
-  return totals_of(sums_by_block(n, n_sums, executor, std::forward<Block>(block)), n_sums);
+  return totals_of(sums_by_block(n, n_sums, engine, std::forward<Block>(block)), n_sums);
 }
 
 /// Σ term(i), i = 0 … n − 1; on the executor's threads when there is one.

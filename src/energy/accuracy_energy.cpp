@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/assert.hpp"
 #include "base/sum.hpp"
 #include "geometry/triangle_kernel.hpp"
 #include "mesh/blocks.hpp"

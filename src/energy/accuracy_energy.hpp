@@ -25,9 +25,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/engine.hpp"
 #include "energy/accuracy_star.hpp"
 #include "energy/length_floors.hpp"
-#include "temper/archive.hpp"
 #include "temper/energy.hpp"
 #include "temper/executor.hpp"
 #include "temper/mesh.hpp"
@@ -87,10 +87,10 @@ struct AccuracyTotal {
   double energy = 0, barrier = 0;
 };
 [[nodiscard]] AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                                           const AccuracyModel& model, Executor* executor = nullptr);
+                                           const AccuracyModel& model, const Engine& engine = nullptr);
 /// Its barrier alone.
 [[nodiscard]] double accuracy_barrier(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                                      const AccuracyModel& model, Executor* executor);
+                                      const AccuracyModel& model, const Engine& engine);
 
 /// Energy and barrier as a function of one vertex. Storage is kept from vertex to vertex.
 class AccuracyPatch {

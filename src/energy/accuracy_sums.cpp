@@ -165,8 +165,8 @@ double accuracy_energy(const Mesh& mesh, const VertexSizes& sizes, const Accurac
 }
 
 AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                             const AccuracyModel& model, Executor* executor) {
-  const auto sums = sums_of_blocks(mesh.n_triangles(), 2, executor, [&](std::size_t block, std::span<double> of_block) {
+                             const AccuracyModel& model, const Engine& engine) {
+  const auto sums = sums_of_blocks(mesh.n_triangles(), 2, engine, [&](std::size_t block, std::span<double> of_block) {
     double energy = 0;
     BarrierSum barrier(mesh, sizes, floors, model);
     for_triangles(mesh, block, [&](const Triangles& triangles) {
@@ -180,8 +180,8 @@ AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const A
 }
 
 double accuracy_barrier(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                        const AccuracyModel& model, Executor* executor) {
-  const auto sums = sums_of_blocks(mesh.n_triangles(), 1, executor, [&](std::size_t block, std::span<double> of_block) {
+                        const AccuracyModel& model, const Engine& engine) {
+  const auto sums = sums_of_blocks(mesh.n_triangles(), 1, engine, [&](std::size_t block, std::span<double> of_block) {
     BarrierSum barrier(mesh, sizes, floors, model);
     for_triangles(mesh, block, [&](const Triangles& triangles) { barrier.add(triangles); });
     of_block[0] = barrier.total();

@@ -10,7 +10,6 @@
 #include <cstddef>
 
 #include "energy/accuracy_edge.hpp"
-#include "temper/archive.hpp"
 #include "temper/executor.hpp"
 #include "temper/mesh.hpp"
 

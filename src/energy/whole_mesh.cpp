@@ -70,14 +70,16 @@ std::size_t count_bad(const Mesh& mesh, Executor* executor) {
   }));
 }
 
-EnergyAndBad energy_and_bad(const Mesh& mesh, const EnergyModel& model, Executor* executor) {
-  return RunningEnergyAndBad().measure(mesh, model, std::nullopt, executor);
+EnergyAndBad energy_and_bad(const Mesh& mesh, const EnergyModel& model, const Engine& engine) {
+  return RunningEnergyAndBad().measure(mesh, model, std::nullopt, engine);
 }
 
 EnergyAndBad RunningEnergyAndBad::measure(const Mesh& mesh, const EnergyModel& model,
-                                          const std::optional<std::vector<TriangleId>>& changed, Executor* executor) {
+                                          const std::optional<std::vector<TriangleId>>& changed, const Engine& engine) {
   const EdgeFormula formula = edge_formula(model);
-  if (formula.form == EdgeFormula::Form::hot) return {total_energy(mesh, model, executor), count_bad(mesh, executor)};
+  if (formula.form == EdgeFormula::Form::hot) {
+    return {total_energy(mesh, model, &engine.executor()), count_bad(mesh, &engine.executor())};
+  }
   const StarKernels& kernels = star_kernels(mesh.space());
   const auto add_block = [&](std::size_t block, std::span<double> of_block) {
     for_batches(mesh, block, [&](const Batch& batch) {
@@ -86,7 +88,7 @@ EnergyAndBad RunningEnergyAndBad::measure(const Mesh& mesh, const EnergyModel& m
     });
   };
   if (!changed || of_blocks_.empty()) {
-    of_blocks_ = sums_by_block(mesh.n_triangles(), 2, executor, add_block);
+    of_blocks_ = sums_by_block(mesh.n_triangles(), 2, engine, add_block);
   } else {
     of_blocks_.resize(2 * ((mesh.n_triangles() + kBlockSize - 1) / kBlockSize));
     std::set<std::size_t> blocks;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/engine.hpp"
 #include "energy/star_kernels.hpp"
 #include "temper/energy.hpp"
 
@@ -21,14 +22,14 @@ struct EnergyAndBad {
   std::size_t bad = 0;
 };
 /// total_energy() and count_bad(), for the price of little more than one.
-[[nodiscard]] EnergyAndBad energy_and_bad(const Mesh& mesh, const EnergyModel& model, Executor* executor);
+[[nodiscard]] EnergyAndBad energy_and_bad(const Mesh& mesh, const EnergyModel& model, const Engine& engine);
 
 /// The same numbers, to the bit, of a mesh that changes in few triangles at a time, by one model.
 class RunningEnergyAndBad {
  public:
   /// `changed`: all triangles that are not what they were when it was measured last; none given: any may be.
   [[nodiscard]] EnergyAndBad measure(const Mesh& mesh, const EnergyModel& model,
-                                     const std::optional<std::vector<TriangleId>>& changed, Executor* executor);
+                                     const std::optional<std::vector<TriangleId>>& changed, const Engine& engine);
 
  private:
   std::vector<double> of_blocks_;

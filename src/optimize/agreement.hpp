@@ -1,4 +1,4 @@
-// Ranks that make a run together must be given the same: each would go its own way otherwise, and wait for ever.
+// All ranks of a run must be given the same. Otherwise each goes its own way, and waits forever.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace temper {
 
-/// The error, on every rank, when one of them has other options, another mesh or another state to resume than rank 0,
-/// or another build of temper; or when some are traced and some are not.
+/// The error, on every rank, when one of them has another mesh, other options or another version of temper than rank 0;
+/// or when some have a tracer and some have none.
 [[nodiscard]] std::optional<InputError> expect_agreement(const OptimizeHooks& hooks, const OptimizeOptions& options,
                                                          const Mesh& mesh);
 

@@ -56,7 +56,7 @@ double EnergyPhase::total() const {
 }
 
 SweepRecord EnergyPhase::measure() {
-  return record_of(energy_and_bad(mesh_, state_.model, settings_.hooks.executor));
+  return record_of(energy_and_bad(mesh_, state_.model, engine_of(settings_.hooks)));
 }
 
 SweepRecord EnergyPhase::record_of(const EnergyAndBad& measured) const {

@@ -68,10 +68,6 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   auto made = make_settings(options, mesh, Frame::of(mesh), hooks);
   if (!made) return made.error();
   made->size_field = field_of_band(mesh, options, hooks.executor);
-  std::optional<RankedExecutor> together;
-  if (hooks.ranks != nullptr) {
-    made->hooks.executor = &together.emplace(or_serial(hooks.executor), *hooks.ranks);
-  }
   const Settings settings = *std::move(made);
   SweepState state(settings);
 

@@ -1,10 +1,10 @@
 #include "optimize/run.hpp"
 
+#include "base/bytes.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "optimize/estimate.hpp"
 #include "optimize/judge.hpp"
 #include "optimize/rounding.hpp"
-#include "temper/archive.hpp"
 
 namespace temper {
 
@@ -29,25 +29,24 @@ void Run::offer(const WorkingCopy& now, const Settings& settings, const SweepSta
 }
 
 bool Run::asked_to_stop(double fraction_of_sweep) {
-  if (hooks_.ranks == nullptr) return ask(fraction_of_sweep);
-  if (hooks_.ranks->rank() == 0) ask(fraction_of_sweep);
-  if (!apart_) hear();
+  if (hooks_.communicator == nullptr) return ask(fraction_of_sweep);
+  if (hooks_.communicator->rank() == 0) ask(fraction_of_sweep);
+  if (!local_) sync_stop();
   return stopped_early();
 }
 
-void Run::meet() {
-  apart_ = false;
-  if (hooks_.ranks != nullptr) hear();
+void Run::end_local() {
+  local_ = false;
+  if (hooks_.communicator != nullptr) sync_stop();
 }
 
-/// What rank 0 was told, if it was told to stop.
-void Run::hear() {
-  std::string told;
-  Archive archive(told);
-  archive(report.stopped);
-  hooks_.ranks->broadcast(told, 0);
+/// All ranks stop if rank 0 was told to.
+void Run::sync_stop() {
+  std::string message;
+  ByteWriter(message).write(report.stopped);
+  hooks_.communicator->broadcast(message, 0);
   Stopped stopped = report.stopped;
-  Archive(std::string_view(told))(stopped);
+  ByteReader(message).read(stopped);
   if (temper::stopped_early(stopped)) report.stopped = stopped;
 }
 

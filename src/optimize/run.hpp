@@ -5,11 +5,15 @@
 #include <cstddef>
 #include <optional>
 
+#include "base/engine.hpp"
 #include "optimize/repair/grading.hpp"
 #include "optimize/step/flipper.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {
+
+/// The threads and ranks of a run.
+[[nodiscard]] inline Engine engine_of(const OptimizeHooks& hooks) { return {hooks.executor, hooks.communicator}; }
 
 /// Triangles that are not counter-clockwise, exact.
 [[nodiscard]] std::size_t count_inverted(const Mesh& mesh);
@@ -66,12 +70,12 @@ class Run {
   /// A mesh of the run may be saved: says so to the listener, if there is one.
   void offer(const WorkingCopy& now, const Settings& settings, const SweepState& state) const;
   /// Asks the clock and the caller, who are those of rank 0; sets report.stopped when the answer is yes. Ranks ask at
-  /// the same places and hear the same, but while they are apart: rank 0 alone knows then.
+  /// the same places and get the same answer. While they work locally, rank 0 alone gets one.
   bool asked_to_stop(double fraction_of_sweep);
   /// From here on ranks do different things.
-  void part_ways() { apart_ = hooks_.ranks != nullptr; }
-  /// From here on they do the same again, and know what rank 0 was told meanwhile.
-  void meet();
+  void begin_local() { local_ = hooks_.communicator != nullptr; }
+  /// From here on they do the same again, and all have the answer that rank 0 got meanwhile.
+  void end_local();
 
   void count(const Flipper::Changes& changes) {
     report.flips += changes.flips;
@@ -91,12 +95,12 @@ class Run {
   }
 
   bool ask(double fraction_of_sweep);
-  void hear();
+  void sync_stop();
 
   const OptimizeOptions& options_;
   const OptimizeHooks& hooks_;
   const Mesh& input_;
-  bool apart_ = false;
+  bool local_ = false;
   Clock::time_point start_, limit_from_;
   double ending_seconds_ = 0;  // after the last sweep, about
 };

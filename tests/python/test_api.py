@@ -43,7 +43,6 @@ ELSEWHERE = {
     "printable": "messages are", "needs_projection": "TemperError says it", "projection_text": "Projection's fields",
     "from_mesh": "write does it", "files_to_write": "write does it", "files_to_read": "read does it",
     "discard_unfinished": "a signal ends Python by an exception",
-    "checksum": "between processes of one run", "mixed": "as checksum",
     "summarize": "DecComplex.summarize", "power_cells": "DecComplex.power_cells", "write_dec": "DecComplex.write, Columns.write",
     "dec_file_names": "write_dec returns the paths", "needs_columns": "as dec_file_names", "read_layers": "numpy.genfromtxt",
     "fault_of_surfaces": "columns says it", "draw_before_after_svg": "draw_svg(before=…)", "write_text": "Svg.save and Html.save",

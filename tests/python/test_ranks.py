@@ -1,4 +1,4 @@
-"""optimize(ranks=…): processes of mpi4py make one run together, with the bits of one alone."""
+"""optimize(communicator=…): processes of mpi4py make one run together, with the bits of one alone."""
 
 import os
 import shutil
@@ -16,18 +16,18 @@ import numpy as np
 import temper
 from mpi4py import MPI
 
-ranks, kind = MPI.COMM_WORLD, sys.argv[1]
+world, kind = MPI.COMM_WORLD, sys.argv[1]
 if kind == "differ":
-    mesh = temper.generate.random_points(200, seed=1 + ranks.rank // 2)  # rank 2 has another
+    mesh = temper.generate.random_points(200, seed=1 + world.rank // 2)  # rank 2 has another
     try:
-        temper.optimize(mesh, ranks=ranks)
+        temper.optimize(mesh, communicator=world)
     except temper.TemperError as error:
-        print(f" {ranks.rank} {error.code} ")
+        print(f" {world.rank} {error.code} ")
 else:
     mesh = temper.generate.random_points(20_000, seed=4)  # of two parts
     seen = []
-    report = temper.optimize(mesh, max_sweeps=6, ranks=ranks, threads=1, progress=False, observer=seen.append)
-    np.savez(f"rank{ranks.rank}.npz", points=mesh.points, weights=mesh.weights, triangles=mesh.triangles,
+    report = temper.optimize(mesh, max_sweeps=6, communicator=world, threads=1, progress=False, observer=seen.append)
+    np.savez(f"rank{world.rank}.npz", points=mesh.points, weights=mesh.weights, triangles=mesh.triangles,
              sweeps=report.sweeps, seen=len(seen))
 """
 
@@ -69,5 +69,5 @@ def test_all_ranks_hear_that_one_has_another_mesh(together):
 
 
 def test_what_is_no_communicator_is_refused():
-    with pytest.raises(TypeError, match="ranks: expected a communicator of mpi4py or None, found 3"):
-        temper.optimize(temper.generate.annulus(), ranks=3)
+    with pytest.raises(TypeError, match="communicator: expected a communicator of mpi4py or None, found 3"):
+        temper.optimize(temper.generate.annulus(), communicator=3)

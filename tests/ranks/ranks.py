@@ -1,17 +1,13 @@
 #!/usr/bin/env python3
 """`mpirun -n N temper optimize`: the bytes of one process, and what happens when a rank fails.
 
-    ranks.py PROGRAM MPIRUN MACHINES         a sample: some seconds
-    ranks.py PROGRAM MPIRUN MACHINES --all   threads 1, 2, 3, 8 × ranks 1, 2, 3, 5, 8 × spaces × methods, twenty kills, and how
-                                             much memory a rank takes: half an hour
+    ranks.py PROGRAM MPIRUN         a sample: some seconds
+    ranks.py PROGRAM MPIRUN --all   threads 1, 2, 3, 8 × ranks 1, 2, 3, 5, 8 × spaces × methods, and twenty kills: half an hour
 
-MACHINES is the library of imitated_machines.cpp.
-Ranks share the processors of this machine, however few there are: nothing here is about speed. Prints a row for each
-comparison and each fault, with --all also the hash of each result.
+All ranks run on this machine, so nothing here is about speed. Prints a row for each comparison and each fault.
 """
 
 import argparse
-import hashlib
 import itertools
 import os
 import pathlib
@@ -22,7 +18,6 @@ import sys
 import tempfile
 import time
 
-APART, MERGED = ["--ranks", "process"], ["--ranks", "machine"]  # each process a rank; one rank for all of this machine
 OLD = b"what was there before\n"
 SPACES = {"plane": "random", "sphere": "random-sphere", "periodic": "random-periodic"}  # the examples of each
 PARTS = 16384  # vertices of a part of a sweep
@@ -53,11 +48,10 @@ class Runner:
         return subprocess.run([self.program, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=LONGEST)
 
     def command(self, *groups):
-        """groups: (processes, arguments) each. Each process is a rank unless the arguments say otherwise."""
+        """groups: (ranks, arguments) each."""
         words = [self.mpirun]
-        for i, (processes, arguments) in enumerate(groups):
-            words += ([":"] if i > 0 else []) + ["-n", str(processes), self.program, *arguments]
-            words += [] if "--ranks" in arguments else APART
+        for i, (ranks, arguments) in enumerate(groups):
+            words += ([":"] if i > 0 else []) + ["-n", str(ranks), self.program, *arguments]
         return words
 
     def start(self, *groups):
@@ -93,16 +87,13 @@ def same_bytes(runner, whole):
         runner.expect(alone.returncode in (0, 4) and expected is not None, f"{space} {method}, one process: {alone.returncode}")
         if expected is None:
             continue
-        if whole:
-            print(hashlib.sha256(expected).hexdigest())
-        ways = [(threads, ranks, APART) for threads, ranks in itertools.product((1, 2, 3, 8), (1, 2, 3, 5, 8))] if whole else [
-            (1, 2, APART), (2, 3, APART)]
-        for threads, ranks, unit in [*ways, (1, 3, MERGED)]:
+        ways = itertools.product((1, 2, 3, 8), (1, 2, 3, 5, 8)) if whole else [(1, 2), (2, 3)]
+        for threads, ranks in ways:
             (runner.folder / "ranks.vtu").unlink(missing_ok=True)
             code, text = runner.ranks(
-                (ranks, ["optimize", f"{space}.vtu", "-o", "ranks.vtu", *options, *unit, "--threads", str(threads)]))
+                (ranks, ["optimize", f"{space}.vtu", "-o", "ranks.vtu", *options, "--threads", str(threads)]))
             runner.expect(code == alone.returncode and runner.bytes("ranks.vtu") == expected,
-                          f"{space} {method}: {threads} threads × {ranks} {unit[1]} ranks{'' if code in (0, 4) else ': ' + text}")
+                          f"{space} {method}: {threads} threads × {ranks} ranks{'' if code in (0, 4) else ': ' + text}")
 
 
 def small(runner):
@@ -113,59 +104,22 @@ def small(runner):
         runner.expect(runner.bytes("ranks.vtu") == runner.bytes("alone.vtu"), f"one part, {ranks} ranks")
 
 
-def merge(runner):
-    """The processes of a machine are one rank: the bytes, warnings and endings of one process."""
-    good = ["optimize", "small.vtu", "-o", "out.vtu", *MERGED]
-    code, text = runner.ranks((3, good))
-    runner.expect(code == 0 and runner.bytes("out.vtu") == runner.bytes("alone.vtu") and text.count("wrote out.vtu") == 1,
-                  f"merged, as many threads as there are: exit {code}")
-    cases = {
-        "other words": (good + ["--max-sweeps", "7"], 1, "process 2: optimize: was started with other words"),
-        "an unknown option": (good + ["--sweep", "7"], 2, "process 2: optimize: unknown option --sweep"),
-        "another --ranks": ([*good[:4], *APART], 1, "--ranks, or --help, is not the same"),
-        "--help": (["optimize", "--help", *MERGED], 1, "--ranks, or --help, is not the same"),
-    }
-    for name, (arguments, expected, message) in cases.items():
-        (runner.folder / "out.vtu").write_bytes(OLD)
-        code, text = runner.ranks((2, good), (1, arguments))
-        runner.expect(code == expected and message in text and runner.bytes("out.vtu") == OLD,
-                      f"{name} of one process: exit {code}" + ("" if message in text else f": {text}"))
-    for unit in (APART, MERGED):
-        words = ["sh", "-c", f"exec '{runner.program}' \"$@\" > /dev/full", "sh", *good[:4], *unit]
-        done = subprocess.run([runner.mpirun, "-n", "2", *words], cwd=runner.folder, env=runner.environment, capture_output=True,
-                              text=True, timeout=LONGEST)
-        runner.expect(done.returncode != 0 and "No space left" in done.stderr, f"no room for what is printed, {unit[1]}: {done.returncode}")
+def say(runner):
+    """The first rank prints, once."""
+    good = ["optimize", "small.vtu", "-o", "out.vtu"]
+    code, text = runner.ranks((2, good))
+    runner.expect(code == 0 and text.count("wrote out.vtu") == 1 and text.count("2 ranks share this machine") == 1,
+                  f"what is printed: exit {code}")
     code, text = runner.ranks((2, ["optimize", "--help"]))
     runner.expect(code == 0 and text.count("Usage") == 1, f"--help of all: exit {code}")
-    code, text = runner.ranks((3, ["optimize", "none.vtu", "-o", "out.vtu", *MERGED]))
-    runner.expect(code == 1 and text.count("none.vtu: cannot be read") == 1 and runner.bytes("out.vtu") == OLD,
-                  f"no input for merged processes: exit {code}")
-
-
-def machines(runner, library):
-    """Four processes on two machines, as it seems to them: two ranks, which have their input from two disks."""
-    def run(path, **variables):
-        there = f"test $OMPI_COMM_WORLD_RANK -ge 2 && in={path} || in=plane.vtu"  # on the second machine
-        script = f"{there}; exec env LD_PRELOAD={library} '{runner.program}' optimize $in -o ranks.vtu --max-sweeps 2 --threads 1"
-        script = script if path == "plane.vtu" else script + " --quiet"
-        done = subprocess.run([runner.mpirun, "-n", "4", "sh", "-c", script], cwd=runner.folder, capture_output=True, text=True,
-                              timeout=LONGEST, env=dict(runner.environment, MACHINE_SIZE="2", **variables))
-        return done.returncode, done.stdout + done.stderr
-
-    alone = runner.one("optimize", "plane.vtu", "-o", "alone2.vtu", "--max-sweeps", "2")
-    for bound in ("-2", "0", "1"):
-        (runner.folder / "ranks.vtu").unlink(missing_ok=True)
-        code, text = run("plane.vtu", MACHINE_BOUND=bound)
-        warned = "the processes of one machine may not run on each other's processors" in text
-        runner.expect(code == alone.returncode and runner.bytes("ranks.vtu") == runner.bytes("alone2.vtu") and warned == (bound != "-2")
-                      and text.count("wrote ranks.vtu") == 1, f"two machines, bound: {bound}: exit {code}{'' if code == 0 else text}")
-    (runner.folder / "ranks.vtu").write_bytes(OLD)
-    code, text = run("none.vtu")
-    runner.expect(code == 1 and "rank 1: none.vtu: cannot be read" in text and runner.bytes("ranks.vtu") == OLD,
-                  f"no file on the second machine: exit {code}")
-    code, text = run("sphere.vtu")
-    runner.expect(code == 1 and "rank 1 has another mesh" in text and runner.bytes("ranks.vtu") == OLD,
-                  f"another file on the second machine: exit {code}")
+    (runner.folder / "out.vtu").write_bytes(OLD)
+    code, text = runner.ranks((2, good), (1, ["optimize", "--help"]))
+    runner.expect(code == 2 and "rank 2: optimize: has only shown its help" in text and runner.bytes("out.vtu") == OLD,
+                  f"--help of one rank: exit {code}")
+    words = ["sh", "-c", f"exec '{runner.program}' \"$@\" > /dev/full", "sh", *good]
+    done = subprocess.run([runner.mpirun, "-n", "2", *words], cwd=runner.folder, env=runner.environment, capture_output=True,
+                          text=True, timeout=LONGEST)
+    runner.expect(done.returncode != 0 and "No space left" in done.stderr, f"no room for what is printed: {done.returncode}")
 
 
 def refuse(runner):
@@ -178,7 +132,7 @@ def refuse(runner):
         "another mesh": (["optimize", "other.vtu", *good[2:]], "rank 2 has another mesh, other options"),
         "no file": (["optimize", "none.vtu", *good[2:]], "rank 2: none.vtu: cannot be read"),
         "a damaged file": (["optimize", "bad.vtu", *good[2:]], "rank 2: bad.vtu"),
-        "an unknown option": (good + ["--sweep", "7"], "process 2: optimize: unknown option --sweep"),
+        "an unknown option": (good + ["--sweep", "7"], "rank 2: optimize: unknown option --sweep"),
     }
     for name, (arguments, message) in cases.items():
         (runner.folder / "out.vtu").write_bytes(OLD)
@@ -214,18 +168,15 @@ def stop(runner, kills, rng):
     del runner.environment["OMPI_MCA_odls_base_sigkill_timeout"]  # as users have it
     runner.one("example", "random", "--vertices", str(PARTS + 2000 if kills == 1 else 6 * PARTS), "-o", "large.vtu")
     words = ["optimize", "large.vtu", "--threads", "1", "--quiet"]
-    seconds = {}
-    for unit in (APART, MERGED):
-        started = time.monotonic()
-        runner.ranks((3, [*words, "-o", "whole.vtu", *unit]))
-        seconds[unit[1]] = time.monotonic() - started
+    started = time.monotonic()
+    runner.ranks((3, [*words, "-o", "whole.vtu"]))
+    seconds = time.monotonic() - started
     expected = runner.bytes("whole.vtu")
     for i in range(kills):
-        unit = MERGED if i % 4 == 3 else APART
         (runner.folder / "killed.vtu").write_bytes(OLD)
         saves = ["--save-every", "0"] if i % 2 == 0 else []  # which make it last longer
-        process = runner.start((3, [*words, "-o", "killed.vtu", *saves, *unit]))
-        time.sleep(rng.uniform(0.1, 1) * seconds[unit[1]])
+        process = runner.start((3, [*words, "-o", "killed.vtu", *saves]))
+        time.sleep(rng.uniform(0.1, 0.9) * seconds)
         victims = processes_of(runner, "killed.vtu")
         if victims:
             os.kill(rng.choice(victims), signal.SIGKILL)
@@ -233,55 +184,33 @@ def stop(runner, kills, rng):
         if process.returncode == 0:  # it was done, or had not begun
             runner.expect(runner.bytes("killed.vtu") == expected, f"kill {i}: too late")
             continue
-        whole = runner.bytes("killed.vtu") in (OLD, expected)
-        if (saves or unit == MERGED) and not whole:  # one that slept was killed, and mpirun asked the one that worked to stop
-            whole = runner.one("check", "killed.vtu").returncode == 0
+        whole = runner.bytes("killed.vtu") in (OLD, expected) or (saves and runner.one("check", "killed.vtu").returncode == 0)
         runner.expect(whole and "signal 9" in text, f"kill {i} of {len(victims)}: exit {process.returncode}")
-    for unit in (APART, MERGED):
-        for share in (0.6, 0.4, 0.3):  # other work on this machine makes runs longer or shorter
-            (runner.folder / "stopped.vtu").write_bytes(OLD)
-            process = runner.start((3, [*words, "-o", "stopped.vtu", *unit]))
-            time.sleep(share * seconds[unit[1]])
-            process.send_signal(signal.SIGUSR1)
-            text, _ = process.communicate(timeout=LONGEST)
-            if process.returncode != 0:
-                break
-        checked = runner.one("check", "stopped.vtu")
-        runner.expect(process.returncode == 4 and checked.returncode == 0,
-                      f"SIGUSR1, {unit[1]}: exit {process.returncode}: {text[-300:]}")
-
-
-def memory(runner):
-    """Prints the peak of each process, bytes a vertex."""
-    n = 1000000
-    runner.one("example", "random", "--vertices", str(n), "-o", "million.vtu", "--encoding", "appended")
-    for unit, ranks in itertools.product((APART, MERGED), (1, 2, 4, 8)):
-        log = runner.folder / f"{ranks}-{unit[1]}.log"
-        words = ["-v", "-o", log, "-a", runner.program, "optimize", "million.vtu", "-o", "out.vtu", "--encoding",
-                 "appended", "--max-sweeps", "10", "--threads", "1", "--quiet", *unit]
-        subprocess.run([runner.mpirun, "-n", str(ranks), "/usr/bin/time", *words], cwd=runner.folder, env=runner.environment,
-                       capture_output=True)
-        peaks = [1024 * int(line.split(":")[1]) / n for line in log.read_text().split("\n") if "Maximum resident" in line]
-        print(f"{ranks} processes, {unit[1]} ranks: {[round(peak) for peak in peaks]}, {sum(peaks):.0f} bytes a vertex")
+    for share in (0.6, 0.4, 0.3):  # other work on this machine makes runs longer or shorter
+        (runner.folder / "stopped.vtu").write_bytes(OLD)
+        process = runner.start((3, [*words, "-o", "stopped.vtu"]))
+        time.sleep(share * seconds)
+        process.send_signal(signal.SIGUSR1)
+        text, _ = process.communicate(timeout=LONGEST)
+        if process.returncode != 0:
+            break
+    checked = runner.one("check", "stopped.vtu")
+    runner.expect(process.returncode == 4 and checked.returncode == 0, f"SIGUSR1: exit {process.returncode}: {text[-300:]}")
 
 
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
     parser.add_argument("mpirun")
-    parser.add_argument("machines")
     parser.add_argument("--all", action="store_true")
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         runner = Runner(os.path.abspath(given.program), given.mpirun, pathlib.Path(scratch))
         same_bytes(runner, given.all)
         small(runner)
-        merge(runner)
-        machines(runner, os.path.abspath(given.machines))
+        say(runner)
         refuse(runner)
         stop(runner, 20 if given.all else 1, random.Random(1))
-        if given.all:
-            memory(runner)
     print(f"{runner.rows} checks, {len(runner.problems)} problems")
     return 1 if runner.problems or runner.rows == 0 else 0
 

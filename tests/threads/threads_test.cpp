@@ -16,7 +16,7 @@
 #include "support/lattice.hpp"
 #include "support/regions.hpp"
 #include "support/std_threads.hpp"
-#include "support/thread_ranks.hpp"
+#include "support/thread_communicator.hpp"
 #include "temper/energy.hpp"
 #include "temper/generate.hpp"
 #include "temper/io.hpp"
@@ -73,11 +73,11 @@ const Meshes& meshes() {
   return all;
 }
 
-std::string optimized(Mesh mesh, OptimizeOptions options, Executor* executor, Ranks* ranks = nullptr) {
+std::string optimized(Mesh mesh, OptimizeOptions options, Executor* executor, Communicator* communicator = nullptr) {
   options.max_sweeps = 1;
   OptimizeHooks hooks;
   hooks.executor = executor;
-  hooks.ranks = ranks;
+  hooks.communicator = communicator;
   const auto report = optimize(mesh, options, hooks);
   EXPECT_TRUE(report) << report.error().what();
   return bytes_of(mesh);
@@ -165,9 +165,9 @@ TEST_P(OnThreads, CallersAtOnceLookAtOneMesh) {
 
 TEST(OnRanks, WithThreadsTheBytesAreThoseOfOneProcess) {
   const std::string alone = optimized(meshes().mesh, {}, nullptr);
-  on_ranks(3, [&](Ranks& ranks) {
+  on_ranks(3, [&](Communicator& communicator) {
     StdThreads threads(2);
-    EXPECT_TRUE(optimized(meshes().mesh, {}, &threads, &ranks) == alone);
+    EXPECT_TRUE(optimized(meshes().mesh, {}, &threads, &communicator) == alone);
   });
 }
 

@@ -68,7 +68,8 @@ Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool changed) {
   const bool raised = raise_floors(domain_, mesh_, settings_.accuracy, settings_.hooks.executor);
   if (raised || settings_.accuracy.keeps_lengths()) {
     // The edges' part is what it was.
-    now_.barrier = accuracy_barrier(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, settings_.hooks.executor);
+    now_.barrier =
+        accuracy_barrier(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, engine_of(settings_.hooks));
     if (raised) return Verdict::improving;
   }
   const double change = (before_.energy + before_.barrier) - (now_.energy + now_.barrier);
@@ -78,7 +79,7 @@ Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool changed) {
 }
 
 AccuracyTotal AccuracyPhase::sum() const {
-  return accuracy_total(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, settings_.hooks.executor);
+  return accuracy_total(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, engine_of(settings_.hooks));
 }
 
 }  // namespace temper

@@ -134,7 +134,8 @@ ErrorPhase::Value ErrorPhase::value() const {
   Executor* executor = settings_.hooks.executor;
   Value result;
   result.lowered = result.error = kInfinity;
-  const auto [energy, barrier] = accuracy_total(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, executor);
+  const auto [energy, barrier] =
+      accuracy_total(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, engine_of(settings_.hooks));
   std::vector<ErrorModel::Gradient> gradients;
   const std::vector<double> errors = settings_.errors->errors(mesh_, gradients, executor);
   const double sum = energy + barrier, share = settings_.options.error.offset_share;

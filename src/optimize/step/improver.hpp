@@ -34,11 +34,16 @@ class Improver {
   void log_flips(std::vector<HalfedgeId>* log) { flipper_.log_flips(log); }
   /// Does again what another one has logged.
   void repeat(std::span<const HalfedgeId> flips) { flipper_.repeat(flips); }
-  /// Tells of all that a sweep changes of vertices: what the mesh has of them, and what batches go by.
+  /// Writes all that a sweep changes of vertices: what the mesh has of them, and what batches go by.
   template <class Vertices>
-  void tell(Archive& archive, const Vertices& vertices) {
-    for (const VertexId v : vertices) archive(context_.limits.degree[v]);
-    tell_points(archive, context_.mesh, vertices);
+  void write(ByteWriter& writer, const Vertices& vertices) const {
+    for (const VertexId v : vertices) writer.write(context_.limits.degree[v]);
+    write_points(writer, context_.mesh, vertices);
+  }
+  template <class Vertices>
+  void read(ByteReader& reader, const Vertices& vertices) {
+    for (const VertexId v : vertices) reader.read(context_.limits.degree[v]);
+    read_points(reader, context_.mesh, vertices);
   }
 
   [[nodiscard]] VertexStep& step() { return step_; }

@@ -13,7 +13,6 @@
 
 #include "energy/patch.hpp"
 #include "optimize/frame.hpp"
-#include "temper/archive.hpp"
 #include "temper/size.hpp"
 
 namespace temper {

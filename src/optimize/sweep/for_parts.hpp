@@ -11,57 +11,33 @@
 #include <string>
 #include <vector>
 
-#include "base/assert.hpp"
+#include "base/engine.hpp"
 #include "optimize/sweep/partition.hpp"
 #include "optimize/sweep/shifted_cuts.hpp"
 #include "optimize/sweep/stop_token.hpp"
 #include "optimize/sweep/worker_pool.hpp"
-#include "temper/archive.hpp"
-#include "temper/executor.hpp"
-#include "temper/ranks.hpp"
 
 namespace temper {
 
-/// Who does the parts: threads of this process, and those of other ranks where there are some.
-struct Engine {
-  Executor& executor;
-  Ranks* ranks = nullptr;
-};
-
-[[nodiscard]] inline Engine engine_of(const OptimizeHooks& hooks) { return {or_serial(hooks.executor), hooks.ranks}; }
-
-/// work(worker, i) for each of n parts. Where ranks share them, tell(archive, i) writes what part i has become to the
-/// archive, or reads it there and does it here: all ranks then have what each would have made alone.
-template <class Worker, class Work, class Tell>
-void for_parts(std::size_t n, Engine engine, WorkerPool<Worker>& workers, StopToken& stop, Work&& work, Tell&& tell) {
+/// Calls work(worker, i) for each of n parts, by the engine's threads and ranks. For write and read see
+/// Engine::exchange().
+template <class Worker, class Work, class Write, class Read>
+void for_parts(std::size_t n, const Engine& engine, WorkerPool<Worker>& workers, StopToken& stop, Work&& work,
+               Write&& write, Read&& read) {
   workers.make_room(n);
-  const std::size_t rank = engine.ranks != nullptr ? engine.ranks->rank() : 0;
-  const std::size_t n_ranks = engine.ranks != nullptr ? engine.ranks->size() : 1;
-  const Share own(n, rank, n_ranks);
-  if (engine.ranks != nullptr) stop.part_ways(n_ranks);
+  if (engine.has_ranks()) stop.begin_local(engine.n_ranks());
   static_cast<void>(stop.goes_on());  // asks, should no part run on this thread
-  engine.executor.run(own.last - own.first, [&](std::size_t i) {
+  engine.run(n, [&](std::size_t i) {
     const auto worker = workers.take();
-    work(*worker, own.first + i);
+    work(*worker, i);
   });
-  if (engine.ranks == nullptr) return;
-  for (std::size_t r = 0; r < n_ranks; ++r) {
-    const Share share(n, r, n_ranks);
-    std::string told;
-    Archive ours(told);
-    for (std::size_t i = share.first; r == rank && i < share.last; ++i) tell(ours, i);
-    engine.ranks->broadcast(told, r);
-    if (r == rank) continue;
-    Archive theirs{std::string_view(told)};
-    for (std::size_t i = share.first; i < share.last; ++i) tell(theirs, i);
-    TEMPER_ASSERT(theirs.at_end());
-  }
-  stop.meet();
+  engine.exchange(n, write, read);
+  if (engine.has_ranks()) stop.end_local();
 }
 
 /// A sweep over all vertices, by workers with functions improve(vertices, part, left): it improves those that it can,
 /// in order, and appends the others to `left`; log_flips(log), which says where flips are appended to; repeat(flips),
-/// which does them again; and tell(archive, vertices), of what else a sweep changes.
+/// which does them again; write(writer, vertices) and read(reader, vertices), of what else a sweep changes.
 ///
 /// First each part of the numbers does what it can. What is left comes next, with the parts of three shifted cuts,
 /// inside of which nearly all of it is. What is left then, mostly nothing, comes one after another.
@@ -70,9 +46,9 @@ class PartSweep {
  public:
   PartSweep(std::size_t part_size, WorkerPool<Worker>& workers) : part_size_(part_size), workers_(workers) {}
 
-  void in_parts(const Mesh& mesh, Engine engine, StopToken& stop) {
+  void in_parts(const Mesh& mesh, const Engine& engine, StopToken& stop) {
     const std::size_t n = mesh.n_vertices(), count = std::max<std::size_t>(1, (n + part_size_ - 1) / part_size_);
-    if (count > 1 && !cuts_.are_of(mesh)) cuts_.cut(mesh, count, engine.executor);
+    if (count > 1 && !cuts_.are_of(mesh)) cuts_.cut(mesh, count, engine.executor());
     const Cut cut{n, count, false};
     const auto in_numbers = [&](Worker& worker, std::size_t i, VertexList& left) {
       improve_numbers(worker, count == 1 ? Part() : cut[i], n, left, stop);
@@ -112,25 +88,32 @@ class PartSweep {
   /// What a part has done besides moving vertices.
   struct Done {
     VertexList left;
-    std::vector<HalfedgeId> flips;  // where ranks are told of them
+    std::vector<HalfedgeId> flips;  // for other ranks
   };
 
   /// One phase of n parts, of these vertices. What is left after it waits for the next.
   template <class Work, class VerticesOf>
-  void run(std::size_t n, Engine engine, StopToken& stop, Work&& work, VerticesOf&& vertices) {
+  void run(std::size_t n, const Engine& engine, StopToken& stop, Work&& work, VerticesOf&& vertices) {
     if (done_.size() < n) done_.resize(n);
     const auto part = [&](Worker& worker, std::size_t i) {
       done_[i].left.clear();
       done_[i].flips.clear();
-      worker.log_flips(engine.ranks != nullptr ? &done_[i].flips : nullptr);
+      worker.log_flips(engine.has_ranks() ? &done_[i].flips : nullptr);
       work(worker, i, done_[i].left);
     };
-    for_parts(n, engine, workers_, stop, part, [&](Archive& archive, std::size_t i) {
-      archive(done_[i].left, done_[i].flips);
+    const auto write = [&](ByteWriter& writer, std::size_t i) {
+      writer.write(done_[i].left);
+      writer.write(done_[i].flips);
+      workers_.take()->write(writer, vertices(i));
+    };
+    const auto read = [&](ByteReader& reader, std::size_t i) {
+      reader.read(done_[i].left);
+      reader.read(done_[i].flips);
       const auto worker = workers_.take();
-      if (archive.reads()) worker->repeat(done_[i].flips);
-      worker->tell(archive, vertices(i));
-    });
+      worker->repeat(done_[i].flips);
+      worker->read(reader, vertices(i));
+    };
+    for_parts(n, engine, workers_, stop, part, write, read);
     waiting_.clear();
     for (std::size_t i = 0; i < n; ++i) waiting_.insert(waiting_.end(), done_[i].left.begin(), done_[i].left.end());
   }

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "temper/archive.hpp"
+#include "base/bytes.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -44,13 +44,18 @@ struct Cut {
   }
 };
 
-/// Writes the points of vertices to the archive, or reads them there, as another rank moved them.
+/// Writes the points of vertices for other ranks.
 template <class Vertices>
-void tell_points(Archive& archive, Mesh& mesh, const Vertices& vertices) {
+void write_points(ByteWriter& writer, const Mesh& mesh, const Vertices& vertices) {
+  for (const VertexId v : vertices) writer.write(mesh.point(v));
+}
+/// Reads them, as another rank moved them.
+template <class Vertices>
+void read_points(ByteReader& reader, Mesh& mesh, const Vertices& vertices) {
   for (const VertexId v : vertices) {
     WeightedPoint p = mesh.point(v);
-    archive(p);
-    if (archive.reads()) mesh.set_point(v, p);
+    reader.read(p);
+    mesh.set_point(v, p);
   }
 }
 

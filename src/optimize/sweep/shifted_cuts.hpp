@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "optimize/sweep/partition.hpp"
-#include "temper/archive.hpp"
 #include "temper/executor.hpp"
 
 namespace temper {

@@ -22,14 +22,14 @@ class StopToken {
     TEMPER_ASSERT(this_thread() == caller_);
     since_asked_ = kVerticesBetweenCalls;
   }
-  /// Around what each rank does for itself: the first one asks, the others hear of the answer at the end.
-  void part_ways(std::size_t n_ranks) {
-    run_.part_ways();
+  /// Begins and ends what each rank does alone: rank 0 asks meanwhile, the others get the answer at the end.
+  void begin_local(std::size_t n_ranks) {
+    run_.begin_local();
     n_ranks_ = n_ranks;
   }
-  void meet() {
+  void end_local() {
     n_ranks_ = 1;
-    run_.meet();
+    run_.end_local();
     if (run_.stopped_early()) stop_.store(true, std::memory_order_relaxed);
     ask_soon();  // on all ranks, however much each has done
   }

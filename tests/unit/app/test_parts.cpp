@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "processors.hpp"
 #include "suggest.hpp"
 #include "threads.hpp"
 
@@ -16,11 +15,11 @@ namespace {
 TEST(Threads, AreThereWhenMoreThanOneIsAskedFor) {
   EXPECT_EQ(make_threads(1), nullptr);
 #ifdef TEMPER_WITH_TBB
-  EXPECT_TRUE(has_threads());
+  constexpr bool kThere = true;
 #else
-  EXPECT_FALSE(has_threads());
+  constexpr bool kThere = false;
 #endif
-  for (const std::size_t threads : {2u, 3u, 8u}) EXPECT_EQ(make_threads(threads) != nullptr, has_threads());
+  for (const std::size_t threads : {2u, 3u, 8u}) EXPECT_EQ(make_threads(threads) != nullptr, kThere);
 }
 
 TEST(Threads, RunEveryBlockOnceHoweverManyTheyAre) {
@@ -52,33 +51,6 @@ TEST(Threads, RunWithinABlock) {
   executor->run(20, [&](std::size_t) { executor->run(30, [&done](std::size_t) { ++done; }); });
   EXPECT_EQ(done, 600);
 }
-
-TEST(Processors, AreThoseOfEither) {
-  const std::string a("\x05\x00\x80", 3), b("\x06", 1);
-  EXPECT_EQ(both(a, b), std::string("\x07\x00\x80", 3));
-  EXPECT_EQ(both(b, a), both(a, b));
-  EXPECT_EQ(count_processors(both(a, b)), 4u);
-  EXPECT_EQ(count_processors({}), 0u);
-}
-
-#ifdef __linux__
-TEST(Processors, AreGivenUpAndTakenAgain) {
-  const std::string all = own_processors();
-  ASSERT_GT(count_processors(all), 0u);
-  std::string one(all.size(), '\0');
-  const std::size_t place = all.find_first_not_of('\0');
-  one[place] = static_cast<char>(all[place] & -all[place]);  // the lowest bit
-  EXPECT_TRUE(run_on(one));
-  EXPECT_EQ(own_processors(), one);
-  EXPECT_EQ(count_processors(own_processors()), 1u);
-  std::string too_many = all;
-  too_many.back() = '\x80';
-  EXPECT_FALSE(run_on(too_many)) << "there is no such processor";
-  EXPECT_EQ(own_processors(), one);
-  EXPECT_TRUE(run_on(all));
-  EXPECT_EQ(own_processors(), all);
-}
-#endif
 
 TEST(Suggestion, NamesTheNearestAndNeverAGuess) {
   constexpr std::array<std::string_view, 4> kNames = {"F", "BP", "newton", "golden"};

@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <numeric>
 #include <thread>
 
 #include "base/rng.hpp"
+#include "support/thread_communicator.hpp"
 
 namespace temper {
 namespace {
@@ -96,6 +98,25 @@ TEST(BlockwiseSum, IsNearTheSumInLongDouble) {
     EXPECT_LE(std::fabs(sum - static_cast<double>(exact)), bound);
     // Typically it is far better: random roundings grow with the square root of their number.
     EXPECT_LE(std::fabs(sum - static_cast<double>(exact)), bound / 50);
+  }
+}
+
+TEST(SumsOfBlocks, AreTheSameOnAnyNumberOfRanks) {
+  for (const std::size_t n : {std::size_t{1}, 17 * kBlockSize + 5}) {
+    const std::vector<double> values = random_values(n, n);
+    std::atomic<std::size_t> blocks_run = 0;
+    const auto add = [&](std::size_t b, std::span<double> sums) {
+      ++blocks_run;
+      for (std::size_t i = b * kBlockSize; i < std::min(n, (b + 1) * kBlockSize); ++i) {
+        sums[0] += values[i];
+        sums[1] += 1;
+      }
+    };
+    const std::vector<double> alone = sums_of_blocks(n, 2, nullptr, add);
+    EXPECT_EQ(alone[1], static_cast<double>(n));
+    blocks_run = 0;
+    test::on_ranks(3, [&](Communicator& all) { EXPECT_EQ(sums_of_blocks(n, 2, {nullptr, &all}, add), alone); });
+    EXPECT_EQ(blocks_run, (n + kBlockSize - 1) / kBlockSize);
   }
 }
 

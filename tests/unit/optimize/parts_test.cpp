@@ -9,7 +9,7 @@
 #include "support/regions.hpp"
 #include "support/sanitizers.hpp"
 #include "support/std_threads.hpp"
-#include "support/thread_ranks.hpp"
+#include "support/thread_communicator.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"
@@ -87,9 +87,9 @@ TEST_P(SweepsInParts, GiveTheSameBytesOnAnyNumberOfThreadsAndRanksAndTraced) {
     expect_same(swept(input, options, kSmallPart, hooks), alone);
   }
   for (const std::size_t ranks : kRanks) {
-    on_ranks(ranks, [&](Ranks& all) {
+    on_ranks(ranks, [&](Communicator& all) {
       StdThreads crew(2);
-      expect_same(swept(input, options, kSmallPart, {.executor = &crew, .ranks = &all}), alone);
+      expect_same(swept(input, options, kSmallPart, {.executor = &crew, .communicator = &all}), alone);
     });
   }
   LastBlockFirst backwards;
@@ -182,9 +182,9 @@ TEST_P(Together, RanksEndWithTheBytesOfOneAlone) {
   Mesh alone = input;
   ASSERT_TRUE(optimize(alone, GetParam().options));
   for (std::size_t ranks = TEMPER_SANITIZED ? 3 : 2; ranks <= 3; ++ranks) {
-    on_ranks(ranks, [&](Ranks& all) {
+    on_ranks(ranks, [&](Communicator& all) {
       Mesh mesh = input;
-      const auto report = optimize(mesh, GetParam().options, {.ranks = &all});
+      const auto report = optimize(mesh, GetParam().options, {.communicator = &all});
       ASSERT_TRUE(report) << report.error().what();
       EXPECT_TRUE(mesh == alone) << "rank " << all.rank() << " of " << all.size();
     });
@@ -208,14 +208,15 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Together, RanksStopWhenTheFirstIsToldTo) {
   const Mesh input = *random_points({.vertices = 2500, .seed = 9});
   std::array<Mesh, 3> ends;
-  on_ranks(ends.size(), [&](Ranks& all) {
+  on_ranks(ends.size(), [&](Communicator& all) {
     StdThreads crew(2);
     int calls = 0;
     const Observer observer = [&](const Progress&) {
       EXPECT_EQ(all.rank(), 0u);
       return ++calls == 10 ? Continue::no : Continue::yes;
     };
-    const SweptMesh result = swept(input, {}, kSmallPart, {.executor = &crew, .ranks = &all, .observer = observer});
+    const SweptMesh result =
+        swept(input, {}, kSmallPart, {.executor = &crew, .communicator = &all, .observer = observer});
     EXPECT_EQ(calls, all.rank() == 0 ? 10 : 0);
     EXPECT_EQ(result.report.stopped, Stopped::cancelled);
     EXPECT_EQ(result.mesh.validate(), std::nullopt);
@@ -226,16 +227,16 @@ TEST(Together, RanksStopWhenTheFirstIsToldTo) {
 
 TEST(Together, RanksThatAreGivenDifferentThingsAllSaySo) {
   const Mesh input = mesh_with_regions(kPartsVertices, 3);
-  const auto differing = [&](Mesh mesh, const OptimizeOptions& options, Ranks& all) {
+  const auto differing = [&](Mesh mesh, const OptimizeOptions& options, Communicator& all) {
     const Mesh before = mesh;
-    const auto report = optimize(mesh, options, {.ranks = &all});
+    const auto report = optimize(mesh, options, {.communicator = &all});
     ASSERT_FALSE(report);
     EXPECT_EQ(report.error().code, ErrorCode::rank_mismatch);
     EXPECT_NE(report.error().what().find("rank 2 "), std::string::npos) << report.error().what();
     EXPECT_TRUE(mesh == before);
   };
-  on_ranks(3, [&](Ranks& all) { differing(input, {.max_sweeps = all.rank() == 2 ? 3 : 4}, all); });
-  on_ranks(3, [&](Ranks& all) {
+  on_ranks(3, [&](Communicator& all) { differing(input, {.max_sweeps = all.rank() == 2 ? 3 : 4}, all); });
+  on_ranks(3, [&](Communicator& all) {
     Mesh other = input;
     if (all.rank() == 2) other.set_weight(VertexId(5), 1e-9);
     differing(other, {}, all);

@@ -1,18 +1,18 @@
-// Ranks by a communicator of Python's, as mpi4py has them: this module itself knows of no MPI.
+// A communicator by one of mpi4py. This module itself knows no MPI.
 #pragma once
 
 #include <cstdlib>
 #include <string>
 
 #include "bind.hpp"
-#include "temper/ranks.hpp"
+#include "temper/communicator.hpp"
 
 namespace temper::python {
 
-class PythonRanks final : public Ranks {
+class PythonCommunicator final : public Communicator {
  public:
   /// `communicator` has what mpi4py's Comm has: Get_size, Get_rank, bcast, Bcast and Abort.
-  explicit PythonRanks(const py::object& communicator)
+  explicit PythonCommunicator(const py::object& communicator)
       : communicator_(communicator),
         size_(communicator.attr("Get_size")().cast<std::size_t>()),
         rank_(communicator.attr("Get_rank")().cast<std::size_t>()) {}
@@ -24,7 +24,7 @@ class PythonRanks final : public Ranks {
   void broadcast(std::string& bytes, std::size_t from) override {
     const py::gil_scoped_acquire gil;
     try {
-      share(bytes, from);
+      send_or_receive(bytes, from);
     } catch (py::error_already_set& error) {
       error.restore();
       PyErr_Print();
@@ -43,7 +43,7 @@ class PythonRanks final : public Ranks {
     std::abort();
   }
 
-  void share(std::string& bytes, std::size_t from) const {
+  void send_or_receive(std::string& bytes, std::size_t from) const {
     bytes.resize(communicator_.attr("bcast")(bytes.size(), py::arg("root") = from).cast<std::size_t>());
     in_pieces(bytes, [&](char* data, std::size_t count) {
       communicator_.attr("Bcast")(py::memoryview::from_memory(data, static_cast<py::ssize_t>(count)),

@@ -1,4 +1,4 @@
-// Ranks that are threads of one process: what is told among processes, without any.
+// Ranks that are threads of one process: the messages of several processes, without them.
 #pragma once
 
 #include <barrier>
@@ -9,28 +9,28 @@
 #include <thread>
 #include <vector>
 
-#include "temper/ranks.hpp"
+#include "temper/communicator.hpp"
 
 namespace temper::test {
 
-/// Calls run(ranks) for each of n ranks, at once, and waits for all.
-inline void on_ranks(std::size_t n, const std::function<void(Ranks&)>& run) {
+/// Calls run(communicator) for each of n ranks, at once, and waits for all.
+inline void on_ranks(std::size_t n, const std::function<void(Communicator&)>& run) {
   struct Board {
     explicit Board(std::size_t n_ranks) : size(n_ranks), all(static_cast<std::ptrdiff_t>(n_ranks)) {}
     std::size_t size;
-    std::string told;
+    std::string message;
     std::barrier<> all;
   };
-  class OneRank final : public Ranks {
+  class OneRank final : public Communicator {
    public:
     OneRank(Board& board, std::size_t rank) : board_(board), rank_(rank) {}
     [[nodiscard]] std::size_t size() const override { return board_.size; }
     [[nodiscard]] std::size_t rank() const override { return rank_; }
     void broadcast(std::string& bytes, std::size_t from) override {
-      if (rank_ == from) board_.told = bytes;
+      if (rank_ == from) board_.message = bytes;
       board_.all.arrive_and_wait();
-      bytes = board_.told;
-      board_.all.arrive_and_wait();  // nobody tells the next before all have heard this
+      bytes = board_.message;
+      board_.all.arrive_and_wait();  // nobody sends the next before all have this one
     }
 
    private:
