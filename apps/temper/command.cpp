@@ -9,7 +9,6 @@
 
 #include "console.hpp"
 #include "help.hpp"
-#include "help_formats.hpp"
 #include "suggest.hpp"
 
 namespace temper::app {
@@ -19,14 +18,15 @@ constexpr std::string_view kWholeHelp = "--help-all";
 
 }  // namespace
 
-std::vector<std::string> single_names(const std::string& names) {
-  std::vector<std::string> single;
-  std::size_t begin = 0;
-  for (std::size_t comma = names.find(','); comma != std::string::npos; comma = names.find(',', begin)) {
-    single.push_back(names.substr(begin, comma - begin));
-    begin = comma + 1;
+std::vector<std::string> single_names(const std::string& names, char separator) {
+  std::vector<std::string> single = {""};
+  for (const char c : names) {
+    if (c == separator) {
+      single.emplace_back();
+    } else {
+      single.back() += c;
+    }
   }
-  single.push_back(names.substr(begin));
   return single;
 }
 
@@ -249,14 +249,11 @@ Command& Command::add_subcommand(std::string name, std::string description) {
 }
 
 bool Command::parse(const Arguments& arguments) {
-  if (const HelpFormat* format = asked_help_format(arguments)) {
-    print(format->verb(*this));
-    return false;
-  }
+  if (print_other_help(arguments, this)) return false;
   Parser parser(*this);
   const Parser::Asked asked = parser.read(arguments);
   if (asked != Parser::Asked::work) {
-    print(asked == Parser::Asked::help ? help_text(*this) : whole_help_text(*this));
+    print(text_of(help_of(*this, asked == Parser::Asked::whole_help)));
     return false;
   }
   parser.store(*this);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -14,8 +15,8 @@
 namespace temper::app {
 namespace {
 
-constexpr std::size_t kWidth = 100;       // of a line: fits half of a wide screen
-constexpr std::size_t kNameColumns = 26;  // of option names; longer ones get a line to themselves
+constexpr std::size_t kWidth = 100;  // of a line: fits half of a wide screen
+constexpr std::size_t kOptions = HelpPart().columns;
 
 /// "-o, --output FILE"
 std::string option_head(const Option& option) {
@@ -37,53 +38,37 @@ std::string head_lines(const std::string& head) {
   return lines + rest;
 }
 
-/// A head, and what it means in the columns to its right.
-std::string beside(const std::string& head, const std::string& description) {
-  std::string text = head_lines(head);
-  const bool own_line = head.size() > kNameColumns;
-  bool first = true;
-  for (const std::string& line : wrap(description, kWidth - kNameColumns - 4)) {
-    text += first && !own_line ? std::string(kNameColumns + 2 - head.size(), ' ')
-                               : "\n" + std::string(kNameColumns + 4, ' ');
-    text += line;
-    first = false;
+/// A head, and what it means in the columns to its right; a head of more columns gets a line to itself.
+std::string beside(const HelpRow& row, std::size_t columns) {
+  std::string text = head_lines(row.head);
+  std::string gap = row.head.size() > columns ? "\n" + std::string(columns + 4, ' ')
+                                              : std::string(columns + 2 - row.head.size(), ' ');
+  for (const std::string& line : wrap(row.meaning, kWidth - columns - 4)) {
+    text += gap + line;
+    gap = "\n" + std::string(columns + 4, ' ');
   }
   return text + "\n";
 }
 
-std::string option_text(const Option& option) { return beside(option_head(option), described(option)); }
+HelpRow row_of(const Option& option) {
+  return {option_head(option), option.default_text.empty()
+                                   ? option.sentence
+                                   : fmt::format("{} (default: {})", option.sentence, option.default_text)};
+}
 
 /// Options in the order in which they were added: all, by group, or those that are not rare.
-std::string option_groups(const Command& command, bool all) {
-  std::string text, group;
+void add_options(HelpPage& page, const Command& command, bool all) {
   const bool grouped = all || std::ranges::none_of(command.options(), &Option::rare);
   for (const Option& option : command.options()) {
     if (option.rare && !all) continue;
     const std::string title = option.is_argument() ? "Arguments" : grouped ? option.group : "Options";
-    if (title != group) text += "\n" + title + ":\n";
-    group = title;
-    text += option_text(option);
+    if (page.parts.empty() || page.parts.back().title != title) page.parts.push_back({title, {}, kOptions});
+    page.parts.back().rows.push_back(row_of(option));
   }
-  return text;
-}
-
-std::string paragraph(const std::string& text) {
-  std::string wrapped;
-  for (const std::string& line : wrap(text, kWidth)) wrapped += line + "\n";
-  return wrapped;
-}
-
-std::string exit_lines(const std::vector<Exit>& exits) {
-  std::string text = "\nExit codes:\n";
-  for (const Exit exit : exits) text += fmt::format("  {}  {}\n", static_cast<int>(exit), meaning(exit));
-  return text;
-}
-
-}  // namespace
-
-std::string described(const Option& option) {
-  if (option.default_text.empty()) return option.sentence;
-  return fmt::format("{} (default: {})", option.sentence, option.default_text);
+  for (const Command& inner : command.subcommands()) {
+    page.parts.push_back({inner.name(), {}, kOptions, inner.description()});
+    for (const Option& option : inner.options()) page.parts.back().rows.push_back(row_of(option));
+  }
 }
 
 std::string_view meaning(Exit exit) {
@@ -106,30 +91,6 @@ std::string_view meaning(Exit exit) {
   return "";
 }
 
-std::span<const ProgramOption> program_options() {
-  static constexpr auto kOptions = std::to_array<ProgramOption>({
-      {"-h, --help", "this text; temper VERB --help has the options and examples of a verb"},
-      {"--help=FORMAT", "the same for man, or completions for bash, zsh or fish: man <(temper optimize --help=man)"},
-      {"--version", "the version, and what the program was built from"},
-  });
-  return kOptions;
-}
-
-const VerbHelp& program_help() {
-  static const VerbHelp help = {
-      .usage = "VERB ...",
-      .examples =
-          "  temper example horseshoe -o horseshoe.vtu\n"
-          "  temper check horseshoe.vtu\n"
-          "  temper optimize horseshoe.vtu -o tempered.vtu --draw before-after.svg\n",
-      .exits = {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early, Exit::internal,
-                Exit::infeasible},
-  };
-  return help;
-}
-
-namespace {
-
 /// All examples, or those without rare options.
 std::string examples(const Command& command, bool all) {
   std::string text;
@@ -143,37 +104,72 @@ std::string examples(const Command& command, bool all) {
   return text;
 }
 
-std::string help_text(const Command& command, bool all) {
-  const VerbHelp& help = command.help();
-  std::string text = paragraph(command.description());
-  text += fmt::format("\nUsage: temper {} {}\n", command.name(), help.usage);
-  text += option_groups(command, all);
-  for (const Command& inner : command.subcommands()) {
-    text += fmt::format("\n{}: {}\n", inner.name(), inner.description());
-    for (const Option& option : inner.options()) text += option_text(option);
-  }
-  return text + "\nExamples:\n" + examples(command, all) + exit_lines(help.exits);
+HelpPart verb_part() {
+  HelpPart part = {"Verbs", {}, 9};
+  for (const Verb& verb : verbs()) part.rows.push_back({std::string(verb.name), std::string(verb.summary)});
+  return part;
+}
+
+void add_end(HelpPage& page, std::string examples, std::span<const Exit> exits) {
+  page.parts.push_back({"Examples", {}, 0, {}, std::move(examples)});
+  page.parts.push_back({"Exit codes", {}, 1});
+  for (const Exit exit : exits)
+    page.parts.back().rows.push_back({std::to_string(static_cast<int>(exit)), std::string(meaning(exit))});
+}
+
+std::string text_of(const HelpPart& part) {
+  std::string text = part.lines;
+  for (const HelpRow& row : part.rows) text += beside(row, part.columns);
+  return text;
 }
 
 }  // namespace
 
-std::string help_text(const Command& command) { return help_text(command, false); }
-std::string whole_help_text(const Command& command) { return help_text(command, true); }
-
-std::string short_help() {
-  std::string text = "Usage: temper VERB ...\n\n";
-  for (const Verb& verb : verbs()) text += fmt::format("  {:<11}{}\n", verb.name, verb.summary);
-  return text + "\nSee temper --help and temper VERB --help.\n";
+HelpPage help_of(const Command& command, bool all) {
+  HelpPage page = {command.name(), {}, command.description(), command.help().usage, {}};
+  for (const Verb& verb : verbs()) {
+    if (verb.name == page.verb) page.summary = verb.summary;
+  }
+  add_options(page, command, all);
+  add_end(page, examples(command, all), command.help().exits);
+  return page;
 }
 
-std::string full_help() {
-  std::string text = fmt::format("temper: {}\n\nUsage: temper VERB ...\n\nVerbs:\n", kProgramSummary);
-  for (const Verb& verb : verbs()) text += fmt::format("  {:<11}{}\n", verb.name, verb.summary);
-  text += "\nOptions:\n";
-  for (const ProgramOption& option : program_options()) {
-    text += beside(std::string(option.names), std::string(option.sentence));
-  }
-  return text + "\nExamples:\n" + program_help().examples + exit_lines(program_help().exits);
+HelpPage help_of_program() {
+  const std::string summary = "primal-dual triangle meshes that solvers can trust";
+  HelpPage page = {"", summary, "temper: " + summary, "VERB ...", {verb_part()}};
+  page.parts.push_back(
+      {"Options",
+       {{"-h, --help", "this text; temper VERB --help has the options and examples of a verb"},
+        {"--help=FORMAT", "the same for man, or completions for bash, zsh or fish: man <(temper optimize --help=man)"},
+        {"--version", "the version, and what the program was built from"}},
+       kOptions});
+  page.parts.push_back(
+      {"Environment",
+       {{"TEMPER_NETCDF",
+         "the file of libnetcdf, where several are installed or the loader does not find it: files "
+         "of MPAS and UGRID are read and written by that library"},
+        {"TEMPER_HDF5", "the file of libhdf5, likewise: VTKHDF files are read and written by that library"}}});
+  add_end(page,
+          "  temper example horseshoe -o horseshoe.vtu\n"
+          "  temper check horseshoe.vtu\n"
+          "  temper optimize horseshoe.vtu -o tempered.vtu --draw before-after.svg\n",
+          std::to_array({Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early,
+                         Exit::internal, Exit::infeasible}));
+  return page;
+}
+
+std::string text_of(const HelpPage& page) {
+  std::string text;
+  for (const std::string& line : wrap(page.description, kWidth)) text += line + "\n";
+  text += fmt::format("\nUsage: temper {}{}{}\n", page.verb, page.verb.empty() ? "" : " ", page.usage);
+  for (const HelpPart& part : page.parts)
+    text += fmt::format("\n{}:{}{}\n{}", part.title, part.note.empty() ? "" : " ", part.note, text_of(part));
+  return text;
+}
+
+std::string short_help() {
+  return fmt::format("Usage: temper VERB ...\n\n{}\nSee temper --help and temper VERB --help.\n", text_of(verb_part()));
 }
 
 }  // namespace temper::app

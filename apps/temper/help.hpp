@@ -1,34 +1,50 @@
-// The layout of --help: usage, options in groups with wrapped descriptions, examples, exit codes. Plain ASCII, and
-// the same on every machine, because docs/cli.md holds it word for word.
+// The help of the program and of each verb: as data, as the text of --help, as a manual page, and as what shells offer.
+// All are made from the rows of Command. The text is plain ASCII and the same on every machine, because docs/cli.md
+// holds it word for word.
 #pragma once
 
-#include <span>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "command.hpp"
 
 namespace temper::app {
 
-/// The help text of a verb, without its rare options; and with them, in groups.
-[[nodiscard]] std::string help_text(const Command& command);
-[[nodiscard]] std::string whole_help_text(const Command& command);
-
-/// The sentence of an option, and its default.
-[[nodiscard]] std::string described(const Option& option);
-/// What an exit code says.
-[[nodiscard]] std::string_view meaning(Exit exit);
-
-/// The program itself, whose options come before a verb.
-struct ProgramOption {
-  std::string_view names, sentence;
+struct HelpRow {
+  std::string head, meaning;  ///< "-o, --output FILE" and its sentence
 };
-[[nodiscard]] std::span<const ProgramOption> program_options();
-[[nodiscard]] const VerbHelp& program_help();
-inline constexpr std::string_view kProgramSummary = "primal-dual triangle meshes that solvers can trust";
 
-/// The texts that `temper --help` prints, and `temper` alone.
-[[nodiscard]] std::string full_help();
+/// Below its title a part has rows, or lines.
+struct HelpPart {
+  std::string title;
+  std::vector<HelpRow> rows = {};
+  std::size_t columns = 26;  ///< of the heads
+  std::string note = {};     ///< beside the title
+  std::string lines = {};    ///< to be shown as they are
+};
+
+struct HelpPage {
+  std::string verb;  ///< empty: the program itself
+  std::string summary, description;
+  std::string usage;  ///< what follows `temper VERB`
+  std::vector<HelpPart> parts;
+};
+
+/// Of a verb: with all options, in groups, or without its rare ones.
+[[nodiscard]] HelpPage help_of(const Command& command, bool all);
+[[nodiscard]] HelpPage help_of_program();
+
+/// What --help prints.
+[[nodiscard]] std::string text_of(const HelpPage& page);
+/// What `temper` alone prints.
 [[nodiscard]] std::string short_help();
+/// A manual page in the man macros of roff: temper(1), temper-optimize(1).
+[[nodiscard]] std::string man_page(const HelpPage& page);
+
+/// The words ask for another form of help, `--help=FORMAT`, of the program or a verb; then it is printed. Failure where
+/// there is no such form.
+[[nodiscard]] bool print_other_help(const Arguments& words, const Command* verb = nullptr);
+/// With the words of a command line after it: what may stand in the place of the last one.
+inline constexpr std::string_view kHelpWords = "--help=words";
 
 }  // namespace temper::app

@@ -16,7 +16,6 @@
 
 #include "console.hpp"
 #include "help.hpp"
-#include "help_formats.hpp"
 #include "interrupt.hpp"
 #include "ranks.hpp"
 #include "suggest.hpp"
@@ -77,17 +76,15 @@ Exit run(const Arguments& words) {
     print(version_text());
     return Exit::done;
   }
-  if (const HelpFormat* format = asked_help_format(words)) {
-    print(format->program());
-    if (format->has_verbs) {
-      for (const Verb& verb : verbs()) verb.run(words);
-      if (format->end != nullptr) print(format->end());
-    }
-    return Exit::done;
+  if (first == kHelpWords && words.size() > 2) {
+    Arguments of_verb = words;
+    of_verb.erase(of_verb.begin() + 1);
+    return run_verb(words[1], of_verb);
   }
+  if (print_other_help(words)) return Exit::done;
   const bool help = first == "--help" || first == "-h" || first == "help";
   if (help && words.size() == 1) {
-    print(full_help());
+    print(text_of(help_of_program()));
     return Exit::done;
   }
   if (help) return run_verb(words[1], {"--help"});

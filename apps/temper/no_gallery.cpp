@@ -13,7 +13,7 @@ constexpr const char* kMissing =
 }  // namespace
 
 Exit run_reproduce(const Arguments& arguments) {
-  const bool help = arguments.size() == 1 && (arguments.front() == "-h" || arguments.front().starts_with("--help"));
+  const bool help = !arguments.empty() && (arguments.front() == "-h" || arguments.front().starts_with("--help"));
   if (!help) throw Failure(Exit::bad_usage, std::string("reproduce: ") + kMissing);
   Command command("reproduce",
                   std::string("Makes the figures of \"Not so HOT Triangulations\" again: not here, for ") + kMissing);
