@@ -55,7 +55,7 @@ expect "bash: options of an example" $'--polygon\n--seed\n--vertices' \
 "$program" --help=zsh >_temper
 if there zsh; then
   zsh_offers() {  # WORD ...: what the function hands to those of zsh
-    zsh -fc 'compdef() { }; _files() { print files $* }; _describe() { print -l $offers }; source ./_temper
+    zsh -fc 'compdef() { }; _files() { print files $* }; _describe() { print -l -- $offers }; source ./_temper
              words=("$@") CURRENT=$# compstate=; _temper' zsh "$@" 2>/dev/null | sed -E 's/:.*//' | sort
   }
   expect "zsh: syntax" "" "$(zsh -n _temper 2>&1)"

@@ -1,4 +1,4 @@
-#include "certificate_json.hpp"
+#include "files/certificate_json.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "exit.hpp"
-#include "json_depth.hpp"
+#include "files/input.hpp"
 
 namespace temper::app {
 namespace {

@@ -12,7 +12,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "input.hpp"
+#include "files/input.hpp"
 #include "temper/feasibility.hpp"
 
 namespace temper::app {

@@ -1,5 +1,3 @@
-#include "edges_file.hpp"
-
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -9,6 +7,7 @@
 #include <unordered_map>
 
 #include "exit.hpp"
+#include "files/input.hpp"
 
 namespace temper::app {
 namespace {

@@ -1,14 +1,13 @@
-#include "input.hpp"
+#include "files/input.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <charconv>
 #include <string_view>
+#include <utility>
 
 #include "exit.hpp"
-#include "projection_option.hpp"
-#include "vertex_names.hpp"
 
 namespace temper::app {
 namespace {
@@ -92,6 +91,70 @@ std::string renumber(const std::string& text, const std::function<std::string(Ve
     if (!found) result += text[at++];
   }
   return result;
+}
+
+VertexNames::VertexNames(std::shared_ptr<const InputNames> file, std::vector<std::size_t> points,
+                         std::size_t n_vertices)
+    : file_(file ? std::move(file) : std::make_shared<const InputNames>()),
+      points_(std::move(points)),
+      n_vertices_(n_vertices) {}
+
+std::size_t VertexNames::in_file(std::size_t index) const { return index < points_.size() ? points_[index] : index; }
+
+/// The file may number its points as it likes, so new ones are counted by themselves, from 1.
+std::string VertexNames::point(std::size_t index) const {
+  if (index >= n_vertices_) return "new point " + std::to_string(index - n_vertices_ + 1);
+  return file_->point(in_file(index));
+}
+std::string VertexNames::triangle(std::size_t index) const { return file_->triangle(index); }
+std::string VertexNames::point_where(std::size_t index) const {
+  return index < n_vertices_ ? file_->point_where(in_file(index)) : std::string();
+}
+std::string VertexNames::triangle_where(std::size_t index) const { return file_->triangle_where(index); }
+
+std::string spell_projection(std::string message) {
+  constexpr std::string_view kOption = "`projection`";
+  const std::size_t at = message.find(kOption);
+  return at == std::string::npos ? message : message.replace(at, kOption.size(), "--projection");
+}
+
+namespace {
+
+[[noreturn]] void refuse_degrees(const std::string& path, std::string message) {
+  throw Failure(Exit::bad_usage, fmt::format("{}: {}", path, spell_projection(std::move(message))));
+}
+
+}  // namespace
+
+void expect_projection_of_outline(const std::string& path, bool geographic, const std::string& projection) {
+  if (geographic && projection.empty()) refuse_degrees(path, io::needs_projection(false, "--sphere"));
+}
+
+void take_to_map(io::MeshFile& file, const std::string& path, const std::string& projection) {
+  if (projection.empty()) {
+    if (file.geographic) refuse_degrees(path, io::needs_projection(file.geographic_is_guessed));
+    return;
+  }
+  or_fail(io::project(file, projection));
+}
+
+bool is_too_deep(std::string_view json) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kDeepestJson) return true;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return false;
 }
 
 }  // namespace temper::app

@@ -1,4 +1,4 @@
-#include "outputs.hpp"
+#include "files/outputs.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -10,8 +10,7 @@
 
 #include "console.hpp"
 #include "exit.hpp"
-#include "picture_file.hpp"
-#include "projection_option.hpp"
+#include "files/input.hpp"
 #include "suggest.hpp"
 
 namespace temper::app {

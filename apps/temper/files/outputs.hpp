@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "options.hpp"
+#include "options/options.hpp"
 #include "temper/checkpoint.hpp"
 #include "temper/io.hpp"
 
@@ -62,5 +62,12 @@ class Outputs {
 
 /// The two paths are the same file, by name or by inode.
 [[nodiscard]] bool same_file(const std::string& a, const std::string& b);
+
+/// The suffixes of pictures that can be written: ".svg", ".png" and ".pdf". A path without a suffix is SVG.
+[[nodiscard]] bool is_picture_name(const std::string& path);
+
+/// The bytes of the picture in the format that the path's suffix names: PNG and PDF by rsvg-convert, of librsvg. PNG
+/// has two pixels for each of the SVG's. Failure (bad input) when rsvg-convert is not there, or fails.
+[[nodiscard]] std::string picture_bytes(const std::string& path, std::string_view svg);
 
 }  // namespace temper::app

@@ -1,5 +1,3 @@
-#include "picture_file.hpp"
-
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -16,6 +14,7 @@
 #include <vector>
 
 #include "exit.hpp"
+#include "files/outputs.hpp"
 
 namespace temper::app {
 namespace {

@@ -1,11 +1,11 @@
-#include "tensor_option.hpp"
+#include "files/tensor_option.hpp"
 
 #include <fmt/format.h>
 
 #include <utility>
 #include <vector>
 
-#include "options.hpp"
+#include "options/options.hpp"
 
 namespace temper::app {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "command.hpp"
-#include "input.hpp"
+#include "files/input.hpp"
+#include "help/command.hpp"
 #include "temper/tensor.hpp"
 
 namespace temper::app {

@@ -1,4 +1,4 @@
-#include "trace_jsonl.hpp"
+#include "files/trace_jsonl.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include <string_view>
 
 #include "exit.hpp"
-#include "json_depth.hpp"
+#include "files/input.hpp"
 #include "suggest.hpp"
 #include "temper/version.hpp"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "input.hpp"
+#include "files/input.hpp"
 #include "temper/trace.hpp"
 
 namespace temper::app {

@@ -1,4 +1,4 @@
-#include "command.hpp"
+#include "help/command.hpp"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "console.hpp"
-#include "help.hpp"
+#include "help/help.hpp"
 #include "suggest.hpp"
 
 namespace temper::app {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "console.hpp"
-#include "help.hpp"
+#include "help/help.hpp"
 #include "suggest.hpp"
 
 namespace temper::app {
@@ -27,13 +27,13 @@ complete -F _temper temper
 )sh",
                                                       R"sh(#compdef temper
 _temper() {
-  local offer
+  local offer tab=$'\t'
   local -a offers
   for offer in "${(@f)$(${~words[1]} --help=words "${(@)words[2,CURRENT]}" 2>/dev/null)}"; do
     case $offer in
       :file) _files ;;
       :directory) _files -/ ;;
-      ?*) offers+=("${${offer//:/\\:}/$'\t'/:}") ;;
+      ?*) offers+=("${${offer//:/\\:}//$tab/:}") ;;
     esac
   done
   _describe temper offers
@@ -45,7 +45,7 @@ if [[ $funcstack[1] == _temper ]]; then _temper "$@"; else compdef _temper tempe
 function __temper_offers
   set -l words (commandline -opc) "$(commandline -ct)"
   set -l offers ($words[1] --help=words $words[2..] 2>/dev/null)
-  string match -v ':*' -- $offers
+  string match -rv (string match -q -- '-*' $words[-1]; and echo '^:'; or echo '^[:-]') -- $offers
   contains :file $offers; and __fish_complete_path $words[-1]
   contains :directory $offers; and __fish_complete_directories $words[-1]
 end

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "command.hpp"
+#include "help/command.hpp"
 
 namespace temper::app {
 

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "console.hpp"
-#include "help.hpp"
+#include "help/help.hpp"
 #include "temper/version.hpp"
 
 namespace temper::app {
@@ -55,9 +55,9 @@ std::string man_page(const HelpPage& page) {
   // No date: the same sources give the same bytes.
   std::string text = fmt::format(
       ".TH {} 1 \"\" \"temper {}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n"
-      ".SH SYNOPSIS\n.B temper {}\n{}\n.SH DESCRIPTION\n{}",
-      upper(name), version(), roff(name), roff(page.summary), roff(page.verb), roff(page.usage),
-      filled(page.description));
+      ".SH SYNOPSIS\n.B temper{}\n{}\n.SH DESCRIPTION\n{}",
+      upper(name), version(), roff(name), roff(page.summary), page.verb.empty() ? "" : " " + page.verb,
+      roff(page.usage), filled(page.description));
   bool in_options = false;
   for (const HelpPart& part : page.parts) {
     const bool options = !page.verb.empty() && part.columns == HelpPart().columns;

@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "command.hpp"
+#include "help/command.hpp"
 #include "temper/energy.hpp"
 #include "temper/optimize_table.hpp"
 

@@ -1,4 +1,4 @@
-#include "ranks.hpp"
+#include "options/ranks.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

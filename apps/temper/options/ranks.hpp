@@ -11,8 +11,8 @@
 #include <optional>
 #include <string>
 
-#include "command.hpp"
 #include "exit.hpp"
+#include "help/command.hpp"
 #include "temper/ranks.hpp"
 
 namespace temper::app {

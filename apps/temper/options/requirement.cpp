@@ -1,16 +1,31 @@
-#include "requirement.hpp"
+#include "options/requirement.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "console.hpp"
-#include "energy_keys.hpp"
-#include "options.hpp"
+#include "options/options.hpp"
 #include "suggest.hpp"
 
 namespace temper::app {
 namespace {
+
+/// "energy.BP.1", and where that energy is.
+struct EnergyKey {
+  std::string key;
+  std::size_t row, star;
+};
+
+std::vector<EnergyKey> energy_keys() {
+  std::vector<EnergyKey> keys;
+  for (std::size_t row = 0; row < energies().size(); ++row) {
+    for (std::size_t star = 0; star < 3; ++star) {
+      keys.push_back({"energy." + std::string(energies()[row].name) + "." + std::to_string(star), row, star});
+    }
+  }
+  return keys;
+}
 
 const QualityMeasure* find_measure(std::string_view key) {
   for (const QualityMeasure& measure : quality_measures()) {

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "command.hpp"
+#include "help/command.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::app {

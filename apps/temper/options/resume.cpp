@@ -1,4 +1,4 @@
-#include "resume.hpp"
+#include "options/resume.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 // temper optimize --resume: the command of a run that goes on.
 #pragma once
 
-#include "command.hpp"
+#include "help/command.hpp"
 
 namespace temper::app {
 

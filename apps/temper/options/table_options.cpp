@@ -1,4 +1,4 @@
-#include "table_options.hpp"
+#include "options/table_options.hpp"
 
 #include <fmt/format.h>
 

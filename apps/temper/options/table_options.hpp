@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "options.hpp"
+#include "options/options.hpp"
 #include "temper/optimize_table.hpp"
 
 namespace temper::app {

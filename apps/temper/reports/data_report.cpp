@@ -1,9 +1,8 @@
-#include "data_report.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "console.hpp"
+#include "reports/reports.hpp"
 
 namespace temper::app {
 namespace {

@@ -1,5 +1,3 @@
-#include "dec_report.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "console.hpp"
+#include "reports/reports.hpp"
 
 namespace temper::app {
 namespace {

@@ -1,15 +1,14 @@
-#include "explain_report.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "certificate_json.hpp"
 #include "console.hpp"
+#include "files/certificate_json.hpp"
+#include "files/input.hpp"
+#include "reports/reports.hpp"
 #include "temper/geometry.hpp"
-#include "vertex_names.hpp"
 
 namespace temper::app {
 namespace {

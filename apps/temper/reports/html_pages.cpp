@@ -1,9 +1,7 @@
-#include "html_pages.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include "exit.hpp"
-#include "report_text.hpp"
+#include "reports/quality_report.hpp"
 #include "temper/explain.hpp"
 #include "temper/html.hpp"
 #include "temper/lp.hpp"

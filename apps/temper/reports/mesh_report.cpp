@@ -1,11 +1,10 @@
-#include "mesh_report.hpp"
-
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "console.hpp"
-#include "report_json.hpp"
+#include "reports/quality_report.hpp"
+#include "reports/reports.hpp"
 #include "temper/version.hpp"
 
 namespace temper::app {

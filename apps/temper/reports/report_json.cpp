@@ -1,5 +1,3 @@
-#include "report_json.hpp"
-
 #include <fmt/format.h>
 
 #include <charconv>
@@ -8,7 +6,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "input.hpp"
+#include "files/input.hpp"
+#include "reports/quality_report.hpp"
 #include "temper/version.hpp"
 
 namespace temper::app {

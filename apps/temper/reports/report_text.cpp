@@ -1,5 +1,3 @@
-#include "report_text.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "console.hpp"
+#include "reports/quality_report.hpp"
 
 namespace temper::app {
 namespace {

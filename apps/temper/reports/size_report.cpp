@@ -1,5 +1,3 @@
-#include "size_report.hpp"
-
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -7,8 +5,9 @@
 
 #include "console.hpp"
 #include "exit.hpp"
-#include "input.hpp"
-#include "report_text.hpp"
+#include "files/input.hpp"
+#include "reports/quality_report.hpp"
+#include "reports/reports.hpp"
 
 namespace temper::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "verify_report.hpp"
+#include "reports/verify_report.hpp"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "console.hpp"
+#include "exit.hpp"
 #include "temper/dec.hpp"
 
 namespace temper::app {
@@ -244,6 +245,32 @@ std::string edge_errors_csv(const VerifyReport& report, const Input& input) {
         fmt::format("{},{},{},{}\n", point(edge.from), point(edge.to), complex.star1[EdgeId(e)], report.local[1][e]);
   }
   return text;
+}
+
+SolverErrors::SolverErrors(const Mesh& input, Executor* executor) {
+  options_.frame = verify_frame(input);
+  options_.executor = executor;
+  before_ = after_ = measured(input);
+}
+
+VerifyReport SolverErrors::measured(const Mesh& mesh) const { return or_fail(verify(mesh, options_)); }
+
+void SolverErrors::measure_result(const Mesh& result) { after_ = measured(result); }
+
+double SolverErrors::mean_ratio() const {
+  const VerifyErrors ratio = geometric_mean(or_fail(error_ratios(after_, before_)));
+  return std::cbrt(ratio.star[1].l2 * ratio.poisson.l2 * ratio.flux.l2);
+}
+
+bool SolverErrors::input_was_better() const {
+  return before_.not_well_centered == 0 && before_.non_regular_edges == 0 && mean_ratio() > 1;
+}
+
+std::string SolverErrors::text(const TextStyle& style) const { return verify_comparison_text(before_, after_, style); }
+
+std::string SolverErrors::json() const {
+  const nlohmann::ordered_json json = {{"before", verify_report_json(before_)}, {"after", verify_report_json(after_)}};
+  return json.dump();
 }
 
 }  // namespace temper::app

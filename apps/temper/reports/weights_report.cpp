@@ -1,5 +1,3 @@
-#include "weights_report.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "certificate_json.hpp"
+#include "files/certificate_json.hpp"
+#include "reports/reports.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper::app {

@@ -7,17 +7,14 @@
 #include <utility>
 
 #include "console.hpp"
-#include "help.hpp"
-#include "html_pages.hpp"
-#include "input.hpp"
-#include "options.hpp"
-#include "outputs.hpp"
-#include "projection_option.hpp"
-#include "report_json.hpp"
-#include "report_text.hpp"
-#include "requirement.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "files/tensor_option.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "options/requirement.hpp"
+#include "reports/quality_report.hpp"
 #include "temper/quality.hpp"
-#include "tensor_option.hpp"
 #include "threads.hpp"
 
 namespace temper::app {

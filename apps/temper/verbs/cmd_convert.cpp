@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "console.hpp"
-#include "help.hpp"
-#include "options.hpp"
-#include "outputs.hpp"
-#include "projection_option.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
 #include "threads.hpp"
 
 namespace temper::app {

@@ -8,15 +8,14 @@
 #include <utility>
 
 #include "console.hpp"
-#include "dec_report.hpp"
-#include "help.hpp"
-#include "input.hpp"
-#include "options.hpp"
-#include "outputs.hpp"
-#include "projection_option.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "files/tensor_option.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "reports/reports.hpp"
 #include "suggest.hpp"
 #include "temper/dec_io.hpp"
-#include "tensor_option.hpp"
 #include "threads.hpp"
 
 namespace temper::app {

@@ -6,11 +6,10 @@
 #include <initializer_list>
 
 #include "console.hpp"
-#include "help.hpp"
-#include "input.hpp"
-#include "options.hpp"
-#include "outputs.hpp"
-#include "projection_option.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
 #include "suggest.hpp"
 #include "temper/draw.hpp"
 #include "temper/quality.hpp"

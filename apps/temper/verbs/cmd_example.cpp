@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "console.hpp"
-#include "help.hpp"
-#include "options.hpp"
-#include "outputs.hpp"
+#include "files/outputs.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
 #include "suggest.hpp"
 #include "temper/generate.hpp"
 

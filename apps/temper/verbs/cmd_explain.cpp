@@ -4,12 +4,11 @@
 #include <cstdio>
 
 #include "console.hpp"
-#include "explain_report.hpp"
-#include "help.hpp"
-#include "input.hpp"
-#include "options.hpp"
-#include "projection_option.hpp"
-#include "report_text.hpp"
+#include "files/input.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "reports/quality_report.hpp"
+#include "reports/reports.hpp"
 #include "temper/lp.hpp"
 
 namespace temper::app {

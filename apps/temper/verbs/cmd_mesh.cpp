@@ -11,22 +11,21 @@
 #include <optional>
 
 #include "console.hpp"
-#include "help.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "help/help.hpp"
 #include "interrupt.hpp"
-#include "mesh_report.hpp"
-#include "options.hpp"
-#include "outputs.hpp"
-#include "progress_line.hpp"
-#include "projection_option.hpp"
-#include "report_text.hpp"
-#include "size_report.hpp"
+#include "options/options.hpp"
+#include "reports/quality_report.hpp"
+#include "reports/reports.hpp"
 #include "temper/draw.hpp"
 #include "temper/geometry.hpp"
 #include "temper/mesher.hpp"
 #include "temper/projection.hpp"
 #include "temper/quality.hpp"
 #include "threads.hpp"
-#include "time_limit.hpp"
+#include "verbs/progress_line.hpp"
+#include "verbs/time_limit.hpp"
 
 namespace temper::app {
 namespace {

@@ -6,21 +6,18 @@
 #include <utility>
 
 #include "console.hpp"
-#include "data_report.hpp"
-#include "html_pages.hpp"
-#include "input.hpp"
-#include "optimize_run.hpp"
-#include "optimize_settings.hpp"
-#include "options.hpp"
-#include "outputs.hpp"
-#include "ranks.hpp"
-#include "report_json.hpp"
-#include "report_text.hpp"
-#include "resume.hpp"
-#include "size_report.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "files/trace_jsonl.hpp"
+#include "options/options.hpp"
+#include "options/ranks.hpp"
+#include "options/resume.hpp"
+#include "reports/quality_report.hpp"
+#include "reports/reports.hpp"
 #include "temper/regularity.hpp"
 #include "threads.hpp"
-#include "trace_jsonl.hpp"
+#include "verbs/optimize_run.hpp"
+#include "verbs/optimize_settings.hpp"
 
 namespace temper::app {
 namespace {

@@ -6,14 +6,13 @@
 #include <string_view>
 
 #include "console.hpp"
-#include "data_report.hpp"
-#include "help.hpp"
-#include "input.hpp"
-#include "options.hpp"
-#include "outputs.hpp"
-#include "projection_option.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "files/trace_jsonl.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "reports/reports.hpp"
 #include "temper/trace.hpp"
-#include "trace_jsonl.hpp"
 
 namespace temper::app {
 namespace {

@@ -13,13 +13,13 @@
 #include <vector>
 
 #include "console.hpp"
+#include "files/outputs.hpp"
 #include "gallery/reading.hpp"
 #include "gallery/results.hpp"
 #include "gallery/selection.hpp"
-#include "help.hpp"
-#include "options.hpp"
-#include "outputs.hpp"
-#include "table_options.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "options/table_options.hpp"
 #include "temper/version.hpp"
 
 namespace temper::app {

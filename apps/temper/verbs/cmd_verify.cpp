@@ -6,14 +6,13 @@
 #include <optional>
 
 #include "console.hpp"
-#include "help.hpp"
-#include "input.hpp"
-#include "options.hpp"
-#include "outputs.hpp"
-#include "projection_option.hpp"
-#include "tensor_option.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "files/tensor_option.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "reports/verify_report.hpp"
 #include "threads.hpp"
-#include "verify_report.hpp"
 
 namespace temper::app {
 namespace {

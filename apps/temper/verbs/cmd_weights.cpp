@@ -6,19 +6,17 @@
 #include <cmath>
 #include <optional>
 
-#include "certificate_json.hpp"
 #include "console.hpp"
-#include "edges_file.hpp"
-#include "help.hpp"
-#include "input.hpp"
-#include "options.hpp"
-#include "outputs.hpp"
-#include "projection_option.hpp"
+#include "files/certificate_json.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "reports/reports.hpp"
 #include "temper/connectivity.hpp"
 #include "temper/geometry.hpp"
 #include "temper/lp.hpp"
 #include "temper/optimize.hpp"
-#include "weights_report.hpp"
 
 namespace temper::app {
 namespace {

@@ -15,9 +15,9 @@
 #include <optional>
 
 #include "console.hpp"
-#include "help.hpp"
+#include "help/help.hpp"
 #include "interrupt.hpp"
-#include "ranks.hpp"
+#include "options/ranks.hpp"
 #include "suggest.hpp"
 #include "temper/build_info.hpp"
 #include "temper/io.hpp"

@@ -1,6 +1,6 @@
 // temper reproduce, in a program that was built without the paper's figures.
-#include "command.hpp"
 #include "exit.hpp"
+#include "help/command.hpp"
 #include "verbs.hpp"
 
 namespace temper::app {

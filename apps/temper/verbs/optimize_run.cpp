@@ -1,4 +1,4 @@
-#include "optimize_run.hpp"
+#include "verbs/optimize_run.hpp"
 
 #include <fmt/format.h>
 
@@ -9,15 +9,15 @@
 #include <utility>
 
 #include "console.hpp"
+#include "files/trace_jsonl.hpp"
 #include "interrupt.hpp"
-#include "progress_line.hpp"
-#include "ranks.hpp"
-#include "report_text.hpp"
+#include "options/ranks.hpp"
+#include "reports/quality_report.hpp"
 #include "temper/draw.hpp"
 #include "temper/lp.hpp"
-#include "trace_jsonl.hpp"
+#include "verbs/progress_line.hpp"
 #ifdef TEMPER_WITH_VERIFY
-#include "solver_errors.hpp"
+#include "reports/verify_report.hpp"
 #endif
 
 namespace temper::app {

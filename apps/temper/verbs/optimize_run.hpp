@@ -5,12 +5,12 @@
 #include <string_view>
 #include <vector>
 
-#include "input.hpp"
-#include "optimize_settings.hpp"
-#include "requirement.hpp"
+#include "files/input.hpp"
+#include "options/requirement.hpp"
 #include "temper/checkpoint.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
+#include "verbs/optimize_settings.hpp"
 
 namespace temper::app {
 

@@ -1,13 +1,13 @@
-#include "optimize_settings.hpp"
+#include "verbs/optimize_settings.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "data_report.hpp"
-#include "help.hpp"
-#include "options.hpp"
-#include "projection_option.hpp"
+#include "files/input.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "reports/reports.hpp"
 
 namespace temper::app {
 namespace {

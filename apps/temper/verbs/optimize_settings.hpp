@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "command.hpp"
-#include "outputs.hpp"
-#include "ranks.hpp"
-#include "requirement.hpp"
-#include "table_options.hpp"
+#include "files/outputs.hpp"
+#include "files/tensor_option.hpp"
+#include "help/command.hpp"
+#include "options/ranks.hpp"
+#include "options/requirement.hpp"
+#include "options/table_options.hpp"
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
-#include "tensor_option.hpp"
-#include "time_limit.hpp"
+#include "verbs/time_limit.hpp"
 
 namespace temper::app {
 

@@ -1,4 +1,4 @@
-#include "progress_line.hpp"
+#include "verbs/progress_line.hpp"
 
 #include <fmt/core.h>
 
