@@ -18,19 +18,19 @@ constexpr std::string_view kWholeHelp = "--help-all";
 
 }  // namespace
 
-std::vector<std::string> single_names(const std::string& names, char separator) {
-  std::vector<std::string> single = {""};
-  for (const char c : names) {
+std::vector<std::string> separated(std::string_view list, char separator) {
+  std::vector<std::string> words = {""};
+  for (const char c : list) {
     if (c == separator) {
-      single.emplace_back();
+      words.emplace_back();
     } else {
-      single.back() += c;
+      words.back() += c;
     }
   }
-  return single;
+  return words;
 }
 
-std::string long_name(const std::string& names) { return single_names(names).back(); }
+std::string long_name(const std::string& names) { return separated(names).back(); }
 
 Option& Option::require() {
   required = true;
@@ -272,7 +272,7 @@ bool Command::was_given(std::string_view name) const { return !options_[index_of
 
 std::size_t Command::index_of(std::string_view name) const {
   const auto named = [name](const Option& option) {
-    const std::vector<std::string> names = single_names(option.names);
+    const std::vector<std::string> names = separated(option.names);
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   const auto found = std::find_if(options_.begin(), options_.end(), named);

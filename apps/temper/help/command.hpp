@@ -65,8 +65,8 @@ struct Option {
   Option& defaults_to(std::function<std::string()> spell);
 };
 
-/// "-o,--output" as "-o" and "--output"; likewise "all|FILE".
-[[nodiscard]] std::vector<std::string> single_names(const std::string& names, char separator = ',');
+/// The words between commas, empty ones included; at least one: "-o,--output" as "-o" and "--output".
+[[nodiscard]] std::vector<std::string> separated(std::string_view list, char separator = ',');
 /// "--output" of "-o,--output": how messages call an option.
 [[nodiscard]] std::string long_name(const std::string& names);
 

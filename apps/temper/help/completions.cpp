@@ -10,8 +10,7 @@
 namespace temper::app {
 namespace {
 
-constexpr std::array<std::string_view, 4> kFormats = {"man", "bash", "zsh", "fish"};
-constexpr std::array<std::string_view, 3> kScripts = {R"sh(# Completion of temper for bash
+constexpr std::string_view kBash = R"sh(# Completion of temper for bash
 _temper() {
   local word=${COMP_WORDS[COMP_CWORD]} offer
   COMPREPLY=()
@@ -24,8 +23,8 @@ _temper() {
   done < <("${COMP_WORDS[0]/#\~/$HOME}" --help=words "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null)
 }
 complete -F _temper temper
-)sh",
-                                                      R"sh(#compdef temper
+)sh";
+constexpr std::string_view kZsh = R"sh(#compdef temper
 _temper() {
   local offer tab=$'\t'
   local -a offers
@@ -40,8 +39,8 @@ _temper() {
   ((compstate[nmatches]))
 }
 if [[ $funcstack[1] == _temper ]]; then _temper "$@"; else compdef _temper temper; fi
-)sh",
-                                                      R"sh(# Completion of temper for fish
+)sh";
+constexpr std::string_view kFish = R"sh(# Completion of temper for fish
 function __temper_offers
   set -l words (commandline -opc) "$(commandline -ct)"
   set -l offers ($words[1] --help=words $words[2..] 2>/dev/null)
@@ -50,7 +49,10 @@ function __temper_offers
   contains :directory $offers; and __fish_complete_directories $words[-1]
 end
 complete -c temper -f -a '(__temper_offers)'
-)sh"};
+)sh";
+
+constexpr std::array<std::string_view, 4> kFormats = {"man", "bash", "zsh", "fish"},
+                                          kScripts = {"", kBash, kZsh, kFish};
 
 bool has(const auto& names, std::string_view name) { return std::ranges::find(names, name) != std::end(names); }
 
@@ -66,7 +68,7 @@ std::string offer(std::string_view word, std::string_view meaning) {
 std::string offered_values(const std::string& value_name) {
   static constexpr std::string_view kFiles[] = {"FILE", "IN", "IN0", "MESH", "OUT", "OUTLINE", "TRACE"};
   static constexpr std::string_view kStandIns[] = {"N", "X", "VERTEX", "KIND[:lon,lat]"};
-  const std::vector<std::string> parts = single_names(value_name, '|');
+  const std::vector<std::string> parts = separated(value_name, '|');
   std::string text;
   for (const std::string& part : parts) {
     const bool word = parts.size() > 1 && !has(kStandIns, part);
@@ -85,7 +87,7 @@ std::string offers(const Command& command, const Arguments& words) {
   }
   for (const Command* each : commands) {
     for (const Option& option : each->options()) {
-      const std::vector<std::string> spelled = single_names(option.names);
+      const std::vector<std::string> spelled = separated(option.names);
       if (option.is_argument() && places.empty()) places = offered_values(option.names);
       if (!option.is_flag() && !dash && has(spelled, words[words.size() - 2])) return offered_values(option.value_name);
       for (const std::string& name : spelled) names += option.is_argument() ? "" : offer(name, option.sentence);
@@ -114,7 +116,7 @@ bool print_other_help(const Arguments& words, const Command* verb) {
   } else if (row == kFormats.begin()) {
     print(man_page(verb == nullptr ? help_of_program() : help_of(*verb, true)));
   } else {
-    print(kScripts.at(static_cast<std::size_t>(row - kFormats.begin() - 1)));
+    print(kScripts.at(static_cast<std::size_t>(row - kFormats.begin())));
   }
   return true;
 }

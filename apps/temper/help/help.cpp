@@ -16,7 +16,6 @@ namespace temper::app {
 namespace {
 
 constexpr std::size_t kWidth = 100;  // of a line: fits half of a wide screen
-constexpr std::size_t kOptions = HelpPart().columns;
 
 /// "-o, --output FILE"
 std::string option_head(const Option& option) {
@@ -62,11 +61,11 @@ void add_options(HelpPage& page, const Command& command, bool all) {
   for (const Option& option : command.options()) {
     if (option.rare && !all) continue;
     const std::string title = option.is_argument() ? "Arguments" : grouped ? option.group : "Options";
-    if (page.parts.empty() || page.parts.back().title != title) page.parts.push_back({title, {}, kOptions});
+    if (page.parts.empty() || page.parts.back().title != title) page.parts.push_back({title, {}, kOptionColumns});
     page.parts.back().rows.push_back(row_of(option));
   }
   for (const Command& inner : command.subcommands()) {
-    page.parts.push_back({inner.name(), {}, kOptions, inner.description()});
+    page.parts.push_back({inner.name(), {}, kOptionColumns, inner.description()});
     for (const Option& option : inner.options()) page.parts.back().rows.push_back(row_of(option));
   }
 }
@@ -143,7 +142,7 @@ HelpPage help_of_program() {
        {{"-h, --help", "this text; temper VERB --help has the options and examples of a verb"},
         {"--help=FORMAT", "the same for man, or completions for bash, zsh or fish: man <(temper optimize --help=man)"},
         {"--version", "the version, and what the program was built from"}},
-       kOptions});
+       kOptionColumns});
   page.parts.push_back(
       {"Environment",
        {{"TEMPER_NETCDF",

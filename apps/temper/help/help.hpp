@@ -14,13 +14,15 @@ struct HelpRow {
   std::string head, meaning;  ///< "-o, --output FILE" and its sentence
 };
 
+inline constexpr std::size_t kOptionColumns = 26;
+
 /// Below its title a part has rows, or lines.
 struct HelpPart {
   std::string title;
   std::vector<HelpRow> rows = {};
-  std::size_t columns = 26;  ///< of the heads
-  std::string note = {};     ///< beside the title
-  std::string lines = {};    ///< to be shown as they are
+  std::size_t columns = kOptionColumns;  ///< of the heads
+  std::string note = {};                 ///< beside the title
+  std::string lines = {};                ///< to be shown as they are
 };
 
 struct HelpPage {

@@ -60,7 +60,7 @@ std::string man_page(const HelpPage& page) {
       roff(page.usage), filled(page.description));
   bool in_options = false;
   for (const HelpPart& part : page.parts) {
-    const bool options = !page.verb.empty() && part.columns == HelpPart().columns;
+    const bool options = !page.verb.empty() && part.columns == kOptionColumns;
     if (options && !in_options) text += ".SH OPTIONS\n";
     in_options = options;
     text += options ? fmt::format(".SS \"{}\"\n{}", roff(part.title), part.note.empty() ? "" : filled(part.note))

@@ -68,21 +68,9 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
-std::vector<std::string> comma_separated(std::string_view list) {
-  std::vector<std::string> words(1);
-  for (const char c : list) {
-    if (c == ',') {
-      words.emplace_back();
-    } else {
-      words.back() += c;
-    }
-  }
-  return words;
-}
-
 std::optional<std::vector<double>> parse_numbers(std::string_view text) {
   std::vector<double> values;
-  for (const std::string& word : comma_separated(text)) {
+  for (const std::string& word : separated(text)) {
     const std::optional<double> value = parse_number(word);
     if (!value) return std::nullopt;
     values.push_back(*value);

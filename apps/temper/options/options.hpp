@@ -28,8 +28,6 @@ inline constexpr Interval kNotNegative = {0, std::numeric_limits<double>::infini
 
 /// The whole text as a finite number, or nothing.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
-/// The words between commas, empty ones included; at least one.
-[[nodiscard]] std::vector<std::string> comma_separated(std::string_view list);
 /// Numbers separated by commas, or nothing.
 [[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text);
 

@@ -134,7 +134,7 @@ std::vector<Requirement> parse_requirements(std::string_view verb, std::span<con
   std::vector<Requirement> requirements;
   try {
     for (const std::string& list : lists) {
-      for (const std::string& word : comma_separated(list)) requirements.push_back(parse_requirement(word));
+      for (const std::string& word : separated(list)) requirements.push_back(parse_requirement(word));
     }
   } catch (const BadValue& bad) {
     throw Failure(Exit::bad_usage, fmt::format("{0}: --require: {1}\nSee temper {0} --help", verb, bad.what()));

@@ -70,7 +70,7 @@ std::vector<io::DecFormat> parse_formats(std::string_view list) {
   std::vector<io::DecFormat> formats;
   std::vector<std::string_view> names;
   for (const auto& choice : kDecFormats) names.push_back(choice.name);
-  for (const std::string& name : comma_separated(list)) {
+  for (const std::string& name : separated(list)) {
     const auto known = std::find_if(std::begin(kDecFormats), std::end(kDecFormats),
                                     [&](const auto& choice) { return choice.name == name; });
     if (known == std::end(kDecFormats)) {

@@ -115,7 +115,7 @@ Exit run_verify(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   VerifyOptions options;
-  options.fields = comma_separated(s.fields);
+  options.fields = separated(s.fields);
   check_fields(options);
   Outputs outputs("verify");
   std::vector<std::string> inputs = {s.input};
