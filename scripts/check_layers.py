@@ -9,6 +9,9 @@ The table below is the architecture, and docs/architecture.md shows it: the pict
 every folder of src/ must be named there. A public header belongs to the layer it speaks for; a file of a layer
 may include its own layer and the layers its row names, nothing else. The core includes the standard C++
 headers alone, and of those none that prints, opens files, starts threads or needs RTTI.
+
+A subfolder of a layer, of the program or of Python is a room, and the files beside its rooms are one more. No two rooms
+may include each other.
 """
 
 import pathlib
@@ -133,6 +136,37 @@ def sources(root):
             yield path, "app"
 
 
+# Layers whose rooms still include each other.
+NOT_YET = {"optimize", "io"}
+
+
+def house_and_room(path):
+    """Of src/optimize/step/a.hpp: the house src/optimize, and the room in it, step. A file beside the rooms: ""."""
+    parts = path.parts
+    depth = 1 if parts[0] == "python" else 2
+    return "/".join(parts[:depth]), parts[depth] if len(parts) > depth + 1 else ""
+
+
+def check_rooms(root):
+    """Two rooms of one house that include each other: a line of each side."""
+    first = {}  # (house, from, to): the first include that goes that way
+    files = [p.relative_to(root) for folder in ("src", "apps", "python") for p in (root / folder).glob("**/*.?pp")]
+    for path in sorted(files):
+        house, room = house_and_room(path)
+        for number, line in enumerate((root / path).read_text(encoding="utf-8").splitlines(), 1):
+            match = INCLUDE.match(line)
+            if not match or match[1] == "<" or house.removeprefix("src/") in NOT_YET:
+                continue
+            for base in (path.parent, pathlib.Path("src"), pathlib.Path(house)):
+                reached = base / match[2]
+                if (root / reached).is_file() and house_and_room(reached)[0] == house:
+                    first.setdefault((house, room, house_and_room(reached)[1]), f"{path}:{number}: {line.strip()}")
+                    break
+    for (house, a, b), line in sorted(first.items()):
+        if a < b and (house, b, a) in first:
+            yield f"{line}: {house}/{a} and {house}/{b} include each other; see {first[house, b, a]}".replace("/ ", " ")
+
+
 PAGE = "docs/architecture.md"
 PICTURE = re.compile(r"(<!-- layers: drawn by scripts/check_layers.py --picture -->\n)```text\n.*?```\n", re.S)
 
@@ -164,7 +198,8 @@ def check_page(root):
     drawn = PICTURE.search(page)
     if drawn is None or drawn[0] != f"{drawn[1]}```text\n{picture()}```\n":
         yield f"{PAGE}:1: the picture of the layers is not that of scripts/check_layers.py; its --picture draws it anew"
-    for folder in sorted(p for p in (root / "src").glob("**/") if p != root / "src"):
+    folders = [*(root / "src").glob("**/"), *(root / "apps").glob("*/**/")]
+    for folder in sorted(p for p in folders if p != root / "src"):
         name = folder.relative_to(root).as_posix()
         if f"`{name}`" not in page:
             yield f"{PAGE}:1: does not say what is in `{name}`"
@@ -180,7 +215,7 @@ def check(root):
             violations.append(f"{name}:1: belongs to no layer of scripts/check_layers.py")
             continue
         violations += [f"{name}:{number}: {why}" for number, why in check_file(path, layer)]
-    return violations, files
+    return violations + list(check_rooms(root)), files
 
 
 def self_test():
@@ -216,7 +251,24 @@ def self_test():
         ("src/base/pack.hpp", "#include <immintrin.h>", False),
         ("src/base/other.hpp", "#include <immintrin.h>", True),
     ]
+    rooms = [  # two files that include each other, is it a violation?
+        ("src/mesh/a/x.hpp", "src/mesh/b/y.hpp", True),
+        ("src/mesh/a/x.hpp", "src/mesh/y.hpp", True),
+        ("src/mesh/a/x.hpp", "src/mesh/a/y.hpp", False),
+        ("apps/temper/a/x.hpp", "apps/temper/b/y.hpp", True),
+        ("apps/temper/x.hpp", "apps/temper/b/y.hpp", True),
+        ("python/a/x.hpp", "python/b/y.hpp", True),
+    ]
     wrong = []
+    for *pair, expected in rooms:
+        with tempfile.TemporaryDirectory() as scratch:
+            for one, other in (pair, pair[::-1]):
+                path = pathlib.Path(scratch, one)
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(f'#include "{re.sub("^(src|apps/temper|python)/", "", other)}"\n', encoding="utf-8")
+            violations, _ = check(pathlib.Path(scratch))
+        if bool(violations) != expected or not all(file in violation for violation in violations for file in pair):
+            wrong.append(f"self-test: {pair}: expected {'a violation' if expected else 'none'}, got {violations}")
     for file, line, expected in planted:
         with tempfile.TemporaryDirectory() as scratch:
             path = pathlib.Path(scratch, file)
@@ -240,14 +292,14 @@ def self_test():
             found = list(check_page(root))
         if len(found) != expected:
             wrong.append(f"self-test: a page with {expected} violations: got {found}")
-    return wrong, len(planted) + len(pages)
+    return wrong, len(planted) + len(rooms) + len(pages)
 
 
 def main(arguments):
     here = pathlib.Path(__file__).resolve().parent.parent
     if arguments == ["--self-test"]:
         problems, count = self_test()
-        done = f"{count} planted lines and pages, each judged as expected"
+        done = f"{count} planted lines, rooms and pages, each judged as expected"
     elif arguments == ["--picture"]:
         page = (here / PAGE).read_text(encoding="utf-8")
         page, count = PICTURE.subn(lambda found: f"{found[1]}```text\n{picture()}```\n", page)
@@ -257,7 +309,7 @@ def main(arguments):
         root = pathlib.Path(arguments[0]) if arguments else here
         problems, count = check(root)
         problems += check_page(root)
-        done = f"{count} files keep to the layers"
+        done = f"{count} files keep to the layers and rooms"
         if count == 0:
             problems = [f"{root}: no sources here"]
     print("\n".join(problems) if problems else f"check_layers: {done}")

@@ -11,7 +11,7 @@ write_help(completions/_temper --help=zsh)
 write_help(completions/temper.fish --help=fish)
 
 write_help(man1/temper.1 --help=man)
-file(STRINGS ${FOLDER}/man1/temper.1 others REGEX "^\\.BR temper.*\\(1\\)")
+file(STRINGS ${FOLDER}/man1/temper.1 others REGEX "^\\.BR temper..[a-z]+ \\(1\\)")
 foreach(line IN LISTS others)
   string(REGEX REPLACE "^\\.BR temper..([a-z]+) .*" "\\1" verb "${line}")
   write_help(man1/temper-${verb}.1 ${verb} --help=man)

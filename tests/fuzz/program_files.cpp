@@ -1,9 +1,9 @@
 // Traces, certificates and layers, as the program reads them: what is read is checked and done again.
 #include <vector>
 
-#include "apps/temper/certificate_json.hpp"
-#include "apps/temper/exit.hpp"
-#include "apps/temper/trace_jsonl.hpp"
+#include "exit.hpp"
+#include "files/certificate_json.hpp"
+#include "files/trace_jsonl.hpp"
 #include "target.hpp"
 #include "temper/dec_io.hpp"
 #include "temper/generate.hpp"

@@ -53,7 +53,18 @@ expect "bash: options of an example" $'--polygon\n--seed\n--vertices' \
 
 # --- zsh and fish --------------------------------------------------------------------------------------------
 "$program" --help=zsh >_temper
-if there zsh; then expect "zsh: syntax" "" "$(zsh -n _temper 2>&1)"; fi
+if there zsh; then
+  zsh_offers() {  # WORD ...: what the function hands to those of zsh
+    zsh -fc 'compdef() { }; _files() { print files $* }; _describe() { print -l -- $offers }; source ./_temper
+             words=("$@") CURRENT=$# compstate=; _temper' zsh "$@" 2>/dev/null | sed -E 's/:.*//' | sort
+  }
+  expect "zsh: syntax" "" "$(zsh -n _temper 2>&1)"
+  expect "zsh: verbs" "$(printf '%s\n' "${verbs[@]}" --help --version | sort)" "$(zsh_offers temper '')"
+  expect "zsh: options" "$(options_of dec)" "$(zsh_offers temper dec -)"
+  expect "zsh: values with names" $'alternating\ngolden\nnewton' "$(zsh_offers temper optimize --solver '' | grep .)"
+  expect "zsh: words beside files" $'all\nfiles\nlines' "$(zsh_offers temper weights in.vtu --edges '')"
+  expect "zsh: folders" 'files -/' "$(zsh_offers temper dec in.vtu -o '' | grep .)"
+fi
 "$program" --help=fish >temper.fish
 if there fish; then
   fish_offers() { HOME=$scratch fish --no-config -c "source temper.fish; cd here; complete -C '$1'" 2>&1 | cut -f 1 | sort -u; }

@@ -1,0 +1,160 @@
+#include "files/input.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <string_view>
+#include <utility>
+
+#include "exit.hpp"
+
+namespace temper::app {
+namespace {
+
+/// "12" of "triangle 12".
+std::string last_word(const std::string& text) { return text.substr(text.rfind(' ') + 1); }
+
+/// Mesh vertex → point; empty when they are the same.
+std::vector<std::size_t> invert(const io::LoadedMesh& loaded) {
+  if (loaded.vertex_of_point.size() == loaded.mesh.n_vertices()) return {};
+  std::vector<std::size_t> points(loaded.mesh.n_vertices());
+  for (std::size_t point = 0; point < loaded.vertex_of_point.size(); ++point) {
+    const std::int32_t vertex = loaded.vertex_of_point[point];
+    if (vertex >= 0) points[static_cast<std::size_t>(vertex)] = point;
+  }
+  return points;
+}
+
+}  // namespace
+
+std::string Input::vertex_number(VertexId v) const { return last_word(names->point(v.index)); }
+
+std::string Input::triangle_number(TriangleId t) const { return last_word(names->triangle(t.index)); }
+
+std::vector<std::string> Input::warnings() const {
+  std::vector<std::string> all = file.warnings;
+  all.insert(all.end(), loaded.warnings.begin(), loaded.warnings.end());
+  return all;
+}
+
+Input read_input(const std::string& path, const ReadingOptions& options) {
+  Input input;
+  input.path = path;
+  input.file = options.read ? options.read(path) : or_fail(io::read(path, {options.executor}));
+  take_to_map(input.file, path, options.projection);
+  input.loaded = or_fail(io::make_mesh(input.file, options.fixed_tags, options.executor));
+  if (!options.spheres) expect_plane(input.loaded.mesh, path, "this verb");
+  input.n_vertices = input.loaded.mesh.n_vertices();
+  input.points = invert(input.loaded);
+  input.names = std::make_shared<VertexNames>(input.file.numbering, input.points, input.n_vertices);
+  return input;
+}
+
+void expect_plane(const Mesh& mesh, const std::string& path, std::string_view what) {
+  const auto error = temper::expect_plane(mesh, what);
+  if (!error) return;
+  throw Failure(Exit::bad_input,
+                fmt::format("{}: {}{}", path, error->message,
+                            mesh.space().is_plane() ? "" : "; --projection puts longitude and latitude on a map"));
+}
+
+std::string same_projection(const Input& input, const std::string& projection) {
+  return input.file.map ? projection_text(input.file.map->projection) : projection;
+}
+
+std::string renumber(const std::string& text, const std::function<std::string(VertexId)>& name) {
+  static constexpr std::array<std::string_view, 2> kBefore = {"vertex ", "edge "};
+  std::string result;
+  std::size_t at = 0;
+  const auto copy_number = [&] {
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), number);
+    if (error != std::errc()) return false;
+    result += name(VertexId(number));
+    at = static_cast<std::size_t>(end - text.data());
+    return true;
+  };
+  while (at < text.size()) {
+    bool found = false;
+    for (const std::string_view word : kBefore) {
+      if (text.compare(at, word.size(), word) != 0) continue;
+      result += word;
+      at += word.size();
+      found = true;
+      if (copy_number() && at < text.size() && text[at] == '-') {
+        result += text[at++];
+        copy_number();
+      }
+      break;
+    }
+    if (!found) result += text[at++];
+  }
+  return result;
+}
+
+VertexNames::VertexNames(std::shared_ptr<const InputNames> file, std::vector<std::size_t> points,
+                         std::size_t n_vertices)
+    : file_(file ? std::move(file) : std::make_shared<const InputNames>()),
+      points_(std::move(points)),
+      n_vertices_(n_vertices) {}
+
+std::size_t VertexNames::in_file(std::size_t index) const { return index < points_.size() ? points_[index] : index; }
+
+/// The file may number its points as it likes, so new ones are counted by themselves, from 1.
+std::string VertexNames::point(std::size_t index) const {
+  if (index >= n_vertices_) return "new point " + std::to_string(index - n_vertices_ + 1);
+  return file_->point(in_file(index));
+}
+std::string VertexNames::triangle(std::size_t index) const { return file_->triangle(index); }
+std::string VertexNames::point_where(std::size_t index) const {
+  return index < n_vertices_ ? file_->point_where(in_file(index)) : std::string();
+}
+std::string VertexNames::triangle_where(std::size_t index) const { return file_->triangle_where(index); }
+
+std::string spell_projection(std::string message) {
+  constexpr std::string_view kOption = "`projection`";
+  const std::size_t at = message.find(kOption);
+  return at == std::string::npos ? message : message.replace(at, kOption.size(), "--projection");
+}
+
+namespace {
+
+[[noreturn]] void refuse_degrees(const std::string& path, std::string message) {
+  throw Failure(Exit::bad_usage, fmt::format("{}: {}", path, spell_projection(std::move(message))));
+}
+
+}  // namespace
+
+void expect_projection_of_outline(const std::string& path, bool geographic, const std::string& projection) {
+  if (geographic && projection.empty()) refuse_degrees(path, io::needs_projection(false, "--sphere"));
+}
+
+void take_to_map(io::MeshFile& file, const std::string& path, const std::string& projection) {
+  if (projection.empty()) {
+    if (file.geographic) refuse_degrees(path, io::needs_projection(file.geographic_is_guessed));
+    return;
+  }
+  or_fail(io::project(file, projection));
+}
+
+bool is_too_deep(std::string_view json) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kDeepestJson) return true;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return false;
+}
+
+}  // namespace temper::app

@@ -1,0 +1,181 @@
+#include "files/outputs.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "console.hpp"
+#include "exit.hpp"
+#include "files/input.hpp"
+#include "suggest.hpp"
+
+namespace temper::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void not_writable(const std::string& path, const std::string& message) {
+  throw Failure(Exit::bad_input, path + ": cannot be written: " + message);
+}
+
+void check_writable(const std::string& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) not_writable(path, "it is a directory");
+  if (!fs::path(path).has_filename()) not_writable(path, "it names no file");
+  const bool there = fs::exists(path, ignored);
+  if (there && access(path.c_str(), W_OK) != 0) not_writable(path, std::strerror(errno));
+  if (there && !fs::is_regular_file(path, ignored)) return;  // a device is written in place
+
+  // A file is replaced by a new one beside it (beside what a link points to), so that folder must be writable.
+  const fs::path target = there ? fs::canonical(path, ignored) : fs::path(path);
+  const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (!fs::exists(parent, ignored)) not_writable(path, fmt::format("there is no directory {}", parent.string()));
+  if (!fs::is_directory(parent, ignored)) not_writable(path, fmt::format("{} is not a directory", parent.string()));
+  if (access(parent.c_str(), W_OK | X_OK) != 0) {
+    not_writable(path, fmt::format("directory {}: {}", parent.string(), std::strerror(errno)));
+  }
+}
+
+/// The input that reading takes the file for, or null.
+const std::string* input_with(const std::string& file, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    if (input.empty()) continue;
+    if (same_file(file, input)) return &input;
+    for (const std::string& part : io::files_to_read(input)) {
+      if (same_file(file, part)) return &input;
+    }
+  }
+  return nullptr;
+}
+
+/// `what`: of the input, which the file is, or a part of.
+std::string what_it_is(const std::string& file, const std::string& input, std::string_view what) {
+  return same_file(file, input) ? fmt::format("{} is {}", file, what)
+                                : fmt::format("{} is read with {}, {}", file, input, what);
+}
+
+}  // namespace
+
+void add_mesh_output(Command& command, MeshOutput& target, const std::string& value_name, const std::string& sentence) {
+  add_text(command, "-o,--output", value_name, target.path, sentence + "; -: standard output");
+  command.option("--output").take = [&target](const std::string& text) {
+    if (text.empty()) throw BadValue("needs a value, found an empty one");
+    target.path = text == "-" ? kStandardOutput : text;
+  };
+  std::vector<std::string_view> names;
+  for (const io::Format& format : io::formats()) {
+    if (format.writes) names.push_back(format.name);
+  }
+  add_name(
+      command, "--format", names, [&target](std::string_view name) { target.options.format = name; },
+      "the format of " + value_name + ", whatever its suffix");
+  static constexpr Choice<io::Encoding> kEncodings[] = {{"ascii", io::Encoding::ascii},
+                                                        {"base64", io::Encoding::base64},
+                                                        {"appended", io::Encoding::appended},
+                                                        {"binary", io::Encoding::appended}};
+  add_choice(
+      command, "--encoding", kEncodings, [&target](io::Encoding value) { target.options.encoding = value; },
+      "the encoding, of formats that have several (default: the compact one; fastest: appended)");
+  command.add(
+      {.names = "--no-triangle-quality",
+       .value_name = "",
+       .sentence = "VTU and VTKHDF without the cell data well_centered, min_h_over_l, min_d_over_l and min_angle_deg",
+       .take = [&target](const std::string&) { target.options.triangle_quality = false; }});
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error)) return true;
+  return fs::weakly_canonical(fs::absolute(a, error), error) == fs::weakly_canonical(fs::absolute(b, error), error);
+}
+
+void Outputs::refuse(const std::string& option, const std::string& message) const {
+  throw Failure(Exit::bad_usage, fmt::format("{}: {}: {}", verb_, option, message));
+}
+
+void Outputs::expect(const std::string& option, const std::string& path, const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    for (const auto& [other_option, other_path, other] : expected_) {
+      if (!same_file(file, other)) continue;
+      refuse(option, fmt::format("{} is another output already: {} {}", file, other_option, other_path));
+    }
+  }
+  for (const std::string& file : files) expected_.push_back({option, path, file});
+  check_writable(path);
+}
+
+void Outputs::expect_mesh(const MeshOutput& output, const std::vector<std::string>& others) {
+  const std::string option = "--output";
+  const auto& [path, options] = output;
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) not_writable(path, "it is a directory");
+  const Expected<std::vector<std::string>> files = io::files_to_write(path, options.format);
+  if (!files) refuse(option, files.error().what());
+  for (const std::string& file : *files) {
+    if (const std::string* const input = input_with(file, others))
+      refuse(option, what_it_is(file, *input, "an input") + ", and would be replaced");
+  }
+  expect(option, path, *files);
+  if (path == kStandardOutput) print_to_standard_error();
+}
+
+void Outputs::expect_picture(const std::string& option, const std::string& path,
+                             const std::vector<std::string>& inputs) {
+  expect_text(option, path, inputs);
+  if (is_picture_name(path)) return;
+  refuse(option, path + " names no picture that temper draws; expected one that ends in .svg, .png or .pdf");
+}
+
+void Outputs::expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs) {
+  if (path.empty()) return;
+  if (const std::string* const input = input_with(path, inputs)) {
+    const bool is_mesh = input == &inputs.front() && verb_ != "mesh";
+    refuse(option, what_it_is(path, *input, is_mesh ? "the input mesh" : "an input"));
+  }
+  expect(option, path, {path});
+}
+
+void Outputs::fail(const InputError& error) const {
+  std::string message = spell_projection(error.what());
+  for (std::size_t i = 0; i < written_.size(); ++i)
+    message += (i == 0 ? "; written before that: " : ", ") + written_[i];
+  throw Failure(Exit::bad_input, message);
+}
+
+std::vector<std::string> Outputs::write_mesh(const MeshOutput& output, const io::MeshFile& file, Executor* executor) {
+  io::WriteOptions options = output.options;
+  options.executor = executor;
+  Expected<std::vector<std::string>> warnings = io::write(output.path, file, options);
+  if (!warnings) fail(warnings.error());
+  written_.push_back(output.path);
+  return *std::move(warnings);
+}
+
+void Outputs::write_text(const std::string& path, std::string_view text) {
+  flush_output();  // the path may be /dev/stdout
+  const Expected<void> result = io::write_text(path, text);
+  if (!result) fail(result.error());
+  written_.push_back(path);
+}
+
+void Outputs::write_picture(const std::string& path, std::string_view svg) {
+  write_text(path, picture_bytes(path, svg));
+}
+
+io::TextStream Outputs::open(const std::string& path) const {
+  Expected<io::TextStream> stream = io::TextStream::open(path);
+  if (!stream) fail(stream.error());
+  return *std::move(stream);
+}
+
+void Outputs::commit(const std::string& path, io::TextStream& stream) {
+  const Expected<void> result = stream.commit();
+  if (!result) fail(result.error());
+  written_.push_back(path);
+}
+
+}  // namespace temper::app

@@ -1,0 +1,71 @@
+// Outputs: looked at before the work, so that an hour is not lost to a misspelt folder; written whole or not at
+// all; and when one fails, the message says which others were written.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "options/options.hpp"
+#include "temper/io.hpp"
+
+namespace temper::app {
+
+/// A mesh file that a verb writes.
+struct MeshOutput {
+  std::string path;  ///< empty: none
+  io::WriteOptions options;
+};
+/// -o,--output, --format and --encoding. The output is not marked as required.
+void add_mesh_output(Command& command, MeshOutput& target, const std::string& value_name,
+                     const std::string& sentence = "where the mesh goes; its suffix tells the format");
+
+class Outputs {
+ public:
+  explicit Outputs(std::string verb) : verb_(std::move(verb)) {}
+
+  /// A mesh file. The format must be one that temper writes. Neither it nor what a format writes beside it (.node, .ele
+  /// and .poly of Triangle) may be another output, or one of the files of `others`, inputs that are to stay. What is
+  /// printed after this goes to standard error where the mesh itself goes to standard output.
+  void expect_mesh(const MeshOutput& output, const std::vector<std::string>& others = {});
+  /// A text file that must not be another output, or one of the files that these inputs are read from. An empty path:
+  /// not asked for.
+  void expect_text(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
+  /// The same of a picture, whose suffix tells the format.
+  void expect_picture(const std::string& option, const std::string& path, const std::vector<std::string>& inputs);
+
+  /// The warnings of writing.
+  std::vector<std::string> write_mesh(const MeshOutput& output, const io::MeshFile& file, Executor* executor = nullptr);
+  void write_text(const std::string& path, std::string_view text);
+  void write_picture(const std::string& path, std::string_view svg);
+  /// Text that comes bit by bit: opened before the work, put in its place after it.
+  [[nodiscard]] io::TextStream open(const std::string& path) const;
+  void commit(const std::string& path, io::TextStream& stream);
+
+  [[nodiscard]] const std::vector<std::string>& written() const { return written_; }
+
+ private:
+  /// A file that will be written, of `option path`.
+  struct Expectation {
+    std::string option, path, file;
+  };
+  void expect(const std::string& option, const std::string& path, const std::vector<std::string>& files);
+  [[noreturn]] void refuse(const std::string& option, const std::string& message) const;
+  [[noreturn]] void fail(const InputError& error) const;
+
+  std::string verb_;
+  std::vector<Expectation> expected_;
+  std::vector<std::string> written_;
+};
+
+/// The two paths are the same file, by name or by inode.
+[[nodiscard]] bool same_file(const std::string& a, const std::string& b);
+
+/// The suffixes of pictures that can be written: ".svg", ".png" and ".pdf". A path without a suffix is SVG.
+[[nodiscard]] bool is_picture_name(const std::string& path);
+
+/// The bytes of the picture in the format that the path's suffix names: PNG and PDF by rsvg-convert, of librsvg. PNG
+/// has two pixels for each of the SVG's. Failure (bad input) when rsvg-convert is not there, or fails.
+[[nodiscard]] std::string picture_bytes(const std::string& path, std::string_view svg);
+
+}  // namespace temper::app

@@ -1,0 +1,41 @@
+#include "files/tensor_option.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+#include "options/options.hpp"
+
+namespace temper::app {
+
+void add_tensor(Command& command, std::optional<Metric>& metric, const std::string& what) {
+  const auto use = [&metric](const std::vector<double>& k) {
+    const auto made = Metric::of({k[0], k[1], k[2]});
+    if (!made) throw BadValue(made.error().message);
+    metric = *made;
+  };
+  add_numbers(command, "--tensor", "KXX,KXY,KYY", 3, use,
+              "a constant diffusion tensor K, for -div(K grad u): " + what + " in its metric; see docs/tensor.md");
+}
+
+void expect_without(const Command& command, const std::optional<Metric>& metric, const std::string& option) {
+  if (!metric || !command.was_given(option)) return;
+  throw Failure(Exit::bad_usage,
+                fmt::format("{0}: --tensor does not go with {1}\nSee temper {0} --help", command.name(), option));
+}
+
+Mesh in_metric(const Mesh& mesh, const Metric& metric, const Input& input) {
+  auto there = mapped(mesh, metric, *input.names);
+  if (there) return *std::move(there);
+  InputError error = there.error();
+  if (error.where.empty()) error.where = input.path;
+  throw as_failure(error);
+}
+
+std::optional<Mesh> take_to_metric(Input& input, const std::optional<Metric>& metric) {
+  if (!metric) return {};
+  return std::exchange(input.loaded.mesh, in_metric(input.mesh(), *metric, input));
+}
+
+}  // namespace temper::app

@@ -1,0 +1,174 @@
+#include "help/help.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "console.hpp"
+#include "verbs.hpp"
+
+namespace temper::app {
+namespace {
+
+constexpr std::size_t kWidth = 100;  // of a line: fits half of a wide screen
+
+/// "-o, --output FILE"
+std::string option_head(const Option& option) {
+  std::string text = option.names;
+  if (const std::size_t comma = text.find(','); comma != std::string::npos) text.insert(comma + 1, " ");
+  return option.value_name.empty() ? text : text + " " + option.value_name;
+}
+
+/// The line of a head; alternatives (a|b|c) beyond the width go on below the first one.
+std::string head_lines(const std::string& head) {
+  std::string rest = "  " + head, lines;
+  const std::size_t column = rest.rfind(' ') + 1;
+  while (rest.size() > kWidth) {
+    const std::size_t bar = rest.rfind('|', kWidth - 1);
+    if (bar == std::string::npos) break;
+    lines += rest.substr(0, bar + 1) + "\n";
+    rest = std::string(column, ' ') + rest.substr(bar + 1);
+  }
+  return lines + rest;
+}
+
+/// A head, and what it means in the columns to its right; a head of more columns gets a line to itself.
+std::string beside(const HelpRow& row, std::size_t columns) {
+  std::string text = head_lines(row.head);
+  std::string gap = row.head.size() > columns ? "\n" + std::string(columns + 4, ' ')
+                                              : std::string(columns + 2 - row.head.size(), ' ');
+  for (const std::string& line : wrap(row.meaning, kWidth - columns - 4)) {
+    text += gap + line;
+    gap = "\n" + std::string(columns + 4, ' ');
+  }
+  return text + "\n";
+}
+
+HelpRow row_of(const Option& option) {
+  return {option_head(option), option.default_text.empty()
+                                   ? option.sentence
+                                   : fmt::format("{} (default: {})", option.sentence, option.default_text)};
+}
+
+/// Options in the order in which they were added: all, by group, or those that are not rare.
+void add_options(HelpPage& page, const Command& command, bool all) {
+  const bool grouped = all || std::ranges::none_of(command.options(), &Option::rare);
+  for (const Option& option : command.options()) {
+    if (option.rare && !all) continue;
+    const std::string title = option.is_argument() ? "Arguments" : grouped ? option.group : "Options";
+    if (page.parts.empty() || page.parts.back().title != title) page.parts.push_back({title, {}, kOptionColumns});
+    page.parts.back().rows.push_back(row_of(option));
+  }
+  for (const Command& inner : command.subcommands()) {
+    page.parts.push_back({inner.name(), {}, kOptionColumns, inner.description()});
+    for (const Option& option : inner.options()) page.parts.back().rows.push_back(row_of(option));
+  }
+}
+
+std::string_view meaning(Exit exit) {
+  switch (exit) {
+    case Exit::done:
+      return "done";
+    case Exit::bad_input:
+      return "bad input, or an output that cannot be written; nothing was written but what the message names";
+    case Exit::bad_usage:
+      return "bad usage: options that make no sense";
+    case Exit::requirement:
+      return "what --require or --require-claims asks for is not met";
+    case Exit::stopped_early:
+      return "stopped by a signal or --time-limit, best mesh written; or edges that may flip are not regular";
+    case Exit::internal:
+      return "out of memory, or an internal error: please report that";
+    case Exit::infeasible:
+      return "weights: there are none that do what was asked; nothing was written but the certificate";
+  }
+  return "";
+}
+
+/// All examples, or those without rare options.
+std::string examples(const Command& command, bool all) {
+  std::string text;
+  std::istringstream lines(command.help().examples);
+  for (std::string line; std::getline(lines, line);) {
+    const auto uses = [&line](const Option& option) {
+      return option.rare && (line + " ").find(" " + long_name(option.names) + " ") != std::string::npos;
+    };
+    if (all || std::ranges::none_of(command.options(), uses)) text += line + "\n";
+  }
+  return text;
+}
+
+HelpPart verb_part() {
+  HelpPart part = {"Verbs", {}, 9};
+  for (const Verb& verb : verbs()) part.rows.push_back({std::string(verb.name), std::string(verb.summary)});
+  return part;
+}
+
+void add_end(HelpPage& page, std::string examples, std::span<const Exit> exits) {
+  page.parts.push_back({"Examples", {}, 0, {}, std::move(examples)});
+  page.parts.push_back({"Exit codes", {}, 1});
+  for (const Exit exit : exits)
+    page.parts.back().rows.push_back({std::to_string(static_cast<int>(exit)), std::string(meaning(exit))});
+}
+
+std::string text_of(const HelpPart& part) {
+  std::string text = part.lines;
+  for (const HelpRow& row : part.rows) text += beside(row, part.columns);
+  return text;
+}
+
+}  // namespace
+
+HelpPage help_of(const Command& command, bool all) {
+  HelpPage page = {command.name(), {}, command.description(), command.help().usage, {}};
+  for (const Verb& verb : verbs()) {
+    if (verb.name == page.verb) page.summary = verb.summary;
+  }
+  add_options(page, command, all);
+  add_end(page, examples(command, all), command.help().exits);
+  return page;
+}
+
+HelpPage help_of_program() {
+  const std::string summary = "primal-dual triangle meshes that solvers can trust";
+  HelpPage page = {"", summary, "temper: " + summary, "VERB ...", {verb_part()}};
+  page.parts.push_back(
+      {"Options",
+       {{"-h, --help", "this text; temper VERB --help has the options and examples of a verb"},
+        {"--help=FORMAT", "the same for man, or completions for bash, zsh or fish: man <(temper optimize --help=man)"},
+        {"--version", "the version, and what the program was built from"}},
+       kOptionColumns});
+  page.parts.push_back(
+      {"Environment",
+       {{"TEMPER_NETCDF",
+         "the file of libnetcdf, where several are installed or the loader does not find it: files "
+         "of MPAS and UGRID are read and written by that library"},
+        {"TEMPER_HDF5", "the file of libhdf5, likewise: VTKHDF files are read and written by that library"}}});
+  add_end(page,
+          "  temper example horseshoe -o horseshoe.vtu\n"
+          "  temper check horseshoe.vtu\n"
+          "  temper optimize horseshoe.vtu -o tempered.vtu --draw before-after.svg\n",
+          std::to_array({Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early,
+                         Exit::internal, Exit::infeasible}));
+  return page;
+}
+
+std::string text_of(const HelpPage& page) {
+  std::string text;
+  for (const std::string& line : wrap(page.description, kWidth)) text += line + "\n";
+  text += fmt::format("\nUsage: temper {}{}{}\n", page.verb, page.verb.empty() ? "" : " ", page.usage);
+  for (const HelpPart& part : page.parts)
+    text += fmt::format("\n{}:{}{}\n{}", part.title, part.note.empty() ? "" : " ", part.note, text_of(part));
+  return text;
+}
+
+std::string short_help() {
+  return fmt::format("Usage: temper VERB ...\n\n{}\nSee temper --help and temper VERB --help.\n", text_of(verb_part()));
+}
+
+}  // namespace temper::app

@@ -1,0 +1,52 @@
+// The help of the program and of each verb: as data, as the text of --help, as a manual page, and as what shells offer.
+// All are made from the rows of Command. The text is plain ASCII and the same on every machine, because docs/cli.md
+// holds it word for word.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "help/command.hpp"
+
+namespace temper::app {
+
+struct HelpRow {
+  std::string head, meaning;  ///< "-o, --output FILE" and its sentence
+};
+
+inline constexpr std::size_t kOptionColumns = 26;
+
+/// Below its title a part has rows, or lines.
+struct HelpPart {
+  std::string title;
+  std::vector<HelpRow> rows = {};
+  std::size_t columns = kOptionColumns;  ///< of the heads
+  std::string note = {};                 ///< beside the title
+  std::string lines = {};                ///< to be shown as they are
+};
+
+struct HelpPage {
+  std::string verb;  ///< empty: the program itself
+  std::string summary, description;
+  std::string usage;  ///< what follows `temper VERB`
+  std::vector<HelpPart> parts;
+};
+
+/// Of a verb: with all options, in groups, or without its rare ones.
+[[nodiscard]] HelpPage help_of(const Command& command, bool all);
+[[nodiscard]] HelpPage help_of_program();
+
+/// What --help prints.
+[[nodiscard]] std::string text_of(const HelpPage& page);
+/// What `temper` alone prints.
+[[nodiscard]] std::string short_help();
+/// A manual page in the man macros of roff: temper(1), temper-optimize(1).
+[[nodiscard]] std::string man_page(const HelpPage& page);
+
+/// The words ask for another form of help, `--help=FORMAT`, of the program or a verb; then it is printed. Failure where
+/// there is no such form.
+[[nodiscard]] bool print_other_help(const Arguments& words, const Command* verb = nullptr);
+/// With the words of a command line after it: what may stand in the place of the last one.
+inline constexpr std::string_view kHelpWords = "--help=words";
+
+}  // namespace temper::app

@@ -1,0 +1,226 @@
+#include "options/options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "suggest.hpp"
+
+namespace temper::app {
+namespace {
+
+std::string range_text(Interval allowed) {
+  const bool low = std::isfinite(allowed.low), high = std::isfinite(allowed.high);
+  if (low && high) {
+    return allowed.open ? fmt::format("between {} and {}, without the ends", allowed.low, allowed.high)
+                        : fmt::format("between {} and {}", allowed.low, allowed.high);
+  }
+  return low ? fmt::format("{} {}", allowed.open ? ">" : ">=", allowed.low) : "finite";
+}
+
+bool contains(Interval allowed, double value) {
+  return allowed.open ? value > allowed.low && value < allowed.high : value >= allowed.low && value <= allowed.high;
+}
+
+template <class T>
+Option& add_counted(Command& command, const std::string& name, T& target, T least, const std::string& description) {
+  const auto take = [least, &target](const std::string& text) { target = to_count(text, least); };
+  const auto spell = [&target] { return fmt::format("{}", target); };
+  return command.add({.names = name, .value_name = "N", .sentence = description, .take = take, .spell = spell});
+}
+
+}  // namespace
+
+double to_number(const std::string& text, Interval allowed) {
+  const std::optional<double> value = parse_number(text);
+  if (!value) throw BadValue(fmt::format("'{}' is not a number", text));
+  if (!contains(allowed, *value)) {
+    throw BadValue(fmt::format("{} is out of range, it must be {}", text, range_text(allowed)));
+  }
+  return *value;
+}
+
+template <class T>
+T to_count(const std::string& text, T least) {
+  T value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc::result_out_of_range) throw BadValue(fmt::format("{} is too large", text));
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw BadValue(fmt::format("'{}' is not a whole number", text));
+  }
+  if (value < least) throw BadValue(fmt::format("{} is out of range, it must be >= {}", text, least));
+  return value;
+}
+template int to_count(const std::string& text, int least);
+template std::int64_t to_count(const std::string& text, std::int64_t least);
+template std::uint64_t to_count(const std::string& text, std::uint64_t least);
+
+void expect_name(const std::string& text, std::span<const std::string_view> names) {
+  if (std::find(names.begin(), names.end(), text) == names.end()) throw BadValue(none_of(text, names));
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<std::vector<double>> parse_numbers(std::string_view text) {
+  std::vector<double> values;
+  for (const std::string& word : separated(text)) {
+    const std::optional<double> value = parse_number(word);
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  return values;
+}
+
+Option& add_number(Command& command, const std::string& name, double& target, Interval allowed,
+                   const std::string& description) {
+  const auto take = [allowed, &target](const std::string& text) { target = to_number(text, allowed); };
+  const auto spell = [&target] { return fmt::format("{}", target); };
+  return command.add({.names = name, .value_name = "X", .sentence = description, .take = take, .spell = spell});
+}
+
+Option& add_number(Command& command, const std::string& name, std::optional<double>& target, Interval allowed,
+                   const std::string& description) {
+  const auto take = [allowed, &target](const std::string& text) { target = to_number(text, allowed); };
+  return command.add({.names = name, .value_name = "X", .sentence = description, .take = take});
+}
+
+Option& add_numbers(Command& command, const std::string& name, const std::string& value_name, std::size_t count,
+                    std::function<void(const std::vector<double>&)> use, const std::string& description) {
+  const auto take = [value_name, count, use = std::move(use)](const std::string& text) {
+    const std::optional<std::vector<double>> values = parse_numbers(text);
+    const bool right = values && (count > 0 ? values->size() == count : values->size() % 2 == 0 && values->size() >= 6);
+    if (!right) {
+      throw BadValue(fmt::format("'{}' is not a list of numbers {}, with commas and no spaces", text, value_name));
+    }
+    use(*values);
+  };
+  return command.add({.names = name, .value_name = value_name, .sentence = description, .take = take});
+}
+
+Option& add_count(Command& command, const std::string& name, std::uint64_t& target, std::uint64_t least,
+                  const std::string& description) {
+  return add_counted(command, name, target, least, description);
+}
+
+Option& add_count(Command& command, const std::string& name, int& target, int least, const std::string& description) {
+  return add_counted(command, name, target, least, description);
+}
+
+Option& add_count(Command& command, const std::string& name, std::optional<int>& target, int least,
+                  const std::string& description) {
+  const auto take = [least, &target](const std::string& text) {
+    target = text == kNone ? std::nullopt : std::optional(to_count(text, least));
+  };
+  const auto spell = [&target] { return target ? fmt::format("{}", *target) : std::string(kNone); };
+  const std::string value_name = "N|" + std::string(kNone);
+  return command.add({.names = name, .value_name = value_name, .sentence = description, .take = take, .spell = spell});
+}
+
+Option& add_text(Command& command, const std::string& name, const std::string& value_name, std::string& target,
+                 const std::string& description) {
+  const auto take = [&target](const std::string& text) {
+    if (text.empty()) throw BadValue("needs a value, found an empty one");
+    target = text;
+  };
+  return command.add({.names = name, .value_name = value_name, .sentence = description, .take = take});
+}
+
+Option& add_argument(Command& command, const std::string& name, std::string& target, const std::string& description) {
+  const auto take = [&target](const std::string& text) { target = text == "-" ? kStandardInput : text; };
+  return command.add({.names = name, .value_name = "", .sentence = description, .take = take});
+}
+
+Option& add_texts(Command& command, const std::string& name, const std::string& value_name, Values values,
+                  std::vector<std::string>& target, const std::string& description) {
+  const auto take = [&target](const std::string& text) { target.push_back(text); };
+  return command.add(
+      {.names = name, .value_name = value_name, .sentence = description, .take = take, .values = values});
+}
+
+Option& add_name(Command& command, const std::string& name, std::vector<std::string_view> names,
+                 std::function<void(std::string_view)> use, const std::string& description) {
+  const auto take = [names, use = std::move(use)](const std::string& text) {
+    expect_name(text, names);
+    use(text);
+  };
+  return command.add({.names = name, .value_name = join(names, "|"), .sentence = description, .take = take});
+}
+
+std::optional<Softening> SofteningOptions::value() const {
+  if (absolute) return Softening{*absolute, LengthScale::absolute};
+  if (relative) return Softening{*relative, LengthScale::relative};
+  return std::nullopt;
+}
+
+void add_gamma(Command& command, SofteningOptions& target, const std::string& default_text) {
+  add_number(command, "--gamma", target.absolute, kPositive,
+             "gamma of E_BP, as a length in the units of the mesh" + default_text);
+  add_number(command, "--gamma-rel", target.relative, kPositive, "gamma of E_BP, as a multiple of each edge's length")
+      .excludes = "--gamma";
+}
+
+void add_h0(Command& command, SofteningOptions& target, const std::string& default_text) {
+  add_number(command, "--h0", target.absolute, kNotNegative,
+             "how far below zero E_BHs lets h go (-h0 of the paper, so >= 0), as a length" + default_text);
+  add_number(command, "--h0-rel", target.relative, kNotNegative, "the same, as a multiple of each edge's length")
+      .excludes = "--h0";
+}
+
+std::vector<UsedOption> used_options(const Command& command) {
+  std::vector<UsedOption> used;
+  for (const Option& option : command.options()) {
+    if (option.is_argument() || option.is_help()) continue;
+    UsedOption item;
+    item.name = long_name(option.names).substr(2);
+    item.flag = option.is_flag();
+    item.list = option.values != Values::one;
+    const bool given = !option.given.empty();
+    item.used = given || !option.default_text.empty();
+    if (!item.flag && item.used) item.values = given ? option.given : std::vector<std::string>{option.default_text};
+    const bool none = !item.values.empty() && item.values.front() == kNone;
+    const std::string& type = option.value_name;
+    item.number = type == "X" || type == "N" || ((type.starts_with("X|") || type.starts_with("N|")) && !none) ||
+                  type.find_first_not_of("0123456789|") == std::string::npos;
+    used.push_back(std::move(item));
+  }
+  return used;
+}
+
+std::string shell_quote(const std::string& word) {
+  const std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,:=@%";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string command_line(const std::string& verb, const std::vector<std::string>& positionals,
+                         const std::vector<UsedOption>& options) {
+  std::string text = "temper " + verb;
+  for (const std::string& word : positionals) {
+    text += " " + shell_quote(word.starts_with('-') ? "./" + word : word);  // not to be taken for an option
+  }
+  for (const UsedOption& option : options) {
+    if (option.flag && option.used) text += " --" + option.name;
+    for (const std::string& value : option.values) text += " --" + option.name + "=" + shell_quote(value);
+  }
+  return text;
+}
+
+void add_projection(Command& command, std::string& target) {
+  add_text(
+      command, "--projection", "KIND[:lon,lat]|sphere[:radius=R]|none", target,
+      "the map for points in longitude and latitude, a globe's too: stereographic, mercator or transverse-mercator "
+      "about this center (default: the middle of the points), to metres; a mesh that is written has degrees again; "
+      "sphere: a mesh of the sphere of this radius (default: 6371000), without a map; none: coordinates are those "
+      "of a plane, whatever they look like");
+}
+
+}  // namespace temper::app

@@ -1,0 +1,140 @@
+// The usual kinds of options: strict numbers, named choices, texts; and an echo of what was used.
+//
+// Every option has a value name ("X", "NAME", "newton|golden") and, when it has a default, spells it: help,
+// echo and report are made from what is declared here, so that none of them can forget an option.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "help/command.hpp"
+#include "temper/energy.hpp"
+#include "temper/optimize_table.hpp"
+
+namespace temper::app {
+
+/// The interval of numbers that an option takes.
+using Interval = OptionRange;
+inline constexpr Interval kAnyNumber = {};
+inline constexpr Interval kPositive = {0, std::numeric_limits<double>::infinity(), true};
+inline constexpr Interval kNotNegative = {0, std::numeric_limits<double>::infinity(), false};
+
+/// The whole text as a finite number, or nothing.
+[[nodiscard]] std::optional<double> parse_number(std::string_view text);
+/// Numbers separated by commas, or nothing.
+[[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text);
+
+/// Values of rows that are made elsewhere: the text's value, or BadValue.
+[[nodiscard]] double to_number(const std::string& text, Interval allowed);
+template <class T>  // int, std::int64_t or std::uint64_t
+[[nodiscard]] T to_count(const std::string& text, T least);
+/// BadValue, with a suggestion, when the text is none of the names.
+void expect_name(const std::string& text, std::span<const std::string_view> names);
+
+/// The word that tells an option, which may have no value, that it has none.
+inline constexpr std::string_view kNone = "none";
+
+Option& add_number(Command& command, const std::string& name, double& target, Interval allowed,
+                   const std::string& description);
+/// The same, without a default.
+Option& add_number(Command& command, const std::string& name, std::optional<double>& target, Interval allowed,
+                   const std::string& description);
+/// A list "x,y,…" of `count` numbers (0: any even number of them, at least 6: a polygon).
+Option& add_numbers(Command& command, const std::string& name, const std::string& value_name, std::size_t count,
+                    std::function<void(const std::vector<double>&)> use, const std::string& description);
+
+Option& add_count(Command& command, const std::string& name, std::uint64_t& target, std::uint64_t least,
+                  const std::string& description);
+Option& add_count(Command& command, const std::string& name, int& target, int least, const std::string& description);
+
+/// The same, or "none".
+Option& add_count(Command& command, const std::string& name, std::optional<int>& target, int least,
+                  const std::string& description);
+
+Option& add_text(Command& command, const std::string& name, const std::string& value_name, std::string& target,
+                 const std::string& description);
+
+/// What "-" stands for.
+inline constexpr const char* kStandardInput = "/dev/stdin";
+inline constexpr const char* kStandardOutput = "/dev/stdout";
+
+/// An argument known by its place: `temper check IN`. "-": standard input.
+Option& add_argument(Command& command, const std::string& name, std::string& target, const std::string& description);
+/// An option, or such arguments, of any number of values.
+Option& add_texts(Command& command, const std::string& name, const std::string& value_name, Values values,
+                  std::vector<std::string>& target, const std::string& description);
+
+/// One of the values of an enumeration, by name.
+template <class T>
+struct Choice {
+  std::string_view name;
+  T value;
+};
+
+Option& add_name(Command& command, const std::string& name, std::vector<std::string_view> names,
+                 std::function<void(std::string_view)> use, const std::string& description);
+
+template <class T, std::size_t n>
+Option& add_choice(Command& command, const std::string& name, const Choice<T> (&choices)[n],
+                   std::type_identity_t<std::function<void(T)>> use, const std::string& description) {
+  std::vector<std::string_view> names;
+  for (const Choice<T>& choice : choices) names.push_back(choice.name);
+  const std::span<const Choice<T>> table(choices);
+  const auto use_name = [table, use](std::string_view text) {
+    for (const Choice<T>& choice : table) {
+      if (choice.name == text) use(choice.value);
+    }
+  };
+  return add_name(command, name, names, use_name, description);
+}
+
+/// The same, straight into a variable, whose value is the default.
+template <class T, std::size_t n>
+Option& add_choice(Command& command, const std::string& name, const Choice<T> (&choices)[n], T& target,
+                   const std::string& description) {
+  const std::span<const Choice<T>> table(choices);
+  const auto spell = [table, &target] {
+    for (const Choice<T>& choice : table) {
+      if (choice.value == target) return std::string(choice.name);
+    }
+    return std::string();
+  };
+  const auto use = [&target](T value) { target = value; };
+  return add_choice(command, name, choices, use, description).defaults_to(spell);
+}
+
+/// γ and h°: the same pair of options for optimize and check.
+struct SofteningOptions {
+  std::optional<double> absolute, relative;
+  [[nodiscard]] std::optional<Softening> value() const;
+};
+void add_gamma(Command& command, SofteningOptions& target, const std::string& default_text);
+void add_h0(Command& command, SofteningOptions& target, const std::string& default_text);
+
+/// One option as it was used: given on the command line, or its default.
+struct UsedOption {
+  std::string name;                 ///< without dashes
+  std::vector<std::string> values;  ///< none for a flag
+  bool flag = false;
+  bool number = false;
+  bool list = false;  ///< may have several values
+  bool used = false;  ///< given, or has a default
+};
+[[nodiscard]] std::vector<UsedOption> used_options(const Command& command);
+
+/// `temper VERB POSITIONALS --option value …` with all used options, quoted for a POSIX shell.
+[[nodiscard]] std::string command_line(const std::string& verb, const std::vector<std::string>& positionals,
+                                       const std::vector<UsedOption>& options);
+[[nodiscard]] std::string shell_quote(const std::string& word);
+
+/// --projection, of verbs that read a mesh in longitude and latitude (projection_option.hpp).
+void add_projection(Command& command, std::string& target);
+
+}  // namespace temper::app

@@ -1,0 +1,167 @@
+#include "options/requirement.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "console.hpp"
+#include "options/options.hpp"
+#include "suggest.hpp"
+
+namespace temper::app {
+namespace {
+
+/// "energy.BP.1", and where that energy is.
+struct EnergyKey {
+  std::string key;
+  std::size_t row, star;
+};
+
+std::vector<EnergyKey> energy_keys() {
+  std::vector<EnergyKey> keys;
+  for (std::size_t row = 0; row < energies().size(); ++row) {
+    for (std::size_t star = 0; star < 3; ++star) {
+      keys.push_back({"energy." + std::string(energies()[row].name) + "." + std::to_string(star), row, star});
+    }
+  }
+  return keys;
+}
+
+const QualityMeasure* find_measure(std::string_view key) {
+  for (const QualityMeasure& measure : quality_measures()) {
+    if (key == measure.key || (!measure.alias.empty() && key == measure.alias)) return &measure;
+  }
+  return nullptr;
+}
+
+bool is_energy_key(std::string_view key) {
+  for (const EnergyKey& energy : energy_keys()) {
+    if (energy.key == key) return true;
+  }
+  return false;
+}
+
+[[noreturn]] void refuse(const std::string& message) { throw BadValue(message); }
+
+[[noreturn]] void refuse_key(std::string_view key) {
+  std::vector<std::string_view> names;
+  for (const QualityMeasure& measure : quality_measures()) {
+    if (!measure.alias.empty()) names.push_back(measure.alias);
+    names.push_back(measure.key);
+  }
+  const std::string_view guess = nearest(key, names);
+  refuse(fmt::format("unknown key '{}'{}; the keys are {}, and energy.NAME.STAR (energy.BP.1)", key,
+                     guess.empty() ? "" : fmt::format(", did you mean '{}'?", guess), join(names)));
+}
+
+/// A key alone asks for what is usually wanted.
+Requirement usual_requirement(std::string_view key) {
+  const QualityMeasure* measure = find_measure(key);
+  if (measure == nullptr) refuse(fmt::format("'{}' is not key=value", key));
+  if (!measure->wanted) {
+    refuse(fmt::format("'{0}' has no usual value: write {0}{1}VALUE", key, sign(measure->better)));
+  }
+  return {std::string(key), std::string(measure->key), measure->better, *measure->wanted};
+}
+
+Requirement parse_requirement(std::string_view text) {
+  const std::size_t at = text.find_first_of("<>=");
+  if (at == std::string_view::npos) return usual_requirement(text);
+  const std::string_view key = text.substr(0, at);
+  const bool two = text.substr(at).size() > 1 && text[at + 1] == '=';
+  if (!two && text[at] != '=') refuse(fmt::format("'{}': write <= or >=, the ends always belong", text));
+
+  Requirement requirement;
+  requirement.text = text;
+  const QualityMeasure* measure = find_measure(key);
+  if (measure == nullptr && !is_energy_key(key)) refuse_key(key);
+  requirement.key = measure != nullptr ? measure->key : key;
+  if (two) {
+    requirement.better = text[at] == '<' ? Better::less : text[at] == '>' ? Better::larger : Better::equal;
+  } else {
+    requirement.better = measure != nullptr ? measure->better : Better::less;
+  }
+  const std::string_view value = text.substr(at + (two ? 2 : 1));
+  const std::optional<double> number = parse_number(value);
+  if (!number) refuse(fmt::format("'{}': '{}' is not a number", text, value));
+  requirement.value = *number;
+  return requirement;
+}
+
+double value_of(const std::string& key, const Quality& quality) {
+  if (const QualityMeasure* measure = find_measure(key)) return measure->of(quality);
+  for (const EnergyKey& energy : energy_keys()) {
+    if (energy.key == key) return quality.energy[energy.row][energy.star];
+  }
+  return std::nan("");
+}
+
+bool holds(Better better, double found, double wanted) {
+  switch (better) {
+    case Better::equal:
+      return found == wanted;
+    case Better::larger:
+      return found >= wanted;
+    case Better::less:
+      return found <= wanted;
+  }
+  return false;
+}
+
+/// The keys and short names, for --help.
+std::string requirement_keys() {
+  std::string text;
+  for (const QualityMeasure& measure : quality_measures()) {
+    if (!text.empty()) text += ", ";
+    text += measure.key;
+    if (!measure.alias.empty()) text += fmt::format(" ({})", measure.alias);
+  }
+  return text + ", energy.NAME.STAR";
+}
+
+}  // namespace
+
+Option& add_requirements(Command& command, std::vector<std::string>& lists) {
+  return add_texts(
+      command, "--require", "LIST", Values::repeated, lists,
+      "key=value,key>=value,key<=value,...: exit with 3 when one does not hold. key=value asks of a count that "
+      "it is the value, of a minimum or a fraction that it is no less, of a maximum or an energy that it is no "
+      "more. A key alone asks for what is usual, see docs/thresholds.md. Keys: " +
+          requirement_keys());
+}
+
+std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists) {
+  std::vector<Requirement> requirements;
+  try {
+    for (const std::string& list : lists) {
+      for (const std::string& word : separated(list)) requirements.push_back(parse_requirement(word));
+    }
+  } catch (const BadValue& bad) {
+    throw Failure(Exit::bad_usage, fmt::format("{0}: --require: {1}\nSee temper {0} --help", verb, bad.what()));
+  }
+  return requirements;
+}
+
+std::string_view sign(Better better) { return better == Better::equal ? "=" : better == Better::larger ? ">=" : "<="; }
+
+std::vector<Outcome> judge(std::span<const Requirement> requirements, const Quality& quality) {
+  std::vector<Outcome> outcomes;
+  for (const Requirement& requirement : requirements) {
+    const double found = value_of(requirement.key, quality);
+    outcomes.push_back({requirement, found, holds(requirement.better, found, requirement.value)});
+  }
+  return outcomes;
+}
+
+Exit report_unmet(std::span<const Outcome> outcomes, const std::string& path) {
+  Exit exit = Exit::done;
+  for (const auto& [requirement, found, met] : outcomes) {
+    if (met) continue;
+    print_error(fmt::format("{}: requirement not met: {} wants {} {} {}, found {}", path, requirement.text,
+                            requirement.key, sign(requirement.better), requirement.value, found));
+    exit = Exit::requirement;
+  }
+  return exit;
+}
+
+}  // namespace temper::app

@@ -1,0 +1,46 @@
+// --require outside=0,min_h=0.05, of check and optimize: the grammar, and the judgement.
+//
+//   list         requirement , requirement , …
+//   requirement  key | key = value | key <= value | key >= value | key == value
+//   key          a number of the JSON report, its short name, or energy.NAME.STAR
+//
+// A plain = asks what one wants of that number: counts equal, minima and fractions at least, maxima and
+// energies at most. A key alone asks for the usual value of its row.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "help/command.hpp"
+#include "temper/quality.hpp"
+
+namespace temper::app {
+
+struct Requirement {
+  std::string text;  ///< as the user wrote it
+  std::string key;   ///< of the JSON report
+  Better better = Better::equal;
+  double value = 0;
+};
+
+/// A requirement, and what was found.
+struct Outcome {
+  Requirement requirement;
+  double found = 0;
+  bool met = false;
+};
+
+/// --require, with all keys in its help.
+Option& add_requirements(Command& command, std::vector<std::string>& lists);
+/// The requirements of the lists; Failure (bad usage of the verb) for a key or a value that makes no sense.
+[[nodiscard]] std::vector<Requirement> parse_requirements(std::string_view verb, std::span<const std::string> lists);
+
+/// "=", ">=" or "<=".
+[[nodiscard]] std::string_view sign(Better better);
+[[nodiscard]] std::vector<Outcome> judge(std::span<const Requirement> requirements, const Quality& quality);
+/// Says on standard error which are not met; Exit::requirement when there are some.
+[[nodiscard]] Exit report_unmet(std::span<const Outcome> outcomes, const std::string& path);
+
+}  // namespace temper::app

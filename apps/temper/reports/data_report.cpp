@@ -1,0 +1,62 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "console.hpp"
+#include "reports/reports.hpp"
+
+namespace temper::app {
+namespace {
+
+std::string line(const char* what, const std::vector<std::string>& names) {
+  return names.empty() ? std::string() : fmt::format("  {}: {}\n", what, fmt::join(names, ", "));
+}
+
+std::string points_text(const io::DataReport& r) {
+  if (r.points_moved + r.points_inserted == 0 || r.interpolated.size() + r.kept.size() + r.dropped.size() == 0)
+    return {};
+  std::string text = fmt::format("point data: {} of {} moved", r.points_moved, plural(r.points, "point", "points"));
+  if (r.points_moved > 0)
+    text += fmt::format(", by {:.3g} in the median and {:.3g} at most", r.distance.median, r.distance.max);
+  if (r.points_inserted > 0) text += fmt::format("; {} new", plural(r.points_inserted, "point is", "points are"));
+  return text + "\n" + line("interpolated on the triangles of the input", r.interpolated) +
+         line("kept with their points", r.kept) + line("dropped", r.dropped);
+}
+
+std::string cells_text(const io::DataReport& r) {
+  if (r.triangles_changed == 0 || r.of_triangles.empty()) return {};
+  return fmt::format("cell data: {} of {} are others\n", r.triangles_changed,
+                     plural(r.triangles, "triangle", "triangles")) +
+         line("of the input's triangle that the middle is in", r.of_triangles);
+}
+
+}  // namespace
+
+void add_point_data(Command& command, std::vector<std::string>& words) {
+  const auto take = [&words](const std::string& text) {
+    words.push_back(text);
+    if (const auto rules = io::parse_data_rules(words); !rules) throw BadValue(rules.error().message);
+  };
+  const std::string sentence =
+      "what floating point data of points do where vertices move: interpolate (they are of the place, such as depths: "
+      "linear on the triangles of IN) or keep (they go with their point); RULE=NAME is for one array, and may be "
+      "repeated. Integers stay with their points, data of triangles with the place";
+  command
+      .add({.names = "--point-data",
+            .value_name = "RULE[=NAME]",
+            .sentence = sentence,
+            .take = take,
+            .values = Values::repeated})
+      .default_text = "interpolate";
+}
+
+io::DataRules data_rules(const std::vector<std::string>& words, const io::MeshFile& file) {
+  io::DataRules rules = or_fail(io::parse_data_rules(words));
+  if (const auto checked = io::check_data_rules(rules, file); !checked) {
+    throw Failure(Exit::bad_usage, fmt::format("{}: --point-data: {}", file.path, checked.error().message));
+  }
+  return rules;
+}
+
+std::string data_text(const io::DataReport& report) { return points_text(report) + cells_text(report); }
+
+}  // namespace temper::app

@@ -1,0 +1,285 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "console.hpp"
+#include "files/certificate_json.hpp"
+#include "files/input.hpp"
+#include "reports/reports.hpp"
+#include "temper/geometry.hpp"
+
+namespace temper::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kIndent = 4;
+
+bool is_split(const Reason& reason) { return reason.kind == ReasonKind::split; }
+bool is_conflict(const Reason& reason) {
+  return !is_split(reason) && reason.kind != ReasonKind::weights && reason.kind != ReasonKind::undecided;
+}
+
+/// Reasons of one sort, and the triangles that they are for.
+struct Count {
+  std::size_t reasons = 0, bad = 0;
+};
+template <class Which>
+Count count(const Explanation& e, const Which& which) {
+  Count c;
+  for (const Reason& reason : e.reasons) {
+    if (!which(reason)) continue;
+    ++c.reasons;
+    c.bad += reason.bad.size();
+  }
+  return c;
+}
+std::string wrapped(const std::string& text, std::size_t indent, const TextStyle& style) {
+  const std::size_t width = style.columns > indent + 40 ? style.columns - indent : 40;
+  std::string result;
+  for (const std::string& line : wrap(style.utf8 ? text : in_ascii(text), width)) {
+    result += (result.empty() ? "" : std::string(indent, ' ')) + line + "\n";
+  }
+  return result;
+}
+
+std::string headline(const Explanation& e, const Input& input) {
+  if (e.bad == 0) return fmt::format("{}: all {} triangles are well-centered\n", input.path, e.triangles);
+  std::string text = fmt::format("{}: {} of {} triangles {} not well-centered\n", input.path, e.bad, e.triangles,
+                                 e.bad == 1 ? "is" : "are");
+  switch (e.verdict) {
+    case Feasibility::feasible:
+      return text + fmt::format(
+                        "With every vertex where it is, weights make all of them well-centered: {} of {} change "
+                        "(margin {:.4g}).\n",
+                        e.changed, input.mesh().n_vertices(), e.margin);
+    case Feasibility::infeasible:
+      return text + "With every vertex and edge as it is, no weights make all of them well-centered.\n";
+    case Feasibility::undecided:
+      return text + "Whether weights alone could make all of them well-centered was not decided.\n";
+  }
+  return text;
+}
+
+std::string summary(const Explanation& e) {
+  const Count conflicts = count(e, is_conflict);
+  const Count weights = count(e, [](const Reason& r) { return r.kind == ReasonKind::weights; });
+  const Count undecided = count(e, [](const Reason& r) { return r.kind == ReasonKind::undecided; });
+  const Count splits = count(e, is_split);
+  std::string text;
+  if (splits.reasons > 0) {
+    text += fmt::format("  {} at {} that must be split: no well-centered mesh keeps {}\n", splits.bad,
+                        plural(splits.reasons, "edge", "edges"), splits.reasons == 1 ? "it" : "them");
+  }
+  if (conflicts.reasons > 0) {
+    text += fmt::format("  {} in {}: small sets of triangles that no weights suit\n", conflicts.bad,
+                        plural(conflicts.reasons, "conflict", "conflicts"));
+  }
+  if (weights.reasons > 0) {
+    text += fmt::format("  {} in {} for which weights exist, but have not been found yet\n", weights.bad,
+                        plural(weights.reasons, "place", "places"));
+  }
+  if (undecided.reasons > 0) {
+    text += fmt::format("  {} in {} of which neither is known\n", undecided.bad,
+                        plural(undecided.reasons, "place", "places"));
+  }
+  return text;
+}
+
+/// The command that does what the cure asks for, among other things; empty when there is none yet.
+std::string command(const Mesh& mesh, const Cure& cure) {
+  using Action = Cure::Action;
+  const auto on_line = [&] {  // inside the domain, where no repair splits
+    const HalfedgeId h = mesh.find_halfedge(cure.edge[0], cure.edge[1]);
+    return h.valid() && mesh.is_constrained(h);
+  };
+  const std::string split_of_lines = mesh.space().is_plane() ? "temper optimize --boundary split" : "";
+  switch (cure.action) {
+    case Action::find_weights:
+      if (cure.changed == 0) return "";
+      return cure.margin < WeightOptions().margin ? "temper weights --mode feasible" : "temper weights";
+    case Action::optimize:
+    case Action::move_vertex:
+    case Action::flip_edge:
+      return "temper optimize";
+    case Action::insert_vertex:
+      return "temper optimize --repair vertices";
+    case Action::split_edge:
+      return on_line() ? split_of_lines : "temper optimize --repair vertices";
+    case Action::split_boundary:
+      return split_of_lines;
+  }
+  return "";
+}
+
+std::string paragraph(const Reason& reason, std::size_t number, const Input& input, const TextStyle& style) {
+  const std::string head = pad_left(std::to_string(number) + ". ", kIndent);
+  std::string text = head + wrapped(fmt::format("At ({:.4g}, {:.4g}): ", reason.at.x, reason.at.y) +
+                                        reason_text(input.mesh(), reason, input.names.get()),
+                                    kIndent, style);
+  for (const Cure& cure : reason.cures) {
+    const std::string how = command(input.mesh(), cure);
+    text += std::string(kIndent, ' ') + "- " +
+            wrapped(cure_text(input.mesh(), cure, input.names.get()) + (how.empty() ? "" : " Try: " + how), kIndent + 2,
+                    style);
+  }
+  return text;
+}
+
+/// A sort of reasons, and what a stranger needs to read them.
+struct Section {
+  std::string title, about;
+};
+const Section kSplits = {
+    "Edges that must be split",
+    "The dual of an edge crosses it in one place. A vertex that stays and sees the edge lets it cross near one end "
+    "only; two such vertices can leave no place. No other vertices inside, weights or edges help: the edge must be "
+    "split, or one of the vertices move."};
+const Section kConflicts = {
+    "Conflicts",
+    "A dual edge crosses its edge in one place, the same for the triangles on both sides. If an obtuse triangle is "
+    "to be well-centered, the edges at its obtuse corner must be crossed close to that corner, and the edge across "
+    "from it away from both ends. Where the two sides need different places, no weights help: a vertex or an edge "
+    "has to change."};
+const Section kUndecided = {"Not known", "Neither weights nor a proof that there are none were found."};
+const Section kWeights = {"Weights exist", "No vertex and no edge has to change here: the weights of the mesh do."};
+
+template <class Which>
+std::string section(const Section& kind, const Explanation& e, const Input& input, std::size_t limit,
+                    const TextStyle& style, const Which& which) {
+  const std::size_t all = count(e, which).reasons;
+  if (all == 0 || limit == 0) return "";
+  std::string text = fmt::format("\n{}{}\n", kind.title, all > 1 ? ", worst first" : "");
+  text += wrapped(kind.about, 0, style);
+  std::size_t number = 0;
+  for (const Reason& reason : e.reasons) {
+    if (!which(reason) || number == limit) continue;
+    text += paragraph(reason, ++number, input, style);
+  }
+  if (all > limit) text += fmt::format("and {} more (--limit {} or --json has all)\n", all - limit, all);
+  return text;
+}
+
+class JsonWriter {
+ public:
+  explicit JsonWriter(const Input& input) : input_(input), names_(nullptr, input.points, input.mesh().n_vertices()) {}
+
+  [[nodiscard]] Json reason(const Reason& r) const {
+    Json json;
+    json["kind"] = name(r.kind);
+    json["at"] = {r.at.x, r.at.y};
+    json["triangles"] = triangles(r.bad);
+    json["least_margin"] = number(r.least_margin);
+    json["conflict"] = triangles(r.conflict);
+    json["margin"] = number(r.margin);
+    json["margin_of"] = r.checked;
+    json["free"] = vertices(r.free);
+    json["crossing"] = r.crossing ? crossing(*r.crossing) : Json(nullptr);
+    json["center"] = r.center ? center(*r.center) : Json(nullptr);
+    json["must_split"] = r.must_split ? must_split(*r.must_split) : Json(nullptr);
+    json["certificate"] = r.certificate.terms.empty() ? Json(nullptr) : certificate_json(r.certificate, input_);
+    json["cures_searched"] = r.cures_searched;
+    json["cures"] = Json::array();
+    for (const Cure& c : r.cures) json["cures"].push_back(cure(c));
+    json["text"] = reason_text(input_.mesh(), r, &names_);
+    return json;
+  }
+
+ private:
+  static Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+  [[nodiscard]] std::size_t point(VertexId v) const {
+    return input_.points.empty() ? std::size_t{v.index} : input_.points[v.index];
+  }
+  [[nodiscard]] Json vertices(const std::vector<VertexId>& ids) const {
+    Json json = Json::array();
+    for (const VertexId v : ids) json.push_back(point(v));
+    return json;
+  }
+  static Json triangles(const std::vector<TriangleId>& ids) {
+    Json json = Json::array();
+    for (const TriangleId t : ids) json.push_back(t.index);
+    return json;
+  }
+  [[nodiscard]] Json side(const CrossingSide& s) const {
+    return {{"triangles", triangles(s.triangles)},
+            {"from", number(s.from)},
+            {"to", number(s.to)},
+            {"widest_at", point(s.widest)},
+            {"angle_deg", s.angle_deg}};
+  }
+  [[nodiscard]] Json must_split(const EdgeConflict& c) const {
+    const VertexId u = input_.mesh().origin(c.edge), v = input_.mesh().target(c.edge);
+    const Space& space = input_.mesh().space();
+    const WeightedPoint p = input_.mesh().point(u), q = input_.mesh().point(v);
+    const double l =
+        space.is_plane() ? length(q.position() - p.position()) : space.radius() * arc_length(lifted(p), lifted(q));
+    return {{"edge", {point(u), point(v)}},
+            {"length", l},
+            {"near", {point(c.near_u), point(c.near_v)}},
+            {"within", {c.a * l, c.b * l}},
+            {"sum", c.sum}};
+  }
+  [[nodiscard]] Json crossing(const CrossingConflict& c) const {
+    return {{"edge", {point(c.p), point(c.q)}}, {"length", c.length}, {"left", side(c.left)}, {"right", side(c.right)}};
+  }
+  [[nodiscard]] Json center(const FanCenter& c) const {
+    return {{"vertex", point(c.vertex)},
+            {"on_boundary", c.on_boundary},
+            {"angle_deg", c.angle_deg},
+            {"shortest_edge", {point(c.vertex), point(c.shortest)}},
+            {"shortest_length", c.shortest_length},
+            {"longest_edge", {point(c.vertex), point(c.longest)}},
+            {"longest_length", c.longest_length}};
+  }
+  [[nodiscard]] Json cure(const Cure& c) const {
+    using Action = Cure::Action;
+    const bool placed =
+        c.action != Action::find_weights && c.action != Action::optimize && c.action != Action::flip_edge;
+    Json json;
+    json["action"] = name(c.action);
+    json["edge"] = c.edge.empty() ? Json(nullptr) : vertices(c.edge);
+    json["vertex"] = c.vertex.valid() ? Json(point(c.vertex)) : Json(nullptr);
+    json["triangle"] = c.triangle.valid() ? Json(c.triangle.index) : Json(nullptr);
+    json["at"] = placed ? Json({c.at.x, c.at.y}) : Json(nullptr);
+    json["verified"] = c.verified;
+    json["conflict_only"] = c.conflict_only;
+    json["ends_conflict"] = c.ends_conflict;
+    json["margin"] = c.verified ? number(c.margin) : Json(nullptr);
+    json["margin_of"] = c.triangles;
+    json["left_out"] = c.left_out;
+    json["text"] = cure_text(input_.mesh(), c, &names_);
+    const std::string how = command(input_.mesh(), c);
+    json["command"] = how.empty() ? Json(nullptr) : Json(how);
+    return json;
+  }
+
+  const Input& input_;
+  VertexNames names_;
+};
+
+}  // namespace
+
+std::string explanation_text(const Explanation& e, const Input& input, std::size_t limit, const TextStyle& style) {
+  std::string text = headline(e, input) + summary(e);
+  text += section(kSplits, e, input, limit, style, is_split);
+  text += section(kConflicts, e, input, limit, style, is_conflict);
+  text += section(kUndecided, e, input, limit, style, [](const Reason& r) { return r.kind == ReasonKind::undecided; });
+  text += section(kWeights, e, input, limit, style, [](const Reason& r) { return r.kind == ReasonKind::weights; });
+  return text;
+}
+
+std::string explanation_json(const Explanation& e, const Input& input) {
+  const JsonWriter writer(input);
+  Json json;
+  json["triangles"] = e.triangles;
+  json["bad"] = e.bad;
+  json["verdict"] = name(e.verdict);
+  json["weights_changed"] = e.verdict == Feasibility::feasible ? Json(e.changed) : Json(nullptr);
+  json["reasons"] = Json::array();
+  for (const Reason& reason : e.reasons) json["reasons"].push_back(writer.reason(reason));
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace temper::app

@@ -1,0 +1,85 @@
+#include <nlohmann/json.hpp>
+
+#include "exit.hpp"
+#include "reports/quality_report.hpp"
+#include "temper/explain.hpp"
+#include "temper/html.hpp"
+#include "temper/lp.hpp"
+#include "temper/version.hpp"
+
+namespace temper::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A bad triangle takes a millisecond to explain, and one whose cures are searched some ten: a second or so in all.
+constexpr std::size_t kMostExplained = 500;
+constexpr std::size_t kCures = 20;
+
+/// Why triangles are not well-centered, in the user's numbers. None where there are too many, or inverted ones.
+Json reasons_json(const Mesh& mesh, const Quality& quality, const InputNames* names) {
+  Json json = Json::array();
+  const std::size_t bad = bad_triangles(quality);
+  if (bad == 0 || bad > kMostExplained || quality.inverted_triangles > 0) return json;
+  const auto solver = clp_solver();
+  ExplainOptions options;
+  options.cures = kCures;
+  const Explanation explanation = or_fail(explain(mesh, *solver, options));
+  for (const Reason& reason : explanation.reasons) {
+    Json triangles = Json::array(), cures = Json::array();
+    for (const TriangleId t : reason.bad) triangles.push_back(t.index);
+    for (const Cure& cure : reason.cures) cures.push_back(cure_text(mesh, cure, names));
+    json.push_back({{"kind", name(reason.kind)},
+                    {"triangles", std::move(triangles)},
+                    {"text", reason_text(mesh, reason, names)},
+                    {"cures", std::move(cures)}});
+  }
+  return json;
+}
+
+/// The measures of a mesh, with sentences in the user's numbers: those of `json` count from 0.
+void use_numbers(Json& json, const Quality& quality, const InputNames* names) {
+  const auto number = [names](VertexId v) {
+    const std::string word = names == nullptr ? std::to_string(v.index) : names->point(v.index);
+    return word.substr(word.rfind(' ') + 1);
+  };
+  for (std::size_t i = 0; i < quality.worst.size(); ++i)
+    json["worst"][i]["why"] = renumber(quality.worst[i].why, number);
+}
+
+/// Takes out all seconds: the same run writes the same page.
+void forget_time(Json& json) {
+  if (json.is_object()) json.erase("seconds");
+  for (Json& item : json) {
+    if (item.is_structured()) forget_time(item);
+  }
+}
+
+std::string in_a_line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+}  // namespace
+
+std::string check_html(const std::string& command, const Input& input, const Quality& quality) {
+  Json json = {{"verb", "check"},
+               {"version", version()},
+               {"command", command},
+               {"after", Json::parse(quality_json(quality, input.points))},
+               {"warnings", input.warnings()},
+               {"reasons", reasons_json(input.mesh(), quality, input.names.get())}};
+  use_numbers(json["after"], quality, input.names.get());
+  return io::html_report({{input.mesh(), input.names.get()}, std::nullopt, input.path, in_a_line(json)});
+}
+
+std::string optimize_html(const OptimizePage& page) {
+  Json json = {{"verb", "optimize"}};
+  json.update(Json::parse(optimize_json(page.record)));
+  forget_time(json);
+  const InputNames* names = page.input.file.numbering.get();
+  use_numbers(json["before"], page.record.before, page.input.names.get());
+  use_numbers(json["after"], page.record.after, names);
+  json["reasons"] = reasons_json(page.mesh, page.record.after, names);
+  return io::html_report(
+      {{page.mesh, names}, io::HtmlMesh{page.before, page.input.names.get()}, page.input.path, in_a_line(json)});
+}
+
+}  // namespace temper::app

@@ -1,0 +1,97 @@
+// Reports on a mesh or on two, before and after: as text, as JSON and as a page of HTML.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "files/input.hpp"
+#include "options/options.hpp"
+#include "options/requirement.hpp"
+#include "temper/io.hpp"
+#include "temper/optimize.hpp"
+#include "temper/quality.hpp"
+
+namespace temper::app {
+
+// Reports for people: tables, histograms made of bars, the worst triangles in the numbers of their file.
+
+/// Columns of the tables of `temper check` and `temper optimize`.
+inline constexpr std::size_t kLabelColumns = 30, kNumberColumns = 14;
+
+/// The style of text that the terminal wants.
+struct TextStyle {
+  bool utf8 = true;  ///< else bars and symbols in ASCII
+  std::size_t columns = 100;
+};
+/// By the locale and the terminal.
+[[nodiscard]] TextStyle text_style();
+
+/// The library's sentences, for a terminal without UTF-8.
+[[nodiscard]] std::string in_ascii(std::string text);
+
+/// Counts, margins, all energies, histograms, the worst triangles: `temper check`.
+[[nodiscard]] std::string quality_text(const Quality& quality, const Input& input, const TextStyle& style);
+
+/// Counts, margins and the energies of one star, before and after: `temper optimize`.
+[[nodiscard]] std::string comparison_text(const Quality& before, const Quality& after, int star,
+                                          const TextStyle& style);
+
+/// "46 of 96 triangles are not well-centered, every edge is regular"
+[[nodiscard]] std::string verdict(const Quality& quality);
+
+/// Triangles that are not well-centered.
+[[nodiscard]] std::size_t bad_triangles(const Quality& quality);
+
+// Reports as JSON, for programs. Infinite energies are null; vertices and triangles count from 0, in the order of
+// the file's arrays (points[i] of any reader), not in the numbers a format may give them.
+
+/// The first number of a report: another one when a key is gone or means something else. docs/schema says what there
+/// is.
+inline constexpr int kSchema = 1;
+
+/// The numbers of a mesh. `points`: mesh vertex → point of the file; empty when they are the same.
+[[nodiscard]] std::string quality_json(const Quality& quality, std::span<const std::size_t> points);
+/// `temper check --json`: these, and the outcomes of --require.
+[[nodiscard]] std::string check_json(const std::string& path, const Quality& quality,
+                                     std::span<const std::size_t> points, std::span<const Outcome> outcomes);
+/// Such texts as one.
+[[nodiscard]] std::string json_list(std::span<const std::string> reports);
+
+/// Everything `temper optimize --report` says.
+struct OptimizeRecord {
+  std::string command;
+  std::vector<UsedOption> options;
+  const Quality& before;
+  std::span<const std::size_t> points_before;  ///< of IN; OUT has the points of the mesh
+  const Quality& after;
+  const OptimizeReport& report;
+  const io::DataReport& data;
+  std::span<const Outcome> outcomes;  ///< of --require, on `after`
+  std::vector<std::string> warnings;
+  std::string solver_errors = {};  ///< JSON, of --verify; or nothing
+};
+[[nodiscard]] std::string optimize_json(const OptimizeRecord& record);
+
+/// `temper optimize --history`: a header and one line a sweep.
+[[nodiscard]] std::string history_csv(const OptimizeReport& report);
+
+// What `--html` of check and optimize writes: the HTML report (temper/html.hpp) with the numbers that --json and
+// --report have, the reasons of temper explain, and the command to run again. Nothing in it depends on the time a run
+// took.
+
+/// `quality`: with what is worst listed as the page is to show it.
+[[nodiscard]] std::string check_html(const std::string& command, const Input& input, const Quality& quality);
+
+/// `names`: of the vertices and triangles of the result; null: counted from 0. `before`, `mesh`: of record.before and
+/// after.
+struct OptimizePage {
+  const OptimizeRecord& record;
+  const Input& input;
+  const Mesh& before;
+  const Mesh& mesh;
+};
+[[nodiscard]] std::string optimize_html(const OptimizePage& page);
+
+}  // namespace temper::app

@@ -1,0 +1,193 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "files/input.hpp"
+#include "reports/quality_report.hpp"
+#include "temper/version.hpp"
+
+namespace temper::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Points = std::span<const std::size_t>;
+
+std::size_t point_of(Points points, VertexId v) { return v.index < points.size() ? points[v.index] : v.index; }
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json worst_triangle(const WorstTriangle& worst, Points points) {
+  Json vertices = Json::array();
+  for (const VertexId v : worst.vertices) vertices.push_back(point_of(points, v));
+  const auto name = [points](VertexId v) { return std::to_string(point_of(points, v)); };
+  return {{"triangle", worst.triangle.index},
+          {"vertices", std::move(vertices)},
+          {"at", {worst.at.x, worst.at.y}},
+          {"h_over_l", number_or_null(worst.h_over_l)},
+          {"angle_deg", number_or_null(worst.angle_deg)},
+          {"why", renumber(worst.why, name)}};
+}
+
+Json to_json(const Quality& quality, Points points) {
+  Json json;
+  for (const QualityMeasure& measure : quality_measures()) {
+    const double value = measure.of(quality);
+    json[std::string(measure.key)] = measure.count ? Json(static_cast<std::uint64_t>(value)) : number_or_null(value);
+  }
+  Json& energy = json["energy"];
+  for (std::size_t row = 0; row < energies().size(); ++row) {
+    Json& stars = energy[std::string(energies()[row].name)] = Json::array();
+    for (const double value : quality.energy[row]) stars.push_back(number_or_null(value));
+  }
+  const auto histogram = [](const Histogram& h) -> Json {
+    return {{"low", h.low}, {"high", h.high}, {"counts", h.counts}};
+  };
+  json["histograms"] = {{"angles", histogram(quality.angles)},
+                        {"h_over_l", histogram(quality.h_over_l)},
+                        {"d_over_l", histogram(quality.d_over_l)}};
+  json["worst"] = Json::array();
+  for (const WorstTriangle& worst : quality.worst) json["worst"].push_back(worst_triangle(worst, points));
+  return json;
+}
+
+Json to_json(const Outcome& outcome) {
+  const Requirement& requirement = outcome.requirement;
+  return {{"text", requirement.text},
+          {"key", requirement.key},
+          {"wants", sign(requirement.better)},
+          {"value", requirement.value},
+          {"found", number_or_null(outcome.found)},
+          {"met", outcome.met}};
+}
+
+Json to_json(std::span<const Outcome> outcomes) {
+  Json list = Json::array();
+  for (const Outcome& outcome : outcomes) list.push_back(to_json(outcome));
+  return list;
+}
+
+Json to_json(const Spread& s) {
+  return {{"min", number_or_null(s.min)},
+          {"p05", number_or_null(s.p05)},
+          {"median", number_or_null(s.median)},
+          {"p95", number_or_null(s.p95)},
+          {"max", number_or_null(s.max)}};
+}
+
+Json to_json(const SizeReport& size) {
+  return {{"over_field", to_json(size.over_field)},
+          {"gradation", to_json(size.gradation)},
+          {"largest_edge_ratio", number_or_null(size.largest_edge_ratio)},
+          {"vertices_outside_field", size.outside}};
+}
+
+Json to_json(const io::DataReport& data) {
+  return {{"points", data.points},
+          {"points_moved", data.points_moved},
+          {"distance", to_json(data.distance)},
+          {"points_inserted", data.points_inserted},
+          {"interpolated", data.interpolated},
+          {"kept", data.kept},
+          {"dropped", data.dropped},
+          {"triangles", data.triangles},
+          {"triangles_changed", data.triangles_changed},
+          {"of_triangles", data.of_triangles}};
+}
+
+/// The number of a text that was accepted as one: ".5", "1." and "007" are numbers too, but not to JSON.
+Json number_as_json(const std::string& text) {
+  std::int64_t whole = 0;
+  const char* const end = text.data() + text.size();
+  const auto as_whole = std::from_chars(text.data(), end, whole);
+  if (as_whole.ec == std::errc() && as_whole.ptr == end) return whole;
+  return std::strtod(text.c_str(), nullptr);
+}
+
+/// Numbers as numbers, a flag as true or false, an option that was not used as null.
+Json to_json(const UsedOption& option) {
+  if (option.flag) return option.used;
+  if (!option.used) return nullptr;
+  if (option.list) return option.values;
+  if (option.number) return number_as_json(option.values.front());
+  return option.values.front();
+}
+
+Json to_json(const SweepRecord& record) {
+  return {{"sweep", record.sweep},
+          {"energy", number_or_null(record.energy)},
+          {"bad", record.bad},
+          {"flips", record.flips},
+          {"softening", number_or_null(record.softening)},
+          {"seconds", record.seconds},
+          {"objective", name(record.objective)}};
+}
+
+std::string dump(const Json& json) {
+  // A path need not be UTF-8; JSON must be.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string quality_json(const Quality& quality, std::span<const std::size_t> points) {
+  return dump(to_json(quality, points));
+}
+
+std::string check_json(const std::string& path, const Quality& quality, std::span<const std::size_t> points,
+                       std::span<const Outcome> outcomes) {
+  Json json = {{"schema", kSchema}, {"file", path}};
+  json.update(to_json(quality, points));
+  json["requirements"] = to_json(outcomes);
+  return dump(json);
+}
+
+std::string json_list(std::span<const std::string> reports) {
+  std::string list;
+  for (const std::string& report : reports)
+    list += (list.empty() ? "[\n" : ",\n") + report.substr(0, report.size() - 1);
+  return (list.empty() ? "[" : list + "\n") + "]\n";
+}
+
+std::string optimize_json(const OptimizeRecord& record) {
+  Json json;
+  json["schema"] = kSchema;
+  json["command"] = record.command;
+  json["version"] = version();
+  for (const UsedOption& option : record.options) json["options"][option.name] = to_json(option);
+  json["before"] = to_json(record.before, record.points_before);
+  json["after"] = to_json(record.after, Points());
+  json["requirements"] = to_json(record.outcomes);
+  json["sweeps"] = record.report.sweeps;
+  json["seconds"] = record.report.seconds;
+  json["stopped"] = name(record.report.stopped);
+  json["initial_energy"] = number_or_null(record.report.initial_energy);
+  json["final_energy"] = number_or_null(record.report.final_energy);
+  json["vertices_removed"] = record.report.vertices_removed;
+  json["hidden_vertices"] = Json::array();
+  for (const VertexId v : record.report.hidden) json["hidden_vertices"].push_back(v.index);
+  json["vertices_inserted"] = record.report.vertices_inserted;
+  json["flips"] = record.report.flips;
+  json["size"] = {{"before", to_json(record.report.size.before)}, {"after", to_json(record.report.size.after)}};
+  json["data"] = to_json(record.data);
+  if (!record.solver_errors.empty()) json["verify"] = Json::parse(record.solver_errors);
+  json["notes"] = record.report.notes;
+  json["warnings"] = record.warnings;
+  json["history"] = Json::array();
+  for (const SweepRecord& sweep : record.report.history) json["history"].push_back(to_json(sweep));
+  return dump(json);
+}
+
+std::string history_csv(const OptimizeReport& report) {
+  std::string csv = "sweep,energy,bad,flips,softening,seconds,objective\n";
+  for (const SweepRecord& record : report.history) {
+    csv += fmt::format("{},{},{},{},{},{},{}\n", record.sweep, record.energy, record.bad, record.flips,
+                       record.softening, record.seconds, name(record.objective));
+  }
+  return csv;
+}
+
+}  // namespace temper::app

@@ -1,0 +1,199 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "console.hpp"
+#include "reports/quality_report.hpp"
+
+namespace temper::app {
+namespace {
+
+constexpr std::size_t kEnergyColumns = 24;
+constexpr std::size_t kRangeColumns = 12;
+constexpr std::size_t kBarColumns = 10;
+constexpr std::size_t kPanelGap = 3;
+
+std::string measure_text(const QualityMeasure& measure, const Quality& quality) {
+  const double value = measure.of(quality);
+  return measure.count ? fmt::format("{}", static_cast<std::size_t>(value)) : fmt::format("{:.6g}", value);
+}
+
+/// Twelve decimals where they are all significant, fifteen digits elsewhere: enough to compare with a publication.
+std::string energy_text(double value, const TextStyle& style) {
+  if (std::isinf(value)) return std::string(value < 0 ? "-" : "+") + (style.utf8 ? "∞" : "inf");
+  const double size = std::abs(value);
+  return value == 0 || (size >= 0.1 && size < 1e6) ? fmt::format("{:.12f}", value) : fmt::format("{:.14e}", value);
+}
+
+std::string star_name(std::size_t star, const TextStyle& style) {
+  return fmt::format("{}{}", style.utf8 ? "★" : "star ", star);
+}
+
+std::string energy_table(const Quality& quality, const TextStyle& style) {
+  std::string text = pad_right("energy", 8);
+  for (std::size_t star = 0; star < 3; ++star) text += pad_left(star_name(star, style), kEnergyColumns);
+  text += "\n";
+  for (std::size_t row = 0; row < energies().size(); ++row) {
+    text += pad_right("E_" + std::string(energies()[row].name), 8);
+    for (const double value : quality.energy[row]) text += pad_left(energy_text(value, style), kEnergyColumns);
+    text += "\n";
+  }
+  return text;
+}
+
+/// A bar of count / most of the full width; something is always seen of a count that is not 0.
+std::string bar(std::size_t count, std::size_t most, const TextStyle& style) {
+  static constexpr std::array<const char*, 8> kEighths = {"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
+  if (count == 0 || most == 0) return "";
+  const double full = static_cast<double>(kBarColumns) * static_cast<double>(count) / static_cast<double>(most);
+  if (!style.utf8) return std::string(std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(full))), '#');
+  const std::size_t eighths = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(8 * full)));
+  std::string text;
+  for (std::size_t i = 0; i < eighths / 8; ++i) text += "█";
+  return text + kEighths[eighths % 8];
+}
+
+std::vector<std::string> histogram_panel(const std::string& title, const Histogram& histogram, const TextStyle& style) {
+  std::vector<std::string> lines = {title};
+  const std::size_t bins = histogram.counts.size();
+  if (bins == 0) return lines;
+  const std::size_t most = *std::max_element(histogram.counts.begin(), histogram.counts.end());
+  const double step = (histogram.high - histogram.low) / static_cast<double>(bins);
+  const int decimals = step >= 1 ? 0 : step >= 0.1 ? 1 : 2;
+  const auto edge = [&](std::size_t i) {
+    const double value = histogram.low + step * static_cast<double>(i);
+    return std::abs(value) < 1e-9 * step ? 0.0 : value;  // no "-0.0" from rounding
+  };
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    const std::string range = fmt::format("{:>5.{}f}..{:.{}f}", edge(bin), decimals, edge(bin + 1), decimals);
+    lines.push_back(fmt::format("{} {} {:>7}", pad_right(range, kRangeColumns),
+                                pad_right(bar(histogram.counts[bin], most, style), kBarColumns),
+                                histogram.counts[bin]));
+  }
+  return lines;
+}
+
+std::string beside(const std::vector<std::vector<std::string>>& panels) {
+  std::size_t rows = 0;
+  std::vector<std::size_t> widths;
+  for (const auto& panel : panels) {
+    rows = std::max(rows, panel.size());
+    std::size_t width = 0;
+    for (const std::string& line : panel) width = std::max(width, display_width(line));
+    widths.push_back(width + kPanelGap);
+  }
+  std::string text;
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::string line;
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      line += pad_right(row < panels[i].size() ? panels[i][row] : "", widths[i]);
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+std::string histograms(const Quality& quality, const TextStyle& style) {
+  const std::string ell = style.utf8 ? "ℓ" : "l";
+  const std::vector<std::vector<std::string>> panels = {
+      histogram_panel("angles (degrees)", quality.angles, style),
+      histogram_panel("h/" + ell, quality.h_over_l, style),
+      histogram_panel("d/" + ell, quality.d_over_l, style),
+  };
+  std::string text;
+  if (style.columns >= 3 * 30 + 2 * kPanelGap) {
+    text = beside(panels);
+  } else {
+    for (const auto& panel : panels) text += beside({panel});
+  }
+  return text + "The first and the last bar also count what lies beyond.\n";
+}
+
+std::string worst_text(const Quality& quality, const Input& input, const TextStyle& style) {
+  if (quality.worst.empty()) return "";
+  std::string text = "\nworst triangles\n";
+  for (const WorstTriangle& worst : quality.worst) {
+    const auto name = [&input](VertexId v) { return input.vertex_number(v); };
+    text += fmt::format("  {} ({} {} {}) at {:.6g} {:.6g}: h/l {:.4g}, largest angle {:.5g}\n",
+                        input.triangle_number(worst.triangle), name(worst.vertices[0]), name(worst.vertices[1]),
+                        name(worst.vertices[2]), worst.at.x, worst.at.y, worst.h_over_l, worst.angle_deg);
+    const std::string why = renumber(worst.why, name);
+    for (const std::string& line :
+         wrap(style.utf8 ? why : in_ascii(why), style.columns > 20 ? style.columns - 4 : 20)) {
+      text += "    " + line + "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string in_ascii(std::string text) {
+  const auto replace = [&text](std::string_view from, std::string_view to) {
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
+      text.replace(at, from.size(), to);
+    }
+  };
+  replace("°", " degrees");
+  replace("ℓ", "l");
+  replace("…", "...");
+  return text;
+}
+
+TextStyle text_style() { return {utf8_locale(), output_width()}; }
+
+std::size_t bad_triangles(const Quality& quality) {
+  const double good = quality.well_centered_fraction * static_cast<double>(quality.triangles);
+  return quality.triangles - std::min(quality.triangles, static_cast<std::size_t>(std::lround(good)));
+}
+
+std::string verdict(const Quality& quality) {
+  const std::size_t bad = bad_triangles(quality);
+  const auto are = [](std::size_t n, const char* one, const char* many) {
+    return fmt::format("{} {}", n, n == 1 ? one : many);
+  };
+  std::string text = bad == 0 ? fmt::format("all {} triangles are well-centered", quality.triangles)
+                              : fmt::format("{} of {} triangles {} not well-centered", bad, quality.triangles,
+                                            bad == 1 ? "is" : "are");
+  text += quality.non_regular_edges == 0
+              ? ", every edge is regular"
+              : ", " + are(quality.non_regular_edges, "edge is not regular", "edges are not regular");
+  if (quality.inverted_triangles > 0) {
+    text += ", " + are(quality.inverted_triangles, "triangle is inverted", "triangles are inverted");
+  }
+  return text;
+}
+
+std::string quality_text(const Quality& quality, const Input& input, const TextStyle& style) {
+  std::string text = fmt::format("{}: {}\n\n", input.path, verdict(quality));
+  for (const QualityMeasure& measure : quality_measures()) {
+    text += pad_right(measure.label, kLabelColumns) + pad_left(measure_text(measure, quality), kNumberColumns) + "\n";
+  }
+  text += "\n" + energy_table(quality, style);
+  text += "\n" + histograms(quality, style);
+  return text + worst_text(quality, input, style);
+}
+
+std::string comparison_text(const Quality& before, const Quality& after, int star, const TextStyle& style) {
+  const auto row = [](const std::string& label, const std::string& from, const std::string& to) {
+    return pad_right(label, kLabelColumns) + pad_left(from, kNumberColumns) + pad_left(to, kNumberColumns) + "\n";
+  };
+  std::string text = row("", "before", "after");
+  for (const QualityMeasure& measure : quality_measures()) {
+    text += row(std::string(measure.label), measure_text(measure, before), measure_text(measure, after));
+  }
+  const auto number = [&style](double value) {
+    return std::isinf(value) ? energy_text(value, style) : fmt::format("{:.6g}", value);
+  };
+  const auto column = static_cast<std::size_t>(star);
+  for (std::size_t i = 0; i < energies().size(); ++i) {
+    const std::string label = fmt::format("E_{}, {}", energies()[i].name, star_name(column, style));
+    text += row(label, number(before.energy[i][column]), number(after.energy[i][column]));
+  }
+  return text;
+}
+
+}  // namespace temper::app

@@ -1,0 +1,125 @@
+// The reports of verbs, as text for people and as JSON.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "files/input.hpp"
+#include "options/options.hpp"
+#include "reports/quality_report.hpp"
+#include "temper/columns.hpp"
+#include "temper/connectivity.hpp"
+#include "temper/dec.hpp"
+#include "temper/explain.hpp"
+#include "temper/feasibility.hpp"
+#include "temper/io.hpp"
+#include "temper/mesher.hpp"
+#include "temper/optimize.hpp"
+#include "temper/projection.hpp"
+#include "temper/quality.hpp"
+#include "temper/size.hpp"
+
+namespace temper::app {
+
+// The reports of `temper dec` on the operators it wrote: as text, as JSON, and as warnings.
+
+struct DecRecord {
+  std::string path;  ///< of the mesh
+  const DecSummary& summary;
+  const PowerCells& cells;
+  const Columns* columns;  ///< null: without layers
+  std::vector<std::string> files;
+};
+
+[[nodiscard]] std::string dec_text(const DecRecord& record);
+[[nodiscard]] std::string dec_json(const DecRecord& record);
+/// The warnings that the author of a solver should read before using the operators: none for a well-centered mesh.
+[[nodiscard]] std::vector<std::string> dec_warnings(const DecRecord& record);
+
+// The reports of `temper explain`: text for people, and JSON.
+
+/// Counts, then a paragraph a reason, at most `limit` conflicts and `limit` groups that only lack weights.
+[[nodiscard]] std::string explanation_text(const Explanation& explanation, const Input& input, std::size_t limit,
+                                           const TextStyle& style);
+/// All reasons. Vertices and triangles are counted from 0, in the texts too.
+[[nodiscard]] std::string explanation_json(const Explanation& explanation, const Input& input);
+
+// The reports of `temper weights`: text for people, and JSON.
+
+struct WeightsRecord {
+  std::string_view mode;
+  const WeightOptions& options;
+  const WeightReport& report;
+  const Input& input;
+  const Mesh& mesh;                                 ///< that the report is of: the input's, or with edges flipped
+  const std::optional<ConnectivityReport>& search;  ///< with --connectivity search
+  std::string_view output;                          ///< empty: not written
+  std::string_view certificate;                     ///< the same
+};
+
+[[nodiscard]] std::string weights_text(const WeightsRecord& record);
+[[nodiscard]] std::string weights_json(const WeightsRecord& record);
+
+/// "h over edge 3-9 of triangle 17 (angle of 138.3 degrees at vertex 10)", in the file's numbers.
+[[nodiscard]] std::string constraint_text(const WeightConstraint& constraint, const Input& input, const Mesh& mesh);
+
+// The reports of `temper mesh` on the mesh it made: as text, and as JSON.
+
+/// Where points in longitude and latitude are: on a map, on the sphere, or there are none.
+struct MapUsed {
+  std::optional<Projection> projection = {};
+  double radius = 0;                          ///< of the sphere
+  double covered = 0;                         ///< the part of the sphere that is meshed
+  std::vector<Vec2> lon_lat = {};             ///< of the outlines' points, as they were given
+  double least_scale = 1, largest_scale = 1;  ///< length on the map over length on the globe, over all vertices
+};
+
+/// "outline", "coast" or "lines", and what was read.
+struct NamedOutline {
+  const char* name;
+  io::OutlineFile file;
+};
+
+struct MeshRecord {
+  std::string command;
+  std::vector<UsedOption> options;
+  const std::vector<NamedOutline>& inputs;
+  const MapUsed& map;
+  const OutlineMesh& made;
+  const Quality& quality;
+};
+
+/// "stereographic:7.5,51", as --projection takes it.
+[[nodiscard]] std::string spell(const Projection& projection);
+
+[[nodiscard]] std::string mesh_text(const MeshRecord& record);
+[[nodiscard]] std::string mesh_json(const MeshRecord& record);
+
+// Sizes, for optimize: the field that is given in a file, and what a run did to the sizes, for people.
+
+/// The size field of a mesh file's point data of that name; Failure when there is none, or it is no size everywhere.
+struct ReadSizeField {
+  SizeField field;
+  std::vector<std::string> warnings;  ///< of reading the file
+};
+[[nodiscard]] ReadSizeField read_size_field(const std::string& path, const std::string& data,
+                                            const ReadingOptions& options);
+
+/// Rows of the table of `temper optimize`, below those of comparison_text.
+[[nodiscard]] std::string size_text(const SizeChange& size);
+
+// Data of points and triangles, for optimize and replay: the rules that are given, and what became of the data.
+
+/// --point-data, whose words are checked as they come.
+void add_point_data(Command& command, std::vector<std::string>& words);
+
+/// The rules of those words, for the data of a file; Failure when it has no array of a name.
+[[nodiscard]] io::DataRules data_rules(const std::vector<std::string>& words, const io::MeshFile& file);
+
+/// Lines of `temper optimize`; none where nothing moved that data are on.
+[[nodiscard]] std::string data_text(const io::DataReport& report);
+
+}  // namespace temper::app

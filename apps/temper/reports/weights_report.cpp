@@ -1,0 +1,190 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "files/certificate_json.hpp"
+#include "reports/reports.hpp"
+#include "temper/geometry.hpp"
+
+namespace temper::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Kind = WeightConstraint::Kind;
+
+constexpr std::size_t kListed = 12;  // what fits on a screen; the JSON has all
+
+TriangleId triangle_of(const Mesh& mesh, const WeightConstraint& c) {
+  return Mesh::triangle(mesh.find_halfedge(c.p, c.q));
+}
+
+std::string listed(const std::vector<std::string>& lines) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(lines.size(), kListed); ++i) text += "  " + lines[i] + "\n";
+  if (lines.size() > kListed) text += fmt::format("  and {} more (--json has all)\n", lines.size() - kListed);
+  return text;
+}
+
+std::string verdict_text(const WeightsRecord& r) {
+  const ConditionsInfo& row = conditions_table()[static_cast<std::size_t>(r.options.conditions)];
+  switch (r.report.verdict) {
+    case Feasibility::feasible:
+      return fmt::format("feasible: {}", row.success);
+    case Feasibility::infeasible:
+      return fmt::format("infeasible: {}{}", row.failure, r.search ? ", with this connectivity" : "");
+    case Feasibility::undecided:
+      return "undecided: the best margin is zero up to rounding, or the solver failed";
+  }
+  return {};
+}
+
+std::string margin_text(const WeightReport& report) {
+  switch (report.margin_is) {
+    case MarginIs::exact:
+      return fmt::format("best margin {:.10g}", report.margin);
+    case MarginIs::at_least:
+      return fmt::format("best margin at least {:.10g}", report.margin);
+    case MarginIs::at_most:
+      return fmt::format("best margin at most {:.10g}, that of the worst neighbourhood", report.margin);
+  }
+  return {};
+}
+
+std::string certificate_text(const WeightsRecord& r) {
+  const Certificate& certificate = r.report.certificate;
+  if (certificate.terms.empty()) return {};
+  std::vector<std::string> lines;
+  for (const auto& term : certificate.terms) lines.push_back(constraint_text(term.constraint, r.input, r.mesh));
+  const std::string what = certificate.margin == 0 ? "all positive" : fmt::format("all above {}", certificate.margin);
+  return fmt::format("These {} cannot be {} (a certificate, verified exactly):\n", certificate.terms.size(), what) +
+         listed(lines);
+}
+
+std::string_view end_text(SearchEnd end) {
+  switch (end) {
+    case SearchEnd::no_better_neighbour:
+      return "no flip raises it further";
+    case SearchEnd::limit:
+      return "stopped by --programmes";
+    case SearchEnd::failed:
+      return "the solver failed";
+  }
+  return {};
+}
+
+std::string violations_text(const WeightsRecord& r) {
+  if (r.report.violations.empty()) return {};
+  std::vector<std::string> lines;
+  double total = 0;
+  for (const Violation& v : r.report.violations) {
+    lines.push_back(fmt::format("{:.4g} instead of {:.4g}: {}", v.value, r.report.asked,
+                                constraint_text(v.constraint, r.input, r.mesh)));
+    total += v.shortfall;
+  }
+  return fmt::format("{} of the {} give way, by {:.6g} in all:\n", lines.size(),
+                     r.options.conditions == Conditions::regular ? "dual lengths/l" : "h/l and d/l", total) +
+         listed(lines);
+}
+
+std::string search_text(const WeightsRecord& r) {
+  if (!r.search) return {};
+  std::size_t flips = 0;
+  for (const ConnectivityStep& step : r.search->steps) flips += step.flips;
+  return fmt::format(
+      "search over connectivities: best margin {:.10g} -> {:.10g}, {} steps, {} flips, {} programmes; {}\n",
+      r.search->before, r.search->margin, r.search->steps.size(), flips, r.search->programmes, end_text(r.search->end));
+}
+
+Json search_json(const WeightsRecord& r) {
+  if (!r.search) return nullptr;
+  Json json;
+  json["before"] = r.search->before;
+  json["margin"] = r.search->margin;
+  json["end"] = name(r.search->end);
+  json["programmes"] = r.search->programmes;
+  json["steps"] = Json::array();
+  for (const ConnectivityStep& step : r.search->steps) {
+    json["steps"].push_back({{"kind", name(step.kind)}, {"flips", step.flips}, {"margin", step.margin}});
+  }
+  return json;
+}
+
+Json violation_json(const Violation& v, const Input& input, const Mesh& mesh) {
+  const auto point = [&](VertexId u) { return input.points.empty() ? std::size_t{u.index} : input.points[u.index]; };
+  const auto [kind, p, q, r, s] = v.constraint;
+  Json json;
+  json["kind"] = name(kind);
+  json["edge"] = {point(p), point(q)};
+  if (kind == Kind::height) {
+    json["triangle"] = triangle_of(mesh, v.constraint).index;
+    json["vertex"] = point(r);
+    json["angle_deg"] = v.angle_deg;
+  }
+  json["value"] = v.value;
+  json["shortfall"] = v.shortfall;
+  return json;
+}
+
+}  // namespace
+
+std::string constraint_text(const WeightConstraint& c, const Input& input, const Mesh& mesh) {
+  const std::string p = input.vertex_number(c.p), q = input.vertex_number(c.q);
+  if (c.kind == Kind::split) return fmt::format("d of edge {}-{} from vertex {}", p, q, p);
+  if (c.kind == Kind::dual) {
+    return fmt::format("dual length of edge {}-{} between vertices {} and {}", p, q, input.vertex_number(c.r),
+                       input.vertex_number(c.s));
+  }
+  const double angle =
+      corner_angle(mesh.space(), mesh.point(c.r), mesh.point(c.p), mesh.point(c.q)) * 180 / std::numbers::pi;
+  return fmt::format("h over edge {}-{} in triangle {} (angle of {:.1f} degrees at vertex {})", p, q,
+                     input.triangle_number(triangle_of(mesh, c)), angle, input.vertex_number(c.r));
+}
+
+std::string weights_text(const WeightsRecord& r) {
+  const WeightReport& report = r.report;
+  std::string text = fmt::format("{}: {} vertices, {} triangles\n{}{}\n{}\n", r.input.path, r.mesh.n_vertices(),
+                                 r.mesh.n_triangles(), search_text(r), verdict_text(r), margin_text(report));
+  if (!report.solved && report.verdict == Feasibility::feasible) {
+    text += fmt::format("a margin of {} cannot be had\n", r.options.margin);
+  }
+  text += certificate_text(r) + violations_text(r);
+  if (report.solved) {
+    text +=
+        fmt::format("{} of {} weights change, margin {:.6g}\n", report.moved, report.weights.size(), report.attained);
+  }
+  if (!r.output.empty()) text += fmt::format("wrote {}\n", r.output);
+  if (!r.certificate.empty()) text += fmt::format("wrote {}\n", r.certificate);
+  return text;
+}
+
+std::string weights_json(const WeightsRecord& r) {
+  const WeightReport& report = r.report;
+  Json json;
+  json["mode"] = r.mode;
+  json["conditions"] = name(r.options.conditions);
+  json["edges"] = r.options.conditions == Conditions::regular ? Json(r.options.edges.size()) : Json(nullptr);
+  json["search"] = search_json(r);
+  json["verdict"] = name(report.verdict);
+  json["feasible"] =
+      report.verdict == Feasibility::undecided ? Json(nullptr) : Json(report.verdict == Feasibility::feasible);
+  json["margin"] = report.margin;
+  json["margin_is"] = name(report.margin_is);
+  json["wanted"] = r.options.margin;
+  json["solved"] = report.solved;
+  json["attained"] = report.solved ? Json(report.attained) : Json(nullptr);
+  json["weights"] = report.weights.size();
+  json["moved"] = report.solved ? Json(report.moved) : Json(nullptr);
+  json["change"] = report.solved ? Json(report.change) : Json(nullptr);
+  json["programmes"] = report.programmes;
+  json["largest_programme"] = report.largest;
+  json["violations"] = Json::array();
+  for (const Violation& v : report.violations) json["violations"].push_back(violation_json(v, r.input, r.mesh));
+  json["certificate"] =
+      report.certificate.terms.empty() ? Json(nullptr) : certificate_json(report.certificate, r.input);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace temper::app

@@ -1,0 +1,150 @@
+// temper check IN...: the quality of meshes as a table or as JSON, and requirements on it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "console.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "files/tensor_option.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "options/requirement.hpp"
+#include "reports/quality_report.hpp"
+#include "temper/quality.hpp"
+#include "threads.hpp"
+
+namespace temper::app {
+namespace {
+
+struct CheckSettings {
+  std::string projection;
+  std::vector<std::string> inputs;
+  std::string html;
+  std::vector<std::string> require;
+  SofteningOptions gamma, h0;
+  std::uint64_t worst = 5, threads = 0;
+  bool json = false;
+  std::optional<Metric> metric;
+};
+
+void add_options(Command& command, CheckSettings& s) {
+  command.group("Report");
+  add_texts(command, "IN", "", Values::words, s.inputs,
+            "the mesh, or several; the content of each tells its format; -: standard input")
+      .require();
+  add_projection(command, s.projection);
+  command.add_flag("--json", s.json,
+                   "the report as JSON, of several meshes a list of them; vertices and triangles count from 0");
+  add_text(command, "--html", "FILE", s.html,
+           "an HTML report beside it, of one mesh: its measures, and each triangle's numbers");
+  add_count(command, "--worst", s.worst, 0, "list this many of the worst triangles");
+  add_gamma(command, s.gamma, " (default: 1)");
+  add_h0(command, s.h0, " (default: 0)");
+  add_tensor(command, s.metric, "all measures are");
+  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  command.group("Requirements");
+  add_requirements(command, s.require);
+  command.group("Help");
+  command.add_help({"IN ... [options]",
+                    "  temper check in.vtu\n"
+                    "  temper check in.vtu --json --worst 20\n"
+                    "  temper check in.vtu --html report.html\n"
+                    "  temper check in.vtu --require inverted=0,\"min_angle>=1\"\n"
+                    "  temper check in.vtu in.vtu --require inverted=0\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
+}
+
+/// The meshes of one call.
+class Checks {
+ public:
+  Checks(const Command& command, const CheckSettings& settings, std::vector<Requirement> requirements)
+      : command_(command),
+        s_(settings),
+        requirements_(std::move(requirements)),
+        threads_(make_threads(settings.threads)) {
+    options_.gamma = s_.gamma.value().value_or(options_.gamma);
+    options_.h0 = s_.h0.value().value_or(options_.h0);
+    options_.worst = s_.worst;
+    options_.executor = threads_.get();
+    if (!s_.html.empty() && s_.inputs.size() > 1) {
+      throw Failure(Exit::bad_usage, fmt::format("check: --html: it is the report of one mesh, and {} are given\n"
+                                                 "See temper check --help",
+                                                 s_.inputs.size()));
+    }
+    expect_without(command, s_.metric, "--html");
+    outputs_.expect_text("--html", s_.html, s_.inputs);
+  }
+
+  void add(const std::string& path) {
+    Input input = read_input(path, {s_.projection, {}, threads_.get(), true});
+    print_warnings(input.warnings());
+    take_to_metric(input, s_.metric);
+    Quality measured = quality(input.mesh(), options_);
+    for (WorstTriangle& worst : measured.worst) {
+      if (s_.metric) worst.at = s_.metric->from_metric(worst.at);
+    }
+    const std::vector<Outcome> outcomes = judge(requirements_, measured);
+    if (!s_.html.empty()) {
+      expect_plane(input.mesh(), path, "--html");
+      const std::string again = command_line("check", {path}, used_options(command_));
+      outputs_.write_text(s_.html, check_html(again, input, measured));
+    }
+    if (s_.json) {
+      reports_.push_back(check_json(path, measured, input.points, outcomes));
+    } else {
+      print((std::exchange(first_, false) ? "" : "\n") + quality_text(measured, input, text_style()));
+      flush_output();  // before the verdict on standard error
+    }
+    if (const Exit verdict = report_unmet(outcomes, path); exit_ == Exit::done) exit_ = verdict;
+  }
+
+  /// What is wrong with one mesh keeps none of the others from being looked at.
+  void add_of_several(const std::string& path) {
+    try {
+      add(path);
+    } catch (const Failure& failure) {
+      print_error(failure.what());
+      exit_ = failure.exit;
+    }
+  }
+
+  Exit end() {
+    if (s_.json) print(s_.inputs.size() == 1 ? reports_.front() : json_list(reports_));
+    return exit_;
+  }
+
+ private:
+  const Command& command_;
+  const CheckSettings& s_;
+  Outputs outputs_ = Outputs("check");
+  std::vector<Requirement> requirements_;
+  std::unique_ptr<Executor> threads_;
+  QualityOptions options_;
+  std::vector<std::string> reports_;
+  bool first_ = true;
+  Exit exit_ = Exit::done;
+};
+
+}  // namespace
+
+Exit run_check(const Arguments& arguments) {
+  Command command("check",
+                  "Reports on a mesh: what is exactly right or wrong with it, margins, energies, the worst triangles.");
+  CheckSettings s;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
+  std::ranges::replace(s.inputs, "-", kStandardInput);
+  Checks checks(command, s, parse_requirements("check", s.require));
+  if (s.inputs.size() == 1) {
+    checks.add(s.inputs.front());
+  } else {
+    for (const std::string& path : s.inputs) checks.add_of_several(path);
+  }
+  return checks.end();
+}
+
+}  // namespace temper::app

@@ -1,0 +1,58 @@
+// temper convert IN -o OUT: the same file in another format; what the format cannot hold is named.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "console.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "threads.hpp"
+
+namespace temper::app {
+namespace {
+
+struct ConvertSettings {
+  std::string projection;
+  std::string input;
+  MeshOutput output;
+  std::uint64_t threads = 0;
+};
+
+void add_options(Command& command, ConvertSettings& s) {
+  command.group("Files");
+  add_argument(command, "IN", s.input, "the file to read; its content tells the format").require();
+  add_projection(command, s.projection);
+  add_mesh_output(command, s.output, "OUT", "where it goes; its suffix tells the format");
+  command.option("--output").require();
+  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  command.group("Help");
+  command.add_help({"IN -o OUT [options]",
+                    "  temper convert in.vtu -o out.msh\n"
+                    "  temper convert in.vtu -o out.vtu --encoding ascii\n"
+                    "  temper convert in.vtu -o old.msh --format gmsh22\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+}
+
+}  // namespace
+
+Exit run_convert(const Arguments& arguments) {
+  Command command("convert",
+                  "Writes a mesh file in another format. Weights, tags, regions, names and data pass through; a "
+                  "warning names what the new format has no place for.");
+  ConvertSettings s;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
+  Outputs outputs("convert");
+  outputs.expect_mesh(s.output);
+
+  const std::unique_ptr<Executor> threads = make_threads(s.threads);
+  io::MeshFile file = or_fail(io::read(s.input, {threads.get()}));
+  if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
+  print_warnings(file.warnings);
+  print_warnings(outputs.write_mesh(s.output, file, threads.get()));
+  return Exit::done;
+}
+
+}  // namespace temper::app

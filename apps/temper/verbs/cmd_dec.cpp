@@ -1,0 +1,163 @@
+// temper dec IN -o DIR: the operators of discrete exterior calculus and finite volumes, as files for solvers.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "console.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "files/tensor_option.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "reports/reports.hpp"
+#include "suggest.hpp"
+#include "temper/dec_io.hpp"
+#include "threads.hpp"
+
+namespace temper::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Choice<io::DecFormat> kDecFormats[] = {{"npz", io::DecFormat::npz},   {"mtx", io::DecFormat::mtx},
+                                                 {"vtu", io::DecFormat::vtu},   {"disv", io::DecFormat::disv},
+                                                 {"disu", io::DecFormat::disu}, {"tough", io::DecFormat::tough}};
+
+struct DecSettings {
+  std::string projection;
+  std::string input, output, formats = "npz,mtx,vtu";
+  std::string layers;
+  double pinch_out = 0;
+  std::optional<Metric> metric;
+  std::uint64_t threads = 0;
+  bool json = false;
+};
+
+void add_options(Command& command, DecSettings& s) {
+  command.group("Files");
+  add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_projection(command, s.projection);
+  add_text(command, "-o,--output", "DIR", s.output, "the folder for the files; made when it is missing").require();
+  add_text(command, "--format", "LIST", s.formats,
+           "the kinds of files to write, separated by commas: npz (NumPy and SciPy), mtx (Matrix Market), vtu (the "
+           "dual, for ParaView); with --layers also disv and disu (MODFLOW 6), tough (TOUGH2 and TOUGH3)")
+      .defaults_to([&s] { return s.formats; });
+  command.group("Diffusion tensor");
+  add_tensor(command, s.metric, "stars, fluxes, orthocenters and power cells are those");
+  command.group("Layers");
+  add_text(command, "--layers", "FILE", s.layers,
+           "heights of the surfaces between layers, for columns of cells below the power cells: CSV, a title line "
+           "vertex,top,bottom 1,bottom 2,... and a row for each vertex, or one with * for all; see docs/layers.md");
+  add_number(command, "--pinch-out", s.pinch_out, kNotNegative,
+             "a layer has no cell where it is not thicker than this: what is above and what is below it are connected");
+  command.group("Report");
+  command.add_flag("--json", s.json, "the summary as JSON");
+  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+  command.group("Help");
+  command.add_help({"IN -o DIR [options]",
+                    "  temper dec in.vtu -o operators\n"
+                    "  temper dec in.vtu -o operators --format npz --json\n"
+                    "  temper optimize in.vtu -o out.vtu\n"
+                    "  temper dec out.vtu -o model --layers layers.csv --format disv,tough\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+}
+
+std::vector<io::DecFormat> parse_formats(std::string_view list) {
+  std::vector<io::DecFormat> formats;
+  std::vector<std::string_view> names;
+  for (const auto& choice : kDecFormats) names.push_back(choice.name);
+  for (const std::string& name : separated(list)) {
+    const auto known = std::find_if(std::begin(kDecFormats), std::end(kDecFormats),
+                                    [&](const auto& choice) { return choice.name == name; });
+    if (known == std::end(kDecFormats)) {
+      throw Failure(Exit::bad_usage, fmt::format("dec: --format: {}\nSee temper dec --help", none_of(name, names)));
+    }
+    formats.push_back(known->value);
+  }
+  return formats;
+}
+
+/// Formats of layers have these, and the other way around.
+void check_layers(const Command& command, const DecSettings& s, const std::vector<io::DecFormat>& formats) {
+  const bool wanted = std::any_of(formats.begin(), formats.end(), io::needs_columns);
+  if (wanted && s.layers.empty())
+    throw Failure(Exit::bad_usage, "dec: --format: disv, disu and tough need --layers\nSee temper dec --help");
+  if (s.layers.empty() && command.was_given("--pinch-out"))
+    print_warnings(std::vector<std::string>{"--pinch-out has no effect without --layers"});
+}
+
+/// Before the work: a folder can be there, and no input is one of the files that will be replaced.
+void check_folder(const DecSettings& s, const std::vector<io::DecFormat>& formats) {
+  std::error_code ignored;
+  if (fs::exists(s.output, ignored) && !fs::is_directory(s.output, ignored)) {
+    throw Failure(Exit::bad_input, fmt::format("{}: is no folder; expected the name of one, or of none", s.output));
+  }
+  for (const io::DecFormat format : formats) {
+    for (const std::string_view name : io::dec_file_names(format, !s.layers.empty())) {
+      const std::string path = (fs::path(s.output) / name).string();
+      if (same_file(path, s.input))
+        throw Failure(Exit::bad_usage, fmt::format("dec: --output: {} is the input mesh", path));
+      if (same_file(path, s.layers))
+        throw Failure(Exit::bad_usage, fmt::format("dec: --output: {} is the file of --layers", path));
+    }
+  }
+}
+
+/// Nothing without --layers.
+std::optional<Columns> make_columns(const DecSettings& s, const Input& input, const DecComplex& complex,
+                                    const PowerCells& cells) {
+  if (s.layers.empty()) return {};
+  expect_plane(input.mesh(), s.input, "--layers");
+  const Layers layers = or_fail(io::read_layers(s.layers, input.file, input.loaded));
+  auto made = columns(input.mesh(), complex, cells, layers, {s.pinch_out, input.names.get()});
+  if (!made) {
+    InputError error = made.error();
+    if (error.where.empty()) error.where = s.input;
+    throw as_failure(error);
+  }
+  return *std::move(made);
+}
+
+}  // namespace
+
+Exit run_dec(const Arguments& arguments) {
+  Command command("dec",
+                  "Writes what a solver needs of a mesh: incidence d0 and d1, diagonal stars with signed power duals, "
+                  "orthocenters, "
+                  "weighted midpoints, transmissibilities, and power cells within the domain; with layers also the "
+                  "columns of cells that MODFLOW 6 and TOUGH compute on.");
+  DecSettings s;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
+  const std::vector<io::DecFormat> formats = parse_formats(s.formats);
+  check_layers(command, s, formats);
+  expect_without(command, s.metric, "--layers");
+  check_folder(s, formats);
+
+  const std::unique_ptr<Executor> threads = make_threads(s.threads);
+  Input input = read_input(s.input, {s.projection, {}, threads.get(), true});
+  print_warnings(input.warnings());
+  const std::optional<Mesh> plain = take_to_metric(input, s.metric);
+  DecComplex complex = dec(input.mesh());
+  PowerCells cells = power_cells(input.mesh(), complex);
+  if (s.metric) {
+    complex = mapped_back(std::move(complex), *s.metric);
+    cells = mapped_back(std::move(cells), *s.metric);
+  }
+  const DecSummary summary = summarize(input.mesh(), complex);
+  const std::optional<Columns> under_layers = make_columns(s, input, complex, cells);
+  const Columns* const columns = under_layers ? &*under_layers : nullptr;
+  DecRecord record = {s.input, summary, cells, columns, {}};
+  print_warnings(dec_warnings(record));
+  record.files =
+      or_fail(io::write_dec(s.output, plain ? *plain : input.mesh(), complex, cells,
+                            {formats, input.points, input.file.z, columns, input.names.get(), threads.get()}));
+  print(s.json ? dec_json(record) : dec_text(record));
+  return Exit::done;
+}
+
+}  // namespace temper::app

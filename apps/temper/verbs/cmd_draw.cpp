@@ -1,0 +1,170 @@
+// temper draw IN -o P.svg: one mesh, or two side by side.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "console.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "suggest.hpp"
+#include "temper/draw.hpp"
+#include "temper/quality.hpp"
+
+namespace temper::app {
+namespace {
+
+struct DrawSettings {
+  std::string projection;
+  std::string input, before, output, color;
+  DrawOptions options;
+  bool no_primal = false, no_dual = false, no_weights = false, no_bad = false, no_rings = false, no_regions = false;
+};
+
+void add_options(Command& command, DrawSettings& s) {
+  command.group("Files");
+  add_argument(command, "IN", s.input, "the mesh to draw").require();
+  add_projection(command, s.projection);
+  add_text(command, "-o,--output", "FILE", s.output, "where the picture goes: .svg, .png or .pdf").require();
+  add_text(command, "--before", "IN0", s.before, "a mesh to draw to the left of IN, at the same scale");
+  command.group("Picture");
+  add_numbers(
+      command, "--view", "LON,LAT", 2,
+      [&s](const std::vector<double>& v) {
+        s.options.view = Vec2{v[0], v[1]};
+      },
+      "of a sphere: the longitude and latitude of the middle of the picture, in degrees, whose near half is drawn; "
+      "none: "
+      "the middle of a mesh that is a part of the sphere, else 0,0");
+  command.add_flag("--no-primal", s.no_primal, "without the triangles' edges");
+  command.add_flag("--no-dual", s.no_dual, "without the dual edges, between orthocenters");
+  command.add_flag("--no-weights", s.no_weights, "without the weight circles (green positive, red negative)");
+  command.add_flag("--no-bad", s.no_bad, "do not fill triangles that are not well-centered");
+  command.add_flag("--no-rings", s.no_rings, "do not ring vertices that nearly coincide with a neighbour");
+  command.add_flag("--no-regions", s.no_regions, "do not tint regions");
+  std::string colors;
+  for (const TriangleValue& value : triangle_values()) colors += std::string(value.name) + "|";
+  add_text(command, "--color", colors + "NAME", s.color,
+           "fill triangles by a number, dark for the least: the least of h/l, d/l and 1 - d/l; the largest angle; the "
+           "mean length of the edges; the region; or data of triangles in the files");
+  command.add_flag("--numbers", s.options.vertex_numbers, "number the vertices, from 0");
+  add_number(command, "--weight-scale", s.options.weight_scale, kPositive, "factor on the radius of weight circles");
+  add_numbers(
+      command, "--zoom", "x0,y0,x1,y1", 4,
+      [&s](const std::vector<double>& v) {
+        s.options.zoom = Box{{v[0], v[1]}, {v[2], v[3]}};
+      },
+      "draw only what meets this rectangle; of a sphere in the picture, from its middle to the right and up");
+  add_number(command, "--width", s.options.width, kPositive, "the width of one panel, in CSS pixels");
+  add_text(command, "--title", "TEXT", s.options.title, "a title under the picture");
+  command.group("Help");
+  command.add_help({"IN -o FILE [options]",
+                    "  temper draw in.vtu -o mesh.svg\n"
+                    "  temper draw in.vtu -o quality.svg --color quality --no-weights\n"
+                    "  temper draw out.vtu --before in.vtu -o both.svg --title \"before and after\"\n"
+                    "  temper draw in.vtu -o corner.svg --zoom 0,0,0.5,0.5 --numbers --no-weights\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+}
+
+std::vector<double> as_doubles(const io::DataArray& data) {
+  return std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); }, data.values);
+}
+
+/// A measure of the library, or data of triangles.
+IdVector<TriangleId, double> values_of(const Input& input, const std::string& name) {
+  const auto known = std::ranges::find(triangle_values(), name, &TriangleValue::name);
+  IdVector<TriangleId, double> values;
+  if (known != triangle_values().end()) {
+    for (const TriangleId t : input.mesh().triangles()) values.push_back(known->of(input.mesh(), t));
+    return values;
+  }
+  const std::vector<io::DataArray>& data = input.file.cell_data;
+  const auto named = std::ranges::find(data, name, &io::DataArray::name);
+  if (named == data.end() || named->components != 1) {
+    std::vector<std::string_view> names;
+    for (const TriangleValue& m : triangle_values()) names.push_back(m.name);
+    for (const io::DataArray& d : data) {
+      if (d.components == 1) names.push_back(d.name);
+    }
+    throw Failure(Exit::bad_usage, fmt::format("{}: --color: there is no number '{}' of triangles; there are {}",
+                                               input.path, name, join(names)));
+  }
+  for (const double value : as_doubles(*named)) values.push_back(value);
+  return values;
+}
+
+/// The colors of the panels, from left to right.
+void set_colors(DrawOptions& options, const std::string& name, std::initializer_list<const Input*> panels) {
+  if (name.empty()) return;
+  const auto known = std::ranges::find(triangle_values(), name, &TriangleValue::name);
+  options.colors = TriangleColors{known != triangle_values().end() ? std::string(known->label) : name, {}};
+  for (const Input* panel : panels) options.colors->values.push_back(values_of(*panel, name));
+}
+
+void check_zoom(const DrawOptions& options) {
+  if (!options.zoom) return;
+  const Box& box = *options.zoom;
+  if (box.low.x < box.high.x && box.low.y < box.high.y) return;
+  throw Failure(Exit::bad_usage, "draw: --zoom: it must have x0 < x1 and y0 < y1\nSee temper draw --help");
+}
+
+void check_view(const DrawOptions& options, const Input& input) {
+  if (!options.view) return;
+  if (!(std::abs(options.view->x) <= 360) || !(std::abs(options.view->y) <= 90)) {
+    throw Failure(Exit::bad_usage,
+                  "draw: --view: expected a longitude from -360 to 360 and a latitude from -90 to 90\nSee temper draw "
+                  "--help");
+  }
+  if (!input.mesh().space().is_plane()) return;
+  throw Failure(Exit::bad_usage,
+                fmt::format("{}: --view: the mesh is one of the plane, expected one of the sphere", input.path));
+}
+
+void check_same_space(const Input& before, const Input& after) {
+  if (before.mesh().space().kind() == after.mesh().space().kind()) return;
+  const auto name = [](const Input& input) {
+    constexpr const char* kNames[] = {"the plane", "the sphere", "a periodic plane"};
+    return kNames[static_cast<std::size_t>(input.mesh().space().kind())];
+  };
+  throw Failure(Exit::bad_input, fmt::format("{}: is a mesh of {}, but {} is one of {}; expected two of a kind",
+                                             before.path, name(before), after.path, name(after)));
+}
+
+}  // namespace
+
+Exit run_draw(const Arguments& arguments) {
+  Command command("draw",
+                  "Draws triangles, the dual between orthocenters, and weights as circles, as SVG, PNG or PDF.");
+  DrawSettings s;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
+  s.options.primal = !s.no_primal;
+  s.options.dual = !s.no_dual;
+  s.options.weights = !s.no_weights;
+  s.options.bad_triangles = !s.no_bad;
+  s.options.near_coincident = !s.no_rings;
+  s.options.regions = !s.no_regions;
+  check_zoom(s.options);
+  Outputs outputs("draw");
+  outputs.expect_picture("--output", s.output, s.before.empty() ? Arguments{s.input} : Arguments{s.input, s.before});
+
+  const Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
+  print_warnings(input.warnings());
+  check_view(s.options, input);
+  if (s.before.empty()) {
+    set_colors(s.options, s.color, {&input});
+    outputs.write_picture(s.output, draw_svg(input.mesh(), s.options));
+  } else {
+    const Input before = read_input(s.before, {.projection = same_projection(input, s.projection), .spheres = true});
+    print_warnings(before.warnings());
+    check_same_space(before, input);
+    set_colors(s.options, s.color, {&before, &input});
+    outputs.write_picture(s.output, draw_before_after_svg(before.mesh(), input.mesh(), s.options));
+  }
+  return Exit::done;
+}
+
+}  // namespace temper::app

@@ -1,0 +1,87 @@
+// temper explain IN: for every triangle that is not well-centered the reason, and what would cure it.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "console.hpp"
+#include "files/input.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "reports/quality_report.hpp"
+#include "reports/reports.hpp"
+#include "temper/lp.hpp"
+
+namespace temper::app {
+namespace {
+
+struct ExplainSettings {
+  std::string projection;
+  std::string input;
+  std::uint64_t limit = 10;
+  std::uint64_t whole = ExplainOptions().whole;
+  bool json = false;
+};
+
+void add_options(Command& command, ExplainSettings& s) {
+  command.group("Report");
+  add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_projection(command, s.projection);
+  command.add_flag("--json", s.json, "all reasons as JSON, with vertices and triangles counted from 0");
+  add_count(command, "--limit", s.limit, 0,
+            "print at most this many conflicts and this many places where weights exist; cures are searched for "
+            "these only");
+  add_count(command, "--whole", s.whole, 0,
+            "look for weights of the whole mesh when it has at most this many triangles, or this many bad ones");
+  command.group("Help");
+  command.add_help({"IN [options]",
+                    "  temper example sparse-horseshoe -o shoe.vtu && temper explain shoe.vtu\n"
+                    "  temper explain shoe.vtu --json\n"
+                    "  # a mesh whose weights have not been found yet\n"
+                    "  temper example annulus -o ring.vtu && temper explain ring.vtu --limit 3\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+}
+
+/// One line on a terminal; nothing in a pipe.
+class Counter {
+ public:
+  Continue show(std::size_t done, std::size_t all) {
+    if (!enabled_) return Continue::yes;
+    fmt::print(stderr, "\rexplained {} of {} triangles\x1b[K", done, all);
+    std::fflush(stderr);
+    return Continue::yes;
+  }
+  void clear() const {
+    if (enabled_) fmt::print(stderr, "\r\x1b[K");
+  }
+
+ private:
+  bool enabled_ = error_is_terminal();
+};
+
+}  // namespace
+
+Exit run_explain(const Arguments& arguments) {
+  Command command(
+      "explain",
+      "Explains every triangle that is not well-centered. The reason is either a small set of triangles that no "
+      "weights suit, with a proof, or that weights exist but have not been found. Cures are tried on the triangles "
+      "around. Exits with 0 whatever it finds; temper check --require is the test.");
+  ExplainSettings s;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
+
+  const Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
+  print_warnings(input.warnings());
+  const auto solver = clp_solver();
+  Counter counter;
+  ExplainOptions options;
+  options.cures = s.limit;
+  options.whole = s.whole;
+  options.progress = [&counter](std::size_t done, std::size_t all) { return counter.show(done, all); };
+  const Explanation explanation = or_fail(explain(input.mesh(), *solver, options));
+  counter.clear();
+  print(s.json ? explanation_json(explanation, input) : explanation_text(explanation, input, s.limit, text_style()));
+  return Exit::done;
+}
+
+}  // namespace temper::app

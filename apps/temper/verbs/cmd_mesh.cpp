@@ -1,0 +1,364 @@
+// temper mesh OUTLINE -o MESH --size h: divides the outline, places points inside, optimises, writes, reports. With
+// --sphere the same on the globe, or on the part of it that an outline and coasts leave.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <optional>
+
+#include "console.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "help/help.hpp"
+#include "interrupt.hpp"
+#include "options/options.hpp"
+#include "reports/quality_report.hpp"
+#include "reports/reports.hpp"
+#include "temper/draw.hpp"
+#include "temper/geometry.hpp"
+#include "temper/mesher.hpp"
+#include "temper/projection.hpp"
+#include "temper/quality.hpp"
+#include "threads.hpp"
+#include "verbs/progress_line.hpp"
+#include "verbs/time_limit.hpp"
+
+namespace temper::app {
+namespace {
+
+constexpr Choice<Enclosed> kEnclosed[] = {
+    {"by-points", Enclosed::by_points}, {"all", Enclosed::all}, {"alternate", Enclosed::alternate}};
+
+struct MeshSettings {
+  TimeLimit since;
+  std::string input, coast, lines, size, size_data = "size", report, picture, projection, region_sizes;
+  MeshOutput output;
+  MesherOptions options;
+  std::optional<double> radius;
+  std::uint64_t threads = 0;
+  bool sphere = false, no_optimize = false, quiet = false;
+};
+
+void add_files(Command& command, MeshSettings& s) {
+  add_argument(command, "OUTLINE", s.input,
+               "the outline: .poly of Triangle, geometry of JIGSAW, or GeoJSON; its content tells which. With --sphere "
+               "it may be left out");
+  add_mesh_output(command, s.output, "MESH");
+  command.option("--output").require();
+  add_text(command, "--report", "FILE", s.report, "a JSON report: what was read and made, before and after optimising");
+  add_text(command, "--draw", "FILE", s.picture, "a picture (.svg, .png, .pdf) of the mesh and its dual");
+  command.add_flag("--quiet", s.quiet, "print warnings and errors only");
+}
+
+void add_sizes(Command& command, MeshSettings& s) {
+  add_text(command, "--size", "X|FILE", s.size,
+           "edge length wanted, in the units of the outline or in metres; or a mesh file with a size at each of its "
+           "points")
+      .require();
+  add_text(command, "--size-field-data", "NAME", s.size_data, "the point data of that file with the sizes")
+      .default_text = "size";
+  add_number(command, "--grade", s.options.grade, kPositive,
+             "growth of the size per unit of length, away from short edges and narrow places");
+  add_text(command, "--region-size", "REGION,SIZE,...", s.region_sizes,
+           "edge length wanted in these regions, where it is less than --size");
+  add_choice(command, "--enclosed", kEnclosed, s.options.enclosed,
+             "what counts as inside. all: everything that segments enclose, except holes; alternate: nested loops "
+             "take turns (land, lake, island); by-points: as all when the file has hole or region points, else as "
+             "alternate. Files with polygons or parts say it themselves")
+      .excludes = "--sphere";
+  add_text(command, "--projection", "NAME[:lon,lat]", s.projection,
+           "the map for points in longitude and latitude: stereographic, mercator or transverse-mercator about "
+           "this center (default: the middle of the points), to metres; none: treat degrees as coordinates of a "
+           "plane")
+      .excludes = "--sphere";
+}
+
+void add_sphere(Command& command, MeshSettings& s) {
+  command.add_flag(
+      "--sphere", s.sphere,
+      "mesh the sphere, whole or what OUTLINE encloses of it. Outlines are in degrees, their segments arcs "
+      "of great circles; of the two sides of a closed line it encloses the smaller");
+  add_text(command, "--coast", "FILE", s.coast, "coasts: what their polygons and closed lines enclose is left out");
+  add_text(command, "--lines", "FILE", s.lines, "rivers and other lines: they become constrained edges");
+  add_number(command, "--radius", s.radius, kPositive,
+             "the radius of the sphere (default: that of the size field, or 6371000)");
+}
+
+void add_optimisation(Command& command, MeshSettings& s) {
+  command.add_flag("--no-optimize", s.no_optimize, "write the Delaunay mesh as it is");
+  add_count(command, "--attempts", s.options.attempts, 1,
+            "while triangles stay bad, divide the outline finer around them and mesh it again; at most this many "
+            "times");
+  add_number(command, "--time-limit", s.options.time_limit, kNotNegative,
+             "stop after this many seconds, with the best mesh so far, if there is one; 0: no limit");
+  add_count(command, "--threads", s.threads, 0, "threads; 0: as many as the machine has; the result is the same");
+}
+
+void add_options(Command& command, MeshSettings& s) {
+  command.group("Files");
+  add_files(command, s);
+  command.group("Sizes and shape");
+  add_sizes(command, s);
+  command.group("Sphere");
+  add_sphere(command, s);
+  command.group("Optimisation");
+  add_optimisation(command, s);
+  command.group("Help");
+  command.add_help({"[OUTLINE] -o MESH --size h [options]",
+                    "  temper mesh lake.poly -o lake.vtu --size 0.05\n"
+                    "  temper mesh lake.poly -o lake.msh --size 0.05 --grade 0.15 --draw lake.svg\n"
+                    "  temper mesh plan.poly -o plan.vtu --size 1 --region-size 2,0.25\n"
+                    "  temper mesh coast.geojson -o coast.vtu --size 2000 --projection stereographic\n"
+                    "  temper mesh basin.msh -o basin.vtu --size 500 --projection transverse-mercator:9,0\n"
+                    "  temper mesh --sphere -o ocean.vtu --size 100000 --coast land.geojson --lines rivers.geojson\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal}});
+}
+
+[[noreturn]] void refuse_usage(const std::string& message) {
+  throw Failure(Exit::bad_usage, "mesh: " + message + "\nSee temper mesh --help");
+}
+
+std::vector<RegionSize> region_sizes(const std::string& text) {
+  if (text.empty()) return {};
+  const auto numbers = parse_numbers(text);
+  std::vector<RegionSize> sizes;
+  for (std::size_t i = 0; numbers && i + 1 < numbers->size(); i += 2) {
+    const double region = (*numbers)[i], size = (*numbers)[i + 1];
+    if (region != std::floor(region) || std::abs(region) > 2e9 || !(size > 0)) break;
+    sizes.push_back({static_cast<std::int32_t>(region), size});
+  }
+  if (!numbers || numbers->empty() || 2 * sizes.size() != numbers->size()) {
+    refuse_usage(
+        fmt::format("--region-size: expected REGION,SIZE,... with whole regions and sizes above 0, found '{}'", text));
+  }
+  return sizes;
+}
+
+void check_usage(const Command& command, const MeshSettings& s) {
+  if (s.sphere) return;
+  if (s.input.empty()) refuse_usage("OUTLINE is missing; without one there is a mesh of a whole sphere (--sphere)");
+  for (const char* option : {"--coast", "--lines", "--radius"}) {
+    if (command.was_given(option)) refuse_usage(std::string(option) + " is for --sphere");
+  }
+}
+
+/// The number that --size is, if it is one; else it is a file.
+std::optional<double> size_number(const MeshSettings& s) {
+  const auto number = parse_number(s.size);
+  if (number && !(*number > 0 && std::isfinite(*number)))
+    refuse_usage("--size: expected a number above 0, or a mesh file with sizes, found '" + s.size + "'");
+  return number;
+}
+
+/// The sizes of a file; `degrees`: where its points go if they are longitude and latitude.
+SizeField read_sizes(const MeshSettings& s, const std::string& degrees, Executor* executor) {
+  io::MeshFile file = or_fail(io::read(s.size, {executor}));
+  const std::string projection = file.geographic ? degrees : "";
+  const auto read = [&file](const std::string&) { return std::move(file); };
+  ReadSizeField sizes = read_size_field(s.size, s.size_data, {projection, {}, executor, true, read});
+  print_warnings(sizes.warnings);
+  return std::move(sizes.field);
+}
+
+[[noreturn]] void wrong_space(const MeshSettings& s, const std::string& found, const std::string& expected) {
+  throw Failure(Exit::bad_input, s.size + ": the sizes are on " + found + "; expected " + expected);
+}
+
+/// The outline in the plane, and how it got there. Longitude and latitude are no plane: nobody's angles are right
+/// there.
+MapUsed take_to_plane(const MeshSettings& s, io::OutlineFile& file) {
+  expect_projection_of_outline(s.input, file.geographic, s.projection);
+  if (s.projection.empty() || s.projection == io::kNoProjection) return {};
+  MapUsed map;
+  map.projection = or_fail(parse_projection(s.projection, file.outline.points));
+  map.lon_lat = file.outline.points;
+  file.outline = or_fail(project(file.outline, *map.projection));
+  return map;
+}
+
+void measure_distortion(MapUsed& map, const Mesh& mesh) {
+  if (!map.projection) return;
+  for (const VertexId v : mesh.vertices()) {
+    const double scale = scale_factor(*map.projection, inverse(*map.projection, mesh.position(v)));
+    const bool first = v.index == 0;
+    map.least_scale = first ? scale : std::min(map.least_scale, scale);
+    map.largest_scale = first ? scale : std::max(map.largest_scale, scale);
+  }
+}
+
+void measure_covered(MapUsed& map, const Mesh& mesh) {
+  double covered = 0;
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [a, b, c] = mesh.corners(t);
+    covered += solid_angle(mesh.lifted_point(a), mesh.lifted_point(b), mesh.lifted_point(c));
+  }
+  map.covered = covered / (4 * std::numbers::pi);
+}
+
+/// The mesh with the edges of the outline as tagged lines. Segments without a tag get one all the same, or they would
+/// be lost in a file: 1 on the boundary, as Triangle does, and the first number that is free inside.
+io::MeshFile file_of(const OutlineMesh& made, const MapUsed& map) {
+  io::MeshFile file = io::from_mesh(made.mesh);
+  file.lines.clear();
+  file.line_tags.clear();
+  std::int32_t inside = 2;
+  for (const MeshLine& line : made.lines) inside = std::max(inside, line.tag + 1);
+  for (const MeshLine& line : made.lines) {
+    const HalfedgeId h = made.mesh.find_halfedge(line.a, line.b);
+    const bool boundary = !h.valid() || made.mesh.is_boundary(h);
+    file.lines.push_back({static_cast<std::int32_t>(line.a.index), static_cast<std::int32_t>(line.b.index)});
+    file.line_tags.push_back(line.tag != 0 ? line.tag : boundary ? 1 : inside);
+  }
+  if (map.radius > 0) {
+    for (std::size_t p = 0; p < map.lon_lat.size(); ++p) {  // bit for bit
+      const VertexId v = made.vertex_of_point[p];
+      if (v.valid()) file.points[v.index] = map.lon_lat[p];
+    }
+  }
+  if (!map.projection) return file;
+  std::vector<double> longitudes, latitudes;
+  const LongitudeTurn turn(map.lon_lat);
+  for (const VertexId v : made.mesh.vertices()) {
+    const Vec2 place = turn(inverse(*map.projection, made.mesh.position(v)));
+    longitudes.push_back(place.x);
+    latitudes.push_back(place.y);
+  }
+  for (std::size_t p = 0; p < map.lon_lat.size(); ++p) {  // bit for bit
+    const VertexId v = made.vertex_of_point[p];
+    if (v.valid()) longitudes[v.index] = map.lon_lat[p].x, latitudes[v.index] = map.lon_lat[p].y;
+  }
+  file.point_data.push_back({"longitude", 1, std::move(longitudes)});
+  file.point_data.push_back({"latitude", 1, std::move(latitudes)});
+  return file;
+}
+
+using Meshing = std::function<Expected<OutlineMesh>(const MesherOptions&, const OptimizeHooks&)>;
+
+OutlineMesh run_library(const MeshSettings& s, MesherOptions options, Executor* executor, const Meshing& meshing) {
+  ProgressLine line(!s.quiet && error_is_terminal());
+  const Observer observer = [&line](const Progress& progress) {
+    line.show(progress);
+    return interrupted() ? Continue::no : Continue::yes;
+  };
+  options.time_limit = s.since.left(options.time_limit);
+  options.region_sizes = region_sizes(s.region_sizes);
+  if (s.no_optimize) options.optimize.reset();
+  return or_fail(meshing(options, {.executor = executor, .observer = observer}));
+}
+
+/// What was read, where it is, and the mesh of it.
+struct Result {
+  std::vector<NamedOutline> inputs;
+  MapUsed map;
+  OutlineMesh made;
+};
+
+io::OutlineFile read_outline_file(const std::string& path) {
+  io::OutlineFile file = or_fail(io::read_outline(path));
+  print_warnings(file.warnings);
+  return file;
+}
+
+Result mesh_plane(const MeshSettings& s, Executor* executor) {
+  Result result;
+  result.inputs.push_back({"outline", read_outline_file(s.input)});
+  io::OutlineFile& input = result.inputs[0].file;
+  result.map = take_to_plane(s, input);
+  MesherOptions options = s.options;
+  if (const auto number = size_number(s)) {
+    options.size = *number;
+  } else {
+    const auto& map = result.map.projection;
+    options.field = read_sizes(s, map ? projection_text(*map) : std::string(io::kNoProjection), executor);
+    const Space space = options.field->mesh().space();
+    if (!space.is_plane()) wrong_space(s, "a sphere", "a plane, or --sphere");
+    if (space.is_periodic()) wrong_space(s, "a periodic plane", "a plane without periods");
+  }
+  result.made = run_library(s, std::move(options), executor,
+                            [&](const auto& o, const auto& hooks) { return mesh_outline(input.outline, o, hooks); });
+  measure_distortion(result.map, result.made.mesh);
+  return result;
+}
+
+Result mesh_globe(const MeshSettings& s, Executor* executor) {
+  Result result;
+  SphereOutline sphere;
+  sphere.radius = s.radius.value_or(sphere.radius);
+  MesherOptions options = s.options;
+  if (const auto number = size_number(s)) {
+    options.size = *number;
+  } else {
+    options.field = read_sizes(s, fmt::format("{}:radius={}", io::kOntoSphere, sphere.radius), executor);
+    const Space space = options.field->mesh().space();
+    if (space.is_plane()) wrong_space(s, "a plane", "a sphere");
+    if (s.radius && *s.radius != space.radius())
+      wrong_space(s, fmt::format("a sphere of radius {}", space.radius()), fmt::format("one of {}", *s.radius));
+    sphere.radius = space.radius();
+  }
+  const auto take = [&](const char* name, const std::string& path, Outline& outline) {
+    if (path.empty()) return;
+    result.inputs.push_back({name, read_outline_file(path)});
+    outline = result.inputs.back().file.outline;
+    result.map.lon_lat.insert(result.map.lon_lat.end(), outline.points.begin(), outline.points.end());
+  };
+  take("outline", s.input, sphere.basins);
+  take("coast", s.coast, sphere.coasts);
+  take("lines", s.lines, sphere.lines);
+  result.map.radius = sphere.radius;
+  result.made = run_library(s, std::move(options), executor,
+                            [&](const auto& o, const auto& hooks) { return mesh_sphere(sphere, o, hooks); });
+  measure_covered(result.map, result.made.mesh);
+  return result;
+}
+
+Exit mesh(const Command& command, const MeshSettings& s, Outputs& outputs) {
+  const std::unique_ptr<Executor> threads = make_threads(s.threads);
+  catch_interrupts();
+  const auto [inputs, map, made] = s.sphere ? mesh_globe(s, threads.get()) : mesh_plane(s, threads.get());
+  QualityOptions measuring;
+  measuring.executor = threads.get();
+  const Quality after = quality(made.mesh, measuring);
+
+  print_warnings(outputs.write_mesh(s.output, file_of(made, map), threads.get()));
+  const std::vector<UsedOption> options = used_options(command);
+  std::vector<std::string> arguments;
+  if (!s.input.empty()) arguments.push_back(s.input);
+  const MeshRecord record = {command_line("mesh", arguments, options), options, inputs, map, made, after};
+  if (!s.report.empty()) outputs.write_text(s.report, mesh_json(record));
+  if (!s.picture.empty()) {
+    DrawOptions drawing;
+    drawing.title =
+        fmt::format("{}: {} triangles, {} not well-centered", s.output.path, after.triangles, bad_triangles(after));
+    outputs.write_picture(s.picture, draw_svg(made.mesh, drawing));
+  }
+  if (!s.quiet) print(mesh_text(record) + fmt::format("\n{}: {}\n", s.output.path, verdict(after)));
+  return stopped_early(made.report.stopped) ? Exit::stopped_early : Exit::done;
+}
+
+}  // namespace
+
+Exit run_mesh(const Arguments& arguments) {
+  Command command(
+      "mesh",
+      "Meshes the inside of an outline and optimises that until every triangle is well-centered. Points of the outline "
+      "stay bit for bit; of one in longitude and latitude, these do. With --sphere, a globe and what coasts leave of "
+      "it.");
+  MeshSettings s;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
+  check_usage(command, s);
+  Outputs outputs("mesh");
+  // The points of a .poly may be in the .node beside it.
+  const std::vector<std::string> inputs = {s.input, std::filesystem::path(s.input).replace_extension(".node").string(),
+                                           s.coast, s.lines, s.size};
+  outputs.expect_mesh(s.output, inputs);
+  outputs.expect_text("--report", s.report, inputs);
+  outputs.expect_picture("--draw", s.picture, inputs);
+  return mesh(command, s, outputs);
+}
+
+}  // namespace temper::app

@@ -1,0 +1,99 @@
+// temper replay IN TRACE -o OUT: does again what a trace says, and writes what temper optimize wrote.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+#include "console.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "files/trace_jsonl.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "reports/reports.hpp"
+#include "temper/trace.hpp"
+
+namespace temper::app {
+namespace {
+
+struct ReplaySettings {
+  std::string projection;
+  std::string input, trace;
+  MeshOutput output;
+  std::optional<int> sweeps;
+  std::vector<std::string> point_data;
+  bool quiet = false;
+};
+
+void add_options(Command& command, ReplaySettings& s) {
+  command.group("Files");
+  add_argument(command, "IN", s.input, "the mesh that was optimized").require();
+  add_projection(command, s.projection);
+  add_argument(command, "TRACE", s.trace, "the file that temper optimize IN --trace wrote").require();
+  add_mesh_output(command, s.output, "OUT");
+  command.option("--output").require();
+  add_point_data(command, s.point_data);
+  add_count(command, "--sweeps", s.sweeps, 0, "stop at the end of this sweep; 0: after IN was made regular");
+  command.add_flag("--quiet", s.quiet, "print warnings and errors only");
+  command.group("Help");
+  command.add_help({"IN TRACE -o OUT [options]",
+                    "  temper optimize in.vtu -o a.vtu --trace t.jsonl && temper replay in.vtu t.jsonl -o b.vtu\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal}});
+}
+
+/// The library counts events; a file has lines.
+[[noreturn]] void fail_at_event(const std::string& path, const InputError& error) {
+  constexpr std::string_view kEvent = "event ";
+  std::size_t index = 0;
+  const std::string_view where = error.where;
+  if (where.starts_with(kEvent)) std::from_chars(where.data() + kEvent.size(), where.data() + where.size(), index);
+  throw Failure(Exit::bad_input, trace_place(path, index) + ": " + error.message);
+}
+
+/// Events of the sweeps that are asked for: a prefix, because sweeps only go up.
+std::span<const TraceEvent> wanted(const std::vector<TraceEvent>& events, std::optional<int> sweeps) {
+  const auto past =
+      std::find_if(events.begin(), events.end(), [&](const TraceEvent& e) { return sweeps && e.sweep > *sweeps; });
+  return {events.begin(), past};
+}
+
+}  // namespace
+
+Exit run_replay(const Arguments& arguments) {
+  Command command(
+      "replay",
+      "Repeats what a trace records, without any optimization, and writes the mesh: the same bytes that temper "
+      "optimize wrote.");
+  ReplaySettings s;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
+  Outputs outputs("replay");
+  outputs.expect_mesh(s.output);
+
+  Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
+  print_warnings(input.warnings());
+  const io::DataRules rules = data_rules(s.point_data, input.file);
+  const Trace trace = read_trace(s.trace, input);
+  const std::vector<TraceEvent>& events = trace.events;
+  const auto applied = wanted(events, s.sweeps);
+  const Expected<Replay> replayed = replay_with_vertices(input.mesh(), applied, input.names.get());
+  if (!replayed) fail_at_event(s.trace, replayed.error());
+
+  if (applied.size() == events.size() && !is_end_of(trace.end, replayed->mesh)) {
+    throw Failure(Exit::bad_input,
+                  trace_place(s.trace, events.size()) + ": is the end of another mesh than the events make");
+  }
+
+  const std::size_t known = input.file.warnings.size();
+  io::update(input.file, input.loaded, replayed->mesh, replayed->vertices, {rules});
+  print_warnings(std::span(input.file.warnings).subspan(known));
+  print_warnings(outputs.write_mesh(s.output, input.file));
+  if (!s.quiet) {
+    print(fmt::format("{} of {} events: {} vertices, {} triangles\nwrote {}\n", applied.size(), events.size(),
+                      replayed->mesh.n_vertices(), replayed->mesh.n_triangles(), s.output.path));
+  }
+  return Exit::done;
+}
+
+}  // namespace temper::app

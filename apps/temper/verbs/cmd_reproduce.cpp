@@ -1,0 +1,235 @@
+// temper reproduce [FIG...] -o DIR: the figures and claims of the paper, made again; see gallery/.
+//
+// After each figure its pictures are written, then index.html, gallery.json, claims.md and settings.md of all figures
+// so far: whoever stops the run has a folder of whole files that fit together.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "console.hpp"
+#include "files/outputs.hpp"
+#include "gallery/reading.hpp"
+#include "gallery/results.hpp"
+#include "gallery/selection.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "options/table_options.hpp"
+#include "temper/version.hpp"
+
+namespace temper::app {
+namespace {
+
+namespace fs = std::filesystem;
+using gallery::Effort, gallery::Figure, gallery::Result, gallery::Tally;
+
+struct Settings {
+  std::vector<std::string> figures;
+  std::string output;
+  bool reduced = false, list = false, require_claims = false;
+  TableOptions readings;
+};
+
+/// One reading in the place of those of the figures: what is left open, as for optimize.
+void add_readings(Command& command, TableOptions& target) {
+  command.group("How the paper is read; what is not given is as each figure has it");
+  for (const std::string_view name : gallery::kOpen) add_option(command, *find_option(name), target);
+}
+
+gallery::Reading reading(const Command& command, const TableOptions& target) {
+  gallery::Reading given;
+  for (const std::string_view name : gallery::kOpen) {
+    const OptionRow& row = *find_option(name);
+    if (was_given(command, row)) given.push_back({&row, row.get(target.options)});
+  }
+  return given;
+}
+
+void add_options(Command& command, Settings& s) {
+  command.group("Options");
+  add_texts(command, "FIG", "", Values::words, s.figures,
+            "figures by the paper's numbers: 6, or a list 6,8, or a range 16-18; none: all, "
+            "which takes minutes");
+  add_text(command, "-o,--output", "DIR", s.output,
+           "the folder for the pictures, index.html, gallery.json, claims.md and settings.md; made when it is missing, "
+           "and files of "
+           "these "
+           "names are replaced");
+  command.add_flag("--reduced", s.reduced, "every claim, but fewer samples and shorter runs");
+  command.add_flag("--require-claims", s.require_claims,
+                   "exit with 3 when a claim does not hold; everything is written first");
+  command.add_flag("--list", s.list, "list the figures");
+  add_readings(command, s.readings);
+  command.add_help({"[FIG ...] -o DIR [options]",
+                    "  temper reproduce --list\n"
+                    "  temper reproduce 6 -o gallery\n"
+                    "  temper reproduce 3,6-8 -o gallery --reduced\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
+}
+
+[[noreturn]] void bad_usage(const std::string& message) {
+  throw Failure(Exit::bad_usage, "reproduce: " + message + "\nSee temper reproduce --help");
+}
+
+void list(std::span<const Figure> figures) {
+  for (const Figure& figure : figures) print(fmt::format("{:>2}  {}\n", figure.number, figure.title));
+}
+
+void make_folder(const std::string& path) {
+  std::error_code error;
+  if (fs::exists(path, error) && !fs::is_directory(path, error))
+    throw Failure(Exit::bad_input, path + ": cannot be written: it is not a directory");
+  fs::create_directories(path, error);
+  if (error) throw Failure(Exit::bad_input, path + ": cannot be written: " + error.message());
+}
+
+/// Ctrl-C and its like end the program when the files under way are whole.
+class SignalsHeld {
+ public:
+  SignalsHeld() {
+    sigset_t held;
+    sigemptyset(&held);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&held, signal);
+    sigprocmask(SIG_BLOCK, &held, &before_);
+  }
+  ~SignalsHeld() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+/// The folder that a gallery goes to.
+class Folder {
+ public:
+  Folder(std::string path, Effort effort) : path_(std::move(path)), effort_(effort) {
+    make_folder(path_);
+    for (const char* name : {"index.html", "gallery.json", "claims.md", "settings.md"})
+      outputs_.expect_text("--output", file(name), {});
+  }
+
+  [[nodiscard]] std::string file(const std::string& name) const { return (fs::path(path_) / name).string(); }
+
+  /// The pictures of the last result, and what tells of all.
+  void write(std::span<const Result> results) {
+    const SignalsHeld until_whole;
+    for (const gallery::Picture& picture : results.back().page.pictures)
+      outputs_.write_text(file(picture.name + ".svg"), picture.svg);
+    outputs_.write_text(file("index.html"), gallery::index_html(results, effort_, version()));
+    outputs_.write_text(file("gallery.json"), gallery::gallery_json(results, version()));
+    outputs_.write_text(file("claims.md"), gallery::claims_markdown(results));
+    outputs_.write_text(file("settings.md"), gallery::settings_markdown(results));
+  }
+
+ private:
+  std::string path_;
+  Effort effort_;
+  Outputs outputs_{"reproduce"};
+};
+
+/// On a terminal, which figure is being made.
+void show_progress(const Figure& figure, std::size_t place, std::size_t count) {
+  if (!error_is_terminal()) return;
+  fmt::print(stderr, "\rfigure {} ({} of {}): {}\x1b[K", figure.number, place, count, figure.title);
+  std::fflush(stderr);
+}
+void clear_progress() {
+  if (error_is_terminal()) fmt::print(stderr, "\r\x1b[K");
+}
+
+struct Made {
+  std::vector<Result> results;
+  std::vector<double> seconds;  ///< of each
+};
+
+Made make(std::span<const Figure> figures, Effort effort, Folder& folder) {
+  Made made;
+  for (const Figure& figure : figures) {
+    show_progress(figure, made.results.size() + 1, figures.size());
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      made.results.push_back({figure, gallery::make(figure, effort)});
+    } catch (const gallery::CannotBeMade& error) {
+      throw Failure(Exit::bad_input,
+                    fmt::format("figure {} cannot be made under this reading: {}", figure.number, error.what()));
+    }
+    made.seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    folder.write(made.results);
+  }
+  clear_progress();
+  return made;
+}
+
+std::string summary_row(std::string_view number, std::string_view title, std::string_view seconds,
+                        std::string_view claims) {
+  return fmt::format("{:>6}  {}{:>9}{:>9}\n", number, pad_right(title, 58), seconds, claims);
+}
+
+/// The claims of both authors.
+Tally all_claims(const Result& result) {
+  Tally tally = gallery::count_claims(result.page, gallery::Author::paper);
+  return tally += gallery::count_claims(result.page, gallery::Author::temper);
+}
+Tally all_claims(std::span<const Result> results) {
+  Tally tally;
+  for (const Result& result : results) tally += all_claims(result);
+  return tally;
+}
+
+std::string fraction(Tally tally) { return fmt::format("{}/{}", tally.hold, tally.all); }
+
+void print_summary(const Made& made) {
+  std::string text = summary_row("figure", "title", "seconds", "claims");
+  double seconds = 0;
+  for (std::size_t i = 0; i < made.results.size(); ++i) {
+    const Result& result = made.results[i];
+    seconds += made.seconds[i];
+    text += summary_row(std::to_string(result.figure.number), result.figure.title,
+                        fmt::format("{:.1f}", made.seconds[i]), fraction(all_claims(result)));
+  }
+  text += summary_row("", "", fmt::format("{:.1f}", seconds), fraction(all_claims(made.results)));
+  text += gallery::verdict_sentence(made.results) + "\n";
+  for (const Result& result : made.results) {
+    for (const gallery::Claim& claim : result.page.claims) {
+      if (!claim.holds) text += fmt::format("does not hold, in figure {}: {}\n", result.figure.number, claim.claim);
+    }
+  }
+  print(text);
+}
+
+}  // namespace
+
+Exit run_reproduce(const Arguments& arguments) {
+  Command command("reproduce",
+                  "Makes the figures of \"Not so HOT Triangulations\" again, and says of each claim whether it holds.");
+  Settings s;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
+  const Expected<std::vector<Figure>> chosen = gallery::select(gallery::figures(), s.figures);
+  if (!chosen) bad_usage(chosen.error().what());
+  if (s.list) {
+    list(*chosen);
+    return Exit::done;
+  }
+  if (s.output.empty()) bad_usage("--output is required");
+  const Effort effort = s.reduced ? Effort::reduced : Effort::full;
+  Folder folder(s.output, effort);
+
+  gallery::set_reading(reading(command, s.readings));
+  const Made made = make(*chosen, effort, folder);
+  print_summary(made);
+  print(folder.file("index.html") + "\n");
+  flush_output();  // before the verdict on standard error
+  const Tally tally = all_claims(made.results);
+  if (!s.require_claims || tally.hold == tally.all) return Exit::done;
+  print_error(fmt::format("reproduce: {} of {} claims do not hold", tally.all - tally.hold, tally.all));
+  return Exit::requirement;
+}
+
+}  // namespace temper::app

@@ -1,0 +1,276 @@
+// temper weights IN -o OUT: weights that make a mesh well-centered as it is, or that keep other conditions, or the
+// reason why there are none; and the search for a connectivity that has better ones.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "console.hpp"
+#include "files/certificate_json.hpp"
+#include "files/input.hpp"
+#include "files/outputs.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "reports/reports.hpp"
+#include "temper/connectivity.hpp"
+#include "temper/geometry.hpp"
+#include "temper/lp.hpp"
+#include "temper/optimize.hpp"
+
+namespace temper::app {
+namespace {
+
+/// "well-centered" of well_centered.
+std::string option_name(Conditions conditions) {
+  std::string text(name(conditions));
+  std::replace(text.begin(), text.end(), '_', '-');
+  return text;
+}
+
+enum class Mode { feasible, minimal, elastic, barrier };
+constexpr Choice<Mode> kModes[] = {
+    {"feasible", Mode::feasible}, {"minimal", Mode::minimal}, {"elastic", Mode::elastic}, {"barrier", Mode::barrier}};
+enum class From { zero, input };
+constexpr Choice<From> kFrom[] = {{"zero", From::zero}, {"input", From::input}};
+enum class Barrier { hard, soft };
+constexpr Choice<Barrier> kBarriers[] = {{"BH", Barrier::hard}, {"BP", Barrier::soft}};
+
+enum class Connectivity { fixed, search };
+constexpr Choice<Connectivity> kConnectivities[] = {{"fixed", Connectivity::fixed}, {"search", Connectivity::search}};
+
+struct WeightsSettings {
+  std::string projection;
+  std::string input, certificate, check;
+  MeshOutput output;
+  Mode mode = Mode::minimal;
+  From from = From::zero;
+  Barrier barrier = Barrier::hard;
+  WeightOptions options;
+  std::string edges = "all";
+  Connectivity connectivity = Connectivity::fixed;
+  std::uint64_t whole = WeightOptions().whole, programmes = ConnectivityOptions().programmes;
+  bool json = false;
+};
+
+void add_conditions(Command& command, WeightsSettings& s) {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> of_rows;
+    for (const ConditionsInfo& row : conditions_table()) of_rows.push_back(option_name(row.conditions));
+    return of_rows;
+  }();
+  std::string text = "what weights have to keep, with margin t and edge length l";
+  for (const ConditionsInfo& row : conditions_table()) {
+    text += fmt::format("; {}: {}", option_name(row.conditions), row.keeps);
+  }
+  const auto use = [&s](std::string_view chosen) {
+    const auto at = std::find(names.begin(), names.end(), chosen);
+    s.options.conditions = conditions_table()[static_cast<std::size_t>(at - names.begin())].conditions;
+  };
+  add_name(command, "--conditions", {names.begin(), names.end()}, use, text).defaults_to([] {
+    return option_name(Conditions::well_centered);
+  });
+}
+
+void add_options(Command& command, WeightsSettings& s) {
+  command.group("Files");
+  add_argument(command, "IN", s.input, "the mesh; its content tells the format").require();
+  add_projection(command, s.projection);
+  add_mesh_output(command, s.output, "OUT", "the mesh with its new weights; not needed with --mode feasible");
+  add_text(command, "--certificate", "FILE", s.certificate,
+           "write the proof that no weights exist, if so, as JSON (docs/weights.md describes it)");
+  add_text(command, "--check-certificate", "FILE", s.check,
+           "check such a proof against IN in exact arithmetic, and do nothing else");
+  command.add_flag("--json", s.json, "the report as JSON, with vertices and triangles counted from 0");
+  command.group("Weights");
+  add_choice(command, "--mode", kModes, s.mode,
+             "feasible: are there good weights, and with what best margin; minimal: the least change for the margin; "
+             "elastic: where there are none, the least violation; barrier: the least barrier energy");
+  add_number(command, "--margin", s.options.margin, {0, 0.5, true},
+             "the least h/l, d/l, 1 - d/l or dual length/l wanted anywhere; feasible and barrier take half of the best "
+             "when that is less");
+  add_choice(command, "--from", kFrom, s.from, "the weights that change is measured from: all zero, or those of IN");
+  add_choice(command, "--energy", kBarriers, s.barrier, "the energy of --mode barrier");
+  add_count(command, "--whole", s.whole, 0,
+            "components of more triangles than this are solved around their bad triangles only, as far out as "
+            "needed");
+  command.group("Conditions and connectivity");
+  add_conditions(command, s);
+  add_text(command, "--edges", "all|lines|FILE", s.edges,
+           "the edges of --conditions regular: all, those of tagged lines and between regions, or those of a file with "
+           "two vertices a line, as IN counts them");
+  add_choice(command, "--connectivity", kConnectivities, s.connectivity,
+             "fixed: that of IN; search: flip edges as long as that raises the best margin, and then find weights "
+             "(a local search: there may be a better connectivity)");
+  add_count(command, "--programmes", s.programmes, 1, "linear programmes of the whole mesh that the search may take");
+  command.group("Help");
+  command.add_help({"IN -o OUT [options]",
+                    "  temper example annulus -o ring.vtu && temper weights ring.vtu -o out.vtu\n"
+                    "  temper weights ring.vtu -o least.vtu --mode barrier\n"
+                    "  temper weights ring.vtu -o inside.vtu --conditions heights-only\n"
+                    "  # a mesh that has none: the proof, its verification, and what gives way\n"
+                    "  temper example sparse-horseshoe -o shoe.vtu\n"
+                    "  temper weights shoe.vtu --mode feasible --certificate why.json; test $? = 6\n"
+                    "  temper weights shoe.vtu --check-certificate why.json\n"
+                    "  temper weights shoe.vtu -o out.vtu --mode elastic --json\n"
+                    "  # orthocenters inside: not with these diagonals, but with others\n"
+                    "  temper example random --vertices 40 -o random.vtu\n"
+                    "  temper weights random.vtu -o flipped.vtu --conditions heights-only --connectivity search\n",
+                    {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::internal, Exit::infeasible}});
+}
+
+void check_usage(const Command& command, const WeightsSettings& s) {
+  const auto fail = [](const std::string& message) {
+    throw Failure(Exit::bad_usage, "weights: " + message + "\nSee temper weights --help");
+  };
+  if (!s.check.empty()) {
+    for (const char* option : {"--output", "--certificate", "--mode", "--margin", "--from", "--energy", "--whole",
+                               "--conditions", "--edges", "--connectivity", "--programmes"}) {
+      if (command.was_given(option)) fail(fmt::format("--check-certificate takes no {}", option));
+    }
+  } else if (s.output.path.empty() && s.mode != Mode::feasible) {
+    fail("--output is missing");
+  }
+  const bool regular = s.options.conditions == Conditions::regular, search = s.connectivity == Connectivity::search;
+  if (!regular && command.was_given("--edges")) fail("--edges is of --conditions regular alone");
+  if (!search && command.was_given("--programmes")) fail("--programmes is of --connectivity search alone");
+  if (search && regular) fail("--connectivity search is of other conditions than regular, which flips alone keep");
+  if (search && !s.certificate.empty()) {
+    fail("--certificate is about the connectivity of IN; --connectivity search leaves that");
+  }
+  if (s.mode == Mode::barrier && s.options.conditions != Conditions::well_centered) {
+    fail("--mode barrier is of --conditions well-centered alone");
+  }
+  if (s.mode != Mode::barrier && command.was_given("--energy")) fail("--energy is of --mode barrier alone");
+}
+
+Exit check(const WeightsSettings& s, const Input& input) {
+  const Certificate certificate = read_certificate(s.check, input);
+  const CertificateCheck result = check_certificate(input.mesh(), certificate);
+  const bool proves = result == CertificateCheck::proves;
+  if (s.json) {
+    print(fmt::format("{{\"proves\": {}, \"check\": \"{}\"}}\n", proves, name(result)));
+  } else if (proves) {
+    const ConditionsInfo& row = conditions_table()[static_cast<std::size_t>(certificate.conditions)];
+    const bool none = certificate.margin == 0 || certificate.conditions == Conditions::regular;
+    const std::string what =
+        none ? std::string() : fmt::format(" with a margin of {} ({})", certificate.margin, row.keeps);
+    print(fmt::format("{} proves it for {}: {}{}\n", s.check, s.input, row.failure, what));
+  }
+  flush_output();
+  if (!proves)
+    throw Failure(Exit::bad_input, fmt::format("{}: not a proof about {}: {}", s.check, s.input, name(result)));
+  return Exit::done;
+}
+
+WeightGoal goal_of(Mode mode) {
+  switch (mode) {
+    case Mode::feasible:
+    case Mode::barrier:  // any weights to start from
+      return WeightGoal::feasible;
+    case Mode::minimal:
+      return WeightGoal::minimal;
+    case Mode::elastic:
+      return WeightGoal::elastic;
+  }
+  return WeightGoal::minimal;
+}
+
+/// On the sphere setting a weight rounds the place: only what changes is set.
+Mesh with_weights(Mesh mesh, const IdVector<VertexId, double>& weights) {
+  for (const VertexId v : mesh.vertices()) {
+    if (mesh.weight(v) != weights[v]) mesh.set_weight(v, weights[v]);
+  }
+  return mesh;
+}
+
+/// The mesh of the input with the connectivity asked for.
+std::optional<ConnectivityReport> searched(const WeightsSettings& s, const Input& input, LpSolver& solver) {
+  if (s.connectivity == Connectivity::fixed) return std::nullopt;
+  return or_fail(best_connectivity(input.mesh(), solver, {s.options.conditions, s.programmes}));
+}
+
+bool all_well_centered(const Mesh& mesh) {
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [p, q, r] = mesh.corners(t);
+    if (!is_well_centered(mesh.space(), mesh.point(p), mesh.point(q), mesh.point(r))) return false;
+  }
+  return true;
+}
+
+/// From good weights to those of least energy; the good ones stay when these are not good.
+void lower_energy(const WeightsSettings& s, const Input& input, const Mesh& mesh, WeightReport& report) {
+  Mesh moving = with_weights(mesh, report.weights);
+  OptimizeOptions options;
+  options.energy = s.barrier == Barrier::hard ? EnergyKind::BH : EnergyKind::BP;
+  options.unknowns = Unknowns::weights;
+  options.flips = Flips::none;
+  or_fail(optimize(moving, options, {.names = input.names.get()}));
+  IdVector<VertexId, double> weights = report.weights;
+  for (const VertexId v : moving.vertices()) weights[v] = moving.weight(v);
+  const Mesh lowered = with_weights(mesh, weights);
+  if (!all_well_centered(lowered)) return;
+  IdVector<VertexId, double> before(mesh.n_vertices(), 0.0);
+  report.moved = 0;
+  for (const VertexId v : mesh.vertices()) {
+    if (s.options.from_input) before[v] = mesh.weight(v);
+    report.moved += weights[v] != before[v] ? 1 : 0;
+  }
+  report.change = weight_change(mesh, before, weights);
+  report.attained = weight_margin(lowered);
+  report.weights = std::move(weights);
+}
+
+Exit find(const WeightsSettings& s, Input& input, Outputs& outputs) {
+  const auto solver = clp_solver();
+  const std::optional<ConnectivityReport> search = searched(s, input, *solver);
+  const Mesh& mesh = search ? search->mesh : input.mesh();
+  WeightReport report = or_fail(find_weights(mesh, *solver, s.options));
+  if (s.mode == Mode::barrier && report.solved) lower_energy(s, input, mesh, report);
+
+  const bool proved = !report.certificate.terms.empty();
+  WeightsRecord record = {
+      kModes[static_cast<std::size_t>(s.mode)].name, s.options, report, input, mesh, search, {}, {}};
+  if (report.solved && !s.output.path.empty()) {
+    const Mesh weighted = with_weights(mesh, report.weights);
+    const std::size_t known = input.file.warnings.size();
+    io::update(input.file, input.loaded, weighted);
+    print_warnings(std::span(input.file.warnings).subspan(known));
+    print_warnings(outputs.write_mesh(s.output, input.file));
+    record.output = s.output.path;
+  }
+  if (proved && !s.certificate.empty()) {
+    outputs.write_text(s.certificate, certificate_text(report.certificate, input));
+    record.certificate = s.certificate;
+  }
+  print(s.json ? weights_json(record) : weights_text(record));
+  return report.solved ? Exit::done : Exit::infeasible;
+}
+
+}  // namespace
+
+Exit run_weights(const Arguments& arguments) {
+  Command command(
+      "weights",
+      "Finds weights that make every triangle well-centered, or bring orthocenters inside, or make edges regular, with "
+      "positions and connectivity as they are; or proves that there are none. On request it looks for a better "
+      "connectivity first.");
+  WeightsSettings s;
+  add_options(command, s);
+  if (!command.parse(arguments)) return Exit::done;
+  check_usage(command, s);
+  s.options.goal = goal_of(s.mode);
+  s.options.from_input = s.from == From::input;
+  s.options.whole = s.whole;
+  Outputs outputs("weights");
+  if (!s.output.path.empty()) outputs.expect_mesh(s.output);
+  outputs.expect_text("--certificate", s.certificate, {s.input});
+
+  Input input = read_input(s.input, {.projection = s.projection, .spheres = true});
+  print_warnings(input.warnings());
+  if (!s.check.empty()) return check(s, input);
+  if (s.options.conditions == Conditions::regular) s.options.edges = prescribed_edges(s.edges, input);
+  return find(s, input, outputs);
+}
+
+}  // namespace temper::app

@@ -1,0 +1,154 @@
+// temper VERB …: finds the verb, and turns every way to fail into one line on standard error and an exit code.
+#include <fmt/core.h>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <optional>
+
+#include "console.hpp"
+#include "help/help.hpp"
+#include "interrupt.hpp"
+#include "options/ranks.hpp"
+#include "suggest.hpp"
+#include "temper/build_info.hpp"
+#include "temper/io.hpp"
+#include "temper/version.hpp"
+#include "verbs.hpp"
+
+namespace temper::app {
+
+std::span<const Verb> verbs() {
+  static constexpr auto kVerbs = std::to_array<Verb>({
+      {"mesh", "mesh an outline, and optimize that until every triangle is well-centered", run_mesh},
+      {"optimize", "move, weigh and flip until every triangle is well-centered", run_optimize},
+      {"weights", "find weights for a mesh as it is, or prove that there are none", run_weights},
+      {"explain", "say why triangles are not well-centered, and what would cure them", run_explain},
+      {"check", "report on the quality of a mesh, and test requirements", run_check},
+#ifdef TEMPER_WITH_VERIFY
+      {"verify", "measure the errors that solvers make on a mesh", run_verify},
+#endif
+      {"dec", "write the operators of a mesh, for solvers", run_dec},
+      {"draw", "draw triangles, dual and weights as SVG, PNG or PDF", run_draw},
+      {"convert", "write a mesh in another file format", run_convert},
+      {"example", "make an example mesh", run_example},
+      {"replay", "do again what a trace of optimize says", run_replay},
+      {"reproduce", "make the figures and claims of the paper again", run_reproduce},
+  });
+  return kVerbs;
+}
+
+namespace {
+
+Exit run_verb(const std::string& name, const Arguments& arguments) {
+  std::vector<std::string_view> names;
+  for (const Verb& verb : verbs()) {
+    if (verb.name == name) return verb.run(arguments);
+    names.push_back(verb.name);
+  }
+  throw Failure(Exit::bad_usage, none_of(name, names) + "\nSee temper --help");
+}
+
+std::string version_text() {
+  std::string text = fmt::format("temper {}\n\n", version());
+  for (const BuildFact& fact : build_info()) {
+    if (fact.name != "version") text += fmt::format("  {:<14}{}\n", fact.name, fact.value);
+  }
+  if (const std::string mpi = mpi_library(); !mpi.empty()) text += fmt::format("  {:<14}{}\n", "MPI", mpi);
+  return text;
+}
+
+Exit run(const Arguments& words) {
+  if (words.empty()) {
+    fmt::print(stderr, "{}", short_help());
+    return Exit::bad_usage;
+  }
+  const std::string& first = words.front();
+  if (first == "--version") {
+    print(version_text());
+    return Exit::done;
+  }
+  if (first == kHelpWords && words.size() > 2) {
+    Arguments of_verb = words;
+    of_verb.erase(of_verb.begin() + 1);
+    return run_verb(words[1], of_verb);
+  }
+  if (print_other_help(words)) return Exit::done;
+  const bool help = first == "--help" || first == "-h" || first == "help";
+  if (help && words.size() == 1) {
+    print(text_of(help_of_program()));
+    return Exit::done;
+  }
+  if (help) return run_verb(words[1], {"--help"});
+  if (first[0] == '-')
+    throw Failure(Exit::bad_usage, fmt::format("expected a verb, found '{}'\nSee temper --help", first));
+  return run_verb(first, Arguments(words.begin() + 1, words.end()));
+}
+
+int internal_error(std::string_view what) {
+  print_error(fmt::format("internal error: {}", what));
+  fmt::print(stderr, "This is a defect of temper {}. Please report it, with the command and the mesh it was run on.\n",
+             version());
+  return static_cast<int>(Exit::internal);
+}
+
+/// What is thrown where nothing may be, such as by an allocation that fails while something is destroyed: nothing more
+/// can be undone, but files that are not finished go, and the message is the same.
+[[noreturn]] void end_on_terminate() {
+  io::discard_unfinished();
+  const char* message = "temper: error: internal error, in a place that cannot fail; please report that\n";
+  if (std::current_exception()) {
+    try {
+      throw;
+    } catch (const std::bad_alloc&) {
+      message = "temper: error: out of memory\n";
+    } catch (...) {
+    }
+  }
+  std::fputs(message, stderr);
+  std::_Exit(static_cast<int>(Exit::internal));
+}
+
+/// Runs the command line; its exit status.
+int run_program(int argc, char** argv) {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);  // arrays that are freed after reading go back to the system
+#endif
+  std::set_terminate(end_on_terminate);
+  end_on_signals();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
+  try {
+    const Exit exit = run(Arguments(argv + std::min(argc, 1), argv + argc));
+    flush_output();
+    leave_ranks();
+    return static_cast<int>(exit);
+  } catch (const Failure& failure) {
+    const std::optional<Failure> shown = agreed(failure);
+    if (shown) print_error(shown->what());
+    leave_ranks();
+    return static_cast<int>(shown ? shown->exit : Exit::done);  // or the exit status is another rank's
+  } catch (const std::bad_alloc&) {
+    end_ranks("out of memory", Exit::internal);
+    print_error("out of memory");
+    return static_cast<int>(Exit::internal);
+  } catch (const std::exception& error) {
+    end_ranks(error.what(), Exit::internal);
+    return internal_error(error.what());
+  } catch (...) {
+    end_ranks("unknown exception", Exit::internal);
+    return internal_error("unknown exception");
+  }
+}
+
+}  // namespace
+}  // namespace temper::app
+
+int main(int argc, char** argv) { return temper::app::run_program(argc, argv); }

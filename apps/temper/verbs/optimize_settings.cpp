@@ -1,0 +1,157 @@
+#include "verbs/optimize_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "files/input.hpp"
+#include "help/help.hpp"
+#include "options/options.hpp"
+#include "reports/reports.hpp"
+
+namespace temper::app {
+namespace {
+
+void add_files(Command& command, OptimizeSettings& s) {
+  command.group("Files");
+  // These two are not marked as required: see take_input.
+  add_argument(command, "IN", s.input, "the mesh to improve; its content tells the format");
+  add_projection(command, s.projection);
+  add_mesh_output(command, s.output, "OUT", "where the improved mesh goes; may be IN; its suffix tells the format");
+  add_point_data(command, s.point_data);
+  add_text(command, "--report", "FILE", s.report,
+           "a JSON report: before, after, history, and the command to run again");
+  add_text(command, "--html", "FILE", s.html,
+           "an HTML report: the mesh before and after, measures, history, and the command to run again");
+  add_text(command, "--history", "FILE", s.history, "one line of CSV a sweep");
+  add_text(command, "--trace", "FILE", s.trace,
+           "every move, flip and removal, one JSON object a line; see temper replay");
+  add_text(command, "--draw", "FILE", s.picture, "a picture (.svg, .png, .pdf), before and after side by side");
+#ifdef TEMPER_WITH_VERIFY
+  command.add_flag(
+      "--verify", s.verify,
+      "measure the errors of solvers, too, before and after: see temper verify");
+#endif
+  add_requirements(command, s.require).sentence =
+      "outside=0,min_h=0.05,...: exit with 3 when the result is not so, with everything written; see temper check";
+  command.add_flag("--quiet", s.quiet, "print warnings and errors only");
+}
+
+void add_constraints(Command& command, OptimizeSettings& s) {
+  command.group("Constraints and sizes");
+  add_texts(command, "--fix", "TAG ...", Values::words, s.fix,
+            "vertices with this tag or physical name stay where they are; several may follow");
+  add_tensor(command, s.metric, "meshes are made well-centered");
+  add_text(command, "--size-field", "FILE", s.size_field,
+           "a mesh file whose point data say how long edges are meant to be where; without it the input's own sizes");
+  add_text(command, "--size-field-data", "NAME", s.size_data, "of the point data in that file (default: size)");
+}
+
+void add_run(Command& command, OptimizeSettings& s) {
+  command.group("The run");
+  add_count(
+      command, "--threads", s.threads, 0,
+      "threads of each process; 0: as many as the machine has, or as the process may run on; the result is the same");
+  add_number(command, "--save-every", s.save_every, kNotNegative,
+             "write the best mesh so far to OUT during the run, each so many seconds; 0: as often as there is one");
+  std::vector<std::string_view> names;
+  std::string help = "what all options start from";
+  for (const Method& method : methods()) {
+    names.push_back(method.name);
+    help += fmt::format("; {}: {}", method.name, method.sentence);
+  }
+  // At once, before all other options are taken: those given override the method's.
+  const auto take = [&s](std::string_view name) {
+    s.method = &*std::find_if(methods().begin(), methods().end(), [&](const Method& m) { return m.name == name; });
+    s.table.options = s.method->options();
+  };
+  Option& option = add_name(command, "--method", names, take, help);
+  option.at_once = true;
+  option.default_text = std::string(methods().front().name);
+}
+
+/// Of this verb's own options those that a first run does without; of the library's the table says it.
+constexpr const char* kRare[] = {"--projection",
+                                 "--format",
+                                 "--encoding",
+                                 "--point-data",
+                                 "--history",
+                                 "--trace",
+                                 "--threads",
+                                 "--method",
+                                 "--save-every",
+                                 "--size-field",
+                                 "--size-field-data",
+                                 "--no-triangle-quality",
+                                 "--tensor"};
+
+/// Says whether a write puts a new file there: not to standard output, a pipe or a device.
+bool is_replaced(const std::string& path) {
+  std::error_code ignored;
+  return path != kStandardOutput &&
+         (!std::filesystem::exists(path, ignored) || std::filesystem::is_regular_file(path, ignored));
+}
+
+}  // namespace
+
+Command optimize_command(OptimizeSettings& settings) {
+  Command command(
+      "optimize",
+      "Moves vertices, weights them and flips edges until every triangle is well-centered: its orthocenter "
+      "inside, every edge crossed by its dual. The boundary of the domain stays bit for bit, unless --boundary says "
+      "otherwise.");
+  add_files(command, settings);
+  add_run(command, settings);
+  add_constraints(command, settings);
+  for (const OptionGroup& group : option_groups()) add_group(command, group, settings.table);
+  for (const char* name : kRare) command.option(name).rare = true;
+  command.group("Help");
+  command.add_help(
+      {"IN -o OUT [options]",
+       "  temper optimize in.vtu -o out.vtu\n"
+       "  temper optimize in.vtu -o out.vtu --report report.json --draw before-after.svg\n"
+       "  temper optimize in.vtu -o out.vtu --html report.html\n"
+       "  temper optimize in.vtu -o out.vtu --require outside=0,not_crossed=0\n"
+       "  temper optimize in.vtu -o out.vtu --weights-only --no-flips\n"
+       "  temper optimize in.vtu -o out.vtu --energy F --star 1 --solver golden --max-sweeps 20\n"
+       "  temper optimize in.vtu -o out.vtu --gamma-rel 0.1 --time-limit 60\n"
+       "  temper optimize in.vtu -o out.vtu --for vertex --verify\n"
+       "  temper optimize in.vtu -o out.vtu --removal patch --trace trace.jsonl\n"
+       "  temper optimize in.vtu -o out.vtu --method paper --energy dT --removal none\n"
+       "  temper optimize in.vtu -o out.vtu --save-every 600\n",
+       {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::stopped_early, Exit::internal}});
+  return command;
+}
+
+void take_input(Command& command, OptimizeSettings& s) {
+  if (s.output.path.empty())
+    throw Failure(Exit::bad_usage, "optimize: --output is required\nSee temper optimize --help");
+  if (s.save_every && !is_replaced(s.output.path))
+    throw Failure(Exit::bad_usage, fmt::format("optimize: --save-every: {} is no file that can be replaced; give -o "
+                                               "a file",
+                                               s.output.path));
+  if (!s.input.empty()) return;
+  if (s.fix.size() < 2)
+    throw Failure(Exit::bad_usage, "optimize: IN is missing: the mesh to improve\nSee temper optimize --help");
+  s.input = s.fix.back();
+  s.fix.pop_back();
+  command.option("--fix").given = s.fix;
+}
+
+std::vector<std::string> doubtful_options(const Command& command, const OptimizeSettings& s) {
+  std::vector<std::string> warnings = idle_options(command, s.table, s.method->options());
+  if (s.options().repair == Repair::vertices && s.options().size_band) {
+    warnings.emplace_back(
+        spell_options("vertices that `repair=vertices` removes and inserts are not held to `size_band`"));
+  }
+  if (s.size_field.empty() && command.was_given("--size-field-data")) {
+    warnings.emplace_back("--size-field-data has no effect without --size-field");
+  }
+  if (!(s.report.empty() && s.html.empty()) && same_file(s.input, s.output.path)) {
+    warnings.emplace_back("--output replaces the input: the command in the report would start from the improved mesh");
+  }
+  return warnings;
+}
+
+}  // namespace temper::app

@@ -1,0 +1,53 @@
+// The options of temper optimize: what is given, and what it says to do.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "files/outputs.hpp"
+#include "files/tensor_option.hpp"
+#include "help/command.hpp"
+#include "options/ranks.hpp"
+#include "options/requirement.hpp"
+#include "options/table_options.hpp"
+#include "temper/io.hpp"
+#include "temper/optimize.hpp"
+
+namespace temper::app {
+
+struct OptimizeSettings {
+  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
+  std::string projection;
+  std::string input, report, html, history, picture, trace;
+  MeshOutput output;
+  std::vector<std::string> fix, require;
+  const Method* method = methods().data();
+  TableOptions table;  ///< first those of the method
+  std::uint64_t threads = 0;
+  bool quiet = false, verify = false;
+  bool traced = false;               ///< whoever writes the trace
+  std::optional<double> save_every;  ///< seconds between two times that the best mesh so far is written
+  std::vector<Requirement> requirements;
+  std::string size_field, size_data;
+  std::optional<Metric> metric;  ///< of the diffusion tensor
+  std::vector<std::string> point_data;
+  io::DataRules rules;  ///< of point_data
+
+  [[nodiscard]] const OptimizeOptions& options() const { return table.options; }
+  [[nodiscard]] bool for_accuracy() const { return objective_of(options()) == Objective::accuracy; }
+};
+
+/// The verb, whose options go into `settings`.
+[[nodiscard]] Command optimize_command(OptimizeSettings& settings);
+
+/// `--fix 1 2 IN -o OUT`: --fix takes all words that follow, so the last one is the input when there is none. Failure
+/// when there is still none, or no output.
+void take_input(Command& command, OptimizeSettings& settings);
+
+/// Options that were given and cannot have the effect one would expect.
+[[nodiscard]] std::vector<std::string> doubtful_options(const Command& command, const OptimizeSettings& settings);
+
+}  // namespace temper::app

@@ -1,0 +1,45 @@
+#include "verbs/progress_line.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string>
+
+namespace temper::app {
+namespace {
+
+constexpr std::chrono::milliseconds kInterval(100);  // faster than this nobody reads
+
+std::string duration(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 100 * 60) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+}  // namespace
+
+void ProgressLine::show(const Progress& progress) {
+  if (!enabled_) return;
+  const Clock::time_point now = Clock::now();
+  if (shown_ && now - last_ < kInterval) return;
+  last_ = now;
+  shown_ = true;
+
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double sweeps = progress.last.sweep + progress.fraction;
+  std::string text = fmt::format("sweep {} of at most {}, {} triangles bad, energy {:.6g}, {}", progress.last.sweep,
+                                 progress.max_sweeps, progress.last.bad, progress.last.energy, duration(seconds));
+  if (progress.sweeps_left && sweeps > 0) {
+    const double left = std::max(0.0, *progress.sweeps_left - progress.fraction);
+    text += fmt::format(", about {} left", duration(seconds / sweeps * left));
+  }
+  fmt::print(stderr, "\r{}\x1b[K", text);
+  std::fflush(stderr);
+}
+
+void ProgressLine::clear() {
+  if (shown_) fmt::print(stderr, "\r\x1b[K");
+  shown_ = false;
+}
+
+}  // namespace temper::app
