@@ -45,7 +45,7 @@ class FileArchiveTest : public FileTest {
   }
 };
 
-TEST_F(FileArchiveTest, what_is_read_of_bytes_has_these_bytes_again) {
+TEST_F(FileArchiveTest, WhatIsReadOfBytesHasTheseBytesAgain) {
   MeshFile file = file_on_a_map();
   LoadedMesh loaded = *make_mesh(file);
   ASSERT_LT(loaded.vertex_of_point.n_kept(), loaded.vertex_of_point.size());
@@ -65,7 +65,7 @@ TEST_F(FileArchiveTest, what_is_read_of_bytes_has_these_bytes_again) {
   }
 }
 
-TEST_F(FileArchiveTest, a_file_of_bytes_is_written_as_the_file_itself) {
+TEST_F(FileArchiveTest, AFileOfBytesIsWrittenAsTheFileItself) {
   const MeshFile file = file_on_a_map();
   MeshFile again;
   LoadedMesh none;
@@ -79,7 +79,7 @@ TEST_F(FileArchiveTest, a_file_of_bytes_is_written_as_the_file_itself) {
   }
 }
 
-TEST_F(FileArchiveTest, a_file_that_was_not_read_has_no_numbers_and_no_map_afterwards_either) {
+TEST_F(FileArchiveTest, AFileThatWasNotReadHasNoNumbersAndNoMapAfterwardsEither) {
   MeshFile again;
   LoadedMesh none;
   again.map = std::make_shared<const GeographicMap>();

@@ -1,9 +1,10 @@
 // temper optimize: what it writes and prints, and that a report can be run again.
+#include "temper/optimize.hpp"
+
 #include <algorithm>
 #include <sstream>
 
 #include "temper/io.hpp"
-#include "temper/optimize.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {

@@ -1,11 +1,12 @@
 // temper optimize --checkpoint and --resume: whatever stops a run, the one that goes on ends with its bytes.
+#include "temper/checkpoint.hpp"
+
 #include <signal.h>
 
 #include <chrono>
 #include <thread>
 
 #include "support/sanitizers.hpp"
-#include "temper/checkpoint.hpp"
 #include "temper/envelope.hpp"
 #include "temper/generate.hpp"
 #include "workshop.hpp"
