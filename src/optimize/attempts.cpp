@@ -39,16 +39,6 @@ bool replaces(const Candidate& now, const Candidate& best, const Attempt& attemp
   return rank(now.work.mesh, settings).bad < rank(best.work.mesh, settings).bad;
 }
 
-/// Says whether a repair has made c of `before`: it is no worse, and vertices that came or went have cured something.
-/// With fewer of them the energy is lower in any case.
-bool has_gained(const Candidate& c, const Candidate& before, const Settings& settings) {
-  const Rank now = rank(c.work.mesh, settings), then = rank(before.work.mesh, settings);
-  if (then < now) return false;
-  const bool same_vertices = c.work.n_vertices_named == before.work.n_vertices_named &&
-                             c.work.mesh.n_vertices() == before.work.mesh.n_vertices();
-  return same_vertices || now.bad < then.bad || now.missing_lengths < then.missing_lengths;
-}
-
 bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.hooks.executor) > 0; }
 
 /// Says whether so few triangles of c are bad that each is a place of its own, far from all others. Another attempt
@@ -150,6 +140,14 @@ void tell_cuts(const Attempt& attempt, RunFacts& facts) {
 }
 
 }  // namespace
+
+bool has_gained(const Candidate& c, const Candidate& before, const Settings& settings) {
+  const Rank now = rank(c.work.mesh, settings), then = rank(before.work.mesh, settings);
+  if (then < now) return false;
+  const bool same_vertices = c.work.n_vertices_named == before.work.n_vertices_named &&
+                             c.work.mesh.n_vertices() == before.work.mesh.n_vertices();
+  return same_vertices || now.bad < then.bad || now.missing_lengths < then.missing_lengths;
+}
 
 Expected<Candidate> best_attempt(InputMesh& input, Settings& settings, Run& run) {
   const OptimizeOptions& o = settings.options;

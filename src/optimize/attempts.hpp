@@ -13,6 +13,10 @@ namespace temper {
 /// to be, in layers, moves that lower the energy elsewhere may leave them no weights.
 [[nodiscard]] Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, Run& run);
 
+/// Says whether a repair has made c of `before`: it is no worse, and vertices that came or went have cured something.
+/// With fewer of them the energy is lower in any case.
+[[nodiscard]] bool has_gained(const Candidate& c, const Candidate& before, const Settings& settings);
+
 /// Repairs, until a search leaves nothing bad: from the same beginning, on a copy; the best result is kept, and swept
 /// once more. One more search, after the first, asks linear programmes for weights, and goes on with what that has
 /// left. Where bad triangles are far apart, from what the search before has left; and in place, without a sweep of the

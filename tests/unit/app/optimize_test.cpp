@@ -48,6 +48,42 @@ TEST_F(Optimize, LinesThatAreAllEdgesOfTheMeshHoldNothing) {
   }
 }
 
+TEST_F(Optimize, EveryTagComesThroughConversionsAndSweeps) {
+  io::MeshFile file = *io::read("in.vtu");
+  for (std::size_t t = 0; t < file.triangles.size(); ++t) file.regions.at(t) = t < 36 ? 7 : 3;
+  file.lines.clear(), file.line_tags.clear();
+  for (std::int32_t i = 0; i < 6; ++i) file.lines.push_back({i, i + 1}), file.line_tags.push_back(20 + i);
+  file.marked_points = {0, 6, 24}, file.point_tags = {31, 32, 33};
+  file.names = {{2, 7, "steel"}, {1, 20, "wall"}};
+  ASSERT_TRUE(io::write("tags.msh", file));
+  temper_ok({"convert", "tags.msh", "-o", "tags.vtu"});
+  temper_ok({"convert", "tags.vtu", "-o", "converted.msh"});
+  temper_ok({"optimize", "tags.msh", "-o", "kept.msh", "--no-flips", "--quiet"});
+  temper_ok({"optimize", "tags.msh", "-o", "flipped.msh", "--quiet"});
+  for (const char* path : {"converted.msh", "kept.msh", "flipped.msh"}) {
+    SCOPED_TRACE(path);
+    io::MeshFile found = *io::read(path);
+    if (std::string_view(path) == "flipped.msh") {  // an edge flips within its region
+      std::sort(found.regions.begin(), found.regions.end(), std::greater());
+      std::sort(file.regions.begin(), file.regions.end(), std::greater());
+    }
+    EXPECT_EQ(found.regions, file.regions);
+    EXPECT_EQ(found.lines, file.lines);
+    EXPECT_EQ(found.line_tags, file.line_tags);
+    EXPECT_EQ(found.marked_points, file.marked_points);
+    EXPECT_EQ(found.point_tags, file.point_tags);
+    ASSERT_EQ(found.names.size(), 2u);
+    for (const io::PhysicalName& name : file.names) {
+      EXPECT_EQ(std::count_if(found.names.begin(), found.names.end(),
+                              [&](const io::PhysicalName& n) {
+                                return n.dimension == name.dimension && n.tag == name.tag && n.name == name.name;
+                              }),
+                1)
+          << name.name;
+    }
+  }
+}
+
 TEST_F(Optimize, InTheMetricOfATensorAndNowhereElse) {
   const std::vector<std::string> tensor = {"--tensor", "1,0,25"};
   const auto with = [&](std::vector<std::string> words) {

@@ -123,6 +123,26 @@ TEST(Repair, OfOnePlaceInALargeMeshChangesNothingElsewhere) {
   }
 }
 
+TEST(Repair, IsKeptWhereItIsNoWorseAndCameAndWentForSomething) {
+  const Mesh good = test::lattice({.n = 6, .jitter = 0.02, .weight = 0});
+  Mesh bad = good;
+  const VertexId moved(14);
+  const WeightedPoint from = bad.point(moved);
+  bad.set_point(moved, {from.x, from.y + 0.4, 0});
+  ASSERT_GT(n_bad(bad), n_bad(good));
+  const OptimizeOptions options;
+  const auto settings = make_settings(options, good, Frame::of(good), {});
+  ASSERT_TRUE(settings);
+  const Candidate cured = {WorkingCopy(good, options.paper.order)}, ill = {WorkingCopy(bad, options.paper.order)};
+  EXPECT_TRUE(has_gained(cured, ill, *settings));
+  EXPECT_FALSE(has_gained(ill, cured, *settings));
+  EXPECT_TRUE(has_gained(cured, cured, *settings));
+  Candidate replaced = cured;  // a vertex went, and another one came
+  ++replaced.work.n_vertices_named;
+  EXPECT_FALSE(has_gained(replaced, cured, *settings)) << "for nothing";
+  EXPECT_TRUE(has_gained(replaced, ill, *settings));
+}
+
 TEST(Repair, IsTracedLikeAllElse) {
   for (const Mesh& input : {*regular_polygon({.corners = 40}), *horseshoe()}) {
     std::vector<TraceEvent> events;
