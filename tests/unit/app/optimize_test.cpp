@@ -50,7 +50,8 @@ TEST_F(Optimize, LinesThatAreAllEdgesOfTheMeshHoldNothing) {
 
 TEST_F(Optimize, EveryTagComesThroughConversionsAndSweeps) {
   io::MeshFile file = *io::read("in.vtu");
-  for (std::size_t t = 0; t < file.triangles.size(); ++t) file.regions.at(t) = t < 36 ? 7 : 3;
+  file.regions.assign(file.triangles.size(), 7);
+  std::fill(file.regions.begin() + 36, file.regions.end(), 3);
   file.lines.clear(), file.line_tags.clear();
   for (std::int32_t i = 0; i < 6; ++i) file.lines.push_back({i, i + 1}), file.line_tags.push_back(20 + i);
   file.marked_points = {0, 6, 24}, file.point_tags = {31, 32, 33};

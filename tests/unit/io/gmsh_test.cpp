@@ -60,7 +60,8 @@ TEST_F(FileTest, ATriangleThatIsThereTwiceWithOneTagIsRefused) {
   EXPECT_EQ(f->triangles.size(), 3u);
   const auto made = make_mesh(*f);
   ASSERT_FALSE(made);
-  EXPECT_EQ(plain(made.error().what()), "?");
+  EXPECT_EQ(plain(made.error().what()),
+            "m.msh:14: triangle 1 and triangle 2 lie on the same side of the edge from point 10 to point 20");
 }
 
 TEST_F(FileTest, CommentsBeforeAndBetweenSectionsAreSkipped) {
