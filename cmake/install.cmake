@@ -8,22 +8,19 @@ set(TEMPER_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/temper)
 set(TEMPER_PKGCONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH TEMPER_PREFIX_OF_PKGCONFIG ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 
-# One library: temper_install(TARGET NAME DESCRIPTION [HEADERS …] [REQUIRES …: its pkg-config packages] [LIBS …: its other
+# One library: temper_install(TARGET NAME DESCRIPTION [REQUIRES …: its pkg-config packages] [LIBS …: its other
 # libraries]). What only it needs is for whoever links it as a static library: pkg-config --static.
 function(temper_install target name description)
-  cmake_parse_arguments(ARG "" "" "HEADERS;REQUIRES;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "REQUIRES;LIBS" ${ARGN})
   string(SUBSTRING ${name} 0 1 first)
   string(SUBSTRING ${name} 1 -1 rest)
   string(TOUPPER ${first} first)
   install(TARGETS ${target} EXPORT temper_${name}
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libraries NAMELINK_COMPONENT development
-          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+          FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
   install(EXPORT temper_${name} NAMESPACE temper:: DESTINATION ${TEMPER_CMAKE_DIR} FILE temper${first}${rest}Targets.cmake
           COMPONENT development)
-  foreach(header IN LISTS ARG_HEADERS)
-    install(FILES ${PROJECT_SOURCE_DIR}/include/temper/${header}.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/temper
-            COMPONENT development)
-  endforeach()
 
   set(module temper)
   set(requires "")
@@ -39,32 +36,27 @@ function(temper_install target name description)
 endfunction()
 
 temper_install(temper core "Primal-dual triangle meshes that solvers can trust: the core")
-# Headers of the other libraries come with them; build_info.hpp is of the program.
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/temper DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
-        FILES_MATCHING PATTERN "*.hpp"
-        PATTERN "build_info.hpp" EXCLUDE PATTERN "io.hpp" EXCLUDE PATTERN "dec_io.hpp" EXCLUDE PATTERN "html.hpp" EXCLUDE
-        PATTERN "lp.hpp" EXCLUDE PATTERN "tbb_executor.hpp" EXCLUDE PATTERN "mpi_communicator.hpp" EXCLUDE PATTERN "verify.hpp" EXCLUDE)
 
 # Static libraries: whoever links the installed ones needs their libraries too, which temperConfig.cmake finds.
 if(TARGET temper_io)
   target_link_libraries(temper_io PRIVATE $<INSTALL_INTERFACE:pugixml::pugixml>)
-  temper_install(temper_io io "temper's mesh files" HEADERS io dec_io html REQUIRES pugixml zlib LIBS ${CMAKE_DL_LIBS})
+  temper_install(temper_io io "temper's mesh files" REQUIRES pugixml zlib LIBS ${CMAKE_DL_LIBS})
 endif()
 if(TARGET temper_lp)
   target_link_libraries(temper_lp PRIVATE $<INSTALL_INTERFACE:Clp::Clp>)
-  temper_install(temper_lp lp "temper's linear programmes, by Clp" HEADERS lp REQUIRES clp)
+  temper_install(temper_lp lp "temper's linear programmes, by Clp" REQUIRES clp)
   install(FILES ${CMAKE_CURRENT_LIST_DIR}/FindClp.cmake DESTINATION ${TEMPER_CMAKE_DIR} COMPONENT development)
 endif()
 if(TARGET temper_tbb)
   target_link_libraries(temper_tbb PRIVATE $<INSTALL_INTERFACE:TBB::tbb>)
-  temper_install(temper_tbb tbb "temper's threads, by oneTBB" HEADERS tbb_executor REQUIRES tbb)
+  temper_install(temper_tbb tbb "temper's threads, by oneTBB" REQUIRES tbb)
 endif()
 if(TARGET temper_mpi)
   target_link_libraries(temper_mpi PRIVATE $<INSTALL_INTERFACE:MPI::MPI_CXX>)
-  temper_install(temper_mpi mpi "temper's communicator, by MPI" HEADERS mpi_communicator)
+  temper_install(temper_mpi mpi "temper's communicator, by MPI")
 endif()
 if(TARGET temper_verify)
-  temper_install(temper_verify verify "Errors of solvers on temper's meshes" HEADERS verify)
+  temper_install(temper_verify verify "Errors of solvers on temper's meshes")
 endif()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/temperConfig.cmake.in ${PROJECT_BINARY_DIR}/temperConfig.cmake

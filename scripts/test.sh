@@ -95,6 +95,16 @@ every_test_program_is_there() {  # BUILD
   ((missing == 0 && count > 0)) && echo "$count programs"
 }
 
+# Tests by GoogleTest are in NAME_test.cpp, those in Python in test_NAME.py; a test is called by a SentenceInCamelCase.
+names_of_tests() {
+  local test='^(TEST|TEST_F|TEST_P)\('
+  { git ls-files tests | grep -E '/test_[^/]*\.cpp$|_test\.py$'
+    git grep -lE "$test" -- 'tests/*.cpp' ':!*_test.cpp'
+    git grep -LE "$test" -- 'tests/*_test.cpp'
+    git grep -nE "$test"'[A-Za-z0-9]+, ([^A-Z]|[A-Za-z0-9]*[^A-Za-z0-9)])' -- tests
+  } | { ! grep .; } && echo "$(git grep -hE "$test" -- tests | wc -l) tests by GoogleTest"
+}
+
 # What has changed since the main branch, or in the last commit: each source read alone, by clang.
 tidy() {
   local base files
@@ -118,7 +128,8 @@ consumer_find_package() {
 
 # The core alone asks for nothing; with what ThreadSanitizer looks at, in the same project, it is built.
 consumer_subdirectory() (
-  cmake -G Ninja -S tests/consumer/subdirectory -B "$scratch/subdirectory" && cd tests/consumer/subdirectory &&
+  cmake -G Ninja -S tests/consumer/subdirectory -B "$scratch/subdirectory" &&
+    cmake --install "$scratch/subdirectory" --prefix "$scratch/nothing" && [[ ! -e "$scratch/nothing" ]] && cd tests/consumer/subdirectory &&
     configure_and_build subdirectory --target core threads
 )
 
@@ -131,6 +142,7 @@ stage "layers: who includes whom" python3 scripts/check_layers.py
 stage "links: the checker finds what it should" python3 scripts/check_links.py --self-test
 stage "links: none is dead" python3 scripts/check_links.py
 stage "format" formatted
+stage "names of tests" names_of_tests
 stage "bench: the comparison finds what it should" python3 bench/compare.py --self-test
 stage "bench: the rates are what they should be" python3 bench/rates.py --self-test
 stage "headers, each alone" tests/consumer/headers.sh

@@ -101,6 +101,7 @@ class Inserter {
       }
       if (!across.valid()) return settle(h, touching, touched);
       if (mesh().is_boundary(across)) return {Place::outside, across};
+      ++result_.steps;
       h = entered = mesh().twin(across);
     }
   }
@@ -117,7 +118,7 @@ class Inserter {
   }
   [[nodiscard]] HalfedgeId previous_boundary(HalfedgeId h) {
     HalfedgeId last = h;
-    while (mesh().rotate(last).valid()) last = mesh().rotate(last);
+    for (; mesh().rotate(last).valid(); ++result_.steps) last = mesh().rotate(last);
     return Mesh::prev(last);
   }
 

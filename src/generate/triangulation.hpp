@@ -23,6 +23,7 @@ struct Triangulation {
   Mesh mesh;
   std::vector<std::uint32_t> number;  ///< of each vertex: the index of its point
   std::vector<VertexId> vertex;       ///< of each point
+  std::size_t steps = 0;              ///< from triangle to triangle, on the way to the places of points
 
   [[nodiscard]] auto conflict_test() const {
     return PerturbedPowerTest{[this](VertexId v) { return number[v.index]; }};

@@ -49,13 +49,6 @@ Requirement requirement_of(const Attempt& attempt) {
   return attempt.cuts == Cuts::graded ? Requirement::not_worse : Requirement::fewer_bad;
 }
 
-/// What a repair needs to be kept: vertices that came or went have to cure something.
-Requirement requirement_of_repair(const Candidate& now, const Candidate& before) {
-  const bool same_vertices = now.work.n_vertices_named == before.work.n_vertices_named &&
-                             now.work.mesh.n_vertices() == before.work.mesh.n_vertices();
-  return same_vertices ? Requirement::not_worse : Requirement::cures;
-}
-
 bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.hooks.executor) > 0; }
 
 /// Says whether so few triangles of c are bad that each is a place of its own, far from all others. Another attempt
@@ -152,6 +145,13 @@ void tell_cuts(const Attempt& attempt, RunFacts& facts) {
 
 }  // namespace
 
+bool has_gained(const Candidate& now, const Candidate& before, const Settings& settings, const EnergyModel& model) {
+  const bool same_vertices = now.work.n_vertices_named == before.work.n_vertices_named &&
+                             now.work.mesh.n_vertices() == before.work.mesh.n_vertices();
+  return Choice(settings, model)
+      .replaces(now, before, same_vertices ? Requirement::not_worse : Requirement::cures);
+}
+
 Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, SweepState& state, Run& run) {
   const Choice choice(settings, state.model);
   std::optional<Candidate> best;
@@ -219,7 +219,6 @@ Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, Sw
 }
 
 Candidate repaired(Candidate best, const Settings& settings, SweepState& state, Run& run) {
-  const Choice choice(settings, state.model);
   const auto is_done = [&](const Candidate& c) {
     return !run.goes_on() || run.repair_trials_left <= 0 || !needs_repair(c, settings);
   };
@@ -239,7 +238,7 @@ Candidate repaired(Candidate best, const Settings& settings, SweepState& state, 
     const bool changed = driver.repair(settings.policy.seed + i, asks_programmes);
     now.sweep = run.report.sweeps;
     if (in_place) continue;
-    if (changed && choice.replaces(now, best, requirement_of_repair(now, best))) {
+    if (changed && has_gained(now, best, settings, state.model)) {
       if (!start) start = std::move(best);
       best = std::move(now);
       if (are_apart(best, settings)) start.reset();

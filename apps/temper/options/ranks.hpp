@@ -9,7 +9,6 @@
 
 #include "exit.hpp"
 #include "temper/communicator.hpp"
-#include "help/command.hpp"
 
 namespace temper::app {
 

@@ -242,9 +242,16 @@ TEST(FindWeights, ElasticViolationsAreOfTheConditionsAsked) {
 TEST(FindWeights, RefuseEdgesThatAreNoneOrForOtherConditions) {
   const auto solver = clp_solver();
   const Mesh mesh = sparse_horseshoe();
-  EXPECT_FALSE(find_weights(mesh, *solver, {.edges = {HalfedgeId(std::size_t{0})}}));
-  EXPECT_FALSE(
-      find_weights(mesh, *solver, {.conditions = Conditions::regular, .edges = {HalfedgeId(mesh.n_halfedges())}}));
+  const auto other = find_weights(mesh, *solver, {.edges = {HalfedgeId(std::size_t{0})}});
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().code, ErrorCode::invalid_option);
+  EXPECT_EQ(other.error().what(), "edges: only conditions regular are about some edges");
+  const HalfedgeId end(mesh.n_halfedges());
+  const auto none = find_weights(mesh, *solver, {.conditions = Conditions::regular, .edges = {end}});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::index_out_of_range);
+  EXPECT_EQ(none.error().what(),
+            "edges: expected halfedges 0 to " + std::to_string(end.index - 1) + ", found " + std::to_string(end.index));
 }
 
 TEST(Certificate, OfHeightsAloneProvesAndIsOfHeightsAlone) {

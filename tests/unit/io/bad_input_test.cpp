@@ -120,7 +120,7 @@ const std::vector<Bad>& bad_files() {
 
 class BadInput : public FileTest, public ::testing::WithParamInterface<Bad> {};
 
-TEST_P(BadInput, is_named) {
+TEST_P(BadInput, IsNamed) {
   const Bad& bad = GetParam();
   const std::string file = make(bad.file, bad.content);
   InputError error;
@@ -138,7 +138,7 @@ TEST_P(BadInput, is_named) {
 INSTANTIATE_TEST_SUITE_P(Files, BadInput, ::testing::ValuesIn(bad_files()),
                          [](const auto& each) { return each.param.name; });
 
-TEST_F(FileTest, errors_of_the_mesh_speak_the_numbers_of_the_file) {
+TEST_F(FileTest, ErrorsOfTheMeshSpeakTheNumbersOfTheFile) {
   const auto message_of = [&](const std::string& content) {
     const auto f = read(make("m.mesh", content));
     EXPECT_TRUE(f) << f.error().what();
@@ -156,7 +156,7 @@ TEST_F(FileTest, errors_of_the_mesh_speak_the_numbers_of_the_file) {
   EXPECT_NE(fan.find("point 1"), std::string::npos) << fan;
 }
 
-TEST_F(FileTest, missing_files_and_directories_are_named) {
+TEST_F(FileTest, MissingFilesAndDirectoriesAreNamed) {
   const auto missing = read(path("nothing.msh"));
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().code, ErrorCode::not_found);
@@ -168,7 +168,7 @@ TEST_F(FileTest, missing_files_and_directories_are_named) {
   EXPECT_EQ(plain(folder.error().what()), "folder: is a directory, not a mesh file");
 }
 
-TEST_F(FileTest, the_messages_in_the_documentation_are_those_that_users_see) {
+TEST_F(FileTest, TheMessagesInTheDocumentationAreThoseThatUsersSee) {
   const std::string docs = slurp(TEMPER_SOURCE_DIR "/docs/formats.md");
   int checked = 0;
   for (const Bad& bad : bad_files()) {

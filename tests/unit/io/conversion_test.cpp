@@ -4,7 +4,7 @@
 namespace temper::io {
 namespace {
 
-TEST_F(FileTest, the_mesh_has_the_points_weights_and_regions_of_the_file) {
+TEST_F(FileTest, TheMeshHasThePointsWeightsAndRegionsOfTheFile) {
   const MeshFile f = tamed(sample());
   const auto made = make_mesh(f);
   ASSERT_TRUE(made) << made.error().what();
@@ -16,7 +16,7 @@ TEST_F(FileTest, the_mesh_has_the_points_weights_and_regions_of_the_file) {
   for (const TriangleId t : made->mesh.triangles()) EXPECT_EQ(made->mesh.region(t), f.regions[t.index]);
 }
 
-TEST_F(FileTest, reading_and_putting_back_an_unchanged_mesh_changes_nothing) {
+TEST_F(FileTest, ReadingAndPuttingBackAnUnchangedMeshChangesNothing) {
   for (const MeshFile& f : {tamed(sample()), tamed(rich_sample())}) {
     const auto made = make_mesh(f);
     ASSERT_TRUE(made) << made.error().what();
@@ -28,7 +28,7 @@ TEST_F(FileTest, reading_and_putting_back_an_unchanged_mesh_changes_nothing) {
   }
 }
 
-TEST_F(FileTest, interior_lines_are_constrained_and_boundary_lines_are_not) {
+TEST_F(FileTest, InteriorLinesAreConstrainedAndBoundaryLinesAreNot) {
   const auto made = make_mesh(tamed(sample()));
   ASSERT_TRUE(made);
   const Mesh& mesh = made->mesh;
@@ -41,7 +41,7 @@ TEST_F(FileTest, interior_lines_are_constrained_and_boundary_lines_are_not) {
   EXPECT_FALSE(mesh.is_constrained(edge(1, 5)));
 }
 
-TEST_F(FileTest, lines_that_are_no_edges_are_named_and_constrain_nothing) {
+TEST_F(FileTest, LinesThatAreNoEdgesAreNamedAndConstrainNothing) {
   MeshFile f = tamed(sample());
   f.lines.push_back({0, 4});
   f.line_tags.push_back(1);
@@ -51,7 +51,7 @@ TEST_F(FileTest, lines_that_are_no_edges_are_named_and_constrain_nothing) {
   EXPECT_EQ(made->warnings[0], "1 line is no edge of the mesh and constrains nothing: point 0 to point 4");
 }
 
-TEST_F(FileTest, clockwise_triangles_are_reversed_and_counted) {
+TEST_F(FileTest, ClockwiseTrianglesAreReversedAndCounted) {
   const std::string file = make("m.mesh",
                                 "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
                                 "Triangles\n2\n1 2 3 0\n1 4 3 0\nEnd\n");
@@ -64,7 +64,7 @@ TEST_F(FileTest, clockwise_triangles_are_reversed_and_counted) {
   EXPECT_EQ(plain(made->warnings[0]), "m.mesh: 1 clockwise triangle is reversed");
 }
 
-TEST_F(FileTest, unused_points_are_dropped_and_named_in_the_numbers_of_the_file) {
+TEST_F(FileTest, UnusedPointsAreDroppedAndNamedInTheNumbersOfTheFile) {
   const std::string file =
       make("m.mesh",
            "MeshVersionFormatted 2\nDimension 2\nVertices\n6\n0 0 0\n9 9 3\n1 0 0\n1 1 0\n8 8 0\n0 1 5\n"
@@ -98,7 +98,7 @@ TEST_F(FileTest, unused_points_are_dropped_and_named_in_the_numbers_of_the_file)
   }
 }
 
-TEST_F(FileTest, errors_after_dropped_points_still_speak_the_numbers_of_the_file) {
+TEST_F(FileTest, ErrorsAfterDroppedPointsStillSpeakTheNumbersOfTheFile) {
   const std::string file = make("m.mesh",
                                 "MeshVersionFormatted 2\nDimension 2\nVertices\n5\n9 9 0\n0 0 0\n1 0 0\n1 1 0\n1 1 0\n"
                                 "Triangles\n2\n2 3 4 0\n2 4 5 0\nEnd\n");
@@ -109,7 +109,7 @@ TEST_F(FileTest, errors_after_dropped_points_still_speak_the_numbers_of_the_file
   EXPECT_NE(made.error().message.find("point 5"), std::string::npos) << made.error().what();
 }
 
-TEST_F(FileTest, fixed_tags_go_by_number_or_name) {
+TEST_F(FileTest, FixedTagsGoByNumberOrName) {
   const MeshFile f = tamed(rich_sample());
   const auto fixed = [&](const std::vector<std::string>& tags) {
     const auto made = make_mesh(f, tags);
@@ -136,7 +136,7 @@ TEST_F(FileTest, fixed_tags_go_by_number_or_name) {
       "no points, lines or triangles have the tag 'outflow'; there are: corner, inflow and more, steel, 4, 9, 11, 12");
 }
 
-TEST_F(FileTest, vertices_that_medit_calls_required_are_fixed) {
+TEST_F(FileTest, VerticesThatMeditCallsRequiredAreFixed) {
   const auto f =
       read(make("m.mesh",
                 "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nRequiredVertices\n1\n2\n"
@@ -148,7 +148,7 @@ TEST_F(FileTest, vertices_that_medit_calls_required_are_fixed) {
   EXPECT_FALSE(made->mesh.is_fixed(VertexId(2)));
 }
 
-TEST_F(FileTest, a_mesh_whose_vertices_are_known_by_their_place_alone_keeps_lines_and_data) {
+TEST_F(FileTest, AMeshWhoseVerticesAreKnownByTheirPlaceAloneKeepsLinesAndData) {
   MeshFile f = tamed(rich_sample());
   const auto made = make_mesh(f);
   ASSERT_TRUE(made);
@@ -172,7 +172,7 @@ TEST_F(FileTest, a_mesh_whose_vertices_are_known_by_their_place_alone_keeps_line
   EXPECT_TRUE(write(path("m.vtu"), f));
 }
 
-TEST_F(FileTest, a_file_of_a_mesh_gives_the_mesh_back) {
+TEST_F(FileTest, AFileOfAMeshGivesTheMeshBack) {
   auto made = make_mesh(tamed(sample()));
   ASSERT_TRUE(made);
   made->mesh.set_constrained(made->mesh.find_halfedge(VertexId(1), VertexId(5)), true);

@@ -89,7 +89,7 @@ class Damage : public FileTest {
   }
 };
 
-TEST_F(Damage, files_cut_anywhere_give_a_mesh_or_an_error) {
+TEST_F(Damage, FilesCutAnywhereGiveAMeshOrAnError) {
   for (const Victim& victim : victims()) {
     const std::size_t step = std::max<std::size_t>(1, victim.content.size() / 100);
     int errors = 0, cuts = 0;
@@ -107,7 +107,7 @@ TEST_F(Damage, files_cut_anywhere_give_a_mesh_or_an_error) {
   }
 }
 
-TEST_F(Damage, files_with_changed_bytes_give_a_mesh_or_an_error) {
+TEST_F(Damage, FilesWithChangedBytesGiveAMeshOrAnError) {
   constexpr int kMutationsEach = 250;
   std::mt19937 random(20231121);  // NOLINT: the same damage on every run
   int total = 0;
@@ -143,7 +143,7 @@ TEST_F(Damage, files_with_changed_bytes_give_a_mesh_or_an_error) {
   EXPECT_GE(total, 3000);
 }
 
-TEST_F(Damage, counts_larger_than_the_file_are_refused_before_memory_is_asked_for) {
+TEST_F(Damage, CountsLargerThanTheFileAreRefusedBeforeMemoryIsAskedFor) {
   // Each of these would ask for terabytes.
   const std::pair<const char*, std::string> kFiles[] = {
       {"a.vtk", "# vtk DataFile Version 3.0\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 2000000000 double\n"},

@@ -66,7 +66,7 @@ const std::vector<T>& values(const std::vector<DataArray>& arrays, std::string_v
   throw std::runtime_error("there is no such array");
 }
 
-TEST(PointData, of_floating_point_are_of_the_place_and_integers_of_the_point) {
+TEST(PointData, OfFloatingPointAreOfThePlaceAndIntegersOfThePoint) {
   const Changed c = change();
   ASSERT_GT(c.report.points_moved, 50u);
   const auto& depths = values<double>(c.after.point_data, "depth");
@@ -83,7 +83,7 @@ TEST(PointData, of_floating_point_are_of_the_place_and_integers_of_the_point) {
   EXPECT_EQ(values<std::int32_t>(c.after.point_data, "node"), values<std::int32_t>(c.before.point_data, "node"));
 }
 
-TEST(PointData, are_those_of_new_vertices_too_and_of_those_around_removed_ones) {
+TEST(PointData, AreThoseOfNewVerticesTooAndOfThoseAroundRemovedOnes) {
   OptimizeOptions options;
   options.boundary = BoundaryVertices::split;
   options.paper.removal = Removal::patch;
@@ -98,7 +98,7 @@ TEST(PointData, are_those_of_new_vertices_too_and_of_those_around_removed_ones) 
   for (std::size_t p = 0; p < depths.size(); ++p) EXPECT_NEAR(depths[p], depth(c.after.points[p]), 100 * kRounding);
 }
 
-TEST(PointData, stay_with_their_points_when_told_to_each_by_its_name) {
+TEST(PointData, StayWithTheirPointsWhenToldToEachByItsName) {
   const auto rules = [](const std::vector<std::string>& words) { return *parse_data_rules(words); };
   const Changed keep = change({}, rules({"keep"}));
   expect_same_data(keep.before.point_data, keep.after.point_data, "point data");
@@ -112,7 +112,7 @@ TEST(PointData, stay_with_their_points_when_told_to_each_by_its_name) {
   EXPECT_EQ(values<double>(one.after.point_data, "depth"), values<double>(but_one.after.point_data, "depth"));
 }
 
-TEST(PointData, of_a_place_that_was_another_vertex_are_those_of_that_vertex_bit_for_bit) {
+TEST(PointData, OfAPlaceThatWasAnotherVertexAreThoseOfThatVertexBitForBit) {
   MeshFile f = file_with_data();
   auto loaded = make_mesh(f);
   ASSERT_TRUE(loaded);
@@ -132,7 +132,7 @@ TEST(PointData, of_a_place_that_was_another_vertex_are_those_of_that_vertex_bit_
   }
 }
 
-TEST(CellData, are_those_of_the_triangle_that_the_middle_is_in) {
+TEST(CellData, AreThoseOfTheTriangleThatTheMiddleIsIn) {
   for (const bool flips : {true, false}) {
     OptimizeOptions options;
     if (!flips) options.flips = Flips::none;
@@ -161,7 +161,7 @@ TEST(CellData, are_those_of_the_triangle_that_the_middle_is_in) {
   }
 }
 
-TEST(CellData, stay_in_their_region_when_vertices_are_removed_and_nothing_is_lost) {
+TEST(CellData, StayInTheirRegionWhenVerticesAreRemovedAndNothingIsLost) {
   MeshFile f = from_mesh(*sheared_grid({6, 6, 0.25}));
   std::vector<std::int32_t> material;
   std::vector<float> head;
@@ -192,7 +192,7 @@ TEST(CellData, stay_in_their_region_when_vertices_are_removed_and_nothing_is_los
   }
 }
 
-TEST(DataReport, counts_points_and_triangles_and_says_how_far_points_have_moved) {
+TEST(DataReport, CountsPointsAndTrianglesAndSaysHowFarPointsHaveMoved) {
   MeshFile f = file_with_data();
   auto loaded = make_mesh(f);
   ASSERT_TRUE(loaded);
@@ -222,7 +222,7 @@ TEST(DataReport, counts_points_and_triangles_and_says_how_far_points_have_moved)
   EXPECT_EQ(update(without, *loaded, loaded->mesh).points, 0u) << "there are no data";
 }
 
-TEST(DataRules, that_make_no_sense_are_refused_by_name) {
+TEST(DataRules, ThatMakeNoSenseAreRefusedByName) {
   const auto error = [](const std::vector<std::string>& words) {
     const auto rules = parse_data_rules(words);
     if (!rules) return rules.error().message;

@@ -1,5 +1,5 @@
 // Operators as files: all of them or none, the same bytes every time, archives that are what zip says.
-// (tests/interop/dec_test.py reads the numbers back by NumPy, SciPy and meshio.)
+// (tests/interop/test_dec.py reads the numbers back by NumPy, SciPy and meshio.)
 #include <zlib.h>
 
 #include <map>
@@ -79,7 +79,7 @@ std::map<std::string, std::string> unzip(std::string_view zip) {
 
 class DecFiles : public FileTest {};
 
-TEST_F(DecFiles, every_format_makes_the_files_it_names_and_no_other) {
+TEST_F(DecFiles, EveryFormatMakesTheFilesItNamesAndNoOther) {
   const Operators operators;
   for (const DecFormat format : kAllFormats) {
     const std::string folder = path("out" + std::to_string(static_cast<int>(format)));
@@ -93,7 +93,7 @@ TEST_F(DecFiles, every_format_makes_the_files_it_names_and_no_other) {
   }
 }
 
-TEST_F(DecFiles, the_same_bytes_come_again_and_for_any_number_of_threads) {
+TEST_F(DecFiles, TheSameBytesComeAgainAndForAnyNumberOfThreads) {
   const Operators operators;
   test::StdThreads threads(3);
   DecWriteOptions options;
@@ -106,7 +106,7 @@ TEST_F(DecFiles, the_same_bytes_come_again_and_for_any_number_of_threads) {
     EXPECT_EQ(slurp(path("a/" + name)), slurp(path("b/" + name))) << name;
 }
 
-TEST_F(DecFiles, archives_hold_arrays_whose_numbers_start_at_a_multiple_of_64_bytes) {
+TEST_F(DecFiles, ArchivesHoldArraysWhoseNumbersStartAtAMultipleOf64Bytes) {
   const Operators operators;
   ASSERT_TRUE(operators.write(path("a")));
   const auto entries = unzip(slurp(path("a/operators.npz")));
@@ -123,7 +123,7 @@ TEST_F(DecFiles, archives_hold_arrays_whose_numbers_start_at_a_multiple_of_64_by
   EXPECT_NE(entries.at("edges.npy").find("'shape': (5, 2)"), std::string::npos);
 }
 
-TEST_F(DecFiles, large_archives_use_the_fields_of_zip64) {
+TEST_F(DecFiles, LargeArchivesUseTheFieldsOfZip64) {
   const std::string content = "twenty bytes of text";
   for (const std::uint64_t limit : {std::uint64_t{10}, std::uint64_t{30}, std::uint64_t{0xffffffffu}}) {
     {
@@ -143,7 +143,7 @@ TEST_F(DecFiles, large_archives_use_the_fields_of_zip64) {
   }
 }
 
-TEST_F(DecFiles, matrix_market_holds_zeros_and_what_is_infinite) {
+TEST_F(DecFiles, MatrixMarketHoldsZerosAndWhatIsInfinite) {
   const Operators operators;
   ASSERT_TRUE(operators.write(path("a"), {{DecFormat::mtx}, {}, 0, nullptr}));
   EXPECT_EQ(slurp(path("a/d0.mtx")).substr(0, 55), "%%MatrixMarket matrix coordinate real general\n% edges x");
@@ -152,7 +152,7 @@ TEST_F(DecFiles, matrix_market_holds_zeros_and_what_is_infinite) {
   EXPECT_NE(slurp(path("a/flux.mtx")).find("\n2 2 inf\n"), std::string::npos);
 }
 
-TEST_F(DecFiles, on_an_error_nothing_has_changed) {
+TEST_F(DecFiles, OnAnErrorNothingHasChanged) {
   const Operators operators;
   make("file", "not a folder");
   const auto file = operators.write(path("file"));

@@ -73,7 +73,7 @@ std::size_t flip_some(Mesh& mesh) {
   return n;
 }
 
-TEST(EdgeLines, lines_on_all_inner_edges_constrain_nothing_which_a_warning_says) {
+TEST(EdgeLines, LinesOnAllInnerEdgesConstrainNothingWhichAWarningSays) {
   const auto made = make_mesh(listed_grid());
   ASSERT_TRUE(made) << made.error().what();
   EXPECT_EQ(n_constrained(made->mesh), 0u);
@@ -83,7 +83,7 @@ TEST(EdgeLines, lines_on_all_inner_edges_constrain_nothing_which_a_warning_says)
             "constrain nothing");
 }
 
-TEST(EdgeLines, lines_that_tell_edges_apart_constrain) {
+TEST(EdgeLines, LinesThatTellEdgesApartConstrain) {
   const auto first_edge = [](const MeshFile& f) {
     return std::find(f.line_tags.begin(), f.line_tags.end(), kEdgeTag) - f.line_tags.begin();
   };
@@ -109,7 +109,7 @@ TEST(EdgeLines, lines_that_tell_edges_apart_constrain) {
   EXPECT_EQ(n_constrained(make_mesh(single)->mesh), 1u) << "one inner edge may be a feature";
 }
 
-TEST(EdgeLines, an_unchanged_mesh_leaves_the_file_as_it_is) {
+TEST(EdgeLines, AnUnchangedMeshLeavesTheFileAsItIs) {
   const MeshFile before = listed_grid();
   const auto made = make_mesh(before);
   ASSERT_TRUE(made);
@@ -119,7 +119,7 @@ TEST(EdgeLines, an_unchanged_mesh_leaves_the_file_as_it_is) {
   expect_same_data(before.line_data, after.line_data, "line data");
 }
 
-TEST(EdgeLines, edges_that_flips_make_take_the_places_of_those_that_are_gone) {
+TEST(EdgeLines, EdgesThatFlipsMakeTakeThePlacesOfThoseThatAreGone) {
   const MeshFile before = listed_grid();
   auto made = make_mesh(before);
   ASSERT_TRUE(made);
@@ -143,7 +143,7 @@ TEST(EdgeLines, edges_that_flips_make_take_the_places_of_those_that_are_gone) {
   EXPECT_EQ(n_constrained(again->mesh), 0u) << "the file still lists all edges";
 }
 
-TEST(EdgeLines, a_mesh_of_fewer_vertices_has_its_edges_listed_behind_all_other_lines) {
+TEST(EdgeLines, AMeshOfFewerVerticesHasItsEdgesListedBehindAllOtherLines) {
   const MeshFile before = listed_grid();
   auto made = make_mesh(before);
   ASSERT_TRUE(made);
@@ -163,7 +163,7 @@ TEST(EdgeLines, a_mesh_of_fewer_vertices_has_its_edges_listed_behind_all_other_l
   for (std::size_t i = 0; i < entity.size(); ++i) EXPECT_EQ(entity[i] == 7, after.line_tags[i] == kEdgeTag) << i;
 }
 
-TEST(EdgeLines, points_of_no_triangle_and_their_lines_do_not_matter) {
+TEST(EdgeLines, PointsOfNoTriangleAndTheirLinesDoNotMatter) {
   MeshFile file = listed_grid();
   file.line_data.clear();
   for (Line& line : file.lines) line = {line[0] + 1, line[1] + 1};

@@ -14,7 +14,7 @@ std::string list_of(std::string_view Format::*column, const char* separator, boo
   return list;
 }
 
-TEST(Formats, have_distinct_names_and_a_suffix) {
+TEST(Formats, HaveDistinctNamesAndASuffix) {
   std::vector<std::string_view> names;
   for (const Format& f : formats()) {
     EXPECT_EQ(std::count(names.begin(), names.end(), f.name), 0) << f.name;
@@ -28,14 +28,14 @@ TEST(Formats, have_distinct_names_and_a_suffix) {
   }
 }
 
-TEST(Formats, are_in_the_documentation) {
+TEST(Formats, AreInTheDocumentation) {
   const std::string docs = slurp(TEMPER_SOURCE_DIR "/docs/formats.md");
   for (const Format& f : formats()) {
     EXPECT_NE(docs.find("| `" + std::string(f.name) + "` | "), std::string::npos) << f.name;
   }
 }
 
-TEST_F(FileTest, a_file_of_none_of_the_formats_says_which_there_are) {
+TEST_F(FileTest, AFileOfNoneOfTheFormatsSaysWhichThereAre) {
   const auto result = read(make("m.mesh", "once upon a time\n"));
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::syntax);
@@ -43,7 +43,7 @@ TEST_F(FileTest, a_file_of_none_of_the_formats_says_which_there_are) {
             "m.mesh: is none of the formats that temper reads: " + list_of(&Format::description, ", ", false));
 }
 
-TEST_F(FileTest, the_content_decides_the_format_and_not_the_suffix) {
+TEST_F(FileTest, TheContentDecidesTheFormatAndNotTheSuffix) {
   const MeshFile f = sample();
   for (const Format& each : formats()) {
     if (!writes_planes(each) || each.name == "triangle") continue;
@@ -56,7 +56,7 @@ TEST_F(FileTest, the_content_decides_the_format_and_not_the_suffix) {
   }
 }
 
-TEST_F(FileTest, formats_that_are_recognised_but_not_read_are_named) {
+TEST_F(FileTest, FormatsThatAreRecognisedButNotReadAreNamed) {
   const std::pair<const char*, const char*> kCases[] = {
       {"(0 \"made by someone\")\n(2 2)\n", "a Fluent mesh, which temper does not read; meshio converts it"},
       {"4 2 4\n0 0 1\n1 0 1\n", "a FreeFem mesh, which temper does not read"},
@@ -81,7 +81,7 @@ TEST_F(FileTest, formats_that_are_recognised_but_not_read_are_named) {
   }
 }
 
-TEST_F(FileTest, binary_formats_that_are_not_read_are_named_by_their_sizes) {
+TEST_F(FileTest, BinaryFormatsThatAreNotReadAreNamedByTheirSizes) {
   const std::string title(80, 't');
   const auto named = [&](const std::string& content, const std::string& name) {
     const auto f = read(make("mesh.bin", content));
@@ -95,7 +95,7 @@ TEST_F(FileTest, binary_formats_that_are_not_read_are_named_by_their_sizes) {
   EXPECT_TRUE(named(length + title + eight + eight, none));
 }
 
-TEST_F(FileTest, columns_of_numbers_are_no_mesh_of_freefem) {
+TEST_F(FileTest, ColumnsOfNumbersAreNoMeshOfFreefem) {
   for (const char* columns : {"1.5 2.5 3.5\n4.5 5.5 6.5\n", "1 2 3\n4.5 5.5 6.5\n", "-1 2 3\n4 5 6\n"}) {
     const auto f = read(make("m.xyz", columns));
     ASSERT_FALSE(f);
@@ -103,7 +103,7 @@ TEST_F(FileTest, columns_of_numbers_are_no_mesh_of_freefem) {
   }
 }
 
-TEST_F(FileTest, meshes_of_tetgen_are_named) {
+TEST_F(FileTest, MeshesOfTetgenAreNamed) {
   const auto refused = [&](const char* name, const char* content) {
     const auto f = read(make(name, content));
     return f ? std::string() : plain(f.error().what());
@@ -113,7 +113,7 @@ TEST_F(FileTest, meshes_of_tetgen_are_named) {
   EXPECT_EQ(refused("m.1.ele", "1 4 0\n1 1 2 3 4\n"), "m.1.ele:1: has tetrahedra, as TetGen's; expected triangles");
 }
 
-TEST_F(FileTest, an_output_without_a_known_suffix_says_which_there_are) {
+TEST_F(FileTest, AnOutputWithoutAKnownSuffixSaysWhichThereAre) {
   const auto result = write(path("mesh.xyz"), sample());
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::invalid_option);
@@ -121,14 +121,14 @@ TEST_F(FileTest, an_output_without_a_known_suffix_says_which_there_are) {
                                               list_of(&Format::suffixes, " ", true) + ", or a format");
 }
 
-TEST_F(FileTest, a_format_that_is_only_read_cannot_be_written) {
+TEST_F(FileTest, AFormatThatIsOnlyReadCannotBeWritten) {
   const auto result = write(path("mesh.mesh"), sample(), {"mfem", {}});
   ASSERT_FALSE(result);
   EXPECT_EQ(plain(result.error().what()),
             "mesh.mesh: cannot be written as 'mfem'; expected one of " + list_of(&Format::name, ", ", true));
 }
 
-TEST_F(FileTest, a_file_whose_arrays_do_not_fit_is_refused_before_anything_is_written) {
+TEST_F(FileTest, AFileWhoseArraysDoNotFitIsRefusedBeforeAnythingIsWritten) {
   MeshFile f = sample();
   f.weights.pop_back();
   const auto result = write(path("mesh.vtu"), f);
@@ -140,7 +140,7 @@ TEST_F(FileTest, a_file_whose_arrays_do_not_fit_is_refused_before_anything_is_wr
 
 // --- weights beside the mesh ---------------------------------------------------------------------------------
 
-TEST_F(FileTest, formats_without_a_place_for_weights_put_them_beside_with_a_warning) {
+TEST_F(FileTest, FormatsWithoutAPlaceForWeightsPutThemBesideWithAWarning) {
   for (const char* name : {"m.mesh", "m.obj"}) {
     const auto warnings = write(path(name), sample());
     ASSERT_TRUE(warnings);
@@ -171,7 +171,7 @@ class FilesOfAMesh : public FileTest {
   }
 };
 
-TEST_F(FilesOfAMesh, that_are_written_are_those_that_are_read_and_were_said_before) {
+TEST_F(FilesOfAMesh, ThatAreWrittenAreThoseThatAreReadAndWereSaidBefore) {
   MeshFile globe = from_mesh(*icosahedral({.level = 1}));
   globe.weights.assign(globe.points.size(), 1e6);
   globe.point_data = {{"depth", 1, std::vector<double>(globe.points.size(), -4000)}};
@@ -192,7 +192,7 @@ TEST_F(FilesOfAMesh, that_are_written_are_those_that_are_read_and_were_said_befo
   EXPECT_EQ(most, 4u) << "FESOM has three, and weights beside them";
 }
 
-TEST_F(FilesOfAMesh, are_found_from_either_of_them_and_without_one_there_is_the_path_alone) {
+TEST_F(FilesOfAMesh, AreFoundFromEitherOfThemAndWithoutOneThereIsThePathAlone) {
   const auto all = [&](const std::string& name) { return sorted(files_to_read(path(name))); };
   ASSERT_TRUE(write(path("m.node"), sample()));
   EXPECT_EQ(all("m.ele"), all("m.node"));
@@ -206,7 +206,7 @@ TEST_F(FilesOfAMesh, are_found_from_either_of_them_and_without_one_there_is_the_
   EXPECT_EQ(files_to_read("/dev/stdin"), std::vector<std::string>{"/dev/stdin"});
 }
 
-TEST_F(FileTest, an_old_side_file_does_not_give_its_weights_to_a_new_mesh) {
+TEST_F(FileTest, AnOldSideFileDoesNotGiveItsWeightsToANewMesh) {
   MeshFile f = sample();
   ASSERT_TRUE(write(path("m.obj"), f));
   f.weights.clear();
@@ -216,7 +216,7 @@ TEST_F(FileTest, an_old_side_file_does_not_give_its_weights_to_a_new_mesh) {
   for (const double w : g->weights) EXPECT_EQ(w, 0);
 }
 
-TEST_F(FileTest, a_side_file_that_does_not_fit_is_named) {
+TEST_F(FileTest, ASideFileThatDoesNotFitIsNamed) {
   make("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const std::pair<const char*, const char*> kCases[] = {
       {"point,weight\n1,0\n2,0\n", "m.obj.weights.csv:4: has 2 weights, but m.obj has 3 points"},

@@ -32,7 +32,7 @@ MeshFile read_sea(const std::string& path, const MeshFile& f = sea()) {
   return *read_again;
 }
 
-TEST_F(FileTest, fort_14_is_in_degrees_where_its_water_would_be_deeper_than_it_is_wide) {
+TEST_F(FileTest, Fort14IsInDegreesWhereItsWaterWouldBeDeeperThanItIsWide) {
   EXPECT_TRUE(read_sea(path("sea.14")).geographic);
   MeshFile square = from_mesh(*sheared_grid({4, 4, 0.1}));
   EXPECT_FALSE(read_sea(path("plain.14"), square).geographic) << "no depths";
@@ -43,7 +43,7 @@ TEST_F(FileTest, fort_14_is_in_degrees_where_its_water_would_be_deeper_than_it_i
   EXPECT_FALSE(read_sea(path("metres.14"), metres).geographic);
 }
 
-TEST_F(FileTest, a_mesh_in_degrees_is_refused_until_it_is_on_a_map_or_called_plane) {
+TEST_F(FileTest, AMeshInDegreesIsRefusedUntilItIsOnAMapOrCalledPlane) {
   MeshFile f = read_sea(path("sea.14"));
   const auto refused = make_mesh(f);
   ASSERT_FALSE(refused);
@@ -59,7 +59,7 @@ TEST_F(FileTest, a_mesh_in_degrees_is_refused_until_it_is_on_a_map_or_called_pla
   EXPECT_NEAR(length(made->mesh.position(VertexId(0)) - made->mesh.position(VertexId(1))), 3e5, 3e5);
 }
 
-TEST_F(FileTest, degrees_come_back_bit_for_bit_where_nothing_has_moved_in_every_format) {
+TEST_F(FileTest, DegreesComeBackBitForBitWhereNothingHasMovedInEveryFormat) {
   for (const double west : {-14.0, 346.0}) {
     MeshFile f = sea(west);
     const std::vector<Vec2> degrees = f.points;
@@ -101,7 +101,7 @@ TEST_F(FileTest, degrees_come_back_bit_for_bit_where_nothing_has_moved_in_every_
   }
 }
 
-TEST_F(FileTest, places_off_the_map_are_named) {
+TEST_F(FileTest, PlacesOffTheMapAreNamed) {
   MeshFile f = sea();
   f.points[7] = {3, 91};
   const auto off = project(f, "stereographic");
@@ -116,7 +116,7 @@ TEST_F(FileTest, places_off_the_map_are_named) {
 }
 
 #if TEMPER_NETCDF
-TEST_F(FileTest, ugrid_says_degrees_in_its_units_and_names_and_knows_them_again) {
+TEST_F(FileTest, UgridSaysDegreesInItsUnitsAndNamesAndKnowsThemAgain) {
   MeshFile f = sea();
   ASSERT_TRUE(project(f, "stereographic:-10,49"));
   ASSERT_TRUE(write(path("m.ugrid.nc"), f));
@@ -134,7 +134,7 @@ TEST_F(FileTest, ugrid_says_degrees_in_its_units_and_names_and_knows_them_again)
 }
 #endif
 
-TEST_F(FileTest, fort_14_has_longitude_and_latitude_of_a_mesh_in_the_plane_that_knows_them) {
+TEST_F(FileTest, Fort14HasLongitudeAndLatitudeOfAMeshInThePlaneThatKnowsThem) {
   MeshFile f = sea();
   const std::vector<Vec2> degrees = f.points;
   std::vector<double> longitude, latitude;

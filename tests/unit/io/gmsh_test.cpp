@@ -7,7 +7,7 @@ namespace {
 const std::string kNodes2 =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n10 0 0 0\n20 1 0 0\n30 1 1 0\n7 0 1 0\n$EndNodes\n";
 
-TEST_F(FileTest, sparse_node_numbers_and_elements_out_of_order_are_read) {
+TEST_F(FileTest, SparseNodeNumbersAndElementsOutOfOrderAreRead) {
   const auto f = read(make(
       "m.msh", kNodes2 + "$Elements\n3\n9 2 2 5 1 10 30 7\n3 1 2 8 1 10 20\n4 2 3 6 1 0 10 20 30\n$EndElements\n"));
   ASSERT_TRUE(f) << f.error().what();
@@ -20,7 +20,7 @@ TEST_F(FileTest, sparse_node_numbers_and_elements_out_of_order_are_read) {
   EXPECT_EQ(plain(f->numbering->triangle_where(1)), "m.msh:13");
 }
 
-TEST_F(FileTest, names_of_version_20_are_of_all_dimensions_whose_elements_carry_the_tag) {
+TEST_F(FileTest, NamesOfVersion20AreOfAllDimensionsWhoseElementsCarryTheTag) {
   const std::string content =
       "$MeshFormat\n2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n5 \"steel and more\"\n8 \"wall\"\n100 \"nothing\"\n"
       "$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n4\n"
@@ -38,7 +38,7 @@ TEST_F(FileTest, names_of_version_20_are_of_all_dimensions_whose_elements_carry_
       "m.msh: the physical name 'nothing' of tag 100 is dropped: it has no dimension, and no element has the tag");
 }
 
-TEST_F(FileTest, a_triangle_of_several_groups_of_version_2_is_one_of_the_first) {
+TEST_F(FileTest, ATriangleOfSeveralGroupsOfVersion2IsOneOfTheFirst) {
   const std::string elements =
       "$Elements\n5\n1 2 2 5 1 10 20 30\n2 2 2 6 1 10 20 30\n3 2 2 7 1 10 20 30\n4 2 2 5 1 10 30 7\n"
       "5 2 2 7 1 7 30 10\n$EndElements\n$ElementData\n1\n\"e\"\n1\n0\n3\n0\n1\n3\n1 1.5\n2 2.5\n4 3.5\n"
@@ -53,15 +53,18 @@ TEST_F(FileTest, a_triangle_of_several_groups_of_version_2_is_one_of_the_first) 
   EXPECT_EQ(plain(f->warnings[0]), "m.msh: 2 triangles have several physical tags: only the first of each is kept");
 }
 
-TEST_F(FileTest, a_triangle_that_is_there_twice_with_one_tag_is_refused) {
+TEST_F(FileTest, ATriangleThatIsThereTwiceWithOneTagIsRefused) {
   const auto f = read(make("m.msh", kNodes2 + "$Elements\n3\n1 2 2 5 1 10 20 30\n2 2 2 5 1 10 20 30\n"
                                               "3 2 2 6 1 10 30 7\n$EndElements\n"));
   ASSERT_TRUE(f) << f.error().what();
   EXPECT_EQ(f->triangles.size(), 3u);
-  EXPECT_FALSE(make_mesh(*f));
+  const auto made = make_mesh(*f);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(plain(made.error().what()),
+            "m.msh:14: triangle 1 and triangle 2 lie on the same side of the edge from point 10 to point 20");
 }
 
-TEST_F(FileTest, comments_before_and_between_sections_are_skipped) {
+TEST_F(FileTest, CommentsBeforeAndBetweenSectionsAreSkipped) {
   const auto f = read(make("m.msh", "####\n# Mesh file of a test, not $MeshFormat\n####\n\n" + kNodes2 +
                                         "# $Elements\n$Elements\n1\n9 2 2 5 1 10 30 7\n$EndElements\n"));
   ASSERT_TRUE(f) << f.error().what();
@@ -69,7 +72,7 @@ TEST_F(FileTest, comments_before_and_between_sections_are_skipped) {
   EXPECT_EQ(plain(f->numbering->triangle_where(0)), "m.msh:18");
 }
 
-TEST_F(FileTest, an_element_of_an_unknown_type_is_an_element) {
+TEST_F(FileTest, AnElementOfAnUnknownTypeIsAnElement) {
   const auto f = read(make("m.msh", kNodes2 + "$Elements\n1\n9 93 2 5 1 10 30 7\n$EndElements\n"));
   ASSERT_FALSE(f);
   EXPECT_EQ(plain(f.error().what()),
@@ -77,7 +80,7 @@ TEST_F(FileTest, an_element_of_an_unknown_type_is_an_element) {
             "triangles, with lines and points as tags");
 }
 
-TEST_F(FileTest, lines_to_points_of_no_triangle_are_dropped_with_a_warning) {
+TEST_F(FileTest, LinesToPointsOfNoTriangleAreDroppedWithAWarning) {
   const auto f = read(
       make("m.msh", kNodes2 + "$Elements\n3\n1 2 2 5 1 10 20 30\n2 1 2 8 1 30 7\n3 1 2 8 1 10 20\n$EndElements\n"));
   ASSERT_TRUE(f) << f.error().what();
@@ -89,20 +92,20 @@ TEST_F(FileTest, lines_to_points_of_no_triangle_are_dropped_with_a_warning) {
             "m.msh: 1 line to a point of no triangle is dropped with it: point 30 to point 7");
 }
 
-TEST_F(FileTest, a_node_number_that_is_none_is_named) {
+TEST_F(FileTest, ANodeNumberThatIsNoneIsNamed) {
   const auto f = read(make("m.msh", kNodes2 + "$Elements\n1\n9 2 2 5 1 10 30 8\n$EndElements\n"));
   ASSERT_FALSE(f);
   EXPECT_EQ(plain(f.error().what()), "m.msh:13: triangle 9 uses vertex 8, but the file has no vertex of that number");
 }
 
-TEST_F(FileTest, a_node_number_given_twice_is_named) {
+TEST_F(FileTest, ANodeNumberGivenTwiceIsNamed) {
   const auto f =
       read(make("m.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n1 1 1 0\n$EndNodes\n"));
   ASSERT_FALSE(f);
   EXPECT_EQ(plain(f.error().what()), "m.msh:8: node number 1 is given twice");
 }
 
-TEST_F(FileTest, data_of_some_nodes_are_nan_elsewhere_and_weights_must_be_whole) {
+TEST_F(FileTest, DataOfSomeNodesAreNanElsewhereAndWeightsMustBeWhole) {
   const std::string elements = "$Elements\n2\n1 2 2 0 1 10 20 30\n2 2 2 0 1 10 30 7\n$EndElements\n";
   const auto data = [](const std::string& name) {
     return "$NodeData\n1\n\"" + name + "\"\n1\n0.0\n3\n0\n1\n2\n20 1.5\n7 2.5\n$EndNodeData\n";
@@ -121,7 +124,7 @@ TEST_F(FileTest, data_of_some_nodes_are_nan_elsewhere_and_weights_must_be_whole)
   EXPECT_EQ(plain(g.error().what()), "m.msh:26: node data 'weight' miss 2 of 4 points, the first is point 10");
 }
 
-TEST_F(FileTest, time_steps_of_one_name_are_kept_apart) {
+TEST_F(FileTest, TimeStepsOfOneNameAreKeptApart) {
   const auto step = [](const char* time, const char* value) {
     return std::string("$ElementData\n1\n\"e\"\n1\n") + time + "\n3\n0\n1\n1\n1 " + value + "\n$EndElementData\n";
   };
@@ -134,7 +137,7 @@ TEST_F(FileTest, time_steps_of_one_name_are_kept_apart) {
   EXPECT_EQ(f->cell_data[2].name, "gmsh:geometrical");
 }
 
-TEST_F(FileTest, parametric_nodes_comments_and_dropped_sections_of_version_41_are_read) {
+TEST_F(FileTest, ParametricNodesCommentsAndDroppedSectionsOfVersion41AreRead) {
   const auto f =
       read(make("m.msh",
                 "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Comments\nmade by hand\n$EndComments\n$Entities\n1 1 1 0\n"
@@ -151,7 +154,7 @@ TEST_F(FileTest, parametric_nodes_comments_and_dropped_sections_of_version_41_ar
   EXPECT_EQ(plain(f->warnings[1]), "m.msh: 1 entity has several physical tags: only the first is kept");
 }
 
-TEST_F(FileTest, big_endian_binary_is_read) {
+TEST_F(FileTest, BigEndianBinaryIsRead) {
   const auto big = [](auto value) {
     std::string one(reinterpret_cast<const char*>(&value), sizeof value);
     std::reverse(one.begin(), one.end());

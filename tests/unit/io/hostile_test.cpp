@@ -282,7 +282,7 @@ void read_and_write(const std::string& path, const std::string& out) {
   }
 }
 
-TEST_P(HostileFiles, take_no_more_than_five_seconds_and_a_gigabyte) {
+TEST_P(HostileFiles, TakeNoMoreThanFiveSecondsAndAGigabyte) {
   const std::string in = make(hostile().file, hostile().content());
   ASSERT_LE(std::filesystem::file_size(in), kMegabyte);
   const pid_t child = fork();

@@ -37,7 +37,7 @@ class LayerFiles : public FileTest {
   std::optional<LoadedMesh> loaded_;
 };
 
-TEST_F(LayerFiles, rows_go_to_the_vertices_that_their_numbers_name) {
+TEST_F(LayerFiles, RowsGoToTheVerticesThatTheirNumbersName) {
   const auto read =
       layers("# a comment\nvertex, top, bottom 1, bottom 2\r\n\n4, 3, 2, 1\n1,10,9,8\n5,0.5e1,4,nan\n3,7,6,5\n");
   ASSERT_TRUE(read) << read.error().what();
@@ -49,7 +49,7 @@ TEST_F(LayerFiles, rows_go_to_the_vertices_that_their_numbers_name) {
             (std::vector<double>{10, 9, 8, 7, 6, 5, 3, 2, 1, 5, 4}));
 }
 
-TEST_F(LayerFiles, the_row_of_all_gives_what_others_leave_out) {
+TEST_F(LayerFiles, TheRowOfAllGivesWhatOthersLeaveOut) {
   const auto read = layers("vertex,top,bottom,active\n*,2,1,1\n3,,0.5,0\n");
   ASSERT_TRUE(read) << read.error().what();
   EXPECT_EQ(read->surfaces, (std::vector<double>{2, 1, 2, 0.5, 2, 1, 2, 1}));
@@ -57,7 +57,7 @@ TEST_F(LayerFiles, the_row_of_all_gives_what_others_leave_out) {
   EXPECT_EQ(layers("vertex,top,bottom\n*,2,1")->surfaces.size(), 8u) << "constants alone";
 }
 
-TEST_F(LayerFiles, errors_name_line_column_and_vertex) {
+TEST_F(LayerFiles, ErrorsNameLineColumnAndVertex) {
   expect_error("", "l.csv: the file is empty");
   expect_error("# nothing\n", "l.csv: expected a title line 'vertex,top,bottom 1', found none");
   expect_error("point,top,bottom\n", "l.csv:1: column 1: expected the title 'vertex', found 'point'");
@@ -87,7 +87,7 @@ TEST_F(LayerFiles, errors_name_line_column_and_vertex) {
                "l.csv: has no row for vertices 1, 4, 5 of a.mesh, and no row * with what holds for them");
 }
 
-TEST_F(LayerFiles, formats_of_columns_want_columns_and_write_nothing_without) {
+TEST_F(LayerFiles, FormatsOfColumnsWantColumnsAndWriteNothingWithout) {
   const Mesh& mesh = loaded_->mesh;
   const DecComplex complex = dec(mesh);
   const auto written =
@@ -97,7 +97,7 @@ TEST_F(LayerFiles, formats_of_columns_want_columns_and_write_nothing_without) {
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
-TEST_F(LayerFiles, every_format_makes_the_files_it_names) {
+TEST_F(LayerFiles, EveryFormatMakesTheFilesItNames) {
   for (const DecFormat format : {DecFormat::vtu, DecFormat::disv, DecFormat::disu, DecFormat::tough}) {
     const auto written = write(*layers("vertex,top,bottom\n*,2,1\n"), {format});
     ASSERT_TRUE(written) << written.error().what();
@@ -107,7 +107,7 @@ TEST_F(LayerFiles, every_format_makes_the_files_it_names) {
   }
 }
 
-TEST_F(LayerFiles, a_vertex_without_a_cell_has_none_and_disv_no_place_for_it) {
+TEST_F(LayerFiles, AVertexWithoutACellHasNoneAndDisvNoPlaceForIt) {
   const std::vector<Vec2> points = {{0, 0}, {1, 0}, {0.5, 0.8}};
   const std::vector<std::array<std::int32_t, 3>> triangles = {{0, 1, 2}};
   const std::vector<double> weights = {0, 1.2, 0.5};  // the cell of vertex 0 is outside of the triangle
@@ -129,7 +129,7 @@ TEST_F(LayerFiles, a_vertex_without_a_cell_has_none_and_disv_no_place_for_it) {
   EXPECT_EQ(disu.find("VERTICES"), std::string::npos);
 }
 
-TEST_F(LayerFiles, tough_has_fixed_columns_and_all_digits_that_they_hold) {
+TEST_F(LayerFiles, ToughHasFixedColumnsAndAllDigitsThatTheyHold) {
   ASSERT_TRUE(write(*layers("vertex,top,bottom 1,bottom 2\n*,1e6,0,-0.25\n3,1e6,1e6,-0.25\n"), {DecFormat::tough}));
   std::istringstream lines(slurp(path("out/MESH")));
   std::vector<std::string> all;

@@ -31,7 +31,7 @@ std::string nasty_vtu() {
          "format=\"ascii\">7</DataArray></CellData></Piece></UnstructuredGrid></VTKFile>";
 }
 
-TEST_F(Names, are_read_without_control_characters_and_a_warning_says_so) {
+TEST_F(Names, AreReadWithoutControlCharactersAndAWarningSaysSo) {
   const auto f = read(make("m.vtu", nasty_vtu()));
   ASSERT_TRUE(f) << f.error().what();
   ASSERT_EQ(f->point_data.size(), 1u);
@@ -45,13 +45,13 @@ TEST_F(Names, are_read_without_control_characters_and_a_warning_says_so) {
                                        std::string(kPlain) + "' and the like");
 }
 
-TEST_F(Names, of_latin_1_are_read_as_utf_8) {
+TEST_F(Names, OfLatin1AreReadAsUtf8) {
   const auto f = read(make("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ng Gr\xfc\x6e\nf 1 2 3\n"));
   ASSERT_TRUE(f) << f.error().what();
   EXPECT_EQ(f->names.at(0).name, "Grün");
 }
 
-TEST_F(Names, written_to_any_format_hold_no_control_character_and_read_back_as_one_name) {
+TEST_F(Names, WrittenToAnyFormatHoldNoControlCharacterAndReadBackAsOneName) {
   const auto f = read(make("m.vtu", nasty_vtu()));
   ASSERT_TRUE(f);
   int n = 0;
@@ -72,7 +72,7 @@ TEST_F(Names, written_to_any_format_hold_no_control_character_and_read_back_as_o
   EXPECT_GE(n, 12);
 }
 
-TEST_F(Names, with_a_quote_do_not_end_the_string_of_gmsh) {
+TEST_F(Names, WithAQuoteDoNotEndTheStringOfGmsh) {
   MeshFile f = sample();
   f.names = {{2, 7, "6\" pipe"}};
   const auto warnings = write(path("m.msh"), f);
@@ -83,7 +83,7 @@ TEST_F(Names, with_a_quote_do_not_end_the_string_of_gmsh) {
             "m.msh: the name '6\" pipe' is written as '6%22 pipe': in Gmsh MSH 4.1 it would end early");
 }
 
-TEST_F(Names, made_by_hand_with_control_characters_are_refused_in_writing) {
+TEST_F(Names, MadeByHandWithControlCharactersAreRefusedInWriting) {
   for (const Format& format : formats()) {
     if (!format.writes) continue;
     MeshFile f = tamed(rich_sample());

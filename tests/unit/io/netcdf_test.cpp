@@ -180,7 +180,7 @@ class NetcdfFormats : public FileTest {
   }
 };
 
-TEST_F(NetcdfFormats, mpas_cells_and_triangles_are_the_sums_of_their_kites) {
+TEST_F(NetcdfFormats, MpasCellsAndTrianglesAreTheSumsOfTheirKites) {
   for_mpas_files([](const MeshFile& f, const Nc& nc) {
     EXPECT_EQ(nc.text(nullptr, "on_a_sphere"), f.sphere_radius > 0 ? "YES" : "NO");
     const auto kites = nc.get<double>("kiteAreasOnVertex"), cell_areas = nc.get<double>("areaCell"),
@@ -205,7 +205,7 @@ TEST_F(NetcdfFormats, mpas_cells_and_triangles_are_the_sums_of_their_kites) {
   });
 }
 
-TEST_F(NetcdfFormats, mpas_edges_cross_where_the_file_says_and_turn_the_right_way) {
+TEST_F(NetcdfFormats, MpasEdgesCrossWhereTheFileSaysAndTurnTheRightWay) {
   ASSERT_TRUE(write(path("m.mpas.nc"), bent_lattice()));
   const Nc nc = Nc::open(path("m.mpas.nc"));
   const auto cells = nc.get<std::int32_t>("cellsOnEdge"), vertices = nc.get<std::int32_t>("verticesOnEdge");
@@ -242,7 +242,7 @@ TEST_F(NetcdfFormats, mpas_edges_cross_where_the_file_says_and_turn_the_right_wa
   EXPECT_EQ(boundary, 18u);
 }
 
-TEST_F(NetcdfFormats, mpas_lists_around_cells_fit_each_other) {
+TEST_F(NetcdfFormats, MpasListsAroundCellsFitEachOther) {
   for_mpas_files([](const MeshFile&, const Nc& nc) {
     const auto n = nc.get<std::int32_t>("nEdgesOnCell"), edges = nc.get<std::int32_t>("edgesOnCell"),
                others = nc.get<std::int32_t>("cellsOnCell"), vertices = nc.get<std::int32_t>("verticesOnCell"),
@@ -276,7 +276,7 @@ TEST_F(NetcdfFormats, mpas_lists_around_cells_fit_each_other) {
 
 // The two laws that make TRiSK's tangential velocities: they do no work (antisymmetry), and their divergence on a
 // triangle is that of the cells around it, weighted by kites. (Thuburn et al. 2009.)
-TEST_F(NetcdfFormats, mpas_weights_are_antisymmetric_and_carry_divergence_to_triangles) {
+TEST_F(NetcdfFormats, MpasWeightsAreAntisymmetricAndCarryDivergenceToTriangles) {
   for_mpas_files([](const MeshFile&, const Nc& nc) {
     const auto n_on_edge = nc.get<std::int32_t>("nEdgesOnEdge"), edges_on_edge = nc.get<std::int32_t>("edgesOnEdge"),
                cells = nc.get<std::int32_t>("cellsOnEdge"), vertices = nc.get<std::int32_t>("verticesOnEdge"),
@@ -314,7 +314,7 @@ TEST_F(NetcdfFormats, mpas_weights_are_antisymmetric_and_carry_divergence_to_tri
   });
 }
 
-TEST_F(NetcdfFormats, mpas_edges_of_the_sphere_cross_at_right_angles_and_know_the_east) {
+TEST_F(NetcdfFormats, MpasEdgesOfTheSphereCrossAtRightAnglesAndKnowTheEast) {
   for (const MeshFile& f : globes()) {
     ASSERT_TRUE(write(path("m.mpas.nc"), f));
     const Nc nc = Nc::open(path("m.mpas.nc"));
@@ -356,7 +356,7 @@ TEST_F(NetcdfFormats, mpas_edges_of_the_sphere_cross_at_right_angles_and_know_th
   }
 }
 
-TEST_F(NetcdfFormats, mpas_edges_of_periodic_planes_cross_at_right_angles_and_as_images) {
+TEST_F(NetcdfFormats, MpasEdgesOfPeriodicPlanesCrossAtRightAnglesAndAsImages) {
   for (const MeshFile& f : periodic_files()) {
     ASSERT_TRUE(write(path("m.mpas.nc"), f));
     const Nc nc = Nc::open(path("m.mpas.nc"));
@@ -399,7 +399,7 @@ TEST_F(NetcdfFormats, mpas_edges_of_periodic_planes_cross_at_right_angles_and_as
   }
 }
 
-TEST_F(NetcdfFormats, mpas_of_periodic_planes_is_read_back_bit_for_bit) {
+TEST_F(NetcdfFormats, MpasOfPeriodicPlanesIsReadBackBitForBit) {
   for (MeshFile f : periodic_files()) {
     // Others have periods of all bits, and points on the far side of the domain.
     f.period.x = std::nextafter(f.period.x, 10);
@@ -419,7 +419,7 @@ TEST_F(NetcdfFormats, mpas_of_periodic_planes_is_read_back_bit_for_bit) {
 }
 
 // The numbers that MPAS-Tools' planar_hex gives such meshes.
-TEST_F(NetcdfFormats, mpas_of_hexagons_is_that_of_planar_hex) {
+TEST_F(NetcdfFormats, MpasOfHexagonsIsThatOfPlanarHex) {
   constexpr double kDistance = 1000;
   const auto mesh = periodic_hexagons({.nx = 10, .ny = 8, .distance = kDistance});
   write_ok("m.mpas.nc", from_mesh(*mesh));
@@ -443,7 +443,7 @@ TEST_F(NetcdfFormats, mpas_of_hexagons_is_that_of_planar_hex) {
   }
 }
 
-TEST_F(NetcdfFormats, what_a_file_says_of_periods_must_be_so_and_other_formats_have_no_place_for_them) {
+TEST_F(NetcdfFormats, WhatAFileSaysOfPeriodsMustBeSoAndOtherFormatsHaveNoPlaceForThem) {
   const MeshFile f = periodic_files().front();
   for (const char* name : {"m.vtk", "m.ugrid.nc", "m.off", "m.obj"}) {
     const auto refused = write(path(name), f);
@@ -477,7 +477,7 @@ TEST_F(NetcdfFormats, what_a_file_says_of_periods_must_be_so_and_other_formats_h
   EXPECT_EQ(message(5, 6, "YES"), "attributes on_a_sphere and is_periodic are YES; expected one of them");
 }
 
-TEST_F(NetcdfFormats, mpas_of_the_sphere_is_read_back_bit_for_bit) {
+TEST_F(NetcdfFormats, MpasOfTheSphereIsReadBackBitForBit) {
   for (const MeshFile& f : globes()) {
     ASSERT_TRUE(write(path("m.mpas.nc"), f));
     const auto back = read(path("m.mpas.nc"));
@@ -491,7 +491,7 @@ TEST_F(NetcdfFormats, mpas_of_the_sphere_is_read_back_bit_for_bit) {
   }
 }
 
-TEST_F(NetcdfFormats, mpas_without_weights_is_crossed_in_the_middle_and_warns_of_nothing) {
+TEST_F(NetcdfFormats, MpasWithoutWeightsIsCrossedInTheMiddleAndWarnsOfNothing) {
   write_ok("m.mpas.nc", from_mesh(*icosahedral({.level = 2})));
   const Nc nc = Nc::open(path("m.mpas.nc"));
   for (const double weight : nc.get<double>("weight")) EXPECT_EQ(weight, 0);
@@ -501,7 +501,7 @@ TEST_F(NetcdfFormats, mpas_without_weights_is_crossed_in_the_middle_and_warns_of
 }
 
 // What others have computed of a public mesh, with arc cosines: to half of the digits.
-TEST_F(NetcdfFormats, mpas_of_others_is_written_with_the_numbers_that_it_came_with) {
+TEST_F(NetcdfFormats, MpasOfOthersIsWrittenWithTheNumbersThatItCameWith) {
   const std::string public_mesh = std::string(TEMPER_SHARED) + "/meshes/sphere/mpas_QU1920km.nc";
   if (!std::filesystem::exists(public_mesh)) GTEST_SKIP() << "no " << public_mesh;
   const auto f = read(public_mesh);
@@ -524,7 +524,7 @@ TEST_F(NetcdfFormats, mpas_of_others_is_written_with_the_numbers_that_it_came_wi
   for (const char* name : {"areaCell", "areaTriangle"}) expect_same(name, 1e-7);
 }
 
-TEST_F(NetcdfFormats, mpas_of_others_gives_triangles_weights_and_data) {
+TEST_F(NetcdfFormats, MpasOfOthersGivesTrianglesWeightsAndData) {
   {
     Nc nc = Nc::create(path("o.nc"));
     const int cells = nc.add_dimension("nCells", 4), vertices = nc.add_dimension("nVertices", 3),
@@ -550,7 +550,7 @@ TEST_F(NetcdfFormats, mpas_of_others_gives_triangles_weights_and_data) {
   EXPECT_EQ(plain(f->warnings[0]), "o.nc: 1 vertices of fewer than three cells are no triangles and are left out");
 }
 
-TEST_F(NetcdfFormats, ugrid_of_others_counts_from_one_fills_up_and_may_lie_on_its_side) {
+TEST_F(NetcdfFormats, UgridOfOthersCountsFromOneFillsUpAndMayLieOnItsSide) {
   for (const bool turned : {false, true}) {
     {
       Nc nc = Nc::create(path("o.nc"));
@@ -583,7 +583,7 @@ TEST_F(NetcdfFormats, ugrid_of_others_counts_from_one_fills_up_and_may_lie_on_it
   }
 }
 
-TEST_F(NetcdfFormats, ugrid_may_have_its_tables_in_doubles_filled_up_with_nan) {
+TEST_F(NetcdfFormats, UgridMayHaveItsTablesInDoublesFilledUpWithNan) {
   const auto with = [&](double last, double fill) {
     {
       Nc nc = Nc::create(path("o.nc"));
@@ -609,7 +609,7 @@ TEST_F(NetcdfFormats, ugrid_may_have_its_tables_in_doubles_filled_up_with_nan) {
   EXPECT_EQ(plain(with(HUGE_VAL, -999).error().what()), "o.nc: variable fn has the value inf; expected whole numbers");
 }
 
-TEST_F(NetcdfFormats, headers_of_any_length_are_read) {
+TEST_F(NetcdfFormats, HeadersOfAnyLengthAreRead) {
   for (std::size_t length = 500; length < 9000; length += 250) {
     {
       Nc nc = Nc::create(path("o.nc"));
@@ -630,7 +630,7 @@ TEST_F(NetcdfFormats, headers_of_any_length_are_read) {
   }
 }
 
-TEST_F(NetcdfFormats, ugrid_says_where_orthocenters_and_edges_are) {
+TEST_F(NetcdfFormats, UgridSaysWhereOrthocentersAndEdgesAre) {
   const MeshFile f = bent_lattice();
   write_ok("m.nc", f);
   const Nc nc = Nc::open(path("m.nc"));
@@ -653,7 +653,7 @@ TEST_F(NetcdfFormats, ugrid_says_where_orthocenters_and_edges_are) {
   EXPECT_EQ(std::count(edge_faces.begin(), edge_faces.end(), -1), 18);
 }
 
-TEST_F(NetcdfFormats, mpas_has_latitudes_and_longitudes_of_a_mesh_that_knows_them) {
+TEST_F(NetcdfFormats, MpasHasLatitudesAndLongitudesOfAMeshThatKnowsThem) {
   constexpr double kRadians = std::numbers::pi / 180;
   Mesh mesh = *random_points({.vertices = 60, .seed = 2});
   ASSERT_TRUE(optimize(mesh));  // no orthocenter is beyond the mesh
@@ -695,7 +695,7 @@ TEST_F(NetcdfFormats, mpas_has_latitudes_and_longitudes_of_a_mesh_that_knows_the
   }
 }
 
-TEST_F(NetcdfFormats, what_is_no_planar_mesh_of_triangles_is_named) {
+TEST_F(NetcdfFormats, WhatIsNoPlanarMeshOfTrianglesIsNamed) {
   const auto refused = [&](const auto& make_file) {
     {
       Nc nc = Nc::create(path("o.nc"));
@@ -757,7 +757,7 @@ TEST_F(NetcdfFormats, what_is_no_planar_mesh_of_triangles_is_named) {
             "o.nc: face 0 has 4 corners; temper reads triangles");
 }
 
-TEST_F(NetcdfFormats, exodus_is_named) {
+TEST_F(NetcdfFormats, ExodusIsNamed) {
   {
     Nc nc = Nc::create(path("o.exo"));
     const int elements = nc.add_dimension("num_el_in_blk1", 1), three = nc.add_dimension("num_nod_per_el1", 3);
@@ -768,7 +768,7 @@ TEST_F(NetcdfFormats, exodus_is_named) {
   EXPECT_EQ(plain(f.error().what()), "o.exo: is an Exodus mesh, which temper does not read; meshio converts it");
 }
 
-TEST_F(NetcdfFormats, med_is_named) {
+TEST_F(NetcdfFormats, MedIsNamed) {
   int id = -1, group = -1;
   ASSERT_EQ(nc_create(path("o.med").c_str(), NC_NETCDF4, &id), NC_NOERR);
   EXPECT_EQ(nc_def_grp(id, "ENS_MAA", &group), NC_NOERR);
@@ -778,7 +778,7 @@ TEST_F(NetcdfFormats, med_is_named) {
   EXPECT_EQ(plain(f.error().what()), "o.med: is a MED mesh, which temper does not read; meshio converts it");
 }
 
-TEST_F(NetcdfFormats, a_mesh_without_orthocenters_is_refused_and_nothing_is_written) {
+TEST_F(NetcdfFormats, AMeshWithoutOrthocentersIsRefusedAndNothingIsWritten) {
   MeshFile f = bent_lattice();
   f.points[1] = f.points[0];
   for (const char* name : {"m.mpas.nc", "m.nc"}) {

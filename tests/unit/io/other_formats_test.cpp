@@ -26,7 +26,7 @@ class OtherFormats : public FileTest {
 
 // --- JIGSAW ----------------------------------------------------------------------------------------------------
 
-TEST_F(OtherFormats, jigsaw_gives_weights_tags_and_values) {
+TEST_F(OtherFormats, JigsawGivesWeightsTagsAndValues) {
   const MeshFile f = read_ok("m.msh",
                              "# a comment; with = and ;\nmshid=3;euclidean-mesh\nNDIMS = 2\nPOINT=4\n0;0;0\n1;0;7\n"
                              "1;1;0\n0;1;0\nPOWER=4;1\n0.5\n-0\n1e-300\n-2\nVALUE=4;2\n1;2\n3;4\n5;6\n7;8\n"
@@ -46,7 +46,7 @@ TEST_F(OtherFormats, jigsaw_gives_weights_tags_and_values) {
   EXPECT_NE(f.warnings[0].find("BOUND"), std::string::npos);
 }
 
-TEST_F(OtherFormats, jigsaw_writes_power_under_the_values_of_its_points) {
+TEST_F(OtherFormats, JigsawWritesPowerUnderTheValuesOfItsPoints) {
   MeshFile f;
   f.points = {{0, 0}, {1, 0}, {0, 1}};
   f.triangles = {{0, 1, 2}};
@@ -57,7 +57,7 @@ TEST_F(OtherFormats, jigsaw_writes_power_under_the_values_of_its_points) {
       "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\nPOINT=3\n0;0;0\n1;0;0\n0;1;0\nPOWER=3;1\n0.25\n-0\n3\nTRIA3=1\n0;1;2;0\n");
 }
 
-TEST_F(OtherFormats, jigsaw_that_is_no_mesh_of_triangles_is_named) {
+TEST_F(OtherFormats, JigsawThatIsNoMeshOfTrianglesIsNamed) {
   const std::string head = "MSHID=3;EUCLIDEAN-MESH\nNDIMS=2\n", points = "POINT=3\n0;0;0\n1;0;0\n0;1;0\n";
   EXPECT_EQ(refused("m.msh", "MSHID=3;EUCLIDEAN-GRID\nNDIMS=2\n"),
             "m.msh:1: is of kind 'EUCLIDEAN-GRID'; temper reads EUCLIDEAN-MESH and ELLIPSOID-MESH");
@@ -75,7 +75,7 @@ TEST_F(OtherFormats, jigsaw_that_is_no_mesh_of_triangles_is_named) {
 
 // --- medit -----------------------------------------------------------------------------------------------------
 
-TEST_F(OtherFormats, medit_of_bamg_has_texts_in_quotes_which_are_dropped) {
+TEST_F(OtherFormats, MeditOfBamgHasTextsInQuotesWhichAreDropped) {
   const std::string head = "MeshVersionFormatted 0\n\nDimension\n2\n\nIdentifier\n\"G=a 1.msh; # 3 of 4\nVertices\"\n";
   const MeshFile f = read_ok("m.msh", head +
                                           "Geometry\n\"a.msh\"\nVertices\n3\n0 0 1\n1 0 1\n0 1 1\nTriangles\n1\n"
@@ -90,7 +90,7 @@ TEST_F(OtherFormats, medit_of_bamg_has_texts_in_quotes_which_are_dropped) {
 
 // --- OBJ -------------------------------------------------------------------------------------------------------
 
-TEST_F(OtherFormats, obj_with_a_region_of_tag_0_is_written_as_it_was) {
+TEST_F(OtherFormats, ObjWithARegionOfTag0IsWrittenAsItWas) {
   const std::string content = "v 0 0 0\nv 1 0 0\nv 0 1 0\ng region_0\nf 1 2 3\n";
   const MeshFile f = read_ok("m.obj", content);
   EXPECT_EQ(f.regions, Tags{0});
@@ -101,7 +101,7 @@ TEST_F(OtherFormats, obj_with_a_region_of_tag_0_is_written_as_it_was) {
 
 // --- OFF -------------------------------------------------------------------------------------------------------
 
-TEST_F(OtherFormats, off_with_colours_and_comments_is_read_and_says_what_it_drops) {
+TEST_F(OtherFormats, OffWithColoursAndCommentsIsReadAndSaysWhatItDrops) {
   const MeshFile f = read_ok("m.off",
                              "COFF # colours\n4 2 0\n# points\n0 0 2 255 0 0 255\n1 0 2 0 0 0 255\n1 1 2 0 0 0 255\n"
                              "0 1 2 0 0 0 255\n3 0 1 2 0.5 0.5 0.5\n3 0 2 3\n");
@@ -112,7 +112,7 @@ TEST_F(OtherFormats, off_with_colours_and_comments_is_read_and_says_what_it_drop
   EXPECT_EQ(read_ok("m.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").triangles, (Triangles{{0, 1, 2}}));
 }
 
-TEST_F(OtherFormats, off_of_polygons_or_in_binary_is_named) {
+TEST_F(OtherFormats, OffOfPolygonsOrInBinaryIsNamed) {
   EXPECT_EQ(refused("m.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"),
             "m.off:7: face 0 has 4 corners; temper reads triangles");
   EXPECT_EQ(refused("m.off", "OFF BINARY\n"), "m.off:1: is an OFF file in binary; temper reads text");
@@ -133,7 +133,7 @@ std::string bytes_of(std::endian order, std::initializer_list<T> values) {
   return all;
 }
 
-TEST_F(OtherFormats, binary_ply_of_both_byte_orders_is_read) {
+TEST_F(OtherFormats, BinaryPlyOfBothByteOrdersIsRead) {
   for (const std::endian order : {std::endian::little, std::endian::big}) {
     const std::string name = order == std::endian::little ? "little" : "big";
     std::string content = "ply\r\nformat binary_" + name +
@@ -161,7 +161,7 @@ TEST_F(OtherFormats, binary_ply_of_both_byte_orders_is_read) {
   }
 }
 
-TEST_F(OtherFormats, ply_faces_of_two_corners_and_one_are_lines_and_marked_points) {
+TEST_F(OtherFormats, PlyFacesOfTwoCornersAndOneAreLinesAndMarkedPoints) {
   const MeshFile f = read_ok(
       "m.ply",
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nelement face 3\nproperty list "
@@ -174,7 +174,7 @@ TEST_F(OtherFormats, ply_faces_of_two_corners_and_one_are_lines_and_marked_point
   EXPECT_EQ(f.point_tags, (Tags{7}));
 }
 
-TEST_F(OtherFormats, ply_may_have_coordinates_in_upper_case) {
+TEST_F(OtherFormats, PlyMayHaveCoordinatesInUpperCase) {
   const MeshFile f = read_ok("m.ply",
                              "ply\nformat ascii 1.0\nelement vertex 3\nproperty double X\nproperty double Y\nproperty "
                              "double Z\nelement face 1\n"
@@ -184,7 +184,7 @@ TEST_F(OtherFormats, ply_may_have_coordinates_in_upper_case) {
   EXPECT_TRUE(f.point_data.empty());
 }
 
-TEST_F(OtherFormats, ply_keeps_arrays_of_several_components_and_names) {
+TEST_F(OtherFormats, PlyKeepsArraysOfSeveralComponentsAndNames) {
   const MeshFile f = rich_sample();
   for (const Encoding encoding : {Encoding::ascii, Encoding::appended}) {
     ASSERT_TRUE(write(path("m.ply"), f, {"ply", encoding}));
@@ -198,7 +198,7 @@ TEST_F(OtherFormats, ply_keeps_arrays_of_several_components_and_names) {
   }
 }
 
-TEST_F(OtherFormats, bad_ply_is_named) {
+TEST_F(OtherFormats, BadPlyIsNamed) {
   const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n";
   const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0\n1 0\n0 1\n";
   EXPECT_EQ(refused("m.ply", head + faces + "4 0 1 2 0\n"),
@@ -225,7 +225,7 @@ const std::string kFort14 =
     "1 = number of open boundaries\n2 = nodes\n2 = nodes of open boundary 1\n10\n20\n"
     "2\n5\n3 20 = land\n20\n30\n40\n2 23\n40 0.5 1\n10 0.25 0.75\n";
 
-TEST_F(OtherFormats, fort14_gives_depths_and_boundaries_by_their_numbers) {
+TEST_F(OtherFormats, Fort14GivesDepthsAndBoundariesByTheirNumbers) {
   const MeshFile f = read_ok("fort.14", kFort14);
   EXPECT_EQ(f.format, "adcirc");
   EXPECT_EQ(f.triangles, (Triangles{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}));
@@ -241,7 +241,7 @@ TEST_F(OtherFormats, fort14_gives_depths_and_boundaries_by_their_numbers) {
   EXPECT_EQ(f.marked_points, (Tags{3, 0}));
 }
 
-TEST_F(OtherFormats, fort14_boundaries_go_through_vtu_and_come_back) {
+TEST_F(OtherFormats, Fort14BoundariesGoThroughVtuAndComeBack) {
   const MeshFile f = read_ok("fort.14", kFort14);
   ASSERT_TRUE(write(path("m.vtu"), f));
   const auto g = read(path("m.vtu"));
@@ -258,7 +258,7 @@ TEST_F(OtherFormats, fort14_boundaries_go_through_vtu_and_come_back) {
             "2 23 = number of nodes and type of land boundary 2\n4 0.5 1\n1 0.25 0.75\n");
 }
 
-TEST_F(OtherFormats, fort14_closes_islands_and_keeps_pairs_of_levees) {
+TEST_F(OtherFormats, Fort14ClosesIslandsAndKeepsPairsOfLevees) {
   const std::string content =
       "two halves\n2 6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1.1 0 0\n5 1.1 1 0\n6 0.1 1 0\n1 3 1 2 3\n2 3 4 5 6\n"
       "0\n0\n2\n7\n3 1\n1\n2\n3\n2 24\n4 2 1 2 3\n6 3 4 5 6\n";
@@ -274,7 +274,7 @@ TEST_F(OtherFormats, fort14_closes_islands_and_keeps_pairs_of_levees) {
       << out;
 }
 
-TEST_F(OtherFormats, fort14_of_schism_has_no_types_of_land_boundaries) {
+TEST_F(OtherFormats, Fort14OfSchismHasNoTypesOfLandBoundaries) {
   const std::string head = "square\n2 4\n1 0 0 9\n2 1 0 9\n3 1 1 9\n4 0 1 9\n1 3 1 2 3\n2 3 1 3 4\n0\n0\n2\n5\n";
   const std::string warning = "hgrid.gr3: 2 land boundaries have no type, which SCHISM reads none of: read as type 0";
   for (const std::string after : {"", " = Number of nodes", " !"}) {
@@ -287,14 +287,14 @@ TEST_F(OtherFormats, fort14_of_schism_has_no_types_of_land_boundaries) {
   }
 }
 
-TEST_F(OtherFormats, fort14_is_what_the_suffix_gr3_means) {
+TEST_F(OtherFormats, Fort14IsWhatTheSuffixGr3Means) {
   const MeshFile f = read_ok("fort.14", kFort14);
   ASSERT_TRUE(write(path("m.gr3"), f));
   ASSERT_TRUE(write(path("m.14"), f));
   EXPECT_EQ(slurp(path("m.gr3")), slurp(path("m.14")));
 }
 
-TEST_F(OtherFormats, fort14_islands_are_not_closed_by_what_is_no_edge) {
+TEST_F(OtherFormats, Fort14IslandsAreNotClosedByWhatIsNoEdge) {
   const std::string square = "two\n2 4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n1 3 1 2 3\n2 3 1 3 4\n0\n0\n2\n7\n";
   const MeshFile f = read_ok("fort.14", square + "3 1\n4\n1\n2\n4 21\n1\n2\n3\n4\n");
   EXPECT_EQ(f.lines, (Lines{{3, 0}, {0, 1}, {0, 1}, {1, 2}, {2, 3}, {3, 0}})) << "from 2 to 4 there is no edge";
@@ -304,7 +304,7 @@ TEST_F(OtherFormats, fort14_islands_are_not_closed_by_what_is_no_edge) {
   EXPECT_TRUE(made->warnings.empty());
 }
 
-TEST_F(OtherFormats, fort14_with_vertical_element_walls_is_converted_bit_for_bit) {
+TEST_F(OtherFormats, Fort14WithVerticalElementWallsIsConvertedBitForBit) {
   const std::string content =
       "wall\n2 6\n1 1 0 9\n2 0 0 9\n3 1 1 9\n4 2 1 9\n5 1 0 9\n6 1 1 9\n1 3 1 3 2\n2 3 5 4 6\n"
       "0\n0\n1\n4\n2 64\n3 6 1 1 1\n1 5 1 1 1\n";
@@ -320,7 +320,7 @@ TEST_F(OtherFormats, fort14_with_vertical_element_walls_is_converted_bit_for_bit
   EXPECT_NE(made.error().what().find("vertical element wall (land boundary 1, type 64)"), std::string::npos);
 }
 
-TEST_F(OtherFormats, fort14_of_lines_without_a_kind_says_what_it_makes_of_them) {
+TEST_F(OtherFormats, Fort14OfLinesWithoutAKindSaysWhatItMakesOfThem) {
   MeshFile f = tamed(sample());
   const auto warnings = write(path("m.14"), f);
   ASSERT_TRUE(warnings);
@@ -333,7 +333,7 @@ TEST_F(OtherFormats, fort14_of_lines_without_a_kind_says_what_it_makes_of_them) 
   EXPECT_EQ(g->lines, (Lines{{0, 1}, {1, 2}})) << "with the domain on their left";
 }
 
-TEST_F(OtherFormats, bad_fort14_is_named) {
+TEST_F(OtherFormats, BadFort14IsNamed) {
   const std::string head = "t\n1 3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n";
   EXPECT_EQ(refused("fort.14", head + "1 3 1 2 9\n"),
             "fort.14:6: triangle 1 uses vertex 9, but the file has 3 vertices, numbered from 1");

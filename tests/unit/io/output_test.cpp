@@ -31,7 +31,7 @@ class SmallDisk {
   void (*old_)(int) = nullptr;
 };
 
-TEST_F(FileTest, a_full_disk_is_reported_and_the_old_file_stays) {
+TEST_F(FileTest, AFullDiskIsReportedAndTheOldFileStays) {
   for (const char* file : {"m.vtu", "m.msh", "m.mesh", "m.obj", "m.node"}) {
     make(file, "the old file");
     const auto before = files();
@@ -49,7 +49,7 @@ TEST_F(FileTest, a_full_disk_is_reported_and_the_old_file_stays) {
   }
 }
 
-TEST_F(FileTest, a_full_device_is_reported) {
+TEST_F(FileTest, AFullDeviceIsReported) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   const auto result = write("/dev/full", sample(), {"vtu", {}});
   ASSERT_FALSE(result);
@@ -57,7 +57,7 @@ TEST_F(FileTest, a_full_device_is_reported) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
-TEST_F(FileTest, an_output_in_no_folder_or_that_is_a_folder_is_reported) {
+TEST_F(FileTest, AnOutputInNoFolderOrThatIsAFolderIsReported) {
   const auto nowhere = write(path("no/such/m.vtu"), sample());
   ASSERT_FALSE(nowhere);
   EXPECT_EQ(nowhere.error().code, ErrorCode::not_writable);
@@ -68,7 +68,7 @@ TEST_F(FileTest, an_output_in_no_folder_or_that_is_a_folder_is_reported) {
   EXPECT_EQ(plain(folder.error().what()), "folder.vtu: is a directory; expected the name of a file");
 }
 
-TEST_F(FileTest, when_one_of_several_files_fails_none_is_changed) {
+TEST_F(FileTest, WhenOneOfSeveralFilesFailsNoneIsChanged) {
   make("m.node", "old points");
   std::filesystem::create_directory(path("m.ele"));
   const auto result = write(path("m.node"), sample());
@@ -78,7 +78,7 @@ TEST_F(FileTest, when_one_of_several_files_fails_none_is_changed) {
   EXPECT_EQ(files(), (std::vector<std::string>{"m.ele", "m.node"}));
 }
 
-TEST_F(FileTest, a_link_stays_a_link_and_permissions_stay) {
+TEST_F(FileTest, ALinkStaysALinkAndPermissionsStay) {
   make("real.vtu", "old");
   std::filesystem::permissions(path("real.vtu"),
                                std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
@@ -90,7 +90,7 @@ TEST_F(FileTest, a_link_stays_a_link_and_permissions_stay) {
             std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }
 
-TEST_F(FileTest, what_a_killed_run_left_is_removed_by_the_next_one) {
+TEST_F(FileTest, WhatAKilledRunLeftIsRemovedByTheNextOne) {
   const pid_t child = fork();
   if (child == 0) {
     auto stream = TextStream::open(path("a.svg"));
@@ -105,7 +105,7 @@ TEST_F(FileTest, what_a_killed_run_left_is_removed_by_the_next_one) {
   EXPECT_EQ(slurp(path("a.svg")), "whole");
 }
 
-TEST_F(FileTest, two_runs_that_write_one_file_do_not_meet) {
+TEST_F(FileTest, TwoRunsThatWriteOneFileDoNotMeet) {
   auto first = TextStream::open(path("a.svg")), second = TextStream::open(path("a.svg"));
   ASSERT_TRUE(first && second);
   first->write("first");
@@ -117,7 +117,7 @@ TEST_F(FileTest, two_runs_that_write_one_file_do_not_meet) {
   EXPECT_EQ(slurp(path("a.svg")), "second");
 }
 
-TEST_F(FileTest, what_is_unfinished_can_be_discarded) {
+TEST_F(FileTest, WhatIsUnfinishedCanBeDiscarded) {
   make("a.svg", "old");
   auto stream = TextStream::open(path("a.svg"));
   ASSERT_TRUE(stream);
@@ -131,7 +131,7 @@ TEST_F(FileTest, what_is_unfinished_can_be_discarded) {
   EXPECT_EQ(slurp(path("a.svg")), "old");
 }
 
-TEST_F(FileTest, text_is_written_whole) {
+TEST_F(FileTest, TextIsWrittenWhole) {
   const std::string text(1000000, 'x');
   ASSERT_TRUE(write_text(path("a.svg"), text));
   EXPECT_EQ(slurp(path("a.svg")), text);

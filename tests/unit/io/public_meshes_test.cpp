@@ -10,7 +10,7 @@ struct Public {
   std::size_t vertices, triangles, reversed, regions;
 };
 
-TEST(PublicMeshes, are_read_with_their_numbers_of_vertices_and_triangles) {
+TEST(PublicMeshes, AreReadWithTheirNumbersOfVerticesAndTriangles) {
   if (!std::filesystem::exists(TEMPER_SHARED "/meshes")) GTEST_SKIP() << "no meshes in " << TEMPER_SHARED "/meshes";
   constexpr Public kFiles[] = {{"sfepy_osteonT1_11.mesh", "medit", 1228, 2292, 0, 67},
                                {"sfepy_circle_in_square.mesh", "medit", 1102, 2102, 0, 2},
@@ -40,7 +40,7 @@ TEST(PublicMeshes, are_read_with_their_numbers_of_vertices_and_triangles) {
 
 class PublicFiles : public FileTest {};
 
-TEST_F(PublicFiles, go_through_every_format_without_losing_a_bit_of_points_and_triangles) {
+TEST_F(PublicFiles, GoThroughEveryFormatWithoutLosingABitOfPointsAndTriangles) {
   if (!std::filesystem::exists(TEMPER_SHARED "/meshes")) GTEST_SKIP() << "no meshes in " << TEMPER_SHARED "/meshes";
   int trips = 0;
   for (const char* name : {"sfepy_circles_in_square.vtk", "sfepy_its2D.mesh", "skfem_annulus.msh",
@@ -63,7 +63,7 @@ TEST_F(PublicFiles, go_through_every_format_without_losing_a_bit_of_points_and_t
   EXPECT_GE(trips, 60);
 }
 
-TEST(PublicMeshes, keep_their_names_and_lines) {
+TEST(PublicMeshes, KeepTheirNamesAndLines) {
   if (!std::filesystem::exists(TEMPER_SHARED "/meshes")) GTEST_SKIP() << "no meshes in " << TEMPER_SHARED "/meshes";
   const auto f = read(std::string(TEMPER_SHARED "/meshes") + "/skfem_annulus.msh");
   ASSERT_TRUE(f) << f.error().what();

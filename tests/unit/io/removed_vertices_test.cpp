@@ -82,7 +82,7 @@ std::map<Line, std::int32_t> tagged_lines(const MeshFile& f) {
 
 class RemovedVertices : public FileTest, public ::testing::WithParamInterface<std::string> {};
 
-TEST_P(RemovedVertices, the_others_keep_their_data_tags_and_weights) {
+TEST_P(RemovedVertices, TheOthersKeepTheirDataTagsAndWeights) {
   // A format that has no place for some data loses it in the first writing: what is compared is what it read.
   const WriteOptions options{GetParam(), {}};
   const std::string name = GetParam() == "triangle" ? "m.node" : "m." + GetParam();
@@ -210,7 +210,7 @@ std::size_t index_of(const MeshFile& f, Vec2 p) {
 
 class InsertedVertices : public FileTest, public ::testing::WithParamInterface<std::string> {};
 
-TEST_P(InsertedVertices, get_data_and_cut_lines_keep_their_tag_on_all_pieces) {
+TEST_P(InsertedVertices, GetDataAndCutLinesKeepTheirTagOnAllPieces) {
   const WriteOptions options{GetParam(), {}};
   const std::string name = GetParam() == "triangle" ? "m.node" : "m." + GetParam();
   MeshFile f = grid();
@@ -266,7 +266,7 @@ TEST_P(InsertedVertices, get_data_and_cut_lines_keep_their_tag_on_all_pieces) {
 INSTANTIATE_TEST_SUITE_P(Formats, InsertedVertices, ::testing::ValuesIn(written_formats()),
                          [](const auto& test) { return test.param; });
 
-TEST_F(FileTest, integers_of_inserted_points_are_what_is_common_around_or_dropped_and_named) {
+TEST_F(FileTest, IntegersOfInsertedPointsAreWhatIsCommonAroundOrDroppedAndNamed) {
   MeshFile f = grid();
   const std::size_t n = f.points.size();
   std::vector<std::int32_t> side(n), number(n);
@@ -286,7 +286,7 @@ TEST_F(FileTest, integers_of_inserted_points_are_what_is_common_around_or_droppe
   EXPECT_EQ(f.warnings.at(0), "data are dropped, because integers differ around a new point: number");
 }
 
-TEST_F(FileTest, markers_of_boundary_points_go_to_points_between_them_where_formats_mark_the_boundary) {
+TEST_F(FileTest, MarkersOfBoundaryPointsGoToPointsBetweenThemWhereFormatsMarkTheBoundary) {
   for (const char* format : {"triangle", "medit", "gmsh41"}) {
     MeshFile f = grid();
     f.format = format;
@@ -307,7 +307,7 @@ TEST_F(FileTest, markers_of_boundary_points_go_to_points_between_them_where_form
 }
 
 // Between them groups would change their shape if it slid.
-TEST_F(FileTest, points_of_straight_boundaries_where_tags_end_or_change_are_fixed) {
+TEST_F(FileTest, PointsOfStraightBoundariesWhereTagsEndOrChangeAreFixed) {
   MeshFile f = grid();
   f.line_tags[6] = 5;  // bottom and middle alternate: the fourth piece of the bottom
   f.lines.pop_back(), f.line_tags.pop_back();
@@ -370,7 +370,7 @@ IdVector<VertexId, VertexId> remove_and_insert(Mesh& mesh, std::size_t n, std::s
   return vertices;
 }
 
-TEST(VerticesOfTheSphere, that_are_not_told_are_known_by_their_place) {
+TEST(VerticesOfTheSphere, ThatAreNotToldAreKnownByTheirPlace) {
   for (const auto& [removed, inserted] : {std::pair(5, 0), {0, 4}, {3, 6}, {9, 2}}) {
     MeshFile told = rich_globe(), not_told = told;
     const MeshFile before = told;
@@ -413,7 +413,7 @@ TEST(VerticesOfTheSphere, that_are_not_told_are_known_by_their_place) {
   }
 }
 
-TEST_F(FileTest, a_marked_point_that_was_removed_is_counted) {
+TEST_F(FileTest, AMarkedPointThatWasRemovedIsCounted) {
   MeshFile f = grid();
   auto loaded = make_mesh(f);
   ASSERT_TRUE(loaded);

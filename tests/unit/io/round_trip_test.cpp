@@ -34,7 +34,7 @@ class RoundTrip : public FileTest, public ::testing::WithParamInterface<Case> {
   }
 };
 
-TEST_P(RoundTrip, of_geometry_weights_regions_and_tags_loses_no_bit) {
+TEST_P(RoundTrip, OfGeometryWeightsRegionsAndTagsLosesNoBit) {
   MeshFile f = fit(sample());
   std::string warnings;
   for (const std::string& w : written(f, GetParam().file)) warnings += w + "\n";
@@ -56,7 +56,7 @@ TEST_P(RoundTrip, of_geometry_weights_regions_and_tags_loses_no_bit) {
   expect_same_mesh(f, g);
 }
 
-TEST_P(RoundTrip, write_read_write_gives_the_same_bytes) {
+TEST_P(RoundTrip, WriteReadWriteGivesTheSameBytes) {
   for (const MeshFile& f : {fit(sample()), fit(rich_sample())}) {
     const std::string first = "1" + GetParam().file, second = "2" + GetParam().file;
     written(f, first);
@@ -73,7 +73,7 @@ TEST_P(RoundTrip, write_read_write_gives_the_same_bytes) {
   }
 }
 
-TEST_P(RoundTrip, of_a_mesh_without_weights_or_tags_adds_none) {
+TEST_P(RoundTrip, OfAMeshWithoutWeightsOrTagsAddsNone) {
   MeshFile f;
   f.points = {{0, 0}, {1, 0}, {0, 1}};
   f.triangles = {{0, 1, 2}};
@@ -88,7 +88,7 @@ TEST_P(RoundTrip, of_a_mesh_without_weights_or_tags_adds_none) {
 }
 
 // What a format cannot hold is named: nothing disappears in silence.
-TEST_P(RoundTrip, every_array_that_does_not_come_back_is_named_in_a_warning) {
+TEST_P(RoundTrip, EveryArrayThatDoesNotComeBackIsNamedInAWarning) {
   const MeshFile f = fit(rich_sample());
   std::string warnings;
   for (const std::string& w : written(f, GetParam().file)) warnings += w + "\n";
@@ -139,7 +139,7 @@ std::vector<Case> cases() {
 INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip, ::testing::ValuesIn(cases()),
                          [](const auto& each) { return each.param.name; });
 
-TEST_F(FileTest, vtu_keeps_all_data_with_their_types) {
+TEST_F(FileTest, VtuKeepsAllDataWithTheirTypes) {
   const MeshFile f = rich_sample();
   for (const Encoding encoding : {Encoding::ascii, Encoding::base64, Encoding::appended}) {
     const auto warnings = write(path("a.vtu"), f, {"vtu", encoding});
@@ -159,7 +159,7 @@ TEST_F(FileTest, vtu_keeps_all_data_with_their_types) {
 }
 
 // A mesh larger than one compressed block of every array.
-TEST_F(FileTest, vtu_of_many_blocks_comes_back_whole) {
+TEST_F(FileTest, VtuOfManyBlocksComesBackWhole) {
   constexpr int kSide = 200;
   MeshFile f;
   for (int j = 0; j <= kSide; ++j) {

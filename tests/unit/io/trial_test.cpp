@@ -105,7 +105,7 @@ void make_netcdf4(const std::string& path) {
 
 using Netcdf4 = FileTest;
 
-TEST_F(Netcdf4, is_read_as_classic_files_are) {
+TEST_F(Netcdf4, IsReadAsClassicFilesAre) {
   make_netcdf4(path("m.nc"));
   const auto f = read(path("m.nc"));
   ASSERT_TRUE(f) << f.error().what();
@@ -114,7 +114,7 @@ TEST_F(Netcdf4, is_read_as_classic_files_are) {
   EXPECT_EQ(f->triangles.size(), 1u);
 }
 
-TEST_F(Netcdf4, damaged_anywhere_gives_a_mesh_or_an_error) {
+TEST_F(Netcdf4, DamagedAnywhereGivesAMeshOrAnError) {
   make_netcdf4(path("m.nc"));
   const std::string whole = slurp(path("m.nc"));
   int errors = 0;
@@ -129,7 +129,7 @@ TEST_F(Netcdf4, damaged_anywhere_gives_a_mesh_or_an_error) {
   EXPECT_GT(errors, 5);
 }
 
-TEST_F(Netcdf4, on_which_libhdf5_never_returns_is_refused) {
+TEST_F(Netcdf4, OnWhichLibhdf5NeverReturnsIsRefused) {
   const std::string file = TEMPER_SHARED "/hostile/hdf5_hang.ugrid.nc";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
   const auto f = read(file);

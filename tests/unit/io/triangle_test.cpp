@@ -16,7 +16,7 @@ class TriangleFiles : public FileTest {
   }
 };
 
-TEST_F(TriangleFiles, are_found_from_either_of_the_two) {
+TEST_F(TriangleFiles, AreFoundFromEitherOfTheTwo) {
   for (const char* name : {"m.node", "m.ele"}) {
     const auto f = read(path(name));
     ASSERT_TRUE(f) << f.error().what();
@@ -28,7 +28,7 @@ TEST_F(TriangleFiles, are_found_from_either_of_the_two) {
   }
 }
 
-TEST_F(TriangleFiles, undeclared_attributes_are_data_and_a_warning_says_how_to_make_them_weights) {
+TEST_F(TriangleFiles, UndeclaredAttributesAreDataAndAWarningSaysHowToMakeThemWeights) {
   const auto f = read(path("m.node"));
   ASSERT_TRUE(f) << f.error().what();
   EXPECT_TRUE(f->weights.empty());
@@ -47,7 +47,7 @@ TEST_F(TriangleFiles, undeclared_attributes_are_data_and_a_warning_says_how_to_m
 }
 
 // Found by fuzzing: the first point decides what a file is, and "inf" was no number to it.
-TEST_F(TriangleFiles, with_data_that_are_not_finite_are_recognised) {
+TEST_F(TriangleFiles, WithDataThatAreNotFiniteAreRecognised) {
   constexpr double kInf = std::numeric_limits<double>::infinity(), kNan = std::numeric_limits<double>::quiet_NaN();
   MeshFile file = sample();
   file.point_data = {{"depth", 1, std::vector<double>{-kInf, kInf, kNan, 0, 1, 2}}};
@@ -60,7 +60,7 @@ TEST_F(TriangleFiles, with_data_that_are_not_finite_are_recognised) {
   EXPECT_TRUE(std::isnan(depths[2]));
 }
 
-TEST_F(TriangleFiles, may_count_from_one) {
+TEST_F(TriangleFiles, MayCountFromOne) {
   make("m.node", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n");
   make("m.ele", "1 3 0\n1 1 2 3\n");
   const auto f = read(path("m.ele"));
@@ -69,7 +69,7 @@ TEST_F(TriangleFiles, may_count_from_one) {
   EXPECT_EQ(f->numbering->point(0), "point 1");
 }
 
-TEST_F(TriangleFiles, whose_rows_do_not_fit_the_header_are_refused_at_the_first_of_them) {
+TEST_F(TriangleFiles, WhoseRowsDoNotFitTheHeaderAreRefusedAtTheFirstOfThem) {
   const auto refused = [&](const char* name, const char* content) {
     SetUp();
     make(name, content);
@@ -88,7 +88,7 @@ TEST_F(TriangleFiles, whose_rows_do_not_fit_the_header_are_refused_at_the_first_
             "m.ele:3: the file ends where a vertex number was expected");
 }
 
-TEST_F(TriangleFiles, give_their_segments_and_marked_edges_as_lines) {
+TEST_F(TriangleFiles, GiveTheirSegmentsAndMarkedEdgesAsLines) {
   make("m.edge", "5 1\n0 0 1 7\n1 1 2 0\n2 2 3 8\n3 3 0 0\n4 0 2 0\n");
   const auto f = read(path("m.node"));
   ASSERT_TRUE(f) << f.error().what();
@@ -100,7 +100,7 @@ TEST_F(TriangleFiles, give_their_segments_and_marked_edges_as_lines) {
   EXPECT_EQ(g->lines, (std::vector<std::array<std::int32_t, 2>>{{0, 2}})) << "segments are what is constrained";
 }
 
-TEST_F(TriangleFiles, name_errors_in_the_file_they_are_in) {
+TEST_F(TriangleFiles, NameErrorsInTheFileTheyAreIn) {
   make("m.ele", "1 3 0\n0 0 1 9\n");
   const auto f = read(path("m.node"));
   ASSERT_FALSE(f);

@@ -19,7 +19,7 @@ std::string big_endian(const std::vector<T>& values) {
 const std::vector<float> kPoints = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 const std::vector<std::array<std::int32_t, 3>> kTriangles = {{0, 1, 2}, {0, 2, 3}};
 
-TEST_F(FileTest, binary_vtk_of_version_3_is_read) {
+TEST_F(FileTest, BinaryVtkOfVersion3IsRead) {
   const std::string content =
       "# vtk DataFile Version 3.0\ntitle\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n" + big_endian(kPoints) +
       "\nCELLS 3 11\n" + big_endian<std::int32_t>({2, 0, 1, 3, 0, 1, 2, 3, 0, 2, 3}) + "\nCELL_TYPES 3\n" +
@@ -40,7 +40,7 @@ TEST_F(FileTest, binary_vtk_of_version_3_is_read) {
   ASSERT_EQ(f->cell_data.size(), 1u) << "mat_id also stays as data of its own type";
 }
 
-TEST_F(FileTest, binary_vtk_of_version_5_with_metadata_is_read) {
+TEST_F(FileTest, BinaryVtkOfVersion5WithMetadataIsRead) {
   const std::string content =
       "# vtk DataFile Version 5.1\nvtk output\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n" +
       big_endian(kPoints) + "\nMETADATA\nINFORMATION 1\nNAME L2_NORM_RANGE LOCATION vtkDataArray\nDATA 2 0 1\n\n" +
@@ -51,7 +51,7 @@ TEST_F(FileTest, binary_vtk_of_version_5_with_metadata_is_read) {
   EXPECT_EQ(f->triangles, kTriangles);
 }
 
-TEST_F(FileTest, types_of_fixed_width_are_known_by_their_names) {
+TEST_F(FileTest, TypesOfFixedWidthAreKnownByTheirNames) {
   const auto f = read(
       make("m.vtk",
            "# vtk DataFile Version 5.1\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 vtktypefloat64\n"
@@ -65,7 +65,7 @@ TEST_F(FileTest, types_of_fixed_width_are_known_by_their_names) {
   EXPECT_EQ(std::get<std::vector<std::uint64_t>>(f->cell_data[1].values), (std::vector<std::uint64_t>{1, 2}));
 }
 
-TEST_F(FileTest, polydata_with_lines_and_vertices_is_read) {
+TEST_F(FileTest, PolydataWithLinesAndVerticesIsRead) {
   const auto f = read(
       make("m.vtk",
            "# vtk DataFile Version 4.2\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n0 0 1 1 0 1 1 1 1 0 1 1\n"
@@ -81,7 +81,7 @@ TEST_F(FileTest, polydata_with_lines_and_vertices_is_read) {
   EXPECT_EQ(f->point_tags, (std::vector<std::int32_t>{1, 1}));
 }
 
-TEST_F(FileTest, attributes_of_all_kinds_are_kept_with_their_types) {
+TEST_F(FileTest, AttributesOfAllKindsAreKeptWithTheirTypes) {
   const auto f = read(make(
       "m.vtk",
       "# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n"
@@ -102,7 +102,7 @@ TEST_F(FileTest, attributes_of_all_kinds_are_kept_with_their_types) {
   }
 }
 
-TEST_F(FileTest, other_data_sets_are_named) {
+TEST_F(FileTest, OtherDataSetsAreNamed) {
   const auto f =
       read(make("m.vtk", "# vtk DataFile Version 2.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 1\n"));
   ASSERT_FALSE(f);

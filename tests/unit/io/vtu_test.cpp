@@ -111,7 +111,7 @@ class ByHand {
 
 class VtuStyles : public FileTest, public ::testing::WithParamInterface<Style> {};
 
-TEST_P(VtuStyles, are_read_alike) {
+TEST_P(VtuStyles, AreReadAlike) {
   const auto f = read(make("m.vtu", ByHand(GetParam()).file()));
   ASSERT_TRUE(f) << f.error().what();
   EXPECT_EQ(f->points, (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(Vtu, VtuStyles,
                                            Style{"appended_base64_zlib", 8, false, true, Style::appended_base64}),
                          [](const auto& each) { return each.param.name; });
 
-TEST_F(FileTest, vtu_errors_name_the_array_and_its_line) {
+TEST_F(FileTest, VtuErrorsNameTheArrayAndItsLine) {
   const auto message = [&](const std::string& from, const std::string& to) {
     std::string content =
         "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
@@ -204,7 +204,7 @@ MeshFile many_blocks(bool random) {
   return f;
 }
 
-TEST_F(FileTest, vtu_is_the_same_for_any_number_of_threads) {
+TEST_F(FileTest, VtuIsTheSameForAnyNumberOfThreads) {
   for (const bool random : {false, true}) {
     const MeshFile file = many_blocks(random);
     const auto expected = make_mesh(file);
@@ -230,14 +230,14 @@ TEST_F(FileTest, vtu_is_the_same_for_any_number_of_threads) {
   }
 }
 
-TEST_F(FileTest, vtu_of_a_grid_stays_small) {
+TEST_F(FileTest, VtuOfAGridStaysSmall) {
   // Runs of bytes are all that is looked for in coordinates, unless strings of them pay.
   ASSERT_TRUE(write(path("grid.vtu"), many_blocks(false), {"", Encoding::base64}));
   ASSERT_TRUE(write(path("raw.vtu"), many_blocks(false), {"", Encoding::appended}));
   EXPECT_LT(4 * std::filesystem::file_size(path("grid.vtu")), std::filesystem::file_size(path("raw.vtu")));
 }
 
-TEST_F(FileTest, vtu_damaged_blocks_are_named_whoever_unpacks_them) {
+TEST_F(FileTest, VtuDamagedBlocksAreNamedWhoeverUnpacksThem) {
   ASSERT_TRUE(write(path("m.vtu"), many_blocks(true), {"", Encoding::base64}));
   std::string bytes = slurp(path("m.vtu"));
   const std::size_t points = bytes.find("Name=\"Points\""), end = bytes.find("</DataArray>", points);
@@ -252,7 +252,7 @@ TEST_F(FileTest, vtu_damaged_blocks_are_named_whoever_unpacks_them) {
   }
 }
 
-TEST_F(FileTest, vtu_appended_data_that_are_cut_or_point_nowhere_are_named) {
+TEST_F(FileTest, VtuAppendedDataThatAreCutOrPointNowhereAreNamed) {
   ASSERT_TRUE(write(path("m.vtu"), sample(), {"", Encoding::appended}));
   const std::string whole = slurp(path("m.vtu"));
   const std::size_t data = whole.find('_', whole.find("<AppendedData")) + 1;
@@ -291,7 +291,7 @@ TEST(Vtu, RefusesBlocksWhoseSizesWrapAround) {
   }
 }
 
-TEST_F(FileTest, vtu_that_cannot_be_written_leaves_what_was_there) {
+TEST_F(FileTest, VtuThatCannotBeWrittenLeavesWhatWasThere) {
   make("m.vtu", "precious");
   MeshFile file = many_blocks(true);
   file.weights.pop_back();
@@ -305,7 +305,7 @@ TEST_F(FileTest, vtu_that_cannot_be_written_leaves_what_was_there) {
 
 using VtuPeriod = FileTest;
 
-TEST_F(VtuPeriod, period_and_points_come_back_bit_for_bit) {
+TEST_F(VtuPeriod, PeriodAndPointsComeBackBitForBit) {
   MeshFile f = from_mesh(*random_periodic({.vertices = 400, .period = {0.7, 3.1}}));
   f.points[5].x -= f.period.x;
   for (const Encoding encoding : {Encoding::ascii, Encoding::base64, Encoding::appended}) {

@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <functional>
+#include <mutex>
+#include <thread>
 #include <vector>
 
 #include "support/lattice.hpp"
@@ -233,6 +237,32 @@ TEST(Modes, StopsAtTheSweepLimitTheTimeLimitAndWhenAsked) {
   EXPECT_EQ(calls, 5);
   EXPECT_EQ(asked.validate(), std::nullopt);
   EXPECT_EQ(count_non_regular_edges(asked), 0u);
+}
+
+/// Takes its time once, before the first sweep.
+class SlowBeginning final : public Executor {
+ public:
+  static constexpr std::chrono::milliseconds kTime{300};
+  void run(std::size_t n, const std::function<void(std::size_t)>& block) override {
+    std::call_once(slept_, [] { std::this_thread::sleep_for(kTime); });
+    SerialExecutor().run(n, block);
+  }
+
+ private:
+  std::once_flag slept_;
+};
+
+// Twice 0.3 seconds are more than 0.5. Nothing but the end, which is reckoned with, makes this run stop.
+TEST(Modes, TheTimeLimitIsOfTheEndTooWhichTakesAsLongAsTheBeginning) {
+  for (const Objective objective : {Objective::energy, Objective::accuracy}) {
+    SlowBeginning executor;
+    OptimizeHooks hooks;
+    hooks.executor = &executor;
+    Mesh mesh = *sheared_grid({.nx = 3, .ny = 3});
+    const auto report = optimize(mesh, {.objective = objective, .time_limit = 0.5}, hooks);
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->stopped, Stopped::time_limit);
+  }
 }
 
 TEST(Modes, ThePapersStoppingRuleLooksAtTheMeanEnergyOfATriangle) {

@@ -332,6 +332,33 @@ TEST(HiddenVertices, LeaveEdgesRegularAtTheEndUnlessTheyAreKept) {
   EXPECT_GT(with_progress, 0u);  // of the rounds before the one that failed
 }
 
+// Of barriers no best mesh is kept, since γ changes.
+TEST(HiddenVertices, OfABarrierEndTheRunWithTheLastRoundThatWasRegular) {
+  OptimizeOptions o;
+  o.objective = Objective::energy;
+  o.energy = EnergyKind::BP;
+  o.flips = Flips::deferred;
+  o.repair = Repair::none;
+  o.max_sweeps = 12;
+  o.paper.inner = 2;
+  o.paper.solver = Solver::alternating;
+  o.paper.weight_updates = Updates::deferred;
+  OptimizeOptions all = o;
+  o.paper.hidden = HiddenPolicy::remove;
+  all.paper.hidden = HiddenPolicy::undo;
+  all.paper.position_updates = Updates::deferred;
+  all.paper.gamma = Softening{1, LengthScale::relative};
+  for (const auto& [input, options] : {std::pair(sparse_horseshoe(), o), {dense(), all}}) {
+    Mesh mesh = input;
+    const auto report = optimize(mesh, options);
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->stopped, Stopped::hidden);
+    EXPECT_LT(report->final_energy, report->initial_energy);
+    EXPECT_EQ(count_non_regular_edges(mesh, false), 0u);
+    EXPECT_NE(mesh, input);
+  }
+}
+
 // All weights of a sweep at once may hide a vertex that none of them hides alone.
 TEST(DeferredWeights, LeaveEveryEdgeRegularWhereFlipsDoNotWait) {
   std::size_t sweeps = 0, set_twice = 0;

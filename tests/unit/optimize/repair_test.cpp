@@ -124,6 +124,26 @@ TEST(Repair, OfOnePlaceInALargeMeshChangesNothingElsewhere) {
   }
 }
 
+TEST(Repair, IsKeptWhereItIsNoWorseAndCameAndWentForSomething) {
+  const Mesh good = test::lattice({.n = 6, .jitter = 0.02, .weight = 0});
+  Mesh bad = good;
+  const VertexId moved(14);
+  const WeightedPoint from = bad.point(moved);
+  bad.set_point(moved, {from.x, from.y + 0.4, 0});
+  ASSERT_GT(n_bad(bad), n_bad(good));
+  const OptimizeOptions options;
+  const auto settings = make_settings(options, good, Frame::of(good), {});
+  ASSERT_TRUE(settings);
+  const Candidate cured = {WorkingCopy(good, options.paper.order)}, ill = {WorkingCopy(bad, options.paper.order)};
+  EXPECT_TRUE(has_gained(cured, ill, *settings, settings->model));
+  EXPECT_FALSE(has_gained(ill, cured, *settings, settings->model));
+  EXPECT_TRUE(has_gained(cured, cured, *settings, settings->model));
+  Candidate replaced = cured;  // a vertex went, and another one came
+  ++replaced.work.n_vertices_named;
+  EXPECT_FALSE(has_gained(replaced, cured, *settings, settings->model)) << "for nothing";
+  EXPECT_TRUE(has_gained(replaced, ill, *settings, settings->model));
+}
+
 TEST(Repair, IsTracedLikeAllElse) {
   for (const Mesh& input : {*regular_polygon({.corners = 40}), *horseshoe()}) {
     std::vector<TraceEvent> events;

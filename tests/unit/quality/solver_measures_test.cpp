@@ -149,7 +149,7 @@ TEST(SolverMeasures, DoNotChangeWhenTheMeshIsTurnedMovedOrScaled) {
   }
 }
 
-TEST(SolverMeasures, OfD_FlowFMKnowNoWeights) {
+TEST(SolverMeasures, OfDFlowFMKnowNoWeights) {
   const Quality without = quality(lattice({.n = 8, .jitter = 0.2, .weight = 0, .seed = 5})),
                 with = quality(with_weights(lattice({.n = 8, .jitter = 0.2, .weight = 0, .seed = 5})));
   for (const QualityMeasure& m : quality_measures()) {

@@ -1,6 +1,7 @@
 // New vertices: in a triangle, on an inner edge, on the boundary.
 #include <gtest/gtest.h>
 
+#include "mesh/mesh_editor.hpp"
 #include "property/random_mesh.hpp"
 
 namespace temper {
@@ -78,6 +79,34 @@ TEST(SplitEdge, OfTheBoundaryMakesTwoOfOneTriangle) {
     EXPECT_TRUE(mesh.is_boundary(v));
     EXPECT_EQ(mesh.validate(), std::nullopt);
     EXPECT_EQ(total_doubled_area(mesh), 8);
+  }
+}
+
+// The star of vertex 0 is cut open far from what changes. Whoever walks around the vertex comes upon the cut, and takes
+// it for the boundary.
+TEST(Topology, InsertionsDoNotWalkAroundTheVerticesOfTheTriangle) {
+  constexpr std::size_t kTriangles = 30;
+  std::vector<Vec2> points = {{0, 0}};
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (std::size_t i = 0; i < kTriangles; ++i) {
+    const double angle = 6.283185307179586 * static_cast<double>(i) / kTriangles;
+    points.push_back({std::cos(angle), std::sin(angle)});
+    triangles.push_back({0, static_cast<std::int32_t>(i + 1), static_cast<std::int32_t>((i + 1) % kTriangles + 1)});
+  }
+  Mesh cut = test::build_or_die(points, triangles);
+  const VertexId hub(0);
+  const HalfedgeId far = cut.find_halfedge(hub, VertexId(kTriangles / 2)), twin = cut.twin(far);
+  MeshEditor(cut).link(far, HalfedgeId());
+  MeshEditor(cut).link(twin, HalfedgeId());
+  const Vec2 near = 0.25 * (points[3] + points[4]);
+  for (const bool on_edge : {false, true}) {
+    Mesh mesh = cut;
+    const HalfedgeId first = mesh.find_halfedge(hub, VertexId(3));
+    const VertexId v = on_edge ? split_edge(mesh, first, {0.5 * points[3].x, 0.5 * points[3].y, 0})
+                               : insert_in_triangle(mesh, Mesh::triangle(first), {near.x, near.y, 0});
+    EXPECT_NE(mesh.outgoing(hub), far);
+    EXPECT_EQ(mesh.origin(mesh.outgoing(hub)), hub);
+    EXPECT_TRUE(mesh.find_halfedge(v, hub).valid());
   }
 }
 

@@ -1,6 +1,6 @@
 """Files both ways between temper and meshio: points, cells and data equal to the last bit.
 
-meshio_test.py CONVERT_TOOL
+test_meshio.py CONVERT_TOOL
 """
 
 import os

@@ -1,9 +1,10 @@
 // temper optimize: what it writes and prints, and that a report can be run again.
+#include "temper/optimize.hpp"
+
 #include <algorithm>
 #include <sstream>
 
 #include "temper/io.hpp"
-#include "temper/optimize.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -44,6 +45,43 @@ TEST_F(Optimize, LinesThatAreAllEdgesOfTheMeshHoldNothing) {
     EXPECT_TRUE(contains(temper_ok({"check", "out.msh"}).err, warning)) << "they are listed again";
     temper_ok({"replay", "lines.msh", "t.jsonl", "-o", "again.msh"});
     EXPECT_EQ(read("again.msh"), read("out.msh"));
+  }
+}
+
+TEST_F(Optimize, EveryTagComesThroughConversionsAndSweeps) {
+  io::MeshFile file = *io::read("in.vtu");
+  file.regions.assign(file.triangles.size(), 7);
+  std::fill(file.regions.begin() + 36, file.regions.end(), 3);
+  file.lines.clear(), file.line_tags.clear();
+  for (std::int32_t i = 0; i < 6; ++i) file.lines.push_back({i, i + 1}), file.line_tags.push_back(20 + i);
+  file.marked_points = {0, 6, 24}, file.point_tags = {31, 32, 33};
+  file.names = {{2, 7, "steel"}, {1, 20, "wall"}};
+  ASSERT_TRUE(io::write("tags.msh", file));
+  temper_ok({"convert", "tags.msh", "-o", "tags.vtu"});
+  temper_ok({"convert", "tags.vtu", "-o", "converted.msh"});
+  temper_ok({"optimize", "tags.msh", "-o", "kept.msh", "--no-flips", "--quiet"});
+  temper_ok({"optimize", "tags.msh", "-o", "flipped.msh", "--quiet"});
+  for (const char* path : {"converted.msh", "kept.msh", "flipped.msh"}) {
+    SCOPED_TRACE(path);
+    io::MeshFile found = *io::read(path);
+    if (std::string_view(path) == "flipped.msh") {  // an edge flips within its region
+      std::sort(found.regions.begin(), found.regions.end(), std::greater());
+      std::sort(file.regions.begin(), file.regions.end(), std::greater());
+    }
+    EXPECT_EQ(found.regions, file.regions);
+    EXPECT_EQ(found.lines, file.lines);
+    EXPECT_EQ(found.line_tags, file.line_tags);
+    EXPECT_EQ(found.marked_points, file.marked_points);
+    EXPECT_EQ(found.point_tags, file.point_tags);
+    ASSERT_EQ(found.names.size(), 2u);
+    for (const io::PhysicalName& name : file.names) {
+      EXPECT_EQ(std::count_if(found.names.begin(), found.names.end(),
+                              [&](const io::PhysicalName& n) {
+                                return n.dimension == name.dimension && n.tag == name.tag && n.name == name.name;
+                              }),
+                1)
+          << name.name;
+    }
   }
 }
 

@@ -1,6 +1,6 @@
 """VTKHDF both ways between temper and h5py: what is in the files, to the last bit.
 
-vtkhdf_test.py PROGRAM
+test_vtkhdf.py PROGRAM
 """
 
 import os

@@ -59,5 +59,16 @@ TEST_F(Stopping, TheTimeLimitWritesTheBestMeshAndExitsWith4) {
   expect_stopped_early("time_limit");
 }
 
+// The file comes after a second, and writing is reckoned to take another one: nothing is left of two for the sweeps.
+TEST_F(Stopping, TheTimeLimitIsOfTheWholeRun) {
+  temper_ok({"example", "random", "--vertices", "400", "-o", "small.off"});
+  temper_ok({"optimize", "small.off", "-o", "out.off", "--time-limit", "100", "--quiet"});
+  const Outcome outcome = shell(
+      "mkfifo late.off; (sleep 1; cat small.off > late.off) & "
+      "temper optimize late.off -o out.off --time-limit 2 --report r.json");
+  EXPECT_EQ(outcome.exit, 4) << outcome.err;
+  EXPECT_EQ(read_json("r.json")["stopped"], "time_limit");
+}
+
 }  // namespace
 }  // namespace temper::test

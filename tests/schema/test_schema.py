@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""schema_test.py PROGRAM SCHEMA: reports of the program are as the schema says, and others are not."""
+"""test_schema.py PROGRAM SCHEMA: reports of the program are as the schema says, and others are not."""
 import copy
 import json
 import pathlib

@@ -311,11 +311,18 @@ TEST_F(Trace, TheCommandOfAnyMethodGivesTheSameBytes) {
   }
 }
 
-TEST_F(Trace, FlipsNoneIsNoFlips) {
+TEST_F(Trace, FlipsNoneIsNoFlipsAndKeepsEveryEdge) {
   make_input();
-  temper_ok({"optimize", "in.vtu", "-o", "a.vtu", "--flips", "none", "--quiet", "--max-sweeps", "5"});
+  temper_ok({"optimize", "in.vtu", "-o", "a.vtu", "--flips", "none", "--max-sweeps", "5", "--report", "r.json"});
+  EXPECT_EQ(read_json("r.json")["flips"], 0);
   temper_ok({"optimize", "in.vtu", "-o", "b.vtu", "--no-flips", "--quiet", "--max-sweeps", "5"});
   EXPECT_EQ(read("a.vtu"), read("b.vtu"));
+  const auto input = *io::read("in.vtu"), output = *io::read("a.vtu");
+  EXPECT_EQ(output.triangles, input.triangles);
+  EXPECT_NE(output.points, input.points);
+  temper_ok({"optimize", "in.vtu", "-o", "c.vtu", "--max-sweeps", "5", "--report", "r.json"});
+  EXPECT_GT(read_json("r.json")["flips"], 0);
+  EXPECT_NE(io::read("c.vtu")->triangles, input.triangles);
 }
 
 TEST_F(Trace, RemovalsAreSaidAndCounted) {

@@ -1,6 +1,6 @@
 """What `temper dec` writes, read by NumPy, SciPy and meshio: the same numbers in every format, and the laws of operators.
 
-dec_test.py TEMPER
+test_dec.py TEMPER
 """
 
 import os

@@ -1,6 +1,6 @@
 """VTKHDF both ways between temper and VTK itself: what is in the files, to the last bit. Skipped where Python has no VTK.
 
-vtkhdf_vtk_test.py PROGRAM
+test_vtkhdf_vtk.py PROGRAM
 """
 
 import os

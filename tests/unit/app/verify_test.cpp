@@ -1,7 +1,12 @@
 // temper verify: tables, JSON, comparisons, and what is refused.
+#include "temper/verify.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <sstream>
 
+#include "temper/io.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {
@@ -19,6 +24,16 @@ TEST_F(Verify, PrintsErrorsOfEveryFieldTheirMeansAndTheMatrices) {
   }
   EXPECT_FALSE(contains(text, "linear"));
   EXPECT_FALSE(contains(text, "nan"));
+  const auto json = nlohmann::json::parse(temper_ok({"verify", "in.vtu", "--json"}).out);
+  for (const auto& field : json["errors"]["fields"]) {
+    for (const char* key : {"star0", "star1", "star2", "poisson", "flux"}) {
+      for (const char* norm : {"l2", "max"}) {
+        char number[32];
+        std::snprintf(number, sizeof number, " %.3e", field[key][norm].get<double>());
+        EXPECT_TRUE(contains(text, number)) << field["name"] << " " << key;
+      }
+    }
+  }
 }
 
 TEST_F(Verify, SaysTheSameAsJsonForAnyNumberOfThreads) {
@@ -108,9 +123,21 @@ TEST_F(Verify, MeasuresOrders) {
 TEST_F(Verify, WritesTheErrorOfEachEdge) {
   make_input();
   const auto json = nlohmann::json::parse(temper_ok({"verify", "in.vtu", "--edges", "edges.csv", "--json"}).out);
-  const std::string csv = read("edges.csv");
-  EXPECT_EQ(csv.rfind("from,to,star1,error\n", 0), 0u);
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), json["edges"].get<int>() + 1);
+  std::istringstream csv(read("edges.csv"));
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "from,to,star1,error");
+  const Mesh mesh = io::make_mesh(*io::read("in.vtu"))->mesh;
+  const auto report = verify(mesh, {.fields = {"all"}, .local = true});
+  ASSERT_TRUE(report);
+  const std::vector<double>& errors = report->local[1];
+  ASSERT_EQ(errors.size(), json["edges"].get<std::size_t>());
+  for (std::size_t e = 0; e < errors.size(); ++e) {
+    ASSERT_TRUE(std::getline(csv, line)) << "edge " << e;
+    EXPECT_GT(errors[e], 0) << "edge " << e;
+    EXPECT_NEAR(std::stod(line.substr(line.rfind(',') + 1)), errors[e], 1e-12 * errors[e]) << line;
+  }
+  EXPECT_FALSE(std::getline(csv, line)) << line;
 }
 
 TEST_F(Verify, BadUsageIsRefusedAndNothingIsWritten) {
