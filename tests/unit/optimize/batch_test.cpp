@@ -10,6 +10,7 @@
 #include "energy/star_kernels.hpp"
 #include "energy/whole_mesh.hpp"
 #include "geometry/predicates_inline.hpp"
+#include "optimize/accuracy/accuracy_sizes.hpp"
 #include "optimize/driver.hpp"
 #include "optimize/step/star_batch.hpp"
 #include "support/lattice.hpp"
@@ -205,7 +206,7 @@ AccuracyTask task_of(const Mesh& mesh, double min_edge = 0, double min_dual = 0)
   task.model.min_edge = min_edge, task.model.min_dual = min_dual;
   Noise noise(7);
   for (double& s : task.domain.sizes) s = 1 + 0.2 * noise();
-  task.domain.raise_floors(mesh, task.model, nullptr);
+  raise_floors(task.domain, mesh, task.model, nullptr);
   return task;
 }
 

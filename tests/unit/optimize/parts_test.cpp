@@ -404,7 +404,8 @@ TEST(OnePart, UndoesAStepWhoseFlipsWouldLeaveIt) {
   Mesh& mesh = one.work.mesh;
   const Recorder recorder(one.settings.hooks.tracer, one.work, 1);
   VertexLimits limits(mesh, one.settings, one.work.frame);
-  Improver improver({mesh, one.settings, one.work.frame, limits, recorder});
+  const SweepState state(one.settings);
+  Improver improver({mesh, one.settings, state, one.work.frame, limits, recorder});
   improver.step().begin_sweep(0, one.settings.options.unknowns);
   std::size_t escapes = 0;
   for (std::size_t first = 0; first + kTiny <= mesh.n_vertices(); first += kTiny) {

@@ -10,12 +10,17 @@ namespace {
 
 EnergyInfo row(std::string_view name) { return *find_energy(name); }
 
+std::span<const Attempt> attempts_of(std::string_view energy, OptimizeOptions options, const Mesh& mesh) {
+  options.energy = row(energy).kind;
+  return attempts(*make_settings(options, mesh, Frame::of(mesh)), mesh);
+}
+
 TEST(Schedule, ShrinksGammaToItsFloorInEveryAttempt) {
   const Mesh bad = lattice({.jitter = 0.45, .weight = 0});
-  const auto tries = attempts(row("BP"), {}, bad);
+  const auto tries = attempts_of("BP", {}, bad);
   ASSERT_GE(tries.size(), 2u);
   for (const Attempt& attempt : tries) {
-    Softener softener(attempt, row("BP"), {});
+    Softener softener(attempt, row("BP"), Policy());
     EnergyModel model;
     softener.start(bad, model);
     EXPECT_EQ(model.gamma, (Softening{attempt.start, LengthScale::relative}));
@@ -35,7 +40,7 @@ TEST(Schedule, ShrinksGammaToItsFloorInEveryAttempt) {
 
 TEST(Schedule, IsAtTheFloorAsSoonAsNothingIsBad) {
   const Mesh bad = lattice({.jitter = 0.45, .weight = 0});
-  Softener softener(attempts(row("BP"), {}, bad)[0], row("BP"), {});
+  Softener softener(attempts_of("BP", {}, bad)[0], row("BP"), Policy());
   EnergyModel model;
   softener.start(bad, model);
   EXPECT_TRUE(softener.advance(bad, 1, 1, model));
@@ -48,17 +53,17 @@ TEST(Schedule, IsAtTheFloorAsSoonAsNothingIsBad) {
 
 TEST(Schedule, OfAWellCenteredMeshIsHardFromTheStart) {
   const Mesh good = lattice({.jitter = 0.01, .weight = 0});
-  EXPECT_EQ(attempts(row("BP"), {}, good).size(), 1u);
-  EXPECT_EQ(attempts(row("BP"), {}, good)[0].start, 0.003);
+  EXPECT_EQ(attempts_of("BP", {}, good).size(), 1u);
+  EXPECT_EQ(attempts_of("BP", {}, good)[0].start, 0.003);
 }
 
 TEST(Schedule, LeavesTheUsersGammaAlone) {
   const Mesh bad = lattice({.jitter = 0.45, .weight = 0});
   OptimizeOptions options;
   options.paper.gamma = Softening{0.25, LengthScale::absolute};
-  const auto tries = attempts(row("BP"), options, bad);
+  const auto tries = attempts_of("BP", options, bad);
   ASSERT_EQ(tries.size(), 1u);
-  Softener softener(tries[0], row("BP"), options);
+  Softener softener(tries[0], row("BP"), Policy(options));
   EnergyModel model;
   model.gamma = *options.paper.gamma;
   softener.start(bad, model);
@@ -68,7 +73,7 @@ TEST(Schedule, LeavesTheUsersGammaAlone) {
 
 TEST(Schedule, KeepsTheShiftedBarrierFinite) {
   const Mesh bad = lattice({.jitter = 0.3, .weight = 0, .seed = 2});
-  Softener softener(attempts(row("BHs"), {}, bad)[0], row("BHs"), {});
+  Softener softener(attempts_of("BHs", {}, bad)[0], row("BHs"), Policy());
   EnergyModel model;
   model.kind = EnergyKind::BHs;
   softener.start(bad, model);
