@@ -8,6 +8,7 @@
 #include "options.hpp"
 #include "outputs.hpp"
 #include "projection_option.hpp"
+#include "read_tried.hpp"
 #include "threads.hpp"
 
 namespace temper::app {
@@ -48,7 +49,7 @@ Exit run_convert(const Arguments& arguments) {
   outputs.expect_mesh(s.output);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  io::MeshFile file = or_fail(io::read(s.input, {threads.get()}));
+  io::MeshFile file = read_tried(s.input, threads.get());
   if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
   print_warnings(file.warnings);
   print_warnings(outputs.write_mesh(s.output, file, threads.get()));

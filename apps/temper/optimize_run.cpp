@@ -12,6 +12,7 @@
 #include "interrupt.hpp"
 #include "progress_line.hpp"
 #include "ranks.hpp"
+#include "read_tried.hpp"
 #include "report_text.hpp"
 #include "temper/draw.hpp"
 #include "temper/lp.hpp"
@@ -129,7 +130,7 @@ io::MeshFile read_file(const RunFiles& files, const std::string& path) {
     if (found == inputs.end()) throw Failure(Exit::bad_input, files.resumed->path + ": does not have " + path);
     file = *found;
   } else {
-    file = or_fail(io::read(path, {files.threads}));
+    file = read_tried(path, files.threads);
   }
   if (files.checkpoint != nullptr) files.checkpoint->add_input(file);
   return file;

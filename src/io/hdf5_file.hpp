@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -77,7 +76,7 @@ struct Hdf5Dataset {
 class Hdf5Reader {
  public:
   /// The bytes must outlive the reader.
-  Hdf5Reader(Source& source, const Hdf5Library& library);
+  explicit Hdf5Reader(Source& source);
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
   ~Hdf5Reader() = default;
@@ -124,11 +123,6 @@ class Hdf5Reader {
   Hdf5Id links_;     // properties of access: links do not lead to other files
   Hdf5Id file_;
 };
-
-/// work(Hdf5Reader&) on the file, which goes through all of it in a child process first, under a budget, and is refused
-/// here as it is there: the library has few doubts.
-[[nodiscard]] std::optional<Document> read_hdf5(Source& source,
-                                                const std::function<std::optional<Document>(const Hdf5Reader&)>& work);
 
 class Hdf5Writer {
  public:

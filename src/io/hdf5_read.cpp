@@ -5,7 +5,6 @@
 #include "io/foreign_library.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/scanner.hpp"
-#include "io/trial.hpp"
 
 namespace temper::io {
 
@@ -48,11 +47,11 @@ hid_t hdf5_type(const Hdf5Library& library, Scalar scalar) {
   }
 }
 
-Hdf5Reader::Hdf5Reader(Source& source, const Hdf5Library& library)
+Hdf5Reader::Hdf5Reader(Source& source)
     : path_(source.path),
       bytes_(source.bytes),
       allowance_(source.allowance),
-      library_(library),
+      library_(hdf5_library(path_)),
       turn_(foreign_tables()),
       quiet_(library_) {
   links_ = {check(library_.H5Pcreate(library_.H5P_CLS_LINK_ACCESS_ID_g), "begin"), library_.H5Pclose};
@@ -260,20 +259,6 @@ std::optional<std::string> Hdf5Reader::text_attribute(const Hdf5Id& of, const ch
   check(library_.H5Aread(attribute, type, result.data()), doing);
   result.resize(std::min(result.find('\0'), result.size()));
   return result;
-}
-
-std::optional<Document> read_hdf5(Source& source,
-                                  const std::function<std::optional<Document>(const Hdf5Reader&)>& work) {
-  const Hdf5Library& library = hdf5_library(source.path);
-  {
-    std::unique_lock turn(foreign_tables());  // no other thread is within the library when the child comes to be
-    const Trial trial = {source.path, "libhdf5", "should be written without compression"};
-    try_in_child(trial_budget(source.bytes.size()), trial, [&] {
-      turn.unlock();
-      static_cast<void>(work(Hdf5Reader(source, library)));
-    });
-  }
-  return work(Hdf5Reader(source, library));
 }
 
 }  // namespace temper::io

@@ -301,9 +301,7 @@ std::vector<double> plain_values(const IdVector<IdType, double>& values) {
 
 Document read_mpas_from(const NetcdfReader& in, const std::string& path) { return MpasReader(in, path).read(); }
 
-Document read_mpas(Source& source) {
-  return read_netcdf(source, [&](const NetcdfReader& in) { return read_mpas_from(in, source.path); });
-}
+Document read_mpas(Source& source) { return read_mpas_from(NetcdfReader(source), source.path); }
 
 namespace {
 

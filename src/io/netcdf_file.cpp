@@ -8,7 +8,6 @@
 
 #include "io/foreign_library.hpp"
 #include "io/hdf5_magic.hpp"
-#include "io/trial.hpp"
 
 namespace temper::io {
 
@@ -44,8 +43,12 @@ NetcdfId::~NetcdfId() {
   if (id_ >= 0) library_.nc_abort(id_);
 }
 
-NetcdfReader::NetcdfReader(Source& source, const NetcdfLibrary& library)
-    : path_(source.path), bytes_(source.bytes.size()), allowance_(source.allowance), library_(library), id_(library_) {
+NetcdfReader::NetcdfReader(Source& source)
+    : path_(source.path),
+      bytes_(source.bytes.size()),
+      allowance_(source.allowance),
+      library_(netcdf_library(path_)),
+      id_(library_) {
   check_netcdf_header(source);
   // In memory libnetcdf 4.9 refuses a classic file whose header goes on where its last chunk would end after the file.
   constexpr std::size_t kChunk = 1 << 16;  // at least a page
@@ -169,20 +172,6 @@ std::optional<double> NetcdfReader::number_attribute(const NetcdfVariable* v, co
   double value = 0;
   if (library_.nc_get_att_double(id_, id, name, &value) != NC_NOERR) return std::nullopt;
   return value;
-}
-
-Document read_netcdf(Source& source, const std::function<Document(const NetcdfReader&)>& work) {
-  // Not in the child, whose budget is that of the file, and which must not ask for what another thread may hold.
-  const NetcdfLibrary& library = netcdf_library(source.path);
-  if (is_hdf5(source.bytes)) {
-    std::unique_lock turn(foreign_tables());  // no other thread is within the library when the child comes to be
-    const Trial trial = {source.path, "libnetcdf", "should be written as a classic one (nccopy -k cdf5)"};
-    try_in_child(trial_budget(source.bytes.size()), trial, [&] {
-      turn.unlock();
-      static_cast<void>(work(NetcdfReader(source, library)));
-    });
-  }
-  return work(NetcdfReader(source, library));
 }
 
 // --- writing ---------------------------------------------------------------------------------------------

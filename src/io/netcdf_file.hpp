@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -60,7 +59,7 @@ class NetcdfReader {
  public:
   static constexpr std::int64_t kNoInteger = std::numeric_limits<std::int64_t>::min();
   /// The bytes must outlive the reader.
-  NetcdfReader(Source& source, const NetcdfLibrary& library);
+  explicit NetcdfReader(Source& source);
   NetcdfReader(const NetcdfReader&) = delete;
   NetcdfReader& operator=(const NetcdfReader&) = delete;
   ~NetcdfReader() = default;
@@ -87,10 +86,6 @@ class NetcdfReader {
   NetcdfId id_;
   std::vector<NetcdfVariable> variables_;
 };
-
-/// work(NetcdfReader&) on the file. HDF5 is read by a large library that has few doubts: such a file goes through all
-/// of work in a child process first, under a budget, and is refused here as it is there.
-[[nodiscard]] Document read_netcdf(Source& source, const std::function<Document(const NetcdfReader&)>& work);
 
 class NetcdfWriter {
  public:

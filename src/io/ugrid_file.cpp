@@ -315,9 +315,7 @@ Document read_ugrid_from(const NetcdfReader& in, const Source& source) {
 
 }  // namespace
 
-Document read_ugrid(Source& source) {
-  return read_netcdf(source, [&](const NetcdfReader& in) { return read_ugrid_from(in, source); });
-}
+Document read_ugrid(Source& source) { return read_ugrid_from(NetcdfReader(source), source); }
 
 void write_ugrid(const WriteJob& job) { UgridWriter(job).write(); }
 

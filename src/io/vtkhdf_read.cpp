@@ -314,12 +314,9 @@ DataArray VtkhdfReader::array(const Hdf5Dataset& d, std::optional<std::size_t> r
 // need no libhdf5.
 Document read_vtkhdf(Source& source) {
   if (source.bytes.find(kVtkhdfGroup) != std::string::npos) {
-    auto document = read_hdf5(source, [&](const Hdf5Reader& in) -> std::optional<Document> {
-      auto group = in.group(in.root(), std::string(kVtkhdfGroup));
-      if (!group) return std::nullopt;
+    const Hdf5Reader in(source);
+    if (auto group = in.group(in.root(), std::string(kVtkhdfGroup)))
       return VtkhdfReader(in, std::move(*group), source).read();
-    });
-    if (document) return std::move(*document);
   }
   return read_ugrid(source);
 }
