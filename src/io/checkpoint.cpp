@@ -3,10 +3,10 @@
 
 #include <utility>
 
-#include "io/failure.hpp"
-#include "io/format.hpp"
-#include "io/input.hpp"
-#include "io/output.hpp"
+#include "io/disk/output.hpp"
+#include "io/formats/document.hpp"
+#include "io/formats/format.hpp"
+#include "io/text/failure.hpp"
 #include "temper/archive.hpp"
 #include "temper/envelope.hpp"
 

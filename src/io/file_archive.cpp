@@ -3,7 +3,7 @@
 // before it is looked at here.
 #include <utility>
 
-#include "io/file_names.hpp"
+#include "io/text/file_names.hpp"
 #include "temper/archive.hpp"
 #include "temper/io.hpp"
 

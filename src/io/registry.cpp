@@ -8,13 +8,13 @@
 #include <iterator>
 #include <new>
 
-#include "io/array_names.hpp"
-#include "io/disk.hpp"
-#include "io/format.hpp"
-#include "io/geographic.hpp"
-#include "io/globe.hpp"
-#include "io/scanner.hpp"
-#include "io/ugrid.hpp"
+#include "io/conversion/geographic.hpp"
+#include "io/conversion/globe.hpp"
+#include "io/disk/files.hpp"
+#include "io/formats/format.hpp"
+#include "io/formats/netcdf/ugrid.hpp"
+#include "io/text/names.hpp"
+#include "io/text/scanner.hpp"
 #include "temper/projection.hpp"
 
 namespace temper::io {
@@ -398,23 +398,6 @@ Expected<void> write_text(const std::string& path, std::string_view content) {
   } catch (Failure& failure) {
     return std::move(failure.error);
   }
-}
-
-Space space_of(const MeshFile& file) {
-  if (is_periodic(file)) return Space::periodic(file.period);
-  return file.sphere_radius > 0 ? Space::sphere(file.sphere_radius) : Space();
-}
-
-bool is_flat(const MeshFile& file) { return file.sphere_radius == 0 && file.z == 0 && !std::signbit(file.z); }
-
-std::vector<bool> points_of_triangles(const MeshFile& file, std::size_t n) {
-  std::vector<bool> used(n, false);
-  for (const auto& triangle : file.triangles) {
-    for (const std::int32_t p : triangle) {
-      if (p >= 0 && static_cast<std::size_t>(p) < n) used[static_cast<std::size_t>(p)] = true;
-    }
-  }
-  return used;
 }
 
 }  // namespace temper::io

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "io/netcdf_file.hpp"
+#include "io/containers/netcdf_file.hpp"
 #include "support/lattice.hpp"
 #include "support/spheres.hpp"
 #include "temper/generate.hpp"

@@ -3,7 +3,7 @@
 #include <map>
 #include <utility>
 
-#include "io/format.hpp"
+#include "io/formats/format.hpp"
 #include "support.hpp"
 #include "temper/generate.hpp"
 #include "temper/topology.hpp"

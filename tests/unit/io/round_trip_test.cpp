@@ -1,5 +1,5 @@
 // The laws of writing and reading: write, read, write gives the same bytes, and weights survive bit for bit.
-#include "io/format.hpp"
+#include "io/formats/format.hpp"
 #include "support.hpp"
 
 namespace temper::io {

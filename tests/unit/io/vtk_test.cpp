@@ -1,5 +1,5 @@
 // Legacy VTK in the forms that are about: versions 2 to 5.1, binary, polydata, attributes of all kinds.
-#include "io/vtk_arrays.hpp"
+#include "io/formats/vtk/vtk_arrays.hpp"
 #include "support.hpp"
 
 namespace temper::io {

@@ -3,9 +3,9 @@
 
 #if TEMPER_HDF5
 
-#include "io/format.hpp"
-#include "io/hdf5_file.hpp"
-#include "io/vtkhdf_pieces.hpp"
+#include "io/containers/hdf5_file.hpp"
+#include "io/formats/format.hpp"
+#include "io/formats/vtk/vtkhdf.hpp"
 #include "temper/generate.hpp"
 
 namespace temper::io {

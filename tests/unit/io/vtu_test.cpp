@@ -1,8 +1,8 @@
 // VTU in the forms that other programs write, made here by hand: every encoding, header type and byte order.
 #include <zlib.h>
 
-#include "io/failure.hpp"
-#include "io/vtu_codec.hpp"
+#include "io/containers/vtu_codec.hpp"
+#include "io/text/failure.hpp"
 #include "support.hpp"
 #include "support/sanitizers.hpp"
 #include "support/std_threads.hpp"
