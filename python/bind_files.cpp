@@ -180,9 +180,10 @@ py::dict file_as_dict(const PyMesh& self) {
   }
   py::list names;
   for (const io::PhysicalName& n : file.names) names.append(py::make_tuple(n.dimension, n.tag, n.name));
-  std::vector<Vec3> places = file.sphere_points;
-  if (file.sphere_radius == 0) {
-    for (const Vec2 p : file.points) places.push_back({p.x, p.y, file.z});
+  std::vector<Vec3> places;
+  if (file.sphere() != nullptr) places = file.sphere()->places;
+  if (places.empty()) {
+    for (const Vec2 p : file.points) places.push_back({p.x, p.y, file.z()});
   }
   return Record()("points", rows_of<double>(std::span<const Vec3>(places)))("weights", file.weights)(
              "triangles", rows_of<std::int32_t>(std::span<const std::array<std::int32_t, 3>>(file.triangles)))(

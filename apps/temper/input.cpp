@@ -62,7 +62,7 @@ void expect_plane(const Mesh& mesh, const std::string& path, std::string_view wh
 }
 
 std::string same_projection(const Input& input, const std::string& projection) {
-  return input.file.map ? projection_text(input.file.map->projection) : projection;
+  return input.file.map() != nullptr ? projection_text(input.file.map()->projection) : projection;
 }
 
 std::string renumber(const std::string& text, const std::function<std::string(VertexId)>& name) {

@@ -27,7 +27,7 @@ void expect_projection_of_outline(const std::string& path, bool geographic, cons
 
 void take_to_map(io::MeshFile& file, const std::string& path, const std::string& projection) {
   if (projection.empty()) {
-    if (file.geographic) refuse_degrees(path, io::needs_projection(file.geographic_is_guessed));
+    if (file.degrees() != nullptr) refuse_degrees(path, io::needs_projection(file.degrees()->is_guessed));
     return;
   }
   or_fail(io::project(file, projection));

@@ -3,6 +3,7 @@
 // before it is looked at here.
 #include <utility>
 
+#include "io/conversion/globe.hpp"
 #include "io/text/file_names.hpp"
 #include "temper/archive.hpp"
 #include "temper/io.hpp"
@@ -53,23 +54,42 @@ void visit_names(Archive& archive, MeshFile& file) {
   if (archive.reads()) file.numbering = are_known ? std::move(names) : nullptr;
 }
 
-void visit_map(Archive& archive, MeshFile& file) {
+void visit_points(Archive& archive, MeshFile& file) {
+  std::size_t kind = file.points_in.index();
+  double z = file.z(), radius = file.space().radius();
+  Vec2 period = file.space().period();
+  bool is_guessed = file.degrees() != nullptr && file.degrees()->is_guessed;
+  std::vector<Vec3> places(sphere_places(file).begin(), sphere_places(file).end());
   std::optional<GeographicMap> map;
-  if (file.map && !archive.reads()) map = *file.map;
-  archive(map);
-  if (archive.reads()) file.map = map ? std::make_shared<const GeographicMap>(*std::move(map)) : nullptr;
+  if (file.map() != nullptr) map = *file.map();
+  archive(kind, z, radius, period, is_guessed, places, map);
+  if (!archive.reads()) return;
+  switch (kind) {
+    case 1:
+      file.points_in = PeriodicPoints{period, z};
+      return;
+    case 2:
+      file.points_in = SpherePoints{radius, std::move(places)};
+      return;
+    case 3:
+      file.points_in = DegreePoints{is_guessed, z};
+      return;
+    case 4:
+      file.points_in = MappedPoints{std::make_shared<const GeographicMap>(map.value_or(GeographicMap())), z};
+      return;
+    default:
+      file.points_in = PlanePoints{z};
+  }
 }
 
 }  // namespace
 
 void visit(Archive& archive, MeshFile& file) {
-  auto& [points, sphere_radius, sphere_points, period, z, weights, triangles, regions, lines, line_tags, marked_points,
-         point_tags, names, point_data, cell_data, line_data, marked_point_data, field_data, geographic,
-         geographic_is_guessed, map, path, format, warnings, numbering] = file;
-  archive(points, sphere_radius, sphere_points, period, z, weights, triangles, regions, lines, line_tags, marked_points,
-          point_tags, names, point_data, cell_data, line_data, marked_point_data, field_data, geographic,
-          geographic_is_guessed, path, format, warnings);
-  visit_map(archive, file);
+  auto& [points, points_in, weights, triangles, regions, lines, line_tags, marked_points, point_tags, names, point_data,
+         cell_data, line_data, marked_point_data, field_data, path, format, warnings, numbering] = file;
+  archive(points, weights, triangles, regions, lines, line_tags, marked_points, point_tags, names, point_data,
+          cell_data, line_data, marked_point_data, field_data, path, format, warnings);
+  visit_points(archive, file);
   visit_names(archive, file);
 }
 

@@ -23,28 +23,13 @@ herr_t refuse_other_file(const char*, const char*, const char*, const char*, uns
 }  // namespace
 
 hid_t hdf5_type(const Hdf5Library& library, Scalar scalar) {
-  switch (scalar) {
-    case Scalar::f64:
-      return library.H5T_NATIVE_DOUBLE_g;
-    case Scalar::f32:
-      return library.H5T_NATIVE_FLOAT_g;
-    case Scalar::i64:
-      return library.H5T_NATIVE_INT64_g;
-    case Scalar::i32:
-      return library.H5T_NATIVE_INT32_g;
-    case Scalar::u8:
-      return library.H5T_NATIVE_UINT8_g;
-    case Scalar::i8:
-      return library.H5T_NATIVE_INT8_g;
-    case Scalar::i16:
-      return library.H5T_NATIVE_INT16_g;
-    case Scalar::u16:
-      return library.H5T_NATIVE_UINT16_g;
-    case Scalar::u32:
-      return library.H5T_NATIVE_UINT32_g;
-    default:
-      return library.H5T_NATIVE_UINT64_g;
-  }
+  static constexpr hid_t Hdf5Library::*kNativeTypes[] = {
+      // in the order of Scalar
+      &Hdf5Library::H5T_NATIVE_DOUBLE_g, &Hdf5Library::H5T_NATIVE_FLOAT_g,  &Hdf5Library::H5T_NATIVE_INT64_g,
+      &Hdf5Library::H5T_NATIVE_INT32_g,  &Hdf5Library::H5T_NATIVE_UINT8_g,  &Hdf5Library::H5T_NATIVE_INT8_g,
+      &Hdf5Library::H5T_NATIVE_INT16_g,  &Hdf5Library::H5T_NATIVE_UINT16_g, &Hdf5Library::H5T_NATIVE_UINT32_g,
+      &Hdf5Library::H5T_NATIVE_UINT64_g};
+  return library.*kNativeTypes[static_cast<std::size_t>(scalar)];
 }
 
 Hdf5Reader::Hdf5Reader(Source& source)

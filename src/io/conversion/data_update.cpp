@@ -6,8 +6,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "io/conversion/globe.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/values.hpp"
+#include "temper/geometry.hpp"
 #include "temper/io.hpp"
 #include "temper/places.hpp"
 
@@ -52,20 +54,127 @@ class DataUpdater {
   DataUpdater(MeshFile& file, const Mesh& mesh, const Former& former, const UpdateOptions& options)
       : file_(file), mesh_(mesh), former_(former), options_(options) {}
 
-  DataReport update();
+  DataReport update() {
+    if (file_.point_data.empty() && file_.cell_data.empty()) return {};
+    measure();
+    if (needs_places()) {
+      if (const Expected<void> found = find_sources(); !found) {
+        drop_all(found.error().what());
+        return std::move(report_);
+      }
+    }
+    update_points();
+    update_cells();
+    return std::move(report_);
+  }
 
  private:
   [[nodiscard]] VertexId former(VertexId v) const { return former_.empty() ? v : former_[v]; }
-  void measure();
-  [[nodiscard]] double distance_from_before(VertexId v) const;
-  [[nodiscard]] bool is_same(TriangleId t) const;
-  [[nodiscard]] bool needs_places() const;
-  [[nodiscard]] Expected<void> find_sources();
-  void update_points();
-  void update_cells();
-  void drop_all(const std::string& why);
-  [[nodiscard]] std::optional<Values> at_vertices(const DataArray& a) const;
-  void warn_of_dropped(std::string_view why) const;
+  void measure() {
+    std::vector<double> distances;
+    for (const VertexId v : mesh_.vertices()) {
+      const VertexId was = former(v);
+      report_.points += was.valid() ? 1 : 0;
+      report_.points_inserted += was.valid() ? 0 : 1;
+      if (was.valid() && distance_from_before(v) > 0) distances.push_back(distance_from_before(v));
+    }
+    report_.points_moved = distances.size();
+    report_.distance = spread(std::move(distances));
+    report_.triangles = mesh_.n_triangles();
+    for (const TriangleId t : mesh_.triangles()) report_.triangles_changed += is_same(t) ? 0 : 1;
+  }
+  /// Of a vertex that was there: from its place in the file.
+  [[nodiscard]] double distance_from_before(VertexId v) const {
+    const std::size_t was = former(v).index;
+    const Space& space = mesh_.space();
+    const WeightedPoint now = mesh_.point(v), before = as_point(place_of(file_, was));
+    return space.same_place(space.in_domain(before), now) ? 0 : distance(space, before, space.image(now, before));
+  }
+  /// Triangle t has the corners that the file's has, at the same places.
+  [[nodiscard]] bool is_same(TriangleId t) const {
+    if (t.index >= file_.triangles.size()) return false;
+    auto before = file_.triangles[t.index];
+    std::array<std::int32_t, 3> now = {};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId v = mesh_.corners(t)[k], was = former(v);
+      if (!was.valid() || distance_from_before(v) > 0) return false;
+      now[k] = static_cast<std::int32_t>(was.index);
+    }
+    std::sort(before.begin(), before.end());  // clockwise ones were reversed
+    std::sort(now.begin(), now.end());
+    return before == now;
+  }
+  [[nodiscard]] bool needs_places() const {
+    if (report_.points_inserted > 0 || (report_.triangles_changed > 0 && !file_.cell_data.empty())) return true;
+    return report_.points_moved > 0 &&
+           std::any_of(file_.point_data.begin(), file_.point_data.end(),
+                       [this](const DataArray& a) { return options_.rules.of(a) == DataRule::interpolate; });
+  }
+  [[nodiscard]] Expected<void> find_sources() {
+    MeshInput input;
+    input.space = mesh_.space();
+    input.points = file_.points;
+    input.sphere_points = sphere_places(file_);
+    input.triangles = file_.triangles;
+    input.regions = file_.regions;
+    input.executor = options_.executor;
+    const Expected<BuiltMesh> before = Mesh::build(input);
+    if (!before) return before.error();
+    places_ = places_of_vertices(before->mesh, mesh_, former_, options_.executor);
+    if (!file_.cell_data.empty()) sources_ = sources_of_triangles(before->mesh, mesh_, places_, options_.executor);
+    return {};
+  }
+  void update_points() {
+    std::vector<DataArray> left;
+    for (DataArray& a : file_.point_data) {
+      const bool follows = options_.rules.of(a) == DataRule::interpolate;
+      std::optional<Values> values = at_vertices(a);
+      (!values ? report_.dropped : follows ? report_.interpolated : report_.kept).push_back(a.name);
+      if (values) left.push_back({std::move(a.name), a.components, *std::move(values)});
+    }
+    file_.point_data = std::move(left);
+    warn_of_dropped("integers differ around a new point");
+  }
+  void update_cells() {
+    for (DataArray& a : file_.cell_data) {
+      report_.of_triangles.push_back(a.name);
+      if (!sources_.empty()) a.values = at_triangles(a, sources_);
+    }
+  }
+  void drop_all(const std::string& why) {
+    for (auto* arrays : {&file_.point_data, &file_.cell_data}) {
+      for (const DataArray& a : *arrays) report_.dropped.push_back(a.name);
+      arrays->clear();
+    }
+    warn_of_dropped(why);
+  }
+  /// The array at the vertices of the mesh; nothing when integers around a new one have nothing in common.
+  [[nodiscard]] std::optional<Values> at_vertices(const DataArray& a) const {
+    const bool stays = options_.rules.of(a) == DataRule::keep || places_.empty();
+    const auto n = static_cast<std::size_t>(a.components);
+    return std::visit(
+        [&](const auto& values) -> std::optional<Values> {
+          std::remove_cvref_t<decltype(values)> result;
+          result.reserve(mesh_.n_vertices() * n);
+          for (const VertexId v : mesh_.vertices()) {
+            const VertexId was = former(v);
+            for (std::size_t i = 0; i < n; ++i) {
+              const auto value = stays && was.valid() ? std::optional(values[n * was.index + i])
+                                 : is_flag(a)         ? std::optional(ElementOf<decltype(values)>())
+                                                      : value_at(values, n, i, places_[v]);
+              if (!value) return {};
+              result.push_back(*value);
+            }
+          }
+          return result;
+        },
+        a.values);
+  }
+  void warn_of_dropped(std::string_view why) const {
+    std::string names;
+    for (const std::string& name : report_.dropped) names += text(names.empty() ? "" : ", ", name);
+    if (!names.empty()) file_.warnings.push_back(text("data are dropped, because ", why, ": ", names));
+  }
 
   MeshFile& file_;
   const Mesh& mesh_;
@@ -75,140 +184,6 @@ class DataUpdater {
   IdVector<TriangleId, TriangleId> sources_;  // triangles of the mesh of before; empty: the same
   DataReport report_;
 };
-
-DataReport DataUpdater::update() {
-  if (file_.point_data.empty() && file_.cell_data.empty()) return {};
-  measure();
-  if (needs_places()) {
-    if (const Expected<void> found = find_sources(); !found) {
-      drop_all(found.error().what());
-      return std::move(report_);
-    }
-  }
-  update_points();
-  update_cells();
-  return std::move(report_);
-}
-
-/// Triangle t has the corners that the file's has, at the same places.
-bool DataUpdater::is_same(TriangleId t) const {
-  if (t.index >= file_.triangles.size()) return false;
-  auto before = file_.triangles[t.index];
-  std::array<std::int32_t, 3> now = {};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const VertexId v = mesh_.corners(t)[k], was = former(v);
-    if (!was.valid() || distance_from_before(v) > 0) return false;
-    now[k] = static_cast<std::int32_t>(was.index);
-  }
-  std::sort(before.begin(), before.end());  // clockwise ones were reversed
-  std::sort(now.begin(), now.end());
-  return before == now;
-}
-
-/// Of a vertex that was there: from its place in the file.
-double DataUpdater::distance_from_before(VertexId v) const {
-  const std::size_t was = former(v).index;
-  if (mesh_.space().is_plane()) {
-    const WeightedPoint now = mesh_.point(v), before = {file_.points[was].x, file_.points[was].y, 0};
-    if (mesh_.space().is_periodic() && mesh_.space().in_domain(before).position() == now.position()) return 0;
-    return length(mesh_.space().image(now, before).position() - before.position());
-  }
-  const Vec3 before = file_.sphere_points[was], now = mesh_.lifted_point(v);
-  if (mesh_.space().same_place(as_point(before), as_point(now))) return 0;
-  return mesh_.space().radius() * std::atan2(length(cross(before, now)), dot(before, now));
-}
-
-void DataUpdater::measure() {
-  std::vector<double> distances;
-  for (const VertexId v : mesh_.vertices()) {
-    const VertexId was = former(v);
-    report_.points += was.valid() ? 1 : 0;
-    report_.points_inserted += was.valid() ? 0 : 1;
-    if (was.valid() && distance_from_before(v) > 0) distances.push_back(distance_from_before(v));
-  }
-  report_.points_moved = distances.size();
-  report_.distance = spread(std::move(distances));
-  report_.triangles = mesh_.n_triangles();
-  for (const TriangleId t : mesh_.triangles()) report_.triangles_changed += is_same(t) ? 0 : 1;
-}
-
-bool DataUpdater::needs_places() const {
-  if (report_.points_inserted > 0 || (report_.triangles_changed > 0 && !file_.cell_data.empty())) return true;
-  return report_.points_moved > 0 &&
-         std::any_of(file_.point_data.begin(), file_.point_data.end(),
-                     [this](const DataArray& a) { return options_.rules.of(a) == DataRule::interpolate; });
-}
-
-Expected<void> DataUpdater::find_sources() {
-  MeshInput input;
-  input.space = mesh_.space();
-  input.points = file_.points;
-  input.sphere_points = file_.sphere_points;
-  input.triangles = file_.triangles;
-  input.regions = file_.regions;
-  input.executor = options_.executor;
-  const Expected<BuiltMesh> before = Mesh::build(input);
-  if (!before) return before.error();
-  places_ = places_of_vertices(before->mesh, mesh_, former_, options_.executor);
-  if (!file_.cell_data.empty()) sources_ = sources_of_triangles(before->mesh, mesh_, places_, options_.executor);
-  return {};
-}
-
-/// The array at the vertices of the mesh; nothing when integers around a new one have nothing in common.
-std::optional<Values> DataUpdater::at_vertices(const DataArray& a) const {
-  const bool stays = options_.rules.of(a) == DataRule::keep || places_.empty();
-  const auto n = static_cast<std::size_t>(a.components);
-  return std::visit(
-      [&](const auto& values) -> std::optional<Values> {
-        std::remove_cvref_t<decltype(values)> result;
-        result.reserve(mesh_.n_vertices() * n);
-        for (const VertexId v : mesh_.vertices()) {
-          const VertexId was = former(v);
-          for (std::size_t i = 0; i < n; ++i) {
-            const auto value = stays && was.valid() ? std::optional(values[n * was.index + i])
-                               : is_flag(a)         ? std::optional(ElementOf<decltype(values)>())
-                                                    : value_at(values, n, i, places_[v]);
-            if (!value) return {};
-            result.push_back(*value);
-          }
-        }
-        return result;
-      },
-      a.values);
-}
-
-void DataUpdater::update_points() {
-  std::vector<DataArray> left;
-  for (DataArray& a : file_.point_data) {
-    const bool follows = options_.rules.of(a) == DataRule::interpolate;
-    std::optional<Values> values = at_vertices(a);
-    (!values ? report_.dropped : follows ? report_.interpolated : report_.kept).push_back(a.name);
-    if (values) left.push_back({std::move(a.name), a.components, *std::move(values)});
-  }
-  file_.point_data = std::move(left);
-  warn_of_dropped("integers differ around a new point");
-}
-
-void DataUpdater::update_cells() {
-  for (DataArray& a : file_.cell_data) {
-    report_.of_triangles.push_back(a.name);
-    if (!sources_.empty()) a.values = at_triangles(a, sources_);
-  }
-}
-
-void DataUpdater::drop_all(const std::string& why) {
-  for (auto* arrays : {&file_.point_data, &file_.cell_data}) {
-    for (const DataArray& a : *arrays) report_.dropped.push_back(a.name);
-    arrays->clear();
-  }
-  warn_of_dropped(why);
-}
-
-void DataUpdater::warn_of_dropped(std::string_view why) const {
-  std::string names;
-  for (const std::string& name : report_.dropped) names += text(names.empty() ? "" : ", ", name);
-  if (!names.empty()) file_.warnings.push_back(text("data are dropped, because ", why, ": ", names));
-}
 
 }  // namespace
 

@@ -54,7 +54,7 @@ bool look_like_degrees(std::span<const Vec2> points, std::span<const double> dep
 }
 
 std::optional<std::vector<Vec2>> lon_lat_of_points(const MeshFile& file) {
-  if (file.map) return back_from_map(*file.map, file.points);
+  if (file.map() != nullptr) return back_from_map(*file.map(), file.points);
   const auto *longitude = doubles_of(file, kLongitude), *latitude = doubles_of(file, kLatitude);
   if (longitude == nullptr || latitude == nullptr) return {};
   std::vector<Vec2> lon_lat;
@@ -66,9 +66,9 @@ std::optional<std::vector<Vec2>> lon_lat_of_points(const MeshFile& file) {
 std::vector<Vec2> lon_lat_of_places(const MeshFile& file, const Mesh& mesh, std::span<const Vec2> places) {
   std::vector<Vec2> result;
   result.reserve(places.size());
-  if (file.map) {
-    const LongitudeTurn turn(file.map->lon_lat);
-    for (const Vec2 p : places) result.push_back(turn(inverse(file.map->projection, p)));
+  if (const GeographicMap* const map = file.map()) {
+    const LongitudeTurn turn(map->lon_lat);
+    for (const Vec2 p : places) result.push_back(turn(inverse(map->projection, p)));
     return result;
   }
   const std::vector<Vec2> corners = lon_lat_of_points(file).value_or(std::vector<Vec2>());
@@ -86,8 +86,7 @@ std::vector<Vec2> lon_lat_of_places(const MeshFile& file, const Mesh& mesh, std:
 MeshFile in_degrees(const MeshFile& file) {
   MeshFile result = file;
   result.points = *lon_lat_of_points(file);
-  result.geographic = true;
-  result.map = nullptr;
+  result.points_in = DegreePoints{.z = file.z()};
   return result;
 }
 
@@ -126,27 +125,20 @@ std::optional<Expected<double>> radius_of_sphere(std::string_view words) {
 Expected<void> project(MeshFile& file, std::string_view projection) {
   const auto radius = radius_of_sphere(projection);
   if (radius && !*radius) return radius->error();
-  if (file.sphere_radius > 0) {
+  if (file.sphere() != nullptr) {
     if (radius) {
       resize_sphere(file, **radius);
       return {};
     }
-    file.sphere_radius = 0;
-    file.sphere_points.clear();
-    file.geographic = true;
+    file.points_in = DegreePoints{};
   }
   if (projection == kNoProjection) {
-    file.geographic = false;
+    if (file.degrees() != nullptr) file.points_in = PlanePoints{file.z()};
     return {};
   }
   if (radius) {
     const InputNames from_0;
-    try {
-      put_on_sphere(file, **radius, file.numbering ? *file.numbering : from_0);
-      return {};
-    } catch (Failure& failure) {
-      return std::move(failure.error);
-    }
+    return guarded<void>({}, [&] { put_on_sphere(file, **radius, file.numbering ? *file.numbering : from_0); });
   }
   auto parsed = parse_projection(projection, file.points);
   if (!parsed) return parsed.error();
@@ -154,8 +146,8 @@ Expected<void> project(MeshFile& file, std::string_view projection) {
   const InputNames& names = file.numbering ? *file.numbering : numbers_from_0;
   auto places = temper::project(file.points, file.triangles, *parsed, names);
   if (!places) return places.error();
-  file.geographic = true;
-  file.map = std::make_shared<const GeographicMap>(GeographicMap{*parsed, std::move(file.points), *places});
+  const GeographicMap map = {*parsed, std::move(file.points), *places};
+  file.points_in = MappedPoints{std::make_shared<const GeographicMap>(map), file.z()};
   file.points = *std::move(places);
   return {};
 }

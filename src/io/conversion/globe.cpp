@@ -90,14 +90,14 @@ std::string where_is(std::size_t point, const InputNames& names) {
 void warn_of_plane(MeshFile& file, const std::vector<Vec3>& points, const PlaneFit& plane, const InputNames& names) {
   if (plane.off > 0) {
     file.warnings.push_back(text(where_is(plane.worst, names), names.point(plane.worst), " has z = ",
-                                 points[plane.worst].z, ", but ", names.point(plane.first), " has z = ", file.z,
+                                 points[plane.worst].z, ", but ", names.point(plane.first), " has z = ", file.z(),
                                  ": within ", kOff, " of the extent, so all are taken for a plane of this z"));
   }
   if (plane.unused.empty()) return;
   const std::size_t first = plane.unused.front(), n = plane.unused.size();
   file.warnings.push_back(
       text(where_is(first, names), names.point(first), " is of no triangle and has z = ", points[first].z,
-           n == 1 ? std::string() : text(", and so have ", n - 1, " more"), ": put into the plane of z = ", file.z));
+           n == 1 ? std::string() : text(", and so have ", n - 1, " more"), ": put into the plane of z = ", file.z()));
 }
 
 struct SphereFit {
@@ -178,25 +178,22 @@ void put_on_sphere(MeshFile& file, double radius, const InputNames& names) {
     }
     places.push_back(radius * direction_of(p));
   }
-  file.sphere_points = std::move(places);
-  file.sphere_radius = radius;
-  file.geographic = false;
+  file.points_in = SpherePoints{radius, std::move(places)};
 }
 
 void resize_sphere(MeshFile& file, double radius) {
-  const double scale = radius / file.sphere_radius;
-  for (Vec3& p : file.sphere_points) p = scale * p;
+  auto& sphere = std::get<SpherePoints>(file.points_in);
+  const double scale = radius / sphere.radius;
+  for (Vec3& p : sphere.places) p = scale * p;
   for (double& w : file.weights) w *= scale * scale;
-  file.sphere_radius = radius;
+  sphere.radius = radius;
 }
 
 void set_sphere(MeshFile& file, double radius, std::vector<Vec3> points) {
-  file.sphere_radius = radius;
-  file.z = 0;
   file.points.clear();
   file.points.reserve(points.size());
   for (const Vec3 p : points) file.points.push_back(lon_lat_of(p));
-  file.sphere_points = std::move(points);
+  file.points_in = SpherePoints{radius, std::move(points)};
 }
 
 void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& names) {
@@ -209,7 +206,8 @@ void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& n
   const PlaneFit plane = fit_plane(points, used);
   const auto radius = plane.off == 0 ? std::nullopt : common_radius(all);
   if (plane.off <= kOff * extent(all) && !(radius && most_off(all, *radius).off < plane.off)) {
-    file.z = points.empty() ? 0 : points[plane.first].z;
+    if (file.sphere() != nullptr) file.points_in = PlanePoints{};
+    file.set_z(points.empty() ? 0 : points[plane.first].z);
     warn_of_plane(file, points, plane, names);
     file.points.clear();
     for (const Vec3 p : points) file.points.push_back({p.x, p.y});
@@ -220,13 +218,9 @@ void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& n
 }
 
 Expected<void> set_points(MeshFile& file, std::vector<Vec3> points) {
-  try {
-    const InputNames from_0;
-    settle_points(file, std::move(points), file.numbering ? *file.numbering : from_0);
-    return {};
-  } catch (Failure& failure) {
-    return std::move(failure.error);
-  }
+  const InputNames from_0;
+  const InputNames& names = file.numbering ? *file.numbering : from_0;
+  return guarded<void>({}, [&] { settle_points(file, std::move(points), names); });
 }
 
 std::optional<double> common_radius(const std::vector<Vec3>& points) {
@@ -239,12 +233,29 @@ std::optional<double> common_radius(const std::vector<Vec3>& points) {
   return std::abs(rounded - radius) < 1e-14 * radius ? rounded : radius;
 }
 
-Space space_of(const MeshFile& file) {
-  if (is_periodic(file)) return Space::periodic(file.period);
-  return file.sphere_radius > 0 ? Space::sphere(file.sphere_radius) : Space();
+double MeshFile::z() const {
+  return std::visit(
+      [](const auto& in) {
+        if constexpr (requires { in.z; }) return in.z;
+        return 0.0;
+      },
+      points_in);
 }
 
-bool is_flat(const MeshFile& file) { return file.sphere_radius == 0 && file.z == 0 && !std::signbit(file.z); }
+void MeshFile::set_z(double z) {
+  std::visit(
+      [z](auto& in) {
+        if constexpr (requires { in.z; }) in.z = z;
+      },
+      points_in);
+}
+
+Space MeshFile::space() const {
+  if (periodic() != nullptr) return Space::periodic(periodic()->period);
+  return sphere() != nullptr ? Space::sphere(sphere()->radius) : Space();
+}
+
+bool is_flat(const MeshFile& file) { return file.sphere() == nullptr && file.z() == 0 && !std::signbit(file.z()); }
 
 std::vector<bool> points_of_triangles(const MeshFile& file, std::size_t n) {
   std::vector<bool> used(n, false);

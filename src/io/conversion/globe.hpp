@@ -1,6 +1,10 @@
 // The space that the points of a file are in.
 #pragma once
 
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "temper/io.hpp"
 #include "temper/projection.hpp"
 
@@ -24,12 +28,14 @@ void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& n
 
 /// Where a point is, in three coordinates.
 [[nodiscard]] inline Vec3 place_of(const MeshFile& file, std::size_t point) {
-  return file.sphere_radius > 0 ? file.sphere_points[point] : Vec3{file.points[point].x, file.points[point].y, file.z};
+  const Vec2 p = file.points[point];
+  return file.sphere() != nullptr ? file.sphere()->places[point] : Vec3{p.x, p.y, file.z()};
 }
 
-[[nodiscard]] inline bool is_periodic(const MeshFile& file) { return !(file.period == Vec2{}); }
-/// The space that the points of a file are in.
-[[nodiscard]] Space space_of(const MeshFile& file);
+/// The places of the points of a sphere; of other files none.
+[[nodiscard]] inline std::span<const Vec3> sphere_places(const MeshFile& file) {
+  return file.sphere() != nullptr ? std::span<const Vec3>(file.sphere()->places) : std::span<const Vec3>();
+}
 /// Says whether points are in the plane z = 0.
 [[nodiscard]] bool is_flat(const MeshFile& file);
 

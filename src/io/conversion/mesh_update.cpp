@@ -24,7 +24,7 @@ namespace {
 /// Points of vertices that have not moved are the images that the file has; all others are in the domain.
 void copy_periodic(MeshFile& file, const Mesh& mesh, const Former& former) {
   const Space& space = mesh.space();
-  if (!(space_of(file) == space)) file.period = space.period();  // rounded, they are the file's
+  if (!(file.space() == space)) file.points_in = PeriodicPoints{space.period(), file.z()};  // rounded, the file's
   std::vector<Vec2> points;
   points.reserve(mesh.n_vertices());
   file.weights.resize(mesh.n_vertices());
@@ -52,17 +52,17 @@ void copy_plane(MeshFile& file, const Mesh& mesh) {
 
 /// Points and degrees of vertices that have not moved stay as they are, and weights that give the same vertex.
 void copy_sphere(MeshFile& file, const Mesh& mesh, const Former& former) {
-  file.sphere_radius = mesh.space().radius();
+  const std::span<const Vec3> before = sphere_places(file);
   std::vector<Vec2> degrees;
   std::vector<Vec3> places;
   std::vector<double> weights;
   for (const VertexId v : mesh.vertices()) {
-    const std::size_t was = former.empty() ? v.index : former[v].valid() ? former[v].index : file.sphere_points.size();
+    const std::size_t was = former.empty() ? v.index : former[v].valid() ? former[v].index : before.size();
     const Vec3 p = mesh.lifted_point(v);
     weights.push_back(mesh.weight(v));
-    if (was < file.sphere_points.size() && mesh.space().same_place(as_point(file.sphere_points[was]), as_point(p))) {
+    if (was < before.size() && mesh.space().same_place(as_point(before[was]), as_point(p))) {
       degrees.push_back(file.points[was]);
-      places.push_back(file.sphere_points[was]);
+      places.push_back(before[was]);
       if (was < file.weights.size() && mesh.space().vertex_at(places.back(), file.weights[was]) == as_point(p)) {
         weights.back() = file.weights[was];
       }
@@ -76,17 +76,18 @@ void copy_sphere(MeshFile& file, const Mesh& mesh, const Former& former) {
     }
   }
   file.points = std::move(degrees);
-  file.sphere_points = std::move(places);
+  file.points_in = SpherePoints{mesh.space().radius(), std::move(places)};
   file.weights = std::move(weights);
 }
 
 void copy_vertices(MeshFile& file, const Mesh& mesh, const Former& former) {
-  if (mesh.space().is_periodic()) {
-    copy_periodic(file, mesh, former);
-  } else if (mesh.space().is_plane()) {
-    copy_plane(file, mesh);
-  } else {
-    copy_sphere(file, mesh, former);
+  switch (mesh.space().kind()) {
+    case SpaceKind::plane:
+      return copy_plane(file, mesh);
+    case SpaceKind::sphere:
+      return copy_sphere(file, mesh, former);
+    case SpaceKind::periodic_plane:
+      return copy_periodic(file, mesh, former);
   }
 }
 
@@ -144,7 +145,7 @@ void drop_unused_points(MeshFile& file, const VertexOfPoint& vertex_of_point) {
   std::vector<bool> used(vertex_of_point.size());
   for (std::size_t p = 0; p < used.size(); ++p) used[p] = vertex_of_point[p] >= 0;
   keep(file.points, used);
-  if (!file.sphere_points.empty()) keep(file.sphere_points, used);
+  if (auto* sphere = std::get_if<SpherePoints>(&file.points_in)) keep(sphere->places, used);
   keep(file.point_data, used);
   for (auto& triangle : file.triangles) {
     for (std::int32_t& p : triangle) p = vertex_of_point[static_cast<std::size_t>(p)];
@@ -169,7 +170,7 @@ Former vertices_by_place_in_plane(const std::vector<Vec2>& points, const Mesh& m
 /// Points of a sphere by their place. Weights round places, so they are looked for in cells far larger than that.
 class PlacesOnSphere {
  public:
-  PlacesOnSphere(const std::vector<Vec3>& points, const Space& space) : points_(points), space_(space) {
+  PlacesOnSphere(std::span<const Vec3> points, const Space& space) : points_(points), space_(space) {
     for (std::size_t p = 0; p < points.size(); ++p) cells_.emplace(cell(direction(points[p])), VertexId(p));
   }
   /// The point at the place of p, which is in its cell or just across the sides of that; invalid: there is none.
@@ -196,15 +197,15 @@ class PlacesOnSphere {
     return {std::floor(kCellsOfRadius * p.x), std::floor(kCellsOfRadius * p.y), std::floor(kCellsOfRadius * p.z)};
   }
 
-  const std::vector<Vec3>& points_;
+  std::span<const Vec3> points_;
   const Space& space_;
   std::unordered_multimap<Vec3, VertexId, PlaceHash> cells_;
 };
 
 /// The point that each vertex is at the place of.
 Former vertices_by_place(const MeshFile& file, const Mesh& mesh) {
-  if (mesh.space().is_plane()) return vertices_by_place_in_plane(file.points, mesh);
-  const PlacesOnSphere places(file.sphere_points, mesh.space());
+  if (file.sphere() == nullptr) return vertices_by_place_in_plane(file.points, mesh);
+  const PlacesOnSphere places(file.sphere()->places, mesh.space());
   Former former(mesh.n_vertices());
   for (const VertexId v : mesh.vertices()) former[v] = places.find(mesh.lifted_point(v));
   return former;
@@ -317,7 +318,7 @@ DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
 
 void release_geometry(MeshFile& file, const LoadedMesh& loaded) {
   if (file.points.size() != loaded.mesh.n_vertices()) return;
-  if (!file.point_data.empty() || !file.cell_data.empty() || file.sphere_radius > 0 || is_periodic(file)) return;
+  if (!file.point_data.empty() || !file.cell_data.empty() || !(file.space() == Space())) return;
   std::vector<Vec2>().swap(file.points);  // assigning {} would keep the capacity
   std::vector<double>().swap(file.weights);
   std::vector<std::array<std::int32_t, 3>>().swap(file.triangles);

@@ -124,13 +124,11 @@ TextStream& TextStream::operator=(TextStream&&) noexcept = default;
 TextStream::~TextStream() = default;
 
 Expected<TextStream> TextStream::open(const std::string& path) {
-  try {
+  return guarded<TextStream>(path, [&] {
     auto state = std::make_unique<State>();
     state->output = &state->outputs.open(path);
     return TextStream(std::move(state));
-  } catch (Failure& failure) {
-    return std::move(failure.error);
-  }
+  });
 }
 
 void TextStream::write(std::string_view text) {
@@ -149,12 +147,7 @@ Expected<std::string> TextStream::so_far() {
 
 Expected<void> TextStream::commit() {
   if (state_->error) return *state_->error;
-  try {
-    state_->outputs.commit();
-    return {};
-  } catch (Failure& failure) {
-    return std::move(failure.error);
-  }
+  return guarded<void>({}, [&] { state_->outputs.commit(); });
 }
 
 }  // namespace temper::io

@@ -135,7 +135,8 @@ void take_period(Document& document) {
          text("field data ", in_quotes(kPlanePeriod),
               " is not two lengths; expected the periods along x and y, 0 where there is none"));
   }
-  document.file.period = {lengths[0], lengths[1]};
+  const Vec2 period = {lengths[0], lengths[1]};
+  if (!(period == Vec2{})) document.file.points_in = PeriodicPoints{period};
 }
 
 void take_point_data(Document& document, std::vector<DataArray>&& arrays) {

@@ -41,10 +41,10 @@ void check_ranges(const Document& d) {
 /// Points on one parallel of a sphere are in a plane, too: nothing in the file settles which is meant.
 void warn_of_parallel(Document& d) {
   std::vector<Vec3> places;
-  for (const Vec2 p : d.file.points) places.push_back({p.x, p.y, d.file.z});
+  for (const Vec2 p : d.file.points) places.push_back({p.x, p.y, d.z});
   const auto radius = common_radius(places);
   if (!radius) return;
-  d.file.warnings.push_back(text(d.names->path, ": all points have z = ", d.file.z, " and are ", *radius,
+  d.file.warnings.push_back(text(d.names->path, ": all points have z = ", d.z, " and are ", *radius,
                                  " from the origin: taken for a mesh in a plane, though they are also on one parallel "
                                  "of a sphere"));
 }
@@ -67,15 +67,17 @@ void check(Document& d) {
     fail(ErrorCode::not_finite, d.names->point_where(i),
          text(d.names->point(i), " has coordinates (", p.x, ", ", p.y, "), expected finite numbers"));
   }
-  if (!std::isfinite(f.z))
-    fail(ErrorCode::not_finite, d.names->point_where(0), text(d.names->point(0), " has z = ", f.z));
+  if (!std::isfinite(d.z))
+    fail(ErrorCode::not_finite, d.names->point_where(0), text(d.names->point(0), " has z = ", d.z));
+  d.file.set_z(d.z);
   if (!d.heights.empty()) {
     std::vector<Vec3> places;
     for (std::size_t i = 0; i < f.points.size(); ++i) places.push_back({f.points[i].x, f.points[i].y, d.heights[i]});
+    const bool is_periodic = f.periodic() != nullptr;
     settle_points(d.file, std::move(places), *d.names);
-    if (is_periodic(d.file) && d.file.sphere_radius > 0)
+    if (is_periodic && f.sphere() != nullptr)
       fail(ErrorCode::unsupported, d.names->path, "has periods and points on a sphere; expected points of a plane");
-  } else if (f.z != 0 && f.sphere_radius == 0) {
+  } else if (d.z != 0 && f.sphere() == nullptr) {
     warn_of_parallel(d);
   }
   for (std::size_t i = 0; i < f.weights.size(); ++i) {

@@ -14,6 +14,7 @@ namespace temper::io {
 struct Document {
   MeshFile file;
   std::shared_ptr<FileNames> names;
+  double z = 0;                      ///< of the first point
   std::vector<double> heights = {};  ///< z of each point, once one is another than that of the first
 };
 [[nodiscard]] Document new_document(const std::string& path);
@@ -28,8 +29,8 @@ class PlaneCheck {
   explicit PlaneCheck(Document& document) : document_(document) {}
   /// z of the point with this index, whose number and line are already in the names.
   void add(std::size_t index, double z) {
-    if (index == 0) document_.file.z = z;
-    if (z != document_.file.z && document_.heights.empty()) document_.heights.assign(index, document_.file.z);
+    if (index == 0) document_.z = z;
+    if (z != document_.z && document_.heights.empty()) document_.heights.assign(index, document_.z);
     if (!document_.heights.empty()) document_.heights.push_back(z);
   }
 

@@ -43,8 +43,8 @@ void warn_of_losses(const WriteJob& job) {
   const MeshFile& f = job.file;
   const FormatRow& row = job.row;
   const auto lost = [&row](Content content) { return (row.holds & content) == 0; };
-  if (lost(kZ) && f.sphere_radius == 0 && !is_flat(f))
-    job.warn(text("z = ", f.z, " of the points is", has_no_place_for(job, "it")));
+  if (lost(kZ) && f.sphere() == nullptr && !is_flat(f))
+    job.warn(text("z = ", f.z(), " of the points is", has_no_place_for(job, "it")));
   const bool has_regions = std::any_of(f.regions.begin(), f.regions.end(), [](std::int32_t r) { return r != 0; });
   if (lost(kRegions) && has_regions) job.warn(text("regions are", has_no_place_for(job, "them")));
   if (lost(kLines) && !f.lines.empty()) job.warn(text("lines are", has_no_place_for(job, "them")));

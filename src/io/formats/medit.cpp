@@ -48,18 +48,140 @@ class MeditReader {
  public:
   explicit MeditReader(Source& source)
       : scanner_(source.path, source.bytes, '#'), document_(new_document(source.path)) {}
-  Document read();
+  Document read() {
+    scanner_.word("MeshVersionFormatted");
+    const std::int32_t version = scanner_.integer("the version of the format");
+    if (version < 0 || version > 4) {
+      scanner_.fail_here(ErrorCode::unsupported, text("is medit version ", version, "; temper reads 0 to 4"));
+    }
+    bool ended = false;
+    while (!ended && !scanner_.at_end()) {
+      const std::string keyword(scanner_.word("a keyword"));
+      ended = keyword == "End";
+      if (!ended) section(keyword);
+    }
+    if (!ended && document_.file.triangles.empty()) scanner_.fail_truncated("the section Triangles");
+    for (const auto& [flag_section, numbers] : flags_) set_flags(*flag_section, numbers);
+    document_.names->points = RunLength(1, document_.file.points.size());
+    document_.names->triangles = RunLength(1, document_.file.triangles.size());
+    document_.names->lines = RunLength(1, document_.file.lines.size());
+    return std::move(document_);
+  }
 
  private:
-  void section(std::string_view keyword);
-  void vertices();
-  void edges();
-  void triangles();
-  void refuse_or_skip(std::string_view keyword);
+  void section(std::string_view keyword) {
+    if (keyword == "Dimension") {
+      dimension_ = scanner_.integer("the dimension");
+      if (dimension_ != 2 && dimension_ != 3) {
+        scanner_.fail_here(ErrorCode::unsupported, text("has dimension ", dimension_, "; expected 2 or 3"));
+      }
+    } else if (keyword == "Vertices") {
+      vertices();
+    } else if (keyword == "Edges") {
+      edges();
+    } else if (keyword == "Triangles") {
+      triangles();
+    } else {
+      for (const FlagSection& flag_section : kFlagSections) {
+        if (flag_section.keyword != keyword) continue;
+        std::vector<std::int32_t>& numbers = flags_of(flag_section);
+        for (std::size_t n = scanner_.count("entries", 2); n > 0; --n)
+          numbers.push_back(scanner_.integer("the number of an element"));
+        return;
+      }
+      refuse_or_skip(keyword);
+    }
+  }
+  void vertices() {
+    if (dimension_ == 0) scanner_.fail_here(ErrorCode::syntax, "expected Dimension before Vertices");
+    MeshFile& f = document_.file;
+    const std::size_t n = scanner_.count("vertices", dimension_ == 2 ? 6 : 8);
+    f.points.reserve(n);
+    PlaneCheck plane(document_);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double x = scanner_.real("the x coordinate of a vertex");
+      document_.names->points.push_back(static_cast<std::int64_t>(i) + 1);
+      document_.names->point_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+      f.points.push_back({x, scanner_.real("the y coordinate of a vertex")});
+      if (dimension_ == 3) plane.add(i, scanner_.real("the z coordinate of a vertex"));
+      const std::int32_t reference = scanner_.integer("the reference of a vertex");
+      if (reference == 0) continue;
+      f.marked_points.push_back(static_cast<std::int32_t>(i));
+      f.point_tags.push_back(reference);
+    }
+  }
+  void edges() {
+    MeshFile& f = document_.file;
+    const std::size_t n = scanner_.count("edges", 6);
+    f.lines.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::int32_t a = scanner_.vertex(1);
+      document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+      f.lines.push_back({a, scanner_.vertex(1)});
+      f.line_tags.push_back(scanner_.integer("the reference of an edge"));
+    }
+  }
+  void triangles() {
+    MeshFile& f = document_.file;
+    const std::size_t n = scanner_.count("triangles", 8);
+    f.triangles.reserve(n);
+    f.regions.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::int32_t a = scanner_.vertex(1);
+      document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+      const std::int32_t b = scanner_.vertex(1);
+      f.triangles.push_back({a, b, scanner_.vertex(1)});
+      f.regions.push_back(scanner_.integer("the reference of a triangle"));
+    }
+  }
+  void refuse_or_skip(std::string_view keyword) {
+    const bool known_keyword =
+        !keyword.empty() && ((keyword[0] >= 'A' && keyword[0] <= 'Z') || (keyword[0] >= 'a' && keyword[0] <= 'z'));
+    if (!known_keyword) scanner_.fail_here(ErrorCode::syntax, text("expected a keyword, found ", in_quotes(keyword)));
+    for (const auto& [unsupported, kind] : kUnsupported) {
+      if (keyword != unsupported) continue;
+      if (scanner_.count("elements", 2) == 0) return;
+      scanner_.skip_space();
+      refuse_element(scanner_.where(), 1, kind);
+    }
+    document_.file.warnings.push_back(text(scanner_.where(), ": section ", in_quotes(keyword), " is dropped"));
+    for (std::string_view next = scanner_.peek(); !next.empty(); next = scanner_.peek()) {
+      if (next.starts_with('"')) {
+        static_cast<void>(scanner_.bytes(1, "a quoted text"));
+        if (!scanner_.until("\"")) scanner_.fail_truncated("the end of a quoted text");
+        continue;
+      }
+      const bool number = next.find_first_of("0123456789") != std::string_view::npos;
+      if (!number) return;
+      scanner_.word("a number");
+    }
+  }
   /// The numbers that sections of this row have listed so far.
-  std::vector<std::int32_t>& flags_of(const FlagSection& section);
-  void set_flags(const FlagSection& section, const std::vector<std::int32_t>& numbers);
-  [[nodiscard]] std::size_t count_of(std::vector<DataArray> MeshFile::*data) const;
+  std::vector<std::int32_t>& flags_of(const FlagSection& flag_section) {
+    for (auto& [row, numbers] : flags_) {
+      if (row == &flag_section) return numbers;
+    }
+    return flags_.emplace_back(&flag_section, std::vector<std::int32_t>()).second;
+  }
+  void set_flags(const FlagSection& flag_section, const std::vector<std::int32_t>& numbers) {
+    const std::size_t n = count_of(flag_section.data);
+    std::vector<std::uint8_t> flags(n);
+    for (const std::int32_t number : numbers) {
+      if (number < 1 || static_cast<std::size_t>(number) > n) {
+        fail(ErrorCode::index_out_of_range, scanner_.path(),
+             text(flag_section.keyword, " lists number ", number, ", but the file has only ", n));
+      }
+      flags[static_cast<std::size_t>(number) - 1] = 1;
+    }
+    if (numbers.empty()) return;
+    (document_.file.*flag_section.data).push_back({std::string(flag_section.array), 1, std::move(flags)});
+  }
+  [[nodiscard]] std::size_t count_of(std::vector<DataArray> MeshFile::*data) const {
+    const MeshFile& f = document_.file;
+    return data == &MeshFile::point_data  ? f.points.size()
+           : data == &MeshFile::line_data ? f.lines.size()
+                                          : f.triangles.size();
+  }
 
   Scanner scanner_;
   Document document_;
@@ -67,146 +189,6 @@ class MeditReader {
   // Flags may come before the elements that they flag.
   std::vector<std::pair<const FlagSection*, std::vector<std::int32_t>>> flags_;
 };
-
-Document MeditReader::read() {
-  scanner_.word("MeshVersionFormatted");
-  const std::int32_t version = scanner_.integer("the version of the format");
-  if (version < 0 || version > 4) {
-    scanner_.fail_here(ErrorCode::unsupported, text("is medit version ", version, "; temper reads 0 to 4"));
-  }
-  bool ended = false;
-  while (!ended && !scanner_.at_end()) {
-    const std::string keyword(scanner_.word("a keyword"));
-    ended = keyword == "End";
-    if (!ended) section(keyword);
-  }
-  if (!ended && document_.file.triangles.empty()) scanner_.fail_truncated("the section Triangles");
-  for (const auto& [flag_section, numbers] : flags_) set_flags(*flag_section, numbers);
-  document_.names->points = RunLength(1, document_.file.points.size());
-  document_.names->triangles = RunLength(1, document_.file.triangles.size());
-  document_.names->lines = RunLength(1, document_.file.lines.size());
-  return std::move(document_);
-}
-
-void MeditReader::section(std::string_view keyword) {
-  if (keyword == "Dimension") {
-    dimension_ = scanner_.integer("the dimension");
-    if (dimension_ != 2 && dimension_ != 3) {
-      scanner_.fail_here(ErrorCode::unsupported, text("has dimension ", dimension_, "; expected 2 or 3"));
-    }
-  } else if (keyword == "Vertices") {
-    vertices();
-  } else if (keyword == "Edges") {
-    edges();
-  } else if (keyword == "Triangles") {
-    triangles();
-  } else {
-    for (const FlagSection& flag_section : kFlagSections) {
-      if (flag_section.keyword != keyword) continue;
-      std::vector<std::int32_t>& numbers = flags_of(flag_section);
-      for (std::size_t n = scanner_.count("entries", 2); n > 0; --n)
-        numbers.push_back(scanner_.integer("the number of an element"));
-      return;
-    }
-    refuse_or_skip(keyword);
-  }
-}
-
-void MeditReader::vertices() {
-  if (dimension_ == 0) scanner_.fail_here(ErrorCode::syntax, "expected Dimension before Vertices");
-  MeshFile& f = document_.file;
-  const std::size_t n = scanner_.count("vertices", dimension_ == 2 ? 6 : 8);
-  f.points.reserve(n);
-  PlaneCheck plane(document_);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double x = scanner_.real("the x coordinate of a vertex");
-    document_.names->points.push_back(static_cast<std::int64_t>(i) + 1);
-    document_.names->point_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
-    f.points.push_back({x, scanner_.real("the y coordinate of a vertex")});
-    if (dimension_ == 3) plane.add(i, scanner_.real("the z coordinate of a vertex"));
-    const std::int32_t reference = scanner_.integer("the reference of a vertex");
-    if (reference == 0) continue;
-    f.marked_points.push_back(static_cast<std::int32_t>(i));
-    f.point_tags.push_back(reference);
-  }
-}
-
-void MeditReader::edges() {
-  MeshFile& f = document_.file;
-  const std::size_t n = scanner_.count("edges", 6);
-  f.lines.reserve(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::int32_t a = scanner_.vertex(1);
-    document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
-    f.lines.push_back({a, scanner_.vertex(1)});
-    f.line_tags.push_back(scanner_.integer("the reference of an edge"));
-  }
-}
-
-void MeditReader::triangles() {
-  MeshFile& f = document_.file;
-  const std::size_t n = scanner_.count("triangles", 8);
-  f.triangles.reserve(n);
-  f.regions.reserve(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::int32_t a = scanner_.vertex(1);
-    document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
-    const std::int32_t b = scanner_.vertex(1);
-    f.triangles.push_back({a, b, scanner_.vertex(1)});
-    f.regions.push_back(scanner_.integer("the reference of a triangle"));
-  }
-}
-
-void MeditReader::refuse_or_skip(std::string_view keyword) {
-  const bool known_keyword =
-      !keyword.empty() && ((keyword[0] >= 'A' && keyword[0] <= 'Z') || (keyword[0] >= 'a' && keyword[0] <= 'z'));
-  if (!known_keyword) scanner_.fail_here(ErrorCode::syntax, text("expected a keyword, found ", in_quotes(keyword)));
-  for (const auto& [unsupported, kind] : kUnsupported) {
-    if (keyword != unsupported) continue;
-    if (scanner_.count("elements", 2) == 0) return;
-    scanner_.skip_space();
-    refuse_element(scanner_.where(), 1, kind);
-  }
-  document_.file.warnings.push_back(text(scanner_.where(), ": section ", in_quotes(keyword), " is dropped"));
-  for (std::string_view next = scanner_.peek(); !next.empty(); next = scanner_.peek()) {
-    if (next.starts_with('"')) {
-      static_cast<void>(scanner_.bytes(1, "a quoted text"));
-      if (!scanner_.until("\"")) scanner_.fail_truncated("the end of a quoted text");
-      continue;
-    }
-    const bool number = next.find_first_of("0123456789") != std::string_view::npos;
-    if (!number) return;
-    scanner_.word("a number");
-  }
-}
-
-std::vector<std::int32_t>& MeditReader::flags_of(const FlagSection& flag_section) {
-  for (auto& [row, numbers] : flags_) {
-    if (row == &flag_section) return numbers;
-  }
-  return flags_.emplace_back(&flag_section, std::vector<std::int32_t>()).second;
-}
-
-std::size_t MeditReader::count_of(std::vector<DataArray> MeshFile::*data) const {
-  const MeshFile& f = document_.file;
-  return data == &MeshFile::point_data  ? f.points.size()
-         : data == &MeshFile::line_data ? f.lines.size()
-                                        : f.triangles.size();
-}
-
-void MeditReader::set_flags(const FlagSection& flag_section, const std::vector<std::int32_t>& numbers) {
-  const std::size_t n = count_of(flag_section.data);
-  std::vector<std::uint8_t> flags(n);
-  for (const std::int32_t number : numbers) {
-    if (number < 1 || static_cast<std::size_t>(number) > n) {
-      fail(ErrorCode::index_out_of_range, scanner_.path(),
-           text(flag_section.keyword, " lists number ", number, ", but the file has only ", n));
-    }
-    flags[static_cast<std::size_t>(number) - 1] = 1;
-  }
-  if (numbers.empty()) return;
-  (document_.file.*flag_section.data).push_back({std::string(flag_section.array), 1, std::move(flags)});
-}
 
 // --- writing ---------------------------------------------------------------------------------------------
 

@@ -23,76 +23,68 @@ bool is_off_word(std::string_view word) {
 class OffReader {
  public:
   explicit OffReader(Source& source) : scanner_(source.path, source.bytes, '#'), document_(new_document(source.path)) {}
-  Document read();
+  Document read() {
+    scanner_.word("OFF");
+    if (scanner_.more_on_line() && scanner_.peek() == "BINARY")
+      scanner_.fail_here(ErrorCode::unsupported, "is an OFF file in binary; temper reads text");
+    const std::size_t n = scanner_.count("vertices", 6);
+    const std::size_t n_faces = scanner_.count("faces", 4);
+    if (scanner_.more_on_line()) scanner_.word("the number of edges");
+    vertices(n);
+    faces(n_faces);
+    if (!scanner_.at_end()) {
+      scanner_.fail_here(ErrorCode::syntax, text("expected the end of the file after ", n_faces, " faces, found ",
+                                                 in_quotes(scanner_.peek())));
+    }
+    auto& warnings = document_.file.warnings;
+    if (more_of_vertices_ > 0)
+      warnings.push_back(text(scanner_.path(), ": colours, normals or textures of vertices are dropped"));
+    if (more_of_faces_ > 0) warnings.push_back(text(scanner_.path(), ": colours of faces are dropped"));
+    document_.names->triangles = RunLength(0, document_.file.triangles.size());
+    return std::move(document_);
+  }
 
  private:
-  void vertices(std::size_t n);
-  void faces(std::size_t n);
+  void vertices(std::size_t n) {
+    MeshFile& f = document_.file;
+    document_.names->points = RunLength(0, n);
+    f.points.reserve(n);
+    PlaneCheck plane(document_);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double x = scanner_.real("the x coordinate of a vertex");
+      document_.names->point_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+      f.points.push_back({x, scanner_.real("the y coordinate of a vertex")});
+      plane.add(i, scanner_.real("the z coordinate of a vertex"));
+      skip_rest(more_of_vertices_);
+    }
+  }
+  void faces(std::size_t n) {
+    MeshFile& f = document_.file;
+    f.triangles.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::int32_t corners = scanner_.integer("the number of corners of a face");
+      if (corners != 3) {
+        scanner_.fail_here(corners > 3 ? ErrorCode::unsupported : ErrorCode::syntax,
+                           text("face ", i, " has ", corners, " corners; temper reads triangles"));
+      }
+      document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+      const std::int32_t a = scanner_.vertex(0), b = scanner_.vertex(0);
+      f.triangles.push_back({a, b, scanner_.vertex(0)});
+      skip_rest(more_of_faces_);
+    }
+  }
   /// Numbers up to the end of the line.
-  void skip_rest(std::size_t& dropped);
+  void skip_rest(std::size_t& dropped) {
+    while (scanner_.more_on_line()) {
+      static_cast<void>(scanner_.real("a number"));
+      ++dropped;
+    }
+  }
 
   Scanner scanner_;
   Document document_;
   std::size_t more_of_vertices_ = 0, more_of_faces_ = 0;
 };
-
-Document OffReader::read() {
-  scanner_.word("OFF");
-  if (scanner_.more_on_line() && scanner_.peek() == "BINARY")
-    scanner_.fail_here(ErrorCode::unsupported, "is an OFF file in binary; temper reads text");
-  const std::size_t n = scanner_.count("vertices", 6);
-  const std::size_t n_faces = scanner_.count("faces", 4);
-  if (scanner_.more_on_line()) scanner_.word("the number of edges");
-  vertices(n);
-  faces(n_faces);
-  if (!scanner_.at_end()) {
-    scanner_.fail_here(ErrorCode::syntax, text("expected the end of the file after ", n_faces, " faces, found ",
-                                               in_quotes(scanner_.peek())));
-  }
-  auto& warnings = document_.file.warnings;
-  if (more_of_vertices_ > 0)
-    warnings.push_back(text(scanner_.path(), ": colours, normals or textures of vertices are dropped"));
-  if (more_of_faces_ > 0) warnings.push_back(text(scanner_.path(), ": colours of faces are dropped"));
-  document_.names->triangles = RunLength(0, document_.file.triangles.size());
-  return std::move(document_);
-}
-
-void OffReader::skip_rest(std::size_t& dropped) {
-  while (scanner_.more_on_line()) {
-    static_cast<void>(scanner_.real("a number"));
-    ++dropped;
-  }
-}
-
-void OffReader::vertices(std::size_t n) {
-  MeshFile& f = document_.file;
-  document_.names->points = RunLength(0, n);
-  f.points.reserve(n);
-  PlaneCheck plane(document_);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double x = scanner_.real("the x coordinate of a vertex");
-    document_.names->point_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
-    f.points.push_back({x, scanner_.real("the y coordinate of a vertex")});
-    plane.add(i, scanner_.real("the z coordinate of a vertex"));
-    skip_rest(more_of_vertices_);
-  }
-}
-
-void OffReader::faces(std::size_t n) {
-  MeshFile& f = document_.file;
-  f.triangles.reserve(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::int32_t corners = scanner_.integer("the number of corners of a face");
-    if (corners != 3) {
-      scanner_.fail_here(corners > 3 ? ErrorCode::unsupported : ErrorCode::syntax,
-                         text("face ", i, " has ", corners, " corners; temper reads triangles"));
-    }
-    document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
-    const std::int32_t a = scanner_.vertex(0), b = scanner_.vertex(0);
-    f.triangles.push_back({a, b, scanner_.vertex(0)});
-    skip_rest(more_of_faces_);
-  }
-}
 
 }  // namespace
 

@@ -47,11 +47,11 @@ bool is_freefem(std::string_view head) {
 
 /// 80 bytes of any kind, the number of triangles, and 50 bytes for each: no more and no less.
 bool is_binary_stl(std::string_view bytes) {
-  constexpr std::size_t kTitle = 80, kHeader = 84, kTriangle = 50;
+  constexpr std::size_t kTitle = 80, kHeader = 84, kTriangleBytes = 50;
   if (bytes.size() < kHeader) return false;
   std::size_t n = 0;
   for (std::size_t i = kHeader; i > kTitle; --i) n = n << 8 | static_cast<unsigned char>(bytes[i - 1]);
-  return n > 0 && (bytes.size() - kHeader) % kTriangle == 0 && (bytes.size() - kHeader) / kTriangle == n;
+  return n > 0 && (bytes.size() - kHeader) % kTriangleBytes == 0 && (bytes.size() - kHeader) / kTriangleBytes == n;
 }
 
 /// Records of Fortran: a title of 80 bytes, then two integers.

@@ -179,153 +179,143 @@ class AttributeColumns {
 class TriangleReader {
  public:
   explicit TriangleReader(Source& source) : source_(source), document_(new_document(source.path)) {}
-  Document read();
+  Document read() {
+    const TriangleFile kind = kind_of(std::string_view(source_.bytes).substr(0, kSniffBytes));
+    const bool is_node = kind == TriangleFile::node;
+    refuse_tetrahedra(is_node);
+    const std::string base = without_suffix(source_.path, is_node ? ".node" : ".ele");
+    const std::string other_path = base + (is_node ? ".ele" : ".node");
+    if (!exists(other_path)) {
+      fail(ErrorCode::not_found, source_.path,
+           text("is the ", is_node ? "points" : "triangles", " of a Triangle mesh; its ",
+                is_node ? "triangles" : "points", " are expected in ", other_path, ", which does not exist"));
+    }
+    Source other = load(other_path);
+    document_.names->path = is_node ? source_.path : other_path;
+    document_.names->triangle_path = is_node ? other_path : source_.path;
+    nodes(is_node ? source_ : other);
+    elements(is_node ? other : source_);
+    if (exists(base + ".poly"))
+      segments(base + ".poly", false);
+    else if (exists(base + ".edge"))
+      segments(base + ".edge", true);
+    return std::move(document_);
+  }
 
  private:
-  void refuse_tetrahedra(bool is_node) const;
-  void nodes(Source& source);
-  void elements(Source& source);
-  void segments(const std::string& path, bool edges);
+  // Before the other file of the pair is asked for.
+  void refuse_tetrahedra(bool is_node) const {
+    Scanner header(source_.path, source_.bytes, '#');
+    static_cast<void>(header.count("rows", 1));
+    const std::int32_t number = header.integer(is_node ? "the dimension" : "the number of corners");
+    if (is_node ? number != 3 : number != 4 && number != 10) return;
+    header.fail_here(ErrorCode::unsupported, is_node ? "has points of dimension 3, as TetGen's; expected 2"
+                                                     : "has tetrahedra, as TetGen's; expected triangles");
+  }
+  void nodes(Source& source) {
+    Scanner scanner(source.path, source.bytes, '#');
+    MeshFile& f = document_.file;
+    const std::size_t n = scanner.count("points", 6);
+    const std::int32_t dimension = scanner.integer("the dimension");
+    if (dimension != 2)
+      scanner.fail_here(ErrorCode::unsupported, text("has points of dimension ", dimension, "; expected 2"));
+    const std::size_t n_attributes = scanner.more_on_line() ? scanner.count("attributes", 1) : 0;
+    const bool markers = scanner.more_on_line() && scanner.count("markers", 1) != 0;
+    scanner.check_room(n, "points", 6 + 2 * n_attributes);
+    Declarations declared = declarations(source.bytes);
+    AttributeColumns columns(std::move(declared.arrays), n_attributes, scanner);
+    document_.z = declared.z;
+    f.names = std::move(declared.names);
+    for (std::size_t i = 0; i < n; ++i) {
+      TriangleRow row(scanner, "the number of a point", 3 + n_attributes + (markers ? 1 : 0));
+      const std::int32_t number = row.number();
+      if (i == 0) first_ = number;
+      if (number != first_ + static_cast<std::int64_t>(i)) {
+        scanner.fail_here(ErrorCode::syntax,
+                          text("expected point ", first_ + static_cast<std::int64_t>(i), ", found point ", number));
+      }
+      document_.names->points.push_back(number);
+      document_.names->point_lines.push_back(static_cast<std::int64_t>(scanner.line()));
+      const auto x = row.next<double>("the x coordinate of a point");
+      f.points.push_back({x, row.next<double>("the y coordinate of a point")});
+      columns.read(row);
+      const auto marker = markers ? row.next<std::int32_t>("the marker of a point") : 0;
+      row.end();
+      if (marker == 0) continue;
+      f.marked_points.push_back(static_cast<std::int32_t>(i));
+      f.point_tags.push_back(marker);
+    }
+    if (columns.undeclared() > 0) {
+      f.warnings.push_back(text(source.path,
+                                ": undeclared attributes are read as data, not as weights; the comment line '",
+                                kDeclaration, "float64 1 weight' declares the first one a weight"));
+    }
+    f.point_data = columns.take();
+    if (const DataArray* weight = find(f.point_data, "weight"); weight != nullptr && weight->components == 1) {
+      f.weights = to_doubles(std::move(take(f.point_data, "weight")->values));
+    }
+  }
+  void elements(Source& source) {
+    Scanner scanner(source.path, source.bytes, '#');
+    MeshFile& f = document_.file;
+    const std::size_t n = scanner.count("triangles", 8);
+    const std::int32_t corners = scanner.integer("the number of corners");
+    if (corners == 6) refuse_element(scanner.where(), first_, "quadratic triangle");
+    if (corners != 3)
+      scanner.fail_here(ErrorCode::unsupported, text("has triangles of ", corners, " corners; expected 3"));
+    const std::size_t n_attributes = scanner.more_on_line() ? scanner.count("attributes", 1) : 0;
+    scanner.check_room(n, "triangles", 8 + 2 * n_attributes);
+    Declarations declared = declarations(source.bytes);
+    AttributeColumns columns(std::move(declared.arrays), n_attributes, scanner);
+    f.triangles.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      TriangleRow row(scanner, "the number of a triangle", 4 + n_attributes);
+      document_.names->triangles.push_back(row.number());
+      document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner.line()));
+      const std::int32_t a = row.next_vertex(first_), b = row.next_vertex(first_);
+      f.triangles.push_back({a, b, row.next_vertex(first_)});
+      columns.read(row);
+      row.end();
+    }
+    const bool last_is_region = columns.undeclared() > 0;
+    f.cell_data = columns.take();
+    const std::string region = last_is_region ? f.cell_data.back().name : "region";
+    const DataArray* array = find(f.cell_data, region);
+    if (array == nullptr || array->components != 1) return;
+    if (auto regions = to_int32(array->values)) {
+      f.regions = std::move(*regions);
+      static_cast<void>(take(f.cell_data, region));
+    }
+  }
+  void segments(const std::string& path, bool edges) {
+    const Source source = load(path);
+    Scanner scanner(path, source.bytes, '#');
+    if (!edges) {
+      const std::size_t n_points = scanner.count("points", 1);
+      scanner.rest_of_line();
+      // An outline with points of its own is the input of Triangle, not the mesh: its numbers are not ours.
+      if (n_points > 0) return;
+    }
+    MeshFile& f = document_.file;
+    const std::size_t n = scanner.count("segments", 6);
+    const bool markers = scanner.more_on_line() && scanner.count("markers", 1) != 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto number = scanner.integer("the number of a segment");
+      const auto text_line = static_cast<std::int64_t>(scanner.line());
+      const std::int32_t a = scanner.vertex(first_), b = scanner.vertex(first_);
+      const std::int32_t marker = markers ? scanner.integer("the marker of a segment") : 0;
+      if (edges && (marker == 0 || b + first_ == -1)) continue;
+      document_.names->lines.push_back(number);
+      document_.names->line_lines.push_back(text_line);
+      f.lines.push_back({a, b});
+      f.line_tags.push_back(marker);
+    }
+  }
 
   Source& source_;
   Document document_;
   std::int32_t first_ = 0;  // number of the first point
 };
-
-Document TriangleReader::read() {
-  const TriangleFile kind = kind_of(std::string_view(source_.bytes).substr(0, kSniffBytes));
-  const bool is_node = kind == TriangleFile::node;
-  refuse_tetrahedra(is_node);
-  const std::string base = without_suffix(source_.path, is_node ? ".node" : ".ele");
-  const std::string other_path = base + (is_node ? ".ele" : ".node");
-  if (!exists(other_path)) {
-    fail(ErrorCode::not_found, source_.path,
-         text("is the ", is_node ? "points" : "triangles", " of a Triangle mesh; its ",
-              is_node ? "triangles" : "points", " are expected in ", other_path, ", which does not exist"));
-  }
-  Source other = load(other_path);
-  document_.names->path = is_node ? source_.path : other_path;
-  document_.names->triangle_path = is_node ? other_path : source_.path;
-  nodes(is_node ? source_ : other);
-  elements(is_node ? other : source_);
-  if (exists(base + ".poly"))
-    segments(base + ".poly", false);
-  else if (exists(base + ".edge"))
-    segments(base + ".edge", true);
-  return std::move(document_);
-}
-
-// Before the other file of the pair is asked for.
-void TriangleReader::refuse_tetrahedra(bool is_node) const {
-  Scanner header(source_.path, source_.bytes, '#');
-  static_cast<void>(header.count("rows", 1));
-  const std::int32_t number = header.integer(is_node ? "the dimension" : "the number of corners");
-  if (is_node ? number != 3 : number != 4 && number != 10) return;
-  header.fail_here(ErrorCode::unsupported, is_node ? "has points of dimension 3, as TetGen's; expected 2"
-                                                   : "has tetrahedra, as TetGen's; expected triangles");
-}
-
-void TriangleReader::nodes(Source& source) {
-  Scanner scanner(source.path, source.bytes, '#');
-  MeshFile& f = document_.file;
-  const std::size_t n = scanner.count("points", 6);
-  const std::int32_t dimension = scanner.integer("the dimension");
-  if (dimension != 2)
-    scanner.fail_here(ErrorCode::unsupported, text("has points of dimension ", dimension, "; expected 2"));
-  const std::size_t n_attributes = scanner.more_on_line() ? scanner.count("attributes", 1) : 0;
-  const bool markers = scanner.more_on_line() && scanner.count("markers", 1) != 0;
-  scanner.check_room(n, "points", 6 + 2 * n_attributes);
-  Declarations declared = declarations(source.bytes);
-  AttributeColumns columns(std::move(declared.arrays), n_attributes, scanner);
-  f.z = declared.z;
-  f.names = std::move(declared.names);
-  for (std::size_t i = 0; i < n; ++i) {
-    TriangleRow row(scanner, "the number of a point", 3 + n_attributes + (markers ? 1 : 0));
-    const std::int32_t number = row.number();
-    if (i == 0) first_ = number;
-    if (number != first_ + static_cast<std::int64_t>(i)) {
-      scanner.fail_here(ErrorCode::syntax,
-                        text("expected point ", first_ + static_cast<std::int64_t>(i), ", found point ", number));
-    }
-    document_.names->points.push_back(number);
-    document_.names->point_lines.push_back(static_cast<std::int64_t>(scanner.line()));
-    const auto x = row.next<double>("the x coordinate of a point");
-    f.points.push_back({x, row.next<double>("the y coordinate of a point")});
-    columns.read(row);
-    const auto marker = markers ? row.next<std::int32_t>("the marker of a point") : 0;
-    row.end();
-    if (marker == 0) continue;
-    f.marked_points.push_back(static_cast<std::int32_t>(i));
-    f.point_tags.push_back(marker);
-  }
-  if (columns.undeclared() > 0) {
-    f.warnings.push_back(text(source.path,
-                              ": undeclared attributes are read as data, not as weights; the comment line '",
-                              kDeclaration, "float64 1 weight' declares the first one a weight"));
-  }
-  f.point_data = columns.take();
-  if (const DataArray* weight = find(f.point_data, "weight"); weight != nullptr && weight->components == 1) {
-    f.weights = to_doubles(std::move(take(f.point_data, "weight")->values));
-  }
-}
-
-void TriangleReader::elements(Source& source) {
-  Scanner scanner(source.path, source.bytes, '#');
-  MeshFile& f = document_.file;
-  const std::size_t n = scanner.count("triangles", 8);
-  const std::int32_t corners = scanner.integer("the number of corners");
-  if (corners == 6) refuse_element(scanner.where(), first_, "quadratic triangle");
-  if (corners != 3)
-    scanner.fail_here(ErrorCode::unsupported, text("has triangles of ", corners, " corners; expected 3"));
-  const std::size_t n_attributes = scanner.more_on_line() ? scanner.count("attributes", 1) : 0;
-  scanner.check_room(n, "triangles", 8 + 2 * n_attributes);
-  Declarations declared = declarations(source.bytes);
-  AttributeColumns columns(std::move(declared.arrays), n_attributes, scanner);
-  f.triangles.reserve(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    TriangleRow row(scanner, "the number of a triangle", 4 + n_attributes);
-    document_.names->triangles.push_back(row.number());
-    document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner.line()));
-    const std::int32_t a = row.next_vertex(first_), b = row.next_vertex(first_);
-    f.triangles.push_back({a, b, row.next_vertex(first_)});
-    columns.read(row);
-    row.end();
-  }
-  const bool last_is_region = columns.undeclared() > 0;
-  f.cell_data = columns.take();
-  const std::string region = last_is_region ? f.cell_data.back().name : "region";
-  const DataArray* array = find(f.cell_data, region);
-  if (array == nullptr || array->components != 1) return;
-  if (auto regions = to_int32(array->values)) {
-    f.regions = std::move(*regions);
-    static_cast<void>(take(f.cell_data, region));
-  }
-}
-
-void TriangleReader::segments(const std::string& path, bool edges) {
-  const Source source = load(path);
-  Scanner scanner(path, source.bytes, '#');
-  if (!edges) {
-    const std::size_t n_points = scanner.count("points", 1);
-    scanner.rest_of_line();
-    // An outline with points of its own is the input of Triangle, not the mesh: its numbers are not ours.
-    if (n_points > 0) return;
-  }
-  MeshFile& f = document_.file;
-  const std::size_t n = scanner.count("segments", 6);
-  const bool markers = scanner.more_on_line() && scanner.count("markers", 1) != 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto number = scanner.integer("the number of a segment");
-    const auto text_line = static_cast<std::int64_t>(scanner.line());
-    const std::int32_t a = scanner.vertex(first_), b = scanner.vertex(first_);
-    const std::int32_t marker = markers ? scanner.integer("the marker of a segment") : 0;
-    if (edges && (marker == 0 || b + first_ == -1)) continue;
-    document_.names->lines.push_back(number);
-    document_.names->line_lines.push_back(text_line);
-    f.lines.push_back({a, b});
-    f.line_tags.push_back(marker);
-  }
-}
 
 // --- writing ---------------------------------------------------------------------------------------------
 
@@ -372,7 +362,7 @@ void write_node(const WriteJob& job, const std::string& base) {
   const auto arrays = f.weights.empty() ? f.point_data : without(f.point_data, "weight", job);
   if (!f.weights.empty()) declare(out, "float64", 1, "weight");
   const std::size_t columns = declare_all(out, arrays) + (f.weights.empty() ? 0 : 1);
-  if (!is_flat(f)) out.put(kDeclaredZ, f.z, '\n');
+  if (!is_flat(f)) out.put(kDeclaredZ, f.z(), '\n');
   for (const PhysicalName& n : f.names) out.put(kDeclaredName, n.dimension, ' ', n.tag, ' ', n.name, '\n');
   const bool marked = !f.marked_points.empty();
   out.put(f.points.size(), " 2 ", columns, ' ', marked ? 1 : 0, '\n');

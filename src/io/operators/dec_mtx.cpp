@@ -1,6 +1,5 @@
-// Operators as Matrix Market files (Boisvert, Pozo, Remington 1996). Their rows and columns count from 1: vertex 0 is
-// row
-// 1. Numbers are the shortest text that reads back to the same bits.
+// Operators as Matrix Market files (Boisvert, Pozo, Remington 1996). Rows and columns count from 1. Numbers are the
+// shortest text that reads back to the same bits.
 #include <functional>
 #include <vector>
 

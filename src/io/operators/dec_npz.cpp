@@ -107,7 +107,7 @@ void add_mesh(NpzWriter& npz, const DecJob& job) {
   npz.add("points", points);
   npz.add("triangles", corners, {mesh.n_triangles(), 3});
   npz.add("regions", regions);
-  if (!mesh.space().is_plane()) npz.add("sphere_radius", std::vector<double>{mesh.space().radius()}, {});
+  if (mesh.space().radius() > 0) npz.add("sphere_radius", std::vector<double>{mesh.space().radius()}, {});
   const Vec2 period = mesh.space().period();
   if (mesh.space().is_periodic()) npz.add("plane_period", std::vector<double>{period.x, period.y});
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <new>
 
 #include "io/disk/files.hpp"
 #include "io/operators/dec_files.hpp"
@@ -106,23 +105,13 @@ Output& DecJob::open(std::string_view name) const {
 
 Expected<std::vector<std::string>> write_dec(const std::string& folder, const Mesh& mesh, const DecComplex& complex,
                                              const PowerCells& cells, const DecWriteOptions& options) {
-  try {
-    return write_dec_or_throw(folder, mesh, complex, cells, options);
-  } catch (Failure& failure) {
-    return std::move(failure.error);
-  } catch (const std::bad_alloc&) {
-    return InputError{ErrorCode::unsupported, folder, "needs more memory than there is"};
-  }
+  return guarded<std::vector<std::string>>(folder,
+                                           [&] { return write_dec_or_throw(folder, mesh, complex, cells, options); });
 }
 
 DecPlaces vertex_places(const Mesh& mesh) {
-  const Space& space = mesh.space();
-  DecPlaces places;
-  places.coordinates = space.is_plane() ? 2 : 3;
-  for (const VertexId v : mesh.vertices()) {
-    const Vec2 p = space.is_plane() ? mesh.position(v) : Vec2{};
-    places.at.push_back(space.is_plane() ? Vec3{p.x, p.y, 0} : space.place(mesh.point(v)));
-  }
+  DecPlaces places = {static_cast<std::size_t>(mesh.space().dimension()), {}};
+  for (const VertexId v : mesh.vertices()) places.at.push_back(mesh.space().place(mesh.point(v)));
   return places;
 }
 

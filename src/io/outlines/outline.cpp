@@ -1,5 +1,4 @@
 // Outlines: the content decides the format.
-#include <new>
 #include <utility>
 
 #include "io/outlines/outline_input.hpp"
@@ -9,10 +8,6 @@ namespace {
 
 std::string numbered(std::string_view kind, const RunLength& numbers, std::size_t i) {
   return text(kind, numbers[static_cast<std::int64_t>(i)]);
-}
-
-std::string at_line(const std::string& path, const RunLength& lines, std::size_t i) {
-  return i < lines.size() ? text(path, ":", lines[static_cast<std::int64_t>(i)]) : path;
 }
 
 OutlineDocument read_document(Source& source) {
@@ -45,7 +40,7 @@ std::string OutlineFileNames::hole_where(std::size_t i) const { return at_line(p
 std::string OutlineFileNames::region_where(std::size_t i) const { return at_line(path, region_lines, i); }
 
 Expected<OutlineFile> read_outline(const std::string& path) {
-  try {
+  return guarded<OutlineFile>(path, [&] {
     Source source = load(path);
     OutlineDocument document = read_document(source);
     document.file.path = path;
@@ -55,11 +50,7 @@ Expected<OutlineFile> read_outline(const std::string& path) {
     }
     document.file.outline.names = std::move(document.names);
     return std::move(document.file);
-  } catch (Failure& failure) {
-    return std::move(failure.error);
-  } catch (const std::bad_alloc&) {
-    return InputError{ErrorCode::unsupported, path, "needs more memory than there is"};
-  }
+  });
 }
 
 }  // namespace temper::io

@@ -42,7 +42,12 @@ template <class... Parts>
 template <class Result, class Work>
 Expected<Result> guarded(const std::string& path, Work work) {
   try {
-    return work();
+    if constexpr (std::is_void_v<Result>) {
+      work();
+      return {};
+    } else {
+      return work();
+    }
   } catch (Failure& failure) {
     return std::move(failure.error);
   } catch (const std::bad_alloc&) {

@@ -63,11 +63,11 @@ std::string named(const char* kind, const RunLength& numbers, std::size_t index)
   return text(kind, numbers[static_cast<std::int64_t>(index)]);
 }
 
+}  // namespace
+
 std::string at_line(const std::string& path, const RunLength& lines, std::size_t index) {
   return index < lines.size() ? text(path, ":", lines[static_cast<std::int64_t>(index)]) : path;
 }
-
-}  // namespace
 
 std::string FileNames::point(std::size_t index) const { return named("point ", points, index); }
 std::string FileNames::triangle(std::size_t index) const { return named("triangle ", triangles, index); }

@@ -60,6 +60,9 @@ class NumberLookup {
   mutable std::size_t last_ = 0;
 };
 
+/// "coast.msh:41", of the line of an element; the path alone where lines are unknown.
+[[nodiscard]] std::string at_line(const std::string& path, const RunLength& lines, std::size_t index);
+
 class FileNames final : public InputNames {
  public:
   explicit FileNames(std::string of) : path(std::move(of)) {}

@@ -19,6 +19,12 @@ bool looks_like_number(std::string_view word) {
          word.find_first_not_of("0123456789+-.eEdD") == std::string_view::npos;
 }
 
+std::string_view trimmed(std::string_view s) {
+  const std::size_t first = s.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return {};
+  return s.substr(first, s.find_last_not_of(" \t\r\n") - first + 1);
+}
+
 std::string in_quotes(std::string_view word) {
   constexpr std::size_t kMost = 40;
   std::string result = "'";

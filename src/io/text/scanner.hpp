@@ -84,6 +84,9 @@ class Scanner {
 /// formats.
 [[nodiscard]] bool looks_like_number(std::string_view word);
 
+/// The text without blanks and ends of lines at its ends.
+[[nodiscard]] std::string_view trimmed(std::string_view s);
+
 /// A word for a message: at most 40 characters, control characters shown as '?'.
 [[nodiscard]] std::string in_quotes(std::string_view word);
 

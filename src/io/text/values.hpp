@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -34,30 +35,12 @@ struct ScalarInfo {
 [[nodiscard]] inline bool is_floating(const Values& values) { return scalar_of(values) <= Scalar::f32; }
 
 /// Calls f(T()) with a value of the type; all calls return the same type.
-template <class F>
+template <std::size_t I = 0, class F>
 decltype(auto) with_scalar(Scalar scalar, F&& f) {
-  switch (scalar) {
-    case Scalar::f64:  // NOLINT(bugprone-branch-clone): each branch has its type
-      return f(double());
-    case Scalar::f32:
-      return f(float());
-    case Scalar::i64:
-      return f(std::int64_t());
-    case Scalar::i32:
-      return f(std::int32_t());
-    case Scalar::u8:
-      return f(std::uint8_t());
-    case Scalar::i8:
-      return f(std::int8_t());
-    case Scalar::i16:
-      return f(std::int16_t());
-    case Scalar::u16:
-      return f(std::uint16_t());
-    case Scalar::u32:
-      return f(std::uint32_t());
-    default:
-      return f(std::uint64_t());
+  if constexpr (I + 1 < std::variant_size_v<Values>) {
+    if (scalar != static_cast<Scalar>(I)) return with_scalar<I + 1>(scalar, std::forward<F>(f));
   }
+  return f(typename std::variant_alternative_t<I, Values>::value_type());
 }
 
 template <class Vector>

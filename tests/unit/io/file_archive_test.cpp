@@ -39,7 +39,7 @@ class FileArchiveTest : public FileTest {
     }
     EXPECT_TRUE(write(path("in.vtu"), f));
     MeshFile again = *read(path("in.vtu"));
-    again.geographic = true;
+    again.points_in = DegreePoints{.z = again.z()};
     EXPECT_TRUE(project(again, "mercator:11"));
     return again;
   }
@@ -70,8 +70,8 @@ TEST_F(FileArchiveTest, a_file_of_bytes_is_written_as_the_file_itself) {
   MeshFile again;
   LoadedMesh none;
   expect_read(bytes_of(file, LoadedMesh()), again, none);
-  ASSERT_TRUE(again.map);
-  EXPECT_EQ(again.map->places, file.map->places);
+  ASSERT_TRUE(again.map() != nullptr);
+  EXPECT_EQ(again.map()->places, file.map()->places);
   for (const std::string format : {"vtu", "gmsh22", "gmsh41"}) {
     ASSERT_TRUE(write(path("a"), file, {format, {}}));
     ASSERT_TRUE(write(path("b"), again, {format, {}}));
@@ -82,10 +82,10 @@ TEST_F(FileArchiveTest, a_file_of_bytes_is_written_as_the_file_itself) {
 TEST_F(FileArchiveTest, a_file_that_was_not_read_has_no_numbers_and_no_map_afterwards_either) {
   MeshFile again;
   LoadedMesh none;
-  again.map = std::make_shared<const GeographicMap>();
+  again.points_in = MappedPoints{std::make_shared<const GeographicMap>()};
   expect_read(bytes_of(from_mesh(*sheared_grid({3, 3, 0.1})), LoadedMesh()), again, none);
   EXPECT_FALSE(again.numbering);
-  EXPECT_FALSE(again.map);
+  EXPECT_EQ(again.map(), nullptr);
 }
 
 }  // namespace

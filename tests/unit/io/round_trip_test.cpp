@@ -42,7 +42,7 @@ TEST_P(RoundTrip, of_geometry_weights_regions_and_tags_loses_no_bit) {
   EXPECT_EQ(g.format, GetParam().format);
   if (!GetParam().holds_z) {
     EXPECT_NE(warnings.find("z = 0.7"), std::string::npos) << warnings;
-    f.z = 0;
+    f.set_z(0);
   }
   if (!GetParam().holds_tags) {
     for (const char* lost : {"regions", "lines", "marked points"})

@@ -92,11 +92,14 @@ class MpasReader {
            text("attribute is_periodic is YES, and ", name, " is ", length ? text(*length) : "not there",
                 "; expected the length of the period, or 0"));
     };
-    document_.file.period = {period("x_period"), period("y_period")};
-    if (document_.file.sphere_radius == 0 && is_periodic(document_.file)) return;
-    fail(ErrorCode::unsupported, document_.names->path,
-         document_.file.sphere_radius > 0 ? "attributes on_a_sphere and is_periodic are YES; expected one of them"
-                                          : "attribute is_periodic is YES, but x_period and y_period are 0");
+    const Vec2 periods = {period("x_period"), period("y_period")};
+    const bool sphere = document_.file.sphere() != nullptr;
+    if (sphere || periods == Vec2{}) {
+      fail(ErrorCode::unsupported, document_.names->path,
+           sphere ? "attributes on_a_sphere and is_periodic are YES; expected one of them"
+                  : "attribute is_periodic is YES, but x_period and y_period are 0");
+    }
+    document_.file.points_in = PeriodicPoints{periods};
   }
 
   std::vector<double> coordinates(const char* name) const {
@@ -131,17 +134,17 @@ class MpasReader {
     const auto said = in_.number_attribute(nullptr, "sphere_radius");
     if (said) expect_radius(places, *said);
     settle_points(document_.file, places, *document_.names);
-    if (document_.file.sphere_radius == 0) {
+    if (document_.file.sphere() == nullptr) {
       // On one parallel all have one z, as in a plane.
       const auto common = common_radius(places);
       if (!common) {
         fail(ErrorCode::not_planar, document_.names->path,
-             text("attribute on_a_sphere is YES, but all points have z = ", document_.file.z,
+             text("attribute on_a_sphere is YES, but all points have z = ", document_.file.z(),
                   " and not one distance from the origin; expected points on a sphere around the origin"));
       }
       set_sphere(document_.file, *common, std::move(places));
     }
-    if (said) document_.file.sphere_radius = *said;
+    if (said) std::get<SpherePoints>(document_.file.points_in).radius = *said;
   }
 
   void expect_radius(const std::vector<Vec3>& places, double radius) const {
@@ -244,7 +247,7 @@ MpasPlaces on_sphere(std::vector<Vec3> at) {
 
 MpasPlaces in_plane(const NetcdfMesh& m, const std::vector<Vec2>& points) {
   MpasPlaces places;
-  for (const Vec2 p : points) places.at.push_back({p.x, p.y, m.file.z});
+  for (const Vec2 p : points) places.at.push_back({p.x, p.y, m.file.z()});
   const bool of_points = &points == &m.file.points;
   if (auto known = lon_lat_of_points(m.file))
     places.lon_lat = of_points ? *std::move(known) : lon_lat_of_places(m.file, m.mesh, points);
@@ -258,17 +261,17 @@ std::vector<Vec2> in_domain(const NetcdfMesh& m, std::vector<Vec2> points) {
 }
 
 MpasPlaces mpas_cells(const NetcdfMesh& m) {
-  return m.file.sphere_radius > 0 ? on_sphere(m.file.sphere_points) : in_plane(m, m.file.points);
+  return m.file.sphere() != nullptr ? on_sphere(m.file.sphere()->places) : in_plane(m, m.file.points);
 }
 MpasPlaces mpas_edges(const NetcdfMesh& m) {
-  if (m.file.sphere_radius > 0) return on_sphere(m.complex.sphere_midpoints.raw());
+  if (m.file.sphere() != nullptr) return on_sphere(m.complex.sphere_midpoints.raw());
   std::vector<Vec2> midpoints;
   for (const DecEdge& edge : m.complex.edges) midpoints.push_back(edge.midpoint);
   return in_plane(m, in_domain(m, std::move(midpoints)));
 }
 MpasPlaces mpas_vertices(const NetcdfMesh& m) {
-  return m.file.sphere_radius > 0 ? on_sphere(m.complex.sphere_orthocenters.raw())
-                                  : in_plane(m, in_domain(m, m.complex.orthocenters.raw()));
+  return m.file.sphere() != nullptr ? on_sphere(m.complex.sphere_orthocenters.raw())
+                                    : in_plane(m, in_domain(m, m.complex.orthocenters.raw()));
 }
 
 /// x, y and z of cells, edges or vertices, latitudes and longitudes, and their numbers.
@@ -350,7 +353,7 @@ void write_mpas(const WriteJob& job) {
   for (std::size_t e = 0; e < a.dv_edge.size(); ++e) n_bad += a.vertices_on_edge[2 * e + 1] > 0 && a.dv_edge[e] <= 0;
   if (n_bad > 0)
     job.warn(text(n_bad, " edges inside have a dvEdge that is not positive; MPAS expects a well-centered mesh"));
-  const double radius = m.file.sphere_radius;
+  const Space& space = m.mesh.space();
   warn_of_offsets(job, m);
   const std::size_t most_values = 2 * a.max_edges * c.edges.size();  // of weightsOnEdge
   NetcdfWriter out(job.path, needs_cdf5(m.file, most_values));
@@ -360,12 +363,12 @@ void write_mpas(const WriteJob& job) {
             two = out.dimension("TWO", 2), degree = out.dimension("vertexDegree", 3);
   out.attribute(NetcdfWriter::kFile, "Conventions", "MPAS");
   out.attribute(NetcdfWriter::kFile, "mesh_spec", "1.0");
-  out.attribute(NetcdfWriter::kFile, "on_a_sphere", radius > 0 ? "YES" : "NO");
-  out.attribute(NetcdfWriter::kFile, "sphere_radius", radius);
-  out.attribute(NetcdfWriter::kFile, "is_periodic", is_periodic(m.file) ? "YES" : "NO");
-  if (is_periodic(m.file)) {
-    out.attribute(NetcdfWriter::kFile, "x_period", m.file.period.x);
-    out.attribute(NetcdfWriter::kFile, "y_period", m.file.period.y);
+  out.attribute(NetcdfWriter::kFile, "on_a_sphere", m.file.sphere() != nullptr ? "YES" : "NO");
+  out.attribute(NetcdfWriter::kFile, "sphere_radius", space.radius());
+  out.attribute(NetcdfWriter::kFile, "is_periodic", space.is_periodic() ? "YES" : "NO");
+  if (const PeriodicPoints* const periodic = m.file.periodic()) {
+    out.attribute(NetcdfWriter::kFile, "x_period", periodic->period.x);
+    out.attribute(NetcdfWriter::kFile, "y_period", periodic->period.y);
   }
   out.attribute(NetcdfWriter::kFile, "source", "temper");
   write_mpas_places(out, "Cell", cells, mpas_cells(m));

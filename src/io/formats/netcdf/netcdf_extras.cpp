@@ -60,7 +60,7 @@ class ExtrasWriter {
 
   void write() {
     const MeshFile& f = file_;
-    if (!is_flat(f)) out_.attribute(NetcdfWriter::kFile, kZAttribute, f.z);
+    if (!is_flat(f)) out_.attribute(NetcdfWriter::kFile, kZAttribute, f.z());
     if (!f.names.empty()) out_.attribute(NetcdfWriter::kFile, kNamesAttribute, lines_of(f.names));
     if (!f.regions.empty()) put(kExtraKinds[1], std::string(kRegionVariable), {places_.cells}, f.regions);
     if (!f.lines.empty()) {
@@ -168,7 +168,7 @@ bool is_netcdf_extra(const NetcdfReader& in, const NetcdfVariable& v) {
 
 void read_netcdf_extras(const NetcdfReader& in, Document& document) {
   MeshFile& f = document.file;
-  if (const auto z = in.number_attribute(nullptr, kZAttribute)) f.z = *z;
+  if (const auto z = in.number_attribute(nullptr, kZAttribute)) document.z = *z;
   const std::string names = in.text_attribute(nullptr, kNamesAttribute);
   Scanner scanner(document.names->path, names);
   read_physical_names(scanner, f.names);

@@ -75,8 +75,8 @@ class UgridReader {
     node_dimension_ = vx.dimensions[0];
     const auto x = to_doubles(in_.values(vx)), y = to_doubles(in_.values(vy));
     const std::string_view of_x = axis(vx), of_y = axis(vy);
-    document_.file.geographic = !of_x.empty() && !of_y.empty() && of_x != of_y;
-    const bool turned = document_.file.geographic && of_x == kLatitude;
+    const bool degrees = !of_x.empty() && !of_y.empty() && of_x != of_y, turned = degrees && of_x == kLatitude;
+    if (degrees) document_.file.points_in = DegreePoints{};
     for (std::size_t i = 0; i < x.size(); ++i) {
       document_.file.points.push_back(turned ? Vec2{y[i], x[i]} : Vec2{x[i], y[i]});
     }
@@ -184,16 +184,17 @@ class UgridWriter {
     connectivity();
     if (!m_.file.weights.empty()) {
       const int id = out_.variable("mesh_node_weight", {nodes_}, m_.file.weights);
-      const std::string map = m_.file.map ? text(" on the map ", projection_text(m_.file.map->projection))
-                              : m_.file.sphere_radius > 0 ? text(" on the sphere of radius ", m_.file.sphere_radius)
-                                                          : std::string();
+      const std::string map =
+          m_.file.map() != nullptr      ? text(" on the map ", projection_text(m_.file.map()->projection))
+          : m_.file.sphere() != nullptr ? text(" on the sphere of radius ", m_.file.sphere()->radius)
+                                        : std::string();
       out_.attribute(id, "long_name", text("weight of the power diagram, a squared length", map));
       out_.attribute(id, "units", "m2");
       on(id, "node");
     }
-    if (m_.file.sphere_radius > 0 && m_.file.sphere_radius != Projection{}.radius) {
+    if (m_.file.sphere() != nullptr && m_.file.sphere()->radius != Projection{}.radius) {
       job_.warn(text("points are longitude and latitude, without the radius: give --projection sphere:radius=",
-                     m_.file.sphere_radius, " where the file is read again"));
+                     m_.file.sphere()->radius, " where the file is read again"));
     }
     write_netcdf_extras(out_, job_, m_.file, {nodes_, faces_, "mesh"});
     out_.finish(job_.outputs.open(job_.path));
@@ -221,7 +222,7 @@ class UgridWriter {
   }
 
   void places(const std::string& what, int dimension, const std::vector<Vec2>& all, const char* long_name) {
-    const bool degrees = m_.file.map != nullptr || m_.file.sphere_radius > 0;
+    const bool degrees = m_.file.map() != nullptr || m_.file.sphere() != nullptr;
     for (const bool is_x : {true, false}) {
       std::vector<double> values(all.size());
       for (std::size_t i = 0; i < all.size(); ++i) values[i] = is_x ? all[i].x : all[i].y;
@@ -238,7 +239,7 @@ class UgridWriter {
 
   /// Points of the plane as the file has them: on a map as longitude and latitude.
   [[nodiscard]] std::vector<Vec2> unmapped(const std::vector<Vec2>& points) const {
-    return m_.file.map != nullptr ? lon_lat_of_places(m_.file, m_.mesh, points) : points;
+    return m_.file.map() != nullptr ? lon_lat_of_places(m_.file, m_.mesh, points) : points;
   }
   [[nodiscard]] static std::vector<Vec2> degrees_of(const std::vector<Vec3>& points) {
     std::vector<Vec2> all;
@@ -252,8 +253,8 @@ class UgridWriter {
     std::vector<Vec2> midpoints;
     midpoints.reserve(c.edges.size());
     for (const DecEdge& edge : c.edges) midpoints.push_back(edge.midpoint);
-    const bool sphere = m_.file.sphere_radius > 0;
-    places("node", nodes_, m_.file.map != nullptr ? *lon_lat_of_points(m_.file) : m_.file.points, "vertices");
+    const bool sphere = m_.file.sphere() != nullptr;
+    places("node", nodes_, m_.file.map() != nullptr ? *lon_lat_of_points(m_.file) : m_.file.points, "vertices");
     places("face", faces_, sphere ? degrees_of(c.sphere_orthocenters.raw()) : unmapped(c.orthocenters.raw()),
            "orthocenters");
     places("edge", edges_, sphere ? degrees_of(c.sphere_midpoints.raw()) : unmapped(midpoints), "weighted midpoints");

@@ -12,7 +12,7 @@
 namespace temper::io {
 namespace {
 
-struct Columns {
+struct QualityColumns {
   std::vector<std::uint8_t> well_centered;
   std::array<std::vector<float>, 3> margins;  // h/l, d/l, angle
 };
@@ -27,36 +27,32 @@ float as_float(double value) {
 /// Measures the triangles of a file, which may be clockwise there.
 class Measurer {
  public:
-  explicit Measurer(const MeshFile& file) : file_(file), space_(space_of(file)) {}
+  explicit Measurer(const MeshFile& file) : file_(file), space_(file.space()) {}
 
   [[nodiscard]] TriangleQuality measure(std::size_t triangle) const {
     std::array<WeightedPoint, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = vertex(static_cast<std::size_t>(file_.triangles[triangle][k]));
     for (WeightedPoint& p : corners) p = space_.image(p, corners[0]);
-    if (orientation(corners) == Sign::negative) std::swap(corners[1], corners[2]);
+    if (temper::orientation(space_, corners[0], corners[1], corners[2]) == Sign::negative)
+      std::swap(corners[1], corners[2]);
     return triangle_quality(space_, corners);
   }
 
  private:
   [[nodiscard]] WeightedPoint vertex(std::size_t point) const {
     const double w = file_.weights.empty() ? 0 : file_.weights[point];
-    if (!space_.is_plane()) return space_.vertex_at(file_.sphere_points[point], w);
-    return {file_.points[point].x, file_.points[point].y, w};
-  }
-  [[nodiscard]] Sign orientation(const std::array<WeightedPoint, 3>& p) const {
-    return space_.is_plane() ? orient2d(p[0].position(), p[1].position(), p[2].position())
-                             : temper::orientation(lifted(p[0]), lifted(p[1]), lifted(p[2]));
+    return space_.vertex_at(place_of(file_, point), w);
   }
 
   const MeshFile& file_;
   Space space_;
 };
 
-Columns measure_all(const MeshFile& file, Executor* executor) {
+QualityColumns measure_all(const MeshFile& file, Executor* executor) {
   constexpr std::size_t kBlock = std::size_t{1} << 13;
   const std::size_t n = file.triangles.size();
   const Measurer measurer(file);
-  Columns columns;
+  QualityColumns columns;
   columns.well_centered.resize(n);
   for (auto& margin : columns.margins) margin.resize(n);
   or_serial(executor).run((n + kBlock - 1) / kBlock, [&](std::size_t block) {
@@ -92,13 +88,13 @@ bool has_triangle_quality(const std::function<std::optional<TypeOfArray>(std::st
 
 std::vector<VtkArray> vtk_triangle_quality(const WriteJob& job) {
   const MeshFile& file = job.measured;
-  if (file.geographic && !file.map) return {};
+  if (file.degrees() != nullptr) return {};
   if (file.triangles.empty()) return {};
   if (const std::string_view name = name_taken(file); !name.empty()) {
     job.warn(text("the quality of triangles is not written: the mesh has data ", in_quotes(name), " of its own"));
     return {};
   }
-  const auto columns = std::make_shared<const Columns>(measure_all(file, job.executor));
+  const auto columns = std::make_shared<const QualityColumns>(measure_all(file, job.executor));
   const std::size_t n = file.triangles.size(), cells = n_vtk_cells(file);
   std::vector<VtkArray> list = {computed_vtk_array<std::uint8_t>(
       std::string(kTriangleQuality[0].name), kTriangleQuality[0].scalar, cells,

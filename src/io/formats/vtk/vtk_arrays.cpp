@@ -194,9 +194,10 @@ std::vector<VtkArray> vtk_field_data(const MeshFile& f) {
         "physical_names", Scalar::u8, n,
         [all = std::move(all)](std::size_t i) { return static_cast<std::uint8_t>(all[i]); }));
   }
-  if (is_periodic(f)) {
-    list.push_back(computed_vtk_array<double>(std::string(kPlanePeriod), Scalar::f64, 2,
-                                              [p = f.period](std::size_t i) { return i == 0 ? p.x : p.y; }));
+  if (f.periodic() != nullptr) {
+    list.push_back(
+        computed_vtk_array<double>(std::string(kPlanePeriod), Scalar::f64, 2,
+                                   [p = f.periodic()->period](std::size_t i) { return i == 0 ? p.x : p.y; }));
   }
   for (const DataArray& a : f.field_data) {
     list.push_back(joined(a.name, scalar_of(a.values), a.components, {{&a.values, size(a.values)}}));
