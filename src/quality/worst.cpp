@@ -4,8 +4,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "geometry/in_space.hpp"
-
 namespace temper {
 namespace {
 
@@ -145,7 +143,8 @@ std::string degrees(double angle) {
 
 Vec2 middle_of(const Mesh& mesh, TriangleId t) {
   const auto [a, b, c] = mesh.points(t);
-  return mesh.space().as_shown(lifted(middle(mesh.space(), a, b, c)));
+  const double part = mesh.space().dimension() == 2 ? 1.0 / 3 : 1;  // on the sphere the direction counts
+  return mesh.space().as_shown(part * (lifted(a) + lifted(b) + lifted(c)));
 }
 
 WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names) {
