@@ -3,9 +3,12 @@ file(READ ${FROM} hex HEX)
 string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${hex}")
 string(REGEX REPLACE "((0x..,){24})" "\\1\n" bytes "${bytes}")
 file(WRITE ${TO}.new "// Made by cmake/embed_page.cmake.
-#include \"io/html_page.hpp\"
+#include <string_view>
 
 namespace temper::io {
+
+std::string_view html_page();
+
 namespace {
 
 constexpr unsigned char kPage[] = {

@@ -195,9 +195,10 @@ py::dict file_as_dict(const PyMesh& self) {
     const py::gil_scoped_release release;
     file = file_of(same);
   }
-  std::vector<Vec3> places = file.sphere_points;
-  if (file.sphere_radius == 0) {
-    for (const Vec2 p : file.points) places.push_back({p.x, p.y, file.z});
+  std::vector<Vec3> places;
+  if (file.sphere() != nullptr) places = file.sphere()->places;
+  if (places.empty()) {
+    for (const Vec2 p : file.points) places.push_back({p.x, p.y, file.z()});
   }
   return arrays_of(file)("points", rows_of<double>(std::span<const Vec3>(places))).dict;
 }
@@ -301,11 +302,35 @@ py::object write_file(const std::string& path, const PyMesh& self, const std::st
 
 // --- pickles ------------------------------------------------------------------------------------------------------
 
-py::object map_to_python(const io::MeshFile& file) {
-  if (!file.map) return py::none();
-  const auto& [projection, lon_lat, places] = *file.map;
-  return py::make_tuple(name_of(projection.kind), projection.center.x, projection.center.y, projection.radius,
-                        rows_of<double>(std::span(lon_lat)), rows_of<double>(std::span(places)));
+/// The kind of the points, and all that there is of it.
+struct PointsToPython {
+  py::tuple operator()(const io::PlanePoints& p) const { return py::make_tuple("plane", p.z); }
+  py::tuple operator()(const io::PeriodicPoints& p) const {
+    return py::make_tuple("periodic", p.period.x, p.period.y, p.z);
+  }
+  py::tuple operator()(const io::SpherePoints& p) const {
+    return py::make_tuple("sphere", p.radius, rows_of<double>(std::span(p.places)));
+  }
+  py::tuple operator()(const io::DegreePoints& p) const { return py::make_tuple("degrees", p.is_guessed, p.z); }
+  py::tuple operator()(const io::MappedPoints& p) const {
+    const auto& [projection, lon_lat, places] = *p.map;
+    return py::make_tuple("map", name_of(projection.kind), projection.center.x, projection.center.y, projection.radius,
+                          rows_of<double>(std::span(lon_lat)), rows_of<double>(std::span(places)), p.z);
+  }
+};
+
+io::PointsIn points_in_from(const py::tuple& t) {
+  const auto number = [&t](std::size_t i) { return t[i].cast<double>(); };
+  const auto kind = t[0].cast<std::string>();
+  if (kind == "plane") return io::PlanePoints{number(1)};
+  if (kind == "periodic") return io::PeriodicPoints{{number(1), number(2)}, number(3)};
+  if (kind == "sphere") return io::SpherePoints{number(1), copy_of<Vec3>(t[2].cast<Doubles>())};
+  if (kind == "degrees") return io::DegreePoints{t[1].cast<bool>(), number(2)};
+  auto map = std::make_shared<const io::GeographicMap>(
+      io::GeographicMap{{from_name<ProjectionKind>("projection", t[1].cast<std::string>()), {number(2), number(3)}, number(4)},
+                        copy_of<Vec2>(t[5].cast<Doubles>()),
+                        copy_of<Vec2>(t[6].cast<Doubles>())});
+  return io::MappedPoints{std::move(map), number(7)};
 }
 
 /// The file behind a mesh as it was read, and which of its points the vertices are; None where no file is behind it.
@@ -315,19 +340,10 @@ py::object source_as_dict(const PyMesh& self) {
   std::vector<std::uint8_t> kept(loaded.vertex_of_point.size());
   for (std::size_t p = 0; p < kept.size(); ++p) kept[p] = loaded.vertex_of_point[p] >= 0 ? 1 : 0;
   const std::vector<std::uint8_t> edge_lines(loaded.edge_lines.begin(), loaded.edge_lines.end());
-  return arrays_of(file)("points", rows_of<double>(std::span(file.points)))("sphere_radius", file.sphere_radius)(
-             "sphere_points", rows_of<double>(std::span(file.sphere_points)))("period", file.period)("z", file.z)(
-             "geographic", file.geographic)("map", map_to_python(file))("kept", array_of<std::uint8_t>(kept))(
+  return arrays_of(file)("points", rows_of<double>(std::span(file.points)))(
+             "points_in", std::visit(PointsToPython(), file.points_in))("kept", array_of<std::uint8_t>(kept))(
              "edge_lines", array_of<std::uint8_t>(edge_lines))("origin", self.origin())
       .dict;
-}
-
-std::shared_ptr<const io::GeographicMap> map_from(const py::object& map) {
-  if (map.is_none()) return nullptr;
-  const auto [kind, x, y, radius, lon_lat, places] =
-      map.cast<std::tuple<std::string, double, double, double, Doubles, Doubles>>();
-  return std::make_shared<const io::GeographicMap>(io::GeographicMap{
-      {from_name<ProjectionKind>("projection", kind), {x, y}, radius}, copy_of<Vec2>(lon_lat), copy_of<Vec2>(places)});
 }
 
 std::vector<bool> bits_from(const py::handle& array) {
@@ -338,10 +354,7 @@ std::vector<bool> bits_from(const py::handle& array) {
 io::MeshFile file_of_source(const py::dict& d, std::size_t n_points) {
   io::MeshFile file = file_of_arrays(d, n_points);
   file.points = copy_of<Vec2>(d["points"].cast<Doubles>());
-  file.sphere_radius = d["sphere_radius"].cast<double>();
-  file.sphere_points = copy_of<Vec3>(d["sphere_points"].cast<Doubles>());
-  std::tie(file.period.x, file.period.y) = d["period"].cast<std::pair<double, double>>();
-  file.z = d["z"].cast<double>();
+  file.points_in = points_in_from(d["points_in"].cast<py::tuple>());
   for (const auto& item : d["names"]) {
     auto [dimension, tag, text] = item.cast<std::tuple<int, std::int32_t, std::string>>();
     file.names.push_back({dimension, tag, std::move(text)});
@@ -349,8 +362,6 @@ io::MeshFile file_of_source(const py::dict& d, std::size_t n_points) {
   for (const auto& [name, array] : d["field_data"].cast<py::dict>()) {
     file.field_data.push_back(from_python_array(name.cast<std::string>(), array.cast<py::array>()));
   }
-  file.geographic = d["geographic"].cast<bool>();
-  file.map = map_from(d["map"]);
   file.path = d["path"].cast<std::string>();
   file.format = d["format"].cast<std::string>();
   file.warnings = strings_from(d["warnings"]);
@@ -370,7 +381,7 @@ void set_source_from_dict(PyMesh& self, const py::dict& d) {
   const std::size_t n = loaded.vertex_of_point.n_kept(), n_vertices = self.read()->n_vertices();
   const auto is_new_or_known = [n](VertexId v) { return !v.valid() || v.index < n; };
   const auto has_size = [](std::size_t size, std::size_t expected) { return size == 0 || size == expected; };
-  if (!has_size(file.points.size(), kept.size()) || !has_size(file.sphere_points.size(), kept.size()) ||
+  if (!has_size(file.points.size(), kept.size()) || (file.sphere() != nullptr && file.sphere()->places.size() != kept.size()) ||
       !has_size(file.weights.size(), kept.size()) || !has_size(origin.size(), n_vertices) ||
       file.line_tags.size() != file.lines.size() || file.point_tags.size() != file.marked_points.size() ||
       (origin.empty() && n != n_vertices) || !std::all_of(origin.begin(), origin.end(), is_new_or_known)) {

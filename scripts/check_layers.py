@@ -97,8 +97,6 @@ def check_include(layer, quoted, header):
     if layer == "app":
         private = header.partition("/")[0] in LAYERS and "/" in header
         return f'"{header}": the program sees public headers alone' if private else None
-    if layer == "io" and "/" not in header:
-        return None  # a file beside it
     reached = included_layer(header)
     if reached is None:
         return f'"{header}": neither a public header nor "LAYER/file.hpp"'

@@ -127,6 +127,8 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 /// The solid angle of the triangle, its spherical excess; signed.
 [[nodiscard]] double solid_angle(Vec3 p, Vec3 q, Vec3 r);
 
+/// Along the ground of a space, from one vertex to another [length].
+[[nodiscard]] double distance(const Space& space, const WeightedPoint& p, const WeightedPoint& q);
 /// The angle at p in the space of a mesh, in radians.
 [[nodiscard]] double corner_angle(const Space& space, const WeightedPoint& p, const WeightedPoint& q,
                                   const WeightedPoint& r);

@@ -51,12 +51,35 @@ struct GeographicMap {
   std::vector<Vec2> places;   ///< the same on the map [m]
 };
 
+/// What the points of a file are. Points of a plane have one z in common, which is written back.
+struct PlanePoints {
+  double z = 0;
+};
+/// Of a plane with these periods along x and y, of which one may be 0: none.
+struct PeriodicPoints {
+  Vec2 period;
+  double z = 0;
+};
+/// Longitude and latitude of places on a sphere around the origin.
+struct SpherePoints {
+  double radius = 1;
+  std::vector<Vec3> places;  ///< one a point
+};
+/// Longitude and latitude without a place in any space: see project().
+struct DegreePoints {
+  bool is_guessed = false;  ///< which the file does not say, but its depths
+  double z = 0;
+};
+/// Of the plane of a map, and written in degrees.
+struct MappedPoints {
+  std::shared_ptr<const GeographicMap> map;  ///< never null
+  double z = 0;
+};
+using PointsIn = std::variant<PlanePoints, PeriodicPoints, SpherePoints, DegreePoints, MappedPoints>;
+
 struct MeshFile {
   std::vector<Vec2> points;                            ///< of the plane; or longitude and latitude [degrees]
-  double sphere_radius = 0;                            ///< of the sphere that the points are on; 0: on none
-  std::vector<Vec3> sphere_points;                     ///< where `points`, which are degrees then, are on that sphere
-  Vec2 period;                                         ///< of a periodic plane, along x and y; 0: none
-  double z = 0;                                        ///< common z of all points of a plane, written back
+  PointsIn points_in;                                  ///< what they are
   std::vector<double> weights;                         ///< empty, or one a point
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< 0-based
   std::vector<std::int32_t> regions;  ///< empty, or one a triangle (medit reference, Gmsh physical tag, …)
@@ -70,13 +93,23 @@ struct MeshFile {
   std::vector<DataArray> line_data;             ///< one tuple a line
   std::vector<DataArray> marked_point_data;     ///< one tuple a marked point
   std::vector<DataArray> field_data;            ///< of the file as a whole
-  bool geographic = false;                      ///< points are longitude and latitude, in degrees: see project()
-  bool geographic_is_guessed = false;           ///< which the file does not say, but its depths
-  std::shared_ptr<const GeographicMap> map;     ///< points are on this map, and are written in degrees; null: on none
   std::string path;                             ///< where it was read from, for messages
   std::string format;                           ///< "vtu", "gmsh41", …: the row of formats() it came from
   std::vector<std::string> warnings;            ///< what was dropped or repaired in reading
   std::shared_ptr<const InputNames> numbering;  ///< the file's own numbers and lines
+
+  [[nodiscard]] const SpherePoints* sphere() const { return std::get_if<SpherePoints>(&points_in); }
+  [[nodiscard]] const PeriodicPoints* periodic() const { return std::get_if<PeriodicPoints>(&points_in); }
+  [[nodiscard]] const DegreePoints* degrees() const { return std::get_if<DegreePoints>(&points_in); }
+  [[nodiscard]] const GeographicMap* map() const {
+    const auto* mapped = std::get_if<MappedPoints>(&points_in);
+    return mapped == nullptr ? nullptr : mapped->map.get();
+  }
+  /// The space that a mesh of these points is in.
+  [[nodiscard]] Space space() const;
+  /// Of the plane; 0 on a sphere.
+  [[nodiscard]] double z() const;
+  void set_z(double z);  ///< nothing on a sphere
 };
 
 enum class Encoding { ascii, base64, appended };

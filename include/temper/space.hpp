@@ -23,6 +23,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "temper/vec2.hpp"
 #include "temper/vec3.hpp"
@@ -64,6 +65,10 @@ class Space {
   [[nodiscard]] constexpr double radius() const { return radius_; }
   /// Of the periodic plane, along x and y; 0 where there is none.
   [[nodiscard]] constexpr Vec2 period() const { return period_; }
+  /// Coordinates of a place: 2 of the plane, 3 of the sphere.
+  [[nodiscard]] constexpr int dimension() const { return is_plane() ? 2 : 3; }
+  /// Says whether the whole of it is finite and has no outside: the sphere, and a plane with two periods.
+  [[nodiscard]] constexpr bool is_closed() const { return !is_plane() || (period_.x > 0 && period_.y > 0); }
   /// The same with another unit of length, a `unit` of the present one; of the periodic plane a power of two.
   [[nodiscard]] constexpr Space in_units_of(double unit) const {
     Space s = *this;
@@ -108,16 +113,38 @@ class Space {
     return as_point(factor * lifted(p));
   }
 
-  /// The vertex at a place of the sphere, whose distance from the center is not looked at: the place itself, bit for
-  /// bit, where that is the radius but for rounding and there is no weight. Precondition: a sphere; w > −R².
+  /// The vertex at a place, of the plane with any z; on the sphere its distance from the center is not looked at: the
+  /// place itself, bit for bit, where that is the radius but for rounding and there is no weight. Precondition: w >
+  /// −R².
   [[nodiscard]] WeightedPoint vertex_at(Vec3 place, double w) const {
+    if (is_plane()) return {place.x, place.y, w};
     constexpr double kRounded = 0x1p-50;
     const bool at_radius = std::abs(length(place) - radius_) <= kRounded * radius_;
     return w == 0 && at_radius ? as_point(place) : with_weight(as_point(place), w);
   }
-  /// Where a vertex is on the sphere: bit for bit what it was made of, without a weight. Precondition: a sphere.
+  /// Where a vertex is: bit for bit what it was made of, without a weight; in the plane with z = 0.
   [[nodiscard]] Vec3 place(const WeightedPoint& p) const {
+    if (is_plane()) return {p.x, p.y, 0};
     return weight(p) == 0 ? lifted(p) : lifted(with_weight(p, 0));
+  }
+
+  /// The unit vector away from the ground.
+  [[nodiscard]] Vec3 up(const WeightedPoint& p) const {
+    return is_plane() ? Vec3{0, 0, 1} : (1 / length(lifted(p))) * lifted(p);
+  }
+  /// How far along the ground what is `across` and this high from a point is [length]. Across is a tangent.
+  [[nodiscard]] double along_ground(double across, double height) const {
+    return is_plane() ? across : radius_ * std::atan2(across, radius_ + height);
+  }
+  /// A place as users see it: x and y, or longitude and latitude [degrees].
+  [[nodiscard]] Vec2 as_shown(Vec3 place) const {
+    if (is_plane()) return {place.x, place.y};
+    constexpr double kDegrees = 180 / std::numbers::pi;
+    return {kDegrees * std::atan2(place.y, place.x), kDegrees * std::atan2(place.z, std::hypot(place.x, place.y))};
+  }
+  /// From one vertex to another on a straight line: of the sphere between lifted points, in the plane with z = 0.
+  [[nodiscard]] Vec3 chord(const WeightedPoint& p, const WeightedPoint& q) const {
+    return is_plane() ? Vec3{q.x - p.x, q.y - p.y, 0} : lifted(q) - lifted(p);
   }
 
   /// The area of the right triangle with legs d and h, with the sign of d·h: dual cells and kites are made of these. On

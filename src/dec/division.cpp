@@ -26,8 +26,7 @@ struct Fan {
 
 double angle_at(const Mesh& mesh, VertexId v, VertexId a, VertexId b) {
   const auto [p, q, r] = mesh.points(v, a, b);
-  return mesh.space().is_plane() ? corner_angle(p.position(), q.position(), r.position())
-                                 : corner_angle(lifted(p), lifted(q), lifted(r));
+  return corner_angle(mesh.space(), p, q, r);
 }
 
 Fan fan_of(const Mesh& mesh, VertexId v) {

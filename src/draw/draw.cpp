@@ -124,7 +124,7 @@ std::string document(std::span<const Shown> shown, const PageFrame& frame, const
     body += "<g transform=\"translate(" + short_number(x) + " " + short_number(kGap) + ")\">\n" + shown[i].panel.svg +
             "</g>\n";
     body += text_at(x + frame.width / 2, y + kLine, "middle",
-                    caption(shown[i], options.zoom.has_value() || !frame.view.is_plane()));
+                    caption(shown[i], options.zoom.has_value() || !frame.view.is_flat()));
   }
   y += kLine;
   if (!options.title.empty()) body += text_at(width / 2, y += kLine, "middle", options.title);

@@ -7,6 +7,7 @@
 
 #include "draw/path.hpp"
 #include "draw/xml.hpp"
+#include "geometry/in_space.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper {
@@ -74,7 +75,7 @@ class PanelPainter {
   }
   [[nodiscard]] double edge_length(HalfedgeId h) const {
     const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h), a);
-    return mesh_.space().is_plane() ? length(b.position() - a.position()) : arc_length(lifted(a), lifted(b));
+    return distance(mesh_.space(), a, b);
   }
 
   void add_line(PathText& path, const WeightedPoint& p, const WeightedPoint& q) const {
@@ -89,10 +90,10 @@ class PanelPainter {
   /// Images where they meet the box.
   void add_circle(PathText& path, const WeightedPoint& p, double radius) const {
     for (const Vec2 shift : shifts_) {
-      if (!frame_.view.is_plane() || !meets(shift + p.position(), radius, frame_.box)) continue;
+      if (!frame_.view.is_flat() || !meets(shift + p.position(), radius, frame_.box)) continue;
       path.circle(frame_.grid(shift + p.position()), frame_.steps(radius * frame_.scale));
     }
-    if (frame_.view.is_plane() || !seen(p, radius)) return;
+    if (frame_.view.is_flat() || !seen(p, radius)) return;
     const std::vector<WeightedPoint> around = frame_.view.circle(p, radius);
     for (std::size_t i = 0; i < around.size(); ++i) add_line(path, around[i], around[(i + 1) % around.size()]);
   }
@@ -167,7 +168,7 @@ class PanelPainter {
   }
 
   void draw_limb() {
-    if (frame_.view.is_plane()) return;
+    if (frame_.view.is_flat()) return;
     PathText path;
     path.circle(frame_.grid({0, 0}), frame_.steps(frame_.view.radius() * frame_.scale));
     stroke(path, "limb", Palette::frame, 1);
@@ -207,9 +208,7 @@ class PanelPainter {
   /// Orthocenter and weighted midpoint, as points of the space.
   [[nodiscard]] WeightedPoint center(TriangleId t) const {
     const auto [a, b, c] = mesh_.points(t);
-    if (!mesh_.space().is_plane()) return as_point(orthocenter(lifted(a), lifted(b), lifted(c)));
-    const Vec2 o = orthocenter(a, b, c);
-    return {o.x, o.y, 0};
+    return orthocenter(mesh_.space(), a, b, c);
   }
   /// The center of a triangle, of whose images the one is meant that has a corner near a point.
   [[nodiscard]] WeightedPoint beside(const WeightedPoint& near, TriangleId t, const WeightedPoint& center) const {
@@ -219,13 +218,7 @@ class PanelPainter {
   }
   [[nodiscard]] WeightedPoint weighted_midpoint(HalfedgeId h) const {
     const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h), a);
-    if (!mesh_.space().is_plane()) {  // the foot of the perpendicular from the center
-      const Vec3 p = lifted(a), along = lifted(b) - p;
-      return as_point(p - (dot(p, along) / squared_length(along)) * along);
-    }
-    const Vec2 along = b.position() - a.position();
-    const Vec2 m = a.position() + (edge_split(a, b) / length(along)) * along;
-    return {m.x, m.y, 0};
+    return temper::weighted_midpoint(mesh_.space(), a, b);
   }
   /// The place in the picture of a point that is seen and within the box, or the box within `radius` of it.
   [[nodiscard]] std::optional<Vec2> seen(const WeightedPoint& p, double radius = 0) const {

@@ -34,12 +34,12 @@ Vec3 View::seen(const WeightedPoint& p) const {
 }
 
 Vec2 View::at(const WeightedPoint& p) const {
-  if (is_plane()) return p.position();
+  if (is_flat()) return p.position();
   const Vec3 s = seen(p);
   return {radius_ * s.x, radius_ * s.y};
 }
 
-bool View::shows(const WeightedPoint& p) const { return is_plane() || seen(p).z >= 0; }
+bool View::shows(const WeightedPoint& p) const { return is_flat() || seen(p).z >= 0; }
 
 /// Appends the arc without its end.
 void View::add_arc(std::vector<Vec2>& chain, Vec3 a, Vec3 b) const {
@@ -51,7 +51,7 @@ void View::add_arc(std::vector<Vec2>& chain, Vec3 a, Vec3 b) const {
 }
 
 std::vector<Vec2> View::line(const WeightedPoint& p, const WeightedPoint& q) const {
-  if (is_plane()) return {p.position(), q.position()};
+  if (is_flat()) return {p.position(), q.position()};
   Vec3 a = seen(p), b = seen(q);
   if (!(a.z >= 0) && !(b.z >= 0)) return {};
   if (a.z < 0) a = on_limb(b, a);
@@ -63,7 +63,7 @@ std::vector<Vec2> View::line(const WeightedPoint& p, const WeightedPoint& q) con
 }
 
 std::vector<Vec2> View::polygon(const std::array<WeightedPoint, 3>& t) const {
-  if (is_plane()) return {t[0].position(), t[1].position(), t[2].position()};
+  if (is_flat()) return {t[0].position(), t[1].position(), t[2].position()};
   const std::array<Vec3, 3> corners = {seen(t[0]), seen(t[1]), seen(t[2])};
   std::vector<Vec3> kept;  // of the triangle, before the limb
   for (std::size_t i = 0; i < 3; ++i) {
@@ -91,7 +91,7 @@ std::vector<WeightedPoint> View::circle(const WeightedPoint& p, double radius) c
 
 View make_view(std::span<const Mesh* const> meshes, const DrawOptions& options) {
   const Space space = meshes.empty() ? Space() : meshes.front()->space();
-  if (space.is_plane()) return {};
+  if (space.radius() == 0) return {};
   if (options.view) return {space.radius(), *options.view};
   Vec3 sum;
   double count = 0;

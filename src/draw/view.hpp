@@ -26,7 +26,8 @@ class View {
   /// Of a sphere: longitude and latitude of the middle of the picture [degrees].
   View(double radius, Vec2 middle);
 
-  [[nodiscard]] bool is_plane() const { return radius_ == 0; }
+  /// Of the plane, as it is.
+  [[nodiscard]] bool is_flat() const { return radius_ == 0; }
   /// Of the disc that a sphere is; 0 of the plane.
   [[nodiscard]] double radius() const { return radius_; }
 

@@ -15,6 +15,7 @@
 #include "feasibility/certify.hpp"
 #include "feasibility/constraints.hpp"
 #include "geometry/ground.hpp"
+#include "mesh/input_places.hpp"
 #include "quality/worst.hpp"
 #include "temper/geometry.hpp"
 #include "temper/regularity.hpp"
@@ -54,18 +55,12 @@ std::optional<Patch> patch_of(const Mesh& mesh, const Conflict& conflict, std::s
   patch.slots = triangles_around(mesh, conflict.triangles);
   patch.original = vertices_of(mesh, patch.slots);
   std::map<VertexId, std::int32_t> number;
-  const Ground ground(mesh.space());
-  std::vector<Vec2> points;
-  std::vector<Vec3> places;
+  InputPlaces places(mesh.space());
   std::vector<std::int32_t> fixed, regions;
   for (const VertexId v : patch.original) {
     number[v] = static_cast<std::int32_t>(number.size());
     if (mesh.is_fixed(v)) fixed.push_back(number[v]);
-    if (ground.is_plane()) {
-      points.push_back(mesh.position(v));
-    } else {
-      places.push_back(ground.place(mesh.point(v)));
-    }
+    places.add(mesh.space().place(mesh.point(v)));
   }
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::array<std::int32_t, 2>> constrained;
@@ -78,9 +73,8 @@ std::optional<Patch> patch_of(const Mesh& mesh, const Conflict& conflict, std::s
       if (mesh.is_constrained(h)) constrained.push_back({number[mesh.origin(h)], number[mesh.target(h)]});
     }
   }
-  MeshInput input;
-  input.space = mesh.space(), input.sphere_points = places;
-  input.points = points, input.triangles = triangles, input.constrained_edges = constrained;
+  MeshInput input = places.input();
+  input.triangles = triangles, input.constrained_edges = constrained;
   input.regions = regions, input.fixed_vertices = fixed;
   auto built = Mesh::build(input);
   if (!built) return std::nullopt;  // the neighbourhood touches itself at a vertex: it is no mesh of its own
@@ -149,8 +143,7 @@ Vec3 centroid(const Mesh& mesh, TriangleId t) {
 TriangleId largest(const Mesh& mesh, std::span<const TriangleId> triangles) {
   const auto area = [&](TriangleId t) {
     const auto [p, q, r] = mesh.corners(t);
-    return mesh.space().is_plane() ? doubled_area(mesh.position(p), mesh.position(q), mesh.position(r))
-                                   : solid_angle(mesh.lifted_point(p), mesh.lifted_point(q), mesh.lifted_point(r));
+    return Ground(mesh.space()).extent(mesh.point(p), mesh.point(q), mesh.point(r));
   };
   return *std::max_element(triangles.begin(), triangles.end(),
                            [&](TriangleId a, TriangleId b) { return area(a) < area(b); });
@@ -245,7 +238,7 @@ class CureFinder {
       Cure cure;
       cure.action = Action::move_vertex;
       cure.vertex = patch_.in_mesh(v);
-      cure.at = shown_place(ground_.space(), best.at);
+      cure.at = ground_.space().as_shown(best.at);
       offer(cure, best.trial);
     }
   }
@@ -273,7 +266,7 @@ class CureFinder {
       return mesh;
     };
     for (const Place& best : {search(insert, v, start, step, along), search(delaunay, v, start, step, along)}) {
-      cure.at = shown_place(ground_.space(), best.at);
+      cure.at = ground_.space().as_shown(best.at);
       offer(cure, best.trial);
     }
   }
@@ -308,15 +301,10 @@ class CureFinder {
     std::vector<Vec3> places = {ground_.between(p, q, 0.5)};
     for (const HalfedgeId side : {h, mesh.twin(h)}) {
       if (!side.valid()) continue;
-      const double s = part_below(p, q, place_at(mesh, mesh.opposite(side)));
+      const double s = ground_.part_below(p, q, place_at(mesh, mesh.opposite(side)));
       if (s > 0.1 && s < 0.9) places.push_back(ground_.between(p, q, s));
     }
     return places;
-  }
-  /// The part of pq from p to the foot of the perpendicular from x.
-  [[nodiscard]] double part_below(Vec3 p, Vec3 q, Vec3 x) const {
-    if (ground_.is_plane()) return dot(x - p, q - p) / squared_length(q - p);
-    return std::atan2(dot(x, ground_.direction(p, q)), dot(x, p) / length(p)) / arc_length(p, q);
   }
   [[nodiscard]] bool can_split(HalfedgeId h, Vec3 at) const {
     const Mesh& mesh = patch_.mesh;
@@ -381,7 +369,7 @@ std::vector<Cure> suggested_cures(const Mesh& mesh, const Conflict& conflict) {
     Cure cure;
     cure.action = Cure::Action::insert_vertex;
     cure.triangle = largest(mesh, conflict.triangles);
-    cure.at = shown_place(mesh.space(), centroid(mesh, cure.triangle));
+    cure.at = mesh.space().as_shown(centroid(mesh, cure.triangle));
     cures.push_back(cure);
   }
   HalfedgeId longest;
@@ -396,7 +384,7 @@ std::vector<Cure> suggested_cures(const Mesh& mesh, const Conflict& conflict) {
     cure.action = Cure::Action::split_boundary;
     cure.edge = {mesh.origin(longest), mesh.target(longest)};
     const Vec3 middle = Ground(mesh.space()).between(place_at(mesh, cure.edge[0]), place_at(mesh, cure.edge[1]), 0.5);
-    cure.at = shown_place(mesh.space(), middle);
+    cure.at = mesh.space().as_shown(middle);
     cures.push_back(cure);
   }
   return cures;

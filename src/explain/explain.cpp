@@ -137,7 +137,7 @@ class Explainer {
   [[nodiscard]] Vec2 split_point(const EdgeConflict& c) const {
     const Ground ground(mesh_.space());
     const Vec3 u = ground.place(mesh_.point(mesh_.origin(c.edge))), v = ground.place(mesh_.point(mesh_.target(c.edge)));
-    return shown_place(mesh_.space(), ground.between(u, v, c.split_at));
+    return mesh_.space().as_shown(ground.between(u, v, c.split_at));
   }
 
   void add_split(Reason& reason, bool checked) const {
@@ -158,7 +158,7 @@ class Explainer {
           return !edge_conflict(split, h.valid() ? h : split.find_halfedge(q, p));
         };
         cure.ends_conflict = is_free(u, middle) && is_free(middle, v);
-        cure.at = shown_place(split.space(), Ground(split.space()).place(split.point(middle)));
+        cure.at = split.space().as_shown(Ground(split.space()).place(split.point(middle)));
       }
     }
     reason.cures.push_back(cure);

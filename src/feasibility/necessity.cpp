@@ -324,7 +324,7 @@ std::optional<EdgeConflict> conflict_of(const Mesh& mesh, HalfedgeId edge, doubl
 
 std::optional<EdgeConflict> edge_conflict(const Mesh& mesh, HalfedgeId h, double up_to) {
   const HalfedgeId edge = mesh.is_edge_representative(h) ? h : mesh.twin(h);
-  return mesh.space().is_plane() ? conflict_of<Vec2>(mesh, edge, up_to) : conflict_of<Vec3>(mesh, edge, up_to);
+  return mesh.space().dimension() == 2 ? conflict_of<Vec2>(mesh, edge, up_to) : conflict_of<Vec3>(mesh, edge, up_to);
 }
 
 std::vector<EdgeConflict> edges_that_must_be_split(const Mesh& mesh, double up_to) {

@@ -16,6 +16,7 @@
 #include <unordered_map>
 
 #include "generate/triangulation.hpp"
+#include "geometry/in_space.hpp"
 #include "mesh/mesh_editor.hpp"
 #include "mesh/predicates.hpp"
 
@@ -66,16 +67,9 @@ class SegmentInserter {
     return (std::uint64_t{std::min(a, b).index} << 32) | std::max(a, b).index;
   }
   [[nodiscard]] Sign side(VertexId u, VertexId w, VertexId v) const { return inlined::orientation(mesh_, u, w, v); }
-  /// v is on the line of uw: is it on w's side of u? (On the sphere less than half the way around; the normals of both
-  /// great circles are the same, or opposite.)
+  /// v is on the line of uw: is it on w's side of u?
   [[nodiscard]] bool is_ahead(VertexId u, VertexId w, VertexId v) const {
-    if (!mesh_.space().is_plane()) {
-      const Vec3 from = mesh_.lifted_point(u);
-      return dot(temper::cross(from, mesh_.lifted_point(w)), temper::cross(from, mesh_.lifted_point(v))) > 0;
-    }
-    const Vec2 a = mesh_.position(u), b = mesh_.position(w), p = mesh_.position(v);
-    return (a.x < b.x) == (a.x < p.x) && (a.x > b.x) == (a.x > p.x) && (a.y < b.y) == (a.y < p.y) &&
-           (a.y > b.y) == (a.y > p.y);
+    return temper::is_ahead(mesh_.space(), mesh_.point(u), mesh_.point(w), mesh_.point(v));
   }
 
   Step next_step(VertexId u, VertexId w) const {

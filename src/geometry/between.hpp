@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "geometry/predicates_inline.hpp"
+#include "temper/space.hpp"
 #include "temper/vec2.hpp"
 #include "temper/vec3.hpp"
 
@@ -29,6 +30,13 @@ namespace temper {
   if (const auto xy = from_a_to_b([](Vec3 q) { return Vec2{q.x, q.y}; })) return *xy;
   if (const auto yz = from_a_to_b([](Vec3 q) { return Vec2{q.y, q.z}; })) return *yz;
   return from_a_to_b([](Vec3 q) { return Vec2{q.z, q.x}; }).value_or(false);
+}
+
+/// The same in the space of a mesh.
+[[nodiscard]] inline bool is_between(const Space& space, const WeightedPoint& a, const WeightedPoint& b,
+                                     const WeightedPoint& p) {
+  return space.is_plane() ? is_between(a.position(), b.position(), p.position())
+                          : is_between(lifted(a), lifted(b), lifted(p));
 }
 
 }  // namespace temper

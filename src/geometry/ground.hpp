@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/bounding_boxes.hpp"
 #include "temper/geometry.hpp"
 #include "temper/space.hpp"
 
@@ -70,6 +71,17 @@ class Ground {
     return std::min(squared_length(p - a), squared_length(p - b));
   }
 
+  /// The part of pq from p to the foot of the perpendicular from x.
+  [[nodiscard]] double part_below(Vec3 p, Vec3 q, Vec3 x) const {
+    if (is_plane()) return dot(x - p, q - p) / squared_length(q - p);
+    return std::atan2(dot(x, direction(p, q)), dot(x, p) / length(p)) / arc_length(p, q);
+  }
+  /// A number that grows with the area of a triangle: twice that, or the solid angle.
+  [[nodiscard]] double extent(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) const {
+    return is_plane() ? doubled_area(p.position(), q.position(), r.position())
+                      : solid_angle(lifted(p), lifted(q), lifted(r));
+  }
+
   /// p on the line of ab: is it between them, neither of both?
   [[nodiscard]] bool is_between(Vec3 p, Vec3 a, Vec3 b) const {
     if (p == a || p == b) return false;
@@ -85,6 +97,36 @@ class Ground {
   [[nodiscard]] static Vec3 along_ground(Vec3 way, Vec3 at) { return way - (dot(way, at) / squared_length(at)) * at; }
 
   Space space_;
+};
+
+/// A box around the segment from a to b.
+[[nodiscard]] inline BoundingBox box_around(const Ground& ground, Vec3 a, Vec3 b) {
+  const BoundingBox ends = box_of(a, b);
+  if (ground.is_plane()) return ends;
+  // The arc is above its chord by no more than the radius less the distance of the chord; rounding doubles that.
+  const double radius = ground.space().radius(), middle = 0.5 * length(a + b);
+  constexpr double kRounding = 1e-12;  // of the radius: the middle of the chord is not known better
+  return ends.grown(radius - std::min(radius, middle) + kRounding * radius);
+}
+
+/// The straight way from one place to another.
+class GroundPath {
+ public:
+  GroundPath(const Ground& ground, Vec3 from, Vec3 to)
+      : ground_(ground), from_(from), length_(ground.distance(from, to)), direction_(ground.direction(from, to)) {}
+  [[nodiscard]] double length() const { return length_; }
+  /// The place at a distance from the beginning.
+  [[nodiscard]] Vec3 at(double distance) const {
+    if (ground_.is_plane()) return from_ + distance * direction_;
+    const double angle = distance / ground_.space().radius();
+    return ground_.below(std::cos(angle) * from_ + (std::sin(angle) * ground_.space().radius()) * direction_);
+  }
+
+ private:
+  const Ground& ground_;
+  Vec3 from_;
+  double length_;
+  Vec3 direction_;
 };
 
 }  // namespace temper

@@ -13,13 +13,16 @@
 #include <string>
 #include <vector>
 
-#include "io/html_page.hpp"
-#include "io/vtu_codec.hpp"
+#include "io/containers/vtu_codec.hpp"
 #include "temper/geometry.hpp"
 #include "temper/html.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::io {
+
+/// The page without data: web/report/dist/report.html, which the build puts into the library.
+[[nodiscard]] std::string_view html_page();
+
 namespace {
 
 constexpr std::string_view kMark = "<!--data-->";  // in the page

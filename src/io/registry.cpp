@@ -6,79 +6,33 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
-#include <new>
 
-#include "io/array_names.hpp"
-#include "io/disk.hpp"
-#include "io/format.hpp"
-#include "io/geographic.hpp"
-#include "io/globe.hpp"
-#include "io/scanner.hpp"
-#include "io/ugrid.hpp"
+#include "io/conversion/geographic.hpp"
+#include "io/conversion/globe.hpp"
+#include "io/disk/files.hpp"
+#include "io/formats/format.hpp"
+#include "io/formats/netcdf/ugrid.hpp"
+#include "io/text/names.hpp"
+#include "io/text/scanner.hpp"
 #include "temper/projection.hpp"
 
 namespace temper::io {
 
 // Each is defined in the source file of its format.
-bool sniff_vtu(std::string_view head);
-bool sniff_gmsh22(std::string_view head);
-bool sniff_gmsh41(std::string_view head);
-bool sniff_medit(std::string_view head);
-bool sniff_triangle(std::string_view head);
-bool sniff_obj(std::string_view head);
-bool sniff_legacy_vtk(std::string_view head);
-bool sniff_vtk51(std::string_view head);
-bool sniff_jigsaw(std::string_view head);
-bool sniff_off(std::string_view head);
-bool sniff_ply(std::string_view head);
-bool sniff_adcirc(std::string_view head);
-bool sniff_vtkhdf(std::string_view head);
-bool sniff_mpas(std::string_view head);
-bool sniff_ugrid(std::string_view head);
-bool sniff_mfem(std::string_view head);
-bool sniff_fesom(std::string_view head);
+using Sniff = bool(std::string_view head);
+using Read = Document(Source& source);
+using Write = void(const WriteJob& job);
+using Keeps = bool(ArraysOf of, const DataArray& array);
+using Files = std::vector<std::string>(const std::string& path);
 
-Document read_vtu(Source& source);
-Document read_gmsh(Source& source);
-Document read_medit(Source& source);
-Document read_triangle(Source& source);
-Document read_obj(Source& source);
-Document read_legacy_vtk(Source& source);
-Document read_jigsaw_mesh(Source& source);
-Document read_off(Source& source);
-Document read_ply(Source& source);
-Document read_adcirc(Source& source);
-Document read_vtkhdf(Source& source);
-Document read_mpas(Source& source);
-Document read_mfem(Source& source);
-Document read_fesom(Source& source);
-
-void write_vtu(const WriteJob& job);
-void write_gmsh22(const WriteJob& job);
-void write_gmsh41(const WriteJob& job);
-void write_medit(const WriteJob& job);
-void write_triangle(const WriteJob& job);
-void write_obj(const WriteJob& job);
-void write_legacy_vtk(const WriteJob& job);
-void write_vtk51(const WriteJob& job);
-void write_jigsaw_mesh(const WriteJob& job);
-void write_off(const WriteJob& job);
-void write_ply(const WriteJob& job);
-void write_adcirc(const WriteJob& job);
-void write_vtkhdf(const WriteJob& job);
-void write_mpas(const WriteJob& job);
-void write_ugrid(const WriteJob& job);
-void write_fesom(const WriteJob& job);
-
-bool fesom_keeps(ArraysOf of, const DataArray& array);
-std::vector<std::string> fesom_files(const std::string& path);
-bool adcirc_keeps(ArraysOf of, const DataArray& array);
-bool jigsaw_keeps(ArraysOf of, const DataArray& array);
-bool medit_keeps(ArraysOf of, const DataArray& array);
-std::vector<std::string> triangle_files(const std::string& path);
-std::vector<std::string> triangle_files_to_read(const std::string& path);
-std::vector<std::string> vtkhdf_files(const std::string& path);
-std::vector<std::string> netcdf_files(const std::string& path);
+Sniff sniff_vtu, sniff_gmsh22, sniff_gmsh41, sniff_medit, sniff_triangle, sniff_obj, sniff_legacy_vtk, sniff_vtk51,
+    sniff_jigsaw, sniff_off, sniff_ply, sniff_adcirc, sniff_vtkhdf, sniff_mpas, sniff_ugrid, sniff_mfem, sniff_fesom;
+Read read_vtu, read_gmsh, read_medit, read_triangle, read_obj, read_legacy_vtk, read_jigsaw_mesh, read_off, read_ply,
+    read_adcirc, read_vtkhdf, read_mpas, read_mfem, read_fesom;
+Write write_vtu, write_gmsh22, write_gmsh41, write_medit, write_triangle, write_obj, write_legacy_vtk, write_vtk51,
+    write_jigsaw_mesh, write_off, write_ply, write_adcirc, write_vtkhdf, write_mpas, write_ugrid, write_fesom;
+Keeps fesom_keeps, adcirc_keeps, jigsaw_keeps, medit_keeps;
+Files fesom_files, triangle_files, triangle_files_to_read, vtkhdf_files, netcdf_files;
 
 namespace {
 
@@ -253,8 +207,7 @@ void check_sizes(const std::string& path, const MeshFile& f) {
   const auto insist = [&](bool good, std::string_view what) {
     if (!good) fail(ErrorCode::size_mismatch, path, text("the mesh to be written has ", what));
   };
-  insist(!is_periodic(f) || f.sphere_radius == 0, "periods and the radius of a sphere");
-  insist(f.sphere_radius == 0 || f.sphere_points.size() == f.points.size(),
+  insist(f.sphere() == nullptr || f.sphere()->places.size() == f.points.size(),
          "another number of places on the sphere than of points");
   insist(f.weights.empty() || f.weights.size() == f.points.size(), "another number of weights than of points");
   insist(f.regions.empty() || f.regions.size() == f.triangles.size(), "another number of regions than of triangles");
@@ -295,16 +248,17 @@ namespace {
 
 bool goes_back_to_degrees(const FormatRow& row, const MeshFile& file) {
   if (row.details.degrees == Degrees::by_writer) return false;
-  return file.map || (row.details.degrees == Degrees::where_known && lon_lat_of_points(file));
+  return file.map() != nullptr || (row.details.degrees == Degrees::where_known && lon_lat_of_points(file));
 }
 
 /// Weights are lengths, squared: of the map, whatever the points beside them are.
 void warn_of_weights_beside_degrees(const WriteJob& job, const MeshFile& on_map) {
   const auto& weights = on_map.weights;
   if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; })) return;
-  const std::string map = on_map.map ? text(" on the map ", projection_text(on_map.map->projection),
-                                            ", in metres: give this projection where the file is read again")
-                                     : std::string(" of the plane that the mesh was in");
+  const std::string map = on_map.map() != nullptr
+                              ? text(" on the map ", projection_text(on_map.map()->projection),
+                                     ", in metres: give this projection where the file is read again")
+                              : std::string(" of the plane that the mesh was in");
   job.warn(text("points are longitude and latitude, but weights are squared lengths", map));
 }
 
@@ -319,12 +273,12 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
     }
     check_sizes(path, file);
     check_names(path, file);
-    if (file.sphere_radius > 0 && (row.holds & kSphere) == 0) {
+    if (file.sphere() != nullptr && (row.holds & kSphere) == 0) {
       fail(ErrorCode::unsupported, path,
            text("points are on a sphere, which ", row.description, " is not written with; expected one of ",
                 names_with(kSphere)));
     }
-    if (is_periodic(file) && (row.holds & kPeriod) == 0) {
+    if (file.periodic() != nullptr && (row.holds & kPeriod) == 0) {
       fail(ErrorCode::unsupported, path,
            text("the plane is periodic, which ", row.description, " has no place for; expected one of ",
                 names_with(kPeriod)));
@@ -334,11 +288,11 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
     const bool turned = goes_back_to_degrees(row, file);
     // Who has degrees alone has the earth's radius.
     const double earth = Projection{}.radius;
-    const bool resized =
-        row.details.degrees == Degrees::always && file.sphere_radius > 0 && file.sphere_radius != earth;
+    const bool always = row.details.degrees == Degrees::always;
+    const bool resized = always && file.sphere() != nullptr && file.sphere()->radius != earth;
     MeshFile changed = turned ? in_degrees(file) : resized ? file : MeshFile();
     if (resized) resize_sphere(changed, earth);
-    if (row.details.degrees == Degrees::always && file.sphere_radius == 0 && !turned && !file.geographic) {
+    if (always && file.sphere() == nullptr && !turned && file.degrees() == nullptr) {
       fail(ErrorCode::unsupported, path,
            text(row.description,
                 " has points in longitude and latitude; expected a mesh of the sphere, or one that was "
@@ -355,7 +309,7 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
                           warnings};
     if (turned) warn_of_weights_beside_degrees(job, file);
     if (resized) {
-      job.warn(text("the radius is ", earth, " in ", row.description, ", not ", file.sphere_radius,
+      job.warn(text("the radius is ", earth, " in ", row.description, ", not ", file.sphere()->radius,
                     "; weights are scaled along"));
     }
     row.write(job);
@@ -378,43 +332,21 @@ std::vector<std::string> files_to_read(const std::string& path) {
 }
 
 Expected<std::vector<std::string>> files_to_write(const std::string& path, const std::string& format) {
-  try {
+  return guarded<std::vector<std::string>>(path, [&] {
     const FormatRow& row = row_to_write(path, format);
     std::vector<std::string> files =
         row.details.files_to_write == nullptr ? std::vector<std::string>{path} : row.details.files_to_write(path);
     if ((row.holds & kWeights) == 0 && !is_stream(path)) files.push_back(side_file_path(path));
     return files;
-  } catch (Failure& failure) {
-    return std::move(failure.error);
-  }
+  });
 }
 
 Expected<void> write_text(const std::string& path, std::string_view content) {
-  try {
+  return guarded<void>(path, [&] {
     OutputSet outputs;
     outputs.open(path).put(content);
     outputs.commit();
-    return {};
-  } catch (Failure& failure) {
-    return std::move(failure.error);
-  }
-}
-
-Space space_of(const MeshFile& file) {
-  if (is_periodic(file)) return Space::periodic(file.period);
-  return file.sphere_radius > 0 ? Space::sphere(file.sphere_radius) : Space();
-}
-
-bool is_flat(const MeshFile& file) { return file.sphere_radius == 0 && file.z == 0 && !std::signbit(file.z); }
-
-std::vector<bool> points_of_triangles(const MeshFile& file, std::size_t n) {
-  std::vector<bool> used(n, false);
-  for (const auto& triangle : file.triangles) {
-    for (const std::int32_t p : triangle) {
-      if (p >= 0 && static_cast<std::size_t>(p) < n) used[static_cast<std::size_t>(p)] = true;
-    }
-  }
-  return used;
+  });
 }
 
 }  // namespace temper::io

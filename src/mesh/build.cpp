@@ -120,7 +120,7 @@ class MeshBuilder {
     return std::nullopt;
   }
 
-  [[nodiscard]] bool on_sphere() const { return !in_.space.is_plane(); }
+  [[nodiscard]] bool on_sphere() const { return in_.space.dimension() == 3; }
   [[nodiscard]] std::size_t n_points() const { return on_sphere() ? in_.sphere_points.size() : in_.points.size(); }
   [[nodiscard]] Vec3 place(std::size_t i) const {
     return on_sphere() ? in_.sphere_points[i] : Vec3{in_.points[i].x, in_.points[i].y, 0};

@@ -65,7 +65,8 @@ bool is_scattered(const Mesh& mesh) {
 // Keys with their leading digits in common, as they come, then a sort of each such lot: both on all threads.
 IdVector<VertexId, VertexId> vertices_by_hilbert(const Mesh& mesh, Executor* executor) {
   constexpr int kFew = 8, kMostDigits = 12;  // of which lots have about 2⁸ keys, or more
-  const auto [of, bits] = mesh.space().is_plane() ? keys_in_plane(mesh, executor) : keys_on_sphere(mesh, executor);
+  const auto [of, bits] =
+      mesh.space().dimension() == 2 ? keys_in_plane(mesh, executor) : keys_on_sphere(mesh, executor);
   const IdVector<VertexId, std::uint64_t>& keys = of;  // lambdas may not capture structured bindings before clang 16
   const std::size_t n = mesh.n_vertices(), blocks = (n + kLot - 1) / kLot;
   const int digits = std::clamp(static_cast<int>(std::bit_width(n)) - kFew, 0, kMostDigits);

@@ -108,9 +108,8 @@ std::string edges_on_each_other(const Mesh& mesh, VertexId v, const InputNames& 
   }
   std::sort(ends.begin(), ends.end());
   const auto lies_on = [&](VertexId a, VertexId b) {  // b on the edge from v to a
-    if (!mesh.space().is_plane()) return is_between(mesh.lifted_point(v), mesh.lifted_point(a), mesh.lifted_point(b));
     const auto [p, q, r] = mesh.points(v, a, b);
-    return is_between(p.position(), q.position(), r.position());
+    return is_between(mesh.space(), p, q, r);
   };
   for (std::size_t i = 0; i < ends.size(); ++i) {
     for (std::size_t j = i + 1; j < ends.size(); ++j) {

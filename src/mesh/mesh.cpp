@@ -79,7 +79,7 @@ void Mesh::repair_outgoing() {
 
 std::optional<InputError> expect_plane(const Mesh& mesh, std::string_view what) {
   if (mesh.space().is_periodic()) return expect_no_period(mesh, what);
-  if (mesh.space().is_plane()) return std::nullopt;
+  if (mesh.space().kind() == SpaceKind::plane) return std::nullopt;
   return InputError{ErrorCode::unsupported,
                     {},
                     "the mesh is one of the sphere, and " + std::string(what) + " takes meshes of the plane"};

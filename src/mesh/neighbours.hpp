@@ -14,9 +14,7 @@ namespace temper {
   double least = std::numeric_limits<double>::infinity();
   for (const HalfedgeId h : mesh.star(v)) {
     for (const VertexId u : {mesh.target(h), mesh.opposite(h)}) {
-      const WeightedPoint q = mesh.point(u, p);
-      least = std::min(least, mesh.space().is_plane() ? squared_length(q.position() - p.position())
-                                                      : squared_length(lifted(q) - lifted(p)));
+      least = std::min(least, squared_length(mesh.space().chord(p, mesh.point(u, p))));
     }
   }
   return least;

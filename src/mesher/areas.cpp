@@ -54,8 +54,8 @@ Expected<Hull> triangulate_hull(const Ground& ground, const std::vector<Vec3>& p
     segments.push_back({static_cast<std::int32_t>(p.ends[0]), static_cast<std::int32_t>(p.ends[1])});
   }
   const auto stop = [&] { return deadline.asked_to_stop(); };
-  Expected<Mesh> mesh = ground.is_plane() ? delaunay_of_plane(points, segments, stop)
-                                          : delaunay_of_sphere(ground.space(), points, segments, stop);
+  Expected<Mesh> mesh = ground.space().is_closed() ? delaunay_of_sphere(ground.space(), points, segments, stop)
+                                                   : delaunay_of_plane(points, segments, stop);
   if (!mesh) return mesh.error();
   Hull hull{*std::move(mesh), {}};
   hull.piece.resize(hull.mesh.n_halfedges(), kNone);
@@ -108,7 +108,7 @@ class AreaFinder {
   using Error = std::optional<InputError>;
 
   Error take_by_rule() {
-    if (!ground_.is_plane()) return take_smaller_sides();
+    if (ground_.space().is_closed()) return take_smaller_sides();
     if (!outline_.parts.empty()) return take_parts();
     return takes_turns() ? take_turns() : take_all();
   }
@@ -314,8 +314,7 @@ class AreaFinder {
   [[nodiscard]] std::string near(std::size_t c) const {
     for (const TriangleId t : hull_.mesh.triangles()) {
       if (component_[t] != c) continue;
-      const Vec3 at = ground_.place(hull_.mesh.point(hull_.mesh.corners(t)[0]));
-      const Vec2 p = ground_.is_plane() ? Vec2{at.x, at.y} : lon_lat_of(at);
+      const Vec2 p = ground_.space().as_shown(ground_.place(hull_.mesh.point(hull_.mesh.corners(t)[0])));
       return " near (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
     }
     return {};
@@ -348,7 +347,7 @@ class AreaFinder {
   /// The component of a place, or none outside the hull. A place on an edge belongs to one of its sides. Looked for
   /// from the last one.
   [[nodiscard]] std::uint32_t locate(Vec2 p) {
-    const WeightedPoint vertex = ground_.is_plane() ? WeightedPoint{p.x, p.y, 0} : as_point(direction_of(p));
+    const WeightedPoint vertex = ground_.space().is_closed() ? as_point(direction_of(p)) : WeightedPoint{p.x, p.y, 0};
     const Location at = temper::locate(hull_.mesh, vertex, located_);
     if (at.kind == Location::Kind::outside) return kNone;
     located_ = at.triangle;
@@ -356,7 +355,7 @@ class AreaFinder {
   }
 
   [[nodiscard]] InputError nothing_enclosed() const {
-    if (!ground_.is_plane()) return {ErrorCode::empty_input, "", "nothing of the sphere is left to mesh"};
+    if (ground_.space().is_closed()) return {ErrorCode::empty_input, "", "nothing of the sphere is left to mesh"};
     std::vector<std::uint32_t> degree(outline_.points.size(), 0);
     for (const OutlineEdge& e : edges_) {
       for (const std::int32_t end : e.ends) ++degree[static_cast<std::size_t>(end)];

@@ -39,7 +39,7 @@ class Arranger {
   }
 
   Error check_points() {
-    if (ground_.is_plane() && (o_.points.empty() || o_.segments.empty())) {
+    if (!ground_.space().is_closed() && (o_.points.empty() || o_.segments.empty())) {
       return InputError{ErrorCode::empty_input, "",
                         "the outline has no " + std::string(o_.points.empty() ? "points" : "segments")};
     }

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "mesher/ground.hpp"
+#include "geometry/ground.hpp"
 #include "temper/error.hpp"
 #include "temper/outline.hpp"
 

@@ -12,7 +12,7 @@ namespace temper::mesher {
 namespace {
 
 /// Distances along a segment of given length where it is to be divided: equal parts of the integral of 1/size.
-std::vector<double> divisions(const Path& path, const GradedSize& size, Deadline& deadline) {
+std::vector<double> divisions(const GroundPath& path, const GradedSize& size, Deadline& deadline) {
   constexpr double kStep = 0.125;      // of the local size: the integrand changes by less than grade/8 in a step
   constexpr double kStretch = 0.25;    // a piece may be longer than its size by this part, rather than be halved
   constexpr double kLeastStep = 1e-7;  // of the segment: what is finer takes fewer samples, not all memory
@@ -120,12 +120,12 @@ DividedOutline divide(const Ground& ground, const std::vector<Vec3>& points, con
   DividedOutline divided{points, {}};
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto a = static_cast<std::uint32_t>(edges[e].ends[0]), b = static_cast<std::uint32_t>(edges[e].ends[1]);
-    const Path path(ground, points[a], points[b]);
+    const GroundPath path(ground, points[a], points[b]);
     const double whole = path.length();
     const double first = corners[a], last = whole - corners[b];
     std::vector<double> at;
     if (first > 0) at.push_back(first);
-    for (const double t : divisions(Path(ground, path.at(first), path.at(last)), size, deadline)) {
+    for (const double t : divisions(GroundPath(ground, path.at(first), path.at(last)), size, deadline)) {
       at.push_back(first + t);
     }
     if (last < whole) at.push_back(last);

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "mesher/ground.hpp"
+#include "geometry/ground.hpp"
 #include "temper/size.hpp"
 
 namespace temper::mesher {

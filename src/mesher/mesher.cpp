@@ -10,6 +10,7 @@
 
 #include "base/text.hpp"
 #include "mesh/bad_triangles.hpp"
+#include "mesh/input_places.hpp"
 #include "mesher/areas.hpp"
 #include "mesher/narrow.hpp"
 #include "mesher/placement.hpp"
@@ -24,8 +25,14 @@ using namespace mesher;
 InputError invalid(const std::string& message) { return {ErrorCode::invalid_option, "", message}; }
 
 std::string text_of(const Space& space) {
-  if (space.is_periodic()) return "a periodic plane";
-  return space.is_plane() ? "the plane" : "a sphere of radius " + to_text(space.radius());
+  switch (space.kind()) {
+    case SpaceKind::plane:
+      return "the plane";
+    case SpaceKind::periodic_plane:
+      return "a periodic plane";
+    default:
+      return "a sphere of radius " + to_text(space.radius());
+  }
 }
 
 std::optional<InputError> check(const MesherOptions& options, const Space& space) {
@@ -136,7 +143,7 @@ class Mesher {
       if (area == kOutside) return;
       triangles += count(extent, std::min(most, areas_.areas[static_cast<std::size_t>(area)].size));
     };
-    if (!ground_.is_plane()) {
+    if (ground_.space().is_closed()) {
       const double radius = ground_.space().radius(), whole = 4 * std::numbers::pi * radius * radius;
       for (std::size_t i = 0; i < areas_.areas.size(); ++i) {
         add(static_cast<std::int32_t>(i), areas_.areas[i].extent * whole);
@@ -299,15 +306,9 @@ class Mesher {
           {VertexId(static_cast<std::size_t>(a)), VertexId(static_cast<std::size_t>(b)), edges_[piece.edge].tag});
     }
     const MeshNames names(names_of(outline_), inside->outline_points);
-    MeshInput input;
-    input.space = ground_.space();
-    std::vector<Vec2> flat;
-    if (ground_.is_plane()) {
-      for (const Vec3 p : inside->places) flat.push_back({p.x, p.y});
-      input.points = flat;
-    } else {
-      input.sphere_points = inside->places;
-    }
+    InputPlaces places(ground_.space());
+    for (const Vec3 p : inside->places) places.add(p);
+    MeshInput input = places.input();
     input.triangles = triangles;
     input.regions = regions;
     input.constrained_edges = constrained;

@@ -29,7 +29,12 @@ class Placement {
  public:
   Placement(const Ground& ground, const DividedOutline& divided, const Areas& areas, const GradedSize& size,
             Deadline& deadline)
-      : ground_(ground), divided_(divided), areas_(areas), size_(size), deadline_(deadline), grid_(ground.is_plane()) {
+      : ground_(ground),
+        divided_(divided),
+        areas_(areas),
+        size_(size),
+        deadline_(deadline),
+        grid_(ground.space().dimension() == 2) {
     std::vector<BoundingBox> boxes;
     boxes.reserve(divided.pieces.size());
     for (const Piece& p : divided.pieces)

@@ -41,7 +41,7 @@ std::vector<TriangleId> along_curve(const Mesh& mesh) {
     const auto [a, b, c] = places_of(mesh, t);
     const Vec3 third = (1.0 / 3) * a + (1.0 / 3) * b + (1.0 / 3) * c;
     const Vec3 inside = min_of(max_of(third, low), high);
-    keyed.emplace_back(mesh.space().is_plane() ? curve({inside.x, inside.y}) : cube_hilbert_index(third), t);
+    keyed.emplace_back(mesh.space().dimension() == 2 ? curve({inside.x, inside.y}) : cube_hilbert_index(third), t);
   }
   std::sort(keyed.begin(), keyed.end());
   std::vector<TriangleId> triangles;
@@ -56,7 +56,7 @@ std::vector<TriangleId> along_curve(const Mesh& mesh) {
 BoxTree::Box BoxTree::box_of(const Mesh& mesh, TriangleId t) {
   const auto [a, b, c] = places_of(mesh, t);
   Box box = {min_of(min_of(a, b), c), max_of(max_of(a, b), c)};
-  if (mesh.space().is_plane()) return box;
+  if (mesh.space().dimension() == 2) return box;
   const Vec3 n = cross(b - a, c - a);
   const double above = 1 - std::abs(dot(n, a)) / length(n);
   const Vec3 margin = {above, above, above};

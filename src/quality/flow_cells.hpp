@@ -18,8 +18,7 @@ namespace temper {
 
 /// Where a vertex is, without its weight; of images the one near a point.
 [[nodiscard]] inline Vec3 place_of(const Mesh& mesh, VertexId v, const WeightedPoint& near) {
-  const WeightedPoint p = mesh.point(v, near);
-  return mesh.space().is_plane() ? Vec3{p.x, p.y, 0} : mesh.space().place(p);
+  return mesh.space().place(mesh.point(v, near));
 }
 
 struct FlowCell {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/median.hpp"
+#include "geometry/in_space.hpp"
 #include "mesh/blocks.hpp"
-#include "quality/edge_measure.hpp"
 #include "quality/flow_cells.hpp"
 #include "size/local_sizes.hpp"
 #include "temper/geometry.hpp"
@@ -79,19 +79,15 @@ bool is_obtuse(const Mesh& mesh, TriangleId t) {
     const WeightedPoint from = mesh.point(mesh.origin(h));
     const Vec3 a = place_of(mesh, mesh.origin(h), from), b = place_of(mesh, mesh.target(h), from),
                c = place_of(mesh, mesh.opposite(h), from);
-    const auto flat = [](Vec3 p) { return WeightedPoint{p.x, p.y, 0}; };
     // Without weights the center is across from an obtuse angle.
-    const Sign side =
-        mesh.space().is_plane() ? signed_height_sign(flat(a), flat(b), flat(c)) : signed_height_sign(a, b, c);
-    if (side == Sign::negative) return true;
+    if (signed_height_sign(mesh.space(), as_point(a), as_point(b), as_point(c)) == Sign::negative) return true;
   }
   return false;
 }
 
 void add_triangle(SolverMeasures& m, const Mesh& mesh, TriangleId t) {
   const auto [p, q, r] = mesh.points(t);
-  const double a = edge_length(mesh.space(), q, r), b = edge_length(mesh.space(), r, p),
-               c = edge_length(mesh.space(), p, q);
+  const double a = distance(mesh.space(), q, r), b = distance(mesh.space(), r, p), c = distance(mesh.space(), p, q);
   m.min_triangle_quality = std::min(m.min_triangle_quality, std::min({a, b, c}) / std::max({a, b, c}));
   const auto [least, largest] = std::minmax({angle_across(a, b, c), angle_across(b, c, a), angle_across(c, a, b)});
   m.min_triangle_angle_quality = std::min(m.min_triangle_angle_quality, least / largest);
@@ -119,28 +115,21 @@ void gather(Ring& ring, const Mesh& mesh, VertexId v) {
 
 void add_grid_spacing(SolverMeasures& m, const Space& space, const Ring& ring) {
   double sum = 0;
-  for (const WeightedPoint& p : ring.around) sum += edge_length(space, ring.center, p);
+  for (const WeightedPoint& p : ring.around) sum += distance(space, ring.center, p);
   const double mean = sum / static_cast<double>(ring.around.size());
   m.min_grid_spacing = std::min(m.min_grid_spacing, mean);
   m.max_grid_spacing = std::max(m.max_grid_spacing, mean);
 }
 
-Vec3 cell_corner(const Space& space, const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
-  if (!space.is_plane()) return space.radius() * orthocenter(lifted(p), lifted(q), lifted(r));
-  const Vec2 o = orthocenter(p, q, r);
-  return {o.x, o.y, 0};
-}
-
 /// How far the centroid of the power cell is from the vertex, in the plane that touches the sphere there, and from
 /// there back to the sphere; +∞ for a cell that is not counter-clockwise.
 double centroid_offset(const Space& space, const Ring& ring) {
-  const Vec3 at = space.is_plane() ? Vec3{ring.center.x, ring.center.y, 0} : space.place(ring.center);
-  const Vec3 up = space.is_plane() ? Vec3{0, 0, 1} : (1 / length(at)) * at;
+  const Vec3 at = space.place(ring.center), up = space.up(as_point(at));
   Vec3 moment = {0, 0, 0};
   double doubled = 0;
-  Vec3 from = cell_corner(space, ring.center, ring.before(0), ring.around[0]) - at;
+  Vec3 from = lifted(orthocenter(space, ring.center, ring.before(0), ring.around[0])) - at;
   for (std::size_t k = 0; k < ring.around.size(); ++k) {
-    const Vec3 to = cell_corner(space, ring.center, ring.around[k], ring.after(k)) - at;
+    const Vec3 to = lifted(orthocenter(space, ring.center, ring.around[k], ring.after(k))) - at;
     const double area = dot(up, cross(from, to));
     moment = moment + (area / 3) * (from + to);
     doubled += area;
@@ -149,7 +138,7 @@ double centroid_offset(const Space& space, const Ring& ring) {
   if (!(doubled > 0)) return std::numeric_limits<double>::infinity();
   const Vec3 offset = (1 / doubled) * moment;
   const double height = dot(up, offset), across = length(offset - height * up);
-  return space.is_plane() ? across : space.radius() * std::atan2(across, space.radius() + height);
+  return space.along_ground(across, height);
 }
 
 /// Precondition: the ring is closed, the vertex not on the boundary.

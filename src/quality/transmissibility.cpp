@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/median.hpp"
+#include "geometry/in_space.hpp"
 #include "mesh/blocks.hpp"
-#include "quality/edge_measure.hpp"
 #include "temper/geometry.hpp"
 
 namespace temper {
@@ -20,7 +20,7 @@ double transmissibility(const Mesh& mesh, HalfedgeId h) {
   const auto [a, b, c] = mesh.points(mesh.origin(h), mesh.target(h), mesh.opposite(h));
   const WeightedPoint d = mesh.point(mesh.opposite(mesh.twin(h)), a);
   if (power_test(mesh.space(), a, b, c, d) == Sign::zero) return std::numeric_limits<double>::infinity();
-  return edge_length(mesh.space(), a, b) / std::abs(dual_length(mesh.space(), a, b, c, d));
+  return distance(mesh.space(), a, b) / std::abs(dual_length(mesh.space(), a, b, c, d));
 }
 
 /// Those of all interior edges, in an array that is made once: lists that grow would take twice its room.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
 namespace temper {
 namespace {
@@ -54,8 +53,7 @@ std::string why_not_crossed(const Subject& s, int k) {
   int heavy = k, light = corner_after(k);
   if (s.weight(heavy) < s.weight(light)) std::swap(heavy, light);
   const WeightedPoint a = s.mesh.point(s.v[heavy]), b = s.mesh.point(s.v[light], a);
-  const double l2 =
-      s.mesh.space().is_plane() ? squared_length(b.position() - a.position()) : squared_length(lifted(b) - lifted(a));
+  const double l2 = squared_length(s.mesh.space().chord(a, b));
   return s.edge(k) + " is not crossed by its dual: the weight of vertex " + s.number(s.v[heavy]) +
          " exceeds that of vertex " + s.number(s.v[light]) + " by " + rounded(s.weight(heavy) - s.weight(light)) +
          ", and the edge's squared length is " + rounded(l2);
@@ -143,16 +141,10 @@ std::string degrees(double angle) {
   return std::string(buffer, result.ptr) + "°";
 }
 
-Vec2 shown_place(const Space& space, Vec3 p) {
-  if (space.is_plane()) return {p.x, p.y};
-  constexpr double kDegrees = 180 / std::numbers::pi;
-  return {kDegrees * std::atan2(p.y, p.x), kDegrees * std::atan2(p.z, std::hypot(p.x, p.y))};
-}
-
 Vec2 middle_of(const Mesh& mesh, TriangleId t) {
   const auto [a, b, c] = mesh.points(t);
-  if (mesh.space().is_plane()) return (1.0 / 3) * (a.position() + b.position() + c.position());
-  return shown_place(mesh.space(), lifted(a) + lifted(b) + lifted(c));
+  const double part = mesh.space().dimension() == 2 ? 1.0 / 3 : 1;  // on the sphere the direction counts
+  return mesh.space().as_shown(part * (lifted(a) + lifted(b) + lifted(c)));
 }
 
 WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names) {

@@ -38,9 +38,7 @@ class WorstList {
 /// The entry of the report on one triangle; `why` in these numbers, or counted from 0.
 [[nodiscard]] WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names = nullptr);
 
-/// A place as reports give it: x and y, on the sphere longitude and latitude [degrees].
-[[nodiscard]] Vec2 shown_place(const Space& space, Vec3 p);
-/// The same of the centroid of a triangle.
+/// The centroid of a triangle, as reports give it.
 [[nodiscard]] Vec2 middle_of(const Mesh& mesh, TriangleId t);
 
 /// The number by which reports call a vertex or a triangle: the last word of its name, "12" of "point 12".

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/in_space.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -22,8 +23,7 @@ struct StarArea {
   const WeightedPoint p = mesh.point(v);
   for (const HalfedgeId h : mesh.star(v)) {
     const WeightedPoint q = mesh.point(mesh.target(h), p), r = mesh.point(mesh.opposite(h), p);
-    star.doubled += mesh.space().is_plane() ? std::abs(cross(q.position() - p.position(), r.position() - p.position()))
-                                            : length(cross(lifted(q) - lifted(p), lifted(r) - lifted(p)));
+    star.doubled += unsigned_doubled_area(mesh.space(), p, q, r);
     ++star.triangles;
   }
   return star;

@@ -205,7 +205,7 @@ void cut_edge(Mesh& mesh, const EdgeCuts& cuts, const InsertionObserver* observe
 }  // namespace
 
 GradingPlan plan_boundary_grading(const Mesh& mesh, double ratio, double widest_angle_deg) {
-  TEMPER_ASSERT(mesh.space().is_plane());
+  TEMPER_ASSERT(mesh.space().dimension() == 2);
   ratio = std::max(kLeastRatio, ratio);
   const std::vector<LineEdge> edges = line_edges(mesh, widest_angle_deg);
   const std::size_t n = mesh.n_vertices();
@@ -225,7 +225,7 @@ GradingPlan plan_boundary_grading(const Mesh& mesh, double ratio, double widest_
 }
 
 std::vector<std::array<VertexId, 3>> triangles_without_free_corner(const Mesh& mesh) {
-  TEMPER_ASSERT(mesh.space().is_plane());
+  TEMPER_ASSERT(mesh.space().dimension() == 2);
   IdVector<VertexId, std::uint8_t> on_line(mesh.n_vertices(), 0);
   for (const HalfedgeId h : mesh.halfedges()) {
     if (mesh.is_erased(Mesh::triangle(h)) || (!mesh.is_boundary(h) && !mesh.is_constrained(h))) continue;

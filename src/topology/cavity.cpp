@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "geometry/in_space.hpp"
 #include "mesh/predicates.hpp"
 
 namespace temper {
@@ -37,9 +38,7 @@ class BestTriangulation {
   BestTriangulation(const Mesh& mesh, std::span<const VertexId> polygon, const WeightedPoint& origin)
       : mesh_(mesh), polygon_(polygon), n_(polygon.size()), lifted_(n_), parts_(n_ * n_) {
     for (std::size_t i = 0; i < n_; ++i) {
-      const WeightedPoint p = mesh.point(polygon[i], origin);
-      const double x = p.x - origin.x, y = p.y - origin.y, w = p.w - origin.w;
-      lifted_[i] = {x, y, mesh.space().is_plane() ? x * x + y * y - w : w};
+      lifted_[i] = on_lifted_surface(mesh.space(), mesh.point(polygon[i], origin), origin);
     }
     for (std::size_t i = 0; i + 1 < n_; ++i) part(i, i + 1) = {0, i};
     for (std::size_t length = 2; length < n_; ++length) {
@@ -68,7 +67,7 @@ class BestTriangulation {
     for (std::size_t m = i + 1; m < j; ++m) {
       const double rest = part(i, m).volume + part(m, j).volume;
       if (!(rest < kNone) || !is_counter_clockwise(i, m, j)) continue;
-      const double volume = rest + volume_under(i, m, j);
+      const double volume = rest + volume_under(mesh_.space(), lifted_[i], lifted_[m], lifted_[j]);
       if (volume < least.volume) least = {volume, m};
     }
     return least;
@@ -78,20 +77,10 @@ class BestTriangulation {
     return inlined::orientation(mesh_, polygon_[i], polygon_[m], polygon_[j]) == Sign::positive;
   }
 
-  /// Six times the volume between triangle imj and the plane z = 0. On the sphere the surface of least volume is the
-  /// farthest out: minus that of the tetrahedron of imj and the origin, which is no constant apart from that with the
-  /// center of the sphere.
-  [[nodiscard]] double volume_under(std::size_t i, std::size_t m, std::size_t j) {
-    const Vec3 a = lifted_[i], b = lifted_[m], c = lifted_[j];
-    if (!mesh_.space().is_plane()) return -dot(a, cross(b, c));
-    const double doubled_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    return doubled_area * (a.z + b.z + c.z);
-  }
-
   const Mesh& mesh_;
   std::span<const VertexId> polygon_;
   std::size_t n_;
-  Scratch<Vec3, kSmall> lifted_;          // seen from the origin: in the plane with the height on the lifted surface
+  Scratch<Vec3, kSmall> lifted_;          // on_lifted_surface()
   Scratch<Part, kSmall * kSmall> parts_;  // of i < j alone; the rest is never looked at
 };
 

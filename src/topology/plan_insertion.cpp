@@ -196,7 +196,7 @@ InsertionPlan plan_split(const Mesh& mesh, HalfedgeId h, double t, InsertionPlan
 }
 
 double interpolated_weight(const Mesh& mesh, TriangleId t, Vec2 p) {
-  TEMPER_ASSERT(mesh.space().is_plane());
+  TEMPER_ASSERT(mesh.space().dimension() == 2);
   const auto [pa, pb, pc] = mesh.points(t);
   p = mesh.space().image({p.x, p.y, 0}, pa).position();
   const double area = doubled_area(pa.position(), pb.position(), pc.position());

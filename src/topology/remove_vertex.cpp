@@ -51,9 +51,8 @@ struct StarShape {
 /// Does v lie exactly on the segment ab, between its ends?
 bool is_inside_line(const Mesh& mesh, VertexId a, VertexId v, VertexId b) {
   if (inlined::orientation(mesh, a, v, b) != Sign::zero) return false;
-  if (!mesh.space().is_plane()) return is_between(mesh.lifted_point(a), mesh.lifted_point(b), mesh.lifted_point(v));
   const auto [p, q, r] = mesh.points(v, a, b);
-  return is_between(q.position(), r.position(), p.position());
+  return is_between(mesh.space(), q, r, p);
 }
 
 /// Do all triangles around v have one region, except across constrained spokes?

@@ -80,7 +80,7 @@ EdgeMeans means_on_sphere(const Setting& s, const Field& field, EdgeId e) {
 }
 
 EdgeMeans means_of(const Setting& s, const Field& field, EdgeId e) {
-  return s.is_plane() ? means_in_plane(s, field, s.dec.edges[e]) : means_on_sphere(s, field, e);
+  return s.dec.sphere_midpoints.empty() ? means_in_plane(s, field, s.dec.edges[e]) : means_on_sphere(s, field, e);
 }
 
 }  // namespace

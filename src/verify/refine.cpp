@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "geometry/in_space.hpp"
+#include "mesh/input_places.hpp"
 #include "temper/dec.hpp"
 #include "temper/regularity.hpp"
 
@@ -9,34 +11,24 @@ namespace temper::verify_detail {
 namespace {
 
 struct Arrays {
-  std::vector<Vec2> points;
-  std::vector<Vec3> sphere_points;  // instead
-  std::vector<double> weights;
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<std::array<std::int32_t, 2>> constrained;
-  std::vector<std::int32_t> regions;
+  InputPlaces places;
+  std::vector<double> weights = {};
+  std::vector<std::array<std::int32_t, 3>> triangles = {};
+  std::vector<std::array<std::int32_t, 2>> constrained = {};
+  std::vector<std::int32_t> regions = {};
 };
 
 std::int32_t number(std::size_t i) { return static_cast<std::int32_t>(i); }
 
 void add_points(const Mesh& mesh, const DecComplex& dec, Arrays& arrays) {
   const Space& space = mesh.space();
-  const auto place = [&](VertexId v) { return space.place(mesh.point(v)); };
   for (const VertexId v : mesh.vertices()) {
-    if (space.is_plane()) {
-      arrays.points.push_back(mesh.position(v));
-    } else {
-      arrays.sphere_points.push_back(place(v));
-    }
+    arrays.places.add(space.place(mesh.point(v)));
     arrays.weights.push_back(0.5 * mesh.weight(v));
   }
   for (const DecEdge& edge : dec.edges) {
-    if (space.is_plane()) {
-      const WeightedPoint p = mesh.point(edge.from), q = mesh.point(edge.to, p);
-      arrays.points.push_back(0.5 * p.position() + 0.5 * q.position());
-    } else {
-      arrays.sphere_points.push_back(space.place(as_point(place(edge.from) + place(edge.to))));
-    }
+    const WeightedPoint p = mesh.point(edge.from), q = mesh.point(edge.to, p);
+    arrays.places.add(space.place(middle(space, as_point(space.place(p)), as_point(space.place(q)))));
     arrays.weights.push_back(0.25 * mesh.weight(edge.from) + 0.25 * mesh.weight(edge.to));
   }
 }
@@ -66,14 +58,11 @@ void add_constrained(const Mesh& mesh, const DecComplex& dec, Arrays& arrays) {
 
 Expected<Mesh> refined(const Mesh& mesh) {
   const DecComplex complex = dec(mesh);
-  Arrays arrays;
+  Arrays arrays = {.places = InputPlaces(mesh.space())};
   add_points(mesh, complex, arrays);
   add_triangles(mesh, complex, arrays);
   add_constrained(mesh, complex, arrays);
-  MeshInput input;
-  input.space = mesh.space();
-  input.points = arrays.points;
-  input.sphere_points = arrays.sphere_points;
+  MeshInput input = arrays.places.input();
   input.weights = arrays.weights;
   input.triangles = arrays.triangles;
   input.constrained_edges = arrays.constrained;

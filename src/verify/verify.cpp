@@ -138,7 +138,7 @@ Measured measure(const Setting& setting, const std::vector<Field>& fields, bool 
 }  // namespace verify_detail
 
 VerifyFrame verify_frame(const Mesh& mesh) {
-  if (!mesh.space().is_plane()) return {{0, 0}, mesh.space().radius()};
+  if (mesh.space().radius() > 0) return {{0, 0}, mesh.space().radius()};
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Vec2 low = {kFar, kFar}, high = {-kFar, -kFar};
   for (const VertexId v : mesh.vertices()) {

@@ -1,6 +1,6 @@
 // Readers of outlines, and of the JSON that some are.
-#include "io/failure.hpp"
-#include "io/json_tree.hpp"
+#include "io/outlines/json_tree.hpp"
+#include "io/text/failure.hpp"
 #include "target.hpp"
 #include "temper/io.hpp"
 

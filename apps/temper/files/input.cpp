@@ -1,5 +1,6 @@
 #include "files/input.hpp"
 
+#include "files/read_tried.hpp"
 #include <fmt/format.h>
 
 #include <array>
@@ -41,7 +42,7 @@ std::vector<std::string> Input::warnings() const {
 Input read_input(const std::string& path, const ReadingOptions& options) {
   Input input;
   input.path = path;
-  input.file = options.read ? options.read(path) : or_fail(io::read(path, {options.executor}));
+  input.file = options.read ? options.read(path) : read_tried(path, options.executor);
   take_to_map(input.file, path, options.projection);
   input.loaded = or_fail(io::make_mesh(input.file, options.fixed_tags, options.executor));
   if (!options.spheres) expect_plane(input.loaded.mesh, path, "this verb");
@@ -60,7 +61,7 @@ void expect_plane(const Mesh& mesh, const std::string& path, std::string_view wh
 }
 
 std::string same_projection(const Input& input, const std::string& projection) {
-  return input.file.map ? projection_text(input.file.map->projection) : projection;
+  return input.file.map() != nullptr ? projection_text(input.file.map()->projection) : projection;
 }
 
 std::string renumber(const std::string& text, const std::function<std::string(VertexId)>& name) {
@@ -132,7 +133,7 @@ void expect_projection_of_outline(const std::string& path, bool geographic, cons
 
 void take_to_map(io::MeshFile& file, const std::string& path, const std::string& projection) {
   if (projection.empty()) {
-    if (file.geographic) refuse_degrees(path, io::needs_projection(file.geographic_is_guessed));
+    if (file.degrees() != nullptr) refuse_degrees(path, io::needs_projection(file.degrees()->is_guessed));
     return;
   }
   or_fail(io::project(file, projection));

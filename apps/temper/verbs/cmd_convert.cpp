@@ -6,6 +6,7 @@
 #include "console.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
+#include "files/read_tried.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "threads.hpp"
@@ -48,7 +49,7 @@ Exit run_convert(const Arguments& arguments) {
   outputs.expect_mesh(s.output);
 
   const std::unique_ptr<Executor> threads = make_threads(s.threads);
-  io::MeshFile file = or_fail(io::read(s.input, {threads.get()}));
+  io::MeshFile file = read_tried(s.input, threads.get());
   if (!s.projection.empty()) take_to_map(file, s.input, s.projection);
   print_warnings(file.warnings);
   print_warnings(outputs.write_mesh(s.output, file, threads.get()));

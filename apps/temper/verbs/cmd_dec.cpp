@@ -155,7 +155,7 @@ Exit run_dec(const Arguments& arguments) {
   print_warnings(dec_warnings(record));
   record.files =
       or_fail(io::write_dec(s.output, plain ? *plain : input.mesh(), complex, cells,
-                            {formats, input.points, input.file.z, columns, input.names.get(), threads.get()}));
+                            {formats, input.points, input.file.z(), columns, input.names.get(), threads.get()}));
   print(s.json ? dec_json(record) : dec_text(record));
   return Exit::done;
 }

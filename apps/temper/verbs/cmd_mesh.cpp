@@ -13,6 +13,7 @@
 #include "console.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
+#include "files/read_tried.hpp"
 #include "help/help.hpp"
 #include "interrupt.hpp"
 #include "options/options.hpp"
@@ -156,8 +157,8 @@ std::optional<double> size_number(const MeshSettings& s) {
 
 /// The sizes of a file; `degrees`: where its points go if they are longitude and latitude.
 SizeField read_sizes(const MeshSettings& s, const std::string& degrees, Executor* executor) {
-  io::MeshFile file = or_fail(io::read(s.size, {executor}));
-  const std::string projection = file.geographic ? degrees : "";
+  io::MeshFile file = read_tried(s.size, executor);
+  const std::string projection = file.degrees() != nullptr ? degrees : "";
   const auto read = [&file](const std::string&) { return std::move(file); };
   ReadSizeField sizes = read_size_field(s.size, s.size_data, {projection, {}, executor, true, read});
   print_warnings(sizes.warnings);

@@ -129,7 +129,7 @@ TEST_F(MeshSphere, OneCommandMakesAWellCenteredOceanWithCoastsAndRivers) {
   EXPECT_LT(report["sphere"]["covered"].get<double>(), 0.98);
   const auto file = io::read("out.vtu");
   ASSERT_TRUE(file);
-  EXPECT_EQ(file->sphere_radius, 6371000);
+  EXPECT_EQ(file->space().radius(), 6371000);
   std::vector<std::int32_t> tags = file->line_tags;
   std::sort(tags.begin(), tags.end());
   tags.erase(std::unique(tags.begin(), tags.end()), tags.end());

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "io/zip_writer.hpp"
+#include "io/containers/zip_writer.hpp"
 #include "support.hpp"
 #include "support/std_threads.hpp"
 #include "temper/dec_io.hpp"

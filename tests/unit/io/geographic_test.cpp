@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/format.hpp"
+#include "io/formats/format.hpp"
 #include "support.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
@@ -33,14 +33,14 @@ MeshFile read_sea(const std::string& path, const MeshFile& f = sea()) {
 }
 
 TEST_F(FileTest, Fort14IsInDegreesWhereItsWaterWouldBeDeeperThanItIsWide) {
-  EXPECT_TRUE(read_sea(path("sea.14")).geographic);
+  EXPECT_TRUE(read_sea(path("sea.14")).degrees() != nullptr);
   MeshFile square = from_mesh(*sheared_grid({4, 4, 0.1}));
-  EXPECT_FALSE(read_sea(path("plain.14"), square).geographic) << "no depths";
+  EXPECT_FALSE(read_sea(path("plain.14"), square).degrees() != nullptr) << "no depths";
   square.point_data = {{"depth", 1, std::vector<double>(square.points.size(), 0.5)}};
-  EXPECT_FALSE(read_sea(path("shallow.14"), square).geographic);
+  EXPECT_FALSE(read_sea(path("shallow.14"), square).degrees() != nullptr);
   MeshFile metres = sea();
   for (Vec2& p : metres.points) p = 1000.0 * p;
-  EXPECT_FALSE(read_sea(path("metres.14"), metres).geographic);
+  EXPECT_FALSE(read_sea(path("metres.14"), metres).degrees() != nullptr);
 }
 
 TEST_F(FileTest, AMeshInDegreesIsRefusedUntilItIsOnAMapOrCalledPlane) {
@@ -87,12 +87,12 @@ TEST_F(FileTest, DegreesComeBackBitForBitWhereNothingHasMovedInEveryFormat) {
       ASSERT_TRUE(again) << again.error().what();
       ASSERT_EQ(again->points.size(), degrees.size());
       for (std::size_t p = 0; p < degrees.size(); ++p) {
-        const bool same = places[p] == f.map->places[p];
+        const bool same = places[p] == f.map()->places[p];
         stayed += same ? 1 : 0;
         if (same) {
           EXPECT_EQ(again->points[p], degrees[p]) << format.name;
         } else {
-          EXPECT_LT(length(forward(f.map->projection, again->points[p]) - places[p]), 1e-6) << "a micrometre";
+          EXPECT_LT(length(forward(f.map()->projection, again->points[p]) - places[p]), 1e-6) << "a micrometre";
           EXPECT_LT(std::abs(again->points[p].x - west), 20) << "on the same turn of the globe";
         }
       }
@@ -122,7 +122,7 @@ TEST_F(FileTest, UgridSaysDegreesInItsUnitsAndNamesAndKnowsThemAgain) {
   ASSERT_TRUE(write(path("m.ugrid.nc"), f));
   const auto again = read(path("m.ugrid.nc"));
   ASSERT_TRUE(again) << again.error().what();
-  EXPECT_TRUE(again->geographic);
+  EXPECT_TRUE(again->degrees() != nullptr);
   const std::string bytes = slurp(path("m.ugrid.nc"));
   for (const char* part : {"degrees_east", "degrees_north", "longitude", "latitude"}) {
     EXPECT_NE(bytes.find(part), std::string::npos) << part;
@@ -130,7 +130,7 @@ TEST_F(FileTest, UgridSaysDegreesInItsUnitsAndNamesAndKnowsThemAgain) {
   EXPECT_EQ(bytes.find("projection_x_coordinate"), std::string::npos);
   MeshFile plane = from_mesh(*sheared_grid({4, 4, 0.1}));
   ASSERT_TRUE(write(path("plane.ugrid.nc"), plane));
-  EXPECT_FALSE(read(path("plane.ugrid.nc"))->geographic);
+  EXPECT_FALSE(read(path("plane.ugrid.nc"))->degrees() != nullptr);
 }
 #endif
 

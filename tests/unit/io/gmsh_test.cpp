@@ -168,7 +168,7 @@ TEST_F(FileTest, BigEndianBinaryIsRead) {
   content += "\n$EndElements\n";
   const auto f = read(make("m.msh", content));
   ASSERT_TRUE(f) << f.error().what();
-  EXPECT_EQ(f->z, 0.25);
+  EXPECT_EQ(f->z(), 0.25);
   EXPECT_EQ(f->points, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}));
   EXPECT_EQ(f->regions, std::vector<std::int32_t>{6});
 }

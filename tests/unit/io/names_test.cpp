@@ -1,5 +1,6 @@
 // Names that would be more than names elsewhere: a line of a header, a second property, an order to the terminal.
-#include "io/array_names.hpp"
+#include "io/text/names.hpp"
+
 #include "support.hpp"
 
 namespace temper::io {

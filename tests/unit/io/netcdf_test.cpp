@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "io/netcdf_file.hpp"
+#include "io/containers/netcdf_file.hpp"
 #include "support/lattice.hpp"
 #include "support/spheres.hpp"
 #include "temper/generate.hpp"
@@ -182,7 +182,7 @@ class NetcdfFormats : public FileTest {
 
 TEST_F(NetcdfFormats, MpasCellsAndTrianglesAreTheSumsOfTheirKites) {
   for_mpas_files([](const MeshFile& f, const Nc& nc) {
-    EXPECT_EQ(nc.text(nullptr, "on_a_sphere"), f.sphere_radius > 0 ? "YES" : "NO");
+    EXPECT_EQ(nc.text(nullptr, "on_a_sphere"), f.sphere() != nullptr ? "YES" : "NO");
     const auto kites = nc.get<double>("kiteAreasOnVertex"), cell_areas = nc.get<double>("areaCell"),
                triangle_areas = nc.get<double>("areaTriangle");
     const auto cells = nc.get<std::int32_t>("cellsOnVertex");
@@ -367,15 +367,15 @@ TEST_F(NetcdfFormats, MpasEdgesOfPeriodicPlanesCrossAtRightAnglesAndAsImages) {
       std::vector<Vec2> all;
       for (std::size_t i = 0; i < x.size(); ++i) {
         all.push_back({x[i], y[i]});
-        EXPECT_TRUE(x[i] >= 0 && x[i] < f.period.x);
-        EXPECT_TRUE(f.period.y == 0 || (y[i] >= 0 && y[i] < f.period.y));
+        EXPECT_TRUE(x[i] >= 0 && x[i] < f.periodic()->period.x);
+        EXPECT_TRUE(f.periodic()->period.y == 0 || (y[i] >= 0 && y[i] < f.periodic()->period.y));
       }
       return all;
     };
     const auto to = [&](Vec2 from, Vec2 there) {  // the shortest way
       Vec2 way = there - from;
-      way.x -= f.period.x * std::round(way.x / f.period.x);
-      if (f.period.y > 0) way.y -= f.period.y * std::round(way.y / f.period.y);
+      way.x -= f.periodic()->period.x * std::round(way.x / f.periodic()->period.x);
+      if (f.periodic()->period.y > 0) way.y -= f.periodic()->period.y * std::round(way.y / f.periodic()->period.y);
       return way;
     };
     const auto cell = places("Cell"), edge = places("Edge"), vertex = places("Vertex");
@@ -402,19 +402,20 @@ TEST_F(NetcdfFormats, MpasEdgesOfPeriodicPlanesCrossAtRightAnglesAndAsImages) {
 TEST_F(NetcdfFormats, MpasOfPeriodicPlanesIsReadBackBitForBit) {
   for (MeshFile f : periodic_files()) {
     // Others have periods of all bits, and points on the far side of the domain.
-    f.period.x = std::nextafter(f.period.x, 10);
-    f.points[3].x = f.points[3].x - f.period.x;
+    auto& period = std::get<PeriodicPoints>(f.points_in).period;
+    period.x = std::nextafter(period.x, 10);
+    f.points[3].x = f.points[3].x - period.x;
     ASSERT_TRUE(write(path("m.mpas.nc"), f));
     const auto back = read(path("m.mpas.nc"));
     ASSERT_TRUE(back) << back.error().what();
-    EXPECT_EQ(back->period, f.period);
+    EXPECT_EQ(back->periodic()->period, period);
     EXPECT_TRUE(same_bits(back->weights, f.weights));
     EXPECT_EQ(back->triangles, f.triangles);
     ASSERT_TRUE(write(path("again.mpas.nc"), *back));
     EXPECT_EQ(slurp(path("again.mpas.nc")), slurp(path("m.mpas.nc")));
     const auto made = make_mesh(*back);
     ASSERT_TRUE(made) << made.error().what();
-    EXPECT_EQ(made->mesh.space(), Space::periodic(f.period));
+    EXPECT_EQ(made->mesh.space(), Space::periodic(period));
   }
 }
 
@@ -482,8 +483,8 @@ TEST_F(NetcdfFormats, MpasOfTheSphereIsReadBackBitForBit) {
     ASSERT_TRUE(write(path("m.mpas.nc"), f));
     const auto back = read(path("m.mpas.nc"));
     ASSERT_TRUE(back) << back.error().what();
-    EXPECT_EQ(back->sphere_radius, 2);
-    EXPECT_EQ(back->sphere_points, f.sphere_points);
+    EXPECT_EQ(back->space().radius(), 2);
+    EXPECT_EQ(back->sphere()->places, f.sphere()->places);
     EXPECT_TRUE(same_bits(back->weights, f.weights));
     EXPECT_EQ(back->triangles, f.triangles);
     ASSERT_TRUE(write(path("again.mpas.nc"), *back));
@@ -540,7 +541,7 @@ TEST_F(NetcdfFormats, MpasOfOthersGivesTrianglesWeightsAndData) {
   const auto f = read(path("o.nc"));
   ASSERT_TRUE(f) << f.error().what();
   EXPECT_EQ(f->format, "mpas");
-  EXPECT_EQ(f->z, 3);
+  EXPECT_EQ(f->z(), 3);
   EXPECT_EQ(f->triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
   ASSERT_EQ(f->point_data.size(), 1u);
   EXPECT_EQ(f->point_data[0].name, "bottomDepth");
@@ -663,10 +664,9 @@ TEST_F(NetcdfFormats, MpasHasLatitudesAndLongitudesOfAMeshThatKnowsThem) {
   for (double& w : on_map.weights) w *= 1e10;
   const std::vector<Vec2> degrees = on_map.points;
   ASSERT_TRUE(project(on_map, "stereographic:0,49"));
-  const Projection projection = on_map.map->projection;
+  const Projection projection = on_map.map()->projection;
   MeshFile with_data = on_map;
-  with_data.map = nullptr;
-  with_data.geographic = false;
+  with_data.points_in = PlanePoints{};
   std::vector<double> longitude, latitude;
   for (const Vec2 p : degrees) longitude.push_back(p.x), latitude.push_back(p.y);
   with_data.point_data = {{"longitude", 1, longitude}, {"latitude", 1, latitude}};

@@ -106,7 +106,7 @@ TEST_F(OtherFormats, OffWithColoursAndCommentsIsReadAndSaysWhatItDrops) {
                              "COFF # colours\n4 2 0\n# points\n0 0 2 255 0 0 255\n1 0 2 0 0 0 255\n1 1 2 0 0 0 255\n"
                              "0 1 2 0 0 0 255\n3 0 1 2 0.5 0.5 0.5\n3 0 2 3\n");
   EXPECT_EQ(f.format, "off");
-  EXPECT_EQ(f.z, 2);
+  EXPECT_EQ(f.z(), 2);
   EXPECT_EQ(f.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(f.warnings.size(), 2u);
   EXPECT_EQ(read_ok("m.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").triangles, (Triangles{{0, 1, 2}}));
@@ -150,7 +150,7 @@ TEST_F(OtherFormats, BinaryPlyOfBothByteOrdersIsRead) {
                bytes_of<float>(order, {1, 2});
     const MeshFile f = read_ok("m.ply", content);
     EXPECT_EQ(f.points, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}));
-    EXPECT_EQ(f.z, 0.5);
+    EXPECT_EQ(f.z(), 0.5);
     EXPECT_TRUE(same_bits(f.weights, {0, 1 / 3.0, 2 / 3.0}));
     EXPECT_EQ(f.triangles, (Triangles{{0, 1, 2}}));
     EXPECT_EQ(f.regions, (Tags{-7}));
@@ -180,7 +180,7 @@ TEST_F(OtherFormats, PlyMayHaveCoordinatesInUpperCase) {
                              "double Z\nelement face 1\n"
                              "property list uchar uint vertex_indices\nend_header\n0 0 7\n1 0 7\n0 1 7\n3 0 1 2\n");
   EXPECT_EQ(f.points, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}));
-  EXPECT_EQ(f.z, 7);
+  EXPECT_EQ(f.z(), 7);
   EXPECT_TRUE(f.point_data.empty());
 }
 

@@ -3,7 +3,7 @@
 #include <map>
 #include <utility>
 
-#include "io/format.hpp"
+#include "io/formats/format.hpp"
 #include "support.hpp"
 #include "temper/generate.hpp"
 #include "temper/topology.hpp"
@@ -330,7 +330,7 @@ MeshFile rich_globe() {
   std::vector<std::int32_t> basin, number;
   for (std::size_t p = 0; p < f.points.size(); ++p) {
     f.weights[p] = 1e8 * static_cast<double>(p % 7);
-    height.push_back(f.sphere_points[p].z);
+    height.push_back(f.sphere()->places[p].z);
     basin.push_back(4);
   }
   for (std::size_t t = 0; t < f.triangles.size(); ++t) number.push_back(static_cast<std::int32_t>(t));
@@ -385,7 +385,7 @@ TEST(VerticesOfTheSphere, ThatAreNotToldAreKnownByTheirPlace) {
     const DataReport report = update(told, *loaded, mesh, vertices), by_place = update(not_told, *loaded, mesh);
     expect_same_mesh(told, not_told);
     expect_same_data(told, not_told);
-    EXPECT_EQ(told.sphere_points, not_told.sphere_points);
+    EXPECT_EQ(told.sphere()->places, not_told.sphere()->places);
     EXPECT_EQ(told.warnings, not_told.warnings);
     EXPECT_EQ(by_place.points_inserted, static_cast<std::size_t>(inserted));
     EXPECT_EQ(by_place.points, before.points.size() - static_cast<std::size_t>(removed));
@@ -395,11 +395,11 @@ TEST(VerticesOfTheSphere, ThatAreNotToldAreKnownByTheirPlace) {
     ASSERT_EQ(not_told.point_data.size(), 2u);
     const auto& heights = std::get<std::vector<double>>(not_told.point_data[0].values);
     ASSERT_EQ(heights.size(), not_told.points.size());
-    for (std::size_t p = 0; p < heights.size(); ++p) EXPECT_NEAR(heights[p], not_told.sphere_points[p].z, 1e5);
+    for (std::size_t p = 0; p < heights.size(); ++p) EXPECT_NEAR(heights[p], not_told.sphere()->places[p].z, 1e5);
     std::map<std::array<double, 6>, std::int32_t> lines;
     const auto ends = [](const MeshFile& f, std::size_t i) {
-      const Vec3 a = f.sphere_points[static_cast<std::size_t>(f.lines[i][0])],
-                 b = f.sphere_points[static_cast<std::size_t>(f.lines[i][1])];
+      const Vec3 a = f.sphere()->places[static_cast<std::size_t>(f.lines[i][0])],
+                 b = f.sphere()->places[static_cast<std::size_t>(f.lines[i][1])];
       return std::array{a.x, a.y, a.z, b.x, b.y, b.z};
     };
     for (std::size_t i = 0; i < before.lines.size(); ++i) lines[ends(before, i)] = before.line_tags[i];

@@ -1,5 +1,5 @@
 // The laws of writing and reading: write, read, write gives the same bytes, and weights survive bit for bit.
-#include "io/format.hpp"
+#include "io/formats/format.hpp"
 #include "support.hpp"
 
 namespace temper::io {
@@ -42,7 +42,7 @@ TEST_P(RoundTrip, OfGeometryWeightsRegionsAndTagsLosesNoBit) {
   EXPECT_EQ(g.format, GetParam().format);
   if (!GetParam().holds_z) {
     EXPECT_NE(warnings.find("z = 0.7"), std::string::npos) << warnings;
-    f.z = 0;
+    f.set_z(0);
   }
   if (!GetParam().holds_tags) {
     for (const char* lost : {"regions", "lines", "marked points"})

@@ -41,7 +41,7 @@ TEST_F(SphereFiles, EveryFormatHasTheirPlacesOrSaysThatItCannot) {
     EXPECT_EQ(back.triangles, file.triangles);
     if (format.name == "ugrid") {
       ++in_degrees;
-      EXPECT_TRUE(back.geographic);
+      EXPECT_TRUE(back.degrees() != nullptr);
       EXPECT_EQ(back.points, file.points);
       ASSERT_EQ(written->size(), 1U);
       EXPECT_NE((*written)[0].find("--projection sphere:radius=6371220"), std::string::npos) << (*written)[0];
@@ -49,16 +49,16 @@ TEST_F(SphereFiles, EveryFormatHasTheirPlacesOrSaysThatItCannot) {
     } else if (format.name == "fesom") {
       ++in_degrees;
       EXPECT_EQ(back.points, file.points);
-      EXPECT_EQ(back.sphere_radius, 6371000);
+      EXPECT_EQ(back.space().radius(), 6371000);
     } else {
       ++in_space;
-      EXPECT_EQ(back.sphere_points, file.sphere_points);
-      EXPECT_EQ(back.sphere_radius, 6371220);
+      EXPECT_EQ(back.sphere()->places, file.sphere()->places);
+      EXPECT_EQ(back.space().radius(), 6371220);
     }
     const auto made = make_mesh(back);
     ASSERT_TRUE(made) << made.error().what();
     EXPECT_FALSE(made->mesh.validate());
-    EXPECT_EQ(made->mesh.space().radius(), back.sphere_radius);
+    EXPECT_EQ(made->mesh.space().radius(), back.space().radius());
     for (const std::string& name : files()) std::filesystem::remove(path(name));
   }
   EXPECT_EQ(in_space, 10 + TEMPER_NETCDF + TEMPER_HDF5);
@@ -77,11 +77,11 @@ TEST_F(SphereFiles, AMeshWithoutWeightsComesBackBitForBit) {
 
 TEST_F(SphereFiles, AnotherRadiusScalesWeightsAlong) {
   MeshFile file = globe(1);
-  const double from = file.sphere_radius;
+  const double from = file.space().radius();
   for (std::size_t i = 0; i < file.points.size(); ++i) file.weights[i] = 1e-3 * static_cast<double>(i % 5);
   MeshFile larger = file;
   ASSERT_TRUE(project(larger, "sphere:radius=4"));
-  EXPECT_EQ(larger.sphere_radius, 4);
+  EXPECT_EQ(larger.space().radius(), 4);
   for (std::size_t i = 0; i < file.points.size(); ++i) {
     EXPECT_DOUBLE_EQ(larger.weights[i], file.weights[i] * (4 / from) * (4 / from));
   }
@@ -108,7 +108,7 @@ TEST_F(SphereFiles, WeightsComeBack) {
   // Of vertices that have not moved the coordinates are written as they came.
   MeshFile again = back;
   update(again, *made, made->mesh);
-  EXPECT_EQ(again.sphere_points, back.sphere_points);
+  EXPECT_EQ(again.sphere()->places, back.sphere()->places);
 }
 
 TEST_F(SphereFiles, FesomKeepsDegreesOfWhatHasNotMoved) {
@@ -153,16 +153,16 @@ TEST_F(SphereFiles, DegreesGoOntoTheSphereAndOntoMaps) {
   MeshFile file;
   file.points = {{0, 0}, {90, 0}, {0, 90}, {180, 0}, {-90, 0}, {0, -90}};
   file.triangles = {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {4, 0, 2}, {1, 0, 5}, {3, 1, 5}, {4, 3, 5}, {0, 4, 5}};
-  file.geographic = true;
+  file.points_in = DegreePoints{};
   MeshFile sphere = file;
   ASSERT_TRUE(project(sphere, "sphere:radius=2"));
-  EXPECT_EQ(sphere.sphere_points[1], (Vec3{0, 2, 0}));  // exactly, on the axes
-  EXPECT_EQ(sphere.sphere_points[2], (Vec3{0, 0, 2}));
-  EXPECT_EQ(sphere.sphere_points[3], (Vec3{-2, 0, 0}));
+  EXPECT_EQ(sphere.sphere()->places[1], (Vec3{0, 2, 0}));  // exactly, on the axes
+  EXPECT_EQ(sphere.sphere()->places[2], (Vec3{0, 0, 2}));
+  EXPECT_EQ(sphere.sphere()->places[3], (Vec3{-2, 0, 0}));
   const auto made = make_mesh(sphere);
   ASSERT_TRUE(made) << made.error().what();
   ASSERT_TRUE(project(sphere, "none"));
-  EXPECT_EQ(sphere.sphere_radius, 0);
+  EXPECT_EQ(sphere.space().radius(), 0);
   EXPECT_EQ(sphere.points, file.points);
   for (const char* words : {"sphere:radius=0", "sphere:radius=x", "sphere:", "spheres"}) {
     const auto projected = project(file, words);
@@ -258,7 +258,7 @@ TEST_F(SphereFiles, OneParallelIsTakenForAPlaneWithAWarning) {
     const std::string at = std::string(" ") + z + "\n";
     const auto file = read(make("p.obj", "v 3 0" + at + "v 0 3" + at + "v -3 0" + at + "f 1 2 3\n"));
     EXPECT_TRUE(file);
-    EXPECT_EQ(file->sphere_radius, 0);
+    EXPECT_EQ(file->space().radius(), 0);
     return file->warnings;
   };
   ASSERT_EQ(warnings("4").size(), 1U);
@@ -272,14 +272,14 @@ TEST_F(SphereFiles, PointsOfNoTriangleAreOfNoPlaneAndNoSphere) {
   const std::string faces = "f 2 3 4\nf 3 5 4\nf 5 6 4\nf 6 2 4\nf 3 2 7\nf 5 3 7\nf 6 5 7\nf 2 6 7\n";
   const auto globe = read(make("g.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv -1 0 0\nv 0 -1 0\nv 0 0 -1\n" + faces));
   ASSERT_TRUE(globe) << globe.error().what();
-  EXPECT_EQ(globe->sphere_radius, 1);
+  EXPECT_EQ(globe->space().radius(), 1);
   const auto made = make_mesh(*globe);
   ASSERT_TRUE(made) << made.error().what();
   EXPECT_EQ(made->mesh.n_vertices(), 6U);
 
   const auto plane = read(make("p.obj", "v 9 9 5\nv 0 0 2\nv 1 0 2\nv 0 1 2\nv 7 7 -1\nf 2 3 4\n"));
   ASSERT_TRUE(plane) << plane.error().what();
-  EXPECT_EQ(plane->z, 2);
+  EXPECT_EQ(plane->z(), 2);
   ASSERT_EQ(plane->warnings.size(), 1U);
   EXPECT_EQ(plain(plane->warnings[0]),
             "p.obj:1: point 1 is of no triangle and has z = 5, and so have 1 more: put into the plane of z = 2");
@@ -291,8 +291,8 @@ TEST_F(SphereFiles, PlanesOfSevenDigitsArePlanesWithAWarning) {
   };
   const auto plane = at("-50.0000114");
   ASSERT_TRUE(plane) << plane.error().what();
-  EXPECT_EQ(plane->sphere_radius, 0);
-  EXPECT_EQ(plane->z, -50);
+  EXPECT_EQ(plane->space().radius(), 0);
+  EXPECT_EQ(plane->z(), -50);
   ASSERT_EQ(plane->warnings.size(), 1U);
   EXPECT_EQ(
       plain(plane->warnings[0]),
@@ -307,11 +307,11 @@ TEST_F(SphereFiles, SmallPiecesOfSpheresAreNoPlanes) {
   for (const double lon : {0.0, 120.0, 240.0}) f.points.push_back({lon, 90 - 1e-5});
   f.triangles = {{0, 1, 2}};
   ASSERT_TRUE(project(f, "sphere"));
-  f.sphere_points[0] = f.sphere_radius * direction_of(Vec2{0, 90});
+  std::get<SpherePoints>(f.points_in).places[0] = f.space().radius() * direction_of(Vec2{0, 90});
   ASSERT_TRUE(write(path("m.obj"), f));
   const auto again = read(path("m.obj"));
   ASSERT_TRUE(again);
-  EXPECT_EQ(again->sphere_radius, f.sphere_radius);
+  EXPECT_EQ(again->space().radius(), f.space().radius());
 }
 
 TEST_F(SphereFiles, OfWhatIsNearlyASphereTheWorstPointIsNamed) {
@@ -332,12 +332,12 @@ TEST_F(SphereFiles, JigsawEllipsoidsAreSpheresOrRefused) {
   const std::string radians = "0;0;0\n1.5707963267948966;0;0\n0;1.5707963267948966;0\n";
   const auto degrees = ellipsoid("RADII=2;2;2\n", "NDIMS=2\n", radians);
   ASSERT_TRUE(degrees) << degrees.error().what();
-  EXPECT_EQ(degrees->sphere_radius, 2);
-  EXPECT_EQ(degrees->sphere_points, (std::vector<Vec3>{{2, 0, 0}, {0, 2, 0}, {0, 0, 2}}));
+  EXPECT_EQ(degrees->space().radius(), 2);
+  EXPECT_EQ(degrees->sphere()->places, (std::vector<Vec3>{{2, 0, 0}, {0, 2, 0}, {0, 0, 2}}));
   EXPECT_EQ(degrees->weights, (std::vector<double>{0.5, 0, 0}));
   const auto in_space = ellipsoid("RADII=2;2;2\n", "NDIMS=3\n", "2;0;0;0\n0;2;0;0\n0;0;2;0\n");
   ASSERT_TRUE(in_space) << in_space.error().what();
-  EXPECT_EQ(in_space->sphere_points, degrees->sphere_points);
+  EXPECT_EQ(in_space->sphere()->places, degrees->sphere()->places);
   const auto flat = ellipsoid("RADII=2;2;1\n", "NDIMS=2\n", radians);
   ASSERT_FALSE(flat);
   EXPECT_EQ(plain(flat.error().what()),

@@ -86,7 +86,7 @@ class FileTest : public ::testing::Test {
 inline MeshFile sample() {
   MeshFile f;
   f.points = {{0, 0}, {1.0 / 3, -0.0}, {2, 0}, {2, 1}, {0.1 + 0.2, 1}, {0, 1}};
-  f.z = 0.7;
+  f.points_in = PlanePoints{0.7};
   f.weights = {
       0, -0.0, 1.0 / 3, std::numeric_limits<double>::denorm_min(), -1e-300, std::numeric_limits<double>::max()};
   f.triangles = {{0, 1, 5}, {1, 4, 5}, {1, 2, 4}, {2, 3, 4}};
@@ -160,7 +160,7 @@ inline void expect_same_data(const MeshFile& a, const MeshFile& b) {
 inline void expect_same_mesh(const MeshFile& a, const MeshFile& b) {
   ASSERT_EQ(a.points.size(), b.points.size());
   EXPECT_EQ(std::memcmp(a.points.data(), b.points.data(), a.points.size() * sizeof(Vec2)), 0);
-  EXPECT_EQ(a.z, b.z);
+  EXPECT_EQ(a.z(), b.z());
   EXPECT_TRUE(same_bits(a.weights, b.weights));
   EXPECT_EQ(a.triangles, b.triangles);
   EXPECT_EQ(a.regions, b.regions);

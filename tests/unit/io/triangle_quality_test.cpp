@@ -122,7 +122,7 @@ TEST_F(TriangleQualityOfFiles, IsOfLengthsAndSoNotOfPointsInDegrees) {
   MeshFile file;
   file.points = {{0, 60}, {1, 60}, {0.5, 60.5}};
   file.triangles = {{0, 1, 2}};
-  file.geographic = true;
+  file.points_in = DegreePoints{};
   ASSERT_TRUE(write(path("degrees.vtu"), file));
   EXPECT_TRUE(all_cell_data(path("degrees.vtu")).empty());
 

@@ -1,5 +1,5 @@
 // Legacy VTK in the forms that are about: versions 2 to 5.1, binary, polydata, attributes of all kinds.
-#include "io/vtk_arrays.hpp"
+#include "io/formats/vtk/vtk_arrays.hpp"
 #include "support.hpp"
 
 namespace temper::io {
@@ -72,7 +72,7 @@ TEST_F(FileTest, PolydataWithLinesAndVerticesIsRead) {
            "VERTICES 1 3\n2 0 3\nLINES 1 4\n3 0 1 2\nPOLYGONS 2 8\n3 0 1 2\n3 0 2 3\nCELL_DATA 4\nSCALARS region int\n"
            "LOOKUP_TABLE default\n1 2 3 4\n"));
   ASSERT_TRUE(f) << f.error().what();
-  EXPECT_EQ(f->z, 1);
+  EXPECT_EQ(f->z(), 1);
   EXPECT_EQ(f->triangles, kTriangles);
   EXPECT_EQ(f->regions, (std::vector<std::int32_t>{3, 4}));
   EXPECT_EQ(f->lines, (std::vector<std::array<std::int32_t, 2>>{{0, 1}, {1, 2}}));

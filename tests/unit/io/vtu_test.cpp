@@ -1,8 +1,8 @@
 // VTU in the forms that other programs write, made here by hand: every encoding, header type and byte order.
 #include <zlib.h>
 
-#include "io/failure.hpp"
-#include "io/vtu_codec.hpp"
+#include "io/containers/vtu_codec.hpp"
+#include "io/text/failure.hpp"
 #include "support.hpp"
 #include "support/sanitizers.hpp"
 #include "support/std_threads.hpp"
@@ -307,14 +307,14 @@ using VtuPeriod = FileTest;
 
 TEST_F(VtuPeriod, PeriodAndPointsComeBackBitForBit) {
   MeshFile f = from_mesh(*random_periodic({.vertices = 400, .period = {0.7, 3.1}}));
-  f.points[5].x -= f.period.x;
+  f.points[5].x -= f.periodic()->period.x;
   for (const Encoding encoding : {Encoding::ascii, Encoding::base64, Encoding::appended}) {
     const auto warnings = write(path("a.vtu"), f, {.format = "vtu", .encoding = encoding});
     ASSERT_TRUE(warnings) << warnings.error().what();
     EXPECT_TRUE(warnings->empty());
     const auto back = read(path("a.vtu"));
     ASSERT_TRUE(back) << back.error().what();
-    EXPECT_EQ(back->period, f.period);
+    EXPECT_EQ(back->periodic()->period, f.periodic()->period);
     EXPECT_EQ(back->points, f.points);
     EXPECT_TRUE(back->field_data.empty());
   }

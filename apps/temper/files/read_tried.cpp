@@ -1,0 +1,149 @@
+// See read_tried.hpp. The child tells how it ended through a pipe: nothing but the end of the pipe when it died.
+#include "files/read_tried.hpp"
+
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "exit.hpp"
+
+namespace temper::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// What the child says; after kFailed the code of the error, its place, a zero, and its message.
+constexpr char kDone = 'd', kFailed = 'f';
+
+struct Budget {
+  unsigned seconds = 0;     ///< of processor time
+  std::uint64_t bytes = 0;  ///< of memory, on top of what the process has; where the system tells how much that is
+};
+/// What reading and unpacking a file of that size takes, many times over, and the libraries that do it.
+Budget budget_of(std::uint64_t file_bytes) {
+  constexpr std::uint64_t kMegabyte = 1 << 20;
+  return {static_cast<unsigned>(3 + file_bytes / kMegabyte), 768 * kMegabyte + 256 * file_bytes};
+}
+
+/// The size of a file of HDF5; nothing for others and for pipes.
+std::optional<std::uint64_t> size_of_hdf5(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return std::nullopt;
+  char head[8] = {};
+  std::ifstream(path, std::ios::binary).read(head, sizeof head);
+  if (std::memcmp(head, "\x89HDF\r\n\x1a\n", sizeof head) != 0) return std::nullopt;
+  return std::filesystem::file_size(path, none);
+}
+
+/// Memory that the process has, or 0 when the system does not tell.
+std::uint64_t address_space() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+void limit_this_process(const Budget& budget) {
+#ifdef __linux__
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+  for (const int each : {SIGINT, SIGTERM, SIGXCPU}) std::signal(each, SIG_DFL);
+  const rlimit seconds = {budget.seconds, budget.seconds + 1};
+  setrlimit(RLIMIT_CPU, &seconds);
+  if (const std::uint64_t now = address_space(); now > 0) {
+    const rlimit bytes = {now + budget.bytes, now + budget.bytes};
+    setrlimit(RLIMIT_AS, &bytes);
+  }
+}
+
+[[noreturn]] void be_the_child(int pipe, const Budget& budget, const std::string& path) {
+  limit_this_process(budget);
+  std::string said = {kDone};
+  if (const auto file = io::read(path); !file) {
+    said = {kFailed, static_cast<char>(file.error().code)};
+    said.append(file.error().where).append(1, '\0').append(file.error().message);
+  }
+  std::size_t at = 0;
+  while (at < said.size()) {
+    const ssize_t n = ::write(pipe, said.data() + at, said.size() - at);
+    if (n < 0 && errno != EINTR) break;
+    if (n > 0) at += static_cast<std::size_t>(n);
+  }
+  _exit(0);  // nothing of the parent's is flushed or torn down
+}
+
+/// All that comes through the pipe until its end, or nothing when that does not come in time.
+std::optional<std::string> listen(int pipe, Clock::time_point until) {
+  std::string said;
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();
+    if (left <= 0) return std::nullopt;
+    pollfd wait = {pipe, POLLIN, 0};
+    const int ready = poll(&wait, 1, static_cast<int>(left));
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
+    char buffer[4096];
+    const ssize_t n = ::read(pipe, buffer, sizeof buffer);
+    if (n == 0) return said;
+    if (n < 0 && errno != EINTR) return std::nullopt;
+    if (n > 0) said.append(buffer, static_cast<std::size_t>(n));
+  }
+}
+
+int end_of(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+/// Why the file is not to be read here; nothing when the child got through it.
+Expected<void> try_in_child(const std::string& path, const Budget& budget) {
+  int ends[2];
+  const pid_t child = pipe(ends) == 0 ? fork() : -1;
+  if (child < 0) {
+    return InputError{
+        ErrorCode::unsupported, path,
+        std::string("is first read in a process of its own, and none could be started: ") + std::strerror(errno)};
+  }
+  if (child == 0) be_the_child(ends[1], budget, path);
+  close(ends[1]);
+  // A child that waits for ever costs no processor time. On a busy machine it may have little of it.
+  const auto patience = std::chrono::seconds(20 + 10 * budget.seconds);
+  const auto said = listen(ends[0], Clock::now() + patience);
+  close(ends[0]);
+  if (!said) kill(child, SIGKILL);
+  const int status = end_of(child);
+  if (said && said->starts_with(kDone)) return {};
+  if (said && said->starts_with(kFailed)) {
+    const std::size_t end = said->find('\0', 2);
+    return InputError{static_cast<ErrorCode>((*said)[1]), said->substr(2, end - 2), said->substr(end + 1)};
+  }
+  const bool slow = !said || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL));
+  return InputError{
+      ErrorCode::syntax, path,
+      slow ? "libhdf5 does not get to its end within " + std::to_string(budget.seconds) +
+                 " s: the file is damaged, or should be written without compression, or as classic NetCDF (nccopy -k "
+                 "cdf5)"
+           : "libhdf5 dies of it: the file is damaged"};
+}
+
+}  // namespace
+
+io::MeshFile read_tried(const std::string& path, Executor* executor) {
+  if (const auto size = size_of_hdf5(path)) or_fail(try_in_child(path, budget_of(*size)));
+  return or_fail(io::read(path, {executor}));
+}
+
+}  // namespace temper::app

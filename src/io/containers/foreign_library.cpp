@@ -1,0 +1,76 @@
+// See foreign_library.hpp.
+#include "io/containers/foreign_library.hpp"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "io/text/failure.hpp"
+
+namespace temper::io {
+
+namespace {
+
+bool load_foreign(const char* file, const std::function<bool(void*)>& take) {
+  void* const handle = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+  return handle != nullptr && take(handle);
+}
+
+/// Python packages bring libraries along, as netcdf4.libs/libnetcdf-HASH.so.22 among all packages. Where this code is
+/// in one of them, or the program in one, they are found: two or three folders above.
+void find_in_python_packages(const ForeignLibrary& library, const std::function<bool(void*)>& take) {
+  namespace fs = std::filesystem;
+  static const char here = 0;
+  Dl_info self = {};
+  if (dladdr(&here, &self) == 0) return;
+  std::error_code ignored;
+  fs::path folder = fs::canonical(self.dli_fname, ignored).parent_path();
+  for (int level = 0; level < 3 && folder.has_relative_path(); ++level, folder = folder.parent_path()) {
+    for (const char* package : library.packages) {
+      // Not range-for, whose ++ throws.
+      for (fs::directory_iterator entry(folder / package, ignored), end; entry != end; entry.increment(ignored)) {
+        const fs::path& file = entry->path();
+        if (!file.filename().string().starts_with(library.file_in_package)) continue;
+        if (load_foreign(file.c_str(), take)) return;
+      }
+    }
+  }
+}
+
+/// What the variable names, or null.
+const char* chosen_file(const ForeignLibrary& library) {
+  const char* const chosen = std::getenv(library.variable);
+  return chosen != nullptr && *chosen != '\0' ? chosen : nullptr;
+}
+
+}  // namespace
+
+void find_library(const ForeignLibrary& library, const std::function<bool(void*)>& take) {
+  if (const char* const chosen = chosen_file(library)) {
+    load_foreign(chosen, take);
+    return;
+  }
+  for (const char* file : library.files) {
+    if (load_foreign(file, take)) return;
+  }
+  find_in_python_packages(library, take);
+}
+
+void* symbol_of(void* handle, const char* name) { return dlsym(handle, name); }
+
+std::mutex& foreign_tables() {
+  static std::mutex tables;
+  return tables;
+}
+
+void fail_without(const ForeignLibrary& library, const std::string& path) {
+  const char* const chosen = chosen_file(library);
+  fail(ErrorCode::unsupported, path,
+       chosen != nullptr
+           ? text(library.need, "; ", library.variable, " names ", chosen, ", which cannot be loaded as that")
+           : text(library.need, ", and there is none: install it (", library.install, "), or name its file in ",
+                  library.variable));
+}
+
+}  // namespace temper::io

@@ -1,0 +1,172 @@
+// HDF5 files in memory, by the C library: what can go wrong is an exception, and nothing is opened by name.
+//
+// What is written is laid out by the library without the numbers, so that it holds some kilobytes however large the
+// mesh is. They come from the mesh, block by block, where the library has left room for them.
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/containers/hdf5_library.hpp"
+#include "io/containers/vtk_array.hpp"
+#include "io/disk/files.hpp"
+#include "io/disk/output.hpp"
+#include "io/text/values.hpp"
+
+namespace temper::io {
+
+/// An object of the library's, which is closed in the end.
+class Hdf5Id {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Hdf5Id() = default;
+  Hdf5Id(hid_t id, Close how) : id_(id), close_(how) {}
+  ~Hdf5Id() { close(); }
+  Hdf5Id(Hdf5Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Hdf5Id& operator=(Hdf5Id&& other) noexcept {
+    close();
+    id_ = std::exchange(other.id_, -1);
+    close_ = other.close_;
+    return *this;
+  }
+  Hdf5Id(const Hdf5Id&) = delete;
+  Hdf5Id& operator=(const Hdf5Id&) = delete;
+
+  operator hid_t() const { return id_; }
+  /// What the library says to closing it; negative is a failure.
+  herr_t close() { return id_ < 0 ? 0 : close_(std::exchange(id_, -1)); }
+
+ private:
+  hid_t id_ = -1;
+  Close close_ = nullptr;
+};
+
+/// While it lives the library prints no errors; afterwards it does with them what it did before, which may be what
+/// another user of it has set. Whoever makes one holds foreign_tables().
+class QuietHdf5 {
+ public:
+  explicit QuietHdf5(const Hdf5Library& library) : library_(library) {
+    library_.H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+    library_.H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~QuietHdf5() { library_.H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+  QuietHdf5(const QuietHdf5&) = delete;
+  QuietHdf5& operator=(const QuietHdf5&) = delete;
+
+ private:
+  const Hdf5Library& library_;
+  H5E_auto2_t print_ = nullptr;
+  void* data_ = nullptr;
+};
+
+struct Hdf5Dataset {
+  std::string name;
+  Hdf5Id id;
+  std::vector<std::size_t> sizes;
+  std::optional<Scalar> scalar;  ///< none: text and types of the user
+};
+
+class Hdf5Reader {
+ public:
+  /// The bytes must outlive the reader.
+  explicit Hdf5Reader(Source& source);
+  Hdf5Reader(const Hdf5Reader&) = delete;
+  Hdf5Reader& operator=(const Hdf5Reader&) = delete;
+  ~Hdf5Reader() = default;
+
+  [[nodiscard]] const Hdf5Id& root() const { return file_; }
+  /// The group of that name; nothing when there is no such name, or it is that of something else.
+  [[nodiscard]] std::optional<Hdf5Id> group(const Hdf5Id& in, const std::string& name) const;
+  [[nodiscard]] std::optional<Hdf5Dataset> find(const Hdf5Id& in, const std::string& name) const;
+  /// Fails when there is none.
+  [[nodiscard]] Hdf5Dataset dataset(const Hdf5Id& in, const std::string& name) const;
+  /// In the order in which they came to be, where the file has kept it.
+  [[nodiscard]] std::vector<std::string> names(const Hdf5Id& in) const;
+
+  /// All its numbers, row by row. Failure, when it has none.
+  [[nodiscard]] Values values(const Hdf5Dataset& dataset) const;
+  /// Those of any floating point type.
+  [[nodiscard]] std::vector<double> reals(const Hdf5Dataset& dataset) const;
+  /// Those of any type of integers. Failure, when one is beyond 32 bits, as its least and greatest number are taken to
+  /// be.
+  [[nodiscard]] std::vector<std::int32_t> integers(const Hdf5Dataset& dataset) const;
+  [[nodiscard]] std::vector<std::int64_t> long_integers(const Hdf5Dataset& dataset) const;
+
+  /// Of an attribute; empty when there is none of that name and kind.
+  [[nodiscard]] std::vector<std::int64_t> integer_attribute(const Hdf5Id& of, const char* name) const;
+  [[nodiscard]] std::optional<std::string> text_attribute(const Hdf5Id& of, const char* name) const;
+
+ private:
+  hid_t check(hid_t status, std::string_view doing) const;
+  [[nodiscard]] Hdf5Id object(const Hdf5Id& in, const std::string& name) const;
+  [[nodiscard]] std::vector<std::size_t> sizes(const Hdf5Id& space) const;
+  [[nodiscard]] std::optional<Scalar> scalar(const Hdf5Id& type) const;
+  void expect_numbers_within(const Hdf5Dataset& dataset) const;
+  [[nodiscard]] std::size_t allowed_values(const Hdf5Dataset& dataset) const;
+  void expect_integers(const Hdf5Dataset& dataset) const;
+  template <class T>
+  [[nodiscard]] std::vector<T> values_as(const Hdf5Dataset& dataset, Scalar scalar) const;
+
+  const std::string& path_;
+  std::string& bytes_;
+  Allowance& allowance_;
+  const Hdf5Library& library_;
+  std::unique_lock<std::mutex> turn_;
+  QuietHdf5 quiet_;  // outlives what is open
+  Hdf5Id links_;     // properties of access: links do not lead to other files
+  Hdf5Id file_;
+};
+
+class Hdf5Writer {
+ public:
+  /// `objects`: about how many groups and arrays there will be.
+  Hdf5Writer(std::string path, std::size_t objects);
+  Hdf5Writer(const Hdf5Writer&) = delete;
+  Hdf5Writer& operator=(const Hdf5Writer&) = delete;
+  ~Hdf5Writer() = default;
+
+  [[nodiscard]] const Hdf5Id& root() const { return file_; }
+  [[nodiscard]] Hdf5Id group(const Hdf5Id& in, const std::string& name) const;
+  void attribute(const Hdf5Id& of, const char* name, const std::vector<std::int64_t>& values) const;
+  void attribute(const Hdf5Id& of, const char* name, std::string_view value) const;
+  /// A new dataset, a row for each tuple; the numbers are written by finish(). What its array looks at must outlive
+  /// this.
+  [[nodiscard]] Hdf5Id dataset(const Hdf5Id& in, const std::string& name, VtkArray array);
+  void finish(Output& out);
+
+ private:
+  struct Waiting {
+    std::uint64_t offset;
+    VtkArray array;
+  };
+  /// The file as the library has it in memory, which is all but the numbers.
+  struct Image {
+    std::unique_ptr<char, void (*)(void*)> bytes{nullptr, std::free};
+    std::size_t size = 0;
+  };
+  static H5FD_file_image_callbacks_t callbacks(Image* image);
+  hid_t check(hid_t status, std::string_view doing) const;
+  /// Bytes of the layout: zeros where the library has not been.
+  void put_layout(Output& out, std::uint64_t from, std::uint64_t to) const;
+
+  std::string path_;
+  const Hdf5Library& library_;
+  std::unique_lock<std::mutex> turn_;
+  QuietHdf5 quiet_;  // outlives what is open
+  Image image_;      // outlives the file
+  Hdf5Id ordered_, utf8_, without_numbers_;
+  Hdf5Id file_;
+  std::vector<Waiting> waiting_;
+};
+
+/// The type of numbers in memory.
+[[nodiscard]] hid_t hdf5_type(const Hdf5Library& library, Scalar scalar);
+
+}  // namespace temper::io

@@ -1,0 +1,122 @@
+// NetCDF files in memory, by the C library: what can go wrong is an exception, and nothing is opened by name.
+//
+// Written are the classic formats: with 64-bit offsets, or CDF-5 when the types of some array need it. Read is all that
+// the library reads, NetCDF-4 (HDF5) included.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/containers/netcdf_library.hpp"
+#include "io/disk/files.hpp"
+#include "io/disk/output.hpp"
+#include "io/text/values.hpp"
+
+namespace temper::io {
+
+/// The magic numbers of the classic formats and of HDF5.
+[[nodiscard]] bool is_netcdf(std::string_view head);
+
+/// Refuses a classic file whose header is wrong.
+void check_netcdf_header(const Source& source);
+
+struct NetcdfVariable {
+  int id = -1;
+  std::string name;
+  std::vector<int> dimensions;
+  std::vector<std::size_t> sizes;  ///< of the dimensions
+  std::optional<Scalar> scalar;    ///< none: characters, strings and types of the user
+
+  [[nodiscard]] std::size_t n_values() const;
+};
+
+/// An open file of libnetcdf's, which is closed in the end. The library keeps a table of open files that only one
+/// thread may touch at a time: others wait until this one is closed.
+class NetcdfId {
+ public:
+  explicit NetcdfId(const NetcdfLibrary& library);
+  ~NetcdfId();
+  NetcdfId(const NetcdfId&) = delete;
+  NetcdfId& operator=(const NetcdfId&) = delete;
+
+  operator int() const { return id_; }
+  [[nodiscard]] int* to_open() { return &id_; }
+  /// The library has closed it.
+  void is_closed() { id_ = -1; }
+
+ private:
+  std::unique_lock<std::mutex> turn_;
+  const NetcdfLibrary& library_;
+  int id_ = -1;
+};
+
+class NetcdfReader {
+ public:
+  static constexpr std::int64_t kNoInteger = std::numeric_limits<std::int64_t>::min();
+  /// The bytes must outlive the reader.
+  explicit NetcdfReader(Source& source);
+  NetcdfReader(const NetcdfReader&) = delete;
+  NetcdfReader& operator=(const NetcdfReader&) = delete;
+  ~NetcdfReader() = default;
+
+  [[nodiscard]] const std::vector<NetcdfVariable>& variables() const { return variables_; }
+  [[nodiscard]] const NetcdfVariable* find(std::string_view name) const;
+  /// Fails when there is none.
+  [[nodiscard]] const NetcdfVariable& variable(std::string_view name) const;
+  [[nodiscard]] std::string dimension_name(int dimension) const;
+  [[nodiscard]] Values values(const NetcdfVariable& variable) const;
+  /// Of floating types, too, where all values are whole; kNoInteger for those that are not a number.
+  [[nodiscard]] std::vector<std::int64_t> integers(const NetcdfVariable& variable) const;
+  /// Text of an attribute of a variable, or of the file when it is null; empty when there is none.
+  [[nodiscard]] std::string text_attribute(const NetcdfVariable* variable, const char* name) const;
+  [[nodiscard]] std::optional<double> number_attribute(const NetcdfVariable* variable, const char* name) const;
+
+ private:
+  void check(int status, std::string_view doing) const;
+
+  const std::string& path_;
+  std::size_t bytes_;
+  Allowance& allowance_;
+  const NetcdfLibrary& library_;
+  NetcdfId id_;
+  std::vector<NetcdfVariable> variables_;
+};
+
+class NetcdfWriter {
+ public:
+  /// `large_types`: some array is of a type that only CDF-5 has.
+  NetcdfWriter(std::string path, bool large_types);
+  NetcdfWriter(const NetcdfWriter&) = delete;
+  NetcdfWriter& operator=(const NetcdfWriter&) = delete;
+  ~NetcdfWriter() = default;
+
+  /// The dimension of that name; made when it is not there. Precondition: size > 0.
+  int dimension(const std::string& name, std::size_t size);
+  /// A new variable; the values are written by finish(), a single one when there are no dimensions.
+  int variable(const std::string& name, const std::vector<int>& dimensions, Values values);
+  [[nodiscard]] bool has(const std::string& name) const;
+  static constexpr int kFile = -1;  ///< instead of a variable
+  void attribute(int variable, const char* name, std::string_view text);
+  void attribute(int variable, const char* name, double value);
+  void attribute(int variable, const char* name, std::int32_t value);
+  void finish(Output& out);
+
+ private:
+  void check(int status, std::string_view doing) const;
+
+  std::string path_;
+  const NetcdfLibrary& library_;
+  NetcdfId id_;
+  std::vector<std::pair<int, Values>> waiting_;
+};
+
+/// Says whether a file with these data has to be CDF-5: for their types, or as a variable, of which the largest one
+/// besides them has so many values of eight bytes or fewer, is longer than those of 64-bit offsets may be.
+[[nodiscard]] bool needs_cdf5(const MeshFile& file, std::size_t most_values);
+
+}  // namespace temper::io

@@ -1,0 +1,250 @@
+#include "io/conversion/data_update.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "io/conversion/globe.hpp"
+#include "io/text/failure.hpp"
+#include "io/text/values.hpp"
+#include "temper/geometry.hpp"
+#include "temper/io.hpp"
+#include "temper/places.hpp"
+
+namespace temper::io {
+namespace {
+
+/// Flags of medit say what is special about a point of the user's: nothing is about a new one.
+bool is_flag(const DataArray& a) { return a.name == "medit:corner" || a.name == "medit:required"; }
+
+/// At a place: of floating numbers the linear interpolation, of integers what all corners have in common, if anything.
+template <class T>
+std::optional<T> value_at(const std::vector<T>& values, std::size_t n, std::size_t component, const Place& place) {
+  const auto at_corner = [&](VertexId v) { return values[n * v.index + component]; };
+  if constexpr (std::is_floating_point_v<T>) {
+    return static_cast<T>(interpolated(place, [&](VertexId v) { return double{at_corner(v)}; }));
+  } else {
+    const T first = at_corner(place.corners[0]);
+    for (std::size_t k = 1; k < static_cast<std::size_t>(place.n); ++k) {
+      if (at_corner(place.corners[k]) != first) return {};
+    }
+    return first;
+  }
+}
+
+Values at_triangles(const DataArray& a, const IdVector<TriangleId, TriangleId>& sources) {
+  const auto n = static_cast<std::ptrdiff_t>(a.components);
+  return std::visit(
+      [&](const auto& values) -> Values {
+        std::remove_cvref_t<decltype(values)> result;
+        result.reserve(sources.size() * static_cast<std::size_t>(n));
+        for (const TriangleId t : sources) {
+          const auto first = values.begin() + n * static_cast<std::ptrdiff_t>(t.index);
+          result.insert(result.end(), first, first + n);
+        }
+        return result;
+      },
+      a.values);
+}
+
+class DataUpdater {
+ public:
+  DataUpdater(MeshFile& file, const Mesh& mesh, const Former& former, const UpdateOptions& options)
+      : file_(file), mesh_(mesh), former_(former), options_(options) {}
+
+  DataReport update() {
+    if (file_.point_data.empty() && file_.cell_data.empty()) return {};
+    measure();
+    if (needs_places()) {
+      if (const Expected<void> found = find_sources(); !found) {
+        drop_all(found.error().what());
+        return std::move(report_);
+      }
+    }
+    update_points();
+    update_cells();
+    return std::move(report_);
+  }
+
+ private:
+  [[nodiscard]] VertexId former(VertexId v) const { return former_.empty() ? v : former_[v]; }
+  void measure() {
+    std::vector<double> distances;
+    for (const VertexId v : mesh_.vertices()) {
+      const VertexId was = former(v);
+      report_.points += was.valid() ? 1 : 0;
+      report_.points_inserted += was.valid() ? 0 : 1;
+      if (was.valid() && distance_from_before(v) > 0) distances.push_back(distance_from_before(v));
+    }
+    report_.points_moved = distances.size();
+    report_.distance = spread(std::move(distances));
+    report_.triangles = mesh_.n_triangles();
+    for (const TriangleId t : mesh_.triangles()) report_.triangles_changed += is_same(t) ? 0 : 1;
+  }
+  /// Of a vertex that was there: from its place in the file.
+  [[nodiscard]] double distance_from_before(VertexId v) const {
+    const std::size_t was = former(v).index;
+    const Space& space = mesh_.space();
+    const WeightedPoint now = mesh_.point(v), before = as_point(place_of(file_, was));
+    return space.same_place(space.in_domain(before), now) ? 0 : distance(space, before, space.image(now, before));
+  }
+  /// Triangle t has the corners that the file's has, at the same places.
+  [[nodiscard]] bool is_same(TriangleId t) const {
+    if (t.index >= file_.triangles.size()) return false;
+    auto before = file_.triangles[t.index];
+    std::array<std::int32_t, 3> now = {};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId v = mesh_.corners(t)[k], was = former(v);
+      if (!was.valid() || distance_from_before(v) > 0) return false;
+      now[k] = static_cast<std::int32_t>(was.index);
+    }
+    std::sort(before.begin(), before.end());  // clockwise ones were reversed
+    std::sort(now.begin(), now.end());
+    return before == now;
+  }
+  [[nodiscard]] bool needs_places() const {
+    if (report_.points_inserted > 0 || (report_.triangles_changed > 0 && !file_.cell_data.empty())) return true;
+    return report_.points_moved > 0 &&
+           std::any_of(file_.point_data.begin(), file_.point_data.end(),
+                       [this](const DataArray& a) { return options_.rules.of(a) == DataRule::interpolate; });
+  }
+  [[nodiscard]] Expected<void> find_sources() {
+    MeshInput input;
+    input.space = mesh_.space();
+    input.points = file_.points;
+    input.sphere_points = sphere_places(file_);
+    input.triangles = file_.triangles;
+    input.regions = file_.regions;
+    input.executor = options_.executor;
+    const Expected<BuiltMesh> before = Mesh::build(input);
+    if (!before) return before.error();
+    places_ = places_of_vertices(before->mesh, mesh_, former_, options_.executor);
+    if (!file_.cell_data.empty()) sources_ = sources_of_triangles(before->mesh, mesh_, places_, options_.executor);
+    return {};
+  }
+  void update_points() {
+    std::vector<DataArray> left;
+    for (DataArray& a : file_.point_data) {
+      const bool follows = options_.rules.of(a) == DataRule::interpolate;
+      std::optional<Values> values = at_vertices(a);
+      (!values ? report_.dropped : follows ? report_.interpolated : report_.kept).push_back(a.name);
+      if (values) left.push_back({std::move(a.name), a.components, *std::move(values)});
+    }
+    file_.point_data = std::move(left);
+    warn_of_dropped("integers differ around a new point");
+  }
+  void update_cells() {
+    for (DataArray& a : file_.cell_data) {
+      report_.of_triangles.push_back(a.name);
+      if (!sources_.empty()) a.values = at_triangles(a, sources_);
+    }
+  }
+  void drop_all(const std::string& why) {
+    for (auto* arrays : {&file_.point_data, &file_.cell_data}) {
+      for (const DataArray& a : *arrays) report_.dropped.push_back(a.name);
+      arrays->clear();
+    }
+    warn_of_dropped(why);
+  }
+  /// The array at the vertices of the mesh; nothing when integers around a new one have nothing in common.
+  [[nodiscard]] std::optional<Values> at_vertices(const DataArray& a) const {
+    const bool stays = options_.rules.of(a) == DataRule::keep || places_.empty();
+    const auto n = static_cast<std::size_t>(a.components);
+    return std::visit(
+        [&](const auto& values) -> std::optional<Values> {
+          std::remove_cvref_t<decltype(values)> result;
+          result.reserve(mesh_.n_vertices() * n);
+          for (const VertexId v : mesh_.vertices()) {
+            const VertexId was = former(v);
+            for (std::size_t i = 0; i < n; ++i) {
+              const auto value = stays && was.valid() ? std::optional(values[n * was.index + i])
+                                 : is_flag(a)         ? std::optional(ElementOf<decltype(values)>())
+                                                      : value_at(values, n, i, places_[v]);
+              if (!value) return {};
+              result.push_back(*value);
+            }
+          }
+          return result;
+        },
+        a.values);
+  }
+  void warn_of_dropped(std::string_view why) const {
+    std::string names;
+    for (const std::string& name : report_.dropped) names += text(names.empty() ? "" : ", ", name);
+    if (!names.empty()) file_.warnings.push_back(text("data are dropped, because ", why, ": ", names));
+  }
+
+  MeshFile& file_;
+  const Mesh& mesh_;
+  const Former& former_;
+  const UpdateOptions& options_;
+  IdVector<VertexId, Place> places_;          // in the mesh of before; empty: not needed
+  IdVector<TriangleId, TriangleId> sources_;  // triangles of the mesh of before; empty: the same
+  DataReport report_;
+};
+
+}  // namespace
+
+DataReport update_data(MeshFile& file, const Mesh& mesh, const Former& former, const UpdateOptions& options) {
+  return DataUpdater(file, mesh, former, options).update();
+}
+
+namespace {
+
+InputError wrong_rule(std::string message) { return {ErrorCode::invalid_option, {}, std::move(message)}; }
+
+std::optional<DataRule> rule_named(std::string_view name) {
+  if (name == "interpolate") return DataRule::interpolate;
+  if (name == "keep") return DataRule::keep;
+  return {};
+}
+
+std::string names_of(const std::vector<DataArray>& arrays) {
+  std::string names;
+  for (const DataArray& a : arrays) names += text(names.empty() ? "" : ", ", a.name);
+  return names.empty() ? "none" : names;
+}
+
+}  // namespace
+
+DataRule DataRules::of(const DataArray& array) const {
+  if (!is_floating(array.values)) return DataRule::keep;
+  const auto found = exceptions.find(array.name);
+  return found == exceptions.end() ? rule : found->second;
+}
+
+Expected<DataRules> parse_data_rules(std::span<const std::string> words) {
+  DataRules rules;
+  std::optional<DataRule> of_all;
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    const std::optional<DataRule> rule = rule_named(std::string_view(word).substr(0, equals));
+    if (!rule || equals + 1 == word.size()) {
+      return wrong_rule(text("'", word, "' is not interpolate, keep, interpolate=NAME or keep=NAME"));
+    }
+    const bool contradicts = equals == std::string::npos
+                                 ? of_all.value_or(*rule) != *rule
+                                 : rules.exceptions.emplace(word.substr(equals + 1), *rule).first->second != *rule;
+    if (contradicts) return wrong_rule(text("'", word, "' contradicts what was said before it"));
+    if (equals == std::string::npos) of_all = rule;
+  }
+  rules.rule = of_all.value_or(DataRule::interpolate);
+  return rules;
+}
+
+Expected<void> check_data_rules(const DataRules& rules, const MeshFile& file) {
+  for (const auto& [name, rule] : rules.exceptions) {
+    const DataArray* array = find(file.point_data, name);
+    if (array == nullptr)
+      return wrong_rule(text("there is no point data '", name, "'; there are: ", names_of(file.point_data)));
+    if (rule == DataRule::interpolate && !is_floating(array->values)) {
+      return wrong_rule(text("point data '", name, "' are integers (", type_name(array->values),
+                             "), which stay with their points: only floating point data are interpolated"));
+    }
+  }
+  return {};
+}
+
+}  // namespace temper::io

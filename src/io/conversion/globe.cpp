@@ -1,0 +1,270 @@
+#include "io/conversion/globe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "io/text/failure.hpp"
+
+namespace temper::io {
+namespace {
+
+// Of the radius, or of the extent of a plane: what is left of coordinates with seven digits.
+constexpr double kOff = 1e-6;
+
+bool is_off(double distance, double radius) { return !(std::abs(distance - radius) <= kOff * radius); }
+
+/// 0 where there are no points.
+double median_distance(const std::vector<Vec3>& points) {
+  if (points.empty()) return 0;
+  std::vector<double> all;
+  all.reserve(points.size());
+  for (const Vec3 p : points) all.push_back(length(p));
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  return *middle;
+}
+
+// --- a plane or a sphere -----------------------------------------------------------------------------------------
+
+void expect_finite(const std::vector<Vec3>& points, const InputNames& names) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 p = points[i];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
+      fail(ErrorCode::not_finite, names.point_where(i),
+           text(names.point(i), " has coordinates (", p.x, ", ", p.y, "), expected finite numbers"));
+    }
+    if (!std::isfinite(p.z)) {
+      fail(ErrorCode::not_finite, names.point_where(i),
+           text(names.point(i), " has z = ", p.z, ", expected a finite number"));
+    }
+  }
+}
+
+std::vector<Vec3> kept(const std::vector<Vec3>& points, const std::vector<bool>& used) {
+  std::vector<Vec3> result;
+  result.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (used[i]) result.push_back(points[i]);
+  }
+  return result;
+}
+
+/// The longest side of the box around the points.
+double extent(const std::vector<Vec3>& points) {
+  if (points.empty()) return 0;
+  Vec3 low = points[0], high = low;
+  for (const Vec3 p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+}
+
+struct PlaneFit {
+  std::size_t first = 0, worst = 0;  // points of triangles: that whose z is that of the plane, and that most off it
+  double off = 0;                    // how far
+  std::vector<std::size_t> unused;   // points of no triangle that are not in the plane
+};
+
+PlaneFit fit_plane(const std::vector<Vec3>& points, const std::vector<bool>& used) {
+  PlaneFit plane;
+  plane.first = static_cast<std::size_t>(std::find(used.begin(), used.end(), true) - used.begin());
+  if (plane.first == used.size()) plane.first = 0;
+  plane.worst = plane.first;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double off = std::abs(points[i].z - points[plane.first].z);
+    if (!used[i] && off > 0) plane.unused.push_back(i);
+    if (!used[i] || off <= plane.off) continue;
+    plane.off = off;
+    plane.worst = i;
+  }
+  return plane;
+}
+
+std::string where_is(std::size_t point, const InputNames& names) {
+  const std::string where = names.point_where(point);
+  return where.empty() ? where : text(where, ": ");
+}
+
+void warn_of_plane(MeshFile& file, const std::vector<Vec3>& points, const PlaneFit& plane, const InputNames& names) {
+  if (plane.off > 0) {
+    file.warnings.push_back(text(where_is(plane.worst, names), names.point(plane.worst), " has z = ",
+                                 points[plane.worst].z, ", but ", names.point(plane.first), " has z = ", file.z(),
+                                 ": within ", kOff, " of the extent, so all are taken for a plane of this z"));
+  }
+  if (plane.unused.empty()) return;
+  const std::size_t first = plane.unused.front(), n = plane.unused.size();
+  file.warnings.push_back(
+      text(where_is(first, names), names.point(first), " is of no triangle and has z = ", points[first].z,
+           n == 1 ? std::string() : text(", and so have ", n - 1, " more"), ": put into the plane of z = ", file.z()));
+}
+
+struct SphereFit {
+  std::size_t worst = 0, n_off = 0;  // n_off: too far off
+  double off = 0;
+};
+
+SphereFit most_off(const std::vector<Vec3>& points, double radius) {
+  SphereFit sphere;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double distance = length(points[i]), off = std::abs(distance - radius);
+    if (is_off(distance, radius)) ++sphere.n_off;
+    if (off <= sphere.off) continue;
+    sphere.off = off;
+    sphere.worst = i;
+  }
+  return sphere;
+}
+
+std::string two_digits(double value) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.2g", value);
+  return digits;
+}
+
+[[noreturn]] void fail_in_space(const std::vector<Vec3>& points, const std::vector<bool>& used, const PlaneFit& plane,
+                                const InputNames& names) {
+  constexpr double kNearly = 0.01;  // of the extent: then a sphere is meant, not a surface or a plane far away
+  const std::vector<Vec3> all = kept(points, used);
+  const double radius = median_distance(all);
+  const SphereFit sphere = most_off(all, radius);
+  const auto find_used = [&](auto is) {
+    for (std::size_t i = 0;; ++i) {
+      if (used[i] && is(points[i])) return i;
+    }
+  };
+  constexpr std::string_view kExpected = "; expected all on one sphere around the origin, or in a plane of constant z";
+  if (2 * sphere.n_off < all.size()) {
+    const std::size_t off = find_used([&](Vec3 p) { return is_off(length(p), radius); });
+    fail(ErrorCode::not_planar, names.point_where(off),
+         text(names.point(off), " is ", length(points[off]), " from the origin, but most points are ", radius,
+              kExpected));
+  }
+  if (sphere.off <= kNearly * extent(all)) {
+    const std::size_t worst = find_used([&](Vec3 p) { return std::abs(length(p) - radius) == sphere.off; });
+    fail(ErrorCode::not_planar, names.point_where(worst),
+         text(names.point(worst), " is ", length(points[worst]), " from the origin, but the median of all is ", radius,
+              ": off by ", two_digits(sphere.off / radius), " of it, and ", kOff, " is allowed", kExpected));
+  }
+  const double z = points[plane.first].z, allowed = kOff * extent(all);
+  const std::size_t off = find_used([&](Vec3 p) { return std::abs(p.z - z) > allowed; });
+  fail(ErrorCode::not_planar, names.point_where(off),
+       text(names.point(off), " has z = ", points[off].z, ", but ", names.point(plane.first), " has z = ", z,
+            "; expected a mesh in a plane of constant z, or on a sphere around the origin"));
+}
+
+}  // namespace
+
+Vec3 east_of(Vec3 p) {
+  const double across = std::hypot(p.x, p.y);
+  return across == 0 ? Vec3{0, 1, 0} : Vec3{-p.y / across, p.x / across, 0};
+}
+
+void put_on_sphere(MeshFile& file, double radius, const InputNames& names) {
+  std::vector<Vec3> places;
+  places.reserve(file.points.size());
+  for (std::size_t i = 0; i < file.points.size(); ++i) {
+    const Vec2 p = file.points[i];
+    if (!(std::abs(p.y) <= 90)) {
+      fail(ErrorCode::geographic, names.point_where(i),
+           text(names.point(i), " has longitude ", p.x, " and latitude ", p.y,
+                "; expected degrees, a latitude between -90 and 90"));
+    }
+    if (!(std::abs(p.x) <= 720)) {
+      fail(ErrorCode::geographic, names.point_where(i),
+           text(names.point(i), " has longitude ", p.x, " and latitude ", p.y,
+                "; expected degrees, a longitude between -720 and 720"));
+    }
+    places.push_back(radius * direction_of(p));
+  }
+  file.points_in = SpherePoints{radius, std::move(places)};
+}
+
+void resize_sphere(MeshFile& file, double radius) {
+  auto& sphere = std::get<SpherePoints>(file.points_in);
+  const double scale = radius / sphere.radius;
+  for (Vec3& p : sphere.places) p = scale * p;
+  for (double& w : file.weights) w *= scale * scale;
+  sphere.radius = radius;
+}
+
+void set_sphere(MeshFile& file, double radius, std::vector<Vec3> points) {
+  file.points.clear();
+  file.points.reserve(points.size());
+  for (const Vec3 p : points) file.points.push_back(lon_lat_of(p));
+  file.points_in = SpherePoints{radius, std::move(points)};
+}
+
+void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& names) {
+  expect_finite(points, names);
+  const std::vector<bool> used =
+      file.triangles.empty() ? std::vector<bool>(points.size(), true) : points_of_triangles(file, points.size());
+  const bool whole = std::find(used.begin(), used.end(), false) == used.end();
+  const std::vector<Vec3> some = whole ? std::vector<Vec3>() : kept(points, used);
+  const std::vector<Vec3>& all = whole ? points : some;
+  const PlaneFit plane = fit_plane(points, used);
+  const auto radius = plane.off == 0 ? std::nullopt : common_radius(all);
+  if (plane.off <= kOff * extent(all) && !(radius && most_off(all, *radius).off < plane.off)) {
+    if (file.sphere() != nullptr) file.points_in = PlanePoints{};
+    file.set_z(points.empty() ? 0 : points[plane.first].z);
+    warn_of_plane(file, points, plane, names);
+    file.points.clear();
+    for (const Vec3 p : points) file.points.push_back({p.x, p.y});
+    return;
+  }
+  if (radius) return set_sphere(file, *radius, std::move(points));
+  fail_in_space(points, used, plane, names);
+}
+
+Expected<void> set_points(MeshFile& file, std::vector<Vec3> points) {
+  const InputNames from_0;
+  const InputNames& names = file.numbering ? *file.numbering : from_0;
+  return guarded<void>({}, [&] { settle_points(file, std::move(points), names); });
+}
+
+std::optional<double> common_radius(const std::vector<Vec3>& points) {
+  const double radius = median_distance(points);
+  const auto off = [radius](Vec3 p) { return is_off(length(p), radius); };
+  if (!(radius > 0) || std::any_of(points.begin(), points.end(), off)) return std::nullopt;
+  // A radius that somebody wrote down has few digits.
+  const double places = 11 - std::floor(std::log10(radius)), power = std::pow(10, std::abs(places));
+  const double rounded = places > 0 ? std::round(radius * power) / power : std::round(radius / power) * power;
+  return std::abs(rounded - radius) < 1e-14 * radius ? rounded : radius;
+}
+
+double MeshFile::z() const {
+  return std::visit(
+      [](const auto& in) {
+        if constexpr (requires { in.z; }) return in.z;
+        return 0.0;
+      },
+      points_in);
+}
+
+void MeshFile::set_z(double z) {
+  std::visit(
+      [z](auto& in) {
+        if constexpr (requires { in.z; }) in.z = z;
+      },
+      points_in);
+}
+
+Space MeshFile::space() const {
+  if (periodic() != nullptr) return Space::periodic(periodic()->period);
+  return sphere() != nullptr ? Space::sphere(sphere()->radius) : Space();
+}
+
+bool is_flat(const MeshFile& file) { return file.sphere() == nullptr && file.z() == 0 && !std::signbit(file.z()); }
+
+std::vector<bool> points_of_triangles(const MeshFile& file, std::size_t n) {
+  std::vector<bool> used(n, false);
+  for (const auto& triangle : file.triangles) {
+    for (const std::int32_t p : triangle) {
+      if (p >= 0 && static_cast<std::size_t>(p) < n) used[static_cast<std::size_t>(p)] = true;
+    }
+  }
+  return used;
+}
+
+}  // namespace temper::io

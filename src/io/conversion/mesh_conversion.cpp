@@ -1,0 +1,331 @@
+// From the arrays of a file to a mesh.
+//
+// Points of no triangle are left out of the mesh, tagged lines inside the domain become constrained edges unless they
+// list all edges of the mesh, points of fixed tags and those that medit calls required are fixed.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "io/conversion/edge_lines.hpp"
+#include "io/conversion/globe.hpp"
+#include "io/conversion/known_causes.hpp"
+#include "io/text/failure.hpp"
+#include "io/text/file_names.hpp"
+#include "io/text/values.hpp"
+#include "temper/io.hpp"
+
+namespace temper::io {
+
+namespace {
+
+/// The names of the points and triangles that are left.
+class KeptNames final : public InputNames {
+ public:
+  KeptNames(const InputNames& all, std::vector<std::int32_t> points) : all_(all), points_(std::move(points)) {}
+  [[nodiscard]] std::string point(std::size_t i) const override { return all_.point(kept(i)); }
+  [[nodiscard]] std::string triangle(std::size_t i) const override { return all_.triangle(i); }
+  [[nodiscard]] std::string point_where(std::size_t i) const override { return all_.point_where(kept(i)); }
+  [[nodiscard]] std::string triangle_where(std::size_t i) const override { return all_.triangle_where(i); }
+
+ private:
+  [[nodiscard]] std::size_t kept(std::size_t i) const {
+    return points_.empty() || i >= points_.size() ? i : static_cast<std::size_t>(points_[i]);
+  }
+  const InputNames& all_;
+  std::vector<std::int32_t> points_;  // empty: all
+};
+
+/// "3 things …: first, second, third", with at most ten named.
+std::string listed(std::size_t n, std::string_view what, const std::vector<std::string>& names) {
+  std::string result = text(n, " ", what, ": ");
+  for (std::size_t i = 0; i < names.size(); ++i) result += (i == 0 ? "" : ", ") + names[i];
+  return n > names.size() ? result + ", …" : result;
+}
+constexpr std::size_t kNamed = 10;
+
+/// A tag, as a user writes it: its number or its physical name.
+struct TagSet {
+  std::vector<std::int32_t> points, lines, triangles;
+};
+
+std::string available_tags(const MeshFile& file) {
+  std::vector<std::int32_t> tags(file.line_tags);
+  tags.insert(tags.end(), file.point_tags.begin(), file.point_tags.end());
+  std::sort(tags.begin(), tags.end());
+  tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
+  std::string result;
+  for (const PhysicalName& n : file.names) result += text(result.empty() ? "" : ", ", n.name);
+  for (std::size_t i = 0; i < std::min(tags.size(), kNamed); ++i) result += text(result.empty() ? "" : ", ", tags[i]);
+  return result.empty() ? "none" : result;
+}
+
+TagSet find_tags(const MeshFile& file, std::span<const std::string> wanted) {
+  TagSet set;
+  for (const std::string& tag : wanted) {
+    bool found = false;
+    for (const PhysicalName& n : file.names) {
+      if (n.name != tag) continue;
+      found = true;
+      (n.dimension == 0 ? set.points : n.dimension == 1 ? set.lines : set.triangles).push_back(n.tag);
+    }
+    if (found) continue;
+    std::int32_t number = 0;
+    const auto [end, error] = std::from_chars(tag.data(), tag.data() + tag.size(), number);
+    const auto has = [&](const std::vector<std::int32_t>& tags) {
+      return std::find(tags.begin(), tags.end(), number) != tags.end();
+    };
+    if (error == std::errc() && end == tag.data() + tag.size() &&
+        (has(file.line_tags) || has(file.point_tags) || has(file.regions))) {
+      set.points.push_back(number);
+      set.lines.push_back(number);
+      set.triangles.push_back(number);
+      continue;
+    }
+    fail(ErrorCode::invalid_option, file.path,
+         text("no points, lines or triangles have the tag '", tag, "'; there are: ", available_tags(file)));
+  }
+  return set;
+}
+
+bool contains(const std::vector<std::int32_t>& tags, std::int32_t tag) {
+  return std::find(tags.begin(), tags.end(), tag) != tags.end();
+}
+
+// A turn of the boundary by more than this (radians) is a corner, which stays anyway; the optimiser's own measure of
+// what is straight is far below.
+constexpr double kCorner = 1e-6;
+
+bool is_corner(const Mesh& mesh, VertexId v) {
+  const HalfedgeId out = mesh.outgoing(v);
+  HalfedgeId last = out;
+  for (const HalfedgeId h : mesh.star(v)) last = h;
+  const VertexId before = mesh.opposite(last), after = mesh.target(out);
+  const auto [p, a, b] = mesh.points(v, before, after);
+  const Vec3 from = mesh.space().chord(a, p), to = mesh.space().chord(p, b);
+  const double turn = dot(mesh.space().up(p), cross(from, to));
+  return dot(from, to) < 0 || std::abs(turn) > kCorner * length(from) * length(to);
+}
+
+class MeshMaker {
+ public:
+  MeshMaker(const MeshFile& file, Executor* executor) : file_(file), executor_(executor) {}
+  Expected<LoadedMesh> make(std::span<const std::string> fixed_tags) {
+    number_vertices();
+    auto built = build(fixed_points(fixed_tags));
+    if (!built) {
+      InputError error = with_known_cause(built.error(), file_, names());
+      if (error.where.empty()) error.where = file_.path;
+      return error;
+    }
+    loaded_.mesh = std::move(built->mesh);
+    loaded_.reversed_triangles = built->reversed_triangles;
+    const std::size_t reversed = loaded_.reversed_triangles;
+    if (reversed > 0)
+      warn(text(reversed, reversed == 1 ? " clockwise triangle is reversed" : " clockwise triangles are reversed"));
+    find_edges();
+    take_edge_lines();
+    constrain_lines();
+    fix_ends_of_tags();
+    return std::move(loaded_);
+  }
+
+ private:
+  void number_vertices() {
+    const std::vector<bool> used = points_of_triangles(file_, file_.points.size());
+    loaded_.vertex_of_point = VertexOfPoint(used);
+    if (whole()) return;
+    std::vector<std::string> dropped;
+    for (std::size_t p = 0; p < used.size() && dropped.size() < kNamed; ++p) {
+      if (!used[p]) dropped.push_back(names().point(p));
+    }
+    const std::size_t n_dropped = used.size() - loaded_.vertex_of_point.n_kept();
+    warn(listed(n_dropped, n_dropped == 1 ? "point of no triangle is dropped" : "points of no triangle are dropped",
+                dropped));
+  }
+  void warn(std::string message) {
+    loaded_.warnings.push_back(file_.path.empty() ? std::move(message) : text(file_.path, ": ", message));
+  }
+  [[nodiscard]] const InputNames& names() const { return file_.numbering ? *file_.numbering : counting_; }
+  [[nodiscard]] bool whole() const { return loaded_.vertex_of_point.n_kept() == file_.points.size(); }
+  [[nodiscard]] std::vector<std::int32_t> fixed_points(std::span<const std::string> wanted) const {
+    const TagSet tags = find_tags(file_, wanted);
+    std::vector<std::int32_t> fixed;
+    for (std::size_t i = 0; i < file_.marked_points.size(); ++i) {
+      if (contains(tags.points, file_.point_tags[i])) fixed.push_back(file_.marked_points[i]);
+    }
+    for (std::size_t i = 0; i < file_.lines.size(); ++i) {
+      if (contains(tags.lines, file_.line_tags[i]))
+        fixed.insert(fixed.end(), file_.lines[i].begin(), file_.lines[i].end());
+    }
+    for (std::size_t t = 0; t < file_.regions.size() && !tags.triangles.empty(); ++t) {
+      if (contains(tags.triangles, file_.regions[t]))
+        fixed.insert(fixed.end(), file_.triangles[t].begin(), file_.triangles[t].end());
+    }
+    const DataArray* required = find(file_.point_data, "medit:required");
+    const auto* flags = required == nullptr ? nullptr : std::get_if<std::vector<std::uint8_t>>(&required->values);
+    for (std::size_t p = 0; flags != nullptr && p < flags->size(); ++p) {
+      if ((*flags)[p] != 0) fixed.push_back(static_cast<std::int32_t>(p));
+    }
+    std::sort(fixed.begin(), fixed.end());
+    fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
+    std::erase_if(fixed, [&](std::int32_t p) { return loaded_.vertex_of_point[static_cast<std::size_t>(p)] < 0; });
+    for (std::int32_t& p : fixed) p = loaded_.vertex_of_point[static_cast<std::size_t>(p)];
+    return fixed;
+  }
+  // The file's own arrays when every point is used; else copies without the others.
+  Expected<BuiltMesh> build(const std::vector<std::int32_t>& fixed) const {
+    MeshInput input;
+    input.regions = file_.regions;
+    input.fixed_vertices = fixed;
+    input.executor = executor_;
+    input.space = file_.space();
+    if (whole()) {
+      const KeptNames kept(names(), {});
+      input.points = file_.points;
+      input.sphere_points = sphere_places(file_);
+      input.weights = file_.weights;
+      input.triangles = file_.triangles;
+      input.names = &kept;
+      return Mesh::build(input);
+    }
+    const auto& vertex = loaded_.vertex_of_point;
+    std::vector<Vec2> points;
+    std::vector<Vec3> sphere_points;
+    std::vector<double> weights;
+    std::vector<std::int32_t> old;
+    for (std::size_t p = 0; p < vertex.size(); ++p) {
+      if (vertex[p] < 0) continue;
+      points.push_back(file_.points[p]);
+      if (file_.sphere() != nullptr) sphere_points.push_back(file_.sphere()->places[p]);
+      if (!file_.weights.empty()) weights.push_back(file_.weights[p]);
+      old.push_back(static_cast<std::int32_t>(p));
+    }
+    auto triangles = file_.triangles;
+    for (auto& triangle : triangles) {
+      for (std::int32_t& p : triangle) {
+        // Out of range numbers stay so, for Mesh::build to refuse.
+        p = p >= 0 && static_cast<std::size_t>(p) < vertex.size() ? vertex[static_cast<std::size_t>(p)]
+                                                                  : std::int32_t{-1};
+      }
+    }
+    const KeptNames kept(names(), std::move(old));
+    input.points = points;
+    input.sphere_points = sphere_points;
+    input.weights = weights;
+    input.triangles = triangles;
+    input.names = &kept;
+    return Mesh::build(input);
+  }
+  // All at once: around a vertex with very many lines, looking for one after the other would take the square of their
+  // number.
+  void find_edges() {
+    const auto& vertex = loaded_.vertex_of_point;
+    using Ends = std::pair<std::int32_t, std::int32_t>;
+    std::vector<std::pair<Ends, std::size_t>> wanted;
+    for (std::size_t i = 0; i < file_.lines.size(); ++i) {
+      const auto [a, b] = file_.lines[i];
+      wanted.emplace_back(std::minmax({vertex[static_cast<std::size_t>(a)], vertex[static_cast<std::size_t>(b)]}), i);
+    }
+    std::sort(wanted.begin(), wanted.end());
+    edges_.assign(file_.lines.size(), HalfedgeId());
+    if (wanted.empty()) return;
+    const Mesh& mesh = loaded_.mesh;
+    for (const HalfedgeId h : mesh.halfedges()) {
+      if (!mesh.is_edge_representative(h)) continue;
+      const auto from = static_cast<std::int32_t>(mesh.origin(h).index),
+                 to = static_cast<std::int32_t>(mesh.target(h).index);
+      const Ends ends = std::minmax({from, to});
+      auto line = std::lower_bound(wanted.begin(), wanted.end(), std::pair(ends, std::size_t{0}));
+      for (; line != wanted.end() && line->first == ends; ++line) edges_[line->second] = h;
+    }
+  }
+  void take_edge_lines() {
+    std::optional<EdgeLines> found = find_edge_lines(file_, loaded_.vertex_of_point, loaded_.mesh, edges_);
+    if (!found) return;
+    loaded_.edge_lines = std::move(found->lines);
+    warn(text("all ", found->n_inner_edges, " inner edges are lines of tag ", found->tag,
+              ": they are taken for the edges of the mesh, not for features, and constrain nothing"));
+  }
+  void constrain_lines() {
+    std::vector<std::string> lost, dropped;
+    std::size_t n_lost = 0, n_dropped = 0;
+    const auto& vertex = loaded_.vertex_of_point;
+    const bool are_features = loaded_.edge_lines.empty();
+    for (std::size_t i = 0; i < file_.lines.size(); ++i) {
+      const auto [a, b] = file_.lines[i];
+      const HalfedgeId h = edges_[i];
+      if (!h.valid()) {
+        const auto from = static_cast<std::size_t>(a), to = static_cast<std::size_t>(b);
+        const bool goes = vertex[from] < 0 || vertex[to] < 0;
+        if ((goes ? n_dropped : n_lost)++ < kNamed)
+          (goes ? dropped : lost).push_back(text(names().point(from), " to ", names().point(to)));
+      } else if (are_features && !loaded_.mesh.is_boundary(h)) {
+        loaded_.mesh.set_constrained(h, true);
+      }
+    }
+    if (n_lost > 0)
+      warn(listed(n_lost,
+                  n_lost == 1 ? "line is no edge of the mesh and constrains nothing"
+                              : "lines are no edges of the mesh and constrain nothing",
+                  lost));
+    if (n_dropped > 0)
+      warn(listed(n_dropped,
+                  n_dropped == 1 ? "line to a point of no triangle is dropped with it"
+                                 : "lines to points of no triangle are dropped with them",
+                  dropped));
+  }
+  /// Fixes the points of straight pieces of the boundary where tagged lines end or another tag begins: if such a point
+  /// slid, the user's groups would change their shape.
+  void fix_ends_of_tags() {
+    if (file_.lines.empty()) return;
+    struct Lines {
+      std::int32_t tag = 0;
+      int count = 0;
+      bool one_tag = true;
+    };
+    Mesh& mesh = loaded_.mesh;
+    IdVector<VertexId, Lines> lines(mesh.n_vertices());  // of the boundary
+    for (std::size_t i = 0; i < file_.lines.size(); ++i) {
+      const HalfedgeId h = edges_[i];
+      if (!h.valid() || !mesh.is_boundary(h)) continue;
+      for (const VertexId v : {mesh.origin(h), mesh.target(h)}) {
+        Lines& at = lines[v];
+        at.one_tag = at.one_tag && (at.count == 0 || at.tag == file_.line_tags[i]);
+        at.tag = file_.line_tags[i];
+        ++at.count;
+      }
+    }
+    for (const VertexId v : mesh.vertices()) {
+      const bool ends = lines[v].count == 1 || !lines[v].one_tag;
+      if (ends && !is_corner(mesh, v)) mesh.set_fixed(v, true);
+    }
+  }
+
+  const MeshFile& file_;
+  Executor* executor_;
+  InputNames counting_;
+  LoadedMesh loaded_;
+  std::vector<HalfedgeId> edges_;  // of each line of the file; invalid: it is none of the mesh
+};
+
+}  // namespace
+
+VertexOfPoint::VertexOfPoint(const std::vector<bool>& kept) : VertexOfPoint(kept.size()) {
+  n_kept_ = static_cast<std::size_t>(std::count(kept.begin(), kept.end(), true));
+  if (n_kept_ == n_) return;
+  vertices_.assign(n_, -1);
+  std::int32_t next = 0;
+  for (std::size_t p = 0; p < n_; ++p) {
+    if (kept[p]) vertices_[p] = next++;
+  }
+}
+
+Expected<LoadedMesh> make_mesh(const MeshFile& file, std::span<const std::string> fixed_tags, Executor* executor) {
+  if (const DegreePoints* const degrees = file.degrees())
+    return InputError{ErrorCode::geographic, file.path, needs_projection(degrees->is_guessed)};
+  return guarded<LoadedMesh>(file.path, [&] { return MeshMaker(file, executor).make(fixed_tags); });
+}
+
+}  // namespace temper::io

@@ -1,0 +1,343 @@
+// From a mesh back to the arrays of the file that it came from.
+//
+// Coordinates, weights, triangles and regions are the mesh's; everything else is the file's and goes with its point,
+// its line or its triangle; data_update.cpp says how data of points and triangles follow.
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+#include "io/conversion/data_update.hpp"
+#include "io/conversion/edge_lines.hpp"
+#include "io/conversion/globe.hpp"
+#include "io/conversion/place_hash.hpp"
+#include "io/disk/files.hpp"
+#include "io/text/failure.hpp"
+#include "io/text/file_names.hpp"
+#include "io/text/values.hpp"
+#include "temper/io.hpp"
+
+namespace temper::io {
+namespace {
+
+/// Points of vertices that have not moved are the images that the file has; all others are in the domain.
+void copy_periodic(MeshFile& file, const Mesh& mesh, const Former& former) {
+  const Space& space = mesh.space();
+  if (!(file.space() == space)) file.points_in = PeriodicPoints{space.period(), file.z()};  // rounded, the file's
+  std::vector<Vec2> points;
+  points.reserve(mesh.n_vertices());
+  file.weights.resize(mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) {
+    const std::size_t was = former.empty() ? v.index : former[v].valid() ? former[v].index : file.points.size();
+    points.push_back(mesh.position(v));
+    if (was < file.points.size()) {
+      const Vec2 before = file.points[was];
+      if (space.in_domain({before.x, before.y, 0}).position() == points.back()) points.back() = before;
+    }
+    file.weights[v.index] = mesh.weight(v);
+  }
+  file.points = std::move(points);
+}
+
+/// Copies what is on the mesh to arrays of its own vertices.
+void copy_plane(MeshFile& file, const Mesh& mesh) {
+  file.points.resize(mesh.n_vertices());
+  file.weights.resize(mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) {
+    file.points[v.index] = mesh.position(v);
+    file.weights[v.index] = mesh.weight(v);
+  }
+}
+
+/// Points and degrees of vertices that have not moved stay as they are, and weights that give the same vertex.
+void copy_sphere(MeshFile& file, const Mesh& mesh, const Former& former) {
+  const std::span<const Vec3> before = sphere_places(file);
+  std::vector<Vec2> degrees;
+  std::vector<Vec3> places;
+  std::vector<double> weights;
+  for (const VertexId v : mesh.vertices()) {
+    const std::size_t was = former.empty() ? v.index : former[v].valid() ? former[v].index : before.size();
+    const Vec3 p = mesh.lifted_point(v);
+    weights.push_back(mesh.weight(v));
+    if (was < before.size() && mesh.space().same_place(as_point(before[was]), as_point(p))) {
+      degrees.push_back(file.points[was]);
+      places.push_back(before[was]);
+      if (was < file.weights.size() && mesh.space().vertex_at(places.back(), file.weights[was]) == as_point(p)) {
+        weights.back() = file.weights[was];
+      }
+    } else {
+      places.push_back(mesh.space().place(as_point(p)));
+      degrees.push_back(lon_lat_of(p));
+      // From −180 to 180, or from 0 to 360: as the file has it around there.
+      if (was < file.points.size()) {
+        degrees.back().x += 360 * std::round((file.points[was].x - degrees.back().x) / 360);
+      }
+    }
+  }
+  file.points = std::move(degrees);
+  file.points_in = SpherePoints{mesh.space().radius(), std::move(places)};
+  file.weights = std::move(weights);
+}
+
+void copy_vertices(MeshFile& file, const Mesh& mesh, const Former& former) {
+  switch (mesh.space().kind()) {
+    case SpaceKind::plane:
+      return copy_plane(file, mesh);
+    case SpaceKind::sphere:
+      return copy_sphere(file, mesh, former);
+    case SpaceKind::periodic_plane:
+      return copy_periodic(file, mesh, former);
+  }
+}
+
+void copy_triangles(MeshFile& file, const Mesh& mesh) {
+  file.triangles.resize(mesh.n_triangles());
+  bool regions = !file.regions.empty();
+  for (const TriangleId t : mesh.triangles()) {
+    const auto corners = mesh.corners(t);
+    for (std::size_t k = 0; k < 3; ++k) file.triangles[t.index][k] = static_cast<std::int32_t>(corners[k].index);
+    regions = regions || mesh.region(t) != 0;
+  }
+  file.regions.resize(regions ? mesh.n_triangles() : 0);
+  for (std::size_t t = 0; t < file.regions.size(); ++t) file.regions[t] = mesh.region(TriangleId(t));
+}
+
+template <class T>
+void keep(std::vector<T>& values, const std::vector<bool>& kept) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (kept[i]) values[n++] = values[i];
+  }
+  values.resize(n);
+}
+
+void keep(std::vector<DataArray>& arrays, const std::vector<bool>& kept) {
+  RunLength indices;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i]) indices.push_back(static_cast<std::int64_t>(i));
+  }
+  for (DataArray& a : arrays) a.values = gather(a.values, a.components, indices);
+}
+
+/// Renumbers lines and marked points by new_index (−1: gone) and drops those that lost a point.
+template <class NewIndex>
+void renumber(MeshFile& file, NewIndex new_index) {
+  std::vector<bool> kept_lines(file.lines.size());
+  for (std::size_t i = 0; i < file.lines.size(); ++i) {
+    for (std::int32_t& p : file.lines[i]) p = new_index(p);
+    kept_lines[i] = file.lines[i][0] >= 0 && file.lines[i][1] >= 0;
+  }
+  std::vector<bool> kept_points(file.marked_points.size());
+  for (std::size_t i = 0; i < file.marked_points.size(); ++i) {
+    file.marked_points[i] = new_index(file.marked_points[i]);
+    kept_points[i] = file.marked_points[i] >= 0;
+  }
+  keep(file.lines, kept_lines);
+  keep(file.line_tags, kept_lines);
+  keep(file.line_data, kept_lines);
+  keep(file.marked_points, kept_points);
+  keep(file.point_tags, kept_points);
+  keep(file.marked_point_data, kept_points);
+}
+
+void drop_unused_points(MeshFile& file, const VertexOfPoint& vertex_of_point) {
+  std::vector<bool> used(vertex_of_point.size());
+  for (std::size_t p = 0; p < used.size(); ++p) used[p] = vertex_of_point[p] >= 0;
+  keep(file.points, used);
+  if (auto* sphere = std::get_if<SpherePoints>(&file.points_in)) keep(sphere->places, used);
+  keep(file.point_data, used);
+  for (auto& triangle : file.triangles) {
+    for (std::int32_t& p : triangle) p = vertex_of_point[static_cast<std::size_t>(p)];
+  }
+  renumber(file, [&](std::int32_t p) { return vertex_of_point[static_cast<std::size_t>(p)]; });
+}
+
+/// The point whose place in the plane each vertex has, bit for bit.
+Former vertices_by_place_in_plane(const std::vector<Vec2>& points, const Mesh& mesh) {
+  std::unordered_map<Vec2, VertexId, PlaceHash> places;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    places.emplace(mesh.space().in_domain({points[p].x, points[p].y, 0}).position(), VertexId(p));
+  }
+  Former former(mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) {
+    const auto found = places.find(mesh.position(v));
+    if (found != places.end()) former[v] = found->second;
+  }
+  return former;
+}
+
+/// Points of a sphere by their place. Weights round places, so they are looked for in cells far larger than that.
+class PlacesOnSphere {
+ public:
+  PlacesOnSphere(std::span<const Vec3> points, const Space& space) : points_(points), space_(space) {
+    for (std::size_t p = 0; p < points.size(); ++p) cells_.emplace(cell(direction(points[p])), VertexId(p));
+  }
+  /// The point at the place of p, which is in its cell or just across the sides of that; invalid: there is none.
+  [[nodiscard]] VertexId find(const Vec3& p) const {
+    const Vec3 middle = direction(p);
+    for (const double x : {-kRounded, kRounded}) {
+      for (const double y : {-kRounded, kRounded}) {
+        for (const double z : {-kRounded, kRounded}) {
+          const auto [first, last] = cells_.equal_range(cell(middle + Vec3{x, y, z}));
+          for (auto it = first; it != last; ++it) {
+            if (space_.same_place(as_point(points_[it->second.index]), as_point(p))) return it->second;
+          }
+        }
+      }
+    }
+    return {};
+  }
+
+ private:
+  static constexpr double kRounded = 0x1p-46;       // more than same_place() allows, and than direction() rounds
+  static constexpr double kCellsOfRadius = 0x1p36;  // on the Earth a cell is a tenth of a millimetre wide
+  static Vec3 direction(const Vec3& p) { return (1 / length(p)) * p; }
+  static Vec3 cell(const Vec3& p) {
+    return {std::floor(kCellsOfRadius * p.x), std::floor(kCellsOfRadius * p.y), std::floor(kCellsOfRadius * p.z)};
+  }
+
+  std::span<const Vec3> points_;
+  const Space& space_;
+  std::unordered_multimap<Vec3, VertexId, PlaceHash> cells_;
+};
+
+/// The point that each vertex is at the place of.
+Former vertices_by_place(const MeshFile& file, const Mesh& mesh) {
+  if (file.sphere() == nullptr) return vertices_by_place_in_plane(file.points, mesh);
+  const PlacesOnSphere places(file.sphere()->places, mesh.space());
+  Former former(mesh.n_vertices());
+  for (const VertexId v : mesh.vertices()) former[v] = places.find(mesh.lifted_point(v));
+  return former;
+}
+
+// --- vertices that were removed or inserted ----------------------------------------------------------------------
+
+using NewNumbers = std::vector<std::int32_t>;  // of the points before; −1: removed
+
+/// A vertex on a straight line may be removed: the two lines that met there are one.
+///
+///     a --i-- v --j-- b     becomes    a --i-- b
+class LineMerger {
+ public:
+  LineMerger(MeshFile& file, const NewNumbers& new_index) : file_(file), new_index_(new_index) {
+    for (std::size_t i = 0; i < file.lines.size(); ++i) {
+      for (const std::int32_t p : file.lines[i]) {
+        if (removed(p)) lines_at_[p].push_back(i);
+      }
+    }
+  }
+  /// Lines that others stand for now. They are left with a removed vertex at both ends, for renumber() to drop.
+  std::size_t merge() {
+    std::size_t merged = 0;
+    for (std::size_t p = 0; p < new_index_.size(); ++p) merged += merge_at(static_cast<std::int32_t>(p)) ? 1 : 0;
+    return merged;
+  }
+
+ private:
+  [[nodiscard]] bool removed(std::int32_t p) const { return new_index_[static_cast<std::size_t>(p)] < 0; }
+  bool merge_at(std::int32_t v) {
+    const auto found = lines_at_.find(v);
+    if (found == lines_at_.end() || found->second.size() != 2) return false;
+    const std::size_t i = std::min(found->second[0], found->second[1]);
+    const std::size_t j = std::max(found->second[0], found->second[1]);
+    if (i == j || file_.line_tags[i] != file_.line_tags[j]) return false;
+    auto &kept = file_.lines[i], &gone = file_.lines[j];
+    const std::int32_t far = gone[0] == v ? gone[1] : gone[0];
+    kept[kept[0] == v ? 0 : 1] = far;
+    gone = {v, v};
+    if (removed(far)) std::replace(lines_at_[far].begin(), lines_at_[far].end(), j, i);
+    return true;
+  }
+
+  MeshFile& file_;
+  const NewNumbers& new_index_;
+  std::unordered_map<std::int32_t, std::vector<std::size_t>> lines_at_;  // of removed points
+};
+
+/// Lines and marked points of n points go on with the vertices that these have become.
+void follow(MeshFile& file, std::size_t n, const Mesh& mesh, const Former& former) {
+  NewNumbers new_index(n, -1);
+  for (const VertexId v : mesh.vertices()) {
+    if (former[v].valid()) new_index[former[v].index] = static_cast<std::int32_t>(v.index);
+  }
+  const std::size_t n_lines = file.lines.size(), n_marked = file.marked_points.size();
+  const std::size_t merged = LineMerger(file, new_index).merge();
+  renumber(file, [&](std::int32_t p) { return new_index[static_cast<std::size_t>(p)]; });
+  const std::size_t lost = n_lines - merged - file.lines.size() + n_marked - file.marked_points.size();
+  if (lost > 0) file.warnings.push_back(text(lost, " lines or marked points have lost their vertices and are dropped"));
+  cut_lines(file, mesh, former);
+}
+
+bool same_numbers(const Former& former, std::size_t n) {
+  if (former.empty()) return true;
+  for (std::size_t v = 0; v < former.size(); ++v) {
+    if (former[VertexId(v)] != VertexId(v)) return false;
+  }
+  return former.size() == n;
+}
+
+/// Lines and marked points of n points become those of the mesh.
+void update_lines(MeshFile& file, std::size_t n, const LoadedMesh& loaded, const Mesh& mesh, const Former& former) {
+  const std::vector<bool>& edge_lines = loaded.edge_lines;
+  // Of a file that was changed meanwhile nothing is known.
+  const bool has_edge_lines = !edge_lines.empty() && edge_lines.size() == file.lines.size();
+  if (has_edge_lines && same_numbers(former, n)) {
+    replace_edge_lines(file, edge_lines, mesh);
+  } else if (has_edge_lines) {
+    const EdgeLinesTakenOut lines(file, edge_lines);
+    follow(file, n, mesh, former);
+    lines.put_back(file, mesh);
+  } else if (!former.empty()) {
+    follow(file, n, mesh, former);
+  }
+}
+
+}  // namespace
+
+DataReport update(MeshFile& file, const LoadedMesh& loaded, const Mesh& mesh,
+                  const IdVector<VertexId, VertexId>& vertices, const UpdateOptions& options) {
+  const auto& vertex = loaded.vertex_of_point;
+  const bool has_unused = file.points.size() == vertex.size() && vertex.n_kept() < vertex.size();
+  if (has_unused) drop_unused_points(file, vertex);
+  const bool released = file.points.empty();
+  const std::size_t n_before = released ? vertex.n_kept() : file.points.size();
+  Former former;  // empty: the same numbers
+  if (!vertices.empty() && n_before == vertex.n_kept()) {
+    former = vertices;
+  } else if (!released && mesh.n_vertices() != n_before) {
+    former = vertices_by_place(file, mesh);
+  }
+  DataReport report = update_data(file, mesh, former, options);
+  update_lines(file, n_before, loaded, mesh, former);
+  copy_vertices(file, mesh, former);
+  copy_triangles(file, mesh);
+  if (has_unused || !former.empty()) file.numbering = nullptr;  // its numbers are no longer those of the points
+  return report;
+}
+
+void release_geometry(MeshFile& file, const LoadedMesh& loaded) {
+  if (file.points.size() != loaded.mesh.n_vertices()) return;
+  if (!file.point_data.empty() || !file.cell_data.empty() || !(file.space() == Space())) return;
+  std::vector<Vec2>().swap(file.points);  // assigning {} would keep the capacity
+  std::vector<double>().swap(file.weights);
+  std::vector<std::array<std::int32_t, 3>>().swap(file.triangles);
+  give_memory_back();
+}
+
+MeshFile from_mesh(const Mesh& mesh) {
+  MeshFile file;
+  copy_vertices(file, mesh, {});
+  copy_triangles(file, mesh);
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (!mesh.is_constrained(h) || mesh.is_boundary(h) || !mesh.is_edge_representative(h)) continue;
+    // An interface between regions is constrained by them; any other line has to be written.
+    if (mesh.region(Mesh::triangle(h)) != mesh.region(Mesh::triangle(mesh.twin(h)))) continue;
+    file.lines.push_back(
+        {static_cast<std::int32_t>(mesh.origin(h).index), static_cast<std::int32_t>(mesh.target(h).index)});
+    file.line_tags.push_back(0);
+  }
+  return file;
+}
+
+}  // namespace temper::io

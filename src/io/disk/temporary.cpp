@@ -1,0 +1,186 @@
+// See temporary.hpp.
+#include "io/disk/temporary.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <utility>
+
+#include "io/text/failure.hpp"
+#include "temper/io.hpp"
+
+namespace temper::io {
+
+namespace {
+
+constexpr std::size_t kEntries = 32, kNoEntry = kEntries;  // more at once than any format writes
+
+/// The list of what is to be removed when the program ends, where the handler of a signal may read it: no storage that
+/// is ever freed.
+struct Entry {
+  enum State : int { free, being_written, listed };
+  std::atomic<int> state = free;
+  std::array<char, PATH_MAX> path = {};
+};
+std::array<Entry, kEntries> entries;
+
+void strike(std::size_t entry) {
+  if (entry != kNoEntry) entries[entry].state = Entry::free;
+}
+
+/// A place in the list for a file that is about to be made, and goes into it before any signal ends the program: this
+/// thread takes none so long, and the handler in another one waits. A path that the list has no room for stays where it
+/// is when the program ends: the next run takes it.
+class Place {
+ public:
+  Place() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+    for (entry_ = 0; entry_ < kEntries; ++entry_) {
+      int expected = Entry::free;
+      if (entries[entry_].state.compare_exchange_strong(expected, Entry::being_written)) break;
+    }
+  }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+  ~Place() {
+    strike(entry_);
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+
+  /// Puts the file into the list. Returns its entry there.
+  std::size_t take(const std::string& path) {
+    if (entry_ == kNoEntry || path.size() >= PATH_MAX) return kNoEntry;
+    std::memcpy(entries[entry_].path.data(), path.c_str(), path.size() + 1);
+    entries[entry_].state = Entry::listed;
+    return std::exchange(entry_, kNoEntry);
+  }
+
+ private:
+  sigset_t before_ = {};
+  std::size_t entry_ = kNoEntry;
+};
+
+/// Waits for the file that another thread is just making, a second at most.
+void wait_for(const Entry& entry) {
+  constexpr timespec kMillisecond = {0, 1000000};
+  for (int i = 0; i < 1000 && entry.state == Entry::being_written; ++i) nanosleep(&kMillisecond, nullptr);
+}
+
+bool lock(int file) { return flock(file, LOCK_EX | LOCK_NB) == 0; }
+
+/// Says whether the file that is open is the one of this name, and this user's own. Its owner may have renamed it just
+/// before the lock was ours.
+bool is_ours(int file, const std::string& path) {
+  struct stat opened, named;
+  return fstat(file, &opened) == 0 && lstat(path.c_str(), &named) == 0 && S_ISREG(opened.st_mode) &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino && opened.st_nlink == 1 &&
+         opened.st_uid == geteuid();
+}
+
+/// Removes what a killed run has left. False when the file is not that.
+bool remove_left_over(const std::string& path) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) return false;
+  const bool removed = lock(file) && is_ours(file, path) && unlink(path.c_str()) == 0;
+  close(file);
+  return removed;
+}
+
+/// A file that was not there, locked; −1 when there is none, with EEXIST when another run has this name.
+int create(const std::string& path) {
+  constexpr mode_t kAsUsual = 0666;  // less what the user's mask takes away
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kAsUsual);
+  // A file system without locks has no run that takes it for left over, either.
+  if (file < 0 || lock(file) || errno != EWOULDBLOCK) return file;
+  close(file);
+  errno = EEXIST;
+  return -1;
+}
+
+}  // namespace
+
+void discard_unfinished() noexcept {
+  for (const Entry& entry : entries) {
+    wait_for(entry);
+    if (entry.state == Entry::listed) unlink(entry.path.data());
+  }
+}
+
+Temporary::Temporary(std::string path, std::size_t entry, int lock)
+    : path_(std::move(path)), entry_(entry), lock_(lock) {}
+
+Temporary Temporary::beside(const std::string& target) {
+  constexpr int kTries = 1000;  // as many runs may write the same file at once
+  Place place;
+  for (int i = 0; i < kTries; ++i) {
+    std::string path = text(target, ".tmp", i);
+    int file = create(path);
+    const bool taken = file < 0 && errno == EEXIST;
+    if (taken && remove_left_over(path)) file = create(path);
+    if (file >= 0) {
+      const std::size_t entry = place.take(path);
+      return {std::move(path), entry, file};
+    }
+    if (!taken) break;
+  }
+  return {};
+}
+
+Temporary& Temporary::operator=(Temporary&& other) noexcept {
+  if (this == &other) return *this;
+  remove();
+  path_ = std::exchange(other.path_, {});
+  entry_ = other.entry_;
+  lock_ = other.lock_;
+  return *this;
+}
+
+int Temporary::open() const { return dup(lock_); }
+
+void Temporary::take_permissions(const std::string& target) const {
+  constexpr mode_t kPermissions = 07777;
+  struct stat found;
+  if (stat(target.c_str(), &found) == 0) chmod(path_.c_str(), found.st_mode & kPermissions);
+}
+
+bool Temporary::rename_to(const std::string& target) {
+  if (std::rename(path_.c_str(), target.c_str()) != 0) return false;
+  end();
+  return true;
+}
+
+void Temporary::remove() {
+  if (!exists()) return;
+  unlink(path_.c_str());
+  end();
+}
+
+/// The file has gone, whichever way.
+void Temporary::end() {
+  path_.clear();
+  strike(entry_);
+  close(lock_);
+}
+
+std::string without_links(const std::string& path) {
+  char* const real = realpath(path.c_str(), nullptr);
+  if (real == nullptr) return path;
+  std::string result = real;
+  std::free(real);
+  return result;
+}
+
+}  // namespace temper::io

@@ -1,0 +1,64 @@
+// Temporary files where the program is alone, in the browser's memory: no other run writes the same file or has left
+// one behind, and no signal ends this one. (temporary.cpp is for all other systems.)
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "io/disk/temporary.hpp"
+#include "io/text/failure.hpp"
+#include "temper/io.hpp"
+
+namespace temper::io {
+
+namespace {
+
+constexpr std::size_t kNoEntry = 0;  // no list
+constexpr int kNoLock = -1;
+
+}  // namespace
+
+void discard_unfinished() noexcept {}
+
+Temporary::Temporary(std::string path, std::size_t entry, int lock)
+    : path_(std::move(path)), entry_(entry), lock_(lock) {}
+
+Temporary Temporary::beside(const std::string& target) {
+  std::string path = text(target, ".tmp0");
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  if (file < 0) return {};
+  close(file);
+  return {std::move(path), kNoEntry, kNoLock};
+}
+
+Temporary& Temporary::operator=(Temporary&& other) noexcept {
+  if (this == &other) return *this;
+  remove();
+  path_ = std::exchange(other.path_, {});
+  entry_ = other.entry_;
+  lock_ = other.lock_;
+  return *this;
+}
+
+int Temporary::open() const { return ::open(path_.c_str(), O_WRONLY); }
+
+void Temporary::take_permissions(const std::string& /*target*/) const {}
+
+bool Temporary::rename_to(const std::string& target) {
+  if (std::rename(path_.c_str(), target.c_str()) != 0) return false;
+  end();
+  return true;
+}
+
+void Temporary::remove() {
+  if (!exists()) return;
+  unlink(path_.c_str());
+  end();
+}
+
+void Temporary::end() { path_.clear(); }
+
+std::string without_links(const std::string& path) { return path; }
+
+}  // namespace temper::io

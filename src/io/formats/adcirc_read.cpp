@@ -1,0 +1,263 @@
+// ADCIRC's grid and boundary file, fort.14: a title, "NE NP", nodes "number x y depth", elements "number 3 a b c", then
+// strings of boundary nodes. What follows on a line is a comment.
+//
+//   NOPE, NETA, and for each open boundary   NVDLL IBTYPEE, then its nodes
+//   NBOU, NVEL, and for each land boundary   NVELL IBTYPE, then its nodes, with more numbers where there are levees:
+//     3 13 23       node height coefficient
+//     4 24 64       node partner height coefficient coefficient
+//     5 25          node partner height coefficient coefficient, height, coefficient and diameter of a pipe
+//
+// (ADCIRC users' manual, fort.14.) ADCIRC itself closes islands (types 1, 11, 21) whose last node is not their first.
+// SCHISM reads no types (hgrid.gr3), so its files may have none, and 1 for what is no island.
+#include <algorithm>
+#include <cctype>
+
+#include "io/conversion/adcirc.hpp"
+#include "io/conversion/geographic.hpp"
+#include "io/formats/format.hpp"
+#include "io/text/scanner.hpp"
+#include "io/text/values.hpp"
+
+namespace temper::io {
+
+std::string adcirc_boundary_name(const AdcircBoundary& b, std::size_t number) {
+  const std::string name = text(b.open ? "open" : "land", " boundary ", number);
+  return b.open && b.type == 0 ? name : text(name, ", type ", b.type);
+}
+
+std::optional<AdcircBoundary> adcirc_boundary(std::string_view name) {
+  const bool open = name.starts_with("open boundary ");
+  if (!open && !name.starts_with("land boundary ")) return std::nullopt;
+  constexpr std::string_view kType = ", type ";
+  const std::size_t at = name.find(kType);
+  if (at == std::string_view::npos) return AdcircBoundary{open, 0};
+  const std::string_view digits = name.substr(at + kType.size());
+  AdcircBoundary result{open, 0};
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), result.type);
+  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
+  return result;
+}
+
+AdcircRow adcirc_row(const AdcircBoundary& b) {
+  if (b.open) return {};
+  switch (b.type) {
+    case 3:
+    case 13:
+    case 23:
+      return {false, 2};
+    case 4:
+    case 24:
+    case 64:
+      return {true, 3};
+    case 5:
+    case 25:
+      return {true, 6};
+    default:
+      return {};
+  }
+}
+
+namespace {
+
+class AdcircReader {
+ public:
+  explicit AdcircReader(Source& source) : scanner_(source.path, source.bytes), document_(new_document(source.path)) {}
+  Document read() {
+    MeshFile& f = document_.file;
+    const std::string_view title = scanner_.rest_of_line();
+    if (!title.empty())
+      f.field_data.push_back({std::string(kAdcircTitle), 1, std::vector<std::uint8_t>(title.begin(), title.end())});
+    const std::size_t n_elements = scanner_.count("elements", 10), n_nodes = scanner_.count("nodes", 8);
+    scanner_.next_line();
+    nodes(n_nodes);
+    const NumberLookup lookup(document_.names->points);
+    if (const auto twice = lookup.duplicate())
+      fail(ErrorCode::syntax, scanner_.path(), text("has node ", *twice, " twice"));
+    elements(n_elements, lookup);
+    boundaries(true, lookup);
+    boundaries(false, lookup);
+    open_what_no_edge_closes();
+    if (untyped_ > 0) {
+      f.warnings.push_back(text(scanner_.path(), ": ", untyped_,
+                                untyped_ == 1 ? " land boundary has" : " land boundaries have",
+                                " no type, which SCHISM reads none of: read as type 0"));
+    }
+    if (!sides_.empty()) {
+      f.marked_point_data.push_back({std::string(kAdcircSide), 1, std::move(sides_)});
+      f.marked_point_data.push_back({std::string(kAdcircLevee), kAdcircLeveeNumbers, std::move(levees_)});
+    }
+    return std::move(document_);
+  }
+
+ private:
+  void nodes(std::size_t n) {
+    MeshFile& f = document_.file;
+    FileNames& names = *document_.names;
+    std::vector<double> depths(n);
+    f.points.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      names.points.push_back(scanner_.number<std::int64_t>("the number of a node"));
+      names.point_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+      const double x = scanner_.real("the x coordinate of a node");
+      f.points.push_back({x, scanner_.real("the y coordinate of a node")});
+      depths[i] = scanner_.real("the depth of a node");
+      scanner_.next_line();
+    }
+    if (look_like_degrees(f.points, depths)) f.points_in = DegreePoints{.is_guessed = true};
+    f.point_data.push_back({std::string(kAdcircDepth), 1, std::move(depths)});
+  }
+  void elements(std::size_t n, const NumberLookup& lookup) {
+    MeshFile& f = document_.file;
+    FileNames& names = *document_.names;
+    f.triangles.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto number = scanner_.number<std::int64_t>("the number of an element");
+      names.triangles.push_back(number);
+      names.triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+      const std::int32_t corners = scanner_.integer("the number of corners");
+      if (corners == 4) refuse_element(scanner_.where(), number, "quadrilateral");
+      if (corners != 3) {
+        scanner_.fail_here(ErrorCode::syntax, text("triangle ", number, " has ", corners, " corners; expected 3"));
+      }
+      const std::string element = text("triangle ", number);
+      const std::int32_t a = node(lookup, element), b = node(lookup, element);
+      f.triangles.push_back({a, b, node(lookup, element)});
+      scanner_.next_line();
+    }
+  }
+  std::size_t count_line(std::string_view things, std::size_t bytes_each) {
+    const std::size_t n = scanner_.count(things, bytes_each);
+    scanner_.next_line();
+    return n;
+  }
+  // Old files end early: then there are no boundaries.
+  void boundaries(bool open, const NumberLookup& lookup) {
+    if (scanner_.at_end()) return;
+    const std::size_t n = count_line(open ? "open boundaries" : "land boundaries", 2);
+    if (n == 0 && scanner_.at_end()) return;
+    static_cast<void>(count_line("boundary nodes", 1));
+    for (std::size_t i = 0; i < n; ++i) boundary(open, i + 1, lookup);
+  }
+  void boundary(bool open, std::size_t number, const NumberLookup& lookup) {
+    MeshFile& f = document_.file;
+    const std::size_t n = scanner_.count("nodes of a boundary", 2);
+    AdcircBoundary kind{open, 0};
+    const bool typed = scanner_.more_on_line() && scanner_.peek().find_first_not_of("0123456789") == std::string::npos;
+    if (typed) kind.type = scanner_.integer("the type of a boundary");
+    if (!typed && !open) ++untyped_;
+    scanner_.next_line();
+    const std::string name = adcirc_boundary_name(kind, number);
+    const AdcircRow row = adcirc_row(kind);
+    const std::int32_t tag = ++last_tag_;
+    const auto mark = [&](std::int32_t point, std::int8_t side) {
+      f.marked_points.push_back(point);
+      f.point_tags.push_back(tag);
+      sides_.push_back(side);
+    };
+    std::int32_t first = -1, last = -1;
+    const auto connect = [&](std::int32_t to) {
+      if (last == to) return;
+      f.lines.push_back({last, to});
+      f.line_tags.push_back(tag);
+      document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::int32_t point = node(lookup, name);
+      if (i == 0) first = point;
+      if (i > 0) connect(point);
+      last = point;
+      if (row.numbers > 0) {
+        mark(point, 0);
+        if (row.paired) mark(node(lookup, name), 1);
+        levees_.resize(sides_.size() * kAdcircLeveeNumbers);
+        double* numbers = levees_.data() + (sides_.size() - (row.paired ? 2 : 1)) * kAdcircLeveeNumbers;
+        for (int k = 0; k < row.numbers; ++k) numbers[k] = scanner_.real("a number of a levee");
+      }
+      scanner_.next_line();
+    }
+    const bool island = !open && (kind.type == 1 || kind.type == 11 || kind.type == 21);
+    if (island && n > 2 && last != first) {
+      closing_lines_.push_back(f.lines.size());
+      connect(first);
+    }
+    if (n < 2) document_.file.warnings.push_back(text(scanner_.where(), ": ", name, " has no edge and is dropped"));
+    f.names.push_back({1, tag, name});
+  }
+  std::int32_t node(const NumberLookup& lookup, const std::string& element) {
+    const auto number = scanner_.number<std::int64_t>("the number of a node");
+    if (const auto index = lookup.find(number)) return static_cast<std::int32_t>(*index);
+    scanner_.fail_here(ErrorCode::index_out_of_range,
+                       text(element, " uses vertex ", number, ", but the file has ", document_.file.points.size(),
+                            " vertices, numbered from ", document_.names->points[0]));
+  }
+  /// Takes out the lines that close islands and are no edges of the mesh.
+  void open_what_no_edge_closes() {
+    MeshFile& f = document_.file;
+    using Ends = std::pair<std::int32_t, std::int32_t>;
+    std::vector<std::pair<Ends, std::size_t>> wanted;  // and the line
+    for (const std::size_t line : closing_lines_)
+      wanted.emplace_back(std::minmax({f.lines[line][0], f.lines[line][1]}), line);
+    if (wanted.empty()) return;
+    std::sort(wanted.begin(), wanted.end());
+    std::vector<bool> gone(f.lines.size());
+    for (const std::size_t line : closing_lines_) gone[line] = true;
+    for (const auto& t : f.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Ends ends = std::minmax({t[k], t[(k + 1) % 3]});
+        auto line = std::lower_bound(wanted.begin(), wanted.end(), std::pair(ends, std::size_t{0}));
+        for (; line != wanted.end() && line->first == ends; ++line) gone[line->second] = false;
+      }
+    }
+    RunLength text_lines;
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < gone.size(); ++i) {
+      if (gone[i]) continue;
+      f.lines[n] = f.lines[i];
+      f.line_tags[n++] = f.line_tags[i];
+      text_lines.push_back(document_.names->line_lines[static_cast<std::int64_t>(i)]);
+    }
+    f.lines.resize(n);
+    f.line_tags.resize(n);
+    document_.names->line_lines = std::move(text_lines);
+  }
+
+  Scanner scanner_;
+  Document document_;
+  std::int32_t last_tag_ = 0;
+  std::size_t untyped_ = 0;
+  std::vector<std::size_t> closing_lines_;  // of islands whose last node is not their first
+  std::vector<double> levees_;
+  std::vector<std::int8_t> sides_;
+};
+
+}  // namespace
+
+// The first line is a title, so the next two have to tell: two counts and no third number, then a node.
+bool sniff_adcirc(std::string_view head) {
+  const auto take_line = [&head] {
+    const std::size_t end = std::min(head.find('\n'), head.size());
+    const std::string_view line = head.substr(0, end);
+    head.remove_prefix(std::min(end + 1, head.size()));
+    return line;
+  };
+  const auto is_count = [](std::string_view w) {
+    return !w.empty() && w.find_first_not_of("0123456789") == std::string_view::npos && w != "0";
+  };
+  take_line();
+  Scanner counts("", take_line()), node("", take_line());
+  for (int i = 0; i < 2; ++i) {
+    if (!is_count(counts.peek())) return false;
+    static_cast<void>(counts.word("a count"));
+  }
+  if (looks_like_number(counts.peek()) || !is_count(node.peek())) return false;
+  static_cast<void>(node.word("a number"));
+  for (int i = 0; i < 3; ++i) {
+    if (!looks_like_number(node.peek())) return false;
+    static_cast<void>(node.word("a number"));
+  }
+  return true;
+}
+
+Document read_adcirc(Source& source) { return AdcircReader(source).read(); }
+
+}  // namespace temper::io

@@ -1,0 +1,242 @@
+// Writes ADCIRC's fort.14. Lines on the boundary become strings of nodes, with the domain on the left; those whose tag
+// has no name of a boundary become land boundaries of type 0 (mainland).
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "io/conversion/adcirc.hpp"
+#include "io/formats/format.hpp"
+#include "io/text/values.hpp"
+
+namespace temper::io {
+
+namespace {
+
+using NodeString = std::vector<std::int32_t>;
+using DirectedEdge = std::array<std::int32_t, 2>;
+
+/// A boundary as it is written.
+struct AdcircString {
+  AdcircBoundary kind;
+  std::int32_t tag = 0;
+  NodeString nodes;
+};
+
+/// Edges of one triangle, with the domain on their left.
+std::set<DirectedEdge> boundary_edges(const MeshFile& f) {
+  std::vector<DirectedEdge> edges;
+  edges.reserve(3 * f.triangles.size());
+  for (const auto& t : f.triangles) {
+    const auto at = [&](std::size_t k) { return f.points[static_cast<std::size_t>(t[k])]; };
+    const bool clockwise = cross(at(1) - at(0), at(2) - at(0)) < 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t a = t[k], b = t[(k + 1) % 3];
+      edges.push_back(clockwise ? DirectedEdge{b, a} : DirectedEdge{a, b});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::set<DirectedEdge> boundary;
+  for (const auto& [a, b] : edges) {
+    if (!std::binary_search(edges.begin(), edges.end(), DirectedEdge{b, a})) boundary.insert({a, b});
+  }
+  return boundary;
+}
+
+/// The edges, each given once, as strings in the order in which they come.
+std::vector<NodeString> strings_of(const std::vector<DirectedEdge>& edges) {
+  std::map<std::int32_t, std::int32_t> next;
+  std::set<std::int32_t> targets;
+  for (const auto& [a, b] : edges) {
+    next.emplace(a, b);
+    targets.insert(b);
+  }
+  std::vector<NodeString> strings;
+  const auto follow = [&](std::int32_t from) {
+    NodeString nodes = {from};
+    for (auto it = next.find(from); it != next.end(); it = next.find(nodes.back())) {
+      nodes.push_back(it->second);
+      next.erase(it);
+    }
+    if (nodes.size() > 1) strings.push_back(std::move(nodes));
+  };
+  for (const auto& edge : edges) {
+    if (!targets.contains(edge[0])) follow(edge[0]);
+  }
+  for (const auto& edge : edges) follow(edge[0]);  // loops
+  return strings;
+}
+
+class AdcircWriter {
+ public:
+  explicit AdcircWriter(const WriteJob& job) : job_(job), file_(job.file), out_(job.outputs.open(job.path)) {
+    for (const PhysicalName& n : file_.names) {
+      if (n.dimension == 1) names_.emplace(n.tag, n.name);
+    }
+  }
+  void write() {
+    title();
+    nodes();
+    const MeshFile& f = file_;
+    for (std::size_t i = 0; i < f.triangles.size(); ++i) {
+      const auto& t = f.triangles[i];
+      out_.put(i + 1, " 3 ", t[0] + 1, ' ', t[1] + 1, ' ', t[2] + 1, '\n');
+    }
+    collect_levees();
+    collect_boundaries();
+    boundaries(true);
+    boundaries(false);
+    warn_of_lost();
+  }
+
+ private:
+  void title() {
+    const DataArray* array = find(file_.field_data, kAdcircTitle);
+    const auto* bytes = array == nullptr ? nullptr : std::get_if<std::vector<std::uint8_t>>(&array->values);
+    std::string line = bytes == nullptr ? "" : std::string(bytes->begin(), bytes->end());
+    for (char& c : line) c = c == '\n' || c == '\r' ? ' ' : c;
+    out_.put(line, '\n');
+    out_.put(file_.triangles.size(), ' ', file_.points.size(), '\n');
+  }
+  void nodes() {
+    const DataArray* array = find(file_.point_data, kAdcircDepth);
+    const bool has_depth = array != nullptr && array->components == 1;
+    const auto depths = has_depth ? to_doubles(Values(array->values)) : std::vector<double>(file_.points.size());
+    for (std::size_t i = 0; i < file_.points.size(); ++i)
+      out_.put(i + 1, ' ', file_.points[i].x, ' ', file_.points[i].y, ' ', depths[i], '\n');
+  }
+  void collect_boundaries() {
+    const MeshFile& f = file_;
+    if (f.lines.empty()) return;
+    const auto boundary = boundary_edges(f);
+    std::vector<std::int32_t> tags;  // in the order of their first line
+    std::map<std::int32_t, std::vector<DirectedEdge>> edges;
+    std::size_t inside = 0;
+    for (std::size_t i = 0; i < f.lines.size(); ++i) {
+      const auto [a, b] = f.lines[i];
+      const bool forward = boundary.contains({a, b});
+      if (!forward && !boundary.contains({b, a})) {
+        ++inside;
+        continue;
+      }
+      auto& list = edges[f.line_tags[i]];
+      if (list.empty()) tags.push_back(f.line_tags[i]);
+      list.push_back(forward ? DirectedEdge{a, b} : DirectedEdge{b, a});
+    }
+    if (inside > 0)
+      job_.warn(text(inside, " lines that are not on the boundary are not written: fort.14 has no place for them"));
+    for (const std::int32_t tag : tags) {
+      const AdcircBoundary kind = kind_of(tag);
+      for (NodeString& nodes : strings_of(edges[tag])) strings_.push_back({kind, tag, std::move(nodes)});
+    }
+    for (AdcircString& s : strings_) levee_string(s);
+  }
+  AdcircBoundary kind_of(std::int32_t tag) {
+    std::string_view name;
+    const auto [first, last] = names_.equal_range(tag);
+    for (auto named = first; named != last; ++named) {
+      if (const auto kind = adcirc_boundary(named->second)) return *kind;
+      name = named->second;
+    }
+    job_.warn(
+        text("lines with tag ", tag, name.empty() ? "" : ", ", name,
+             " are written as land boundaries of type 0; the name 'open boundary 1' or 'land boundary 1, type 20' "
+             "would say otherwise"));
+    return {};
+  }
+  void collect_levees() {
+    const MeshFile& f = file_;
+    const DataArray* side_data = find(f.marked_point_data, kAdcircSide);
+    const DataArray* levee_data = find(f.marked_point_data, kAdcircLevee);
+    if (side_data == nullptr || levee_data == nullptr || levee_data->components != kAdcircLeveeNumbers) return;
+    const auto sides = to_int32(side_data->values);
+    if (!sides || side_data->components != 1) return;
+    levee_numbers_ = to_doubles(Values(levee_data->values));
+    for (std::size_t i = 0; i < f.marked_points.size(); ++i) {
+      if ((*sides)[i] != 0) continue;
+      const TagAndNode node(f.point_tags[i], f.marked_points[i]);
+      const bool has_partner =
+          i + 1 < f.marked_points.size() && f.point_tags[i + 1] == node.first && (*sides)[i + 1] == 1;
+      levees_.emplace(node, i);
+      if (has_partner) paired_levees_.emplace(node, i);
+    }
+  }
+  /// The marked point that is this node of the string, when it has a levee.
+  [[nodiscard]] const std::size_t* levee(const AdcircString& string, std::int32_t node) const {
+    const auto& levees = adcirc_row(string.kind).paired ? paired_levees_ : levees_;
+    const auto found = levees.find({string.tag, node});
+    return found == levees.end() ? nullptr : &found->second;
+  }
+  void boundaries(bool open) {
+    std::size_t n = 0, n_nodes = 0;
+    for (const AdcircString& s : strings_) {
+      if (s.kind.open != open) continue;
+      ++n;
+      n_nodes += s.nodes.size() * (adcirc_row(s.kind).paired ? 2 : 1);
+    }
+    const char* which = open ? "open" : "land";
+    out_.put(n, " = number of ", which, " boundaries\n", n_nodes, " = number of ", which, " boundary nodes\n");
+    std::size_t number = 0;
+    for (const AdcircString& s : strings_) {
+      if (s.kind.open != open) continue;
+      out_.put(s.nodes.size(), ' ', s.kind.type, " = number of nodes and type of ", which, " boundary ", ++number,
+               '\n');
+      const AdcircRow row = adcirc_row(s.kind);
+      for (const std::int32_t p : s.nodes) {
+        out_.put(p + 1);
+        if (row.numbers > 0) {
+          const std::size_t at = *levee(s, p);
+          if (row.paired) out_.put(' ', file_.marked_points[at + 1] + 1);
+          for (int k = 0; k < row.numbers; ++k)
+            out_.put(' ',
+                     levee_numbers_[at * static_cast<std::size_t>(kAdcircLeveeNumbers) + static_cast<std::size_t>(k)]);
+        }
+        out_.put('\n');
+      }
+    }
+  }
+  /// A boundary whose nodes have lost their levees is written as one that has none.
+  void levee_string(AdcircString& string) {
+    const AdcircRow row = adcirc_row(string.kind);
+    if (row.numbers == 0) return;
+    const auto has_levee = [&](std::int32_t p) { return levee(string, p) != nullptr; };
+    if (std::all_of(string.nodes.begin(), string.nodes.end(), has_levee)) return;
+    constexpr std::int32_t kNatural = 20, kTypesOfOneKind = 10;
+    const std::int32_t type = string.kind.type == 64 ? kNatural : string.kind.type - string.kind.type % kTypesOfOneKind;
+    job_.warn(
+        text("a boundary of type ", string.kind.type, " has nodes without their levee and is written as type ", type));
+    string.kind.type = type;
+  }
+  void warn_of_lost() const {
+    const MeshFile& f = file_;
+    std::vector<PhysicalName> names;
+    for (const PhysicalName& n : f.names) {
+      if (n.dimension != 1 || !adcirc_boundary(n.name)) names.push_back(n);
+    }
+    warn_of_names(job_, names);
+    const bool levees = find(f.marked_point_data, kAdcircSide) != nullptr;
+    if (!f.marked_points.empty() && !levees) job_.warn("marked points are not written, fort.14 has no place for them");
+  }
+
+  const WriteJob& job_;
+  const MeshFile& file_;
+  Output& out_;
+  std::multimap<std::int32_t, std::string_view> names_;  // of lines, by tag
+  std::vector<AdcircString> strings_;
+  using TagAndNode = std::pair<std::int32_t, std::int32_t>;
+  std::map<TagAndNode, std::size_t> levees_, paired_levees_;  // marked points
+  std::vector<double> levee_numbers_;                         // of all marked points
+};
+
+}  // namespace
+
+// Files of the VTK family have the data of levees on all their cells.
+bool adcirc_keeps(ArraysOf of, const DataArray& array) {
+  if (of == &MeshFile::point_data) return array.name == kAdcircDepth;
+  if (of == &MeshFile::field_data) return array.name == kAdcircTitle;
+  return array.name == kAdcircLevee || array.name == kAdcircSide;
+}
+
+void write_adcirc(const WriteJob& job) { AdcircWriter(job).write(); }
+
+}  // namespace temper::io

@@ -1,0 +1,151 @@
+// See cells.hpp. A region or tag is the first of these cell arrays that is there with one integer a cell:
+// region (temper's own), gmsh:physical and medit:ref (as meshio writes them), and what VTK users call it.
+#include "io/formats/cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "io/text/names.hpp"
+#include "io/text/scanner.hpp"
+#include "io/text/values.hpp"
+
+namespace temper::io {
+
+namespace {
+
+constexpr std::array<std::string_view, 9> kRegionNames = {"region",        "gmsh:physical", "medit:ref",
+                                                          "CellEntityIds", "mat_id",        "MaterialIds",
+                                                          "material",      "subdomain",     "attribute"};
+
+}  // namespace
+
+std::string_view vtk_cell_name(int type) {
+  constexpr std::array<std::string_view, 15> kNames = {
+      "empty cell", "vertex",        "poly-vertex", "line",  "poly-line",  "triangle", "triangle strip", "polygon",
+      "pixel",      "quadrilateral", "tetrahedron", "voxel", "hexahedron", "wedge",    "pyramid"};
+  if (type >= 0 && static_cast<std::size_t>(type) < kNames.size()) return kNames[static_cast<std::size_t>(type)];
+  if (type == 21) return "quadratic edge";
+  if (type == 22) return "quadratic triangle";
+  if (type == 69) return "Lagrange triangle";
+  return "cell of a type that is no triangle";
+}
+
+void CellSorter::add(int type, const std::int32_t* p, std::size_t n, const std::string& where) {
+  MeshFile& f = document_.file;
+  const auto cell = static_cast<std::int64_t>(n_cells_++);
+  const bool fits = type == kVtkTriangle   ? n == 3
+                    : type == kVtkLine     ? n == 2
+                    : type == kVtkVertex   ? n == 1
+                    : type == kVtkPolyLine ? n >= 2
+                                           : true;
+  if (!fits)
+    fail(ErrorCode::syntax, where, text("element ", cell, " is a ", vtk_cell_name(type), " with ", n, " vertices"));
+  switch (type) {
+    case kVtkPolygon:
+      if (n != 3) refuse_element(where, cell, text("polygon with ", n, " corners"));
+      [[fallthrough]];
+    case kVtkTriangle:
+      f.triangles.push_back({p[0], p[1], p[2]});
+      triangle_cells_.push_back(cell);
+      return;
+    case kVtkLine:
+    case kVtkPolyLine:
+      for (std::size_t k = 0; k + 1 < n; ++k) {
+        f.lines.push_back({p[k], p[k + 1]});
+        line_cells_.push_back(cell);
+      }
+      return;
+    case kVtkVertex:
+    case kVtkPolyVertex:
+      for (std::size_t k = 0; k < n; ++k) {
+        f.marked_points.push_back(p[k]);
+        point_cells_.push_back(cell);
+      }
+      return;
+    case kVtkEmptyCell:
+      return;
+    default:
+      refuse_element(where, cell, vtk_cell_name(type));
+  }
+}
+
+std::vector<std::int32_t> tags_of(std::vector<DataArray>& arrays) {
+  for (const std::string_view name : kRegionNames) {
+    const DataArray* array = find(arrays, name);
+    if (array == nullptr || array->components != 1) continue;
+    auto tags = to_int32(array->values);
+    if (!tags) continue;
+    if (name == "region") static_cast<void>(take(arrays, name));
+    return std::move(*tags);
+  }
+  return {};
+}
+
+void CellSorter::distribute(std::vector<DataArray>&& cell_data) {
+  MeshFile& f = document_.file;
+  make_names_unique(cell_data);
+  const bool only_triangles = triangle_cells_.size() == n_cells_ && triangle_cells_.counts_from(0);
+  for (DataArray& array : cell_data) {
+    if (only_triangles) {
+      f.cell_data.push_back(std::move(array));
+      continue;
+    }
+    // One cell may be many lines or points, and each gets its data.
+    const auto part = [&](const RunLength& cells) {
+      allowance_.take(cells.size(), static_cast<std::uint64_t>(array.components), document_.names->path);
+      return DataArray{array.name, array.components, gather(array.values, array.components, cells)};
+    };
+    f.cell_data.push_back(part(triangle_cells_));
+    if (!line_cells_.empty()) f.line_data.push_back(part(line_cells_));
+    if (!point_cells_.empty()) f.marked_point_data.push_back(part(point_cells_));
+  }
+  take_tags();
+  document_.names->triangles = std::move(triangle_cells_);
+  document_.names->lines = std::move(line_cells_);
+}
+
+void CellSorter::take_tags() {
+  MeshFile& f = document_.file;
+  f.regions = tags_of(f.cell_data);
+  f.line_tags = tags_of(f.line_data);
+  f.line_tags.resize(f.lines.size());
+  f.point_tags = tags_of(f.marked_point_data);
+  f.point_tags.resize(f.marked_points.size());
+}
+
+void take_physical_names(Document& document) {
+  const std::string& path = document.names->path;
+  const auto taken = take(document.file.field_data, "physical_names");
+  if (!taken) return;
+  const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&taken->values);
+  if (bytes == nullptr) fail(ErrorCode::syntax, path, "the field array 'physical_names' is not of type UInt8");
+  const std::string all(bytes->begin(), bytes->end());
+  Scanner scanner(path, all);
+  read_physical_names(scanner, document.file.names);
+}
+
+void take_period(Document& document) {
+  auto taken = take(document.file.field_data, kPlanePeriod);
+  if (!taken) return;
+  const std::vector<double> lengths = to_doubles(std::move(taken->values));
+  const auto is_length = [](double x) { return x >= 0 && std::isfinite(x); };
+  if (lengths.size() != 2 || !std::all_of(lengths.begin(), lengths.end(), is_length)) {
+    fail(ErrorCode::out_of_scale, document.names->path,
+         text("field data ", in_quotes(kPlanePeriod),
+              " is not two lengths; expected the periods along x and y, 0 where there is none"));
+  }
+  const Vec2 period = {lengths[0], lengths[1]};
+  if (!(period == Vec2{})) document.file.points_in = PeriodicPoints{period};
+}
+
+void take_point_data(Document& document, std::vector<DataArray>&& arrays) {
+  MeshFile& f = document.file;
+  f.point_data = std::move(arrays);
+  make_names_unique(f.point_data);
+  const DataArray* weight = find(f.point_data, "weight");
+  if (weight == nullptr || weight->components != 1) return;
+  f.weights = to_doubles(std::move(take(f.point_data, "weight")->values));
+}
+
+}  // namespace temper::io

@@ -1,0 +1,208 @@
+// Meshes of the ocean model FESOM: nod2d.out, elem2d.out, and aux3d.out where it is there (FESOM2 documentation,
+// "Mesh").
+//
+//   nod2d.out    points, then: number longitude latitude flag     degrees; flag 1 on the coast, kept as data `flag`
+//   elem2d.out   triangles, then: a b c                           numbers from 1
+//   aux3d.out    levels, then the depth of each, then of each point: data `depth`, and field data `levels`
+//
+// Before each name may be another one: pi.nod2d.out, pi.elem2d.out. The points are on a sphere of 6371 km.
+#include <algorithm>
+#include <array>
+
+#include "io/conversion/globe.hpp"
+#include "io/disk/files.hpp"
+#include "io/formats/format.hpp"
+#include "io/text/names.hpp"
+#include "io/text/scanner.hpp"
+#include "io/text/values.hpp"
+
+namespace temper::io {
+namespace {
+
+constexpr std::string_view kPoints = "nod2d.out", kTriangles = "elem2d.out", kDepths = "aux3d.out";
+constexpr std::string_view kFlag = "flag", kDepth = "depth", kLevels = "levels";
+
+enum class FesomFile { none, points, triangles };
+
+bool is_whole_number(std::string_view word) {
+  return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// A number alone on its line, then four or three words a line: so begins no other format.
+FesomFile kind_of_fesom(std::string_view head) {
+  Scanner scanner("", head);
+  std::array<std::vector<std::string_view>, 2> lines;
+  for (auto& words : lines) {
+    if (scanner.at_end()) return FesomFile::none;
+    while (scanner.more_on_line()) words.push_back(scanner.word("a number"));
+  }
+  const auto& row = lines[1];
+  if (lines[0].size() != 1 || !is_whole_number(lines[0][0]) || row.empty() || !is_whole_number(row[0])) {
+    return FesomFile::none;
+  }
+  if (row.size() == 4 && row[0] == "1" && looks_like_number(row[1]) && looks_like_number(row[2])) {
+    return FesomFile::points;
+  }
+  const bool three = row.size() == 3 && std::all_of(row.begin(), row.end(), is_whole_number);
+  return three ? FesomFile::triangles : FesomFile::none;
+}
+
+class FesomReader {
+ public:
+  explicit FesomReader(Source& source) : source_(source), document_(new_document(source.path)) {}
+
+  Document read() {
+    const bool is_points = kind_of_fesom(std::string_view(source_.bytes).substr(0, kSniffBytes)) == FesomFile::points;
+    const std::string base = without_suffix(source_.path, is_points ? kPoints : kTriangles);
+    const std::string other_path = base + std::string(is_points ? kTriangles : kPoints);
+    if (base == source_.path) refuse_other_name(is_points);
+    if (!exists(other_path)) {
+      fail(ErrorCode::not_found, source_.path,
+           text("is the ", is_points ? "points" : "triangles", " of a FESOM mesh; its ",
+                is_points ? "triangles are" : "points are", " expected in ", other_path, ", which does not exist"));
+    }
+    Source other = load(other_path);
+    document_.names->path = is_points ? source_.path : other_path;
+    document_.names->triangle_path = is_points ? other_path : source_.path;
+    points(is_points ? source_ : other);
+    triangles(is_points ? other : source_);
+    if (exists(base + std::string(kDepths))) depths(base + std::string(kDepths));
+    return std::move(document_);
+  }
+
+ private:
+  /// Nothing in such a file is FESOM's alone: METIS has its triangles in the same way.
+  [[noreturn]] void refuse_other_name(bool is_points) const {
+    fail(ErrorCode::unsupported, source_.path,
+         is_points ? text("has points without triangles, as FESOM has them; expected a name that ends with ", kPoints,
+                          ", and the triangles in ", kTriangles, " beside it")
+                   : text("has triangles without points, as METIS and FESOM have them; temper reads those of FESOM: "
+                          "expected a name that ends with ",
+                          kTriangles, ", and the points in ", kPoints, " beside it"));
+  }
+  void points(Source& source) {
+    Scanner scanner(source.path, source.bytes);
+    MeshFile& f = document_.file;
+    const std::size_t n = scanner.count("points", 8);
+    std::vector<std::int32_t> flags;
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto number = scanner.integer("the number of a point");
+      if (number != static_cast<std::int64_t>(i) + 1) {
+        scanner.fail_here(ErrorCode::syntax, text("expected point ", i + 1, ", found point ", number));
+      }
+      document_.names->points.push_back(number);
+      document_.names->point_lines.push_back(static_cast<std::int64_t>(scanner.line()));
+      const double longitude = scanner.real("the longitude of a point");
+      f.points.push_back({longitude, scanner.real("the latitude of a point")});
+      flags.push_back(scanner.integer("the flag of a point"));
+    }
+    f.point_data.push_back({std::string(kFlag), 1, std::move(flags)});
+    put_on_sphere(f, Projection{}.radius, *document_.names);
+  }
+
+  void triangles(Source& source) {
+    Scanner scanner(source.path, source.bytes);
+    const std::size_t n = scanner.count("triangles", 6);
+    for (std::size_t i = 0; i < n; ++i) {
+      document_.names->triangles.push_back(static_cast<std::int64_t>(i) + 1);
+      const std::int32_t a = scanner.vertex(1);
+      document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner.line()));
+      const std::int32_t b = scanner.vertex(1);
+      document_.file.triangles.push_back({a, b, scanner.vertex(1)});
+    }
+  }
+
+  void depths(const std::string& path) {
+    const Source source = load(path);
+    Scanner scanner(path, source.bytes);
+    MeshFile& f = document_.file;
+    std::vector<double> levels, depth;
+    for (std::size_t n = scanner.count("levels", 2); levels.size() < n;) levels.push_back(scanner.real("a level"));
+    while (depth.size() < f.points.size()) depth.push_back(scanner.real("the depth of a point"));
+    f.field_data.push_back({std::string(kLevels), 1, std::move(levels)});
+    f.point_data.push_back({std::string(kDepth), 1, std::move(depth)});
+  }
+
+  Source& source_;
+  Document document_;
+};
+
+// --- writing ---------------------------------------------------------------------------------------------
+
+/// What stands before the names of the files; "NAME." of another NAME.
+std::string fesom_base(const std::string& path) {
+  std::string base = without_suffix(without_suffix(path, kPoints), kTriangles);
+  return base == path ? base + "." : base;
+}
+
+/// The flags that came with the points; or 1 for those on the boundary.
+std::vector<std::int32_t> flags_of(const MeshFile& f) {
+  if (const DataArray* flags = find(f.point_data, kFlag); flags != nullptr && flags->components == 1) {
+    if (auto known = to_int32(flags->values)) return *std::move(known);
+  }
+  std::vector<std::array<std::int32_t, 2>> sides;
+  for (const auto& [a, b, c] : f.triangles) {
+    for (const auto& side : {std::array{a, b}, std::array{b, c}, std::array{c, a}}) {
+      sides.push_back({std::min(side[0], side[1]), std::max(side[0], side[1])});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  std::vector<std::int32_t> flags(f.points.size());
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const bool twice = (i > 0 && sides[i] == sides[i - 1]) || (i + 1 < sides.size() && sides[i] == sides[i + 1]);
+    if (twice) continue;
+    for (const std::int32_t p : sides[i]) flags[static_cast<std::size_t>(p)] = 1;
+  }
+  return flags;
+}
+
+/// Depths of points, and levels, when both are there.
+struct FesomDepths {
+  const std::vector<double>*levels = nullptr, *depth = nullptr;
+};
+FesomDepths depths_of(const MeshFile& f) {
+  const auto doubles = [](const std::vector<DataArray>& arrays, std::string_view name) {
+    const DataArray* array = find(arrays, name);
+    return array == nullptr || array->components != 1 ? nullptr : std::get_if<std::vector<double>>(&array->values);
+  };
+  const FesomDepths found{doubles(f.field_data, kLevels), doubles(f.point_data, kDepth)};
+  return found.levels != nullptr && found.depth != nullptr ? found : FesomDepths{};
+}
+
+}  // namespace
+
+bool sniff_fesom(std::string_view head) { return kind_of_fesom(head) != FesomFile::none; }
+
+Document read_fesom(Source& source) { return FesomReader(source).read(); }
+
+std::vector<std::string> fesom_files(const std::string& path) {
+  const std::string base = fesom_base(path);
+  return {base + std::string(kPoints), base + std::string(kTriangles), base + std::string(kDepths)};
+}
+
+bool fesom_keeps(ArraysOf of, const DataArray& array) {
+  if (of == &MeshFile::point_data) return array.name == kFlag || array.name == kDepth;
+  return of == &MeshFile::field_data && array.name == kLevels;
+}
+
+void write_fesom(const WriteJob& job) {
+  const MeshFile& f = job.file;
+  const std::string base = fesom_base(job.path);
+  Output& points = job.outputs.open(base + std::string(kPoints));
+  const std::vector<std::int32_t> flags = flags_of(f);
+  points.put(f.points.size(), '\n');
+  for (std::size_t i = 0; i < f.points.size(); ++i) {
+    points.put(i + 1, ' ', f.points[i].x, ' ', f.points[i].y, ' ', flags[i], '\n');
+  }
+  Output& triangles = job.outputs.open(base + std::string(kTriangles));
+  triangles.put(f.triangles.size(), '\n');
+  for (const auto& [a, b, c] : f.triangles) triangles.put(a + 1, ' ', b + 1, ' ', c + 1, '\n');
+  const auto [levels, depth] = depths_of(f);
+  if (levels == nullptr) return;
+  Output& depths = job.outputs.open(base + std::string(kDepths));
+  depths.put(levels->size(), '\n');
+  for (const double level : *levels) depths.put(level, '\n');
+  for (const double d : *depth) depths.put(d, '\n');
+}
+
+}  // namespace temper::io

@@ -1,0 +1,116 @@
+// A format, as the rest of io sees it: one row of the table in registry.cpp, and the functions of one source file.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/conversion/globe.hpp"
+#include "io/disk/output.hpp"
+#include "io/formats/document.hpp"
+#include "temper/io.hpp"
+
+namespace temper::io {
+
+struct WriteJob;
+using ArraysOf = std::vector<DataArray> MeshFile::*;
+
+/// The parts of a mesh file beyond triangles and points in the plane, which not every format has a place for.
+enum Content : unsigned {
+  kZ = 1u << 0,
+  kWeights = 1u << 1,
+  kRegions = 1u << 2,
+  kLines = 1u << 3,
+  kMarkedPoints = 1u << 4,
+  kNames = 1u << 5,
+  kPointData = 1u << 6,
+  kCellData = 1u << 7,
+  kLineData = 1u << 8,
+  kMarkedPointData = 1u << 9,
+  kFieldData = 1u << 10,
+  kSphere = 1u << 11,  ///< points of a sphere, in three coordinates or in degrees
+  kPeriod = 1u << 12,  ///< periods of a plane
+};
+using Contents = unsigned;
+inline constexpr Contents kAllTags = kRegions | kLines | kMarkedPoints;
+inline constexpr Contents kAllData = kPointData | kCellData | kLineData | kMarkedPointData | kFieldData;
+inline constexpr Contents kAll = kZ | kWeights | kAllTags | kNames | kAllData;
+/// Of formats that are in space anyway.
+inline constexpr Contents kInSpace = kZ | kSphere;
+
+/// Which meshes are written in longitude and latitude.
+enum class Degrees {
+  as_they_came,  ///< those that were read in degrees
+  where_known,   ///< those in the plane, too, that have longitude and latitude as data
+  always,        ///< no others
+  by_writer,     ///< the writer needs the plane for orthocenters, and sees to degrees itself
+};
+
+/// What is to be said of few formats.
+struct FormatDetails {
+  /// Says of an array whose content is not in `holds` whether it has a place nevertheless. Null: none has.
+  bool (*keeps)(ArraysOf of, const DataArray& array) = nullptr;
+  /// That are written, or why none can be; null: path alone.
+  std::vector<std::string> (*files_to_write)(const std::string& path) = nullptr;
+  /// That are read where they are there, that of the points first; null: path alone.
+  std::vector<std::string> (*files_to_read)(const std::string& path) = nullptr;
+  std::int64_t first_point = 1;     ///< the number of the first point in a file
+  std::string_view name_ends = {};  ///< characters that would end a name: written as %22
+  Degrees degrees = Degrees::as_they_came;
+};
+
+struct FormatRow {
+  std::string_view name, description, suffixes;  ///< as in Format
+  Contents holds;                                ///< what a file has beyond it is named in a warning
+  bool (*sniff)(std::string_view head);          ///< from the first kSniffBytes of the file
+  Document (*read)(Source& source);
+  void (*write)(const WriteJob& job) = nullptr;  ///< null: read only
+  FormatDetails details = {};
+};
+inline constexpr std::size_t kSniffBytes = 4096;
+/// The row of that name, or null.
+[[nodiscard]] const FormatRow* find_row(std::string_view name);
+
+/// One file to be written.
+struct WriteJob {
+  const std::string& path;
+  const MeshFile& file;      ///< as it is written: in degrees where it was read in degrees
+  const MeshFile& measured;  ///< the same where lengths are those of the mesh
+  const FormatRow& row;
+  std::optional<Encoding> encoding;
+  bool triangle_quality;
+  Executor* executor;
+  OutputSet& outputs;
+  std::vector<std::string>& warnings;
+
+  void warn(std::string_view message) const { warnings.push_back(text(path, ": ", message)); }
+  /// The name as the format can hold it.
+  [[nodiscard]] std::string written(std::string_view name) const;
+};
+
+/// Warns of all that the file has and the row does not hold, but the weights, which go to the side file.
+void warn_of_losses(const WriteJob& job);
+/// Warns of arrays or names that a writer found no place for.
+void warn_of_arrays(const WriteJob& job, std::string_view kind, const std::vector<std::string_view>& names);
+void warn_of_names(const WriteJob& job, const std::vector<PhysicalName>& lost);
+/// The tag of each point, 0 where there is none, for formats that hold one: further tags are named in a warning.
+[[nodiscard]] std::vector<std::int32_t> one_tag_a_point(const WriteJob& job);
+
+/// "a Fluent mesh, which temper does not read; meshio converts it", of a file in a format that is recognised; else
+/// empty.
+[[nodiscard]] std::string recognise_unsupported(std::string_view bytes);
+
+// --- weights of formats without a place for them ---------------------------------------------------
+/// PATH.weights.csv
+[[nodiscard]] std::string side_file_path(const std::string& path);
+/// Takes the weights from the side file when it is there and the file itself gives none.
+void read_side_file(Document& document);
+/// Writes the side file when there are weights, or one is there.
+void write_side_file(const WriteJob& job);
+
+/// Fails unless the arrays of the file fit each other: of one that was made by hand, or kept in another file, as
+/// writers would read past their ends.
+void check_sizes(const std::string& path, const MeshFile& file);
+
+}  // namespace temper::io

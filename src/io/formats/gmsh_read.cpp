@@ -1,0 +1,591 @@
+// Gmsh MSH 2 and 4.1, ASCII and binary, either byte order.
+//
+// Physical tag → region of a triangle, tag of a line or point. The number of the geometric entity is kept as data
+// gmsh:geometrical. NodeData and ElementData become data; the NodeData "weight" are the weights. Elements are put in
+// the order of their numbers, which is the order that Gmsh gave them and that other programs count by.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "io/formats/format.hpp"
+#include "io/formats/gmsh.hpp"
+#include "io/text/scanner.hpp"
+#include "io/text/values.hpp"
+
+namespace temper::io {
+
+namespace {
+
+std::string_view mesh_format_version(std::string_view head) {
+  Scanner comments("", head, '#');
+  comments.skip_space();
+  head = comments.tail();
+  const std::size_t at = head.find("$MeshFormat");
+  if (at == std::string_view::npos || !head.starts_with('$')) return {};
+  std::string_view rest = head.substr(at + std::string_view("$MeshFormat").size());
+  const std::size_t first = rest.find_first_not_of(" \t\r\n");
+  return first == std::string_view::npos ? std::string_view{} : rest.substr(first, 8);
+}
+
+// Of types from 3.
+constexpr std::array<std::string_view, 9> kElementNames = {"quadrilateral",
+                                                           "tetrahedron",
+                                                           "hexahedron",
+                                                           "prism",
+                                                           "pyramid",
+                                                           "quadratic line",
+                                                           "quadratic triangle",
+                                                           "quadratic quadrilateral",
+                                                           "quadratic tetrahedron"};
+std::string_view element_name(std::int32_t type) {
+  if (type == 16) return "quadratic quadrilateral";
+  return type >= 3 && type <= 11 ? kElementNames[static_cast<std::size_t>(type) - 3]
+                                 : "element of a type that temper does not know";
+}
+
+/// Elements of one kind as they are read.
+template <std::size_t N>
+struct Elements {
+  std::vector<std::array<std::int32_t, N>> nodes;
+  std::vector<std::int32_t> physical, geometrical;
+  RunLength numbers, text_lines;
+
+  void add(const std::array<std::int32_t, N>& element_nodes, std::int32_t physical_tag, std::int32_t entity,
+           std::int64_t number, std::int64_t text_line) {
+    nodes.push_back(element_nodes);
+    physical.push_back(physical_tag);
+    geometrical.push_back(entity);
+    numbers.push_back(number);
+    text_lines.push_back(text_line);
+  }
+  void sort_by_number();
+};
+
+template <std::size_t N>
+void Elements<N>::sort_by_number() {
+  const std::size_t n = nodes.size();
+  std::vector<std::int64_t> number(n);
+  for (std::size_t i = 0; i < n; ++i) number[i] = numbers[static_cast<std::int64_t>(i)];
+  if (std::is_sorted(number.begin(), number.end())) return;
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return number[a] < number[b]; });
+  Elements sorted;
+  for (const std::size_t i : order) {
+    sorted.add(nodes[i], physical[i], geometrical[i], number[i], text_lines[static_cast<std::int64_t>(i)]);
+  }
+  *this = std::move(sorted);
+}
+
+class GmshReader {
+ public:
+  explicit GmshReader(Source& source)
+      : scanner_(source.path, source.bytes), document_(new_document(source.path)), allowance_(source.allowance) {}
+  Document read() {
+    while (!scanner_.at_end()) {
+      if (scanner_.peek().starts_with('#')) {
+        scanner_.next_line();
+        continue;
+      }
+      const std::string name(scanner_.word("a section"));
+      if (!name.starts_with('$'))
+        scanner_.fail_here(ErrorCode::syntax, text("expected a section ($…), found ", in_quotes(name)));
+      section(name.substr(1));
+    }
+    if (!has_nodes_) scanner_.fail_truncated("the section $Nodes");
+    if (!has_elements_) scanner_.fail_truncated("the section $Elements");
+    finish();
+    return std::move(document_);
+  }
+
+ private:
+  void section(const std::string& name) {
+    if (name == "MeshFormat") {
+      mesh_format();
+    } else if (name == "PhysicalNames") {
+      physical_names();
+    } else if (name == "Entities" && version4_) {
+      entities();
+    } else if (name == "Nodes") {
+      version4_ ? nodes_4() : nodes_2();
+      finish_nodes();
+    } else if (name == "Elements") {
+      if (!has_nodes_) scanner_.fail_here(ErrorCode::syntax, "expected $Nodes before $Elements");
+      version4_ ? elements_4() : elements_2();
+      finish_elements();
+    } else if (name == "NodeData" || name == "ElementData") {
+      data(name);
+    } else {
+      skip(name);
+      return;
+    }
+    const std::string_view end = scanner_.word(text("$End", name));
+    if (end != text("$End", name))
+      fail(ErrorCode::syntax, where(), text("expected $End", name, ", found ", in_quotes(end)));
+  }
+  void mesh_format() {
+    const std::string version(scanner_.word("the version"));
+    version4_ = version == "4.1";
+    if (!version4_ && !version.starts_with('2')) {
+      scanner_.fail_here(ErrorCode::unsupported, text("is Gmsh MSH ", in_quotes(version), "; temper reads 2 and 4.1"));
+    }
+    const std::int32_t type = scanner_.integer("the file type");
+    const std::int32_t data_size = scanner_.integer("the data size");
+    if (type != 0 && type != 1) scanner_.fail_here(ErrorCode::syntax, text("expected file type 0 or 1, found ", type));
+    if (data_size != 8)
+      scanner_.fail_here(ErrorCode::unsupported, text("has data of ", data_size, " bytes; expected 8"));
+    document_.file.format = version4_ ? "gmsh41" : "gmsh22";
+    if (type == 0) return;
+    scanner_.next_line();
+    binary_ = true;
+    const auto one = get<std::int32_t>("the number 1 in binary");
+    if (one == 1) return;
+    swap_ = true;
+    if (one != 0x01000000)
+      fail(ErrorCode::syntax, scanner_.path(), text("expected the number 1 in binary, found ", one));
+  }
+  // Since version 2.1 `dimension tag "name"`, in 2.0 `tag "name"`.
+  void physical_names() {
+    const std::size_t n = scanner_.count("physical names", 4);
+    for (std::size_t i = 0; i < n; ++i) {
+      PhysicalName name;
+      name.dimension = scanner_.integer("the dimension of a physical name");
+      if (!version4_ && scanner_.more_on_line() && scanner_.peek().starts_with('"')) {
+        name.tag = std::exchange(name.dimension, 0);
+        name.name = quoted_string();
+        names_without_dimension_.push_back(std::move(name));
+        continue;
+      }
+      name.tag = scanner_.integer("the tag of a physical name");
+      name.name = quoted_string();
+      document_.file.names.push_back(std::move(name));
+    }
+  }
+  /// A name without a dimension is of all dimensions whose elements carry its tag.
+  void settle_names() {
+    MeshFile& f = document_.file;
+    const std::array<std::set<std::int32_t>, 3> tags = {std::set(f.point_tags.begin(), f.point_tags.end()),
+                                                        std::set(f.line_tags.begin(), f.line_tags.end()),
+                                                        std::set(f.regions.begin(), f.regions.end())};
+    for (const PhysicalName& name : names_without_dimension_) {
+      bool used = false;
+      for (const std::int32_t dimension : {0, 1, 2}) {
+        if (!tags[static_cast<std::size_t>(dimension)].contains(name.tag)) continue;
+        f.names.push_back({dimension, name.tag, name.name});
+        used = true;
+      }
+      if (used) continue;
+      f.warnings.push_back(text(scanner_.path(), ": the physical name ", in_quotes(name.name), " of tag ", name.tag,
+                                " is dropped: it has no dimension, and no element has the tag"));
+    }
+  }
+  void entities() {
+    if (binary_) scanner_.next_line();
+    std::array<std::size_t, 4> counts;
+    for (std::size_t& n : counts) n = get_count("entities", 10, 36);
+    for (std::int32_t dimension = 0; dimension < 4; ++dimension) {
+      for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) {
+        const auto tag = get<std::int32_t>("the tag of an entity");
+        const int n_coordinates = dimension == 0 ? 3 : 6;
+        for (int k = 0; k < n_coordinates; ++k) get<double>("a coordinate of an entity");
+        const std::size_t n_physical = get_count("physical tags", 2, 4);
+        for (std::size_t k = 0; k < n_physical; ++k) {
+          const auto physical = get<std::int32_t>("a physical tag");
+          if (k == 0) physical_of_entity_[{dimension, tag}] = physical;
+        }
+        if (n_physical > 1) ++with_further_tags_;
+        if (dimension == 0) continue;
+        const std::size_t n_bounding = get_count("bounding entities", 2, 4);
+        for (std::size_t k = 0; k < n_bounding; ++k) get<std::int32_t>("a bounding entity");
+      }
+    }
+  }
+  void nodes_2() {
+    const std::size_t n = scanner_.count("nodes", binary_ ? 28 : 8);
+    if (binary_) scanner_.next_line();
+    document_.file.points.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto number = get<std::int32_t>("the number of a node");
+      document_.names->points.push_back(number);
+      if (!binary_) document_.names->point_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+      const double x = get<double>("the x coordinate of a node");
+      const double y = get<double>("the y coordinate of a node");
+      add_node(number, x, y, get<double>("the z coordinate of a node"));
+    }
+  }
+  void nodes_4() {
+    if (binary_) scanner_.next_line();
+    const std::size_t n_blocks = get_count("blocks of nodes", 8, 20);
+    const std::size_t total = get_count("nodes", 8, 32);
+    get<std::uint64_t>("the least number of a node");
+    get<std::uint64_t>("the largest number of a node");
+    document_.file.points.reserve(total);
+    for (std::size_t b = 0; b < n_blocks; ++b) {
+      const auto dimension = get<std::int32_t>("the dimension of an entity");
+      get<std::int32_t>("the tag of an entity");
+      const bool parametric = get<std::int32_t>("0 or 1: parametric") != 0;
+      const std::size_t n = get_count("nodes", 8, 32);
+      for (std::size_t i = 0; i < n; ++i) {
+        document_.names->points.push_back(static_cast<std::int64_t>(get<std::uint64_t>("the number of a node")));
+      }
+      for (std::size_t i = 0; i < n; ++i) {
+        const double x = get<double>("the x coordinate of a node");
+        if (!binary_) document_.names->point_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
+        const double y = get<double>("the y coordinate of a node");
+        add_node(0, x, y, get<double>("the z coordinate of a node"));
+        for (int k = 0; parametric && k < dimension; ++k) get<double>("a parameter of a node");
+      }
+    }
+  }
+  void elements_2() {
+    const std::size_t n = scanner_.count("elements", binary_ ? 12 : 8);
+    if (binary_) scanner_.next_line();
+    std::int32_t type = 0, n_tags = 0;
+    std::int32_t left_in_block = binary_ ? 0 : std::numeric_limits<std::int32_t>::max();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (left_in_block == 0) {
+        type = get<std::int32_t>("the type of elements");
+        left_in_block = get<std::int32_t>("the number of elements of a block");
+        n_tags = get<std::int32_t>("the number of tags");
+        if (left_in_block <= 0) fail(ErrorCode::syntax, where(), text("a block has ", left_in_block, " elements"));
+      }
+      const auto number = get<std::int32_t>("the number of an element");
+      if (!binary_) {
+        type = get<std::int32_t>("the type of an element");
+        n_tags = get<std::int32_t>("the number of tags");
+      } else {
+        --left_in_block;
+      }
+      if (n_tags < 0) fail(ErrorCode::syntax, where(), text("element ", number, " has ", n_tags, " tags"));
+      std::array<std::int32_t, 2> tags = {0, 0};
+      for (std::int32_t k = 0; k < n_tags; ++k) {
+        const auto tag = get<std::int32_t>("a tag of an element");
+        if (k < 2) tags[static_cast<std::size_t>(k)] = tag;
+      }
+      add_element(type, number, tags[0], tags[1]);
+    }
+  }
+  void elements_4() {
+    if (binary_) scanner_.next_line();
+    const std::size_t n_blocks = get_count("blocks of elements", 8, 20);
+    get_count("elements", 4, 16);
+    get<std::uint64_t>("the least number of an element");
+    get<std::uint64_t>("the largest number of an element");
+    for (std::size_t b = 0; b < n_blocks; ++b) {
+      const auto dimension = get<std::int32_t>("the dimension of an entity");
+      const auto entity = get<std::int32_t>("the tag of an entity");
+      const auto type = get<std::int32_t>("the type of elements");
+      const std::size_t n = get_count("elements", 4, 16);
+      const auto physical = physical_of_entity_.find({dimension, entity});
+      const std::int32_t tag = physical == physical_of_entity_.end() ? 0 : physical->second;
+      for (std::size_t i = 0; i < n; ++i) {
+        const auto number = static_cast<std::int64_t>(get<std::uint64_t>("the number of an element"));
+        add_element(type, number, tag, entity);
+      }
+    }
+  }
+  void data(const std::string& section_name) {
+    if (!has_elements_)
+      scanner_.fail_here(ErrorCode::syntax, text("expected $Nodes and $Elements before $", section_name));
+    std::string name = "data";
+    const std::size_t n_strings = scanner_.count("names", 2);
+    scanner_.next_line();
+    for (std::size_t i = 0; i < n_strings; ++i) {
+      const std::string string = quoted_string();
+      if (i == 0) name = string;
+    }
+    double time = 0;
+    const std::size_t n_reals = scanner_.count("real tags", 2);
+    for (std::size_t i = 0; i < n_reals; ++i) {
+      const double real = scanner_.real("a real tag");
+      if (i == 0) time = real;
+    }
+    std::array<std::int32_t, 3> integers = {0, 1, 0};  // time step, components, entries
+    const std::size_t n_integers = scanner_.count("integer tags", 2);
+    for (std::size_t i = 0; i < n_integers; ++i) {
+      const std::int32_t value = scanner_.integer("an integer tag");
+      if (i < 3) integers[i] = value;
+    }
+    constexpr std::int32_t kMostComponents = 64;  // Gmsh itself knows 1, 3 and 9
+    if (integers[1] < 1 || integers[1] > kMostComponents || integers[2] < 0) {
+      scanner_.fail_here(ErrorCode::syntax, text("data ", in_quotes(name), " have ", integers[1], " components and ",
+                                                 integers[2], " entries"));
+    }
+    const auto components = static_cast<std::size_t>(integers[1]), entries = static_cast<std::size_t>(integers[2]);
+    scanner_.check_room(entries, "entries", binary_ ? 4 + 8 * components : 2 + 2 * components);
+    if (binary_) scanner_.next_line();
+    const bool nodes = section_name == "NodeData";
+    auto& names = nodes ? node_data_ : element_data_;
+    if (names.contains(name)) {
+      name = text(name, "@", time);
+    } else if (nodes || entries > 0) {
+      names.insert(name);
+    }
+    nodes ? node_values(name, components, entries) : element_values(name, components, entries);
+  }
+  void node_values(const std::string& name, std::size_t components, std::size_t entries) {
+    MeshFile& f = document_.file;
+    allowance_.take(f.points.size(), components, where());
+    std::vector<double> values(f.points.size() * components, std::numeric_limits<double>::quiet_NaN());
+    std::vector<bool> given(f.points.size());
+    for (std::size_t i = 0; i < entries; ++i) {
+      const auto number = get<std::int32_t>("the number of a node");
+      const auto index = lookup_->find(number);
+      if (!index) {
+        fail(ErrorCode::index_out_of_range, where(),
+             text("node data ", in_quotes(name), " are given for node ", number, ", which is none"));
+      }
+      given[*index] = true;
+      for (std::size_t k = 0; k < components; ++k)
+        values[*index * components + k] = get<double>("a value of node data");
+    }
+    const auto missing = static_cast<std::size_t>(std::count(given.begin(), given.end(), false));
+    if (name == "weight" && components == 1) {
+      if (missing > 0) {
+        const auto first = static_cast<std::size_t>(std::find(given.begin(), given.end(), false) - given.begin());
+        fail(ErrorCode::size_mismatch, where(),
+             text("node data 'weight' miss ", missing, " of ", f.points.size(), " points, the first is ",
+                  document_.names->point(first)));
+      }
+      f.weights = std::move(values);
+      return;
+    }
+    if (missing > 0)
+      f.warnings.push_back(text(where(), ": node data ", in_quotes(name), " miss ", missing, " points: read as NaN"));
+    f.point_data.push_back({name, static_cast<int>(components), std::move(values)});
+  }
+  void element_values(const std::string& name, std::size_t components, std::size_t entries) {
+    MeshFile& f = document_.file;
+    struct Target {
+      const NumberLookup* lookup;
+      std::size_t n;
+      std::vector<DataArray>* list;
+      std::vector<double> values;
+      std::size_t given = 0;
+    };
+    std::array<Target, 3> targets = {{{&*triangle_lookup_, triangles_.nodes.size(), &f.cell_data, {}},
+                                      {&*line_lookup_, lines_.nodes.size(), &f.line_data, {}},
+                                      {&*point_lookup_, points_.nodes.size(), &f.marked_point_data, {}}}};
+    for (std::size_t i = 0; i < entries; ++i) {
+      const auto number = get<std::int32_t>("the number of an element");
+      Target* target = nullptr;
+      std::size_t index = 0;
+      for (Target& candidate : targets) {
+        if (const auto found = candidate.lookup->find(number)) {
+          target = &candidate;
+          index = *found;
+          break;
+        }
+      }
+      if (target == nullptr && repeated_lookup_->find(number)) {
+        for (std::size_t k = 0; k < components; ++k) get<double>("a value of element data");
+        continue;
+      }
+      if (target == nullptr) {
+        fail(ErrorCode::index_out_of_range, where(),
+             text("element data ", in_quotes(name), " are given for element ", number, ", which is none"));
+      }
+      if (target->values.empty()) {
+        allowance_.take(target->n, components, where());
+        target->values.assign(target->n * components, std::numeric_limits<double>::quiet_NaN());
+      }
+      ++target->given;
+      for (std::size_t k = 0; k < components; ++k)
+        target->values[index * components + k] = get<double>("a value of element data");
+    }
+    for (Target& target : targets) {
+      if (target.values.empty()) continue;
+      if (target.given < target.n) {
+        f.warnings.push_back(text(where(), ": element data ", in_quotes(name), " miss ", target.n - target.given,
+                                  " elements: read as NaN"));
+      }
+      target.list->push_back({name, static_cast<int>(components), std::move(target.values)});
+    }
+  }
+  void skip(const std::string& name) {
+    const std::string at = where();
+    if (!scanner_.until(text("$End", name))) scanner_.fail_truncated(text("$End", name));
+    if (name != "Comments" && name != "Entities")
+      document_.file.warnings.push_back(text(at, ": section $", name, " is dropped"));
+  }
+  void finish() {
+    MeshFile& f = document_.file;
+    const auto hand_over = [](auto& elements, auto& nodes, auto& tags, auto& data) {
+      nodes = std::move(elements.nodes);
+      tags = std::move(elements.physical);
+      const bool has_entities =
+          std::any_of(elements.geometrical.begin(), elements.geometrical.end(), [](auto e) { return e != 0; });
+      if (has_entities) data.push_back({std::string(kGmshEntity), 1, std::move(elements.geometrical)});
+    };
+    hand_over(triangles_, f.triangles, f.regions, f.cell_data);
+    // No physical group at all: no regions.
+    if (std::count(f.regions.begin(), f.regions.end(), 0) == std::ssize(f.regions)) f.regions.clear();
+    hand_over(lines_, f.lines, f.line_tags, f.line_data);
+    f.marked_points.reserve(points_.nodes.size());
+    for (const auto& [node] : points_.nodes) f.marked_points.push_back(node);
+    std::vector<std::array<std::int32_t, 1>> unused;
+    hand_over(points_, unused, f.point_tags, f.marked_point_data);
+    settle_names();
+
+    FileNames& names = *document_.names;
+    names.triangles = std::move(triangles_.numbers);
+    names.lines = std::move(lines_.numbers);
+    if (!binary_) {
+      names.triangle_lines = std::move(triangles_.text_lines);
+      names.line_lines = std::move(lines_.text_lines);
+    }
+    if (with_further_tags_ > 0) {
+      const bool one = with_further_tags_ == 1;
+      const std::string_view what = version4_ ? one ? " entity has" : " entities have"
+                                    : one     ? " triangle has"
+                                              : " triangles have";
+      f.warnings.push_back(text(scanner_.path(), ": ", with_further_tags_, what,
+                                " several physical tags: only the first ", one ? "" : "of each ", "is kept"));
+    }
+  }
+
+  void add_node(std::int64_t number, double x, double y, double z) {
+    MeshFile& f = document_.file;
+    static_cast<void>(number);
+    f.points.push_back({x, y});
+    PlaneCheck(document_).add(f.points.size() - 1, z);
+  }
+  void finish_nodes() {
+    if (has_nodes_) fail(ErrorCode::syntax, where(), "has two sections $Nodes");
+    has_nodes_ = true;
+    lookup_.emplace(document_.names->points);
+    if (const auto twice = lookup_->duplicate()) {
+      fail(ErrorCode::syntax, where(), text("node number ", *twice, " is given twice"));
+    }
+  }
+  void add_element(std::int32_t type, std::int64_t number, std::int32_t physical, std::int32_t entity) {
+    const auto line = static_cast<std::int64_t>(scanner_.line());
+    switch (type) {
+      case kGmshTriangle: {
+        const std::int32_t a = node_index("triangle", number), b = node_index("triangle", number);
+        return triangles_.add({a, b, node_index("triangle", number)}, physical, entity, number, line);
+      }
+      case kGmshLine: {
+        const std::int32_t a = node_index("line", number);
+        return lines_.add({a, node_index("line", number)}, physical, entity, number, line);
+      }
+      case kGmshPoint:
+        return points_.add({node_index("point element", number)}, physical, entity, number, line);
+      default:
+        refuse_element(where(), number, element_name(type));
+    }
+  }
+  [[nodiscard]] std::int32_t node_index(std::string_view kind, std::int64_t element) {
+    const std::int64_t number = version4_ ? static_cast<std::int64_t>(get<std::uint64_t>("the number of a node"))
+                                          : get<std::int32_t>("the number of a node");
+    const auto index = lookup_->find(number);
+    if (index) return static_cast<std::int32_t>(*index);
+    const std::size_t n = document_.file.points.size();
+    const bool contiguous = document_.names->points.counts_from(1);
+    fail(ErrorCode::index_out_of_range, where(),
+         text(kind, " ", element, " uses vertex ", number, ", but the file has ",
+              contiguous ? text(n, " vertices, numbered from 1") : "no vertex of that number"));
+  }
+  // In version 2 an element of several physical groups is there once for each.
+  void keep_one_of_each_triangle() {
+    const std::vector<std::int32_t>& physical = triangles_.physical;
+    if (std::adjacent_find(physical.begin(), physical.end(), std::not_equal_to<>()) == physical.end()) return;
+    std::vector<std::pair<std::array<std::int32_t, 3>, std::size_t>> all;
+    all.reserve(physical.size());
+    for (std::array<std::int32_t, 3> corners : triangles_.nodes) {
+      std::sort(corners.begin(), corners.end());
+      all.emplace_back(corners, all.size());
+    }
+    std::sort(all.begin(), all.end());
+    std::vector<bool> repeated(all.size());
+    for (std::size_t first = 0, i = 1; i < all.size(); ++i) {
+      const std::size_t a = all[first].second, b = all[i].second;
+      const bool same = all[i].first == all[first].first && physical[a] != physical[b] &&
+                        triangles_.geometrical[a] == triangles_.geometrical[b];
+      repeated[b] = same;
+      if (!same) first = i;
+      if (same && i == first + 1) ++with_further_tags_;
+    }
+    if (with_further_tags_ == 0) return;
+    Elements<3> kept;
+    for (std::size_t i = 0; i < repeated.size(); ++i) {
+      const auto row = static_cast<std::int64_t>(i);
+      if (repeated[i])
+        repeated_.push_back(triangles_.numbers[row]);
+      else
+        kept.add(triangles_.nodes[i], physical[i], triangles_.geometrical[i], triangles_.numbers[row],
+                 triangles_.text_lines[row]);
+    }
+    triangles_ = std::move(kept);
+  }
+  void finish_elements() {
+    if (has_elements_) fail(ErrorCode::syntax, where(), "has two sections $Elements");
+    has_elements_ = true;
+    triangles_.sort_by_number();
+    lines_.sort_by_number();
+    points_.sort_by_number();
+    if (!version4_) keep_one_of_each_triangle();
+    triangle_lookup_.emplace(triangles_.numbers);
+    repeated_lookup_.emplace(repeated_);
+    line_lookup_.emplace(lines_.numbers);
+    point_lookup_.emplace(points_.numbers);
+  }
+  std::string quoted_string() {
+    std::string_view line = scanner_.rest_of_line();
+    if (line.size() >= 2 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
+    return std::string(line);
+  }
+  std::string where() const { return binary_ ? scanner_.path() : scanner_.where(); }
+
+  /// The next number: a word of text, or its bytes.
+  template <class T>
+  T get(std::string_view expected) {
+    if (!binary_) return scanner_.number<T>(expected);
+    const std::string_view bytes = scanner_.bytes(sizeof(T), expected);
+    std::array<char, sizeof(T)> copy;
+    std::copy(bytes.begin(), bytes.end(), copy.begin());
+    if (swap_) std::reverse(copy.begin(), copy.end());
+    T value;
+    std::memcpy(&value, copy.data(), sizeof(T));
+    return value;
+  }
+  /// Reads the number of things that follow, of at least so many bytes each as text and in binary.
+  std::size_t get_count(std::string_view things, std::size_t text_bytes, std::size_t binary_bytes) {
+    const auto n = get<std::uint64_t>(text("the number of ", things));
+    scanner_.check_room(n, things, binary_ ? binary_bytes : text_bytes);
+    return static_cast<std::size_t>(n);
+  }
+
+  Scanner scanner_;
+  Document document_;
+  Allowance& allowance_;
+  bool binary_ = false, swap_ = false, version4_ = false, has_nodes_ = false, has_elements_ = false;
+  std::optional<NumberLookup> lookup_;
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> physical_of_entity_;
+  std::size_t with_further_tags_ = 0;  // entities in 4.1, triangles in 2
+  std::vector<PhysicalName> names_without_dimension_;
+  Elements<3> triangles_;
+  Elements<2> lines_;
+  Elements<1> points_;
+  std::optional<NumberLookup> triangle_lookup_, line_lookup_, point_lookup_;
+  RunLength repeated_;  // the numbers of triangles that are there already
+  std::optional<NumberLookup> repeated_lookup_;
+  std::set<std::string> node_data_, element_data_;  // names
+};
+
+}  // namespace
+
+bool sniff_gmsh22(std::string_view head) { return mesh_format_version(head).starts_with("2"); }
+bool sniff_gmsh41(std::string_view head) { return mesh_format_version(head).starts_with("4.1"); }
+
+Document read_gmsh(Source& source) { return GmshReader(source).read(); }
+
+}  // namespace temper::io

@@ -1,0 +1,344 @@
+// Writes Gmsh MSH 2.2 and 4.1, ASCII and binary.
+//
+// Elements are numbered points first, then lines, then triangles, so that the reader finds their order again. A Gmsh
+// entity has one physical group, so entities are the distinct pairs (entity, region): their numbers come from the data
+// gmsh:geometrical where there is one, else from the region. Doubles are all that NodeData and ElementData hold.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "io/conversion/globe.hpp"
+#include "io/formats/format.hpp"
+#include "io/formats/gmsh.hpp"
+#include "io/text/values.hpp"
+
+namespace temper::io {
+
+namespace {
+
+/// Elements of one kind, whatever their number of corners.
+struct Kind {
+  std::int32_t dimension = 0;
+  std::int32_t type = 0;
+  std::size_t n = 0;
+  std::size_t corners = 1;
+  const std::int32_t* nodes = nullptr;
+  const std::vector<std::int32_t>* tags = nullptr;  // empty: all 0
+  const std::vector<DataArray>* data = nullptr;
+  std::size_t first_number = 1;
+  std::vector<std::int32_t> entities;  // of each element; empty: all `only_entity`
+  std::int32_t only_entity = 1;
+  std::map<std::int32_t, std::int32_t> physical_of_entity;
+
+  [[nodiscard]] std::int32_t tag(std::size_t i) const { return tags->empty() ? 0 : (*tags)[i]; }
+  [[nodiscard]] std::int32_t entity(std::size_t i) const { return entities.empty() ? only_entity : entities[i]; }
+};
+
+/// The numbers of the entities that a file came with, if it did.
+const std::vector<std::int32_t>* given_entities(const Kind& kind) {
+  const DataArray* array = find(*kind.data, kGmshEntity);
+  return array == nullptr || array->components != 1 ? nullptr : std::get_if<std::vector<std::int32_t>>(&array->values);
+}
+
+/// Numbers entities so that each has one physical tag.
+void number_entities(Kind& kind) {
+  if (kind.n == 0) return;
+  const auto* given = given_entities(kind);
+  const bool uniform = given == nullptr && (kind.tags->empty() || std::count(kind.tags->begin(), kind.tags->end(),
+                                                                             kind.tag(0)) == std::ssize(*kind.tags));
+  if (uniform) {
+    kind.physical_of_entity[kind.only_entity] = kind.tag(0);
+    return;
+  }
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> entity_of_pair;
+  const auto pair_of = [&](std::size_t i) { return std::pair(given == nullptr ? 0 : (*given)[i], kind.tag(i)); };
+  for (std::size_t i = 0; i < kind.n; ++i) entity_of_pair[pair_of(i)] = 0;
+  std::set<std::int32_t> taken;
+  for (auto& [pair, entity] : entity_of_pair) {
+    if (pair.first > 0 && taken.insert(pair.first).second) entity = pair.first;
+  }
+  std::int32_t next = 1;
+  for (auto& [pair, entity] : entity_of_pair) {
+    while (entity == 0) {
+      if (taken.insert(next).second) entity = next;
+      ++next;
+    }
+    kind.physical_of_entity[entity] = pair.second;
+  }
+  kind.entities.resize(kind.n);
+  for (std::size_t i = 0; i < kind.n; ++i) kind.entities[i] = entity_of_pair[pair_of(i)];
+}
+
+/// Rows that are NaN throughout have no value: Gmsh leaves them out.
+bool has_value(const double* values, std::size_t components) {
+  return !std::all_of(values, values + components, [](double v) { return std::isnan(v); });
+}
+
+class GmshWriter {
+ public:
+  GmshWriter(const WriteJob& job, bool version4)
+      : job_(job),
+        file_(job.file),
+        out_(job.outputs.open(job.path)),
+        version4_(version4),
+        binary_(job.encoding.value_or(Encoding::ascii) != Encoding::ascii) {
+    const MeshFile& f = file_;
+    points_ = {
+        0, kGmshPoint, f.marked_points.size(), 1, f.marked_points.data(), &f.point_tags, &f.marked_point_data, 1, {},
+        1, {}};
+    lines_ = {1,
+              kGmshLine,
+              f.lines.size(),
+              2,
+              f.lines.empty() ? nullptr : f.lines[0].data(),
+              &f.line_tags,
+              &f.line_data,
+              1 + points_.n,
+              {},
+              1,
+              {}};
+    triangles_ = {
+        2,          kGmshTriangle, f.triangles.size(),       3,  f.triangles.empty() ? nullptr : f.triangles[0].data(),
+        &f.regions, &f.cell_data,  1 + points_.n + lines_.n, {}, 1,
+        {}};
+    for (Kind* kind : kinds()) number_entities(*kind);
+  }
+  void write() {
+    out_.put("$MeshFormat\n", version4_ ? "4.1 " : "2.2 ", binary_ ? 1 : 0, " 8\n");
+    if (binary_) {
+      out_.put_raw(std::int32_t{1});
+      out_.put('\n');
+    }
+    out_.put("$EndMeshFormat\n", "");
+    physical_names();
+    if (version4_) entities();
+    nodes();
+    version4_ ? elements_4() : elements_2();
+    node_data();
+    element_data();
+  }
+
+ private:
+  void physical_names() {
+    if (file_.names.empty()) return;
+    out_.put("$PhysicalNames\n", file_.names.size(), '\n');
+    for (const PhysicalName& n : file_.names) out_.put(n.dimension, ' ', n.tag, " \"", job_.written(n.name), "\"\n");
+    out_.put("$EndPhysicalNames\n", "");
+  }
+  void entities() {
+    out_.put("$Entities\n", "");
+    for (const Kind* kind : kinds()) put(std::uint64_t{kind->physical_of_entity.size()});
+    put(std::uint64_t{0});
+    end_line();
+    const std::array<double, 6> box = bounding_box();
+    for (const Kind* kind : kinds()) {
+      for (const auto& [entity, physical] : kind->physical_of_entity) {
+        put(entity);
+        for (std::size_t k = 0; k < (kind->dimension == 0 ? 3 : 6); ++k) put(box[k]);
+        put(std::uint64_t{physical == 0 ? 0u : 1u});
+        if (physical != 0) put(physical);
+        if (kind->dimension > 0) put(std::uint64_t{0});
+        end_line();
+      }
+    }
+    end_section();
+    out_.put("$EndEntities\n", "");
+  }
+  void put_place(std::size_t point) {
+    const Vec3 p = place_of(file_, point);
+    put(p.x), put(p.y), put(p.z);
+    end_line();
+  }
+  void nodes() {
+    const std::size_t n = file_.points.size();
+    out_.put("$Nodes\n", "");
+    if (!version4_) {
+      out_.put(n, '\n');
+      for (std::size_t i = 0; i < n; ++i) {
+        put(static_cast<std::int32_t>(i + 1));
+        put_place(i);
+      }
+    } else {
+      for (const std::uint64_t v : {std::uint64_t{1}, std::uint64_t{n}, std::uint64_t{1}, std::uint64_t{n}}) put(v);
+      end_line();
+      const std::int32_t surface =
+          triangles_.physical_of_entity.empty() ? 1 : triangles_.physical_of_entity.begin()->first;
+      put(std::int32_t{2}), put(surface), put(std::int32_t{0}), put(std::uint64_t{n});
+      end_line();
+      for (std::size_t i = 0; i < n; ++i) put(std::uint64_t{i + 1}), end_line();
+      for (std::size_t i = 0; i < n; ++i) put_place(i);
+    }
+    end_section();
+    out_.put("$EndNodes\n", "");
+  }
+  void elements_2() {
+    out_.put("$Elements\n", points_.n + lines_.n + triangles_.n, '\n');
+    for (const Kind* kind : kinds()) {
+      if (binary_ && kind->n > 0) put(kind->type), put(static_cast<std::int32_t>(kind->n)), put(std::int32_t{2});
+      for (std::size_t i = 0; i < kind->n; ++i) {
+        put(static_cast<std::int32_t>(kind->first_number + i));
+        if (!binary_) put(kind->type), put(std::int32_t{2});
+        put(kind->tag(i)), put(kind->entity(i));
+        for (std::size_t k = 0; k < kind->corners; ++k) put(kind->nodes[i * kind->corners + k] + 1);
+        end_line();
+      }
+    }
+    end_section();
+    out_.put("$EndElements\n", "");
+  }
+  void elements_4() {
+    out_.put("$Elements\n", "");
+    const std::uint64_t total = points_.n + lines_.n + triangles_.n;
+    std::uint64_t blocks = 0;
+    for (const Kind* kind : kinds()) blocks += kind->physical_of_entity.size();
+    put(blocks), put(total), put(std::uint64_t{1}), put(total);
+    end_line();
+    for (const Kind* kind : kinds()) {
+      std::map<std::int32_t, std::vector<std::uint32_t>> of_entity;
+      if (!kind->entities.empty()) {
+        for (std::size_t i = 0; i < kind->n; ++i) of_entity[kind->entities[i]].push_back(static_cast<std::uint32_t>(i));
+      }
+      for (const auto& [entity, physical] : kind->physical_of_entity) {
+        const auto& members = of_entity[entity];
+        const std::size_t n = kind->entities.empty() ? kind->n : members.size();
+        put(kind->dimension), put(entity), put(kind->type), put(std::uint64_t{n});
+        end_line();
+        for (std::size_t m = 0; m < n; ++m) {
+          const std::size_t i = kind->entities.empty() ? m : members[m];
+          put(std::uint64_t{kind->first_number + i});
+          for (std::size_t k = 0; k < kind->corners; ++k)
+            put(static_cast<std::uint64_t>(kind->nodes[i * kind->corners + k]) + 1);
+          end_line();
+        }
+      }
+    }
+    end_section();
+    out_.put("$EndElements\n", "");
+  }
+  void node_data() {
+    const auto section = [&](const std::string& name, const std::vector<double>& values, std::size_t components,
+                             int padded) {
+      const std::size_t n = values.size() / components;
+      std::size_t rows = 0;
+      for (std::size_t i = 0; i < n; ++i) rows += has_value(&values[i * components], components);
+      data_header("NodeData", name, padded, rows);
+      for (std::size_t i = 0; i < n; ++i) {
+        if (!has_value(&values[i * components], components)) continue;
+        data_row(static_cast<std::int32_t>(i + 1), &values[i * components], components,
+                 static_cast<std::size_t>(padded));
+      }
+      end_section();
+      out_.put("$EndNodeData\n", "");
+    };
+    if (!file_.weights.empty()) section("weight", file_.weights, 1, 1);
+    for (const DataArray& a : file_.point_data) {
+      const int padded = components_in_gmsh(a, "point data");
+      if (padded == 0) continue;
+      note_type(a, "point data");
+      section(a.name, to_doubles(Values(a.values)), static_cast<std::size_t>(a.components), padded);
+    }
+  }
+  void element_data() {
+    std::set<std::string_view> done = {kGmshEntity};
+    const std::pair<const Kind*, ArraysByName> named[] = {{&points_, ArraysByName(*points_.data)},
+                                                          {&lines_, ArraysByName(*lines_.data)},
+                                                          {&triangles_, ArraysByName(*triangles_.data)}};
+    for (const Kind* leading : kinds()) {
+      for (const DataArray& a : *leading->data) {
+        if (!done.insert(a.name).second) continue;
+        const int padded = components_in_gmsh(a, "cell data");
+        if (padded == 0) continue;
+        note_type(a, "cell data");
+        // The array of this name of all kinds of elements, as far as they have one with as many components.
+        std::vector<std::pair<const Kind*, std::vector<double>>> parts;
+        std::size_t rows = 0;
+        const auto c = static_cast<std::size_t>(a.components);
+        for (const auto& [kind, arrays] : named) {
+          const DataArray* same = arrays.find(a.name);
+          if (same == nullptr || same->components != a.components) continue;
+          parts.emplace_back(kind, to_doubles(Values(same->values)));
+          for (std::size_t i = 0; i < kind->n; ++i) rows += has_value(&parts.back().second[i * c], c);
+        }
+        data_header("ElementData", a.name, padded, rows);
+        for (const auto& [kind, values] : parts) {
+          for (std::size_t i = 0; i < kind->n; ++i) {
+            if (!has_value(&values[i * c], c)) continue;
+            data_row(static_cast<std::int32_t>(kind->first_number + i), &values[i * c], c,
+                     static_cast<std::size_t>(padded));
+          }
+        }
+        end_section();
+        out_.put("$EndElementData\n", "");
+      }
+    }
+  }
+  void data_header(std::string_view section, const std::string& name, int components, std::size_t entries) {
+    out_.put("$", section, "\n1\n\"", job_.written(name), "\"\n1\n0\n3\n0\n", components, '\n', entries, '\n');
+  }
+  void data_row(std::int32_t number, const double* values, std::size_t components, std::size_t padded) {
+    put(number);
+    for (std::size_t k = 0; k < padded; ++k) put(k < components ? values[k] : 0.0);
+    end_line();
+  }
+  /// Gmsh knows scalars, vectors of 3 and tensors of 9.
+  [[nodiscard]] int components_in_gmsh(const DataArray& array, std::string_view kind) const {
+    const int c = array.components;
+    if (c == 1 || c == 3 || c == 9) return c;
+    if (c > 9) {
+      job_.warn(text(kind, " '", array.name, "' is not written: it has ", c, " components, Gmsh holds 1, 3 or 9"));
+      return 0;
+    }
+    const int padded = c < 3 ? 3 : 9;
+    job_.warn(text(kind, " '", array.name, "' of ", c, " components is filled up with zeros to ", padded));
+    return padded;
+  }
+  void note_type(const DataArray& array, std::string_view kind) const {
+    if (scalar_of(array.values) != Scalar::f64) {
+      job_.warn(text(kind, " '", array.name, "' of type ", type_name(array.values),
+                     " is written as float64, all that Gmsh holds"));
+    }
+  }
+  [[nodiscard]] std::array<double, 6> bounding_box() const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    std::array<double, 6> box = {kInfinity, kInfinity, kInfinity, -kInfinity, -kInfinity, -kInfinity};
+    for (std::size_t i = 0; i < file_.points.size(); ++i) {
+      const Vec3 p = place_of(file_, i);
+      box[0] = std::min(box[0], p.x), box[1] = std::min(box[1], p.y), box[2] = std::min(box[2], p.z);
+      box[3] = std::max(box[3], p.x), box[4] = std::max(box[4], p.y), box[5] = std::max(box[5], p.z);
+    }
+    return box;
+  }
+  [[nodiscard]] std::array<Kind*, 3> kinds() { return {&points_, &lines_, &triangles_}; }
+
+  /// A number: text with a blank behind it, or its bytes.
+  template <class T>
+  void put(T value) {
+    if (binary_)
+      out_.put_raw(value);
+    else
+      out_.put(value, ' ');
+  }
+  void end_line() {
+    if (!binary_) out_.put('\n');
+  }
+  void end_section() {
+    if (binary_) out_.put('\n');
+  }
+
+  const WriteJob& job_;
+  const MeshFile& file_;
+  Output& out_;
+  bool version4_, binary_;
+  Kind points_, lines_, triangles_;
+};
+
+}  // namespace
+
+void write_gmsh22(const WriteJob& job) { GmshWriter(job, false).write(); }
+void write_gmsh41(const WriteJob& job) { GmshWriter(job, true).write(); }
+
+}  // namespace temper::io

@@ -1,0 +1,139 @@
+// Formats that temper recognises and does not read, so that the error can name them, and what converts them.
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include "io/formats/format.hpp"
+
+namespace temper::io {
+
+namespace {
+
+std::string_view skip_blanks(std::string_view s) {
+  const std::size_t first = s.find_first_not_of(" \t\r\n");
+  return first == std::string_view::npos ? std::string_view{} : s.substr(first);
+}
+
+bool starts_with_any_case(std::string_view s, std::string_view upper) {
+  if (s.size() < upper.size()) return false;
+  for (std::size_t i = 0; i < upper.size(); ++i) {
+    if (std::toupper(static_cast<unsigned char>(s[i])) != upper[i]) return false;
+  }
+  return true;
+}
+
+bool is_freefem(std::string_view head) {
+  // Three counts, then lines "x y label". Columns of x, y and z are none.
+  const auto words = [](std::string_view line) {
+    std::vector<std::string_view> all;
+    for (line = skip_blanks(line); !line.empty(); line = skip_blanks(line)) {
+      const std::size_t end = std::min(line.find_first_of(" \t\r\n"), line.size());
+      all.push_back(line.substr(0, end));
+      line.remove_prefix(end);
+    }
+    return all;
+  };
+  const auto only = [](std::string_view characters) {
+    return [characters](std::string_view word) { return word.find_first_not_of(characters) == std::string_view::npos; };
+  };
+  head = skip_blanks(head);
+  const std::size_t end = head.find('\n');
+  if (end == std::string_view::npos) return false;
+  const auto counts = words(head.substr(0, end));
+  const auto point = words(head.substr(end + 1, head.find('\n', end + 1) - end - 1));
+  return counts.size() == 3 && std::all_of(counts.begin(), counts.end(), only("0123456789")) && point.size() == 3 &&
+         std::all_of(point.begin(), point.end(), only("0123456789+-.eE")) && only("0123456789+-")(point[2]);
+}
+
+/// 80 bytes of any kind, the number of triangles, and 50 bytes for each: no more and no less.
+bool is_binary_stl(std::string_view bytes) {
+  constexpr std::size_t kTitle = 80, kHeader = 84, kTriangleBytes = 50;
+  if (bytes.size() < kHeader) return false;
+  std::size_t n = 0;
+  for (std::size_t i = kHeader; i > kTitle; --i) n = n << 8 | static_cast<unsigned char>(bytes[i - 1]);
+  return n > 0 && (bytes.size() - kHeader) % kTriangleBytes == 0 && (bytes.size() - kHeader) / kTriangleBytes == n;
+}
+
+/// Records of Fortran: a title of 80 bytes, then two integers.
+bool is_selafin(std::string_view head) {
+  using namespace std::string_view_literals;
+  constexpr std::size_t kEnd = 84;  // of the title, before its length once more
+  return (head.starts_with("\0\0\0\x50"sv) &&
+          head.substr(std::min(kEnd, head.size())).starts_with("\0\0\0\x50\0\0\0\x8"sv)) ||
+         (head.starts_with("\x50\0\0\0"sv) &&
+          head.substr(std::min(kEnd, head.size())).starts_with("\x50\0\0\0\x8\0\0\0"sv));
+}
+
+/// The first line that is no comment.
+std::string_view skip_comments(std::string_view s, char comment) {
+  for (s = skip_blanks(s); s.starts_with(comment); s = skip_blanks(s)) {
+    s.remove_prefix(std::min(s.find('\n'), s.size()));
+  }
+  return s;
+}
+
+struct Known {
+  std::string_view name;
+  bool (*is)(std::string_view head);
+  std::string_view advice = {};
+};
+
+// The Python package of that name reads these formats and writes those of temper.
+constexpr std::string_view kMeshio = "; meshio converts it";
+
+constexpr Known kKnown[] = {
+    {"a Fluent mesh",
+     [](std::string_view h) {
+       const std::string_view s = skip_blanks(h);
+       return s.starts_with("(0 ") || s.starts_with("(1 ") || s.starts_with("(2 ") || s.starts_with("(10 ");
+     },
+     kMeshio},
+    {"a Gmsh mesh of version 1", [](std::string_view h) { return skip_blanks(h).starts_with("$NOD"); }},
+    {"a Gmsh mesh of another version than 2 and 4.1",
+     [](std::string_view h) { return skip_blanks(h).starts_with("$MeshFormat"); }},
+    {"a medit file in binary",
+     [](std::string_view h) {
+       return h.starts_with(std::string_view("\1\0\0\0", 4)) || h.starts_with(std::string_view("\0\0\0\1", 4));
+     },
+     kMeshio},
+    {"an MFEM mesh of another version than v1.0", [](std::string_view h) { return h.starts_with("MFEM "); }},
+    {"a VTK XML file of another type than UnstructuredGrid",
+     [](std::string_view h) { return h.find("<VTKFile") != std::string_view::npos; }},
+    {"an XDMF file", [](std::string_view h) { return h.find("<Xdmf") != std::string_view::npos; }, kMeshio},
+    {"a DOLFIN XML mesh", [](std::string_view h) { return h.find("<dolfin") != std::string_view::npos; }, kMeshio},
+    {"an STL file", [](std::string_view h) { return h.starts_with("solid"); }, kMeshio},
+    {"an Abaqus input file",
+     [](std::string_view h) {
+       return starts_with_any_case(skip_blanks(h), "*HEADING") || starts_with_any_case(skip_blanks(h), "*NODE") ||
+              h.starts_with("**");
+     },
+     kMeshio},
+    {"an SU2 mesh", [](std::string_view h) { return skip_comments(h, '%').starts_with("NDIME="); }, kMeshio},
+    {"a Nastran bulk data file", [](std::string_view h) { return h.find("BEGIN BULK") != std::string_view::npos; },
+     kMeshio},
+    {"a Tecplot file",
+     [](std::string_view h) {
+       const std::string_view s = skip_comments(h, '#');
+       return (starts_with_any_case(s, "TITLE") || starts_with_any_case(s, "VARIABLES")) &&
+              s.substr(0, s.find('\n')).find('=') != std::string_view::npos;
+     },
+     kMeshio},
+    {"a 2DM mesh", [](std::string_view h) { return h.starts_with("MESH2D"); }},
+    {"a Netgen mesh", [](std::string_view h) { return h.starts_with("mesh3d") || h.starts_with("areamesh"); }, kMeshio},
+    {"a compressed file", [](std::string_view h) { return h.starts_with("\x1f\x8b") || h.starts_with("PK\3\4"); }},
+    {"a Selafin file of TELEMAC", is_selafin},
+    {"a FreeFem mesh", is_freefem},
+};
+
+}  // namespace
+
+std::string recognise_unsupported(std::string_view bytes) {
+  const std::string_view head = bytes.substr(0, kSniffBytes);
+  for (const Known& known : kKnown) {
+    if (known.is(head)) return text(known.name, ", which temper does not read", known.advice);
+  }
+  if (is_binary_stl(bytes)) return text("an STL file in binary, which temper does not read", kMeshio);
+  return {};
+}
+
+}  // namespace temper::io

@@ -1,0 +1,208 @@
+// See vtk_arrays.hpp.
+#include "io/formats/vtk/vtk_arrays.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <set>
+#include <utility>
+
+#include "io/conversion/globe.hpp"
+#include "io/formats/cells.hpp"
+#include "io/text/names.hpp"
+
+namespace temper::io {
+
+namespace {
+
+/// Arrays one after the other, as the data of one array; an absent one is zeros.
+struct Part {
+  const Values* values;
+  std::size_t n_values;
+};
+VtkArray joined(std::string name, Scalar scalar, int components, std::vector<Part> parts) {
+  std::size_t total = 0;
+  for (const Part& part : parts) total += part.n_values;
+  const std::size_t each = info(scalar).bytes;
+  return {std::move(name), scalar, components, total,
+          [parts = std::move(parts), each](std::size_t first, std::size_t n, char* to) {
+            std::size_t start = 0;
+            for (const Part& part : parts) {
+              const std::size_t low = std::max(first, start), high = std::min(first + n, start + part.n_values);
+              if (low < high) {
+                char* target = to + (low - first) * each;
+                if (part.values == nullptr) {
+                  std::memset(target, 0, (high - low) * each);
+                } else {
+                  std::visit([&](const auto& v) { std::memcpy(target, v.data() + (low - start), (high - low) * each); },
+                             *part.values);
+                }
+              }
+              start += part.n_values;
+            }
+          }};
+}
+
+/// use(value, its index) for each value, of type T.
+template <class T, class F>
+void for_each_value(const VtkArray& a, F use) {
+  constexpr std::size_t kBlock = kVtkBlockBytes / sizeof(T);
+  std::vector<char> buffer(std::min(kBlock, a.n_values) * sizeof(T));
+  for (std::size_t first = 0; first < a.n_values; first += kBlock) {
+    const std::size_t n = std::min(kBlock, a.n_values - first);
+    a.fill(first, n, buffer.data());
+    for (std::size_t i = 0; i < n; ++i) {
+      T value;
+      std::memcpy(&value, buffer.data() + i * sizeof(T), sizeof(T));
+      use(value, first + i);
+    }
+  }
+}
+
+}  // namespace
+
+void put_ascii(Output& out, const VtkArray& a) {
+  constexpr std::size_t kScalarsALine = 10;
+  const std::size_t a_line = a.components > 1 ? static_cast<std::size_t>(a.components) : kScalarsALine;
+  with_scalar(a.scalar, [&](auto zero) {
+    for_each_value<decltype(zero)>(a, [&](auto value, std::size_t i) {
+      out.put(value);
+      out.put((i + 1) % a_line == 0 || i + 1 == a.n_values ? '\n' : ' ');
+    });
+  });
+}
+
+void put_big_endian(Output& out, const VtkArray& a) {
+  with_scalar(a.scalar, [&](auto zero) {
+    for_each_value<decltype(zero)>(a, [&](auto value, std::size_t) {
+      char bytes[sizeof value];
+      std::memcpy(bytes, &value, sizeof value);
+      if constexpr (std::endian::native == std::endian::little) std::reverse(bytes, bytes + sizeof value);
+      out.put(std::string_view(bytes, sizeof bytes));
+    });
+  });
+}
+
+VtkArray vtk_points(const MeshFile& f) {
+  return computed_vtk_array<double>(
+      "Points", Scalar::f64, 3 * f.points.size(),
+      [&f](std::size_t i) {
+        const Vec3 p = place_of(f, i / 3);
+        return i % 3 == 0 ? p.x : i % 3 == 1 ? p.y : p.z;
+      },
+      3);
+}
+
+VtkArray vtk_connectivity(const MeshFile& f) {
+  const std::size_t n3 = 3 * f.triangles.size(), n2 = 2 * f.lines.size();
+  return computed_vtk_array<std::int32_t>("connectivity", Scalar::i32, n3 + n2 + f.marked_points.size(),
+                                          [&f, n3, n2](std::size_t i) {
+                                            if (i < n3) return f.triangles[i / 3][i % 3];
+                                            if (i < n3 + n2) return f.lines[(i - n3) / 2][(i - n3) % 2];
+                                            return f.marked_points[i - n3 - n2];
+                                          });
+}
+
+VtkArray vtk_cell_ends(std::size_t triangles, std::size_t lines, std::size_t points) {
+  const std::size_t n = triangles + lines + points;
+  const auto ends = [&]<class T>(T /*zero*/, Scalar scalar) {
+    return computed_vtk_array<T>("offsets", scalar, n, [triangles, lines](std::size_t i) {
+      return static_cast<T>(vtk_cell_end(i, triangles, lines));
+    });
+  };
+  const bool fits = n == 0 || std::in_range<std::int32_t>(vtk_cell_end(n - 1, triangles, lines));
+  return fits ? ends(std::int32_t{}, Scalar::i32) : ends(std::int64_t{}, Scalar::i64);
+}
+
+VtkArray vtk_cell_types(const MeshFile& f) {
+  const std::size_t t = f.triangles.size(), l = f.lines.size();
+  return computed_vtk_array<std::uint8_t>("types", Scalar::u8, n_vtk_cells(f), [t, l](std::size_t i) {
+    return static_cast<std::uint8_t>(i < t ? kVtkTriangle : i < t + l ? kVtkLine : kVtkVertex);
+  });
+}
+
+namespace {
+
+VtkArray regions(const MeshFile& f) {
+  const std::size_t t = f.triangles.size(), l = f.lines.size();
+  return computed_vtk_array<std::int32_t>("region", Scalar::i32, n_vtk_cells(f), [&f, t, l](std::size_t i) {
+    if (i < t) return f.regions.empty() ? 0 : f.regions[i];
+    return i < t + l ? f.line_tags[i - t] : f.point_tags[i - t - l];
+  });
+}
+
+}  // namespace
+
+std::vector<VtkArray> vtk_point_data(const WriteJob& job) {
+  std::vector<VtkArray> list;
+  const MeshFile& f = job.file;
+  if (!f.weights.empty()) {
+    list.push_back(computed_vtk_array<double>("weight", Scalar::f64, f.weights.size(),
+                                              [&f](std::size_t i) { return f.weights[i]; }));
+  }
+  for (const DataArray& a : f.point_data) {
+    if (a.name == "weight" && !f.weights.empty()) {
+      job.warn("point data 'weight' is not written: the name is that of the weights");
+      continue;
+    }
+    list.push_back(joined(a.name, scalar_of(a.values), a.components, {{&a.values, size(a.values)}}));
+  }
+  return list;
+}
+
+std::vector<VtkArray> vtk_cell_data(const WriteJob& job) {
+  const MeshFile& f = job.file;
+  std::vector<VtkArray> list;
+  const bool tagged = !f.regions.empty() || !f.lines.empty() || !f.marked_points.empty();
+  if (tagged) list.push_back(regions(f));
+
+  const std::vector<DataArray>* kinds[] = {&f.cell_data, &f.line_data, &f.marked_point_data};
+  const std::size_t counts[] = {f.triangles.size(), f.lines.size(), f.marked_points.size()};
+  const ArraysByName named[] = {ArraysByName(f.cell_data), ArraysByName(f.line_data),
+                                ArraysByName(f.marked_point_data)};
+  std::set<std::string_view> done;
+  for (const auto* kind : kinds) {
+    for (const DataArray& a : *kind) {
+      if (!done.insert(a.name).second) continue;
+      if (a.name == "region" && tagged) {
+        job.warn("cell data 'region' is not written: the name is that of the regions");
+        continue;
+      }
+      std::vector<Part> parts;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const DataArray* other = named[k].find(a.name);
+        const bool alike =
+            other != nullptr && other->components == a.components && other->values.index() == a.values.index();
+        if (other != nullptr && !alike) {
+          job.warn(
+              text("data ", a.name, " of lines or points differ in type from those of triangles and are not written"));
+        }
+        parts.push_back({alike ? &other->values : nullptr, counts[k] * static_cast<std::size_t>(a.components)});
+      }
+      list.push_back(joined(a.name, scalar_of(a.values), a.components, std::move(parts)));
+    }
+  }
+  return list;
+}
+
+std::vector<VtkArray> vtk_field_data(const MeshFile& f) {
+  std::vector<VtkArray> list;
+  if (!f.names.empty()) {
+    std::string all = lines_of(f.names);
+    const std::size_t n = all.size();
+    list.push_back(computed_vtk_array<std::uint8_t>(
+        "physical_names", Scalar::u8, n,
+        [all = std::move(all)](std::size_t i) { return static_cast<std::uint8_t>(all[i]); }));
+  }
+  if (f.periodic() != nullptr) {
+    list.push_back(
+        computed_vtk_array<double>(std::string(kPlanePeriod), Scalar::f64, 2,
+                                   [p = f.periodic()->period](std::size_t i) { return i == 0 ? p.x : p.y; }));
+  }
+  for (const DataArray& a : f.field_data) {
+    list.push_back(joined(a.name, scalar_of(a.values), a.components, {{&a.values, size(a.values)}}));
+  }
+  return list;
+}
+
+}  // namespace temper::io

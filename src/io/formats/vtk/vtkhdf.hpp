@@ -1,0 +1,27 @@
+// Names in VTKHDF files that the reader looks for and the writer gives.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "io/text/file_names.hpp"
+#include "temper/vec3.hpp"
+
+namespace temper::io {
+
+inline constexpr std::string_view kVtkhdfGroup = "VTKHDF", kVtkhdfType = "UnstructuredGrid";
+/// An attribute of temper's, of arrays whose own name HDF5 does not take.
+inline constexpr const char* kVtkhdfName = "temper_name";
+
+struct JoinedPoints {
+  RunLength kept;                    ///< the points of the file that are left, in its order
+  std::vector<std::int32_t> number;  ///< for each point of the file, its number among those
+};
+/// `sizes`: of each piece; `place(i)`: of each point of the file. Points of one piece stay apart, wherever they are.
+/// Precondition: there are fewer than 2³¹ points.
+[[nodiscard]] JoinedPoints join_points(const std::vector<std::size_t>& sizes,
+                                       const std::function<Vec3(std::size_t)>& place);
+
+}  // namespace temper::io

@@ -1,0 +1,100 @@
+// MESH of TOUGH2, TOUGH3 and iTOUGH2: blocks ELEME and CONNE in fixed columns, each ended by an empty line. (Pruess,
+// Oldenburg, Moridis: TOUGH2 user's guide, LBNL-43134, chapter 8.)
+//
+//   ELEME   name(5) NSEQ(5) NADD(5) rock(5) VOLX AHTX PMX X Y Z            ten columns each number
+//   CONNE   name(5) name(5) NSEQ NAD1 NAD2 ISOT(5 each) D1 D2 AREAX BETAX
+#include <array>
+#include <cmath>
+
+#include "io/operators/dec_files.hpp"
+#include "temper/read_number.hpp"
+
+namespace temper::io {
+namespace {
+
+constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+constexpr std::size_t kLetters = 26, kNumbers = 90;  // 10 … 99: two digits for programs that read them as a number
+constexpr std::size_t kMostNames = kLetters * kDigits.size() * kDigits.size() * kNumbers;
+constexpr std::size_t kMostRocks = 99;
+
+/// "AAA10", "AAA11", …: three letters or digits of which the first is a letter, and a number of two digits.
+std::string element_name(std::size_t cell) {
+  const std::size_t word = cell / kNumbers, n = kDigits.size();
+  std::string name = {kDigits[word / (n * n)], kDigits[word / n % n], kDigits[word % n]};
+  return name + to_text(10 + cell % kNumbers);
+}
+
+std::string right_aligned(const std::string& value, std::size_t columns) {
+  return value.size() < columns ? std::string(columns - value.size(), ' ') + value : value;
+}
+
+/// The value with as many digits as there is room for, as Fortran reads it: with a point, for in E10.4 that of 12 is
+/// taken to be four digits from its end.
+std::string in_ten_columns(double value) {
+  constexpr std::size_t kColumns = 10;
+  constexpr int kMostDigits = 9;
+  constexpr double kAsGoodAsAny = 1e-7;  // relative: with an exponent there are seven digits or less
+  std::string best;
+  double least = HUGE_VAL;
+  for (const std::chars_format form : {std::chars_format::fixed, std::chars_format::scientific}) {
+    if (least <= kAsGoodAsAny * std::abs(value)) break;
+    for (int digits = kMostDigits; digits >= 0; --digits) {
+      std::array<char, 400> buffer;
+      const auto [end, failed] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, form, digits);
+      std::string number(buffer.data(), end);
+      std::string exponent;
+      if (const std::size_t e = number.find('e'); e != std::string::npos) {
+        const std::size_t first = number.find_first_not_of('0', e + 2);
+        exponent = "E" + std::string(number[e + 1] == '-' ? "-" : "") +
+                   (first == std::string::npos ? "0" : number.substr(first));
+        number.resize(e);
+      }
+      if (number.find('.') == std::string::npos) number += '.';
+      number += exponent;
+      if (number.size() > kColumns) continue;
+      double read = 0;
+      read_number(number.data(), number.data() + number.size(), read);
+      if (std::abs(read - value) < least) least = std::abs(read - value), best = number;
+      break;
+    }
+  }
+  return right_aligned(best, kColumns);
+}
+
+/// The rock of a layer by its number, as the n-th of ROCKS; none beyond two digits, which is the first.
+std::string rock(std::size_t layer) { return right_aligned(layer < kMostRocks ? to_text(layer + 1) : "", 5); }
+
+/// The cosine of the angle between the connection, from its first element to the second, and gravity. Between cells
+/// beside each other at different heights it is the drop over the distance, with which water at rest stays at rest.
+double downward(const Columns& c, const ColumnConnection& connection) {
+  if (connection.is_vertical) return 1;
+  return (c.center(connection.first) - c.center(connection.second)) /
+         (connection.first_distance + connection.second_distance);
+}
+
+}  // namespace
+
+void write_columns_tough(const DecJob& job) {
+  const Columns& c = *job.options.columns;
+  if (c.n_cells() > kMostNames)
+    fail(ErrorCode::unsupported, "", text(c.n_cells(), " cells are more than TOUGH's ", kMostNames, " names"));
+  const std::string none5(5, ' '), none10(10, ' ');
+  Output& out = job.open("MESH");
+  out.put("ELEME\n");
+  for (std::size_t cell = 0; cell < c.n_cells(); ++cell) {
+    if (!c.is_active(cell)) continue;
+    const Vec2 at = job.mesh.position(c.vertex(cell));
+    out.put(element_name(cell), none5, none5, rock(c.layer(cell)), in_ten_columns(c.volumes[cell]), none10, none10,
+            in_ten_columns(at.x), in_ten_columns(at.y), in_ten_columns(c.center(cell)), '\n');
+  }
+  out.put("\nCONNE\n");
+  for (const ColumnConnection& connection : c.connections) {
+    out.put(element_name(connection.first), element_name(connection.second), none5, none5, none5,
+            right_aligned(connection.is_vertical ? "3" : "1", 5), in_ten_columns(connection.first_distance),
+            in_ten_columns(connection.second_distance), in_ten_columns(connection.area),
+            in_ten_columns(downward(c, connection)), '\n');
+  }
+  out.put('\n');
+}
+
+}  // namespace temper::io

@@ -1,0 +1,51 @@
+// The writers behind write_dec: one source file for each format.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/disk/output.hpp"
+#include "temper/dec_io.hpp"
+
+namespace temper::io {
+
+struct DecJob {
+  const std::string& folder;
+  const Mesh& mesh;
+  const DecComplex& complex;
+  const PowerCells& cells;
+  const DecWriteOptions& options;
+  OutputSet& outputs;
+  std::vector<std::string>& written;
+
+  /// A file of the folder.
+  [[nodiscard]] Output& open(std::string_view name) const;
+};
+
+/// Places as the files have them: two coordinates in the plane, three on the sphere.
+struct DecPlaces {
+  std::size_t coordinates = 2;
+  std::vector<Vec3> at;  // z is 0 in the plane
+
+  [[nodiscard]] std::size_t size() const { return at.size(); }
+  [[nodiscard]] double coordinate(std::size_t i, std::size_t k) const {
+    return k == 0 ? at[i].x : k == 1 ? at[i].y : at[i].z;
+  }
+};
+/// Of vertices on the sphere, not lifted.
+[[nodiscard]] DecPlaces vertex_places(const Mesh& mesh);
+[[nodiscard]] DecPlaces orthocenter_places(const DecComplex& complex);
+[[nodiscard]] DecPlaces midpoint_places(const DecComplex& complex);
+[[nodiscard]] DecPlaces corner_places(const PowerCells& cells);
+
+void write_dec_npz(const DecJob& job);
+void write_dec_mtx(const DecJob& job);
+void write_dec_vtu(const DecJob& job);
+// Preconditions of these: the job has columns.
+void write_columns_vtu(const DecJob& job);
+void write_columns_disv(const DecJob& job);
+void write_columns_disu(const DecJob& job);
+void write_columns_tough(const DecJob& job);
+
+}  // namespace temper::io

@@ -1,0 +1,130 @@
+// The door of write_dec: makes the folder, has every format write, and puts all files in their places at the end.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "io/disk/files.hpp"
+#include "io/operators/dec_files.hpp"
+
+namespace temper::io {
+namespace {
+
+/// A folder that is there from now on, and goes again when nothing was put into it.
+class Folder {
+ public:
+  explicit Folder(const std::string& path) : path_(path) {
+    const OnDisk there = look_at(path_);
+    if (there.kind == OnDisk::Kind::folder) return;
+    if (there.exists()) fail(ErrorCode::not_writable, path, "is no folder; expected the name of one, or of none");
+    made_ = mkdir(path_.c_str(), 0777) == 0;
+    if (!made_) fail(ErrorCode::not_writable, path, text("cannot be made: ", std::strerror(errno)));
+  }
+  ~Folder() {
+    if (made_) rmdir(path_.c_str());  // does nothing when it is not empty
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  void keep() { made_ = false; }
+
+ private:
+  std::string path_;
+  bool made_ = false;
+};
+
+std::vector<std::string> write_dec_or_throw(const std::string& name, const Mesh& mesh, const DecComplex& complex,
+                                            const PowerCells& cells, const DecWriteOptions& options) {
+  for (const DecFormat format : options.formats) {
+    if (needs_columns(format) && options.columns == nullptr)
+      fail(ErrorCode::invalid_option, "", "formats disv, disu and tough are of columns, and need layers");
+  }
+  Folder folder(name);
+  std::vector<std::string> written;
+  OutputSet outputs;  // after the folder: its temporary files go first
+  const DecJob job = {name, mesh, complex, cells, options, outputs, written};
+  const auto wants = [&](DecFormat format) {
+    return std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();
+  };
+  if (wants(DecFormat::npz)) write_dec_npz(job);
+  if (wants(DecFormat::mtx)) write_dec_mtx(job);
+  if (wants(DecFormat::vtu)) write_dec_vtu(job);
+  if (wants(DecFormat::vtu) && options.columns != nullptr) write_columns_vtu(job);
+  if (wants(DecFormat::disv)) write_columns_disv(job);
+  if (wants(DecFormat::disu)) write_columns_disu(job);
+  if (wants(DecFormat::tough)) write_columns_tough(job);
+  outputs.commit();
+  folder.keep();
+  return written;
+}
+
+DecPlaces places_in(const std::vector<Vec2>& plane, const std::vector<Vec3>& sphere) {
+  if (!sphere.empty()) return {3, sphere};
+  DecPlaces places;
+  places.at.reserve(plane.size());
+  for (const Vec2 p : plane) places.at.push_back({p.x, p.y, 0});
+  return places;
+}
+
+}  // namespace
+
+bool needs_columns(DecFormat format) {
+  return format == DecFormat::disv || format == DecFormat::disu || format == DecFormat::tough;
+}
+
+std::span<const std::string_view> dec_file_names(DecFormat format, bool has_columns) {
+  static constexpr std::string_view kNpz[] = {"operators.npz", "d0.npz",    "d1.npz",
+                                              "star0.npz",     "star1.npz", "star2.npz"};
+  static constexpr std::string_view kMtx[] = {"d0.mtx",    "d1.mtx",   "star0.mtx",        "star1.mtx",
+                                              "star2.mtx", "flux.mtx", "orthocenters.mtx", "edge_midpoints.mtx"};
+  static constexpr std::string_view kVtu[] = {"dual.vtu", "dual_edges.vtu", "columns.vtu"};
+  static constexpr std::string_view kDisv[] = {"mesh.disv"}, kDisu[] = {"mesh.disu"}, kTough[] = {"MESH"};
+  switch (format) {
+    case DecFormat::npz:
+      return kNpz;
+    case DecFormat::mtx:
+      return kMtx;
+    case DecFormat::disv:
+      return kDisv;
+    case DecFormat::disu:
+      return kDisu;
+    case DecFormat::tough:
+      return kTough;
+    default:
+      return std::span(kVtu).first(has_columns ? 3 : 2);
+  }
+}
+
+Output& DecJob::open(std::string_view name) const {
+  const std::string path = folder.empty() || folder.ends_with('/') ? text(folder, name) : text(folder, "/", name);
+  Output& output = outputs.open(path);
+  written.push_back(path);
+  return output;
+}
+
+Expected<std::vector<std::string>> write_dec(const std::string& folder, const Mesh& mesh, const DecComplex& complex,
+                                             const PowerCells& cells, const DecWriteOptions& options) {
+  return guarded<std::vector<std::string>>(folder,
+                                           [&] { return write_dec_or_throw(folder, mesh, complex, cells, options); });
+}
+
+DecPlaces vertex_places(const Mesh& mesh) {
+  DecPlaces places = {static_cast<std::size_t>(mesh.space().dimension()), {}};
+  for (const VertexId v : mesh.vertices()) places.at.push_back(mesh.space().place(mesh.point(v)));
+  return places;
+}
+
+DecPlaces orthocenter_places(const DecComplex& complex) {
+  return places_in(complex.orthocenters.raw(), complex.sphere_orthocenters.raw());
+}
+
+DecPlaces midpoint_places(const DecComplex& complex) {
+  std::vector<Vec2> midpoints;
+  for (const DecEdge& edge : complex.edges) midpoints.push_back(edge.midpoint);
+  return places_in(midpoints, complex.sphere_midpoints.raw());
+}
+
+DecPlaces corner_places(const PowerCells& cells) { return places_in(cells.corners, cells.sphere_corners); }
+
+}  // namespace temper::io

@@ -1,0 +1,305 @@
+// GeoJSON (RFC 7946): polygons become parts, lines stay inside as constrained edges, points as fixed vertices.
+//
+// Equal positions are one point, so polygons that share a piece of boundary share its edges. Of a feature's properties
+// three mean something here: "region" (a number; without it features count from 1 when there are several), "size" (edge
+// length wanted inside) and "tag" (of the edges on its lines). Positions are longitude and latitude unless a crs
+// member, which older files have, names another system.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "io/outlines/json_tree.hpp"
+#include "io/outlines/outline_input.hpp"
+#include "io/text/scanner.hpp"
+
+namespace temper::io {
+namespace {
+
+using Type = JsonValue::Type;
+
+constexpr std::array<std::string_view, 3> kProperties = {"region", "size", "tag"};
+
+/// The property that a name is a misspelling of: one letter is too many, missing or another, two
+/// are swapped, or some are capitals; else empty.
+std::string_view meant_by(std::string_view name) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  for (const std::string_view property : kProperties) {
+    const std::size_t shorter = std::min(name.size(), property.size()), longer = std::max(name.size(), property.size());
+    std::size_t head = 0, tail = 0;
+    while (head < shorter && lower(name[head]) == property[head]) ++head;
+    while (tail < shorter && lower(name[name.size() - 1 - tail]) == property[property.size() - 1 - tail]) ++tail;
+    const bool swapped = shorter == longer && head + tail + 2 == longer && lower(name[head]) == property[head + 1] &&
+                         lower(name[head + 1]) == property[head];
+    if (head + tail + 1 >= longer || swapped) return property;
+  }
+  return {};
+}
+
+/// The properties of the feature around a geometry.
+struct Feature {
+  std::string name = "the geometry";
+  std::optional<std::int32_t> region, tag;
+  std::optional<double> size;
+};
+
+class GeoJsonReader {
+ public:
+  explicit GeoJsonReader(Source& source) : path_(source.path), root_(parse_json(source.path, source.bytes)) {
+    document_.names = std::make_shared<OutlineFileNames>(source.path);
+    document_.file.format = "geojson";
+  }
+
+  OutlineDocument read() {
+    document_.file.geographic = is_geographic();
+    const std::string_view type = root_.text("type");
+    if (type == "FeatureCollection") {
+      const std::vector<JsonValue>& features = items(root_, "features");
+      for (std::size_t i = 0; i < features.size(); ++i) feature(features[i], text("feature ", i));
+    } else if (type == "Feature") {
+      feature(root_, "the feature");
+    } else {
+      geometry(root_, Feature());
+    }
+    number_regions();
+    if (dropped_ > 0) {
+      document_.file.warnings.push_back(text(path_, ": ", dropped_, dropped_ == 1 ? " position is" : " positions are",
+                                             " the same as the one before"));
+    }
+    if (heights_) document_.file.warnings.push_back(text(path_, ": heights of positions are dropped"));
+    return std::move(document_);
+  }
+
+ private:
+  [[noreturn]] void fail_at(const JsonValue& value, ErrorCode code, const std::string& message) const {
+    fail(code, text(path_, ":", value.line), message);
+  }
+
+  [[nodiscard]] bool is_geographic() const {
+    const JsonValue* crs = root_.find("crs");
+    const JsonValue* properties = crs != nullptr ? crs->find("properties") : nullptr;
+    if (properties == nullptr) return true;
+    const std::string_view name = properties->text("name");
+    for (const std::string_view geographic : {"CRS84", "4326", "4269", "4258"}) {
+      if (name.ends_with(geographic)) return true;
+    }
+    return name.empty();
+  }
+
+  const std::vector<JsonValue>& items(const JsonValue& owner, std::string_view name) const {
+    const JsonValue* member = owner.find(name);
+    if (member == nullptr || member->type != Type::array) {
+      fail_at(member != nullptr ? *member : owner, ErrorCode::syntax,
+              text("expected an array ", in_quotes(name), ", found ",
+                   member != nullptr ? describe(*member) : std::string_view("none")));
+    }
+    return member->items;
+  }
+
+  void feature(const JsonValue& value, const std::string& name) {
+    if (value.text("type") != "Feature") {
+      fail_at(value, ErrorCode::syntax, text(name, ": expected a Feature, found ", kind(value)));
+    }
+    Feature about;
+    about.name = name;
+    if (const JsonValue* properties = value.find("properties")) {
+      warn_of_misspelt(*properties, name);
+      about.region = integer(*properties, "region", name);
+      about.tag = integer(*properties, "tag", name);
+      if (const JsonValue* size = properties->find("size"); size != nullptr && size->type == Type::number) {
+        if (!(size->number > 0))
+          fail_at(*size, ErrorCode::syntax, text(name, ": expected a size above 0, found ", size->number));
+        about.size = size->number;
+      }
+    }
+    const JsonValue* shape = value.find("geometry");
+    if (shape == nullptr || shape->type == Type::null) return;  // allowed: a feature without a place
+    geometry(*shape, about);
+    warn_of_idle(*shape, about);
+  }
+
+  void warn_at(const JsonValue& value, const std::string& message) {
+    document_.file.warnings.push_back(text(path_, ":", value.line, ": ", message));
+  }
+
+  /// Numbers under a name that is nearly one of those with a meaning, and what is no number under one of those.
+  void warn_of_misspelt(const JsonValue& properties, const std::string& feature) {
+    for (std::size_t i = 0; i < properties.names.size(); ++i) {
+      const std::string& name = properties.names[i];
+      const JsonValue& value = properties.items[i];
+      const std::string_view meant = meant_by(name);
+      const bool number = value.type == Type::number, exact = name == meant;
+      if (meant.empty() || value.type == Type::null || number == exact) continue;
+      if (exact) {
+        warn_at(value, text(feature, ": property ", in_quotes(name), " is ", describe(value),
+                            ", not a number, and passed over"));
+      } else {
+        warn_at(value,
+                text(feature, ": property ", in_quotes(name), " is passed over; is ", in_quotes(meant), " meant?"));
+      }
+    }
+  }
+
+  /// Properties of polygons on what is none.
+  void warn_of_idle(const JsonValue& shape, const Feature& about) {
+    const std::string_view type = shape.text("type");
+    const bool point = type == "Point" || type == "MultiPoint";
+    const bool polygon = type == "Polygon" || type == "MultiPolygon" || type == "GeometryCollection";
+    const auto warn_if = [&](bool idle, std::string_view property, std::string_view of) {
+      if (idle)
+        warn_at(shape, text(about.name, ": ", in_quotes(property), " is for ", of, " and has no effect on a ", type));
+    };
+    warn_if(about.size && !polygon, "size", "polygons");
+    warn_if(about.region && !polygon, "region", "polygons");
+    warn_if(about.tag && point, "tag", "polygons and lines");
+  }
+
+  std::optional<std::int32_t> integer(const JsonValue& properties, std::string_view key,
+                                      const std::string& name) const {
+    const JsonValue* value = properties.find(key);
+    if (value == nullptr || value->type != Type::number) return {};
+    if (value->number != std::floor(value->number) || std::abs(value->number) > 2e9) {
+      fail_at(*value, ErrorCode::syntax, text(name, ": expected a whole number as ", key, ", found ", value->number));
+    }
+    return static_cast<std::int32_t>(value->number);
+  }
+
+  [[nodiscard]] static std::string kind(const JsonValue& value) {
+    return value.type == Type::object ? in_quotes(value.text("type")) : std::string(describe(value));
+  }
+
+  void geometry(const JsonValue& value, const Feature& about) {
+    const std::string_view type = value.text("type");
+    if (type == "GeometryCollection") {
+      for (const JsonValue& inner : items(value, "geometries")) geometry(inner, about);
+      return;
+    }
+    const JsonValue* coordinates = value.find("coordinates");
+    const bool known = type == "Polygon" || type == "MultiPolygon" || type == "LineString" ||
+                       type == "MultiLineString" || type == "Point" || type == "MultiPoint";
+    if (!known) {
+      fail_at(value, ErrorCode::syntax,
+              text(about.name,
+                   ": expected a geometry (Polygon, MultiPolygon, LineString, MultiLineString, Point, "
+                   "MultiPoint, GeometryCollection), found ",
+                   kind(value)));
+    }
+    if (coordinates == nullptr) fail_at(value, ErrorCode::syntax, text(about.name, ": has no \"coordinates\""));
+    if (type == "Polygon") polygons({coordinates}, about);
+    if (type == "MultiPolygon") {
+      std::vector<const JsonValue*> all;
+      for (const JsonValue& polygon : array(*coordinates, about.name)) all.push_back(&polygon);
+      polygons(all, about);
+    }
+    if (type == "LineString") line(*coordinates, about, about.name);
+    if (type == "MultiLineString") {
+      for (const JsonValue& one : array(*coordinates, about.name)) line(one, about, about.name);
+    }
+    if (type == "Point") point(*coordinates, about.name);
+    if (type == "MultiPoint") {
+      for (const JsonValue& one : array(*coordinates, about.name)) point(one, about.name);
+    }
+  }
+
+  const std::vector<JsonValue>& array(const JsonValue& value, const std::string& name) const {
+    if (value.type != Type::array) {
+      fail_at(value, ErrorCode::syntax, text(name, ": expected an array, found ", describe(value)));
+    }
+    return value.items;
+  }
+
+  /// All polygons of one geometry are one part: where they touch there is no interface between regions.
+  void polygons(const std::vector<const JsonValue*>& all, const Feature& about) {
+    OutlinePart part;
+    part.size = about.size;
+    part.region = about.region.value_or(0);
+    given_region_.push_back(about.region.has_value() ? 1 : 0);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::vector<JsonValue>& rings = array(*all[i], about.name);
+      for (std::size_t k = 0; k < rings.size(); ++k) {
+        const std::string name = text("ring ", k, all.size() > 1 ? text(" of polygon ", i) : "", " of ", about.name);
+        const std::size_t first = document_.file.outline.segments.size();
+        line(rings[k], about, name);
+        for (std::size_t s = first; s < document_.file.outline.segments.size(); ++s) {
+          part.segments.push_back(static_cast<std::int32_t>(s));
+        }
+        check_ring(rings[k], name, document_.file.outline.segments.size() - first);
+      }
+    }
+    document_.file.outline.parts.push_back(std::move(part));
+    document_.names->parts.push_back(about.name);
+  }
+
+  void check_ring(const JsonValue& ring, const std::string& name, std::size_t segments) const {
+    const JsonValue &first = ring.items.front(), &last = ring.items.back();
+    if (first.numbers[0] != last.numbers[0] || first.numbers[1] != last.numbers[1]) {
+      fail_at(last, ErrorCode::syntax,
+              text(name, " is not closed: expected its last position to be its first, (", first.numbers[0], ", ",
+                   first.numbers[1], "), found (", last.numbers[0], ", ", last.numbers[1], ")"));
+    }
+    if (segments < 3) fail_at(ring, ErrorCode::syntax, text(name, " has ", segments, " sides; expected three or more"));
+  }
+
+  void line(const JsonValue& value, const Feature& about, const std::string& name) {
+    Outline& o = document_.file.outline;
+    const std::vector<JsonValue>& positions = array(value, name);
+    if (positions.size() < 2)
+      fail_at(value, ErrorCode::syntax, text(name, ": expected two positions or more, found ", positions.size()));
+    document_.names->groups.push_back({name, o.segments.size()});
+    std::int32_t from = point(positions[0], name);
+    for (std::size_t i = 1; i < positions.size(); ++i) {
+      const std::int32_t to = point(positions[i], name);
+      if (to == from) {
+        ++dropped_;
+        continue;
+      }
+      o.segments.push_back({{from, to}, about.tag.value_or(0)});
+      document_.names->segment_lines.push_back(positions[i - 1].line);
+      from = to;
+    }
+  }
+
+  std::int32_t point(const JsonValue& position, const std::string& name) {
+    if (position.type != Type::numbers || position.numbers.size() < 2) {
+      fail_at(position, ErrorCode::syntax, text(name, ": expected a position [x, y], found ", describe(position)));
+    }
+    heights_ = heights_ || position.numbers.size() > 2;
+    // Negative zero is the same place as zero.
+    const std::array<double, 2> place = {position.numbers[0] + 0.0, position.numbers[1] + 0.0};
+    Outline& o = document_.file.outline;
+    const auto [known, is_new] = point_at_.emplace(place, static_cast<std::int32_t>(o.points.size()));
+    if (is_new) {
+      o.points.push_back({place[0], place[1]});
+      document_.names->point_lines.push_back(position.line);
+    }
+    return known->second;
+  }
+
+  /// Several polygons without regions of their own count from 1.
+  void number_regions() {
+    std::vector<OutlinePart>& parts = document_.file.outline.parts;
+    if (parts.size() < 2 || std::find(given_region_.begin(), given_region_.end(), 1) != given_region_.end()) return;
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i].region = static_cast<std::int32_t>(i + 1);
+  }
+
+  std::string path_;
+  JsonValue root_;
+  OutlineDocument document_;
+  std::map<std::array<double, 2>, std::int32_t> point_at_;  // no hash, which a file could be made to defeat
+  std::vector<std::uint8_t> given_region_;
+  std::size_t dropped_ = 0;
+  bool heights_ = false;
+};
+
+}  // namespace
+
+bool sniff_geojson(std::string_view head) {
+  if (head.starts_with("\xef\xbb\xbf")) head.remove_prefix(3);
+  const std::size_t first = head.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && head[first] == '{';
+}
+
+OutlineDocument read_geojson(Source& source) { return GeoJsonReader(source).read(); }
+
+}  // namespace temper::io

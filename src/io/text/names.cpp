@@ -1,0 +1,88 @@
+// See array_names.hpp.
+#include "io/text/names.hpp"
+
+#include <algorithm>
+
+#include "io/text/failure.hpp"
+
+namespace temper::io {
+
+namespace {
+
+/// use(name) for the name of each array and each group.
+template <class File, class Use>
+void for_each_name(File& file, Use use) {
+  for (auto* arrays : {&file.point_data, &file.cell_data, &file.line_data, &file.marked_point_data, &file.field_data}) {
+    for (auto& array : *arrays) use(array.name);
+  }
+  for (auto& name : file.names) use(name.name);
+}
+
+}  // namespace
+
+std::string TakenNames::take(std::string name) {
+  const auto [known, is_new] = next_.emplace(std::move(name), 2);
+  if (is_new) return known->first;
+  for (;;) {
+    std::string other = text(known->first, "_", known->second++);
+    if (next_.emplace(other, 2).second) return other;
+  }
+}
+
+void make_names_unique(std::vector<DataArray>& arrays) {
+  TakenNames taken;
+  for (DataArray& array : arrays) array.name = taken.take(std::move(array.name));
+}
+
+void append_percent(std::string& text, char c) {
+  constexpr std::string_view kHex = "0123456789ABCDEF";
+  const auto code = static_cast<unsigned char>(c);
+  text += {'%', kHex[code >> 4], kHex[code & 15]};
+}
+
+std::string list_of(const std::vector<std::string_view>& names) {
+  constexpr std::size_t kMost = 100;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) list += text(i == 0 ? "" : ", ", names[i]);
+  return names.size() > kMost ? text(list, " and ", names.size() - kMost, " more") : list;
+}
+
+std::string plain_name(std::string_view name) {
+  std::string plain;
+  for (const char c : printable(name)) {
+    if (c == '\n') {
+      plain += "\\x0a";
+    } else if (c == '\t') {
+      plain += "\\x09";
+    } else {
+      plain += c;
+    }
+  }
+  return plain;
+}
+
+void make_names_plain(MeshFile& file) {
+  std::size_t n = 0;
+  std::string first;
+  for_each_name(file, [&](std::string& name) {
+    std::string plain = plain_name(name);
+    if (plain == name) return;
+    name = std::move(plain);
+    if (n++ == 0) first = name;
+  });
+  if (n == 0) return;
+  file.warnings.push_back(text(file.path, ": ", n, n == 1 ? " name has" : " names have",
+                               " control characters, or bytes that are no UTF-8: read as '", first,
+                               n == 1 ? "'" : "' and the like"));
+}
+
+void check_names(const std::string& path, const MeshFile& file) {
+  for_each_name(file, [&](const std::string& name) {
+    const std::string plain = plain_name(name);
+    if (plain == name) return;
+    fail(ErrorCode::unsupported, path,
+         text("the mesh to be written has the name '", plain, "'; expected one in UTF-8 without control characters"));
+  });
+}
+
+}  // namespace temper::io

@@ -1,0 +1,66 @@
+// Names of arrays and groups: each once in a list, and none that a terminal or a text file would take for more than a
+// name.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/text/scanner.hpp"
+#include "temper/io.hpp"
+
+namespace temper::io {
+
+/// The names that are taken. A name costs O(log n), however often it comes.
+class TakenNames {
+ public:
+  /// `name`, or when it is taken name_2, name_3, …: taken from now on.
+  [[nodiscard]] std::string take(std::string name);
+
+ private:
+  std::map<std::string, int> next_;  // the number that the next one of that name is tried with
+};
+
+/// Gives arrays whose name another one before them has a name of their own.
+void make_names_unique(std::vector<DataArray>& arrays);
+
+/// Appends %20 for a blank.
+void append_percent(std::string& text, char c);
+
+/// "a, b, c"; of very many the first ones, and how many more there are.
+[[nodiscard]] std::string list_of(const std::vector<std::string_view>& names);
+
+/// The name with its control characters written out (\x0a), in UTF-8.
+[[nodiscard]] std::string plain_name(std::string_view name);
+/// Makes all names plain, and says so in a warning.
+void make_names_plain(MeshFile& file);
+/// Refuses names that are not plain: files made by hand may have some.
+void check_names(const std::string& path, const MeshFile& file);
+
+// --- physical names where a format has only text for them: lines "dimension tag name" ---
+
+/// The rest of the line.
+inline PhysicalName read_physical_name(Scanner& scanner) {
+  PhysicalName name;
+  name.dimension = scanner.integer("the dimension of a physical name");
+  name.tag = scanner.integer("the tag of a physical name");
+  name.name = scanner.rest_of_line();
+  return name;
+}
+
+/// Reads a name from each line of a text, and appends them to `names`.
+inline void read_physical_names(Scanner& scanner, std::vector<PhysicalName>& names) {
+  while (!scanner.at_end()) names.push_back(read_physical_name(scanner));
+}
+
+/// The line of a name, without its end.
+inline std::string line_of(const PhysicalName& name) { return text(name.dimension, " ", name.tag, " ", name.name); }
+
+inline std::string lines_of(const std::vector<PhysicalName>& names) {
+  std::string all;
+  for (const PhysicalName& name : names) all += line_of(name) + "\n";
+  return all;
+}
+
+}  // namespace temper::io
