@@ -12,7 +12,7 @@
 
 #include "temper/optimize.hpp"
 #ifdef TEMPER_WITH_TBB
-#include "temper/tbb_executor.hpp"
+#include "temper/detail/tbb_executor.hpp"
 #endif
 
 namespace py = pybind11;

@@ -7,7 +7,7 @@
 #include "fixtures.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/quality.hpp"
 #include "temper/topology.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "measure.hpp"
 #include "sweeps.hpp"
-#include "temper/instruction_set.hpp"
+#include "temper/detail/instruction_set.hpp"
 #include "threads.hpp"
 
 namespace temper::bench {

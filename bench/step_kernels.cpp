@@ -10,7 +10,7 @@
 #include "fixtures.hpp"
 #include "star_lanes.hpp"
 #include "step_parts.hpp"
-#include "temper/instruction_set.hpp"
+#include "temper/detail/instruction_set.hpp"
 
 namespace temper::bench {
 namespace {

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <memory>
 
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 #ifdef TEMPER_WITH_TBB
-#include "temper/tbb_executor.hpp"
+#include "temper/detail/tbb_executor.hpp"
 #endif
 
 namespace temper::bench {

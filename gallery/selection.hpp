@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gallery.hpp"
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 
 namespace temper::gallery {
 

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "convert.hpp"
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"
-#include "temper/progress.hpp"
-#include "temper/tensor.hpp"
+#include "temper/detail/progress.hpp"
+#include "temper/detail/tensor.hpp"
 
 namespace temper::python {
 

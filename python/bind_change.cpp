@@ -3,10 +3,10 @@
 
 #include "bind.hpp"
 #include "optimize_options.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/mesher.hpp"
 #include "temper/regularity.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/size.hpp"
 #include "temper/topology.hpp"
 
 TEMPER_PYTHON_NAMES(temper::FlipStatus, "possible", "boundary", "constrained", "not_convex");

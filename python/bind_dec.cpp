@@ -2,9 +2,9 @@
 #include <utility>
 
 #include "bind.hpp"
-#include "temper/columns.hpp"
+#include "temper/detail/columns.hpp"
 #include "temper/dec.hpp"
-#include "temper/dec_io.hpp"
+#include "temper/detail/dec_io.hpp"
 
 TEMPER_PYTHON_NAMES(temper::io::DecFormat, "npz", "mtx", "vtu", "disv", "disu", "tough");
 

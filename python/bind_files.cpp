@@ -381,7 +381,7 @@ void set_source_from_dict(PyMesh& self, const py::dict& d) {
   const std::size_t n = loaded.vertex_of_point.n_kept(), n_vertices = self.read()->n_vertices();
   const auto is_new_or_known = [n](VertexId v) { return !v.valid() || v.index < n; };
   const auto has_size = [](std::size_t size, std::size_t expected) { return size == 0 || size == expected; };
-  if (!has_size(file.points.size(), kept.size()) || (file.sphere() != nullptr && file.sphere()->places.size() != kept.size()) ||
+  if (!has_size(file.points.size(), kept.size()) || (file.sphere() != nullptr && !has_size(file.sphere()->places.size(), kept.size())) ||
       !has_size(file.weights.size(), kept.size()) || !has_size(origin.size(), n_vertices) ||
       file.line_tags.size() != file.lines.size() || file.point_tags.size() != file.marked_points.size() ||
       (origin.empty() && n != n_vertices) || !std::all_of(origin.begin(), origin.end(), is_new_or_known)) {

@@ -2,8 +2,8 @@
 #include <tuple>
 
 #include "bind.hpp"
-#include "temper/geometry.hpp"
-#include "temper/projection.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/projection.hpp"
 
 namespace temper::python {
 namespace {

@@ -4,8 +4,8 @@
 #include "bind.hpp"
 #include "temper/draw.hpp"
 #include "temper/energy.hpp"
-#include "temper/geometry.hpp"
-#include "temper/html.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/html.hpp"
 #include "temper/quality.hpp"
 #ifdef TEMPER_WITH_VERIFY
 #include "temper/verify.hpp"

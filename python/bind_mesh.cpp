@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "bind.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::python {
 namespace {

@@ -4,11 +4,11 @@
 #include <atomic>
 
 #include "bind.hpp"
-#include "temper/build_info.hpp"
-#include "temper/instruction_set.hpp"
-#include "temper/version.hpp"
+#include "temper/detail/build_info.hpp"
+#include "temper/detail/instruction_set.hpp"
+#include "temper/detail/version.hpp"
 #ifdef TEMPER_WITH_TBB
-#include "temper/tbb_executor.hpp"
+#include "temper/detail/tbb_executor.hpp"
 #endif
 
 namespace temper::python {

@@ -3,7 +3,7 @@
 #include "communicator.hpp"
 #include "optimize_options.hpp"
 #include "temper/solvers.hpp"
-#include "temper/trace.hpp"
+#include "temper/detail/trace.hpp"
 
 TEMPER_PYTHON_NAMES(temper::Snapshot::Moment, "start", "after_sweep", "before_flips", "after_flips");
 TEMPER_PYTHON_NAMES(temper::EventKind, "move", "weight", "flip", "collapse", "removal", "insertion", "split", "hidden",

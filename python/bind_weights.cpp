@@ -1,11 +1,11 @@
 // Weights by linear programming, certificates, and reasons: feasibility.hpp, connectivity.hpp, necessity.hpp,
 // explain.hpp.
 #include "bind.hpp"
-#include "temper/connectivity.hpp"
+#include "temper/detail/connectivity.hpp"
 #include "temper/explain.hpp"
 #include "temper/feasibility.hpp"
-#include "temper/lp.hpp"
-#include "temper/necessity.hpp"
+#include "temper/detail/lp.hpp"
+#include "temper/detail/necessity.hpp"
 
 TEMPER_PYTHON_NAMES(temper::LpStatus, "optimal", "infeasible", "unbounded", "failed");
 TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "split", "dual");

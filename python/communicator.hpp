@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bind.hpp"
-#include "temper/communicator.hpp"
+#include "temper/detail/communicator.hpp"
 
 namespace temper::python {
 

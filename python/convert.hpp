@@ -17,12 +17,12 @@
 #include <vector>
 
 #include "temper/energy.hpp"
-#include "temper/error.hpp"
-#include "temper/ids.hpp"
+#include "temper/detail/error.hpp"
+#include "temper/detail/ids.hpp"
 #include "temper/io.hpp"
-#include "temper/projection.hpp"
-#include "temper/size.hpp"
-#include "temper/vec2.hpp"
+#include "temper/detail/projection.hpp"
+#include "temper/detail/size.hpp"
+#include "temper/detail/vec2.hpp"
 
 namespace temper::python {
 

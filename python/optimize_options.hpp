@@ -2,7 +2,7 @@
 #pragma once
 
 #include "convert.hpp"
-#include "temper/optimize_table.hpp"
+#include "temper/detail/optimize_table.hpp"
 
 TEMPER_PYTHON_NAMES(temper::Objective, "energy", "accuracy");
 TEMPER_PYTHON_NAMES(temper::HiddenPolicy, "undo", "remove", "keep");

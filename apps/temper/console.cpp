@@ -11,7 +11,7 @@
 #include <cstring>
 
 #include "exit.hpp"
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 
 namespace temper::app {
 

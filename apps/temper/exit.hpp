@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 
 namespace temper::app {
 

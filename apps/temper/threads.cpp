@@ -1,7 +1,7 @@
 #include "threads.hpp"
 
 #ifdef TEMPER_WITH_TBB
-#include "temper/tbb_executor.hpp"
+#include "temper/detail/tbb_executor.hpp"
 #endif
 
 namespace temper::app {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 
 namespace temper::app {
 

@@ -7,7 +7,7 @@
 #include "experiments/domain.hpp"
 #include "experiments/energies.hpp"
 #include "temper/energy.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::gallery {
 

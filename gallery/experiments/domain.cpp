@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::gallery {
 

@@ -9,7 +9,7 @@
 #include "experiments/minimise.hpp"
 #include "experiments/random.hpp"
 #include "plot/plot.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::gallery {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "gallery.hpp"
 #include "temper/energy.hpp"
-#include "temper/vec2.hpp"
+#include "temper/detail/vec2.hpp"
 
 namespace temper::gallery {
 

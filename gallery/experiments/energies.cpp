@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::gallery {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "experiments/infinity.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::gallery {
 namespace {

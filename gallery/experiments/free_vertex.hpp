@@ -6,7 +6,7 @@
 
 #include "plot/plot.hpp"
 #include "temper/energy.hpp"
-#include "temper/vec2.hpp"
+#include "temper/detail/vec2.hpp"
 
 namespace temper::gallery {
 

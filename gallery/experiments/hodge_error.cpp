@@ -8,7 +8,7 @@
 #include "experiments/domain.hpp"
 #include "experiments/random.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper::gallery {

@@ -6,7 +6,7 @@
 #include "experiments/colors.hpp"
 #include "experiments/text.hpp"
 #include "experiments/triangle_drawing.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::gallery {
 namespace {

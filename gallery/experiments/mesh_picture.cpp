@@ -7,7 +7,7 @@
 #include "experiments/domain.hpp"
 #include "experiments/text.hpp"
 #include "prose.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::gallery {
 namespace {

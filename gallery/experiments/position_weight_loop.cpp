@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper::gallery {

@@ -3,7 +3,7 @@
 
 #include "experiments/random.hpp"
 #include "experiments/single_triangle.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::gallery {
 

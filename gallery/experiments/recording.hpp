@@ -6,7 +6,7 @@
 
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
-#include "temper/trace.hpp"
+#include "temper/detail/trace.hpp"
 
 namespace temper::gallery {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "experiments/minimise.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::gallery {
 namespace {

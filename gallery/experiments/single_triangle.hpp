@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "temper/energy.hpp"
-#include "temper/vec2.hpp"
+#include "temper/detail/vec2.hpp"
 
 namespace temper::gallery {
 

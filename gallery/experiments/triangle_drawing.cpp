@@ -6,7 +6,7 @@
 #include "experiments/colors.hpp"
 #include "experiments/text.hpp"
 #include "prose.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::gallery {
 namespace {

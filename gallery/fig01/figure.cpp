@@ -11,7 +11,7 @@
 #include "experiments/random_triangle.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::gallery::fig01 {
 namespace {

@@ -7,7 +7,7 @@
 #include "experiments/text.hpp"
 #include "experiments/triangle_drawing.hpp"
 #include "figures.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::gallery::fig02 {
 namespace {

@@ -12,7 +12,7 @@
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "temper/energy.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::gallery::fig05 {
 namespace {

@@ -10,7 +10,7 @@
 #include "experiments/triangle_drawing.hpp"
 #include "figures.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper::gallery::fig09 {

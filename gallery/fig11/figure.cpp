@@ -12,7 +12,7 @@
 #include "plot/plot.hpp"
 #include "temper/draw.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::gallery::fig11 {

@@ -14,7 +14,7 @@
 #include "plot/plot.hpp"
 #include "temper/energy.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::gallery::fig12 {

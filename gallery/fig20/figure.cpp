@@ -13,7 +13,7 @@
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "plot/plot.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::gallery::fig20 {
 namespace {

@@ -12,7 +12,7 @@
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "plot/plot.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper::gallery::fig21 {

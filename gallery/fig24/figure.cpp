@@ -11,7 +11,7 @@
 #include "figures.hpp"
 #include "plot/plot.hpp"
 #include "temper/draw.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::gallery::fig24 {
 namespace {

@@ -12,7 +12,7 @@
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/quality.hpp"
 #include "temper/regularity.hpp"
 #include "temper/topology.hpp"

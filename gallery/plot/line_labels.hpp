@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "draw/frame.hpp"
-#include "temper/vec2.hpp"
+#include "temper/detail/vec2.hpp"
 
 namespace temper {
 

@@ -1,7 +1,7 @@
 // Discrete exterior calculus on a weighted triangle mesh: incidence, diagonal stars with signed power duals, and the
 // dual itself. What a finite-volume or DEC solver needs of a mesh, in one value of flat arrays.
 //
-// Conventions (docs/operators.md), with the signs of temper/geometry.hpp:
+// Conventions (docs/operators.md), with the signs of temper/detail/geometry.hpp:
 //
 //            k            edges:  each once, from the lower vertex number to the higher, sorted by (from, to)
 //          / | \          d0:     −1 at from, +1 at to
@@ -25,11 +25,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "temper/ids.hpp"
+#include "temper/detail/ids.hpp"
 #include "temper/mesh.hpp"
-#include "temper/tensor.hpp"
-#include "temper/vec2.hpp"
-#include "temper/vec3.hpp"
+#include "temper/detail/tensor.hpp"
+#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec3.hpp"
 
 namespace temper {
 
@@ -132,7 +132,7 @@ struct PowerCells {
 /// microseconds for each that is not.
 [[nodiscard]] PowerCells power_cells(const Mesh& mesh, const DecComplex& complex);
 
-// --- with a diffusion tensor (temper/tensor.hpp): operators of a mapped mesh, in the plane that it comes from
+// --- with a diffusion tensor (temper/detail/tensor.hpp): operators of a mapped mesh, in the plane that it comes from
 // ----------
 
 /// The operators for −div(K ∇u) of a mesh whose image, mapped by the metric of K, has these: ★1 and flux are times

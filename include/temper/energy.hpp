@@ -23,10 +23,10 @@
 #include <string>
 #include <string_view>
 
-#include "temper/error.hpp"
-#include "temper/executor.hpp"
+#include "temper/detail/error.hpp"
+#include "temper/detail/executor.hpp"
 #include "temper/mesh.hpp"
-#include "temper/space.hpp"
+#include "temper/detail/space.hpp"
 
 namespace temper {
 

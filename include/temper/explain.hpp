@@ -15,13 +15,13 @@
 #include <string_view>
 #include <vector>
 
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 #include "temper/feasibility.hpp"
-#include "temper/ids.hpp"
+#include "temper/detail/ids.hpp"
 #include "temper/mesh.hpp"
-#include "temper/necessity.hpp"
-#include "temper/progress.hpp"
-#include "temper/vec2.hpp"
+#include "temper/detail/necessity.hpp"
+#include "temper/detail/progress.hpp"
+#include "temper/detail/vec2.hpp"
 
 namespace temper {
 

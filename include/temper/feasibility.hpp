@@ -4,7 +4,7 @@
 // tℓ ≤ d ≤ (1 − t)ℓ" is a linear programme; so is "all h ≥ tℓ" alone, and "these edges have dual lengths ≥ tℓ". It
 // finds the best margin t, the least change of weights that attains a given margin, or the least violation; and when no
 // weights exist it says why, with a certificate that exact arithmetic verifies without any linear programming. Solvers
-// come through one small interface (temper/lp.hpp has Clp). Over connectivities: temper/connectivity.hpp.
+// come through one small interface (temper/detail/lp.hpp has Clp). Over connectivities: temper/detail/connectivity.hpp.
 //
 // On the sphere all this is linear in σ = R/|P|, up to a factor of all σ (docs/sphere.md). Its h/ℓ and d/ℓ are ratios
 // of functions linear in σ that have the signs of h and d, do not change with that factor, and differ from the arcs' by
@@ -17,8 +17,8 @@
 #include <string_view>
 #include <vector>
 
-#include "temper/error.hpp"
-#include "temper/ids.hpp"
+#include "temper/detail/error.hpp"
+#include "temper/detail/ids.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {

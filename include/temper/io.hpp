@@ -16,12 +16,12 @@
 #include <variant>
 #include <vector>
 
-#include "temper/error.hpp"
-#include "temper/executor.hpp"
+#include "temper/detail/error.hpp"
+#include "temper/detail/executor.hpp"
 #include "temper/mesh.hpp"
-#include "temper/outline.hpp"
-#include "temper/projection.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/outline.hpp"
+#include "temper/detail/projection.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper::io {
 

@@ -20,10 +20,10 @@
 #include <string_view>
 #include <vector>
 
-#include "temper/error.hpp"
-#include "temper/ids.hpp"
-#include "temper/space.hpp"
-#include "temper/vec2.hpp"
+#include "temper/detail/error.hpp"
+#include "temper/detail/ids.hpp"
+#include "temper/detail/space.hpp"
+#include "temper/detail/vec2.hpp"
 
 namespace temper {
 

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
-#include "temper/outline.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/outline.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper {
 

@@ -15,15 +15,15 @@
 #include <string_view>
 #include <vector>
 
-#include "temper/communicator.hpp"
+#include "temper/detail/communicator.hpp"
 #include "temper/energy.hpp"
-#include "temper/error_model.hpp"
+#include "temper/detail/error_model.hpp"
 #include "temper/mesh.hpp"
-#include "temper/progress.hpp"
+#include "temper/detail/progress.hpp"
 #include "temper/regularity.hpp"
-#include "temper/size.hpp"
-#include "temper/tensor.hpp"
-#include "temper/trace.hpp"
+#include "temper/detail/size.hpp"
+#include "temper/detail/tensor.hpp"
+#include "temper/detail/trace.hpp"
 
 namespace temper {
 
@@ -271,7 +271,7 @@ struct OptimizeOptions {
   Repair repair = Repair::moves;
   int repair_trials = 20000;  ///< most edits that are tried, each on a copy of a neighbourhood; 1 to 3 ms each; a
                               ///< linear programme (OptimizeHooks::lp) counts as 20
-  /// A constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/tensor.hpp). The report and
+  /// A constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/detail/tensor.hpp). The report and
   /// snapshots are of that plane. Absent: K = 1.
   std::optional<Tensor> tensor = {};
   int max_sweeps = 1000;      ///< each repair counts as a sweep of its own

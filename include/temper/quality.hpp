@@ -13,7 +13,7 @@
 
 #include "temper/energy.hpp"
 #include "temper/mesh.hpp"
-#include "temper/space.hpp"
+#include "temper/detail/space.hpp"
 
 namespace temper {
 

@@ -20,10 +20,10 @@
 #include <string_view>
 #include <vector>
 
-#include "temper/error.hpp"
-#include "temper/error_model.hpp"
+#include "temper/detail/error.hpp"
+#include "temper/detail/error_model.hpp"
 #include "temper/mesh.hpp"
-#include "temper/vec2.hpp"
+#include "temper/detail/vec2.hpp"
 
 namespace temper {
 

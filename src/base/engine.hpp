@@ -6,8 +6,8 @@
 
 #include "base/assert.hpp"
 #include "base/bytes.hpp"
-#include "temper/communicator.hpp"
-#include "temper/executor.hpp"
+#include "temper/detail/communicator.hpp"
+#include "temper/detail/executor.hpp"
 
 namespace temper {
 

@@ -1,4 +1,4 @@
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 
 namespace temper {
 

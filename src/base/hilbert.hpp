@@ -8,8 +8,8 @@
 #include <span>
 #include <utility>
 
-#include "temper/vec2.hpp"
-#include "temper/vec3.hpp"
+#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec3.hpp"
 
 namespace temper {
 

@@ -1,4 +1,4 @@
-#include "temper/instruction_set.hpp"
+#include "temper/detail/instruction_set.hpp"
 
 #include <algorithm>
 #include <array>

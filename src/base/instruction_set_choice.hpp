@@ -1,7 +1,7 @@
 // A pointer to the function of the instruction set in use, of those that have one name in the namespaces of all sets.
 #pragma once
 
-#include "temper/instruction_set.hpp"
+#include "temper/detail/instruction_set.hpp"
 
 namespace temper {
 

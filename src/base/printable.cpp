@@ -1,7 +1,7 @@
 // Text from anywhere, made fit for a terminal: no byte of it moves the cursor, and all of it is UTF-8.
 #include <cstddef>
 
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 
 namespace temper {
 namespace {

@@ -1,4 +1,4 @@
-#include "temper/version.hpp"
+#include "temper/detail/version.hpp"
 
 namespace temper {
 

@@ -1,5 +1,5 @@
-// See temper/build_info.hpp.
-#include "temper/build_info.hpp"
+// See temper/detail/build_info.hpp.
+#include "temper/detail/build_info.hpp"
 
 #include <coin/Clp_C_Interface.h>
 #include <zlib.h>
@@ -14,9 +14,9 @@
 #include <thread>
 
 #include "build_info/commit.hpp"
-#include "temper/instruction_set.hpp"
+#include "temper/detail/instruction_set.hpp"
 #include "temper/io.hpp"
-#include "temper/version.hpp"
+#include "temper/detail/version.hpp"
 
 namespace temper {
 namespace {

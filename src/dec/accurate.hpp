@@ -5,8 +5,8 @@
 // three.
 #pragma once
 
-#include "temper/vec2.hpp"
-#include "temper/vec3.hpp"
+#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec3.hpp"
 
 namespace temper::accurate {
 

@@ -1,5 +1,5 @@
 // Columns: surfaces say which cells there are; the faces of the power cells, layer by layer, which are neighbours.
-#include "temper/columns.hpp"
+#include "temper/detail/columns.hpp"
 
 #include <algorithm>
 #include <cmath>

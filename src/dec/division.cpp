@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {

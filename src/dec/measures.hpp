@@ -7,7 +7,7 @@
 #include "dec/accurate.hpp"
 #include "geometry/spherical_area.hpp"
 #include "temper/dec.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 

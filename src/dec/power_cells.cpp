@@ -15,7 +15,7 @@
 #include "dec/division.hpp"
 #include "dec/join.hpp"
 #include "temper/dec.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {

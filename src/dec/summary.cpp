@@ -4,7 +4,7 @@
 
 #include "base/median.hpp"
 #include "temper/dec.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {

@@ -1,5 +1,5 @@
 // Operators of a mesh in the metric of a diffusion tensor, brought back to its plane.
-#include "temper/tensor.hpp"
+#include "temper/detail/tensor.hpp"
 
 #include <utility>
 

@@ -5,7 +5,7 @@
 #include "draw/text.hpp"
 #include "draw/xml.hpp"
 #include "temper/draw.hpp"
-#include "temper/read_number.hpp"
+#include "temper/detail/read_number.hpp"
 
 namespace temper {
 namespace {

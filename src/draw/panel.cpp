@@ -8,7 +8,7 @@
 #include "draw/path.hpp"
 #include "draw/xml.hpp"
 #include "geometry/in_space.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {

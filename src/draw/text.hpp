@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "temper/vec2.hpp"
+#include "temper/detail/vec2.hpp"
 
 namespace temper {
 

@@ -29,7 +29,7 @@
 #include "energy/accuracy_star.hpp"
 #include "energy/length_floors.hpp"
 #include "temper/energy.hpp"
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {

@@ -10,7 +10,7 @@
 #include <cstddef>
 
 #include "energy/accuracy_edge.hpp"
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {

@@ -7,7 +7,7 @@
 
 #include "energy/accuracy_lanes.hpp"
 #include "energy/lanes.hpp"
-#include "temper/space.hpp"
+#include "temper/detail/space.hpp"
 
 namespace temper {
 

@@ -9,7 +9,7 @@
 #include "geometry/ground.hpp"
 #include "quality/measure.hpp"
 #include "quality/worst.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "feasibility/constraints.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {

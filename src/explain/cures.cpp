@@ -17,7 +17,7 @@
 #include "geometry/ground.hpp"
 #include "mesh/input_places.hpp"
 #include "quality/worst.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/regularity.hpp"
 #include "temper/topology.hpp"
 #include "topology/rings.hpp"

@@ -3,7 +3,7 @@
 //   weights of the best margin → Lawson's flips → best margin     greater: that is the mesh now
 //   else for each flip that breaks the proof of the margin        the greatest, when it is greater: the same
 //   else done
-#include "temper/connectivity.hpp"
+#include "temper/detail/connectivity.hpp"
 
 #include <algorithm>
 #include <array>

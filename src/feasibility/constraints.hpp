@@ -26,7 +26,7 @@
 
 #include "feasibility/potential.hpp"
 #include "temper/feasibility.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {

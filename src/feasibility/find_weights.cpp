@@ -21,7 +21,7 @@
 #include "feasibility/constraints.hpp"
 #include "feasibility/region.hpp"
 #include "mesh/erased.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {

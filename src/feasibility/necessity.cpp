@@ -5,7 +5,7 @@
 // and from v to v + S (u − v). For S ≥ 1 so do the triangles u v X, and whatever hides X: all is found inside the
 // smallest disc around both, on the sphere inside a cap. There a point between u and v is the direction of
 // (1 − s) U + s V, U and V as they are lifted, and what sees a diameter at a right angle is a cone of the second order.
-#include "temper/necessity.hpp"
+#include "temper/detail/necessity.hpp"
 
 #include <algorithm>
 #include <array>

@@ -10,7 +10,7 @@
 #include "base/rng.hpp"
 #include "generate/outline.hpp"
 #include "temper/generate.hpp"
-#include "temper/projection.hpp"
+#include "temper/detail/projection.hpp"
 
 namespace temper {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 #include "temper/generate.hpp"
 
 namespace temper::generate {

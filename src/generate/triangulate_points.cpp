@@ -8,7 +8,7 @@
 #include "base/text.hpp"
 #include "generate/triangulation.hpp"
 #include "mesh/mesh_editor.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/topology.hpp"
 
 namespace temper::generate {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "regularity/lawson.hpp"
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper::generate {

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "geometry/predicates_inline.hpp"
-#include "temper/space.hpp"
-#include "temper/vec2.hpp"
-#include "temper/vec3.hpp"
+#include "temper/detail/space.hpp"
+#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec3.hpp"
 
 namespace temper {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "geometry/spherical_area.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 

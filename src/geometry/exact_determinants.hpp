@@ -6,8 +6,8 @@
 #pragma once
 
 #include "geometry/expansion.hpp"
-#include "temper/vec2.hpp"
-#include "temper/vec3.hpp"
+#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec3.hpp"
 
 namespace temper::exact {
 

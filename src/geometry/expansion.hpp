@@ -16,7 +16,7 @@
 #include <cfloat>
 #include <cmath>
 
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__)
 #error "temper's exact predicates are wrong under -ffast-math: compile temper without it"

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "geometry/bounding_boxes.hpp"
-#include "temper/geometry.hpp"
-#include "temper/space.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/space.hpp"
 
 namespace temper {
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "temper/geometry.hpp"
-#include "temper/space.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/space.hpp"
 
 namespace temper {
 

@@ -16,7 +16,7 @@
 #include <cmath>
 
 #include "base/pack.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::exact {
 

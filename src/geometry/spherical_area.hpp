@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "temper/space.hpp"
-#include "temper/vec3.hpp"
+#include "temper/detail/space.hpp"
+#include "temper/detail/vec3.hpp"
 
 namespace temper {
 

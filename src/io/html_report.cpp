@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "io/containers/vtu_codec.hpp"
-#include "temper/geometry.hpp"
-#include "temper/html.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/html.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::io {

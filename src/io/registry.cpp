@@ -14,7 +14,7 @@
 #include "io/formats/netcdf/ugrid.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
-#include "temper/projection.hpp"
+#include "temper/detail/projection.hpp"
 
 namespace temper::io {
 

@@ -11,7 +11,7 @@
 #include <limits>
 #include <new>
 
-#include "temper/lp.hpp"
+#include "temper/detail/lp.hpp"
 
 namespace temper {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 
 namespace temper {
 

@@ -1,11 +1,11 @@
-#include "temper/tensor.hpp"
+#include "temper/detail/tensor.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "base/text.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {

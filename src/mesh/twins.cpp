@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "mesh/mesh_editor.hpp"
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 
 namespace temper {
 

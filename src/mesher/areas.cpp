@@ -14,8 +14,8 @@
 
 #include "generate/triangulation.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
-#include "temper/projection.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/projection.hpp"
 #include "topology/locate.hpp"
 
 namespace temper::mesher {

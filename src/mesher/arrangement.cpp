@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "geometry/bounding_boxes.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::mesher {
 namespace {

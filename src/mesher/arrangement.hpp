@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "geometry/ground.hpp"
-#include "temper/error.hpp"
-#include "temper/outline.hpp"
+#include "temper/detail/error.hpp"
+#include "temper/detail/outline.hpp"
 
 namespace temper::mesher {
 

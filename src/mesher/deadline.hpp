@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstddef>
 
-#include "temper/progress.hpp"
+#include "temper/detail/progress.hpp"
 
 namespace temper::mesher {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "geometry/ground.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper::mesher {
 

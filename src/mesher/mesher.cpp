@@ -15,7 +15,7 @@
 #include "mesher/narrow.hpp"
 #include "mesher/placement.hpp"
 #include "mesher/sphere_outline.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {

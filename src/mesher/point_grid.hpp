@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "temper/vec3.hpp"
+#include "temper/detail/vec3.hpp"
 
 namespace temper::mesher {
 

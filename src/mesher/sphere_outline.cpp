@@ -10,7 +10,7 @@
 
 #include "base/text.hpp"
 #include "mesher/arrangement.hpp"
-#include "temper/projection.hpp"
+#include "temper/detail/projection.hpp"
 
 namespace temper::mesher {
 namespace {

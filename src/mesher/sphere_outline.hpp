@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 #include "temper/mesher.hpp"
-#include "temper/vec3.hpp"
+#include "temper/detail/vec3.hpp"
 
 namespace temper::mesher {
 

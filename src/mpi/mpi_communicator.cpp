@@ -1,5 +1,5 @@
-// See temper/mpi_communicator.hpp.
-#include "temper/mpi_communicator.hpp"
+// See temper/detail/mpi_communicator.hpp.
+#include "temper/detail/mpi_communicator.hpp"
 
 #include <mpi.h>
 

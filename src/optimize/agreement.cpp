@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "temper/optimize_table.hpp"
-#include "temper/version.hpp"
+#include "temper/detail/optimize_table.hpp"
+#include "temper/detail/version.hpp"
 
 namespace temper {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "optimize/step/removal.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "topology/locate.hpp"
 
 namespace temper {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/sum.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "energy/accuracy_edge.hpp"
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {

@@ -10,7 +10,7 @@
 #include "mesh/predicates.hpp"
 #include "optimize/lengths.hpp"
 #include "optimize/step/freedom.hpp"
-#include "temper/necessity.hpp"
+#include "temper/detail/necessity.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {

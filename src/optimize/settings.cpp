@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "temper/optimize_table.hpp"
+#include "temper/detail/optimize_table.hpp"
 
 namespace temper {
 namespace {

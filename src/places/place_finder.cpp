@@ -5,7 +5,7 @@
 #include "geometry/predicates_inline.hpp"
 #include "places/box_tree.hpp"
 #include "places/place_of.hpp"
-#include "temper/places.hpp"
+#include "temper/detail/places.hpp"
 
 namespace temper {
 namespace {

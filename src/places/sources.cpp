@@ -8,7 +8,7 @@
 #include "mesh/blocks.hpp"
 #include "mesh/erased.hpp"
 #include "places/place_of.hpp"
-#include "temper/places.hpp"
+#include "temper/detail/places.hpp"
 
 namespace temper {
 namespace {

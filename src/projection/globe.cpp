@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "temper/projection.hpp"
+#include "temper/detail/projection.hpp"
 
 namespace temper {
 namespace {

@@ -1,5 +1,5 @@
 // Snyder's formulas for the sphere, in the forms that keep their digits near poles and centers (atan2 for asin).
-#include "temper/projection.hpp"
+#include "temper/detail/projection.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "temper/read_number.hpp"
+#include "temper/detail/read_number.hpp"
 
 namespace temper {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {

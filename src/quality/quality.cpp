@@ -12,7 +12,7 @@
 #include "quality/solver_measures.hpp"
 #include "quality/tally.hpp"
 #include "quality/transmissibility.hpp"
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 
 namespace temper {
 namespace {

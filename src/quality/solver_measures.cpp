@@ -12,7 +12,7 @@
 #include "mesh/blocks.hpp"
 #include "quality/flow_cells.hpp"
 #include "size/local_sizes.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {

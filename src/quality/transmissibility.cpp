@@ -9,7 +9,7 @@
 #include "base/median.hpp"
 #include "geometry/in_space.hpp"
 #include "mesh/blocks.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "quality/measure.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/quality.hpp"
 
 namespace temper {

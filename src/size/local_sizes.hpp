@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mesh/curve.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper {
 

@@ -14,7 +14,7 @@
 #include "mesh/edge_lengths.hpp"
 #include "size/local_sizes.hpp"
 #include "size/star_area.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper {
 namespace {

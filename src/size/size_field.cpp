@@ -4,8 +4,8 @@
 
 #include "base/assert.hpp"
 #include "base/text.hpp"
-#include "temper/places.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/places.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper {
 

@@ -1,7 +1,7 @@
 #include "temper/solvers.hpp"
 
 #ifdef TEMPER_WITH_LP
-#include "temper/lp.hpp"
+#include "temper/detail/lp.hpp"
 #endif
 #ifdef TEMPER_WITH_VERIFY
 #include "temper/verify.hpp"

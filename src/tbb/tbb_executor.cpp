@@ -1,5 +1,5 @@
-// See temper/tbb_executor.hpp.
-#include "temper/tbb_executor.hpp"
+// See temper/detail/tbb_executor.hpp.
+#include "temper/detail/tbb_executor.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>

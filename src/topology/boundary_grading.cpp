@@ -23,7 +23,7 @@
 #include <utility>
 
 #include "base/assert.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/topology.hpp"
 #include "topology/locate.hpp"
 

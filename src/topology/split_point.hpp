@@ -1,7 +1,7 @@
 // Where an edge is divided, and with which weight.
 #pragma once
 
-#include "temper/space.hpp"
+#include "temper/detail/space.hpp"
 
 namespace temper {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "temper/space.hpp"
+#include "temper/detail/space.hpp"
 #include "temper/verify.hpp"
 
 namespace temper::verify_detail {

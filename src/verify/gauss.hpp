@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "temper/vec2.hpp"
+#include "temper/detail/vec2.hpp"
 
 namespace temper::verify_detail {
 

@@ -1,7 +1,7 @@
 // Regular refinement of a weighted mesh, for orders of convergence.
 #pragma once
 
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper::verify_detail {

@@ -13,7 +13,7 @@
 
 #include "base/rng.hpp"
 #include "temper/dec.hpp"
-#include "temper/error_model.hpp"
+#include "temper/detail/error_model.hpp"
 #include "temper/verify.hpp"
 #include "verify/adjoint.hpp"
 #include "verify/gauss.hpp"

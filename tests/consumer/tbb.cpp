@@ -3,7 +3,7 @@
 
 #include "temper/generate.hpp"
 #include "temper/quality.hpp"
-#include "temper/tbb_executor.hpp"
+#include "temper/detail/tbb_executor.hpp"
 
 int main() {
   const auto mesh = temper::random_points({.vertices = 20000, .seed = 3});

@@ -6,9 +6,9 @@
 #include "base/rng.hpp"
 #include "property/random_mesh.hpp"
 #include "target.hpp"
-#include "temper/optimize_table.hpp"
+#include "temper/detail/optimize_table.hpp"
 #include "temper/regularity.hpp"
-#include "temper/trace.hpp"
+#include "temper/detail/trace.hpp"
 
 namespace temper::fuzz {
 namespace {

@@ -5,7 +5,7 @@
 #include "files/certificate_json.hpp"
 #include "files/trace_jsonl.hpp"
 #include "target.hpp"
-#include "temper/dec_io.hpp"
+#include "temper/detail/dec_io.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 

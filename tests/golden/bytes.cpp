@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "temper/generate.hpp"
-#include "temper/instruction_set.hpp"
+#include "temper/detail/instruction_set.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {

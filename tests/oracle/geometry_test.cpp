@@ -3,7 +3,7 @@
 // The oracle shares no formula with the library: it expands the 4 × 4 determinants on raw coordinates, finds the
 // orthocenter by Cramer's rule and takes heights and splits from it, and reads the derivative by a weight off
 // a difference of two determinants.
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "unit/geometry/degenerate_families.hpp"
 
 namespace temper {
@@ -206,7 +206,7 @@ TEST(RationalOracleOnTheSphere, NoSignIsWrongOnRandomPoints) {
   EXPECT_GT(seen[2], kRounds);
 }
 
-// The theorem of temper/space.hpp: the flat triangle with the weights |P|² has its weighted midpoints and orthocenter
+// The theorem of temper/detail/space.hpp: the flat triangle with the weights |P|² has its weighted midpoints and orthocenter
 // where the spherical one has them, so heights and splits read in its plane have the signs of the predicates.
 TEST(RationalOracleOnTheSphere, TheFlatTriangleWithSquaredLengthsAsWeightsHasTheSameSigns) {
   Random random(7);

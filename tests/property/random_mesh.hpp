@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/rng.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/mesh.hpp"
 #include "temper/topology.hpp"
 #include "topology/outgoing.hpp"

@@ -1,7 +1,7 @@
 // The area that a mesh covers, for tests that compare it with the domain's.
 #pragma once
 
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper::test {

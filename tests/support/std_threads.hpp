@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 
 namespace temper::test {
 

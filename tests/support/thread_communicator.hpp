@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "temper/communicator.hpp"
+#include "temper/detail/communicator.hpp"
 
 namespace temper::test {
 

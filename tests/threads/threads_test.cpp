@@ -21,10 +21,10 @@
 #include "temper/generate.hpp"
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
-#include "temper/places.hpp"
+#include "temper/detail/places.hpp"
 #include "temper/quality.hpp"
 #include "temper/regularity.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper::test {
 namespace {

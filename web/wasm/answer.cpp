@@ -7,7 +7,7 @@
 #include <new>
 #include <utility>
 
-#include "temper/version.hpp"
+#include "temper/detail/version.hpp"
 
 namespace temper::wasm {
 namespace {

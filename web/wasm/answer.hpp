@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "temper/error.hpp"
-#include "temper/ids.hpp"
+#include "temper/detail/error.hpp"
+#include "temper/detail/ids.hpp"
 
 namespace temper::wasm {
 

@@ -8,8 +8,8 @@
 #include "records.hpp"
 #include "temper/dec.hpp"
 #include "temper/draw.hpp"
-#include "temper/geometry.hpp"
-#include "temper/html.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/html.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::wasm {

@@ -5,7 +5,7 @@
 #include "answer.hpp"
 #include "held_mesh.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper::wasm {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <variant>
 
-#include "temper/optimize_table.hpp"
+#include "temper/detail/optimize_table.hpp"
 
 namespace temper::wasm {
 namespace {

@@ -5,7 +5,7 @@
 #include "temper/energy.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
-#include "temper/trace.hpp"
+#include "temper/detail/trace.hpp"
 
 namespace temper::wasm {
 

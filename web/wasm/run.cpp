@@ -3,7 +3,7 @@
 #include "held_mesh.hpp"
 #include "records.hpp"
 #include "temper/optimize.hpp"
-#include "temper/trace.hpp"
+#include "temper/detail/trace.hpp"
 
 namespace temper::wasm {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "files/input.hpp"
 #include "help/command.hpp"
-#include "temper/tensor.hpp"
+#include "temper/detail/tensor.hpp"
 
 namespace temper::app {
 

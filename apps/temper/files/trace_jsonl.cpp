@@ -17,7 +17,7 @@
 #include "exit.hpp"
 #include "files/input.hpp"
 #include "suggest.hpp"
-#include "temper/version.hpp"
+#include "temper/detail/version.hpp"
 
 namespace temper::app {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "files/input.hpp"
-#include "temper/trace.hpp"
+#include "temper/detail/trace.hpp"
 
 namespace temper::app {
 

@@ -6,7 +6,7 @@
 
 #include "console.hpp"
 #include "help/help.hpp"
-#include "temper/version.hpp"
+#include "temper/detail/version.hpp"
 
 namespace temper::app {
 namespace {

@@ -16,7 +16,7 @@
 
 #include "help/command.hpp"
 #include "temper/energy.hpp"
-#include "temper/optimize_table.hpp"
+#include "temper/detail/optimize_table.hpp"
 
 namespace temper::app {
 

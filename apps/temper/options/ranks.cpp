@@ -12,7 +12,7 @@
 #include "temper/io.hpp"
 
 #ifdef TEMPER_WITH_MPI
-#include "temper/mpi_communicator.hpp"
+#include "temper/detail/mpi_communicator.hpp"
 #endif
 
 namespace temper::app {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "exit.hpp"
-#include "temper/communicator.hpp"
+#include "temper/detail/communicator.hpp"
 
 namespace temper::app {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "options/options.hpp"
-#include "temper/optimize_table.hpp"
+#include "temper/detail/optimize_table.hpp"
 
 namespace temper::app {
 

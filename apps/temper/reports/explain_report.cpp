@@ -8,7 +8,7 @@
 #include "files/certificate_json.hpp"
 #include "files/input.hpp"
 #include "reports/reports.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::app {
 namespace {

@@ -3,9 +3,9 @@
 #include "exit.hpp"
 #include "reports/quality_report.hpp"
 #include "temper/explain.hpp"
-#include "temper/html.hpp"
-#include "temper/lp.hpp"
-#include "temper/version.hpp"
+#include "temper/detail/html.hpp"
+#include "temper/detail/lp.hpp"
+#include "temper/detail/version.hpp"
 
 namespace temper::app {
 namespace {

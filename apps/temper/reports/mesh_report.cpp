@@ -5,7 +5,7 @@
 #include "console.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
-#include "temper/version.hpp"
+#include "temper/detail/version.hpp"
 
 namespace temper::app {
 namespace {

@@ -77,7 +77,7 @@ struct OptimizeRecord {
 /// `temper optimize --history`: a header and one line a sweep.
 [[nodiscard]] std::string history_csv(const OptimizeReport& report);
 
-// What `--html` of check and optimize writes: the HTML report (temper/html.hpp) with the numbers that --json and
+// What `--html` of check and optimize writes: the HTML report (temper/detail/html.hpp) with the numbers that --json and
 // --report have, the reasons of temper explain, and the command to run again. Nothing in it depends on the time a run
 // took.
 

@@ -8,7 +8,7 @@
 
 #include "files/input.hpp"
 #include "reports/quality_report.hpp"
-#include "temper/version.hpp"
+#include "temper/detail/version.hpp"
 
 namespace temper::app {
 namespace {

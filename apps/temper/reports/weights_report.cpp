@@ -7,7 +7,7 @@
 
 #include "files/certificate_json.hpp"
 #include "reports/reports.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper::app {
 namespace {

@@ -15,7 +15,7 @@
 #include "options/options.hpp"
 #include "reports/reports.hpp"
 #include "suggest.hpp"
-#include "temper/dec_io.hpp"
+#include "temper/detail/dec_io.hpp"
 #include "threads.hpp"
 
 namespace temper::app {

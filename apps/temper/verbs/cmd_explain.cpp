@@ -9,7 +9,7 @@
 #include "options/options.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
-#include "temper/lp.hpp"
+#include "temper/detail/lp.hpp"
 
 namespace temper::app {
 namespace {

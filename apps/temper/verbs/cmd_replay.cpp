@@ -12,7 +12,7 @@
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "reports/reports.hpp"
-#include "temper/trace.hpp"
+#include "temper/detail/trace.hpp"
 
 namespace temper::app {
 namespace {

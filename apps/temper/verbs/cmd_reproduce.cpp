@@ -20,7 +20,7 @@
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "options/table_options.hpp"
-#include "temper/version.hpp"
+#include "temper/detail/version.hpp"
 
 namespace temper::app {
 namespace {

@@ -13,9 +13,9 @@
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "reports/reports.hpp"
-#include "temper/connectivity.hpp"
-#include "temper/geometry.hpp"
-#include "temper/lp.hpp"
+#include "temper/detail/connectivity.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/lp.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper::app {

@@ -19,9 +19,9 @@
 #include "interrupt.hpp"
 #include "options/ranks.hpp"
 #include "suggest.hpp"
-#include "temper/build_info.hpp"
+#include "temper/detail/build_info.hpp"
 #include "temper/io.hpp"
-#include "temper/version.hpp"
+#include "temper/detail/version.hpp"
 #include "verbs.hpp"
 
 namespace temper::app {

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "temper/progress.hpp"
+#include "temper/detail/progress.hpp"
 
 namespace temper::app {
 

@@ -15,7 +15,7 @@
 #include "io/disk/output.hpp"
 #include "io/text/allowance.hpp"
 #include "io/text/values.hpp"
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 
 namespace temper::io {
 

@@ -9,9 +9,9 @@
 #include "io/conversion/globe.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/values.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/io.hpp"
-#include "temper/places.hpp"
+#include "temper/detail/places.hpp"
 
 namespace temper::io {
 namespace {

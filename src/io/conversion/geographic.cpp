@@ -9,7 +9,7 @@
 #include "io/conversion/place_hash.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/values.hpp"
-#include "temper/read_number.hpp"
+#include "temper/detail/read_number.hpp"
 
 namespace temper::io {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "temper/io.hpp"
-#include "temper/places.hpp"
+#include "temper/detail/places.hpp"
 
 namespace temper::io {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "temper/io.hpp"
-#include "temper/projection.hpp"
+#include "temper/detail/projection.hpp"
 
 namespace temper::io {
 

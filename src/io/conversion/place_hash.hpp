@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "temper/vec2.hpp"
-#include "temper/vec3.hpp"
+#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec3.hpp"
 
 namespace temper::io {
 

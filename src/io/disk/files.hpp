@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "io/text/allowance.hpp"
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 
 namespace temper::io {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "io/operators/dec_files.hpp"
-#include "temper/read_number.hpp"
+#include "temper/detail/read_number.hpp"
 
 namespace temper::io {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/disk/output.hpp"
-#include "temper/dec_io.hpp"
+#include "temper/detail/dec_io.hpp"
 
 namespace temper::io {
 

@@ -1,4 +1,4 @@
-// Layers as a CSV file: temper/dec_io.hpp shows it.
+// Layers as a CSV file: temper/detail/dec_io.hpp shows it.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,7 +7,7 @@
 #include "io/disk/files.hpp"
 #include "io/text/file_names.hpp"
 #include "io/text/scanner.hpp"
-#include "temper/dec_io.hpp"
+#include "temper/detail/dec_io.hpp"
 
 namespace temper::io {
 namespace {

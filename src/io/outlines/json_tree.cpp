@@ -8,7 +8,7 @@
 
 #include "io/text/failure.hpp"
 #include "io/text/scanner.hpp"
-#include "temper/read_number.hpp"
+#include "temper/detail/read_number.hpp"
 
 namespace temper::io {
 namespace {

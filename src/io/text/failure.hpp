@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 
 namespace temper::io {
 

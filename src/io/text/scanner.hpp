@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "io/text/failure.hpp"
-#include "temper/read_number.hpp"
+#include "temper/detail/read_number.hpp"
 
 namespace temper::io {
 

@@ -13,8 +13,8 @@
 #include "energy/accuracy_energy.hpp"
 #include "mesh/curve.hpp"
 #include "optimize/working_copy.hpp"
-#include "temper/executor.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/executor.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper {
 

@@ -8,7 +8,7 @@
 #include "energy/whole_mesh.hpp"
 #include "optimize/judge.hpp"
 #include "optimize/trace/recorder.hpp"
-#include "temper/error_model.hpp"
+#include "temper/detail/error_model.hpp"
 
 namespace temper {
 namespace {

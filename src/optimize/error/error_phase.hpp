@@ -2,7 +2,7 @@
 //
 //     ln mean(errors over those at the start) + κ ln(E + B)
 //
-// the errors those of the options' model (temper/error_model.hpp), E and B energy and barrier of the accuracy
+// the errors those of the options' model (temper/detail/error_model.hpp), E and B energy and barrier of the accuracy
 // objective, which keep triangles well-centered with their margins, and other errors from rising. By L-BFGS in places
 // over the local size and weights over its square. Nothing where a triangle is not well-centered. The connectivity
 // stays.
@@ -14,7 +14,7 @@
 #include "optimize/error/descent.hpp"
 #include "optimize/phase.hpp"
 #include "optimize/step/freedom.hpp"
-#include "temper/error_model.hpp"
+#include "temper/detail/error_model.hpp"
 
 namespace temper {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "temper/optimize_table.hpp"
+#include "temper/detail/optimize_table.hpp"
 
 namespace temper {
 namespace {

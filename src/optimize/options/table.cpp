@@ -7,7 +7,7 @@
 
 #include "energy/edge_kernels.hpp"
 #include "optimize/settings.hpp"
-#include "temper/optimize_table.hpp"
+#include "temper/detail/optimize_table.hpp"
 
 namespace temper {
 namespace {

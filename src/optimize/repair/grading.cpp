@@ -10,7 +10,7 @@
 
 #include "geometry/bounding_boxes.hpp"
 #include "mesh/bad_triangles.hpp"
-#include "temper/necessity.hpp"
+#include "temper/detail/necessity.hpp"
 
 namespace temper {
 namespace {

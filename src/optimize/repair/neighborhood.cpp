@@ -4,7 +4,7 @@
 #include <unordered_map>
 
 #include "mesh/mesh_editor.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "topology/outgoing.hpp"
 #include "topology/rings.hpp"
 

@@ -8,7 +8,7 @@
 #include "optimize/repair/edits.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/splice.hpp"
-#include "temper/necessity.hpp"
+#include "temper/detail/necessity.hpp"
 
 namespace temper {
 namespace {

@@ -6,7 +6,7 @@
 #include "base/assert.hpp"
 #include "energy/edge_kernels.hpp"
 #include "energy/patch.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {

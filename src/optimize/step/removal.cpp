@@ -7,7 +7,7 @@
 #include "geometry/triangle_kernel.hpp"
 #include "optimize/step/cavity.hpp"
 #include "optimize/step/line_search.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 
 namespace temper {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "energy/patch.hpp"
 #include "optimize/frame.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper {
 

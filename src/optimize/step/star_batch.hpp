@@ -17,7 +17,7 @@
 
 #include "energy/accuracy_edge.hpp"
 #include "energy/lanes.hpp"
-#include "temper/space.hpp"
+#include "temper/detail/space.hpp"
 
 namespace temper {
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "optimize/sweep/partition.hpp"
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 
 namespace temper {
 

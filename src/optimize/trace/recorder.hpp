@@ -7,7 +7,7 @@
 
 #include "optimize/working_copy.hpp"
 #include "temper/topology.hpp"
-#include "temper/trace.hpp"
+#include "temper/detail/trace.hpp"
 
 namespace temper {
 

@@ -15,9 +15,9 @@
 #include <utility>
 
 #include "optimize/rounding.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/topology.hpp"
-#include "temper/trace.hpp"
+#include "temper/detail/trace.hpp"
 #include "topology/flip_inline.hpp"
 
 namespace temper {

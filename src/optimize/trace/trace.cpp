@@ -1,4 +1,4 @@
-#include "temper/trace.hpp"
+#include "temper/detail/trace.hpp"
 
 namespace temper {
 

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "support/sanitizers.hpp"
-#include "temper/optimize_table.hpp"
+#include "temper/detail/optimize_table.hpp"
 #include "workshop.hpp"
 
 namespace temper::test {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "temper/ids.hpp"
+#include "temper/detail/ids.hpp"
 
 namespace temper {
 namespace {

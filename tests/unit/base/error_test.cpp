@@ -1,5 +1,5 @@
 // Expected and InputError.
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 
 #include <gtest/gtest.h>
 

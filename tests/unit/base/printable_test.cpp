@@ -1,7 +1,7 @@
 // printable: what text from anywhere looks like on a terminal.
 #include <gtest/gtest.h>
 
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 
 namespace temper {
 namespace {

@@ -1,5 +1,5 @@
 // read_number where from_chars reads no real numbers: the same texts, the same bits.
-#include "temper/read_number.hpp"
+#include "temper/detail/read_number.hpp"
 
 #include <gtest/gtest.h>
 

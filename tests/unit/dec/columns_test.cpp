@@ -1,5 +1,5 @@
 // Columns under layers: volumes, areas and connections that add up, on meshes with weights.
-#include "temper/columns.hpp"
+#include "temper/detail/columns.hpp"
 
 #include <gtest/gtest.h>
 

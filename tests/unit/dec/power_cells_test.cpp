@@ -13,7 +13,7 @@
 #include "support/shapes.hpp"
 #include "temper/dec.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {

@@ -11,7 +11,7 @@
 
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "unit/draw/svg_reading.hpp"
 
 namespace temper {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "support/lattice.hpp"
-#include "temper/instruction_set.hpp"
+#include "temper/detail/instruction_set.hpp"
 #include "unit/energy/naive.hpp"
 
 namespace temper::test {

@@ -2,8 +2,8 @@
 #include "explain/crossings.hpp"
 
 #include "explain/conflict.hpp"
-#include "temper/geometry.hpp"
-#include "temper/lp.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/lp.hpp"
 #include "unit/explain/fans.hpp"
 
 namespace temper::test {

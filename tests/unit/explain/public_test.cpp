@@ -3,9 +3,9 @@
 
 #include "temper/explain.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/io.hpp"
-#include "temper/lp.hpp"
+#include "temper/detail/lp.hpp"
 #include "unit/explain/fans.hpp"
 
 namespace temper::test {

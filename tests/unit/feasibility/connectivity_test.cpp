@@ -1,5 +1,5 @@
 // The search over connectivities: what it must keep, and what it finds where the answer is known.
-#include "temper/connectivity.hpp"
+#include "temper/detail/connectivity.hpp"
 
 #include <set>
 

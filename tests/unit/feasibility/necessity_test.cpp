@@ -1,5 +1,5 @@
 // Edges that must be split: never one in a well-centered mesh, exactly decided, and the same however a mesh is put.
-#include "temper/necessity.hpp"
+#include "temper/detail/necessity.hpp"
 
 #include <numbers>
 #include <tuple>

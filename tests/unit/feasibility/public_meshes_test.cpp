@@ -3,7 +3,7 @@
 #include <ostream>
 
 #include "temper/io.hpp"
-#include "temper/necessity.hpp"
+#include "temper/detail/necessity.hpp"
 #include "temper/optimize.hpp"
 #include "unit/feasibility/support.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "feasibility/constraints.hpp"
 #include "support/spheres.hpp"
-#include "temper/connectivity.hpp"
+#include "temper/detail/connectivity.hpp"
 #include "unit/feasibility/support.hpp"
 
 namespace temper::test {

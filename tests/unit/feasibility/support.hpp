@@ -11,8 +11,8 @@
 #include "support/shapes.hpp"
 #include "temper/feasibility.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
-#include "temper/lp.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/lp.hpp"
 
 namespace temper::test {
 

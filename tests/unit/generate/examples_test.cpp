@@ -10,7 +10,7 @@
 #include "support/area.hpp"
 #include "temper/energy.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
-#include "temper/projection.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/projection.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper::test {
 namespace {

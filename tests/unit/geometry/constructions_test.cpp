@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "unit/geometry/degenerate_families.hpp"
 
 namespace temper {

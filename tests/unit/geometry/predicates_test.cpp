@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "geometry/predicates_inline.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "unit/geometry/degenerate_families.hpp"
 
 namespace temper {

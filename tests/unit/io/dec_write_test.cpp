@@ -7,7 +7,7 @@
 #include "io/containers/zip_writer.hpp"
 #include "support.hpp"
 #include "support/std_threads.hpp"
-#include "temper/dec_io.hpp"
+#include "temper/detail/dec_io.hpp"
 
 namespace temper::io {
 namespace {

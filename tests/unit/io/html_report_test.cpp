@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
-#include "temper/html.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/html.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::io {

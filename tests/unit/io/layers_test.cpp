@@ -1,7 +1,7 @@
 // Layers as files: what is read, what is refused, and what MODFLOW and TOUGH find in theirs.
 // (tests/python/test_columns.py reads whole files by readers of its own.)
 #include "support.hpp"
-#include "temper/dec_io.hpp"
+#include "temper/detail/dec_io.hpp"
 
 namespace temper::io {
 namespace {

@@ -13,7 +13,7 @@
 #include "support/lattice.hpp"
 #include "support/spheres.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper::io {

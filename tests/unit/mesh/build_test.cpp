@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "support/std_threads.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "unit/mesh/inputs.hpp"
 
 namespace temper {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "unit/mesh/random_soup.hpp"
 
 namespace temper {

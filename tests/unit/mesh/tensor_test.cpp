@@ -1,5 +1,5 @@
 // The plane of a tensor's metric, and the way there and back.
-#include "temper/tensor.hpp"
+#include "temper/detail/tensor.hpp"
 
 #include <gtest/gtest.h>
 

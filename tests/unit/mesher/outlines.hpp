@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/mesher.hpp"
 
 namespace temper::test {

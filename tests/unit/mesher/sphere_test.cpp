@@ -13,9 +13,9 @@
 #include "outlines.hpp"
 #include "support/std_threads.hpp"
 #include "temper/generate.hpp"
-#include "temper/projection.hpp"
+#include "temper/detail/projection.hpp"
 #include "temper/regularity.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper::test {
 namespace {

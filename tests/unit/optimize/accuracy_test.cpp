@@ -18,7 +18,7 @@
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 #include "temper/regularity.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper::test {
 namespace {

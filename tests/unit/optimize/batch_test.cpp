@@ -16,7 +16,7 @@
 #include "support/lattice.hpp"
 #include "support/sanitizers.hpp"
 #include "temper/generate.hpp"
-#include "temper/instruction_set.hpp"
+#include "temper/detail/instruction_set.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"
 

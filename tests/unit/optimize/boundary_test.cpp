@@ -20,7 +20,7 @@
 #include "optimize/trace/recorder.hpp"
 #include "support/area.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 #include "temper/regularity.hpp"

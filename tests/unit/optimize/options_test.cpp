@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "support/lattice.hpp"
-#include "temper/optimize_table.hpp"
+#include "temper/detail/optimize_table.hpp"
 
 namespace temper::test {
 namespace {

@@ -13,7 +13,7 @@
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper::test {
 namespace {

@@ -8,11 +8,11 @@
 #include "support/sanitizers.hpp"
 #include "support/std_threads.hpp"
 #include "temper/generate.hpp"
-#include "temper/instruction_set.hpp"
+#include "temper/detail/instruction_set.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 #include "temper/regularity.hpp"
-#include "temper/trace.hpp"
+#include "temper/detail/trace.hpp"
 
 namespace temper {
 namespace {

@@ -14,7 +14,7 @@
 #include "support/lattice.hpp"
 #include "support/layers.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"
 

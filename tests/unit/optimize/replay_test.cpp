@@ -9,7 +9,7 @@
 #include "base/rng.hpp"
 #include "temper/generate.hpp"
 #include "temper/topology.hpp"
-#include "temper/trace.hpp"
+#include "temper/detail/trace.hpp"
 
 namespace temper {
 namespace {

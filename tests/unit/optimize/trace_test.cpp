@@ -1,5 +1,5 @@
 // Traces are true: replayed, every run gives the same mesh, bit for bit.
-#include "temper/trace.hpp"
+#include "temper/detail/trace.hpp"
 
 #include <gtest/gtest.h>
 

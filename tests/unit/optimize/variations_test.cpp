@@ -12,7 +12,7 @@
 #include "optimize/step/removal.hpp"
 #include "support/lattice.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"
 

@@ -7,8 +7,8 @@
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
-#include "temper/places.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/places.hpp"
 
 namespace temper::test {
 namespace {

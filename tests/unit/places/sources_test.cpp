@@ -7,9 +7,9 @@
 #include "support/shapes.hpp"
 #include "support/std_threads.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/optimize.hpp"
-#include "temper/places.hpp"
+#include "temper/detail/places.hpp"
 #include "temper/topology.hpp"
 
 namespace temper::test {

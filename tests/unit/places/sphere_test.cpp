@@ -6,9 +6,9 @@
 
 #include "support/lattice.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/optimize.hpp"
-#include "temper/places.hpp"
+#include "temper/detail/places.hpp"
 
 namespace temper::test {
 namespace {

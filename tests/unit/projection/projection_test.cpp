@@ -1,5 +1,5 @@
 // Projections: the book's numbers, the way back, and that angles stay.
-#include "temper/projection.hpp"
+#include "temper/detail/projection.hpp"
 
 #include <gtest/gtest.h>
 

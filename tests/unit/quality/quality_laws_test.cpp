@@ -11,9 +11,9 @@
 
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/quality.hpp"
 
 namespace temper {

@@ -12,9 +12,9 @@
 
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/quality.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper {
 namespace {

@@ -8,7 +8,7 @@
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper::test {
 namespace {

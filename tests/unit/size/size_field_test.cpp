@@ -8,8 +8,8 @@
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper::test {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 #include "temper/generate.hpp"
-#include "temper/size.hpp"
+#include "temper/detail/size.hpp"
 
 namespace temper::test {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "base/rng.hpp"
 #include "support/std_threads.hpp"
-#include "temper/connectivity.hpp"
-#include "temper/error_model.hpp"
+#include "temper/detail/connectivity.hpp"
+#include "temper/detail/error_model.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/verify.hpp"

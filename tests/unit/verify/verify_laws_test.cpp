@@ -9,7 +9,7 @@
 #include "support/std_threads.hpp"
 #include "temper/dec.hpp"
 #include "temper/generate.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/quality.hpp"
 #include "temper/verify.hpp"
 #include "verify/fields.hpp"

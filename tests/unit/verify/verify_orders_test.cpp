@@ -7,7 +7,7 @@
 #include "support/lattice.hpp"
 #include "support/regions.hpp"
 #include "temper/dec.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/regularity.hpp"
 #include "temper/verify.hpp"
 #include "verify/measure.hpp"

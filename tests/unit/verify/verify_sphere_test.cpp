@@ -7,7 +7,7 @@
 #include "support/lattice.hpp"
 #include "support/spheres.hpp"
 #include "temper/dec.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/verify.hpp"
 #include "verify/edge_means.hpp"
 #include "verify/fields.hpp"

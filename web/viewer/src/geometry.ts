@@ -1,4 +1,4 @@
-// The numbers of a triangle in the power diagram, in doubles, with the signs and formulae of temper/geometry.hpp.
+// The numbers of a triangle in the power diagram, in doubles, with the signs and formulae of temper/detail/geometry.hpp.
 import { type MeshData, nTriangles, next, previous, Verdict } from './mesh.ts';
 
 export interface Point {

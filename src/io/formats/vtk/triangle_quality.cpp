@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "io/text/scanner.hpp"
-#include "temper/geometry.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::io {

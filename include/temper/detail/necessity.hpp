@@ -19,7 +19,7 @@
 #include <optional>
 #include <vector>
 
-#include "temper/ids.hpp"
+#include "temper/detail/ids.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "temper/dec.hpp"
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {

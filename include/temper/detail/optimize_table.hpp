@@ -15,7 +15,7 @@
 #include <string_view>
 #include <variant>
 
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {

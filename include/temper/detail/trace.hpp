@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {

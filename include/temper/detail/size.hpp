@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -25,7 +25,7 @@ class Executor;
 /// That of each vertex, 0 where it is isolated. O(n).
 [[nodiscard]] IdVector<VertexId, double> local_sizes(const Mesh& mesh, Executor* executor = nullptr);
 
-/// A length at every point of the plane or of the sphere: linear on each triangle of a mesh (temper/places.hpp); beyond
+/// A length at every point of the plane or of the sphere: linear on each triangle of a mesh (temper/detail/places.hpp); beyond
 /// the mesh, that of its nearest point. An immutable value, cheap to copy, and safe to ask from several threads.
 class SizeField {
  public:

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "temper/vec2.hpp"
+#include "temper/detail/vec2.hpp"
 
 namespace temper {
 

@@ -13,11 +13,11 @@
 #include <string_view>
 #include <vector>
 
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 #include "temper/mesh.hpp"
-#include "temper/outline.hpp"
-#include "temper/vec2.hpp"
-#include "temper/vec3.hpp"
+#include "temper/detail/outline.hpp"
+#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec3.hpp"
 
 namespace temper {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <string>
 
-#include "temper/communicator.hpp"
+#include "temper/detail/communicator.hpp"
 
 namespace temper {
 

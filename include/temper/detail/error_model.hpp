@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "temper/columns.hpp"
+#include "temper/detail/columns.hpp"
 #include "temper/dec.hpp"
-#include "temper/error.hpp"
+#include "temper/detail/error.hpp"
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <memory>
 
-#include "temper/executor.hpp"
+#include "temper/detail/executor.hpp"
 
 namespace temper {
 

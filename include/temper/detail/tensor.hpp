@@ -10,10 +10,10 @@
 // Weights are of the metric: they stay with their vertices on the way, as they are.
 #pragma once
 
-#include "temper/error.hpp"
-#include "temper/ids.hpp"
+#include "temper/detail/error.hpp"
+#include "temper/detail/ids.hpp"
 #include "temper/mesh.hpp"
-#include "temper/vec2.hpp"
+#include "temper/detail/vec2.hpp"
 
 namespace temper {
 

@@ -11,9 +11,9 @@
 #include <array>
 #include <atomic>
 
-#include "temper/ids.hpp"
+#include "temper/detail/ids.hpp"
 #include "temper/mesh.hpp"
-#include "temper/vec2.hpp"
+#include "temper/detail/vec2.hpp"
 
 namespace temper {
 
