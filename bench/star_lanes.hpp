@@ -1,10 +1,10 @@
-// Stars of a mesh, eight together, as batches have them (optimize/step/batch_step.hpp).
+// Stars of a mesh, eight together, as batches have them (optimize/batch/batch_step.hpp).
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "optimize/step/star_batch.hpp"
+#include "optimize/batch/star_batch.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper::bench {

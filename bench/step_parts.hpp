@@ -1,10 +1,10 @@
-// The parts of a step of eight vertices (optimize/step/star_batch.hpp), each by itself, for each instruction set.
+// The parts of a step of eight vertices (optimize/batch/star_batch.hpp), each by itself, for each instruction set.
 #pragma once
 
 #include <cstddef>
 
 #include "energy/star_kernels.hpp"
-#include "optimize/step/star_batch.hpp"
+#include "optimize/batch/star_batch.hpp"
 
 namespace temper::bench {
 

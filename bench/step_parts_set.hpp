@@ -6,7 +6,7 @@
 // That header ends with the definitions of these two, which the library has already.
 #define kPlaneSteps kPlaneStepsOfParts
 #define kSphereSteps kSphereStepsOfParts
-#include "optimize/step/star_batch_set.hpp"
+#include "optimize/batch/star_batch_set.hpp"
 #undef kPlaneSteps
 #undef kSphereSteps
 

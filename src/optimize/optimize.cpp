@@ -5,14 +5,14 @@
 #include <utility>
 
 #include "optimize/accuracy/accuracy_phase.hpp"
-#include "optimize/agreement.hpp"
-#include "optimize/attempts.hpp"
-#include "optimize/driver.hpp"
-#include "optimize/error/error_phase.hpp"
-#include "optimize/input_mesh.hpp"
-#include "optimize/lengths.hpp"
-#include "optimize/judge.hpp"
-#include "optimize/report.hpp"
+#include "optimize/run/agreement.hpp"
+#include "optimize/stages/attempts.hpp"
+#include "optimize/stages/driver.hpp"
+#include "optimize/solver_error/error_phase.hpp"
+#include "optimize/working/input_mesh.hpp"
+#include "optimize/run/lengths.hpp"
+#include "optimize/run/judge.hpp"
+#include "optimize/result/report.hpp"
 
 namespace temper {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "optimize/accuracy/accuracy_sizes.hpp"
-#include "optimize/phase.hpp"
+#include "optimize/stages/phase.hpp"
 
 namespace temper {
 

@@ -12,7 +12,7 @@
 
 #include "energy/accuracy_energy.hpp"
 #include "mesh/curve.hpp"
-#include "optimize/working_copy.hpp"
+#include "optimize/working/working_copy.hpp"
 #include "temper/detail/executor.hpp"
 #include "temper/detail/size.hpp"
 

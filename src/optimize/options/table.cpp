@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "energy/edge_kernels.hpp"
-#include "optimize/settings.hpp"
+#include "optimize/options/settings.hpp"
 #include "temper/detail/optimize_table.hpp"
 
 namespace temper {

@@ -4,7 +4,7 @@
 
 #include "geometry/in_space.hpp"
 #include "mesh/bad_triangles.hpp"
-#include "optimize/run.hpp"
+#include "optimize/run/run.hpp"
 #include "topology/locate.hpp"
 
 namespace temper {

@@ -4,7 +4,7 @@
 
 #include "base/assert.hpp"
 #include "mesh/bad_triangles.hpp"
-#include "optimize/lengths.hpp"
+#include "optimize/run/lengths.hpp"
 #include "optimize/repair/edits.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/splice.hpp"

@@ -12,8 +12,8 @@
 
 #include "base/rng.hpp"
 #include "optimize/repair/trial.hpp"
-#include "optimize/run.hpp"
-#include "optimize/step/flipper.hpp"
+#include "optimize/run/run.hpp"
+#include "optimize/flips/flipper.hpp"
 
 namespace temper {
 

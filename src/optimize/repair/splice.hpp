@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "optimize/repair/neighborhood.hpp"
-#include "optimize/step/flipper.hpp"
+#include "optimize/flips/flipper.hpp"
 
 namespace temper {
 

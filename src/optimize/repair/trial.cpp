@@ -10,10 +10,10 @@
 #include "geometry/predicates_inline.hpp"
 #include "geometry/triangle_kernel.hpp"
 #include "mesh/bad_triangles.hpp"
-#include "optimize/lengths.hpp"
+#include "optimize/run/lengths.hpp"
 #include "optimize/repair/refinement.hpp"
-#include "optimize/run.hpp"
-#include "optimize/schedule.hpp"
+#include "optimize/run/run.hpp"
+#include "optimize/run/schedule.hpp"
 #include "optimize/step/vertex_step.hpp"
 #include "temper/regularity.hpp"
 

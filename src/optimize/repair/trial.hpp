@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "optimize/repair/neighborhood.hpp"
-#include "optimize/settings.hpp"
+#include "optimize/options/settings.hpp"
 
 namespace temper {
 
@@ -34,7 +34,7 @@ struct Edit {
 };
 
 /// The standing of a mesh, how far it is from well-centered: first the number of triangles that are not, then by how
-/// much, and by what edges lack of their lengths (optimize/lengths.hpp).
+/// much, and by what edges lack of their lengths (optimize/run/lengths.hpp).
 struct Standing {
   std::size_t bad = 0;
   double violation = 0;  ///< Σ over bad triangles of the worst of −h/ℓ, −d/ℓ and d/ℓ − 1, and over edges

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "energy/patch.hpp"
-#include "optimize/settings.hpp"
+#include "optimize/options/settings.hpp"
 
 namespace temper {
 

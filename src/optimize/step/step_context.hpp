@@ -1,8 +1,8 @@
 // The mesh and the settings that all steps on one working copy share.
 #pragma once
 
-#include "optimize/frame.hpp"
-#include "optimize/settings.hpp"
+#include "optimize/working/frame.hpp"
+#include "optimize/options/settings.hpp"
 #include "optimize/step/vertex_limits.hpp"
 #include "optimize/trace/recorder.hpp"
 

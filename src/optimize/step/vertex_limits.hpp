@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "optimize/settings.hpp"
+#include "optimize/options/settings.hpp"
 #include "optimize/step/freedom.hpp"
-#include "optimize/step/size_band.hpp"
+#include "optimize/flips/size_band.hpp"
 
 namespace temper {
 

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "base/rng.hpp"
-#include "optimize/step/flipper.hpp"
+#include "optimize/flips/flipper.hpp"
 #include "optimize/step/newton.hpp"
 #include "optimize/step/star_objective.hpp"
 #include "optimize/step/step_context.hpp"
-#include "optimize/sweep/partition.hpp"
+#include "optimize/flips/partition.hpp"
 
 namespace temper {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/engine.hpp"
-#include "optimize/sweep/partition.hpp"
+#include "optimize/flips/partition.hpp"
 #include "optimize/sweep/shifted_cuts.hpp"
 #include "optimize/sweep/stop_token.hpp"
 #include "optimize/sweep/worker_pool.hpp"

@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "optimize/sweep/partition.hpp"
+#include "optimize/flips/partition.hpp"
 #include "temper/detail/executor.hpp"
 
 namespace temper {

@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "base/assert.hpp"
-#include "optimize/run.hpp"
+#include "optimize/run/run.hpp"
 
 namespace temper {
 

@@ -32,7 +32,7 @@
 #include <cstddef>
 #include <span>
 
-#include "optimize/step/improver.hpp"
+#include "optimize/batch/improver.hpp"
 #include "optimize/sweep/for_parts.hpp"
 
 namespace temper {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "optimize/working_copy.hpp"
+#include "optimize/working/working_copy.hpp"
 #include "temper/topology.hpp"
 #include "temper/detail/trace.hpp"
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-#include "optimize/rounding.hpp"
+#include "optimize/working/rounding.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/topology.hpp"
 #include "temper/detail/trace.hpp"

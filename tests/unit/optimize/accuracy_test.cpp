@@ -10,7 +10,7 @@
 
 #include "energy/whole_mesh.hpp"
 #include "optimize/accuracy/accuracy_phase.hpp"
-#include "optimize/driver.hpp"
+#include "optimize/stages/driver.hpp"
 #include "support/lattice.hpp"
 #include "support/regions.hpp"
 #include "support/std_threads.hpp"

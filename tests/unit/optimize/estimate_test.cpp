@@ -1,5 +1,5 @@
 // How long a run may still take.
-#include "optimize/estimate.hpp"
+#include "optimize/run/estimate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The optimiser's frame is left exactly as it was entered.
-#include "optimize/frame.hpp"
+#include "optimize/working/frame.hpp"
 
 #include <gtest/gtest.h>
 

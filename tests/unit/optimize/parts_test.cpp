@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "mesh/mesh_editor.hpp"
-#include "optimize/driver.hpp"
+#include "optimize/stages/driver.hpp"
 #include "optimize/sweep/shifted_cuts.hpp"
 #include "support/regions.hpp"
 #include "support/sanitizers.hpp"

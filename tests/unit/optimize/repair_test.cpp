@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "optimize/attempts.hpp"
+#include "optimize/stages/attempts.hpp"
 #include "optimize/repair/neighborhood.hpp"
 #include "optimize/repair/splice.hpp"
 #include "optimize/repair/trial.hpp"

@@ -1,5 +1,5 @@
 // γ and h° only ever shrink, and end somewhere.
-#include "optimize/schedule.hpp"
+#include "optimize/run/schedule.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Rows of squares that cannot move: only diagonals and weights can make them well-centered, and their ties leave the
 // choice of the diagonals free.
-#include "optimize/ties.hpp"
+#include "optimize/step/ties.hpp"
 
 #include <gtest/gtest.h>
 

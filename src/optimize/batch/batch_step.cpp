@@ -1,0 +1,249 @@
+#include "optimize/batch/batch_step.hpp"
+
+#include <algorithm>
+
+namespace temper {
+namespace {
+
+// Vertices to choose from: a batch of eight blocks about a hundred around it, and takes a quarter of the rest.
+constexpr std::size_t kWindow = 256;
+// The distance, in numbers of vertices, from where the sweep is to where memory is asked for what comes.
+constexpr std::size_t kAhead = 64;
+// With fewer left, what comes together matters less than that lanes are in use.
+constexpr std::size_t kLastFew = 48;
+
+/// Asks the memory for the point of v, if there is such a vertex.
+void prefetch_point(const Mesh& mesh, std::size_t v) {
+  if (v < mesh.n_vertices()) __builtin_prefetch(mesh.vertex_data() + v * (Mesh::kVertexStride / sizeof(double)));
+}
+
+/// And for the first triangle around v.
+void prefetch_star(const Mesh& mesh, VertexId v) {
+  const HalfedgeId h = mesh.outgoing(v);
+  if (!h.valid()) return;
+  __builtin_prefetch(&mesh.corner_data()[h.index]);
+  __builtin_prefetch(&mesh.twin_data()[h.index]);
+}
+
+}  // namespace
+
+void BatchStep::improve(std::span<const VertexId> vertices, const Part& part, std::vector<VertexId>& left) {
+  unknowns_ = alone_.unknowns(), part_ = part, left_ = &left;
+  const std::size_t n_left = left.size();
+  auto next = vertices.begin();
+  for (std::size_t n_waiting = 0;;) {
+    for (; n_waiting < kWindow && next != vertices.end(); ++next, ++n_waiting) {
+      prefetch_point(mesh_, std::size_t{next->index} + kAhead);
+      prefetch_star(mesh_, *next);
+      waiting_[kind_of(*next)].push_back(*next);
+    }
+    if (n_waiting == 0) break;
+    const auto longest = std::max_element(waiting_.begin(), waiting_.end(),
+                                          [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    const bool few = n_waiting < kLastFew;
+    for (auto& list : waiting_) {
+      if (few || &list == &*longest) n_waiting -= take_from(list);
+    }
+    run();
+  }
+  std::sort(left.begin() + static_cast<std::ptrdiff_t>(n_left), left.end());
+}
+
+/// Fills the batch from the front of a list. Returns how many have gone from there.
+std::size_t BatchStep::take_from(std::vector<VertexId>& list) {
+  auto kept = list.begin(), at = kept;
+  for (; at != list.end() && batch_.lanes < kLanes; ++at) {
+    if (!take(*at)) *kept++ = *at;
+  }
+  const auto gone = static_cast<std::size_t>(at - kept);
+  list.erase(kept, at);
+  return gone;
+}
+
+/// Stars of a batch should be alike: the largest decides how long it takes.
+std::size_t BatchStep::kind_of(VertexId v) const {
+  constexpr std::size_t kSmall = 5;
+  return std::clamp<std::size_t>(limits_.degree[v], kSmall, kSmall + waiting_.size() - 1) - kSmall;
+}
+
+/// False when v has to wait; else it is in the batch, or there is nothing to be done here.
+bool BatchStep::take(VertexId v) {
+  if (mark(v) != Mark::none) return false;
+  const Mobility mobility = limits_.mobility[v];
+  const bool stays = mobility == Mobility::fixed && unknowns_ == Unknowns::positions;
+  if (stays || mobility == Mobility::frozen || mesh_.is_isolated(v)) return true;
+  gather(v, mobility);
+  return true;
+}
+
+void BatchStep::gather(VertexId v, Mobility mobility) {
+  const std::size_t lane = batch_.lanes;
+  Occupant& occupant = occupants_[lane];
+  occupant.v = v;
+  if (!gather_star(occupant, lane)) {
+    left_->push_back(v);
+    return;
+  }
+  mark(v) = Mark::looked_at;
+  const std::size_t triangles = batch_.open[lane] != 0 ? occupant.n_link - 1 : occupant.n_link;
+  limits_.degree[v] = static_cast<std::uint8_t>(std::min<std::size_t>(triangles, 255));
+  occupant.alone = mobility == Mobility::sliding || triangles > StarBatch::kMostTriangles;
+  batch_.p.set(lane, mesh_.point(v));
+  batch_.triangles[lane] = occupant.alone ? 0 : static_cast<double>(triangles);
+  batch_.moves[lane] = !occupant.alone && mobility == Mobility::free && unknowns_ != Unknowns::weights ? -1 : 0;
+  batch_.weighs[lane] = !occupant.alone && unknowns_ != Unknowns::positions ? -1 : 0;
+  if (state_.accuracy_domain != nullptr) gather_domain(occupant, lane);
+  if (!occupant.alone) batch_.most_triangles = std::max(batch_.most_triangles, triangles);
+  ++batch_.lanes;
+}
+
+/// The points that a vertex's step looks at, all marked. False when they are not all in the part.
+bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
+  constexpr std::size_t kMost = StarBatch::kMostTriangles;
+  const Part part = part_;
+  const WeightedPoint center = mesh_.point(occupant.v);
+  const HalfedgeId first = mesh_.outgoing(occupant.v);
+  HalfedgeId h = first;
+  VertexId q = mesh_.target(h);
+  std::size_t i = 0;
+  bool open = false;
+  do {
+    const HalfedgeId link = Mesh::next(h), back = Mesh::next(link);
+    const VertexId r = mesh_.origin(back);
+    // The twin, and who is across, may be read only when both ends of the link edge are in the part.
+    if (!part.contains(q) || !part.contains(r)) return false;
+    const HalfedgeId across = mesh_.twin(link);
+    const VertexId o = across.valid() ? mesh_.opposite(across) : q;
+    if (!part.contains(o)) return false;
+    mark(q) = mark(o) = Mark::looked_at;
+    if (i < kMost) {
+      occupant.link[i] = q;
+      occupant.spokes[i] = h;
+      batch_.link[i].set(lane, mesh_.point(q, center));
+      batch_.across[i].set(lane, mesh_.point(o, center));
+      batch_.link_flips[i][lane] = across.valid() && !mesh_.is_constrained(link) ? -1 : 0;
+      batch_.spoke_flips[i][lane] = mesh_.is_constrained(h) ? 0 : -1;
+    }
+    ++i;
+    q = r;
+    h = mesh_.twin(back);
+    open = !h.valid();
+  } while (!open && h != first);
+  if (open) batch_.spoke_flips[0][lane] = 0;
+  batch_.open[lane] = open ? -1 : 0;
+  if (i <= kMost) {
+    occupant.link[i] = q;
+    batch_.link[i].set(lane, mesh_.point(q, center));
+  }
+  if (open) mark(q) = Mark::looked_at;
+  occupant.n_link = i + (open ? 1 : 0);
+  return true;
+}
+
+/// Sizes and floors around an occupant. What touches a triangle without a floor stays.
+void BatchStep::gather_domain(const Occupant& occupant, std::size_t lane) {
+  if (occupant.alone) return;
+  const auto& [sizes, floors] = *state_.accuracy_domain;
+  accuracy_.size[lane] = sizes[occupant.v];
+  const std::size_t triangles = batch_.open[lane] != 0 ? occupant.n_link - 1 : occupant.n_link;
+  for (std::size_t i = 0; i < triangles; ++i) {
+    const HalfedgeId h = occupant.spokes[i], across = mesh_.twin(Mesh::next(h));
+    const TriangleId t = Mesh::triangle(h);
+    if (!floors.has(t) || (across.valid() && !floors.has(Mesh::triangle(across)))) {
+      batch_.moves[lane] = batch_.weighs[lane] = 0;
+    }
+    accuracy_.floor[i][lane] = floors[t];
+    accuracy_.inner[i][lane] = across.valid() ? -1 : 0;
+    if (settings_.accuracy.keeps_lengths()) gather_lengths(h, i, lane);
+    accuracy_.link_size[i][lane] = sizes[occupant.link[i]];
+  }
+  accuracy_.link_size[triangles][lane] = sizes[occupant.link[triangles]];
+}
+
+/// What the edges of triangle i of a star, whose spoke is h, stay longer than.
+void BatchStep::gather_lengths(HalfedgeId h, std::size_t i, std::size_t lane) {
+  const LengthFloors& lengths = state_.accuracy_domain->floors.lengths;
+  const auto of = [&](HalfedgeId edge) {
+    return mesh_.is_boundary(edge) ? LengthBarrier<double>{} : lengths(mesh_, edge);
+  };
+  accuracy_.spoke[i].set(lane, of(h));
+  accuracy_.spoke[i + 1].set(lane, of(Mesh::prev(h)));
+  accuracy_.link[i].set(lane, of(Mesh::next(h)));
+}
+
+void BatchStep::run() {
+  if (batch_.lanes > 0) step_and_settle();
+  marks_.fill(Mark::none);
+  batch_.lanes = batch_.most_triangles = 0;
+}
+
+void BatchStep::step_and_settle() {
+  for (std::size_t lane = batch_.lanes; lane < kLanes; ++lane) {
+    batch_.triangles[lane] = 0;
+    batch_.open[lane] = batch_.moves[lane] = batch_.weighs[lane] = 0;
+  }
+  const Vec2 rounding = frame_.rounding;
+  const StepParameters parameters{edge_formula(state_.model), state_.relaxation, rounding.x, rounding.y};
+  const BatchSteps& steps = batch_steps(mesh_.space());
+  const bool lowers_accuracy = state_.accuracy_domain != nullptr;
+  const StepOutcome outcome = lowers_accuracy ? steps.accuracy(parameters, settings_.accuracy, accuracy_, batch_)
+                                              : steps.barrier(parameters, batch_);
+  const std::size_t before = n_changes();
+  for (std::size_t lane = 0; lane < batch_.lanes; ++lane) {
+    settle(occupants_[lane], lane, outcome, n_changes() != before);
+  }
+}
+
+/// Takes a step of the batch into the mesh. `flips`: edges have flipped, or vertices gone, since the batch was made.
+void BatchStep::settle(const Occupant& occupant, std::size_t lane, const StepOutcome& outcome, bool flips) {
+  const VertexId v = occupant.v;
+  const auto has = [lane](unsigned lanes) { return (lanes >> lane & 1) != 0; };
+  if (flips && mesh_.is_isolated(v)) return;
+  if (occupant.alone || has(outcome.alone) || (flips && !has_its_link(occupant, batch_.open[lane] != 0)))
+    return improve_alone(v);
+  if (!has(outcome.stepped)) return;
+  const WeightedPoint from = batch_.p.at(lane), to = batch_.to.at(lane);
+  if (mesh_.space().is_periodic() && !reaches_its_link(occupant, to)) return improve_alone(v);
+  const double energy = batch_.before[lane], lower = batch_.after[lane];
+  mesh_.set_point(v, to);
+  if (!flips && has(outcome.regular)) {
+    recorder_.placed(v, from, to, energy, lower);
+    return;
+  }
+  constexpr bool kMustPay = true;  // of all barriers
+  switch (flipper_.settle({v, from, energy, lower, kMustPay, nullptr, part_})) {
+    case Flipper::Settled::done:
+      break;
+    case Flipper::Settled::undone:
+      improve_alone(v);
+      break;
+    case Flipper::Settled::escaped:
+      left_->push_back(v);
+      break;
+  }
+}
+
+void BatchStep::improve_alone(VertexId v) {
+  if (!alone_.improve(v, part_)) left_->push_back(v);
+}
+
+/// Says whether edges to the link from there are shorter than half a period.
+bool BatchStep::reaches_its_link(const Occupant& occupant, const WeightedPoint& to) const {
+  const WeightedPoint from = mesh_.point(occupant.v);
+  return std::all_of(occupant.link.begin(), occupant.link.begin() + static_cast<std::ptrdiff_t>(occupant.n_link),
+                     [&](VertexId q) { return mesh_.space().are_near(mesh_.point(q, from), to); });
+}
+
+/// Says whether no flip has changed the star since it was gathered.
+bool BatchStep::has_its_link(const Occupant& occupant, bool open) const {
+  std::size_t i = 0;
+  for (const HalfedgeId h : mesh_.star(occupant.v)) {
+    if (i == occupant.n_link || mesh_.target(h) != occupant.link[i]) return false;
+    ++i;
+  }
+  return i == occupant.n_link - (open ? 1 : 0);
+}
+
+std::size_t BatchStep::n_changes() const { return flipper_.changes().flips + flipper_.changes().removed; }
+
+}  // namespace temper

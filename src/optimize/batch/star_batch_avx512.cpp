@@ -1,0 +1,1 @@
+#include "optimize/batch/star_batch_set.hpp"

@@ -1,0 +1,235 @@
+#include "optimize/flips/flipper.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/sum.hpp"
+#include "energy/patch.hpp"
+#include "optimize/flips/size_band.hpp"
+#include "regularity/hidden.hpp"
+
+namespace temper {
+namespace {
+
+// Flips of one vertex step; more than a few are a cascade that rarely pays.
+constexpr std::size_t kMostFlips = 64;
+
+/// Sums what flips change of the energy.
+struct FlipPrice {
+  const EnergyModel& model;
+  double change = 0;
+  void before(const Mesh& mesh, HalfedgeId h) { change -= flip_energy(mesh, model, h); }
+  void after(const Mesh& mesh, HalfedgeId h) { change += flip_energy(mesh, model, h); }
+};
+
+/// A FlipPrice, bit for bit, that writes each flip down.
+struct FlipLog {
+  const EnergyModel& model;
+  std::vector<FlipRecord>& records;
+  double change = 0;
+  void before(const Mesh& mesh, HalfedgeId h) {
+    const auto [a, b, c, d] = inlined::quad(mesh, h);
+    records.push_back({a, b, c, d, flip_energy(mesh, model, h), 0});
+    change -= records.back().before;
+  }
+  void after(const Mesh& mesh, HalfedgeId h) {
+    records.back().after = flip_energy(mesh, model, h);
+    change += records.back().after;
+  }
+};
+
+/// Shows each flip to a band of sizes too.
+template <class Hook>
+struct WithBand {
+  Hook& hook;
+  SizeBand& band;
+  void before(const Mesh& mesh, HalfedgeId h) {
+    band.about_to_flip(h);
+    hook.before(mesh, h);
+  }
+  void after(const Mesh& mesh, HalfedgeId h) { hook.after(mesh, h); }
+};
+
+template <class Hook>
+LawsonRun run_lawson(Lawson& lawson, Mesh& mesh, Hook&& hook, std::size_t max_flips, SizeBand* band, const Part& part) {
+  if (band == nullptr) return lawson.run(mesh, hook, max_flips, PowerTest(), part);
+  band->begin_flips();
+  return lawson.run(mesh, WithBand<std::remove_reference_t<Hook>>{hook, *band}, max_flips, PowerTest(), part);
+}
+
+}  // namespace
+
+/// Lawson on what is queued. `change`, when there is one, grows by what the flips change of the energy.
+LawsonRun Flipper::run(std::optional<double>& change, std::size_t max_flips, SizeBand* band, const Part& part) {
+  if (recorder_.on()) {
+    FlipLog log{state_.model, records_, change.value_or(0)};
+    const LawsonRun result = run_lawson(lawson_, mesh_, log, max_flips, band, part);
+    if (change) change = log.change;
+    return result;
+  }
+  if (!change) return run_lawson(lawson_, mesh_, IgnoreFlips(), max_flips, band, part);
+  FlipPrice price{state_.model, *change};
+  const LawsonRun result = run_lawson(lawson_, mesh_, price, max_flips, band, part);
+  change = price.change;
+  return result;
+}
+
+Flipper::Settled Flipper::settle(const Step& step) {
+  lawson_.clear();
+  records_.clear();
+  bool regular = true;
+  for (const HalfedgeId h : mesh_.star(step.v)) {
+    for (const HalfedgeId e : {h, Mesh::next(h)}) {
+      if (mesh_.is_boundary(e) || mesh_.is_constrained(e)) continue;
+      if (PowerTest()(mesh_, inlined::quad(mesh_, e)) == Sign::positive) {
+        lawson_.push(e);
+        regular = false;
+      }
+    }
+  }
+  if (regular) {
+    recorder_.placed(step.v, step.origin, mesh_.point(step.v), step.before, step.after);
+    return Settled::done;
+  }
+  std::optional<double> change;
+  if (step.must_pay) change = step.after - step.before;
+  const LawsonRun result = run(change, kMostFlips, step.band, step.part);
+  const bool pays = !change || *change < 0;
+  const WeightedPoint there = mesh_.point(step.v);
+  // What is stuck in an unfinished run may have a quad that is partly outside.
+  const bool hides = result.finished && !lawson_.stuck(mesh_).empty();
+  const bool leaves_band = step.band != nullptr && !step.band->allow_flips();
+  if (!result.finished || !pays || leaves_band || (hides && !accept_hidden())) {
+    lawson_.rollback(mesh_);
+    mesh_.set_point(step.v, step.origin);
+    recorder_.undone(step.v, step.before, change ? step.before + *change : step.after);
+    return result.escaped ? Settled::escaped : Settled::undone;
+  }
+  changes_.flips += result.flips;
+  if (log_ != nullptr) log_->insert(log_->end(), lawson_.journal().begin(), lawson_.journal().end());
+  recorder_.placed(step.v, step.origin, there, step.before, step.after);
+  recorder_.flipped(records_);
+  if (hides) treat_hidden();
+  return Settled::done;
+}
+
+/// Says whether the policy lets the vertices at stuck edges be hidden.
+bool Flipper::accept_hidden() {
+  if (!settings_.policy.removes_hidden)
+    return settings_.policy.keeps_hidden;
+  for (const VertexId v : hidden_at_stuck_edges()) {
+    plan_ = plan_removal(mesh_, v, std::move(plan_));
+    if (plan_.status != RemovalStatus::possible) return false;
+  }
+  return true;
+}
+
+std::vector<VertexId> Flipper::hidden_at_stuck_edges() {
+  std::vector<VertexId> hidden;
+  for (const HalfedgeId h : lawson_.stuck(mesh_)) hidden.push_back(reflex_end(mesh_, h));
+  std::sort(hidden.begin(), hidden.end());
+  hidden.erase(std::unique(hidden.begin(), hidden.end()), hidden.end());
+  return hidden;
+}
+
+/// Does what the policy asks for, once vertices are hidden and the flips that led there are done.
+void Flipper::treat_hidden() {
+  std::vector<VertexId> stay = hidden_at_stuck_edges();
+  if (settings_.policy.removes_hidden) {
+    RestorationObserver observer;
+    observer.flipped = [&](VertexId a, VertexId b, VertexId c, VertexId d) {
+      const FlipRecord record{a, b, c, d, kNoEnergy, kNoEnergy};
+      recorder_.flipped({&record, 1});
+    };
+    observer.removing = [&](const RemovalPlan& plan) {
+      recorder_.removed(EventKind::removal, plan, kNoEnergy, kNoEnergy);
+    };
+    const HiddenVertices found = remove_hidden(mesh_, lawson_, &observer);
+    changes_.flips += found.flips;
+    changes_.removed += found.removed.size();
+    stay = hidden_at_stuck_edges();
+  }
+  for (const VertexId v : stay) recorder_.hidden(v);
+}
+
+/// Queues the edges that are not regular, in the order of push_all. The flips are the same as if all were queued: one
+/// that is regular now is passed over, or a flip that spoils it pushes it before.
+void Flipper::push_irregular() {
+  const std::size_t n = mesh_.n_halfedges(), blocks = (n + kBlockSize - 1) / kBlockSize;
+  std::vector<std::vector<HalfedgeId>> found(blocks);
+  or_serial(settings_.hooks.executor).run(blocks, [&](std::size_t b) {
+    for (std::size_t i = b * kBlockSize; i < std::min(n, (b + 1) * kBlockSize); ++i) {
+      const HalfedgeId h(i);
+      if (mesh_.is_boundary(h) || !mesh_.is_edge_representative(h) || mesh_.is_constrained(h)) continue;
+      if (PowerTest()(mesh_, inlined::quad(mesh_, h)) == Sign::positive) found[b].push_back(h);
+    }
+  });
+  for (const auto& edges : found) {
+    for (const HalfedgeId h : edges) lawson_.push(h);
+  }
+}
+
+bool Flipper::restore_all() {
+  lawson_.clear();
+  records_.clear();
+  push_irregular();
+  std::optional<double> no_price;
+  const LawsonRun result = run(no_price, Lawson::kNoCap);
+  const bool hides = !lawson_.stuck(mesh_).empty();
+  if (hides && settings_.policy.undoes_hidden) {
+    lawson_.rollback(mesh_);
+    return false;
+  }
+  changes_.flips += result.flips;
+  recorder_.flipped(records_);
+  if (hides) treat_hidden();
+  return settings_.policy.keeps_hidden || lawson_.stuck(mesh_).empty();
+}
+
+void Flipper::remove(EventKind kind, const RemovalPlan& plan, double before, double after) {
+  recorder_.removed(kind, plan, before, after);
+  remove_vertex(mesh_, plan);
+  ++changes_.removed;
+}
+
+void Flipper::flip(HalfedgeId h, double before, double after) {
+  const auto [a, b, c, d] = inlined::quad(mesh_, h);
+  const FlipRecord record{a, b, c, d, before, after};
+  inlined::flip(mesh_, h);
+  recorder_.flipped({&record, 1});
+  ++changes_.flips;
+}
+
+void Flipper::repeat(std::span<const HalfedgeId> flips) {
+  for (const HalfedgeId h : flips) inlined::flip(mesh_, h);
+  changes_.flips += flips.size();
+}
+
+VertexId Flipper::insert(WorkingCopy& work, TriangleId t, const WeightedPoint& p, double before, double after) {
+  const auto corners = mesh_.corners(t);
+  const VertexId v = insert_in_triangle(mesh_, t, p);
+  work.name_new();
+  recorder_.inserted(v, corners, before, after);
+  ++changes_.inserted;
+  return v;
+}
+
+VertexId Flipper::split(WorkingCopy& work, HalfedgeId h, const WeightedPoint& p, double before, double after) {
+  const HalfedgeId twin = mesh_.twin(h);
+  const std::array quad = {mesh_.origin(h), mesh_.target(h), mesh_.opposite(h),
+                           twin.valid() ? mesh_.opposite(twin) : VertexId()};
+  const VertexId v = split_edge(mesh_, h, p);
+  work.name_new();
+  recorder_.split(v, quad, before, after);
+  ++changes_.inserted;
+  return v;
+}
+
+VertexId Flipper::commit(WorkingCopy& work, const InsertionPlan& plan, double before, double after) {
+  const VertexId v = plan.edge.valid() ? split(work, plan.edge, plan.point, before, after)
+                                       : insert(work, plan.triangle, plan.point, before, after);
+  for (const auto& [a, b] : plan.flips) flip(mesh_.find_halfedge(a, b), kNoEnergy, kNoEnergy);
+  return v;
+}
+
+}  // namespace temper

@@ -1,0 +1,110 @@
+#include "optimize/flips/size_band.hpp"
+
+#include <algorithm>
+
+#include "size/star_area.hpp"
+
+namespace temper {
+
+SizeBand::SizeBand(const Mesh& mesh, const Frame& frame, const std::optional<SizeField>& field,
+                   std::optional<double> band)
+    : mesh_(mesh), frame_(frame) {
+  if (!field || !band) return;
+  field_ = field;
+  squared_band_ = *band * *band;
+  grow();
+}
+
+/// The factor by which a vertex is out of its band, squared, up or down; 1 inside.
+double SizeBand::excess(double squared_size, double squared_field) const {
+  const double ratio = squared_size / squared_field;
+  return std::max({squared_band_, ratio, 1 / ratio});
+}
+
+bool SizeBand::allows(const Patch& patch, Vec2 p) {
+  const VertexId v = patch.center;
+  const WeightedPoint user = frame_.to_user({p.x, p.y, 0});
+  const SizeField::Sample sample = field_->at(user.position(), triangle_[v]);
+  const double field = sample.size / frame_.scale;
+  there_ = sample.triangle;
+  there_squared_ = field * field;
+
+  double own = 0;
+  const Vec2 here = mesh_.position(v), step = p - here;
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    own += cross(patch.q(i).position() - here, patch.r(i).position() - here);
+  }
+  own = StarArea{own, static_cast<int>(patch.size())}.squared_size();
+  if (excess(own, there_squared_) > excess(own, squared_field_[v])) return false;
+
+  // Triangle (v, q, r) gains cross(r − q, step) of doubled area; a neighbour has two of them, at the ends of an open
+  // patch one.
+  const std::size_t n = patch.size();
+  for (std::size_t i = 0; i < patch.link.size(); ++i) {
+    const Vec2 q = patch.q(i).position();
+    double gain = 0;
+    if (i < n) gain += cross(patch.r(i).position() - q, step);
+    if (i > 0 || patch.closed) gain += cross(q - patch.q(i > 0 ? i - 1 : n - 1).position(), step);
+    StarArea star = star_area(mesh_, patch.link[i]);
+    const double target = squared_field_[patch.link[i]];
+    const double before = excess(star.squared_size(), target);
+    star.doubled += gain;
+    if (excess(star.squared_size(), target) > before) return false;
+  }
+  return true;
+}
+
+void SizeBand::about_to_flip(HalfedgeId h) {
+  touch(mesh_.origin(h));
+  touch(mesh_.target(h));
+  touch(mesh_.opposite(h));
+  touch(mesh_.opposite(mesh_.twin(h)));
+}
+
+void SizeBand::touch(VertexId v) {
+  for (const auto& [seen, before] : touched_) {
+    if (seen == v) return;
+  }
+  touched_.push_back({v, excess(star_area(mesh_, v).squared_size(), squared_field_[v])});
+}
+
+bool SizeBand::allow_flips() const {
+  return std::all_of(touched_.begin(), touched_.end(), [this](const auto& touched) {
+    const auto& [v, before] = touched;
+    return excess(star_area(mesh_, v).squared_size(), squared_field_[v]) <= before;
+  });
+}
+
+void SizeBand::sample(VertexId v) {
+  const Vec2 p = frame_.to_user(mesh_.point(v)).position();
+  // Along the sweep's curve the one before is near.
+  const TriangleId hint = v.index > 0 ? triangle_[VertexId(v.index - 1)] : TriangleId();
+  const SizeField::Sample sample = field_->at(p, hint);
+  const double field = sample.size / frame_.scale;
+  squared_field_[v] = field * field;
+  triangle_[v] = sample.triangle;
+}
+
+void SizeBand::grow() {
+  if (!on()) return;
+  const std::size_t known = squared_field_.size();
+  squared_field_.resize(mesh_.n_vertices());
+  triangle_.resize(mesh_.n_vertices());
+  for (std::size_t i = known; i < mesh_.n_vertices(); ++i) sample(VertexId(i));
+}
+
+void SizeBand::renumber(const Compaction& kept) {
+  if (!on()) return;
+  IdVector<VertexId, double> squared_field;
+  IdVector<VertexId, TriangleId> triangle;
+  squared_field.reserve(kept.vertices.size());
+  triangle.reserve(kept.vertices.size());
+  for (const VertexId v : kept.vertices) {
+    squared_field.push_back(squared_field_[v]);
+    triangle.push_back(triangle_[v]);
+  }
+  squared_field_ = std::move(squared_field);
+  triangle_ = std::move(triangle);
+}
+
+}  // namespace temper

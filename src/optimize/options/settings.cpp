@@ -1,0 +1,338 @@
+#include "optimize/options/settings.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "temper/detail/optimize_table.hpp"
+
+namespace temper {
+namespace {
+
+InputError invalid(const std::string& message) { return {ErrorCode::invalid_option, {}, message}; }
+
+Softening in_frame(Softening s, const Frame& frame) {
+  if (s.scale == LengthScale::absolute) s.value /= frame.scale;
+  return s;
+}
+
+/// Deferred updates, and what they contradict.
+std::optional<InputError> check_updates(const OptimizeOptions& o) {
+  const PaperSwitches& p = o.paper;
+  const bool all_deferred = p.position_updates == Updates::deferred;
+  if (all_deferred && o.unknowns == Unknowns::positions_and_weights && p.weight_updates != Updates::deferred) {
+    return invalid(
+        "`position_updates=deferred` takes all unknowns from the sweep before; expected `weight_updates=deferred` too, "
+        "or `unknowns=positions`");
+  }
+  if (all_deferred && o.size_band) {
+    return invalid("`size_band` needs `position_updates=immediate`: where all move at once sizes are known afterwards");
+  }
+  if (p.weight_updates == Updates::deferred && p.solver == Solver::newton && !all_deferred) {
+    return invalid(
+        "deferred weight updates need positions and weights in turn; expected `solver=alternating` or `solver=golden`");
+  }
+  const bool defers = all_deferred || p.weight_updates == Updates::deferred;
+  if (defers && o.flips == Flips::none) {
+    return invalid(std::string(all_deferred ? "`position_updates=deferred`" : "`weight_updates=deferred`") +
+                   " keeps edges regular by flips alone; expected `flips=immediate` or `flips=deferred`");
+  }
+  if (all_deferred && p.visits == Visits::twice) {
+    return invalid(
+        "`visits=twice` shows weights the new positions, which `position_updates=deferred` keeps from them; expected "
+        "`visits=once`");
+  }
+  return std::nullopt;
+}
+
+/// Rules against inverted triangles, and what they contradict.
+std::optional<InputError> check_inversions(const OptimizeOptions& o) {
+  const PaperSwitches& p = o.paper;
+  if (p.inversion == Inversion::allow && o.flips != Flips::deferred) {
+    return invalid(
+        "`inversion=allow` needs `flips=deferred`, since edges cannot be flipped among inverted triangles; or "
+        "`inversion=refuse`");
+  }
+  for (const EnergyKind kind : {o.energy, p.first_energy.value_or(o.energy)}) {
+    if (p.inversion != Inversion::infinite || energy_info(kind).barrier) continue;
+    return invalid("`inversion=infinite` is for barriers, which energy " + std::string(energy_info(kind).name) +
+                   " is not; expected `inversion=refuse` or `inversion=allow`");
+  }
+  if (p.inversion != Inversion::refuse && o.boundary == BoundaryVertices::slide) {
+    return invalid(
+        "`boundary=slide` needs `inversion=refuse`: where triangles may be inverted nothing keeps vertices from "
+        "passing a "
+        "corner");
+  }
+  if (p.inversion != Inversion::refuse && o.size_band) {
+    return invalid("`size_band` needs `inversion=refuse`: inverted triangles have no size");
+  }
+  return std::nullopt;
+}
+
+/// Other options that contradict each other.
+std::optional<InputError> check_combinations(const OptimizeOptions& o) {
+  const PaperSwitches& p = o.paper;
+  if (o.star == Star::all && objective_of(o) == Objective::energy) {
+    return invalid("`star=all` is for `objective=accuracy`; of an energy expected 0, 1 or 2");
+  }
+  if (o.flips == Flips::none && p.insertion_from) {
+    return invalid(
+        "`insertion_from` changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or "
+        "`flips=deferred`");
+  }
+  if (p.insertion_from && o.size_band) {
+    return invalid("`size_band` does not hold what `insertion_from` inserts; expected one of the two");
+  }
+  if (o.flips == Flips::none && o.boundary == BoundaryVertices::split) {
+    return invalid(
+        "`boundary=split` changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or "
+        "`flips=deferred`");
+  }
+  return std::nullopt;
+}
+
+/// Says whether all weights are the same, so that an energy that knows none may be lowered.
+bool has_equal_weights(const Mesh& mesh) {
+  return std::all_of(mesh.vertices().begin(), mesh.vertices().end(),
+                     [&](VertexId v) { return mesh.weight(v) == mesh.weight(VertexId(0)); });
+}
+
+/// For one scheme the first sweeps lower E_ODT, unless others are asked for: it flips what keeps errors large, which no
+/// sweep inside the well-centered set does. The best of 5, 10 and 50 sweeps by errors and by how little sizes change.
+constexpr int kSweepsOfOdt = 10;
+
+bool begins_with_odt(const Settings& s, const Mesh& mesh) {
+  const OptimizeOptions& o = s.options;
+  const bool newton = s.policy.solver == Solver::newton && s.policy.flips_at_once && !s.policy.defers_updates();
+  return s.objective != Objective::energy && o.for_ != Scheme::all && !o.paper.first_energy &&
+         mesh.space().kind() == SpaceKind::plane && o.unknowns != Unknowns::weights && newton &&
+         has_equal_weights(mesh);
+}
+
+/// What an energy that knows no weights cannot do with.
+std::optional<InputError> check_weights(const OptimizeOptions& o, const Mesh& mesh) {
+  const auto first_energy = o.paper.first_energy;
+  const bool first = first_energy && energy_info(*first_energy).positions_alone;
+  const EnergyInfo& energy = energy_info(first ? *first_energy : o.energy);
+  if (!energy.positions_alone) return std::nullopt;
+  const std::string name = (first ? "`first_energy=" : "`energy=") + std::string(energy.name) + "`";
+  if (o.unknowns == Unknowns::weights) {
+    return invalid(name + " is of positions alone; expected `unknowns=positions`");
+  }
+  for (const VertexId v : mesh.vertices()) {
+    if (mesh.weight(v) != mesh.weight(VertexId(0))) {
+      return invalid(name + " is for meshes without weights, or with equal ones; vertex " + std::to_string(v.index) +
+                     " has another weight than vertex 0");
+    }
+  }
+  return std::nullopt;
+}
+
+/// What the accuracy objective cannot do with.
+std::optional<InputError> check_accuracy(const OptimizeOptions& o) {
+  if (objective_of(o) == Objective::energy) return std::nullopt;
+  const EnergyInfo& energy = energy_info(o.energy);
+  if (!energy.barrier) {
+    return invalid("`objective=accuracy` begins with an energy that makes triangles well-centered, which " +
+                   std::string(energy.name) + " does not; expected `energy=BP`, `energy=BHs` or `energy=BH`");
+  }
+  if (o.paper.inversion != Inversion::refuse) {
+    return invalid("`objective=accuracy` needs `inversion=refuse`: its second phase is for well-centered triangles");
+  }
+  return std::nullopt;
+}
+
+/// What the sphere and periodic planes do without.
+std::optional<InputError> check_space(const OptimizeOptions& o, const Mesh& mesh) {
+  const auto name = [](const Mesh& m) {
+    constexpr const char* kNames[] = {"the plane", "the sphere", "a periodic plane"};
+    return std::string(kNames[static_cast<std::size_t>(m.space().kind())]);
+  };
+  if (o.size_field && name(o.size_field->mesh()) != name(mesh)) {
+    return invalid("`size_field` is on a mesh of " + name(o.size_field->mesh()) + ", but the mesh is one of " +
+                   name(mesh));
+  }
+  if (o.size_field && mesh.space().is_periodic() && !(o.size_field->mesh().space() == mesh.space())) {
+    return invalid("`size_field` is on a mesh with other periods; expected those of the mesh");
+  }
+  if (mesh.space().kind() == SpaceKind::plane) return std::nullopt;
+  const auto not_there = [&](const std::string& option, const std::string& expected) {
+    return invalid("`" + option + "` is for meshes of the plane; " +
+                   (mesh.space().is_plane() ? "where it is periodic expected " : "on the sphere expected ") + expected);
+  };
+  if (o.boundary == BoundaryVertices::split) return not_there("boundary=split", "`boundary=keep` or `boundary=slide`");
+  if (o.size_band) return not_there("size_band", "none");
+  if (o.paper.insertion_from) return not_there("insertion_from", "none");
+  if (!mesh.space().is_periodic()) return std::nullopt;
+  if (o.paper.inversion == Inversion::allow) return not_there("inversion=allow", "`inversion=refuse`");
+  if (objective_of(o) == Objective::error) return not_there("objective=error", "`objective=accuracy`");
+  return std::nullopt;
+}
+
+std::optional<InputError> check_anchor(VertexId anchor, const Mesh& mesh) {
+  if (!anchor.valid() || anchor.index < mesh.n_vertices()) return std::nullopt;
+  return invalid("`anchor` is vertex " + std::to_string(anchor.index) + ", but the mesh has " +
+                 std::to_string(mesh.n_vertices()) + " vertices");
+}
+
+AccuracyModel accuracy_model(const AccuracyOptions& a, Scheme scheme, Star star) {
+  struct Factors {
+    double alpha, beta;
+  };
+  constexpr Factors kFactors[] = {{1.0 / 4, 1.0 / 12}, {1.0 / 3, 1.0 / 3}, {1.0 / 12, 1.0 / 4}, {2.0 / 3, 2.0 / 3}};
+  const auto [alpha, beta] = kFactors[static_cast<std::size_t>(star)];
+  const SchemeWeights preset = scheme_weights(scheme);
+  AccuracyModel model = AccuracyModel::of(alpha, beta, a.offset_weight.value_or(preset.offset_weight),
+                                          a.boundary_offset_weight.value_or(preset.boundary_offset_weight));
+  model.margin = a.margin.value_or(preset.margin);
+  model.barrier = a.barrier;
+  model.min_edge = a.min_edge, model.min_dual = a.min_dual;
+  return model;
+}
+
+}  // namespace
+
+SchemeWeights scheme_weights(Scheme scheme) {
+  constexpr SchemeWeights kWeights[] = {{10, 5, 0.1}, {10, 0.5, 0.02}, {10, 30, 0.02}, {20, 18, 0.02}};
+  return kWeights[static_cast<std::size_t>(scheme)];
+}
+
+Objective objective_of(const OptimizeOptions& o) {
+  if (o.objective) return *o.objective;
+  PaperSwitches plain;
+  plain.order = o.paper.order;
+  plain.seed = o.paper.seed;
+  if (o.energy != EnergyKind::BP || !(o.paper == plain)) return Objective::energy;
+  return Objective::accuracy;
+}
+
+bool wants_error_model(const OptimizeOptions& o, const Mesh& mesh) {
+  const Objective objective = objective_of(o);
+  const bool of_one = o.for_ == Scheme::vertex || o.for_ == Scheme::cell;
+  const bool judges = of_one && mesh.space().kind() == SpaceKind::plane && mesh.n_vertices() <= kMostJudged;
+  return objective == Objective::error || (objective == Objective::accuracy && judges);
+}
+
+OptimizeOptions paper_method() {
+  PaperSwitches p;
+  p.gamma = Softening{1, LengthScale::absolute};
+  p.solver = Solver::golden;
+  p.inner = 0;
+  p.flip_limit = FlipLimit::unlimited;
+  p.inversion = Inversion::allow;
+  p.hidden = HiddenPolicy::keep;
+  p.order = SweepOrder::input;
+  p.anchor = VertexId(0);
+  p.collapse_from = 0;
+  p.removal = Removal::patch;
+  p.removal_measure = RemovalMeasure::sum;
+  p.removal_margin = 0;
+  p.removal_from = 0;
+  p.stopping = StoppingRule::paper;
+  p.tolerance = 1e-6;
+  OptimizeOptions o;
+  o.flips = Flips::deferred;
+  o.repair = Repair::none;
+  o.paper = p;
+  return o;
+}
+
+OptimizeOptions odt_method() {
+  OptimizeOptions o;
+  o.energy = EnergyKind::ODT;
+  o.unknowns = Unknowns::positions;
+  return o;
+}
+
+OptimizeOptions cvt_method() {
+  OptimizeOptions o;
+  o.energy = EnergyKind::F;
+  o.star = Star::zero;
+  o.unknowns = Unknowns::positions;
+  return o;
+}
+
+SweepState::SweepState(const Settings& s)
+    : model(s.model), relaxation(s.policy.relaxation.value_or(kRelaxation)) {
+  set_energy(model.kind, s.policy);
+}
+
+void SweepState::set_energy(EnergyKind kind, const Policy& policy) {
+  energy = energy_info(kind);
+  model.kind = kind;
+  flip_limit = policy.flip_limit_for(energy);
+}
+
+double SweepState::energy_unit(const Frame& frame) const {
+  constexpr double kAccuracyExponent = 2;
+  return std::pow(frame.scale, accuracy_domain != nullptr ? kAccuracyExponent : energy.length_exponent);
+}
+
+Unknowns unknowns_of_sweep(const Settings& s, const EnergyInfo& energy, int sweep) {
+  if (energy.positions_alone) return Unknowns::positions;
+  const bool waits = s.options.unknowns == Unknowns::positions_and_weights && sweep < s.policy.weights_from;
+  return waits ? Unknowns::positions : s.options.unknowns;
+}
+
+EnergyModel in_user_units(EnergyModel model, const Frame& frame) {
+  for (Softening* s : {&model.gamma, &model.h0}) {
+    if (s->scale == LengthScale::absolute) s->value *= frame.scale;
+  }
+  return model;
+}
+
+namespace {
+
+/// The settings with the model that they ask for, if the build has one.
+Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
+  const OptimizeOptions& o = s.options;
+  const bool wants = wants_error_model(o, mesh);
+  if (wants && s.hooks.solvers.error_model) {
+    auto model = s.hooks.solvers.error_model(mesh, o.for_);
+    if (!model) return model.error();
+    s.errors = *std::move(model);
+  }
+  if (s.objective == Objective::accuracy && !o.objective && wants) s.objective = Objective::error;
+  s.lacks_error_model = wants && s.errors == nullptr;
+  if (s.lacks_error_model) s.objective = Objective::accuracy;
+  return s;
+}
+
+}  // namespace
+
+Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh, const Frame& frame,
+                                 const OptimizeHooks& hooks) {
+  if (auto right = check_options(options); !right) return right.error();
+  if (auto error = check_updates(options)) return *std::move(error);
+  if (auto error = check_inversions(options)) return *std::move(error);
+  if (auto error = check_combinations(options)) return *std::move(error);
+  if (auto error = check_accuracy(options)) return *std::move(error);
+  if (auto error = check_anchor(options.paper.anchor, mesh)) return *std::move(error);
+  if (auto error = check_weights(options, mesh)) return *std::move(error);
+  if (auto error = check_space(options, mesh)) return *std::move(error);
+
+  Settings s;
+  s.options = options;
+  s.hooks = hooks;
+  s.objective = objective_of(options);
+  s.policy = Policy(options);
+  if (begins_with_odt(s, mesh)) {
+    s.policy.first_energy = EnergyKind::ODT;
+    s.policy.switch_at = kSweepsOfOdt;
+  }
+  const PaperSwitches& p = options.paper;
+  s.model.kind = options.energy;
+  s.model.star = s.objective != Objective::energy ? Star::one : options.star;
+  s.model.boundary_treatment = p.boundary_treatment;
+  s.collapse_model = s.model;
+  s.collapse_model.kind = p.collapse_energy;
+  s.model.wall = !s.policy.allows_inversion;
+  if (p.gamma) s.model.gamma = in_frame(*p.gamma, frame);
+  if (p.h0) s.model.h0 = in_frame(*p.h0, frame);
+  s.accuracy = accuracy_model(options.accuracy, options.for_, options.star);
+  if (hooks.solvers.lp) s.lp = hooks.solvers.lp();
+  return with_error_model(std::move(s), mesh);
+}
+
+}  // namespace temper

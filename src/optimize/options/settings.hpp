@@ -1,0 +1,62 @@
+// Options, checked and completed. Settings are constant once they are made; what changes from sweep to sweep is the
+// SweepState.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "energy/accuracy_energy.hpp"
+#include "optimize/working/frame.hpp"
+#include "optimize/options/policy.hpp"
+#include "temper/feasibility.hpp"
+#include "temper/optimize.hpp"
+
+namespace temper {
+
+/// Over-relaxation once γ has settled.
+inline constexpr double kRelaxation = 1.7;
+
+struct Settings {
+  OptimizeOptions options;
+  OptimizeHooks hooks;
+  Objective objective = Objective::accuracy;   ///< that this run lowers
+  Policy policy;                               ///< the paper's switches
+  EnergyModel model;                           ///< of options.energy, in the frame's units, as sweeps begin
+  EnergyModel collapse_model;                  ///< E_c
+  AccuracyModel accuracy;                      ///< of the accuracy objective; without unit
+  std::shared_ptr<const ErrorModel> errors{};  ///< errors of the solver: lowered, or the judge of meshes; or null
+  bool lacks_error_model = false;              ///< the build has none, and the run would have used it
+  std::shared_ptr<LpSolver> lp{};              ///< for repairs, or null
+  std::optional<SizeField> size_field{};       ///< of the size band, in the user's units; absent without a band
+
+  [[nodiscard]] const EnergyInfo& energy() const { return energy_info(model.kind); }
+  [[nodiscard]] Executor* executor() const { return hooks.executor; }
+};
+
+/// What the sweep under way lowers, and how far its steps go.
+struct SweepState {
+  EnergyInfo energy;                               ///< that of `model`
+  EnergyModel model;                               ///< in the frame's units, with γ and h° of the sweep
+  double relaxation = 1;                           ///< over-relaxation of Newton steps
+  FlipLimit flip_limit = FlipLimit::unlimited;
+  const AccuracyDomain* accuracy_domain = nullptr;  ///< if sweeps lower the accuracy objective: where it is finite
+
+  /// Of the first sweep for options.energy.
+  explicit SweepState(const Settings& settings);
+  /// Lowers that energy from now on.
+  void set_energy(EnergyKind kind, const Policy& policy);
+  /// The user's energy of one unit in the frame.
+  [[nodiscard]] double energy_unit(const Frame& frame) const;
+};
+
+/// The unknowns that a sweep moves, counted from 0: weights from i_w on.
+[[nodiscard]] Unknowns unknowns_of_sweep(const Settings& settings, const EnergyInfo& energy, int sweep);
+
+/// The model with absolute γ and h° in the user's units of length.
+[[nodiscard]] EnergyModel in_user_units(EnergyModel model, const Frame& frame);
+
+/// Errors: values out of range, or that contradict each other.
+[[nodiscard]] Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh, const Frame& frame,
+                                               const OptimizeHooks& hooks = {});
+
+}  // namespace temper

@@ -1,0 +1,213 @@
+#include "optimize/result/report.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "energy/whole_mesh.hpp"
+#include "mesh/curve.hpp"
+#include "optimize/stages/driver.hpp"
+#include "optimize/result/notes.hpp"
+#include "optimize/run/judge.hpp"
+#include "optimize/working/rounding.hpp"
+#include "temper/regularity.hpp"
+
+namespace temper {
+namespace {
+
+/// What sizes are compared with; the input's own are seen until it is replaced.
+SizeField field_of(const Mesh& input, const Settings& settings) {
+  if (settings.size_field) return *settings.size_field;
+  return settings.options.size_field ? *settings.options.size_field
+                                     : input_size_field_of(input, settings.hooks.executor);
+}
+
+/// Vertices that Lawson's algorithm leaves without a power cell; none where it has no meaning, among inverted
+/// triangles.
+std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, const Settings& settings) {
+  const bool keeps = settings.policy.keeps_hidden;
+  if (!keeps || count_non_regular_edges(mesh, false, settings.hooks.executor) == 0 || count_inverted(mesh) > 0)
+    return {};
+  Mesh copy = mesh;
+  return restore_regularity(copy).hidden;
+}
+
+/// A mesh that may be given back.
+struct Result {
+  Mesh mesh;
+  IdVector<VertexId, VertexId> vertices;  ///< of OptimizeReport
+  MeshScore score;
+  SizeReport size;
+};
+
+/// `model`: in the user's units. What the user's numbers would scatter over memory is measured before it has them;
+/// what is no longer needed is gone before the next is measured.
+Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, const EnergyModel& model,
+                 std::optional<AccuracySizes> sizes) {
+  Executor* const executor = settings.hooks.executor;
+  Result result;
+  const bool for_accuracy = sizes.has_value(), scattered = is_scattered(input);
+  VertexSizes own;
+  if (for_accuracy) own = scattered ? sizes->in_user_units(work, executor) : sizes->in_user_terms(work, executor);
+  sizes.reset();
+  const auto measure = [&](const Mesh& mesh, const IdVector<VertexId, VertexId>& numbers) {
+    result.score = score(mesh, settings, model, for_accuracy ? &own : nullptr);
+    own = {};
+    result.size = measure_size(mesh, field_of(input, settings), executor, numbers);
+  };
+  if (work.has_gaps || work.has_inserted()) result.vertices = work.user_vertices();
+  if (scattered) {
+    work.leave_frame();
+    take_back_rounding(input, work.order.vertices, work.mesh);
+    measure(work.mesh, work.order.vertices);
+    result.mesh = std::move(work).in_user_order(executor);
+  } else {
+    result.mesh = std::move(work).in_user_terms(executor);  // what knew the order takes room no longer
+    take_back_rounding(input, result.vertices, result.mesh);
+    measure(result.mesh, result.vertices);
+  }
+  return result;
+}
+
+/// The input with its edges flipped as every attempt begins, for a run that found nothing better in so many sweeps.
+WorkingCopy made_regular(const Mesh& mesh, const Settings& settings, SweepState state, int sweeps) {
+  WorkingCopy work(mesh, settings.policy.order, settings.hooks.executor);
+  const OptimizeHooks nobody;
+  Run unheard(settings.options, nobody, mesh);
+  unheard.report.sweeps = sweeps;
+  Driver(work, settings, state, unheard).make_regular();
+  return work;
+}
+
+/// Vertices of the input that are gone, and new ones that are there.
+void count_changes(const Mesh& input, OptimizeReport& report) {
+  report.vertices_removed = report.vertices_inserted = 0;
+  if (report.vertices.empty()) return;
+  for (const VertexId v : report.vertices) report.vertices_inserted += v.valid() ? 0 : 1;
+  report.vertices_removed = input.n_vertices() - (report.vertices.size() - report.vertices_inserted);
+}
+
+/// Says whether flips alone make an input that is returned better: what hidden vertices keep from being regular stays
+/// so.
+bool lacks_flips(const Counts& input, const Settings& settings, const RunFacts& facts) {
+  const Policy& policy = settings.policy;
+  if (policy.keeps_connectivity || (policy.keeps_hidden && facts.input_flips == 0)) return false;
+  return input.non_regular > 0;
+}
+
+}  // namespace
+
+std::string_view name(Objective objective) {
+  constexpr std::string_view kNames[] = {"energy", "accuracy", "error"};
+  return kNames[static_cast<std::size_t>(objective)];
+}
+
+std::string_view name(Stopped stopped) {
+  switch (stopped) {
+    case Stopped::converged:
+      return "converged";
+    case Stopped::max_sweeps:
+      return "max_sweeps";
+    case Stopped::max_outer:
+      return "max_outer";
+    case Stopped::time_limit:
+      return "time_limit";
+    case Stopped::cancelled:
+      return "cancelled";
+    case Stopped::accuracy_sweeps:
+      return "accuracy_sweeps";
+    case Stopped::tangled:
+      return "tangled";
+    case Stopped::hidden:
+      return "hidden";
+  }
+  return "unknown";
+}
+
+InputMeasures measure_input(const Mesh& mesh, const NearbyCopy& near, const Settings& settings) {
+  InputMeasures measures;
+  measures.counts = count(near.mesh(), settings);
+  Executor* const executor = settings.hooks.executor;
+  if (!settings.size_field && !settings.options.size_field) {
+    measures.size = measure_size(near.mesh(), field_of(near.mesh(), settings), executor);
+    return measures;
+  }
+  IdVector<VertexId, VertexId> numbers;
+  if (!near.is_original()) {
+    for (const VertexId v : near.mesh().vertices()) numbers.push_back(near.original(v));
+  }
+  measures.size = measure_size(near.mesh(), field_of(mesh, settings), executor, numbers);
+  return measures;
+}
+
+MeshScore score_input(const NearbyCopy& near, const Counts& counts, const Settings& settings,
+                      const AccuracySizes& sizes) {
+  if (near.is_original()) return score(near.mesh(), counts, settings, settings.model, &sizes.of_input());
+  VertexSizes there(near.mesh().n_vertices());
+  for (const VertexId v : near.mesh().vertices()) there[v] = sizes.of_input()[near.original(v)];
+  return score(near.mesh(), counts, settings, settings.model, &there);
+}
+
+void give_back(Mesh& mesh, Candidate best, const Settings& settings, const SweepState& state,
+               const InputMeasures& of_input, std::optional<AccuracySizes> sizes, Run& run) {
+  OptimizeReport& report = run.report;
+  report.objective = settings.objective;
+  Recorder recorder(settings.hooks.tracer, best.work, 1);
+  recorder.begin_sweep(run.next_sweep());
+  const EnergyModel model = in_user_units(state.model, best.work.frame);
+  const bool for_accuracy = sizes.has_value();
+  Result result = result_of(mesh, std::move(best.work), settings, model, std::move(sizes));
+  const MeshScore before =
+      of_input.score ? *of_input.score : score(mesh, of_input.counts, settings, model, nullptr);
+  report.size.before = report.size.after = of_input.size;
+  report.initial_energy = before.energy;
+  const std::optional<double> bad_before =
+      settings.energy().barrier ? std::nullopt : std::optional(bad_part(mesh, of_input.counts.bad));
+  // Flips that make the input regular come before all else that may be better or worse.
+  const bool may_be_better = before < result.score || result.score.bad > 0 || result.score.non_regular > 0;
+  const bool flips = may_be_better && lacks_flips(of_input.counts, settings, run.facts);
+  Result input;
+  input.score = before;
+  if (flips) {
+    Settings silent = settings;
+    silent.hooks.tracer = {};
+    std::optional<AccuracySizes> again;
+    if (for_accuracy)
+      again.emplace(NearbyCopy(mesh, settings.hooks.executor), settings.options.size_field, settings.hooks.executor);
+    input = result_of(mesh, made_regular(mesh, silent, state, report.sweeps), settings, model, std::move(again));
+  }
+  const bool worse = !replaces(result.score, input.score, Requirement::not_worse);
+  if (worse) {
+    recorder.returned_to(-1);
+    if (flips && recorder.on()) static_cast<void>(made_regular(mesh, settings, state, report.sweeps));
+    result = std::move(input);
+  }
+  report.vertices = std::move(result.vertices);
+  report.final_energy = result.score.energy;
+  count_changes(mesh, report);
+  if (!worse || flips) {
+    report.size.after = result.size;
+    mesh = std::move(result.mesh);
+  }
+  report.hidden = hidden_vertices_of(mesh, settings);
+
+  Notes notes(mesh, settings, report);
+  if (worse) {
+    notes.tell_input_is_returned(run.facts, flips);
+  } else {
+    notes.tell(run.facts);
+  }
+  if (bad_before) notes.tell_if_more_are_bad(*bad_before);
+  notes.tell_what_is_not_regular();
+  notes.tell_sizes();
+  notes.tell_energy();
+  notes.tell_corners_that_stay(result.score.bad);
+  notes.tell_edges_that_must_be_split(result.score.bad);
+  if (settings.lacks_error_model) notes.tell_objective();
+  if (for_accuracy)
+    notes.tell_accuracy(settings.energy().barrier ? result.score.bad : count_bad(mesh, settings.hooks.executor));
+  report.seconds = run.seconds();
+}
+
+}  // namespace temper

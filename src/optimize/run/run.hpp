@@ -1,0 +1,108 @@
+// One run of optimize(): the report that its phases write, the clock, and the caller who may stop it.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+
+#include "base/engine.hpp"
+#include "optimize/flips/grading.hpp"
+#include "optimize/flips/flipper.hpp"
+#include "temper/optimize.hpp"
+
+namespace temper {
+
+/// The threads and ranks of a run.
+[[nodiscard]] inline Engine engine_of(const OptimizeHooks& hooks) { return {hooks.executor, hooks.communicator}; }
+
+/// Triangles that are not counter-clockwise, exact.
+[[nodiscard]] std::size_t count_inverted(const Mesh& mesh);
+
+/// Says whether a run has to end: `elapsed` seconds are over, and giving the result back takes `ending` more. A limit of
+/// 0 is none.
+[[nodiscard]] bool time_is_up(double elapsed, double ending, double limit);
+
+/// Facts that the report tells in sentences.
+struct RunFacts {
+  std::size_t input_flips = 0;                ///< that made the input regular
+  std::optional<BoundaryCuts> boundary_cuts;  ///< when they were asked for
+  BoundaryCuts cuts_where_bad;                ///< before the last attempt that made some there
+  bool stays_uncut = false;                   ///< since cuts leave more triangles bad
+  bool weights_shrunk = false;                ///< all of them, since they left edges uncrossed
+  bool energy_rose = false;                   ///< in the last sweeps, which were taken back
+};
+
+/// While it lives, this mesh is the best one so far, and a stage tries another.
+class BestBefore {
+ public:
+  BestBefore(const WorkingCopy*& place, const WorkingCopy* best) : place_(place) { place_ = best; }
+  ~BestBefore() { place_ = nullptr; }
+  BestBefore(const BestBefore&) = delete;
+  BestBefore& operator=(const BestBefore&) = delete;
+
+ private:
+  const WorkingCopy*& place_;
+};
+
+class Run {
+ public:
+  /// `input`: as the caller gave it, for the places of vertices that stay.
+  Run(const OptimizeOptions& options, const OptimizeHooks& hooks, const Mesh& input)
+      : repair_trials_left(options.repair_trials),
+        options_(options),
+        hooks_(hooks),
+        input_(input),
+        start_(Clock::now()),
+        limit_from_(hooks.started.value_or(start_)) {}
+
+  [[nodiscard]] double seconds() const { return seconds_between(start_, Clock::now()); }
+  [[nodiscard]] bool sweeps_left() const { return report.sweeps < options_.max_sweeps; }
+  /// The number of the next sweep; 0 before the first, while the input is made regular.
+  [[nodiscard]] int next_sweep() const { return report.sweeps == 0 ? 0 : report.sweeps + 1; }
+  [[nodiscard]] bool stopped_early() const { return temper::stopped_early(report.stopped); }
+  /// Says whether there is time for more.
+  [[nodiscard]] bool goes_on() const { return !stopped_early() && sweeps_left(); }
+  /// From here on there are sweeps. What has been done so far, copies and measures of the whole mesh, is done again
+  /// when they end, and takes about as long: the time limit is of all of it.
+  void begin_sweeps() {
+    if (ending_seconds_ == 0) ending_seconds_ = seconds_between(limit_from_, Clock::now());
+  }
+  /// A mesh of the run may be saved: says so to the listener, if there is one.
+  void offer(const WorkingCopy& now, const Settings& settings, const SweepState& state) const;
+  /// Asks the clock and the caller, who are those of rank 0; sets report.stopped when the answer is yes. Ranks ask at
+  /// the same places and get the same answer. While they work locally, rank 0 alone gets one.
+  bool asked_to_stop(double fraction_of_sweep);
+  /// From here on ranks do different things.
+  void begin_local() { local_ = hooks_.communicator != nullptr; }
+  /// From here on they do the same again, and all have the answer that rank 0 got meanwhile.
+  void end_local();
+
+  void count(const Flipper::Changes& changes) {
+    report.flips += changes.flips;
+    report.vertices_removed += changes.removed;
+    report.vertices_inserted += changes.inserted;
+  }
+
+  OptimizeReport report;
+  RunFacts facts;
+  int repair_trials_left;
+  const WorkingCopy* best_before = nullptr;  ///< of the stages before, while a stage tries another mesh
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static double seconds_between(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+  }
+
+  bool ask(double fraction_of_sweep);
+  void sync_stop();
+
+  const OptimizeOptions& options_;
+  const OptimizeHooks& hooks_;
+  const Mesh& input_;
+  bool local_ = false;
+  Clock::time_point start_, limit_from_;
+  double ending_seconds_ = 0;  // after the last sweep, about
+};
+
+}  // namespace temper

@@ -1,0 +1,103 @@
+#include "optimize/run/schedule.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "energy/whole_mesh.hpp"
+#include "geometry/triangle_kernel.hpp"
+#include "optimize/step/ties.hpp"
+
+namespace temper {
+namespace {
+
+// Small enough that the least h/ℓ of a converged mesh is that of the hard barrier to three digits.
+constexpr double kFloor = 0.003;
+// On the 7 × 9 horseshoe the second attempt leaves 5 triangles bad where the first leaves 30; on 33 × 25, 0 and 6.
+constexpr Attempt kThorough = {
+    .start = 2, .factor = 0.5, .relaxation = kRelaxation, .level_sweeps = 30, .level_fall = 1e-4, .jitter = 0.02};
+// The attempts where most of the mesh has to change, the connectivity too; and where a few triangles have to.
+constexpr Attempt kFar = {.start = 1, .factor = 0.5, .relaxation = 1.97, .until_good = true};
+constexpr Attempt kNear = {.start = 0.5, .factor = 0.7, .relaxation = kRelaxation, .until_good = true};
+constexpr std::array<Attempt, 2> kManyBad = {kFar, kThorough};
+constexpr std::array<Attempt, 2> kFewBad = {kNear, kThorough};
+// Between 0, where ties stay, and 1, where the shortest edge of a vertex is not crossed by its dual any more; in a
+// strip of squares it puts the orthocenters a quarter of the way from the diagonal to where they leave the triangle.
+constexpr double kTieWeight = 0.25;
+constexpr Attempt with_ties(Attempt attempt) {
+  attempt.tie_weight = kTieWeight;
+  return attempt;
+}
+// Along a row of ties weights grow from its ends, some triangles a sweep: not to wait for, when another attempt chooses
+// their diagonals.
+constexpr double kManyFewer = 0.75;
+constexpr Attempt without_ties(Attempt attempt) {
+  attempt.fewer = kManyFewer;
+  return attempt;
+}
+// The same where ties cannot move.
+constexpr std::array<Attempt, 3> kManyBadAndTied = {without_ties(kFar), with_ties(kFar), with_ties(kThorough)};
+constexpr std::array<Attempt, 3> kFewBadAndTied = {without_ties(kNear), with_ties(kNear), with_ties(kThorough)};
+constexpr double kMany = 0.25;  // of the triangles
+// With fewer of them there are not enough flips for going far to pay: which ones is luck.
+constexpr std::size_t kLeastMany = 100;
+
+// Already inside, or nothing to soften.
+constexpr std::array<Attempt, 1> kHard = {{{.start = kFloor, .relaxation = kRelaxation}}};
+// −h°/ℓ stays this factor beyond the worst h/ℓ of the mesh, so that every term is finite.
+constexpr double kBeyondWorst = 1.25;
+// A relative change of h° that moves no minimum by more than rounding in a picture.
+constexpr double kSettledShift = 0.01;
+
+/// The least h/ℓ over all edges of all triangles.
+double least_relative_height(const Mesh& mesh) {
+  double least = 1;
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [p, q, r] = mesh.points(t);
+    for (const EdgeShape& e : triangle_shape(mesh.space(), p, q, r).edges) {
+      least = std::min(least, e.g / e.l2);
+    }
+  }
+  return least;
+}
+
+double least_shift(const Mesh& mesh) { return std::max(kFloor, -kBeyondWorst * least_relative_height(mesh)); }
+
+}  // namespace
+
+const Attempt kPolish = kHard.front();
+const Attempt kNearlyGood = kNear;
+
+std::span<const Attempt> attempts(const Settings& settings, const Mesh& mesh) {
+  const bool softens = settings.energy().softened_by_gamma && !settings.policy.gamma;
+  if (!softens || least_relative_height(mesh) > 0) return kHard;
+  const std::size_t n = mesh.n_triangles();
+  const auto bad = static_cast<double>(count_bad(mesh, settings.executor()));
+  const bool many = n >= kLeastMany && bad >= kMany * static_cast<double>(n);
+  if (has_tied_quads(mesh, settings.options)) return many ? kManyBadAndTied : kFewBadAndTied;
+  return many ? kManyBad : kFewBad;
+}
+
+void Softener::start(const Mesh& mesh, EnergyModel& model) {
+  if (gamma_shrinks_) model.gamma = {attempt_.start, LengthScale::relative};
+  if (h0_shrinks_) model.h0 = {least_shift(mesh), LengthScale::relative};
+  settled_ = !h0_shrinks_ && (!gamma_shrinks_ || model.gamma.value <= kFloor);
+}
+
+bool Softener::advance(const Mesh& mesh, double fall, std::size_t bad, EnergyModel& model) {
+  if (settled_) return false;
+  if (h0_shrinks_) {
+    constexpr double kFactor = 0.7;
+    const double last = model.h0.value;
+    model.h0.value = std::min(last, std::max(kFactor * last, least_shift(mesh)));
+    settled_ = model.h0.value >= (1 - kSettledShift) * last;
+    return true;
+  }
+  const bool last = attempt_.until_good && bad == 0;
+  if (!last && ++sweeps_at_level_ < attempt_.level_sweeps && fall > attempt_.level_fall) return false;
+  sweeps_at_level_ = 0;
+  model.gamma.value = last ? kFloor : std::max(kFloor, attempt_.factor * model.gamma.value);
+  settled_ = model.gamma.value <= kFloor;
+  return true;
+}
+
+}  // namespace temper

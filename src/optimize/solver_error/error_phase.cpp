@@ -1,0 +1,206 @@
+#include "optimize/solver_error/error_phase.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/sum.hpp"
+#include "energy/whole_mesh.hpp"
+#include "optimize/run/judge.hpp"
+#include "optimize/trace/recorder.hpp"
+#include "temper/detail/error_model.hpp"
+
+namespace temper {
+namespace {
+
+constexpr double kLongestStep = 0.3;      // of a scaled unknown in a step
+constexpr int kMostHalvings = 25;         // halvings of a step
+constexpr double kArmijo = 1e-4;          // of what the gradient promises, that a step has to reach (Armijo)
+constexpr std::size_t kStepsToGain = 10;  // steps that together have to gain the tolerance
+
+void add(WeightedPoint& to, double factor, const WeightedPoint& of) {
+  to.x += factor * of.x;
+  to.y += factor * of.y;
+  to.w += factor * of.w;
+}
+
+double mean_ratio(const std::vector<double>& errors, const std::vector<double>& start) {
+  double sum = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i) sum += errors[i] / start[i];
+  return sum / static_cast<double>(errors.size());
+}
+
+/// Nothing is flipped, and nothing slides.
+Settings of_errors(Settings s) {
+  s.options.flips = Flips::none;
+  s.options.boundary = BoundaryVertices::keep;
+  s.options.interfaces = InterfaceVertices::fixed;
+  s.options.paper.insertion_from.reset();
+  s.policy = Policy(s.options);
+  return s;
+}
+
+}  // namespace
+
+ErrorPhase::ErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)
+    : mesh_(work.mesh),
+      frame_(work.frame),
+      domain_{std::move(sizes), {}},
+      settings_(of_errors(settings)),
+      state_(settings_),
+      run_(run),
+      bad_(count_bad(mesh_, settings.hooks.executor)) {
+  state_.accuracy_domain = &domain_;
+  const auto mobility = mobilities(mesh_, settings_.options, settings_.hooks.executor);
+  freedom_.resize(mesh_.n_vertices());
+  for (const VertexId v : mesh_.vertices()) freedom_[v] = freedom(mesh_, v, mobility[v], settings_.options.unknowns);
+}
+
+void ErrorPhase::begin() {
+  raise_floors(domain_, mesh_, settings_.accuracy, settings_.hooks.executor);
+  start_ = settings_.errors->errors(mesh_, settings_.hooks.executor);
+  now_ = value();
+  history_ = {now_.lowered};
+}
+
+bool ErrorPhase::may_sweep() const {
+  const bool can = bad_ == 0 && std::isfinite(now_.lowered);
+  const bool steps_left = iteration_ < settings_.options.error.steps;
+  if (!can) run_.report.stopped = Stopped::converged;
+  if (can && !steps_left) run_.report.stopped = Stopped::accuracy_sweeps;
+  return can && steps_left && run_.sweeps_left();
+}
+
+/// One step of L-BFGS, halved until it lowers what it should. False when the caller has stopped the run.
+std::optional<bool> ErrorPhase::move_all(const Recorder& recorder) {
+  IdVector<VertexId, WeightedPoint> before(mesh_.n_vertices());
+  for (const VertexId v : mesh_.vertices()) before[v] = mesh_.point(v);
+  Vector step = descent_.direction(now_.gradient);
+  const double most = largest(step);
+  if (most > kLongestStep) {
+    for (double& x : step) x *= kLongestStep / most;
+  }
+  const double slope = dot(now_.gradient, step);
+  Value there;
+  double t = 1;
+  bool found = false;
+  for (int i = 0; i < kMostHalvings && slope < 0 && !found; ++i, t *= found ? 1 : 0.5) {
+    place(before, step, t);
+    if (!is_inside()) continue;
+    there = value();
+    found = there.lowered <= now_.lowered + kArmijo * t * slope;
+    if (run_.asked_to_stop(0)) break;
+  }
+  if (!found) {
+    place(before, step, 0);
+    stuck_ = descent_.knows_nothing();
+    descent_.forget();
+  } else {
+    Vector change = there.gradient;
+    for (std::size_t i = 0; i < change.size(); ++i) change[i] -= now_.gradient[i], step[i] *= t;
+    descent_.learn(std::move(step), std::move(change));
+    now_ = std::move(there);
+    for (const VertexId v : mesh_.vertices()) {
+      if (recorder.on() && mesh_.point(v) != before[v]) {
+        recorder.placed(v, before[v], mesh_.point(v), kNoEnergy, kNoEnergy);
+      }
+    }
+  }
+  return !run_.stopped_early() && !run_.asked_to_stop(0);
+}
+
+SweepRecord ErrorPhase::measure() {
+  SweepRecord r;
+  r.energy = now_.error;
+  r.bad = bad_;
+  r.objective = Objective::error;
+  return r;
+}
+
+Phase::Verdict ErrorPhase::judge(bool /*changed*/) {
+  if (raise_floors(domain_, mesh_, settings_.accuracy, settings_.hooks.executor)) {
+    now_ = value();  // of another barrier
+    descent_.forget();
+  }
+  history_.push_back(now_.lowered);
+  const bool slow = history_.size() > kStepsToGain &&
+                    history_[history_.size() - 1 - kStepsToGain] - now_.lowered < settings_.options.error.tolerance;
+  if (!stuck_ && !slow) return Verdict::improving;
+  run_.report.stopped = Stopped::converged;
+  return Verdict::settled;
+}
+
+ErrorPhase::Value ErrorPhase::value() const {
+  Executor* executor = settings_.hooks.executor;
+  Value result;
+  result.lowered = result.error = kInfinity;
+  const auto [energy, barrier] =
+      accuracy_total(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, engine_of(settings_.hooks));
+  std::vector<ErrorModel::Gradient> gradients;
+  const std::vector<double> errors = settings_.errors->errors(mesh_, gradients, executor);
+  const double sum = energy + barrier, share = settings_.options.error.offset_share;
+  if (!std::isfinite(sum) || !(sum > 0) || errors.empty() || start_.size() != errors.size()) return result;
+  result.error = root_mean_square(errors);
+  result.lowered = std::log(mean_ratio(errors, start_)) + share * std::log(sum);
+  ErrorModel::Gradient gradient(mesh_.n_vertices(), WeightedPoint{});
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const double factor = 1 / (static_cast<double>(errors.size()) * start_[i] * mean_ratio(errors, start_));
+    for (const VertexId v : mesh_.vertices()) add(gradient[v], factor, gradients[i][v]);
+  }
+  add_gradient_of_energy(share / sum, gradient);
+  result.gradient = scaled(gradient);
+  return result;
+}
+
+/// What depends on a vertex in E and B is its star.
+void ErrorPhase::add_gradient_of_energy(double factor, IdVector<VertexId, WeightedPoint>& gradient) const {
+  const std::size_t blocks = (mesh_.n_vertices() + kBlockSize - 1) / kBlockSize;
+  or_serial(settings_.hooks.executor).run(blocks, [&](std::size_t block) {
+    AccuracyPatch patch;
+    const std::size_t end = std::min(mesh_.n_vertices(), (block + 1) * kBlockSize);
+    for (std::size_t i = block * kBlockSize; i < end; ++i) {
+      const VertexId v(i);
+      if (mesh_.is_isolated(v) || !patch.gather(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, v)) continue;
+      if (!std::isfinite(patch.value(mesh_.point(v)))) continue;
+      const auto [x, y, w] = patch.derivatives().gradient;
+      add(gradient[v], factor, {x, y, w});
+    }
+  });
+}
+
+/// All triangles well-centered, exactly, with more than their floors.
+bool ErrorPhase::is_inside() const {
+  if (count_bad(mesh_, settings_.hooks.executor) > bad_) return false;
+  return std::all_of(mesh_.triangles().begin(), mesh_.triangles().end(), [this](TriangleId t) {
+    return !domain_.floors.has(t) || triangle_margin(mesh_, t) > domain_.floors[t];
+  });
+}
+
+void ErrorPhase::place(const IdVector<VertexId, WeightedPoint>& from, const Vector& step, double t) {
+  for (const VertexId v : mesh_.vertices()) {
+    WeightedPoint p = from[v];
+    const double s = t * domain_.sizes[v];
+    const double* by = &step[3 * std::size_t{v.index}];
+    if (freedom_[v].moves()) {
+      const Vec2 to = frame_.snap(Vec2{p.x + s * by[0], p.y + s * by[1]});
+      p.x = to.x, p.y = to.y;
+    }
+    p.w += s * domain_.sizes[v] * by[2];
+    mesh_.set_point(v, t == 0 ? from[v] : p);
+  }
+}
+
+/// By the unknowns over the local size, three a vertex; zero where one is none.
+ErrorPhase::Vector ErrorPhase::scaled(const IdVector<VertexId, WeightedPoint>& gradient) const {
+  Vector result(3 * mesh_.n_vertices(), 0.0);
+  for (const VertexId v : mesh_.vertices()) {
+    const Freedom& free = freedom_[v];
+    const double s = domain_.sizes[v];
+    double* to = &result[3 * std::size_t{v.index}];
+    if (free.moves()) to[0] = s * gradient[v].x, to[1] = s * gradient[v].y;
+    if (free.n == 1 || free.n == 3) to[2] = s * s * gradient[v].w;
+  }
+  return result;
+}
+
+}  // namespace temper

@@ -1,0 +1,74 @@
+// The phase of Objective::error: it lowers, over all vertices at once,
+//
+//     ln mean(errors over those at the start) + κ ln(E + B)
+//
+// the errors those of the options' model (temper/detail/error_model.hpp), E and B energy and barrier of the accuracy
+// objective, which keep triangles well-centered with their margins, and other errors from rising. By L-BFGS in places
+// over the local size and weights over its square. Nothing where a triangle is not well-centered. The connectivity
+// stays.
+#pragma once
+
+#include <utility>
+
+#include "optimize/accuracy/accuracy_sizes.hpp"
+#include "optimize/solver_error/descent.hpp"
+#include "optimize/stages/phase.hpp"
+#include "optimize/step/freedom.hpp"
+#include "temper/detail/error_model.hpp"
+
+namespace temper {
+
+class ErrorPhase final : public Phase {
+ public:
+  ErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes);
+  ErrorPhase(const ErrorPhase&) = delete;
+  ErrorPhase& operator=(const ErrorPhase&) = delete;
+  ~ErrorPhase() override = default;
+
+  /// For the driver.
+  [[nodiscard]] const Settings& settings() const { return settings_; }
+  [[nodiscard]] SweepState& state() { return state_; }
+  /// What it was given, once it has ended.
+  [[nodiscard]] VertexSizes take_sizes() { return std::move(domain_.sizes); }
+
+  void begin() override;
+  [[nodiscard]] bool may_sweep() const override;
+  [[nodiscard]] std::optional<bool> move_all(const Recorder& recorder) override;
+  [[nodiscard]] double total() const override { return now_.error; }
+  SweepRecord measure() override;
+  Verdict judge(bool changed) override;
+  void compare_from_here() override {}
+  [[nodiscard]] Keeps keeps() const override { return Keeps::best_points; }
+  int& iteration() override { return iteration_; }
+ private:
+  using Vector = Descent::Vector;
+  struct Value {
+    double lowered = 0;  ///< what is lowered; +∞ outside of the barrier
+    double error = 0;    ///< root mean square, the geometric mean of all schemes'
+    Vector gradient;     ///< of `lowered`, by the scaled unknowns
+  };
+
+  [[nodiscard]] Value value() const;
+  void add_gradient_of_energy(double factor, IdVector<VertexId, WeightedPoint>& gradient) const;
+  [[nodiscard]] bool is_inside() const;
+  /// Puts the vertices to t of the step from `from`.
+  void place(const IdVector<VertexId, WeightedPoint>& from, const Vector& step, double t);
+  [[nodiscard]] Vector scaled(const IdVector<VertexId, WeightedPoint>& gradient) const;
+
+  Mesh& mesh_;
+  const Frame& frame_;
+  AccuracyDomain domain_;
+  const Settings settings_;
+  SweepState state_;
+  Run& run_;
+  IdVector<VertexId, Freedom> freedom_;
+  int iteration_ = 0;
+  std::size_t bad_;
+  std::vector<double> start_;  // the errors then
+  Value now_;
+  Descent descent_;
+  bool stuck_ = false;           // no step lowers it
+  std::vector<double> history_;  // of what is lowered
+};
+
+}  // namespace temper

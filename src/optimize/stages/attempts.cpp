@@ -1,0 +1,255 @@
+// See attempts.hpp.
+#include "optimize/stages/attempts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "energy/whole_mesh.hpp"
+#include "optimize/stages/driver.hpp"
+#include "optimize/run/lengths.hpp"
+#include "optimize/run/judge.hpp"
+#include "optimize/run/refusal.hpp"
+#include "optimize/repair/repair_search.hpp"
+
+namespace temper {
+namespace {
+
+// Each where the one before has made triangles good; more find little.
+constexpr std::size_t kRoundsWhereBad = 4;
+// Times as many bad triangles, which a more thorough attempt does not make up for.
+constexpr std::size_t kFarMore = 2;
+// Weights alone are seldom enough: they have to get on fast.
+constexpr double kFewerByWeights = 0.75;
+// A search that ends with triangles bad may have gone astray early on.
+constexpr std::uint64_t kSearches = 4;
+// The one more, where linear programmes can be asked: from what the first has left.
+constexpr std::uint64_t kProgrammes = 1;
+
+/// One mesh of two: the one that the judge keeps.
+class Choice {
+ public:
+  Choice(const Settings& settings, const EnergyModel& model) : settings_(settings), model_(model) {}
+
+  [[nodiscard]] bool replaces(const Candidate& now, const Candidate& best, Requirement required) const {
+    return temper::replaces(score_of(now), score_of(best), required);
+  }
+
+ private:
+  [[nodiscard]] MeshScore score_of(const Candidate& c) const { return score(c.work.mesh, settings_, model_); }
+
+  const Settings& settings_;
+  const EnergyModel& model_;
+};
+
+/// What an attempt needs to be kept. The user asks for cuts: without them fewer triangles have to be bad.
+Requirement requirement_of(const Attempt& attempt) {
+  return attempt.cuts == Cuts::graded ? Requirement::not_worse : Requirement::fewer_bad;
+}
+
+bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.hooks.executor) > 0; }
+
+/// Says whether so few triangles of c are bad that each is a place of its own, far from all others. Another attempt
+/// would leave as many elsewhere, where a repair of each is a matter of moments; a search need not give up what it has
+/// cured to begin again with the others; and it needs no copy to return to, which the largest meshes have no room for:
+/// it leaves no more bad than there were, and trials have swept each place by itself.
+bool are_apart(const Candidate& c, const Settings& s) {
+  constexpr double kMost = 1e-5;
+  const auto bad = static_cast<double>(count_bad(c.work.mesh, s.hooks.executor));
+  return bad > 0 && bad < kMost * static_cast<double>(c.work.mesh.n_triangles());
+}
+
+/// Vertices that came or went are taken back where they cured nothing.
+bool keeps_vertices(const Settings& s) { return s.options.repair != Repair::vertices; }
+
+/// Says whether c has what a repair could cure: bad triangles, or edges that vertices make too short.
+bool needs_repair(const Candidate& c, const Settings& s) {
+  return has_bad(c, s) ||
+         (s.options.repair == Repair::vertices && missing_lengths(c.work.mesh, s.accuracy, s.hooks.executor) > 0);
+}
+
+/// What to try, for the working copy as it is. Where all attempts with a cut boundary leave triangles bad, they are
+/// made again without: what lines leave no room for, cuts may make worse. After either there are cuts where triangles
+/// are still bad, and sweeps from there.
+std::vector<Attempt> attempts_for(const Mesh& mesh, const Settings& settings) {
+  const auto all = attempts(settings, mesh);
+  std::vector<Attempt> tries(all.begin(), all.end());
+  const bool splits = settings.options.boundary == BoundaryVertices::split;
+  Attempt where_bad = kNearlyGood;
+  where_bad.cuts = Cuts::where_bad;
+  if (splits) {
+    tries.insert(tries.end(), kRoundsWhereBad, where_bad);
+    for (Attempt uncut : all) {
+      uncut.cuts = Cuts::none;
+      tries.push_back(uncut);
+    }
+    tries.insert(tries.end(), kRoundsWhereBad, where_bad);
+  }
+  for (Attempt& attempt : tries) attempt.first_energy = settings.policy.first_energy;
+  return tries;
+}
+
+/// The quick ones of those for weights alone; none where nothing is softened.
+std::vector<Attempt> attempts_by_weights(const Mesh& mesh, const Settings& settings) {
+  std::vector<Attempt> tries;
+  for (Attempt attempt : attempts(settings, mesh)) {
+    if (!attempt.until_good) continue;
+    attempt.fewer = std::min(attempt.fewer, kFewerByWeights);
+    tries.push_back(attempt);
+  }
+  return tries;
+}
+
+/// The attempts of a run, and what came of those that were made.
+struct Tries {
+  std::vector<Attempt> all = std::vector<Attempt>(1);
+  std::size_t i = 0;     ///< the one under way
+  std::size_t left = 0;  ///< bad triangles of the last one that was not kept
+  bool renewed = false;  ///< the best mesh, since cuts where it is bad were of no use
+
+  [[nodiscard]] const Attempt& now() const { return all[i]; }
+  [[nodiscard]] bool is_last() const { return i + 1 == all.size(); }
+  /// Says whether the attempt may be of use. The second one from the same beginning is more thorough, and takes many
+  /// sweeps: where the first left far more bad than there are in the best mesh it does not make up for that.
+  [[nodiscard]] bool may_gain(const Candidate& best, const Settings& settings) const {
+    if (now().cuts == Cuts::where_bad) return renewed;
+    const Attempt& last = all[i - 1];
+    if (last.cuts != now().cuts) return true;
+    return left <= kFarMore * count_bad(best.work.mesh, settings.hooks.executor);
+  }
+};
+
+/// The input made regular, and its boundary cut, as an attempt begins; or the best mesh, cut where it is bad.
+std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Settings& settings, const Attempt& attempt) {
+  if (attempt.cuts == Cuts::where_bad) {
+    driver.cut_where_bad();
+    return std::nullopt;
+  }
+  if (!settings.policy.keeps_connectivity && !driver.make_regular()) {
+    return hidden_vertices_error(input, settings.hooks.names);
+  }
+  if (attempt.cuts == Cuts::graded) driver.grade_boundary();
+  return std::nullopt;
+}
+
+/// The cuts of the best mesh, which that attempt has made.
+void tell_cuts(const Attempt& attempt, RunFacts& facts) {
+  if (attempt.cuts == Cuts::where_bad) {
+    const bool on_uncut = facts.stays_uncut || !facts.boundary_cuts;
+    facts.boundary_cuts = on_uncut ? facts.cuts_where_bad : *facts.boundary_cuts + facts.cuts_where_bad;
+  }
+  facts.stays_uncut = attempt.cuts == Cuts::none;
+}
+
+}  // namespace
+
+bool has_gained(const Candidate& now, const Candidate& before, const Settings& settings, const EnergyModel& model) {
+  const bool same_vertices = now.work.n_vertices_named == before.work.n_vertices_named &&
+                             now.work.mesh.n_vertices() == before.work.mesh.n_vertices();
+  return Choice(settings, model)
+      .replaces(now, before, same_vertices ? Requirement::not_worse : Requirement::cures);
+}
+
+Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, SweepState& state, Run& run) {
+  const Choice choice(settings, state.model);
+  std::optional<Candidate> best;
+  Tries tries;
+  for (; tries.i < tries.all.size(); ++tries.i) {
+    if (best && !tries.may_gain(*best, settings)) continue;
+    const BestBefore kept(run.best_before, best ? &best->work : nullptr);
+    const bool goes_on = tries.now().cuts == Cuts::where_bad;
+    Candidate now = goes_on ? *best : Candidate{WorkingCopy(input.whole(), settings.policy.order, settings.hooks.executor)};
+    Driver driver(now.work, settings, state, run);
+    if (best) driver.recorder().returned_to(goes_on ? best->sweep : -1);
+    if (auto error = prepare(driver, input.whole(), settings, tries.now())) return *std::move(error);
+    if (!best) {
+      if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
+      tries.all = attempts_for(now.work.mesh, settings);
+      run.facts.input_flips = run.report.flips;
+    }
+    input.fold();
+    now.sweep = driver.attempt(tries.now(), !tries.is_last() || repairs(settings));
+    if (!best || choice.replaces(now, *best, requirement_of(tries.now()))) {
+      best = std::move(now);
+      tries.left = 0;
+      tries.renewed = true;
+      tell_cuts(tries.now(), run.facts);
+    } else {
+      driver.recorder().returned_to(best->sweep);
+      tries.left = count_bad(now.work.mesh, settings.hooks.executor);
+      if (goes_on) tries.renewed = false;
+    }
+    if (!has_bad(*best, settings) || !run.goes_on() || (repairs(settings) && are_apart(*best, settings))) break;
+  }
+  return *std::move(best);
+}
+
+Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, SweepState state, Run& run) {
+  const Choice choice(settings, state.model);
+  Settings own = settings;
+  own.options.unknowns = Unknowns::weights;
+  std::vector<Attempt> tries(1);
+  const bool may = settings.options.unknowns == Unknowns::positions_and_weights && repairs(settings) &&
+                   run.report.sweeps <= settings.options.max_sweeps / 2;  // repairs need those that are left
+  if (!may || !run.goes_on() || !has_bad(best, settings) || are_apart(best, settings)) return best;
+  const BestBefore kept(run.best_before, &best.work);
+  for (std::size_t i = 0; i < tries.size(); ++i) {
+    Candidate now{WorkingCopy(input.whole(), own.policy.order, own.hooks.executor)};
+    Driver driver(now.work, own, state, run);
+    driver.recorder().returned_to(-1);
+    driver.make_regular();  // it could be at the first attempt
+    if (i == 0) tries = attempts_by_weights(now.work.mesh, own);
+    input.fold();
+    if (tries.empty()) {
+      driver.recorder().returned_to(best.sweep);
+      break;
+    }
+    now.sweep = driver.attempt(tries[i], true);
+    if (choice.replaces(now, best, Requirement::fewer_bad)) {
+      best = std::move(now);
+      run.facts.stays_uncut = settings.options.boundary == BoundaryVertices::split;
+    } else {
+      driver.recorder().returned_to(best.sweep);
+    }
+    if (!has_bad(best, settings) || !run.goes_on()) break;
+  }
+  return best;
+}
+
+Candidate repaired(Candidate best, const Settings& settings, SweepState& state, Run& run) {
+  const auto is_done = [&](const Candidate& c) {
+    return !run.goes_on() || run.repair_trials_left <= 0 || !needs_repair(c, settings);
+  };
+  const std::uint64_t searches = settings.lp != nullptr ? kSearches + 1 : kSearches;
+  std::optional<Candidate> start;  // of all searches on copies, once it is not the best one
+  if (!repairs(settings) || is_done(best) || !std::isfinite(total_energy(best.work.mesh, state.model))) return best;
+  const bool in_place = keeps_vertices(settings) && are_apart(best, settings);
+  for (std::uint64_t i = 0; i < searches && !is_done(best); ++i) {
+    const BestBefore kept(run.best_before, in_place ? nullptr : &best.work);
+    const bool asks_programmes = i == kProgrammes && settings.lp != nullptr;
+    if (asks_programmes) start.reset();  // they cost more than what is cured
+    Candidate copy;
+    if (!in_place) copy = start ? *start : best;
+    Candidate& now = in_place ? best : copy;
+    Driver driver(now.work, settings, state, run);
+    if (start) driver.recorder().returned_to(start->sweep);
+    const bool changed = driver.repair(settings.policy.seed + i, asks_programmes);
+    now.sweep = run.report.sweeps;
+    if (in_place) continue;
+    if (changed && has_gained(now, best, settings, state.model)) {
+      if (!start) start = std::move(best);
+      best = std::move(now);
+      if (are_apart(best, settings)) start.reset();
+    } else {
+      driver.recorder().returned_to(best.sweep);
+    }
+  }
+  if (in_place) return best;
+  start.reset();
+  if (run.goes_on()) best.sweep = Driver(best.work, settings, state, run).polish(best.sweep);
+  return best;
+}
+
+}  // namespace temper

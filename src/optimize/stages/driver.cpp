@@ -1,0 +1,401 @@
+#include "optimize/stages/driver.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/assert.hpp"
+#include "base/rng.hpp"
+#include "energy/whole_mesh.hpp"
+#include "optimize/sweep/insertion.hpp"
+#include "optimize/flips/grading.hpp"
+#include "optimize/repair/repair_search.hpp"
+#include "optimize/step/ties.hpp"
+#include "temper/regularity.hpp"
+
+namespace temper {
+Driver::Driver(WorkingCopy& work, const Settings& settings, SweepState& state, Run& run, std::size_t part_size)
+    : work_(work),
+      mesh_(work.mesh),
+      settings_(settings),
+      state_(state),
+      run_(run),
+      recorder_(settings.hooks.tracer, work, state.energy_unit(work.frame)),
+      flipper_(mesh_, settings, state, recorder_),
+      sweeper_(work, settings, state, flipper_, recorder_, part_size) {
+  recorder_.begin_sweep(run.next_sweep());
+  const SweepOrder order = settings.policy.order;
+  if (order == SweepOrder::hilbert) return;
+  for (const VertexId v : mesh_.vertices()) sequence_.push_back(v);
+  if (order == SweepOrder::reverse) {
+    std::reverse(sequence_.begin(), sequence_.end());
+  } else if (order == SweepOrder::random) {
+    Rng rng(settings.policy.seed);
+    for (std::size_t i = sequence_.size(); i > 1; --i) {
+      std::swap(sequence_[i - 1], sequence_[rng.below(static_cast<std::uint32_t>(i))]);
+    }
+  }
+}
+
+/// Algorithm 1.
+int Driver::run(Phase& phase, int first) {
+  const int sweeps = run_.report.sweeps;
+  begin(phase, first);
+  Verdict verdict = Verdict::improving;
+  std::optional<Stopped> asked;  // by the caller, whatever the flips after it find
+  do {                           // outer iterations
+    do {                         // inner iterations
+      verdict = sweep(phase);
+    } while (verdict == Verdict::improving &&
+             !(settings_.policy.defers_flips && ++inner_ == settings_.policy.inner));
+    if (run_.stopped_early()) asked = run_.report.stopped;
+    verdict = flip_if_deferred(phase, verdict);
+  } while (verdict == Verdict::improving);
+  const int last = run_.report.sweeps > sweeps ? recorder_.sweep() : first;
+  const int kept = run_.report.stopped == Stopped::hidden ? return_regular(last) : return_best(phase, last);
+  if (asked) run_.report.stopped = *asked;
+  return kept;
+}
+
+void Driver::begin(Phase& phase, int sweep) {
+  phase.begin();
+  recorder_.set_energy_unit(state_.energy_unit(work_.frame));
+  if (run_.report.history.empty()) record(phase.measure());
+  best_energy_ = phase.total();
+  if (phase.keeps() == Phase::Keeps::best_points) keep(phase, best_energy_, sweep);
+  keep_regular(sweep);
+  run_.report.stopped = Stopped::max_sweeps;
+  run_.begin_sweeps();
+  show(Snapshot::Moment::start, phase);
+}
+
+/// Lines 9 to 18 of Algorithm 1, and the phase's verdict on them.
+Driver::Verdict Driver::sweep(Phase& phase) {
+  if (!phase.may_sweep()) return Verdict::stopped;
+  recorder_.begin_sweep(run_.report.sweeps + 1);
+  const std::optional<bool> moved = phase.move_all(recorder_);
+  const bool whole = moved ? *moved : improve_all_vertices(phase.iteration());
+  const bool removed = flipper_.has_removed();
+  if (removed) compact();
+  const bool inserted = whole && insert_vertices(phase.iteration());
+  shift_weights_to_anchor();
+  TEMPER_ASSERT_SLOW(!settings_.policy.keeps_regular() || count_non_regular_edges(mesh_, false) == 0);
+  ++phase.iteration();
+  ++run_.report.sweeps;
+  record(phase.measure());
+  if (!settings_.policy.defers_flips) keep_if_best(phase);
+  show(Snapshot::Moment::after_sweep, phase);
+  run_.offer(work_, settings_, state_);
+  if (!whole) return Verdict::stopped;  // by the caller or the clock
+  const Verdict verdict = phase.judge(removed || inserted);
+  if (verdict == Verdict::restarted) {
+    best_.reset();
+    best_points_ = {};
+    best_energy_ = phase.total();
+    recorder_.set_energy_unit(state_.energy_unit(work_.frame));
+    return Verdict::improving;
+  }
+  if (verdict != Verdict::infinite) return verdict;
+  if (!halve_weights()) return Verdict::stopped;
+  amend_record(phase.measure());
+  phase.compare_from_here();
+  return Verdict::improving;
+}
+
+/// Lines 20 and 21: whether there is another outer iteration.
+Driver::Verdict Driver::flip_if_deferred(Phase& phase, Verdict of_sweeps) {
+  if (!settings_.policy.defers_flips) return Verdict::stopped;
+  show(Snapshot::Moment::before_flips, phase);
+  const std::size_t flips = run_.report.flips;
+  if (!restore_regularity()) return Verdict::stopped;
+  amend_record(phase.measure());
+  phase.compare_from_here();
+  keep_if_best(phase);
+  keep_regular(recorder_.sweep());
+  show(Snapshot::Moment::after_flips, phase);
+  inner_ = 0;
+  ++outer_;
+  const bool needed = run_.report.flips > flips;
+  if (of_sweeps == Verdict::stopped) return Verdict::stopped;
+  if (of_sweeps == Verdict::settled && !needed && !phase.goes_on_with_weights()) return Verdict::stopped;
+  run_.report.stopped = outer_ == settings_.policy.outer ? Stopped::max_outer : Stopped::max_sweeps;
+  return outer_ == settings_.policy.outer ? Verdict::stopped : Verdict::improving;
+}
+
+/// One Gauss-Seidel sweep, lines 9 to 16. False when it was cut short.
+bool Driver::improve_all_vertices(int iteration) {
+  if (!settings_.policy.defers_updates() || settings_.policy.defers_flips) return sweeper_.sweep(iteration, sequence_, run_);
+  const IdVector<VertexId, WeightedPoint> before = points();
+  const bool whole = sweeper_.sweep(iteration, sequence_, run_);
+  settle_updates(before);
+  return whole;
+}
+
+/// Deferred updates may hide a vertex where they meet: then half of each change of a weight is made, and so on, and at
+/// last none, nor any move.
+void Driver::settle_updates(const IdVector<VertexId, WeightedPoint>& before) {
+  constexpr int kHalvings = 6;  // what is left then is hardly worth a step
+  // With another policy flips may have been made, for which vertices are where they are.
+  const Space& space = mesh_.space();
+  const bool moves_back = settings_.policy.defers_positions && settings_.policy.undoes_hidden;
+  for (int i = 0; !flipper_.restore_all() && i <= kHalvings; ++i) {
+    for (const VertexId v : mesh_.vertices()) {
+      if (mesh_.is_isolated(v)) continue;
+      const WeightedPoint now = mesh_.point(v), old = before[v];
+      const double old_w = space.weight(old), w = old_w + (i < kHalvings ? 0.5 : 0.0) * (space.weight(now) - old_w);
+      const WeightedPoint& place = moves_back && i == kHalvings ? old : now;
+      set_point(v, space.with_weight(place, w));
+    }
+  }
+}
+
+IdVector<VertexId, WeightedPoint> Driver::points() const {
+  IdVector<VertexId, WeightedPoint> all(mesh_.n_vertices());
+  for (const VertexId v : mesh_.vertices()) all[v] = mesh_.point(v);
+  return all;
+}
+
+/// True when there are new ones. Among inverted triangles no point has its place.
+bool Driver::insert_vertices(int iteration) {
+  const Policy& policy = settings_.policy;
+  if (!policy.insertion_from || iteration < *policy.insertion_from) return false;
+  if (policy.allows_inversion && count_inverted(mesh_) > 0) return false;
+  if (!insert_where_energy_is_large(work_, flipper_, settings_, state_.model)) return false;
+  grow();
+  return true;
+}
+
+/// Drops what the sweep has removed, everywhere.
+void Driver::compact() {
+  const std::size_t n = mesh_.n_vertices();
+  const Compaction kept = work_.compact();
+  sweeper_.renumber(kept);
+  if (sequence_.empty()) return;
+  IdVector<VertexId, VertexId> new_id(n);
+  for (const VertexId v : mesh_.vertices()) new_id[kept.vertices[v]] = v;
+  for (VertexId& v : sequence_) v = new_id[v];
+  std::erase_if(sequence_, [](VertexId v) { return !v.valid(); });
+}
+
+/// Makes room for the vertices that have been inserted, everywhere.
+void Driver::grow() {
+  sweeper_.grow();
+  if (sequence_.empty()) return;
+  for (std::size_t i = sequence_.size(); i < mesh_.n_vertices(); ++i) sequence_.emplace_back(i);
+}
+
+/// Weights that leave edges uncrossed and that single vertices cannot mend: half of all of them, until zero weights at
+/// last, where every barrier on d is satisfied. False when weights or connectivity may not change.
+bool Driver::halve_weights() {
+  if (settings_.options.unknowns == Unknowns::positions || settings_.policy.keeps_connectivity) return false;
+  run_.facts.weights_shrunk = true;
+  recorder_.begin_sweep(run_.report.sweeps + 1);
+  for (const VertexId v : mesh_.vertices()) set_weight(v, 0.5 * mesh_.weight(v));
+  return restore_regularity();
+}
+
+/// Line 17 of Algorithm 1. Equal shifts of all weights change no energy and, but for their rounding, no edge.
+void Driver::shift_weights_to_anchor() {
+  if (!settings_.policy.anchor.valid()) return;
+  const VertexId anchor = work_.from_user(settings_.policy.anchor);
+  if (!anchor.valid()) return;  // removed: any other constant would do as well
+  const double shift = mesh_.weight(anchor);
+  const IdVector<VertexId, WeightedPoint> before = points();
+  for (const VertexId v : mesh_.vertices()) set_weight(v, mesh_.space().weight(before[v]) - shift);
+  if (settings_.policy.keeps_connectivity || settings_.policy.defers_flips || flipper_.restore_all()) return;
+  // Rounded differences hide a vertex that was all but hidden: no constant is worth that.
+  for (const VertexId v : mesh_.vertices()) set_point(v, before[v]);
+}
+
+void Driver::set_point(VertexId v, const WeightedPoint& p) {
+  const WeightedPoint from = mesh_.point(v);
+  mesh_.set_point(v, p);
+  if (!(p == from)) recorder_.placed(v, from, p, kNoEnergy, kNoEnergy);
+}
+
+void Driver::set_weight(VertexId v, double w) { set_point(v, mesh_.space().with_weight(mesh_.point(v), w)); }
+
+/// Line 20 of Algorithm 1. False when no flips can: among inverted triangles, or around a hidden vertex that may not
+/// be.
+bool Driver::restore_regularity() {
+  if (settings_.policy.allows_inversion && count_inverted(mesh_) > 0) {
+    run_.report.stopped = Stopped::tangled;
+    return false;
+  }
+  if (!flipper_.restore_all()) {
+    run_.report.stopped = Stopped::hidden;
+    return false;
+  }
+  if (flipper_.has_removed()) compact();
+  return true;
+}
+
+bool Driver::make_regular() {
+  if (!flipper_.restore_all()) return false;
+  if (flipper_.has_removed()) compact();
+  run_.count(flipper_.take_changes());
+  return true;
+}
+
+void Driver::grade_boundary() {
+  if (settings_.options.boundary != BoundaryVertices::split) return;
+  TEMPER_ASSERT_SLOW(settings_.policy.keeps_hidden || count_non_regular_edges(mesh_, false) == 0);
+  const BoundaryCuts cuts = cut_boundary(work_, flipper_, settings_.options.boundary_ratio);
+  grow();
+  TEMPER_ASSERT_SLOW(settings_.policy.keeps_hidden || count_non_regular_edges(mesh_, false) == 0);
+  run_.facts.boundary_cuts = cuts;  // of each attempt the same
+}
+
+void Driver::cut_where_bad() {
+  run_.facts.cuts_where_bad = temper::cut_where_bad(work_, flipper_);
+  grow();
+}
+
+void Driver::jitter(double amount) {
+  if (amount == 0 || settings_.options.unknowns == Unknowns::weights || settings_.policy.keeps_connectivity) return;
+  recorder_.begin_sweep(run_.report.sweeps + 1);
+  Rng rng(settings_.policy.seed);
+  sweeper_.shake(amount, rng);
+}
+
+int Driver::attempt(const Attempt& attempt, bool may_give_up) {
+  if (weigh_ties(attempt.tie_weight)) return polish(run_.report.sweeps);
+  jitter(attempt.jitter);
+  const int first = run_.next_sweep();
+  const bool may_return_there = attempt.first_energy.has_value() || settings_.policy.defers_flips;
+  // A trace says by sweeps where a run returns to.
+  if (first > 0 && may_return_there) end_sweep_of_its_own();
+  EnergyPhase phase(work_, settings_, state_, run_, attempt, may_give_up);
+  const int last = run(phase, first);
+  phase.take_last_energy();
+  return last;
+}
+
+bool Driver::weigh_ties(double amount) {
+  if (amount == 0) return false;
+  recorder_.begin_sweep(run_.next_sweep());
+  std::vector<std::pair<VertexId, double>> before;
+  for (const auto& [v, shortest2] : heavier_ends_of_ties(mesh_, settings_.options)) {
+    before.emplace_back(v, mesh_.weight(v));
+    set_weight(v, mesh_.weight(v) + amount * shortest2);
+  }
+  if (!make_regular()) {  // a vertex would be hidden
+    for (const auto& [v, w] : before) set_weight(v, w);
+  }
+  end_sweep_of_its_own();
+  return run_.report.history.back().bad == 0;
+}
+
+void Driver::end_sweep_of_its_own() {
+  ++run_.report.sweeps;
+  record(EnergyPhase(work_, settings_, state_, run_, kPolish, false).measure());
+}
+
+bool Driver::repair(std::uint64_t seed, bool asks_programmes) {
+  EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);  // what repairs are told by
+  RepairSearch search(work_, settings_, run_, flipper_, recorder_, seed, asks_programmes);
+  bool changed = false;
+  RunningEnergyAndBad totals;
+  while (run_.sweeps_left() && search.improve_one_place()) {
+    grow();
+    if (flipper_.has_removed()) compact();
+    changed = true;
+    ++run_.report.sweeps;
+    record(phase.record_of(totals.measure(mesh_, state_.model, search.changed(), settings_.hooks.executor)));
+    show(Snapshot::Moment::after_sweep, phase);
+    run_.offer(work_, settings_, state_);
+    recorder_.begin_sweep(run_.report.sweeps + 1);
+  }
+  return changed;
+}
+
+int Driver::polish(int sweep) {
+  const WorkingCopy before = work_;
+  const std::size_t bad = count_bad(mesh_, settings_.hooks.executor);
+  EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);
+  const int last = run(phase, sweep);
+  if (count_bad(mesh_, settings_.hooks.executor) <= bad) return last;
+  work_ = before;
+  recorder_.returned_to(sweep);
+  return sweep;
+}
+
+/// HOT energies need not fall at every flip, and that of accuracy may rise a little in the end, for its barrier. A
+/// barrier's falls, once γ has settled.
+void Driver::keep_if_best(const Phase& phase) {
+  const double energy = run_.report.history.back().energy;
+  if (phase.keeps() == Phase::Keeps::last || !(energy < best_energy_)) return;
+  if (settings_.policy.allows_inversion && count_inverted(mesh_) > 0) return;
+  keep(phase, energy, recorder_.sweep());
+}
+
+void Driver::keep(const Phase& phase, double energy, int sweep) {
+  if (phase.keeps() == Phase::Keeps::best_points) {
+    best_points_.resize(mesh_.n_vertices());  // in place: the largest meshes have no room for another one
+    for (const VertexId v : mesh_.vertices()) best_points_[v] = mesh_.point(v);
+  } else {
+    best_ = work_;
+  }
+  best_energy_ = energy;
+  best_sweep_ = sweep;
+}
+
+int Driver::return_best(const Phase& phase, int last_sweep) {
+  const bool has_best = best_.has_value() || !best_points_.empty();
+  if (!has_best || !(best_energy_ < run_.report.history.back().energy)) return last_sweep;
+  if (best_) {
+    work_ = *std::exchange(best_, std::nullopt);
+  } else {
+    for (const VertexId v : mesh_.vertices()) mesh_.set_point(v, best_points_[v]);
+    best_points_ = {};
+  }
+  recorder_.returned_to(best_sweep_);
+  if (phase.keeps() == Phase::Keeps::best_sweep) run_.facts.energy_rose = true;
+  return best_sweep_;
+}
+
+/// Deferred flips may find a vertex hidden, which leaves edges that no flip makes regular.
+void Driver::keep_regular(int sweep) {
+  if (!settings_.policy.defers_flips || settings_.policy.keeps_hidden) return;
+  regular_ = work_;
+  regular_sweep_ = sweep;
+}
+
+/// The best mesh, if one is kept, else the last one that was regular.
+int Driver::return_regular(int last_sweep) {
+  const bool has_best = best_.has_value();
+  std::optional<WorkingCopy>& kept = has_best ? best_ : regular_;
+  if (!kept) return last_sweep;
+  const int sweep = has_best ? best_sweep_ : regular_sweep_;
+  work_ = *std::exchange(kept, std::nullopt);
+  recorder_.returned_to(sweep);
+  return sweep;
+}
+
+void Driver::record(SweepRecord measured) {
+  SweepRecord r;
+  r.sweep = run_.report.sweeps;
+  run_.report.history.push_back(r);
+  amend_record(measured);
+}
+
+/// The last record, brought up to date.
+void Driver::amend_record(const SweepRecord& measured) {
+  SweepRecord& r = run_.report.history.back();
+  const Flipper::Changes changes = flipper_.take_changes();
+  r.energy = measured.energy;
+  r.softening = measured.softening;
+  r.bad = measured.bad;
+  r.objective = measured.objective;
+  r.flips += changes.flips;
+  r.seconds = run_.seconds();
+  run_.count(changes);
+}
+
+void Driver::show(Snapshot::Moment moment, const Phase& phase) const {
+  if (!settings_.hooks.snapshots) return;
+  const Mesh mesh = work_.in_user_terms();
+  const auto vertices = work_.user_vertices();
+  settings_.hooks.snapshots({moment, run_.report.sweeps, outer_, phase.total(), mesh, vertices});
+}
+
+}  // namespace temper

@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <cmath>
+
+#include "energy/whole_mesh.hpp"
+#include "optimize/run/lengths.hpp"
+#include "optimize/stages/phase.hpp"
+
+namespace temper {
+namespace {
+
+// Sweeps at the last γ without fewer bad triangles, after which another attempt promises more; and without a lower
+// energy, after which none will come.
+constexpr int kPatience = 25;
+// Sweeps in which vertices may bring a barrier's infinite energy down one by one, before all weights shrink.
+constexpr int kInfinitePatience = 5;
+
+}  // namespace
+
+EnergyPhase::EnergyPhase(const WorkingCopy& work, const Settings& settings, SweepState& state, Run& run,
+                         const Attempt& attempt, bool may_give_up)
+    : mesh_(work.mesh),
+      settings_(settings),
+      state_(state),
+      run_(run),
+      frame_(work.frame),
+      attempt_(attempt),
+      energy_unit_(state.energy_unit(work.frame)),
+      softener_(attempt, state.energy, settings.policy),
+      may_give_up_(may_give_up) {}
+
+void EnergyPhase::begin() {
+  before_switch_ = attempt_.first_energy.has_value();
+  take_energy(attempt_.first_energy.value_or(settings_.options.energy));
+}
+
+void EnergyPhase::take_energy(EnergyKind kind) {
+  state_.set_energy(kind, settings_.policy);
+  energy_unit_ = state_.energy_unit(frame_);
+  softener_ = Softener(attempt_, state_.energy, settings_.policy);
+  softener_.start(mesh_, state_.model);
+  state_.relaxation = settings_.policy.relaxation.value_or(softener_.relaxation());
+  least_bad_ = mesh_.n_triangles();
+  sweeps_since_fewer_bad_ = sweeps_since_lower_ = infinite_sweeps_ = 0;
+  before_ = total();
+  least_energy_ = kInfinity;
+}
+
+void EnergyPhase::take_last_energy() {
+  if (!before_switch_) return;
+  before_switch_ = false;
+  take_energy(settings_.options.energy);
+}
+
+double EnergyPhase::total() const {
+  return energy_unit_ * total_energy(mesh_, state_.model, settings_.hooks.executor);
+}
+
+SweepRecord EnergyPhase::measure() {
+  return record_of(energy_and_bad(mesh_, state_.model, engine_of(settings_.hooks)));
+}
+
+SweepRecord EnergyPhase::record_of(const EnergyAndBad& measured) const {
+  SweepRecord r;
+  r.energy = energy_unit_ * measured.energy;
+  r.softening = state_.energy.softened_by_h0 ? state_.model.h0.value : state_.model.gamma.value;
+  r.bad = measured.bad;
+  return r;
+}
+
+/// Line 19 of Algorithm 1, and what a softened barrier or an infinite energy ask for besides.
+Phase::Verdict EnergyPhase::judge(bool changed) {
+  if (before_switch_ && iteration_ >= settings_.policy.switch_at) {
+    take_last_energy();
+    return Verdict::restarted;
+  }
+  if (settings_.objective != Objective::energy && !before_switch_ && has_margins()) {
+    run_.report.stopped = Stopped::converged;  // the next phase needs no more of this energy
+    return Verdict::settled;
+  }
+  const double after = run_.report.history.back().energy;
+  if (!std::isfinite(after)) {
+    if (++infinite_sweeps_ > kInfinitePatience) return Verdict::infinite;
+    compare_from_here();
+    return Verdict::improving;
+  }
+  if (softener_.settled() && !changed && converged(before_, after)) {
+    if (before_switch_) {
+      take_last_energy();
+      return Verdict::restarted;
+    }
+    if (!settings_.policy.defers_flips && goes_on_with_weights()) return Verdict::improving;
+    run_.report.stopped = Stopped::converged;
+    return Verdict::settled;
+  }
+  if (softener_.settled() && may_give_up_ && !before_switch_ && stagnates()) return Verdict::stopped;
+  const double fall = (before_ - after) / std::abs(after);
+  const bool sharper = softener_.advance(mesh_, fall, run_.report.history.back().bad, state_.model);
+  state_.relaxation = settings_.policy.relaxation.value_or(softener_.relaxation());
+  before_ = !sharper ? after : softener_.compares_energies() ? total() : kInfinity;
+  return Verdict::improving;
+}
+
+bool EnergyPhase::has_margins() const {
+  return run_.report.history.back().bad == 0 &&
+         temper::has_margins(mesh_, settings_.accuracy.margin, settings_.hooks.executor) &&
+         missing_lengths(mesh_, settings_.accuracy, settings_.hooks.executor) == 0;
+}
+
+/// The paper's rule takes a rise for convergence. The relative one waits whether the energy falls again.
+bool EnergyPhase::converged(double before, double after) {
+  const double tolerance = settings_.policy.tolerance;
+  if (settings_.policy.stopping == StoppingRule::paper) {
+    return before - after < tolerance * static_cast<double>(mesh_.n_triangles());
+  }
+  const double change = tolerance * std::abs(after);
+  const bool lower = after < least_energy_ - change;
+  sweeps_since_lower_ = lower ? 0 : sweeps_since_lower_ + 1;
+  least_energy_ = std::min(least_energy_, after);
+  return std::abs(before - after) <= change || sweeps_since_lower_ >= kPatience;
+}
+
+bool EnergyPhase::stagnates() {
+  const std::size_t bad = run_.report.history.back().bad;
+  const bool fewer = static_cast<double>(bad) < attempt_.fewer * static_cast<double>(least_bad_);
+  sweeps_since_fewer_bad_ = fewer ? 0 : sweeps_since_fewer_bad_ + 1;
+  if (fewer) least_bad_ = bad;
+  return bad > 0 && sweeps_since_fewer_bad_ >= kPatience;
+}
+
+/// Positions have converged before i_w: the weights' turn has come.
+bool EnergyPhase::goes_on_with_weights() {
+  const int from = settings_.policy.weights_from;
+  if (settings_.options.unknowns != Unknowns::positions_and_weights || iteration_ >= from) return false;
+  iteration_ = from;
+  return true;
+}
+
+}  // namespace temper

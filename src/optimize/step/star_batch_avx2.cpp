@@ -1,1 +1,0 @@
-#include "optimize/step/star_batch_set.hpp"

@@ -1,0 +1,141 @@
+#include "optimize/step/ties.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "geometry/triangle_kernel.hpp"
+#include "mesh/neighbours.hpp"
+#include "optimize/step/freedom.hpp"
+#include "topology/flip_inline.hpp"
+
+namespace temper {
+namespace {
+
+// Of the dual length of a tie, relative to its edge: coordinates in files have seven digits or more.
+constexpr double kTiedDual = 1e-6;
+
+/// The scaled height of the orthocenter over the edge of h, in the triangle of h.
+EdgeShape shape_of(const Mesh& mesh, HalfedgeId h) {
+  const auto [a, b, c] = mesh.points(mesh.origin(h), mesh.target(h), mesh.opposite(h));
+  return triangle_shape(mesh.space(), a, b, c).edges[0];
+}
+
+bool is_tie(const Mesh& mesh, HalfedgeId h) {
+  if (mesh.keeps_its_place(h)) return false;
+  const EdgeShape near = shape_of(mesh, h), far = shape_of(mesh, mesh.twin(h));
+  return std::abs(near.g + far.g) < kTiedDual * near.l2;
+}
+
+/// The vertices whose position is not an unknown, as far as they have been asked for.
+class Stays {
+ public:
+  Stays(const Mesh& mesh, const OptimizeOptions& options)
+      : mesh_(mesh), options_(options), known_(mesh.n_vertices(), kUnknown) {}
+
+  [[nodiscard]] bool operator()(VertexId v) {
+    if (options_.unknowns == Unknowns::weights) return true;
+    if (known_[v] == kUnknown) known_[v] = mobility(mesh_, v, options_) == Mobility::fixed ? kYes : kNo;
+    return known_[v] == kYes;
+  }
+
+ private:
+  enum Answer : std::uint8_t { kUnknown, kNo, kYes };
+
+  const Mesh& mesh_;
+  const OptimizeOptions& options_;
+  IdVector<VertexId, Answer> known_;
+};
+
+/// Calls use(quad) for each tied quad, once, until it returns false. A triangle with two ties is of a circle with more
+/// than four vertices, and of no quad.
+template <class Use>
+void for_tied_quads(const Mesh& mesh, const OptimizeOptions& options, Use&& use) {
+  if (options.unknowns == Unknowns::positions || options.flips == Flips::none) return;
+  Stays stays(mesh, options);
+  const auto has_other_tie = [&](HalfedgeId h) { return is_tie(mesh, Mesh::next(h)) || is_tie(mesh, Mesh::prev(h)); };
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (mesh.is_boundary(h) || !mesh.is_edge_representative(h) || mesh.is_constrained(h)) continue;
+    const inlined::Quad q = inlined::quad(mesh, h);
+    if (!(stays(q.a) && stays(q.b) && stays(q.c) && stays(q.d)) || !is_tie(mesh, h)) continue;
+    if (!has_other_tie(h) && !has_other_tie(mesh.twin(h)) && !use(q)) return;
+  }
+}
+
+/// Two colors for the vertices: sets of vertices whose colors depend on each other, as trees. Swapping the colors of a
+/// set leaves a coloring.
+class Coloring {
+ public:
+  explicit Coloring(std::size_t n) : parent_(n), differs_(n, 0) {
+    for (const VertexId v : IdRange<VertexId>(n)) parent_[v] = v;
+  }
+
+  struct Place {
+    VertexId root;
+    bool differs;  ///< from the root
+  };
+  [[nodiscard]] Place place(VertexId v) {
+    VertexId root = v;
+    bool differs = false;
+    for (; parent_[root] != root; root = parent_[root]) differs ^= differs_[root] != 0;
+    for (bool here = differs; v != root;) {  // the way becomes short
+      const VertexId next = std::exchange(parent_[v], root);
+      here ^= std::exchange(differs_[v], here ? 1 : 0) != 0;
+      v = next;
+    }
+    return {root, differs};
+  }
+
+  /// Gives u and v equal colors, or different ones, unless their colors depend on each other already.
+  void relate(VertexId u, VertexId v, bool differ) {
+    Place a = place(u), b = place(v);
+    if (a.root == b.root) return;
+    if (b.root < a.root) std::swap(a, b);
+    parent_[b.root] = a.root;
+    differs_[b.root] = (a.differs != b.differs) != differ ? 1 : 0;
+  }
+
+ private:
+  IdVector<VertexId, VertexId> parent_;
+  IdVector<VertexId, std::uint8_t> differs_;  // from the parent
+};
+
+}  // namespace
+
+bool has_tied_quads(const Mesh& mesh, const OptimizeOptions& options) {
+  bool found = false;
+  for_tied_quads(mesh, options, [&](const inlined::Quad&) { return !(found = true); });
+  return found;
+}
+
+std::vector<TieEnd> heavier_ends_of_ties(const Mesh& mesh, const OptimizeOptions& options) {
+  Coloring coloring(mesh.n_vertices());
+  std::vector<inlined::Quad> quads;
+  for_tied_quads(mesh, options, [&](const inlined::Quad& q) {
+    coloring.relate(q.a, q.b, false);
+    coloring.relate(q.c, q.d, false);
+    coloring.relate(q.a, q.c, true);
+    quads.push_back(q);
+    return true;
+  });
+  // Of each set, by its root: how many more diagonals have their ends in the color of the root, than in the other one.
+  IdVector<VertexId, std::int32_t> majority(mesh.n_vertices(), 0);
+  for (const inlined::Quad& q : quads) {
+    const auto a = coloring.place(q.a);
+    majority[a.root] += a.differs ? -1 : 1;
+  }
+  IdVector<VertexId, std::uint8_t> of_quads(mesh.n_vertices(), 0);
+  for (const inlined::Quad& q : quads) {
+    for (const VertexId v : {q.a, q.b, q.c, q.d}) of_quads[v] = 1;
+  }
+  std::vector<TieEnd> heavier;
+  for (const VertexId v : mesh.vertices()) {
+    if (of_quads[v] == 0) continue;
+    const auto p = coloring.place(v);
+    if (p.differs == (majority[p.root] < 0)) heavier.push_back({v, squared_shortest_edge(mesh, v)});
+  }
+  return heavier;
+}
+
+}  // namespace temper

@@ -1,0 +1,50 @@
+#include "optimize/working/frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace temper {
+namespace {
+
+/// The middle of [low, high] when the whole interval is within a factor of two of it, else 0.
+double center_of(double low, double high) {
+  if (low > 0 ? high <= 2 * low : (high < 0 && low >= 2 * high)) return low + (high - low) / 2;
+  return 0;
+}
+
+}  // namespace
+
+Frame Frame::of(const Mesh& mesh) {
+  Frame frame;
+  frame.space = mesh.space();
+  if (!mesh.space().is_plane()) {
+    frame.scale = std::exp2(std::ilogb(mesh.space().radius()));
+    return frame;
+  }
+  Vec2 low = mesh.position(VertexId(0)), high = low;
+  for (const VertexId v : mesh.vertices()) {
+    const Vec2 p = mesh.position(v);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  const Vec2 period = mesh.space().period();
+  frame.center = {period.x > 0 ? 0 : center_of(low.x, high.x), period.y > 0 ? 0 : center_of(low.y, high.y)};
+  frame.scale = std::exp2(std::ilogb(std::max(high.x - low.x, high.y - low.y)));
+  const auto rounding_of_axis = [&](double middle, double period_there) {
+    return period_there > 0 ? Space::rounding_of(period_there / frame.scale) : middle / frame.scale;
+  };
+  frame.rounding = {rounding_of_axis(frame.center.x, period.x), rounding_of_axis(frame.center.y, period.y)};
+  return frame;
+}
+
+void Frame::enter(Mesh& mesh) const {
+  mesh.set_space(space.in_units_of(scale));
+  for (const VertexId v : mesh.vertices()) mesh.set_point(v, from_user(mesh.point(v)));
+}
+
+void Frame::leave(Mesh& mesh) const {
+  mesh.set_space(space);
+  for (const VertexId v : mesh.vertices()) mesh.set_point(v, to_user(mesh.point(v)));
+}
+
+}  // namespace temper

@@ -1,0 +1,118 @@
+#include "optimize/working/working_copy.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace temper {
+namespace {
+
+template <class IdType>
+IdVector<IdType, IdType> identity(std::size_t size) {
+  IdVector<IdType, IdType> ids(size);
+  for (const IdType i : IdRange<IdType>(size)) ids[i] = i;
+  return ids;
+}
+
+/// The ids that are left of an order, renumbered 0, 1, 2, … in the order of their numbers.
+template <class IdType>
+IdVector<IdType, IdType> ranks(const IdVector<IdType, IdType>& order) {
+  std::vector<IdType> sorted(order.begin(), order.end());
+  std::sort(sorted.begin(), sorted.end());
+  IdVector<IdType, IdType> result;
+  result.reserve(order.size());
+  for (const IdType i : order) {
+    const auto at = std::lower_bound(sorted.begin(), sorted.end(), i);
+    result.push_back(IdType(static_cast<std::size_t>(at - sorted.begin())));
+  }
+  return result;
+}
+
+template <class IdType>
+IdVector<IdType, IdType> compose(const IdVector<IdType, IdType>& order, const IdVector<IdType, IdType>& kept) {
+  IdVector<IdType, IdType> result;
+  result.reserve(kept.size());
+  for (const IdType i : kept) result.push_back(order[i]);
+  return result;
+}
+
+}  // namespace
+
+WorkingCopy::WorkingCopy(const Mesh& user, SweepOrder sweeps, Executor* executor) : frame(Frame::of(user)) {
+  if (sweeps == SweepOrder::hilbert) {
+    OrderedMesh ordered = hilbert_ordered(user, executor);
+    mesh = std::move(ordered.mesh);
+    order = std::move(ordered.order);
+  } else {
+    mesh = user;
+    order = {identity<VertexId>(mesh.n_vertices()), identity<TriangleId>(mesh.n_triangles())};
+  }
+  n_input_vertices = n_vertices_named = mesh.n_vertices();
+  n_triangles_named = mesh.n_triangles();
+  frame.enter(mesh);
+}
+
+WorkingCopy::WorkingCopy(const Mesh& part, const Frame& its_frame)
+    : mesh(part),
+      frame(its_frame),
+      order({identity<VertexId>(mesh.n_vertices()), identity<TriangleId>(mesh.n_triangles())}),
+      n_input_vertices(mesh.n_vertices()),
+      n_vertices_named(mesh.n_vertices()),
+      n_triangles_named(mesh.n_triangles()) {}
+
+WorkingCopy WorkingCopy::part(const Mesh& part) { return {part, Frame()}; }
+
+VertexId WorkingCopy::from_user(VertexId v) const {
+  const auto found = std::find(order.vertices.begin(), order.vertices.end(), v);
+  if (found == order.vertices.end()) return {};
+  return VertexId(static_cast<std::size_t>(found - order.vertices.begin()));
+}
+
+void WorkingCopy::name_new() {
+  while (order.vertices.size() < mesh.n_vertices()) order.vertices.push_back(VertexId(n_vertices_named++));
+  while (order.triangles.size() < mesh.n_triangles()) order.triangles.push_back(TriangleId(n_triangles_named++));
+}
+
+Compaction WorkingCopy::compact() {
+  Compaction kept = mesh.compact();
+  order = {compose(order.vertices, kept.vertices), compose(order.triangles, kept.triangles)};
+  has_gaps = true;
+  return kept;
+}
+
+Mesh WorkingCopy::in_user_terms(Executor* executor) const& {
+  WorkingCopy copy = *this;
+  return std::move(copy).in_user_terms(executor);
+}
+
+Mesh WorkingCopy::in_user_terms(Executor* executor) && {
+  leave_frame();
+  return std::move(*this).in_user_order(executor);
+}
+
+void WorkingCopy::leave_frame() {
+  frame.leave(mesh);
+  frame = {};
+  frame.space = mesh.space();
+}
+
+Mesh WorkingCopy::in_user_order(Executor* executor) && {
+  if (has_gaps) {
+    restore_order(mesh, {ranks(order.vertices), ranks(order.triangles)}, executor);
+  } else {
+    restore_order(mesh, order, executor);
+  }
+  order = {};
+  return std::move(mesh);
+}
+
+IdVector<VertexId, VertexId> WorkingCopy::user_vertices() const {
+  IdVector<VertexId, VertexId> numbers = order.vertices;
+  for (VertexId& v : numbers) {
+    if (v.index >= n_input_vertices) v = VertexId();
+  }
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+}  // namespace temper
