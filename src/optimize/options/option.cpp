@@ -58,7 +58,7 @@ std::string list_of(const Words& words) {
   return text;
 }
 
-std::vector<std::string_view> split(std::string_view words, char at) {
+std::vector<std::string_view> parts_of(std::string_view words, char at) {
   std::vector<std::string_view> list;
   for (std::size_t end = words.find(at); end != std::string_view::npos; end = words.find(at)) {
     list.push_back(words.substr(0, end));
@@ -72,7 +72,7 @@ bool holds(const OptionNeed& need, const OptimizeOptions& options) {
   if (need.holds != nullptr) return need.holds(options);
   const OptionValue value = find_option(need.option)->get(options);
   if (need.values.empty()) return !std::holds_alternative<std::monostate>(value);
-  for (const std::string_view wanted : split(need.values, '|')) {
+  for (const std::string_view wanted : parts_of(need.values, '|')) {
     if (option_text(value) == wanted) return true;
   }
   return false;
@@ -144,7 +144,7 @@ std::string missing_need(const OptionRow& row, const OptimizeOptions& options) {
   for (const OptionNeed& need : row.needs) {
     if (need.option.empty() || holds(need, options)) continue;
     std::vector<std::string> wanted;
-    for (const std::string_view value : split(need.values, '|')) {
+    for (const std::string_view value : parts_of(need.values, '|')) {
       wanted.push_back("`" + std::string(need.option) + (value.empty() ? "" : "=") + std::string(value) + "`");
     }
     return list_of(wanted);
@@ -154,7 +154,7 @@ std::string missing_need(const OptionRow& row, const OptimizeOptions& options) {
 
 std::string spell_options(std::string_view text, const OptionSpelling& spell) {
   std::string spelled;
-  const std::vector<std::string_view> parts = split(text, '`');
+  const std::vector<std::string_view> parts = parts_of(text, '`');
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::size_t equals = parts[i].find('=');
     const bool quoted = i % 2 == 1 && i + 1 < parts.size();

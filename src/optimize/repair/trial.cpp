@@ -20,9 +20,9 @@
 namespace temper {
 namespace {
 
-// Enough for γ to come from kStart down to kLeastGamma, and a few at the floor.
+// Enough for γ to come from kFirstGamma down to kLeastGamma, and a few at the floor.
 constexpr int kSweeps = 25;
-constexpr double kStart = 0.5, kFactor = 0.7, kLeastGamma = 0.003;
+constexpr double kFirstGamma = 0.5, kGammaFactor = 0.7, kLeastGamma = 0.003;
 // Below this γ/ℓ sweeps rarely lose again what is well-centered.
 constexpr double kSharp = 0.1;
 // The length of a kick, relative to the shortest edge: farther, and most kicks would turn a triangle over.
@@ -232,14 +232,14 @@ void Trial::remove_free_vertices() {
 }
 
 void Trial::sweep() {
-  double gamma = kStart;
+  double gamma = kFirstGamma;
   for (int i = 0; i < kSweeps; ++i) {
     state_.model.gamma = {gamma, LengthScale::relative};
     step_.begin_sweep(i, settings_.options.unknowns);
     for (const VertexId v : work_.mesh.vertices()) {
       if (!work_.mesh.is_isolated(v)) step_.improve(v);
     }
-    gamma = std::max(kLeastGamma, kFactor * gamma);
+    gamma = std::max(kLeastGamma, kGammaFactor * gamma);
     if (gamma < kSharp && !settings_.accuracy.keeps_lengths() && !any_bad()) return;
   }
 }
