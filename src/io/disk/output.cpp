@@ -133,11 +133,6 @@ void TextStream::write(std::string_view text) {
   }
 }
 
-Expected<std::string> TextStream::so_far() {
-  if (state_->error) return *state_->error;
-  return guarded<std::string>({}, [&] { return state_->output->so_far(); });
-}
-
 Expected<void> TextStream::commit() {
   if (state_->error) return *state_->error;
   return guarded<void>({}, [&] { state_->outputs.commit(); });
