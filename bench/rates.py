@@ -5,12 +5,11 @@
     bench/rates.py --self-test
 
 TEMPER is the program. Every solver goes on until a sweep changes nothing, or to a number of sweeps of its own. E* is
-the least energy that a run of Newton's method with passes reaches from a solver's last mesh without a flip: so solvers
-that are slow have a limit, too. Where all limits of a mesh agree, E* is the least of them, else each solver has its own.
+the least energy that Newton's method reaches from a solver's last mesh without a flip: so solvers that are slow have
+a limit, too. Where all limits of a mesh agree, E* is the least of them, else each solver has its own.
 
 Printed are sweeps and seconds until E − E* is 1e-2, 1e-4, 1e-6 and 1e-8 of what it was at first, and the
-factor by which a sweep shortens E − E* in its last decade above rounding, the median: that of a pass and that of a
-sweep where they alternate. Where not even two decades are left behind, it is of the last half of all sweeps. Solvers
+factor by which a sweep shortens E − E* in its last decade above rounding, the median. Where not even two decades are left behind, it is of the last half of all sweeps. Solvers
 run in turn, on one thread; of each sweep's seconds the least of all rounds counts, so that what slows the machine down
 for a while does not.
 """
@@ -30,11 +29,9 @@ ROUNDING = 1e-13  # of E: what is nearer to E* says nothing
 SAME_LIMIT = 1e-9  # relative: two limits are one optimum
 STEADY = 1.5  # how much the sweeps of two decades, and of two halves of all, may differ where convergence is linear
 
-PASSES = "Newton, passes"
 SOLVERS = {  # name: options, most sweeps on the small mesh and on the large one, color
-    PASSES: ([], 20000, 500, "#0072b2"),
-    "Newton": (["--no-newton-passes"], 20000, 2000, "#56b4e9"),
-    "Newton, relaxation 1": (["--no-newton-passes", "--relaxation", "1"], 20000, 2000, "#009e73"),
+    "Newton": ([], 20000, 2000, "#56b4e9"),
+    "Newton, relaxation 1": (["--relaxation", "1"], 20000, 2000, "#009e73"),
     "alternating": (["--solver", "alternating"], 20000, 400, "#e69f00"),
     "golden": (["--solver", "golden"], 8000, 60, "#d55e00"),
 }
@@ -121,13 +118,10 @@ def convergence(gaps, floor):
     return "faster at last" if max(changes) < 1 / STEADY else "linear", first, last
 
 
-def factors(gaps, first, last, with_passes):
-    """Medians of a sweep's factor in [first, last]; with passes, which are every other one, (passes', sweeps')."""
-    ratios = [(k, gaps[k + 1] / gaps[k]) for k in range(first, last) if gaps[k] > 0]
-    if not with_passes:
-        return (statistics.median(r for _, r in ratios),) if ratios else ()
-    halves = [[r for k, r in ratios if k % 2 == parity] for parity in (0, 1)]
-    return tuple(sorted(statistics.median(half) for half in halves if half))
+def factor(gaps, first, last):
+    """The median of a sweep's factor in [first, last], or None."""
+    ratios = [gaps[k + 1] / gaps[k] for k in range(first, last) if gaps[k] > 0]
+    return statistics.median(ratios) if ratios else None
 
 
 def limit_of(program, mesh, run, gamma, folder):
@@ -157,6 +151,8 @@ def measured(program, case, rounds, folder):
 
 
 def factor_text(f):
+    if f is None:
+        return ""
     return f"1 − {1 - f:.1e}" if 0.999 < f < 1 - 1e-9 else f"{f:.4f}"
 
 
@@ -169,9 +165,7 @@ def row_of(name, runs, limit):
         k = first_below(gaps, level)
         cells.append(f"over {len(gaps) - 1}" if k is None else f"{k} ({seconds[k]:.2g} s)")
     kind, first, last = convergence(gaps, ROUNDING * abs(limit))
-    with_passes = name == PASSES and run.bad == 0
-    shown = " and ".join(factor_text(f) for f in factors(gaps, first, last, with_passes))
-    return cells + [shown, kind, str(run.last_flip), str(run.bad)]
+    return cells + [factor_text(factor(gaps, first, last)), kind, str(run.last_flip), str(run.bad)]
 
 
 def draw(results, path):
@@ -196,7 +190,7 @@ def draw(results, path):
         axes[0].set_ylabel("(E − E*) / (E₀ − E*)")
         for side in axes:
             side.grid(True, which="major", color="#dddddd", linewidth=0.6)
-    grid[-1][0].set_xlabel("sweeps, passes among them")
+    grid[-1][0].set_xlabel("sweeps")
     grid[-1][1].set_xlabel("seconds")
     grid[0][0].legend(fontsize=7, frameon=False)
     figure.tight_layout()
@@ -210,19 +204,12 @@ def self_test():
         return convergence(gaps, floor)[0]
 
     linear = [0.9**k for k in range(400)]
-    passes = [1.0]
-    for k in range(100):
-        passes.append(passes[-1] * (0.99 if k % 2 else 0.5))
     _, first, last = convergence(linear, 1e-13)
-    _, begin, end = convergence(passes, 1e-13)
     cases = {
         "geometric": kind(linear) == "linear",
-        "its factor": math.isclose(factors(linear, first, last, False)[0], 0.9, rel_tol=1e-12),
+        "its factor": math.isclose(factor(linear, first, last), 0.9, rel_tol=1e-12),
         "its first sweep below 1e-2": first_below(linear, 1e-2) == math.ceil(math.log(1e-2) / math.log(0.9)),
         "never below": first_below(linear, 1e-30) is None,
-        "two factors in turn": kind(passes) == "linear",
-        "and which": all(math.isclose(a, b, rel_tol=1e-12)
-                         for a, b in zip(factors(passes, begin, end, True), (0.5, 0.99), strict=True)),
         "fast first, then geometric": kind([1e3 * 0.1**k + 0.9**k for k in range(400)]) == "linear",
         "quadratic": kind([0.5 ** (2**k) for k in range(7)]) == "superlinear",
         "like 1/k²": kind([1 / k**2 for k in range(1, 5000)]) == "sublinear so far",

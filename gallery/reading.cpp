@@ -28,7 +28,7 @@ OptimizeOptions as_read(OptimizeOptions options) {
   ++settings.runs;
   for (std::size_t i = 0; i < kOpen.size(); ++i) {
     const OptionRow& row = *find_option(kOpen[i]);
-    if (missing_need(row, options).empty()) settings.values[i].insert(option_text(row.get(options)));
+    if (missing_need(row, options).empty()) settings.values[i].insert(option_text(row, row.get(options)));
   }
   return options;
 }

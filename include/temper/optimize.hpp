@@ -246,7 +246,7 @@ struct Solvers {
 
 struct OptimizeOptions {
   /// accuracy: the run lowers `energy`, which has to be a barrier, until all margins are above accuracy.margin, or it
-  /// ends; then E of AccuracyOptions, with the connectivity as it is; error: after that the errors of error.model. A
+  /// ends; then E of AccuracyOptions, with the connectivity as it is; error: after that the errors of the solver. A
   /// mesh that has all margins at first goes on to the second phase at once, unless its boundary is to be split.
   /// `solver`, `order`, `tolerance` and `stopping` are of the first phase. energy: `energy` is lowered
   /// to the end. Absent: objective_of().
@@ -270,7 +270,7 @@ struct OptimizeOptions {
   std::optional<double> size_band = {};
   Repair repair = Repair::moves;
   int repair_trials = 20000;  ///< most edits that are tried, each on a copy of a neighbourhood; 1 to 3 ms each; a
-                              ///< linear programme (OptimizeHooks::lp) counts as 20
+                              ///< linear program counts as 20
   /// A constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/detail/tensor.hpp). The report and
   /// snapshots are of that plane. Absent: K = 1.
   std::optional<Tensor> tensor = {};

@@ -59,7 +59,7 @@ std::string_view choice_of(const OptionRow& row, const std::string& text) {
 }
 
 OptionValue value_of(const OptionRow& row, const std::string& text) {
-  if (row.optional && text == kNone) return {};
+  if (row.optional && text == row.absent_name) return {};
   if (row.kind == OptionKind::choice) return choice_of(row, text);
   if (row.kind == OptionKind::number) return to_number(text, row.range);
   const std::int64_t count = to_count(text, static_cast<std::int64_t>(row.range.low));
@@ -73,12 +73,12 @@ std::string value_name(const OptionRow& row) {
     name.clear();
     for (const std::string_view choice : row.choices) name += (name.empty() ? "" : "|") + dashed(choice);
   }
-  return name + (row.optional ? "|" + std::string(kNone) : "");
+  return name + (row.optional ? "|" + std::string(row.absent_name) : "");
 }
 
 std::string sentence_of(const OptionRow& row) {
   std::string sentence = spell_options(row.sentence);
-  if (row.optional) sentence += fmt::format("; none: {}", spell_options(row.absent));
+  if (row.optional) sentence += fmt::format("; {}: {}", row.absent_name, spell_options(row.absent));
   return sentence;
 }
 
@@ -91,7 +91,7 @@ void add_softening(Command& command, const OptionRow& row, OptimizeOptions& targ
     const auto spell = [&row, &target, scale] {
       const OptionValue value = row.get(target);
       const auto* softening = std::get_if<Softening>(&value);
-      return softening != nullptr && softening->scale == scale ? option_text(value) : std::string();
+      return softening != nullptr && softening->scale == scale ? option_text(row, value) : std::string();
     };
     return command.add(
         {.names = name, .value_name = "X", .sentence = sentence, .take = take, .spell = spell, .rare = !row.common});
@@ -121,7 +121,7 @@ void add_row(Command& command, const OptionRow& row, TableOptions& target) {
     option.take = [&row, &options](const std::string& text) { row.set(options, value_of(row, text)); };
     option.spell = [&row, &options] {
       const OptionValue value = row.get(options);
-      return std::holds_alternative<std::monostate>(value) ? std::string() : dashed(option_text(value));
+      return std::holds_alternative<std::monostate>(value) ? std::string() : dashed(option_text(row, value));
     };
   }
   command.add(std::move(option));

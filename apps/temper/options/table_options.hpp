@@ -15,7 +15,7 @@ namespace temper::app {
 /// What the options of the table are taken into.
 struct TableOptions {
   OptimizeOptions options;  ///< where none is given, these stay
-  /// Those that name a vertex, as in the file: it is looked up when that has been read. "none": none.
+  /// Those that name a vertex, as in the file: it is looked up when that has been read. "none": absent.
   std::map<std::string_view, std::string> vertices = {};
 };
 

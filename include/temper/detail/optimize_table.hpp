@@ -22,7 +22,7 @@ namespace temper {
 
 enum class OptionKind { flag, count, number, choice, softening, vertex };
 
-/// The value of any option. monostate: none; text: the name of a choice.
+/// The value of any option. monostate: absent; text: the name of a choice.
 using OptionValue = std::variant<std::monostate, bool, std::int64_t, double, std::string_view, Softening, VertexId>;
 
 /// Numbers from low to high; open: without these two.
@@ -45,9 +45,10 @@ struct OptionRow {
   OptionKind kind = OptionKind::number;
   std::span<const std::string_view> choices = {};  ///< of OptionKind::choice
   OptionRange range = {};                          ///< of counts, numbers and softenings
-  bool optional = false;                           ///< may be none
+  bool optional = false;                           ///< may be absent
   bool common = false;                             ///< one of the few that a first run may need
-  std::string_view absent = {};                    ///< what none stands for
+  std::string_view absent_name = "auto";           ///< how an absent value is written: "auto" is chosen by temper
+  std::string_view absent = {};                    ///< what it stands for
   std::array<OptionNeed, 3> needs = {};
   OptionValue (*get)(const OptimizeOptions&) = nullptr;
   void (*set)(OptimizeOptions&, const OptionValue&) = nullptr;  ///< to a value that check_option() takes
@@ -78,8 +79,8 @@ struct Method {
 /// The first option that has a value it may not have.
 [[nodiscard]] Expected<void> check_options(const OptimizeOptions& options);
 
-/// "4", "newton", "none".
-[[nodiscard]] std::string option_text(const OptionValue& value);
+/// "4", "newton", "auto".
+[[nodiscard]] std::string option_text(const OptionRow& row, const OptionValue& value);
 /// What values it may have: "at least 2", "newton, golden or alternating".
 [[nodiscard]] std::string option_range_text(const OptionRow& row);
 /// What the options lack for this one to have an effect, as "`boundary=split`"; empty when it has one.

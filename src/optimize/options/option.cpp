@@ -70,10 +70,11 @@ std::vector<std::string_view> parts_of(std::string_view words, char at) {
 
 bool holds(const OptionNeed& need, const OptimizeOptions& options) {
   if (need.holds != nullptr) return need.holds(options);
-  const OptionValue value = find_option(need.option)->get(options);
+  const OptionRow* const row = find_option(need.option);
+  const OptionValue value = row->get(options);
   if (need.values.empty()) return !std::holds_alternative<std::monostate>(value);
   for (const std::string_view wanted : parts_of(need.values, '|')) {
-    if (option_text(value) == wanted) return true;
+    if (option_text(*row, value) == wanted) return true;
   }
   return false;
 }
@@ -89,13 +90,13 @@ const OptionRow* find_option(std::string_view name) {
   return nullptr;
 }
 
-std::string option_text(const OptionValue& value) {
+std::string option_text(const OptionRow& row, const OptionValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
   if (const auto number = number_of(value)) return to_text(*number);
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
   if (const auto* name = std::get_if<std::string_view>(&value)) return std::string(*name);
   if (const auto* vertex = std::get_if<VertexId>(&value)) return std::to_string(vertex->index);
-  return "none";
+  return std::string(row.absent_name);
 }
 
 std::string option_range_text(const OptionRow& row) {
@@ -122,12 +123,12 @@ Expected<void> check_option(const OptionRow& row, const OptionValue& value) {
   const auto refused = [&](const std::string& expected) {
     return InputError{ErrorCode::invalid_option,
                       {},
-                      "`" + std::string(row.name) + "` is " + option_text(value) + "; expected " + expected};
+                      "`" + std::string(row.name) + "` is " + option_text(row, value) + "; expected " + expected};
   };
   if (row.kind == OptionKind::count && number_of(value) > row.range.high) {
     return refused("at most " + to_text(row.range.high));
   }
-  if (!may_have(row, value)) return refused(option_range_text(row) + (row.optional ? ", or none" : ""));
+  if (!may_have(row, value)) return refused(option_range_text(row) + (row.optional ? ", or " + std::string(row.absent_name) : ""));
   return {};
 }
 

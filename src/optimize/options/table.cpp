@@ -281,7 +281,7 @@ constexpr OptionRow kMoveRows[] = {
                                 "a sweep visits each vertex once, or twice: all positions first, then all weights",
                                 {.needs = {{{"unknowns", "positions_and_weights"}}}}),
     row<kPaper, &Paper::anchor>("anchor", "shift the weights after each sweep so that this vertex has weight 0",
-                                {.absent = "they stay"}),
+                                {.absent_name = "none", .absent = "they stay"}),
 };
 
 constexpr OptionRow kConnectivityRows[] = {
@@ -323,7 +323,7 @@ constexpr OptionRow kConnectivityRows[] = {
 constexpr OptionRow kSizeRows[] = {
     row<&Options::size_band>("size_band",
                              "B: no step takes the size at a vertex out of the size field's 1/B to B times",
-                             {.range = at_least(1), .absent = "sizes are only reported"}),
+                             {.range = at_least(1), .absent_name = "none", .absent = "sizes are only reported"}),
 };
 
 constexpr OptionRow kPaperRows[] = {
@@ -344,7 +344,7 @@ constexpr OptionRow kPaperRows[] = {
                                           "sweep before"),
     row<kPaper, &Paper::collapse_from>("collapse_from",
                                        "i_c: first sweep with short-edge collapses, from 0 (Algorithm 2)",
-                                       {.absent = "no collapses"}),
+                                       {.absent_name = "none", .absent = "no collapses"}),
     row<kPaper, &Paper::collapse_energy>("collapse_energy", "E_c, which draws a vertex to an edge",
                                          {.choices = std::span(kNames<EnergyKind>).first<3>(), .needs = {kCollapses}}),
     row<kPaper, &Paper::collapse_ratio>("collapse_ratio",
@@ -370,7 +370,7 @@ constexpr OptionRow kPaperRows[] = {
         "insertion_from",
         "first sweep after which vertices are inserted at the orthocenters of triangles of "
         "large energy, where that makes the mesh better, from 0",
-        {.absent = "no insertions"}),
+        {.absent_name = "none", .absent = "no insertions"}),
     row<kPaper, &Paper::insertion_ratio>("insertion_ratio", "how many times the mean energy of a triangle is large",
                                          {.range = more_than(1), .needs = {kInsertions}}),
     row<kPaper, &Paper::hidden>("hidden", "what weights hide: undo the step, remove the vertex, or keep and report it"),

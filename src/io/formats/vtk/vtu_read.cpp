@@ -1,4 +1,4 @@
-// VTU, VTK's XML format for unstructured grids: the native format of temper and its checkpoint.
+// VTU, VTK's XML format for unstructured grids: the native format of temper.
 //
 // The file is parsed in place: one buffer holds the text, base64 is decoded over it, and each array is unpacked
 // once and freed as soon as its numbers are where they belong. All number types, ASCII, base64 and appended data
