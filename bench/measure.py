@@ -135,9 +135,8 @@ def race_table(rows):
             def finish(who, count):
                 return "not reached" if race[who] is None else f"{race[who]:.2f} ({race[count]:.0f})"
             cells.append([f"{r['vertices']:,}, {start}", f"{race['plain_seconds']:.2f}",
-                          finish("sweeps_alone_seconds", "sweeps_alone"), finish("default_seconds", "default_sweeps")])
-    return table(["vertices, from", "200 plain sweeps, s", "default sweeps, s (sweeps)",
-                  "default, s (sweeps and passes)"], cells)
+                          finish("default_seconds", "default_sweeps")])
+    return table(["vertices, from", "200 plain sweeps, s", "default, s (sweeps)"], cells)
 
 
 def step_table(times, rows):

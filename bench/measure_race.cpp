@@ -34,11 +34,9 @@ Race race_on(const Mesh& mesh, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     const TimedRun run = timed_sweeps(mesh, plain, kPlainSweeps);
     race.plain = std::fmin(race.plain, run.cpu_between(0, kPlainSweeps));
-    const Finish relaxed = time_to(mesh, sweeps_only(), run.marks.back().last);
     const Finish standard = time_to(mesh, {}, run.marks.back().last);
-    race.relaxed = std::fmin(race.relaxed, relaxed.seconds);
     race.standard = std::fmin(race.standard, standard.seconds);
-    race.relaxed_sweeps = relaxed.sweeps, race.standard_sweeps = standard.sweeps;
+    race.standard_sweeps = standard.sweeps;
   }
   return race;
 }

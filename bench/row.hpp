@@ -32,8 +32,8 @@ struct ThreadCosts {
 
 /// To the energy that 200 sweeps of plain Gauss-Seidel reach.
 struct Race {
-  double plain = kNone, relaxed = kNone, standard = kNone;  ///< seconds: relaxation 1; sweeps alone; no option at all
-  double relaxed_sweeps = kNone, standard_sweeps = kNone;   ///< and passes
+  double plain = kNone, standard = kNone;  ///< seconds: relaxation 1; no option at all
+  double standard_sweeps = kNone;
 };
 
 struct Races {
