@@ -1,4 +1,4 @@
-# Installs the libraries, and what find_package(temper COMPONENTS core io lp tbb mpi verify) and pkg-config need. The flags of
+# Installs the libraries, and what find_package(temper COMPONENTS core io lp tbb mpi verify solvers) and pkg-config need. The flags of
 # temper's own code (temper_flags) stay here: they are linked for the build alone and are in no export.
 #
 # Components: `program` (apps/temper), `libraries` (shared ones, for programs to run), `development`, `python`.
@@ -43,7 +43,8 @@ temper_install(temper core "Primal-dual triangle meshes that solvers can trust: 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/temper DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.hpp"
         PATTERN "build_info.hpp" EXCLUDE PATTERN "io.hpp" EXCLUDE PATTERN "dec_io.hpp" EXCLUDE PATTERN "html.hpp" EXCLUDE
-        PATTERN "lp.hpp" EXCLUDE PATTERN "tbb_executor.hpp" EXCLUDE PATTERN "mpi_ranks.hpp" EXCLUDE PATTERN "verify.hpp" EXCLUDE)
+        PATTERN "lp.hpp" EXCLUDE PATTERN "tbb_executor.hpp" EXCLUDE PATTERN "mpi_ranks.hpp" EXCLUDE PATTERN "verify.hpp" EXCLUDE
+        PATTERN "solvers.hpp" EXCLUDE)
 
 # Static libraries: whoever links the installed ones needs their libraries too, which temperConfig.cmake finds.
 if(TARGET temper_io)
@@ -66,6 +67,13 @@ endif()
 if(TARGET temper_verify)
   temper_install(temper_verify verify "Errors of solvers on temper's meshes" HEADERS verify)
 endif()
+set(requires)
+foreach(library lp verify)
+  if(TARGET temper_${library})
+    list(APPEND requires temper-${library})
+  endif()
+endforeach()
+temper_install(temper_solvers solvers "What temper's runs need from other libraries" HEADERS solvers REQUIRES ${requires})
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/temperConfig.cmake.in ${PROJECT_BINARY_DIR}/temperConfig.cmake
                               INSTALL_DESTINATION ${TEMPER_CMAKE_DIR})
