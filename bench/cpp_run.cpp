@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "temper/optimize.hpp"
+#include "temper/solvers.hpp"
 #ifdef TEMPER_WITH_TBB
 #include "temper/detail/tbb_executor.hpp"
 #endif
@@ -43,6 +44,7 @@ py::tuple run(const Rows<double>& points, const Rows<std::int32_t>& triangles, i
     options.max_sweeps = sweeps;
     options.repair = temper::Repair::none;
     temper::OptimizeHooks hooks;
+    hooks.solvers = temper::solvers();
     temper::MeshInput input;
     input.points = rows<temper::Vec2>(points);
     input.triangles = rows<std::array<std::int32_t, 3>>(triangles);

@@ -14,6 +14,7 @@
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
+#include "temper/solvers.hpp"
 
 namespace temper::bench {
 namespace {
@@ -115,7 +116,7 @@ int print_meshes(std::span<const std::string_view> paths) {
       Mesh mesh = loaded->mesh;
       double seconds = 0;
       if (run.optimized) {
-        const auto report = optimize(mesh, run.options);
+        const auto report = optimize(mesh, run.options, {.solvers = solvers()});
         if (!report) return std::fprintf(stderr, "%s\n", report.error().what().c_str()), 1;
         seconds = report->seconds;
       }

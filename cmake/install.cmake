@@ -1,4 +1,4 @@
-# Installs the libraries, and what find_package(temper COMPONENTS core io lp tbb mpi verify) and pkg-config need. The flags of
+# Installs the libraries, and what find_package(temper COMPONENTS core io lp tbb mpi verify solvers) and pkg-config need. The flags of
 # temper's own code (temper_flags) stay here: they are linked for the build alone and are in no export.
 #
 # Components: `program` (apps/temper), `libraries` (shared ones, for programs to run), `development`, `python`.
@@ -58,6 +58,13 @@ endif()
 if(TARGET temper_verify)
   temper_install(temper_verify verify "Errors of solvers on temper's meshes")
 endif()
+set(requires)
+foreach(library lp verify)
+  if(TARGET temper_${library})
+    list(APPEND requires temper-${library})
+  endif()
+endforeach()
+temper_install(temper_solvers solvers "What temper's runs need from other libraries" REQUIRES ${requires})
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/temperConfig.cmake.in ${PROJECT_BINARY_DIR}/temperConfig.cmake
                               INSTALL_DESTINATION ${TEMPER_CMAKE_DIR})

@@ -1,4 +1,4 @@
-// Points and triangles in, a well-centered mesh out. Build with find_package(temper) and temper::temper.
+// Points and triangles in, a well-centered mesh out. Build with find_package(temper) and temper::solvers.
 #include "temper/optimize.hpp"
 
 #include <array>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "temper/quality.hpp"
+#include "temper/solvers.hpp"
 
 int main() {
   // The paper's sparse horseshoe: one interior vertex, four triangles, all of them bad.
@@ -21,7 +22,7 @@ int main() {
     std::printf("sweep %d: %zu triangles to go\n", progress.last.sweep, progress.last.bad);
     return temper::Continue::yes;  // Continue::no stops with the best mesh so far
   };
-  const auto report = temper::optimize(mesh, {.energy = temper::EnergyKind::BP, .max_sweeps = 100}, {.observer = show});
+  const auto report = temper::optimize(mesh, {.max_sweeps = 100}, {.observer = show, .solvers = temper::solvers()});
   if (!report) return std::fprintf(stderr, "%s\n", report.error().what().c_str()), 1;
 
   const temper::Quality quality = temper::quality(mesh);

@@ -148,7 +148,7 @@ py::list idle_options(const py::dict& given, const py::list& names) {
 
 py::dict record_to_dict(const SweepRecord& r) {
   return Record()("sweep", r.sweep)("energy", r.energy)("bad", r.bad)("flips", r.flips)("softening", r.softening)(
-             "seconds", r.seconds)("objective", name_of(r.objective))
+             "seconds", r.seconds)("objective", name(r.objective))
       .dict;
 }
 
@@ -164,8 +164,9 @@ py::dict report_to_dict(const OptimizeReport& r) {
   for (const std::string& note : r.notes) notes.append(spelled(note));
   return Record()("stopped", name(r.stopped))("sweeps", r.sweeps)("flips", r.flips)(
              "vertices_removed", r.vertices_removed)("vertices_inserted", r.vertices_inserted)("vertices", r.vertices)(
-             "hidden", r.hidden)("seconds", r.seconds)("initial_energy", r.initial_energy)(
-             "final_energy", r.final_energy)("size_before", py::object(size_report_to_dict(r.size.before)))(
+             "hidden", r.hidden)("objective", name(r.objective))("seconds", r.seconds)(
+             "initial_energy", r.initial_energy)("final_energy", r.final_energy)(
+             "size_before", py::object(size_report_to_dict(r.size.before)))(
              "size_after", py::object(size_report_to_dict(r.size.after)))("history", py::object(history))(
              "notes", py::object(notes))
       .dict;

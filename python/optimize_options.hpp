@@ -4,7 +4,6 @@
 #include "convert.hpp"
 #include "temper/detail/optimize_table.hpp"
 
-TEMPER_PYTHON_NAMES(temper::Objective, "energy", "accuracy");
 TEMPER_PYTHON_NAMES(temper::HiddenPolicy, "undo", "remove", "keep");
 
 namespace temper::python {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What temper is in browsers and Node: builds the native program (preset release) and the module (preset wasm), and tests
-# the npm package and, in Chromium, the playground against the program, and the HTML report. Installs what it needs; npm brings the rest, pinned.
+# the npm package and, in Chromium, the playground against the program, and the HTML report. tests/callers compares the
+# package with the program for the objectives, too. Installs what it needs; npm brings the rest, pinned.
 # The page in web/report/dist, which is in the repository, must be what npm makes.
 #
 #   scripts/test_web.sh               TEMPER_SHARED: public meshes, TEMPER_PICTURES: where screenshots go
@@ -19,4 +20,5 @@ git diff --exit-code --stat report/dist || { echo "test_web: web/report/dist is 
 npm run check
 node --test tests/*.test.mjs
 (cd npm && node --test tests/)
+python3 ../tests/callers/callers.py --program "$TEMPER_PROGRAM" --npm npm
 (cd playground && node --test tests/)

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/rng.hpp"
+#include "base/sine_cosine.hpp"
 #include "temper/dec.hpp"
 #include "temper/detail/error_model.hpp"
 #include "temper/verify.hpp"
@@ -33,15 +34,16 @@ struct Wave {
   double phase = 0;
 
   [[nodiscard]] double angle(Vec2 p) const { return dot(k, p) + phase; }
-  [[nodiscard]] double at(Vec2 p) const { return std::sin(angle(p)); }
-  [[nodiscard]] Vec2 gradient(Vec2 p) const { return std::cos(angle(p)) * k; }
+  [[nodiscard]] double at(Vec2 p) const { return sine_cosine(angle(p)).sine; }
+  [[nodiscard]] Vec2 gradient(Vec2 p) const { return sine_cosine(angle(p)).cosine * k; }
   /// −Δ of it.
   [[nodiscard]] double source(Vec2 p) const { return squared_length(k) * at(p); }
   /// ∫ ∇u · n over the segment, n to its left.
   [[nodiscard]] double flow_to_left(Vec2 a, Vec2 b) const {
     const Vec2 e = b - a;
-    const double half = 0.5 * dot(k, e), sinc = std::abs(half) < 1e-4 ? 1 - half * half / 6 : std::sin(half) / half;
-    return (k.y * e.x - k.x * e.y) * std::cos(angle(0.5 * (a + b))) * sinc;
+    const double half = 0.5 * dot(k, e);
+    const double sinc = std::abs(half) < 1e-4 ? 1 - half * half / 6 : sine_cosine(half).sine / half;
+    return (k.y * e.x - k.x * e.y) * sine_cosine(angle(0.5 * (a + b))).cosine * sinc;
   }
 };
 
@@ -240,8 +242,8 @@ std::vector<Wave> waves_of(const SolverErrorOptions& options) {
   for (std::size_t i = 0; i < options.fields; ++i) {
     const double turn = (static_cast<double>(i) + rng.uniform()) / static_cast<double>(options.fields);
     const double k = rng.uniform(kLeastWaveNumber, kMostWaveNumber);
-    const double angle = std::numbers::pi * turn;
-    waves.push_back({{k * std::cos(angle), k * std::sin(angle)}, rng.uniform(0, 2 * std::numbers::pi)});
+    const auto [sine, cosine] = sine_cosine(std::numbers::pi * turn);
+    waves.push_back({{k * cosine, k * sine}, rng.uniform(0, 2 * std::numbers::pi)});
   }
   return waves;
 }

@@ -27,6 +27,11 @@ add_library(ZLIB::ZLIB ALIAS temper_zlib)
 set_target_properties(temper_pugixml temper_zlib PROPERTIES UNITY_BUILD OFF)
 target_compile_options(temper_zlib PRIVATE -w)
 
+# Eigen is headers alone, in a folder of their own.
+find_path(temper_eigen_folder Eigen/SparseCholesky PATHS /usr/include/eigen3 /usr/local/include/eigen3 NO_CMAKE_FIND_ROOT_PATH REQUIRED)
+add_library(Eigen3::Eigen INTERFACE IMPORTED GLOBAL)
+target_include_directories(Eigen3::Eigen SYSTEM INTERFACE ${temper_eigen_folder})
+
 # nlohmann's headers lie among those of the machine, which are not for this target: a folder that has them alone.
 find_path(temper_json_folder nlohmann/json.hpp PATHS /usr/include /usr/local/include NO_CMAKE_FIND_ROOT_PATH REQUIRED)
 file(MAKE_DIRECTORY ${sources}/json)

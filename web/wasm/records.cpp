@@ -252,6 +252,7 @@ Json to_json(const OptimizeReport& r) {
                {"vertices_inserted", r.vertices_inserted},
                {"vertices", list(r.vertices)},
                {"hidden", list(r.hidden)},
+               {"objective", name(r.objective)},
                {"seconds", r.seconds},
                {"initial_energy", number(r.initial_energy)},
                {"final_energy", number(r.final_energy)},

@@ -4,6 +4,7 @@
 #include "records.hpp"
 #include "temper/optimize.hpp"
 #include "temper/detail/trace.hpp"
+#include "temper/solvers.hpp"
 
 namespace temper::wasm {
 namespace {
@@ -36,6 +37,7 @@ int mesh_optimize(HeldMesh* held, const char* options, std::size_t size, int tra
     const OptimizeOptions given = options_from(parse({options, size}));
     OptimizeHooks hooks;
     hooks.observer = tell;
+    hooks.solvers = solvers();
     if (traced != 0) {
       hooks.tracer = [](const TraceEvent& event) {
         const std::string text = to_json(event).dump();

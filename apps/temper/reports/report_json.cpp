@@ -164,6 +164,7 @@ std::string optimize_json(const OptimizeRecord& record) {
   json["sweeps"] = record.report.sweeps;
   json["seconds"] = record.report.seconds;
   json["stopped"] = name(record.report.stopped);
+  json["objective"] = name(record.report.objective);
   json["initial_energy"] = number_or_null(record.report.initial_energy);
   json["final_energy"] = number_or_null(record.report.final_energy);
   json["vertices_removed"] = record.report.vertices_removed;

@@ -166,6 +166,13 @@ void Notes::tell_objective() {
       "have one, temper::solvers() in C++");
 }
 
+/// Repairs go on without, so this is told where triangles are left.
+void Notes::tell_programmes() {
+  add("repairs had no solver of linear programs, which may find weights for triangles that are left; builds with Clp "
+      "have "
+      "one, temper::solvers() in C++");
+}
+
 void Notes::tell_accuracy(std::size_t bad) {
   if (bad > 0) {
     add(count_of(bad, "triangle is", "triangles are") +

@@ -30,6 +30,7 @@ class Notes {
   void tell_edges_that_must_be_split(std::size_t bad);
   void tell_corners_that_stay(std::size_t bad);
   void tell_objective();
+  void tell_programmes();
   void tell_accuracy(std::size_t bad);
 
  private:

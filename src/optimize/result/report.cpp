@@ -158,8 +158,7 @@ void give_back(Mesh& mesh, Candidate best, const Settings& settings, const Sweep
   const EnergyModel model = in_user_units(state.model, best.work.frame);
   const bool for_accuracy = sizes.has_value();
   Result result = result_of(mesh, std::move(best.work), settings, model, std::move(sizes));
-  const MeshScore before =
-      of_input.score ? *of_input.score : score(mesh, of_input.counts, settings, model, nullptr);
+  const MeshScore before = of_input.score ? *of_input.score : score(mesh, of_input.counts, settings, model, nullptr);
   report.size.before = report.size.after = of_input.size;
   report.initial_energy = before.energy;
   const std::optional<double> bad_before =
@@ -205,6 +204,7 @@ void give_back(Mesh& mesh, Candidate best, const Settings& settings, const Sweep
   notes.tell_corners_that_stay(result.score.bad);
   notes.tell_edges_that_must_be_split(result.score.bad);
   if (settings.lacks_error_model) notes.tell_objective();
+  if (run.facts.lacks_programmes && result.score.bad > 0) notes.tell_programmes();
   if (for_accuracy)
     notes.tell_accuracy(settings.energy().barrier ? result.score.bad : count_bad(mesh, settings.hooks.executor));
   report.seconds = run.seconds();

@@ -18,8 +18,8 @@ namespace temper {
 /// Triangles that are not counter-clockwise, exact.
 [[nodiscard]] std::size_t count_inverted(const Mesh& mesh);
 
-/// Says whether a run has to end: `elapsed` seconds are over, and giving the result back takes `ending` more. A limit of
-/// 0 is none.
+/// Says whether a run has to end: `elapsed` seconds are over, and giving the result back takes `ending` more. A limit
+/// of 0 is none.
 [[nodiscard]] bool time_is_up(double elapsed, double ending, double limit);
 
 /// Facts that the report tells in sentences.
@@ -30,6 +30,7 @@ struct RunFacts {
   bool stays_uncut = false;                   ///< since cuts leave more triangles bad
   bool weights_shrunk = false;                ///< all of them, since they left edges uncrossed
   bool energy_rose = false;                   ///< in the last sweeps, which were taken back
+  bool lacks_programmes = false;              ///< of which a repair would have asked one
 };
 
 /// While it lives, this mesh is the best one so far, and a stage tries another.

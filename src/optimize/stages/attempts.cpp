@@ -160,7 +160,8 @@ Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, Swe
     if (best && !tries.may_gain(*best, settings)) continue;
     const BestBefore kept(run.best_before, best ? &best->work : nullptr);
     const bool goes_on = tries.now().cuts == Cuts::where_bad;
-    Candidate now = goes_on ? *best : Candidate{WorkingCopy(input.whole(), settings.policy.order, settings.hooks.executor)};
+    Candidate now =
+        goes_on ? *best : Candidate{WorkingCopy(input.whole(), settings.policy.order, settings.hooks.executor)};
     Driver driver(now.work, settings, state, run);
     if (best) driver.recorder().returned_to(goes_on ? best->sweep : -1);
     if (auto error = prepare(driver, input.whole(), settings, tries.now())) return *std::move(error);
@@ -229,6 +230,7 @@ Candidate repaired(Candidate best, const Settings& settings, SweepState& state, 
   for (std::uint64_t i = 0; i < searches && !is_done(best); ++i) {
     const BestBefore kept(run.best_before, in_place ? nullptr : &best.work);
     const bool asks_programmes = i == kProgrammes && settings.lp != nullptr;
+    if (i == kProgrammes && settings.lp == nullptr) run.facts.lacks_programmes = true;
     if (asks_programmes) start.reset();  // they cost more than what is cured
     Candidate copy;
     if (!in_place) copy = start ? *start : best;

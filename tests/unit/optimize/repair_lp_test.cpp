@@ -1,6 +1,8 @@
 // Repairs that ask a linear programme for weights: what sweeps leave bad, and weights can cure.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
 #include <vector>
 
 #include "optimize/repair/trial.hpp"
@@ -16,12 +18,15 @@ namespace {
 TEST(RepairByProgramme, CuresWhatSweepsLeave) {
   const Mesh input = *horseshoe({.a = 6, .b = 7});
   Mesh swept = input, weighed = input;
-  ASSERT_TRUE(optimize(swept));
-  ASSERT_TRUE(optimize(weighed, {}, {.solvers = solvers()}));
+  const auto without = optimize(swept), with = optimize(weighed, {}, {.solvers = solvers()});
+  ASSERT_TRUE(without && with);
   EXPECT_GT(standing(swept).bad, 0u);
   EXPECT_EQ(standing(weighed).bad, 0u);
   EXPECT_EQ(count_non_regular_edges(weighed), 0u);
   EXPECT_EQ(weighed.validate(), std::nullopt);
+  const auto says_so = [](const std::string& note) { return note.starts_with("repairs had no solver of linear"); };
+  EXPECT_EQ(std::count_if(without->notes.begin(), without->notes.end(), says_so), 1);
+  EXPECT_EQ(std::count_if(with->notes.begin(), with->notes.end(), says_so), 0);
 }
 
 TEST(RepairByProgramme, IsTracedLikeAllElse) {

@@ -51,7 +51,6 @@ export interface OptimizeOptions {
   weights_from?: number;
   /** over-relaxation of Newton steps; more than 0 and less than 2; null: 1.7, but 1.97 while gamma shrinks from 1. Default: null. */
   relaxation?: number | null;
-  /** steps of all vertices at once, which barriers make in every other sweep once every triangle is well-centered and sweeps gain little; true or false. Default: true. */
   /** how far golden section searches for a position: the root mean square distance to the neighbours, or that of the farthest or the nearest. Default: "rms". */
   search_radius?: "rms" | "max" | "min";
   /** how far golden section searches for a weight, relative to the search radius squared; more than 0. Default: 1. */

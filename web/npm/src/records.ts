@@ -170,6 +170,8 @@ export interface OptimizeReport {
   /** Number in the input of each vertex, −1 for inserted ones; empty when none was removed or inserted. */
   vertices: number[];
   hidden: number[];
+  /** That the run lowered. */
+  objective: 'energy' | 'accuracy' | 'error';
   seconds: number;
   initial_energy: number;
   final_energy: number;

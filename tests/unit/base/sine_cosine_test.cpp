@@ -1,0 +1,49 @@
+#include "base/sine_cosine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+
+#include "base/rng.hpp"
+
+namespace temper {
+namespace {
+
+TEST(SineCosine, IsThatOfTheCLibraryButForRounding) {
+  Rng rng(3);
+  for (const double most : {1.0, 10.0, 1e3, 9e5}) {
+    for (int i = 0; i < 20'000; ++i) {
+      const double x = rng.uniform(-most, most);
+      const auto [sine, cosine] = sine_cosine(x);
+      ASSERT_NEAR(sine, std::sin(x), 4e-16) << x;
+      ASSERT_NEAR(cosine, std::cos(x), 4e-16) << x;
+    }
+  }
+  for (int i = 0; i < 1000; ++i) {
+    const double x = rng.uniform(1e6, 1e9);
+    ASSERT_NEAR(sine_cosine(x).sine, std::sin(x), 2e-16 * x) << x;
+  }
+}
+
+TEST(SineCosine, HasTheseBitsEverywhere) {
+  std::uint64_t hash = 0;
+  for (int i = -2000; i <= 2000; ++i) {
+    const auto [sine, cosine] = sine_cosine(i * std::numbers::pi / 64 + i * i * i);
+    for (const double value : {sine, cosine}) hash = hash * 31 + std::bit_cast<std::uint64_t>(value);
+  }
+  EXPECT_EQ(hash, 15629574660220634864u);
+}
+
+TEST(SineCosine, OfWhatIsNotFiniteIsNoNumber) {
+  EXPECT_TRUE(std::isnan(sine_cosine(std::numeric_limits<double>::infinity()).sine));
+  EXPECT_TRUE(std::isnan(sine_cosine(std::numeric_limits<double>::quiet_NaN()).cosine));
+  EXPECT_EQ(sine_cosine(0).sine, 0);
+  EXPECT_EQ(sine_cosine(0).cosine, 1);
+}
+
+}  // namespace
+}  // namespace temper
