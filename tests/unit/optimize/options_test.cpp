@@ -25,10 +25,10 @@ std::string error_of(const OptimizeOptions& options) {
 TEST(OptimizeOptions, OutOfRangeAreRefusedByName) {
   EXPECT_EQ(error_of({.objective = Objective::energy, .star = Star::all}),
             "`star=all` is for `objective=accuracy`; of an energy expected 0, 1 or 2");
-  EXPECT_EQ(error_of({.paper = {.gamma = Softening{0}}}), "`gamma` is 0; expected more than 0, or none");
-  EXPECT_EQ(error_of({.paper = {.gamma = Softening{NAN}}}), "`gamma` is nan; expected more than 0, or none");
+  EXPECT_EQ(error_of({.paper = {.gamma = Softening{0}}}), "`gamma` is 0; expected more than 0, or auto");
+  EXPECT_EQ(error_of({.paper = {.gamma = Softening{NAN}}}), "`gamma` is nan; expected more than 0, or auto");
   EXPECT_EQ(error_of({.paper = {.overshoot = 0}}), "`overshoot` is 0; expected more than 0");
-  EXPECT_EQ(error_of({.paper = {.relaxation = 2}}), "`relaxation` is 2; expected more than 0 and less than 2, or none");
+  EXPECT_EQ(error_of({.paper = {.relaxation = 2}}), "`relaxation` is 2; expected more than 0 and less than 2, or auto");
   EXPECT_EQ(error_of({.paper = {.anchor = VertexId(25)}}), "`anchor` is vertex 25, but the mesh has 25 vertices");
   EXPECT_EQ(error_of({.max_sweeps = -1}), "`max_sweeps` is -1; expected at least 0");
   EXPECT_EQ(error_of({.paper = {.tolerance = NAN}}), "`tolerance` is nan; expected at least 0");
