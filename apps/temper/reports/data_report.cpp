@@ -50,11 +50,12 @@ void add_point_data(Command& command, std::vector<std::string>& words) {
 }
 
 io::DataRules data_rules(const std::vector<std::string>& words, const io::MeshFile& file) {
-  io::DataRules rules = or_fail(io::parse_data_rules(words));
-  if (const auto checked = io::check_data_rules(rules, file); !checked) {
+  const Expected<io::DataRules> rules = io::parse_data_rules(words);
+  if (!rules) throw as_failure(rules.error());
+  if (const auto checked = io::check_data_rules(*rules, file); !checked) {
     throw Failure(Exit::bad_usage, fmt::format("{}: --point-data: {}", file.path, checked.error().message));
   }
-  return rules;
+  return *rules;
 }
 
 std::string data_text(const io::DataReport& report) { return points_text(report) + cells_text(report); }
