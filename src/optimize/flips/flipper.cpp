@@ -115,8 +115,7 @@ Flipper::Settled Flipper::settle(const Step& step) {
 
 /// Says whether the policy lets the vertices at stuck edges be hidden.
 bool Flipper::accept_hidden() {
-  if (!settings_.policy.removes_hidden)
-    return settings_.policy.keeps_hidden;
+  if (!settings_.policy.removes_hidden) return settings_.policy.keeps_hidden;
   for (const VertexId v : hidden_at_stuck_edges()) {
     plan_ = plan_removal(mesh_, v, std::move(plan_));
     if (plan_.status != RemovalStatus::possible) return false;

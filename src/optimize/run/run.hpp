@@ -4,10 +4,11 @@
 #include <chrono>
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "base/engine.hpp"
-#include "optimize/flips/grading.hpp"
 #include "optimize/flips/flipper.hpp"
+#include "optimize/flips/grading.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {
@@ -18,8 +19,8 @@ namespace temper {
 /// Triangles that are not counter-clockwise, exact.
 [[nodiscard]] std::size_t count_inverted(const Mesh& mesh);
 
-/// Says whether a run has to end: `elapsed` seconds are over, and giving the result back takes `ending` more. A limit of
-/// 0 is none.
+/// Says whether a run has to end: `elapsed` seconds are over, and giving the result back takes `ending` more. A limit
+/// of 0 is none.
 [[nodiscard]] bool time_is_up(double elapsed, double ending, double limit);
 
 /// Facts that the report tells in sentences.
@@ -104,5 +105,21 @@ class Run {
   Clock::time_point start_, limit_from_;
   double ending_seconds_ = 0;  // after the last sweep, about
 };
+
+// All ranks of a run must be given the same. Otherwise each goes its own way, and waits forever.
+
+/// The error, on every rank, when one of them has another mesh, other options or another version of temper than rank 0;
+/// or when some have a tracer and some have none.
+[[nodiscard]] std::optional<InputError> expect_agreement(const OptimizeHooks& hooks, const OptimizeOptions& options,
+                                                         const Mesh& mesh);
+
+// How long a run may still take: an extrapolation of its last sweeps.
+
+/// The sweeps until the gain of one is below the tolerance, if gains go on shrinking by one factor a sweep, as sweeps
+/// for barriers do near their end. None where that cannot be told: in the first sweeps of a stage (one objective, one
+/// γ), where the energy rises or gains do not shrink, and with StoppingRule::paper. Stages that may follow are not
+/// known yet.
+[[nodiscard]] std::optional<double> estimate_sweeps_left(std::span<const SweepRecord> history,
+                                                         const OptimizeOptions& options);
 
 }  // namespace temper

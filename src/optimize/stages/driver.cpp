@@ -6,10 +6,10 @@
 #include "base/assert.hpp"
 #include "base/rng.hpp"
 #include "energy/whole_mesh.hpp"
-#include "optimize/sweep/insertion.hpp"
 #include "optimize/flips/grading.hpp"
 #include "optimize/repair/repair_search.hpp"
 #include "optimize/step/ties.hpp"
+#include "optimize/sweep/insertion.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
@@ -45,8 +45,7 @@ int Driver::run(Phase& phase, int first) {
   do {                           // outer iterations
     do {                         // inner iterations
       verdict = sweep(phase);
-    } while (verdict == Verdict::improving &&
-             !(settings_.policy.defers_flips && ++inner_ == settings_.policy.inner));
+    } while (verdict == Verdict::improving && !(settings_.policy.defers_flips && ++inner_ == settings_.policy.inner));
     if (run_.stopped_early()) asked = run_.report.stopped;
     verdict = flip_if_deferred(phase, verdict);
   } while (verdict == Verdict::improving);
@@ -73,13 +72,13 @@ Driver::Verdict Driver::sweep(Phase& phase) {
   if (!phase.may_sweep()) return Verdict::stopped;
   recorder_.begin_sweep(run_.report.sweeps + 1);
   const std::optional<bool> moved = phase.move_all(recorder_);
-  const bool whole = moved ? *moved : improve_all_vertices(phase.iteration());
+  const bool whole = moved ? *moved : improve_all_vertices(phase.iteration);
   const bool removed = flipper_.has_removed();
   if (removed) compact();
-  const bool inserted = whole && insert_vertices(phase.iteration());
+  const bool inserted = whole && insert_vertices(phase.iteration);
   shift_weights_to_anchor();
   TEMPER_ASSERT_SLOW(!settings_.policy.keeps_regular() || count_non_regular_edges(mesh_, false) == 0);
-  ++phase.iteration();
+  ++phase.iteration;
   ++run_.report.sweeps;
   record(phase.measure());
   if (!settings_.policy.defers_flips) keep_if_best(phase);
@@ -123,7 +122,8 @@ Driver::Verdict Driver::flip_if_deferred(Phase& phase, Verdict of_sweeps) {
 
 /// One Gauss-Seidel sweep, lines 9 to 16. False when it was cut short.
 bool Driver::improve_all_vertices(int iteration) {
-  if (!settings_.policy.defers_updates() || settings_.policy.defers_flips) return sweeper_.sweep(iteration, sequence_, run_);
+  if (!settings_.policy.defers_updates() || settings_.policy.defers_flips)
+    return sweeper_.sweep(iteration, sequence_, run_);
   const IdVector<VertexId, WeightedPoint> before = points();
   const bool whole = sweeper_.sweep(iteration, sequence_, run_);
   settle_updates(before);

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "energy/whole_mesh.hpp"
-#include "optimize/run/lengths.hpp"
+#include "optimize/run/judge.hpp"
 #include "optimize/stages/phase.hpp"
 
 namespace temper {
@@ -51,25 +51,20 @@ void EnergyPhase::take_last_energy() {
   take_energy(settings_.options.energy);
 }
 
-double EnergyPhase::total() const {
-  return energy_unit_ * total_energy(mesh_, state_.model, settings_.hooks.executor);
-}
+double EnergyPhase::total() const { return energy_unit_ * total_energy(mesh_, state_.model, settings_.hooks.executor); }
 
 SweepRecord EnergyPhase::measure() {
   return record_of(energy_and_bad(mesh_, state_.model, engine_of(settings_.hooks)));
 }
 
 SweepRecord EnergyPhase::record_of(const EnergyAndBad& measured) const {
-  SweepRecord r;
-  r.energy = energy_unit_ * measured.energy;
-  r.softening = state_.energy.softened_by_h0 ? state_.model.h0.value : state_.model.gamma.value;
-  r.bad = measured.bad;
-  return r;
+  const double softening = state_.energy.softened_by_h0 ? state_.model.h0.value : state_.model.gamma.value;
+  return {.energy = energy_unit_ * measured.energy, .bad = measured.bad, .softening = softening};
 }
 
 /// Line 19 of Algorithm 1, and what a softened barrier or an infinite energy ask for besides.
 Phase::Verdict EnergyPhase::judge(bool changed) {
-  if (before_switch_ && iteration_ >= settings_.policy.switch_at) {
+  if (before_switch_ && iteration >= settings_.policy.switch_at) {
     take_last_energy();
     return Verdict::restarted;
   }
@@ -130,8 +125,8 @@ bool EnergyPhase::stagnates() {
 /// Positions have converged before i_w: the weights' turn has come.
 bool EnergyPhase::goes_on_with_weights() {
   const int from = settings_.policy.weights_from;
-  if (settings_.options.unknowns != Unknowns::positions_and_weights || iteration_ >= from) return false;
-  iteration_ = from;
+  if (settings_.options.unknowns != Unknowns::positions_and_weights || iteration >= from) return false;
+  iteration = from;
   return true;
 }
 

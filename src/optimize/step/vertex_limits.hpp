@@ -3,9 +3,11 @@
 
 #include <cstdint>
 
+#include "optimize/flips/size_band.hpp"
 #include "optimize/options/settings.hpp"
 #include "optimize/step/freedom.hpp"
-#include "optimize/flips/size_band.hpp"
+#include "optimize/trace/recorder.hpp"
+#include "optimize/working/frame.hpp"
 
 namespace temper {
 
@@ -24,9 +26,19 @@ struct VertexLimits {
   void grow();
 
  private:
-
   const Mesh& mesh_;
   const Settings& settings_;
+};
+
+// The mesh and the settings that all steps on one working copy share.
+
+struct StepContext {
+  Mesh& mesh;
+  const Settings& settings;
+  const SweepState& state;
+  const Frame& frame;
+  VertexLimits& limits;
+  const Recorder& recorder;
 };
 
 }  // namespace temper

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/assert.hpp"
-#include "optimize/step/cavity.hpp"
 #include "optimize/step/line_search.hpp"
 #include "optimize/step/removal.hpp"
 #include "optimize/step/search.hpp"
