@@ -19,7 +19,7 @@ namespace {
 /// Says whether the second phase may begin at once with the input.
 bool is_ready_for_accuracy(const Mesh& mesh, const Settings& s) {
   return s.objective != Objective::energy && s.options.boundary != BoundaryVertices::split &&
-         has_margins(mesh, s.accuracy.margin, s.executor()) && missing_lengths(mesh, s.accuracy, s.executor()) == 0;
+         has_all_for_accuracy(mesh, s);
 }
 
 /// The size field of a run with a band; the input's own is seen where it is, since the run works on copies.

@@ -47,7 +47,7 @@ class Notes {
   /// HOT energies do not ask how many triangles are well-centered. `bad_before`: part of the input's.
   void tell_if_more_are_bad(double bad_before) {
     const auto percent = [](double part) { return to_text(std::round(1000 * part) / 10) + " %"; };
-    const double bad = bad_part(mesh_, count_bad(mesh_, settings_.hooks.executor));
+    const double bad = bad_part(mesh_, count_bad(mesh_, settings_.executor()));
     if (bad > bad_before) {
       add(percent(bad) + " of the triangles are not well-centered, " + percent(bad_before) +
           " of the input's: energy " + std::string(settings_.energy().name) + " does not ask for that, energy BP does");
@@ -57,7 +57,7 @@ class Notes {
   /// Hidden vertices that are kept keep edges from being regular.
   void tell_what_is_not_regular() {
     if (!settings_.policy.keeps_hidden) return;
-    const std::size_t edges = count_non_regular_edges(mesh_, false, settings_.hooks.executor);
+    const std::size_t edges = count_non_regular_edges(mesh_, false, settings_.executor());
     if (edges > 0)
       add(count_of(edges, "edge is", "edges are") + " not regular, since `hidden=keep` keeps hidden vertices");
   }
@@ -189,7 +189,7 @@ class Notes {
 
   /// Triangles without the margin, the bad ones included.
   [[nodiscard]] std::size_t count_thin() const {
-    return static_cast<std::size_t>(blockwise_sum(mesh_.n_triangles(), settings_.hooks.executor, [&](std::size_t i) {
+    return static_cast<std::size_t>(blockwise_sum(mesh_.n_triangles(), settings_.executor(), [&](std::size_t i) {
       return triangle_margin(mesh_, TriangleId(i)) > settings_.accuracy.margin ? 0.0 : 1.0;
     }));
   }

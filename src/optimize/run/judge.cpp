@@ -47,6 +47,11 @@ std::vector<TriangleId> triangles_lacking_length(const Mesh& mesh, const Accurac
   return lacking;
 }
 
+bool has_all_for_accuracy(const Mesh& mesh, const Settings& settings) {
+  return has_margins(mesh, settings.accuracy.margin, settings.executor()) &&
+         missing_lengths(mesh, settings.accuracy, settings.executor()) == 0;
+}
+
 bool replaces(const MeshScore& now, const MeshScore& best, Requirement required) {
   if (required == Requirement::fewer_bad) return now.bad < best.bad;
   if (best < now) return false;

@@ -21,6 +21,9 @@ namespace temper {
 /// The triangles that have an edge which lacks length, in ascending order.
 [[nodiscard]] std::vector<TriangleId> triangles_lacking_length(const Mesh& mesh, const AccuracyModel& model);
 
+/// Says whether the accuracy objective finds all margins and lengths that it asks for.
+[[nodiscard]] bool has_all_for_accuracy(const Mesh& mesh, const Settings& settings);
+
 /// A smaller score is better. Validity comes first. Then regularity, unless the user keeps hidden vertices. Then, for a
 /// barrier, the number of triangles that are not well-centered. Then the margins of the accuracy objective, and lengths
 /// that are asked for. Then the energy, or the error of the solver.

@@ -300,7 +300,7 @@ bool Driver::repair(std::uint64_t seed, bool asks_programmes) {
     if (flipper_.has_removed()) compact();
     changed = true;
     ++run_.report.sweeps;
-    record(phase.record_of(totals.measure(mesh_, state_.model, search.changed(), settings_.hooks.executor)));
+    record(phase.record_of(totals.measure(mesh_, state_.model, search.changed(), settings_.executor())));
     show(Snapshot::Moment::after_sweep, phase);
     run_.offer(work_, settings_, state_);
     recorder_.begin_sweep(run_.report.sweeps + 1);
@@ -310,10 +310,10 @@ bool Driver::repair(std::uint64_t seed, bool asks_programmes) {
 
 int Driver::polish(int sweep) {
   const WorkingCopy before = work_;
-  const std::size_t bad = count_bad(mesh_, settings_.hooks.executor);
+  const std::size_t bad = count_bad(mesh_, settings_.executor());
   EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);
   const int last = run(phase, sweep);
-  if (count_bad(mesh_, settings_.hooks.executor) <= bad) return last;
+  if (count_bad(mesh_, settings_.executor()) <= bad) return last;
   work_ = before;
   recorder_.returned_to(sweep);
   return sweep;
@@ -372,9 +372,7 @@ int Driver::return_regular(int last_sweep) {
 }
 
 void Driver::record(SweepRecord measured) {
-  SweepRecord r;
-  r.sweep = run_.report.sweeps;
-  run_.report.history.push_back(r);
+  run_.report.history.push_back({.sweep = run_.report.sweeps});
   amend_record(measured);
 }
 

@@ -51,7 +51,7 @@ void EnergyPhase::take_last_energy() {
   take_energy(settings_.options.energy);
 }
 
-double EnergyPhase::total() const { return energy_unit_ * total_energy(mesh_, state_.model, settings_.hooks.executor); }
+double EnergyPhase::total() const { return energy_unit_ * total_energy(mesh_, state_.model, settings_.executor()); }
 
 SweepRecord EnergyPhase::measure() {
   return record_of(energy_and_bad(mesh_, state_.model, engine_of(settings_.hooks)));
@@ -68,7 +68,8 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
     take_last_energy();
     return Verdict::restarted;
   }
-  if (settings_.objective != Objective::energy && !before_switch_ && has_margins()) {
+  if (settings_.objective != Objective::energy && !before_switch_ && run_.report.history.back().bad == 0 &&
+      has_all_for_accuracy(mesh_, settings_)) {
     run_.report.stopped = Stopped::converged;  // the next phase needs no more of this energy
     return Verdict::settled;
   }
@@ -93,12 +94,6 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
   state_.relaxation = settings_.policy.relaxation.value_or(softener_.relaxation());
   before_ = !sharper ? after : softener_.compares_energies() ? total() : kInfinity;
   return Verdict::improving;
-}
-
-bool EnergyPhase::has_margins() const {
-  return run_.report.history.back().bad == 0 &&
-         temper::has_margins(mesh_, settings_.accuracy.margin, settings_.hooks.executor) &&
-         missing_lengths(mesh_, settings_.accuracy, settings_.hooks.executor) == 0;
 }
 
 /// The paper's rule takes a rise for convergence. The relative one waits whether the energy falls again.

@@ -67,7 +67,6 @@ class EnergyPhase final : public Phase {
 
  private:
   void take_energy(EnergyKind kind);
-  [[nodiscard]] bool has_margins() const;
   bool converged(double before, double after);
   bool stagnates();
 

@@ -37,18 +37,11 @@ class WorkerPool {
   explicit WorkerPool(std::function<std::unique_ptr<Worker>()> make) : make_(std::move(make)) {}
 
   /// A worker that nobody else has, until this ends.
-  class Lease {
-   public:
-    explicit Lease(Place& place) : place_(place) {}
-    Lease(const Lease&) = delete;
-    Lease& operator=(const Lease&) = delete;
-    ~Lease() { place_.taken.store(false, std::memory_order_release); }
-    [[nodiscard]] Worker& operator*() const { return *place_.worker; }
-    [[nodiscard]] Worker* operator->() const { return place_.worker.get(); }
-
-   private:
-    Place& place_;
+  struct GiveBack {
+    Place* place;
+    void operator()(Worker*) const { place->taken.store(false, std::memory_order_release); }
   };
+  using Lease = std::unique_ptr<Worker, GiveBack>;
 
   /// Room for n workers; while none is leased.
   void make_room(std::size_t n) {
@@ -61,7 +54,7 @@ class WorkerPool {
     for (std::size_t i = 0;; i = (i + 1) % places_.size()) {
       if (places_[i].taken.exchange(true, std::memory_order_acquire)) continue;
       if (!places_[i].worker) places_[i].worker = make_();
-      return Lease(places_[i]);
+      return Lease(places_[i].worker.get(), {&places_[i]});
     }
   }
 

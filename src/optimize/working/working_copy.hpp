@@ -12,6 +12,15 @@
 
 namespace temper {
 
+/// The values of what a compaction has kept.
+template <class Id, class T>
+[[nodiscard]] IdVector<Id, T> kept_of(const IdVector<Id, T>& all, const IdVector<Id, Id>& kept) {
+  IdVector<Id, T> result;
+  result.reserve(kept.size());
+  for (const Id i : kept) result.push_back(all[i]);
+  return result;
+}
+
 struct WorkingCopy {
   Mesh mesh;
   Frame frame;
