@@ -6,7 +6,7 @@
 #include <set>
 
 #include "base/assert.hpp"
-#include "energy/total_energies.hpp"
+#include "energy/whole_mesh.hpp"
 #include "mesh/curve.hpp"
 #include "mesh/erased.hpp"
 #include "quality/solver_measures.hpp"
