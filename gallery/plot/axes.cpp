@@ -6,7 +6,6 @@
 
 #include "draw/path.hpp"
 #include "draw/text.hpp"
-#include "draw/xml.hpp"
 
 namespace temper {
 namespace {

@@ -7,7 +7,6 @@
 #include "draw/frame.hpp"
 #include "draw/path.hpp"
 #include "draw/text.hpp"
-#include "draw/xml.hpp"
 #include "plot/axes.hpp"
 #include "plot/plot.hpp"
 

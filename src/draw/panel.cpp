@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "draw/path.hpp"
-#include "draw/xml.hpp"
+#include "draw/text.hpp"
 #include "geometry/in_space.hpp"
 #include "temper/detail/geometry.hpp"
 

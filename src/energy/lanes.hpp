@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "energy/edge_kernels.hpp"
-#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper {
 

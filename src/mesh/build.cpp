@@ -15,7 +15,6 @@
 #include "temper/mesh.hpp"
 
 namespace temper {
-
 namespace {
 
 // Within these bounds nothing over- or underflows in the exact predicates (geometry.hpp), neither in the user's units

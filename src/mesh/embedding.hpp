@@ -23,7 +23,8 @@ struct Overlap {
 ///
 /// In the plane a connected mesh whose stars wind once and whose boundary loops neither cross nor touch covers every
 /// point at most once: the turning numbers of its loops sum to its Euler characteristic, which leaves
-/// one outer loop. What then remains is a component inside another one's triangles. (On the sphere: boundary_arcs.hpp.)
+/// one outer loop. What then remains is a component inside another one's triangles. (On the sphere:
+/// boundary_sweep.hpp.)
 [[nodiscard]] std::optional<Overlap> find_overlap(const Mesh& mesh, const InputNames& names,
                                                   Executor* executor = nullptr);
 

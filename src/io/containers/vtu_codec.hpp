@@ -13,7 +13,7 @@
 #include <string_view>
 
 #include "io/disk/output.hpp"
-#include "io/text/allowance.hpp"
+#include "io/text/failure.hpp"
 #include "io/text/values.hpp"
 #include "temper/detail/executor.hpp"
 

@@ -1,4 +1,3 @@
-// See disk.hpp.
 #include "io/disk/files.hpp"
 
 #ifdef __linux__
@@ -41,7 +40,7 @@ Source load(const std::string& path) {
   const OnDisk there = look_at(path);
   if (there.kind == OnDisk::Kind::folder) fail(ErrorCode::not_found, path, "is a directory, not a mesh file");
   const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
-  if (!file) fail(ErrorCode::not_found, path, text("cannot be read: ", std::strerror(errno)));
+  if (!file) fail(ErrorCode::not_found, path, "cannot be read: ", std::strerror(errno));
 
   Source source{.path = path, .bytes = {}};
   constexpr std::size_t kChunk = 1 << 16;
@@ -57,7 +56,7 @@ Source load(const std::string& path) {
     source.bytes.resize(got += more);
     if (more == 0) break;
   }
-  if (std::ferror(file.get())) fail(ErrorCode::not_found, path, text("cannot be read: ", std::strerror(errno)));
+  if (std::ferror(file.get())) fail(ErrorCode::not_found, path, "cannot be read: ", std::strerror(errno));
   if (source.bytes.empty()) fail(ErrorCode::empty_input, path, "the file is empty");
   source.allowance = Allowance(source.bytes.size());
   return source;

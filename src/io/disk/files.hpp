@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/text/allowance.hpp"
+#include "io/text/failure.hpp"
 #include "temper/detail/executor.hpp"
 
 namespace temper::io {

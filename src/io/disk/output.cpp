@@ -1,4 +1,3 @@
-// See output.hpp.
 #include "io/disk/output.hpp"
 
 #include <fcntl.h>
@@ -14,7 +13,6 @@
 #include "temper/io.hpp"
 
 namespace temper::io {
-
 namespace {
 
 constexpr std::size_t kBuffer = std::size_t{1} << 18;
@@ -47,7 +45,7 @@ Output::Output(std::string path) : path_(std::move(path)), target_(path_), buffe
     temporary_ = Temporary::beside(target_);
     file_ = temporary_.exists() ? temporary_.open() : -1;
   }
-  if (file_ < 0) fail(ErrorCode::not_writable, path_, text("cannot be written: ", std::strerror(errno)));
+  if (file_ < 0) fail(ErrorCode::not_writable, path_, "cannot be written: ", std::strerror(errno));
   if (there.kind == OnDisk::Kind::file) temporary_.take_permissions(target_);
 }
 
@@ -83,7 +81,7 @@ void Output::commit() {
 void Output::fail_writing(const char* doing) const {
   const int code = errno;
   const char* kept = !temporary_.exists() ? "" : "; what was there before is unchanged";
-  fail(ErrorCode::not_writable, path_, text(doing, ": ", std::strerror(code), kept));
+  fail(ErrorCode::not_writable, path_, doing, ": ", std::strerror(code), kept);
 }
 
 Output& OutputSet::open(const std::string& path) {
@@ -131,11 +129,6 @@ void TextStream::write(std::string_view text) {
   } catch (Failure& failure) {
     state_->error = std::move(failure.error);
   }
-}
-
-Expected<std::string> TextStream::so_far() {
-  if (state_->error) return *state_->error;
-  return guarded<std::string>({}, [&] { return state_->output->so_far(); });
 }
 
 Expected<void> TextStream::commit() {

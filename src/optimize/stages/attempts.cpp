@@ -1,4 +1,3 @@
-// See attempts.hpp.
 #include "optimize/stages/attempts.hpp"
 
 #include <algorithm>
@@ -8,11 +7,11 @@
 #include <vector>
 
 #include "energy/whole_mesh.hpp"
-#include "optimize/stages/driver.hpp"
-#include "optimize/run/lengths.hpp"
-#include "optimize/run/judge.hpp"
-#include "optimize/run/refusal.hpp"
 #include "optimize/repair/repair_search.hpp"
+#include "optimize/run/judge.hpp"
+#include "optimize/run/lengths.hpp"
+#include "optimize/run/refusal.hpp"
+#include "optimize/stages/driver.hpp"
 
 namespace temper {
 namespace {
@@ -148,8 +147,7 @@ void tell_cuts(const Attempt& attempt, RunFacts& facts) {
 bool has_gained(const Candidate& now, const Candidate& before, const Settings& settings, const EnergyModel& model) {
   const bool same_vertices = now.work.n_vertices_named == before.work.n_vertices_named &&
                              now.work.mesh.n_vertices() == before.work.mesh.n_vertices();
-  return Choice(settings, model)
-      .replaces(now, before, same_vertices ? Requirement::not_worse : Requirement::cures);
+  return Choice(settings, model).replaces(now, before, same_vertices ? Requirement::not_worse : Requirement::cures);
 }
 
 Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, SweepState& state, Run& run) {
@@ -160,7 +158,8 @@ Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, Swe
     if (best && !tries.may_gain(*best, settings)) continue;
     const BestBefore kept(run.best_before, best ? &best->work : nullptr);
     const bool goes_on = tries.now().cuts == Cuts::where_bad;
-    Candidate now = goes_on ? *best : Candidate{WorkingCopy(input.whole(), settings.policy.order, settings.hooks.executor)};
+    Candidate now =
+        goes_on ? *best : Candidate{WorkingCopy(input.whole(), settings.policy.order, settings.hooks.executor)};
     Driver driver(now.work, settings, state, run);
     if (best) driver.recorder().returned_to(goes_on ? best->sweep : -1);
     if (auto error = prepare(driver, input.whole(), settings, tries.now())) return *std::move(error);

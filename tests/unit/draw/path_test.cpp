@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "draw/xml.hpp"
+#include "draw/text.hpp"
 #include "unit/draw/svg_reading.hpp"
 
 namespace temper {
