@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "draw/path.hpp"
+#include "draw/frame.hpp"
 #include "draw/text.hpp"
 
 namespace temper {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "draw/frame.hpp"
-#include "draw/path.hpp"
 #include "draw/text.hpp"
 #include "plot/axes.hpp"
 #include "plot/contour.hpp"

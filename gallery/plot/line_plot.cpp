@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "draw/frame.hpp"
-#include "draw/path.hpp"
 #include "draw/text.hpp"
 #include "plot/axes.hpp"
 #include "plot/plot.hpp"

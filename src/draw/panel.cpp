@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "draw/path.hpp"
+#include "draw/frame.hpp"
 #include "draw/text.hpp"
 #include "geometry/in_space.hpp"
 #include "temper/detail/geometry.hpp"

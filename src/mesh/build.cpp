@@ -8,7 +8,7 @@
 #include "base/sum.hpp"
 #include "base/text.hpp"
 #include "mesh/blocks.hpp"
-#include "mesh/embedding.hpp"
+#include "mesh/boundary_sweep.hpp"
 #include "mesh/mesh_editor.hpp"
 #include "mesh/predicates.hpp"
 #include "mesh/twins.hpp"

@@ -1,5 +1,4 @@
 // Stars wind once, and the sweep over the boundary meets nothing that it should not. All exact.
-#include "mesh/embedding.hpp"
 
 #include <algorithm>
 #include <cstdint>

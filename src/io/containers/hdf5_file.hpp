@@ -18,7 +18,6 @@
 
 #include "io/containers/vtk_array.hpp"
 #include "io/disk/files.hpp"
-#include "io/disk/output.hpp"
 #include "io/text/values.hpp"
 
 namespace temper::io {

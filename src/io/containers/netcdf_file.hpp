@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "io/disk/files.hpp"
-#include "io/disk/output.hpp"
 #include "io/text/values.hpp"
 
 namespace temper::io {

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/disk/output.hpp"
+#include "io/disk/files.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/values.hpp"
 #include "temper/detail/executor.hpp"

@@ -14,7 +14,7 @@
 #include <ctime>
 #include <utility>
 
-#include "io/disk/output.hpp"
+#include "io/disk/files.hpp"
 #include "io/text/failure.hpp"
 #include "temper/io.hpp"
 

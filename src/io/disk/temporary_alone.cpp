@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "io/disk/output.hpp"
+#include "io/disk/files.hpp"
 #include "io/text/failure.hpp"
 #include "temper/io.hpp"
 

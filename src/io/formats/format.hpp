@@ -9,7 +9,6 @@
 
 #include "io/conversion/globe.hpp"
 #include "io/disk/files.hpp"
-#include "io/disk/output.hpp"
 #include "io/text/file_names.hpp"
 #include "temper/io.hpp"
 
