@@ -5,7 +5,7 @@
 
 #include "energy/accuracy_edge.hpp"
 #include "energy/edge_kernels.hpp"
-#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper {
 

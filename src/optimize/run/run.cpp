@@ -56,7 +56,7 @@ void add_options(Fingerprint& all, const OptimizeOptions& options) {
   std::string text;
   for (const OptionGroup& group : option_groups()) {
     for (const OptionRow& row : group.rows) {
-      if (row.name != "time_limit") text.append(row.name).append(option_text(row.get(options))).append("\n");
+      if (row.name != "time_limit") text.append(row.name).append(option_text(row, row.get(options))).append("\n");
     }
   }
   all.add(text.data(), text.size());

@@ -1,4 +1,3 @@
-// See attempts.hpp.
 #include "optimize/stages/attempts.hpp"
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include "optimize/step/line_search.hpp"
 #include "optimize/step/removal.hpp"
 #include "optimize/step/search.hpp"
-#include "regularity/power_tests.hpp"
+#include "regularity/lawson.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
