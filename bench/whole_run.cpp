@@ -98,9 +98,7 @@ Numbers stages_of(const Stages& s) {
 }
 
 Numbers numbers_of(const Race& race) {
-  return {{"plain_seconds", race.plain},
-          {"default_seconds", race.standard},
-          {"default_sweeps", race.standard_sweeps}};
+  return {{"plain_seconds", race.plain}, {"default_seconds", race.standard}, {"default_sweeps", race.standard_sweeps}};
 }
 
 std::string json_number(double x) {

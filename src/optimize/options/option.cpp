@@ -116,7 +116,8 @@ Expected<void> check_option(const OptionRow& row, const OptionValue& value) {
   if (row.kind == OptionKind::count && number_of(value) > row.range.high) {
     return refused("at most " + to_text(row.range.high));
   }
-  if (!may_have(row, value)) return refused(option_range_text(row) + (row.optional ? ", or " + std::string(row.absent_name) : ""));
+  if (!may_have(row, value))
+    return refused(option_range_text(row) + (row.optional ? ", or " + std::string(row.absent_name) : ""));
   return {};
 }
 

@@ -31,7 +31,7 @@ struct RunFacts {
   bool stays_uncut = false;                   ///< since cuts leave more triangles bad
   bool weights_shrunk = false;                ///< all of them, since they left edges uncrossed
   bool energy_rose = false;                   ///< in the last sweeps, which were taken back
-  bool lacks_programs = false;              ///< of which a repair would have asked one
+  bool lacks_programs = false;                ///< of which a repair would have asked one
 };
 
 /// While it lives, this mesh is the best one so far, and a stage tries another.
