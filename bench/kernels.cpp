@@ -6,8 +6,8 @@
 #include "energy/patch.hpp"
 #include "fixtures.hpp"
 #include "geometry/predicates_inline.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/generate.hpp"
 #include "temper/quality.hpp"
 #include "temper/topology.hpp"
 

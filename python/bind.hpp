@@ -11,10 +11,10 @@
 
 #include "convert.hpp"
 #include "temper/detail/executor.hpp"
-#include "temper/io.hpp"
-#include "temper/mesh.hpp"
 #include "temper/detail/progress.hpp"
 #include "temper/detail/tensor.hpp"
+#include "temper/io.hpp"
+#include "temper/mesh.hpp"
 
 namespace temper::python {
 
@@ -84,6 +84,13 @@ class PyMesh {
   std::uint64_t version_ = new_version();
   bool erased_ = false, running_ = false;
 };
+
+/// What `work` makes, while Python goes on.
+template <class Work>
+auto aside(const Work& work) {
+  const py::gil_scoped_release release;
+  return work();
+}
 
 /// None: as many threads as the machine has. Null for one.
 [[nodiscard]] std::unique_ptr<Executor> make_threads(const std::optional<std::size_t>& threads);

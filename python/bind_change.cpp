@@ -4,9 +4,9 @@
 #include "bind.hpp"
 #include "optimize_options.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/detail/size.hpp"
 #include "temper/mesher.hpp"
 #include "temper/regularity.hpp"
-#include "temper/detail/size.hpp"
 #include "temper/topology.hpp"
 
 TEMPER_PYTHON_NAMES(temper::FlipStatus, "possible", "boundary", "constrained", "not_convex");
@@ -410,13 +410,9 @@ py::tuple mesh_by(const Mesher& mesh, const py::object& threads, const py::objec
   const auto executor = make_threads(threads_from(threads));
   Visitor visitor;
   const Observer watching = observer_of(visitor, observer);
-  std::optional<Expected<OutlineMesh>> made;
-  {
-    const py::gil_scoped_release release;
-    made = mesh(OptimizeHooks{.executor = executor.get(), .observer = watching});
-  }
+  auto made = aside([&] { return mesh(OptimizeHooks{.executor = executor.get(), .observer = watching}); });
   visitor.raise();
-  return outline_mesh_to_python(or_raise(*std::move(made)));
+  return outline_mesh_to_python(or_raise(std::move(made)));
 }
 
 py::tuple mesh_an_outline(const py::dict& dict, const py::dict& d, const py::object& optimize_options,

@@ -2,8 +2,8 @@
 #include <utility>
 
 #include "bind.hpp"
-#include "temper/detail/columns.hpp"
 #include "temper/dec.hpp"
+#include "temper/detail/columns.hpp"
 #include "temper/detail/dec_io.hpp"
 
 TEMPER_PYTHON_NAMES(temper::io::DecFormat, "npz", "mtx", "vtu", "disv", "disu", "tough");
@@ -111,12 +111,7 @@ py::dict summary_to_dict(const DecSummary& s) {
 }
 
 py::dict cells_to_dict(const PyDec& d) {
-  PowerCells made;
-  {
-    const py::gil_scoped_release release;
-    made = d.cells();
-  }
-  auto cells = std::make_shared<const PowerCells>(std::move(made));
+  auto cells = aside([&] { return std::make_shared<const PowerCells>(d.cells()); });
   const py::object owner = keep(cells);
   const PowerCells& c = *cells;
   return Record()("vertices", whole(owner, c.vertices))("starts", c.starts)(

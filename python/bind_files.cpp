@@ -159,11 +159,7 @@ std::vector<std::string> data_words(const PyMesh& self) {
 py::dict data_report(const PyMesh& self, const py::object& threads) {
   const auto executor = make_threads(threads_from(threads));
   const PyMesh same = self.copy();
-  io::DataReport r;
-  {
-    const py::gil_scoped_release release;
-    r = updated_file_of(same, executor.get()).data;
-  }
+  const io::DataReport r = aside([&] { return updated_file_of(same, executor.get()).data; });
   return Record()("points", r.points)("points_moved", r.points_moved)("distance", r.distance)(
              "points_inserted", r.points_inserted)("interpolated", r.interpolated)("kept", r.kept)(
              "dropped", r.dropped)("triangles", r.triangles)("triangles_changed", r.triangles_changed)("of_triangles",
@@ -190,11 +186,7 @@ Record arrays_of(const io::MeshFile& file) {
 
 py::dict file_as_dict(const PyMesh& self) {
   const PyMesh same = self.copy();
-  io::MeshFile file;
-  {
-    const py::gil_scoped_release release;
-    file = file_of(same);
-  }
+  io::MeshFile file = aside([&] { return file_of(same); });
   std::vector<Vec3> places;
   if (file.sphere() != nullptr) places = file.sphere()->places;
   if (places.empty()) {
@@ -271,12 +263,8 @@ py::tuple read_file(const std::string& path, const py::sequence& fixed_tags, con
                     const py::object& threads) {
   const auto tags = strings_from(fixed_tags);
   const auto executor = make_threads(threads_from(threads));
-  std::optional<Expected<io::MeshFile>> file;
-  {
-    const py::gil_scoped_release release;
-    file = io::read(path, {executor.get()});
-  }
-  return load(or_raise(*std::move(file)), projection, tags, executor.get());
+  auto file = aside([&] { return io::read(path, {executor.get()}); });
+  return load(or_raise(std::move(file)), projection, tags, executor.get());
 }
 
 py::object write_file(const std::string& path, const PyMesh& self, const std::string& format,
@@ -288,16 +276,12 @@ py::object write_file(const std::string& path, const PyMesh& self, const std::st
   options.triangle_quality = triangle_quality;
   options.executor = executor.get();
   const PyMesh same = self.copy();
-  std::vector<std::string> warnings;
-  {
-    const py::gil_scoped_release release;
-    const io::MeshFile file = file_of(same, executor.get());
-    auto written = io::write(path, file, options);
-    if (!written) throw BadInput{written.error()};
-    warnings = file.warnings;
-    warnings.insert(warnings.end(), written->begin(), written->end());
-  }
-  return to_python(warnings);
+  return to_python(aside([&] {
+    io::MeshFile file = file_of(same, executor.get());
+    const auto written = or_raise(io::write(path, file, options));
+    file.warnings.insert(file.warnings.end(), written.begin(), written.end());
+    return std::move(file.warnings);
+  }));
 }
 
 // --- pickles ------------------------------------------------------------------------------------------------------
@@ -326,10 +310,10 @@ io::PointsIn points_in_from(const py::tuple& t) {
   if (kind == "periodic") return io::PeriodicPoints{{number(1), number(2)}, number(3)};
   if (kind == "sphere") return io::SpherePoints{number(1), copy_of<Vec3>(t[2].cast<Doubles>())};
   if (kind == "degrees") return io::DegreePoints{t[1].cast<bool>(), number(2)};
-  auto map = std::make_shared<const io::GeographicMap>(
-      io::GeographicMap{{from_name<ProjectionKind>("projection", t[1].cast<std::string>()), {number(2), number(3)}, number(4)},
-                        copy_of<Vec2>(t[5].cast<Doubles>()),
-                        copy_of<Vec2>(t[6].cast<Doubles>())});
+  auto map = std::make_shared<const io::GeographicMap>(io::GeographicMap{
+      {from_name<ProjectionKind>("projection", t[1].cast<std::string>()), {number(2), number(3)}, number(4)},
+      copy_of<Vec2>(t[5].cast<Doubles>()),
+      copy_of<Vec2>(t[6].cast<Doubles>())});
   return io::MappedPoints{std::move(map), number(7)};
 }
 
@@ -381,7 +365,8 @@ void set_source_from_dict(PyMesh& self, const py::dict& d) {
   const std::size_t n = loaded.vertex_of_point.n_kept(), n_vertices = self.read()->n_vertices();
   const auto is_new_or_known = [n](VertexId v) { return !v.valid() || v.index < n; };
   const auto has_size = [](std::size_t size, std::size_t expected) { return size == 0 || size == expected; };
-  if (!has_size(file.points.size(), kept.size()) || (file.sphere() != nullptr && !has_size(file.sphere()->places.size(), kept.size())) ||
+  if (!has_size(file.points.size(), kept.size()) ||
+      (file.sphere() != nullptr && !has_size(file.sphere()->places.size(), kept.size())) ||
       !has_size(file.weights.size(), kept.size()) || !has_size(origin.size(), n_vertices) ||
       file.line_tags.size() != file.lines.size() || file.point_tags.size() != file.marked_points.size() ||
       (origin.empty() && n != n_vertices) || !std::all_of(origin.begin(), origin.end(), is_new_or_known)) {

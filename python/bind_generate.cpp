@@ -7,15 +7,9 @@ namespace {
 
 std::unique_ptr<PyMesh> made(Expected<Mesh> mesh) { return std::make_unique<PyMesh>(or_raise(std::move(mesh))); }
 
-/// The mesh that `make` makes, while Python goes on.
 template <class Make>
 std::unique_ptr<PyMesh> made_aside(const Make& make) {
-  std::optional<Expected<Mesh>> mesh;
-  {
-    const py::gil_scoped_release release;
-    mesh = make();
-  }
-  return made(*std::move(mesh));
+  return made(aside(make));
 }
 
 void bind_delaunay(py::module_& m) {

@@ -2,10 +2,10 @@
 #include <utility>
 
 #include "bind.hpp"
-#include "temper/draw.hpp"
-#include "temper/energy.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/html.hpp"
+#include "temper/draw.hpp"
+#include "temper/energy.hpp"
 #include "temper/quality.hpp"
 #ifdef TEMPER_WITH_VERIFY
 #include "temper/verify.hpp"
@@ -110,14 +110,11 @@ void bind_energy(py::module_& m) {
     options.h0 = softening_from(h0);
     options.worst = worst;
     const auto count = threads_from(threads);
-    Quality result;
-    {
-      const py::gil_scoped_release release;
+    return quality_to_dict(aside([&] {
       const auto executor = make_threads(count);
       options.executor = executor.get();
-      result = quality(*mesh, options);
-    }
-    return quality_to_dict(result);
+      return quality(*mesh, options);
+    }));
   });
   m.def("quality_measures", quality_measures_list);
   m.def("triangle_quality", triangle_quality_to_dict);
@@ -281,14 +278,12 @@ py::dict verify_mesh(const PyMesh& self, const py::sequence& fields, const py::o
   options.condition = condition;
   options.local = local;
   const auto count = threads_from(threads);
-  std::optional<Expected<VerifyReport>> report;
-  {
-    const py::gil_scoped_release release;
+  auto report = aside([&] {
     const auto executor = make_threads(count);
     options.executor = executor.get();
-    report = verify(*mesh, options);
-  }
-  return verify_to_dict(or_raise(*std::move(report)));
+    return verify(*mesh, options);
+  });
+  return verify_to_dict(or_raise(std::move(report)));
 }
 
 std::optional<FieldGroup> group_from(const py::object& group) {

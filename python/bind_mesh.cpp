@@ -33,14 +33,12 @@ py::tuple mesh_from_arrays(double radius, std::pair<double, double> period, cons
   input.regions = as_span<std::int32_t>(regions);
   input.fixed_vertices = {fixed_vertices.empty() ? nullptr : fixed_vertices.front().data(), fixed_vertices.size()};
   const auto count = threads_from(threads);
-  std::optional<Expected<BuiltMesh>> built;
-  {
-    const py::gil_scoped_release release;
+  auto built = aside([&] {
     const auto executor = make_threads(count);
     input.executor = executor.get();
-    built = Mesh::build(input);
-  }
-  BuiltMesh result = or_raise(*std::move(built));
+    return Mesh::build(input);
+  });
+  BuiltMesh result = or_raise(std::move(built));
   return py::make_tuple(std::make_unique<PyMesh>(std::move(result.mesh)), result.reversed_triangles);
 }
 

@@ -1,15 +1,67 @@
 // Bindings of optimize and replay: options, who listens, the mesh in place whatever ended the run.
+#include <cstdlib>
+#include <string>
+
 #include "bind.hpp"
-#include "communicator.hpp"
 #include "optimize_options.hpp"
-#include "temper/solvers.hpp"
+#include "temper/detail/executor.hpp"
 #include "temper/detail/trace.hpp"
+#include "temper/solvers.hpp"
 
 TEMPER_PYTHON_NAMES(temper::Snapshot::Moment, "start", "after_sweep", "before_flips", "after_flips");
 TEMPER_PYTHON_NAMES(temper::EventKind, "move", "weight", "flip", "collapse", "removal", "insertion", "split", "hidden",
                     "undo");
 
 namespace temper::python {
+namespace {
+
+class PythonCommunicator final : public Communicator {
+ public:
+  /// `communicator` has what mpi4py's Comm has: Get_size, Get_rank, bcast, Bcast and Abort.
+  explicit PythonCommunicator(const py::object& communicator)
+      : communicator_(communicator),
+        size_(communicator.attr("Get_size")().cast<std::size_t>()),
+        rank_(communicator.attr("Get_rank")().cast<std::size_t>()) {}
+
+  [[nodiscard]] std::size_t size() const override { return size_; }
+  [[nodiscard]] std::size_t rank() const override { return rank_; }
+
+  /// What fails here leaves the other ranks waiting, and cannot be raised through the library: it ends them all.
+  void broadcast(std::string& bytes, std::size_t from) override {
+    const py::gil_scoped_acquire gil;
+    try {
+      send_or_receive(bytes, from);
+    } catch (py::error_already_set& error) {
+      error.restore();
+      PyErr_Print();
+      end_all();
+    } catch (...) {
+      end_all();
+    }
+  }
+
+ private:
+  [[noreturn]] void end_all() const {
+    try {
+      communicator_.attr("Abort")(1);
+    } catch (...) {  // this process ends, and MPI the others
+    }
+    std::abort();
+  }
+
+  void send_or_receive(std::string& bytes, std::size_t from) const {
+    bytes.resize(communicator_.attr("bcast")(bytes.size(), py::arg("root") = from).cast<std::size_t>());
+    in_pieces(bytes, [&](char* data, std::size_t count) {
+      communicator_.attr("Bcast")(py::memoryview::from_memory(data, static_cast<py::ssize_t>(count)),
+                                  py::arg("root") = from);
+    });
+  }
+
+  const py::object& communicator_;
+  std::size_t size_, rank_;
+};
+
+}  // namespace
 
 Observer observer_of(Visitor& visitor, const py::object& observer) {
   return [&visitor, &observer](const Progress& progress) {
@@ -73,7 +125,7 @@ std::optional<SizeField> size_field_from(const py::object& field) {
 struct RunArguments {
   py::object size_field, threads;
   Callbacks callbacks;
-  py::object tensor;  ///< kxx, kxy, kyy
+  py::object tensor;        ///< kxx, kxy, kyy
   py::object communicator;  ///< a communicator of mpi4py
 };
 

@@ -2,10 +2,10 @@
 // explain.hpp.
 #include "bind.hpp"
 #include "temper/detail/connectivity.hpp"
-#include "temper/explain.hpp"
-#include "temper/feasibility.hpp"
 #include "temper/detail/lp.hpp"
 #include "temper/detail/necessity.hpp"
+#include "temper/explain.hpp"
+#include "temper/feasibility.hpp"
 
 TEMPER_PYTHON_NAMES(temper::LpStatus, "optimal", "infeasible", "unbounded", "failed");
 TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "split", "dual");
@@ -97,23 +97,13 @@ py::dict find(const PyMesh& self, const std::string& goal, double margin, bool f
   options.rings = rings;
   options.conditions = from_name<Conditions>("conditions", conditions);
   options.edges = prescribed(*mesh, edges);
-  std::optional<Expected<WeightReport>> report;
-  {
-    const py::gil_scoped_release release;
-    report = find_weights(*mesh, *clp_solver(), options);
-  }
-  return weight_report_to_dict(or_raise(*std::move(report)));
+  return weight_report_to_dict(or_raise(aside([&] { return find_weights(*mesh, *clp_solver(), options); })));
 }
 
 py::dict search_connectivity(const PyMesh& self, const std::string& conditions, std::size_t programmes) {
   const auto mesh = self.read();
   const ConnectivityOptions options = {from_name<Conditions>("conditions", conditions), programmes};
-  std::optional<Expected<ConnectivityReport>> found;
-  {
-    const py::gil_scoped_release release;
-    found = best_connectivity(*mesh, *clp_solver(), options);
-  }
-  ConnectivityReport report = or_raise(*std::move(found));
+  ConnectivityReport report = or_raise(aside([&] { return best_connectivity(*mesh, *clp_solver(), options); }));
   py::list steps;
   for (const ConnectivityStep& step : report.steps) {
     steps.append(Record()("kind", name(step.kind))("flips", step.flips)("margin", step.margin).dict);
@@ -149,13 +139,10 @@ void bind_feasibility(py::module_& m) {
           }
           const bool all = triangles.is_none();
           const std::vector<HalfedgeId> chosen = prescribed(*mesh, edges);
-          BestMargin best;
-          {
-            const py::gil_scoped_release release;
+          return best_to_dict(aside([&] {
             const auto solver = clp_solver();
-            best = all ? best_margin(*mesh, *solver, wanted, chosen) : best_margin(*mesh, ids, *solver, wanted, chosen);
-          }
-          return best_to_dict(best);
+            return all ? best_margin(*mesh, *solver, wanted, chosen) : best_margin(*mesh, ids, *solver, wanted, chosen);
+          }));
         });
   m.def("weight_margin", [](const PyMesh& self, const std::string& conditions, const py::object& edges) {
     const auto mesh = self.read();
@@ -264,13 +251,9 @@ py::dict explain_mesh(const PyMesh& self, std::size_t cures, std::size_t whole, 
     }
     return go_on ? Continue::yes : Continue::no;
   };
-  std::optional<Expected<Explanation>> result;
-  {
-    const py::gil_scoped_release release;
-    result = explain(*mesh, *clp_solver(), options);
-  }
+  auto result = aside([&] { return explain(*mesh, *clp_solver(), options); });
   visitor.raise();
-  const Explanation why = or_raise(*std::move(result));
+  const Explanation why = or_raise(std::move(result));
   py::list reasons;
   for (const Reason& reason : why.reasons) reasons.append(reason_to_dict(*mesh, reason));
   return Record()("triangles", why.triangles)("bad", why.bad)("verdict", name(why.verdict))("changed", why.changed)(

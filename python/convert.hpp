@@ -16,13 +16,13 @@
 #include <utility>
 #include <vector>
 
-#include "temper/energy.hpp"
 #include "temper/detail/error.hpp"
 #include "temper/detail/ids.hpp"
-#include "temper/io.hpp"
 #include "temper/detail/projection.hpp"
 #include "temper/detail/size.hpp"
-#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec.hpp"
+#include "temper/energy.hpp"
+#include "temper/io.hpp"
 
 namespace temper::python {
 

@@ -1,4 +1,4 @@
-// The exit codes of the program, and the exception that carries one to main.
+// How the program ends: its exit codes, the exception that carries one to main, and signals.
 //
 // The library returns bad input as values; the program, which has nothing to do but report it and stop,
 // turns them into a Failure with or_fail.
@@ -28,6 +28,11 @@ class Failure : public std::runtime_error {
   Exit exit;
 };
 
+/// Ends a verb whose options make no sense.
+[[noreturn]] inline void refuse_usage(const std::string& verb, const std::string& message) {
+  throw Failure(Exit::bad_usage, verb + ": " + message + "\nSee temper " + verb + " --help");
+}
+
 inline Failure as_failure(const InputError& error) {
   const Exit exit = error.code == ErrorCode::invalid_option ? Exit::bad_usage
                     : error.code == ErrorCode::stopped      ? Exit::stopped_early
@@ -44,5 +49,17 @@ T or_fail(Expected<T> expected) {
 inline void or_fail(const Expected<void>& expected) {
   if (!expected) throw as_failure(expected.error());
 }
+
+// Ctrl-C and its like: SIGINT, SIGTERM and SIGHUP end the program at once, whatever it does, and leave every file as it
+// was or whole. A verb that has something to show for its time notes the first one instead, and stops.
+
+/// From here on a signal ends the program: what is being written is removed, a line says so, and whoever waits for the
+/// program sees the signal. (A signal that is ignored, as by nohup, stays so.)
+void end_on_signals();
+/// From here on the first SIGINT, SIGTERM or SIGUSR1, which mpirun hands on and job schedulers send when time is nearly
+/// up, is only noted; the second one ends the program.
+void catch_interrupts();
+/// One has been noted.
+[[nodiscard]] bool interrupted();
 
 }  // namespace temper::app

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "experiments/infinity.hpp"
+#include "experiments/numbers.hpp"
 
 namespace temper::gallery {
 namespace {

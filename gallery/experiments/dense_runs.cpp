@@ -6,8 +6,8 @@
 #include "experiments/closeness.hpp"
 #include "experiments/domain.hpp"
 #include "experiments/energies.hpp"
-#include "temper/energy.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/energy.hpp"
 
 namespace temper::gallery {
 

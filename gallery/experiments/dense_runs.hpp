@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "experiments/inputs.hpp"
+#include "experiments/domain.hpp"
 #include "experiments/oscillating_horseshoe.hpp"
 #include "experiments/recording.hpp"
 #include "temper/mesh.hpp"

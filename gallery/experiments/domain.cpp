@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "temper/detail/geometry.hpp"
+#include "temper/generate.hpp"
 
 namespace temper::gallery {
 
@@ -38,6 +40,14 @@ std::size_t count_interior(const Mesh& mesh) {
   const auto vertices = mesh.vertices();
   return static_cast<std::size_t>(
       std::count_if(vertices.begin(), vertices.end(), [&](VertexId v) { return !mesh.is_boundary(v); }));
+}
+
+const Mesh& dense_horseshoe() {
+  static const Mesh mesh = [] {
+    auto made = horseshoe();
+    return made ? *std::move(made) : Mesh();
+  }();
+  return mesh;
 }
 
 }  // namespace temper::gallery

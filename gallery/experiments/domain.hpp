@@ -18,4 +18,6 @@ namespace temper::gallery {
 /// The number of vertices that are not on the boundary.
 [[nodiscard]] std::size_t count_interior(const Mesh& mesh);
 
+[[nodiscard]] const Mesh& dense_horseshoe();
+
 }  // namespace temper::gallery

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/infinity.hpp"
 #include "experiments/minimise.hpp"
-#include "experiments/random.hpp"
+#include "experiments/numbers.hpp"
 #include "plot/plot.hpp"
 #include "temper/detail/geometry.hpp"
 

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "gallery.hpp"
+#include "temper/detail/vec.hpp"
 #include "temper/energy.hpp"
-#include "temper/detail/vec2.hpp"
 
 namespace temper::gallery {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "experiments/infinity.hpp"
+#include "experiments/numbers.hpp"
 #include "temper/detail/geometry.hpp"
 
 namespace temper::gallery {

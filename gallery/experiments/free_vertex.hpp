@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "plot/plot.hpp"
+#include "temper/detail/vec.hpp"
 #include "temper/energy.hpp"
-#include "temper/detail/vec2.hpp"
 
 namespace temper::gallery {
 

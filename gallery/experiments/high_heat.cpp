@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "experiments/domain.hpp"
 #include "experiments/energies.hpp"
-#include "experiments/inputs.hpp"
 #include "experiments/oscillating_horseshoe.hpp"
 
 namespace temper::gallery {

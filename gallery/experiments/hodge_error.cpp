@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "experiments/domain.hpp"
-#include "experiments/random.hpp"
-#include "temper/generate.hpp"
+#include "experiments/numbers.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/generate.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper::gallery {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/colors.hpp"
 #include "experiments/text.hpp"
 #include "experiments/triangle_drawing.hpp"
 #include "temper/detail/geometry.hpp"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/colors.hpp"
 #include "experiments/domain.hpp"
 #include "experiments/text.hpp"
+#include "experiments/triangle_drawing.hpp"
 #include "prose.hpp"
 #include "temper/detail/geometry.hpp"
 
@@ -135,5 +135,16 @@ class Painter {
 }  // namespace
 
 std::string mesh_picture_svg(const Mesh& mesh, const MeshPicture& picture) { return Painter(mesh, picture).paint(); }
+
+void add_mark(MeshPicture& picture, const Moment& moment, VertexId input, const char* color) {
+  const VertexId v = moment.find(input);
+  if (v.valid()) picture.marks.push_back({moment.mesh.position(v), color});
+}
+
+std::vector<Shade> cavities(const Moment& here, const Moment& there) {
+  std::vector<Shade> shades;
+  for (const TriangleId t : triangles_not_in(here, there)) shades.push_back({t, MarkColor::cavity});
+  return shades;
+}
 
 }  // namespace temper::gallery

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/recording.hpp"
 #include "temper/draw.hpp"
 #include "temper/mesh.hpp"
 
@@ -46,5 +47,11 @@ struct MarkColor {
 };
 
 [[nodiscard]] std::string mesh_picture_svg(const Mesh& mesh, const MeshPicture& picture);
+
+/// A disc on the vertex with that number in the input, unless it has been removed.
+void add_mark(MeshPicture& picture, const Moment& moment, VertexId input, const char* color);
+
+/// The triangles that the other moment has not.
+[[nodiscard]] std::vector<Shade> cavities(const Moment& here, const Moment& there);
 
 }  // namespace temper::gallery

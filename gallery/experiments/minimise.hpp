@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper::gallery {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/inputs.hpp"
+#include "experiments/domain.hpp"
 
 namespace temper::gallery {
 namespace {

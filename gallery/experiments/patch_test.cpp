@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "experiments/domain.hpp"
 #include "experiments/energies.hpp"
 #include "experiments/high_heat.hpp"
-#include "experiments/inputs.hpp"
 #include "experiments/mesh_picture.hpp"
 #include "experiments/text.hpp"
 #include "plot/plot.hpp"

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "temper/detail/trace.hpp"
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
-#include "temper/detail/trace.hpp"
 
 namespace temper::gallery {
 

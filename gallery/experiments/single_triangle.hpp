@@ -14,8 +14,10 @@
 #include <string_view>
 #include <vector>
 
+#include "experiments/numbers.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/vec.hpp"
 #include "temper/energy.hpp"
-#include "temper/detail/vec2.hpp"
 
 namespace temper::gallery {
 
@@ -58,5 +60,15 @@ struct Extrema {
 };
 [[nodiscard]] std::optional<Extrema> extrema(const std::array<double, 4>& cubic);
 [[nodiscard]] double evaluate(const std::array<double, 4>& cubic, double w);
+
+/// Counter-clockwise, corners in [−1, 1]², weights between −w and w. Slivers are left out: they keep few digits.
+inline Corners random_triangle(Random& random, double w) {
+  constexpr double kLeastDoubledArea = 0.1;
+  Corners p;
+  do {
+    for (WeightedPoint& corner : p) corner = {random(-1, 1), random(-1, 1), w > 0 ? random(-w, w) : 0};
+  } while (doubled_area(p[0].position(), p[1].position(), p[2].position()) < kLeastDoubledArea);
+  return p;
+}
 
 }  // namespace temper::gallery

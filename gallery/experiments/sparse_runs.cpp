@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "experiments/closeness.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/generate.hpp"
 
 namespace temper::gallery {
 namespace {

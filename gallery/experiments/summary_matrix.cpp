@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "experiments/closeness.hpp"
+#include "experiments/domain.hpp"
 #include "experiments/energies.hpp"
 #include "experiments/high_heat.hpp"
-#include "experiments/inputs.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::gallery {

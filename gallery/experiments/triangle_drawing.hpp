@@ -9,6 +9,8 @@
 
 namespace temper::gallery {
 
+inline constexpr const char *kInk = "#222222", *kDual = "#005fa3", *kPositive = "#00845f", *kNegative = "#c8320a";
+
 struct TriangleRow {
   std::string label;                          ///< of the row
   std::vector<std::optional<Corners>> cells;  ///< nothing: no solution there

@@ -10,10 +10,10 @@
 #include <string_view>
 
 #include "experiments/dense_runs.hpp"
+#include "experiments/domain.hpp"
 #include "experiments/energies.hpp"
 #include "experiments/high_heat.hpp"
-#include "experiments/inputs.hpp"
-#include "experiments/median.hpp"
+#include "experiments/numbers.hpp"
 #include "experiments/oscillating_horseshoe.hpp"
 #include "experiments/text.hpp"
 #include "temper/quality.hpp"

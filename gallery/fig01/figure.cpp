@@ -8,7 +8,7 @@
 
 #include "experiments/hodge_error.hpp"
 #include "experiments/labelled_triangle.hpp"
-#include "experiments/random_triangle.hpp"
+#include "experiments/single_triangle.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "temper/detail/geometry.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "experiments/random_triangle.hpp"
+#include "experiments/single_triangle.hpp"
 #include "experiments/text.hpp"
 #include "experiments/triangle_drawing.hpp"
 #include "figures.hpp"

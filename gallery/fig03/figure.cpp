@@ -5,7 +5,7 @@
 
 #include "experiments/free_vertex.hpp"
 #include "experiments/minimise.hpp"
-#include "experiments/random.hpp"
+#include "experiments/numbers.hpp"
 #include "experiments/single_triangle.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"

@@ -8,11 +8,11 @@
 #include "experiments/free_vertex.hpp"
 #include "experiments/labelled_triangle.hpp"
 #include "experiments/minimise.hpp"
-#include "experiments/random_triangle.hpp"
+#include "experiments/single_triangle.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
-#include "temper/energy.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/energy.hpp"
 
 namespace temper::gallery::fig05 {
 namespace {

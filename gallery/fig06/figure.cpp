@@ -6,8 +6,8 @@
 
 #include "experiments/edge_energy.hpp"
 #include "experiments/minimise.hpp"
-#include "experiments/random.hpp"
-#include "experiments/random_triangle.hpp"
+#include "experiments/numbers.hpp"
+#include "experiments/single_triangle.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "temper/detail/geometry.hpp"

@@ -9,8 +9,8 @@
 #include "experiments/text.hpp"
 #include "experiments/triangle_drawing.hpp"
 #include "figures.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper::gallery::fig09 {

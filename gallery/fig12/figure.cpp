@@ -12,9 +12,9 @@
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "plot/plot.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/energy.hpp"
 #include "temper/generate.hpp"
-#include "temper/detail/geometry.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::gallery::fig12 {

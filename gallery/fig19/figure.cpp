@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "experiments/inputs.hpp"
+#include "experiments/domain.hpp"
 #include "experiments/line_search.hpp"
-#include "experiments/median.hpp"
-#include "experiments/moment_picture.hpp"
+#include "experiments/mesh_picture.hpp"
+#include "experiments/numbers.hpp"
 #include "experiments/oscillating_horseshoe.hpp"
 #include "experiments/patch_test.hpp"
 #include "experiments/text.hpp"

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "experiments/domain.hpp"
 #include "experiments/energies.hpp"
-#include "experiments/inputs.hpp"
-#include "experiments/median.hpp"
-#include "experiments/moment_picture.hpp"
+#include "experiments/mesh_picture.hpp"
+#include "experiments/numbers.hpp"
 #include "experiments/oscillating_horseshoe.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"

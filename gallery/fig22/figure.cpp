@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "experiments/domain.hpp"
-#include "experiments/inputs.hpp"
-#include "experiments/median.hpp"
 #include "experiments/mesh_picture.hpp"
+#include "experiments/numbers.hpp"
 #include "experiments/oscillating_horseshoe.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"

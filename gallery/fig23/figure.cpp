@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "experiments/domain.hpp"
-#include "experiments/median.hpp"
 #include "experiments/mesh_picture.hpp"
+#include "experiments/numbers.hpp"
 #include "experiments/text.hpp"
 #include "experiments/weight_policies.hpp"
 #include "figures.hpp"

@@ -10,8 +10,8 @@
 #include "experiments/weight_policies.hpp"
 #include "figures.hpp"
 #include "plot/plot.hpp"
-#include "temper/draw.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/draw.hpp"
 
 namespace temper::gallery::fig24 {
 namespace {

@@ -1,17 +1,110 @@
 // Figure 25: positions and weights from the mesh that oscillates, flips deferred. Under E_∂T a HOT mess, unless
 // searches stop at the flip; under E_T a good mesh without limits.
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/mesh_picture.hpp"
-#include "experiments/position_weight_loop.hpp"
+#include "experiments/oscillating_horseshoe.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "plot/plot.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/energy.hpp"
+#include "temper/regularity.hpp"
 
 namespace temper::gallery::fig25 {
 namespace {
+
+// Positions, then weights, sweep by sweep with deferred flips, from the mesh that oscillates (figure 25): Algorithm 1
+// with all positions first, so that it can be seen what each does. How far a search for a weight reaches decides
+// whether it leaves a local minimum for the unbounded side.
+
+struct PositionWeightLoop {
+  EnergyKind energy = EnergyKind::dT;
+  double weight_reach = 1;  ///< greatest change of a weight in one search, over r²
+  bool limited = false;     ///< searches stop after the next flip: overshoot 1.1, 1.01, …
+};
+
+/// A mesh of the run.
+struct LoopStage {
+  std::string name;  ///< "positions 1", "weights 1", "flips 1": after that part of the first sweep
+  Mesh mesh;
+  double energy = 0;
+  std::size_t inverted = 0;     ///< triangles
+  std::size_t non_regular = 0;  ///< edges; 0 where triangles are inverted
+  double largest_weight = 0;
+};
+
+std::size_t count_inverted(const Mesh& mesh) {
+  std::size_t count = 0;
+  for (const TriangleId t : mesh.triangles()) {
+    const auto [a, b, c] = mesh.corners(t);
+    if (orient2d(mesh.position(a), mesh.position(b), mesh.position(c)) != Sign::positive) ++count;
+  }
+  return count;
+}
+
+LoopStage stage(std::string name, const Mesh& mesh, EnergyKind energy) {
+  EnergyModel model;
+  model.kind = energy;
+  LoopStage s{std::move(name), mesh, total_energy(mesh, model), count_inverted(mesh), 0, 0};
+  if (s.inverted == 0) s.non_regular = count_non_regular_edges(mesh);
+  for (const VertexId v : mesh.vertices()) s.largest_weight = std::max(s.largest_weight, std::abs(mesh.weight(v)));
+  return s;
+}
+
+OptimizeOptions options_of(const PositionWeightLoop& loop, const VertexOrder& order, int sweeps) {
+  OptimizeOptions options = positions_and_collapses();
+  options.energy = loop.energy;
+  options.unknowns = Unknowns::positions_and_weights;
+  options.paper.collapse_from = {};
+  options.paper.anchor = {};
+  options.paper.inversion = Inversion::allow;
+  options.paper.visits = Visits::twice;
+  options.paper.weight_reach = loop.weight_reach;
+  options.paper.flip_limit = loop.limited ? FlipLimit::after : FlipLimit::unlimited;
+  options.paper.inner = 1;
+  options.paper.outer = 0;
+  options.paper.stopping = StoppingRule::relative;  // a rise ends the paper's
+  options.paper.tolerance = 0;
+  options.max_sweeps = sweeps;
+  visit_in(order, options);
+  return options;
+}
+
+/// The mesh after the positions of a sweep, counted from 1: all events up to the last move of it.
+Mesh after_positions(const Recording& run, int sweep) {
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < run.events.size(); ++i) {
+    if (run.events[i].sweep < sweep || (run.events[i].sweep == sweep && run.events[i].kind == EventKind::move))
+      end = i + 1;
+  }
+  auto mesh = replay(run.moments.front().mesh, std::span(run.events).first(end));
+  return mesh ? *std::move(mesh) : Mesh();
+}
+
+/// The stages of up to so many sweeps; it ends with the sweep after which a triangle is inverted, for flips cannot make
+/// such a mesh regular.
+std::vector<LoopStage> run_loop(const PositionWeightLoop& loop, const Mesh& start, const VertexOrder& order,
+                                int sweeps) {
+  const Recording run = record(start, options_of(loop, order, sweeps), Keep::sweeps);
+  std::vector<LoopStage> stages = {stage("start", start, loop.energy)};
+  for (const Moment& m : run.moments) {
+    if (m.kind == Snapshot::Moment::after_sweep) {
+      const std::string number = std::to_string(m.sweep);
+      stages.push_back(stage("positions " + number, after_positions(run, m.sweep), loop.energy));
+      stages.push_back(stage("weights " + number, m.mesh, loop.energy));
+    } else if (m.kind == Snapshot::Moment::after_flips) {
+      stages.push_back(stage("flips " + std::to_string(m.sweep), m.mesh, loop.energy));
+    }
+  }
+  return stages;
+}
 
 constexpr double kShownReach = 4;  // over r²
 constexpr int kShownSweeps = 20;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "experiments/domain.hpp"
 #include "experiments/high_heat.hpp"
-#include "experiments/inputs.hpp"
-#include "experiments/moment_picture.hpp"
+#include "experiments/mesh_picture.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "plot/plot.hpp"

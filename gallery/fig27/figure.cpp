@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "experiments/high_heat.hpp"
-#include "experiments/moment_picture.hpp"
+#include "experiments/mesh_picture.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"
 #include "plot/plot.hpp"

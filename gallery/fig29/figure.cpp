@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "experiments/domain.hpp"
 #include "experiments/energies.hpp"
 #include "experiments/high_heat.hpp"
-#include "experiments/inputs.hpp"
 #include "experiments/mesh_picture.hpp"
 #include "experiments/text.hpp"
 #include "figures.hpp"

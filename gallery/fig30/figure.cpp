@@ -8,7 +8,6 @@
 #include "experiments/domain.hpp"
 #include "experiments/energies.hpp"
 #include "experiments/high_heat.hpp"
-#include "experiments/inputs.hpp"
 #include "experiments/patch_test.hpp"
 #include "experiments/short_edge.hpp"
 #include "experiments/summary_matrix.hpp"

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "experiments/closeness.hpp"
+#include "experiments/domain.hpp"
 #include "experiments/energies.hpp"
 #include "experiments/high_heat.hpp"
-#include "experiments/inputs.hpp"
 #include "experiments/mesh_picture.hpp"
 #include "experiments/summary_matrix.hpp"
 #include "experiments/text.hpp"

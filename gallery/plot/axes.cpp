@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "draw/path.hpp"
+#include "draw/frame.hpp"
 #include "draw/text.hpp"
-#include "draw/xml.hpp"
 
 namespace temper {
 namespace {

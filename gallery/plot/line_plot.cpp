@@ -5,9 +5,7 @@
 #include <limits>
 
 #include "draw/frame.hpp"
-#include "draw/path.hpp"
 #include "draw/text.hpp"
-#include "draw/xml.hpp"
 #include "plot/axes.hpp"
 #include "plot/plot.hpp"
 

@@ -26,10 +26,9 @@
 #include <vector>
 
 #include "temper/detail/ids.hpp"
-#include "temper/mesh.hpp"
 #include "temper/detail/tensor.hpp"
-#include "temper/detail/vec2.hpp"
-#include "temper/detail/vec3.hpp"
+#include "temper/detail/vec.hpp"
+#include "temper/mesh.hpp"
 
 namespace temper {
 

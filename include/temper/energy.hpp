@@ -25,8 +25,8 @@
 
 #include "temper/detail/error.hpp"
 #include "temper/detail/executor.hpp"
-#include "temper/mesh.hpp"
 #include "temper/detail/space.hpp"
+#include "temper/mesh.hpp"
 
 namespace temper {
 

@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "temper/detail/error.hpp"
-#include "temper/feasibility.hpp"
 #include "temper/detail/ids.hpp"
-#include "temper/mesh.hpp"
 #include "temper/detail/necessity.hpp"
 #include "temper/detail/progress.hpp"
-#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec.hpp"
+#include "temper/feasibility.hpp"
+#include "temper/mesh.hpp"
 
 namespace temper {
 

@@ -18,10 +18,10 @@
 
 #include "temper/detail/error.hpp"
 #include "temper/detail/executor.hpp"
-#include "temper/mesh.hpp"
 #include "temper/detail/outline.hpp"
 #include "temper/detail/projection.hpp"
 #include "temper/detail/size.hpp"
+#include "temper/mesh.hpp"
 
 namespace temper::io {
 

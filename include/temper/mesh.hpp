@@ -23,7 +23,7 @@
 #include "temper/detail/error.hpp"
 #include "temper/detail/ids.hpp"
 #include "temper/detail/space.hpp"
-#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper {
 

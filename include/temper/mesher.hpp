@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "temper/detail/error.hpp"
-#include "temper/mesh.hpp"
-#include "temper/optimize.hpp"
 #include "temper/detail/outline.hpp"
 #include "temper/detail/size.hpp"
+#include "temper/mesh.hpp"
+#include "temper/optimize.hpp"
 
 namespace temper {
 

@@ -15,15 +15,15 @@
 #include <string_view>
 #include <vector>
 
-#include "temper/detail/communicator.hpp"
-#include "temper/energy.hpp"
 #include "temper/detail/error_model.hpp"
-#include "temper/mesh.hpp"
+#include "temper/detail/executor.hpp"
 #include "temper/detail/progress.hpp"
-#include "temper/regularity.hpp"
 #include "temper/detail/size.hpp"
 #include "temper/detail/tensor.hpp"
 #include "temper/detail/trace.hpp"
+#include "temper/energy.hpp"
+#include "temper/mesh.hpp"
+#include "temper/regularity.hpp"
 
 namespace temper {
 
@@ -240,7 +240,8 @@ struct PaperSwitches {
 struct Solvers {
   /// For repairs: solves for the weights of a place that sweeps leave bad. Empty: repairs do without.
   std::function<std::unique_ptr<LpSolver>()> lp = {};
-  /// The model of the errors of a scheme on a mesh. Empty: accuracy is lowered instead of the error, and a note says so.
+  /// The model of the errors of a scheme on a mesh. Empty: accuracy is lowered instead of the error, and a note says
+  /// so.
   std::function<Expected<std::shared_ptr<const ErrorModel>>(const Mesh& mesh, Scheme scheme)> error_model = {};
 };
 
@@ -271,11 +272,11 @@ struct OptimizeOptions {
   Repair repair = Repair::moves;
   int repair_trials = 20000;  ///< most edits that are tried, each on a copy of a neighbourhood; 1 to 3 ms each; a
                               ///< linear program counts as 20
-  /// A constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/detail/tensor.hpp). The report and
-  /// snapshots are of that plane. Absent: K = 1.
+  /// A constant diffusion tensor K: the mesh is improved in the plane of its metric (temper/detail/tensor.hpp). The
+  /// report and snapshots are of that plane. Absent: K = 1.
   std::optional<Tensor> tensor = {};
-  int max_sweeps = 1000;      ///< each repair counts as a sweep of its own
-  double time_limit = 0;      ///< of all of it, seconds; 0: none
+  int max_sweeps = 1000;  ///< each repair counts as a sweep of its own
+  double time_limit = 0;  ///< of all of it, seconds; 0: none
   PaperSwitches paper = {};
 };
 

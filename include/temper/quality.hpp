@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include "temper/detail/space.hpp"
 #include "temper/energy.hpp"
 #include "temper/mesh.hpp"
-#include "temper/detail/space.hpp"
 
 namespace temper {
 

@@ -22,8 +22,8 @@
 
 #include "temper/detail/error.hpp"
 #include "temper/detail/error_model.hpp"
+#include "temper/detail/vec.hpp"
 #include "temper/mesh.hpp"
-#include "temper/detail/vec2.hpp"
 
 namespace temper {
 

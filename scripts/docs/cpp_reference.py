@@ -154,7 +154,7 @@ def pages(include):
                         place = member.find("location")
                         found.setdefault(place.get("file"), []).append((int(place.get("line")), entry(member, 2)))
     result = {}
-    for header in sorted(pathlib.Path(include, "temper").glob("*.hpp")):
+    for header in sorted(pathlib.Path(include, "temper").rglob("*.hpp")):
         name = f"temper/{header.name}"
         entries = dict.fromkeys(text for _, text in sorted(found.get(name, [])))
         result[header.name] = f"# {header.name}\n\n{opening_of(header)}\n\n```cpp\n#include \"{name}\"\n```\n\n" + "\n\n".join(entries)

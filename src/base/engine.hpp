@@ -6,7 +6,6 @@
 
 #include "base/assert.hpp"
 #include "base/bytes.hpp"
-#include "temper/detail/communicator.hpp"
 #include "temper/detail/executor.hpp"
 
 namespace temper {

@@ -8,8 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "temper/detail/vec2.hpp"
-#include "temper/detail/vec3.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper {
 

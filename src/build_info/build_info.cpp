@@ -1,4 +1,3 @@
-// See temper/detail/build_info.hpp.
 #include "temper/detail/build_info.hpp"
 
 #include <coin/Clp_C_Interface.h>
@@ -15,8 +14,8 @@
 
 #include "build_info/commit.hpp"
 #include "temper/detail/instruction_set.hpp"
-#include "temper/io.hpp"
 #include "temper/detail/version.hpp"
+#include "temper/io.hpp"
 
 namespace temper {
 namespace {

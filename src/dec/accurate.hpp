@@ -5,8 +5,7 @@
 // three.
 #pragma once
 
-#include "temper/detail/vec2.hpp"
-#include "temper/detail/vec3.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper::accurate {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "temper/detail/geometry.hpp"
 
@@ -168,6 +169,184 @@ void TriangleDivider::clip(std::vector<PieceCorner>& piece, const Candidate& own
     }
   }
   piece.swap(scratch_);
+}
+
+// Every piece brings its corners as nodes and its sides as arcs. Where two pieces lie on the two sides of a mesh edge,
+// the two arcs go, and their ends become one node (union-find). The arcs that are left run around the union,
+// counter-clockwise.
+
+namespace {
+
+// Corners that should be one differ by the rounding of two computations of them, amplified where a bisector meets the
+// edge at a small angle. Relative to the size of the cell; a wrong join would be seen in the area.
+constexpr double kSamePlace = 1e-10;
+// The change that joining may make to the area of a cell.
+constexpr double kSameArea = 1e-12;
+
+struct Arc {
+  std::size_t from, to;
+  VertexId against;
+  HalfedgeId along;
+  bool gone = false;
+};
+
+class PieceJoiner {
+ public:
+  /// The polygons are the places of the pieces' corners.
+  PieceJoiner(const Mesh& mesh, std::span<const CellPiece> pieces, const std::vector<LocalPolygon>& polygons);
+  std::vector<LocalPolygon> join();
+
+ private:
+  std::size_t root(std::size_t node);
+  void unite(std::size_t a, std::size_t b);
+  void cancel();
+  void take_shared(std::size_t i, std::size_t j);
+  [[nodiscard]] bool same_place(std::size_t a, std::size_t b) const {
+    return length(places_[a] - places_[b]) <= kSamePlace * size_;
+  }
+  LocalPolygon trace(std::size_t first);
+  [[nodiscard]] std::size_t following(std::size_t arc) const;
+
+  const Mesh& mesh_;
+  std::vector<Vec2> places_;  // of nodes
+  std::vector<std::size_t> parents_;
+  std::vector<Arc> arcs_;
+  double size_ = 0;
+};
+
+PieceJoiner::PieceJoiner(const Mesh& mesh, std::span<const CellPiece> pieces, const std::vector<LocalPolygon>& polygons)
+    : mesh_(mesh) {
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const auto& corners = pieces[k].corners;
+    const std::size_t first = places_.size(), n = corners.size();
+    places_.insert(places_.end(), polygons[k].begin(), polygons[k].end());
+    for (std::size_t i = 0; i < n; ++i) {
+      arcs_.push_back({first + i, first + (i + 1) % n, corners[i].against, corners[i].along});
+    }
+  }
+  for (const Vec2 p : places_) size_ = std::max(size_, length(p - places_[0]));
+  parents_.resize(places_.size());
+  std::iota(parents_.begin(), parents_.end(), std::size_t{0});
+}
+
+std::size_t PieceJoiner::root(std::size_t node) {
+  while (parents_[node] != node) node = parents_[node] = parents_[parents_[node]];
+  return node;
+}
+
+void PieceJoiner::unite(std::size_t a, std::size_t b) {
+  a = root(a), b = root(b);
+  parents_[std::max(a, b)] = std::min(a, b);
+}
+
+void PieceJoiner::cancel() {
+  std::vector<std::size_t> on_edges;
+  for (std::size_t i = 0; i < arcs_.size(); ++i) {
+    Arc& arc = arcs_[i];
+    if (same_place(arc.from, arc.to)) {
+      arc.gone = true;
+      unite(arc.from, arc.to);
+    } else if (arc.along.valid() && mesh_.twin(arc.along).valid()) {
+      on_edges.push_back(i);
+    }
+  }
+  // A cell has at most one arc on each half-edge: its pieces are convex.
+  std::sort(on_edges.begin(), on_edges.end(),
+            [&](std::size_t a, std::size_t b) { return arcs_[a].along < arcs_[b].along; });
+  for (const std::size_t i : on_edges) {
+    const HalfedgeId h = arcs_[i].along, twin = mesh_.twin(h);
+    if (twin < h) continue;
+    const auto j = std::lower_bound(on_edges.begin(), on_edges.end(), twin,
+                                    [&](std::size_t a, HalfedgeId side) { return arcs_[a].along < side; });
+    if (j == on_edges.end() || arcs_[*j].along != twin) continue;
+    take_shared(i, *j);
+  }
+  for (Arc& arc : arcs_) {
+    arc.from = root(arc.from), arc.to = root(arc.to);
+    if (arc.from == arc.to) arc.gone = true;
+  }
+}
+
+/// Takes from two arcs on the two sides of an edge what they share. It is all of both where the mesh is regular; else
+/// the ends that only one of them has stay as shorter arcs.
+void PieceJoiner::take_shared(std::size_t i, std::size_t j) {
+  const Arc arc = arcs_[i], other = arcs_[j];  // copies: arcs_ grows
+  const Vec2 along = places_[arc.to] - places_[arc.from];
+  const auto position = [&](std::size_t node) { return dot(places_[node] - places_[arc.from], along) / length(along); };
+  const double low = std::max(0.0, position(other.to)), high = std::min(length(along), position(other.from));
+  if (high - low <= kSamePlace * size_) return;
+  arcs_[i].gone = arcs_[j].gone = true;
+  const auto settle = [&](std::size_t mine, std::size_t theirs, bool mine_sticks_out, bool at_low) {
+    if (same_place(mine, theirs)) return unite(mine, theirs);
+    const bool outgoing = mine_sticks_out == at_low;  // of the arc that sticks out, the end before the shared part
+    const std::size_t out = mine_sticks_out ? mine : theirs, shared = mine_sticks_out ? theirs : mine;
+    arcs_.push_back({outgoing ? out : shared, outgoing ? shared : out, {}, mine_sticks_out ? arc.along : other.along});
+  };
+  settle(arc.from, other.to, position(other.to) > 0, true);
+  settle(arc.to, other.from, position(other.from) < length(along), false);
+}
+
+/// The arc that goes on from the end of another; the sharpest left turn where several do, so that polygons that touch
+/// at a corner stay apart. None: arcs_.size().
+std::size_t PieceJoiner::following(std::size_t arc) const {
+  const auto first = std::lower_bound(arcs_.begin(), arcs_.end(), arcs_[arc].to,
+                                      [](const Arc& a, std::size_t node) { return a.from < node; });
+  const Vec2 ahead = places_[arcs_[arc].to] - places_[arcs_[arc].from];
+  std::size_t best = arcs_.size();
+  double sharpest = -2 * std::numbers::pi;
+  for (auto a = first; a != arcs_.end() && a->from == arcs_[arc].to; ++a) {
+    if (a->gone) continue;
+    const Vec2 out = places_[a->to] - places_[a->from];
+    const double left = std::atan2(cross(ahead, out), dot(ahead, out));
+    if (left > sharpest) sharpest = left, best = static_cast<std::size_t>(a - arcs_.begin());
+  }
+  return best;
+}
+
+/// The polygon that an arc is on, without the corners where a bisector only crosses from one triangle into the next.
+/// Empty when it does not close. Its arcs are gone then.
+LocalPolygon PieceJoiner::trace(std::size_t first) {
+  LocalPolygon polygon;
+  for (std::size_t at = first;;) {
+    if (at != first) arcs_[at].gone = true;  // the first one stays to be found at the end
+    const std::size_t next = following(at);
+    const bool open = next == arcs_.size();
+    if (open || next == first) arcs_[first].gone = true;
+    if (open) return {};
+    const bool straight = arcs_[at].against.valid() && arcs_[at].against == arcs_[next].against;
+    if (!straight) polygon.push_back(places_[arcs_[at].to]);
+    if (next == first) return polygon;
+    at = next;
+  }
+}
+
+std::vector<LocalPolygon> PieceJoiner::join() {
+  cancel();
+  arcs_.erase(std::remove_if(arcs_.begin(), arcs_.end(), [](const Arc& a) { return a.gone; }), arcs_.end());
+  std::stable_sort(arcs_.begin(), arcs_.end(), [](const Arc& a, const Arc& b) { return a.from < b.from; });
+  std::vector<LocalPolygon> polygons;
+  for (std::size_t i = 0; i < arcs_.size(); ++i) {
+    if (arcs_[i].gone) continue;
+    polygons.push_back(trace(i));
+    if (!(area_of(polygons.back()) > 0)) return {};  // a hole, or what did not close
+  }
+  return polygons;
+}
+
+}  // namespace
+
+std::vector<LocalPolygon> join_pieces(const Mesh& mesh, const Chart& chart, std::span<const CellPiece> pieces) {
+  double area = 0, joined_area = 0;
+  std::vector<LocalPolygon> apart;
+  for (const CellPiece& piece : pieces) {
+    const Chart plane = Chart::of_triangle(mesh, piece.triangle);
+    LocalPolygon& polygon = apart.emplace_back();
+    for (const PieceCorner& c : piece.corners) polygon.push_back(chart.moved(plane, c.at));
+    area += area_of(polygon);
+  }
+  std::vector<LocalPolygon> joined = PieceJoiner(mesh, pieces, apart).join();
+  for (const LocalPolygon& polygon : joined) joined_area += area_of(polygon);
+  return std::abs(joined_area - area) <= kSameArea * area ? joined : apart;
 }
 
 }  // namespace temper

@@ -6,11 +6,90 @@
 // fan of that corner) is left out: it lies behind a crack or a notch.
 #pragma once
 
+#include <cmath>
+#include <span>
 #include <vector>
 
-#include "dec/chart.hpp"
+#include "temper/mesh.hpp"
 
 namespace temper {
+
+// A part of the mesh, seen as a plane near the origin. In the plane that is itself, moved, with the images nearest to
+// there; on the sphere it is another plane, beside it, and places go there and back on rays from the center, so that
+// great circles are straight lines.
+
+class Chart {
+ public:
+  Chart() = default;
+
+  /// The plane of a triangle, from its corner 0. On the sphere that of the flat face PQR.
+  [[nodiscard]] static Chart of_triangle(const Mesh& mesh, TriangleId t) {
+    const auto [i, j, k] = mesh.corners(t);
+    Chart chart(mesh, i);
+    if (mesh.space().is_plane()) return chart;
+    chart.lifted_origin_ = mesh.lifted_point(i);
+    const Vec3 along = mesh.lifted_point(j) - mesh.lifted_point(i);
+    chart.turn(along, cross(along, mesh.lifted_point(k) - mesh.lifted_point(i)));
+    return chart;
+  }
+  /// From a vertex. On the sphere the plane that touches it there: it has the places less than a quarter turn away.
+  [[nodiscard]] static Chart around(const Mesh& mesh, VertexId v) {
+    Chart chart(mesh, v);
+    if (mesh.space().is_plane()) return chart;
+    const Vec3 p = mesh.lifted_point(v);
+    chart.lifted_origin_ = mesh.space().radius() / length(p) * p;
+    const bool upright = std::abs(p.z) > 0.5 * length(p);
+    chart.turn(cross(upright ? Vec3{1, 0, 0} : Vec3{0, 0, 1}, p), p);
+    return chart;
+  }
+
+  /// A vertex as a weighted point of a triangle's plane: power distances differ by what they differ by in the space.
+  /// On the sphere x·P is greatest in the cell of P, and with P = O + e + n, n across the plane, −2 x·P is the power
+  /// distance to e with the weight |e|² + 2 O·(P − O), but for what all vertices share.
+  [[nodiscard]] WeightedPoint of(const Mesh& mesh, VertexId v) const {
+    if (mesh.space().is_plane()) {
+      const Vec2 at = mesh.point(v, origin_).position() - origin_.position();
+      return {at.x, at.y, mesh.weight(v)};
+    }
+    const Vec3 from_origin = mesh.lifted_point(v) - lifted_origin_;
+    const Vec2 at = {dot(e1_, from_origin), dot(e2_, from_origin)};
+    return {at.x, at.y, squared_length(at) + 2 * dot(lifted_origin_, from_origin)};
+  }
+
+  /// A place of the sphere, in the plane around a vertex.
+  [[nodiscard]] Vec2 of(Vec3 place) const {
+    const double scale = squared_length(lifted_origin_) / dot(lifted_origin_, place);
+    return {scale * dot(e1_, place), scale * dot(e2_, place)};
+  }
+  /// The ray of a place in the plane, not scaled to the radius.
+  [[nodiscard]] Vec3 ray(Vec2 at) const { return lifted_origin_ + at.x * e1_ + at.y * e2_; }
+  /// A place of another plane in this one, around a vertex.
+  [[nodiscard]] Vec2 moved(const Chart& from, Vec2 at) const {
+    if (!space_.is_plane()) return of(from.ray(at));
+    return at + (space_.image(from.origin_, origin_).position() - origin_.position());
+  }
+  /// Says whether a place of another plane is in this one: with room, since places go to infinity at a quarter turn.
+  [[nodiscard]] bool has(const Chart& from, Vec2 at) const {
+    constexpr double kLeastCosine = 0.02;
+    if (space_.is_plane()) return true;
+    const Vec3 x = from.ray(at);
+    return dot(lifted_origin_, x) > kLeastCosine * length(lifted_origin_) * length(x);
+  }
+
+ private:
+  Chart(const Mesh& mesh, VertexId v) : space_(mesh.space()) {
+    if (space_.is_plane()) origin_ = mesh.point(v);
+  }
+  void turn(Vec3 along, Vec3 normal) {
+    e1_ = (1 / length(along)) * along;
+    const Vec3 e2 = cross(normal, e1_);
+    e2_ = (1 / length(e2)) * e2;
+  }
+
+  Space space_;
+  WeightedPoint origin_;
+  Vec3 lifted_origin_, e1_, e2_;
+};
 
 /// A corner of a piece, and what lies along the side from it to the next corner: one of the two.
 struct PieceCorner {
@@ -26,8 +105,7 @@ struct CellPiece {
   std::vector<PieceCorner> corners;
 };
 
-/// Signed area.
-/// The area of a polygon; `at` gives the place of a corner.
+/// The signed area of a polygon; `at` gives the place of a corner.
 template <class Corner, class At>
 [[nodiscard]] double area_of(const std::vector<Corner>& polygon, At&& at) {
   double doubled = 0;
@@ -66,5 +144,17 @@ class TriangleDivider {
   std::vector<double> sides_;  // of the corners of the polygon being clipped
   Chart chart_;
 };
+
+/// A simple polygon, counter-clockwise, in some chart.
+using LocalPolygon = std::vector<Vec2>;
+[[nodiscard]] inline double area_of(const LocalPolygon& polygon) {
+  return area_of(polygon, [](Vec2 corner) { return corner; });
+}
+
+/// The union of pieces of one owner, in a chart that has them all. Pieces that meet along a side of a triangle become
+/// one polygon; where that does not come out as simple polygons of the same area (a cell with a hole in it), the pieces
+/// as they are.
+[[nodiscard]] std::vector<LocalPolygon> join_pieces(const Mesh& mesh, const Chart& chart,
+                                                    std::span<const CellPiece> pieces);
 
 }  // namespace temper

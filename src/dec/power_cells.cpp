@@ -13,7 +13,6 @@
 
 #include "dec/accurate.hpp"
 #include "dec/division.hpp"
-#include "dec/join.hpp"
 #include "temper/dec.hpp"
 #include "temper/detail/geometry.hpp"
 

@@ -5,16 +5,65 @@
 // before it is written: orthocenters of flat triangles lie anywhere.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "draw/view.hpp"
 #include "temper/draw.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
+
+// From a mesh to its flat picture: the plane as it is, or a sphere seen from far away, of which the near half shows.
+//
+// A sphere is projected along parallel lines: a disc of its radius, north up. Arcs become chains of segments too short
+// to tell from curves, and end at the limb.
+//
+//        .-- y --.
+//      /     ^     \      the picture: x and y, in the unit of length of the mesh;
+//     |      +-> x  |     z: towards the viewer, in parts of the radius; what has z < 0 is behind the limb
+//      \           /
+//        '-------'  limb
+
+class View {
+ public:
+  /// Of the plane.
+  View() = default;
+  /// Of a sphere: longitude and latitude of the middle of the picture [degrees].
+  View(double radius, Vec2 middle);
+
+  /// Of the plane, as it is.
+  [[nodiscard]] bool is_flat() const { return radius_ == 0; }
+  /// Of the disc that a sphere is; 0 of the plane.
+  [[nodiscard]] double radius() const { return radius_; }
+
+  // Points are those of the mesh's space: of the sphere only the direction counts.
+
+  /// The place of a point in the picture.
+  [[nodiscard]] Vec2 at(const WeightedPoint& p) const;
+  /// Says whether a point is not behind the limb.
+  [[nodiscard]] bool shows(const WeightedPoint& p) const;
+  /// What is seen of the edge from p to q: a chain of points, empty when it is behind the limb.
+  [[nodiscard]] std::vector<Vec2> line(const WeightedPoint& p, const WeightedPoint& q) const;
+  /// What is seen of a triangle: a polygon, empty when it is behind the limb.
+  [[nodiscard]] std::vector<Vec2> polygon(const std::array<WeightedPoint, 3>& triangle) const;
+  /// Points around one of the sphere, whose arcs are a circle of this radius [length]. Precondition: a sphere.
+  [[nodiscard]] std::vector<WeightedPoint> circle(const WeightedPoint& p, double radius) const;
+
+ private:
+  [[nodiscard]] Vec3 seen(const WeightedPoint& p) const;
+  void add_arc(std::vector<Vec2>& chain, Vec3 a, Vec3 b) const;
+
+  double radius_ = 0;
+  Vec3 right_, up_, towards_;
+};
+
+/// The view of meshes of one space that the options ask for; by default on the middle of a mesh that is a part of the
+/// sphere, else on 0° E, 0° N.
+[[nodiscard]] View make_view(std::span<const Mesh* const> meshes, const DrawOptions& options);
 
 /// A point of the grid, y down.
 struct GridPoint {
@@ -54,5 +103,32 @@ struct PageFrame {
 [[nodiscard]] std::vector<Vec2> clip(std::vector<Vec2> polygon, const Box& box);
 /// Does the disc meet the box?
 [[nodiscard]] bool meets(Vec2 center, double radius, const Box& box);
+
+// The d attribute of an SVG path in few bytes: relative integer coordinates, and no byte that SVG's grammar
+// can do without. "m3 4l-1-2 5 0z": a minus sign separates, a repeated l is left out.
+
+class PathText {
+ public:
+  void move_to(GridPoint p);
+  void line_to(GridPoint p);
+  void close();
+  /// A whole circle.
+  void circle(GridPoint center, std::int64_t radius);
+  /// A separate segment, in whichever direction goes on from where the path is.
+  void segment(GridPoint a, GridPoint b);
+
+  [[nodiscard]] bool empty() const { return text_.empty(); }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  void command(char c);
+  void number(std::int64_t value);
+  void step_to(GridPoint p);
+
+  std::string text_;
+  GridPoint at_;      // where the path is
+  GridPoint start_;   // where its subpath began
+  char last_ = '\0';  // the command that a bare pair of numbers would repeat
+};
 
 }  // namespace temper

@@ -5,8 +5,8 @@
 #include <map>
 #include <optional>
 
-#include "draw/path.hpp"
-#include "draw/xml.hpp"
+#include "draw/frame.hpp"
+#include "draw/text.hpp"
 #include "geometry/in_space.hpp"
 #include "temper/detail/geometry.hpp"
 

@@ -7,9 +7,16 @@
 #include <string>
 #include <string_view>
 
-#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper {
+
+/// Text for the content of an element: markup escaped, control characters dropped, bytes that are not UTF-8
+/// replaced by U+FFFD, so that any title makes a valid document.
+[[nodiscard]] std::string xml_text(std::string_view text);
+
+/// A number with at most three digits after the point, without trailing zeros, never in scientific form.
+[[nodiscard]] std::string short_number(double value);
 
 inline constexpr double kPlotFont = 14;       // pixels: 6.5 pt when 480 pixels are printed 8 cm wide
 inline constexpr double kPlotSmallFont = 12;  // levels and marks

@@ -1,5 +1,7 @@
-// The registry as users see it. Its table is in edge_kernels.hpp, beside the formulas.
+// The registry as users see it, whose table is in edge_kernels.hpp beside the formulas; and the kernels in use.
+#include "base/instruction_set_choice.hpp"
 #include "energy/edge_kernels.hpp"
+#include "energy/star_kernels.hpp"
 
 namespace temper {
 
@@ -15,6 +17,10 @@ Expected<EnergyInfo> find_energy(std::string_view name) {
   }
   return InputError{
       ErrorCode::invalid_option, {}, "there is no energy \"" + std::string(name) + "\"; expected one of " + names};
+}
+
+const StarKernels& star_kernels(const Space& space) {
+  return space.is_plane() ? *TEMPER_IN_USE(kPlaneKernels) : *TEMPER_IN_USE(kSphereKernels);
 }
 
 }  // namespace temper

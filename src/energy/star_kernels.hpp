@@ -5,7 +5,6 @@
 
 #include <cstddef>
 
-#include "energy/accuracy_lanes.hpp"
 #include "energy/lanes.hpp"
 #include "temper/detail/space.hpp"
 

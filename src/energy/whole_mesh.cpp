@@ -8,7 +8,6 @@
 
 #include "base/sum.hpp"
 #include "energy/patch.hpp"
-#include "energy/total_energies.hpp"
 #include "geometry/predicates_inline.hpp"
 
 namespace temper {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/engine.hpp"
@@ -34,5 +35,11 @@ class RunningEnergyAndBad {
  private:
   std::vector<double> of_blocks_;
 };
+
+// Total energies of many models at once: the walk over a mesh costs more than the terms.
+
+/// total_energy() of each model, in one walk.
+[[nodiscard]] std::vector<double> total_energies(const Mesh& mesh, std::span<const EnergyModel> models,
+                                                 Executor* executor);
 
 }  // namespace temper

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "feasibility/constraints.hpp"
 #include "geometry/ground.hpp"
 #include "quality/measure.hpp"
-#include "quality/worst.hpp"
 #include "temper/detail/geometry.hpp"
 
 namespace temper {
@@ -170,6 +170,200 @@ std::vector<VertexId> free_vertices(const Mesh& mesh, std::span<const TriangleId
     if (free) vertices.push_back(v);
   }
   return vertices;
+}
+
+namespace {
+
+// Relative to the edge's length: less disagreement than this is rounding, and no sentence is made of it.
+constexpr double kDisagreement = 1e-9;
+
+/// A half plane or a hemisphere: n · x > 0, for x = (x, y, 1) in the plane and directions x on the sphere.
+struct HalfSpace {
+  Vec3 normal;
+  [[nodiscard]] double height(Vec3 x) const { return dot(normal, x); }
+};
+
+using Polygon = std::vector<Vec3>;
+
+/// Sutherland and Hodgman, one half space.
+Polygon clip(const Polygon& polygon, const HalfSpace& space) {
+  Polygon result;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    const double at_a = space.height(a), at_b = space.height(b);
+    if (at_a >= 0) result.push_back(a);
+    if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0)) result.push_back(a + (at_a / (at_a - at_b)) * (b - a));
+  }
+  return result;
+}
+
+/// The segment from p to q, and where feet on it are.
+class Segment {
+ public:
+  Segment(const Space& space, Vec3 p, Vec3 q) : space_(space), p_(p) {
+    const Vec3 way = space.is_plane() ? q - p : (q - p) - dot(q - p, p) * p;
+    along_ = (1 / length(way)) * way;
+  }
+  /// d from p more than `least`.
+  [[nodiscard]] HalfSpace beyond(double least) const {
+    if (space_.is_plane()) return {{along_.x, along_.y, -(dot(along_, p_) + least)}};
+    const double angle = least / space_.radius();
+    return {std::cos(angle) * along_ - std::sin(angle) * p_};
+  }
+  /// d of the foot of the perpendicular from o.
+  [[nodiscard]] double foot(Vec3 o) const {
+    if (space_.is_plane()) return beyond(0).height(o);
+    return space_.radius() * std::atan2(dot(o, along_), dot(o, p_));
+  }
+  /// d grows along any way from one corner of a polygon to another, or falls.
+  [[nodiscard]] Interval feet(const Polygon& polygon) const {
+    Interval interval = {kUnbounded, -kUnbounded};
+    for (const Vec3 o : polygon) {
+      interval.from = std::min(interval.from, foot(o));
+      interval.to = std::max(interval.to, foot(o));
+    }
+    return interval;
+  }
+
+ private:
+  const Space& space_;
+  Vec3 p_, along_;  // on the sphere of length 1
+};
+
+/// Passes intervals through a tree of triangles. Positions in the plane are taken from a corner of the first triangle
+/// on, so that far from the origin no digits are lost.
+class Tree {
+ public:
+  Tree(const Mesh& mesh, std::span<const TriangleId> triangles)
+      : mesh_(mesh), triangles_(triangles), origin_(mesh.position(mesh.corners(triangles.front())[0])) {}
+
+  [[nodiscard]] double length_of(HalfedgeId h) const {
+    const Vec3 p = at(mesh_.origin(h)), q = at(mesh_.target(h));
+    return space().is_plane() ? length(q - p) : space().radius() * arc_length(p, q);
+  }
+
+  [[nodiscard]] bool has(TriangleId t) const { return std::binary_search(triangles_.begin(), triangles_.end(), t); }
+
+  /// The halfedges with a triangle of the set on both sides, one an edge.
+  [[nodiscard]] std::vector<HalfedgeId> shared() const {
+    std::vector<HalfedgeId> edges;
+    for (const TriangleId t : triangles_) {
+      for (int k = 0; k < 3; ++k) {
+        const HalfedgeId h = Mesh::halfedge(t, k);
+        if (is_shared(h) && h < mesh_.twin(h)) edges.push_back(h);
+      }
+    }
+    return edges;
+  }
+
+  /// Joined by shared edges, and by nothing else: each edge that is passed adds one triangle and one vertex.
+  [[nodiscard]] bool is_tree() const {
+    std::vector<TriangleId> reached = {triangles_.front()};
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      for (int k = 0; k < 3; ++k) {
+        const HalfedgeId h = Mesh::halfedge(reached[i], k);
+        if (!is_shared(h)) continue;
+        const TriangleId t = Mesh::triangle(mesh_.twin(h));
+        if (std::find(reached.begin(), reached.end(), t) == reached.end()) reached.push_back(t);
+      }
+    }
+    return reached.size() == triangles_.size() && shared().size() + 1 == triangles_.size() &&
+           vertices_of(mesh_, triangles_).size() == triangles_.size() + 2;
+  }
+
+  /// The crossings of h that suit its triangle and all triangles that hang on it, but not across h, as an interval of
+  /// d. Precondition: is_tree().
+  [[nodiscard]] CrossingSide side(HalfedgeId h) const {
+    CrossingSide result;
+    Polygon inside = region_of(h, result);
+    const Interval interval = from_origin(h).feet(inside);
+    // Clipping leaves the last digits beyond the ends.
+    result.from = std::max(interval.from, 0.0), result.to = std::min(interval.to, length_of(h));
+    return result;
+  }
+
+ private:
+  [[nodiscard]] const Space& space() const { return mesh_.space(); }
+  [[nodiscard]] Vec3 at(VertexId v) const {
+    if (!space().is_plane()) return (1 / length(mesh_.lifted_point(v))) * mesh_.lifted_point(v);
+    const Vec2 p = mesh_.position(v) - origin_;
+    return {p.x, p.y, 1};
+  }
+  [[nodiscard]] Segment from_origin(HalfedgeId h) const { return {space(), at(mesh_.origin(h)), at(mesh_.target(h))}; }
+  [[nodiscard]] Segment from_target(HalfedgeId h) const { return {space(), at(mesh_.target(h)), at(mesh_.origin(h))}; }
+  [[nodiscard]] bool is_shared(HalfedgeId h) const {
+    return mesh_.twin(h).valid() && has(Mesh::triangle(mesh_.twin(h)));
+  }
+
+  void note_angle(HalfedgeId h, CrossingSide& side) const {
+    const VertexId p = mesh_.origin(h), q = mesh_.target(h), r = mesh_.opposite(h);
+    const double angle =
+        corner_angle(space(), mesh_.point(p), mesh_.point(q), mesh_.point(r)) * (180 / std::numbers::pi);
+    if (angle <= side.angle_deg) return;
+    side.angle_deg = angle;
+    side.widest = p;
+  }
+
+  /// The places where the orthocenter of h's triangle may be, given the triangles that hang on its other two edges.
+  Polygon region_of(HalfedgeId h, CrossingSide& side) const {
+    side.triangles.push_back(Mesh::triangle(h));
+    Polygon region;
+    for (const HalfedgeId e : {h, Mesh::next(h), Mesh::prev(h)}) region.push_back(at(mesh_.origin(e)));
+    for (const HalfedgeId e : {h, Mesh::next(h), Mesh::prev(h)}) {
+      note_angle(e, side);
+      region = clip(clip(region, from_origin(e).beyond(0)), from_target(e).beyond(0));
+    }
+    for (const HalfedgeId e : {Mesh::next(h), Mesh::prev(h)}) {
+      if (!is_shared(e)) continue;
+      const HalfedgeId across = mesh_.twin(e);  // q → p of e = p → q
+      const Segment segment = from_origin(across);
+      const Interval interval = segment.feet(region_of(across, side));
+      region = clip(clip(region, segment.beyond(interval.from)),
+                    from_target(across).beyond(length_of(across) - interval.to));
+    }
+    return region;
+  }
+
+  const Mesh& mesh_;
+  std::span<const TriangleId> triangles_;
+  Vec2 origin_;
+};
+
+}  // namespace
+
+Interval crossing_interval(Vec2 p, Vec2 q, Vec2 r) {
+  const Vec2 pq = q - p, pr = r - p, qr = r - q;
+  const double c = length(pq);
+  const double at_p = dot(pq, pr), at_q = -dot(pq, qr), at_r = dot(pr, qr);  // b c cos A, a c cos B, a b cos C
+  const double doubled = cross(pq, pr);                                      // b c sin A = a c sin B = a b sin C
+  if (at_r < 0) return {c - squared_length(qr) * c / at_q, squared_length(pr) * c / at_p};
+  if (at_p < 0) return {0, doubled / c * (doubled / at_r)};
+  if (at_q < 0) return {c - doubled / c * (doubled / at_r), c};
+  return {0, c};
+}
+
+std::optional<CrossingConflict> crossing_conflict(const Mesh& mesh, std::span<const TriangleId> triangles) {
+  if (triangles.size() < 2) return std::nullopt;
+  const Tree tree(mesh, triangles);
+  if (!tree.is_tree()) return std::nullopt;
+  std::optional<CrossingConflict> worst;
+  double most = kDisagreement;
+  for (const HalfedgeId h : tree.shared()) {
+    CrossingConflict conflict;
+    conflict.p = mesh.origin(h), conflict.q = mesh.target(h);
+    conflict.length = tree.length_of(h);
+    conflict.left = tree.side(h);
+    conflict.right = tree.side(mesh.twin(h));  // along q → p
+    std::swap(conflict.right.from, conflict.right.to);
+    conflict.right.from = conflict.length - conflict.right.from;
+    conflict.right.to = conflict.length - conflict.right.to;
+    const double gap = std::max(conflict.right.from - conflict.left.to, conflict.left.from - conflict.right.to);
+    // A side that admits no crossing at all is no smallest set: its interval is infinite.
+    if (!std::isfinite(gap) || gap / conflict.length <= most) continue;
+    most = gap / conflict.length;
+    worst = std::move(conflict);
+  }
+  return worst;
 }
 
 }  // namespace temper

@@ -16,7 +16,7 @@
 #include "feasibility/constraints.hpp"
 #include "geometry/ground.hpp"
 #include "mesh/input_places.hpp"
-#include "quality/worst.hpp"
+#include "quality/measure.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/regularity.hpp"
 #include "temper/topology.hpp"

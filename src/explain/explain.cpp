@@ -18,14 +18,11 @@
 
 #include "base/assert.hpp"
 #include "explain/conflict.hpp"
-#include "explain/crossings.hpp"
 #include "explain/cures.hpp"
 #include "feasibility/region.hpp"
 #include "geometry/ground.hpp"
 #include "mesh/bad_triangles.hpp"
-#include "mesh/erased.hpp"
 #include "quality/measure.hpp"
-#include "quality/worst.hpp"
 #include "temper/topology.hpp"
 #include "topology/rings.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "feasibility/constraints.hpp"
 #include "geometry/ground.hpp"
-#include "quality/worst.hpp"
+#include "quality/measure.hpp"
 #include "temper/explain.hpp"
 
 namespace temper {

@@ -20,7 +20,6 @@
 
 #include "feasibility/constraints.hpp"
 #include "feasibility/lp_builder.hpp"
-#include "feasibility/units.hpp"
 
 namespace temper {
 namespace {

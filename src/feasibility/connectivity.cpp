@@ -14,7 +14,7 @@
 #include "feasibility/certify.hpp"
 #include "feasibility/constraints.hpp"
 #include "feasibility/region.hpp"
-#include "mesh/erased.hpp"
+#include "mesh/bad_triangles.hpp"
 #include "temper/regularity.hpp"
 #include "temper/topology.hpp"
 #include "topology/rings.hpp"

@@ -25,8 +25,8 @@
 #include <vector>
 
 #include "feasibility/potential.hpp"
-#include "temper/feasibility.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/feasibility.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {

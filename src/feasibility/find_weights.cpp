@@ -20,7 +20,7 @@
 #include "feasibility/change.hpp"
 #include "feasibility/constraints.hpp"
 #include "feasibility/region.hpp"
-#include "mesh/erased.hpp"
+#include "mesh/bad_triangles.hpp"
 #include "temper/detail/geometry.hpp"
 
 namespace temper {

@@ -3,8 +3,10 @@
 
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "temper/feasibility.hpp"
+#include "temper/mesh.hpp"
 
 namespace temper {
 
@@ -35,5 +37,12 @@ class LpBuilder {
  private:
   LpProblem problem_;
 };
+
+/// Position of v in a sorted list that has it; its size, or that of another, when it does not.
+[[nodiscard]] std::size_t index_of(std::span<const VertexId> sorted_vertices, VertexId v);
+
+/// One a vertex: the mean over those of the edges that end there. Each vertex must have one.
+[[nodiscard]] std::vector<double> weight_units(const Mesh& mesh, std::span<const VertexId> vertices,
+                                               std::span<const HalfedgeId> edges);
 
 }  // namespace temper

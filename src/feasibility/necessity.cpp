@@ -20,7 +20,7 @@
 #include "base/assert.hpp"
 #include "feasibility/exact_number.hpp"
 #include "geometry/predicates_inline.hpp"
-#include "mesh/erased.hpp"
+#include "mesh/bad_triangles.hpp"
 
 namespace temper {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "base/rng.hpp"
 #include "generate/outline.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/projection.hpp"
+#include "temper/generate.hpp"
 
 namespace temper {
 namespace {

@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "base/rng.hpp"
 #include "generate/outline.hpp"
+#include "generate/triangulation.hpp"
 #include "temper/generate.hpp"
+#include "temper/regularity.hpp"
 
 namespace temper {
 namespace {
@@ -80,6 +83,139 @@ Expected<Mesh> annulus(const Annulus& shape) {
     }
   }
   return outline.triangulate();
+}
+
+// Meshes of periodic planes: the Delaunay triangulation of points and of as many of their images as it takes, of which
+// one image of each triangle is kept; and rows of hexagons.
+
+namespace {
+
+using generate::invalid;
+using Corners = std::array<std::int32_t, 3>;
+
+// Images this many mean spacings around the domain: among random points hardly a circle reaches farther.
+constexpr double kUsualReach = 8;
+constexpr std::size_t kMostPeriodicVertices = 500'000'000;
+
+bool are_periods(Vec2 period) {
+  return std::isfinite(period.x) && std::isfinite(period.y) && period.x > 0 && period.y > 0;
+}
+
+/// Points of the domain, then their images up to `reach` around it, and of which point each of these is one.
+struct Images {
+  std::vector<Vec2> points;
+  std::vector<std::uint32_t> of;
+};
+Images images_around(const std::vector<Vec2>& points, Vec2 period, double reach) {
+  Images images{points, {}};
+  for (std::size_t i = 0; i < points.size(); ++i) images.of.push_back(static_cast<std::uint32_t>(i));
+  const auto is_near = [reach](double x, double length) { return x >= -reach && x <= length + reach; };
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    for (int m = -1; m <= 1; ++m) {
+      for (int n = -1; n <= 1; ++n) {
+        const Vec2 p = {points[i].x + m * period.x, points[i].y + n * period.y};
+        if ((m == 0 && n == 0) || !is_near(p.x, period.x) || !is_near(p.y, period.y)) continue;
+        images.points.push_back(p);
+        images.of.push_back(i);
+      }
+    }
+  }
+  return images;
+}
+
+/// Of all images of a triangle the one whose corner of least number is in the domain.
+std::vector<Corners> triangles_of_domain(const generate::Triangulation& all, const std::vector<std::uint32_t>& of) {
+  const std::size_t n = of.size();
+  std::vector<Corners> triangles;
+  for (const TriangleId t : all.mesh.triangles()) {
+    const auto corners = all.mesh.corners(t);
+    Corners points{};
+    std::uint32_t least = static_cast<std::uint32_t>(n), place = least;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t number = all.number[corners[k].index];
+      points[k] = static_cast<std::int32_t>(of[number]);
+      if (of[number] < least) least = of[number], place = number;
+    }
+    if (place == least) triangles.push_back(points);
+  }
+  return triangles;
+}
+
+}  // namespace
+
+Expected<Mesh> periodic_delaunay(std::span<const Vec2> points, Vec2 period) {
+  if (points.empty()) return InputError{ErrorCode::empty_input, "", "a triangulation needs points"};
+  if (!are_periods(period)) return invalid("the periods of a plane must be finite and positive");
+  MeshInput input;
+  input.space = Space::periodic(period);
+  std::vector<Vec2> inside;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y)) {
+      return InputError{ErrorCode::not_finite, "", "point " + std::to_string(i) + " is not finite"};
+    }
+    inside.push_back(input.space.in_domain({points[i].x, points[i].y, 0}).position());
+  }
+  input.points = inside;
+  period = input.space.period();
+  const double whole = std::max(period.x, period.y);
+  double reach = kUsualReach * std::sqrt(period.x * period.y / static_cast<double>(points.size()));
+  for (;; reach *= 4) {
+    const Images images = images_around(inside, period, reach);
+    const auto all = generate::triangulate_points(images.points);
+    if (!all) return all.error();
+    const std::vector<Corners> triangles = triangles_of_domain(*all, images.of);
+    input.triangles = triangles;
+    auto built = Mesh::build(input);
+    if (!built && reach < whole) continue;
+    if (!built) return built.error();
+    restore_regularity(built->mesh, HiddenPolicy::keep);
+    return std::move(built->mesh);
+  }
+}
+
+Expected<Mesh> random_periodic(const RandomPeriodic& shape) {
+  if (shape.vertices < 16) return invalid("a periodic mesh of random points needs 16 vertices or more");
+  if (shape.vertices > kMostPeriodicVertices) return invalid("more than 500,000,000 vertices are out of reach");
+  if (!are_periods(shape.period)) return invalid("the periods of a plane must be finite and positive");
+  Rng rng(shape.seed);
+  std::vector<Vec2> points;
+  while (points.size() < shape.vertices) {
+    const double x = rng.uniform(0, shape.period.x), y = rng.uniform(0, shape.period.y);
+    points.push_back({x, y});
+  }
+  return periodic_delaunay(points, shape.period);
+}
+
+Expected<Mesh> periodic_hexagons(const PeriodicHexagons& shape) {
+  const bool wraps = !shape.channel;
+  if (shape.nx < 3 || shape.ny < (wraps ? 4 : 2)) {
+    return invalid("rows of hexagons need 3 of them and 4 rows or more, in a channel 2 rows");
+  }
+  if (wraps && shape.ny % 2 != 0) return invalid("an even number of rows of hexagons fits into a period");
+  if (1.0 * shape.nx * shape.ny > static_cast<double>(kMostPeriodicVertices)) {
+    return invalid("more than 500,000,000 vertices are out of reach");
+  }
+  if (!(shape.distance > 0) || !std::isfinite(shape.distance)) return invalid("the distance of hexagons is positive");
+  const double rise = 0.5 * std::numbers::sqrt3 * shape.distance;
+  std::vector<Vec2> points;
+  std::vector<Corners> triangles;
+  const auto at = [&](int i, int j) { return (j % shape.ny) * shape.nx + i % shape.nx; };
+  for (int j = 0; j < shape.ny; ++j) {
+    const int lean = j % 2;  // odd rows are half a distance to the right
+    for (int i = 0; i < shape.nx; ++i) {
+      points.push_back({(i + 0.5 * lean) * shape.distance, j * rise});
+      if (!wraps && j + 1 == shape.ny) continue;
+      triangles.push_back({at(i, j), at(i + 1, j), at(i + lean, j + 1)});
+      triangles.push_back({at(i + 1, j), at(i + 1 + lean, j + 1), at(i + lean, j + 1)});
+    }
+  }
+  MeshInput input;
+  input.space = Space::periodic({shape.nx * shape.distance, wraps ? shape.ny * rise : 0});
+  input.points = points;
+  input.triangles = triangles;
+  auto built = Mesh::build(input);
+  if (!built) return built.error();
+  return std::move(built->mesh);
 }
 
 }  // namespace temper

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "temper/detail/vec3.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper {
 

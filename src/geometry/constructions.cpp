@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/spherical_area.hpp"
+#include "geometry/in_space.hpp"
 #include "temper/detail/geometry.hpp"
 
 namespace temper {

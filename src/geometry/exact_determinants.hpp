@@ -6,8 +6,7 @@
 #pragma once
 
 #include "geometry/expansion.hpp"
-#include "temper/detail/vec2.hpp"
-#include "temper/detail/vec3.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper::exact {
 

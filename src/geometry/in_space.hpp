@@ -3,11 +3,15 @@
 // On the sphere a place is any point in its direction.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
+#include "geometry/predicates_inline.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/space.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper {
 
@@ -96,6 +100,47 @@ namespace temper {
   if (!space.is_plane()) return -dot(a, cross(b, c));
   const double doubled_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   return doubled_area * (a.z + b.z + c.z);
+}
+
+/// The solid angle of PQR whose determinant is known, maybe more accurately than by differences. Van Oosterom and
+/// Strackee (1983): tan(E/2) = det(P, Q, R)/(|P||Q||R| + (P·Q)|R| + (Q·R)|P| + (R·P)|Q|).
+inline double solid_angle(double determinant, Vec3 p, Vec3 q, Vec3 r) {
+  const double a = length(p), b = length(q), c = length(r);
+  return 2 * std::atan2(determinant, a * b * c + dot(p, q) * c + dot(q, r) * a + dot(r, p) * b);
+}
+
+/// Of the right triangles on both sides of an edge, beside its end at distance d of the weighted midpoint.
+inline double right_triangle_areas(const Space& space, double d, double left, double right) {
+  if (space.is_plane()) return 0.5 * d * (left + right);
+  return space.right_triangle_area(d, left) + space.right_triangle_area(d, right);
+}
+
+/// Says whether p is on the closed segment ab, given that the three are collinear.
+[[nodiscard]] inline bool is_between(Vec2 a, Vec2 b, Vec2 p) {
+  return std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
+         p.y <= std::max(a.y, b.y);
+}
+
+/// Says whether the direction of p is on the closed arc from a to b, shorter than half a great circle, given that the
+/// three are on one. Exact: of the planes of two coordinates, in one they are not all on a line through 0.
+[[nodiscard]] inline bool is_between(Vec3 a, Vec3 b, Vec3 p) {
+  constexpr Vec2 kOrigin = {0, 0};
+  const auto from_a_to_b = [&](auto shadow) -> std::optional<bool> {
+    const Sign turn = inlined::orient2d(kOrigin, shadow(a), shadow(b));
+    if (turn == Sign::zero) return std::nullopt;
+    return inlined::orient2d(kOrigin, shadow(a), shadow(p)) != -turn &&
+           inlined::orient2d(kOrigin, shadow(p), shadow(b)) != -turn;
+  };
+  if (const auto xy = from_a_to_b([](Vec3 q) { return Vec2{q.x, q.y}; })) return *xy;
+  if (const auto yz = from_a_to_b([](Vec3 q) { return Vec2{q.y, q.z}; })) return *yz;
+  return from_a_to_b([](Vec3 q) { return Vec2{q.z, q.x}; }).value_or(false);
+}
+
+/// The same in the space of a mesh.
+[[nodiscard]] inline bool is_between(const Space& space, const WeightedPoint& a, const WeightedPoint& b,
+                                     const WeightedPoint& p) {
+  return space.is_plane() ? is_between(a.position(), b.position(), p.position())
+                          : is_between(lifted(a), lifted(b), lifted(p));
 }
 
 }  // namespace temper

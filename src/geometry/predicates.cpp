@@ -8,7 +8,6 @@
 #include "geometry/predicates_inline.hpp"
 
 namespace temper {
-
 namespace {
 
 constexpr Sign operator*(Sign a, Sign b) { return static_cast<Sign>(static_cast<int>(a) * static_cast<int>(b)); }

@@ -8,8 +8,8 @@
 //
 // h is positive on the left of the directed edges pq, qr, rp, whatever the orientation of the triangle.
 //
-// On the sphere (temper/detail/space.hpp) the same holds of the flat triangle PQR with the weights |P|², |Q|², |R|²; there u_a
-// = P·(P − Q), and S has the sign of P·(a × b). Seen from P, in its chart:
+// On the sphere (temper/detail/space.hpp) the same holds of the flat triangle PQR with the weights |P|², |Q|², |R|²;
+// there u_a = P·(P − Q), and S has the sign of P·(a × b). Seen from P, in its chart:
 //
 //        up = P/ρ       A step (x, y, w) takes P, ρ = |P|, to the direction of P + x e₁ + y e₂ and the length √(ρ² +
 //        w):
@@ -23,7 +23,7 @@
 
 #include "base/pack.hpp"
 #include "temper/detail/space.hpp"
-#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper {
 

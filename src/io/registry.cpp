@@ -7,11 +7,9 @@
 #include <cstdio>
 #include <iterator>
 
-#include "io/conversion/geographic.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/disk/files.hpp"
 #include "io/formats/format.hpp"
-#include "io/formats/netcdf/ugrid.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 #include "temper/detail/projection.hpp"
@@ -103,10 +101,10 @@ const FormatRow& recognise(const Source& source) {
   const std::string_view head = std::string_view(source.bytes).substr(0, kSniffBytes);
   if (const FormatRow* const row = row_of(head)) return *row;
   if (const std::string known = recognise_unsupported(source.bytes); !known.empty())
-    fail(ErrorCode::unsupported, source.path, text("is ", known));
+    fail(ErrorCode::unsupported, source.path, "is ", known);
   std::string names;
   for (const Format& format : kFormats) names += text(names.empty() ? "" : ", ", format.description);
-  fail(ErrorCode::syntax, source.path, text("is none of the formats that temper reads: ", names));
+  fail(ErrorCode::syntax, source.path, "is none of the formats that temper reads: ", names);
 }
 
 /// Names of their own for all arrays of a kind, without what a terminal or a text file would take for more than a name.
@@ -175,8 +173,7 @@ const FormatRow& row_to_write(const std::string& path, const std::string& format
   if (!format.empty()) {
     const FormatRow* row = find_row(format);
     if (row != nullptr && row->write != nullptr) return *row;
-    fail(ErrorCode::invalid_option, path,
-         text("cannot be written as '", format, "'; expected one of ", writable_names()));
+    fail(ErrorCode::invalid_option, path, "cannot be written as '", format, "'; expected one of ", writable_names());
   }
   // .jigsaw.msh is more than .msh; of equals the first.
   const FormatRow* best = nullptr;
@@ -188,8 +185,8 @@ const FormatRow& row_to_write(const std::string& path, const std::string& format
     best = &row;
   }
   if (best != nullptr) return *best;
-  fail(ErrorCode::invalid_option, path,
-       text("the suffix names no format that temper writes; expected one of ", writable_suffixes(), ", or a format"));
+  fail(ErrorCode::invalid_option, path, "the suffix names no format that temper writes; expected one of ",
+       writable_suffixes(), ", or a format");
 }
 
 std::string names_with(Contents contents) {
@@ -205,7 +202,7 @@ std::string names_with(Contents contents) {
 
 void check_sizes(const std::string& path, const MeshFile& f) {
   const auto insist = [&](bool good, std::string_view what) {
-    if (!good) fail(ErrorCode::size_mismatch, path, text("the mesh to be written has ", what));
+    if (!good) fail(ErrorCode::size_mismatch, path, "the mesh to be written has ", what);
   };
   insist(f.sphere() == nullptr || f.sphere()->places.size() == f.points.size(),
          "another number of places on the sphere than of points");
@@ -259,7 +256,7 @@ void warn_of_weights_beside_degrees(const WriteJob& job, const MeshFile& on_map)
                               ? text(" on the map ", projection_text(on_map.map()->projection),
                                      ", in metres: give this projection where the file is read again")
                               : std::string(" of the plane that the mesh was in");
-  job.warn(text("points are longitude and latitude, but weights are squared lengths", map));
+  job.warn("points are longitude and latitude, but weights are squared lengths", map);
 }
 
 }  // namespace
@@ -268,20 +265,18 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
   return guarded<std::vector<std::string>>(path, [&] {
     const FormatRow& row = row_to_write(path, options.format);
     if (row.details.files_to_write != nullptr && row.details.files_to_write(path).size() > 1 && is_stream(path)) {
-      fail(ErrorCode::not_writable, path,
-           text(row.description, " is several files; expected the name of a file, found a stream"));
+      fail(ErrorCode::not_writable, path, row.description,
+           " is several files; expected the name of a file, found a stream");
     }
     check_sizes(path, file);
     check_names(path, file);
     if (file.sphere() != nullptr && (row.holds & kSphere) == 0) {
-      fail(ErrorCode::unsupported, path,
-           text("points are on a sphere, which ", row.description, " is not written with; expected one of ",
-                names_with(kSphere)));
+      fail(ErrorCode::unsupported, path, "points are on a sphere, which ", row.description,
+           " is not written with; expected one of ", names_with(kSphere));
     }
     if (file.periodic() != nullptr && (row.holds & kPeriod) == 0) {
-      fail(ErrorCode::unsupported, path,
-           text("the plane is periodic, which ", row.description, " has no place for; expected one of ",
-                names_with(kPeriod)));
+      fail(ErrorCode::unsupported, path, "the plane is periodic, which ", row.description,
+           " has no place for; expected one of ", names_with(kPeriod));
     }
     std::vector<std::string> warnings;
     OutputSet outputs;
@@ -293,10 +288,9 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
     MeshFile changed = turned ? in_degrees(file) : resized ? file : MeshFile();
     if (resized) resize_sphere(changed, earth);
     if (always && file.sphere() == nullptr && !turned && file.degrees() == nullptr) {
-      fail(ErrorCode::unsupported, path,
-           text(row.description,
-                " has points in longitude and latitude; expected a mesh of the sphere, or one that was "
-                "read in degrees"));
+      fail(ErrorCode::unsupported, path, row.description,
+           " has points in longitude and latitude; expected a mesh of the sphere, or one that was "
+           "read in degrees");
     }
     const WriteJob job = {path,
                           turned || resized ? changed : file,
@@ -309,8 +303,8 @@ Expected<std::vector<std::string>> write(const std::string& path, const MeshFile
                           warnings};
     if (turned) warn_of_weights_beside_degrees(job, file);
     if (resized) {
-      job.warn(text("the radius is ", earth, " in ", row.description, ", not ", file.sphere()->radius,
-                    "; weights are scaled along"));
+      job.warn("the radius is ", earth, " in ", row.description, ", not ", file.sphere()->radius,
+               "; weights are scaled along");
     }
     row.write(job);
     warn_of_losses(job);

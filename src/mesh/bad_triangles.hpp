@@ -1,15 +1,34 @@
-// The triangles that are not well-centered: what optimisation repairs, explain explains and meshing counts.
+// The triangles that are not well-centered: what optimization repairs, explain explains and meshing counts.
+// And those that are erased, which whatever goes over all triangles must not meet.
 #pragma once
 
 #include <vector>
 
+#include "mesh/predicates.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
 
 /// is_bad says whether triangle t is not well-centered, exactly. An erased triangle is not bad.
-[[nodiscard]] bool is_bad(const Mesh& mesh, TriangleId t);
+[[nodiscard]] inline bool is_bad(const Mesh& mesh, TriangleId t) {
+  if (mesh.is_erased(t)) return false;
+  return !inlined::is_well_centered(mesh, t);
+}
 /// bad_triangles lists the triangles for which is_bad holds, in ascending order.
-[[nodiscard]] std::vector<TriangleId> bad_triangles(const Mesh& mesh);
+[[nodiscard]] inline std::vector<TriangleId> bad_triangles(const Mesh& mesh) {
+  std::vector<TriangleId> bad;
+  for (const TriangleId t : mesh.triangles()) {
+    if (is_bad(mesh, t)) bad.push_back(t);
+  }
+  return bad;
+}
+
+/// Whether a triangle of the mesh is erased, until Mesh::compact drops it. O(n).
+[[nodiscard]] inline bool has_erased_triangles(const Mesh& mesh) {
+  for (const TriangleId t : mesh.triangles()) {
+    if (mesh.is_erased(t)) return true;
+  }
+  return false;
+}
 
 }  // namespace temper

@@ -8,14 +8,13 @@
 #include "base/sum.hpp"
 #include "base/text.hpp"
 #include "mesh/blocks.hpp"
-#include "mesh/embedding.hpp"
+#include "mesh/boundary_sweep.hpp"
 #include "mesh/mesh_editor.hpp"
 #include "mesh/predicates.hpp"
 #include "mesh/twins.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
-
 namespace {
 
 // Within these bounds nothing over- or underflows in the exact predicates (geometry.hpp), neither in the user's units

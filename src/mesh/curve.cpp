@@ -1,7 +1,7 @@
-// See curve.hpp.
 #include "mesh/curve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -10,6 +10,7 @@
 
 #include "base/hilbert.hpp"
 #include "mesh/blocks.hpp"
+#include "temper/mesh.hpp"
 
 namespace temper {
 namespace {
@@ -109,6 +110,169 @@ Walk::Walk(const Mesh& mesh, Executor* executor) {
 
 NearbyCopy::NearbyCopy(const Mesh& mesh, Executor* executor) : mesh_(&mesh) {
   if (is_scattered(mesh)) mesh_ = &copy_.emplace(hilbert_ordered(mesh, executor)).mesh;
+}
+
+// Hilbert order: neighbours in the plane, or on the sphere, become neighbours in memory.
+
+namespace {
+
+/// Triangles by their least corner in the new numbering; equal ones by number. Each is found in the star of that
+/// corner, from vertex to vertex along the curve: neighbours of neighbours are in the cache.
+IdVector<TriangleId, TriangleId> triangles_by_vertex(const Mesh& mesh, const IdVector<VertexId, VertexId>& order,
+                                                     const IdVector<VertexId, VertexId>& new_vertex,
+                                                     Executor* executor) {
+  const std::size_t n = mesh.n_vertices();
+  const auto for_triangles_of = [&](std::size_t i, auto&& visit) {
+    const VertexId first(i);
+    for (const HalfedgeId h : mesh.star(order[first])) {
+      if (first < new_vertex[mesh.target(h)] && first < new_vertex[mesh.opposite(h)]) visit(Mesh::triangle(h));
+    }
+  };
+  std::vector<std::vector<TriangleId>> of_blocks((n + kLoopBlock - 1) / kLoopBlock);
+  for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
+    std::vector<TriangleId>& found = of_blocks[first / kLoopBlock];
+    found.reserve(2 * (last - first));
+    for (std::size_t i = first; i < last; ++i) {
+      const auto before = static_cast<std::ptrdiff_t>(found.size());
+      for_triangles_of(i, [&](TriangleId t) { found.push_back(t); });
+      std::sort(found.begin() + before, found.end());
+    }
+  });
+  IdVector<TriangleId, TriangleId> triangles;
+  triangles.reserve(mesh.n_triangles());
+  for (std::vector<TriangleId>& found : of_blocks) {
+    for (const TriangleId t : found) triangles.push_back(t);
+    found = {};
+  }
+  return triangles;
+}
+
+template <class IdType>
+IdVector<IdType, IdType> inverse(const IdVector<IdType, IdType>& order) {
+  IdVector<IdType, IdType> result(order.size());
+  for (const IdType i : IdRange<IdType>(order.size())) result[order[i]] = i;
+  return result;
+}
+
+/// A halfedge by the new number of its triangle; none stays none.
+HalfedgeId renumbered(HalfedgeId h, const IdVector<TriangleId, TriangleId>& new_triangle) {
+  return h.valid() ? Mesh::halfedge(new_triangle[Mesh::triangle(h)], static_cast<int>(h.index % 3)) : h;
+}
+
+/// The order along the curve, and the new number of every vertex, which finding it takes.
+struct Found {
+  MeshOrder order;
+  IdVector<VertexId, VertexId> new_vertex;
+};
+Found find_order(const Mesh& mesh, Executor* executor) {
+  Found found;
+  found.order.vertices = vertices_by_hilbert(mesh, executor);
+  found.new_vertex = inverse(found.order.vertices);
+  found.order.triangles = triangles_by_vertex(mesh, found.order.vertices, found.new_vertex, executor);
+  return found;
+}
+
+}  // namespace
+
+/// Sees the arrays of meshes.
+class MeshPermuter {
+ public:
+  static Mesh copy(const Mesh& mesh, Found& found, Executor* executor);
+  static void restore(Mesh& mesh, const MeshOrder& order, Executor* executor);
+};
+
+/// One array after the other, and each renumbering gone before the next one is made: what is there at once counts on
+/// the largest meshes.
+Mesh MeshPermuter::copy(const Mesh& mesh, Found& found, Executor* executor) {
+  Mesh result;
+  result.space_ = mesh.space();
+  const MeshOrder& order = found.order;
+  result.vertices_.resize(mesh.n_vertices());
+  for_each_index(mesh.n_vertices(), executor,
+                 [&](std::size_t i) { result.vertices_[VertexId(i)] = mesh.vertices_[order.vertices[VertexId(i)]]; });
+  result.corners_.resize(mesh.n_halfedges());
+  for_each_index(mesh.n_triangles(), executor, [&](std::size_t i) {
+    const auto corners = mesh.corners(order.triangles[TriangleId(i)]);
+    for (std::size_t k = 0; k < 3; ++k) result.corners_[HalfedgeId(3 * i + k)] = found.new_vertex[corners[k]];
+  });
+  found.new_vertex = {};
+  const auto new_triangle = inverse(order.triangles);
+  result.twins_.resize(mesh.n_halfedges());
+  for_each_index(mesh.n_triangles(), executor, [&](std::size_t i) {
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(order.triangles[TriangleId(i)], k);
+      result.twins_[Mesh::halfedge(TriangleId(i), k)] = renumbered(mesh.twin(h), new_triangle);
+    }
+  });
+  if (!mesh.constrained_.all_zero()) {
+    for (const HalfedgeId h : result.halfedges()) {
+      const HalfedgeId from = Mesh::halfedge(order.triangles[Mesh::triangle(h)], static_cast<int>(h.index % 3));
+      result.constrained_.set(h, mesh.constrained_[from], mesh.n_halfedges());
+    }
+  }
+  if (!mesh.regions_.all_zero()) {
+    for (const TriangleId t : result.triangles()) result.set_region(t, mesh.region(order.triangles[t]));
+  }
+  result.repair_outgoing();
+  return result;
+}
+
+/// The halfedge that stands for a vertex depends on the numbering (Mesh::repair_outgoing): on the boundary the boundary
+/// one, else that of the greatest number. As in copy(), one array after the other.
+void MeshPermuter::restore(Mesh& mesh, const MeshOrder& order, Executor* executor) {
+  const std::size_t n = mesh.n_triangles();
+  const auto former = [&](HalfedgeId h) { return renumbered(h, order.triangles); };
+  const auto former_outgoing = [&](VertexId v) {
+    HalfedgeId last = former(mesh.outgoing(v));
+    if (!last.valid() || mesh.is_boundary(v)) return last;
+    for (const HalfedgeId h : mesh.star(v)) last = std::max(last, former(h));
+    return last;
+  };
+  IdVector<VertexId, Mesh::VertexRecord> vertices(mesh.n_vertices());
+  for_each_index(vertices.size(), executor, [&](std::size_t i) {
+    Mesh::VertexRecord& record = vertices[order.vertices[VertexId(i)]];
+    record = mesh.vertices_[VertexId(i)];
+    record.outgoing = former_outgoing(VertexId(i)).index;
+  });
+  mesh.vertices_ = std::move(vertices);
+  IdVector<HalfedgeId, VertexId> corners(mesh.n_halfedges());
+  for_each_index(n, executor, [&](std::size_t t) {
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(TriangleId(t), k);
+      corners[former(h)] = order.vertices[mesh.corners_[h]];
+    }
+  });
+  mesh.corners_ = std::move(corners);
+  IdVector<HalfedgeId, HalfedgeId> twins(mesh.n_halfedges());
+  for_each_index(n, executor, [&](std::size_t t) {
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId h = Mesh::halfedge(TriangleId(t), k);
+      twins[former(h)] = former(mesh.twins_[h]);
+    }
+  });
+  mesh.twins_ = std::move(twins);
+  if (const auto constrained = std::exchange(mesh.constrained_, {}); !constrained.all_zero()) {
+    for (const HalfedgeId h : mesh.halfedges()) mesh.constrained_.set(former(h), constrained[h], mesh.n_halfedges());
+  }
+  if (const auto regions = std::exchange(mesh.regions_, {}); !regions.all_zero()) {
+    for (const TriangleId t : mesh.triangles()) mesh.set_region(order.triangles[t], regions[t]);
+  }
+}
+
+OrderedMesh hilbert_ordered(const Mesh& mesh, Executor* executor) {
+  Found found = find_order(mesh, executor);
+  Mesh ordered = MeshPermuter::copy(mesh, found, executor);
+  return {std::move(ordered), std::move(found.order)};
+}
+
+MeshOrder hilbert_order(Mesh& mesh) {
+  OrderedMesh ordered = hilbert_ordered(mesh);
+  mesh = std::move(ordered.mesh);
+  return std::move(ordered.order);
+}
+
+void restore_order(Mesh& mesh, const MeshOrder& order, Executor* executor) {
+  MeshPermuter::restore(mesh, order, executor);
 }
 
 }  // namespace temper

@@ -1,7 +1,9 @@
 // The lengths of an interior edge and of its dual.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/triangle_kernel.hpp"
 #include "temper/mesh.hpp"
@@ -22,6 +24,18 @@ struct EdgeLengths {
   const EdgeShape left = side(h), right = side(mesh.twin(h));
   const double length = std::sqrt(left.l2);
   return {length, (left.g + right.g) / length};
+}
+
+/// The squared length of the shortest edge at v, on the sphere between lifted points; +∞ at a vertex of no triangle.
+[[nodiscard]] inline double squared_shortest_edge(const Mesh& mesh, VertexId v) {
+  const WeightedPoint p = mesh.point(v);
+  double least = std::numeric_limits<double>::infinity();
+  for (const HalfedgeId h : mesh.star(v)) {
+    for (const VertexId u : {mesh.target(h), mesh.opposite(h)}) {
+      least = std::min(least, squared_length(mesh.space().chord(p, mesh.point(u, p))));
+    }
+  }
+  return least;
 }
 
 }  // namespace temper

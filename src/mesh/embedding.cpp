@@ -1,16 +1,13 @@
 // Stars wind once, and the sweep over the boundary meets nothing that it should not. All exact.
-#include "mesh/embedding.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "base/text.hpp"
-#include "geometry/between.hpp"
+#include "geometry/in_space.hpp"
 #include "mesh/blocks.hpp"
-#include "mesh/boundary_arcs.hpp"
 #include "mesh/boundary_sweep.hpp"
-#include "mesh/pieces.hpp"
 #include "mesh/predicates.hpp"
 
 namespace temper {
@@ -74,7 +71,7 @@ bool boundary_star_overlaps(const Mesh& mesh, VertexId v) {
 
 /// More than one piece, or more area than the domain has. Of one piece whose boundary loops are simple and apart the
 /// parts covered d times satisfy 1 − g = Σ n_t over t = 1, 2, … with n_t the pieces of what is covered t times or more,
-/// less one where that goes around along both axes (Euler characteristics, as in boundary_arcs.hpp). So nothing is
+/// less one where that goes around along both axes (Euler characteristics, as in boundary_sweep.hpp). So nothing is
 /// covered twice along one period. Along two it may where the mesh goes around both ways and on over itself: then, but
 /// for holes that are larger than what is covered twice, its area is more than the domain's.
 std::optional<Overlap> find_more_than_the_domain(const Mesh& mesh) {

@@ -1,8 +1,9 @@
 // validate(): the invariants of the arrays, one sentence for the first that does not hold.
+#include <optional>
 #include <string>
 
-#include "mesh/connectivity.hpp"
 #include "mesh/predicates.hpp"
+#include "temper/mesh.hpp"
 
 namespace temper {
 namespace {
@@ -38,8 +39,8 @@ std::optional<std::string> wrong_star(const Mesh& mesh, VertexId v, std::size_t 
   return std::nullopt;
 }
 
-}  // namespace
-
+/// The first thing that is wrong with ids, twins, stars and flags, or a point that is not finite; nothing when all is
+/// as it must be. Triangles may be inverted. Precondition: the arrays have lengths that fit. O(n).
 std::optional<std::string> broken_connectivity(const Mesh& mesh) {
   IdVector<VertexId, std::uint32_t> incident(mesh.n_vertices(), 0);
   bool any_erased = false;
@@ -59,6 +60,8 @@ std::optional<std::string> broken_connectivity(const Mesh& mesh) {
   }
   return std::nullopt;
 }
+
+}  // namespace
 
 std::optional<std::string> Mesh::validate() const {
   if (corners_.size() % 3 != 0 || twins_.size() != corners_.size() || !constrained_.has_size(n_halfedges()) ||

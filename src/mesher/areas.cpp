@@ -13,9 +13,9 @@
 #include <utility>
 
 #include "generate/triangulation.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/projection.hpp"
+#include "temper/generate.hpp"
 #include "topology/locate.hpp"
 
 namespace temper::mesher {

@@ -12,7 +12,6 @@
 #include "mesh/bad_triangles.hpp"
 #include "mesh/input_places.hpp"
 #include "mesher/areas.hpp"
-#include "mesher/narrow.hpp"
 #include "mesher/placement.hpp"
 #include "mesher/sphere_outline.hpp"
 #include "temper/detail/geometry.hpp"

@@ -4,13 +4,204 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include "geometry/bounding_boxes.hpp"
-#include "mesher/point_grid.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper::mesher {
+
+// In the constrained Delaunay triangulation of the divided outline alone every edge inside spans a gap, and every
+// triangle on a piece measures the distance to what is across. Neighbours along the outline are no gap, unless their
+// corner is sharp.
+
 namespace {
+
+// Two rows of equilateral triangles across a gap have edges of 0.577 of it.
+constexpr double kOfGap = 0.6;
+// A size that is less than this part of the present one is new.
+constexpr double kLess = 0.9;
+
+class Narrow {
+ public:
+  Narrow(const DividedOutline& divided, const Triangulated& triangulated, const GradedSize& size)
+      : divided_(divided), mesh_(triangulated.mesh), triangulated_(triangulated), size_(size) {
+    around_.resize(divided.points.size());
+    for (const Piece& p : divided.pieces) {
+      around_[p.ends[0]].push_back(p.ends[1]);
+      around_[p.ends[1]].push_back(p.ends[0]);
+    }
+  }
+
+  std::vector<SizeSource> run(Deadline& deadline) {
+    for (const HalfedgeId h : mesh_.halfedges()) {
+      if (deadline.asked_to_stop()) break;
+      if (triangulated_.area[Mesh::triangle(h)] == kOutside) continue;
+      if (triangulated_.piece[h] != Triangulated::kNoPiece) {
+        across(h);
+      } else if (mesh_.is_edge_representative(h)) {
+        along(h);
+      }
+    }
+    return std::move(sources_);
+  }
+
+ private:
+  /// Not one of the outline, but of the triangulation that surrounds a sphere.
+  [[nodiscard]] bool helps(VertexId v) const { return v.index >= divided_.points.size(); }
+  [[nodiscard]] Vec3 at(VertexId v) const { return divided_.points[v.index]; }
+  [[nodiscard]] bool isolated(VertexId v) const { return around_[v.index].empty(); }
+
+  void add(Vec3 p, double size) {
+    if (size < kLess * size_(p)) sources_.push_back({p, size});
+  }
+
+  /// Both are ends of pieces at one point, where those do not make a sharp corner.
+  [[nodiscard]] bool neighbours(VertexId a, VertexId b) const {
+    for (const std::uint32_t c : around_[a.index]) {
+      for (const std::uint32_t d : around_[b.index]) {
+        if (c != d) continue;
+        const Vec3 to_a = at(a) - divided_.points[c], to_b = at(b) - divided_.points[c];
+        if (dot(to_a, to_b) <= kSharpCosine * length(to_a) * length(to_b)) return true;
+      }
+    }
+    return false;
+  }
+
+  /// An edge from vertex to vertex through the inside.
+  void along(HalfedgeId h) {
+    const VertexId a = mesh_.origin(h), b = mesh_.target(h);
+    if (helps(a) || helps(b) || neighbours(a, b)) return;
+    const double gap = length(at(b) - at(a));
+    const double size = isolated(a) || isolated(b) ? gap : kOfGap * gap;
+    add(at(a), size);
+    add(at(b), size);
+  }
+
+  /// A triangle on a piece: from the piece to what is across.
+  void across(HalfedgeId h) {
+    const VertexId a = mesh_.origin(h), b = mesh_.target(h), c = mesh_.opposite(h);
+    if (helps(c) || triangulated_.piece[Mesh::next(h)] != Triangulated::kNoPiece ||
+        triangulated_.piece[Mesh::prev(h)] != Triangulated::kNoPiece || neighbours(a, c) || neighbours(b, c))
+      return;
+    const Vec3 ab = at(b) - at(a);
+    const double part = dot(at(c) - at(a), ab) / squared_length(ab);
+    if (part <= 0 || part >= 1) return;  // the gap is that to a or b
+    const Vec3 foot = at(a) + part * ab;
+    const double gap = length(at(c) - foot);
+    const double size = isolated(c) ? gap : kOfGap * gap;
+    add(foot, size);
+    add(at(c), size);
+  }
+
+  const DividedOutline& divided_;
+  const Mesh& mesh_;
+  const Triangulated& triangulated_;
+  const GradedSize& size_;
+  std::vector<std::vector<std::uint32_t>> around_;
+  std::vector<SizeSource> sources_;
+};
+
+}  // namespace
+
+std::vector<SizeSource> narrow_places(const DividedOutline& divided, const Triangulated& triangulated,
+                                      const GradedSize& size, Deadline& deadline) {
+  return Narrow(divided, triangulated, size).run(deadline);
+}
+
+namespace {
+
+// Points with sizes, and whether one of them is near a place: a hashed grid with one level for each power of two.
+//
+// A point lies in the level of its size. A query looks at levels whose points may be that near: sizes grow no faster
+// than distances, so these are the levels around its radius.
+
+class PointGrid {
+ public:
+  /// `flat`: all points have z = 0.
+  explicit PointGrid(bool flat) : flat_(flat) {}
+
+  void add(Vec3 p, double size) {
+    if (2 * (points_.size() + 1) > slots_.size()) grow();
+    const int level = std::ilogb(size);
+    lowest_ = points_.empty() ? level : std::min(lowest_, level);
+    highest_ = points_.empty() ? level : std::max(highest_, level);
+    points_.push_back({p, level, kNone});
+    insert(static_cast<std::uint32_t>(points_.size() - 1));
+  }
+
+  /// Looks at points whose size is between a quarter and four times the radius, and at all that are larger or smaller
+  /// in neighbouring levels of these.
+  [[nodiscard]] bool any_within(Vec3 p, double radius) const {
+    const int level = std::ilogb(radius);
+    const Vec3 reach = {radius, radius, flat_ ? 0 : radius};
+    for (int l = std::max(lowest_, level - 1); l <= std::min(highest_, level + 2); ++l) {
+      const Cell low = cell(p - reach, l), high = cell(p + reach, l);
+      for (std::int64_t x = low.x; x <= high.x; ++x) {
+        for (std::int64_t y = low.y; y <= high.y; ++y) {
+          for (std::int64_t z = low.z; z <= high.z; ++z) {
+            for (std::uint32_t i = first({x, y, z, l}); i != kNone; i = points_[i].next) {
+              if (squared_length(points_[i].at - p) < radius * radius) return true;
+            }
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  struct Entry {
+    Vec3 at;
+    int level;
+    std::uint32_t next;
+  };
+  struct Cell {
+    std::int64_t x, y, z;
+    int level;
+    friend bool operator==(const Cell&, const Cell&) = default;
+  };
+
+  [[nodiscard]] Cell cell(Vec3 p, int level) const {
+    // In space a query would look at 729 cells of the least level, nearly all of them off the sphere.
+    const int wide = flat_ ? level : level + 2;
+    const auto along = [wide](double x) { return static_cast<std::int64_t>(std::floor(std::ldexp(x, -wide))); };
+    return {along(p.x), along(p.y), along(p.z), level};
+  }
+  [[nodiscard]] std::size_t slot(const Cell& c) const {
+    std::uint64_t hash = static_cast<std::uint64_t>(c.x) * 0x9e3779b97f4a7c15u;
+    hash = (hash ^ (hash >> 29) ^ static_cast<std::uint64_t>(c.y)) * 0xbf58476d1ce4e5b9u;
+    hash = (hash ^ (hash >> 31) ^ static_cast<std::uint64_t>(c.z)) * 0xd6e8feb86659fd93u;
+    hash = (hash ^ (hash >> 32) ^ static_cast<std::uint64_t>(std::int64_t{c.level})) * 0x94d049bb133111ebu;
+    return static_cast<std::size_t>(hash ^ (hash >> 31)) & (slots_.size() - 1);
+  }
+  /// The slot of the cell: where its first point is, or the empty one where it would be.
+  [[nodiscard]] std::size_t find(const Cell& c) const {
+    std::size_t s = slot(c);
+    while (slots_[s] != kNone && !(cell(points_[slots_[s]].at, points_[slots_[s]].level) == c)) {
+      s = (s + 1) & (slots_.size() - 1);
+    }
+    return s;
+  }
+  [[nodiscard]] std::uint32_t first(const Cell& c) const { return slots_.empty() ? kNone : slots_[find(c)]; }
+  void insert(std::uint32_t i) {
+    const std::size_t s = find(cell(points_[i].at, points_[i].level));
+    points_[i].next = slots_[s];
+    slots_[s] = i;
+  }
+  void grow() {
+    slots_.assign(std::max<std::size_t>(64, 4 * slots_.size()), kNone);
+    for (std::uint32_t i = 0; i < points_.size(); ++i) insert(i);
+  }
+
+  std::vector<Entry> points_;
+  std::vector<std::uint32_t> slots_;  // of open addressing, a power of two of them
+  int lowest_ = 0, highest_ = 0;
+  bool flat_;
+};
 
 // Parts of the local size. Neighbours in a perfect row are 1 apart, the first row 0.87 from the outline; what is taken
 // much nearer than that makes the short edges that a denser packing needs, what is refused leaves holes.

@@ -9,6 +9,11 @@
 
 namespace temper::mesher {
 
+/// Sizes that leave room for a row of vertices between facing pieces; only those that are less than `size` by more
+/// than a tenth. Isolated points count as pieces of no length.
+[[nodiscard]] std::vector<SizeSource> narrow_places(const DividedOutline& divided, const Triangulated& triangulated,
+                                                    const GradedSize& size, Deadline& deadline);
+
 /// Places points. Each candidate is one size away from the point or piece it comes from; it is taken when nothing is
 /// too near and no piece lies between. The order is that of the pieces, then of the points: deterministic. Ends when
 /// there are `most`, or when it is time to stop. A whole sphere without pieces is filled from its isolated points, or

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "temper/detail/error.hpp"
+#include "temper/detail/vec.hpp"
 #include "temper/mesher.hpp"
-#include "temper/detail/vec3.hpp"
 
 namespace temper::mesher {
 

@@ -1,4 +1,3 @@
-// See temper/detail/mpi_communicator.hpp.
 #include "temper/detail/mpi_communicator.hpp"
 
 #include <mpi.h>

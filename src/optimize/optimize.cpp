@@ -5,14 +5,13 @@
 #include <utility>
 
 #include "optimize/accuracy/accuracy_phase.hpp"
-#include "optimize/run/agreement.hpp"
+#include "optimize/result/report.hpp"
+#include "optimize/run/judge.hpp"
+#include "optimize/run/run.hpp"
+#include "optimize/solver_error/error_phase.hpp"
 #include "optimize/stages/attempts.hpp"
 #include "optimize/stages/driver.hpp"
-#include "optimize/solver_error/error_phase.hpp"
-#include "optimize/working/input_mesh.hpp"
-#include "optimize/run/lengths.hpp"
-#include "optimize/run/judge.hpp"
-#include "optimize/result/report.hpp"
+#include "optimize/working/working_copy.hpp"
 
 namespace temper {
 namespace {
@@ -20,25 +19,13 @@ namespace {
 /// Says whether the second phase may begin at once with the input.
 bool is_ready_for_accuracy(const Mesh& mesh, const Settings& s) {
   return s.objective != Objective::energy && s.options.boundary != BoundaryVertices::split &&
-         has_margins(mesh, s.accuracy.margin, s.hooks.executor) &&
-         missing_lengths(mesh, s.accuracy, s.hooks.executor) == 0;
+         has_all_for_accuracy(mesh, s);
 }
 
 /// The size field of a run with a band; the input's own is seen where it is, since the run works on copies.
 std::optional<SizeField> field_of_band(const Mesh& mesh, const OptimizeOptions& options, Executor* executor) {
   if (!options.size_band) return std::nullopt;
   return options.size_field ? options.size_field : input_size_field_of(mesh, executor);
-}
-
-/// The measures of the input, and for objectives other than an energy its sizes.
-InputMeasures measured(const Mesh& mesh, const Settings& s, std::optional<AccuracySizes>& sizes) {
-  const NearbyCopy near(mesh, s.hooks.executor);
-  InputMeasures measures = measure_input(mesh, near, s);
-  if (s.objective != Objective::energy) {
-    sizes.emplace(near, s.options.size_field, s.hooks.executor);
-    measures.score = score_input(near, measures.counts, s, *sizes);
-  }
-  return measures;
 }
 
 /// One phase more. A model of errors says whether that was for the better; if not, it is taken back.
@@ -72,7 +59,7 @@ Expected<OptimizeReport> optimize_here(Mesh& mesh, const OptimizeOptions& option
   SweepState state(settings);
 
   std::optional<AccuracySizes> sizes;
-  const InputMeasures of_input = measured(mesh, settings, sizes);
+  const InputMeasures of_input(mesh, settings, sizes);
   InputMesh input(mesh, hooks.exclusive && !options.size_band, hooks.executor);  // the band's field may look at it
   auto found = is_ready_for_accuracy(mesh, settings)
                    ? Candidate{WorkingCopy(mesh, settings.policy.order, hooks.executor)}

@@ -1,8 +1,14 @@
 #include "quality/measure.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "temper/detail/geometry.hpp"
+#include "temper/quality.hpp"
 
 namespace temper {
 namespace {
@@ -79,6 +85,208 @@ TriangleMeasure measure_triangle(const Space& space, const std::array<WeightedPo
 
 TriangleMeasure measure_triangle(const Mesh& mesh, TriangleId t) {
   return measure_triangle(mesh.space(), mesh.points(t));
+}
+
+// Numbers of single triangles.
+
+namespace {
+
+double least_margin(const Mesh& mesh, TriangleId t) { return measure_triangle(mesh, t).margin(); }
+
+double largest_angle(const Mesh& mesh, TriangleId t) {
+  const auto [a, b, c] = mesh.points(t);
+  const Space& space = mesh.space();
+  const double angle =
+      std::max({corner_angle(space, a, b, c), corner_angle(space, b, c, a), corner_angle(space, c, a, b)});
+  return angle * 180 / std::numbers::pi;
+}
+
+double mean_edge(const Mesh& mesh, TriangleId t) {
+  const auto [a, b, c] = mesh.points(t);
+  return (distance(mesh.space(), a, b) + distance(mesh.space(), b, c) + distance(mesh.space(), c, a)) / 3;
+}
+
+template <class T>
+T least(const std::array<T, 3>& of) {
+  return *std::min_element(of.begin(), of.end());
+}
+
+TriangleQuality summary(const TriangleMeasure& m) {
+  return {m.well_centered(), least(m.h_over_l), least(m.d_over_l), least(m.angle_deg)};
+}
+
+double region(const Mesh& mesh, TriangleId t) { return mesh.region(t); }
+
+}  // namespace
+
+TriangleQuality triangle_quality(const Mesh& mesh, TriangleId t) { return summary(measure_triangle(mesh, t)); }
+
+TriangleQuality triangle_quality(const Space& space, const std::array<WeightedPoint, 3>& corners) {
+  return summary(measure_triangle(space, corners));
+}
+
+std::span<const TriangleValue> triangle_values() {
+  static constexpr auto kValues = std::to_array<TriangleValue>({
+      {"quality", "least of h/ℓ, d/ℓ, 1 − d/ℓ", least_margin},
+      {"angle", "largest angle (degrees)", largest_angle},
+      {"size", "mean length of edges", mean_edge},
+      {"region", "region", region},
+  });
+  return kValues;
+}
+
+namespace {
+
+std::string last_word(const std::string& text) { return text.substr(text.rfind(' ') + 1); }
+
+int least(const std::array<double, 3>& values) {
+  return static_cast<int>(std::min_element(values.begin(), values.end()) - values.begin());
+}
+
+// One triangle, while the sentence about it is made.
+struct Subject {
+  const Mesh& mesh;
+  TriangleId t;
+  TriangleMeasure m;
+  std::array<VertexId, 3> v;
+  const InputNames* names = nullptr;
+
+  [[nodiscard]] std::string number(VertexId u) const { return number_of(u, names); }
+  [[nodiscard]] std::string edge(int k) const {
+    const std::string ends = number(v[k]) + "-" + number(v[corner_after(k)]);
+    return (mesh.is_boundary(Mesh::halfedge(t, k)) ? "boundary edge " : "edge ") + ends;
+  }
+  [[nodiscard]] double weight(int k) const { return mesh.weight(v[k]); }
+  [[nodiscard]] bool weights_equal() const { return weight(0) == weight(1) && weight(1) == weight(2); }
+  [[nodiscard]] bool all_on_boundary() const {
+    return mesh.is_boundary(v[0]) && mesh.is_boundary(v[1]) && mesh.is_boundary(v[2]);
+  }
+};
+
+std::string why_not_inside(const Subject& s, int k) {
+  const int across = corner_across(k);
+  const double angle = s.m.angle_deg[across];
+  const bool on_edge = s.m.h_sign[k] == Sign::zero;
+  std::string why = on_edge ? "orthocenter on " : "orthocenter outside across ";
+  why += s.edge(k) + ": ";
+  if (s.weights_equal()) {
+    why += on_edge ? "right angle at vertex " : "angle of " + degrees(angle) + " at vertex ";
+    return why + s.number(s.v[across]);
+  }
+  why += "angle of " + degrees(angle) + " at vertex " + s.number(s.v[across]);
+  why += angle < 90 ? ", but the weights push it there: " : ", and weights of ";
+  return why + rounded(s.weight(across)) + " at vertex " + s.number(s.v[across]) + ", " + rounded(s.weight(k)) +
+         " and " + rounded(s.weight(corner_after(k))) + " on the edge";
+}
+
+std::string why_not_crossed(const Subject& s, int k) {
+  int heavy = k, light = corner_after(k);
+  if (s.weight(heavy) < s.weight(light)) std::swap(heavy, light);
+  const WeightedPoint a = s.mesh.point(s.v[heavy]), b = s.mesh.point(s.v[light], a);
+  const double l2 = squared_length(s.mesh.space().chord(a, b));
+  return s.edge(k) + " is not crossed by its dual: the weight of vertex " + s.number(s.v[heavy]) +
+         " exceeds that of vertex " + s.number(s.v[light]) + " by " + rounded(s.weight(heavy) - s.weight(light)) +
+         ", and the edge's squared length is " + rounded(l2);
+}
+
+std::string least_margin(const Subject& s) {
+  const int h = least(s.m.h_over_l), d = least(s.m.d_over_l);
+  if (s.m.d_over_l[d] < s.m.h_over_l[h]) {
+    return "well-centered; least margin d/ℓ = " + rounded(s.m.d_over_l[d]) + " on " + s.edge(d);
+  }
+  const int across = corner_across(h);
+  return "well-centered; least margin h/ℓ = " + rounded(s.m.h_over_l[h]) + " over " + s.edge(h) + ", angle of " +
+         degrees(s.m.angle_deg[across]) + " at vertex " + s.number(s.v[across]);
+}
+
+// The edge over which the exact sign is not positive, the one with the least h/ℓ first; −1 when there is none.
+int edge_of_outside(const TriangleMeasure& m) {
+  int found = -1;
+  for (int k = 0; k < 3; ++k) {
+    if (m.h_sign[k] == Sign::positive) continue;
+    if (found < 0 || m.h_sign[k] < m.h_sign[found] ||
+        (m.h_sign[k] == m.h_sign[found] && m.h_over_l[k] < m.h_over_l[found])) {
+      found = k;
+    }
+  }
+  return found;
+}
+
+std::string explain(const Subject& s) {
+  if (s.m.orientation == Sign::negative) return "inverted: its corners turn clockwise";
+  if (s.m.orientation == Sign::zero) return "no area: its corners are collinear";
+  std::string why;
+  const int outside = edge_of_outside(s.m);
+  if (outside >= 0) why = why_not_inside(s, outside);
+  const auto not_crossed = std::find(s.m.crossed.begin(), s.m.crossed.end(), false);
+  if (not_crossed != s.m.crossed.end()) {
+    if (!why.empty()) why += "; ";
+    why += why_not_crossed(s, static_cast<int>(not_crossed - s.m.crossed.begin()));
+  }
+  if (why.empty()) return least_margin(s);
+  if (s.all_on_boundary()) why += "; all its corners are on the boundary, so only weights and flips can change it";
+  return why;
+}
+
+}  // namespace
+
+void WorstList::offer(Ranked candidate) {
+  if (heap_.size() == n_) {
+    if (n_ == 0 || !(candidate < heap_.front())) return;
+    std::pop_heap(heap_.begin(), heap_.end());
+    heap_.pop_back();
+  }
+  heap_.push_back(candidate);
+  std::push_heap(heap_.begin(), heap_.end());
+}
+
+void WorstList::merge(const WorstList& other) {
+  for (const Ranked& candidate : other.heap_) offer(candidate);
+}
+
+std::vector<Ranked> WorstList::sorted() const {
+  std::vector<Ranked> result = heap_;
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::string number_of(VertexId v, const InputNames* names) {
+  return names == nullptr ? std::to_string(v.index) : last_word(names->point(v.index));
+}
+
+std::string number_of(TriangleId t, const InputNames* names) {
+  return names == nullptr ? std::to_string(t.index) : last_word(names->triangle(t.index));
+}
+
+// Four digits are enough for people; the report has the numbers in full.
+std::string rounded(double value) {
+  char buffer[64];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 4);
+  return {buffer, result.ptr};
+}
+
+std::string degrees(double angle) {
+  char buffer[64];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, angle, std::chars_format::fixed, 1);
+  return std::string(buffer, result.ptr) + "°";
+}
+
+Vec2 middle_of(const Mesh& mesh, TriangleId t) {
+  const auto [a, b, c] = mesh.points(t);
+  const double part = mesh.space().dimension() == 2 ? 1.0 / 3 : 1;  // on the sphere the direction counts
+  return mesh.space().as_shown(part * (lifted(a) + lifted(b) + lifted(c)));
+}
+
+WorstTriangle describe(const Mesh& mesh, TriangleId t, const InputNames* names) {
+  const Subject s{mesh, t, measure_triangle(mesh, t), mesh.corners(t), names};
+  WorstTriangle worst;
+  worst.triangle = t;
+  worst.vertices = s.v;
+  worst.at = middle_of(mesh, t);
+  worst.h_over_l = s.m.h_over_l[least(s.m.h_over_l)];
+  worst.angle_deg = *std::max_element(s.m.angle_deg.begin(), s.m.angle_deg.end());
+  worst.why = explain(s);
+  return worst;
 }
 
 }  // namespace temper

@@ -3,19 +3,170 @@
 #include "temper/quality.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "base/assert.hpp"
-#include "energy/total_energies.hpp"
+#include "base/median.hpp"
+#include "energy/whole_mesh.hpp"
+#include "geometry/in_space.hpp"
+#include "mesh/bad_triangles.hpp"
+#include "mesh/blocks.hpp"
 #include "mesh/curve.hpp"
-#include "mesh/erased.hpp"
-#include "quality/solver_measures.hpp"
-#include "quality/tally.hpp"
-#include "quality/transmissibility.hpp"
+#include "quality/measure.hpp"
 #include "temper/detail/executor.hpp"
+#include "temper/detail/geometry.hpp"
+#include "temper/mesh.hpp"
+#include "temper/regularity.hpp"
 
 namespace temper {
 namespace {
+
+/// Of ℓ / |dual| of all interior edges; 1 without any.
+struct Transmissibilities {
+  double max_over_median = 1;
+  double max_over_min = 1;
+};
+
+// The length of the face over the distance between the orthocenters on its two sides. Doubles cannot tell a dual of
+// length zero from one of 1e-17, the exact test can.
+double transmissibility(const Mesh& mesh, HalfedgeId h) {
+  const auto [a, b, c] = mesh.points(mesh.origin(h), mesh.target(h), mesh.opposite(h));
+  const WeightedPoint d = mesh.point(mesh.opposite(mesh.twin(h)), a);
+  if (power_test(mesh.space(), a, b, c, d) == Sign::zero) return std::numeric_limits<double>::infinity();
+  return distance(mesh.space(), a, b) / std::abs(dual_length(mesh.space(), a, b, c, d));
+}
+
+/// Those of all interior edges, in an array that is made once: lists that grow would take twice its room.
+std::vector<double> transmissibilities(const Mesh& mesh, Executor* executor) {
+  const std::size_t n = mesh.n_halfedges();
+  const auto for_edges = [&](std::size_t first, std::size_t last, auto&& visit) {
+    for (std::size_t i = first; i < last; ++i) {
+      const HalfedgeId h(i);
+      if (!mesh.is_boundary(h) && mesh.is_edge_representative(h)) visit(h);
+    }
+  };
+  std::vector<std::size_t> place((n + kLoopBlock - 1) / kLoopBlock);  // of each block, in the array
+  for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
+    for_edges(first, last, [&](HalfedgeId) { ++place[first / kLoopBlock]; });
+  });
+  std::size_t count = 0;
+  for (std::size_t& of_block : place) count += std::exchange(of_block, count);
+  std::vector<double> values(count);
+  for_blocks(n, executor, [&](std::size_t first, std::size_t last) {
+    std::size_t next = place[first / kLoopBlock];
+    for_edges(first, last, [&](HalfedgeId h) { values[next++] = transmissibility(mesh, h); });
+  });
+  return values;
+}
+
+/// O(n), with 8 bytes an edge while it lasts.
+Transmissibilities compare_transmissibilities(const Mesh& mesh, Executor* executor) {
+  std::vector<double> values = transmissibilities(mesh, executor);
+  if (values.empty()) return {};
+  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+  Transmissibilities all;
+  all.max_over_min = *largest < std::numeric_limits<double>::infinity() ? *largest / *least : *largest;
+  all.max_over_median = largest_over_median(std::move(values));
+  return all;
+}
+
+// The sums of the report over a run of triangles: one Tally a block, merged in the order of the blocks.
+//
+// Everything here is a count, an extreme or a short list, so the merged result is the same whatever the blocks.
+// Each edge is counted by the halfedge that stands for it, in the block of that halfedge's triangle.
+
+/// Bins of 10°; of 0.1 with a bin edge at h = 0; of 0.05 with a bin edge at d = 0.
+Histogram empty_angle_histogram() { return {0, 180, std::vector<std::size_t>(18)}; }
+Histogram empty_height_histogram() { return {-0.5, 1, std::vector<std::size_t>(15)}; }
+Histogram empty_split_histogram() { return {-0.1, 0.5, std::vector<std::size_t>(12)}; }
+
+void count_in(Histogram& histogram, double value) {
+  const double last = static_cast<double>(histogram.counts.size() - 1);
+  const double bins = static_cast<double>(histogram.counts.size());
+  const double bin = std::floor((value - histogram.low) / (histogram.high - histogram.low) * bins);
+  ++histogram.counts[static_cast<std::size_t>(std::clamp(bin, 0.0, last))];
+}
+
+struct Tally {
+  explicit Tally(std::size_t n_worst) : worst(n_worst) {}
+
+  std::size_t edges = 0, boundary_edges = 0;
+  std::size_t inverted_triangles = 0, orthocenters_outside = 0, well_centered = 0;
+  std::size_t non_regular_edges = 0, negative_boundary_duals = 0, edges_not_crossed = 0;
+  double min_h_over_l = std::numeric_limits<double>::infinity();
+  double min_d_over_l = std::numeric_limits<double>::infinity();
+  double min_angle_deg = std::numeric_limits<double>::infinity();
+  double max_angle_deg = 0;
+  WorstList worst;
+  Histogram angles = empty_angle_histogram();
+  Histogram h_over_l = empty_height_histogram();
+  Histogram d_over_l = empty_split_histogram();
+
+  /// `original`: the number by which the triangle is told of.
+  void add(const Mesh& mesh, TriangleId t, TriangleId original);
+  void merge(const Tally& other);
+
+ private:
+  void add_edge(const Mesh& mesh, HalfedgeId h, const TriangleMeasure& m, int k);
+};
+
+void merge_counts(Histogram& into, const Histogram& from) {
+  for (std::size_t i = 0; i < into.counts.size(); ++i) into.counts[i] += from.counts[i];
+}
+
+void Tally::add(const Mesh& mesh, TriangleId t, TriangleId original) {
+  const TriangleMeasure m = measure_triangle(mesh, t);
+  inverted_triangles += m.orientation == Sign::negative;
+  orthocenters_outside += !m.orthocenter_inside();
+  well_centered += m.well_centered();
+  worst.offer({m.margin(), original});
+  for (int k = 0; k < 3; ++k) {
+    min_h_over_l = std::min(min_h_over_l, m.h_over_l[k]);
+    min_angle_deg = std::min(min_angle_deg, m.angle_deg[k]);
+    max_angle_deg = std::max(max_angle_deg, m.angle_deg[k]);
+    count_in(angles, m.angle_deg[k]);
+    count_in(h_over_l, m.h_over_l[k]);
+    const HalfedgeId h = Mesh::halfedge(t, k);
+    if (mesh.is_edge_representative(h)) add_edge(mesh, h, m, k);
+  }
+}
+
+void Tally::add_edge(const Mesh& mesh, HalfedgeId h, const TriangleMeasure& m, int k) {
+  ++edges;
+  edges_not_crossed += !m.crossed[k];
+  min_d_over_l = std::min(min_d_over_l, m.d_over_l[k]);
+  count_in(d_over_l, m.d_over_l[k]);
+  if (mesh.is_boundary(h)) {
+    ++boundary_edges;
+    negative_boundary_duals += m.h_sign[k] == Sign::negative;
+    return;
+  }
+  non_regular_edges += !is_regular(mesh, h);
+}
+
+void Tally::merge(const Tally& other) {
+  edges += other.edges;
+  boundary_edges += other.boundary_edges;
+  inverted_triangles += other.inverted_triangles;
+  orthocenters_outside += other.orthocenters_outside;
+  well_centered += other.well_centered;
+  non_regular_edges += other.non_regular_edges;
+  negative_boundary_duals += other.negative_boundary_duals;
+  edges_not_crossed += other.edges_not_crossed;
+  min_h_over_l = std::min(min_h_over_l, other.min_h_over_l);
+  min_d_over_l = std::min(min_d_over_l, other.min_d_over_l);
+  min_angle_deg = std::min(min_angle_deg, other.min_angle_deg);
+  max_angle_deg = std::max(max_angle_deg, other.max_angle_deg);
+  worst.merge(other.worst);
+  merge_counts(angles, other.angles);
+  merge_counts(h_over_l, other.h_over_l);
+  merge_counts(d_over_l, other.d_over_l);
+}
 
 constexpr std::size_t kBlock = 8192;  // triangles: some milliseconds of work, some hundred blocks for a million
 

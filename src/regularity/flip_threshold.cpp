@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "base/assert.hpp"
-#include "regularity/power_tests.hpp"
+#include "regularity/lawson.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {

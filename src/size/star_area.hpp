@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "geometry/in_space.hpp"
+#include "mesh/curve.hpp"
+#include "temper/detail/size.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -28,5 +30,8 @@ struct StarArea {
   }
   return star;
 }
+
+/// local_sizes() along a walk over the mesh.
+[[nodiscard]] IdVector<VertexId, double> local_sizes(const Mesh& mesh, const Walk& walk, Executor* executor);
 
 }  // namespace temper

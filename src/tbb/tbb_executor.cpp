@@ -1,4 +1,3 @@
-// See temper/detail/tbb_executor.hpp.
 #include "temper/detail/tbb_executor.hpp"
 
 #include <tbb/global_control.h>

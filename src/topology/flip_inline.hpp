@@ -1,4 +1,4 @@
-// Flip and its inverse, for inlining into Lawson's loop. The public functions are in flip.cpp.
+// Flip and its inverse, for inlining into Lawson's loop. The public functions are in commits.cpp.
 //
 //             c          before: edge ab = h; triangles abc, bad          h  a→b  n  b→c  p  c→a
 //           /   \                (all counter-clockwise)                  g  b→a  gn a→d  gp d→b

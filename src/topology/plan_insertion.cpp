@@ -19,12 +19,42 @@
 #include "base/assert.hpp"
 #include "geometry/ground.hpp"
 #include "geometry/predicates_inline.hpp"
+#include "temper/detail/space.hpp"
 #include "temper/topology.hpp"
 #include "topology/locate.hpp"
-#include "topology/split_point.hpp"
 
 namespace temper {
 namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// `linear` when it is between low and high, or nothing is; else the nearest in the middle half.
+double in_middle_half(double linear, double low, double high) {
+  if (low >= high || (low < linear && linear < high)) return linear;
+  const double quarter = 0.25 * (high - low);
+  return std::clamp(linear, low + quarter, high - quarter);
+}
+
+/// The vertex that divides the edge ab a part t of the way, 0 < t < 1: in the plane of split_weight(). On the sphere tℓ
+/// is an arc, and weights are compared as σ = R/|P|: what is |w − w_a| < t²ℓ² in the plane is there
+/// σ_a cos(tℓ) < σ < σ_a / cos(tℓ).
+WeightedPoint split_point(const Space& space, const WeightedPoint& a, const WeightedPoint& b, double t) {
+  if (space.is_plane()) {
+    const Vec2 step = b.position() - a.position(), p = a.position() + t * step;
+    return {p.x, p.y, split_weight(a.w, b.w, squared_length(step), t)};
+  }
+  const Ground ground(space);
+  const Vec3 from = ground.place(a), to = ground.place(b), p = ground.between(from, to, t);
+  // The piece ap has both d inside when σ is between σ_a cos(ap) and σ_a / cos(ap), σ = R/|P|, and the other likewise.
+  const double r = space.radius(), r2 = r * r;
+  const double sigma_a = r / length(lifted(a)), sigma_b = r / length(lifted(b));
+  const double cos_a = std::cos(arc_length(from, p)), cos_b = std::cos(arc_length(p, to));
+  const auto highest = [](double sigma, double cosine) { return cosine > 0 ? sigma / cosine : kNoLimit; };
+  const double w = space.weight(a) + t * (space.weight(b) - space.weight(a)), linear = r / std::sqrt(r2 + w);
+  const double sigma = in_middle_half(linear, std::max(sigma_a * cos_a, sigma_b * cos_b),
+                                      std::min(highest(sigma_a, cos_a), highest(sigma_b, cos_b)));
+  return space.vertex_at(p, sigma == linear ? w : r2 * (1 / (sigma * sigma) - 1));
+}
 
 /// Does the new vertex conflict with the triangle of h?
 bool conflicts(const Mesh& mesh, HalfedgeId h, const WeightedPoint& p) {
@@ -130,15 +160,6 @@ void complete(const Mesh& mesh, InsertionPlan& plan) {
   plan.status = all && spokes_are_regular(mesh, plan) ? InsertionStatus::possible : InsertionStatus::not_regular;
 }
 
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-
-/// `linear` when it is between low and high, or nothing is; else the nearest in the middle half.
-double in_middle_half(double linear, double low, double high) {
-  if (low >= high || (low < linear && linear < high)) return linear;
-  const double quarter = 0.25 * (high - low);
-  return std::clamp(linear, low + quarter, high - quarter);
-}
-
 }  // namespace
 
 InsertionPlan plan_insertion(const Mesh& mesh, const WeightedPoint& p, TriangleId near, InsertionPlan storage) {
@@ -210,24 +231,6 @@ double split_weight(double w_a, double w_b, double squared_length, double t) {
   const double reach_a = t * t * squared_length, reach_b = (1 - t) * (1 - t) * squared_length;
   return in_middle_half(w_a + t * (w_b - w_a), std::max(w_a - reach_a, w_b - reach_b),
                         std::min(w_a + reach_a, w_b + reach_b));
-}
-
-WeightedPoint split_point(const Space& space, const WeightedPoint& a, const WeightedPoint& b, double t) {
-  if (space.is_plane()) {
-    const Vec2 step = b.position() - a.position(), p = a.position() + t * step;
-    return {p.x, p.y, split_weight(a.w, b.w, squared_length(step), t)};
-  }
-  const Ground ground(space);
-  const Vec3 from = ground.place(a), to = ground.place(b), p = ground.between(from, to, t);
-  // The piece ap has both d inside when σ is between σ_a cos(ap) and σ_a / cos(ap), σ = R/|P|, and the other likewise.
-  const double r = space.radius(), r2 = r * r;
-  const double sigma_a = r / length(lifted(a)), sigma_b = r / length(lifted(b));
-  const double cos_a = std::cos(arc_length(from, p)), cos_b = std::cos(arc_length(p, to));
-  const auto highest = [](double sigma, double cosine) { return cosine > 0 ? sigma / cosine : kNoLimit; };
-  const double w = space.weight(a) + t * (space.weight(b) - space.weight(a)), linear = r / std::sqrt(r2 + w);
-  const double sigma = in_middle_half(linear, std::max(sigma_a * cos_a, sigma_b * cos_b),
-                                      std::min(highest(sigma_a, cos_a), highest(sigma_b, cos_b)));
-  return space.vertex_at(p, sigma == linear ? w : r2 * (1 / (sigma * sigma) - 1));
 }
 
 }  // namespace temper

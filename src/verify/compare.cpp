@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "verify/measure.hpp"
+#include "verify/poisson.hpp"
 
 namespace temper {
 namespace {

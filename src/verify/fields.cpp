@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "verify/gauss.hpp"
-
 namespace temper {
 namespace verify_detail {
 namespace {

@@ -4,8 +4,10 @@
 
 #include <vector>
 
-#include "verify/edge_means.hpp"
+#include "temper/detail/error.hpp"
+#include "temper/mesh.hpp"
 #include "verify/solve.hpp"
+#include "verify/stars.hpp"
 
 namespace temper::verify_detail {
 
@@ -44,5 +46,23 @@ class FluxScheme {
   std::vector<Field> fields_;
   VerifySystem system_;
 };
+
+struct Measured {
+  std::vector<FieldErrors> fields;
+  VerifySystem poisson, flux;
+  LocalErrors local;  ///< root mean square over the fields
+};
+[[nodiscard]] Measured measure(const Setting& setting, const std::vector<Field>& fields, bool condition);
+
+/// The orders of convergence of each field, by least squares. See VerifyReport::orders.
+[[nodiscard]] std::vector<FieldErrors> convergence_orders(const std::vector<VerifyLevel>& levels);
+
+/// Divides every triangle into four. Weights are w/2 at the vertices and linear between, (w_i + w_j)/4 at the
+/// midpoints. So each child at a corner is similar to its parent, orthocenter and all, and an edge's halves have half
+/// of its dual length. No weights would do that for the fourth, turned child as well: those that the three fix have the
+/// opposite sign there. Inside of a triangle these weights are linear, and the four are Delaunay among themselves
+/// unless the parent is obtuse; then edges are not regular any more, and flips restore that where the parent mesh was
+/// regular.
+[[nodiscard]] Expected<Mesh> refined(const Mesh& mesh);
 
 }  // namespace temper::verify_detail

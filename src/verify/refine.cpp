@@ -1,11 +1,10 @@
-#include "verify/refine.hpp"
-
 #include <utility>
 
 #include "geometry/in_space.hpp"
 #include "mesh/input_places.hpp"
 #include "temper/dec.hpp"
 #include "temper/regularity.hpp"
+#include "verify/poisson.hpp"
 
 namespace temper::verify_detail {
 namespace {

@@ -17,7 +17,7 @@
 #include "temper/detail/error_model.hpp"
 #include "temper/verify.hpp"
 #include "verify/adjoint.hpp"
-#include "verify/gauss.hpp"
+#include "verify/fields.hpp"
 #include "verify/solve.hpp"
 
 namespace temper {
@@ -48,7 +48,7 @@ struct Wave {
 };
 
 /// A mesh with its operators, and the waves in its units.
-struct Subject {
+struct ErrorSubject {
   const Mesh& mesh;
   DecComplex dec;
   std::vector<Wave> waves;
@@ -64,7 +64,7 @@ struct Subject {
 /// A scheme on a mesh, its matrix factored.
 class Solver {
  public:
-  Solver(const Subject& subject, double half_size) : s_(subject), half_size_(half_size) {}
+  Solver(const ErrorSubject& subject, double half_size) : s_(subject), half_size_(half_size) {}
   virtual ~Solver() = default;
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
@@ -79,11 +79,11 @@ class Solver {
     matrix_->solve(right);
     return right;
   }
-  [[nodiscard]] const Subject& subject() const { return s_; }
+  [[nodiscard]] const ErrorSubject& subject() const { return s_; }
   [[nodiscard]] double factor_of(const Wave& wave) const { return s_.factor(wave, half_size_); }
 
  private:
-  const Subject& s_;
+  const ErrorSubject& s_;
   double half_size_;
   std::optional<Cholesky> matrix_;
 };
@@ -92,7 +92,8 @@ class Solver {
 
 class VertexSolver final : public Solver {
  public:
-  VertexSolver(const Subject& s, double half_size) : Solver(s, half_size), unknown_(s.mesh.n_vertices(), kGivenValue) {
+  VertexSolver(const ErrorSubject& s, double half_size)
+      : Solver(s, half_size), unknown_(s.mesh.n_vertices(), kGivenValue) {
     std::size_t n = 0;
     for (const VertexId v : s.mesh.vertices()) {
       if (!s.mesh.is_isolated(v) && !s.mesh.is_boundary(v)) unknown_[v] = n++, inner_.push_back(v);
@@ -158,7 +159,7 @@ class VertexSolver final : public Solver {
 
 class CellSolver final : public Solver {
  public:
-  CellSolver(const Subject& s, double half_size) : Solver(s, half_size) {
+  CellSolver(const ErrorSubject& s, double half_size) : Solver(s, half_size) {
     std::vector<MatrixEntry> lower;
     for (std::size_t e = 0; e < s.dec.edges.size(); ++e) {
       const DecEdge& edge = s.dec.edges[EdgeId(e)];
@@ -265,7 +266,7 @@ class SolverErrorModel final : public ErrorModel {
   [[nodiscard]] std::vector<double> measure(const Mesh& mesh, std::vector<Gradient>* gradients,
                                             Executor* executor) const {
     const VerifyFrame frame = verify_frame(mesh);
-    Subject subject{mesh, dec(mesh), {}, 0};
+    ErrorSubject subject{mesh, dec(mesh), {}, 0};
     for (const double area : subject.dec.areas) subject.area += area;
     for (const Wave& wave : waves_) {
       const Vec2 k = (1 / frame.half_size) * wave.k;
@@ -289,7 +290,7 @@ class SolverErrorModel final : public ErrorModel {
   }
 
   /// The sum over all waves, and of their derivatives, in an order that no number of threads changes.
-  static double mean_error(const Solver& solver, const Subject& subject, Adjoint* by, Executor* executor) {
+  static double mean_error(const Solver& solver, const ErrorSubject& subject, Adjoint* by, Executor* executor) {
     const std::vector<Wave>& waves = subject.waves;
     std::vector<double> sums((waves.size() + kBatch - 1) / kBatch, 0.0);
     std::vector<std::optional<Adjoint>> parts(by != nullptr ? sums.size() : 0);

@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "temper/dec.hpp"
-#include "verify/measure.hpp"
-#include "verify/refine.hpp"
+#include "verify/poisson.hpp"
 
 namespace temper {
 namespace verify_detail {

@@ -1,9 +1,9 @@
 // A program as users of threads write it: an executor, and a run whose result does not depend on it.
 #include <cstdio>
 
+#include "temper/detail/tbb_executor.hpp"
 #include "temper/generate.hpp"
 #include "temper/quality.hpp"
-#include "temper/detail/tbb_executor.hpp"
 
 int main() {
   const auto mesh = temper::random_points({.vertices = 20000, .seed = 3});

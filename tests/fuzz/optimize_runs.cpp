@@ -7,8 +7,8 @@
 #include "property/random_mesh.hpp"
 #include "target.hpp"
 #include "temper/detail/optimize_table.hpp"
-#include "temper/regularity.hpp"
 #include "temper/detail/trace.hpp"
+#include "temper/regularity.hpp"
 
 namespace temper::fuzz {
 namespace {

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "temper/generate.hpp"
 #include "temper/detail/instruction_set.hpp"
+#include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {

@@ -206,8 +206,9 @@ TEST(RationalOracleOnTheSphere, NoSignIsWrongOnRandomPoints) {
   EXPECT_GT(seen[2], kRounds);
 }
 
-// The theorem of temper/detail/space.hpp: the flat triangle with the weights |P|² has its weighted midpoints and orthocenter
-// where the spherical one has them, so heights and splits read in its plane have the signs of the predicates.
+// The theorem of temper/detail/space.hpp: the flat triangle with the weights |P|² has its weighted midpoints and
+// orthocenter where the spherical one has them, so heights and splits read in its plane have the signs of the
+// predicates.
 TEST(RationalOracleOnTheSphere, TheFlatTriangleWithSquaredLengthsAsWeightsHasTheSameSigns) {
   Random random(7);
   int positive = 0, negative = 0;

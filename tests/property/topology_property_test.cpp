@@ -3,7 +3,7 @@
 
 #include "property/random_mesh.hpp"
 #include "regularity/lawson.hpp"
-#include "support/area.hpp"
+#include "support/shapes.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {

@@ -101,7 +101,7 @@ def functions_of(header):
 
 def fields_of(struct):
     """Names of the members of a struct, in whichever header it is."""
-    for header in HEADERS.glob("*.hpp"):
+    for header in HEADERS.rglob("*.hpp"):
         text = re.sub(r"//[^\n]*", "", header.read_text(encoding="utf-8"))
         match = re.search(rf"^struct {struct}(?: : (\w+))? \{{\n(.*?)^\}};", text, re.M | re.S)
         if match is None:
@@ -121,7 +121,7 @@ def fields_of(struct):
 
 def test_every_function_of_the_headers_is_here():
     missing, seen = [], 0
-    for header in sorted(HEADERS.glob("*.hpp")):
+    for header in sorted(HEADERS.rglob("*.hpp")):
         for name in sorted(functions_of(header)):
             seen += 1
             if name not in ELSEWHERE and not any(hasattr(module, name) for module in MODULES):
@@ -171,7 +171,7 @@ def test_no_modules_import_each_other_in_a_circle(tmp_path):
 
 
 def test_what_is_elsewhere_is_still_in_the_headers():
-    all_names = set().union(*(functions_of(h) for h in HEADERS.glob("*.hpp")))
+    all_names = set().union(*(functions_of(h) for h in HEADERS.rglob("*.hpp")))
     assert set(ELSEWHERE) <= all_names, set(ELSEWHERE) - all_names
 
 

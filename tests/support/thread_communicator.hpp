@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "temper/detail/communicator.hpp"
+#include "temper/detail/executor.hpp"
 
 namespace temper::test {
 

@@ -14,17 +14,17 @@
 #include <vector>
 
 #include "support/lattice.hpp"
-#include "support/regions.hpp"
+#include "support/shapes.hpp"
 #include "support/std_threads.hpp"
 #include "support/thread_communicator.hpp"
+#include "temper/detail/places.hpp"
+#include "temper/detail/size.hpp"
 #include "temper/energy.hpp"
 #include "temper/generate.hpp"
 #include "temper/io.hpp"
 #include "temper/optimize.hpp"
-#include "temper/detail/places.hpp"
 #include "temper/quality.hpp"
 #include "temper/regularity.hpp"
-#include "temper/detail/size.hpp"
 
 namespace temper::test {
 namespace {

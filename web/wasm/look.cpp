@@ -7,9 +7,9 @@
 #include "held_mesh.hpp"
 #include "records.hpp"
 #include "temper/dec.hpp"
-#include "temper/draw.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/html.hpp"
+#include "temper/draw.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::wasm {

@@ -4,8 +4,8 @@
 
 #include "answer.hpp"
 #include "held_mesh.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/generate.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper::wasm {

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "answer.hpp"
+#include "temper/detail/trace.hpp"
 #include "temper/energy.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
-#include "temper/detail/trace.hpp"
 
 namespace temper::wasm {
 

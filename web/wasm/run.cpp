@@ -2,8 +2,8 @@
 #include "answer.hpp"
 #include "held_mesh.hpp"
 #include "records.hpp"
-#include "temper/optimize.hpp"
 #include "temper/detail/trace.hpp"
+#include "temper/optimize.hpp"
 #include "temper/solvers.hpp"
 
 namespace temper::wasm {

@@ -1,6 +1,5 @@
 #include "files/input.hpp"
 
-#include "files/read_tried.hpp"
 #include <fmt/format.h>
 
 #include <array>

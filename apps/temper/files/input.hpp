@@ -89,4 +89,9 @@ void take_to_map(io::MeshFile& file, const std::string& path, const std::string&
 inline constexpr int kDeepestJson = 16;
 [[nodiscard]] bool is_too_deep(std::string_view json);
 
+/// io::read(), of a file of HDF5 (NetCDF-4, VTKHDF) first in a child process: on a damaged one libhdf5 may loop for
+/// ever or crash, and then only the child does. Failure when the file cannot be used, or does not get through the child
+/// under its budget of time and memory. What comes through a pipe can be read once only: it is read at once.
+[[nodiscard]] io::MeshFile read_tried(const std::string& path, Executor* executor);
+
 }  // namespace temper::app

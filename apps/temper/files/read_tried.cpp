@@ -1,5 +1,5 @@
-// See read_tried.hpp. The child tells how it ended through a pipe: nothing but the end of the pipe when it died.
-#include "files/read_tried.hpp"
+// See input.hpp. The child tells how it ended through a pipe: nothing but the end of the pipe when it died.
+#include "files/input.hpp"
 
 #ifdef __linux__
 #include <sys/prctl.h>

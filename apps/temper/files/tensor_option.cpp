@@ -21,8 +21,7 @@ void add_tensor(Command& command, std::optional<Metric>& metric, const std::stri
 
 void expect_without(const Command& command, const std::optional<Metric>& metric, const std::string& option) {
   if (!metric || !command.was_given(option)) return;
-  throw Failure(Exit::bad_usage,
-                fmt::format("{0}: --tensor does not go with {1}\nSee temper {0} --help", command.name(), option));
+  refuse_usage(command.name(), fmt::format("--tensor does not go with {}", option));
 }
 
 Mesh in_metric(const Mesh& mesh, const Metric& metric, const Input& input) {

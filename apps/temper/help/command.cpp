@@ -95,10 +95,7 @@ class Command::Parser {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& message) const {
-    const std::string& verb = app_.get_name();
-    throw Failure(Exit::bad_usage, verb + ": " + message + "\nSee temper " + verb + " --help");
-  }
+  [[noreturn]] void fail(const std::string& message) const { refuse_usage(app_.get_name(), message); }
 
   void declare(const Command& command, CLI::App& app) {
     app.set_help_flag();

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "help/command.hpp"
-#include "temper/energy.hpp"
 #include "temper/detail/optimize_table.hpp"
+#include "temper/energy.hpp"
 
 namespace temper::app {
 

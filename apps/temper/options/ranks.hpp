@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "exit.hpp"
-#include "temper/detail/communicator.hpp"
+#include "temper/detail/executor.hpp"
 
 namespace temper::app {
 

@@ -137,7 +137,7 @@ std::vector<Requirement> parse_requirements(std::string_view verb, std::span<con
       for (const std::string& word : separated(list)) requirements.push_back(parse_requirement(word));
     }
   } catch (const BadValue& bad) {
-    throw Failure(Exit::bad_usage, fmt::format("{0}: --require: {1}\nSee temper {0} --help", verb, bad.what()));
+    refuse_usage(std::string(verb), fmt::format("--require: {}", bad.what()));
   }
   return requirements;
 }

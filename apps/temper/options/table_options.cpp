@@ -169,8 +169,7 @@ void expect_no_contradictions(Command& command) {
     if (!command.was_given(s.flag) || !command.was_given(option)) continue;
     const std::string& given = command.option(option).given.front();
     if (given == s.value) continue;
-    throw Failure(Exit::bad_usage, fmt::format("{}: {} contradicts {} {}\nSee temper {} --help", command.name(), s.flag,
-                                               option, given, command.name()));
+    refuse_usage(command.name(), fmt::format("{} contradicts {} {}", s.flag, option, given));
   }
 }
 

@@ -2,10 +2,10 @@
 
 #include "exit.hpp"
 #include "reports/quality_report.hpp"
-#include "temper/explain.hpp"
 #include "temper/detail/html.hpp"
 #include "temper/detail/lp.hpp"
 #include "temper/detail/version.hpp"
+#include "temper/explain.hpp"
 
 namespace temper::app {
 namespace {

@@ -10,17 +10,17 @@
 #include "files/input.hpp"
 #include "options/options.hpp"
 #include "reports/quality_report.hpp"
+#include "temper/dec.hpp"
 #include "temper/detail/columns.hpp"
 #include "temper/detail/connectivity.hpp"
-#include "temper/dec.hpp"
+#include "temper/detail/projection.hpp"
+#include "temper/detail/size.hpp"
 #include "temper/explain.hpp"
 #include "temper/feasibility.hpp"
 #include "temper/io.hpp"
 #include "temper/mesher.hpp"
 #include "temper/optimize.hpp"
-#include "temper/detail/projection.hpp"
 #include "temper/quality.hpp"
-#include "temper/detail/size.hpp"
 
 namespace temper::app {
 

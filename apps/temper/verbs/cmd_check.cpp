@@ -71,9 +71,7 @@ class Checks {
     options_.worst = s_.worst;
     options_.executor = threads_.get();
     if (!s_.html.empty() && s_.inputs.size() > 1) {
-      throw Failure(Exit::bad_usage, fmt::format("check: --html: it is the report of one mesh, and {} are given\n"
-                                                 "See temper check --help",
-                                                 s_.inputs.size()));
+      refuse_usage("check", fmt::format("--html: it is the report of one mesh, and {} are given", s_.inputs.size()));
     }
     expect_without(command, s_.metric, "--html");
     outputs_.expect_text("--html", s_.html, s_.inputs);

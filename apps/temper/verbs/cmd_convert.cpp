@@ -6,7 +6,6 @@
 #include "console.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
-#include "files/read_tried.hpp"
 #include "help/help.hpp"
 #include "options/options.hpp"
 #include "threads.hpp"

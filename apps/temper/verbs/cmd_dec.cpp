@@ -74,7 +74,7 @@ std::vector<io::DecFormat> parse_formats(std::string_view list) {
     const auto known = std::find_if(std::begin(kDecFormats), std::end(kDecFormats),
                                     [&](const auto& choice) { return choice.name == name; });
     if (known == std::end(kDecFormats)) {
-      throw Failure(Exit::bad_usage, fmt::format("dec: --format: {}\nSee temper dec --help", none_of(name, names)));
+      refuse_usage("dec", "--format: " + none_of(name, names));
     }
     formats.push_back(known->value);
   }
@@ -84,8 +84,7 @@ std::vector<io::DecFormat> parse_formats(std::string_view list) {
 /// Formats of layers have these, and the other way around.
 void check_layers(const Command& command, const DecSettings& s, const std::vector<io::DecFormat>& formats) {
   const bool wanted = std::any_of(formats.begin(), formats.end(), io::needs_columns);
-  if (wanted && s.layers.empty())
-    throw Failure(Exit::bad_usage, "dec: --format: disv, disu and tough need --layers\nSee temper dec --help");
+  if (wanted && s.layers.empty()) refuse_usage("dec", "--format: disv, disu and tough need --layers");
   if (s.layers.empty() && command.was_given("--pinch-out"))
     print_warnings(std::vector<std::string>{"--pinch-out has no effect without --layers"});
 }

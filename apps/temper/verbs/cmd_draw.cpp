@@ -108,15 +108,13 @@ void check_zoom(const DrawOptions& options) {
   if (!options.zoom) return;
   const Box& box = *options.zoom;
   if (box.low.x < box.high.x && box.low.y < box.high.y) return;
-  throw Failure(Exit::bad_usage, "draw: --zoom: it must have x0 < x1 and y0 < y1\nSee temper draw --help");
+  refuse_usage("draw", "--zoom: it must have x0 < x1 and y0 < y1");
 }
 
 void check_view(const DrawOptions& options, const Input& input) {
   if (!options.view) return;
   if (!(std::abs(options.view->x) <= 360) || !(std::abs(options.view->y) <= 90)) {
-    throw Failure(Exit::bad_usage,
-                  "draw: --view: expected a longitude from -360 to 360 and a latitude from -90 to 90\nSee temper draw "
-                  "--help");
+    refuse_usage("draw", "--view: expected a longitude from -360 to 360 and a latitude from -90 to 90");
   }
   if (!input.mesh().space().is_plane()) return;
   throw Failure(Exit::bad_usage,

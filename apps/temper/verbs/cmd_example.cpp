@@ -236,17 +236,13 @@ void add_options(Command& command, ExampleSettings& s) {
   }
 }
 
-[[noreturn]] void bad_usage(const std::string& message) {
-  throw Failure(Exit::bad_usage, "example: " + message + "\nSee temper example --help");
-}
-
 const Generator& chosen(const Command& command) {
   std::vector<std::string_view> names;
   for (const Generator& generator : kGenerators) {
     if (command.chosen() != nullptr && command.chosen()->name() == generator.name) return generator;
     names.emplace_back(generator.name);
   }
-  bad_usage("NAME is missing: one of " + join(names));
+  refuse_usage("example", "NAME is missing: one of " + join(names));
 }
 
 /// The parser knows a misspelt name only as an unexpected argument: say what could have been meant.
@@ -255,7 +251,7 @@ void check_name(const Arguments& arguments) {
   std::vector<std::string_view> names;
   for (const Generator& generator : kGenerators) names.emplace_back(generator.name);
   if (std::find(names.begin(), names.end(), arguments.front()) == names.end())
-    bad_usage(none_of(arguments.front(), names));
+    refuse_usage("example", none_of(arguments.front(), names));
 }
 
 /// The mesh, with sizes as point data that `--size` and `--size-field` read.
@@ -283,12 +279,13 @@ Exit run_example(const Arguments& arguments) {
     return Exit::done;
   }
   const Generator& generator = chosen(command);
-  if (s.output.path.empty()) bad_usage("--output is required");
+  if (s.output.path.empty()) refuse_usage("example", "--output is required");
   Outputs outputs("example");
   outputs.expect_mesh(s.output);
 
   const Expected<Mesh> mesh = generator.make(s);
-  if (!mesh) bad_usage(std::string(generator.name) + ": " + mesh.error().what());  // options are its only input
+  if (!mesh)
+    refuse_usage("example", std::string(generator.name) + ": " + mesh.error().what());  // options are its only input
   print_warnings(outputs.write_mesh(s.output, file_of(*mesh, generator, s)));
   return Exit::done;
 }

@@ -11,22 +11,20 @@
 #include <optional>
 
 #include "console.hpp"
+#include "exit.hpp"
 #include "files/input.hpp"
 #include "files/outputs.hpp"
-#include "files/read_tried.hpp"
 #include "help/help.hpp"
-#include "interrupt.hpp"
 #include "options/options.hpp"
 #include "reports/quality_report.hpp"
 #include "reports/reports.hpp"
-#include "temper/draw.hpp"
 #include "temper/detail/geometry.hpp"
-#include "temper/mesher.hpp"
 #include "temper/detail/projection.hpp"
+#include "temper/draw.hpp"
+#include "temper/mesher.hpp"
 #include "temper/quality.hpp"
 #include "threads.hpp"
 #include "verbs/progress_line.hpp"
-#include "verbs/time_limit.hpp"
 
 namespace temper::app {
 namespace {
@@ -119,10 +117,6 @@ void add_options(Command& command, MeshSettings& s) {
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::stopped_early, Exit::internal}});
 }
 
-[[noreturn]] void refuse_usage(const std::string& message) {
-  throw Failure(Exit::bad_usage, "mesh: " + message + "\nSee temper mesh --help");
-}
-
 std::vector<RegionSize> region_sizes(const std::string& text) {
   if (text.empty()) return {};
   const auto numbers = parse_numbers(text);
@@ -134,6 +128,7 @@ std::vector<RegionSize> region_sizes(const std::string& text) {
   }
   if (!numbers || numbers->empty() || 2 * sizes.size() != numbers->size()) {
     refuse_usage(
+        "mesh",
         fmt::format("--region-size: expected REGION,SIZE,... with whole regions and sizes above 0, found '{}'", text));
   }
   return sizes;
@@ -141,9 +136,10 @@ std::vector<RegionSize> region_sizes(const std::string& text) {
 
 void check_usage(const Command& command, const MeshSettings& s) {
   if (s.sphere) return;
-  if (s.input.empty()) refuse_usage("OUTLINE is missing; without one there is a mesh of a whole sphere (--sphere)");
+  if (s.input.empty())
+    refuse_usage("mesh", "OUTLINE is missing; without one there is a mesh of a whole sphere (--sphere)");
   for (const char* option : {"--coast", "--lines", "--radius"}) {
-    if (command.was_given(option)) refuse_usage(std::string(option) + " is for --sphere");
+    if (command.was_given(option)) refuse_usage("mesh", std::string(option) + " is for --sphere");
   }
 }
 
@@ -151,7 +147,7 @@ void check_usage(const Command& command, const MeshSettings& s) {
 std::optional<double> size_number(const MeshSettings& s) {
   const auto number = parse_number(s.size);
   if (number && !(*number > 0 && std::isfinite(*number)))
-    refuse_usage("--size: expected a number above 0, or a mesh file with sizes, found '" + s.size + "'");
+    refuse_usage("mesh", "--size: expected a number above 0, or a mesh file with sizes, found '" + s.size + "'");
   return number;
 }
 

@@ -72,10 +72,6 @@ void add_options(Command& command, Settings& s) {
                     {Exit::done, Exit::bad_input, Exit::bad_usage, Exit::requirement, Exit::internal}});
 }
 
-[[noreturn]] void bad_usage(const std::string& message) {
-  throw Failure(Exit::bad_usage, "reproduce: " + message + "\nSee temper reproduce --help");
-}
-
 void list(std::span<const Figure> figures) {
   for (const Figure& figure : figures) print(fmt::format("{:>2}  {}\n", figure.number, figure.title));
 }
@@ -212,12 +208,12 @@ Exit run_reproduce(const Arguments& arguments) {
   add_options(command, s);
   if (!command.parse(arguments)) return Exit::done;
   const Expected<std::vector<Figure>> chosen = gallery::select(gallery::figures(), s.figures);
-  if (!chosen) bad_usage(chosen.error().what());
+  if (!chosen) refuse_usage("reproduce", chosen.error().what());
   if (s.list) {
     list(*chosen);
     return Exit::done;
   }
-  if (s.output.empty()) bad_usage("--output is required");
+  if (s.output.empty()) refuse_usage("reproduce", "--output is required");
   const Effort effort = s.reduced ? Effort::reduced : Effort::full;
   Folder folder(s.output, effort);
 

@@ -120,9 +120,7 @@ void add_options(Command& command, WeightsSettings& s) {
 }
 
 void check_usage(const Command& command, const WeightsSettings& s) {
-  const auto fail = [](const std::string& message) {
-    throw Failure(Exit::bad_usage, "weights: " + message + "\nSee temper weights --help");
-  };
+  const auto fail = [](const std::string& message) { refuse_usage("weights", message); };
   if (!s.check.empty()) {
     for (const char* option : {"--output", "--certificate", "--mode", "--margin", "--from", "--energy", "--whole",
                                "--conditions", "--edges", "--connectivity", "--programmes"}) {

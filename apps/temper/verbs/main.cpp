@@ -15,13 +15,13 @@
 #include <optional>
 
 #include "console.hpp"
+#include "exit.hpp"
 #include "help/help.hpp"
-#include "interrupt.hpp"
 #include "options/ranks.hpp"
 #include "suggest.hpp"
 #include "temper/detail/build_info.hpp"
-#include "temper/io.hpp"
 #include "temper/detail/version.hpp"
+#include "temper/io.hpp"
 #include "verbs.hpp"
 
 namespace temper::app {

@@ -4,7 +4,6 @@
 #include "verbs.hpp"
 
 namespace temper::app {
-
 namespace {
 
 constexpr const char* kMissing =

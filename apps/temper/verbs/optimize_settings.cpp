@@ -29,9 +29,7 @@ void add_files(Command& command, OptimizeSettings& s) {
            "every move, flip and removal, one JSON object a line; see temper replay");
   add_text(command, "--draw", "FILE", s.picture, "a picture (.svg, .png, .pdf), before and after side by side");
 #ifdef TEMPER_WITH_VERIFY
-  command.add_flag(
-      "--verify", s.verify,
-      "measure the errors of solvers, too, before and after: see temper verify");
+  command.add_flag("--verify", s.verify, "measure the errors of solvers, too, before and after: see temper verify");
 #endif
   add_requirements(command, s.require).sentence =
       "outside=0,min_h=0.05,...: exit with 3 when the result is not so, with everything written; see temper check";
@@ -72,18 +70,9 @@ void add_run(Command& command, OptimizeSettings& s) {
 }
 
 /// Of this verb's own options those that a first run does without; of the library's the table says it.
-constexpr const char* kRare[] = {"--projection",
-                                 "--format",
-                                 "--encoding",
-                                 "--point-data",
-                                 "--history",
-                                 "--trace",
-                                 "--threads",
-                                 "--method",
-                                 "--save-every",
-                                 "--size-field",
-                                 "--size-field-data",
-                                 "--no-triangle-quality",
+constexpr const char* kRare[] = {"--projection", "--format",     "--encoding",        "--point-data",
+                                 "--history",    "--trace",      "--threads",         "--method",
+                                 "--save-every", "--size-field", "--size-field-data", "--no-triangle-quality",
                                  "--tensor"};
 
 /// Says whether a write puts a new file there: not to standard output, a pipe or a device.
@@ -125,15 +114,13 @@ Command optimize_command(OptimizeSettings& settings) {
 }
 
 void take_input(Command& command, OptimizeSettings& s) {
-  if (s.output.path.empty())
-    throw Failure(Exit::bad_usage, "optimize: --output is required\nSee temper optimize --help");
+  if (s.output.path.empty()) refuse_usage("optimize", "--output is required");
   if (s.save_every && !is_replaced(s.output.path))
     throw Failure(Exit::bad_usage, fmt::format("optimize: --save-every: {} is no file that can be replaced; give -o "
                                                "a file",
                                                s.output.path));
   if (!s.input.empty()) return;
-  if (s.fix.size() < 2)
-    throw Failure(Exit::bad_usage, "optimize: IN is missing: the mesh to improve\nSee temper optimize --help");
+  if (s.fix.size() < 2) refuse_usage("optimize", "IN is missing: the mesh to improve");
   s.input = s.fix.back();
   s.fix.pop_back();
   command.option("--fix").given = s.fix;

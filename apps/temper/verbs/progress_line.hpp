@@ -1,6 +1,7 @@
 // One line on a terminal that says how far a long run is, and how long it will about take when that can be told.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 
 #include "temper/detail/progress.hpp"
@@ -24,6 +25,21 @@ class ProgressLine {
   bool enabled_;
   bool shown_ = false;
   Clock::time_point start_, last_ = {};
+};
+
+class TimeLimit {
+ public:
+  /// Seconds of the limit that are left for the library, more than 0; 0: none was set. What has been read is written
+  /// again, in about the same time.
+  [[nodiscard]] double left(double limit) const {
+    constexpr double kLeast = 1e-3;
+    const double so_far = std::chrono::duration<double>(Clock::now() - began_).count();
+    return limit > 0 ? std::max(kLeast, limit - 2 * so_far) : 0;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point began_ = Clock::now();
 };
 
 }  // namespace temper::app

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "temper/detail/columns.hpp"
 #include "temper/dec.hpp"
+#include "temper/detail/columns.hpp"
 #include "temper/detail/error.hpp"
 #include "temper/io.hpp"
 #include "temper/mesh.hpp"

@@ -9,8 +9,7 @@
 #include <cstdint>
 
 #include "temper/detail/space.hpp"
-#include "temper/detail/vec2.hpp"
-#include "temper/detail/vec3.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <string>
 
-#include "temper/detail/communicator.hpp"
+#include "temper/detail/executor.hpp"
 
 namespace temper {
 

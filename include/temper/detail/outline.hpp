@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper {
 

@@ -12,8 +12,8 @@
 #include <atomic>
 
 #include "temper/detail/ids.hpp"
+#include "temper/detail/vec.hpp"
 #include "temper/mesh.hpp"
-#include "temper/detail/vec2.hpp"
 
 namespace temper {
 

@@ -14,10 +14,9 @@
 #include <vector>
 
 #include "temper/detail/error.hpp"
-#include "temper/mesh.hpp"
 #include "temper/detail/outline.hpp"
-#include "temper/detail/vec2.hpp"
-#include "temper/detail/vec3.hpp"
+#include "temper/detail/vec.hpp"
+#include "temper/mesh.hpp"
 
 namespace temper {
 

@@ -25,8 +25,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "temper/detail/vec2.hpp"
-#include "temper/detail/vec3.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper {
 

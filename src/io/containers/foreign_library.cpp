@@ -1,4 +1,3 @@
-// See foreign_library.hpp.
 #include "io/containers/foreign_library.hpp"
 
 #include <dlfcn.h>
@@ -9,7 +8,6 @@
 #include "io/text/failure.hpp"
 
 namespace temper::io {
-
 namespace {
 
 bool load_foreign(const char* file, const std::function<bool(void*)>& take) {

@@ -1,12 +1,68 @@
 // Reads HDF5. See hdf5_file.hpp.
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <optional>
 
 #include "io/containers/foreign_library.hpp"
 #include "io/containers/hdf5_file.hpp"
+#include "io/text/failure.hpp"
 #include "io/text/scanner.hpp"
+#include "temper/io.hpp"
 
 namespace temper::io {
+namespace {
+
+/// Of 2.0, 1.14, 1.12 and 1.10. Debian's have a name of their own, beside those of libraries with MPI.
+#ifdef __APPLE__
+constexpr std::array kHdf5Files = {"libhdf5.320.dylib", "libhdf5.310.dylib", "libhdf5.200.dylib", "libhdf5.103.dylib",
+                                   "libhdf5.dylib"};
+#else
+constexpr std::array kHdf5Files = {"libhdf5_serial.so.320", "libhdf5.so.320",        "libhdf5_serial.so.310",
+                                   "libhdf5.so.310",        "libhdf5.so.200",        "libhdf5_serial.so.103",
+                                   "libhdf5.so.103",        "libhdf5_serial.so.100", "libhdf5.so"};
+#endif
+constexpr std::array kHdf5Packages = {"h5py.libs", "netcdf4.libs", "netCDF4.libs"};
+constexpr ForeignLibrary kHdf5 = {.variable = "TEMPER_HDF5",
+                                  .files = kHdf5Files,
+                                  .packages = kHdf5Packages,
+                                  .file_in_package = "libhdf5-",
+                                  .need = "VTKHDF files need libhdf5 1.10 or later",
+                                  .install = "apt: libhdf5-103-1; conda: hdf5; pip: h5py or netCDF4"};
+
+/// All functions of the library, or nothing: also of one before 1.10, whose numbers have 32 bits.
+std::optional<Hdf5Library> hdf5_of(void* handle) {
+  Hdf5Library library;
+  TEMPER_HDF5_FUNCTIONS(TEMPER_FIND_FUNCTION)
+  unsigned major = 0, minor = 0, patch = 0;
+  if (library.H5get_libversion(&major, &minor, &patch) < 0 || (major == 1 && minor < 10)) return std::nullopt;
+  if (library.H5open() < 0) return std::nullopt;
+#define TEMPER_FIND_NUMBER(number)                                             \
+  {                                                                            \
+    const auto* value = static_cast<const hid_t*>(symbol_of(handle, #number)); \
+    if (value == nullptr) return std::nullopt;                                 \
+    library.number = *value;                                                   \
+  }
+  TEMPER_HDF5_NUMBERS(TEMPER_FIND_NUMBER)
+#undef TEMPER_FIND_NUMBER
+  return library;
+}
+
+const Hdf5Library* find_hdf5() { return find_functions(kHdf5, hdf5_of); }
+
+}  // namespace
+
+const Hdf5Library& hdf5_library(const std::string& path) {
+  if (const Hdf5Library* const library = find_hdf5()) return *library;
+  fail_without(kHdf5, path);
+}
+
+std::string hdf5_version() {
+  const Hdf5Library* const library = find_hdf5();
+  unsigned major = 0, minor = 0, patch = 0;
+  if (library == nullptr || library->H5get_libversion(&major, &minor, &patch) < 0) return {};
+  return text(major, ".", minor, ".", patch);
+}
 
 namespace {
 
@@ -56,7 +112,7 @@ Hdf5Reader::Hdf5Reader(Source& source)
 }
 
 hid_t Hdf5Reader::check(hid_t status, std::string_view doing) const {
-  if (status < 0) fail(ErrorCode::syntax, path_, text("HDF5 cannot ", doing));
+  if (status < 0) fail(ErrorCode::syntax, path_, "HDF5 cannot ", doing);
   return status;
 }
 
@@ -64,7 +120,7 @@ Hdf5Id Hdf5Reader::object(const Hdf5Id& in, const std::string& name) const {
   const std::string doing = text("look for ", in_quotes(name));
   if (check(library_.H5Lexists(in, name.c_str(), H5P_DEFAULT), doing) == 0) return {};
   const hid_t id = library_.H5Oopen(in, name.c_str(), links_);
-  if (id < 0) fail(ErrorCode::syntax, path_, text("HDF5 cannot open ", in_quotes(name), " in this file"));
+  if (id < 0) fail(ErrorCode::syntax, path_, "HDF5 cannot open ", in_quotes(name), " in this file");
   return {id, library_.H5Oclose};
 }
 
@@ -86,7 +142,7 @@ std::optional<Hdf5Dataset> Hdf5Reader::find(const Hdf5Id& in, const std::string&
 
 Hdf5Dataset Hdf5Reader::dataset(const Hdf5Id& in, const std::string& name) const {
   if (auto found = find(in, name)) return std::move(*found);
-  fail(ErrorCode::truncated, path_, text("the dataset ", in_quotes(name), " is missing"));
+  fail(ErrorCode::truncated, path_, "the dataset ", in_quotes(name), " is missing");
 }
 
 std::vector<std::string> Hdf5Reader::names(const Hdf5Id& in) const {
@@ -144,13 +200,13 @@ std::optional<Scalar> Hdf5Reader::scalar(const Hdf5Id& type) const {
 void Hdf5Reader::expect_numbers_within(const Hdf5Dataset& d) const {
   const Hdf5Id properties = {check(library_.H5Dget_create_plist(d.id), "look at a dataset"), library_.H5Pclose};
   if (library_.H5Pget_layout(properties) != H5D_VIRTUAL && library_.H5Pget_external_count(properties) == 0) return;
-  fail(ErrorCode::unsupported, path_,
-       text("the numbers of the dataset ", in_quotes(d.name), " are in other files; temper reads one"));
+  fail(ErrorCode::unsupported, path_, "the numbers of the dataset ", in_quotes(d.name),
+       " are in other files; temper reads one");
 }
 
 // Data may be larger than the file when they are compressed or left out, and several datasets may be one.
 std::size_t Hdf5Reader::allowed_values(const Hdf5Dataset& d) const {
-  if (!d.scalar) fail(ErrorCode::unsupported, path_, text("the dataset ", in_quotes(d.name), " holds no numbers"));
+  if (!d.scalar) fail(ErrorCode::unsupported, path_, "the dataset ", in_quotes(d.name), " holds no numbers");
   if (std::find(d.sizes.begin(), d.sizes.end(), 0u) != d.sizes.end()) return 0;
   const std::string where = text(path_, ": the dataset ", in_quotes(d.name));
   std::uint64_t n = 1;
@@ -188,7 +244,7 @@ std::vector<double> Hdf5Reader::reals(const Hdf5Dataset& d) const { return value
 
 void Hdf5Reader::expect_integers(const Hdf5Dataset& d) const {
   if (!d.scalar || *d.scalar <= Scalar::f32)
-    fail(ErrorCode::syntax, path_, text("the dataset ", in_quotes(d.name), " holds no integers"));
+    fail(ErrorCode::syntax, path_, "the dataset ", in_quotes(d.name), " holds no integers");
 }
 
 // The library converts block by block, and makes the nearest number of one that does not fit.
@@ -199,7 +255,7 @@ std::vector<std::int32_t> Hdf5Reader::integers(const Hdf5Dataset& d) const {
   const bool fits = std::none_of(result.begin(), result.end(),
                                  [](std::int32_t i) { return i == Limits::min() || i == Limits::max(); });
   if (!fits) {
-    fail(ErrorCode::index_out_of_range, path_, text("the dataset ", in_quotes(d.name), " has a value beyond 32 bits"));
+    fail(ErrorCode::index_out_of_range, path_, "the dataset ", in_quotes(d.name), " has a value beyond 32 bits");
   }
   return result;
 }

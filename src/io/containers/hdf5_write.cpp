@@ -68,7 +68,7 @@ Hdf5Writer::Hdf5Writer(std::string path, std::size_t objects)
 }
 
 hid_t Hdf5Writer::check(hid_t status, std::string_view doing) const {
-  if (status < 0) fail(ErrorCode::not_writable, path_, text("HDF5 cannot ", doing));
+  if (status < 0) fail(ErrorCode::not_writable, path_, "HDF5 cannot ", doing);
   return status;
 }
 

@@ -1,15 +1,60 @@
-// See netcdf_file.hpp.
 #include "io/containers/netcdf_file.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "io/containers/foreign_library.hpp"
 #include "io/containers/hdf5_magic.hpp"
+#include "temper/io.hpp"
 
 namespace temper::io {
+namespace {
+
+/// Since 4.6.2, the first that reads and writes files in memory. All of them have the same interface.
+#ifdef __APPLE__
+constexpr std::array kNetcdfFiles = {"libnetcdf.22.dylib", "libnetcdf.19.dylib", "libnetcdf.dylib"};
+#else
+constexpr std::array kNetcdfFiles = {"libnetcdf.so.22", "libnetcdf.so.19", "libnetcdf.so.18", "libnetcdf.so.15",
+                                     "libnetcdf.so"};
+#endif
+constexpr std::array kNetcdfPackages = {"netcdf4.libs", "netCDF4.libs"};
+constexpr ForeignLibrary kNetcdf = {.variable = "TEMPER_NETCDF",
+                                    .files = kNetcdfFiles,
+                                    .packages = kNetcdfPackages,
+                                    .file_in_package = "libnetcdf-",
+                                    .need = "NetCDF files need libnetcdf 4.6.2 or later",
+                                    .install = "apt: libnetcdf19; conda: libnetcdf; pip: netCDF4"};
+
+/// All functions of the library, or nothing.
+std::optional<NetcdfLibrary> netcdf_of(void* handle) {
+  NetcdfLibrary library;
+  TEMPER_NETCDF_FUNCTIONS(TEMPER_FIND_FUNCTION)
+  return library;
+}
+
+const NetcdfLibrary* find_netcdf() { return find_functions(kNetcdf, netcdf_of); }
+
+}  // namespace
+
+const NetcdfLibrary& netcdf_library(const std::string& path) {
+  if (const NetcdfLibrary* const library = find_netcdf()) return *library;
+  fail_without(kNetcdf, path);
+}
+
+std::vector<std::string> netcdf_files(const std::string& path) {
+  static_cast<void>(netcdf_library(path));
+  return {path};
+}
+
+std::string netcdf_version() {
+  const NetcdfLibrary* const library = find_netcdf();
+  if (library == nullptr) return {};
+  const std::string version = library->nc_inq_libvers();  // "4.9.0 of Aug  3 2022 01:14:42 $"
+  return version.substr(0, version.find(' '));
+}
 
 namespace {
 
@@ -78,8 +123,7 @@ NetcdfReader::NetcdfReader(Source& source)
 }
 
 void NetcdfReader::check(int status, std::string_view doing) const {
-  if (status != NC_NOERR)
-    fail(ErrorCode::syntax, path_, text("NetCDF cannot ", doing, ": ", library_.nc_strerror(status)));
+  if (status != NC_NOERR) fail(ErrorCode::syntax, path_, "NetCDF cannot ", doing, ": ", library_.nc_strerror(status));
 }
 
 const NetcdfVariable* NetcdfReader::find(std::string_view name) const {
@@ -90,7 +134,7 @@ const NetcdfVariable* NetcdfReader::find(std::string_view name) const {
 
 const NetcdfVariable& NetcdfReader::variable(std::string_view name) const {
   if (const NetcdfVariable* v = find(name)) return *v;
-  fail(ErrorCode::syntax, path_, text("has no variable ", name));
+  fail(ErrorCode::syntax, path_, "has no variable ", name);
 }
 
 std::string NetcdfReader::dimension_name(int dimension) const {
@@ -101,7 +145,7 @@ std::string NetcdfReader::dimension_name(int dimension) const {
 
 // Data may be larger than the file when they are compressed, and several variables may be the same bytes of it.
 Values NetcdfReader::values(const NetcdfVariable& v) const {
-  if (!v.scalar) fail(ErrorCode::unsupported, path_, text("variable ", v.name, " holds no numbers"));
+  if (!v.scalar) fail(ErrorCode::unsupported, path_, "variable ", v.name, " holds no numbers");
   if (std::find(v.sizes.begin(), v.sizes.end(), 0u) != v.sizes.end()) return zeros(*v.scalar, 0);
   const std::string where = text(path_, ": variable ", v.name);
   std::uint64_t rows = 1;
@@ -126,15 +170,14 @@ std::vector<std::int64_t> NetcdfReader::integers(const NetcdfVariable& v) const 
         for (const auto value : from) {
           if constexpr (std::is_integral_v<ElementOf<decltype(from)>>) {
             if (!std::in_range<std::int64_t>(value))
-              fail(ErrorCode::index_out_of_range, path_, text("variable ", v.name, " has the value ", value));
+              fail(ErrorCode::index_out_of_range, path_, "variable ", v.name, " has the value ", value);
             result.push_back(static_cast<std::int64_t>(value));
           } else {
             constexpr double kMost = 1e15;  // beyond, doubles skip integers
             const double number = value;
             const bool whole = std::abs(number) < kMost && number == std::trunc(number);
             if (!whole && !std::isnan(number)) {
-              fail(ErrorCode::syntax, path_,
-                   text("variable ", v.name, " has the value ", value, "; expected whole numbers"));
+              fail(ErrorCode::syntax, path_, "variable ", v.name, " has the value ", value, "; expected whole numbers");
             }
             result.push_back(whole ? static_cast<std::int64_t>(number) : kNoInteger);
           }
@@ -186,7 +229,7 @@ NetcdfWriter::NetcdfWriter(std::string path, bool large_types)
 
 void NetcdfWriter::check(int status, std::string_view doing) const {
   if (status != NC_NOERR)
-    fail(ErrorCode::not_writable, path_, text("NetCDF cannot ", doing, ": ", library_.nc_strerror(status)));
+    fail(ErrorCode::not_writable, path_, "NetCDF cannot ", doing, ": ", library_.nc_strerror(status));
 }
 
 int NetcdfWriter::dimension(const std::string& name, std::size_t size) {

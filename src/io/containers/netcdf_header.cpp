@@ -13,7 +13,6 @@
 #include "io/text/scanner.hpp"
 
 namespace temper::io {
-
 namespace {
 
 constexpr std::uint64_t kDimensionTag = 10, kVariableTag = 11, kAttributeTag = 12;
@@ -41,7 +40,7 @@ class ClassicHeader {
 
  private:
   [[noreturn]] void refuse(const std::string& what) const {
-    fail(ErrorCode::syntax, path_, text("the NetCDF header ", what));
+    fail(ErrorCode::syntax, path_, "the NetCDF header ", what);
   }
 
   std::uint64_t big_endian(std::size_t n) {
@@ -121,7 +120,7 @@ class ClassicHeader {
     // Records of all variables take turns: at least one row of this one a record.
     if (rows == 0) return;
     if (begin > bytes_.size() || each_row > (bytes_.size() - begin) / rows)
-      fail(ErrorCode::truncated, path_, text("the file ends within variable ", what));
+      fail(ErrorCode::truncated, path_, "the file ends within variable ", what);
   }
 
   const std::string& path_;

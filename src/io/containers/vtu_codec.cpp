@@ -1,4 +1,3 @@
-// See vtu_codec.hpp.
 #include "io/containers/vtu_codec.hpp"
 
 #include <zlib.h>
@@ -10,7 +9,6 @@
 #include <vector>
 
 namespace temper::io {
-
 namespace {
 
 constexpr std::string_view kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -204,8 +202,8 @@ Blocks read_blocks(std::string_view packed, const Packing& packing) {
   Header header(packed, packing);
   const std::uint64_t n = header.word();
   if (n > packed.size() / packing.header_bytes) {
-    fail(ErrorCode::truncated, packing.where,
-         text("announces ", n, " compressed blocks, but has only ", packed.size(), " bytes"));
+    fail(ErrorCode::truncated, packing.where, "announces ", n, " compressed blocks, but has only ", packed.size(),
+         " bytes");
   }
   Blocks blocks;
   if (n == 0) return blocks;
@@ -220,16 +218,16 @@ Blocks read_blocks(std::string_view packed, const Packing& packing) {
   }
   blocks.data = header.rest();
   if (sum > blocks.data.size()) {
-    fail(ErrorCode::truncated, packing.where,
-         text("compressed blocks of ", sum, " bytes, but only ", blocks.data.size(), " follow"));
+    fail(ErrorCode::truncated, packing.where, "compressed blocks of ", sum, " bytes, but only ", blocks.data.size(),
+         " follow");
   }
   // zlib packs at most 1032 bytes into one: whoever announces more would make us allocate for nothing.
   constexpr std::uint64_t kBestRatio = 1032;
   // Divided, not multiplied: a product of what a file says may wrap around. `most` is of what the file has.
   const std::uint64_t most = (sum + 64 * n) * kBestRatio;
   if (blocks.last > most || (n > 1 && blocks.block > most / (n - 1))) {
-    fail(ErrorCode::syntax, packing.where,
-         text("announces ", n, " blocks of ", blocks.block, " bytes, more than zlib can pack into ", sum));
+    fail(ErrorCode::syntax, packing.where, "announces ", n, " blocks of ", blocks.block,
+         " bytes, more than zlib can pack into ", sum);
   }
   blocks.total = (n - 1) * blocks.block + blocks.last;
   return blocks;
@@ -252,14 +250,14 @@ void inflate_blocks(const Blocks& blocks, char* out, const Packing& packing, Exe
   or_serial(executor).run(n, [&](std::size_t i) { damaged[i] = inflate_block(blocks, i, starts[i], out) ? 0 : 1; });
   for (std::size_t i = 0; i < n; ++i) {
     if (damaged[i] != 0) {
-      fail(ErrorCode::syntax, packing.where, text("block ", i, " of the compressed data is damaged"));
+      fail(ErrorCode::syntax, packing.where, "block ", i, " of the compressed data is damaged");
     }
   }
 }
 
 void check_whole(std::uint64_t bytes, std::size_t each, const Packing& packing) {
   if (bytes % each == 0) return;
-  fail(ErrorCode::syntax, packing.where, text("has ", bytes, " bytes, which is not a multiple of ", each));
+  fail(ErrorCode::syntax, packing.where, "has ", bytes, " bytes, which is not a multiple of ", each);
 }
 
 /// Where the system has 32 bits a file may announce more than can be counted.
@@ -286,8 +284,8 @@ Values unpack(std::string_view packed, Scalar scalar, const Packing& packing, Al
       Header header(packed, packing);
       const std::uint64_t bytes = header.word();
       if (bytes > header.rest().size()) {
-        fail(ErrorCode::truncated, packing.where,
-             text("announces ", bytes, " bytes, but only ", header.rest().size(), " follow"));
+        fail(ErrorCode::truncated, packing.where, "announces ", bytes, " bytes, but only ", header.rest().size(),
+             " follow");
       }
       check_whole(bytes, sizeof(T), packing);
       allowance.take(bytes / sizeof(T), 1, packing.where);

@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-#include "io/disk/output.hpp"
-#include "io/text/allowance.hpp"
+#include "io/disk/files.hpp"
+#include "io/text/failure.hpp"
 #include "io/text/values.hpp"
 #include "temper/detail/executor.hpp"
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/disk/output.hpp"
+#include "io/disk/files.hpp"
 
 namespace temper::io {
 

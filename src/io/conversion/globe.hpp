@@ -1,12 +1,17 @@
 // The space that the points of a file are in.
 #pragma once
 
+#include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "temper/io.hpp"
+#include "temper/detail/places.hpp"
 #include "temper/detail/projection.hpp"
+#include "temper/detail/vec.hpp"
+#include "temper/io.hpp"
 
 namespace temper::io {
 
@@ -41,5 +46,34 @@ void settle_points(MeshFile& file, std::vector<Vec3> points, const InputNames& n
 
 /// Which of the first n points are corners of triangles.
 [[nodiscard]] std::vector<bool> points_of_triangles(const MeshFile& file, std::size_t n);
+
+/// Says whether points are degrees in a format that does not tell, of water with depths: they are in the range of
+/// longitude and latitude, and lengths would be less than depths. Models of shallow water make no sense there.
+[[nodiscard]] bool look_like_degrees(std::span<const Vec2> points, std::span<const double> depths);
+
+/// Point data by which a mesh in the plane knows where on the globe it is: temper mesh writes them.
+inline constexpr std::string_view kLongitude = "longitude", kLatitude = "latitude";
+
+/// Longitude and latitude of the points of a file [degrees]; nothing when it has neither a map nor data that say it.
+[[nodiscard]] std::optional<std::vector<Vec2>> lon_lat_of_points(const MeshFile& file);
+/// The same of any places of its mesh, where those of the points are known: by the map, or linear on the sphere between
+/// corners.
+[[nodiscard]] std::vector<Vec2> lon_lat_of_places(const MeshFile& file, const Mesh& mesh, std::span<const Vec2> places);
+
+/// The file with its points in degrees; those must be known.
+[[nodiscard]] MeshFile in_degrees(const MeshFile& file);
+
+struct PlaceHash {
+  std::size_t operator()(Vec2 p) const {
+    std::uint64_t x = 0, y = 0;
+    p = {p.x + 0.0, p.y + 0.0};  // −0 is the same place as 0
+    std::memcpy(&x, &p.x, sizeof x);
+    std::memcpy(&y, &p.y, sizeof y);
+    return static_cast<std::size_t>((x * 0x9E3779B97F4A7C15u) ^ (y + (x >> 29)) * 0xBF58476D1CE4E5B9u);
+  }
+  std::size_t operator()(const Vec3& p) const {
+    return (*this)(Vec2{p.x, p.y}) ^ (*this)(Vec2{p.z, 0}) * 0x94D049BB133111EBu;
+  }
+};
 
 }  // namespace temper::io

@@ -9,9 +9,7 @@
 #include <utility>
 
 #include "io/conversion/data_update.hpp"
-#include "io/conversion/edge_lines.hpp"
 #include "io/conversion/globe.hpp"
-#include "io/conversion/place_hash.hpp"
 #include "io/disk/files.hpp"
 #include "io/text/failure.hpp"
 #include "io/text/file_names.hpp"

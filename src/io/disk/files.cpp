@@ -1,15 +1,21 @@
-// See disk.hpp.
 #include "io/disk/files.hpp"
 
-#ifdef __linux__
+#include <fcntl.h>
 #include <malloc.h>
-#endif
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <optional>
+#include <utility>
+
+#include "temper/io.hpp"
+
+#ifdef __linux__
+#endif
 
 namespace temper::io {
 
@@ -41,7 +47,7 @@ Source load(const std::string& path) {
   const OnDisk there = look_at(path);
   if (there.kind == OnDisk::Kind::folder) fail(ErrorCode::not_found, path, "is a directory, not a mesh file");
   const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
-  if (!file) fail(ErrorCode::not_found, path, text("cannot be read: ", std::strerror(errno)));
+  if (!file) fail(ErrorCode::not_found, path, "cannot be read: ", std::strerror(errno));
 
   Source source{.path = path, .bytes = {}};
   constexpr std::size_t kChunk = 1 << 16;
@@ -57,7 +63,7 @@ Source load(const std::string& path) {
     source.bytes.resize(got += more);
     if (more == 0) break;
   }
-  if (std::ferror(file.get())) fail(ErrorCode::not_found, path, text("cannot be read: ", std::strerror(errno)));
+  if (std::ferror(file.get())) fail(ErrorCode::not_found, path, "cannot be read: ", std::strerror(errno));
   if (source.bytes.empty()) fail(ErrorCode::empty_input, path, "the file is empty");
   source.allowance = Allowance(source.bytes.size());
   return source;
@@ -74,6 +80,129 @@ void give_memory_back() {
 #ifdef __GLIBC__
   malloc_trim(0);
 #endif
+}
+
+namespace {
+
+constexpr std::size_t kBuffer = std::size_t{1} << 18;
+
+/// False: errno says why.
+bool write_all(int file, const char* bytes, std::size_t n) {
+  while (n > 0) {
+    const ssize_t written = ::write(file, bytes, n);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes += written;
+    n -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+/// A disk that is full or broken may say so only now. Some file systems cannot be asked.
+bool reach_disk(int file) { return fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS; }
+
+}  // namespace
+
+Output::Output(std::string path) : path_(std::move(path)), target_(path_), buffer_(kBuffer) {
+  const OnDisk there = look_at(path_);
+  if (there.kind == OnDisk::Kind::folder)
+    fail(ErrorCode::not_writable, path_, "is a directory; expected the name of a file");
+  if (there.exists()) target_ = without_links(path_);
+  if (there.kind == OnDisk::Kind::other) {
+    file_ = ::open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+  } else {
+    temporary_ = Temporary::beside(target_);
+    file_ = temporary_.exists() ? temporary_.open() : -1;
+  }
+  if (file_ < 0) fail(ErrorCode::not_writable, path_, "cannot be written: ", std::strerror(errno));
+  if (there.kind == OnDisk::Kind::file) temporary_.take_permissions(target_);
+}
+
+Output::~Output() {
+  if (file_ >= 0) ::close(file_);
+}
+
+void Output::put(std::string_view bytes) {
+  while (!bytes.empty()) {
+    if (used_ == buffer_.size()) flush();
+    const std::size_t n = std::min(bytes.size(), buffer_.size() - used_);
+    std::memcpy(buffer_.data() + used_, bytes.data(), n);
+    used_ += n;
+    bytes.remove_prefix(n);
+  }
+}
+
+void Output::flush() {
+  if (!write_all(file_, buffer_.data(), used_)) fail_writing("cannot be written");
+  used_ = 0;
+}
+
+void Output::close() {
+  flush();
+  if (temporary_.exists() && !reach_disk(file_)) fail_writing("cannot be written");
+  if (::close(std::exchange(file_, -1)) != 0 && errno != EINTR) fail_writing("cannot be written");
+}
+
+void Output::commit() {
+  if (temporary_.exists() && !temporary_.rename_to(target_)) fail_writing("cannot be replaced");
+}
+
+void Output::fail_writing(const char* doing) const {
+  const int code = errno;
+  const char* kept = !temporary_.exists() ? "" : "; what was there before is unchanged";
+  fail(ErrorCode::not_writable, path_, doing, ": ", std::strerror(code), kept);
+}
+
+Output& OutputSet::open(const std::string& path) {
+  outputs_.push_back(std::make_unique<Output>(path));
+  return *outputs_.back();
+}
+
+void OutputSet::commit() {
+  for (auto& output : outputs_) output->close();
+  std::string replaced;
+  for (auto& output : outputs_) {
+    try {
+      output->commit();
+    } catch (Failure& failure) {
+      if (!replaced.empty()) failure.error.message += "; written before that: " + replaced;
+      throw;
+    }
+    replaced += (replaced.empty() ? "" : ", ") + output->path();
+  }
+}
+
+struct TextStream::State {
+  OutputSet outputs;
+  Output* output = nullptr;
+  std::optional<InputError> error;  // the first
+};
+
+TextStream::TextStream(std::unique_ptr<State> state) : state_(std::move(state)) {}
+TextStream::TextStream(TextStream&&) noexcept = default;
+TextStream& TextStream::operator=(TextStream&&) noexcept = default;
+TextStream::~TextStream() = default;
+
+Expected<TextStream> TextStream::open(const std::string& path) {
+  return guarded<TextStream>(path, [&] {
+    auto state = std::make_unique<State>();
+    state->output = &state->outputs.open(path);
+    return TextStream(std::move(state));
+  });
+}
+
+void TextStream::write(std::string_view text) {
+  if (state_->error) return;
+  try {
+    state_->output->put(text);
+  } catch (Failure& failure) {
+    state_->error = std::move(failure.error);
+  }
+}
+
+Expected<void> TextStream::commit() {
+  if (state_->error) return *state_->error;
+  return guarded<void>({}, [&] { state_->outputs.commit(); });
 }
 
 }  // namespace temper::io

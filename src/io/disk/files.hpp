@@ -1,11 +1,19 @@
-// What the disk has at a path. (By POSIX: libc++ for WebAssembly has no std::filesystem.)
+// What the disk has at a path, and files written whole or not at all. (By POSIX: libc++ for WebAssembly has no
+// std::filesystem.)
 #pragma once
 
+#include <array>
+#include <charconv>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
-#include "io/text/allowance.hpp"
+#include "io/text/failure.hpp"
 #include "temper/detail/executor.hpp"
 
 namespace temper::io {
@@ -44,5 +52,110 @@ struct Source {
 /// Lets the system have the memory that was freed between what is in use, where the C library keeps it: what reading a
 /// large file has left would count on top of all that comes after.
 void give_memory_back();
+
+// Files written whole or not at all: everything goes to temporary files beside their targets, and only when all
+// of them are complete are they renamed. What is no regular file (a pipe, /dev/stdout) is written directly.
+
+// Temporary files beside the files whose place they take, and what becomes of them when a run does not end well.
+//
+//   OUT.tmp0   new bytes, locked by the run that writes them; renamed to OUT when they are whole
+//
+// A run that fails removes its own, and so does a signal that ends the program (io::discard_unfinished). A run that is
+// killed leaves them. They are in nobody's way: the lock ended with its owner, so the next run that writes OUT removes
+// OUT.tmp0 and makes its own.
+
+class Temporary {
+ public:
+  Temporary() = default;
+  /// Made empty beside `target`, for this run alone. On failure there is none, and errno says why.
+  static Temporary beside(const std::string& target);
+  Temporary(Temporary&& other) noexcept { *this = std::move(other); }
+  Temporary& operator=(Temporary&& other) noexcept;
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+  ~Temporary() { remove(); }
+
+  [[nodiscard]] bool exists() const { return !path_.empty(); }
+  [[nodiscard]] const std::string& path() const { return path_; }
+  /// The file, open for writing, to be closed by the caller; −1: errno says why. (What holds the lock stays here.)
+  [[nodiscard]] int open() const;
+  /// Gives it the permissions of the file whose place it is to take, as far as it may have them.
+  void take_permissions(const std::string& target) const;
+  /// Puts it in the place of `target`. False: errno says why, and nothing has changed.
+  bool rename_to(const std::string& target);
+  void remove();
+
+ private:
+  Temporary(std::string path, std::size_t entry, int lock);
+  void end();
+
+  std::string path_;
+  std::size_t entry_ = 0;  // of the list that discard_unfinished() goes through
+  int lock_ = -1;          // the open file that has it
+};
+
+/// The path of the file itself, where links lead to it.
+[[nodiscard]] std::string without_links(const std::string& path);
+
+class Output {
+ public:
+  explicit Output(std::string path);
+  ~Output();
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  void put(char c) {
+    if (used_ == buffer_.size()) flush();
+    buffer_[used_++] = c;
+  }
+  /// As the user gave it.
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+  void put(std::string_view bytes);
+  /// Shortest text that reads back to the same bits.
+  template <class T>
+  requires std::is_arithmetic_v<T> &&(!std::is_same_v<T, char>)void put(T value) {
+    constexpr std::size_t kLongest = 32;
+    if (buffer_.size() - used_ < kLongest) flush();
+    char* start = buffer_.data() + used_;
+    used_ += static_cast<std::size_t>(std::to_chars(start, start + kLongest, value).ptr - start);
+  }
+  template <class First, class Second, class... More>
+  void put(First&& first, Second&& second, More&&... more) {
+    put(first);
+    put(second);
+    (put(more), ...);
+  }
+  /// The bytes of a number, as they are in memory.
+  template <class T>
+  void put_raw(const T& value) {
+    put(std::string_view(reinterpret_cast<const char*>(&value), sizeof value));
+  }
+
+ private:
+  friend class OutputSet;
+  void flush();
+  void close();   // all bytes are in the temporary file and on the disk, or Failure
+  void commit();  // the temporary takes the place of the target
+  [[noreturn]] void fail_writing(const char* doing) const;
+
+  std::string path_;
+  std::string target_;   // what it stands for, links resolved
+  Temporary temporary_;  // none: written directly
+  int file_ = -1;
+  std::vector<char> buffer_;
+  std::size_t used_ = 0;
+};
+
+/// The files of one write: renamed when all are whole, one after the other, so that an error or a kill just then leaves
+/// new ones beside old ones.
+class OutputSet {
+ public:
+  Output& open(const std::string& path);
+  void commit();
+
+ private:
+  std::vector<std::unique_ptr<Output>> outputs_;
+};
 
 }  // namespace temper::io

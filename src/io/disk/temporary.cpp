@@ -1,6 +1,3 @@
-// See temporary.hpp.
-#include "io/disk/temporary.hpp"
-
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -17,11 +14,11 @@
 #include <ctime>
 #include <utility>
 
+#include "io/disk/files.hpp"
 #include "io/text/failure.hpp"
 #include "temper/io.hpp"
 
 namespace temper::io {
-
 namespace {
 
 constexpr std::size_t kEntries = 32, kNoEntry = kEntries;  // more at once than any format writes

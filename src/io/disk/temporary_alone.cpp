@@ -6,12 +6,11 @@
 #include <cstdio>
 #include <utility>
 
-#include "io/disk/temporary.hpp"
+#include "io/disk/files.hpp"
 #include "io/text/failure.hpp"
 #include "temper/io.hpp"
 
 namespace temper::io {
-
 namespace {
 
 constexpr std::size_t kNoEntry = 0;  // no list

@@ -13,7 +13,7 @@
 #include <cctype>
 
 #include "io/conversion/adcirc.hpp"
-#include "io/conversion/geographic.hpp"
+#include "io/conversion/globe.hpp"
 #include "io/formats/format.hpp"
 #include "io/text/scanner.hpp"
 #include "io/text/values.hpp"
@@ -71,8 +71,7 @@ class AdcircReader {
     scanner_.next_line();
     nodes(n_nodes);
     const NumberLookup lookup(document_.names->points);
-    if (const auto twice = lookup.duplicate())
-      fail(ErrorCode::syntax, scanner_.path(), text("has node ", *twice, " twice"));
+    if (const auto twice = lookup.duplicate()) fail(ErrorCode::syntax, scanner_.path(), "has node ", *twice, " twice");
     elements(n_elements, lookup);
     boundaries(true, lookup);
     boundaries(false, lookup);
@@ -117,7 +116,7 @@ class AdcircReader {
       const std::int32_t corners = scanner_.integer("the number of corners");
       if (corners == 4) refuse_element(scanner_.where(), number, "quadrilateral");
       if (corners != 3) {
-        scanner_.fail_here(ErrorCode::syntax, text("triangle ", number, " has ", corners, " corners; expected 3"));
+        scanner_.fail_here(ErrorCode::syntax, "triangle ", number, " has ", corners, " corners; expected 3");
       }
       const std::string element = text("triangle ", number);
       const std::int32_t a = node(lookup, element), b = node(lookup, element);
@@ -186,9 +185,8 @@ class AdcircReader {
   std::int32_t node(const NumberLookup& lookup, const std::string& element) {
     const auto number = scanner_.number<std::int64_t>("the number of a node");
     if (const auto index = lookup.find(number)) return static_cast<std::int32_t>(*index);
-    scanner_.fail_here(ErrorCode::index_out_of_range,
-                       text(element, " uses vertex ", number, ", but the file has ", document_.file.points.size(),
-                            " vertices, numbered from ", document_.names->points[0]));
+    scanner_.fail_here(ErrorCode::index_out_of_range, element, " uses vertex ", number, ", but the file has ",
+                       document_.file.points.size(), " vertices, numbered from ", document_.names->points[0]);
   }
   /// Takes out the lines that close islands and are no edges of the mesh.
   void open_what_no_edge_closes() {

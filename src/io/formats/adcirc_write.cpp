@@ -10,7 +10,6 @@
 #include "io/text/values.hpp"
 
 namespace temper::io {
-
 namespace {
 
 using NodeString = std::vector<std::int32_t>;
@@ -124,7 +123,7 @@ class AdcircWriter {
       list.push_back(forward ? DirectedEdge{a, b} : DirectedEdge{b, a});
     }
     if (inside > 0)
-      job_.warn(text(inside, " lines that are not on the boundary are not written: fort.14 has no place for them"));
+      job_.warn(inside, " lines that are not on the boundary are not written: fort.14 has no place for them");
     for (const std::int32_t tag : tags) {
       const AdcircBoundary kind = kind_of(tag);
       for (NodeString& nodes : strings_of(edges[tag])) strings_.push_back({kind, tag, std::move(nodes)});
@@ -138,10 +137,9 @@ class AdcircWriter {
       if (const auto kind = adcirc_boundary(named->second)) return *kind;
       name = named->second;
     }
-    job_.warn(
-        text("lines with tag ", tag, name.empty() ? "" : ", ", name,
-             " are written as land boundaries of type 0; the name 'open boundary 1' or 'land boundary 1, type 20' "
-             "would say otherwise"));
+    job_.warn("lines with tag ", tag, name.empty() ? "" : ", ", name,
+              " are written as land boundaries of type 0; the name 'open boundary 1' or 'land boundary 1, type 20' "
+              "would say otherwise");
     return {};
   }
   void collect_levees() {
@@ -203,8 +201,7 @@ class AdcircWriter {
     if (std::all_of(string.nodes.begin(), string.nodes.end(), has_levee)) return;
     constexpr std::int32_t kNatural = 20, kTypesOfOneKind = 10;
     const std::int32_t type = string.kind.type == 64 ? kNatural : string.kind.type - string.kind.type % kTypesOfOneKind;
-    job_.warn(
-        text("a boundary of type ", string.kind.type, " has nodes without their levee and is written as type ", type));
+    job_.warn("a boundary of type ", string.kind.type, " has nodes without their levee and is written as type ", type);
     string.kind.type = type;
   }
   void warn_of_lost() const {

@@ -11,7 +11,6 @@
 #include "io/text/values.hpp"
 
 namespace temper::io {
-
 namespace {
 
 constexpr std::array<std::string_view, 9> kRegionNames = {"region",        "gmsh:physical", "medit:ref",
@@ -39,8 +38,7 @@ void CellSorter::add(int type, const std::int32_t* p, std::size_t n, const std::
                     : type == kVtkVertex   ? n == 1
                     : type == kVtkPolyLine ? n >= 2
                                            : true;
-  if (!fits)
-    fail(ErrorCode::syntax, where, text("element ", cell, " is a ", vtk_cell_name(type), " with ", n, " vertices"));
+  if (!fits) fail(ErrorCode::syntax, where, "element ", cell, " is a ", vtk_cell_name(type), " with ", n, " vertices");
   switch (type) {
     case kVtkPolygon:
       if (n != 3) refuse_element(where, cell, text("polygon with ", n, " corners"));
@@ -131,9 +129,8 @@ void take_period(Document& document) {
   const std::vector<double> lengths = to_doubles(std::move(taken->values));
   const auto is_length = [](double x) { return x >= 0 && std::isfinite(x); };
   if (lengths.size() != 2 || !std::all_of(lengths.begin(), lengths.end(), is_length)) {
-    fail(ErrorCode::out_of_scale, document.names->path,
-         text("field data ", in_quotes(kPlanePeriod),
-              " is not two lengths; expected the periods along x and y, 0 where there is none"));
+    fail(ErrorCode::out_of_scale, document.names->path, "field data ", in_quotes(kPlanePeriod),
+         " is not two lengths; expected the periods along x and y, 0 where there is none");
   }
   const Vec2 period = {lengths[0], lengths[1]};
   if (!(period == Vec2{})) document.file.points_in = PeriodicPoints{period};

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/formats/document.hpp"
+#include "io/formats/format.hpp"
 
 namespace temper::io {
 

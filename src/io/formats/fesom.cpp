@@ -57,9 +57,8 @@ class FesomReader {
     const std::string other_path = base + std::string(is_points ? kTriangles : kPoints);
     if (base == source_.path) refuse_other_name(is_points);
     if (!exists(other_path)) {
-      fail(ErrorCode::not_found, source_.path,
-           text("is the ", is_points ? "points" : "triangles", " of a FESOM mesh; its ",
-                is_points ? "triangles are" : "points are", " expected in ", other_path, ", which does not exist"));
+      fail(ErrorCode::not_found, source_.path, "is the ", is_points ? "points" : "triangles", " of a FESOM mesh; its ",
+           is_points ? "triangles are" : "points are", " expected in ", other_path, ", which does not exist");
     }
     Source other = load(other_path);
     document_.names->path = is_points ? source_.path : other_path;
@@ -88,7 +87,7 @@ class FesomReader {
     for (std::size_t i = 0; i < n; ++i) {
       const auto number = scanner.integer("the number of a point");
       if (number != static_cast<std::int64_t>(i) + 1) {
-        scanner.fail_here(ErrorCode::syntax, text("expected point ", i + 1, ", found point ", number));
+        scanner.fail_here(ErrorCode::syntax, "expected point ", i + 1, ", found point ", number);
       }
       document_.names->points.push_back(number);
       document_.names->point_lines.push_back(static_cast<std::int64_t>(scanner.line()));

@@ -1,17 +1,49 @@
 // A format, as the rest of io sees it: one row of the table in registry.cpp, and the functions of one source file.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "io/conversion/globe.hpp"
-#include "io/disk/output.hpp"
-#include "io/formats/document.hpp"
+#include "io/disk/files.hpp"
+#include "io/text/file_names.hpp"
 #include "temper/io.hpp"
 
 namespace temper::io {
+
+/// The result of a reader: the arrays, and the numbers that the file has for them.
+struct Document {
+  MeshFile file;
+  std::shared_ptr<FileNames> names;
+  double z = 0;                      ///< of the first point
+  std::vector<double> heights = {};  ///< z of each point, once one is another than that of the first
+};
+[[nodiscard]] Document new_document(const std::string& path);
+
+/// Checks what every format must fulfil once its arrays are read: points and triangles exist, numbers are in range,
+/// coordinates and weights finite, points in a plane or on a sphere around the origin.
+void check(Document& document);
+
+/// Collects z, of one point after the other.
+class PlaneCheck {
+ public:
+  explicit PlaneCheck(Document& document) : document_(document) {}
+  /// z of the point with this index, whose number and line are already in the names.
+  void add(std::size_t index, double z) {
+    if (index == 0) document_.z = z;
+    if (z != document_.z && document_.heights.empty()) document_.heights.assign(index, document_.z);
+    if (!document_.heights.empty()) document_.heights.push_back(z);
+  }
+
+ private:
+  Document& document_;
+};
+
+/// Refuses an element that is neither point, line nor triangle, with the reason.
+[[noreturn]] void refuse_element(const std::string& where, std::int64_t number, std::string_view kind);
 
 struct WriteJob;
 using ArraysOf = std::vector<DataArray> MeshFile::*;
@@ -84,7 +116,11 @@ struct WriteJob {
   OutputSet& outputs;
   std::vector<std::string>& warnings;
 
-  void warn(std::string_view message) const { warnings.push_back(text(path, ": ", message)); }
+  /// The message in its parts, as text() takes them.
+  template <class... Parts>
+  void warn(const Parts&... message) const {
+    warnings.push_back(text(path, ": ", message...));
+  }
   /// The name as the format can hold it.
   [[nodiscard]] std::string written(std::string_view name) const;
 };
@@ -108,6 +144,9 @@ void warn_of_names(const WriteJob& job, const std::vector<PhysicalName>& lost);
 void read_side_file(Document& document);
 /// Writes the side file when there are weights, or one is there.
 void write_side_file(const WriteJob& job);
+
+/// The reader of UGRID, which is also that of all NetCDF and HDF5 files that no other one takes.
+[[nodiscard]] Document read_ugrid(Source& source);
 
 /// Fails unless the arrays of the file fit each other: of one that was made by hand, or kept in another file, as
 /// writers would read past their ends.

@@ -21,7 +21,6 @@
 #include "io/text/values.hpp"
 
 namespace temper::io {
-
 namespace {
 
 std::string_view mesh_format_version(std::string_view head) {
@@ -97,7 +96,7 @@ class GmshReader {
       }
       const std::string name(scanner_.word("a section"));
       if (!name.starts_with('$'))
-        scanner_.fail_here(ErrorCode::syntax, text("expected a section ($…), found ", in_quotes(name)));
+        scanner_.fail_here(ErrorCode::syntax, "expected a section ($…), found ", in_quotes(name));
       section(name.substr(1));
     }
     if (!has_nodes_) scanner_.fail_truncated("the section $Nodes");
@@ -128,20 +127,18 @@ class GmshReader {
       return;
     }
     const std::string_view end = scanner_.word(text("$End", name));
-    if (end != text("$End", name))
-      fail(ErrorCode::syntax, where(), text("expected $End", name, ", found ", in_quotes(end)));
+    if (end != text("$End", name)) fail(ErrorCode::syntax, where(), "expected $End", name, ", found ", in_quotes(end));
   }
   void mesh_format() {
     const std::string version(scanner_.word("the version"));
     version4_ = version == "4.1";
     if (!version4_ && !version.starts_with('2')) {
-      scanner_.fail_here(ErrorCode::unsupported, text("is Gmsh MSH ", in_quotes(version), "; temper reads 2 and 4.1"));
+      scanner_.fail_here(ErrorCode::unsupported, "is Gmsh MSH ", in_quotes(version), "; temper reads 2 and 4.1");
     }
     const std::int32_t type = scanner_.integer("the file type");
     const std::int32_t data_size = scanner_.integer("the data size");
-    if (type != 0 && type != 1) scanner_.fail_here(ErrorCode::syntax, text("expected file type 0 or 1, found ", type));
-    if (data_size != 8)
-      scanner_.fail_here(ErrorCode::unsupported, text("has data of ", data_size, " bytes; expected 8"));
+    if (type != 0 && type != 1) scanner_.fail_here(ErrorCode::syntax, "expected file type 0 or 1, found ", type);
+    if (data_size != 8) scanner_.fail_here(ErrorCode::unsupported, "has data of ", data_size, " bytes; expected 8");
     document_.file.format = version4_ ? "gmsh41" : "gmsh22";
     if (type == 0) return;
     scanner_.next_line();
@@ -149,8 +146,7 @@ class GmshReader {
     const auto one = get<std::int32_t>("the number 1 in binary");
     if (one == 1) return;
     swap_ = true;
-    if (one != 0x01000000)
-      fail(ErrorCode::syntax, scanner_.path(), text("expected the number 1 in binary, found ", one));
+    if (one != 0x01000000) fail(ErrorCode::syntax, scanner_.path(), "expected the number 1 in binary, found ", one);
   }
   // Since version 2.1 `dimension tag "name"`, in 2.0 `tag "name"`.
   void physical_names() {
@@ -255,7 +251,7 @@ class GmshReader {
         type = get<std::int32_t>("the type of elements");
         left_in_block = get<std::int32_t>("the number of elements of a block");
         n_tags = get<std::int32_t>("the number of tags");
-        if (left_in_block <= 0) fail(ErrorCode::syntax, where(), text("a block has ", left_in_block, " elements"));
+        if (left_in_block <= 0) fail(ErrorCode::syntax, where(), "a block has ", left_in_block, " elements");
       }
       const auto number = get<std::int32_t>("the number of an element");
       if (!binary_) {
@@ -264,7 +260,7 @@ class GmshReader {
       } else {
         --left_in_block;
       }
-      if (n_tags < 0) fail(ErrorCode::syntax, where(), text("element ", number, " has ", n_tags, " tags"));
+      if (n_tags < 0) fail(ErrorCode::syntax, where(), "element ", number, " has ", n_tags, " tags");
       std::array<std::int32_t, 2> tags = {0, 0};
       for (std::int32_t k = 0; k < n_tags; ++k) {
         const auto tag = get<std::int32_t>("a tag of an element");
@@ -293,8 +289,7 @@ class GmshReader {
     }
   }
   void data(const std::string& section_name) {
-    if (!has_elements_)
-      scanner_.fail_here(ErrorCode::syntax, text("expected $Nodes and $Elements before $", section_name));
+    if (!has_elements_) scanner_.fail_here(ErrorCode::syntax, "expected $Nodes and $Elements before $", section_name);
     std::string name = "data";
     const std::size_t n_strings = scanner_.count("names", 2);
     scanner_.next_line();
@@ -316,8 +311,8 @@ class GmshReader {
     }
     constexpr std::int32_t kMostComponents = 64;  // Gmsh itself knows 1, 3 and 9
     if (integers[1] < 1 || integers[1] > kMostComponents || integers[2] < 0) {
-      scanner_.fail_here(ErrorCode::syntax, text("data ", in_quotes(name), " have ", integers[1], " components and ",
-                                                 integers[2], " entries"));
+      scanner_.fail_here(ErrorCode::syntax, "data ", in_quotes(name), " have ", integers[1], " components and ",
+                         integers[2], " entries");
     }
     const auto components = static_cast<std::size_t>(integers[1]), entries = static_cast<std::size_t>(integers[2]);
     scanner_.check_room(entries, "entries", binary_ ? 4 + 8 * components : 2 + 2 * components);
@@ -340,8 +335,8 @@ class GmshReader {
       const auto number = get<std::int32_t>("the number of a node");
       const auto index = lookup_->find(number);
       if (!index) {
-        fail(ErrorCode::index_out_of_range, where(),
-             text("node data ", in_quotes(name), " are given for node ", number, ", which is none"));
+        fail(ErrorCode::index_out_of_range, where(), "node data ", in_quotes(name), " are given for node ", number,
+             ", which is none");
       }
       given[*index] = true;
       for (std::size_t k = 0; k < components; ++k)
@@ -351,9 +346,8 @@ class GmshReader {
     if (name == "weight" && components == 1) {
       if (missing > 0) {
         const auto first = static_cast<std::size_t>(std::find(given.begin(), given.end(), false) - given.begin());
-        fail(ErrorCode::size_mismatch, where(),
-             text("node data 'weight' miss ", missing, " of ", f.points.size(), " points, the first is ",
-                  document_.names->point(first)));
+        fail(ErrorCode::size_mismatch, where(), "node data 'weight' miss ", missing, " of ", f.points.size(),
+             " points, the first is ", document_.names->point(first));
       }
       f.weights = std::move(values);
       return;
@@ -390,8 +384,8 @@ class GmshReader {
         continue;
       }
       if (target == nullptr) {
-        fail(ErrorCode::index_out_of_range, where(),
-             text("element data ", in_quotes(name), " are given for element ", number, ", which is none"));
+        fail(ErrorCode::index_out_of_range, where(), "element data ", in_quotes(name), " are given for element ",
+             number, ", which is none");
       }
       if (target->values.empty()) {
         allowance_.take(target->n, components, where());
@@ -463,7 +457,7 @@ class GmshReader {
     has_nodes_ = true;
     lookup_.emplace(document_.names->points);
     if (const auto twice = lookup_->duplicate()) {
-      fail(ErrorCode::syntax, where(), text("node number ", *twice, " is given twice"));
+      fail(ErrorCode::syntax, where(), "node number ", *twice, " is given twice");
     }
   }
   void add_element(std::int32_t type, std::int64_t number, std::int32_t physical, std::int32_t entity) {
@@ -490,9 +484,8 @@ class GmshReader {
     if (index) return static_cast<std::int32_t>(*index);
     const std::size_t n = document_.file.points.size();
     const bool contiguous = document_.names->points.counts_from(1);
-    fail(ErrorCode::index_out_of_range, where(),
-         text(kind, " ", element, " uses vertex ", number, ", but the file has ",
-              contiguous ? text(n, " vertices, numbered from 1") : "no vertex of that number"));
+    fail(ErrorCode::index_out_of_range, where(), kind, " ", element, " uses vertex ", number, ", but the file has ",
+         contiguous ? text(n, " vertices, numbered from 1") : "no vertex of that number");
   }
   // In version 2 an element of several physical groups is there once for each.
   void keep_one_of_each_triangle() {

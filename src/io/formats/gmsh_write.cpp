@@ -17,7 +17,6 @@
 #include "io/text/values.hpp"
 
 namespace temper::io {
-
 namespace {
 
 /// Elements of one kind, whatever their number of corners.
@@ -289,17 +288,17 @@ class GmshWriter {
     const int c = array.components;
     if (c == 1 || c == 3 || c == 9) return c;
     if (c > 9) {
-      job_.warn(text(kind, " '", array.name, "' is not written: it has ", c, " components, Gmsh holds 1, 3 or 9"));
+      job_.warn(kind, " '", array.name, "' is not written: it has ", c, " components, Gmsh holds 1, 3 or 9");
       return 0;
     }
     const int padded = c < 3 ? 3 : 9;
-    job_.warn(text(kind, " '", array.name, "' of ", c, " components is filled up with zeros to ", padded));
+    job_.warn(kind, " '", array.name, "' of ", c, " components is filled up with zeros to ", padded);
     return padded;
   }
   void note_type(const DataArray& array, std::string_view kind) const {
     if (scalar_of(array.values) != Scalar::f64) {
-      job_.warn(text(kind, " '", array.name, "' of type ", type_name(array.values),
-                     " is written as float64, all that Gmsh holds"));
+      job_.warn(kind, " '", array.name, "' of type ", type_name(array.values),
+                " is written as float64, all that Gmsh holds");
     }
   }
   [[nodiscard]] std::array<double, 6> bounding_box() const {

@@ -21,7 +21,6 @@
 #include "io/text/values.hpp"
 
 namespace temper::io {
-
 namespace {
 
 constexpr std::pair<std::string_view, std::string_view> kOtherJigsawCells[] = {
@@ -50,13 +49,13 @@ class JigsawMeshReader {
       const DataArray* data = find(f.point_data, array);
       if (data == nullptr || size(data->values) == f.points.size() * static_cast<std::size_t>(data->components))
         continue;
-      fail(ErrorCode::size_mismatch, scanner_.path(),
-           text(name, " has ", size(data->values) / static_cast<std::size_t>(data->components), " rows, but there are ",
-                f.points.size(), " points"));
+      fail(ErrorCode::size_mismatch, scanner_.path(), name, " has ",
+           size(data->values) / static_cast<std::size_t>(data->components), " rows, but there are ", f.points.size(),
+           " points");
     }
     if (!f.weights.empty() && f.weights.size() != f.points.size()) {
-      fail(ErrorCode::size_mismatch, scanner_.path(),
-           text("POWER has ", f.weights.size(), " rows, but there are ", f.points.size(), " points"));
+      fail(ErrorCode::size_mismatch, scanner_.path(), "POWER has ", f.weights.size(), " rows, but there are ",
+           f.points.size(), " points");
     }
     settle_ellipsoid();
     document_.names->triangles = RunLength(0, f.triangles.size());
@@ -85,27 +84,27 @@ class JigsawMeshReader {
   void kind() {
     const auto version = scanner_.integer("the version of the format");
     if (version < 1 || version > 3)
-      scanner_.fail_here(ErrorCode::unsupported, text("is JIGSAW version ", version, "; temper reads 1 to 3"));
+      scanner_.fail_here(ErrorCode::unsupported, "is JIGSAW version ", version, "; temper reads 1 to 3");
     // Version 1 had no kinds: all were meshes in the plane or in space.
     if (!scanner_.more_on_line()) return;
     const std::string found = upper_case(scanner_.word("the kind of file"));
     ellipsoid_ = found == "ELLIPSOID-MESH";
     if (ellipsoid_ || found == "EUCLIDEAN-MESH") return;
-    scanner_.fail_here(ErrorCode::unsupported,
-                       text("is of kind ", in_quotes(found), "; temper reads EUCLIDEAN-MESH and ELLIPSOID-MESH"));
+    scanner_.fail_here(ErrorCode::unsupported, "is of kind ", in_quotes(found),
+                       "; temper reads EUCLIDEAN-MESH and ELLIPSOID-MESH");
   }
   void dimension() {
     dimension_ = scanner_.integer("the dimension");
     if (dimension_ != 2 && dimension_ != 3)
-      scanner_.fail_here(ErrorCode::unsupported, text("has dimension ", dimension_, "; expected 2 or 3"));
+      scanner_.fail_here(ErrorCode::unsupported, "has dimension ", dimension_, "; expected 2 or 3");
   }
   /// One number, or three that are the same.
   void radii() {
     while (scanner_.more_on_line()) {
       const double r = scanner_.real("a radius");
       if (!(r > 0) || (radius_ && r != *radius_)) {
-        scanner_.fail_here(ErrorCode::unsupported, text("has the radius ", r, radius_ ? text(" beside ", *radius_) : "",
-                                                        "; expected a sphere: radii above 0, all the same"));
+        scanner_.fail_here(ErrorCode::unsupported, "has the radius ", r, radius_ ? text(" beside ", *radius_) : "",
+                           "; expected a sphere: radii above 0, all the same");
       }
       radius_ = r;
     }
@@ -143,9 +142,9 @@ class JigsawMeshReader {
     const std::size_t columns = scanner_.more_on_line() ? scanner_.count("columns", 1) : 1;
     constexpr std::size_t kMostColumns = 4096;
     if (columns < 1 || columns > kMostColumns)
-      scanner_.fail_here(ErrorCode::syntax, text(name, " has ", columns, " columns; expected 1 to ", kMostColumns));
+      scanner_.fail_here(ErrorCode::syntax, name, " has ", columns, " columns; expected 1 to ", kMostColumns);
     if (name == "POWER" && columns != 1)
-      scanner_.fail_here(ErrorCode::unsupported, text("POWER has ", columns, " columns; expected one weight a point"));
+      scanner_.fail_here(ErrorCode::unsupported, "POWER has ", columns, " columns; expected one weight a point");
     scanner_.check_room(n * columns, "numbers", 2);
     std::vector<double> values(n * columns);
     for (double& value : values) value = scanner_.real(text("a number of ", name));
@@ -154,8 +153,7 @@ class JigsawMeshReader {
       return;
     }
     const std::string_view array = name == "VALUE" ? kJigsawData[0].second : kJigsawData[1].second;
-    if (find(f.point_data, array) != nullptr)
-      scanner_.fail_here(ErrorCode::syntax, text("has a second section ", name));
+    if (find(f.point_data, array) != nullptr) scanner_.fail_here(ErrorCode::syntax, "has a second section ", name);
     if (n > 0) f.point_data.push_back({std::string(array), static_cast<int>(columns), std::move(values)});
   }
   void edges() {
@@ -183,7 +181,7 @@ class JigsawMeshReader {
   }
   void other(const std::string& name) {
     const bool word = !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0;
-    if (!word) scanner_.fail_here(ErrorCode::syntax, text("expected a section NAME=…, found ", in_quotes(name)));
+    if (!word) scanner_.fail_here(ErrorCode::syntax, "expected a section NAME=…, found ", in_quotes(name));
     const std::size_t n = scanner_.count("lines", 2);
     for (const auto& [cells, kind] : kOtherJigsawCells) {
       if (name != cells || n == 0) continue;

@@ -52,7 +52,7 @@ class MeditReader {
     scanner_.word("MeshVersionFormatted");
     const std::int32_t version = scanner_.integer("the version of the format");
     if (version < 0 || version > 4) {
-      scanner_.fail_here(ErrorCode::unsupported, text("is medit version ", version, "; temper reads 0 to 4"));
+      scanner_.fail_here(ErrorCode::unsupported, "is medit version ", version, "; temper reads 0 to 4");
     }
     bool ended = false;
     while (!ended && !scanner_.at_end()) {
@@ -73,7 +73,7 @@ class MeditReader {
     if (keyword == "Dimension") {
       dimension_ = scanner_.integer("the dimension");
       if (dimension_ != 2 && dimension_ != 3) {
-        scanner_.fail_here(ErrorCode::unsupported, text("has dimension ", dimension_, "; expected 2 or 3"));
+        scanner_.fail_here(ErrorCode::unsupported, "has dimension ", dimension_, "; expected 2 or 3");
       }
     } else if (keyword == "Vertices") {
       vertices();
@@ -137,7 +137,7 @@ class MeditReader {
   void refuse_or_skip(std::string_view keyword) {
     const bool known_keyword =
         !keyword.empty() && ((keyword[0] >= 'A' && keyword[0] <= 'Z') || (keyword[0] >= 'a' && keyword[0] <= 'z'));
-    if (!known_keyword) scanner_.fail_here(ErrorCode::syntax, text("expected a keyword, found ", in_quotes(keyword)));
+    if (!known_keyword) scanner_.fail_here(ErrorCode::syntax, "expected a keyword, found ", in_quotes(keyword));
     for (const auto& [unsupported, kind] : kUnsupported) {
       if (keyword != unsupported) continue;
       if (scanner_.count("elements", 2) == 0) return;
@@ -168,8 +168,8 @@ class MeditReader {
     std::vector<std::uint8_t> flags(n);
     for (const std::int32_t number : numbers) {
       if (number < 1 || static_cast<std::size_t>(number) > n) {
-        fail(ErrorCode::index_out_of_range, scanner_.path(),
-             text(flag_section.keyword, " lists number ", number, ", but the file has only ", n));
+        fail(ErrorCode::index_out_of_range, scanner_.path(), flag_section.keyword, " lists number ", number,
+             ", but the file has only ", n);
       }
       flags[static_cast<std::size_t>(number) - 1] = 1;
     }

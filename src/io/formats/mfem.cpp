@@ -31,7 +31,7 @@ class MfemReader {
       if (section == "dimension") {
         const std::int32_t dimension = scanner_.integer("the dimension");
         if (dimension != 2)
-          scanner_.fail_here(ErrorCode::unsupported, text("has elements of dimension ", dimension, "; expected 2"));
+          scanner_.fail_here(ErrorCode::unsupported, "has elements of dimension ", dimension, "; expected 2");
       } else if (section == "elements") {
         elements();
       } else if (section == "boundary") {
@@ -42,7 +42,7 @@ class MfemReader {
       } else if (section == "nodes") {
         scanner_.fail_here(ErrorCode::unsupported, "is a curved mesh (section nodes); temper reads linear triangles");
       } else {
-        scanner_.fail_here(ErrorCode::syntax, text("expected a section of an MFEM mesh, found ", in_quotes(section)));
+        scanner_.fail_here(ErrorCode::syntax, "expected a section of an MFEM mesh, found ", in_quotes(section));
       }
     }
     if (!has_vertices) scanner_.fail_truncated("the section vertices");
@@ -74,8 +74,8 @@ class MfemReader {
       document_.names->line_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
       const std::int32_t geometry = scanner_.integer("the geometry of a boundary element");
       if (geometry != kSegment) {
-        scanner_.fail_here(ErrorCode::unsupported,
-                           text("boundary element ", i, " is a ", geometry_name(geometry), "; expected a segment"));
+        scanner_.fail_here(ErrorCode::unsupported, "boundary element ", i, " is a ", geometry_name(geometry),
+                           "; expected a segment");
       }
       const std::int32_t a = scanner_.vertex(0);
       f.lines.push_back({a, scanner_.vertex(0)});
@@ -90,7 +90,7 @@ class MfemReader {
     }
     const std::int32_t dimension = scanner_.integer("the number of coordinates of a vertex");
     if (dimension != 2 && dimension != 3) {
-      scanner_.fail_here(ErrorCode::unsupported, text("vertices have ", dimension, " coordinates; expected 2 or 3"));
+      scanner_.fail_here(ErrorCode::unsupported, "vertices have ", dimension, " coordinates; expected 2 or 3");
     }
     scanner_.check_room(n, "vertices", dimension == 2 ? 4 : 6);
     f.points.reserve(n);

@@ -61,7 +61,7 @@ class ObjReader {
     constexpr std::array<std::string_view, 12> kIgnored = {"vt",     "vn", "vp",  "o",      "s",      "usemtl",
                                                            "mtllib", "fo", "lod", "usemap", "maplib", "bevel"};
     if (std::find(kIgnored.begin(), kIgnored.end(), word) == kIgnored.end()) {
-      scanner_.fail_here(ErrorCode::syntax, text("expected a statement of OBJ, found ", in_quotes(word)));
+      scanner_.fail_here(ErrorCode::syntax, "expected a statement of OBJ, found ", in_quotes(word));
     }
     if (std::find(ignored_.begin(), ignored_.end(), word) == ignored_.end()) ignored_.emplace_back(word);
     scanner_.next_line();
@@ -86,8 +86,8 @@ class ObjReader {
       if (n < 3) corners[n] = p;
     }
     if (n != 3) {
-      fail(n > 3 ? ErrorCode::unsupported : ErrorCode::syntax, text(scanner_.path(), ":", text_line),
-           text("face ", f.triangles.size() + 1, " has ", n, " corners; temper reads triangles"));
+      fail(n > 3 ? ErrorCode::unsupported : ErrorCode::syntax, text(scanner_.path(), ":", text_line), "face ",
+           f.triangles.size() + 1, " has ", n, " corners; temper reads triangles");
     }
     f.triangles.push_back(corners);
     f.regions.push_back(tags_[2]);
@@ -142,13 +142,12 @@ class ObjReader {
     std::int32_t value = 0;
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
     if (error != std::errc() || end != number.data() + number.size()) {
-      scanner_.fail_here(ErrorCode::syntax, text("expected a vertex number, found ", in_quotes(word)));
+      scanner_.fail_here(ErrorCode::syntax, "expected a vertex number, found ", in_quotes(word));
     }
     const auto so_far = static_cast<std::int32_t>(document_.file.points.size());
     if (value == 0 || -std::int64_t{value} > so_far) {
-      scanner_.fail_here(
-          ErrorCode::index_out_of_range,
-          text("uses vertex ", value, ", but ", so_far, " vertices came before, numbered from 1 (or -1, backwards)"));
+      scanner_.fail_here(ErrorCode::index_out_of_range, "uses vertex ", value, ", but ", so_far,
+                         " vertices came before, numbered from 1 (or -1, backwards)");
     }
     return value > 0 ? value - 1 : so_far + value;
   }
@@ -223,7 +222,7 @@ class ObjWriter {
     for (const PhysicalName& n : file_.names) {
       if (!used_.contains({n.dimension, n.tag})) unused.push_back(n.name);
     }
-    if (!unused.empty()) job_.warn(text("physical names of nothing are not written: ", list_of(unused)));
+    if (!unused.empty()) job_.warn("physical names of nothing are not written: ", list_of(unused));
   }
 
   const WriteJob& job_;

@@ -9,7 +9,6 @@
 #include "io/text/scanner.hpp"
 
 namespace temper::io {
-
 namespace {
 
 /// Says whether the word is OFF with none or some of its prefixes, in their order.
@@ -33,8 +32,8 @@ class OffReader {
     vertices(n);
     faces(n_faces);
     if (!scanner_.at_end()) {
-      scanner_.fail_here(ErrorCode::syntax, text("expected the end of the file after ", n_faces, " faces, found ",
-                                                 in_quotes(scanner_.peek())));
+      scanner_.fail_here(ErrorCode::syntax, "expected the end of the file after ", n_faces, " faces, found ",
+                         in_quotes(scanner_.peek()));
     }
     auto& warnings = document_.file.warnings;
     if (more_of_vertices_ > 0)
@@ -64,8 +63,8 @@ class OffReader {
     for (std::size_t i = 0; i < n; ++i) {
       const std::int32_t corners = scanner_.integer("the number of corners of a face");
       if (corners != 3) {
-        scanner_.fail_here(corners > 3 ? ErrorCode::unsupported : ErrorCode::syntax,
-                           text("face ", i, " has ", corners, " corners; temper reads triangles"));
+        scanner_.fail_here(corners > 3 ? ErrorCode::unsupported : ErrorCode::syntax, "face ", i, " has ", corners,
+                           " corners; temper reads triangles");
       }
       document_.names->triangle_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
       const std::int32_t a = scanner_.vertex(0), b = scanner_.vertex(0);

@@ -85,7 +85,7 @@ class PlyReader {
       } else if (word == "property") {
         property(line);
       } else if (word != "obj_info") {
-        fail(ErrorCode::syntax, where, text("expected a statement of a PLY header, found ", in_quotes(word)));
+        fail(ErrorCode::syntax, where, "expected a statement of a PLY header, found ", in_quotes(word));
       }
     }
     if (!has_format) fail(ErrorCode::syntax, scanner_.path(), "the header has no format");
@@ -95,9 +95,8 @@ class PlyReader {
     binary_ = name != "ascii";
     endian_ = name == "binary_big_endian" ? std::endian::big : std::endian::little;
     if ((binary_ && name != "binary_big_endian" && name != "binary_little_endian") || version != "1.0") {
-      fail(ErrorCode::unsupported, line.path(),
-           text("is PLY in format ", in_quotes(name), " ", in_quotes(version),
-                "; temper reads ascii, binary_little_endian and binary_big_endian 1.0"));
+      fail(ErrorCode::unsupported, line.path(), "is PLY in format ", in_quotes(name), " ", in_quotes(version),
+           "; temper reads ascii, binary_little_endian and binary_big_endian 1.0");
     }
   }
   void comment(std::string_view words) {
@@ -118,10 +117,10 @@ class PlyReader {
     PlyElement e;
     e.name = line.word("the name of an element");
     const auto n = line.number<std::int64_t>("the number of elements");
-    if (n < 0) fail(ErrorCode::syntax, line.path(), text("expected the number of elements, found ", n));
+    if (n < 0) fail(ErrorCode::syntax, line.path(), "expected the number of elements, found ", n);
     e.n = static_cast<std::size_t>(n);
     if (!element_of_name_.emplace(e.name, elements_.size()).second)
-      fail(ErrorCode::syntax, line.path(), text("declares element ", in_quotes(e.name), " a second time"));
+      fail(ErrorCode::syntax, line.path(), "declares element ", in_quotes(e.name), " a second time");
     elements_.push_back(std::move(e));
   }
   void property(Scanner& line) {
@@ -142,15 +141,14 @@ class PlyReader {
     for (const PlyType& row : kPlyTypes) {
       if (name == row.name || name == row.other_name) return row.scalar;
     }
-    fail(ErrorCode::unsupported, scanner_.path(), text("expected a type of PLY, found ", in_quotes(name)));
+    fail(ErrorCode::unsupported, scanner_.path(), "expected a type of PLY, found ", in_quotes(name));
   }
 
   void body(PlyElement& e) {
     if (e.n == 0) return;
     std::size_t least = 0;  // bytes an element
     for (const PlyProperty& p : e.properties) least += binary_ ? info(p.count.value_or(p.scalar)).bytes : 2;
-    if (least == 0)
-      fail(ErrorCode::syntax, scanner_.path(), text("elements ", in_quotes(e.name), " have no properties"));
+    if (least == 0) fail(ErrorCode::syntax, scanner_.path(), "elements ", in_quotes(e.name), " have no properties");
     scanner_.check_room(e.n, text("elements ", in_quotes(e.name)), least);
     for (PlyProperty& p : e.properties) {
       if (!p.count) p.values = zeros(p.scalar, e.n);
@@ -172,8 +170,8 @@ class PlyReader {
   void list(PlyElement& e, const PlyProperty& p) {
     const std::int64_t n = whole_number(*p.count, text("the number of ", p.name));
     if (n < 0) {
-      fail(ErrorCode::syntax, binary_ ? scanner_.path() : scanner_.where(),
-           text("expected the number of ", p.name, ", found ", n));
+      fail(ErrorCode::syntax, binary_ ? scanner_.path() : scanner_.where(), "expected the number of ", p.name,
+           ", found ", n);
     }
     scanner_.check_room(static_cast<std::uint64_t>(n), p.name, binary_ ? info(p.scalar).bytes : 2);
     const bool corners = e.name == "face" && (p.name == "vertex_indices" || p.name == "vertex_index");
@@ -184,8 +182,8 @@ class PlyReader {
       }
       const std::int64_t v = whole_number(p.scalar, "a vertex number");
       if (!std::in_range<std::int32_t>(v)) {
-        fail(ErrorCode::index_out_of_range, binary_ ? scanner_.path() : scanner_.where(),
-             text("vertex number ", v, " is beyond 32 bits"));
+        fail(ErrorCode::index_out_of_range, binary_ ? scanner_.path() : scanner_.where(), "vertex number ", v,
+             " is beyond 32 bits");
       }
       e.corners.push_back(static_cast<std::int32_t>(v));
     }
@@ -208,7 +206,7 @@ class PlyReader {
       if constexpr (std::is_integral_v<T>) {
         if (std::in_range<std::int64_t>(value)) return static_cast<std::int64_t>(value);
       }
-      fail(ErrorCode::syntax, binary_ ? scanner_.path() : scanner_.where(), text(expected, " is ", value));
+      fail(ErrorCode::syntax, binary_ ? scanner_.path() : scanner_.where(), expected, " is ", value);
     });
   }
 
@@ -271,7 +269,7 @@ class PlyReader {
       return values ? values : take(e, upper);
     };
     auto x = coordinate("x", "X"), y = coordinate("y", "Y"), z = coordinate("z", "Z");
-    if (!x || !y) fail(ErrorCode::syntax, scanner_.path(), text("vertices have no property ", x ? "y" : "x"));
+    if (!x || !y) fail(ErrorCode::syntax, scanner_.path(), "vertices have no property ", x ? "y" : "x");
     if (e.n == 0) return;
     const auto xs = to_doubles(std::move(*x)), ys = to_doubles(std::move(*y));
     const auto zs = z ? to_doubles(std::move(*z)) : std::vector<double>();
@@ -339,7 +337,7 @@ class PlyReader {
   std::vector<std::int32_t> ends_of_edges(PlyElement& e, std::string_view name) const {
     const auto values = e.n > 0 ? take(e, name) : Values(std::vector<std::int32_t>());
     const auto ends = values ? to_int32(*values) : std::nullopt;
-    if (!ends) fail(ErrorCode::syntax, scanner_.path(), text("edges have no property ", name, " of 32-bit integers"));
+    if (!ends) fail(ErrorCode::syntax, scanner_.path(), "edges have no property ", name, " of 32-bit integers");
     return *ends;
   }
 

@@ -9,7 +9,6 @@
 #include "io/text/names.hpp"
 
 namespace temper::io {
-
 namespace {
 
 std::string_view ply_type_name(Scalar scalar) {

@@ -6,7 +6,6 @@
 #include "io/formats/format.hpp"
 
 namespace temper::io {
-
 namespace {
 
 std::string_view skip_blanks(std::string_view s) {

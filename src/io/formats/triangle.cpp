@@ -20,7 +20,6 @@
 #include "io/text/values.hpp"
 
 namespace temper::io {
-
 namespace {
 
 constexpr std::string_view kDeclaration = "# temper attribute ";
@@ -133,9 +132,8 @@ class TriangleRow {
     ++found_;
   }
   [[noreturn]] void refuse(const std::string& where) const {
-    fail(ErrorCode::size_mismatch, where,
-         text("the row of ", kind_.substr(kind_.rfind(' ') + 1), " ", number_, " has ", found_,
-              " numbers, but the header says ", columns_));
+    fail(ErrorCode::size_mismatch, where, "the row of ", kind_.substr(kind_.rfind(' ') + 1), " ", number_, " has ",
+         found_, " numbers, but the header says ", columns_);
   }
 
   Scanner& scanner_;
@@ -152,7 +150,7 @@ class AttributeColumns {
     std::size_t sum = 0;
     for (const DataArray& a : arrays_) sum += static_cast<std::size_t>(a.components);
     if (sum > columns) {
-      scanner.fail_here(ErrorCode::size_mismatch, text("declares ", sum, " attributes, but the header says ", columns));
+      scanner.fail_here(ErrorCode::size_mismatch, "declares ", sum, " attributes, but the header says ", columns);
     }
     for (std::size_t i = sum; i < columns; ++i) {
       arrays_.push_back({text("attribute", i + 1), 1, std::vector<double>()});
@@ -186,9 +184,8 @@ class TriangleReader {
     const std::string base = without_suffix(source_.path, is_node ? ".node" : ".ele");
     const std::string other_path = base + (is_node ? ".ele" : ".node");
     if (!exists(other_path)) {
-      fail(ErrorCode::not_found, source_.path,
-           text("is the ", is_node ? "points" : "triangles", " of a Triangle mesh; its ",
-                is_node ? "triangles" : "points", " are expected in ", other_path, ", which does not exist"));
+      fail(ErrorCode::not_found, source_.path, "is the ", is_node ? "points" : "triangles", " of a Triangle mesh; its ",
+           is_node ? "triangles" : "points", " are expected in ", other_path, ", which does not exist");
     }
     Source other = load(other_path);
     document_.names->path = is_node ? source_.path : other_path;
@@ -218,7 +215,7 @@ class TriangleReader {
     const std::size_t n = scanner.count("points", 6);
     const std::int32_t dimension = scanner.integer("the dimension");
     if (dimension != 2)
-      scanner.fail_here(ErrorCode::unsupported, text("has points of dimension ", dimension, "; expected 2"));
+      scanner.fail_here(ErrorCode::unsupported, "has points of dimension ", dimension, "; expected 2");
     const std::size_t n_attributes = scanner.more_on_line() ? scanner.count("attributes", 1) : 0;
     const bool markers = scanner.more_on_line() && scanner.count("markers", 1) != 0;
     scanner.check_room(n, "points", 6 + 2 * n_attributes);
@@ -231,8 +228,8 @@ class TriangleReader {
       const std::int32_t number = row.number();
       if (i == 0) first_ = number;
       if (number != first_ + static_cast<std::int64_t>(i)) {
-        scanner.fail_here(ErrorCode::syntax,
-                          text("expected point ", first_ + static_cast<std::int64_t>(i), ", found point ", number));
+        scanner.fail_here(ErrorCode::syntax, "expected point ", first_ + static_cast<std::int64_t>(i), ", found point ",
+                          number);
       }
       document_.names->points.push_back(number);
       document_.names->point_lines.push_back(static_cast<std::int64_t>(scanner.line()));
@@ -261,8 +258,7 @@ class TriangleReader {
     const std::size_t n = scanner.count("triangles", 8);
     const std::int32_t corners = scanner.integer("the number of corners");
     if (corners == 6) refuse_element(scanner.where(), first_, "quadratic triangle");
-    if (corners != 3)
-      scanner.fail_here(ErrorCode::unsupported, text("has triangles of ", corners, " corners; expected 3"));
+    if (corners != 3) scanner.fail_here(ErrorCode::unsupported, "has triangles of ", corners, " corners; expected 3");
     const std::size_t n_attributes = scanner.more_on_line() ? scanner.count("attributes", 1) : 0;
     scanner.check_room(n, "triangles", 8 + 2 * n_attributes);
     Declarations declared = declarations(source.bytes);
@@ -348,7 +344,7 @@ std::vector<DataArray> without(const std::vector<DataArray>& arrays, std::string
   std::vector<DataArray> result;
   for (const DataArray& a : arrays) {
     if (a.name == name)
-      job.warn(text("data '", name, "' is not written: the name is taken"));
+      job.warn("data '", name, "' is not written: the name is taken");
     else
       result.push_back(a);
   }

@@ -195,9 +195,8 @@ void write_columns_disv(const DecJob& job) {
   if (const auto v = not_one_polygon(job.cells)) {
     const InputNames counting;
     const InputNames& names = job.options.names != nullptr ? *job.options.names : counting;
-    fail(ErrorCode::unsupported, "",
-         text("the power cell of ", names.point(v->index),
-              " in the domain is not one polygon, as DISV wants; DISU does not"));
+    fail(ErrorCode::unsupported, "", "the power cell of ", names.point(v->index),
+         " in the domain is not one polygon, as DISV wants; DISU does not");
   }
   const SharedCorners shared = share_corners(job.cells, c.n_vertices);
   Output& out = job.open("mesh.disv");

@@ -77,7 +77,7 @@ double downward(const Columns& c, const ColumnConnection& connection) {
 void write_columns_tough(const DecJob& job) {
   const Columns& c = *job.options.columns;
   if (c.n_cells() > kMostNames)
-    fail(ErrorCode::unsupported, "", text(c.n_cells(), " cells are more than TOUGH's ", kMostNames, " names"));
+    fail(ErrorCode::unsupported, "", c.n_cells(), " cells are more than TOUGH's ", kMostNames, " names");
   const std::string none5(5, ' '), none10(10, ' ');
   Output& out = job.open("MESH");
   out.put("ELEME\n");

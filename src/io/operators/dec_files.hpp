@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/disk/output.hpp"
+#include "io/disk/files.hpp"
 #include "temper/detail/dec_io.hpp"
 
 namespace temper::io {

@@ -20,7 +20,7 @@ class Folder {
     if (there.kind == OnDisk::Kind::folder) return;
     if (there.exists()) fail(ErrorCode::not_writable, path, "is no folder; expected the name of one, or of none");
     made_ = mkdir(path_.c_str(), 0777) == 0;
-    if (!made_) fail(ErrorCode::not_writable, path, text("cannot be made: ", std::strerror(errno)));
+    if (!made_) fail(ErrorCode::not_writable, path, "cannot be made: ", std::strerror(errno));
   }
   ~Folder() {
     if (made_) rmdir(path_.c_str());  // does nothing when it is not empty

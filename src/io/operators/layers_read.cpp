@@ -70,7 +70,7 @@ class LayersReader {
   Layers read() {
     read_titles();
     if (layers_.n_layers > kMostCells / std::max<std::size_t>(n_vertices_, 1))
-      fail_line(ErrorCode::unsupported, text(layers_.n_layers, " layers are too many for ", n_vertices_, " vertices"));
+      fail_line(ErrorCode::unsupported, layers_.n_layers, " layers are too many for ", n_vertices_, " vertices");
     while (next_line()) read_row();
     if (!begun_) begin_rows();
     check_all_given();
@@ -89,11 +89,13 @@ class LayersReader {
     }
     return false;
   }
-  [[noreturn]] void fail_line(ErrorCode code, const std::string& message) const {
-    fail(code, text(scanner_.path(), ":", line_), message);
+  template <class... Parts>
+  [[noreturn]] void fail_line(ErrorCode code, const Parts&... message) const {
+    fail(code, text(scanner_.path(), ":", line_), message...);
   }
-  [[noreturn]] void fail_field(ErrorCode code, std::size_t column, const std::string& message) const {
-    fail_line(code, text("column ", column + 1, " (", in_quotes(titles_[column]), "), ", row_, ": ", message));
+  template <class... Parts>
+  [[noreturn]] void fail_field(ErrorCode code, std::size_t column, const Parts&... message) const {
+    fail_line(code, "column ", column + 1, " (", in_quotes(titles_[column]), "), ", row_, ": ", message...);
   }
   void read_titles() {
     if (!next_line())
@@ -102,7 +104,7 @@ class LayersReader {
     const auto expect = [&](std::size_t column, bool good, std::string_view expected) {
       const std::string found = column < titles_.size() ? in_quotes(titles_[column]) : "the end of the line";
       if (!good)
-        fail_line(ErrorCode::syntax, text("column ", column + 1, ": expected the title ", expected, ", found ", found));
+        fail_line(ErrorCode::syntax, "column ", column + 1, ": expected the title ", expected, ", found ", found);
     };
     const auto begins = [&](std::size_t column, std::string_view word) {
       return column < titles_.size() && titles_[column].starts_with(word);
@@ -124,19 +126,19 @@ class LayersReader {
     const bool common = fields_[0] == "*";
     row_ = common ? "row *" : text("vertex ", fields_[0]);
     if (fields_.size() != n_columns())
-      fail_line(ErrorCode::syntax, text(row_, ": expected ", n_columns(), " columns, found ", fields_.size()));
+      fail_line(ErrorCode::syntax, row_, ": expected ", n_columns(), " columns, found ", fields_.size());
     const VertexId v = common ? VertexId() : vertex();
     if (common && (has_common_ || begun_))
       fail_line(ErrorCode::syntax, "the row * has to come once, before all others");
     if (!common && !begun_) begin_rows();
     if (!common && line_of_[v] != 0)
-      fail_line(ErrorCode::duplicate_point, text(row_, " has its row in line ", line_of_[v], " already"));
+      fail_line(ErrorCode::duplicate_point, row_, " has its row in line ", line_of_[v], " already");
     std::vector<double> heights;
     std::vector<std::uint8_t> active;
     for (std::size_t i = 0; i < layers_.n_surfaces(); ++i) heights.push_back(height(1 + i));
     for (std::size_t i = 0; has_active_ && i < layers_.n_layers; ++i)
       active.push_back(activity(1 + layers_.n_surfaces() + i));
-    if (const auto fault = fault_of_surfaces(heights)) fail_line(ErrorCode::invalid_option, text(row_, ": ", *fault));
+    if (const auto fault = fault_of_surfaces(heights)) fail_line(ErrorCode::invalid_option, row_, ": ", *fault);
     if (common) {
       has_common_ = true;
       common_heights_ = std::move(heights);
@@ -157,9 +159,9 @@ class LayersReader {
     double value = 0;
     const auto [end, error] = read_number(field.data(), field.data() + field.size(), value);
     if (error != std::errc() || end != field.data() + field.size())
-      fail_field(ErrorCode::syntax, column, text("expected a height, found ", in_quotes(field)));
+      fail_field(ErrorCode::syntax, column, "expected a height, found ", in_quotes(field));
     if (std::isinf(value))
-      fail_field(ErrorCode::not_finite, column, text("expected a height or nan, found ", in_quotes(field)));
+      fail_field(ErrorCode::not_finite, column, "expected a height or nan, found ", in_quotes(field));
     return value;
   }
   [[nodiscard]] std::uint8_t activity(std::size_t column) const {
@@ -169,7 +171,7 @@ class LayersReader {
       fail_field(ErrorCode::syntax, column, "is empty, and there is no row * with what holds then");
     }
     if (field != "0" && field != "1")
-      fail_field(ErrorCode::syntax, column, text("expected 0 or 1, found ", in_quotes(field)));
+      fail_field(ErrorCode::syntax, column, "expected 0 or 1, found ", in_quotes(field));
     return field == "1" ? 1 : 0;
   }
   [[nodiscard]] VertexId vertex() const {
@@ -177,10 +179,10 @@ class LayersReader {
     std::int64_t number = 0;
     const auto [end, error] = read_number(field.data(), field.data() + field.size(), number);
     if (error != std::errc() || end != field.data() + field.size())
-      fail_line(ErrorCode::syntax,
-                text("column 1 ('vertex'): expected the number of a vertex, or *, found ", in_quotes(field)));
+      fail_line(ErrorCode::syntax, "column 1 ('vertex'): expected the number of a vertex, or *, found ",
+                in_quotes(field));
     const auto v = vertices_.find(number);
-    if (!v) fail_line(ErrorCode::index_out_of_range, text(mesh_path_, " has no vertex ", number, " in a triangle"));
+    if (!v) fail_line(ErrorCode::index_out_of_range, mesh_path_, " has no vertex ", number, " in a triangle");
     return *v;
   }
   /// Gives all vertices what the row * says, if there is one.
@@ -204,9 +206,8 @@ class LayersReader {
       ++n;
     }
     if (n == 0) return;
-    fail(ErrorCode::size_mismatch, scanner_.path(),
-         text("has no row for ", n == 1 ? "vertex " : "vertices ", vertices_.numbers_where(missing), " of ", mesh_path_,
-              ", and no row * with what holds for them"));
+    fail(ErrorCode::size_mismatch, scanner_.path(), "has no row for ", n == 1 ? "vertex " : "vertices ",
+         vertices_.numbers_where(missing), " of ", mesh_path_, ", and no row * with what holds for them");
   }
   [[nodiscard]] std::size_t n_columns() const {
     return 1 + layers_.n_surfaces() + (has_active_ ? layers_.n_layers : 0);

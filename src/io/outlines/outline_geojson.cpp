@@ -10,7 +10,6 @@
 #include <map>
 #include <optional>
 
-#include "io/outlines/json_tree.hpp"
 #include "io/outlines/outline_input.hpp"
 #include "io/text/scanner.hpp"
 
@@ -72,8 +71,9 @@ class GeoJsonReader {
   }
 
  private:
-  [[noreturn]] void fail_at(const JsonValue& value, ErrorCode code, const std::string& message) const {
-    fail(code, text(path_, ":", value.line), message);
+  template <class... Parts>
+  [[noreturn]] void fail_at(const JsonValue& value, ErrorCode code, const Parts&... message) const {
+    fail(code, text(path_, ":", value.line), message...);
   }
 
   [[nodiscard]] bool is_geographic() const {
@@ -90,16 +90,15 @@ class GeoJsonReader {
   const std::vector<JsonValue>& items(const JsonValue& owner, std::string_view name) const {
     const JsonValue* member = owner.find(name);
     if (member == nullptr || member->type != Type::array) {
-      fail_at(member != nullptr ? *member : owner, ErrorCode::syntax,
-              text("expected an array ", in_quotes(name), ", found ",
-                   member != nullptr ? describe(*member) : std::string_view("none")));
+      fail_at(member != nullptr ? *member : owner, ErrorCode::syntax, "expected an array ", in_quotes(name), ", found ",
+              member != nullptr ? describe(*member) : std::string_view("none"));
     }
     return member->items;
   }
 
   void feature(const JsonValue& value, const std::string& name) {
     if (value.text("type") != "Feature") {
-      fail_at(value, ErrorCode::syntax, text(name, ": expected a Feature, found ", kind(value)));
+      fail_at(value, ErrorCode::syntax, name, ": expected a Feature, found ", kind(value));
     }
     Feature about;
     about.name = name;
@@ -109,7 +108,7 @@ class GeoJsonReader {
       about.tag = integer(*properties, "tag", name);
       if (const JsonValue* size = properties->find("size"); size != nullptr && size->type == Type::number) {
         if (!(size->number > 0))
-          fail_at(*size, ErrorCode::syntax, text(name, ": expected a size above 0, found ", size->number));
+          fail_at(*size, ErrorCode::syntax, name, ": expected a size above 0, found ", size->number);
         about.size = size->number;
       }
     }
@@ -160,7 +159,7 @@ class GeoJsonReader {
     const JsonValue* value = properties.find(key);
     if (value == nullptr || value->type != Type::number) return {};
     if (value->number != std::floor(value->number) || std::abs(value->number) > 2e9) {
-      fail_at(*value, ErrorCode::syntax, text(name, ": expected a whole number as ", key, ", found ", value->number));
+      fail_at(*value, ErrorCode::syntax, name, ": expected a whole number as ", key, ", found ", value->number);
     }
     return static_cast<std::int32_t>(value->number);
   }
@@ -179,13 +178,12 @@ class GeoJsonReader {
     const bool known = type == "Polygon" || type == "MultiPolygon" || type == "LineString" ||
                        type == "MultiLineString" || type == "Point" || type == "MultiPoint";
     if (!known) {
-      fail_at(value, ErrorCode::syntax,
-              text(about.name,
-                   ": expected a geometry (Polygon, MultiPolygon, LineString, MultiLineString, Point, "
-                   "MultiPoint, GeometryCollection), found ",
-                   kind(value)));
+      fail_at(value, ErrorCode::syntax, about.name,
+              ": expected a geometry (Polygon, MultiPolygon, LineString, MultiLineString, Point, "
+              "MultiPoint, GeometryCollection), found ",
+              kind(value));
     }
-    if (coordinates == nullptr) fail_at(value, ErrorCode::syntax, text(about.name, ": has no \"coordinates\""));
+    if (coordinates == nullptr) fail_at(value, ErrorCode::syntax, about.name, ": has no \"coordinates\"");
     if (type == "Polygon") polygons({coordinates}, about);
     if (type == "MultiPolygon") {
       std::vector<const JsonValue*> all;
@@ -204,7 +202,7 @@ class GeoJsonReader {
 
   const std::vector<JsonValue>& array(const JsonValue& value, const std::string& name) const {
     if (value.type != Type::array) {
-      fail_at(value, ErrorCode::syntax, text(name, ": expected an array, found ", describe(value)));
+      fail_at(value, ErrorCode::syntax, name, ": expected an array, found ", describe(value));
     }
     return value.items;
   }
@@ -234,18 +232,17 @@ class GeoJsonReader {
   void check_ring(const JsonValue& ring, const std::string& name, std::size_t segments) const {
     const JsonValue &first = ring.items.front(), &last = ring.items.back();
     if (first.numbers[0] != last.numbers[0] || first.numbers[1] != last.numbers[1]) {
-      fail_at(last, ErrorCode::syntax,
-              text(name, " is not closed: expected its last position to be its first, (", first.numbers[0], ", ",
-                   first.numbers[1], "), found (", last.numbers[0], ", ", last.numbers[1], ")"));
+      fail_at(last, ErrorCode::syntax, name, " is not closed: expected its last position to be its first, (",
+              first.numbers[0], ", ", first.numbers[1], "), found (", last.numbers[0], ", ", last.numbers[1], ")");
     }
-    if (segments < 3) fail_at(ring, ErrorCode::syntax, text(name, " has ", segments, " sides; expected three or more"));
+    if (segments < 3) fail_at(ring, ErrorCode::syntax, name, " has ", segments, " sides; expected three or more");
   }
 
   void line(const JsonValue& value, const Feature& about, const std::string& name) {
     Outline& o = document_.file.outline;
     const std::vector<JsonValue>& positions = array(value, name);
     if (positions.size() < 2)
-      fail_at(value, ErrorCode::syntax, text(name, ": expected two positions or more, found ", positions.size()));
+      fail_at(value, ErrorCode::syntax, name, ": expected two positions or more, found ", positions.size());
     document_.names->groups.push_back({name, o.segments.size()});
     std::int32_t from = point(positions[0], name);
     for (std::size_t i = 1; i < positions.size(); ++i) {
@@ -262,7 +259,7 @@ class GeoJsonReader {
 
   std::int32_t point(const JsonValue& position, const std::string& name) {
     if (position.type != Type::numbers || position.numbers.size() < 2) {
-      fail_at(position, ErrorCode::syntax, text(name, ": expected a position [x, y], found ", describe(position)));
+      fail_at(position, ErrorCode::syntax, name, ": expected a position [x, y], found ", describe(position));
     }
     heights_ = heights_ || position.numbers.size() > 2;
     // Negative zero is the same place as zero.

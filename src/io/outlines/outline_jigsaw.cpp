@@ -35,8 +35,9 @@ class JigsawReader {
   }
 
  private:
-  [[noreturn]] void fail_here(ErrorCode code, const std::string& message) const {
-    fail(code, text(path_, ":", line_number_), message);
+  template <class... Parts>
+  [[noreturn]] void fail_here(ErrorCode code, const Parts&... message) const {
+    fail(code, text(path_, ":", line_number_), message...);
   }
 
   /// The next line that is neither blank nor a comment, without blanks at its ends.
@@ -61,7 +62,7 @@ class JigsawReader {
   void section() {
     const std::size_t equals = line_.find('=');
     if (equals == std::string_view::npos) {
-      fail_here(ErrorCode::syntax, text("expected a section NAME=…, found ", in_quotes(line_)));
+      fail_here(ErrorCode::syntax, "expected a section NAME=…, found ", in_quotes(line_));
     }
     std::string name(line_.substr(0, equals));
     while (!name.empty() && name.back() == ' ') name.pop_back();
@@ -74,7 +75,7 @@ class JigsawReader {
     const std::size_t n = count(name, value);
     for (std::size_t i = 0; i < n; ++i) {
       if (!next_line()) {
-        fail_here(ErrorCode::truncated, text(name, " announces ", n, " lines, but the file ends after ", i));
+        fail_here(ErrorCode::truncated, name, " announces ", n, " lines, but the file ends after ", i);
       }
       if (name == "POINT") point();
       if (name == "EDGE2") edge();
@@ -89,14 +90,13 @@ class JigsawReader {
       return type.find(upper) != std::string_view::npos || type.find(lower) != std::string_view::npos;
     };
     if (has("GRID", "grid")) {
-      fail_here(ErrorCode::unsupported,
-                text("is a grid (", in_quotes(type), "); expected EUCLIDEAN-MESH or ELLIPSOID-MESH"));
+      fail_here(ErrorCode::unsupported, "is a grid (", in_quotes(type), "); expected EUCLIDEAN-MESH or ELLIPSOID-MESH");
     }
     document_.file.geographic = has("ELLIPSOID", "ellipsoid");
   }
 
   void dimensions(std::string_view value) const {
-    if (value != "2") fail_here(ErrorCode::unsupported, text("has NDIMS=", value, "; expected 2"));
+    if (value != "2") fail_here(ErrorCode::unsupported, "has NDIMS=", value, "; expected 2");
   }
 
   std::size_t count(const std::string& name, std::string_view value) const {
@@ -104,10 +104,10 @@ class JigsawReader {
     std::size_t n = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
     if (error != std::errc() || end != digits.data() + digits.size()) {
-      fail_here(ErrorCode::syntax, text("expected the number of lines of ", name, ", found ", in_quotes(value)));
+      fail_here(ErrorCode::syntax, "expected the number of lines of ", name, ", found ", in_quotes(value));
     }
     if (n > rest_.size()) {
-      fail_here(ErrorCode::truncated, text(name, " announces ", n, " lines, but only ", rest_.size(), " bytes follow"));
+      fail_here(ErrorCode::truncated, name, " announces ", n, " lines, but only ", rest_.size(), " bytes follow");
     }
     return n;
   }
@@ -124,9 +124,9 @@ class JigsawReader {
       try {
         result[i] = scanner.number<T>(expected);
       } catch (const Failure&) {
-        fail_here(ErrorCode::syntax, text("expected ", expected, ", found ", in_quotes(line_)));
+        fail_here(ErrorCode::syntax, "expected ", expected, ", found ", in_quotes(line_));
       }
-      if (!scanner.at_end()) fail_here(ErrorCode::syntax, text("expected ", expected, ", found ", in_quotes(line_)));
+      if (!scanner.at_end()) fail_here(ErrorCode::syntax, "expected ", expected, ", found ", in_quotes(line_));
       rest.remove_prefix(std::min(field.size() + 1, rest.size()));
     }
     return result;
@@ -149,7 +149,7 @@ class JigsawReader {
     constexpr std::int32_t kEdge2 = 20;  // JIGSAW_EDGE2_TAG
     const auto [part, edge, type] = numbers<std::int32_t, 3>("a line part;edge;type of BOUND");
     if (type != kEdge2) {
-      fail_here(ErrorCode::unsupported, text("bounds a part by elements of type ", type, "; expected 20, edges"));
+      fail_here(ErrorCode::unsupported, "bounds a part by elements of type ", type, "; expected 20, edges");
     }
     const auto [known, is_new] = part_of_tag_.emplace(part, document_.file.outline.parts.size());
     if (is_new) {
@@ -166,16 +166,15 @@ class JigsawReader {
     for (std::size_t i = 0; i < o.segments.size(); ++i) {
       for (const std::int32_t end : o.segments[i].ends) {
         if (end >= 0 && static_cast<std::size_t>(end) < o.points.size()) continue;
-        fail(ErrorCode::index_out_of_range, document_.names->segment_where(i),
-             text(document_.names->segment(i), " uses point ", end, ", but there are points 0 to ",
-                  o.points.size() - 1));
+        fail(ErrorCode::index_out_of_range, document_.names->segment_where(i), document_.names->segment(i),
+             " uses point ", end, ", but there are points 0 to ", o.points.size() - 1);
       }
     }
     for (const OutlinePart& part : o.parts) {
       for (const std::int32_t edge : part.segments) {
         if (edge >= 0 && static_cast<std::size_t>(edge) < o.segments.size()) continue;
-        fail(ErrorCode::index_out_of_range, text(path_, ":", last_bound_line_),
-             text("part ", part.region, " uses edge ", edge, ", but there are edges 0 to ", o.segments.size() - 1));
+        fail(ErrorCode::index_out_of_range, text(path_, ":", last_bound_line_), "part ", part.region, " uses edge ",
+             edge, ", but there are edges 0 to ", o.segments.size() - 1);
       }
     }
   }

@@ -38,8 +38,7 @@ class PolyReader {
     OutlineFileNames& names = *document_.names;
     const std::size_t n = s.count("points", 6);
     const std::int32_t dimension = s.more_on_line() ? s.integer("the dimension") : 2;
-    if (dimension != 2)
-      s.fail_here(ErrorCode::unsupported, text("has points of dimension ", dimension, "; expected 2"));
+    if (dimension != 2) s.fail_here(ErrorCode::unsupported, "has points of dimension ", dimension, "; expected 2");
     const std::size_t attributes = s.more_on_line() ? s.count("attributes", 1) : 0;
     const bool markers = s.more_on_line() && s.count("markers", 1) != 0;
     s.check_room(n, "points", 6 + 2 * attributes);
@@ -47,8 +46,8 @@ class PolyReader {
       const std::int32_t number = s.integer("the number of a point");
       if (i == 0) first_ = number;
       if (number != first_ + static_cast<std::int64_t>(i)) {
-        s.fail_here(ErrorCode::syntax,
-                    text("expected point ", first_ + static_cast<std::int64_t>(i), ", found point ", number));
+        s.fail_here(ErrorCode::syntax, "expected point ", first_ + static_cast<std::int64_t>(i), ", found point ",
+                    number);
       }
       names.points.push_back(number);
       names.point_lines.push_back(static_cast<std::int64_t>(s.line()));
@@ -63,8 +62,8 @@ class PolyReader {
   void other_points() {
     const std::string path = without_suffix(source_.path, ".poly") + ".node";
     if (!exists(path)) {
-      fail(ErrorCode::not_found, source_.path,
-           text("has no points of its own; they are expected in ", path, ", which does not exist"));
+      fail(ErrorCode::not_found, source_.path, "has no points of its own; they are expected in ", path,
+           ", which does not exist");
     }
     node_ = load(path);
     Scanner scanner(path, node_.bytes, '#');
@@ -88,10 +87,9 @@ class PolyReader {
   void check_end(std::int32_t end) const {
     const auto n = static_cast<std::int32_t>(document_.file.outline.points.size());
     if (end >= 0 && end < n) return;
-    scanner_.fail_here(
-        ErrorCode::index_out_of_range,
-        text(document_.names->segment(document_.file.outline.segments.size()), " uses point ",
-             std::int64_t{end} + first_, ", but there are points ", first_, " to ", std::int64_t{first_} + n - 1));
+    scanner_.fail_here(ErrorCode::index_out_of_range, document_.names->segment(document_.file.outline.segments.size()),
+                       " uses point ", std::int64_t{end} + first_, ", but there are points ", first_, " to ",
+                       std::int64_t{first_} + n - 1);
   }
 
   void holes() {
@@ -128,8 +126,7 @@ class PolyReader {
   std::int32_t attribute() {
     const double value = scanner_.real("the attribute of a region");
     if (value != std::floor(value) || std::abs(value) > 2e9) {
-      scanner_.fail_here(ErrorCode::syntax,
-                         text("expected a whole number as the attribute of a region, found ", value));
+      scanner_.fail_here(ErrorCode::syntax, "expected a whole number as the attribute of a region, found ", value);
     }
     return static_cast<std::int32_t>(value);
   }

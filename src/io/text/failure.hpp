@@ -2,7 +2,9 @@
 // library, turn it into a value.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <new>
 #include <string>
 #include <string_view>
@@ -16,10 +18,6 @@ namespace temper::io {
 struct Failure {
   InputError error;
 };
-
-[[noreturn]] inline void fail(ErrorCode code, std::string where, std::string message) {
-  throw Failure{InputError{code, std::move(where), std::move(message)}};
-}
 
 /// The shortest text that reads back to the same number.
 template <class T>
@@ -38,6 +36,12 @@ template <class... Parts>
   return joined;
 }
 
+/// The message in its parts, as text() takes them.
+template <class... Parts>
+[[noreturn]] void fail(ErrorCode code, std::string where, const Parts&... message) {
+  throw Failure{InputError{code, std::move(where), text(message...)}};
+}
+
 /// Runs work; whatever stops it comes back as a value.
 template <class Result, class Work>
 Expected<Result> guarded(const std::string& path, Work work) {
@@ -54,5 +58,34 @@ Expected<Result> guarded(const std::string& path, Work work) {
     return InputError{ErrorCode::unsupported, path, "needs more memory than there is"};
   }
 }
+
+// What a file may become in memory. Text and plain bytes are bound by the size of the file; packed, repeated and left
+// out numbers are not, and a few bytes could ask for all the memory there is.
+
+class Allowance {
+ public:
+  Allowance() : Allowance(0) {}
+  explicit Allowance(std::uint64_t file_bytes) : all_(kNumbersAByte * std::max(file_bytes, kLeastBytes)), left_(all_) {}
+
+  /// Refuses rows × columns numbers when they are more than are left. `where`: the file, or the array in it.
+  void check(std::uint64_t rows, std::uint64_t columns, const std::string& where) const {
+    if (columns == 0 || rows <= left_ / columns) return;
+    fail(ErrorCode::unsupported, where, "becomes more than ", all_, " numbers with these ", rows,
+         columns == 1 ? std::string() : text(" times ", columns),
+         ", all that temper unpacks from a file of this size; write it without compression, or with fewer arrays");
+  }
+  /// Takes them from what is left.
+  void take(std::uint64_t rows, std::uint64_t columns, const std::string& where) {
+    check(rows, columns, where);
+    left_ -= rows * columns;
+  }
+
+ private:
+  // What meshes need is below: a point compressed to two bytes has 3 coordinates and 12 numbers of triangles, and
+  // twenty arrays of data are more than files have.
+  static constexpr std::uint64_t kNumbersAByte = 16;
+  static constexpr std::uint64_t kLeastBytes = 1 << 20;  // small files of constant data may be packed better
+  std::uint64_t all_, left_;
+};
 
 }  // namespace temper::io

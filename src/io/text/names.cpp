@@ -1,4 +1,3 @@
-// See array_names.hpp.
 #include "io/text/names.hpp"
 
 #include <algorithm>
@@ -6,7 +5,6 @@
 #include "io/text/failure.hpp"
 
 namespace temper::io {
-
 namespace {
 
 /// use(name) for the name of each array and each group.
@@ -80,8 +78,8 @@ void check_names(const std::string& path, const MeshFile& file) {
   for_each_name(file, [&](const std::string& name) {
     const std::string plain = plain_name(name);
     if (plain == name) return;
-    fail(ErrorCode::unsupported, path,
-         text("the mesh to be written has the name '", plain, "'; expected one in UTF-8 without control characters"));
+    fail(ErrorCode::unsupported, path, "the mesh to be written has the name '", plain,
+         "'; expected one in UTF-8 without control characters");
   });
 }
 

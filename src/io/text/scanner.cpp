@@ -1,4 +1,3 @@
-// See scanner.hpp.
 #include "io/text/scanner.hpp"
 
 #include <algorithm>
@@ -6,7 +5,6 @@
 #include <limits>
 
 namespace temper::io {
-
 namespace {
 
 bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
@@ -34,7 +32,7 @@ std::string in_quotes(std::string_view word) {
 }
 
 void Scanner::fail_truncated(std::string_view expected) const {
-  fail_here(ErrorCode::truncated, text("the file ends where ", expected, " was expected"));
+  fail_here(ErrorCode::truncated, "the file ends where ", expected, " was expected");
 }
 
 void Scanner::skip_space() {
@@ -91,7 +89,7 @@ void Scanner::next_line() {
 
 std::size_t Scanner::count(std::string_view things, std::size_t bytes_each) {
   const auto n = number<std::int64_t>(text("the number of ", things));
-  if (n < 0) fail_here(ErrorCode::syntax, text("expected the number of ", things, ", found ", n));
+  if (n < 0) fail_here(ErrorCode::syntax, "expected the number of ", things, ", found ", n);
   check_room(static_cast<std::uint64_t>(n), things, bytes_each);
   return static_cast<std::size_t>(n);
 }
@@ -99,19 +97,19 @@ std::size_t Scanner::count(std::string_view things, std::size_t bytes_each) {
 void Scanner::check_room(std::uint64_t n, std::string_view things, std::size_t bytes_each) const {
   // The last item needs no blank behind it.
   if (n <= (remaining() + 1) / bytes_each) return;
-  fail_here(ErrorCode::truncated, text("announces ", n, " ", things, ", but only ", remaining(), " bytes follow"));
+  fail_here(ErrorCode::truncated, "announces ", n, " ", things, ", but only ", remaining(), " bytes follow");
 }
 
 std::int32_t Scanner::vertex(std::int32_t first) {
   const auto n = number<std::int64_t>("a vertex number");
   if (n < std::numeric_limits<std::int32_t>::min() + 1 || n > std::numeric_limits<std::int32_t>::max()) {
-    fail_here(ErrorCode::index_out_of_range, text("vertex number ", n, " is beyond 32 bits"));
+    fail_here(ErrorCode::index_out_of_range, "vertex number ", n, " is beyond 32 bits");
   }
   return static_cast<std::int32_t>(n - first);
 }
 
 std::string_view Scanner::bytes(std::size_t n, std::string_view expected) {
-  if (n > remaining()) fail(ErrorCode::truncated, path_, text("the file ends within ", expected));
+  if (n > remaining()) fail(ErrorCode::truncated, path_, "the file ends within ", expected);
   const char* start = at_;
   at_ += n;
   return {start, n};
@@ -152,10 +150,10 @@ T Scanner::unusual_number(std::string_view w, std::string_view expected) const {
       const T magnitude = tiny ? T(0) : std::numeric_limits<T>::infinity();
       return plain.starts_with('-') ? -magnitude : magnitude;
     } else {
-      fail_here(ErrorCode::syntax, text("expected ", expected, ", found ", in_quotes(w), ", which is out of range"));
+      fail_here(ErrorCode::syntax, "expected ", expected, ", found ", in_quotes(w), ", which is out of range");
     }
   }
-  fail_here(ErrorCode::syntax, text("expected ", expected, ", found ", in_quotes(w)));
+  fail_here(ErrorCode::syntax, "expected ", expected, ", found ", in_quotes(w));
 }
 
 template double Scanner::unusual_number(std::string_view, std::string_view) const;

@@ -23,7 +23,10 @@ class Scanner {
   [[nodiscard]] std::string where() const { return text(path_, ":", line_); }
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }
-  [[noreturn]] void fail_here(ErrorCode code, std::string message) const { fail(code, where(), std::move(message)); }
+  template <class... Parts>
+  [[noreturn]] void fail_here(ErrorCode code, const Parts&... message) const {
+    fail(code, where(), message...);
+  }
   [[noreturn]] void fail_truncated(std::string_view expected) const;
 
   /// Skips blanks and comments; line() is then that of the next word.

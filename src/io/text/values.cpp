@@ -1,4 +1,3 @@
-// See values.hpp.
 #include "io/text/values.hpp"
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 #include "io/text/failure.hpp"
 
 namespace temper::io {
-
 namespace {
 
 constexpr std::array<ScalarInfo, 10> kScalars = {{{Scalar::f64, "Float64", "float64", 8},

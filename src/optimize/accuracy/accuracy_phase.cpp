@@ -29,43 +29,47 @@ Settings of_accuracy(Settings s) {
 
 }  // namespace
 
-AccuracyPhase::AccuracyPhase(const WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)
+SizedPhase::SizedPhase(WorkingCopy& work, Settings settings, Run& run, VertexSizes sizes)
     : mesh_(work.mesh),
       domain_{std::move(sizes), {}},
-      settings_(of_accuracy(settings)),
+      settings_(std::move(settings)),
       state_(settings_),
       run_(run),
-      bad_(count_bad(mesh_, settings.hooks.executor)) {
-  state_.flip_limit = FlipLimit::unlimited;
+      bad_(count_bad(mesh_, settings_.executor())) {
   state_.accuracy_domain = &domain_;
+}
+
+AccuracyTotal SizedPhase::sum() const {
+  return accuracy_total(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, engine_of(settings_.hooks));
+}
+
+AccuracyPhase::AccuracyPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)
+    : SizedPhase(work, of_accuracy(settings), run, std::move(sizes)) {
+  state_.flip_limit = FlipLimit::unlimited;
   energy_unit_ = state_.energy_unit(work.frame);
 }
 
 void AccuracyPhase::begin() {
-  raise_floors(domain_, mesh_, settings_.accuracy, settings_.hooks.executor);
+  raise_floors();
   now_ = sum();
 }
 
 bool AccuracyPhase::may_sweep() const {
   const int most = settings_.options.accuracy.sweeps * (settings_.accuracy.keeps_lengths() ? kSweepsForLengths : 1);
-  const bool sweeps_left = iteration_ < most;
+  const bool sweeps_left = iteration < most;
   if (!sweeps_left) run_.report.stopped = Stopped::accuracy_sweeps;
   return sweeps_left && run_.sweeps_left();
 }
 
 SweepRecord AccuracyPhase::measure() {
   before_ = std::exchange(now_, sum());
-  SweepRecord r;
-  r.energy = total();
-  r.bad = bad_;
-  r.objective = Objective::accuracy;
-  return r;
+  return {.energy = total(), .bad = bad_, .objective = Objective::accuracy};
 }
 
 Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool changed) {
   TEMPER_ASSERT(!changed && run_.report.history.back().flips == 0);  // the connectivity is what it was
   TEMPER_ASSERT_SLOW(count_bad(mesh_, nullptr) == bad_);
-  const bool raised = raise_floors(domain_, mesh_, settings_.accuracy, settings_.hooks.executor);
+  const bool raised = raise_floors();
   if (raised || settings_.accuracy.keeps_lengths()) {
     // The edges' part is what it was.
     now_.barrier =
@@ -76,10 +80,6 @@ Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool changed) {
   if (std::abs(change) > settings_.options.accuracy.tolerance * std::abs(now_.energy)) return Verdict::improving;
   run_.report.stopped = Stopped::converged;
   return Verdict::settled;
-}
-
-AccuracyTotal AccuracyPhase::sum() const {
-  return accuracy_total(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, engine_of(settings_.hooks));
 }
 
 }  // namespace temper

@@ -9,13 +9,12 @@
 
 namespace temper {
 
-class AccuracyPhase final : public Phase {
+/// A phase for accuracy, with settings of its own, on a mesh with a size at each vertex and a floor of each triangle.
+class SizedPhase : public Phase {
  public:
-  /// `settings`: those of the first phase, of which this one keeps its own.
-  AccuracyPhase(const WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes);
-  AccuracyPhase(const AccuracyPhase&) = delete;
-  AccuracyPhase& operator=(const AccuracyPhase&) = delete;
-  ~AccuracyPhase() override = default;
+  SizedPhase(const SizedPhase&) = delete;
+  SizedPhase& operator=(const SizedPhase&) = delete;
+  ~SizedPhase() override = default;
 
   /// For the driver's steps.
   [[nodiscard]] const Settings& settings() const { return settings_; }
@@ -23,27 +22,37 @@ class AccuracyPhase final : public Phase {
   /// What it was given, once it has ended.
   [[nodiscard]] VertexSizes take_sizes() { return std::move(domain_.sizes); }
 
+ protected:
+  SizedPhase(WorkingCopy& work, Settings settings, Run& run, VertexSizes sizes);
+
+  /// True when that changes the barrier.
+  bool raise_floors() { return temper::raise_floors(domain_, mesh_, settings_.accuracy, settings_.executor()); }
+  [[nodiscard]] AccuracyTotal sum() const;
+
+  Mesh& mesh_;
+  AccuracyDomain domain_;
+  const Settings settings_;
+  SweepState state_;
+  Run& run_;
+  std::size_t bad_;  // all through the phase
+};
+
+class AccuracyPhase final : public SizedPhase {
+ public:
+  /// `settings`: those of the first phase, of which this one keeps its own.
+  AccuracyPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes);
+
   void begin() override;
   [[nodiscard]] bool may_sweep() const override;
   [[nodiscard]] double total() const override { return energy_unit_ * now_.energy; }
   SweepRecord measure() override;
   Verdict judge(bool changed) override;
-  void compare_from_here() override {}
   [[nodiscard]] Keeps keeps() const override {
     return settings_.accuracy.keeps_lengths() ? Keeps::last : Keeps::best_points;
   }
-  int& iteration() override { return iteration_; }
- private:
-  [[nodiscard]] AccuracyTotal sum() const;
 
-  const Mesh& mesh_;
-  AccuracyDomain domain_;
-  const Settings settings_;
-  SweepState state_;
-  Run& run_;
+ private:
   double energy_unit_ = 1;
-  int iteration_ = 0;
-  std::size_t bad_;             // all through the phase
   AccuracyTotal before_, now_;  // the last sweep
 };
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "base/instruction_set_choice.hpp"
+#include "optimize/batch/star_batch.hpp"
+
 namespace temper {
 namespace {
 
@@ -26,6 +29,10 @@ void prefetch_star(const Mesh& mesh, VertexId v) {
 }
 
 }  // namespace
+
+const BatchSteps& batch_steps(const Space& space) {
+  return space.is_plane() ? *TEMPER_IN_USE(kPlaneSteps) : *TEMPER_IN_USE(kSphereSteps);
+}
 
 void BatchStep::improve(std::span<const VertexId> vertices, const Part& part, std::vector<VertexId>& left) {
   unknowns_ = alone_.unknowns(), part_ = part, left_ = &left;

@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "optimize/working/frame.hpp"
 #include "optimize/batch/star_batch.hpp"
 #include "optimize/step/vertex_step.hpp"
+#include "optimize/working/frame.hpp"
 
 namespace temper {
 

@@ -4,9 +4,8 @@
 #include "energy/accuracy_star.hpp"
 #include "energy/star_sums.hpp"
 #include "geometry/predicates_inline.hpp"
-#include "optimize/step/newton_system.hpp"
-#include "optimize/step/search.hpp"
 #include "optimize/batch/star_batch.hpp"
+#include "optimize/step/search.hpp"
 
 namespace temper::TEMPER_INSTRUCTION_SET {
 namespace {

@@ -115,8 +115,7 @@ Flipper::Settled Flipper::settle(const Step& step) {
 
 /// Says whether the policy lets the vertices at stuck edges be hidden.
 bool Flipper::accept_hidden() {
-  if (!settings_.policy.removes_hidden)
-    return settings_.policy.keeps_hidden;
+  if (!settings_.policy.removes_hidden) return settings_.policy.keeps_hidden;
   for (const VertexId v : hidden_at_stuck_edges()) {
     plan_ = plan_removal(mesh_, v, std::move(plan_));
     if (plan_.status != RemovalStatus::possible) return false;
@@ -157,7 +156,7 @@ void Flipper::treat_hidden() {
 void Flipper::push_irregular() {
   const std::size_t n = mesh_.n_halfedges(), blocks = (n + kBlockSize - 1) / kBlockSize;
   std::vector<std::vector<HalfedgeId>> found(blocks);
-  or_serial(settings_.hooks.executor).run(blocks, [&](std::size_t b) {
+  or_serial(settings_.executor()).run(blocks, [&](std::size_t b) {
     for (std::size_t i = b * kBlockSize; i < std::min(n, (b + 1) * kBlockSize); ++i) {
       const HalfedgeId h(i);
       if (mesh_.is_boundary(h) || !mesh_.is_edge_representative(h) || mesh_.is_constrained(h)) continue;

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "optimize/options/settings.hpp"
 #include "optimize/flips/partition.hpp"
+#include "optimize/options/settings.hpp"
 #include "optimize/trace/recorder.hpp"
 #include "regularity/lawson.hpp"
 

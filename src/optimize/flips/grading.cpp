@@ -31,38 +31,6 @@ double length_ratio(const Mesh& mesh) {
   return plan_boundary_grading(mesh, kNoCuts).ratio_before;
 }
 
-class BoundaryCutter {
- public:
-  BoundaryCutter(WorkingCopy& work, Flipper& flipper)
-      : work_(work), mesh_(work.mesh), flipper_(flipper), ratio_before_(length_ratio(work.mesh)) {}
-
-  void cut(const EdgeCuts& edge);
-  /// Splits edges that leave their dual no room, or little (necessity.hpp), worst first, until none does.
-  /// `near`: of the edges with an end that is marked; null: of all.
-  void resolve_conflicts(const VertexMarks* near = nullptr);
-  /// Splits the edge in its middle.
-  void halve(VertexId a, VertexId b) { split(a, b, work_.frame.snap(0.5 * (mesh_.position(a) + mesh_.position(b)))); }
-  [[nodiscard]] bool has_edge(VertexId a, VertexId b) const { return find_edge(a, b).valid(); }
-  /// A vertex at the orthocenter of a triangle that has none free.
-  void free(const std::array<VertexId, 3>& corners);
-  /// What was done.
-  [[nodiscard]] BoundaryCuts cuts() const {
-    return {vertices_, conflicts_, inside_, refused_.size(), ratio_before_, length_ratio(mesh_)};
-  }
-
- private:
-  [[nodiscard]] HalfedgeId find_edge(VertexId a, VertexId b) const;
-  VertexId split(VertexId a, VertexId b, Vec2 at);
-
-  WorkingCopy& work_;
-  Mesh& mesh_;
-  Flipper& flipper_;
-  const double ratio_before_;
-  InsertionPlan plan_;
-  std::size_t vertices_ = 0, conflicts_ = 0, inside_ = 0;
-  std::set<std::pair<VertexId, VertexId>> refused_;  // edges as they are, that had to be split and could not
-};
-
 /// An edge of the boundary or of a line, by its ends, which flips elsewhere do not change.
 struct Line {
   VertexId u, v;
@@ -79,20 +47,6 @@ constexpr double kSharpCosine = 0.5;  // of 60 degrees
 // After so many splits, one in another: corners where fewer do are left with wider margins by the best places.
 constexpr int kSplitsToShells = 2;
 
-/// The vertices where two lines meet at a sharp angle.
-class SharpCorners {
- public:
-  SharpCorners(const Mesh& mesh, const std::vector<Line>& lines);
-
-  /// Where to split the line instead of at split_at: a power of two, in the frame's unit, from a sharp end.
-  [[nodiscard]] double split_at(const Mesh& mesh, const Line& line) const;
-
- private:
-  [[nodiscard]] bool is_sharp(VertexId v) const { return v.index < is_sharp_.size() && is_sharp_[v]; }
-
-  IdVector<VertexId, std::uint8_t> is_sharp_;  // of the vertices there were
-};
-
 /// The line along h, which is that piece.
 Line line_of(const Mesh& mesh, HalfedgeId h, std::size_t whole, int splits = 0) {
   if (const auto c = edge_conflict(mesh, h, kLittleRoom)) {
@@ -101,34 +55,45 @@ Line line_of(const Mesh& mesh, HalfedgeId h, std::size_t whole, int splits = 0) 
   return {mesh.origin(h), mesh.target(h), whole, splits};
 }
 
-SharpCorners::SharpCorners(const Mesh& mesh, const std::vector<Line>& lines) : is_sharp_(mesh.n_vertices(), 0) {
-  std::vector<std::pair<VertexId, VertexId>> ends;  // and the other one
-  for (const Line& line : lines) {
-    ends.emplace_back(line.u, line.v);
-    ends.emplace_back(line.v, line.u);
-  }
-  std::sort(ends.begin(), ends.end());
-  const auto to = [&](std::size_t i) { return mesh.position(ends[i].second) - mesh.position(ends[i].first); };
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    for (std::size_t j = i + 1; j < ends.size() && ends[j].first == ends[i].first; ++j) {
-      const Vec2 p = to(i), q = to(j);
-      if (dot(p, q) > kSharpCosine * length(p) * length(q)) is_sharp_[ends[i].first] = 1;
+/// The vertices where two lines meet at a sharp angle.
+class SharpCorners {
+ public:
+  SharpCorners(const Mesh& mesh, const std::vector<Line>& lines) : is_sharp_(mesh.n_vertices(), 0) {
+    std::vector<std::pair<VertexId, VertexId>> ends;  // and the other one
+    for (const Line& line : lines) {
+      ends.emplace_back(line.u, line.v);
+      ends.emplace_back(line.v, line.u);
+    }
+    std::sort(ends.begin(), ends.end());
+    const auto to = [&](std::size_t i) { return mesh.position(ends[i].second) - mesh.position(ends[i].first); };
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      for (std::size_t j = i + 1; j < ends.size() && ends[j].first == ends[i].first; ++j) {
+        const Vec2 p = to(i), q = to(j);
+        if (dot(p, q) > kSharpCosine * length(p) * length(q)) is_sharp_[ends[i].first] = 1;
+      }
     }
   }
-}
 
-double SharpCorners::split_at(const Mesh& mesh, const Line& line) const {
-  if (line.splits < kSplitsToShells) return line.split_at;
-  const bool from_u = is_sharp(line.u), from_v = is_sharp(line.v);
-  if (from_u == from_v) return from_u ? 0.5 : line.split_at;
-  const double l = length(mesh.position(line.v) - mesh.position(line.u));
-  int exponent = 0;
-  const double mantissa = std::frexp((from_u ? line.split_at : 1 - line.split_at) * l, &exponent);
-  double distance = std::ldexp(1.0, mantissa * mantissa < 0.5 ? exponent - 1 : exponent);
-  if (distance > (1 - EdgeConflict::kLeastPiece) * l) distance *= 0.5;
-  if (distance < EdgeConflict::kLeastPiece * l) distance *= 2;
-  return from_u ? distance / l : 1 - distance / l;
-}
+  /// Where to split the line instead of at split_at: a power of two, in the frame's unit, from a sharp end.
+
+  [[nodiscard]] double split_at(const Mesh& mesh, const Line& line) const {
+    if (line.splits < kSplitsToShells) return line.split_at;
+    const bool from_u = is_sharp(line.u), from_v = is_sharp(line.v);
+    if (from_u == from_v) return from_u ? 0.5 : line.split_at;
+    const double l = length(mesh.position(line.v) - mesh.position(line.u));
+    int exponent = 0;
+    const double mantissa = std::frexp((from_u ? line.split_at : 1 - line.split_at) * l, &exponent);
+    double distance = std::ldexp(1.0, mantissa * mantissa < 0.5 ? exponent - 1 : exponent);
+    if (distance > (1 - EdgeConflict::kLeastPiece) * l) distance *= 0.5;
+    if (distance < EdgeConflict::kLeastPiece * l) distance *= 2;
+    return from_u ? distance / l : 1 - distance / l;
+  }
+
+ private:
+  [[nodiscard]] bool is_sharp(VertexId v) const { return v.index < is_sharp_.size() && is_sharp_[v]; }
+
+  IdVector<VertexId, std::uint8_t> is_sharp_;  // of the vertices there were
+};
 
 /// Says whether a new vertex at p can matter to the edge: the discs from its ends have diameters of kLittleRoom edges.
 bool is_near(const Mesh& mesh, const Line& line, Vec2 p) {
@@ -140,21 +105,62 @@ bool is_near(const Mesh& mesh, const Line& line, Vec2 p) {
 class Lines {
  public:
   /// `near`: those with an end that is marked; null: all.
-  Lines(const Mesh& mesh, const VertexMarks* near);
+  Lines(const Mesh& mesh, const VertexMarks* near) {
+    for (const HalfedgeId h : mesh.halfedges()) {
+      if (mesh.is_erased(Mesh::triangle(h)) || !mesh.is_edge_representative(h)) continue;
+      if (near != nullptr && (*near)[mesh.origin(h)] == 0 && (*near)[mesh.target(h)] == 0) continue;
+      if (mesh.keeps_its_place(h)) lines_.push_back(line_of(mesh, h, lines_.size()));
+    }
+    std::vector<BoundingBox> boxes;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const Line& line = lines_[i];
+      if (std::isfinite(line.sum)) by_sum_.insert({line.sum, i});
+      pieces_.push_back({i});
+      // What is within r l of the middle of a piece of length l ≤ L is within L/2 + (r − 1/2) l ≤ r L of the whole's,
+      // but for the rounding of places.
+      const Vec2 u = mesh.position(line.u), v = mesh.position(line.v), middle = 0.5 * (u + v);
+      const Vec3 center = {middle.x, middle.y, 0};
+      boxes.push_back(box_of(center, center).grown(1.1 * kLittleRoom * length(v - u)));
+    }
+    near_ = BoundingBoxTree(boxes);
+  }
 
   [[nodiscard]] const std::vector<Line>& all() const { return lines_; }
   /// That of the least sum, of several the first; none: no line has a conflict.
   [[nodiscard]] const Line* worst() const { return by_sum_.empty() ? nullptr : &lines_[by_sum_.begin()->second]; }
   /// No split does away with the worst one's conflict.
   void give_up_worst() { by_sum_.erase(by_sum_.begin()); }
+
   /// The worst one is split there. Conflicts are those before: renew_near() follows.
-  void split_worst(VertexId fresh);
+  void split_worst(VertexId fresh) {
+    const std::size_t i = by_sum_.begin()->second;
+    Line first = lines_[i], second = first;
+    first.v = second.u = fresh;
+    first.splits = ++second.splits;
+    first.sum = second.sum = kNoConflict;
+    change(i, first);
+    pieces_[first.whole].push_back(lines_.size());
+    lines_.push_back(second);
+  }
+
   /// The lines near p become what renewed(line) says.
   template <class Renewed>
-  void renew_near(const Mesh& mesh, Vec2 p, const Renewed& renewed);
+  void renew_near(const Mesh& mesh, Vec2 p, const Renewed& renewed) {
+    const Vec3 place = {p.x, p.y, 0};
+    near_.visit(box_of(place, place), [&](std::size_t whole) {
+      for (const std::size_t i : pieces_[whole]) {
+        if (is_near(mesh, lines_[i], p)) change(i, renewed(lines_[i]));
+      }
+      return true;
+    });
+  }
 
  private:
-  void change(std::size_t i, const Line& line);
+  void change(std::size_t i, const Line& line) {
+    by_sum_.erase({lines_[i].sum, i});
+    lines_[i] = line;
+    if (std::isfinite(line.sum)) by_sum_.insert({line.sum, i});
+  }
 
   std::vector<Line> lines_;
   std::set<std::pair<double, std::size_t>> by_sum_;  // and number, of those with a conflict
@@ -162,117 +168,97 @@ class Lines {
   BoundingBoxTree near_;                             // of these; a place near a piece is near them
 };
 
-Lines::Lines(const Mesh& mesh, const VertexMarks* near) {
-  for (const HalfedgeId h : mesh.halfedges()) {
-    if (mesh.is_erased(Mesh::triangle(h)) || !mesh.is_edge_representative(h)) continue;
-    if (near != nullptr && (*near)[mesh.origin(h)] == 0 && (*near)[mesh.target(h)] == 0) continue;
-    if (mesh.keeps_its_place(h)) lines_.push_back(line_of(mesh, h, lines_.size()));
-  }
-  std::vector<BoundingBox> boxes;
-  for (std::size_t i = 0; i < lines_.size(); ++i) {
-    const Line& line = lines_[i];
-    if (std::isfinite(line.sum)) by_sum_.insert({line.sum, i});
-    pieces_.push_back({i});
-    // What is within r l of the middle of a piece of length l ≤ L is within L/2 + (r − 1/2) l ≤ r L of the whole's,
-    // but for the rounding of places.
-    const Vec2 u = mesh.position(line.u), v = mesh.position(line.v), middle = 0.5 * (u + v);
-    const Vec3 center = {middle.x, middle.y, 0};
-    boxes.push_back(box_of(center, center).grown(1.1 * kLittleRoom * length(v - u)));
-  }
-  near_ = BoundingBoxTree(boxes);
-}
+class BoundaryCutter {
+ public:
+  BoundaryCutter(WorkingCopy& work, Flipper& flipper)
+      : work_(work), mesh_(work.mesh), flipper_(flipper), ratio_before_(length_ratio(work.mesh)) {}
 
-void Lines::change(std::size_t i, const Line& line) {
-  by_sum_.erase({lines_[i].sum, i});
-  lines_[i] = line;
-  if (std::isfinite(line.sum)) by_sum_.insert({line.sum, i});
-}
-
-void Lines::split_worst(VertexId fresh) {
-  const std::size_t i = by_sum_.begin()->second;
-  Line first = lines_[i], second = first;
-  first.v = second.u = fresh;
-  first.splits = ++second.splits;
-  first.sum = second.sum = kNoConflict;
-  change(i, first);
-  pieces_[first.whole].push_back(lines_.size());
-  lines_.push_back(second);
-}
-
-template <class Renewed>
-void Lines::renew_near(const Mesh& mesh, Vec2 p, const Renewed& renewed) {
-  const Vec3 place = {p.x, p.y, 0};
-  near_.visit(box_of(place, place), [&](std::size_t whole) {
-    for (const std::size_t i : pieces_[whole]) {
-      if (is_near(mesh, lines_[i], p)) change(i, renewed(lines_[i]));
+  /// Cuts the edge from a towards b, each time what is left of it.
+  void cut(const EdgeCuts& edge) {
+    const Vec2 a = mesh_.position(edge.a), along = mesh_.position(edge.b) - a;
+    VertexId last = edge.a;
+    for (const double t : edge.at) {
+      const VertexId v = split(last, edge.b, work_.frame.snap(a + t * along));
+      if (v.valid()) last = v;
     }
-    return true;
-  });
-}
-
-HalfedgeId BoundaryCutter::find_edge(VertexId a, VertexId b) const {
-  const HalfedgeId h = mesh_.find_halfedge(a, b);
-  return h.valid() ? h : mesh_.find_halfedge(b, a);
-}
-
-/// Cuts the edge from a towards b, each time what is left of it.
-void BoundaryCutter::cut(const EdgeCuts& edge) {
-  const Vec2 a = mesh_.position(edge.a), along = mesh_.position(edge.b) - a;
-  VertexId last = edge.a;
-  for (const double t : edge.at) {
-    const VertexId v = split(last, edge.b, work_.frame.snap(a + t * along));
-    if (v.valid()) last = v;
   }
-}
 
-void BoundaryCutter::resolve_conflicts(const VertexMarks* near) {
-  Lines lines(mesh_, near);
-  const SharpCorners corners(mesh_, lines.all());
-  for (std::size_t left = kMostSplits * lines.all().size(); left > 0; --left) {
-    const Line* const worst = lines.worst();
-    if (worst == nullptr) return;
-    const Vec2 from = mesh_.position(worst->u), to = mesh_.position(worst->v);
-    const VertexId fresh =
-        split(worst->u, worst->v, work_.frame.snap(from + corners.split_at(mesh_, *worst) * (to - from)));
-    if (!fresh.valid()) {
-      lines.give_up_worst();
-      continue;
+  /// Splits edges that leave their dual no room, or little (necessity.hpp), worst first, until none does.
+  /// `near`: of the edges with an end that is marked; null: of all.
+
+  void resolve_conflicts(const VertexMarks* near = nullptr) {
+    Lines lines(mesh_, near);
+    const SharpCorners corners(mesh_, lines.all());
+    for (std::size_t left = kMostSplits * lines.all().size(); left > 0; --left) {
+      const Line* const worst = lines.worst();
+      if (worst == nullptr) return;
+      const Vec2 from = mesh_.position(worst->u), to = mesh_.position(worst->v);
+      const VertexId fresh =
+          split(worst->u, worst->v, work_.frame.snap(from + corners.split_at(mesh_, *worst) * (to - from)));
+      if (!fresh.valid()) {
+        lines.give_up_worst();
+        continue;
+      }
+      ++conflicts_;
+      lines.split_worst(fresh);
+      lines.renew_near(mesh_, mesh_.position(fresh), [&](const Line& line) {
+        return line_of(mesh_, find_edge(line.u, line.v), line.whole, line.splits);
+      });
     }
-    ++conflicts_;
-    lines.split_worst(fresh);
-    lines.renew_near(mesh_, mesh_.position(fresh), [&](const Line& line) {
-      return line_of(mesh_, find_edge(line.u, line.v), line.whole, line.splits);
-    });
   }
-}
 
-/// The new vertex on ab, or none.
-VertexId BoundaryCutter::split(VertexId a, VertexId b, Vec2 at) {
-  const Vec2 from = mesh_.position(a), along = mesh_.position(b) - from;
-  const double l2 = squared_length(along), t = dot(at - from, along) / l2;
-  const double w = split_weight(mesh_.weight(a), mesh_.weight(b), l2, t);
-  plan_ = plan_split(mesh_, find_edge(a, b), WeightedPoint{at.x, at.y, w}, std::move(plan_));
-  const std::pair<VertexId, VertexId> ends = std::minmax(a, b);
-  if (plan_.status != InsertionStatus::possible) {
-    refused_.insert(ends);
-    return {};
+  /// Splits the edge in its middle.
+  void halve(VertexId a, VertexId b) { split(a, b, work_.frame.snap(0.5 * (mesh_.position(a) + mesh_.position(b)))); }
+  [[nodiscard]] bool has_edge(VertexId a, VertexId b) const { return find_edge(a, b).valid(); }
+  /// A vertex at the orthocenter of a triangle that has none free.
+
+  void free(const std::array<VertexId, 3>& corners) {
+    plan_ = plan_center(mesh_, corners, std::move(plan_));
+    if (plan_.status != InsertionStatus::possible) return;
+    const Vec2 at = work_.frame.snap(plan_.point.position());
+    const double w = plan_.point.w;
+    const TriangleId near = plan_.triangle;
+    plan_ = plan_insertion(mesh_, {at.x, at.y, w}, near, std::move(plan_));
+    if (plan_.status != InsertionStatus::possible) return;
+    flipper_.commit(work_, plan_, kNoEnergy, kNoEnergy);
+    ++inside_;
   }
-  refused_.erase(ends);
-  ++vertices_;
-  return flipper_.commit(work_, plan_, kNoEnergy, kNoEnergy);
-}
 
-void BoundaryCutter::free(const std::array<VertexId, 3>& corners) {
-  plan_ = plan_center(mesh_, corners, std::move(plan_));
-  if (plan_.status != InsertionStatus::possible) return;
-  const Vec2 at = work_.frame.snap(plan_.point.position());
-  const double w = plan_.point.w;
-  const TriangleId near = plan_.triangle;
-  plan_ = plan_insertion(mesh_, {at.x, at.y, w}, near, std::move(plan_));
-  if (plan_.status != InsertionStatus::possible) return;
-  flipper_.commit(work_, plan_, kNoEnergy, kNoEnergy);
-  ++inside_;
-}
+  /// What was done.
+  [[nodiscard]] BoundaryCuts cuts() const {
+    return {vertices_, conflicts_, inside_, refused_.size(), ratio_before_, length_ratio(mesh_)};
+  }
+
+ private:
+  [[nodiscard]] HalfedgeId find_edge(VertexId a, VertexId b) const {
+    const HalfedgeId h = mesh_.find_halfedge(a, b);
+    return h.valid() ? h : mesh_.find_halfedge(b, a);
+  }
+
+  /// The new vertex on ab, or none.
+  VertexId split(VertexId a, VertexId b, Vec2 at) {
+    const Vec2 from = mesh_.position(a), along = mesh_.position(b) - from;
+    const double l2 = squared_length(along), t = dot(at - from, along) / l2;
+    const double w = split_weight(mesh_.weight(a), mesh_.weight(b), l2, t);
+    plan_ = plan_split(mesh_, find_edge(a, b), WeightedPoint{at.x, at.y, w}, std::move(plan_));
+    const std::pair<VertexId, VertexId> ends = std::minmax(a, b);
+    if (plan_.status != InsertionStatus::possible) {
+      refused_.insert(ends);
+      return {};
+    }
+    refused_.erase(ends);
+    ++vertices_;
+    return flipper_.commit(work_, plan_, kNoEnergy, kNoEnergy);
+  }
+
+  WorkingCopy& work_;
+  Mesh& mesh_;
+  Flipper& flipper_;
+  const double ratio_before_;
+  InsertionPlan plan_;
+  std::size_t vertices_ = 0, conflicts_ = 0, inside_ = 0;
+  std::set<std::pair<VertexId, VertexId>> refused_;  // edges as they are, that had to be split and could not
+};
 
 /// An edge by its ends.
 struct Ends {

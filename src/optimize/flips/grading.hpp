@@ -2,9 +2,9 @@
 // before the sweeps. A long edge beside a short one is what plain sweeps cannot mend: no position of the vertices
 // inside gives both of their triangles an orthocenter of their own.
 //
-// First come edges on which no dual can cross, or hardly (temper/detail/necessity.hpp): no mesh inside makes up for them. The
-// other cuts are those of plan_boundary_grading(), but at places that the user's coordinates can hold, and told to the
-// recorder one by one.
+// First come edges on which no dual can cross, or hardly (temper/detail/necessity.hpp): no mesh inside makes up for
+// them. The other cuts are those of plan_boundary_grading(), but at places that the user's coordinates can hold, and
+// told to the recorder one by one.
 #pragma once
 
 #include <cstddef>

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "base/bytes.hpp"
 #include "temper/mesh.hpp"
 
 namespace temper {
@@ -43,21 +42,6 @@ struct Cut {
     return VertexId(std::min(n_vertices, half_parts * n_vertices / (2 * count)));
   }
 };
-
-/// Writes the points of vertices for other ranks.
-template <class Vertices>
-void write_points(ByteWriter& writer, const Mesh& mesh, const Vertices& vertices) {
-  for (const VertexId v : vertices) writer.write(mesh.point(v));
-}
-/// Reads them, as another rank moved them.
-template <class Vertices>
-void read_points(ByteReader& reader, Mesh& mesh, const Vertices& vertices) {
-  for (const VertexId v : vertices) {
-    WeightedPoint p = mesh.point(v);
-    reader.read(p);
-    mesh.set_point(v, p);
-  }
-}
 
 /// Says whether v, which is in the part and not isolated, is confined to it. O(degree). Reads no coordinates.
 [[nodiscard]] inline bool is_confined(const Mesh& mesh, VertexId v, const Part& part) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "optimize/working/working_copy.hpp"
 #include "size/star_area.hpp"
 
 namespace temper {
@@ -95,16 +96,8 @@ void SizeBand::grow() {
 
 void SizeBand::renumber(const Compaction& kept) {
   if (!on()) return;
-  IdVector<VertexId, double> squared_field;
-  IdVector<VertexId, TriangleId> triangle;
-  squared_field.reserve(kept.vertices.size());
-  triangle.reserve(kept.vertices.size());
-  for (const VertexId v : kept.vertices) {
-    squared_field.push_back(squared_field_[v]);
-    triangle.push_back(triangle_[v]);
-  }
-  squared_field_ = std::move(squared_field);
-  triangle_ = std::move(triangle);
+  squared_field_ = kept_of(squared_field_, kept.vertices);
+  triangle_ = kept_of(triangle_, kept.vertices);
 }
 
 }  // namespace temper

@@ -21,23 +21,11 @@ bool contains(const OptionRange& range, double x) {
   return std::isfinite(x) && (range.open ? x > range.low && x < range.high : x >= range.low && x <= range.high);
 }
 
-bool has_kind(const OptionValue& value, OptionKind kind) {
-  switch (kind) {
-    case OptionKind::flag:
-      return std::holds_alternative<bool>(value);
-    case OptionKind::count:
-      return std::holds_alternative<std::int64_t>(value);
-    case OptionKind::number:
-      return std::holds_alternative<double>(value);
-    case OptionKind::choice:
-      return std::holds_alternative<std::string_view>(value);
-    case OptionKind::softening:
-      return std::holds_alternative<Softening>(value);
-    case OptionKind::vertex:
-      return std::holds_alternative<VertexId>(value);
-  }
-  return false;
-}
+/// The alternatives of a value are none, then those of the kinds in their order.
+bool has_kind(const OptionValue& value, OptionKind kind) { return value.index() == 1 + static_cast<std::size_t>(kind); }
+template <OptionKind kind>
+using ValueOf = std::variant_alternative_t<1 + static_cast<std::size_t>(kind), OptionValue>;
+static_assert(std::is_same_v<ValueOf<OptionKind::flag>, bool> && std::is_same_v<ValueOf<OptionKind::vertex>, VertexId>);
 
 bool may_have(const OptionRow& row, const OptionValue& value) {
   if (std::holds_alternative<std::monostate>(value)) return row.optional;
@@ -128,7 +116,8 @@ Expected<void> check_option(const OptionRow& row, const OptionValue& value) {
   if (row.kind == OptionKind::count && number_of(value) > row.range.high) {
     return refused("at most " + to_text(row.range.high));
   }
-  if (!may_have(row, value)) return refused(option_range_text(row) + (row.optional ? ", or " + std::string(row.absent_name) : ""));
+  if (!may_have(row, value))
+    return refused(option_range_text(row) + (row.optional ? ", or " + std::string(row.absent_name) : ""));
   return {};
 }
 

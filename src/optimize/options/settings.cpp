@@ -1,6 +1,8 @@
 #include "optimize/options/settings.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 #include <utility>
 
@@ -16,86 +18,84 @@ Softening in_frame(Softening s, const Frame& frame) {
   return s;
 }
 
+/// What options must not ask for together, and the sentence that says so.
+struct Rule {
+  bool broken;
+  std::string sentence;
+};
+std::optional<InputError> first_broken(std::initializer_list<Rule> rules) {
+  const auto rule = std::ranges::find(rules, true, &Rule::broken);
+  return rule == rules.end() ? std::nullopt : std::optional(invalid(rule->sentence));
+}
+
 /// Deferred updates, and what they contradict.
 std::optional<InputError> check_updates(const OptimizeOptions& o) {
   const PaperSwitches& p = o.paper;
   const bool all_deferred = p.position_updates == Updates::deferred;
-  if (all_deferred && o.unknowns == Unknowns::positions_and_weights && p.weight_updates != Updates::deferred) {
-    return invalid(
-        "`position_updates=deferred` takes all unknowns from the sweep before; expected `weight_updates=deferred` too, "
-        "or `unknowns=positions`");
-  }
-  if (all_deferred && o.size_band) {
-    return invalid("`size_band` needs `position_updates=immediate`: where all move at once sizes are known afterwards");
-  }
-  if (p.weight_updates == Updates::deferred && p.solver == Solver::newton && !all_deferred) {
-    return invalid(
-        "deferred weight updates need positions and weights in turn; expected `solver=alternating` or `solver=golden`");
-  }
-  const bool defers = all_deferred || p.weight_updates == Updates::deferred;
-  if (defers && o.flips == Flips::none) {
-    return invalid(std::string(all_deferred ? "`position_updates=deferred`" : "`weight_updates=deferred`") +
-                   " keeps edges regular by flips alone; expected `flips=immediate` or `flips=deferred`");
-  }
-  if (all_deferred && p.visits == Visits::twice) {
-    return invalid(
-        "`visits=twice` shows weights the new positions, which `position_updates=deferred` keeps from them; expected "
-        "`visits=once`");
-  }
-  return std::nullopt;
+  const bool weights_deferred = p.weight_updates == Updates::deferred;
+  const std::string deferred = all_deferred ? "`position_updates=deferred`" : "`weight_updates=deferred`";
+  return first_broken({
+      {all_deferred && o.unknowns == Unknowns::positions_and_weights && !weights_deferred,
+       "`position_updates=deferred` takes all unknowns from the sweep before; expected `weight_updates=deferred` too, "
+       "or `unknowns=positions`"},
+      {all_deferred && o.size_band,
+       "`size_band` needs `position_updates=immediate`: where all move at once sizes are known afterwards"},
+      {weights_deferred && p.solver == Solver::newton && !all_deferred,
+       "deferred weight updates need positions and weights in turn; expected `solver=alternating` or `solver=golden`"},
+      {(all_deferred || weights_deferred) && o.flips == Flips::none,
+       deferred + " keeps edges regular by flips alone; expected `flips=immediate` or `flips=deferred`"},
+      {all_deferred && p.visits == Visits::twice,
+       "`visits=twice` shows weights the new positions, which `position_updates=deferred` keeps from them; expected "
+       "`visits=once`"},
+  });
 }
 
 /// Rules against inverted triangles, and what they contradict.
 std::optional<InputError> check_inversions(const OptimizeOptions& o) {
-  const PaperSwitches& p = o.paper;
-  if (p.inversion == Inversion::allow && o.flips != Flips::deferred) {
-    return invalid(
-        "`inversion=allow` needs `flips=deferred`, since edges cannot be flipped among inverted triangles; or "
-        "`inversion=refuse`");
-  }
-  for (const EnergyKind kind : {o.energy, p.first_energy.value_or(o.energy)}) {
-    if (p.inversion != Inversion::infinite || energy_info(kind).barrier) continue;
-    return invalid("`inversion=infinite` is for barriers, which energy " + std::string(energy_info(kind).name) +
-                   " is not; expected `inversion=refuse` or `inversion=allow`");
-  }
-  if (p.inversion != Inversion::refuse && o.boundary == BoundaryVertices::slide) {
-    return invalid(
-        "`boundary=slide` needs `inversion=refuse`: where triangles may be inverted nothing keeps vertices from "
-        "passing a "
-        "corner");
-  }
-  if (p.inversion != Inversion::refuse && o.size_band) {
-    return invalid("`size_band` needs `inversion=refuse`: inverted triangles have no size");
-  }
-  return std::nullopt;
+  const Inversion inversion = o.paper.inversion;
+  const EnergyInfo& last = energy_info(o.energy);
+  const EnergyInfo& first = energy_info(o.paper.first_energy.value_or(o.energy));
+  return first_broken({
+      {inversion == Inversion::allow && o.flips != Flips::deferred,
+       "`inversion=allow` needs `flips=deferred`, since edges cannot be flipped among inverted triangles; or "
+       "`inversion=refuse`"},
+      {inversion == Inversion::infinite && !(last.barrier && first.barrier),
+       "`inversion=infinite` is for barriers, which energy " + std::string((last.barrier ? first : last).name) +
+           " is not; expected `inversion=refuse` or `inversion=allow`"},
+      {inversion != Inversion::refuse && o.boundary == BoundaryVertices::slide,
+       "`boundary=slide` needs `inversion=refuse`: where triangles may be inverted nothing keeps vertices from passing "
+       "a corner"},
+      {inversion != Inversion::refuse && o.size_band,
+       "`size_band` needs `inversion=refuse`: inverted triangles have no size"},
+  });
 }
 
-/// Other options that contradict each other.
+/// Other options that contradict each other; and what the accuracy objective cannot do with.
 std::optional<InputError> check_combinations(const OptimizeOptions& o) {
-  const PaperSwitches& p = o.paper;
-  if (o.star == Star::all && objective_of(o) == Objective::energy) {
-    return invalid("`star=all` is for `objective=accuracy`; of an energy expected 0, 1 or 2");
-  }
-  if (o.flips == Flips::none && p.insertion_from) {
-    return invalid(
-        "`insertion_from` changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or "
-        "`flips=deferred`");
-  }
-  if (p.insertion_from && o.size_band) {
-    return invalid("`size_band` does not hold what `insertion_from` inserts; expected one of the two");
-  }
-  if (o.flips == Flips::none && o.boundary == BoundaryVertices::split) {
-    return invalid(
-        "`boundary=split` changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or "
-        "`flips=deferred`");
-  }
-  return std::nullopt;
+  const bool for_accuracy = objective_of(o) != Objective::energy;
+  const EnergyInfo& energy = energy_info(o.energy);
+  const std::string changes_connectivity =
+      " changes the connectivity, which `flips=none` keeps; expected `flips=immediate` or `flips=deferred`";
+  return first_broken({
+      {o.star == Star::all && !for_accuracy, "`star=all` is for `objective=accuracy`; of an energy expected 0, 1 or 2"},
+      {o.flips == Flips::none && o.paper.insertion_from, "`insertion_from`" + changes_connectivity},
+      {o.paper.insertion_from && o.size_band,
+       "`size_band` does not hold what `insertion_from` inserts; expected one of the two"},
+      {o.flips == Flips::none && o.boundary == BoundaryVertices::split, "`boundary=split`" + changes_connectivity},
+      {for_accuracy && !energy.barrier,
+       "`objective=accuracy` begins with an energy that makes triangles well-centered, which " +
+           std::string(energy.name) + " does not; expected `energy=BP`, `energy=BHs` or `energy=BH`"},
+      {for_accuracy && o.paper.inversion != Inversion::refuse,
+       "`objective=accuracy` needs `inversion=refuse`: its second phase is for well-centered triangles"},
+  });
 }
 
-/// Says whether all weights are the same, so that an energy that knows none may be lowered.
-bool has_equal_weights(const Mesh& mesh) {
-  return std::all_of(mesh.vertices().begin(), mesh.vertices().end(),
-                     [&](VertexId v) { return mesh.weight(v) == mesh.weight(VertexId(0)); });
+/// The first vertex with another weight than vertex 0, if there is one.
+VertexId first_of_other_weight(const Mesh& mesh) {
+  for (const VertexId v : mesh.vertices()) {
+    if (mesh.weight(v) != mesh.weight(VertexId(0))) return v;
+  }
+  return {};
 }
 
 /// For one scheme the first sweeps lower E_ODT, unless others are asked for: it flips what keeps errors large, which no
@@ -107,11 +107,15 @@ bool begins_with_odt(const Settings& s, const Mesh& mesh) {
   const bool newton = s.policy.solver == Solver::newton && s.policy.flips_at_once && !s.policy.defers_updates();
   return s.objective != Objective::energy && o.for_ != Scheme::all && !o.paper.first_energy &&
          mesh.space().kind() == SpaceKind::plane && o.unknowns != Unknowns::weights && newton &&
-         has_equal_weights(mesh);
+         !first_of_other_weight(mesh).valid();
 }
 
-/// What an energy that knows no weights cannot do with.
-std::optional<InputError> check_weights(const OptimizeOptions& o, const Mesh& mesh) {
+/// The vertex that is the anchor; and weights, which some energies know nothing of.
+std::optional<InputError> check_vertices(const OptimizeOptions& o, const Mesh& mesh) {
+  if (o.paper.anchor.valid() && o.paper.anchor.index >= mesh.n_vertices()) {
+    return invalid("`anchor` is vertex " + std::to_string(o.paper.anchor.index) + ", but the mesh has " +
+                   std::to_string(mesh.n_vertices()) + " vertices");
+  }
   const auto first_energy = o.paper.first_energy;
   const bool first = first_energy && energy_info(*first_energy).positions_alone;
   const EnergyInfo& energy = energy_info(first ? *first_energy : o.energy);
@@ -120,25 +124,9 @@ std::optional<InputError> check_weights(const OptimizeOptions& o, const Mesh& me
   if (o.unknowns == Unknowns::weights) {
     return invalid(name + " is of positions alone; expected `unknowns=positions`");
   }
-  for (const VertexId v : mesh.vertices()) {
-    if (mesh.weight(v) != mesh.weight(VertexId(0))) {
-      return invalid(name + " is for meshes without weights, or with equal ones; vertex " + std::to_string(v.index) +
-                     " has another weight than vertex 0");
-    }
-  }
-  return std::nullopt;
-}
-
-/// What the accuracy objective cannot do with.
-std::optional<InputError> check_accuracy(const OptimizeOptions& o) {
-  if (objective_of(o) == Objective::energy) return std::nullopt;
-  const EnergyInfo& energy = energy_info(o.energy);
-  if (!energy.barrier) {
-    return invalid("`objective=accuracy` begins with an energy that makes triangles well-centered, which " +
-                   std::string(energy.name) + " does not; expected `energy=BP`, `energy=BHs` or `energy=BH`");
-  }
-  if (o.paper.inversion != Inversion::refuse) {
-    return invalid("`objective=accuracy` needs `inversion=refuse`: its second phase is for well-centered triangles");
+  if (const VertexId v = first_of_other_weight(mesh); v.valid()) {
+    return invalid(name + " is for meshes without weights, or with equal ones; vertex " + std::to_string(v.index) +
+                   " has another weight than vertex 0");
   }
   return std::nullopt;
 }
@@ -170,12 +158,6 @@ std::optional<InputError> check_space(const OptimizeOptions& o, const Mesh& mesh
   return std::nullopt;
 }
 
-std::optional<InputError> check_anchor(VertexId anchor, const Mesh& mesh) {
-  if (!anchor.valid() || anchor.index < mesh.n_vertices()) return std::nullopt;
-  return invalid("`anchor` is vertex " + std::to_string(anchor.index) + ", but the mesh has " +
-                 std::to_string(mesh.n_vertices()) + " vertices");
-}
-
 AccuracyModel accuracy_model(const AccuracyOptions& a, Scheme scheme, Star star) {
   struct Factors {
     double alpha, beta;
@@ -191,7 +173,45 @@ AccuracyModel accuracy_model(const AccuracyOptions& a, Scheme scheme, Star star)
   return model;
 }
 
+/// The settings with the model that they ask for, if the build has one.
+Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
+  const OptimizeOptions& o = s.options;
+  const bool wants = wants_error_model(o, mesh);
+  if (wants && s.hooks.solvers.error_model) {
+    auto model = s.hooks.solvers.error_model(mesh, o.for_);
+    if (!model) return model.error();
+    s.errors = *std::move(model);
+  }
+  if (s.objective == Objective::accuracy && !o.objective && wants) s.objective = Objective::error;
+  s.lacks_error_model = wants && s.errors == nullptr;
+  if (s.lacks_error_model) s.objective = Objective::accuracy;
+  return s;
+}
+
 }  // namespace
+
+Policy::Policy(const OptimizeOptions& o)
+    : PaperSwitches(o.paper),
+      flips_at_once(o.flips == Flips::immediate),
+      defers_flips(o.flips == Flips::deferred),
+      keeps_connectivity(o.flips == Flips::none),
+      allows_inversion(inversion == Inversion::allow),
+      refuses_inversion(inversion == Inversion::refuse),
+      undoes_hidden(hidden == HiddenPolicy::undo),
+      keeps_hidden(hidden == HiddenPolicy::keep),
+      removes_hidden(hidden == HiddenPolicy::remove),
+      changes_vertices(collapse_from || removal != Removal::none || insertion_from),
+      defers_positions(position_updates == Updates::deferred),
+      defers_weights(weight_updates == Updates::deferred),
+      makes_newton_steps(solver == Solver::newton && flips_at_once && refuses_inversion && !defers_positions) {
+  if (switch_at == 0) first_energy.reset();
+}
+
+/// A barrier prices every flip, so it needs no limit; HOT is continuous at a flip and may be led past one, a little.
+FlipLimit Policy::flip_limit_for(const EnergyInfo& energy) const {
+  if (keeps_connectivity) return FlipLimit::before;
+  return flip_limit.value_or(energy.barrier ? FlipLimit::unlimited : FlipLimit::after);
+}
 
 SchemeWeights scheme_weights(Scheme scheme) {
   constexpr SchemeWeights kWeights[] = {{10, 5, 0.1}, {10, 0.5, 0.02}, {10, 30, 0.02}, {20, 18, 0.02}};
@@ -253,8 +273,7 @@ OptimizeOptions cvt_method() {
   return o;
 }
 
-SweepState::SweepState(const Settings& s)
-    : model(s.model), relaxation(s.policy.relaxation.value_or(kRelaxation)) {
+SweepState::SweepState(const Settings& s) : model(s.model), relaxation(s.policy.relaxation.value_or(kRelaxation)) {
   set_energy(model.kind, s.policy);
 }
 
@@ -282,34 +301,13 @@ EnergyModel in_user_units(EnergyModel model, const Frame& frame) {
   return model;
 }
 
-namespace {
-
-/// The settings with the model that they ask for, if the build has one.
-Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
-  const OptimizeOptions& o = s.options;
-  const bool wants = wants_error_model(o, mesh);
-  if (wants && s.hooks.solvers.error_model) {
-    auto model = s.hooks.solvers.error_model(mesh, o.for_);
-    if (!model) return model.error();
-    s.errors = *std::move(model);
-  }
-  if (s.objective == Objective::accuracy && !o.objective && wants) s.objective = Objective::error;
-  s.lacks_error_model = wants && s.errors == nullptr;
-  if (s.lacks_error_model) s.objective = Objective::accuracy;
-  return s;
-}
-
-}  // namespace
-
 Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mesh, const Frame& frame,
                                  const OptimizeHooks& hooks) {
   if (auto right = check_options(options); !right) return right.error();
   if (auto error = check_updates(options)) return *std::move(error);
   if (auto error = check_inversions(options)) return *std::move(error);
   if (auto error = check_combinations(options)) return *std::move(error);
-  if (auto error = check_accuracy(options)) return *std::move(error);
-  if (auto error = check_anchor(options.paper.anchor, mesh)) return *std::move(error);
-  if (auto error = check_weights(options, mesh)) return *std::move(error);
+  if (auto error = check_vertices(options, mesh)) return *std::move(error);
   if (auto error = check_space(options, mesh)) return *std::move(error);
 
   Settings s;

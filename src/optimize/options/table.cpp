@@ -1,6 +1,7 @@
 // Each option once: its name, what it does, what values it may have, and what it needs to have an effect. Its default
 // is that of the field.
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -17,54 +18,33 @@ namespace {
 using Name = std::string_view;
 using Options = OptimizeOptions;
 
-template <class Enum>
-constexpr int kNames = 0;  // of no enumeration
-template <>
-constexpr std::array<Name, kEnergyKinds> kNames<EnergyKind> = [] {
+constexpr auto names_of(EnergyKind) {
   std::array<Name, kEnergyKinds> names;
   for (std::size_t i = 0; i < kEnergyKinds; ++i) names[i] = kEnergies[i].name;
   return names;
-}();
-template <>
-constexpr std::array<Name, 4> kNames<Star> = {"0", "1", "2", "all"};
-template <>
-constexpr std::array<Name, 3> kNames<BoundaryTreatment> = {"as_is", "absolute", "mirrored"};
-template <>
-constexpr std::array<Name, 3> kNames<Objective> = {"energy", "accuracy", "error"};
-template <>
-constexpr std::array<Name, 4> kNames<Scheme> = {"all", "vertex", "cell", "stars"};
-template <>
-constexpr std::array<Name, 3> kNames<Solver> = {"newton", "golden", "alternating"};
-template <>
-constexpr std::array<Name, 3> kNames<Unknowns> = {"positions_and_weights", "positions", "weights"};
-template <>
-constexpr std::array<Name, 3> kNames<Flips> = {"immediate", "deferred", "none"};
-template <>
-constexpr std::array<Name, 4> kNames<FlipLimit> = {"unlimited", "before", "at", "after"};
-template <>
-constexpr std::array<Name, 3> kNames<Repair> = {"none", "moves", "vertices"};
-template <>
-constexpr std::array<Name, 3> kNames<BoundaryVertices> = {"keep", "slide", "split"};
-template <>
-constexpr std::array<Name, 2> kNames<InterfaceVertices> = {"fixed", "sliding"};
-template <>
-constexpr std::array<Name, 2> kNames<Updates> = {"immediate", "deferred"};
-template <>
-constexpr std::array<Name, 2> kNames<Visits> = {"once", "twice"};
-template <>
-constexpr std::array<Name, 3> kNames<SearchRadius> = {"rms", "max", "min"};
-template <>
-constexpr std::array<Name, 3> kNames<Removal> = {"none", "patch", "weight"};
-template <>
-constexpr std::array<Name, 3> kNames<RemovalMeasure> = {"sum", "mean", "excess"};
-template <>
-constexpr std::array<Name, 3> kNames<HiddenPolicy> = {"undo", "remove", "keep"};
-template <>
-constexpr std::array<Name, 3> kNames<Inversion> = {"refuse", "allow", "infinite"};
-template <>
-constexpr std::array<Name, 4> kNames<SweepOrder> = {"hilbert", "input", "reverse", "random"};
-template <>
-constexpr std::array<Name, 2> kNames<StoppingRule> = {"relative", "paper"};
+}
+constexpr auto names_of(Star) { return std::to_array<Name>({"0", "1", "2", "all"}); }
+constexpr auto names_of(BoundaryTreatment) { return std::to_array<Name>({"as_is", "absolute", "mirrored"}); }
+constexpr auto names_of(Objective) { return std::to_array<Name>({"energy", "accuracy", "error"}); }
+constexpr auto names_of(Scheme) { return std::to_array<Name>({"all", "vertex", "cell", "stars"}); }
+constexpr auto names_of(Solver) { return std::to_array<Name>({"newton", "golden", "alternating"}); }
+constexpr auto names_of(Unknowns) { return std::to_array<Name>({"positions_and_weights", "positions", "weights"}); }
+constexpr auto names_of(Flips) { return std::to_array<Name>({"immediate", "deferred", "none"}); }
+constexpr auto names_of(FlipLimit) { return std::to_array<Name>({"unlimited", "before", "at", "after"}); }
+constexpr auto names_of(Repair) { return std::to_array<Name>({"none", "moves", "vertices"}); }
+constexpr auto names_of(BoundaryVertices) { return std::to_array<Name>({"keep", "slide", "split"}); }
+constexpr auto names_of(InterfaceVertices) { return std::to_array<Name>({"fixed", "sliding"}); }
+constexpr auto names_of(Updates) { return std::to_array<Name>({"immediate", "deferred"}); }
+constexpr auto names_of(Visits) { return std::to_array<Name>({"once", "twice"}); }
+constexpr auto names_of(SearchRadius) { return std::to_array<Name>({"rms", "max", "min"}); }
+constexpr auto names_of(Removal) { return std::to_array<Name>({"none", "patch", "weight"}); }
+constexpr auto names_of(RemovalMeasure) { return std::to_array<Name>({"sum", "mean", "excess"}); }
+constexpr auto names_of(HiddenPolicy) { return std::to_array<Name>({"undo", "remove", "keep"}); }
+constexpr auto names_of(Inversion) { return std::to_array<Name>({"refuse", "allow", "infinite"}); }
+constexpr auto names_of(SweepOrder) { return std::to_array<Name>({"hilbert", "input", "reverse", "random"}); }
+constexpr auto names_of(StoppingRule) { return std::to_array<Name>({"relative", "paper"}); }
+template <class Enum>
+constexpr auto kNames = names_of(Enum());
 
 // --- rows from fields ------------------------------------------------------------------------------------
 
@@ -175,7 +155,9 @@ constexpr OptionNeed kRemovals = {"removal", "patch|weight"};
 constexpr OptionNeed kGolden = {"solver", "golden"};
 constexpr OptionNeed kInsertions = {"insertion_from", ""};
 
-bool limits_after_flips(const Options& o) { return Policy(o).flip_limit_for(energy_info(o.energy)) == FlipLimit::after; }
+bool limits_after_flips(const Options& o) {
+  return Policy(o).flip_limit_for(energy_info(o.energy)) == FlipLimit::after;
+}
 bool compares_patches(const Options& o) { return o.paper.removal == Removal::patch || o.paper.insertion_from; }
 bool makes_golden_searches(const Options& o) { return o.paper.solver == Solver::golden || o.paper.collapse_from; }
 
@@ -183,15 +165,14 @@ constexpr OptionRow kEnergyRows[] = {
     row<&Options::energy>("energy",
                           "what to minimise: a barrier (BH, BHs, BP), a HOT energy (F, T, dT), one of these over "
                           "squared areas (nF, nT, ndT), or what optimal Delaunay triangulations do (ODT)"),
-    row<&Options::star>(
-        "star",
-        "Hodge star whose error is to be small. all: the three at once, with `objective=accuracy`, which "
-        "begins with sweeps for star 1 whatever this is"),
-    row<kPaper, &Paper::gamma>("gamma", "gamma of E_BP",
-                               {.range = more_than(0),
-                                .absent = "relative to each edge, shrinking from 0.5, or 1 where many triangles are "
-                                          "bad, to 0.003",
-                                .needs = {{{"energy", "BP"}}}}),
+    row<&Options::star>("star",
+                        "Hodge star whose error is to be small. all: the three at once, with `objective=accuracy`, "
+                        "which begins with sweeps for star 1 whatever this is"),
+    row<kPaper, &Paper::gamma>(
+        "gamma", "gamma of E_BP",
+        {.range = more_than(0),
+         .absent = "relative to each edge, shrinking from 0.5, or 1 where many triangles are bad, to 0.003",
+         .needs = {{{"energy", "BP"}}}}),
     row<kPaper, &Paper::h0>("h0", "how far below zero E_BHs lets h go (-h0 of the paper, so >= 0)",
                             {.range = at_least(0),
                              .absent = "just beyond the least h of the mesh, following it up",
@@ -204,11 +185,10 @@ constexpr OptionRow kEnergyRows[] = {
                                       "what the first sweeps lower instead, before they switch to `energy`",
                                       {.absent = "`energy` from the first sweep on; ODT for ten sweeps `for_` one "
                                                  "scheme on a mesh of the plane without weights"}),
-    row<kPaper, &Paper::switch_at>(
-        "switch_at",
-        "of `first_energy`: the first sweep that lowers `energy`, from 0; an earlier one when "
-        "the first energy has converged",
-        {.needs = {{{"first_energy", ""}}}}),
+    row<kPaper, &Paper::switch_at>("switch_at",
+                                   "of `first_energy`: the first sweep that lowers `energy`, from 0; an earlier one "
+                                   "when the first energy has converged",
+                                   {.needs = {{{"first_energy", ""}}}}),
 };
 
 constexpr OptionRow kAccuracyRows[] = {
@@ -216,16 +196,14 @@ constexpr OptionRow kAccuracyRows[] = {
         "objective",
         "energy: the one of `energy`, to the end; accuracy: only until every triangle is well-centered with a margin, "
         "then how far the middles of edges and duals are apart, which a solver's error is proportional to; error: "
-        "after that the errors "
-        "of the schemes of `for_` themselves, by adjoint solutions, which takes much longer",
+        "after that the errors of the schemes of `for_` themselves, by adjoint solutions, which takes much longer",
         {.common = true,
          .absent = "accuracy, but error `for_` vertex or cell on a plane of no more than 20000 vertices; energy where "
                    "`energy` is not BP, or has switches of its own"}),
     row<&Options::for_>(
         "for_",
-        "of accuracy: what the mesh is for. vertex: unknowns at vertices (discrete exterior calculus); cell: "
-        "at orthocenters (two-point flux); stars: the diagonal Hodge stars; all: something for each, and "
-        "larger margins",
+        "of accuracy: what the mesh is for. vertex: unknowns at vertices (discrete exterior calculus); cell: at "
+        "orthocenters (two-point flux); stars: the diagonal Hodge stars; all: something for each, and larger margins",
         {.common = true, .needs = {kForAccuracy}}),
     row<kAccuracy, &Accuracy::margin>(
         "margin", "of accuracy: h/l, d/l and 1 - d/l stay above it in every triangle",
@@ -260,9 +238,9 @@ constexpr OptionRow kAccuracyRows[] = {
 };
 
 constexpr OptionRow kMoveRows[] = {
-    row<kPaper, &Paper::solver>("solver",
-                                "Newton steps in position and weight together; the paper's golden section; Newton in "
-                                "position, then weight"),
+    row<kPaper, &Paper::solver>(
+        "solver",
+        "Newton steps in position and weight together; the paper's golden section; Newton in position, then weight"),
     row<&Options::unknowns>("unknowns", "what steps may change; the others stay as they are"),
     row<kPaper, &Paper::weights_from>("weights_from", "first sweep that changes weights, from 0",
                                       {.needs = {{{"unknowns", "positions_and_weights"}}}}),
@@ -327,66 +305,60 @@ constexpr OptionRow kSizeRows[] = {
 };
 
 constexpr OptionRow kPaperRows[] = {
-    row<kPaper, &Paper::inner>("inner",
-                               "with deferred flips: at most so many sweeps before edges are flipped; 0: until they "
-                               "converge",
-                               {.needs = {kDeferredFlips}}),
-    row<kPaper, &Paper::outer>("outer",
-                               "with deferred flips: at most so many rounds of sweeps and flips; 0: until no flips are "
-                               "needed",
-                               {.needs = {kDeferredFlips}}),
+    row<kPaper, &Paper::inner>(
+        "inner", "with deferred flips: at most so many sweeps before edges are flipped; 0: until they converge",
+        {.needs = {kDeferredFlips}}),
+    row<kPaper, &Paper::outer>(
+        "outer", "with deferred flips: at most so many rounds of sweeps and flips; 0: until no flips are needed",
+        {.needs = {kDeferredFlips}}),
     row<kPaper, &Paper::weight_updates>(
         "weight_updates",
         "a new weight is seen by its neighbours at once, or after the sweep (not with `solver=newton`)"),
     row<kPaper, &Paper::position_updates>("position_updates",
                                           "the same of positions; deferred, with `weight_updates=deferred` where "
-                                          "weights move: all unknowns are those of the "
-                                          "sweep before"),
+                                          "weights move: all unknowns are those of the sweep before"),
     row<kPaper, &Paper::collapse_from>("collapse_from",
                                        "i_c: first sweep with short-edge collapses, from 0 (Algorithm 2)",
                                        {.absent_name = "none", .absent = "no collapses"}),
     row<kPaper, &Paper::collapse_energy>("collapse_energy", "E_c, which draws a vertex to an edge",
                                          {.choices = std::span(kNames<EnergyKind>).first<3>(), .needs = {kCollapses}}),
-    row<kPaper, &Paper::collapse_ratio>("collapse_ratio",
-                                        "collapse a vertex that E_c wants this near its neighbour, relative to that "
-                                        "one's shorter edge beside",
-                                        {.range = inside(0, 1), .needs = {kCollapses}}),
+    row<kPaper, &Paper::collapse_ratio>(
+        "collapse_ratio",
+        "collapse a vertex that E_c wants this near its neighbour, relative to that one's shorter edge beside",
+        {.range = inside(0, 1), .needs = {kCollapses}}),
     row<kPaper, &Paper::removal>("removal",
                                  "patch: remove a vertex when its patch is better without it (Algorithm 1, line 15); "
                                  "weight: when its weight is far below its neighbours'"),
-    row<kPaper, &Paper::removal_measure>("removal_measure",
-                                         "by what patches are compared: energy summed (the paper), per triangle, or "
-                                         "above equilateral triangles",
-                                         {.needs = {{{"removal", "patch", compares_patches}}}}),
+    row<kPaper, &Paper::removal_measure>(
+        "removal_measure",
+        "by what patches are compared: energy summed (the paper), per triangle, or above equilateral triangles",
+        {.needs = {{{"removal", "patch", compares_patches}}}}),
     row<kPaper, &Paper::removal_margin>("removal_margin", "by which part the patch must be better",
                                         {.range = at_least(0), .needs = {{{"removal", "patch", compares_patches}}}}),
     row<kPaper, &Paper::removal_weight>(
         "removal_weight",
-        "of `removal=weight`: how far below the mean of its neighbours', relative to their "
-        "mean squared distance",
+        "of `removal=weight`: how far below the mean of its neighbours', relative to their mean squared distance",
         {.range = more_than(0), .needs = {{{"removal", "weight"}}}}),
     row<kPaper, &Paper::removal_from>("removal_from", "first sweep with removals, from 0", {.needs = {kRemovals}}),
-    row<kPaper, &Paper::insertion_from>(
-        "insertion_from",
-        "first sweep after which vertices are inserted at the orthocenters of triangles of "
-        "large energy, where that makes the mesh better, from 0",
-        {.absent_name = "none", .absent = "no insertions"}),
+    row<kPaper, &Paper::insertion_from>("insertion_from",
+                                        "first sweep after which vertices are inserted at the orthocenters of "
+                                        "triangles of large energy, where that makes the mesh better, from 0",
+                                        {.absent_name = "none", .absent = "no insertions"}),
     row<kPaper, &Paper::insertion_ratio>("insertion_ratio", "how many times the mean energy of a triangle is large",
                                          {.range = more_than(1), .needs = {kInsertions}}),
     row<kPaper, &Paper::hidden>("hidden", "what weights hide: undo the step, remove the vertex, or keep and report it"),
-    row<kPaper, &Paper::inversion>("inversion",
-                                   "steps that turn a triangle over are refused, or allowed as in the paper (with "
-                                   "deferred flips); infinite: where a triangle is turned over a barrier is, so that "
-                                   "searches step over such places, but not onto them"),
+    row<kPaper, &Paper::inversion>(
+        "inversion",
+        "steps that turn a triangle over are refused, or allowed as in the paper (with deferred flips); infinite: "
+        "where a triangle is turned over a barrier is, so that searches step over such places, but not onto them"),
     row<kPaper, &Paper::order>("order", "in which a sweep visits the vertices"),
 };
 
 constexpr OptionRow kStoppingRows[] = {
     row<&Options::max_sweeps>("max_sweeps", "at most this many sweeps over the vertices"),
     row<kPaper, &Paper::tolerance>("tolerance", "stop when a sweep gains less than this", {.range = at_least(0)}),
-    row<kPaper, &Paper::stopping>("stopping",
-                                  "the gain relative to the energy, or the paper's: mean energy per triangle, "
-                                  "absolute"),
+    row<kPaper, &Paper::stopping>(
+        "stopping", "the gain relative to the energy, or the paper's: mean energy per triangle, absolute"),
     row<&Options::time_limit>("time_limit", "stop after this many seconds; 0: no limit",
                               {.range = at_least(0), .common = true}),
     row<kPaper, &Paper::seed>("seed", "of the jitter that frees symmetric grids, of repairs, and of `order=random`"),
@@ -400,6 +372,8 @@ constexpr OptionGroup kGroups[] = {
 };
 
 }  // namespace
+
+std::string_view name(Objective objective) { return kNames<Objective>[static_cast<std::size_t>(objective)]; }
 
 std::span<const OptionGroup> option_groups() { return kGroups; }
 

@@ -2,7 +2,7 @@
 //
 // Inside the well-centered set no edge can flip: h > 0 on both sides of it, so each connectivity is an island, and
 // sweeps, which go downhill, do not leave the one they are on. A repair takes a few rings around a bad triangle, tries
-// every edit that might help on a copy of them (edits.hpp, trial.hpp), and does the best one to the mesh. When none
+// every edit that might help on a copy of them (trial.hpp), and does the best one to the mesh. When none
 // helps, now and then one that does no harm is done, so that the next try begins elsewhere.
 #pragma once
 
@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "base/rng.hpp"
+#include "optimize/flips/flipper.hpp"
 #include "optimize/repair/trial.hpp"
 #include "optimize/run/run.hpp"
-#include "optimize/flips/flipper.hpp"
 
 namespace temper {
 

@@ -1,7 +1,12 @@
 #include "optimize/repair/trial.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <vector>
 
 #include "base/rng.hpp"
 #include "feasibility/change.hpp"
@@ -10,15 +15,116 @@
 #include "geometry/predicates_inline.hpp"
 #include "geometry/triangle_kernel.hpp"
 #include "mesh/bad_triangles.hpp"
-#include "optimize/run/lengths.hpp"
-#include "optimize/repair/refinement.hpp"
+#include "optimize/run/judge.hpp"
 #include "optimize/run/run.hpp"
 #include "optimize/run/schedule.hpp"
 #include "optimize/step/vertex_step.hpp"
 #include "temper/regularity.hpp"
+#include "topology/locate.hpp"
 
 namespace temper {
 namespace {
+
+// Circumradius over size: an equilateral triangle of the size has 0.58.
+constexpr double kLarge = 0.75;
+// Nearer to an edge than this part of its length, or of the size, a vertex makes flat triangles.
+constexpr double kClearance = 0.4;
+
+double distance_to_segment(Vec3 x, Vec3 a, Vec3 b) {
+  const Vec3 along = b - a;
+  const double t = std::clamp(dot(x - a, along) / squared_length(along), 0.0, 1.0);
+  return length(x - (a + t * along));
+}
+
+/// Delaunay refinement of a place that has too few vertices: they come to circumcenters of triangles that are large for
+/// where they are.
+///
+/// But the boundary is never touched: what would come too near to it is not inserted. The
+/// size wanted at x is the least of s_v + g |x − v| over the vertices v of boundary, constrained edges and rim, s_v
+/// being the mean length of these edges at v.
+class DelaunayRefinement {
+ public:
+  /// `gradation`: g, the growth of the size with distance.
+  DelaunayRefinement(const Mesh& mesh, double gradation) : mesh_(mesh), gradation_(gradation) {
+    std::vector<double> sum(mesh.n_vertices(), 0);
+    std::vector<int> count(mesh.n_vertices(), 0);
+    for (const HalfedgeId h : mesh.halfedges()) {
+      if (mesh.is_erased(Mesh::triangle(h)) || !mesh.keeps_its_place(h) || !mesh.is_edge_representative(h)) continue;
+      const VertexId a = mesh.origin(h), b = mesh.target(h);
+      segments_.push_back({place(a), place(b)});
+      for (const VertexId v : {a, b}) {
+        sum[v.index] += length(place(b) - place(a));
+        ++count[v.index];
+      }
+    }
+    for (const VertexId v : mesh.vertices()) {
+      if (count[v.index] > 0) sources_.push_back({place(v), sum[v.index] / count[v.index]});
+    }
+  }
+
+  /// The place for the next vertex, and the triangle strictly around it; nothing when all are small enough.
+  struct Place {
+    TriangleId triangle;
+    WeightedPoint point;  ///< without a weight
+  };
+
+  std::optional<Place> next() {
+    double worst = kLarge;
+    std::optional<Place> found;
+    for (const TriangleId t : mesh_.triangles()) {
+      if (mesh_.is_erased(t)) continue;
+      const auto [a, b, c] = mesh_.corners(t);
+      const Space& space = mesh_.space();
+      const auto bare = [&](VertexId v) { return space.with_weight(mesh_.point(v), 0); };
+      const WeightedPoint o = orthocenter(space, bare(a), bare(b), bare(c));
+      if (!std::isfinite(o.x) || !std::isfinite(o.y) || !std::isfinite(o.w)) continue;
+      const Vec3 x = place_in_space(space, o);
+      const double relative = length(x - place(a)) / size(x);
+      if (relative <= worst || refused_.count({o.x, o.y, o.w}) > 0) continue;
+      const Location at = too_near_to_edges(x) ? Location() : locate(mesh_, o, t);
+      if (at.kind != Location::Kind::in_triangle) {
+        refuse(o);
+        continue;
+      }
+      worst = relative;
+      found = {at.triangle, o};
+    }
+    return found;
+  }
+
+  /// That place cannot be had.
+  void refuse(const WeightedPoint& p) { refused_.insert({p.x, p.y, p.w}); }
+
+ private:
+  struct Source {
+    Vec3 at;
+    double size;
+  };
+  struct Segment {
+    Vec3 a, b;
+  };
+
+  [[nodiscard]] Vec3 place(VertexId v) const { return place_in_space(mesh_.space(), mesh_.point(v)); }
+
+  [[nodiscard]] double size(Vec3 x) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Source& s : sources_) least = std::min(least, s.size + gradation_ * length(x - s.at));
+    return least;
+  }
+
+  [[nodiscard]] bool too_near_to_edges(Vec3 x) const {
+    const double wanted = size(x);
+    return std::any_of(segments_.begin(), segments_.end(), [&](const Segment& s) {
+      return distance_to_segment(x, s.a, s.b) < kClearance * std::min(length(s.b - s.a), wanted);
+    });
+  }
+
+  const Mesh& mesh_;
+  double gradation_;
+  std::vector<Source> sources_;
+  std::vector<Segment> segments_;
+  std::set<std::array<double, 3>> refused_;
+};
 
 // Enough for γ to come from kFirstGamma down to kLeastGamma, and a few at the floor.
 constexpr int kSweeps = 25;
@@ -65,19 +171,166 @@ class Trial {
   Trial& operator=(const Trial&) = delete;
   ~Trial() = default;
 
-  Outcome run(const Edit& edit) &&;
+  Outcome run(const Edit& edit) && {
+    if (!apply(edit) || !flipper_.restore_all()) return {};
+    if (edit.kind != Edit::weigh) sweep();  // whose first γ would take the weights back
+    Outcome outcome;
+    outcome.standing = standing(work_.mesh, settings_.accuracy);
+    outcome.valid = count_non_regular_edges(work_.mesh, false) == 0 && rim_is_regular(around_, work_.mesh);
+    outcome.events = std::move(events_);
+    return outcome;
+  }
 
  private:
-  static Settings of_trial(const Settings& settings, Tracer tracer);
-  bool apply(const Edit& edit);
-  void weigh();
-  bool insert(TriangleId t, const WeightedPoint& place);
-  bool split(HalfedgeId h);
-  bool remove(VertexId v);
-  bool refine(double gradation);
-  void remove_free_vertices();
-  void sweep();
-  [[nodiscard]] bool any_bad() const;
+  /// Newton steps on E_BP in temper's own way, whatever way the run goes; with the unknowns and constraints of the run.
+  static Settings of_trial(const Settings& settings, Tracer tracer) {
+    OptimizeOptions o;
+    o.star = settings.options.star;
+    o.unknowns = settings.options.unknowns;
+    o.interfaces = settings.options.interfaces;
+    o.boundary = settings.options.boundary;
+    o.size_band = settings.options.size_band;
+    Settings s = settings;
+    s.options = std::move(o);
+    s.policy = Policy(s.options);
+    s.model.wall = true;
+    s.model.kind = s.options.energy;
+    s.hooks = {};
+    s.hooks.tracer = std::move(tracer);
+    return s;
+  }
+
+  bool apply(const Edit& edit) {
+    switch (edit.kind) {
+      case Edit::nothing:
+        return true;
+      case Edit::kick: {
+        Rng rng(edit.seed);
+        step_.shake(kKick, rng);
+        return true;
+      }
+      case Edit::weigh:
+        weigh();
+        return true;
+      case Edit::insert:
+        return insert(edit.triangle, edit.place);
+      case Edit::split:
+        return split(edit.edge);
+      case Edit::remove:
+        return remove(edit.vertex);
+      case Edit::remesh:
+        remove_free_vertices();
+        return refine(edit.gradation);
+      case Edit::refine:
+        return refine(edit.gradation);
+    }
+    return false;
+  }
+
+  /// Of the vertices around the bad triangle. Those of the rim, which have triangles outside, keep their weights.
+  void weigh() {
+    const Mesh& mesh = work_.mesh;
+    VertexMask free(mesh.n_vertices(), 0);
+    const auto corners = mesh.corners(around_.seed);
+    for (const VertexId v : corners) free[v] = 1;
+    grow(mesh, free, {corners.begin(), corners.end()}, kWeighedRings);
+    IdVector<VertexId, double> weights(mesh.n_vertices(), 0.0);
+    for (const VertexId v : mesh.vertices()) {
+      if (around_.frozen[v.index] != 0) free[v] = 0;
+      weights[v] = mesh.weight(v);
+    }
+    const Demand demand(mesh, Conditions::well_centered, {});
+    for (const Region& region : regions_of(mesh, free)) {
+      const RegionChange found = least_violation({mesh, demand, weights, kWeighedMargin}, region, *settings_.lp);
+      if (found.status != LpStatus::optimal) continue;
+      for (std::size_t i = 0; i < region.free.size(); ++i) {
+        if (found.change[i] == 0) continue;
+        const VertexId v = region.free[i];
+        const WeightedPoint from = mesh.point(v);
+        work_.mesh.set_point(v,
+                             mesh.space().with_weight(from, changed_weight(mesh.space(), weights[v], found.change[i])));
+        recorder_.placed(v, from, mesh.point(v), kNoEnergy, kNoEnergy);
+      }
+    }
+  }
+
+  /// Inserts a vertex with the weight that the corners have there.
+  bool insert(TriangleId t, const WeightedPoint& place) {
+    const Mesh& mesh = work_.mesh;
+    const auto [a, b, c] = mesh.points(t);
+    // With its weight first: on the sphere that moves it by rounding.
+    const WeightedPoint p = with_interpolated_weight(mesh.space(), grid_.snap(mesh.space().image(place, a)), a, b, c);
+    for (const auto& [q, r] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+      if (inlined::orientation(mesh.space(), q, r, p) != Sign::positive) return false;
+    }
+    flipper_.insert(work_, t, p, kNoEnergy, kNoEnergy);
+    limits_.grow();
+    return true;
+  }
+
+  bool split(HalfedgeId h) {
+    const Mesh& mesh = work_.mesh;
+    const auto [a, b, c, d] = inlined::quad(mesh, h);
+    const WeightedPoint half = grid_.snap(middle(mesh.space(), mesh.point(a), mesh.point(b, mesh.point(a))));
+    const WeightedPoint p = mesh.space().with_weight(half, 0.5 * (mesh.weight(a) + mesh.weight(b)));
+    for (const auto& [q, r] : {std::pair(b, c), std::pair(c, a), std::pair(a, d), std::pair(d, b)}) {
+      if (inlined::orientation(mesh.space(), mesh.point(q, p), mesh.point(r, p), p) != Sign::positive) return false;
+    }
+    flipper_.split(work_, h, p, kNoEnergy, kNoEnergy);
+    limits_.grow();
+    return true;
+  }
+
+  bool remove(VertexId v) {
+    const RemovalPlan plan = plan_removal(work_.mesh, v);
+    if (plan.status != RemovalStatus::possible) return false;
+    flipper_.remove(EventKind::removal, plan, kNoEnergy, kNoEnergy);
+    return true;
+  }
+
+  /// False when nothing was missing, or an edge could not be made regular.
+  bool refine(double gradation) {
+    DelaunayRefinement refinement(work_.mesh, gradation);
+    int inserted = 0;
+    for (auto place = refinement.next(); place && inserted < kMostInserted; place = refinement.next()) {
+      if (!insert(place->triangle, place->point)) {
+        refinement.refuse(place->point);
+        continue;
+      }
+      if (!flipper_.restore_all()) return false;
+      ++inserted;
+    }
+    return inserted > 0;
+  }
+
+  void remove_free_vertices() {
+    for (bool removed = true; removed;) {
+      removed = false;
+      for (const VertexId v : around_.mesh.vertices()) {
+        if (!work_.mesh.is_isolated(v) && may_be_removed(work_.mesh, around_.frozen, v)) removed = remove(v) || removed;
+      }
+    }
+  }
+
+  void sweep() {
+    double gamma = kFirstGamma;
+    for (int i = 0; i < kSweeps; ++i) {
+      state_.model.gamma = {gamma, LengthScale::relative};
+      step_.begin_sweep(i, settings_.options.unknowns);
+      for (const VertexId v : work_.mesh.vertices()) {
+        if (!work_.mesh.is_isolated(v)) step_.improve(v);
+      }
+      gamma = std::max(kLeastGamma, kGammaFactor * gamma);
+      if (gamma < kSharp && !settings_.accuracy.keeps_lengths() && !any_bad()) return;
+    }
+  }
+
+  [[nodiscard]] bool any_bad() const {
+    for (const TriangleId t : work_.mesh.triangles()) {
+      if (is_bad(work_.mesh, t)) return true;
+    }
+    return false;
+  }
 
   const Neighborhood& around_;
   std::vector<TraceEvent> events_;
@@ -90,166 +343,6 @@ class Trial {
   VertexLimits limits_;
   VertexStep step_;
 };
-
-/// Newton steps on E_BP in temper's own way, whatever way the run goes; with the unknowns and constraints of the run.
-Settings Trial::of_trial(const Settings& settings, Tracer tracer) {
-  OptimizeOptions o;
-  o.star = settings.options.star;
-  o.unknowns = settings.options.unknowns;
-  o.interfaces = settings.options.interfaces;
-  o.boundary = settings.options.boundary;
-  o.size_band = settings.options.size_band;
-  Settings s = settings;
-  s.options = std::move(o);
-  s.policy = Policy(s.options);
-  s.model.wall = true;
-  s.model.kind = s.options.energy;
-  s.hooks = {};
-  s.hooks.tracer = std::move(tracer);
-  return s;
-}
-
-Outcome Trial::run(const Edit& edit) && {
-  if (!apply(edit) || !flipper_.restore_all()) return {};
-  if (edit.kind != Edit::weigh) sweep();  // whose first γ would take the weights back
-  Outcome outcome;
-  outcome.standing = standing(work_.mesh, settings_.accuracy);
-  outcome.valid = count_non_regular_edges(work_.mesh, false) == 0 && rim_is_regular(around_, work_.mesh);
-  outcome.events = std::move(events_);
-  return outcome;
-}
-
-bool Trial::apply(const Edit& edit) {
-  switch (edit.kind) {
-    case Edit::nothing:
-      return true;
-    case Edit::kick: {
-      Rng rng(edit.seed);
-      step_.shake(kKick, rng);
-      return true;
-    }
-    case Edit::weigh:
-      weigh();
-      return true;
-    case Edit::insert:
-      return insert(edit.triangle, edit.place);
-    case Edit::split:
-      return split(edit.edge);
-    case Edit::remove:
-      return remove(edit.vertex);
-    case Edit::remesh:
-      remove_free_vertices();
-      return refine(edit.gradation);
-    case Edit::refine:
-      return refine(edit.gradation);
-  }
-  return false;
-}
-
-/// Of the vertices around the bad triangle. Those of the rim, which have triangles outside, keep their weights.
-void Trial::weigh() {
-  const Mesh& mesh = work_.mesh;
-  VertexMask free(mesh.n_vertices(), 0);
-  const auto corners = mesh.corners(around_.seed);
-  for (const VertexId v : corners) free[v] = 1;
-  grow(mesh, free, {corners.begin(), corners.end()}, kWeighedRings);
-  IdVector<VertexId, double> weights(mesh.n_vertices(), 0.0);
-  for (const VertexId v : mesh.vertices()) {
-    if (around_.frozen[v.index] != 0) free[v] = 0;
-    weights[v] = mesh.weight(v);
-  }
-  const Demand demand(mesh, Conditions::well_centered, {});
-  for (const Region& region : regions_of(mesh, free)) {
-    const RegionChange found = least_violation({mesh, demand, weights, kWeighedMargin}, region, *settings_.lp);
-    if (found.status != LpStatus::optimal) continue;
-    for (std::size_t i = 0; i < region.free.size(); ++i) {
-      if (found.change[i] == 0) continue;
-      const VertexId v = region.free[i];
-      const WeightedPoint from = mesh.point(v);
-      work_.mesh.set_point(v,
-                           mesh.space().with_weight(from, changed_weight(mesh.space(), weights[v], found.change[i])));
-      recorder_.placed(v, from, mesh.point(v), kNoEnergy, kNoEnergy);
-    }
-  }
-}
-
-/// Inserts a vertex with the weight that the corners have there.
-bool Trial::insert(TriangleId t, const WeightedPoint& place) {
-  const Mesh& mesh = work_.mesh;
-  const auto [a, b, c] = mesh.points(t);
-  // With its weight first: on the sphere that moves it by rounding.
-  const WeightedPoint p = with_interpolated_weight(mesh.space(), grid_.snap(mesh.space().image(place, a)), a, b, c);
-  for (const auto& [q, r] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-    if (inlined::orientation(mesh.space(), q, r, p) != Sign::positive) return false;
-  }
-  flipper_.insert(work_, t, p, kNoEnergy, kNoEnergy);
-  limits_.grow();
-  return true;
-}
-
-bool Trial::split(HalfedgeId h) {
-  const Mesh& mesh = work_.mesh;
-  const auto [a, b, c, d] = inlined::quad(mesh, h);
-  const WeightedPoint half = grid_.snap(middle(mesh.space(), mesh.point(a), mesh.point(b, mesh.point(a))));
-  const WeightedPoint p = mesh.space().with_weight(half, 0.5 * (mesh.weight(a) + mesh.weight(b)));
-  for (const auto& [q, r] : {std::pair(b, c), std::pair(c, a), std::pair(a, d), std::pair(d, b)}) {
-    if (inlined::orientation(mesh.space(), mesh.point(q, p), mesh.point(r, p), p) != Sign::positive) return false;
-  }
-  flipper_.split(work_, h, p, kNoEnergy, kNoEnergy);
-  limits_.grow();
-  return true;
-}
-
-bool Trial::remove(VertexId v) {
-  const RemovalPlan plan = plan_removal(work_.mesh, v);
-  if (plan.status != RemovalStatus::possible) return false;
-  flipper_.remove(EventKind::removal, plan, kNoEnergy, kNoEnergy);
-  return true;
-}
-
-/// False when nothing was missing, or an edge could not be made regular.
-bool Trial::refine(double gradation) {
-  DelaunayRefinement refinement(work_.mesh, gradation);
-  int inserted = 0;
-  for (auto place = refinement.next(); place && inserted < kMostInserted; place = refinement.next()) {
-    if (!insert(place->triangle, place->point)) {
-      refinement.refuse(place->point);
-      continue;
-    }
-    if (!flipper_.restore_all()) return false;
-    ++inserted;
-  }
-  return inserted > 0;
-}
-
-void Trial::remove_free_vertices() {
-  for (bool removed = true; removed;) {
-    removed = false;
-    for (const VertexId v : around_.mesh.vertices()) {
-      if (!work_.mesh.is_isolated(v) && may_be_removed(work_.mesh, around_.frozen, v)) removed = remove(v) || removed;
-    }
-  }
-}
-
-void Trial::sweep() {
-  double gamma = kFirstGamma;
-  for (int i = 0; i < kSweeps; ++i) {
-    state_.model.gamma = {gamma, LengthScale::relative};
-    step_.begin_sweep(i, settings_.options.unknowns);
-    for (const VertexId v : work_.mesh.vertices()) {
-      if (!work_.mesh.is_isolated(v)) step_.improve(v);
-    }
-    gamma = std::max(kLeastGamma, kGammaFactor * gamma);
-    if (gamma < kSharp && !settings_.accuracy.keeps_lengths() && !any_bad()) return;
-  }
-}
-
-bool Trial::any_bad() const {
-  for (const TriangleId t : work_.mesh.triangles()) {
-    if (is_bad(work_.mesh, t)) return true;
-  }
-  return false;
-}
 
 }  // namespace
 

@@ -1,15 +1,15 @@
 // One idea for a repair, tried out on a copy of a neighbourhood: an edit, then sweeps of E_BP with a shrinking γ.
 //
 // A trial changes nothing outside of itself. Run again with a listener, the same trial tells its events, and these are
-// what is then applied to the whole mesh (splice.hpp).
+// what is then applied to the whole mesh (neighborhood.hpp).
 #pragma once
 
 #include <compare>
 #include <cstdint>
 #include <vector>
 
-#include "optimize/repair/neighborhood.hpp"
 #include "optimize/options/settings.hpp"
+#include "optimize/repair/neighborhood.hpp"
 
 namespace temper {
 
@@ -34,7 +34,7 @@ struct Edit {
 };
 
 /// The standing of a mesh, how far it is from well-centered: first the number of triangles that are not, then by how
-/// much, and by what edges lack of their lengths (optimize/run/lengths.hpp).
+/// much, and by what edges lack of their lengths (optimize/run/judge.hpp).
 struct Standing {
   std::size_t bad = 0;
   double violation = 0;  ///< Σ over bad triangles of the worst of −h/ℓ, −d/ℓ and d/ℓ − 1, and over edges

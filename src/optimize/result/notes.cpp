@@ -8,7 +8,7 @@
 #include "base/text.hpp"
 #include "energy/whole_mesh.hpp"
 #include "mesh/predicates.hpp"
-#include "optimize/run/lengths.hpp"
+#include "optimize/run/judge.hpp"
 #include "optimize/step/freedom.hpp"
 #include "temper/detail/necessity.hpp"
 #include "temper/regularity.hpp"
@@ -20,183 +20,219 @@ std::string count_of(std::size_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
+/// The sentences of a report, in the order in which they are told.
+class Notes {
+ public:
+  Notes(const Mesh& mesh, const Settings& settings, OptimizeReport& report)
+      : mesh_(mesh), settings_(settings), options_(settings.options), report_(report) {}
+
+  void tell_facts(const RunFacts& facts) {
+    if (facts.stays_uncut) {
+      add("the boundary and lines were not split: more triangles would be left that are not well-centered");
+    } else if (facts.boundary_cuts) {
+      tell_cuts(*facts.boundary_cuts);
+    }
+    tell_input_flips(facts.input_flips);
+    if (facts.weights_shrunk) add("weights left edges uncrossed that a barrier needs crossed: all were made smaller");
+    if (facts.energy_rose) add("the energy rose in the last sweeps; the mesh with the least one is returned");
+  }
+
+  /// What else the run did is not in the mesh.
+  void tell_input_is_returned(const RunFacts& facts, bool flipped) {
+    if (flipped) tell_input_flips(facts.input_flips);
+    add(flipped ? "no better mesh was found: the input is returned, its edges flipped to be regular"
+                : "no better mesh was found: the input is returned as it was");
+  }
+
+  /// HOT energies do not ask how many triangles are well-centered. `bad_before`: part of the input's.
+  void tell_if_more_are_bad(double bad_before) {
+    const auto percent = [](double part) { return to_text(std::round(1000 * part) / 10) + " %"; };
+    const double bad = bad_part(mesh_, count_bad(mesh_, settings_.executor()));
+    if (bad > bad_before) {
+      add(percent(bad) + " of the triangles are not well-centered, " + percent(bad_before) +
+          " of the input's: energy " + std::string(settings_.energy().name) + " does not ask for that, energy BP does");
+    }
+  }
+
+  /// Hidden vertices that are kept keep edges from being regular.
+  void tell_what_is_not_regular() {
+    if (!settings_.policy.keeps_hidden) return;
+    const std::size_t edges = count_non_regular_edges(mesh_, false, settings_.executor());
+    if (edges > 0)
+      add(count_of(edges, "edge is", "edges are") + " not regular, since `hidden=keep` keeps hidden vertices");
+  }
+
+  void tell_sizes() {
+    const SizeReport& before = report_.size.before;
+    if (options_.size_band && before.band() > *options_.size_band) {
+      add("the input is outside of its size band: sizes are up to " + to_text(before.band()) +
+          " times off the size field, and what is outside can only come nearer to it");
+    }
+    if (before.outside > 0) {
+      add("the size field does not reach " + count_of(before.outside, "vertex", "vertices") +
+          " of the input, where its nearest value was taken");
+    }
+  }
+
+  void tell_energy() {
+    if (!std::isfinite(report_.final_energy)) {
+      add("the energy is infinite: on some edges weights differ by more than the squared length, and this run could "
+          "not change that");
+    }
+    if (report_.final_energy < 0) {
+      add("the energy is negative: HOT has no lower bound in the weights; energies T and BP have one");
+    }
+  }
+
+  /// Triangles that no optimiser can make well-centered, whatever it tries.
+  void tell_edges_that_must_be_split(std::size_t bad) {
+    if (!settings_.energy().barrier || bad == 0 || mesh_.space().kind() != SpaceKind::plane) return;
+    if (settings_.policy.allows_inversion && count_inverted(mesh_) > 0) return;  // no inside to see through
+    const std::vector<EdgeConflict> edges = edges_that_must_be_split(mesh_);
+    if (edges.empty()) return;
+    const HalfedgeId worst = edges.front().edge;
+    add(count_of(edges.size(), "edge of the boundary or of lines has", "edges of the boundary or of lines have") +
+        " to be split, or a vertex near it moved, before any mesh can be well-centered here, first the one from " +
+        name_of(mesh_.origin(worst)) + " to " + name_of(mesh_.target(worst)) + ": explain tells more" +
+        (options_.boundary == BoundaryVertices::split ? "" : ", and `boundary=split` splits them"));
+  }
+
+  /// Bad triangles that nothing can reshape, where another option would let a corner move.
+  void tell_corners_that_stay(std::size_t bad) {
+    const bool moves = options_.unknowns != Unknowns::weights && settings_.energy().barrier;
+    if (bad == 0 || !moves || mesh_.space().kind() != SpaceKind::plane) return;
+    OptimizeOptions sliding = options_;
+    sliding.boundary = BoundaryVertices::slide;
+    sliding.interfaces = InterfaceVertices::sliding;
+    std::size_t stuck = 0;
+    bool along_boundary = false, along_lines = false;
+    for (const TriangleId t : mesh_.triangles()) {
+      if (inlined::is_well_centered(mesh_, t)) continue;
+      const auto corners = mesh_.corners(t);
+      const auto is = [&](Mobility m, const OptimizeOptions& o) {
+        return [this, m, &o](VertexId v) { return mobility(mesh_, v, o) == m; };
+      };
+      if (!std::all_of(corners.begin(), corners.end(), is(Mobility::fixed, options_))) continue;
+      const auto slides = is(Mobility::sliding, sliding);
+      if (std::none_of(corners.begin(), corners.end(), slides)) continue;
+      ++stuck;
+      for (const VertexId v : corners) (mesh_.is_boundary(v) ? along_boundary : along_lines) |= slides(v);
+    }
+    if (stuck == 0) return;
+    add("all corners of " + count_of(stuck, "triangle", "triangles") + " that " + (stuck == 1 ? "is" : "are") +
+        " not well-centered have to stay: " + (along_boundary ? "`boundary=slide`" : "") +
+        (along_boundary && along_lines ? " and " : "") + (along_lines ? "`interfaces=sliding`" : "") +
+        " would let some of them move along straight lines");
+  }
+
+  /// The error model needs a library of sparse matrices.
+  void tell_objective() {
+    add("the objective was accuracy, not the error of the solver: this run had no model of that error; builds with "
+        "Eigen have one, temper::solvers() in C++");
+  }
+
+  /// Repairs go on without, so this is told if triangles are left.
+  void tell_programs() {
+    add("repairs had no solver of linear programs, which may find weights for triangles that are left; builds with Clp "
+        "have one, temper::solvers() in C++");
+  }
+
+  void tell_accuracy(std::size_t bad) {
+    if (bad > 0) {
+      add(count_of(bad, "triangle is", "triangles are") +
+          " not well-centered: vertices there were not moved for accuracy");
+    }
+    if (const std::size_t thin = options_.accuracy.margin ? count_thin() : 0; thin > bad) {
+      add(count_of(thin - bad, "triangle is", "triangles are") + " well-centered by no more than " +
+          to_text(settings_.accuracy.margin) + " of an edge");
+    }
+    const std::size_t lacking = triangles_lacking_length(mesh_, settings_.accuracy).size();
+    if (lacking > 0) {
+      add("at " + count_of(lacking, "triangle", "triangles") +
+          " edges or duals are shorter than `min_edge` and `min_dual` ask for" +
+          (options_.repair == Repair::vertices ? "" : ": `repair=vertices` may find other connectivities"));
+    }
+    if (settings_.errors == nullptr) {
+      add("energy of the accuracy objective, edges taken absolute: " + to_text(report_.initial_energy) + " before, " +
+          to_text(report_.final_energy) + " after");
+    } else if (std::isfinite(report_.initial_energy)) {
+      add("errors of what the mesh is for, over smooth fields: now " +
+          to_text(std::round(1000 * report_.final_energy / report_.initial_energy) / 1000) +
+          " times those of the input");
+    } else {
+      add("what the mesh is for could not be solved on the input: its matrix was not positive definite");
+    }
+  }
+
+ private:
+  void add(std::string note) { report_.notes.push_back(std::move(note)); }
+
+  void tell_input_flips(std::size_t flips) {
+    if (flips > 0) add(count_of(flips, "edge", "edges") + " of the input flipped to make it regular");
+  }
+
+  void tell_cuts(const BoundaryCuts& cuts) {
+    const auto rounded = [](double ratio) { return to_text(std::round(100 * ratio) / 100); };
+    if (cuts.vertices > 0) {
+      add(count_of(cuts.vertices, "vertex", "vertices") +
+          " inserted on the boundary and on lines: edges that meet there differed in length by a factor of " +
+          rounded(cuts.ratio_before) + ", now " + rounded(cuts.ratio_after));
+    }
+    if (cuts.conflicts > 0) {
+      add(std::to_string(cuts.conflicts) +
+          " of these split edges that left their dual no place to cross, or hardly one");
+    }
+    if (cuts.inside > 0) {
+      add(count_of(cuts.inside, "vertex", "vertices") +
+          " inserted in triangles whose corners all were on the boundary or on lines");
+    }
+    if (cuts.refused > 0) {
+      add(count_of(cuts.refused, "edge", "edges") +
+          " of the boundary or of lines could not be cut: coordinates are too coarse there, or weights would hide a "
+          "vertex");
+    }
+  }
+
+  /// Triangles without the margin, the bad ones included.
+  [[nodiscard]] std::size_t count_thin() const {
+    return static_cast<std::size_t>(blockwise_sum(mesh_.n_triangles(), settings_.executor(), [&](std::size_t i) {
+      return triangle_margin(mesh_, TriangleId(i)) > settings_.accuracy.margin ? 0.0 : 1.0;
+    }));
+  }
+
+  [[nodiscard]] std::string name_of(VertexId v) const {
+    const VertexId number = report_.vertices.empty() ? v : report_.vertices[v];
+    if (!number.valid()) return "(" + to_text(mesh_.position(v).x) + ", " + to_text(mesh_.position(v).y) + ")";
+    return settings_.hooks.names != nullptr ? settings_.hooks.names->point(number.index)
+                                            : InputNames().point(number.index);
+  }
+
+  const Mesh& mesh_;
+  const Settings& settings_;
+  const OptimizeOptions& options_;
+  OptimizeReport& report_;
+};
+
 }  // namespace
 
-void Notes::tell(const RunFacts& facts) {
-  if (facts.stays_uncut) {
-    add("the boundary and lines were not split: more triangles would be left that are not well-centered");
-  } else if (facts.boundary_cuts) {
-    tell_cuts(*facts.boundary_cuts);
-  }
-  tell_input_flips(facts.input_flips);
-  if (facts.weights_shrunk) add("weights left edges uncrossed that a barrier needs crossed: all were made smaller");
-  if (facts.energy_rose) add("the energy rose in the last sweeps; the mesh with the least one is returned");
-}
-
-void Notes::tell_input_flips(std::size_t flips) {
-  if (flips > 0) add(count_of(flips, "edge", "edges") + " of the input flipped to make it regular");
-}
-
-void Notes::tell_cuts(const BoundaryCuts& cuts) {
-  const auto rounded = [](double ratio) { return to_text(std::round(100 * ratio) / 100); };
-  if (cuts.vertices > 0) {
-    add(count_of(cuts.vertices, "vertex", "vertices") +
-        " inserted on the boundary and on lines: edges that meet there differed in length by a factor of " +
-        rounded(cuts.ratio_before) + ", now " + rounded(cuts.ratio_after));
-  }
-  if (cuts.conflicts > 0) {
-    add(std::to_string(cuts.conflicts) + " of these split edges that left their dual no place to cross, or hardly one");
-  }
-  if (cuts.inside > 0) {
-    add(count_of(cuts.inside, "vertex", "vertices") +
-        " inserted in triangles whose corners all were on the boundary or on lines");
-  }
-  if (cuts.refused > 0) {
-    add(count_of(cuts.refused, "edge", "edges") +
-        " of the boundary or of lines could not be cut: coordinates are too coarse there, or weights would hide a "
-        "vertex");
-  }
-}
-
-/// What else the run did is not in the mesh.
-void Notes::tell_input_is_returned(const RunFacts& facts, bool flipped) {
-  if (flipped) tell_input_flips(facts.input_flips);
-  add(flipped ? "no better mesh was found: the input is returned, its edges flipped to be regular"
-              : "no better mesh was found: the input is returned as it was");
-}
-
-/// HOT energies do not ask how many triangles are well-centered. `bad_before`: part of the input's.
-void Notes::tell_if_more_are_bad(double bad_before) {
-  const auto percent = [](double part) { return to_text(std::round(1000 * part) / 10) + " %"; };
-  const double bad = bad_part(mesh_, count_bad(mesh_, settings_.hooks.executor));
-  if (bad > bad_before) {
-    add(percent(bad) + " of the triangles are not well-centered, " + percent(bad_before) + " of the input's: energy " +
-        std::string(settings_.energy().name) + " does not ask for that, energy BP does");
-  }
-}
-
-/// Hidden vertices that are kept keep edges from being regular.
-void Notes::tell_what_is_not_regular() {
-  if (!settings_.policy.keeps_hidden) return;
-  const std::size_t edges = count_non_regular_edges(mesh_, false, settings_.hooks.executor);
-  if (edges > 0)
-    add(count_of(edges, "edge is", "edges are") + " not regular, since `hidden=keep` keeps hidden vertices");
-}
-
-void Notes::tell_sizes() {
-  const SizeReport& before = report_.size.before;
-  if (options_.size_band && before.band() > *options_.size_band) {
-    add("the input is outside of its size band: sizes are up to " + to_text(before.band()) +
-        " times off the size field, and what is outside can only come nearer to it");
-  }
-  if (before.outside > 0) {
-    add("the size field does not reach " + count_of(before.outside, "vertex", "vertices") +
-        " of the input, where its nearest value was taken");
-  }
-}
-
-void Notes::tell_energy() {
-  if (!std::isfinite(report_.final_energy)) {
-    add("the energy is infinite: on some edges weights differ by more than the squared length, and this run could not "
-        "change that");
-  }
-  if (report_.final_energy < 0) {
-    add("the energy is negative: HOT has no lower bound in the weights; energies T and BP have one");
-  }
-}
-
-std::string Notes::name_of(VertexId v) const {
-  const VertexId number = report_.vertices.empty() ? v : report_.vertices[v];
-  if (!number.valid()) return "(" + to_text(mesh_.position(v).x) + ", " + to_text(mesh_.position(v).y) + ")";
-  return settings_.hooks.names != nullptr ? settings_.hooks.names->point(number.index)
-                                          : InputNames().point(number.index);
-}
-
-/// Triangles that no optimiser can make well-centered, whatever it tries.
-void Notes::tell_edges_that_must_be_split(std::size_t bad) {
-  if (!settings_.energy().barrier || bad == 0 || mesh_.space().kind() != SpaceKind::plane) return;
-  if (settings_.policy.allows_inversion && count_inverted(mesh_) > 0) return;  // no inside to see through
-  const std::vector<EdgeConflict> edges = edges_that_must_be_split(mesh_);
-  if (edges.empty()) return;
-  const HalfedgeId worst = edges.front().edge;
-  add(count_of(edges.size(), "edge of the boundary or of lines has", "edges of the boundary or of lines have") +
-      " to be split, or a vertex near it moved, before any mesh can be well-centered here, first the one from " +
-      name_of(mesh_.origin(worst)) + " to " + name_of(mesh_.target(worst)) + ": explain tells more" +
-      (options_.boundary == BoundaryVertices::split ? "" : ", and `boundary=split` splits them"));
-}
-
-/// Bad triangles that nothing can reshape, where another option would let a corner move.
-void Notes::tell_corners_that_stay(std::size_t bad) {
-  const bool moves = options_.unknowns != Unknowns::weights && settings_.energy().barrier;
-  if (bad == 0 || !moves || mesh_.space().kind() != SpaceKind::plane) return;
-  OptimizeOptions sliding = options_;
-  sliding.boundary = BoundaryVertices::slide;
-  sliding.interfaces = InterfaceVertices::sliding;
-  std::size_t stuck = 0;
-  bool along_boundary = false, along_lines = false;
-  for (const TriangleId t : mesh_.triangles()) {
-    if (inlined::is_well_centered(mesh_, t)) continue;
-    const auto corners = mesh_.corners(t);
-    const auto is = [&](Mobility m, const OptimizeOptions& o) {
-      return [this, m, &o](VertexId v) { return mobility(mesh_, v, o) == m; };
-    };
-    if (!std::all_of(corners.begin(), corners.end(), is(Mobility::fixed, options_))) continue;
-    const auto slides = is(Mobility::sliding, sliding);
-    if (std::none_of(corners.begin(), corners.end(), slides)) continue;
-    ++stuck;
-    for (const VertexId v : corners) (mesh_.is_boundary(v) ? along_boundary : along_lines) |= slides(v);
-  }
-  if (stuck == 0) return;
-  add("all corners of " + count_of(stuck, "triangle", "triangles") + " that " + (stuck == 1 ? "is" : "are") +
-      " not well-centered have to stay: " + (along_boundary ? "`boundary=slide`" : "") +
-      (along_boundary && along_lines ? " and " : "") + (along_lines ? "`interfaces=sliding`" : "") +
-      " would let some of them move along straight lines");
-}
-
-/// Triangles without the margin, the bad ones included.
-std::size_t Notes::count_thin() const {
-  return static_cast<std::size_t>(blockwise_sum(mesh_.n_triangles(), settings_.hooks.executor, [&](std::size_t i) {
-    return triangle_margin(mesh_, TriangleId(i)) > settings_.accuracy.margin ? 0.0 : 1.0;
-  }));
-}
-
-/// The error model needs a library of sparse matrices.
-void Notes::tell_objective() {
-  add("the objective was accuracy, not the error of the solver: this run had no model of that error; builds with Eigen "
-      "have one, temper::solvers() in C++");
-}
-
-/// Repairs go on without, so this is told where triangles are left.
-void Notes::tell_programmes() {
-  add("repairs had no solver of linear programs, which may find weights for triangles that are left; builds with Clp "
-      "have "
-      "one, temper::solvers() in C++");
-}
-
-void Notes::tell_accuracy(std::size_t bad) {
-  if (bad > 0) {
-    add(count_of(bad, "triangle is", "triangles are") +
-        " not well-centered: vertices there were not moved for accuracy");
-  }
-  if (const std::size_t thin = options_.accuracy.margin ? count_thin() : 0; thin > bad) {
-    add(count_of(thin - bad, "triangle is", "triangles are") + " well-centered by no more than " +
-        to_text(settings_.accuracy.margin) + " of an edge");
-  }
-  const std::size_t lacking = triangles_lacking_length(mesh_, settings_.accuracy).size();
-  if (lacking > 0) {
-    add("at " + count_of(lacking, "triangle", "triangles") +
-        " edges or duals are shorter than `min_edge` and `min_dual` ask for" +
-        (options_.repair == Repair::vertices ? "" : ": `repair=vertices` may find other connectivities"));
-  }
-  if (settings_.errors == nullptr) {
-    add("energy of the accuracy objective, edges taken absolute: " + to_text(report_.initial_energy) + " before, " +
-        to_text(report_.final_energy) + " after");
-  } else if (std::isfinite(report_.initial_energy)) {
-    add("errors of what the mesh is for, over smooth fields: now " +
-        to_text(std::round(1000 * report_.final_energy / report_.initial_energy) / 1000) + " times those of the input");
+void tell(const Mesh& mesh, const Settings& settings, const RunFacts& facts, const Ending& ending,
+          OptimizeReport& report) {
+  Notes notes(mesh, settings, report);
+  if (ending.returns_input) {
+    notes.tell_input_is_returned(facts, ending.flips_input);
   } else {
-    add("what the mesh is for could not be solved on the input: its matrix was not positive definite");
+    notes.tell_facts(facts);
   }
+  const bool barrier = settings.energy().barrier;
+  if (!barrier) notes.tell_if_more_are_bad(ending.bad_part_before);
+  notes.tell_what_is_not_regular();
+  notes.tell_sizes();
+  notes.tell_energy();
+  notes.tell_corners_that_stay(ending.bad);
+  notes.tell_edges_that_must_be_split(ending.bad);
+  if (settings.lacks_error_model) notes.tell_objective();
+  if (facts.lacks_programs && ending.bad > 0) notes.tell_programs();
+  if (ending.for_accuracy) notes.tell_accuracy(barrier ? ending.bad : count_bad(mesh, settings.executor()));
 }
 
 }  // namespace temper

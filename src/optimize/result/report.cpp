@@ -7,10 +7,10 @@
 
 #include "energy/whole_mesh.hpp"
 #include "mesh/curve.hpp"
-#include "optimize/stages/driver.hpp"
 #include "optimize/result/notes.hpp"
 #include "optimize/run/judge.hpp"
-#include "optimize/working/rounding.hpp"
+#include "optimize/stages/driver.hpp"
+#include "optimize/working/frame.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
@@ -19,16 +19,14 @@ namespace {
 /// What sizes are compared with; the input's own are seen until it is replaced.
 SizeField field_of(const Mesh& input, const Settings& settings) {
   if (settings.size_field) return *settings.size_field;
-  return settings.options.size_field ? *settings.options.size_field
-                                     : input_size_field_of(input, settings.hooks.executor);
+  return settings.options.size_field ? *settings.options.size_field : input_size_field_of(input, settings.executor());
 }
 
 /// Vertices that Lawson's algorithm leaves without a power cell; none where it has no meaning, among inverted
 /// triangles.
 std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, const Settings& settings) {
   const bool keeps = settings.policy.keeps_hidden;
-  if (!keeps || count_non_regular_edges(mesh, false, settings.hooks.executor) == 0 || count_inverted(mesh) > 0)
-    return {};
+  if (!keeps || count_non_regular_edges(mesh, false, settings.executor()) == 0 || count_inverted(mesh) > 0) return {};
   Mesh copy = mesh;
   return restore_regularity(copy).hidden;
 }
@@ -45,7 +43,7 @@ struct Result {
 /// what is no longer needed is gone before the next is measured.
 Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, const EnergyModel& model,
                  std::optional<AccuracySizes> sizes) {
-  Executor* const executor = settings.hooks.executor;
+  Executor* const executor = settings.executor();
   Result result;
   const bool for_accuracy = sizes.has_value(), scattered = is_scattered(input);
   VertexSizes own;
@@ -72,7 +70,7 @@ Result result_of(const Mesh& input, WorkingCopy work, const Settings& settings, 
 
 /// The input with its edges flipped as every attempt begins, for a run that found nothing better in so many sweeps.
 WorkingCopy made_regular(const Mesh& mesh, const Settings& settings, SweepState state, int sweeps) {
-  WorkingCopy work(mesh, settings.policy.order, settings.hooks.executor);
+  WorkingCopy work(mesh, settings.policy.order, settings.executor());
   const OptimizeHooks nobody;
   Run unheard(settings.options, nobody, mesh);
   unheard.report.sweeps = sweeps;
@@ -98,55 +96,28 @@ bool lacks_flips(const Counts& input, const Settings& settings, const RunFacts& 
 
 }  // namespace
 
-std::string_view name(Objective objective) {
-  constexpr std::string_view kNames[] = {"energy", "accuracy", "error"};
-  return kNames[static_cast<std::size_t>(objective)];
-}
-
 std::string_view name(Stopped stopped) {
-  switch (stopped) {
-    case Stopped::converged:
-      return "converged";
-    case Stopped::max_sweeps:
-      return "max_sweeps";
-    case Stopped::max_outer:
-      return "max_outer";
-    case Stopped::time_limit:
-      return "time_limit";
-    case Stopped::cancelled:
-      return "cancelled";
-    case Stopped::accuracy_sweeps:
-      return "accuracy_sweeps";
-    case Stopped::tangled:
-      return "tangled";
-    case Stopped::hidden:
-      return "hidden";
-  }
-  return "unknown";
+  constexpr std::string_view kNames[] = {"converged", "max_sweeps", "max_outer",       "time_limit",
+                                         "cancelled", "tangled",    "accuracy_sweeps", "hidden"};
+  return kNames[static_cast<std::size_t>(stopped)];
 }
 
-InputMeasures measure_input(const Mesh& mesh, const NearbyCopy& near, const Settings& settings) {
-  InputMeasures measures;
-  measures.counts = count(near.mesh(), settings);
-  Executor* const executor = settings.hooks.executor;
-  if (!settings.size_field && !settings.options.size_field) {
-    measures.size = measure_size(near.mesh(), field_of(near.mesh(), settings), executor);
-    return measures;
-  }
+InputMeasures::InputMeasures(const Mesh& mesh, const Settings& settings, std::optional<AccuracySizes>& sizes) {
+  Executor* const executor = settings.executor();
+  const NearbyCopy near(mesh, executor);
+  counts = count(near.mesh(), settings);
   IdVector<VertexId, VertexId> numbers;
   if (!near.is_original()) {
     for (const VertexId v : near.mesh().vertices()) numbers.push_back(near.original(v));
   }
-  measures.size = measure_size(near.mesh(), field_of(mesh, settings), executor, numbers);
-  return measures;
-}
-
-MeshScore score_input(const NearbyCopy& near, const Counts& counts, const Settings& settings,
-                      const AccuracySizes& sizes) {
-  if (near.is_original()) return score(near.mesh(), counts, settings, settings.model, &sizes.of_input());
-  VertexSizes there(near.mesh().n_vertices());
-  for (const VertexId v : near.mesh().vertices()) there[v] = sizes.of_input()[near.original(v)];
-  return score(near.mesh(), counts, settings, settings.model, &there);
+  const bool has_field = settings.size_field || settings.options.size_field;
+  size = has_field ? measure_size(near.mesh(), field_of(mesh, settings), executor, numbers)
+                   : measure_size(near.mesh(), field_of(near.mesh(), settings), executor);
+  if (settings.objective == Objective::energy) return;
+  sizes.emplace(near, settings.options.size_field, executor);
+  VertexSizes there;
+  for (const VertexId v : numbers) there.push_back(sizes->of_input()[v]);
+  score = temper::score(near.mesh(), counts, settings, settings.model, numbers.empty() ? &sizes->of_input() : &there);
 }
 
 void give_back(Mesh& mesh, Candidate best, const Settings& settings, const SweepState& state,
@@ -161,8 +132,7 @@ void give_back(Mesh& mesh, Candidate best, const Settings& settings, const Sweep
   const MeshScore before = of_input.score ? *of_input.score : score(mesh, of_input.counts, settings, model, nullptr);
   report.size.before = report.size.after = of_input.size;
   report.initial_energy = before.energy;
-  const std::optional<double> bad_before =
-      settings.energy().barrier ? std::nullopt : std::optional(bad_part(mesh, of_input.counts.bad));
+  const double bad_part_before = bad_part(mesh, of_input.counts.bad);
   // Flips that make the input regular come before all else that may be better or worse.
   const bool may_be_better = before < result.score || result.score.bad > 0 || result.score.non_regular > 0;
   const bool flips = may_be_better && lacks_flips(of_input.counts, settings, run.facts);
@@ -173,7 +143,7 @@ void give_back(Mesh& mesh, Candidate best, const Settings& settings, const Sweep
     silent.hooks.tracer = {};
     std::optional<AccuracySizes> again;
     if (for_accuracy)
-      again.emplace(NearbyCopy(mesh, settings.hooks.executor), settings.options.size_field, settings.hooks.executor);
+      again.emplace(NearbyCopy(mesh, settings.executor()), settings.options.size_field, settings.executor());
     input = result_of(mesh, made_regular(mesh, silent, state, report.sweeps), settings, model, std::move(again));
   }
   const bool worse = !replaces(result.score, input.score, Requirement::not_worse);
@@ -191,22 +161,7 @@ void give_back(Mesh& mesh, Candidate best, const Settings& settings, const Sweep
   }
   report.hidden = hidden_vertices_of(mesh, settings);
 
-  Notes notes(mesh, settings, report);
-  if (worse) {
-    notes.tell_input_is_returned(run.facts, flips);
-  } else {
-    notes.tell(run.facts);
-  }
-  if (bad_before) notes.tell_if_more_are_bad(*bad_before);
-  notes.tell_what_is_not_regular();
-  notes.tell_sizes();
-  notes.tell_energy();
-  notes.tell_corners_that_stay(result.score.bad);
-  notes.tell_edges_that_must_be_split(result.score.bad);
-  if (settings.lacks_error_model) notes.tell_objective();
-  if (run.facts.lacks_programmes && result.score.bad > 0) notes.tell_programmes();
-  if (for_accuracy)
-    notes.tell_accuracy(settings.energy().barrier ? result.score.bad : count_bad(mesh, settings.hooks.executor));
+  tell(mesh, settings, run.facts, {worse, flips, for_accuracy, result.score.bad, bad_part_before}, report);
   report.seconds = run.seconds();
 }
 

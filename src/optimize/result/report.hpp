@@ -4,24 +4,22 @@
 #include <optional>
 
 #include "optimize/accuracy/accuracy_sizes.hpp"
+#include "optimize/options/settings.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/run/run.hpp"
-#include "optimize/options/settings.hpp"
 
 namespace temper {
 
 /// What the report compares with, as far as it depends on the input alone. It is measured before the sweeps: whoever
 /// stops them need not wait for it, and Run::begin_sweeps() learns how long the like takes at the end.
 struct InputMeasures {
+  /// `sizes`: made too, for objectives other than an energy.
+  InputMeasures(const Mesh& mesh, const Settings& settings, std::optional<AccuracySizes>& sizes);
+
   Counts counts;
   SizeReport size;
   std::optional<MeshScore> score;  ///< where the energies of a run do not enter into it
 };
-/// All but the score. `near`: of the mesh.
-[[nodiscard]] InputMeasures measure_input(const Mesh& mesh, const NearbyCopy& near, const Settings& settings);
-/// The score by the accuracy objective.
-[[nodiscard]] MeshScore score_input(const NearbyCopy& near, const Counts& counts, const Settings& settings,
-                              const AccuracySizes& sizes);
 
 /// Puts the candidate into `mesh`, unless that is the better one, and completes the report of the run. `sizes`: of the
 /// accuracy objective, else none.

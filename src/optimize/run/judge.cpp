@@ -1,19 +1,66 @@
 #include "optimize/run/judge.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "base/sum.hpp"
 #include "energy/whole_mesh.hpp"
-#include "optimize/run/lengths.hpp"
 #include "optimize/run/run.hpp"
+#include "temper/detail/size.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
+namespace {
+
+using Sizes = IdVector<VertexId, double>;
+
+double missing(double length, double least) {
+  const double part = length < least ? 1 - std::max(length, 0.0) / least : 0;
+  return part * part;
+}
+
+/// Of an edge that the halfedge stands for; none of the boundary's.
+double missing_of(const Mesh& mesh, const Sizes& sizes, const AccuracyModel& model, HalfedgeId h) {
+  if (mesh.is_erased(Mesh::triangle(h)) || mesh.is_boundary(h) || !mesh.is_edge_representative(h)) return 0;
+  const auto [edge, dual] = relative_lengths(mesh, sizes, h);
+  return missing(edge, model.min_edge) + missing(dual, model.min_dual);
+}
+
+}  // namespace
+
+double missing_lengths(const Mesh& mesh, const AccuracyModel& model, Executor* executor) {
+  if (!model.keeps_lengths()) return 0;
+  const Sizes sizes = local_sizes(mesh, executor);
+  return blockwise_sum(mesh.n_halfedges(), executor,
+                       [&](std::size_t i) { return missing_of(mesh, sizes, model, HalfedgeId(i)); });
+}
+
+std::vector<TriangleId> triangles_lacking_length(const Mesh& mesh, const AccuracyModel& model) {
+  std::vector<TriangleId> lacking;
+  if (!model.keeps_lengths()) return lacking;
+  const Sizes sizes = local_sizes(mesh);
+  for (const HalfedgeId h : mesh.halfedges()) {
+    if (missing_of(mesh, sizes, model, h) > 0) lacking.push_back(Mesh::triangle(h));
+  }
+  lacking.erase(std::unique(lacking.begin(), lacking.end()), lacking.end());
+  return lacking;
+}
+
+bool has_all_for_accuracy(const Mesh& mesh, const Settings& settings) {
+  return has_margins(mesh, settings.accuracy.margin, settings.executor()) &&
+         missing_lengths(mesh, settings.accuracy, settings.executor()) == 0;
+}
 
 bool replaces(const MeshScore& now, const MeshScore& best, Requirement required) {
   if (required == Requirement::fewer_bad) return now.bad < best.bad;
   if (best < now) return false;
   return required == Requirement::not_worse || now.bad < best.bad || now.missing_lengths < best.missing_lengths;
+}
+
+bool replaces(const Mesh& now, const Mesh& best, Requirement required, const Settings& settings,
+              const EnergyModel& model) {
+  return replaces(score(now, settings, model), score(best, settings, model), required);
 }
 
 double root_mean_square(const std::vector<double>& squared_errors) {

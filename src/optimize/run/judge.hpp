@@ -5,9 +5,24 @@
 #include <cstddef>
 #include <vector>
 
+#include "energy/accuracy_edge.hpp"
 #include "optimize/options/settings.hpp"
+#include "temper/detail/executor.hpp"
+#include "temper/mesh.hpp"
 
 namespace temper {
+
+// What edges and duals of a mesh lack of the lengths that are asked for (AccuracyOptions::min_edge, min_dual).
+
+/// Σ over interior edges of (1 − length/least)² of both lengths, where they are shorter than the least asked for;
+/// exactly 0 where nothing is missing. Triangles may be erased. O(n).
+[[nodiscard]] double missing_lengths(const Mesh& mesh, const AccuracyModel& model, Executor* executor = nullptr);
+
+/// The triangles that have an edge which lacks length, in ascending order.
+[[nodiscard]] std::vector<TriangleId> triangles_lacking_length(const Mesh& mesh, const AccuracyModel& model);
+
+/// Says whether the accuracy objective finds all margins and lengths that it asks for.
+[[nodiscard]] bool has_all_for_accuracy(const Mesh& mesh, const Settings& settings);
 
 /// A smaller score is better. Validity comes first. Then regularity, unless the user keeps hidden vertices. Then, for a
 /// barrier, the number of triangles that are not well-centered. Then the margins of the accuracy objective, and lengths
@@ -15,7 +30,7 @@ namespace temper {
 struct MeshScore {
   std::size_t inverted = 0, non_regular = 0, bad = 0;
   bool lacks_margins = false;
-  double missing_lengths = 0;  ///< of those asked for (lengths.hpp)
+  double missing_lengths = 0;  ///< of those asked for
   double energy = 0;
   friend auto operator<=>(const MeshScore&, const MeshScore&) = default;
 };
@@ -41,6 +56,10 @@ struct Counts {
 /// The score of a mesh where all has been counted.
 [[nodiscard]] MeshScore score(const Mesh& mesh, const Counts& counts, const Settings& settings,
                               const EnergyModel& model, const VertexSizes* sizes);
+
+/// Says whether a mesh replaces the best one, by that energy.
+[[nodiscard]] bool replaces(const Mesh& now, const Mesh& best, Requirement required, const Settings& settings,
+                            const EnergyModel& model);
 
 /// The root of the geometric mean of the schemes' squared errors; +∞ if there are none.
 [[nodiscard]] double root_mean_square(const std::vector<double>& squared_errors);

@@ -1,24 +1,111 @@
 #include "optimize/run/run.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
 #include "base/bytes.hpp"
 #include "geometry/predicates_inline.hpp"
-#include "optimize/run/estimate.hpp"
 #include "optimize/run/judge.hpp"
-#include "optimize/working/rounding.hpp"
+#include "optimize/working/frame.hpp"
+#include "temper/detail/optimize_table.hpp"
+#include "temper/detail/version.hpp"
 
 namespace temper {
+namespace {
+
+/// A hash that any changed byte changes.
+class Fingerprint {
+ public:
+  void add(std::uint64_t word) {
+    hash_ = (hash_ ^ word) * 0x9e3779b97f4a7c15U;
+    hash_ ^= hash_ >> 32;
+  }
+  template <class T>
+  void add(const T* values, std::size_t n) {
+    const auto* bytes = reinterpret_cast<const char*>(values);
+    const std::size_t size = n * sizeof(T);
+    add(size);
+    for (std::size_t begin = 0; begin < size; begin += sizeof(std::uint64_t)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes + begin, std::min(sizeof word, size - begin));
+      add(word);
+    }
+  }
+  [[nodiscard]] std::uint64_t hash() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0;
+};
+
+void add_mesh(Fingerprint& all, const Mesh& mesh) {
+  const Vec2 period = mesh.space().period();
+  const double space[] = {mesh.space().radius(), period.x, period.y};
+  all.add(space, std::size(space));
+  all.add(mesh.vertex_data(), mesh.n_vertices() * Mesh::kVertexStride / sizeof(double));
+  all.add(mesh.corner_data().data(), mesh.n_halfedges());
+  all.add(mesh.twin_data().data(), mesh.n_halfedges());
+  for (const TriangleId t : mesh.triangles()) all.add(static_cast<std::uint64_t>(mesh.region(t)));
+  for (const HalfedgeId h : mesh.halfedges()) all.add(mesh.is_constrained(h) ? 1 : 0);
+}
+
+void add_options(Fingerprint& all, const OptimizeOptions& options) {
+  std::string text;
+  for (const OptionGroup& group : option_groups()) {
+    for (const OptionRow& row : group.rows) {
+      if (row.name != "time_limit") text.append(row.name).append(option_text(row, row.get(options))).append("\n");
+    }
+  }
+  all.add(text.data(), text.size());
+  if (!options.size_field) return;
+  add_mesh(all, options.size_field->mesh());
+  for (const VertexId v : options.size_field->mesh().vertices()) {
+    const double size = options.size_field->at(v);
+    all.add(&size, 1);
+  }
+}
+
+constexpr std::size_t kGains = 4;  // from whose first and last the factor is taken: two alone jump
+
+/// The limits of the stage that a sweep belongs to.
+struct Limits {
+  double tolerance = 0;  ///< relative
+  int sweeps = 0;        ///< of the run, at most
+  int after = 0;         ///< sweeps of the stage that follows
+};
+
+Limits limits_of(std::span<const SweepRecord> history, const OptimizeOptions& o) {
+  if (history.back().objective == Objective::energy) {
+    return {o.paper.tolerance, o.max_sweeps, objective_of(o) == Objective::energy ? 0 : o.accuracy.sweeps};
+  }
+  if (history.back().objective == Objective::error) {
+    const auto first = std::ranges::find(history, Objective::error, &SweepRecord::objective);
+    return {o.error.tolerance, std::min(o.max_sweeps, first->sweep + o.error.steps)};
+  }
+  const auto first = std::ranges::find(history, Objective::accuracy, &SweepRecord::objective);
+  return {o.accuracy.tolerance, std::min(o.max_sweeps, first->sweep + o.accuracy.sweeps)};
+}
+
+bool one_stage(const SweepRecord& a, const SweepRecord& b) {
+  return a.softening == b.softening && a.objective == b.objective;
+}
+
+}  // namespace
 
 bool time_is_up(double elapsed, double ending, double limit) { return limit > 0 && elapsed + ending > limit; }
 
 void Run::offer(const WorkingCopy& now, const Settings& settings, const SweepState& state) const {
   if (!hooks_.best_so_far) return;
   hooks_.best_so_far([&](const std::function<void(const BestSoFar&)>& use) {
-    const auto score_of = [&](const WorkingCopy& work) { return score(work.mesh, settings, state.model); };
     const WorkingCopy* best = &now;
-    if (best_before != nullptr && !replaces(score_of(now), score_of(*best_before), Requirement::not_worse)) {
+    if (best_before != nullptr &&
+        !replaces(now.mesh, best_before->mesh, Requirement::not_worse, settings, state.model)) {
       best = best_before;
     }
-    const MeshScore found = score_of(*best);
+    const MeshScore found = score(best->mesh, settings, state.model);
     if (found.inverted > 0 || (found.non_regular > 0 && !settings.policy.keeps_connectivity)) return;
     Mesh mesh = best->in_user_terms(settings.executor());
     IdVector<VertexId, VertexId> vertices;
@@ -73,6 +160,41 @@ std::size_t count_inverted(const Mesh& mesh) {
     if (inlined::orientation(mesh, a, b, c) != Sign::positive) ++count;
   }
   return count;
+}
+
+std::optional<InputError> expect_agreement(const OptimizeHooks& hooks, const OptimizeOptions& options,
+                                           const Mesh& mesh) {
+  if (hooks.communicator == nullptr) return std::nullopt;
+  Fingerprint mine;
+  add_mesh(mine, mesh);
+  add_options(mine, options);
+  mine.add(hooks.tracer ? 1 : 0);
+  const std::string given = std::string(version()) + ' ' + std::to_string(mine.hash());
+  const std::vector<std::string> all = hooks.communicator->all_gather(given);
+  const auto other = std::find_if(all.begin(), all.end(), [&](const std::string& each) { return each != all[0]; });
+  if (other == all.end()) return std::nullopt;
+  return InputError{ErrorCode::rank_mismatch,
+                    {},
+                    "rank " + std::to_string(other - all.begin()) +
+                        " has another mesh, other options or another version of temper than rank 0: all ranks of a run "
+                        "must be given the same, and files may not change while they read them"};
+}
+
+std::optional<double> estimate_sweeps_left(std::span<const SweepRecord> history, const OptimizeOptions& options) {
+  if (history.size() <= kGains || options.paper.stopping == StoppingRule::paper) return std::nullopt;
+  const std::span<const SweepRecord> last = history.last(kGains + 1);
+  double gains[kGains];
+  for (std::size_t i = 0; i < kGains; ++i) {
+    gains[i] = last[i].energy - last[i + 1].energy;
+    if (!one_stage(last[i], last[i + 1]) || !(gains[i] > 0)) return std::nullopt;
+  }
+  const double shrinking = std::log(gains[0] / gains[kGains - 1]) / (kGains - 1);  // of the gain's logarithm, a sweep
+  if (!(shrinking > 0)) return std::nullopt;
+  const Limits limits = limits_of(history, options);
+  const double target = limits.tolerance * std::abs(last.back().energy);
+  const double sweeps = target > 0 ? std::log(gains[kGains - 1] / target) / shrinking : limits.sweeps;
+  return std::clamp(std::max(0.0, sweeps) + limits.after, 0.0,
+                    static_cast<double>(std::max(0, limits.sweeps - last.back().sweep)));
 }
 
 }  // namespace temper

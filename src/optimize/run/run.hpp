@@ -4,10 +4,11 @@
 #include <chrono>
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "base/engine.hpp"
-#include "optimize/flips/grading.hpp"
 #include "optimize/flips/flipper.hpp"
+#include "optimize/flips/grading.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {
@@ -30,7 +31,7 @@ struct RunFacts {
   bool stays_uncut = false;                   ///< since cuts leave more triangles bad
   bool weights_shrunk = false;                ///< all of them, since they left edges uncrossed
   bool energy_rose = false;                   ///< in the last sweeps, which were taken back
-  bool lacks_programmes = false;              ///< of which a repair would have asked one
+  bool lacks_programs = false;                ///< of which a repair would have asked one
 };
 
 /// While it lives, this mesh is the best one so far, and a stage tries another.
@@ -105,5 +106,21 @@ class Run {
   Clock::time_point start_, limit_from_;
   double ending_seconds_ = 0;  // after the last sweep, about
 };
+
+// All ranks of a run must be given the same. Otherwise each goes its own way, and waits forever.
+
+/// The error, on every rank, when one of them has another mesh, other options or another version of temper than rank 0;
+/// or when some have a tracer and some have none.
+[[nodiscard]] std::optional<InputError> expect_agreement(const OptimizeHooks& hooks, const OptimizeOptions& options,
+                                                         const Mesh& mesh);
+
+// How long a run may still take: an extrapolation of its last sweeps.
+
+/// The sweeps until the gain of one is below the tolerance, if gains go on shrinking by one factor a sweep, as sweeps
+/// for barriers do near their end. None where that cannot be told: in the first sweeps of a stage (one objective, one
+/// γ), where the energy rises or gains do not shrink, and with StoppingRule::paper. Stages that may follow are not
+/// known yet.
+[[nodiscard]] std::optional<double> estimate_sweeps_left(std::span<const SweepRecord> history,
+                                                         const OptimizeOptions& options);
 
 }  // namespace temper

@@ -43,29 +43,22 @@ Settings of_errors(Settings s) {
 }  // namespace
 
 ErrorPhase::ErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)
-    : mesh_(work.mesh),
-      frame_(work.frame),
-      domain_{std::move(sizes), {}},
-      settings_(of_errors(settings)),
-      state_(settings_),
-      run_(run),
-      bad_(count_bad(mesh_, settings.hooks.executor)) {
-  state_.accuracy_domain = &domain_;
-  const auto mobility = mobilities(mesh_, settings_.options, settings_.hooks.executor);
+    : SizedPhase(work, of_errors(settings), run, std::move(sizes)), frame_(work.frame) {
+  const auto mobility = mobilities(mesh_, settings_.options, settings_.executor());
   freedom_.resize(mesh_.n_vertices());
   for (const VertexId v : mesh_.vertices()) freedom_[v] = freedom(mesh_, v, mobility[v], settings_.options.unknowns);
 }
 
 void ErrorPhase::begin() {
-  raise_floors(domain_, mesh_, settings_.accuracy, settings_.hooks.executor);
-  start_ = settings_.errors->errors(mesh_, settings_.hooks.executor);
+  raise_floors();
+  start_ = settings_.errors->errors(mesh_, settings_.executor());
   now_ = value();
   history_ = {now_.lowered};
 }
 
 bool ErrorPhase::may_sweep() const {
   const bool can = bad_ == 0 && std::isfinite(now_.lowered);
-  const bool steps_left = iteration_ < settings_.options.error.steps;
+  const bool steps_left = iteration < settings_.options.error.steps;
   if (!can) run_.report.stopped = Stopped::converged;
   if (can && !steps_left) run_.report.stopped = Stopped::accuracy_sweeps;
   return can && steps_left && run_.sweeps_left();
@@ -109,16 +102,10 @@ std::optional<bool> ErrorPhase::move_all(const Recorder& recorder) {
   return !run_.stopped_early() && !run_.asked_to_stop(0);
 }
 
-SweepRecord ErrorPhase::measure() {
-  SweepRecord r;
-  r.energy = now_.error;
-  r.bad = bad_;
-  r.objective = Objective::error;
-  return r;
-}
+SweepRecord ErrorPhase::measure() { return {.energy = now_.error, .bad = bad_, .objective = Objective::error}; }
 
 Phase::Verdict ErrorPhase::judge(bool /*changed*/) {
-  if (raise_floors(domain_, mesh_, settings_.accuracy, settings_.hooks.executor)) {
+  if (raise_floors()) {
     now_ = value();  // of another barrier
     descent_.forget();
   }
@@ -131,23 +118,22 @@ Phase::Verdict ErrorPhase::judge(bool /*changed*/) {
 }
 
 ErrorPhase::Value ErrorPhase::value() const {
-  Executor* executor = settings_.hooks.executor;
+  Executor* executor = settings_.executor();
   Value result;
   result.lowered = result.error = kInfinity;
-  const auto [energy, barrier] =
-      accuracy_total(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, engine_of(settings_.hooks));
+  const auto [energy, barrier] = sum();
   std::vector<ErrorModel::Gradient> gradients;
   const std::vector<double> errors = settings_.errors->errors(mesh_, gradients, executor);
-  const double sum = energy + barrier, share = settings_.options.error.offset_share;
-  if (!std::isfinite(sum) || !(sum > 0) || errors.empty() || start_.size() != errors.size()) return result;
+  const double total = energy + barrier, share = settings_.options.error.offset_share;
+  if (!std::isfinite(total) || !(total > 0) || errors.empty() || start_.size() != errors.size()) return result;
   result.error = root_mean_square(errors);
-  result.lowered = std::log(mean_ratio(errors, start_)) + share * std::log(sum);
+  result.lowered = std::log(mean_ratio(errors, start_)) + share * std::log(total);
   ErrorModel::Gradient gradient(mesh_.n_vertices(), WeightedPoint{});
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const double factor = 1 / (static_cast<double>(errors.size()) * start_[i] * mean_ratio(errors, start_));
     for (const VertexId v : mesh_.vertices()) add(gradient[v], factor, gradients[i][v]);
   }
-  add_gradient_of_energy(share / sum, gradient);
+  add_gradient_of_energy(share / total, gradient);
   result.gradient = scaled(gradient);
   return result;
 }
@@ -155,7 +141,7 @@ ErrorPhase::Value ErrorPhase::value() const {
 /// What depends on a vertex in E and B is its star.
 void ErrorPhase::add_gradient_of_energy(double factor, IdVector<VertexId, WeightedPoint>& gradient) const {
   const std::size_t blocks = (mesh_.n_vertices() + kBlockSize - 1) / kBlockSize;
-  or_serial(settings_.hooks.executor).run(blocks, [&](std::size_t block) {
+  or_serial(settings_.executor()).run(blocks, [&](std::size_t block) {
     AccuracyPatch patch;
     const std::size_t end = std::min(mesh_.n_vertices(), (block + 1) * kBlockSize);
     for (std::size_t i = block * kBlockSize; i < end; ++i) {
@@ -170,7 +156,7 @@ void ErrorPhase::add_gradient_of_energy(double factor, IdVector<VertexId, Weight
 
 /// All triangles well-centered, exactly, with more than their floors.
 bool ErrorPhase::is_inside() const {
-  if (count_bad(mesh_, settings_.hooks.executor) > bad_) return false;
+  if (count_bad(mesh_, settings_.executor()) > bad_) return false;
   return std::all_of(mesh_.triangles().begin(), mesh_.triangles().end(), [this](TriangleId t) {
     return !domain_.floors.has(t) || triangle_margin(mesh_, t) > domain_.floors[t];
   });

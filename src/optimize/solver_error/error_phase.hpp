@@ -10,26 +10,17 @@
 
 #include <utility>
 
+#include "optimize/accuracy/accuracy_phase.hpp"
 #include "optimize/accuracy/accuracy_sizes.hpp"
 #include "optimize/solver_error/descent.hpp"
-#include "optimize/stages/phase.hpp"
 #include "optimize/step/freedom.hpp"
 #include "temper/detail/error_model.hpp"
 
 namespace temper {
 
-class ErrorPhase final : public Phase {
+class ErrorPhase final : public SizedPhase {
  public:
   ErrorPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes);
-  ErrorPhase(const ErrorPhase&) = delete;
-  ErrorPhase& operator=(const ErrorPhase&) = delete;
-  ~ErrorPhase() override = default;
-
-  /// For the driver.
-  [[nodiscard]] const Settings& settings() const { return settings_; }
-  [[nodiscard]] SweepState& state() { return state_; }
-  /// What it was given, once it has ended.
-  [[nodiscard]] VertexSizes take_sizes() { return std::move(domain_.sizes); }
 
   void begin() override;
   [[nodiscard]] bool may_sweep() const override;
@@ -37,9 +28,8 @@ class ErrorPhase final : public Phase {
   [[nodiscard]] double total() const override { return now_.error; }
   SweepRecord measure() override;
   Verdict judge(bool changed) override;
-  void compare_from_here() override {}
   [[nodiscard]] Keeps keeps() const override { return Keeps::best_points; }
-  int& iteration() override { return iteration_; }
+
  private:
   using Vector = Descent::Vector;
   struct Value {
@@ -55,15 +45,8 @@ class ErrorPhase final : public Phase {
   void place(const IdVector<VertexId, WeightedPoint>& from, const Vector& step, double t);
   [[nodiscard]] Vector scaled(const IdVector<VertexId, WeightedPoint>& gradient) const;
 
-  Mesh& mesh_;
   const Frame& frame_;
-  AccuracyDomain domain_;
-  const Settings settings_;
-  SweepState state_;
-  Run& run_;
   IdVector<VertexId, Freedom> freedom_;
-  int iteration_ = 0;
-  std::size_t bad_;
   std::vector<double> start_;  // the errors then
   Value now_;
   Descent descent_;

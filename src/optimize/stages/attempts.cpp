@@ -1,18 +1,18 @@
-// See attempts.hpp.
 #include "optimize/stages/attempts.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "base/text.hpp"
 #include "energy/whole_mesh.hpp"
-#include "optimize/stages/driver.hpp"
-#include "optimize/run/lengths.hpp"
-#include "optimize/run/judge.hpp"
-#include "optimize/run/refusal.hpp"
 #include "optimize/repair/repair_search.hpp"
+#include "optimize/run/judge.hpp"
+#include "optimize/stages/driver.hpp"
+#include "temper/regularity.hpp"
 
 namespace temper {
 namespace {
@@ -28,28 +28,46 @@ constexpr std::uint64_t kSearches = 4;
 // The one more, where linear programmes can be asked: from what the first has left.
 constexpr std::uint64_t kProgrammes = 1;
 
-/// One mesh of two: the one that the judge keeps.
-class Choice {
- public:
-  Choice(const Settings& settings, const EnergyModel& model) : settings_(settings), model_(model) {}
-
-  [[nodiscard]] bool replaces(const Candidate& now, const Candidate& best, Requirement required) const {
-    return temper::replaces(score_of(now), score_of(best), required);
+/// Hidden vertices have no power cell, so no regular triangulation keeps them: the user must know which.
+InputError hidden_vertices_error(const Mesh& input, const InputNames* names) {
+  constexpr std::size_t kNamed = 5;
+  Mesh copy = input;
+  const std::vector<VertexId> hidden = restore_regularity(copy).hidden;
+  const InputNames numbers_from_0;
+  const InputNames& named = names != nullptr ? *names : numbers_from_0;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(hidden.size(), kNamed); ++i) {
+    if (i > 0) list += ", ";
+    list += named.point(hidden[i].index) + " (weight " + to_text(input.weight(hidden[i])) + ")";
   }
+  if (hidden.size() > kNamed) list += " and " + std::to_string(hidden.size() - kNamed) + " more";
+  // A flip that would make an edge of half a period leaves its quad as it does at a hidden vertex.
+  const char* const or_too_few = input.space().is_periodic() ? ", and edges shorter than half a period" : "";
+  return {ErrorCode::hidden_vertex, hidden.empty() ? std::string() : named.point_where(hidden[0].index),
+          "weights hide " + list + "; expected weights that leave every vertex a power cell" + or_too_few};
+}
 
- private:
-  [[nodiscard]] MeshScore score_of(const Candidate& c) const { return score(c.work.mesh, settings_, model_); }
-
-  const Settings& settings_;
-  const EnergyModel& model_;
-};
+/// E_BH, and E_BHs with the user's h°, can only stay inside their barrier; the others get in from anywhere.
+std::optional<InputError> outside_domain_error(const Mesh& mesh, const Settings& settings) {
+  const EnergyInfo& energy = energy_info(settings.policy.first_energy.value_or(settings.model.kind));
+  EnergyModel model = settings.model;
+  model.kind = energy.kind;
+  const bool gets_in = energy.softened_by_gamma || (energy.softened_by_h0 && !settings.policy.h0);
+  if (!energy.barrier || gets_in || std::isfinite(total_energy(mesh, model))) return std::nullopt;
+  return InputError{
+      ErrorCode::invalid_option,
+      {},
+      "energy " + std::string(energy.name) + " is infinite on this mesh, where " +
+          std::to_string(count_bad(mesh, settings.executor())) + " of " + std::to_string(mesh.n_triangles()) +
+          " triangles are not well-centered; expected a mesh inside its barrier, or energy BP, which needs none"};
+}
 
 /// What an attempt needs to be kept. The user asks for cuts: without them fewer triangles have to be bad.
 Requirement requirement_of(const Attempt& attempt) {
   return attempt.cuts == Cuts::graded ? Requirement::not_worse : Requirement::fewer_bad;
 }
 
-bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.hooks.executor) > 0; }
+bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.executor()) > 0; }
 
 /// Says whether so few triangles of c are bad that each is a place of its own, far from all others. Another attempt
 /// would leave as many elsewhere, where a repair of each is a matter of moments; a search need not give up what it has
@@ -57,7 +75,7 @@ bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.me
 /// it leaves no more bad than there were, and trials have swept each place by itself.
 bool are_apart(const Candidate& c, const Settings& s) {
   constexpr double kMost = 1e-5;
-  const auto bad = static_cast<double>(count_bad(c.work.mesh, s.hooks.executor));
+  const auto bad = static_cast<double>(count_bad(c.work.mesh, s.executor()));
   return bad > 0 && bad < kMost * static_cast<double>(c.work.mesh.n_triangles());
 }
 
@@ -67,7 +85,7 @@ bool keeps_vertices(const Settings& s) { return s.options.repair != Repair::vert
 /// Says whether c has what a repair could cure: bad triangles, or edges that vertices make too short.
 bool needs_repair(const Candidate& c, const Settings& s) {
   return has_bad(c, s) ||
-         (s.options.repair == Repair::vertices && missing_lengths(c.work.mesh, s.accuracy, s.hooks.executor) > 0);
+         (s.options.repair == Repair::vertices && missing_lengths(c.work.mesh, s.accuracy, s.executor()) > 0);
 }
 
 /// What to try, for the working copy as it is. Where all attempts with a cut boundary leave triangles bad, they are
@@ -102,25 +120,6 @@ std::vector<Attempt> attempts_by_weights(const Mesh& mesh, const Settings& setti
   return tries;
 }
 
-/// The attempts of a run, and what came of those that were made.
-struct Tries {
-  std::vector<Attempt> all = std::vector<Attempt>(1);
-  std::size_t i = 0;     ///< the one under way
-  std::size_t left = 0;  ///< bad triangles of the last one that was not kept
-  bool renewed = false;  ///< the best mesh, since cuts where it is bad were of no use
-
-  [[nodiscard]] const Attempt& now() const { return all[i]; }
-  [[nodiscard]] bool is_last() const { return i + 1 == all.size(); }
-  /// Says whether the attempt may be of use. The second one from the same beginning is more thorough, and takes many
-  /// sweeps: where the first left far more bad than there are in the best mesh it does not make up for that.
-  [[nodiscard]] bool may_gain(const Candidate& best, const Settings& settings) const {
-    if (now().cuts == Cuts::where_bad) return renewed;
-    const Attempt& last = all[i - 1];
-    if (last.cuts != now().cuts) return true;
-    return left <= kFarMore * count_bad(best.work.mesh, settings.hooks.executor);
-  }
-};
-
 /// The input made regular, and its boundary cut, as an attempt begins; or the best mesh, cut where it is bad.
 std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Settings& settings, const Attempt& attempt) {
   if (attempt.cuts == Cuts::where_bad) {
@@ -148,39 +147,46 @@ void tell_cuts(const Attempt& attempt, RunFacts& facts) {
 bool has_gained(const Candidate& now, const Candidate& before, const Settings& settings, const EnergyModel& model) {
   const bool same_vertices = now.work.n_vertices_named == before.work.n_vertices_named &&
                              now.work.mesh.n_vertices() == before.work.mesh.n_vertices();
-  return Choice(settings, model)
-      .replaces(now, before, same_vertices ? Requirement::not_worse : Requirement::cures);
+  return replaces(now.work.mesh, before.work.mesh, same_vertices ? Requirement::not_worse : Requirement::cures,
+                  settings, model);
 }
 
 Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, SweepState& state, Run& run) {
-  const Choice choice(settings, state.model);
   std::optional<Candidate> best;
-  Tries tries;
-  for (; tries.i < tries.all.size(); ++tries.i) {
-    if (best && !tries.may_gain(*best, settings)) continue;
+  std::vector<Attempt> all(1);
+  std::size_t left = 0;  // bad triangles of the last attempt that was not kept
+  bool renewed = false;  // the best mesh, since cuts where it is bad were of no use
+  // The second attempt from the same beginning is more thorough, and takes many sweeps: where the first left far more
+  // bad than there are in the best mesh it does not make up for that.
+  const auto may_gain = [&](std::size_t i) {
+    if (all[i].cuts == Cuts::where_bad) return renewed;
+    return all[i - 1].cuts != all[i].cuts || left <= kFarMore * count_bad(best->work.mesh, settings.executor());
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (best && !may_gain(i)) continue;
     const BestBefore kept(run.best_before, best ? &best->work : nullptr);
-    const bool goes_on = tries.now().cuts == Cuts::where_bad;
-    Candidate now =
-        goes_on ? *best : Candidate{WorkingCopy(input.whole(), settings.policy.order, settings.hooks.executor)};
+    const bool goes_on = all[i].cuts == Cuts::where_bad;
+    Candidate now = goes_on ? *best : Candidate{WorkingCopy(input.whole(), settings.policy.order, settings.executor())};
     Driver driver(now.work, settings, state, run);
     if (best) driver.recorder().returned_to(goes_on ? best->sweep : -1);
-    if (auto error = prepare(driver, input.whole(), settings, tries.now())) return *std::move(error);
+    if (auto error = prepare(driver, input.whole(), settings, all[i])) return *std::move(error);
     if (!best) {
       if (auto error = outside_domain_error(now.work.mesh, settings)) return *std::move(error);
-      tries.all = attempts_for(now.work.mesh, settings);
+      all = attempts_for(now.work.mesh, settings);
       run.facts.input_flips = run.report.flips;
     }
     input.fold();
-    now.sweep = driver.attempt(tries.now(), !tries.is_last() || repairs(settings));
-    if (!best || choice.replaces(now, *best, requirement_of(tries.now()))) {
+    const Attempt& attempt = all[i];
+    now.sweep = driver.attempt(attempt, i + 1 < all.size() || repairs(settings));
+    if (!best || replaces(now.work.mesh, best->work.mesh, requirement_of(attempt), settings, state.model)) {
       best = std::move(now);
-      tries.left = 0;
-      tries.renewed = true;
-      tell_cuts(tries.now(), run.facts);
+      left = 0;
+      renewed = true;
+      tell_cuts(attempt, run.facts);
     } else {
       driver.recorder().returned_to(best->sweep);
-      tries.left = count_bad(now.work.mesh, settings.hooks.executor);
-      if (goes_on) tries.renewed = false;
+      left = count_bad(now.work.mesh, settings.executor());
+      if (goes_on) renewed = false;
     }
     if (!has_bad(*best, settings) || !run.goes_on() || (repairs(settings) && are_apart(*best, settings))) break;
   }
@@ -188,7 +194,6 @@ Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, Swe
 }
 
 Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, SweepState state, Run& run) {
-  const Choice choice(settings, state.model);
   Settings own = settings;
   own.options.unknowns = Unknowns::weights;
   std::vector<Attempt> tries(1);
@@ -197,7 +202,7 @@ Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, Sw
   if (!may || !run.goes_on() || !has_bad(best, settings) || are_apart(best, settings)) return best;
   const BestBefore kept(run.best_before, &best.work);
   for (std::size_t i = 0; i < tries.size(); ++i) {
-    Candidate now{WorkingCopy(input.whole(), own.policy.order, own.hooks.executor)};
+    Candidate now{WorkingCopy(input.whole(), own.policy.order, own.executor())};
     Driver driver(now.work, own, state, run);
     driver.recorder().returned_to(-1);
     driver.make_regular();  // it could be at the first attempt
@@ -208,7 +213,7 @@ Candidate weighed(Candidate best, InputMesh& input, const Settings& settings, Sw
       break;
     }
     now.sweep = driver.attempt(tries[i], true);
-    if (choice.replaces(now, best, Requirement::fewer_bad)) {
+    if (replaces(now.work.mesh, best.work.mesh, Requirement::fewer_bad, settings, state.model)) {
       best = std::move(now);
       run.facts.stays_uncut = settings.options.boundary == BoundaryVertices::split;
     } else {
@@ -230,7 +235,7 @@ Candidate repaired(Candidate best, const Settings& settings, SweepState& state, 
   for (std::uint64_t i = 0; i < searches && !is_done(best); ++i) {
     const BestBefore kept(run.best_before, in_place ? nullptr : &best.work);
     const bool asks_programmes = i == kProgrammes && settings.lp != nullptr;
-    if (i == kProgrammes && settings.lp == nullptr) run.facts.lacks_programmes = true;
+    if (i == kProgrammes && settings.lp == nullptr) run.facts.lacks_programs = true;
     if (asks_programmes) start.reset();  // they cost more than what is cured
     Candidate copy;
     if (!in_place) copy = start ? *start : best;

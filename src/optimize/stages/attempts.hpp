@@ -1,14 +1,13 @@
 // What a run tries, each time from the same beginning, until no triangle is bad.
 #pragma once
 
-#include "optimize/working/input_mesh.hpp"
 #include "optimize/run/run.hpp"
+#include "optimize/working/working_copy.hpp"
 
 namespace temper {
 
 /// Attempts from the input until one leaves nothing bad; the best of them.
-[[nodiscard]] Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, SweepState& state,
-                                               Run& run);
+[[nodiscard]] Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, SweepState& state, Run& run);
 
 /// Attempts from the input with weights alone, where that leaves fewer triangles bad: where they are thin as they have
 /// to be, in layers, moves that lower the energy elsewhere may leave them no weights.

@@ -6,10 +6,10 @@
 #include "base/assert.hpp"
 #include "base/rng.hpp"
 #include "energy/whole_mesh.hpp"
-#include "optimize/sweep/insertion.hpp"
 #include "optimize/flips/grading.hpp"
 #include "optimize/repair/repair_search.hpp"
 #include "optimize/step/ties.hpp"
+#include "optimize/sweep/insertion.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
@@ -45,8 +45,7 @@ int Driver::run(Phase& phase, int first) {
   do {                           // outer iterations
     do {                         // inner iterations
       verdict = sweep(phase);
-    } while (verdict == Verdict::improving &&
-             !(settings_.policy.defers_flips && ++inner_ == settings_.policy.inner));
+    } while (verdict == Verdict::improving && !(settings_.policy.defers_flips && ++inner_ == settings_.policy.inner));
     if (run_.stopped_early()) asked = run_.report.stopped;
     verdict = flip_if_deferred(phase, verdict);
   } while (verdict == Verdict::improving);
@@ -73,13 +72,13 @@ Driver::Verdict Driver::sweep(Phase& phase) {
   if (!phase.may_sweep()) return Verdict::stopped;
   recorder_.begin_sweep(run_.report.sweeps + 1);
   const std::optional<bool> moved = phase.move_all(recorder_);
-  const bool whole = moved ? *moved : improve_all_vertices(phase.iteration());
+  const bool whole = moved ? *moved : improve_all_vertices(phase.iteration);
   const bool removed = flipper_.has_removed();
   if (removed) compact();
-  const bool inserted = whole && insert_vertices(phase.iteration());
+  const bool inserted = whole && insert_vertices(phase.iteration);
   shift_weights_to_anchor();
   TEMPER_ASSERT_SLOW(!settings_.policy.keeps_regular() || count_non_regular_edges(mesh_, false) == 0);
-  ++phase.iteration();
+  ++phase.iteration;
   ++run_.report.sweeps;
   record(phase.measure());
   if (!settings_.policy.defers_flips) keep_if_best(phase);
@@ -123,7 +122,8 @@ Driver::Verdict Driver::flip_if_deferred(Phase& phase, Verdict of_sweeps) {
 
 /// One Gauss-Seidel sweep, lines 9 to 16. False when it was cut short.
 bool Driver::improve_all_vertices(int iteration) {
-  if (!settings_.policy.defers_updates() || settings_.policy.defers_flips) return sweeper_.sweep(iteration, sequence_, run_);
+  if (!settings_.policy.defers_updates() || settings_.policy.defers_flips)
+    return sweeper_.sweep(iteration, sequence_, run_);
   const IdVector<VertexId, WeightedPoint> before = points();
   const bool whole = sweeper_.sweep(iteration, sequence_, run_);
   settle_updates(before);
@@ -300,7 +300,7 @@ bool Driver::repair(std::uint64_t seed, bool asks_programmes) {
     if (flipper_.has_removed()) compact();
     changed = true;
     ++run_.report.sweeps;
-    record(phase.record_of(totals.measure(mesh_, state_.model, search.changed(), settings_.hooks.executor)));
+    record(phase.record_of(totals.measure(mesh_, state_.model, search.changed(), settings_.executor())));
     show(Snapshot::Moment::after_sweep, phase);
     run_.offer(work_, settings_, state_);
     recorder_.begin_sweep(run_.report.sweeps + 1);
@@ -310,10 +310,10 @@ bool Driver::repair(std::uint64_t seed, bool asks_programmes) {
 
 int Driver::polish(int sweep) {
   const WorkingCopy before = work_;
-  const std::size_t bad = count_bad(mesh_, settings_.hooks.executor);
+  const std::size_t bad = count_bad(mesh_, settings_.executor());
   EnergyPhase phase(work_, settings_, state_, run_, kPolish, false);
   const int last = run(phase, sweep);
-  if (count_bad(mesh_, settings_.hooks.executor) <= bad) return last;
+  if (count_bad(mesh_, settings_.executor()) <= bad) return last;
   work_ = before;
   recorder_.returned_to(sweep);
   return sweep;
@@ -372,9 +372,7 @@ int Driver::return_regular(int last_sweep) {
 }
 
 void Driver::record(SweepRecord measured) {
-  SweepRecord r;
-  r.sweep = run_.report.sweeps;
-  run_.report.history.push_back(r);
+  run_.report.history.push_back({.sweep = run_.report.sweeps});
   amend_record(measured);
 }
 

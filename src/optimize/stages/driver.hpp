@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "optimize/stages/phase.hpp"
 #include "optimize/flips/flipper.hpp"
+#include "optimize/stages/phase.hpp"
 #include "optimize/sweep/sweeper.hpp"
 
 namespace temper {

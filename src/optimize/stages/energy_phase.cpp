@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "energy/whole_mesh.hpp"
-#include "optimize/run/lengths.hpp"
+#include "optimize/run/judge.hpp"
 #include "optimize/stages/phase.hpp"
 
 namespace temper {
@@ -51,29 +51,25 @@ void EnergyPhase::take_last_energy() {
   take_energy(settings_.options.energy);
 }
 
-double EnergyPhase::total() const {
-  return energy_unit_ * total_energy(mesh_, state_.model, settings_.hooks.executor);
-}
+double EnergyPhase::total() const { return energy_unit_ * total_energy(mesh_, state_.model, settings_.executor()); }
 
 SweepRecord EnergyPhase::measure() {
   return record_of(energy_and_bad(mesh_, state_.model, engine_of(settings_.hooks)));
 }
 
 SweepRecord EnergyPhase::record_of(const EnergyAndBad& measured) const {
-  SweepRecord r;
-  r.energy = energy_unit_ * measured.energy;
-  r.softening = state_.energy.softened_by_h0 ? state_.model.h0.value : state_.model.gamma.value;
-  r.bad = measured.bad;
-  return r;
+  const double softening = state_.energy.softened_by_h0 ? state_.model.h0.value : state_.model.gamma.value;
+  return {.energy = energy_unit_ * measured.energy, .bad = measured.bad, .softening = softening};
 }
 
 /// Line 19 of Algorithm 1, and what a softened barrier or an infinite energy ask for besides.
 Phase::Verdict EnergyPhase::judge(bool changed) {
-  if (before_switch_ && iteration_ >= settings_.policy.switch_at) {
+  if (before_switch_ && iteration >= settings_.policy.switch_at) {
     take_last_energy();
     return Verdict::restarted;
   }
-  if (settings_.objective != Objective::energy && !before_switch_ && has_margins()) {
+  if (settings_.objective != Objective::energy && !before_switch_ && run_.report.history.back().bad == 0 &&
+      has_all_for_accuracy(mesh_, settings_)) {
     run_.report.stopped = Stopped::converged;  // the next phase needs no more of this energy
     return Verdict::settled;
   }
@@ -100,12 +96,6 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
   return Verdict::improving;
 }
 
-bool EnergyPhase::has_margins() const {
-  return run_.report.history.back().bad == 0 &&
-         temper::has_margins(mesh_, settings_.accuracy.margin, settings_.hooks.executor) &&
-         missing_lengths(mesh_, settings_.accuracy, settings_.hooks.executor) == 0;
-}
-
 /// The paper's rule takes a rise for convergence. The relative one waits whether the energy falls again.
 bool EnergyPhase::converged(double before, double after) {
   const double tolerance = settings_.policy.tolerance;
@@ -130,8 +120,8 @@ bool EnergyPhase::stagnates() {
 /// Positions have converged before i_w: the weights' turn has come.
 bool EnergyPhase::goes_on_with_weights() {
   const int from = settings_.policy.weights_from;
-  if (settings_.options.unknowns != Unknowns::positions_and_weights || iteration_ >= from) return false;
-  iteration_ = from;
+  if (settings_.options.unknowns != Unknowns::positions_and_weights || iteration >= from) return false;
+  iteration = from;
   return true;
 }
 

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "energy/whole_mesh.hpp"
+#include "optimize/options/settings.hpp"
 #include "optimize/run/run.hpp"
 #include "optimize/run/schedule.hpp"
-#include "optimize/options/settings.hpp"
 #include "optimize/working/working_copy.hpp"
 
 namespace temper {
@@ -17,7 +17,6 @@ class Phase {
  public:
   /// restarted: what is lowered from here on is another energy; no mesh so far compares.
   enum class Verdict { improving, restarted, infinite, settled, stopped };
-  /// The mesh that a phase ends with: that of its last sweep, of its best one, or of its best one and the start.
   /// The mesh that the driver returns: the last one; that of the best sweep; that of the best sweep or the one before
   /// the first, of a phase that moves vertices alone, so that their points are all that is kept.
   enum class Keeps { last, best_sweep, best_points };
@@ -35,15 +34,15 @@ class Phase {
   /// Judges a sweep that the history has as its last. `changed`: vertices are gone, or new ones there.
   virtual Verdict judge(bool changed) = 0;
   /// Compares with the last of the history from now on: after flips, or when all weights have shrunk.
-  virtual void compare_from_here() = 0;
+  virtual void compare_from_here() {}
   /// Says whether there is more to lower once all has settled: weights, after positions.
   virtual bool goes_on_with_weights() { return false; }
   /// Moves all vertices at once, where the phase does that in place of a sweep; none if it does not. False when it was
   /// cut short.
   virtual std::optional<bool> move_all(const Recorder& /*recorder*/) { return std::nullopt; }
   [[nodiscard]] virtual Keeps keeps() const = 0;
-  /// The paper's i: sweeps of this phase.
-  virtual int& iteration() = 0;
+
+  int iteration = 0;  ///< the paper's i: sweeps of this phase
 };
 
 /// Lowers an energy of the registry: one attempt, or a polish.
@@ -61,7 +60,6 @@ class EnergyPhase final : public Phase {
   void compare_from_here() override { before_ = run_.report.history.back().energy; }
   bool goes_on_with_weights() override;
   [[nodiscard]] Keeps keeps() const override { return state_.energy.barrier ? Keeps::last : Keeps::best_sweep; }
-  int& iteration() override { return iteration_; }
   /// What has been measured of the mesh as it is, for the history of the run.
   [[nodiscard]] SweepRecord record_of(const EnergyAndBad& measured) const;
   /// From the attempt's first energy to that of the options, if it has not been reached.
@@ -69,7 +67,6 @@ class EnergyPhase final : public Phase {
 
  private:
   void take_energy(EnergyKind kind);
-  [[nodiscard]] bool has_margins() const;
   bool converged(double before, double after);
   bool stagnates();
 
@@ -80,7 +77,6 @@ class EnergyPhase final : public Phase {
   const Frame& frame_;
   Attempt attempt_;
   double energy_unit_ = 1;
-  int iteration_ = 0;
   bool before_switch_ = false;  // from the first energy to that of the options
   Softener softener_;
   bool may_give_up_;

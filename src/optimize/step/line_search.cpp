@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optimize/step/golden.hpp"
 #include "optimize/step/search.hpp"
 
 namespace temper {

@@ -1,6 +1,7 @@
 // The paper's Algorithm 5 on one patch: downhill by finite differences, golden section along the line.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "energy/patch.hpp"
@@ -9,6 +10,30 @@
 #include "temper/optimize.hpp"
 
 namespace temper {
+
+// Golden-section search, the paper's line search (Algorithm 5).
+
+/// The t in [0, limit] where f is least, up to `tolerance` × limit, when f has one minimum there; else a local one.
+/// f may be +∞. Costs 2 + log(1/tolerance)/log(1.618) evaluations.
+template <class Function>
+double golden_section(Function&& f, double limit, double tolerance) {
+  const double ratio = 0.5 * (std::sqrt(5.0) - 1);
+  double low = 0, high = limit;
+  double a = high - ratio * (high - low), b = low + ratio * (high - low);
+  double fa = f(a), fb = f(b);
+  while (high - low > tolerance * limit) {
+    if (fb < fa) {
+      low = a, a = b, fa = fb;
+      b = low + ratio * (high - low);
+      fb = f(b);
+    } else {  // ties, and both infinite: towards the start, where the energy is finite
+      high = b, b = a, fb = fa;
+      a = high - ratio * (high - low);
+      fa = f(a);
+    }
+  }
+  return fa <= fb ? a : b;
+}
 
 /// −∇E at p along the free directions, of length `reach`, R for positions, so many times R² for a weight. Nothing where
 /// E is infinite around p, or stationary.

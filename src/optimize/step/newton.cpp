@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optimize/step/jacobi.hpp"
-#include "optimize/step/newton_system.hpp"
+#include "optimize/step/search.hpp"
 
 namespace temper {
 namespace {
@@ -14,6 +13,22 @@ constexpr int kJacobiSweeps = 8;
 
 using Vector = std::array<double, 3>;
 using Matrix = std::array<Vector, 3>;
+
+/// Rotates rows and columns p and q of the first n of a so that a_pq, which is not 0, becomes 0; and the columns of v,
+/// whose are eigenvectors in the end.
+void jacobi_rotation(Matrix& a, Matrix& v, std::size_t n, std::size_t p, std::size_t q) {
+  const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+  const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
+  const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+  const auto turn = [c, s](double& x, double& y) {
+    const double old = x;
+    x = c * old - s * y;
+    y = s * old + c * y;
+  };
+  for (std::size_t k = 0; k < n; ++k) turn(a[k][p], a[k][q]);
+  for (std::size_t k = 0; k < n; ++k) turn(a[p][k], a[q][k]);
+  for (std::size_t k = 0; k < n; ++k) turn(v[k][p], v[k][q]);
+}
 
 /// Eigenvectors of a symmetric matrix as columns of v; a becomes diagonal (cyclic Jacobi).
 void diagonalize(std::size_t n, Matrix& a, Matrix& v) {

@@ -2,8 +2,50 @@
 #pragma once
 
 #include "base/pack.hpp"
+#include "geometry/height_derivatives.hpp"
 
 namespace temper {
+
+// Newton's step of one vertex in up to three scaled unknowns, for one vertex (T = double) or for eight (T = Pack).
+
+// The trust radius of the scaled unknowns: half a patch radius in position, half a squared one in weight.
+inline constexpr double kTrustRadius = 0.5;
+// Eigenvalues below this part of the largest are raised to it: the step is then cut by the trust radius anyway.
+inline constexpr double kEigenvalueFloor = 1e-6;
+
+template <class T>
+struct NewtonStepOf {
+  T x, y, w;
+  T predicted;                   ///< −∇E · step: twice the decrease of the quadratic model
+  decltype(T{} < T{}) definite;  ///< the Hessian is: elsewhere this is no step
+};
+
+/// The step (x, y, w) of the scaled unknowns, cut to the trust radius, where −∇E is g.
+template <class T>
+[[nodiscard]] TEMPER_INLINE NewtonStepOf<T> within_trust_radius(const T& x, const T& y, const T& w,
+                                                                const CornerVector<T>& g,
+                                                                decltype(T{} < T{}) definite) {
+  const T norm2 = x * x + y * y + w * w, far = all<T>(kTrustRadius * kTrustRadius);
+  const T shrink = select(norm2 > far, kTrustRadius / square_root(norm2), all<T>(1));
+  return {shrink * x, shrink * y, shrink * w, shrink * (x * g.x + y * g.y + w * g.w), definite};
+}
+
+/// The step H⁻¹ g by LDLᵀ where all pivots are safely positive, cut to the trust radius. What is no unknown has the
+/// curvature of what is on the diagonal, and 0 elsewhere.
+template <class T>
+[[nodiscard]] TEMPER_INLINE NewtonStepOf<T> scaled_newton_step(const CornerMatrix<T>& h, const CornerVector<T>& g) {
+  const auto larger = [](const T& a, const T& b) { return select(a > b, a, b); };
+  const T floor = kEigenvalueFloor * larger(larger(absolute(h.xx), absolute(h.yy)), absolute(h.ww));
+  const T inverse_0 = 1.0 / h.xx;
+  const T l10 = h.xy * inverse_0, l20 = h.xw * inverse_0;
+  const T pivot_1 = h.yy - l10 * h.xy, inverse_1 = 1.0 / pivot_1;
+  const T below = h.yw - l20 * h.xy;
+  const T l21 = below * inverse_1;
+  const T pivot_2 = h.ww - l20 * h.xw - l21 * below, inverse_2 = 1.0 / pivot_2;
+  const T b1 = g.y - l10 * g.x, b2 = g.w - l20 * g.x - l21 * b1;
+  const T w = b2 * inverse_2, y = b1 * inverse_1 - l21 * w, x = g.x * inverse_0 - l10 * y - l20 * w;
+  return within_trust_radius(x, y, w, g, (h.xx > floor) & (pivot_1 > floor) & (pivot_2 > floor));
+}
 
 // Trials a Newton step: over-relaxed, plain, then halved.
 inline constexpr int kTrials = 6;

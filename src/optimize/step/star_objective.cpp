@@ -14,7 +14,7 @@ constexpr double kShortestEdge = 1e-7;
 /// keeps its edges a little apart.
 class EnergyStar final : public StarObjective {
  public:
-  EnergyStar(const Mesh& mesh, const SweepState& state) : StarObjective(mesh), state_(state) {}
+  EnergyStar(const Mesh& mesh, const SweepState& state) : StarObjective(mesh, kTrials, false), state_(state) {}
 
   bool gather(VertexId v) override {
     origin_ = mesh_.point(v);
@@ -24,8 +24,6 @@ class EnergyStar final : public StarObjective {
   double value(const WeightedPoint& p) override { return patch_energy(patch_, state_.model, p); }
   VertexDerivatives derivatives(const WeightedPoint& p) override { return patch_derivatives(patch_, state_.model, p); }
   [[nodiscard]] double radius(const WeightedPoint& p) const override { return patch_radius(patch_, p); }
-  [[nodiscard]] int trials() const override { return kTrials; }
-  [[nodiscard]] bool keeps_edges_regular() const override { return false; }
 
  private:
   [[nodiscard]] bool has_valid_triangles(const WeightedPoint& p) const override {
@@ -49,7 +47,7 @@ class EnergyStar final : public StarObjective {
 class AccuracyStar final : public StarObjective {
  public:
   AccuracyStar(const Mesh& mesh, const AccuracyModel& model, const AccuracyDomain& domain)
-      : StarObjective(mesh), model_(model), domain_(domain) {}
+      : StarObjective(mesh, kTrialsWithMargins, true), model_(model), domain_(domain) {}
 
   bool gather(VertexId v) override {
     gather_patch(mesh_, v, false, patch_);
@@ -62,8 +60,6 @@ class AccuracyStar final : public StarObjective {
     return outside.value < kInfinity ? accuracy_.derivatives() : outside;
   }
   [[nodiscard]] double radius(const WeightedPoint& p) const override { return accuracy_.shortest_spoke(p); }
-  [[nodiscard]] int trials() const override { return kTrialsWithMargins; }
-  [[nodiscard]] bool keeps_edges_regular() const override { return true; }
 
  private:
   [[nodiscard]] bool has_valid_triangles(const WeightedPoint& p) const override {

@@ -19,17 +19,17 @@ class StarObjective {
   [[nodiscard]] virtual VertexDerivatives derivatives(const WeightedPoint& p) = 0;
   /// The unit of steps.
   [[nodiscard]] virtual double radius(const WeightedPoint& p) const = 0;
-  /// The number of trials of a search: near a barrier more of them pay.
-  [[nodiscard]] virtual int trials() const = 0;
   /// Says, exactly, whether v may be at p.
   [[nodiscard]] bool is_valid(const WeightedPoint& p) const;
-  /// Says whether no edge can stop being regular.
-  [[nodiscard]] virtual bool keeps_edges_regular() const = 0;
 
   [[nodiscard]] const Patch& patch() const { return patch_; }
 
+  const int trials;                ///< of a search: near a barrier more of them pay
+  const bool keeps_edges_regular;  ///< no edge can stop being regular
+
  protected:
-  explicit StarObjective(const Mesh& mesh) : mesh_(mesh) {}
+  StarObjective(const Mesh& mesh, int of_search, bool keeps_regular)
+      : trials(of_search), keeps_edges_regular(keeps_regular), mesh_(mesh) {}
   [[nodiscard]] virtual bool has_valid_triangles(const WeightedPoint& p) const = 0;
 
   const Mesh& mesh_;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "geometry/triangle_kernel.hpp"
-#include "mesh/neighbours.hpp"
+#include "mesh/edge_lengths.hpp"
 #include "optimize/step/freedom.hpp"
 #include "topology/flip_inline.hpp"
 

@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "base/assert.hpp"
-#include "optimize/step/cavity.hpp"
 #include "optimize/step/line_search.hpp"
 #include "optimize/step/removal.hpp"
 #include "optimize/step/search.hpp"
-#include "regularity/power_tests.hpp"
+#include "regularity/lawson.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {
@@ -61,7 +60,7 @@ bool VertexStep::improve(VertexId v, const Part& part) {
 
 bool VertexStep::suits_batches() const {
   const bool only_steps = !collapses_ && !removes_ && !band_.on();
-  return only_steps && (star_->keeps_edges_regular() || makes_newton_steps());
+  return only_steps && (star_->keeps_edges_regular || makes_newton_steps());
 }
 
 /// Newton steps of a barrier, as far as they pay.
@@ -146,7 +145,7 @@ bool VertexStep::gather(VertexId v) {
 /// value that satisfies the spokes, if there is one; what is left of the patch is up to the neighbours. True when
 /// the patch is finite then.
 bool VertexStep::enter_domain() {
-  if (unknowns_ == Unknowns::positions || star_->keeps_edges_regular()) return false;
+  if (unknowns_ == Unknowns::positions || star_->keeps_edges_regular) return false;
   const Patch& patch = star_->patch();
   double low = -kInfinity, high = kInfinity;
   for (std::size_t i = 0; i < patch.link.size(); ++i) {
@@ -227,7 +226,7 @@ void VertexStep::newton_search(const Freedom& freedom) {
     leaves_band = goes_on && (leaves_band || outcome == Outcome::out_of_band);
     return goes_on;
   };
-  damped_search(relaxation, star_->trials(), flip_limited(newton.step, farthest(newton.step)), true, attempt);
+  damped_search(relaxation, star_->trials, flip_limited(newton.step, farthest(newton.step)), true, attempt);
   if (leaves_band && freedom.n > position_part(freedom).n) newton_search(weight_only());
 }
 
@@ -278,7 +277,7 @@ bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
     mesh_.set_point(vertex_, p);
     return true;
   }
-  const bool may_break_edges = keeps_connectivity() && !star_->keeps_edges_regular();
+  const bool may_break_edges = keeps_connectivity() && !star_->keeps_edges_regular;
   if (may_break_edges) note_regular_edges();
   mesh_.set_point(vertex_, p);
   if (flips_at_once()) {

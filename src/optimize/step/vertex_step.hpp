@@ -8,10 +8,10 @@
 
 #include "base/rng.hpp"
 #include "optimize/flips/flipper.hpp"
+#include "optimize/flips/partition.hpp"
 #include "optimize/step/newton.hpp"
 #include "optimize/step/star_objective.hpp"
-#include "optimize/step/step_context.hpp"
-#include "optimize/flips/partition.hpp"
+#include "optimize/step/vertex_limits.hpp"
 
 namespace temper {
 

@@ -6,18 +6,70 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
+#include <deque>
+#include <functional>
+#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/assert.hpp"
 #include "base/engine.hpp"
 #include "optimize/flips/partition.hpp"
 #include "optimize/sweep/shifted_cuts.hpp"
 #include "optimize/sweep/stop_token.hpp"
-#include "optimize/sweep/worker_pool.hpp"
 
 namespace temper {
+
+// The workers of parts that run at once: as many are made as ever are at work together, and kept.
+
+template <class Worker>
+class WorkerPool {
+  struct Place {
+    std::atomic<bool> taken = false;
+    std::unique_ptr<Worker> worker;
+  };
+
+ public:
+  explicit WorkerPool(std::function<std::unique_ptr<Worker>()> make) : make_(std::move(make)) {}
+
+  /// A worker that nobody else has, until this ends.
+  struct GiveBack {
+    Place* place;
+    void operator()(Worker*) const { place->taken.store(false, std::memory_order_release); }
+  };
+  using Lease = std::unique_ptr<Worker, GiveBack>;
+
+  /// Room for n workers; while none is leased.
+  void make_room(std::size_t n) {
+    TEMPER_ASSERT_SLOW(std::none_of(places_.begin(), places_.end(), [](const Place& p) { return p.taken.load(); }));
+    while (places_.size() < n) places_.emplace_back();
+  }
+
+  /// The first worker that is free. With as many places as there are blocks one always is, or is just about to be.
+  [[nodiscard]] Lease take() {
+    for (std::size_t i = 0;; i = (i + 1) % places_.size()) {
+      if (places_[i].taken.exchange(true, std::memory_order_acquire)) continue;
+      if (!places_[i].worker) places_[i].worker = make_();
+      return Lease(places_[i].worker.get(), {&places_[i]});
+    }
+  }
+
+  /// Every worker that has been made; while none is leased.
+  template <class Visit>
+  void for_each(Visit&& visit) {
+    for (Place& place : places_) {
+      if (place.worker) visit(*place.worker);
+    }
+  }
+
+ private:
+  std::function<std::unique_ptr<Worker>()> make_;
+  std::deque<Place> places_;  // places do not move; few of them ever get a worker
+};
 
 /// Calls work(worker, i) for each of n parts, by the engine's threads and ranks. For write and read see
 /// Engine::exchange().

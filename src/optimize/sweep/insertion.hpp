@@ -1,8 +1,8 @@
 // New vertices where the energy is large: one of the "other criteria for discrete changes" of §7 of the paper.
 #pragma once
 
-#include "optimize/options/settings.hpp"
 #include "optimize/flips/flipper.hpp"
+#include "optimize/options/settings.hpp"
 #include "optimize/working/working_copy.hpp"
 
 namespace temper {

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "optimize/working/working_copy.hpp"
-#include "temper/topology.hpp"
 #include "temper/detail/trace.hpp"
+#include "temper/topology.hpp"
 
 namespace temper {
 
@@ -46,7 +46,8 @@ class Recorder {
   void returned_to(int sweep) const;
 
  private:
-  [[nodiscard]] TraceEvent event(EventKind kind, double before, double after) const;
+  template <class Fill>
+  void tell(EventKind kind, double before, double after, Fill&& fill) const;
   [[nodiscard]] VertexId user(VertexId v) const { return work_.order.vertices[v]; }
 
   const Tracer& tracer_;

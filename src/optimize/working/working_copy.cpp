@@ -28,14 +28,6 @@ IdVector<IdType, IdType> ranks(const IdVector<IdType, IdType>& order) {
   return result;
 }
 
-template <class IdType>
-IdVector<IdType, IdType> compose(const IdVector<IdType, IdType>& order, const IdVector<IdType, IdType>& kept) {
-  IdVector<IdType, IdType> result;
-  result.reserve(kept.size());
-  for (const IdType i : kept) result.push_back(order[i]);
-  return result;
-}
-
 }  // namespace
 
 WorkingCopy::WorkingCopy(const Mesh& user, SweepOrder sweeps, Executor* executor) : frame(Frame::of(user)) {
@@ -75,7 +67,7 @@ void WorkingCopy::name_new() {
 
 Compaction WorkingCopy::compact() {
   Compaction kept = mesh.compact();
-  order = {compose(order.vertices, kept.vertices), compose(order.triangles, kept.triangles)};
+  order = {kept_of(order.vertices, kept.vertices), kept_of(order.triangles, kept.triangles)};
   has_gaps = true;
   return kept;
 }

@@ -4,11 +4,22 @@
 // that was never used. A mesh that is never compacted, as in a replay, has them in the slots of these numbers.
 #pragma once
 
+#include "mesh/mesh_editor.hpp"
+#include "mesh/twins.hpp"
 #include "optimize/working/frame.hpp"
 #include "temper/mesh.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {
+
+/// The values of what a compaction has kept.
+template <class Id, class T>
+[[nodiscard]] IdVector<Id, T> kept_of(const IdVector<Id, T>& all, const IdVector<Id, Id>& kept) {
+  IdVector<Id, T> result;
+  result.reserve(kept.size());
+  for (const Id i : kept) result.push_back(all[i]);
+  return result;
+}
 
 struct WorkingCopy {
   Mesh mesh;
@@ -50,6 +61,36 @@ struct WorkingCopy {
 struct Candidate {
   WorkingCopy work;
   int sweep = 0;
+};
+
+// The caller's mesh while a run works on copies of it. What can be found again takes no room meanwhile, where the
+// caller says that nobody looks: twins follow from corners.
+
+class InputMesh {
+ public:
+  /// `may_fold`: whether nobody else looks at the mesh while this lives.
+  InputMesh(Mesh& mesh, bool may_fold, Executor* executor) : mesh_(mesh), may_fold_(may_fold), executor_(executor) {}
+  InputMesh(const InputMesh&) = delete;
+  InputMesh& operator=(const InputMesh&) = delete;
+  ~InputMesh() { whole(); }
+
+  /// The mesh as the caller gave it.
+  Mesh& whole() {
+    if (folded_) find_twins(mesh_, executor_);
+    folded_ = false;
+    return mesh_;
+  }
+  /// Nobody needs it until whole() is called.
+  void fold() {
+    if (!may_fold_) return;
+    MeshEditor(mesh_).release_twins();
+    folded_ = true;
+  }
+
+ private:
+  Mesh& mesh_;
+  bool may_fold_, folded_ = false;
+  Executor* executor_;
 };
 
 }  // namespace temper

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "support/area.hpp"
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/generate.hpp"

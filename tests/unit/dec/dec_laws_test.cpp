@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "property/random_mesh.hpp"
-#include "support/area.hpp"
 #include "support/lattice.hpp"
+#include "support/shapes.hpp"
 #include "temper/dec.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/generate.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {

@@ -12,8 +12,8 @@
 #include "support/lattice.hpp"
 #include "support/spheres.hpp"
 #include "temper/dec.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/generate.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {

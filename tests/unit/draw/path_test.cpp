@@ -1,12 +1,11 @@
 // Path text against a reader of its own: what is written in few bytes says what was meant. And XML text.
-#include "draw/path.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "draw/xml.hpp"
+#include "draw/frame.hpp"
+#include "draw/text.hpp"
 #include "unit/draw/svg_reading.hpp"
 
 namespace temper {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "draw/path.hpp"
+#include "draw/frame.hpp"
 
 namespace temper::test {
 

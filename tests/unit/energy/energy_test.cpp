@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "energy/total_energies.hpp"
+#include "energy/whole_mesh.hpp"
 #include "support/lattice.hpp"
 #include "unit/energy/naive.hpp"
 

@@ -1,5 +1,4 @@
 // Crossing intervals: the closed formulae against sampled orthocenters, and against the linear programme.
-#include "explain/crossings.hpp"
 
 #include "explain/conflict.hpp"
 #include "temper/detail/geometry.hpp"

@@ -4,12 +4,12 @@
 #include <numeric>
 #include <set>
 
-#include "explain/crossings.hpp"
+#include "explain/conflict.hpp"
 #include "explain/cures.hpp"
 #include "support/spheres.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/lp.hpp"
+#include "temper/generate.hpp"
 #include "temper/quality.hpp"
 #include "temper/regularity.hpp"
 #include "temper/topology.hpp"

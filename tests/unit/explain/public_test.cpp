@@ -1,11 +1,11 @@
 // Meshes and outlines that nobody here made, read in place: what is said of them, and that it covers them.
 #include <filesystem>
 
+#include "temper/detail/geometry.hpp"
+#include "temper/detail/lp.hpp"
 #include "temper/explain.hpp"
 #include "temper/generate.hpp"
-#include "temper/detail/geometry.hpp"
 #include "temper/io.hpp"
-#include "temper/detail/lp.hpp"
 #include "unit/explain/fans.hpp"
 
 namespace temper::test {

@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <ostream>
 
-#include "temper/io.hpp"
 #include "temper/detail/necessity.hpp"
+#include "temper/io.hpp"
 #include "temper/optimize.hpp"
 #include "unit/feasibility/support.hpp"
 

@@ -9,10 +9,10 @@
 #include "property/random_mesh.hpp"
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
-#include "temper/feasibility.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/lp.hpp"
+#include "temper/feasibility.hpp"
+#include "temper/generate.hpp"
 
 namespace temper::test {
 

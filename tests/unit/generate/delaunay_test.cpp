@@ -8,7 +8,7 @@
 #include "base/rng.hpp"
 #include "generate/triangulation.hpp"
 #include "property/random_mesh.hpp"
-#include "support/area.hpp"
+#include "support/shapes.hpp"
 #include "temper/generate.hpp"
 #include "temper/regularity.hpp"
 

@@ -7,10 +7,10 @@
 #include <limits>
 #include <numbers>
 
-#include "support/area.hpp"
+#include "support/shapes.hpp"
+#include "temper/detail/geometry.hpp"
 #include "temper/energy.hpp"
 #include "temper/generate.hpp"
-#include "temper/detail/geometry.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <vector>
 
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/projection.hpp"
 #include "temper/detail/size.hpp"
+#include "temper/generate.hpp"
 
 namespace temper::test {
 namespace {

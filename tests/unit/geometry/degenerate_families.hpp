@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "temper/detail/vec2.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper::testing {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/html.hpp"
+#include "temper/generate.hpp"
 #include "temper/quality.hpp"
 
 namespace temper::io {

@@ -12,8 +12,8 @@
 #include "io/containers/netcdf_file.hpp"
 #include "support/lattice.hpp"
 #include "support/spheres.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper::io {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "support/area.hpp"
 #include "support/lattice.hpp"
+#include "support/shapes.hpp"
 
 namespace temper {
 namespace {

@@ -12,10 +12,10 @@
 #include "base/rng.hpp"
 #include "outlines.hpp"
 #include "support/std_threads.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/projection.hpp"
-#include "temper/regularity.hpp"
 #include "temper/detail/size.hpp"
+#include "temper/generate.hpp"
+#include "temper/regularity.hpp"
 
 namespace temper::test {
 namespace {

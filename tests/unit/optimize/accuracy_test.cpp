@@ -12,13 +12,13 @@
 #include "optimize/accuracy/accuracy_phase.hpp"
 #include "optimize/stages/driver.hpp"
 #include "support/lattice.hpp"
-#include "support/regions.hpp"
+#include "support/shapes.hpp"
 #include "support/std_threads.hpp"
+#include "temper/detail/size.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 #include "temper/regularity.hpp"
-#include "temper/detail/size.hpp"
 
 namespace temper::test {
 namespace {

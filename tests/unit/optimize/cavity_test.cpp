@@ -1,9 +1,8 @@
 // The energy of a vertex's cavity without the vertex: the change of the total, for every energy and star.
-#include "optimize/step/cavity.hpp"
-
 #include <gtest/gtest.h>
 
 #include "energy/patch.hpp"
+#include "optimize/step/removal.hpp"
 #include "support/lattice.hpp"
 #include "temper/regularity.hpp"
 #include "unit/energy/naive.hpp"

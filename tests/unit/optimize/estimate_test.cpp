@@ -1,11 +1,10 @@
 // How long a run may still take.
-#include "optimize/run/estimate.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <utility>
 
+#include "optimize/run/run.hpp"
 #include "temper/generate.hpp"
 
 namespace temper::test {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "optimize/step/golden.hpp"
+#include "optimize/step/line_search.hpp"
 #include "support/lattice.hpp"
 
 namespace temper::test {

@@ -7,7 +7,7 @@
 
 #include "energy/patch.hpp"
 #include "support/lattice.hpp"
-#include "support/regions.hpp"
+#include "support/shapes.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"

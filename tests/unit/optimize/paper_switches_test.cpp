@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "property/random_mesh.hpp"
-#include "support/area.hpp"
 #include "support/lattice.hpp"
+#include "support/shapes.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"

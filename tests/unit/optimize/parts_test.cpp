@@ -6,14 +6,14 @@
 #include "mesh/mesh_editor.hpp"
 #include "optimize/stages/driver.hpp"
 #include "optimize/sweep/shifted_cuts.hpp"
-#include "support/regions.hpp"
 #include "support/sanitizers.hpp"
+#include "support/shapes.hpp"
 #include "support/std_threads.hpp"
 #include "support/thread_communicator.hpp"
+#include "temper/detail/size.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"
-#include "temper/detail/size.hpp"
 
 namespace temper::test {
 namespace {

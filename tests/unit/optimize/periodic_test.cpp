@@ -7,12 +7,12 @@
 #include "mesh/bad_triangles.hpp"
 #include "support/sanitizers.hpp"
 #include "support/std_threads.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/instruction_set.hpp"
+#include "temper/detail/trace.hpp"
+#include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
 #include "temper/regularity.hpp"
-#include "temper/detail/trace.hpp"
 
 namespace temper {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "optimize/repair/trial.hpp"
-#include "support/layers.hpp"
+#include "support/shapes.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"

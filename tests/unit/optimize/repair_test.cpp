@@ -6,15 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "optimize/stages/attempts.hpp"
 #include "optimize/repair/neighborhood.hpp"
-#include "optimize/repair/splice.hpp"
 #include "optimize/repair/trial.hpp"
-#include "support/area.hpp"
+#include "optimize/stages/attempts.hpp"
 #include "support/lattice.hpp"
-#include "support/layers.hpp"
-#include "temper/generate.hpp"
+#include "support/shapes.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/rng.hpp"
+#include "temper/detail/trace.hpp"
 #include "temper/generate.hpp"
 #include "temper/topology.hpp"
-#include "temper/detail/trace.hpp"
 
 namespace temper {
 namespace {

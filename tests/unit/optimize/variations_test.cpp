@@ -11,8 +11,8 @@
 #include "optimize/step/line_search.hpp"
 #include "optimize/step/removal.hpp"
 #include "support/lattice.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/regularity.hpp"
 

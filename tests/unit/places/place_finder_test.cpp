@@ -6,9 +6,9 @@
 
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/places.hpp"
+#include "temper/generate.hpp"
 
 namespace temper::test {
 namespace {

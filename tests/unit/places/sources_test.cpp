@@ -6,10 +6,10 @@
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "support/std_threads.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
-#include "temper/optimize.hpp"
 #include "temper/detail/places.hpp"
+#include "temper/generate.hpp"
+#include "temper/optimize.hpp"
 #include "temper/topology.hpp"
 
 namespace temper::test {

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "support/lattice.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
-#include "temper/optimize.hpp"
 #include "temper/detail/places.hpp"
+#include "temper/generate.hpp"
+#include "temper/optimize.hpp"
 
 namespace temper::test {
 namespace {

@@ -12,8 +12,8 @@
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/detail/executor.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
+#include "temper/generate.hpp"
 #include "temper/quality.hpp"
 
 namespace temper {

@@ -13,8 +13,8 @@
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/detail/geometry.hpp"
-#include "temper/quality.hpp"
 #include "temper/detail/size.hpp"
+#include "temper/quality.hpp"
 
 namespace temper {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "property/random_mesh.hpp"
-#include "support/area.hpp"
+#include "support/shapes.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {

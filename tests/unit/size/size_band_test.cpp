@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "support/shapes.hpp"
+#include "temper/detail/size.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
 #include "temper/quality.hpp"
-#include "temper/detail/size.hpp"
 
 namespace temper::test {
 namespace {

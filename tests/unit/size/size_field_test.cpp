@@ -7,9 +7,9 @@
 #include "places/box_tree.hpp"
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/detail/size.hpp"
+#include "temper/generate.hpp"
 
 namespace temper::test {
 namespace {

@@ -8,8 +8,8 @@
 #include "support/lattice.hpp"
 #include "support/shapes.hpp"
 #include "temper/detail/executor.hpp"
-#include "temper/generate.hpp"
 #include "temper/detail/size.hpp"
+#include "temper/generate.hpp"
 
 namespace temper::test {
 namespace {

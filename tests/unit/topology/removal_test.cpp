@@ -5,7 +5,7 @@
 
 #include "mesh/mesh_editor.hpp"
 #include "property/random_mesh.hpp"
-#include "support/area.hpp"
+#include "support/shapes.hpp"
 #include "temper/regularity.hpp"
 
 namespace temper {

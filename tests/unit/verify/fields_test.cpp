@@ -7,7 +7,6 @@
 #include <set>
 
 #include "support/lattice.hpp"
-#include "verify/gauss.hpp"
 
 namespace temper::verify_detail {
 namespace {

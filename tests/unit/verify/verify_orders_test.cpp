@@ -3,15 +3,13 @@
 
 #include <cmath>
 
-#include "support/area.hpp"
 #include "support/lattice.hpp"
-#include "support/regions.hpp"
+#include "support/shapes.hpp"
 #include "temper/dec.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/regularity.hpp"
 #include "temper/verify.hpp"
-#include "verify/measure.hpp"
-#include "verify/refine.hpp"
+#include "verify/poisson.hpp"
 
 namespace temper::test {
 namespace {

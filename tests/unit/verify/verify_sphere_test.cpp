@@ -9,8 +9,8 @@
 #include "temper/dec.hpp"
 #include "temper/detail/geometry.hpp"
 #include "temper/verify.hpp"
-#include "verify/edge_means.hpp"
 #include "verify/fields.hpp"
+#include "verify/stars.hpp"
 
 namespace temper {
 namespace {

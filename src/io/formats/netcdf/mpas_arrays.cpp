@@ -15,7 +15,6 @@
 #include "io/formats/netcdf/mpas.hpp"
 
 namespace temper::io {
-
 namespace {
 
 std::int32_t from_one(std::size_t index) { return static_cast<std::int32_t>(index) + 1; }

@@ -10,7 +10,6 @@
 #include <numbers>
 #include <set>
 
-#include "io/conversion/geographic.hpp"
 #include "io/conversion/globe.hpp"
 #include "io/formats/netcdf/mpas.hpp"
 #include "io/formats/netcdf/netcdf_extras.hpp"
@@ -74,7 +73,7 @@ class MpasReader {
 
  private:
   void expect(bool good, std::string_view variable) const {
-    if (!good) fail(ErrorCode::size_mismatch, document_.names->path, text("variable ", variable, " has a wrong size"));
+    if (!good) fail(ErrorCode::size_mismatch, document_.names->path, "variable ", variable, " has a wrong size");
   }
 
   bool says_yes(const char* name) const {
@@ -88,9 +87,8 @@ class MpasReader {
     const auto period = [&](const char* name) {
       const auto length = in_.number_attribute(nullptr, name);
       if (length && *length >= 0 && std::isfinite(*length)) return *length;
-      fail(ErrorCode::out_of_scale, document_.names->path,
-           text("attribute is_periodic is YES, and ", name, " is ", length ? text(*length) : "not there",
-                "; expected the length of the period, or 0"));
+      fail(ErrorCode::out_of_scale, document_.names->path, "attribute is_periodic is YES, and ", name, " is ",
+           length ? text(*length) : "not there", "; expected the length of the period, or 0");
     };
     const Vec2 periods = {period("x_period"), period("y_period")};
     const bool sphere = document_.file.sphere() != nullptr;
@@ -118,9 +116,9 @@ class MpasReader {
     PlaneCheck plane(document_);
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (flat && z[i] != z[0] && std::isfinite(z[i])) {
-        fail(ErrorCode::not_planar, document_.names->point_where(i),
-             text("attribute on_a_sphere is NO, but ", document_.names->point(i), " has z = ", z[i], " and ",
-                  document_.names->point(0), " has z = ", z[0], "; expected a plane of constant z"));
+        fail(ErrorCode::not_planar, document_.names->point_where(i), "attribute on_a_sphere is NO, but ",
+             document_.names->point(i), " has z = ", z[i], " and ", document_.names->point(0), " has z = ", z[0],
+             "; expected a plane of constant z");
       }
       document_.file.points.push_back({x[i], y[i]});
       plane.add(i, z[i]);
@@ -139,8 +137,8 @@ class MpasReader {
       const auto common = common_radius(places);
       if (!common) {
         fail(ErrorCode::not_planar, document_.names->path,
-             text("attribute on_a_sphere is YES, but all points have z = ", document_.file.z(),
-                  " and not one distance from the origin; expected points on a sphere around the origin"));
+             "attribute on_a_sphere is YES, but all points have z = ", document_.file.z(),
+             " and not one distance from the origin; expected points on a sphere around the origin");
       }
       set_sphere(document_.file, *common, std::move(places));
     }
@@ -152,17 +150,17 @@ class MpasReader {
     for (std::size_t i = 0; i < places.size(); ++i) {
       const double distance = length(places[i]);
       if (!std::isfinite(distance) || std::abs(distance - radius) <= kSame * radius) continue;
-      fail(ErrorCode::not_planar, document_.names->point_where(i),
-           text("attribute sphere_radius is ", radius, ", but ", document_.names->point(i), " is ", distance,
-                " from the origin; expected xCell, yCell and zCell on a sphere of that radius"));
+      fail(ErrorCode::not_planar, document_.names->point_where(i), "attribute sphere_radius is ", radius, ", but ",
+           document_.names->point(i), " is ", distance,
+           " from the origin; expected xCell, yCell and zCell on a sphere of that radius");
     }
   }
 
   void triangles() {
     const NetcdfVariable& v = in_.variable("cellsOnVertex");
     if (v.sizes.size() != 2 || v.sizes[1] != 3) {
-      fail(ErrorCode::unsupported, document_.names->path,
-           text("vertices have ", v.sizes.size() == 2 ? v.sizes[1] : 0, " cells; temper reads triangles"));
+      fail(ErrorCode::unsupported, document_.names->path, "vertices have ", v.sizes.size() == 2 ? v.sizes[1] : 0,
+           " cells; temper reads triangles");
     }
     const auto cells = in_.integers(v);
     std::size_t incomplete = 0;
@@ -175,9 +173,8 @@ class MpasReader {
       std::array<std::int32_t, 3> corners = {};
       for (std::size_t k = 0; k < 3; ++k) {
         if (!std::in_range<std::int32_t>(c[k]) || c[k] < 0) {
-          fail(ErrorCode::index_out_of_range, document_.names->path,
-               text("triangle ", t + 1, " uses vertex ", c[k], ", but the file has ", document_.file.points.size(),
-                    " vertices, numbered from 1"));
+          fail(ErrorCode::index_out_of_range, document_.names->path, "triangle ", t + 1, " uses vertex ", c[k],
+               ", but the file has ", document_.file.points.size(), " vertices, numbered from 1");
         }
         corners[k] = static_cast<std::int32_t>(c[k] - 1);
       }
@@ -318,9 +315,8 @@ void refuse_too_wide(const WriteJob& job, const Mesh& mesh, std::size_t n_edges)
     most = std::max(most, n);
   }
   if (most <= kUsual || most <= kMostNumbers / (2 * n_edges)) return;
-  fail(ErrorCode::unsupported, job.path,
-       text("MPAS has columns for as many edges as any cell has, here ", most, " for each of ", n_edges,
-            " edges: too many to be written"));
+  fail(ErrorCode::unsupported, job.path, "MPAS has columns for as many edges as any cell has, here ", most,
+       " for each of ", n_edges, " edges: too many to be written");
 }
 
 /// With weights the edges do not cross midway between the cells.
@@ -335,11 +331,11 @@ void warn_of_offsets(const WriteJob& job, const NetcdfMesh& m) {
     visible += offset > kVisible ? 1 : 0;
   }
   if (visible == 0) return;
-  job.warn(text("with weights, ", visible, " of ", m.complex.edges.size(),
-                " edges are crossed more than 1 % of dcEdge away from the middle of their cells, up to ",
-                std::round(1000 * most) / 10,
-                " %: models that take xEdge for the middle, as MPAS does, want a mesh without weights (temper optimize "
-                "--positions-only)"));
+  job.warn("with weights, ", visible, " of ", m.complex.edges.size(),
+           " edges are crossed more than 1 % of dcEdge away from the middle of their cells, up to ",
+           std::round(1000 * most) / 10,
+           " %: models that take xEdge for the middle, as MPAS does, want a mesh without weights (temper optimize "
+           "--positions-only)");
 }
 
 }  // namespace
@@ -351,8 +347,7 @@ void write_mpas(const WriteJob& job) {
   MpasArrays a = mpas_arrays(m.mesh, c);
   std::size_t n_bad = 0;
   for (std::size_t e = 0; e < a.dv_edge.size(); ++e) n_bad += a.vertices_on_edge[2 * e + 1] > 0 && a.dv_edge[e] <= 0;
-  if (n_bad > 0)
-    job.warn(text(n_bad, " edges inside have a dvEdge that is not positive; MPAS expects a well-centered mesh"));
+  if (n_bad > 0) job.warn(n_bad, " edges inside have a dvEdge that is not positive; MPAS expects a well-centered mesh");
   const Space& space = m.mesh.space();
   warn_of_offsets(job, m);
   const std::size_t most_values = 2 * a.max_edges * c.edges.size();  // of weightsOnEdge

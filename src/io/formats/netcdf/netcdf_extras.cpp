@@ -1,15 +1,13 @@
-// See netcdf_extras.hpp.
 #include "io/formats/netcdf/netcdf_extras.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "io/conversion/geographic.hpp"
+#include "io/conversion/globe.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 
 namespace temper::io {
-
 namespace {
 
 constexpr std::string_view kLinePointsVariable = "temper_line_points", kLineTagsVariable = "temper_line_tags",
@@ -92,7 +90,7 @@ class ExtrasWriter {
     const auto components = static_cast<std::size_t>(a.components);
     const std::size_t tuples = size(a.values) / components;
     if (tuples == 0) {
-      job_.warn(text(kind.name, " data ", in_quotes(a.name), " have no values and are not written"));
+      job_.warn(kind.name, " data ", in_quotes(a.name), " have no values and are not written");
       return;
     }
     std::vector<int> dimensions;
@@ -121,14 +119,14 @@ class ExtrasWriter {
 /// Variables of temper's own must have one row an element.
 void expect_rows(const Document& d, const NetcdfVariable& v, std::size_t rows) {
   if (!v.sizes.empty() && v.sizes[0] == rows) return;
-  fail(ErrorCode::size_mismatch, d.names->path,
-       text("variable ", v.name, " has ", v.sizes.empty() ? 1 : v.sizes[0], " rows, expected ", rows));
+  fail(ErrorCode::size_mismatch, d.names->path, "variable ", v.name, " has ", v.sizes.empty() ? 1 : v.sizes[0],
+       " rows, expected ", rows);
 }
 
 std::vector<std::int32_t> read_int32(const NetcdfReader& in, const Document& d, const NetcdfVariable& v) {
   auto values = to_int32(in.values(v));
   if (!values)
-    fail(ErrorCode::index_out_of_range, d.names->path, text("variable ", v.name, " has a value of more than 32 bits"));
+    fail(ErrorCode::index_out_of_range, d.names->path, "variable ", v.name, " has a value of more than 32 bits");
   return std::move(*values);
 }
 
@@ -137,11 +135,11 @@ void read_own_data(const NetcdfReader& in, Document& document, const NetcdfVaria
   std::string name = in.text_attribute(&v, kNameAttribute);
   if (name.empty()) name = v.name;
   if (!v.scalar || v.sizes.empty() || v.sizes.size() > 2)
-    fail(ErrorCode::syntax, document.names->path, text("variable ", v.name, " is no array of numbers"));
+    fail(ErrorCode::syntax, document.names->path, "variable ", v.name, " is no array of numbers");
   const std::size_t components = v.sizes.size() == 2 ? v.sizes[1] : 1;
   constexpr std::size_t kMostComponents = 4096;
   if (components < 1 || components > kMostComponents)
-    fail(ErrorCode::syntax, document.names->path, text("variable ", v.name, " has ", components, " components"));
+    fail(ErrorCode::syntax, document.names->path, "variable ", v.name, " has ", components, " components");
   if (kind.name == "point") expect_rows(document, v, f.points.size());
   if (kind.name == "cell") expect_rows(document, v, f.triangles.size());
   if (kind.name == "line") expect_rows(document, v, f.lines.size());
@@ -179,7 +177,7 @@ void read_netcdf_extras(const NetcdfReader& in, Document& document) {
   if (const NetcdfVariable* v = in.find(kLinePointsVariable)) {
     const auto ends = read_int32(in, document, *v);
     if (v->sizes.size() != 2 || v->sizes[1] != 2)
-      fail(ErrorCode::syntax, document.names->path, text("variable ", v->name, " has other than two columns"));
+      fail(ErrorCode::syntax, document.names->path, "variable ", v->name, " has other than two columns");
     for (std::size_t i = 0; i + 1 < ends.size(); i += 2) f.lines.push_back({ends[i], ends[i + 1]});
     const NetcdfVariable& tags = in.variable(kLineTagsVariable);
     expect_rows(document, tags, f.lines.size());
@@ -210,8 +208,7 @@ NetcdfMesh mesh_for_netcdf(const WriteJob& job, std::string_view format) {
   result.file.warnings.clear();
   auto made = make_mesh(result.file, {}, job.executor);
   if (!made) {
-    fail(made.error().code, job.path,
-         text(format, " holds orthocenters and so needs a valid mesh: ", made.error().what()));
+    fail(made.error().code, job.path, format, " holds orthocenters and so needs a valid mesh: ", made.error().what());
   }
   const bool weighted = !result.file.weights.empty();
   update(result.file, *made, made->mesh);

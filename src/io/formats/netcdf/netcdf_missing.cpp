@@ -1,10 +1,8 @@
 // In place of NetCDF's formats where its headers were not there when temper was built.
 #include "io/containers/hdf5_magic.hpp"
 #include "io/formats/format.hpp"
-#include "io/formats/netcdf/ugrid.hpp"
 
 namespace temper::io {
-
 namespace {
 
 constexpr std::string_view kMissing = "is a NetCDF file, and this temper was built without NetCDF";

@@ -12,10 +12,9 @@
 #include <set>
 
 #include "io/containers/hdf5_magic.hpp"
-#include "io/conversion/geographic.hpp"
 #include "io/conversion/globe.hpp"
+#include "io/formats/format.hpp"
 #include "io/formats/netcdf/netcdf_extras.hpp"
-#include "io/formats/netcdf/ugrid.hpp"
 #include "io/text/names.hpp"
 #include "io/text/scanner.hpp"
 
@@ -52,7 +51,7 @@ class UgridReader {
  private:
   const std::string& path() const { return document_.names->path; }
   void expect(bool good, std::string_view variable) const {
-    if (!good) fail(ErrorCode::size_mismatch, path(), text("variable ", variable, " has a wrong size"));
+    if (!good) fail(ErrorCode::size_mismatch, path(), "variable ", variable, " has a wrong size");
   }
 
   /// The names in an attribute of the topology.
@@ -68,7 +67,7 @@ class UgridReader {
   void nodes() {
     const auto names = named("node_coordinates");
     if (names.size() != 2)
-      fail(ErrorCode::unsupported, path(), text("has ", names.size(), " node_coordinates; temper reads x and y"));
+      fail(ErrorCode::unsupported, path(), "has ", names.size(), " node_coordinates; temper reads x and y");
     const NetcdfVariable &vx = in_.variable(names[0]), &vy = in_.variable(names[1]);
     expect(vx.sizes.size() == 1, vx.name);
     expect(vy.sizes == vx.sizes, vy.name);
@@ -104,8 +103,7 @@ class UgridReader {
     face_dimension_ = v.dimensions[turned ? 1 : 0];
     const std::size_t n = v.sizes[turned ? 1 : 0], most = v.sizes[turned ? 0 : 1];
     const double first = in_.number_attribute(&v, "start_index").value_or(0);
-    if (first != 0 && first != 1)
-      fail(ErrorCode::unsupported, path(), text("has start_index ", first, "; expected 0 or 1"));
+    if (first != 0 && first != 1) fail(ErrorCode::unsupported, path(), "has start_index ", first, "; expected 0 or 1");
     const std::int64_t start = first == 1 ? 1 : 0;
     const auto fill = in_.number_attribute(&v, "_FillValue");
     const auto all = in_.integers(v);
@@ -118,17 +116,15 @@ class UgridReader {
         const std::int64_t number = all[turned ? k * n + face : face * most + k];
         if (number == NetcdfReader::kNoInteger || (fill && static_cast<double>(number) == *fill)) continue;
         if (!std::in_range<std::int32_t>(number)) {
-          fail(ErrorCode::index_out_of_range, path(),
-               text("triangle ", static_cast<std::int64_t>(face) + start, " uses vertex ", number,
-                    ", which is beyond 32 bits"));
+          fail(ErrorCode::index_out_of_range, path(), "triangle ", static_cast<std::int64_t>(face) + start,
+               " uses vertex ", number, ", which is beyond 32 bits");
         }
         if (count < 3) corners[count] = static_cast<std::int32_t>(number - start);
         ++count;
       }
       if (count != 3) {
-        fail(
-            ErrorCode::unsupported, path(),
-            text("face ", static_cast<std::int64_t>(face) + start, " has ", count, " corners; temper reads triangles"));
+        fail(ErrorCode::unsupported, path(), "face ", static_cast<std::int64_t>(face) + start, " has ", count,
+             " corners; temper reads triangles");
       }
       document_.file.triangles.push_back(corners);
     }
@@ -193,8 +189,8 @@ class UgridWriter {
       on(id, "node");
     }
     if (m_.file.sphere() != nullptr && m_.file.sphere()->radius != Projection{}.radius) {
-      job_.warn(text("points are longitude and latitude, without the radius: give --projection sphere:radius=",
-                     m_.file.sphere()->radius, " where the file is read again"));
+      job_.warn("points are longitude and latitude, without the radius: give --projection sphere:radius=",
+                m_.file.sphere()->radius, " where the file is read again");
     }
     write_netcdf_extras(out_, job_, m_.file, {nodes_, faces_, "mesh"});
     out_.finish(job_.outputs.open(job_.path));

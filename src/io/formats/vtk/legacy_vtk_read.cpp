@@ -99,21 +99,21 @@ class LegacyVtkReader {
     const std::string_view number = first.substr(at == std::string_view::npos ? 0 : at + 1);
     if (read_number(number.data(), number.data() + number.size(), version_).ec != std::errc() || version_ < 1 ||
         version_ >= 6) {
-      fail(ErrorCode::unsupported, text(scanner_.path(), ":1"),
-           text("is legacy VTK version ", in_quotes(number), "; temper reads 2.0 to 5.1"));
+      fail(ErrorCode::unsupported, text(scanner_.path(), ":1"), "is legacy VTK version ", in_quotes(number),
+           "; temper reads 2.0 to 5.1");
     }
     scanner_.rest_of_line();
     const std::string encoding = lower(scanner_.word("ASCII or BINARY"));
     if (encoding != "ascii" && encoding != "binary")
-      scanner_.fail_here(ErrorCode::syntax, text("expected ASCII or BINARY, found ", in_quotes(encoding)));
+      scanner_.fail_here(ErrorCode::syntax, "expected ASCII or BINARY, found ", in_quotes(encoding));
     binary_ = encoding == "binary";
   }
   void keyword(const std::string& word) {
     if (word == "dataset") {
       const std::string kind = lower(scanner_.word("the kind of data set"));
       if (kind != "unstructured_grid" && kind != "polydata") {
-        scanner_.fail_here(ErrorCode::unsupported, text("is a data set of kind ", in_quotes(kind),
-                                                        "; temper reads UNSTRUCTURED_GRID and POLYDATA"));
+        scanner_.fail_here(ErrorCode::unsupported, "is a data set of kind ", in_quotes(kind),
+                           "; temper reads UNSTRUCTURED_GRID and POLYDATA");
       }
       poly_ = kind == "polydata";
     } else if (word == "points") {
@@ -176,7 +176,7 @@ class LegacyVtkReader {
     const auto next = [&]() -> std::int32_t {
       if (!binary_) return scanner_.integer("the number of a point");
       if (at == all.size())
-        fail(ErrorCode::syntax, scanner_.path(), text("the cells need more than the ", size, " numbers announced"));
+        fail(ErrorCode::syntax, scanner_.path(), "the cells need more than the ", size, " numbers announced");
       return all[at++];
     };
     scanner_.check_room(binary_ ? 0 : n, "cells", 4);
@@ -184,7 +184,7 @@ class LegacyVtkReader {
       const std::int32_t count = next();
       if (!binary_) result.text_lines.push_back(static_cast<std::int64_t>(scanner_.line()));
       if (count < 0 || static_cast<std::size_t>(count) > size) {
-        fail(ErrorCode::syntax, where(), text("element ", i, " has ", count, " points"));
+        fail(ErrorCode::syntax, where(), "element ", i, " has ", count, " points");
       }
       for (std::int32_t k = 0; k < count; ++k) result.points.push_back(next());
       result.ends.push_back(static_cast<std::int32_t>(result.points.size()));
@@ -195,8 +195,7 @@ class LegacyVtkReader {
     CellArray result;
     for (const std::string_view expected : {"offsets", "connectivity"}) {
       const std::string found = lower(scanner_.word(expected));
-      if (found != expected)
-        scanner_.fail_here(ErrorCode::syntax, text("expected ", expected, ", found ", in_quotes(found)));
+      if (found != expected) scanner_.fail_here(ErrorCode::syntax, "expected ", expected, ", found ", in_quotes(found));
       const Scalar scalar = type(scanner_.word("a type"), found);
       auto all = integers(scalar, expected == "offsets" ? n_offsets : n_points, found);
       (expected == "offsets" ? result.ends : result.points) = std::move(all);
@@ -204,14 +203,14 @@ class LegacyVtkReader {
     std::int32_t last = 0;
     for (const std::int32_t offset : result.ends) {
       if (offset < last || static_cast<std::size_t>(offset) > result.points.size()) {
-        fail(ErrorCode::index_out_of_range, where(),
-             text("a cell ends at ", offset, " of ", result.points.size(), " numbers, and starts at ", last));
+        fail(ErrorCode::index_out_of_range, where(), "a cell ends at ", offset, " of ", result.points.size(),
+             " numbers, and starts at ", last);
       }
       last = offset;
     }
     if (!result.ends.empty()) {
       if (result.ends.front() != 0)
-        fail(ErrorCode::syntax, where(), text("offsets start at ", result.ends.front(), ", expected 0"));
+        fail(ErrorCode::syntax, where(), "offsets start at ", result.ends.front(), ", expected 0");
       result.ends.erase(result.ends.begin());
     }
     return result;
@@ -230,7 +229,7 @@ class LegacyVtkReader {
   }
   void attribute(const std::string& word) {
     if (attributes_ == Attributes::none)
-      scanner_.fail_here(ErrorCode::syntax, text("expected a keyword of legacy VTK, found ", in_quotes(word)));
+      scanner_.fail_here(ErrorCode::syntax, "expected a keyword of legacy VTK, found ", in_quotes(word));
     if (word == "scalars") return scalars();
     const auto plain = [&](int components) {
       const std::string name = decoded(scanner_.word("a name"));
@@ -246,7 +245,7 @@ class LegacyVtkReader {
       const std::string name = decoded(scanner_.word("a name"));
       const std::size_t n = scanner_.count("components", 1);
       if (n < 1 || n > kMostComponents)
-        scanner_.fail_here(ErrorCode::syntax, text("array ", in_quotes(name), " has ", n, " components"));
+        scanner_.fail_here(ErrorCode::syntax, "array ", in_quotes(name), " has ", n, " components");
       // Colours are bytes in binary files and fractions in text.
       const Scalar scalar =
           word == "color_scalars" ? (binary_ ? Scalar::u8 : Scalar::f32) : type(scanner_.word("a type"), name);
@@ -259,7 +258,7 @@ class LegacyVtkReader {
       static_cast<void>(values(binary_ ? Scalar::u8 : Scalar::f32, 4 * n, "LOOKUP_TABLE"));
       return;
     }
-    scanner_.fail_here(ErrorCode::syntax, text("expected an attribute, found ", in_quotes(word)));
+    scanner_.fail_here(ErrorCode::syntax, "expected an attribute, found ", in_quotes(word));
   }
   void scalars() {
     const std::string name = decoded(scanner_.word("a name"));
@@ -268,8 +267,8 @@ class LegacyVtkReader {
     const std::int32_t components = has_components ? scanner_.integer("the number of components") : 1;
     constexpr std::int32_t kMost = 4;
     if (components < 1 || components > kMost) {
-      scanner_.fail_here(ErrorCode::syntax,
-                         text("array ", in_quotes(name), " has ", components, " components; expected 1 to 4"));
+      scanner_.fail_here(ErrorCode::syntax, "array ", in_quotes(name), " has ", components,
+                         " components; expected 1 to 4");
     }
     if (lower(scanner_.peek()) == "lookup_table") {
       scanner_.word("LOOKUP_TABLE");
@@ -290,13 +289,12 @@ class LegacyVtkReader {
       const std::size_t tuples = scanner_.count("tuples", 1);
       const std::string_view type_word = scanner_.word("a type");
       if (components > 0 && tuples > scanner_.remaining() / components) {
-        scanner_.fail_here(ErrorCode::truncated,
-                           text("array ", in_quotes(name), " announces more than the file holds"));
+        scanner_.fail_here(ErrorCode::truncated, "array ", in_quotes(name), " announces more than the file holds");
       }
       if (lower(type_word) == "string") {
         scanner_.next_line();
         for (std::size_t k = 0; k < components * tuples && !binary_; ++k) scanner_.next_line();
-        if (binary_) scanner_.fail_here(ErrorCode::unsupported, text("array ", in_quotes(name), " is text in binary"));
+        if (binary_) scanner_.fail_here(ErrorCode::unsupported, "array ", in_quotes(name), " is text in binary");
         document_.file.warnings.push_back(
             text(scanner_.where(), ": array ", in_quotes(name), " is text and is dropped"));
         continue;
@@ -320,17 +318,16 @@ class LegacyVtkReader {
     const std::size_t n = n_tuples_;
     const std::size_t expected_tuples = attributes_ == Attributes::points ? document_.file.points.size() : n;
     if (size(array.values) != expected_tuples * static_cast<std::size_t>(array.components)) {
-      fail(ErrorCode::size_mismatch, where(),
-           text("array ", in_quotes(array.name), " has ", size(array.values), " values, expected ", expected_tuples,
-                " times ", array.components));
+      fail(ErrorCode::size_mismatch, where(), "array ", in_quotes(array.name), " has ", size(array.values),
+           " values, expected ", expected_tuples, " times ", array.components);
     }
     auto& list = attributes_ == Attributes::points ? point_data_ : cell_data_;
     list.push_back(std::move(array));
   }
   void finish_cells() {
     if (!poly_ && types_.size() != cells_.ends.size()) {
-      fail(ErrorCode::size_mismatch, scanner_.path(),
-           text("has ", cells_.ends.size(), " CELLS and ", types_.size(), " CELL_TYPES"));
+      fail(ErrorCode::size_mismatch, scanner_.path(), "has ", cells_.ends.size(), " CELLS and ", types_.size(),
+           " CELL_TYPES");
     }
     CellSorter sorter(document_, allowance_);
     RunLength triangle_lines, line_lines;
@@ -355,9 +352,8 @@ class LegacyVtkReader {
     for (const DataArray& a : cell_data_) {
       const std::size_t expected = sorter.n_cells() * static_cast<std::size_t>(a.components);
       if (size(a.values) == expected) continue;
-      fail(ErrorCode::size_mismatch, scanner_.path(),
-           text("cell data ", in_quotes(a.name), " has ", size(a.values), " values, expected ", sorter.n_cells(),
-                " times ", a.components));
+      fail(ErrorCode::size_mismatch, scanner_.path(), "cell data ", in_quotes(a.name), " has ", size(a.values),
+           " values, expected ", sorter.n_cells(), " times ", a.components);
     }
     sorter.distribute(std::move(cell_data_));
     document_.names->triangle_lines = std::move(triangle_lines);
@@ -369,7 +365,7 @@ class LegacyVtkReader {
     for (const LegacyType& row : kTypes) {
       if (row.name == plain) return row.scalar;
     }
-    scanner_.fail_here(ErrorCode::unsupported, text("array ", in_quotes(array), " has the type ", in_quotes(name)));
+    scanner_.fail_here(ErrorCode::unsupported, "array ", in_quotes(array), " has the type ", in_quotes(name));
   }
   Values values(Scalar scalar, std::size_t n, const std::string& name) {
     const std::string expected = text("a number of ", name);
@@ -399,7 +395,7 @@ class LegacyVtkReader {
     Values all = values(scalar, n, name);
     if (auto* same = std::get_if<std::vector<std::int32_t>>(&all)) return std::move(*same);
     auto converted = to_int32(all);
-    if (!converted) fail(ErrorCode::index_out_of_range, where(), text(name, " have a value that is no 32-bit integer"));
+    if (!converted) fail(ErrorCode::index_out_of_range, where(), name, " have a value that is no 32-bit integer");
     return std::move(*converted);
   }
   std::string where() const { return binary_ ? scanner_.path() : scanner_.where(); }

@@ -7,7 +7,6 @@
 #include "io/text/names.hpp"
 
 namespace temper::io {
-
 namespace {
 
 /// The number types in the order of Scalar.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/text/file_names.hpp"
-#include "temper/detail/vec3.hpp"
+#include "temper/detail/vec.hpp"
 
 namespace temper::io {
 

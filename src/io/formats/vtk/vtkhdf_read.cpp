@@ -17,11 +17,10 @@
 
 #include "io/containers/hdf5_file.hpp"
 #include "io/containers/hdf5_magic.hpp"
-#include "io/conversion/place_hash.hpp"
+#include "io/conversion/globe.hpp"
 #include "io/formats/cells.hpp"
 #include "io/formats/format.hpp"
-#include "io/formats/netcdf/ugrid.hpp"
-#include "io/formats/vtk/triangle_quality.hpp"
+#include "io/formats/vtk/vtk_arrays.hpp"
 #include "io/formats/vtk/vtkhdf.hpp"
 #include "io/text/scanner.hpp"
 
@@ -62,42 +61,40 @@ class VtkhdfReader {
     if (version.size() != 2)
       fail(ErrorCode::syntax, path_, "has no attribute Version of two integers in the group VTKHDF");
     if (version[0] != 1 && version[0] != 2) {
-      fail(ErrorCode::unsupported, path_,
-           text("is VTKHDF of version ", version[0], ".", version[1], "; temper reads versions 1 and 2"));
+      fail(ErrorCode::unsupported, path_, "is VTKHDF of version ", version[0], ".", version[1],
+           "; temper reads versions 1 and 2");
     }
     const auto type = in_.text_attribute(group_, "Type");
     if (!type) fail(ErrorCode::syntax, path_, "has no attribute Type of text in the group VTKHDF");
     if (*type != kVtkhdfType) {
-      fail(ErrorCode::unsupported, path_,
-           text("is a VTKHDF file of type ", in_quotes(*type), "; temper reads ", kVtkhdfType));
+      fail(ErrorCode::unsupported, path_, "is a VTKHDF file of type ", in_quotes(*type), "; temper reads ",
+           kVtkhdfType);
     }
     const auto steps = in_.group(group_, "Steps");
     const auto n = steps ? in_.integer_attribute(*steps, "NSteps") : std::vector<std::int64_t>{1};
     if (n.size() != 1 || n[0] != 1) {
-      fail(ErrorCode::unsupported, path_,
-           text("has ", n.size() == 1 ? to_text(n[0]) : "an unknown number of",
-                " time steps; temper reads files of one: write one alone"));
+      fail(ErrorCode::unsupported, path_, "has ", n.size() == 1 ? to_text(n[0]) : "an unknown number of",
+           " time steps; temper reads files of one: write one alone");
     }
   }
   [[nodiscard]] std::vector<std::size_t> counts(const char* name, std::int64_t most) const {
     std::vector<std::size_t> result;
     for (const std::int64_t n : in_.long_integers(in_.dataset(group_, name))) {
       if (n < 0 || n > most)
-        fail(ErrorCode::syntax, path_, text(name, " of piece ", result.size(), " is ", n, "; expected a number"));
+        fail(ErrorCode::syntax, path_, name, " of piece ", result.size(), " is ", n, "; expected a number");
       result.push_back(static_cast<std::size_t>(n));
     }
     const std::size_t pieces = piece_points_.empty() ? result.size() : piece_points_.size();
     if (result.empty() || result.size() != pieces) {
-      fail(ErrorCode::size_mismatch, path_,
-           text(name, " has ", result.size(), " numbers, expected one a piece",
-                pieces > 0 ? text(", of which NumberOfPoints has ", pieces) : ""));
+      fail(ErrorCode::size_mismatch, path_, name, " has ", result.size(), " numbers, expected one a piece",
+           pieces > 0 ? text(", of which NumberOfPoints has ", pieces) : "");
     }
     return result;
   }
   [[nodiscard]] std::size_t total(const std::vector<std::size_t>& counts, std::string_view what) const {
     const std::size_t n = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
     if (!std::in_range<std::int32_t>(n))
-      fail(ErrorCode::syntax, path_, text("has ", n, " ", what, ", more than 32 bits count"));
+      fail(ErrorCode::syntax, path_, "has ", n, " ", what, ", more than 32 bits count");
     return n;
   }
   [[nodiscard]] Hdf5Dataset dataset(const char* name, std::size_t rows, std::size_t columns) const {
@@ -107,9 +104,8 @@ class VtkhdfReader {
     if (good) return found;
     std::string have;
     for (const std::size_t size : sizes) have += text(have.empty() ? "" : " times ", size);
-    fail(ErrorCode::size_mismatch, path_,
-         text("the dataset ", in_quotes(name), " has ", have, " values, expected ", rows,
-              columns == 1 ? "" : text(" times ", columns)));
+    fail(ErrorCode::size_mismatch, path_, "the dataset ", in_quotes(name), " has ", have, " values, expected ", rows,
+         columns == 1 ? "" : text(" times ", columns));
   }
   void read_points() {
     piece_points_ = counts("NumberOfPoints", kMostOfPiece);
@@ -189,8 +185,8 @@ class VtkhdfReader {
       const std::size_t cell = start.cells + i;
       const std::int64_t first = offsets[i], end = offsets[i + 1];
       if (first < 0 || end < first || static_cast<std::uint64_t>(end) > n_ids) {
-        fail(ErrorCode::index_out_of_range, path_,
-             text("element ", cell, " ends at ", end, " of ", n_ids, " connectivity values, and starts at ", first));
+        fail(ErrorCode::index_out_of_range, path_, "element ", cell, " ends at ", end, " of ", n_ids,
+             " connectivity values, and starts at ", first);
       }
       std::int32_t* ids = connectivity_.data() + start.ids + first;
       const auto n = static_cast<std::size_t>(end - first);
@@ -205,9 +201,8 @@ class VtkhdfReader {
   void number_in_mesh(std::int32_t* ids, std::size_t n, std::size_t cell, const Start& start) const {
     for (std::int32_t& id : std::span(ids, n)) {
       if (id < 0 || static_cast<std::size_t>(id) >= piece_points_[start.piece]) {
-        fail(ErrorCode::index_out_of_range, path_,
-             text("element ", cell, " uses vertex ", id, ", but its piece has ", piece_points_[start.piece],
-                  " vertices, numbered from 0"));
+        fail(ErrorCode::index_out_of_range, path_, "element ", cell, " uses vertex ", id, ", but its piece has ",
+             piece_points_[start.piece], " vertices, numbered from 0");
       }
       id = joined_.number[start.points + static_cast<std::size_t>(id)];
     }
@@ -255,13 +250,11 @@ class VtkhdfReader {
     constexpr std::size_t kMostComponents = 4096;
     const std::size_t have = d.sizes.empty() ? 1 : d.sizes[0], components = d.sizes.size() < 2 ? 1 : d.sizes[1];
     if (d.sizes.size() > 2 || components < 1 || components > kMostComponents) {
-      fail(ErrorCode::unsupported, path_,
-           text(kind, " ", in_quotes(d.name), " has ", d.sizes.size(), " dimensions and ", components,
-                " columns; expected rows and columns"));
+      fail(ErrorCode::unsupported, path_, kind, " ", in_quotes(d.name), " has ", d.sizes.size(), " dimensions and ",
+           components, " columns; expected rows and columns");
     }
     if (rows && have != *rows) {
-      fail(ErrorCode::size_mismatch, path_,
-           text(kind, " ", in_quotes(d.name), " has ", have, " rows, expected ", *rows));
+      fail(ErrorCode::size_mismatch, path_, kind, " ", in_quotes(d.name), " has ", have, " rows, expected ", *rows);
     }
     return {in_.text_attribute(d.id, kVtkhdfName).value_or(d.name), static_cast<int>(components), in_.values(d)};
   }

@@ -4,13 +4,11 @@
 
 #include "io/containers/hdf5_file.hpp"
 #include "io/formats/format.hpp"
-#include "io/formats/vtk/triangle_quality.hpp"
 #include "io/formats/vtk/vtk_arrays.hpp"
 #include "io/formats/vtk/vtkhdf.hpp"
 #include "io/text/names.hpp"
 
 namespace temper::io {
-
 namespace {
 
 /// HDF5 takes a slash for a group within a group, and a point for the group itself.

@@ -12,7 +12,6 @@
 #include "io/containers/vtu_codec.hpp"
 #include "io/formats/cells.hpp"
 #include "io/formats/format.hpp"
-#include "io/formats/vtk/triangle_quality.hpp"
 #include "io/formats/vtk/vtk_arrays.hpp"
 #include "io/text/scanner.hpp"
 
@@ -75,7 +74,7 @@ class VtuReader {
     const auto at = static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0));
     const bool cut = at + 1 >= xml.size() || result.status == pugi::status_end_element_mismatch;
     fail(cut ? ErrorCode::truncated : ErrorCode::syntax, source_.path,
-         text(cut ? "the XML is incomplete: " : "the XML is damaged: ", result.description(), ", at byte ", at));
+         cut ? "the XML is incomplete: " : "the XML is damaged: ", result.description(), ", at byte ", at);
   }
   void cut_off_appended_data() {
     const std::string_view all = source_.bytes;
@@ -98,25 +97,23 @@ class VtuReader {
   void read_attributes(const pugi::xml_node& root) {
     const std::string_view type = root.attribute("type").value();
     if (type != "UnstructuredGrid") {
-      fail(ErrorCode::unsupported, source_.path,
-           text("is a VTK XML file of type ", in_quotes(type), "; temper reads UnstructuredGrid"));
+      fail(ErrorCode::unsupported, source_.path, "is a VTK XML file of type ", in_quotes(type),
+           "; temper reads UnstructuredGrid");
     }
     const std::string_view header = root.attribute("header_type").as_string("UInt32");
     if (header != "UInt32" && header != "UInt64") {
-      fail(ErrorCode::unsupported, source_.path,
-           text("header_type is ", in_quotes(header), "; expected UInt32 or UInt64"));
+      fail(ErrorCode::unsupported, source_.path, "header_type is ", in_quotes(header), "; expected UInt32 or UInt64");
     }
     header_bytes_ = header == "UInt64" ? 8 : 4;
     const std::string_view compressor = root.attribute("compressor").value();
     if (!compressor.empty() && compressor != "vtkZLibDataCompressor") {
-      fail(ErrorCode::unsupported, source_.path,
-           text("is compressed with ", in_quotes(compressor), "; temper reads vtkZLibDataCompressor"));
+      fail(ErrorCode::unsupported, source_.path, "is compressed with ", in_quotes(compressor),
+           "; temper reads vtkZLibDataCompressor");
     }
     compressed_ = !compressor.empty();
     const std::string_view order = root.attribute("byte_order").as_string("LittleEndian");
     if (order != "LittleEndian" && order != "BigEndian") {
-      fail(ErrorCode::syntax, source_.path,
-           text("byte_order is ", in_quotes(order), "; expected LittleEndian or BigEndian"));
+      fail(ErrorCode::syntax, source_.path, "byte_order is ", in_quotes(order), "; expected LittleEndian or BigEndian");
     }
     swap_ = (order == "BigEndian") != (std::endian::native == std::endian::big);
   }
@@ -134,7 +131,7 @@ class VtuReader {
     }
     if (!found) fail(ErrorCode::truncated, source_.path, "the element Piece is missing");
     if (pieces > 1) {
-      fail(ErrorCode::unsupported, source_.path, text("has ", pieces, " pieces; temper reads one: merge them first"));
+      fail(ErrorCode::unsupported, source_.path, "has ", pieces, " pieces; temper reads one: merge them first");
     }
     return found;
   }
@@ -144,7 +141,7 @@ class VtuReader {
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), n);
     if (error != std::errc() || end != value.data() + value.size() || n < 0 ||
         n > std::numeric_limits<std::int32_t>::max()) {
-      fail(ErrorCode::syntax, where(piece), text(name, " is ", in_quotes(value), "; expected a number"));
+      fail(ErrorCode::syntax, where(piece), name, " is ", in_quotes(value), "; expected a number");
     }
     return static_cast<std::size_t>(n);
   }
@@ -153,8 +150,8 @@ class VtuReader {
     if (!node) fail(ErrorCode::truncated, source_.path, "the array of points is missing");
     DataArray points = array(node);
     if (points.components != 3 || size(points.values) != 3 * n_points_) {
-      fail(ErrorCode::size_mismatch, where(node),
-           text("the array of points has ", size(points.values), " values, expected ", n_points_, " times 3"));
+      fail(ErrorCode::size_mismatch, where(node), "the array of points has ", size(points.values), " values, expected ",
+           n_points_, " times 3");
     }
     MeshFile& f = document_.file;
     f.points.reserve(n_points_);
@@ -207,13 +204,11 @@ class VtuReader {
     const std::string_view type = node.attribute("type").value();
     const auto scalar = scalar_of_vtu(type);
     if (!scalar)
-      fail(ErrorCode::unsupported, where(node),
-           text("array ", in_quotes(result.name), " has the type ", in_quotes(type)));
+      fail(ErrorCode::unsupported, where(node), "array ", in_quotes(result.name), " has the type ", in_quotes(type));
     result.values = values(node, *scalar, result.name);
     if (size(result.values) % static_cast<std::size_t>(result.components) != 0) {
-      fail(ErrorCode::size_mismatch, where(node),
-           text("array ", in_quotes(result.name), " has ", size(result.values), " values, not a multiple of its ",
-                result.components, " components"));
+      fail(ErrorCode::size_mismatch, where(node), "array ", in_quotes(result.name), " has ", size(result.values),
+           " values, not a multiple of its ", result.components, " components");
     }
     return result;
   }
@@ -231,9 +226,8 @@ class VtuReader {
       const DataArray& last = result.back();
       const std::size_t expected = tuples * static_cast<std::size_t>(last.components);
       if (size(last.values) == expected) continue;
-      fail(ErrorCode::size_mismatch, where(node),
-           text(kind, " ", in_quotes(last.name), " has ", size(last.values), " values, expected ", tuples, " times ",
-                last.components));
+      fail(ErrorCode::size_mismatch, where(node), kind, " ", in_quotes(last.name), " has ", size(last.values),
+           " values, expected ", tuples, " times ", last.components);
     }
     return result;
   }
@@ -243,9 +237,8 @@ class VtuReader {
     const Packing packing{text(source_.path, ": array ", in_quotes(name)), header_bytes_, compressed_, swap_};
     if (format == "binary") return inline_binary(node, scalar, packing);
     if (format == "appended") return appended(node, scalar, packing);
-    fail(
-        ErrorCode::syntax, where(node),
-        text("array ", in_quotes(name), " has the format ", in_quotes(format), "; expected ascii, binary or appended"));
+    fail(ErrorCode::syntax, where(node), "array ", in_quotes(name), " has the format ", in_quotes(format),
+         "; expected ascii, binary or appended");
   }
   Values ascii(const pugi::xml_node& node, Scalar scalar) {
     Scanner scanner(source_.path, node.child_value());
@@ -278,11 +271,11 @@ class VtuReader {
     std::uint64_t offset = 0;
     const auto [end, error] = std::from_chars(attribute.data(), attribute.data() + attribute.size(), offset);
     if (error != std::errc() || end == attribute.data()) {
-      fail(ErrorCode::syntax, packing.where, text("has the offset ", in_quotes(attribute)));
+      fail(ErrorCode::syntax, packing.where, "has the offset ", in_quotes(attribute));
     }
     if (offset > appended_.size()) {
-      fail(ErrorCode::truncated, packing.where,
-           text("starts at byte ", offset, " of the appended data, which have only ", appended_.size()));
+      fail(ErrorCode::truncated, packing.where, "starts at byte ", offset, " of the appended data, which have only ",
+           appended_.size());
     }
     const std::string_view from = appended_.substr(static_cast<std::size_t>(offset));
     if (!appended_is_base64_) return unpack(from, scalar, packing, source_.allowance, source_.executor);
@@ -300,8 +293,7 @@ class VtuReader {
   }
   DataArray array_of(const pugi::xml_node& cells, const char* name) {
     const pugi::xml_node node = cells.find_child_by_attribute("DataArray", "Name", name);
-    if (!node)
-      fail(ErrorCode::truncated, source_.path, text("the array ", in_quotes(name), " of the cells is missing"));
+    if (!node) fail(ErrorCode::truncated, source_.path, "the array ", in_quotes(name), " of the cells is missing");
     return array(node);
   }
   std::vector<std::int32_t> integers(const pugi::xml_node& cells, const char* name) {
@@ -309,8 +301,8 @@ class VtuReader {
     if (auto* same = std::get_if<std::vector<std::int32_t>>(&found.values)) return std::move(*same);
     auto converted = to_int32(found.values);
     if (!converted) {
-      fail(ErrorCode::index_out_of_range, where(cells.find_child_by_attribute("DataArray", "Name", name)),
-           text("the array ", in_quotes(name), " has a value beyond 32 bits"));
+      fail(ErrorCode::index_out_of_range, where(cells.find_child_by_attribute("DataArray", "Name", name)), "the array ",
+           in_quotes(name), " has a value beyond 32 bits");
     }
     return std::move(*converted);
   }
@@ -320,17 +312,16 @@ class VtuReader {
                   const std::vector<Integer>& ends) {
     const auto types = integers(cells, "types");
     if (ends.size() != n_cells_ || types.size() != n_cells_) {
-      fail(ErrorCode::size_mismatch, where(cells),
-           text("has ", ends.size(), " offsets and ", types.size(), " types, expected ", n_cells_, " of each"));
+      fail(ErrorCode::size_mismatch, where(cells), "has ", ends.size(), " offsets and ", types.size(),
+           " types, expected ", n_cells_, " of each");
     }
     sorter.reserve(n_cells_);
     Integer start = 0;
     for (std::size_t i = 0; i < n_cells_; ++i) {
       const Integer end = ends[i];
       if (end < start || static_cast<std::size_t>(end) > connectivity.size()) {
-        fail(ErrorCode::index_out_of_range, source_.path,
-             text("element ", i, " ends at ", end, " of ", connectivity.size(), " connectivity values, and starts at ",
-                  start));
+        fail(ErrorCode::index_out_of_range, source_.path, "element ", i, " ends at ", end, " of ", connectivity.size(),
+             " connectivity values, and starts at ", start);
       }
       sorter.add(types[i], connectivity.data() + start, static_cast<std::size_t>(end - start), source_.path);
       start = end;

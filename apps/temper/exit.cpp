@@ -1,4 +1,4 @@
-#include "interrupt.hpp"
+#include "exit.hpp"
 
 #include <unistd.h>
 

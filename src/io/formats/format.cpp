@@ -1,0 +1,251 @@
+// PATH.weights.csv: the weights of a mesh whose own format has no place for them.
+//
+//   point,weight
+//   1,0.25          the file's own number of the point, and its weight: one row a point, in the order of the file
+#include "io/formats/format.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "io/conversion/globe.hpp"
+#include "io/disk/files.hpp"
+#include "io/text/names.hpp"
+#include "io/text/scanner.hpp"
+
+namespace temper::io {
+
+Document new_document(const std::string& path) { return {MeshFile{}, std::make_shared<FileNames>(path)}; }
+
+namespace {
+
+void check_range(const Document& d, std::int32_t point, const std::string& element, const std::string& where) {
+  const auto n = d.file.points.size();
+  if (point >= 0 && static_cast<std::size_t>(point) < n) return;
+  fail(ErrorCode::index_out_of_range, where, element, " uses vertex ", d.names->points[point], ", but the file has ", n,
+       " vertices, numbered from ", d.names->points[0]);
+}
+
+void check_ranges(const Document& d) {
+  const MeshFile& f = d.file;
+  const auto outside = [n = f.points.size()](std::int32_t p) { return p < 0 || static_cast<std::size_t>(p) >= n; };
+  for (std::size_t t = 0; t < f.triangles.size(); ++t) {
+    for (const std::int32_t p : f.triangles[t]) {
+      if (outside(p)) check_range(d, p, d.names->triangle(t), d.names->triangle_where(t));
+    }
+  }
+  for (std::size_t l = 0; l < f.lines.size(); ++l) {
+    for (const std::int32_t p : f.lines[l]) {
+      if (outside(p)) check_range(d, p, d.names->line(l), d.names->line_where(l));
+    }
+  }
+  for (const std::int32_t p : f.marked_points) {
+    if (outside(p)) check_range(d, p, "a marked point", d.names->path);
+  }
+}
+
+/// Points on one parallel of a sphere are in a plane, too: nothing in the file settles which is meant.
+void warn_of_parallel(Document& d) {
+  std::vector<Vec3> places;
+  for (const Vec2 p : d.file.points) places.push_back({p.x, p.y, d.z});
+  const auto radius = common_radius(places);
+  if (!radius) return;
+  d.file.warnings.push_back(text(d.names->path, ": all points have z = ", d.z, " and are ", *radius,
+                                 " from the origin: taken for a mesh in a plane, though they are also on one parallel "
+                                 "of a sphere"));
+}
+
+}  // namespace
+
+void check(Document& d) {
+  const MeshFile& f = d.file;
+  if (f.points.empty()) fail(ErrorCode::empty_input, d.names->path, "the file has no points");
+  if (f.triangles.empty()) {
+    // Other programs call JIGSAW's outlines meshes, too.
+    const bool outline = f.format == "jigsaw" && !f.lines.empty();
+    fail(ErrorCode::empty_input, d.names->path, "the file has no triangles",
+         outline ? ": it is an outline, for `temper mesh` to mesh" : "");
+  }
+  check_ranges(d);
+  for (std::size_t i = 0; i < f.points.size(); ++i) {
+    const Vec2 p = f.points[i];
+    if (std::isfinite(p.x) && std::isfinite(p.y)) continue;
+    fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has coordinates (", p.x, ", ", p.y,
+         "), expected finite numbers");
+  }
+  if (!std::isfinite(d.z)) fail(ErrorCode::not_finite, d.names->point_where(0), d.names->point(0), " has z = ", d.z);
+  d.file.set_z(d.z);
+  if (!d.heights.empty()) {
+    std::vector<Vec3> places;
+    for (std::size_t i = 0; i < f.points.size(); ++i) places.push_back({f.points[i].x, f.points[i].y, d.heights[i]});
+    const bool is_periodic = f.periodic() != nullptr;
+    settle_points(d.file, std::move(places), *d.names);
+    if (is_periodic && f.sphere() != nullptr)
+      fail(ErrorCode::unsupported, d.names->path, "has periods and points on a sphere; expected points of a plane");
+  } else if (d.z != 0 && f.sphere() == nullptr) {
+    warn_of_parallel(d);
+  }
+  for (std::size_t i = 0; i < f.weights.size(); ++i) {
+    if (std::isfinite(f.weights[i])) continue;
+    fail(ErrorCode::not_finite, d.names->point_where(i), d.names->point(i), " has weight ", f.weights[i],
+         ", expected a finite number");
+  }
+}
+
+void refuse_element(const std::string& where, std::int64_t number, std::string_view kind) {
+  fail(ErrorCode::unsupported, where, "element ", number, kind.starts_with('e') ? " is an " : " is a ", kind,
+       "; temper reads meshes of linear triangles, with lines and points as tags");
+}
+
+std::string side_file_path(const std::string& path) { return path + ".weights.csv"; }
+
+void read_side_file(Document& document) {
+  MeshFile& f = document.file;
+  const std::string path = side_file_path(document.names->path);
+  if (!f.weights.empty() || is_stream(document.names->path) || !exists(path)) return;
+  Source source = load(path);
+  // A comma is a blank here, so that the scanner finds its words.
+  for (char& c : source.bytes) {
+    if (c == ',' || c == ';') c = ' ';
+  }
+  Scanner scanner(path, source.bytes);
+  for (const std::string_view title : {"point", "weight"}) {
+    const std::string_view found = scanner.word("the title line 'point,weight'");
+    if (found != title)
+      scanner.fail_here(ErrorCode::syntax, "expected the title line 'point,weight', found ", in_quotes(found));
+  }
+  std::vector<double> weights;
+  weights.reserve(f.points.size());
+  for (std::size_t i = 0; i < f.points.size(); ++i) {
+    const std::int64_t expected = document.names->points[static_cast<std::int64_t>(i)];
+    if (scanner.at_end()) {
+      scanner.fail_here(ErrorCode::size_mismatch, "has ", i, " weights, but ", document.names->path, " has ",
+                        f.points.size(), " points");
+    }
+    const auto number = scanner.number<std::int64_t>("the number of a point");
+    if (number != expected) {
+      scanner.fail_here(ErrorCode::index_out_of_range, "expected the weight of point ", expected, ", found point ",
+                        number);
+    }
+    weights.push_back(scanner.real("a weight"));
+    if (!std::isfinite(weights.back())) {
+      scanner.fail_here(ErrorCode::not_finite, "point ", number, " has weight ", weights.back(),
+                        ", expected a finite number");
+    }
+  }
+  if (!scanner.at_end()) {
+    scanner.fail_here(ErrorCode::size_mismatch, "has more weights than ", document.names->path, " has points (",
+                      f.points.size(), ")");
+  }
+  f.weights = std::move(weights);
+}
+
+void write_side_file(const WriteJob& job) {
+  const MeshFile& f = job.file;
+  const std::string path = side_file_path(job.path);
+  bool weighted = false;
+  for (const double w : f.weights) weighted = weighted || w != 0 || std::signbit(w);
+  if (is_stream(job.path)) {
+    if (weighted)
+      job.warn("the format has no place for weights, and no file can be beside a stream: they are left out");
+    return;
+  }
+  // An old side file would give its weights to this mesh: it has to be replaced.
+  if (!weighted && !exists(path)) return;
+  Output& out = job.outputs.open(path);
+  out.put("point,weight\n", "");
+  for (std::size_t i = 0; i < f.points.size(); ++i) {
+    out.put(job.row.details.first_point + static_cast<std::int64_t>(i), ',', f.weights.empty() ? 0.0 : f.weights[i],
+            '\n');
+  }
+  job.warn("the format has no place for weights; they are in ", path);
+}
+
+// Warnings of losses: they name what a mesh file has and the format written has no place for, for all formats alike.
+
+namespace {
+
+struct KindOfArrays {
+  Content content;
+  std::string_view name;
+  ArraysOf of;
+};
+constexpr KindOfArrays kKindsOfArrays[] = {{kPointData, "point data", &MeshFile::point_data},
+                                           {kCellData, "cell data", &MeshFile::cell_data},
+                                           {kLineData, "line data", &MeshFile::line_data},
+                                           {kMarkedPointData, "data of marked points", &MeshFile::marked_point_data},
+                                           {kFieldData, "field data", &MeshFile::field_data}};
+
+std::string has_no_place_for(const WriteJob& job, std::string_view what) {
+  return text(" not written, ", job.row.description, " has no place for ", what);
+}
+
+}  // namespace
+
+std::string WriteJob::written(std::string_view name) const {
+  if (row.details.name_ends.empty() || name.find_first_of(row.details.name_ends) == std::string_view::npos)
+    return std::string(name);
+  std::string result;
+  for (const char c : name) {
+    if (row.details.name_ends.find(c) == std::string_view::npos) {
+      result += c;
+    } else {
+      append_percent(result, c);
+    }
+  }
+  warn("the name '", name, "' is written as '", result, "': in ", row.description, " it would end early");
+  return result;
+}
+
+void warn_of_losses(const WriteJob& job) {
+  const MeshFile& f = job.file;
+  const FormatRow& row = job.row;
+  const auto lost = [&row](Content content) { return (row.holds & content) == 0; };
+  if (lost(kZ) && f.sphere() == nullptr && !is_flat(f))
+    job.warn("z = ", f.z(), " of the points is", has_no_place_for(job, "it"));
+  const bool has_regions = std::any_of(f.regions.begin(), f.regions.end(), [](std::int32_t r) { return r != 0; });
+  if (lost(kRegions) && has_regions) job.warn("regions are", has_no_place_for(job, "them"));
+  if (lost(kLines) && !f.lines.empty()) job.warn("lines are", has_no_place_for(job, "them"));
+  if (lost(kMarkedPoints) && !f.marked_points.empty()) job.warn("marked points are", has_no_place_for(job, "them"));
+  for (const auto& [content, name, of] : kKindsOfArrays) {
+    if (!lost(content)) continue;
+    std::vector<std::string_view> names;
+    for (const DataArray& a : f.*of) {
+      if (row.details.keeps == nullptr || !row.details.keeps(of, a)) names.push_back(a.name);
+    }
+    warn_of_arrays(job, name, names);
+  }
+  if (lost(kNames)) warn_of_names(job, f.names);
+}
+
+void warn_of_arrays(const WriteJob& job, std::string_view kind, const std::vector<std::string_view>& names) {
+  if (!names.empty()) job.warn(kind, " is", has_no_place_for(job, "it: "), list_of(names));
+}
+
+void warn_of_names(const WriteJob& job, const std::vector<PhysicalName>& lost) {
+  if (lost.empty()) return;
+  std::vector<std::string_view> names;
+  names.reserve(lost.size());
+  for (const PhysicalName& n : lost) names.push_back(n.name);
+  job.warn("physical names are", has_no_place_for(job, "them: "), list_of(names));
+}
+
+std::vector<std::int32_t> one_tag_a_point(const WriteJob& job) {
+  const MeshFile& f = job.file;
+  std::vector<std::int32_t> tags(f.points.size());
+  std::size_t lost = 0;
+  for (std::size_t i = 0; i < f.marked_points.size(); ++i) {
+    std::int32_t& tag = tags[static_cast<std::size_t>(f.marked_points[i])];
+    if (tag == 0)
+      tag = f.point_tags[i];
+    else
+      ++lost;
+  }
+  if (lost > 0) {
+    job.warn(lost, " further tags of points that have one already are not written: ", job.row.description,
+             " holds one a point");
+  }
+  return tags;
+}
+
+}  // namespace temper::io
