@@ -13,19 +13,19 @@
 namespace temper {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // d/ℓ = 1/2 + (w_p − w_q) / (2 ℓ²), from the end where it is less. A collapsed edge is not crossed at all.
 double lesser_split(const WeightedPoint& p, const WeightedPoint& q) {
   const double squared = squared_length(q.position() - p.position());
   const double lean = std::abs(p.w - q.w);
-  if (squared == 0) return -kInfinity;
+  if (squared == 0) return -kUnbounded;
   return 0.5 - lean / (2 * squared);
 }
 
 void measure_heights(TriangleMeasure& m, const std::array<WeightedPoint, 3>& p) {
   if (m.orientation != Sign::positive) {
-    m.h_over_l.fill(-kInfinity);
+    m.h_over_l.fill(-kUnbounded);
     m.h_sign.fill(Sign::negative);
     return;
   }
@@ -34,7 +34,7 @@ void measure_heights(TriangleMeasure& m, const std::array<WeightedPoint, 3>& p) 
     const WeightedPoint &a = p[k], &b = p[corner_after(k)], &c = p[corner_across(k)];
     m.h_sign[k] = signed_height_sign(a, b, c);
     const double ratio = scaled[corner_across(k)] / squared_length(b.position() - a.position());
-    m.h_over_l[k] = ratio == ratio ? ratio : -kInfinity;  // 0/0 of a triangle that underflows
+    m.h_over_l[k] = ratio == ratio ? ratio : -kUnbounded;  // 0/0 of a triangle that underflows
   }
 }
 
@@ -46,7 +46,7 @@ TriangleMeasure measure_on_sphere(const std::array<Vec3, 3>& p) {
     const Vec3 a = p[k], b = p[corner_after(k)], c = p[corner_across(k)];
     const double l = arc_length(a, b);
     m.h_sign[k] = upright ? signed_height_sign(a, b, c) : Sign::negative;
-    m.h_over_l[k] = upright ? signed_height(a, b, c) / l : -kInfinity;
+    m.h_over_l[k] = upright ? signed_height(a, b, c) / l : -kUnbounded;
     m.crossed[k] = edge_split_sign(a, b) == Sign::positive && edge_split_sign(b, a) == Sign::positive;
     m.d_over_l[k] = std::min(edge_split(a, b), edge_split(b, a)) / l;
     m.angle_deg[k] = corner_angle(a, b, c) * (180 / std::numbers::pi);
