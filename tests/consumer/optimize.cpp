@@ -1,8 +1,8 @@
 // A program as users write it: it reads a mesh, optimizes it for a solver, and writes it.
-#include "temper/temper.hpp"
-
 #include <cstdio>
 #include <string>
+
+#include "temper/temper.hpp"
 
 namespace {
 
