@@ -71,7 +71,14 @@ TEST(Estimate, OfARunIsNearItsEnd) {
     const auto report = optimize(improved, {.objective = objective}, hooks);
     ASSERT_TRUE(report);
     ASSERT_FALSE(estimates.empty());
-    for (const auto& [sweep, left] : estimates) EXPECT_NEAR(sweep + left, report->sweeps, 10) << sweep;
+    // Gains of sweeps shrink more and more slowly, so that early estimates are too small; none is too large.
+    for (const auto& [sweep, left] : estimates) {
+      EXPECT_LT(sweep + left, report->sweeps + 10) << sweep;
+      if (3 * sweep > 2 * report->sweeps) {
+        EXPECT_NEAR(sweep + left, report->sweeps, 10) << sweep;
+      }
+    }
+    EXPECT_GT(3 * estimates.back().first, 2 * report->sweeps) << "none near the end";
   }
 }
 

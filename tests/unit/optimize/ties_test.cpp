@@ -72,7 +72,7 @@ std::vector<Strip> strips() {
 }
 
 TEST(Ties, StripsEndWellCenteredAfterSweepsThatDoNotDependOnTheirLength) {
-  constexpr int kMostSweeps = 150;
+  constexpr int kMostSweeps = 300;
   for (const auto& [name, place] : strips()) {
     for (const int n : {1, 2, 8, 300, 1200}) {
       SCOPED_TRACE(testing::Message() << n << " of " << name);
