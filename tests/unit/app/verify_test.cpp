@@ -91,20 +91,18 @@ TEST_F(Verify, IsPartOfAnOptimisationWhenAskedFor) {
   EXPECT_FALSE(nlohmann::json::parse(read("r.json")).contains("verify"));
 }
 
-// On even rings the errors of the Poisson problem cancel.
-TEST_F(Verify, KeepsAnInputWhoseErrorsAreSmaller) {
+// On even rings the errors of the Poisson problem cancel, and any change makes them larger.
+TEST_F(Verify, OfAnOptimizationOnlyMeasures) {
   temper_ok({"example", "annulus", "--jitter", "0", "-o", "in.vtu"});
-  const Outcome run = temper_ok({"optimize", "in.vtu", "-o", "out.vtu", "--objective", "accuracy", "--verify",
-                                 "--report", "r.json", "--trace", "t.jsonl"});
-  EXPECT_TRUE(contains(run.out, "the input was well-centered, and errors of solvers would be "));
+  for (const auto& [out, more] : {std::pair("plain.off", std::vector<std::string>()),
+                                  std::pair("measured.off", std::vector<std::string>{"--verify", "--report", "r.json"})}) {
+    std::vector<std::string> words = {"optimize", "in.vtu", "-o", out, "--objective", "accuracy", "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    temper_ok(words);
+  }
+  EXPECT_EQ(read("measured.off"), read("plain.off"));
   const auto report = nlohmann::json::parse(read("r.json"));
-  EXPECT_EQ(report["verify"]["after"], report["verify"]["before"]);
-  temper_ok({"convert", "in.vtu", "-o", "in.off"});
-  temper_ok({"convert", "out.vtu", "-o", "out.off"});
-  EXPECT_EQ(read("out.off"), read("in.off"));
-  temper_ok({"replay", "in.vtu", "t.jsonl", "-o", "again.vtu"});
-  temper_ok({"convert", "again.vtu", "-o", "again.off"});
-  EXPECT_EQ(read("again.off"), read("in.off"));
+  EXPECT_NE(report["verify"]["after"]["errors"], report["verify"]["before"]["errors"]);
 }
 
 TEST_F(Verify, MeasuresOrders) {
