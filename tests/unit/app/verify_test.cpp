@@ -94,8 +94,9 @@ TEST_F(Verify, IsPartOfAnOptimisationWhenAskedFor) {
 // On even rings the errors of the Poisson problem cancel, and any change makes them larger.
 TEST_F(Verify, OfAnOptimizationOnlyMeasures) {
   temper_ok({"example", "annulus", "--jitter", "0", "-o", "in.vtu"});
-  for (const auto& [out, more] : {std::pair("plain.off", std::vector<std::string>()),
-                                  std::pair("measured.off", std::vector<std::string>{"--verify", "--report", "r.json"})}) {
+  for (const auto& [out, more] :
+       {std::pair("plain.off", std::vector<std::string>()),
+        std::pair("measured.off", std::vector<std::string>{"--verify", "--report", "r.json"})}) {
     std::vector<std::string> words = {"optimize", "in.vtu", "-o", out, "--objective", "accuracy", "--quiet"};
     words.insert(words.end(), more.begin(), more.end());
     temper_ok(words);
