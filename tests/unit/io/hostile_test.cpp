@@ -65,7 +65,7 @@ const std::string kVtk =
     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 double\n0 0 0 1 0 0 0 1 0\n";
 std::string vtk_of_one_name() {
   return kVtk + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\nPOINT_DATA 3\n" +
-         repeated("SCALARS a char\n0 0 0\n", 40000 / kShare);
+         repeated("SCALARS a char\n0 0 0\n", 20000 / kShare);
 }
 std::string vtk_of_a_long_line_with_data() {
   const std::size_t n = 200000 / kShare;
