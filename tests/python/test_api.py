@@ -47,6 +47,7 @@ ELSEWHERE = {
     "dec_file_names": "write_dec returns the paths", "needs_columns": "as dec_file_names", "read_layers": "numpy.genfromtxt",
     "fault_of_surfaces": "columns says it", "draw_before_after_svg": "draw_svg(before=…)", "write_text": "Svg.save and Html.save",
     "replay_with_vertices": "replay",
+    "distance": "numpy.linalg.norm; the library asks a space for it",
     "hilbert_order": "Python keeps the user's numbers", "restore_order": "as hilbert_order",
     "hilbert_ordered": "as hilbert_order", "or_serial": "threads=1",
     "unflip": "flip three times more", "split_edge": "plan_split and insert_vertex, which check",
