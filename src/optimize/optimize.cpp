@@ -90,8 +90,7 @@ Expected<OptimizeReport> optimize_in_metric(Mesh& mesh, const OptimizeOptions& o
   if (auto error = check_metric(options, hooks)) return *std::move(error);
   const Expected<Metric> metric = Metric::of(*options.tensor);
   if (!metric) return metric.error();
-  const InputNames names = hooks.names != nullptr ? *hooks.names : InputNames();
-  Expected<Mesh> there = mapped(mesh, *metric, names);
+  Expected<Mesh> there = hooks.names != nullptr ? mapped(mesh, *metric, *hooks.names) : mapped(mesh, *metric);
   if (!there) return there.error();
   if (hooks.best_so_far) {
     hooks.best_so_far = [&, listener = hooks.best_so_far](const auto& best) {

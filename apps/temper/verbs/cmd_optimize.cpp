@@ -168,12 +168,11 @@ void improve(const OptimizeSettings& s, Input& input, RunResults& results, const
   on_first_rank([&] {
     if (s.verify) errors.emplace(*seen, files.threads);
   });
+#endif
   results.report = run_library(s, input, mesh, files, tracer);
   look_at();
+#ifdef TEMPER_WITH_VERIFY
   if (errors) verify_result(*errors, *seen, results);
-#else
-  results.report = run_library(s, input, mesh, files, tracer);
-  look_at();
 #endif
   if (files.trace != nullptr) files.trace->stream.write(trace_end(files.trace->events, mesh, input));
   if (measured) results.after = quality(*seen, measuring);

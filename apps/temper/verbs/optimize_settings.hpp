@@ -37,7 +37,6 @@ struct OptimizeSettings {
   io::DataRules rules;  ///< of point_data
 
   [[nodiscard]] const OptimizeOptions& options() const { return table.options; }
-  [[nodiscard]] bool for_accuracy() const { return objective_of(options()) == Objective::accuracy; }
 };
 
 /// The verb, whose options go into `settings`.
