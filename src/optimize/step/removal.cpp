@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <ranges>
+#include <utility>
+#include <vector>
 
 #include "base/assert.hpp"
 #include "energy/edge_kernels.hpp"
@@ -16,38 +16,6 @@ namespace temper {
 namespace {
 
 using Corners = std::array<VertexId, 3>;
-
-/// The mesh's halfedge on the near side of link edge a → b.
-HalfedgeId link_halfedge(const Mesh& mesh, const RemovalPlan& plan, VertexId a, VertexId b) {
-  for (const HalfedgeId h : mesh.star(plan.vertex)) {
-    const HalfedgeId link = Mesh::next(h);
-    if (mesh.origin(link) == a && mesh.target(link) == b) return link;
-  }
-  return {};
-}
-
-/// The corner of the plan's triangle that has the edge b → a, or an invalid one.
-VertexId apex_across(const RemovalPlan& plan, VertexId a, VertexId b) {
-  for (const Corners& t : plan.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (t[k] == b && t[(k + 1) % 3] == a) return t[(k + 2) % 3];
-    }
-  }
-  return {};
-}
-
-/// The triangle across the edge a → b of a new triangle.
-struct Across {
-  VertexId apex;  ///< invalid on the boundary
-  bool is_link = false, constrained = false;
-};
-Across across(const Mesh& mesh, const RemovalPlan& plan, VertexId a, VertexId b) {
-  const VertexId inner = apex_across(plan, a, b);
-  if (inner.valid()) return {inner, false, false};
-  const HalfedgeId h = link_halfedge(mesh, plan, a, b);
-  if (!h.valid() || mesh.is_boundary(h)) return {{}, true, true};
-  return {mesh.opposite(mesh.twin(h)), true, mesh.is_constrained(h)};
-}
 
 /// An edge as seen from its triangle, h measured towards the third corner, and what the triangle counts.
 struct EdgeOfTriangle {
@@ -62,103 +30,119 @@ EdgeOfTriangle edge_of_triangle(const Space& space, const HotKernel& kernel, con
   return {e, kernel.per_area(s.doubled_area)};
 }
 
-/// The point across an edge, and whether its triangle stays while the one on this side is replaced.
-struct Beyond {
-  std::optional<WeightedPoint> point;  ///< none on the boundary
-  bool stays = false;
-};
-
-/// The share of triangle abc in the energy of its edge ab. The triangle beyond keeps its shape when it stays, but for
-/// E_T the sign of its share may change: then it is added, as in patch_energy.
-double hot_edge(const Space& space, const EnergyModel& model, const HotKernel& kernel,
-                const std::array<WeightedPoint, 3>& abc, const Beyond& beyond) {
-  const auto& [a, b, c] = abc;
-  const auto [edge, per_area] = edge_of_triangle(space, kernel, a, b, c);
-  const auto [outer, per_outer_area] =
-      beyond.point ? edge_of_triangle(space, kernel, b, a, *beyond.point) : EdgeOfTriangle{{edge.l2, edge.dw, 0}, 1};
-  const double factor = hot_factor(model, edge.g, outer.g, !beyond.point);
-  const bool shares = energy_info(model.kind).signed_by_dual && beyond.stays && beyond.point;
-  return factor * (kernel.value(edge) * per_area) + (shares ? factor * (kernel.value(outer) * per_outer_area) : 0);
-}
-
-double hot_edges(const Mesh& mesh, const EnergyModel& model, const HotKernel& kernel, const RemovalPlan& plan,
-                 const Corners& t) {
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const VertexId a = t[k], b = t[(k + 1) % 3];
-    const Across side = across(mesh, plan, a, b);
-    const std::array<WeightedPoint, 3> abc = mesh.points(a, b, t[(k + 2) % 3]);
-    const Beyond beyond = side.apex.valid() ? Beyond{mesh.point(side.apex, abc[0]), side.is_link} : Beyond{};
-    sum += hot_edge(mesh.space(), model, kernel, abc, beyond);
-  }
-  return sum;
-}
-
-/// The triangle across h, a side of a triangle that an insertion replaces.
-Beyond beyond_replaced(const Mesh& mesh, const InsertionPlan& plan, HalfedgeId h, const WeightedPoint& near) {
-  const HalfedgeId g = mesh.twin(h);
-  if (!g.valid()) return {};
-  const bool stays = std::find(plan.cavity.begin(), plan.cavity.end(), Mesh::triangle(g)) == plan.cavity.end();
-  return {mesh.point(mesh.opposite(g), near), stays};
-}
-
-/// The edges of a triangle that an insertion replaces.
-double replaced_edges(const Mesh& mesh, const EnergyModel& model, const HotKernel& kernel, const InsertionPlan& plan,
-                      TriangleId t) {
-  double sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const HalfedgeId h = Mesh::halfedge(t, k);
-    const std::array<WeightedPoint, 3> abc = mesh.points(mesh.origin(h), mesh.target(h), mesh.opposite(h));
-    sum += hot_edge(mesh.space(), model, kernel, abc, beyond_replaced(mesh, plan, h, abc[0]));
-  }
-  return sum;
-}
-
-/// The edges of the new triangle over rim[i].
-double new_edges(const Mesh& mesh, const EnergyModel& model, const HotKernel& kernel, const InsertionPlan& plan,
-                 std::size_t i) {
-  const std::size_t n = plan.link.size();
-  const bool open = n > plan.rim.size();
-  const auto point = [&](std::size_t j) { return mesh.point(plan.link[j % n], plan.point); };
-  const WeightedPoint v = plan.point, a = point(i), b = point(i + 1);
-  Beyond outside = beyond_replaced(mesh, plan, plan.rim[i], a);
-  outside.stays = true;
-  const Beyond after = open && i + 2 == n ? Beyond{} : Beyond{point(i + 2), false};
-  const Beyond before = open && i == 0 ? Beyond{} : Beyond{point(i + n - 1), false};
-  return hot_edge(mesh.space(), model, kernel, {a, b, v}, outside) +
-         hot_edge(mesh.space(), model, kernel, {b, v, a}, after) +
-         hot_edge(mesh.space(), model, kernel, {v, a, b}, before);
-}
-
 /// The energy of an equilateral triangle of that doubled area, weights zero.
 double equilateral_energy(const EnergyModel& model, double doubled_area) {
   const double side = std::sqrt(2 * std::abs(doubled_area) / std::sqrt(3.0));
   return triangle_energy(model, {0, 0, 0}, {side, 0, 0}, {side / 2, side * std::sqrt(3.0) / 2, 0});
 }
 
-/// Triangles, and the energy of as many equilateral ones of the same areas.
-struct Ideal {
-  std::size_t n = 0;
-  double energy = 0;
-  void add(const EnergyModel& model, const Space& space, const WeightedPoint& a, const WeightedPoint& b,
-           const WeightedPoint& c) {
-    ++n;
-    const double area = space.is_plane() ? doubled_area(a.position(), b.position(), c.position())
-                                         : triangle_shape(space, a, b, c).doubled_area;
-    energy += equilateral_energy(model, area);
+/// The triangles that fill a part of the mesh, now or once a plan is committed; all others stay.
+class Filling {
+ public:
+  /// `fresh`: the place of the vertex that a plan inserts, an invalid corner here.
+  Filling(const Mesh& mesh, std::vector<Corners> triangles, const WeightedPoint& fresh = {})
+      : mesh_(mesh), space_(mesh.space()), triangles_(std::move(triangles)), fresh_(fresh) {}
+
+  /// With everything that depends on them.
+  [[nodiscard]] double energy(const EnergyModel& model) const {
+    return with_kernel(model, [&](const auto& kernel) {
+      double sum = 0;
+      for (const Corners& t : triangles_) {
+        if constexpr (std::decay_t<decltype(kernel)>::kBarrier) {
+          const auto [a, b, c] = points(t[0], t[1], t[2]);
+          sum += triangle_energy(model, a, b, c, space_);
+        } else {
+          sum += hot_edge(model, kernel, t, 0) + hot_edge(model, kernel, t, 1) + hot_edge(model, kernel, t, 2);
+        }
+      }
+      return sum;
+    });
   }
+
+  /// That energy as plans are compared by.
+  [[nodiscard]] double measured(double energy, const EnergyModel& model, RemovalMeasure measure) const {
+    if (measure == RemovalMeasure::sum) return energy;
+    if (measure == RemovalMeasure::mean) return energy / static_cast<double>(triangles_.size());
+    double ideal = 0;  // of as many equilateral triangles of the same areas
+    for (const Corners& t : triangles_) {
+      const auto [a, b, c] = points(t[0], t[1], t[2]);
+      const double area = space_.is_plane() ? doubled_area(a.position(), b.position(), c.position())
+                                            : triangle_shape(space_, a, b, c).doubled_area;
+      ideal += equilateral_energy(model, area);
+    }
+    return energy - ideal;
+  }
+
+  /// Says whether all their edges are regular, constrained ones apart. Exact.
+  [[nodiscard]] bool is_regular() const {
+    return std::all_of(triangles_.begin(), triangles_.end(), [&](const Corners& t) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Across beyond = across(t[k], t[(k + 1) % 3]);
+        if (!beyond.apex.valid() || beyond.constrained) continue;
+        const auto [a, b, c] = points(t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
+        if (power_test(space_, a, b, c, mesh_.point(beyond.apex, a)) == Sign::positive) return false;
+      }
+      return true;
+    });
+  }
+
+ private:
+  /// The triangle across the edge a → b of one of these: another one, or one that stays.
+  struct Across {
+    VertexId apex = {};  ///< invalid on the boundary
+    bool stays = false, constrained = false;
+  };
+  [[nodiscard]] Across across(VertexId a, VertexId b) const {
+    for (const Corners& t : triangles_) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (t[k] == b && t[(k + 1) % 3] == a) return {t[(k + 2) % 3]};
+      }
+    }
+    const HalfedgeId h = a.valid() && b.valid() ? mesh_.find_halfedge(a, b) : HalfedgeId();
+    if (!h.valid() || mesh_.is_boundary(h)) return {};
+    return {mesh_.opposite(mesh_.twin(h)), true, mesh_.is_constrained(h)};
+  }
+
+  /// The share of triangle t in the energy of its edge k. The triangle beyond keeps its shape when it stays, but for
+  /// E_T the sign of its share may change: then it is added, as in patch_energy.
+  [[nodiscard]] double hot_edge(const EnergyModel& model, const HotKernel& kernel, const Corners& t,
+                                std::size_t k) const {
+    const auto [a, b, c] = points(t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
+    const Across beyond = across(t[k], t[(k + 1) % 3]);
+    const bool inner = beyond.apex.valid();
+    const auto [edge, per_area] = edge_of_triangle(space_, kernel, a, b, c);
+    const auto [outer, per_outer_area] = inner ? edge_of_triangle(space_, kernel, b, a, mesh_.point(beyond.apex, a))
+                                               : EdgeOfTriangle{{edge.l2, edge.dw, 0}, 1};
+    const double factor = hot_factor(model, edge.g, outer.g, !inner);
+    const bool shares = energy_info(model.kind).signed_by_dual && beyond.stays;
+    return factor * (kernel.value(edge) * per_area) + (shares ? factor * (kernel.value(outer) * per_outer_area) : 0);
+  }
+
+  /// Of vertices in images near the first one.
+  [[nodiscard]] std::array<WeightedPoint, 3> points(VertexId a, VertexId b, VertexId c) const {
+    const WeightedPoint first = a.valid() ? mesh_.point(a) : fresh_;
+    const auto point = [&](VertexId v) { return v.valid() ? mesh_.point(v, first) : space_.image(fresh_, first); };
+    return {first, point(b), point(c)};
+  }
+
+  const Mesh& mesh_;
+  const Space& space_;
+  std::vector<Corners> triangles_;
+  WeightedPoint fresh_;
 };
 
-double measured(double energy, const Ideal& ideal, RemovalMeasure measure) {
-  switch (measure) {
-    case RemovalMeasure::sum:
-      return energy;
-    case RemovalMeasure::mean:
-      return energy / static_cast<double>(ideal.n);
-    case RemovalMeasure::excess:
-      return energy - ideal.energy;
+/// The triangles that an insertion makes, and those that they replace.
+Filling inserted(const Mesh& mesh, const InsertionPlan& plan) {
+  std::vector<Corners> triangles;
+  for (std::size_t i = 0; i < plan.rim.size(); ++i) {
+    triangles.push_back({VertexId(), plan.link[i], plan.link[(i + 1) % plan.link.size()]});
   }
-  return energy;
+  return {mesh, std::move(triangles), plan.point};
+}
+Filling replaced(const Mesh& mesh, const InsertionPlan& plan) {
+  std::vector<Corners> triangles;
+  for (const TriangleId t : plan.cavity) triangles.push_back(mesh.corners(t));
+  return {mesh, std::move(triangles)};
 }
 
 /// The point of least E_c that three line searches find.
@@ -177,67 +161,22 @@ WeightedPoint best_position(const Patch& patch, const EnergyModel& model, Weight
   return p;
 }
 
-/// Sums over triangles what each has of a barrier, or of a HOT energy, which asks for its kernel.
-template <class Triangles, class OfBarrier, class OfHot>
-double sum_of(const EnergyModel& model, const Triangles& triangles, OfBarrier&& of_barrier, OfHot&& of_hot) {
-  return with_kernel(model, [&](const auto& kernel) {
-    double sum = 0;
-    for (const auto& t : triangles) {
-      if constexpr (std::decay_t<decltype(kernel)>::kBarrier) {
-        sum += of_barrier(t);
-      } else {
-        sum += of_hot(kernel, t);
-      }
-    }
-    return sum;
-  });
-}
-
 }  // namespace
 
 double cavity_energy(const Mesh& mesh, const EnergyModel& model, const RemovalPlan& plan) {
   TEMPER_ASSERT(!mesh.is_boundary(plan.vertex));
-  return sum_of(
-      model, plan.triangles,
-      [&](const Corners& t) {
-        const auto [a, b, c] = mesh.points(t[0], t[1], t[2]);
-        return triangle_energy(model, a, b, c, mesh.space());
-      },
-      [&](const HotKernel& kernel, const Corners& t) { return hot_edges(mesh, model, kernel, plan, t); });
+  return Filling(mesh, plan.triangles).energy(model);
 }
 
 double insertion_energy(const Mesh& mesh, const EnergyModel& model, const InsertionPlan& plan) {
-  return sum_of(
-      model, std::views::iota(std::size_t{0}, plan.rim.size()),
-      [&](std::size_t i) {
-        const auto point = [&](std::size_t k) { return mesh.point(plan.link[k % plan.link.size()], plan.point); };
-        return triangle_energy(model, plan.point, point(i), point(i + 1), mesh.space());
-      },
-      [&](const HotKernel& kernel, std::size_t i) { return new_edges(mesh, model, kernel, plan, i); });
+  return inserted(mesh, plan).energy(model);
 }
 
 double replaced_energy(const Mesh& mesh, const EnergyModel& model, const InsertionPlan& plan) {
-  return sum_of(
-      model, plan.cavity,
-      [&](TriangleId t) {
-        const auto [a, b, c] = mesh.points(t);
-        return triangle_energy(model, a, b, c, mesh.space());
-      },
-      [&](const HotKernel& kernel, TriangleId t) { return replaced_edges(mesh, model, kernel, plan, t); });
+  return replaced(mesh, plan).energy(model);
 }
 
-bool is_regular(const Mesh& mesh, const RemovalPlan& plan) {
-  return std::all_of(plan.triangles.begin(), plan.triangles.end(), [&](const Corners& t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Across beyond = across(mesh, plan, t[k], t[(k + 1) % 3]);
-      if (!beyond.apex.valid() || beyond.constrained) continue;
-      const auto [a, b, c] = mesh.points(t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
-      const Sign conflict = power_test(mesh.space(), a, b, c, mesh.point(beyond.apex, a));
-      if (conflict == Sign::positive) return false;
-    }
-    return true;
-  });
-}
+bool is_regular(const Mesh& mesh, const RemovalPlan& plan) { return Filling(mesh, plan.triangles).is_regular(); }
 
 double relative_lightness(const Patch& patch, const WeightedPoint& p) {
   double sum = 0;
@@ -273,30 +212,17 @@ bool PatchComparison::better_with(double margin) const { return PatchComparison{
 
 PatchComparison compare_patch(const Mesh& mesh, const Patch& patch, const EnergyModel& model, const RemovalPlan& plan,
                               RemovalMeasure measure) {
-  const WeightedPoint p = mesh.point(patch.center);
-  Ideal with, without;
-  for (std::size_t i = 0; i < patch.size(); ++i) with.add(model, mesh.space(), p, patch.q(i), patch.r(i));
-  for (const auto& [i, j, k] : plan.triangles) {
-    const auto [a, b, c] = mesh.points(i, j, k);
-    without.add(model, mesh.space(), a, b, c);
-  }
-  return {measured(patch_energy(patch, model, p), with, measure),
-          measured(cavity_energy(mesh, model, plan), without, measure)};
+  std::vector<Corners> star;
+  for (const HalfedgeId h : patch.spoke) star.push_back({patch.center, mesh.target(h), mesh.opposite(h)});
+  const double energy = patch_energy(patch, model, mesh.point(patch.center));
+  return {Filling(mesh, std::move(star)).measured(energy, model, measure),
+          Filling(mesh, plan.triangles).measured(cavity_energy(mesh, model, plan), model, measure)};
 }
 
 PatchComparison compare_patch(const Mesh& mesh, const EnergyModel& model, const InsertionPlan& plan,
                               RemovalMeasure measure) {
-  Ideal with, without;
-  for (std::size_t i = 0; i < plan.rim.size(); ++i) {
-    with.add(model, mesh.space(), plan.point, mesh.point(plan.link[i], plan.point),
-             mesh.point(plan.link[(i + 1) % plan.link.size()], plan.point));
-  }
-  for (const TriangleId t : plan.cavity) {
-    const auto [a, b, c] = mesh.points(t);
-    without.add(model, mesh.space(), a, b, c);
-  }
-  return {measured(insertion_energy(mesh, model, plan), with, measure),
-          measured(replaced_energy(mesh, model, plan), without, measure)};
+  const Filling with = inserted(mesh, plan), without = replaced(mesh, plan);
+  return {with.measured(with.energy(model), model, measure), without.measured(without.energy(model), model, measure)};
 }
 
 }  // namespace temper
