@@ -40,8 +40,8 @@ void BatchStep::improve(std::span<const VertexId> vertices, const Part& part, st
   auto next = vertices.begin();
   for (std::size_t n_waiting = 0;;) {
     for (; n_waiting < kWindow && next != vertices.end(); ++next, ++n_waiting) {
-      prefetch_point(mesh_, std::size_t{next->index} + kAhead);
-      prefetch_star(mesh_, *next);
+      prefetch_point(mesh, std::size_t{next->index} + kAhead);
+      prefetch_star(mesh, *next);
       waiting_[kind_of(*next)].push_back(*next);
     }
     if (n_waiting == 0) break;
@@ -70,15 +70,15 @@ std::size_t BatchStep::take_from(std::vector<VertexId>& list) {
 /// Stars of a batch should be alike: the largest decides how long it takes.
 std::size_t BatchStep::kind_of(VertexId v) const {
   constexpr std::size_t kSmall = 5;
-  return std::clamp<std::size_t>(limits_.degree[v], kSmall, kSmall + waiting_.size() - 1) - kSmall;
+  return std::clamp<std::size_t>(limits.degree[v], kSmall, kSmall + waiting_.size() - 1) - kSmall;
 }
 
 /// False when v has to wait; else it is in the batch, or there is nothing to be done here.
 bool BatchStep::take(VertexId v) {
   if (mark(v) != Mark::none) return false;
-  const Mobility mobility = limits_.mobility[v];
+  const Mobility mobility = limits.mobility[v];
   const bool stays = mobility == Mobility::fixed && unknowns_ == Unknowns::positions;
-  if (stays || mobility == Mobility::frozen || mesh_.is_isolated(v)) return true;
+  if (stays || mobility == Mobility::frozen || mesh.is_isolated(v)) return true;
   gather(v, mobility);
   return true;
 }
@@ -93,13 +93,13 @@ void BatchStep::gather(VertexId v, Mobility mobility) {
   }
   mark(v) = Mark::looked_at;
   const std::size_t triangles = batch_.open[lane] != 0 ? occupant.n_link - 1 : occupant.n_link;
-  limits_.degree[v] = static_cast<std::uint8_t>(std::min<std::size_t>(triangles, 255));
+  limits.degree[v] = static_cast<std::uint8_t>(std::min<std::size_t>(triangles, 255));
   occupant.alone = mobility == Mobility::sliding || triangles > StarBatch::kMostTriangles;
-  batch_.p.set(lane, mesh_.point(v));
+  batch_.p.set(lane, mesh.point(v));
   batch_.triangles[lane] = occupant.alone ? 0 : static_cast<double>(triangles);
   batch_.moves[lane] = !occupant.alone && mobility == Mobility::free && unknowns_ != Unknowns::weights ? -1 : 0;
   batch_.weighs[lane] = !occupant.alone && unknowns_ != Unknowns::positions ? -1 : 0;
-  if (state_.accuracy_domain != nullptr) gather_domain(occupant, lane);
+  if (state.accuracy_domain != nullptr) gather_domain(occupant, lane);
   if (!occupant.alone) batch_.most_triangles = std::max(batch_.most_triangles, triangles);
   ++batch_.lanes;
 }
@@ -108,39 +108,39 @@ void BatchStep::gather(VertexId v, Mobility mobility) {
 bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
   constexpr std::size_t kMost = StarBatch::kMostTriangles;
   const Part part = part_;
-  const WeightedPoint center = mesh_.point(occupant.v);
-  const HalfedgeId first = mesh_.outgoing(occupant.v);
+  const WeightedPoint center = mesh.point(occupant.v);
+  const HalfedgeId first = mesh.outgoing(occupant.v);
   HalfedgeId h = first;
-  VertexId q = mesh_.target(h);
+  VertexId q = mesh.target(h);
   std::size_t i = 0;
   bool open = false;
   do {
     const HalfedgeId link = Mesh::next(h), back = Mesh::next(link);
-    const VertexId r = mesh_.origin(back);
+    const VertexId r = mesh.origin(back);
     // The twin, and who is across, may be read only when both ends of the link edge are in the part.
     if (!part.contains(q) || !part.contains(r)) return false;
-    const HalfedgeId across = mesh_.twin(link);
-    const VertexId o = across.valid() ? mesh_.opposite(across) : q;
+    const HalfedgeId across = mesh.twin(link);
+    const VertexId o = across.valid() ? mesh.opposite(across) : q;
     if (!part.contains(o)) return false;
     mark(q) = mark(o) = Mark::looked_at;
     if (i < kMost) {
       occupant.link[i] = q;
       occupant.spokes[i] = h;
-      batch_.link[i].set(lane, mesh_.point(q, center));
-      batch_.across[i].set(lane, mesh_.point(o, center));
-      batch_.link_flips[i][lane] = across.valid() && !mesh_.is_constrained(link) ? -1 : 0;
-      batch_.spoke_flips[i][lane] = mesh_.is_constrained(h) ? 0 : -1;
+      batch_.link[i].set(lane, mesh.point(q, center));
+      batch_.across[i].set(lane, mesh.point(o, center));
+      batch_.link_flips[i][lane] = across.valid() && !mesh.is_constrained(link) ? -1 : 0;
+      batch_.spoke_flips[i][lane] = mesh.is_constrained(h) ? 0 : -1;
     }
     ++i;
     q = r;
-    h = mesh_.twin(back);
+    h = mesh.twin(back);
     open = !h.valid();
   } while (!open && h != first);
   if (open) batch_.spoke_flips[0][lane] = 0;
   batch_.open[lane] = open ? -1 : 0;
   if (i <= kMost) {
     occupant.link[i] = q;
-    batch_.link[i].set(lane, mesh_.point(q, center));
+    batch_.link[i].set(lane, mesh.point(q, center));
   }
   if (open) mark(q) = Mark::looked_at;
   occupant.n_link = i + (open ? 1 : 0);
@@ -150,18 +150,18 @@ bool BatchStep::gather_star(Occupant& occupant, std::size_t lane) {
 /// Sizes and floors around an occupant. What touches a triangle without a floor stays.
 void BatchStep::gather_domain(const Occupant& occupant, std::size_t lane) {
   if (occupant.alone) return;
-  const auto& [sizes, floors] = *state_.accuracy_domain;
+  const auto& [sizes, floors] = *state.accuracy_domain;
   accuracy_.size[lane] = sizes[occupant.v];
   const std::size_t triangles = batch_.open[lane] != 0 ? occupant.n_link - 1 : occupant.n_link;
   for (std::size_t i = 0; i < triangles; ++i) {
-    const HalfedgeId h = occupant.spokes[i], across = mesh_.twin(Mesh::next(h));
+    const HalfedgeId h = occupant.spokes[i], across = mesh.twin(Mesh::next(h));
     const TriangleId t = Mesh::triangle(h);
     if (!floors.has(t) || (across.valid() && !floors.has(Mesh::triangle(across)))) {
       batch_.moves[lane] = batch_.weighs[lane] = 0;
     }
     accuracy_.floor[i][lane] = floors[t];
     accuracy_.inner[i][lane] = across.valid() ? -1 : 0;
-    if (settings_.accuracy.keeps_lengths()) gather_lengths(h, i, lane);
+    if (settings.accuracy.keeps_lengths()) gather_lengths(h, i, lane);
     accuracy_.link_size[i][lane] = sizes[occupant.link[i]];
   }
   accuracy_.link_size[triangles][lane] = sizes[occupant.link[triangles]];
@@ -169,9 +169,9 @@ void BatchStep::gather_domain(const Occupant& occupant, std::size_t lane) {
 
 /// What the edges of triangle i of a star, whose spoke is h, stay longer than.
 void BatchStep::gather_lengths(HalfedgeId h, std::size_t i, std::size_t lane) {
-  const LengthFloors& lengths = state_.accuracy_domain->floors.lengths;
+  const LengthFloors& lengths = state.accuracy_domain->floors.lengths;
   const auto of = [&](HalfedgeId edge) {
-    return mesh_.is_boundary(edge) ? LengthBarrier<double>{} : lengths(mesh_, edge);
+    return mesh.is_boundary(edge) ? LengthBarrier<double>{} : lengths(mesh, edge);
   };
   accuracy_.spoke[i].set(lane, of(h));
   accuracy_.spoke[i + 1].set(lane, of(Mesh::prev(h)));
@@ -189,11 +189,11 @@ void BatchStep::step_and_settle() {
     batch_.triangles[lane] = 0;
     batch_.open[lane] = batch_.moves[lane] = batch_.weighs[lane] = 0;
   }
-  const Vec2 rounding = frame_.rounding;
-  const StepParameters parameters{edge_formula(state_.model), state_.relaxation, rounding.x, rounding.y};
-  const BatchSteps& steps = batch_steps(mesh_.space());
-  const bool lowers_accuracy = state_.accuracy_domain != nullptr;
-  const StepOutcome outcome = lowers_accuracy ? steps.accuracy(parameters, settings_.accuracy, accuracy_, batch_)
+  const Vec2 rounding = frame.rounding;
+  const StepParameters parameters{edge_formula(state.model), state.relaxation, rounding.x, rounding.y};
+  const BatchSteps& steps = batch_steps(mesh.space());
+  const bool lowers_accuracy = state.accuracy_domain != nullptr;
+  const StepOutcome outcome = lowers_accuracy ? steps.accuracy(parameters, settings.accuracy, accuracy_, batch_)
                                               : steps.barrier(parameters, batch_);
   const std::size_t before = n_changes();
   for (std::size_t lane = 0; lane < batch_.lanes; ++lane) {
@@ -205,16 +205,16 @@ void BatchStep::step_and_settle() {
 void BatchStep::settle(const Occupant& occupant, std::size_t lane, const StepOutcome& outcome, bool flips) {
   const VertexId v = occupant.v;
   const auto has = [lane](unsigned lanes) { return (lanes >> lane & 1) != 0; };
-  if (flips && mesh_.is_isolated(v)) return;
+  if (flips && mesh.is_isolated(v)) return;
   if (occupant.alone || has(outcome.alone) || (flips && !has_its_link(occupant, batch_.open[lane] != 0)))
     return improve_alone(v);
   if (!has(outcome.stepped)) return;
   const WeightedPoint from = batch_.p.at(lane), to = batch_.to.at(lane);
-  if (mesh_.space().is_periodic() && !reaches_its_link(occupant, to)) return improve_alone(v);
+  if (mesh.space().is_periodic() && !reaches_its_link(occupant, to)) return improve_alone(v);
   const double energy = batch_.before[lane], lower = batch_.after[lane];
-  mesh_.set_point(v, to);
+  mesh.set_point(v, to);
   if (!flips && has(outcome.regular)) {
-    recorder_.placed(v, from, to, energy, lower);
+    recorder.placed(v, from, to, energy, lower);
     return;
   }
   constexpr bool kMustPay = true;  // of all barriers
@@ -236,16 +236,16 @@ void BatchStep::improve_alone(VertexId v) {
 
 /// Says whether edges to the link from there are shorter than half a period.
 bool BatchStep::reaches_its_link(const Occupant& occupant, const WeightedPoint& to) const {
-  const WeightedPoint from = mesh_.point(occupant.v);
+  const WeightedPoint from = mesh.point(occupant.v);
   return std::all_of(occupant.link.begin(), occupant.link.begin() + static_cast<std::ptrdiff_t>(occupant.n_link),
-                     [&](VertexId q) { return mesh_.space().are_near(mesh_.point(q, from), to); });
+                     [&](VertexId q) { return mesh.space().are_near(mesh.point(q, from), to); });
 }
 
 /// Says whether no flip has changed the star since it was gathered.
 bool BatchStep::has_its_link(const Occupant& occupant, bool open) const {
   std::size_t i = 0;
-  for (const HalfedgeId h : mesh_.star(occupant.v)) {
-    if (i == occupant.n_link || mesh_.target(h) != occupant.link[i]) return false;
+  for (const HalfedgeId h : mesh.star(occupant.v)) {
+    if (i == occupant.n_link || mesh.target(h) != occupant.link[i]) return false;
     ++i;
   }
   return i == occupant.n_link - (open ? 1 : 0);

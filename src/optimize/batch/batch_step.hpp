@@ -13,21 +13,13 @@
 
 #include "optimize/batch/star_batch.hpp"
 #include "optimize/step/vertex_step.hpp"
-#include "optimize/working/frame.hpp"
 
 namespace temper {
 
-class BatchStep {
+class BatchStep : StepContext {
  public:
   BatchStep(const StepContext& context, Flipper& flipper, VertexStep& alone)
-      : mesh_(context.mesh),
-        settings_(context.settings),
-        state_(context.state),
-        frame_(context.frame),
-        limits_(context.limits),
-        flipper_(flipper),
-        recorder_(context.recorder),
-        alone_(alone) {}
+      : StepContext(context), flipper_(flipper), alone_(alone) {}
 
   /// Improves those that are still there, each as VertexStep does, but that vertices wait for each other as described
   /// above. Those that need another part are appended to `left`, in the order of their numbers.
@@ -59,13 +51,7 @@ class BatchStep {
   [[nodiscard]] bool has_its_link(const Occupant& occupant, bool open) const;
   [[nodiscard]] std::size_t n_changes() const;
 
-  Mesh& mesh_;
-  const Settings& settings_;
-  const SweepState& state_;
-  const Frame& frame_;
-  VertexLimits& limits_;
   Flipper& flipper_;
-  const Recorder& recorder_;
   VertexStep& alone_;
 
   // Of the call under way.

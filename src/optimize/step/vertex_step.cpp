@@ -38,7 +38,7 @@ WeightRange weights_that_cross(const Space& space, const WeightedPoint& p, const
 }  // namespace
 
 void VertexStep::begin_sweep(int sweep, Unknowns unknowns) {
-  const Policy& policy = settings_.policy;
+  const Policy& policy = settings.policy;
   unknowns_ = unknowns;
   collapses_ = policy.collapse_from && sweep >= *policy.collapse_from;
   removes_ = policy.removal != Removal::none && sweep >= policy.removal_from;
@@ -48,62 +48,62 @@ void VertexStep::begin_sweep(int sweep, Unknowns unknowns) {
 
 /// Lines 10 to 16 of Algorithm 1.
 bool VertexStep::improve(VertexId v, const Part& part) {
-  if (!is_confined(mesh_, v, part)) return false;
+  if (!is_confined(mesh, v, part)) return false;
   part_ = part;
   escapes_ = false;
   if (collapses_ && collapse(v)) return true;
   optimize_point(v);
   if (removes_ && !escapes_) remove_if_better(v);
-  TEMPER_ASSERT_SLOW(escapes_ || mesh_.is_isolated(v) || is_confined(mesh_, v, part));
+  TEMPER_ASSERT_SLOW(escapes_ || mesh.is_isolated(v) || is_confined(mesh, v, part));
   return !escapes_;
 }
 
 bool VertexStep::suits_batches() const {
-  const bool only_steps = !collapses_ && !removes_ && !band_.on();
+  const bool only_steps = !collapses_ && !removes_ && !limits.band.on();
   return only_steps && (star_->keeps_edges_regular || makes_newton_steps());
 }
 
 /// Newton steps of a barrier, as far as they pay.
 bool VertexStep::makes_newton_steps() const {
-  return state_.energy.barrier && settings_.policy.makes_newton_steps && state_.flip_limit == FlipLimit::unlimited;
+  return state.energy.barrier && settings.policy.makes_newton_steps && state.flip_limit == FlipLimit::unlimited;
 }
 
 /// Algorithm 2: where E_c would put v onto a neighbour, the mesh is better without v.
 bool VertexStep::collapse(VertexId v) {
   if (!may_go(v)) return false;
-  const EnergyModel& model = settings_.collapse_model;
-  gather_patch(mesh_, v, needs_outer(model.kind), collapsing_);
-  if (!nearly_collapses(collapsing_, model, mesh_.point(v), settings_.policy)) return false;
-  plan_ = plan_removal(mesh_, v, std::move(plan_));
+  const EnergyModel& model = settings.collapse_model;
+  gather_patch(mesh, v, needs_outer(model.kind), collapsing_);
+  if (!nearly_collapses(collapsing_, model, mesh.point(v), settings.policy)) return false;
+  plan_ = plan_removal(mesh, v, std::move(plan_));
   if (plan_.status != RemovalStatus::possible) return false;
-  if (!settings_.policy.defers_flips && !is_regular(mesh_, plan_)) return false;
-  flipper_.remove(EventKind::collapse, plan_, patch_energy(collapsing_, model, mesh_.point(v)),
-                  cavity_energy(mesh_, model, plan_));
+  if (!settings.policy.defers_flips && !is_regular(mesh, plan_)) return false;
+  flipper_.remove(EventKind::collapse, plan_, patch_energy(collapsing_, model, mesh.point(v)),
+                  cavity_energy(mesh, model, plan_));
   return true;
 }
 
 /// Line 15 of Algorithm 1: E(P∖p) < E(P). Or, of §7, what the weights are about to hide.
 void VertexStep::remove_if_better(VertexId v) {
-  if (!may_go(v) || mesh_.is_isolated(v)) return;
+  if (!may_go(v) || mesh.is_isolated(v)) return;
   gather(v);
-  const Policy& o = settings_.policy;
+  const Policy& o = settings.policy;
   const bool by_weight = o.removal == Removal::weight;
   if (by_weight && !(relative_lightness(star_->patch(), origin_) > o.removal_weight)) return;
-  plan_ = plan_removal(mesh_, v, std::move(plan_));
+  plan_ = plan_removal(mesh, v, std::move(plan_));
   if (plan_.status != RemovalStatus::possible) return;
-  const PatchComparison e = compare_patch(mesh_, star_->patch(), state_.model, plan_, o.removal_measure);
+  const PatchComparison e = compare_patch(mesh, star_->patch(), state.model, plan_, o.removal_measure);
   if (!by_weight && !e.better_without(o.removal_margin)) return;
-  if (!settings_.policy.defers_flips && !is_regular(mesh_, plan_)) return;
+  if (!settings.policy.defers_flips && !is_regular(mesh, plan_)) return;
   flipper_.remove(EventKind::removal, plan_, e.with, e.without);
 }
 
 /// Lines 13 and 14 of Algorithm 1.
 void VertexStep::optimize_point(VertexId v) {
   waiting_.reset();
-  if (gather(v)) make_steps(freedom(mesh_, v, mobility_[v], unknowns_));
+  if (gather(v)) make_steps(freedom(mesh, v, limits.mobility[v], unknowns_));
   if (!waiting_) return;
-  waiting_->to = mesh_.point(v);
-  mesh_.set_point(v, waiting_->from);
+  waiting_->to = mesh.point(v);
+  mesh.set_point(v, waiting_->from);
   deferred_.push_back(*waiting_);
 }
 
@@ -111,14 +111,14 @@ void VertexStep::make_steps(const Freedom& all) {
   const VertexId v = vertex_;
   const Freedom positions = position_part(all);
   const bool has_weight = all.n > positions.n;
-  switch (settings_.policy.solver) {
+  switch (settings.policy.solver) {
     case Solver::newton:
       if (all.n > 0) newton_search(all);
       break;
     case Solver::alternating:
       if (positions.n > 0) {
         newton_search(positions);
-        if (escapes_ || mesh_.is_isolated(v)) return;  // isolated: hidden, and removed
+        if (escapes_ || mesh.is_isolated(v)) return;  // isolated: hidden, and removed
         gather(v);
       }
       if (has_weight) newton_search(weight_only());
@@ -126,7 +126,7 @@ void VertexStep::make_steps(const Freedom& all) {
     case Solver::golden:
       for (int i = 0; i < kPositionSearches && positions.n > 0; ++i) {
         golden_search(positions);
-        if (escapes_ || mesh_.is_isolated(v)) return;
+        if (escapes_ || mesh.is_isolated(v)) return;
         gather(v);
       }
       if (has_weight) golden_search(weight_only());
@@ -137,7 +137,7 @@ void VertexStep::make_steps(const Freedom& all) {
 /// The star of v as it is now. False when v must stay.
 bool VertexStep::gather(VertexId v) {
   vertex_ = v;
-  origin_ = mesh_.point(v);
+  origin_ = mesh.point(v);
   return star_->gather(v);
 }
 
@@ -157,20 +157,20 @@ bool VertexStep::enter_domain() {
   constexpr double kInside = 0.1;  // of the interval, so that the barrier is not at its steepest
   const double w = std::clamp(patch.space.weight(origin_), low + kInside * (high - low), high - kInside * (high - low));
   const WeightedPoint p = patch.space.with_weight(origin_, w);
-  if (!place(p, star_->value(p), false) || mesh_.is_isolated(vertex_)) return false;
+  if (!place(p, star_->value(p), false) || mesh.is_isolated(vertex_)) return false;
   gather(vertex_);
   return std::isfinite(star_->value(origin_));
 }
 
 /// The part of the step that a search may go.
 double VertexStep::farthest(const Step& step) const {
-  return settings_.policy.refuses_inversion ? inversion_limit(star_->patch(), origin_, step) : 1;
+  return settings.policy.refuses_inversion ? inversion_limit(star_->patch(), origin_, step) : 1;
 }
 
 /// t, cut to what the flip limit allows along step.
 double VertexStep::flip_limited(const Step& step, double t) const {
   double factor = kInfinity;
-  switch (state_.flip_limit) {
+  switch (state.flip_limit) {
     case FlipLimit::unlimited:
       return t;
     case FlipLimit::before:
@@ -183,21 +183,21 @@ double VertexStep::flip_limited(const Step& step, double t) const {
       factor = overshoot_;
       break;
   }
-  const double threshold = flip_threshold(mesh_, vertex_, step);
+  const double threshold = flip_threshold(mesh, vertex_, step);
   return threshold < kNoThreshold ? std::min(t, factor * threshold) : t;
 }
 
 WeightedPoint VertexStep::moved(const Step& step, double t) const {
-  const WeightedPoint p = along(mesh_.space(), origin_, step, t);
-  if (!mesh_.space().is_plane() || (step[0] == 0 && step[1] == 0)) return p;
-  const Vec2 x = frame_.snap(p.position());
+  const WeightedPoint p = along(mesh.space(), origin_, step, t);
+  if (!mesh.space().is_plane() || (step[0] == 0 && step[1] == 0)) return p;
+  const Vec2 x = frame.snap(p.position());
   return {x.x, x.y, p.w};
 }
 
 /// The t of the next trial where the flip before `t` does not pay, or hides a vertex: short of it. At a tie, one small
 /// step may still pay.
 double VertexStep::short_of_flip(const Step& step, double t) const {
-  const double threshold = flip_threshold(mesh_, vertex_, step);
+  const double threshold = flip_threshold(mesh, vertex_, step);
   if (threshold >= t) return 0;  // only rounding stands between the two
   return threshold > kTie * t ? kBeforeFlip * threshold : 1e-3 * t;
 }
@@ -214,7 +214,7 @@ void VertexStep::newton_search(const Freedom& freedom) {
   energy_ = d.value;
   NewtonStep newton = newton_step(d, freedom, star_->radius(origin_));
   if (!(newton.predicted > kNoGain * std::abs(energy_))) return;
-  const double relaxation = state_.relaxation;
+  const double relaxation = state.relaxation;
   for (double& s : newton.step) s *= relaxation;
   bool leaves_band = false;
   const auto attempt = [&](double& t, double shorter, bool) {
@@ -238,21 +238,21 @@ void VertexStep::golden_search(const Freedom& freedom) {
     energy_ = star_->value(origin_);
   }
   const Patch& patch = star_->patch();
-  const Policy& o = settings_.policy;
+  const Policy& o = settings.policy;
   const double r = patch_radius(patch, origin_, o.search_radius);
   const double reach = freedom.moves() ? r : o.weight_reach * (r * r);
-  const auto direction = steepest_descent(patch, state_.model, origin_, freedom, reach);
+  const auto direction = steepest_descent(patch, state.model, origin_, freedom, reach);
   if (!direction) return;
   const double limit = flip_limited(*direction, farthest(*direction));
   if (!(limit > 0)) return;
-  double t = line_minimum(patch, state_.model, origin_, *direction, limit);
+  double t = line_minimum(patch, state.model, origin_, *direction, limit);
   Outcome outcome = try_step(*direction, t);
   for (int trial = 1; outcome == Outcome::out_of_band && trial < kTrials; ++trial) {
     t *= 0.5;
     outcome = try_step(*direction, t);
   }
   if (outcome == Outcome::blocked_by_flip) {
-    const double threshold = flip_threshold(mesh_, vertex_, *direction);
+    const double threshold = flip_threshold(mesh, vertex_, *direction);
     if (threshold < t) try_step(*direction, kBeforeFlip * threshold);
   }
 }
@@ -261,51 +261,51 @@ VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
   const WeightedPoint p = moved(step, t);
   const double energy = star_->value(p);
   if (!(energy < energy_)) return Outcome::not_lower;
-  if (!settings_.policy.allows_inversion && !star_->is_valid(p)) return Outcome::inverted;
+  if (!settings.policy.allows_inversion && !star_->is_valid(p)) return Outcome::inverted;
   if (!keeps_size(p)) return Outcome::out_of_band;
-  if (place(p, energy, state_.energy.barrier)) return Outcome::accepted;
+  if (place(p, energy, state.energy.barrier)) return Outcome::accepted;
   return escapes_ ? Outcome::escaped : Outcome::blocked_by_flip;
 }
 
 /// The vertex at p, where its patch has that energy, with what flips that needs; or where it was, and false: when a
 /// vertex would be hidden, or flips cost more than the step gains and it must pay, or they escape from the part.
 bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
-  const bool only_weight = mesh_.space().same_place(p, origin_);
-  if (only_weight ? settings_.policy.defers_weights : settings_.policy.defers_positions) {
+  const bool only_weight = mesh.space().same_place(p, origin_);
+  if (only_weight ? settings.policy.defers_weights : settings.policy.defers_positions) {
     if (!waiting_) waiting_ = Deferred{vertex_, origin_, origin_, energy_, energy};
     waiting_->after = energy;
-    mesh_.set_point(vertex_, p);
+    mesh.set_point(vertex_, p);
     return true;
   }
   const bool may_break_edges = keeps_connectivity() && !star_->keeps_edges_regular;
   if (may_break_edges) note_regular_edges();
-  mesh_.set_point(vertex_, p);
+  mesh.set_point(vertex_, p);
   if (flips_at_once()) {
-    SizeBand* const band = band_.on() ? &band_ : nullptr;
+    SizeBand* const band = limits.band.on() ? &limits.band : nullptr;
     const auto settled = flipper_.settle({vertex_, origin_, energy_, energy, must_pay, band, part_});
     escapes_ = settled == Flipper::Settled::escaped;
-    if (settled == Flipper::Settled::done && !only_weight) band_.moved(vertex_);
+    if (settled == Flipper::Settled::done && !only_weight) limits.band.moved(vertex_);
     return settled == Flipper::Settled::done;
   }
   const bool fits = !may_break_edges || regular_edges_still_are();
-  if (fits && !only_weight) band_.moved(vertex_);
+  if (fits && !only_weight) limits.band.moved(vertex_);
   if (fits) {
-    recorder_.placed(vertex_, origin_, p, energy_, energy);
+    recorder.placed(vertex_, origin_, p, energy_, energy);
   } else {
-    mesh_.set_point(vertex_, origin_);
+    mesh.set_point(vertex_, origin_);
   }
   return fits;
 }
 
 /// Says whether the band allows p; to be asked before place(), which tells the band where its vertex went.
 bool VertexStep::keeps_size(const WeightedPoint& p) {
-  const bool only_weight = mesh_.space().same_place(p, origin_);
-  return only_weight || !band_.on() || band_.allows(star_->patch(), p.position());
+  const bool only_weight = mesh.space().same_place(p, origin_);
+  return only_weight || !limits.band.on() || limits.band.allows(star_->patch(), p.position());
 }
 
 /// Thresholds are computed in doubles; that no edge flips is decided exactly.
 bool VertexStep::keeps_connectivity() const {
-  return settings_.policy.keeps_connectivity || state_.flip_limit == FlipLimit::before;
+  return settings.policy.keeps_connectivity || state.flip_limit == FlipLimit::before;
 }
 
 void VertexStep::nudge(VertexId v, Vec2 by) {
@@ -318,11 +318,11 @@ void VertexStep::nudge(VertexId v, Vec2 by) {
 }
 
 void VertexStep::shake(double amount, Rng& rng) {
-  for (const VertexId v : mesh_.vertices()) {
-    const WeightedPoint p = mesh_.point(v);
+  for (const VertexId v : mesh.vertices()) {
+    const WeightedPoint p = mesh.point(v);
     double shortest2 = kInfinity;
-    for (const HalfedgeId h : mesh_.star(v)) {
-      shortest2 = std::min(shortest2, edge_measures(mesh_.space(), p, mesh_.point(mesh_.target(h), p)).l2);
+    for (const HalfedgeId h : mesh.star(v)) {
+      shortest2 = std::min(shortest2, edge_measures(mesh.space(), p, mesh.point(mesh.target(h), p)).l2);
     }
     nudge(v, amount * std::sqrt(shortest2) * Vec2{rng.uniform(-1, 1), rng.uniform(-1, 1)});
   }
@@ -332,37 +332,37 @@ void VertexStep::shake(double amount, Rng& rng) {
 /// tested once more.
 void VertexStep::end_sweep() {
   for (const auto& [v, old, to, before, after] : deferred_) {
-    if (mesh_.is_isolated(v)) continue;
-    const Space& space = mesh_.space();
-    const WeightedPoint from = mesh_.point(v);
+    if (mesh.is_isolated(v)) continue;
+    const Space& space = mesh.space();
+    const WeightedPoint from = mesh.point(v);
     const double w = space.weight(space.weight(to) != space.weight(old) ? to : from);
     WeightedPoint p = space.with_weight(space.same_place(to, old) ? from : to, w);
-    if (!space.same_place(p, from) && !settings_.policy.allows_inversion) {
+    if (!space.same_place(p, from) && !settings.policy.allows_inversion) {
       gather(v);
       if (!star_->is_valid(p)) p = space.with_weight(from, w);
     }
     if (p == from) continue;
-    mesh_.set_point(v, p);
-    recorder_.placed(v, from, p, before, after);
+    mesh.set_point(v, p);
+    recorder.placed(v, from, p, before, after);
   }
   deferred_.clear();
 }
 
-bool VertexStep::flips_at_once() const { return !keeps_connectivity() && settings_.policy.flips_at_once; }
+bool VertexStep::flips_at_once() const { return !keeps_connectivity() && settings.policy.flips_at_once; }
 
 /// Notes which edges are regular: with connectivity kept these must stay so, and one that is not regular may wait.
 void VertexStep::note_regular_edges() {
   was_regular_.clear();
-  for (const HalfedgeId h : mesh_.star(vertex_)) {
-    for (const HalfedgeId e : {h, Mesh::next(h)}) was_regular_.push_back(is_regular(mesh_, e) ? 1 : 0);
+  for (const HalfedgeId h : mesh.star(vertex_)) {
+    for (const HalfedgeId e : {h, Mesh::next(h)}) was_regular_.push_back(is_regular(mesh, e) ? 1 : 0);
   }
 }
 
 bool VertexStep::regular_edges_still_are() const {
   auto was = was_regular_.begin();
-  for (const HalfedgeId h : mesh_.star(vertex_)) {
+  for (const HalfedgeId h : mesh.star(vertex_)) {
     for (const HalfedgeId e : {h, Mesh::next(h)}) {
-      if (*was++ != 0 && !mesh_.is_constrained(e) && !is_regular(mesh_, e)) return false;
+      if (*was++ != 0 && !mesh.is_constrained(e) && !is_regular(mesh, e)) return false;
     }
   }
   return true;

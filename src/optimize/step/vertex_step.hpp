@@ -16,18 +16,10 @@
 namespace temper {
 
 /// The storage of vertex steps, kept from one vertex to the next: once warm, a step allocates nothing.
-class VertexStep {
+class VertexStep : StepContext {
  public:
   VertexStep(const StepContext& context, Flipper& flipper)
-      : mesh_(context.mesh),
-        settings_(context.settings),
-        state_(context.state),
-        frame_(context.frame),
-        mobility_(context.limits.mobility),
-        band_(context.limits.band),
-        flipper_(flipper),
-        recorder_(context.recorder),
-        star_(make_star_objective(context.mesh, context.settings, context.state)) {}
+      : StepContext(context), flipper_(flipper), star_(make_star_objective(mesh, settings, state)) {}
 
   /// Prepares for a sweep, or one visit of two: whether i ≥ i_c, and the overshoot of FlipLimit::after.
   void begin_sweep(int sweep, Unknowns unknowns);
@@ -58,7 +50,7 @@ class VertexStep {
   void optimize_point(VertexId v);
   void remove_if_better(VertexId v);
   void make_steps(const Freedom& all);
-  [[nodiscard]] bool may_go(VertexId v) const { return mobility_[v] == Mobility::free; }
+  [[nodiscard]] bool may_go(VertexId v) const { return limits.mobility[v] == Mobility::free; }
 
   void newton_search(const Freedom& freedom);
   void golden_search(const Freedom& freedom);
@@ -77,14 +69,7 @@ class VertexStep {
   void note_regular_edges();
   [[nodiscard]] bool regular_edges_still_are() const;
 
-  Mesh& mesh_;
-  const Settings& settings_;
-  const SweepState& state_;
-  const Frame& frame_;
-  const IdVector<VertexId, Mobility>& mobility_;
-  SizeBand& band_;
   Flipper& flipper_;
-  const Recorder& recorder_;
   Unknowns unknowns_ = Unknowns::positions_and_weights;
   bool collapses_ = false, removes_ = false;
   double overshoot_ = 1;
