@@ -28,32 +28,15 @@ bool is_tie(const Mesh& mesh, HalfedgeId h) {
   return std::abs(near.g + far.g) < kTiedDual * near.l2;
 }
 
-/// The vertices whose position is not an unknown, as far as they have been asked for.
-class Stays {
- public:
-  Stays(const Mesh& mesh, const OptimizeOptions& options)
-      : mesh_(mesh), options_(options), known_(mesh.n_vertices(), kUnknown) {}
-
-  [[nodiscard]] bool operator()(VertexId v) {
-    if (options_.unknowns == Unknowns::weights) return true;
-    if (known_[v] == kUnknown) known_[v] = mobility(mesh_, v, options_) == Mobility::fixed ? kYes : kNo;
-    return known_[v] == kYes;
-  }
-
- private:
-  enum Answer : std::uint8_t { kUnknown, kNo, kYes };
-
-  const Mesh& mesh_;
-  const OptimizeOptions& options_;
-  IdVector<VertexId, Answer> known_;
-};
-
 /// Calls use(quad) for each tied quad, once, until it returns false. A triangle with two ties is of a circle with more
 /// than four vertices, and of no quad.
 template <class Use>
 void for_tied_quads(const Mesh& mesh, const OptimizeOptions& options, Use&& use) {
   if (options.unknowns == Unknowns::positions || options.flips == Flips::none) return;
-  Stays stays(mesh, options);
+  const auto mobility = mobilities(mesh, options);
+  const auto stays = [&](VertexId v) {
+    return options.unknowns == Unknowns::weights || mobility[v] == Mobility::fixed;
+  };
   const auto has_other_tie = [&](HalfedgeId h) { return is_tie(mesh, Mesh::next(h)) || is_tie(mesh, Mesh::prev(h)); };
   for (const HalfedgeId h : mesh.halfedges()) {
     if (mesh.is_boundary(h) || !mesh.is_edge_representative(h) || mesh.is_constrained(h)) continue;
