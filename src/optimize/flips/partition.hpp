@@ -5,7 +5,6 @@
 // across the link. Why confined steps of different parts may run at once is shown in sweeper.hpp.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -28,19 +27,14 @@ struct Part {
   friend bool operator==(const Part&, const Part&) = default;
 };
 
-/// A mesh cut into `count` parts of equal size. Shifted by half of it: one more, the first and the last half as large.
+/// A mesh cut into `count` parts of equal size.
 struct Cut {
   std::size_t n_vertices = 0, count = 1;
-  bool shifted = false;
 
-  [[nodiscard]] std::size_t size() const { return shifted ? count + 1 : count; }
   [[nodiscard]] Part operator[](std::size_t i) const { return {bound(i), bound(i + 1)}; }
 
  private:
-  [[nodiscard]] VertexId bound(std::size_t i) const {
-    const std::size_t half_parts = shifted ? (i > 0 ? 2 * i - 1 : 0) : 2 * i;
-    return VertexId(std::min(n_vertices, half_parts * n_vertices / (2 * count)));
-  }
+  [[nodiscard]] VertexId bound(std::size_t i) const { return VertexId(i * n_vertices / count); }
 };
 
 /// Says whether v, which is in the part and not isolated, is confined to it. O(degree). Reads no coordinates.

@@ -101,7 +101,7 @@ class PartSweep {
   void in_parts(const Mesh& mesh, const Engine& engine, StopToken& stop) {
     const std::size_t n = mesh.n_vertices(), count = std::max<std::size_t>(1, (n + part_size_ - 1) / part_size_);
     if (count > 1 && !cuts_.are_of(mesh)) cuts_.cut(mesh, count, engine.executor());
-    const Cut cut{n, count, false};
+    const Cut cut{n, count};
     const auto in_numbers = [&](Worker& worker, std::size_t i, VertexList& left) {
       improve_numbers(worker, count == 1 ? Part() : cut[i], n, left, stop);
     };

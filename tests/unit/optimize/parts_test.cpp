@@ -256,7 +256,7 @@ TEST_P(Cuts, LeaveNoneOrFewVerticesOutsideOfAllParts) {
   constexpr std::size_t kParts = 6;
   const Mesh mesh = hilbert_ordered(GetParam().make()).mesh;
   const std::size_t n = mesh.n_vertices();
-  const Cut numbers{n, kParts, false};
+  const Cut numbers{n, kParts};
   StdThreads crew(3);
   ShiftedCuts cuts;
   cuts.cut(mesh, kParts, crew);
