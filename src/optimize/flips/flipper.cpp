@@ -14,64 +14,37 @@ namespace {
 // Flips of one vertex step; more than a few are a cascade that rarely pays.
 constexpr std::size_t kMostFlips = 64;
 
-/// Sums what flips change of the energy.
-struct FlipPrice {
+/// What a run of Lawson's algorithm tells of its flips.
+struct FlipWatch {
   const EnergyModel& model;
-  double change = 0;
-  void before(const Mesh& mesh, HalfedgeId h) { change -= flip_energy(mesh, model, h); }
-  void after(const Mesh& mesh, HalfedgeId h) { change += flip_energy(mesh, model, h); }
-};
+  std::optional<double>& change;     ///< grows by what they change of the energy, when there is one
+  std::vector<FlipRecord>* records;  ///< of a trace; null: there is none
+  SizeBand* band;                    ///< or null
 
-/// A FlipPrice, bit for bit, that writes each flip down.
-struct FlipLog {
-  const EnergyModel& model;
-  std::vector<FlipRecord>& records;
-  double change = 0;
   void before(const Mesh& mesh, HalfedgeId h) {
+    if (band != nullptr) band->about_to_flip(h);
+    if (!change && records == nullptr) return;
+    const double energy = flip_energy(mesh, model, h);
+    if (change) *change -= energy;
+    if (records == nullptr) return;
     const auto [a, b, c, d] = inlined::quad(mesh, h);
-    records.push_back({a, b, c, d, flip_energy(mesh, model, h), 0});
-    change -= records.back().before;
+    records->push_back({a, b, c, d, energy, 0});
   }
   void after(const Mesh& mesh, HalfedgeId h) {
-    records.back().after = flip_energy(mesh, model, h);
-    change += records.back().after;
+    if (!change && records == nullptr) return;
+    const double energy = flip_energy(mesh, model, h);
+    if (change) *change += energy;
+    if (records != nullptr) records->back().after = energy;
   }
 };
-
-/// Shows each flip to a band of sizes too.
-template <class Hook>
-struct WithBand {
-  Hook& hook;
-  SizeBand& band;
-  void before(const Mesh& mesh, HalfedgeId h) {
-    band.about_to_flip(h);
-    hook.before(mesh, h);
-  }
-  void after(const Mesh& mesh, HalfedgeId h) { hook.after(mesh, h); }
-};
-
-template <class Hook>
-LawsonRun run_lawson(Lawson& lawson, Mesh& mesh, Hook&& hook, std::size_t max_flips, SizeBand* band, const Part& part) {
-  if (band == nullptr) return lawson.run(mesh, hook, max_flips, PowerTest(), part);
-  band->begin_flips();
-  return lawson.run(mesh, WithBand<std::remove_reference_t<Hook>>{hook, *band}, max_flips, PowerTest(), part);
-}
 
 }  // namespace
 
 /// Lawson on what is queued. `change`, when there is one, grows by what the flips change of the energy.
 LawsonRun Flipper::run(std::optional<double>& change, std::size_t max_flips, SizeBand* band, const Part& part) {
-  if (recorder_.on()) {
-    FlipLog log{state_.model, records_, change.value_or(0)};
-    const LawsonRun result = run_lawson(lawson_, mesh_, log, max_flips, band, part);
-    if (change) change = log.change;
-    return result;
-  }
-  if (!change) return run_lawson(lawson_, mesh_, IgnoreFlips(), max_flips, band, part);
-  FlipPrice price{state_.model, *change};
-  const LawsonRun result = run_lawson(lawson_, mesh_, price, max_flips, band, part);
-  change = price.change;
-  return result;
+  if (band != nullptr) band->begin_flips();
+  FlipWatch watch{state_.model, change, recorder_.on() ? &records_ : nullptr, band};
+  return lawson_.run(mesh_, watch, max_flips, PowerTest(), part);
 }
 
 Flipper::Settled Flipper::settle(const Step& step) {
