@@ -40,15 +40,21 @@ class Recorder {
   /// split_edge(mesh, a→b) has made v, named as above. c, d: the corners on the left and the right of a→b before, d
   /// invalid on the boundary.
   void split(VertexId v, const std::array<VertexId, 4>& quad, double before, double after) const;
-  void hidden(VertexId v) const;
-  void undone(VertexId v, double before, double after) const;
+  void hidden(VertexId v) const {
+    tell({.kind = EventKind::hidden, .vertex = v, .before = kNoEnergy, .after = kNoEnergy});
+  }
+  void undone(VertexId v, double before, double after) const {
+    tell({.kind = EventKind::undo, .vertex = v, .before = before, .after = after});
+  }
   /// Everything since the end of that sweep has been taken back; −1: since the input.
-  void returned_to(int sweep) const;
+  void returned_to(int sweep) const {
+    tell({.kind = EventKind::undo, .before = kNoEnergy, .after = kNoEnergy, .to_sweep = sweep});
+  }
 
  private:
-  template <class Fill>
-  void tell(EventKind kind, double before, double after, Fill&& fill) const;
-  [[nodiscard]] VertexId user(VertexId v) const { return work_.order.vertices[v]; }
+  /// `event`: with vertices in the numbers of the working copy, energies in the units of the frame, and no sweep.
+  void tell(TraceEvent event) const;
+  [[nodiscard]] WeightedPoint place(VertexId v) const { return work_.frame.to_user(work_.mesh.point(v)); }
 
   const Tracer& tracer_;
   const WorkingCopy& work_;
