@@ -19,8 +19,8 @@
 #include "base/assert.hpp"
 #include "base/engine.hpp"
 #include "optimize/flips/partition.hpp"
+#include "optimize/run/run.hpp"
 #include "optimize/sweep/shifted_cuts.hpp"
-#include "optimize/sweep/stop_token.hpp"
 
 namespace temper {
 
@@ -71,21 +71,64 @@ class WorkerPool {
   std::deque<Place> places_;  // places do not move; few of them ever get a worker
 };
 
-/// Calls work(worker, i) for each of n parts, by the engine's threads and ranks. For write and read see
-/// Engine::exchange().
-template <class Worker, class Work, class Write, class Read>
-void for_parts(std::size_t n, const Engine& engine, WorkerPool<Worker>& workers, StopToken& stop, Work&& work,
-               Write&& write, Read&& read) {
-  workers.make_room(n);
-  if (engine.has_ranks()) stop.begin_local(engine.n_ranks());
-  static_cast<void>(stop.goes_on());  // asks, should no part run on this thread
-  engine.run(n, [&](std::size_t i) {
-    const auto worker = workers.take();
-    work(*worker, i);
-  });
-  engine.exchange(n, write, read);
-  if (engine.has_ranks()) stop.end_local();
-}
+// When to stop: all threads of a sweep ask whether to go on, one of them finds out.
+
+/// The thread that called asks the clock and the caller; the others hear of the answer.
+class StopToken {
+ public:
+  /// To be made in the thread that is to ask.
+  StopToken(Run& run, std::size_t n_vertices)
+      : run_(run), caller_(this_thread()), n_(static_cast<double>(std::max<std::size_t>(1, n_vertices))) {}
+
+  /// Has the caller asked before the next stretch. To be called from the thread that asks.
+  void ask_soon() {
+    TEMPER_ASSERT(this_thread() == caller_);
+    since_asked_ = kVerticesBetweenCalls;
+  }
+  /// Begins and ends what each rank does alone: rank 0 asks meanwhile, the others get the answer at the end.
+  void begin_local(std::size_t n_ranks) {
+    run_.begin_local();
+    n_ranks_ = n_ranks;
+  }
+  void end_local() {
+    n_ranks_ = 1;
+    run_.end_local();
+    if (run_.stopped_early()) stop_.store(true, std::memory_order_relaxed);
+    ask_soon();  // on all ranks, however much each has done
+  }
+  /// To be asked before each stretch of vertices: says whether to go on.
+  [[nodiscard]] bool goes_on() {
+    if (stop_.load(std::memory_order_relaxed)) return false;
+    if (this_thread() != caller_ || since_asked_ < kVerticesBetweenCalls) return true;
+    since_asked_ = 0;
+    const bool stop = run_.asked_to_stop(static_cast<double>(done_.load(std::memory_order_relaxed)) / n_);
+    if (stop) stop_.store(true, std::memory_order_relaxed);
+    return !stop;
+  }
+  /// To be told after each stretch, some of whose vertices must wait for another phase.
+  void passed(std::size_t vertices, std::size_t left) {
+    done_.fetch_add(n_ranks_ * (vertices - left), std::memory_order_relaxed);  // the others do about as much
+    if (this_thread() == caller_) since_asked_ += vertices;
+  }
+  [[nodiscard]] bool stopped() const { return stop_.load(std::memory_order_relaxed); }
+
+ private:
+  static constexpr std::size_t kVerticesBetweenCalls = 8192;  // of the observer and the clock: a few milliseconds
+
+  /// A different address in each thread.
+  static const void* this_thread() {
+    thread_local const char here = 0;
+    return &here;
+  }
+
+  Run& run_;
+  const void* caller_;
+  double n_;
+  std::size_t n_ranks_ = 1;                          // that are at work on other vertices
+  std::size_t since_asked_ = kVerticesBetweenCalls;  // the caller's own
+  std::atomic<bool> stop_ = false;
+  std::atomic<std::size_t> done_ = 0;
+};
 
 /// A sweep over all vertices, by workers with functions improve(vertices, part, left): it improves those that it can,
 /// in order, and appends the others to `left`; log_flips(log), which says where flips are appended to; repeat(flips),
@@ -102,20 +145,17 @@ class PartSweep {
     const std::size_t n = mesh.n_vertices(), count = std::max<std::size_t>(1, (n + part_size_ - 1) / part_size_);
     if (count > 1 && !cuts_.are_of(mesh)) cuts_.cut(mesh, count, engine.executor());
     const Cut cut{n, count};
-    const auto in_numbers = [&](Worker& worker, std::size_t i, VertexList& left) {
-      improve_numbers(worker, count == 1 ? Part() : cut[i], n, left, stop);
-    };
-    run(count, engine, stop, in_numbers, [&](std::size_t i) { return IdRange<VertexId>(cut[i].first, cut[i].last); });
+    run(
+        count, engine, stop, [&](std::size_t i) { return count == 1 ? Part() : cut[i]; },
+        [&](std::size_t i) { return IdRange<VertexId>(cut[i].first, cut[i].last); });
     for (std::size_t k = 0; count > 1 && k < ShiftedCuts::kCuts; ++k) {
       stop.ask_soon();
       hand_out(k);
-      const auto of_part = [&](std::size_t i) {
-        return std::span<const VertexId>(waiting_).subspan(begin_[i], begin_[i + 1] - begin_[i]);
-      };
-      const auto in_cut = [&](Worker& worker, std::size_t i, VertexList& left) {
-        improve(worker, of_part(i), cuts_.part(k, i), left, stop);
-      };
-      run(cuts_.n_parts(), engine, stop, in_cut, of_part);
+      run(
+          cuts_.n_parts(), engine, stop, [&](std::size_t i) { return cuts_.part(k, i); },
+          [&](std::size_t i) {
+            return std::span<const VertexId>(waiting_).subspan(begin_[i], begin_[i + 1] - begin_[i]);
+          });
     }
     std::sort(waiting_.begin(), waiting_.end());
     in_order(waiting_, stop);
@@ -143,16 +183,20 @@ class PartSweep {
     std::vector<HalfedgeId> flips;  // for other ranks
   };
 
-  /// One phase of n parts, of these vertices. What is left after it waits for the next.
-  template <class Work, class VerticesOf>
-  void run(std::size_t n, const Engine& engine, StopToken& stop, Work&& work, VerticesOf&& vertices) {
+  /// One phase of n parts: part(i) of vertices(i). What is left after it waits for the next.
+  template <class PartOf, class VerticesOf>
+  void run(std::size_t n, const Engine& engine, StopToken& stop, PartOf&& part, VerticesOf&& vertices) {
     if (done_.size() < n) done_.resize(n);
-    const auto part = [&](Worker& worker, std::size_t i) {
+    workers_.make_room(n);
+    if (engine.has_ranks()) stop.begin_local(engine.n_ranks());
+    static_cast<void>(stop.goes_on());  // asks, should no part run on this thread
+    engine.run(n, [&](std::size_t i) {
       done_[i].left.clear();
       done_[i].flips.clear();
-      worker.log_flips(engine.has_ranks() ? &done_[i].flips : nullptr);
-      work(worker, i, done_[i].left);
-    };
+      const auto worker = workers_.take();
+      worker->log_flips(engine.has_ranks() ? &done_[i].flips : nullptr);
+      improve(*worker, vertices(i), part(i), done_[i].left, stop);
+    });
     const auto write = [&](ByteWriter& writer, std::size_t i) {
       writer.write(done_[i].left);
       writer.write(done_[i].flips);
@@ -165,7 +209,8 @@ class PartSweep {
       worker->repeat(done_[i].flips);
       worker->read(reader, vertices(i));
     };
-    for_parts(n, engine, workers_, stop, part, write, read);
+    engine.exchange(n, write, read);
+    if (engine.has_ranks()) stop.end_local();
     waiting_.clear();
     for (std::size_t i = 0; i < n; ++i) waiting_.insert(waiting_.end(), done_[i].left.begin(), done_[i].left.end());
   }
@@ -181,23 +226,15 @@ class PartSweep {
     waiting_.swap(handed_out_);
   }
 
-  static void improve_numbers(Worker& worker, const Part& part, std::size_t n, VertexList& left, StopToken& stop) {
-    std::array<VertexId, kStretch> numbers;
-    const std::size_t last = std::min<std::size_t>(n, part.last.index);
-    for (std::size_t begin = part.first.index; begin < last; begin += kStretch) {
-      const std::size_t count = std::min(kStretch, last - begin);
-      for (std::size_t i = 0; i < count; ++i) numbers[i] = VertexId(begin + i);
-      improve(worker, {numbers.data(), count}, part, left, stop);
-    }
-  }
-
-  static void improve(Worker& worker, std::span<const VertexId> vertices, const Part& part, VertexList& left,
-                      StopToken& stop) {
-    for (std::size_t begin = 0; begin < vertices.size() && stop.goes_on(); begin += kStretch) {
-      const auto stretch = vertices.subspan(begin, std::min(kStretch, vertices.size() - begin));
+  template <class Vertices>
+  static void improve(Worker& worker, const Vertices& vertices, const Part& part, VertexList& left, StopToken& stop) {
+    std::array<VertexId, kStretch> stretch;
+    for (auto next = vertices.begin(); next != vertices.end() && stop.goes_on();) {
+      std::size_t n = 0;
+      for (; n < kStretch && next != vertices.end(); ++next) stretch[n++] = *next;
       const std::size_t before = left.size();
-      worker.improve(stretch, part, left);
-      stop.passed(stretch.size(), left.size() - before);
+      worker.improve({stretch.data(), n}, part, left);
+      stop.passed(n, left.size() - before);
     }
   }
 
