@@ -61,8 +61,6 @@ struct EdgeTerm {
   T f, f_l, f_w, f_g, f_ll, f_lw, f_lg, f_ww, f_wg, f_gg;
 };
 
-// Each kernel computes what does not depend on g, its Base, once for the two triangles of an edge.
-
 /// E_F of one edge in one triangle. Odd in g; signs and boundary treatments are factors applied outside, and so is
 /// 1/area², of the whole triangle.
 struct HotKernel {
@@ -77,28 +75,13 @@ struct HotKernel {
   }
 
   template <class T>
-  struct Base {
-    T l, w;
-  };
-
-  template <class T>
-  [[nodiscard]] TEMPER_INLINE Base<T> base(const T& l2, const T& dw) const {
-    return {l2, dw};
-  }
-
-  template <class T>
   [[nodiscard]] TEMPER_INLINE T value(const EdgeShapeOf<T>& e) const {
     return (0.25 * alpha * (e.l2 * e.l2 + 3 * e.dw * e.dw) + beta * e.g * e.g) * e.g / e.l2;
   }
 
   template <class T>
   [[nodiscard]] TEMPER_INLINE EdgeTerm<T> term(const EdgeShapeOf<T>& e) const {
-    return term(base(e.l2, e.dw), e.g);
-  }
-
-  template <class T>
-  [[nodiscard]] TEMPER_INLINE EdgeTerm<T> term(const Base<T>& edge, const T& g) const {
-    const auto& [l, w] = edge;
+    const auto& [l, w, g] = e;
     const T inverse = 1.0 / l;
     const T wi = w * inverse, gi = g * inverse, wi2 = wi * wi, gi2 = gi * gi;
     const double a = 0.25 * alpha;
@@ -210,6 +193,7 @@ struct SmoothedHeight {
   }
 };
 
+/// Computes what does not depend on g, its Base, once for the two triangles of an edge.
 template <class Height>
 struct BarrierKernel {
   static constexpr bool kBarrier = true;
