@@ -106,15 +106,13 @@ struct AccuracyDomain {
   AccuracyFloors floors;
 };
 
-/// Energy and barrier of the whole mesh, the barrier over triangles that have a floor.
+/// Energy, if it is asked for, and barrier of the whole mesh, the barrier over triangles that have a floor.
 struct AccuracyTotal {
   double energy = 0, barrier = 0;
 };
 [[nodiscard]] AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                                           const AccuracyModel& model, const Engine& engine = nullptr);
-/// Its barrier alone.
-[[nodiscard]] double accuracy_barrier(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                                      const AccuracyModel& model, const Engine& engine);
+                                           const AccuracyModel& model, const Engine& engine = nullptr,
+                                           bool with_energy = true);
 
 /// Energy and barrier as a function of one vertex. Storage is kept from vertex to vertex.
 class AccuracyPatch {

@@ -125,31 +125,6 @@ double own_length_barriers(const Mesh& mesh, const AccuracyFloors& floors, const
   return sum;
 }
 
-/// Sums the barriers of blocks of triangles.
-class BarrierSum {
- public:
-  BarrierSum(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors, const AccuracyModel& model)
-      : mesh_(mesh), sizes_(sizes), floors_(floors), model_(model) {}
-
-  void add(const Triangles& triangles) {
-    for (std::size_t i = 0; model_.keeps_lengths() && i < triangles.size(); ++i) {
-      of_lengths_ += own_length_barriers(mesh_, floors_, triangles, i);
-    }
-    triangles.for_logarithms(floors_, [&](std::size_t i, double logarithm) {
-      const auto [p, q, r] = mesh_.corners(triangles[i]);
-      sum_ -= triangle_scale(sizes_[p], sizes_[q], sizes_[r]) * logarithm;
-    });
-  }
-  [[nodiscard]] double total() const { return model_.barrier * sum_ + of_lengths_; }
-
- private:
-  const Mesh& mesh_;
-  const VertexSizes& sizes_;
-  const AccuracyFloors& floors_;
-  const AccuracyModel& model_;
-  double sum_ = 0, of_lengths_ = 0;
-};
-
 }  // namespace
 
 double accuracy_energy(const Mesh& mesh, const VertexSizes& sizes, const AccuracyModel& model, Executor* executor) {
@@ -165,28 +140,23 @@ double accuracy_energy(const Mesh& mesh, const VertexSizes& sizes, const Accurac
 }
 
 AccuracyTotal accuracy_total(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                             const AccuracyModel& model, const Engine& engine) {
+                             const AccuracyModel& model, const Engine& engine, bool with_energy) {
   const auto sums = sums_of_blocks(mesh.n_triangles(), 2, engine, [&](std::size_t block, std::span<double> of_block) {
-    double energy = 0;
-    BarrierSum barrier(mesh, sizes, floors, model);
+    double energy = 0, barrier = 0, of_lengths = 0;
     for_triangles(mesh, block, [&](const Triangles& triangles) {
-      triangles.for_edges(sizes, model, [&](std::size_t, double of_edge) { energy += of_edge; });
-      barrier.add(triangles);
+      if (with_energy) triangles.for_edges(sizes, model, [&](std::size_t, double of_edge) { energy += of_edge; });
+      for (std::size_t i = 0; model.keeps_lengths() && i < triangles.size(); ++i) {
+        of_lengths += own_length_barriers(mesh, floors, triangles, i);
+      }
+      triangles.for_logarithms(floors, [&](std::size_t i, double logarithm) {
+        const auto [p, q, r] = mesh.corners(triangles[i]);
+        barrier -= triangle_scale(sizes[p], sizes[q], sizes[r]) * logarithm;
+      });
     });
     of_block[0] = energy;
-    of_block[1] = barrier.total();
+    of_block[1] = model.barrier * barrier + of_lengths;
   });
   return {sums[0], sums[1]};
-}
-
-double accuracy_barrier(const Mesh& mesh, const VertexSizes& sizes, const AccuracyFloors& floors,
-                        const AccuracyModel& model, const Engine& engine) {
-  const auto sums = sums_of_blocks(mesh.n_triangles(), 1, engine, [&](std::size_t block, std::span<double> of_block) {
-    BarrierSum barrier(mesh, sizes, floors, model);
-    for_triangles(mesh, block, [&](const Triangles& triangles) { barrier.add(triangles); });
-    of_block[0] = barrier.total();
-  });
-  return sums[0];
 }
 
 }  // namespace temper

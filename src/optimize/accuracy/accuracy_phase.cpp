@@ -39,8 +39,9 @@ SizedPhase::SizedPhase(WorkingCopy& work, Settings settings, Run& run, VertexSiz
   state_.accuracy_domain = &domain_;
 }
 
-AccuracyTotal SizedPhase::sum() const {
-  return accuracy_total(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, engine_of(settings_.hooks));
+AccuracyTotal SizedPhase::sum(bool with_energy) const {
+  return accuracy_total(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, engine_of(settings_.hooks),
+                        with_energy);
 }
 
 AccuracyPhase::AccuracyPhase(WorkingCopy& work, const Settings& settings, Run& run, VertexSizes sizes)
@@ -71,9 +72,7 @@ Phase::Verdict AccuracyPhase::judge([[maybe_unused]] bool changed) {
   TEMPER_ASSERT_SLOW(count_bad(mesh_, nullptr) == bad_);
   const bool raised = raise_floors();
   if (raised || settings_.accuracy.keeps_lengths()) {
-    // The edges' part is what it was.
-    now_.barrier =
-        accuracy_barrier(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, engine_of(settings_.hooks));
+    now_.barrier = sum(false).barrier;  // the energy is what it was
     if (raised) return Verdict::improving;
   }
   const double change = (before_.energy + before_.barrier) - (now_.energy + now_.barrier);

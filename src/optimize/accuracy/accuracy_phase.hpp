@@ -27,7 +27,7 @@ class SizedPhase : public Phase {
 
   /// True when that changes the barrier.
   bool raise_floors() { return temper::raise_floors(domain_, mesh_, settings_.accuracy, settings_.executor()); }
-  [[nodiscard]] AccuracyTotal sum() const;
+  [[nodiscard]] AccuracyTotal sum(bool with_energy = true) const;
 
   Mesh& mesh_;
   AccuracyDomain domain_;
