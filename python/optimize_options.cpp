@@ -34,9 +34,6 @@ py::object value_to_python(const OptionValue& value) {
 OptionValue value_from_python(const OptionRow& row, const py::handle& value, std::string& text) {
   if (value.is_none()) return {};
   switch (row.kind) {
-    case OptionKind::flag:
-      if (!py::isinstance<py::bool_>(value)) throw py::cast_error();
-      return value.cast<bool>();
     case OptionKind::count:
       return value.cast<std::int64_t>();
     case OptionKind::number:
@@ -62,8 +59,6 @@ std::string quoted(std::string_view choice) {
 std::string type_of(const OptionRow& row) {
   const auto plain = [&]() -> std::string {
     switch (row.kind) {
-      case OptionKind::flag:
-        return "bool";
       case OptionKind::number:
         return "float";
       case OptionKind::softening:

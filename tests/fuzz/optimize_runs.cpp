@@ -57,8 +57,6 @@ OptionValue some_value(const OptionRow& row, Choices& choices) {
   const double low = std::max(row.range.low, -4.0), high = std::min(row.range.high, std::max(low, 0.0) + 4);
   const double number = low + (high - low) * static_cast<double>(1 + choices.below(15)) / 16;
   switch (row.kind) {
-    case OptionKind::flag:
-      return choices.one_in(2);
     case OptionKind::count:
       return static_cast<std::int64_t>(std::max(row.range.low, 0.0)) + static_cast<std::int64_t>(choices.below(8));
     case OptionKind::number:

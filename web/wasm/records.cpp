@@ -60,8 +60,6 @@ Json to_json(const OptionValue& value) {
 std::string type_of(const OptionRow& row) {
   const auto plain = [&row]() -> std::string {
     switch (row.kind) {
-      case OptionKind::flag:
-        return "boolean";
       case OptionKind::softening:
         return "SofteningLike";
       case OptionKind::choice: {
@@ -87,8 +85,6 @@ OptionValue value_from(const OptionRow& row, const Json& given, std::string& tex
     return rounded;
   };
   switch (row.kind) {
-    case OptionKind::flag:
-      return given.get<bool>();
     case OptionKind::count:
       return whole();
     case OptionKind::number:

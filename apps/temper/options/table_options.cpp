@@ -30,13 +30,10 @@ std::string with(char to, char from, std::string_view text) {
 }
 std::string dashed(std::string_view text) { return with('-', '_', text); }
 
-bool is_on(const OptionRow& row) { return row.get(OptimizeOptions()) == OptionValue(true); }
-
-/// A flag turns its option into what it is not anyway. The _ at the end is there for languages where `for` is a
-/// keyword.
+/// The _ at the end is there for languages where `for` is a keyword.
 std::string name_of(const OptionRow& row) {
   const std::string_view name = row.name.ends_with('_') ? row.name.substr(0, row.name.size() - 1) : row.name;
-  return (row.kind == OptionKind::flag && is_on(row) ? "--no-" : "--") + dashed(name);
+  return "--" + dashed(name);
 }
 
 std::string relative_name(const OptionRow& row) { return name_of(row) + "-rel"; }
@@ -105,15 +102,11 @@ void add_softening(Command& command, const OptionRow& row, OptimizeOptions& targ
 void add_row(Command& command, const OptionRow& row, TableOptions& target) {
   OptimizeOptions& options = target.options;
   if (row.kind == OptionKind::softening) return add_softening(command, row, options);
-  Option option = {
-      .names = name_of(row), .value_name = "", .sentence = sentence_of(row), .take = {}, .rare = !row.common};
-  if (row.kind == OptionKind::flag) {
-    option.sentence = (is_on(row) ? "without " : "") + option.sentence;
-    option.take = [&row, &options, on = is_on(row)](const std::string&) { row.set(options, !on); };
-    command.add(std::move(option));
-    return;
-  }
-  option.value_name = value_name(row);
+  Option option = {.names = name_of(row),
+                   .value_name = value_name(row),
+                   .sentence = sentence_of(row),
+                   .take = {},
+                   .rare = !row.common};
   if (row.kind == OptionKind::vertex) {
     option.take = [&row, &target](const std::string& text) { target.vertices[row.name] = text; };
     option.sentence = sentence_of(row) + " (its number in the file)";

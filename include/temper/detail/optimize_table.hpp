@@ -20,10 +20,10 @@
 
 namespace temper {
 
-enum class OptionKind { flag, count, number, choice, softening, vertex };
+enum class OptionKind { count, number, choice, softening, vertex };
 
 /// The value of any option. monostate: absent; text: the name of a choice.
-using OptionValue = std::variant<std::monostate, bool, std::int64_t, double, std::string_view, Softening, VertexId>;
+using OptionValue = std::variant<std::monostate, std::int64_t, double, std::string_view, Softening, VertexId>;
 
 /// Numbers from low to high; open: without these two.
 struct OptionRange {

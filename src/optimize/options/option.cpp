@@ -25,7 +25,8 @@ bool contains(const OptionRange& range, double x) {
 bool has_kind(const OptionValue& value, OptionKind kind) { return value.index() == 1 + static_cast<std::size_t>(kind); }
 template <OptionKind kind>
 using ValueOf = std::variant_alternative_t<1 + static_cast<std::size_t>(kind), OptionValue>;
-static_assert(std::is_same_v<ValueOf<OptionKind::flag>, bool> && std::is_same_v<ValueOf<OptionKind::vertex>, VertexId>);
+static_assert(std::is_same_v<ValueOf<OptionKind::count>, std::int64_t>);
+static_assert(std::is_same_v<ValueOf<OptionKind::vertex>, VertexId>);
 
 bool may_have(const OptionRow& row, const OptionValue& value) {
   if (std::holds_alternative<std::monostate>(value)) return row.optional;
@@ -81,7 +82,6 @@ const OptionRow* find_option(std::string_view name) {
 std::string option_text(const OptionRow& row, const OptionValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
   if (const auto number = number_of(value)) return to_text(*number);
-  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
   if (const auto* name = std::get_if<std::string_view>(&value)) return std::string(*name);
   if (const auto* vertex = std::get_if<VertexId>(&value)) return std::to_string(vertex->index);
   return std::string(row.absent_name);
@@ -94,8 +94,6 @@ std::string option_range_text(const OptionRow& row) {
   switch (row.kind) {
     case OptionKind::choice:
       return list_of(row.choices);
-    case OptionKind::flag:
-      return "true or false";
     case OptionKind::vertex:
       return "a vertex";
     default:

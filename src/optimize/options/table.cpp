@@ -63,7 +63,7 @@ template <class T>
 OptionValue value_of(const T& field) {
   if constexpr (std::is_enum_v<T>) {
     return kNames<T>[static_cast<std::size_t>(field)];
-  } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+  } else if constexpr (std::is_integral_v<T>) {
     return static_cast<std::int64_t>(field);
   } else if constexpr (std::is_same_v<T, VertexId>) {
     return field.valid() ? OptionValue(field) : OptionValue();
@@ -82,7 +82,7 @@ T field_of(const OptionValue& value) {
     std::size_t i = 0;
     while (kNames<T>[i] != *std::get_if<Name>(&value)) ++i;
     return static_cast<T>(i);
-  } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+  } else if constexpr (std::is_integral_v<T>) {
     return static_cast<T>(*std::get_if<std::int64_t>(&value));
   } else {
     return *std::get_if<T>(&value);
@@ -92,7 +92,6 @@ T field_of(const OptionValue& value) {
 template <class T>
 constexpr OptionKind kind_of() {
   if (std::is_enum_v<T>) return OptionKind::choice;
-  if (std::is_same_v<T, bool>) return OptionKind::flag;
   if (std::is_integral_v<T>) return OptionKind::count;
   if (std::is_same_v<T, Softening>) return OptionKind::softening;
   return std::is_same_v<T, VertexId> ? OptionKind::vertex : OptionKind::number;

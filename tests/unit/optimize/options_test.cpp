@@ -46,7 +46,6 @@ OptionValue wrong_value(const OptionRow& row) {
       return Softening{row.range.low - 1};
     case OptionKind::choice:
       return std::string_view("mirrored edges");
-    case OptionKind::flag:
     case OptionKind::vertex:
       return 0.5;
   }
@@ -81,7 +80,6 @@ TEST(TableOfOptions, SetsEachOptionAndNoOther) {
     for (const OptionRow& row : group.rows) {
       std::vector<OptionValue> values;
       for (const std::string_view choice : row.choices) values.emplace_back(choice);
-      if (row.kind == OptionKind::flag) values = {true, false};
       if (row.kind == OptionKind::count) values = {std::int64_t{3}};
       if (row.kind == OptionKind::number) values = {0.5 * (row.range.low + std::fmin(row.range.high, 9))};
       if (row.kind == OptionKind::softening) values = {Softening{0.25, LengthScale::absolute}};
