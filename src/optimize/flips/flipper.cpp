@@ -88,7 +88,7 @@ Flipper::Settled Flipper::settle(const Step& step) {
 
 /// Says whether the policy lets the vertices at stuck edges be hidden.
 bool Flipper::accept_hidden() {
-  if (!settings_.policy.removes_hidden) return settings_.policy.keeps_hidden;
+  if (!settings_.policy.removes_hidden()) return settings_.policy.keeps_hidden();
   for (const VertexId v : hidden_at_stuck_edges()) {
     plan_ = plan_removal(mesh_, v, std::move(plan_));
     if (plan_.status != RemovalStatus::possible) return false;
@@ -107,7 +107,7 @@ std::vector<VertexId> Flipper::hidden_at_stuck_edges() {
 /// Does what the policy asks for, once vertices are hidden and the flips that led there are done.
 void Flipper::treat_hidden() {
   std::vector<VertexId> stay = hidden_at_stuck_edges();
-  if (settings_.policy.removes_hidden) {
+  if (settings_.policy.removes_hidden()) {
     RestorationObserver observer;
     observer.flipped = [&](VertexId a, VertexId b, VertexId c, VertexId d) {
       const FlipRecord record{a, b, c, d, kNoEnergy, kNoEnergy};
@@ -148,14 +148,14 @@ bool Flipper::restore_all() {
   std::optional<double> no_price;
   const LawsonRun result = run(no_price, Lawson::kNoCap);
   const bool hides = !lawson_.stuck(mesh_).empty();
-  if (hides && settings_.policy.undoes_hidden) {
+  if (hides && settings_.policy.undoes_hidden()) {
     lawson_.rollback(mesh_);
     return false;
   }
   changes_.flips += result.flips;
   recorder_.flipped(records_);
   if (hides) treat_hidden();
-  return settings_.policy.keeps_hidden || lawson_.stuck(mesh_).empty();
+  return settings_.policy.keeps_hidden() || lawson_.stuck(mesh_).empty();
 }
 
 void Flipper::remove(EventKind kind, const RemovalPlan& plan, double before, double after) {

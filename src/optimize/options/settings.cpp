@@ -104,7 +104,7 @@ constexpr int kSweepsOfOdt = 10;
 
 bool begins_with_odt(const Settings& s, const Mesh& mesh) {
   const OptimizeOptions& o = s.options;
-  const bool newton = s.policy.solver == Solver::newton && s.policy.flips_at_once && !s.policy.defers_updates();
+  const bool newton = s.policy.solver == Solver::newton && s.policy.flips_at_once() && !s.policy.defers_updates();
   return s.objective != Objective::energy && o.for_ != Scheme::all && !o.paper.first_energy &&
          mesh.space().kind() == SpaceKind::plane && o.unknowns != Unknowns::weights && newton &&
          !first_of_other_weight(mesh).valid();
@@ -190,26 +190,13 @@ Expected<Settings> with_error_model(Settings s, const Mesh& mesh) {
 
 }  // namespace
 
-Policy::Policy(const OptimizeOptions& o)
-    : PaperSwitches(o.paper),
-      flips_at_once(o.flips == Flips::immediate),
-      defers_flips(o.flips == Flips::deferred),
-      keeps_connectivity(o.flips == Flips::none),
-      allows_inversion(inversion == Inversion::allow),
-      refuses_inversion(inversion == Inversion::refuse),
-      undoes_hidden(hidden == HiddenPolicy::undo),
-      keeps_hidden(hidden == HiddenPolicy::keep),
-      removes_hidden(hidden == HiddenPolicy::remove),
-      changes_vertices(collapse_from || removal != Removal::none || insertion_from),
-      defers_positions(position_updates == Updates::deferred),
-      defers_weights(weight_updates == Updates::deferred),
-      makes_newton_steps(solver == Solver::newton && flips_at_once && refuses_inversion && !defers_positions) {
+Policy::Policy(const OptimizeOptions& o) : PaperSwitches(o.paper), flips(o.flips) {
   if (switch_at == 0) first_energy.reset();
 }
 
 /// A barrier prices every flip, so it needs no limit; HOT is continuous at a flip and may be led past one, a little.
 FlipLimit Policy::flip_limit_for(const EnergyInfo& energy) const {
-  if (keeps_connectivity) return FlipLimit::before;
+  if (keeps_connectivity()) return FlipLimit::before;
   return flip_limit.value_or(energy.barrier ? FlipLimit::unlimited : FlipLimit::after);
 }
 
@@ -325,7 +312,7 @@ Expected<Settings> make_settings(const OptimizeOptions& options, const Mesh& mes
   s.model.boundary_treatment = p.boundary_treatment;
   s.collapse_model = s.model;
   s.collapse_model.kind = p.collapse_energy;
-  s.model.wall = !s.policy.allows_inversion;
+  s.model.wall = !s.policy.allows_inversion();
   if (p.gamma) s.model.gamma = in_frame(*p.gamma, frame);
   if (p.h0) s.model.h0 = in_frame(*p.h0, frame);
   s.accuracy = accuracy_model(options.accuracy, options.for_, options.star);

@@ -12,36 +12,42 @@
 
 namespace temper {
 
-// The paper's switches, compiled once for a run: absent values have their value, and each question that the driver and
-// the steps ask has its answer.
-
+/// The paper's switches of a run, and the questions about them that the driver and the steps ask.
 struct Policy : PaperSwitches {
-  // What flips do.
-  bool flips_at_once = true;        ///< Flips::immediate
-  bool defers_flips = false;        ///< they wait for the end of the inner iterations
-  bool keeps_connectivity = false;  ///< Flips::none
-
-  // What may become of vertices and triangles.
-  bool allows_inversion = false;  ///< triangles may turn over
-  bool refuses_inversion = true;  ///< steps end before a triangle turns over
-  bool undoes_hidden = true;      ///< a step that hides a vertex is undone
-  bool keeps_hidden = false;      ///< hidden vertices stay in the mesh, so edges around them may be not regular
-  bool removes_hidden = false;
-  bool changes_vertices = false;  ///< sweeps remove or insert vertices
-
-  // When updates are seen.
-  bool defers_positions = false, defers_weights = false;
-  [[nodiscard]] bool defers_updates() const { return defers_positions || defers_weights; }
-
-  /// Newton steps, each seen at once, without triangles turned over.
-  bool makes_newton_steps = true;
-  /// Every sweep leaves all edges regular that may be flipped.
-  [[nodiscard]] bool keeps_regular() const { return flips_at_once && !keeps_hidden; }
-  /// A mesh with every triangle counter-clockwise and every free edge regular comes out of each sweep.
-  [[nodiscard]] FlipLimit flip_limit_for(const EnergyInfo& energy) const;
+  Flips flips = Flips::immediate;
 
   Policy() = default;
   explicit Policy(const OptimizeOptions& options);
+
+  [[nodiscard]] bool flips_at_once() const { return flips == Flips::immediate; }
+  /// They wait for the end of the inner iterations.
+  [[nodiscard]] bool defers_flips() const { return flips == Flips::deferred; }
+  [[nodiscard]] bool keeps_connectivity() const { return flips == Flips::none; }
+
+  [[nodiscard]] bool allows_inversion() const { return inversion == Inversion::allow; }
+  /// Steps end before a triangle turns over.
+  [[nodiscard]] bool refuses_inversion() const { return inversion == Inversion::refuse; }
+
+  /// A step that hides a vertex is undone.
+  [[nodiscard]] bool undoes_hidden() const { return hidden == HiddenPolicy::undo; }
+  /// Hidden vertices stay in the mesh, so edges around them may be not regular.
+  [[nodiscard]] bool keeps_hidden() const { return hidden == HiddenPolicy::keep; }
+  [[nodiscard]] bool removes_hidden() const { return hidden == HiddenPolicy::remove; }
+  /// Sweeps remove or insert vertices.
+  [[nodiscard]] bool changes_vertices() const { return collapse_from || removal != Removal::none || insertion_from; }
+
+  [[nodiscard]] bool defers_positions() const { return position_updates == Updates::deferred; }
+  [[nodiscard]] bool defers_weights() const { return weight_updates == Updates::deferred; }
+  [[nodiscard]] bool defers_updates() const { return defers_positions() || defers_weights(); }
+
+  /// Newton steps, each seen at once, without triangles turned over.
+  [[nodiscard]] bool makes_newton_steps() const {
+    return solver == Solver::newton && flips_at_once() && refuses_inversion() && !defers_positions();
+  }
+  /// Every sweep leaves all edges regular that may be flipped.
+  [[nodiscard]] bool keeps_regular() const { return flips_at_once() && !keeps_hidden(); }
+  /// A mesh with every triangle counter-clockwise and every free edge regular comes out of each sweep.
+  [[nodiscard]] FlipLimit flip_limit_for(const EnergyInfo& energy) const;
 };
 
 /// Over-relaxation once γ has settled.

@@ -121,10 +121,10 @@ std::vector<TriangleId> triangles_at(const Mesh& mesh, const std::vector<VertexI
 bool repairs(const Settings& settings) {
   const OptimizeOptions& o = settings.options;
   if (o.repair == Repair::none || o.repair_trials == 0 || !settings.energy().barrier ||
-      settings.policy.keeps_connectivity || o.unknowns == Unknowns::weights)
+      settings.policy.keeps_connectivity() || o.unknowns == Unknowns::weights)
     return false;
   const Policy& policy = settings.policy;
-  if (policy.allows_inversion || policy.keeps_hidden) return false;  // trials need regular meshes
+  if (policy.allows_inversion() || policy.keeps_hidden()) return false;  // trials need regular meshes
   // A constant γ is a study of that γ; only who asks for vertices to change wants its mesh mended by another.
   return o.repair == Repair::vertices ||
          (!policy.gamma && !policy.h0 && policy.solver == Solver::newton && policy.weights_from == 0);

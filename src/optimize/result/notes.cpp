@@ -56,7 +56,7 @@ class Notes {
 
   /// Hidden vertices that are kept keep edges from being regular.
   void tell_what_is_not_regular() {
-    if (!settings_.policy.keeps_hidden) return;
+    if (!settings_.policy.keeps_hidden()) return;
     const std::size_t edges = count_non_regular_edges(mesh_, false, settings_.executor());
     if (edges > 0)
       add(count_of(edges, "edge is", "edges are") + " not regular, since `hidden=keep` keeps hidden vertices");
@@ -87,7 +87,7 @@ class Notes {
   /// Triangles that no optimiser can make well-centered, whatever it tries.
   void tell_edges_that_must_be_split(std::size_t bad) {
     if (!settings_.energy().barrier || bad == 0 || mesh_.space().kind() != SpaceKind::plane) return;
-    if (settings_.policy.allows_inversion && count_inverted(mesh_) > 0) return;  // no inside to see through
+    if (settings_.policy.allows_inversion() && count_inverted(mesh_) > 0) return;  // no inside to see through
     const std::vector<EdgeConflict> edges = edges_that_must_be_split(mesh_);
     if (edges.empty()) return;
     const HalfedgeId worst = edges.front().edge;

@@ -25,7 +25,7 @@ SizeField field_of(const Mesh& input, const Settings& settings) {
 /// Vertices that Lawson's algorithm leaves without a power cell; none where it has no meaning, among inverted
 /// triangles.
 std::vector<VertexId> hidden_vertices_of(const Mesh& mesh, const Settings& settings) {
-  const bool keeps = settings.policy.keeps_hidden;
+  const bool keeps = settings.policy.keeps_hidden();
   if (!keeps || count_non_regular_edges(mesh, false, settings.executor()) == 0 || count_inverted(mesh) > 0) return {};
   Mesh copy = mesh;
   return restore_regularity(copy).hidden;
@@ -90,7 +90,7 @@ void count_changes(const Mesh& input, OptimizeReport& report) {
 /// so.
 bool lacks_flips(const Counts& input, const Settings& settings, const RunFacts& facts) {
   const Policy& policy = settings.policy;
-  if (policy.keeps_connectivity || (policy.keeps_hidden && facts.input_flips == 0)) return false;
+  if (policy.keeps_connectivity() || (policy.keeps_hidden() && facts.input_flips == 0)) return false;
   return input.non_regular > 0;
 }
 

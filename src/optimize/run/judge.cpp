@@ -71,14 +71,14 @@ double root_mean_square(const std::vector<double>& squared_errors) {
 }
 
 Counts count(const Mesh& mesh, const Settings& settings) {
-  return {settings.policy.allows_inversion ? count_inverted(mesh) : 0,
+  return {settings.policy.allows_inversion() ? count_inverted(mesh) : 0,
           count_non_regular_edges(mesh, false, settings.executor()), count_bad(mesh, settings.executor())};
 }
 
 MeshScore score(const Mesh& mesh, const Settings& settings, const EnergyModel& model, const VertexSizes* sizes) {
   Counts counts;  // those that matter to the score
-  if (settings.policy.allows_inversion) counts.inverted = count_inverted(mesh);
-  if (!settings.policy.keeps_hidden) counts.non_regular = count_non_regular_edges(mesh, false, settings.executor());
+  if (settings.policy.allows_inversion()) counts.inverted = count_inverted(mesh);
+  if (!settings.policy.keeps_hidden()) counts.non_regular = count_non_regular_edges(mesh, false, settings.executor());
   if (settings.energy().barrier) counts.bad = count_bad(mesh, settings.executor());
   return score(mesh, counts, settings, model, sizes);
 }
@@ -88,7 +88,7 @@ MeshScore score(const Mesh& mesh, const Counts& counts, const Settings& settings
   Executor* const executor = settings.executor();
   MeshScore s;
   s.inverted = counts.inverted;
-  if (!settings.policy.keeps_hidden) s.non_regular = counts.non_regular;
+  if (!settings.policy.keeps_hidden()) s.non_regular = counts.non_regular;
   if (settings.energy().barrier) s.bad = counts.bad;
   s.missing_lengths = missing_lengths(mesh, settings.accuracy, executor);
   if (sizes == nullptr) {

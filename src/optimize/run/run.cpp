@@ -106,7 +106,7 @@ void Run::offer(const WorkingCopy& now, const Settings& settings, const SweepSta
       best = best_before;
     }
     const MeshScore found = score(best->mesh, settings, state.model);
-    if (found.inverted > 0 || (found.non_regular > 0 && !settings.policy.keeps_connectivity)) return;
+    if (found.inverted > 0 || (found.non_regular > 0 && !settings.policy.keeps_connectivity())) return;
     Mesh mesh = best->in_user_terms(settings.executor());
     IdVector<VertexId, VertexId> vertices;
     if (best->has_gaps || best->has_inserted()) vertices = best->user_vertices();

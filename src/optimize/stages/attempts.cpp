@@ -126,7 +126,7 @@ std::optional<InputError> prepare(Driver& driver, const Mesh& input, const Setti
     driver.cut_where_bad();
     return std::nullopt;
   }
-  if (!settings.policy.keeps_connectivity && !driver.make_regular()) {
+  if (!settings.policy.keeps_connectivity() && !driver.make_regular()) {
     return hidden_vertices_error(input, settings.hooks.names);
   }
   if (attempt.cuts == Cuts::graded) driver.grade_boundary();

@@ -45,7 +45,7 @@ int Driver::run(Phase& phase, int first) {
   do {                           // outer iterations
     do {                         // inner iterations
       verdict = sweep(phase);
-    } while (verdict == Verdict::improving && !(settings_.policy.defers_flips && ++inner_ == settings_.policy.inner));
+    } while (verdict == Verdict::improving && !(settings_.policy.defers_flips() && ++inner_ == settings_.policy.inner));
     if (run_.stopped_early()) asked = run_.report.stopped;
     verdict = flip_if_deferred(phase, verdict);
   } while (verdict == Verdict::improving);
@@ -81,7 +81,7 @@ Driver::Verdict Driver::sweep(Phase& phase) {
   ++phase.iteration;
   ++run_.report.sweeps;
   record(phase.measure());
-  if (!settings_.policy.defers_flips) keep_if_best(phase);
+  if (!settings_.policy.defers_flips()) keep_if_best(phase);
   show(Snapshot::Moment::after_sweep, phase);
   run_.offer(work_, settings_, state_);
   if (!whole) return Verdict::stopped;  // by the caller or the clock
@@ -102,7 +102,7 @@ Driver::Verdict Driver::sweep(Phase& phase) {
 
 /// Lines 20 and 21: whether there is another outer iteration.
 Driver::Verdict Driver::flip_if_deferred(Phase& phase, Verdict of_sweeps) {
-  if (!settings_.policy.defers_flips) return Verdict::stopped;
+  if (!settings_.policy.defers_flips()) return Verdict::stopped;
   show(Snapshot::Moment::before_flips, phase);
   const std::size_t flips = run_.report.flips;
   if (!restore_regularity()) return Verdict::stopped;
@@ -122,7 +122,7 @@ Driver::Verdict Driver::flip_if_deferred(Phase& phase, Verdict of_sweeps) {
 
 /// One Gauss-Seidel sweep, lines 9 to 16. False when it was cut short.
 bool Driver::improve_all_vertices(int iteration) {
-  if (!settings_.policy.defers_updates() || settings_.policy.defers_flips)
+  if (!settings_.policy.defers_updates() || settings_.policy.defers_flips())
     return sweeper_.sweep(iteration, sequence_, run_);
   const IdVector<VertexId, WeightedPoint> before = points();
   const bool whole = sweeper_.sweep(iteration, sequence_, run_);
@@ -136,7 +136,7 @@ void Driver::settle_updates(const IdVector<VertexId, WeightedPoint>& before) {
   constexpr int kHalvings = 6;  // what is left then is hardly worth a step
   // With another policy flips may have been made, for which vertices are where they are.
   const Space& space = mesh_.space();
-  const bool moves_back = settings_.policy.defers_positions && settings_.policy.undoes_hidden;
+  const bool moves_back = settings_.policy.defers_positions() && settings_.policy.undoes_hidden();
   for (int i = 0; !flipper_.restore_all() && i <= kHalvings; ++i) {
     for (const VertexId v : mesh_.vertices()) {
       if (mesh_.is_isolated(v)) continue;
@@ -158,7 +158,7 @@ IdVector<VertexId, WeightedPoint> Driver::points() const {
 bool Driver::insert_vertices(int iteration) {
   const Policy& policy = settings_.policy;
   if (!policy.insertion_from || iteration < *policy.insertion_from) return false;
-  if (policy.allows_inversion && count_inverted(mesh_) > 0) return false;
+  if (policy.allows_inversion() && count_inverted(mesh_) > 0) return false;
   if (!insert_where_energy_is_large(work_, flipper_, settings_, state_.model)) return false;
   grow();
   return true;
@@ -186,7 +186,7 @@ void Driver::grow() {
 /// Weights that leave edges uncrossed and that single vertices cannot mend: half of all of them, until zero weights at
 /// last, where every barrier on d is satisfied. False when weights or connectivity may not change.
 bool Driver::halve_weights() {
-  if (settings_.options.unknowns == Unknowns::positions || settings_.policy.keeps_connectivity) return false;
+  if (settings_.options.unknowns == Unknowns::positions || settings_.policy.keeps_connectivity()) return false;
   run_.facts.weights_shrunk = true;
   recorder_.begin_sweep(run_.report.sweeps + 1);
   for (const VertexId v : mesh_.vertices()) set_weight(v, 0.5 * mesh_.weight(v));
@@ -201,7 +201,7 @@ void Driver::shift_weights_to_anchor() {
   const double shift = mesh_.weight(anchor);
   const IdVector<VertexId, WeightedPoint> before = points();
   for (const VertexId v : mesh_.vertices()) set_weight(v, mesh_.space().weight(before[v]) - shift);
-  if (settings_.policy.keeps_connectivity || settings_.policy.defers_flips || flipper_.restore_all()) return;
+  if (settings_.policy.keeps_connectivity() || settings_.policy.defers_flips() || flipper_.restore_all()) return;
   // Rounded differences hide a vertex that was all but hidden: no constant is worth that.
   for (const VertexId v : mesh_.vertices()) set_point(v, before[v]);
 }
@@ -217,7 +217,7 @@ void Driver::set_weight(VertexId v, double w) { set_point(v, mesh_.space().with_
 /// Line 20 of Algorithm 1. False when no flips can: among inverted triangles, or around a hidden vertex that may not
 /// be.
 bool Driver::restore_regularity() {
-  if (settings_.policy.allows_inversion && count_inverted(mesh_) > 0) {
+  if (settings_.policy.allows_inversion() && count_inverted(mesh_) > 0) {
     run_.report.stopped = Stopped::tangled;
     return false;
   }
@@ -238,10 +238,10 @@ bool Driver::make_regular() {
 
 void Driver::grade_boundary() {
   if (settings_.options.boundary != BoundaryVertices::split) return;
-  TEMPER_ASSERT_SLOW(settings_.policy.keeps_hidden || count_non_regular_edges(mesh_, false) == 0);
+  TEMPER_ASSERT_SLOW(settings_.policy.keeps_hidden() || count_non_regular_edges(mesh_, false) == 0);
   const BoundaryCuts cuts = cut_boundary(work_, flipper_, settings_.options.boundary_ratio);
   grow();
-  TEMPER_ASSERT_SLOW(settings_.policy.keeps_hidden || count_non_regular_edges(mesh_, false) == 0);
+  TEMPER_ASSERT_SLOW(settings_.policy.keeps_hidden() || count_non_regular_edges(mesh_, false) == 0);
   run_.facts.boundary_cuts = cuts;  // of each attempt the same
 }
 
@@ -251,7 +251,7 @@ void Driver::cut_where_bad() {
 }
 
 void Driver::jitter(double amount) {
-  if (amount == 0 || settings_.options.unknowns == Unknowns::weights || settings_.policy.keeps_connectivity) return;
+  if (amount == 0 || settings_.options.unknowns == Unknowns::weights || settings_.policy.keeps_connectivity()) return;
   recorder_.begin_sweep(run_.report.sweeps + 1);
   Rng rng(settings_.policy.seed);
   sweeper_.shake(amount, rng);
@@ -261,7 +261,7 @@ int Driver::attempt(const Attempt& attempt, bool may_give_up) {
   if (weigh_ties(attempt.tie_weight)) return polish(run_.report.sweeps);
   jitter(attempt.jitter);
   const int first = run_.next_sweep();
-  const bool may_return_there = attempt.first_energy.has_value() || settings_.policy.defers_flips;
+  const bool may_return_there = attempt.first_energy.has_value() || settings_.policy.defers_flips();
   // A trace says by sweeps where a run returns to.
   if (first > 0 && may_return_there) end_sweep_of_its_own();
   EnergyPhase phase(work_, settings_, state_, run_, attempt, may_give_up);
@@ -324,7 +324,7 @@ int Driver::polish(int sweep) {
 void Driver::keep_if_best(const Phase& phase) {
   const double energy = run_.report.history.back().energy;
   if (phase.keeps() == Phase::Keeps::last || !(energy < best_energy_)) return;
-  if (settings_.policy.allows_inversion && count_inverted(mesh_) > 0) return;
+  if (settings_.policy.allows_inversion() && count_inverted(mesh_) > 0) return;
   keep(phase, energy, recorder_.sweep());
 }
 
@@ -355,7 +355,7 @@ int Driver::return_best(const Phase& phase, int last_sweep) {
 
 /// Deferred flips may find a vertex hidden, which leaves edges that no flip makes regular.
 void Driver::keep_regular(int sweep) {
-  if (!settings_.policy.defers_flips || settings_.policy.keeps_hidden) return;
+  if (!settings_.policy.defers_flips() || settings_.policy.keeps_hidden()) return;
   regular_ = work_;
   regular_sweep_ = sweep;
 }

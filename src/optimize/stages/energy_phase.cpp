@@ -84,7 +84,7 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
       take_last_energy();
       return Verdict::restarted;
     }
-    if (!settings_.policy.defers_flips && goes_on_with_weights()) return Verdict::improving;
+    if (!settings_.policy.defers_flips() && goes_on_with_weights()) return Verdict::improving;
     run_.report.stopped = Stopped::converged;
     return Verdict::settled;
   }

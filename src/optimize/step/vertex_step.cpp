@@ -65,7 +65,7 @@ bool VertexStep::suits_batches() const {
 
 /// Newton steps of a barrier, as far as they pay.
 bool VertexStep::makes_newton_steps() const {
-  return state.energy.barrier && settings.policy.makes_newton_steps && state.flip_limit == FlipLimit::unlimited;
+  return state.energy.barrier && settings.policy.makes_newton_steps() && state.flip_limit == FlipLimit::unlimited;
 }
 
 /// Algorithm 2: where E_c would put v onto a neighbour, the mesh is better without v.
@@ -76,7 +76,7 @@ bool VertexStep::collapse(VertexId v) {
   if (!nearly_collapses(collapsing_, model, mesh.point(v), settings.policy)) return false;
   plan_ = plan_removal(mesh, v, std::move(plan_));
   if (plan_.status != RemovalStatus::possible) return false;
-  if (!settings.policy.defers_flips && !is_regular(mesh, plan_)) return false;
+  if (!settings.policy.defers_flips() && !is_regular(mesh, plan_)) return false;
   flipper_.remove(EventKind::collapse, plan_, patch_energy(collapsing_, model, mesh.point(v)),
                   cavity_energy(mesh, model, plan_));
   return true;
@@ -93,7 +93,7 @@ void VertexStep::remove_if_better(VertexId v) {
   if (plan_.status != RemovalStatus::possible) return;
   const PatchComparison e = compare_patch(mesh, star_->patch(), state.model, plan_, o.removal_measure);
   if (!by_weight && !e.better_without(o.removal_margin)) return;
-  if (!settings.policy.defers_flips && !is_regular(mesh, plan_)) return;
+  if (!settings.policy.defers_flips() && !is_regular(mesh, plan_)) return;
   flipper_.remove(EventKind::removal, plan_, e.with, e.without);
 }
 
@@ -164,7 +164,7 @@ bool VertexStep::enter_domain() {
 
 /// The part of the step that a search may go.
 double VertexStep::farthest(const Step& step) const {
-  return settings.policy.refuses_inversion ? inversion_limit(star_->patch(), origin_, step) : 1;
+  return settings.policy.refuses_inversion() ? inversion_limit(star_->patch(), origin_, step) : 1;
 }
 
 /// t, cut to what the flip limit allows along step.
@@ -261,7 +261,7 @@ VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
   const WeightedPoint p = moved(step, t);
   const double energy = star_->value(p);
   if (!(energy < energy_)) return Outcome::not_lower;
-  if (!settings.policy.allows_inversion && !star_->is_valid(p)) return Outcome::inverted;
+  if (!settings.policy.allows_inversion() && !star_->is_valid(p)) return Outcome::inverted;
   if (!keeps_size(p)) return Outcome::out_of_band;
   if (place(p, energy, state.energy.barrier)) return Outcome::accepted;
   return escapes_ ? Outcome::escaped : Outcome::blocked_by_flip;
@@ -271,7 +271,7 @@ VertexStep::Outcome VertexStep::try_step(const Step& step, double t) {
 /// vertex would be hidden, or flips cost more than the step gains and it must pay, or they escape from the part.
 bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
   const bool only_weight = mesh.space().same_place(p, origin_);
-  if (only_weight ? settings.policy.defers_weights : settings.policy.defers_positions) {
+  if (only_weight ? settings.policy.defers_weights() : settings.policy.defers_positions()) {
     if (!waiting_) waiting_ = Deferred{vertex_, origin_, origin_, energy_, energy};
     waiting_->after = energy;
     mesh.set_point(vertex_, p);
@@ -305,7 +305,7 @@ bool VertexStep::keeps_size(const WeightedPoint& p) {
 
 /// Thresholds are computed in doubles; that no edge flips is decided exactly.
 bool VertexStep::keeps_connectivity() const {
-  return settings.policy.keeps_connectivity || state.flip_limit == FlipLimit::before;
+  return settings.policy.keeps_connectivity() || state.flip_limit == FlipLimit::before;
 }
 
 void VertexStep::nudge(VertexId v, Vec2 by) {
@@ -337,7 +337,7 @@ void VertexStep::end_sweep() {
     const WeightedPoint from = mesh.point(v);
     const double w = space.weight(space.weight(to) != space.weight(old) ? to : from);
     WeightedPoint p = space.with_weight(space.same_place(to, old) ? from : to, w);
-    if (!space.same_place(p, from) && !settings.policy.allows_inversion) {
+    if (!space.same_place(p, from) && !settings.policy.allows_inversion()) {
       gather(v);
       if (!star_->is_valid(p)) p = space.with_weight(from, w);
     }
@@ -348,7 +348,7 @@ void VertexStep::end_sweep() {
   deferred_.clear();
 }
 
-bool VertexStep::flips_at_once() const { return !keeps_connectivity() && settings.policy.flips_at_once; }
+bool VertexStep::flips_at_once() const { return !keeps_connectivity() && settings.policy.flips_at_once(); }
 
 /// Notes which edges are regular: with connectivity kept these must stay so, and one that is not regular may wait.
 void VertexStep::note_regular_edges() {
