@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "optimize/solver_error/descent.hpp"
+#include "optimize/solver_error/error_phase.hpp"
 #include "support/std_threads.hpp"
 #include "temper/generate.hpp"
 #include "temper/optimize.hpp"
