@@ -51,74 +51,15 @@ std::vector<TriangleId> rings_around(const Mesh& mesh, TriangleId seed, int ring
   return triangles;
 }
 
-class Splice {
- public:
-  Splice(WorkingCopy& work, Flipper& flipper, const Recorder& recorder, const Neighborhood& around)
-      : work_(work), mesh_(work.mesh), flipper_(flipper), recorder_(recorder), vertices_(around.vertices) {}
-
-  void apply(const TraceEvent& e) {
-    switch (e.kind) {
-      case EventKind::move:
-      case EventKind::weight:
-        return place(e);
-      case EventKind::flip:
-        return flipper_.flip(mesh_.find_halfedge(whole(e.quad[0]), whole(e.quad[1])), e.before, e.after);
-      case EventKind::insertion:
-        return insert(e);
-      case EventKind::split:
-        return split(e);
-      case EventKind::collapse:
-      case EventKind::removal:
-        return remove(e);
-      case EventKind::hidden:
-      case EventKind::undo:
-        return;  // changed nothing
-    }
-  }
-
-  [[nodiscard]] std::vector<VertexId> vertices() && { return std::move(vertices_); }
-
- private:
-  [[nodiscard]] VertexId whole(VertexId local) const { return vertices_[local.index]; }
-
-  void place(const TraceEvent& e) {
-    const VertexId v = whole(e.vertex);
-    const WeightedPoint from = mesh_.point(v);
-    if (e.kind == EventKind::move) {
-      mesh_.set_point(v, e.point);
-    } else {
-      mesh_.set_weight(v, e.point.w);
-    }
-    recorder_.placed(v, from, mesh_.point(v), e.before, e.after);
-  }
-
-  void insert(const TraceEvent& e) {
-    const std::array corners = {whole(e.link[0]), whole(e.link[1]), whole(e.link[2])};
-    const TriangleId t = Mesh::triangle(mesh_.find_halfedge(corners[0], corners[1]));
-    TEMPER_ASSERT(e.vertex.index == vertices_.size());
-    vertices_.push_back(flipper_.insert(work_, t, e.point, e.before, e.after));
-  }
-
-  void split(const TraceEvent& e) {
-    TEMPER_ASSERT(e.vertex.index == vertices_.size());
-    const HalfedgeId h = mesh_.find_halfedge(whole(e.quad[0]), whole(e.quad[1]));
-    vertices_.push_back(flipper_.split(work_, h, e.point, e.before, e.after));
-  }
-
-  void remove(const TraceEvent& e) {
-    std::vector<std::array<VertexId, 3>> triangles;
-    for (const auto& [a, b, c] : e.triangles) triangles.push_back({whole(a), whole(b), whole(c)});
-    const RemovalPlan plan = removal_from_names(mesh_, whole(e.vertex), whole(e.link.front()), triangles);
-    TEMPER_ASSERT(plan.status == RemovalStatus::possible);
-    flipper_.remove(e.kind, plan, e.before, e.after);
-  }
-
-  WorkingCopy& work_;
-  Mesh& mesh_;
-  Flipper& flipper_;
-  const Recorder& recorder_;
-  std::vector<VertexId> vertices_;  // by number in the neighbourhood
-};
+/// The plan of a removal that a trial told of, in the numbers of the whole mesh.
+template <class Whole>
+RemovalPlan removal_of(const Mesh& mesh, const TraceEvent& e, const Whole& whole) {
+  std::vector<std::array<VertexId, 3>> triangles;
+  for (const auto& [a, b, c] : e.triangles) triangles.push_back({whole(a), whole(b), whole(c)});
+  const RemovalPlan plan = removal_from_names(mesh, whole(e.vertex), whole(e.link.front()), triangles);
+  TEMPER_ASSERT(plan.status == RemovalStatus::possible);
+  return plan;
+}
 
 }  // namespace
 
@@ -184,9 +125,43 @@ std::vector<VertexId> splice(WorkingCopy& work, Flipper& flipper, const Recorder
   TEMPER_ASSERT_SLOW(std::all_of(around.mesh.vertices().begin(), around.mesh.vertices().end(), [&](VertexId v) {
     return around.mesh.point(v) == work.mesh.point(around.vertices[v.index]);
   }));
-  Splice whole(work, flipper, recorder, around);
-  for (const TraceEvent& e : events) whole.apply(e);
-  return std::move(whole).vertices();
+  Mesh& mesh = work.mesh;
+  std::vector<VertexId> vertices = around.vertices;  // by number in the neighbourhood
+  const auto whole = [&](VertexId local) { return vertices[local.index]; };
+  const auto edge = [&](VertexId a, VertexId b) { return mesh.find_halfedge(whole(a), whole(b)); };
+  for (const TraceEvent& e : events) {
+    const bool is_new = e.kind == EventKind::insertion || e.kind == EventKind::split;
+    TEMPER_ASSERT(!is_new || e.vertex.index == vertices.size());
+    switch (e.kind) {
+      case EventKind::move:
+      case EventKind::weight: {
+        const VertexId v = whole(e.vertex);
+        const WeightedPoint from = mesh.point(v), weighed = mesh.space().with_weight(from, e.point.w);
+        mesh.set_point(v, e.kind == EventKind::move ? e.point : weighed);
+        recorder.placed(v, from, mesh.point(v), e.before, e.after);
+        break;
+      }
+      case EventKind::flip:
+        flipper.flip(edge(e.quad[0], e.quad[1]), e.before, e.after);
+        break;
+      case EventKind::insertion: {
+        const TriangleId t = Mesh::triangle(edge(e.link[0], e.link[1]));
+        vertices.push_back(flipper.insert(work, t, e.point, e.before, e.after));
+        break;
+      }
+      case EventKind::split:
+        vertices.push_back(flipper.split(work, edge(e.quad[0], e.quad[1]), e.point, e.before, e.after));
+        break;
+      case EventKind::collapse:
+      case EventKind::removal:
+        flipper.remove(e.kind, removal_of(mesh, e, whole), e.before, e.after);
+        break;
+      case EventKind::hidden:
+      case EventKind::undo:
+        break;  // changed nothing
+    }
+  }
+  return vertices;
 }
 
 }  // namespace temper
