@@ -54,12 +54,6 @@ VertexDerivatives from_sums(const std::array<double, kStarSums>& sums) {
   return d;
 }
 
-VertexDerivatives barrier_derivatives(const Patch& patch, const EdgeFormula& formula, const WeightedPoint& p) {
-  std::array<double, kStarSums> sums;
-  return star_kernels(patch.space).barrier_derivatives(formula, patch.arrays(), p, sums.data()) ? from_sums(sums)
-                                                                                                : outside();
-}
-
 /// Room for some numbers of each triangle of a star: on the stack, but for the largest of stars.
 class StarScratch {
  public:
@@ -149,21 +143,6 @@ class HotStar {
   bool degenerate_ = false;
 };
 
-double hot_value(const Patch& patch, const EnergyModel& model, const EdgeFormula& formula, const WeightedPoint& p) {
-  const HotStar star(patch, model, formula, p);
-  return star.is_degenerate() ? kInfinity : star.value();
-}
-
-VertexDerivatives hot_derivatives(const Patch& patch, const EnergyModel& model, const EdgeFormula& formula,
-                                  const WeightedPoint& p) {
-  const HotStar star(patch, model, formula, p);
-  if (star.is_degenerate()) return outside();
-  std::array<double, kStarSums> sums;
-  star_kernels(patch.space).hot_derivatives(formula, patch.arrays(), star.factors(), p, sums.data());
-  sums[0] += star.outer();
-  return from_sums(sums);
-}
-
 /// One edge with both its triangles, for the HOT energies.
 struct FullEdge {
   FullEdge(const Mesh& mesh, HalfedgeId h)
@@ -240,13 +219,22 @@ void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch) {
 double patch_energy(const Patch& patch, const EnergyModel& model, const WeightedPoint& p) {
   const EdgeFormula f = edge_formula(model);
   if (f.form != EdgeFormula::Form::hot) return star_kernels(patch.space).barrier_value(f, patch.arrays(), p);
-  return hot_value(patch, model, f, p);
+  const HotStar star(patch, model, f, p);
+  return star.is_degenerate() ? kInfinity : star.value();
 }
 
 VertexDerivatives patch_derivatives(const Patch& patch, const EnergyModel& model, const WeightedPoint& p) {
   const EdgeFormula f = edge_formula(model);
-  if (f.form != EdgeFormula::Form::hot) return barrier_derivatives(patch, f, p);
-  return hot_derivatives(patch, model, f, p);
+  const StarKernels& kernels = star_kernels(patch.space);
+  std::array<double, kStarSums> sums;
+  if (f.form != EdgeFormula::Form::hot) {
+    return kernels.barrier_derivatives(f, patch.arrays(), p, sums.data()) ? from_sums(sums) : outside();
+  }
+  const HotStar star(patch, model, f, p);
+  if (star.is_degenerate()) return outside();
+  kernels.hot_derivatives(f, patch.arrays(), star.factors(), p, sums.data());
+  sums[0] += star.outer();
+  return from_sums(sums);
 }
 
 double flip_energy(const Mesh& mesh, const EnergyModel& model, HalfedgeId h) {
