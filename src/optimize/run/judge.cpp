@@ -76,11 +76,7 @@ Counts count(const Mesh& mesh, const Settings& settings) {
 }
 
 MeshScore score(const Mesh& mesh, const Settings& settings, const EnergyModel& model, const VertexSizes* sizes) {
-  Counts counts;  // those that matter to the score
-  if (settings.policy.allows_inversion()) counts.inverted = count_inverted(mesh);
-  if (!settings.policy.keeps_hidden()) counts.non_regular = count_non_regular_edges(mesh, false, settings.executor());
-  if (settings.energy().barrier) counts.bad = count_bad(mesh, settings.executor());
-  return score(mesh, counts, settings, model, sizes);
+  return score(mesh, count(mesh, settings), settings, model, sizes);
 }
 
 MeshScore score(const Mesh& mesh, const Counts& counts, const Settings& settings, const EnergyModel& model,

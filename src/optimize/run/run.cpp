@@ -95,8 +95,6 @@ bool one_stage(const SweepRecord& a, const SweepRecord& b) {
 
 }  // namespace
 
-bool time_is_up(double elapsed, double ending, double limit) { return limit > 0 && elapsed + ending > limit; }
-
 void Run::offer(const WorkingCopy& now, const Settings& settings, const SweepState& state) const {
   if (!hooks_.best_so_far) return;
   hooks_.best_so_far([&](const std::function<void(const BestSoFar&)>& use) {
@@ -138,7 +136,8 @@ void Run::sync_stop() {
 }
 
 bool Run::ask(double fraction_of_sweep) {
-  if (time_is_up(seconds_between(limit_from_, Clock::now()), ending_seconds_, options_.time_limit)) {
+  const double limit = options_.time_limit;  // 0: none
+  if (limit > 0 && seconds_between(limit_from_, Clock::now()) + ending_seconds_ > limit) {
     report.stopped = Stopped::time_limit;
     return true;
   }

@@ -19,10 +19,6 @@ namespace temper {
 /// Triangles that are not counter-clockwise, exact.
 [[nodiscard]] std::size_t count_inverted(const Mesh& mesh);
 
-/// Says whether a run has to end: `elapsed` seconds are over, and giving the result back takes `ending` more. A limit
-/// of 0 is none.
-[[nodiscard]] bool time_is_up(double elapsed, double ending, double limit);
-
 /// Facts that the report tells in sentences.
 struct RunFacts {
   std::size_t input_flips = 0;                ///< that made the input regular
