@@ -8,7 +8,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "energy/accuracy_energy.hpp"
 #include "mesh/curve.hpp"

@@ -12,7 +12,6 @@
 // flips.
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include "energy/accuracy_edge.hpp"

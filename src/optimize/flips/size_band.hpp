@@ -6,7 +6,6 @@
 // triangle from two vertices and gives it to two others. All in squares: no step needs a root.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>

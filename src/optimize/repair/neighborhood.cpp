@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <unordered_map>
-#include <utility>
 
 #include "base/assert.hpp"
 #include "mesh/mesh_editor.hpp"

@@ -17,7 +17,6 @@
 #include "mesh/bad_triangles.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/run/run.hpp"
-#include "optimize/run/schedule.hpp"
 #include "optimize/step/vertex_step.hpp"
 #include "temper/regularity.hpp"
 #include "topology/locate.hpp"

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
-#include <utility>
 
 #include "optimize/options/settings.hpp"
 #include "optimize/run/run.hpp"

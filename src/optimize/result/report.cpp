@@ -1,8 +1,6 @@
 #include "optimize/result/report.hpp"
 
-#include <cmath>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "energy/whole_mesh.hpp"

@@ -11,9 +11,7 @@
 #include <vector>
 
 #include "optimize/accuracy/accuracy_phase.hpp"
-#include "optimize/accuracy/accuracy_sizes.hpp"
 #include "optimize/step/freedom.hpp"
-#include "temper/detail/error_model.hpp"
 
 namespace temper {
 

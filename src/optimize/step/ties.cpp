@@ -1,6 +1,5 @@
 #include "optimize/step/ties.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <utility>
