@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/assert.hpp"
+#include "mesh/edge_lengths.hpp"
 #include "optimize/step/line_search.hpp"
 #include "optimize/step/removal.hpp"
 #include "optimize/step/search.hpp"
@@ -108,30 +109,18 @@ void VertexStep::optimize_point(VertexId v) {
 }
 
 void VertexStep::make_steps(const Freedom& all) {
-  const VertexId v = vertex_;
+  const Solver solver = settings.policy.solver;
+  if (all.n == 0) return;
+  if (solver == Solver::newton) return newton_search(all);
+  const bool golden = solver == Solver::golden;
+  const auto search = [&](const Freedom& of) { golden ? golden_search(of) : newton_search(of); };
   const Freedom positions = position_part(all);
-  const bool has_weight = all.n > positions.n;
-  switch (settings.policy.solver) {
-    case Solver::newton:
-      if (all.n > 0) newton_search(all);
-      break;
-    case Solver::alternating:
-      if (positions.n > 0) {
-        newton_search(positions);
-        if (escapes_ || mesh.is_isolated(v)) return;  // isolated: hidden, and removed
-        gather(v);
-      }
-      if (has_weight) newton_search(weight_only());
-      break;
-    case Solver::golden:
-      for (int i = 0; i < kPositionSearches && positions.n > 0; ++i) {
-        golden_search(positions);
-        if (escapes_ || mesh.is_isolated(v)) return;
-        gather(v);
-      }
-      if (has_weight) golden_search(weight_only());
-      break;
+  for (int i = 0; i < (golden ? kPositionSearches : 1) && positions.n > 0; ++i) {
+    search(positions);
+    if (escapes_ || mesh.is_isolated(vertex_)) return;  // isolated: hidden, and removed
+    gather(vertex_);
   }
+  if (all.n > positions.n) search(weight_only());
 }
 
 /// The star of v as it is now. False when v must stay.
@@ -169,20 +158,9 @@ double VertexStep::farthest(const Step& step) const {
 
 /// t, cut to what the flip limit allows along step.
 double VertexStep::flip_limited(const Step& step, double t) const {
-  double factor = kInfinity;
-  switch (state.flip_limit) {
-    case FlipLimit::unlimited:
-      return t;
-    case FlipLimit::before:
-      factor = kBeforeFlip;
-      break;
-    case FlipLimit::at:
-      factor = 1;
-      break;
-    case FlipLimit::after:
-      factor = overshoot_;
-      break;
-  }
+  if (state.flip_limit == FlipLimit::unlimited) return t;
+  const bool after = state.flip_limit == FlipLimit::after;
+  const double factor = after ? overshoot_ : state.flip_limit == FlipLimit::before ? kBeforeFlip : 1;
   const double threshold = flip_threshold(mesh, vertex_, step);
   return threshold < kNoThreshold ? std::min(t, factor * threshold) : t;
 }
@@ -319,12 +297,8 @@ void VertexStep::nudge(VertexId v, Vec2 by) {
 
 void VertexStep::shake(double amount, Rng& rng) {
   for (const VertexId v : mesh.vertices()) {
-    const WeightedPoint p = mesh.point(v);
-    double shortest2 = kInfinity;
-    for (const HalfedgeId h : mesh.star(v)) {
-      shortest2 = std::min(shortest2, edge_measures(mesh.space(), p, mesh.point(mesh.target(h), p)).l2);
-    }
-    nudge(v, amount * std::sqrt(shortest2) * Vec2{rng.uniform(-1, 1), rng.uniform(-1, 1)});
+    const double shortest = std::sqrt(squared_shortest_edge(mesh, v));
+    nudge(v, amount * shortest * Vec2{rng.uniform(-1, 1), rng.uniform(-1, 1)});
   }
 }
 
