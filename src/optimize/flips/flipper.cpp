@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/sum.hpp"
 #include "energy/patch.hpp"
+#include "mesh/blocks.hpp"
 #include "optimize/flips/size_band.hpp"
 #include "regularity/hidden.hpp"
 
@@ -127,13 +127,12 @@ void Flipper::treat_hidden() {
 /// Queues the edges that are not regular, in the order of push_all. The flips are the same as if all were queued: one
 /// that is regular now is passed over, or a flip that spoils it pushes it before.
 void Flipper::push_irregular() {
-  const std::size_t n = mesh_.n_halfedges(), blocks = (n + kBlockSize - 1) / kBlockSize;
-  std::vector<std::vector<HalfedgeId>> found(blocks);
-  or_serial(settings_.executor()).run(blocks, [&](std::size_t b) {
-    for (std::size_t i = b * kBlockSize; i < std::min(n, (b + 1) * kBlockSize); ++i) {
-      const HalfedgeId h(i);
+  const std::size_t n = mesh_.n_halfedges();
+  std::vector<std::vector<HalfedgeId>> found((n + kLoopBlock - 1) / kLoopBlock);
+  for_blocks(n, settings_.executor(), [&](std::size_t first, std::size_t last) {
+    for (const HalfedgeId h : IdRange<HalfedgeId>(HalfedgeId(first), HalfedgeId(last))) {
       if (mesh_.is_boundary(h) || !mesh_.is_edge_representative(h) || mesh_.is_constrained(h)) continue;
-      if (PowerTest()(mesh_, inlined::quad(mesh_, h)) == Sign::positive) found[b].push_back(h);
+      if (PowerTest()(mesh_, inlined::quad(mesh_, h)) == Sign::positive) found[first / kLoopBlock].push_back(h);
     }
   });
   for (const auto& edges : found) {

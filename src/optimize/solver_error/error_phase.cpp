@@ -6,6 +6,7 @@
 
 #include "base/sum.hpp"
 #include "energy/whole_mesh.hpp"
+#include "mesh/blocks.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/trace/recorder.hpp"
 #include "temper/detail/error_model.hpp"
@@ -187,11 +188,9 @@ ErrorPhase::Value ErrorPhase::value() const {
 
 /// What depends on a vertex in E and B is its star.
 void ErrorPhase::add_gradient_of_energy(double factor, IdVector<VertexId, WeightedPoint>& gradient) const {
-  const std::size_t blocks = (mesh_.n_vertices() + kBlockSize - 1) / kBlockSize;
-  or_serial(settings_.executor()).run(blocks, [&](std::size_t block) {
+  for_blocks(mesh_.n_vertices(), settings_.executor(), [&](std::size_t first, std::size_t last) {
     AccuracyPatch patch;
-    const std::size_t end = std::min(mesh_.n_vertices(), (block + 1) * kBlockSize);
-    for (std::size_t i = block * kBlockSize; i < end; ++i) {
+    for (std::size_t i = first; i < last; ++i) {
       const VertexId v(i);
       if (mesh_.is_isolated(v) || !patch.gather(mesh_, domain_.sizes, domain_.floors, settings_.accuracy, v)) continue;
       if (!std::isfinite(patch.value(mesh_.point(v)))) continue;
