@@ -7,13 +7,6 @@
 namespace temper {
 namespace {
 
-template <class IdType>
-IdVector<IdType, IdType> identity(std::size_t size) {
-  IdVector<IdType, IdType> ids(size);
-  for (const IdType i : IdRange<IdType>(size)) ids[i] = i;
-  return ids;
-}
-
 /// The ids that are left of an order, renumbered 0, 1, 2, … in the order of their numbers.
 template <class IdType>
 IdVector<IdType, IdType> ranks(const IdVector<IdType, IdType>& order) {
@@ -35,24 +28,23 @@ WorkingCopy::WorkingCopy(const Mesh& user, SweepOrder sweeps, Executor* executor
     OrderedMesh ordered = hilbert_ordered(user, executor);
     mesh = std::move(ordered.mesh);
     order = std::move(ordered.order);
+    n_vertices_named = mesh.n_vertices();
+    n_triangles_named = mesh.n_triangles();
   } else {
     mesh = user;
-    order = {identity<VertexId>(mesh.n_vertices()), identity<TriangleId>(mesh.n_triangles())};
+    name_new();
   }
-  n_input_vertices = n_vertices_named = mesh.n_vertices();
-  n_triangles_named = mesh.n_triangles();
+  n_input_vertices = n_vertices_named;
   frame.enter(mesh);
 }
 
-WorkingCopy::WorkingCopy(const Mesh& part, const Frame& its_frame)
-    : mesh(part),
-      frame(its_frame),
-      order({identity<VertexId>(mesh.n_vertices()), identity<TriangleId>(mesh.n_triangles())}),
-      n_input_vertices(mesh.n_vertices()),
-      n_vertices_named(mesh.n_vertices()),
-      n_triangles_named(mesh.n_triangles()) {}
-
-WorkingCopy WorkingCopy::part(const Mesh& part) { return {part, Frame()}; }
+WorkingCopy WorkingCopy::part(const Mesh& part) {
+  WorkingCopy work;
+  work.mesh = part;
+  work.name_new();
+  work.n_input_vertices = work.n_vertices_named;
+  return work;
+}
 
 VertexId WorkingCopy::from_user(VertexId v) const {
   const auto found = std::find(order.vertices.begin(), order.vertices.end(), v);

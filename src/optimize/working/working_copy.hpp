@@ -52,9 +52,6 @@ struct WorkingCopy {
   [[nodiscard]] Mesh in_user_order(Executor* executor) &&;
   /// The number in the input of each vertex of in_user_terms(); invalid for inserted ones.
   [[nodiscard]] IdVector<VertexId, VertexId> user_vertices() const;
-
- private:
-  WorkingCopy(const Mesh& part, const Frame& its_frame);
 };
 
 /// A mesh that a run has come to, and the sweep whose mesh it is.
