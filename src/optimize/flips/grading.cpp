@@ -260,10 +260,7 @@ class BoundaryCutter {
   std::set<std::pair<VertexId, VertexId>> refused_;  // edges as they are, that had to be split and could not
 };
 
-/// An edge by its ends.
-struct Ends {
-  VertexId a, b;
-};
+using Ends = std::pair<VertexId, VertexId>;
 
 /// The edges of the boundary and of lines that have a corner of t as an end, longest first.
 std::vector<Ends> lines_at(const Mesh& mesh, TriangleId t) {
@@ -279,7 +276,7 @@ std::vector<Ends> lines_at(const Mesh& mesh, TriangleId t) {
   std::sort(found.begin(), found.end());
   std::vector<Ends> lines;
   lines.reserve(found.size());
-  for (const auto& [minus_length2, h] : found) lines.push_back({mesh.origin(h), mesh.target(h)});
+  for (const auto& [minus_length2, h] : found) lines.emplace_back(mesh.origin(h), mesh.target(h));
   return lines;
 }
 
@@ -302,8 +299,9 @@ BoundaryCuts cut_where_bad(WorkingCopy& work, Flipper& flipper) {
   }
   cutter.resolve_conflicts(&near);
   for (const std::vector<Ends>& lines : places) {
-    const bool whole = std::all_of(lines.begin(), lines.end(), [&](Ends e) { return cutter.has_edge(e.a, e.b); });
-    if (whole && !lines.empty()) cutter.halve(lines.front().a, lines.front().b);
+    const bool whole =
+        std::all_of(lines.begin(), lines.end(), [&](Ends e) { return cutter.has_edge(e.first, e.second); });
+    if (whole && !lines.empty()) cutter.halve(lines.front().first, lines.front().second);
   }
   return cutter.cuts();
 }

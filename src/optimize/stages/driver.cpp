@@ -74,7 +74,7 @@ Driver::Verdict Driver::sweep(Phase& phase) {
   const std::optional<bool> moved = phase.move_all(recorder_);
   const bool whole = moved ? *moved : improve_all_vertices(phase.iteration);
   const bool removed = flipper_.has_removed();
-  if (removed) compact();
+  compact();
   const bool inserted = whole && insert_vertices(phase.iteration);
   shift_weights_to_anchor();
   TEMPER_ASSERT_SLOW(!settings_.policy.keeps_regular() || count_non_regular_edges(mesh_, false) == 0);
@@ -164,8 +164,9 @@ bool Driver::insert_vertices(int iteration) {
   return true;
 }
 
-/// Drops what the sweep has removed, everywhere.
+/// Drops what has been removed, if anything has, everywhere.
 void Driver::compact() {
+  if (!flipper_.has_removed()) return;
   const std::size_t n = mesh_.n_vertices();
   const Compaction kept = work_.compact();
   sweeper_.renumber(kept);
@@ -225,13 +226,13 @@ bool Driver::restore_regularity() {
     run_.report.stopped = Stopped::hidden;
     return false;
   }
-  if (flipper_.has_removed()) compact();
+  compact();
   return true;
 }
 
 bool Driver::make_regular() {
   if (!flipper_.restore_all()) return false;
-  if (flipper_.has_removed()) compact();
+  compact();
   run_.count(flipper_.take_changes());
   return true;
 }
@@ -297,7 +298,7 @@ bool Driver::repair(std::uint64_t seed, bool asks_programmes) {
   RunningEnergyAndBad totals;
   while (run_.sweeps_left() && search.improve_one_place()) {
     grow();
-    if (flipper_.has_removed()) compact();
+    compact();
     changed = true;
     ++run_.report.sweeps;
     record(phase.record_of(totals.measure(mesh_, state_.model, search.changed(), settings_.executor())));

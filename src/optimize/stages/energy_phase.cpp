@@ -24,7 +24,6 @@ EnergyPhase::EnergyPhase(const WorkingCopy& work, const Settings& settings, Swee
       run_(run),
       frame_(work.frame),
       attempt_(attempt),
-      energy_unit_(state.energy_unit(work.frame)),
       softener_(attempt, state.energy, settings.policy),
       may_give_up_(may_give_up) {}
 
@@ -35,7 +34,6 @@ void EnergyPhase::begin() {
 
 void EnergyPhase::take_energy(EnergyKind kind) {
   state_.set_energy(kind, settings_.policy);
-  energy_unit_ = state_.energy_unit(frame_);
   softener_ = Softener(attempt_, state_.energy, settings_.policy);
   softener_.start(mesh_, state_.model);
   state_.relaxation = settings_.policy.relaxation.value_or(softener_.relaxation());
@@ -51,7 +49,9 @@ void EnergyPhase::take_last_energy() {
   take_energy(settings_.options.energy);
 }
 
-double EnergyPhase::total() const { return energy_unit_ * total_energy(mesh_, state_.model, settings_.executor()); }
+double EnergyPhase::total() const {
+  return state_.energy_unit(frame_) * total_energy(mesh_, state_.model, settings_.executor());
+}
 
 SweepRecord EnergyPhase::measure() {
   return record_of(energy_and_bad(mesh_, state_.model, engine_of(settings_.hooks)));
@@ -59,7 +59,7 @@ SweepRecord EnergyPhase::measure() {
 
 SweepRecord EnergyPhase::record_of(const EnergyAndBad& measured) const {
   const double softening = state_.energy.softened_by_h0 ? state_.model.h0.value : state_.model.gamma.value;
-  return {.energy = energy_unit_ * measured.energy, .bad = measured.bad, .softening = softening};
+  return {.energy = state_.energy_unit(frame_) * measured.energy, .bad = measured.bad, .softening = softening};
 }
 
 /// Line 19 of Algorithm 1, and what a softened barrier or an infinite energy ask for besides.

@@ -76,7 +76,6 @@ class EnergyPhase final : public Phase {
   Run& run_;
   const Frame& frame_;
   Attempt attempt_;
-  double energy_unit_ = 1;
   bool before_switch_ = false;  // from the first energy to that of the options
   Softener softener_;
   bool may_give_up_;
