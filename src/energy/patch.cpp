@@ -11,19 +11,9 @@ namespace {
 /// HOT measures h towards the third corner: the sign of the left-hand height turns with the triangle.
 double same_side(double g, double doubled_area) { return doubled_area < 0 ? -g : g; }
 
-/// An edge in one of its triangles, h measured towards the third corner.
-struct EdgeInTriangle {
-  EdgeShape edge;
-  double doubled_area;
-};
-
 EdgeInTriangle edge_in_triangle(const Mesh& mesh, HalfedgeId h) {
-  const auto first_edge = [](const TriangleShape& s) {
-    const auto [l2, dw, g] = s.edges[0];
-    return EdgeInTriangle{{l2, dw, same_side(g, s.doubled_area)}, s.doubled_area};
-  };
   const auto [p, q, r] = mesh.points(mesh.origin(h), mesh.target(h), mesh.opposite(h));
-  return mesh.space().is_plane() ? first_edge(triangle_shape(p, q, r)) : first_edge(triangle_shape_on_sphere(p, q, r));
+  return edge_in_triangle(mesh.space(), p, q, r);
 }
 
 /// h ℓ = 0 on the boundary.
@@ -159,6 +149,13 @@ struct FullEdge {
 };
 
 }  // namespace
+
+EdgeInTriangle edge_in_triangle(const Space& space, const WeightedPoint& p, const WeightedPoint& q,
+                                const WeightedPoint& r) {
+  const TriangleShape s = triangle_shape(space, p, q, r);
+  const auto [l2, dw, g] = s.edges[0];
+  return {{l2, dw, same_side(g, s.doubled_area)}, s.doubled_area};
+}
 
 double hot_factor(const EnergyModel& model, double g, double g_other, bool boundary) {
   const EnergyInfo& info = energy_info(model.kind);

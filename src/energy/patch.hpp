@@ -56,6 +56,15 @@ void gather_patch(const Mesh& mesh, VertexId v, bool with_outer, Patch& patch);
 void add_hot_energies(const Mesh& mesh, std::span<const EnergyModel> models, std::size_t first, std::size_t last,
                       std::span<double> sums);
 
+/// An edge in one of its triangles, h measured towards the third corner.
+struct EdgeInTriangle {
+  EdgeShape edge;
+  double doubled_area;
+};
+/// The edge pq of triangle pqr.
+[[nodiscard]] EdgeInTriangle edge_in_triangle(const Space& space, const WeightedPoint& p, const WeightedPoint& q,
+                                              const WeightedPoint& r);
+
 /// The sign, and for E_F the treatment at the boundary, by which an edge's HOT energy counts.
 /// g and g_other are same-side heights of the edge in its two triangles; g_other is 0 on the boundary.
 [[nodiscard]] double hot_factor(const EnergyModel& model, double g, double g_other, bool boundary);

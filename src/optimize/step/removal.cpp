@@ -17,19 +17,6 @@ namespace {
 
 using Corners = std::array<VertexId, 3>;
 
-/// An edge as seen from its triangle, h measured towards the third corner, and what the triangle counts.
-struct EdgeOfTriangle {
-  EdgeShape edge;
-  double per_area;
-};
-EdgeOfTriangle edge_of_triangle(const Space& space, const HotKernel& kernel, const WeightedPoint& a,
-                                const WeightedPoint& b, const WeightedPoint& c) {
-  const TriangleShape s = triangle_shape(space, a, b, c);
-  EdgeShape e = s.edges[0];
-  if (s.doubled_area < 0) e.g = -e.g;
-  return {e, kernel.per_area(s.doubled_area)};
-}
-
 /// The energy of an equilateral triangle of that doubled area, weights zero.
 double equilateral_energy(const EnergyModel& model, double doubled_area) {
   const double side = std::sqrt(2 * std::abs(doubled_area) / std::sqrt(3.0));
@@ -110,12 +97,13 @@ class Filling {
     const auto [a, b, c] = points(t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
     const Across beyond = across(t[k], t[(k + 1) % 3]);
     const bool inner = beyond.apex.valid();
-    const auto [edge, per_area] = edge_of_triangle(space_, kernel, a, b, c);
-    const auto [outer, per_outer_area] = inner ? edge_of_triangle(space_, kernel, b, a, mesh_.point(beyond.apex, a))
-                                               : EdgeOfTriangle{{edge.l2, edge.dw, 0}, 1};
+    const auto [edge, area] = edge_in_triangle(space_, a, b, c);
+    const auto [outer, outer_area] =
+        inner ? edge_in_triangle(space_, b, a, mesh_.point(beyond.apex, a)) : EdgeInTriangle{{edge.l2, edge.dw, 0}, 1};
     const double factor = hot_factor(model, edge.g, outer.g, !inner);
+    const double own = factor * (kernel.value(edge) * kernel.per_area(area));
     const bool shares = energy_info(model.kind).signed_by_dual && beyond.stays;
-    return factor * (kernel.value(edge) * per_area) + (shares ? factor * (kernel.value(outer) * per_outer_area) : 0);
+    return shares ? own + factor * (kernel.value(outer) * kernel.per_area(outer_area)) : own;
   }
 
   /// Of vertices in images near the first one.
