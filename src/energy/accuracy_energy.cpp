@@ -32,11 +32,6 @@ constexpr double kKept = 0.9;
 // Below this part of ℓ a height is mostly rounding, and so would be its logarithm.
 constexpr double kLeastMargin = 1e-9;
 
-TriangleShape shape_of(const Mesh& mesh, TriangleId t) {
-  const auto [p, q, r] = mesh.points(t);
-  return triangle_shape(mesh.space(), p, q, r);
-}
-
 template <class In>
 typename In::Point point_of(const WeightedPoint& p) {
   return {p.x, p.y, p.w};
@@ -77,7 +72,8 @@ AccuracyModel AccuracyModel::of(double alpha, double beta, double offset, double
 }
 
 double triangle_margin(const Mesh& mesh, TriangleId t) {
-  const TriangleShape shape = shape_of(mesh, t);
+  const auto [p, q, r] = mesh.points(t);
+  const TriangleShape shape = triangle_shape(mesh.space(), p, q, r);
   double least = shape.doubled_area > 0 ? kInfinity : -kInfinity;
   for (const EdgeShape& e : shape.edges) least = std::min({least, e.g / e.l2, 0.5 * (1 - std::abs(e.dw) / e.l2)});
   return least;

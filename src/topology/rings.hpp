@@ -10,18 +10,25 @@
 
 namespace temper {
 
+/// The triangles at these vertices; sorted.
+[[nodiscard]] inline std::vector<TriangleId> triangles_at(const Mesh& mesh, std::span<const VertexId> vertices) {
+  std::vector<TriangleId> all;
+  for (const VertexId v : vertices) {
+    for (const HalfedgeId h : mesh.star(v)) all.push_back(Mesh::triangle(h));
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
 /// The triangles at the corners of these, themselves included; sorted. Precondition: none is erased.
 [[nodiscard]] inline std::vector<TriangleId> triangles_around(const Mesh& mesh, std::span<const TriangleId> triangles) {
   TEMPER_ASSERT_SLOW(std::none_of(triangles.begin(), triangles.end(), [&](TriangleId t) { return mesh.is_erased(t); }));
-  std::vector<TriangleId> around;
+  std::vector<VertexId> corners;
   for (const TriangleId t : triangles) {
-    for (const VertexId v : mesh.corners(t)) {
-      for (const HalfedgeId h : mesh.star(v)) around.push_back(Mesh::triangle(h));
-    }
+    for (const VertexId v : mesh.corners(t)) corners.push_back(v);
   }
-  std::sort(around.begin(), around.end());
-  around.erase(std::unique(around.begin(), around.end()), around.end());
-  return around;
+  return triangles_at(mesh, corners);
 }
 
 }  // namespace temper

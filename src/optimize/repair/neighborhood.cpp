@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <unordered_map>
+#include <utility>
 
 #include "base/assert.hpp"
 #include "mesh/mesh_editor.hpp"
@@ -41,11 +43,9 @@ std::vector<TriangleId> rings_around(const Mesh& mesh, TriangleId seed, int ring
   std::vector<TriangleId> triangles = {seed};
   for (int i = 0; i < rings; ++i) triangles = triangles_around(mesh, triangles);
   for (auto pinched = pinches(mesh, triangles); !pinched.empty(); pinched = pinches(mesh, triangles)) {
-    for (const VertexId v : pinched) {
-      for (const HalfedgeId h : mesh.star(v)) triangles.push_back(Mesh::triangle(h));
-    }
-    std::sort(triangles.begin(), triangles.end());
-    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+    std::vector<TriangleId> wider;
+    std::ranges::set_union(triangles, triangles_at(mesh, pinched), std::back_inserter(wider));
+    triangles = std::move(wider);
   }
   return triangles;
 }

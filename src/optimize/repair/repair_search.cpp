@@ -10,6 +10,7 @@
 #include "optimize/run/run.hpp"
 #include "temper/detail/necessity.hpp"
 #include "topology/locate.hpp"
+#include "topology/rings.hpp"
 
 namespace temper {
 namespace {
@@ -103,17 +104,6 @@ constexpr int kTrialsOfAProgramme = 20;
 
 bool helps(const Standing& before, const Standing& after) {
   return after.bad < before.bad || (after.bad == before.bad && after.violation < (1 - kHelps) * before.violation);
-}
-
-/// The triangles with one of these corners or more, in ascending order.
-std::vector<TriangleId> triangles_at(const Mesh& mesh, const std::vector<VertexId>& corners) {
-  std::vector<TriangleId> all;
-  for (const VertexId v : corners) {
-    for (const HalfedgeId h : mesh.star(v)) all.push_back(Mesh::triangle(h));
-  }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
 }
 
 }  // namespace

@@ -62,11 +62,6 @@ std::optional<InputError> outside_domain_error(const Mesh& mesh, const Settings&
           " triangles are not well-centered; expected a mesh inside its barrier, or energy BP, which needs none"};
 }
 
-/// What an attempt needs to be kept. The user asks for cuts: without them fewer triangles have to be bad.
-Requirement requirement_of(const Attempt& attempt) {
-  return attempt.cuts == Cuts::graded ? Requirement::not_worse : Requirement::fewer_bad;
-}
-
 bool has_bad(const Candidate& c, const Settings& s) { return count_bad(c.work.mesh, s.executor()) > 0; }
 
 /// Says whether so few triangles of c are bad that each is a place of its own, far from all others. Another attempt
@@ -78,9 +73,6 @@ bool are_apart(const Candidate& c, const Settings& s) {
   const auto bad = static_cast<double>(count_bad(c.work.mesh, s.executor()));
   return bad > 0 && bad < kMost * static_cast<double>(c.work.mesh.n_triangles());
 }
-
-/// Vertices that came or went are taken back where they cured nothing.
-bool keeps_vertices(const Settings& s) { return s.options.repair != Repair::vertices; }
 
 /// Says whether c has what a repair could cure: bad triangles, or edges that vertices make too short.
 bool needs_repair(const Candidate& c, const Settings& s) {
@@ -178,7 +170,9 @@ Expected<Candidate> best_attempt(InputMesh& input, const Settings& settings, Swe
     input.fold();
     const Attempt& attempt = all[i];
     now.sweep = driver.attempt(attempt, i + 1 < all.size() || repairs(settings));
-    if (!best || replaces(now.work.mesh, best->work.mesh, requirement_of(attempt), settings, state.model)) {
+    // The user asks for cuts: without them fewer triangles have to be bad.
+    const Requirement required = attempt.cuts == Cuts::graded ? Requirement::not_worse : Requirement::fewer_bad;
+    if (!best || replaces(now.work.mesh, best->work.mesh, required, settings, state.model)) {
       best = std::move(now);
       left = 0;
       renewed = true;
@@ -231,7 +225,8 @@ Candidate repaired(Candidate best, const Settings& settings, SweepState& state, 
   const std::uint64_t searches = settings.lp != nullptr ? kSearches + 1 : kSearches;
   std::optional<Candidate> start;  // of all searches on copies, once it is not the best one
   if (!repairs(settings) || is_done(best) || !std::isfinite(total_energy(best.work.mesh, state.model))) return best;
-  const bool in_place = keeps_vertices(settings) && are_apart(best, settings);
+  // Vertices that came or went are taken back where they cured nothing, which takes a copy.
+  const bool in_place = settings.options.repair != Repair::vertices && are_apart(best, settings);
   for (std::uint64_t i = 0; i < searches && !is_done(best); ++i) {
     const BestBefore kept(run.best_before, in_place ? nullptr : &best.work);
     const bool asks_programmes = i == kProgrammes && settings.lp != nullptr;

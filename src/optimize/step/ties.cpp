@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "geometry/triangle_kernel.hpp"
 #include "mesh/edge_lengths.hpp"
 #include "optimize/step/freedom.hpp"
 #include "topology/flip_inline.hpp"
@@ -15,16 +14,10 @@ namespace {
 // Of the dual length of a tie, relative to its edge: coordinates in files have seven digits or more.
 constexpr double kTiedDual = 1e-6;
 
-/// The scaled height of the orthocenter over the edge of h, in the triangle of h.
-EdgeShape shape_of(const Mesh& mesh, HalfedgeId h) {
-  const auto [a, b, c] = mesh.points(mesh.origin(h), mesh.target(h), mesh.opposite(h));
-  return triangle_shape(mesh.space(), a, b, c).edges[0];
-}
-
 bool is_tie(const Mesh& mesh, HalfedgeId h) {
   if (mesh.keeps_its_place(h)) return false;
-  const EdgeShape near = shape_of(mesh, h), far = shape_of(mesh, mesh.twin(h));
-  return std::abs(near.g + far.g) < kTiedDual * near.l2;
+  const auto [edge, dual] = edge_lengths(mesh, h);
+  return std::abs(dual) < kTiedDual * edge;
 }
 
 /// Calls use(quad) for each tied quad, once, until it returns false. A triangle with two ties is of a circle with more

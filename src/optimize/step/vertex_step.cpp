@@ -258,7 +258,7 @@ bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
   const bool may_break_edges = keeps_connectivity() && !star_->keeps_edges_regular;
   if (may_break_edges) note_regular_edges();
   mesh.set_point(vertex_, p);
-  if (flips_at_once()) {
+  if (!keeps_connectivity() && settings.policy.flips_at_once()) {
     SizeBand* const band = limits.band.on() ? &limits.band : nullptr;
     const auto settled = flipper_.settle({vertex_, origin_, energy_, energy, must_pay, band, part_});
     escapes_ = settled == Flipper::Settled::escaped;
@@ -321,8 +321,6 @@ void VertexStep::end_sweep() {
   }
   deferred_.clear();
 }
-
-bool VertexStep::flips_at_once() const { return !keeps_connectivity() && settings.policy.flips_at_once(); }
 
 /// Notes which edges are regular: with connectivity kept these must stay so, and one that is not regular may wait.
 void VertexStep::note_regular_edges() {

@@ -65,7 +65,6 @@ class VertexStep : StepContext {
   [[nodiscard]] bool keeps_size(const WeightedPoint& p);
   bool place(const WeightedPoint& p, double energy, bool must_pay);
   [[nodiscard]] bool keeps_connectivity() const;
-  [[nodiscard]] bool flips_at_once() const;
   void note_regular_edges();
   [[nodiscard]] bool regular_edges_still_are() const;
 

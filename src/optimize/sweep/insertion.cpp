@@ -13,8 +13,8 @@ namespace temper {
 namespace {
 
 double own_energy(const Mesh& mesh, const EnergyModel& model, TriangleId t) {
-  const auto [a, b, c] = mesh.corners(t);
-  return triangle_energy(model, mesh.point(a), mesh.point(b), mesh.point(c));
+  const auto [a, b, c] = mesh.points(t);
+  return triangle_energy(model, a, b, c);
 }
 
 /// Of the magnitudes, since E_F may be negative; of those that are finite.
@@ -30,8 +30,8 @@ double mean_energy(const Mesh& mesh, const EnergyModel& model) {
 
 /// The plan of a vertex at the orthocenter of t.
 InsertionPlan plan_at_orthocenter(const Mesh& mesh, const Frame& frame, TriangleId t) {
-  const auto [a, b, c] = mesh.corners(t);
-  const Vec2 o = frame.snap(orthocenter(mesh.point(a), mesh.point(b), mesh.point(c)));
+  const auto [a, b, c] = mesh.points(t);
+  const Vec2 o = frame.snap(orthocenter(a, b, c));
   const Location at = std::isfinite(o.x) && std::isfinite(o.y) ? locate(mesh, o, t) : Location();
   if (at.kind != Location::Kind::in_triangle) return {};
   return plan_insertion(mesh, {o.x, o.y, interpolated_weight(mesh, at.triangle, o)}, at.triangle);
