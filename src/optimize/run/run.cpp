@@ -113,19 +113,12 @@ void Run::offer(const WorkingCopy& now, const Settings& settings, const SweepSta
   });
 }
 
-bool Run::asked_to_stop(double fraction_of_sweep) {
-  if (hooks_.communicator == nullptr) return ask(fraction_of_sweep);
-  if (hooks_.communicator->rank() == 0) ask(fraction_of_sweep);
-  if (!local_) sync_stop();
+bool Run::asked_to_stop(double fraction_of_sweep, bool alone) {
+  if (hooks_.communicator == nullptr || hooks_.communicator->rank() == 0) ask(fraction_of_sweep);
+  if (hooks_.communicator != nullptr && !alone) sync_stop();
   return stopped_early();
 }
 
-void Run::end_local() {
-  local_ = false;
-  if (hooks_.communicator != nullptr) sync_stop();
-}
-
-/// All ranks stop if rank 0 was told to.
 void Run::sync_stop() {
   std::string message;
   ByteWriter(message).write(report.stopped);
@@ -135,21 +128,15 @@ void Run::sync_stop() {
   if (temper::stopped_early(stopped)) report.stopped = stopped;
 }
 
-bool Run::ask(double fraction_of_sweep) {
+void Run::ask(double fraction_of_sweep) {
   const double limit = options_.time_limit;  // 0: none
   if (limit > 0 && seconds_between(limit_from_, Clock::now()) + ending_seconds_ > limit) {
     report.stopped = Stopped::time_limit;
-    return true;
+  } else if (hooks_.observer) {
+    const Progress progress = {report.history.back(), fraction_of_sweep, options_.max_sweeps,
+                               estimate_sweeps_left(report.history, options_)};
+    if (hooks_.observer(progress) == Continue::no) report.stopped = Stopped::cancelled;
   }
-  const auto progress = [&]() -> Progress {
-    return {report.history.back(), fraction_of_sweep, options_.max_sweeps,
-            estimate_sweeps_left(report.history, options_)};
-  };
-  if (hooks_.observer && hooks_.observer(progress()) == Continue::no) {
-    report.stopped = Stopped::cancelled;
-    return true;
-  }
-  return false;
 }
 
 std::size_t count_inverted(const Mesh& mesh) {

@@ -68,12 +68,10 @@ class Run {
   /// A mesh of the run may be saved: says so to the listener, if there is one.
   void offer(const WorkingCopy& now, const Settings& settings, const SweepState& state) const;
   /// Asks the clock and the caller, who are those of rank 0; sets report.stopped when the answer is yes. Ranks ask at
-  /// the same places and get the same answer. While they work locally, rank 0 alone gets one.
-  bool asked_to_stop(double fraction_of_sweep);
-  /// From here on ranks do different things.
-  void begin_local() { local_ = hooks_.communicator != nullptr; }
-  /// From here on they do the same again, and all have the answer that rank 0 got meanwhile.
-  void end_local();
+  /// the same places and get the same answer. While each does other things, `alone`, rank 0 alone gets one.
+  bool asked_to_stop(double fraction_of_sweep, bool alone = false);
+  /// All ranks stop if rank 0 was told to.
+  void sync_stop();
 
   void count(const Flipper::Changes& changes) {
     report.flips += changes.flips;
@@ -92,13 +90,11 @@ class Run {
     return std::chrono::duration<double>(to - from).count();
   }
 
-  bool ask(double fraction_of_sweep);
-  void sync_stop();
+  void ask(double fraction_of_sweep);
 
   const OptimizeOptions& options_;
   const OptimizeHooks& hooks_;
   const Mesh& input_;
-  bool local_ = false;
   Clock::time_point start_, limit_from_;
   double ending_seconds_ = 0;  // after the last sweep, about
 };

@@ -86,12 +86,13 @@ class StopToken {
   }
   /// Begins and ends what each rank does alone: rank 0 asks meanwhile, the others get the answer at the end.
   void begin_local(std::size_t n_ranks) {
-    run_.begin_local();
+    alone_ = true;
     n_ranks_ = n_ranks;
   }
   void end_local() {
+    alone_ = false;
     n_ranks_ = 1;
-    run_.end_local();
+    run_.sync_stop();
     if (run_.stopped_early()) stop_.store(true, std::memory_order_relaxed);
     ask_soon();  // on all ranks, however much each has done
   }
@@ -100,7 +101,7 @@ class StopToken {
     if (stop_.load(std::memory_order_relaxed)) return false;
     if (this_thread() != caller_ || since_asked_ < kVerticesBetweenCalls) return true;
     since_asked_ = 0;
-    const bool stop = run_.asked_to_stop(static_cast<double>(done_.load(std::memory_order_relaxed)) / n_);
+    const bool stop = run_.asked_to_stop(static_cast<double>(done_.load(std::memory_order_relaxed)) / n_, alone_);
     if (stop) stop_.store(true, std::memory_order_relaxed);
     return !stop;
   }
@@ -123,6 +124,7 @@ class StopToken {
   Run& run_;
   const void* caller_;
   double n_;
+  bool alone_ = false;                               // between begin_local() and end_local()
   std::size_t n_ranks_ = 1;                          // that are at work on other vertices
   std::size_t since_asked_ = kVerticesBetweenCalls;  // the caller's own
   std::atomic<bool> stop_ = false;
