@@ -25,39 +25,26 @@ namespace {
 
 bool undoes_sweeps(const TraceEvent& e) { return e.kind == EventKind::undo && !e.vertex.valid(); }
 
-/// Copies of the mesh at the ends of the sweeps that some event goes back to, from when the sweep ends until no event
-/// to come needs them.
+/// Copies of the mesh at the ends of the sweeps that some event goes back to.
 class SweepStates {
  public:
   explicit SweepStates(std::span<const TraceEvent> events) {
-    for (std::size_t i = 0; i < events.size(); ++i) {
-      if (undoes_sweeps(events[i])) states_[events[i].to_sweep].last_use = i;
+    for (const TraceEvent& e : events) {
+      if (undoes_sweeps(e)) states_[e.to_sweep];
     }
   }
 
-  /// Event `index` belongs to `sweep`: all sweeps between the last event's and this one have ended.
-  void arrive(std::size_t index, int sweep, const Mesh& mesh) {
-    for (auto s = states_.lower_bound(sweep_); s != states_.end() && s->first < sweep; ++s) {
-      if (s->second.last_use >= index) s->second.mesh = mesh;
-    }
+  /// An event of `sweep` comes: all sweeps between the last event's and this one have ended.
+  void arrive(int sweep, const Mesh& mesh) {
+    for (auto s = states_.lower_bound(sweep_); s != states_.end() && s->first < sweep; ++s) s->second = mesh;
     sweep_ = sweep;
   }
 
-  /// The state that event `index` goes back to; null: the sweep is under way, or was never passed.
-  const Mesh* at(int sweep) const {
-    const auto found = states_.find(sweep);
-    return found != states_.end() && found->second.mesh ? &*found->second.mesh : nullptr;
-  }
-  void forget(std::size_t index, int sweep) {
-    if (states_[sweep].last_use == index) states_[sweep].mesh.reset();
-  }
+  /// The state at the end of that sweep; none: it is under way, or was never passed.
+  [[nodiscard]] const std::optional<Mesh>& at(int sweep) { return states_[sweep]; }
 
  private:
-  struct State {
-    std::size_t last_use = 0;
-    std::optional<Mesh> mesh;
-  };
-  std::map<int, State> states_;
+  std::map<int, std::optional<Mesh>> states_;
   int sweep_ = -1;  // of the last event; −1: the input
 };
 
@@ -275,12 +262,11 @@ Expected<Replay> replay_with_vertices(const Mesh& input, std::span<const TraceEv
   SweepStates states(events);
   for (std::size_t i = 0; i < events.size(); ++i) {
     const TraceEvent& e = events[i];
-    states.arrive(i, e.sweep, replayer.mesh());
+    states.arrive(e.sweep, replayer.mesh());
     if (!undoes_sweeps(e)) {
       if (auto error = replayer.apply(e)) return at_event(i, *std::move(error));
-    } else if (const Mesh* state = states.at(e.to_sweep)) {
+    } else if (const auto& state = states.at(e.to_sweep)) {
       replayer.go_back_to(*state);
-      states.forget(i, e.to_sweep);
     } else if (e.to_sweep != e.sweep) {
       return at_event(i, misfit("undo in sweep " + std::to_string(e.sweep) + " to the end of sweep " +
                                 std::to_string(e.to_sweep) + ", which has not been"));
