@@ -4,7 +4,8 @@
 // The vertices of a working copy are numbered along a Hilbert curve. They are cut into parts, ranges of about 16,000
 // numbers, however many threads there are, and each part improves the vertices that are confined to it (partition.hpp),
 // in order; it lists those that are not, or whose flips would not be. These wait for the parts of other cuts
-// (shifted_cuts.hpp, for_parts.hpp). A mesh of one part is swept as a whole.
+// (shifted_cuts.hpp): nearly all are inside of one of three. What is left then, mostly nothing, comes one after
+// another. A mesh of one part is swept as a whole.
 //
 // Why parts may run at once. Call a triangle inner to a part when all its corners are in there. While parts run:
 //
@@ -29,12 +30,19 @@
 // in order, or vertices go, the parts run one after another: the same parts, the same order in each, the same bytes.
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <cstddef>
+#include <deque>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "base/assert.hpp"
+#include "base/engine.hpp"
 #include "optimize/batch/batch_step.hpp"
-#include "optimize/sweep/for_parts.hpp"
+#include "optimize/run/run.hpp"
+#include "optimize/sweep/shifted_cuts.hpp"
 
 namespace temper {
 
@@ -94,9 +102,51 @@ class Improver {
   BatchStep batches_;
 };
 
+/// The improvers of parts that run at once: as many are made as ever are at work together, and kept.
+class Improvers {
+  struct Place {
+    std::atomic<bool> taken = false;
+    std::unique_ptr<Improver> improver;
+  };
+
+ public:
+  explicit Improvers(const StepContext& context) : context_(context) {}
+
+  /// An improver that nobody else has, until this ends.
+  struct GiveBack {
+    Place* place;
+    void operator()(Improver*) const { place->taken.store(false, std::memory_order_release); }
+  };
+  using Lease = std::unique_ptr<Improver, GiveBack>;
+
+  /// Room for n of them; while none is leased.
+  void make_room(std::size_t n);
+  /// The first one that is free. With as many places as there are blocks one always is, or is just about to be.
+  [[nodiscard]] Lease take();
+  /// Every one that has been made; while none is leased.
+  template <class Visit>
+  void for_each(Visit&& visit) {
+    for (Place& place : places_) {
+      if (place.improver) visit(*place.improver);
+    }
+  }
+  /// As of VertexStep, of those there are and those to come.
+  void begin_sweep(int iteration, Unknowns unknowns);
+
+ private:
+  StepContext context_;
+  int iteration_ = 0;
+  Unknowns unknowns_ = Unknowns::positions_and_weights;
+  std::deque<Place> places_;  // places do not move; few of them ever get an improver
+};
+
 /// Vertices in a part, at most: its boundary is a few per cent of it, and 10⁵ vertices still keep several threads busy.
 inline constexpr std::size_t kPartSize = 16384;
 
+class StopToken;
+
+/// This is the only place that knows of executors, of ranks, of when to stop, of parts that are shifted and of vertices
+/// that wait for another part.
 class Sweeper {
  public:
   /// `flipper`: counts what all parts do.
@@ -117,24 +167,38 @@ class Sweeper {
   /// The mesh has been compacted, or has got new vertices.
   void renumber(const Compaction& kept) {
     limits_.renumber(kept);
-    parts_.renumber();
+    cuts_.clear();
   }
   void grow() { limits_.grow(); }
 
  private:
+  /// What a part has done besides moving vertices.
+  struct Done {
+    std::vector<VertexId> left;
+    std::vector<HalfedgeId> flips;  // for other ranks
+  };
+
   /// One visit of each vertex, of these unknowns.
   bool visit_all(int iteration, Unknowns unknowns, std::span<const VertexId> sequence, Run& run);
+  void visit_parts(StopToken& stop);
+  void visit_in_order(std::span<const VertexId> vertices, StopToken& stop);
+  template <class PartOf, class VerticesOf>
+  void run_parts(std::size_t n, StopToken& stop, PartOf&& part, VerticesOf&& vertices);
+  void hand_out(std::size_t cut);
   [[nodiscard]] Engine engine();
   void add_changes();
 
   VertexLimits limits_;
   StepContext context_;
   Flipper& flipper_;
-  WorkerPool<Improver> improvers_;
-  PartSweep<Improver> parts_;
-  int iteration_ = 0;
-  Unknowns unknowns_ = Unknowns::positions_and_weights;
+  Improvers improvers_;
   SerialExecutor in_order_;
+  std::size_t part_size_;
+  std::vector<Done> done_;            // by each part of the phase under way: storage is kept
+  std::vector<VertexId> waiting_;     // for the phase under way
+  std::vector<VertexId> handed_out_;  // as they are put in the order of their parts
+  std::vector<std::size_t> begin_;    // of each part among those that wait
+  ShiftedCuts cuts_;                  // as the mesh was at the first sweep, or the first with these vertices
 };
 
 }  // namespace temper
