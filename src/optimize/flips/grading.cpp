@@ -75,7 +75,6 @@ class SharpCorners {
   }
 
   /// Where to split the line instead of at split_at: a power of two, in the frame's unit, from a sharp end.
-
   [[nodiscard]] double split_at(const Mesh& mesh, const Line& line) const {
     if (line.splits < kSplitsToShells) return line.split_at;
     const bool from_u = is_sharp(line.u), from_v = is_sharp(line.v);
@@ -185,7 +184,6 @@ class BoundaryCutter {
 
   /// Splits edges that leave their dual no room, or little (necessity.hpp), worst first, until none does.
   /// `near`: of the edges with an end that is marked; null: of all.
-
   void resolve_conflicts(const VertexMarks* near = nullptr) {
     Lines lines(mesh_, near);
     const SharpCorners corners(mesh_, lines.all());
@@ -211,7 +209,6 @@ class BoundaryCutter {
   void halve(VertexId a, VertexId b) { split(a, b, work_.frame.snap(0.5 * (mesh_.position(a) + mesh_.position(b)))); }
   [[nodiscard]] bool has_edge(VertexId a, VertexId b) const { return find_edge(a, b).valid(); }
   /// A vertex at the orthocenter of a triangle that has none free.
-
   void free(const std::array<VertexId, 3>& corners) {
     plan_ = plan_center(mesh_, corners, std::move(plan_));
     if (plan_.status != InsertionStatus::possible) return;

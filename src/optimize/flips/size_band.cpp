@@ -56,42 +56,31 @@ bool SizeBand::allows(const Patch& patch, Vec2 p) {
 }
 
 void SizeBand::about_to_flip(HalfedgeId h) {
-  touch(mesh_.origin(h));
-  touch(mesh_.target(h));
-  touch(mesh_.opposite(h));
-  touch(mesh_.opposite(mesh_.twin(h)));
-}
-
-void SizeBand::touch(VertexId v) {
-  for (const auto& [seen, before] : touched_) {
-    if (seen == v) return;
+  for (const VertexId v : {mesh_.origin(h), mesh_.target(h), mesh_.opposite(h), mesh_.opposite(mesh_.twin(h))}) {
+    const bool seen = std::any_of(touched_.begin(), touched_.end(), [v](const auto& t) { return t.first == v; });
+    if (!seen) touched_.emplace_back(v, excess(v));
   }
-  touched_.push_back({v, excess(star_area(mesh_, v).squared_size(), squared_field_[v])});
 }
 
 bool SizeBand::allow_flips() const {
-  return std::all_of(touched_.begin(), touched_.end(), [this](const auto& touched) {
-    const auto& [v, before] = touched;
-    return excess(star_area(mesh_, v).squared_size(), squared_field_[v]) <= before;
-  });
+  return std::all_of(touched_.begin(), touched_.end(),
+                     [this](const auto& touched) { return excess(touched.first) <= touched.second; });
 }
 
-void SizeBand::sample(VertexId v) {
-  const Vec2 p = frame_.to_user(mesh_.point(v)).position();
-  // Along the sweep's curve the one before is near.
-  const TriangleId hint = v.index > 0 ? triangle_[VertexId(v.index - 1)] : TriangleId();
-  const SizeField::Sample sample = field_->at(p, hint);
-  const double field = sample.size / frame_.scale;
-  squared_field_[v] = field * field;
-  triangle_[v] = sample.triangle;
-}
+double SizeBand::excess(VertexId v) const { return excess(star_area(mesh_, v).squared_size(), squared_field_[v]); }
 
 void SizeBand::grow() {
   if (!on()) return;
-  const std::size_t known = squared_field_.size();
+  const VertexId first(squared_field_.size());
   squared_field_.resize(mesh_.n_vertices());
   triangle_.resize(mesh_.n_vertices());
-  for (std::size_t i = known; i < mesh_.n_vertices(); ++i) sample(VertexId(i));
+  TriangleId hint = first.index > 0 ? triangle_[VertexId(first.index - 1)] : TriangleId();
+  for (const VertexId v : IdRange<VertexId>(first, VertexId(mesh_.n_vertices()))) {
+    const SizeField::Sample sample = field_->at(frame_.to_user(mesh_.point(v)).position(), hint);
+    const double field = sample.size / frame_.scale;
+    squared_field_[v] = field * field;
+    triangle_[v] = hint = sample.triangle;  // along the sweep's curve the next one is near
+  }
 }
 
 void SizeBand::renumber(const Compaction& kept) {

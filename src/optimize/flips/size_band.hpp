@@ -40,9 +40,8 @@ class SizeBand {
   void grow();
 
  private:
-  void sample(VertexId v);
-  void touch(VertexId v);
   [[nodiscard]] double excess(double squared_size, double squared_field) const;
+  [[nodiscard]] double excess(VertexId v) const;
 
   const Mesh& mesh_;
   const Frame& frame_;
