@@ -312,6 +312,8 @@ class Trial {
   }
 
   void sweep() {
+    const auto is_good = [this](TriangleId t) { return !is_bad(work_.mesh, t); };
+    const auto all = work_.mesh.triangles();
     double gamma = kFirstGamma;
     for (int i = 0; i < kSweeps; ++i) {
       state_.model.gamma = {gamma, LengthScale::relative};
@@ -320,15 +322,9 @@ class Trial {
         if (!work_.mesh.is_isolated(v)) step_.improve(v);
       }
       gamma = std::max(kLeastGamma, kGammaFactor * gamma);
-      if (gamma < kSharp && !settings_.accuracy.keeps_lengths() && !any_bad()) return;
+      if (gamma >= kSharp || settings_.accuracy.keeps_lengths()) continue;
+      if (std::all_of(all.begin(), all.end(), is_good)) return;
     }
-  }
-
-  [[nodiscard]] bool any_bad() const {
-    for (const TriangleId t : work_.mesh.triangles()) {
-      if (is_bad(work_.mesh, t)) return true;
-    }
-    return false;
   }
 
   const Neighborhood& around_;

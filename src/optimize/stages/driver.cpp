@@ -334,7 +334,7 @@ void Driver::keep(const Phase& phase, double energy, int sweep) {
     best_points_.resize(mesh_.n_vertices());  // in place: the largest meshes have no room for another one
     for (const VertexId v : mesh_.vertices()) best_points_[v] = mesh_.point(v);
   } else {
-    best_ = work_;
+    best_ = Candidate{work_, sweep};
   }
   best_energy_ = energy;
   best_sweep_ = sweep;
@@ -344,7 +344,7 @@ int Driver::return_best(const Phase& phase, int last_sweep) {
   const bool has_best = best_.has_value() || !best_points_.empty();
   if (!has_best || !(best_energy_ < run_.report.history.back().energy)) return last_sweep;
   if (best_) {
-    work_ = *std::exchange(best_, std::nullopt);
+    work_ = (*std::exchange(best_, std::nullopt)).work;
   } else {
     for (const VertexId v : mesh_.vertices()) mesh_.set_point(v, best_points_[v]);
     best_points_ = {};
@@ -357,17 +357,15 @@ int Driver::return_best(const Phase& phase, int last_sweep) {
 /// Deferred flips may find a vertex hidden, which leaves edges that no flip makes regular.
 void Driver::keep_regular(int sweep) {
   if (!settings_.policy.defers_flips() || settings_.policy.keeps_hidden()) return;
-  regular_ = work_;
-  regular_sweep_ = sweep;
+  regular_ = Candidate{work_, sweep};
 }
 
 /// The best mesh, if one is kept, else the last one that was regular.
 int Driver::return_regular(int last_sweep) {
-  const bool has_best = best_.has_value();
-  std::optional<WorkingCopy>& kept = has_best ? best_ : regular_;
+  std::optional<Candidate>& kept = best_ ? best_ : regular_;
   if (!kept) return last_sweep;
-  const int sweep = has_best ? best_sweep_ : regular_sweep_;
-  work_ = *std::exchange(kept, std::nullopt);
+  const int sweep = kept->sweep;
+  work_ = (*std::exchange(kept, std::nullopt)).work;
   recorder_.returned_to(sweep);
   return sweep;
 }

@@ -76,12 +76,11 @@ class Driver {
   Sweeper sweeper_;
   std::vector<VertexId> sequence_;                 // in which a sweep visits the vertices; empty: as they are numbered
   int inner_ = 0, outer_ = 0;                      // iterations since the last flips, and rounds of them
-  std::optional<WorkingCopy> best_;                // where the phase keeps one
+  std::optional<Candidate> best_;                  // where the phase keeps one
   IdVector<VertexId, WeightedPoint> best_points_;  // where the phase keeps points alone
   double best_energy_ = 0;
   int best_sweep_ = 0;
-  std::optional<WorkingCopy> regular_;  // where flips are deferred, and may fail: after the last that did not
-  int regular_sweep_ = 0;
+  std::optional<Candidate> regular_;  // where flips are deferred, and may fail: after the last that did not
 };
 
 }  // namespace temper
