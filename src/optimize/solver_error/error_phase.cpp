@@ -230,7 +230,7 @@ ErrorPhase::Vector ErrorPhase::scaled(const IdVector<VertexId, WeightedPoint>& g
     const double s = domain_.sizes[v];
     double* to = &result[3 * std::size_t{v.index}];
     if (free.moves()) to[0] = s * gradient[v].x, to[1] = s * gradient[v].y;
-    if (free.n == 1 || free.n == 3) to[2] = s * s * gradient[v].w;
+    if (free.weighs()) to[2] = s * s * gradient[v].w;
   }
   return result;
 }

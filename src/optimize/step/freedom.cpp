@@ -42,21 +42,6 @@ void add_axis(Freedom& f, std::array<double, 3> axis) { f.axis[static_cast<std::
 
 }  // namespace
 
-Freedom weight_only() {
-  Freedom f;
-  add_axis(f, {0, 0, 1});
-  return f;
-}
-
-Freedom position_part(const Freedom& all) {
-  Freedom f;
-  for (int i = 0; i < all.n; ++i) {
-    const auto& axis = all.axis[static_cast<std::size_t>(i)];
-    if (axis[2] == 0) add_axis(f, axis);
-  }
-  return f;
-}
-
 Mobility mobility(const Mesh& mesh, VertexId v, const OptimizeOptions& options) {
   if (mesh.is_fixed(v)) return Mobility::fixed;
   const FixedLine line = fixed_line(mesh, v);

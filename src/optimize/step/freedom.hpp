@@ -13,6 +13,7 @@ struct Freedom {
   int n = 0;                                       ///< number of directions
   std::array<std::array<double, 3>, 3> axis = {};  ///< position directions are unit vectors; the weight's is (0, 0, 1)
   [[nodiscard]] bool moves() const { return n > 0 && axis[0][2] == 0; }
+  [[nodiscard]] bool weighs() const { return n > 0 && axis[static_cast<std::size_t>(n - 1)][2] != 0; }
 };
 
 /// The mobility that its place leaves a vertex, whatever the sweep. Decided once, since moves keep the lines of the
@@ -30,10 +31,5 @@ enum class Mobility : std::uint8_t {
 
 /// The directions that a vertex of that mobility is optimised in.
 [[nodiscard]] Freedom freedom(const Mesh& mesh, VertexId v, Mobility mobility, Unknowns unknowns);
-
-/// The weight alone.
-[[nodiscard]] Freedom weight_only();
-/// Without the weight.
-[[nodiscard]] Freedom position_part(const Freedom& all);
 
 }  // namespace temper

@@ -101,26 +101,27 @@ void VertexStep::remove_if_better(VertexId v) {
 /// Lines 13 and 14 of Algorithm 1.
 void VertexStep::optimize_point(VertexId v) {
   waiting_.reset();
-  if (gather(v)) make_steps(freedom(mesh, v, limits.mobility[v], unknowns_));
+  if (gather(v)) make_steps();
   if (!waiting_) return;
   waiting_->to = mesh.point(v);
   mesh.set_point(v, waiting_->from);
   deferred_.push_back(*waiting_);
 }
 
-void VertexStep::make_steps(const Freedom& all) {
+void VertexStep::make_steps() {
   const Solver solver = settings.policy.solver;
+  const Freedom all = freedom_in(unknowns_);
   if (all.n == 0) return;
   if (solver == Solver::newton) return newton_search(all);
   const bool golden = solver == Solver::golden;
   const auto search = [&](const Freedom& of) { golden ? golden_search(of) : newton_search(of); };
-  const Freedom positions = position_part(all);
-  for (int i = 0; i < (golden ? kPositionSearches : 1) && positions.n > 0; ++i) {
+  const Freedom positions = freedom_in(Unknowns::positions);
+  for (int i = 0; i < (golden ? kPositionSearches : 1) && all.moves(); ++i) {
     search(positions);
     if (escapes_ || mesh.is_isolated(vertex_)) return;  // isolated: hidden, and removed
     gather(vertex_);
   }
-  if (all.n > positions.n) search(weight_only());
+  if (all.weighs()) search(freedom_in(Unknowns::weights));
 }
 
 /// The star of v as it is now. False when v must stay.
@@ -182,7 +183,7 @@ double VertexStep::short_of_flip(const Step& step, double t) const {
 
 /// One Newton step: over-relaxed, then plain, then halved until the energy falls. Where the size band holds the
 /// position, the weight alone.
-void VertexStep::newton_search(const Freedom& freedom) {
+void VertexStep::newton_search(const Freedom& of) {
   VertexDerivatives d = star_->derivatives(origin_);
   energy_ = d.value;
   if (!d.feasible) {
@@ -190,7 +191,7 @@ void VertexStep::newton_search(const Freedom& freedom) {
     d = star_->derivatives(origin_);
   }
   energy_ = d.value;
-  NewtonStep newton = newton_step(d, freedom, star_->radius(origin_));
+  NewtonStep newton = newton_step(d, of, star_->radius(origin_));
   if (!(newton.predicted > kNoGain * std::abs(energy_))) return;
   const double relaxation = state.relaxation;
   for (double& s : newton.step) s *= relaxation;
@@ -205,7 +206,7 @@ void VertexStep::newton_search(const Freedom& freedom) {
     return goes_on;
   };
   damped_search(relaxation, star_->trials, flip_limited(newton.step, farthest(newton.step)), true, attempt);
-  if (leaves_band && freedom.n > position_part(freedom).n) newton_search(weight_only());
+  if (leaves_band && of.weighs()) newton_search(freedom_in(Unknowns::weights));
 }
 
 /// The paper's Algorithm 5: a finite-difference gradient, then golden section downhill within the patch radius.

@@ -49,10 +49,13 @@ class VertexStep : StepContext {
   bool collapse(VertexId v);
   void optimize_point(VertexId v);
   void remove_if_better(VertexId v);
-  void make_steps(const Freedom& all);
+  void make_steps();
+  [[nodiscard]] Freedom freedom_in(Unknowns unknowns) const {
+    return freedom(mesh, vertex_, limits.mobility[vertex_], unknowns);
+  }
   [[nodiscard]] bool may_go(VertexId v) const { return limits.mobility[v] == Mobility::free; }
 
-  void newton_search(const Freedom& freedom);
+  void newton_search(const Freedom& of);
   void golden_search(const Freedom& freedom);
   bool gather(VertexId v);
   bool enter_domain();

@@ -72,7 +72,7 @@ TEST(NewtonStep, MovesOnlyAlongFreeDirections) {
   const NewtonStep step = newton_step(d, along, 1);
   EXPECT_NEAR(step.step[0] * 0.8, step.step[1] * 0.6, 1e-15);
   EXPECT_EQ(step.step[2], 0);
-  const NewtonStep weight = newton_step(d, weight_only(), 1);
+  const NewtonStep weight = newton_step(d, Freedom{1, {{{0, 0, 1}}}}, 1);
   EXPECT_EQ(weight.step[0], 0);
   EXPECT_EQ(weight.step[1], 0);
   EXPECT_NEAR(weight.step[2], -d.gradient[2] / d.hessian[5], 1e-15);
