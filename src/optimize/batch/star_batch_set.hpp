@@ -132,11 +132,11 @@ TEMPER_INLINE LiftedPointOf<Pack> moved(const Chart<Pack>& p, const PackStep& st
 }
 
 /// `there` where a mask is set, else `here`.
-TEMPER_INLINE PointOf<Pack> select(Mask m, const PointOf<Pack>& there, const PointOf<Pack>& here) {
-  return {select(m, there.x, here.x), select(m, there.y, here.y), select(m, there.w, here.w)};
-}
-TEMPER_INLINE LiftedPointOf<Pack> select(Mask m, const LiftedPointOf<Pack>& there, const LiftedPointOf<Pack>& here) {
-  return {select(m, there.x, here.x), select(m, there.y, here.y), select(m, there.z, here.z)};
+template <class Point>
+TEMPER_INLINE Point select(Mask m, const Point& there, const Point& here) {
+  const auto& [x, y, third] = there;
+  const auto& [x_here, y_here, third_here] = here;
+  return {select(m, x, x_here), select(m, y, y_here), select(m, third, third_here)};
 }
 
 /// The energy of all stars with their centers at p; `certain`: in the domain, and no triangle is inverted there.
@@ -291,15 +291,12 @@ TEMPER_INLINE Mask well_centered_at(const StarBatch& batch, const OnSphere::Poin
   return ~uncertain;
 }
 
-TEMPER_INLINE void store(const PointOf<Pack>& p, LanePoints& to) {
-  p.x.store(to.x);
-  p.y.store(to.y);
-  p.w.store(to.w);
-}
-TEMPER_INLINE void store(const LiftedPointOf<Pack>& p, LanePoints& to) {
-  p.x.store(to.x);
-  p.y.store(to.y);
-  p.z.store(to.w);
+template <class Point>
+TEMPER_INLINE void store(const Point& p, LanePoints& to) {
+  const auto& [x, y, third] = p;
+  x.store(to.x);
+  y.store(to.y);
+  third.store(to.w);
 }
 
 /// The outcome of a search.
