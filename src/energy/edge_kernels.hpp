@@ -48,9 +48,9 @@ static_assert(
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// α and β of ★0, ★1, ★2.
-inline constexpr std::array<double, 3> kAlpha = {1.0 / 4, 1.0 / 3, 1.0 / 12};
-inline constexpr std::array<double, 3> kBeta = {1.0 / 12, 1.0 / 3, 1.0 / 4};
+/// α and β of ★0, ★1, ★2, and of the three together.
+inline constexpr std::array<double, 4> kAlpha = {1.0 / 4, 1.0 / 3, 1.0 / 12, 2.0 / 3};
+inline constexpr std::array<double, 4> kBeta = {1.0 / 12, 1.0 / 3, 1.0 / 4, 2.0 / 3};
 
 /// α and β of E_ODT: the interpolation error of |x|² over a triangle is ρ² A − ∫|x − o|², with the circumradius ρ.
 inline constexpr double kAlphaOdt = 5.0 / 12, kBetaOdt = 1.0 / 4;
@@ -269,37 +269,18 @@ struct EdgeFormula {
 
 /// The one place where an energy's name becomes its formula.
 [[nodiscard]] inline EdgeFormula edge_formula(const EnergyModel& model) {
+  const EnergyInfo& info = kEnergies[static_cast<std::size_t>(model.kind)];
   const std::size_t star = static_cast<std::size_t>(model.star);
   EdgeFormula f{EdgeFormula::Form::hot, kAlpha[star], kBeta[star]};
-  f.normalized = kEnergies[static_cast<std::size_t>(model.kind)].normalized;
+  f.normalized = info.normalized;
   if (model.wall) f.least_area = 0;
   const auto soften = [&f](const Softening& s, double value) {
     (s.scale == LengthScale::absolute ? f.first : f.second) = value;
   };
-  switch (model.kind) {
-    case EnergyKind::BH:
-      f.form = EdgeFormula::Form::shifted;
-      break;
-    case EnergyKind::BHs:
-      f.form = EdgeFormula::Form::shifted;
-      soften(model.h0, model.h0.value);
-      break;
-    case EnergyKind::BP:
-      f.form = EdgeFormula::Form::smoothed;
-      soften(model.gamma, model.gamma.value * model.gamma.value);
-      break;
-    case EnergyKind::ODT:
-      f.alpha = kAlphaOdt;
-      f.beta = kBetaOdt;
-      break;
-    case EnergyKind::F:
-    case EnergyKind::T:
-    case EnergyKind::dT:
-    case EnergyKind::nF:
-    case EnergyKind::nT:
-    case EnergyKind::ndT:
-      break;
-  }
+  if (info.barrier) f.form = info.softened_by_gamma ? EdgeFormula::Form::smoothed : EdgeFormula::Form::shifted;
+  if (info.softened_by_gamma) soften(model.gamma, model.gamma.value * model.gamma.value);
+  if (info.softened_by_h0) soften(model.h0, model.h0.value);
+  if (model.kind == EnergyKind::ODT) f.alpha = kAlphaOdt, f.beta = kBetaOdt;
   return f;
 }
 

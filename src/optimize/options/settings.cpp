@@ -159,13 +159,9 @@ std::optional<InputError> check_space(const OptimizeOptions& o, const Mesh& mesh
 }
 
 AccuracyModel accuracy_model(const AccuracyOptions& a, Scheme scheme, Star star) {
-  struct Factors {
-    double alpha, beta;
-  };
-  constexpr Factors kFactors[] = {{1.0 / 4, 1.0 / 12}, {1.0 / 3, 1.0 / 3}, {1.0 / 12, 1.0 / 4}, {2.0 / 3, 2.0 / 3}};
-  const auto [alpha, beta] = kFactors[static_cast<std::size_t>(star)];
+  const auto i = static_cast<std::size_t>(star);
   const SchemeWeights preset = scheme_weights(scheme);
-  AccuracyModel model = AccuracyModel::of(alpha, beta, a.offset_weight.value_or(preset.offset_weight),
+  AccuracyModel model = AccuracyModel::of(kAlpha[i], kBeta[i], a.offset_weight.value_or(preset.offset_weight),
                                           a.boundary_offset_weight.value_or(preset.boundary_offset_weight));
   model.margin = a.margin.value_or(preset.margin);
   model.barrier = a.barrier;
