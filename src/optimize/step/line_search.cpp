@@ -57,15 +57,8 @@ double patch_radius(const Patch& patch, const WeightedPoint& p, SearchRadius whi
     largest = std::max(largest, l2);
     least = std::min(least, l2);
   }
-  switch (which) {
-    case SearchRadius::rms:
-      return std::sqrt(sum / static_cast<double>(n));
-    case SearchRadius::max:
-      return std::sqrt(largest);
-    case SearchRadius::min:
-      return std::sqrt(least);
-  }
-  return 0;
+  const double mean = sum / static_cast<double>(n);
+  return std::sqrt(which == SearchRadius::max ? largest : which == SearchRadius::min ? least : mean);
 }
 
 }  // namespace temper
