@@ -86,7 +86,7 @@ void count_changes(const Mesh& input, OptimizeReport& report) {
 
 /// Says whether flips alone make an input that is returned better: what hidden vertices keep from being regular stays
 /// so.
-bool lacks_flips(const Counts& input, const Settings& settings, const RunFacts& facts) {
+bool lacks_flips(const MeshScore& input, const Settings& settings, const RunFacts& facts) {
   const Policy& policy = settings.policy;
   if (policy.keeps_connectivity() || (policy.keeps_hidden() && facts.input_flips == 0)) return false;
   return input.non_regular > 0;

@@ -16,7 +16,7 @@ struct InputMeasures {
   /// `sizes`: made too, for objectives other than an energy.
   InputMeasures(const Mesh& mesh, const Settings& settings, std::optional<AccuracySizes>& sizes);
 
-  Counts counts;
+  MeshScore counts;
   SizeReport size;
   std::optional<MeshScore> score;  ///< where the energies of a run do not enter into it
 };

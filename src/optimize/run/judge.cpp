@@ -70,7 +70,7 @@ double root_mean_square(const std::vector<double>& squared_errors) {
   return std::exp(0.5 * sum / static_cast<double>(squared_errors.size()));
 }
 
-Counts count(const Mesh& mesh, const Settings& settings) {
+MeshScore count(const Mesh& mesh, const Settings& settings) {
   return {settings.policy.allows_inversion() ? count_inverted(mesh) : 0,
           count_non_regular_edges(mesh, false, settings.executor()), count_bad(mesh, settings.executor())};
 }
@@ -79,13 +79,12 @@ MeshScore score(const Mesh& mesh, const Settings& settings, const EnergyModel& m
   return score(mesh, count(mesh, settings), settings, model, sizes);
 }
 
-MeshScore score(const Mesh& mesh, const Counts& counts, const Settings& settings, const EnergyModel& model,
+MeshScore score(const Mesh& mesh, const MeshScore& counts, const Settings& settings, const EnergyModel& model,
                 const VertexSizes* sizes) {
   Executor* const executor = settings.executor();
-  MeshScore s;
-  s.inverted = counts.inverted;
-  if (!settings.policy.keeps_hidden()) s.non_regular = counts.non_regular;
-  if (settings.energy().barrier) s.bad = counts.bad;
+  MeshScore s = counts;
+  if (settings.policy.keeps_hidden()) s.non_regular = 0;
+  if (!settings.energy().barrier) s.bad = 0;
   s.missing_lengths = missing_lengths(mesh, settings.accuracy, executor);
   if (sizes == nullptr) {
     s.energy = total_energy(mesh, model, executor);

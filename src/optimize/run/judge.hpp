@@ -43,18 +43,14 @@ enum class Requirement {
 };
 [[nodiscard]] bool replaces(const MeshScore& now, const MeshScore& best, Requirement required);
 
-/// What is counted for a score, whatever the energy.
-struct Counts {
-  std::size_t inverted = 0;  ///< none are looked for unless they are allowed
-  std::size_t non_regular = 0, bad = 0;
-};
-[[nodiscard]] Counts count(const Mesh& mesh, const Settings& settings);
+/// What is counted for a score, whatever the energy. Inverted triangles are looked for where they are allowed.
+[[nodiscard]] MeshScore count(const Mesh& mesh, const Settings& settings);
 
 /// The score by the energy `model`, or with the sizes at its vertices by the accuracy objective.
 [[nodiscard]] MeshScore score(const Mesh& mesh, const Settings& settings, const EnergyModel& model,
                               const VertexSizes* sizes = nullptr);
 /// The score of a mesh where all has been counted.
-[[nodiscard]] MeshScore score(const Mesh& mesh, const Counts& counts, const Settings& settings,
+[[nodiscard]] MeshScore score(const Mesh& mesh, const MeshScore& counts, const Settings& settings,
                               const EnergyModel& model, const VertexSizes* sizes);
 
 /// Says whether a mesh replaces the best one, by that energy.
