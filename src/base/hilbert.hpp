@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "base/box.hpp"
 #include "temper/detail/vec.hpp"
 
 namespace temper {
@@ -53,16 +54,12 @@ inline std::uint64_t cube_hilbert_index(Vec3 p) {
 class HilbertGrid {
  public:
   explicit HilbertGrid(std::span<const Vec2> points) {
-    constexpr double kInf = std::numeric_limits<double>::infinity();
-    Vec2 low{kInf, kInf}, high{-kInf, -kInf};
-    for (const Vec2 p : points) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-    *this = HilbertGrid(low, high);
+    Box box;
+    for (const Vec2 p : points) box.add(p);
+    *this = HilbertGrid(box);
   }
-  HilbertGrid(Vec2 low, Vec2 high) : low_(low) {
-    const double extent = std::max(high.x - low.x, high.y - low.y);
+  explicit HilbertGrid(const Box& box) : low_(box.low) {
+    const double extent = box.longer_side();
     cells_per_length_ = extent > 0 ? (static_cast<double>(1u << kHilbertBits) - 1) / extent : 0;
   }
 

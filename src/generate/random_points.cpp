@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box.hpp"
 #include "base/rng.hpp"
 #include "generate/outline.hpp"
 #include "temper/generate.hpp"
@@ -53,14 +54,11 @@ double boundary_spacing(const Polygon& polygon, std::size_t n) {
 
 /// Adds uniformly random points up to n in all. Where the gap leaves no room, the gap is halved.
 void fill(std::vector<Vec2>& points, std::size_t n, const Polygon& polygon, double spacing, Rng& rng) {
-  Vec2 low = polygon[0], high = polygon[0];
-  for (const Vec2 p : polygon) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
+  Box box;
+  for (const Vec2 p : polygon) box.add(p);
   double gap = kBoundaryGap * spacing;
   for (std::size_t misses = 0; points.size() < n;) {
-    const double x = rng.uniform(low.x, high.x), y = rng.uniform(low.y, high.y);
+    const double x = rng.uniform(box.low.x, box.high.x), y = rng.uniform(box.low.y, box.high.y);
     const Vec2 p = {x, y};
     if (generate::contains(polygon, p) && generate::squared_distance(polygon, p) >= gap * gap) {
       points.push_back(p);

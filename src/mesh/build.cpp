@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/box.hpp"
 #include "base/sum.hpp"
 #include "base/text.hpp"
 #include "mesh/blocks.hpp"
@@ -163,14 +164,13 @@ class MeshBuilder {
     if (on_sphere()) return check_sphere();
     if (auto error = check_periods()) return error;
     if (auto error = check_coordinates({kSmallestCoordinate, kLargestCoordinate})) return error;
-    Vec2 low = in_.points[0], high = low;
+    Box box;
     double largest = 0;
     for (const Vec2 p : in_.points) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+      box.add(p);
       largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
     }
-    const double extent = std::max(high.x - low.x, high.y - low.y);
+    const double extent = box.longer_side();
     if (extent == 0) return std::nullopt;  // the zero areas will be named
     if (extent < kSmallestExtent) {
       return InputError{ErrorCode::out_of_scale,

@@ -27,14 +27,9 @@ Keys keys_on_sphere(const Mesh& mesh, Executor* executor) {
   return keys;
 }
 Keys keys_in_plane(const Mesh& mesh, Executor* executor) {
-  constexpr double kInf = std::numeric_limits<double>::infinity();
-  Vec2 low{kInf, kInf}, high{-kInf, -kInf};
-  for (const VertexId v : mesh.vertices()) {
-    const Vec2 p = mesh.position(v);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  const HilbertGrid curve(low, high);
+  Box box;
+  for (const VertexId v : mesh.vertices()) box.add(mesh.position(v));
+  const HilbertGrid curve(box);
   Keys keys{IdVector<VertexId, std::uint64_t>(mesh.n_vertices()), 2 * kHilbertBits};
   for_each_index(mesh.n_vertices(), executor,
                  [&](std::size_t i) { keys.of[VertexId(i)] = curve(mesh.position(VertexId(i))); });

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/box.hpp"
 #include "temper/dec.hpp"
 #include "verify/poisson.hpp"
 
@@ -138,19 +139,16 @@ Measured measure(const Setting& setting, const std::vector<Field>& fields, bool 
 
 VerifyFrame verify_frame(const Mesh& mesh) {
   if (mesh.space().radius() > 0) return {{0, 0}, mesh.space().radius()};
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  Vec2 low = {kFar, kFar}, high = {-kFar, -kFar};
+  Box box;
   for (const VertexId v : mesh.vertices()) {
-    if (mesh.is_isolated(v)) continue;
-    const Vec2 p = mesh.position(v);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    if (!mesh.is_isolated(v)) box.add(mesh.position(v));
   }
+  auto& [low, high] = box;
   if (low.x > high.x) return {};  // no vertex of a triangle
   const Vec2 period = mesh.space().period();
   if (period.x > 0) low.x = 0, high.x = period.x;
   if (period.y > 0) low.y = 0, high.y = period.y;
-  return {0.5 * low + 0.5 * high, 0.5 * std::max(high.x - low.x, high.y - low.y)};
+  return {0.5 * low + 0.5 * high, 0.5 * box.longer_side()};
 }
 
 Expected<VerifyReport> verify(const Mesh& mesh, const VerifyOptions& options) {

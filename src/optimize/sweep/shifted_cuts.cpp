@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/box.hpp"
 #include "base/hilbert.hpp"
 #include "mesh/blocks.hpp"
 
@@ -12,47 +13,28 @@ namespace {
 
 constexpr std::size_t kVerticesPerSample = 16;  // of those whose keys say where to cut
 
-/// The box of a mesh of the plane, or the cell of a periodic one.
-struct Extent {
-  Vec2 low{}, size{};
-
-  explicit Extent(const Mesh& mesh) {
-    constexpr double kInf = std::numeric_limits<double>::infinity();
-    low = {kInf, kInf};
-    Vec2 high{-kInf, -kInf};
-    for (const VertexId v : mesh.vertices()) {
-      const Vec2 p = mesh.position(v);
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-    size = high - low;
-    if (mesh.space().is_periodic()) {
-      const Vec2 period = mesh.space().period();
-      if (period.x > 0) size.x = period.x;
-      if (period.y > 0) size.y = period.y;
-    }
-  }
-};
-
-/// Keys along a curve whose grid is shifted by a part of the longer side.
+/// Keys along a curve whose grid is shifted by a part of the longer side of the box of the mesh, or of its cell.
 class ShiftedCurve {
  public:
-  ShiftedCurve(const Mesh& mesh, const Extent& extent, double part)
-      : period_(mesh.space().is_periodic() ? mesh.space().period() : Vec2{}),
-        low_(extent.low),
-        shift_{part * side(extent), part * side(extent)},
-        curve_({0, 0}, {2 * side(extent), 2 * side(extent)}) {
-    // Around a period the curve begins elsewhere; its grid is that of the cell.
-    if (period_.x > 0) shift_.x = part * period_.x;
-    if (period_.y > 0) shift_.y = part * period_.y;
-  }
+  ShiftedCurve(const Mesh& mesh, const Box& box, double part)
+      : ShiftedCurve(mesh.space().period(), box, part, longer_side(mesh.space().period(), box)) {}
 
   std::uint64_t operator()(Vec2 p) const {
     return curve_({along(p.x - low_.x + shift_.x, period_.x), along(p.y - low_.y + shift_.y, period_.y)});
   }
 
  private:
-  static double side(const Extent& extent) { return std::max(extent.size.x, extent.size.y); }
+  // Around a period the curve begins elsewhere; its grid is that of the cell.
+  ShiftedCurve(Vec2 period, const Box& box, double part, double side)
+      : period_(period),
+        low_(box.low),
+        shift_{part * (period.x > 0 ? period.x : side), part * (period.y > 0 ? period.y : side)},
+        curve_(Box{{0, 0}, {2 * side, 2 * side}}) {}
+
+  static double longer_side(Vec2 period, const Box& box) {
+    const Vec2 size = box.high - box.low;
+    return std::max(period.x > 0 ? period.x : size.x, period.y > 0 ? period.y : size.y);
+  }
   static double along(double t, double period) {
     return period > 0 ? std::max(0.0, t - period * std::floor(t / period)) : t;
   }
@@ -89,10 +71,11 @@ std::vector<PartNumber> parts_along(const Mesh& mesh, std::size_t count, Executo
 
 void ShiftedCuts::cut(const Mesh& mesh, std::size_t count, Executor& executor) {
   n_parts_ = std::min<std::size_t>(count, std::numeric_limits<PartNumber>::max());
-  const Extent extent(mesh);
+  Box box;
+  for (const VertexId v : mesh.vertices()) box.add(mesh.position(v));
   for (std::size_t k = 0; k < kCuts; ++k) {
     if (mesh.space().is_plane()) {
-      const ShiftedCurve curve(mesh, extent, static_cast<double>(k + 1) / 5);
+      const ShiftedCurve curve(mesh, box, static_cast<double>(k + 1) / 5);
       part_of_[k] = parts_along(mesh, n_parts_, executor, [&](VertexId v) { return curve(mesh.position(v)); });
     } else {
       part_of_[k] = parts_along(mesh, n_parts_, executor,

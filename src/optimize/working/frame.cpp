@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/box.hpp"
+
 namespace temper {
 namespace {
 
@@ -21,15 +23,12 @@ Frame Frame::of(const Mesh& mesh) {
     frame.scale = std::exp2(std::ilogb(mesh.space().radius()));
     return frame;
   }
-  Vec2 low = mesh.position(VertexId(0)), high = low;
-  for (const VertexId v : mesh.vertices()) {
-    const Vec2 p = mesh.position(v);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
+  Box box;
+  for (const VertexId v : mesh.vertices()) box.add(mesh.position(v));
+  const auto& [low, high] = box;
   const Vec2 period = mesh.space().period();
   frame.center = {period.x > 0 ? 0 : center_of(low.x, high.x), period.y > 0 ? 0 : center_of(low.y, high.y)};
-  frame.scale = std::exp2(std::ilogb(std::max(high.x - low.x, high.y - low.y)));
+  frame.scale = std::exp2(std::ilogb(box.longer_side()));
   const auto rounding_of_axis = [&](double middle, double period_there) {
     return period_there > 0 ? Space::rounding_of(period_there / frame.scale) : middle / frame.scale;
   };
