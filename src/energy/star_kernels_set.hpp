@@ -78,45 +78,38 @@ TEMPER_INLINE void store(const StarSums& sums, double* out) {
   for (std::size_t k = 0; k < kStarSums; ++k) out[k] = sum(packs[k]);
 }
 
-template <class In, class Kernel>
-TEMPER_INLINE bool star_derivatives(const Kernel& kernel, const LinkArrays& link, const WeightedPoint& at,
-                                    double* out) {
+template <class In>
+bool barrier_derivatives(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint& at, double* out) {
   const typename In::Center p = everywhere<In>(at);
-  StarSums sums;
-  for (std::size_t i = 0; i < link.size; i += kLanes) {
-    const Pack::Mask where = first_lanes(link.size - i);
-    const typename In::Point q = load_link<In>(link, i), r = load_link<In>(link, i + 1);
-    const Pack::Mask inside =
-        add_barrier<In>(kernel, spoke_of<In>(kernel, p, q), spoke_of<In>(kernel, p, r), q, r, where, sums);
-    if ((inside | ~where).bits() != kAllLanes) return false;
-  }
-  bend(p, sums.derivatives);
-  store(sums, out);
-  return true;
-}
-
-template <class In, class Kernel>
-TEMPER_INLINE double star_value(const Kernel& kernel, const LinkArrays& link, const WeightedPoint& at) {
-  const typename In::Center p = everywhere<In>(at);
-  Pack total = Pack::all(0);
-  for (std::size_t i = 0; i < link.size; i += kLanes) {
-    const Pack::Mask where = first_lanes(link.size - i);
-    const typename In::Point q = load_link<In>(link, i), r = load_link<In>(link, i + 1);
-    const Pack::Mask inside =
-        add_barrier_value<In>(kernel, spoke_of<In>(kernel, p, q), spoke_of<In>(kernel, p, r), q, r, where, total);
-    if ((inside | ~where).bits() != kAllLanes) return kInfinity;
-  }
-  return sum(total);
+  return with_barrier(f, [&](const auto& kernel) {
+    StarSums sums;
+    for (std::size_t i = 0; i < link.size; i += kLanes) {
+      const Pack::Mask where = first_lanes(link.size - i);
+      const typename In::Point q = load_link<In>(link, i), r = load_link<In>(link, i + 1);
+      const auto a = spoke_of<In>(kernel, p, q), b = spoke_of<In>(kernel, p, r);
+      const Pack::Mask inside = add_barrier<In>(kernel, a, b, q, r, where, sums);
+      if ((inside | ~where).bits() != kAllLanes) return false;
+    }
+    bend(p, sums.derivatives);
+    store(sums, out);
+    return true;
+  });
 }
 
 template <class In>
-bool barrier_derivatives(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint& p, double* sums) {
-  return with_barrier(f, [&](const auto& kernel) { return star_derivatives<In>(kernel, link, p, sums); });
-}
-
-template <class In>
-double barrier_value(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint& p) {
-  return with_barrier(f, [&](const auto& kernel) { return star_value<In>(kernel, link, p); });
+double barrier_value(const EdgeFormula& f, const LinkArrays& link, const WeightedPoint& at) {
+  const typename In::Center p = everywhere<In>(at);
+  return with_barrier(f, [&](const auto& kernel) {
+    Pack total = Pack::all(0);
+    for (std::size_t i = 0; i < link.size; i += kLanes) {
+      const Pack::Mask where = first_lanes(link.size - i);
+      const typename In::Point q = load_link<In>(link, i), r = load_link<In>(link, i + 1);
+      const auto a = spoke_of<In>(kernel, p, q), b = spoke_of<In>(kernel, p, r);
+      const Pack::Mask inside = add_barrier_value<In>(kernel, a, b, q, r, where, total);
+      if ((inside | ~where).bits() != kAllLanes) return kInfinity;
+    }
+    return sum(total);
+  });
 }
 
 template <class In>
