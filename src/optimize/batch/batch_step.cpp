@@ -195,6 +195,7 @@ void BatchStep::step_and_settle() {
   const bool lowers_accuracy = state.accuracy_domain != nullptr;
   const StepOutcome outcome = lowers_accuracy ? steps.accuracy(parameters, settings.accuracy, accuracy_, batch_)
                                               : steps.barrier(parameters, batch_);
+  const auto n_changes = [this] { return flipper_.changes().flips + flipper_.changes().removed; };
   const std::size_t before = n_changes();
   for (std::size_t lane = 0; lane < batch_.lanes; ++lane) {
     settle(occupants_[lane], lane, outcome, n_changes() != before);
@@ -250,7 +251,5 @@ bool BatchStep::has_its_link(const Occupant& occupant, bool open) const {
   }
   return i == occupant.n_link - (open ? 1 : 0);
 }
-
-std::size_t BatchStep::n_changes() const { return flipper_.changes().flips + flipper_.changes().removed; }
 
 }  // namespace temper

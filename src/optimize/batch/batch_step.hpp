@@ -49,7 +49,6 @@ class BatchStep : StepContext {
   void improve_alone(VertexId v);
   [[nodiscard]] bool reaches_its_link(const Occupant& occupant, const WeightedPoint& to) const;
   [[nodiscard]] bool has_its_link(const Occupant& occupant, bool open) const;
-  [[nodiscard]] std::size_t n_changes() const;
 
   Flipper& flipper_;
   VertexStep& alone_;

@@ -160,7 +160,7 @@ void Sweeper::visit_in_order(std::span<const VertexId> vertices, StopToken& stop
   improvers_.make_room(1);
   std::vector<VertexId> none;
   const auto improver = improvers_.take();
-  improver->log_flips(nullptr);
+  improver->flipper().log_flips(nullptr);
   improve(*improver, vertices, {}, none, stop);
 }
 
@@ -176,7 +176,7 @@ void Sweeper::run_parts(std::size_t n, StopToken& stop, PartOf&& part, VerticesO
     done_[i].left.clear();
     done_[i].flips.clear();
     const auto improver = improvers_.take();
-    improver->log_flips(by.has_ranks() ? &done_[i].flips : nullptr);
+    improver->flipper().log_flips(by.has_ranks() ? &done_[i].flips : nullptr);
     improve(*improver, vertices(i), part(i), done_[i].left, stop);
   });
   const auto write = [&](ByteWriter& writer, std::size_t i) {
@@ -188,7 +188,7 @@ void Sweeper::run_parts(std::size_t n, StopToken& stop, PartOf&& part, VerticesO
     reader.read(done_[i].left);
     reader.read(done_[i].flips);
     const auto improver = improvers_.take();
-    improver->repeat(done_[i].flips);
+    improver->flipper().repeat(done_[i].flips);
     improver->read(reader, vertices(i));
   };
   by.exchange(n, write, read);

@@ -69,10 +69,6 @@ class Improver {
     }
   }
 
-  /// Appends what is flipped to a log, or to none.
-  void log_flips(std::vector<HalfedgeId>* log) { flipper_.log_flips(log); }
-  /// Does again what another one has logged.
-  void repeat(std::span<const HalfedgeId> flips) { flipper_.repeat(flips); }
   /// Writes all that a sweep changes of vertices: what the mesh has of them, and what batches go by.
   template <class Vertices>
   void write(ByteWriter& writer, const Vertices& vertices) const {
