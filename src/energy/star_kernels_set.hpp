@@ -2,7 +2,6 @@
 #pragma once
 
 #include "energy/accuracy_star.hpp"
-#include "energy/lanes.hpp"
 #include "energy/star_kernels.hpp"
 #include "energy/star_sums.hpp"
 #include "geometry/predicates_inline.hpp"

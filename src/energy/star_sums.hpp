@@ -5,7 +5,7 @@
 // with b = r − p for rp; both are zero for qr.
 #pragma once
 
-#include "energy/lanes.hpp"
+#include "energy/star_kernels.hpp"
 #include "geometry/height_derivatives.hpp"
 
 namespace temper::TEMPER_INSTRUCTION_SET {

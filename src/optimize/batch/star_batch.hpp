@@ -15,7 +15,7 @@
 #include <cstddef>
 
 #include "energy/accuracy_edge.hpp"
-#include "energy/lanes.hpp"
+#include "energy/star_kernels.hpp"
 #include "temper/detail/space.hpp"
 
 namespace temper {
