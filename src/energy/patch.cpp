@@ -82,7 +82,6 @@ class HotStar {
     for (std::size_t i = 0; i < patch.size(); ++i) set_factors(i);
   }
 
-  /// A triangle has no area.
   [[nodiscard]] bool is_degenerate() const { return degenerate_; }
   [[nodiscard]] EdgeFactors factors() const { return {factor_[0], factor_[1], factor_[2]}; }
 
@@ -132,7 +131,6 @@ class HotStar {
   bool degenerate_ = false;
 };
 
-/// One edge with both its triangles, for the HOT energies.
 struct FullEdge {
   FullEdge(const Mesh& mesh, HalfedgeId h)
       : here(edge_in_triangle(mesh, h)), across(beyond(mesh, h)), boundary(mesh.is_boundary(h)) {}

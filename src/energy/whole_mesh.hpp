@@ -36,9 +36,7 @@ class RunningEnergyAndBad {
   std::vector<double> of_blocks_;
 };
 
-// Total energies of many models at once: the walk over a mesh costs more than the terms.
-
-/// total_energy() of each model, in one walk.
+/// total_energy() of each model, in one walk, which costs more than the terms.
 [[nodiscard]] std::vector<double> total_energies(const Mesh& mesh, std::span<const EnergyModel> models,
                                                  Executor* executor);
 

@@ -15,12 +15,10 @@ constexpr std::size_t kAhead = 64;
 // With fewer left, what comes together matters less than that lanes are in use.
 constexpr std::size_t kLastFew = 48;
 
-/// Asks the memory for the point of v, if there is such a vertex.
 void prefetch_point(const Mesh& mesh, std::size_t v) {
   if (v < mesh.n_vertices()) __builtin_prefetch(mesh.vertex_data() + v * (Mesh::kVertexStride / sizeof(double)));
 }
 
-/// And for the first triangle around v.
 void prefetch_star(const Mesh& mesh, VertexId v) {
   const HalfedgeId h = mesh.outgoing(v);
   if (!h.valid()) return;

@@ -205,7 +205,6 @@ class BoundaryCutter {
     }
   }
 
-  /// Splits the edge in its middle.
   void halve(VertexId a, VertexId b) { split(a, b, work_.frame.snap(0.5 * (mesh_.position(a) + mesh_.position(b)))); }
   [[nodiscard]] bool has_edge(VertexId a, VertexId b) const { return find_edge(a, b).valid(); }
   /// A vertex at the orthocenter of a triangle that has none free.
@@ -221,7 +220,6 @@ class BoundaryCutter {
     ++inside_;
   }
 
-  /// What was done.
   [[nodiscard]] BoundaryCuts cuts() const {
     return {vertices_, conflicts_, inside_, refused_.size(), ratio_before_, length_ratio(mesh_)};
   }

@@ -30,11 +30,9 @@ struct Neighborhood {
 /// Are the rim's edges regular, seen from the local mesh as it is now? Exact; constrained ones do not count.
 [[nodiscard]] bool rim_is_regular(const Neighborhood& around, const Mesh& local);
 
-// The splice of a repair: what its trial did in a neighbourhood is done to the whole mesh, and traced like all else.
-
-/// Applies the events of a trial on `around` to the mesh that it was taken from, which must not have changed since.
-/// Removed vertices stay as isolated ones until the caller compacts. Returns the vertices of the place as it is then:
-/// every triangle that has changed has its corners among them.
+/// Applies the events of a trial on `around`, traced like all else, to the mesh that it was taken from, which must not
+/// have changed since. Removed vertices stay as isolated ones until the caller compacts. Returns the vertices of the
+/// place as it is then: every triangle that has changed has its corners among them.
 std::vector<VertexId> splice(WorkingCopy& work, Flipper& flipper, const Recorder& recorder, const Neighborhood& around,
                              std::span<const TraceEvent> events);
 

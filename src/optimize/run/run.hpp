@@ -106,8 +106,6 @@ class Run {
 [[nodiscard]] std::optional<InputError> expect_agreement(const OptimizeHooks& hooks, const OptimizeOptions& options,
                                                          const Mesh& mesh);
 
-// How long a run may still take: an extrapolation of its last sweeps.
-
 /// The sweeps until the gain of one is below the tolerance, if gains go on shrinking by one factor a sweep, as sweeps
 /// for barriers do near their end. None where that cannot be told: in the first sweeps of a stage (one objective, one
 /// γ), where the energy rises or gains do not shrink, and with StoppingRule::paper. Stages that may follow are not

@@ -177,7 +177,6 @@ void Driver::compact() {
   std::erase_if(sequence_, [](VertexId v) { return !v.valid(); });
 }
 
-/// Makes room for the vertices that have been inserted, everywhere.
 void Driver::grow() {
   sweeper_.grow();
   if (sequence_.empty()) return;
@@ -375,7 +374,6 @@ void Driver::record(SweepRecord measured) {
   amend_record(measured);
 }
 
-/// The last record, brought up to date.
 void Driver::amend_record(const SweepRecord& measured) {
   SweepRecord& r = run_.report.history.back();
   const Flipper::Changes changes = flipper_.take_changes();

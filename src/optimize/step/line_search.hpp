@@ -11,8 +11,6 @@
 
 namespace temper {
 
-// Golden-section search, the paper's line search (Algorithm 5).
-
 /// The t in [0, limit] where f is least, up to `tolerance` × limit, when f has one minimum there; else a local one.
 /// f may be +∞. Costs 2 + log(1/tolerance)/log(1.618) evaluations.
 template <class Function>

@@ -9,9 +9,6 @@
 
 namespace temper {
 
-// Prices of plans before they are committed: the energy of the triangles that fill a removed vertex's cavity, or that
-// surround an inserted one.
-
 /// The energy of the plan's triangles with everything that depends on them, so that
 /// total(after) − total(before) = cavity_energy(mesh, model, plan) − patch_energy(patch, model, mesh.point(center)).
 /// Asked before the removal; interior vertices. O(k²) for k triangles.

@@ -6,8 +6,6 @@
 
 namespace temper {
 
-// Newton's step of one vertex in up to three scaled unknowns, for one vertex (T = double) or for eight (T = Pack).
-
 // The trust radius of the scaled unknowns: half a patch radius in position, half a squared one in weight.
 inline constexpr double kTrustRadius = 0.5;
 // Eigenvalues below this part of the largest are raised to it: the step is then cut by the trust radius anyway.

@@ -96,12 +96,10 @@ std::vector<TieEnd> heavier_ends_of_ties(const Mesh& mesh, const OptimizeOptions
   });
   // Of each set, by its root: how many more diagonals have their ends in the color of the root, than in the other one.
   IdVector<VertexId, std::int32_t> majority(mesh.n_vertices(), 0);
+  IdVector<VertexId, std::uint8_t> of_quads(mesh.n_vertices(), 0);
   for (const inlined::Quad& q : quads) {
     const auto a = coloring.place(q.a);
     majority[a.root] += a.differs ? -1 : 1;
-  }
-  IdVector<VertexId, std::uint8_t> of_quads(mesh.n_vertices(), 0);
-  for (const inlined::Quad& q : quads) {
     for (const VertexId v : {q.a, q.b, q.c, q.d}) of_quads[v] = 1;
   }
   std::vector<TieEnd> heavier;

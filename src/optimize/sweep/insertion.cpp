@@ -28,7 +28,6 @@ double mean_energy(const Mesh& mesh, const EnergyModel& model) {
   return n == 0 ? 0 : sum / static_cast<double>(n);
 }
 
-/// The plan of a vertex at the orthocenter of t.
 InsertionPlan plan_at_orthocenter(const Mesh& mesh, const Frame& frame, TriangleId t) {
   const auto [a, b, c] = mesh.points(t);
   const Vec2 o = frame.snap(orthocenter(a, b, c));

@@ -141,8 +141,6 @@ inline constexpr std::size_t kPartSize = 16384;
 
 class StopToken;
 
-/// This is the only place that knows of executors, of ranks, of when to stop, of parts that are shifted and of vertices
-/// that wait for another part.
 class Sweeper {
  public:
   /// `flipper`: counts what all parts do.

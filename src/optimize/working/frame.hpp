@@ -47,8 +47,6 @@ struct Frame {
   }
 };
 
-// What rounding has done to vertices that were not to change.
-
 /// On the sphere each change of a weight rounds a vertex's place, and each move its weight: of what has not changed but
 /// for that, vertices get the input's again. `vertices`: the input's number of
 /// each vertex, no vertex's where it is new; empty: the same.
