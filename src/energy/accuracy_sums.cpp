@@ -21,13 +21,7 @@ class Triangles {
   static constexpr std::size_t kMost = 4 * kLanes;
 
   Triangles(const Mesh& mesh, std::size_t first, std::size_t end) : mesh_(mesh), first_(first), size_(end - first) {
-    for (std::size_t i = 0; i < size_; ++i) {
-      const auto [p, q, r] = mesh.points((*this)[i]);
-      TriangleLanes& lanes = lanes_[i / kLanes];
-      lanes.p.set(i % kLanes, p);
-      lanes.q.set(i % kLanes, q);
-      lanes.r.set(i % kLanes, r);
-    }
+    for (std::size_t i = 0; i < size_; ++i) lanes_[i / kLanes].set(i % kLanes, mesh.points((*this)[i]));
     const StarKernels& kernels = star_kernels(mesh.space());
     for (std::size_t k = 0; k * kLanes < size_; ++k) kernels.triangle_shapes(lanes_[k], shapes_[k]);
   }

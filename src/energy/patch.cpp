@@ -2,7 +2,6 @@
 // both its triangles (sign of the dual of E_T) and at the boundary.
 #include "energy/patch.hpp"
 
-#include <algorithm>
 #include <array>
 
 namespace temper {
@@ -28,19 +27,8 @@ double barrier_triangle(const Kernel& kernel, const TriangleShape& s) {
   return kernel.value(s.edges[0]) + kernel.value(s.edges[1]) + kernel.value(s.edges[2]);
 }
 
-constexpr VertexDerivatives outside() {
-  VertexDerivatives d;
-  d.value = kInfinity;
-  return d;
-}
-
-VertexDerivatives from_sums(const std::array<double, kStarSums>& sums) {
-  VertexDerivatives d;
-  d.value = sums[0];
-  d.feasible = true;
-  std::copy_n(sums.begin() + 1, d.gradient.size(), d.gradient.begin());
-  std::copy_n(sums.begin() + 4, d.hessian.size(), d.hessian.begin());
-  return d;
+VertexDerivatives from_sums(const std::array<double, kStarSums>& s) {
+  return {s[0], true, {s[1], s[2], s[3]}, {s[4], s[5], s[6], s[7], s[8], s[9]}};
 }
 
 /// Room for some numbers of each triangle of a star: on the stack, but for the largest of stars.
@@ -219,13 +207,14 @@ double patch_energy(const Patch& patch, const EnergyModel& model, const Weighted
 
 VertexDerivatives patch_derivatives(const Patch& patch, const EnergyModel& model, const WeightedPoint& p) {
   const EdgeFormula f = edge_formula(model);
+  constexpr VertexDerivatives kOutside = {.value = kInfinity};
   const StarKernels& kernels = star_kernels(patch.space);
   std::array<double, kStarSums> sums;
   if (f.form != EdgeFormula::Form::hot) {
-    return kernels.barrier_derivatives(f, patch.arrays(), p, sums.data()) ? from_sums(sums) : outside();
+    return kernels.barrier_derivatives(f, patch.arrays(), p, sums.data()) ? from_sums(sums) : kOutside;
   }
   const HotStar star(patch, model, f, p);
-  if (star.is_degenerate()) return outside();
+  if (star.is_degenerate()) return kOutside;
   kernels.hot_derivatives(f, patch.arrays(), star.factors(), p, sums.data());
   sums[0] += star.outer();
   return from_sums(sums);

@@ -3,6 +3,7 @@
 // Every set computes the same operations in the same order (base/pack.hpp), so results do not depend on the choice.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -30,6 +31,9 @@ struct LanePoints {
 /// Triangles, one a lane.
 struct TriangleLanes {
   LanePoints p, q, r;
+  void set(std::size_t lane, const std::array<WeightedPoint, 3>& corners) {
+    p.set(lane, corners[0]), q.set(lane, corners[1]), r.set(lane, corners[2]);
+  }
 };
 
 // Triangles and edges in lanes, for the energy and the barrier of the accuracy objective on whole meshes.

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <set>
+#include <utility>
 
 #include "base/sum.hpp"
 #include "energy/patch.hpp"
@@ -36,12 +37,7 @@ void for_batches(const Mesh& mesh, std::size_t block, Visit&& visit) {
   for (std::size_t i = block * kBlockSize; i < end; ++i) {
     const TriangleId t(i);
     if (mesh.is_erased(t)) continue;
-    const auto [p, q, r] = mesh.points(t);
-    TriangleLanes& lanes = batches[filled / kLanes].lanes;
-    const std::size_t lane = filled % kLanes;
-    lanes.p.set(lane, p);
-    lanes.q.set(lane, q);
-    lanes.r.set(lane, r);
+    batches[filled / kLanes].lanes.set(filled % kLanes, mesh.points(t));
     if (++filled == batches.size() * kLanes) visit_all();
   }
   visit_all();
@@ -103,21 +99,17 @@ EnergyAndBad RunningEnergyAndBad::measure(const Mesh& mesh, const EnergyModel& m
 }
 
 std::vector<double> total_energies(const Mesh& mesh, std::span<const EnergyModel> models, Executor* executor) {
-  struct Barrier {
-    EdgeFormula formula;
-    std::size_t place;
-  };
-  std::vector<Barrier> barriers;
+  std::vector<std::pair<EdgeFormula, std::size_t>> barriers;  // and their places
   for (std::size_t i = 0; i < models.size(); ++i) {
     const EdgeFormula formula = edge_formula(models[i]);
-    if (formula.form != EdgeFormula::Form::hot) barriers.push_back({formula, i});
+    if (formula.form != EdgeFormula::Form::hot) barriers.emplace_back(formula, i);
   }
   const StarKernels& kernels = star_kernels(mesh.space());
   const std::size_t n = mesh.n_triangles();
   return sums_of_blocks(n, models.size(), executor, [&](std::size_t block, std::span<double> sums) {
     if (!barriers.empty()) {
       for_batches(mesh, block, [&](const Batch& batch) {
-        for (const Barrier& b : barriers) sums[b.place] += kernels.barrier_sum(b.formula, batch.lanes, batch.size);
+        for (const auto& [formula, i] : barriers) sums[i] += kernels.barrier_sum(formula, batch.lanes, batch.size);
       });
     }
     add_hot_energies(mesh, models, block * kBlockSize, std::min(n, (block + 1) * kBlockSize), sums);

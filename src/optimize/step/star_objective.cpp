@@ -55,9 +55,8 @@ class AccuracyStar final : public StarObjective {
   }
   double value(const WeightedPoint& p) override { return accuracy_.value(p); }
   VertexDerivatives derivatives(const WeightedPoint& p) override {
-    VertexDerivatives outside;
-    outside.value = accuracy_.value(p);
-    return outside.value < kInfinity ? accuracy_.derivatives() : outside;
+    const double value = accuracy_.value(p);
+    return value < kInfinity ? accuracy_.derivatives() : VertexDerivatives{.value = value};
   }
   [[nodiscard]] double radius(const WeightedPoint& p) const override { return accuracy_.shortest_spoke(p); }
 
