@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/rng.hpp"
@@ -37,10 +38,7 @@ class RepairSearch {
   [[nodiscard]] const std::optional<std::vector<TriangleId>>& changed() const { return changed_; }
 
  private:
-  struct Tried {
-    Edit edit;
-    Standing standing;
-  };
+  using Tried = std::pair<Standing, Edit>;
   [[nodiscard]] bool weighs(TriangleId seed) const;
   std::optional<Edit> choose(const Neighborhood& around, TriangleId seed);
   std::optional<Edit> sideways(std::vector<Tried> tried, Standing before);
