@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/bytes.hpp"
+#include "base/rng.hpp"
 #include "geometry/predicates_inline.hpp"
 #include "optimize/run/judge.hpp"
 #include "optimize/working/frame.hpp"
@@ -18,12 +19,10 @@ namespace temper {
 namespace {
 
 /// A hash that any changed byte changes.
-class Fingerprint {
- public:
-  void add(std::uint64_t word) {
-    hash_ = (hash_ ^ word) * 0x9e3779b97f4a7c15U;
-    hash_ ^= hash_ >> 32;
-  }
+struct Fingerprint {
+  std::uint64_t hash = 0;
+
+  void add(std::uint64_t word) { hash = mix64(hash ^ word); }
   template <class T>
   void add(const T* values, std::size_t n) {
     const auto* bytes = reinterpret_cast<const char*>(values);
@@ -35,10 +34,6 @@ class Fingerprint {
       add(word);
     }
   }
-  [[nodiscard]] std::uint64_t hash() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 0;
 };
 
 void add_mesh(Fingerprint& all, const Mesh& mesh) {
@@ -155,7 +150,7 @@ std::optional<InputError> expect_agreement(const OptimizeHooks& hooks, const Opt
   add_mesh(mine, mesh);
   add_options(mine, options);
   mine.add(hooks.tracer ? 1 : 0);
-  const std::string given = std::string(version()) + ' ' + std::to_string(mine.hash());
+  const std::string given = std::string(version()) + ' ' + std::to_string(mine.hash);
   const std::vector<std::string> all = hooks.communicator->all_gather(given);
   const auto other = std::find_if(all.begin(), all.end(), [&](const std::string& each) { return each != all[0]; });
   if (other == all.end()) return std::nullopt;
