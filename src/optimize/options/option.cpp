@@ -25,7 +25,6 @@ bool contains(const OptionRange& range, double x) {
 bool has_kind(const OptionValue& value, OptionKind kind) { return value.index() == 1 + static_cast<std::size_t>(kind); }
 template <OptionKind kind>
 using ValueOf = std::variant_alternative_t<1 + static_cast<std::size_t>(kind), OptionValue>;
-static_assert(std::is_same_v<ValueOf<OptionKind::count>, std::int64_t>);
 static_assert(std::is_same_v<ValueOf<OptionKind::vertex>, VertexId>);
 
 bool may_have(const OptionRow& row, const OptionValue& value) {
@@ -91,14 +90,8 @@ std::string option_range_text(const OptionRow& row) {
   const auto bound = [&](const char* closed, const char* open, double at) {
     return std::isfinite(at) ? (row.range.open ? open : closed) + to_text(at) : std::string();
   };
-  switch (row.kind) {
-    case OptionKind::choice:
-      return list_of(row.choices);
-    case OptionKind::vertex:
-      return "a vertex";
-    default:
-      break;
-  }
+  if (row.kind == OptionKind::choice) return list_of(row.choices);
+  if (row.kind == OptionKind::vertex) return "a vertex";
   const std::string low = bound("at least ", "more than ", row.range.low);
   const bool any_count = row.kind == OptionKind::count;  // that an int holds: who would ask for more?
   const std::string high = any_count ? "" : bound("at most ", "less than ", row.range.high);

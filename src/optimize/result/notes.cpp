@@ -26,6 +26,8 @@ class Notes {
   Notes(const Mesh& mesh, const Settings& settings, OptimizeReport& report)
       : mesh_(mesh), settings_(settings), options_(settings.options), report_(report) {}
 
+  void add(std::string note) { report_.notes.push_back(std::move(note)); }
+
   void tell_facts(const RunFacts& facts) {
     if (facts.stays_uncut) {
       add("the boundary and lines were not split: more triangles would be left that are not well-centered");
@@ -125,18 +127,6 @@ class Notes {
         " would let some of them move along straight lines");
   }
 
-  /// The error model needs a library of sparse matrices.
-  void tell_objective() {
-    add("the objective was accuracy, not the error of the solver: this run had no model of that error; builds with "
-        "Eigen have one, temper::solvers() in C++");
-  }
-
-  /// Repairs go on without, so this is told if triangles are left.
-  void tell_programs() {
-    add("repairs had no solver of linear programs, which may find weights for triangles that are left; builds with Clp "
-        "have one, temper::solvers() in C++");
-  }
-
   void tell_accuracy(std::size_t bad) {
     if (bad > 0) {
       add(count_of(bad, "triangle is", "triangles are") +
@@ -165,8 +155,6 @@ class Notes {
   }
 
  private:
-  void add(std::string note) { report_.notes.push_back(std::move(note)); }
-
   void tell_input_flips(std::size_t flips) {
     if (flips > 0) add(count_of(flips, "edge", "edges") + " of the input flipped to make it regular");
   }
@@ -230,8 +218,16 @@ void tell(const Mesh& mesh, const Settings& settings, const RunFacts& facts, con
   notes.tell_energy();
   notes.tell_corners_that_stay(ending.bad);
   notes.tell_edges_that_must_be_split(ending.bad);
-  if (settings.lacks_error_model) notes.tell_objective();
-  if (facts.lacks_programs && ending.bad > 0) notes.tell_programs();
+  if (settings.lacks_error_model) {
+    notes.add(
+        "the objective was accuracy, not the error of the solver: this run had no model of that error; builds with "
+        "Eigen have one, temper::solvers() in C++");
+  }
+  if (facts.lacks_programs && ending.bad > 0) {
+    notes.add(
+        "repairs had no solver of linear programs, which may find weights for triangles that are left; builds with Clp "
+        "have one, temper::solvers() in C++");
+  }
   if (ending.for_accuracy) notes.tell_accuracy(barrier ? ending.bad : count_bad(mesh, settings.executor()));
 }
 

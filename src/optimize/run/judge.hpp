@@ -12,10 +12,8 @@
 
 namespace temper {
 
-// What edges and duals of a mesh lack of the lengths that are asked for (AccuracyOptions::min_edge, min_dual).
-
-/// Σ over interior edges of (1 − length/least)² of both lengths, where they are shorter than the least asked for;
-/// exactly 0 where nothing is missing. Triangles may be erased. O(n).
+/// Σ over interior edges of (1 − length/least)² of both lengths, where they are shorter than min_edge and min_dual ask
+/// for; exactly 0 where nothing is missing. Triangles may be erased. O(n).
 [[nodiscard]] double missing_lengths(const Mesh& mesh, const AccuracyModel& model, Executor* executor = nullptr);
 
 /// The triangles that have an edge which lacks length, in ascending order.

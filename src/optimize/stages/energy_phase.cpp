@@ -18,14 +18,7 @@ constexpr int kInfinitePatience = 5;
 
 EnergyPhase::EnergyPhase(const WorkingCopy& work, const Settings& settings, SweepState& state, Run& run,
                          const Attempt& attempt, bool may_give_up)
-    : mesh_(work.mesh),
-      settings_(settings),
-      state_(state),
-      run_(run),
-      frame_(work.frame),
-      attempt_(attempt),
-      softener_(attempt, state.energy, settings.policy),
-      may_give_up_(may_give_up) {}
+    : work_(work), settings_(settings), state_(state), run_(run), attempt_(attempt), may_give_up_(may_give_up) {}
 
 void EnergyPhase::begin() {
   before_switch_ = attempt_.first_energy.has_value();
@@ -35,9 +28,9 @@ void EnergyPhase::begin() {
 void EnergyPhase::take_energy(EnergyKind kind) {
   state_.set_energy(kind, settings_.policy);
   softener_ = Softener(attempt_, state_.energy, settings_.policy);
-  softener_.start(mesh_, state_.model);
+  softener_.start(work_.mesh, state_.model);
   state_.relaxation = settings_.policy.relaxation.value_or(softener_.relaxation());
-  least_bad_ = mesh_.n_triangles();
+  least_bad_ = work_.mesh.n_triangles();
   sweeps_since_fewer_bad_ = sweeps_since_lower_ = infinite_sweeps_ = 0;
   before_ = total();
   least_energy_ = kInfinity;
@@ -50,16 +43,16 @@ void EnergyPhase::take_last_energy() {
 }
 
 double EnergyPhase::total() const {
-  return state_.energy_unit(frame_) * total_energy(mesh_, state_.model, settings_.executor());
+  return state_.energy_unit(work_.frame) * total_energy(work_.mesh, state_.model, settings_.executor());
 }
 
 SweepRecord EnergyPhase::measure() {
-  return record_of(energy_and_bad(mesh_, state_.model, engine_of(settings_.hooks)));
+  return record_of(energy_and_bad(work_.mesh, state_.model, engine_of(settings_.hooks)));
 }
 
 SweepRecord EnergyPhase::record_of(const EnergyAndBad& measured) const {
   const double softening = state_.energy.softened_by_h0 ? state_.model.h0.value : state_.model.gamma.value;
-  return {.energy = state_.energy_unit(frame_) * measured.energy, .bad = measured.bad, .softening = softening};
+  return {.energy = state_.energy_unit(work_.frame) * measured.energy, .bad = measured.bad, .softening = softening};
 }
 
 /// Line 19 of Algorithm 1, and what a softened barrier or an infinite energy ask for besides.
@@ -69,7 +62,7 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
     return Verdict::restarted;
   }
   if (settings_.objective != Objective::energy && !before_switch_ && run_.report.history.back().bad == 0 &&
-      has_all_for_accuracy(mesh_, settings_)) {
+      has_all_for_accuracy(work_.mesh, settings_)) {
     run_.report.stopped = Stopped::converged;  // the next phase needs no more of this energy
     return Verdict::settled;
   }
@@ -90,7 +83,7 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
   }
   if (softener_.settled() && may_give_up_ && !before_switch_ && stagnates()) return Verdict::stopped;
   const double fall = (before_ - after) / std::abs(after);
-  const bool sharper = softener_.advance(mesh_, fall, run_.report.history.back().bad, state_.model);
+  const bool sharper = softener_.advance(work_.mesh, fall, run_.report.history.back().bad, state_.model);
   state_.relaxation = settings_.policy.relaxation.value_or(softener_.relaxation());
   before_ = !sharper ? after : softener_.compares_energies() ? total() : kInfinity;
   return Verdict::improving;
@@ -100,7 +93,7 @@ Phase::Verdict EnergyPhase::judge(bool changed) {
 bool EnergyPhase::converged(double before, double after) {
   const double tolerance = settings_.policy.tolerance;
   if (settings_.policy.stopping == StoppingRule::paper) {
-    return before - after < tolerance * static_cast<double>(mesh_.n_triangles());
+    return before - after < tolerance * static_cast<double>(work_.mesh.n_triangles());
   }
   const double change = tolerance * std::abs(after);
   const bool lower = after < least_energy_ - change;

@@ -70,11 +70,10 @@ class EnergyPhase final : public Phase {
   bool converged(double before, double after);
   bool stagnates();
 
-  const Mesh& mesh_;
+  const WorkingCopy& work_;
   const Settings& settings_;
   SweepState& state_;
   Run& run_;
-  const Frame& frame_;
   Attempt attempt_;
   bool before_switch_ = false;  // from the first energy to that of the options
   Softener softener_;
