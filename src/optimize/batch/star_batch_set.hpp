@@ -76,7 +76,7 @@ TEMPER_INLINE Derivatives derivatives(const AccuracyStarOf<In>& star, const Star
 
 using PackStep = NewtonStepOf<Pack>;
 
-/// newton_step of optimize/step/newton.hpp, for a positive definite Hessian.
+/// newton_step of optimize/step/descent.hpp, for a positive definite Hessian.
 TEMPER_INLINE PackStep newton_step(const Derivatives& d, Mask moves, Mask weighs) {
   const Pack zero = Pack::all(0), r2 = d.squared_radius, r = square_root(r2);
   const auto& [gradient, hessian] = d.sums.derivatives;
@@ -105,7 +105,7 @@ TEMPER_INLINE PackDirection direction_to(const Chart<Pack>& p, const LiftedPoint
   return {projected * a.x, projected * a.y};
 }
 
-/// inversion_limit of optimize/step/line_search.hpp.
+/// inversion_limit of optimize/step/descent.hpp.
 template <class In>
 TEMPER_INLINE Pack inversion_limit(const StarBatch& batch, const typename In::Center& p, const PackStep& step) {
   const Pack triangles = Pack::load(batch.triangles);

@@ -9,7 +9,7 @@
 #include "energy/edge_kernels.hpp"
 #include "energy/patch.hpp"
 #include "geometry/triangle_kernel.hpp"
-#include "optimize/step/line_search.hpp"
+#include "optimize/step/descent.hpp"
 #include "temper/detail/geometry.hpp"
 
 namespace temper {
@@ -192,11 +192,9 @@ bool nearly_collapses(const Patch& patch, const EnergyModel& collapse_model, con
   return distance2(nearest) < switches.collapse_ratio * switches.collapse_ratio * shorter2;
 }
 
-bool PatchComparison::better_without(double margin) const {
-  return without < with - margin * std::abs(with) && std::isfinite(without);
+bool is_better(double energy, double now, double margin) {
+  return energy < now - margin * std::abs(now) && std::isfinite(energy);
 }
-
-bool PatchComparison::better_with(double margin) const { return PatchComparison{without, with}.better_without(margin); }
 
 PatchComparison compare_patch(const Mesh& mesh, const Patch& patch, const EnergyModel& model, const RemovalPlan& plan,
                               RemovalMeasure measure) {

@@ -35,10 +35,9 @@ namespace temper {
 /// The energies of P and of P∖p, as `measure` compares them.
 struct PatchComparison {
   double with = 0, without = 0;
-  /// Better without or with p, by at least `margin` relative to what it is.
-  [[nodiscard]] bool better_without(double margin) const;
-  [[nodiscard]] bool better_with(double margin) const;
 };
+/// Says whether an energy is better than what it is now, by at least `margin` relative to that.
+[[nodiscard]] bool is_better(double energy, double now, double margin);
 [[nodiscard]] PatchComparison compare_patch(const Mesh& mesh, const Patch& patch, const EnergyModel& model,
                                             const RemovalPlan& plan, RemovalMeasure measure);
 /// The same of a vertex that is not there yet.

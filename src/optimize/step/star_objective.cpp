@@ -1,7 +1,7 @@
 #include "optimize/step/star_objective.hpp"
 
 #include "geometry/predicates_inline.hpp"
-#include "optimize/step/line_search.hpp"
+#include "optimize/step/descent.hpp"
 #include "optimize/step/search.hpp"
 
 namespace temper {

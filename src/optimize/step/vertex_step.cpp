@@ -5,7 +5,7 @@
 
 #include "base/assert.hpp"
 #include "mesh/edge_lengths.hpp"
-#include "optimize/step/line_search.hpp"
+#include "optimize/step/descent.hpp"
 #include "optimize/step/removal.hpp"
 #include "optimize/step/search.hpp"
 #include "regularity/lawson.hpp"
@@ -93,7 +93,7 @@ void VertexStep::remove_if_better(VertexId v) {
   plan_ = plan_removal(mesh, v, std::move(plan_));
   if (plan_.status != RemovalStatus::possible) return;
   const PatchComparison e = compare_patch(mesh, star_->patch(), state.model, plan_, o.removal_measure);
-  if (!by_weight && !e.better_without(o.removal_margin)) return;
+  if (!by_weight && !is_better(e.without, e.with, o.removal_margin)) return;
   if (!settings.policy.defers_flips() && !is_regular(mesh, plan_)) return;
   flipper_.remove(EventKind::removal, plan_, e.with, e.without);
 }
@@ -266,7 +266,8 @@ bool VertexStep::place(const WeightedPoint& p, double energy, bool must_pay) {
     if (settled == Flipper::Settled::done && !only_weight) limits.band.moved(vertex_);
     return settled == Flipper::Settled::done;
   }
-  const bool fits = !may_break_edges || regular_edges_still_are();
+  const bool fits = !may_break_edges ||
+                    std::all_of(regular_.begin(), regular_.end(), [this](HalfedgeId e) { return is_regular(mesh, e); });
   if (fits && !only_weight) limits.band.moved(vertex_);
   if (fits) {
     recorder.placed(vertex_, origin_, p, energy_, energy);
@@ -323,22 +324,15 @@ void VertexStep::end_sweep() {
   deferred_.clear();
 }
 
-/// Notes which edges are regular: with connectivity kept these must stay so, and one that is not regular may wait.
+/// Notes the edges that may flip and are regular: with connectivity kept they stay so; one that is not regular may
+/// wait.
 void VertexStep::note_regular_edges() {
-  was_regular_.clear();
-  for (const HalfedgeId h : mesh.star(vertex_)) {
-    for (const HalfedgeId e : {h, Mesh::next(h)}) was_regular_.push_back(is_regular(mesh, e) ? 1 : 0);
-  }
-}
-
-bool VertexStep::regular_edges_still_are() const {
-  auto was = was_regular_.begin();
+  regular_.clear();
   for (const HalfedgeId h : mesh.star(vertex_)) {
     for (const HalfedgeId e : {h, Mesh::next(h)}) {
-      if (*was++ != 0 && !mesh.is_constrained(e) && !is_regular(mesh, e)) return false;
+      if (!mesh.is_constrained(e) && is_regular(mesh, e)) regular_.push_back(e);
     }
   }
-  return true;
 }
 
 }  // namespace temper

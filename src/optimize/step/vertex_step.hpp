@@ -11,8 +11,8 @@
 #include "optimize/flips/partition.hpp"
 #include "optimize/flips/size_band.hpp"
 #include "optimize/options/settings.hpp"
+#include "optimize/step/descent.hpp"
 #include "optimize/step/freedom.hpp"
-#include "optimize/step/newton.hpp"
 #include "optimize/step/star_objective.hpp"
 #include "optimize/trace/recorder.hpp"
 #include "optimize/working/frame.hpp"
@@ -119,7 +119,6 @@ class VertexStep : StepContext {
   bool place(const WeightedPoint& p, double energy, bool must_pay);
   [[nodiscard]] bool keeps_connectivity() const;
   void note_regular_edges();
-  [[nodiscard]] bool regular_edges_still_are() const;
 
   Flipper& flipper_;
   Unknowns unknowns_ = Unknowns::positions_and_weights;
@@ -134,7 +133,7 @@ class VertexStep : StepContext {
   std::unique_ptr<StarObjective> star_;
   Patch collapsing_;  // with what E_c needs
   RemovalPlan plan_;
-  std::vector<std::uint8_t> was_regular_;  // of the edges of star and link, in the order of the star
+  std::vector<HalfedgeId> regular_;  // of the edges of star and link, those that a step leaves so
   /// What waits for the end of the sweep. While v is under way it is where it will be.
   struct Deferred {
     VertexId v;

@@ -53,7 +53,7 @@ bool insert_where_energy_is_large(WorkingCopy& work, Flipper& flipper, const Set
     const InsertionPlan plan = plan_at_orthocenter(mesh, work.frame, t);
     if (plan.status != InsertionStatus::possible) continue;
     const PatchComparison e = compare_patch(mesh, model, plan, settings.policy.removal_measure);
-    if (!e.better_with(settings.policy.removal_margin)) continue;
+    if (!is_better(e.with, e.without, settings.policy.removal_margin)) continue;
     flipper.commit(work, plan, e.without, e.with);
     inserted = true;
   }

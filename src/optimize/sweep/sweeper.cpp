@@ -1,6 +1,9 @@
 #include "optimize/sweep/sweeper.hpp"
 
 #include <algorithm>
+#include <array>
+
+#include "base/assert.hpp"
 
 namespace temper {
 

@@ -4,7 +4,7 @@
 // The vertices of a working copy are numbered along a Hilbert curve. They are cut into parts, ranges of about 16,000
 // numbers, however many threads there are, and each part improves the vertices that are confined to it (partition.hpp),
 // in order; it lists those that are not, or whose flips would not be. These wait for the parts of other cuts
-// (shifted_cuts.hpp): nearly all are inside of one of three. What is left then, mostly nothing, comes one after
+// (ShiftedCuts): nearly all are inside of one of three. What is left then, mostly nothing, comes one after
 // another. A mesh of one part is swept as a whole.
 //
 // Why parts may run at once. Call a triangle inner to a part when all its corners are in there. While parts run:
@@ -30,7 +30,6 @@
 // in order, or vertices go, the parts run one after another: the same parts, the same order in each, the same bytes.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <deque>
@@ -38,11 +37,10 @@
 #include <span>
 #include <vector>
 
-#include "base/assert.hpp"
 #include "base/engine.hpp"
 #include "optimize/batch/batch_step.hpp"
+#include "optimize/flips/partition.hpp"
 #include "optimize/run/run.hpp"
-#include "optimize/sweep/shifted_cuts.hpp"
 
 namespace temper {
 

@@ -1,6 +1,5 @@
 #include "optimize/working/frame.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/box.hpp"

@@ -1,11 +1,9 @@
 // The descent step on functions whose minimum is known, and golden section.
-#include "optimize/step/newton.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "optimize/step/line_search.hpp"
+#include "optimize/step/descent.hpp"
 #include "support/lattice.hpp"
 
 namespace temper::test {

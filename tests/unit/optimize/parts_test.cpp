@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "mesh/mesh_editor.hpp"
+#include "optimize/flips/partition.hpp"
 #include "optimize/stages/driver.hpp"
-#include "optimize/sweep/shifted_cuts.hpp"
 #include "support/sanitizers.hpp"
 #include "support/shapes.hpp"
 #include "support/std_threads.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "energy/patch.hpp"
-#include "optimize/step/line_search.hpp"
+#include "optimize/step/descent.hpp"
 #include "optimize/step/removal.hpp"
 #include "support/lattice.hpp"
 #include "temper/detail/geometry.hpp"

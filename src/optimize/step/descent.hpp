@@ -1,15 +1,28 @@
-// The paper's Algorithm 5 on one patch: downhill by finite differences, golden section along the line.
+// Steps of one vertex that lower its energy: Newton's; and the paper's Algorithm 5, downhill by finite differences,
+// golden section along the line.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include "energy/patch.hpp"
 #include "optimize/step/freedom.hpp"
-#include "optimize/step/newton.hpp"
 #include "temper/optimize.hpp"
 
 namespace temper {
+
+/// A step in (x, y, w); on the sphere in the chart of its vertex (geometry/triangle_kernel.hpp).
+using Step = std::array<double, 3>;
+
+struct NewtonStep {
+  Step step = {};
+  double predicted = 0;  ///< −∇E · step > 0: twice the decrease of a quadratic model
+};
+
+/// −|H|⁻¹ ∇E along the free directions, with unknowns scaled by (R, R, R²), eigenvalues taken absolute and floored,
+/// and the length limited to the trust radius R/2.
+[[nodiscard]] NewtonStep newton_step(const VertexDerivatives& d, const Freedom& freedom, double radius);
 
 /// The t in [0, limit] where f is least, up to `tolerance` × limit, when f has one minimum there; else a local one.
 /// f may be +∞. Costs 2 + log(1/tolerance)/log(1.618) evaluations.

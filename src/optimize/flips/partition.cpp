@@ -1,4 +1,4 @@
-#include "optimize/sweep/shifted_cuts.hpp"
+#include "optimize/flips/partition.hpp"
 
 #include <algorithm>
 #include <cmath>
