@@ -189,7 +189,7 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
       }
       const Outcome outcome = try_edit(around, edit, settings_, work_.frame, false);
       if (!outcome.valid) continue;
-      tried.emplace_back(outcome.standing, edit);
+      tried.push_back({edit, outcome.standing});
       if (!helps(least, outcome.standing)) continue;
       best = edit;
       least = outcome.standing;
@@ -207,11 +207,11 @@ std::optional<Edit> RepairSearch::choose(const Neighborhood& around, TriangleId 
 
 /// One of the best few that leave no more triangles bad.
 std::optional<Edit> RepairSearch::sideways(std::vector<Tried> tried, Standing before) {
-  std::erase_if(tried, [&](const Tried& t) { return t.first.bad > before.bad; });
+  std::erase_if(tried, [&](const Tried& t) { return t.standing.bad > before.bad; });
   if (tried.empty()) return std::nullopt;
-  std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.first < b.first; });
+  std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.standing < b.standing; });
   const auto choice = std::min(kSidewaysChoice, static_cast<std::uint32_t>(tried.size()));
-  return tried[rng_.below(choice)].second;
+  return tried[rng_.below(choice)].edit;
 }
 
 }  // namespace temper

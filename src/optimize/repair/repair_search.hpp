@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "base/rng.hpp"
@@ -38,7 +37,10 @@ class RepairSearch {
   [[nodiscard]] const std::optional<std::vector<TriangleId>>& changed() const { return changed_; }
 
  private:
-  using Tried = std::pair<Standing, Edit>;
+  struct Tried {
+    Edit edit;
+    Standing standing;
+  };
   [[nodiscard]] bool weighs(TriangleId seed) const;
   std::optional<Edit> choose(const Neighborhood& around, TriangleId seed);
   std::optional<Edit> sideways(std::vector<Tried> tried, Standing before);

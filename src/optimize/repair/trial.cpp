@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <set>
-#include <utility>
 #include <vector>
 
 #include "base/rng.hpp"
@@ -62,11 +61,15 @@ class DelaunayRefinement {
     }
   }
 
-  /// The triangle strictly around the place for the next vertex, and that place, without a weight; nothing when all are
-  /// small enough.
-  std::optional<std::pair<TriangleId, WeightedPoint>> next() {
+  /// The place for the next vertex, and the triangle strictly around it; nothing when all are small enough.
+  struct Place {
+    TriangleId triangle;
+    WeightedPoint point;  ///< without a weight
+  };
+
+  std::optional<Place> next() {
     double worst = kLarge;
-    std::optional<std::pair<TriangleId, WeightedPoint>> found;
+    std::optional<Place> found;
     for (const TriangleId t : mesh_.triangles()) {
       if (mesh_.is_erased(t)) continue;
       const auto [a, b, c] = mesh_.corners(t);
@@ -83,7 +86,7 @@ class DelaunayRefinement {
         continue;
       }
       worst = relative;
-      found = std::pair(at.triangle, o);
+      found = {at.triangle, o};
     }
     return found;
   }
@@ -96,7 +99,9 @@ class DelaunayRefinement {
     Vec3 at;
     double size;
   };
-  using Segment = std::array<Vec3, 2>;
+  struct Segment {
+    Vec3 a, b;
+  };
 
   [[nodiscard]] Vec3 place(VertexId v) const { return place_in_space(mesh_.space(), mesh_.point(v)); }
 
@@ -109,7 +114,7 @@ class DelaunayRefinement {
   [[nodiscard]] bool too_near_to_edges(Vec3 x) const {
     const double wanted = size(x);
     return std::any_of(segments_.begin(), segments_.end(), [&](const Segment& s) {
-      return distance_to_segment(x, s[0], s[1]) < kClearance * std::min(length(s[1] - s[0]), wanted);
+      return distance_to_segment(x, s.a, s.b) < kClearance * std::min(length(s.b - s.a), wanted);
     });
   }
 
@@ -287,8 +292,8 @@ class Trial {
     DelaunayRefinement refinement(work_.mesh, gradation);
     int inserted = 0;
     for (auto place = refinement.next(); place && inserted < kMostInserted; place = refinement.next()) {
-      if (!insert(place->first, place->second)) {
-        refinement.refuse(place->second);
+      if (!insert(place->triangle, place->point)) {
+        refinement.refuse(place->point);
         continue;
       }
       if (!flipper_.restore_all()) return false;
