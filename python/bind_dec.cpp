@@ -44,8 +44,8 @@ py::dict edges_to_dict(const py::object& owner, const DecComplex& complex) {
   using std::int32_t;
   return Record()("vertices", column<int32_t>(owner, edges, &e.from, 2))(
              "triangles", column<int32_t>(owner, edges, &e.left, 2))("length", column<double>(owner, edges, &e.length))(
-             "split", column<double>(owner, edges, &e.split))("left_height",
-                                                              column<double>(owner, edges, &e.left_height))(
+             "crossing", column<double>(owner, edges, &e.crossing))("left_height",
+                                                                    column<double>(owner, edges, &e.left_height))(
              "right_height", column<double>(owner, edges, &e.right_height))(
              "dual_length", column<double>(owner, edges, &e.dual_length))(
              "midpoint",

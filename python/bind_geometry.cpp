@@ -74,8 +74,9 @@ void bind_predicates(py::module_& m) {
     return in_space<std::int8_t, 3>(sphere, {a, b, c},
                                     [](const auto&... p) { return as_number(signed_height_sign(p...)); });
   });
-  m.def("edge_split_sign", [](const Doubles& a, const Doubles& b, bool sphere) {
-    return in_space<std::int8_t, 2>(sphere, {a, b}, [](const auto&... p) { return as_number(edge_split_sign(p...)); });
+  m.def("dual_crossing_sign", [](const Doubles& a, const Doubles& b, bool sphere) {
+    return in_space<std::int8_t, 2>(sphere, {a, b},
+                                    [](const auto&... p) { return as_number(dual_crossing_sign(p...)); });
   });
   m.def("is_well_centered", [](const Doubles& a, const Doubles& b, const Doubles& c, bool sphere) {
     return in_space<bool, 3>(sphere, {a, b, c}, [](const auto&... p) { return is_well_centered(p...); });
@@ -88,8 +89,8 @@ void bind_constructions(py::module_& m) {
   m.def("orthocenter", [](const Doubles& a, const Doubles& b, const Doubles& c, bool sphere) {
     return in_space<double, 3>(sphere, {a, b, c}, [](const auto&... p) { return orthocenter(p...); });
   });
-  m.def("edge_split", [](const Doubles& a, const Doubles& b, bool sphere) {
-    return in_space<double, 2>(sphere, {a, b}, [](const auto&... p) { return edge_split(p...); });
+  m.def("dual_crossing", [](const Doubles& a, const Doubles& b, bool sphere) {
+    return in_space<double, 2>(sphere, {a, b}, [](const auto&... p) { return dual_crossing(p...); });
   });
   m.def("signed_height", [](const Doubles& a, const Doubles& b, const Doubles& c, bool sphere) {
     return in_space<double, 3>(sphere, {a, b, c}, [](const auto&... p) { return signed_height(p...); });

@@ -8,7 +8,7 @@
 #include "temper/feasibility.hpp"
 
 TEMPER_PYTHON_NAMES(temper::LpStatus, "optimal", "infeasible", "unbounded", "failed");
-TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "split", "dual");
+TEMPER_PYTHON_NAMES(temper::WeightConstraint::Kind, "height", "crossing", "dual");
 TEMPER_PYTHON_NAMES(temper::Conditions, "well_centered", "heights_only", "regular");
 TEMPER_PYTHON_NAMES(temper::WeightGoal, "feasible", "minimal", "elastic");
 
@@ -229,9 +229,9 @@ py::dict cure_to_dict(const Mesh& mesh, const Cure& c) {
 py::dict reason_to_dict(const Mesh& mesh, const Reason& r) {
   py::list cures;
   for (const Cure& cure : r.cures) cures.append(cure_to_dict(mesh, cure));
-  const py::object split = r.must_split ? py::object(conflict_to_dict(mesh, *r.must_split)) : py::none();
+  const py::object crossing = r.must_split ? py::object(conflict_to_dict(mesh, *r.must_split)) : py::none();
   return Record()("kind", name(r.kind))("text", reason_text(mesh, r))("bad", r.bad)("conflict", r.conflict)(
-             "must_split", split)("certificate", certificate_to_dict(r.certificate))("margin", r.margin)(
+             "must_split", crossing)("certificate", certificate_to_dict(r.certificate))("margin", r.margin)(
              "each", r.each)("checked", r.checked)("crossing", crossing_to_dict(r.crossing))(
              "center", center_to_dict(r.center))("free", r.free)("least_margin", r.least_margin)("at", r.at)(
              "cures_searched", r.cures_searched)("cures", cures)

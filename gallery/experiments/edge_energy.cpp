@@ -60,7 +60,7 @@ Consistency consistency(EnergyKind kind, std::size_t tries) {
     for (std::size_t i = 0; i < 3; ++i) {
       const WeightedPoint &a = p[i], &b = p[(i + 1) % 3], &c = p[(i + 2) % 3];
       const EdgeEnergy e{kind, temper::length(b.position() - a.position()), kSoftening};
-      sum += e(edge_split(a, b), signed_height(a, b, c));
+      sum += e(dual_crossing(a, b), signed_height(a, b, c));
     }
     const double whole = triangle_energy(model, p[0], p[1], p[2]);
     if (!std::isfinite(whole) || whole > 1e4) continue;  // at a wall: h has lost its digits

@@ -89,7 +89,7 @@ double half(int star, double d, double h) {
 std::array<double, 2> halves(const Mesh& mesh, HalfedgeId e, int star) {
   const WeightedPoint p = mesh.point(mesh.origin(e)), q = mesh.point(mesh.target(e));
   const double h = signed_height(p, q, mesh.point(mesh.opposite(e)));
-  return {half(star, edge_split(p, q), h), half(star, edge_split(q, p), h)};
+  return {half(star, dual_crossing(p, q), h), half(star, dual_crossing(q, p), h)};
 }
 
 std::vector<Pair> vertices_and_cells(const Mesh& mesh) {

@@ -62,7 +62,7 @@ class Drawing {
   }
   [[nodiscard]] Vec2 midpoint(std::size_t i, std::size_t j) const {
     const Vec2 a = p_[i].position(), b = p_[j].position();
-    return a + (edge_split(p_[i], p_[j]) / length(b - a)) * (b - a);
+    return a + (dual_crossing(p_[i], p_[j]) / length(b - a)) * (b - a);
   }
 
   void line(Vec2 a, Vec2 b, const char* color, const std::string& style = "") {

@@ -85,7 +85,7 @@ class Painter {
   [[nodiscard]] Vec2 weighted_midpoint(HalfedgeId h) const {
     const WeightedPoint a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h));
     const Vec2 along = b.position() - a.position();
-    return a.position() + (edge_split(a, b) / length(along)) * along;
+    return a.position() + (dual_crossing(a, b) / length(along)) * along;
   }
 
   void draw_dual() {

@@ -40,7 +40,7 @@ Margins margins(const Corners& p) {
   Margins result{kLongSide, kLongSide};
   for (std::size_t k = 0; k < 3; ++k) {
     const WeightedPoint &a = p[k], &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
-    const double d = edge_split(a, b), l = length(b.position() - a.position());
+    const double d = dual_crossing(a, b), l = length(b.position() - a.position());
     result.min_d = std::min({result.min_d, d, l - d});
     result.min_h = std::min(result.min_h, signed_height(a, b, c));
   }
@@ -64,7 +64,7 @@ std::optional<WeightInterval> feasible_weights(double theta, double least_h) {
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
     const double l = length(at0[i].position() - at0[k].position());
-    const double d0 = edge_split(at0[k], at0[i]), d1 = edge_split(at1[k], at1[i]);
+    const double d0 = dual_crossing(at0[k], at0[i]), d1 = dual_crossing(at1[k], at1[i]);
     positive(d0, d1);
     positive(l - d0, l - d1);
     if (std::isinf(least_h)) continue;

@@ -59,7 +59,7 @@ class TriangleCell {
   // From the orthocenter to the weighted midpoint of the edge; dashed when that is outside the edge.
   [[nodiscard]] std::string dual(Vec2 center, const WeightedPoint& a, const WeightedPoint& b) const {
     const Vec2 along = b.position() - a.position();
-    const double d = edge_split(a, b), l = length(along);
+    const double d = dual_crossing(a, b), l = length(along);
     const Vec2 middle = a.position() + (d / l) * along;
     const char* dash = d > 0 && d < l ? "" : " stroke-dasharray=\"3 2\"";
     return "<path d=\"M" + at(center) + "L" + at(middle) + "\" fill=\"none\" stroke=\"" + kDual + "\"" + dash + "/>\n";

@@ -61,7 +61,7 @@ Claim midpoints(std::size_t tries) {
       const double along = dot(o - e.i.position(), e.along()), up = cross(e.along(), o - e.i.position());
       const double h = signed_height(e.i, e.j, e.k), scale = 1 + length(o);
       worst = std::max(
-          {worst, std::abs(along - edge_split(e.i, e.j)) / scale, std::abs(std::abs(up) - std::abs(h)) / scale});
+          {worst, std::abs(along - dual_crossing(e.i, e.j)) / scale, std::abs(std::abs(up) - std::abs(h)) / scale});
       const double side = up * cross(e.along(), e.k.position() - e.i.position());  // o and p_k on one side
       if (std::abs(h) > kRounding && (side > 0) != (h > 0)) ++wrong_side;
     }
@@ -76,13 +76,14 @@ Claim midpoints(std::size_t tries) {
           digits(tries) + " random weighted triangles"};
 }
 
-Claim one_negative_split(std::size_t tries) {
+Claim one_negative_crossing(std::size_t tries) {
   Random random(103);
   std::size_t one = 0, both = 0;
   double worst = 0;
   for (std::size_t n = 0; n < tries; ++n) {
     for (const Edge& e : edges_of(random_triangle(random, 2))) {
-      const double d = edge_split(e.i, e.j), back = edge_split(e.j, e.i), l = length(e.j.position() - e.i.position());
+      const double d = dual_crossing(e.i, e.j), back = dual_crossing(e.j, e.i),
+                   l = length(e.j.position() - e.i.position());
       worst = std::max(worst, std::abs(d + back - l) / (std::abs(d) + std::abs(back)));
       one += (d < 0) != (back < 0);
       both += d < 0 && back < 0;
@@ -108,9 +109,9 @@ Push push(std::size_t tries) {
   for (std::size_t n = 0; n < tries; ++n) {
     Corners p = random_triangle(random, 0);
     const auto distance = [&] { return length(orthocenter(p[0], p[1], p[2]) - p[0].position()); };
-    const double d = edge_split(p[0], p[1]), from_center = distance();
+    const double d = dual_crossing(p[0], p[1]), from_center = distance();
     p[0].w = kMore;
-    result.midpoint += edge_split(p[0], p[1]) > d;
+    result.midpoint += dual_crossing(p[0], p[1]) > d;
     const bool farther = distance() > from_center;
     result.center += farther;
     const double j = corner_angle(p[1].position(), p[2].position(), p[0].position()),
@@ -248,7 +249,7 @@ Page make(Effort effort) {
         "Triangle ijk, its orthocenter o and the weighted midpoints m, at distance d along the edges and h from them. "
         "Circles: radius √|w|, green positive, red dashed negative."}},
       {},
-      {equal_power(tries), midpoints(tries), one_negative_split(tries), weight_pushes(tries), dual_length(tries),
+      {equal_power(tries), midpoints(tries), one_negative_crossing(tries), weight_pushes(tries), dual_length(tries),
        positive_duals_not_regular(), definition_is_formula(meshes),
        energy_bounds_error(meshes, effort == Effort::full ? 100 : 10)}};
 }

@@ -23,7 +23,7 @@ Signs signs(const Corners& p) {
   for (std::size_t k = 0; k < 3; ++k) {
     const WeightedPoint &a = p[k], &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
     s.negative_h += signed_height_sign(a, b, c) == Sign::negative;
-    s.negative_d += (edge_split_sign(a, b) == Sign::negative) + (edge_split_sign(b, a) == Sign::negative);
+    s.negative_d += (dual_crossing_sign(a, b) == Sign::negative) + (dual_crossing_sign(b, a) == Sign::negative);
   }
   return s;
 }
@@ -55,7 +55,7 @@ Claim obtuse_has_one_negative_height(std::size_t tries) {
           "random triangles, obtuse by the scalar products of their sides; signs of h exact"};
 }
 
-Claim unweighted_splits(std::size_t tries) {
+Claim unweighted_crossings(std::size_t tries) {
   Random random(202);
   std::size_t negative = 0;
   for (std::size_t n = 0; n < tries; ++n) negative += signs(random_triangle(random, 0)).negative_d;
@@ -132,7 +132,7 @@ Page make(Effort effort) {
   const std::size_t tries = effort == Effort::full ? 20000 : 2000;
   return {{drawings()},
           {},
-          {obtuse_has_one_negative_height(tries), unweighted_splits(tries), weighted_signs(tries),
+          {obtuse_has_one_negative_height(tries), unweighted_crossings(tries), weighted_signs(tries),
            orthocenter_anywhere(tries)}};
 }
 

@@ -32,7 +32,7 @@ double sum_halves(const Corners& p, F&& f) {
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const WeightedPoint &a = p[k], &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
-    const double h = signed_height(a, b, c), d = edge_split(a, b), back = edge_split(b, a);
+    const double h = signed_height(a, b, c), d = dual_crossing(a, b), back = dual_crossing(b, a);
     sum += f(d, back, h) + f(back, d, h);
   }
   return sum;

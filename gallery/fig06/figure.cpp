@@ -176,7 +176,7 @@ WeightFormulas check_weights(std::size_t tries) {
     const double ci = cot(0, 1, 2), cj = cot(1, 2, 0), ck = cot(2, 0, 1);
     const auto dh = [&](double wi, double wj, double wk) {
       const WeightedPoint i{p[0].x, p[0].y, wi}, j{p[1].x, p[1].y, wj}, k{p[2].x, p[2].y, wk};
-      return Vec2{edge_split(i, j), signed_height(i, j, k)};
+      return Vec2{dual_crossing(i, j), signed_height(i, j, k)};
     };
     const double wi = uniform(-1, 1), wj = uniform(-1, 1), wk = uniform(-1, 1);
     const Vec2 formula = {l / 2 + (wi - wj) / (2 * l),
@@ -253,7 +253,7 @@ Claim quasi_convex_in_weights(std::size_t count) {
     return [=](double t) {
       const Corners c = between(a, b, t);
       const EdgeEnergy e{EnergyKind::BH, length(c[1].position() - c[0].position()), 0};
-      return e(edge_split(c[0], c[1]), signed_height(c[0], c[1], c[2]));
+      return e(dual_crossing(c[0], c[1]), signed_height(c[0], c[1], c[2]));
     };
   });
   return {"4 Quasi-convexity for Weights",

@@ -87,7 +87,7 @@ Condition height_condition(const Mesh& mesh, const std::array<std::size_t, 3>& c
 }
 
 /// 2 d_pq ℓ_pq = |pq|² + w_p − w_q.
-Condition split_condition(const Mesh& mesh, std::size_t p, std::size_t q) {
+Condition crossing_condition(const Mesh& mesh, std::size_t p, std::size_t q) {
   const IntegerPoint a = integer_position(mesh, q) - integer_position(mesh, p);
   Condition c{edge_name("d", p, q), dot(a, a), {}};
   c.weight[p] = 1;
@@ -111,8 +111,8 @@ std::vector<Condition> hard_barrier_conditions() {
   for (const HalfedgeId h : mesh.halfedges()) {
     if (!mesh.is_edge_representative(h)) continue;
     const std::size_t p = mesh.origin(h).index, q = mesh.target(h).index;
-    conditions.push_back(split_condition(mesh, p, q));
-    conditions.push_back(split_condition(mesh, q, p));
+    conditions.push_back(crossing_condition(mesh, p, q));
+    conditions.push_back(crossing_condition(mesh, q, p));
   }
   return conditions;
 }
@@ -142,7 +142,7 @@ double margin(const Mesh& mesh, bool with_d) {
       const WeightedPoint p = mesh.point(v[i]), q = mesh.point(v[(i + 1) % 3]), r = mesh.point(v[(i + 2) % 3]);
       const double edge = length(q.position() - p.position());
       least = std::min(least, signed_height(p, q, r) / edge);
-      if (with_d) least = std::min({least, edge_split(p, q) / edge, edge_split(q, p) / edge});
+      if (with_d) least = std::min({least, dual_crossing(p, q) / edge, dual_crossing(q, p) / edge});
     }
   }
   return least;

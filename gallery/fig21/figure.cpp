@@ -40,7 +40,7 @@ double triangle_share(const Mesh& mesh, TriangleId t) {
     const WeightedPoint p = mesh.point(mesh.origin(e)), q = mesh.point(mesh.target(e));
     double h = signed_height(p, q, mesh.point(mesh.opposite(e)));
     if (mesh.is_boundary(e)) h = std::abs(h);
-    for (const double d : {edge_split(p, q), edge_split(q, p)}) sum += (d * d * d * h + d * h * h * h) / 3;
+    for (const double d : {dual_crossing(p, q), dual_crossing(q, p)}) sum += (d * d * d * h + d * h * h * h) / 3;
   }
   return sum;
 }

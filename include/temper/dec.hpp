@@ -50,7 +50,7 @@ struct DecEdge {
   VertexId from, to;        ///< from < to
   TriangleId left, right;   ///< of from → to; one of them is invalid on the boundary
   double length = 0;        ///< ℓ
-  double split = 0;         ///< d, signed distance from `from`, towards `to`, of the weighted midpoint
+  double crossing = 0;      ///< d, signed distance from `from`, towards `to`, of the weighted midpoint
   double left_height = 0;   ///< h of the orthocenter of `left` over this edge, > 0 on the side of `left`; 0 without it
   double right_height = 0;  ///< h of the orthocenter of `right`, > 0 on the side of `right`; 0 without it
   double dual_length = 0;   ///< left_height + right_height, with the exact sign, and accurate where they cancel
@@ -135,8 +135,8 @@ struct PowerCells {
 // ----------
 
 /// The operators for −div(K ∇u) of a mesh whose image, mapped by the metric of K, has these: ★1 and flux are times
-/// √(det K), orthocenters and midpoints are mapped back, areas are the same in both. Lengths, splits and heights stay
-/// those of the metric.
+/// √(det K), orthocenters and midpoints are mapped back, areas are the same in both. Lengths, crossings and heights
+/// stay those of the metric.
 [[nodiscard]] DecComplex mapped_back(DecComplex complex, const Metric& metric);
 /// The cells of a mapped mesh: their corners are mapped back. Faces keep their widths, of the metric.
 [[nodiscard]] PowerCells mapped_back(PowerCells cells, const Metric& metric);

@@ -64,7 +64,7 @@ class LpSolver {
 
 /// The inequalities that count.
 enum class Conditions {
-  well_centered,  ///< heights and splits
+  well_centered,  ///< heights and crossings
   heights_only,   ///< orthocenters inside their triangles; dual edges need not cross their own edges
   regular,        ///< dual lengths of edges inside the mesh: of all of them, or of those prescribed
 };
@@ -86,17 +86,17 @@ struct ConditionsInfo {
 /// One inequality of some conditions.
 struct WeightConstraint {
   enum class Kind {
-    height,  ///< h over edge pq of the triangle pqr, counter-clockwise
-    split,   ///< d from p towards q, for any edge pq
-    dual,    ///< dual length of pq: h over it in the triangle pqr and in qps, both counter-clockwise
+    height,    ///< h over edge pq of the triangle pqr, counter-clockwise
+    crossing,  ///< d from p towards q, for any edge pq
+    dual,      ///< dual length of pq: h over it in the triangle pqr and in qps, both counter-clockwise
   };
   Kind kind = Kind::height;
-  VertexId p, q, r;  ///< r is invalid for a split
+  VertexId p, q, r;  ///< r is invalid for a crossing
   VertexId s = {};   ///< of a dual only
 
   friend bool operator==(const WeightConstraint&, const WeightConstraint&) = default;
 };
-/// "height", "split", "dual".
+/// "height", "crossing", "dual".
 [[nodiscard]] std::string_view name(WeightConstraint::Kind kind);
 
 /// Certificates of `regular` speak of weights that differ by less than this many ℓ² along the edges of their triangles.
@@ -111,7 +111,7 @@ inline constexpr double kLeastRefutedDual = 0x1p-20;
 /// A proof that no weights exist (Farkas). Each constraint c is a polynomial N_c > margin · M_c, linear in the weights:
 ///
 ///   height  N = D_p (D_r + w_q − w_r) + D_q (D_r + w_p − w_r) = 2 h ℓ S,               M = 2 ℓ² S
-///   split   N = ℓ² + w_p − w_q                                = 2 d ℓ,                 M = 2 ℓ²
+///   crossing   N = ℓ² + w_p − w_q                                = 2 d ℓ,                 M = 2 ℓ²
 ///   dual    N = λ_q (r × s) + λ_r (s × q) + λ_s (q × r)       = 2 (h_r + h_s) S T / ℓ, M = 2 S T
 ///
 /// with D_p = (q − p)·(r − p) and so on, and S twice the area of pqr; for a dual p is the origin, λ_v = |v|² − w_v +
@@ -121,7 +121,7 @@ inline constexpr double kLeastRefutedDual = 0x1p-20;
 /// On the sphere N and M are linear in σ, and N > margin · M (σ_p + σ_q)/2, with p, q, r the places and M a double:
 ///
 ///   height  N = (p×q)·(q×r) σ_p + (p×q)·(r×p) σ_q + |p×q|² σ_r,      M = |p×q|² det(p, q, r)/R³
-///   split   N = |p|² σ_q − p·q σ_p,                                  M = |p − q|²
+///   crossing   N = |p|² σ_q − p·q σ_p,                                  M = |p − q|²
 ///   dual    N = det(p, q, r) σ_s + det(q, p, s) σ_r + …,             M = det(p, q, r) det(q, p, s)/R³
 ///
 /// N of a dual is the determinant of the four (p, σ_p). A sum in which no σ has a coefficient above 0 contradicts
@@ -150,11 +150,11 @@ enum class CertificateCheck {
 
 /// Verifies a certificate in exact arithmetic, from the positions alone. Multipliers are doubles, so the weights need
 /// not cancel quite: what is left of each is bounded by how much weights can differ. Along an edge pq of a triangle pqr
-/// that is |w_p − w_q| < ℓ² when the conditions have splits; the greater of ℓ² and ||r − p|² − |r − q|²| when they have
-/// heights alone (the orthocenter is in the triangle, and both distances are squares minus weights); kWeightReach ℓ²,
-/// without a reason, when they are dual lengths. On the sphere the bounds are of σ_q/σ_p: p·q/|p|² and |q|²/p·q when
-/// the conditions have splits, and q·r/p·r when they have heights alone; of dual lengths |σ_q/σ_p − 1| < the lesser of
-/// 1 and kWeightReach (|q|²/p·q − 1). About O(n) for n terms, with a large factor.
+/// that is |w_p − w_q| < ℓ² when the conditions have crossings; the greater of ℓ² and ||r − p|² − |r − q|²| when they
+/// have heights alone (the orthocenter is in the triangle, and both distances are squares minus weights); kWeightReach
+/// ℓ², without a reason, when they are dual lengths. On the sphere the bounds are of σ_q/σ_p: p·q/|p|² and |q|²/p·q
+/// when the conditions have crossings, and q·r/p·r when they have heights alone; of dual lengths |σ_q/σ_p − 1| < the
+/// lesser of 1 and kWeightReach (|q|²/p·q − 1). About O(n) for n terms, with a large factor.
 [[nodiscard]] CertificateCheck check_certificate(const Mesh& mesh, const Certificate& certificate);
 
 // --- margins ------------------------------------------------------------------------------------------

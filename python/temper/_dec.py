@@ -53,7 +53,7 @@ class DecEdges(Record):
     """(e, 2): left and right of from → to; −1 for none."""
     length: npt.NDArray[np.float64]
     """ℓ [length]."""
-    split: npt.NDArray[np.float64]
+    crossing: npt.NDArray[np.float64]
     """d, signed distance from ``from``, towards ``to``, of the weighted midpoint [length]."""
     left_height: npt.NDArray[np.float64]
     """h of the orthocenter of the left triangle over this edge, > 0 on its side; 0 without it [length]."""
@@ -123,7 +123,7 @@ class PowerCells(Record):
 
     def polygons(self) -> list[npt.NDArray[np.float64]]:
         """The corners of each polygon, views."""
-        return np.split(self.corners, self.starts[1:-1].astype(np.int64)) if len(self.vertices) else []
+        return np.crossing(self.corners, self.starts[1:-1].astype(np.int64)) if len(self.vertices) else []
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -42,13 +42,13 @@ def _edges(edges: npt.ArrayLike | None) -> npt.NDArray[np.int64] | None:
 class WeightConstraint:
     """One inequality of some conditions."""
 
-    kind: Literal["height", "split", "dual"]
-    """height: h over edge pq of the triangle pqr, counter-clockwise; split: d from p towards q, for any edge pq; dual:
+    kind: Literal["height", "crossing", "dual"]
+    """height: h over edge pq of the triangle pqr, counter-clockwise; crossing: d from p towards q, for any edge pq; dual:
     the dual length of pq between the triangles pqr and qps."""
     p: int
     q: int
     r: int
-    """−1 for a split."""
+    """−1 for a crossing."""
     s: int = -1
     """Of a dual only, else −1."""
 

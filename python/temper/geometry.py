@@ -21,7 +21,7 @@ from . import _temper
 from ._space import Space
 
 __all__ = [
-    "arc_length", "corner_angle", "doubled_area", "edge_split", "edge_split_sign", "is_exact_coordinate",
+    "arc_length", "corner_angle", "doubled_area", "dual_crossing", "dual_crossing_sign", "is_exact_coordinate",
     "is_exact_weight", "is_well_centered", "orientation", "orthocenter", "power_test",
     "power_test_perturbed", "scaled_heights", "signed_height", "signed_height_sign", "solid_angle",
 ]  # fmt: skip
@@ -95,9 +95,9 @@ def signed_height_sign(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike, *, 
     return _in(space, _temper.signed_height_sign, p=p, q=q, r=r)
 
 
-def edge_split_sign(p: npt.ArrayLike, q: npt.ArrayLike, *, space: Space = _PLANE) -> Any:
+def dual_crossing_sign(p: npt.ArrayLike, q: npt.ArrayLike, *, space: Space = _PLANE) -> Any:
     """Sign of d_pq = (ℓ² + w_p − w_q)/(2ℓ); on a sphere of P · (P − Q). Exact."""
-    return _in(space, _temper.edge_split_sign, p=p, q=q)
+    return _in(space, _temper.dual_crossing_sign, p=p, q=q)
 
 
 def is_well_centered(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike, *, space: Space = _PLANE) -> Any:
@@ -120,9 +120,9 @@ def orthocenter(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike, *, space: 
     return _in(space, _temper.orthocenter, p=p, q=q, r=r)
 
 
-def edge_split(p: npt.ArrayLike, q: npt.ArrayLike, *, space: Space = _PLANE) -> Any:
+def dual_crossing(p: npt.ArrayLike, q: npt.ArrayLike, *, space: Space = _PLANE) -> Any:
     """d_pq: distance from p, towards q, of the weighted midpoint [length; on a sphere radians]."""
-    return _in(space, _temper.edge_split, p=p, q=q)
+    return _in(space, _temper.dual_crossing, p=p, q=q)
 
 
 def signed_height(p: npt.ArrayLike, q: npt.ArrayLike, r: npt.ArrayLike, *, space: Space = _PLANE) -> Any:

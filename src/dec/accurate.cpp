@@ -39,10 +39,10 @@ double height_numerator(const WeightedPoint& p, const WeightedPoint& q, const We
   return nearest_double(exact::height_numerator(p, q, r));
 }
 
-double doubled_split(const WeightedPoint& p, const WeightedPoint& q) {
-  const auto fast = inlined::filtered_edge_split(p, q);
+double doubled_crossing(const WeightedPoint& p, const WeightedPoint& q) {
+  const auto fast = inlined::filtered_dual_crossing(p, q);
   if (is_accurate(fast)) return fast.value;
-  return nearest_double(exact::doubled_split(p, q));
+  return nearest_double(exact::doubled_crossing(p, q));
 }
 
 double orientation_determinant(Vec3 p, Vec3 q, Vec3 r) {
@@ -63,10 +63,10 @@ double height_numerator(Vec3 p, Vec3 q, Vec3 r) {
   return nearest_double(exact::height_numerator(p, q, r));
 }
 
-double split_product(Vec3 p, Vec3 q) {
-  const auto fast = inlined::filtered_edge_split(p, q);
+double crossing_product(Vec3 p, Vec3 q) {
+  const auto fast = inlined::filtered_dual_crossing(p, q);
   if (is_accurate(fast)) return fast.value;
-  return nearest_double(exact::split_product(p, q));
+  return nearest_double(exact::crossing_product(p, q));
 }
 
 }  // namespace temper::accurate

@@ -21,7 +21,7 @@ inline constexpr double kRelativeError = 0x1p-42;
 /// 2 h ℓ S of edge pq in triangle pqr, S twice its signed area.
 [[nodiscard]] double height_numerator(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
 /// 2 d ℓ of edge pq, from p.
-[[nodiscard]] double doubled_split(const WeightedPoint& p, const WeightedPoint& q);
+[[nodiscard]] double doubled_crossing(const WeightedPoint& p, const WeightedPoint& q);
 
 // --- on the sphere, of lifted points -------------------------------------------------------------------------------
 
@@ -32,6 +32,6 @@ inline constexpr double kRelativeError = 0x1p-42;
 /// (P × Q)·n, n the normal (Q − P) × (R − P) of the face.
 [[nodiscard]] double height_numerator(Vec3 p, Vec3 q, Vec3 r);
 /// P·(P − Q).
-[[nodiscard]] double split_product(Vec3 p, Vec3 q);
+[[nodiscard]] double crossing_product(Vec3 p, Vec3 q);
 
 }  // namespace temper::accurate

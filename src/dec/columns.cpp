@@ -82,7 +82,7 @@ std::optional<InputError> ColumnBuilder::check_faces(const DecComplex& complex) 
   }
   for (const PowerFace& face : cells_.faces) {
     for (const auto& [here, there] : {std::pair{face.first, face.second}, std::pair{face.second, face.first}}) {
-      if (accurate::doubled_split(mesh_.point(here), mesh_.point(there)) > 0) continue;
+      if (accurate::doubled_crossing(mesh_.point(here), mesh_.point(there)) > 0) continue;
       return error(ErrorCode::unsupported, here,
                    "the face of its cell to that of " + names().point(there.index) +
                        " is behind it, not between the two; temper optimize makes meshes where it is");
@@ -146,8 +146,8 @@ void ColumnBuilder::connect_beside(const PowerFace& face, std::size_t layer) {
   ColumnConnection& beside = c_.connections.emplace_back();
   beside.first = static_cast<std::uint32_t>(a);
   beside.second = static_cast<std::uint32_t>(b);
-  beside.first_distance = 0.5 * accurate::doubled_split(p, q) / between;
-  beside.second_distance = 0.5 * accurate::doubled_split(q, p) / between;
+  beside.first_distance = 0.5 * accurate::doubled_crossing(p, q) / between;
+  beside.second_distance = 0.5 * accurate::doubled_crossing(q, p) / between;
   beside.width = face.width;
   const double share = beside.first_distance / between;
   const double thickness = (1 - share) * (c_.tops[a] - c_.bottoms[a]) + share * (c_.tops[b] - c_.bottoms[b]);

@@ -42,9 +42,9 @@ class PlaneMeasures {
     const WeightedPoint from = point(edge.from), to = point(edge.to, from);
     const Vec2 along = to.position() - from.position();
     const double l2 = squared_length(along);
-    const double lower = accurate::doubled_split(from, to), upper = accurate::doubled_split(to, from);
+    const double lower = accurate::doubled_crossing(from, to), upper = accurate::doubled_crossing(to, from);
     edge.length = std::sqrt(l2);
-    edge.split = 0.5 * lower / edge.length;
+    edge.crossing = 0.5 * lower / edge.length;
     // From the nearer end: the midpoint is then as accurate as its distance from it.
     edge.midpoint = std::abs(lower) <= std::abs(upper) ? from.position() + (0.5 * lower / l2) * along
                                                        : to.position() - (0.5 * upper / l2) * along;
@@ -87,10 +87,10 @@ class SphereMeasures {
   void line(DecComplex& c, DecEdge& edge) const {
     const Vec3 from = point(edge.from), to = point(edge.to), along = to - from;
     const double l2 = squared_length(along);
-    const double lower = accurate::split_product(from, to), upper = accurate::split_product(to, from);
+    const double lower = accurate::crossing_product(from, to), upper = accurate::crossing_product(to, from);
     const double across = length(cross(from, along));
     edge.length = radius_ * arc_length(from, to);
-    edge.split = radius_ * std::atan2(lower, across);
+    edge.crossing = radius_ * std::atan2(lower, across);
     const Vec3 foot = std::abs(lower) <= std::abs(upper) ? from + (lower / l2) * along : to - (upper / l2) * along;
     c.sphere_midpoints.push_back(radius_ / length(foot) * foot);
   }
@@ -253,8 +253,8 @@ void DecBuilder<Measures>::dual_areas() {
   c_.star0.resize(mesh_.n_vertices(), 0.0);
   for (const DecEdge& edge : c_.edges) {
     const double left = edge.left_height, right = edge.right_height;
-    c_.star0[edge.from] += right_triangle_areas(mesh_.space(), edge.split, left, right);
-    c_.star0[edge.to] += right_triangle_areas(mesh_.space(), edge.length - edge.split, left, right);
+    c_.star0[edge.from] += right_triangle_areas(mesh_.space(), edge.crossing, left, right);
+    c_.star0[edge.to] += right_triangle_areas(mesh_.space(), edge.length - edge.crossing, left, right);
   }
 }
 

@@ -24,9 +24,9 @@ constexpr double kOnePlace = 1e-14;
 // A polygon whose width is this share of its coordinates is lost when they are rounded: four units in the last place.
 constexpr double kInvisible = 0x1p-50;
 
-Sign split_sign(const Mesh& mesh, VertexId p, VertexId q) {
+Sign crossing_sign(const Mesh& mesh, VertexId p, VertexId q) {
   const WeightedPoint from = mesh.point(p), to = mesh.point(q, from);
-  return mesh.space().is_plane() ? edge_split_sign(from, to) : edge_split_sign(lifted(from), lifted(to));
+  return mesh.space().is_plane() ? dual_crossing_sign(from, to) : dual_crossing_sign(lifted(from), lifted(to));
 }
 
 /// From vertex to vertex, on the sphere along an arc.
@@ -70,8 +70,8 @@ void CellBuilder::find_plain() {
   for (std::size_t i = 0; i < complex_.edges.size(); ++i) {
     const DecEdge& e = complex_.edges[EdgeId(i)];
     const bool negative = complex_.star1[EdgeId(i)] < 0;
-    if (negative || split_sign(mesh_, e.from, e.to) == Sign::negative) tame_[e.from] = 0;
-    if (negative || split_sign(mesh_, e.to, e.from) == Sign::negative) tame_[e.to] = 0;
+    if (negative || crossing_sign(mesh_, e.from, e.to) == Sign::negative) tame_[e.from] = 0;
+    if (negative || crossing_sign(mesh_, e.to, e.from) == Sign::negative) tame_[e.to] = 0;
   }
   plain_.assign(mesh_.n_triangles(), 0);
   special_.assign(mesh_.n_vertices(), 0);
@@ -119,7 +119,7 @@ Vec2 CellBuilder::midpoint(VertexId v, HalfedgeId h, const Chart& chart) const {
   if (!mesh_.space().is_plane()) return chart.of(complex_.sphere_midpoints[complex_.edge_of_halfedge[h]]);
   const WeightedPoint p = mesh_.point(v), q = mesh_.point(mesh_.origin(h) == v ? mesh_.target(h) : mesh_.origin(h), p);
   const Vec2 along = q.position() - p.position();
-  return (0.5 * accurate::doubled_split(p, q) / squared_length(along)) * along;
+  return (0.5 * accurate::doubled_crossing(p, q) / squared_length(along)) * along;
 }
 
 /// The orthocenter of the triangle of h, out of v.

@@ -14,11 +14,11 @@
 namespace temper {
 
 struct AccuracyModel {
-  double length = 0, dual = 0, split = 0, height = 0;  ///< a, b, p, q
-  double boundary_height = 0;                          ///< q of an edge on the boundary
-  double margin = 0;                                   ///< ε
-  double barrier = 0;                                  ///< μ
-  double min_edge = 0, min_dual = 0;                   ///< of edge and dual edge, over the local size
+  double length = 0, dual = 0, crossing = 0, height = 0;  ///< a, b, p, q
+  double boundary_height = 0;                             ///< q of an edge on the boundary
+  double margin = 0;                                      ///< ε
+  double barrier = 0;                                     ///< μ
+  double min_edge = 0, min_dual = 0;                      ///< of edge and dual edge, over the local size
 
   /// Says whether there is a barrier of edges too.
   [[nodiscard]] bool keeps_lengths() const { return min_edge > 0 || min_dual > 0; }
@@ -45,7 +45,7 @@ struct AccuracyEdge {
 template <class T>
 [[nodiscard]] TEMPER_INLINE T edge_value(const AccuracyModel& k, const AccuracyEdge<T>& e) {
   const T sum = e.left + e.right, difference = e.left - e.right;
-  const T rest = k.split * (e.dw * e.dw) + e.height * difference * difference;
+  const T rest = k.crossing * (e.dw * e.dw) + e.height * difference * difference;
   return e.scale * (sum * (k.length * e.l2 + (k.dual * sum * sum + rest) * e.inverse_l2));
 }
 
@@ -62,12 +62,12 @@ struct EdgeSlopes {
 
 template <class T>
 [[nodiscard]] TEMPER_INLINE EdgeSlopes<T> edge_slopes(const AccuracyModel& model, const AccuracyEdge<T>& e) {
-  const T length = model.length * e.scale, dual = model.dual * e.scale, split = model.split * e.scale;
+  const T length = model.length * e.scale, dual = model.dual * e.scale, crossing = model.crossing * e.scale;
   const T height = e.height * e.scale;
   const T g = e.left + e.right, h = e.left - e.right, inverse2 = e.inverse_l2 * e.inverse_l2;
-  const T rest = split * (e.dw * e.dw) + height * h * h;
+  const T rest = crossing * (e.dw * e.dw) + height * h * h;
   const T cubic = g * (dual * g * g + rest), by_g = 3 * (dual * g * g) + rest;  // K, ∂K
-  const T by_h = 2 * (height * g * h), by_dw = 2 * (split * g * e.dw);
+  const T by_h = 2 * (height * g * h), by_dw = 2 * (crossing * g * e.dw);
   const T w_g = length * e.l2 + by_g * e.inverse_l2, w_h = by_h * e.inverse_l2;
   const T w_lg = length - by_g * inverse2, w_lh = by_h * inverse2;
   const T w_gg = 6 * (dual * g * e.inverse_l2), w_hh = 2 * (height * g * e.inverse_l2);
@@ -80,8 +80,8 @@ template <class T>
   s.l_l = 2 * (cubic * (inverse2 * e.inverse_l2));
   s.dw = by_dw * e.inverse_l2;
   s.l_dw = -by_dw * inverse2;
-  s.side_dw = 2 * (split * e.dw * e.inverse_l2);
-  s.dw_dw = 2 * (split * g * e.inverse_l2);
+  s.side_dw = 2 * (crossing * e.dw * e.inverse_l2);
+  s.dw_dw = 2 * (crossing * g * e.inverse_l2);
   return s;
 }
 
@@ -106,8 +106,8 @@ TEMPER_INLINE void add_height_barrier(const TriangleBarrier<T>& of, const T& l2,
 
 /// Adds − ½ m ln((½ − ε)² − δw²/4L²), with Q = (½ − ε)² L² − δw²/4.
 template <class T>
-TEMPER_INLINE void add_split_barrier(const TriangleBarrier<T>& of, const T& l2, const T& inverse_l2, const T& dw,
-                                     EdgeSlopes<T>& s) {
+TEMPER_INLINE void add_crossing_barrier(const TriangleBarrier<T>& of, const T& l2, const T& inverse_l2, const T& dw,
+                                        EdgeSlopes<T>& s) {
   const T most = 0.5 - of.floor, kl = most * most * l2, dw4 = 0.25 * dw;
   const T inverse_q = 1.0 / (kl * l2 - dw4 * dw), m_q = of.factor * inverse_q, m_qq = m_q * inverse_q;
   const T m_over_l = of.factor * inverse_l2;
@@ -137,7 +137,7 @@ TEMPER_INLINE void add_length_barrier(const LengthBarrier<T>& of, const Accuracy
 
 /// (d_ij/ℓ − ε)(d_ji/ℓ − ε), y = δw/ℓ²; both are positive where this is, for an ε below ½ and |y| < 1.
 template <class T>
-[[nodiscard]] TEMPER_INLINE T split_room(const T& y, const T& floor) {
+[[nodiscard]] TEMPER_INLINE T crossing_room(const T& y, const T& floor) {
   const T most = 0.5 - floor;
   return most * most - 0.25 * y * y;
 }

@@ -66,7 +66,7 @@ std::size_t LengthFloors::raise(const Mesh& mesh, const IdVector<VertexId, doubl
 AccuracyModel AccuracyModel::of(double alpha, double beta, double offset, double boundary_offset) {
   AccuracyModel model;
   model.length = 0.25 * alpha, model.dual = 0.25 * beta;
-  model.split = 0.75 * offset * alpha;
+  model.crossing = 0.75 * offset * alpha;
   model.height = 0.75 * offset * beta, model.boundary_height = 0.75 * boundary_offset * beta;
   return model;
 }

@@ -38,8 +38,8 @@ struct AccuracyTriangle {
   TriangleBarrier<T> barrier;
   AccuracyEdge<T> link;  ///< g in the outer triangle on its right; that on its left changes with the center
   LengthBarrier<T> link_lengths;
-  T split_room;    ///< (d_ij/ℓ − ε)(d_ji/ℓ − ε) of the link edge
-  T inverse_area;  ///< with the center where it was asked about last
+  T crossing_room;  ///< (d_ij/ℓ − ε)(d_ji/ℓ − ε) of the link edge
+  T inverse_area;   ///< with the center where it was asked about last
 };
 
 /// A star in views of the storage of all its spokes and triangles.
@@ -103,7 +103,7 @@ TEMPER_INLINE void set_triangle(const AccuracyStarOf<In>& star, std::size_t i, c
   const T outer = triangle_shape(back, spoke(from, o), q.at, o).pq.g, inverse_l2 = 1.0 / back.l2;
   AccuracyTriangle<In>& t = star.triangles[i];
   t.barrier = {model.barrier * triangle_scale(size, q.size, r.size), floor};
-  t.split_room = split_room(back.dw * inverse_l2, floor);
+  t.crossing_room = crossing_room(back.dw * inverse_l2, floor);
   t.link.scale = edge_scale(q.size, r.size);
   t.link.height = select(inner, all<T>(model.height), all<T>(model.boundary_height));
   t.link.l2 = back.l2, t.link.inverse_l2 = inverse_l2, t.link.dw = back.dw;
@@ -128,10 +128,10 @@ template <class In>
   a.left = shape.pq.g, b.right = shape.rp.g, t.link.left = shape.qr.g;
   const T ha = a.left * a.inverse_l2 - floor, hb = b.right * b.inverse_l2 - floor;
   const T hc = t.link.left * t.link.inverse_l2 - floor, heights = ha * hb * hc;
-  const T da = split_room(a.to.dw * a.inverse_l2, floor), db = split_room(b.to.dw * b.inverse_l2, floor);
+  const T da = crossing_room(a.to.dw * a.inverse_l2, floor), db = crossing_room(b.to.dw * b.inverse_l2, floor);
   const T zero = all<T>(0);
   const auto inside = (shape.doubled_area > zero) & (ha > zero) & (hb > zero) & (hc > zero) & (da > zero) & (db > zero);
-  const T logarithm = portable_log(heights * heights * (da * db * t.split_room));
+  const T logarithm = portable_log(heights * heights * (da * db * t.crossing_room));
   T value = edge_value(star.model, t.link) - 0.5 * m * logarithm;
   if (star.model.keeps_lengths()) value = value + length_barrier(t.link_lengths, t.link);
   return select(inside, value, all<T>(kInfinity));
@@ -172,8 +172,8 @@ TEMPER_INLINE void find_slopes(const AccuracyStarOf<In>& star, std::size_t i, co
   s = edge_slopes(star.model, a.edge());
   add_height_barrier(left, a.to.l2, a.inverse_l2, a.left, s, s.left);
   add_height_barrier(right, a.to.l2, a.inverse_l2, a.right, s, s.right);
-  add_split_barrier(left, a.to.l2, a.inverse_l2, a.to.dw, s);
-  add_split_barrier(right, a.to.l2, a.inverse_l2, a.to.dw, s);
+  add_crossing_barrier(left, a.to.l2, a.inverse_l2, a.to.dw, s);
+  add_crossing_barrier(right, a.to.l2, a.inverse_l2, a.to.dw, s);
   if (star.model.keeps_lengths()) add_length_barrier(a.lengths, a.edge(), s);
 }
 

@@ -27,13 +27,13 @@ void triangle_shapes(const TriangleLanes& triangles, ShapeLanes& shapes) {
 /// Σ_edges [ln(h/ℓ − ε) + ½ ln(d_ij/ℓ − ε) + ½ ln(d_ji/ℓ − ε)], as one logarithm of a product.
 void accuracy_logarithms(const ShapeLanes& shapes, const Lane& floors, Lane& result) {
   const Pack floor = Pack::load(floors);
-  Pack heights = Pack::all(1), splits = heights;
+  Pack heights = Pack::all(1), crossings = heights;
   for (const ShapeLanes::Edge& e : shapes.edges) {
     const Pack inverse_l2 = 1.0 / Pack::load(e.l2);
     heights = heights * (Pack::load(e.g) * inverse_l2 - floor);
-    splits = splits * split_room(Pack::load(e.dw) * inverse_l2, floor);
+    crossings = crossings * crossing_room(Pack::load(e.dw) * inverse_l2, floor);
   }
-  (0.5 * portable_log(heights * heights * splits)).store(result);
+  (0.5 * portable_log(heights * heights * crossings)).store(result);
 }
 
 template <class In>
@@ -165,8 +165,8 @@ WellCentered well_centered(const TriangleLanes& triangles) {
   must_be_positive(inlined::filtered_orientation(p, q, r));
   const auto edge_must_be_crossed = [&](const Point& a, const Point& b, const Point& c) {
     must_be_positive(inlined::filtered_height_numerator(a, b, c));
-    must_be_positive(inlined::filtered_edge_split(a, b));
-    must_be_positive(inlined::filtered_edge_split(b, a));
+    must_be_positive(inlined::filtered_dual_crossing(a, b));
+    must_be_positive(inlined::filtered_dual_crossing(b, a));
   };
   edge_must_be_crossed(p, q, r);
   edge_must_be_crossed(q, r, p);

@@ -57,7 +57,7 @@ std::optional<Conflict> drop_what_can_be(const Mesh& mesh, std::vector<TriangleI
   return Conflict{std::move(triangles), std::move(best)};
 }
 
-/// The triangles that the terms speak of; for a split both sides of its edge, unless a height has named one already.
+/// The triangles that the terms speak of; for a crossing both sides of its edge, unless a height has named one already.
 /// None but those `among`, when there are any.
 std::vector<TriangleId> triangles_of(const Mesh& mesh, const Certificate& certificate,
                                      std::span<const TriangleId> among) {

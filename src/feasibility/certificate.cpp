@@ -61,7 +61,7 @@ Polynomial height_polynomial(Vec2 p, Vec2 q, Vec2 r, double margin) {
   return polynomial;
 }
 
-Polynomial split_polynomial(Vec2 p, Vec2 q, double margin) {
+Polynomial crossing_polynomial(Vec2 p, Vec2 q, double margin) {
   const Vector pq = difference(q, p);
   const Number l2 = dot(pq, pq);
   Polynomial polynomial = {{Number(1), Number(-1), Number(), Number()}, l2};
@@ -105,7 +105,7 @@ Polynomial height_polynomial(Vec3 p, Vec3 q, Vec3 r, double radius, double margi
   return polynomial;
 }
 
-Polynomial split_polynomial(Vec3 p, Vec3 q, double /*radius*/, double margin) {
+Polynomial crossing_polynomial(Vec3 p, Vec3 q, double /*radius*/, double margin) {
   const Vector3 x = exact_vector(p);
   Polynomial polynomial = {{-dot(x, exact_vector(q)), dot(x, x), Number(), Number()}, Number()};
   take_margin(polynomial, margin, squared_length(q - p));
@@ -129,7 +129,7 @@ std::optional<double> distance_from_one(const Number& n, const Number& d) {
 bool counts(Conditions conditions, Kind kind) {
   switch (conditions) {
     case Conditions::well_centered:
-      return kind == Kind::height || kind == Kind::split;
+      return kind == Kind::height || kind == Kind::crossing;
     case Conditions::heights_only:
       return kind == Kind::height;
     case Conditions::regular:
@@ -142,7 +142,7 @@ bool is_of(const Mesh& mesh, const WeightConstraint& c) {
   const auto is_vertex = [&](VertexId v) { return v.index < mesh.n_vertices() && !mesh.is_isolated(v); };
   if (!is_vertex(c.p) || !is_vertex(c.q)) return false;
   const HalfedgeId h = mesh.find_halfedge(c.p, c.q), back = mesh.find_halfedge(c.q, c.p);
-  if (c.kind == Kind::split) return h.valid() || back.valid();
+  if (c.kind == Kind::crossing) return h.valid() || back.valid();
   if (!h.valid() || mesh.opposite(h) != c.r) return false;
   return c.kind == Kind::height || (back.valid() && mesh.opposite(back) == c.s);
 }
@@ -167,7 +167,7 @@ struct Scale {
   [[nodiscard]] double coordinate(double x) const { return std::ldexp(x, -length); }
   /// The scale of N, by its degree, so that the sum stays the same up to a factor.
   [[nodiscard]] int shift(Kind kind) const {
-    return length * (kind == Kind::split ? 2 : kind == Kind::height ? 4 : degree_of_dual);
+    return length * (kind == Kind::crossing ? 2 : kind == Kind::height ? 4 : degree_of_dual);
   }
   [[nodiscard]] double of(const Certificate::Term& term) const {
     return std::ldexp(term.multiplier, shift(term.constraint.kind) - multiplier);
@@ -184,7 +184,7 @@ Vec3 place_in(const Mesh& mesh, VertexId v) {
 template <class Use>
 void for_each_vertex(const WeightConstraint& c, const Use& use) {
   use(c.p), use(c.q);
-  if (c.kind != Kind::split) use(c.r);
+  if (c.kind != Kind::crossing) use(c.r);
   if (c.kind == Kind::dual) use(c.s);
 }
 
@@ -228,14 +228,14 @@ class PlaneTerms {
     switch (c.kind) {
       case Kind::height:
         return height_polynomial(at(c.p), at(c.q), at(c.r), margin);
-      case Kind::split:
-        return split_polynomial(at(c.p), at(c.q), margin);
+      case Kind::crossing:
+        return crossing_polynomial(at(c.p), at(c.q), margin);
       case Kind::dual:
         return dual_polynomial(at(c.p), at(c.q), at(c.r), at(c.s), margin);
     }
     return {};
   }
-  /// b of an edge of a triangle whose third corner is r; of a split there is none.
+  /// b of an edge of a triangle whose third corner is r; of a crossing there is none.
   [[nodiscard]] std::optional<Number> bound(VertexId a, VertexId b, VertexId r) const {
     const Number length = squared_distance(a, b);
     if (conditions_ == Conditions::regular) return Number(kWeightReach) * length;
@@ -274,14 +274,14 @@ class SphereTerms {
     switch (c.kind) {
       case Kind::height:
         return height_polynomial(at(c.p), at(c.q), at(c.r), radius_, margin);
-      case Kind::split:
-        return split_polynomial(at(c.p), at(c.q), radius_, margin);
+      case Kind::crossing:
+        return crossing_polynomial(at(c.p), at(c.q), radius_, margin);
       case Kind::dual:
         return dual_polynomial(at(c.p), at(c.q), at(c.r), at(c.s), radius_, margin);
     }
     return {};
   }
-  /// b: splits say p·q/|p|² < σ_q/σ_p < |q|²/p·q. With heights alone the orthocenter o is in the triangle, and
+  /// b: crossings say p·q/|p|² < σ_q/σ_p < |q|²/p·q. With heights alone the orthocenter o is in the triangle, and
   /// σ_q/σ_p = q·o/p·o is between the least and the greatest of these two and r·q/r·p. Nothing where cells are so large
   /// that there is no bound.
   [[nodiscard]] std::optional<Number> bound(VertexId a, VertexId b, VertexId r) const {
@@ -361,8 +361,8 @@ class Sum {
     for_each_vertex(term.constraint, [&](VertexId v) {
       nodes_[v].residual += multiplier * polynomial.coefficients[static_cast<std::size_t>(k++)];
     });
-    if (kind == Kind::split) join_edge(p, q, VertexId());
-    if (kind != Kind::split) join_triangle(p, q, r);
+    if (kind == Kind::crossing) join_edge(p, q, VertexId());
+    if (kind != Kind::crossing) join_triangle(p, q, r);
     if (kind == Kind::dual) join_triangle(q, p, s);
   }
 

@@ -2,17 +2,16 @@
 //
 //   Δw_v = unit_v (u⁺ − u⁻)          cost (u⁺ + u⁻) · 10⁻⁴: without rim a constant on all Δw is free otherwise
 //   Δw_i − Δw_j = ℓ² (e⁺ − e⁻)       cost (e⁺ + e⁻) ℓ/2, the |Δw_i − Δw_j| / (2ℓ) of the edge
-//   splits                           bounds of e⁺ and e⁻, since one of them is zero in any optimum
+//   crossings                           bounds of e⁺ and e⁻, since one of them is zero in any optimum
 //   heights, dual lengths            one row each
 //
 // Lengths are counted in the region's mean edge length. The sum of absolute differences is what makes few weights move:
 // all of a region but the neighbourhood of what is bad keeps its weights.
 //
 // On the sphere w is the potential, Δw that of σ = σ₀ (1 − Δw/(2R²)), relative to the start's, so that a factor of all
-// σ is the same Δw of all. Splits are rows of their own. Without rim the Δw sum to zero: σ that tend to zero together
-// would keep all conditions and change by nothing.
-// Elastic programmes have a column more for each height and dual length, and two for each edge that has splits, which
-// pay for what is lacking.
+// σ is the same Δw of all. Crossings are rows of their own. Without rim the Δw sum to zero: σ that tend to zero
+// together would keep all conditions and change by nothing. Elastic programmes have a column more for each height and
+// dual length, and two for each edge that has crossings, which pay for what is lacking.
 #include "feasibility/change.hpp"
 
 #include <algorithm>
@@ -64,7 +63,7 @@ class ProgrammeBuilder {
       for (int k = 0; k < 3 && demand_.has_heights(); ++k) add_row(height_constraint(mesh_, Mesh::halfedge(t, k)));
     }
     for (const HalfedgeId h : edges) {
-      if (demand_.has_splits() && !splits_are_differences()) {
+      if (demand_.has_crossings() && !crossings_are_differences()) {
         add_row(split_constraint(mesh_.origin(h), mesh_.target(h)));
         add_row(split_constraint(mesh_.target(h), mesh_.origin(h)));
       }
@@ -74,8 +73,8 @@ class ProgrammeBuilder {
   }
 
  private:
-  /// There are splits, and they are bounds of the columns of edges.
-  [[nodiscard]] bool splits_are_differences() const { return demand_.has_splits() && mesh_.space().is_plane(); }
+  /// There are crossings, and they are bounds of the columns of edges.
+  [[nodiscard]] bool crossings_are_differences() const { return demand_.has_crossings() && mesh_.space().is_plane(); }
   [[nodiscard]] double length_of(HalfedgeId h) const { return std::sqrt(squared_length_of(mesh_, h)); }
   [[nodiscard]] double start(VertexId v) const { return potential_of(mesh_.space(), start_[v]); }
   /// Adds factor · the change of v's potential to the row.
@@ -102,7 +101,7 @@ class ProgrammeBuilder {
     // margin ≤ d/ℓ ≤ 1 − margin, as bounds of (Δw_i − Δw_j)/ℓ².
     const double before = (start(i) - start(j)) / (l * l);
     const double low = -(1 - 2 * margin_) - before, high = (1 - 2 * margin_) - before;
-    const bool bounded = splits_are_differences() && !elastic_;
+    const bool bounded = crossings_are_differences() && !elastic_;
     const auto least = [&](double x) { return bounded ? std::max(x, 0.0) : 0; };
     const auto most = [&](double x) { return bounded ? std::max(x, 0.0) : kUnbounded; };
     const int up = p_.lp.add_column(0, least(low), most(high));
@@ -112,7 +111,7 @@ class ProgrammeBuilder {
     p_.lp.add_entry(up, -1);
     p_.lp.add_entry(down, 1);
     p_.lp.end_row(0, 0);
-    if (!elastic_ || !splits_are_differences()) return;
+    if (!elastic_ || !crossings_are_differences()) return;
     const int below = add_violation(0.5), above = add_violation(0.5);  // d/ℓ is half of w/ℓ²
     p_.lp.add_entry(up, 1);
     p_.lp.add_entry(down, -1);

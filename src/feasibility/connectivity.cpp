@@ -125,7 +125,7 @@ class ConnectivitySearch {
     return true;
   }
 
-  /// The edges of the proof's triangles, and those of its splits, that can be flipped; each once, by its vertices.
+  /// The edges of the proof's triangles, and those of its crossings, that can be flipped; each once, by its vertices.
   [[nodiscard]] std::vector<HalfedgeId> flips_that_break_the_proof() const {
     const Mesh& mesh = report_.mesh;
     std::vector<std::pair<std::array<VertexId, 2>, HalfedgeId>> edges;

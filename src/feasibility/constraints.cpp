@@ -19,7 +19,7 @@ LinearForm plane_form(const Mesh& mesh, const WeightConstraint& constraint) {
   const auto [kind, p, q, r, s] = constraint;
   const Vec2 pq = mesh.position(q) - mesh.position(p);
   const double l2 = squared_length(pq);
-  if (kind == WeightConstraint::Kind::split) return {2, {p, q}, {0.5 / l2, -0.5 / l2}, 0.5};
+  if (kind == WeightConstraint::Kind::crossing) return {2, {p, q}, {0.5 / l2, -0.5 / l2}, 0.5};
   const Vec2 pr = mesh.position(r) - mesh.position(p);
   const Vec2 qr = mesh.position(r) - mesh.position(q);
   const double scale = 0.5 / cross(pq, pr);
@@ -32,7 +32,7 @@ LinearForm sphere_form(const Mesh& mesh, const WeightConstraint& constraint) {
   const auto [kind, vp, vq, vr, vs] = constraint;
   const double slope = slope_of_scale(mesh.space()), radius = mesh.space().radius();
   const Vec3 p = place_of(mesh, vp), a = place_of(mesh, vq) - p;
-  if (kind == WeightConstraint::Kind::split) {
+  if (kind == WeightConstraint::Kind::crossing) {
     const double at_q = -0.5 / squared_length(a);  // slope · R²/ℓ²
     return {2, {vp, vq}, {-0.5 * slope - at_q, at_q}, 0.5, slope};
   }
@@ -59,7 +59,7 @@ std::span<const ConditionsInfo> conditions_table() { return kConditions; }
 std::string_view name(Conditions conditions) { return kConditions[static_cast<std::size_t>(conditions)].name; }
 
 std::string_view name(WeightConstraint::Kind kind) {
-  constexpr std::array<std::string_view, 3> kNames = {"height", "split", "dual"};
+  constexpr std::array<std::string_view, 3> kNames = {"height", "crossing", "dual"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -84,7 +84,7 @@ WeightConstraint height_constraint(const Mesh& mesh, HalfedgeId h) {
 }
 
 WeightConstraint split_constraint(VertexId from, VertexId to) {
-  return {WeightConstraint::Kind::split, from, to, VertexId()};
+  return {WeightConstraint::Kind::crossing, from, to, VertexId()};
 }
 
 WeightConstraint dual_constraint(const Mesh& mesh, HalfedgeId h) {
@@ -134,7 +134,7 @@ std::vector<WeightConstraint> constraints_of(const Mesh& mesh, std::span<const T
     }
   }
   for (const HalfedgeId h : edges_of(mesh, triangles)) {
-    if (demand.has_splits()) {
+    if (demand.has_crossings()) {
       constraints.push_back(split_constraint(mesh.origin(h), mesh.target(h)));
       constraints.push_back(split_constraint(mesh.target(h), mesh.origin(h)));
     }

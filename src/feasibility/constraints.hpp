@@ -1,10 +1,10 @@
-// Heights, splits and dual lengths as linear functions of the potentials (potential.hpp), over the length of their
+// Heights, crossings and dual lengths as linear functions of the potentials (potential.hpp), over the length of their
 // edge.
 //
 // In the plane, of the weights:
 //
 //   height  h/ℓ = (D_r + (D_p w_q + D_q w_p)/ℓ² − w_r) / (2 S)      D_p = (q − p)·(r − p), …; S twice the area
-//   split   d/ℓ = 1/2 + (w_p − w_q)/(2 ℓ²)
+//   crossing   d/ℓ = 1/2 + (w_p − w_q)/(2 ℓ²)
 //   dual    (h_r + h_s)/ℓ, the sum of the heights over either side
 //
 // The coefficients of one form sum to zero: a constant on all weights changes nothing.
@@ -12,7 +12,7 @@
 // On the sphere, of σ = R/|P|, where p, q, r are places, D = det(p, q, r), and m = (σ_p + σ_q)/2:
 //
 //   height  R³/D (σ_r + ((p×q)·(q×r) σ_p + (p×q)·(r×p) σ_q)/|p×q|²) / m      R tan h/ℓ, were all σ one
-//   split   (R² σ_q − p·q σ_p)/|p − q|² / m                                    1/2; the two of an edge sum to one
+//   crossing   (R² σ_q − p·q σ_p)/|p − q|² / m                                    1/2; the two of an edge sum to one
 //   dual    the sum of the heights over either side / m
 //
 // All have the signs of h, d and the dual length, do not change with σ times a number, and tend to the plane's values.
@@ -32,7 +32,7 @@
 namespace temper {
 
 struct LinearForm {
-  int size = 0;  ///< 3 for a height, 2 for a split, 4 for a dual
+  int size = 0;  ///< 3 for a height, 2 for a crossing, 4 for a dual
   std::array<VertexId, 4> vertices;
   std::array<double, 4> coefficients = {};
   double constant = 0;
@@ -75,7 +75,7 @@ double value_of(const LinearForm& form, const Potential& potential) {
   return mesh.space().weight(p) == w ? p : mesh.space().with_weight(p, w);
 }
 
-/// The height over the edge of h in its triangle, the splits of an edge from either end, and its dual length.
+/// The height over the edge of h in its triangle, the crossings of an edge from either end, and its dual length.
 [[nodiscard]] WeightConstraint height_constraint(const Mesh& mesh, HalfedgeId h);
 [[nodiscard]] WeightConstraint split_constraint(VertexId from, VertexId to);
 /// Precondition: h is inside the mesh.
@@ -88,7 +88,7 @@ class Demand {
 
   [[nodiscard]] Conditions conditions() const { return conditions_; }
   [[nodiscard]] bool has_heights() const { return conditions_ != Conditions::regular; }
-  [[nodiscard]] bool has_splits() const { return conditions_ == Conditions::well_centered; }
+  [[nodiscard]] bool has_crossings() const { return conditions_ == Conditions::well_centered; }
   [[nodiscard]] bool has_duals() const { return conditions_ == Conditions::regular; }
   /// The margin that is refuted when no weights keep the conditions; `duals`: of dual lengths, in the plane.
   [[nodiscard]] double refuted_margin(double duals) const {
@@ -104,7 +104,7 @@ class Demand {
     const auto at = [&](VertexId v) { return point_with_weight(mesh, v, weight_of(v)); };
     const Space& space = mesh.space();
     const auto [a, b, c] = mesh.corners(t);
-    if (has_splits()) return is_well_centered(space, at(a), at(b), at(c));
+    if (has_crossings()) return is_well_centered(space, at(a), at(b), at(c));
     for (int k = 0; k < 3; ++k) {
       const HalfedgeId h = Mesh::halfedge(t, k);
       const WeightedPoint p = at(mesh.origin(h)), q = at(mesh.target(h)), r = at(mesh.opposite(h));
@@ -123,9 +123,9 @@ class Demand {
     for (int k = 0; k < 3; ++k) {
       const HalfedgeId h = Mesh::halfedge(t, k);
       if (has_heights()) margin = std::min(margin, value(height_constraint(mesh, h)));
-      if (has_splits()) {
-        const double split = value(split_constraint(mesh.origin(h), mesh.target(h)));
-        margin = std::min({margin, split, 1 - split});
+      if (has_crossings()) {
+        const double crossing = value(split_constraint(mesh.origin(h), mesh.target(h)));
+        margin = std::min({margin, crossing, 1 - crossing});
       }
       if (has_dual(mesh, h)) margin = std::min(margin, value(dual_constraint(mesh, h)));
     }
@@ -142,8 +142,8 @@ class Demand {
 [[nodiscard]] std::vector<HalfedgeId> edges_of(const Mesh& mesh, std::span<const TriangleId> triangles);
 /// The corners of these triangles, sorted, each once.
 [[nodiscard]] std::vector<VertexId> vertices_of(const Mesh& mesh, std::span<const TriangleId> triangles);
-/// The constraints of these triangles: three heights each, two splits an edge, or one dual length an edge that has both
-/// its triangles among them.
+/// The constraints of these triangles: three heights each, two crossings an edge, or one dual length an edge that has
+/// both its triangles among them.
 [[nodiscard]] std::vector<WeightConstraint> constraints_of(const Mesh& mesh, std::span<const TriangleId> triangles,
                                                            const Demand& demand);
 

@@ -74,7 +74,7 @@ double scale_on_sphere(const Mesh& mesh, const WeightConstraint& c) {
   switch (c.kind) {
     case WeightConstraint::Kind::height:
       return squared_length(cross(p, a)) * volume(c.r) / cube;
-    case WeightConstraint::Kind::split:
+    case WeightConstraint::Kind::crossing:
       return squared_length(a);
     case WeightConstraint::Kind::dual:
       return volume(c.r) * volume(c.s) / cube;
@@ -89,7 +89,7 @@ double scale_of_polynomial(const Mesh& mesh, const WeightConstraint& c) {
   switch (c.kind) {
     case WeightConstraint::Kind::height:
       return 2 * squared_length(q - p) * doubled_area(p, q, mesh.position(c.r));
-    case WeightConstraint::Kind::split:
+    case WeightConstraint::Kind::crossing:
       return 2 * squared_length(q - p);
     case WeightConstraint::Kind::dual:
       return 2 * doubled_area(p, q, mesh.position(c.r)) * doubled_area(q, p, mesh.position(c.s));

@@ -1,4 +1,4 @@
-// Orthocenters, heights and splits in doubles.
+// Orthocenters, heights and crossings in doubles.
 //
 // Everything starts from differences of positions and of weights, which are nearly exact for neighbours in a mesh
 // however far they are from the origin and however large a constant all weights share.
@@ -20,7 +20,7 @@ Vec2 orthocenter(const WeightedPoint& p, const WeightedPoint& q, const WeightedP
   return p.position() + scale * Vec2{along_a * b.y - along_b * a.y, along_b * a.x - along_a * b.x};
 }
 
-double edge_split(const WeightedPoint& p, const WeightedPoint& q) {
+double dual_crossing(const WeightedPoint& p, const WeightedPoint& q) {
   const double l = length(q.position() - p.position());
   return 0.5 * (l + (p.w - q.w) / l);
 }
@@ -67,7 +67,7 @@ Vec3 orthocenter(Vec3 p, Vec3 q, Vec3 r) {
 
 double arc_length(Vec3 p, Vec3 q) { return std::atan2(length(cross(p, q - p)), dot(p, q)); }
 
-double edge_split(Vec3 p, Vec3 q) { return std::atan2(dot(p, p - q), length(cross(p, q - p))); }
+double dual_crossing(Vec3 p, Vec3 q) { return std::atan2(dot(p, p - q), length(cross(p, q - p))); }
 
 double signed_height(Vec3 p, Vec3 q, Vec3 r) {
   const Vec3 n = cross(q - p, r - p), m = cross(p, q - p);

@@ -47,7 +47,7 @@ inline auto height_numerator(const WeightedPoint& p, const WeightedPoint& q, con
 }
 
 /// 2 d ℓ of edge pq, from p.
-inline auto doubled_split(const WeightedPoint& p, const WeightedPoint& q) {
+inline auto doubled_crossing(const WeightedPoint& p, const WeightedPoint& q) {
   const ExactVector pq = difference(q, p);
   return dot(pq, pq) + difference(p.w, q.w);
 }
@@ -89,6 +89,6 @@ inline auto height_numerator(Vec3 p, Vec3 q, Vec3 r) {
 }
 
 /// P·(P − Q).
-inline auto split_product(Vec3 p, Vec3 q) { return dot(p, difference(p, q)); }
+inline auto crossing_product(Vec3 p, Vec3 q) { return dot(p, difference(p, q)); }
 
 }  // namespace temper::exact

@@ -68,7 +68,7 @@ namespace temper {
                                                      const WeightedPoint& b) {
   const Vec3 p = lifted(a), along = space.chord(a, b);
   if (!space.is_plane()) return as_point(p - (dot(p, along) / squared_length(along)) * along);
-  const double part = edge_split(a, b) / length(along);
+  const double part = dual_crossing(a, b) / length(along);
   return {a.x + part * along.x, a.y + part * along.y, 0};
 }
 

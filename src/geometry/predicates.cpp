@@ -41,7 +41,7 @@ Sign height_numerator_sign(const WeightedPoint& p, const WeightedPoint& q, const
   return exact::height_numerator(p, q, r).sign();
 }
 
-Sign edge_split_sign(const WeightedPoint& p, const WeightedPoint& q) { return exact::doubled_split(p, q).sign(); }
+Sign dual_crossing_sign(const WeightedPoint& p, const WeightedPoint& q) { return exact::doubled_crossing(p, q).sign(); }
 
 Sign orientation(Vec3 p, Vec3 q, Vec3 r) { return exact::orientation_determinant(p, q, r).sign(); }
 
@@ -49,7 +49,7 @@ Sign power_test(Vec3 a, Vec3 b, Vec3 c, Vec3 d) { return exact::power_determinan
 
 Sign height_numerator_sign(Vec3 p, Vec3 q, Vec3 r) { return exact::height_numerator(p, q, r).sign(); }
 
-Sign edge_split_sign(Vec3 p, Vec3 q) { return exact::split_product(p, q).sign(); }
+Sign dual_crossing_sign(Vec3 p, Vec3 q) { return exact::crossing_product(p, q).sign(); }
 
 }  // namespace exact
 
@@ -73,7 +73,7 @@ Sign signed_height_sign(const WeightedPoint& p, const WeightedPoint& q, const We
   return orientation * inlined::height_numerator_sign(p, q, r);
 }
 
-Sign edge_split_sign(const WeightedPoint& p, const WeightedPoint& q) { return inlined::edge_split_sign(p, q); }
+Sign dual_crossing_sign(const WeightedPoint& p, const WeightedPoint& q) { return inlined::dual_crossing_sign(p, q); }
 
 bool is_well_centered(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
   return inlined::is_well_centered(p, q, r);
@@ -103,13 +103,13 @@ Sign signed_height_sign(Vec3 p, Vec3 q, Vec3 r) {
                           [&] { return exact::height_numerator_sign(p, q, r); });
 }
 
-Sign edge_split_sign(Vec3 p, Vec3 q) {
-  return inlined::sign_or(inlined::filtered_edge_split(p, q), [&] { return exact::edge_split_sign(p, q); });
+Sign dual_crossing_sign(Vec3 p, Vec3 q) {
+  return inlined::sign_or(inlined::filtered_dual_crossing(p, q), [&] { return exact::dual_crossing_sign(p, q); });
 }
 
 bool is_well_centered(Vec3 p, Vec3 q, Vec3 r) {
   const auto crossed = [](Vec3 a, Vec3 b) {
-    return edge_split_sign(a, b) == Sign::positive && edge_split_sign(b, a) == Sign::positive;
+    return dual_crossing_sign(a, b) == Sign::positive && dual_crossing_sign(b, a) == Sign::positive;
   };
   return orientation(p, q, r) == Sign::positive && signed_height_sign(p, q, r) == Sign::positive &&
          signed_height_sign(q, r, p) == Sign::positive && signed_height_sign(r, p, q) == Sign::positive &&

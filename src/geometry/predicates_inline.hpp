@@ -25,12 +25,12 @@ namespace temper::exact {
 [[nodiscard]] Sign power_test(const WeightedPoint& a, const WeightedPoint& b, const WeightedPoint& c,
                               const WeightedPoint& d);
 [[nodiscard]] Sign height_numerator_sign(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
-[[nodiscard]] Sign edge_split_sign(const WeightedPoint& p, const WeightedPoint& q);
+[[nodiscard]] Sign dual_crossing_sign(const WeightedPoint& p, const WeightedPoint& q);
 
 [[nodiscard]] Sign orientation(Vec3 p, Vec3 q, Vec3 r);
 [[nodiscard]] Sign power_test(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
 [[nodiscard]] Sign height_numerator_sign(Vec3 p, Vec3 q, Vec3 r);
-[[nodiscard]] Sign edge_split_sign(Vec3 p, Vec3 q);
+[[nodiscard]] Sign dual_crossing_sign(Vec3 p, Vec3 q);
 
 }  // namespace temper::exact
 
@@ -42,7 +42,7 @@ inline constexpr double kUnitRoundoff = 0x1p-53;
 // Roundings: 3 up to the products; the last subtraction is rounded without change of sign.
 inline constexpr double kOrient2dBound = 4 * kUnitRoundoff;
 // 5: the difference (twice, in the square), the square, two sums.
-inline constexpr double kEdgeSplitBound = 8 * kUnitRoundoff;
+inline constexpr double kDualCrossingBound = 8 * kUnitRoundoff;
 // 12: lift 5, minor 4, their product, two sums.
 inline constexpr double kPowerTestBound = 16 * kUnitRoundoff;
 // 11: dot product 4, dot product and weights 5, their product, one sum.
@@ -52,7 +52,7 @@ inline constexpr double kOrientationBound = 8 * kUnitRoundoff;
 // 8: minor 4, its product with a difference 2, two sums.
 inline constexpr double kLiftedPowerTestBound = 16 * kUnitRoundoff;
 // 4: difference, product, two sums.
-inline constexpr double kLiftedEdgeSplitBound = 8 * kUnitRoundoff;
+inline constexpr double kLiftedDualCrossingBound = 8 * kUnitRoundoff;
 // 11: dot product 4, dot product of differences 5, their product, one sum.
 inline constexpr double kLiftedHeightBound = 16 * kUnitRoundoff;
 
@@ -146,20 +146,20 @@ TEMPER_INLINE auto filtered_height_numerator(const Point& p, const Point& q, con
 
 /// Sign of 2 d ℓ of edge pq, from p.
 template <Planar Point>
-TEMPER_INLINE auto filtered_edge_split(const Point& p, const Point& q) {
+TEMPER_INLINE auto filtered_dual_crossing(const Point& p, const Point& q) {
   using T = decltype(q.x - p.x);
   const T x = q.x - p.x, y = q.y - p.y, w = p.w - q.w;
   const T squared = x * x + y * y;
-  return Filtered<T>{squared + w, kEdgeSplitBound * (squared + absolute(w))};
+  return Filtered<T>{squared + w, kDualCrossingBound * (squared + absolute(w))};
 }
 
-[[nodiscard]] inline Sign edge_split_sign(const WeightedPoint& p, const WeightedPoint& q) {
-  return sign_or(filtered_edge_split(p, q), [&] { return exact::edge_split_sign(p, q); });
+[[nodiscard]] inline Sign dual_crossing_sign(const WeightedPoint& p, const WeightedPoint& q) {
+  return sign_or(filtered_dual_crossing(p, q), [&] { return exact::dual_crossing_sign(p, q); });
 }
 
 /// 0 < d_pq < ℓ.
 [[nodiscard]] inline bool crosses_edge(const WeightedPoint& p, const WeightedPoint& q) {
-  return inlined::edge_split_sign(p, q) == Sign::positive && inlined::edge_split_sign(q, p) == Sign::positive;
+  return inlined::dual_crossing_sign(p, q) == Sign::positive && inlined::dual_crossing_sign(q, p) == Sign::positive;
 }
 
 [[nodiscard]] inline bool is_well_centered(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r) {
@@ -222,10 +222,10 @@ TEMPER_INLINE auto filtered_height_numerator(const Point& p, const Point& q, con
 
 /// P·(P − Q).
 template <Lifted Point>
-TEMPER_INLINE auto filtered_edge_split(const Point& p, const Point& q) {
+TEMPER_INLINE auto filtered_dual_crossing(const Point& p, const Point& q) {
   using T = decltype(q.x - p.x);
   const T x = p.x * (p.x - q.x), y = p.y * (p.y - q.y), z = p.z * (p.z - q.z);
-  return Filtered<T>{x + y + z, kLiftedEdgeSplitBound * (absolute(x) + absolute(y) + absolute(z))};
+  return Filtered<T>{x + y + z, kLiftedDualCrossingBound * (absolute(x) + absolute(y) + absolute(z))};
 }
 
 // --- in the space of a mesh: what the plane does is inlined, the sphere is a call -------------------------------
@@ -247,8 +247,8 @@ TEMPER_INLINE auto filtered_edge_split(const Point& p, const Point& q) {
 [[nodiscard]] inline bool crosses_edge(const Space& space, const WeightedPoint& p, const WeightedPoint& q) {
   if (space.is_plane()) [[likely]]
     return inlined::crosses_edge(p, q);
-  return temper::edge_split_sign(lifted(p), lifted(q)) == Sign::positive &&
-         temper::edge_split_sign(lifted(q), lifted(p)) == Sign::positive;
+  return temper::dual_crossing_sign(lifted(p), lifted(q)) == Sign::positive &&
+         temper::dual_crossing_sign(lifted(q), lifted(p)) == Sign::positive;
 }
 
 [[nodiscard]] inline bool is_well_centered(const Space& space, const WeightedPoint& p, const WeightedPoint& q,

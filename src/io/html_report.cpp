@@ -118,7 +118,7 @@ class MeshArrays {
     for (unsigned k = 0; k < 3; ++k) {
       const WeightedPoint &a = p[k], &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
       if (signed_height_sign(a, b, c) != Sign::positive) bits |= 1U << k;
-      if (edge_split_sign(a, b) != Sign::positive || edge_split_sign(b, a) != Sign::positive) bits |= 8U << k;
+      if (dual_crossing_sign(a, b) != Sign::positive || dual_crossing_sign(b, a) != Sign::positive) bits |= 8U << k;
     }
     return static_cast<std::uint8_t>(bits);
   }

@@ -16,7 +16,7 @@ namespace {
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // d/ℓ = 1/2 + (w_p − w_q) / (2 ℓ²), from the end where it is less. A collapsed edge is not crossed at all.
-double lesser_split(const WeightedPoint& p, const WeightedPoint& q) {
+double lesser_crossing(const WeightedPoint& p, const WeightedPoint& q) {
   const double squared = squared_length(q.position() - p.position());
   const double lean = std::abs(p.w - q.w);
   if (squared == 0) return -kUnbounded;
@@ -47,8 +47,8 @@ TriangleMeasure measure_on_sphere(const std::array<Vec3, 3>& p) {
     const double l = arc_length(a, b);
     m.h_sign[k] = upright ? signed_height_sign(a, b, c) : Sign::negative;
     m.h_over_l[k] = upright ? signed_height(a, b, c) / l : -kUnbounded;
-    m.crossed[k] = edge_split_sign(a, b) == Sign::positive && edge_split_sign(b, a) == Sign::positive;
-    m.d_over_l[k] = std::min(edge_split(a, b), edge_split(b, a)) / l;
+    m.crossed[k] = dual_crossing_sign(a, b) == Sign::positive && dual_crossing_sign(b, a) == Sign::positive;
+    m.d_over_l[k] = std::min(dual_crossing(a, b), dual_crossing(b, a)) / l;
     m.angle_deg[k] = corner_angle(a, b, c) * (180 / std::numbers::pi);
   }
   return m;
@@ -76,8 +76,8 @@ TriangleMeasure measure_triangle(const Space& space, const std::array<WeightedPo
   measure_heights(m, p);
   for (int k = 0; k < 3; ++k) {
     const WeightedPoint &a = p[k], &b = p[corner_after(k)], &c = p[corner_across(k)];
-    m.crossed[k] = edge_split_sign(a, b) == Sign::positive && edge_split_sign(b, a) == Sign::positive;
-    m.d_over_l[k] = lesser_split(a, b);
+    m.crossed[k] = dual_crossing_sign(a, b) == Sign::positive && dual_crossing_sign(b, a) == Sign::positive;
+    m.d_over_l[k] = lesser_crossing(a, b);
     m.angle_deg[k] = std::abs(corner_angle(a.position(), b.position(), c.position())) * (180 / std::numbers::pi);
   }
   return m;

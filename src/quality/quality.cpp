@@ -83,7 +83,7 @@ Transmissibilities compare_transmissibilities(const Mesh& mesh, Executor* execut
 /// Bins of 10°; of 0.1 with a bin edge at h = 0; of 0.05 with a bin edge at d = 0.
 Histogram empty_angle_histogram() { return {0, 180, std::vector<std::size_t>(18)}; }
 Histogram empty_height_histogram() { return {-0.5, 1, std::vector<std::size_t>(15)}; }
-Histogram empty_split_histogram() { return {-0.1, 0.5, std::vector<std::size_t>(12)}; }
+Histogram empty_crossing_histogram() { return {-0.1, 0.5, std::vector<std::size_t>(12)}; }
 
 void count_in(Histogram& histogram, double value) {
   const double last = static_cast<double>(histogram.counts.size() - 1);
@@ -105,7 +105,7 @@ struct Tally {
   WorstList worst;
   Histogram angles = empty_angle_histogram();
   Histogram h_over_l = empty_height_histogram();
-  Histogram d_over_l = empty_split_histogram();
+  Histogram d_over_l = empty_crossing_histogram();
 
   /// `original`: the number by which the triangle is told of.
   void add(const Mesh& mesh, TriangleId t, TriangleId original);

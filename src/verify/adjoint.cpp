@@ -15,17 +15,17 @@ void add_all(Values& to, const Values& from) {
   for (std::size_t i = 0; i < to.size(); ++i) to.begin()[i] = to.begin()[i] + from.begin()[i];
 }
 
-/// The derivatives by length, split and the two heights of an edge.
+/// The derivatives by length, crossing and the two heights of an edge.
 struct EdgeAdjoint {
-  double length = 0, split = 0, left = 0, right = 0;
+  double length = 0, crossing = 0, left = 0, right = 0;
 };
 
 /// ★0 of the ends is d D/2 and (ℓ − d) D/2, ★1 D/ℓ, the flux ℓ/D, D = h_left + h_right.
 EdgeAdjoint of_operators(const DecEdge& edge, double star1, double flux, double from, double to) {
-  const double l = edge.length, d = edge.split, dual = edge.dual_length;
+  const double l = edge.length, d = edge.crossing, dual = edge.dual_length;
   EdgeAdjoint by;
   by.length = -star1 * dual / (l * l) + 0.5 * dual * to;
-  by.split = 0.5 * dual * (from - to);
+  by.crossing = 0.5 * dual * (from - to);
   double by_dual = star1 / l + 0.5 * (d * from + (l - d) * to);
   if (flux != 0) {
     by.length += flux / dual;
@@ -53,10 +53,10 @@ void pull_back_edge(const Mesh& mesh, const DecComplex& dec, const DecEdge& edge
   };
   height(edge.left, edge.left_height, by.left, 1);
   height(edge.right, edge.right_height, by.right, -1);
-  const double weights = by.split / (2 * l);
+  const double weights = by.crossing / (2 * l);
   gradient[edge.from].w += weights;
   gradient[edge.to].w -= weights;
-  by.length += by.split * (1 - edge.split / l);  // d = (ℓ² + w_i − w_j)/(2ℓ)
+  by.length += by.crossing * (1 - edge.crossing / l);  // d = (ℓ² + w_i − w_j)/(2ℓ)
   by_e = by_e + (by.length / l) * e;
   add_place(gradient, edge.to, by_e);
   add_place(gradient, edge.from, by_from - by_e);
@@ -88,7 +88,7 @@ Adjoint::Adjoint(const Mesh& mesh, const DecComplex& dec)
       star0(mesh.n_vertices(), 0.0),
       star1(dec.edges.size(), 0.0),
       flux(dec.edges.size(), 0.0),
-      split(dec.edges.size(), 0.0),
+      crossing(dec.edges.size(), 0.0),
       orthocenter(mesh.n_triangles(), Vec2{}),
       area(mesh.n_triangles(), 0.0) {}
 
@@ -97,7 +97,7 @@ void Adjoint::add(const Adjoint& other) {
   add_all(star0, other.star0);
   add_all(star1, other.star1);
   add_all(flux, other.flux);
-  add_all(split, other.split);
+  add_all(crossing, other.crossing);
   add_all(orthocenter, other.orthocenter);
   add_all(area, other.area);
 }
@@ -110,7 +110,7 @@ Gradient pulled_back(const Mesh& mesh, const DecComplex& dec, const Adjoint& by)
     const EdgeId e(i);
     const DecEdge& edge = dec.edges[e];
     EdgeAdjoint of_edge = of_operators(edge, by.star1[e], by.flux[e], by.star0[edge.from], by.star0[edge.to]);
-    of_edge.split += by.split[e];
+    of_edge.crossing += by.crossing[e];
     pull_back_edge(mesh, dec, edge, of_edge, orthocenter, gradient);
   }
   for (const TriangleId t : mesh.triangles()) {

@@ -24,7 +24,7 @@ struct Adjoint {
   IdVector<VertexId, Vec2> vertex;         ///< by the place itself, all else kept
   IdVector<VertexId, double> star0;        ///< by the area of the dual cell
   IdVector<EdgeId, double> star1, flux;    ///< by D/ℓ and ℓ/D
-  IdVector<EdgeId, double> split;          ///< by d itself
+  IdVector<EdgeId, double> crossing;       ///< by d itself
   IdVector<TriangleId, Vec2> orthocenter;  ///< by its place
   IdVector<TriangleId, double> area;
 

@@ -219,7 +219,7 @@ class CellSolver final : public Solver {
     if (edge.is_boundary()) {
       const std::size_t k = inner(edge).index;
       by.flux[id] -= lambda[k] * (solution[k] - wave.at(edge.midpoint));
-      by.split[id] += lambda[k] * dec.flux[id] * dot(wave.gradient(edge.midpoint), e) / edge.length;
+      by.crossing[id] += lambda[k] * dec.flux[id] * dot(wave.gradient(edge.midpoint), e) / edge.length;
       return;
     }
     const double difference = lambda[edge.left.index] - lambda[edge.right.index];

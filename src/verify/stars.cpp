@@ -70,7 +70,7 @@ EdgeMeans means_on_sphere(const Setting& s, const Field& field, EdgeId e) {
   const Vec3 p = s.mesh.lifted_point(edge.from), q = s.mesh.lifted_point(edge.to), middle = s.midpoint(e);
   const Vec3 left = Setting::unit(cross(p, q - p));
   const Cross at = {middle, cross(left, middle), left};
-  const double from = -s.length_in_frame(edge.split), to = s.length_in_frame(edge.length - edge.split);
+  const double from = -s.length_in_frame(edge.crossing), to = s.length_in_frame(edge.length - edge.crossing);
   const PathMean primal = at.mean_of_edge(field, from, to);
   const PathMean dual =
       at.mean_of_dual(field, -s.length_in_frame(edge.right_height), s.length_in_frame(edge.left_height));
@@ -110,8 +110,8 @@ std::vector<double> dual_cell_integrals(const Setting& s, const IdVector<EdgeId,
     integrals[edge.to.index] -= across;
     if (!edge.is_boundary()) continue;
     const Vec2 outward = inner_side(edge) * turned_right(t);
-    integrals[edge.from.index] += dot(s.length_in_frame(edge.split) * mean.from_potential, outward);
-    integrals[edge.to.index] += dot(s.length_in_frame(edge.length - edge.split) * mean.to_potential, outward);
+    integrals[edge.from.index] += dot(s.length_in_frame(edge.crossing) * mean.from_potential, outward);
+    integrals[edge.to.index] += dot(s.length_in_frame(edge.length - edge.crossing) * mean.to_potential, outward);
   }
   return integrals;
 }
@@ -136,8 +136,8 @@ std::vector<double> unsigned_cells(const Setting& s) {
     const auto part = [&](double d) {
       return s.area_in_frame(right_triangle_areas(s.mesh.space(), std::abs(d), left, right));
     };
-    areas[edge.from.index] += part(edge.split);
-    areas[edge.to.index] += part(edge.length - edge.split);
+    areas[edge.from.index] += part(edge.crossing);
+    areas[edge.to.index] += part(edge.length - edge.crossing);
   }
   return areas;
 }

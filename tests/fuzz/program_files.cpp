@@ -73,7 +73,7 @@ std::vector<std::string> certificates() {
   const Mesh& mesh = input().mesh();
   const auto [p, q, r] = mesh.corners(TriangleId(0));
   certificate.terms.push_back({{WeightConstraint::Kind::height, p, q, r}, 0.25});
-  certificate.terms.push_back({{WeightConstraint::Kind::split, q, p, VertexId()}, 1.5});
+  certificate.terms.push_back({{WeightConstraint::Kind::crossing, q, p, VertexId()}, 1.5});
   Certificate of_duals;
   of_duals.conditions = Conditions::regular;
   of_duals.margin = kRefutedDual;

@@ -42,7 +42,7 @@ Rational value(const Mesh& mesh, const WeightConstraint& c, const Rational& marg
   const auto point = [&](VertexId v) { return at(mesh, v, v == raised ? 1 : 0); };
   const RationalPoint p = point(c.p), q = point(c.q);
   const Rational l2 = (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y);
-  if (c.kind == WeightConstraint::Kind::split) return l2 + p.w - q.w - 2 * margin * l2;
+  if (c.kind == WeightConstraint::Kind::crossing) return l2 + p.w - q.w - 2 * margin * l2;
   const RationalPoint r = point(c.r);
   const Rational area = doubled_area(p, q, r);
   if (c.kind == WeightConstraint::Kind::dual) {

@@ -1,4 +1,5 @@
-// ★1, ★2 and the split of an edge against rational arithmetic: a small relative error on every input, whatever cancels.
+// ★1, ★2 and the crossing of an edge against rational arithmetic: a small relative error on every input, whatever
+// cancels.
 //
 // The oracle finds both orthocenters by Cramer's rule and measures the dual edge between them; no formula is the
 // library's.
@@ -68,7 +69,7 @@ TEST(DecOracle, EveryStarHasASmallRelativeErrorOnDegenerateFamilies) {
       expect_relative(c.star1[e], star1);
       const Rational x = Rational(quad[1].x) - quad[0].x, y = Rational(quad[1].y) - quad[0].y;
       const Rational share = (1 + (Rational(quad[0].w) - quad[1].w) / (x * x + y * y)) / 2;
-      EXPECT_NEAR(c.edges[e].split / c.edges[e].length, share.get_d(), kRelative * std::abs(share.get_d()));
+      EXPECT_NEAR(c.edges[e].crossing / c.edges[e].length, share.get_d(), kRelative * std::abs(share.get_d()));
       for (const TriangleId t : mesh.triangles()) {
         const auto [i, j, k] = mesh.corners(t);
         const WeightedPoint p = mesh.point(i), q = mesh.point(j), r = mesh.point(k);

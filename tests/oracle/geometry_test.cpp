@@ -1,7 +1,7 @@
 // Every sign of the predicates against rational arithmetic, on random points and on the degenerate families.
 //
 // The oracle shares no formula with the library: it expands the 4 × 4 determinants on raw coordinates, finds the
-// orthocenter by Cramer's rule and takes heights and splits from it, and reads the derivative by a weight off
+// orthocenter by Cramer's rule and takes heights and crossings from it, and reads the derivative by a weight off
 // a difference of two determinants.
 #include "temper/detail/geometry.hpp"
 
@@ -63,7 +63,7 @@ Sign rational_height_sign(const RationalPoint& p, const RationalPoint& q, const 
 }
 
 /// From powers along the edge: d_pq > 0 when p itself is nearer, in the power sense, to p than to q.
-Sign rational_split_sign(const RationalPoint& p, const RationalPoint& q) {
+Sign rational_crossing_sign(const RationalPoint& p, const RationalPoint& q) {
   const Rational x = q.x - p.x, y = q.y - p.y;
   const Rational power_to_p = -p.w, power_to_q = x * x + y * y - q.w;
   return sign_of(power_to_q - power_to_p);
@@ -72,8 +72,8 @@ Sign rational_split_sign(const RationalPoint& p, const RationalPoint& q) {
 bool rational_well_centered(const RationalPoint& p, const RationalPoint& q, const RationalPoint& r) {
   if (determinant(p, q, r) <= 0) return false;
   const auto good = [](const RationalPoint& a, const RationalPoint& b, const RationalPoint& c) {
-    return rational_height_sign(a, b, c) == Sign::positive && rational_split_sign(a, b) == Sign::positive &&
-           rational_split_sign(b, a) == Sign::positive;
+    return rational_height_sign(a, b, c) == Sign::positive && rational_crossing_sign(a, b) == Sign::positive &&
+           rational_crossing_sign(b, a) == Sign::positive;
   };
   return good(p, q, r) && good(q, r, p) && good(r, p, q);
 }
@@ -109,7 +109,7 @@ int wrong_signs(const Quad& q, const RationalQuad& exact, const std::array<std::
          (power_test(q[0], q[1], q[2], q[3]) != sign_of(lifted_determinant(exact))) +
          (power_test_perturbed(q[0], q[1], q[2], q[3], index) != rational_perturbed_sign(exact, index)) +
          (signed_height_sign(q[0], q[1], q[2]) != rational_height_sign(exact[0], exact[1], exact[2])) +
-         (edge_split_sign(q[0], q[1]) != rational_split_sign(exact[0], exact[1])) +
+         (dual_crossing_sign(q[0], q[1]) != rational_crossing_sign(exact[0], exact[1])) +
          (is_well_centered(q[0], q[1], q[2]) != rational_well_centered(exact[0], exact[1], exact[2]));
 }
 

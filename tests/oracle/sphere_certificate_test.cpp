@@ -45,7 +45,7 @@ Rational value_on_sphere(const Mesh& mesh, const WeightConstraint& c, const Rati
   const RationalVector x = place(mesh, c.p), y = place(mesh, c.q), p = lifted(c.p), q = lifted(c.q);
   const Rational radius(mesh.space().radius()), cube = radius * radius * radius;
   const Rational mean = margin * (sigma(c.p) + sigma(c.q)) / 2, both = sigma(c.p) * sigma(c.q);
-  if (c.kind == Kind::split) return dot(p, minus(p, q)) * sigma(c.p) * both - mean * dot(minus(x, y), minus(x, y));
+  if (c.kind == Kind::crossing) return dot(p, minus(p, q)) * sigma(c.p) * both - mean * dot(minus(x, y), minus(x, y));
   const RationalVector z = place(mesh, c.r), r = lifted(c.r);
   if (c.kind == Kind::height) {
     const Rational height = dot(cross(p, q), cross(minus(q, p), minus(r, p))) * both * both * sigma(c.r);

@@ -59,14 +59,14 @@ Sign rational_height_sign(const RationalPoint& p, const RationalPoint& q, const 
 }
 
 /// d_pq > 0 where p itself is nearer, in the power sense, to p than to q: p·P > p·Q.
-Sign rational_split_sign(const RationalPoint& p, const RationalPoint& q) {
+Sign rational_crossing_sign(const RationalPoint& p, const RationalPoint& q) {
   return sign_of(product(p, p) - product(p, q));
 }
 
 bool rational_well_centered(const RationalPoint& p, const RationalPoint& q, const RationalPoint& r) {
   const auto good = [](const RationalPoint& a, const RationalPoint& b, const RationalPoint& c) {
-    return rational_height_sign(a, b, c) == Sign::positive && rational_split_sign(a, b) == Sign::positive &&
-           rational_split_sign(b, a) == Sign::positive;
+    return rational_height_sign(a, b, c) == Sign::positive && rational_crossing_sign(a, b) == Sign::positive &&
+           rational_crossing_sign(b, a) == Sign::positive;
   };
   return determinant(p, q, r) > 0 && good(p, q, r) && good(q, r, p) && good(r, p, q);
 }
@@ -93,7 +93,7 @@ int wrong_signs(const Quad& quad, const std::array<std::uint32_t, 4>& index) {
          (power_test(a, b, c, d) != sign_of(above(exact))) +
          (power_test_perturbed(a, b, c, d, index) != rational_perturbed_sign(exact, index)) +
          (signed_height_sign(a, b, c) != rational_height_sign(exact[0], exact[1], exact[2])) +
-         (edge_split_sign(a, b) != rational_split_sign(exact[0], exact[1])) +
+         (dual_crossing_sign(a, b) != rational_crossing_sign(exact[0], exact[1])) +
          (is_well_centered(a, b, c) != rational_well_centered(exact[0], exact[1], exact[2]));
 }
 
@@ -207,7 +207,7 @@ TEST(RationalOracleOnTheSphere, NoSignIsWrongOnRandomPoints) {
 }
 
 // The theorem of temper/detail/space.hpp: the flat triangle with the weights |P|² has its weighted midpoints and
-// orthocenter where the spherical one has them, so heights and splits read in its plane have the signs of the
+// orthocenter where the spherical one has them, so heights and crossings read in its plane have the signs of the
 // predicates.
 TEST(RationalOracleOnTheSphere, TheFlatTriangleWithSquaredLengthsAsWeightsHasTheSameSigns) {
   Random random(7);
@@ -222,7 +222,7 @@ TEST(RationalOracleOnTheSphere, TheFlatTriangleWithSquaredLengthsAsWeightsHasThe
                    u_c = product(v, v) + product(p, p) - product(c, c);
     const Sign flat = sign_of(u_c * product(u, u) - u_b * product(u, v));
     EXPECT_EQ(flat, rational_height_sign(p, b, c));
-    EXPECT_EQ(sign_of(u_b), rational_split_sign(p, b));
+    EXPECT_EQ(sign_of(u_b), rational_crossing_sign(p, b));
     positive += flat == Sign::positive, negative += flat == Sign::negative;
   }
   EXPECT_GT(positive, kRounds / 20);

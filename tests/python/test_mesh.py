@@ -342,7 +342,7 @@ def test_signs_follow_the_conventions():
     assert geometry.orientation(p, q, r) == 1 and geometry.orientation(p, r, q) == -1
     assert geometry.signed_height(p, q, r) > 0 and geometry.signed_height(p, q, (0.5, 0.1)) < 0
     heavy = (0, 0, 0.5)
-    assert geometry.edge_split(heavy, q) == 0.75 and geometry.edge_split(q, heavy) == 0.25
+    assert geometry.dual_crossing(heavy, q) == 0.75 and geometry.dual_crossing(q, heavy) == 0.25
     center = geometry.orthocenter(heavy, q, r)
     powers = [((center - np.array(v[:2])) ** 2).sum() - (v[2] if len(v) == 3 else 0) for v in (heavy, q, r)]
     assert np.ptp(powers) < 1e-14

@@ -217,7 +217,7 @@ def test_solid_angles_of_a_closed_mesh_sum_to_the_whole_sphere(tempered):
         assert np.allclose(geometry.solid_angle(a, c, b), -solid, rtol=1e-13)
 
 
-def test_arcs_splits_and_heights_are_what_vectors_say(tempered):
+def test_arcs_crossings_and_heights_are_what_vectors_say(tempered):
     p, q, r = faces_of(tempered)
     space = tempered.space
     arc = geometry.arc_length(p, q)
@@ -227,13 +227,13 @@ def test_arcs_splits_and_heights_are_what_vectors_say(tempered):
     assert np.allclose(o, unit(n), atol=1e-13) and np.allclose(np.linalg.norm(o, axis=1), 1)
     for vertex in (q, r):  # equal power: the same P · o
         assert np.allclose(np.sum(p * o, axis=1), np.sum(vertex * o, axis=1), rtol=1e-14)
-    split = geometry.edge_split(p, q, space=space)
+    split = geometry.dual_crossing(p, q, space=space)
     assert np.allclose(np.tan(split), np.sum(p * (p - q), axis=1) / np.linalg.norm(np.cross(p, q), axis=1), rtol=1e-12)
-    assert np.allclose(split + geometry.edge_split(q, p, space=space), arc, atol=1e-13)
+    assert np.allclose(split + geometry.dual_crossing(q, p, space=space), arc, atol=1e-13)
     height = geometry.signed_height(p, q, r, space=space)
     assert np.allclose(np.sin(height), np.sum(unit(np.cross(p, q)) * o, axis=1), atol=1e-13)
     assert np.array_equal(geometry.signed_height_sign(p, q, r, space=space), np.sign(height))
-    assert np.array_equal(geometry.edge_split_sign(p, q, space=space), np.sign(split))
+    assert np.array_equal(geometry.dual_crossing_sign(p, q, space=space), np.sign(split))
     assert (geometry.orientation(p, q, r, space=space) == np.sign(np.linalg.det(np.stack([p, q, r], axis=1)))).all()
     assert geometry.is_well_centered(p, q, r, space=space).all()
 

@@ -37,7 +37,7 @@ TEMPER_EXPORT(mesh_triangle_margins) int mesh_triangle_margins(const HeldMesh* h
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t k = 0; k < 3; ++k) {
         const WeightedPoint a = held->mesh.point(c[k]), b = held->mesh.point(c[(k + 1) % 3]);
-        const double l = length(b.position() - a.position()), d = edge_split(a, b) / l;
+        const double l = length(b.position() - a.position()), d = dual_crossing(a, b) / l;
         least = std::min({least, signed_height(a, b, held->mesh.point(c[(k + 2) % 3])) / l, d, 1 - d});
       }
       margins.push_back(least);
@@ -122,7 +122,7 @@ const std::map<std::string_view, AnswerArray>& dec_arrays() {
                                    return Ids{e.left.index, e.right.index};
                                  }); }},
       {"edges.length", [](const DecComplex& c) { answer_edges(c, [](const DecEdge& e) { return e.length; }); }},
-      {"edges.split", [](const DecComplex& c) { answer_edges(c, [](const DecEdge& e) { return e.split; }); }},
+      {"edges.crossing", [](const DecComplex& c) { answer_edges(c, [](const DecEdge& e) { return e.crossing; }); }},
       {"edges.left_height",
        [](const DecComplex& c) { answer_edges(c, [](const DecEdge& e) { return e.left_height; }); }},
       {"edges.right_height",

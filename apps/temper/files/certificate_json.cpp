@@ -97,9 +97,9 @@ class Reader {
     const Json& kind = member(json, "kind");
     const auto [p, q] = vertices<2>(json, "edge");
     const double multiplier = number(json, "multiplier");
-    if (kind == "split") return {{Kind::split, p, q, VertexId()}, multiplier};
+    if (kind == "crossing") return {{Kind::crossing, p, q, VertexId()}, multiplier};
     if (kind != "height" && kind != "dual") {
-      fail(fmt::format("expected \"kind\" to be \"height\", \"split\" or \"dual\", found {}", kind.dump()));
+      fail(fmt::format("expected \"kind\" to be \"height\", \"crossing\" or \"dual\", found {}", kind.dump()));
     }
     for (const VertexId r : vertices<3>(json, "triangle")) {
       if (r == p || r == q) continue;
@@ -122,7 +122,7 @@ Json certificate_json(const Certificate& certificate, const Input& input) {
     const auto [kind, p, q, r, s] = constraint;
     Json term;
     term["kind"] = name(kind);
-    if (kind != Kind::split) term["triangle"] = {point(p), point(q), point(r)};
+    if (kind != Kind::crossing) term["triangle"] = {point(p), point(q), point(r)};
     if (kind == Kind::dual) term["across"] = point(s);
     term["edge"] = {point(p), point(q)};
     term["multiplier"] = multiplier;

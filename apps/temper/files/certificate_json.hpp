@@ -2,11 +2,12 @@
 //
 //   {"temper_certificate": 1, "conditions": "well_centered", "margin": 0,
 //    "terms": [{"kind": "height", "triangle": [3, 9, 10], "edge": [3, 9], "multiplier": 0.25},
-//              {"kind": "split", "edge": [9, 3], "multiplier": 1.5}]}
+//              {"kind": "crossing", "edge": [9, 3], "multiplier": 1.5}]}
 //
 // Points count from 0, in the order of the file's arrays. The edge of a height lies in its triangle, counter-clockwise;
-// that of a split is directed: d from its first point. A dual is as a height, with the corner on the other side of the
-// edge as "across". Files without "conditions" are of well_centered. docs/weights.md has what the multipliers multiply.
+// that of a crossing is directed: d from its first point. A dual is as a height, with the corner on the other side of
+// the edge as "across". Files without "conditions" are of well_centered. docs/weights.md has what the multipliers
+// multiply.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

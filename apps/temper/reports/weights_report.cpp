@@ -132,7 +132,7 @@ Json violation_json(const Violation& v, const Input& input, const Mesh& mesh) {
 
 std::string constraint_text(const WeightConstraint& c, const Input& input, const Mesh& mesh) {
   const std::string p = input.vertex_number(c.p), q = input.vertex_number(c.q);
-  if (c.kind == Kind::split) return fmt::format("d of edge {}-{} from vertex {}", p, q, p);
+  if (c.kind == Kind::crossing) return fmt::format("d of edge {}-{} from vertex {}", p, q, p);
   if (c.kind == Kind::dual) {
     return fmt::format("dual length of edge {}-{} between vertices {} and {}", p, q, input.vertex_number(c.r),
                        input.vertex_number(c.s));

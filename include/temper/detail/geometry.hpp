@@ -49,7 +49,7 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 [[nodiscard]] Sign signed_height_sign(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
 
 /// Sign of d_pq = (ℓ² + w_p − w_q)/(2ℓ). Exact.
-[[nodiscard]] Sign edge_split_sign(const WeightedPoint& p, const WeightedPoint& q);
+[[nodiscard]] Sign dual_crossing_sign(const WeightedPoint& p, const WeightedPoint& q);
 
 /// Says whether a triangle is well-centered: all h > 0, all 0 < d < ℓ, and counter-clockwise. Exact.
 [[nodiscard]] bool is_well_centered(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
@@ -71,7 +71,7 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 [[nodiscard]] Sign signed_height_sign(Vec3 p, Vec3 q, Vec3 r);
 
 /// Sign of P·(P − Q): of d_pq, the arc from p, towards q, of the weighted midpoint. Exact.
-[[nodiscard]] Sign edge_split_sign(Vec3 p, Vec3 q);
+[[nodiscard]] Sign dual_crossing_sign(Vec3 p, Vec3 q);
 
 /// All heights > 0, all edges crossed by their duals, and counter-clockwise. Exact.
 [[nodiscard]] bool is_well_centered(Vec3 p, Vec3 q, Vec3 r);
@@ -96,7 +96,7 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 [[nodiscard]] Vec2 orthocenter(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
 
 /// d_pq = ℓ/2 + (w_p − w_q)/(2ℓ): distance from p, towards q, of the weighted midpoint.
-[[nodiscard]] double edge_split(const WeightedPoint& p, const WeightedPoint& q);
+[[nodiscard]] double dual_crossing(const WeightedPoint& p, const WeightedPoint& q);
 
 /// h: signed distance from edge pq to the orthocenter of pqr, positive on the left of p → q.
 [[nodiscard]] double signed_height(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r);
@@ -118,7 +118,7 @@ constexpr Sign operator-(Sign s) { return static_cast<Sign>(-static_cast<int>(s)
 [[nodiscard]] Vec3 orthocenter(Vec3 p, Vec3 q, Vec3 r);
 [[nodiscard]] double arc_length(Vec3 p, Vec3 q);
 /// d_pq: tan d = P·(P − Q)/|P × Q|.
-[[nodiscard]] double edge_split(Vec3 p, Vec3 q);
+[[nodiscard]] double dual_crossing(Vec3 p, Vec3 q);
 /// h over pq: sin h = (P × Q)·n/(|P × Q| |n|).
 [[nodiscard]] double signed_height(Vec3 p, Vec3 q, Vec3 r);
 /// The angle at p between the arcs to q and to r.

@@ -127,7 +127,7 @@ void add_edges(NpzWriter& npz, const DecComplex& c) {
                                  }),
           {n, 2});
   npz.add("edge_lengths", of_edges<double>(c, 1, [](const DecEdge& e, std::size_t) { return e.length; }));
-  npz.add("edge_splits", of_edges<double>(c, 1, [](const DecEdge& e, std::size_t) { return e.split; }));
+  npz.add("edge_crossings", of_edges<double>(c, 1, [](const DecEdge& e, std::size_t) { return e.crossing; }));
   npz.add(
       "edge_heights",
       of_edges<double>(c, 2, [](const DecEdge& e, std::size_t k) { return k == 0 ? e.left_height : e.right_height; }),

@@ -257,7 +257,7 @@ TEMPER_INLINE Mask well_centered_at(const StarBatch& batch, const InPlane::Point
   const Pack triangles = Pack::load(batch.triangles);
   const auto crossed = [](const Spoke<Pack>& a) {
     const Pack dw = absolute(a.dw);
-    return a.l2 - dw > inlined::kEdgeSplitBound * (a.l2 + dw);
+    return a.l2 - dw > inlined::kDualCrossingBound * (a.l2 + dw);
   };
   Mask uncertain = triangles < 0;
   Spoke<Pack> a = spoke(p, load<InPlane>(batch.link[0]));
@@ -275,7 +275,7 @@ TEMPER_INLINE Mask well_centered_at(const StarBatch& batch, const OnSphere::Poin
   const Pack triangles = Pack::load(batch.triangles);
   const auto positive = [](const inlined::Filtered<Pack>& x) { return x.value > x.bound; };
   const auto crossed = [&](const Point& q) {
-    return positive(inlined::filtered_edge_split(p, q)) & positive(inlined::filtered_edge_split(q, p));
+    return positive(inlined::filtered_dual_crossing(p, q)) & positive(inlined::filtered_dual_crossing(q, p));
   };
   Mask uncertain = triangles < 0;
   Point q = load<OnSphere>(batch.link[0]);

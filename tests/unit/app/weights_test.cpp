@@ -86,11 +86,11 @@ TEST_F(Weights, CertificatesThatAreNoneAreNamed) {
       {"[]", "no \"temper_certificate\""},
       {"{\"temper_certificate\": 2}", "expected version 1"},
       {R"({"temper_certificate": 1, "margin": 0})", "there is no \"terms\""},
-      {R"({"temper_certificate": 1, "margin": 0, "terms": [{"kind": "split", "edge": [0, 99], "multiplier": 1}]})",
+      {R"({"temper_certificate": 1, "margin": 0, "terms": [{"kind": "crossing", "edge": [0, 99], "multiplier": 1}]})",
        "term 0: expected a point, 0 to 4, found 99"},
       {R"({"temper_certificate": 1, "margin": 0, "terms": [{"kind": "area", "edge": [0, 1], "multiplier": 1}]})",
        "found \"area\""},
-      {R"({"temper_certificate": 1, "margin": 0, "terms": [{"kind": "split", "edge": [0, 1], "multiplier": "x"}]})",
+      {R"({"temper_certificate": 1, "margin": 0, "terms": [{"kind": "crossing", "edge": [0, 1], "multiplier": "x"}]})",
        "expected \"multiplier\" to be a number"}};
   for (const auto& [text, expected] : texts) {
     write("bad.json", text);

@@ -44,7 +44,7 @@ TEST(DecFacts, AnObtuseTriangleHasItsOrthocenterOutsideAndANegativeStarThere) {
 TEST(DecFacts, AWeightMovesTheMidpointTowardsTheOther) {
   const Mesh mesh = one_triangle({0, 0}, {2, 0}, {1, 3}, {1, 0, 0});
   const DecComplex c = dec(mesh);
-  EXPECT_EQ(c.edges[EdgeId(0)].split, 1.25) << "ℓ/2 + (w_0 − w_1)/(2ℓ)";
+  EXPECT_EQ(c.edges[EdgeId(0)].crossing, 1.25) << "ℓ/2 + (w_0 − w_1)/(2ℓ)";
   EXPECT_EQ(c.edges[EdgeId(0)].midpoint, (Vec2{1.25, 0}));
 }
 

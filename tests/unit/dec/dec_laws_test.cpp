@@ -194,7 +194,7 @@ TEST(DecLaws, DualVerticesHaveEqualPowerAndDualEdgesAreWhatLiesBetweenThem) {
     EXPECT_NEAR(power(e.midpoint, e.from), power(e.midpoint, e.to), kRelative);
     const Vec2 p = mesh.position(e.from);
     const Vec2 along = (1 / e.length) * (mesh.position(e.to) - p), across = {-along.y, along.x};
-    EXPECT_NEAR(dot(e.midpoint - p, along), e.split, kRelative);
+    EXPECT_NEAR(dot(e.midpoint - p, along), e.crossing, kRelative);
     EXPECT_NEAR(cross(along, e.midpoint - p), 0, kRelative);
     const double left = e.left.valid() ? dot(c.orthocenters[e.left] - e.midpoint, across) : 0;
     const double right = e.right.valid() ? dot(c.orthocenters[e.right] - e.midpoint, across) : 0;

@@ -113,7 +113,7 @@ TEST(DecSphere, DualVerticesHaveEqualPowerAndDualArcsAreWhatLiesBetweenThem) {
     EXPECT_NEAR(dot(m, p), dot(m, q), kOnSphere * radius * radius);
     EXPECT_NEAR(dot(m, pole), 0, kOnSphere);
     EXPECT_NEAR(radius * arc_length(p, q), e.length, kOnSphere);
-    EXPECT_NEAR(std::abs(e.split), radius * arc_length(p, m), 1e-7);
+    EXPECT_NEAR(std::abs(e.crossing), radius * arc_length(p, m), 1e-7);
     EXPECT_NEAR(radius * std::asin(dot(c.sphere_orthocenters[e.left], pole) / radius), e.left_height, 1e-9);
     EXPECT_NEAR(radius * std::asin(dot(c.sphere_orthocenters[e.right], pole) / radius), -e.right_height, 1e-9);
     EXPECT_NEAR(e.left_height + e.right_height, e.dual_length, 1e-10);

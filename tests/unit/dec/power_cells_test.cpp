@@ -126,7 +126,7 @@ TEST(PowerCells, AreHalfPlaneClippingInRegularTriangulationsOfAConvexDomain) {
       const Corners expected = clipped_square(mesh, v);
       EXPECT_NEAR(cells.areas[v], area(expected), kAbsolute);
       for (const HalfedgeId h : mesh.star(v)) {
-        away_from_home += edge_split_sign(mesh.point(v), mesh.point(mesh.target(h))) == Sign::negative ? 1 : 0;
+        away_from_home += dual_crossing_sign(mesh.point(v), mesh.point(mesh.target(h))) == Sign::negative ? 1 : 0;
       }
     }
     // Within every half-plane and of the same area: the same.
@@ -182,7 +182,7 @@ TEST(PowerCells, ShareFacesThatTogetherWithTheBoundaryAreAllTheirSides) {
       EXPECT_TRUE(i == 0 || std::pair(cells.faces[i - 1].first, cells.faces[i - 1].second) < std::pair(a, b));
       faces += width;
       const Vec2 along = mesh.position(b) - mesh.position(a);
-      const double d = edge_split(mesh.point(a), mesh.point(b)), l = length(along);
+      const double d = dual_crossing(mesh.point(a), mesh.point(b)), l = length(along);
       outward[a] = outward[a] + (width / l) * along;
       outward[b] = outward[b] - (width / l) * along;
       areas[a] += 0.5 * width * d;

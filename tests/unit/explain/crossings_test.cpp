@@ -40,7 +40,7 @@ TEST(CrossingInterval, HoldsEveryWellCenteredCrossingAndNoLess) {
                    w = std::pow(std::abs(noise()), 2);
       const Vec2 o = (u / (u + v + w)) * p + (v / (u + v + w)) * q + (w / (u + v + w)) * r;
       if (!is_well_centered(weighted(p, o), weighted(q, o), weighted(r, o))) continue;
-      const double d = edge_split(weighted(p, o), weighted(q, o));
+      const double d = dual_crossing(weighted(p, o), weighted(q, o));
       least = std::min(least, d);
       most = std::max(most, d);
     }

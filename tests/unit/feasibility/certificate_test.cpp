@@ -54,13 +54,13 @@ TEST(Certificate, ProvesNothingWhenAnyMultiplierIsChanged) {
   EXPECT_GE(changed, 10u);
 }
 
-// Splits bound what is left of the weights whether they are terms or not, so that those that are can be spared.
+// Crossings bound what is left of the weights whether they are terms or not, so that those that are can be spared.
 TEST(Certificate, OfTheSparseHorseshoeNeedsEachOfItsHeights) {
   const Mesh mesh = sparse_horseshoe();
   const Certificate certificate = certificate_of(mesh);
   std::size_t heights = 0;
   for (std::size_t i = 0; i < certificate.terms.size(); ++i) {
-    if (certificate.terms[i].constraint.kind == WeightConstraint::Kind::split) continue;
+    if (certificate.terms[i].constraint.kind == WeightConstraint::Kind::crossing) continue;
     ++heights;
     for (const double factor : {0.0, 0.5, 2.0}) {
       Certificate corrupted = certificate;
@@ -127,8 +127,8 @@ TEST(Certificate, NeverProvesAnythingOfAMeshThatHasGoodWeights) {
     for (const HalfedgeId h : mesh.halfedges()) {
       const VertexId p = mesh.origin(h), q = mesh.target(h);
       constraints.push_back({WeightConstraint::Kind::height, p, q, mesh.opposite(h)});
-      constraints.push_back({WeightConstraint::Kind::split, p, q, VertexId()});
-      constraints.push_back({WeightConstraint::Kind::split, q, p, VertexId()});
+      constraints.push_back({WeightConstraint::Kind::crossing, p, q, VertexId()});
+      constraints.push_back({WeightConstraint::Kind::crossing, q, p, VertexId()});
     }
     for (int i = 0; i < 100; ++i, ++tried) {
       Certificate certificate;

@@ -44,7 +44,7 @@ TEST(ConditionsTable, HasARowForEachWithANameOfItsOwn) {
 }
 
 // The naive twin: orthocenters and feet, edge by edge.
-TEST(LinearForms, AreTheHeightsSplitsAndDualLengthsOfTheMesh) {
+TEST(LinearForms, AreTheHeightsCrossingsAndDualLengthsOfTheMesh) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Mesh mesh = lattice({.jitter = 0.3, .weight = 0.4, .scale = 3, .seed = seed});
     const auto value = [&](const WeightConstraint& c) {
@@ -264,7 +264,7 @@ TEST(Certificate, OfHeightsAloneProvesAndIsOfHeightsAlone) {
     EXPECT_EQ(check_certificate(mesh, other), CertificateCheck::not_of_this_mesh);
     other = best.certificate;
     other.terms.push_back(
-        {{WeightConstraint::Kind::split, other.terms[0].constraint.p, other.terms[0].constraint.q, VertexId()}, 1});
+        {{WeightConstraint::Kind::crossing, other.terms[0].constraint.p, other.terms[0].constraint.q, VertexId()}, 1});
     EXPECT_EQ(check_certificate(mesh, other), CertificateCheck::not_of_this_mesh);
     for (std::size_t i = 0; i < best.certificate.terms.size(); ++i) {
       Certificate corrupted = best.certificate;
@@ -309,7 +309,7 @@ TEST(Certificate, OfHeightsAloneBoundsWeightsByTheirTriangle) {
       ++tried;
     }
   }
-  EXPECT_GT(beyond, 0u);  // the split's own bound would not have held
+  EXPECT_GT(beyond, 0u);  // the crossing's own bound would not have held
   EXPECT_EQ(tried, 6000u);
 }
 

@@ -159,7 +159,7 @@ TEST(FindWeights, ElasticNamesTheTrianglesThatGiveWay) {
       const double l = length(q.position() - p.position());
       violated += std::max(0.0, -signed_height(p, q, other.point(other.opposite(h))) / l);
       if (!other.is_edge_representative(h)) continue;
-      violated += std::max(0.0, -edge_split(p, q) / l) + std::max(0.0, -edge_split(q, p) / l);
+      violated += std::max(0.0, -dual_crossing(p, q) / l) + std::max(0.0, -dual_crossing(q, p) / l);
     }
     EXPECT_GE(violated, total - kLacking);
   }

@@ -100,14 +100,14 @@ TEST(BestMargin, OfPartOfAMeshIsNoSmaller) {
   EXPECT_NEAR(last, whole, kSolvedMargin);
 }
 
-TEST(WeightMargin, IsTheLeastHeightAndSplitOfTheMesh) {
+TEST(WeightMargin, IsTheLeastHeightAndCrossingOfTheMesh) {
   const Mesh mesh = lattice({.weight = 0.2, .seed = 3});
   double expected = 1;
   for (const HalfedgeId h : mesh.halfedges()) {
     const WeightedPoint p = mesh.point(mesh.origin(h)), q = mesh.point(mesh.target(h)),
                         r = mesh.point(mesh.opposite(h));
     const double l = length(q.position() - p.position());
-    expected = std::min({expected, signed_height(p, q, r) / l, edge_split(p, q) / l, edge_split(q, p) / l});
+    expected = std::min({expected, signed_height(p, q, r) / l, dual_crossing(p, q) / l, dual_crossing(q, p) / l});
   }
   EXPECT_NEAR(weight_margin(mesh), expected, 1e-14);
 }

@@ -116,7 +116,7 @@ TEST(SphereForms, HaveTheSignsOfTheExactPredicates) {
       const auto at = [&](VertexId v) { return mesh.lifted_point(v); };
       const VertexId p = mesh.origin(h), q = mesh.target(h), r = mesh.opposite(h), s = mesh.opposite(mesh.twin(h));
       expect_sign(mesh, height_constraint(mesh, h), signed_height_sign(at(p), at(q), at(r)));
-      expect_sign(mesh, split_constraint(p, q), edge_split_sign(at(p), at(q)));
+      expect_sign(mesh, split_constraint(p, q), dual_crossing_sign(at(p), at(q)));
       expect_sign(mesh, dual_constraint(mesh, h), -power_test(at(p), at(q), at(r), at(s)));
     }
   }
@@ -267,7 +267,7 @@ TEST(SphereCertificate, ProvesAndIsNoProofOnceAnythingIsChanged) {
       EXPECT_EQ(check_certificate(*icosahedral({.level = 1}), certificate), CertificateCheck::proves_nothing);
       for (std::size_t i = 0; i < certificate.terms.size(); ++i) {
         EXPECT_EQ(check_certificate(mesh, corrupted(certificate, i, -1)), CertificateCheck::bad_multiplier);
-        if (certificate.terms[i].constraint.kind == Kind::split) continue;  // bounded anyway
+        if (certificate.terms[i].constraint.kind == Kind::crossing) continue;  // bounded anyway
         EXPECT_EQ(check_certificate(mesh, corrupted(certificate, i, 1e12)), CertificateCheck::proves_nothing)
             << row.name << " " << i;
       }

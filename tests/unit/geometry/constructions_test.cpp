@@ -67,7 +67,7 @@ TEST(Constructions, ThePartsOfAnEdgeSumToItsLength) {
     const auto [p, q, r] = random_triangle(random);
     const double l = length(q.position() - p.position());
     const double tolerance = kRoundings * (l + std::abs(p.w - q.w) / l);
-    EXPECT_NEAR(edge_split(p, q) + edge_split(q, p), l, tolerance);
+    EXPECT_NEAR(dual_crossing(p, q) + dual_crossing(q, p), l, tolerance);
   }
 }
 
@@ -95,7 +95,7 @@ TEST(Constructions, HeightsAreDistancesOfTheOrthocenterFromTheEdges) {
     EXPECT_NEAR(heights[2], doubled_area(p.position(), q.position(), o), tolerance);
     const double l = length(q.position() - p.position());
     EXPECT_DOUBLE_EQ(signed_height(p, q, r) * l, heights[2]);
-    EXPECT_NEAR(edge_split(p, q) * l, dot(o - p.position(), q.position() - p.position()), tolerance);
+    EXPECT_NEAR(dual_crossing(p, q) * l, dot(o - p.position(), q.position() - p.position()), tolerance);
   }
 }
 
@@ -109,9 +109,9 @@ TEST(Constructions, HeightsHaveTheirExactSignsWhereTheyAreNotTiny) {
       EXPECT_EQ(h > 0, signed_height_sign(p, q, r) == Sign::positive);
       negative += h < 0;
     }
-    const double d = edge_split(p, q);
+    const double d = dual_crossing(p, q);
     if (std::abs(d) > 1e-9) {
-      EXPECT_EQ(d > 0, edge_split_sign(p, q) == Sign::positive);
+      EXPECT_EQ(d > 0, dual_crossing_sign(p, q) == Sign::positive);
     }
   }
   EXPECT_GT(negative, kRounds / 20);
@@ -135,7 +135,7 @@ TEST(Constructions, ScalingByAPowerOfTwoScalesResultsBitForBit) {
       const auto [p, q, r] = random_triangle(random);
       const auto scaled = [&](const WeightedPoint& a) -> WeightedPoint { return {s * a.x, s * a.y, s * s * a.w}; };
       EXPECT_EQ(orthocenter(scaled(p), scaled(q), scaled(r)), s * orthocenter(p, q, r));
-      EXPECT_EQ(edge_split(scaled(p), scaled(q)), s * edge_split(p, q));
+      EXPECT_EQ(dual_crossing(scaled(p), scaled(q)), s * dual_crossing(p, q));
       EXPECT_EQ(signed_height(scaled(p), scaled(q), scaled(r)), s * signed_height(p, q, r));
       EXPECT_EQ(corner_angle(s * p.position(), s * q.position(), s * r.position()),
                 corner_angle(p.position(), q.position(), r.position()));
@@ -149,7 +149,7 @@ TEST(Constructions, AMillionfoldOffsetChangesHeightsByNoMoreThanItRoundsTheCorne
     const auto [p, q, r] = random_triangle(random, 1e6);
     const auto back = [](const WeightedPoint& a) -> WeightedPoint { return {a.x - 1e6, a.y - 1e6, a.w}; };  // exact
     EXPECT_EQ(scaled_heights(back(p), back(q), back(r)), scaled_heights(p, q, r));
-    EXPECT_EQ(edge_split(back(p), back(q)), edge_split(p, q));
+    EXPECT_EQ(dual_crossing(back(p), back(q)), dual_crossing(p, q));
   }
 }
 
@@ -174,16 +174,16 @@ TEST(Constructions, TheEquilateralTriangleIsAsInTheTextbook) {
   const double height = std::sqrt(3.0) / 2;
   const WeightedPoint p = {0, 0, 0}, q = {1, 0, 0}, r = {0.5, height, 0};
   EXPECT_DOUBLE_EQ(signed_height(p, q, r), height / 3);
-  EXPECT_DOUBLE_EQ(edge_split(p, q), 0.5);
+  EXPECT_DOUBLE_EQ(dual_crossing(p, q), 0.5);
   EXPECT_DOUBLE_EQ(orthocenter(p, q, r).y, height / 3);
   EXPECT_DOUBLE_EQ(corner_angle(p.position(), q.position(), r.position()), std::numbers::pi / 3);
   EXPECT_TRUE(is_well_centered(p, q, r));
 }
 
-TEST(Constructions, ALargerWeightMovesTheSplitAwayFromIt) {
+TEST(Constructions, ALargerWeightMovesTheCrossingAwayFromIt) {
   const WeightedPoint p = {0, 0, 1}, q = {2, 0, 0};
-  EXPECT_DOUBLE_EQ(edge_split(p, q), 1.25);
-  EXPECT_DOUBLE_EQ(edge_split(q, p), 0.75);
+  EXPECT_DOUBLE_EQ(dual_crossing(p, q), 1.25);
+  EXPECT_DOUBLE_EQ(dual_crossing(q, p), 0.75);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Laws of the exact predicates. All of them hold without any tolerance, ties included.
 //
 // Where a sign is needed it comes from the construction: weights w_i = |x_i − o|² on a lattice put the orthocenter
-// of every triangle at o, exactly, so heights and splits are orientations and dot products with o.
+// of every triangle at o, exactly, so heights and crossings are orientations and dot products with o.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,8 +55,8 @@ std::array<int, 8> all_signs(const Quad& q) {
           to_int(power_test_perturbed(q[0], q[1], q[2], q[3], {3, 1, 2, 0})),
           to_int(signed_height_sign(q[0], q[1], q[2])),
           to_int(signed_height_sign(q[1], q[2], q[3])),
-          to_int(edge_split_sign(q[0], q[1])),
-          to_int(edge_split_sign(q[3], q[2])),
+          to_int(dual_crossing_sign(q[0], q[1])),
+          to_int(dual_crossing_sign(q[3], q[2])),
           is_well_centered(q[0], q[1], q[2])};
 }
 
@@ -136,9 +136,9 @@ TEST(DegenerateFamilies, HeightOfTheReversedEdgeIsOpposite) {
 TEST(DegenerateFamilies, AtLeastOneEndOfAnEdgeIsOnItsOwnSide) {
   on_every_family(kPoints, [&](const Quad& q) {
     if (q[0].position() == q[1].position()) {
-      EXPECT_EQ(edge_split_sign(q[0], q[1]), -edge_split_sign(q[1], q[0]));  // d ℓ = ±(w_p − w_q)/2
+      EXPECT_EQ(dual_crossing_sign(q[0], q[1]), -dual_crossing_sign(q[1], q[0]));  // d ℓ = ±(w_p − w_q)/2
     } else {
-      EXPECT_GT(std::max(to_int(edge_split_sign(q[0], q[1])), to_int(edge_split_sign(q[1], q[0]))), 0);
+      EXPECT_GT(std::max(to_int(dual_crossing_sign(q[0], q[1])), to_int(dual_crossing_sign(q[1], q[0]))), 0);
     }
   });
 }
@@ -149,7 +149,7 @@ TEST(DegenerateFamilies, WellCenteredMeansCounterClockwiseAllHeightsPositiveAndA
     for (int i = 0; i < 3; ++i) {
       const WeightedPoint &p = q[i], &next = q[(i + 1) % 3], &apex = q[(i + 2) % 3];
       expected = expected && signed_height_sign(p, next, apex) == Sign::positive &&
-                 edge_split_sign(p, next) == Sign::positive && edge_split_sign(next, p) == Sign::positive;
+                 dual_crossing_sign(p, next) == Sign::positive && dual_crossing_sign(next, p) == Sign::positive;
     }
     EXPECT_EQ(is_well_centered(q[0], q[1], q[2]), expected);
     EXPECT_EQ(is_well_centered(q[1], q[2], q[0]), expected);
@@ -163,7 +163,7 @@ TEST(DegenerateFamilies, TheFilterAgreesWithTheExactStage) {
               exact::orient2d(a.position(), b.position(), c.position()));
     EXPECT_EQ(inlined::power_test(a, b, c, d), exact::power_test(a, b, c, d));
     EXPECT_EQ(inlined::height_numerator_sign(a, b, c), exact::height_numerator_sign(a, b, c));
-    EXPECT_EQ(inlined::edge_split_sign(a, b), exact::edge_split_sign(a, b));
+    EXPECT_EQ(inlined::dual_crossing_sign(a, b), exact::dual_crossing_sign(a, b));
   });
 }
 
@@ -221,7 +221,7 @@ TEST(Predicates, AddingALinearFunctionToAllWeightsKeepsThePowerTest) {
   }
 }
 
-TEST(Predicates, HeightsAndSplitsFollowAnOrthocenterPlacedAnywhere) {
+TEST(Predicates, HeightsAndCrossingsFollowAnOrthocenterPlacedAnywhere) {
   Random random(14);
   std::array<int, 3> seen = {};
   for (int round = 0; round < 50 * kPoints; ++round) {
@@ -231,7 +231,7 @@ TEST(Predicates, HeightsAndSplitsFollowAnOrthocenterPlacedAnywhere) {
     const Sign side = orient2d(p.position(), q.position(), o);
     ++seen[to_int(side) + 1];
     EXPECT_EQ(signed_height_sign(p, q, r), side);
-    EXPECT_EQ(edge_split_sign(p, q), sign_of(dot(o - p.position(), q.position() - p.position())));
+    EXPECT_EQ(dual_crossing_sign(p, q), sign_of(dot(o - p.position(), q.position() - p.position())));
   }
   EXPECT_GT(*std::min_element(seen.begin(), seen.end()), 100);
 }

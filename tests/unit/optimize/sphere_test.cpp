@@ -283,7 +283,7 @@ TEST(Sphere, SameBytesForAnyThreadsAndInstructionSet) {
   ASSERT_TRUE(use_instruction_set(used));
 }
 
-// Heights, splits and energies of a small cap are those of the plane that touches it, but for terms in (ℓ/R)².
+// Heights, crossings and energies of a small cap are those of the plane that touches it, but for terms in (ℓ/R)².
 TEST(Sphere, CapsOfASmallRadiusAreThePlane) {
   double last = 0;
   for (const double radius : {10.0, 20.0, 40.0, 80.0}) {

@@ -340,7 +340,7 @@ TEST(QualityLaws, ManyBlocksAddUpToTheWhole) {
     const double l = length(b.position() - a.position());
     const double angle = corner_angle(c.position(), a.position(), b.position()) * 180 / std::numbers::pi;
     min_h = std::min(min_h, signed_height(a, b, c) / l);
-    min_d = std::min({min_d, edge_split(a, b) / l, edge_split(b, a) / l});
+    min_d = std::min({min_d, dual_crossing(a, b) / l, dual_crossing(b, a) / l});
     min_angle = std::min(min_angle, angle);
     max_angle = std::max(max_angle, angle);
   }

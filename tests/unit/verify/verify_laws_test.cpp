@@ -159,8 +159,8 @@ TEST(VerifyTwins, StarsAreIntegralsOverCellsAgainstIntegralsOverDuals) {
       cells[edge.to.index] -= naive.integral(to, a, b);
     }
     const double heights = std::abs(edge.left_height) + std::abs(edge.right_height);
-    unsigned_areas[edge.from.index] += 0.5 * std::abs(edge.split) * heights;
-    unsigned_areas[edge.to.index] += 0.5 * std::abs(edge.length - edge.split) * heights;
+    unsigned_areas[edge.from.index] += 0.5 * std::abs(edge.crossing) * heights;
+    unsigned_areas[edge.to.index] += 0.5 * std::abs(edge.length - edge.crossing) * heights;
     ++e;
   }
   const double unit = naive.frame.half_size * naive.frame.half_size;
@@ -255,8 +255,8 @@ TEST(VerifyTwins, TwoPointFluxIsDifferencesOverDistances) {
     const WeightedPoint a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h));
     const double face = length(naive.in_frame(b.position()) - naive.in_frame(a.position()));
     if (mesh.is_boundary(h)) {
-      const double split = edge_split(a, b) / length(b.position() - a.position());
-      const Vec2 foot = naive.in_frame(a.position() + split * (b.position() - a.position()));
+      const double crossing = dual_crossing(a, b) / length(b.position() - a.position());
+      const Vec2 foot = naive.in_frame(a.position() + crossing * (b.position() - a.position()));
       const double coefficient = face / length(centers[t] - foot);
       matrix[t][t] += coefficient;
       right[t] += coefficient * field.at(foot).u;

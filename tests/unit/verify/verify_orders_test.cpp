@@ -59,7 +59,8 @@ TEST(VerifyRefine, HalvesOfEdgesHaveHalfOfTheDualAndCornersAreSimilar) {
       ASSERT_TRUE(h.valid() || finer.find_halfedge(middle, end).valid());
       const EdgeId half = fine.edge_of_halfedge[h.valid() ? h : finer.find_halfedge(middle, end)];
       EXPECT_NEAR(fine.edges[half].dual_length, 0.5 * edge.dual_length, 1e-14);
-      EXPECT_NEAR(fine.edges[half].split, 0.5 * (end == edge.from ? edge.split : edge.length - edge.split), 1e-14);
+      EXPECT_NEAR(fine.edges[half].crossing, 0.5 * (end == edge.from ? edge.crossing : edge.length - edge.crossing),
+                  1e-14);
     }
   }
 }

@@ -200,7 +200,7 @@ export function dec(mesh: Mesh): DecComplex {
         vertices: whole('edges.vertices'),
         triangles: whole('edges.triangles'),
         length: reals('edges.length'),
-        split: reals('edges.split'),
+        crossing: reals('edges.crossing'),
         left_height: reals('edges.left_height'),
         right_height: reals('edges.right_height'),
         dual_length: reals('edges.dual_length'),

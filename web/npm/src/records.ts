@@ -281,7 +281,7 @@ export interface DecEdges {
   triangles: Int32Array;
   length: Float64Array;
   /** d from `from`. */
-  split: Float64Array;
+  crossing: Float64Array;
   left_height: Float64Array;
   right_height: Float64Array;
   /** With the sign of the exact predicates. */
@@ -324,9 +324,9 @@ export interface DrawOptions {
   title?: string;
 }
 
-/** An inequality of the weights: "height" over edge pq of the triangle pqr, "split" from p towards q, "dual" length of pq. */
+/** An inequality of the weights: "height" over edge pq of the triangle pqr, "crossing" from p towards q, "dual" length of pq. */
 export interface WeightConstraint {
-  kind: 'height' | 'split' | 'dual';
+  kind: 'height' | 'crossing' | 'dual';
   p: number;
   q: number;
   /** −1: none. */

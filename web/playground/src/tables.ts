@@ -59,7 +59,7 @@ export function showTriangle(table: HTMLElement, mesh: MeshData, triangle: numbe
     ['weight', ...n.weight.map(short)],
     ['angle', ...n.angle.map((angle) => `${short(angle)}°`)],
     ['h/ℓ of the edge from it', ...over(n.height)],
-    ['d/ℓ', ...n.split.map((d, k): Cell => ({ text: short(d / n.length[k]), bad: !(d > 0 && d < n.length[k]) }))],
+    ['d/ℓ', ...n.crossing.map((d, k): Cell => ({ text: short(d / n.length[k]), bad: !(d > 0 && d < n.length[k]) }))],
   ]);
 }
 

@@ -25,8 +25,8 @@ export function showPicked(picked: Picked | null, report: Report, close: () => v
   const name = (k: number): string => vertexName(shown, n.vertices[k % 3]);
   const edges = [0, 1, 2].map((k) => {
     const outside = (bits & (Verdict.outside[k] | Verdict.inverted)) !== 0, notCrossed = (bits & Verdict.notCrossed[k]) !== 0;
-    return [`${name(k)}–${name(k + 1)}`, number(n.length[k]), cell(n.height[k], outside), cell(n.split[k], notCrossed),
-      cell(n.height[k] / n.length[k], outside), cell(n.split[k] / n.length[k], notCrossed)];
+    return [`${name(k)}–${name(k + 1)}`, number(n.length[k]), cell(n.height[k], outside), cell(n.crossing[k], notCrossed),
+      cell(n.height[k] / n.length[k], outside), cell(n.crossing[k] / n.length[k], notCrossed)];
   });
   const corners = [0, 1, 2].map((k) => [name(k), number(shown.mesh.points[2 * n.vertices[k]], 6), number(shown.mesh.points[2 * n.vertices[k] + 1], 6),
     number(n.weight[k]), `${number(n.angle[k])}°`]);

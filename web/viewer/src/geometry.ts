@@ -14,7 +14,7 @@ export interface TriangleNumbers {
   /** h of the orthocenter over each edge, positive inside. */
   height: number[];
   /** d, from corner k towards corner k + 1. */
-  split: number[];
+  crossing: number[];
   /** At each corner, in degrees. */
   angle: number[];
   weight: number[];
@@ -26,7 +26,7 @@ export interface TriangleNumbers {
 export const weightOf = (mesh: MeshData, v: number): number => (mesh.weights ? mesh.weights[v] : 0);
 
 /** d of an edge. */
-export function edgeSplit(mesh: MeshData, a: number, b: number): number {
+export function dualCrossing(mesh: MeshData, a: number, b: number): number {
   const { points } = mesh;
   const length = Math.hypot(points[2 * b] - points[2 * a], points[2 * b + 1] - points[2 * a + 1]);
   return length / 2 + (weightOf(mesh, a) - weightOf(mesh, b)) / (2 * length);
@@ -58,7 +58,7 @@ export function triangleNumbers(mesh: MeshData, t: number): TriangleNumbers {
   const vertices = [triangles[3 * t], triangles[3 * t + 1], triangles[3 * t + 2]] as [number, number, number];
   const xs = vertices.map((v) => points[2 * v]), ys = vertices.map((v) => points[2 * v + 1]);
   const center = orthocenter(mesh, t);
-  const length = [], height = [], split = [], angle = [];
+  const length = [], height = [], crossing = [], angle = [];
   for (let k = 0; k < 3; k++) {
     const j = (k + 1) % 3, i = (k + 2) % 3;
     const dx = xs[j] - xs[k], dy = ys[j] - ys[k];
@@ -66,13 +66,13 @@ export function triangleNumbers(mesh: MeshData, t: number): TriangleNumbers {
     const l = Math.hypot(dx, dy);
     length.push(l);
     height.push((dx * (center.y - ys[k]) - dy * (center.x - xs[k])) / l);
-    split.push(edgeSplit(mesh, vertices[k], vertices[j]));
+    crossing.push(dualCrossing(mesh, vertices[k], vertices[j]));
     angle.push((Math.atan2(Math.abs(dx * ey - dy * ex), dx * ex + dy * ey) * 180) / Math.PI);
   }
   const area = ((xs[1] - xs[0]) * (ys[2] - ys[0]) - (ys[1] - ys[0]) * (xs[2] - xs[0])) / 2;
   const centroid = { x: (xs[0] + xs[1] + xs[2]) / 3, y: (ys[0] + ys[1] + ys[2]) / 3 };
   const weight = vertices.map((v) => weightOf(mesh, v));
-  return { vertices, length, height, split, angle, weight, area, orthocenter: center, centroid };
+  return { vertices, length, height, crossing, angle, weight, area, orthocenter: center, centroid };
 }
 
 /** The verdict on a triangle in doubles, for meshes that bring none. */
@@ -81,7 +81,7 @@ function verdictOf(numbers: TriangleNumbers): number {
   let bits = 0;
   for (let k = 0; k < 3; k++) {
     if (!(numbers.height[k] > 0)) bits |= Verdict.outside[k];
-    if (!(numbers.split[k] > 0 && numbers.split[k] < numbers.length[k])) bits |= Verdict.notCrossed[k];
+    if (!(numbers.crossing[k] > 0 && numbers.crossing[k] < numbers.length[k])) bits |= Verdict.notCrossed[k];
   }
   return bits;
 }

@@ -21,14 +21,14 @@ export interface Measure {
 const least = (values: number[]): number => Math.min(values[0], values[1], values[2]);
 const overLength = (of: number[], numbers: TriangleNumbers): number[] => of.map((v, k) => v / numbers.length[k]);
 const leastHeight = (n: TriangleNumbers): number => (n.area > 0 ? least(overLength(n.height, n)) : -Infinity);
-const leastSplit = (n: TriangleNumbers): number =>
-  least(overLength(n.split, n).map((part) => Math.min(part, 1 - part)));
+const leastCrossing = (n: TriangleNumbers): number =>
+  least(overLength(n.crossing, n).map((part) => Math.min(part, 1 - part)));
 
 export const measures: readonly Measure[] = [
   { key: 'margin', label: 'Margin: least h/ℓ or d/ℓ', unit: '', better: 'larger', low: 0, high: 0.3,
-    of: (n) => Math.min(leastHeight(n), leastSplit(n)) },
+    of: (n) => Math.min(leastHeight(n), leastCrossing(n)) },
   { key: 'h_over_l', label: 'Least h/ℓ', unit: '', better: 'larger', low: 0, high: 0.3, of: leastHeight },
-  { key: 'd_over_l', label: 'Least d/ℓ', unit: '', better: 'larger', low: 0, high: 0.5, of: leastSplit },
+  { key: 'd_over_l', label: 'Least d/ℓ', unit: '', better: 'larger', low: 0, high: 0.5, of: leastCrossing },
   { key: 'min_angle_deg', label: 'Least angle', unit: '°', better: 'larger', low: 0, high: 60,
     of: (n) => least(n.angle) },
   { key: 'max_angle_deg', label: 'Largest angle', unit: '°', better: 'less', low: 60, high: 120,

@@ -139,7 +139,7 @@ class MpasBuilder {
   /// The right triangle of d and h on the side of the half-edge's triangle: half of a kite, signed.
   [[nodiscard]] double half_kite(HalfedgeId h, VertexId at) const {
     const DecEdge& e = complex_.edges[complex_.edge_of_halfedge[h]];
-    const double d = e.from == at ? e.split : e.length - e.split;
+    const double d = e.from == at ? e.crossing : e.length - e.crossing;
     return mesh_.space().right_triangle_area(d, e.left == Mesh::triangle(h) ? e.left_height : e.right_height);
   }
   [[nodiscard]] std::size_t edge_of(HalfedgeId h) const { return complex_.edge_of_halfedge[h].index; }

@@ -326,7 +326,7 @@ void warn_of_offsets(const WriteJob& job, const NetcdfMesh& m) {
   std::size_t visible = 0;
   double most = 0;
   for (const DecEdge& edge : m.complex.edges) {
-    const double offset = std::abs(edge.split / edge.length - 0.5);
+    const double offset = std::abs(edge.crossing / edge.length - 0.5);
     most = std::max(most, offset);
     visible += offset > kVisible ? 1 : 0;
   }
